@@ -1,0 +1,6 @@
+"""wmrlib: from two GPS points to a parked robot. Each name is loaded when it is first used, so that importing costs next to nothing."""
+
+import lazy_loader
+
+__version__ = "0.1.0"
+__getattr__, __dir__, __all__ = lazy_loader.attach_stub(__name__, __file__)

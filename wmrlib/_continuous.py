@@ -1,0 +1,74 @@
+"""The law acting all the time, integrated with an error control: what the sampled loops are tested against."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+
+import numpy as np
+
+from wmrlib import _kernels as kernels
+from wmrlib.control import command, lyapunov_value_of, pose_law, wheel_share
+from wmrlib.gains import Tuning, WheelLimits
+from wmrlib.kinematics import Pose, polar_closing_rate, polar_error, polar_from_pose, pose_from_polar, wrap_angle
+
+_TOLERANCE = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12}  # Dormand and Prince, order 8
+
+
+def to_goal(start: Pose, goal: Pose, tuning: Tuning, law: int, wheels: WheelLimits, t: np.ndarray, arrival_radius: float):
+    """(t, record, outcome) of one run in (rho, alpha, theta), recorded at the times `t` and at the moment of arrival."""
+    from scipy.integrate import solve_ivp  # here, because importing it takes longer than everything else
+
+    def rate(_, state):
+        rho, alpha, theta = state
+        pull, omega = pose_law(rho, alpha, theta, tuning.pose, law)
+        share = wheel_share(pull * rho, omega, wheels)
+        return polar_closing_rate(rho, alpha, share * pull, share * omega)
+
+    def left_to_go(_, state):
+        return state[0] - arrival_radius
+
+    left_to_go.terminal, left_to_go.direction = True, -1.0
+    first = polar_error(start, goal)
+    if first.rho <= arrival_radius:
+        t, states, outcome = t[:1], np.array(first)[:, None], kernels.ARRIVED
+    else:
+        run = solve_ivp(rate, (0.0, t[-1]), first, t_eval=t, events=left_to_go if arrival_radius > 0.0 else None, **_TOLERANCE)
+        t, states, outcome = run.t, run.y, kernels.TIMED_OUT if run.success else kernels.DIVERGED
+        if run.status == 1:  # the event: its moment is the last sample
+            t, states, outcome = np.append(t, run.t_events[0]), np.hstack([states, run.y_events[0].T]), kernels.ARRIVED
+    states[0] = np.maximum(states[0], 0.0)  # rounding can carry rho a hair past the goal
+    record = np.empty((9, t.size))
+    record[: kernels.RHO] = pose_from_polar(states, goal)
+    record[kernels.RHO : kernels.V] = states
+    return t, _with_commands(record, np.zeros((2, t.size)), tuning, law, wheels), outcome
+
+
+def after_reference(
+    path_at: Callable[[np.ndarray], np.ndarray], start: Pose, path: np.ndarray, tuning: Tuning, law: int, wheels: WheelLimits, t: np.ndarray
+):
+    """(record, outcome) of one run after a moving reference, in (x, y, heading): the line of sight may pass through zero distance."""
+    from scipy.integrate import solve_ivp
+
+    def rate(time, state):
+        x, y, heading = state
+        _, _, _, v, omega = kernels.observe(x, y, heading, tuple(path_at(np.array([time]))[:, 0]), tuning, law, wheels)
+        return v * math.cos(heading), v * math.sin(heading), omega
+
+    run = solve_ivp(rate, (0.0, t[-1]), start, t_eval=t, **_TOLERANCE)
+    record = np.empty((9, run.t.size))
+    record[: kernels.RHO] = run.y[0], run.y[1], wrap_angle(run.y[2])
+    for k, (x, y, heading) in enumerate(run.y.T):
+        record[kernels.RHO : kernels.V, k] = polar_from_pose(x, y, heading, *path[:3, k])
+    return _with_commands(record, path[3:], tuning, law, wheels), kernels.TIMED_OUT if run.success else kernels.DIVERGED
+
+
+def _with_commands(record, reference_twist, tuning, law, wheels):
+    """Fill in what the law commands at each recorded state, and V."""
+    for k in range(record.shape[1]):
+        rho, alpha, theta = record[kernels.RHO : kernels.V, k]
+        v, omega = command(rho, alpha, theta, *reference_twist[:, k], tuning, law)
+        share = wheel_share(v, omega, wheels)
+        record[kernels.V, k], record[kernels.OMEGA, k] = share * v, share * omega
+        record[kernels.LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)
+    return record

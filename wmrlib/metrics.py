@@ -1,0 +1,56 @@
+"""What a run amounts to: arrival, effort, and the distance that is left behind a moving reference."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wmrlib._checks import instance, scalar
+from wmrlib.simulation import Arrival, Outcome, Trajectory
+
+
+def arrival(trajectory: Trajectory) -> Arrival:
+    """When and how a run reached its goal, see Arrival for the fields and units.
+
+    The time is infinite if it did not arrive. Raises ValueError for a trajectory without a sample.
+    """
+    run = _with_samples(trajectory)
+    arrived = run.outcome is Outcome.ARRIVED
+    return Arrival(
+        arrived=arrived,
+        time=float(run.t[-1]) if arrived else math.inf,
+        heading_error=float(run.heading_error[-1]),
+        peak_omega=float(np.abs(run.omega).max()),
+        path_length=path_length(run),
+        distance=float(run.rho[-1]),
+    )
+
+
+def path_length(trajectory: Trajectory) -> float:
+    """How far the robot rolled, forwards and backwards, in metres: the integral of |v|.
+
+    Exact for "euler" and "arc", which hold v between samples; for "continuous" by the trapezoidal rule over the samples.
+    """
+    run = _with_samples(trajectory)
+    speed, step = np.abs(run.v), np.diff(run.t)
+    if run.method == "continuous":
+        return float(np.sum(0.5 * (speed[1:] + speed[:-1]) * step))
+    return float(np.sum(speed[:-1] * step))
+
+
+def residual(trajectory: Trajectory, last: float = 5.0) -> float:
+    """The mean distance to the reference over the last `last` seconds, in metres.
+
+    For the laws without feed-forward on a circle it settles near -ln(1 - speed/v_max)/k_rho, where (22) commands the reference's speed.
+    Raises ValueError for a trajectory without a sample, or if `last` is not positive.
+    """
+    run = _with_samples(trajectory)
+    late = run.t >= run.t[-1] - scalar("last", last, above=0.0)
+    return float(run.rho[late].mean())
+
+
+def _with_samples(trajectory: Trajectory) -> Trajectory:
+    if len(instance("trajectory", trajectory, Trajectory)) == 0:
+        raise ValueError("trajectory has no sample: the run left the range of numbers at its start")
+    return trajectory

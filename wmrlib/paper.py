@@ -1,0 +1,89 @@
+"""The paper's scenarios and its published numbers, as data.
+
+Yousif, W. K., and Ali, A. A.: Simulation of Pose to Pose Moving of the Mobile Robot with Specified GPS Points.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+from wmrlib._checks import choice, real
+from wmrlib.gains import Gains
+from wmrlib.geodesy import GeoPoint, local_position
+from wmrlib.kinematics import Pose, Reference
+
+GPS_POINT_1 = GeoPoint(lat=33.273572, lon=44.373160)
+"""The outdoor start. The paper writes (longitude, latitude); read the other way round, its points would be 42.5 m apart, not 58."""
+GPS_POINT_2 = GeoPoint(lat=33.274087, lon=44.373264)
+"""The outdoor goal."""
+START_HEADING = 2.0 * math.pi / 5.0
+"""The outdoor start's heading, rad."""
+GOAL_HEADING = -2.0 * math.pi / 6.0
+"""The outdoor goal's heading, rad."""
+TIME_STEP = 0.1
+"""The paper's time step, s."""
+OUTDOOR_GAINS = Gains(k_rho=2.0, k_alpha=1.0, h=0.3, v_max=4.0)
+
+CIRCLE_PERIOD = 40.0
+"""T, s."""
+CIRCLE_RADIUS = 4.0
+"""m."""
+CIRCLE_SPEED = 2.0 * math.pi * CIRCLE_RADIUS / CIRCLE_PERIOD
+"""Speed of the reference, m/s."""
+CIRCLE_START = Pose(1.0, 2.0, 0.0)
+CIRCLE_GAINS = Gains(k_rho=1.9, k_alpha=1.0, h=0.05, v_max=4.0)
+"""The paper gives no v_max for the circle; with 4 m/s the error that remains is the paper's."""
+
+
+class Scenario(NamedTuple):
+    """A run from start to goal with the paper's gains and time step."""
+
+    start: Pose
+    goal: Pose
+    gains: Gains
+    dt: float
+
+
+class Published(NamedTuple):
+    """A number that the paper prints: its value, its unit, and where it stands."""
+
+    value: float
+    unit: str
+    place: str
+
+
+PUBLISHED = {
+    "distance": Published(58.07, "m", "section 4"),
+    "bearing": Published(9.4, "deg", "section 4"),
+    "x_error_at_start": Published(57.0, "m", "section 4, Fig. 11"),
+    "y_error_at_start": Published(8.0, "m", "section 4, Fig. 12"),
+    "speed_limit": Published(4.0, "m/s", "section 4, Fig. 9"),
+    "time_step": Published(0.1, "s", "section 4"),
+    "sphere_error": Published(0.5, "%", "section 2"),
+    "circle_residual": Published(0.1, "m", "section 4, Fig. 5"),
+}
+
+
+def outdoor(x_axis: str = "east") -> Scenario:
+    """The outdoor case: from GPS point 1 to GPS point 2.
+
+    x_axis "east" follows the paper's section 2 (y is north); "north" follows its section 4, where the 57 m error is in x, so that x
+    points north and y east. The headings are counted from x towards y in both. Raises ValueError for another name.
+    """
+    east, north = local_position(GPS_POINT_1, GPS_POINT_2)
+    x, y = (east, north) if choice("x_axis", x_axis, ("east", "north")) == "east" else (north, east)
+    return Scenario(Pose(0.0, 0.0, START_HEADING), Pose(x, y, GOAL_HEADING), OUTDOOR_GAINS, TIME_STEP)
+
+
+def circle(t) -> Reference:
+    """The circle's reference at time t [s], a number or an array: x = 4 cos(2 pi t/T) - 4, y = 4 sin(2 pi t/T), heading = 2 pi t/T + pi/2.
+
+    Its speed is 2 pi 4/T = 0.628 m/s and its turning rate 2 pi/T = 0.157 rad/s. Raises ValueError for NaN.
+    """
+    turn = 2.0 * math.pi / CIRCLE_PERIOD
+    angle = turn * real("t", t)
+    x, y = CIRCLE_RADIUS * (np.cos(angle) - 1.0), CIRCLE_RADIUS * np.sin(angle)
+    return Reference(x, y, angle + math.pi / 2.0, CIRCLE_SPEED + 0.0 * angle, turn + 0.0 * angle)

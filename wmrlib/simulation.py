@@ -1,0 +1,232 @@
+"""Driving the robot on the computer: to a goal that stands still, after one that moves, and many runs at once."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from dataclasses import dataclass
+from enum import Enum
+from typing import Any, NamedTuple
+
+import numpy as np
+
+from wmrlib import _continuous as continuous
+from wmrlib import _kernels as kernels
+from wmrlib._checks import Real, choice, instance, real, same_shape, scalar
+from wmrlib.control import POSE_LAWS, TRACKING_LAWS, tuning_of
+from wmrlib.gains import Gains, WheelLimits, checked_wheels
+from wmrlib.kinematics import Pose, Reference, wrap_angle
+
+MOST_SAMPLES = 10_000_000
+_STEPS = {"euler": kernels.EULER, "arc": kernels.ARC}
+_METHODS = (*_STEPS, "continuous")
+
+
+class Outcome(Enum):
+    """How a run ended; the value is a sentence for the reader."""
+
+    ARRIVED = "arrived within the arrival radius"
+    TIMED_OUT = "did not arrive within the duration"
+    DIVERGED = "left the range of numbers"
+    COMPLETED = "followed the reference to the end"
+
+    @property
+    def message(self) -> str:
+        return self.value
+
+
+_OUTCOMES = (Outcome.ARRIVED, Outcome.TIMED_OUT, Outcome.DIVERGED, Outcome.COMPLETED)  # in the order of the kernels' codes
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class Trajectory:
+    """One run: arrays of equal length, one entry a sample, which can't be written to, and how it ended.
+
+    t: s; x, y: m; heading: rad; rho: m; alpha, theta: rad; v: m/s and omega: rad/s, what the law commands at that sample (after the
+    wheel limits); V: the Lyapunov function, with L = 1. goal: the goal's Pose, with array fields if it moves.
+    """
+
+    t: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    heading: np.ndarray
+    rho: np.ndarray
+    alpha: np.ndarray
+    theta: np.ndarray
+    v: np.ndarray
+    omega: np.ndarray
+    V: np.ndarray
+    outcome: Outcome
+    goal: Pose
+    gains: Any
+    law: str
+    method: str
+
+    def __len__(self) -> int:
+        return self.t.size
+
+    def __repr__(self) -> str:
+        last = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s" if len(self) else "no sample"
+        return f"<Trajectory: {self.law} law, {self.method}, {len(self)} samples, {last}: {self.outcome.message}>"
+
+    @property
+    def x_error(self) -> np.ndarray:
+        """goal.x - x, metres."""
+        return self.goal.x - self.x
+
+    @property
+    def y_error(self) -> np.ndarray:
+        """goal.y - y, metres."""
+        return self.goal.y - self.y
+
+    @property
+    def heading_error(self) -> np.ndarray:
+        """Theta - alpha = heading - goal.heading, radians in (-pi, pi]."""
+        return wrap_angle(self.theta - self.alpha)
+
+
+class Arrival(NamedTuple):
+    """What a run amounts to: numbers for one run, arrays for many.
+
+    arrived: within the arrival radius; time: s, infinite if it did not arrive; heading_error: heading - goal.heading at the last sample,
+    rad; peak_omega: largest |omega|, rad/s; path_length: m, backward motion included; distance: to the goal at the last sample, m.
+    """
+
+    arrived: bool | np.ndarray
+    time: Real
+    heading_error: Real
+    peak_omega: Real
+    path_length: Real
+    distance: Real
+
+
+def simulate(
+    start: Pose,
+    goal: Pose,
+    gains: Gains,
+    *,
+    law: str = "corrected",
+    method: str = "arc",
+    dt: float = 0.1,
+    duration: float = 60.0,
+    arrival_radius: float = 0.05,
+    wheels: WheelLimits | None = None,
+) -> Trajectory:
+    """Drive from `start` to `goal` (single poses) and stop within `arrival_radius` metres of it, or after `duration` seconds.
+
+    law: "corrected", "printed" or "aicardi", see `control_law`. wheels: see `limit_wheels`.
+    method: "euler", the paper's: the twist is held for dt seconds and the pose moves along its tangent; "arc": the twist is held and
+    the pose moves along the exact arc; "continuous": the law acts all the time, (rho, alpha, theta) is integrated with an error
+    control (Dormand-Prince 8(5,3), relative tolerance 1e-10) and recorded every dt seconds and at the moment of arrival.
+    "euler" and "arc" see alpha and theta in (-pi, pi] at each sample; in "continuous" they never jump.
+
+    Raises ValueError for arguments that are not as described: a non-finite pose, dt or duration not positive, dt > duration, more
+    than ten million samples, a negative radius, an unknown law or method.
+    """
+    begin, end = _single_pose("start", start), _single_pose("goal", goal)
+    tuning, code = tuning_of(gains, law, POSE_LAWS)
+    samples = _sample_count(dt, duration)
+    arrival_radius = scalar("arrival_radius", arrival_radius, low=0.0)
+    limits = checked_wheels(wheels)
+    if choice("method", method, _METHODS) == "continuous":
+        t, record, outcome = continuous.to_goal(begin, end, tuning, code, limits, dt * np.arange(samples), arrival_radius)
+    else:
+        reference, record = np.zeros((5, samples)), np.empty((9, samples))
+        reference[0], reference[1], reference[2] = end
+        count, outcome = kernels.drive(tuple(begin), reference, tuning, code, limits, _STEPS[method], float(dt), arrival_radius, record)
+        record, t = record[:, :count], dt * np.arange(count)
+    return _trajectory(t, record, outcome, end, gains, law, method)
+
+
+def track(
+    reference: Callable[[np.ndarray], Reference],
+    start: Pose,
+    gains,
+    *,
+    law: str = "corrected",
+    method: str = "arc",
+    dt: float = 0.1,
+    duration: float = 60.0,
+    wheels: WheelLimits | None = None,
+) -> Trajectory:
+    """Follow a moving goal from `start` for `duration` seconds.
+
+    reference: a function of an array of times [s] that returns a Reference of arrays (x, y in m, heading in rad, v in m/s, omega in
+    rad/s), such as `paper.circle`. gains: of the law, see `tracking_law`; "kanayama" and "linear" use the reference's twist, the others do
+    not. method, dt, wheels and errors as in `simulate`, but that "continuous" integrates the pose.
+    """
+    begin = _single_pose("start", start)
+    tuning, code = tuning_of(gains, law, TRACKING_LAWS)
+    samples = _sample_count(dt, duration)
+    limits = checked_wheels(wheels)
+    t = dt * np.arange(samples)
+
+    def path_at(times: np.ndarray) -> np.ndarray:
+        rows = zip(Reference._fields, instance("reference(t)", reference(times), Reference), strict=True)
+        return np.array([np.broadcast_to(real(f"reference(t).{name}", values), times.shape) for name, values in rows])
+
+    path = path_at(t)
+    if choice("method", method, _METHODS) == "continuous":
+        record, outcome = continuous.after_reference(path_at, begin, path, tuning, code, limits, t)
+    else:
+        record = np.empty((9, samples))
+        count, outcome = kernels.drive(tuple(begin), path, tuning, code, limits, _STEPS[method], float(dt), -1.0, record)
+        record = record[:, :count]
+    count, path.flags.writeable = record.shape[1], False
+    outcome = kernels.COMPLETED if outcome == kernels.TIMED_OUT else outcome
+    return _trajectory(t[:count], record, outcome, Pose(*path[:3, :count]), gains, law, method)
+
+
+def sweep(
+    starts: Pose,
+    goals: Pose,
+    gains: Gains,
+    *,
+    law: str = "corrected",
+    method: str = "arc",
+    dt: float = 0.1,
+    duration: float = 60.0,
+    arrival_radius: float = 0.05,
+    wheels: WheelLimits | None = None,
+) -> Arrival:
+    """Many runs at once: the fields of starts, goals and gains broadcast, and each field of the Arrival has their common shape.
+
+    Every entry equals `arrival(simulate(...))` of that run; "euler" and "arc" are the methods. Raises ValueError as `simulate`, and for
+    shapes that don't broadcast.
+    """
+    instance("starts", starts, Pose)
+    instance("goals", goals, Pose)
+    instance("gains", gains, Gains)
+    names = ("starts.x", "starts.y", "starts.heading", "goals.x", "goals.y", "goals.heading", *(f"gains.{f}" for f in gains._fields))
+    fields = (*starts, *goals, *gains)
+    shape = same_shape(**dict(zip(names, fields, strict=True)))
+    step = _STEPS[choice("method", method, _STEPS)]
+    code, limits = POSE_LAWS[choice("law", law, POSE_LAWS)], checked_wheels(wheels)
+    samples, arrival_radius = _sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
+    runs = np.ascontiguousarray([np.broadcast_to(field, shape).ravel() for field in fields], dtype=float)
+    summary = np.empty((6, runs.shape[1]))
+    kernels.survey(runs, code, limits, step, float(dt), samples, arrival_radius, summary)
+    outcome, time, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
+    arrived = outcome == kernels.ARRIVED
+    return Arrival(arrived, np.where(arrived, time, np.inf) if shape else (time if arrived else math.inf), *rest)
+
+
+def _trajectory(t, record, outcome, goal, gains, law, method) -> Trajectory:
+    t.flags.writeable = record.flags.writeable = False
+    return Trajectory(t, *record, _OUTCOMES[outcome], goal, gains, law, method)
+
+
+def _single_pose(name: str, pose: Pose) -> Pose:
+    for field, value in zip(("x", "y", "heading"), instance(name, pose, Pose), strict=True):
+        if type(value) is not float:
+            raise ValueError(f"{name}.{field} = {value!r} is not allowed: one number is needed; sweep takes arrays")
+    return pose
+
+
+def _sample_count(dt: float, duration: float) -> int:
+    dt, duration = scalar("dt", dt, above=0.0), scalar("duration", duration, above=0.0)
+    if dt > duration:
+        raise ValueError(f"dt = {dt:g} is not allowed: at most the duration, {duration:g}, is needed")
+    if duration / dt > MOST_SAMPLES:
+        raise ValueError(f"duration = {duration:g} is not allowed: at most {MOST_SAMPLES:,} steps of dt = {dt:g} are needed")
+    return int(duration / dt + 1e-9) + 1
