@@ -24,7 +24,8 @@ from wmrlib._checks import choice
 rho, alpha, theta, v, omega, v_ref, omega_ref = sp.symbols("rho alpha theta v omega v_ref omega_ref", real=True)
 k_rho, k_alpha, h, v_max, L, k_x, k_y, k_heading = sp.symbols("k_rho k_alpha h v_max L k_x k_y k_heading", positive=True)
 pull = sp.Symbol("pull", real=True)  # v/rho, which is finite at the goal
-ahead, left, turn, t, rate, angle = sp.symbols("ahead left turn t rate angle", real=True)
+ahead, left, turn, t, rate, angle, square = sp.symbols("ahead left turn t rate angle square", real=True)
+sine, sin_alpha, cos_alpha, sinc_alpha = sp.symbols("sine sin_alpha cos_alpha sinc_alpha", real=True)  # computed once, used often
 
 # Rates, whose names sympy typesets with a dot, and what only the paper's first equations need.
 rho_rate, alpha_rate, theta_rate, V_rate, x_rate, y_rate = sp.symbols("rhodot alphadot thetadot Vdot xdot ydot", real=True)
@@ -65,7 +66,7 @@ class decay(sp.Function):  # noqa: N801 (sympy names its functions in lower case
             return _guarded_decay(rho, k_rho)[()]
 
 
-_GUARDED_SINC = sp.Piecewise((sp.sin(angle) / angle, sp.Abs(angle) > _SMALL), (1, True))
+_GUARDED_SINC = sp.Piecewise((sine / angle, sp.Abs(angle) > _SMALL), (1, True))
 _GUARDED_DECAY = sp.Piecewise((-expm1(-k_rho * rho) / rho, sp.Abs(k_rho * rho) > _SMALL), (k_rho * (1 - k_rho * rho / 2), True))
 _guarded_decay = sp.lambdify((rho, k_rho), _GUARDED_DECAY, "numpy")
 
@@ -133,9 +134,9 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
 
 
 def _equations() -> dict[int, sp.Basic]:
-    sine, cosine, speed = sp.sin(alpha), sp.cos(alpha), v_max * (1 - sp.exp(-k_rho * rho))
-    twice = speed * cosine * sine / rho * cosine * sine / alpha * (alpha + h * theta)
-    grows, falls = v * sine / rho * (h * theta + alpha), rho / L * (-speed * cosine**2)
+    speed = v_max * (1 - sp.exp(-k_rho * rho))
+    twice = speed * _COSINE * _SINE / rho * _COSINE * _SINE / alpha * (alpha + h * theta)
+    grows, falls = v * _SINE / rho * (h * theta + alpha), rho / L * (-speed * _COSINE**2)
     half_dlat, half_dlong = sp.sin(dlat / 2), sp.sin(dlong / 2)
     return {
         1: sp.Eq(v, (V_r + V_l) / 2),
@@ -144,10 +145,10 @@ def _equations() -> dict[int, sp.Basic]:
         4: sp.Eq(y_rate, v * sp.sin(theta)),
         5: sp.Eq(theta_rate, omega),
         6: sp.Eq(sp.Matrix([x_rate, y_rate, theta_rate]), sp.Matrix([v * sp.cos(theta), v * sp.sin(theta), omega])),
-        7: sp.Eq(rho_rate, -v * cosine),
-        8: sp.Eq(theta_rate, v * sine / rho),
-        9: sp.Eq(alpha_rate, -omega + v * sine / rho),
-        10: sp.Eq(sp.Matrix([rho_rate, alpha_rate, theta_rate]), sp.Matrix([-v * cosine, v * sine / rho - omega, -v * sine / rho])),
+        7: sp.Eq(rho_rate, -v * _COSINE),
+        8: sp.Eq(theta_rate, v * _SINE / rho),
+        9: sp.Eq(alpha_rate, -omega + v * _SINE / rho),
+        10: sp.Eq(sp.Matrix([rho_rate, alpha_rate, theta_rate]), sp.Matrix([-v * _COSINE, v * _SINE / rho - omega, -v * _SINE / rho])),
         11: sp.Eq(rho, R * c),
         12: sp.Eq(c, 2 * sp.atan2(sp.sqrt(epsilon), sp.sqrt(1 - epsilon))),
         13: sp.Eq(epsilon, half_dlat**2 + sp.cos(lat1) * sp.cos(lat2) * half_dlong**2),
@@ -157,15 +158,18 @@ def _equations() -> dict[int, sp.Basic]:
         17: sp.Eq(zeta_y, sp.cos(lat1) * sp.sin(lat2) - sp.sin(lat1) * sp.cos(lat2) * sp.cos(dlong)),
         18: sp.Eq(V, rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2),
         19: sp.Eq(V_rate, rho * rho_rate / L + alpha * alpha_rate + h * theta * theta_rate),
-        20: sp.Eq(V_rate, rho / L * (-v * cosine) + alpha * (-omega + v * sine / rho) + theta * h * (v * sine / rho)),
-        21: sp.Eq(V_rate, rho / L * (-v * cosine) + (alpha * (-omega) + grows)),
-        22: sp.Eq(v, speed * cosine),
-        23: omega > (alpha + h * theta) * k_alpha * cosine * sine,
+        20: sp.Eq(V_rate, rho / L * (-v * _COSINE) + alpha * (-omega + v * _SINE / rho) + theta * h * (v * _SINE / rho)),
+        21: sp.Eq(V_rate, rho / L * (-v * _COSINE) + (alpha * (-omega) + grows)),
+        22: sp.Eq(v, speed * _COSINE),
+        23: omega > (alpha + h * theta) * k_alpha * _COSINE * _SINE,
         24: sp.Eq(omega, k_alpha * alpha + twice),
-        25: sp.Eq(V_rate, falls + (alpha * (-k_alpha * alpha - twice) + speed * cosine * sine / rho * (h * theta + alpha))),
+        25: sp.Eq(V_rate, falls + (alpha * (-k_alpha * alpha - twice) + speed * _COSINE * _SINE / rho * (h * theta + alpha))),
         26: sp.Eq(
             V_rate,
-            sp.Abs(rho) / L * (-speed * cosine**2) - k_alpha * alpha**2 - k_alpha * alpha - speed / rho * cosine * sine / alpha * h * theta,
+            sp.Abs(rho) / L * (-speed * _COSINE**2)
+            - k_alpha * alpha**2
+            - k_alpha * alpha
+            - speed / rho * _COSINE * _SINE / alpha * h * theta,
         ),
     }
 
@@ -186,23 +190,40 @@ class Formula(NamedTuple):
     says: str
 
 
+_SHARED = {_SINE: sin_alpha, _COSINE: cos_alpha, _SINC: sinc_alpha}
+_STATE = (alpha, theta, sin_alpha, cos_alpha, sinc_alpha, pull, k_alpha, h)
+
+
+def _law_formula(value: sp.Expr, arguments: tuple[sp.Symbol, ...], says: str) -> Formula:
+    """The law with sin(alpha), cos(alpha) and sinc(alpha) as arguments, which a loop computes once for all formulas."""
+    value = value.subs(_SHARED)
+    return Formula(tuple(each for each in arguments if value.has(each)), value, says)
+
+
+def _series(function: sp.Function) -> sp.Expr:
+    """The function of an angle up to 0.1 in size, as a polynomial in the angle's square; the next term is lost in rounding."""
+    return sp.horner(sp.series(function(angle), angle, 0, 10).removeO().subs(angle, sp.sqrt(square)))
+
+
 FORMULAS = MappingProxyType(
     {
-        "sinc": Formula((angle,), _GUARDED_SINC, "sin(angle)/angle, which is 1 at 0"),
+        "sinc": Formula((angle, sine), _GUARDED_SINC, "sin(angle)/angle, which is 1 at 0"),
         "decay": Formula((rho, k_rho), _GUARDED_DECAY, "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"),
-        "corrected_pull": Formula((rho, alpha, k_rho, v_max), _PULL["corrected"], "v/rho by (22)"),
-        "corrected_omega": Formula((alpha, theta, pull, k_alpha, h), _OMEGA["corrected"], "the omega that makes the proof work"),
-        "printed_omega": Formula((alpha, theta, pull, k_alpha, h), _OMEGA["printed"], "(24) as the paper prints it"),
-        "aicardi_pull": Formula((alpha, k_rho), _PULL["aicardi"], "v/rho of the linear law, whose omega is the corrected one"),
-        "body_ahead": Formula((rho, alpha), _BODY_ERROR[ahead], "how far the goal lies ahead"),
-        "body_left": Formula((rho, alpha), _BODY_ERROR[left], "how far the goal lies to the left"),
-        "kanayama_v": Formula((ahead, turn, v_ref, k_x), _KANAYAMA[0], "the law with feed-forward"),
-        "kanayama_omega": Formula((left, turn, v_ref, omega_ref, k_y, k_heading), _KANAYAMA[1], "the law with feed-forward"),
+        "small_sinc": Formula((square,), _series(sp.sinc), "sin(angle)/angle of an angle up to 0.1, from its square"),
+        "small_cos": Formula((square,), _series(sp.cos), "cos(angle) of an angle up to 0.1, from its square"),
+        "corrected_pull": _law_formula(_PULL["corrected"], (rho, cos_alpha, k_rho, v_max), "v/rho by (22)"),
+        "corrected_omega": _law_formula(_OMEGA["corrected"], _STATE, "the omega that makes the proof work"),
+        "printed_omega": _law_formula(_OMEGA["printed"], _STATE, "(24) as the paper prints it"),
+        "aicardi_pull": _law_formula(_PULL["aicardi"], (cos_alpha, k_rho), "v/rho of the linear law; its omega is the corrected one"),
+        "body_ahead": _law_formula(_BODY_ERROR[ahead], (rho, cos_alpha), "how far the goal lies ahead"),
+        "body_left": _law_formula(_BODY_ERROR[left], (rho, sin_alpha), "how far the goal lies to the left"),
+        "kanayama_v": Formula((ahead, turn, v_ref, k_x), _KANAYAMA[0], "v of the law with feed-forward"),
+        "kanayama_omega": Formula((left, turn, v_ref, omega_ref, k_y, k_heading), _KANAYAMA[1], "its omega"),
         "lyapunov_value": Formula((rho, alpha, theta, h, L), _LYAPUNOV, "V, (18)"),
-        "kanayama_value": Formula((ahead, left, turn, k_y), _LYAPUNOV_KANAYAMA, "V of the law with feed-forward"),
-        "rho_rate": Formula((rho, alpha, pull), _POLAR_RATES[0], "(7)"),
-        "theta_rate": Formula((alpha, pull), _POLAR_RATES[2], "(8)"),
-        "alpha_rate": Formula((alpha, pull, omega), _POLAR_RATES[1], "(9)"),
+        "kanayama_value": Formula((ahead, left, turn, k_y), _LYAPUNOV_KANAYAMA, "its V"),
+        "rho_rate": _law_formula(_POLAR_RATES[0], (rho, cos_alpha, pull), "(7)"),
+        "theta_rate": _law_formula(_POLAR_RATES[2], (sin_alpha, pull), "(8)"),
+        "alpha_rate": _law_formula(_POLAR_RATES[1], (sin_alpha, pull, omega), "(9)"),
         "mode_frequency": Formula((rate, h), rate * sp.sqrt(h), "natural frequency near the goal, with rate = v_max k_rho"),
         "mode_damping": Formula((rate, k_alpha, h), k_alpha / (2 * rate * sp.sqrt(h)), "damping near the goal"),
         "mode_settling": Formula((rate, k_alpha, h), _SETTLING, "the rate at which the heading settles near the goal"),

@@ -1,8 +1,8 @@
 // The model's formulas, printed from sympy: change wmrlib/symbolic.py, then run python -m wmrlib.symbolic.
 
 // sin(angle)/angle, which is 1 at 0
-function sinc(angle) {
-  return ((Math.abs(angle) > 1.0e-8) ? ( Math.sin(angle)/angle ) : ( 1 ));
+function sinc(angle, sine) {
+  return ((Math.abs(angle) > 1.0e-8) ? ( sine/angle ) : ( 1 ));
 }
 
 // (1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0
@@ -10,42 +10,52 @@ function decay(rho, k_rho) {
   return ((k_rho*Math.abs(rho) > 1.0e-8) ? ( -Math.expm1(-k_rho*rho)/rho ) : ( k_rho*(-1/2*k_rho*rho + 1) ));
 }
 
+// sin(angle)/angle of an angle up to 0.1, from its square
+function smallSinc(square) {
+  return square*(square*(square*((1/362880)*square - 1/5040) + 1/120) - 1/6) + 1;
+}
+
+// cos(angle) of an angle up to 0.1, from its square
+function smallCos(square) {
+  return square*(square*(square*((1/40320)*square - 1/720) + 1/24) - 1/2) + 1;
+}
+
 // v/rho by (22)
-function correctedPull(rho, alpha, k_rho, v_max) {
-  return v_max*Math.cos(alpha)*decay(rho, k_rho);
+function correctedPull(rho, cos_alpha, k_rho, v_max) {
+  return cos_alpha*v_max*decay(rho, k_rho);
 }
 
 // the omega that makes the proof work
-function correctedOmega(alpha, theta, pull, k_alpha, h) {
-  return alpha*k_alpha + pull*(alpha + h*theta)*sinc(alpha);
+function correctedOmega(alpha, theta, sinc_alpha, pull, k_alpha, h) {
+  return alpha*k_alpha + pull*sinc_alpha*(alpha + h*theta);
 }
 
 // (24) as the paper prints it
-function printedOmega(alpha, theta, pull, k_alpha, h) {
-  return alpha*k_alpha + pull*(alpha + h*theta)*Math.sin(alpha)*Math.cos(alpha)*sinc(alpha);
+function printedOmega(alpha, theta, sin_alpha, cos_alpha, sinc_alpha, pull, k_alpha, h) {
+  return alpha*k_alpha + cos_alpha*pull*sin_alpha*sinc_alpha*(alpha + h*theta);
 }
 
-// v/rho of the linear law, whose omega is the corrected one
-function aicardiPull(alpha, k_rho) {
-  return k_rho*Math.cos(alpha);
+// v/rho of the linear law; its omega is the corrected one
+function aicardiPull(cos_alpha, k_rho) {
+  return cos_alpha*k_rho;
 }
 
 // how far the goal lies ahead
-function bodyAhead(rho, alpha) {
-  return rho*Math.cos(alpha);
+function bodyAhead(rho, cos_alpha) {
+  return cos_alpha*rho;
 }
 
 // how far the goal lies to the left
-function bodyLeft(rho, alpha) {
-  return rho*Math.sin(alpha);
+function bodyLeft(rho, sin_alpha) {
+  return rho*sin_alpha;
 }
 
-// the law with feed-forward
+// v of the law with feed-forward
 function kanayamaV(ahead, turn, v_ref, k_x) {
   return ahead*k_x + v_ref*Math.cos(turn);
 }
 
-// the law with feed-forward
+// its omega
 function kanayamaOmega(left, turn, v_ref, omega_ref, k_y, k_heading) {
   return omega_ref + v_ref*(k_heading*Math.sin(turn) + k_y*left);
 }
@@ -55,24 +65,24 @@ function lyapunovValue(rho, alpha, theta, h, L) {
   return (1/2)*(alpha*alpha) + (1/2)*h*(theta*theta) + (1/2)*(rho*rho)/L;
 }
 
-// V of the law with feed-forward
+// its V
 function kanayamaValue(ahead, left, turn, k_y) {
   return (1/2)*(ahead*ahead) + (1/2)*(left*left) + (1 - Math.cos(turn))/k_y;
 }
 
 // (7)
-function rhoRate(rho, alpha, pull) {
-  return -pull*rho*Math.cos(alpha);
+function rhoRate(rho, cos_alpha, pull) {
+  return -cos_alpha*pull*rho;
 }
 
 // (8)
-function thetaRate(alpha, pull) {
-  return pull*Math.sin(alpha);
+function thetaRate(sin_alpha, pull) {
+  return pull*sin_alpha;
 }
 
 // (9)
-function alphaRate(alpha, pull, omega) {
-  return -omega + pull*Math.sin(alpha);
+function alphaRate(sin_alpha, pull, omega) {
+  return -omega + pull*sin_alpha;
 }
 
 // natural frequency near the goal, with rate = v_max k_rho
