@@ -1,0 +1,144 @@
+// The second view: what a run amounts to over two of the gains, as a heat map that refines itself between frames.
+
+const MEASURES = [
+  { key: 'headingError', title: 'heading error on arrival [deg]', scale: DEGREES, most: 180 },
+  { key: 'time', title: 'arrival time [s]', scale: 1, most: Infinity },
+  { key: 'peakOmega', title: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
+];
+const AXES = [['k_alpha', 'h'], ['k_rho', 'h']];
+const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
+const UNITS = { k_alpha: 'k_alpha [1/s]', h: 'h [1]', k_rho: 'k_rho [1/m]' };
+const LEVELS = [10, 25, 50]; // cells a side: a first impression, then the whole
+const BUDGET = 7; // ms of a frame
+
+const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
+
+// One row of a map. Behind a moving goal nothing arrives: there it is what the end of the run amounts to.
+function rowOf(options) {
+  if (options.reference === null) return landscape(options);
+  const { kx, xs, ky, ys, metric, gains } = options, lasting = metric === 'time' ? 'residual' : metric;
+  return Array.from(xs, (x) => {
+    scratch = simulate({ ...options, gains: { ...gains, [kx]: x, [ky]: ys[0] } }, scratch);
+    return summarise(scratch)[lasting];
+  });
+}
+
+let scratch = null; // the memory of the last run of a map, lent to the next
+
+// Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step()` works for one
+// budget and says whether there is more to do.
+function buildGainMap() {
+  let key = '', job = null, done = null;
+  const begin = (level) => ({ level, n: LEVELS[level], row: 0, values: new Float64Array(LEVELS[level] ** 2) });
+  return {
+    update(settings, axes, metric) {
+      const [kx, ky] = AXES[axes] || AXES[0], measure = MEASURES[metric] || MEASURES[0];
+      const { [kx]: _x, [ky]: _y, ...others } = settings.gains;
+      const next = JSON.stringify([{ ...settings, gains: others }, kx, ky, measure.key]);
+      if (next !== key) { key = next; job = { ...begin(0), settings, kx, ky, measure }; }
+    },
+    step() {
+      if (!job) return false;
+      const stop = performance.now() + BUDGET, ys = centres(job.ky, job.n), xs = centres(job.kx, job.n);
+      while (job.row < job.n) {
+        const { settings, kx, ky, measure } = job;
+        job.values.set(rowOf({ ...settings, kx, xs, ky, ys: ys.subarray(job.row, job.row + 1), metric: measure.key }), job.row * job.n);
+        job.row += 1;
+        if (performance.now() > stop) break;
+      }
+      if (job.row === job.n) {
+        done = job;
+        job = job.level + 1 < LEVELS.length ? { ...job, ...begin(job.level + 1) } : null;
+      }
+      return job !== null;
+    },
+    get map() { return done; },
+    get finished() { return job === null; },
+  };
+}
+
+function mapBox(width, height) {
+  return { left: 62, top: 12, width: Math.max(width - 62 - 96, 20), height: Math.max(height - 12 - 46, 20) };
+}
+
+function gainsAt(map, width, height, x, y) {
+  const box = mapBox(width, height), share = (value, low, size) => Math.min(Math.max((value - low) / size, 0), 1);
+  const round = (value, name) => Math.max(0.05, Math.round(value * RANGES[name] * 20) / 20);
+  return { [map.kx]: round(share(x, box.left, box.width), map.kx), [map.ky]: round(1 - share(y, box.top, box.height), map.ky) };
+}
+
+function drawMap(canvas, colours, { map, gains, note }) {
+  const { ctx, width, height } = surfaceOf(canvas, colours);
+  const box = mapBox(width, height);
+  if (!map || note) {
+    ctx.strokeStyle = colours.line;
+    ctx.strokeRect(box.left, box.top, box.width, box.height);
+    label(ctx, note || 'computing ...', width / 2, height / 2, colours, { align: 'center', size: 14 });
+    return;
+  }
+  const top = topOf(map);
+  ctx.imageSmoothingEnabled = false;
+  ctx.drawImage(imageOf(map, top, colours), box.left, box.top, box.width, box.height);
+  drawMapAxes(ctx, box, map, colours);
+  drawColourBar(ctx, box, map, top, colours);
+  const x = box.left + box.width * Math.min(gains[map.kx] / RANGES[map.kx], 1);
+  const y = box.top + box.height * (1 - Math.min(gains[map.ky] / RANGES[map.ky], 1));
+  for (const [colour, thick] of [['#000000', 6], ['#ffffff', 2.5]]) {
+    ctx.strokeStyle = colour;
+    ctx.lineWidth = thick;
+    ctx.beginPath();
+    ctx.arc(x, y, 10, 0, 2 * Math.PI);
+    ctx.moveTo(x - 18, y); ctx.lineTo(x - 4, y); ctx.moveTo(x + 4, y); ctx.lineTo(x + 18, y);
+    ctx.moveTo(x, y - 18); ctx.lineTo(x, y - 4); ctx.moveTo(x, y + 4); ctx.lineTo(x, y + 18);
+    ctx.stroke();
+  }
+}
+
+const shown = (map, i) => Math.abs(map.values[i]) * map.measure.scale;
+
+// The top of the colour bar: a round number above 95 % of the cells, so that a few wild ones don't flatten the rest.
+function topOf(map) {
+  const values = Array.from(map.values, (_, i) => shown(map, i)).filter(Number.isFinite).sort((a, b) => a - b);
+  if (!values.length) return 1;
+  const high = Math.max(values[Math.min(values.length - 1, Math.floor(0.95 * values.length))], 1e-6), step = roundStep(high, 4);
+  return Math.min(Math.ceil(high / step - 1e-9) * step, map.measure.most);
+}
+
+function imageOf(map, top, colours) {
+  const { n } = map, image = document.createElement('canvas');
+  image.width = image.height = n;
+  const ctx = image.getContext('2d'), pixels = ctx.createImageData(n, n), dark = parseInt(colours.paper.slice(1, 3), 16) < 128;
+  for (let i = 0; i < n * n; i += 1) {
+    const row = n - 1 - Math.floor(i / n), column = i % n, value = shown(map, i), stripe = (row + column) % 4 < 2;
+    const colour = Number.isFinite(value) ? viridis(value / top) : Array(3).fill((dark ? 60 : 200) + (stripe ? 25 : 0));
+    pixels.data.set([...colour, 255], 4 * (row * n + column));
+  }
+  ctx.putImageData(pixels, 0, 0);
+  return image;
+}
+
+function drawMapAxes(ctx, box, map, colours) {
+  const across = ticksOf(0, RANGES[map.kx], box.width / 60), up = ticksOf(0, RANGES[map.ky], box.height / 40);
+  for (const value of across.ticks) {
+    const x = box.left + box.width * value / RANGES[map.kx];
+    label(ctx, across.write(value), x, box.top + box.height + 12, colours, { align: 'center', colour: colours.soft });
+  }
+  for (const value of up.ticks) {
+    label(ctx, up.write(value), box.left - 6, box.top + box.height * (1 - value / RANGES[map.ky]), colours, { align: 'right', colour: colours.soft });
+  }
+  label(ctx, UNITS[map.kx], box.left + box.width / 2, box.top + box.height + 33, colours, { align: 'center' });
+  label(ctx, UNITS[map.ky], 14, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+}
+
+function drawColourBar(ctx, box, map, top, colours) {
+  const left = box.left + box.width + 14, wide = 16;
+  for (let i = 0; i < box.height; i += 1) {
+    ctx.fillStyle = `rgb(${viridis(1 - i / box.height)})`;
+    ctx.fillRect(left, box.top + i, wide, 1.5);
+  }
+  const { ticks, write } = ticksOf(0, top, 5);
+  for (const value of ticks) {
+    label(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value), left + wide + 5, box.top + box.height * (1 - value / top), colours, { colour: colours.soft });
+  }
+  label(ctx, map.measure.title, box.left + box.width + 84, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+}

@@ -1,0 +1,167 @@
+// The path in the plane, equal scales: start and goal as arrows, the robot, and the three polar errors as angles and a distance.
+
+const ARROW = { start: 52, goal: 68 }; // px from a pose to the handle that turns it; unequal, so that both can be reached when they coincide
+const SPANS = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10];
+
+// Where the picture looks. It moves in steps, so that it doesn't swim while a slider is dragged, and depends on nothing but its arguments.
+// `marks` are points that must be seen; the runs are followed as far as three times the marks' distance from the first.
+function viewOf(runs, marks, arrows, width, height) {
+  const reach = 2 + 3 * Math.max(...marks.map(([x, y]) => Math.hypot(x - marks[0][0], y - marks[0][1])));
+  const bounds = [Infinity, Infinity, -Infinity, -Infinity];
+  const include = (x, y) => {
+    bounds[0] = Math.min(bounds[0], x); bounds[1] = Math.min(bounds[1], y);
+    bounds[2] = Math.max(bounds[2], x); bounds[3] = Math.max(bounds[3], y);
+  };
+  marks.forEach(([x, y]) => include(x, y));
+  const clip = (value, middle) => Math.min(Math.max(value, middle - reach), middle + reach);
+  for (const run of runs) {
+    for (let k = 0; k < run.n; k += 1) include(clip(run.x[k], marks[0][0]), clip(run.y[k], marks[0][1]));
+  }
+  const box = { left: 54, top: 10, width: Math.max(width - 66, 40), height: Math.max(height - 56, 40) };
+  const room = roomFor(arrows);
+  const needed = Math.max(
+    (bounds[2] - bounds[0]) / Math.max(box.width - room.left - room.right, 20), (bounds[3] - bounds[1]) / Math.max(box.height - room.top - room.bottom, 20), 0.004,
+  );
+  const power = 10 ** Math.floor(Math.log10(needed));
+  const scale = 1 / (SPANS.find((each) => each * power >= needed * (1 - 1e-9)) * power); // px a metre
+  const snap = (value) => Math.round(value * scale / 20) * 20 / scale;
+  const middle = [snap((bounds[0] + bounds[2]) / 2), snap((bounds[1] + bounds[3]) / 2)];
+  const centre = [box.left + (box.width + room.left - room.right) / 2, box.top + (box.height + room.top - room.bottom) / 2];
+  return {
+    box, scale,
+    toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
+    toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
+  };
+}
+
+// px between the content and the frame, so that an arrow on the rim still shows its tip.
+function roomFor(arrows) {
+  const most = (share) => Math.max(30, ...Object.entries(arrows).map(([name, pose]) => (pose ? 14 + ARROW[name] * share(pose[2]) : 0)));
+  return { left: most((a) => -Math.cos(a)), right: most(Math.cos), top: most(Math.sin), bottom: most((a) => -Math.sin(a)) };
+}
+
+// What must be seen: start and goal, or start and the goal's whole way.
+function marksOf(poses, run) {
+  const way = [];
+  if (poses.goal === null && run) for (let k = 0; k < run.n; k += Math.ceil(run.n / 60)) way.push([run.goalX[k], run.goalY[k]]);
+  return [poses.goal, poses.start, ...way].filter(Boolean);
+}
+
+const knobOf = (view, pose, name) => {
+  const [x, y] = view.toScreen(pose[0], pose[1]);
+  return [x + ARROW[name] * Math.cos(pose[2]), y - ARROW[name] * Math.sin(pose[2])];
+};
+
+function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded }) {
+  const { ctx } = surfaceOf(canvas, colours);
+  drawGrid(ctx, view, colours);
+  ctx.globalAlpha = faded ? 0.35 : 1;
+  inside(ctx, view.box, () => {
+    if (ghost) drawPath(ctx, view, ghost.x, ghost.y, ghost.n, colours.ghost, 2.5, [3, 6]);
+    if (poses.goal === null && run) drawPath(ctx, view, run.goalX, run.goalY, run.n, colours.goal, 1.5, [8, 5]);
+    if (run) drawPath(ctx, view, run.x, run.y, run.n, colours.path, 3, []);
+    if (run && hasSight(run, cursor)) drawAngles(ctx, view, run, cursor, colours);
+    drawPose(ctx, view, poses.goal || [run.goalX[cursor], run.goalY[cursor], run.goalHeading[cursor]], 'goal', colours);
+    drawPose(ctx, view, poses.start, 'start', colours);
+    if (run) drawRobot(ctx, view.toScreen(run.x[cursor], run.y[cursor]), run.heading[cursor], colours);
+  });
+  ctx.globalAlpha = 1;
+}
+
+function drawGrid(ctx, view, colours) {
+  const { box } = view;
+  const [left, bottom] = view.toWorld(box.left, box.top + box.height);
+  const [right, top] = view.toWorld(box.left + box.width, box.top);
+  const step = roundStep(55 / view.scale, 1); // the same step both ways
+  for (let k = Math.ceil(left / step); k * step <= right; k += 1) {
+    const [x] = view.toScreen(k * step, 0);
+    line(ctx, [[x, box.top], [x, box.top + box.height]], colours.line, k === 0 ? 1.5 : 0.6);
+    label(ctx, tickText(k * step, step), x, box.top + box.height + 12, colours, { align: 'center', colour: colours.soft });
+  }
+  for (let k = Math.ceil(bottom / step); k * step <= top; k += 1) {
+    const [, y] = view.toScreen(0, k * step);
+    line(ctx, [[box.left, y], [box.left + box.width, y]], colours.line, k === 0 ? 1.5 : 0.6);
+    label(ctx, tickText(k * step, step), box.left - 6, y, colours, { align: 'right', colour: colours.soft });
+  }
+  label(ctx, 'x [m]', box.left + box.width / 2, box.top + box.height + 32, colours, { align: 'center' });
+  label(ctx, 'y [m]', 10, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+}
+
+function drawPath(ctx, view, xs, ys, n, colour, width, dash) {
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = width;
+  ctx.setLineDash(dash);
+  ctx.beginPath();
+  const far = 1e5; // canvases lose their way with coordinates beyond the range of 32-bit pixels
+  for (let k = 0; k < n; k += 1) {
+    const [x, y] = view.toScreen(xs[k], ys[k]);
+    ctx.lineTo(Math.min(Math.max(x, -far), far), Math.min(Math.max(y, -far), far));
+  }
+  ctx.stroke();
+  ctx.restore();
+}
+
+function drawPose(ctx, view, pose, name, colours) {
+  const [x, y] = view.toScreen(pose[0], pose[1]), [tipX, tipY] = knobOf(view, pose, name);
+  const colour = colours[name], back = pose[2] + Math.PI;
+  line(ctx, [[x, y], [tipX, tipY]], colour, 3);
+  line(ctx, [0.45, -0.45].map((turn) => [tipX + 13 * Math.cos(back + turn), tipY - 13 * Math.sin(back + turn)]).toSpliced(1, 0, [tipX, tipY]), colour, 3);
+  ctx.beginPath();
+  ctx.arc(x, y, 8, 0, 2 * Math.PI);
+  ctx.fillStyle = colours.paper;
+  ctx.fill();
+  ctx.lineWidth = 3;
+  ctx.strokeStyle = colour;
+  ctx.stroke();
+  const side = Math.cos(pose[2]) > 0 ? -1 : 1; // behind the arrow, out of its way
+  label(ctx, name, x + side * 16, y + (Math.sin(pose[2]) > 0 ? 16 : -16), colours, { colour, weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
+}
+
+function drawRobot(ctx, [x, y], heading, colours) {
+  ctx.save();
+  ctx.translate(x, y);
+  ctx.rotate(-heading);
+  ctx.fillStyle = colours.ink;
+  for (const side of [-1, 1]) ctx.fillRect(-8, side * 12 - 3, 16, 6);
+  ctx.beginPath();
+  ctx.moveTo(-11, -9); ctx.lineTo(6, -9); ctx.lineTo(16, 0); ctx.lineTo(6, 9); ctx.lineTo(-11, 9);
+  ctx.closePath();
+  ctx.fillStyle = colours.path;
+  ctx.fill();
+  ctx.lineWidth = 2;
+  ctx.strokeStyle = colours.paper;
+  ctx.stroke();
+  ctx.restore();
+}
+
+// On the goal itself the line of sight has no direction, and the angles mean nothing.
+const hasSight = (run, k) => run.rho[k] > 1e-6;
+
+// rho along the line of sight; alpha at the robot, from its heading; theta at the goal, from the goal's heading: Fig. 2 of the paper.
+function drawAngles(ctx, view, run, k, colours) {
+  const robot = view.toScreen(run.x[k], run.y[k]), goal = view.toScreen(run.goalX[k], run.goalY[k]);
+  const sight = run.heading[k] + run.alpha[k];
+  const ahead = ([x, y], angle, length) => [x + length * Math.cos(angle), y - length * Math.sin(angle)];
+  line(ctx, [robot, goal], colours.ink, 1.5, [2, 5]);
+  line(ctx, [robot, ahead(robot, run.heading[k], 58)], colours.alpha, 1.5, [6, 4]);
+  line(ctx, [goal, ahead(goal, sight, 58)], colours.ink, 1.5, [2, 5]);
+  line(ctx, [goal, ahead(goal, run.goalHeading[k], 58)], colours.theta, 1.5, [6, 4]);
+  drawAngle(ctx, robot, run.heading[k], run.alpha[k], 36, 'α', colours.alpha, colours);
+  drawAngle(ctx, goal, run.goalHeading[k], run.theta[k], 46, 'θ', colours.theta, colours);
+  const distance = Math.hypot(goal[0] - robot[0], goal[1] - robot[1]);
+  if (distance > 90) {
+    const middle = [(robot[0] + goal[0]) / 2 - 12 * Math.sin(sight), (robot[1] + goal[1]) / 2 - 12 * Math.cos(sight)];
+    label(ctx, 'ρ', ...middle, colours, { size: 17, weight: 600, align: 'center' });
+  }
+}
+
+function drawAngle(ctx, [x, y], from, angle, radius, name, colour, colours) {
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 3;
+  ctx.beginPath();
+  ctx.arc(x, y, radius, -from, -(from + angle), angle > 0);
+  ctx.stroke();
+  const middle = from + angle / 2, away = radius + 13;
+  label(ctx, name, x + away * Math.cos(middle), y - away * Math.sin(middle), colours, { colour, size: 17, weight: 600, align: 'center' });
+}

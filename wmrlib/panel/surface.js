@@ -1,0 +1,69 @@
+// What every canvas here shares: sharp pixels, axes with round numbers, and text that stays readable over lines.
+
+// Returns {ctx, width, height} in CSS pixels, cleared, with as many real pixels as the screen has.
+function surfaceOf(canvas, colours) {
+  const ratio = window.devicePixelRatio || 1;
+  const width = Math.max(canvas.clientWidth, 1), height = Math.max(canvas.clientHeight, 1);
+  const [across, down] = [Math.round(width * ratio), Math.round(height * ratio)];
+  if (canvas.width !== across || canvas.height !== down) { canvas.width = across; canvas.height = down; }
+  const ctx = canvas.getContext('2d');
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx.fillStyle = colours.paper;
+  ctx.fillRect(0, 0, width, height);
+  ctx.lineJoin = ctx.lineCap = 'round';
+  return { ctx, width, height };
+}
+
+// A step of 1, 2 or 5 times a power of ten that cuts `span` into at most `most` pieces.
+function roundStep(span, most) {
+  const rough = Math.max(span, 1e-12) / Math.max(most, 1), power = 10 ** Math.floor(Math.log10(rough));
+  return [1, 2, 5, 10].find((each) => each * power >= rough * (1 - 1e-9)) * power;
+}
+
+function ticksOf(low, high, most) {
+  const step = roundStep(high - low, most), ticks = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) ticks.push(k * step);
+  return { ticks, write: (value) => tickText(value, step) };
+}
+
+function tickText(value, step) {
+  const size = Math.max(Math.abs(value), step);
+  if (size >= 1e5 || step < 1e-4) return value === 0 ? '0' : value.toExponential(0).replace('-', '−');
+  return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace('-', '−');
+}
+
+function line(ctx, points, colour, width = 1.5, dash = []) {
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = width;
+  ctx.setLineDash(dash);
+  ctx.beginPath();
+  points.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+  ctx.stroke();
+  ctx.restore();
+}
+
+// Text with a rim in the colour of the paper.
+function label(ctx, text, x, y, colours, { colour = colours.ink, size = 13, align = 'left', base = 'middle', weight = 400, turn = 0 } = {}) {
+  ctx.save();
+  ctx.font = `${weight} ${size}px ${FONT}`;
+  ctx.textAlign = align;
+  ctx.textBaseline = base;
+  ctx.translate(x, y);
+  ctx.rotate(turn);
+  ctx.lineWidth = 4;
+  ctx.strokeStyle = colours.paper;
+  ctx.strokeText(text, 0, 0);
+  ctx.fillStyle = colour;
+  ctx.fillText(text, 0, 0);
+  ctx.restore();
+}
+
+function inside(ctx, box, draw) {
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(box.left, box.top, box.width, box.height);
+  ctx.clip();
+  draw();
+  ctx.restore();
+}
