@@ -24,6 +24,7 @@ BLOCK = 256  # runs side by side: a power of two whose block stays in the first-
 _ROUND = 16  # steps between two looks at who has finished
 # The rows of a block. _LEFT counts the steps still to do; its sign turns in the step that would end the run.
 _RHO, _ALPHA, _THETA, _LEFT, _PEAK, _LENGTH, _K_RHO, _K_ALPHA, _H, _V_MAX = range(10)
+ROWS = 10
 
 
 @formula
@@ -109,65 +110,70 @@ def last_step(method, rho, alpha, theta, gains, law, wheels, dt, arrival_radius)
 
 
 @compiled
-def load(block, i, runs, run, steps, arrival_radius):
-    """Put a run at its beginning into place i."""
-    rho, alpha, theta = polar_from_pose(runs[0, run], runs[1, run], runs[2, run], runs[3, run], runs[4, run], runs[5, run])
-    block[_RHO, i], block[_ALPHA, i], block[_THETA, i], block[_PEAK, i], block[_LENGTH, i] = rho, alpha, theta, 0.0, 0.0
-    block[_LEFT, i] = steps if rho > arrival_radius else -steps
-    for k in range(4):
-        block[_K_RHO + k, i] = runs[6 + k, run]
-
-
-@compiled
-def finish(block, i, method, law, wheels, dt, steps, arrival_radius, summary, run):
-    """Write down what the run in place i amounts to; if it arrives in its next step, that step ends on the arrival radius."""
-    rho, alpha, theta, left = block[_RHO, i], block[_ALPHA, i], block[_THETA, i], block[_LEFT, i]
-    gains = GainsFields(block[_K_RHO, i], block[_K_ALPHA, i], block[_H, i], block[_V_MAX, i])
-    peak, length, time, outcome = block[_PEAK, i], block[_LENGTH, i], (steps - abs(left)) * dt, TIMED_OUT
-    new_rho, new_alpha, new_theta, _, turning = one_step(method, rho, alpha, theta, gains, law, wheels, dt)
-    peak = max(peak, turning) if math.isfinite(turning) else peak
-    if rho <= arrival_radius:
-        outcome = ARRIVED
-    elif left < 0.0:
-        outcome = DIVERGED
-        if finite(new_rho, new_alpha, new_theta):
-            tau = last_step(method, rho, alpha, theta, gains, law, wheels, dt, arrival_radius)
-            rho, alpha, theta, rolled, _ = one_step(method, rho, alpha, theta, gains, law, wheels, tau)
-            turning = abs(closed_loop(rho, alpha, theta, gains, law, wheels)[4])
-            peak, length, time, outcome = max(peak, turning), length + rolled, time + tau, ARRIVED
-    summary[0, run], summary[1, run], summary[2, run] = outcome, time, wrap(theta - alpha)
-    summary[3, run], summary[4, run], summary[5, run] = peak, length, rho
+def begin(runs, steps, arrival_radius, states):
+    """The state of each run at its beginning, with the rows of a block; `runs` as in `_kernels.survey`."""
+    for i in range(runs.shape[1]):
+        rho, alpha, theta = polar_from_pose(runs[0, i], runs[1, i], runs[2, i], runs[3, i], runs[4, i], runs[5, i])
+        states[_RHO, i], states[_ALPHA, i], states[_THETA, i], states[_PEAK, i], states[_LENGTH, i] = rho, alpha, theta, 0.0, 0.0
+        states[_LEFT, i] = steps if rho > arrival_radius else -steps
+        for k in range(4):
+            states[_K_RHO + k, i] = runs[6 + k, i]
 
 
 @lru_cache
 def survey_of(method, law, limited):
-    """The compiled loop for one method and law, with or without wheel limits: asking in every step would cost more than the step.
+    """The loop that takes every run to its last step, for one method and law, with or without wheel limits.
 
-    survey(runs, wheels, dt, samples, arrival_radius, summary): many runs to goals that stand still, as `_kernels.survey`.
+    Each is compiled by itself: asking for the law in every step would cost more than the step.
     """
 
-    def survey(runs, wheels, dt, samples, arrival_radius, summary):
+    def survey(states, wheels, dt, arrival_radius):
         limits = wheels if limited else NO_LIMITS
-        block, inside, steps = np.zeros((10, BLOCK)), np.full(BLOCK, -1), float(samples - 1)
-        waiting = busy = min(BLOCK, runs.shape[1])
+        runs = states.shape[1]
+        block, inside = np.zeros((ROWS, BLOCK)), np.full(BLOCK, -1)
+        waiting = busy = min(BLOCK, runs)
         for i in range(busy):
-            load(block, i, runs, i, steps, arrival_radius)
             inside[i] = i
+            for row in range(ROWS):
+                block[row, i] = states[row, i]
         while busy > 0:
             for _ in range(_ROUND):
                 advance(block, method, law, limits, dt, arrival_radius)
             for i in range(BLOCK):
                 if inside[i] >= 0 and block[_LEFT, i] <= 0.0:
-                    finish(block, i, method, law, wheels, dt, steps, arrival_radius, summary, inside[i])
-                    if waiting < runs.shape[1]:
-                        load(block, i, runs, waiting, steps, arrival_radius)
-                        inside[i] = waiting
+                    for row in range(ROWS):
+                        states[row, inside[i]] = block[row, i]
+                    inside[i] = waiting if waiting < runs else -1
+                    if waiting < runs:
+                        for row in range(ROWS):
+                            block[row, i] = states[row, waiting]
                         waiting += 1
                     else:
-                        inside[i] = -1
                         busy -= 1
 
     return compiled(survey)
+
+
+@compiled
+def conclude(states, law, wheels, method, dt, steps, arrival_radius, summary):
+    """What each run amounts to, as in `_kernels.survey`; the step in which it arrives is shortened so that it ends on the radius."""
+    for i in range(states.shape[1]):
+        rho, alpha, theta, left = states[_RHO, i], states[_ALPHA, i], states[_THETA, i], states[_LEFT, i]
+        gains = GainsFields(states[_K_RHO, i], states[_K_ALPHA, i], states[_H, i], states[_V_MAX, i])
+        peak, length, time, outcome = states[_PEAK, i], states[_LENGTH, i], (steps - abs(left)) * dt, TIMED_OUT
+        new_rho, new_alpha, new_theta, _, turning = one_step(method, rho, alpha, theta, gains, law, wheels, dt)
+        peak = max(peak, turning) if math.isfinite(turning) else peak
+        if rho <= arrival_radius:
+            outcome = ARRIVED
+        elif left < 0.0:
+            outcome = DIVERGED
+            if finite(new_rho, new_alpha, new_theta):
+                tau = last_step(method, rho, alpha, theta, gains, law, wheels, dt, arrival_radius)
+                rho, alpha, theta, rolled, _ = one_step(method, rho, alpha, theta, gains, law, wheels, tau)
+                turning = one_step(method, rho, alpha, theta, gains, law, wheels, 0.0)[4]
+                peak, length, time, outcome = max(peak, turning), length + rolled, time + tau, ARRIVED
+        summary[0, i], summary[1, i], summary[2, i] = outcome, time, wrap(theta - alpha)
+        summary[3, i], summary[4, i], summary[5, i] = peak, length, rho
 
 
 @compiled
