@@ -85,7 +85,7 @@ def decay(rho, k_rho):
 
 def power_of_two(n):
     """2^n for a whole number -1022 <= n <= 1023 kept in a float."""
-    return math.ldexp(1.0, int(n))
+    return math.ldexp(1.0, int(n)) if n == n else n
 
 
 @overload(power_of_two)

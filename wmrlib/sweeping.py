@@ -16,8 +16,8 @@ import numpy as np
 from wmrlib import _kernels as kernels
 from wmrlib import _polar as polar
 from wmrlib._checks import choice, instance, same_shape, scalar
-from wmrlib.control import POSE_LAWS, pose_tuning
-from wmrlib.gains import Gains, WheelLimits, checked_wheels
+from wmrlib.control import POSE_LAWS
+from wmrlib.gains import NO_TUNING, Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
 from wmrlib.simulation import Arrival, sample_count
 
@@ -29,6 +29,7 @@ _ROWS = ("starts.x", "starts.y", "starts.heading", "goals.x", "goals.y", "goals.
 # A chunk is large enough to be worth sending and small enough to be stopped after: these are evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 40_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
+_BAR_AFTER = 1.0  # s
 _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
 
 
@@ -157,8 +158,8 @@ def _samples(runs: np.ndarray, law: int, task: _Task) -> np.ndarray:
     single = np.empty((9, samples))
     for i, run in enumerate(runs.T):
         reference = np.zeros((5, samples))
-        reference[:3] = run[3:6, None]
-        count, _ = kernels.drive(tuple(run[:3]), reference, pose_tuning(*run[6:]), law, limits, _PLANE[method], dt, radius, single)
+        reference[:3], tuning = run[3:6, None], NO_TUNING._replace(pose=Gains(*run[6:].tolist()))
+        count, _ = kernels.drive(tuple(run[:3].tolist()), reference, tuning, law, limits, _PLANE[method], dt, radius, single)
         record[:, i, :count] = single[:8, :count]
     return record
 
@@ -246,4 +247,4 @@ def _bar(total: int, work: int, wanted: bool):
         return _NoBar()
     from tqdm.auto import tqdm  # here, because it asks what it is shown in
 
-    return tqdm(total=total, unit=" runs", unit_scale=True, delay=1.0)
+    return tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
