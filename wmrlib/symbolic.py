@@ -74,8 +74,8 @@ _guarded_decay = sp.lambdify((rho, k_rho), _GUARDED_DECAY, "numpy")
 
 _SINE, _COSINE, _SINC = sp.sin(alpha), sp.cos(alpha), sp.sinc(alpha)
 _STEER = k_alpha * alpha + pull * _SINC * (alpha + h * theta)
-_PULL = {"corrected": v_max * decay(rho, k_rho) * _COSINE, "aicardi": k_rho * _COSINE}
-_PULL["printed"] = _PULL["corrected"]
+_SPEEDING = v_max * decay(rho, k_rho) * _COSINE
+_PULL = {"corrected": _SPEEDING, "printed": _SPEEDING, "aicardi": k_rho * _COSINE}
 _OMEGA = {"corrected": _STEER, "printed": k_alpha * alpha + pull * _SINE * _COSINE * _SINC * (alpha + h * theta), "aicardi": _STEER}
 _KANAYAMA = (v_ref * sp.cos(turn) + k_x * ahead, omega_ref + v_ref * (k_y * left + k_heading * sp.sin(turn)))
 _BODY_ERROR = {ahead: rho * _COSINE, left: rho * _SINE, turn: alpha - theta}
@@ -119,7 +119,8 @@ def lyapunov(name: str = "corrected") -> sp.Expr:
 def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     """V' along the closed loop, equation (19): the gradient of V times the rates.
 
-    For "corrected" it is -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which `sympy.simplify` finds. For
+    For "corrected" it is -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which
+    `sympy.expand` finds after `textbook`. For
     "kanayama" the rates are those of the error in the robot's frame. Raises ValueError for another name.
     """
     if choice("name", name, LAWS) == "kanayama":
@@ -128,6 +129,11 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
         state, energy = (ahead, left, turn), _LYAPUNOV_KANAYAMA
         return sum(energy.diff(each) * slope for each, slope in zip(state, rates, strict=True)).subs(_BODY_ERROR)
     return sum(_LYAPUNOV.diff(each) * slope for each, slope in zip((rho, alpha, theta), closed_loop(name), strict=True))
+
+
+def textbook(expression: sp.Expr) -> sp.Expr:
+    """The expression with sinc and decay written out as the paper does, and so undefined at the goal."""
+    return expression.replace(decay, lambda *each: decay(*each).rewrite(sp.exp)).replace(sp.sinc, lambda each: sp.sin(each) / each)
 
 
 # What the paper prints -------------------------------------------------------------------------------------------------
@@ -250,9 +256,14 @@ MODEL_JS = Path(__file__).parent / "panel" / "model.js"
 _HEADER = "// The model's formulas, printed from sympy: change wmrlib/symbolic.py, then run python -m wmrlib.symbolic.\n"
 
 
+def javascript_name(name: str) -> str:
+    """The name in camelCase, as `javascript` prints it."""
+    return re.sub("_(.)", lambda part: part[1].upper(), name)
+
+
 def javascript() -> str:
     """The text of ``model.js``: every formula of `FORMULAS` as a JavaScript function of numbers, named in camelCase."""
-    names = {name: re.sub("_(.)", lambda part: part[1].upper(), name) for name in FORMULAS}
+    names = {name: javascript_name(name) for name in FORMULAS}
     printer = _Printer({"user_functions": names | {"expm1": "Math.expm1"}})
     functions = []
     for name, (arguments, value, says) in FORMULAS.items():
