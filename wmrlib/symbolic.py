@@ -143,6 +143,7 @@ def _equations() -> dict[int, sp.Basic]:
     speed = v_max * (1 - sp.exp(-k_rho * rho))
     twice = speed * _COSINE * _SINE / rho * _COSINE * _SINE / alpha * (alpha + h * theta)
     grows, falls = v * _SINE / rho * (h * theta + alpha), rho / L * (-speed * _COSINE**2)
+    left_over = speed / rho * _COSINE * _SINE / alpha * h * theta
     half_dlat, half_dlong = sp.sin(dlat / 2), sp.sin(dlong / 2)
     return {
         1: sp.Eq(v, (V_r + V_l) / 2),
@@ -170,13 +171,7 @@ def _equations() -> dict[int, sp.Basic]:
         23: omega > (alpha + h * theta) * k_alpha * _COSINE * _SINE,
         24: sp.Eq(omega, k_alpha * alpha + twice),
         25: sp.Eq(V_rate, falls + (alpha * (-k_alpha * alpha - twice) + speed * _COSINE * _SINE / rho * (h * theta + alpha))),
-        26: sp.Eq(
-            V_rate,
-            sp.Abs(rho) / L * (-speed * _COSINE**2)
-            - k_alpha * alpha**2
-            - k_alpha * alpha
-            - speed / rho * _COSINE * _SINE / alpha * h * theta,
-        ),
+        26: sp.Eq(V_rate, sp.Abs(rho) / L * (-speed * _COSINE**2) - k_alpha * alpha**2 - k_alpha * alpha - left_over),
     }
 
 

@@ -7,7 +7,6 @@ import math
 import numpy as np
 import pytest
 import sympy as sp
-from playwright.sync_api import Error
 
 import wmrlib as wmr
 from wmrlib import paper, symbolic
@@ -39,7 +38,8 @@ def test_each_printed_formula_equals_its_expression(panel_core):
                 rows[:20, column] = np.repeat([0.0, 1e-12, 9e-9, 1.1e-8], 5)
         request = [symbolic.javascript_name(name), rows.tolist()]
         printed = panel_core.evaluate("([name, rows]) => rows.map((row) => window[name](...row))", request)
-        expected = [sp.lambdify(arguments, value, "math")(*row) for row in rows]
+        function = sp.lambdify(arguments, value, "math")
+        expected = [function(*row) for row in rows]
         np.testing.assert_allclose(printed, expected, rtol=1e-12, atol=1e-12, err_msg=name)
 
 
@@ -119,7 +119,7 @@ BAD_INPUT = [
 
 
 def test_bad_input_is_named(panel_core):
+    text = "(options) => { try { return simulate(options).n; } catch (error) { return String(error); } }"
     for change, message in BAD_INPUT:
-        with pytest.raises(Error) as error:
-            panel_core.evaluate("(options) => simulate(options).n", OUTDOOR | change)
-        assert f"RangeError: {message}" in error.value.message
+        said = panel_core.evaluate(text, OUTDOOR | change)
+        assert str(said).startswith(f"RangeError: {message}"), said
