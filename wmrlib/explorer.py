@@ -237,15 +237,9 @@ def _numbers(name: str, gains, kind: type) -> dict[str, float]:
 
 def _presets() -> list[dict]:
     outdoor, circle_start = paper.outdoor(), _three("start", paper.CIRCLE_START)
+    start, goal = _three("start", outdoor.start), _three("goal", outdoor.goal)
     return [
-        {
-            "scenario": 0,
-            "start": _three("start", outdoor.start),
-            "goal": _three("goal", outdoor.goal),
-            **outdoor.gains._asdict(),
-            "dt": outdoor.dt,
-            "pose_law": 0,
-        },
+        {"scenario": 0, "start": start, "goal": goal, **outdoor.gains._asdict(), "dt": outdoor.dt, "pose_law": 0},
         {"scenario": 1, "start": circle_start, **paper.CIRCLE_GAINS._asdict(), "dt": paper.TIME_STEP, "circle_law": 0},
         {"scenario": 0, **DESIGNED_GAINS._asdict(), "dt": paper.TIME_STEP, "pose_law": 0},
     ]
@@ -253,12 +247,7 @@ def _presets() -> list[dict]:
 
 def _displays(moving: bool, law: str, mapped: bool) -> dict[str, str]:
     # As displaysOf in settings.js, for the moment before it runs.
-    shown = {
-        "gains": law != "kanayama",
-        "limit": law not in ("kanayama", "aicardi"),
-        "feedback": law == "kanayama",
-        "pose_law": not moving,
-        "circle_law": moving,
-        "map": mapped,
-    }
+    forward = law == "kanayama"
+    shown = {"gains": not forward, "limit": not forward and law != "aicardi", "feedback": forward}
+    shown |= {"pose_law": not moving, "circle_law": moving, "map": mapped}
     return {f"{name}_display": "flex" if on else "none" for name, on in shown.items()}

@@ -10,7 +10,7 @@ const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
 const UNITS = { k_alpha: 'k_alpha [1/s]', h: 'h [1]', k_rho: 'k_rho [1/m]' };
 const LEVELS = [10, 50]; // cells a side: a first impression, then the whole
 const BUDGETS = { dragged: 7, rests: 40 }; // ms of a frame, which a drag needs for itself
-const REST = 60; // ms without a change after which a drag is taken to rest
+const REST = 40; // ms without a change after which a hand is taken to rest
 
 const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
 
