@@ -2,12 +2,11 @@
 
 from __future__ import annotations
 
-import math
-
 import ipywidgets as widgets
 
 from wmrlib import paper
 from wmrlib._checks import choice, instance, scalar
+from wmrlib._controls import DISPLAYS, MENUS, SLIDERS, menu, slider, widen
 from wmrlib._panel import Panel
 from wmrlib.gains import Gains, KanayamaGains
 from wmrlib.kinematics import Pose
@@ -19,29 +18,7 @@ METHODS = ("arc", "euler")
 VIEWS = ("time", "gains")
 DESIGNED_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
-"""Close to critical damping on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
-
-
-# name: (label, lowest, highest, step, display); a linear scale where 0 is worth a look, a logarithmic one for dt
-_SLIDERS = {
-    "k_rho": ("k_rho [1/m]", 0.0, 5.0, 0.05, "gains_display"),
-    "k_alpha": ("k_alpha [1/s]", 0.0, 10.0, 0.05, "gains_display"),
-    "h": ("h [1]", 0.0, 5.0, 0.05, "gains_display"),
-    "v_max": ("v_max [m/s]", 0.1, 10.0, 0.1, "limit_display"),
-    "k_x": ("k_x [1/s]", 0.0, 5.0, 0.05, "feedback_display"),
-    "k_y": ("k_y [1/m²]", 0.05, 20.0, 0.05, "feedback_display"),
-    "k_heading": ("k_heading [1/m]", 0.0, 10.0, 0.05, "feedback_display"),
-}
-# name: (label, choices, display)
-_MENUS = {
-    "preset": ("Preset", ("your own", "the paper, outdoors", "the paper, circle", "designed gains"), None),
-    "pose_law": ("Law", ("corrected", "printed", "Aicardi"), "pose_law_display"),
-    "circle_law": ("Law", ("corrected", "printed", "Aicardi", "feed-forward (Kanayama)"), "circle_law_display"),
-    "method": ("Motion", ("arcs, exact", "straight steps (Euler)"), None),
-    "view": ("View", ("time", "gain landscape"), None),
-    "metric": ("Map shows", ("heading error", "arrival time", "peak |omega|"), "map_display"),
-    "axes": ("Map over", ("k_alpha and h", "k_rho and h"), "map_display"),
-}
+"""Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 
 
 class Explorer(widgets.VBox):
@@ -97,8 +74,8 @@ class Explorer(widgets.VBox):
             presets=_presets(),
         )
         self.links = []
-        self.sliders = {name: self._slider(name) for name in (*_SLIDERS, "dt")}
-        self.menus = {name: self._menu(name) for name in _MENUS}
+        self.sliders = {name: self._tied(name, slider(name, getattr(self.panel, name)), "value") for name in SLIDERS}
+        self.menus = {name: self._tied(name, menu(name, getattr(self.panel, name)), "index") for name in MENUS}
         controls = widgets.Box([*self.sliders.values(), *self.menus.values()])
         controls.add_class("wmr-controls")
         super().__init__([controls, self.panel])
@@ -182,37 +159,16 @@ class Explorer(widgets.VBox):
     def _set(self, values: dict[str, float]) -> None:
         # Both ends of the browser's link, for where there is no browser yet; they agree, so that neither overtakes the other.
         for name, value in values.items():
-            slider = self.sliders[name]
-            low, high = (math.floor(math.log10(value)), math.ceil(math.log10(value))) if name == "dt" else (value, value)
-            slider.max, slider.min = max(slider.max, high), min(slider.min, low)
-            slider.value = value
+            widen(self.sliders[name], value)
+            self.sliders[name].value = value
             setattr(self.panel, name, value)
 
-    def _slider(self, name: str):
-        value = getattr(self.panel, name)
-        common = {"value": value, "continuous_update": True, "layout": {"width": "auto"}}
-        if name == "dt":
-            low, high = min(-2.0, math.floor(math.log10(value))), max(0.0, math.ceil(math.log10(value)))  # powers of ten
-            slider = widgets.FloatLogSlider(description="dt [s]", min=low, max=high, step=0.02, readout_format=".3f", **common)
-        else:
-            text, low, high, step, display = _SLIDERS[name]
-            low, high = min(low, value), max(high, value)
-            slider = widgets.FloatSlider(description=text, min=low, max=high, step=step, readout_format=".2f", **common)
-            self._tie(display, slider)
-        self._link((slider, "value"), (self.panel, name))
-        return slider
-
-    def _menu(self, name: str):
-        text, options, display = _MENUS[name]
-        menu = widgets.Dropdown(description=text, options=options, index=getattr(self.panel, name), layout={"width": "auto"})
-        self._link((menu, "index"), (self.panel, name))
-        if display:
-            self._tie(display, menu)
-        return menu
-
-    def _tie(self, display: str, control) -> None:
-        control.layout.display = getattr(self.panel, display)
-        self._link((self.panel, display), (control.layout, "display"))
+    def _tied(self, name: str, control, trait: str):
+        self._link((control, trait), (self.panel, name))
+        if display := DISPLAYS.get(name):
+            control.layout.display = getattr(self.panel, display)
+            self._link((self.panel, display), (control.layout, "display"))
+        return control
 
     def _link(self, source: tuple, target: tuple) -> None:
         self.links.append(widgets.jslink(source, target))

@@ -75,24 +75,36 @@ def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page
     status.wait_for(timeout=PATIENCE)
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
 
+    assert page.locator(".noUi-handle").count() == 8
+    assert page.locator(".noUi-handle:not([aria-label]), .wmr-controls select:not([aria-label])").count() == 0
+
     before = status.inner_text()
     page.locator(".noUi-handle").nth(1).focus()
     for _ in range(3):
         page.keyboard.press("ArrowRight")
     page.wait_for_function("before => document.querySelector('.wmr-status').textContent !== before", arg=before, timeout=PATIENCE)
-    assert_python_sees(page, "k_rho=2.0, k_alpha=1.15, h=0.3")
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.03, h=0.3")
 
     before = status.inner_text()
     page.locator(".wmr-map[data-finished=true]").click(position={"x": 250, "y": 100}, timeout=PATIENCE)
     page.wait_for_function("before => document.querySelector('.wmr-status').textContent !== before", arg=before, timeout=PATIENCE)
     clicked = float(page.locator(".wmr-explorer .widget-readout").nth(1).inner_text())
-    assert clicked != 1.15
+    assert clicked != 1.03
     assert_python_sees(page, f"k_alpha={clicked},")
 
     run(page, 2)
     page.wait_for_function("() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '2.5'", timeout=PATIENCE)
     assert [handle.get_attribute("aria-valuenow") for handle in page.locator(".noUi-handle").all()[:3]] == ["1.5", "4.0", "2.5"]
     assert_python_sees(page, "k_rho=1.5, k_alpha=4.0, h=2.5", "aicardi")
+
+    for typed, taken in [("3.21", "3.21"), ("nan", "3.21"), ("-7", "0.00"), ("1e9", "10.00")]:
+        readout = page.locator(".wmr-explorer .widget-readout").nth(1)
+        readout.click()
+        page.keyboard.press("ControlOrMeta+a")
+        page.keyboard.type(typed)
+        page.keyboard.press("Enter")
+        assert readout.inner_text() == taken
+    assert_python_sees(page, "k_alpha=10.0,")
 
     page.locator("[data-do=reset]").click()
     page.wait_for_function("() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '0.3'", timeout=PATIENCE)

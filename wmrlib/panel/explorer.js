@@ -126,7 +126,7 @@ function render({ model, el }) {
   // A screen reader hears where a drag ends, not each step of it.
   function announce(text) {
     clearTimeout(spoken);
-    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; }, 700);
+    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; nameControls(root); }, 700);
   }
 
   function showKey() {
@@ -180,12 +180,26 @@ function render({ model, el }) {
   const choose = () => { const chosen = model.get('presets')[model.get('preset') - 1]; if (chosen && !writing) write(chosen); };
   model.on('change:preset', choose);
   model.on('change', follow);
-  const repaint = () => { [scene, charts, mapCanvas].forEach(measure); state.colours = readColours(root); schedule(); };
+  const repaint = () => {
+    nameControls(root);
+    [scene, charts, mapCanvas].forEach(measure);
+    state.colours = readColours(root);
+    schedule();
+  };
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
   [root, scene, charts, mapCanvas].forEach((each) => resized.observe(each));
   repaint();
   follow();
   return () => { unfollow(); resized.disconnect(); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change', follow); model.off('change:preset', choose); };
+}
+
+// The notebook's sliders and menus show their names, but don't tell them to screen readers.
+function nameControls(root) {
+  const card = root.closest('.wmr-explorer');
+  for (const each of card ? card.querySelectorAll('.noUi-handle:not([aria-label]), .widget-dropdown select:not([aria-label])') : []) {
+    const name = each.closest('.jupyter-widgets').querySelector('.widget-label');
+    if (name) each.setAttribute('aria-label', [name.textContent, name.title].filter(Boolean).join(', '));
+  }
 }
 
 // Calls back with the place in the canvas's own units while a pointer is held down on the canvas.
