@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real, same_shape
+from wmrlib._checks import Real, choice, instance, real, same_shape
 from wmrlib._compile import compiled, elementwise
 from wmrlib._vecmath import sinc, sincos
 
@@ -154,11 +154,10 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
     Shapes broadcast. Raises ValueError for NaN, a negative dt, an unknown method or mismatched lengths.
     """
     instance("pose", pose, Pose)
-    if method not in _STEPS:
-        raise ValueError(f"method = {method!r} is not allowed: one of {', '.join(map(repr, _STEPS))} is needed")
+    step = _STEPS[choice("method", method, _STEPS)]
     v, omega, dt = real("v", v), real("omega", omega), real("dt", dt, low=0.0)
     same_shape(pose=pose.x, heading=pose.heading, v=v, omega=omega, dt=dt)
-    return Pose(*elementwise(_STEPS[method], 3, *pose, v, omega, dt))
+    return Pose(*elementwise(step, 3, *pose, v, omega, dt))
 
 
 def polar_error(pose: Pose, goal: Pose) -> PolarError:

@@ -31,6 +31,7 @@ def path_length(trajectory: Trajectory) -> float:
     """How far the robot rolled, forwards and backwards, in metres: the integral of |v|.
 
     Exact for "euler" and "arc", which hold v between samples; for "continuous" by the trapezoidal rule over the samples.
+    Raises ValueError for a trajectory without a sample.
     """
     run = _with_samples(trajectory)
     speed, step = np.abs(run.v), np.diff(run.t)

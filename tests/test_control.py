@@ -1,0 +1,193 @@
+"""The laws against their formulas in 40 digits, V' against its closed form, and what the paper's own law does."""
+
+import math
+
+import mpmath
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+
+mpmath.mp.dps = 40
+angles = st.floats(-math.pi, math.pi, exclude_min=True) | st.just(0.0) | st.floats(-1e-9, 1e-9)
+distances = st.floats(0.0, 100.0) | st.just(0.0) | st.floats(0.0, 1e-9)
+positive = st.floats(0.01, 10.0)
+gains_drawn = st.builds(wmr.Gains, positive, positive, positive, positive)
+LAWS = ("corrected", "printed", "aicardi")
+
+
+def law_in_40_digits(rho, alpha, theta, gains, law):
+    rho, alpha, theta, k_rho, k_alpha, h, v_max = (mpmath.mpf(value) for value in (rho, alpha, theta, *gains))
+    shape = mpmath.sin(alpha) / alpha if alpha else mpmath.mpf(1)
+    if law == "aicardi":
+        v = k_rho * rho * mpmath.cos(alpha)
+        return v, k_alpha * alpha + k_rho * mpmath.cos(alpha) * shape * (alpha + h * theta)
+    v = v_max * -mpmath.expm1(-k_rho * rho) * mpmath.cos(alpha)
+    ratio = v / rho if rho else v_max * k_rho * mpmath.cos(alpha)
+    twice = mpmath.cos(alpha) * mpmath.sin(alpha) if law == "printed" else 1
+    return v, k_alpha * alpha + ratio * twice * shape * (alpha + h * theta)
+
+
+@pytest.mark.parametrize("law", LAWS)
+@given(rho=distances, alpha=angles, theta=angles, gains=gains_drawn)
+def test_laws_are_the_formulas_and_finite(law, rho, alpha, theta, gains):
+    v, omega = wmr.control_law(rho, alpha, theta, gains, law)
+    v_true, omega_true = law_in_40_digits(rho, alpha, theta, gains, law)
+    scale = 1e-14 * (1 + gains.v_max) * (1 + gains.k_rho) * (1 + abs(gains.h))
+    assert v == pytest.approx(float(v_true), rel=1e-13, abs=scale)
+    assert omega == pytest.approx(float(omega_true), rel=1e-13, abs=10 * scale)
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_singularities_have_their_limits(law):
+    gains = wmr.Gains(k_rho=2.0, k_alpha=1.0, h=0.3, v_max=4.0)
+    v, omega = wmr.control_law(0.0, 0.0, 0.5, gains, law)
+    assert v == 0.0
+    assert omega == pytest.approx({"corrected": 4.0 * 2.0 * 0.3 * 0.5, "printed": 0.0, "aicardi": 2.0 * 0.3 * 0.5}[law])
+
+
+def test_straight_behind_the_robot_backs_up_and_turns():
+    v, omega = wmr.control_law(10.0, math.pi, 0.0, wmr.Gains(1.0, 1.0, 0.3), "corrected")
+    assert v == pytest.approx(-4.0, abs=1e-3)
+    assert omega == pytest.approx(math.pi)
+
+
+# Lyapunov ------------------------------------------------------------------------------------------------------------
+
+
+@given(distances, angles, angles, positive, positive)
+def test_lyapunov_is_equation_18(rho, alpha, theta, h, L):
+    assert wmr.lyapunov(rho, alpha, theta, h, L) == pytest.approx(rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2, rel=1e-14)
+
+
+@given(distances, angles, angles, gains_drawn, positive)
+def test_rate_of_the_corrected_law_is_its_closed_form(rho, alpha, theta, gains, L):
+    rate = wmr.lyapunov_rate(rho, alpha, theta, gains, "corrected", L)
+    closed = rho / L * gains.v_max * math.expm1(-gains.k_rho * rho) * math.cos(alpha) ** 2 - gains.k_alpha * alpha**2
+    # the terms in theta cancel: what is left of them is rounding
+    turning = gains.v_max * gains.k_rho * (1 + gains.h) * 40
+    assert rate == pytest.approx(closed, rel=1e-12, abs=1e-15 * turning)
+    assert closed <= 0.0
+
+
+@pytest.mark.parametrize("law", LAWS)
+@given(rho=st.floats(0.1, 50.0), alpha=angles, theta=angles, gains=gains_drawn)
+def test_rate_is_the_slope_of_v_along_the_motion(law, rho, alpha, theta, gains):
+    """Second method: V at two poses a moment apart, on the exact arc."""
+    goal, dt = wmr.Pose(0.0, 0.0, 0.0), 1e-6
+    v, omega = wmr.control_law(rho, alpha, theta, gains, law)
+    polar = wmr.PolarError(rho, alpha, theta)
+    rates = wmr.polar_rate(rho, alpha, v, omega)
+    slope = np.dot((rho, alpha, gains.h * theta), rates)
+    assert wmr.lyapunov_rate(rho, alpha, theta, gains, law) == pytest.approx(slope, rel=1e-9, abs=1e-9 * (1 + abs(slope)) * (1 + rho))
+    if max(abs(alpha), abs(theta)) < 3.0 and max(abs(v), abs(omega)) < 1e3:
+        after = wmr.polar_error(wmr.advance(wmr.pose_from_polar(polar, goal), v, omega, dt), goal)
+        measured = (wmr.lyapunov(*after, gains.h) - wmr.lyapunov(*polar, gains.h)) / dt
+        assert slope == pytest.approx(measured, rel=1e-2, abs=1e-2 * (1 + v * v + omega * omega))
+
+
+def share_of_rising_states(law):
+    rng = np.random.default_rng(20)
+    rho, alpha, theta = rng.uniform(0, 1, 200_000), *rng.uniform(-math.pi, math.pi, (2, 200_000))
+    return np.mean(wmr.lyapunov_rate(rho, alpha, theta, wmr.paper.OUTDOOR_GAINS, law) > 1e-12)
+
+
+def test_printed_law_lets_v_rise_in_18_percent_of_states():
+    assert share_of_rising_states("printed") == pytest.approx(0.18, abs=0.005)
+    assert share_of_rising_states("corrected") == 0.0
+
+
+def test_printed_law_steers_away_near_the_goal():
+    """Linearised: alpha' = (v_max k_rho - k_alpha) alpha = 7 alpha with the paper's gains; the corrected law's is -1 alpha."""
+    near = 1e-6
+    for law, slope in (("printed", 7.0), ("corrected", -1.0)):
+        v, omega = wmr.control_law(near, near, 0.0, wmr.paper.OUTDOOR_GAINS, law)
+        assert wmr.polar_rate(near, near, v, omega)[1] / near == pytest.approx(slope, abs=1e-4)
+
+
+@given(distances, angles, angles, gains_drawn)
+def test_left_and_right_are_alike_but_for_the_printed_law(rho, alpha, theta, gains):
+    """Mirroring turns alpha, theta and omega round. (24) as printed has an odd factor too many, so that its second term keeps its sign."""
+    for law in ("corrected", "aicardi"):
+        v, omega = wmr.control_law(rho, alpha, theta, gains, law)
+        assert wmr.control_law(rho, -alpha, -theta, gains, law) == (v, -omega)
+    left, right = (wmr.control_law(rho, sign * alpha, sign * theta, gains, "printed")[1] - sign * gains.k_alpha * alpha for sign in (1, -1))
+    assert left == pytest.approx(right, abs=1e-12 * (1 + gains.k_alpha))
+
+
+# Moving references ---------------------------------------------------------------------------------------------------
+
+
+@given(distances, angles, angles, st.floats(0.0, 2.0), st.floats(-2.0, 2.0), positive, positive, positive)
+def test_kanayamas_own_lyapunov_function_never_rises(rho, alpha, theta, v_ref, omega_ref, k_x, k_y, k_heading):
+    """V = (e_x^2 + e_y^2)/2 + (1 - cos(e_h))/k_y, along the error model e_x' = omega e_y - v + v_ref cos(e_h), ..."""
+    v, omega = wmr.tracking_law(rho, alpha, theta, v_ref, omega_ref, wmr.KanayamaGains(k_x, k_y, k_heading))
+    ahead, left, turn = rho * math.cos(alpha), rho * math.sin(alpha), alpha - theta
+    rates = omega * left - v + v_ref * math.cos(turn), -omega * ahead + v_ref * math.sin(turn), omega_ref - omega
+    slope = ahead * rates[0] + left * rates[1] + math.sin(turn) / k_y * rates[2]
+    closed = -k_x * ahead**2 - v_ref * k_heading / k_y * math.sin(turn) ** 2
+    assert slope == pytest.approx(closed, rel=1e-9, abs=1e-10 * (1 + rho) ** 2 * (1 + 1 / k_y) * (1 + k_y))
+
+
+def test_linear_law_is_feed_forward_and_a_matrix():
+    matrix = np.array([[1.0, 0.2, 0.1], [-0.3, 2.0, 1.5]])
+    v, omega = wmr.tracking_law(2.0, 0.5, 0.2, 0.6, 0.15, wmr.LinearGains(matrix), law="linear")
+    error = np.array([2 * math.cos(0.5), 2 * math.sin(0.5), 0.3])
+    assert (v, omega) == (pytest.approx(0.6 * math.cos(0.3) + matrix[0] @ error), pytest.approx(0.15 + matrix[1] @ error))
+
+
+def test_pose_laws_do_not_look_at_the_references_twist():
+    gains = wmr.paper.CIRCLE_GAINS
+    assert wmr.tracking_law(1.0, 0.5, 0.2, 9.0, 9.0, gains, law="corrected") == wmr.control_law(1.0, 0.5, 0.2, gains)
+
+
+# Wheels --------------------------------------------------------------------------------------------------------------
+
+
+@given(st.floats(-5, 5), st.floats(-5, 5), st.floats(0.1, 2.0), st.floats(0.1, 5.0))
+def test_wheel_limits_keep_the_curvature(v, omega, width, fastest):
+    limited = wmr.limit_wheels(v, omega, wmr.WheelLimits(width, fastest))
+    before, after = wmr.twist_to_wheels(v, omega, width), wmr.twist_to_wheels(*limited, width)
+    assert max(map(abs, after)) <= fastest * (1 + 1e-12)
+    assert limited[0] * omega == pytest.approx(limited[1] * v, abs=1e-12)  # the same curvature, the same direction
+    assert limited[0] * v >= 0
+    if max(map(abs, before)) <= fastest:
+        assert limited == (v, omega)
+    else:
+        assert max(map(abs, after)) == pytest.approx(fastest)
+
+
+# Shapes and bad input ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("law", LAWS)
+def test_arrays_and_arrays_of_gains_broadcast(law):
+    rho, alpha, theta = np.linspace(0, 5, 4)[:, None], np.linspace(-3, 3, 5), 0.4
+    gains = wmr.Gains(np.array([1.0, 2.0])[:, None, None], 1.0, 0.3)
+    v, omega = wmr.control_law(rho, alpha, theta, gains, law)
+    assert v.shape == omega.shape == (2, 4, 5)
+    single = wmr.control_law(float(rho[3, 0]), float(alpha[1]), theta, wmr.Gains(2.0, 1.0, 0.3), law)
+    assert (v[1, 3, 1], omega[1, 3, 1]) == single
+    assert wmr.lyapunov_rate(rho, alpha, theta, gains, law).shape == (2, 4, 5)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda g: wmr.control_law(-1.0, 0, 0, g), r"rho = -1\.0 is not allowed: a finite number at least 0"),
+        (lambda g: wmr.control_law(1.0, math.nan, 0, g), r"alpha = nan"),
+        (lambda g: wmr.control_law(1.0, 0, 0, g, "Corrected"), r"law = 'Corrected' .* one of 'corrected', 'printed', 'aicardi' is needed"),
+        (lambda g: wmr.control_law(1.0, 0, 0, (2, 1, 0.3)), r"gains = \(2, 1, 0\.3\) .* a Gains is needed, not a tuple"),
+        (lambda g: wmr.control_law(np.ones(2), np.ones(3), 0, g), r"mismatched lengths: rho has shape \(2,\), alpha has shape \(3,\)"),
+        (lambda g: wmr.lyapunov(1.0, 0, 0, -0.3), r"h = -0\.3"),
+        (lambda g: wmr.lyapunov_rate(1.0, 0, 0, g, L=0.0), r"L = 0\.0 is not allowed: a finite number above 0"),
+        (lambda g: wmr.tracking_law(1.0, 0, 0, 1, 0, g), r"a KanayamaGains is needed, not a Gains"),
+        (lambda g: wmr.tracking_law(1.0, 0, 0, 1, 0, wmr.Gains([1.0, 2.0], 1, 1), "corrected"), r"one number a gain is needed"),
+        (lambda g: wmr.limit_wheels(math.inf, 0, wmr.WheelLimits(0.5, 1.0)), r"v = inf"),
+    ],
+)
+def test_bad_input_names_argument_value_and_range(make, message):
+    with pytest.raises(ValueError, match=message):
+        make(wmr.paper.OUTDOOR_GAINS)

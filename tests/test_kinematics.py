@@ -1,0 +1,134 @@
+"""Wheels, wrap, polar error and motion: against WPILib, against a second method, and by property."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
+
+import wmrlib as wmr
+
+metres = st.floats(-1e3, 1e3)
+angles = st.floats(-math.pi, math.pi, exclude_min=True)
+poses = st.builds(wmr.Pose, metres, metres, angles)
+
+
+@pytest.mark.parametrize(
+    ("v", "omega", "left", "right"),
+    [(0.0, math.pi, -0.381 * math.pi, 0.381 * math.pi), (1.0, 0.0, 1.0, 1.0), (0.381 * math.pi, math.pi, 0.0, 0.762 * math.pi)],
+)
+def test_wheels_as_in_wpilib(v, omega, left, right):
+    """WPILib, DifferentialDriveKinematicsTest: a track of 0.381 m times 2."""
+    assert wmr.twist_to_wheels(v, omega, 0.762) == (pytest.approx(left), pytest.approx(right))
+    assert wmr.wheels_to_twist(left, right, 0.762) == (pytest.approx(v), pytest.approx(omega))
+
+
+@given(st.floats(-10, 10), st.floats(-10, 10), st.floats(0.05, 3.0))
+def test_wheels_round_trip(v, omega, width):
+    assert wmr.wheels_to_twist(*wmr.twist_to_wheels(v, omega, width), width) == (pytest.approx(v), pytest.approx(omega, abs=1e-12))
+
+
+@given(st.floats(-1e6, 1e6))
+def test_wrap_angle_keeps_direction_and_range(angle):
+    wrapped = wmr.wrap_angle(angle)
+    assert -math.pi < wrapped <= math.pi
+    exact = math.remainder(angle, 2 * math.pi)  # IEEE 754's exact remainder: a second method, to the last bit
+    assert wrapped == (math.pi if exact == -math.pi else exact)
+
+
+@pytest.mark.parametrize("odd", [-3, -1, 1, 3])
+def test_wrap_angle_gives_plus_pi_for_half_turns(odd):
+    assert wmr.wrap_angle(odd * math.pi) == pytest.approx(math.pi, abs=1e-15)
+    assert wmr.wrap_angle(odd * math.pi) > 0
+
+
+def test_wrap_angle_keeps_shapes():
+    assert wmr.wrap_angle(np.zeros((2, 0, 3))).shape == (2, 0, 3)
+    assert wmr.wrap_angle([[4.0], [1.0]]).tolist() == [[4.0 - 2 * math.pi], [1.0]]
+
+
+@given(poses, poses)
+def test_polar_error_against_its_definition(pose, goal):
+    """By complex numbers: the phase of a product is the sum of the phases, so nothing is wrapped by hand."""
+    line = complex(goal.x - pose.x, goal.y - pose.y)
+    rho, alpha, theta = wmr.polar_error(pose, goal)
+    assert rho == pytest.approx(abs(line), rel=1e-12)
+    for angle, heading in ((alpha, pose.heading), (theta, goal.heading)):
+        assert -math.pi < angle <= math.pi
+        turned = line * complex(math.cos(heading), -math.sin(heading))
+        assert rho * math.cos(angle) == pytest.approx(turned.real, abs=1e-9)
+        assert rho * math.sin(angle) == pytest.approx(turned.imag, abs=1e-9)
+
+
+def test_polar_error_by_hand():
+    """Looking east, the goal 45 deg to the left and itself looking north: alpha = 45 deg, theta = 45 - 90 deg."""
+    rho, alpha, theta = wmr.polar_error(wmr.Pose(0, 0, 0), wmr.Pose(1, 1, math.pi / 2))
+    assert (rho, alpha, theta) == (pytest.approx(math.sqrt(2)), pytest.approx(math.pi / 4), pytest.approx(-math.pi / 4))
+
+
+def test_polar_error_behind_and_on_the_goal():
+    assert wmr.polar_error(wmr.Pose(0, 0, 0), wmr.Pose(-1, 0, 0)).alpha == math.pi
+    assert wmr.polar_error(wmr.Pose(1, 2, 0.5), wmr.Pose(1, 2, 0.25)) == (0.0, -0.5, -0.25)
+
+
+@given(poses, poses)
+def test_pose_from_polar_undoes_polar_error(pose, goal):
+    back = wmr.pose_from_polar(wmr.polar_error(pose, goal), goal)
+    assert (back.x, back.y) == (pytest.approx(pose.x, abs=1e-9), pytest.approx(pose.y, abs=1e-9))
+    assert abs(wmr.wrap_angle(back.heading - pose.heading)) < 1e-12
+
+
+@given(st.floats(0.5, 100), angles, angles, st.floats(-3, 3), st.floats(-3, 3))
+def test_polar_rate_is_the_slope_of_polar_error(rho, alpha, heading, v, omega):
+    """Along the true motion in the plane, by central differences: (7) to (9), and the sign that (10) has wrong."""
+    goal = wmr.Pose(0.0, 0.0, 0.3)
+    pose = wmr.Pose(-rho * math.cos(heading + alpha), -rho * math.sin(heading + alpha), heading)
+    dt = 1e-5
+    before, after = (wmr.polar_error(wmr.advance(pose, sign * v, sign * omega, dt), goal) for sign in (-1, 1))
+    rate = wmr.polar_rate(rho, alpha, v, omega)
+    slopes = ((after.rho - before.rho) / (2 * dt), *(wmr.wrap_angle(a - b) / (2 * dt) for a, b in zip(after[1:], before[1:], strict=True)))
+    assert rate == tuple(pytest.approx(slope, abs=1e-6) for slope in slopes)
+
+
+@given(poses, st.floats(-3, 3), st.floats(-3, 3), st.floats(0.0, 2.0))
+def test_arc_is_the_exact_motion(pose, v, omega, dt):
+    truth = solve_ivp(lambda _, q: wmr.pose_rate(q[2], v, omega), (0, max(dt, 1e-9)), pose, rtol=1e-11, atol=1e-11).y[:, -1]
+    there = wmr.advance(pose, v, omega, dt)
+    assert (there.x, there.y) == (pytest.approx(truth[0], abs=1e-7), pytest.approx(truth[1], abs=1e-7))
+    assert abs(wmr.wrap_angle(there.heading - truth[2])) < 1e-7
+
+
+@given(poses, st.floats(-3, 3), st.floats(-3, 3))
+def test_euler_is_the_tangent(pose, v, omega):
+    there, (x_rate, y_rate, heading_rate) = wmr.advance(pose, v, omega, 0.5, "euler"), wmr.pose_rate(pose.heading, v, omega)
+    assert there[:2] == (pytest.approx(pose.x + 0.5 * x_rate, abs=1e-9), pytest.approx(pose.y + 0.5 * y_rate, abs=1e-9))
+    assert abs(wmr.wrap_angle(there.heading - pose.heading - 0.5 * heading_rate)) < 1e-12
+
+
+def test_arrays_broadcast():
+    many = wmr.polar_error(wmr.Pose(np.zeros((3, 1)), 0.0, 0.0), wmr.Pose(np.ones(4), 1.0, 0.5))
+    assert many.rho.shape == (3, 4)
+    assert many.theta[2, 3] == wmr.polar_error(wmr.Pose(0, 0, 0), wmr.Pose(1, 1, 0.5)).theta
+    assert wmr.advance(wmr.Pose(0, 0, 0), np.array([1.0, 2.0]), 0.0, 1.0).x.tolist() == [1.0, 2.0]
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: wmr.Pose(math.nan, 0, 0), r"x = nan is not allowed: a finite number is needed"),
+        (lambda: wmr.Pose(0, 0, "north"), r"heading = 'north'"),
+        (lambda: wmr.Pose([1.0, 2.0], [1.0, 2.0, 3.0], 0), r"mismatched lengths: x has shape \(2,\), y has shape \(3,\)"),
+        (lambda: wmr.wrap_angle(math.inf), r"angle = inf"),
+        (lambda: wmr.wheels_to_twist(1.0, 1.0, 0.0), r"track_width = 0\.0 is not allowed: a finite number above 0 is needed"),
+        (lambda: wmr.polar_rate(0.0, 0.0, 1.0, 0.0), r"rho = 0\.0 is not allowed: a finite number above 0"),
+        (lambda: wmr.polar_error(wmr.Pose([1.0, 2.0], 0, 0), wmr.Pose([1.0, 2.0, 3.0], 0, 0)), r"mismatched lengths: pose\.x .* goal\.x"),
+        (lambda: wmr.polar_error((0, 0, 0), wmr.Pose(0, 0, 0)), r"a Pose is needed, not a tuple"),
+        (lambda: wmr.advance(wmr.Pose(0, 0, 0), 1, 0, 0.1, "rk4"), r"method = 'rk4' is not allowed: one of 'euler', 'arc'"),
+        (lambda: wmr.advance(wmr.Pose(0, 0, 0), 1, 0, -0.1), r"dt = -0\.1"),
+    ],
+)
+def test_bad_input_names_argument_value_and_range(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()

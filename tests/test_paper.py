@@ -1,0 +1,77 @@
+"""The paper's data, and the numbers that the project sets against the paper's."""
+
+import math
+
+import numpy as np
+import pytest
+
+import wmrlib as wmr
+
+PUBLISHED = wmr.paper.PUBLISHED
+
+
+def run(x_axis, gains=None, **options):
+    case = wmr.paper.outdoor(x_axis)
+    return wmr.arrival(wmr.simulate(case.start, case.goal, gains or case.gains, **{"method": "continuous"} | options))
+
+
+def test_outdoor_in_both_readings_of_the_axes():
+    east, north = wmr.paper.outdoor("east"), wmr.paper.outdoor("north")
+    assert (east.goal.x, east.goal.y) == (pytest.approx(9.6684, abs=1e-4), pytest.approx(57.2654, abs=1e-4))
+    assert (north.goal.x, north.goal.y) == (east.goal.y, east.goal.x)
+    assert math.degrees(east.start.heading) == pytest.approx(72.0)
+    assert math.degrees(east.goal.heading) == pytest.approx(-60.0)
+    assert north.goal.x == pytest.approx(PUBLISHED["x_error_at_start"].value, abs=0.5)  # only x north has the paper's 57 m in x
+
+
+def test_published_distance_holds_and_bearing_does_not():
+    a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
+    assert wmr.haversine_distance(a, b) == pytest.approx(PUBLISHED["distance"].value, abs=0.01)
+    assert abs(math.degrees(wmr.initial_bearing(a, b)) - PUBLISHED["bearing"].value) > 0.18
+
+
+def test_arrival_with_the_papers_gains_leaves_27_degrees():
+    east, north = run("east"), run("north")
+    assert (east.arrived, east.time) == (True, pytest.approx(15.5, abs=0.05))
+    assert abs(math.degrees(east.heading_error)) == pytest.approx(27.2, abs=0.05)
+    assert east.peak_omega == pytest.approx(4.3, abs=0.05)
+    assert abs(math.degrees(north.heading_error)) == pytest.approx(11.5, abs=0.05)
+
+
+def test_gains_that_settle_the_heading():
+    designed = run("east", wmr.Gains(k_rho=0.2, k_alpha=2.0, h=2.0))
+    assert designed.time == pytest.approx(23.1, abs=0.05)
+    assert abs(math.degrees(designed.heading_error)) == pytest.approx(2.1, abs=0.05)
+    assert designed.peak_omega == pytest.approx(0.64, abs=0.005)
+
+
+@pytest.mark.parametrize(("law", "residual"), [("corrected", 0.090), ("printed", 0.193), ("aicardi", 0.332)])
+def test_circle_residuals(law, residual):
+    after = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, law=law, duration=40.0)
+    assert wmr.residual(after) == pytest.approx(residual, abs=5e-4)
+
+
+@pytest.mark.parametrize("v_max", [1.0, 2.0, 4.0])
+def test_circle_residual_is_predicted_by_v_max(v_max):
+    gains = wmr.paper.CIRCLE_GAINS._replace(v_max=v_max)
+    predicted = -math.log(1 - wmr.paper.CIRCLE_SPEED / v_max) / gains.k_rho
+    measured = wmr.residual(wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, gains, duration=40.0))
+    assert measured == pytest.approx(predicted, rel=0.01)
+    assert (abs(measured - PUBLISHED["circle_residual"].value) < 0.011) == (v_max == 4.0)  # which v_max the paper must have used
+
+
+def test_circle_is_the_papers_and_its_twist_is_its_derivative():
+    first = wmr.paper.circle(0.0)
+    assert first[:3] == (0.0, 0.0, math.pi / 2)
+    t, dt = np.linspace(0, 40, 9), 1e-6
+    before, here, after = (wmr.paper.circle(t + shift) for shift in (-dt, 0.0, dt))
+    velocity = np.hypot(after.x - before.x, after.y - before.y) / (2 * dt)
+    assert velocity == pytest.approx(here.v, rel=1e-8)
+    assert (after.heading - before.heading) / (2 * dt) == pytest.approx(here.omega, rel=1e-8)
+    direction = np.arctan2(after.y - before.y, after.x - before.x)
+    assert wmr.wrap_angle(direction - here.heading) == pytest.approx(np.zeros(9), abs=1e-7)
+
+
+def test_unknown_axis():
+    with pytest.raises(ValueError, match=r"x_axis = 'west' is not allowed: one of 'east', 'north' is needed"):
+        wmr.paper.outdoor("west")

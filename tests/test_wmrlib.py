@@ -1,0 +1,39 @@
+"""The package as a whole: what importing it costs, and what it says of itself."""
+
+import inspect
+import subprocess
+import sys
+
+import wmrlib as wmr
+
+HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba"}
+
+
+def modules_after(statement):
+    code = f"import sys; {statement}; print(*sys.modules)"
+    return set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split())
+
+
+def test_importing_loads_nothing_heavy():
+    assert not modules_after("import wmrlib") & HEAVY
+
+
+def test_a_simulation_loads_numba_and_nothing_else_heavy():
+    used = modules_after("import wmrlib as w; w.simulate(w.Pose(0,0,0), w.Pose(1,1,0), w.Gains(2,1,1))")
+    assert used & HEAVY == {"numba"}
+
+
+def test_every_public_name_is_there_and_says_what_it_is():
+    for name in wmr.__all__:
+        value = getattr(wmr, name)
+        if name != "EARTH_RADIUS_M":
+            assert inspect.getdoc(value), name
+            assert inspect.getdoc(value) != inspect.getdoc(type(value)), name
+
+
+def test_functions_say_what_they_raise():
+    for name in wmr.__all__:
+        value = getattr(wmr, name)
+        if inspect.isfunction(value):
+            text = inspect.getdoc(value)
+            assert any(word in text for word in ("Raises", "errors", "inverse of")), name
