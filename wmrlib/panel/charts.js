@@ -20,7 +20,7 @@ const endOf = (run) => (run && run.n ? run.t[run.n - 1] : 0);
 const rises = (V, k) => V[k] > V[k - 1] * (1 + ROUNDING) + 1e-15;
 
 function timeAxis(width, run, ghost) {
-  const span = Math.max(endOf(run), endOf(ghost), 1e-3);
+  const span = Math.max(endOf(run), endOf(ghost)) || 1;
   const across = Math.max(width - AXIS.left - AXIS.right, 10);
   return { span, toX: (t) => AXIS.left + across * t / span, toTime: (x) => Math.min(Math.max((x - AXIS.left) / across, 0), 1) * span };
 }
@@ -37,10 +37,8 @@ function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
   }
   label(ctx, 'time [s]', (AXIS.left + width - AXIS.right) / 2, foot + 32, colours, { align: 'center' });
   ctx.globalAlpha = faded ? 0.35 : 1;
-  CHARTS.forEach((chart, i) => {
-    const box = { left: AXIS.left, top: AXIS.top + i * (each + AXIS.gap), width: width - AXIS.left - AXIS.right, height: each };
-    drawChart(ctx, chart, box, time, colours, run, ghost);
-  });
+  const boxOf = (i) => ({ left: AXIS.left, top: AXIS.top + i * (each + AXIS.gap), width: width - AXIS.left - AXIS.right, height: each });
+  CHARTS.forEach((chart, i) => drawChart(ctx, chart, boxOf(i), time, colours, run, ghost));
   if (run) {
     const x = time.toX(run.t[cursor]);
     line(ctx, [[x, AXIS.top], [x, foot]], colours.ink, 2);
@@ -49,6 +47,7 @@ function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
     ctx.arc(x, foot, 6, 0, 2 * Math.PI);
     ctx.fill();
   }
+  CHARTS.forEach((chart, i) => drawTitle(ctx, chart, boxOf(i), colours));
   ctx.globalAlpha = 1;
 }
 
@@ -67,7 +66,6 @@ function drawChart(ctx, chart, box, time, colours, run, ghost) {
     for (const { values, role, dash = [] } of series) drawSeries(ctx, run, values, time, axis, colours[role], 2.5, dash);
     if (chart.name === 'V' && run) drawRising(ctx, run, time, axis, colours);
   });
-  drawTitle(ctx, chart, box, colours);
 }
 
 function drawTitle(ctx, chart, box, colours) {
@@ -85,7 +83,8 @@ function drawSeries(ctx, run, values, time, axis, colour, width, dash) {
   if (!values.length) return;
   const points = [];
   for (let k = 0; k < values.length; k += 1) points.push([time.toX(run.t[k]), axis.toY(values[k])]);
-  line(ctx, points.length > 1 ? points : [...points, [points[0][0] + 0.5, points[0][1]]], colour, width, dash);
+  if (points.length > 1) line(ctx, points, colour, width, dash);
+  else line(ctx, [points[0], [points[0][0] + 1, points[0][1]]], colour, 7); // a run of one sample is a dot
 }
 
 // Red, thicker and dashed, so that it shows without colour too.
@@ -106,7 +105,7 @@ function linearAxis(columns, box) {
   if (high - low < 1e-9) high = low + 1;
   const room = 0.06 * (high - low);
   const scale = box.height / (high - low + 2 * room);
-  return { ...ticksOf(low, high, Math.max(2, Math.floor(box.height / 26))), toY: (value) => box.top + (high + room - value) * scale };
+  return { ...ticksOf(low, high, Math.max(3, Math.floor(box.height / 26))), toY: (value) => box.top + (high + room - value) * scale };
 }
 
 function logAxis(columns, box) {

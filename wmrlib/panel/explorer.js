@@ -15,7 +15,8 @@ function scaffold(el) {
       <button type="button" data-do="unpin" hidden>Unpin</button>
       <button type="button" data-do="reset">Reset</button>
     </div>
-    <div class="wmr-status" role="status" aria-live="polite"></div>
+    <div class="wmr-status"></div>
+    <div class="wmr-aside" role="status" aria-live="polite"></div>
     <dl class="wmr-figures"></dl>
     <div class="wmr-stage">
       <div><div class="wmr-polar"></div><div class="wmr-plane" style="position: relative"><canvas class="wmr-scene" role="img"></canvas></div></div>
@@ -31,7 +32,7 @@ function render({ model, el }) {
   const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
   const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap();
   const state = { run: null, settings: null, figures: null, trouble: '', ghost: null, time: null, playing: null, colours: null, view: null, held: false };
-  let frame = 0, stale = true, writing = false;
+  let frame = 0, stale = true, writing = false, spoken = 0, shownKey = '';
 
   // Many traits at once count as one change: half a preset is no preset.
   function write(values) {
@@ -72,7 +73,7 @@ function render({ model, el }) {
     const safe = run ? at : { start: [0, 0, 0], goal: [1, 0, 0] };
     const drawn = faded && state.settings ? { start: state.settings.start, goal: state.settings.reference ? null : state.settings.goal } : safe;
     if (!state.held || !state.view) {
-      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), scene.clientWidth, scene.clientHeight);
+      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, scene.clientWidth, scene.clientHeight);
     }
     drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded });
     placeHandles(drawn);
@@ -100,7 +101,8 @@ function render({ model, el }) {
   function describe(run, cursor) {
     const status = find('.wmr-status'), text = state.trouble || state.sentence || '';
     status.classList.toggle('wmr-trouble', state.trouble !== '');
-    if (status.textContent !== text) status.textContent = text;
+    if (status.textContent !== text) { status.textContent = text; announce(text); }
+    showKey();
     showFigures(state.trouble ? null : state.figures, state.ghost && state.ghost.figures);
     find('[data-do=play]').textContent = state.playing ? 'Pause' : 'Play';
     find('[data-do=unpin]').hidden = !state.ghost;
@@ -120,6 +122,21 @@ function render({ model, el }) {
     mapCanvas.setAttribute('aria-label', `Gain landscape; the gains are k_rho ${k_rho}, k_alpha ${k_alpha}, h ${h}; arrow keys change them. ${text}`);
   }
 
+  // A screen reader hears where a drag ends, not each step of it.
+  function announce(text) {
+    clearTimeout(spoken);
+    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; }, 700);
+  }
+
+  function showKey() {
+    const mark = (name, text) => `<span><i data-mark="${name}"></i>${text}</span>`;
+    const pinned = state.ghost ? mark('pinned', 'pinned run') : '';
+    const text = model.get('view') === 1
+      ? `<span>click on the map to set the gains</span>${mark('never', state.settings && state.settings.reference ? 'no value' : 'does not arrive')}`
+      : `${mark('run', 'run')}${pinned}${mark('rising', 'V rises')}`;
+    if (text !== shownKey) find('.wmr-key').innerHTML = shownKey = text;
+  }
+
   function follow() {
     if (writing) return;
     const mapped = model.get('view') === 1;
@@ -129,7 +146,6 @@ function render({ model, el }) {
     const preset = presetOf(model);
     if (preset !== model.get('preset')) changed.preset = preset;
     if (Object.keys(changed).length) { write(changed); return; }
-    find('.wmr-key').innerHTML = mapped ? 'click or drag on the map to set the gains' : '<span>drag on the charts to move the time cursor</span>';
     refresh();
   }
 
@@ -168,7 +184,7 @@ function render({ model, el }) {
   resized.observe(root);
   repaint();
   follow();
-  return () => { unfollow(); resized.disconnect(); cancelAnimationFrame(frame); model.off('change', follow); model.off('change:preset', choose); };
+  return () => { unfollow(); resized.disconnect(); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change', follow); model.off('change:preset', choose); };
 }
 
 // Calls back with the place in CSS pixels while a pointer is held down on the canvas.

@@ -1,11 +1,11 @@
 // The path in the plane, equal scales: start and goal as arrows, the robot, and the three polar errors as angles and a distance.
 
-const ARROW = { start: 52, goal: 74 }; // px from a pose to the handle that turns it; unequal, so that both can be reached when they coincide
+const ARROW = { start: 52, goal: 68 }; // px from a pose to the handle that turns it; unequal, so that both can be reached when they coincide
 const SPANS = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10];
 
 // Where the picture looks. It moves in steps, so that it doesn't swim while a slider is dragged, and depends on nothing but its arguments.
 // `marks` are points that must be seen; the runs are followed as far as three times the marks' distance from the first.
-function viewOf(runs, marks, width, height) {
+function viewOf(runs, marks, arrows, width, height) {
   const reach = 2 + 3 * Math.max(...marks.map(([x, y]) => Math.hypot(x - marks[0][0], y - marks[0][1])));
   const bounds = [Infinity, Infinity, -Infinity, -Infinity];
   const include = (x, y) => {
@@ -18,18 +18,26 @@ function viewOf(runs, marks, width, height) {
     for (let k = 0; k < run.n; k += 1) include(clip(run.x[k], marks[0][0]), clip(run.y[k], marks[0][1]));
   }
   const box = { left: 54, top: 10, width: Math.max(width - 66, 40), height: Math.max(height - 56, 40) };
-  const room = 56; // px around the content, for the arrows
-  const needed = Math.max((bounds[2] - bounds[0]) / Math.max(box.width - 2 * room, 20), (bounds[3] - bounds[1]) / Math.max(box.height - 2 * room, 20), 0.004);
+  const room = roomFor(arrows);
+  const needed = Math.max(
+    (bounds[2] - bounds[0]) / Math.max(box.width - room.left - room.right, 20), (bounds[3] - bounds[1]) / Math.max(box.height - room.top - room.bottom, 20), 0.004,
+  );
   const power = 10 ** Math.floor(Math.log10(needed));
   const scale = 1 / (SPANS.find((each) => each * power >= needed * (1 - 1e-9)) * power); // px a metre
   const snap = (value) => Math.round(value * scale / 20) * 20 / scale;
   const middle = [snap((bounds[0] + bounds[2]) / 2), snap((bounds[1] + bounds[3]) / 2)];
-  const centre = [box.left + box.width / 2, box.top + box.height / 2];
+  const centre = [box.left + (box.width + room.left - room.right) / 2, box.top + (box.height + room.top - room.bottom) / 2];
   return {
     box, scale,
     toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
     toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
   };
+}
+
+// px between the content and the frame, so that an arrow on the rim still shows its tip.
+function roomFor(arrows) {
+  const most = (share) => Math.max(30, ...Object.entries(arrows).map(([name, pose]) => (pose ? 14 + ARROW[name] * share(pose[2]) : 0)));
+  return { left: most((a) => -Math.cos(a)), right: most(Math.cos), top: most(Math.sin), bottom: most((a) => -Math.sin(a)) };
 }
 
 // What must be seen: start and goal, or start and the goal's whole way.
@@ -64,7 +72,7 @@ function drawGrid(ctx, view, colours) {
   const { box } = view;
   const [left, bottom] = view.toWorld(box.left, box.top + box.height);
   const [right, top] = view.toWorld(box.left + box.width, box.top);
-  const step = roundStep(70 / view.scale, 1); // the same step both ways
+  const step = roundStep(55 / view.scale, 1); // the same step both ways
   for (let k = Math.ceil(left / step); k * step <= right; k += 1) {
     const [x] = view.toScreen(k * step, 0);
     line(ctx, [[x, box.top], [x, box.top + box.height]], colours.line, k === 0 ? 1.5 : 0.6);

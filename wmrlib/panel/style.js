@@ -46,11 +46,11 @@ function viridis(share) {
 function written(value, unit = '', digits = 3) {
   if (!Number.isFinite(value)) return '–';
   const size = Math.abs(value);
-  const text = size >= 1e5
+  const text = size === 0 ? '0' : size >= 1e5
     ? value.toExponential(1)
     : value.toFixed(Math.max(0, Math.min(3, digits - 1 - Math.floor(Math.log10(Math.max(size, 0.01))))));
   const gap = unit === '°' || unit === '' ? '' : ' ';
   return text.replace('-', '−') + gap + unit;
 }
 
-const inDegrees = (angle, digits = 1) => written(Number(((angle * DEGREES) + 0).toFixed(digits)) || 0, '°', 3);
+const inDegrees = (angle) => (Number.isFinite(angle) ? `${(angle * DEGREES).toFixed(1).replace(/^-0\.0$/, '0.0').replace('-', '−')}°` : '–');
