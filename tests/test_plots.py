@@ -1,0 +1,89 @@
+"""Figures: each has its alternative text, with the numbers of the run, and draws what the run holds."""
+
+import io
+import math
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+import wmrlib as wmr
+from wmrlib import plots
+
+PAPER = wmr.paper.outdoor()
+RUN = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, method="continuous")
+CIRCLE = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, law="printed", duration=40.0)
+STANDING = wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
+PICTURES = {
+    "local_map": lambda: plots.local_map(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2),
+    "path": lambda: plots.path(RUN),
+    "paths": lambda: plots.path([RUN, STANDING], ["one", "two"]),
+    "arrival": lambda: plots.arrival(RUN),
+    "twist": lambda: plots.twist(RUN),
+    "errors": lambda: plots.errors(RUN),
+    "lyapunov": lambda: plots.lyapunov(RUN),
+    "dashboard": lambda: plots.dashboard(RUN),
+    "dashboard of a circle": lambda: plots.dashboard(CIRCLE),
+    "dashboard of a single sample": lambda: plots.dashboard(STANDING),
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_every_picture_draws_and_has_its_text(name):
+    picture = PICTURES[name]()
+    bundle, metadata = picture._repr_mimebundle_()
+    assert metadata["image/png"]["alt"] == picture.alt
+    assert bundle["text/plain"] == f"<Picture: {picture.alt}>"
+    assert len(picture.alt) > 60
+    assert picture.alt.endswith(".")
+    assert "nan" not in picture.alt
+    assert "-0.0 " not in picture.alt
+    pixels = imread(io.BytesIO(bundle["image/png"]))[..., :3]
+    assert pixels.shape[1] == pytest.approx(2 * metadata["image/png"]["width"], abs=2)
+    assert 0.01 < np.mean(pixels.min(axis=2) < 0.9) < 0.7  # neither blank nor flooded
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_every_axis_says_what_it_shows_and_in_which_unit(name):
+    for axes in PICTURES[name]().figure.axes:
+        assert axes.get_ylabel() == "V" or "[" in axes.get_ylabel()
+        assert "[" in axes.get_xlabel() or not axes.xaxis.get_tick_params().get("labelbottom", True)
+
+
+def test_texts_carry_the_numbers():
+    assert "58.08 m long, at a bearing of 9.58 deg" in PICTURES["local_map"]().alt
+    assert "stops 0.05 m from it, its heading turned by -27 deg" in plots.arrival(RUN).alt
+    assert "x error goes from 9.7 m to 0.0 m, the y error from 57.3 m to 0.0 m" in plots.errors(RUN).alt
+    assert "V falls in every step" in plots.lyapunov(RUN).alt
+
+
+def test_v_is_red_where_it_rises_and_only_there():
+    figure = plots.lyapunov(CIRCLE).figure
+    falling, rising = figure.axes[0].collections
+    share = np.diff(CIRCLE.V) > 1e-9 * CIRCLE.V[0]
+    assert 0 < share.sum() < share.size
+    assert (len(falling.get_segments()), len(rising.get_segments())) == ((~share).sum(), share.sum())
+    assert rising.get_linewidth()[0] > 2 * falling.get_linewidth()[0]  # a shape beside the colour
+    assert len(plots.lyapunov(RUN).figure.axes[0].collections) == 1
+
+
+def test_path_has_equal_scales_and_the_robots_heading():
+    axes = plots.path(RUN).figure.axes[0]
+    assert axes.get_aspect() == 1.0
+    goal, start = axes.patches[-2:]
+    for dart, heading in ((goal, PAPER.goal.heading), (start, PAPER.start.heading)):
+        tip, tail = dart.get_xy()[0], dart.get_xy()[2]
+        assert math.atan2(tip[1] - tail[1], tip[0] - tail[0]) == pytest.approx(heading)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: plots.path([]), r"runs has 0 entries, which is not allowed: 1 to 4 are needed"),
+        (lambda: plots.path([RUN] * 5), r"runs has 5 entries"),
+        (lambda: plots.local_map((33, 44), wmr.paper.GPS_POINT_1), r"a GeoPoint is needed, not a tuple"),
+    ],
+)
+def test_bad_input(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
