@@ -1,5 +1,6 @@
 """Figures: each has its alternative text, with the numbers of the run, and draws what the run holds."""
 
+import html
 import io
 import math
 
@@ -34,12 +35,13 @@ def test_every_picture_draws_and_has_its_text(name):
     bundle, metadata = picture._repr_mimebundle_()
     assert metadata["image/png"]["alt"] == picture.alt
     assert bundle["text/plain"] == f"<Picture: {picture.alt}>"
+    assert bundle["text/html"].startswith(f'<img alt="{html.escape(picture.alt)}" width=')
     assert len(picture.alt) > 60
     assert picture.alt.endswith(".")
     assert "nan" not in picture.alt
     assert "-0.0 " not in picture.alt
     pixels = imread(io.BytesIO(bundle["image/png"]))[..., :3]
-    assert pixels.shape[1] == pytest.approx(2 * metadata["image/png"]["width"], abs=2)
+    assert pixels.shape[1] == pytest.approx(1.5 * metadata["image/png"]["width"], abs=2)
     assert 0.01 < np.mean(pixels.min(axis=2) < 0.9) < 0.7  # neither blank nor flooded
 
 

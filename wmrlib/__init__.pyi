@@ -38,3 +38,6 @@ from .simulation import Trajectory as Trajectory
 from .simulation import simulate as simulate
 from .simulation import sweep as sweep
 from .simulation import track as track
+from .tuning import Modes as Modes
+from .tuning import gains_for as gains_for
+from .tuning import modes as modes

@@ -1,0 +1,101 @@
+"""What the gains do near the goal, and the gains that do what is wanted: instead of the paper's "trial and error".
+
+With the corrected law, equations (7)-(9) linearised at the goal fall into two parts, with rate = v_max k_rho:
+the distance, rho' = -rate rho, and the angles, whose characteristic equation is s^2 + k_alpha s + h rate^2 = 0.
+Aicardi's law has the same form with rate = k_rho. The law as printed has not: its heading never settles.
+"""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wmrlib._checks import Real, choice, instance, real, same_shape
+from wmrlib.gains import Gains
+
+_LAWS = ("corrected", "aicardi")
+
+
+class Modes(NamedTuple):
+    """How the closed loop settles near the goal: numbers, or arrays with the shape of the gains.
+
+    distance_rate: the distance falls by exp(-distance_rate t), 1/s; heading_rate: so does the slowest part of the angles, 1/s;
+    natural_frequency: of the angles, rad/s; damping: their damping ratio, oscillating below 1; poles: the distance's pole and the two
+    of the angles, 1/s, complex; slower: how many times slower the heading settles than the distance.
+    """
+
+    distance_rate: Real
+    heading_rate: Real
+    natural_frequency: Real
+    damping: Real
+    poles: tuple[complex | np.ndarray, complex | np.ndarray, complex | np.ndarray]
+    slower: Real
+
+
+def modes(gains: Gains, law: str = "corrected") -> Modes:
+    """The poles near the goal and what they say, see Modes for the fields and units; the gains may be arrays.
+
+    With rate = v_max k_rho ("aicardi": k_rho), equations (7)-(9) linearised under (22) and the law for omega that makes the proof work:
+    natural frequency rate sqrt(h), damping k_alpha/(2 rate sqrt(h)), poles -rate and -k_alpha/2 +- sqrt(k_alpha^2/4 - h rate^2).
+    A gain of 0 leaves a mode that does not settle: damping and slower are then infinite, or NaN for 0/0.
+    Raises ValueError for anything but Gains, or another law.
+    """
+    k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
+    rate = k_rho * (v_max if choice("law", law, _LAWS) == "corrected" else 1.0)
+    half, stiffness = 0.5 * np.asarray(k_alpha), h * np.square(rate)
+    gap = half**2 - stiffness
+    root = np.sqrt(gap.astype(complex))
+    with np.errstate(divide="ignore", invalid="ignore"):
+        slow = np.where(gap > 0.0, stiffness / (half + root.real), half)  # not half - root, which would cancel
+        fast = half + root
+        return Modes(
+            distance_rate=_plain(rate),
+            heading_rate=_plain(slow),
+            natural_frequency=_plain(np.sqrt(stiffness)),
+            damping=_plain(half / np.sqrt(stiffness)),
+            poles=(_plain(np.asarray(-rate, dtype=complex)), _plain(np.where(gap > 0.0, -slow, -half + root)), _plain(-fast)),
+            slower=_plain(np.divide(rate, slow)),
+        )
+
+
+def gains_for(
+    distance_rate: Real,
+    *,
+    natural_frequency: Real | None = None,
+    heading_rate: Real | None = None,
+    damping: Real = 1.0,
+    v_max: Real = 4.0,
+) -> Gains:
+    """The Gains of the corrected law that settle as specified near the goal: the inverse of `modes`; arguments may be arrays.
+
+    distance_rate: 1/s, the distance falls by exp(-distance_rate t); of the angles either the natural_frequency, rad/s, or the
+    heading_rate, 1/s, at which the slowest part falls; damping: their damping ratio; v_max: the speed limit, m/s.
+    k_rho = distance_rate/v_max, k_alpha = 2 damping natural_frequency, h = (natural_frequency/distance_rate)^2, where the heading_rate is
+    natural_frequency times damping up to a damping of 1, and times damping - sqrt(damping^2 - 1) above.
+
+    Raises ValueError for a rate, frequency, damping or v_max that is not positive (nothing would settle), if both or none of
+    natural_frequency and heading_rate are given, for mismatched lengths, and for gains outside the range of numbers.
+    """
+    distance_rate, damping = real("distance_rate", distance_rate, above=0.0), real("damping", damping, above=0.0)
+    if (natural_frequency is None) == (heading_rate is None):
+        given = f"natural_frequency = {natural_frequency!r} and heading_rate = {heading_rate!r}"
+        raise ValueError(f"{given} are not allowed together: one of the two is needed")
+    if natural_frequency is None:
+        heading_rate = real("heading_rate", heading_rate, above=0.0)
+        same_shape(distance_rate=distance_rate, heading_rate=heading_rate, damping=damping, v_max=v_max)
+        # 1/(damping - sqrt(damping^2 - 1)) without the cancellation
+        per_rate = np.where(np.less(damping, 1.0), 1.0 / damping, damping + np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0)))
+        natural_frequency = heading_rate * per_rate
+    else:
+        natural_frequency = real("natural_frequency", natural_frequency, above=0.0)
+        same_shape(distance_rate=distance_rate, natural_frequency=natural_frequency, damping=damping, v_max=v_max)
+    v_max = real("v_max", v_max, above=0.0)
+    with np.errstate(over="ignore", under="ignore"):
+        h = real("(natural_frequency/distance_rate)^2", _plain(np.square(natural_frequency / distance_rate)), above=0.0)
+        return Gains(_plain(distance_rate / v_max), _plain(2.0 * damping * natural_frequency), h, v_max)
+
+
+def _plain(value):
+    """A Python number for a number, an array for an array."""
+    return value.item() if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0) else value
