@@ -39,6 +39,7 @@ def settled_picture(page) -> str:
             requestAnimationFrame(() => requestAnimationFrame(() => done(before !== '' && before === ({PICTURE})())));
         }})""",
         timeout=PATIENCE,
+        polling=100,
     )
     return page.evaluate(PICTURE)
 
@@ -50,7 +51,7 @@ def assert_slider_matters(page, slider) -> None:
     slider.focus()
     at_the_end = float(slider.get_attribute("aria-valuenow")) >= float(slider.get_attribute("aria-valuemax"))
     page.keyboard.press("ArrowLeft" if at_the_end else "ArrowRight")
-    page.wait_for_function(f"before => ({PICTURE})() !== before", arg=before, timeout=PATIENCE)
+    page.wait_for_function(f"before => ({PICTURE})() !== before", arg=before, timeout=PATIENCE, polling=100)
     assert slider.get_attribute("aria-valuetext") != value
 
 
