@@ -3,21 +3,15 @@
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
-import anywidget
 import ipywidgets as widgets
-import traitlets
 
 from wmrlib import paper
 from wmrlib._checks import choice, instance, scalar
+from wmrlib._panel import Panel
 from wmrlib.gains import Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.simulation import Trajectory, simulate, track
-
-_PARTS = Path(__file__).parent / "panel"
-# One module out of several files, in the order in which they use each other; a page without a kernel can load no second one.
-_ORDER = ("model", "simulate", "style", "surface", "settings", "figures", "scene", "handles", "charts", "gain_map", "explorer")
 
 POSE_LAWS = ("corrected", "printed", "aicardi")
 CIRCLE_LAWS = (*POSE_LAWS, "kanayama")
@@ -26,53 +20,6 @@ VIEWS = ("time", "gains")
 DESIGNED_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Close to critical damping on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
-
-
-def javascript() -> str:
-    """The panel's ES module, put together from the files in wmrlib/panel."""
-    return "\n".join((_PARTS / f"{name}.js").read_text(encoding="utf-8") for name in _ORDER)
-
-
-class _Finite(traitlets.Float):
-    """A Float without NaN and infinity, which JSON can't carry to the browser."""
-
-    def validate(self, obj, value):
-        number = super().validate(obj, value)
-        if not math.isfinite(number):
-            raise ValueError(f"{self.name} = {value!r} is not allowed: a finite number is needed")
-        return number
-
-
-def _finite(value: float):
-    return _Finite(value).tag(sync=True)
-
-
-def _index():
-    return traitlets.Int(0, min=0).tag(sync=True)
-
-
-def _pose():
-    return traitlets.List(_Finite(), minlen=3, maxlen=3, default_value=[0.0, 0.0, 0.0]).tag(sync=True)
-
-
-def _shown(value: str = "flex"):
-    return traitlets.Unicode(value).tag(sync=True)
-
-
-class Panel(anywidget.AnyWidget):
-    """The picture: canvases, figures and buttons, without the sliders. Menus are numbers: the place of the choice in its list."""
-
-    _esm = traitlets.Unicode(javascript()).tag(sync=True)
-    _css = traitlets.Unicode((_PARTS / "panel.css").read_text(encoding="utf-8")).tag(sync=True)
-    start, goal = _pose(), _pose()
-    k_rho, k_alpha, h, v_max = _finite(2.0), _finite(1.0), _finite(0.3), _finite(4.0)
-    k_x, k_y, k_heading = _finite(1.0), _finite(2.0), _finite(2.0)
-    dt, duration, arrival_radius = _finite(0.1), _finite(60.0), _finite(0.05)
-    scenario, pose_law, circle_law, method, view, metric, axes, preset = (_index() for _ in range(8))
-    gains_display, limit_display, feedback_display = _shown(), _shown(), _shown("none")
-    pose_law_display, circle_law_display, map_display = _shown(), _shown("none"), _shown("none")
-    home = traitlets.Dict().tag(sync=True)
-    presets = traitlets.List().tag(sync=True)
 
 
 # name: (label, lowest, highest, step, display); a linear scale where 0 is worth a look, a logarithmic one for dt
@@ -149,6 +96,7 @@ class Explorer(widgets.VBox):
             home=home,
             presets=_presets(),
         )
+        self.links = []
         self.sliders = {name: self._slider(name) for name in (*_SLIDERS, "dt")}
         self.menus = {name: self._menu(name) for name in _MENUS}
         controls = widgets.Box([*self.sliders.values(), *self.menus.values()])
@@ -235,8 +183,8 @@ class Explorer(widgets.VBox):
         # Both ends of the browser's link, for where there is no browser yet; they agree, so that neither overtakes the other.
         for name, value in values.items():
             slider = self.sliders[name]
-            if name != "dt":
-                slider.max, slider.min = max(slider.max, value), min(slider.min, value)
+            low, high = (math.floor(math.log10(value)), math.ceil(math.log10(value))) if name == "dt" else (value, value)
+            slider.max, slider.min = max(slider.max, high), min(slider.min, low)
             slider.value = value
             setattr(self.panel, name, value)
 
@@ -244,32 +192,37 @@ class Explorer(widgets.VBox):
         value = getattr(self.panel, name)
         common = {"value": value, "continuous_update": True, "layout": {"width": "auto"}}
         if name == "dt":
-            low, high = min(-2.0, math.floor(math.log10(value))), max(0.0, math.ceil(math.log10(value)))
+            low, high = min(-2.0, math.floor(math.log10(value))), max(0.0, math.ceil(math.log10(value)))  # powers of ten
             slider = widgets.FloatLogSlider(description="dt [s]", min=low, max=high, step=0.02, readout_format=".3f", **common)
         else:
             text, low, high, step, display = _SLIDERS[name]
             low, high = min(low, value), max(high, value)
             slider = widgets.FloatSlider(description=text, min=low, max=high, step=step, readout_format=".2f", **common)
             self._tie(display, slider)
-        widgets.jslink((slider, "value"), (self.panel, name))
+        self._link((slider, "value"), (self.panel, name))
         return slider
 
     def _menu(self, name: str):
         text, options, display = _MENUS[name]
         menu = widgets.Dropdown(description=text, options=options, index=getattr(self.panel, name), layout={"width": "auto"})
-        widgets.jslink((menu, "index"), (self.panel, name))
+        self._link((menu, "index"), (self.panel, name))
         if display:
             self._tie(display, menu)
         return menu
 
     def _tie(self, display: str, control) -> None:
         control.layout.display = getattr(self.panel, display)
-        widgets.jslink((self.panel, display), (control.layout, "display"))
+        self._link((self.panel, display), (control.layout, "display"))
+
+    def _link(self, source: tuple, target: tuple) -> None:
+        self.links.append(widgets.jslink(source, target))
 
 
 def _moves(reference) -> bool:
-    if reference is None or reference == "circle" or reference is paper.circle:
-        return reference is not None
+    if reference is None:
+        return False
+    if reference is paper.circle or (isinstance(reference, str) and reference == "circle"):
+        return True
     raise ValueError(f"reference = {reference!r} is not allowed: None, 'circle' or wmrlib.paper.circle is needed")
 
 

@@ -33,7 +33,7 @@ function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
   const { ticks, write } = ticksOf(0, time.span, Math.max(2, Math.floor(width / 80)));
   for (const t of ticks) {
     line(ctx, [[time.toX(t), AXIS.top], [time.toX(t), foot]], colours.line, 0.6);
-    label(ctx, write(t), time.toX(t), foot + 12, colours, { align: 'center', colour: colours.soft });
+    tickLabel(ctx, write(t), time.toX(t), foot + 12, colours, 'center');
   }
   label(ctx, 'time [s]', (AXIS.left + width - AXIS.right) / 2, foot + 32, colours, { align: 'center' });
   ctx.globalAlpha = faded ? 0.35 : 1;
@@ -59,7 +59,7 @@ function drawChart(ctx, chart, box, time, colours, run, ghost) {
   ctx.strokeRect(box.left, box.top, box.width, box.height);
   for (const value of axis.ticks) {
     line(ctx, [[box.left, axis.toY(value)], [box.left + box.width, axis.toY(value)]], colours.line, 0.6);
-    label(ctx, axis.write(value), box.left - 5, axis.toY(value), colours, { align: 'right', colour: colours.soft });
+    tickLabel(ctx, axis.write(value), box.left - 5, axis.toY(value), colours, 'right');
   }
   inside(ctx, { ...box, top: box.top - 3, height: box.height + 6 }, () => {
     for (const { old } of series) drawSeries(ctx, ghost, old, time, axis, colours.ghost, 2, [3, 5]);

@@ -73,7 +73,7 @@ function render({ model, el }) {
     const safe = run ? at : { start: [0, 0, 0], goal: [1, 0, 0] };
     const drawn = faded && state.settings ? { start: state.settings.start, goal: state.settings.reference ? null : state.settings.goal } : safe;
     if (!state.held || !state.view) {
-      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, scene.clientWidth, scene.clientHeight);
+      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, sizeOf(scene));
     }
     drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded });
     placeHandles(drawn);
@@ -165,8 +165,8 @@ function render({ model, el }) {
   });
   find('.wmr-time').addEventListener('input', (event) => { Object.assign(state, { time: Number(event.target.value), playing: null }); schedule(); });
 
-  dragOver(charts, (x) => { Object.assign(state, { time: timeAxis(charts.clientWidth, state.run, state.ghost && state.ghost.run).toTime(x), playing: null }); schedule(); });
-  dragOver(mapCanvas, (x, y) => { if (gainMap.map && state.settings.law !== 'kanayama') write(gainsAt(gainMap.map, mapCanvas.clientWidth, mapCanvas.clientHeight, x, y)); });
+  dragOver(charts, (x) => { Object.assign(state, { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x), playing: null }); schedule(); });
+  dragOver(mapCanvas, (x, y) => { if (gainMap.map && state.settings.law !== 'kanayama') write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y)); });
   mapCanvas.addEventListener('keydown', (event) => {
     const move = MOVES[event.key], { map } = gainMap;
     if (!move || !map) return;
@@ -179,9 +179,9 @@ function render({ model, el }) {
   const choose = () => { const chosen = model.get('presets')[model.get('preset') - 1]; if (chosen && !writing) write(chosen); };
   model.on('change:preset', choose);
   model.on('change', follow);
-  const repaint = () => { state.colours = readColours(root); schedule(); };
+  const repaint = () => { [scene, charts, mapCanvas].forEach(measure); state.colours = readColours(root); schedule(); };
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
-  resized.observe(root);
+  [root, scene, charts, mapCanvas].forEach((each) => resized.observe(each));
   repaint();
   follow();
   return () => { unfollow(); resized.disconnect(); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change', follow); model.off('change:preset', choose); };

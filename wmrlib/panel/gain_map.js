@@ -8,8 +8,9 @@ const MEASURES = [
 const AXES = [['k_alpha', 'h'], ['k_rho', 'h']];
 const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
 const UNITS = { k_alpha: 'k_alpha [1/s]', h: 'h [1]', k_rho: 'k_rho [1/m]' };
-const LEVELS = [10, 25, 50]; // cells a side: a first impression, then the whole
-const BUDGET = 7; // ms of a frame
+const LEVELS = [10, 50]; // cells a side: a first impression, then the whole
+const BUDGETS = { dragged: 7, rests: 40 }; // ms of a frame, which a drag needs for itself
+const REST = 60; // ms without a change after which a drag is taken to rest
 
 const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
 
@@ -28,18 +29,18 @@ let scratch = null; // the memory of the last run of a map, lent to the next
 // Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step()` works for one
 // budget and says whether there is more to do.
 function buildGainMap() {
-  let key = '', job = null, done = null;
+  let key = '', job = null, done = null, changed = 0;
   const begin = (level) => ({ level, n: LEVELS[level], row: 0, values: new Float64Array(LEVELS[level] ** 2) });
   return {
     update(settings, axes, metric) {
       const [kx, ky] = AXES[axes] || AXES[0], measure = MEASURES[metric] || MEASURES[0];
       const { [kx]: _x, [ky]: _y, ...others } = settings.gains;
       const next = JSON.stringify([{ ...settings, gains: others }, kx, ky, measure.key]);
-      if (next !== key) { key = next; job = { ...begin(0), settings, kx, ky, measure }; }
+      if (next !== key) { key = next; changed = performance.now(); job = { ...begin(0), settings, kx, ky, measure }; }
     },
     step() {
       if (!job) return false;
-      const stop = performance.now() + BUDGET, ys = centres(job.ky, job.n), xs = centres(job.kx, job.n);
+      const now = performance.now(), stop = now + (now - changed > REST ? BUDGETS.rests : BUDGETS.dragged), ys = centres(job.ky, job.n), xs = centres(job.kx, job.n);
       while (job.row < job.n) {
         const { settings, kx, ky, measure } = job;
         job.values.set(rowOf({ ...settings, kx, xs, ky, ys: ys.subarray(job.row, job.row + 1), metric: measure.key }), job.row * job.n);
@@ -61,7 +62,7 @@ function mapBox(width, height) {
   return { left: 62, top: 12, width: Math.max(width - 62 - 96, 20), height: Math.max(height - 12 - 46, 20) };
 }
 
-function gainsAt(map, width, height, x, y) {
+function gainsAt(map, { width, height }, x, y) {
   const box = mapBox(width, height), share = (value, low, size) => Math.min(Math.max((value - low) / size, 0), 1);
   const round = (value, name) => Math.max(0.05, Math.round(value * RANGES[name] * 20) / 20);
   return { [map.kx]: round(share(x, box.left, box.width), map.kx), [map.ky]: round(1 - share(y, box.top, box.height), map.ky) };
@@ -121,10 +122,10 @@ function drawMapAxes(ctx, box, map, colours) {
   const across = ticksOf(0, RANGES[map.kx], box.width / 60), up = ticksOf(0, RANGES[map.ky], box.height / 40);
   for (const value of across.ticks) {
     const x = box.left + box.width * value / RANGES[map.kx];
-    label(ctx, across.write(value), x, box.top + box.height + 12, colours, { align: 'center', colour: colours.soft });
+    tickLabel(ctx, across.write(value), x, box.top + box.height + 12, colours, 'center');
   }
   for (const value of up.ticks) {
-    label(ctx, up.write(value), box.left - 6, box.top + box.height * (1 - value / RANGES[map.ky]), colours, { align: 'right', colour: colours.soft });
+    tickLabel(ctx, up.write(value), box.left - 6, box.top + box.height * (1 - value / RANGES[map.ky]), colours, 'right');
   }
   label(ctx, UNITS[map.kx], box.left + box.width / 2, box.top + box.height + 33, colours, { align: 'center' });
   label(ctx, UNITS[map.ky], 14, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
@@ -138,7 +139,7 @@ function drawColourBar(ctx, box, map, top, colours) {
   }
   const { ticks, write } = ticksOf(0, top, 5);
   for (const value of ticks) {
-    label(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value), left + wide + 5, box.top + box.height * (1 - value / top), colours, { colour: colours.soft });
+    tickLabel(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value), left + wide + 5, box.top + box.height * (1 - value / top), colours, 'left');
   }
   label(ctx, map.measure.title, box.left + box.width + 84, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
 }
