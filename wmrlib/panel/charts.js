@@ -71,7 +71,8 @@ function drawChart(ctx, chart, box, time, colours, run, ghost) {
 function drawTitle(ctx, chart, box, colours) {
   const y = box.top - 11;
   label(ctx, chart.title, box.left, y, colours, { weight: 600, size: 14 });
-  let x = box.left + ctx.measureText(chart.title).width * 1.5 + 70;
+  ctx.font = `600 14px ${FONT}`;
+  let x = box.left + ctx.measureText(chart.title).width + 20;
   for (const { tag, role, dash = [] } of chart.lines.filter((each) => each.tag)) {
     line(ctx, [[x, y], [x + 26, y]], colours[role], 2.5, dash);
     label(ctx, tag, x + 33, y, colours, { colour: colours[role], weight: 600, size: 14 });

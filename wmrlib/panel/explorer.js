@@ -17,7 +17,7 @@ function scaffold(el) {
     </div>
     <div class="wmr-status"></div>
     <div class="wmr-aside" role="status" aria-live="polite"></div>
-    <dl class="wmr-figures"></dl>
+    <div class="wmr-figures" role="list"></div>
     <div class="wmr-stage">
       <div><div class="wmr-polar"></div><div class="wmr-plane" style="position: relative"><canvas class="wmr-scene" role="img"></canvas></div></div>
       <div><div class="wmr-key"></div>
@@ -79,6 +79,7 @@ function render({ model, el }) {
     placeHandles(drawn);
     if (model.get('view') === 1) drawLandscape(); else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
     describe(run, cursor);
+    root.dispatchEvent(new CustomEvent('drawn', { bubbles: true })); // for whoever measures
     if (state.playing) schedule();
   }
 
@@ -187,10 +188,13 @@ function render({ model, el }) {
   return () => { unfollow(); resized.disconnect(); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change', follow); model.off('change:preset', choose); };
 }
 
-// Calls back with the place in CSS pixels while a pointer is held down on the canvas.
+// Calls back with the place in the canvas's own units while a pointer is held down on the canvas.
 function dragOver(canvas, onPlace) {
   let down = false;
-  const tell = (event) => { const box = canvas.getBoundingClientRect(); onPlace(event.clientX - box.left, event.clientY - box.top); };
+  const tell = (event) => {
+    const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas);
+    onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom);
+  };
   canvas.addEventListener('pointerdown', (event) => { down = true; canvas.setPointerCapture(event.pointerId); tell(event); });
   canvas.addEventListener('pointermove', (event) => { if (down) tell(event); });
   canvas.addEventListener('lostpointercapture', () => { down = false; });

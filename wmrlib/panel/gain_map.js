@@ -1,9 +1,9 @@
 // The second view: what a run amounts to over two of the gains, as a heat map that refines itself between frames.
 
 const MEASURES = [
-  { key: 'headingError', title: 'heading error on arrival [deg]', scale: DEGREES, most: 180 },
-  { key: 'time', title: 'arrival time [s]', scale: 1, most: Infinity },
-  { key: 'peakOmega', title: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
+  { key: 'headingError', title: 'heading error on arrival [deg]', lasting: 'heading error at the end [deg]', scale: DEGREES, most: 180 },
+  { key: 'time', title: 'arrival time [s]', lasting: 'distance left [m]', scale: 1, most: Infinity },
+  { key: 'peakOmega', title: 'peak |ω| [rad/s]', lasting: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
 ];
 const AXES = [['k_alpha', 'h'], ['k_rho', 'h']];
 const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
@@ -141,5 +141,5 @@ function drawColourBar(ctx, box, map, top, colours) {
   for (const value of ticks) {
     tickLabel(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value), left + wide + 5, box.top + box.height * (1 - value / top), colours, 'left');
   }
-  label(ctx, map.measure.title, box.left + box.width + 84, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+  label(ctx, map.settings.reference === null ? map.measure.title : map.measure.lasting, box.left + box.width + 84, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
 }

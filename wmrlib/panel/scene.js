@@ -5,7 +5,7 @@ const SPANS = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10];
 
 // Where the picture looks. It moves in steps, so that it doesn't swim while a slider is dragged, and depends on nothing but its arguments.
 // `marks` are points that must be seen; the runs are followed as far as three times the marks' distance from the first.
-function viewOf(runs, marks, arrows, { width, height }) {
+function viewOf(runs, marks, arrows, { zoom, width, height }) {
   const reach = 2 + 3 * Math.max(...marks.map(([x, y]) => Math.hypot(x - marks[0][0], y - marks[0][1])));
   const bounds = [Infinity, Infinity, -Infinity, -Infinity];
   const include = (x, y) => {
@@ -28,7 +28,7 @@ function viewOf(runs, marks, arrows, { width, height }) {
   const middle = [snap((bounds[0] + bounds[2]) / 2), snap((bounds[1] + bounds[3]) / 2)];
   const centre = [box.left + (box.width + room.left - room.right) / 2, box.top + (box.height + room.top - room.bottom) / 2];
   return {
-    box, scale,
+    box, scale, zoom,
     toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
     toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
   };
