@@ -47,8 +47,18 @@ STOPWATCH = """() => {
     Object.assign(window, { heard: null, took: [] });
     addEventListener('pointermove', event => { if (event.buttons && heard === null) heard = performance.now(); }, true);
     const stop = () => { if (heard !== null) { took.push(performance.now() - heard); heard = null; } };
-    addEventListener('drawn', stop);
+    addEventListener('drawn', () => { if (!document.querySelector('.wmr-map').checkVisibility()) stop(); });
     document.addEventListener('load', event => { if (event.target.tagName === 'IMG') stop(); }, true);
+}"""
+MAP_STOPWATCH = """() => {
+    took = [];
+    heard = null;
+    addEventListener('keydown', () => { heard = performance.now(); }, true);
+    addEventListener('drawn', event => {
+        if (heard === null || event.target.querySelector('.wmr-map').dataset.finished !== 'true') return;
+        took.push(performance.now() - heard);
+        heard = null;
+    });
 }"""
 
 
@@ -89,11 +99,20 @@ def static_page(folder: Path) -> Path:
     return page
 
 
-def in_page(browser, folder: Path) -> list[float]:
+def in_page(browser, folder: Path) -> tuple[list[float], list[float]]:
     page = browser.new_page(viewport={"width": 1280, "height": 800})
     page.goto(static_page(folder).as_uri())
     page.locator(".wmr-status:not(:empty)").wait_for(timeout=PATIENCE)
-    return drag(page, page.locator(".noUi-handle").nth(1), wait=40)
+    dragged = drag(page, page.locator(".noUi-handle").nth(1), wait=40)
+    page.locator("select:visible").last.select_option(index=1)
+    handle = page.locator(".noUi-handle").first
+    handle.focus()
+    page.evaluate(MAP_STOPWATCH)
+    for _ in range(20):  # of k_rho, which the map does not span, so that each step is another map
+        page.wait_for_timeout(400)
+        page.keyboard.press("ArrowLeft")
+    page.wait_for_timeout(1000)
+    return dragged, page.evaluate("() => took")[3:]
 
 
 def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
@@ -126,7 +145,8 @@ def main() -> None:
         static, lab = Path(name, "static"), Path(name, "lab")
         static.mkdir()
         lab.mkdir()
-        rows = {"panel, page without a kernel": in_page(browser, static)}
+        rows = {}
+        rows["panel, page without a kernel"], rows["its whole gain landscape"] = in_page(browser, static)
         rows["panel, JupyterLab"], rows["interactive with PNG, JupyterLab"] = in_lab(browser, lab)
         browser.close()
     print(f"{'slider event to finished picture [ms]':40}{'median':>8}{'90 %':>8}{'steps':>8}")

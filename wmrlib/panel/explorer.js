@@ -32,7 +32,7 @@ function render({ model, el }) {
   const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
   const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap();
   const state = { run: null, settings: null, figures: null, trouble: '', ghost: null, time: null, playing: null, colours: null, view: null, held: false };
-  let frame = 0, stale = true, writing = false, spoken = 0, shownKey = '';
+  let frame = 0, pressed = false, stale = true, writing = false, spoken = 0, shownKey = '';
 
   // Many traits at once count as one change: half a preset is no preset.
   function write(values) {
@@ -94,7 +94,7 @@ function render({ model, el }) {
     const forward = state.settings && state.settings.law === 'kanayama';
     const note = forward ? 'The feed-forward law does not use these gains.' : !state.settings ? 'no run yet' : '';
     if (!note) gainMap.update(state.settings, model.get('axes'), model.get('metric'));
-    if (!note && gainMap.step()) schedule();
+    if (!note && gainMap.step(pressed)) schedule();
     drawMap(mapCanvas, state.colours, { map: gainMap.map, gains: state.settings && state.settings.gains, note });
     mapCanvas.dataset.finished = String(gainMap.finished);
   }
@@ -186,11 +186,22 @@ function render({ model, el }) {
     state.colours = readColours(root);
     schedule();
   };
+  const press = (event) => { pressed = event.type === 'pointerdown'; };
+  const grips = ['pointerdown', 'pointerup', 'pointercancel'];
+  grips.forEach((each) => window.addEventListener(each, press, true));
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
   [root, scene, charts, mapCanvas].forEach((each) => resized.observe(each));
   repaint();
   follow();
-  return () => { unfollow(); resized.disconnect(); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change', follow); model.off('change:preset', choose); };
+  return () => {
+    grips.forEach((each) => window.removeEventListener(each, press, true));
+    unfollow();
+    resized.disconnect();
+    cancelAnimationFrame(frame);
+    clearTimeout(spoken);
+    model.off('change', follow);
+    model.off('change:preset', choose);
+  };
 }
 
 // The notebook's sliders and menus show their names, but don't tell them to screen readers.

@@ -8,9 +8,9 @@ const MEASURES = [
 const AXES = [['k_alpha', 'h'], ['k_rho', 'h']];
 const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
 const UNITS = { k_alpha: 'k_alpha [1/s]', h: 'h [1]', k_rho: 'k_rho [1/m]' };
-const LEVELS = [10, 50]; // cells a side: a first impression, then the whole
-const BUDGETS = { dragged: 7, rests: 40 }; // ms of a frame, which a drag needs for itself
-const REST = 40; // ms without a change after which a hand is taken to rest
+const LEVELS = [10, 40]; // cells a side: a first impression, then the whole
+const BUDGETS = { moving: 7, resting: 60 }; // ms of a frame, which a moving hand needs for itself
+const REST = 20; // ms without a change after which a hand is taken to rest, unless it still holds a pointer down
 
 const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
 
@@ -26,7 +26,7 @@ function rowOf(options) {
 
 let scratch = null; // the memory of the last run of a map, lent to the next
 
-// Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step()` works for one
+// Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step(held)` works for one
 // budget and says whether there is more to do.
 function buildGainMap() {
   let key = '', job = null, done = null, changed = 0;
@@ -38,18 +38,17 @@ function buildGainMap() {
       const next = JSON.stringify([{ ...settings, gains: others }, kx, ky, measure.key]);
       if (next !== key) { key = next; changed = performance.now(); job = { ...begin(0), settings, kx, ky, measure }; }
     },
-    step() {
-      if (!job) return false;
-      const now = performance.now(), stop = now + (now - changed > REST ? BUDGETS.rests : BUDGETS.dragged), ys = centres(job.ky, job.n), xs = centres(job.kx, job.n);
-      while (job.row < job.n) {
-        const { settings, kx, ky, measure } = job;
-        job.values.set(rowOf({ ...settings, kx, xs, ky, ys: ys.subarray(job.row, job.row + 1), metric: measure.key }), job.row * job.n);
+    step(held) {
+      const now = performance.now(), stop = now + (held || now - changed < REST ? BUDGETS.moving : BUDGETS.resting);
+      while (job && performance.now() < stop) {
+        const { settings, kx, ky, measure, n, row } = job;
+        const xs = centres(kx, n), ys = centres(ky, n).subarray(row, row + 1);
+        job.values.set(rowOf({ ...settings, kx, xs, ky, ys, metric: measure.key }), row * n);
         job.row += 1;
-        if (performance.now() > stop) break;
-      }
-      if (job.row === job.n) {
-        done = job;
-        job = job.level + 1 < LEVELS.length ? { ...job, ...begin(job.level + 1) } : null;
+        if (job.row === n) {
+          done = job;
+          job = job.level + 1 < LEVELS.length ? { ...job, ...begin(job.level + 1) } : null;
+        }
       }
       return job !== null;
     },
