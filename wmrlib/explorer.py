@@ -83,7 +83,7 @@ class Explorer(widgets.VBox):
 
     @classmethod
     def circle(cls, **options) -> Explorer:
-        """The paper's circle: a goal that moves 4 m/s x 2 pi/40 s; options as for Explorer."""
+        """The paper's moving goal, on a circle of 4 m radius once round in 40 s; options as for Explorer."""
         return cls(reference="circle", **options)
 
     @property

@@ -60,7 +60,7 @@ function render({ model, el }) {
   }
 
   function cursorOf(run) {
-    const end = endOf(run), time = state.time === null ? RESTING * end : Math.min(state.time, end);
+    const end = endOf(run), time = state.time === null ? RESTING * end : Math.min(Math.max(state.time, 0), end);
     return end > 0 ? Math.round(time / end * (run.n - 1)) : 0;
   }
 
@@ -86,7 +86,8 @@ function render({ model, el }) {
   function advance(now) {
     if (!state.playing || !state.run) return;
     const end = endOf(state.run), speed = Math.max(1, end / LASTS);
-    state.time = Math.min(state.playing.from + speed * (now - state.playing.since) / 1000, end);
+    const passed = Math.max(now - state.playing.since, 0) / 1000; // a frame's time is that of its beginning, before a click within it
+    state.time = Math.min(state.playing.from + speed * passed, end);
     if (state.time >= end) state.playing = null;
   }
 
