@@ -7,6 +7,7 @@ from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
 from .control import lyapunov_rate as lyapunov_rate
 from .control import tracking_law as tracking_law
+from .explorer import Explorer as Explorer
 from .gains import Gains as Gains
 from .gains import KanayamaGains as KanayamaGains
 from .gains import LinearGains as LinearGains

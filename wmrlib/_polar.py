@@ -14,7 +14,7 @@ import numpy as np
 
 from wmrlib._compile import compiled, formula
 from wmrlib._kernels import ALPHA, ARRIVED, DIVERGED, HEADING, OMEGA, RHO, THETA, TIMED_OUT, V, X, Y
-from wmrlib._vecmath import sincos
+from wmrlib._vecmath import sincos, widest_vectors
 from wmrlib.control import pose_law, wheel_share
 from wmrlib.gains import NO_LIMITS, GainsFields
 from wmrlib.kinematics import polar_closing_rate, polar_from_pose, wrap
@@ -128,6 +128,7 @@ def survey_of(method, law, limited):
     """
 
     def survey(states, wheels, dt, arrival_radius):
+        widest_vectors()
         limits = wheels if limited else NO_LIMITS
         runs = states.shape[1]
         block, inside = np.zeros((ROWS, BLOCK)), np.full(BLOCK, -1)

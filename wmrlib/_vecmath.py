@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import math
 
+import numba
 import numpy as np
 from llvmlite import ir
 from numba.core import types
@@ -81,6 +82,20 @@ def decay(rho, k_rho):
     tiny = abs(x) <= _SMALL
     divisor = 1.0 if tiny else rho
     return k_rho * (1.0 - 0.5 * x) if tiny else -expm1(-x) / divisor
+
+
+@intrinsic
+def _prefer_512_bits(typing_context):
+    def generate(context, builder, signature, arguments):
+        set.add(builder.function.attributes, '"prefer-vector-width"="512"')  # llvmlite's own `add` knows no attribute with a value
+        return context.get_dummy_value()
+
+    return types.none(), generate
+
+
+# Called in a loop's function, to have it vectorised with the widest registers there are. By default LLVM halves those of AVX-512, for
+# the sake of programs that use them now and then; a sweep uses nothing else.
+widest_vectors = (lambda: None) if numba.config.DISABLE_JIT else _prefer_512_bits
 
 
 def power_of_two(n):

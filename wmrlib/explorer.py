@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-import math
-from pathlib import Path
-
-import anywidget
 import ipywidgets as widgets
-import traitlets
 
 from wmrlib import paper
 from wmrlib._checks import choice, instance, scalar
+from wmrlib._controls import DISPLAYS, MENUS, SLIDERS, menu, slider, widen
+from wmrlib._panel import Panel
 from wmrlib.gains import Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.simulation import Trajectory, simulate, track
-
-_PARTS = Path(__file__).parent / "panel"
-# One module out of several files, in the order in which they use each other; a page without a kernel can load no second one.
-_ORDER = ("model", "simulate", "style", "surface", "settings", "figures", "scene", "handles", "charts", "gain_map", "explorer")
 
 POSE_LAWS = ("corrected", "printed", "aicardi")
 CIRCLE_LAWS = (*POSE_LAWS, "kanayama")
@@ -25,76 +18,7 @@ METHODS = ("arc", "euler")
 VIEWS = ("time", "gains")
 DESIGNED_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
-"""Close to critical damping on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
-
-
-def javascript() -> str:
-    """The panel's ES module, put together from the files in wmrlib/panel."""
-    return "\n".join((_PARTS / f"{name}.js").read_text(encoding="utf-8") for name in _ORDER)
-
-
-class _Finite(traitlets.Float):
-    """A Float without NaN and infinity, which JSON can't carry to the browser."""
-
-    def validate(self, obj, value):
-        number = super().validate(obj, value)
-        if not math.isfinite(number):
-            raise ValueError(f"{self.name} = {value!r} is not allowed: a finite number is needed")
-        return number
-
-
-def _finite(value: float):
-    return _Finite(value).tag(sync=True)
-
-
-def _index():
-    return traitlets.Int(0, min=0).tag(sync=True)
-
-
-def _pose():
-    return traitlets.List(_Finite(), minlen=3, maxlen=3, default_value=[0.0, 0.0, 0.0]).tag(sync=True)
-
-
-def _shown(value: str = "flex"):
-    return traitlets.Unicode(value).tag(sync=True)
-
-
-class Panel(anywidget.AnyWidget):
-    """The picture: canvases, figures and buttons, without the sliders. Menus are numbers: the place of the choice in its list."""
-
-    _esm = traitlets.Unicode(javascript()).tag(sync=True)
-    _css = traitlets.Unicode((_PARTS / "panel.css").read_text(encoding="utf-8")).tag(sync=True)
-    start, goal = _pose(), _pose()
-    k_rho, k_alpha, h, v_max = _finite(2.0), _finite(1.0), _finite(0.3), _finite(4.0)
-    k_x, k_y, k_heading = _finite(1.0), _finite(2.0), _finite(2.0)
-    dt, duration, arrival_radius = _finite(0.1), _finite(60.0), _finite(0.05)
-    scenario, pose_law, circle_law, method, view, metric, axes, preset = (_index() for _ in range(8))
-    gains_display, limit_display, feedback_display = _shown(), _shown(), _shown("none")
-    pose_law_display, circle_law_display, map_display = _shown(), _shown("none"), _shown("none")
-    home = traitlets.Dict().tag(sync=True)
-    presets = traitlets.List().tag(sync=True)
-
-
-# name: (label, lowest, highest, step, display); a linear scale where 0 is worth a look, a logarithmic one for dt
-_SLIDERS = {
-    "k_rho": ("k_rho [1/m]", 0.0, 5.0, 0.05, "gains_display"),
-    "k_alpha": ("k_alpha [1/s]", 0.0, 10.0, 0.05, "gains_display"),
-    "h": ("h [1]", 0.0, 5.0, 0.05, "gains_display"),
-    "v_max": ("v_max [m/s]", 0.1, 10.0, 0.1, "limit_display"),
-    "k_x": ("k_x [1/s]", 0.0, 5.0, 0.05, "feedback_display"),
-    "k_y": ("k_y [1/m²]", 0.05, 20.0, 0.05, "feedback_display"),
-    "k_heading": ("k_heading [1/m]", 0.0, 10.0, 0.05, "feedback_display"),
-}
-# name: (label, choices, display)
-_MENUS = {
-    "preset": ("Preset", ("your own", "the paper, outdoors", "the paper, circle", "designed gains"), None),
-    "pose_law": ("Law", ("corrected", "printed", "Aicardi"), "pose_law_display"),
-    "circle_law": ("Law", ("corrected", "printed", "Aicardi", "feed-forward (Kanayama)"), "circle_law_display"),
-    "method": ("Motion", ("arcs, exact", "straight steps (Euler)"), None),
-    "view": ("View", ("time", "gain landscape"), None),
-    "metric": ("Map shows", ("heading error", "arrival time", "peak |omega|"), "map_display"),
-    "axes": ("Map over", ("k_alpha and h", "k_rho and h"), "map_display"),
-}
+"""Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 
 
 class Explorer(widgets.VBox):
@@ -149,8 +73,9 @@ class Explorer(widgets.VBox):
             home=home,
             presets=_presets(),
         )
-        self.sliders = {name: self._slider(name) for name in (*_SLIDERS, "dt")}
-        self.menus = {name: self._menu(name) for name in _MENUS}
+        self.links = []
+        self.sliders = {name: self._tied(name, slider(name, getattr(self.panel, name)), "value") for name in SLIDERS}
+        self.menus = {name: self._tied(name, menu(name, getattr(self.panel, name)), "index") for name in MENUS}
         controls = widgets.Box([*self.sliders.values(), *self.menus.values()])
         controls.add_class("wmr-controls")
         super().__init__([controls, self.panel])
@@ -158,7 +83,7 @@ class Explorer(widgets.VBox):
 
     @classmethod
     def circle(cls, **options) -> Explorer:
-        """The paper's circle: a goal that moves 4 m/s x 2 pi/40 s; options as for Explorer."""
+        """The paper's moving goal, on a circle of 4 m radius once round in 40 s; options as for Explorer."""
         return cls(reference="circle", **options)
 
     @property
@@ -234,42 +159,26 @@ class Explorer(widgets.VBox):
     def _set(self, values: dict[str, float]) -> None:
         # Both ends of the browser's link, for where there is no browser yet; they agree, so that neither overtakes the other.
         for name, value in values.items():
-            slider = self.sliders[name]
-            if name != "dt":
-                slider.max, slider.min = max(slider.max, value), min(slider.min, value)
-            slider.value = value
+            widen(self.sliders[name], value)
+            self.sliders[name].value = value
             setattr(self.panel, name, value)
 
-    def _slider(self, name: str):
-        value = getattr(self.panel, name)
-        common = {"value": value, "continuous_update": True, "layout": {"width": "auto"}}
-        if name == "dt":
-            low, high = min(-2.0, math.floor(math.log10(value))), max(0.0, math.ceil(math.log10(value)))
-            slider = widgets.FloatLogSlider(description="dt [s]", min=low, max=high, step=0.02, readout_format=".3f", **common)
-        else:
-            text, low, high, step, display = _SLIDERS[name]
-            low, high = min(low, value), max(high, value)
-            slider = widgets.FloatSlider(description=text, min=low, max=high, step=step, readout_format=".2f", **common)
-            self._tie(display, slider)
-        widgets.jslink((slider, "value"), (self.panel, name))
-        return slider
+    def _tied(self, name: str, control, trait: str):
+        self._link((control, trait), (self.panel, name))
+        if display := DISPLAYS.get(name):
+            control.layout.display = getattr(self.panel, display)
+            self._link((self.panel, display), (control.layout, "display"))
+        return control
 
-    def _menu(self, name: str):
-        text, options, display = _MENUS[name]
-        menu = widgets.Dropdown(description=text, options=options, index=getattr(self.panel, name), layout={"width": "auto"})
-        widgets.jslink((menu, "index"), (self.panel, name))
-        if display:
-            self._tie(display, menu)
-        return menu
-
-    def _tie(self, display: str, control) -> None:
-        control.layout.display = getattr(self.panel, display)
-        widgets.jslink((self.panel, display), (control.layout, "display"))
+    def _link(self, source: tuple, target: tuple) -> None:
+        self.links.append(widgets.jslink(source, target))
 
 
 def _moves(reference) -> bool:
-    if reference is None or reference == "circle" or reference is paper.circle:
-        return reference is not None
+    if reference is None:
+        return False
+    if reference is paper.circle or (isinstance(reference, str) and reference == "circle"):
+        return True
     raise ValueError(f"reference = {reference!r} is not allowed: None, 'circle' or wmrlib.paper.circle is needed")
 
 
@@ -284,15 +193,9 @@ def _numbers(name: str, gains, kind: type) -> dict[str, float]:
 
 def _presets() -> list[dict]:
     outdoor, circle_start = paper.outdoor(), _three("start", paper.CIRCLE_START)
+    start, goal = _three("start", outdoor.start), _three("goal", outdoor.goal)
     return [
-        {
-            "scenario": 0,
-            "start": _three("start", outdoor.start),
-            "goal": _three("goal", outdoor.goal),
-            **outdoor.gains._asdict(),
-            "dt": outdoor.dt,
-            "pose_law": 0,
-        },
+        {"scenario": 0, "start": start, "goal": goal, **outdoor.gains._asdict(), "dt": outdoor.dt, "pose_law": 0},
         {"scenario": 1, "start": circle_start, **paper.CIRCLE_GAINS._asdict(), "dt": paper.TIME_STEP, "circle_law": 0},
         {"scenario": 0, **DESIGNED_GAINS._asdict(), "dt": paper.TIME_STEP, "pose_law": 0},
     ]
@@ -300,12 +203,7 @@ def _presets() -> list[dict]:
 
 def _displays(moving: bool, law: str, mapped: bool) -> dict[str, str]:
     # As displaysOf in settings.js, for the moment before it runs.
-    shown = {
-        "gains": law != "kanayama",
-        "limit": law not in ("kanayama", "aicardi"),
-        "feedback": law == "kanayama",
-        "pose_law": not moving,
-        "circle_law": moving,
-        "map": mapped,
-    }
+    forward = law == "kanayama"
+    shown = {"gains": not forward, "limit": not forward and law != "aicardi", "feedback": forward}
+    shown |= {"pose_law": not moving, "circle_law": moving, "map": mapped}
     return {f"{name}_display": "flex" if on else "none" for name, on in shown.items()}

@@ -74,8 +74,8 @@ _guarded_decay = sp.lambdify((rho, k_rho), _GUARDED_DECAY, "numpy")
 
 _SINE, _COSINE, _SINC = sp.sin(alpha), sp.cos(alpha), sp.sinc(alpha)
 _STEER = k_alpha * alpha + pull * _SINC * (alpha + h * theta)
-_PULL = {"corrected": v_max * decay(rho, k_rho) * _COSINE, "aicardi": k_rho * _COSINE}
-_PULL["printed"] = _PULL["corrected"]
+_SPEEDING = v_max * decay(rho, k_rho) * _COSINE
+_PULL = {"corrected": _SPEEDING, "printed": _SPEEDING, "aicardi": k_rho * _COSINE}
 _OMEGA = {"corrected": _STEER, "printed": k_alpha * alpha + pull * _SINE * _COSINE * _SINC * (alpha + h * theta), "aicardi": _STEER}
 _KANAYAMA = (v_ref * sp.cos(turn) + k_x * ahead, omega_ref + v_ref * (k_y * left + k_heading * sp.sin(turn)))
 _BODY_ERROR = {ahead: rho * _COSINE, left: rho * _SINE, turn: alpha - theta}
@@ -119,7 +119,8 @@ def lyapunov(name: str = "corrected") -> sp.Expr:
 def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     """V' along the closed loop, equation (19): the gradient of V times the rates.
 
-    For "corrected" it is -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which `sympy.simplify` finds. For
+    For "corrected" it is -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which
+    `sympy.expand` finds after `textbook`. For
     "kanayama" the rates are those of the error in the robot's frame. Raises ValueError for another name.
     """
     if choice("name", name, LAWS) == "kanayama":
@@ -130,6 +131,11 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     return sum(_LYAPUNOV.diff(each) * slope for each, slope in zip((rho, alpha, theta), closed_loop(name), strict=True))
 
 
+def textbook(expression: sp.Expr) -> sp.Expr:
+    """The expression with sinc and decay written out as the paper does, and so undefined at the goal."""
+    return expression.replace(decay, lambda *each: decay(*each).rewrite(sp.exp)).replace(sp.sinc, lambda each: sp.sin(each) / each)
+
+
 # What the paper prints -------------------------------------------------------------------------------------------------
 
 
@@ -137,6 +143,7 @@ def _equations() -> dict[int, sp.Basic]:
     speed = v_max * (1 - sp.exp(-k_rho * rho))
     twice = speed * _COSINE * _SINE / rho * _COSINE * _SINE / alpha * (alpha + h * theta)
     grows, falls = v * _SINE / rho * (h * theta + alpha), rho / L * (-speed * _COSINE**2)
+    left_over = speed / rho * _COSINE * _SINE / alpha * h * theta
     half_dlat, half_dlong = sp.sin(dlat / 2), sp.sin(dlong / 2)
     return {
         1: sp.Eq(v, (V_r + V_l) / 2),
@@ -164,13 +171,7 @@ def _equations() -> dict[int, sp.Basic]:
         23: omega > (alpha + h * theta) * k_alpha * _COSINE * _SINE,
         24: sp.Eq(omega, k_alpha * alpha + twice),
         25: sp.Eq(V_rate, falls + (alpha * (-k_alpha * alpha - twice) + speed * _COSINE * _SINE / rho * (h * theta + alpha))),
-        26: sp.Eq(
-            V_rate,
-            sp.Abs(rho) / L * (-speed * _COSINE**2)
-            - k_alpha * alpha**2
-            - k_alpha * alpha
-            - speed / rho * _COSINE * _SINE / alpha * h * theta,
-        ),
+        26: sp.Eq(V_rate, sp.Abs(rho) / L * (-speed * _COSINE**2) - k_alpha * alpha**2 - k_alpha * alpha - left_over),
     }
 
 
@@ -250,9 +251,14 @@ MODEL_JS = Path(__file__).parent / "panel" / "model.js"
 _HEADER = "// The model's formulas, printed from sympy: change wmrlib/symbolic.py, then run python -m wmrlib.symbolic.\n"
 
 
+def javascript_name(name: str) -> str:
+    """The name in camelCase, as `javascript` prints it."""
+    return re.sub("_(.)", lambda part: part[1].upper(), name)
+
+
 def javascript() -> str:
     """The text of ``model.js``: every formula of `FORMULAS` as a JavaScript function of numbers, named in camelCase."""
-    names = {name: re.sub("_(.)", lambda part: part[1].upper(), name) for name in FORMULAS}
+    names = {name: javascript_name(name) for name in FORMULAS}
     printer = _Printer({"user_functions": names | {"expm1": "Math.expm1"}})
     functions = []
     for name, (arguments, value, says) in FORMULAS.items():

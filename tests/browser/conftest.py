@@ -4,8 +4,11 @@ from __future__ import annotations
 
 import os
 import shutil
+from pathlib import Path
 
 import pytest
+
+import wmrlib
 
 FLAGS = [
     "--headless=new",
@@ -66,3 +69,18 @@ def browser_page(browser):
     yield page
     context.close()
     assert_quiet()
+
+
+@pytest.fixture
+def panel_core(browser_page):
+    """A `browser_page` with the panel's model and simulation in it, loaded as one ES module, as the panel does."""
+    from wmrlib import symbolic
+
+    panel = Path(wmrlib.__file__).parent / "panel"
+    text = "".join((panel / name).read_text(encoding="utf-8") for name in ("model.js", "simulate.js"))
+    printed = map(symbolic.javascript_name, symbolic.FORMULAS)
+    names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", *printed))
+    browser_page.goto("about:blank")
+    browser_page.add_script_tag(type="module", content=f"{text}\nObject.assign(window, {{ {names}, loaded: true }});")
+    browser_page.wait_for_function("window.loaded")
+    return browser_page

@@ -33,7 +33,7 @@ function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
   const { ticks, write } = ticksOf(0, time.span, Math.max(2, Math.floor(width / 80)));
   for (const t of ticks) {
     line(ctx, [[time.toX(t), AXIS.top], [time.toX(t), foot]], colours.line, 0.6);
-    label(ctx, write(t), time.toX(t), foot + 12, colours, { align: 'center', colour: colours.soft });
+    tickLabel(ctx, write(t), time.toX(t), foot + 12, colours, 'center');
   }
   label(ctx, 'time [s]', (AXIS.left + width - AXIS.right) / 2, foot + 32, colours, { align: 'center' });
   ctx.globalAlpha = faded ? 0.35 : 1;
@@ -59,7 +59,7 @@ function drawChart(ctx, chart, box, time, colours, run, ghost) {
   ctx.strokeRect(box.left, box.top, box.width, box.height);
   for (const value of axis.ticks) {
     line(ctx, [[box.left, axis.toY(value)], [box.left + box.width, axis.toY(value)]], colours.line, 0.6);
-    label(ctx, axis.write(value), box.left - 5, axis.toY(value), colours, { align: 'right', colour: colours.soft });
+    tickLabel(ctx, axis.write(value), box.left - 5, axis.toY(value), colours, 'right');
   }
   inside(ctx, { ...box, top: box.top - 3, height: box.height + 6 }, () => {
     for (const { old } of series) drawSeries(ctx, ghost, old, time, axis, colours.ghost, 2, [3, 5]);
@@ -71,7 +71,8 @@ function drawChart(ctx, chart, box, time, colours, run, ghost) {
 function drawTitle(ctx, chart, box, colours) {
   const y = box.top - 11;
   label(ctx, chart.title, box.left, y, colours, { weight: 600, size: 14 });
-  let x = box.left + ctx.measureText(chart.title).width * 1.5 + 70;
+  ctx.font = `600 14px ${FONT}`;
+  let x = box.left + ctx.measureText(chart.title).width + 20;
   for (const { tag, role, dash = [] } of chart.lines.filter((each) => each.tag)) {
     line(ctx, [[x, y], [x + 26, y]], colours[role], 2.5, dash);
     label(ctx, tag, x + 33, y, colours, { colour: colours[role], weight: 600, size: 14 });

@@ -17,7 +17,7 @@ function scaffold(el) {
     </div>
     <div class="wmr-status"></div>
     <div class="wmr-aside" role="status" aria-live="polite"></div>
-    <dl class="wmr-figures"></dl>
+    <div class="wmr-figures" role="list"></div>
     <div class="wmr-stage">
       <div><div class="wmr-polar"></div><div class="wmr-plane" style="position: relative"><canvas class="wmr-scene" role="img"></canvas></div></div>
       <div><div class="wmr-key"></div>
@@ -32,7 +32,7 @@ function render({ model, el }) {
   const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
   const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap();
   const state = { run: null, settings: null, figures: null, trouble: '', ghost: null, time: null, playing: null, colours: null, view: null, held: false };
-  let frame = 0, stale = true, writing = false, spoken = 0, shownKey = '';
+  let frame = 0, pressed = false, stale = true, writing = false, spoken = 0, shownKey = '';
 
   // Many traits at once count as one change: half a preset is no preset.
   function write(values) {
@@ -60,7 +60,7 @@ function render({ model, el }) {
   }
 
   function cursorOf(run) {
-    const end = endOf(run), time = state.time === null ? RESTING * end : Math.min(state.time, end);
+    const end = endOf(run), time = state.time === null ? RESTING * end : Math.min(Math.max(state.time, 0), end);
     return end > 0 ? Math.round(time / end * (run.n - 1)) : 0;
   }
 
@@ -73,19 +73,21 @@ function render({ model, el }) {
     const safe = run ? at : { start: [0, 0, 0], goal: [1, 0, 0] };
     const drawn = faded && state.settings ? { start: state.settings.start, goal: state.settings.reference ? null : state.settings.goal } : safe;
     if (!state.held || !state.view) {
-      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, scene.clientWidth, scene.clientHeight);
+      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, sizeOf(scene));
     }
     drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded });
     placeHandles(drawn);
     if (model.get('view') === 1) drawLandscape(); else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
     describe(run, cursor);
+    root.dispatchEvent(new CustomEvent('drawn', { bubbles: true })); // for whoever measures
     if (state.playing) schedule();
   }
 
   function advance(now) {
     if (!state.playing || !state.run) return;
     const end = endOf(state.run), speed = Math.max(1, end / LASTS);
-    state.time = Math.min(state.playing.from + speed * (now - state.playing.since) / 1000, end);
+    const passed = Math.max(now - state.playing.since, 0) / 1000; // a frame's time is that of its beginning, before a click within it
+    state.time = Math.min(state.playing.from + speed * passed, end);
     if (state.time >= end) state.playing = null;
   }
 
@@ -93,7 +95,7 @@ function render({ model, el }) {
     const forward = state.settings && state.settings.law === 'kanayama';
     const note = forward ? 'The feed-forward law does not use these gains.' : !state.settings ? 'no run yet' : '';
     if (!note) gainMap.update(state.settings, model.get('axes'), model.get('metric'));
-    if (!note && gainMap.step()) schedule();
+    if (!note && gainMap.step(pressed)) schedule();
     drawMap(mapCanvas, state.colours, { map: gainMap.map, gains: state.settings && state.settings.gains, note });
     mapCanvas.dataset.finished = String(gainMap.finished);
   }
@@ -125,7 +127,7 @@ function render({ model, el }) {
   // A screen reader hears where a drag ends, not each step of it.
   function announce(text) {
     clearTimeout(spoken);
-    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; }, 700);
+    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; nameControls(root); }, 700);
   }
 
   function showKey() {
@@ -165,8 +167,8 @@ function render({ model, el }) {
   });
   find('.wmr-time').addEventListener('input', (event) => { Object.assign(state, { time: Number(event.target.value), playing: null }); schedule(); });
 
-  dragOver(charts, (x) => { Object.assign(state, { time: timeAxis(charts.clientWidth, state.run, state.ghost && state.ghost.run).toTime(x), playing: null }); schedule(); });
-  dragOver(mapCanvas, (x, y) => { if (gainMap.map && state.settings.law !== 'kanayama') write(gainsAt(gainMap.map, mapCanvas.clientWidth, mapCanvas.clientHeight, x, y)); });
+  dragOver(charts, (x) => { Object.assign(state, { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x), playing: null }); schedule(); });
+  dragOver(mapCanvas, (x, y) => { if (gainMap.map && state.settings.law !== 'kanayama') write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y)); });
   mapCanvas.addEventListener('keydown', (event) => {
     const move = MOVES[event.key], { map } = gainMap;
     if (!move || !map) return;
@@ -179,18 +181,46 @@ function render({ model, el }) {
   const choose = () => { const chosen = model.get('presets')[model.get('preset') - 1]; if (chosen && !writing) write(chosen); };
   model.on('change:preset', choose);
   model.on('change', follow);
-  const repaint = () => { state.colours = readColours(root); schedule(); };
+  const repaint = () => {
+    nameControls(root);
+    [scene, charts, mapCanvas].forEach(measure);
+    state.colours = readColours(root);
+    schedule();
+  };
+  const press = (event) => { pressed = event.type === 'pointerdown'; };
+  const grips = ['pointerdown', 'pointerup', 'pointercancel'];
+  grips.forEach((each) => window.addEventListener(each, press, true));
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
-  resized.observe(root);
+  [root, scene, charts, mapCanvas].forEach((each) => resized.observe(each));
   repaint();
   follow();
-  return () => { unfollow(); resized.disconnect(); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change', follow); model.off('change:preset', choose); };
+  return () => {
+    grips.forEach((each) => window.removeEventListener(each, press, true));
+    unfollow();
+    resized.disconnect();
+    cancelAnimationFrame(frame);
+    clearTimeout(spoken);
+    model.off('change', follow);
+    model.off('change:preset', choose);
+  };
 }
 
-// Calls back with the place in CSS pixels while a pointer is held down on the canvas.
+// The notebook's sliders and menus show their names, but don't tell them to screen readers.
+function nameControls(root) {
+  const card = root.closest('.wmr-explorer');
+  for (const each of card ? card.querySelectorAll('.noUi-handle:not([aria-label]), .widget-dropdown select:not([aria-label])') : []) {
+    const name = each.closest('.jupyter-widgets').querySelector('.widget-label');
+    if (name) each.setAttribute('aria-label', [name.textContent, name.title].filter(Boolean).join(', '));
+  }
+}
+
+// Calls back with the place in the canvas's own units while a pointer is held down on the canvas.
 function dragOver(canvas, onPlace) {
   let down = false;
-  const tell = (event) => { const box = canvas.getBoundingClientRect(); onPlace(event.clientX - box.left, event.clientY - box.top); };
+  const tell = (event) => {
+    const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas);
+    onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom);
+  };
   canvas.addEventListener('pointerdown', (event) => { down = true; canvas.setPointerCapture(event.pointerId); tell(event); });
   canvas.addEventListener('pointermove', (event) => { if (down) tell(event); });
   canvas.addEventListener('lostpointercapture', () => { down = false; });

@@ -41,8 +41,12 @@ function buildFigures(root) {
   for (const key of FIGURES) {
     const cell = root.appendChild(document.createElement('div'));
     cell.dataset.figure = key;
-    cells[key] = ['dt', 'dd', 'dd'].map((tag) => cell.appendChild(document.createElement(tag)));
-    cells[key][2].className = 'wmr-pinned';
+    cell.setAttribute('role', 'listitem');
+    cells[key] = ['name', 'value', 'pinned'].map((part) => {
+      const line = cell.appendChild(document.createElement('div'));
+      line.className = `wmr-${part}`;
+      return line;
+    });
   }
   return (figures, pinned) => {
     root.classList.toggle('wmr-alone', !pinned);

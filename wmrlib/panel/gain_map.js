@@ -1,15 +1,16 @@
 // The second view: what a run amounts to over two of the gains, as a heat map that refines itself between frames.
 
 const MEASURES = [
-  { key: 'headingError', title: 'heading error on arrival [deg]', scale: DEGREES, most: 180 },
-  { key: 'time', title: 'arrival time [s]', scale: 1, most: Infinity },
-  { key: 'peakOmega', title: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
+  { key: 'headingError', title: 'heading error on arrival [deg]', lasting: 'heading error at the end [deg]', scale: DEGREES, most: 180 },
+  { key: 'time', title: 'arrival time [s]', lasting: 'distance left [m]', scale: 1, most: Infinity },
+  { key: 'peakOmega', title: 'peak |ω| [rad/s]', lasting: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
 ];
 const AXES = [['k_alpha', 'h'], ['k_rho', 'h']];
 const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
 const UNITS = { k_alpha: 'k_alpha [1/s]', h: 'h [1]', k_rho: 'k_rho [1/m]' };
-const LEVELS = [10, 25, 50]; // cells a side: a first impression, then the whole
-const BUDGET = 7; // ms of a frame
+const LEVELS = [10, 40]; // cells a side: a first impression, then the whole
+const BUDGETS = { moving: 7, resting: 60 }; // ms of a frame, which a moving hand needs for itself
+const REST = 20; // ms without a change after which a hand is taken to rest, unless it still holds a pointer down
 
 const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
 
@@ -25,30 +26,29 @@ function rowOf(options) {
 
 let scratch = null; // the memory of the last run of a map, lent to the next
 
-// Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step()` works for one
+// Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step(held)` works for one
 // budget and says whether there is more to do.
 function buildGainMap() {
-  let key = '', job = null, done = null;
+  let key = '', job = null, done = null, changed = 0;
   const begin = (level) => ({ level, n: LEVELS[level], row: 0, values: new Float64Array(LEVELS[level] ** 2) });
   return {
     update(settings, axes, metric) {
       const [kx, ky] = AXES[axes] || AXES[0], measure = MEASURES[metric] || MEASURES[0];
       const { [kx]: _x, [ky]: _y, ...others } = settings.gains;
       const next = JSON.stringify([{ ...settings, gains: others }, kx, ky, measure.key]);
-      if (next !== key) { key = next; job = { ...begin(0), settings, kx, ky, measure }; }
+      if (next !== key) { key = next; changed = performance.now(); job = { ...begin(0), settings, kx, ky, measure }; }
     },
-    step() {
-      if (!job) return false;
-      const stop = performance.now() + BUDGET, ys = centres(job.ky, job.n), xs = centres(job.kx, job.n);
-      while (job.row < job.n) {
-        const { settings, kx, ky, measure } = job;
-        job.values.set(rowOf({ ...settings, kx, xs, ky, ys: ys.subarray(job.row, job.row + 1), metric: measure.key }), job.row * job.n);
+    step(held) {
+      const now = performance.now(), stop = now + (held || now - changed < REST ? BUDGETS.moving : BUDGETS.resting);
+      while (job && performance.now() < stop) {
+        const { settings, kx, ky, measure, n, row } = job;
+        const xs = centres(kx, n), ys = centres(ky, n).subarray(row, row + 1);
+        job.values.set(rowOf({ ...settings, kx, xs, ky, ys, metric: measure.key }), row * n);
         job.row += 1;
-        if (performance.now() > stop) break;
-      }
-      if (job.row === job.n) {
-        done = job;
-        job = job.level + 1 < LEVELS.length ? { ...job, ...begin(job.level + 1) } : null;
+        if (job.row === n) {
+          done = job;
+          job = job.level + 1 < LEVELS.length ? { ...job, ...begin(job.level + 1) } : null;
+        }
       }
       return job !== null;
     },
@@ -61,7 +61,7 @@ function mapBox(width, height) {
   return { left: 62, top: 12, width: Math.max(width - 62 - 96, 20), height: Math.max(height - 12 - 46, 20) };
 }
 
-function gainsAt(map, width, height, x, y) {
+function gainsAt(map, { width, height }, x, y) {
   const box = mapBox(width, height), share = (value, low, size) => Math.min(Math.max((value - low) / size, 0), 1);
   const round = (value, name) => Math.max(0.05, Math.round(value * RANGES[name] * 20) / 20);
   return { [map.kx]: round(share(x, box.left, box.width), map.kx), [map.ky]: round(1 - share(y, box.top, box.height), map.ky) };
@@ -121,10 +121,10 @@ function drawMapAxes(ctx, box, map, colours) {
   const across = ticksOf(0, RANGES[map.kx], box.width / 60), up = ticksOf(0, RANGES[map.ky], box.height / 40);
   for (const value of across.ticks) {
     const x = box.left + box.width * value / RANGES[map.kx];
-    label(ctx, across.write(value), x, box.top + box.height + 12, colours, { align: 'center', colour: colours.soft });
+    tickLabel(ctx, across.write(value), x, box.top + box.height + 12, colours, 'center');
   }
   for (const value of up.ticks) {
-    label(ctx, up.write(value), box.left - 6, box.top + box.height * (1 - value / RANGES[map.ky]), colours, { align: 'right', colour: colours.soft });
+    tickLabel(ctx, up.write(value), box.left - 6, box.top + box.height * (1 - value / RANGES[map.ky]), colours, 'right');
   }
   label(ctx, UNITS[map.kx], box.left + box.width / 2, box.top + box.height + 33, colours, { align: 'center' });
   label(ctx, UNITS[map.ky], 14, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
@@ -138,7 +138,7 @@ function drawColourBar(ctx, box, map, top, colours) {
   }
   const { ticks, write } = ticksOf(0, top, 5);
   for (const value of ticks) {
-    label(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value), left + wide + 5, box.top + box.height * (1 - value / top), colours, { colour: colours.soft });
+    tickLabel(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value), left + wide + 5, box.top + box.height * (1 - value / top), colours, 'left');
   }
-  label(ctx, map.measure.title, box.left + box.width + 84, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+  label(ctx, map.settings.reference === null ? map.measure.title : map.measure.lasting, box.left + box.width + 84, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
 }

@@ -19,14 +19,15 @@ function buildHandles(host, { get, set, view, hold }) {
       button.addEventListener('pointerdown', (event) => {
         const box = host.getBoundingClientRect();
         const pose = get(name), at = part === 'move' ? view().toScreen(pose[0], pose[1]) : knobOf(view(), pose, name);
-        grip = [event.clientX - box.left - at[0], event.clientY - box.top - at[1]];
+        grip = [event.clientX - box.left - view().zoom * at[0], event.clientY - box.top - view().zoom * at[1]];
         button.setPointerCapture(event.pointerId);
         hold(true);
       });
       button.addEventListener('pointermove', (event) => {
         if (!grip) return;
         const box = host.getBoundingClientRect();
-        const [x, y] = view().toWorld(event.clientX - box.left - grip[0], event.clientY - box.top - grip[1]);
+        const { zoom } = view();
+        const [x, y] = view().toWorld((event.clientX - box.left - grip[0]) / zoom, (event.clientY - box.top - grip[1]) / zoom);
         const pose = get(name);
         set(name, part === 'move' ? [tidy(x), tidy(y), pose[2]] : [pose[0], pose[1], tidy(Math.atan2(y - pose[1], x - pose[0]))]);
       });
@@ -48,9 +49,9 @@ function buildHandles(host, { get, set, view, hold }) {
       button.hidden = !pose;
       if (!pose) continue;
       const [x, y] = part === 'move' ? view().toScreen(pose[0], pose[1]) : knobOf(view(), pose, name);
-      const { box } = view();
-      button.style.left = `${Math.min(Math.max(x, box.left), box.left + box.width)}px`;
-      button.style.top = `${Math.min(Math.max(y, box.top), box.top + box.height)}px`;
+      const { box, zoom } = view();
+      button.style.left = `${zoom * Math.min(Math.max(x, box.left), box.left + box.width)}px`;
+      button.style.top = `${zoom * Math.min(Math.max(y, box.top), box.top + box.height)}px`;
       const place = `x ${written(pose[0], 'm')}, y ${written(pose[1], 'm')}, heading ${inDegrees(pose[2])}`;
       const keys = part === 'move' ? 'arrow keys move it, Shift and the arrow keys turn it' : 'arrow keys turn it';
       button.setAttribute('aria-label', `${part} the ${name}: ${place}; ${keys}`);

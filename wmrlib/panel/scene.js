@@ -5,7 +5,7 @@ const SPANS = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10];
 
 // Where the picture looks. It moves in steps, so that it doesn't swim while a slider is dragged, and depends on nothing but its arguments.
 // `marks` are points that must be seen; the runs are followed as far as three times the marks' distance from the first.
-function viewOf(runs, marks, arrows, width, height) {
+function viewOf(runs, marks, arrows, { zoom, width, height }) {
   const reach = 2 + 3 * Math.max(...marks.map(([x, y]) => Math.hypot(x - marks[0][0], y - marks[0][1])));
   const bounds = [Infinity, Infinity, -Infinity, -Infinity];
   const include = (x, y) => {
@@ -28,7 +28,7 @@ function viewOf(runs, marks, arrows, width, height) {
   const middle = [snap((bounds[0] + bounds[2]) / 2), snap((bounds[1] + bounds[3]) / 2)];
   const centre = [box.left + (box.width + room.left - room.right) / 2, box.top + (box.height + room.top - room.bottom) / 2];
   return {
-    box, scale,
+    box, scale, zoom,
     toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
     toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
   };
@@ -76,12 +76,12 @@ function drawGrid(ctx, view, colours) {
   for (let k = Math.ceil(left / step); k * step <= right; k += 1) {
     const [x] = view.toScreen(k * step, 0);
     line(ctx, [[x, box.top], [x, box.top + box.height]], colours.line, k === 0 ? 1.5 : 0.6);
-    label(ctx, tickText(k * step, step), x, box.top + box.height + 12, colours, { align: 'center', colour: colours.soft });
+    tickLabel(ctx, tickText(k * step, step), x, box.top + box.height + 12, colours, 'center');
   }
   for (let k = Math.ceil(bottom / step); k * step <= top; k += 1) {
     const [, y] = view.toScreen(0, k * step);
     line(ctx, [[box.left, y], [box.left + box.width, y]], colours.line, k === 0 ? 1.5 : 0.6);
-    label(ctx, tickText(k * step, step), box.left - 6, y, colours, { align: 'right', colour: colours.soft });
+    tickLabel(ctx, tickText(k * step, step), box.left - 6, y, colours, 'right');
   }
   label(ctx, 'x [m]', box.left + box.width / 2, box.top + box.height + 32, colours, { align: 'center' });
   label(ctx, 'y [m]', 10, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });

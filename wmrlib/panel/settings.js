@@ -5,6 +5,7 @@ const CIRCLE_LAWS = [...POSE_LAWS, 'kanayama'];
 const METHODS = ['arc', 'euler'];
 const GAINS = ['k_rho', 'k_alpha', 'h', 'v_max'], FEEDBACK = ['k_x', 'k_y', 'k_heading'];
 const LONGEST = 100_000; // steps: what a frame still has time for
+const FARTHEST = 1e6; // m: beyond, the plane is no longer a map
 
 const pick = (model, names) => Object.fromEntries(names.map((name) => [name, model.get(name)]));
 
@@ -22,6 +23,9 @@ function settingsOf(model) {
 function runOf(settings) {
   const { dt, duration, goal } = settings;
   if (duration / dt > LONGEST) throw notAllowed('dt', dt, `at least ${duration / LONGEST} s`);
+  for (const [name, pose] of Object.entries({ start: settings.start, goal })) {
+    if (pose && pose.some((value) => Math.abs(value) > FARTHEST)) throw notAllowed(name, pose, `at most ${FARTHEST} m from the origin`);
+  }
   const run = simulate(settings);
   if (run.n === 0) throw new RangeError('the run leaves the range of numbers at its start');
   if (settings.reference === null) {

@@ -50,7 +50,7 @@ function written(value, unit = '', digits = 3) {
     ? value.toExponential(1)
     : value.toFixed(Math.max(0, Math.min(3, digits - 1 - Math.floor(Math.log10(Math.max(size, 0.01))))));
   const gap = unit === '°' || unit === '' ? '' : ' ';
-  return text.replace('-', '−') + gap + unit;
+  return text.replace(/^-(?=[0.]*$)/, '').replace('-', '−') + gap + unit;
 }
 
 const inDegrees = (angle) => (Number.isFinite(angle) ? `${(angle * DEGREES).toFixed(1).replace(/^-0\.0$/, '0.0').replace('-', '−')}°` : '–');

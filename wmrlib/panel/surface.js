@@ -1,12 +1,23 @@
 // What every canvas here shares: sharp pixels, axes with round numbers, and text that stays readable over lines.
 
-// Returns {ctx, width, height} in CSS pixels, cleared, with as many real pixels as the screen has.
+const sizes = new WeakMap(); // asking an element for its size in the middle of a drag would make the browser lay out the page
+
+// Width and height in units of `zoom` CSS pixels: a large canvas is meant for an audience at a distance, and everything on it grows.
+function measure(canvas) {
+  if (canvas.clientWidth === 0 || canvas.clientHeight === 0) return; // hidden for a while, as everything is while JupyterLab changes its theme
+  const zoom = Math.min(Math.max(canvas.clientWidth / 660, 1), 1.4);
+  sizes.set(canvas, { zoom, width: canvas.clientWidth / zoom, height: canvas.clientHeight / zoom });
+}
+
+const sizeOf = (canvas) => sizes.get(canvas) || (measure(canvas), sizes.get(canvas) || { zoom: 1, width: 1, height: 1 });
+
+// Returns {ctx, width, height} in those units, cleared, with as many real pixels as the screen has.
 function surfaceOf(canvas, colours) {
-  const ratio = window.devicePixelRatio || 1;
-  const width = Math.max(canvas.clientWidth, 1), height = Math.max(canvas.clientHeight, 1);
+  const { zoom, width, height } = sizeOf(canvas);
+  const ratio = (window.devicePixelRatio || 1) * zoom;
   const [across, down] = [Math.round(width * ratio), Math.round(height * ratio)];
   if (canvas.width !== across || canvas.height !== down) { canvas.width = across; canvas.height = down; }
-  const ctx = canvas.getContext('2d');
+  const ctx = canvas.getContext('2d', { alpha: false });
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.fillStyle = colours.paper;
   ctx.fillRect(0, 0, width, height);
@@ -41,6 +52,15 @@ function line(ctx, points, colour, width = 1.5, dash = []) {
   points.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
   ctx.stroke();
   ctx.restore();
+}
+
+// The numbers of an axis: plain text, for there are many, and nothing crosses them.
+function tickLabel(ctx, text, x, y, colours, align) {
+  ctx.font = `13px ${FONT}`;
+  ctx.textAlign = align;
+  ctx.textBaseline = 'middle';
+  ctx.fillStyle = colours.soft;
+  ctx.fillText(text, x, y);
 }
 
 // Text with a rim in the colour of the paper.

@@ -1,0 +1,68 @@
+"""Sphinx's configuration of the book; `python book/build.py` lays out the sources and calls Sphinx."""
+
+from docutils import nodes
+from PIL import Image
+from sphinx.util import logging
+
+import wmrlib
+
+project = "From two GPS points to a parked robot"
+author = "the wmrlib authors"
+copyright = "the wmrlib authors. Prose: CC BY 4.0; code: BSD-3-Clause"
+version = release = wmrlib.__version__
+language = "en"
+
+extensions = ["myst_nb", "sphinx_copybutton", "sphinx_design"]
+myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_heading_anchors = 3
+math_numfig = True
+numfig = True
+
+# Every page is executed at each build: a stored output can't be older than the code it shows.
+nb_execution_mode = "force"
+nb_execution_timeout = 120
+nb_execution_raise_on_error = True
+nb_kernel_rgx_aliases = {".*": "python3"}
+nb_merge_streams = True
+nb_output_stderr = "remove-warn"  # and a warning fails the build
+
+html_theme = "sphinx_book_theme"
+html_title = project
+html_static_path = ["_static"]
+html_css_files = ["book.css"]
+html_show_sphinx = False
+html_show_search_summary = False  # it is made by fetching the page found, which a browser forbids for file://
+html_context = {"default_mode": "auto"}  # light or dark as the reader's system is; the button overrides it
+html_theme_options = {
+    "navbar_persistent": [],  # the search field is in the side bar already
+    "show_toc_level": 2,
+    "use_download_button": True,
+    "use_fullscreen_button": True,
+    "pygments_light_style": "a11y-high-contrast-light",
+    "pygments_dark_style": "a11y-high-contrast-dark",
+}
+copybutton_exclude = ".linenos, .gp"
+
+# MathJax 3 as one file; mathjax.js holds its settings, so MyST must not write any.
+mathjax_path = "vendor/mathjax/tex-svg-full.js"
+mathjax_config_path = "mathjax.js"
+myst_update_mathjax = False
+
+# The live widgets: widgets.js tells require.js where they are. A kind of widget that we lack is an error here, not a request to a CDN.
+html_js_files = [("widgets.js", {"priority": 10})]
+nb_ipywidgets_js = {"vendor/requirejs/require.js": {}, "vendor/widgets/embed-amd.js": {"data-jupyter-widgets-cdn": "vendor/"}}
+
+
+def describe_figures(app, doctree):
+    """Give each figure the alternative text that its PNG file carries, which MyST-NB leaves out; a figure without one is an error."""
+    for image in doctree.findall(nodes.image):
+        path = app.srcdir / image["uri"].lstrip("/")
+        if "alt" not in image and path.suffix == ".png":
+            with Image.open(path) as figure:
+                image["alt"] = figure.info.get("Description", "")
+        if not image.get("alt"):
+            logging.getLogger(__name__).warning("no alternative text for %s", image["uri"], location=image)
+
+
+def setup(app):
+    app.connect("doctree-read", describe_figures)

