@@ -71,24 +71,23 @@ def finite(rho, alpha, theta):
 
 
 @formula
-def advance(block, method, law, wheels, dt, arrival_radius):
-    """One step of every run in the block that is still under way and neither arrives nor leaves the range of numbers in it."""
-    for i in range(BLOCK):
-        rho, alpha, theta, left = block[_RHO, i], block[_ALPHA, i], block[_THETA, i], block[_LEFT, i]
-        peak, length = block[_PEAK, i], block[_LENGTH, i]
-        gains = GainsFields(block[_K_RHO, i], block[_K_ALPHA, i], block[_H, i], block[_V_MAX, i])
-        if method == RK4:
-            new_rho, new_alpha, new_theta, rolled, turning = rk4_step(rho, alpha, theta, gains, law, wheels, dt)
-        else:
-            new_rho, new_alpha, new_theta, rolled, turning = euler_step(rho, alpha, theta, gains, law, wheels, dt)
-        going = left > 0.0
-        taken = going & (new_rho > arrival_radius) & finite(new_rho, new_alpha, new_theta)
-        block[_RHO, i] = new_rho if taken else rho
-        block[_ALPHA, i] = new_alpha if taken else alpha
-        block[_THETA, i] = new_theta if taken else theta
-        block[_PEAK, i] = turning if taken & (turning > peak) else peak
-        block[_LENGTH, i] = length + rolled if taken else length
-        block[_LEFT, i] = left - 1.0 if taken else (-left if going else left)
+def advance(block, i, method, law, wheels, dt, arrival_radius):
+    """One step of the run in place i, if it is still under way and neither arrives nor leaves the range of numbers in it."""
+    rho, alpha, theta, left = block[_RHO, i], block[_ALPHA, i], block[_THETA, i], block[_LEFT, i]
+    peak, length = block[_PEAK, i], block[_LENGTH, i]
+    gains = GainsFields(block[_K_RHO, i], block[_K_ALPHA, i], block[_H, i], block[_V_MAX, i])
+    if method == RK4:
+        new_rho, new_alpha, new_theta, rolled, turning = rk4_step(rho, alpha, theta, gains, law, wheels, dt)
+    else:
+        new_rho, new_alpha, new_theta, rolled, turning = euler_step(rho, alpha, theta, gains, law, wheels, dt)
+    going = left > 0.0
+    taken = going & (new_rho > arrival_radius) & finite(new_rho, new_alpha, new_theta)
+    block[_RHO, i] = new_rho if taken else rho
+    block[_ALPHA, i] = new_alpha if taken else alpha
+    block[_THETA, i] = new_theta if taken else theta
+    block[_PEAK, i] = turning if taken & (turning > peak) else peak
+    block[_LENGTH, i] = length + rolled if taken else length
+    block[_LEFT, i] = left - 1.0 if taken else (-left if going else left)
 
 
 @compiled
@@ -139,7 +138,8 @@ def survey_of(method, law, limited):
                 block[row, i] = states[row, i]
         while busy > 0:
             for _ in range(_ROUND):
-                advance(block, method, law, limits, dt, arrival_radius)
+                for i in range(BLOCK):  # the loop that LLVM vectorises; in a function of its own it would not know the law
+                    advance(block, i, method, law, limits, dt, arrival_radius)
             for i in range(BLOCK):
                 if inside[i] >= 0 and block[_LEFT, i] <= 0.0:
                     for row in range(ROWS):
