@@ -194,6 +194,8 @@ def test_bad_input_names_argument_value_and_range():
         sweep(trajectories=True, dt=0.01, duration=1000.0)
     with pytest.raises(ValueError, match=r"a WheelLimits is needed"):
         sweep(wheels=2.0)
+    with pytest.raises(ValueError, match=r"executor = 4 is not allowed: a Executor is needed, not a int"):
+        sweep(executor=4)
 
 
 FRESH = """

@@ -99,6 +99,8 @@ def sweep(
     choice("method", method, _METHODS)
     samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
     task = _Task(method, checked_wheels(wheels), float(dt), samples, radius, bool(trajectories))
+    if executor is not None:
+        instance("executor", executor, Executor)
     total = math.prod(shape)
     if trajectories and total * samples > MOST_RECORDED:
         raise ValueError(
