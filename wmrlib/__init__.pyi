@@ -37,8 +37,9 @@ from .simulation import Arrival as Arrival
 from .simulation import Outcome as Outcome
 from .simulation import Trajectory as Trajectory
 from .simulation import simulate as simulate
-from .simulation import sweep as sweep
 from .simulation import track as track
+from .sweeping import Trajectories as Trajectories
+from .sweeping import sweep as sweep
 from .tuning import Modes as Modes
 from .tuning import gains_for as gains_for
 from .tuning import modes as modes

@@ -17,7 +17,7 @@ import numba
 import numpy as np
 
 _PACKAGE = Path(__file__).parent
-_SOURCES = ("_compile.py", "_vecmath.py", "kinematics.py", "gains.py", "control.py", "_kernels.py")
+_SOURCES = ("_compile.py", "_vecmath.py", "kinematics.py", "gains.py", "control.py", "_kernels.py", "_polar.py")
 
 
 def _cache_folder() -> str:
@@ -37,16 +37,22 @@ def _cache_folder() -> str:
 _CACHE_FOLDER = _cache_folder()
 
 
-def compiled(function: Callable) -> Callable:
+def compiled(function: Callable, **options) -> Callable:
     """Return `function` compiled by numba on its first call for each set of argument types, and cached on disk.
 
-    Divisions follow IEEE 754 as in numpy (no ZeroDivisionError). ``NUMBA_DISABLE_JIT=1`` leaves plain Python.
+    Divisions follow IEEE 754 as in numpy (no ZeroDivisionError); a product and a sum may be rounded once rather than twice.
+    ``NUMBA_DISABLE_JIT=1`` leaves plain Python.
     """
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _CACHE_FOLDER or numba.config.CACHE_DIR
     try:
-        return numba.njit(function, cache=True, error_model="numpy", nogil=True)
+        return numba.njit(function, cache=True, error_model="numpy", nogil=True, fastmath={"contract"}, **options)
     finally:
         numba.config.CACHE_DIR = before
+
+
+def formula(function: Callable) -> Callable:
+    """`compiled`, and always copied to where it is called: a loop that still had to call it could not be vectorised."""
+    return compiled(function, forceinline=True)
 
 
 def elementwise(loop: Callable, outputs: int, *arguments, options: tuple = ()) -> tuple:

@@ -8,9 +8,10 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrlib import _kernels as kernels
-from wmrlib.control import command, lyapunov_value_of, pose_law, wheel_share
+from wmrlib import _polar as polar
+from wmrlib.control import command, lyapunov_value_of, wheel_share
 from wmrlib.gains import Tuning, WheelLimits
-from wmrlib.kinematics import Pose, polar_closing_rate, polar_error, polar_from_pose, pose_from_polar, wrap_angle
+from wmrlib.kinematics import Pose, polar_error, polar_from_pose, pose_from_polar, wrap_angle
 
 _TOLERANCE = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12}  # Dormand and Prince, order 8
 
@@ -20,10 +21,7 @@ def to_goal(start: Pose, goal: Pose, tuning: Tuning, law: int, wheels: WheelLimi
     from scipy.integrate import solve_ivp  # here, because importing it takes longer than everything else
 
     def rate(_, state):
-        rho, alpha, theta = state
-        pull, omega = pose_law(rho, alpha, theta, tuning.pose, law)
-        share = wheel_share(pull * rho, omega, wheels)
-        return polar_closing_rate(rho, alpha, share * pull, share * omega)
+        return polar.closed_loop(*state, tuning.pose, law, wheels)[:3]
 
     def left_to_go(_, state):
         return state[0] - arrival_radius

@@ -14,7 +14,7 @@ from __future__ import annotations
 import math
 
 from wmrlib._checks import Real, choice, instance, real, same_shape
-from wmrlib._compile import compiled, elementwise
+from wmrlib._compile import compiled, elementwise, formula
 from wmrlib._vecmath import decay, sinc, sincos
 from wmrlib.gains import NO_TUNING, Gains, GainsFields, KanayamaGains, LinearGains, Tuning, WheelLimits, checked_wheels
 from wmrlib.kinematics import polar_closing_rate, wrap
@@ -28,28 +28,28 @@ TRACKING_LAWS = POSE_LAWS | {"kanayama": KANAYAMA, "linear": LINEAR}
 # Each law gives pull = v/rho rather than v: it is finite at the goal, where the polar model divides v by rho.
 
 
-@compiled
+@formula
 def corrected_law(rho, alpha, theta, gains):
     cos_alpha = sincos(alpha)[1]
     pull = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
     return pull, gains.k_alpha * alpha + pull * sinc(alpha) * (alpha + gains.h * theta)
 
 
-@compiled
+@formula
 def printed_law(rho, alpha, theta, gains):
     sin_alpha, cos_alpha = sincos(alpha)
     pull = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
     return pull, gains.k_alpha * alpha + pull * sin_alpha * cos_alpha * sinc(alpha) * (alpha + gains.h * theta)
 
 
-@compiled
+@formula
 def aicardi_law(rho, alpha, theta, gains):
     cos_alpha = sincos(alpha)[1]
     pull = gains.k_rho * cos_alpha
     return pull, gains.k_alpha * alpha + pull * sinc(alpha) * (alpha + gains.h * theta)
 
 
-@compiled
+@formula
 def pose_law(rho, alpha, theta, gains, law):
     if law == CORRECTED:
         return corrected_law(rho, alpha, theta, gains)
@@ -96,7 +96,7 @@ def pose_tuning(k_rho, k_alpha, h, v_max):
     return Tuning(GainsFields(k_rho, k_alpha, h, v_max), NO_TUNING.kanayama, NO_TUNING.linear)
 
 
-@compiled
+@formula
 def wheel_share(v, omega, wheels):
     """The share of the twist that the faster wheel, at |v| + |omega| b/2, can follow."""
     fastest = abs(v) + 0.5 * abs(omega) * wheels.track_width

@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib._checks import Real, choice, instance, real, same_shape
-from wmrlib._compile import compiled, elementwise
+from wmrlib._compile import compiled, elementwise, formula
 from wmrlib._vecmath import sinc, sincos
 
 _TURN = 2.0 * math.pi
@@ -81,7 +81,7 @@ def polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading):
     return math.sqrt(east * east + north * north), wrap(sight - heading), wrap(sight - goal_heading)
 
 
-@compiled
+@formula
 def polar_closing_rate(rho, alpha, pull, omega):
     """(7)-(9) with pull = v/rho, so that nothing is divided by zero at the goal."""
     sin_alpha, cos_alpha = sincos(alpha)

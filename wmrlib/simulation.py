@@ -1,8 +1,7 @@
-"""Driving the robot on the computer: to a goal that stands still, after one that moves, and many runs at once."""
+"""Driving the robot on the computer: to a goal that stands still, and after one that moves."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
@@ -12,7 +11,7 @@ import numpy as np
 
 from wmrlib import _continuous as continuous
 from wmrlib import _kernels as kernels
-from wmrlib._checks import Real, choice, instance, real, same_shape, scalar
+from wmrlib._checks import Real, choice, instance, real, scalar
 from wmrlib.control import POSE_LAWS, TRACKING_LAWS, tuning_of
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference, wrap_angle
@@ -125,7 +124,7 @@ def simulate(
     """
     begin, end = _single_pose("start", start), _single_pose("goal", goal)
     tuning, code = tuning_of(gains, law, POSE_LAWS)
-    samples = _sample_count(dt, duration)
+    samples = sample_count(dt, duration)
     arrival_radius = scalar("arrival_radius", arrival_radius, low=0.0)
     limits = checked_wheels(wheels)
     if choice("method", method, _METHODS) == "continuous":
@@ -157,7 +156,7 @@ def track(
     """
     begin = _single_pose("start", start)
     tuning, code = tuning_of(gains, law, TRACKING_LAWS)
-    samples = _sample_count(dt, duration)
+    samples = sample_count(dt, duration)
     limits = checked_wheels(wheels)
     t = dt * np.arange(samples)
 
@@ -177,40 +176,6 @@ def track(
     return _trajectory(t[:count], record, outcome, Pose(*path[:3, :count]), gains, law, method)
 
 
-def sweep(
-    starts: Pose,
-    goals: Pose,
-    gains: Gains,
-    *,
-    law: str = "corrected",
-    method: str = "arc",
-    dt: float = 0.1,
-    duration: float = 60.0,
-    arrival_radius: float = 0.05,
-    wheels: WheelLimits | None = None,
-) -> Arrival:
-    """Many runs at once: the fields of starts, goals and gains broadcast, and each field of the Arrival has their common shape.
-
-    Every entry equals `arrival(simulate(...))` of that run; "euler" and "arc" are the methods. Raises ValueError as `simulate`, and for
-    shapes that don't broadcast.
-    """
-    instance("starts", starts, Pose)
-    instance("goals", goals, Pose)
-    instance("gains", gains, Gains)
-    names = ("starts.x", "starts.y", "starts.heading", "goals.x", "goals.y", "goals.heading", *(f"gains.{f}" for f in gains._fields))
-    fields = (*starts, *goals, *gains)
-    shape = same_shape(**dict(zip(names, fields, strict=True)))
-    step = _STEPS[choice("method", method, _STEPS)]
-    code, limits = POSE_LAWS[choice("law", law, POSE_LAWS)], checked_wheels(wheels)
-    samples, arrival_radius = _sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
-    runs = np.ascontiguousarray([np.broadcast_to(field, shape).ravel() for field in fields], dtype=float)
-    summary = np.empty((6, runs.shape[1]))
-    kernels.survey(runs, code, limits, step, float(dt), samples, arrival_radius, summary)
-    outcome, time, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
-    arrived = outcome == kernels.ARRIVED
-    return Arrival(arrived, np.where(arrived, time, np.inf) if shape else (time if arrived else math.inf), *rest)
-
-
 def _trajectory(t, record, outcome, goal, gains, law, method) -> Trajectory:
     t.flags.writeable = record.flags.writeable = False
     return Trajectory(t, *record, _OUTCOMES[outcome], goal, gains, law, method)
@@ -223,7 +188,8 @@ def _single_pose(name: str, pose: Pose) -> Pose:
     return pose
 
 
-def _sample_count(dt: float, duration: float) -> int:
+def sample_count(dt: float, duration: float) -> int:
+    """How many samples a run of `duration` seconds has, both ends included; raises ValueError as `simulate`."""
     dt, duration = scalar("dt", dt, above=0.0), scalar("duration", duration, above=0.0)
     if dt > duration:
         raise ValueError(f"dt = {dt:g} is not allowed: at most the duration, {duration:g}, is needed")

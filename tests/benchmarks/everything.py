@@ -1,0 +1,77 @@
+"""All benchmarks, side by side in one run and one table: python tests/benchmarks/everything.py [--fast] [--keep]
+
+--fast leaves out the chapters', the book's and the explorer's times, which take minutes. --keep writes the table and its machine to
+book/speed.json, which the book's page on speed shows. Machines differ and are noisy: the ratios are what to quote.
+"""
+
+from __future__ import annotations
+
+import json
+import sys
+import tempfile
+from itertools import groupby
+from pathlib import Path
+
+import one_run
+import sweeps
+from timing import ROOT, Row, command, machine, process
+
+FIRST_RUN = "import wmrlib as w; w.simulate(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.Gains(2, 1, 0.3))"
+FIRST_SWEEP = "import wmrlib as w; w.sweep(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.Gains(2, 1, 0.3))"
+
+
+def starting() -> list[Row]:
+    section, times = "A fresh process", {}
+    for name, statement in (("import wmrlib", "import wmrlib"), ("import numba, to compare", "import numba")):
+        times[name] = min(process(statement) for _ in range(5))
+    for name, statement in (("import and first simulate", FIRST_RUN), ("import and first sweep", FIRST_SWEEP)):
+        with tempfile.TemporaryDirectory() as cache:
+            times[f"{name}, compiled anew"] = process(statement, NUMBA_CACHE_DIR=cache)
+            times[f"{name}, cached"] = min(process(statement, NUMBA_CACHE_DIR=cache) for _ in range(3))
+    return [Row(section, name, value, "s") for name, value in times.items()]
+
+
+def building(folder: Path) -> list[Row]:
+    rows = []
+    for chapter in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        seconds, done = command("-m", "nbconvert", "--to", "notebook", "--execute", f"--output-dir={folder}", chapter)
+        rows.append(Row("The book", f"run {chapter.stem}", seconds, "s")) if done.returncode == 0 else print(done.stderr[-500:])
+    seconds, done = command(ROOT / "book" / "build.py", folder / "book")
+    rows.append(Row("The book", "build all pages", seconds, "s")) if done.returncode == 0 else print(done.stderr[-500:])
+    return rows
+
+
+def explorer() -> list[Row]:
+    _, done = command(Path(__file__).with_name("explorer_latency.py"))
+    if done.returncode:
+        print(f"The explorer was not measured: {done.stderr.strip().splitlines()[-1]}")
+        return []
+    lines = done.stdout.splitlines()[1:]
+    return [Row("The explorer, slider event to finished picture, median", line[:40].strip(), float(line[40:48]), "ms") for line in lines]
+
+
+def show(rows: list[Row]) -> None:
+    for section, members in groupby(rows, key=lambda row: row.section):
+        print(f"\n{section}")
+        for row in members:
+            ratio = "" if row.ratio is None else f"{row.ratio:10.2f}"
+            print(f"  {row.what:46}{row.value:12.4g} {row.unit:10}{ratio}")
+
+
+def main(fast: bool, keep: bool) -> None:
+    print(machine())
+    with tempfile.TemporaryDirectory() as name:
+        folder = Path(name)
+        rows = [*one_run.rows(), *sweeps.against_the_limit(folder), *sweeps.growth(), *starting()]
+        if not fast:
+            rows += [*building(folder), *explorer()]
+    show(rows)
+    if keep:
+        table = {"machine": machine(), "rows": [row._asdict() | {"value": float(f"{row.value:.4g}")} for row in rows]}
+        (ROOT / "book" / "speed.json").write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
+
+
+if __name__ == "__main__":
+    if set(sys.argv[1:]) - {"--fast", "--keep"}:
+        sys.exit(__doc__)
+    main("--fast" in sys.argv, "--keep" in sys.argv)

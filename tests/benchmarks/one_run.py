@@ -1,0 +1,79 @@
+"""One run of 300 steps: wmrlib against python-control, scipy and the loops that one writes by hand."""
+
+from __future__ import annotations
+
+import math
+
+import control
+import numpy as np
+from scipy.integrate import solve_ivp
+from timing import Row, in_turn
+
+import wmrlib as wmr
+from wmrlib.control import CORRECTED, pose_law
+from wmrlib.kinematics import polar_closing_rate
+
+STEPS, DT = 300, 0.1
+START, GAINS = wmr.paper.outdoor().start, wmr.paper.OUTDOOR_GAINS
+GOAL = wmr.Pose(900.0, 900.0, 0.3)  # too far to arrive: all steps are taken
+
+
+def python_control():
+    """The same law as a NonlinearIOSystem in polar coordinates; the formula is wmrlib's compiled one, so that only the tool differs."""
+
+    def update(t, state, inputs, params):
+        pull, omega = pose_law(state[0], state[1], state[2], GAINS, CORRECTED)
+        return polar_closing_rate(state[0], state[1], pull, omega)
+
+    robot = control.nlsys(update, None, inputs=0, states=3, outputs=3)
+    t = DT * np.arange(STEPS + 1)
+    first = list(wmr.polar_error(START, GOAL))
+    return lambda: control.input_output_response(robot, t, 0, first)
+
+
+def scipy_alone():
+    def rate(t, state):
+        pull, omega = pose_law(state[0], state[1], state[2], GAINS, CORRECTED)
+        return polar_closing_rate(state[0], state[1], pull, omega)
+
+    t = DT * np.arange(STEPS + 1)
+    first = list(wmr.polar_error(START, GOAL))
+    return lambda: solve_ivp(rate, (0.0, t[-1]), first, t_eval=t)
+
+
+def loop_of(functions):
+    """The Euler loop as one writes it by hand, with the sines of `math` or of numpy."""
+    k_rho, k_alpha, h, v_max = GAINS
+    sin, cos, exp, hypot, atan2 = functions
+
+    def wrap(angle):
+        return (angle + math.pi) % (2 * math.pi) - math.pi
+
+    def run():
+        x, y, heading = START
+        path = []
+        for _ in range(STEPS + 1):
+            rho, sight = hypot(GOAL.x - x, GOAL.y - y), atan2(GOAL.y - y, GOAL.x - x)
+            alpha, theta = wrap(sight - heading), wrap(sight - GOAL.heading)
+            v = v_max * (1 - exp(-k_rho * rho)) * cos(alpha)
+            shape = sin(alpha) / alpha if alpha else 1.0
+            omega = k_alpha * alpha + v / rho * shape * (alpha + h * theta)
+            path.append((x, y, heading, rho, alpha, theta, v, omega, 0.5 * (rho * rho + alpha * alpha + h * theta * theta)))
+            x, y, heading = x + v * cos(heading) * DT, y + v * sin(heading) * DT, wrap(heading + omega * DT)
+        return np.array(path)
+
+    return run
+
+
+def rows() -> list[Row]:
+    cases = {
+        f"simulate, {method}": lambda m=method: wmr.simulate(START, GOAL, GAINS, method=m, duration=STEPS * DT)
+        for method in ("arc", "euler")
+    }
+    cases["a loop in plain Python"] = loop_of((math.sin, math.cos, math.exp, math.hypot, math.atan2))
+    cases["a loop over numpy scalars"] = loop_of((np.sin, np.cos, np.exp, np.hypot, np.arctan2))
+    cases["scipy solve_ivp (RK45)"] = scipy_alone()
+    cases["python-control input_output_response"] = python_control()
+    cases["simulate, continuous (tolerance 1e-10)"] = lambda: wmr.simulate(START, GOAL, GAINS, method="continuous", duration=STEPS * DT)
+    seconds = in_turn(cases)
+    return [Row("One run of 300 steps, against simulate", name, 1e3 * s, "ms", s / seconds["simulate, arc"]) for name, s in seconds.items()]

@@ -1,0 +1,68 @@
+"""How the benchmarks measure: in turn, the best of several repetitions, for machines are noisy and shared."""
+
+from __future__ import annotations
+
+import os
+import platform
+import subprocess
+import sys
+import time
+from collections.abc import Callable
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[2]
+
+
+class Row(NamedTuple):
+    """One line of the table; `ratio` is to the line of its section that is named in the section's title."""
+
+    section: str
+    what: str
+    value: float
+    unit: str
+    ratio: float | None = None
+
+
+def in_turn(cases: dict[str, Callable], repeat: int = 7, at_least: float = 0.02) -> dict[str, float]:
+    """Seconds of one call of each case: the best of `repeat` rounds, in each of which every case has its turn."""
+    counts = {}
+    for name, function in cases.items():
+        function()
+        begin = time.perf_counter()
+        function()
+        counts[name] = max(1, round(at_least / (time.perf_counter() - begin)))
+    best = dict.fromkeys(cases, float("inf"))
+    for _ in range(repeat):
+        for name, function in cases.items():
+            begin = time.perf_counter()
+            for _ in range(counts[name]):
+                function()
+            best[name] = min(best[name], (time.perf_counter() - begin) / counts[name])
+    return best
+
+
+def process(statement: str, **environment: str) -> float:
+    """Seconds of a fresh Python process for one statement, timed inside, without Python's own start."""
+    code = f"import time; begin = time.perf_counter(); {statement}; print(time.perf_counter() - begin)"
+    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=os.environ | environment)
+    return float(run.stdout)
+
+
+def command(*arguments: str | Path) -> tuple[float, subprocess.CompletedProcess]:
+    """Seconds that a Python process takes, and what it said."""
+    begin = time.perf_counter()
+    done = subprocess.run([sys.executable, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False)
+    return time.perf_counter() - begin, done
+
+
+def machine() -> str:
+    """The processor, the number of cores and Python's version, in one line."""
+    name = platform.processor() or platform.machine()
+    cpuinfo = Path("/proc/cpuinfo")
+    if cpuinfo.exists():
+        lines = cpuinfo.read_text(encoding="utf-8").splitlines()
+        name = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), name)
+        flags = next((line for line in lines if line.startswith("flags")), "")
+        name += next((f", {title}" for flag, title in (("avx512f", "AVX-512"), ("avx2", "AVX2")) if flag in flags), "")
+    return f"{name}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
