@@ -3,6 +3,8 @@
 import math
 import os
 import signal
+import subprocess
+import sys
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
 
 import numpy as np
@@ -192,6 +194,28 @@ def test_bad_input_names_argument_value_and_range():
         sweep(trajectories=True, dt=0.01, duration=1000.0)
     with pytest.raises(ValueError, match=r"a WheelLimits is needed"):
         sweep(wheels=2.0)
+
+
+FRESH = """
+import wmrlib as w
+from wmrlib import _polar
+run = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.Gains(0.4, 2.0, 0.6, 2.0), duration=1.0, arrival_radius=2.9)
+stats = getattr(_polar.survey_of(_polar.RK4, 0, False), "stats", None)
+print(run.time, run.heading_error, run.peak_omega, run.path_length, sum(stats.cache_misses.values()) if stats else None)
+"""
+
+
+def test_a_fresh_process_compiles_nothing_and_plain_python_gives_the_same():
+    def fresh(**environment):
+        done = subprocess.run([sys.executable, "-c", FRESH], capture_output=True, text=True, check=True, env=os.environ | environment)
+        return done.stdout.split()
+
+    fresh()  # fills the cache, if nobody has
+    *compiled, misses = fresh()
+    assert misses == "0"
+    *plain, _ = fresh(NUMBA_DISABLE_JIT="1")
+    assert [float(value) for value in plain] == pytest.approx([float(value) for value in compiled], rel=1e-12)
+    assert 0.1 < float(compiled[0]) < 1.0
 
 
 # Chunks, bars, interruptions, executors ---------------------------------------------------------------------------------

@@ -15,7 +15,7 @@ from timing import Row, in_turn
 import wmrlib as wmr
 
 os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1")  # JAX on one core
-GOAL, RUNS, STEPS, DT = wmr.Pose(900.0, 900.0, 0.3), 10_000, 300, 0.02  # too far to arrive: all steps are taken
+GOAL, RUNS, STEPS, DT = wmr.Pose(9000.0, 9000.0, 0.3), 10_000, 300, 0.02  # too far to arrive: all steps are taken
 # GCC joins sin(a) and cos(a) to one call that has no vector form: the pass that does so is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
 BUILDS = {
