@@ -31,7 +31,7 @@ function render({ model, el }) {
   const root = scaffold(el), find = (selector) => root.querySelector(selector);
   const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
   const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap();
-  const state = { run: null, settings: null, figures: null, trouble: '', ghost: null, time: null, playing: null, colours: null, view: null, held: false };
+  const state = { run: null, settings: null, figures: null, trouble: '', refused: '', ghost: null, time: null, playing: null, colours: null, view: null, held: false };
   let frame = 0, pressed = false, stale = true, writing = false, spoken = 0, shownKey = '';
 
   // Many traits at once count as one change: half a preset is no preset.
@@ -101,8 +101,8 @@ function render({ model, el }) {
   }
 
   function describe(run, cursor) {
-    const status = find('.wmr-status'), text = state.trouble || state.sentence || '';
-    status.classList.toggle('wmr-trouble', state.trouble !== '');
+    const status = find('.wmr-status'), text = state.trouble || state.refused || state.sentence || '';
+    status.classList.toggle('wmr-trouble', state.trouble !== '' || state.refused !== '');
     if (status.textContent !== text) { status.textContent = text; announce(text); }
     showKey();
     showFigures(state.trouble ? null : state.figures, state.ghost && state.ghost.figures);
@@ -181,6 +181,9 @@ function render({ model, el }) {
   const choose = () => { const chosen = model.get('presets')[model.get('preset') - 1]; if (chosen && !writing) write(chosen); };
   model.on('change:preset', choose);
   model.on('change', follow);
+  const forget = () => { state.refused = ''; };
+  model.on('change', forget);
+  const unwatch = watchTyping(root, (refused) => { state.refused = refused; schedule(); });
   const repaint = () => {
     nameControls(root);
     [scene, charts, mapCanvas].forEach(measure);
@@ -197,10 +200,12 @@ function render({ model, el }) {
   return () => {
     grips.forEach((each) => window.removeEventListener(each, press, true));
     unfollow();
+    unwatch();
     resized.disconnect();
     cancelAnimationFrame(frame);
     clearTimeout(spoken);
     model.off('change', follow);
+    model.off('change', forget);
     model.off('change:preset', choose);
   };
 }
@@ -212,6 +217,19 @@ function nameControls(root) {
     const name = each.closest('.jupyter-widgets').querySelector('.widget-label');
     if (name) each.setAttribute('aria-label', [name.textContent, name.title].filter(Boolean).join(', '));
   }
+}
+
+// A slider puts its old value back when what is typed beside it is no number. Calls back with a sentence that says so.
+function watchTyping(root, onTyped) {
+  const look = (event) => {
+    const typed = event.target, card = root.closest('.wmr-explorer');
+    if (!card || !card.contains(typed) || !typed.matches('.widget-readout') || (event.type === 'keydown' && event.key !== 'Enter')) return;
+    const name = typed.closest('.jupyter-widgets').querySelector('.widget-label').textContent, text = typed.textContent.trim();
+    if (!Number.isFinite(parseFloat(text))) onTyped(`${name} = ${text} is not allowed: a number is needed. The value stays as it was.`);
+  };
+  const events = ['keydown', 'focusout']; // heard on their way down, before the slider mends its text
+  events.forEach((each) => window.addEventListener(each, look, true));
+  return () => events.forEach((each) => window.removeEventListener(each, look, true));
 }
 
 // Calls back with the place in the canvas's own units while a pointer is held down on the canvas.

@@ -7,6 +7,11 @@ function modesOf(settings) {
   return settings.law === 'kanayama' ? null : modes(settings.gains, settings.law);
 }
 
+// "16 × slower", "1.3 × faster": how the heading's rate compares with the distance's.
+function comparedWith(slower) {
+  return slower >= 1 ? `${written(slower, '', 2)} × slower` : `${written(1 / slower, '', 2)} × faster`;
+}
+
 function figuresOf(settings, run, summary) {
   const near = modesOf(settings), moving = settings.reference !== null;
   const none = settings.law === 'printed' ? 'the heading is not steered near the goal' : 'not defined for this law';
@@ -20,7 +25,7 @@ function figuresOf(settings, run, summary) {
     length: { name: 'Path length', text: written(summary.pathLength, 'm'), note: 'backward motion included' },
     damping: { name: 'Damping', text: known ? written(near.damping) : '–', note: known ? 'of the heading near a goal that stands still; 1 is critical' : none },
     slower: {
-      name: 'Heading settles', text: known && Number.isFinite(near.slower) ? `${written(near.slower, '', 2)} × slower` : '–',
+      name: 'Heading settles', text: known && Number.isFinite(near.slower) ? comparedWith(near.slower) : '–',
       note: known ? 'than the distance does, near a goal that stands still' : none,
     },
   };

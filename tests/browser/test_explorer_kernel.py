@@ -104,6 +104,11 @@ def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page
         page.keyboard.type(typed)
         page.keyboard.press("Enter")
         assert readout.inner_text() == taken
+        status = page.locator(".wmr-status")
+        if typed == "nan":
+            status.filter(has_text="k_alpha [1/s] = nan is not allowed: a number is needed").wait_for(timeout=PATIENCE)
+        else:
+            status.filter(has_not_text="not allowed").wait_for(timeout=PATIENCE)
     assert_python_sees(page, "k_alpha=10.0,")
 
     page.locator("[data-do=reset]").click()
