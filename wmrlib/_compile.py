@@ -37,22 +37,22 @@ def _cache_folder() -> str:
 _CACHE_FOLDER = _cache_folder()
 
 
-def compiled(function: Callable, **options) -> Callable:
-    """Return `function` compiled by numba on its first call for each set of argument types, and cached on disk.
+def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:
+    """Return `function` compiled by numba on its first call for each set of argument types, and unless told otherwise cached on disk.
 
     Divisions follow IEEE 754 as in numpy (no ZeroDivisionError); a product and a sum may be rounded once rather than twice.
     ``NUMBA_DISABLE_JIT=1`` leaves plain Python.
     """
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _CACHE_FOLDER or numba.config.CACHE_DIR
     try:
-        return numba.njit(function, cache=True, error_model="numpy", nogil=True, fastmath={"contract"}, **options)
+        return numba.njit(function, cache=cache, error_model="numpy", nogil=True, fastmath={"contract"}, **options)
     finally:
         numba.config.CACHE_DIR = before
 
 
-def formula(function: Callable) -> Callable:
+def formula(function: Callable, *, cache: bool = True) -> Callable:
     """`compiled`, and always copied to where it is called: a loop that still had to call it could not be vectorised."""
-    return compiled(function, forceinline=True)
+    return compiled(function, cache=cache, forceinline=True)
 
 
 def elementwise(loop: Callable, outputs: int, *arguments, options: tuple = ()) -> tuple:

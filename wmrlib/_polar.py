@@ -12,12 +12,13 @@ from functools import lru_cache
 
 import numpy as np
 
+from wmrlib import control, kinematics
 from wmrlib._compile import compiled, formula
 from wmrlib._kernels import ALPHA, ARRIVED, DIVERGED, HEADING, OMEGA, RHO, THETA, TIMED_OUT, V, X, Y
-from wmrlib._vecmath import sincos, widest_vectors
-from wmrlib.control import pose_law, wheel_share
+from wmrlib._vecmath import vector_sincos, vectorised, widest_vectors
+from wmrlib.control import wheel_share
 from wmrlib.gains import NO_LIMITS, GainsFields
-from wmrlib.kinematics import polar_closing_rate, polar_from_pose, wrap
+from wmrlib.kinematics import polar_from_pose, wrap
 
 RK4, EULER = range(2)
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
@@ -25,6 +26,8 @@ _ROUND = 16  # steps between two looks at who has finished
 # The rows of a block. _LEFT counts the steps still to do; its sign turns in the step that would end the run.
 _RHO, _ALPHA, _THETA, _LEFT, _PEAK, _LENGTH, _K_RHO, _K_ALPHA, _H, _V_MAX = range(10)
 ROWS = 10
+
+pose_law, polar_closing_rate = vectorised(control.pose_law), vectorised(kinematics.polar_closing_rate)
 
 
 @formula
@@ -186,7 +189,7 @@ def record(runs, law, wheels, method, dt, arrival_radius, samples):
         rho, alpha, theta = polar_from_pose(runs[0, run], runs[1, run], runs[2, run], goal_x, goal_y, goal_heading)
         for k in range(samples.shape[2]):
             _, _, _, v, omega = closed_loop(rho, alpha, theta, gains, law, wheels)
-            sine, cosine = sincos(theta + goal_heading)
+            sine, cosine = vector_sincos(theta + goal_heading)
             samples[X, run, k], samples[Y, run, k] = goal_x - rho * cosine, goal_y - rho * sine
             samples[HEADING, run, k] = wrap(theta - alpha + goal_heading)
             samples[RHO, run, k], samples[ALPHA, run, k], samples[THETA, run, k] = rho, alpha, theta

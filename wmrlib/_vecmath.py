@@ -1,7 +1,9 @@
 """The elementary functions that the laws are made of, finite where the textbook's form divides by zero.
 
-numba has no vector library, so a loop that calls `math.sin` does one number at a time. These are only sums, products and choices
-between two values, which LLVM computes for four or eight numbers at once in a loop over many runs. Sources: sun's fdlibm for the
+There are two of the sine and cosine, and of expm1. One number is quickest from the C library. But numba has no vector library, so a
+loop that calls the C library does one number at a time; `vector_sincos` and `vector_expm1` are only sums, products and choices between
+two values, which LLVM computes for four or eight numbers at once in a loop over many runs. The laws are written once, with `sincos` and
+`decay`; `vectorised` gives the same formula with the other two inside. Sources: sun's fdlibm for the
 polynomials of sine and cosine (k_sin.c, k_cos.c); Cody and Waite, Software Manual for the Elementary Functions (1980), for the
 subtraction of a multiple of pi/2 or ln 2 in parts whose products are exact.
 """
@@ -9,6 +11,7 @@ subtraction of a multiple of pi/2 or ln 2 in parts whose products are exact.
 from __future__ import annotations
 
 import math
+from types import FunctionType
 
 import numba
 import numpy as np
@@ -35,6 +38,18 @@ _HUGE = 709.0  # exp of more is not a number
 
 @formula
 def sincos(angle):
+    """The sine and the cosine of `angle` [rad]."""
+    return math.sin(angle), math.cos(angle)
+
+
+@formula
+def expm1(x):
+    """exp(x) - 1, accurate near 0 too."""
+    return math.expm1(x)
+
+
+@formula
+def vector_sincos(angle):
     """The sine and the cosine of `angle` [rad]; not a number beyond a million radians, where a double hardly knows its direction."""
     angle = angle if abs(angle) <= LARGEST_ANGLE else math.nan
     quarters = np.rint(angle * _QUARTERS_PER_RADIAN)
@@ -61,8 +76,8 @@ def sinc(angle):
 
 
 @formula
-def expm1(x):
-    """exp(x) - 1, accurate near 0 too."""
+def vector_expm1(x):
+    """exp(x) - 1, accurate near 0 too; of more than 709 the exp of 709."""
     x = _CERTAIN if x < _CERTAIN else x
     x = _HUGE if x > _HUGE else x
     doublings = np.rint(x * _DOUBLINGS_PER_UNIT)
@@ -118,3 +133,22 @@ def _exponent_field(typing_context, n):
         return builder.bitcast(builder.shl(builder.bitcast(aligned, integer), ir.Constant(integer, 52)), double)
 
     return types.float64(types.float64), generate
+
+
+_VECTORISED = {sincos: vector_sincos, expm1: vector_expm1}
+
+
+def vectorised(function):
+    """The same formula, whatever it calls included, with `vector_sincos` for `sincos` and `vector_expm1` for `expm1`."""
+    if function not in _VECTORISED:
+        plain = getattr(function, "py_func", function)
+        called = {name: plain.__globals__[name] for name in plain.__code__.co_names if _is_formula(plain.__globals__.get(name))}
+        names = plain.__globals__ | {name: vectorised(value) for name, value in called.items()}
+        _VECTORISED[function] = formula(FunctionType(plain.__code__, names, plain.__name__), cache=False)
+    return _VECTORISED[function]
+
+
+def _is_formula(value) -> bool:
+    if numba.config.DISABLE_JIT:
+        return isinstance(value, FunctionType) and value.__module__.startswith(__package__)
+    return hasattr(value, "py_func")
