@@ -178,7 +178,6 @@ def test_arrays_and_arrays_of_gains_broadcast(law):
     [
         (lambda g: wmr.control_law(-1.0, 0, 0, g), r"rho = -1\.0 is not allowed: a finite number at least 0"),
         (lambda g: wmr.control_law(1.0, math.nan, 0, g), r"alpha = nan"),
-        (lambda g: wmr.control_law(1.0, 2e6, 0, g), r"alpha = 2000000\.0 is not allowed: .* at most 1e\+06 is needed"),
         (lambda g: wmr.control_law(1.0, 0, 0, g, "Corrected"), r"law = 'Corrected' .* one of 'corrected', 'printed', 'aicardi' is needed"),
         (lambda g: wmr.control_law(1.0, 0, 0, (2, 1, 0.3)), r"gains = \(2, 1, 0\.3\) .* a Gains is needed, not a tuple"),
         (lambda g: wmr.control_law(np.ones(2), np.ones(3), 0, g), r"mismatched lengths: rho has shape \(2,\), alpha has shape \(3,\)"),

@@ -119,8 +119,6 @@ def test_arrays_broadcast():
     [
         (lambda: wmr.Pose(math.nan, 0, 0), r"x = nan is not allowed: a finite number is needed"),
         (lambda: wmr.Pose(0, 0, "north"), r"heading = 'north'"),
-        (lambda: wmr.Pose(0, 0, 2e6), r"heading = 2000000\.0 is not allowed: a finite number at least -1e\+06 and at most 1e\+06"),
-        (lambda: wmr.advance(wmr.Pose(0, 0, 0), 1, 1e8, 0.1), r"omega \* dt = 10000000\.0 is not allowed"),
         (lambda: wmr.Pose([1.0, 2.0], [1.0, 2.0, 3.0], 0), r"mismatched lengths: x has shape \(2,\), y has shape \(3,\)"),
         (lambda: wmr.wrap_angle(math.inf), r"angle = inf"),
         (lambda: wmr.wheels_to_twist(1.0, 1.0, 0.0), r"track_width = 0\.0 is not allowed: a finite number above 0 is needed"),

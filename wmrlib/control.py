@@ -15,7 +15,7 @@ import math
 
 from wmrlib._checks import Real, choice, instance, real, same_shape
 from wmrlib._compile import compiled, elementwise, formula
-from wmrlib._vecmath import LARGEST_ANGLE, decay, sinc, sincos
+from wmrlib._vecmath import decay, sinc, sincos
 from wmrlib.gains import NO_TUNING, Gains, GainsFields, KanayamaGains, LinearGains, Tuning, WheelLimits, checked_wheels
 from wmrlib.kinematics import polar_closing_rate, wrap
 
@@ -153,7 +153,7 @@ def tracking_law(rho: Real, alpha: Real, theta: Real, v_ref: Real, omega_ref: Re
     Every other law takes Gains and does not look at (v_ref, omega_ref). Shapes broadcast (the gains are single numbers).
     Raises ValueError for rho < 0, NaN, an unknown law, gains of another law or mismatched lengths.
     """
-    rho, alpha, theta = real("rho", rho, low=0.0), real("alpha", alpha, low=-LARGEST_ANGLE, high=LARGEST_ANGLE), real("theta", theta)
+    rho, alpha, theta = real("rho", rho, low=0.0), real("alpha", alpha), real("theta", theta)
     v_ref, omega_ref = real("v_ref", v_ref), real("omega_ref", omega_ref)
     same_shape(rho=rho, alpha=alpha, theta=theta, v_ref=v_ref, omega_ref=omega_ref)
     tuning, code = tuning_of(gains, law, TRACKING_LAWS)
@@ -165,7 +165,7 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
 
     Raises ValueError for rho < 0, h < 0, L that is not positive, NaN or mismatched lengths.
     """
-    rho, alpha, theta = real("rho", rho, low=0.0), real("alpha", alpha, low=-LARGEST_ANGLE, high=LARGEST_ANGLE), real("theta", theta)
+    rho, alpha, theta = real("rho", rho, low=0.0), real("alpha", alpha), real("theta", theta)
     h, L = real("h", h, low=0.0), real("L", L, above=0.0)
     same_shape(rho=rho, alpha=alpha, theta=theta, h=h, L=L)
     return elementwise(_lyapunov_value_all, 1, rho, alpha, theta, h, L)[0]
@@ -211,7 +211,7 @@ _GAINS_OF = {KANAYAMA: KanayamaGains, LINEAR: LinearGains}
 
 def _checked_state(rho, alpha, theta, gains):
     instance("gains", gains, Gains)
-    state = real("rho", rho, low=0.0), real("alpha", alpha, low=-LARGEST_ANGLE, high=LARGEST_ANGLE), real("theta", theta), *gains
+    state = real("rho", rho, low=0.0), real("alpha", alpha), real("theta", theta), *gains
     same_shape(rho=rho, alpha=alpha, theta=theta, **gains._asdict())
     return state
 

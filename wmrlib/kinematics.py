@@ -13,10 +13,9 @@ import numpy as np
 
 from wmrlib._checks import Real, choice, instance, real, same_shape
 from wmrlib._compile import compiled, elementwise, formula
-from wmrlib._vecmath import LARGEST_ANGLE, sinc, sincos
+from wmrlib._vecmath import sinc, sincos
 
 _TURN = 2.0 * math.pi
-_ANGLES = {"low": -LARGEST_ANGLE, "high": LARGEST_ANGLE}  # beyond, the compiled sine is not a number
 
 
 class _PoseFields(NamedTuple):
@@ -28,8 +27,8 @@ class _PoseFields(NamedTuple):
 class Pose(_PoseFields):
     """Where the robot is and where it looks, or many such poses.
 
-    x, y: metres east and north; heading: radians from east, counter-clockwise, up to a million. Numbers or arrays that broadcast together.
-    Raises ValueError for a value that is not finite, a larger heading, or mismatched lengths.
+    x, y: metres east and north; heading: radians from east, counter-clockwise. Numbers or arrays that broadcast together.
+    Raises ValueError for a value that is not finite, or mismatched lengths.
     """
 
     __slots__ = ()
@@ -37,7 +36,7 @@ class Pose(_PoseFields):
     def __new__(cls, x: Real, y: Real, heading: Real) -> Pose:
         if not type(x) is type(y) is type(heading) is float:
             same_shape(x=x, y=y, heading=heading)
-        return super().__new__(cls, real("x", x), real("y", y), real("heading", heading, **_ANGLES))
+        return super().__new__(cls, real("x", x), real("y", y), real("heading", heading))
 
 
 class PolarError(NamedTuple):
@@ -158,7 +157,6 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
     step = _STEPS[choice("method", method, _STEPS)]
     v, omega, dt = real("v", v), real("omega", omega), real("dt", dt, low=0.0)
     same_shape(pose=pose.x, heading=pose.heading, v=v, omega=omega, dt=dt)
-    real("omega * dt", omega * dt, **_ANGLES)
     return Pose(*elementwise(step, 3, *pose, v, omega, dt))
 
 
@@ -194,7 +192,7 @@ def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real
     opposite sign in its theta row, which contradicts (8). Shapes broadcast. Raises ValueError unless rho > 0: at the goal
     itself the line of sight has no direction.
     """
-    rho, alpha = real("rho", rho, above=0.0), real("alpha", alpha, **_ANGLES)
+    rho, alpha = real("rho", rho, above=0.0), real("alpha", alpha)
     v, omega = real("v", v), real("omega", omega)
     same_shape(rho=rho, alpha=alpha, v=v, omega=omega)
     return elementwise(_polar_closing_rate_all, 3, rho, alpha, v / rho, omega)
