@@ -6,7 +6,7 @@ import sys
 
 import wmrlib as wmr
 
-HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba"}
+HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba", "tqdm", "dask", "distributed"}
 
 
 def modules_after(statement):
