@@ -151,3 +151,40 @@ def test_arrays_of_specifications_give_arrays_of_gains():
 def test_an_impossible_specification_is_named(arguments, message):
     with pytest.raises(ValueError, match=message.replace("(", r"\(")):
         wmr.gains_for(1.0, **arguments)
+
+
+# Gain maps -------------------------------------------------------------------------------------------------------------
+
+
+def test_a_gain_map_has_an_axis_for_each_gain_in_order():
+    case = wmr.paper.outdoor()
+    k_alpha, h = np.array([0.5, 2.0, 4.0]), np.array([0.3, 2.0])
+    designed = wmr.Gains(k_rho=0.2, k_alpha=9.0, h=9.0)
+    mapped = wmr.gain_map(case.start, case.goal, designed, {"k_alpha": k_alpha, "h": h})
+    assert mapped.time.shape == (3, 2)
+    for i in range(3):
+        for j in range(2):
+            alone = wmr.sweep(case.start, case.goal, wmr.Gains(0.2, float(k_alpha[i]), float(h[j])))
+            assert tuple(field[i, j] for field in mapped) == pytest.approx(tuple(alone))
+    assert np.abs(mapped.heading_error).argmin() == 1 * 2 + 1  # k_alpha 2, h 2: the gentle gains of chapter 0
+
+
+def test_a_gain_map_hands_its_options_to_the_sweep():
+    case = wmr.paper.outdoor()
+    mapped = wmr.gain_map(case.start, case.goal, case.gains, {"k_rho": [1.0, 2.0]}, method="arc", duration=2.0)
+    assert not mapped.arrived.any()
+
+
+@pytest.mark.parametrize(
+    ("over", "message"),
+    [
+        ({}, r"over = \{\} is not allowed: at least one gain"),
+        ({"k_beta": [1.0]}, r"over = 'k_beta' is not allowed: one of 'k_rho', 'k_alpha', 'h', 'v_max' is needed"),
+        ({"h": 1.0}, r"h has shape \(\), which is not allowed: a list of numbers is needed"),
+        ({"h": [0.1, -0.1]}, r"h = .* is not allowed: a finite number at least 0 is needed"),
+        ([("h", [1.0])], r"over = .* a Mapping is needed, not a list"),
+    ],
+)
+def test_a_gain_map_refuses(over, message):
+    with pytest.raises(ValueError, match=message):
+        wmr.gain_map(wmr.Pose(0, 0, 0), wmr.Pose(1, 1, 0), wmr.Gains(1.0, 1.0, 1.0), over)

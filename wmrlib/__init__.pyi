@@ -41,5 +41,6 @@ from .simulation import track as track
 from .sweeping import Trajectories as Trajectories
 from .sweeping import sweep as sweep
 from .tuning import Modes as Modes
+from .tuning import gain_map as gain_map
 from .tuning import gains_for as gains_for
 from .tuning import modes as modes

@@ -7,12 +7,16 @@ Aicardi's law has the same form with rate = k_rho. The law as printed has not: i
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import NamedTuple
 
 import numpy as np
 
 from wmrlib._checks import Real, choice, instance, real, same_shape
 from wmrlib.gains import Gains
+from wmrlib.kinematics import Pose
+from wmrlib.simulation import Arrival
+from wmrlib.sweeping import Trajectories, sweep
 
 _LAWS = ("corrected", "aicardi")
 
@@ -94,6 +98,24 @@ def gains_for(
     with np.errstate(over="ignore", under="ignore"):
         h = real("(natural_frequency/distance_rate)^2", _plain(np.square(natural_frequency / distance_rate)), above=0.0)
         return Gains(_plain(distance_rate / v_max), _plain(2.0 * damping * natural_frequency), h, v_max)
+
+
+def gain_map(start: Pose, goal: Pose, gains: Gains, over: Mapping[str, np.ndarray], **options) -> Arrival | tuple[Arrival, Trajectories]:
+    """What the run from `start` to `goal` amounts to for every combination of gains: the paper's "trial and error", all at once.
+
+    over: from the name of a gain to the values to try, a one-dimensional array; each field of the Arrival has one axis for each name, in
+    that order. The other gains are those of `gains`. options: as for `sweep`, which runs them.
+    Raises ValueError for a name that is no gain, for values that are not a list of numbers, and as `sweep`.
+    """
+    fields = instance("gains", gains, Gains)._asdict()
+    if not instance("over", over, Mapping):
+        raise ValueError("over = {} is not allowed: at least one gain and its values are needed")
+    axes = {choice("over", name, Gains._fields): real(name, values) for name, values in over.items()}
+    for name, values in axes.items():
+        if np.ndim(values) != 1:
+            raise ValueError(f"{name} has shape {np.shape(values)}, which is not allowed: a list of numbers is needed")
+    grid = dict(zip(axes, np.meshgrid(*axes.values(), indexing="ij"), strict=True))
+    return sweep(start, goal, Gains(**(fields | grid)), **options)
 
 
 def _plain(value):
