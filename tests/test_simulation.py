@@ -217,6 +217,15 @@ def test_wheel_limits_bind_and_keep_the_curvature():
     assert np.abs(wmr.twist_to_wheels(slow.v, slow.omega, 0.5)).max() <= 1.0 + 1e-12
 
 
+def test_continuous_turns_no_faster_than_its_wheels():
+    """Small steps, each limited by itself, as the second method; the limits bind all the way through the turn."""
+    ends, limits = (wmr.Pose(0.0, 0.0, 2.5), wmr.Pose(5.0, 1.0, 0.0)), wmr.WheelLimits(track_width=0.8, max_speed=0.6)
+    oracle = wmr.simulate(*ends, CALM, wheels=limits, method="continuous", dt=0.1, duration=6.0)
+    small = wmr.simulate(*ends, CALM, wheels=limits, dt=0.001, duration=6.0)
+    assert np.hypot(small.x[::100] - oracle.x, small.y[::100] - oracle.y).max() < 0.01
+    assert np.abs(wmr.wrap_angle(small.heading[::100] - oracle.heading)).max() < 0.01
+
+
 @pytest.mark.parametrize(
     ("options", "message"),
     [
