@@ -44,7 +44,7 @@ class TestChapter:
 
     def test_it_has_objectives_exercises_with_solutions_and_a_summary(self, path):
         prose = "\n".join(cell.source for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "markdown")
-        for part in ("After this chapter you can", "## Exercises", "<summary>Solutions</summary>", "## Summary"):
+        for part in ("After this chapter you can", "## Exercises", "<summary>Solution</summary>", "## Summary"):
             assert part in prose
 
     def test_every_picture_has_its_text(self, path):
