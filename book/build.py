@@ -1,10 +1,11 @@
-"""Build the book: `python book/build.py [OUTPUT]` writes OUTPUT/html/index.html, which opens from the disk with no network.
+"""Build the book: OUTPUT/html/index.html, which opens from the disk with no network, and with --pdf OUTPUT/book.pdf, to print.
 
-OUTPUT is book/_build unless it is given. The JavaScript that the pages carry is fetched once, by npm, from what package-lock.json names.
+The JavaScript that the pages carry is fetched once, by npm, from what package-lock.json names. The PDF wants Chromium or Chrome.
 """
 
 from __future__ import annotations
 
+import argparse
 import os
 import shutil
 import subprocess
@@ -24,19 +25,31 @@ NPM_FILES = {
 }
 
 
-def main(output: Path) -> None:
+def main(output: Path, pdf: bool = False) -> None:
     """Fetch the JavaScript, lay out the sources and run Sphinx; any warning is an error."""
     install_javascript()
     copy_javascript()
     source = output / "source"
-    for stale in (source, output / "html", output / "doctrees"):  # Sphinx would keep pages whose source is gone
+    for stale in (source, output / "html", output / "singlehtml", output / "doctrees"):  # Sphinx would keep pages whose source is gone
         shutil.rmtree(stale, ignore_errors=True)
     copy_sources(source)
-    options = ["-b", "html", "-c", BOOK, "-d", output / "doctrees", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet"]
-    status = subprocess.run([sys.executable, "-m", "sphinx", *options, source, output / "html"], env=environment()).returncode
+    sphinx("html", output)
+    print(output / "html" / "index.html")
+    if pdf:
+        from pdf import print_page
+
+        sphinx("singlehtml", output)  # from the same doctrees: nothing is executed twice
+        print_page(output / "singlehtml" / "index.html", output / "book.pdf")
+        print(output / "book.pdf")
+
+
+def sphinx(builder: str, output: Path) -> None:
+    """Run Sphinx over the sources, into a folder named after the builder."""
+    options = ["-c", BOOK, "-d", output / "doctrees", "-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet"]
+    command = [sys.executable, "-m", "sphinx", "-b", builder, *options, output / "source", output / builder]
+    status = subprocess.run(command, env=environment()).returncode
     if status:
         sys.exit(f"The book was not built: Sphinx's errors are above (exit status {status}).")
-    print(output / "html" / "index.html")
 
 
 def install_javascript() -> None:
@@ -79,6 +92,8 @@ def copy_sources(source: Path) -> None:
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=shutil.ignore_patterns(".*", "__pycache__"))
     for page in (*BOOK.glob("*.md"), BOOK / "speed.json"):  # a page, or what a page draws
         shutil.copy(page, source)
+    for chapter in (source / "notebooks").glob("*.ipynb"):  # from a notebook in the repository, the book's pages are in ../book
+        chapter.write_text(chapter.read_text(encoding="utf-8").replace("](../book/", "](../"), encoding="utf-8")
 
 
 def environment() -> dict[str, str]:
@@ -87,6 +102,8 @@ def environment() -> dict[str, str]:
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2 or sys.argv[1:2] in (["-h"], ["--help"]):
-        sys.exit(__doc__)
-    main(Path(sys.argv[1] if len(sys.argv) > 1 else BOOK / "_build").resolve())
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter)
+    parser.add_argument("output", nargs="?", type=Path, default=BOOK / "_build", metavar="OUTPUT", help="a folder; book/_build by default")
+    parser.add_argument("--pdf", action="store_true", help="the whole book as one PDF too")
+    arguments = parser.parse_args()
+    main(arguments.output.resolve(), arguments.pdf)

@@ -1,10 +1,15 @@
 """Sphinx's configuration of the book; `python book/build.py` lays out the sources and calls Sphinx."""
 
+import sys
+from pathlib import Path
+
 from docutils import nodes
 from PIL import Image
 from sphinx.util import logging
 
 import wmrlib
+
+sys.path.insert(0, str(Path(__file__).parent))  # for the book's own extension, crossref
 
 project = "From two GPS points to a parked robot"
 author = "the wmrlib authors"
@@ -12,11 +17,11 @@ copyright = "the wmrlib authors. Prose: CC BY 4.0; code: BSD-3-Clause"
 version = release = wmrlib.__version__
 language = "en"
 
-extensions = ["myst_nb", "sphinx_copybutton", "sphinx_design"]
+extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
-math_numfig = True
-numfig = True
+bibtex_bibfiles = [str(Path(__file__).parent / "references.bib")]
+bibtex_cite_id = "cite-{key}"
 
 # Every page is executed at each build: a stored output can't be older than the code it shows.
 nb_execution_mode = "force"
@@ -24,6 +29,7 @@ nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_kernel_rgx_aliases = {".*": "python3"}
 nb_merge_streams = True
+nb_render_markdown_format = "myst"  # a table that a cell prints may have formulas and links to chapters
 nb_output_stderr = "remove-warn"  # and a warning fails the build
 
 html_theme = "sphinx_book_theme"
