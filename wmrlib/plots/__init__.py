@@ -1,6 +1,7 @@
 """Figures, each with its alternative text; one module for each kind of thing that is drawn."""
 
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
+from wmrlib.plots.angles import angles_over_time, polar_angles, third_angle, ways
 from wmrlib.plots.earth import local_map
 from wmrlib.plots.runs import (
     arrival,
@@ -19,6 +20,7 @@ __all__ = [
     "COLOURS",
     "LINES",
     "STYLE",
+    "angles_over_time",
     "arrival",
     "arrow",
     "dashboard",
@@ -32,5 +34,8 @@ __all__ = [
     "lyapunov",
     "new_figure",
     "path",
+    "polar_angles",
+    "third_angle",
     "twist",
+    "ways",
 ]
