@@ -15,6 +15,7 @@ from wmrlib.plots.runs import (
     path,
     twist,
 )
+from wmrlib.plots.state import heading_errors, level_sets, lyapunov_runs, rate_sign
 
 __all__ = [
     "COLOURS",
@@ -30,11 +31,15 @@ __all__ = [
     "draw_series",
     "equal_scales",
     "errors",
+    "heading_errors",
+    "level_sets",
     "local_map",
     "lyapunov",
+    "lyapunov_runs",
     "new_figure",
     "path",
     "polar_angles",
+    "rate_sign",
     "third_angle",
     "twist",
     "ways",
