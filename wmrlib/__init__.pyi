@@ -1,4 +1,5 @@
 # The public names and where they live: read by lazy_loader at run time, and by editors and type checkers.
+from . import conventions as conventions
 from . import metrics as metrics
 from . import paper as paper
 from . import plots as plots

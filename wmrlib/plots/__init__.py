@@ -1,6 +1,7 @@
 """Figures, each with its alternative text; one module for each kind of thing that is drawn."""
 
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
+from wmrlib.plots.angles import angles_over_time, polar_angles, third_angle, ways
 from wmrlib.plots.earth import local_map
 from wmrlib.plots.runs import (
     arrival,
@@ -14,11 +15,13 @@ from wmrlib.plots.runs import (
     path,
     twist,
 )
+from wmrlib.plots.state import heading_errors, level_sets, lyapunov_runs, rate_sign
 
 __all__ = [
     "COLOURS",
     "LINES",
     "STYLE",
+    "angles_over_time",
     "arrival",
     "arrow",
     "dashboard",
@@ -28,9 +31,16 @@ __all__ = [
     "draw_series",
     "equal_scales",
     "errors",
+    "heading_errors",
+    "level_sets",
     "local_map",
     "lyapunov",
+    "lyapunov_runs",
     "new_figure",
     "path",
+    "polar_angles",
+    "rate_sign",
+    "third_angle",
     "twist",
+    "ways",
 ]

@@ -1,0 +1,92 @@
+"""Other authors' signs: against their own definitions, and by driving with their laws."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+from wmrlib.conventions import CONVENTIONS, gains_near_goal, translate
+
+metres = st.floats(-1e3, 1e3)
+angles = st.floats(-math.pi, math.pi, exclude_min=True)
+poses = st.builds(wmr.Pose, metres, metres, angles)
+GAINS = wmr.Gains(k_rho=0.5, k_alpha=2.0, h=0.7, v_max=3.0)
+
+
+@given(poses, poses)
+def test_beta_as_its_authors_define_it(pose, goal):
+    """Corke, Siegwart, PythonRobotics: beta = goal heading - heading - alpha, with the heading counted from the same axis."""
+    rho, alpha, theta = wmr.polar_error(pose, goal)
+    for name in ("corke", "siegwart", "pythonrobotics"):
+        there = translate((rho, alpha, theta), "aicardi", name)
+        assert there[:2] == (rho, alpha)
+        assert abs(wmr.wrap_angle(there[2] - (goal.heading - pose.heading - alpha))) < 1e-9
+        assert translate(there, name, "aicardi") == (rho, alpha, theta)
+
+
+def test_between_two_with_the_same_sign_nothing_changes():
+    assert translate((1.0, 0.2, 0.3), "corke", "siegwart") == (1.0, 0.2, 0.3)
+    assert translate((1.0, 0.2, 0.3), "aicardi", "aicardi") == (1.0, 0.2, 0.3)
+
+
+def test_arrays_broadcast():
+    rho, alpha, beta = translate((np.ones((2, 1)), 0.5, np.array([0.1, -0.2])), "aicardi", "corke")
+    assert rho.shape == (2, 1)
+    assert alpha == 0.5
+    assert beta.tolist() == [-0.1, 0.2]
+
+
+def test_the_signs_of_the_gains():
+    """k_beta < 0 for Corke and Siegwart, > 0 for PythonRobotics, which subtracts it; k_alpha > k_rho for all."""
+    for name, sign in (("aicardi", 1), ("corke", -1), ("siegwart", -1), ("pythonrobotics", 1)):
+        k_rho, k_alpha, k_beta = gains_near_goal(GAINS, name)
+        assert math.copysign(1.0, k_beta) == sign
+        assert k_alpha > k_rho > 0
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_the_linear_law_is_the_corrected_one_near_the_goal(name):
+    rng = np.random.default_rng(1)
+    rho, alpha, theta = rng.uniform(0, 1e-6, 50), rng.uniform(-1e-6, 1e-6, 50), rng.uniform(-1e-6, 1e-6, 50)
+    v, omega = wmr.control_law(rho, alpha, theta, GAINS)
+    k_rho, k_alpha, k_beta = gains_near_goal(GAINS, name)
+    distance, nose, third = translate((rho, alpha, theta), "aicardi", name)
+    np.testing.assert_allclose(v, k_rho * distance, rtol=1e-5)
+    np.testing.assert_allclose(omega, k_alpha * nose + CONVENTIONS[name].gain * k_beta * third, atol=1e-11)
+
+
+@pytest.mark.parametrize("name", CONVENTIONS)
+def test_the_linear_law_parks_the_robot_and_with_the_other_sign_it_does_not(name):
+    k_rho, k_alpha, k_beta = gains_near_goal(GAINS, name)
+    goal = wmr.Pose(0.0, 0.0, 0.0)
+    errors = {}
+    for sign in (1, -1):
+        pose = wmr.Pose(-4.0, -3.0, 0.5)
+        for _ in range(2000):
+            distance, nose, third = translate(wmr.polar_error(pose, goal), "aicardi", name)
+            if distance < 1e-4:
+                break
+            pose = wmr.advance(pose, k_rho * distance, k_alpha * nose + sign * CONVENTIONS[name].gain * k_beta * third, 0.01)
+        errors[sign] = abs(wmr.polar_error(pose, goal).theta)
+    assert errors[1] < 0.02
+    assert errors[-1] > 1.0
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: translate((1, 0, 0), "aicardi", "Corke"), r"target = 'Corke' is not allowed: one of 'aicardi', 'corke', 'siegwart'"),
+        (lambda: translate((1, 0, 0), "corky", "corke"), r"source = 'corky'"),
+        (lambda: translate((-1, 0, 0), "aicardi", "corke"), r"rho = -1 is not allowed: a finite number at least 0 is needed"),
+        (lambda: translate((1, 0, math.nan), "aicardi", "corke"), r"third angle = nan"),
+        (lambda: translate((1, [0.0, 1.0], [0.0, 1.0, 2.0]), "aicardi", "corke"), r"mismatched lengths: alpha has shape \(2,\)"),
+        (lambda: gains_near_goal(GAINS, "beta"), r"convention = 'beta'"),
+        (lambda: gains_near_goal((1, 2, 3), "corke"), r"a Gains is needed, not a tuple"),
+    ],
+)
+def test_bad_input(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
