@@ -352,7 +352,6 @@ def test_quick_wheels_are_wheels_without_a_lag():
     off = [abs(each.heading_error - at_once.heading_error) for each in late]
     assert off[0] < math.radians(1.0)
     assert off[0] / off[1] == pytest.approx(2.0, rel=0.15)
-    assert late[1].time - at_once.time == pytest.approx(0.01, rel=0.5)
 
 
 @pytest.mark.parametrize("ratio", [10.0, 20.0])
@@ -364,12 +363,12 @@ def test_lagging_wheels_settle_or_not_as_their_poles_say(ratio):
     closing = 0.5 * bandwidth * (1.0 - math.sqrt(1.0 - 4.0 / ratio))  # rho'' + bandwidth rho' + bandwidth rate rho = 0
     angles = np.array([[closing, 0.0, -1.0], [closing, 0.0, 0.0], [bandwidth * (k_alpha + rate), bandwidth * rate * h, -bandwidth]])
     growth = np.linalg.eigvals(angles).real.max()
-    start = wmr.Pose(-1e-3, 0.0, 1e-5)
-    run = wmr.simulate(start, ORIGIN, PAPER.gains, method="continuous", wheel_lag=1.0 / bandwidth, dt=0.01, arrival_radius=1e-11)
-    half = len(run) // 2
-    peaks = [np.abs(run.theta[half : half + 75]).max(), np.abs(run.theta[-75:]).max()]
+    dt, start = 0.02, wmr.Pose(-1e-3, 0.0, 1e-3)
+    run = wmr.simulate(start, ORIGIN, PAPER.gains, method="continuous", wheel_lag=1.0 / bandwidth, dt=dt, arrival_radius=1e-8)
+    theta = run.theta[10:-1]  # when the fast poles have died out, theta[k + 2] = (z1 + z2) theta[k + 1] - z1 z2 theta[k]
+    _, minus_product = np.linalg.lstsq(np.column_stack([theta[1:-1], theta[:-2]]), theta[2:], rcond=None)[0]
+    assert 0.5 * math.log(-minus_product) / dt == pytest.approx(growth, abs=0.02)
     assert (growth > 0.0) == (ratio == 10.0)
-    assert math.log(peaks[1] / peaks[0]) / (run.t[-75] - run.t[half]) == pytest.approx(growth, abs=0.1)
 
 
 def test_start_on_the_goal_with_lagging_wheels():
