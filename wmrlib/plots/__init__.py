@@ -14,6 +14,7 @@ from wmrlib.plots.runs import (
     path,
     twist,
 )
+from wmrlib.plots.sampling import driven, inner_loops, orders, responses, time_steps
 
 __all__ = [
     "COLOURS",
@@ -26,11 +27,16 @@ __all__ = [
     "draw_lyapunov",
     "draw_path",
     "draw_series",
+    "driven",
     "equal_scales",
     "errors",
+    "inner_loops",
     "local_map",
     "lyapunov",
     "new_figure",
+    "orders",
     "path",
+    "responses",
+    "time_steps",
     "twist",
 ]
