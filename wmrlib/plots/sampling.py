@@ -11,7 +11,7 @@ from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.metrics import arrival
 from wmrlib.picture import Picture
-from wmrlib.plots._style import COLOURS, arrow, equal_scales, new_figure
+from wmrlib.plots._style import COLOURS, arrow, new_figure
 from wmrlib.simulation import Trajectory, simulate
 from wmrlib.tuning import longest_step
 
@@ -26,7 +26,7 @@ def time_steps(start: Pose, goal: Pose, gains: Mapping[str, Gains], steps: Seque
     that did not arrive. Runs every step with `simulate`. Raises ValueError as `simulate`, and for other than two gains.
     """
     _as_many("gains", gains, 2)
-    figure, panels = new_figure(7.5, 6.6, rows=2)
+    figure, panels = new_figure(9.0, 6.6, rows=2)
     texts = []
     for axes, (name, tried) in zip(panels, gains.items(), strict=True):
         truth = abs(math.degrees(arrival(simulate(start, goal, tried, method="continuous")).heading_error))
@@ -38,13 +38,14 @@ def time_steps(start: Pose, goal: Pose, gains: Mapping[str, Gains], steps: Seque
             limit = longest_step(tried, method)
             axes.plot(steps, np.where(lost, np.nan, error), style, color=colour, marker=marker, ms=4, label=method)
             axes.plot(np.asarray(steps)[lost], np.full(lost.sum(), 186.0 if method == "arc" else 194.0), "x", color=colour, ms=6)
-            axes.axvline(limit, color=colour, ls=style, lw=1.0)
+            axes.axvline(limit, color=colour, ls=style, lw=1.0, label=f"its longest step:\n{limit:.3f} s")
             first, lost_runs = f"{error[0]:.0f} deg at {steps[0]:g} s", f"{lost.sum()} of {len(runs)} runs lost"
             texts.append(f"{name}, {method}: {first}, longest step {limit:.3f} s, {lost_runs}")
         axes.set(xscale="log", ylim=(-5.0, 200.0), yticks=range(0, 181, 45), ylabel="|heading error| [deg]")
         axes.set_title(name, fontsize=12)
-        axes.legend(loc="upper left", fontsize=10)
-    panels[-1].set_xlabel("time step dt [s]")
+        axes.legend(fontsize=10, loc="center left", bbox_to_anchor=(1.0, 0.5))
+    panels[-1].set(xlabel="time step dt [s], crosses: did not arrive")
+    panels[-1].xaxis.set_major_formatter("{x:g}")
     return Picture(
         figure, "Heading error on arrival against the time step, two panels, each rising to the right: " + "; ".join(texts) + "."
     )
@@ -106,7 +107,7 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
 def driven(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Picture:
     """Paths of one robot under different limits, from the first pose of each (the same) to `goal`, in metres, equal scales. Up to five."""
     _at_most("paths", paths, len(_SERIES))
-    figure, axes = new_figure(6.0, 6.0)
+    figure, axes = new_figure(5.0, 6.5)
     texts, everything = [], []
     for (label, poses), (colour, style, _) in zip(paths.items(), _SERIES, strict=False):
         x, y = np.array([pose.x for pose in poses]), np.array([pose.y for pose in poses])
@@ -114,13 +115,13 @@ def driven(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Picture:
         everything.append((x, y))
         texts.append(f"{label}: {np.hypot(np.diff(x), np.diff(y)).sum():.1f} m, as far as x = {x.max():.1f} m")
     x, y = (np.concatenate(each) for each in zip(*everything, strict=True))
-    size = 0.05 * max(np.ptp(x), np.ptp(y), 1.0)
+    size = 0.035 * max(np.ptp(x), np.ptp(y), 1.0)
     first = next(iter(paths.values()))[0]
     axes.add_patch(arrow(first, size, fc=COLOURS["start"], ec=COLOURS["start"], zorder=4))
     axes.add_patch(arrow(goal, size, fc="none", ec=COLOURS["goal"], lw=2.0, zorder=4))
-    equal_scales(axes, x, y)
-    axes.set(xlabel="x [m]", ylabel="y [m]")
-    axes.legend(loc="best", fontsize=10)
+    axes.margins(0.1)
+    axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    axes.legend(fontsize=10, loc="center left", bbox_to_anchor=(1.0, 0.5))
     return Picture(figure, "Paths to the same goal: " + "; ".join(texts) + ".")
 
 
