@@ -121,8 +121,8 @@ def simulate(
     control (Dormand-Prince 8(5,3), relative tolerance 1e-10) and recorded every dt seconds and at the moment of arrival.
     "euler" and "arc" see alpha and theta in (-pi, pi] at each sample; in "continuous" they never jump.
     wheel_lag: s; with method "continuous" the wheels start at rest and follow the command (after the limits) as first-order systems with
-    this time constant, v' = (v_wanted - v)/wheel_lag and likewise omega; the run's v and omega are then what the wheels do. That is an
-    inner loop of bandwidth 1/wheel_lag rad/s. 0: wheels that follow at once.
+    this time constant, v' = (v_wanted - v)/wheel_lag and likewise omega, integrated by LSODA; the run's v and omega are then what the
+    wheels do. That is an inner loop of bandwidth 1/wheel_lag rad/s. 0: wheels that follow at once.
 
     Raises ValueError for arguments that are not as described: a non-finite pose, dt or duration not positive, dt > duration, more
     than ten million samples, a negative radius or lag, a lag with another method than "continuous" or without an arrival radius (on the
