@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
 from wmrlib.simulation import MOST_SAMPLES
@@ -316,6 +317,76 @@ def test_a_goal_that_stands_still_is_a_reference_too():
 def test_bad_reference(reference, options, message):
     with pytest.raises(ValueError, match=message):
         wmr.track(reference, ORIGIN, CALM, **options)
+
+
+# Wheels that lag -----------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("gains", [PAPER.gains, CALM])
+def test_lagging_wheels_are_the_motion_of_the_pose_and_of_each_wheel(gains):
+    """Against the two wheels' speeds and the pose itself, integrated by another method."""
+    lag, width = 0.1, 0.5
+    run = wmr.simulate(
+        PAPER.start, PAPER.goal, gains, method="continuous", wheel_lag=lag, duration=10.0, wheels=wmr.WheelLimits(width, 3.0)
+    )
+
+    def rate(_, state):
+        x, y, heading, left, right = state
+        wanted = wmr.control_law(*wmr.polar_error(wmr.Pose(x, y, heading), PAPER.goal), gains)
+        wanted = wmr.twist_to_wheels(*wmr.limit_wheels(*wanted, wmr.WheelLimits(width, 3.0)), width)
+        motion = wmr.pose_rate(heading, *wmr.wheels_to_twist(left, right, width))
+        return *motion, (wanted[0] - left) / lag, (wanted[1] - right) / lag
+
+    other = solve_ivp(rate, (0.0, 10.0), (*PAPER.start, 0.0, 0.0), t_eval=run.t, rtol=1e-7, atol=1e-9).y
+    v, omega = wmr.wheels_to_twist(other[3], other[4], width)
+    np.testing.assert_allclose(run.x, other[0], atol=1e-4)
+    np.testing.assert_allclose(run.y, other[1], atol=1e-4)
+    np.testing.assert_allclose(run.v, v, atol=1e-4)
+    np.testing.assert_allclose(run.omega, omega, atol=1e-4)
+    assert (run.v[0], run.omega[0]) == (0.0, 0.0)
+
+
+def test_quick_wheels_are_wheels_without_a_lag():
+    at_once = wmr.arrival(wmr.simulate(PAPER.start, PAPER.goal, CALM, method="continuous"))
+    late = [wmr.arrival(wmr.simulate(PAPER.start, PAPER.goal, CALM, method="continuous", wheel_lag=lag)) for lag in (0.02, 0.01)]
+    off = [abs(each.heading_error - at_once.heading_error) for each in late]
+    assert off[0] < math.radians(1.0)
+    assert off[0] / off[1] == pytest.approx(2.0, rel=0.15)
+
+
+@pytest.mark.parametrize("ratio", [10.0, 20.0])
+def test_lagging_wheels_settle_or_not_as_their_poles_say(ratio):
+    """The paper's gains: with wheels ten times faster than the distance settles, the heading does not settle."""
+    k_rho, k_alpha, h, v_max = PAPER.gains
+    rate = k_rho * v_max
+    bandwidth = ratio * rate
+    closing = 0.5 * bandwidth * (1.0 - math.sqrt(1.0 - 4.0 / ratio))  # rho'' + bandwidth rho' + bandwidth rate rho = 0
+    angles = np.array([[closing, 0.0, -1.0], [closing, 0.0, 0.0], [bandwidth * (k_alpha + rate), bandwidth * rate * h, -bandwidth]])
+    growth = np.linalg.eigvals(angles).real.max()
+    dt, start = 0.02, wmr.Pose(-1e-3, 0.0, 1e-3)
+    run = wmr.simulate(start, ORIGIN, PAPER.gains, method="continuous", wheel_lag=1.0 / bandwidth, dt=dt, arrival_radius=1e-8)
+    theta = run.theta[10:-1]  # when the fast poles have died out, theta[k + 2] = (z1 + z2) theta[k + 1] - z1 z2 theta[k]
+    _, minus_product = np.linalg.lstsq(np.column_stack([theta[1:-1], theta[:-2]]), theta[2:], rcond=None)[0]
+    assert 0.5 * math.log(-minus_product) / dt == pytest.approx(growth, abs=0.02)
+    assert (growth > 0.0) == (ratio == 10.0)
+
+
+def test_start_on_the_goal_with_lagging_wheels():
+    run = wmr.simulate(ORIGIN, ORIGIN, CALM, method="continuous", wheel_lag=0.1)
+    assert (len(run), run.v[0], run.omega[0]) == (1, 0.0, 0.0)
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"wheel_lag": 0.1}, r'wheel_lag = 0\.1 is not allowed: 0, or method "continuous" with an arrival radius, is needed'),
+        ({"wheel_lag": 0.1, "method": "continuous", "arrival_radius": 0.0}, r"wheel_lag = 0\.1 is not allowed"),
+        ({"wheel_lag": -0.1, "method": "continuous"}, r"wheel_lag = -0\.1 is not allowed: a finite number at least 0 is needed"),
+    ],
+)
+def test_bad_lags(options, message):
+    with pytest.raises(ValueError, match=message):
+        wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, **options)
 
 
 # Many runs -----------------------------------------------------------------------------------------------------------

@@ -188,3 +188,85 @@ def test_a_gain_map_hands_its_options_to_the_sweep():
 def test_a_gain_map_refuses(over, message):
     with pytest.raises(ValueError, match=message):
         wmr.gain_map(wmr.Pose(0, 0, 0), wmr.Pose(1, 1, 0), wmr.Gains(1.0, 1.0, 1.0), over)
+
+
+# The longest time step ------------------------------------------------------------------------------------------------
+
+SAMPLED = ["polar_euler", "euler", "arc"]
+STIFF = wmr.Gains(0.2, 9.0, 0.5)  # turns fast: an eigenvalue reaches -1 first
+CROWDED = wmr.Gains(0.2, 0.9, 0.3)  # in polar coordinates the robot drives past the goal first
+
+
+def one_step(gains, method, dt, law="corrected"):
+    """The matrix of one step for (alpha, theta) near the goal, by differences of wmrlib's own step."""
+    rho, size, goal = 1e-7, 1e-4, wmr.Pose(0.0, 0.0, 0.3)
+
+    def after(alpha, theta):
+        v, omega = wmr.control_law(rho, alpha, theta, gains, law=law)
+        if method == "polar_euler":
+            return np.array([alpha, theta]) + dt * np.array(wmr.polar_rate(rho, alpha, v, omega)[1:])
+        pose = wmr.pose_from_polar(wmr.PolarError(rho, alpha, theta), goal)
+        return np.array(wmr.polar_error(wmr.advance(pose, v, omega, dt, method), goal)[1:])
+
+    columns = [(after(*shift) - after(*(-each for each in shift))) / (2.0 * size) for shift in ((size, 0.0), (0.0, size))]
+    return np.column_stack(columns)
+
+
+@pytest.mark.parametrize("law", ["corrected", "aicardi"])
+@pytest.mark.parametrize("method", SAMPLED)
+@pytest.mark.parametrize("gains", [*GAINS, STIFF])
+def test_eigenvalues_of_a_step_leave_the_unit_circle_at_the_longest_step(gains, method, law):
+    longest = wmr.longest_step(gains, method, law)
+    assert np.abs(np.linalg.eigvals(one_step(gains, method, 0.999 * longest, law))).max() < 1.0
+    if longest < 0.999 / wmr.modes(gains, law).distance_rate:
+        assert np.abs(np.linalg.eigvals(one_step(gains, method, 1.001 * longest, law))).max() > 1.0
+
+
+@pytest.mark.parametrize(("gains", "method"), [(CROWDED, "polar_euler"), (GAINS[2], "polar_euler")])
+def test_a_longer_step_drives_past_the_goal(gains, method):
+    longest = wmr.longest_step(gains, method)
+    speed = wmr.control_law(1e-6, 0.0, 0.0, gains)[0]
+    assert speed * longest == pytest.approx(1e-6, rel=1e-5)
+
+
+def test_the_papers_time_step_is_too_long_for_its_gains():
+    limits = [wmr.longest_step(wmr.paper.OUTDOOR_GAINS, method) for method in SAMPLED]
+    assert limits == pytest.approx([1 / 19.2, 1 / 91.2, 2 / 91.2])
+    assert max(limits) < wmr.paper.TIME_STEP
+    assert wmr.longest_step(wmr.Gains(0.2, 2.0, 2.0)) == pytest.approx(2 / 2.8)
+    assert wmr.longest_step(STIFF, "polar_euler") == pytest.approx(4.0 / (9.0 + math.sqrt(81.0 - 4.0 * 0.5 * 0.64)))
+
+
+@pytest.mark.parametrize("method", ["euler", "arc"])
+@pytest.mark.parametrize("gains", [GAINS[0], GAINS[2]])
+def test_simulated_runs_settle_up_to_the_longest_step_and_no_further(gains, method):
+    def late_over_first(dt):
+        start, goal = wmr.Pose(-1e-3, -1e-6, 2e-3), wmr.Pose(0.0, 0.0, 0.0)  # at the origin, where a tiny rho keeps its digits
+        run = wmr.simulate(start, goal, gains, method=method, dt=dt, duration=3000 * dt, arrival_radius=0.0)
+        size = np.hypot(run.alpha, run.theta)[run.rho > 1e-290]
+        return size[-size.size // 4 :].max() / size[0]
+
+    longest = wmr.longest_step(gains, method)
+    assert late_over_first(0.95 * longest) < 0.9
+    assert late_over_first(1.05 * longest) > 2.0
+
+
+def test_arrays_of_gains_give_arrays_of_longest_steps():
+    k_alpha = np.array([1.0, 2.0, 9.0])
+    for method in SAMPLED:
+        singly = [wmr.longest_step(wmr.Gains(0.2, each, 0.5), method) for each in k_alpha.tolist()]
+        np.testing.assert_allclose(wmr.longest_step(wmr.Gains(0.2, k_alpha, 0.5), method), singly, rtol=1e-12)
+
+
+def test_longest_step_of_gains_of_zero():
+    assert wmr.longest_step(wmr.Gains(2.0, 0.0, 0.3), "euler") == 0.0
+    assert [wmr.longest_step(wmr.Gains(0.0, 4.0, 0.3), method) for method in SAMPLED] == [0.5, 0.5, 0.5]  # it only turns: 2/k_alpha
+
+
+def test_longest_step_refuses():
+    with pytest.raises(ValueError, match=r"method = 'rk4' is not allowed: one of 'polar_euler', 'euler', 'arc' is needed"):
+        wmr.longest_step(GAINS[0], "rk4")
+    with pytest.raises(ValueError, match=r"law = 'printed' is not allowed"):
+        wmr.longest_step(GAINS[0], "arc", "printed")
+    with pytest.raises(ValueError, match="a Gains is needed"):
+        wmr.longest_step((1.0, 1.0, 1.0, 1.0))

@@ -44,4 +44,5 @@ from .sweeping import sweep as sweep
 from .tuning import Modes as Modes
 from .tuning import gain_map as gain_map
 from .tuning import gains_for as gains_for
+from .tuning import longest_step as longest_step
 from .tuning import modes as modes

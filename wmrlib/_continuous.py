@@ -14,13 +14,19 @@ from wmrlib.gains import Tuning, WheelLimits
 from wmrlib.kinematics import Pose, polar_error, polar_from_pose, pose_from_polar, wrap_angle
 
 _TOLERANCE = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12}  # Dormand and Prince, order 8
+_STIFF = _TOLERANCE | {"method": "LSODA"}  # for wheels whose lag is short against the rest: five times as fast there
 
 
-def to_goal(start: Pose, goal: Pose, tuning: Tuning, law: int, wheels: WheelLimits, t: np.ndarray, arrival_radius: float):
-    """(t, record, outcome) of one run in (rho, alpha, theta), recorded at the times `t` and at the moment of arrival."""
+def to_goal(start: Pose, goal: Pose, tuning: Tuning, law: int, wheels: WheelLimits, t: np.ndarray, arrival_radius: float, lag: float = 0.0):
+    """(t, record, outcome) of one run in (rho, alpha, theta), recorded at the times `t` and at the moment of arrival.
+
+    With a lag the state is (rho, alpha, theta, v, omega), from rest, and what is recorded of v and omega is what the wheels do.
+    """
     from scipy.integrate import solve_ivp  # here, because importing it takes longer than everything else
 
     def rate(_, state):
+        if lag:
+            return polar.lagging_loop(*state, tuning.pose, law, wheels, lag)
         return polar.closed_loop(*state, tuning.pose, law, wheels)[:3]
 
     def left_to_go(_, state):
@@ -28,18 +34,23 @@ def to_goal(start: Pose, goal: Pose, tuning: Tuning, law: int, wheels: WheelLimi
 
     left_to_go.terminal, left_to_go.direction = True, -1.0
     first = polar_error(start, goal)
+    begin = (*first, 0.0, 0.0) if lag else first
     if first.rho <= arrival_radius:
-        t, states, outcome = t[:1], np.array(first)[:, None], kernels.ARRIVED
+        t, states, outcome = t[:1], np.array(begin)[:, None], kernels.ARRIVED
     else:
-        run = solve_ivp(rate, (0.0, t[-1]), first, t_eval=t, events=left_to_go if arrival_radius > 0.0 else None, **_TOLERANCE)
+        events, accuracy = left_to_go if arrival_radius > 0.0 else None, _STIFF if lag else _TOLERANCE
+        run = solve_ivp(rate, (0.0, t[-1]), begin, t_eval=t, events=events, **accuracy)
         t, states, outcome = run.t, run.y, kernels.TIMED_OUT if run.success else kernels.DIVERGED
         if run.status == 1:  # the event: its moment is the last sample
             t, states, outcome = np.append(t, run.t_events[0]), np.hstack([states, run.y_events[0].T]), kernels.ARRIVED
     states[0] = np.maximum(states[0], 0.0)  # rounding can carry rho a hair past the goal
     record = np.empty((9, t.size))
-    record[: kernels.RHO] = pose_from_polar(states, goal)
-    record[kernels.RHO : kernels.V] = states
-    return t, _with_commands(record, np.zeros((2, t.size)), tuning, law, wheels), outcome
+    record[: kernels.RHO] = pose_from_polar(states[:3], goal)
+    record[kernels.RHO : kernels.V] = states[:3]
+    record = _with_commands(record, np.zeros((2, t.size)), tuning, law, wheels)
+    if lag:
+        record[kernels.V : kernels.LYAPUNOV] = states[3:]
+    return t, record, outcome
 
 
 def after_reference(

@@ -39,6 +39,14 @@ def closed_loop(rho, alpha, theta, gains, law, wheels):
     return rho_rate, alpha_rate, theta_rate, share * pull * rho, share * omega
 
 
+@compiled
+def lagging_loop(rho, alpha, theta, v, omega, gains, law, wheels, lag):
+    """(rho', alpha', theta', v', omega') when the wheels, and so v and omega, follow the command as first-order systems."""
+    _, _, _, v_wanted, omega_wanted = closed_loop(rho, alpha, theta, gains, law, wheels)
+    rho_rate, alpha_rate, theta_rate = polar_closing_rate(rho, alpha, v / rho, omega)
+    return rho_rate, alpha_rate, theta_rate, (v_wanted - v) / lag, (omega_wanted - omega) / lag
+
+
 @formula
 def euler_step(rho, alpha, theta, gains, law, wheels, dt):
     """(rho, alpha, theta, metres rolled, |omega| at the beginning) of one step along the tangent."""

@@ -42,7 +42,8 @@ class Trajectory:
     """One run: arrays of equal length, one entry a sample, which can't be written to, and how it ended.
 
     t: s; x, y: m; heading: rad; rho: m; alpha, theta: rad; v: m/s and omega: rad/s, what the law commands at that sample (after the
-    wheel limits); V: the Lyapunov function, with L = 1. goal: the goal's Pose, with array fields if it moves.
+    wheel limits; with a wheel lag, what the wheels do); V: the Lyapunov function, with L = 1. goal: the goal's Pose, with array fields
+    if it moves.
     """
 
     t: np.ndarray
@@ -110,6 +111,7 @@ def simulate(
     duration: float = 60.0,
     arrival_radius: float = 0.05,
     wheels: WheelLimits | None = None,
+    wheel_lag: float = 0.0,
 ) -> Trajectory:
     """Drive from `start` to `goal` (single poses) and stop within `arrival_radius` metres of it, or after `duration` seconds.
 
@@ -118,17 +120,24 @@ def simulate(
     the pose moves along the exact arc; "continuous": the law acts all the time, (rho, alpha, theta) is integrated with an error
     control (Dormand-Prince 8(5,3), relative tolerance 1e-10) and recorded every dt seconds and at the moment of arrival.
     "euler" and "arc" see alpha and theta in (-pi, pi] at each sample; in "continuous" they never jump.
+    wheel_lag: s; with method "continuous" the wheels start at rest and follow the command (after the limits) as first-order systems with
+    this time constant, v' = (v_wanted - v)/wheel_lag and likewise omega, integrated by LSODA; the run's v and omega are then what the
+    wheels do. That is an inner loop of bandwidth 1/wheel_lag rad/s. 0: wheels that follow at once.
 
     Raises ValueError for arguments that are not as described: a non-finite pose, dt or duration not positive, dt > duration, more
-    than ten million samples, a negative radius, an unknown law or method.
+    than ten million samples, a negative radius or lag, a lag with another method than "continuous" or without an arrival radius (on the
+    goal itself a robot that still rolls has no line of sight), an unknown law or method.
     """
     begin, end = _single_pose("start", start), _single_pose("goal", goal)
     tuning, code = tuning_of(gains, law, POSE_LAWS)
     samples = sample_count(dt, duration)
     arrival_radius = scalar("arrival_radius", arrival_radius, low=0.0)
-    limits = checked_wheels(wheels)
-    if choice("method", method, _METHODS) == "continuous":
-        t, record, outcome = continuous.to_goal(begin, end, tuning, code, limits, dt * np.arange(samples), arrival_radius)
+    limits, lag = checked_wheels(wheels), scalar("wheel_lag", wheel_lag, low=0.0)
+    continuously = choice("method", method, _METHODS) == "continuous"
+    if lag and not (continuously and arrival_radius):
+        raise ValueError(f'wheel_lag = {lag:g} is not allowed: 0, or method "continuous" with an arrival radius, is needed')
+    if continuously:
+        t, record, outcome = continuous.to_goal(begin, end, tuning, code, limits, dt * np.arange(samples), arrival_radius, lag)
     else:
         reference, record = np.zeros((5, samples)), np.empty((9, samples))
         reference[0], reference[1], reference[2] = end

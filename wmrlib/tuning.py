@@ -19,6 +19,7 @@ from wmrlib.simulation import Arrival
 from wmrlib.sweeping import Trajectories, sweep
 
 _LAWS = ("corrected", "aicardi")
+_SAMPLED = ("polar_euler", "euler", "arc")
 
 
 class Modes(NamedTuple):
@@ -61,6 +62,41 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
             poles=(_plain(np.asarray(-rate, dtype=complex)), _plain(np.where(gap > 0.0, -slow, -half + root)), _plain(-fast)),
             slower=_plain(np.divide(rate, slow)),
         )
+
+
+def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> Real:
+    """The longest time step, s, with which the sampled robot still settles in its goal's pose; shorter ones do, longer ones don't.
+
+    With rate = v_max k_rho ("aicardi": k_rho), c = rate dt and turn = k_alpha + rate, one step near the goal multiplies (alpha, theta) by
+    a matrix whose eigenvalues must stay inside the unit circle. Its determinant reaches 1, with oscillations that no longer fade, at
+
+    - "polar_euler" (`sweep`): k_alpha/(h rate^2);
+    - "euler": k_alpha/(rate (turn + h rate)), because the line of sight turns by alpha c/(1 - c) while the robot drives;
+    - "arc": twice that of "euler";
+
+    an eigenvalue reaches -1, where the nose swings to and fro from step to step, at 4/(b + sqrt(b^2 - 4 a)) with b = k_alpha,
+    a = h rate^2 ("polar_euler") or b = turn + rate, a = rate (h rate + 2 turn) ("euler"), if that is real, and at 2/turn ("arc"); and at
+    1/rate the robot drives past the goal within a step. The earliest counts. gains may be arrays. A gain of 0 can make it 0 or infinite.
+    Raises ValueError for anything but Gains, another method or another law. Source: Jury's conditions; derived in chapter 8.
+    """
+    k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
+    k_alpha, h = np.asarray(k_alpha), np.asarray(h)
+    rate = np.asarray(k_rho * (v_max if choice("law", law, _LAWS) == "corrected" else 1.0))
+    turn = k_alpha + rate
+    with np.errstate(divide="ignore", invalid="ignore"):
+        if choice("method", method, _SAMPLED) == "polar_euler":
+            fading, flipping = k_alpha / (h * rate**2), _flipping(k_alpha, h * rate**2)
+        elif method == "euler":
+            fading, flipping = k_alpha / (rate * (turn + h * rate)), _flipping(turn + rate, rate * (h * rate + 2.0 * turn))
+        else:
+            fading, flipping = 2.0 * k_alpha / (rate * (turn + h * rate)), 2.0 / turn
+        return _plain(np.fmin(np.fmin(fading, flipping), 1.0 / rate))
+
+
+def _flipping(b, a):
+    """The smallest positive root of a dt^2 - 2 b dt + 4 = 0, or infinity: where 1 + trace + determinant is 0."""
+    gap = b**2 - 4.0 * a
+    return np.where(gap >= 0.0, 4.0 / (b + np.sqrt(np.maximum(gap, 0.0))), np.inf)
 
 
 def gains_for(

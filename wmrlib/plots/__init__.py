@@ -3,18 +3,8 @@
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
 from wmrlib.plots.angles import angles_over_time, polar_angles, third_angle, ways
 from wmrlib.plots.earth import local_map
-from wmrlib.plots.runs import (
-    arrival,
-    dashboard,
-    draw_errors,
-    draw_lyapunov,
-    draw_path,
-    draw_series,
-    errors,
-    lyapunov,
-    path,
-    twist,
-)
+from wmrlib.plots.runs import arrival, dashboard, draw_errors, draw_lyapunov, draw_path, draw_series, errors, lyapunov, path, twist
+from wmrlib.plots.sampling import driven, inner_loops, orders, responses, time_steps
 from wmrlib.plots.state import heading_errors, level_sets, lyapunov_runs, rate_sign
 
 __all__ = [
@@ -29,18 +19,23 @@ __all__ = [
     "draw_lyapunov",
     "draw_path",
     "draw_series",
+    "driven",
     "equal_scales",
     "errors",
     "heading_errors",
+    "inner_loops",
     "level_sets",
     "local_map",
     "lyapunov",
     "lyapunov_runs",
     "new_figure",
+    "orders",
     "path",
     "polar_angles",
     "rate_sign",
+    "responses",
     "third_angle",
+    "time_steps",
     "twist",
     "ways",
 ]

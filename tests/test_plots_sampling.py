@@ -1,0 +1,69 @@
+"""Figures of time steps, inner loops and wheel limits: the checks of every figure, and that they draw the numbers they are given."""
+
+import math
+
+import numpy as np
+import pytest
+from test_plots import test_every_axis_says_what_it_shows_and_in_which_unit as check_axes
+from test_plots import test_every_picture_draws_and_has_its_text as check_picture
+
+import wmrlib as wmr
+from wmrlib import plots
+
+CASE = wmr.paper.outdoor()
+GENTLE = wmr.Gains(0.2, 2.0, 2.0)
+STEPS = np.array([0.02, 0.1, 0.7, 1.0])
+BOTH = {"the paper's gains": CASE.gains, "gentle gains": GENTLE}
+LATE = wmr.simulate(CASE.start, CASE.goal, CASE.gains, method="continuous", wheel_lag=0.1)
+AT_ONCE = wmr.simulate(CASE.start, CASE.goal, CASE.gains, method="continuous")
+T = np.linspace(0.0, 1.0, 51)
+WAY = [wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(1.0, 0.0, 0.5), wmr.Pose(1.0, 3.0, 0.5)]
+PICTURES = {
+    "time_steps": lambda: plots.time_steps(CASE.start, CASE.goal, BOTH, STEPS),
+    "orders": lambda: plots.orders(STEPS, {"linear": 3.0 * STEPS, "square": STEPS**2}),
+    "responses": lambda: plots.responses(T, {"quick": 1.0 - np.exp(-10.0 * T), "slow": 1.0 - np.exp(-5.0 * T)}),
+    "inner_loops": lambda: plots.inner_loops({"one": {"slow": LATE, "at once": AT_ONCE}, "two": {"slow": LATE}}),
+    "driven": lambda: plots.driven({"all of it": WAY, "part": WAY[:2]}, WAY[-1]),
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_every_picture(name, monkeypatch):
+    monkeypatch.setattr("test_plots.PICTURES", PICTURES)
+    check_picture(name)
+    check_axes(name)
+
+
+def test_texts_carry_the_numbers():
+    assert "linear with slope 1.00, 3 at 1 s; square with slope 2.00, 1 at 1 s" in PICTURES["orders"]().alt
+    assert "quick reaches 63 % after 0.100 s; slow reaches 63 % after 0.200 s" in PICTURES["responses"]().alt
+    assert "all of it: 4.0 m, as far as x = 1.0 m; part: 1.0 m" in PICTURES["driven"]().alt
+    ends = [math.degrees(wmr.arrival(run).heading_error) for run in (LATE, AT_ONCE)]
+    assert f"one, slow: {ends[0]:.0f} deg; one, at once: {ends[1]:.0f} deg; two, slow: {ends[0]:.0f} deg" in PICTURES["inner_loops"]().alt
+
+
+def test_time_steps_draw_each_run_and_each_limit():
+    picture = PICTURES["time_steps"]()
+    axes = picture.figure.axes[0]
+    drawn = {line.get_label(): line for line in axes.lines}
+    for method in ("arc", "euler"):
+        runs = [wmr.arrival(wmr.simulate(CASE.start, CASE.goal, CASE.gains, method=method, dt=dt)) for dt in STEPS.tolist()]
+        wanted = [abs(math.degrees(run.heading_error)) if run.arrived else math.nan for run in runs]
+        np.testing.assert_allclose(drawn[method].get_ydata(), wanted)
+        assert any(set(line.get_xdata()) == {wmr.longest_step(CASE.gains, method)} for line in axes.lines)
+    assert "the paper's gains, euler: 46 deg at 0.02 s, longest step 0.011 s, 2 of 4 runs lost" in picture.alt
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: plots.time_steps(CASE.start, CASE.goal, {"one": GENTLE}, STEPS), r"gains has 1 entries, .* 2 are needed"),
+        (lambda: plots.inner_loops({}), r"cases has 0 entries"),
+        (lambda: plots.driven({}, WAY[0]), r"paths has 0 entries, .* 1 to 5 are needed"),
+        (lambda: plots.orders(STEPS, {str(k): STEPS for k in range(6)}), r"errors has 6 entries"),
+        (lambda: plots.responses(T, {}), r"series has 0 entries"),
+    ],
+)
+def test_bad_input(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
