@@ -1,7 +1,8 @@
 """Figures, each with its alternative text; one module for each kind of thing that is drawn."""
 
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
-from wmrlib.plots.earth import local_map
+from wmrlib.plots.earth import local_map, rounding_errors, sphere_error_map, spherical_triangle
+from wmrlib.plots.robot import approach, commutator, coordinate_system, steps, turning_centre
 from wmrlib.plots.runs import (
     arrival,
     dashboard,
@@ -19,8 +20,11 @@ __all__ = [
     "COLOURS",
     "LINES",
     "STYLE",
+    "approach",
     "arrival",
     "arrow",
+    "commutator",
+    "coordinate_system",
     "dashboard",
     "draw_errors",
     "draw_lyapunov",
@@ -32,5 +36,10 @@ __all__ = [
     "lyapunov",
     "new_figure",
     "path",
+    "rounding_errors",
+    "sphere_error_map",
+    "spherical_triangle",
+    "steps",
+    "turning_centre",
     "twist",
 ]
