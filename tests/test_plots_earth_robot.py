@@ -13,7 +13,7 @@ from wmrlib import plots
 
 HERE, THERE = wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)
 GAPS = np.array([1e-6, 1e-3, 1.0])
-ERRORS = {"one": (np.array([0.0, 1e-9, 1e-8]), np.array([0.02, 1e-3, 1e-4])), "two": (GAPS * 1e-16, GAPS * 1e-9)}
+ERRORS = {"one": (np.array([0.0, 1e-9, 5e-9]), np.array([0.02, 1e-3, 1e-4])), "two": (GAPS * 1e-16, np.array([math.nan, 1e-9, 1e-9]))}
 PICTURES = {
     "spherical_triangle": lambda: plots.spherical_triangle(HERE, THERE),
     "rounding_errors": lambda: plots.rounding_errors(GAPS, GAPS, ERRORS),
@@ -27,7 +27,7 @@ PICTURES = {
 }
 NUMBERS = {
     "spherical_triangle": "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg",
-    "rounding_errors": "one stays below 1e-7 m up to the middle and 1e-1 m from there to the antipode",
+    "rounding_errors": "one stays below 1e-8 m up to the middle and 1e0 m from there to the antipode",
     "sphere_error_map": "from -0.45 % at the poles to +0.56 % northwards on the equator, with -0.11 % eastwards there",
     "coordinate_system": "35 deg from east",
     "turning_centre": "left wheel, 0.76 m/s, of its middle, 1.00 m/s, and of its right wheel, 1.24 m/s",
@@ -62,9 +62,9 @@ def test_every_axis_says_what_it_shows_and_in_which_unit(name):
             assert "[" in axes.get_ylabel() or not axes.yaxis.get_tick_params()["labelleft"]
 
 
-def test_an_error_of_zero_is_left_out():
-    axes = plots.rounding_errors(GAPS, GAPS, ERRORS).figure.axes[0]
-    assert [line.get_xdata().size for line in axes.lines] == [2, 3]
+def test_an_error_of_zero_and_a_failure_are_left_out():
+    for axes, sizes in zip(plots.rounding_errors(GAPS, GAPS, ERRORS).figure.axes, ([2, 3], [3, 2]), strict=True):
+        assert [line.get_xdata().size for line in axes.lines] == sizes
 
 
 def test_the_triangles_third_side_bulges_away_from_the_view():

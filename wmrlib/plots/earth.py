@@ -80,8 +80,9 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
 def rounding_errors(near: np.ndarray, far: np.ndarray, errors: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
     """How far formulas for the distance are off by rounding alone, in metres, on logarithmic scales.
 
-    near, far: how far the second point is from the first, and from its antipode, in metres; errors: of each named formula the sizes of its
-    errors at `near` and at `far`, not all zero. An error of zero has no logarithm and is left out. Raises ValueError for more than four formulas.
+    near, far: how far the second point is from the first, and from its antipode, in metres; errors: of each named formula the sizes of
+    its errors at `near` and at `far`, not all zero. An error of zero, which has no logarithm, and NaN, where a formula fails, are left
+    out. Raises ValueError for more than four formulas.
     """
     if not 1 <= len(errors) <= 4:
         raise ValueError(f"errors has {len(errors)} entries, which is not allowed: 1 to 4 are needed")
@@ -124,8 +125,8 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
 
 
 def _bound(sizes: np.ndarray) -> str:
-    """A power of ten well above all sizes: rounding differs a little between machines, and the text must not."""
-    return f"1e{math.ceil(math.log10(3.0 * sizes.max())):d}"
+    """A power of a hundred above all sizes: rounding differs a little between machines, and the text must not."""
+    return f"1e{2 * math.ceil(math.log10(np.nanmax(sizes)) / 2):d}"
 
 
 def _side_by_side(width: float, height: float):
