@@ -15,7 +15,7 @@ from wmrlib._checks import Real, instance, real, same_shape
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
 WGS84_SEMI_MAJOR_M = 6_378_137.0
-"""The radius of the WGS84 ellipsoid's equator, in metres; its source is NGA.STND.0036, table 3.1."""
+"""The radius of the WGS84 ellipsoid's equator, in metres; its source is the standard NGA.STND.0036."""
 WGS84_FLATTENING = 1.0 / 298.257223563
 """How much shorter than the equator's radius the polar one is, as a share of it; same source."""
 

@@ -70,9 +70,9 @@ def turning_centre(v: float, omega: float, track_width: float) -> Picture:
     axes.plot([tips[0][0], tips[-1][0]], [tips[0][1], tips[-1][1]], "--", color=COLOURS["ink"], lw=1.2)
     for x, speed, role, name in ((-b / 2, left, "goal", "V_l"), (0.0, v, "path", "v"), (b / 2, right, "goal", "V_r")):
         _arrow(axes, (x, 0.0), (x, speed), role)
-        axes.annotate(f"${name}$ = {speed:.2f} m/s", (x, speed), (-8, 6), textcoords="offset points", ha="right")
+        axes.annotate(f"${name}$ = {speed:.2f} m/s", (x, speed), (-8, 6), textcoords="offset points", ha="right", fontsize=12)
     axes.plot(centre, 0, "o", ms=11, color=COLOURS["start"], zorder=5)
-    axes.annotate("turning centre", (centre, 0), (0, -24), textcoords="offset points", ha="center")
+    axes.annotate("turning centre", (centre, 0), (0, -26), textcoords="offset points", ha="center", fontsize=12)
     low, high = min(0.0, left, v, right), max(0.0, left, v, right)
     axes.set(xlim=(ends[0] - 0.6 * b, ends[-1] + 1.6 * b), ylim=(low - 0.8 * b, high + 0.6 * b), aspect="equal")
     axes.set(xlabel="across the robot [m]", ylabel="ahead [m], speeds [m/s]")
@@ -166,7 +166,7 @@ def steps(v: float, omega: float, dt: float) -> Picture:
     return Picture(
         figure,
         f"A full turn at {v:.1f} m/s and {omega:.1f} rad/s, from the star at the origin: a circle of {abs(v / omega):.1f} m radius, on "
-        f"which the arc steps of {dt:.1f} s lie, and Euler's {count} straight steps, which leave it by up to {apart.max():.2f} m.",
+        f"which the arc steps of {dt:.1f} s lie, and Euler's {count} straight steps, which end up to {apart.max():.2f} m from the arcs'.",
     )
 
 
