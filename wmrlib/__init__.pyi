@@ -20,6 +20,7 @@ from .geodesy import haversine_distance as haversine_distance
 from .geodesy import initial_bearing as initial_bearing
 from .geodesy import local_position as local_position
 from .geodesy import point_at as point_at
+from .geodesy import sphere_error as sphere_error
 from .kinematics import PolarError as PolarError
 from .kinematics import Pose as Pose
 from .kinematics import Reference as Reference

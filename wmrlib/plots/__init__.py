@@ -2,7 +2,8 @@
 
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
 from wmrlib.plots.angles import angles_over_time, polar_angles, third_angle, ways
-from wmrlib.plots.earth import local_map
+from wmrlib.plots.earth import local_map, rounding_errors, sphere_error_map, spherical_triangle
+from wmrlib.plots.robot import approach, commutator, coordinate_system, steps, turning_centre
 from wmrlib.plots.runs import arrival, dashboard, draw_errors, draw_lyapunov, draw_path, draw_series, errors, lyapunov, path, twist
 from wmrlib.plots.sampling import driven, inner_loops, orders, responses, time_steps
 from wmrlib.plots.state import heading_errors, level_sets, lyapunov_runs, rate_sign
@@ -12,8 +13,11 @@ __all__ = [
     "LINES",
     "STYLE",
     "angles_over_time",
+    "approach",
     "arrival",
     "arrow",
+    "commutator",
+    "coordinate_system",
     "dashboard",
     "draw_errors",
     "draw_lyapunov",
@@ -34,8 +38,13 @@ __all__ = [
     "polar_angles",
     "rate_sign",
     "responses",
+    "rounding_errors",
+    "sphere_error_map",
+    "spherical_triangle",
+    "steps",
     "third_angle",
     "time_steps",
+    "turning_centre",
     "twist",
     "ways",
 ]
