@@ -1,4 +1,4 @@
-"""The built book, opened from the disk: every page complete, quiet and alive, and nothing asked of any network."""
+"""The built book, opened from the disk: every page complete, quiet and alive, and nothing asked of any network; and printed."""
 
 from __future__ import annotations
 
@@ -11,10 +11,12 @@ from importlib.util import find_spec
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+import nbformat
+import pypdf
 import pytest
-from live import PATIENCE, ROOT, assert_slider_matters, settled_picture, sliders
+from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders
 
-NEEDED = {"sphinx", "myst_nb", "sphinx_book_theme", "sphinx_copybutton", "sphinx_design"}
+NEEDED = {"sphinxcontrib.bibtex", "sphinx", "myst_nb", "sphinx_book_theme", "sphinx_copybutton", "sphinx_design"}
 
 
 @pytest.fixture(scope="session")
@@ -28,7 +30,7 @@ def site(tmp_path_factory) -> Path:
     if missing:
         (pytest.fail if os.environ.get("CI") else pytest.skip)(f"building the book needs {', '.join(missing)}")
     output = tmp_path_factory.mktemp("book")
-    built = subprocess.run([sys.executable, ROOT / "book" / "build.py", output], capture_output=True, text=True)
+    built = subprocess.run([sys.executable, ROOT / "book" / "build.py", "--pdf", output], capture_output=True, text=True)
     assert built.returncode == 0, built.stdout + built.stderr
     return output / "html"
 
@@ -124,3 +126,37 @@ def test_every_image_says_what_it_shows(site):
     for path in pages(site):
         for text in _Parts(path).texts:
             assert len(text.split()) > 3, f"{path.name}: {text!r} is no alternative text"
+
+
+def test_each_chapter_can_be_downloaded_as_a_notebook(site):
+    for chapter in chapters():
+        page = site / "notebooks" / f"{chapter.stem}.html"
+        downloads = [target for target in _Parts(page).targets if target.endswith(f"{chapter.stem}.ipynb")]
+        assert downloads, page.name
+        assert (page.parent / downloads[0]).read_text(encoding="utf-8").startswith("{")
+
+
+def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened):
+    page = opened("notebooks/00_from_gps_to_a_parked_robot.html")
+    page.get_by_role("link", name="(24)", exact=True).first.click(timeout=PATIENCE)
+    page.wait_for_url("**/04_lyapunov.html#paper-24", timeout=PATIENCE)
+    assert "paper 24" in page.locator("#paper-24 mjx-assistive-mml, #paper-24").first.text_content()
+
+
+def test_the_printed_book_holds_every_chapter(site):
+    book = site.parent / "book.pdf"
+    assert book.is_file(), "build the book with --pdf"
+    reader = pypdf.PdfReader(book)
+    text = "\n".join(page.extract_text() for page in reader.pages)
+    for chapter in chapters():
+        title = next(cell["source"] for cell in nbformat.read(chapter, 4).cells).splitlines()[0].removeprefix("# ")
+        assert text.count(title) >= 1, title
+        assert f"Exercise {int(chapter.name[:2])}.1" in text
+    assert "Bibliography" in text
+    assert len(reader.pages) > 10 * len(chapters())
+    assert sum(isinstance(entry, dict) for entry in _flat(reader.outline)) > 5 * len(chapters())
+
+
+def _flat(outline):
+    for entry in outline:
+        yield from _flat(entry) if isinstance(entry, list) else [entry]
