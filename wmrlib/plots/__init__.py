@@ -2,6 +2,7 @@
 
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
 from wmrlib.plots.earth import local_map
+from wmrlib.plots.noise import end_poses, near_goal, rise_map, rising, scatter, trade_off
 from wmrlib.plots.runs import (
     arrival,
     dashboard,
@@ -26,11 +27,17 @@ __all__ = [
     "draw_lyapunov",
     "draw_path",
     "draw_series",
+    "end_poses",
     "equal_scales",
     "errors",
     "local_map",
     "lyapunov",
+    "near_goal",
     "new_figure",
     "path",
+    "rise_map",
+    "rising",
+    "scatter",
+    "trade_off",
     "twist",
 ]
