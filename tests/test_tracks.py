@@ -67,7 +67,7 @@ def test_the_real_log():
     assert track.t.tolist() == list(range(9))
     assert track.points.lat[0] == pytest.approx(54 + 5.6081 / 60, abs=1e-12)
     assert track.points.lon[-1] == pytest.approx(10 + 49.4885 / 60, abs=1e-12)
-    lines = LOG.read_text().splitlines()
+    lines = LOG.read_text(encoding="utf-8").splitlines()
     counts = dict(track.report.skipped)
     assert counts.pop("comment") == (sum(line.startswith("#") for line in lines), 1)
     assert counts.pop("same epoch again") == (9, 1 + next(i for i, line in enumerate(lines) if "RMC" in line))
@@ -77,7 +77,7 @@ def test_the_real_log():
 
 
 def test_the_logs_rmc_alone_gives_the_same_positions(read):
-    lines = LOG.read_text().splitlines()
+    lines = LOG.read_text(encoding="utf-8").splitlines()
     track = read("\n".join(line for line in lines if "GGA" not in line))
     assert track.points.lon.tolist() == wmr.read_track(LOG).points.lon.tolist()
     assert track.points.lat.tolist() == wmr.read_track(LOG).points.lat.tolist()
