@@ -6,9 +6,11 @@ import subprocess
 import sys
 from pathlib import Path
 
+import numpy as np
 import pytest
 
 import wmrlib
+import wmrlib as wmr
 
 PACKAGE = Path(wmrlib.__file__).parent
 RUN = """
@@ -57,3 +59,11 @@ def test_a_cache_folder_of_the_readers_own(copy, tmp_path):
     copy(NUMBA_CACHE_DIR=str(tmp_path / "mine"))
     assert list((tmp_path / "mine").glob("compiled-*/*/*.nbi"))
     assert not list(copy.package.glob("__pycache__/compiled-*"))
+
+
+def test_one_entry_beside_a_number_and_what_cannot_be_written_to_bring_no_warning():
+    one, fixed = np.zeros(1), np.zeros(3)
+    fixed.flags.writeable = False
+    assert wmr.polar_error(wmr.Pose(one, one, one), wmr.Pose(1.0, 0.0, 0.0)).rho.tolist() == [1.0]
+    assert wmr.polar_error(wmr.Pose(fixed, 0.0, 0.0), wmr.Pose(1.0, 0.0, 0.0)).rho.tolist() == [1.0] * 3
+    assert wmr.wrap_angle(np.zeros((2, 3)).T).shape == (3, 2)

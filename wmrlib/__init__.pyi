@@ -42,6 +42,12 @@ from .simulation import simulate as simulate
 from .simulation import track as track
 from .sweeping import Trajectories as Trajectories
 from .sweeping import sweep as sweep
+from .tracks import Standing as Standing
+from .tracks import Track as Track
+from .tracks import read_track as read_track
+from .tracks import standing as standing
+from .tracks import write_geojson as write_geojson
+from .tracks import write_gpx as write_gpx
 from .tuning import Modes as Modes
 from .tuning import gain_map as gain_map
 from .tuning import gains_for as gains_for

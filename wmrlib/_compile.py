@@ -63,5 +63,6 @@ def elementwise(loop: Callable, outputs: int, *arguments, options: tuple = ()) -
     arrays = np.broadcast_arrays(*arguments)
     shape = arrays[0].shape
     results = tuple(np.empty(arrays[0].size) for _ in range(outputs))
-    loop(*(np.ascontiguousarray(array, dtype=np.float64).ravel() for array in arrays), *options, *results)
+    # Copies: a view that broadcasting made, or an array that can't be written to, would be another type to numba, with a warning.
+    loop(*(np.array(array, dtype=np.float64, order="C").ravel() for array in arrays), *options, *results)
     return tuple(result.reshape(shape) if shape else float(result[0]) for result in results)

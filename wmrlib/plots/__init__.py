@@ -3,6 +3,7 @@
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
 from wmrlib.plots.angles import angles_over_time, polar_angles, third_angle, ways
 from wmrlib.plots.earth import local_map, rounding_errors, sphere_error_map, spherical_triangle
+from wmrlib.plots.noise import end_poses, near_goal, rise_map, rising, scatter, trade_off
 from wmrlib.plots.robot import approach, commutator, coordinate_system, steps, turning_centre
 from wmrlib.plots.runs import arrival, dashboard, draw_errors, draw_lyapunov, draw_path, draw_series, errors, lyapunov, path, twist
 from wmrlib.plots.sampling import driven, inner_loops, orders, responses, time_steps
@@ -24,6 +25,7 @@ __all__ = [
     "draw_path",
     "draw_series",
     "driven",
+    "end_poses",
     "equal_scales",
     "errors",
     "heading_errors",
@@ -32,18 +34,23 @@ __all__ = [
     "local_map",
     "lyapunov",
     "lyapunov_runs",
+    "near_goal",
     "new_figure",
     "orders",
     "path",
     "polar_angles",
     "rate_sign",
     "responses",
+    "rise_map",
+    "rising",
     "rounding_errors",
+    "scatter",
     "sphere_error_map",
     "spherical_triangle",
     "steps",
     "third_angle",
     "time_steps",
+    "trade_off",
     "turning_centre",
     "twist",
     "ways",

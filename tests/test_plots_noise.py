@@ -1,0 +1,91 @@
+"""Figures of noise: each draws, has axes with units, and an alternative text with the numbers of what it shows."""
+
+import html
+import io
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.image import imread
+
+import wmrlib as wmr
+from wmrlib import plots
+
+GOAL = wmr.Pose(9.0, 57.0, 1.0)
+FOUND = wmr.standing(wmr.read_track(Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"))
+RANDOM = np.random.default_rng(4)
+ENDS = wmr.Pose(9.0 + RANDOM.normal(0, 0.2, 300), 57.0 + RANDOM.normal(0, 0.2, 300), 1.0 + np.linspace(-3.1, 3.1, 300))
+RADII, SIGMAS, STEPS = np.array([0.1, 0.3, 1.0]), np.array([0.0, 0.5, 1.0]), np.array([0.1, 1.2])
+T = np.linspace(0.0, 10.0, 51)
+PICTURES = {
+    "scatter": lambda: plots.scatter(FOUND),
+    "end_poses": lambda: plots.end_poses(ENDS, GOAL, 0.05),
+    "trade_off": lambda: plots.trade_off(RADII, np.array([0.2, 0.5, 1.4]), np.array([80.0, 34.0, 60.0]), 0.5),
+    "near_goal": lambda: plots.near_goal({"one": wmr.Pose(T, 57.0 + 0.0 * T, 0.0 * T), "two": wmr.Pose(T - 2.0, T + 49.0, 0.0 * T)}, GOAL),
+    "rising": lambda: plots.rising({"falls": (T, 1.5 * np.exp(-T)), "waves": (T, 2.0 + np.sin(T))}),
+    "rising, one": lambda: plots.rising({"falls": (T, np.exp(-T))}),
+    "rise_map": lambda: plots.rise_map(SIGMAS, STEPS, np.array([[0.0, 3.0, 18.0], [48.0, 47.0, 46.0]])),
+}
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_every_picture_draws_and_has_its_text(name):
+    picture = PICTURES[name]()
+    bundle, metadata = picture._repr_mimebundle_()
+    assert metadata["image/png"]["alt"] == picture.alt
+    assert bundle["text/html"].startswith(f'<img alt="{html.escape(picture.alt)}" width=')
+    assert len(picture.alt) > 60
+    assert picture.alt.endswith(".")
+    assert "nan" not in picture.alt
+    assert "-0.0 " not in picture.alt
+    pixels = imread(io.BytesIO(bundle["image/png"]))[..., :3]
+    assert 0.01 < np.mean(pixels.min(axis=2) < 0.9) < (0.9 if name == "rise_map" else 0.7)  # neither blank nor flooded
+
+
+@pytest.mark.parametrize("name", PICTURES)
+def test_every_axis_says_what_it_shows_and_in_which_unit(name):
+    for axes in PICTURES[name]().figure.axes:
+        assert axes.get_ylabel() == "V" or "[" in axes.get_ylabel()
+        if axes.get_label() != "<colorbar>":
+            assert "[" in axes.get_xlabel() or not axes.xaxis.get_tick_params().get("labelbottom", True)
+
+
+def test_texts_carry_the_numbers():
+    assert "9 positions" in plots.scatter(FOUND).alt
+    assert "from -7.5 m east and -0.5 m north to 2.7 m east and 0.6 m north" in plots.scatter(FOUND).alt
+    assert "300 robots" in PICTURES["end_poses"]().alt
+    assert "about 15 % have a heading within 30 deg of the wanted one, and about 50 %" in PICTURES["end_poses"]().alt
+    assert "goes from 0.2 to 1.4 m, the heading error is smallest, about 35 deg, near 0.3 m" in PICTURES["trade_off"]().alt
+    assert "one, 1.0 m from the goal; two, 2.2 m from the goal" in PICTURES["near_goal"]().alt
+    assert "falls, 0 %; waves, 45 %" in PICTURES["rising"]().alt
+    assert "0 % with no noise and a step of 0.1 s, about 20 % with 1 m of noise, and about 50 % with no noise" in PICTURES["rise_map"]().alt
+
+
+def test_v_is_thick_and_red_where_it_rises_and_only_there():
+    falls, waves = PICTURES["rising"]().figure.axes
+    assert [len(lines.get_segments()) for lines in falls.collections] == [50, 0]
+    values = 2.0 + np.sin(T)
+    assert len(waves.collections[1].get_segments()) == int((np.diff(values) > 0).sum())
+    assert waves.collections[1].get_linewidth()[0] > 2 * waves.collections[0].get_linewidth()[0]
+
+
+def test_robots_stand_where_they_ended():
+    axes = PICTURES["near_goal"]().figure.axes[0]
+    first = axes.patches[0].get_xy()[:-1].mean(axis=0)
+    assert first == pytest.approx([10.0, 57.0], abs=0.3)
+
+
+@pytest.mark.parametrize(
+    ("make", "message"),
+    [
+        (lambda: plots.scatter(ENDS), "a Standing is needed, not a Pose"),
+        (lambda: plots.end_poses((1, 2, 3), GOAL, 0.1), "a Pose is needed"),
+        (lambda: plots.near_goal({}, GOAL), "paths has 0 entries, which is not allowed: 1 to 4 are needed"),
+        (lambda: plots.trade_off(RADII, RADII, np.ones(2), 0.5), "mismatched lengths"),
+        (lambda: plots.rise_map(SIGMAS, STEPS, np.ones((3, 2))), r"share has shape \(3, 2\).*\(2, 3\), one row a dt"),
+        (lambda: plots.rise_map(SIGMAS, STEPS, np.full((2, 3), 101.0)), "at most 100"),
+    ],
+)
+def test_bad_input(make, message):
+    with pytest.raises(ValueError, match=message):
+        make()
