@@ -14,6 +14,7 @@ from wmrlib.plots.runs import (
     path,
     twist,
 )
+from wmrlib.plots.verdicts import verdicts
 
 __all__ = [
     "COLOURS",
@@ -33,4 +34,5 @@ __all__ = [
     "new_figure",
     "path",
     "twist",
+    "verdicts",
 ]
