@@ -24,6 +24,7 @@ nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_kernel_rgx_aliases = {".*": "python3"}
 nb_merge_streams = True
+nb_render_markdown_format = "myst"  # tables, mathematics and links in what a cell shows as Markdown
 nb_output_stderr = "remove-warn"  # and a warning fails the build
 
 html_theme = "sphinx_book_theme"

@@ -21,7 +21,7 @@ def wheels() -> tuple[sp.Expr, sp.Expr]:
     """(v, omega) from the speeds of two wheels b apart: each rolls along the heading at the speed of the axle's end that carries it."""
     nose = sp.Matrix([sp.cos(theta), sp.sin(theta)])
     ends = [side * b / 2 * _RIGHT_TURN * nose for side in (1, -1)]  # right, left, from the middle of the axle
-    speeds = [sp.simplify((v * nose + end.diff(theta) * omega).dot(nose)) for end in ends]
+    speeds = [sp.trigsimp((v * nose + end.diff(theta) * omega).dot(nose)) for end in ends]
     found = sp.solve([speeds[0] - V_r, speeds[1] - V_l], [v, omega])
     return found[v], found[omega]
 
@@ -34,7 +34,7 @@ def rolling() -> sp.Matrix:
     velocity = sp.Matrix([x, y])
     found = sp.solve([velocity.dot(nose) - v, velocity.dot(sideways)], [x, y])
     spin = omega / nose.diff(theta).dot(sideways)  # nose' = spin times its own left
-    return sp.simplify(sp.Matrix([found[x], found[y], spin]))
+    return sp.trigsimp(sp.Matrix([found[x], found[y], spin]))
 
 
 def _robot_rows() -> list[Row]:

@@ -47,7 +47,7 @@ def _computed(key: str, *values: float, note: str = "{}") -> Row:
 
 def _given(key: str, used: float, works: bool, result: str) -> Row:
     """An input holds if the run that was made with it has the result that the paper reports."""
-    same = fits(used, paper.PUBLISHED[key])
+    same = used == paper.PUBLISHED[key].value
     if same and works:
         return _row(key, Verdict.HOLDS, f"An input: with it, {result}.", "the result that rests on it is reproduced")
     why = "the run with the paper's result used another value" if not same else "the result that rests on it is not reproduced"

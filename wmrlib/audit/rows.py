@@ -120,16 +120,20 @@ def finding(number: int, verdict: Verdict, holds: str, why: str) -> Row:
 
 
 _SPEEDING = symbolic.v_max * (1 - sp.exp(-symbolic.k_rho * symbolic.rho))
+_NAMES = {
+    symbolic.v_max: r"v_{\max}",
+    symbolic.br: r"\mathrm{br}",
+    symbolic.lat1: r"\mathrm{lat}_{1}",
+    symbolic.lat2: r"\mathrm{lat}_{2}",
+    symbolic.dlat: r"\Delta\mathrm{lat}",
+    symbolic.dlong: r"\Delta\mathrm{lon}",
+}
 
 
 def latex(expression: sp.Basic) -> str:
     """LaTeX that fits into a cell of a Markdown table: without vertical bars, and with u for v_max (1 - exp(-k_rho rho))."""
-    text = sp.latex(expression.subs(_SPEEDING, sp.Symbol("u")))
-    for plain, typeset in (
-        (r"\left|", r"\left\vert "),
-        (r"\right|", r"\right\vert "),
-        ("{lat_", r"{\mathrm{lat}_"),
-        ("{br}", r"\mathrm{br}"),
-    ):
+    text = sp.latex(expression.subs(_SPEEDING, sp.Symbol("u")), symbol_names=_NAMES)
+    bars = ((r"\left|", r"\left\vert "), (r"\right|", r"\right\vert "), (r"\operatorname{atan}_{2}", r"\operatorname{atan2}"))
+    for plain, typeset in bars:
         text = text.replace(plain, typeset)
     return text

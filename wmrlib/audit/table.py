@@ -15,12 +15,15 @@ _HEAD = ("What", "The paper says", "What is found", "Verdict", "Shown in")
 
 
 class Place(NamedTuple):
-    """A cell that shows a row: the chapter's file, its number, the nearest heading above the cell, and the number of its execution."""
+    """A cell that shows a row: the chapter's file, its number, the nearest heading above, and its place among the code cells.
+
+    The chapters are executed in order, so that this is the number that Jupyter shows beside the cell.
+    """
 
     file: str
     chapter: int
     heading: str
-    execution: int | None
+    cell: int
 
 
 def places(folder: str | Path = ".") -> dict[str, list[Place]]:
@@ -33,13 +36,14 @@ def places(folder: str | Path = ".") -> dict[str, list[Place]]:
         raise ValueError(f"folder = {str(folder)!r} is not allowed: one with notebooks named like 04_lyapunov.ipynb is needed")
     found: dict[str, list[Place]] = {}
     for path in notebooks:
-        heading = path.stem
+        heading, number = path.stem, 0
         for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
             if cell["cell_type"] == "markdown":
                 heading = (re.findall(r"^#{1,3} +(.+?) *$", "".join(cell["source"]), re.MULTILINE) or [heading])[-1]
+            number += cell["cell_type"] == "code"
             for tag in cell["metadata"].get("tags", ()):
                 if cell["cell_type"] == "code" and tag.startswith(_TAG):
-                    place = Place(path.name, int(path.name[:2]), heading, cell["execution_count"])
+                    place = Place(path.name, int(path.name[:2]), heading, number)
                     found.setdefault(tag.removeprefix(_TAG), []).append(place)
     return found
 
@@ -84,10 +88,10 @@ def table(rows: Sequence[Row], where: Mapping[str, Sequence[Place]]) -> Table:
 def _linked(cells: Sequence[Place]) -> str:
     """One link for each heading; cells under the same one share it."""
     numbers: dict[tuple[str, int, str], list[str]] = {}
-    for file, chapter, heading, execution in cells:
-        numbers.setdefault((file, chapter, heading), []).append(f"{execution or '-'}")
+    for file, chapter, heading, cell in cells:
+        numbers.setdefault((file, chapter, heading), []).append(str(cell))
     links = []
-    for (file, chapter, heading), executions in numbers.items():
+    for (file, chapter, heading), among in numbers.items():
         title = re.sub(r"([\[\]|])", r"\\\1", heading)
-        links.append(f"[{chapter}, {title}]({file}), cell {', '.join(executions)}")
+        links.append(f"[{chapter}, {title}]({file}), cell {', '.join(among)}")
     return "; ".join(links) or "no cell"
