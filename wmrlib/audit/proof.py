@@ -45,7 +45,7 @@ def _at(state) -> str:
 
 
 def circle_residual(turning: sp.Expr) -> float:
-    """How far behind the paper's circle the robot of (22) and this omega stays, m: Euler steps of 0.1 s, mean of the last 10 s."""
+    """How far behind the paper's circle the robot of (22) and this omega stays, m (inf if it runs away): Euler, 0.1 s, last 10 s."""
     gains, dt, steps = paper.CIRCLE_GAINS, paper.TIME_STEP, 400
     values = {k_rho: gains.k_rho, k_alpha: gains.k_alpha, h: gains.h, v_max: gains.v_max}
     twist = sp.lambdify(_STATE, [each.subs(values) for each in (printed(22), turning)], "math")
@@ -54,7 +54,10 @@ def circle_residual(turning: sp.Expr) -> float:
     for goal_x, goal_y, goal_heading in zip(*(part.tolist() for part in goal[:3]), strict=True):
         east, north = goal_x - x, goal_y - y
         sight, distance = math.atan2(north, east), math.hypot(east, north)
-        forward, turn = twist(distance, math.remainder(sight - heading, math.tau), math.remainder(sight - goal_heading, math.tau))
+        try:
+            forward, turn = twist(distance, math.remainder(sight - heading, math.tau), math.remainder(sight - goal_heading, math.tau))
+        except (OverflowError, ValueError):
+            return math.inf
         x, y, heading = x + dt * forward * math.cos(heading), y + dt * forward * math.sin(heading), heading + dt * turn
         behind.append(distance)
     return float(np.mean(behind[-100:]))

@@ -105,7 +105,7 @@ def equation_row(number: int, derived: sp.Basic, wanted_by: Mapping[str, bool], 
     if same(equation.rhs, derived):
         return finding(number, Verdict.HOLDS, note or "The derivation gives the same.", "the difference is 0")
     needed = [name for name, so in wanted_by.items() if so]
-    right = f"It should be ${latex(sp.Eq(equation.lhs, derived))}$. {note}".strip()
+    right = f"It should be {formula(sp.Eq(equation.lhs, derived))}. {note}".strip()
     if needed:
         return finding(number, Verdict.TYPO, right, f"the difference is not 0, and the derived form is what {_listed(needed)} need")
     return finding(number, Verdict.WRONG, right, "the difference is not 0, and nothing in the paper has the derived form")
@@ -116,7 +116,7 @@ def _listed(names: list[str]) -> str:
 
 
 def finding(number: int, verdict: Verdict, holds: str, why: str) -> Row:
-    return Row(f"eq-{number}", f"({number})", f"${latex(symbolic.EQUATIONS[number])}$", holds, verdict, why)
+    return Row(f"eq-{number}", f"({number})", formula(symbolic.EQUATIONS[number]), holds, verdict, why)
 
 
 _SPEEDING = symbolic.v_max * (1 - sp.exp(-symbolic.k_rho * symbolic.rho))
@@ -137,3 +137,12 @@ def latex(expression: sp.Basic) -> str:
     for plain, typeset in bars:
         text = text.replace(plain, typeset)
     return text
+
+
+def formula(relation: sp.Basic) -> str:
+    """An equation in $...$, in parts between which a narrow cell can break the line: one for each term of a sum."""
+    if not (isinstance(relation, sp.Eq) and isinstance(relation.rhs, sp.Add)):
+        return f"${latex(relation)}$"
+    first, *others = (latex(term) for term in relation.rhs.as_ordered_terms())
+    signed = (term if term.startswith("-") else f"+ {term}" for term in others)
+    return " ".join(f"${part}$" for part in (f"{latex(relation.lhs)} = {first}", *signed))

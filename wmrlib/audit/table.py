@@ -11,7 +11,7 @@ from typing import NamedTuple
 from wmrlib.audit.rows import Row, Verdict
 
 _TAG = "audit:"
-_HEAD = ("What", "The paper says", "What is found", "Verdict", "Shown in")
+_HEAD = ("What", "Verdict", "The paper says", "What is found", "Shown in")
 
 
 class Place(NamedTuple):
@@ -72,7 +72,7 @@ class Table:
         lines = [_HEAD, ("---",) * len(_HEAD)]
         for row in self.rows:
             verdict = f"**{row.verdict.value}**: {row.why}"
-            lines.append((f"**{row.title}**", row.says, row.holds, verdict, _linked(self.where.get(row.item, ()))))
+            lines.append((f"**{row.title}**", verdict, row.says, row.holds, _linked(self.where.get(row.item, ()))))
         return "\n".join("| " + " | ".join(cell.replace("|", r"\|") for cell in line) + " |" for line in lines)
 
     def __repr__(self) -> str:
@@ -92,6 +92,6 @@ def _linked(cells: Sequence[Place]) -> str:
         numbers.setdefault((file, chapter, heading), []).append(str(cell))
     links = []
     for (file, chapter, heading), among in numbers.items():
-        title = re.sub(r"([\[\]|])", r"\\\1", heading)
+        title = re.sub(r"([\[\]])", r"\\\1", heading)
         links.append(f"[{chapter}, {title}]({file}), cell {', '.join(among)}")
     return "; ".join(links) or "no cell"
