@@ -64,12 +64,17 @@ PUBLISHED = {
     "circle_x_error": Published(1.0, "m", "section 4, Fig. 4"),
     "circle_y_error": Published(2.0, "m", "section 4, Fig. 4"),
     "circle_reference_heading": Published(math.pi / 2.0, "rad", "section 4"),
+    "circle_start_heading": Published(0.0, "rad", "section 4"),
     "circle_k_rho": Published(1.9, "1/m", "section 4"),
     "circle_k_alpha": Published(1.0, "1/s", "section 4"),
     "circle_h": Published(0.05, "", "section 4"),
     "circle_residual": Published(0.1, "m", "section 4, Fig. 5"),
     "lqr_y_advantage": Published(0.52, "%", "section 1, of Cornejo et al. (2018)"),
     "lqr_x_advantage": Published(7.52, "%", "section 1, of Cornejo et al. (2018)"),
+    "start_longitude": Published(44.373160, "deg", "section 4"),
+    "start_latitude": Published(33.273572, "deg", "section 4"),
+    "goal_longitude": Published(44.373264, "deg", "section 4"),
+    "goal_latitude": Published(33.274087, "deg", "section 4"),
     "distance": Published(58.07, "m", "section 4"),
     "bearing": Published(9.4, "deg", "section 4"),
     "start_heading": Published(2.0 * math.pi / 5.0, "rad", "section 4"),
@@ -83,6 +88,19 @@ PUBLISHED = {
     "speed_limit": Published(4.0, "m/s", "section 4, Fig. 9"),
 }
 """Every number that the paper prints of its own work, and two that it quotes, in the order in which they come."""
+
+_BLOCK_DIAGRAM = "Block diagram of the mobile robot controller."
+CAPTIONS = {
+    1: "Coordinate System Mobile Robot.",
+    2: "Mobile robot pose to pose configuration.",
+    **dict.fromkeys(range(3, 8), _BLOCK_DIAGRAM),
+    8: "Simulation sense of the tracking performance for the proposed mobile robot.",
+    9: "Linear velocity profile.",
+    10: "Angular velocity profile.",
+    11: "Tracking error in the x-direction.",
+    12: "Tracking error in the y-direction.",
+}
+"""What the paper prints below each of its figures; the pictures themselves are not in this repository."""
 
 
 def outdoor(x_axis: str = "east") -> Scenario:

@@ -8,6 +8,7 @@ from wmrlib.plots.robot import approach, commutator, coordinate_system, steps, t
 from wmrlib.plots.runs import arrival, dashboard, draw_errors, draw_lyapunov, draw_path, draw_series, errors, lyapunov, path, twist
 from wmrlib.plots.sampling import driven, inner_loops, orders, responses, time_steps
 from wmrlib.plots.state import heading_errors, level_sets, lyapunov_runs, rate_sign
+from wmrlib.plots.verdicts import verdicts
 
 __all__ = [
     "COLOURS",
@@ -53,5 +54,6 @@ __all__ = [
     "trade_off",
     "turning_centre",
     "twist",
+    "verdicts",
     "ways",
 ]

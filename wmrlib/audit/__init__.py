@@ -1,0 +1,54 @@
+"""Yousif and Ali's paper, line by line: what it says, what holds, and by which computation.
+
+>>> from wmrlib import audit
+>>> [row.verdict.value for row in audit.rows("equations")[:2]]
+['✓ holds', '✓ holds']
+
+Every verdict follows from a computation made when `rows` is called; the rules stand in `equation_row` (equations) and `fits` (numbers).
+"""
+
+from __future__ import annotations
+
+from wmrlib._checks import choice
+from wmrlib.audit import equations, figures, numbers, proof, statements
+from wmrlib.audit.proof import circle_residual, slope, steering
+from wmrlib.audit.rows import Row, Verdict, equation_row, fits, same
+from wmrlib.audit.table import Place, Table, missing, places, table, tally
+
+__all__ = [
+    "GROUPS",
+    "Place",
+    "Row",
+    "Table",
+    "Verdict",
+    "circle_residual",
+    "equation_row",
+    "fits",
+    "missing",
+    "places",
+    "rows",
+    "same",
+    "slope",
+    "steering",
+    "table",
+    "tally",
+]
+
+_PARTS = {
+    "equations": lambda: [*equations.rows(), *proof.rows()],
+    "figures": figures.rows,
+    "numbers": numbers.rows,
+    "statements": statements.rows,
+}
+GROUPS = tuple(_PARTS)
+"""The four kinds of things that a paper says, in the order of `rows`."""
+
+
+def rows(group: str | None = None) -> list[Row]:
+    """The rows of one group of GROUPS, or of all: equations (1) to (26), figures 1 to 12, `wmrlib.paper.PUBLISHED`, and statements.
+
+    Takes some seconds: each is computed. Raises ValueError for an unknown group.
+    """
+    if group is not None:
+        return _PARTS[choice("group", group, GROUPS)]()
+    return [row for part in _PARTS.values() for row in part()]
