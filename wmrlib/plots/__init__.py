@@ -1,6 +1,8 @@
 """Figures, each with its alternative text; one module for each kind of thing that is drawn."""
 
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
+from wmrlib.plots.comparison import chase, heading_shares, residual_curve, snapshots, together, tradeoff
+from wmrlib.plots.diagram import block_diagram
 from wmrlib.plots.earth import local_map
 from wmrlib.plots.runs import (
     arrival,
@@ -21,6 +23,8 @@ __all__ = [
     "STYLE",
     "arrival",
     "arrow",
+    "block_diagram",
+    "chase",
     "dashboard",
     "draw_errors",
     "draw_lyapunov",
@@ -28,9 +32,14 @@ __all__ = [
     "draw_series",
     "equal_scales",
     "errors",
+    "heading_shares",
     "local_map",
     "lyapunov",
     "new_figure",
     "path",
+    "residual_curve",
+    "snapshots",
+    "together",
+    "tradeoff",
     "twist",
 ]
