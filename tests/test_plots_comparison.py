@@ -18,6 +18,13 @@ OTHER = wmr.simulate(NORTH.start, NORTH.goal, NORTH.gains, law="printed")
 CHASE = wmr.track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS, duration=40.0)
 LIMITS = np.array([1.0, 2.0, 4.0])
 LEFT = np.array([0.524, 0.199, 0.090])
+
+
+def predict(v_max):
+    """What `LEFT` is nearly."""
+    return np.interp(v_max, LIMITS, LEFT - 0.001)
+
+
 GROUPS = {"one": (np.array([1.0, 2.0]), np.array([0.5, 0.4])), "two": (np.array([3.0]), np.array([0.25]))}
 PICTURES = {
     "together": lambda: plots.together({"one": RUN, "two": OTHER}, "v", level=(4.0, "the limit")),
@@ -25,7 +32,7 @@ PICTURES = {
     "snapshots, tall": lambda: plots.snapshots(RUN, [0.0, 5.0, 10.0, RUN.t[-1]]),
     "snapshots, wide": lambda: plots.snapshots(OTHER, [0.0, 5.0, OTHER.t[-1]]),
     "chase": lambda: plots.chase({"one": CHASE}),
-    "residual_curve": lambda: plots.residual_curve(LIMITS, LEFT, LEFT - 0.001, published=0.1),
+    "residual_curve": lambda: plots.residual_curve(LIMITS, LEFT, predict, published=0.1),
     "heading_shares": lambda: plots.heading_shares({"one": np.array([1.0, 2.0, -9.0, 30.0]), "two": np.array([4.0])}),
     "tradeoff": lambda: plots.tradeoff(GROUPS, (1.5, 0.3, "ours"), xlabel="peak speed [m/s]", ylabel="rms distance [m]"),
     "block_diagram": lambda: plots.block_diagram(0.1, 10.0),
@@ -60,6 +67,7 @@ def test_texts_carry_the_numbers():
     assert "the goal's heading is -60 deg" in PICTURES["snapshots, tall"]().alt
     assert "one is 0.090 m from it at the end" in PICTURES["chase"]().alt
     assert "differ by at most 0.0010 m" in PICTURES["residual_curve"]().alt
+    assert "one goes from 2.2 to 0.09 m" in PICTURES["together, logarithmic"]().alt
     assert "one 50.0 % end more than 5 deg off, the worst 30 deg" in PICTURES["heading_shares"]().alt
     assert "two 0.0 % end" in PICTURES["heading_shares"]().alt
     assert "one from 0.4 to 0.5" in PICTURES["tradeoff"]().alt
@@ -112,7 +120,7 @@ def test_the_block_diagram_goes_round_in_the_order_of_the_data():
         (lambda: plots.chase([CHASE]), r"runs = .* is not allowed: a Mapping is needed"),
         (lambda: plots.snapshots(RUN, [0.0]), r"times has 1 entries, which is not allowed: 2 to 6 are needed"),
         (lambda: plots.snapshots(RUN, [0.0, 99.0]), r"times = .* is not allowed: a finite number at least 0 and at most 15.5"),
-        (lambda: plots.residual_curve(LIMITS, LEFT[:2], LEFT, published=0.1), r"mismatched lengths"),
+        (lambda: plots.residual_curve(LIMITS, LEFT[:2], predict, published=0.1), r"mismatched lengths"),
         (lambda: plots.heading_shares({"one": np.array([math.nan])}), r"one = .* is not allowed"),
         (lambda: plots.tradeoff({"one": (0.0, 1.0)}, (1, 1, "a"), xlabel="x [m]", ylabel="y [m]"), r"one x = 0.0 is not allowed"),
         (lambda: plots.block_diagram(0.0, 10.0), r"time_step = 0.0 is not allowed"),

@@ -7,7 +7,7 @@ are given the labels in the same order.
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 
 import numpy as np
 
@@ -55,8 +55,8 @@ def together(
     if log:
         axes.set_yscale("log")
     if len(runs) > 1 or level is not None:
-        _legend(figure, len(runs) + (level is not None))
-    parts = [_course_in_words(title, getattr(run, field), unit) for title, run in runs.items()]
+        _legend(figure)
+    parts = [_course_in_words(title, getattr(run, field), unit, log) for title, run in runs.items()]
     return Picture(figure, f"The {name} over time{', on a logarithmic scale' if log else ''}: {'; '.join(parts)}{said}.")
 
 
@@ -111,35 +111,33 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     axes.add_patch(arrow(start, 0.03 * max(np.ptp(every_x), np.ptp(every_y)), fc=COLOURS["robot"], ec=COLOURS["ink"], zorder=4))
     equal_scales(axes, every_x, every_y)
     axes.set(xlabel="x [m]", ylabel="y [m]")
-    _legend(figure, len(runs) + 1)
+    _legend(figure)
     parts = [f"{title} is {run.rho[-1]:.3f} m from it at the end" for title, run in runs.items()]
     return Picture(
         figure, f"Paths in metres after a reference that ends at ({goal_x[-1]:.1f}, {near_zero(goal_y[-1]):.1f}): {'; '.join(parts)}."
     )
 
 
-def residual_curve(v_max, simulated, predicted, *, published: float) -> Picture:
+def residual_curve(v_max, simulated, predict: Callable, *, published: float) -> Picture:
     """What is left of the distance against v_max: simulated as circles, predicted as a line, and the paper's value.
 
-    v_max in m/s, increasing; simulated, predicted, published in metres; arrays of one length. Raises ValueError for mismatched lengths.
+    v_max in m/s, increasing, and simulated in metres, arrays of one length; predict: a function from an array of v_max to metres;
+    published: metres. Raises ValueError for mismatched lengths.
     """
-    v_max, simulated, predicted = (
-        real("v_max", v_max, above=0.0),
-        real("simulated", simulated, low=0.0),
-        real("predicted", predicted, low=0.0),
-    )
-    if not np.shape(v_max) == np.shape(simulated) == np.shape(predicted):
-        raise ValueError(f"mismatched lengths: {np.shape(v_max)}, {np.shape(simulated)}, {np.shape(predicted)}; equal ones are needed")
+    v_max, simulated = real("v_max", v_max, above=0.0), real("simulated", simulated, low=0.0)
+    if np.shape(v_max) != np.shape(simulated) or np.ndim(v_max) != 1:
+        raise ValueError(f"mismatched lengths: v_max {np.shape(v_max)}, simulated {np.shape(simulated)}; equal ones are needed")
+    fine = np.linspace(v_max[0], v_max[-1], 300)
     figure, axes = new_figure(7.0, 3.6)
-    axes.plot(v_max, predicted, color=COLOURS["path"], label="predicted")
+    axes.plot(fine, predict(fine), color=COLOURS["path"], label="predicted")
     axes.plot(v_max, simulated, "o", color=COLOURS["goal"], mfc="none", mew=2.0, ms=8, label="simulated")
     axes.axhline(published, color=COLOURS["ink"], ls=":", lw=1.2, label=f"the paper's {published:g} m")
-    axes.set(xlabel="v_max [m/s]", ylabel="distance left behind [m]", ylim=(0.0, 1.08 * max(np.max(simulated), np.max(predicted))))
+    axes.set(xlabel="v_max [m/s]", ylabel="distance left behind [m]", ylim=(0.0, 1.08 * max(simulated.max(), predict(fine).max())))
     axes.legend()
     return Picture(
         figure,
         f"The distance left behind falls from {simulated[0]:.3f} m at v_max {v_max[0]:g} m/s to {simulated[-1]:.3f} m at "
-        f"{v_max[-1]:g} m/s; prediction and simulation differ by at most {np.abs(simulated - predicted).max():.4f} m; "
+        f"{v_max[-1]:g} m/s; prediction and simulation differ by at most {np.abs(simulated - predict(v_max)).max():.4f} m; "
         f"a dotted line marks the paper's {published:g} m.",
     )
 
@@ -162,7 +160,7 @@ def heading_shares(errors: Mapping[str, np.ndarray], *, allowed: float = 5.0) ->
         said.append(f"{title} {100.0 * np.mean(values > allowed):.1f} % end more than {allowed:g} deg off, the worst {values[-1]:.0f} deg")
     axes.axvline(allowed, color=COLOURS["ink"], ls=":", lw=1.2, label=f"{allowed:g} deg")
     axes.set(xlabel="heading error at arrival [deg]", ylabel="share of the starts [%]", xlim=(0, widest), ylim=(0, 102))
-    _legend(figure, len(errors) + 1)
+    _legend(figure)
     return Picture(figure, f"Share of many starts against the heading error at arrival: {'; '.join(said)}.")
 
 
@@ -183,7 +181,7 @@ def tradeoff(groups: Mapping[str, tuple], mark: tuple[float, float, str], *, xla
     axes.axhline(mark[1], color=COLOURS["ink"], lw=1.0, ls=":")
     axes.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=ylabel)
     _plain_ticks(axes)
-    _legend(figure, len(groups) + 1)
+    _legend(figure)
     return Picture(
         figure, f"{ylabel} against {xlabel}, a point for each run: {'; '.join(said)}; {mark[2]} at ({mark[0]:.2f}, {mark[1]:.2f})."
     )
@@ -198,8 +196,12 @@ def _plain_ticks(axes) -> None:
         axis.set_minor_locator(LogLocator(subs=()))
 
 
-def _legend(figure, entries: int) -> None:
-    figure.legend(loc="outside upper center", ncols=entries if entries <= 4 else 3, fontsize=11, frameon=False)
+def _legend(figure) -> None:
+    labels = figure.axes[0].get_legend_handles_labels()[1]
+    width = 0.7 + 0.095 * max(map(len, labels))  # inches an entry, handle included
+    columns = max(1, min(len(labels), int(figure.get_figwidth() / width)))
+    rows = -(-len(labels) // columns)
+    figure.legend(loc="outside upper center", ncols=-(-len(labels) // rows), fontsize=11, frameon=False)
 
 
 def _checked(runs: Mapping, kind: type | None = Trajectory) -> None:
@@ -210,12 +212,16 @@ def _checked(runs: Mapping, kind: type | None = Trajectory) -> None:
             instance(f"runs[{title!r}]", run, kind)
 
 
-def _course_in_words(title: str, values: np.ndarray, unit: str) -> str:
+def _course_in_words(title: str, values: np.ndarray, unit: str, log: bool) -> str:
     digits = 1 if np.abs(values).max() > 5 else 2
-    first, last, low, high = (
-        value if abs(value) >= 0.5 * 10**-digits else 0.0 for value in (values[0], values[-1], values.min(), values.max())
-    )
-    return f"{title} goes from {first:.{digits}f} to {last:.{digits}f} {unit}, between {low:.{digits}f} and {high:.{digits}f} {unit}"
+
+    def said(value: float) -> str:
+        if log:
+            return f"{value:.2g}" if value >= 1e-6 else "less than 1e-6"
+        return f"{value if abs(value) >= 0.5 * 10**-digits else 0.0:.{digits}f}"
+
+    first, last, low, high = map(said, (values[0], values[-1], values.min(), values.max()))
+    return f"{title} goes from {first} to {last} {unit}, between {low} and {high} {unit}"
 
 
 def _room(values: np.ndarray, room: float) -> tuple[float, float]:
