@@ -33,7 +33,7 @@ PICTURES = {
     "snapshots, wide": lambda: plots.snapshots(OTHER, [0.0, 5.0, OTHER.t[-1]]),
     "chase": lambda: plots.chase({"one": CHASE}),
     "residual_curve": lambda: plots.residual_curve(LIMITS, LEFT, predict, published=0.1),
-    "heading_shares": lambda: plots.heading_shares({"one": np.array([1.0, 2.0, -9.0, 30.0]), "two": np.array([4.0])}),
+    "heading_shares": lambda: plots.heading_shares({"one": np.array([1.0, 2.0, -4.0, 30.0]), "two": np.array([4.0])}),
     "tradeoff": lambda: plots.tradeoff(GROUPS, (1.5, 0.3, "ours"), xlabel="peak speed [m/s]", ylabel="rms distance [m]"),
     "block_diagram": lambda: plots.block_diagram(0.1, 10.0),
 }
@@ -68,7 +68,7 @@ def test_texts_carry_the_numbers():
     assert "one is 0.090 m from it at the end" in PICTURES["chase"]().alt
     assert "differ by at most 0.0010 m" in PICTURES["residual_curve"]().alt
     assert "one goes from 2.2 to 0.09 m" in PICTURES["together, logarithmic"]().alt
-    assert "one 50.0 % end more than 5 deg off, the worst 30 deg" in PICTURES["heading_shares"]().alt
+    assert "one 25.0 % end more than 5 deg off, the worst 30 deg" in PICTURES["heading_shares"]().alt
     assert "two 0.0 % end" in PICTURES["heading_shares"]().alt
     assert "one from 0.4 to 0.5" in PICTURES["tradeoff"]().alt
     assert "every 0.1 s" in PICTURES["block_diagram"]().alt
@@ -99,7 +99,7 @@ def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
 
 def test_the_share_at_an_error_is_that_of_the_runs_below_it():
     line = PICTURES["heading_shares"]().figure.axes[0].lines[0]
-    assert line.get_xdata()[1:-1].tolist() == [1.0, 2.0, 9.0, 30.0]
+    assert line.get_xdata()[1:-1].tolist() == [1.0, 2.0, 4.0, 30.0]
     assert line.get_ydata()[1:-1].tolist() == [25.0, 50.0, 75.0, 100.0]
 
 
