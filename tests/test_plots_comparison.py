@@ -94,7 +94,27 @@ def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
             assert math.atan2(tip[1] - tail[1], tip[0] - tail[0]) == pytest.approx(math.remainder(heading, 2 * math.pi))
             assert np.hypot(*(0.5 * (tip + tail) - [x, y])) < 2.0
         assert np.array_equal(axes.lines[1].get_xdata(), RUN.x[: k + 1])
+        assert np.array_equal(axes.lines[1].get_ydata(), RUN.y[: k + 1])
         assert axes.get_aspect() == 1.0
+
+
+def test_chase_draws_the_reference_and_each_run():
+    reference, *runs = plots.chase({"one": CHASE, "two": CHASE}).figure.axes[0].lines
+    assert np.array_equal(reference.get_xydata(), np.column_stack([CHASE.goal.x, CHASE.goal.y]))
+    assert len(runs) == 2
+    for run in runs:
+        assert np.array_equal(run.get_xydata(), np.column_stack([CHASE.x, CHASE.y]))
+
+
+def test_tradeoff_and_residual_curve_draw_their_points():
+    one, two, star = PICTURES["tradeoff"]().figure.axes[0].lines[:3]
+    assert one.get_xydata().tolist() == [[1.0, 0.5], [2.0, 0.4]]
+    assert one.get_marker() != two.get_marker()
+    assert star.get_xydata().tolist() == [[1.5, 0.3]]
+    line, circles, level = PICTURES["residual_curve"]().figure.axes[0].lines
+    assert np.array_equal(line.get_ydata(), predict(line.get_xdata()))
+    assert np.array_equal(circles.get_xydata(), np.column_stack([LIMITS, LEFT]))
+    assert set(level.get_ydata()) == {0.1}
 
 
 def test_the_share_at_an_error_is_that_of_the_runs_below_it():
