@@ -2,6 +2,8 @@
 
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
 from wmrlib.plots.angles import angles_over_time, polar_angles, third_angle, ways
+from wmrlib.plots.comparison import chase, heading_shares, residual_curve, snapshots, together, tradeoff
+from wmrlib.plots.diagram import block_diagram
 from wmrlib.plots.earth import local_map, rounding_errors, sphere_error_map, spherical_triangle
 from wmrlib.plots.noise import end_poses, near_goal, rise_map, rising, scatter, trade_off
 from wmrlib.plots.robot import approach, commutator, coordinate_system, steps, turning_centre
@@ -18,6 +20,8 @@ __all__ = [
     "approach",
     "arrival",
     "arrow",
+    "block_diagram",
+    "chase",
     "commutator",
     "coordinate_system",
     "dashboard",
@@ -30,6 +34,7 @@ __all__ = [
     "equal_scales",
     "errors",
     "heading_errors",
+    "heading_shares",
     "inner_loops",
     "level_sets",
     "local_map",
@@ -41,17 +46,21 @@ __all__ = [
     "path",
     "polar_angles",
     "rate_sign",
+    "residual_curve",
     "responses",
     "rise_map",
     "rising",
     "rounding_errors",
     "scatter",
+    "snapshots",
     "sphere_error_map",
     "spherical_triangle",
     "steps",
     "third_angle",
     "time_steps",
+    "together",
     "trade_off",
+    "tradeoff",
     "turning_centre",
     "twist",
     "verdicts",
