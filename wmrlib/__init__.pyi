@@ -44,3 +44,4 @@ from .tuning import Modes as Modes
 from .tuning import gain_map as gain_map
 from .tuning import gains_for as gains_for
 from .tuning import modes as modes
+from .tuning import pareto as pareto
