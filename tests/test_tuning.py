@@ -270,3 +270,22 @@ def test_longest_step_refuses():
         wmr.longest_step(GAINS[0], "arc", "printed")
     with pytest.raises(ValueError, match="a Gains is needed"):
         wmr.longest_step((1.0, 1.0, 1.0, 1.0))
+
+
+def test_pareto_against_a_double_loop():
+    costs = np.random.default_rng(7).integers(0, 6, (3, 5, 8)).astype(float)
+    costs[0, 0, 0], costs[1, 0, 1] = np.inf, np.nan
+    points = costs.reshape(3, -1).T
+    slow = [
+        bool(np.isfinite(p).all()) and not any(np.isfinite(q).all() and (q <= p).all() and (q != p).any() for q in points) for p in points
+    ]
+    chosen = wmr.pareto(*costs)
+    assert chosen.shape == (5, 8)
+    assert 0 < chosen.sum() < chosen.size
+    np.testing.assert_array_equal(chosen.ravel(), slow)
+
+
+@pytest.mark.parametrize("costs", [(), (np.zeros(2), np.zeros(3))])
+def test_pareto_refuses_what_cannot_be_compared(costs):
+    with pytest.raises(ValueError, match="all of one shape, is needed"):
+        wmr.pareto(*costs)

@@ -154,6 +154,23 @@ def gain_map(start: Pose, goal: Pose, gains: Gains, over: Mapping[str, np.ndarra
     return sweep(start, goal, Gains(**(fields | grid)), **options)
 
 
+def pareto(*costs: Real) -> np.ndarray:
+    """Which choices no other one dominates: True where nothing else is at most as costly in each cost and less in at least one.
+
+    costs: arrays of one shape, less is better, in any units; the result has that shape. An infinite or NaN cost is never chosen.
+    Raises ValueError for no costs, or for different shapes.
+    """
+    table = [np.asarray(each, dtype=float) for each in costs]
+    if not table or any(each.shape != table[0].shape for each in table):
+        raise ValueError(f"costs of shape {[each.shape for each in table]} are not allowed: at least one, all of one shape, is needed")
+    points = np.stack([each.ravel() for each in table], axis=1)
+    finite = np.isfinite(points).all(axis=1)
+    left = points[finite]
+    chosen = np.zeros(len(points), dtype=bool)
+    chosen[finite] = [not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left]
+    return chosen.reshape(table[0].shape)
+
+
 def _plain(value):
     """A Python number for a number, an array for an array."""
     return value.item() if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0) else value

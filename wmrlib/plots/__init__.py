@@ -3,6 +3,7 @@
 from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, new_figure
 from wmrlib.plots.angles import angles_over_time, polar_angles, third_angle, ways
 from wmrlib.plots.comparison import chase, heading_shares, residual_curve, snapshots, together, tradeoff
+from wmrlib.plots.design import front, phase_portrait, root_locus
 from wmrlib.plots.diagram import block_diagram
 from wmrlib.plots.earth import local_map, rounding_errors, sphere_error_map, spherical_triangle
 from wmrlib.plots.noise import end_poses, near_goal, rise_map, rising, scatter, trade_off
@@ -33,6 +34,7 @@ __all__ = [
     "end_poses",
     "equal_scales",
     "errors",
+    "front",
     "heading_errors",
     "heading_shares",
     "inner_loops",
@@ -44,12 +46,14 @@ __all__ = [
     "new_figure",
     "orders",
     "path",
+    "phase_portrait",
     "polar_angles",
     "rate_sign",
     "residual_curve",
     "responses",
     "rise_map",
     "rising",
+    "root_locus",
     "rounding_errors",
     "scatter",
     "snapshots",
