@@ -85,7 +85,7 @@ def phase_portrait(choices: Mapping[str, Gains], limit: float) -> Picture:
 
 
 def front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]) -> Picture:
-    """Time against heading error left over, of all runs that arrived (small dots), the undominated ones (large dots) and the named runs (marks).
+    """Time against heading error left over, of the runs that arrived (small dots), the undominated (large dots) and the named (marks).
 
     best: booleans in the shape of the runs, as of `wmrlib.pareto`; the large dots are coloured by peak |omega|.
     """
