@@ -1,0 +1,101 @@
+"""What a class costs a server: the memory and the time of a student's kernel, chapter by chapter, and of readers of an app.
+
+python tests/benchmarks/classroom.py [--keep]; --keep writes the table to book/classroom.json, which the lecturer's guide shows. It starts a
+kernel for each chapter, and Voila with readers who all come at once. Memory is what a process has of its own (USS).
+"""
+
+from __future__ import annotations
+
+import json
+import secrets
+import subprocess
+import sys
+import time
+import urllib.request
+from concurrent.futures import ThreadPoolExecutor
+
+import nbformat
+import psutil
+from nbclient import NotebookClient
+from timing import ROOT, Row, machine
+
+MEGABYTE = 1e6
+READERS = (1, 2, 4, 8, 16)
+sys.path.insert(0, str(ROOT / "tests" / "browser"))
+from live import free_port  # noqa: E402  (it stands beside the browser tests)
+
+
+def own_memory(*processes: psutil.Process) -> float:
+    """MB that would be free without these processes and their children."""
+    family = {one for process in processes for one in (process, *process.children(recursive=True))}
+    return sum(one.memory_full_info().uss for one in family) / MEGABYTE
+
+
+def students() -> list[Row]:
+    rows = []
+    for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        client = NotebookClient(nbformat.read(path, as_version=4), resources={"metadata": {"path": path.parent}})
+        begin = time.perf_counter()
+        with client.setup_kernel():
+            started = time.perf_counter() - begin
+            for index, cell in enumerate(client.nb.cells):
+                client.execute_cell(cell, index)
+            seconds = time.perf_counter() - begin - started
+            memory = own_memory(psutil.Process(client.km.provisioner.process.pid))
+        rows.append(Row("A student's kernel, memory after all cells", path.stem, memory, "MB"))
+        rows.append(Row("A student's kernel, time to run all cells", path.stem, seconds, "s"))
+    return sorted(rows, key=lambda row: row.section)
+
+
+def readers() -> list[Row]:
+    port, token = free_port(), secrets.token_hex(8)
+    chapter = sorted((ROOT / "notebooks").glob("*.ipynb"))[0]
+    options = ["--Voila.config_file_paths=book/voila", "--no-browser", f"--port={port}", f"--token={token}", chapter]
+    rows, begin = [], time.perf_counter()
+    server = subprocess.Popen([sys.executable, "-m", "voila", *options], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        wait_for(port)
+        rows.append(Row("An app's readers", "the server starts", time.perf_counter() - begin, "s"))
+        process = psutil.Process(server.pid)
+        empty = own_memory(process)
+        rows.append(Row("An app's readers", "the server alone", empty, "MB"))
+        for count in READERS:
+            begin = time.perf_counter()
+            with ThreadPoolExecutor(count) as pool:
+                pages = list(pool.map(read, [f"http://127.0.0.1:{port}/?token={token}"] * count))
+            assert all("wmr" in page for page in pages)
+            rows.append(Row("An app's readers", f"{count} come at once: the last page is complete", time.perf_counter() - begin, "s"))
+        rows.append(Row("An app's readers", "each reader's kernel", (own_memory(process) - empty) / sum(READERS), "MB"))
+    finally:
+        server.terminate()
+        server.wait(60)
+    return rows
+
+
+def read(url: str) -> str:
+    opener = urllib.request.build_opener(urllib.request.HTTPCookieProcessor())
+    with opener.open(url, timeout=600) as answer:
+        return answer.read().decode()
+
+
+def wait_for(port: int) -> None:
+    for _ in range(600):
+        try:
+            urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5).close()
+        except OSError:
+            time.sleep(0.1)
+        else:
+            return
+    raise TimeoutError("Voila did not start")
+
+
+if __name__ == "__main__":
+    if set(sys.argv[1:]) - {"--keep"}:
+        sys.exit(__doc__)
+    print(machine())
+    table = [*students(), *readers()]
+    for row in table:
+        print(f"{row.section:48}{row.what:48}{row.value:10.4g} {row.unit}")
+    if "--keep" in sys.argv:
+        kept = {"machine": machine(), "rows": [row._asdict() | {"value": float(f"{row.value:.3g}")} for row in table]}
+        (ROOT / "book" / "classroom.json").write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
