@@ -119,6 +119,8 @@ static inline WMR_REAL wmr_wheel_share(WMR_REAL v_max, WMR_REAL v) {
 
 static inline int wmr_is_finite(WMR_REAL number) { return number - number == WMR_C(0.0); }
 
+static inline int wmr_is_size(WMR_REAL number) { return number >= WMR_C(0.0) && wmr_is_finite(number); }
+
 /* The same direction in (-pi, pi]. In float it loses 2e-7 rad with each whole turn: keep headings within one. */
 static inline WMR_REAL wmr_wrap(WMR_REAL angle) {
   return wmr_turned_back(WMR_F(fmod)(angle, WMR_C(6.28318530717958647692)));
@@ -136,8 +138,8 @@ static inline wmr_polar wmr_polar_error(wmr_pose pose, wmr_pose goal) {
 static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v, WMR_REAL omega) {
   const wmr_twist stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const wmr_twist twist = {v, omega, WMR_OK};
-  const int known = error.rho >= WMR_C(0.0) && wmr_is_finite(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
-  const int tuned = gains.k_rho >= WMR_C(0.0) && gains.k_alpha >= WMR_C(0.0) && gains.h >= WMR_C(0.0) && gains.v_max >= WMR_C(0.0);
+  const int known = wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
+  const int tuned = wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h) && wmr_is_size(gains.v_max);
   return known && tuned && wmr_is_finite(v) && wmr_is_finite(omega) ? twist : stop;
 }
 
