@@ -1,4 +1,4 @@
-// The model's formulas, printed from sympy: change wmrlib/symbolic.py, then run python -m wmrlib.symbolic.
+// The model's formulas, printed from sympy: change wmrlib/symbolic, then run python -m wmrlib.symbolic.
 
 // sin(angle)/angle, which is 1 at 0
 function sinc(angle, sine) {

@@ -1,0 +1,223 @@
+/* wmr_law.h: from a pose to the speeds of two wheels. Printed by wmrlib.symbolic; change that, then run python -m wmrlib.symbolic.
+
+   C99 or C++11; needs nothing but <math.h>; no state, no memory, no loop. Metres, seconds, radians. x is east, y is north, and headings
+   and turns are counter-clockwise, a heading from east.
+
+   #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in double (see wmr_local_position).
+
+   Whatever is not a number, infinite or out of range going in, or not finite coming out, gives v = omega = 0 and status WMR_STOP. Compile
+   without -ffast-math, which takes such checks away.
+
+   SPDX-License-Identifier: BSD-3-Clause */
+#ifndef WMR_LAW_H
+#define WMR_LAW_H
+
+#include <math.h>
+
+#ifdef __FAST_MATH__
+#error "wmr_law.h needs NaN and infinity: compile without -ffast-math"
+#endif
+
+#ifndef WMR_REAL
+#define WMR_REAL double
+#endif
+#define WMR_IS_double 1
+#define WMR_IS_float 2
+#define WMR_PASTE_(a, b) a##b
+#define WMR_PASTE(a, b) WMR_PASTE_(a, b)
+#if WMR_PASTE(WMR_IS_, WMR_REAL) == 1
+#define WMR_C(number) number
+#define WMR_F(function) function
+#elif WMR_PASTE(WMR_IS_, WMR_REAL) == 2
+#define WMR_C(number) number##F
+#define WMR_F(function) function##f
+#else
+#error "WMR_REAL must be float or double"
+#endif
+
+enum { WMR_OK = 0, WMR_STOP = 1 };
+
+typedef struct { WMR_REAL x, y, heading; } wmr_pose;
+typedef struct { WMR_REAL rho, alpha, theta; } wmr_polar;
+typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains; /* 1/m (aicardi: 1/s), 1/s, no unit, m/s */
+typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
+typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
+
+/* The formulas, printed ------------------------------------------------------------------------------------------------ */
+
+/* sin(angle)/angle, which is 1 at 0 */
+static inline WMR_REAL wmr_sinc(WMR_REAL angle, WMR_REAL sine) {
+  return ((WMR_F(fabs)(angle) > WMR_C(1e-08)) ? ( sine/angle ) : ( WMR_C(1.0) ));
+}
+
+/* (1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0 */
+static inline WMR_REAL wmr_decay(WMR_REAL rho, WMR_REAL k_rho) {
+  return ((k_rho*WMR_F(fabs)(rho) > WMR_C(1e-08)) ? ( -WMR_F(expm1)(-k_rho*rho)/rho ) : ( k_rho*(-WMR_C(0.5)*k_rho*rho + WMR_C(1.0)) ));
+}
+
+/* v/rho by (22) */
+static inline WMR_REAL wmr_corrected_pull(WMR_REAL rho, WMR_REAL cos_alpha, WMR_REAL k_rho, WMR_REAL v_max) {
+  return cos_alpha*v_max*wmr_decay(rho, k_rho);
+}
+
+/* the omega that makes the proof work */
+static inline WMR_REAL wmr_corrected_omega(WMR_REAL alpha, WMR_REAL theta, WMR_REAL sinc_alpha, WMR_REAL pull, WMR_REAL k_alpha, WMR_REAL h) {
+  return alpha*k_alpha + pull*sinc_alpha*(alpha + h*theta);
+}
+
+/* (24) as the paper prints it */
+static inline WMR_REAL wmr_printed_omega(WMR_REAL alpha, WMR_REAL theta, WMR_REAL sin_alpha, WMR_REAL cos_alpha, WMR_REAL sinc_alpha, WMR_REAL pull, WMR_REAL k_alpha, WMR_REAL h) {
+  return alpha*k_alpha + cos_alpha*pull*sin_alpha*sinc_alpha*(alpha + h*theta);
+}
+
+/* v/rho of the linear law; its omega is the corrected one */
+static inline WMR_REAL wmr_aicardi_pull(WMR_REAL cos_alpha, WMR_REAL k_rho) {
+  return cos_alpha*k_rho;
+}
+
+/* V, (18) */
+static inline WMR_REAL wmr_lyapunov_value(WMR_REAL rho, WMR_REAL alpha, WMR_REAL theta, WMR_REAL h, WMR_REAL L) {
+  return WMR_C(0.5)*(alpha*alpha) + WMR_C(0.5)*h*(theta*theta) + WMR_C(0.5)*(rho*rho)/L;
+}
+
+/* an angle within a turn of 0, in (-pi, pi] */
+static inline WMR_REAL wmr_turned_back(WMR_REAL angle) {
+  return ((angle > WMR_C(3.14159265358979323846)) ? ( angle - WMR_C(2.0)*WMR_C(3.14159265358979323846) ) : ((angle <= -WMR_C(3.14159265358979323846)) ? ( angle + WMR_C(2.0)*WMR_C(3.14159265358979323846) ) : ( angle )));
+}
+
+/* rho */
+static inline WMR_REAL wmr_distance(WMR_REAL east, WMR_REAL north) {
+  return WMR_F(sqrt)((east*east) + (north*north));
+}
+
+/* the line of sight, from east */
+static inline WMR_REAL wmr_sight(WMR_REAL east, WMR_REAL north) {
+  return WMR_F(atan2)(north, east);
+}
+
+/* its ground speed, from (1) and (2) */
+static inline WMR_REAL wmr_left_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
+  return -WMR_C(0.5)*b*omega + v;
+}
+
+/* its ground speed, from (1) and (2) */
+static inline WMR_REAL wmr_right_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
+  return WMR_C(0.5)*b*omega + v;
+}
+
+/* the ground speed of the faster wheel */
+static inline WMR_REAL wmr_fastest_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
+  return WMR_C(0.5)*b*WMR_F(fabs)(omega) + WMR_F(fabs)(v);
+}
+
+/* the share of v that v_max allows */
+static inline WMR_REAL wmr_wheel_share(WMR_REAL v_max, WMR_REAL v) {
+  return ((v > v_max) ? ( v_max/v ) : ( WMR_C(1.0) ));
+}
+
+/* What a program calls ------------------------------------------------------------------------------------------------- */
+
+static inline int wmr_is_finite(WMR_REAL number) { return number - number == WMR_C(0.0); }
+
+static inline int wmr_is_size(WMR_REAL number) { return number >= WMR_C(0.0) && wmr_is_finite(number); }
+
+/* The same direction in (-pi, pi]. In float it loses 2e-7 rad with each whole turn: keep headings within one. */
+static inline WMR_REAL wmr_wrap(WMR_REAL angle) {
+  return wmr_turned_back(WMR_F(fmod)(angle, WMR_C(6.28318530717958647692)));
+}
+
+/* The goal as seen from the robot: rho, alpha (from the heading) and theta (from the goal's heading) to the line of sight. */
+static inline wmr_polar wmr_polar_error(wmr_pose pose, wmr_pose goal) {
+  const WMR_REAL east = goal.x - pose.x, north = goal.y - pose.y;
+  const WMR_REAL sight = wmr_sight(east, north);
+  const wmr_polar error = {wmr_distance(east, north), wmr_wrap(sight - pose.heading), wmr_wrap(sight - goal.heading)};
+  return error;
+}
+
+/* The twist if all of it can be trusted, and otherwise a stop. */
+static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v, WMR_REAL omega) {
+  const wmr_twist stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
+  const wmr_twist twist = {v, omega, WMR_OK};
+  const int known = wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
+  const int tuned = wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h) && wmr_is_size(gains.v_max);
+  return known && tuned && wmr_is_finite(v) && wmr_is_finite(omega) ? twist : stop;
+}
+
+/* The corrected law: (22), and the omega that makes the proof work. Finite at rho = 0 and at alpha = 0. */
+static inline wmr_twist wmr_law(wmr_polar error, wmr_gains gains) {
+  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
+  const WMR_REAL pull = wmr_corrected_pull(error.rho, cosine, gains.k_rho, gains.v_max);
+  return wmr_checked(error, gains, pull * error.rho, wmr_corrected_omega(error.alpha, error.theta, sinc, pull, gains.k_alpha, gains.h));
+}
+
+/* (22) and (24) as the paper prints them: for comparison, not for a robot. */
+static inline wmr_twist wmr_law_printed(wmr_polar error, wmr_gains gains) {
+  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
+  const WMR_REAL pull = wmr_corrected_pull(error.rho, cosine, gains.k_rho, gains.v_max);
+  const WMR_REAL omega = wmr_printed_omega(error.alpha, error.theta, sine, cosine, sinc, pull, gains.k_alpha, gains.h);
+  return wmr_checked(error, gains, pull * error.rho, omega);
+}
+
+/* Aicardi's linear law, whose v has no limit. */
+static inline wmr_twist wmr_law_aicardi(wmr_polar error, wmr_gains gains) {
+  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
+  const WMR_REAL pull = wmr_aicardi_pull(cosine, gains.k_rho);
+  return wmr_checked(error, gains, pull * error.rho, wmr_corrected_omega(error.alpha, error.theta, sinc, pull, gains.k_alpha, gains.h));
+}
+
+/* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by one factor so that neither is faster
+   than max_speed and the path keeps its curvature. */
+static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width, WMR_REAL max_speed) {
+  const wmr_wheels stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
+  const WMR_REAL fastest = wmr_fastest_wheel(twist.v, twist.omega, track_width);
+  const WMR_REAL share = wmr_wheel_share(max_speed, fastest);
+  const WMR_REAL v = share * twist.v, omega = share * twist.omega;
+  const wmr_wheels wheels = {wmr_left_wheel(v, omega, track_width), wmr_right_wheel(v, omega, track_width), WMR_OK};
+  const int allowed = twist.status == WMR_OK && track_width > WMR_C(0.0) && max_speed > WMR_C(0.0);
+  return allowed && wmr_is_finite(wheels.left) && wmr_is_finite(wheels.right) ? wheels : stop;
+}
+
+/* GPS, always in double: a float holds a latitude of 44 degrees to 4e-6 degrees, which is 0.4 m ------------------------- */
+
+/* (13) */
+static inline double wmr_epsilon(double lat1, double lat2, double Delta_lat, double Delta_long) {
+  return (sin(0.5*Delta_lat)*sin(0.5*Delta_lat)) + (sin(0.5*Delta_long)*sin(0.5*Delta_long))*cos(lat1)*cos(lat2);
+}
+
+/* 1 - epsilon, without the difference */
+static inline double wmr_rest(double lat1, double lat2, double Delta_long) {
+  return (sin(0.5*lat1 + 0.5*lat2)*sin(0.5*lat1 + 0.5*lat2)) + (cos(0.5*Delta_long)*cos(0.5*Delta_long))*cos(lat1)*cos(lat2);
+}
+
+/* (11) and (12) */
+static inline double wmr_sphere_distance(double epsilon, double rest, double R) {
+  return 2.0*R*atan2(sqrt(epsilon), sqrt(rest));
+}
+
+/* (16) */
+static inline double wmr_zeta_x(double lat2, double Delta_long) {
+  return sin(Delta_long)*cos(lat2);
+}
+
+/* (17), without losing digits nearby */
+static inline double wmr_zeta_y(double lat1, double lat2, double Delta_lat, double Delta_long) {
+  return sin(Delta_lat) + 2.0*(sin(0.5*Delta_long)*sin(0.5*Delta_long))*sin(lat1)*cos(lat2);
+}
+
+/* (15) */
+static inline double wmr_bearing(double zeta_x, double zeta_y) {
+  return atan2(zeta_x, zeta_y);
+}
+
+/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on the law may count in floats. */
+static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon, double *east, double *north) {
+  const double degree = 3.14159265358979323846 / 180.0;
+  const double lat1 = lat_0 * degree, lat2 = lat * degree, dlat = (lat - lat_0) * degree, dlong = (lon - lon_0) * degree;
+  const double epsilon = wmr_epsilon(lat1, lat2, dlat, dlong), rest = wmr_rest(lat1, lat2, dlong);
+  const double rho = wmr_sphere_distance(epsilon, rest, 6371000.0);
+  const double bearing = wmr_bearing(wmr_zeta_x(lat2, dlong), wmr_zeta_y(lat1, lat2, dlat, dlong));
+  *east = rho * sin(bearing);
+  *north = rho * cos(bearing);
+}
+
+#endif

@@ -1,0 +1,18 @@
+"""``python -m wmrlib.symbolic`` prints model.js and wmr_law.h where they are kept; ``--c PATH`` prints the C header elsewhere."""
+
+import argparse
+import sys
+from pathlib import Path
+
+from wmrlib.symbolic import C_HEADER, MODEL_JS, c_header, javascript
+
+parser = argparse.ArgumentParser(prog="python -m wmrlib.symbolic", description="Print the formulas as JavaScript and as C.")
+parser.add_argument("--c", metavar="PATH", help="print only the C header, into this file; - is the screen")
+target = parser.parse_args().c
+if target == "-":
+    sys.stdout.write(c_header())
+elif target:
+    Path(target).write_text(c_header(), encoding="utf-8", newline="\n")
+else:
+    MODEL_JS.write_text(javascript(), encoding="utf-8", newline="\n")
+    C_HEADER.write_text(c_header(), encoding="utf-8", newline="\n")
