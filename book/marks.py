@@ -127,8 +127,10 @@ def _output_lines(output: NotebookNode) -> float:
     if output.output_type == "stream":
         return 0.9 * len(output.text.splitlines()) + 0.7
     data = output.get("data", {})
-    if "application/vnd.jupyter.widget-view+json" in data or "text/markdown" in data:
-        return ROOM  # a panel or a table has a slide for itself
+    if "application/vnd.jupyter.widget-view+json" in data:
+        return ROOM  # a panel has a slide for itself
+    if "text/markdown" in data:
+        return ROOM - 2.5  # and a table, but for a heading
     if "image/png" in data:
         return 11.0
     if "text/latex" in data:

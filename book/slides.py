@@ -6,7 +6,6 @@ With --mark, make none: give the cells of the notebooks named the slide types th
 from __future__ import annotations
 
 import argparse
-import html
 import os
 import re
 import shutil
@@ -32,17 +31,17 @@ def main(output: Path, chapters: list[str]) -> None:
     copy_javascript(output / "vendor", NPM_FILES | {"reveal": REVEAL_FILES})
     for path in BESIDE:
         shutil.copy(path, output)
-    titles = {}
+    for stale in output.glob("*.slides.html") if not chapters else ():
+        stale.unlink()
     for path in sorted(NOTEBOOKS.glob("[0-9][0-9]_*.ipynb")):
         if not chapters or path.name[:2] in chapters:
             notebook = prepared(executed(path))
-            titles[f"{path.stem}.slides.html"] = notebook.metadata["title"]
             exporter = SlidesExporter(
                 extra_template_basedirs=[str(BOOK)], template_name="deck", exclude_input_prompt=True, exclude_output_prompt=True
             )
             (output / f"{path.stem}.slides.html").write_text(exporter.from_notebook_node(notebook)[0], encoding="utf-8")
             print(output / f"{path.stem}.slides.html", flush=True)
-    (output / "index.html").write_text(contents(titles), encoding="utf-8")
+    (output / "index.html").write_text(contents(sorted(output.glob("*.slides.html"))), encoding="utf-8")
     print(output / "index.html")
 
 
@@ -61,14 +60,18 @@ def prepared(notebook: NotebookNode) -> NotebookNode:
         cell.metadata["slideshow"] = {"slide_type": kind}
         if cell.cell_type == "markdown":
             cell.source = LINK.sub(_deck_link, cell.source)
+        for output in cell.get("outputs", ()):
+            if "text/markdown" in output.get("data", {}):
+                output.data["text/markdown"] = LINK.sub(_deck_link, output.data["text/markdown"])
     notebook.metadata["title"] = next(line for line in cells[0].source.splitlines() if line.startswith("# "))[2:]
     notebook.cells = [part for cell in cells for part in _with_solution_in_notes(cell)]
     return notebook
 
 
-def contents(titles: dict[str, str]) -> str:
+def contents(decks: list[Path]) -> str:
     """The page that lists the decks and says which keys they know."""
-    items = "\n".join(f'<li>{int(name[:2])}. <a href="{name}">{html.escape(title)}</a></li>' for name, title in titles.items())
+    titles = {path.name: re.search("<title>(.*?)</title>", path.read_text(encoding="utf-8"))[1] for path in decks}
+    items = "\n".join(f'<li>{int(name[:2])}. <a href="{name}">{title}</a></li>' for name, title in titles.items())
     return (BOOK / "deck" / "contents.html").read_text(encoding="utf-8").replace("<!-- decks -->", items)
 
 

@@ -22,7 +22,7 @@
 
   /** Makes figures and then text smaller until all of a page can be seen; a panel's picture takes what its sliders leave. */
   function fit(page) {
-    for (const name of ['--scale', '--figure', '--canvas']) set(page, name, null);
+    for (const name of ['--scale', '--figure', '--canvas', '--table']) set(page, name, null);
     for (const formula of page.querySelectorAll('mjx-container[display="true"]')) narrow(formula);
     for (const text of page.querySelectorAll('.output pre')) narrowText(text);
     if (page.querySelector('.panel canvas')) {
@@ -31,6 +31,9 @@
     }
     if (page.querySelector('.output img')) {
       for (let height = 17; overflows(page) && height >= 11; height -= 0.5) set(page, '--figure', `${height}em`);
+    }
+    if (page.querySelector('.output_markdown')) {
+      for (let height = 23; overflows(page) && height >= 12; height -= 0.5) set(page, '--table', `${height}rem`);
     }
     for (let scale = 0.97; overflows(page) && scale >= 0.6; scale -= 0.03) set(page, '--scale', scale.toFixed(2));
   }
