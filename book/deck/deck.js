@@ -39,9 +39,9 @@
   }
 
   function narrow(formula) {
+    const widest = () => Math.max(...[...formula.querySelectorAll('svg')].map((it) => it.getBoundingClientRect().width));
     formula.style.fontSize = '';
-    const room = formula.parentElement.clientWidth, wide = Math.max(...[...formula.querySelectorAll('svg')].map((it) => it.getBoundingClientRect().width));
-    if (room && wide > room) formula.style.fontSize = `${Math.max(50, Math.floor((100 * room) / wide))}%`;
+    for (let size = 98; widest() > formula.parentElement.clientWidth + 0.5 && size >= 46; size -= 2) formula.style.fontSize = `${size}%`;
   }
 
   function narrowText(text) {
@@ -61,6 +61,7 @@
     hash: true,
     slideNumber: 'c/t',
     controls: false,
+    pdfSeparateFragments: false,
     // In a panel the arrows are the slider's; a presenter's remote control sends PageUp and PageDown, which go on.
     keyboardCondition: (event) => !inWidget() || ['PageUp', 'PageDown'].includes(event.key),
   });

@@ -10,6 +10,7 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import nbformat
+import pypdf
 import pytest
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture
 
@@ -49,7 +50,7 @@ def opened(decks, browser_page):
 
     def open_deck(name: str, size=SIZES[0]):
         browser_page.set_viewport_size({"width": size[0], "height": size[1]})
-        browser_page.goto((decks / name).as_uri(), wait_until="load", timeout=PATIENCE)
+        browser_page.goto(f"{decks.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
         browser_page.wait_for_function("document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE)
         browser_page.wait_for_function(
             """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
@@ -95,14 +96,14 @@ def test_a_key_walks_through_the_whole_deck(decks, opened, key):
         page = opened(path.name)
         steps = walk(page, key)
         assert len(steps) >= page.evaluate("deck.getTotalSlides()") >= 15
-        assert not any(steps), [(count, outside) for count, outside in enumerate(steps) if outside]
+        assert not any(steps), [(path.name, count, outside) for count, outside in enumerate(steps) if outside]
 
 
 @pytest.mark.parametrize("size", SIZES[1:], ids=str)
 def test_every_slide_fits_other_windows(decks, opened, size):
     for path in made(decks):
         steps = walk(opened(path.name, size), "ArrowRight")
-        assert not any(steps), [(count, outside) for count, outside in enumerate(steps) if outside]
+        assert not any(steps), [(path.name, count, outside) for count, outside in enumerate(steps) if outside]
 
 
 def test_formulas_are_drawn_and_figures_say_what_they_show(decks, opened):
@@ -176,6 +177,15 @@ def test_a_key_shows_and_hides_the_code(decks, opened):
     assert "wmr." in code.inner_text()
     page.keyboard.press("c")
     code.wait_for(state="hidden", timeout=PATIENCE)
+
+
+def test_a_deck_prints_a_page_a_slide(decks, opened, tmp_path):
+    page = opened(f"{with_panel(decks)}?print-pdf")
+    slides = page.evaluate("deck.getTotalSlides()")
+    page.pdf(path=tmp_path / "deck.pdf", prefer_css_page_size=True, print_background=True)
+    pages = [page.extract_text() for page in pypdf.PdfReader(tmp_path / "deck.pdf").pages]
+    assert slides <= len(pages) <= slides + 1  # Chromium may add an empty one
+    assert "Summary" in pages[slides - 1]
 
 
 def test_the_list_leads_to_each_deck(decks, browser_page):
