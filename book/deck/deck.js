@@ -30,7 +30,7 @@
       return;
     }
     if (page.querySelector('.output img')) {
-      for (let height = 17; overflows(page) && height >= 11; height -= 0.5) set(page, '--figure', `${height}em`);
+      for (let height = 20; overflows(page) && height >= 11; height -= 0.5) set(page, '--figure', `${height}em`);
     }
     if (page.querySelector('.output_markdown')) {
       for (let height = 23; overflows(page) && height >= 12; height -= 0.5) set(page, '--table', `${height}rem`);
