@@ -90,7 +90,7 @@ def npm_files(pattern: str) -> list[Path]:
 def copy_sources(source: Path) -> None:
     """The book's own pages and, beside them, the chapters: Sphinx wants one tree, and the repository keeps its notebooks at the top."""
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=shutil.ignore_patterns(".*", "__pycache__"))
-    for page in (*BOOK.glob("*.md"), BOOK / "speed.json"):  # a page, or what a page draws
+    for page in (*BOOK.glob("*.md"), BOOK / "speed.json", BOOK / "classroom.json"):  # a page, or what a page shows
         shutil.copy(page, source)
     for chapter in (source / "notebooks").glob("*.ipynb"):  # from a notebook in the repository, the book's pages are in ../book
         chapter.write_text(chapter.read_text(encoding="utf-8").replace("](../book/", "](../"), encoding="utf-8")

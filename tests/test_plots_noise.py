@@ -20,7 +20,7 @@ T = np.linspace(0.0, 10.0, 51)
 PICTURES = {
     "scatter": lambda: plots.scatter(FOUND),
     "end_poses": lambda: plots.end_poses(ENDS, GOAL, 0.05),
-    "trade_off": lambda: plots.trade_off(RADII, np.array([0.2, 0.5, 1.4]), np.array([80.0, 34.0, 60.0]), 0.5),
+    "arrival_radii": lambda: plots.arrival_radii(RADII, np.array([0.2, 0.5, 1.4]), np.array([80.0, 34.0, 60.0]), 0.5),
     "near_goal": lambda: plots.near_goal({"one": wmr.Pose(T, 57.0 + 0.0 * T, 0.0 * T), "two": wmr.Pose(T - 2.0, T + 49.0, 0.0 * T)}, GOAL),
     "rising": lambda: plots.rising({"falls": (T, 1.5 * np.exp(-T)), "waves": (T, 2.0 + np.sin(T))}),
     "rising, one": lambda: plots.rising({"falls": (T, np.exp(-T))}),
@@ -55,7 +55,7 @@ def test_texts_carry_the_numbers():
     assert "from -7.5 m east and -0.5 m north to 2.7 m east and 0.6 m north" in plots.scatter(FOUND).alt
     assert "300 robots" in PICTURES["end_poses"]().alt
     assert "about 15 % have a heading within 30 deg of the wanted one, and about 50 %" in PICTURES["end_poses"]().alt
-    assert "goes from 0.2 to 1.4 m, the heading error is smallest, about 35 deg, near 0.3 m" in PICTURES["trade_off"]().alt
+    assert "goes from 0.2 to 1.4 m, the heading error is smallest, about 35 deg, near 0.3 m" in PICTURES["arrival_radii"]().alt
     assert "one, 1.0 m from the goal; two, 2.2 m from the goal" in PICTURES["near_goal"]().alt
     assert "falls, 0 %; waves, 45 %" in PICTURES["rising"]().alt
     assert "0 % with no noise and a step of 0.1 s, about 20 % with 1 m of noise, and about 50 % with no noise" in PICTURES["rise_map"]().alt
@@ -81,7 +81,7 @@ def test_robots_stand_where_they_ended():
         (lambda: plots.scatter(ENDS), "a Standing is needed, not a Pose"),
         (lambda: plots.end_poses((1, 2, 3), GOAL, 0.1), "a Pose is needed"),
         (lambda: plots.near_goal({}, GOAL), "paths has 0 entries, which is not allowed: 1 to 4 are needed"),
-        (lambda: plots.trade_off(RADII, RADII, np.ones(2), 0.5), "mismatched lengths"),
+        (lambda: plots.arrival_radii(RADII, RADII, np.ones(2), 0.5), "mismatched lengths"),
         (lambda: plots.rise_map(SIGMAS, STEPS, np.ones((3, 2))), r"share has shape \(3, 2\).*\(2, 3\), one row a dt"),
         (lambda: plots.rise_map(SIGMAS, STEPS, np.full((2, 3), 101.0)), "at most 100"),
     ],

@@ -6,7 +6,7 @@ from wmrlib.plots.comparison import chase, heading_shares, residual_curve, snaps
 from wmrlib.plots.design import front, phase_portrait, root_locus
 from wmrlib.plots.diagram import block_diagram
 from wmrlib.plots.earth import local_map, rounding_errors, sphere_error_map, spherical_triangle
-from wmrlib.plots.noise import end_poses, near_goal, rise_map, rising, scatter, trade_off
+from wmrlib.plots.noise import arrival_radii, end_poses, near_goal, rise_map, rising, scatter
 from wmrlib.plots.robot import approach, commutator, coordinate_system, steps, turning_centre
 from wmrlib.plots.runs import arrival, dashboard, draw_errors, draw_lyapunov, draw_path, draw_series, errors, lyapunov, path, twist
 from wmrlib.plots.sampling import driven, inner_loops, orders, responses, time_steps
@@ -20,6 +20,7 @@ __all__ = [
     "angles_over_time",
     "approach",
     "arrival",
+    "arrival_radii",
     "arrow",
     "block_diagram",
     "chase",
@@ -63,7 +64,6 @@ __all__ = [
     "third_angle",
     "time_steps",
     "together",
-    "trade_off",
     "tradeoff",
     "turning_centre",
     "twist",

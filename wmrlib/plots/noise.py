@@ -73,7 +73,7 @@ def end_poses(ends: Pose, goal: Pose, radius: float) -> Picture:
     )
 
 
-def trade_off(radius: np.ndarray, distance: np.ndarray, heading_deg: np.ndarray, sigma: float) -> Picture:
+def arrival_radii(radius: np.ndarray, distance: np.ndarray, heading_deg: np.ndarray, sigma: float) -> Picture:
     """Distance from the goal [m] and heading error [deg] at the end, over the arrival radius [m]; a line marks the noise, sigma [m]."""
     radius, distance, heading_deg = real("radius", radius), real("distance", distance), real("heading_deg", heading_deg)
     same_shape(radius=radius, distance=distance, heading_deg=heading_deg)
