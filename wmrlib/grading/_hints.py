@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 
-class Hint(AssertionError):
+class Hint(AssertionError):  # noqa: N818  (its name is what a student reads)
     """Why an answer does not pass. Jupyter shows the sentence alone: a traceback would show the check, and with it the answer."""
 
     def _render_traceback_(self) -> list[str]:

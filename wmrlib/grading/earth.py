@@ -7,9 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrlib.geodesy import GeoPoint, haversine_distance, initial_bearing, local_position
-from wmrlib.grading._hints import Passed, ask_number, ask_numbers, close, expect, own_work
-from wmrlib.kinematics import wrap_angle
+from wmrlib.geodesy import GeoPoint, haversine_distance
+from wmrlib.grading._hints import Passed, ask_number, close, expect, own_work
 from wmrlib.paper import GPS_POINT_1, GPS_POINT_2
 
 Function = Callable[[float, float, float, float], float]
