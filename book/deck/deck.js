@@ -85,15 +85,25 @@
     fit(slide.querySelector('.page'));
   }
 
+  // To print, reveal.js takes the slides out of the page for a moment: widgets that came then would find no place, so they come later.
+  const printable = new Promise((resolve) => deck.on('pdf-ready', resolve));
+  const arranged = deck.initialize().then(() => deck.isPrintingPDF() && printable).then(() => {
+    const widgets = document.querySelector('script[type="text/widgets"]');
+    if (!widgets) return;
+    const script = document.createElement('script');
+    for (const { name, value } of widgets.attributes) if (name !== 'type') script.setAttribute(name, value);
+    widgets.replaceWith(script);
+  });
   const drawn = [MathJax.startup.promise, ...[...document.images].map((image) => image.decode().catch(() => {}))];
-  Promise.all([deck.initialize(), ...drawn]).then(() => {
+  Promise.all([arranged, ...drawn]).then(() => {
     deck.on('slidechanged', arrived);
     addEventListener('resize', () => pages.forEach(fit));
     // Widgets come when they come, and change their size when they are used.
     const watch = new ResizeObserver(() => pages.filter((page) => page.querySelector('.panel')).forEach(fit));
     document.querySelectorAll('.panel').forEach((panel) => watch.observe(panel));
     pages.forEach(fit);
-    arrived();
+    if (deck.isPrintingPDF()) where.textContent = title;
+    else arrived();
     document.documentElement.dataset.deck = 'ready';
   });
   window.deck = deck;
