@@ -35,6 +35,11 @@ from .kinematics import wrap_angle as wrap_angle
 from .metrics import arrival as arrival
 from .metrics import path_length as path_length
 from .metrics import residual as residual
+from .routes import Route as Route
+from .routes import drive_route as drive_route
+from .routes import headings_along as headings_along
+from .routes import route_points as route_points
+from .routes import route_poses as route_poses
 from .simulation import Arrival as Arrival
 from .simulation import Outcome as Outcome
 from .simulation import Trajectory as Trajectory
