@@ -1,8 +1,10 @@
 # The public names and where they live: read by lazy_loader at run time, and by editors and type checkers.
+from . import challenge as challenge
 from . import conventions as conventions
 from . import metrics as metrics
 from . import paper as paper
 from . import plots as plots
+from . import scoreboard as scoreboard
 from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
