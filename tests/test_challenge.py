@@ -194,11 +194,11 @@ def test_gains_count_with_three_decimals():
     assert score(near._replace(k_rho=0.1286)).gains.k_rho == 0.129
 
 
-def test_a_start_on_its_goal_costs_nothing_but_its_turn():
-    here = wmr.Pose(1.0, 2.0, 0.5)
-    game = Challenge(0, (Case("there", here, here),))
-    assert score(GENTLE, game).reached == 1
-    assert score(GENTLE, game).cases[0].time == 0.0
+def test_a_start_within_the_arrival_radius_is_reached_at_once_and_one_on_the_goal_itself_hangs_on_rounding():
+    goal = wmr.Pose(1.0, 2.0, 0.5)
+    one, other = (score(GENTLE, Challenge(0, (Case("there", goal._replace(y=y), goal),))) for y in (1.97, 2.0))
+    assert (one.reached, one.cases[0].time) == (1, 0.0)
+    assert other.cases[0].note == "hangs on rounding"  # its line of sight has no direction
 
 
 def test_what_it_says():
