@@ -5,9 +5,10 @@ cases, and less is better. The corrected law drives, its command held for dt as 
 A case that is not reached costs `Challenge.penalty`, which is what the worst possible arrival would.
 
 The score follows from the gains alone, on every machine: they count with 3 decimals, it has 2. Computers differ in their last digits,
-and an unstable run makes such a difference large. So each case is driven twice, the second time from a micrometre further east, ten
-million times what rounding does: if that changes its points by more than 1, it hangs on rounding and counts as not reached. What remains
-is that a score within about 1e-7 of the edge between two roundings may be shown as either of both.
+and an unstable run makes such a difference large. So each case is driven five times, as it is and from a micrometre further east, west,
+north and south, which is millions of times what rounding does: if one of them changes its points by more than 1, the case hangs on rounding
+and counts as not reached. What remains is luck: a mean within about 1e-8 of the edge between two roundings may be shown as either of
+both, and of a chaotic run all five may end alike.
 """
 
 from __future__ import annotations
@@ -156,23 +157,22 @@ def rounded(gains: Gains) -> Gains:
 
 
 def score(gains: Gains, game: Challenge | None = None) -> Score:
-    """What the gains are worth in the challenge (the published one for None); see the module for the formula. Takes about a millisecond.
+    """What the gains are worth in the challenge (the published one for None); see the module for the formula. Takes milliseconds.
 
     Raises ValueError for anything but Gains of single numbers, or another type of game.
     """
     game, gains = _game(game), rounded(gains)
     x, y, heading = (np.array(column) for column in zip(*(case.start for case in game.cases), strict=True))
-    starts = Pose(np.array([x, x + _ASIDE]), y, heading)
+    starts = Pose(x + _ASIDE * np.array([[0], [1], [-1], [0], [0]]), y + _ASIDE * np.array([[0], [0], [0], [1], [-1]]), heading)
     goals = Pose(*(np.array(column) for column in zip(*(case.goal for case in game.cases), strict=True)))
     limits = {"dt": game.dt, "duration": game.duration, "arrival_radius": game.arrival_radius, "wheels": game.wheels}
     ends = sweep(starts, goals, gains, method="arc", progress=False, **limits)
     error = np.abs(np.degrees(ends.heading_error))
-    with np.errstate(invalid="ignore"):
-        points = np.where(ends.arrived, ends.time + _HEADING_WEIGHT * error + _OMEGA_WEIGHT * ends.peak_omega, game.penalty)
+    points = np.where(ends.arrived, ends.time + _HEADING_WEIGHT * error + _OMEGA_WEIGHT * ends.peak_omega, game.penalty)
     distance = np.hypot(goals.x - x, goals.y - y)
     rows = []
     for k, case in enumerate(game.cases):
-        tipped = abs(points[1, k] - points[0, k]) > _TIPPED
+        tipped = np.abs(points[1:, k] - points[0, k]).max() > _TIPPED
         note = "not reached" if not ends.arrived[0, k] else "hangs on rounding" if tipped else ""
         values = distance[k], ends.time[0, k], error[0, k], ends.peak_omega[0, k], game.penalty if note else points[0, k]
         rows.append(CaseScore(case.kind, *map(float, values), note))
