@@ -197,6 +197,16 @@ def test_a_run_that_hangs_on_rounding_is_not_reached():
     assert wild.cases[k].points == wild.game.penalty
 
 
+@pytest.mark.parametrize("turn", [0.0, math.pi / 2])
+def test_a_goal_exactly_behind_hangs_on_rounding_on_whichever_axis_it_lies(turn):
+    """Left or right is then a matter of the last digit, and only a start that is pushed sideways tells."""
+    goal = wmr.Pose(-5.0 * round(math.cos(turn)), -5.0 * round(math.sin(turn)), turn + 1.0)
+    exactly = score(GENTLE, Challenge(0, (Case("behind", wmr.Pose(0.0, 0.0, turn), goal),)))
+    assert exactly.cases[0].note == "hangs on rounding"
+    beside = score(GENTLE, Challenge(0, (Case("behind", wmr.Pose(0.0, 0.0, turn + 0.1), goal),)))
+    assert beside.reached == 1
+
+
 def test_worse_gains_score_worse():
     for worse in ({"h": 0.0}, {"h": 30.0}, {"k_rho": 0.02}, {"k_rho": 3.0}, {"k_alpha": 0.1}, {"k_alpha": 10.0}, {"v_max": 0.5}):
         assert score(GOOD._replace(**worse)).total > score(GOOD).total + 1.0, worse
