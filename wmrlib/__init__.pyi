@@ -1,8 +1,10 @@
 # The public names and where they live: read by lazy_loader at run time, and by editors and type checkers.
+from . import challenge as challenge
 from . import conventions as conventions
 from . import metrics as metrics
 from . import paper as paper
 from . import plots as plots
+from . import scoreboard as scoreboard
 from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
@@ -35,6 +37,11 @@ from .kinematics import wrap_angle as wrap_angle
 from .metrics import arrival as arrival
 from .metrics import path_length as path_length
 from .metrics import residual as residual
+from .routes import Route as Route
+from .routes import drive_route as drive_route
+from .routes import headings_along as headings_along
+from .routes import route_points as route_points
+from .routes import route_poses as route_poses
 from .simulation import Arrival as Arrival
 from .simulation import Outcome as Outcome
 from .simulation import Trajectory as Trajectory

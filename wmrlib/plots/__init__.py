@@ -8,6 +8,7 @@ from wmrlib.plots.diagram import block_diagram
 from wmrlib.plots.earth import local_map, rounding_errors, sphere_error_map, spherical_triangle
 from wmrlib.plots.noise import arrival_radii, end_poses, near_goal, rise_map, rising, scatter
 from wmrlib.plots.robot import approach, commutator, coordinate_system, steps, turning_centre
+from wmrlib.plots.routes import challenge_paths, route, route_signals
 from wmrlib.plots.runs import arrival, dashboard, draw_errors, draw_lyapunov, draw_path, draw_series, errors, lyapunov, path, twist
 from wmrlib.plots.sampling import driven, inner_loops, orders, responses, time_steps
 from wmrlib.plots.state import heading_errors, level_sets, lyapunov_runs, rate_sign
@@ -23,6 +24,7 @@ __all__ = [
     "arrival_radii",
     "arrow",
     "block_diagram",
+    "challenge_paths",
     "chase",
     "commutator",
     "coordinate_system",
@@ -56,6 +58,8 @@ __all__ = [
     "rising",
     "root_locus",
     "rounding_errors",
+    "route",
+    "route_signals",
     "scatter",
     "snapshots",
     "sphere_error_map",

@@ -1,0 +1,158 @@
+"""Who has the best gains: the line that a student hands in for the tuning challenge, and a text file of such lines for a class.
+
+A line names who, the seed, the gains and the score, in ASCII, and ends in a checksum, the first ten hexadecimal digits of the SHA-256 of
+what stands before it. The checksum finds a character that was lost or mistyped on the way. It is no signature: whoever can run this
+module can make a line in any name. What can't be made up is the score, which is computed again from the gains wherever it is read.
+"""
+
+from __future__ import annotations
+
+import datetime
+import os
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NamedTuple
+
+from wmrlib._certificate import Entry, Verdict, certificate, verify
+from wmrlib.challenge import SEED, from_seed
+from wmrlib.gains import Gains
+
+__all__ = ["Entry", "Ranked", "Ranking", "Refused", "Scoreboard", "Verdict", "certificate", "verify"]
+
+_UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # how such a file begins: some editors and PowerShell's > make one
+
+
+class Ranked(NamedTuple):
+    """A place in the ranking: rank, from 1, shared by equal points; Entry, the best of its name; tries: how many lines that name has."""
+
+    rank: int
+    entry: Entry
+    tries: int
+
+
+class Refused(NamedTuple):
+    """A line that is not ranked: its number in the file, from 1, its text, and why."""
+
+    line: int
+    text: str
+    reason: str
+
+
+@dataclass(frozen=True, slots=True, repr=False)
+class Ranking:
+    """A scoreboard as it was read: entries, a tuple of Ranked, the best first; refused, a tuple of Refused; others: how many lines are
+    true and of another seed; seed.
+    """
+
+    entries: tuple[Ranked, ...]
+    refused: tuple[Refused, ...]
+    others: int
+    seed: int
+
+    def __repr__(self) -> str:
+        told = f"{len(self.entries)} names ranked, {len(self.refused)} lines refused, {self.others} of other seeds"
+        rows = [f"<Ranking: seed {self.seed}; {told}>"]
+        if self.entries:
+            rows.append(f"{'rank':>4}{'points':>9}{'tries':>7}   {'k_rho, k_alpha, h, v_max':<30}name")
+        for rank, entry, tries in self.entries:
+            rows.append(f"{rank:>4}{entry.points:>9.2f}{tries:>7}   {', '.join(f'{gain:g}' for gain in entry.gains):<30}{entry.name}")
+        rows += [f"line {line} is not ranked: {reason}" for line, _, reason in self.refused]
+        return "\n".join(rows)
+
+
+class Scoreboard:
+    """A text file of handed-in lines, one a line, and its ranking.
+
+    path: of the file, which need not exist yet. Lines that are empty or begin with # are let alone, so that the file can be edited by
+    hand; two boards are merged by joining their files. Lines are only ever added at the end, each by a single write under a lock of the
+    operating system: what stands in the file, damaged or not, stays, and of two who write at once both are there.
+    """
+
+    def __init__(self, path: str | os.PathLike) -> None:
+        self.path = Path(path)
+
+    def __repr__(self) -> str:
+        return f"<Scoreboard: {str(self.path)!r}>"
+
+    def add(self, name: str, gains: Gains, seed: int = SEED, date: datetime.date | None = None) -> str:
+        """Add a try, and return its line. Raises ValueError as `certificate`, and OSError for a file that can't be written."""
+        line = certificate(name, gains, seed, date)
+        self._append(line)
+        return line
+
+    def add_line(self, line: str) -> Verdict:
+        """Add a line that was handed in, if it is true; the Verdict says whether it is. Raises OSError if the file can't be written."""
+        verdict = verify(line)
+        if verdict:
+            self._append(line.strip())
+        return verdict
+
+    def ranking(self, seed: int = SEED) -> Ranking:
+        """Read the file and compute all scores again: the best try of each name, by points; a file that is not there has none.
+
+        Names that differ only in upper and lower case are one. Raises ValueError as `challenge.from_seed`, and OSError if the file can't
+        be read.
+        """
+        seed, best, tries, refused, others = from_seed(seed).seed, {}, {}, [], 0
+        for number, text in self._lines():
+            verdict = verify(text)
+            if not verdict:
+                refused.append(Refused(number, text, verdict.reason))
+            elif verdict.entry.seed != seed:
+                others += 1
+            else:
+                key = verdict.entry.name.casefold()
+                tries[key] = tries.get(key, 0) + 1
+                if key not in best or verdict.entry.points < best[key].points:
+                    best[key] = verdict.entry
+        points = sorted(entry.points for entry in best.values())
+        ordered = sorted(best, key=lambda key: (best[key].points, key))
+        entries = tuple(Ranked(1 + points.index(best[key].points), best[key], tries[key]) for key in ordered)
+        return Ranking(entries, tuple(refused), others, seed)
+
+    def _lines(self) -> Iterator[tuple[int, str]]:
+        content = self.path.read_bytes() if self.path.exists() else b""
+        text = content.decode("utf-16" if content[:2] in _UTF_16 else "utf-8", "backslashreplace")
+        for number, line in enumerate(text.split("\n"), start=1):
+            stripped = line.strip().strip("\ufeff")  # the mark of UTF-8, where files were joined
+            if stripped and not stripped.startswith("#"):
+                yield number, stripped
+
+    def _append(self, line: str) -> None:
+        descriptor = os.open(self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0), 0o666)
+        try:
+            with _locked(descriptor):
+                os.lseek(descriptor, 0, os.SEEK_SET)
+                if os.read(descriptor, 2) in _UTF_16:
+                    raise ValueError(f"{str(self.path)!r} is in UTF-16, to which no line is added: save it as UTF-8 or ASCII")
+                end = os.lseek(descriptor, 0, os.SEEK_END)
+                os.lseek(descriptor, max(end - 1, 0), os.SEEK_SET)
+                unfinished = os.read(descriptor, 1) not in (b"", b"\n")  # edited by hand, or cut off
+                os.write(descriptor, f"{chr(10) * unfinished}{line}\n".encode("ascii"))
+        finally:
+            os.close(descriptor)
+
+
+@contextmanager
+def _locked(descriptor: int) -> Iterator[None]:
+    """The file is this process's alone; the operating system lets go of it even if the process dies."""
+    try:
+        import fcntl
+    except ImportError:  # Windows, where a byte far behind the end stands for the file
+        import msvcrt
+
+        os.lseek(descriptor, 2**30, os.SEEK_SET)
+        msvcrt.locking(descriptor, msvcrt.LK_LOCK, 1)
+        try:
+            yield
+        finally:
+            os.lseek(descriptor, 2**30, os.SEEK_SET)
+            msvcrt.locking(descriptor, msvcrt.LK_UNLCK, 1)
+    else:
+        fcntl.flock(descriptor, fcntl.LOCK_EX)
+        try:
+            yield
+        finally:
+            fcntl.flock(descriptor, fcntl.LOCK_UN)
