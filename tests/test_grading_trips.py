@@ -26,7 +26,7 @@ def test_other_forms_pass():
         assert check(poses)
     for check in (trips.parked_runs, trips.parked_wrapped):
         assert check(parked)
-    for gains in (wmr.Gains(0.3, 1.5, 1, 4), wmr.Gains(0.32, 1.6, 1.2)):
+    for gains in (wmr.Gains(0.3, 1.5, 1, 4), wmr.Gains(0.3, 1.75, 1.25)):
         for check in (trips.home_time, trips.home_heading, trips.home_omega):
             assert check(gains)
 
