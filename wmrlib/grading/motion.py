@@ -1,4 +1,4 @@
-"""Checks of the robot's kinematics: wheels and twist, the exact step, and wheels that are kept below their limit."""
+"""Checks of the robot's motion: wheels and twist, the exact step, and wheels that are kept below their limit."""
 
 from __future__ import annotations
 

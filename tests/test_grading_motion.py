@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 import wmrlib as wmr
-from wmrlib.grading import Hint, robot
+from wmrlib.grading import Hint, motion
 
 
 def wheels(v, omega, track_width, wheel_radius):
@@ -33,11 +33,11 @@ def limited(left, right, max_speed):
 
 
 def test_other_forms_pass():
-    assert robot.wheels_known(wheels)
-    assert robot.twist_known(twist)
-    for check in (robot.arc_known, robot.arc_straight, robot.arc_properties):
+    assert motion.wheels_known(wheels)
+    assert motion.twist_known(twist)
+    for check in (motion.arc_known, motion.arc_straight, motion.arc_properties):
         assert check(arc)
-    for check in (robot.limited_speed, robot.limited_curvature):
+    for check in (motion.limited_speed, motion.limited_curvature):
         assert check(limited)
 
 
@@ -53,7 +53,7 @@ def test_other_forms_pass():
 )
 def test_wheels_hints(answer, hint):
     with pytest.raises(Hint, match=hint):
-        robot.wheels_known(answer)
+        motion.wheels_known(answer)
 
 
 @pytest.mark.parametrize(
@@ -67,7 +67,7 @@ def test_wheels_hints(answer, hint):
 )
 def test_twist_hints(answer, hint):
     with pytest.raises(Hint, match=hint):
-        robot.twist_known(answer)
+        motion.twist_known(answer)
 
 
 @pytest.mark.parametrize(
@@ -83,7 +83,7 @@ def test_twist_hints(answer, hint):
 )
 def test_arc_hints(answer, hint):
     with pytest.raises(Hint, match=hint):
-        robot.arc_known(answer)
+        motion.arc_known(answer)
 
 
 @pytest.mark.parametrize(
@@ -96,19 +96,19 @@ def test_arc_hints(answer, hint):
 )
 def test_arc_property_hints(answer, hint):
     with pytest.raises(Hint, match=hint):
-        robot.arc_properties(answer)
+        motion.arc_properties(answer)
 
 
 @pytest.mark.parametrize(
     ("check", "answer", "hint"),
     [
-        (robot.limited_speed, lambda a, b, m: (a, b), "a wheel turns at 2.00 times its limit"),
-        (robot.limited_speed, lambda a, b, m: (a, b) if max(abs(a), abs(b)) <= m else limited(a, b, 0.9 * m), "could go faster"),
-        (robot.limited_speed, lambda a, b, m: (0.0, 0.0), "left alone"),
-        (robot.limited_speed, lambda a, b, m: (m * a / max(abs(a), abs(b)), m * b / max(abs(a), abs(b))), "sped up"),
-        (robot.limited_curvature, lambda a, b, m: -limited(a, b, m), "the other way"),
-        (robot.limited_curvature, lambda a, b, m: limited(a, b, m)[::-1], "turning centre moves|other way"),
-        (robot.limited_curvature, lambda a, b, m: (0.0, 0.0), "other way"),
+        (motion.limited_speed, lambda a, b, m: (a, b), "a wheel turns at 2.00 times its limit"),
+        (motion.limited_speed, lambda a, b, m: (a, b) if max(abs(a), abs(b)) <= m else limited(a, b, 0.9 * m), "could go faster"),
+        (motion.limited_speed, lambda a, b, m: (0.0, 0.0), "left alone"),
+        (motion.limited_speed, lambda a, b, m: (m * a / max(abs(a), abs(b)), m * b / max(abs(a), abs(b))), "sped up"),
+        (motion.limited_curvature, lambda a, b, m: -limited(a, b, m), "the other way"),
+        (motion.limited_curvature, lambda a, b, m: limited(a, b, m)[::-1], "turning centre moves|other way"),
+        (motion.limited_curvature, lambda a, b, m: (0.0, 0.0), "other way"),
     ],
 )
 def test_limit_hints(check, answer, hint):
