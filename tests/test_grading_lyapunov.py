@@ -28,7 +28,7 @@ def test_other_forms_pass():
         CLOSED.subs(1 - sp.exp(-k_rho * rho), rho * decay(rho, k_rho)),
     ):
         assert lyapunov.closed(form)
-    for state in ((0.1, -0.8, -1.5), [np.float64(0.1), -sp.pi / 4, -1], (sp.Rational(1, 10), -0.8, -2)):
+    for state in ((0.1, -0.8, -1.5), np.array([0.1, -0.8, -1.5]), (sp.Rational(1, 10), -0.8, -2)):
         assert lyapunov.rising(state)
         assert lyapunov.rising_fast(state)
 
@@ -107,6 +107,7 @@ def test_closed_hints(value, hint):
     [
         (None, "no value yet"),
         (0.5, "three numbers"),
+        ("abc", "one number is needed"),
         ((0.5, -1.0), "three numbers"),
         ((2.0, -1.0, 0.0), "within 1 m"),
         ((0.0, -1.0, 0.0), "within 1 m"),

@@ -72,14 +72,14 @@ def drive_obeys(drive: Callable[..., Any]) -> Passed:
         ("drives in a circle", (1.0, 0.7)),
         ("backs", (-1.0, 0.0)),
     ):
-        path = _path(drive, Pose(3.0, 4.0, 0.5), _ORIGIN, lambda *_, command=command: command, 0.1, 4.0)
+        path = _path(drive, Pose(3.0, 4.0, 0.5), _ORIGIN, lambda *_, command=command: command, 0.125, 4.0)
         expect(
-            len(path) == 41,
-            f"in 4 s with dt = 0.1 s there are 41 poses, the start and one after each step; a robot that {name} has {len(path)}.",
+            len(path) == 33,
+            f"in 4 s with dt = 0.125 s there are 33 poses, the start and one after each step; a robot that {name} has {len(path)}.",
         )
         pose = Pose(3.0, 4.0, 0.5)
-        for k in range(1, 41):
-            pose = advance(pose, *command, 0.1, method="euler")
+        for k in range(1, 33):
+            pose = advance(pose, *command, 0.125, method="euler")
             expect(
                 _same_pose(path[k], pose, 1e-6), f"under a law that {name} it does not: is the law that is passed in the one that is used?"
             )

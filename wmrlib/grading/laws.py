@@ -46,9 +46,9 @@ def law_goal(law: Callable[..., tuple[float, float]]) -> Passed:
         for state in ((2.0, small, 0.7), (2.0, -small, 0.7), (small, 0.5, 0.7), (small, small, 0.7)):
             value, right = ask_numbers(law, 2, *state, *gains), control_law(*state, gains)
             where = f"rho = {state[0]:g}, alpha = {state[1]:g}"
-            expect(close(value[0], right[0], 1e-3, 1e-9), f"v is {value[0]:.4g} at {where}.")
+            expect(close(value[0], right[0], 3e-3, 1e-9), f"v is {value[0]:.4g} at {where}.")
             expect(
-                close(value[1], right[1], 1e-3, 1e-9),
+                close(value[1], right[1], 3e-3, 1e-9),
                 f"omega jumps to {value[1]:.4g} at {where}: what do sin(alpha)/alpha and (1 - exp(-k_rho rho))/rho tend to? "
                 "And 1 - exp(-x) loses its digits for a small x; `math.expm1` does not.",
             )

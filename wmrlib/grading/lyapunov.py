@@ -6,7 +6,6 @@ The assignment's V is a bowl without a seam, `BOWL`: it has 1 - cos(alpha) where
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from typing import Any
 
 import sympy as sp
@@ -116,9 +115,7 @@ def rising_fast(state: Any) -> Passed:
 
 def _printed_slope(state: Any) -> sp.Expr:
     expect(state is not None and state is not ..., "`rising` has no value yet.")
-    expect(
-        isinstance(state, Sequence) and not isinstance(state, str) and len(state) == 3, "`rising` needs three numbers: (rho, alpha, theta)."
-    )
+    expect(hasattr(state, "__len__") and len(state) == 3, "`rising` needs three numbers: (rho, alpha, theta).")
     distance, angle, third = (number(f"`{name}`", each) for name, each in zip(("rho", "alpha", "theta"), state, strict=True))
     expect(0.0 < distance <= 1.0, f"rho = {distance:g} m is asked to be within 1 m of the goal, and more than 0.")
     expect(max(abs(angle), abs(third)) <= math.pi, "alpha and theta are asked for in radians, from -pi to pi.")

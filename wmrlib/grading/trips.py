@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable
 from functools import cache
 from typing import Any
 
@@ -122,7 +122,7 @@ def home_omega(my_gains: Any) -> Passed:
 
 def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: float) -> list[Pose]:
     answer = ask(poses, a, b, course, goal_course)
-    two = isinstance(answer, Sequence) and not isinstance(answer, (str, Pose)) and len(answer) == 2
+    two = hasattr(answer, "__len__") and len(answer) == 2
     expect(two and all(hasattr(each, "__len__") and len(each) == 3 for each in answer), "two poses are needed: `return start, goal`.")
     return [
         Pose(*(number(f"the {name}'s {field}", each) for field, each in zip(Pose._fields, pose, strict=True)))
