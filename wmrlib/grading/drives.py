@@ -52,8 +52,7 @@ def drive_arrives(drive: Callable[..., Any]) -> Passed:
         angle = 2.0 * math.pi * k / 12 + 0.1
         start = Pose(12.0 * math.cos(angle), 12.0 * math.sin(angle), 2.0 * k)
         path = _path(drive, start, _ORIGIN, _gentle_law, 0.02, 60.0)
-        rho, alpha, theta = polar_error(Pose(*path[-1]), _ORIGIN)
-        off = abs(math.degrees(wrap_angle(theta - alpha)))
+        rho, off = math.hypot(*path[-1, :2]), abs(math.degrees(wrap_angle(float(path[-1, 2]))))
         from_where = f"from {math.degrees(wrap_angle(angle)):.0f} deg round the goal it ends"
         expect(rho <= ARRIVAL_RADIUS, f"{from_where} {rho:.2g} m away.")
         expect(off < 10.0, f"{from_where} at the right place, {off:.0f} deg off.")
