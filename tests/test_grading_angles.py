@@ -78,6 +78,18 @@ def test_polar_refuses_wmrlib():
         angles.polar_known(lambda x, y, h, a, b, g: wmr.polar_error(wmr.Pose(x, y, h), wmr.Pose(a, b, g)))
 
 
+@pytest.mark.parametrize(
+    "answer",
+    [
+        lambda *each: polar(*each) + np.array([0.0, 0.1, 0.0]),  # right distance, angles that don't mirror
+        lambda *each: polar(*each) + np.array([max(each[1], 0.0), 0.0, 0.0]),  # right angles, distance that does not
+    ],
+)
+def test_what_does_not_mirror(answer):
+    with pytest.raises(Hint, match="in a mirror"):
+        angles.polar_properties(answer)
+
+
 def test_constants_are_no_polar_error():
     with pytest.raises(Hint, match="zero"):
         angles.polar_properties(lambda *_: (1.0, 0.0, 0.0))

@@ -41,6 +41,9 @@ def test_other_forms_pass():
         (lambda start, goal: ([*start[:2], 1.0], goal), "the start's heading is wrong"),
         (lambda start, goal: start, "two poses are needed"),
         (lambda start, goal: None, "two poses are needed"),
+        (lambda start, goal: (0.0, 0.0), "two poses are needed"),
+        (lambda start, goal: (start, goal, goal), "two poses are needed"),
+        (lambda start, goal: (start, goal[:2]), "two poses are needed"),
         (lambda start, goal: (start, (None, 1, 2)), "the goal's x has no value yet"),
     ],
 )
