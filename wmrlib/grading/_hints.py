@@ -101,7 +101,8 @@ def _names(function: Callable, seen: set) -> Iterator[tuple[str, Any]]:
         for name in code.co_names:
             value = function.__globals__.get(name, sys.modules.get(name) if name == "wmrlib" else None)
             yield name, value
-            yield from _names(value, seen)
+            if not str(getattr(value, "__module__", "")).startswith("wmrlib"):  # what wmrlib's own functions call is no matter
+                yield from _names(value, seen)
 
 
 def _line(error: BaseException) -> str:
