@@ -1,0 +1,36 @@
+"""Answers that are more than numbers: a matrix that a student's function returns, and gains."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Any
+
+import numpy as np
+
+from wmrlib.gains import Gains
+from wmrlib.grading._hints import _name, _shown, ask, expect, number
+
+
+def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np.ndarray:
+    """As `ask`, for a function that is to return a list, matrix or array of this shape, all finite."""
+    name, answer = _name(function), ask(function, *arguments)
+    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
+    try:
+        array = np.asarray(answer, dtype=float)
+    except (TypeError, ValueError):
+        array = None
+    wanted = " x ".join(map(str, shape)) + (" numbers are" if len(shape) > 1 or shape[0] > 1 else " number is")
+    expect(array is not None, f"`{name}` returns {_shown(answer)}; {wanted} needed.")
+    got = " x ".join(map(str, array.shape)) + " numbers" if array.ndim else "one number"
+    expect(array.shape == shape, f"`{name}` returns {got}; {wanted} needed.")
+    expect(bool(np.isfinite(array).all()), f"`{name}` returns a number that is not finite: {_shown(array.tolist())}.")
+    return array
+
+
+def gains_of(name: str, value: Any) -> Gains:
+    """The value, if it is Gains of single numbers; a Hint if not."""
+    if value is None or value is ...:
+        number(name, value)  # raises the Hint of an answer that has no value
+    expect(isinstance(value, Gains), f"{name} is {_shown(value)}; `wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=...)` is needed.")
+    expect(all(type(field) is float for field in value), f"{name} holds arrays; one number a gain is needed.")
+    return value
