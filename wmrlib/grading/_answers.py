@@ -34,3 +34,15 @@ def gains_of(name: str, value: Any) -> Gains:
     expect(isinstance(value, Gains), f"{name} is {_shown(value)}; `wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=...)` is needed.")
     expect(all(type(field) is float for field in value), f"{name} holds arrays; one number a gain is needed.")
     return value
+
+
+def refuses(function: Callable, hint: str, *arguments: Any) -> None:
+    """Raises Hint unless the student's function raises ValueError for these arguments."""
+    try:
+        function(*arguments)
+    except ValueError:
+        return
+    except Exception:
+        ask(function, *arguments)  # which says what happened
+    given = ", ".join(map(_shown, arguments))
+    expect(False, f"`{_name(function)}({given})` must raise ValueError: {hint}")

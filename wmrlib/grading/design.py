@@ -95,7 +95,7 @@ def tuned_outdoor(gains: Any) -> Passed:
     if end.time > TIME:
         broken.append(f"it takes {end.time:.1f} s, where {TIME:g} s are allowed")
     if heading > HEADING_DEG:
-        broken.append(f"the heading is {heading:.1f} deg off, where {HEADING_DEG:g} deg are allowed")
+        broken.append(f"the heading is {heading:.2f} deg off, where {HEADING_DEG:g} deg are allowed")
     if end.peak_omega > OMEGA:
         worst = int(np.abs(run.omega).argmax())
         place = f"{run.t[worst]:.1f} s after the start, {run.rho[worst]:.1f} m before the goal"
