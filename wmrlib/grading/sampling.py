@@ -61,7 +61,8 @@ def wheel_speed(wheel_gains: Callable) -> Passed:
         final = g * k_r / rate
         if not close(final, 1.0):
             expect(
-                not close(k_r, k_p), f"with k_r = k_p the wheel settles at {final:.0%} of what is commanded: a P controller's usual error."
+                not close(k_r, k_p),
+                f"with k_r = k_p the wheel settles at {100 * final:.0f} % of what is commanded: a P controller's usual error.",
             )
             expect(False, f"the wheel settles at {final:.4g} times what is commanded: what must u be when the speed is right and constant?")
     return Passed("Twenty motors: as much faster as was asked for, and they settle at exactly what is commanded.")
