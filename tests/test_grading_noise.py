@@ -50,8 +50,12 @@ MISTAKES = [
     ("averaging", MEAN.format("white * math.sqrt((1 + c) / (1 - c))"), "for very many looks"),
     ("averaging", MEAN.format("white * math.sqrt(1 + 2 * c * (n - 1) / n)"), "two or three apart"),
     ("averaging", MEAN.format("white * (1 + c)"), "sum over all pairs"),
-    ("averaging", "def scatter_of_mean(sigma, n, c):\n    return sigma / n * math.sqrt(n + 2 * (n * c - c - n * c**2 + c ** (n + 1)) / (1 - c) ** 2)", "stops with ZeroDivisionError"),
-]  # fmt: skip
+    (
+        "averaging",
+        MEAN.format("sigma / n * math.sqrt(n + 2 * (n * c - c - n * c**2 + c ** (n + 1)) / (1 - c) ** 2)"),
+        "stops with ZeroDivision",
+    ),
+]
 
 
 def test_the_model_passes_and_the_release_does_not():

@@ -135,7 +135,8 @@ def _expect_scatter(east: float, north: float, lat: np.ndarray, lon: np.ndarray,
     for (mistaken_east, mistaken_north), hint in shapes:
         for share in (1.0, fewer):
             expect(not np.allclose((east, north), (mistaken_east * share, mistaken_north * share), rtol=1e-4), hint)
-    hint = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small: the mean was computed from the same looks. How many are left?"
+    small = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small"
+    hint = f"{small}: the mean was computed from the same looks. How many are left?"
     expect(not np.allclose((east, north), (wanted[0] * fewer, wanted[1] * fewer), rtol=1e-4), hint)
     expect(
         not np.allclose((east, north), wanted, rtol=5e-3), "nearly right: is the radius 6371 km, and the cosine that of the mean latitude?"
