@@ -46,3 +46,20 @@ def refuses(function: Callable, hint: str, *arguments: Any) -> None:
         ask(function, *arguments)  # which says what happened
     given = ", ".join(map(_shown, arguments))
     expect(False, f"`{_name(function)}({given})` must raise ValueError: {hint}")
+
+
+def ask_truth(function: Callable, *arguments: Any) -> bool:
+    """As `ask`, for a function that is to return True or False."""
+    answer = ask(function, *arguments)
+    expect(answer is not None, f"`{_name(function)}` returns nothing: does it end in `return`?")
+    expect(isinstance(answer, (bool, np.bool_)), f"`{_name(function)}` returns {_shown(answer)}; True or False is needed.")
+    return bool(answer)
+
+
+def numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
+    """The value as `count` finite floats; a Hint if it is anything else."""
+    if value is None or value is ...:
+        number(name, value)  # raises the Hint of an answer that has no value
+    listed = isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) == 1 and len(value) == count
+    expect(listed, f"{name} is {_shown(value)}; {count} numbers, separated by commas, are needed.")
+    return tuple(number(name, each) for each in value)

@@ -79,10 +79,8 @@ def ticks_known(rolled: Callable) -> Passed:
             (ticks * metre / radius, "this is the angle; how far does the wheel roll?"),
         ]:
             expect(not close(value, mistaken, 1e-9, 1e-12), hint)
-        expect(
-            False,
-            f"from {before} to {after}, with {per_turn} ticks a turn and a wheel of {radius:.3f} m, yours says {value:+.3f} m: count by hand.",
-        )
+        case = f"from {before} to {after}, with {per_turn} ticks a turn and a wheel of {radius:.3f} m"
+        expect(False, f"{case}, yours says {value:+.3f} m: count by hand.")
     return Passed("Thirty pairs of readings, forwards, backwards and across the counter's end.")
 
 
