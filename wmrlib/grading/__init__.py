@@ -5,7 +5,7 @@ Hint if it is not. Where a usual mistake explains what is seen (latitude and lon
 assignments are in book/course; one module here for each kind of thing that is asked for.
 """
 
-from wmrlib.grading import circles, design, earth, noise, robots, sampling, verdicts
+from wmrlib.grading import circles, design, earth, noise, robots, routes, sampling, verdicts
 from wmrlib.grading._hints import Hint, Passed
 
-__all__ = ["Hint", "Passed", "circles", "design", "earth", "noise", "robots", "sampling", "verdicts"]
+__all__ = ["Hint", "Passed", "circles", "design", "earth", "noise", "robots", "routes", "sampling", "verdicts"]
