@@ -70,6 +70,7 @@ def poles_properties(gains_from_poles: Callable) -> Passed:
     own_work(gains_from_poles)
     for poles, v_max in _pole_cases(10):
         gains = np.array(ask_numbers(gains_from_poles, 3, *poles, v_max))
+        expect(bool((gains > 0.0).all()), f"poles that settle need positive gains; yours are {gains.round(4).tolist()}.")
         swapped = ask_numbers(gains_from_poles, 3, poles[0], poles[2], poles[1], v_max)
         expect(np.allclose(swapped, gains, rtol=1e-9), "the order of the two poles of the angles must not count.")
         fast = ask_numbers(gains_from_poles, 3, *(3.0 * each for each in poles), v_max)

@@ -40,7 +40,7 @@ def compass_known(heading_of: Callable) -> Passed:
         ]:
             expect(not _same_angle(value, mistaken), hint)
         seen = f"{compass:.0f} deg with a declination of {declination:.1f} deg"
-        expect(False, f"{seen} come out as {value:.3f} rad: check north, east, south and west by hand.")
+        expect(False, f"{seen} come out as {value:.4g} rad: check north, east, south and west by hand.")
     return Passed("Twenty compasses, each read as the heading that the law wants.")
 
 
@@ -50,7 +50,7 @@ def compass_range(heading_of: Callable) -> Passed:
     for compass, declination in [*_compasses(20), (270.0, 0.0), (0.0, 0.0), (359.9, 4.0), (720.0, -3.0), (-350.0, 3.0)]:
         value = ask_number(heading_of, compass, declination)
         inside = -math.pi - 1e-12 <= value <= math.pi + 1e-12
-        expect(inside, f"{compass:g} deg come out as {value:.3f} rad, which is not in (-pi, pi].")
+        expect(inside, f"{compass:g} deg come out as {value:.4g} rad, which is not in (-pi, pi].")
         expect(_same_angle(value, ask_number(heading_of, compass + 360.0, declination)), "a whole turn more must be the same heading.")
     turned = wrap_angle(ask_number(heading_of, 50.0, 2.0) - ask_number(heading_of, 40.0, 2.0))
     expect(turned < 0.0, "when the robot turns to the right, the compass counts up and the heading must count down.")
@@ -80,7 +80,7 @@ def ticks_known(rolled: Callable) -> Passed:
         ]:
             expect(not close(value, mistaken, 1e-9, 1e-12), hint)
         case = f"from {before} to {after}, with {per_turn} ticks a turn and a wheel of {radius:.3f} m"
-        expect(False, f"{case}, yours says {value:+.3f} m: count by hand.")
+        expect(False, f"{case}, yours says {value:+.4g} m: count by hand.")
     return Passed("Thirty pairs of readings, forwards, backwards and across the counter's end.")
 
 
@@ -96,7 +96,7 @@ def ticks_properties(rolled: Callable) -> Passed:
         expect(close(whole, parts), "two parts of a way must add up to the whole way, wherever the counter passes its end.")
         expect(close(2.0 * whole, ask_number(rolled, before, after, per_turn, 2.0 * radius)), "a wheel twice as large rolls twice as far.")
     turn = ask_number(rolled, 65000, 264, 800, 0.1)
-    expect(close(turn, 0.2 * math.pi), f"from 65000 to 264 are 800 ticks: one turn of a wheel with 800 ticks; yours rolls {turn:.3f} m.")
+    expect(close(turn, 0.2 * math.pi), f"from 65000 to 264 are 800 ticks: one turn of a wheel with 800 ticks; yours rolls {turn:.4g} m.")
     return Passed(f"From 65000 to 264 is one turn of 800 ticks: {turn:.3f} m with a wheel of 0.1 m.")
 
 
@@ -133,7 +133,7 @@ def step_drives(wheel_speeds: Callable) -> Passed:
         place = f"at ({pose.x:.1f}, {pose.y:.1f}) with heading {pose.heading:.2f}, {age:.2f} s old,"
         expect((left, right) != STOP, f"{place} the robot stops; it has no reason to.")
         expect(not np.allclose((right, left), wanted), "left and right are swapped.")
-        hint = f"a wheel is asked for {max(abs(left), abs(right)):.2f} m/s and has {limits.max_speed:.2f} m/s."
+        hint = f"a wheel is asked for {max(abs(left), abs(right)):.3g} m/s and has {limits.max_speed:.2f} m/s."
         expect(not np.allclose((left, right), free), hint)
         expect(
             not np.allclose((left, right), clipped),
@@ -143,7 +143,7 @@ def step_drives(wheel_speeds: Callable) -> Passed:
         expect(
             not any(np.allclose((left, right), each) for each in twists), "this is a twist (v, omega); the wheels' speeds are asked for."
         )
-        expect(False, f"{place} the wheels get ({left:.2f}, {right:.2f}) m/s, which is not the corrected law within their limits.")
+        expect(False, f"{place} the wheels get ({left:.3g}, {right:.3g}) m/s, which is not the corrected law within their limits.")
     return Passed("Sixty poses: the law's wheels, never beyond their limits.")
 
 
@@ -175,7 +175,7 @@ def _expect_stop(wheel_speeds: Callable, at: dict[str, float], case: tuple, what
         speeds = np.array([])
     expect(speeds.shape == (2,), f"with {what} the robot gets {answer!r:.60}; two speeds are needed, whatever happens.")
     left, right = speeds.tolist()
-    expect((left, right) == STOP, f"with {what} the wheels get ({left:.2f}, {right:.2f}) m/s, not (0, 0): {why}")
+    expect((left, right) == STOP, f"with {what} the wheels get ({left:.3g}, {right:.3g}) m/s, not (0, 0): {why}")
 
 
 def _drives(count: int) -> list[tuple[Pose, float, Pose, Gains, WheelLimits]]:

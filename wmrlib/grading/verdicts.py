@@ -84,6 +84,7 @@ def digits_needed(decimals_needed: Callable) -> Passed:
     for metres in (0.01, 0.05, 0.1, 0.002, 0.8, 5.0, 6.0, 50.0, 600.0, 7000.0, 60_000.0, 2e6):
         count = ask_number(decimals_needed, metres)
         expect(count == round(count), f"{count:.3f} decimals: a whole number is needed.")
+        expect(count <= 20, f"for {metres:g} m you want {count:.3g} decimals, more than a float has.")
         expect(count >= 0, f"for {metres:g} m you want {count:.0f} decimals; there are none before the point.")
         moved = [float(np.abs(np.round(lats, n) - lats).max()) * DEGREE for n in (int(count), int(count) - 1)]
         hint = f"with {count:.0f} decimals a latitude moves by up to {moved[0]:.3g} m, where {metres:g} m are allowed."
