@@ -5,7 +5,26 @@ Hint if it is not. Where a usual mistake explains what is seen (latitude and lon
 assignments are in book/course; one module here for each kind of thing that is asked for.
 """
 
-from wmrlib.grading import angles, drives, earth, laws, lyapunov, motion, trips
-from wmrlib.grading._hints import Hint, Passed
+import lazy_loader
 
-__all__ = ["Hint", "Passed", "angles", "drives", "earth", "laws", "lyapunov", "motion", "trips"]
+# An assignment uses one or two of them, and only some need sympy: each is imported when it is first named.
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submodules=[
+        "angles",
+        "circles",
+        "design",
+        "drives",
+        "earth",
+        "laws",
+        "lyapunov",
+        "motion",
+        "noise",
+        "robots",
+        "routes",
+        "sampling",
+        "trips",
+        "verdicts",
+    ],
+    submod_attrs={"_hints": ["Hint", "Passed"]},
+)

@@ -54,7 +54,11 @@ def ask_number(function: Callable, *arguments: Any, **keywords: Any) -> float:
 def ask_numbers(function: Callable, count: int, *arguments: Any, **keywords: Any) -> tuple[float, ...]:
     """As `ask`, for a function that is to return `count` finite numbers."""
     answer = ask(function, *arguments, **keywords)
-    if isinstance(answer, (str, bytes)) or not hasattr(answer, "__len__") or len(answer) != count:
+    try:
+        found = 0 if isinstance(answer, (str, bytes)) else len(answer)
+    except TypeError:  # one number, an array without dimensions, a class
+        found = 0
+    if found != count:
         raise Hint(f"`{_name(function)}` returns {_shown(answer)}; {count} numbers, separated by commas, are needed.")
     return tuple(number(f"`{_name(function)}`", each, returned=True) for each in answer)
 
