@@ -89,6 +89,7 @@ def npm_files(pattern: str) -> list[Path]:
 
 def copy_sources(source: Path) -> None:
     """The book's own pages and, beside them, the chapters: Sphinx wants one tree, and the repository keeps its notebooks at the top."""
+    shutil.copytree(BOOK / "course" / "source", source / "course" / "source")  # for the table of them
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=shutil.ignore_patterns(".*", "__pycache__"))
     for page in (*BOOK.glob("*.md"), BOOK / "speed.json", BOOK / "classroom.json"):  # a page, or what a page shows
         shutil.copy(page, source)

@@ -17,6 +17,7 @@ copyright = "the wmrlib authors. Prose: CC BY 4.0; code: BSD-3-Clause"
 version = release = wmrlib.__version__
 language = "en"
 
+exclude_patterns = ["course"]  # the graded exercises are no pages: a table of them is made from their notebooks
 extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3

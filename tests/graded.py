@@ -1,6 +1,9 @@
-"""An assignment of the course run in this process, without nbgrader: which graded cells fail, and with what hint."""
+"""An assignment of the course run in this process: which graded cells fail, and with what hint; and nbgrader, as a lecturer runs it."""
 
 import json
+import os
+import subprocess
+import sys
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -80,3 +83,14 @@ def lost(chapter: str, cell: str, source: str) -> dict[str, str]:
     found = grade(chapter, {cell: source}, graded=f"{cell}-")
     assert found
     return {name: error for name, error in found.items() if error is not None}
+
+
+def nbgrader(folder: Path, *arguments: str) -> None:
+    """Run one of its commands in the folder of a course."""
+    environment = os.environ | {
+        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),  # it calls alembic by name
+        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")])),
+    }
+    command = [sys.executable, "-m", "nbgrader", *arguments]
+    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
+    assert done.returncode == 0, done.stderr

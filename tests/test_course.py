@@ -2,28 +2,16 @@
 
 from __future__ import annotations
 
-import os
+import re
 import shutil
-import subprocess
-import sys
 from itertools import zip_longest
 from pathlib import Path
 
 import nbformat
 import pytest
-from graded import ASSIGNMENTS, BEGIN, END, ROOT, cells, wrong_answers
+from graded import ASSIGNMENTS, BEGIN, END, ROOT, cells, nbgrader, wrong_answers
 
 COURSE = ROOT / "book" / "course"
-
-
-def nbgrader(folder: Path, *arguments: str) -> None:
-    environment = os.environ | {
-        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),  # it calls alembic by name
-        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")])),
-    }
-    command = [sys.executable, "-m", "nbgrader", *arguments]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
-    assert done.returncode == 0, done.stderr
 
 
 def handed_in(release: Path, folder: Path, answers: dict[str, str], graded: str | None = None) -> None:
@@ -50,6 +38,7 @@ def graded_course(request, tmp_path_factory):
     """(chapter, folder of the course) with everything handed in and graded."""
     chapter, course = request.param, tmp_path_factory.mktemp("course")
     shutil.copy(COURSE / "nbgrader_config.py", course)
+    shutil.copytree(COURSE / "templates", course / "templates")
     shutil.copytree(COURSE / "source" / chapter, course / "source" / chapter)
     nbgrader(course, "generate_assignment", chapter)
     (release,) = (course / "release" / chapter).glob("*.ipynb")
@@ -119,3 +108,13 @@ def test_usual_mistakes_lose_their_points_with_their_hints(graded_course):
             assert "Hint: " in hints
             assert wrong["hint"] in hints, (wrong["name"], hints)
             assert "wmrlib/grading" not in hints  # no traceback, which would show the check
+
+
+def test_feedback_has_hints_and_points_and_asks_no_network(graded_course):
+    chapter, course = graded_course
+    nbgrader(course, "generate_feedback", chapter, "--student=mistaken-1")
+    (path,) = (course / "feedback" / "mistaken-1" / chapter).glob("*.html")
+    page = path.read_text(encoding="utf-8")
+    assert "Hint: " in page
+    assert re.search(r"Score: [\d.]+ / [\d.]+", page)
+    assert not re.search(r"""(src|srcset|action)\s*=\s*["']?(https?:)?//|<link[^>]*//|@import|url\(["']?(https?:)?//""", page)

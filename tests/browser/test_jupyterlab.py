@@ -1,4 +1,4 @@
-"""The first chapter in JupyterLab: opened, run, and its sliders moved."""
+"""In JupyterLab: the first chapter is run and its sliders moved; a graded exercise as a student gets it shows its hints."""
 
 from __future__ import annotations
 
@@ -6,10 +6,14 @@ import json
 import shutil
 import sys
 
+import nbformat
 import pytest
+from graded import nbgrader, wrong_answers
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, free_port, serve, sliders
 
 TOKEN = "only-for-this-test"
+ASSIGNMENT, MISTAKE = "ch01", "swapped"
+KERNEL = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
 # A cell that is out of sight would not be drawn, and the news would be asked for.
 SETTINGS = {
     "notebook-extension/tracker": {"windowingMode": "none"},
@@ -22,6 +26,7 @@ def lab(tmp_path_factory):
     """JupyterLab on a copy of the chapters, with settings of its own: the reader's files and settings stay as they are."""
     home = tmp_path_factory.mktemp("lab")
     shutil.copytree(ROOT / "notebooks", home / "notebooks", ignore=shutil.ignore_patterns(".*"))
+    release_with_a_mistake(home / "course", home / "notebooks")
     for name, value in SETTINGS.items():
         path = home / "settings" / "@jupyterlab" / f"{name}.jupyterlab-settings"
         path.parent.mkdir(parents=True, exist_ok=True)
@@ -42,14 +47,41 @@ def lab(tmp_path_factory):
         yield url
 
 
+def release_with_a_mistake(course, folder):
+    """What students get of an assignment, with one usual mistake written into it, and the name of its notebook."""
+    shutil.copytree(ROOT / "book" / "course", course, ignore=shutil.ignore_patterns("release", "submitted", "autograded", "*.db"))
+    nbgrader(course, "generate_assignment", ASSIGNMENT)
+    (release,) = (course / "release" / ASSIGNMENT).glob("*.ipynb")
+    notebook = nbformat.read(release, as_version=4)
+    wrong = next(each for each in wrong_answers(ASSIGNMENT) if MISTAKE in each["hint"])
+    for cell in notebook.cells:
+        if cell.metadata.nbgrader.get("grade_id") == wrong["cell"]:
+            cell.source = wrong["source"]
+    nbformat.write(notebook, folder / f"{ASSIGNMENT}.ipynb")
+
+
+def open_notebook(page, url: str) -> None:
+    page.goto(url, timeout=PATIENCE)
+    page.wait_for_function(f"() => {KERNEL}?.status === 'idle'", timeout=PATIENCE)
+
+
 def test_the_first_chapter_runs_and_its_sliders_move_the_picture(lab, browser_page):
     page = browser_page
-    page.goto(f"{lab}lab/tree/{chapters()[0].name}?token={TOKEN}", timeout=PATIENCE)
-    kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
-    page.wait_for_function(f"() => {kernel}?.status === 'idle'", timeout=PATIENCE)
+    open_notebook(page, f"{lab}lab/tree/{chapters()[0].name}?token={TOKEN}")
     assert page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")
-    page.wait_for_function(f"() => {kernel}.status === 'idle'", timeout=PATIENCE)
+    page.wait_for_function(f"() => {KERNEL}.status === 'idle'", timeout=PATIENCE)
     assert page.locator('[data-mime-type="application/vnd.jupyter.stderr"], [data-mime-type="application/vnd.jupyter.error"]').count() == 0
     for slider in sliders(page)[:3]:
         assert_slider_matters(page, slider)
+    page.assert_quiet()
+
+
+def test_a_graded_exercise_shows_its_hint_and_nothing_leaves(lab, browser_page):
+    page = browser_page
+    open_notebook(page, f"{lab}lab/tree/{ASSIGNMENT}.ipynb?token={TOKEN}")
+    page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")  # up to the cell that fails
+    hint = page.locator(".jp-OutputArea-output", has_text="Hint: ").first
+    hint.wait_for(timeout=PATIENCE)
+    assert MISTAKE in hint.inner_text()
+    assert "wmrlib/grading" not in hint.inner_text()
     page.assert_quiet()
