@@ -85,25 +85,31 @@
     fit(slide.querySelector('.page'));
   }
 
-  // To print, reveal.js takes the slides out of the page for a moment: widgets that came then would find no place, so they come later.
+  // To print, reveal.js takes the slides out of the page for a moment and puts each on a sheet. They are fitted before that, while they
+  // are slides; the widgets come after it, for in that moment they would find no place.
+  const printing = deck.isPrintingPDF();
   const printable = new Promise((resolve) => deck.on('pdf-ready', resolve));
-  const arranged = deck.initialize().then(() => deck.isPrintingPDF() && printable).then(() => {
-    const widgets = document.querySelector('script[type="text/widgets"]');
-    if (!widgets) return;
+  const drawn = Promise.all([MathJax.startup.promise, ...[...document.images].map((image) => image.decode().catch(() => {}))]);
+  const started = printing ? drawn.then(() => deck.initialize()) : deck.initialize();
+
+  function startWidgets() {
+    const waiting = document.querySelector('script[type="text/widgets"]');
+    if (!waiting) return;
     const script = document.createElement('script');
-    for (const { name, value } of widgets.attributes) if (name !== 'type') script.setAttribute(name, value);
-    widgets.replaceWith(script);
-  });
-  const drawn = [MathJax.startup.promise, ...[...document.images].map((image) => image.decode().catch(() => {}))];
-  Promise.all([arranged, ...drawn]).then(() => {
+    for (const { name, value } of waiting.attributes) if (name !== 'type') script.setAttribute(name, value);
+    waiting.replaceWith(script);
+  }
+
+  Promise.all([started, drawn]).then(async () => {
     deck.on('slidechanged', arrived);
     addEventListener('resize', () => pages.forEach(fit));
     // Widgets come when they come, and change their size when they are used.
     const watch = new ResizeObserver(() => pages.filter((page) => page.querySelector('.panel')).forEach(fit));
     document.querySelectorAll('.panel').forEach((panel) => watch.observe(panel));
     pages.forEach(fit);
-    if (deck.isPrintingPDF()) where.textContent = title;
-    else arrived();
+    arrived();
+    if (printing) await printable;
+    startWidgets();
     document.documentElement.dataset.deck = 'ready';
   });
   window.deck = deck;

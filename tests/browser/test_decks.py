@@ -180,8 +180,8 @@ def test_a_key_shows_and_hides_the_code(decks, opened):
 
 
 def test_a_deck_prints_a_page_a_slide(decks, opened, tmp_path):
+    slides = opened(with_panel(decks)).evaluate("deck.getTotalSlides()")  # printed, reveal.js counts pages as slides, and wrongly
     page = opened(f"{with_panel(decks)}?print-pdf")
-    slides = page.evaluate("deck.getTotalSlides()")
     page.pdf(path=tmp_path / "deck.pdf", prefer_css_page_size=True, print_background=True)
     pages = [page.get_textpage().get_text_bounded() for page in pypdfium2.PdfDocument(tmp_path / "deck.pdf")]
     assert slides <= len(pages) <= slides + 1  # Chromium may add an empty one
