@@ -13,7 +13,8 @@ from live import PATIENCE, ROOT, assert_slider_matters, chapters, free_port, ser
 
 TOKEN = "only-for-this-test"
 ASSIGNMENT, MISTAKE = "ch01", "swapped"
-KERNEL = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
+CONTEXT = "window.jupyterapp?.shell.currentWidget?.context"
+KERNEL = f"{CONTEXT}?.sessionContext?.session?.kernel"
 # A cell that is out of sight would not be drawn, and the news would be asked for.
 SETTINGS = {
     "notebook-extension/tracker": {"windowingMode": "none"},
@@ -60,14 +61,15 @@ def release_with_a_mistake(course, folder):
     nbformat.write(notebook, folder / f"{ASSIGNMENT}.ipynb")
 
 
-def open_notebook(page, url: str) -> None:
-    page.goto(url, timeout=PATIENCE)
-    page.wait_for_function(f"() => {KERNEL}?.status === 'idle'", timeout=PATIENCE)
+def open_notebook(page, lab: str, name: str) -> None:
+    """Opens one notebook in an empty workspace (JupyterLab would bring back the notebook of the test before) and waits for its kernel."""
+    page.goto(f"{lab}lab/tree/{name}?reset&token={TOKEN}", timeout=PATIENCE)
+    page.wait_for_function(f"name => {KERNEL}?.status === 'idle' && {CONTEXT}.path === name", arg=name, timeout=PATIENCE)
 
 
 def test_the_first_chapter_runs_and_its_sliders_move_the_picture(lab, browser_page):
     page = browser_page
-    open_notebook(page, f"{lab}lab/tree/{chapters()[0].name}?token={TOKEN}")
+    open_notebook(page, lab, chapters()[0].name)
     assert page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")
     page.wait_for_function(f"() => {KERNEL}.status === 'idle'", timeout=PATIENCE)
     assert page.locator('[data-mime-type="application/vnd.jupyter.stderr"], [data-mime-type="application/vnd.jupyter.error"]').count() == 0
@@ -78,7 +80,7 @@ def test_the_first_chapter_runs_and_its_sliders_move_the_picture(lab, browser_pa
 
 def test_a_graded_exercise_shows_its_hint_and_nothing_leaves(lab, browser_page):
     page = browser_page
-    open_notebook(page, f"{lab}lab/tree/{ASSIGNMENT}.ipynb?token={TOKEN}")
+    open_notebook(page, lab, f"{ASSIGNMENT}.ipynb")
     page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")  # up to the cell that fails
     hint = page.locator(".jp-OutputArea-output", has_text="Hint: ").first
     hint.wait_for(timeout=PATIENCE)
