@@ -1,7 +1,7 @@
-"""What a class costs a server: the memory and the time of a student's kernel, chapter by chapter, and of readers of an app.
+"""What a class costs a server: a student's JupyterLab, the memory and the time of a kernel, chapter by chapter, and readers of an app.
 
 python tests/benchmarks/classroom.py [--keep]; --keep writes the table to book/classroom.json, which the lecturer's guide shows. It starts a
-kernel for each chapter, and Voila with readers who all come at once. Memory is what a process has of its own (USS).
+kernel for each chapter, JupyterLab, and Voila with readers who all come at once. Memory is what a process has of its own (USS).
 """
 
 from __future__ import annotations
@@ -12,7 +12,9 @@ import subprocess
 import sys
 import time
 import urllib.request
+from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
+from contextlib import contextmanager
 
 import nbformat
 import psutil
@@ -21,6 +23,7 @@ from timing import ROOT, Row, machine
 
 MEGABYTE = 1e6
 READERS = (1, 2, 4, 8, 16)
+TOKENS = {"jupyterlab": "IdentityProvider.token", "voila": "token"}
 sys.path.insert(0, str(ROOT / "tests" / "browser"))
 from live import free_port  # noqa: E402  (it stands beside the browser tests)
 
@@ -47,29 +50,43 @@ def students() -> list[Row]:
     return sorted(rows, key=lambda row: row.section)
 
 
+def laboratory() -> list[Row]:
+    with serve("jupyterlab", "--allow-root", "--notebook-dir=notebooks") as (process, address, seconds):
+        assert "jupyter" in read(address("lab"))
+        return [
+            Row("A student's JupyterLab, without its kernels", "it starts", seconds, "s"),
+            Row("A student's JupyterLab, without its kernels", "memory", own_memory(process), "MB"),
+        ]
+
+
 def readers() -> list[Row]:
-    port, token = free_port(), secrets.token_hex(8)
     chapter = sorted((ROOT / "notebooks").glob("*.ipynb"))[0]
-    options = ["--Voila.config_file_paths=book/voila", "--no-browser", f"--port={port}", f"--token={token}", chapter]
-    rows, begin = [], time.perf_counter()
-    server = subprocess.Popen([sys.executable, "-m", "voila", *options], cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
-    try:
-        wait_for(port)
-        rows.append(Row("An app's readers", "the server starts", time.perf_counter() - begin, "s"))
-        process = psutil.Process(server.pid)
+    with serve("voila", "--Voila.config_file_paths=book/voila", chapter) as (process, address, seconds):
+        rows = [Row("An app's readers", "the server starts", seconds, "s")]
         empty = own_memory(process)
         rows.append(Row("An app's readers", "the server alone", empty, "MB"))
         for count in READERS:
             begin = time.perf_counter()
             with ThreadPoolExecutor(count) as pool:
-                pages = list(pool.map(read, [f"http://127.0.0.1:{port}/?token={token}"] * count))
+                pages = list(pool.map(read, [address("")] * count))
             assert all("wmr" in page for page in pages)
             rows.append(Row("An app's readers", f"{count} come at once: the last page is complete", time.perf_counter() - begin, "s"))
         rows.append(Row("An app's readers", "each reader's kernel", (own_memory(process) - empty) / sum(READERS), "MB"))
+        return rows
+
+
+@contextmanager
+def serve(module: str, *options) -> Iterator[tuple]:
+    """A server that is there: its process, its addresses by path, and the seconds it took to start."""
+    port, token, begin = free_port(), secrets.token_hex(8), time.perf_counter()
+    command = [sys.executable, "-m", module, "--no-browser", f"--port={port}", f"--{TOKENS[module]}={token}", *options]
+    server = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    try:
+        wait_for(port)
+        yield psutil.Process(server.pid), lambda path: f"http://127.0.0.1:{port}/{path}?token={token}", time.perf_counter() - begin
     finally:
         server.terminate()
         server.wait(60)
-    return rows
 
 
 def read(url: str) -> str:
@@ -86,14 +103,14 @@ def wait_for(port: int) -> None:
             time.sleep(0.1)
         else:
             return
-    raise TimeoutError("Voila did not start")
+    raise TimeoutError("the server did not start")
 
 
 if __name__ == "__main__":
     if set(sys.argv[1:]) - {"--keep"}:
         sys.exit(__doc__)
     print(machine())
-    table = [*students(), *readers()]
+    table = [*laboratory(), *students(), *readers()]
     for row in table:
         print(f"{row.section:48}{row.what:48}{row.value:10.4g} {row.unit}")
     if "--keep" in sys.argv:

@@ -151,7 +151,8 @@ function drawAngles(ctx, view, run, k, colours) {
   drawAngle(ctx, goal, run.goalHeading[k], run.theta[k], 46, 'θ', colours.theta, colours);
   const distance = Math.hypot(goal[0] - robot[0], goal[1] - robot[1]);
   if (distance > 90) {
-    const middle = [(robot[0] + goal[0]) / 2 - 12 * Math.sin(sight), (robot[1] + goal[1]) / 2 - 12 * Math.cos(sight)];
+    const side = run.alpha[k] < 0 ? 12 : -12; // px; the other side of the line than alpha's arc
+    const middle = [(robot[0] + goal[0]) / 2 + side * Math.sin(sight), (robot[1] + goal[1]) / 2 + side * Math.cos(sight)];
     label(ctx, 'ρ', ...middle, colours, { size: 17, weight: 600, align: 'center' });
   }
 }
