@@ -5,12 +5,13 @@ import math
 import re
 from types import MappingProxyType
 
+import numpy as np
 import pytest
 import sympy as sp
 
 import wmrlib as wmr
 from wmrlib import audit, paper, plots, symbolic
-from wmrlib.audit import Place, Verdict, numbers, statements
+from wmrlib.audit import Place, Verdict, figures, numbers, statements
 from wmrlib.audit.proof import rising
 
 ROWS = {row.item: row for row in audit.rows()}
@@ -167,9 +168,60 @@ def test_growth_at_the_goal():
 def test_a_caption_of_its_own_is_no_typo(monkeypatch):
     for number in (4, 6):
         monkeypatch.setitem(paper.CAPTIONS, number, f"Figure {number}.")
-    figures = {row.item: row.verdict for row in audit.rows("figures")}
-    assert figures["fig-4"] is Verdict.HOLDS
-    assert figures["fig-6"] is Verdict.OPEN
+    rows = {row.item: row.verdict for row in audit.rows("figures")}
+    assert rows["fig-4"] is Verdict.HOLDS
+    assert rows["fig-6"] is Verdict.OPEN
+
+
+# What was never published ---------------------------------------------------------------------------------------------
+
+
+def test_what_depends_on_a_choice_cannot_be_reproduced():
+    assert audit.depends([True, True]) is Verdict.HOLDS
+    assert audit.depends([False, False]) is Verdict.WRONG
+    assert audit.depends([True, False]) is audit.depends([False, True, True]) is Verdict.OPEN
+
+
+def test_the_rival_is_nearer_or_farther_by_the_choice_of_its_gains():
+    """The residual of v = k_rho rho cos(alpha) is speed/k_rho where alpha is small; an LQR with feed-forward has none."""
+    text, nearer = figures.comparison()
+    assert nearer == [True, False, False]
+    for k_rho in (paper.CIRCLE_GAINS.k_rho, paper.CIRCLE_GAINS.k_rho * paper.CIRCLE_GAINS.v_max):
+        run = wmr.track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS._replace(k_rho=k_rho), law="aicardi", duration=40.0)
+        assert f"{wmr.residual(run):.3f} m" in text
+        assert wmr.residual(run) == pytest.approx(paper.CIRCLE_SPEED / k_rho, rel=0.02)
+
+
+@pytest.mark.parametrize(
+    ("law", "verdict", "caption"), [("aicardi", Verdict.HOLDS, Verdict.TYPO), ("linear", Verdict.WRONG, Verdict.WRONG)]
+)
+def test_a_published_rival_decides(monkeypatch, law, verdict, caption):
+    """With one rival only, Aicardi's law with the paper's k_rho or an LQR, figures and comparison come out one way."""
+    chase, ours = figures.chase, ("corrected",)
+    monkeypatch.setattr(figures, "chase", lambda *which: chase(*which) if which in (ours, ()) else chase(law))
+    rows = {row.item: row for group in ("figures", "statements") for row in audit.rows(group)}
+    assert [rows[item].verdict for item in ("fig-6", "fig-7", "claim-cornejo")] == [caption, caption, verdict]
+    assert "not published" not in rows["claim-cornejo"].why + rows["fig-6"].why
+
+
+@pytest.mark.parametrize("key", ["lqr_x_advantage", "lqr_y_advantage"])
+def test_an_advantage_beyond_every_weight_is_wrong(monkeypatch, key):
+    for value, verdict in ((90.0, Verdict.WRONG), (-50.0, Verdict.WRONG), (5.0, Verdict.OPEN)):
+        monkeypatch.setitem(paper.PUBLISHED, key, paper.PUBLISHED[key]._replace(value=value))
+        assert {row.item: row.verdict for row in audit.rows("numbers")}[key] is verdict
+
+
+def test_the_advantages_are_those_of_an_lqr_by_python_control():
+    control = pytest.importorskip("control")
+    turn, speed = paper.CIRCLE_SPEED / paper.CIRCLE_RADIUS, paper.CIRCLE_SPEED
+    A, B = [[0, turn, 0], [-turn, 0, speed], [0, 0, 0]], [[-1, 0], [0, 0], [0, -1]]
+    polar = wmr.track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS, law="aicardi", duration=40.0)
+    for weight in (0.1, 1.0, 10.0):
+        gains = wmr.LinearGains(-control.lqr(A, B, weight * np.eye(3), np.eye(2))[0])
+        run = wmr.track(paper.circle, paper.CIRCLE_START, gains, law="linear", duration=40.0)
+        for name in "xy":
+            sizes = [math.sqrt(np.mean(getattr(each, f"{name}_error") ** 2)) for each in (run, polar)]
+            assert f"{100 * (1 - sizes[0] / sizes[1]):.1f} % with q = {weight:g}" in ROWS[f"lqr_{name}_advantage"].holds
 
 
 # The table ------------------------------------------------------------------------------------------------------------

@@ -49,26 +49,29 @@ def test_every_picture_draws_and_has_its_text(name):
 
 @pytest.mark.parametrize("name", PICTURES)
 def test_the_outer_axes_say_what_they_show_and_in_which_unit(name):
-    for axes in PICTURES[name]().figure.axes:
+    figure = PICTURES[name]().figure
+    for axes in figure.axes:
         place = axes.get_subplotspec()
         if place.is_first_col() and axes.axison:
-            assert axes.get_ylabel() == "V" or "[" in axes.get_ylabel()
+            assert "[" in (axes.get_ylabel() or figure.get_supylabel())
         if place.is_last_row() and axes.axison:
-            assert "[" in axes.get_xlabel()
+            assert "[" in (axes.get_xlabel() or figure.get_supxlabel())
 
 
 def test_texts_carry_the_numbers():
     text = PICTURES["route"]().alt
-    assert text.startswith("Path from (0.0, 0.0) m through 3 of 3 waypoints, 2 to stop at and 1 to pass, to (")
+    assert text.startswith("Path from (0.0, 0.0) m to (")
+    aside = min(math.dist((WAY.x[1], WAY.y[1]), place) for place in zip(MIXED.x, MIXED.y, strict=True))
+    assert 0.1 < aside < 2.0
+    assert f"3 of 3 waypoints reached, 2 to stop at and 1 to pass (at most {aside:.1f} m aside); " in text
     assert f"{MIXED.length:.1f} m in {MIXED.time:.1f} s, with 30 points of a track behind it." in text
-    assert "through 1 of 3 waypoints" in plots.route(STUCK).alt
+    assert "1 of 3 waypoints reached, 3 to stop at and 0 to pass; " in plots.route(STUCK).alt
     assert "s without reaching the rest." in plots.route(STUCK).alt
     assert f"Over {MIXED.time:.1f} s and 3 legs: v between" in plots.route_signals(MIXED).alt
     assert "jumping up at 2 of 2 changes of the goal" in plots.route_signals(MIXED).alt
-    assert (
-        "12 cases, 12 of them reached, with 21.81 points in the mean; the dearest is case 12, far behind, with 42.7"
-        in PICTURES["challenge"]().alt
-    )
+    text = PICTURES["challenge"]().alt
+    assert "12 of them reached, with 21.81 points in the mean; the dearest is case 12, far behind, with 42.7" in text
+    assert "the start a filled arrow and the goal an outlined one" in text
 
 
 def arrows(axes):
@@ -107,6 +110,21 @@ def test_signals_are_cut_where_the_goal_changes():
     assert all((np.diff(part.get_ydata()) <= 1e-9 * part.get_ydata()[0]).all() for part in parts)
     changes = [line.get_xdata()[0] for line in upper.lines if line.get_linestyle() == "--"]
     assert changes == pytest.approx(np.cumsum([leg.t[-1] for leg in MIXED.legs])[:-1])
+    for part, leg, end in zip(parts, MIXED.legs, [*changes, MIXED.time], strict=True):  # down to the arrival itself
+        np.testing.assert_array_equal(part.get_ydata(), np.maximum(leg.V, 1e-12))
+        assert part.get_xdata()[-1] == pytest.approx(end)
+
+
+def test_a_jump_is_counted_from_the_arrival():
+    """One sample before the arrival V is still above that of the next leg."""
+    poses = wmr.Pose(np.array([0.0, 10.0, 12.0]), np.zeros(3), np.zeros(3))
+    driven = wmr.drive_route(poses, wmr.Gains(0.3, 1.0, 1.5), stop=[False, True], dt=1.0)
+    change = int(np.flatnonzero(np.diff(driven.leg))[0])
+    assert driven.legs[0].V[-1] < driven.V[change + 1] < driven.V[change]
+    assert "jumping up at 1 of 1 changes" in plots.route_signals(driven).alt
+    back = wmr.drive_route(poses._replace(x=np.array([0.0, 10.0, 9.0])), wmr.Gains(0.3, 1.0, 1.5), stop=[False, True], dt=0.1)
+    assert back.legs[1].V[0] < back.legs[0].V[-1]  # the next goal is nearer than the one that is passed
+    assert "jumping up at 0 of 1 changes" in plots.route_signals(back).alt
 
 
 def test_each_case_of_the_challenge_has_its_panel():
@@ -118,12 +136,31 @@ def test_each_case_of_the_challenge_has_its_panel():
     assert sum(axes.axison for axes in PICTURES["challenge of five"]().figure.axes) == 5
 
 
+def test_the_legend_says_which_arrow_is_the_start():
+    def legend(name):
+        found = PICTURES[name]().figure.legends[0]
+        return dict(zip([text.get_text() for text in found.get_texts()], found.legend_handles, strict=True))
+
+    handles = legend("challenge")
+    assert list(handles) == ["path", "start", "goal"]
+    assert list(legend("challenge, wild")) == ["path", "path that got the penalty", "start", "goal"]
+    goal, start = PICTURES["challenge"]().figure.axes[0].patches  # drawn in this order
+    assert same_color(handles["start"].get_markerfacecolor(), start.get_facecolor())
+    assert handles["goal"].get_markerfacecolor() == "none"
+    assert not goal.get_facecolor()[3]
+    assert same_color(handles["goal"].get_markeredgecolor(), goal.get_edgecolor())
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
         (lambda: plots.route(WAY), "a Route is needed, not a Pose"),
         (lambda: plots.route(wmr.drive_route(WAY, wmr.Gains(1e308, 1e308, 1e308, 1e308))), "driven has no sample"),
-        (lambda: plots.route(MIXED, background=(np.ones(3), np.ones(2))), "mismatched lengths"),
+        (lambda: plots.route(MIXED, background=(np.ones(3), np.ones(2))), "background = .* is not allowed: .east, north., two lists"),
+        (lambda: plots.route(MIXED, background=(np.ones(5), np.ones(1))), "background = .* is not allowed: .east, north., two lists"),
+        (lambda: plots.route(MIXED, background=np.zeros((5, 2))), "is not allowed: .east, north., two lists of one length, is needed"),
+        (lambda: plots.route(MIXED, background=5), "background = 5 is not allowed: .east, north., two lists"),
+        (lambda: plots.route(MIXED, background=(["a"], ["b"])), "background = .* is not allowed: a finite number"),
         (lambda: plots.route_signals(GOOD), "a Route is needed"),
         (lambda: plots.challenge_paths(GAINS), "a Score is needed, not a Gains"),
     ],

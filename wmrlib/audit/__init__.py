@@ -4,7 +4,9 @@
 >>> [row.verdict.value for row in audit.rows("equations")[:2]]
 ['✓ holds', '✓ holds']
 
-Every verdict follows from a computation made when `rows` is called; the rules stand in `equation_row` (equations) and `fits` (numbers).
+Every verdict follows from a computation made when `rows` is called; the rules stand in `equation_row` (equations), `fits` (numbers) and
+`rows.depends`: what rests on numbers that nobody published is computed with several choices of them, and cannot be reproduced if they
+disagree.
 """
 
 from __future__ import annotations
@@ -12,7 +14,7 @@ from __future__ import annotations
 from wmrlib._checks import choice
 from wmrlib.audit import equations, figures, numbers, proof, statements
 from wmrlib.audit.proof import circle_residual, slope, steering
-from wmrlib.audit.rows import Row, Verdict, equation_row, fits, same
+from wmrlib.audit.rows import Row, Verdict, depends, equation_row, fits, same
 from wmrlib.audit.table import Place, Table, missing, places, table, tally
 
 __all__ = [
@@ -22,6 +24,7 @@ __all__ = [
     "Table",
     "Verdict",
     "circle_residual",
+    "depends",
     "equation_row",
     "fits",
     "missing",

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from decimal import Decimal
 from enum import Enum
 from functools import cache
@@ -23,6 +23,15 @@ class Verdict(Enum):
     TYPO = "✎ typo"
     WRONG = "✗ wrong"
     OPEN = "? cannot be reproduced"
+
+
+def depends(outcomes: Iterable[bool]) -> Verdict:
+    """The verdict on what rests on something unpublished, from its outcome with each of several choices of that.
+
+    It holds if it is so with every choice, is wrong if with none, and cannot be reproduced if the choices differ.
+    """
+    found = set(map(bool, outcomes))
+    return Verdict.OPEN if len(found) > 1 else Verdict.HOLDS if found == {True} else Verdict.WRONG
 
 
 class Row(NamedTuple):

@@ -7,10 +7,10 @@ import math
 import numpy as np
 
 from wmrlib import paper, symbolic
-from wmrlib.audit.figures import AXES, MISSING, chase, drive
+from wmrlib.audit.figures import AXES, MISSING, chase, comparison, drive
 from wmrlib.audit.proof import rising, slope
-from wmrlib.audit.rows import Row, Verdict, printed
-from wmrlib.metrics import arrival, residual
+from wmrlib.audit.rows import Row, Verdict, depends, printed
+from wmrlib.metrics import arrival
 from wmrlib.simulation import simulate
 
 _PARKED = math.radians(5.0)
@@ -56,9 +56,10 @@ def _stable() -> Row:
 
 
 def _better() -> Row:
-    behind = [residual(chase(law)) for law in ("corrected", "aicardi", "linear")]
-    text = "Behind the circle: (24) corrected {:.3f} m, Aicardi's law {:.3f} m, an LQR of our own {:.3f} m.".format(*behind)
-    return _row("cornejo", "Comparison", "Better than the controller of Cornejo et al.", text, False, MISSING, Verdict.OPEN)
+    text, nearer = comparison()
+    verdict = depends(nearer)
+    why = MISSING if verdict is Verdict.OPEN else "the same with every rival tried"
+    return _row("cornejo", "Comparison", "Better than the controller of Cornejo et al.", text, all(nearer), why, verdict)
 
 
 def _still() -> Row:

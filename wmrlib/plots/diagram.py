@@ -15,7 +15,7 @@ _BOXES = (
     ("GPS", "two points,\ntwo headings", "start"),
     ("geodesy", "(11)-(17):\ngoal in metres", "start"),
     ("polar error", "Fig. 2: rho,\nalpha, theta", "path"),
-    ("control law", "(22), (24):\nv and omega", "path"),
+    ("control law", "(22), (24) corrected:\nv and omega", "path"),
     ("wheel loop", "(1), (2): left and\nright wheel", "goal"),
     ("robot", "(3)-(6): x, y,\nheading", "robot"),
 )

@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
+from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from wmrlib._checks import instance, real, same_shape
+from wmrlib._checks import instance, real
 from wmrlib.challenge import Score, drive
 from wmrlib.kinematics import Pose
 from wmrlib.picture import Picture
@@ -23,15 +25,14 @@ def route(driven: Route, background: tuple[np.ndarray, np.ndarray] | None = None
 
     A stop is a square, a waypoint that is passed a circle, both with their number; one that was not reached is crossed out. background:
     (east, north), arrays in metres of the same local frame, such as the track of a receiver, drawn as dots.
-    Raises ValueError for anything but a Route with a sample.
+    Raises ValueError for anything but a Route with a sample, or a background of other than two lists of finite numbers, of one length.
     """
     _with_samples(driven)
     figure, axes = new_figure(7.0, 6.6)
     x, y = [driven.x, driven.waypoints.x], [driven.y, driven.waypoints.y]
     handles = [Line2D([], [], color=COLOURS["path"], label="path"), _marker("start", COLOURS["start"], ">", COLOURS["start"])]
     if background is not None:
-        east, north = (np.ravel(real("background", values)) for values in background)
-        same_shape(east=east, north=north)
+        east, north = _pair(background)
         axes.plot(east, north, ".", color=_TRACK, ms=5, zorder=1)
         handles.append(Line2D([], [], color=_TRACK, ls="", marker=".", label="track"))
         x, y = [*x, east], [*y, north]
@@ -53,26 +54,31 @@ def route(driven: Route, background: tuple[np.ndarray, np.ndarray] | None = None
 
 
 def route_signals(driven: Route) -> Picture:
-    """The speed v [m/s] and V of the joined legs over time; dashed lines mark where the goal changes, and V, logarithmic, jumps."""
+    """The speed v [m/s] and V [1] of the legs over time; dashed lines mark where the goal changes, and V, logarithmic, jumps.
+
+    Each leg's V is drawn up to its arrival, where the joined arrays already have the next leg's. Raises ValueError as `route`.
+    """
     _with_samples(driven)
     figure, (upper, lower) = new_figure(8.0, 5.0, rows=2)
     changes = driven.t[1:][np.diff(driven.leg) > 0]
-    values = np.maximum(driven.V, 1e-12)
+    shown = np.unique(driven.leg)
+    values = [np.maximum(driven.legs[k].V, 1e-12) for k in shown]
     upper.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-    for k in np.unique(driven.leg):
+    for k, own_V in zip(shown, values, strict=True):
         own = driven.leg == k
         upper.plot(driven.t[own], driven.v[own], color=COLOURS["v"])
-        lower.plot(driven.t[own], values[own], color=COLOURS["V"], marker="o" if own.sum() == 1 else "")
+        lower.plot(driven.t[own][0] + driven.legs[k].t, own_V, color=COLOURS["V"], marker="o" if own_V.size == 1 else "")
     for axes in (upper, lower):
         for time in changes:
             axes.axvline(time, color=COLOURS["goal"], ls="--", lw=1.2)
     upper.set(ylabel="v [m/s]")
-    lower.set(ylabel="V", yscale="log", xlabel="time [s]", ylim=(0.5 * values.min(), 2.0 * values.max()))
+    every = np.concatenate(values)
+    lower.set(ylabel="V [1]", yscale="log", xlabel="time [s]", ylim=(0.5 * every.min(), 2.0 * every.max()))
     lower.minorticks_off()
     handle = Line2D([], [], color=COLOURS["goal"], ls="--", lw=1.2, label="the goal changes")
     upper.legend(handles=[handle], loc="lower right", bbox_to_anchor=(1.0, 1.0), frameon=False, fontsize=11)
     figure.align_ylabels()
-    jumps = [driven.V[k + 1] > driven.V[k] for k in np.flatnonzero(np.diff(driven.leg) > 0)]
+    jumps = [driven.legs[after].V[0] > driven.legs[before].V[-1] for before, after in pairwise(shown)]
     return Picture(
         figure,
         f"Over {driven.t[-1]:.1f} s and {len(driven.legs)} legs: v between {near_zero(driven.v.min()):.1f} and "
@@ -84,8 +90,8 @@ def route_signals(driven: Route) -> Picture:
 def challenge_paths(score: Score) -> Picture:
     """The paths of all cases of a `challenge.score`, each in a panel of its own scale, in metres, with its kind, its time and its points.
 
-    The start is a filled arrow, the goal an open one; the path of a case that got the penalty is dashed. Raises ValueError for anything
-    but a Score.
+    The start is a filled arrow, the goal an open one, in the panels as in the legend above them; the path of a case that got the penalty
+    is dashed. Raises ValueError for anything but a Score.
     """
     runs = drive(instance("score", score, Score).gains, score.game)
     columns = min(4, len(runs))
@@ -96,21 +102,28 @@ def challenge_paths(score: Score) -> Picture:
         x, y = np.array([*run.x, case.start.x, case.goal.x]), np.array([*run.y, case.start.y, case.goal.y])
         axes.plot(run.x, run.y, "--" if row.note else "-", color=COLOURS["path"])
         equal_scales(axes, x, y, room=0.15)
-        size = 0.05 * np.ptp(axes.get_xlim())
-        axes.add_patch(arrow(case.goal, 1.4 * size, fc="none", ec=COLOURS["goal"], lw=2.0, zorder=4))
+        size = 0.04 * np.ptp(axes.get_xlim())
+        axes.add_patch(arrow(case.goal, size, fc="none", ec=COLOURS["goal"], lw=1.6, zorder=4))
         axes.add_patch(arrow(case.start, size, fc=COLOURS["start"], ec=COLOURS["ink"], lw=0.8, zorder=3))
         end = row.note or f"{row.time:.1f} s, {row.heading_error_deg:.0f} deg off"
         axes.set_title(f"{k} {row.kind}: {row.points:.1f} points\n{end}", fontsize=10)
         axes.locator_params(nbins=4)
         axes.tick_params(labelsize=10)
-        axes.set(xlabel="x [m]" if k > len(runs) - columns else "", ylabel="y [m]" if k % columns == 1 or columns == 1 else "")
     for axes in list(panels.flat)[len(runs) :]:
         axes.set_axis_off()
+    figure.supxlabel("x [m]", fontsize=12)
+    figure.supylabel("y [m]", fontsize=12)
+    handles = [Line2D([], [], color=COLOURS["path"], label="path")]
+    if score.reached < len(runs):
+        handles.append(Line2D([], [], color=COLOURS["path"], ls="--", label="path that got the penalty"))
+    handles += [_marker("start", COLOURS["ink"], ">", COLOURS["start"]), _marker("goal", COLOURS["goal"], ">")]
+    figure.legend(handles=handles, loc="outside upper center", ncols=len(handles), frameon=False, fontsize=11)
     dearest = max(range(len(runs)), key=lambda k: score.cases[k].points)
     return Picture(
         figure,
-        f"The paths of {len(runs)} cases, {score.reached} of them reached, with {score.total:.2f} points in the mean; the dearest is case "
-        f"{dearest + 1}, {score.cases[dearest].kind}, with {score.cases[dearest].points:.1f} points.",
+        f"The paths of {len(runs)} cases, the start a filled arrow and the goal an outlined one; {score.reached} of them reached, with "
+        f"{score.total:.2f} points in the mean; the dearest is case {dearest + 1}, {score.cases[dearest].kind}, with "
+        f"{score.cases[dearest].points:.1f} points.",
     )
 
 
@@ -140,11 +153,22 @@ def _marker(label: str, colour: str, marker: str, fill: str = "none") -> Line2D:
 
 
 def _in_words(driven: Route) -> str:
-    stops, count = sum(driven.stops), len(driven.stops)
+    count, passing = len(driven.stops), [k for k, stop in enumerate(driven.stops) if not stop]
     end = f"{driven.t[-1]:.1f} s" if driven.reached == count else f"{driven.t[-1]:.1f} s without reaching the rest"
     first, last = (f"({near_zero(driven.x[k]):.1f}, {near_zero(driven.y[k]):.1f}) m" for k in (0, -1))
-    through = f"{driven.reached} of {count} waypoints, {stops} to stop at and {count - stops} to pass"
-    return f"Path from {first} through {through}, to {last}: {driven.length:.1f} m in {end}"
+    way = driven.waypoints
+    aside = [np.hypot(driven.x - way.x[k], driven.y - way.y[k]).min() for k in passing if k < driven.reached]
+    nearest = f" (at most {max(aside):.1f} m aside)" if aside else ""
+    through = f"{driven.reached} of {count} waypoints reached, {count - len(passing)} to stop at and {len(passing)} to pass{nearest}"
+    return f"Path from {first} to {last}: {through}; {driven.length:.1f} m in {end}"
+
+
+def _pair(background: Any) -> tuple[np.ndarray, np.ndarray]:
+    pair = tuple(background) if np.iterable(background) else ()
+    if len(pair) != 2 or np.shape(pair[0]) != np.shape(pair[1]):
+        raise ValueError(f"background = {background!r} is not allowed: (east, north), two lists of one length, is needed")
+    east, north = (np.ravel(real("background", values)) for values in pair)
+    return east, north
 
 
 def _with_samples(driven: Route) -> None:
