@@ -162,7 +162,7 @@ def _draw_rising(axes, t: np.ndarray, values: np.ndarray) -> float:
     axes.add_collection(LineCollection(pieces[~up], color=COLOURS["V"], lw=2.0))
     axes.add_collection(LineCollection(pieces[up], color=COLOURS["V_rising"], lw=4.5))
     low, high = math.floor(math.log10(points[:, 1].min())), math.ceil(math.log10(points[:, 1].max()))
-    axes.set(ylabel="V", yscale="log", xlim=(0.0, t[-1]), ylim=(10.0 ** (low - 0.2), 10.0 ** (high + 0.2)))
+    axes.set(ylabel="V [1]", yscale="log", xlim=(0.0, t[-1]), ylim=(10.0 ** (low - 0.2), 10.0 ** (high + 0.2)))
     axes.set_yticks(10.0 ** np.arange(low, high + 1, max(1, (high - low) // 3)))
     axes.minorticks_off()
     return 100.0 * float(np.mean(up))
