@@ -115,9 +115,10 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     size = 0.03 * max(np.ptp(every_x), np.ptp(every_y))
     axes.add_patch(arrow(start, size, fc=COLOURS["robot"], ec=COLOURS["ink"], zorder=4))
     axes.add_patch(arrow(Pose(goal_x[0], goal_y[0], goal_heading[0]), size, fc="white", ec=COLOURS["goal"], lw=2.0, zorder=3))
-    looks = {"textcoords": "offset points", "va": "center", "fontsize": 11}
-    axes.annotate("goal at 0 s", (goal_x[0], goal_y[0]), xytext=(12, 0), **looks)
     equal_scales(axes, every_x, every_y)
+    side = -1 if goal_x[0] > sum(axes.get_xlim()) / 2 else 1  # inside the axes
+    looks = {"textcoords": "offset points", "ha": "left" if side > 0 else "right", "va": "center", "fontsize": 11}
+    axes.annotate("goal at 0 s", (goal_x[0], goal_y[0]), xytext=(12 * side, 0), **looks)
     axes.set(xlabel="x [m]", ylabel="y [m]")
     _legend(figure)
     parts = [f"{title} {f'{run.rho[-1]:.3f}' if run.rho[-1] >= 5e-4 else 'less than 0.001'} m" for title, run in runs.items()]
