@@ -39,7 +39,7 @@ def test_texts_carry_the_numbers():
     assert "quick reaches 63 % after 0.100 s; slow reaches 63 % after 0.200 s" in PICTURES["responses"]().alt
     assert "all of it: 4.0 m, as far as x = 1.0 m; part: 1.0 m" in PICTURES["driven"]().alt
     assert PICTURES["driven"]().alt.endswith(
-        "part: 1.0 m, as far as x = 1.0 m, at most 0.00 m beside the first. Not to be told from the first: part."
+        'part: 1.0 m, as far as x = 1.0 m, at most 0.00 m beside the first. Not to be told from the first: "part".'
     )
     ends = [math.degrees(wmr.arrival(run).heading_error) for run in (LATE, AT_ONCE)]
     assert f"one, slow: {ends[0]:.0f} deg; one, at once: {ends[1]:.0f} deg; two, slow: {ends[0]:.0f} deg" in PICTURES["inner_loops"]().alt

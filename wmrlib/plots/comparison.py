@@ -229,9 +229,9 @@ def _course_in_words(title: str, values: np.ndarray, unit: str, log: bool) -> st
     def said(value: float) -> str:
         if log:
             return f"{value:.2g}" if value >= _LEAST else "less than 1e-6"
-        if 1e-9 < abs(value) < 0.5 * 10**-digits:
-            return "nearly 0" if values.min() < 0.0 else f"less than {10**-digits:g}"
-        return f"{value if abs(value) > 1e-9 else 0.0:.{digits}f}"
+        if abs(value) < 0.5 * 10**-digits:
+            return "nearly 0" if values.min() < -1e-9 else f"less than {10**-digits:g}"
+        return f"{value:.{digits}f}"
 
     first, last, low, high = map(said, (values[0], values[-1], values.min(), values.max()))
     between = "" if {low, high} == {first, last} else f", between {low} and {high} {unit}"
