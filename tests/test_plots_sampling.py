@@ -50,6 +50,8 @@ def test_driven_says_how_far_a_path_strays_and_what_its_arrows_are():
     picture = plots.driven({"all of it": WAY, "aside": aside, "near": [each._replace(x=each.x + 0.01) for each in WAY]}, WAY[-1])
     assert "as far as x = 2.0 m, at most 1.00 m beside the first; near: 4.0 m, as far as x = 1.0 m, at most 0.01 m beside" in picture.alt
     assert picture.alt.endswith('Not to be told from the first: "near".')
+    beyond = plots.driven({"part": WAY, "beyond": [*WAY, wmr.Pose(1.0, 5.0, 0.5)]}, WAY[-1])  # on the line, but not on the path
+    assert "at most 2.00 m beside the first" in beyond.alt
     assert [text.get_text() for text in picture.figure.axes[0].get_legend().get_texts()] == ["all of it", "aside", "near", "start", "goal"]
 
 
