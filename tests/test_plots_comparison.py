@@ -1,5 +1,6 @@
 """Figures that compare runs, and the block diagram: as test_plots, and that each draws what it was given."""
 
+import dataclasses
 import html
 import io
 import math
@@ -65,7 +66,7 @@ def test_texts_carry_the_numbers():
     assert "a dotted line marks the limit, 4 m/s" in PICTURES["together"]().alt
     assert "b after 5.0 s, 38.1 m to go, heading 84 deg" in PICTURES["snapshots, tall"]().alt
     assert "the goal's heading is -60 deg" in PICTURES["snapshots, tall"]().alt
-    assert "one is 0.090 m from it at the end" in PICTURES["chase"]().alt
+    assert "a dotted line marks the 4 m/s of the paper." in plots.together({"one": RUN}, "v", level=(4.0, "the 4 m/s of the paper")).alt
     assert "differ by at most 0.0010 m" in PICTURES["residual_curve"]().alt
     assert "one goes from 2.2 to 0.09 m" in PICTURES["together, logarithmic"]().alt
     assert "one 25.0 % end more than 5 deg off, the worst 30 deg" in PICTURES["heading_shares"]().alt
@@ -99,11 +100,57 @@ def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
 
 
 def test_chase_draws_the_reference_and_each_run():
-    reference, *runs = plots.chase({"one": CHASE, "two": CHASE}).figure.axes[0].lines
+    axes = plots.chase({"one": CHASE, "two": CHASE}).figure.axes[0]
+    reference, *runs = axes.lines
     assert np.array_equal(reference.get_xydata(), np.column_stack([CHASE.goal.x, CHASE.goal.y]))
     assert len(runs) == 2
     for run in runs:
         assert np.array_equal(run.get_xydata(), np.column_stack([CHASE.x, CHASE.y]))
+    for dart, place, heading in zip(axes.patches, ((1.0, 2.0), (0.0, 0.0)), (0.0, math.pi / 2), strict=True):  # robot and goal at 0 s
+        tip, tail = dart.get_xy()[0], dart.get_xy()[2]
+        assert math.atan2(*(tip - tail)[::-1]) == pytest.approx(heading, abs=1e-6)
+        assert np.hypot(*(0.5 * (tip + tail) - place)) < 0.3
+    assert [(text.get_text(), text.xy) for text in axes.texts] == [("goal at 0 s", (0.0, 0.0))]
+
+
+def test_a_chase_says_what_the_goal_does():
+    circle = "A grey reference circle of radius 4 m about (-4, 0) m, driven once round counter-clockwise from (0, 0) m"
+    robot = "and the robot that starts at (1, 2) m; distance from the goal at the end: one 0.090 m."
+    assert PICTURES["chase"]().alt == f"{circle}, {robot}"
+    assert "and 2 robots that start at (1, 2) m" in plots.chase({"one": CHASE, "two": CHASE}).alt
+    x, y, heading = CHASE.goal
+    half = len(CHASE) // 2
+
+    def told(x, y):
+        return plots.chase({"one": dataclasses.replace(CHASE, goal=wmr.Pose(x, y, heading))}).alt
+
+    assert "driven once round clockwise from (0, 0) m" in told(x, -y)
+    stop = np.minimum(np.arange(len(CHASE)), half)
+    assert "driven 0.5 times round counter-clockwise" in told(x[stop], y[stop])
+    assert told(x, x + 1.0).startswith("A grey reference from (0, 1) m to ")
+    assert told(0.0 * x + 2.0, 0.0 * y).startswith("A goal that stands still at (2, 0) m, and the robot")
+
+
+def test_on_a_logarithmic_scale_nothing_is_drawn_below_a_millionth():
+    tiny = dataclasses.replace(CHASE, rho=np.geomspace(1.0, 1e-9, len(CHASE)))
+    axes = plots.together({"one": tiny}, "rho", log=True).figure.axes[0]
+    drawn = axes.lines[-1].get_ydata()
+    assert np.isnan(drawn[tiny.rho < 1e-6]).all()
+    assert np.array_equal(drawn[tiny.rho >= 1e-6], tiny.rho[tiny.rho >= 1e-6])
+    assert axes.get_ylim()[0] == 1e-6
+    assert plots.together({"one": CHASE}, "rho", log=True).figure.axes[0].get_ylim()[0] > 0.01
+
+
+def test_a_course_is_told_once():
+    """No range where the ends are the range; and what rounds to zero is not called zero."""
+    assert PICTURES["together, logarithmic"]().alt.endswith("one goes from 2.2 to 0.09 m.")
+    assert plots.together({"one": CHASE}, "omega").alt.endswith("rad/s.")
+    assert ", between " in plots.together({"one": CHASE}, "omega").alt
+    near = dataclasses.replace(CHASE, rho=np.linspace(1.0, 1e-4, len(CHASE)))
+    assert plots.together({"one": near}, "rho").alt.endswith("one goes from 1.00 to less than 0.01 m.")
+    x = CHASE.x + np.linspace(1.0, -1e-4, len(CHASE))
+    past = dataclasses.replace(CHASE, goal=CHASE.goal._replace(x=x))
+    assert plots.together({"one": past}, "x_error").alt.endswith("one goes from 1.00 to nearly 0 m.")
 
 
 def test_tradeoff_and_residual_curve_draw_their_points():

@@ -38,8 +38,21 @@ def test_texts_carry_the_numbers():
     assert "linear with slope 1.00, 3 at 1 s; square with slope 2.00, 1 at 1 s" in PICTURES["orders"]().alt
     assert "quick reaches 63 % after 0.100 s; slow reaches 63 % after 0.200 s" in PICTURES["responses"]().alt
     assert "all of it: 4.0 m, as far as x = 1.0 m; part: 1.0 m" in PICTURES["driven"]().alt
+    assert PICTURES["driven"]().alt.endswith(
+        'part: 1.0 m, as far as x = 1.0 m, at most 0.00 m beside the first. Not to be told from the first: "part".'
+    )
     ends = [math.degrees(wmr.arrival(run).heading_error) for run in (LATE, AT_ONCE)]
     assert f"one, slow: {ends[0]:.0f} deg; one, at once: {ends[1]:.0f} deg; two, slow: {ends[0]:.0f} deg" in PICTURES["inner_loops"]().alt
+
+
+def test_driven_says_how_far_a_path_strays_and_what_its_arrows_are():
+    aside = [wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(2.0, 1.5, 0.5), wmr.Pose(1.0, 3.0, 0.5)]
+    picture = plots.driven({"all of it": WAY, "aside": aside, "near": [each._replace(x=each.x + 0.01) for each in WAY]}, WAY[-1])
+    assert "as far as x = 2.0 m, at most 1.00 m beside the first; near: 4.0 m, as far as x = 1.0 m, at most 0.01 m beside" in picture.alt
+    assert picture.alt.endswith('Not to be told from the first: "near".')
+    beyond = plots.driven({"part": WAY, "beyond": [*WAY, wmr.Pose(1.0, 5.0, 0.5)]}, WAY[-1])  # on the line, but not on the path
+    assert "at most 2.00 m beside the first" in beyond.alt
+    assert [text.get_text() for text in picture.figure.axes[0].get_legend().get_texts()] == ["all of it", "aside", "near", "start", "goal"]
 
 
 def test_time_steps_draw_each_run_and_each_limit():
@@ -52,6 +65,8 @@ def test_time_steps_draw_each_run_and_each_limit():
         np.testing.assert_allclose(drawn[method].get_ydata(), wanted)
         assert any(set(line.get_xdata()) == {wmr.longest_step(CASE.gains, method)} for line in axes.lines)
     assert "the paper's gains, euler: 46 deg at 0.02 s, longest step 0.011 s, 2 of 4 runs lost" in picture.alt
+    last = math.degrees(wmr.arrival(wmr.simulate(CASE.start, CASE.goal, GENTLE, method="arc", dt=0.7)).heading_error)
+    assert f"gentle gains, arc: 2 deg at 0.02 s, {abs(last):.0f} deg at 0.7 s, longest step 0.714 s" in picture.alt
 
 
 @pytest.mark.parametrize(

@@ -19,6 +19,7 @@ from wmrlib.simulation import Trajectory
 
 _LOOKS = (("path", "-"), ("goal", "--"), ("start", "-."), ("omega", ":"), ("y_error", (0, (6, 1.5, 1, 1.5, 1, 1.5))))
 _MARKERS = ("o", "s", "^", "D", "v")
+_LEAST = 1e-6  # of a logarithmic scale
 _FIELDS = {
     "v": ("v [m/s]", "speed v", "m/s"),
     "omega": ("omega [rad/s]", "turning rate omega", "rad/s"),
@@ -33,7 +34,7 @@ def together(
 ) -> Picture:
     """One field of several runs over time: "v", "omega", "x_error", "y_error" or "rho", the distance to the goal.
 
-    log: a logarithmic scale (values below 1e-6 are drawn there); level: a value and its name, drawn as a thin dotted line; until: the last
+    log: a logarithmic scale (values below 1e-6 are not drawn); level: a value and its name, drawn as a thin dotted line; until: the last
     second shown. Raises ValueError for no run, more than five, another field, or a level that is not a number.
     """
     _checked(runs)
@@ -43,17 +44,19 @@ def together(
         axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
     for (title, run), (colour, style) in zip(runs.items(), _LOOKS, strict=False):
         values = getattr(run, field)
-        axes.plot(run.t, np.maximum(values, 1e-6) if log else values, color=COLOURS[colour], ls=style, label=title)
+        axes.plot(run.t, np.where(values < _LEAST, np.nan, values) if log else values, color=COLOURS[colour], ls=style, label=title)
     said = ""
     if level is not None:
         value = real("level", level[0])
         axes.axhline(value, color=COLOURS["ink"], lw=1.2, ls=":", label=level[1])
-        said = f"; a dotted line marks {level[1]}, {value:g} {unit}"
+        said = f"; a dotted line marks {level[1]}" + ("" if f"{value:g} {unit}" in level[1] else f", {value:g} {unit}")
     axes.set(xlabel="time [s]", ylabel=label)
     if until is not None:
         axes.set_xlim(0.0, until)
     if log:
         axes.set_yscale("log")
+        if min(getattr(run, field).min() for run in runs.values()) < _LEAST:
+            axes.set_ylim(bottom=_LEAST)
     if len(runs) > 1 or level is not None:
         _legend(figure)
     parts = [_course_in_words(title, getattr(run, field), unit, log) for title, run in runs.items()]
@@ -96,25 +99,33 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
 def chase(runs: Mapping[str, Trajectory]) -> Picture:
     """The paths of several runs after the same moving reference, which is drawn grey and wide; equal scales.
 
+    The open arrow is the goal at the first moment, the filled one the robot.
     Raises ValueError for no run or more than five.
     """
     _checked(runs)
     figure, axes = new_figure(6.4, 6.4)
     first = next(iter(runs.values()))
-    goal_x, goal_y = (np.broadcast_to(each, first.t.shape) for each in first.goal[:2])
+    goal_x, goal_y, goal_heading = (np.broadcast_to(each, first.t.shape) for each in first.goal)
     axes.plot(goal_x, goal_y, color="0.75", lw=7.0, label="reference", solid_capstyle="round")
     for (title, run), (colour, style) in zip(runs.items(), _LOOKS, strict=False):
         axes.plot(run.x, run.y, color=COLOURS[colour], ls=style, label=title)
     every_x = np.concatenate([goal_x, *(run.x for run in runs.values())])
     every_y = np.concatenate([goal_y, *(run.y for run in runs.values())])
     start = Pose(first.x[0], first.y[0], first.heading[0])
-    axes.add_patch(arrow(start, 0.03 * max(np.ptp(every_x), np.ptp(every_y)), fc=COLOURS["robot"], ec=COLOURS["ink"], zorder=4))
+    size = 0.03 * max(np.ptp(every_x), np.ptp(every_y))
+    axes.add_patch(arrow(start, size, fc=COLOURS["robot"], ec=COLOURS["ink"], zorder=4))
+    axes.add_patch(arrow(Pose(goal_x[0], goal_y[0], goal_heading[0]), size, fc="white", ec=COLOURS["goal"], lw=2.0, zorder=3))
     equal_scales(axes, every_x, every_y)
+    side = -1 if goal_x[0] > sum(axes.get_xlim()) / 2 else 1  # inside the axes
+    looks = {"textcoords": "offset points", "ha": "left" if side > 0 else "right", "va": "center", "fontsize": 11}
+    axes.annotate("goal at 0 s", (goal_x[0], goal_y[0]), xytext=(12 * side, 0), **looks)
     axes.set(xlabel="x [m]", ylabel="y [m]")
     _legend(figure)
-    parts = [f"{title} is {run.rho[-1]:.3f} m from it at the end" for title, run in runs.items()]
+    parts = [f"{title} {f'{run.rho[-1]:.3f}' if run.rho[-1] >= 5e-4 else 'less than 0.001'} m" for title, run in runs.items()]
     return Picture(
-        figure, f"Paths in metres after a reference that ends at ({goal_x[-1]:.1f}, {near_zero(goal_y[-1]):.1f}): {'; '.join(parts)}."
+        figure,
+        f"{_course_of_goal(goal_x, goal_y)}, and {'the robot that starts' if len(runs) == 1 else f'{len(runs)} robots that start'} at "
+        f"({start.x:g}, {start.y:g}) m; distance from the goal at the end: {'; '.join(parts)}.",
     )
 
 
@@ -217,11 +228,30 @@ def _course_in_words(title: str, values: np.ndarray, unit: str, log: bool) -> st
 
     def said(value: float) -> str:
         if log:
-            return f"{value:.2g}" if value >= 1e-6 else "less than 1e-6"
-        return f"{value if abs(value) >= 0.5 * 10**-digits else 0.0:.{digits}f}"
+            return f"{value:.2g}" if value >= _LEAST else "less than 1e-6"
+        if abs(value) < 0.5 * 10**-digits:
+            return "nearly 0" if values.min() < -1e-9 else f"less than {10**-digits:g}"
+        return f"{value:.{digits}f}"
 
     first, last, low, high = map(said, (values[0], values[-1], values.min(), values.max()))
-    return f"{title} goes from {first} to {last} {unit}, between {low} and {high} {unit}"
+    between = "" if {low, high} == {first, last} else f", between {low} and {high} {unit}"
+    return f"{title} goes from {first} to {last} {unit}{between}"
+
+
+def _course_of_goal(x: np.ndarray, y: np.ndarray) -> str:
+    begin, end = (f"({near_zero(x[k]):.3g}, {near_zero(y[k]):.3g})" for k in (0, -1))
+    far = max(np.ptp(x), np.ptp(y))
+    (a, b, c), *_ = np.linalg.lstsq(np.column_stack([2.0 * x, 2.0 * y, np.ones_like(x)]), x**2 + y**2, rcond=None)
+    radius = math.sqrt(max(c + a**2 + b**2, 0.0))
+    if far < 1e-9:
+        return f"A goal that stands still at {begin} m"
+    if np.abs(np.hypot(x - a, y - b) - radius).max() > 1e-6 * far:
+        return f"A grey reference from {begin} m to {end} m"
+    turns = np.ptp(np.unwrap(np.arctan2(y - b, x - a))) / (2.0 * math.pi)
+    driven = "once round" if abs(turns - 1.0) < 0.005 else f"{turns:.2g} times round"
+    way = "counter-clockwise" if (x[0] - a) * (y[1] - b) > (y[0] - b) * (x[1] - a) else "clockwise"
+    centre = f"({near_zero(a):.3g}, {near_zero(b):.3g})"
+    return f"A grey reference circle of radius {radius:.3g} m about {centre} m, driven {driven} {way} from {begin} m"
 
 
 def _room(values: np.ndarray, room: float) -> tuple[float, float]:

@@ -16,18 +16,25 @@ from wmrlib.plots._style import COLOURS, LINES, arrow, near_zero, new_figure
 from wmrlib.tracks import Standing
 
 _MOST_ARROWS = 150
+_COUNTS = {2: "two", 3: "three", 4: "four"}
 
 
 def scatter(found: Standing) -> Picture:
-    """The positions of a receiver that stands still, east and north of their mean, joined in their order; the circle holds half of them."""
+    """The positions of a receiver that stands still, east and north of their mean, joined in their order; the circle holds half of them.
+
+    If the last ones are equal, they are one dot, and the picture says how many they are.
+    """
     instance("found", found, Standing)
     figure, axes = new_figure(7.5, 3.9)
     axes.plot(found.east, found.north, "-", color=COLOURS["path"], lw=1.2)
     axes.plot(found.east, found.north, "o", color=COLOURS["path"], ms=6, label="positions, in order")
     axes.plot(0.0, 0.0, "+", color=COLOURS["goal"], ms=16, mew=2.5, label="mean")
     axes.add_patch(Circle((0.0, 0.0), found.cep, fill=False, ls="--", ec=COLOURS["ink"]))
-    axes.plot([], [], "--", color=COLOURS["ink"], lw=1.0, label=f"CEP, {found.cep:.1f} m")
-    for k, name in ((0, "first"), (found.n - 1, "last")):
+    axes.plot([], [], "--", color=COLOURS["ink"], lw=1.0, label=f"half of them within {found.cep:.1f} m (CEP)")
+    places = np.column_stack([found.east, found.north])
+    same = int(np.argmin([*np.isclose(places[::-1], places[-1], rtol=0.0, atol=1e-3).all(axis=1), False]))  # how many are where the last is
+    last = "last" if same == 1 else f"last {_COUNTS.get(same, same)}"
+    for k, name in ((0, "first"), (found.n - 1, last)):
         axes.annotate(name, (found.east[k], found.north[k]), xytext=(0, 9), textcoords="offset points", ha="center", fontsize=11)
     left, right = min(found.east.min(), -found.cep) - 1.0, max(found.east.max(), found.cep) + 1.0
     height = 1.15 * max(np.abs(found.north).max(), found.cep)
@@ -35,16 +42,16 @@ def scatter(found: Standing) -> Picture:
     axes.legend(loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=3, frameon=False, fontsize=10)
     return Picture(
         figure,
-        f"{found.n} positions about their mean, joined in order: from {near_zero(found.east[0]):.1f} m east and "
-        f"{near_zero(found.north[0]):.1f} m north to {near_zero(found.east[-1]):.1f} m east and {near_zero(found.north[-1]):.1f} m north; "
+        f"{found.n} positions about their mean, joined in order: they walk from {_compass(*places[0])} to {_compass(*places[-1])}"
+        f"{'' if same == 1 else f', where the {last} are one dot'}; a dashed circle of {found.cep:.1f} m holds half of them; "
         f"the standard deviation is {found.std_east:.1f} m east and {found.std_north:.1f} m north.",
     )
 
 
 def end_poses(ends: Pose, goal: Pose, radius: float) -> Picture:
-    """Where many robots end, as arrows in metres about the goal (up to 150 of them), and how their headings are spread.
+    """Where many robots end, as arrows in metres about the goal (the first 150 of them), and how the headings of all are spread.
 
-    ends: Pose of arrays. radius: of the circle in which they believed themselves, m. Raises ValueError for anything else.
+    ends: Pose of arrays. radius: of the dashed circle in which they believed themselves, m. Raises ValueError for anything else.
     """
     x, y, heading = (np.ravel(field) for field in np.broadcast_arrays(*instance("ends", ends, Pose)))
     instance("goal", goal, Pose)
@@ -55,21 +62,29 @@ def end_poses(ends: Pose, goal: Pose, radius: float) -> Picture:
     for pose in zip(x[:_MOST_ARROWS], y[:_MOST_ARROWS], heading[:_MOST_ARROWS], strict=True):
         dart = Pose(float(pose[0] - goal.x), float(pose[1] - goal.y), float(pose[2]))
         axes["place"].add_patch(arrow(dart, 0.045 * reach, fc=COLOURS["robot"], ec=COLOURS["ink"], lw=0.5))
-    axes["place"].add_patch(arrow(Pose(0.0, 0.0, goal.heading), 0.13 * reach, fc="none", ec=COLOURS["goal"], lw=2.5, zorder=4))
-    axes["place"].add_patch(Circle((0.0, 0.0), radius, fill=False, ls="--", lw=2.0, ec=COLOURS["ink"], zorder=5))
-    axes["place"].set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal", xlabel="x - goal.x [m]", ylabel="y - goal.y [m]")
+    for colour, more in (("white", 3.0), (None, 0.0)):  # each with a white rim, to stand out from the darts
+        looks = {"fc": "none", "ec": colour or COLOURS["goal"], "lw": 2.5 + more, "zorder": 4}
+        axes["place"].add_patch(arrow(Pose(0.0, 0.0, goal.heading), 0.16 * reach, **looks))
+        axes["place"].add_patch(
+            Circle((0.0, 0.0), radius, fill=False, ls="--" if colour is None else "-", lw=2.0 + more, ec=colour or "k", zorder=4)
+        )
+    axes["place"].set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
+    axes["place"].set(xlabel="east of the goal [m]", ylabel="north of the goal [m]")
+    drawn = f"{min(x.size, _MOST_ARROWS)} of {x.size} robots" if x.size > _MOST_ARROWS else f"all {x.size} robots"
+    axes["place"].set_title(f"{drawn}; dashed: arrival\nradius; open arrow: the goal", fontsize=11)
     error = np.degrees(wrap_angle(heading - goal.heading))
     axes["heading"].hist(
         error, bins=np.arange(-180, 181, 30), weights=np.full(error.size, 100.0 / error.size), color=COLOURS["path"], ec="white"
     )
+    axes["heading"].set_title(f"all {x.size}", fontsize=11)
     axes["heading"].set(xlabel="heading error [deg]", ylabel="robots [%]", xlim=(-180, 180), xticks=range(-180, 181, 90))
     near = 5 * round(20 * np.mean(np.abs(error) < 30))
     far = 5 * round(20 * np.mean(np.abs(error) > 90))
     half = np.median(distance)
     return Picture(
         figure,
-        f"{x.size} robots at their end, half of them within {half:.1f} m of the goal, in or beside a circle of {radius:.2f} m radius: "
-        f"about {near} % have a heading within 30 deg of the wanted one, and about {far} % are more than 90 deg off.",
+        f"Left, {drawn} where they stand, about a dashed circle of {radius:.2f} m and the open arrow of the goal: half of all are within "
+        f"{half:.1f} m of it. Right, the heading errors of all: about {near} % within 30 deg, about {far} % more than 90 deg off.",
     )
 
 
@@ -154,6 +169,11 @@ def rise_map(sigma: np.ndarray, dt: np.ndarray, share: np.ndarray) -> Picture:
     )
 
 
+def _compass(east: float, north: float) -> str:
+    along, across = ("west" if east < 0 else "east"), ("south" if north < 0 else "north")
+    return f"{abs(near_zero(east)):.1f} m {along} and {abs(near_zero(north)):.1f} m {across}"
+
+
 def _draw_rising(axes, t: np.ndarray, values: np.ndarray) -> float:
     """V in one panel; returns the share of rising steps, %."""
     up = np.diff(values) > 1e-9 * values[0]
@@ -162,7 +182,7 @@ def _draw_rising(axes, t: np.ndarray, values: np.ndarray) -> float:
     axes.add_collection(LineCollection(pieces[~up], color=COLOURS["V"], lw=2.0))
     axes.add_collection(LineCollection(pieces[up], color=COLOURS["V_rising"], lw=4.5))
     low, high = math.floor(math.log10(points[:, 1].min())), math.ceil(math.log10(points[:, 1].max()))
-    axes.set(ylabel="V", yscale="log", xlim=(0.0, t[-1]), ylim=(10.0 ** (low - 0.2), 10.0 ** (high + 0.2)))
+    axes.set(ylabel="V [1]", yscale="log", xlim=(0.0, t[-1]), ylim=(10.0 ** (low - 0.2), 10.0 ** (high + 0.2)))
     axes.set_yticks(10.0 ** np.arange(low, high + 1, max(1, (high - low) // 3)))
     axes.minorticks_off()
     return 100.0 * float(np.mean(up))

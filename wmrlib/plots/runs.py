@@ -148,7 +148,7 @@ def draw_lyapunov(axes: Axes, run: Trajectory) -> list:
     artists = [axes.add_collection(LineCollection(pieces[~rising], color=COLOURS["V"], lw=2.0, label="falling"))]
     if rising.any():
         artists.append(axes.add_collection(LineCollection(pieces[rising], color=COLOURS["V_rising"], lw=5.0, label="rising")))
-    axes.set(ylabel="V", yscale="log", xlim=(0.0, max(run.t[-1], 1e-9)), ylim=(values.min() / 2, values.max() * 2))
+    axes.set(ylabel="V [1]", yscale="log", xlim=(0.0, max(run.t[-1], 1e-9)), ylim=(values.min() / 2, values.max() * 2))
     axes.legend(loc="upper right", fontsize=10)
     return artists
 

@@ -39,16 +39,16 @@ def time_steps(start: Pose, goal: Pose, gains: Mapping[str, Gains], steps: Seque
             axes.plot(steps, np.where(lost, np.nan, error), style, color=colour, marker=marker, ms=4, label=method)
             axes.plot(np.asarray(steps)[lost], np.full(lost.sum(), 186.0 if method == "arc" else 194.0), "x", color=colour, ms=6)
             axes.axvline(limit, color=colour, ls=style, lw=1.0, label=f"its longest step:\n{limit:.3f} s")
-            first, lost_runs = f"{error[0]:.0f} deg at {steps[0]:g} s", f"{lost.sum()} of {len(runs)} runs lost"
+            below = np.flatnonzero((np.asarray(steps) < limit) & ~lost)
+            known = f", {error[below[-1]]:.0f} deg at {steps[below[-1]]:.2g} s" if below.size and below[-1] else ""
+            first, lost_runs = f"{error[0]:.0f} deg at {steps[0]:g} s{known}", f"{lost.sum()} of {len(runs)} runs lost"
             texts.append(f"{name}, {method}: {first}, longest step {limit:.3f} s, {lost_runs}")
         axes.set(xscale="log", ylim=(-5.0, 200.0), yticks=range(0, 181, 45), ylabel="|heading error| [deg]")
         axes.set_title(name, fontsize=12)
         axes.legend(fontsize=10, loc="center left", bbox_to_anchor=(1.0, 0.5))
     panels[-1].set(xlabel="time step dt [s], crosses: did not arrive")
     panels[-1].xaxis.set_major_formatter("{x:g}")
-    return Picture(
-        figure, "Heading error on arrival against the time step, two panels, each rising to the right: " + "; ".join(texts) + "."
-    )
+    return Picture(figure, "Heading error on arrival against the time step, two panels: " + "; ".join(texts) + ".")
 
 
 def orders(steps: Sequence[float], errors: Mapping[str, Sequence[float]], what: str = "error [m]") -> Picture:
@@ -105,15 +105,22 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
 
 
 def driven(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Picture:
-    """Paths of one robot under different limits, from the first pose of each (the same) to `goal`, in metres, equal scales. Up to five."""
+    """Paths of one robot under different limits, from the first pose of each (the same) to `goal`, in metres, equal scales. Up to five.
+
+    The text says how far each strays from the first, and which can't be told from it.
+    """
     _at_most("paths", paths, len(_SERIES))
     figure, axes = new_figure(5.0, 6.5)
-    texts, everything = [], []
+    texts, everything, alike = [], [], []
     for (label, poses), (colour, style, _) in zip(paths.items(), _SERIES, strict=False):
         x, y = np.array([pose.x for pose in poses]), np.array([pose.y for pose in poses])
         axes.plot(x, y, style, color=COLOURS[colour], label=label, lw=4.0 if not everything else 2.0, alpha=0.5 if not everything else 1.0)
         everything.append((x, y))
-        texts.append(f"{label}: {np.hypot(np.diff(x), np.diff(y)).sum():.1f} m, as far as x = {x.max():.1f} m")
+        strays = _strays(x, y, *everything[0]) if len(everything) > 1 else 0.0
+        beside = f", at most {strays:.2f} m beside the first" if len(everything) > 1 else ""
+        if len(everything) > 1 and strays < 0.01 * max(np.ptp(each) for each in everything[0]):
+            alike.append(label)
+        texts.append(f"{label}: {np.hypot(np.diff(x), np.diff(y)).sum():.1f} m, as far as x = {x.max():.1f} m{beside}")
     x, y = (np.concatenate(each) for each in zip(*everything, strict=True))
     size = 0.035 * max(np.ptp(x), np.ptp(y), 1.0)
     first = next(iter(paths.values()))[0]
@@ -121,8 +128,24 @@ def driven(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Picture:
     axes.add_patch(arrow(goal, size, fc="none", ec=COLOURS["goal"], lw=2.0, zorder=4))
     axes.margins(0.1)
     axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
+    for label, fill, edge in (("start", COLOURS["start"], COLOURS["start"]), ("goal", "none", COLOURS["goal"])):
+        axes.plot([], [], ls="none", marker=">", ms=10, mfc=fill, mec=edge, mew=2.0, label=label)
     axes.legend(fontsize=10, loc="center left", bbox_to_anchor=(1.0, 0.5))
-    return Picture(figure, "Paths to the same goal: " + "; ".join(texts) + ".")
+    same = f". Not to be told from the first: {', '.join(map(_quoted, alike))}" if alike else ""
+    return Picture(figure, f"Paths to the same goal, the open arrow, from the same start: {'; '.join(texts)}{same}.")
+
+
+def _quoted(label: str) -> str:
+    return f'"{label}"'  # a label may have a comma of its own
+
+
+def _strays(x: np.ndarray, y: np.ndarray, along_x: np.ndarray, along_y: np.ndarray) -> float:
+    """The greatest distance of the points from a polyline, m."""
+    points, begin = x + 1j * y, along_x + 1j * along_y
+    begin, pieces = begin[:-1], np.diff(begin)
+    length = np.maximum(np.abs(pieces), 1e-12)
+    ahead = (points[:, None] - begin) * (pieces / length).conj()
+    return float(np.abs(ahead - np.clip(ahead.real, 0.0, length)).min(axis=1).max())
 
 
 def _as_many(name: str, entries: Mapping, wanted: int) -> None:

@@ -102,7 +102,7 @@ def lyapunov_runs(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str]
         words.append(f"{name}: from {run.V[0]:.2g} to {run.V[-1]:.2g}, {ups}")
     handles.append(Line2D([], [], color=COLOURS["V_rising"], lw=6.0, alpha=0.55, label="rising"))
     axes.legend(handles=handles, fontsize=11, loc="lower center", bbox_to_anchor=(0.5, 1.0), ncols=len(handles), frameon=False)
-    axes.set(xlabel="time [s]", ylabel="V", yscale="log")
+    axes.set(xlabel="time [s]", ylabel="V [1]", yscale="log")
     axes.margins(x=0.01)
     return Picture(figure, "V over time on a logarithmic scale. " + "; ".join(words) + ".")
 
