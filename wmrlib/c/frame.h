@@ -6,10 +6,8 @@
 
    #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in double (see wmr_local_position).
 
-   Whatever is not a number, infinite (but a max_speed) or out of range going in, or not finite coming out, gives v = omega = 0 and status
-   WMR_STOP. Out of range are a negative rho or gain, a v_max that is not above 0, for all laws, a point with latitude or longitude beyond
-   90 or 180 degrees, and a track_width or max_speed that is not above 0. Compile without -ffast-math and -ffinite-math-only, which take
-   such checks away.
+   Whatever is not a number, infinite or out of range going in, or not finite coming out, gives v = omega = 0 and status WMR_STOP; only a
+   max_speed may be infinite. Compile without -ffast-math or -ffinite-math-only, which take such checks away.
 
    SPDX-License-Identifier: BSD-3-Clause */
 #ifndef WMR_LAW_H
@@ -42,7 +40,8 @@ enum { WMR_OK = 0, WMR_STOP = 1 };
 
 typedef struct { WMR_REAL x, y, heading; } wmr_pose;
 typedef struct { WMR_REAL rho, alpha, theta; } wmr_polar;
-typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains; /* 1/m (aicardi: 1/s), 1/s, no unit, m/s */
+/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (for aicardi too, which has no use for it) */
+typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
 
@@ -102,7 +101,7 @@ static inline wmr_twist wmr_law_aicardi(wmr_polar error, wmr_gains gains) {
 }
 
 /* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by one factor so that neither is faster
-   than max_speed and the path keeps its curvature. A max_speed of INFINITY is no limit. */
+   than max_speed and the path keeps its curvature. track_width and max_speed are above 0; a max_speed of INFINITY is no limit. */
 static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width, WMR_REAL max_speed) {
   const wmr_wheels stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const WMR_REAL fastest = wmr_fastest_wheel(twist.v, twist.omega, track_width);
