@@ -27,13 +27,16 @@ LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 
 def main(output: Path, chapters: list[str]) -> None:
     """Execute the chapters whose numbers are given, or all, and write their decks, what they load, and their list."""
+    paths = sorted(NOTEBOOKS.glob("[0-9][0-9]_*.ipynb"))
+    if missing := sorted(set(chapters) - {path.name[:2] for path in paths}):
+        raise SystemExit(f"no chapter {', '.join(missing)}: two digits each, such as 00 04, are needed, and OUTPUT before --chapters")
     install_javascript()
     copy_javascript(output / "vendor", NPM_FILES | {"reveal": REVEAL_FILES})
     for path in BESIDE:
         shutil.copy(path, output)
     for stale in output.glob("*.slides.html") if not chapters else ():
         stale.unlink()
-    for path in sorted(NOTEBOOKS.glob("[0-9][0-9]_*.ipynb")):
+    for path in paths:
         if not chapters or path.name[:2] in chapters:
             notebook = prepared(executed(path))
             exporter = SlidesExporter(

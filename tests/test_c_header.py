@@ -119,6 +119,61 @@ def test_poses_angles_wheels_and_energy(compiled):
     assert call("polar", 1, 2, 0.5, 1, 2, 0.5)[0] == 0
 
 
+def test_what_is_out_of_range_stops_the_robot(compiled):
+    call, _ = compiled
+    good = [1.0, 0.5, -0.5, 2.0, 1.0, 0.3, 4.0]
+    for law in LAWS:
+        assert call(law, *good)[2] == 0
+        for place in (0, 3, 4, 5, 6):
+            assert call(law, *good[:place], -1.0, *good[place + 1 :]).tolist() == [0, 0, 1], (law, place)
+            state = [*good[:place], 0.0, *good[place + 1 :]]
+            assert call(law, *state)[2] == (place == 6), (law, place)  # 0 shows what a gain does, but v_max has to be above 0
+        assert call(law, *good[:3], 0.0, 0.0, 0.0, 0.0).tolist() == [0, 0, 1]  # wmr_gains {0}
+    for place in (2, 3):
+        for value in (0.0, -1.0):
+            wheels = [1.0, 0.5, 0.4, 2.0]
+            wheels[place] = value
+            assert call("wheels", *wheels).tolist() == [0, 0, 1]
+
+
+def test_an_infinite_top_speed_is_no_limit(compiled):
+    call, tolerance = compiled
+    assert call("wheels", 100.0, 5.0, 0.5, math.inf) == pytest.approx([98.75, 101.25, 0], rel=tolerance)
+
+
+OFF_EARTH = [(0, 90.1), (0, -90.1), (0, 95.0), (2, 95.0), (1, 180.1), (3, -180.1), (3, 359.0)]
+OFF_EARTH += [(place, value) for place in range(4) for value in (math.nan, math.inf, -math.inf)]
+
+
+@pytest.mark.parametrize(("place", "value"), OFF_EARTH)
+def test_a_point_that_is_not_on_the_earth_stops_the_robot(compiled, place, value):
+    call, _ = compiled
+    points = [33.273572, 44.373160, 33.274087, 44.373264]
+    points[place] = value
+    east, north, _ = call("local", *points, kind=ctypes.c_double)
+    assert math.isnan(east)
+    assert math.isnan(north)
+    error = call("polar", 0.0, 0.0, 1.2, east, north, -1.0)
+    for law in LAWS:
+        assert call(law, *error, 2.0, 1.0, 0.3, 4.0).tolist() == [0, 0, 1]
+
+
+def test_the_edges_of_the_map_are_on_the_earth(compiled):
+    call, _ = compiled
+    for points in ((90.0, 180.0, 89.9999, -180.0), (-90.0, -180.0, -89.9999, 180.0), (0.0, 180.0, 0.0, -180.0)):
+        a, b = wmr.GeoPoint(lat=points[0], lon=points[1]), wmr.GeoPoint(lat=points[2], lon=points[3])
+        assert call("local", *points, kind=ctypes.c_double)[:2] == pytest.approx(wmr.local_position(a, b), abs=1e-8)
+
+
+@pytest.mark.parametrize("option", ["-ffast-math", "-ffinite-math-only"])
+def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, option):
+    (tmp_path / "empty.c").write_text('#include "wmr_law.h"\nint main(void) { return 0; }\n')
+    build([CC, "-std=c99"], tmp_path / "empty.c", tmp_path)
+    told = subprocess.run([CC, option, f"-I{FOLDER}", "-fsyntax-only", str(tmp_path / "empty.c")], capture_output=True, text=True)
+    assert told.returncode
+    assert "wmr_law.h needs NaN and infinity" in told.stderr
+
+
 @pytest.mark.parametrize("bad", [math.nan, math.inf, -math.inf])
 def test_what_is_no_number_stops_the_robot(compiled, bad):
     call, _ = compiled

@@ -223,6 +223,7 @@ def test_gains_count_with_three_decimals():
     assert score(near).gains == rounded(near) == GOOD
     assert score(near).total == score(GOOD).total
     assert score(near._replace(k_rho=0.1286)).gains.k_rho == 0.129
+    assert math.copysign(1.0, rounded(wmr.Gains(-0.0, 1.0, 1.0)).k_rho) == 1.0
 
 
 def test_a_start_within_the_arrival_radius_is_reached_at_once_and_one_on_the_goal_itself_hangs_on_rounding():
@@ -248,6 +249,15 @@ def test_nothing_can_be_changed():
         score(PAPER).total = 0.0
 
 
+def test_the_seed_of_a_challenge_is_a_plain_number():
+    game = Challenge(np.int64(7), from_seed(7).cases)
+    assert game == from_seed(7)
+    assert type(game.seed) is int
+
+
+ONE = from_seed().cases[0]
+
+
 @pytest.mark.parametrize(
     ("make", "message"),
     [
@@ -261,7 +271,17 @@ def test_nothing_can_be_changed():
         (lambda: score(wmr.Gains(1.0, 1.0, 1.0, 1e-4)), r"v_max = 0\.0 is not allowed"),
         (lambda: drive(PAPER, "x"), "a Challenge is needed"),
         (lambda: Challenge(0, ()), "a tuple of at least one Case is needed"),
-        (lambda: Challenge(0, (1,)), "a Case is needed"),
+        (lambda: Challenge(0, (1,)), r"cases\[0\] = 1 is not allowed: a Case is needed"),
+        *(
+            (lambda seed=seed: Challenge(seed, from_seed().cases), "seed = .* is not allowed: a whole number")
+            for seed in ("abc", -1, True, 2.0)
+        ),
+        (lambda: Challenge(0, (ONE, Case(None, *ONE[1:]))), r"cases\[1\]\.kind = None is not allowed: a str is needed"),
+        (lambda: Challenge(0, (Case("x", None, None),)), r"cases\[0\]\.start = None is not allowed: a Pose is needed"),
+        (lambda: Challenge(0, (ONE._replace(goal=(1.0, 2.0, 0.0)),)), r"cases\[0\]\.goal = \(1\.0, 2\.0, 0\.0\) .* a Pose is needed"),
+        (lambda: Challenge(0, (ONE._replace(start=wmr.Pose([1.0, 2.0], 0, 0)),)), r"cases\[0\]\.start\.x = .* one number is needed"),
+        (lambda: replace(from_seed(), wheels=None), "wheels = None is not allowed: a WheelLimits is needed"),
+        (lambda: replace(from_seed(), wheels=wmr.WheelLimits(np.ones(2), 2.0)), r"wheels\.track_width = .* one number is needed"),
         (lambda: replace(from_seed(), wheels=wmr.WheelLimits(0.5)), r"wheels\.max_speed = inf is not allowed"),
         (lambda: replace(from_seed(), dt=0.0), r"dt = 0\.0 is not allowed"),
         (lambda: replace(from_seed(), arrival_radius=-1.0), r"arrival_radius = -1\.0 is not allowed"),

@@ -1,6 +1,8 @@
 """Gains are checked where they are made."""
 
+import copy
 import math
+import pickle
 
 import numpy as np
 import pytest
@@ -24,8 +26,48 @@ def test_linear_gains_from_a_matrix():
     assert (gains.v_x, gains.v_heading, gains.omega_x, gains.omega_heading) == (1.0, 3.0, 4.0, 6.0)
 
 
+CHECKED = [
+    wmr.Gains(2.0, 1.0, 0.3, 3.0),
+    wmr.KanayamaGains(1.0, 2.0, 3.0),
+    wmr.LinearGains([[1.0, 2.0, 3.0], [4.0, 5.0, 6.0]]),
+    wmr.Pose(1.0, 2.0, 3.0),
+]
+
+
+@pytest.mark.parametrize("one", CHECKED, ids=lambda one: type(one).__name__)
+def test_what_is_replaced_is_checked_too(one):
+    for name in one._fields:
+        changed = one._replace(**{name: 7})
+        assert type(changed) is type(one)
+        assert changed == tuple(7.0 if each == name else value for each, value in one._asdict().items())
+        assert {type(field) for field in changed} == {float}
+        for wrong in (math.nan, math.inf, "1", None, True):
+            with pytest.raises(ValueError, match=f"{name} = {wrong!r} is not allowed"):
+                one._replace(**{name: wrong})
+    if not isinstance(one, wmr.Pose | wmr.LinearGains):
+        with pytest.raises(ValueError, match=r"= -1\.0 is not allowed"):
+            one._replace(**{one._fields[1]: -1.0})
+
+
+@pytest.mark.parametrize("one", CHECKED, ids=lambda one: type(one).__name__)
+def test_copies_are_equal(one):
+    for other in (copy.copy(one), copy.deepcopy(one), pickle.loads(pickle.dumps(one)), type(one)._make(one)):
+        assert (type(other), other) == (type(one), one)
+
+
+def test_replaced_fields_may_be_arrays_where_fields_may():
+    many = CHECKED[0]._replace(h=[0.1, 0.2])
+    assert many.h.tolist() == [0.1, 0.2]
+    with pytest.raises(ValueError, match="mismatched lengths"):
+        many._replace(k_rho=np.ones(3))
+    with pytest.raises(ValueError, match=r"omega_x = .* is not allowed: one number is needed, not an array"):
+        CHECKED[2]._replace(omega_x=np.ones(2))
+
+
 def test_no_wheel_limits_never_bind():
     assert checked_wheels(None).max_speed == math.inf
+    for infinite in (math.inf, np.float64(math.inf)):
+        assert checked_wheels(wmr.WheelLimits(1, infinite)) == (1.0, math.inf)
 
 
 @pytest.mark.parametrize(
@@ -38,9 +80,13 @@ def test_no_wheel_limits_never_bind():
         (lambda: wmr.Gains(np.ones(2), np.ones(3), 1.0), r"mismatched lengths: k_rho has shape \(2,\), k_alpha has shape \(3,\)"),
         (lambda: wmr.KanayamaGains(1.0, 0.0, 1.0), r"k_y = 0\.0 .* above 0"),
         (lambda: wmr.LinearGains([[1.0, 2.0], [3.0, 4.0]]), r"matrix has shape \(2, 2\).*\(2, 3\) is needed"),
-        (lambda: checked_wheels(wmr.WheelLimits(-0.5, 1.0)), r"track_width = -0\.5 .* above 0"),
-        (lambda: checked_wheels(wmr.WheelLimits(0.5, 0.0)), r"max_speed = 0\.0 .* above 0"),
-        (lambda: checked_wheels(2.0), r"limits = 2\.0 .* a WheelLimits is needed, not a float"),
+        (lambda: checked_wheels(wmr.WheelLimits(-0.5, 1.0)), r"wheels\.track_width = -0\.5 .* above 0"),
+        (lambda: checked_wheels(wmr.WheelLimits(0.5, 0.0), "limits"), r"limits\.max_speed = 0\.0 .* above 0"),
+        (lambda: checked_wheels(wmr.WheelLimits(0.5, -math.inf)), r"wheels\.max_speed = -inf .* above 0"),
+        (lambda: checked_wheels(2.0), r"wheels = 2\.0 .* a WheelLimits is needed, not a float"),
+        (lambda: checked_wheels(wmr.WheelLimits(np.array([0.5, 0.6]), 2.0)), r"wheels\.track_width = .* not an array of shape \(2,\)"),
+        (lambda: checked_wheels(wmr.WheelLimits(0.5, np.array([1.0, 2.0]))), r"wheels\.max_speed = .* not an array of shape \(2,\)"),
+        (lambda: checked_wheels(wmr.WheelLimits(0.5, np.array([math.inf, 2.0]))), r"wheels\.max_speed = .* is not allowed"),
     ],
 )
 def test_bad_input_names_argument_value_and_range(make, message):

@@ -219,6 +219,14 @@ def test_a_start_on_the_first_waypoint_reaches_it_at_once():
     np.testing.assert_array_equal(on_it.t, without.t)
 
 
+@pytest.mark.parametrize("method", ["arc", "continuous"])
+def test_a_start_that_has_turned_more_than_once_has_a_heading_as_all_others(method):
+    turned, plain = (wmr.drive_route(ONE, GENTLE, start=wmr.Pose(0.0, 0.0, heading), method=method) for heading in (7.0, 7.0 - 2 * math.pi))
+    assert turned.start.heading == 7.0
+    assert turned.heading[0] == pytest.approx(7.0 - 2 * math.pi, abs=1e-12)
+    np.testing.assert_allclose(turned.heading, plain.heading, atol=1e-6)
+
+
 def test_two_equal_waypoints_and_one_straight_behind():
     way = wmr.Pose(np.array([0.0, -10.0, -10.0, 6.0]), 0.0, np.array([0.0, 0.5, 0.5, 0.0]))
     route = wmr.drive_route(way, GENTLE)
@@ -257,6 +265,28 @@ def test_poses_of_gps_points():
     assert (poses.x[1], poses.y[1]) == pytest.approx(wmr.local_position(first, second))
     assert poses.heading[0] == pytest.approx(math.pi / 2 - wmr.initial_bearing(first, second))  # from east, against from north
     np.testing.assert_array_equal(poses.heading, wmr.headings_along(poses.x, poses.y))
+
+
+@pytest.mark.parametrize(
+    ("lat", "lon", "degrees"),
+    [
+        ([10.0] * 4, [179.999, 180.0, -180.0, -179.999], 0),
+        ([10.0] * 4, [-179.999, -180.0, 180.0, 179.999], 180),
+        ([89.999, 90.0, 90.0, 89.999], [0.0, 0.0, 90.0, 180.0], 90),
+        ([-89.999, -90.0, -90.0, -90.0, -89.999], [0.0, 0.0, 120.0, -77.0, 180.0], -90),
+    ],
+    ids=["eastward", "westward", "north pole", "south pole"],
+)
+def test_a_point_that_repeats_under_another_longitude_is_one(lat, lon, degrees):
+    """Straight on over the date line and over the poles, where 180 and -180, or all longitudes, are one."""
+    poses = wmr.route_poses(wmr.GeoPoint(lat=lat, lon=lon))
+    np.testing.assert_allclose(np.cos(poses.heading - np.radians(degrees)), 1.0, atol=1e-12)
+    assert (poses.x[1], poses.y[1]) == (poses.x[2], poses.y[2])
+
+
+def test_points_a_centimetre_apart_are_two():
+    near = wmr.point_at(wmr.GeoPoint(lat=33.3, lon=44.4), np.array([0.0, 0.01, 0.01]), np.array([0.0, 0.0, 0.01]))
+    np.testing.assert_allclose(np.degrees(wmr.route_poses(near).heading), [0, 45, 90], atol=1e-4)
 
 
 def test_headings_that_are_given():
@@ -322,6 +352,13 @@ MANY = wmr.GeoPoint(lat=[[1.0, 2.0]], lon=[[1.0, 2.0]])
         (lambda: wmr.route_poses(MANY), "a list of at least one position is needed"),
         (lambda: wmr.route_poses(CAMPUS, [1.0]), r"headings have shape \(1,\), points have shape \(4,\)"),
         (lambda: wmr.route_poses(CAMPUS, [1.0, math.inf, 0, 0]), r"headings = .*inf.* is not allowed"),
+        (
+            lambda: wmr.route_poses(CAMPUS, ["n", "s", "e", "w"]),
+            r"headings = \['n', 's', 'e', 'w'\] is not allowed: a list of finite numbers",
+        ),
+        (lambda: wmr.route_poses(CAMPUS, [True, False, True, True]), r"headings = \[True, .* is not allowed"),
+        (lambda: wmr.route_poses(CAMPUS, [[1.0], [1.0, 2.0]]), r"headings = \[\[1\.0\], .* is not allowed"),
+        (lambda: wmr.route_poses(CAMPUS, 1.0), r"headings = 1\.0 is not allowed"),
         (lambda: wmr.route_poses(CAMPUS, origin=CAMPUS), "origin = .* is not allowed: a single point is needed"),
         (lambda: wmr.route_poses(CAMPUS, origin=(1, 2)), "a GeoPoint is needed, not a tuple"),
         (lambda: wmr.route_points(SQUARE, CAMPUS), "a Route is needed, not a Pose"),
@@ -334,6 +371,7 @@ MANY = wmr.GeoPoint(lat=[[1.0, 2.0]], lon=[[1.0, 2.0]])
             lambda: wmr.drive_route(SQUARE, GENTLE, stop=[True]),
             r"stop = \[True\] is not allowed: True, False or a list of 3, one a waypoint",
         ),
+        (lambda: wmr.drive_route(SQUARE, GENTLE, stop=[[True], [True, False]]), r"stop = \[\[True\], \[True, False\]\] is not allowed"),
         (lambda: wmr.drive_route(SQUARE, GENTLE, stop=1), "stop = 1 is not allowed"),
         (lambda: wmr.drive_route(SQUARE, GENTLE, pass_radius=-1.0), r"pass_radius = -1\.0 is not allowed"),
         (lambda: wmr.drive_route(SQUARE, GENTLE, arrival_radius=-1.0, stop=False), r"arrival_radius = -1\.0 is not allowed"),

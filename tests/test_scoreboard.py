@@ -2,12 +2,14 @@
 
 import datetime
 import hashlib
+import os
 import random
 import re
 import subprocess
 import sys
 import types
 from concurrent.futures import ThreadPoolExecutor
+from urllib.parse import quote
 
 import pytest
 from hypothesis import given
@@ -19,11 +21,13 @@ from wmrlib.scoreboard import Scoreboard, certificate, verify
 
 PAPER = wmr.Gains(2.0, 1.0, 0.3, 4.0)
 GENTLE = wmr.Gains(0.2, 2.0, 2.0, 4.0)
+PLAIN = {"NUMBA_DISABLE_JIT": "1", "PYTHONDONTWRITEBYTECODE": "1"}  # no file is written but the board's
 GOOD = wmr.Gains(0.128, 1.089, 1.42, 7.528)
 LINE = certificate("Ada", GOOD)
-names = st.text(st.characters(exclude_categories=("Cc", "Cs", "Cn", "Co")), min_size=1, max_size=60).filter(
-    lambda text: any(map(str.isalnum, text))
-)
+UNSEEN = "\u00ad\u034f\u115f\u200b\u200e\u200f\u202a\u202e\u2060\u2066\u2069\u3164\ufeff\U000e0041"
+FILLERS = "\u034f\u115f\u1160\u17b4\u17b5\u2800\u3164\uffa0"
+seen = st.characters(exclude_categories=("C",), exclude_characters=FILLERS) | st.sampled_from("\u200c\u200d")
+names = st.text(seen, min_size=1, max_size=60).filter(lambda text: any(map(str.isalnum, text)))
 
 
 @pytest.fixture
@@ -119,6 +123,21 @@ def test_names_are_put_in_order():
     assert certificate("Zoe\u0308", GOOD) == certificate("Zo\u00eb", GOOD)
 
 
+def test_a_gain_of_minus_nothing_is_nothing():
+    line = certificate("Ada", wmr.Gains(0.3, 1.0, -0.0))
+    assert "gains=0.300,1.000,0.000,4.000" in line
+    assert verify(line)
+
+
+@pytest.mark.parametrize("unseen", UNSEEN, ids=lambda character: f"U+{ord(character):04X}")
+def test_no_name_holds_what_is_not_seen_or_turns_the_table_round(unseen):
+    for name in (f"Ada{unseen}", f"Eve{unseen}adA", unseen):
+        with pytest.raises(ValueError, match=r"name = .* is not allowed: 1 to 60 readable characters") as error:
+            certificate(name, GOOD)
+        assert unseen not in str(error.value) or unseen.isprintable()
+    assert not verify(signed(body(LINE).replace("name=Ada", f"name={quote('Ada' + unseen)}")))
+
+
 def test_huge_gains_are_certified_too():
     assert verify(certificate("Max", wmr.Gains(1e308, 1.0, 1.0, 1e308))).entry.points == 182.0
 
@@ -138,6 +157,13 @@ def test_the_best_of_each_name_is_ranked_and_ties_share_a_rank(board):
     ]
     assert [each.entry.points for each in ranking.entries] == [21.81, 25.78, 25.78, 52.28]
     assert (ranking.refused, ranking.others, ranking.seed) == ((), 0, 2026)
+
+
+def test_names_with_joiners_are_written_with_them_and_ranked_as_without(board):
+    persian = "\u0639\u0644\u06cc\u200c\u0631\u0636\u0627"
+    assert verify(board.add(persian, PAPER)).entry.name == persian
+    board.add(persian.replace("\u200c", ""), PAPER)
+    assert [(each.entry.name, each.tries) for each in board.ranking().entries] == [(persian, 2)]
 
 
 def test_seeds_are_ranked_apart(board):
@@ -213,10 +239,31 @@ def test_what_it_says(board):
     board.add("Zoë, B", GOOD)
     assert repr(board).startswith("<Scoreboard: '")
     assert repr(board.ranking()).splitlines() == [
-        "<Ranking: seed 2026; 1 names ranked, 0 lines refused, 0 of other seeds>",
+        "<Ranking: seed 2026; 1 name ranked, 0 lines refused, 0 of other seeds>",
         "rank   points  tries   k_rho, k_alpha, h, v_max      name",
         "   1    21.81      1   0.128, 1.089, 1.42, 7.528     Zoë, B",
     ]
+
+
+def test_one_line_refused_is_one_line(board):
+    board.path.write_text("rubbish\n")
+    assert repr(board.ranking()).startswith("<Ranking: seed 2026; 0 names ranked, 1 line refused, 0 of other seeds>")
+
+
+def test_a_line_that_is_written_in_part_is_an_error(board):
+    """As on a full disk: the file may not grow beyond 30 bytes."""
+    pytest.importorskip("resource")
+    code = (
+        "import resource, sys, wmrlib as w\n"
+        "resource.setrlimit(resource.RLIMIT_FSIZE, (30, 30))\n"
+        "try:\n    w.scoreboard.Scoreboard(sys.argv[1]).add('Ada', w.Gains(2.0, 1.0, 0.3))\n"
+        "except OSError as error:\n    print(error.strerror, error.filename)"
+    )
+    told = subprocess.run([sys.executable, "-c", code, str(board.path)], capture_output=True, text=True, env=os.environ | PLAIN)
+    assert told.stdout == f"the line could not be written whole {board.path}\n", told.stderr
+    assert board.path.stat().st_size == 30
+    board.add("Bob", PAPER)
+    assert [each.entry.name for each in board.ranking().entries] == ["Bob"]
 
 
 def test_threads_lose_no_line(board):

@@ -242,13 +242,23 @@ def test_continuous_turns_no_faster_than_its_wheels():
         ({"start": (0, 0, 0)}, r"start = \(0, 0, 0\) .* a Pose is needed"),
         ({"goal": wmr.Pose([1.0, 2.0], 0, 0)}, r"goal\.x = array.* one number is needed; sweep takes arrays"),
         ({"gains": wmr.Gains([1.0, 2.0], 1, 1)}, r"one number a gain is needed; sweep takes arrays of gains"),
-        ({"wheels": 1.0}, r"a WheelLimits is needed, not a float"),
+        ({"wheels": 1.0}, r"wheels = 1\.0 .* a WheelLimits is needed, not a float"),
+        ({"wheels": wmr.WheelLimits(np.array([0.5, 0.6]), 2.0)}, r"wheels\.track_width = .* one number is needed, not an array"),
     ],
 )
 def test_bad_input_names_argument_value_and_range(options, message):
     arguments = {"start": ORIGIN, "goal": wmr.Pose(1, 1, 0), "gains": CALM} | options
     with pytest.raises(ValueError, match=message):
         wmr.simulate(arguments.pop("start"), arguments.pop("goal"), arguments.pop("gains"), **arguments)
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_whole_numbers_give_the_same_samples_in_the_same_type(method):
+    whole, exact = (wmr.simulate(ORIGIN, wmr.Pose(5, 1, 0), CALM, method=method, dt=dt, duration=5 * dt) for dt in (1, 1.0))
+    assert whole.t.dtype == exact.t.dtype == np.float64
+    np.testing.assert_array_equal(whole.t, exact.t)
+    np.testing.assert_array_equal(whole.x, exact.x)
+    assert circle(method=method, dt=1).t.dtype == np.float64
 
 
 # Moving references ---------------------------------------------------------------------------------------------------

@@ -11,6 +11,7 @@ from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_outp
 ROOT = Path(__file__).parent.parent
 sys.path.insert(0, str(ROOT / "book"))
 import marks  # noqa: E402
+import slides  # noqa: E402
 
 CHAPTERS = sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 FORMULA = "$$\nV = 1\n$$"
@@ -125,6 +126,13 @@ def test_a_cell_is_cut_at_its_headings_and_a_claim_from_its_derivation():
     assert "\n\n".join(part.source for part in parts) == cell.source
     assert len({part.id for part in parts}) == 4
     assert parts[0].id == "c1"
+
+
+@pytest.mark.parametrize("wrong", ["7", "99", "OUT", "00_from_gps_to_a_parked_robot"])
+def test_a_chapter_that_is_not_there_is_told_before_anything_is_made(tmp_path, wrong):
+    with pytest.raises(SystemExit, match=rf"no chapter {wrong}: two digits each, such as 00 04, are needed"):
+        slides.main(tmp_path / "decks", ["00", wrong])
+    assert not any(tmp_path.iterdir())
 
 
 def test_marking_touches_nothing_but_the_slide_types(tmp_path):

@@ -23,6 +23,9 @@ _FORM = re.compile(
     re.ASCII,
 )
 _LONGEST_NAME = 60
+JOINERS = "\u200c\u200d"
+"""Characters of format that names need, in Persian and in Indian scripts."""
+_UNSEEN = "\u034f\u115f\u1160\u17b4\u17b5\u2800\u3164\uffa0"  # fillers, which count as letters or marks
 
 
 class Entry(NamedTuple):
@@ -58,7 +61,8 @@ def certificate(name: str, gains: Gains, seed: int = SEED, date: datetime.date |
 
     name: 1 to 60 characters of any script, which stand in the line as in an address (%20 for a space); several blanks become one. gains:
     k_rho, k_alpha, h, v_max, with 3 decimals. date: a datetime.date to be remembered, or None. Raises ValueError as `challenge.score` and
-    `challenge.from_seed`, and for a name without a letter or with control characters.
+    `challenge.from_seed`, and for a name of more than 60 characters, without a letter or digit, or with characters that are not seen
+    (control characters, spaces without width, marks that turn the writing round).
     """
     game, gains = from_seed(seed), rounded(gains)
     points = _points(gains, game.seed)
@@ -104,10 +108,14 @@ def _entry(found: re.Match) -> Entry:
 def _clean(name: str) -> str:
     """The same name for the same person: composed characters, single blanks."""
     clean = " ".join(unicodedata.normalize("NFC", instance("name", name, str)).split())
-    readable = not any(unicodedata.category(character) in ("Cc", "Cs", "Cn", "Co") for character in clean)
-    if not (readable and 1 <= len(clean) <= _LONGEST_NAME and any(map(str.isalnum, clean))):
+    if not (all(map(_readable, clean)) and 1 <= len(clean) <= _LONGEST_NAME and any(map(str.isalnum, clean))):
         raise ValueError(f"name = {name!r} is not allowed: 1 to {_LONGEST_NAME} readable characters, one a letter or digit, are needed")
     return clean
+
+
+def _readable(character: str) -> bool:
+    """Whether it is seen, so that names which look the same are the same, and leaves the direction of the writing alone."""
+    return character in JOINERS or (unicodedata.category(character)[0] != "C" and character not in _UNSEEN)
 
 
 def _checksum(text: str) -> str:

@@ -23,7 +23,7 @@ import numpy as np
 from wmrlib._checks import instance, scalar
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
-from wmrlib.simulation import Trajectory, sample_count, simulate
+from wmrlib.simulation import Trajectory, sample_count, simulate, single_pose
 from wmrlib.sweeping import sweep
 
 __all__ = ["SEED", "Case", "CaseScore", "Challenge", "Score", "drive", "from_seed", "rounded", "score"]
@@ -61,8 +61,9 @@ class Case(NamedTuple):
 class Challenge:
     """What everyone is given: the cases, and how they are driven.
 
-    seed: from which `from_seed` drew it; cases: tuple of Case; wheels: WheelLimits with a finite speed; dt: s, for which a command is held;
-    arrival_radius: m; duration: s, within which the goal has to be reached. Raises ValueError for anything else.
+    seed: from which `from_seed` drew it; cases: tuple of Case, each a text and two single poses; wheels: WheelLimits with a finite speed;
+    dt: s, for which a command is held; arrival_radius: m; duration: s, within which the goal has to be reached. Raises ValueError for
+    anything else.
     """
 
     seed: int
@@ -73,10 +74,14 @@ class Challenge:
     duration: float = 60.0
 
     def __post_init__(self) -> None:
+        object.__setattr__(self, "seed", _whole(self.seed))
         if not isinstance(self.cases, tuple) or not self.cases:
             raise ValueError(f"cases = {self.cases!r} is not allowed: a tuple of at least one Case is needed")
-        for case in self.cases:
-            instance("cases", case, Case)
+        for k, case in enumerate(self.cases):
+            kind, start, goal = instance(f"cases[{k}]", case, Case)
+            instance(f"cases[{k}].kind", kind, str)
+            single_pose(f"cases[{k}].start", start)
+            single_pose(f"cases[{k}].goal", goal)
         scalar("wheels.max_speed", checked_wheels(instance("wheels", self.wheels, WheelLimits)).max_speed)
         sample_count(self.dt, self.duration)
         scalar("arrival_radius", self.arrival_radius, low=0.0)
@@ -146,14 +151,13 @@ def from_seed(seed: int = SEED) -> Challenge:
     then rounded to a centimetre and headings to 0.1 deg. "straight behind" stays 5 deg off, where left and right are no matter of
     rounding. Raises ValueError for anything but such a number.
     """
-    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
-        raise ValueError(f"seed = {seed!r} is not allowed: a whole number from 0 to 2^63 - 1 is needed")
-    return _drawn(int(seed))
+    return _drawn(_whole(seed))
 
 
 def rounded(gains: Gains) -> Gains:
     """The gains as they count: single numbers with 3 decimals. Raises ValueError for arrays, or a v_max that rounds to 0."""
-    return Gains(*(round(scalar(name, value), 3) for name, value in instance("gains", gains, Gains)._asdict().items()))
+    fields = instance("gains", gains, Gains)._asdict()
+    return Gains(*(round(scalar(name, value), 3) + 0.0 for name, value in fields.items()))  # 0.0, where -0.0 would be another text
 
 
 def score(gains: Gains, game: Challenge | None = None) -> Score:
@@ -183,6 +187,12 @@ def drive(gains: Gains, game: Challenge | None = None) -> tuple[Trajectory, ...]
     game, gains = _game(game), rounded(gains)
     limits = {"dt": game.dt, "duration": game.duration, "arrival_radius": game.arrival_radius, "wheels": game.wheels}
     return tuple(simulate(case.start, case.goal, gains, **limits) for case in game.cases)
+
+
+def _whole(seed: int) -> int:
+    if isinstance(seed, bool) or not isinstance(seed, int | np.integer) or not 0 <= seed < 2**63:
+        raise ValueError(f"seed = {seed!r} is not allowed: a whole number from 0 to 2^63 - 1 is needed")
+    return int(seed)
 
 
 def _tipped(points: np.ndarray, time: np.ndarray, dt: float) -> bool:

@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real, same_shape
+from wmrlib._checks import Real, instance, real, same_shape, scalar
 
 
 class GainsFields(NamedTuple):
@@ -39,6 +40,10 @@ class Gains(GainsFields):
             real("v_max", v_max, above=0.0),
         )
 
+    @classmethod
+    def _make(cls, fields: Iterable[Real]) -> Gains:  # what `_replace` calls; the namedtuple's own would check nothing
+        return cls(*fields)
+
 
 class _KanayamaFields(NamedTuple):
     k_x: Real
@@ -56,6 +61,10 @@ class KanayamaGains(_KanayamaFields):
 
     def __new__(cls, k_x: float, k_y: float, k_heading: float) -> KanayamaGains:
         return super().__new__(cls, real("k_x", k_x, low=0.0), real("k_y", k_y, above=0.0), real("k_heading", k_heading, low=0.0))
+
+    @classmethod
+    def _make(cls, fields: Iterable[Real]) -> KanayamaGains:  # what `_replace` calls; the namedtuple's own would check nothing
+        return cls(*fields)
 
 
 class _LinearFields(NamedTuple):
@@ -81,6 +90,14 @@ class LinearGains(_LinearFields):
             raise ValueError(f"matrix has shape {np.shape(entries)}, which is not allowed: (2, 3) is needed")
         return super().__new__(cls, *(float(entry) for entry in np.ravel(entries)))
 
+    def __getnewargs__(self) -> tuple:  # how it is copied and pickled
+        return ((self[:3], self[3:]),)
+
+    @classmethod
+    def _make(cls, fields: Iterable[float]) -> LinearGains:  # what `_replace` calls
+        entries = [scalar(name, value) for name, value in zip(cls._fields, fields, strict=True)]
+        return cls((entries[:3], entries[3:]))
+
 
 class WheelLimits(NamedTuple):
     """The fastest that either wheel can turn: `track_width`, the distance between the wheels, m; `max_speed` over ground, m/s."""
@@ -101,10 +118,11 @@ NO_LIMITS = WheelLimits(1.0, math.inf)
 NO_TUNING = Tuning(Gains(0.0, 0.0, 0.0))
 
 
-def checked_wheels(limits: WheelLimits | None) -> WheelLimits:
-    """The limits as floats, and limits that never bind for None; raises ValueError as `limit_wheels`."""
+def checked_wheels(limits: WheelLimits | None, name: str = "wheels") -> WheelLimits:
+    """The limits as floats, and limits that never bind for None; raises ValueError, with the argument's name, as `limit_wheels`."""
     if limits is None:
         return NO_LIMITS
-    instance("limits", limits, WheelLimits)
-    speed = math.inf if limits.max_speed == math.inf else real("max_speed", limits.max_speed, above=0.0)
-    return WheelLimits(real("track_width", limits.track_width, above=0.0), speed)
+    width, speed = instance(name, limits, WheelLimits)
+    width = scalar(f"{name}.track_width", width, above=0.0)
+    unlimited = isinstance(speed, float) and speed == math.inf
+    return WheelLimits(width, math.inf if unlimited else scalar(f"{name}.max_speed", speed, above=0.0))

@@ -7,6 +7,7 @@ error are Aicardi's: Corke and Siegwart write beta = -theta, so that their k_bet
 from __future__ import annotations
 
 import math
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -37,6 +38,10 @@ class Pose(_PoseFields):
         if not type(x) is type(y) is type(heading) is float:
             same_shape(x=x, y=y, heading=heading)
         return super().__new__(cls, real("x", x), real("y", y), real("heading", heading))
+
+    @classmethod
+    def _make(cls, fields: Iterable[Real]) -> Pose:  # what `_replace` calls; the namedtuple's own would check nothing
+        return cls(*fields)
 
 
 class PolarError(NamedTuple):

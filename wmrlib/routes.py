@@ -10,12 +10,13 @@ import numpy as np
 
 from wmrlib._checks import Real, instance, real, same_shape, scalar
 from wmrlib.gains import Gains, WheelLimits
-from wmrlib.geodesy import GeoPoint, local_position, point_at
+from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.metrics import arrival, path_length
 from wmrlib.simulation import Arrival, Outcome, Trajectory, simulate
 
 _HAIRPIN = math.pi - 1e-9  # rad: a turn of 180 deg but for rounding
+_APART = 1e-6  # m: nearer than this, two GPS points are one, and what lies between them is rounding
 _JOINED = ("x", "y", "heading", "v", "omega", "V")
 
 
@@ -101,18 +102,21 @@ def route_poses(points: GeoPoint, headings: Sequence[float] | np.ndarray | None 
 
     points: a GeoPoint of arrays. headings: radians counter-clockwise from east, one a point; where one is NaN (or all, for None) it is
     chosen by `headings_along`. origin: the local frame's, a single GeoPoint; the first of the points for None. Right at the date line
-    and at the poles too; see `local_position` for the projection. Raises ValueError for no point, headings of another length, an
-    infinite one, or an origin of arrays.
+    and at the poles too, where one point has many longitudes: points less than a micrometre apart are one that repeats. See
+    `local_position` for the projection. Raises ValueError for no point, headings of another length, one that is infinite or no number,
+    or an origin of arrays.
     """
     lat, lon = _listed(points)
     east, north = (np.ravel(value) for value in local_position(_origin(points if origin is None else _single(origin)), points))
+    apart = haversine_distance(GeoPoint(lat=lat[:-1], lon=lon[:-1]), GeoPoint(lat=lat[1:], lon=lon[1:])) >= _APART
+    first = np.maximum.accumulate(np.where([True, *apart], np.arange(lat.size), 0))  # of the points that are this one
+    east, north = east[first], north[first]
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
-    given = np.asarray(headings, dtype=float)
+    given = _given(headings)
     if given.shape != lat.shape:
         raise ValueError(f"mismatched lengths: headings have shape {given.shape}, points have shape {lon.shape}; the same is needed")
-    real("headings", given[~np.isnan(given)])
     return Pose(east, north, np.where(np.isnan(given), chosen, given))
 
 
@@ -176,6 +180,7 @@ def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
     ends = np.cumsum([0.0, *(legs[k].t[-1] for k in driven)])
     arrays["t"] = [end + legs[k].t[: counts[k]] for k, end in zip(driven, ends, strict=False)]
     joined = {name: np.concatenate([np.empty(0), *parts]) for name, parts in arrays.items()}
+    joined["heading"] = wrap_angle(joined["heading"])  # a start may look in a direction written as 7 rad
     joined["leg"] = np.repeat(np.array(driven, dtype=int), np.array(list(counts.values()), dtype=int))
     for values in joined.values():
         values.flags.writeable = False
@@ -187,10 +192,24 @@ def _arrival(leg: Trajectory) -> Arrival:
 
 
 def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
-    flags = np.asarray(stop)
+    try:
+        flags = np.asarray(stop)
+    except ValueError:  # lists of different lengths
+        flags = np.empty(0)
     if flags.dtype != bool or flags.shape not in ((), (count,)):
         raise ValueError(f"stop = {stop!r} is not allowed: True, False or a list of {count}, one a waypoint, is needed")
     return tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (count - 1), True)
+
+
+def _given(headings: Sequence[float] | np.ndarray) -> np.ndarray:
+    """The headings as floats, NaN where none is given."""
+    try:
+        given = np.asarray([math.nan if each is None else each for each in headings])
+    except (TypeError, ValueError):  # no list, or lists of different lengths
+        given = np.empty(0, dtype=object)
+    if given.dtype.kind not in "iuf" or np.isinf(given).any():
+        raise ValueError(f"headings = {headings!r} is not allowed: a list of finite numbers, or NaN where one is to be chosen, is needed")
+    return given.astype(float)
 
 
 def _listed(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:

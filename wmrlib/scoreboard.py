@@ -8,6 +8,7 @@ module can make a line in any name. What can't be made up is the score, which is
 from __future__ import annotations
 
 import datetime
+import errno
 import os
 from collections.abc import Iterator
 from contextlib import contextmanager
@@ -15,12 +16,13 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
 
-from wmrlib._certificate import Entry, Verdict, certificate, verify
+from wmrlib._certificate import JOINERS, Entry, Verdict, certificate, verify
 from wmrlib.challenge import SEED, from_seed
 from wmrlib.gains import Gains
 
 __all__ = ["Entry", "Ranked", "Ranking", "Refused", "Scoreboard", "Verdict", "certificate", "verify"]
 
+_JOINERS = dict.fromkeys(map(ord, JOINERS))
 _UTF_16 = (b"\xff\xfe", b"\xfe\xff")  # how such a file begins: some editors and PowerShell's > make one
 
 
@@ -52,7 +54,8 @@ class Ranking:
     seed: int
 
     def __repr__(self) -> str:
-        told = f"{len(self.entries)} names ranked, {len(self.refused)} lines refused, {self.others} of other seeds"
+        names, lines = _counted(self.entries, "name"), _counted(self.refused, "line")
+        told = f"{names} ranked, {lines} refused, {self.others} of other seeds"
         rows = [f"<Ranking: seed {self.seed}; {told}>"]
         if self.entries:
             rows.append(f"{'rank':>4}{'points':>9}{'tries':>7}   {'k_rho, k_alpha, h, v_max':<30}name")
@@ -77,13 +80,19 @@ class Scoreboard:
         return f"<Scoreboard: {str(self.path)!r}>"
 
     def add(self, name: str, gains: Gains, seed: int = SEED, date: datetime.date | None = None) -> str:
-        """Add a try, and return its line. Raises ValueError as `certificate`, and OSError for a file that can't be written."""
+        """Add a try, and return its line.
+
+        Raises ValueError as `certificate` and for a file in UTF-16, and OSError if the line can't be written, or only a part of it.
+        """
         line = certificate(name, gains, seed, date)
         self._append(line)
         return line
 
     def add_line(self, line: str) -> Verdict:
-        """Add a line that was handed in, if it is true; the Verdict says whether it is. Raises OSError if the file can't be written."""
+        """Add a line that was handed in, if it is true; the Verdict says whether it is.
+
+        Raises ValueError for another type and for a file in UTF-16, and OSError if the line can't be written, or only a part of it.
+        """
         verdict = verify(line)
         if verdict:
             self._append(line.strip())
@@ -92,8 +101,8 @@ class Scoreboard:
     def ranking(self, seed: int = SEED) -> Ranking:
         """Read the file and compute all scores again: the best try of each name, by points; a file that is not there has none.
 
-        Names that differ only in upper and lower case are one. Raises ValueError as `challenge.from_seed`, and OSError if the file can't
-        be read.
+        Names that differ only in upper and lower case, or in joiners, which are not seen, are one. Raises ValueError as
+        `challenge.from_seed`, and OSError if the file can't be read.
         """
         seed, best, tries, refused, others = from_seed(seed).seed, {}, {}, [], 0
         for number, text in self._lines():
@@ -103,7 +112,7 @@ class Scoreboard:
             elif verdict.entry.seed != seed:
                 others += 1
             else:
-                key = verdict.entry.name.casefold()
+                key = verdict.entry.name.casefold().translate(_JOINERS)
                 tries[key] = tries.get(key, 0) + 1
                 if key not in best or verdict.entry.points < best[key].points:
                     best[key] = verdict.entry
@@ -130,9 +139,15 @@ class Scoreboard:
                 end = os.lseek(descriptor, 0, os.SEEK_END)
                 os.lseek(descriptor, max(end - 1, 0), os.SEEK_SET)
                 unfinished = os.read(descriptor, 1) not in (b"", b"\n")  # edited by hand, or cut off
-                os.write(descriptor, f"{chr(10) * unfinished}{line}\n".encode("ascii"))
+                data = f"{chr(10) * unfinished}{line}\n".encode("ascii")
+                if os.write(descriptor, data) != len(data):
+                    raise OSError(errno.ENOSPC, "the line could not be written whole", str(self.path))
         finally:
             os.close(descriptor)
+
+
+def _counted(rows: tuple, word: str) -> str:
+    return f"{len(rows)} {word}" if len(rows) == 1 else f"{len(rows)} {word}s"
 
 
 @contextmanager

@@ -128,9 +128,9 @@ def simulate(
     than ten million samples, a negative radius or lag, a lag with another method than "continuous" or without an arrival radius (on the
     goal itself a robot that still rolls has no line of sight), an unknown law or method.
     """
-    begin, end = _single_pose("start", start), _single_pose("goal", goal)
+    begin, end = single_pose("start", start), single_pose("goal", goal)
     tuning, code = tuning_of(gains, law, POSE_LAWS)
-    samples = sample_count(dt, duration)
+    samples, dt = sample_count(dt, duration), float(dt)
     arrival_radius = scalar("arrival_radius", arrival_radius, low=0.0)
     limits, lag = checked_wheels(wheels), scalar("wheel_lag", wheel_lag, low=0.0)
     continuously = choice("method", method, _METHODS) == "continuous"
@@ -141,7 +141,7 @@ def simulate(
     else:
         reference, record = np.zeros((5, samples)), np.empty((9, samples))
         reference[0], reference[1], reference[2] = end
-        count, outcome = kernels.drive(tuple(begin), reference, tuning, code, limits, _STEPS[method], float(dt), arrival_radius, record)
+        count, outcome = kernels.drive(tuple(begin), reference, tuning, code, limits, _STEPS[method], dt, arrival_radius, record)
         record, t = record[:, :count], dt * np.arange(count)
     return _trajectory(t, record, outcome, end, gains, law, method)
 
@@ -163,9 +163,9 @@ def track(
     rad/s), such as `paper.circle`. gains: of the law, see `tracking_law`; "kanayama" and "linear" use the reference's twist, the others do
     not. method, dt, wheels and errors as in `simulate`, but that "continuous" integrates the pose.
     """
-    begin = _single_pose("start", start)
+    begin = single_pose("start", start)
     tuning, code = tuning_of(gains, law, TRACKING_LAWS)
-    samples = sample_count(dt, duration)
+    samples, dt = sample_count(dt, duration), float(dt)
     limits = checked_wheels(wheels)
     t = dt * np.arange(samples)
 
@@ -178,7 +178,7 @@ def track(
         record, outcome = continuous.after_reference(path_at, begin, path, tuning, code, limits, t)
     else:
         record = np.empty((9, samples))
-        count, outcome = kernels.drive(tuple(begin), path, tuning, code, limits, _STEPS[method], float(dt), -1.0, record)
+        count, outcome = kernels.drive(tuple(begin), path, tuning, code, limits, _STEPS[method], dt, -1.0, record)
         record = record[:, :count]
     count, path.flags.writeable = record.shape[1], False
     outcome = kernels.COMPLETED if outcome == kernels.TIMED_OUT else outcome
@@ -190,7 +190,8 @@ def _trajectory(t, record, outcome, goal, gains, law, method) -> Trajectory:
     return Trajectory(t, *record, _OUTCOMES[outcome], goal, gains, law, method)
 
 
-def _single_pose(name: str, pose: Pose) -> Pose:
+def single_pose(name: str, pose: Pose) -> Pose:
+    """The pose, if its fields are numbers and not arrays; raises ValueError, which names the argument, if not."""
     for field, value in zip(("x", "y", "heading"), instance(name, pose, Pose), strict=True):
         if type(value) is not float:
             raise ValueError(f"{name}.{field} = {value!r} is not allowed: one number is needed; sweep takes arrays")

@@ -5,8 +5,8 @@
 
    #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in double (see wmr_local_position).
 
-   Whatever is not a number, infinite or out of range going in, or not finite coming out, gives v = omega = 0 and status WMR_STOP. Compile
-   without -ffast-math, which takes such checks away.
+   Whatever is not a number, infinite or out of range going in, or not finite coming out, gives v = omega = 0 and status WMR_STOP; only a
+   max_speed may be infinite. Compile without -ffast-math or -ffinite-math-only, which take such checks away.
 
    SPDX-License-Identifier: BSD-3-Clause */
 #ifndef WMR_LAW_H
@@ -14,8 +14,8 @@
 
 #include <math.h>
 
-#ifdef __FAST_MATH__
-#error "wmr_law.h needs NaN and infinity: compile without -ffast-math"
+#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
+#error "wmr_law.h needs NaN and infinity: compile without -ffast-math, -ffinite-math-only or /fp:fast"
 #endif
 
 #ifndef WMR_REAL
@@ -39,7 +39,8 @@ enum { WMR_OK = 0, WMR_STOP = 1 };
 
 typedef struct { WMR_REAL x, y, heading; } wmr_pose;
 typedef struct { WMR_REAL rho, alpha, theta; } wmr_polar;
-typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains; /* 1/m (aicardi: 1/s), 1/s, no unit, m/s */
+/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (for aicardi too, which has no use for it) */
+typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
 
@@ -110,9 +111,9 @@ static inline WMR_REAL wmr_fastest_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b)
   return WMR_C(0.5)*b*WMR_F(fabs)(omega) + WMR_F(fabs)(v);
 }
 
-/* the share of v that v_max allows */
-static inline WMR_REAL wmr_wheel_share(WMR_REAL v_max, WMR_REAL v) {
-  return ((v > v_max) ? ( v_max/v ) : ( WMR_C(1.0) ));
+/* the share of the twist that the faster wheel, at `fastest`, can follow within its max_speed */
+static inline WMR_REAL wmr_wheel_share(WMR_REAL max_speed, WMR_REAL fastest) {
+  return ((fastest > max_speed) ? ( max_speed/fastest ) : ( WMR_C(1.0) ));
 }
 
 /* What a program calls ------------------------------------------------------------------------------------------------- */
@@ -139,8 +140,9 @@ static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v
   const wmr_twist stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const wmr_twist twist = {v, omega, WMR_OK};
   const int known = wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
-  const int tuned = wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h) && wmr_is_size(gains.v_max);
-  return known && tuned && wmr_is_finite(v) && wmr_is_finite(omega) ? twist : stop;
+  const int tuned = wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h);
+  const int fast = wmr_is_size(gains.v_max) && gains.v_max > WMR_C(0.0);
+  return known && tuned && fast && wmr_is_finite(v) && wmr_is_finite(omega) ? twist : stop;
 }
 
 /* The corrected law: (22), and the omega that makes the proof work. Finite at rho = 0 and at alpha = 0. */
@@ -166,7 +168,7 @@ static inline wmr_twist wmr_law_aicardi(wmr_polar error, wmr_gains gains) {
 }
 
 /* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by one factor so that neither is faster
-   than max_speed and the path keeps its curvature. */
+   than max_speed and the path keeps its curvature. track_width and max_speed are above 0; a max_speed of INFINITY is no limit. */
 static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width, WMR_REAL max_speed) {
   const wmr_wheels stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const WMR_REAL fastest = wmr_fastest_wheel(twist.v, twist.omega, track_width);
@@ -209,12 +211,16 @@ static inline double wmr_bearing(double zeta_x, double zeta_y) {
   return atan2(zeta_x, zeta_y);
 }
 
-/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on the law may count in floats. */
+static inline int wmr_on_earth(double lat, double lon) { return fabs(lat) <= 90.0 && fabs(lon) <= 180.0; }
+
+/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on the law may count in floats. Both are NaN,
+   which stops the law, if a point is not on the Earth: no fix yet, or latitude and longitude mixed up. */
 static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon, double *east, double *north) {
   const double degree = 3.14159265358979323846 / 180.0;
   const double lat1 = lat_0 * degree, lat2 = lat * degree, dlat = (lat - lat_0) * degree, dlong = (lon - lon_0) * degree;
   const double epsilon = wmr_epsilon(lat1, lat2, dlat, dlong), rest = wmr_rest(lat1, lat2, dlong);
-  const double rho = wmr_sphere_distance(epsilon, rest, 6371000.0);
+  const int known = wmr_on_earth(lat_0, lon_0) && wmr_on_earth(lat, lon);
+  const double rho = known ? wmr_sphere_distance(epsilon, rest, 6371000.0) : (double)NAN;
   const double bearing = wmr_bearing(wmr_zeta_x(lat2, dlong), wmr_zeta_y(lat1, lat2, dlat, dlong));
   *east = rho * sin(bearing);
   *north = rho * cos(bearing);

@@ -34,6 +34,7 @@ from wmrlib.symbolic._model import (
     dlong,
     east,
     epsilon,
+    fastest,
     h,
     k_alpha,
     k_heading,
@@ -43,6 +44,7 @@ from wmrlib.symbolic._model import (
     lat1,
     lat2,
     left,
+    max_speed,
     north,
     omega,
     omega_ref,
@@ -134,7 +136,11 @@ _OF_THE_ROBOT = {
     "left_wheel": Formula((v, omega, b), v - omega * b / 2, "its ground speed, from (1) and (2)"),
     "right_wheel": Formula((v, omega, b), v + omega * b / 2, "its ground speed, from (1) and (2)"),
     "fastest_wheel": Formula((v, omega, b), sp.Abs(v) + sp.Abs(omega) * b / 2, "the ground speed of the faster wheel"),
-    "wheel_share": Formula((v_max, v), sp.Piecewise((v_max / v, v > v_max), (1, True)), "the share of v that v_max allows"),
+    "wheel_share": Formula(
+        (max_speed, fastest),
+        sp.Piecewise((max_speed / fastest, fastest > max_speed), (1, True)),
+        "the share of the twist that the faster wheel, at `fastest`, can follow within its max_speed",
+    ),
 }
 GEODESY = MappingProxyType(
     {

@@ -20,7 +20,7 @@ sine, sin_alpha, cos_alpha, sinc_alpha = sp.symbols("sine sin_alpha cos_alpha si
 rho_rate, alpha_rate, theta_rate, V_rate, x_rate, y_rate = sp.symbols("rhodot alphadot thetadot Vdot xdot ydot", real=True)
 V, V_r, V_l, right_wheel, left_wheel, r, b, R, c, epsilon, br = sp.symbols("V V_r V_l w_R w_L r b R c epsilon br", real=True)
 lat1, lat2, dlat, dlong, zeta_x, zeta_y = sp.symbols("lat1 lat2 Delta_lat Delta_long zeta_x zeta_y", real=True)
-east, north, rest = sp.symbols("east north rest", real=True)
+east, north, rest, fastest, max_speed = sp.symbols("east north rest fastest max_speed", real=True)
 
 _SMALL = sp.Float("1e-8")  # below this, the next term of the series is under half a unit in the last place
 
