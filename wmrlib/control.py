@@ -188,7 +188,7 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
     Clipping v and omega (or the wheels) one by one would bend the path; scaling both only slows it down. Shapes broadcast.
     Raises ValueError for NaN, a track width or a speed that is not positive, or mismatched lengths.
     """
-    v, omega, limits = real("v", v), real("omega", omega), checked_wheels(limits)
+    v, omega, limits = real("v", v), real("omega", omega), checked_wheels(limits, "limits")
     same_shape(v=v, omega=omega)
     share = elementwise(_wheel_share_all, 1, v, omega, options=(limits,))[0]
     return v * share, omega * share
