@@ -91,8 +91,20 @@ def test_drive_refuses_simulate():
         run = wmr.simulate(start, goal, wmr.Gains(0.3, 2.0, 1.5), method="euler", dt=dt)
         return run.x, run.y, run.heading
 
-    with pytest.raises(Hint, match="of wmrlib"):
+    with pytest.raises(Hint, match=r"uses `wmr.simulate` of wmrlib; of it only `Pose`, `polar_error`, `wrap_angle` may be used"):
         drives.drive_known(answer)
+
+
+def test_drive_may_look_through_the_module():
+    def answer(start, goal, law, dt, duration):
+        run = [start]
+        while (seen := wmr.polar_error(run[-1], goal)).rho > 0.05 and len(run) <= round(duration / dt):
+            (x, y, heading), (v, omega) = run[-1], law(*seen)
+            run.append(wmr.Pose(x + v * math.cos(heading) * dt, y + v * math.sin(heading) * dt, heading + omega * dt))
+        return zip(*run, strict=True)
+
+    for check in (drives.drive_known, drives.drive_arrives, drives.drive_obeys):
+        assert check(answer)
 
 
 def test_a_drive_that_does_not_park():
