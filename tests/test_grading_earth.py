@@ -94,10 +94,29 @@ def test_bearing_needs_the_compass_range():
         (lambda *each: local(*each) / [math.cos(math.radians(each[0])) / math.cos(each[0]), 1], "cosine of degrees"),
         (lambda *each: local(*each) / 1000, "kilometres"),
         (lambda *each: np.degrees(local(*each)), "radian"),
-        (lambda *each: local(*each) * 1.01, "is not there"),
+        (lambda *each: local(*each) * 1.02, "is not there"),
+        (lambda *each: local(*each) * 6378.137 / 6371.0, "a sphere of 6371 km"),
+        (lambda *each: local(*each) * [111320 / 111195, 110574 / 111195], "a sphere of 6371 km"),
         (lambda *each: 5.0, "2 numbers"),
     ],
 )
 def test_local_hints(answer, hint):
     with pytest.raises(Hint, match=hint):
         earth.local_known(answer)
+
+
+def test_a_map_of_another_earth():
+    with pytest.raises(Hint, match="a sphere of 6371 km"):
+        earth.local_properties(lambda *each: local(*each) * 6378.137 / 6371.0)
+    with pytest.raises(Hint, match="as long as the distance"):
+        earth.local_properties(lambda *each: local(*each) * 1.02)
+
+
+def test_lost_digits_are_blamed_for_lost_digits_only():
+    def by_acos(a, b, c, d):
+        return RADIUS * math.acos(min(1.0, unit(a, b) @ unit(c, d)))
+
+    with pytest.raises(Hint, match="loses its digits near 0 m"):
+        earth.distance_close(by_acos)
+    with pytest.raises(Hint, match=r"two points 1 m apart come out 0.001 m apart: see to the checks above"):
+        earth.distance_close(lambda *each: distance(*each) / 1000)
