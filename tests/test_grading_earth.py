@@ -68,6 +68,7 @@ def test_distance_hints(answer, hint):
         (lambda a, b, c, d: bearing(a, b, c, d) % 180.0, "opposite way"),
         (lambda a, b, c, d: bearing(b, a, d, c) if max(abs(b), abs(d)) < 90 else 0.0, "opposite way|counts from|swapped|wrong"),
         (lambda a, b, c, d: 12.0, "where does it count from"),
+        (lambda a, b, c, d: 1e308, "where does it count from"),
     ],
 )
 def test_bearing_hints(answer, hint):
@@ -97,6 +98,8 @@ def test_bearing_needs_the_compass_range():
         (lambda *each: local(*each) * 1.02, "is not there"),
         (lambda *each: local(*each) * 6378.137 / 6371.0, "a sphere of 6371 km"),
         (lambda *each: local(*each) * [111320 / 111195, 110574 / 111195], "a sphere of 6371 km"),
+        (lambda *each: (1e308, 1e308), r"comes out at \(1e\+308, 1e\+308\) m"),
+        (lambda *each: {5.0, 6.0}, "2 numbers"),
         (lambda *each: 5.0, "2 numbers"),
     ],
 )
@@ -120,3 +123,8 @@ def test_lost_digits_are_blamed_for_lost_digits_only():
         earth.distance_close(by_acos)
     with pytest.raises(Hint, match=r"two points 1 m apart come out 0.001 m apart: see to the checks above"):
         earth.distance_close(lambda *each: distance(*each) / 1000)
+
+
+def test_a_distance_that_is_next_to_nothing():
+    with pytest.raises(Hint, match="must be positive"):
+        earth.distance_properties(lambda *each: 1e-308)
