@@ -78,6 +78,11 @@ def test_polar_refuses_wmrlib():
         angles.polar_known(lambda x, y, h, a, b, g: wmr.polar_error(wmr.Pose(x, y, h), wmr.Pose(a, b, g)))
 
 
+def test_angles_that_never_look_back():
+    with pytest.raises(Hint, match="no angle is larger than 0 deg"):
+        angles.polar_range(lambda *each: (1.0, 0.0, 0.0))
+
+
 @pytest.mark.parametrize(
     "answer",
     [

@@ -50,6 +50,9 @@ MISTAKES = [
     ("law", LAW.format("v_ref * np.cos(e_h) + e_x, omega_ref - 2 * e_y + 2 * np.sin(e_h)"), "0.1 m to the left"),
     ("law", LAW.format("v_ref * np.cos(e_h) + 1e-3 * e_x, omega_ref + 1e-3 * e_y + 1e-3 * np.sin(e_h)"), "stronger or weaker"),
     ("law", LAW.format("v_ref * np.cos(e_h) + e_x, 2 * e_y + 2 * np.sin(e_h)"), "on the reference itself"),
+    ("law", LAW.format("v_ref * np.cos(e_h) + e_x, omega_ref + 2 * alpha"), "a micrometre to the left"),
+    ("law", LAW.format("v_ref, omega_ref"), "it never comes closer"),
+    ("law", LAW.format("{v_ref, omega_ref}"), "2 numbers"),
     (
         "law",
         LAW.format("v_ref * np.cos(e_h) + e_x + abs(e_y) + e_y, omega_ref + 2 * e_y + 2 * np.sin(e_h)"),

@@ -62,6 +62,9 @@ def test_other_forms_pass():
         (lambda start, *each: drive(start, *each)[:2], "three lists"),
         (lambda start, *each: None, "three lists"),
         (lambda start, *each: start, "three lists"),
+        (lambda start, *each: ([start.x, 10**400], [start.y, 0], [start.heading, 0]), "three lists"),
+        (lambda start, *each: np.array(drive(start, *each)) * (1 + 0j), "three lists"),
+        (lambda start, *each: np.array(drive(start, *each)).astype(str), "three lists"),
         (lambda start, *each: ([], [], []), "three lists"),
         (lambda start, *each: [part[:n] for part, n in zip(drive(start, *each), (5, 5, 4), strict=True)], "three lists"),
         (lambda start, *each: [part[:n] for part, n in zip(drive(start, *each), (4, 5, 5), strict=True)], "three lists"),
@@ -91,8 +94,20 @@ def test_drive_refuses_simulate():
         run = wmr.simulate(start, goal, wmr.Gains(0.3, 2.0, 1.5), method="euler", dt=dt)
         return run.x, run.y, run.heading
 
-    with pytest.raises(Hint, match="of wmrlib"):
+    with pytest.raises(Hint, match=r"uses `wmr.simulate` of wmrlib; of it only `Pose`, `polar_error`, `wrap_angle` may be used"):
         drives.drive_known(answer)
+
+
+def test_drive_may_look_through_the_module():
+    def answer(start, goal, law, dt, duration):
+        run = [start]
+        while (seen := wmr.polar_error(run[-1], goal)).rho > 0.05 and len(run) <= round(duration / dt):
+            (x, y, heading), (v, omega) = run[-1], law(*seen)
+            run.append(wmr.Pose(x + v * math.cos(heading) * dt, y + v * math.sin(heading) * dt, heading + omega * dt))
+        return zip(*run, strict=True)
+
+    for check in (drives.drive_known, drives.drive_arrives, drives.drive_obeys):
+        assert check(answer)
 
 
 def test_a_drive_that_does_not_park():

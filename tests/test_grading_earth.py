@@ -68,6 +68,7 @@ def test_distance_hints(answer, hint):
         (lambda a, b, c, d: bearing(a, b, c, d) % 180.0, "opposite way"),
         (lambda a, b, c, d: bearing(b, a, d, c) if max(abs(b), abs(d)) < 90 else 0.0, "opposite way|counts from|swapped|wrong"),
         (lambda a, b, c, d: 12.0, "where does it count from"),
+        (lambda a, b, c, d: 1e308, "where does it count from"),
     ],
 )
 def test_bearing_hints(answer, hint):
@@ -94,10 +95,36 @@ def test_bearing_needs_the_compass_range():
         (lambda *each: local(*each) / [math.cos(math.radians(each[0])) / math.cos(each[0]), 1], "cosine of degrees"),
         (lambda *each: local(*each) / 1000, "kilometres"),
         (lambda *each: np.degrees(local(*each)), "radian"),
-        (lambda *each: local(*each) * 1.01, "is not there"),
+        (lambda *each: local(*each) * 1.02, "is not there"),
+        (lambda *each: local(*each) * 6378.137 / 6371.0, "a sphere of 6371 km"),
+        (lambda *each: local(*each) * [111320 / 111195, 110574 / 111195], "a sphere of 6371 km"),
+        (lambda *each: (1e308, 1e308), r"comes out at \(1e\+308, 1e\+308\) m"),
+        (lambda *each: {5.0, 6.0}, "2 numbers"),
         (lambda *each: 5.0, "2 numbers"),
     ],
 )
 def test_local_hints(answer, hint):
     with pytest.raises(Hint, match=hint):
         earth.local_known(answer)
+
+
+def test_a_map_of_another_earth():
+    with pytest.raises(Hint, match="a sphere of 6371 km"):
+        earth.local_properties(lambda *each: local(*each) * 6378.137 / 6371.0)
+    with pytest.raises(Hint, match="as long as the distance"):
+        earth.local_properties(lambda *each: local(*each) * 1.02)
+
+
+def test_lost_digits_are_blamed_for_lost_digits_only():
+    def by_acos(a, b, c, d):
+        return RADIUS * math.acos(min(1.0, unit(a, b) @ unit(c, d)))
+
+    with pytest.raises(Hint, match="loses its digits near 0 m"):
+        earth.distance_close(by_acos)
+    with pytest.raises(Hint, match=r"two points 1 m apart come out 0.001 m apart: see to the checks above"):
+        earth.distance_close(lambda *each: distance(*each) / 1000)
+
+
+def test_a_distance_that_is_next_to_nothing():
+    with pytest.raises(Hint, match="must be positive"):
+        earth.distance_properties(lambda *each: 1e-308)

@@ -55,11 +55,16 @@ def test_law_hints(answer, hint):
         laws.law_known(answer)
 
 
+def test_a_small_distance_in_the_place_of_none_passes():
+    assert laws.law_goal(lambda r, *rest: law(max(r, 1e-6), *rest))
+
+
 @pytest.mark.parametrize(
     ("answer", "hint"),
     [
         (changed(omega=lambda w, r, a, *_: w if r > 1e-6 else 0.0), "omega jumps"),
-        (changed(v=lambda v, r, *_: v if r else 4.0), "v is 4 at rho = 0"),
+        (changed(v=lambda v, r, *_: v if r else 4.0), "v is 4 at rho = 0, alpha = 0.5: put that distance"),
+        (lambda r, *rest: law(max(r, 1e-3), *rest), "v is 0.007.* at rho = 0, alpha = 0.5: put that distance"),
         (lambda r, a, *rest: law(r, a, *rest) / (r > 0), "not a finite number"),
     ],
 )

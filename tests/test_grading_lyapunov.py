@@ -107,7 +107,9 @@ def test_closed_hints(value, hint):
     [
         (None, "no value yet"),
         (0.5, "three numbers"),
-        ("abc", "one number is needed"),
+        ("abc", "three numbers"),
+        ({0.5, -1.0, 0.2}, "three numbers"),
+        (dict, "three numbers"),
         ((0.5, -1.0), "three numbers"),
         ((2.0, -1.0, 0.0), "within 1 m"),
         ((0.0, -1.0, 0.0), "within 1 m"),

@@ -100,6 +100,27 @@ def test_arc_property_hints(answer, hint):
 
 
 @pytest.mark.parametrize(
+    ("straight", "hint"),
+    [
+        (lambda x, y, h, v, w, t: (x + v * math.cos(h), y + v * math.sin(h), h), "with omega = 0 the place is 1 m off: how far"),
+        (lambda x, y, h, v, w, t: (x + v * t, y, h), "and which way"),
+        (lambda x, y, h, v, w, t: (x + v * t * math.cos(h), y + v * t * math.sin(h), 0.0), "becomes 0 rad; it was 0.5 rad"),
+    ],
+)
+def test_straight_hints(straight, hint):
+    with pytest.raises(Hint, match=hint):
+        motion.arc_straight(lambda x, y, h, v, w, t: arc(x, y, h, v, w, t) if w else straight(x, y, h, v, w, t))
+
+
+def test_lost_digits():
+    def by_radius(x, y, h, v, w, t):
+        return x + v / w * (math.sin(h + w * t) - math.sin(h)), y - v / w * (math.cos(h + w * t) - math.cos(h)), h + w * t
+
+    with pytest.raises(Hint, match="loses its digits"):
+        motion.arc_straight(lambda *each: by_radius(*each) if each[4] else arc(*each))
+
+
+@pytest.mark.parametrize(
     ("check", "answer", "hint"),
     [
         (motion.limited_speed, lambda a, b, m: (a, b), "a wheel turns at 2.00 times its limit"),

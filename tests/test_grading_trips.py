@@ -42,6 +42,7 @@ def test_other_forms_pass():
         (lambda start, goal: start, "two poses are needed"),
         (lambda start, goal: None, "two poses are needed"),
         (lambda start, goal: (0.0, 0.0), "two poses are needed"),
+        (lambda start, goal: {tuple(start), tuple(goal)}, "two poses are needed"),
         (lambda start, goal: (start, goal, goal), "two poses are needed"),
         (lambda start, goal: (start, goal[:2]), "two poses are needed"),
         (lambda start, goal: (start, (None, 1, 2)), "the goal's x has no value yet"),
@@ -72,6 +73,12 @@ def test_poses_that_face_the_wrong_way():
         (lambda run: abs(run.heading_error[-1]) < 0.08, "look at the distance"),
         (lambda run: run.rho[-1] < 1.0 and abs(run.heading_error[-1]) < 0.08, "arrival radius"),
         (lambda run: run.outcome is wmr.Outcome.ARRIVED and parked(run), "went on until the time was up"),
+        (lambda run: run.rho[-1] <= 0.1 and abs(run.theta[-1]) <= 0.087, "neither is the error of the heading"),
+        (lambda run: run.rho[-1] <= 0.1 and abs(run.alpha[-1]) <= 0.087, "neither is the error of the heading"),
+        (lambda run: run.rho[-1] <= 0.1 and abs(run.heading_error[-1]) <= math.radians(20.0), "5 deg are asked for"),
+        (lambda run: run.rho[-1] <= 0.4 and abs(run.heading_error[-1]) <= 0.087, "0.1 m are asked for"),
+        (lambda run: run.rho[-1] <= 0.1 and abs(abs(run.heading[-1]) - abs(run.goal.heading)) <= 0.087, "opposite directions"),
+        (lambda run: run.rho[-1] <= 0.1 and abs(math.sin(run.heading_error[-1])) <= 0.087, "opposite directions"),
     ],
 )
 def test_parked_hints(answer, hint):

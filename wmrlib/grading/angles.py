@@ -33,12 +33,15 @@ def polar_range(polar: Polar) -> Passed:
     own_work(polar)
     straight_behind = (Pose(0.0, 0.0, 0.3), Pose(-5.0 * math.cos(0.3), -5.0 * math.sin(0.3), 0.3))
     turned = [(Pose(*pose[:2], pose.heading + 9.0), Pose(*goal[:2], goal.heading - 7.0)) for pose, goal in _pairs(20)]
+    most = 0.0
     for pose, goal in [straight_behind, *_pairs(40), *turned]:
         for name, value in zip(("alpha", "theta"), ask_numbers(polar, 3, *pose, *goal)[1:], strict=True):
+            most = max(most, abs(value))
             expect(
                 abs(value) <= math.pi + 1e-9,
                 f"{name} comes out as {math.degrees(value):.0f} deg: nobody turns further than half a turn. Bring it into (-pi, pi].",
             )
+    expect(most > math.pi / 2.0, f"some goals lie behind the robot, and no angle is larger than {math.degrees(most):.0f} deg.")
     behind = math.degrees(abs(ask_numbers(polar, 3, *straight_behind[0], *straight_behind[1])[1]))
     return Passed(f"No angle is larger than half a turn; straight behind is at {behind:.0f} deg.")
 

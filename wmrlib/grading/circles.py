@@ -83,7 +83,7 @@ def law_follows(steer: Law) -> Passed:
 
 
 def law_mirrors(steer: Law) -> Passed:
-    """On the reference the law commands its twist, and a mirrored error gives the mirrored twist."""
+    """On the reference the law commands its twist, a mirrored error gives the mirrored twist, and who is behind catches up."""
     own_work(steer)
     _at_reference(steer)
     random = np.random.default_rng(61)
@@ -92,7 +92,9 @@ def law_mirrors(steer: Law) -> Passed:
         v_there, omega_there = ask_numbers(steer, 2, rho, -alpha, -theta, v_ref, -omega_ref)
         expect(close(v, v_there), "mirror the scene, left for right: the speed must stay the same.")
         expect(close(omega, -omega_there), "mirror the scene, left for right: the turning must be as strong, the other way.")
-    return Passed("On the reference it does what the reference does, and left and right are treated alike.")
+    v, _ = ask_numbers(steer, 2, 0.1, 0.0, 0.0, 1.0, 0.0)
+    expect(v > 1.0, "with the reference 10 cm straight ahead the robot is no faster than the reference: it never comes closer.")
+    return Passed("On the reference it does what the reference does, left and right are treated alike, and from behind it catches up.")
 
 
 def twist_known(reference_twist: Callable) -> Passed:
@@ -180,4 +182,8 @@ def _expect_near(steer: Law, near: bool, rho: float, t: float) -> None:
     expect(omega > 0.0, shown + "Look at a reference 0.1 m to the left, in the same direction: which way does the robot turn?")
     _, omega = ask_numbers(steer, 2, 0.0, 0.2, 0.0, 1.0, 0.0)
     expect(omega > 0.0, shown + "Look at a reference here that points 0.2 rad further left: which way does the robot turn?")
+    _, strong = ask_numbers(steer, 2, 0.1, math.pi / 2.0, math.pi / 2.0, 1.0, 0.0)
+    _, faint = ask_numbers(steer, 2, 1e-6, math.pi / 2.0, math.pi / 2.0, 1.0, 0.0)
+    hint = "Look at a reference a micrometre to the left: should the robot turn as strongly as for 10 cm?"
+    expect(abs(faint) < 0.1 * abs(strong), shown + hint)
     expect(False, shown + "The signs are right: try stronger or weaker feedback.")

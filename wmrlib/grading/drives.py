@@ -172,8 +172,10 @@ def _path(drive: Callable[..., Any], start: Pose, goal: Pose, law: Law, dt: floa
     answer = ask(drive, start, goal, law, dt, duration)
     three = "`drive` has to return x, y and heading, as three lists or arrays of the same length."
     try:
-        x, y, heading = (np.asarray(each, dtype=float) for each in answer)
-    except (TypeError, ValueError):
+        columns = [np.asarray(each) for each in answer]
+        expect(all(each.dtype.kind in "iufO" for each in columns), three)  # no complex numbers, texts, truths
+        x, y, heading = (each.astype(float) for each in columns)
+    except (TypeError, ValueError, OverflowError):
         raise Hint(three) from None
     expect(x.ndim == 1 and x.shape == y.shape == heading.shape and len(x) > 0, three)
     path = np.column_stack([x, y, heading])

@@ -46,7 +46,7 @@ def law_goal(law: Callable[..., tuple[float, float]]) -> Passed:
         for state in ((2.0, small, 0.7), (2.0, -small, 0.7), (small, 0.5, 0.7), (small, small, 0.7)):
             value, right = ask_numbers(law, 2, *state, *gains), control_law(*state, gains)
             where = f"rho = {state[0]:g}, alpha = {state[1]:g}"
-            expect(close(value[0], right[0], 3e-3, 1e-9), f"v is {value[0]:.4g} at {where}.")
+            expect(close(value[0], right[0], 3e-3, 1e-5), f"v is {value[0]:.4g} at {where}: put that distance and that angle into (22).")
             expect(
                 close(value[1], right[1], 3e-3, 1e-9),
                 f"omega jumps to {value[1]:.4g} at {where}: what do sin(alpha)/alpha and (1 - exp(-k_rho rho))/rho tend to? "

@@ -11,7 +11,7 @@ from typing import Any
 import sympy as sp
 
 from wmrlib.grading._expressions import expression, points, same, values
-from wmrlib.grading._hints import Hint, Passed, expect, number
+from wmrlib.grading._hints import Hint, Passed, expect, number, ordered
 from wmrlib.paper import OUTDOOR_GAINS
 from wmrlib.symbolic import EQUATIONS, L, alpha, h, k_alpha, k_rho, lyapunov_rate, omega, rho, textbook, theta, v, v_max
 
@@ -115,7 +115,7 @@ def rising_fast(state: Any) -> Passed:
 
 def _printed_slope(state: Any) -> sp.Expr:
     expect(state is not None and state is not ..., "`rising` has no value yet.")
-    expect(hasattr(state, "__len__") and len(state) == 3, "`rising` needs three numbers: (rho, alpha, theta).")
+    expect(ordered(state, 3), "`rising` needs three numbers: (rho, alpha, theta).")
     distance, angle, third = (number(f"`{name}`", each) for name, each in zip(("rho", "alpha", "theta"), state, strict=True))
     expect(0.0 < distance <= 1.0, f"rho = {distance:g} m is asked to be within 1 m of the goal, and more than 0.")
     expect(max(abs(angle), abs(third)) <= math.pi, "alpha and theta are asked for in radians, from -pi to pi.")

@@ -90,10 +90,16 @@ def arc_straight(arc: Callable[..., tuple[float, float, float]]) -> Passed:
         value, right = ask_numbers(arc, 3, 1.0, 2.0, 0.5, 2.0, omega, 1.5), advance(Pose(1.0, 2.0, 0.5), 2.0, omega, 1.5)
         away = math.dist(value[:2], right[:2])
         expect(
+            omega != 0.0 or away < 1e-5,
+            f"with omega = 0 the place is {away:.2g} m off: how far does a robot get straight on in the time dt, and which way?",
+        )
+        expect(
             away < 1e-5,
             f"with omega = {omega:g} rad/s, a nearly straight line, the place is {1000.0 * away:.2g} mm off: "
             "a difference of two nearly equal numbers, divided by a tiny one, loses its digits.",
         )
+        turned = abs(wrap_angle(value[2] - right.heading))
+        expect(turned < 1e-5, f"with omega = {omega:g} rad/s the heading becomes {value[2]:.4g} rad; it was 0.5 rad, and hardly changes.")
     return Passed("Straight ahead and nearly straight ahead: no division by zero, and no lost digits.")
 
 

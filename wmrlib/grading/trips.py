@@ -11,7 +11,7 @@ import numpy as np
 
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position, point_at
-from wmrlib.grading._hints import Passed, ask, expect, number
+from wmrlib.grading._hints import Passed, ask, expect, number, ordered
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.metrics import arrival
 from wmrlib.paper import GPS_POINT_1, GPS_POINT_2, OUTDOOR_GAINS, outdoor
@@ -64,7 +64,7 @@ def poses_facing(poses: Poses) -> Passed:
         expect(abs(theta) < 1e-6, f"with the bearing as the goal's course too theta must be 0, not {math.degrees(theta):.0f} deg.")
         right = polar_error(*_asked(poses, a, b, bearing - 30.0, bearing)).alpha
         expect(right < 0.0, "a course of 30 deg less is further left on a compass, so the goal must be on the right: alpha < 0.")
-    return Passed("Who follows the compass needle to the goal has alpha = theta = 0.")
+    return Passed("With the goal's bearing as both courses the goal is straight ahead: alpha = theta = 0.")
 
 
 def parked_runs(parked: Callable[[Trajectory], bool]) -> Passed:
@@ -122,8 +122,7 @@ def home_omega(my_gains: Any) -> Passed:
 
 def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: float) -> list[Pose]:
     answer = ask(poses, a, b, course, goal_course)
-    two = hasattr(answer, "__len__") and len(answer) == 2
-    expect(two and all(hasattr(each, "__len__") and len(each) == 3 for each in answer), "two poses are needed: `return start, goal`.")
+    expect(ordered(answer, 2) and all(ordered(each, 3) for each in answer), "two poses are needed: `return start, goal`.")
     return [
         Pose(*(number(f"the {name}'s {field}", each) for field, each in zip(Pose._fields, pose, strict=True)))
         for name, pose in zip(("start", "goal"), answer, strict=True)
@@ -161,6 +160,10 @@ def _runs() -> tuple[tuple[Trajectory, bool, str], ...]:
     far = simulate(Pose(-50.0, 0.0, 0.0), here, _GENTLE, duration=5.0)
     early = simulate(Pose(-50.0, 0.0, 0.0), here, _GENTLE, arrival_radius=0.5)
     late = simulate(case.start, case.goal, _GENTLE, method="continuous", arrival_radius=0.0, duration=40.0)
+    beside = simulate(Pose(0.06, 0.0, 0.0), here, _GENTLE, arrival_radius=0.1)
+    askew = simulate(Pose(-0.06, 0.0, math.radians(8.0)), here, _GENTLE, arrival_radius=0.1)
+    short = simulate(Pose(-0.15, 0.0, 0.0), here, _GENTLE, arrival_radius=0.2)
+    opposite = simulate(Pose(-0.06, 0.0, math.pi / 2.0), Pose(0.0, 0.0, -math.pi / 2.0), _GENTLE, arrival_radius=0.1)
     return (
         (good, True, "a run that ends 5 cm and less than 1 deg from its goal has parked, and is said not to have."),
         (home, False, "a run that ends 32 deg off to the left counts as parked: does it look at the heading, and in which unit?"),
@@ -168,6 +171,15 @@ def _runs() -> tuple[tuple[Trajectory, bool, str], ...]:
         (far, False, "a run that is still far away when the time is up counts as parked: does it look at the distance?"),
         (early, False, "a run counts as parked because it has arrived, but its arrival radius was 0.5 m: look at the distance at the end."),
         (late, True, "a run that stands on its goal and looks the right way has parked, though it went on until the time was up."),
+        (
+            beside,
+            True,
+            "a robot 6 cm past its goal that looks exactly the goal's way has parked: "
+            "alpha and theta are 180 deg there, and neither is the error of the heading.",
+        ),
+        (askew, False, "a run that ends 8 deg off counts as parked: 5 deg are asked for."),
+        (short, False, "a run that ends 15 cm from its goal counts as parked: 0.1 m are asked for."),
+        (opposite, False, "a robot that looks 90 deg at a goal that looks -90 deg counts as parked: they are opposite directions."),
     )
 
 
