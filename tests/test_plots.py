@@ -114,6 +114,14 @@ def test_path_has_equal_scales_and_the_robots_heading():
         assert tip < axes.get_ylim()[1] - 0.01 * np.ptp(axes.get_ylim())  # clear of the frame
 
 
+def test_the_arrows_of_several_paths_have_one_size():
+    near, far = (wmr.simulate(wmr.Pose(-far, 0.0, 0.5), wmr.Pose(0.0, 0.0, 0.0), PAPER.gains) for far in (5.0, 20.0))
+    darts = [dart.get_xy() for dart in plots.path([near, far]).figure.axes[0].patches]
+    lengths = [np.linalg.norm(dart[0] - dart[2]) for dart in darts]
+    assert len(lengths) == 4
+    np.testing.assert_allclose(lengths, lengths[0])
+
+
 def _check_darts(darts):
     for dart, heading in darts:
         tip, tail = dart.get_xy()[0], dart.get_xy()[2]

@@ -31,11 +31,13 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     if len(labels) not in (0, len(runs)):
         raise ValueError(f"labels has {len(labels)} entries, which is not allowed: one for each of the {len(runs)} runs is needed")
     figure, axes = new_figure(5.5, 5.5)
+    x, y = np.concatenate([run.x for run in runs]), np.concatenate([run.y for run in runs])
+    size = (0.04 if len(runs) == 1 else 0.025) * max(np.ptp(x), np.ptp(y), 1.0)  # several: one size, small beside their bends
     for run, style in zip(runs, LINES, strict=False):
-        draw_path(axes, run, style, robots=len(runs) == 1)
+        draw_path(axes, run, style, robots=len(runs) == 1, size=size)
     if labels:
         axes.legend([Line2D([], [], color=COLOURS["path"], ls=style) for style in LINES[: len(runs)]], labels)
-    equal_scales(axes, np.concatenate([run.x for run in runs]), np.concatenate([run.y for run in runs]), room=0.12)
+    equal_scales(axes, x, y, room=0.12)
     names = [f"{label}: " for label in labels] or [""] * len(runs)
     words = [name + _path_in_words(run) for name, run in zip(names, runs, strict=True)]
     if len(runs) == 2 and _mirrored(*runs):
@@ -114,10 +116,13 @@ def dashboard(run: Trajectory) -> Picture:
     return Picture(figure, f"{_path_in_words(run)}; {'; '.join(parts)}.")
 
 
-def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, robots: bool = True) -> list:
-    """The path, the start (filled) and the goal (open) as arrows, the robot on its way and at its end; the caller sets the scales."""
+def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, robots: bool = True, size: float | None = None) -> list:
+    """The path, the start (filled) and the goal (open) as arrows, the robot on its way and at its end; the caller sets the scales.
+
+    size: half the length of a robot's arrow in metres, a twenty-fifth of the path's width or height if not given.
+    """
     line = axes.plot(run.x, run.y, style, color=COLOURS["path"])
-    size = 0.04 * max(np.ptp(run.x), np.ptp(run.y), 1.0)
+    size = 0.04 * max(np.ptp(run.x), np.ptp(run.y), 1.0) if size is None else size
     artists = [*line]
     if robots:
         for share in np.linspace(0.0, 1.0, 11)[1:]:
