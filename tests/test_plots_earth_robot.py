@@ -67,6 +67,13 @@ def test_an_error_of_zero_and_a_failure_are_left_out():
         assert [line.get_xdata().size for line in axes.lines] == sizes
 
 
+def test_an_error_that_has_its_peak_in_between_is_told_so():
+    gaps = np.geomspace(1e-6, 1e6, 60)
+    peak, flat = np.minimum(gaps, 1e-2 / gaps), np.full(60, 3e-9)
+    alt = plots.rounding_errors(gaps, gaps, {"one": (peak, flat)}).alt
+    assert alt.endswith("one: left rising and then falling as the gap closes, below 1 m, right level, below 10 nm.")
+
+
 def test_the_triangles_third_side_bulges_away_from_the_view():
     sides = [line for line in plots.spherical_triangle(HERE, THERE).figure.axes[0].lines if line.get_linewidth() == 3.0]
     assert len(sides) == 3

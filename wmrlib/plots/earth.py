@@ -131,14 +131,17 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
 
 
 def _error_in_words(gaps: np.ndarray, sizes: np.ndarray) -> str:
-    """What becomes of an error as the gap closes: by thirds of the points, since rounding differs a little between machines."""
+    """What becomes of an error as the gap closes: by medians in six bands, since rounding differs a little between machines."""
     seen = sizes > 0
-    thirds = [np.log10(np.median(part)) for part in np.array_split(sizes[seen][np.argsort(-gaps[seen])], 3) if part.size]
+    edges = np.geomspace(gaps.max(), gaps.min(), 7)[1:-1]
+    band = np.searchsorted(-edges, -gaps[seen])
+    typical = np.array([np.log10(np.median(sizes[seen][band == k])) for k in np.unique(band)])
     bound = f"below {_length(100.0 ** math.ceil(math.log10(np.nanmax(sizes)) / 2))}"
-    if max(thirds) - min(thirds) < 1.0:
+    if np.ptp(typical) < 1.0:
         return f"level, {bound}"
-    course = {0: "falling", len(thirds) - 1: "rising"}.get(int(np.argmax(thirds)), "rising and then falling")
-    return f"{course} as the gap closes, {bound}"
+    if typical.max() - max(typical[0], typical[-1]) > 1.0:
+        return f"rising and then falling as the gap closes, {bound}"
+    return f"{'falling' if typical[0] > typical[-1] else 'rising'} as the gap closes, {bound}"
 
 
 def _length(size: float) -> str:
