@@ -59,8 +59,13 @@ def test_texts_carry_the_angles():
 
 
 def test_arcs_begin_and_end_on_their_sides():
-    """Theta's arc runs from the goal's heading to the line of sight, beta's the other way."""
-    theta_axes, beta_axes = PICTURES["third_angle"]().figure.axes
+    """Theta's arc runs from the goal's heading to the line of sight, beta's the other way; both are drawn to one scale."""
+    figure = PICTURES["third_angle"]().figure
+    figure.canvas.draw()
+    theta_axes, beta_axes = figure.axes
+    np.testing.assert_allclose(theta_axes.get_position().size, beta_axes.get_position().size, rtol=1e-3)
+    assert theta_axes.get_position().y0 == pytest.approx(beta_axes.get_position().y0, abs=1e-3)
+    assert (theta_axes.get_xlim(), theta_axes.get_ylim()) == (beta_axes.get_xlim(), beta_axes.get_ylim())
     sight = math.atan2(GOAL.y, GOAL.x)
     for axes, begin, end in ((theta_axes, GOAL.heading, sight), (beta_axes, sight, GOAL.heading)):
         x, y = axes.lines[-1].get_data()
@@ -68,6 +73,26 @@ def test_arcs_begin_and_end_on_their_sides():
         assert angles[0] == pytest.approx(begin)
         assert angles[-1] == pytest.approx(end, abs=0.05)  # the rest is the arrowhead
         assert np.ptp(np.hypot(x - GOAL.x, y - GOAL.y)) < 1e-9
+
+
+@pytest.mark.parametrize("name", ["polar_angles", "polar_angles, clockwise", "third_angle"])
+def test_no_name_lies_on_the_line_of_sight(name):
+    figure = PICTURES[name]().figure
+    figure.canvas.draw()
+    for axes in figure.axes:
+        line = next(each for each in axes.lines if each.get_linestyle() == "--" and len(each.get_xdata()) == 2)
+        ends = axes.transData.transform(np.column_stack(line.get_data()))
+        points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
+        for text in axes.texts:
+            if text.get_text() in ("robot", "goal"):
+                box = text.get_window_extent()
+                assert not any(box.contains(*point) for point in points)
+
+
+def test_the_headings_arcs_are_named():
+    said = [text.get_text() for text in PICTURES["polar_angles"]().figure.axes[0].texts]
+    assert {"15 deg", "-25 deg"} <= set(said)
+    assert "black arc from east" in PICTURES["polar_angles"]().alt
 
 
 def test_angles_over_time_are_the_runs():

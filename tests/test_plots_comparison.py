@@ -69,7 +69,7 @@ def test_texts_carry_the_numbers():
     assert "a dotted line marks the 4 m/s of the paper." in plots.together({"one": RUN}, "v", level=(4.0, "the 4 m/s of the paper")).alt
     assert "differ by at most 0.0010 m" in PICTURES["residual_curve"]().alt
     assert "one goes from 2.2 to 0.09 m" in PICTURES["together, logarithmic"]().alt
-    assert "one 25.0 % end more than 5 deg off, the worst 30 deg" in PICTURES["heading_shares"]().alt
+    assert "one 25.0 % end more than 5 deg off, the worst 30.0 deg" in PICTURES["heading_shares"]().alt
     assert "two 0.0 % end" in PICTURES["heading_shares"]().alt
     assert "one from 0.4 to 0.5" in PICTURES["tradeoff"]().alt
     assert "every 0.1 s" in PICTURES["block_diagram"]().alt

@@ -27,7 +27,7 @@ PICTURES = {
 }
 NUMBERS = {
     "spherical_triangle": "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg",
-    "rounding_errors": "one stays below 1e-8 m up to the middle and 1e0 m from there to the antipode",
+    "rounding_errors": "one: left level, below 10 nm, right rising as the gap closes, below 1 m; two: left falling as the gap",
     "sphere_error_map": "from -0.45 % at the poles to +0.56 % northwards on the equator, with -0.11 % eastwards there",
     "coordinate_system": "35 deg from east",
     "turning_centre": "left wheel, 0.76 m/s, of its middle, 1.00 m/s, and of its right wheel, 1.24 m/s",
@@ -67,6 +67,13 @@ def test_an_error_of_zero_and_a_failure_are_left_out():
         assert [line.get_xdata().size for line in axes.lines] == sizes
 
 
+def test_an_error_that_has_its_peak_in_between_is_told_so():
+    gaps = np.geomspace(1e-6, 1e6, 60)
+    peak, flat = np.minimum(gaps, 1e-2 / gaps), np.full(60, 3e-9)
+    alt = plots.rounding_errors(gaps, gaps, {"one": (peak, flat)}).alt
+    assert alt.endswith("one: left rising and then falling as the gap closes, below 1 m, right level, below 10 nm.")
+
+
 def test_the_triangles_third_side_bulges_away_from_the_view():
     sides = [line for line in plots.spherical_triangle(HERE, THERE).figure.axes[0].lines if line.get_linewidth() == 3.0]
     assert len(sides) == 3
@@ -93,6 +100,10 @@ def test_eulers_steps_are_a_polygon_and_the_arcs_lie_on_the_circle():
     for line in (exact, arc):
         np.testing.assert_allclose(np.hypot(line.get_xdata(), line.get_ydata() - 4.0), 4.0, rtol=1e-12)
     np.testing.assert_allclose(np.hypot(np.diff(euler.get_xdata()), np.diff(euler.get_ydata())), 2.0, rtol=1e-12)
+    for parts in (6, 12, 49):  # steps that divide the turn: the polygon closes and goes no further
+        euler = plots.steps(4.0, 1.0, 2 * math.pi / parts).figure.axes[0].lines[2]
+        assert euler.get_xdata().size == parts + 1
+        assert math.hypot(euler.get_xdata()[-1], euler.get_ydata()[-1]) < 1e-12
     assert euler.get_ydata()[1] == 0.0  # the first step goes along the tangent
 
 

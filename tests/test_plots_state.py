@@ -72,6 +72,17 @@ def test_arrows_point_where_the_state_goes():
         assert ((alpha * rates[0] + GAINS.h * theta * rates[1] > 1e-12) == rises).all()
 
 
+def test_alpha_never_passes_the_half_turn():
+    """Theta is not wrapped and goes as far as the run; a state with |alpha| above 180 deg does not exist and gets no arrow."""
+    axes = PICTURES["level_sets with runs"]().figure.axes[0]
+    far = 1.08 * np.degrees(np.abs(PRINTED.theta).max())
+    assert far > 180
+    assert axes.get_xlim() == (-180.0, 180.0)
+    assert axes.get_ylim() == pytest.approx((-far, far))
+    offsets = np.concatenate([each.get_offsets() for each in axes.collections if type(each).__name__ == "Quiver"])
+    np.testing.assert_allclose(np.abs(offsets).max(axis=0), (0.92 * 180.0, 0.92 * far))
+
+
 def test_no_arrow_of_the_corrected_law_points_outwards():
     assert "0 of 225 arrows point outwards" in PICTURES["level_sets"]().alt
 

@@ -13,7 +13,7 @@ from wmrlib._checks import instance
 from wmrlib.conventions import CONVENTIONS, translate
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.picture import Picture
-from wmrlib.plots._style import COLOURS, LINES, arrow, equal_scales, near_zero, new_figure
+from wmrlib.plots._style import COLOURS, LINES, STYLE, arrow, equal_scales, near_zero, new_figure
 from wmrlib.simulation import Trajectory
 
 
@@ -21,7 +21,7 @@ def polar_angles(pose: Pose, goal: Pose) -> Picture:
     """rho, alpha, theta, the headings and gamma = heading - goal.heading of one robot and one goal (single poses), in metres.
 
     The dotted lines through robot and goal point east, the dashed line is the line of sight, the thin orange line through the robot is
-    parallel to the goal's heading. Raises ValueError for what is not a Pose.
+    parallel to the goal's heading, the two black arcs turn from east to the headings. Raises ValueError for what is not a Pose.
     """
     rho, alpha, theta = polar_error(pose, goal)
     sight, gamma = math.atan2(goal.y - pose.y, goal.x - pose.x), wrap_angle(pose.heading - goal.heading)
@@ -30,17 +30,18 @@ def polar_angles(pose: Pose, goal: Pose) -> Picture:
     for at, heading in ((pose, 0.0), (goal, 0.0), (pose, goal.heading)):
         looks = {"color": COLOURS["goal"], "lw": 1.2, "ls": "-"} if heading else {"color": COLOURS["ink"], "lw": 1.0, "ls": ":"}
         _ray(axes, at, heading, 0.62 * rho, "goal's heading, moved" if heading else "east", **looks)
-    _arc(axes, pose, 0.0, pose.heading, 0.28 * rho, "", COLOURS["ink"])
+    _arc(axes, pose, 0.0, pose.heading, 0.28 * rho, _degrees(pose.heading), COLOURS["ink"], 11)
     _arc(axes, pose, pose.heading, alpha, 0.38 * rho, r"$\alpha$", COLOURS["v"])
     _arc(axes, pose, goal.heading, gamma, 0.50 * rho, r"$\gamma$", COLOURS["omega"])
-    _arc(axes, goal, 0.0, goal.heading, 0.28 * rho, "", COLOURS["ink"])
-    _arc(axes, goal, goal.heading, theta, 0.40 * rho, r"$\theta$", COLOURS["goal"])
+    _arc(axes, goal, 0.0, goal.heading, 0.28 * rho, _degrees(goal.heading), COLOURS["ink"], 11)
+    _arc(axes, goal, goal.heading, theta, 0.48 * rho, r"$\theta$", COLOURS["goal"])
     axes.annotate(r"$\rho$", (0.5 * (pose.x + goal.x), 0.5 * (pose.y + goal.y)), xytext=(-16, 8), textcoords="offset points", fontsize=16)
-    _room(axes, pose, goal, rho * np.array([-0.15, 0.98]), rho * np.array([-0.35, 0.62]))
+    _room(axes, pose, goal, rho * np.array([-0.25, 0.98]), rho * np.array([-0.35, 0.62]))
     return Picture(
         figure,
         f"Robot and goal, {rho:.1f} m apart: the line of sight is at {_degrees(sight)} from east, the robot heads "
-        f"{_degrees(pose.heading)}, the goal {_degrees(goal.heading)}; so alpha, from heading to sight, is {_degrees(alpha)}, theta, "
+        f"{_degrees(pose.heading)}, the goal {_degrees(goal.heading)}, each marked by a black arc from east; "
+        f"so alpha, from heading to sight, is {_degrees(alpha)}, theta, "
         f"from the goal's heading to sight, is {_degrees(theta)}, and gamma, from the goal's heading to the robot's, is {_degrees(gamma)}.",
     )
 
@@ -51,7 +52,12 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
     rho, theta = polar.rho, polar.theta
     beta = translate(polar, "aicardi", "corke")[2]
     sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
-    figure, panels = new_figure(10.5, 5.8, mosaic=[["theta", "beta"]])
+    import matplotlib as mpl
+    from matplotlib.figure import Figure
+
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(10.5, 5.6), layout="constrained")
+        panels = dict(zip(("theta", "beta"), figure.subplots(1, 2), strict=True))
     users = {sign: ", ".join(_people(name) for name, how in CONVENTIONS.items() if how.third == sign) for sign in (1, -1)}
     texts = (
         ("theta", goal.heading, theta, rf"$\theta$ = {_degrees(theta)}", f"the paper's (7)-(9), wmrlib,\n{users[1]}"),
@@ -62,7 +68,7 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
         _scene(axes, pose, goal, rho, sight)
         _arc(axes, goal, begin, turn, 0.40 * rho, label, COLOURS["goal"])
         axes.set_title(title, fontsize=12)
-        _room(axes, pose, goal, rho * np.array([-0.15, 0.98]), rho * np.array([-0.25, 0.62]))
+        _room(axes, pose, goal, rho * np.array([-0.32, 0.98]), rho * np.array([-0.25, 0.62]))
     return Picture(
         figure,
         f"The same robot and goal twice. Left: theta = {_degrees(theta)}, turned from the goal's heading to the line of sight. Right: "
@@ -124,7 +130,9 @@ def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None
         _ray(axes, at, at.heading, 0.62 * rho, f"{name}'s heading", color=colour, lw=2.0, ls="-")
         looks = {"fc": COLOURS["robot"], "ec": COLOURS["ink"]} if name == "robot" else {"fc": "white", "ec": colour, "lw": 2.5}
         axes.add_patch(arrow(at, size, zorder=5, **looks))
-        axes.annotate(name, (at.x, at.y), xytext=(-6, -30), textcoords="offset points", ha="center", fontsize=12)
+        aside = sight + math.copysign(math.pi / 2, math.sin(sight - at.heading))  # square to the line of sight, away from the heading
+        offset = 36.0 * math.cos(aside), 28.0 * math.sin(aside)
+        axes.annotate(name, (at.x, at.y), xytext=offset, textcoords="offset points", ha="center", va="center", fontsize=12)
     axes.plot([pose.x, goal.x], [pose.y, goal.y], "--", color=COLOURS["path"])
     _ray(axes, goal, sight, 0.62 * rho, "line of sight", color=COLOURS["path"], lw=1.2, ls="--")
     axes.set(xlabel="x [m]", ylabel="y [m]")
@@ -141,7 +149,7 @@ def _ray(axes: Axes, at: Pose, heading: float, length: float, label: str, **look
     axes.annotate(label, end, xytext=(4, 0), textcoords="offset points", va="center", fontsize=10, color=looks["color"])
 
 
-def _arc(axes: Axes, at: Pose, begin: float, turn: float, radius: float, label: str, colour: str) -> None:
+def _arc(axes: Axes, at: Pose, begin: float, turn: float, radius: float, label: str, colour: str, fontsize: float = 15) -> None:
     """An arc with an arrowhead where it ends, so that its sign is seen, and its name outside."""
     angles = begin + turn * np.linspace(0.0, 1.0, 60)
     x, y = at.x + radius * np.cos(angles), at.y + radius * np.sin(angles)
@@ -150,7 +158,7 @@ def _arc(axes: Axes, at: Pose, begin: float, turn: float, radius: float, label: 
     axes.annotate("", (x[-1], y[-1]), xytext=(x[-5], y[-5]), arrowprops=head, zorder=4)
     middle, far = begin + 0.5 * turn, 1.08 * radius
     place = at.x + far * math.cos(middle), at.y + far * math.sin(middle)
-    axes.text(*place, label, color=colour, fontsize=15, ha="left" if math.cos(middle) > 0.0 else "right", va="center")
+    axes.text(*place, label, color=colour, fontsize=fontsize, ha="left" if math.cos(middle) > 0.0 else "right", va="center")
 
 
 def _people(name: str) -> str:

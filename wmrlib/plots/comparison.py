@@ -168,7 +168,7 @@ def heading_shares(errors: Mapping[str, np.ndarray], *, allowed: float = 5.0) ->
         axes.plot(
             np.r_[0.0, values, widest], np.r_[0.0, share, 100.0], drawstyle="steps-post", color=COLOURS[colour], ls=style, label=title
         )
-        said.append(f"{title} {100.0 * np.mean(values > allowed):.1f} % end more than {allowed:g} deg off, the worst {values[-1]:.0f} deg")
+        said.append(f"{title} {100.0 * np.mean(values > allowed):.1f} % end more than {allowed:g} deg off, the worst {values[-1]:.1f} deg")
     axes.axvline(allowed, color=COLOURS["ink"], ls=":", lw=1.2, label=f"{allowed:g} deg")
     axes.set(xlabel="heading error at arrival [deg]", ylabel="share of the starts [%]", xlim=(0, widest), ylim=(0, 102))
     _legend(figure)

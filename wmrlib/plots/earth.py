@@ -93,12 +93,18 @@ def rounding_errors(near: np.ndarray, far: np.ndarray, errors: Mapping[str, tupl
         for axes, gaps, sizes in ((left, near, at_near), (right, far, at_far)):
             seen = sizes > 0
             axes.loglog(gaps[seen], sizes[seen], marker, ms=4.5, mfc="none", color=COLOURS[role], label=name)
-        texts.append(f"{name} stays below {_bound(at_near)} m up to the middle and {_bound(at_far)} m from there to the antipode")
+        texts.append(f"{name}: left {_error_in_words(near, at_near)}, right {_error_in_words(far, at_far)}")
     left.set(xlabel="distance [m]", ylabel="error [m]")
     right.set(xlabel="distance left to the antipode [m]")
     right.invert_xaxis()
     figure.legend(*left.get_legend_handles_labels(), loc="outside upper center", ncols=len(errors), fontsize=11, frameon=False)
-    return Picture(figure, "Errors by rounding, over the distance, from a micrometre to the antipode: " + "; ".join(texts) + ".")
+    return Picture(
+        figure,
+        f"Errors by rounding in two panels with logarithmic axes: left over the distance, from {_length(near.min())} to "
+        f"{_length(near.max())}, right over the distance left to the antipode, from {_length(far.max())} down to {_length(far.min())}. "
+        + "; ".join(texts)
+        + ".",
+    )
 
 
 def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
@@ -124,9 +130,24 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
     )
 
 
-def _bound(sizes: np.ndarray) -> str:
-    """A power of a hundred above all sizes: rounding differs a little between machines, and the text must not."""
-    return f"1e{2 * math.ceil(math.log10(np.nanmax(sizes)) / 2):d}"
+def _error_in_words(gaps: np.ndarray, sizes: np.ndarray) -> str:
+    """What becomes of an error as the gap closes: by medians in six bands, since rounding differs a little between machines."""
+    seen = sizes > 0
+    edges = np.geomspace(gaps.max(), gaps.min(), 7)[1:-1]
+    band = np.searchsorted(-edges, -gaps[seen])
+    typical = np.array([np.log10(np.median(sizes[seen][band == k])) for k in np.unique(band)])
+    bound = f"below {_length(100.0 ** math.ceil(math.log10(np.nanmax(sizes)) / 2))}"
+    if np.ptp(typical) < 1.0:
+        return f"level, {bound}"
+    if typical.max() - max(typical[0], typical[-1]) > 1.0:
+        return f"rising and then falling as the gap closes, {bound}"
+    return f"{'falling' if typical[0] > typical[-1] else 'rising'} as the gap closes, {bound}"
+
+
+def _length(size: float) -> str:
+    """Rounded; below a nanometre as a power of ten."""
+    units = (1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")
+    return next((f"{size / unit:.5g} {name}" for unit, name in units if size >= 0.999 * unit), f"{size:.0e} m")
 
 
 def _side_by_side(width: float, height: float):

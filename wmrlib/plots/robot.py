@@ -145,7 +145,7 @@ def steps(v: float, omega: float, dt: float) -> Picture:
     v, omega, dt = scalar("v", v), scalar("omega", omega), scalar("dt", dt, above=0.0)
     if omega == 0:
         raise ValueError("omega = 0.0 is not allowed: another number is needed, for a robot that drives straight makes no turn")
-    count = math.ceil(2 * math.pi / (abs(omega) * dt))
+    count = math.ceil(2 * math.pi / (abs(omega) * dt) - 1e-9)  # a step that divides the turn is not to be counted once more
     paths = {}
     for method in ("arc", "euler"):
         poses = [Pose(0.0, 0.0, 0.0)]
@@ -166,7 +166,7 @@ def steps(v: float, omega: float, dt: float) -> Picture:
     return Picture(
         figure,
         f"A full turn at {v:.1f} m/s and {omega:.1f} rad/s, from the star at the origin: a circle of {abs(v / omega):.1f} m radius, on "
-        f"which the arc steps of {dt:.1f} s lie, and Euler's {count} straight steps, which end up to {apart.max():.2f} m from the arcs'.",
+        f"which the arc steps of {dt:.2f} s lie, and Euler's {count} straight steps, which end up to {apart.max():.2f} m from the arcs'.",
     )
 
 

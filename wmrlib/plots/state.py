@@ -51,19 +51,20 @@ def rate_sign(gains: Gains, rho: float, law: str = "printed") -> Picture:
 def level_sets(gains: Gains, rho: float = 0.01, law: str = "corrected", runs: Trajectory | Sequence[Trajectory] = ()) -> Picture:
     """Level sets of V over alpha and theta in degrees at one distance [m], the flow across them, and the runs' courses.
 
-    An arrow is thin and dark where the angles' part of V falls along it, thick and red where it rises. All arrows have the same length.
+    Alpha goes from -180 to 180 deg, theta, which is not wrapped, as far as the runs take it. An arrow is thin and dark where the angles'
+    part of V falls along it, thick and red where it rises. All arrows have the same length.
     Raises ValueError unless rho > 0, for more than four runs, and as `control_law`.
     """
     rho = scalar("rho", rho, above=0.0)
     runs = _several(runs, fewest=0)
-    reach = 180.0 if not runs else max(180.0, 1.08 * max(np.degrees(np.abs([*run.theta, *run.alpha]).max()) for run in runs))
-    figure, axes = new_figure(6.8, 6.4)
-    fine = np.radians(np.linspace(-reach, reach, 201))
-    values = lyapunov(0.0, fine, fine[:, None], gains.h)
-    levels = 0.5 * max(1.0, gains.h) * np.linspace(0.15, 1.0, 6) ** 2 * math.radians(reach) ** 2
-    axes.contour(np.degrees(fine), np.degrees(fine), values, levels=levels, colors=[COLOURS["ink"]], linewidths=1.2, alpha=0.6)
-    coarse = np.radians(np.linspace(-0.92 * reach, 0.92 * reach, 15))
-    alpha, theta = (each.ravel() for each in np.meshgrid(coarse, coarse))
+    reach = max([180.0, *(1.08 * np.degrees(np.abs(run.theta).max()) for run in runs)])  # of theta, which is not wrapped; alpha is
+    figure, axes = new_figure(1.4 + 5.4 * 180.0 / reach, 6.4)
+    fine_alpha, fine_theta = (np.radians(np.linspace(-each, each, 201)) for each in (180.0, reach))
+    values = lyapunov(0.0, fine_alpha, fine_theta[:, None], gains.h)
+    levels = 0.5 * max(math.pi**2, gains.h * math.radians(reach) ** 2) * np.linspace(0.15, 1.0, 6) ** 2
+    axes.contour(np.degrees(fine_alpha), np.degrees(fine_theta), values, levels=levels, colors=[COLOURS["ink"]], linewidths=1.2, alpha=0.6)
+    coarse = np.radians(np.linspace(-0.92, 0.92, 15))
+    alpha, theta = (each.ravel() for each in np.meshgrid(180.0 * coarse, reach * coarse))
     _, alpha_rate, theta_rate = polar_rate(rho, alpha, *control_law(rho, alpha, theta, gains, law=law))
     rising = alpha * alpha_rate + gains.h * theta * theta_rate > 1e-12
     size = np.maximum(np.hypot(alpha_rate, theta_rate), 1e-12)
@@ -140,7 +141,7 @@ def _names(runs: list[Trajectory], labels: Sequence[str]) -> list[str]:
 
 def _angle_axes(axes: Axes, reach: float) -> None:
     ticks = np.arange(-math.floor(reach / 90.0) * 90, reach + 1.0, 90.0)
-    axes.set(xlim=(-reach, reach), ylim=(-reach, reach), xticks=ticks, yticks=ticks, aspect="equal")
+    axes.set(xlim=(-180.0, 180.0), ylim=(-reach, reach), xticks=np.arange(-180.0, 181.0, 90.0), yticks=ticks, aspect="equal")
     axes.set(xlabel="alpha [deg]", ylabel="theta [deg]")
 
 
