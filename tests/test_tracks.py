@@ -43,8 +43,8 @@ def gga(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", quality=1, tal
     return nmea(f"{talker}GGA,{clock},{lat},{lon},{quality},08,1.1,40.8,M,43.6,M,,0000")
 
 
-def rmc(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", status="A", mode="A"):
-    return nmea(f"GPRMC,{clock},{status},{lat},{lon},0.24,18.02,240709,,,{mode}")
+def rmc(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", status="A", mode="A", day="240709"):
+    return nmea(f"GPRMC,{clock},{status},{lat},{lon},0.24,18.02,{day},,,{mode}")
 
 
 def gpx(inner, head='<?xml version="1.0"?>', root='gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"'):
@@ -102,6 +102,56 @@ def test_south_and_west_are_negative(read):
 def test_time_goes_on_over_midnight(read):
     track = read("\n".join([gga("235959.00"), gga("000000.50"), gga("000001.00")]))
     assert track.t.tolist() == [0.0, 1.5, 2.0]
+
+
+def test_a_night_without_a_fix_goes_by_the_receivers_clock(read):
+    track = read(
+        "\n".join([gga("190000"), *(gga(f"{hour % 24:02d}0000", quality=0) for hour in range(20, 32)), gga("080000"), gga("080001")])
+    )
+    assert track.t.tolist() == [0.0, 13 * 3600.0, 13 * 3600.0 + 1]
+    assert dict(track.report.skipped) == {"sentence without a fix": (12, 2)}
+
+
+@pytest.mark.parametrize("hour", range(24))
+def test_a_receiver_that_starts_cold_and_counts_from_midnight_does_no_harm(read, hour):
+    cold = [gga(f"0000{second:02d}", quality=0) for second in range(30)]
+    track = read("\n".join([gga(f"{hour:02d}0000"), *cold, gga(f"{hour:02d}0500"), gga(f"{hour:02d}0501")]))
+    assert track.t.tolist() == [0.0, 300.0, 301.0]
+
+
+DATED = {
+    "a day and an hour": ([rmc("080000", day="290224"), rmc("090000", day="010324")], [0, 90000]),
+    "less than a day": ([rmc("100000", day="290224"), rmc("080000", day="010324"), rmc("080001", day="010324")], [0, 79200, 79201]),
+    "an afternoon": ([rmc(clock) for clock in ("080000", "080001", "210000", "210001")], [0, 1, 46800, 46801]),
+    "the same second of the next day": ([rmc("080000", day="311223"), rmc("080000", day="010124")], [0, 86400]),
+    "GGA before RMC": (
+        [gga("080000"), rmc("080000", day="290224"), gga("070000"), rmc("070000", day="020324"), gga("070001")],
+        [0, 169200, 169201],
+    ),
+    "RMC before GGA": (
+        [rmc("080000", day="290224"), gga("080000"), rmc("070000", day="020324"), gga("070000"), gga("070000.5")],
+        [0, 169200, 169200.5],
+    ),
+    "a GGA between two RMC is of the nearer one's day": (
+        [rmc("080000", day="290224"), gga("080000.5"), gga("070000.5"), rmc("070001", day="020324")],
+        [0, 0.5, 169200.5, 169201],
+    ),
+    "GGA of the evening before": ([gga("235959"), rmc("000000", day="010324"), gga("000001")], [0, 1, 2]),
+    "no date": ([rmc("235959", day=""), rmc("000001", day="990099")], [0, 2]),
+    "date of no fix": ([rmc("080000", day="290224"), rmc("080001", day="060180", status="V"), rmc("080002", day="290224")], [0, 2]),
+}
+
+
+@pytest.mark.parametrize("name", DATED)
+def test_the_date_of_rmc_counts(read, name):
+    sentences, times = DATED[name]
+    track = read("\n".join(sentences))
+    assert track.t.tolist() == times
+
+
+@pytest.mark.parametrize("day", ["230709", "240708"])
+def test_an_earlier_date_is_time_that_runs_backwards(read, day):
+    assert dict(read("\n".join([rmc("080000"), rmc("090000", day=day)])).report.skipped) == {"time runs backwards": (1, 2)}
 
 
 BAD_SENTENCES = {
