@@ -334,8 +334,8 @@ def test_gpx_that_is_refused_says_why(read, name):
 IDLE = {
     "height": ("<ele>abc</ele>", ""),
     "satellites": ("<sat>8.0</sat><fix>5d</fix>", ""),
-    "number": ("", "<number>a</number>"),
-    "bounds": ("", '<metadata><bounds minlat="x"/></metadata>'),
+    "number": ("", "<rte><number>a</number></rte>"),
+    "bounds": ("", '<bounds minlat="x"/>'),  # where GPX 1.0 has them
     "deep extensions": ("<extensions>" + "<a>" * 3000 + "</a>" * 3000 + "</extensions>", ""),
     "spaces about the time": ("", ""),
 }
