@@ -22,10 +22,21 @@ def test_an_array_is_copied_so_that_the_callers_later_changes_do_not_reach_us():
     assert checked[0] == 1.0
 
 
-@pytest.mark.parametrize("value", [math.nan, math.inf, -math.inf, "1", None, True, 1j, [1.0, math.nan], [None], object()])
+@pytest.mark.parametrize(
+    "value", [math.nan, math.inf, -math.inf, "1", None, True, 1j, [1.0, math.nan], [None], object(), [[1], [2, 3]], {}]
+)
 def test_real_refuses_what_is_no_finite_number(value):
     with pytest.raises(ValueError, match=r"^x = .* is not allowed: a finite number is needed$"):
         _checks.real("x", value)
+
+
+def test_nan_is_allowed_only_where_it_is_asked_for():
+    found = _checks.real("t", [1, math.nan], low=0.0, above=-1.0, nan=True)
+    assert found.tolist() == [1.0, pytest.approx(math.nan, nan_ok=True)]
+    assert math.isnan(_checks.real("t", math.nan, nan=True))
+    for value in (math.inf, [math.nan, -1.0], ["a"], [True, False], [[math.nan], [1, 2]], None):
+        with pytest.raises(ValueError, match=r"^t = .* is not allowed: a finite number at least 0 or NaN is needed$"):
+            _checks.real("t", value, low=0.0, nan=True)
 
 
 @pytest.mark.parametrize(
@@ -62,3 +73,10 @@ def test_same_shape_names_each_shape():
     assert _checks.same_shape(a=1.0, b=np.ones((3, 1)), c=np.ones(2)) == (3, 2)
     with pytest.raises(ValueError, match=r"mismatched lengths: b has shape \(2,\), c has shape \(3,\); shapes that broadcast"):
         _checks.same_shape(a=1.0, b=np.ones(2), c=np.ones(3))
+
+
+def test_same_shape_names_what_has_no_shape():
+    with pytest.raises(
+        ValueError, match=r"^b = \[\[1\], \[2, 3\]\] is not allowed: a number, or an array with rows of one length, is needed$"
+    ):
+        _checks.same_shape(a=1.0, b=[[1], [2, 3]])

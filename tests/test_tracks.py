@@ -3,10 +3,11 @@
 import json
 import math
 import random
-from datetime import UTC, datetime, timedelta
+from datetime import UTC, datetime, timedelta, tzinfo
 from functools import reduce
 from operator import xor
 from pathlib import Path
+from time import process_time
 from xml.etree import ElementTree
 
 import numpy as np
@@ -43,8 +44,8 @@ def gga(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", quality=1, tal
     return nmea(f"{talker}GGA,{clock},{lat},{lon},{quality},08,1.1,40.8,M,43.6,M,,0000")
 
 
-def rmc(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", status="A", mode="A"):
-    return nmea(f"GPRMC,{clock},{status},{lat},{lon},0.24,18.02,240709,,,{mode}")
+def rmc(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", status="A", mode="A", day="240709"):
+    return nmea(f"GPRMC,{clock},{status},{lat},{lon},0.24,18.02,{day},,,{mode}")
 
 
 def gpx(inner, head='<?xml version="1.0"?>', root='gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"'):
@@ -102,6 +103,56 @@ def test_south_and_west_are_negative(read):
 def test_time_goes_on_over_midnight(read):
     track = read("\n".join([gga("235959.00"), gga("000000.50"), gga("000001.00")]))
     assert track.t.tolist() == [0.0, 1.5, 2.0]
+
+
+def test_a_night_without_a_fix_goes_by_the_receivers_clock(read):
+    track = read(
+        "\n".join([gga("190000"), *(gga(f"{hour % 24:02d}0000", quality=0) for hour in range(20, 32)), gga("080000"), gga("080001")])
+    )
+    assert track.t.tolist() == [0.0, 13 * 3600.0, 13 * 3600.0 + 1]
+    assert dict(track.report.skipped) == {"sentence without a fix": (12, 2)}
+
+
+@pytest.mark.parametrize("hour", range(24))
+def test_a_receiver_that_starts_cold_and_counts_from_midnight_does_no_harm(read, hour):
+    cold = [gga(f"0000{second:02d}", quality=0) for second in range(30)]
+    track = read("\n".join([gga(f"{hour:02d}0000"), *cold, gga(f"{hour:02d}0500"), gga(f"{hour:02d}0501")]))
+    assert track.t.tolist() == [0.0, 300.0, 301.0]
+
+
+DATED = {
+    "a day and an hour": ([rmc("080000", day="290224"), rmc("090000", day="010324")], [0, 90000]),
+    "less than a day": ([rmc("100000", day="290224"), rmc("080000", day="010324"), rmc("080001", day="010324")], [0, 79200, 79201]),
+    "an afternoon": ([rmc(clock) for clock in ("080000", "080001", "210000", "210001")], [0, 1, 46800, 46801]),
+    "the same second of the next day": ([rmc("080000", day="311223"), rmc("080000", day="010124")], [0, 86400]),
+    "GGA before RMC": (
+        [gga("080000"), rmc("080000", day="290224"), gga("070000"), rmc("070000", day="020324"), gga("070001")],
+        [0, 169200, 169201],
+    ),
+    "RMC before GGA": (
+        [rmc("080000", day="290224"), gga("080000"), rmc("070000", day="020324"), gga("070000"), gga("070000.5")],
+        [0, 169200, 169200.5],
+    ),
+    "a GGA between two RMC is of the nearer one's day": (
+        [rmc("080000", day="290224"), gga("080000.5"), gga("070000.5"), rmc("070001", day="020324")],
+        [0, 0.5, 169200.5, 169201],
+    ),
+    "GGA of the evening before": ([gga("235959"), rmc("000000", day="010324"), gga("000001")], [0, 1, 2]),
+    "no date": ([rmc("235959", day=""), rmc("000001", day="990099")], [0, 2]),
+    "date of no fix": ([rmc("080000", day="290224"), rmc("080001", day="060180", status="V"), rmc("080002", day="290224")], [0, 2]),
+}
+
+
+@pytest.mark.parametrize("name", DATED)
+def test_the_date_of_rmc_counts(read, name):
+    sentences, times = DATED[name]
+    track = read("\n".join(sentences))
+    assert track.t.tolist() == times
+
+
+@pytest.mark.parametrize("day", ["230709", "240708"])
+def test_an_earlier_date_is_time_that_runs_backwards(read, day):
+    assert dict(read("\n".join([rmc("080000"), rmc("090000", day=day)])).report.skipped) == {"time runs backwards": (1, 2)}
 
 
 BAD_SENTENCES = {
@@ -259,7 +310,13 @@ REFUSED = {
     "external entity": (gpx(trk(GOOD) + "<x>&e;</x>", head='<!DOCTYPE gpx [<!ENTITY e SYSTEM "file:///etc/passwd">]>'), "document type"),
     "external subset": (gpx(trk(GOOD), head='<!DOCTYPE gpx SYSTEM "http://localhost:9/x.dtd">'), "document type"),
     "empty document type": (gpx(trk(GOOD), head="<!DOCTYPE gpx>"), "document type"),
-    "KML": ('<kml xmlns="http://www.opengis.net/kml/2.2"><Placemark/></kml>', "it is a KML file; export it as GPX, not a GPX file"),
+    "KML": ('<kml xmlns="http://www.opengis.net/kml/2.2"><Placemark/></kml>', "it is a KML file, not a GPX file; export it as GPX$"),
+    "KML cut off": ("<kml><Placemark>", "it is a KML file, not a GPX file; export it as GPX$"),
+    "TCX": ("<TrainingCenterDatabase/>", "it is a TCX file, not a GPX file; export it as GPX$"),
+    "web page": ("<!DOCTYPE html>\n<html><body><br></body></html>", "it is a web page, not a GPX file$"),
+    "web page without a document type": ("<HTML><br></HTML>", "it is a web page, not a GPX file$"),
+    "one element": ("<time>x</time>", "it is XML of the kind 'time', not a GPX file$"),
+    "nested too deep": (gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000), "its XML is nested too deep$"),
     "cut off": (gpx(trk(GOOD))[:-20], "its XML is broken"),
     "no point": (gpx(""), "holds no position"),
     "only bad points": (gpx(trk('<trkpt lat="91" lon="0"/>')), r"1 latitude not in -90 to 90 \(first in line 4\)"),
@@ -272,6 +329,28 @@ def test_gpx_that_is_refused_says_why(read, name):
     content, message = REFUSED[name]
     with pytest.raises(ValueError, match=message):
         read(content, "walk.gpx")
+
+
+IDLE = {
+    "height": ("<ele>abc</ele>", ""),
+    "satellites": ("<sat>8.0</sat><fix>5d</fix>", ""),
+    "number": ("", "<rte><number>a</number></rte>"),
+    "bounds": ("", '<bounds minlat="x"/>'),  # where GPX 1.0 has them
+    "deep extensions": ("<extensions>" + "<a>" * 3000 + "</a>" * 3000 + "</extensions>", ""),
+    "spaces about the time": ("", ""),
+}
+
+
+@pytest.mark.parametrize("root", ["gpx", 'gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"'])
+@pytest.mark.parametrize("name", IDLE)
+def test_what_is_not_read_of_gpx_may_hold_anything(read, name, root):
+    inner, outer = IDLE[name]
+    space = "\n " if name == "spaces about the time" else ""
+    point = f'<trkpt lat="33.27" lon="44.37"><time>{space}2026-03-01T12:00:00Z{space}</time>{inner}</trkpt>'
+    track = read(gpx(outer + trk(point, point.replace("33.27", "34").replace("12:00:00", "12:00:05")), root=root))
+    assert track.points.lat.tolist() == [33.27, 34.0]
+    assert track.t.tolist() == [0.0, 5.0]
+    assert repr(track.report) == "2 positions used"
 
 
 # CSV -----------------------------------------------------------------------------------------------------------------
@@ -295,6 +374,51 @@ def test_the_columns_may_stand_the_other_way_round(read):
 def test_times_are_seconds_or_iso(read, times):
     track = read("time,lat,lon\n" + "\n".join(f"{time},33,44.{k}" for k, time in enumerate(times)) + "\n")
     assert track.t.tolist() == [0.0, 1.5]
+
+
+@pytest.mark.parametrize(
+    "content",
+    [
+        "lat;lon;t\n33,5;44,25;0,5\n-1,5;2;1,75\n",
+        "lat\tlon\tt\n33,5\t44,25\t0\n-1,5\t2\t1,25\n",
+        'lat,lon,t\n"33,5","44,25",0\n-1.5,2,1.25\n',
+    ],
+)
+def test_decimal_commas(read, content):
+    track = read(content)
+    assert (track.points.lat.tolist(), track.points.lon.tolist(), track.t.tolist()) == ([33.5, -1.5], [44.25, 2.0], [0.0, 1.25])
+
+
+@pytest.mark.parametrize("cell", ["1,2,3", "1,234.5", "1.2,3", ",", "33,5 N"])
+def test_a_cell_of_more_than_a_decimal_comma_is_no_number(read, cell):
+    assert dict(read(f"lat;lon\n{cell};44\n1;2\n").report.skipped) == {"latitude or longitude not a number": (1, 2)}
+
+
+WIDE = {"UTF-8 with its mark": "utf-8-sig", "UTF-16": "utf-16", "UTF-16, big-endian": "utf-16-be"}
+TEXTS = {
+    "NMEA": gga(lat="3330.0000,N", lon="04415.0000,E") + "\r\n",
+    "CSV": "lat,lon\r\n33.5,44.25\r\n",
+    "GeoJSON": '{"type": "Point", "coordinates": [44.25, 33.5]}\r\n',
+    "GPX": '<gpx><wpt lat="33.5" lon="44.25"/></gpx>',
+}
+
+
+@pytest.mark.parametrize("code", WIDE)
+@pytest.mark.parametrize("source", TEXTS)
+def test_text_as_windows_writes_it(read, source, code):
+    track = read((b"\xfe\xff" if code == "UTF-16, big-endian" else b"") + TEXTS[source].encode(WIDE[code]))
+    assert (track.source, track.points.lat.tolist(), track.points.lon.tolist()) == (source, [33.5], [44.25])
+    assert repr(track.report) == "1 position used"
+
+
+def test_the_first_sentence_after_nothing_but_zero_bytes_is_read(read):
+    assert len(read(b"\x00\x00" + gga().encode())) == 1
+
+
+def test_blank_lines_cost_no_time(read):
+    begin = process_time()
+    assert len(read("lat,lon\n1,2\n" + "\n" * 50_000)) == 1
+    assert process_time() - begin < 1.5  # with a pattern that runs on over lines 5 s and more
 
 
 BAD_ROWS = {
@@ -332,6 +456,11 @@ def test_milliseconds_are_no_seconds_and_a_cut_last_line_is_told(read):
     [
         ("", "the file is empty"),
         (" \n\r\n", "the file is empty"),
+        (b"\xff\xfe", "the file is empty"),
+        (b"\x00" * 200_000, "it is no NMEA, GPX or GeoJSON, and as a table"),
+        (b"x" * 200_000, "it is no NMEA, GPX or GeoJSON, and as a table its first line 'x{80}' does not name"),
+        ("var data=" + "1," * 100_000, "it is no NMEA, GPX or GeoJSON, and as a table"),
+        ("lat,lon\n1," + "2" * 200_000, "its table is broken"),
         ("# lat,lon\n", "no header"),
         ("x,y\n1,2\n", r"'x,y' does not name one of \['lat', 'latitude'\]"),
         ("lat,y\n1,2\n", r"does not name .*'long'"),
@@ -549,6 +678,16 @@ def test_geojson_is_longitude_first_and_cut_at_the_date_line(tmp_path):
     assert json.loads((tmp_path / "b.json").read_text())["geometry"] == {"type": "Point", "coordinates": [44.25, 33.5]}
 
 
+@pytest.mark.parametrize("kind", ["Point", "MultiPoint"])
+def test_points_at_the_date_line_are_no_cut(read, kind):
+    ends = [[[180.0, 10.0]], [[-180.0, 10.0]]]
+    points = [{"type": kind, "coordinates": end[0] if kind == "Point" else end} for end in ends]
+    track = read(json.dumps({"type": "GeometryCollection", "geometries": points}))
+    assert track.points.lon.tolist() == [180.0, -180.0]
+    track = read(json.dumps({"type": "MultiPoint", "coordinates": [[180.0, 10.0], [-180.0, 10.0]]}))
+    assert track.points.lon.tolist() == [180.0, -180.0]
+
+
 def test_geojson_collections(read):
     line = {"type": "LineString", "coordinates": [[1.5, 2.5, 30], [3, 4]]}
     features = [
@@ -557,6 +696,16 @@ def test_geojson_collections(read):
     ]
     track = read(json.dumps({"type": "FeatureCollection", "features": features}))
     assert (track.points.lon.tolist(), track.points.lat.tolist()) == ([1.5, 3.0, 5.0], [2.5, 4.0, 6.0])
+
+
+class SummerTime(tzinfo):
+    """Central Europe in March 2026, where 2:00 on the 29th is 3:00."""
+
+    def dst(self, time):
+        return timedelta(hours=1 if time.replace(tzinfo=None) >= datetime(2026, 3, 29, 2) else 0)
+
+    def utcoffset(self, time):
+        return timedelta(hours=1) + self.dst(time)
 
 
 PAIR = wmr.GeoPoint(lat=[1.0, 2.0], lon=[3.0, 4.0])
@@ -569,19 +718,43 @@ PAIR = wmr.GeoPoint(lat=[1.0, 2.0], lon=[3.0, 4.0])
         (lambda p: wmr.write_gpx(p, [1, 2]), "a GeoPoint is needed"),
         (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1]), "begin = None are not allowed together"),
         (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1, 2], begin=BEGIN), r"t has shape \(3,\), points have shape \(2,\)"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=[0, math.inf], begin=BEGIN), "a finite number is needed"),
+        (lambda p: wmr.write_gpx(p, PAIR, t=[0, math.inf], begin=BEGIN), "a finite number or NaN is needed"),
+        (lambda p: wmr.write_gpx(p, PAIR, t=["a", "b"], begin=BEGIN), r"^t = \['a', 'b'\] is not allowed"),
+        (lambda p: wmr.write_gpx(p, PAIR, t={}, begin=BEGIN), r"^t = {} is not allowed"),
+        (lambda p: wmr.write_gpx(p, PAIR, t=[True, False], begin=BEGIN), r"^t = \[True, False\] is not allowed"),
+        (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1e18], begin=BEGIN), r"^t = 1e\+18 is not allowed: begin \+ t in the years 1 to 9999"),
+        (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1], begin=datetime.max.replace(tzinfo=UTC)), r"^t = 1 is not allowed: begin \+ t"),
         (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1], begin=BEGIN.replace(tzinfo=None)), "with its time zone is needed"),
         (lambda p: wmr.write_gpx(p, PAIR, name="a\x00b"), "without control characters"),
+        (lambda p: wmr.write_gpx(p, PAIR, name="\ud800"), r"^name = '\\ud800' is not allowed: a text that UTF-8 can hold is needed$"),
+        (lambda p: wmr.write_geojson(p, PAIR, name="\ud800"), r"^name = '\\ud800' is not allowed: a text that UTF-8 can hold is needed$"),
         (lambda p: wmr.write_geojson(p, PAIR, name=3), "a str is needed"),
     ],
 )
 def test_bad_input_to_the_writers(tmp_path, make, message):
-    with pytest.raises(ValueError, match=message):
-        make(tmp_path / "x")
-    assert not (tmp_path / "x").exists()
+    (tmp_path / "x").write_text("as it was")
+    for path in (tmp_path / "x", tmp_path / "y"):
+        with pytest.raises(ValueError, match=message):
+            make(path)
+    assert (tmp_path / "x").read_text() == "as it was"
+    assert not (tmp_path / "y").exists()
 
 
 def test_times_are_counted_from_begin_in_any_zone(tmp_path, read):
     begin = BEGIN.astimezone(None) + timedelta(seconds=1)
     wmr.write_gpx(tmp_path / "a.gpx", PAIR, t=[0, 3], begin=begin)
     assert wmr.read_track(tmp_path / "a.gpx").t.tolist() == [0.0, 3.0]
+
+
+def test_times_are_counted_on_while_the_clocks_are_put_forward(tmp_path):
+    begin = datetime(2026, 3, 29, 1, 30, tzinfo=SummerTime())
+    wmr.write_gpx(tmp_path / "a.gpx", PAIR, t=[0, 3600], begin=begin)
+    assert [time.text for time in ElementTree.parse(tmp_path / "a.gpx").iter(GPX_11 + "time")] == [
+        "2026-03-29T00:30:00Z",
+        "2026-03-29T01:30:00Z",
+    ]
+
+
+def test_a_single_position_may_have_a_single_time(tmp_path):
+    wmr.write_gpx(tmp_path / "a.gpx", wmr.GeoPoint(lat=1.0, lon=2.0), t=0.5, begin=BEGIN)
+    assert ElementTree.parse(tmp_path / "a.gpx").find(f".//{GPX_11}time").text == "2026-03-01T12:00:00.500000Z"

@@ -11,22 +11,24 @@ import numpy as np
 Real = float | np.ndarray
 
 
-def real(name: str, value: Any, *, low: float = -math.inf, high: float = math.inf, above: float = -math.inf) -> Real:
-    """Return `value` as a float, or as a float array if it has dimensions; every entry finite and within the bounds.
+def real(name: str, value: Any, *, low: float = -math.inf, high: float = math.inf, above: float = -math.inf, nan: bool = False) -> Real:
+    """Return `value` as a float, or as a float array if it has dimensions; every entry finite and within the bounds, or NaN if `nan`.
 
-    Raises ValueError for text, booleans, complex numbers, NaN, infinities, and numbers outside low <= value <= high, value > above.
+    Raises ValueError for text, booleans, complex numbers, rows of different lengths, NaN unless `nan` is True, infinities, and numbers
+    outside low <= value <= high, value > above.
     """
-    if type(value) is float:  # the common case, kept quick: a simulation checks a dozen numbers
-        if math.isfinite(value) and low <= value <= high and value > above:
-            return value
-        array = None
-    else:
+    if type(value) is float and math.isfinite(value) and low <= value <= high and value > above:
+        return value  # the common case, kept quick: a simulation checks a dozen numbers
+    try:
         array = np.asarray(value)
-        if array.dtype.kind in "iuf":
-            array = array.astype(np.float64)
-            if np.isfinite(array).all() and (array >= low).all() and (array <= high).all() and (array > above).all():
-                return array if array.ndim else float(array)
-    raise ValueError(f"{name} = {_shown(value)} is not allowed: {_allowed(low, high, above)} is needed")
+    except ValueError:  # rows of different lengths
+        array = np.array(None)
+    if array.dtype.kind in "iuf":
+        array = array.astype(np.float64)
+        fits = np.isfinite(array) & (array >= low) & (array <= high) & (array > above)
+        if (fits | np.isnan(array) if nan else fits).all():
+            return array if array.ndim else float(array)
+    raise ValueError(f"{name} = {_shown(value)} is not allowed: {_allowed(low, high, above)}{' or NaN' if nan else ''} is needed")
 
 
 def scalar(name: str, value: Any, **bounds: float) -> float:
@@ -54,12 +56,19 @@ def instance(name: str, value: Any, kind: type) -> Any:
 
 def same_shape(**arguments: Any) -> tuple[int, ...]:
     """Return the common shape of the arguments after broadcasting; raises ValueError, which names each one's shape."""
-    shapes = {name: np.shape(value) for name, value in arguments.items()}
+    shapes = {name: _shape(name, value) for name, value in arguments.items()}
     try:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
         listed = ", ".join(f"{name} has shape {shape}" for name, shape in shapes.items() if shape)
         raise ValueError(f"mismatched lengths: {listed}; shapes that broadcast together are needed") from None
+
+
+def _shape(name: str, value: Any) -> tuple[int, ...]:
+    try:
+        return np.shape(value)
+    except ValueError:
+        raise ValueError(f"{name} = {_shown(value)} is not allowed: a number, or an array with rows of one length, is needed") from None
 
 
 def _allowed(low: float, high: float, above: float) -> str:

@@ -3,9 +3,10 @@
 from __future__ import annotations
 
 import math
+import re
 from datetime import UTC, datetime, timedelta
 from typing import NamedTuple
-from xml.etree.ElementTree import ParseError, tostring
+from xml.etree.ElementTree import Element, ParseError, tostring
 from xml.sax import SAXParseException
 from xml.sax.handler import ContentHandler
 
@@ -18,7 +19,13 @@ from gpxpy.gpx import GPX, GPXException, GPXTrack, GPXTrackPoint, GPXTrackSegmen
 from wmrlib._fixes import NO_TIME, Fixes, misplaced, number
 
 _KINDS = ("trkpt", "rtept", "wpt")  # the first that a file has is its track
-_KNOWN = {"kml": "a KML file; export it as GPX", "html": "a web page", "TrainingCenterDatabase": "a TCX file; export it as GPX"}
+_READ = {"gpx", "rte", "trk", "trkseg", "time", *_KINDS}
+_OTHERS = {
+    "kml": "it is a KML file, not a GPX file; export it as GPX",
+    "html": "it is a web page, not a GPX file",
+    "trainingcenterdatabase": "it is a TCX file, not a GPX file; export it as GPX",
+}
+_WEB_PAGE = re.compile(rb"<(!doctype\s+)?html\b", re.IGNORECASE)
 
 
 class _Place(NamedTuple):
@@ -51,7 +58,7 @@ class _Outline(ContentHandler):
         self.open.pop()
 
     def characters(self, content):
-        if self.open[-1] == "time" and self.open[-2] in self.places:
+        if len(self.open) > 1 and self.open[-1] == "time" and self.open[-2] in self.places:
             self.places[self.open[-2]][-1].times.append(content)
 
 
@@ -61,11 +68,13 @@ def read(data: bytes) -> Fixes:
     try:
         sax.parseString(data, outline, forbid_dtd=True)
     except DefusedXmlException as error:
+        if _WEB_PAGE.search(data[:1000]):
+            raise ValueError(_OTHERS["html"]) from None
         raise ValueError(f"its XML holds a document type or an entity ({type(error).__name__}), which is not read") from None
     except (SAXParseException, LookupError, ValueError) as error:
-        raise ValueError(f"its XML is broken: {error}") from None
+        raise ValueError(_OTHERS.get(outline.root.casefold(), f"its XML is broken: {error}")) from None
     if outline.root != "gpx":
-        raise ValueError(f"it is {_KNOWN.get(outline.root, f'XML of the kind {outline.root!r}')}, not a GPX file")
+        raise ValueError(_OTHERS.get(outline.root.casefold(), f"it is XML of the kind {outline.root!r}, not a GPX file"))
     kind = next((kind for kind in _KINDS if outline.places[kind]), "trkpt")
     fixes = Fixes()
     for other in set(_KINDS) - {kind}:
@@ -85,22 +94,30 @@ def read(data: bytes) -> Fixes:
 
 
 def _points(data: bytes, outline: _Outline, kind: str) -> list:
-    """The points of one kind by gpxpy. It refuses a whole file for one bad number, so such a place stands at 0, 0 for it."""
+    """The points of one kind by gpxpy. It refuses a whole file for one bad number, so such a place stands at 0, 0 for it.
+
+    For the same reason it is shown no height, number of satellites, bounds or extension: nothing here reads them.
+    """
     try:
         root = fromstring(data, forbid_dtd=True)
     except (ParseError, LookupError, ValueError) as error:
         raise ValueError(f"its XML is broken: {error}") from None
     places = {kind: iter(outline.places[kind]) for kind in _KINDS}
-    for element in root.iter():
-        name = element.tag.rpartition("}")[2]
-        if name in ("gpx", "rte", "trk", "trkseg", "time", *_KINDS):
+    for element in list(root.iter()):
+        name = _name(element)
+        element[:] = [child for child in element if _name(child) in _READ]
+        if name in _READ:
             element.tag = name  # whatever its prefix
+        if name == "time":
+            element.text = (element.text or "").strip()
         if name in places:
             place = next(places[name])
             if misplaced(number(place.lat), number(place.lon)):
                 element.attrib.update(lat="0", lon="0")
     try:
         gpx = gpxpy.parse(tostring(root, encoding="unicode"))
+    except RecursionError:
+        raise ValueError("its XML is nested too deep") from None
     except (GPXException, ValueError) as error:
         raise ValueError(f"gpxpy does not read it: {error}") from None
     if kind == "wpt":
@@ -114,10 +131,21 @@ def _points(data: bytes, outline: _Outline, kind: str) -> list:
     return found
 
 
+def _name(element: Element) -> str:
+    return element.tag.rpartition("}")[2]
+
+
 def _seconds(time: datetime | None) -> float:
     if time is None:
         return NO_TIME
     return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp()
+
+
+def _date(begin: datetime, t: float) -> datetime | None:
+    try:
+        return None if math.isnan(t) else begin.astimezone(UTC) + timedelta(seconds=t)  # a clock that is put forward loses no hour
+    except OverflowError:
+        raise ValueError(f"t = {t:g} is not allowed: begin + t in the years 1 to 9999 is needed") from None
 
 
 def text(lat: np.ndarray, lon: np.ndarray, t: np.ndarray | None, begin: datetime | None, name: str) -> str:
@@ -127,8 +155,7 @@ def text(lat: np.ndarray, lon: np.ndarray, t: np.ndarray | None, begin: datetime
     for i, place in enumerate(zip(lat.tolist(), lon.tolist(), strict=True)):
         if i == 0 or abs(lon[i] - lon[i - 1]) > 180.0:
             track.segments.append(GPXTrackSegment())
-        time = None if t is None or math.isnan(t[i]) else begin + timedelta(seconds=float(t[i]))
-        track.segments[-1].points.append(GPXTrackPoint(*place, time=time))
+        track.segments[-1].points.append(GPXTrackPoint(*place, time=None if t is None else _date(begin, float(t[i]))))
     gpx = GPX()
     gpx.creator = "wmrlib"
     gpx.tracks.append(track)

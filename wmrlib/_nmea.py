@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import re
+from datetime import date
 from datetime import time as clock
+from itertools import accumulate
 from typing import NamedTuple
 
 import pynmea2
@@ -13,14 +15,17 @@ from wmrlib._fixes import Fixes
 DAY = 86400.0
 _LATITUDE = re.compile(r"[0-9]{2}[0-5][0-9]\.[0-9]+")  # ddmm.mm
 _LONGITUDE = re.compile(r"[0-9]{3}[0-5][0-9]\.[0-9]+")  # dddmm.mm
-_SENTENCE = re.compile(rb"^\s*\$\w{5},", re.MULTILINE)
+_SENTENCE = re.compile(rb"^[ \t\x00]*\$\w{5},", re.MULTILINE)
 
 
-class _Fix(NamedTuple):
+class _Heard(NamedTuple):
+    """What a sentence says of a second; its day is known of an RMC, its sentence is None where a GGA says that there is no fix."""
+
     line: int
     kind: str
     second: float
-    sentence: pynmea2.TalkerSentence
+    day: int | None = None
+    sentence: pynmea2.TalkerSentence | None = None
 
 
 class _NoFixError(ValueError):
@@ -37,23 +42,23 @@ def looks_like(data: bytes) -> bool:
 
 def read(data: bytes) -> Fixes:
     """Every talker's GGA, and RMC where no GGA tells of that second; each epoch once, the first talker's."""
-    fixes, found, settled, last = Fixes(), [], set(), None
+    fixes, heard = Fixes(), []
     for line, raw in enumerate(re.split(rb"\r\n|\r|\n", data), 1):
         text = raw.decode("latin-1").strip(" \t\x00")  # byte for byte, as the sum is made
         if not text:
             continue
         try:
-            fix = _fix(line, text)
+            heard.append(_fix(line, text))
         except _NoFixError as no:
             fixes.skip(no.reason, line)
             if no.second is not None:  # the receiver's own no: an RMC of that second is not believed either
-                settled.add(_unwrapped(no.second, last))
-            continue
-        last = _unwrapped(fix.second, last)
-        found.append(fix._replace(second=last))
-    settled |= {fix.second for fix in found if fix.kind == "GGA"}
+                heard.append(_Heard(line, "GGA", no.second))
+    heard = _counted_on(heard)
+    settled = {one.second for one in heard if one.kind == "GGA"}
     used = set()
-    for line, kind, second, sentence in found:
+    for line, kind, second, _, sentence in heard:
+        if sentence is None:
+            continue
         if second in used or (kind == "RMC" and second in settled):
             fixes.skip("same epoch again", line)
             continue
@@ -64,7 +69,7 @@ def read(data: bytes) -> Fixes:
     return fixes
 
 
-def _fix(line: int, text: str) -> _Fix:
+def _fix(line: int, text: str) -> _Heard:
     sentence = _parsed(text)
     kind = sentence.sentence_type if isinstance(sentence, pynmea2.TalkerSentence) else ""
     if kind not in ("GGA", "RMC"):
@@ -81,7 +86,8 @@ def _fix(line: int, text: str) -> _Fix:
     in_order = _LATITUDE.fullmatch(sentence.lat) and _LONGITUDE.fullmatch(sentence.lon)
     if not (in_order and sentence.lat_dir in ("N", "S") and sentence.lon_dir in ("E", "W")):  # pynmea2 would make 0 or 60 minutes of it
         raise _NoFixError("unreadable position", second if kind == "GGA" else None)
-    return _Fix(line, kind, second, sentence)
+    day = sentence.datestamp.toordinal() if kind == "RMC" and isinstance(sentence.datestamp, date) else None
+    return _Heard(line, kind, second, day, sentence)
 
 
 def _parsed(text: str) -> pynmea2.NMEASentence:
@@ -112,6 +118,22 @@ def _trouble_of_rmc(sentence) -> str | None:
     return "position estimated, put in by hand or simulated" if sentence.mode_indicator in ("E", "M", "S") else None
 
 
-def _unwrapped(second: float, last: float | None) -> float:
-    """The second of the day, counted on over midnight: the one nearest to the last."""
-    return second if last is None else second + DAY * round((last - second) / DAY)
+def _counted_on(heard: list[_Heard]) -> list[_Heard]:
+    """With seconds that are counted on from day to day: by the date of an RMC; or else from what was heard last, or the next RMC."""
+    first = next((one.day for one in heard if one.day is not None), 0)
+    dated = [None if one.day is None else one.second + DAY * (one.day - first) for one in heard]
+    ahead = [*accumulate(reversed(dated), lambda later, this: later if this is None else this)][::-1]
+    last, found = None, []
+    for one, second, next_dated in zip(heard, dated, ahead, strict=True):
+        if second is None:
+            second = _nearest(one.second, [time for time in (last, next_dated) if time is not None])
+        found.append(one._replace(second=second))
+        if one.sentence is not None or last is None or second > last:  # a cold receiver without a fix may count from 0:00
+            last = second
+    return found
+
+
+def _nearest(second: float, known: list[float]) -> float:
+    """The second of the day, on the day that brings it nearest to one of the known times."""
+    choices = [(second + DAY * round((time - second) / DAY), time) for time in known]
+    return min(choices, key=lambda choice: abs(choice[0] - choice[1]), default=(second,))[0]

@@ -6,6 +6,7 @@ import csv
 import json
 import math
 from datetime import UTC, datetime
+from itertools import pairwise
 
 import numpy as np
 
@@ -18,9 +19,8 @@ _WGS84 = ("CRS84", "EPSG::4326", "EPSG:4326")
 
 
 def read_csv(data: bytes) -> Fixes:
-    """Rows under the first line that is neither blank nor a comment (#), which names the columns."""
-    text = data.decode("utf-16" if data[:2] in (b"\xff\xfe", b"\xfe\xff") else "utf-8-sig", errors="replace")
-    lines = text.splitlines(keepends=True)
+    """Rows under the first line that is neither blank nor a comment (#), which names the columns. A number may have a decimal comma."""
+    lines = data.decode("utf-8", errors="replace").splitlines(keepends=True)
     fixes, header = Fixes(), next((i for i, line in enumerate(lines) if line.strip() and not line.startswith("#")), None)
     if header is None:
         raise ValueError("it has no header that names the columns of latitude and longitude")
@@ -39,7 +39,10 @@ def read_csv(data: bytes) -> Fixes:
 
 def _header(line: str) -> tuple[str, list[str]]:
     for delimiter in _DELIMITERS:
-        columns = [cell.strip().casefold() for cell in next(csv.reader([line], delimiter=delimiter))]
+        try:
+            columns = [cell.strip().casefold() for cell in next(csv.reader([line], delimiter=delimiter))]
+        except csv.Error:  # 131072 characters without a delimiter
+            continue
         if LATITUDE & {*columns} and LONGITUDE & {*columns}:
             for names in (LATITUDE, LONGITUDE, TIME):
                 if sum(column in names for column in columns) > 1:
@@ -70,12 +73,17 @@ def _rows(lines: list[str], before: int, delimiter: str, columns: list[str], fix
                 time = _time(row[t].strip())
                 if math.isnan(time):
                     fixes.note("with an unreadable time", line)
-            fixes.add(number(row[y]), number(row[x]), time, line)
+            fixes.add(_number(row[y]), _number(row[x]), time, line)
+
+
+def _number(cell: str) -> float:
+    """The number of a cell; its one comma is a decimal comma: between cells it is none, or the cell would not hold it."""
+    return number(cell if "." in cell else cell.replace(",", ".", 1))
 
 
 def _time(text: str) -> float:
     """Seconds, or an ISO 8601 time (UTC unless it says otherwise)."""
-    seconds = number(text)
+    seconds = _number(text)
     if math.isfinite(seconds):
         return seconds if abs(seconds) < _MOST_SECONDS else NO_TIME
     try:
@@ -94,13 +102,12 @@ def read_geojson(data: bytes) -> Fixes:
         raise ValueError(f"its JSON is not read: {error}") from None
     if isinstance(document, dict) and (crs := document.get("crs")) and not str(crs).rstrip("'}\" ").endswith(_WGS84):
         raise ValueError(f"its coordinates are not degrees on WGS84, but {str(crs)[:80]}")
-    fixes, place, ends = Fixes("position"), 0, [line[-1] if line else None for line in lines]
+    fixes, place = Fixes("position"), 0
+    cuts = {i for i, (before, after) in enumerate(pairwise(lines)) if _is_cut(before, after)}  # after which line
     for i, line in enumerate(lines):
         for j, position in enumerate(line):
             place += 1
-            opens_cut = i > 0 and j == 0 and _is_cut(ends[i - 1], position)
-            closes_cut = i + 1 < len(lines) and j == len(line) - 1 and bool(lines[i + 1]) and _is_cut(position, lines[i + 1][0])
-            if opens_cut or closes_cut:
+            if (j == 0 and i - 1 in cuts) or (j == len(line) - 1 and i in cuts):
                 fixes.skip("cut at the date line", place)
             elif not _is_pair(position):
                 fixes.skip("position that is no pair of numbers", place)
@@ -120,7 +127,7 @@ def _lines(node) -> list[list]:
         if node.get("geometry") is not None:
             yield from _lines(node["geometry"])
     elif kind in ("Point", "LineString", "MultiPoint", "MultiLineString") and isinstance(places := node.get("coordinates"), list):
-        lines = {"Point": [[places]], "MultiLineString": places}.get(kind, [places])
+        lines = {"Point": [[places]], "MultiPoint": [[place] for place in places], "MultiLineString": places}.get(kind, [places])
         yield from (line if isinstance(line, list) else [line] for line in lines)
     else:
         raise ValueError(f"it is no GeoJSON of points or lines, but of the kind {kind!r}")
@@ -131,7 +138,10 @@ def _is_pair(position) -> bool:
     return len(numbers) == 2 and all(type(value) is float or (type(value) is int and abs(value) < 1000) for value in numbers)
 
 
-def _is_cut(end, begin) -> bool:
+def _is_cut(before: list, after: list) -> bool:
+    if min(len(before), len(after)) < 2:  # points, not lines
+        return False
+    end, begin = before[-1], after[0]
     return _is_pair(end) and _is_pair(begin) and end[1] == begin[1] and {end[0], begin[0]} == {180.0, -180.0}
 
 

@@ -79,10 +79,12 @@ class Standing:
 def read_track(path: str | os.PathLike) -> Track:
     """The positions of a file: NMEA sentences, GPX, GeoJSON, or a CSV table; what a file is, its content says and not its name.
 
-    NMEA: the GGA of every talker (GP, GN, GL, ...), and RMC for seconds of which no GGA tells; each epoch once, the first talker's. A
-    sentence needs its checksum. GPX: the track points, or else the route's, or else the waypoints; a document type or an entity in the XML
-    is refused. CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees; and if there is one time,
-    timestamp, datetime or t, in seconds or ISO 8601. GeoJSON: all points and lines, RFC 7946.
+    NMEA: the GGA of every talker (GP, GN, GL, ...), and RMC for seconds of which no GGA tells; each epoch once, the first talker's; the
+    date is RMC's. A sentence needs its checksum. GPX: the track points, or else the route's, or else the waypoints; a document type or an
+    entity in the XML is refused. CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees; and if
+    there is one time, timestamp, datetime or t, in seconds or ISO 8601. Between cells stands a comma, a semicolon, a tab or |; a number
+    may have a decimal comma, in quotes where commas stand between cells. GeoJSON: all points and lines, RFC 7946. Text is UTF-8, or UTF-16
+    with its byte order mark.
     What is not used (a wrong or missing checksum, no fix, a cut line, a latitude over 90, NaN, an epoch told twice, a time that runs
     backwards) is counted in `Track.report`, with its reason and first line. Raises ValueError, which says why, for a file from which no
     position comes, and OSError for one that can't be opened. Source: NMEA 0183 by pynmea2, GPX by gpxpy, safely by defusedxml.
@@ -131,7 +133,7 @@ def write_gpx(
 
     points: a GeoPoint of arrays; of a driven Trajectory, `point_at(origin, run.x, run.y)`. t: seconds, one a position (NaN for none),
     written as times after `begin`, a datetime with its time zone. Raises ValueError for no position, a t without `begin` or of another
-    length, a `begin` without a time zone, or a name that XML can't hold.
+    length, a `begin` without a time zone, times outside the years 1 to 9999, or a name that XML can't hold.
     """
     from wmrlib import _gpx
 
@@ -139,13 +141,12 @@ def write_gpx(
     if (t is None) != (begin is None):
         raise ValueError(f"t = {t!r} and begin = {begin!r} are not allowed together: both or none are needed")
     if t is not None:
-        if instance("begin", begin, datetime).tzinfo is None:
+        if instance("begin", begin, datetime).utcoffset() is None:
             raise ValueError(f"begin = {begin!r} is not allowed: a datetime with its time zone is needed")
-        t = np.asarray(t, dtype=float)
-        real("t", t[~np.isnan(t)] if t.ndim else t)
+        t = np.atleast_1d(real("t", t, nan=True))
         if t.shape != lat.shape:
             raise ValueError(f"mismatched lengths: t has shape {t.shape}, points have shape {lat.shape}; the same is needed")
-    Path(path).write_text(_gpx.text(lat, lon, t, begin, _xml_name(name)), encoding="utf-8")
+    Path(path).write_bytes(_gpx.text(lat, lon, t, begin, _xml_name(name)).encode())
 
 
 def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmrlib") -> None:
@@ -153,22 +154,26 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
 
     points: a GeoPoint of arrays; of a driven Trajectory, `point_at(origin, run.x, run.y)`. One position makes a Point, several make a
     LineString, or a MultiLineString if it is cut; `read_track` puts it together. Raises ValueError for no position, or a name that is
-    no text.
+    no text or that UTF-8 can't hold (a lone surrogate).
     """
     from wmrlib import _tables
 
     lat, lon = _rounded(points)
-    Path(path).write_text(_tables.geojson(lat, lon, instance("name", name, str)), encoding="utf-8")
+    Path(path).write_bytes(_tables.geojson(lat, lon, _utf8_name(name)).encode())
 
 
 def _read(data: bytes) -> tuple[str, Fixes]:
-    begin = data.lstrip(b"\xef\xbb\xbf \t\r\n")[:1]
-    if not data.strip():
+    whole = data  # XML says itself how it is encoded
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # as PowerShell's > writes
+        data = data.decode("utf-16", errors="replace").encode()
+    data = data.removeprefix(b"\xef\xbb\xbf")
+    begin = data.lstrip()[:1]
+    if not begin:
         raise ValueError("the file is empty")
-    if begin == b"<" or (data[:2] in (b"\xff\xfe", b"\xfe\xff") and data[2:4].strip(b"\x00") == b"<"):
+    if begin == b"<":
         from wmrlib import _gpx
 
-        return "GPX", _gpx.read(data)
+        return "GPX", _gpx.read(whole)
     from wmrlib import _tables
 
     if begin in (b"{", b"["):
@@ -203,7 +208,15 @@ def _rounded(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
     return np.round(lat, _DECIMALS) + 0.0, np.round(lon, _DECIMALS) + 0.0  # no -0.0
 
 
+def _utf8_name(name: str) -> str:
+    try:
+        instance("name", name, str).encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"name = {name!r} is not allowed: a text that UTF-8 can hold is needed") from None
+    return name
+
+
 def _xml_name(name: str) -> str:
-    if _NOT_IN_XML.search(instance("name", name, str)):
+    if _NOT_IN_XML.search(_utf8_name(name)):
         raise ValueError(f"name = {name!r} is not allowed: a text without control characters is needed")
     return name
