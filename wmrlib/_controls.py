@@ -19,7 +19,7 @@ SLIDERS = {
 }
 # name: (label, choices)
 MENUS = {
-    "preset": ("Preset", ("your own", "the paper, outdoors", "the paper, circle", "designed gains")),
+    "preset": ("Preset", ("your own", "the paper, outdoors", "the paper, circle", "gentle gains")),
     "pose_law": ("Law", ("corrected", "printed", "Aicardi")),
     "circle_law": ("Law", ("corrected", "printed", "Aicardi", "feed-forward (Kanayama)")),
     "method": ("Motion", ("arcs, exact", "straight steps (Euler)")),
