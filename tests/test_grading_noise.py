@@ -21,6 +21,18 @@ def scatter_of_mean(sigma, n, c):
 """
 RIGHT = {
     "scaled at the end": ("scatter", SCATTER.format("np.array([*mean, east * cos, north])")),
+    "in place": (
+        "scatter",
+        """
+def scatter(lat, lon):
+    mean = lat.mean(), lon.mean()
+    lat -= mean[0]
+    lon -= mean[1]
+    lat *= 6_371_000 * math.pi / 180
+    lon *= 6_371_000 * math.pi / 180 * math.cos(math.radians(mean[0]))
+    return *mean, lon.std(ddof=1), lat.std(ddof=1)
+""",
+    ),
     "one look's chance first": ("radius", RADIUS.format("sigma * np.sqrt(-2 * np.log((1 - share) ** (1 / looks)))")),
     "the whole matrix": ("averaging", MEAN.format("sigma / n * np.sqrt((float(c) ** abs(np.subtract.outer(range(n), range(n)))).sum())")),
     "a power of each pair": ("averaging", MEAN.format("white * np.sqrt(1 + 2 * np.sum((1 - k / n) * c**k))")),

@@ -24,23 +24,32 @@ def degrees(field, hemisphere):
 """
 HEADINGS = """
 def headings(x, y):
-    way = np.exp(1j * np.angle(np.diff(x) + 1j * np.diff(y)))
+    points = x + 1j * y
+    new = np.insert(np.diff(points) != 0, 0, True)
+    way = np.exp(1j * np.angle(np.diff(points[new])))
     middle = np.angle(np.concatenate([way[:1], way[1:] + way[:-1], way[-1:]]))
+    middle = middle[new.cumsum() - 1]
     return {}
 """
 RIGHT = {
     "int with a base": ("checksum", CHECKSUM.format("body", "star == '*' and np.True_ & (int(digits, 16) == value)")),
     "divmod": ("degrees", DEGREES.format("sign * (whole + minutes / 60)")),
     "unit vectors": ("headings", HEADINGS.format("middle.tolist()")),
+    "in place": (
+        "headings",
+        HEADINGS.format("middle").replace("points = ", "x -= x[0]; y -= y[0]; points = "),
+    ),
+    "wmrlib's own, written out": ("headings", HEADINGS.format("np.where(middle <= -math.pi, math.pi, middle)")),
     "a loop, a turn more": (
         "headings",
         """
 def headings(x, y):
-    found = []
-    for k in range(len(x)):
-        come = math.atan2(y[k] - y[k - 1], x[k] - x[k - 1]) if k else None
-        leave = math.atan2(y[k + 1] - y[k], x[k + 1] - x[k]) if k + 1 < len(x) else come
-        come = leave if come is None else come
+    found, legs, last = [], np.column_stack([np.diff(x), np.diff(y)]).tolist(), len(x) - 1
+    for k in range(last + 1):
+        before = [leg for leg in legs[:k] if any(leg)]
+        after = [leg for leg in legs[k:] if any(leg)]
+        come, leave = (before or after)[-1 if before else 0], (after or before)[0 if after else -1]
+        come, leave = (math.atan2(north, east) for east, north in (come, leave))
         found.append(come + math.remainder(leave - come, 2 * math.pi) / 2 + 2 * math.pi)
     return found
 """,
@@ -68,6 +77,8 @@ MISTAKES = [
     ("degrees", DEGREES.format("sign * round(whole + minutes / 60, 6)"), "beside the place"),
     ("degrees", DEGREES.format("-sign * (whole + minutes / 60)"), "south and west are negative"),
     ("degrees", DEGREES.format("str(whole)"), "one number is needed"),
+    ("checksum", CHECKSUM.format("body", FITS.replace("02X", "X")), "two digits: 0C, not C"),
+    ("headings", HEADINGS.format("middle").replace("np.diff(points) != 0", "np.diff(points) == np.diff(points)"), "makes no leg"),
     ("headings", HEADINGS.format("np.angle(way)"), "numbers are needed"),
     ("headings", HEADINGS.format("middle + math.pi"), "drives the route backwards"),
     ("headings", HEADINGS.format("np.degrees(middle)"), "these are degrees"),

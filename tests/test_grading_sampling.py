@@ -21,6 +21,10 @@ RIGHT = {
         STEP.format("min(2 * math.cos(math.pi - abs(math.atan2(p.imag, p.real))) / abs(p) for p in poles)"),
     ),
     "as a float of numpy": ("step", STEP.format("np.min([-2 / (p.real + p.imag**2 / p.real) for p in poles])")),
+    "by trial, to 0.05 %": (
+        "step",
+        STEP.format("0.9995 * min(-2 * p.real / abs(p) ** 2 for p in poles)"),
+    ),
     "one gain from the other": ("wheel", WHEEL.format("np.array([times * a / g - a / g, times * a / g])")),
     "other gains": ("slow", "gains = wmr.Gains(0.4, 1.5, 2.0, 1.88)"),
 }
@@ -35,6 +39,9 @@ MISTAKES = [
     ("step", STEP.format("wmr.longest_step(paper.OUTDOOR_GAINS)"), "asks for your own formula"),
     ("step", "longest_euler_step = 0.05", "a function is needed"),
     ("step", STEP.format("0.05"), "it is not the longest"),
+    ("wheel", WHEEL.format("(times * a / g, (times + 1) * a / g)"), "the motor's own `a` slows the wheel, too"),
+    ("wheel", WHEEL.format("(times, times + a / g)"), "it turns rad/s into volts"),
+    ("wheel", WHEEL.format("((times - 1) * a / g, times)"), "which voltage keeps a constant speed"),
     ("wheel", WHEEL.format("((1 - times) * a / g, a / g)"), "runs away"),
     ("wheel", WHEEL.format("((times - 1) * a * g, times * a / g)"), "was asked for"),
     ("wheel", WHEEL.format("((times - 1) * a / g, (times + 1) * a / g)"), "when the speed is right and constant"),

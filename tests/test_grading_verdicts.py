@@ -24,6 +24,7 @@ def decimals_needed(metres):
 """
 RIGHT = {
     "another state": ("claim23", "import numpy as np\nstate_23 = np.array([0.5, 0.1, 3.0, 0.2])"),
+    "straight and near": ("claim23", "state_23 = 0.5, 0.5, 0.0, 1.0"),
     "far away": ("claim26", "state_26 = [0.001, 0.3, -3.1]"),
     "with floats": ("rule", RULE.format("rounds or (cuts and few)")),
     "a loop": ("digits", DIGITS.format("next(n for n in range(20) if half <= metres * 10**n)")),
@@ -34,8 +35,14 @@ MISTAKES = [
     ("claim23", "state_23 = (0.0, -1.0, 0.0, 2.0)", "rho is 0 m"),
     ("claim23", "state_23 = (1.0, -1.0, float('nan'), 2.0)", "not a finite number"),
     ("claim23", "state_23 = 'abcd'", "4 numbers"),
+    ("claim23", "state_23 = (1.0, -math.pi / 4, 0.0, 1.0)", "this is chapter 4's side"),
+    ("claim23", "state_23 = (1.0, 0.0, 0.5, 1.0)", "is 0, not positive"),
+    ("claim23", "state_23 = (1.0, 0.01, 0.0, 0.02)", "1/s only; more than 0.001 1/s is needed"),
+    ("claim26", "state_26 = (1 / 20, -1 / 2, 0.0)", "this is chapter 4's side"),
+    ("claim26", "state_26 = (0.07, -1.04, -2.89)", "this is chapter 4's side"),
+    ("claim26", "state_26 = (1 / 20, 1 / 2, 0.0)", "as the paper says"),
     ("claim26", "state_26 = (200.0, -0.5, 0.0)", "at most 100 m"),
-    ("claim26", "state_26 = (50.0, -0.5, 0.0)", "as the paper says"),
+    ("claim26", "state_26 = (50.0, 0.5, -3.0)", "as the paper says"),
     ("claim26", "state_26 = (1.0, 1.0)", "3 numbers"),
     ("rule", RULE.format("cuts and few"), "rounded to as many"),
     ("rule", RULE.format("1"), "True or False is needed"),
@@ -72,18 +79,21 @@ def test_the_rule_is_the_audit_s():
 
 def test_counterexamples_are_those_of_the_paper_s_equations():
     """Written out by hand, at random states: the check takes a state if and only if it refutes the claim."""
-    accepted = 0
-    for rho, alpha, theta, omega in np.random.default_rng(1).uniform((0.01, -3, -3, -4), (2, 3, 3, 4), (200, 4)).tolist():
+    accepted = wrong_side = 0
+    for rho, alpha, theta, omega in np.random.default_rng(1).uniform((0.01, -1, -3, -2), (1, 1.5, 3, 4), (200, 4)).tolist():
         v = 4 * (1 - np.exp(-2 * rho)) * np.cos(alpha)
         part = -alpha * omega + v * np.sin(alpha) / rho * (0.3 * theta + alpha)
         obeyed = omega > (alpha + 0.3 * theta) * np.cos(alpha) * np.sin(alpha)
         try:
             verdicts.counterexample_23((rho, alpha, theta, omega))
         except Hint:
-            assert not (obeyed and part > 1e-3)
+            assert not (obeyed and part > 1e-3 and alpha > 0)
+            wrong_side += obeyed and part > 1e-3
         else:
             accepted += 1
+            assert alpha > 0
             assert obeyed
             assert part > 0
     assert 20 < accepted < 180
+    assert wrong_side > 20
     assert symbolic.EQUATIONS[23].gts == symbolic.omega

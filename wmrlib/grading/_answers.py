@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from wmrlib.gains import Gains
-from wmrlib.grading._hints import _name, _shown, ask, expect, number
+from wmrlib.grading._hints import Hint, _name, _shown, ask, expect, number
 
 
 def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np.ndarray:
@@ -32,8 +32,11 @@ def gains_of(name: str, value: Any) -> Gains:
     if value is None or value is ...:
         number(name, value)  # raises the Hint of an answer that has no value
     expect(isinstance(value, Gains), f"{name} is {_shown(value)}; `wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=...)` is needed.")
-    expect(all(type(field) is float for field in value), f"{name} holds arrays; one number a gain is needed.")
-    return value
+    try:
+        expect(all(np.ndim(field) == 0 for field in value), f"{name} holds arrays; one number a gain is needed.")
+        return Gains(*map(float, value))  # `_replace` may have left an int, a number of numpy's, or what is no gain at all
+    except (TypeError, ValueError, OverflowError) as error:
+        raise Hint(f"{name}: {error}.") from None
 
 
 def refuses(function: Callable, hint: str, *arguments: Any) -> None:

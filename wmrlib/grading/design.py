@@ -19,7 +19,7 @@ from wmrlib.simulation import simulate
 from wmrlib.sweeping import sweep
 from wmrlib.tuning import modes
 
-TIME, HEADING_DEG, OMEGA = 22.0, 2.0, 1.0  # s, deg, rad/s: the specification for the outdoor case
+TIME, HEADING_DEG, OMEGA = 19.0, 2.0, 1.0  # s, deg, rad/s: the specification for the outdoor case
 ELSEWHERE_DEG = 4.0
 
 
@@ -46,7 +46,10 @@ def matrix_goal(angle_matrix: Callable) -> Passed:
                 if rho
                 else "which number does v/rho approach at the goal?"
             )
-            expect(np.allclose(value, near, rtol=2e-5, atol=1e-6), hint)
+            if not np.allclose(value, near, rtol=2e-5, atol=1e-6):
+                if rho == 1e-3:  # where no digits are lost yet
+                    _explain_matrix(value, rho, gains)
+                expect(False, hint)
     poles = modes(paper.OUTDOOR_GAINS).poles[1]
     return Passed(f"Finite at the goal, where the paper's gains have the poles {poles.real:.1f} +- {abs(poles.imag):.2f}i 1/s.")
 
@@ -189,7 +192,7 @@ def _explain_gains(values: tuple, poles: tuple, v_max: float) -> None:
     expect(close(k_rho, -distance / v_max), "k_rho does not put the distance's pole where it is asked for: see (7.1).")
     expect(not close(k_alpha, total), "k_alpha is negative: compare the sign of s in (7.2) with that in (s - p_1)(s - p_2).")
     expect(close(k_alpha, -total), "k_alpha is wrong: multiply (s - p_1)(s - p_2) out, and compare with (7.2).")
-    expect(not close(h, product), "h is what (7.2) has without an s, all of it; a part of that is the distance's.")
+    expect(not close(h, product), "your h is all that (7.2) has without an s; a part of that is the distance's.")
     expect(not close(h, math.sqrt(abs(product)) / -distance), "h is the root of what it should be: see (7.3).")
     mistaken = [abs(pole) ** 2 / distance**2 for pole in poles[1:]]
     expect(not any(close(h, each) for each in mistaken), "h is right for a complex pair, but not for two different real poles.")

@@ -33,14 +33,14 @@ def scatter_properties(scatter: Callable) -> Passed:
     """Another longitude, the other hemisphere, another order: the same scatter; twice the error, twice the scatter."""
     own_work(scatter)
     for lat, lon in _logs(5):
-        found = np.array(ask_numbers(scatter, 4, lat, lon)[2:])
+        found = np.array(ask_numbers(scatter, 4, lat.copy(), lon.copy())[2:])
         expect(bool((found > 0.0).all()), "a standard deviation is positive.")
         for changed, hint in [
             ((lat, lon - 30.0), "30 deg further west the same receiver must scatter as much."),
             ((-lat, lon), "on the other hemisphere the same receiver must scatter as much."),
             ((lat[::-1], lon[::-1]), "the order of the looks must not count."),
         ]:
-            expect(np.allclose(ask_numbers(scatter, 4, *changed)[2:], found, rtol=1e-6), hint)
+            expect(np.allclose(ask_numbers(scatter, 4, *map(np.array, changed))[2:], found, rtol=1e-6), hint)
         doubled = ask_numbers(scatter, 4, 2.0 * lat - lat.mean(), 2.0 * lon - lon.mean())[2:]
         expect(np.allclose(doubled, 2.0 * found, rtol=1e-6), "twice as far from the mean must be twice the standard deviation.")
     lon = np.array([-1e-5, 0.0, 1e-5, 2e-5])

@@ -22,7 +22,7 @@ def compass_known(heading_of: Callable) -> Passed:
     own_work(heading_of)
     for compass, declination in _compasses(20):
         value = ask_number(heading_of, compass, declination)
-        right = math.pi / 2.0 - math.radians(compass + declination)
+        right, way = math.pi / 2.0 - math.radians(compass + declination), f"{'east' if declination > 0.0 else 'west'} of north"
         if _same_angle(value, right):
             continue
         expect(not close(value, math.degrees(right)) and not close(value, (math.degrees(right) + 180.0) % 360.0 - 180.0), _IN_DEGREES)
@@ -30,7 +30,7 @@ def compass_known(heading_of: Callable) -> Passed:
             (90.0 - compass - declination, "the numbers are degrees where radians are asked for."),
             (
                 right + 2.0 * math.radians(declination),
-                "a needle that points east of north shows too little: which sign has the declination?",
+                f"a needle that points {way} shows too {'little' if declination > 0.0 else 'much'}: which sign has the declination?",
             ),
             (right + math.radians(declination), "the declination does not count in your heading."),
             (math.pi - right, "a compass counts clockwise, a heading counter-clockwise."),
@@ -105,10 +105,9 @@ def step_stops(wheel_speeds: Callable) -> Passed:
     case = Pose(0.0, 0.0, 0.0), Gains(0.2, 2.0, 2.0, 4.0), WheelLimits(0.5, 2.0)
     fine = {"x": -5.0, "y": 1.0, "heading": 0.3, "age": 0.1}
     for name in fine:
+        why = "an age that is not finite can't be trusted." if name == "age" else "a pose that is not finite is no pose."
         for nonsense in (math.nan, math.inf, -math.inf):
-            _expect_stop(
-                wheel_speeds, fine | {name: nonsense}, case, f"{name} = {nonsense}", "a position that is no number is no position."
-            )
+            _expect_stop(wheel_speeds, fine | {name: nonsense}, case, f"{name} = {nonsense}", why)
     for age in (0.51, 0.7, 3600.0):
         _expect_stop(wheel_speeds, fine | {"age": age}, case, f"a fix {age:g} s old", "silence for more than 0.5 s stops the robot.")
     _expect_stop(wheel_speeds, fine | {"age": -0.1}, case, "a fix 0.1 s from now", "a clock that runs backwards can't be trusted.")
@@ -155,7 +154,7 @@ def _same_angle(one: float, other: float) -> bool:
 
 
 def _compasses(count: int) -> list[list[float]]:
-    return np.random.default_rng(110).uniform((0.0, 1.0), (360.0, 15.0), (count, 2)).tolist()
+    return np.random.default_rng(110).uniform((0.0, -15.0), (360.0, 15.0), (count, 2)).tolist()
 
 
 def _counters(count: int) -> list[tuple[int, int, int, float]]:

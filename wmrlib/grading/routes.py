@@ -26,7 +26,7 @@ BODIES = (  # of the log in notebooks/data; its receiver stood in northern Germa
 def checksum_known(checksum_fits: Callable) -> Passed:
     """checksum_fits(sentence) -> bool: True for what a receiver sent, False for another or no checksum."""
     own_work(checksum_fits)
-    for body in (*BODIES, "GPTXT,01,01,02,x", "GPTXT,01,01,02,HW  UBX-G5xxx  00040005 "):
+    for body in (*BODIES, "GPTXT,01,01,02,A", "GPTXT,01,01,02,HW  UBX-G5xxx  00040005 "):
         value = reduce(xor, body.encode())
         for end in (f"{value:02X}", f"{value:02x}"):
             told = ask_truth(checksum_fits, f"${body}*{end}")
@@ -142,18 +142,28 @@ def headings_known(headings: Callable) -> Passed:
 
 
 def headings_properties(headings: Callable) -> Passed:
-    """Mirrored, shifted, enlarged, driven back; a straight line keeps its direction; a north-to-south line too."""
+    """Mirrored, shifted, enlarged, driven back, with points entered twice; a straight line keeps its direction."""
     own_work(headings)
     for x, y in _routes(10):
-        found = ask_array(headings, (x.size,), x, y)
+        found = ask_array(headings, (x.size,), x.copy(), y.copy())
         for changed, right, hint in [
-            ((x, -y), -found, "the mirrored route must have the mirrored headings."),
+            ((x.copy(), -y), -found, "the mirrored route must have the mirrored headings."),
             ((x + 1000.0, y - 500.0), found, "somewhere else the same route must have the same headings."),
             ((3.0 * x, 3.0 * y), found, "a route three times as large must have the same headings."),
-            ((-y, x), found + math.pi / 2.0, "turn the route by a quarter, and every heading must turn by as much."),
-            ((x[::-1], y[::-1]), found[::-1] + math.pi, "driven from its end to its start, every heading must be the opposite one."),
+            ((-y, x.copy()), found + math.pi / 2.0, "turn the route by a quarter, and every heading must turn by as much."),
+            (
+                (x[::-1].copy(), y[::-1].copy()),
+                found[::-1] + math.pi,
+                "driven from its end to its start, every heading must be the opposite one.",
+            ),
         ]:
             expect(_same(ask_array(headings, (x.size,), *changed), right), hint)
+        for count in (np.arange(x.size) % 3 + 1, np.arange(x.size)[::-1] % 2 + 1):
+            value = ask_array(headings, (count.sum(),), np.repeat(x, count), np.repeat(y, count))
+            expect(
+                _same(value, np.repeat(found, count)),
+                "a point that is entered again makes no leg: it has the heading that it has when entered once.",
+            )
     for direction in np.radians([0.0, 60.0, 90.0, 179.999, 180.0, -90.0, -135.0]).tolist():
         along = np.array([0.0, 1.0, 3.0, 3.5, 8.0])
         value = ask_array(headings, (5,), along * math.cos(direction), along * math.sin(direction))
@@ -161,7 +171,7 @@ def headings_properties(headings: Callable) -> Passed:
         expect(_same(value, np.full(5, direction)), hint)
     two = ask_array(headings, (2,), np.array([1.0, 1.0]), np.array([2.0, 5.0]))
     expect(_same(two, np.full(2, math.pi / 2.0)), "a route of two points has one leg, and that one's direction twice.")
-    return Passed("Mirrored, shifted, enlarged, turned and driven back: the headings follow.")
+    return Passed("Mirrored, shifted, enlarged, turned, driven back, with points entered twice: the headings follow.")
 
 
 def _explain_checksum(checksum_fits: Callable, body: str, end: str) -> None:
@@ -174,6 +184,7 @@ def _explain_checksum(checksum_fits: Callable, body: str, end: str) -> None:
         (f"{right ^ ord('$') ^ ord('*'):02X}", "neither the `$` nor the `*` is part of the sum: it is made of what stands between them."),
         (f"{sum(data) % 256:02X}", "the characters are not added: each is combined with the others by an exclusive or, `^`."),
         (f"{right}", "the two digits after the `*` are hexadecimal."),
+        *([(f"{right:X}", f"the checksum always has two digits: {right:02X}, not {right:X}.")] if right < 16 else []),
         (f"{right:02X}", "the two digits may be written in small letters, too."),
     ]
     for value, hint in tried:

@@ -32,8 +32,9 @@ def counterexample_23(state: Any) -> Passed:
     expect(asked[0] > asked[1], f"this omega does not obey (23), which asks for more than {asked[1]:.3g} rad/s: no counterexample yet.")
     second = s.EQUATIONS[21].rhs.coeff(s.L, 0)  # what is not divided by L
     part = float(second.subs(values | {s.v: speed}))
-    hint = f"(23) is obeyed, but the second part of (21) is {part:.3g} 1/s, as the paper says."
-    expect(part > CLEARLY, f"{hint} With what sign does omega stand there, and what is it multiplied by?")
+    question = "Which omega does (21) itself ask for, and where is that more than (23) asks for?"
+    _expect_positive(part, "(23) is obeyed, but the second part of (21)", question)
+    _expect_left(alpha)
     return Passed(f"omega = {omega:.3g} rad/s obeys (23), and the second part of (21) is {part:+.3g} 1/s: (23) does not do what it is for.")
 
 
@@ -46,7 +47,8 @@ def counterexample_26(state: Any) -> Passed:
 
     value = float(s.EQUATIONS[26].rhs.subs(_values(s, rho, alpha, theta)))
     terms = "Which of its four terms can be positive at all, and which of the others gets small near the goal?"
-    expect(value > CLEARLY, f"here the right side of (26) is {value:.3g} 1/s, as the paper says. {terms}")
+    _expect_positive(value, "here the right side of (26)", terms)
+    _expect_left(alpha)
     return Passed(f"Here the right side of (26) is {value:+.3g} 1/s: the last line of the paper's proof is no proof.")
 
 
@@ -101,6 +103,17 @@ def _expect_state(rho: float, alpha: float, theta: float) -> None:
         expect(-math.pi <= angle <= math.pi, f"{name} is {angle:g} rad, which is not between -pi and pi. Are these degrees?")
 
 
+def _expect_positive(value: float, what: str, question: str) -> None:
+    """Clearly positive; that a negative one is what the paper claims, and that 0 or a trace is no refutation, is said."""
+    expect(value >= 0.0, f"{what} is {value:.3g} 1/s, as the paper says. {question}")
+    expect(value > 0.0, f"{what} is 0, not positive. {question}")
+    expect(value > CLEARLY, f"{what} is positive by {value:.2g} 1/s only; more than {CLEARLY:g} 1/s is needed. {question}")
+
+
+def _expect_left(alpha: float) -> None:
+    expect(alpha > 0.0, "right, but this is chapter 4's side: find a state with alpha > 0, the goal to the left.")
+
+
 def _values(symbolic, rho: float, alpha: float, theta: float) -> dict:
     state = {symbolic.rho: rho, symbolic.alpha: alpha, symbolic.theta: theta, symbolic.L: 1}
     return state | {getattr(symbolic, name): value for name, value in GAINS._asdict().items()}
@@ -123,7 +136,7 @@ def _expect_verdict(agrees: Callable, computed: float, printed: str) -> None:
     place = f"{computed} was computed, '{printed}' is printed, and you say {told}. "
     digits = len(printed.partition(".")[2])
     if holds:
-        expect(not rounds, place + f"How many decimals has '{printed}', and what is {computed} rounded to as many?")
+        expect(not rounds, place + f"How many decimals does '{printed}' have, and what is {computed} rounded to as many?")
         expect(False, place + "It does not round to that, but what if somebody just cut the digits off?")
     expect(not cuts, place + "Cut off it is, but how much is lost by that?")
     zeros = printed.endswith("0") and digits > 0
