@@ -1,4 +1,4 @@
-"""Whatever stands in the place of an answer, a check of chapters 6 to 12 says so in a hint: it neither passes nor breaks."""
+"""Whatever stands in the place of an answer, a check of the assignments says so in a hint: it neither passes nor breaks."""
 
 import inspect
 import math
@@ -7,9 +7,26 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from wmrlib.grading import Hint, Passed, circles, design, noise, robots, routes, sampling, verdicts
+from wmrlib.grading import (
+    Hint,
+    Passed,
+    angles,
+    circles,
+    design,
+    drives,
+    earth,
+    laws,
+    lyapunov,
+    motion,
+    noise,
+    robots,
+    routes,
+    sampling,
+    trips,
+    verdicts,
+)
 
-MODULES = (circles, design, noise, robots, routes, sampling, verdicts)
+MODULES = (angles, circles, design, drives, earth, laws, lyapunov, motion, noise, robots, routes, sampling, trips, verdicts)
 CHECKS = [
     check
     for module in MODULES
@@ -35,6 +52,11 @@ NONSENSE = {
     "zeros": [0.0, 0.0, 0.0],
     "negative": (-1e300, -1e300),
     "a pair": np.array([1.0, 0.0]),
+    "a huge integer": 10**400,
+    "a truth in an array": np.array(True),
+    "complex of numpy": np.complex128(1 + 2j),
+    "a set of two": {1.0, 2.0},
+    "a dict": {1.0: 1.0, 2.0: 2.0},
 }
 
 

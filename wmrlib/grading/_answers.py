@@ -8,17 +8,14 @@ from typing import Any
 import numpy as np
 
 from wmrlib.gains import Gains
-from wmrlib.grading._hints import Hint, _name, _shown, ask, expect, number
+from wmrlib.grading._hints import Hint, _name, _shown, ask, expect, floats, number
 
 
 def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np.ndarray:
     """As `ask`, for a function that is to return a list, matrix or array of this shape, all finite."""
     name, answer = _name(function), ask(function, *arguments)
     expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
-    try:
-        array = np.asarray(answer, dtype=float)
-    except (TypeError, ValueError):
-        array = None
+    array = floats(answer)
     wanted = " x ".join(map(str, shape)) + (" numbers are" if len(shape) > 1 or shape[0] > 1 else " number is")
     expect(array is not None, f"`{name}` returns {_shown(answer)}; {wanted} needed.")
     got = " x ".join(map(str, array.shape)) + " numbers" if array.ndim else "one number"

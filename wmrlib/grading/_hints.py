@@ -86,6 +86,15 @@ def number(name: str, value: Any, *, returned: bool = False) -> float:
     raise Hint(f"{name} {'returns' if returned else 'is'} {_shown(value)}; one number is needed.")
 
 
+def floats(value: Any) -> np.ndarray | None:
+    """The numbers of a list, matrix or array; None if it holds anything else: texts, truths, complex numbers, rows of different lengths."""
+    try:
+        given = np.asarray(value)
+        return given.astype(float) if given.dtype.kind in "iufO" else None
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
 def own_work(function: Callable, *allowed: str) -> None:
     """Raises Hint if the student's function, or one of the notebook's that it calls, uses wmrlib, but for the names `allowed`.
 

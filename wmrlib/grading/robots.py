@@ -9,7 +9,7 @@ import numpy as np
 
 from wmrlib.control import control_law, limit_wheels
 from wmrlib.gains import Gains, WheelLimits
-from wmrlib.grading._hints import Passed, ask, ask_number, ask_numbers, close, expect, own_work
+from wmrlib.grading._hints import Passed, _shown, ask, ask_number, ask_numbers, close, expect, floats, own_work
 from wmrlib.kinematics import Pose, polar_error, twist_to_wheels, wrap_angle
 
 PATIENCE, RADIUS = 0.5, 0.2  # s, m: as the text of the task says
@@ -168,11 +168,11 @@ def _counters(count: int) -> list[tuple[int, int, int, float]]:
 
 def _expect_stop(wheel_speeds: Callable, at: dict[str, float], case: tuple, what: str, why: str) -> None:
     answer = ask(wheel_speeds, at["x"], at["y"], at["heading"], at["age"], *case)
-    try:
-        speeds = np.asarray(answer, dtype=float)
-    except (TypeError, ValueError):
-        speeds = np.array([])
-    expect(speeds.shape == (2,), f"with {what} the robot gets {answer!r:.60}; two speeds are needed, whatever happens.")
+    speeds = floats(answer)
+    expect(
+        speeds is not None and speeds.shape == (2,),
+        f"with {what} the robot gets {_shown(answer)}; two speeds are needed, whatever happens.",
+    )
     left, right = speeds.tolist()
     expect((left, right) == STOP, f"with {what} the wheels get ({left:.3g}, {right:.3g}) m/s, not (0, 0): {why}")
 
