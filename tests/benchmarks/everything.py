@@ -1,7 +1,8 @@
-"""All benchmarks, side by side in one run and one table: python tests/benchmarks/everything.py [--fast] [--keep]
+"""All benchmarks, side by side in one run and one table: python tests/benchmarks/everything.py [--fast | --keep]
 
 --fast leaves out the chapters', the book's and the explorer's times, which take minutes. --keep writes the table and its machine to
-book/speed.json, which the book's page on speed shows. Machines differ and are noisy: the ratios are what to quote.
+book/speed.json, which the book's page on speed shows, if all of it could be measured. Machines differ and are noisy: the ratios are what
+to quote.
 """
 
 from __future__ import annotations
@@ -31,20 +32,22 @@ def starting() -> list[Row]:
     return [Row(section, name, value, "s") for name, value in times.items()]
 
 
-def building(folder: Path) -> list[Row]:
+def building(folder: Path, failures: list[str]) -> list[Row]:
     rows = []
     for chapter in sorted((ROOT / "notebooks").glob("*.ipynb")):
         seconds, done = command("-m", "nbconvert", "--to", "notebook", "--execute", f"--output-dir={folder}", chapter)
-        rows.append(Row("The book", f"run {chapter.stem}", seconds, "s")) if done.returncode == 0 else print(done.stderr[-500:])
+        rows.append(Row("The book", f"run {chapter.stem}", seconds, "s"))
+        failures += [done.stderr[-500:]] if done.returncode else []
     seconds, done = command(ROOT / "book" / "build.py", folder / "book")
-    rows.append(Row("The book", "build all pages", seconds, "s")) if done.returncode == 0 else print(done.stderr[-500:])
+    rows.append(Row("The book", "build all pages", seconds, "s"))
+    failures += [done.stderr[-500:]] if done.returncode else []
     return rows
 
 
-def explorer() -> list[Row]:
+def explorer(failures: list[str]) -> list[Row]:
     _, done = command(Path(__file__).with_name("explorer_latency.py"))
     if done.returncode:
-        print(f"The explorer was not measured: {done.stderr.strip().splitlines()[-1]}")
+        failures.append(f"The explorer was not measured: {done.stderr.strip().splitlines()[-1]}")
         return []
     lines = done.stdout.splitlines()[1:]
     return [Row("The explorer, slider event to finished picture, median", line[:40].strip(), float(line[40:48]), "ms") for line in lines]
@@ -60,18 +63,21 @@ def show(rows: list[Row]) -> None:
 
 def main(fast: bool, keep: bool) -> None:
     print(machine())
+    failures: list[str] = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         rows = [*one_run.rows(), *sweeps.against_the_limit(folder), *sweeps.growth(), *starting()]
         if not fast:
-            rows += [*building(folder), *explorer()]
+            rows += [*building(folder, failures), *explorer(failures)]
     show(rows)
+    if failures:
+        sys.exit("\n".join(["", "Nothing is kept, because not all could be measured.", *failures]))
     if keep:
         table = {"machine": machine(), "rows": [row._asdict() | {"value": float(f"{row.value:.4g}")} for row in rows]}
         (ROOT / "book" / "speed.json").write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
 
 
 if __name__ == "__main__":
-    if set(sys.argv[1:]) - {"--fast", "--keep"}:
+    if set(sys.argv[1:]) - {"--fast", "--keep"} or {"--fast", "--keep"} <= set(sys.argv[1:]):  # half a table is none to keep
         sys.exit(__doc__)
     main("--fast" in sys.argv, "--keep" in sys.argv)

@@ -15,7 +15,6 @@ import sys
 import tempfile
 from pathlib import Path
 
-import anywidget
 import nbformat
 from ipywidgets.embed import dependency_state, embed_data
 from playwright.sync_api import sync_playwright
@@ -81,13 +80,12 @@ def static_page(folder: Path) -> Path:
     import build
 
     build.install_javascript()
-    build.copy_javascript()
-    shutil.copytree(build.VENDOR, folder / "vendor")
-    shutil.copy(Path(anywidget.__file__).with_name("nbextension") / "index.js", folder / "anywidget.js")
+    build.copy_javascript(folder / "vendor")
     explorer = Explorer()
     data = embed_data([explorer], drop_defaults=False, state=dependency_state([explorer], drop_defaults=False))
     state, view = (json.dumps(data[name]).replace("</", "<\\/") for name in ("manager_state", "view_specs"))
-    paths = {"@jupyter-widgets": "vendor/widgets", "@jupyter-widgets/html-manager/dist": "vendor/widgets", "anywidget": "anywidget"}
+    widgets = {"@jupyter-widgets": "vendor/widgets", "@jupyter-widgets/html-manager/dist": "vendor/widgets"}
+    paths = {**widgets, "anywidget": "vendor/anywidget/index"}
     page = folder / "index.html"
     page.write_text(
         f"""<!doctype html><html><head><meta charset="utf-8"><script>window.require = {{ paths: {json.dumps(paths)} }};</script>
