@@ -1,4 +1,4 @@
-"""Sphinx's configuration of the book; `python book/build.py` lays out the sources and calls Sphinx."""
+"""Sphinx's configuration of the book; `python book/tools/build.py` lays out the sources and calls Sphinx."""
 
 import sys
 from pathlib import Path
@@ -9,7 +9,7 @@ from sphinx.util import logging
 
 import wmrlib
 
-sys.path.insert(0, str(Path(__file__).parent))  # for the book's own extension, crossref
+sys.path.insert(0, str(Path(__file__).parent / "tools"))  # for the book's own extension, crossref
 
 project = "From two GPS points to a parked robot"
 author = "the wmrlib authors"
@@ -17,7 +17,9 @@ copyright = "the wmrlib authors. Prose: CC BY 4.0; code: BSD-3-Clause"
 version = release = wmrlib.__version__
 language = "en"
 
-exclude_patterns = ["course"]  # the graded exercises are no pages: a table of them is made from their notebooks
+exclude_patterns = [
+    "course"
+]  # the graded exercises are no pages: a table of them is made from their notebooks
 extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
@@ -30,7 +32,9 @@ nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_kernel_rgx_aliases = {".*": "python3"}
 nb_merge_streams = True
-nb_render_markdown_format = "myst"  # a table that a cell prints may have formulas and links to chapters
+nb_render_markdown_format = (
+    "myst"  # a table that a cell prints may have formulas and links to chapters
+)
 nb_output_stderr = "remove-warn"  # and a warning fails the build
 
 html_theme = "sphinx_book_theme"
@@ -38,8 +42,12 @@ html_title = project
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
 html_show_sphinx = False
-html_show_search_summary = False  # it is made by fetching the page found, which a browser forbids for file://
-html_context = {"default_mode": "auto"}  # light or dark as the reader's system is; the button overrides it
+html_show_search_summary = (
+    False  # it is made by fetching the page found, which a browser forbids for file://
+)
+html_context = {
+    "default_mode": "auto"
+}  # light or dark as the reader's system is; the button overrides it
 html_theme_options = {
     "navbar_persistent": [],  # the search field is in the side bar already
     "show_toc_level": 2,
@@ -57,7 +65,10 @@ myst_update_mathjax = False
 
 # The live widgets: widgets.js tells require.js where they are. A kind of widget that we lack is an error here, not a request to a CDN.
 html_js_files = [("widgets.js", {"priority": 10})]
-nb_ipywidgets_js = {"vendor/requirejs/require.js": {}, "vendor/widgets/embed-amd.js": {"data-jupyter-widgets-cdn": "vendor/"}}
+nb_ipywidgets_js = {
+    "vendor/requirejs/require.js": {},
+    "vendor/widgets/embed-amd.js": {"data-jupyter-widgets-cdn": "vendor/"},
+}
 
 
 def describe_figures(app, doctree):
@@ -68,7 +79,9 @@ def describe_figures(app, doctree):
             with Image.open(path) as figure:
                 image["alt"] = figure.info.get("Description", "")
         if not image.get("alt"):
-            logging.getLogger(__name__).warning("no alternative text for %s", image["uri"], location=image)
+            logging.getLogger(__name__).warning(
+                "no alternative text for %s", image["uri"], location=image
+            )
 
 
 def setup(app):

@@ -21,12 +21,17 @@ def cells(chapter: str) -> list[tuple[str, str, int]]:
     notebook = json.loads(path.read_text(encoding="utf-8"))
     code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
     settings = [cell["metadata"]["nbgrader"] for cell in code]
-    return [(s["grade_id"], "".join(c["source"]), s.get("points", 0) if s["grade"] else 0) for c, s in zip(code, settings, strict=True)]
+    return [
+        (s["grade_id"], "".join(c["source"]), s.get("points", 0) if s["grade"] else 0)
+        for c, s in zip(code, settings, strict=True)
+    ]
 
 
 @cache
 def wrong_answers(chapter: str) -> list[dict]:
-    return tomllib.loads((ROOT / f"tests/data/course/{chapter}.toml").read_text(encoding="utf-8"))["answer"]
+    return tomllib.loads((ROOT / f"tests/data/course/{chapter}.toml").read_text(encoding="utf-8"))[
+        "answer"
+    ]
 
 
 def released(source: str) -> str:
@@ -37,7 +42,9 @@ def released(source: str) -> str:
     return before + STUB + rest.partition(END)[2]
 
 
-def grade(chapter: str, answers: dict[str, str] | None = None, *, empty: bool = False, graded: str = "") -> dict[str, str | None]:
+def grade(
+    chapter: str, answers: dict[str, str] | None = None, *, empty: bool = False, graded: str = ""
+) -> dict[str, str | None]:
     """Run the assignment with `answers` (from a cell's id to its source) in the place of the model's; {graded id: error or None}.
 
     graded: run only those graded cells whose id begins so.
@@ -88,9 +95,13 @@ def lost(chapter: str, cell: str, source: str) -> dict[str, str]:
 def nbgrader(folder: Path, *arguments: str) -> None:
     """Run one of its commands in the folder of a course."""
     environment = os.environ | {
-        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),  # it calls alembic by name
+        "PATH": os.pathsep.join(
+            [str(Path(sys.executable).parent), os.environ.get("PATH", "")]
+        ),  # it calls alembic by name
         "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")])),
     }
     command = [sys.executable, "-m", "nbgrader", *arguments]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600)
+    done = subprocess.run(
+        command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600
+    )
     assert done.returncode == 0, done.stderr

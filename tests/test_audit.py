@@ -10,9 +10,11 @@ import pytest
 import sympy as sp
 
 import wmrlib as wmr
-from wmrlib import audit, paper, plots, symbolic
-from wmrlib.audit import Place, Verdict, figures, numbers, statements
-from wmrlib.audit.proof import rising
+from wmrbook import audit
+from wmrbook import figures as pictures
+from wmrbook.audit import Place, Verdict, figures, numbers, statements
+from wmrbook.audit.proof import rising
+from wmrlib import paper, symbolic
 
 ROWS = {row.item: row for row in audit.rows()}
 WRONG = {"eq-23", "eq-26", "fig-12", "bearing", "y_error_at_start", "time_step", "inner_loop"}
@@ -30,7 +32,9 @@ def test_everything_has_a_row():
         audit.rows("tables")
 
 
-@pytest.mark.parametrize(("verdict", "items"), [(Verdict.WRONG, WRONG), (Verdict.TYPO, TYPOS), (Verdict.OPEN, OPEN)])
+@pytest.mark.parametrize(
+    ("verdict", "items"), [(Verdict.WRONG, WRONG), (Verdict.TYPO, TYPOS), (Verdict.OPEN, OPEN)]
+)
 def test_the_verdicts_are_those_found_by_hand(verdict, items):
     assert {item for item, row in ROWS.items() if row.verdict is verdict} == items
 
@@ -49,7 +53,9 @@ def with_equation(monkeypatch, number, right):
     """The rows of the equations when one of them is printed with another right side."""
     equation = symbolic.EQUATIONS[number]
     changed = symbolic.omega > right if number == 23 else sp.Eq(equation.lhs, right, evaluate=False)
-    monkeypatch.setattr(symbolic, "EQUATIONS", MappingProxyType(symbolic.EQUATIONS | {number: changed}))
+    monkeypatch.setattr(
+        symbolic, "EQUATIONS", MappingProxyType(symbolic.EQUATIONS | {number: changed})
+    )
     return {row.item: row for row in audit.rows("equations")}
 
 
@@ -73,27 +79,51 @@ def test_a_flipped_sign_is_noticed(monkeypatch, number):
     ],
 )
 def test_a_sign_within_an_equation_is_noticed(monkeypatch, number, old, new, verdict):
-    row = with_equation(monkeypatch, number, symbolic.EQUATIONS[number].rhs.subs(old, new))[f"eq-{number}"]
+    row = with_equation(monkeypatch, number, symbolic.EQUATIONS[number].rhs.subs(old, new))[
+        f"eq-{number}"
+    ]
     assert row.verdict is verdict
 
 
 def test_mended_equations_hold(monkeypatch):
     printed = symbolic.EQUATIONS[10].rhs
-    assert with_equation(monkeypatch, 10, sp.Matrix([printed[0], printed[1], -printed[2]]))["eq-10"].verdict is Verdict.HOLDS
+    assert (
+        with_equation(monkeypatch, 10, sp.Matrix([printed[0], printed[1], -printed[2]]))[
+            "eq-10"
+        ].verdict
+        is Verdict.HOLDS
+    )
     assert with_equation(monkeypatch, 24, audit.steering())["eq-24"].verdict is Verdict.HOLDS
-    assert with_equation(monkeypatch, 25, audit.slope(audit.steering()))["eq-25"].verdict is Verdict.HOLDS
-    assert with_equation(monkeypatch, 26, audit.slope(audit.steering()))["eq-26"].verdict is Verdict.HOLDS
+    assert (
+        with_equation(monkeypatch, 25, audit.slope(audit.steering()))["eq-25"].verdict
+        is Verdict.HOLDS
+    )
+    assert (
+        with_equation(monkeypatch, 26, audit.slope(audit.steering()))["eq-26"].verdict
+        is Verdict.HOLDS
+    )
 
 
 def test_the_derived_law_is_the_librarys():
     assert audit.same(audit.steering(), symbolic.textbook(symbolic.law("corrected")[1]))
-    assert audit.same(audit.slope(audit.steering()), symbolic.textbook(symbolic.lyapunov_rate("corrected")))
+    assert audit.same(
+        audit.slope(audit.steering()), symbolic.textbook(symbolic.lyapunov_rate("corrected"))
+    )
     for law, turning in (("corrected", audit.steering()), ("printed", symbolic.EQUATIONS[24].rhs)):
-        run = wmr.track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS, law=law, method="euler", duration=40.0)
+        run = wmr.track(
+            paper.circle,
+            paper.CIRCLE_START,
+            paper.CIRCLE_GAINS,
+            law=law,
+            method="euler",
+            duration=40.0,
+        )
         assert audit.circle_residual(turning) == pytest.approx(run.rho[-100:].mean(), rel=1e-6)
     assert rising(audit.slope(audit.steering())) is None
     rho, alpha, theta, slope = rising(audit.slope(symbolic.EQUATIONS[24].rhs))
-    assert slope == pytest.approx(wmr.lyapunov_rate(rho, alpha, theta, paper.OUTDOOR_GAINS, law="printed"))
+    assert slope == pytest.approx(
+        wmr.lyapunov_rate(rho, alpha, theta, paper.OUTDOOR_GAINS, law="printed")
+    )
 
 
 def test_same_proves_or_refuses():
@@ -128,16 +158,23 @@ def test_a_number_fits_by_rounding_or_by_a_small_cut(value, printed, agrees):
     assert audit.fits(value, paper.Published(printed, "", "here")) is agrees
 
 
-@pytest.mark.parametrize("key", [key for key in paper.PUBLISHED if key not in OPEN and key not in WRONG])
+@pytest.mark.parametrize(
+    "key", [key for key in paper.PUBLISHED if key not in OPEN and key not in WRONG]
+)
 def test_another_number_is_noticed(monkeypatch, key):
     printed = paper.PUBLISHED[key]
-    monkeypatch.setitem(paper.PUBLISHED, key, printed._replace(value=3.0 * printed.value + (printed.value == 0.0)))
+    monkeypatch.setitem(
+        paper.PUBLISHED, key, printed._replace(value=3.0 * printed.value + (printed.value == 0.0))
+    )
     if key.endswith(("_latitude", "_longitude")):
         monkeypatch.setitem(paper.PUBLISHED, key, printed._replace(value=printed.value + 0.01))
     assert {row.item: row.verdict for row in audit.rows("numbers")}[key] is Verdict.WRONG
 
 
-@pytest.mark.parametrize(("key", "value"), [("bearing", 9.58), ("y_error_at_start", 9.67), ("time_step", 0.05), ("inner_loop", 20.0)])
+@pytest.mark.parametrize(
+    ("key", "value"),
+    [("bearing", 9.58), ("y_error_at_start", 9.67), ("time_step", 0.05), ("inner_loop", 20.0)],
+)
 def test_the_right_number_holds(monkeypatch, key, value):
     monkeypatch.setitem(paper.PUBLISHED, key, paper.PUBLISHED[key]._replace(value=value))
     assert {row.item: row.verdict for row in audit.rows("numbers")}[key] is Verdict.HOLDS
@@ -155,13 +192,17 @@ def test_the_bounds_of_the_sphere_are_those_of_short_geodesics():
 
 
 def test_the_slowest_pole_goes_to_that_without_a_lag():
-    assert numbers.slowest_pole(1e6) == pytest.approx(-wmr.modes(paper.OUTDOOR_GAINS).heading_rate, abs=1e-3)
+    assert numbers.slowest_pole(1e6) == pytest.approx(
+        -wmr.modes(paper.OUTDOOR_GAINS).heading_rate, abs=1e-3
+    )
     assert numbers.slowest_pole(10.0) > 0 > numbers.slowest_pole(20.0)
 
 
 def test_growth_at_the_goal():
     gains = paper.OUTDOOR_GAINS
-    assert statements.growth("printed") == pytest.approx(gains.v_max * gains.k_rho - gains.k_alpha, rel=1e-4)
+    assert statements.growth("printed") == pytest.approx(
+        gains.v_max * gains.k_rho - gains.k_alpha, rel=1e-4
+    )
     assert statements.growth("corrected") == pytest.approx(-wmr.modes(gains).heading_rate, rel=1e-4)
 
 
@@ -187,20 +228,33 @@ def test_the_rival_is_nearer_or_farther_by_the_choice_of_its_gains():
     text, nearer = figures.comparison()
     assert nearer == [True, False, False]
     for k_rho in (paper.CIRCLE_GAINS.k_rho, paper.CIRCLE_GAINS.k_rho * paper.CIRCLE_GAINS.v_max):
-        run = wmr.track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS._replace(k_rho=k_rho), law="aicardi", duration=40.0)
+        run = wmr.track(
+            paper.circle,
+            paper.CIRCLE_START,
+            paper.CIRCLE_GAINS._replace(k_rho=k_rho),
+            law="aicardi",
+            duration=40.0,
+        )
         assert f"{wmr.residual(run):.3f} m" in text
         assert wmr.residual(run) == pytest.approx(paper.CIRCLE_SPEED / k_rho, rel=0.02)
 
 
 @pytest.mark.parametrize(
-    ("law", "verdict", "caption"), [("aicardi", Verdict.HOLDS, Verdict.TYPO), ("linear", Verdict.WRONG, Verdict.WRONG)]
+    ("law", "verdict", "caption"),
+    [("aicardi", Verdict.HOLDS, Verdict.TYPO), ("linear", Verdict.WRONG, Verdict.WRONG)],
 )
 def test_a_published_rival_decides(monkeypatch, law, verdict, caption):
     """With one rival only, Aicardi's law with the paper's k_rho or an LQR, figures and comparison come out one way."""
     chase, ours = figures.chase, ("corrected",)
-    monkeypatch.setattr(figures, "chase", lambda *which: chase(*which) if which in (ours, ()) else chase(law))
+    monkeypatch.setattr(
+        figures, "chase", lambda *which: chase(*which) if which in (ours, ()) else chase(law)
+    )
     rows = {row.item: row for group in ("figures", "statements") for row in audit.rows(group)}
-    assert [rows[item].verdict for item in ("fig-6", "fig-7", "claim-cornejo")] == [caption, caption, verdict]
+    assert [rows[item].verdict for item in ("fig-6", "fig-7", "claim-cornejo")] == [
+        caption,
+        caption,
+        verdict,
+    ]
     assert "not published" not in rows["claim-cornejo"].why + rows["fig-6"].why
 
 
@@ -215,13 +269,20 @@ def test_the_advantages_are_those_of_an_lqr_by_python_control():
     control = pytest.importorskip("control")
     turn, speed = paper.CIRCLE_SPEED / paper.CIRCLE_RADIUS, paper.CIRCLE_SPEED
     A, B = [[0, turn, 0], [-turn, 0, speed], [0, 0, 0]], [[-1, 0], [0, 0], [0, -1]]
-    polar = wmr.track(paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS, law="aicardi", duration=40.0)
+    polar = wmr.track(
+        paper.circle, paper.CIRCLE_START, paper.CIRCLE_GAINS, law="aicardi", duration=40.0
+    )
     for weight in (0.1, 1.0, 10.0):
         gains = wmr.LinearGains(-control.lqr(A, B, weight * np.eye(3), np.eye(2))[0])
         run = wmr.track(paper.circle, paper.CIRCLE_START, gains, law="linear", duration=40.0)
         for name in "xy":
-            sizes = [math.sqrt(np.mean(getattr(each, f"{name}_error") ** 2)) for each in (run, polar)]
-            assert f"{100 * (1 - sizes[0] / sizes[1]):.1f} % with q = {weight:g}" in ROWS[f"lqr_{name}_advantage"].holds
+            sizes = [
+                math.sqrt(np.mean(getattr(each, f"{name}_error") ** 2)) for each in (run, polar)
+            ]
+            assert (
+                f"{100 * (1 - sizes[0] / sizes[1]):.1f} % with q = {weight:g}"
+                in ROWS[f"lqr_{name}_advantage"].holds
+            )
 
 
 # The table ------------------------------------------------------------------------------------------------------------
@@ -232,7 +293,12 @@ def notebook(path, *cells):
 
 
 def code(*tags):
-    return {"cell_type": "code", "source": "", "metadata": {"tags": list(tags)}, "execution_count": None}
+    return {
+        "cell_type": "code",
+        "source": "",
+        "metadata": {"tags": list(tags)},
+        "execution_count": None,
+    }
 
 
 def prose(text):
@@ -242,8 +308,20 @@ def prose(text):
 @pytest.fixture
 def folder(tmp_path):
     tagged = code("audit:eq-24", "audit:eq-25")
-    notebook(tmp_path / "04_lyapunov.ipynb", prose("# Four"), code(), prose("text\n## The | law\nmore"), tagged, code("audit:eq-24"))
-    notebook(tmp_path / "06_the_circle.ipynb", prose("# Six"), code("audit:eq-24", "hide-cell"), prose("no heading"))
+    notebook(
+        tmp_path / "04_lyapunov.ipynb",
+        prose("# Four"),
+        code(),
+        prose("text\n## The | law\nmore"),
+        tagged,
+        code("audit:eq-24"),
+    )
+    notebook(
+        tmp_path / "06_the_circle.ipynb",
+        prose("# Six"),
+        code("audit:eq-24", "hide-cell"),
+        prose("no heading"),
+    )
     notebook(tmp_path / "notes.ipynb", code("audit:eq-1"))
     return tmp_path
 
@@ -278,20 +356,33 @@ def test_the_table_is_well_formed_markdown(folder):
             assert formula.count("{") == formula.count("}")
             assert formula.count(r"\left") == formula.count(r"\right")
             assert formula.count(r"\begin") == formula.count(r"\end")
-    assert r"[4, The \| law](04_lyapunov.ipynb), cell 2, 3; [6, Six](06_the_circle.ipynb), cell 1" in lines[25]
+    assert (
+        r"[4, The \| law](04_lyapunov.ipynb), cell 2, 3; [6, Six](06_the_circle.ipynb), cell 1"
+        in lines[25]
+    )
     assert "no cell" in lines[3]
     assert bundle["text/plain"].splitlines()[9].startswith("(10)  ") is True
     assert "✎ typo" in bundle["text/plain"].splitlines()[9]
-    assert audit.tally(list(ROWS.values())) == {Verdict.HOLDS: 52, Verdict.TYPO: 6, Verdict.WRONG: 11, Verdict.OPEN: 5}
+    assert audit.tally(list(ROWS.values())) == {
+        Verdict.HOLDS: 52,
+        Verdict.TYPO: 6,
+        Verdict.WRONG: 11,
+        Verdict.OPEN: 5,
+    }
 
 
 def test_the_picture_of_the_verdicts():
-    picture = plots.verdicts({"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}})
-    assert picture.alt == "Bars of how many rows have each verdict. equations: 21 holds, 3 typo; figures: 7 holds."
+    picture = pictures.verdicts(
+        {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
+    )
+    assert (
+        picture.alt
+        == "Bars of how many rows have each verdict. equations: 21 holds, 3 typo; figures: 7 holds."
+    )
     axes = picture.figure.axes[0]
     assert [bar.get_width() for bar in axes.patches] == [21, 7, 3, 0]
     assert len({bar.get_hatch() for bar in axes.patches}) == 2
     assert len(picture.png()) > 2000
     assert "[" in axes.get_xlabel()
     with pytest.raises(ValueError, match=r"counts has 0 verdicts"):
-        plots.verdicts({})
+        pictures.verdicts({})

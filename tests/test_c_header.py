@@ -15,10 +15,22 @@ from wmrlib import symbolic
 
 CC = shutil.which("cc") or shutil.which("gcc")
 CXX = shutil.which("c++") or shutil.which("g++")
-STRICT = ["-Wall", "-Wextra", "-Werror", "-pedantic", "-Wconversion", "-Wdouble-promotion", "-ffp-contract=off", "-O2"]
+STRICT = [
+    "-Wall",
+    "-Wextra",
+    "-Werror",
+    "-pedantic",
+    "-Wconversion",
+    "-Wdouble-promotion",
+    "-ffp-contract=off",
+    "-O2",
+]
 FOLDER = symbolic.C_HEADER.parent
 GENTLE, LIMITS = wmr.Gains(0.2, 2.0, 2.0, 4.0), wmr.WheelLimits(0.5, 2.0)
-REALS = {"double": (ctypes.c_double, 1e-13), "float": (ctypes.c_float, 4e-6)}  # float: about 32 roundings of 1.2e-7
+REALS = {
+    "double": (ctypes.c_double, 1e-13),
+    "float": (ctypes.c_float, 4e-6),
+}  # float: about 32 roundings of 1.2e-7
 LAWS = {"corrected": "wmr_law", "printed": "wmr_law_printed", "aicardi": "wmr_law_aicardi"}
 CALLS = "".join(
     f"void {name}(const R *s, R *out) {{ wmr_polar e = {{s[0], s[1], s[2]}}; wmr_gains g = {{s[3], s[4], s[5], s[6]}};"
@@ -45,15 +57,31 @@ def compiler():
 
 
 def build(command, source, folder, *options):
-    subprocess.run([*command, *STRICT, f"-I{FOLDER}", *options, str(source), "-o", str(folder / "built"), "-lm"], check=True)
+    subprocess.run(
+        [
+            *command,
+            *STRICT,
+            f"-I{FOLDER}",
+            *options,
+            str(source),
+            "-o",
+            str(folder / "built"),
+            "-lm",
+        ],
+        check=True,
+    )
     return folder / "built"
 
 
 @pytest.fixture(scope="module", params=REALS)
 def compiled(request, tmp_path_factory):
     folder = tmp_path_factory.mktemp(request.param)
-    (folder / "calls.c").write_text(f'#define WMR_REAL {request.param}\n#include "wmr_law.h"\ntypedef WMR_REAL R;\n' + CALLS)
-    library = ctypes.CDLL(str(build([CC, "-std=c99"], folder / "calls.c", folder, "-shared", "-fPIC")))
+    (folder / "calls.c").write_text(
+        f'#define WMR_REAL {request.param}\n#include "wmr_law.h"\ntypedef WMR_REAL R;\n' + CALLS
+    )
+    library = ctypes.CDLL(
+        str(build([CC, "-std=c99"], folder / "calls.c", folder, "-shared", "-fPIC"))
+    )
     kind, tolerance = REALS[request.param]
 
     def call(name, *values, kind=kind):
@@ -73,13 +101,23 @@ def states(count=2000):
     rng = np.random.default_rng(5)
     angles, gains = rng.uniform(-math.pi, math.pi, (2, count)), rng.uniform(0.05, 5, (4, count))
     drawn = np.column_stack([10 ** rng.uniform(-6, 3, count), *angles, *gains])
-    distances, alphas = (0, 1e-30, 1e-9, 1e-8, 1, 1e6), (0, 1e-30, -1e-8, 2e-8, 1.5, 3.14, -3.14, math.pi, -math.pi)
-    edges = [(rho, alpha, theta, 2.0, 1.0, 0.3, 4.0) for rho in distances for alpha in alphas for theta in (0, -3)]
+    distances, alphas = (
+        (0, 1e-30, 1e-9, 1e-8, 1, 1e6),
+        (0, 1e-30, -1e-8, 2e-8, 1.5, 3.14, -3.14, math.pi, -math.pi),
+    )
+    edges = [
+        (rho, alpha, theta, 2.0, 1.0, 0.3, 4.0)
+        for rho in distances
+        for alpha in alphas
+        for theta in (0, -3)
+    ]
     return [*drawn.tolist(), *edges]
 
 
 def test_the_committed_header_is_what_is_printed():
-    assert symbolic.C_HEADER.read_text(encoding="utf-8") == symbolic.c_header(), "run python -m wmrlib.symbolic"
+    assert symbolic.C_HEADER.read_text(encoding="utf-8") == symbolic.c_header(), (
+        "run python -m wmrlib.symbolic"
+    )
 
 
 @pytest.mark.parametrize("law", LAWS)
@@ -105,16 +143,24 @@ def test_poses_angles_wheels_and_energy(compiled):
         expected = wmr.polar_error(wmr.Pose(*poses[:3]), wmr.Pose(*poses[3:]))
         got = call("polar", *poses)
         assert abs(got[0] - expected.rho) < 10 * tolerance
-        assert abs(wmr.wrap_angle(got[1:] - expected[1:])).max() < 3 * tolerance * (1 + 1 / expected.rho)
+        assert abs(wmr.wrap_angle(got[1:] - expected[1:])).max() < 3 * tolerance * (
+            1 + 1 / expected.rho
+        )
         v, omega, width, fastest = rounded(rng.uniform((-5, -5, 0.1, 0.1), (5, 5, 2, 4)), tolerance)
         limited = wmr.limit_wheels(v, omega, wmr.WheelLimits(width, fastest))
         left, right, status = call("wheels", v, omega, width, fastest)
-        assert [left, right] == pytest.approx(wmr.twist_to_wheels(*limited, width), abs=10 * tolerance)
+        assert [left, right] == pytest.approx(
+            wmr.twist_to_wheels(*limited, width), abs=10 * tolerance
+        )
         assert status == 0
         values = rounded(rng.uniform((0, -3, -3, 0.1, 0.5), (3, 3, 3, 2, 2)), tolerance)
-        assert call("energy", *values)[0] == pytest.approx(wmr.lyapunov(*values), rel=10 * tolerance)
+        assert call("energy", *values)[0] == pytest.approx(
+            wmr.lyapunov(*values), rel=10 * tolerance
+        )
     for angle in (0, math.pi, -math.pi, 3.2, -3.2, 9.0, -9.0, 50.0):
-        assert call("wrapped", angle)[0] % (2 * math.pi) == pytest.approx(angle % (2 * math.pi), abs=20 * tolerance)
+        assert call("wrapped", angle)[0] % (2 * math.pi) == pytest.approx(
+            angle % (2 * math.pi), abs=20 * tolerance
+        )
         assert abs(call("wrapped", angle)[0]) <= math.pi + tolerance
     assert call("polar", 1, 2, 0.5, 1, 2, 0.5)[0] == 0
 
@@ -125,9 +171,15 @@ def test_what_is_out_of_range_stops_the_robot(compiled):
     for law in LAWS:
         assert call(law, *good)[2] == 0
         for place in (0, 3, 4, 5, 6):
-            assert call(law, *good[:place], -1.0, *good[place + 1 :]).tolist() == [0, 0, 1], (law, place)
+            assert call(law, *good[:place], -1.0, *good[place + 1 :]).tolist() == [0, 0, 1], (
+                law,
+                place,
+            )
             state = [*good[:place], 0.0, *good[place + 1 :]]
-            assert call(law, *state)[2] == (place == 6), (law, place)  # 0 shows what a gain does, but v_max has to be above 0
+            assert call(law, *state)[2] == (place == 6), (
+                law,
+                place,
+            )  # 0 shows what a gain does, but v_max has to be above 0
         assert call(law, *good[:3], 0.0, 0.0, 0.0, 0.0).tolist() == [0, 0, 1]  # wmr_gains {0}
     for place in (2, 3):
         for value in (0.0, -1.0):
@@ -138,7 +190,9 @@ def test_what_is_out_of_range_stops_the_robot(compiled):
 
 def test_an_infinite_top_speed_is_no_limit(compiled):
     call, tolerance = compiled
-    assert call("wheels", 100.0, 5.0, 0.5, math.inf) == pytest.approx([98.75, 101.25, 0], rel=tolerance)
+    assert call("wheels", 100.0, 5.0, 0.5, math.inf) == pytest.approx(
+        [98.75, 101.25, 0], rel=tolerance
+    )
 
 
 OFF_EARTH = [(0, 90.1), (0, -90.1), (0, 95.0), (2, 95.0), (1, 180.1), (3, -180.1), (3, 359.0)]
@@ -160,16 +214,29 @@ def test_a_point_that_is_not_on_the_earth_stops_the_robot(compiled, place, value
 
 def test_the_edges_of_the_map_are_on_the_earth(compiled):
     call, _ = compiled
-    for points in ((90.0, 180.0, 89.9999, -180.0), (-90.0, -180.0, -89.9999, 180.0), (0.0, 180.0, 0.0, -180.0)):
-        a, b = wmr.GeoPoint(lat=points[0], lon=points[1]), wmr.GeoPoint(lat=points[2], lon=points[3])
-        assert call("local", *points, kind=ctypes.c_double)[:2] == pytest.approx(wmr.local_position(a, b), abs=1e-8)
+    for points in (
+        (90.0, 180.0, 89.9999, -180.0),
+        (-90.0, -180.0, -89.9999, 180.0),
+        (0.0, 180.0, 0.0, -180.0),
+    ):
+        a, b = (
+            wmr.GeoPoint(lat=points[0], lon=points[1]),
+            wmr.GeoPoint(lat=points[2], lon=points[3]),
+        )
+        assert call("local", *points, kind=ctypes.c_double)[:2] == pytest.approx(
+            wmr.local_position(a, b), abs=1e-8
+        )
 
 
 @pytest.mark.parametrize("option", ["-ffast-math", "-ffinite-math-only"])
 def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, option):
     (tmp_path / "empty.c").write_text('#include "wmr_law.h"\nint main(void) { return 0; }\n')
     build([CC, "-std=c99"], tmp_path / "empty.c", tmp_path)
-    told = subprocess.run([CC, option, f"-I{FOLDER}", "-fsyntax-only", str(tmp_path / "empty.c")], capture_output=True, text=True)
+    told = subprocess.run(
+        [CC, option, f"-I{FOLDER}", "-fsyntax-only", str(tmp_path / "empty.c")],
+        capture_output=True,
+        text=True,
+    )
     assert told.returncode
     assert "wmr_law.h needs NaN and infinity" in told.stderr
 
@@ -194,7 +261,10 @@ def test_gps_points_stay_in_double(compiled):
     call, _ = compiled
     rng = np.random.default_rng(7)
     for lat, lon, north, east in rng.uniform((-80, -179, -1, -1), (80, 179, 1, 1), (1000, 4)):
-        a, b = wmr.GeoPoint(lat=lat, lon=lon), wmr.GeoPoint(lat=lat + 1e-2 * north, lon=lon + 1e-2 * east)
+        a, b = (
+            wmr.GeoPoint(lat=lat, lon=lon),
+            wmr.GeoPoint(lat=lat + 1e-2 * north, lon=lon + 1e-2 * east),
+        )
         got = call("local", a.lat, a.lon, b.lat, b.lon, kind=ctypes.c_double)[:2]
         assert got == pytest.approx(wmr.local_position(a, b), abs=1e-9)
 
@@ -203,7 +273,14 @@ def test_the_geodesy_is_the_papers():
     e = symbolic.EQUATIONS
     own = {name: formula.value for name, formula in symbolic.GEODESY.items()}
     assert own["epsilon"] == e[13].rhs
-    assert sp.simplify((own["epsilon"] + own["rest"] - 1).rewrite(sp.exp).subs(symbolic.dlat, symbolic.lat2 - symbolic.lat1)) == 0
+    assert (
+        sp.simplify(
+            (own["epsilon"] + own["rest"] - 1)
+            .rewrite(sp.exp)
+            .subs(symbolic.dlat, symbolic.lat2 - symbolic.lat1)
+        )
+        == 0
+    )
     assert own["zeta_x"] == e[16].rhs
     difference = own["zeta_y"].subs(symbolic.dlat, symbolic.lat2 - symbolic.lat1) - e[17].rhs
     assert sp.simplify(sp.expand_trig(difference).rewrite(sp.exp)) == 0
@@ -215,14 +292,20 @@ def python_drive():
     pose, goal = wmr.Pose(0.0, 0.0, math.radians(72)), wmr.Pose(east, north, math.radians(-60))
     count = 0
     while (error := wmr.polar_error(pose, goal)).rho > 0.05:
-        pose, count = wmr.advance(pose, *wmr.limit_wheels(*wmr.control_law(*error, GENTLE), LIMITS), 0.05), count + 1
+        pose, count = (
+            wmr.advance(pose, *wmr.limit_wheels(*wmr.control_law(*error, GENTLE), LIMITS), 0.05),
+            count + 1,
+        )
     return count, *pose
 
 
 @pytest.mark.parametrize(("real", "tolerance"), [("double", 2e-9), ("float", 2e-3)])
 def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
     program = build([CC, "-std=c99"], FOLDER / "example.c", tmp_path, f"-DWMR_REAL={real}")
-    count, *pose = map(float, subprocess.run([str(program)], check=True, capture_output=True, text=True).stdout.split())
+    count, *pose = map(
+        float,
+        subprocess.run([str(program)], check=True, capture_output=True, text=True).stdout.split(),
+    )
     expected = python_drive()
     assert abs(count - expected[0]) <= (0 if real == "double" else 1)
     assert pose == pytest.approx(expected[1:], abs=tolerance)
@@ -232,5 +315,7 @@ def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
 def test_it_is_cpp_too(tmp_path, real):
     if not CXX:
         pytest.skip("there is no C++ compiler")
-    (tmp_path / "empty.cpp").write_text(f'#define WMR_REAL {real}\n#include "wmr_law.h"\nint main() {{ return 0; }}\n')
+    (tmp_path / "empty.cpp").write_text(
+        f'#define WMR_REAL {real}\n#include "wmr_law.h"\nint main() {{ return 0; }}\n'
+    )
     build([CXX, "-std=c++11"], tmp_path / "empty.cpp", tmp_path)

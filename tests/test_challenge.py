@@ -13,13 +13,16 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib.challenge import Case, Challenge, drive, from_seed, rounded, score
+from wmrbook import challenge
+from wmrbook.challenge import Case, Challenge, drive, from_seed, rounded, score
 
 PAPER = wmr.Gains(2.0, 1.0, 0.3, 4.0)
 GENTLE = wmr.Gains(0.2, 2.0, 2.0, 4.0)
 GOOD = wmr.Gains(0.128, 1.089, 1.42, 7.528)
 WILD = wmr.Gains(5.0, 0.1, 5.0, 20.0)
-all_gains = st.builds(wmr.Gains, st.floats(0.02, 4.0), st.floats(0.1, 6.0), st.floats(0.02, 6.0), st.floats(0.2, 10.0))
+all_gains = st.builds(
+    wmr.Gains, st.floats(0.02, 4.0), st.floats(0.1, 6.0), st.floats(0.02, 6.0), st.floats(0.2, 10.0)
+)
 # centimetres and tenths of a degree, as published
 PUBLISHED = [
     ("ahead", -1284, 560, -118, -479, 228, -1440),
@@ -39,10 +42,23 @@ PUBLISHED = [
 
 def test_the_published_cases():
     game = from_seed()
-    assert game is from_seed(wmr.challenge.SEED)
-    assert (game.seed, game.dt, game.arrival_radius, game.duration, tuple(game.wheels)) == (2026, 0.1, 0.05, 60.0, (0.5, 2.0))
+    assert game is from_seed(challenge.SEED)
+    assert (game.seed, game.dt, game.arrival_radius, game.duration, tuple(game.wheels)) == (
+        2026,
+        0.1,
+        0.05,
+        60.0,
+        (0.5, 2.0),
+    )
     rows = [
-        (kind, *(round(value) for pose in poses for value in (100 * pose.x, 100 * pose.y, 10 * math.degrees(pose.heading))))
+        (
+            kind,
+            *(
+                round(value)
+                for pose in poses
+                for value in (100 * pose.x, 100 * pose.y, 10 * math.degrees(pose.heading))
+            ),
+        )
         for kind, *poses in game.cases
     ]
     assert rows == PUBLISHED
@@ -66,7 +82,10 @@ def test_every_seed_has_each_kind_of_case(seed):
 
 
 def test_seeds_differ_in_sides_too():
-    left = [[wmr.polar_error(*case[1:]).alpha > 0 for case in from_seed(seed).cases] for seed in range(200)]
+    left = [
+        [wmr.polar_error(*case[1:]).alpha > 0 for case in from_seed(seed).cases]
+        for seed in range(200)
+    ]
     assert np.all(np.abs(np.mean(left, axis=0) - 0.5) < 0.12)
 
 
@@ -79,13 +98,22 @@ def test_the_score_is_that_of_single_runs(gains):
     game, points = from_seed(), []
     for case, run, row in zip(game.cases, drive(gains), score(gains).cases, strict=True):
         single = wmr.simulate(
-            case.start, case.goal, gains, dt=game.dt, duration=game.duration, arrival_radius=game.arrival_radius, wheels=game.wheels
+            case.start,
+            case.goal,
+            gains,
+            dt=game.dt,
+            duration=game.duration,
+            arrival_radius=game.arrival_radius,
+            wheels=game.wheels,
         )
         np.testing.assert_array_equal(single.x, run.x)
         end = wmr.arrival(single)
         assert end.arrived
         points.append(end.time + 0.5 * abs(math.degrees(end.heading_error)) + 4.0 * end.peak_omega)
-        assert (row.time, row.peak_omega) == (pytest.approx(end.time), pytest.approx(end.peak_omega))
+        assert (row.time, row.peak_omega) == (
+            pytest.approx(end.time),
+            pytest.approx(end.peak_omega),
+        )
         assert row.heading_error_deg == pytest.approx(abs(math.degrees(end.heading_error)))
         assert row.points == pytest.approx(points[-1])
         assert row.distance == pytest.approx(math.dist(case.start[:2], case.goal[:2]))
@@ -99,14 +127,26 @@ def test_the_published_scores():
 
 def test_neither_extreme_wins():
     """A coarse sweep: the best gains lie inside, the paper's lose clearly, gentle ones are better than those, and not the best."""
-    grid = {"k_rho": [0.05, 0.1, 0.2, 0.4, 0.8, 2.0], "k_alpha": [0.2, 0.5, 1.0, 2.0, 5.0], "h": [0.1, 0.4, 1.5, 4.0, 10.0]}
-    totals = np.array([[[score(wmr.Gains(a, b, c, 6.0)).total for c in grid["h"]] for b in grid["k_alpha"]] for a in grid["k_rho"]])
+    grid = {
+        "k_rho": [0.05, 0.1, 0.2, 0.4, 0.8, 2.0],
+        "k_alpha": [0.2, 0.5, 1.0, 2.0, 5.0],
+        "h": [0.1, 0.4, 1.5, 4.0, 10.0],
+    }
+    totals = np.array(
+        [
+            [[score(wmr.Gains(a, b, c, 6.0)).total for c in grid["h"]] for b in grid["k_alpha"]]
+            for a in grid["k_rho"]
+        ]
+    )
     best = np.unravel_index(np.argmin(totals), totals.shape)
     assert all(0 < place < size - 1 for place, size in zip(best, totals.shape, strict=True))
     assert score(PAPER).total > 2.0 * totals.min()
     assert 1.1 * totals.min() < score(GENTLE).total < 0.6 * score(PAPER).total
     assert np.mean(totals < score(GENTLE).total) > 0.02
-    along_v_max = [score(wmr.Gains(0.96 / v_max, 1.089, 1.42, v_max)).total for v_max in (0.5, 1.0, 2.0, 4.0, 7.5, 20.0, 100.0)]
+    along_v_max = [
+        score(wmr.Gains(0.96 / v_max, 1.089, 1.42, v_max)).total
+        for v_max in (0.5, 1.0, 2.0, 4.0, 7.5, 20.0, 100.0)
+    ]
     assert 0 < int(np.argmin(along_v_max)) < 6
 
 
@@ -128,7 +168,9 @@ def mirrored(game):
     def flip(pose):
         return wmr.Pose(pose.x, -pose.y, -pose.heading)
 
-    return replace(game, cases=tuple(Case(kind, flip(start), flip(goal)) for kind, start, goal in game.cases))
+    return replace(
+        game, cases=tuple(Case(kind, flip(start), flip(goal)) for kind, start, goal in game.cases)
+    )
 
 
 @settings(max_examples=40)
@@ -145,7 +187,11 @@ def test_what_rounding_could_do_changes_no_score(gains):
     """Starts moved by 1e-12 m, a thousand times what rounding does to them: as on another machine."""
     game = from_seed()
     moved = replace(
-        game, cases=tuple(case._replace(start=case.start._replace(x=case.start.x + 1e-12, y=case.start.y - 1e-12)) for case in game.cases)
+        game,
+        cases=tuple(
+            case._replace(start=case.start._replace(x=case.start.x + 1e-12, y=case.start.y - 1e-12))
+            for case in game.cases
+        ),
     )
     one, other = score(gains, game), score(gains, moved)
     assert one.total == other.total
@@ -169,7 +215,10 @@ def test_chaotic_runs_score_the_same_wherever_rounding_pushes_them(gains):
     """Of 4000 random gains these changed their score while each case was driven twice and not five times."""
     rng, one = np.random.default_rng(1), score(wmr.Gains(*gains))
     for push in rng.normal(0.0, 1e-12, (10, 3)):
-        moved = tuple(case._replace(start=wmr.Pose(*np.add(case.start, push).tolist())) for case in one.game.cases)
+        moved = tuple(
+            case._replace(start=wmr.Pose(*np.add(case.start, push).tolist()))
+            for case in one.game.cases
+        )
         assert score(wmr.Gains(*gains), replace(one.game, cases=moved)).total == one.total
 
 
@@ -208,7 +257,15 @@ def test_a_goal_exactly_behind_hangs_on_rounding_on_whichever_axis_it_lies(turn)
 
 
 def test_worse_gains_score_worse():
-    for worse in ({"h": 0.0}, {"h": 30.0}, {"k_rho": 0.02}, {"k_rho": 3.0}, {"k_alpha": 0.1}, {"k_alpha": 10.0}, {"v_max": 0.5}):
+    for worse in (
+        {"h": 0.0},
+        {"h": 30.0},
+        {"k_rho": 0.02},
+        {"k_rho": 3.0},
+        {"k_alpha": 0.1},
+        {"k_alpha": 10.0},
+        {"v_max": 0.5},
+    ):
         assert score(GOOD._replace(**worse)).total > score(GOOD).total + 1.0, worse
 
 
@@ -228,17 +285,29 @@ def test_gains_count_with_three_decimals():
 
 def test_a_start_within_the_arrival_radius_is_reached_at_once_and_one_on_the_goal_itself_hangs_on_rounding():
     goal = wmr.Pose(1.0, 2.0, 0.5)
-    one, other = (score(GENTLE, Challenge(0, (Case("there", goal._replace(y=y), goal),))) for y in (1.97, 2.0))
+    one, other = (
+        score(GENTLE, Challenge(0, (Case("there", goal._replace(y=y), goal),))) for y in (1.97, 2.0)
+    )
     assert (one.reached, one.cases[0].time) == (1, 0.0)
     assert other.cases[0].note == "hangs on rounding"  # its line of sight has no direction
 
 
 def test_what_it_says():
-    assert repr(score(PAPER)).splitlines()[0] == "<Score: 52.28 points, 12 of 12 reached; k_rho 2, k_alpha 1, h 0.3, v_max 4; seed 2026>"
+    assert (
+        repr(score(PAPER)).splitlines()[0]
+        == "<Score: 52.28 points, 12 of 12 reached; k_rho 2, k_alpha 1, h 0.3, v_max 4; seed 2026>"
+    )
     assert len(repr(score(PAPER)).splitlines()) == 14
-    assert repr(score(WILD)).count("hangs on rounding") == sum(case.note == "hangs on rounding" for case in score(WILD).cases)
-    assert "   7  straight behind           4.5       3.8            5.0           5.89    29.85" in repr(score(PAPER))
-    assert repr(from_seed()).startswith("<Challenge: seed 2026, 12 cases, wheels up to 2 m/s, 60 s each>")
+    assert repr(score(WILD)).count("hangs on rounding") == sum(
+        case.note == "hangs on rounding" for case in score(WILD).cases
+    )
+    assert (
+        "   7  straight behind           4.5       3.8            5.0           5.89    29.85"
+        in repr(score(PAPER))
+    )
+    assert repr(from_seed()).startswith(
+        "<Challenge: seed 2026, 12 cases, wheels up to 2 m/s, 60 s each>"
+    )
     assert len(repr(from_seed()).splitlines()) == 14
 
 
@@ -267,24 +336,54 @@ ONE = from_seed().cases[0]
         ),
         (lambda: score((1, 2, 3, 4)), "a Gains is needed, not a tuple"),
         (lambda: score(PAPER, 2026), "a Challenge is needed, not a int"),
-        (lambda: score(wmr.Gains(np.ones(2), 1.0, 1.0)), "k_rho = .* is not allowed: one number is needed"),
+        (
+            lambda: score(wmr.Gains(np.ones(2), 1.0, 1.0)),
+            "k_rho = .* is not allowed: one number is needed",
+        ),
         (lambda: score(wmr.Gains(1.0, 1.0, 1.0, 1e-4)), r"v_max = 0\.0 is not allowed"),
         (lambda: drive(PAPER, "x"), "a Challenge is needed"),
         (lambda: Challenge(0, ()), "a tuple of at least one Case is needed"),
         (lambda: Challenge(0, (1,)), r"cases\[0\] = 1 is not allowed: a Case is needed"),
         *(
-            (lambda seed=seed: Challenge(seed, from_seed().cases), "seed = .* is not allowed: a whole number")
+            (
+                lambda seed=seed: Challenge(seed, from_seed().cases),
+                "seed = .* is not allowed: a whole number",
+            )
             for seed in ("abc", -1, True, 2.0)
         ),
-        (lambda: Challenge(0, (ONE, Case(None, *ONE[1:]))), r"cases\[1\]\.kind = None is not allowed: a str is needed"),
-        (lambda: Challenge(0, (Case("x", None, None),)), r"cases\[0\]\.start = None is not allowed: a Pose is needed"),
-        (lambda: Challenge(0, (ONE._replace(goal=(1.0, 2.0, 0.0)),)), r"cases\[0\]\.goal = \(1\.0, 2\.0, 0\.0\) .* a Pose is needed"),
-        (lambda: Challenge(0, (ONE._replace(start=wmr.Pose([1.0, 2.0], 0, 0)),)), r"cases\[0\]\.start\.x = .* one number is needed"),
-        (lambda: replace(from_seed(), wheels=None), "wheels = None is not allowed: a WheelLimits is needed"),
-        (lambda: replace(from_seed(), wheels=wmr.WheelLimits(np.ones(2), 2.0)), r"wheels\.track_width = .* one number is needed"),
-        (lambda: replace(from_seed(), wheels=wmr.WheelLimits(0.5)), r"wheels\.max_speed = inf is not allowed"),
+        (
+            lambda: Challenge(0, (ONE, Case(None, *ONE[1:]))),
+            r"cases\[1\]\.kind = None is not allowed: a str is needed",
+        ),
+        (
+            lambda: Challenge(0, (Case("x", None, None),)),
+            r"cases\[0\]\.start = None is not allowed: a Pose is needed",
+        ),
+        (
+            lambda: Challenge(0, (ONE._replace(goal=(1.0, 2.0, 0.0)),)),
+            r"cases\[0\]\.goal = \(1\.0, 2\.0, 0\.0\) .* a Pose is needed",
+        ),
+        (
+            lambda: Challenge(0, (ONE._replace(start=wmr.Pose([1.0, 2.0], 0, 0)),)),
+            r"cases\[0\]\.start\.x = .* one number is needed",
+        ),
+        (
+            lambda: replace(from_seed(), wheels=None),
+            "wheels = None is not allowed: a WheelLimits is needed",
+        ),
+        (
+            lambda: replace(from_seed(), wheels=wmr.WheelLimits(np.ones(2), 2.0)),
+            r"wheels\.track_width = .* one number is needed",
+        ),
+        (
+            lambda: replace(from_seed(), wheels=wmr.WheelLimits(0.5)),
+            r"wheels\.max_speed = inf is not allowed",
+        ),
         (lambda: replace(from_seed(), dt=0.0), r"dt = 0\.0 is not allowed"),
-        (lambda: replace(from_seed(), arrival_radius=-1.0), r"arrival_radius = -1\.0 is not allowed"),
+        (
+            lambda: replace(from_seed(), arrival_radius=-1.0),
+            r"arrival_radius = -1\.0 is not allowed",
+        ),
     ],
 )
 def test_bad_input(make, message):

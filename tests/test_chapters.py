@@ -22,20 +22,30 @@ FLIPS = {
         "return pull, gains.k_alpha * alpha + pull * sinc(alpha) * (alpha + gains.h * theta)",
         "return pull, gains.k_alpha * alpha - pull * sinc(alpha) * (alpha + gains.h * theta)",
     ),
-    "the bearing's arguments (15)": ("01_gps_to_metres", "geodesy.py", "np.arctan2(zeta_x, zeta_y)", "np.arctan2(zeta_y, zeta_x)"),
+    "the bearing's arguments (15)": (
+        "01_gps_to_metres",
+        "geodesy.py",
+        "np.arctan2(zeta_x, zeta_y)",
+        "np.arctan2(zeta_y, zeta_x)",
+    ),
 }
 
 
 @pytest.mark.parametrize("flip", FLIPS)
 def test_a_chapter_fails_when_a_sign_flips(tmp_path, flip):
     chapter, module, right, wrong = FLIPS[flip]
-    shutil.copytree(ROOT / "wmrlib", tmp_path / "wmrlib", ignore=shutil.ignore_patterns("__pycache__"))
+    shutil.copytree(
+        ROOT / "wmrlib", tmp_path / "wmrlib", ignore=shutil.ignore_patterns("__pycache__")
+    )
     source = (tmp_path / "wmrlib" / module).read_text(encoding="utf-8")
     assert right in source
     (tmp_path / "wmrlib" / module).write_text(source.replace(right, wrong), encoding="utf-8")
     shutil.copytree(ROOT / "notebooks", tmp_path / "notebooks")
     (tmp_path / "pytest.ini").touch()
-    environment = os.environ | {"PYTHONPATH": str(tmp_path), "NUMBA_DISABLE_JIT": "1"}  # compiling would take longer than the chapter
+    environment = os.environ | {
+        "PYTHONPATH": str(tmp_path),
+        "NUMBA_DISABLE_JIT": "1",
+    }  # compiling would take longer than the chapter
     command = [
         sys.executable,
         "-m",

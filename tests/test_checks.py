@@ -23,7 +23,21 @@ def test_an_array_is_copied_so_that_the_callers_later_changes_do_not_reach_us():
 
 
 @pytest.mark.parametrize(
-    "value", [math.nan, math.inf, -math.inf, "1", None, True, 1j, [1.0, math.nan], [None], object(), [[1], [2, 3]], {}]
+    "value",
+    [
+        math.nan,
+        math.inf,
+        -math.inf,
+        "1",
+        None,
+        True,
+        1j,
+        [1.0, math.nan],
+        [None],
+        object(),
+        [[1], [2, 3]],
+        {},
+    ],
 )
 def test_real_refuses_what_is_no_finite_number(value):
     with pytest.raises(ValueError, match=r"^x = .* is not allowed: a finite number is needed$"):
@@ -35,7 +49,10 @@ def test_nan_is_allowed_only_where_it_is_asked_for():
     assert found.tolist() == [1.0, pytest.approx(math.nan, nan_ok=True)]
     assert math.isnan(_checks.real("t", math.nan, nan=True))
     for value in (math.inf, [math.nan, -1.0], ["a"], [True, False], [[math.nan], [1, 2]], None):
-        with pytest.raises(ValueError, match=r"^t = .* is not allowed: a finite number at least 0 or NaN is needed$"):
+        with pytest.raises(
+            ValueError,
+            match=r"^t = .* is not allowed: a finite number at least 0 or NaN is needed$",
+        ):
             _checks.real("t", value, low=0.0, nan=True)
 
 
@@ -51,7 +68,9 @@ def test_nan_is_allowed_only_where_it_is_asked_for():
 def test_bounds_are_named(bounds, value, words):
     with pytest.raises(ValueError, match=f"a finite number {words} is needed"):
         _checks.real("x", value, **bounds)
-    _checks.real("x", bounds.get("low", bounds.get("high", 1.0)), **bounds)  # the bound itself is allowed, but for `above`
+    _checks.real(
+        "x", bounds.get("low", bounds.get("high", 1.0)), **bounds
+    )  # the bound itself is allowed, but for `above`
 
 
 def test_long_values_are_cut_in_messages():
@@ -63,7 +82,9 @@ def test_long_values_are_cut_in_messages():
 def test_scalar_choice_and_instance():
     with pytest.raises(ValueError, match=r"one number is needed, not an array of shape \(2,\)"):
         _checks.scalar("dt", [0.1, 0.2])
-    with pytest.raises(ValueError, match=r"law = \['a'\] is not allowed: one of 'a', 'b' is needed"):
+    with pytest.raises(
+        ValueError, match=r"law = \['a'\] is not allowed: one of 'a', 'b' is needed"
+    ):
         _checks.choice("law", ["a"], ("a", "b"))
     with pytest.raises(ValueError, match=r"n = 1\.0 is not allowed: a int is needed, not a float"):
         _checks.instance("n", 1.0, int)
@@ -71,12 +92,16 @@ def test_scalar_choice_and_instance():
 
 def test_same_shape_names_each_shape():
     assert _checks.same_shape(a=1.0, b=np.ones((3, 1)), c=np.ones(2)) == (3, 2)
-    with pytest.raises(ValueError, match=r"mismatched lengths: b has shape \(2,\), c has shape \(3,\); shapes that broadcast"):
+    with pytest.raises(
+        ValueError,
+        match=r"mismatched lengths: b has shape \(2,\), c has shape \(3,\); shapes that broadcast",
+    ):
         _checks.same_shape(a=1.0, b=np.ones(2), c=np.ones(3))
 
 
 def test_same_shape_names_what_has_no_shape():
     with pytest.raises(
-        ValueError, match=r"^b = \[\[1\], \[2, 3\]\] is not allowed: a number, or an array with rows of one length, is needed$"
+        ValueError,
+        match=r"^b = \[\[1\], \[2, 3\]\] is not allowed: a number, or an array with rows of one length, is needed$",
     ):
         _checks.same_shape(a=1.0, b=[[1], [2, 3]])

@@ -16,8 +16,8 @@ PACKAGE = Path(wmrlib.__file__).parent
 RUN = """
 import wmrlib as w
 run = w.simulate(w.Pose(0, 0, 0), w.Pose(3, 1, 0.5), w.Gains(1, 2, 0.5), dt=0.05)
-from wmrlib import _kernels
-stats = getattr(_kernels.drive, "stats", None)
+from wmrlib._loops import plane
+stats = getattr(plane.drive, "stats", None)
 print(float(run.x[-1]), float(run.heading[-1]), sum(stats.cache_misses.values()) if stats else None)
 """
 
@@ -30,7 +30,14 @@ def copy(tmp_path):
     def run(**environment):
         settings = {key: value for key, value in os.environ.items() if not key.startswith("NUMBA_")}
         settings |= {"PYTHONPATH": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"} | environment
-        done = subprocess.run([sys.executable, "-c", RUN], cwd=tmp_path, env=settings, capture_output=True, text=True, check=True)
+        done = subprocess.run(
+            [sys.executable, "-c", RUN],
+            cwd=tmp_path,
+            env=settings,
+            capture_output=True,
+            text=True,
+            check=True,
+        )
         return done.stdout.split()
 
     run.package = tmp_path / "wmrlib"
@@ -44,7 +51,9 @@ def test_second_process_compiles_nothing_and_an_edit_compiles_anew(copy):
     assert (second, misses) == (first, "0")
 
     control = copy.package / "control.py"
-    control.write_text(control.read_text().replace("alpha + gains.h * theta", "alpha - gains.h * theta"))
+    control.write_text(
+        control.read_text().replace("alpha + gains.h * theta", "alpha - gains.h * theta")
+    )
     *edited, misses = copy()
     assert misses == "1"
     assert edited != first
@@ -52,7 +61,9 @@ def test_second_process_compiles_nothing_and_an_edit_compiles_anew(copy):
 
 def test_the_same_lines_run_as_plain_python(copy):
     compiled, plain = copy(), copy(NUMBA_DISABLE_JIT="1")
-    assert [float(value) for value in plain[:2]] == pytest.approx([float(value) for value in compiled[:2]], rel=1e-12)
+    assert [float(value) for value in plain[:2]] == pytest.approx(
+        [float(value) for value in compiled[:2]], rel=1e-12
+    )
 
 
 def test_a_cache_folder_of_the_readers_own(copy, tmp_path):
@@ -65,5 +76,8 @@ def test_one_entry_beside_a_number_and_what_cannot_be_written_to_bring_no_warnin
     one, fixed = np.zeros(1), np.zeros(3)
     fixed.flags.writeable = False
     assert wmr.polar_error(wmr.Pose(one, one, one), wmr.Pose(1.0, 0.0, 0.0)).rho.tolist() == [1.0]
-    assert wmr.polar_error(wmr.Pose(fixed, 0.0, 0.0), wmr.Pose(1.0, 0.0, 0.0)).rho.tolist() == [1.0] * 3
+    assert (
+        wmr.polar_error(wmr.Pose(fixed, 0.0, 0.0), wmr.Pose(1.0, 0.0, 0.0)).rho.tolist()
+        == [1.0] * 3
+    )
     assert wmr.wrap_angle(np.zeros((2, 3)).T).shape == (3, 2)

@@ -19,7 +19,9 @@ LAWS = ("corrected", "printed", "aicardi")
 
 
 def law_in_40_digits(rho, alpha, theta, gains, law):
-    rho, alpha, theta, k_rho, k_alpha, h, v_max = (mpmath.mpf(value) for value in (rho, alpha, theta, *gains))
+    rho, alpha, theta, k_rho, k_alpha, h, v_max = (
+        mpmath.mpf(value) for value in (rho, alpha, theta, *gains)
+    )
     shape = mpmath.sin(alpha) / alpha if alpha else mpmath.mpf(1)
     if law == "aicardi":
         v = k_rho * rho * mpmath.cos(alpha)
@@ -45,7 +47,9 @@ def test_singularities_have_their_limits(law):
     gains = wmr.Gains(k_rho=2.0, k_alpha=1.0, h=0.3, v_max=4.0)
     v, omega = wmr.control_law(0.0, 0.0, 0.5, gains, law)
     assert v == 0.0
-    assert omega == pytest.approx({"corrected": 4.0 * 2.0 * 0.3 * 0.5, "printed": 0.0, "aicardi": 2.0 * 0.3 * 0.5}[law])
+    assert omega == pytest.approx(
+        {"corrected": 4.0 * 2.0 * 0.3 * 0.5, "printed": 0.0, "aicardi": 2.0 * 0.3 * 0.5}[law]
+    )
 
 
 def test_straight_behind_the_robot_backs_up_and_turns():
@@ -59,13 +63,18 @@ def test_straight_behind_the_robot_backs_up_and_turns():
 
 @given(distances, angles, angles, positive, positive)
 def test_lyapunov_is_equation_18(rho, alpha, theta, h, L):
-    assert wmr.lyapunov(rho, alpha, theta, h, L) == pytest.approx(rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2, rel=1e-14)
+    assert wmr.lyapunov(rho, alpha, theta, h, L) == pytest.approx(
+        rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2, rel=1e-14
+    )
 
 
 @given(distances, angles, angles, gains_drawn, positive)
 def test_rate_of_the_corrected_law_is_its_closed_form(rho, alpha, theta, gains, L):
     rate = wmr.lyapunov_rate(rho, alpha, theta, gains, "corrected", L)
-    closed = rho / L * gains.v_max * math.expm1(-gains.k_rho * rho) * math.cos(alpha) ** 2 - gains.k_alpha * alpha**2
+    closed = (
+        rho / L * gains.v_max * math.expm1(-gains.k_rho * rho) * math.cos(alpha) ** 2
+        - gains.k_alpha * alpha**2
+    )
     # the terms in theta cancel: what is left of them is rounding
     turning = gains.v_max * gains.k_rho * (1 + gains.h) * 40
     assert rate == pytest.approx(closed, rel=1e-12, abs=1e-15 * turning)
@@ -81,7 +90,9 @@ def test_rate_is_the_slope_of_v_along_the_motion(law, rho, alpha, theta, gains):
     polar = wmr.PolarError(rho, alpha, theta)
     rates = wmr.polar_rate(rho, alpha, v, omega)
     slope = np.dot((rho, alpha, gains.h * theta), rates)
-    assert wmr.lyapunov_rate(rho, alpha, theta, gains, law) == pytest.approx(slope, rel=1e-9, abs=1e-9 * (1 + abs(slope)) * (1 + rho))
+    assert wmr.lyapunov_rate(rho, alpha, theta, gains, law) == pytest.approx(
+        slope, rel=1e-9, abs=1e-9 * (1 + abs(slope)) * (1 + rho)
+    )
     if max(abs(alpha), abs(theta)) < 3.0 and max(abs(v), abs(omega)) < 1e3:
         after = wmr.polar_error(wmr.advance(wmr.pose_from_polar(polar, goal), v, omega, dt), goal)
         measured = (wmr.lyapunov(*after, gains.h) - wmr.lyapunov(*polar, gains.h)) / dt
@@ -113,34 +124,62 @@ def test_left_and_right_are_alike_but_for_the_printed_law(rho, alpha, theta, gai
     for law in ("corrected", "aicardi"):
         v, omega = wmr.control_law(rho, alpha, theta, gains, law)
         assert wmr.control_law(rho, -alpha, -theta, gains, law) == (v, -omega)
-    left, right = (wmr.control_law(rho, sign * alpha, sign * theta, gains, "printed")[1] - sign * gains.k_alpha * alpha for sign in (1, -1))
+    left, right = (
+        wmr.control_law(rho, sign * alpha, sign * theta, gains, "printed")[1]
+        - sign * gains.k_alpha * alpha
+        for sign in (1, -1)
+    )
     assert left == pytest.approx(right, abs=1e-12 * (1 + gains.k_alpha))
 
 
 # Moving references ---------------------------------------------------------------------------------------------------
 
 
-@given(distances, angles, angles, st.floats(0.0, 2.0), st.floats(-2.0, 2.0), positive, positive, positive)
-def test_kanayamas_own_lyapunov_function_never_rises(rho, alpha, theta, v_ref, omega_ref, k_x, k_y, k_heading):
+@given(
+    distances,
+    angles,
+    angles,
+    st.floats(0.0, 2.0),
+    st.floats(-2.0, 2.0),
+    positive,
+    positive,
+    positive,
+)
+def test_kanayamas_own_lyapunov_function_never_rises(
+    rho, alpha, theta, v_ref, omega_ref, k_x, k_y, k_heading
+):
     """V = (e_x^2 + e_y^2)/2 + (1 - cos(e_h))/k_y, along the error model e_x' = omega e_y - v + v_ref cos(e_h), ..."""
-    v, omega = wmr.tracking_law(rho, alpha, theta, v_ref, omega_ref, wmr.KanayamaGains(k_x, k_y, k_heading))
+    v, omega = wmr.tracking_law(
+        rho, alpha, theta, v_ref, omega_ref, wmr.KanayamaGains(k_x, k_y, k_heading)
+    )
     ahead, left, turn = rho * math.cos(alpha), rho * math.sin(alpha), alpha - theta
-    rates = omega * left - v + v_ref * math.cos(turn), -omega * ahead + v_ref * math.sin(turn), omega_ref - omega
+    rates = (
+        omega * left - v + v_ref * math.cos(turn),
+        -omega * ahead + v_ref * math.sin(turn),
+        omega_ref - omega,
+    )
     slope = ahead * rates[0] + left * rates[1] + math.sin(turn) / k_y * rates[2]
     closed = -k_x * ahead**2 - v_ref * k_heading / k_y * math.sin(turn) ** 2
-    assert slope == pytest.approx(closed, rel=1e-9, abs=1e-10 * (1 + rho) ** 2 * (1 + 1 / k_y) * (1 + k_y))
+    assert slope == pytest.approx(
+        closed, rel=1e-9, abs=1e-10 * (1 + rho) ** 2 * (1 + 1 / k_y) * (1 + k_y)
+    )
 
 
 def test_linear_law_is_feed_forward_and_a_matrix():
     matrix = np.array([[1.0, 0.2, 0.1], [-0.3, 2.0, 1.5]])
     v, omega = wmr.tracking_law(2.0, 0.5, 0.2, 0.6, 0.15, wmr.LinearGains(matrix), law="linear")
     error = np.array([2 * math.cos(0.5), 2 * math.sin(0.5), 0.3])
-    assert (v, omega) == (pytest.approx(0.6 * math.cos(0.3) + matrix[0] @ error), pytest.approx(0.15 + matrix[1] @ error))
+    assert (v, omega) == (
+        pytest.approx(0.6 * math.cos(0.3) + matrix[0] @ error),
+        pytest.approx(0.15 + matrix[1] @ error),
+    )
 
 
 def test_pose_laws_do_not_look_at_the_references_twist():
     gains = wmr.paper.CIRCLE_GAINS
-    assert wmr.tracking_law(1.0, 0.5, 0.2, 9.0, 9.0, gains, law="corrected") == wmr.control_law(1.0, 0.5, 0.2, gains)
+    assert wmr.tracking_law(1.0, 0.5, 0.2, 9.0, 9.0, gains, law="corrected") == wmr.control_law(
+        1.0, 0.5, 0.2, gains
+    )
 
 
 # Wheels --------------------------------------------------------------------------------------------------------------
@@ -151,7 +190,9 @@ def test_wheel_limits_keep_the_curvature(v, omega, width, fastest):
     limited = wmr.limit_wheels(v, omega, wmr.WheelLimits(width, fastest))
     before, after = wmr.twist_to_wheels(v, omega, width), wmr.twist_to_wheels(*limited, width)
     assert max(map(abs, after)) <= fastest * (1 + 1e-12)
-    assert limited[0] * omega == pytest.approx(limited[1] * v, abs=1e-12)  # the same curvature, the same direction
+    assert limited[0] * omega == pytest.approx(
+        limited[1] * v, abs=1e-12
+    )  # the same curvature, the same direction
     assert limited[0] * v >= 0
     if max(map(abs, before)) <= fastest:
         assert limited == (v, omega)
@@ -168,7 +209,9 @@ def test_arrays_and_arrays_of_gains_broadcast(law):
     gains = wmr.Gains(np.array([1.0, 2.0])[:, None, None], 1.0, 0.3)
     v, omega = wmr.control_law(rho, alpha, theta, gains, law)
     assert v.shape == omega.shape == (2, 4, 5)
-    single = wmr.control_law(float(rho[3, 0]), float(alpha[1]), theta, wmr.Gains(2.0, 1.0, 0.3), law)
+    single = wmr.control_law(
+        float(rho[3, 0]), float(alpha[1]), theta, wmr.Gains(2.0, 1.0, 0.3), law
+    )
     assert (v[1, 3, 1], omega[1, 3, 1]) == single
     assert wmr.lyapunov_rate(rho, alpha, theta, gains, law).shape == (2, 4, 5)
 
@@ -176,15 +219,33 @@ def test_arrays_and_arrays_of_gains_broadcast(law):
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda g: wmr.control_law(-1.0, 0, 0, g), r"rho = -1\.0 is not allowed: a finite number at least 0"),
+        (
+            lambda g: wmr.control_law(-1.0, 0, 0, g),
+            r"rho = -1\.0 is not allowed: a finite number at least 0",
+        ),
         (lambda g: wmr.control_law(1.0, math.nan, 0, g), r"alpha = nan"),
-        (lambda g: wmr.control_law(1.0, 0, 0, g, "Corrected"), r"law = 'Corrected' .* one of 'corrected', 'printed', 'aicardi' is needed"),
-        (lambda g: wmr.control_law(1.0, 0, 0, (2, 1, 0.3)), r"gains = \(2, 1, 0\.3\) .* a Gains is needed, not a tuple"),
-        (lambda g: wmr.control_law(np.ones(2), np.ones(3), 0, g), r"mismatched lengths: rho has shape \(2,\), alpha has shape \(3,\)"),
+        (
+            lambda g: wmr.control_law(1.0, 0, 0, g, "Corrected"),
+            r"law = 'Corrected' .* one of 'corrected', 'printed', 'aicardi' is needed",
+        ),
+        (
+            lambda g: wmr.control_law(1.0, 0, 0, (2, 1, 0.3)),
+            r"gains = \(2, 1, 0\.3\) .* a Gains is needed, not a tuple",
+        ),
+        (
+            lambda g: wmr.control_law(np.ones(2), np.ones(3), 0, g),
+            r"mismatched lengths: rho has shape \(2,\), alpha has shape \(3,\)",
+        ),
         (lambda g: wmr.lyapunov(1.0, 0, 0, -0.3), r"h = -0\.3"),
-        (lambda g: wmr.lyapunov_rate(1.0, 0, 0, g, L=0.0), r"L = 0\.0 is not allowed: a finite number above 0"),
+        (
+            lambda g: wmr.lyapunov_rate(1.0, 0, 0, g, L=0.0),
+            r"L = 0\.0 is not allowed: a finite number above 0",
+        ),
         (lambda g: wmr.tracking_law(1.0, 0, 0, 1, 0, g), r"a KanayamaGains is needed, not a Gains"),
-        (lambda g: wmr.tracking_law(1.0, 0, 0, 1, 0, wmr.Gains([1.0, 2.0], 1, 1), "corrected"), r"one number a gain is needed"),
+        (
+            lambda g: wmr.tracking_law(1.0, 0, 0, 1, 0, wmr.Gains([1.0, 2.0], 1, 1), "corrected"),
+            r"one number a gain is needed",
+        ),
         (lambda g: wmr.limit_wheels(math.inf, 0, wmr.WheelLimits(0.5, 1.0)), r"v = inf"),
     ],
 )

@@ -8,7 +8,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib.conventions import CONVENTIONS, gains_near_goal, translate
+from wmrbook.conventions import CONVENTIONS, gains_near_goal, translate
 
 metres = st.floats(-1e3, 1e3)
 angles = st.floats(-math.pi, math.pi, exclude_min=True)
@@ -50,12 +50,18 @@ def test_the_signs_of_the_gains():
 @pytest.mark.parametrize("name", CONVENTIONS)
 def test_the_linear_law_is_the_corrected_one_near_the_goal(name):
     rng = np.random.default_rng(1)
-    rho, alpha, theta = rng.uniform(0, 1e-6, 50), rng.uniform(-1e-6, 1e-6, 50), rng.uniform(-1e-6, 1e-6, 50)
+    rho, alpha, theta = (
+        rng.uniform(0, 1e-6, 50),
+        rng.uniform(-1e-6, 1e-6, 50),
+        rng.uniform(-1e-6, 1e-6, 50),
+    )
     v, omega = wmr.control_law(rho, alpha, theta, GAINS)
     k_rho, k_alpha, k_beta = gains_near_goal(GAINS, name)
     distance, nose, third = translate((rho, alpha, theta), "aicardi", name)
     np.testing.assert_allclose(v, k_rho * distance, rtol=1e-5)
-    np.testing.assert_allclose(omega, k_alpha * nose + CONVENTIONS[name].gain * k_beta * third, atol=1e-11)
+    np.testing.assert_allclose(
+        omega, k_alpha * nose + CONVENTIONS[name].gain * k_beta * third, atol=1e-11
+    )
 
 
 @pytest.mark.parametrize("name", CONVENTIONS)
@@ -69,7 +75,12 @@ def test_the_linear_law_parks_the_robot_and_with_the_other_sign_it_does_not(name
             distance, nose, third = translate(wmr.polar_error(pose, goal), "aicardi", name)
             if distance < 1e-4:
                 break
-            pose = wmr.advance(pose, k_rho * distance, k_alpha * nose + sign * CONVENTIONS[name].gain * k_beta * third, 0.01)
+            pose = wmr.advance(
+                pose,
+                k_rho * distance,
+                k_alpha * nose + sign * CONVENTIONS[name].gain * k_beta * third,
+                0.01,
+            )
         errors[sign] = abs(wmr.polar_error(pose, goal).theta)
     assert errors[1] < 0.02
     assert errors[-1] > 1.0
@@ -78,11 +89,20 @@ def test_the_linear_law_parks_the_robot_and_with_the_other_sign_it_does_not(name
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: translate((1, 0, 0), "aicardi", "Corke"), r"target = 'Corke' is not allowed: one of 'aicardi', 'corke', 'siegwart'"),
+        (
+            lambda: translate((1, 0, 0), "aicardi", "Corke"),
+            r"target = 'Corke' is not allowed: one of 'aicardi', 'corke', 'siegwart'",
+        ),
         (lambda: translate((1, 0, 0), "corky", "corke"), r"source = 'corky'"),
-        (lambda: translate((-1, 0, 0), "aicardi", "corke"), r"rho = -1 is not allowed: a finite number at least 0 is needed"),
+        (
+            lambda: translate((-1, 0, 0), "aicardi", "corke"),
+            r"rho = -1 is not allowed: a finite number at least 0 is needed",
+        ),
         (lambda: translate((1, 0, math.nan), "aicardi", "corke"), r"third angle = nan"),
-        (lambda: translate((1, [0.0, 1.0], [0.0, 1.0, 2.0]), "aicardi", "corke"), r"mismatched lengths: alpha has shape \(2,\)"),
+        (
+            lambda: translate((1, [0.0, 1.0], [0.0, 1.0, 2.0]), "aicardi", "corke"),
+            r"mismatched lengths: alpha has shape \(2,\)",
+        ),
         (lambda: gains_near_goal(GAINS, "beta"), r"convention = 'beta'"),
         (lambda: gains_near_goal((1, 2, 3), "corke"), r"a Gains is needed, not a tuple"),
     ],

@@ -11,8 +11,8 @@ import pytest
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
 import wmrlib as wmr
 from wmrlib import paper
-from wmrlib._panel import javascript
 from wmrlib.explorer import Explorer
+from wmrlib.explorer.panel import javascript
 
 GAINS = wmr.Gains(0.7, 3.0, 1.5, 2.0)
 
@@ -31,7 +31,10 @@ def test_gains_and_trajectory_follow_the_sliders():
         explorer.sliders[name].value = value
     explorer.sliders["dt"].value = 0.05
     assert explorer.gains == GAINS
-    ours, theirs = explorer.trajectory(), wmr.simulate(explorer.start, explorer.goal, GAINS, dt=0.05)
+    ours, theirs = (
+        explorer.trajectory(),
+        wmr.simulate(explorer.start, explorer.goal, GAINS, dt=0.05),
+    )
     np.testing.assert_array_equal(ours.x, theirs.x)
     np.testing.assert_array_equal(ours.omega, theirs.omega)
 
@@ -68,7 +71,11 @@ def test_the_circle_is_followed_with_and_without_feed_forward():
 
 def test_start_goal_and_law_can_be_set():
     explorer = Explorer(law="printed", method="euler")
-    explorer.start, explorer.goal, explorer.law = wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0), "aicardi"
+    explorer.start, explorer.goal, explorer.law = (
+        wmr.Pose(1.0, 2.0, 3.0),
+        wmr.Pose(4.0, 5.0, -1.0),
+        "aicardi",
+    )
     run = explorer.trajectory()
     assert (run.x[0], run.y[0], run.heading[0]) == (1.0, 2.0, 3.0)
     assert (run.goal, run.law, run.method) == (wmr.Pose(4.0, 5.0, -1.0), "aicardi", "euler")
@@ -81,26 +88,49 @@ def test_every_slider_and_menu_is_linked_and_named():
     assert {control.model_id for control in controls} <= linked
     assert all(control.description for control in controls)
     assert all(slider.readout for slider in explorer.sliders.values())  # where a value can be typed
-    assert all(re.search(r"\[.+\]$", slider.description) for slider in explorer.sliders.values())  # with its unit
+    assert all(
+        re.search(r"\[.+\]$", slider.description) for slider in explorer.sliders.values()
+    )  # with its unit
 
 
 @pytest.mark.parametrize(
     ("options", "message"),
     [
         ({"start": (0.0, 0.0, 0.0)}, "start = (0.0, 0.0, 0.0) is not allowed: a Pose is needed"),
-        ({"goal": wmr.Pose(np.zeros(2), 0.0, 0.0)}, "goal.x = array([0., 0.]) is not allowed: one number is needed"),
-        ({"goal": wmr.Pose(1e9, 0.0, 0.0)}, "goal.x = 1000000000.0 is not allowed: a finite number at least -1e+06"),
+        (
+            {"goal": wmr.Pose(np.zeros(2), 0.0, 0.0)},
+            "goal.x = array([0., 0.]) is not allowed: one number is needed",
+        ),
+        (
+            {"goal": wmr.Pose(1e9, 0.0, 0.0)},
+            "goal.x = 1000000000.0 is not allowed: a finite number at least -1e+06",
+        ),
         ({"gains": 3.0}, "gains = 3.0 is not allowed: a Gains is needed"),
-        ({"gains": wmr.Gains(np.ones(2), 1.0, 1.0)}, "gains.k_rho = array([1., 1.]) is not allowed"),
+        (
+            {"gains": wmr.Gains(np.ones(2), 1.0, 1.0)},
+            "gains.k_rho = array([1., 1.]) is not allowed",
+        ),
         ({"feedback": GAINS}, "is not allowed: a KanayamaGains is needed"),
-        ({"law": "kanayama"}, "law = 'kanayama' is not allowed: one of 'corrected', 'printed', 'aicardi' is needed"),
-        ({"method": "continuous"}, "method = 'continuous' is not allowed: one of 'arc', 'euler' is needed"),
+        (
+            {"law": "kanayama"},
+            "law = 'kanayama' is not allowed: one of 'corrected', 'printed', 'aicardi' is needed",
+        ),
+        (
+            {"method": "continuous"},
+            "method = 'continuous' is not allowed: one of 'arc', 'euler' is needed",
+        ),
         ({"dt": 0.0}, "dt = 0.0 is not allowed: a finite number above 0"),
         ({"dt": 61.0}, "dt = 61 is not allowed"),
         ({"dt": 1e-9}, "dt = 1e-09 is not allowed"),
         ({"duration": math.nan}, "duration = nan is not allowed"),
-        ({"arrival_radius": -1.0}, "arrival_radius = -1.0 is not allowed: a finite number at least 0"),
-        ({"reference": "square"}, "reference = 'square' is not allowed: None, 'circle' or wmrlib.paper.circle is needed"),
+        (
+            {"arrival_radius": -1.0},
+            "arrival_radius = -1.0 is not allowed: a finite number at least 0",
+        ),
+        (
+            {"reference": "square"},
+            "reference = 'square' is not allowed: None, 'circle' or wmrlib.paper.circle is needed",
+        ),
         ({"view": "map"}, "view = 'map' is not allowed: one of 'time', 'gains' is needed"),
     ],
 )
@@ -111,7 +141,14 @@ def test_bad_options_are_refused_by_name(options, message):
 
 def test_bad_settings_are_refused_by_name():
     explorer = Explorer()
-    for name, value in [("gains", 1.0), ("feedback", 1.0), ("dt", -1.0), ("law", "linear"), ("start", None), ("goal", 7)]:
+    for name, value in [
+        ("gains", 1.0),
+        ("feedback", 1.0),
+        ("dt", -1.0),
+        ("law", "linear"),
+        ("start", None),
+        ("goal", 7),
+    ]:
         with pytest.raises(ValueError, match=f"^{name} = "):
             setattr(explorer, name, value)
     with pytest.raises(ValueError, match="k_rho = nan is not allowed: a finite number is needed"):

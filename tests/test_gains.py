@@ -14,7 +14,9 @@ from wmrlib.gains import checked_wheels
 def test_fields_defaults_and_floats():
     gains = wmr.Gains(2, 1, 0.3)
     assert gains == (2.0, 1.0, 0.3, 4.0)
-    assert {type(field) for field in gains} == {float}  # whole numbers would make numba compile everything a second time
+    assert {type(field) for field in gains} == {
+        float
+    }  # whole numbers would make numba compile everything a second time
 
 
 def test_zero_shows_what_a_gain_does():
@@ -39,7 +41,9 @@ def test_what_is_replaced_is_checked_too(one):
     for name in one._fields:
         changed = one._replace(**{name: 7})
         assert type(changed) is type(one)
-        assert changed == tuple(7.0 if each == name else value for each, value in one._asdict().items())
+        assert changed == tuple(
+            7.0 if each == name else value for each, value in one._asdict().items()
+        )
         assert {type(field) for field in changed} == {float}
         for wrong in (math.nan, math.inf, "1", None, True):
             with pytest.raises(ValueError, match=f"{name} = {wrong!r} is not allowed"):
@@ -51,7 +55,12 @@ def test_what_is_replaced_is_checked_too(one):
 
 @pytest.mark.parametrize("one", CHECKED, ids=lambda one: type(one).__name__)
 def test_copies_are_equal(one):
-    for other in (copy.copy(one), copy.deepcopy(one), pickle.loads(pickle.dumps(one)), type(one)._make(one)):
+    for other in (
+        copy.copy(one),
+        copy.deepcopy(one),
+        pickle.loads(pickle.dumps(one)),
+        type(one)._make(one),
+    ):
         assert (type(other), other) == (type(one), one)
 
 
@@ -60,7 +69,9 @@ def test_replaced_fields_may_be_arrays_where_fields_may():
     assert many.h.tolist() == [0.1, 0.2]
     with pytest.raises(ValueError, match="mismatched lengths"):
         many._replace(k_rho=np.ones(3))
-    with pytest.raises(ValueError, match=r"omega_x = .* is not allowed: one number is needed, not an array"):
+    with pytest.raises(
+        ValueError, match=r"omega_x = .* is not allowed: one number is needed, not an array"
+    ):
         CHECKED[2]._replace(omega_x=np.ones(2))
 
 
@@ -73,20 +84,50 @@ def test_no_wheel_limits_never_bind():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: wmr.Gains(-2.0, 1.0, 0.3), r"k_rho = -2\.0 is not allowed: a finite number at least 0 is needed"),
+        (
+            lambda: wmr.Gains(-2.0, 1.0, 0.3),
+            r"k_rho = -2\.0 is not allowed: a finite number at least 0 is needed",
+        ),
         (lambda: wmr.Gains(2.0, math.nan, 0.3), r"k_alpha = nan"),
         (lambda: wmr.Gains(2.0, 1.0, [0.3, -0.1]), r"h = \[0\.3, -0\.1\] .* at least 0"),
-        (lambda: wmr.Gains(2.0, 1.0, 0.3, v_max=0.0), r"v_max = 0\.0 is not allowed: a finite number above 0 is needed"),
-        (lambda: wmr.Gains(np.ones(2), np.ones(3), 1.0), r"mismatched lengths: k_rho has shape \(2,\), k_alpha has shape \(3,\)"),
+        (
+            lambda: wmr.Gains(2.0, 1.0, 0.3, v_max=0.0),
+            r"v_max = 0\.0 is not allowed: a finite number above 0 is needed",
+        ),
+        (
+            lambda: wmr.Gains(np.ones(2), np.ones(3), 1.0),
+            r"mismatched lengths: k_rho has shape \(2,\), k_alpha has shape \(3,\)",
+        ),
         (lambda: wmr.KanayamaGains(1.0, 0.0, 1.0), r"k_y = 0\.0 .* above 0"),
-        (lambda: wmr.LinearGains([[1.0, 2.0], [3.0, 4.0]]), r"matrix has shape \(2, 2\).*\(2, 3\) is needed"),
-        (lambda: checked_wheels(wmr.WheelLimits(-0.5, 1.0)), r"wheels\.track_width = -0\.5 .* above 0"),
-        (lambda: checked_wheels(wmr.WheelLimits(0.5, 0.0), "limits"), r"limits\.max_speed = 0\.0 .* above 0"),
-        (lambda: checked_wheels(wmr.WheelLimits(0.5, -math.inf)), r"wheels\.max_speed = -inf .* above 0"),
+        (
+            lambda: wmr.LinearGains([[1.0, 2.0], [3.0, 4.0]]),
+            r"matrix has shape \(2, 2\).*\(2, 3\) is needed",
+        ),
+        (
+            lambda: checked_wheels(wmr.WheelLimits(-0.5, 1.0)),
+            r"wheels\.track_width = -0\.5 .* above 0",
+        ),
+        (
+            lambda: checked_wheels(wmr.WheelLimits(0.5, 0.0), "limits"),
+            r"limits\.max_speed = 0\.0 .* above 0",
+        ),
+        (
+            lambda: checked_wheels(wmr.WheelLimits(0.5, -math.inf)),
+            r"wheels\.max_speed = -inf .* above 0",
+        ),
         (lambda: checked_wheels(2.0), r"wheels = 2\.0 .* a WheelLimits is needed, not a float"),
-        (lambda: checked_wheels(wmr.WheelLimits(np.array([0.5, 0.6]), 2.0)), r"wheels\.track_width = .* not an array of shape \(2,\)"),
-        (lambda: checked_wheels(wmr.WheelLimits(0.5, np.array([1.0, 2.0]))), r"wheels\.max_speed = .* not an array of shape \(2,\)"),
-        (lambda: checked_wheels(wmr.WheelLimits(0.5, np.array([math.inf, 2.0]))), r"wheels\.max_speed = .* is not allowed"),
+        (
+            lambda: checked_wheels(wmr.WheelLimits(np.array([0.5, 0.6]), 2.0)),
+            r"wheels\.track_width = .* not an array of shape \(2,\)",
+        ),
+        (
+            lambda: checked_wheels(wmr.WheelLimits(0.5, np.array([1.0, 2.0]))),
+            r"wheels\.max_speed = .* not an array of shape \(2,\)",
+        ),
+        (
+            lambda: checked_wheels(wmr.WheelLimits(0.5, np.array([math.inf, 2.0]))),
+            r"wheels\.max_speed = .* is not allowed",
+        ),
     ],
 )
 def test_bad_input_names_argument_value_and_range(make, message):

@@ -34,14 +34,20 @@ def test_distance_and_bearings_as_published():
 def test_destination_as_published():
     greenwich = wmr.GeoPoint(lat=51.47788, lon=-0.00147)
     there = wmr.destination_point(greenwich, 7794.0, math.radians(300.7))
-    assert (there.lat, there.lon) == (pytest.approx(51.5136, abs=5e-5), pytest.approx(-0.0983, abs=5e-5))
+    assert (there.lat, there.lon) == (
+        pytest.approx(51.5136, abs=5e-5),
+        pytest.approx(-0.0983, abs=5e-5),
+    )
 
 
 def test_the_papers_pair():
     a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
     assert wmr.haversine_distance(a, b) == pytest.approx(58.0758, abs=5e-5)
     assert bearing_deg(a, b) == pytest.approx(9.5831, abs=5e-5)
-    assert wmr.local_position(a, b) == (pytest.approx(9.6684, abs=5e-5), pytest.approx(57.2654, abs=5e-5))
+    assert wmr.local_position(a, b) == (
+        pytest.approx(9.6684, abs=5e-5),
+        pytest.approx(57.2654, abs=5e-5),
+    )
     swapped = [wmr.GeoPoint(lat=p.lon, lon=p.lat) for p in (a, b)]
     assert wmr.haversine_distance(*swapped) == pytest.approx(42.5355, abs=5e-5)
 
@@ -84,8 +90,14 @@ def test_sphere_error_is_the_geodesics():
 def test_sphere_error_takes_arrays_and_another_radius():
     errors = wmr.sphere_error(np.array([[0.0], [90.0]]), np.array([0.0, math.pi / 2, math.pi]))
     assert errors.shape == (2, 3)
-    polar_axis, equator = 6_356_752.314245, 6_378_137.0  # the poles are round: b^2/a, a, a^2/b are all there is
-    shares = [[equator / polar_axis**2, 1.0 / equator, equator / polar_axis**2], [polar_axis / equator**2] * 3]
+    polar_axis, equator = (
+        6_356_752.314245,
+        6_378_137.0,
+    )  # the poles are round: b^2/a, a, a^2/b are all there is
+    shares = [
+        [equator / polar_axis**2, 1.0 / equator, equator / polar_axis**2],
+        [polar_axis / equator**2] * 3,
+    ]
     np.testing.assert_allclose(errors, wmr.EARTH_RADIUS_M * np.array(shares) - 1.0, atol=1e-12)
     assert wmr.sphere_error(0.0, math.pi / 2, radius=equator) == pytest.approx(0.0, abs=1e-12)
 
@@ -101,12 +113,17 @@ def test_long_lines_are_within_the_spheres_error(a, b):
 
 @given(points, points)
 def test_distance_is_symmetric(a, b):
-    assert wmr.haversine_distance(a, b) == pytest.approx(wmr.haversine_distance(b, a), rel=1e-12, abs=1e-6)
+    assert wmr.haversine_distance(a, b) == pytest.approx(
+        wmr.haversine_distance(b, a), rel=1e-12, abs=1e-6
+    )
 
 
 @given(points, points, points)
 def test_triangle_inequality(a, b, c):
-    assert wmr.haversine_distance(a, c) <= wmr.haversine_distance(a, b) + wmr.haversine_distance(b, c) + 1e-3
+    assert (
+        wmr.haversine_distance(a, c)
+        <= wmr.haversine_distance(a, b) + wmr.haversine_distance(b, c) + 1e-3
+    )
 
 
 @given(points, points)
@@ -128,19 +145,33 @@ def test_all_digits_at_both_ends(gap, antipode):
     centre = wmr.GeoPoint(lat=-a.lat, lon=a.lon - 180.0) if antipode else a
     b = wmr.destination_point(centre, gap, 0.4)
     with mpmath.workdps(50):
-        lat1, lon1, lat2, lon2 = (mpmath.radians(mpmath.mpf(degrees)) for degrees in (a.lat, a.lon, b.lat, b.lon))
-        e = mpmath.sin((lat2 - lat1) / 2) ** 2 + mpmath.cos(lat1) * mpmath.cos(lat2) * mpmath.sin((lon2 - lon1) / 2) ** 2
+        lat1, lon1, lat2, lon2 = (
+            mpmath.radians(mpmath.mpf(degrees)) for degrees in (a.lat, a.lon, b.lat, b.lon)
+        )
+        e = (
+            mpmath.sin((lat2 - lat1) / 2) ** 2
+            + mpmath.cos(lat1) * mpmath.cos(lat2) * mpmath.sin((lon2 - lon1) / 2) ** 2
+        )
         truth = 2 * wmr.EARTH_RADIUS_M * mpmath.atan2(mpmath.sqrt(e), mpmath.sqrt(1 - e))
         error = abs(float(wmr.haversine_distance(a, b) - truth))
     assert error <= max(1e-15 * float(truth), 1e-8 if antipode else 0.0)
 
 
-@given(st.floats(-89.9, 89.9), longitudes, st.floats(1e-3, 0.99 * HALF_TURN_M), st.floats(0.0, 2 * math.pi, exclude_max=True))
+@given(
+    st.floats(-89.9, 89.9),
+    longitudes,
+    st.floats(1e-3, 0.99 * HALF_TURN_M),
+    st.floats(0.0, 2 * math.pi, exclude_max=True),
+)
 def test_destination_undoes_distance_and_bearing(lat, lon, distance, bearing):
     here = wmr.GeoPoint(lat=lat, lon=lon)
     there = wmr.destination_point(here, distance, bearing)
     assert wmr.haversine_distance(here, there) == pytest.approx(distance, rel=1e-9, abs=1e-7)
-    across = abs(wmr.wrap_angle(wmr.initial_bearing(here, there) - bearing)) * wmr.EARTH_RADIUS_M * math.sin(distance / wmr.EARTH_RADIUS_M)
+    across = (
+        abs(wmr.wrap_angle(wmr.initial_bearing(here, there) - bearing))
+        * wmr.EARTH_RADIUS_M
+        * math.sin(distance / wmr.EARTH_RADIUS_M)
+    )
     assert across < 1e-5  # metres to the side of the wanted line
 
 
@@ -177,23 +208,40 @@ def test_antipodes_are_half_a_turn_apart(lat):
 
 def test_across_the_date_line():
     west, east = wmr.GeoPoint(lat=0.0, lon=179.9999), wmr.GeoPoint(lat=0.0, lon=-179.9999)
-    assert wmr.haversine_distance(west, east) == pytest.approx(wmr.EARTH_RADIUS_M * math.radians(2e-4), rel=1e-8)
-    assert wmr.local_position(west, east) == (pytest.approx(22.239, abs=1e-3), pytest.approx(0.0, abs=1e-9))
-    assert wmr.destination_point(west, 22.239, math.pi / 2).lon == pytest.approx(-179.9999, abs=1e-8)
+    assert wmr.haversine_distance(west, east) == pytest.approx(
+        wmr.EARTH_RADIUS_M * math.radians(2e-4), rel=1e-8
+    )
+    assert wmr.local_position(west, east) == (
+        pytest.approx(22.239, abs=1e-3),
+        pytest.approx(0.0, abs=1e-9),
+    )
+    assert wmr.destination_point(west, 22.239, math.pi / 2).lon == pytest.approx(
+        -179.9999, abs=1e-8
+    )
 
 
 def test_from_the_poles():
     pole = wmr.GeoPoint(lat=90.0, lon=0.0)
-    assert wmr.haversine_distance(pole, wmr.GeoPoint(lat=89.0, lon=123.0)) == pytest.approx(wmr.EARTH_RADIUS_M * math.radians(1.0))
+    assert wmr.haversine_distance(pole, wmr.GeoPoint(lat=89.0, lon=123.0)) == pytest.approx(
+        wmr.EARTH_RADIUS_M * math.radians(1.0)
+    )
     there = wmr.destination_point(pole, 1000.0, math.radians(30.0))
     assert wmr.haversine_distance(pole, there) == pytest.approx(1000.0)
-    over = wmr.destination_point(wmr.GeoPoint(lat=89.999, lon=0.0), 1000.0, 0.0)  # north across the pole
+    over = wmr.destination_point(
+        wmr.GeoPoint(lat=89.999, lon=0.0), 1000.0, 0.0
+    )  # north across the pole
     assert (over.lat < 90.0, abs(over.lon)) == (True, pytest.approx(180.0))
 
 
 @given(latitudes, longitudes, longitudes)
 def test_bearing_is_in_range(lat, lon, other):
-    assert 0.0 <= wmr.initial_bearing(wmr.GeoPoint(lat=lat, lon=lon), wmr.GeoPoint(lat=-lat / 2, lon=other)) < 2 * math.pi
+    assert (
+        0.0
+        <= wmr.initial_bearing(
+            wmr.GeoPoint(lat=lat, lon=lon), wmr.GeoPoint(lat=-lat / 2, lon=other)
+        )
+        < 2 * math.pi
+    )
 
 
 def test_arrays_broadcast():
@@ -201,7 +249,9 @@ def test_arrays_broadcast():
     others = wmr.GeoPoint(lat=33.5, lon=np.array([43.0, 44.0, 45.0]))
     distances = wmr.haversine_distance(campus, others)
     assert distances.shape == (2, 3)
-    assert distances[1, 2] == wmr.haversine_distance(wmr.GeoPoint(lat=34.0, lon=44.0), wmr.GeoPoint(lat=33.5, lon=45.0))
+    assert distances[1, 2] == wmr.haversine_distance(
+        wmr.GeoPoint(lat=34.0, lon=44.0), wmr.GeoPoint(lat=33.5, lon=45.0)
+    )
     assert wmr.destination_point(campus, distances, 0.5).lat.shape == (2, 3)
 
 
@@ -211,20 +261,46 @@ def test_arrays_broadcast():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: wmr.GeoPoint(lat=91.0, lon=0.0), r"lat = 91\.0 is not allowed: a finite number at least -90 and at most 90 is needed"),
-        (lambda: wmr.GeoPoint(lat=0.0, lon=-181), r"lon = -181 is not allowed: .* at least -180 and at most 180"),
+        (
+            lambda: wmr.GeoPoint(lat=91.0, lon=0.0),
+            r"lat = 91\.0 is not allowed: a finite number at least -90 and at most 90 is needed",
+        ),
+        (
+            lambda: wmr.GeoPoint(lat=0.0, lon=-181),
+            r"lon = -181 is not allowed: .* at least -180 and at most 180",
+        ),
         (lambda: wmr.GeoPoint(lat=math.nan, lon=0.0), r"lat = nan is not allowed"),
         (lambda: wmr.GeoPoint(lat=[0.0, math.inf], lon=0.0), r"lat = \[0\.0, inf\] is not allowed"),
         (lambda: wmr.GeoPoint(lat="33.2", lon=0.0), r"lat = '33\.2' is not allowed"),
         (lambda: wmr.GeoPoint(lat=True, lon=0.0), r"lat = True is not allowed"),
-        (lambda: wmr.GeoPoint(lat=[1.0, 2.0], lon=[1.0, 2.0, 3.0]), r"mismatched lengths: lat has shape \(2,\), lon has shape \(3,\)"),
-        (lambda: wmr.haversine_distance((33.0, 44.0), wmr.paper.GPS_POINT_1), r"a = \(33\.0, 44\.0\) .* a GeoPoint is needed, not a tuple"),
-        (lambda: wmr.haversine_distance(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2, radius=0.0), r"radius = 0\.0 .* above 0"),
-        (lambda: wmr.sphere_error(91.0, 0.0), r"lat = 91\.0 is not allowed: .* at least -90 and at most 90"),
+        (
+            lambda: wmr.GeoPoint(lat=[1.0, 2.0], lon=[1.0, 2.0, 3.0]),
+            r"mismatched lengths: lat has shape \(2,\), lon has shape \(3,\)",
+        ),
+        (
+            lambda: wmr.haversine_distance((33.0, 44.0), wmr.paper.GPS_POINT_1),
+            r"a = \(33\.0, 44\.0\) .* a GeoPoint is needed, not a tuple",
+        ),
+        (
+            lambda: wmr.haversine_distance(
+                wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2, radius=0.0
+            ),
+            r"radius = 0\.0 .* above 0",
+        ),
+        (
+            lambda: wmr.sphere_error(91.0, 0.0),
+            r"lat = 91\.0 is not allowed: .* at least -90 and at most 90",
+        ),
         (lambda: wmr.sphere_error(0.0, math.inf), r"bearing = inf"),
         (lambda: wmr.sphere_error(0.0, 0.0, radius=0.0), r"radius = 0\.0 .* above 0"),
-        (lambda: wmr.sphere_error([0.0, 1.0], [0.0, 1.0, 2.0]), r"mismatched lengths: lat has shape \(2,\), bearing has shape \(3,\)"),
-        (lambda: wmr.destination_point(wmr.paper.GPS_POINT_1, -1.0, 0.0), r"distance = -1\.0 .* at least 0"),
+        (
+            lambda: wmr.sphere_error([0.0, 1.0], [0.0, 1.0, 2.0]),
+            r"mismatched lengths: lat has shape \(2,\), bearing has shape \(3,\)",
+        ),
+        (
+            lambda: wmr.destination_point(wmr.paper.GPS_POINT_1, -1.0, 0.0),
+            r"distance = -1\.0 .* at least 0",
+        ),
         (lambda: wmr.destination_point(wmr.paper.GPS_POINT_1, 1.0, math.nan), r"bearing = nan"),
     ],
 )

@@ -8,14 +8,19 @@ import pytest
 import sympy as sp
 
 import wmrlib as wmr
-from wmrlib.grading import Hint, angles
+from wmrbook.grading import Hint, angles
 from wmrlib.symbolic import angle, rho
 
 
 def polar(x, y, heading, x_goal, y_goal, goal_heading):
     """By complex numbers, in numpy's floats."""
     line = complex(x_goal - x, y_goal - y)
-    return np.array([abs(line), *(cmath.phase(line * cmath.exp(-1j * each)) for each in (heading, goal_heading))])
+    return np.array(
+        [
+            abs(line),
+            *(cmath.phase(line * cmath.exp(-1j * each)) for each in (heading, goal_heading)),
+        ]
+    )
 
 
 def without_wrap(*numbers):
@@ -36,7 +41,12 @@ def test_other_forms_pass():
         for check in (angles.polar_known, angles.polar_range, angles.polar_properties):
             assert check(answer)
     assert angles.polar_known(without_wrap)
-    for form in (MODEL, sp.ImmutableMatrix(MODEL), MODEL.subs(sp.cos(angle), sp.sin(angle + sp.pi / 2)), MODEL * 1.0):
+    for form in (
+        MODEL,
+        sp.ImmutableMatrix(MODEL),
+        MODEL.subs(sp.cos(angle), sp.sin(angle + sp.pi / 2)),
+        MODEL * 1.0,
+    ):
         assert angles.tail_rows(form)
         assert angles.tail_third(form)
     assert angles.textbook_gains(lambda a, b, c, v: np.array([a / v, b - a, -c / a]))
@@ -44,7 +54,9 @@ def test_other_forms_pass():
 
 def test_tail_by_algebra():
     """A second method for the matrix: (7) to (9) with alpha = angle + pi, at random states."""
-    for distance, tail, v, omega in np.random.default_rng(1).uniform([0.1, -3, -2, -2], [5, 3, 2, 2], (20, 4)):
+    for distance, tail, v, omega in np.random.default_rng(1).uniform(
+        [0.1, -3, -2, -2], [5, 3, 2, 2], (20, 4)
+    ):
         rates = wmr.polar_rate(distance, tail + math.pi, v, omega)
         ours = np.array(MODEL.subs({rho: distance, angle: tail})).astype(float) @ [v, omega]
         assert ours == pytest.approx([rates[0], rates[1], -rates[2]], abs=1e-9)
@@ -63,7 +75,14 @@ def test_tail_by_algebra():
         (lambda seen, *_: (seen[0], 0.0, seen[2]), "alpha is not the angle"),
         (lambda seen, *_: (seen[0], seen[1], seen[2] - seen[1]), "between the two headings"),
         (lambda seen, *_: (seen[0], seen[1], 0.0), "theta is not"),
-        (lambda seen, x, y, h, a, b, g: (seen[0], math.pi / 2 - seen[1] - 2 * h, math.pi / 2 - seen[2] - 2 * g), "counted from north"),
+        (
+            lambda seen, x, y, h, a, b, g: (
+                seen[0],
+                math.pi / 2 - seen[1] - 2 * h,
+                math.pi / 2 - seen[2] - 2 * g,
+            ),
+            "counted from north",
+        ),
         (lambda seen, *_: seen[:2], "3 numbers"),
         (lambda seen, *_: None, "3 numbers"),
     ],
@@ -75,7 +94,9 @@ def test_polar_hints(change, hint):
 
 def test_polar_refuses_wmrlib():
     with pytest.raises(Hint, match="of wmrlib"):
-        angles.polar_known(lambda x, y, h, a, b, g: wmr.polar_error(wmr.Pose(x, y, h), wmr.Pose(a, b, g)))
+        angles.polar_known(
+            lambda x, y, h, a, b, g: wmr.polar_error(wmr.Pose(x, y, h), wmr.Pose(a, b, g))
+        )
 
 
 def test_angles_that_never_look_back():
@@ -86,8 +107,12 @@ def test_angles_that_never_look_back():
 @pytest.mark.parametrize(
     "answer",
     [
-        lambda *each: polar(*each) + np.array([0.0, 0.1, 0.0]),  # right distance, angles that don't mirror
-        lambda *each: polar(*each) + np.array([max(each[1], 0.0), 0.0, 0.0]),  # right angles, distance that does not
+        lambda *each: (
+            polar(*each) + np.array([0.0, 0.1, 0.0])
+        ),  # right distance, angles that don't mirror
+        lambda *each: (
+            polar(*each) + np.array([max(each[1], 0.0), 0.0, 0.0])
+        ),  # right angles, distance that does not
     ],
 )
 def test_what_does_not_mirror(answer):

@@ -3,7 +3,11 @@
 import pytest
 from graded import ASSIGNMENTS, BEGIN, assert_loses, assert_model_and_release, cells, wrong_answers
 
-MISTAKES = [pytest.param(chapter, each, id=f"{chapter}: {each['name']}") for chapter in ASSIGNMENTS for each in wrong_answers(chapter)]
+MISTAKES = [
+    pytest.param(chapter, each, id=f"{chapter}: {each['name']}")
+    for chapter in ASSIGNMENTS
+    for each in wrong_answers(chapter)
+]
 
 
 @pytest.mark.parametrize("chapter", ASSIGNMENTS)
@@ -17,7 +21,9 @@ def test_every_answer_has_usual_mistakes(chapter):
     made = [each["cell"] for each in wrong_answers(chapter)]
     assert 2 <= len(answers) <= 4
     assert set(made) == set(answers)
-    assert all(made.count(name) >= 2 for name in answers), {name: made.count(name) for name in answers}
+    assert all(made.count(name) >= 2 for name in answers), {
+        name: made.count(name) for name in answers
+    }
 
 
 @pytest.mark.parametrize(("chapter", "wrong"), MISTAKES)

@@ -7,7 +7,7 @@ import pytest
 from geographiclib.geodesic import Geodesic
 
 import wmrlib as wmr
-from wmrlib.grading import Hint, earth
+from wmrbook.grading import Hint, earth
 
 RADIUS = 6_371_000.0
 
@@ -50,7 +50,12 @@ def test_other_formulas_pass():
         (lambda a, b, c, d: distance(a, b, c, d) * 1.001, "nearly right"),
         (lambda a, b, c, d: None, "returns nothing"),
         (lambda a, b, c, d: [1.0, 2.0], "one number is needed"),
-        (lambda a, b, c, d: wmr.haversine_distance(wmr.GeoPoint(lat=a, lon=b), wmr.GeoPoint(lat=c, lon=d)), "of wmrlib"),
+        (
+            lambda a, b, c, d: wmr.haversine_distance(
+                wmr.GeoPoint(lat=a, lon=b), wmr.GeoPoint(lat=c, lon=d)
+            ),
+            "of wmrlib",
+        ),
     ],
 )
 def test_distance_hints(answer, hint):
@@ -66,7 +71,10 @@ def test_distance_hints(answer, hint):
         (lambda a, b, c, d: bearing(c, d, a, b), "is it the way back"),
         (lambda a, b, c, d: -bearing(a, b, c, d), "mirrored"),
         (lambda a, b, c, d: bearing(a, b, c, d) % 180.0, "opposite way"),
-        (lambda a, b, c, d: bearing(b, a, d, c) if max(abs(b), abs(d)) < 90 else 0.0, "opposite way|counts from|swapped|wrong"),
+        (
+            lambda a, b, c, d: bearing(b, a, d, c) if max(abs(b), abs(d)) < 90 else 0.0,
+            "opposite way|counts from|swapped|wrong",
+        ),
         (lambda a, b, c, d: 12.0, "where does it count from"),
         (lambda a, b, c, d: 1e308, "where does it count from"),
     ],
@@ -92,7 +100,10 @@ def test_bearing_needs_the_compass_range():
         (lambda *each: local(*each) * [-1, 1], "mirrored"),
         (lambda *each: local(*each) * [1, -1], "upside down"),
         (lambda *each: local(*each) / [math.cos(math.radians(each[0])), 1], "east too long"),
-        (lambda *each: local(*each) / [math.cos(math.radians(each[0])) / math.cos(each[0]), 1], "cosine of degrees"),
+        (
+            lambda *each: local(*each) / [math.cos(math.radians(each[0])) / math.cos(each[0]), 1],
+            "cosine of degrees",
+        ),
         (lambda *each: local(*each) / 1000, "kilometres"),
         (lambda *each: np.degrees(local(*each)), "radian"),
         (lambda *each: local(*each) * 1.02, "is not there"),
@@ -121,7 +132,9 @@ def test_lost_digits_are_blamed_for_lost_digits_only():
 
     with pytest.raises(Hint, match="loses its digits near 0 m"):
         earth.distance_close(by_acos)
-    with pytest.raises(Hint, match=r"two points 1 m apart come out 0.001 m apart: see to the checks above"):
+    with pytest.raises(
+        Hint, match=r"two points 1 m apart come out 0.001 m apart: see to the checks above"
+    ):
         earth.distance_close(lambda *each: distance(*each) / 1000)
 
 

@@ -11,20 +11,31 @@ import sympy as sp
 import wmrlib
 import wmrlib as wmr
 import wmrlib.kinematics
+from wmrbook.grading import Hint, _hints
 from wmrlib import control_law, polar_error
 from wmrlib import control_law as polar_error_of_mine
 from wmrlib import polar_error as seen_from
-from wmrlib.grading import Hint, _hints
 
 GAINS = wmr.Gains(1.0, 2.0, 3.0)
 START = wmr.Pose(0.0, 0.0, 0.0)
 ALLOWED = ("Pose", "polar_error")
 
 
-NUMBERS = [1.5, np.float32(1.5), np.longdouble(1.5), np.array(1.5), np.array([1.5]), np.array(1.5, dtype=object)]
+NUMBERS = [
+    1.5,
+    np.float32(1.5),
+    np.longdouble(1.5),
+    np.array(1.5),
+    np.array([1.5]),
+    np.array(1.5, dtype=object),
+]
 
 
-@pytest.mark.parametrize("value", [*NUMBERS, sp.Rational(3, 2), fractions.Fraction(3, 2), decimal.Decimal("1.5")], ids=repr)
+@pytest.mark.parametrize(
+    "value",
+    [*NUMBERS, sp.Rational(3, 2), fractions.Fraction(3, 2), decimal.Decimal("1.5")],
+    ids=repr,
+)
 def test_a_number_may_have_many_forms(value):
     assert _hints.number("it", value) == 1.5
 
@@ -54,13 +65,29 @@ def test_what_is_no_number(value, hint):
         _hints.number("it", value)
 
 
-@pytest.mark.parametrize("answer", [{1.0, 2.0}, frozenset({1.0, 2.0}), {1.0: 3.0, 2.0: 4.0}, "12", 1.0, [1.0], (1.0, 2.0, 3.0), None])
+@pytest.mark.parametrize(
+    "answer",
+    [
+        {1.0, 2.0},
+        frozenset({1.0, 2.0}),
+        {1.0: 3.0, 2.0: 4.0},
+        "12",
+        1.0,
+        [1.0],
+        (1.0, 2.0, 3.0),
+        None,
+    ],
+)
 def test_numbers_need_an_order(answer):
     with pytest.raises(Hint, match="2 numbers, separated by commas, are needed"):
         _hints.ask_numbers(lambda: answer, 2)
 
 
-@pytest.mark.parametrize("answer", [(1, 2), [1, 2], np.array([1, 2]), sp.Matrix([1, 2]), {"v": 1, "omega": 2}.values()], ids=repr)
+@pytest.mark.parametrize(
+    "answer",
+    [(1, 2), [1, 2], np.array([1, 2]), sp.Matrix([1, 2]), {"v": 1, "omega": 2}.values()],
+    ids=repr,
+)
 def test_ordered_numbers(answer):
     assert _hints.ask_numbers(lambda: answer, 2) == (1.0, 2.0)
 
@@ -92,7 +119,10 @@ def and_a_helper(pose, goal):
     return by_module(pose, goal)
 
 
-@pytest.mark.parametrize("function", [by_name, by_module, by_submodule, by_another_name, by_an_import_inside, and_a_helper])
+@pytest.mark.parametrize(
+    "function",
+    [by_name, by_module, by_submodule, by_another_name, by_an_import_inside, and_a_helper],
+)
 def test_what_is_allowed_may_be_used_in_any_way(function):
     assert function(START, wmr.Pose(1.0, 0.0, 0.0)) == (1.0, 0.0, 0.0)
     _hints.own_work(function, *ALLOWED)
@@ -139,9 +169,13 @@ LAWS += [law_by_an_import_inside, law_by_a_name_imported_inside, law_by_a_helper
 @pytest.mark.parametrize("function", LAWS)
 def test_what_is_not_allowed_is_found_in_any_way(function):
     assert function(1.0, 0.5, 0.2) == control_law(1.0, 0.5, 0.2, GAINS)
-    with pytest.raises(Hint, match=r"control_law` of wmrlib; of it only `Pose`, `polar_error` may be used here"):
+    with pytest.raises(
+        Hint, match=r"control_law` of wmrlib; of it only `Pose`, `polar_error` may be used here"
+    ):
         _hints.own_work(function, *ALLOWED)
-    with pytest.raises(Hint, match="of wmrlib; this task asks for your own formula, with `math` or `numpy`"):
+    with pytest.raises(
+        Hint, match="of wmrlib; this task asks for your own formula, with `math` or `numpy`"
+    ):
         _hints.own_work(function)
 
 

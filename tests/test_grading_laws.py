@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 import wmrlib as wmr
-from wmrlib.grading import Hint, laws
+from wmrbook.grading import Hint, laws
 
 
 def law(rho, alpha, theta, k_rho, k_alpha, h, v_max):
@@ -15,7 +15,8 @@ def law(rho, alpha, theta, k_rho, k_alpha, h, v_max):
     decay = k_rho * math.exp(-half) * (math.sinh(half) / half if half > 1e-9 else 1.0)
     return np.array([1.0, 0.0]) * v_max * decay * rho * math.cos(alpha) + [
         0.0,
-        k_alpha * alpha + v_max * decay * math.cos(alpha) * np.sinc(alpha / math.pi) * (alpha + h * theta),
+        k_alpha * alpha
+        + v_max * decay * math.cos(alpha) * np.sinc(alpha / math.pi) * (alpha + h * theta),
     ]
 
 
@@ -36,15 +37,33 @@ def test_other_form_passes():
     ("answer", "hint"),
     [
         (changed(v=lambda v, r, a, *_: v / math.cos(a)), "v lacks its cosine"),
-        (changed(v=lambda v, r, a, t, kr, ka, h, vm: vm * math.cos(a)), "does not fall near the goal"),
-        (changed(v=lambda v, r, a, *_: v / math.cos(a) * math.cos(math.radians(a))), "radians for degrees"),
+        (
+            changed(v=lambda v, r, a, t, kr, ka, h, vm: vm * math.cos(a)),
+            "does not fall near the goal",
+        ),
+        (
+            changed(v=lambda v, r, a, *_: v / math.cos(a) * math.cos(math.radians(a))),
+            "radians for degrees",
+        ),
         (changed(v=lambda v, *_: 1.01 * v), "not that of"),
         (changed(omega=lambda w, r, a, t, kr, ka, h, vm: w - ka * a), "k_alpha alpha is missing"),
         (lambda r, a, t, *gains: law(r, a, 0.0, *gains), "theta plays no role"),
-        (changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + r * (w - ka * a)), "not divided by rho"),
-        (changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + a * (w - ka * a)), "not divided by alpha"),
-        (changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + math.cos(a) * (w - ka * a)), "a cosine too many"),
-        (changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + (w - ka * a) / math.cos(a)), "lacks a cosine"),
+        (
+            changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + r * (w - ka * a)),
+            "not divided by rho",
+        ),
+        (
+            changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + a * (w - ka * a)),
+            "not divided by alpha",
+        ),
+        (
+            changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + math.cos(a) * (w - ka * a)),
+            "a cosine too many",
+        ),
+        (
+            changed(omega=lambda w, r, a, t, kr, ka, h, vm: ka * a + (w - ka * a) / math.cos(a)),
+            "lacks a cosine",
+        ),
         (changed(omega=lambda w, *_: 1.01 * w), "factor by factor"),
         (lambda *_: (0.0, 0.0), "not that of"),
         (lambda r, a, t, *gains: wmr.control_law(r, a, t, wmr.Gains(*gains)), "of wmrlib"),
@@ -63,8 +82,14 @@ def test_a_small_distance_in_the_place_of_none_passes():
     ("answer", "hint"),
     [
         (changed(omega=lambda w, r, a, *_: w if r > 1e-6 else 0.0), "omega jumps"),
-        (changed(v=lambda v, r, *_: v if r else 4.0), "v is 4 at rho = 0, alpha = 0.5: put that distance"),
-        (lambda r, *rest: law(max(r, 1e-3), *rest), "v is 0.007.* at rho = 0, alpha = 0.5: put that distance"),
+        (
+            changed(v=lambda v, r, *_: v if r else 4.0),
+            "v is 4 at rho = 0, alpha = 0.5: put that distance",
+        ),
+        (
+            lambda r, *rest: law(max(r, 1e-3), *rest),
+            "v is 0.007.* at rho = 0, alpha = 0.5: put that distance",
+        ),
         (lambda r, a, *rest: law(r, a, *rest) / (r > 0), "not a finite number"),
     ],
 )

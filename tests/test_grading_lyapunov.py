@@ -7,16 +7,28 @@ import pytest
 import sympy as sp
 
 import wmrlib as wmr
-from wmrlib.grading import Hint, lyapunov
+from wmrbook.grading import Hint, lyapunov
 from wmrlib.symbolic import L, alpha, decay, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 
-V_RATE = -rho * v * sp.cos(alpha) / L - omega * sp.sin(alpha) + v * sp.sin(alpha) / rho * (sp.sin(alpha) + h * sp.sin(theta))
+V_RATE = (
+    -rho * v * sp.cos(alpha) / L
+    - omega * sp.sin(alpha)
+    + v * sp.sin(alpha) / rho * (sp.sin(alpha) + h * sp.sin(theta))
+)
 TURNING = k_alpha * sp.sin(alpha) + v / rho * (sp.sin(alpha) + h * sp.sin(theta))
-CLOSED = -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * sp.cos(alpha) ** 2 - k_alpha * sp.sin(alpha) ** 2
+CLOSED = (
+    -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * sp.cos(alpha) ** 2
+    - k_alpha * sp.sin(alpha) ** 2
+)
 
 
 def test_other_forms_pass():
-    for form in (V_RATE, sp.expand(V_RATE), sp.expand(V_RATE).rewrite(sp.exp), V_RATE.subs(sp.sin(alpha), sp.cos(alpha - sp.pi / 2))):
+    for form in (
+        V_RATE,
+        sp.expand(V_RATE),
+        sp.expand(V_RATE).rewrite(sp.exp),
+        V_RATE.subs(sp.sin(alpha), sp.cos(alpha - sp.pi / 2)),
+    ):
         assert lyapunov.rate(form)
     for form in (TURNING, sp.factor(TURNING), sp.expand(TURNING)):
         assert lyapunov.steering(form)
@@ -41,7 +53,9 @@ def test_the_bowl_falls_along_wmrlibs_robot():
         speed = math.cos(state[1])
         rates = np.array(wmr.polar_rate(*state[:2], speed, steer(*state, speed)))
         slope = (bowl(*(state + 1e-6 * rates)) - bowl(*(state - 1e-6 * rates))) / 2e-6
-        assert slope == pytest.approx(-state[0] * speed**2 - 1.5 * math.sin(state[1]) ** 2, abs=1e-6)
+        assert slope == pytest.approx(
+            -state[0] * speed**2 - 1.5 * math.sin(state[1]) ** 2, abs=1e-6
+        )
 
 
 @pytest.mark.parametrize("value", [0, sp.Integer(-1), -(alpha**2), -omega])

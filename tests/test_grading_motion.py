@@ -7,16 +7,25 @@ import numpy as np
 import pytest
 
 import wmrlib as wmr
-from wmrlib.grading import Hint, motion
+from wmrbook.grading import Hint, motion
 
 
 def wheels(v, omega, track_width, wheel_radius):
     """By solving (1) and (2)."""
-    return np.linalg.solve([[wheel_radius / 2, wheel_radius / 2], [-wheel_radius / track_width, wheel_radius / track_width]], [v, omega])
+    return np.linalg.solve(
+        [
+            [wheel_radius / 2, wheel_radius / 2],
+            [-wheel_radius / track_width, wheel_radius / track_width],
+        ],
+        [v, omega],
+    )
 
 
 def twist(left, right, track_width, wheel_radius):
-    return np.array([[0.5, 0.5], [-1 / track_width, 1 / track_width]]) @ [left * wheel_radius, right * wheel_radius]
+    return np.array([[0.5, 0.5], [-1 / track_width, 1 / track_width]]) @ [
+        left * wheel_radius,
+        right * wheel_radius,
+    ]
 
 
 def arc(x, y, heading, v, omega, dt):
@@ -74,10 +83,26 @@ def test_twist_hints(answer, hint):
     ("answer", "hint"),
     [
         (lambda x, y, h, v, w, t: (*arc(x, y, h, v, w, t)[:2], h), "the heading is wrong"),
-        (lambda x, y, h, v, w, t: (x + v * t * math.cos(h + w * t), y + v * t * math.sin(h + w * t), h + w * t), "along the .new. heading"),
-        (lambda x, y, h, v, w, t: (*arc(x, y, h, v, -w, t)[:2], h + w * t), "bends to the other side"),
+        (
+            lambda x, y, h, v, w, t: (
+                x + v * t * math.cos(h + w * t),
+                y + v * t * math.sin(h + w * t),
+                h + w * t,
+            ),
+            "along the .new. heading",
+        ),
+        (
+            lambda x, y, h, v, w, t: (*arc(x, y, h, v, -w, t)[:2], h + w * t),
+            "bends to the other side",
+        ),
         (lambda x, y, h, v, w, t: (x, y, h + w * t), "not on the arc"),
-        (lambda x, y, h, v, w, t: (*arc(x, y, h, v, w if abs(w) > 0.01 else 0.0, t)[:2], h + w * t), "Euler's step"),
+        (
+            lambda x, y, h, v, w, t: (
+                *arc(x, y, h, v, w if abs(w) > 0.01 else 0.0, t)[:2],
+                h + w * t,
+            ),
+            "Euler's step",
+        ),
         (lambda x, y, h, v, w, t: wmr.advance(wmr.Pose(x, y, h), v, w, t), "of wmrlib"),
     ],
 )
@@ -102,19 +127,31 @@ def test_arc_property_hints(answer, hint):
 @pytest.mark.parametrize(
     ("straight", "hint"),
     [
-        (lambda x, y, h, v, w, t: (x + v * math.cos(h), y + v * math.sin(h), h), "with omega = 0 the place is 1 m off: how far"),
+        (
+            lambda x, y, h, v, w, t: (x + v * math.cos(h), y + v * math.sin(h), h),
+            "with omega = 0 the place is 1 m off: how far",
+        ),
         (lambda x, y, h, v, w, t: (x + v * t, y, h), "and which way"),
-        (lambda x, y, h, v, w, t: (x + v * t * math.cos(h), y + v * t * math.sin(h), 0.0), "becomes 0 rad; it was 0.5 rad"),
+        (
+            lambda x, y, h, v, w, t: (x + v * t * math.cos(h), y + v * t * math.sin(h), 0.0),
+            "becomes 0 rad; it was 0.5 rad",
+        ),
     ],
 )
 def test_straight_hints(straight, hint):
     with pytest.raises(Hint, match=hint):
-        motion.arc_straight(lambda x, y, h, v, w, t: arc(x, y, h, v, w, t) if w else straight(x, y, h, v, w, t))
+        motion.arc_straight(
+            lambda x, y, h, v, w, t: arc(x, y, h, v, w, t) if w else straight(x, y, h, v, w, t)
+        )
 
 
 def test_lost_digits():
     def by_radius(x, y, h, v, w, t):
-        return x + v / w * (math.sin(h + w * t) - math.sin(h)), y - v / w * (math.cos(h + w * t) - math.cos(h)), h + w * t
+        return (
+            x + v / w * (math.sin(h + w * t) - math.sin(h)),
+            y - v / w * (math.cos(h + w * t) - math.cos(h)),
+            h + w * t,
+        )
 
     with pytest.raises(Hint, match="loses its digits"):
         motion.arc_straight(lambda *each: by_radius(*each) if each[4] else arc(*each))
@@ -124,11 +161,23 @@ def test_lost_digits():
     ("check", "answer", "hint"),
     [
         (motion.limited_speed, lambda a, b, m: (a, b), "a wheel turns at 2.00 times its limit"),
-        (motion.limited_speed, lambda a, b, m: (a, b) if max(abs(a), abs(b)) <= m else limited(a, b, 0.9 * m), "could go faster"),
+        (
+            motion.limited_speed,
+            lambda a, b, m: (a, b) if max(abs(a), abs(b)) <= m else limited(a, b, 0.9 * m),
+            "could go faster",
+        ),
         (motion.limited_speed, lambda a, b, m: (0.0, 0.0), "left alone"),
-        (motion.limited_speed, lambda a, b, m: (m * a / max(abs(a), abs(b)), m * b / max(abs(a), abs(b))), "sped up"),
+        (
+            motion.limited_speed,
+            lambda a, b, m: (m * a / max(abs(a), abs(b)), m * b / max(abs(a), abs(b))),
+            "sped up",
+        ),
         (motion.limited_curvature, lambda a, b, m: -limited(a, b, m), "the other way"),
-        (motion.limited_curvature, lambda a, b, m: limited(a, b, m)[::-1], "turning centre moves|other way"),
+        (
+            motion.limited_curvature,
+            lambda a, b, m: limited(a, b, m)[::-1],
+            "turning centre moves|other way",
+        ),
         (motion.limited_curvature, lambda a, b, m: (0.0, 0.0), "other way"),
     ],
 )

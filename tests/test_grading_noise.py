@@ -33,30 +33,77 @@ def scatter(lat, lon):
     return *mean, lon.std(ddof=1), lat.std(ddof=1)
 """,
     ),
-    "one look's chance first": ("radius", RADIUS.format("sigma * np.sqrt(-2 * np.log((1 - share) ** (1 / looks)))")),
-    "the whole matrix": ("averaging", MEAN.format("sigma / n * np.sqrt((float(c) ** abs(np.subtract.outer(range(n), range(n)))).sum())")),
-    "a power of each pair": ("averaging", MEAN.format("white * np.sqrt(1 + 2 * np.sum((1 - k / n) * c**k))")),
+    "one look's chance first": (
+        "radius",
+        RADIUS.format("sigma * np.sqrt(-2 * np.log((1 - share) ** (1 / looks)))"),
+    ),
+    "the whole matrix": (
+        "averaging",
+        MEAN.format(
+            "sigma / n * np.sqrt((float(c) ** abs(np.subtract.outer(range(n), range(n)))).sum())"
+        ),
+    ),
+    "a power of each pair": (
+        "averaging",
+        MEAN.format("white * np.sqrt(1 + 2 * np.sum((1 - k / n) * c**k))"),
+    ),
 }
 MISTAKES = [
-    ("scatter", SCATTER.format("mean[1], mean[0], east * cos, north"), "the latitude is asked for first"),
-    ("scatter", SCATTER.format("mean[0] + 1e-6, mean[1], east * cos, north"), "the mean latitude is 0.111 m off"),
-    ("scatter", SCATTER.format("np.radians(mean[0]), mean[1], east * cos, north"), "plain mean, in degrees"),
+    (
+        "scatter",
+        SCATTER.format("mean[1], mean[0], east * cos, north"),
+        "the latitude is asked for first",
+    ),
+    (
+        "scatter",
+        SCATTER.format("mean[0] + 1e-6, mean[1], east * cos, north"),
+        "the mean latitude is 0.111 m off",
+    ),
+    (
+        "scatter",
+        SCATTER.format("np.radians(mean[0]), mean[1], east * cos, north"),
+        "plain mean, in degrees",
+    ),
     ("scatter", SCATTER.format("*mean, north, east * cos"), "east and north are swapped"),
-    ("scatter", SCATTER.format("*mean, math.degrees(east * cos), math.degrees(north)"), "an angle in radians, not in degrees"),
+    (
+        "scatter",
+        SCATTER.format("*mean, math.degrees(east * cos), math.degrees(north)"),
+        "an angle in radians, not in degrees",
+    ),
     ("scatter", SCATTER.format("*mean, east, north * cos"), "which circles get smaller"),
     ("scatter", SCATTER.format("*mean, (east * cos) ** 2, north**2"), "these are variances"),
     ("scatter", SCATTER.format("*mean, 1.001 * east * cos, 1.001 * north"), "nearly right"),
     ("scatter", SCATTER.format("*mean, east * cos, 1.0"), "std_north is wrong"),
     ("scatter", SCATTER.format("*mean, 1.0, north"), "std_east is wrong"),
     ("scatter", SCATTER.format("mean"), "4 numbers"),
-    ("scatter", "import wmrlib\ndef scatter(lat, lon):\n    return wmrlib.standing(lat)", "asks for your own formula"),
-    ("radius", RADIUS.format("sigma * math.sqrt(-2 * math.log(1 - share) * looks)"), "more looks need a smaller radius"),
-    ("radius", RADIUS.format("sigma * math.sqrt(-math.log(1 - share) / looks)"), "look at the 2 in (9.1)"),
-    ("radius", RADIUS.format("sigma * -2 * math.log(1 - share) / looks"), "is there a root missing"),
+    (
+        "scatter",
+        "import wmrlib\ndef scatter(lat, lon):\n    return wmrlib.standing(lat)",
+        "asks for your own formula",
+    ),
+    (
+        "radius",
+        RADIUS.format("sigma * math.sqrt(-2 * math.log(1 - share) * looks)"),
+        "more looks need a smaller radius",
+    ),
+    (
+        "radius",
+        RADIUS.format("sigma * math.sqrt(-math.log(1 - share) / looks)"),
+        "look at the 2 in (9.1)",
+    ),
+    (
+        "radius",
+        RADIUS.format("sigma * -2 * math.log(1 - share) / looks"),
+        "is there a root missing",
+    ),
     ("radius", RADIUS.format("0.46 * sigma"), "robots stop (looks: 1)"),
     ("radius", RADIUS.format("-sigma"), "a radius is positive"),
     ("radius", RADIUS.format("0.5"), "three times the noise"),
-    ("radius", RADIUS.format("sigma * math.sqrt(-2 * math.log(1 - 0.5) / looks)"), "a larger share needs"),
+    (
+        "radius",
+        RADIUS.format("sigma * math.sqrt(-2 * math.log(1 - 0.5) / looks)"),
+        "a larger share needs",
+    ),
     ("averaging", MEAN.format("sigma / n"), "do not add up like equal ones"),
     ("averaging", MEAN.format("sigma"), "2 independent looks of 0.5 m"),
     ("averaging", MEAN.format("white * math.sqrt((1 + c) / (1 - c))"), "for very many looks"),
@@ -64,7 +111,9 @@ MISTAKES = [
     ("averaging", MEAN.format("white * (1 + c)"), "sum over all pairs"),
     (
         "averaging",
-        MEAN.format("sigma / n * math.sqrt(n + 2 * (n * c - c - n * c**2 + c ** (n + 1)) / (1 - c) ** 2)"),
+        MEAN.format(
+            "sigma / n * math.sqrt(n + 2 * (n * c - c - n * c**2 + c ** (n + 1)) / (1 - c) ** 2)"
+        ),
         "stops with ZeroDivision",
     ),
 ]

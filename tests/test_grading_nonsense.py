@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 import sympy as sp
 
-from wmrlib.grading import (
+from wmrbook.grading import (
     Hint,
     Passed,
     angles,
@@ -26,7 +26,22 @@ from wmrlib.grading import (
     verdicts,
 )
 
-MODULES = (angles, circles, design, drives, earth, laws, lyapunov, motion, noise, robots, routes, sampling, trips, verdicts)
+MODULES = (
+    angles,
+    circles,
+    design,
+    drives,
+    earth,
+    laws,
+    lyapunov,
+    motion,
+    noise,
+    robots,
+    routes,
+    sampling,
+    trips,
+    verdicts,
+)
 CHECKS = [
     check
     for module in MODULES
@@ -61,7 +76,9 @@ NONSENSE = {
 
 
 @pytest.mark.parametrize("value", NONSENSE.values(), ids=NONSENSE)
-@pytest.mark.parametrize("check", CHECKS, ids=lambda check: f"{check.__module__.split('.')[-1]}.{check.__name__}")
+@pytest.mark.parametrize(
+    "check", CHECKS, ids=lambda check: f"{check.__module__.split('.')[-1]}.{check.__name__}"
+)
 def test_nonsense_is_refused(check, value):
     answers = [value, lambda *arguments: value, lambda: value, lambda *arguments: [value] * 2]
     for answer in answers:

@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 from graded import lost
 
-from wmrlib.grading import routes
+from wmrbook.grading import routes
 
 CHAPTER = "ch12"
 CHECKSUM = """
@@ -32,14 +32,20 @@ def headings(x, y):
     return {}
 """
 RIGHT = {
-    "int with a base": ("checksum", CHECKSUM.format("body", "star == '*' and np.True_ & (int(digits, 16) == value)")),
+    "int with a base": (
+        "checksum",
+        CHECKSUM.format("body", "star == '*' and np.True_ & (int(digits, 16) == value)"),
+    ),
     "divmod": ("degrees", DEGREES.format("sign * (whole + minutes / 60)")),
     "unit vectors": ("headings", HEADINGS.format("middle.tolist()")),
     "in place": (
         "headings",
         HEADINGS.format("middle").replace("points = ", "x -= x[0]; y -= y[0]; points = "),
     ),
-    "wmrlib's own, written out": ("headings", HEADINGS.format("np.where(middle <= -math.pi, math.pi, middle)")),
+    "wmrlib's own, written out": (
+        "headings",
+        HEADINGS.format("np.where(middle <= -math.pi, math.pi, middle)"),
+    ),
     "a loop, a turn more": (
         "headings",
         """
@@ -61,7 +67,11 @@ MISTAKES = [
     ("checksum", CHECKSUM.format("('$' + body + '*')", FITS), "neither the `$` nor the `*`"),
     ("checksum", CHECKSUM.format("body", "star == '*' and digits == str(value)"), "hexadecimal"),
     ("checksum", CHECKSUM.format("body", FITS.replace(".upper()", "")), "in small letters"),
-    ("checksum", CHECKSUM.format("body", "digits.upper() in ('', f'{value:02X}')"), "has no checksum that could fit"),
+    (
+        "checksum",
+        CHECKSUM.format("body", "digits.upper() in ('', f'{value:02X}')"),
+        "has no checksum that could fit",
+    ),
     ("checksum", CHECKSUM.format("body", "False"), "is as a receiver sent it"),
     ("checksum", CHECKSUM.format("body", "value"), "True or False is needed"),
     ("checksum", CHECKSUM.format("body[:1]", "star == '*'"), "you say that it fits"),
@@ -70,7 +80,11 @@ MISTAKES = [
     ("degrees", DEGREES.format("math.radians(sign * (whole + minutes / 60))"), "not radians"),
     ("degrees", DEGREES.format("sign * float(field) / 60"), "only the last two digits"),
     ("degrees", DEGREES.format("sign * (whole + minutes)"), "a minute is not a degree"),
-    ("degrees", DEGREES.format("sign * (float(field[:3]) + float(field[3:]) / 60)"), "a latitude has two digits"),
+    (
+        "degrees",
+        DEGREES.format("sign * (float(field[:3]) + float(field[3:]) / 60)"),
+        "a latitude has two digits",
+    ),
     ("degrees", DEGREES.format("sign * whole"), "the minutes are lost"),
     ("degrees", DEGREES.format("sign * (whole + int(minutes) / 60)"), "they are metres"),
     ("degrees", DEGREES.format("sign * (whole + minutes / 60.01)"), "beside the place"),
@@ -78,14 +92,28 @@ MISTAKES = [
     ("degrees", DEGREES.format("-sign * (whole + minutes / 60)"), "south and west are negative"),
     ("degrees", DEGREES.format("str(whole)"), "one number is needed"),
     ("checksum", CHECKSUM.format("body", FITS.replace("02X", "X")), "two digits: 0C, not C"),
-    ("headings", HEADINGS.format("middle").replace("np.diff(points) != 0", "np.diff(points) == np.diff(points)"), "makes no leg"),
+    (
+        "headings",
+        HEADINGS.format("middle").replace(
+            "np.diff(points) != 0", "np.diff(points) == np.diff(points)"
+        ),
+        "makes no leg",
+    ),
     ("headings", HEADINGS.format("np.angle(way)"), "numbers are needed"),
     ("headings", HEADINGS.format("middle + math.pi"), "drives the route backwards"),
     ("headings", HEADINGS.format("np.degrees(middle)"), "these are degrees"),
-    ("headings", HEADINGS.format("np.angle(np.insert(way, 0, way[0]))"), "that comes to each point"),
+    (
+        "headings",
+        HEADINGS.format("np.angle(np.insert(way, 0, way[0]))"),
+        "that comes to each point",
+    ),
     ("headings", HEADINGS.format("np.append(middle[:-1], 0)"), "along the last leg"),
     ("headings", HEADINGS.format("np.insert(middle[1:], 0, 0)"), "along the first leg"),
-    ("headings", HEADINGS.format("np.concatenate([middle[:1], 0 * middle[1:-1], middle[-1:]])"), "half-way between"),
+    (
+        "headings",
+        HEADINGS.format("np.concatenate([middle[:1], 0 * middle[1:-1], middle[-1:]])"),
+        "half-way between",
+    ),
     ("headings", HEADINGS.format("0 * middle"), "turn the route by a quarter"),
     ("headings", HEADINGS.format("1 + 0 * middle"), "the mirrored headings"),
 ]
@@ -103,5 +131,10 @@ def test_mistakes(cell, source, hint):
 
 
 def test_the_sentences_are_those_of_the_log():
-    log = Path(__file__).parents[1].joinpath("notebooks/data/ublox5-standing.nmea").read_text(encoding="utf-8", errors="replace")
+    log = (
+        Path(__file__)
+        .parents[1]
+        .joinpath("notebooks/data/ublox5-standing.nmea")
+        .read_text(encoding="utf-8", errors="replace")
+    )
     assert all(f"${body}*" in log for body in routes.BODIES)

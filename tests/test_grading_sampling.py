@@ -18,33 +18,61 @@ def wheel_gains(a, g, times):
 RIGHT = {
     "by the angle of the pole": (
         "step",
-        STEP.format("min(2 * math.cos(math.pi - abs(math.atan2(p.imag, p.real))) / abs(p) for p in poles)"),
+        STEP.format(
+            "min(2 * math.cos(math.pi - abs(math.atan2(p.imag, p.real))) / abs(p) for p in poles)"
+        ),
     ),
-    "as a float of numpy": ("step", STEP.format("np.min([-2 / (p.real + p.imag**2 / p.real) for p in poles])")),
+    "as a float of numpy": (
+        "step",
+        STEP.format("np.min([-2 / (p.real + p.imag**2 / p.real) for p in poles])"),
+    ),
     "by trial, to 0.05 %": (
         "step",
         STEP.format("0.9995 * min(-2 * p.real / abs(p) ** 2 for p in poles)"),
     ),
-    "one gain from the other": ("wheel", WHEEL.format("np.array([times * a / g - a / g, times * a / g])")),
+    "one gain from the other": (
+        "wheel",
+        WHEEL.format("np.array([times * a / g - a / g, times * a / g])"),
+    ),
     "other gains": ("slow", "gains = wmr.Gains(0.4, 1.5, 2.0, 1.88)"),
 }
 MISTAKES = [
-    ("step", STEP.format("min(2 * p.real / abs(p) ** 2 for p in poles)"), "a step must be positive"),
+    (
+        "step",
+        STEP.format("min(2 * p.real / abs(p) ** 2 for p in poles)"),
+        "a step must be positive",
+    ),
     ("step", STEP.format("2 / max(-p.real for p in poles)"), "this is right for real poles"),
-    ("step", STEP.format("(lambda p: -2 * p.real / abs(p) ** 2)(max(poles, key=abs))"), "One that is slower, but swings"),
-    ("step", STEP.format("0.9 * min(-2 * p.real / abs(p) ** 2 for p in poles)"), "it is not the longest"),
+    (
+        "step",
+        STEP.format("(lambda p: -2 * p.real / abs(p) ** 2)(max(poles, key=abs))"),
+        "One that is slower, but swings",
+    ),
+    (
+        "step",
+        STEP.format("0.9 * min(-2 * p.real / abs(p) ** 2 for p in poles)"),
+        "it is not the longest",
+    ),
     ("step", STEP.format("1.1 * min(-2 * p.real / abs(p) ** 2 for p in poles)"), "in each step"),
     ("step", STEP.format("None"), "does it end in `return`?"),
     ("step", STEP.format("poles[0]"), "one number is needed"),
     ("step", STEP.format("wmr.longest_step(paper.OUTDOOR_GAINS)"), "asks for your own formula"),
     ("step", "longest_euler_step = 0.05", "a function is needed"),
     ("step", STEP.format("0.05"), "it is not the longest"),
-    ("wheel", WHEEL.format("(times * a / g, (times + 1) * a / g)"), "the motor's own `a` slows the wheel, too"),
+    (
+        "wheel",
+        WHEEL.format("(times * a / g, (times + 1) * a / g)"),
+        "the motor's own `a` slows the wheel, too",
+    ),
     ("wheel", WHEEL.format("(times, times + a / g)"), "it turns rad/s into volts"),
     ("wheel", WHEEL.format("((times - 1) * a / g, times)"), "which voltage keeps a constant speed"),
     ("wheel", WHEEL.format("((1 - times) * a / g, a / g)"), "runs away"),
     ("wheel", WHEEL.format("((times - 1) * a * g, times * a / g)"), "was asked for"),
-    ("wheel", WHEEL.format("((times - 1) * a / g, (times + 1) * a / g)"), "when the speed is right and constant"),
+    (
+        "wheel",
+        WHEEL.format("((times - 1) * a / g, (times + 1) * a / g)"),
+        "when the speed is right and constant",
+    ),
     ("wheel", WHEEL.format("((times - 1) * a / g, 1)"), "when the speed is right and constant"),
     ("wheel", WHEEL.format("times * a / g"), "2 numbers"),
     ("wheel", WHEEL.format("(a / g, a / g)"), "needs no feedback"),

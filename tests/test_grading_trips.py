@@ -5,14 +5,20 @@ import math
 import pytest
 
 import wmrlib as wmr
-from wmrlib.grading import Hint, trips
+from wmrbook.grading import Hint, trips
 
 
 def poses(start_point, goal_point, start_course, goal_course):
     """By distance and bearing, as lists, with headings of more than a turn."""
-    length, bearing = wmr.haversine_distance(start_point, goal_point), wmr.initial_bearing(start_point, goal_point)
+    length, bearing = (
+        wmr.haversine_distance(start_point, goal_point),
+        wmr.initial_bearing(start_point, goal_point),
+    )
     headings = [math.radians(450.0 - course) for course in (start_course, goal_course)]
-    return [[0, 0, headings[0]], [length * math.sin(bearing), length * math.cos(bearing), headings[1]]]
+    return [
+        [0, 0, headings[0]],
+        [length * math.sin(bearing), length * math.cos(bearing), headings[1]],
+    ]
 
 
 def parked(run):
@@ -72,13 +78,36 @@ def test_poses_that_face_the_wrong_way():
         (lambda run: run.rho[-1] < 0.1, "does it look at the heading"),
         (lambda run: abs(run.heading_error[-1]) < 0.08, "look at the distance"),
         (lambda run: run.rho[-1] < 1.0 and abs(run.heading_error[-1]) < 0.08, "arrival radius"),
-        (lambda run: run.outcome is wmr.Outcome.ARRIVED and parked(run), "went on until the time was up"),
-        (lambda run: run.rho[-1] <= 0.1 and abs(run.theta[-1]) <= 0.087, "neither is the error of the heading"),
-        (lambda run: run.rho[-1] <= 0.1 and abs(run.alpha[-1]) <= 0.087, "neither is the error of the heading"),
-        (lambda run: run.rho[-1] <= 0.1 and abs(run.heading_error[-1]) <= math.radians(20.0), "5 deg are asked for"),
-        (lambda run: run.rho[-1] <= 0.4 and abs(run.heading_error[-1]) <= 0.087, "0.1 m are asked for"),
-        (lambda run: run.rho[-1] <= 0.1 and abs(abs(run.heading[-1]) - abs(run.goal.heading)) <= 0.087, "opposite directions"),
-        (lambda run: run.rho[-1] <= 0.1 and abs(math.sin(run.heading_error[-1])) <= 0.087, "opposite directions"),
+        (
+            lambda run: run.outcome is wmr.Outcome.ARRIVED and parked(run),
+            "went on until the time was up",
+        ),
+        (
+            lambda run: run.rho[-1] <= 0.1 and abs(run.theta[-1]) <= 0.087,
+            "neither is the error of the heading",
+        ),
+        (
+            lambda run: run.rho[-1] <= 0.1 and abs(run.alpha[-1]) <= 0.087,
+            "neither is the error of the heading",
+        ),
+        (
+            lambda run: run.rho[-1] <= 0.1 and abs(run.heading_error[-1]) <= math.radians(20.0),
+            "5 deg are asked for",
+        ),
+        (
+            lambda run: run.rho[-1] <= 0.4 and abs(run.heading_error[-1]) <= 0.087,
+            "0.1 m are asked for",
+        ),
+        (
+            lambda run: (
+                run.rho[-1] <= 0.1 and abs(abs(run.heading[-1]) - abs(run.goal.heading)) <= 0.087
+            ),
+            "opposite directions",
+        ),
+        (
+            lambda run: run.rho[-1] <= 0.1 and abs(math.sin(run.heading_error[-1])) <= 0.087,
+            "opposite directions",
+        ),
     ],
 )
 def test_parked_hints(answer, hint):

@@ -4,8 +4,9 @@ import numpy as np
 import pytest
 from graded import lost
 
-from wmrlib import audit, paper, symbolic
-from wmrlib.grading import Hint, verdicts
+from wmrbook import audit
+from wmrbook.grading import Hint, verdicts
+from wmrlib import paper, symbolic
 
 CHAPTER = "ch10"
 RULE = """
@@ -28,7 +29,10 @@ RIGHT = {
     "far away": ("claim26", "state_26 = [0.001, 0.3, -3.1]"),
     "with floats": ("rule", RULE.format("rounds or (cuts and few)")),
     "a loop": ("digits", DIGITS.format("next(n for n in range(20) if half <= metres * 10**n)")),
-    "a float": ("digits", "import numpy as np\n" + DIGITS.format("np.maximum(0.0, np.ceil(np.log10(half / metres)))")),
+    "a float": (
+        "digits",
+        "import numpy as np\n" + DIGITS.format("np.maximum(0.0, np.ceil(np.log10(half / metres)))"),
+    ),
 }
 MISTAKES = [
     ("claim23", "state_23 = 1.0", "4 numbers, separated by commas"),
@@ -51,7 +55,11 @@ MISTAKES = [
     ("rule", RULE.format("False"), "and you say False"),
     ("rule", RULE.format("computed < 1 or rounds or (cuts and few)"), "you say True"),
     ("rule", RULE.format("rounds or (cuts and few and computed > 0)"), "just cut the digits off"),
-    ("rule", "import wmrlib\n" + RULE.format("wmrlib.audit.fits(computed, printed)"), "asks for your own formula"),
+    (
+        "rule",
+        "import wmrlib\n" + RULE.format("wmrbook.audit.fits(computed, printed)"),
+        "asks for your own formula",
+    ),
     ("digits", DIGITS.format("7"), "one decimal fewer"),
     ("digits", DIGITS.format("max(0, math.log10(half / metres))"), "a whole number is needed"),
     ("digits", DIGITS.format("max(0, math.ceil(math.log10(90 / metres)))"), "m are allowed"),
@@ -74,13 +82,17 @@ def test_the_rule_is_the_audit_s():
     for computed, printed in verdicts._printed(300):
         if not printed.endswith("0"):
             rounds, cuts, near = verdicts._verdict(verdicts.Decimal(repr(computed)), printed)
-            assert (rounds or (cuts and near)) == audit.fits(computed, paper.Published(float(printed), "", ""))
+            assert (rounds or (cuts and near)) == audit.fits(
+                computed, paper.Published(float(printed), "", "")
+            )
 
 
 def test_counterexamples_are_those_of_the_paper_s_equations():
     """Written out by hand, at random states: the check takes a state if and only if it refutes the claim."""
     accepted = wrong_side = 0
-    for rho, alpha, theta, omega in np.random.default_rng(1).uniform((0.01, -1, -3, -2), (1, 1.5, 3, 4), (200, 4)).tolist():
+    for rho, alpha, theta, omega in (
+        np.random.default_rng(1).uniform((0.01, -1, -3, -2), (1, 1.5, 3, 4), (200, 4)).tolist()
+    ):
         v = 4 * (1 - np.exp(-2 * rho)) * np.cos(alpha)
         part = -alpha * omega + v * np.sin(alpha) / rho * (0.3 * theta + alpha)
         obeyed = omega > (alpha + 0.3 * theta) * np.cos(alpha) * np.sin(alpha)

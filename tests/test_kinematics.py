@@ -17,7 +17,11 @@ poses = st.builds(wmr.Pose, metres, metres, angles)
 
 @pytest.mark.parametrize(
     ("v", "omega", "left", "right"),
-    [(0.0, math.pi, -0.381 * math.pi, 0.381 * math.pi), (1.0, 0.0, 1.0, 1.0), (0.381 * math.pi, math.pi, 0.0, 0.762 * math.pi)],
+    [
+        (0.0, math.pi, -0.381 * math.pi, 0.381 * math.pi),
+        (1.0, 0.0, 1.0, 1.0),
+        (0.381 * math.pi, math.pi, 0.0, 0.762 * math.pi),
+    ],
 )
 def test_wheels_as_in_wpilib(v, omega, left, right):
     """WPILib, DifferentialDriveKinematicsTest: a track of 0.381 m times 2."""
@@ -27,14 +31,19 @@ def test_wheels_as_in_wpilib(v, omega, left, right):
 
 @given(st.floats(-10, 10), st.floats(-10, 10), st.floats(0.05, 3.0))
 def test_wheels_round_trip(v, omega, width):
-    assert wmr.wheels_to_twist(*wmr.twist_to_wheels(v, omega, width), width) == (pytest.approx(v), pytest.approx(omega, abs=1e-12))
+    assert wmr.wheels_to_twist(*wmr.twist_to_wheels(v, omega, width), width) == (
+        pytest.approx(v),
+        pytest.approx(omega, abs=1e-12),
+    )
 
 
 @given(st.floats(-1e6, 1e6))
 def test_wrap_angle_keeps_direction_and_range(angle):
     wrapped = wmr.wrap_angle(angle)
     assert -math.pi < wrapped <= math.pi
-    exact = math.remainder(angle, 2 * math.pi)  # IEEE 754's exact remainder: a second method, to the last bit
+    exact = math.remainder(
+        angle, 2 * math.pi
+    )  # IEEE 754's exact remainder: a second method, to the last bit
     assert wrapped == (math.pi if exact == -math.pi else exact)
 
 
@@ -65,7 +74,11 @@ def test_polar_error_against_its_definition(pose, goal):
 def test_polar_error_by_hand():
     """Looking east, the goal 45 deg to the left and itself looking north: alpha = 45 deg, theta = 45 - 90 deg."""
     rho, alpha, theta = wmr.polar_error(wmr.Pose(0, 0, 0), wmr.Pose(1, 1, math.pi / 2))
-    assert (rho, alpha, theta) == (pytest.approx(math.sqrt(2)), pytest.approx(math.pi / 4), pytest.approx(-math.pi / 4))
+    assert (rho, alpha, theta) == (
+        pytest.approx(math.sqrt(2)),
+        pytest.approx(math.pi / 4),
+        pytest.approx(-math.pi / 4),
+    )
 
 
 def test_polar_error_behind_and_on_the_goal():
@@ -86,24 +99,40 @@ def test_polar_rate_is_the_slope_of_polar_error(rho, alpha, heading, v, omega):
     goal = wmr.Pose(0.0, 0.0, 0.3)
     pose = wmr.Pose(-rho * math.cos(heading + alpha), -rho * math.sin(heading + alpha), heading)
     dt = 1e-5
-    before, after = (wmr.polar_error(wmr.advance(pose, sign * v, sign * omega, dt), goal) for sign in (-1, 1))
+    before, after = (
+        wmr.polar_error(wmr.advance(pose, sign * v, sign * omega, dt), goal) for sign in (-1, 1)
+    )
     rate = wmr.polar_rate(rho, alpha, v, omega)
-    slopes = ((after.rho - before.rho) / (2 * dt), *(wmr.wrap_angle(a - b) / (2 * dt) for a, b in zip(after[1:], before[1:], strict=True)))
+    slopes = (
+        (after.rho - before.rho) / (2 * dt),
+        *(wmr.wrap_angle(a - b) / (2 * dt) for a, b in zip(after[1:], before[1:], strict=True)),
+    )
     assert rate == tuple(pytest.approx(slope, abs=1e-6) for slope in slopes)
 
 
 @given(poses, st.floats(-3, 3), st.floats(-3, 3), st.floats(0.0, 2.0))
 def test_arc_is_the_exact_motion(pose, v, omega, dt):
-    truth = solve_ivp(lambda _, q: wmr.pose_rate(q[2], v, omega), (0, max(dt, 1e-9)), pose, rtol=1e-11, atol=1e-11).y[:, -1]
+    truth = solve_ivp(
+        lambda _, q: wmr.pose_rate(q[2], v, omega), (0, max(dt, 1e-9)), pose, rtol=1e-11, atol=1e-11
+    ).y[:, -1]
     there = wmr.advance(pose, v, omega, dt)
-    assert (there.x, there.y) == (pytest.approx(truth[0], abs=1e-7), pytest.approx(truth[1], abs=1e-7))
+    assert (there.x, there.y) == (
+        pytest.approx(truth[0], abs=1e-7),
+        pytest.approx(truth[1], abs=1e-7),
+    )
     assert abs(wmr.wrap_angle(there.heading - truth[2])) < 1e-7
 
 
 @given(poses, st.floats(-3, 3), st.floats(-3, 3))
 def test_euler_is_the_tangent(pose, v, omega):
-    there, (x_rate, y_rate, heading_rate) = wmr.advance(pose, v, omega, 0.5, "euler"), wmr.pose_rate(pose.heading, v, omega)
-    assert there[:2] == (pytest.approx(pose.x + 0.5 * x_rate, abs=1e-9), pytest.approx(pose.y + 0.5 * y_rate, abs=1e-9))
+    there, (x_rate, y_rate, heading_rate) = (
+        wmr.advance(pose, v, omega, 0.5, "euler"),
+        wmr.pose_rate(pose.heading, v, omega),
+    )
+    assert there[:2] == (
+        pytest.approx(pose.x + 0.5 * x_rate, abs=1e-9),
+        pytest.approx(pose.y + 0.5 * y_rate, abs=1e-9),
+    )
     assert abs(wmr.wrap_angle(there.heading - pose.heading - 0.5 * heading_rate)) < 1e-12
 
 
@@ -119,13 +148,28 @@ def test_arrays_broadcast():
     [
         (lambda: wmr.Pose(math.nan, 0, 0), r"x = nan is not allowed: a finite number is needed"),
         (lambda: wmr.Pose(0, 0, "north"), r"heading = 'north'"),
-        (lambda: wmr.Pose([1.0, 2.0], [1.0, 2.0, 3.0], 0), r"mismatched lengths: x has shape \(2,\), y has shape \(3,\)"),
+        (
+            lambda: wmr.Pose([1.0, 2.0], [1.0, 2.0, 3.0], 0),
+            r"mismatched lengths: x has shape \(2,\), y has shape \(3,\)",
+        ),
         (lambda: wmr.wrap_angle(math.inf), r"angle = inf"),
-        (lambda: wmr.wheels_to_twist(1.0, 1.0, 0.0), r"track_width = 0\.0 is not allowed: a finite number above 0 is needed"),
-        (lambda: wmr.polar_rate(0.0, 0.0, 1.0, 0.0), r"rho = 0\.0 is not allowed: a finite number above 0"),
-        (lambda: wmr.polar_error(wmr.Pose([1.0, 2.0], 0, 0), wmr.Pose([1.0, 2.0, 3.0], 0, 0)), r"mismatched lengths: pose\.x .* goal\.x"),
+        (
+            lambda: wmr.wheels_to_twist(1.0, 1.0, 0.0),
+            r"track_width = 0\.0 is not allowed: a finite number above 0 is needed",
+        ),
+        (
+            lambda: wmr.polar_rate(0.0, 0.0, 1.0, 0.0),
+            r"rho = 0\.0 is not allowed: a finite number above 0",
+        ),
+        (
+            lambda: wmr.polar_error(wmr.Pose([1.0, 2.0], 0, 0), wmr.Pose([1.0, 2.0, 3.0], 0, 0)),
+            r"mismatched lengths: pose\.x .* goal\.x",
+        ),
         (lambda: wmr.polar_error((0, 0, 0), wmr.Pose(0, 0, 0)), r"a Pose is needed, not a tuple"),
-        (lambda: wmr.advance(wmr.Pose(0, 0, 0), 1, 0, 0.1, "rk4"), r"method = 'rk4' is not allowed: one of 'euler', 'arc'"),
+        (
+            lambda: wmr.advance(wmr.Pose(0, 0, 0), 1, 0, 0.1, "rk4"),
+            r"method = 'rk4' is not allowed: one of 'euler', 'arc'",
+        ),
         (lambda: wmr.advance(wmr.Pose(0, 0, 0), 1, 0, -0.1), r"dt = -0\.1"),
     ],
 )

@@ -12,16 +12,25 @@ PUBLISHED = wmr.paper.PUBLISHED
 
 def run(x_axis, gains=None, **options):
     case = wmr.paper.outdoor(x_axis)
-    return wmr.arrival(wmr.simulate(case.start, case.goal, gains or case.gains, **{"method": "continuous"} | options))
+    return wmr.arrival(
+        wmr.simulate(
+            case.start, case.goal, gains or case.gains, **{"method": "continuous"} | options
+        )
+    )
 
 
 def test_outdoor_in_both_readings_of_the_axes():
     east, north = wmr.paper.outdoor("east"), wmr.paper.outdoor("north")
-    assert (east.goal.x, east.goal.y) == (pytest.approx(9.6684, abs=1e-4), pytest.approx(57.2654, abs=1e-4))
+    assert (east.goal.x, east.goal.y) == (
+        pytest.approx(9.6684, abs=1e-4),
+        pytest.approx(57.2654, abs=1e-4),
+    )
     assert (north.goal.x, north.goal.y) == (east.goal.y, east.goal.x)
     assert math.degrees(east.start.heading) == pytest.approx(72.0)
     assert math.degrees(east.goal.heading) == pytest.approx(-60.0)
-    assert north.goal.x == pytest.approx(PUBLISHED["x_error_at_start"].value, abs=0.5)  # only x north has the paper's 57 m in x
+    assert north.goal.x == pytest.approx(
+        PUBLISHED["x_error_at_start"].value, abs=0.5
+    )  # only x north has the paper's 57 m in x
 
 
 def test_published_distance_holds_and_bearing_does_not():
@@ -45,9 +54,13 @@ def test_gains_that_settle_the_heading():
     assert designed.peak_omega == pytest.approx(0.64, abs=0.005)
 
 
-@pytest.mark.parametrize(("law", "residual"), [("corrected", 0.090), ("printed", 0.193), ("aicardi", 0.332)])
+@pytest.mark.parametrize(
+    ("law", "residual"), [("corrected", 0.090), ("printed", 0.193), ("aicardi", 0.332)]
+)
 def test_circle_residuals(law, residual):
-    after = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, law=law, duration=40.0)
+    after = wmr.track(
+        wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, law=law, duration=40.0
+    )
     assert wmr.residual(after) == pytest.approx(residual, abs=5e-4)
 
 
@@ -55,9 +68,13 @@ def test_circle_residuals(law, residual):
 def test_circle_residual_is_predicted_by_v_max(v_max):
     gains = wmr.paper.CIRCLE_GAINS._replace(v_max=v_max)
     predicted = -math.log(1 - wmr.paper.CIRCLE_SPEED / v_max) / gains.k_rho
-    measured = wmr.residual(wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, gains, duration=40.0))
+    measured = wmr.residual(
+        wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, gains, duration=40.0)
+    )
     assert measured == pytest.approx(predicted, rel=0.01)
-    assert (abs(measured - PUBLISHED["circle_residual"].value) < 0.011) == (v_max == 4.0)  # which v_max the paper must have used
+    assert (abs(measured - PUBLISHED["circle_residual"].value) < 0.011) == (
+        v_max == 4.0
+    )  # which v_max the paper must have used
 
 
 def test_circle_is_the_papers_and_its_twist_is_its_derivative():
@@ -73,5 +90,7 @@ def test_circle_is_the_papers_and_its_twist_is_its_derivative():
 
 
 def test_unknown_axis():
-    with pytest.raises(ValueError, match=r"x_axis = 'west' is not allowed: one of 'east', 'north' is needed"):
+    with pytest.raises(
+        ValueError, match=r"x_axis = 'west' is not allowed: one of 'east', 'north' is needed"
+    ):
         wmr.paper.outdoor("west")

@@ -9,20 +9,25 @@ import pytest
 from matplotlib.image import imread
 
 import wmrlib as wmr
-from wmrlib import plots
+from wmrbook import figures
 
 ROBOT, GOAL = wmr.Pose(0.0, 0.0, math.radians(15)), wmr.Pose(4.0, 5.7, math.radians(-25))
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 GAINS = wmr.paper.OUTDOOR_GAINS
-RUNS = [wmr.simulate(ROBOT, GOAL, GAINS, law=law, method="continuous") for law in ("corrected", "aicardi")]
+RUNS = [
+    wmr.simulate(ROBOT, GOAL, GAINS, law=law, method="continuous")
+    for law in ("corrected", "aicardi")
+]
 WAY = wmr.Pose(np.linspace(-3.0, 0.0, 20), np.linspace(-2.0, 0.1, 20), np.linspace(1.0, 0.2, 20))
 PICTURES = {
-    "polar_angles": lambda: plots.polar_angles(ROBOT, GOAL),
-    "polar_angles, clockwise": lambda: plots.polar_angles(wmr.Pose(5.0, 0.0, 2.0), wmr.Pose(0.0, -4.0, 3.0)),
-    "third_angle": lambda: plots.third_angle(ROBOT, GOAL),
-    "ways": lambda: plots.ways({"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN),
-    "angles_over_time": lambda: plots.angles_over_time(RUNS[0]),
-    "angles_over_time of two": lambda: plots.angles_over_time(RUNS, ["one", "two"]),
+    "polar_angles": lambda: figures.polar_angles(ROBOT, GOAL),
+    "polar_angles, clockwise": lambda: figures.polar_angles(
+        wmr.Pose(5.0, 0.0, 2.0), wmr.Pose(0.0, -4.0, 3.0)
+    ),
+    "third_angle": lambda: figures.third_angle(ROBOT, GOAL),
+    "ways": lambda: figures.ways({"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN),
+    "angles_over_time": lambda: figures.angles_over_time(RUNS[0]),
+    "angles_over_time of two": lambda: figures.angles_over_time(RUNS, ["one", "two"]),
 }
 
 
@@ -50,11 +55,21 @@ def test_every_axis_says_what_it_shows_and_in_which_unit(name):
 
 def test_texts_carry_the_angles():
     text = PICTURES["polar_angles"]().alt
-    for words in ("sight is at 55 deg", "heads 15 deg", "the goal -25 deg", "sight, is 40 deg", "sight, is 80 deg", "robot's, is 40 deg"):
+    for words in (
+        "sight is at 55 deg",
+        "heads 15 deg",
+        "the goal -25 deg",
+        "sight, is 40 deg",
+        "sight, is 80 deg",
+        "robot's, is 40 deg",
+    ):
         assert words in text
     text = PICTURES["third_angle"]().alt
     assert "theta = 80 deg, turned from the goal's heading to the line of sight" in text
-    assert "beta = -80 deg, turned back from the line of sight to the goal's heading, as in Corke, Siegwart, PythonRobotics" in text
+    assert (
+        "beta = -80 deg, turned back from the line of sight to the goal's heading, as in Corke, Siegwart, PythonRobotics"
+        in text
+    )
     assert "one: ends 0.10 m from the goal, its heading 11 deg off" in PICTURES["ways"]().alt
 
 
@@ -63,9 +78,14 @@ def test_arcs_begin_and_end_on_their_sides():
     figure = PICTURES["third_angle"]().figure
     figure.canvas.draw()
     theta_axes, beta_axes = figure.axes
-    np.testing.assert_allclose(theta_axes.get_position().size, beta_axes.get_position().size, rtol=1e-3)
+    np.testing.assert_allclose(
+        theta_axes.get_position().size, beta_axes.get_position().size, rtol=1e-3
+    )
     assert theta_axes.get_position().y0 == pytest.approx(beta_axes.get_position().y0, abs=1e-3)
-    assert (theta_axes.get_xlim(), theta_axes.get_ylim()) == (beta_axes.get_xlim(), beta_axes.get_ylim())
+    assert (theta_axes.get_xlim(), theta_axes.get_ylim()) == (
+        beta_axes.get_xlim(),
+        beta_axes.get_ylim(),
+    )
     sight = math.atan2(GOAL.y, GOAL.x)
     for axes, begin, end in ((theta_axes, GOAL.heading, sight), (beta_axes, sight, GOAL.heading)):
         x, y = axes.lines[-1].get_data()
@@ -80,7 +100,11 @@ def test_no_name_lies_on_the_line_of_sight(name):
     figure = PICTURES[name]().figure
     figure.canvas.draw()
     for axes in figure.axes:
-        line = next(each for each in axes.lines if each.get_linestyle() == "--" and len(each.get_xdata()) == 2)
+        line = next(
+            each
+            for each in axes.lines
+            if each.get_linestyle() == "--" and len(each.get_xdata()) == 2
+        )
         ends = axes.transData.transform(np.column_stack(line.get_data()))
         points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
         for text in axes.texts:
@@ -102,7 +126,7 @@ def test_angles_over_time_are_the_runs():
 
 
 def test_ways_show_where_each_robot_ends():
-    axes = plots.ways({"one": WAY}, ORIGIN).figure.axes[0]
+    axes = figures.ways({"one": WAY}, ORIGIN).figure.axes[0]
     assert axes.get_aspect() == 1.0
     for dart, heading in zip(axes.patches, (1.0, 0.2, 0.0), strict=True):  # start, end, goal
         tip, tail = dart.get_xy()[0], dart.get_xy()[2]
@@ -112,10 +136,13 @@ def test_ways_show_where_each_robot_ends():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: plots.ways({}, ORIGIN), r"tracks has 0 entries, which is not allowed: 1 to 4 are needed"),
-        (lambda: plots.ways({"one": WAY}, (0, 0, 0)), r"a Pose is needed, not a tuple"),
-        (lambda: plots.angles_over_time([]), r"runs has 0 entries"),
-        (lambda: plots.polar_angles((0, 0, 0), GOAL), r"a Pose is needed, not a tuple"),
+        (
+            lambda: figures.ways({}, ORIGIN),
+            r"tracks has 0 entries, which is not allowed: 1 to 4 are needed",
+        ),
+        (lambda: figures.ways({"one": WAY}, (0, 0, 0)), r"a Pose is needed, not a tuple"),
+        (lambda: figures.angles_over_time([]), r"runs has 0 entries"),
+        (lambda: figures.polar_angles((0, 0, 0), GOAL), r"a Pose is needed, not a tuple"),
     ],
 )
 def test_bad_input(make, message):

@@ -8,7 +8,7 @@ import pytest
 from matplotlib.image import imread
 
 import wmrlib as wmr
-from wmrlib import plots
+from wmrbook import figures
 
 PAPER = wmr.paper.outdoor()
 GENTLE = wmr.Gains(0.2, 2.0, 2.0, 4.0)
@@ -17,9 +17,11 @@ TRIED = wmr.gain_map(PAPER.start, PAPER.goal, GENTLE, OVER, progress=False)
 BEST = wmr.pareto(TRIED.time, np.abs(TRIED.heading_error))
 ONE = wmr.arrival(wmr.simulate(PAPER.start, PAPER.goal, GENTLE, method="continuous"))
 PICTURES = {
-    "root_locus": lambda: plots.root_locus(PAPER.gains, "k_alpha", np.linspace(0.1, 20.0, 100)),
-    "phase_portrait": lambda: plots.phase_portrait({"the paper's": PAPER.gains, "gentle": GENTLE}, 0.5),
-    "front": lambda: plots.front(TRIED, BEST, {"gentle": ONE}),
+    "root_locus": lambda: figures.root_locus(PAPER.gains, "k_alpha", np.linspace(0.1, 20.0, 100)),
+    "phase_portrait": lambda: figures.phase_portrait(
+        {"the paper's": PAPER.gains, "gentle": GENTLE}, 0.5
+    ),
+    "front": lambda: figures.front(TRIED, BEST, {"gentle": ONE}),
 }
 
 
@@ -49,17 +51,26 @@ def test_a_locus_says_its_course():
         "for k_alpha from 0.1 to 20. The pair runs on a circle of 4.38 rad/s to the real axis and parts there."
         in PICTURES["root_locus"]().alt
     )
-    short = plots.root_locus(PAPER.gains, "k_alpha", np.linspace(0.1, 2.0, 20))
+    short = figures.root_locus(PAPER.gains, "k_alpha", np.linspace(0.1, 2.0, 20))
     assert "The pair runs on a circle of 4.38 rad/s. At" in short.alt
-    straight = plots.root_locus(PAPER.gains, "h", np.geomspace(1e-4, 1.0, 100))
-    assert "for h from 0.0001 to 1. The two poles meet at -0.50, and the pair then runs straight up and down." in straight.alt
-    assert "The pair runs straight up and down at -0.50." in plots.root_locus(PAPER.gains, "h", np.array([0.1, 1.0])).alt
-    assert "Both poles stay real." in plots.root_locus(PAPER.gains, "k_alpha", np.array([10.0, 20.0])).alt
+    straight = figures.root_locus(PAPER.gains, "h", np.geomspace(1e-4, 1.0, 100))
+    assert (
+        "for h from 0.0001 to 1. The two poles meet at -0.50, and the pair then runs straight up and down."
+        in straight.alt
+    )
+    assert (
+        "The pair runs straight up and down at -0.50."
+        in figures.root_locus(PAPER.gains, "h", np.array([0.1, 1.0])).alt
+    )
+    assert (
+        "Both poles stay real."
+        in figures.root_locus(PAPER.gains, "k_alpha", np.array([10.0, 20.0])).alt
+    )
 
 
 def test_no_label_of_a_damping_lies_across_the_left_axis():
     """That of 0.7 ends near the corner."""
-    picture = plots.root_locus(PAPER.gains, "h", np.geomspace(1e-4, 1.0, 100))
+    picture = figures.root_locus(PAPER.gains, "h", np.geomspace(1e-4, 1.0, 100))
     picture.png()
     axes = picture.figure.axes[0]
     for text in axes.texts:
@@ -69,19 +80,22 @@ def test_no_label_of_a_damping_lies_across_the_left_axis():
 
 def test_a_portrait_counts_the_turns_of_the_tangent():
     """Of s^2 + k_alpha s + h lam^2 the amplitude falls to a twentieth in ln(20)/sigma seconds, in which it turns so often."""
-    text = plots.phase_portrait({"the paper's": PAPER.gains, "gentle": GENTLE}, 0.05).alt
+    text = figures.phase_portrait({"the paper's": PAPER.gains, "gentle": GENTLE}, 0.05).alt
     swing = np.sqrt(0.3 * 8.0**2 - 0.25)
     turns = float(re.search(r"a spiral of ([\d.]+) turns", text)[1])
     assert turns == pytest.approx(np.log(20.0) / 0.5 * swing / (2.0 * np.pi), abs=0.2)
     assert "with gentle gains (damping 0.884) one sweep, 0." in text
     assert "horizontal" not in text
-    assert "at alpha = +-90 deg the flow is horizontal" in plots.phase_portrait({"gentle": GENTLE}, 2.0).alt
+    assert (
+        "at alpha = +-90 deg the flow is horizontal"
+        in figures.phase_portrait({"gentle": GENTLE}, 2.0).alt
+    )
 
 
 def test_the_front_shows_what_is_below_its_border():
     error = np.array(TRIED.heading_error)
     error[np.unravel_index(np.flatnonzero(BEST)[:2], error.shape)] = 1e-5
-    picture = plots.front(TRIED._replace(heading_error=error), BEST, {"gentle": ONE})
+    picture = figures.front(TRIED._replace(heading_error=error), BEST, {"gentle": ONE})
     above, below = picture.figure.axes[0].collections
     assert len(below.get_offsets()) == 2
     assert len(above.get_offsets()) == BEST.sum() - 2
@@ -92,4 +106,4 @@ def test_the_front_shows_what_is_below_its_border():
 
 def test_a_portrait_of_nothing():
     with pytest.raises(ValueError, match="1 or 2 are needed"):
-        plots.phase_portrait({}, 1.0)
+        figures.phase_portrait({}, 1.0)

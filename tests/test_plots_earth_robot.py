@@ -9,21 +9,28 @@ import pytest
 from matplotlib.image import imread
 
 import wmrlib as wmr
-from wmrlib import plots
+from wmrbook import figures
 
 HERE, THERE = wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)
 GAPS = np.array([1e-6, 1e-3, 1.0])
-ERRORS = {"one": (np.array([0.0, 1e-9, 5e-9]), np.array([0.02, 1e-3, 1e-4])), "two": (GAPS * 1e-16, np.array([math.nan, 1e-9, 1e-9]))}
+ERRORS = {
+    "one": (np.array([0.0, 1e-9, 5e-9]), np.array([0.02, 1e-3, 1e-4])),
+    "two": (GAPS * 1e-16, np.array([math.nan, 1e-9, 1e-9])),
+}
 PICTURES = {
-    "spherical_triangle": lambda: plots.spherical_triangle(HERE, THERE),
-    "rounding_errors": lambda: plots.rounding_errors(GAPS, GAPS, ERRORS),
-    "sphere_error_map": lambda: plots.sphere_error_map(wmr.paper.GPS_POINT_1, math.radians(9.6274)),
-    "coordinate_system": lambda: plots.coordinate_system(wmr.Pose(2.0, 1.5, math.radians(35.0)), 1.0, 0.25),
-    "turning_centre": lambda: plots.turning_centre(1.0, 0.8, 0.6),
-    "turning_centre to the right": lambda: plots.turning_centre(1.0, -2.5, 0.6),
-    "commutator": lambda: plots.commutator(1.0, 0.5, 3),
-    "approach": lambda: plots.approach(wmr.paper.OUTDOOR_GAINS),
-    "steps": lambda: plots.steps(4.0, 1.0, 0.5),
+    "spherical_triangle": lambda: figures.spherical_triangle(HERE, THERE),
+    "rounding_errors": lambda: figures.rounding_errors(GAPS, GAPS, ERRORS),
+    "sphere_error_map": lambda: figures.sphere_error_map(
+        wmr.paper.GPS_POINT_1, math.radians(9.6274)
+    ),
+    "coordinate_system": lambda: figures.coordinate_system(
+        wmr.Pose(2.0, 1.5, math.radians(35.0)), 1.0, 0.25
+    ),
+    "turning_centre": lambda: figures.turning_centre(1.0, 0.8, 0.6),
+    "turning_centre to the right": lambda: figures.turning_centre(1.0, -2.5, 0.6),
+    "commutator": lambda: figures.commutator(1.0, 0.5, 3),
+    "approach": lambda: figures.approach(wmr.paper.OUTDOOR_GAINS),
+    "steps": lambda: figures.steps(4.0, 1.0, 0.5),
 }
 NUMBERS = {
     "spherical_triangle": "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg",
@@ -48,7 +55,9 @@ def test_every_picture_draws_and_has_its_text(name):
     assert "nan" not in picture.alt
     pixels = imread(io.BytesIO(bundle["image/png"]))[..., :3]
     assert pixels.shape[1] == pytest.approx(1.5 * metadata["image/png"]["width"], abs=2)
-    assert 0.01 < np.mean(pixels.min(axis=2) < 0.9) < (0.9 if name == "sphere_error_map" else 0.7)  # neither blank nor flooded
+    assert (
+        0.01 < np.mean(pixels.min(axis=2) < 0.9) < (0.9 if name == "sphere_error_map" else 0.7)
+    )  # neither blank nor flooded
     assert NUMBERS[name] in picture.alt
 
 
@@ -63,19 +72,27 @@ def test_every_axis_says_what_it_shows_and_in_which_unit(name):
 
 
 def test_an_error_of_zero_and_a_failure_are_left_out():
-    for axes, sizes in zip(plots.rounding_errors(GAPS, GAPS, ERRORS).figure.axes, ([2, 3], [3, 2]), strict=True):
+    for axes, sizes in zip(
+        figures.rounding_errors(GAPS, GAPS, ERRORS).figure.axes, ([2, 3], [3, 2]), strict=True
+    ):
         assert [line.get_xdata().size for line in axes.lines] == sizes
 
 
 def test_an_error_that_has_its_peak_in_between_is_told_so():
     gaps = np.geomspace(1e-6, 1e6, 60)
     peak, flat = np.minimum(gaps, 1e-2 / gaps), np.full(60, 3e-9)
-    alt = plots.rounding_errors(gaps, gaps, {"one": (peak, flat)}).alt
-    assert alt.endswith("one: left rising and then falling as the gap closes, below 1 m, right level, below 10 nm.")
+    alt = figures.rounding_errors(gaps, gaps, {"one": (peak, flat)}).alt
+    assert alt.endswith(
+        "one: left rising and then falling as the gap closes, below 1 m, right level, below 10 nm."
+    )
 
 
 def test_the_triangles_third_side_bulges_away_from_the_view():
-    sides = [line for line in plots.spherical_triangle(HERE, THERE).figure.axes[0].lines if line.get_linewidth() == 3.0]
+    sides = [
+        line
+        for line in figures.spherical_triangle(HERE, THERE).figure.axes[0].lines
+        if line.get_linewidth() == 3.0
+    ]
     assert len(sides) == 3
     for line in sides:
         x, y = line.get_data()
@@ -84,47 +101,70 @@ def test_the_triangles_third_side_bulges_away_from_the_view():
 
 
 def test_the_maps_star_is_the_line_asked_for():
-    axes = plots.sphere_error_map(wmr.paper.GPS_POINT_1, math.radians(9.6274)).figure.axes[0]
-    assert [axes.lines[-1].get_xdata()[0], axes.lines[-1].get_ydata()[0]] == [pytest.approx(9.6274), pytest.approx(33.273572)]
+    axes = figures.sphere_error_map(wmr.paper.GPS_POINT_1, math.radians(9.6274)).figure.axes[0]
+    assert [axes.lines[-1].get_xdata()[0], axes.lines[-1].get_ydata()[0]] == [
+        pytest.approx(9.6274),
+        pytest.approx(33.273572),
+    ]
     assert any("+0.244 %" in text.get_text() for text in axes.texts)
 
 
 def test_the_commutator_leads_sideways():
-    axes = plots.commutator(0.2, 0.1).figure.axes[0]
-    end = axes.patches[2].get_xy()[:4].mean(axis=0) + 0.2 * 0.07 * np.array([0.25, 0.0])  # the dart's corners lie 0.25 of its size behind
+    axes = figures.commutator(0.2, 0.1).figure.axes[0]
+    end = axes.patches[2].get_xy()[:4].mean(axis=0) + 0.2 * 0.07 * np.array(
+        [0.25, 0.0]
+    )  # the dart's corners lie 0.25 of its size behind
     assert end == pytest.approx([0.2 * (1 - math.cos(0.1)), -0.2 * math.sin(0.1)], abs=1e-9)
 
 
 def test_eulers_steps_are_a_polygon_and_the_arcs_lie_on_the_circle():
-    exact, arc, euler, _ = plots.steps(4.0, 1.0, 0.5).figure.axes[0].lines
+    exact, arc, euler, _ = figures.steps(4.0, 1.0, 0.5).figure.axes[0].lines
     for line in (exact, arc):
-        np.testing.assert_allclose(np.hypot(line.get_xdata(), line.get_ydata() - 4.0), 4.0, rtol=1e-12)
-    np.testing.assert_allclose(np.hypot(np.diff(euler.get_xdata()), np.diff(euler.get_ydata())), 2.0, rtol=1e-12)
+        np.testing.assert_allclose(
+            np.hypot(line.get_xdata(), line.get_ydata() - 4.0), 4.0, rtol=1e-12
+        )
+    np.testing.assert_allclose(
+        np.hypot(np.diff(euler.get_xdata()), np.diff(euler.get_ydata())), 2.0, rtol=1e-12
+    )
     for parts in (6, 12, 49):  # steps that divide the turn: the polygon closes and goes no further
-        euler = plots.steps(4.0, 1.0, 2 * math.pi / parts).figure.axes[0].lines[2]
+        euler = figures.steps(4.0, 1.0, 2 * math.pi / parts).figure.axes[0].lines[2]
         assert euler.get_xdata().size == parts + 1
         assert math.hypot(euler.get_xdata()[-1], euler.get_ydata()[-1]) < 1e-12
     assert euler.get_ydata()[1] == 0.0  # the first step goes along the tangent
 
 
 def test_at_the_goal_omega_still_depends_on_the_side():
-    nearest = plots.approach(wmr.Gains(2.0, 1.0, 0.3), [0.5, 1e-6]).figure.axes[0].lines[1]
-    assert np.interp(90.0, nearest.get_xdata(), nearest.get_ydata()) == pytest.approx(math.pi / 2, abs=1e-5)
+    nearest = figures.approach(wmr.Gains(2.0, 1.0, 0.3), [0.5, 1e-6]).figure.axes[0].lines[1]
+    assert np.interp(90.0, nearest.get_xdata(), nearest.get_ydata()) == pytest.approx(
+        math.pi / 2, abs=1e-5
+    )
     assert np.interp(0.0, nearest.get_xdata(), nearest.get_ydata()) == pytest.approx(0.0, abs=1e-9)
 
 
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: plots.spherical_triangle((5, 0), THERE), r"a GeoPoint is needed, not a tuple"),
-        (lambda: plots.sphere_error_map((5, 0), 0.0), r"a GeoPoint is needed, not a tuple"),
-        (lambda: plots.rounding_errors(GAPS, GAPS, {}), r"errors has 0 entries, which is not allowed: 1 to 4 are needed"),
-        (lambda: plots.coordinate_system(wmr.Pose(0, 0, 0), 0.0, 0.1), r"track_width = 0\.0 .* above 0"),
-        (lambda: plots.coordinate_system(wmr.Pose(0, 0, 0), 1.0, -0.1), r"wheel_radius = -0\.1 .* above 0"),
-        (lambda: plots.turning_centre(1.0, 0.0, 0.6), r"omega = 0\.0 is not allowed: another number is needed"),
-        (lambda: plots.commutator(0.0, 0.5), r"step = 0\.0 .* above 0"),
-        (lambda: plots.approach(wmr.Gains(2, 1, 1), [1, 2, 3, 4, 5]), r"distances has 5 entries"),
-        (lambda: plots.steps(1.0, 0.0, 0.1), r"omega = 0\.0 is not allowed"),
+        (lambda: figures.spherical_triangle((5, 0), THERE), r"a GeoPoint is needed, not a tuple"),
+        (lambda: figures.sphere_error_map((5, 0), 0.0), r"a GeoPoint is needed, not a tuple"),
+        (
+            lambda: figures.rounding_errors(GAPS, GAPS, {}),
+            r"errors has 0 entries, which is not allowed: 1 to 4 are needed",
+        ),
+        (
+            lambda: figures.coordinate_system(wmr.Pose(0, 0, 0), 0.0, 0.1),
+            r"track_width = 0\.0 .* above 0",
+        ),
+        (
+            lambda: figures.coordinate_system(wmr.Pose(0, 0, 0), 1.0, -0.1),
+            r"wheel_radius = -0\.1 .* above 0",
+        ),
+        (
+            lambda: figures.turning_centre(1.0, 0.0, 0.6),
+            r"omega = 0\.0 is not allowed: another number is needed",
+        ),
+        (lambda: figures.commutator(0.0, 0.5), r"step = 0\.0 .* above 0"),
+        (lambda: figures.approach(wmr.Gains(2, 1, 1), [1, 2, 3, 4, 5]), r"distances has 5 entries"),
+        (lambda: figures.steps(1.0, 0.0, 0.1), r"omega = 0\.0 is not allowed"),
     ],
 )
 def test_bad_input(make, message):

@@ -10,26 +10,39 @@ from matplotlib.colors import same_color
 from matplotlib.image import imread
 
 import wmrlib as wmr
+from wmrbook import challenge, figures
+from wmrbook.challenge import Challenge, from_seed
 from wmrlib import plots
-from wmrlib.challenge import Challenge, from_seed
 
 GAINS = wmr.Gains(0.4, 2.0, 1.0, 3.0)
-WAY = wmr.Pose(np.array([0.0, 25.0, 30.0, 0.0]), np.array([0.0, 2.0, 30.0, 40.0]), np.array([0.1, 0.8, 2.0, 3.0]))
+WAY = wmr.Pose(
+    np.array([0.0, 25.0, 30.0, 0.0]),
+    np.array([0.0, 2.0, 30.0, 40.0]),
+    np.array([0.1, 0.8, 2.0, 3.0]),
+)
 MIXED = wmr.drive_route(WAY, GAINS, stop=[False, True, True])
 STUCK = wmr.drive_route(WAY._replace(y=np.array([0.0, 2.0, 90.0, 95.0])), GAINS, duration=20.0)
-GOOD = wmr.challenge.score(wmr.Gains(0.128, 1.089, 1.42, 7.528))
-WILD = wmr.challenge.score(wmr.Gains(5.0, 0.1, 5.0, 20.0))
-FIVE = wmr.challenge.score(wmr.Gains(2.0, 1.0, 0.3), Challenge(1, from_seed(1).cases[:5]))
+GOOD = challenge.score(wmr.Gains(0.128, 1.089, 1.42, 7.528))
+WILD = challenge.score(wmr.Gains(5.0, 0.1, 5.0, 20.0))
+FIVE = challenge.score(wmr.Gains(2.0, 1.0, 0.3), Challenge(1, from_seed(1).cases[:5]))
 PICTURES = {
-    "route": lambda: plots.route(MIXED, background=(np.linspace(0.0, 25.0, 30), np.linspace(1.0, 3.0, 30))),
-    "route, not reached": lambda: plots.route(STUCK),
-    "route of one pose": lambda: plots.route(wmr.drive_route(wmr.Pose(3.0, 4.0, 1.0), GAINS, start=wmr.Pose(3.0, 4.0, 1.0))),
-    "signals": lambda: plots.route_signals(MIXED),
-    "signals of one pose": lambda: plots.route_signals(wmr.drive_route(wmr.Pose(3.0, 4.0, 1.0), GAINS, start=wmr.Pose(3.0, 4.0, 1.0))),
-    "challenge": lambda: plots.challenge_paths(GOOD),
-    "challenge, wild": lambda: plots.challenge_paths(WILD),
-    "challenge of five": lambda: plots.challenge_paths(FIVE),
-    "challenge, nowhere": lambda: plots.challenge_paths(wmr.challenge.score(wmr.Gains(1e300, 1e300, 1e300, 1e300))),
+    "route": lambda: figures.route(
+        MIXED, background=(np.linspace(0.0, 25.0, 30), np.linspace(1.0, 3.0, 30))
+    ),
+    "route, not reached": lambda: figures.route(STUCK),
+    "route of one pose": lambda: figures.route(
+        wmr.drive_route(wmr.Pose(3.0, 4.0, 1.0), GAINS, start=wmr.Pose(3.0, 4.0, 1.0))
+    ),
+    "signals": lambda: figures.route_signals(MIXED),
+    "signals of one pose": lambda: figures.route_signals(
+        wmr.drive_route(wmr.Pose(3.0, 4.0, 1.0), GAINS, start=wmr.Pose(3.0, 4.0, 1.0))
+    ),
+    "challenge": lambda: figures.challenge_paths(GOOD),
+    "challenge, wild": lambda: figures.challenge_paths(WILD),
+    "challenge of five": lambda: figures.challenge_paths(FIVE),
+    "challenge, nowhere": lambda: figures.challenge_paths(
+        challenge.score(wmr.Gains(1e300, 1e300, 1e300, 1e300))
+    ),
 }
 
 
@@ -61,26 +74,40 @@ def test_the_outer_axes_say_what_they_show_and_in_which_unit(name):
 def test_texts_carry_the_numbers():
     text = PICTURES["route"]().alt
     assert text.startswith("Path from (0.0, 0.0) m to (")
-    aside = min(math.dist((WAY.x[1], WAY.y[1]), place) for place in zip(MIXED.x, MIXED.y, strict=True))
+    aside = min(
+        math.dist((WAY.x[1], WAY.y[1]), place) for place in zip(MIXED.x, MIXED.y, strict=True)
+    )
     assert 0.1 < aside < 2.0
-    assert f"3 of 3 waypoints reached, 2 to stop at and 1 to pass (at most {aside:.1f} m aside); " in text
-    assert f"{MIXED.length:.1f} m in {MIXED.time:.1f} s, with 30 points of a track behind it." in text
-    assert "1 of 3 waypoints reached, 3 to stop at and 0 to pass; " in plots.route(STUCK).alt
-    assert "s without reaching the rest." in plots.route(STUCK).alt
-    assert f"Over {MIXED.time:.1f} s and 3 legs: v between" in plots.route_signals(MIXED).alt
-    assert "jumping up at 2 of 2 changes of the goal" in plots.route_signals(MIXED).alt
+    assert (
+        f"3 of 3 waypoints reached, 2 to stop at and 1 to pass (at most {aside:.1f} m aside); "
+        in text
+    )
+    assert (
+        f"{MIXED.length:.1f} m in {MIXED.time:.1f} s, with 30 points of a track behind it." in text
+    )
+    assert "1 of 3 waypoints reached, 3 to stop at and 0 to pass; " in figures.route(STUCK).alt
+    assert "s without reaching the rest." in figures.route(STUCK).alt
+    assert f"Over {MIXED.time:.1f} s and 3 legs: v between" in figures.route_signals(MIXED).alt
+    assert "jumping up at 2 of 2 changes of the goal" in figures.route_signals(MIXED).alt
     text = PICTURES["challenge"]().alt
-    assert "12 of them reached, with 21.81 points in the mean; the dearest is case 12, far behind, with 42.7" in text
+    assert (
+        "12 of them reached, with 21.81 points in the mean; the dearest is case 12, far behind, with 42.7"
+        in text
+    )
     assert "the start a filled arrow and the goal an outlined one" in text
 
 
 def arrows(axes):
     """(from, to) of the headings' arrows: annotations without a text."""
-    return [(np.array(note.get_position()), np.array(note.xy)) for note in axes.texts if not note.get_text()]
+    return [
+        (np.array(note.get_position()), np.array(note.xy))
+        for note in axes.texts
+        if not note.get_text()
+    ]
 
 
 def test_headings_point_where_the_route_wants_them():
-    axes = plots.route(MIXED).figure.axes[0]
+    axes = figures.route(MIXED).figure.axes[0]
     for k, (tail, tip) in enumerate(arrows(axes), start=1):
         assert tail.tolist() == [WAY.x[k], WAY.y[k]]
         assert math.atan2(*(tip - tail)[::-1]) == pytest.approx(WAY.heading[k])
@@ -89,28 +116,32 @@ def test_headings_point_where_the_route_wants_them():
 
 def test_stops_passes_and_what_was_not_reached_have_markers_of_their_own():
     def markers(route):
-        lines = plots.route(route).figure.axes[0].lines
+        lines = figures.route(route).figure.axes[0].lines
         return [line.get_marker() for line in lines if line.get_marker() in ("s", "o", "x")]
 
     assert markers(MIXED) == ["o", "s", "s"]
     assert markers(STUCK) == ["s", "s", "x", "s", "x"]
-    labels = [text.get_text() for text in plots.route(MIXED).figure.axes[0].get_legend().get_texts()]
+    labels = [
+        text.get_text() for text in figures.route(MIXED).figure.axes[0].get_legend().get_texts()
+    ]
     assert labels == ["path", "start", "stop", "passed"]
 
 
 def test_the_path_that_is_drawn_is_the_one_that_was_driven():
-    line = plots.route(MIXED).figure.axes[0].lines[0]
+    line = figures.route(MIXED).figure.axes[0].lines[0]
     np.testing.assert_array_equal(line.get_xydata(), np.column_stack([MIXED.x, MIXED.y]))
 
 
 def test_signals_are_cut_where_the_goal_changes():
-    upper, lower = plots.route_signals(MIXED).figure.axes
+    upper, lower = figures.route_signals(MIXED).figure.axes
     parts = [line for line in lower.lines if same_color(line.get_color(), plots.COLOURS["V"])]
     assert len(parts) == 3
     assert all((np.diff(part.get_ydata()) <= 1e-9 * part.get_ydata()[0]).all() for part in parts)
     changes = [line.get_xdata()[0] for line in upper.lines if line.get_linestyle() == "--"]
     assert changes == pytest.approx(np.cumsum([leg.t[-1] for leg in MIXED.legs])[:-1])
-    for part, leg, end in zip(parts, MIXED.legs, [*changes, MIXED.time], strict=True):  # down to the arrival itself
+    for part, leg, end in zip(
+        parts, MIXED.legs, [*changes, MIXED.time], strict=True
+    ):  # down to the arrival itself
         np.testing.assert_array_equal(part.get_ydata(), np.maximum(leg.V, 1e-12))
         assert part.get_xdata()[-1] == pytest.approx(end)
 
@@ -121,10 +152,17 @@ def test_a_jump_is_counted_from_the_arrival():
     driven = wmr.drive_route(poses, wmr.Gains(0.3, 1.0, 1.5), stop=[False, True], dt=1.0)
     change = int(np.flatnonzero(np.diff(driven.leg))[0])
     assert driven.legs[0].V[-1] < driven.V[change + 1] < driven.V[change]
-    assert "jumping up at 1 of 1 changes" in plots.route_signals(driven).alt
-    back = wmr.drive_route(poses._replace(x=np.array([0.0, 10.0, 9.0])), wmr.Gains(0.3, 1.0, 1.5), stop=[False, True], dt=0.1)
-    assert back.legs[1].V[0] < back.legs[0].V[-1]  # the next goal is nearer than the one that is passed
-    assert "jumping up at 0 of 1 changes" in plots.route_signals(back).alt
+    assert "jumping up at 1 of 1 changes" in figures.route_signals(driven).alt
+    back = wmr.drive_route(
+        poses._replace(x=np.array([0.0, 10.0, 9.0])),
+        wmr.Gains(0.3, 1.0, 1.5),
+        stop=[False, True],
+        dt=0.1,
+    )
+    assert (
+        back.legs[1].V[0] < back.legs[0].V[-1]
+    )  # the next goal is nearer than the one that is passed
+    assert "jumping up at 0 of 1 changes" in figures.route_signals(back).alt
 
 
 def test_each_case_of_the_challenge_has_its_panel():
@@ -139,7 +177,9 @@ def test_each_case_of_the_challenge_has_its_panel():
 def test_the_legend_says_which_arrow_is_the_start():
     def legend(name):
         found = PICTURES[name]().figure.legends[0]
-        return dict(zip([text.get_text() for text in found.get_texts()], found.legend_handles, strict=True))
+        return dict(
+            zip([text.get_text() for text in found.get_texts()], found.legend_handles, strict=True)
+        )
 
     handles = legend("challenge")
     assert list(handles) == ["path", "start", "goal"]
@@ -154,15 +194,33 @@ def test_the_legend_says_which_arrow_is_the_start():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: plots.route(WAY), "a Route is needed, not a Pose"),
-        (lambda: plots.route(wmr.drive_route(WAY, wmr.Gains(1e308, 1e308, 1e308, 1e308))), "driven has no sample"),
-        (lambda: plots.route(MIXED, background=(np.ones(3), np.ones(2))), "background = .* is not allowed: .east, north., two lists"),
-        (lambda: plots.route(MIXED, background=(np.ones(5), np.ones(1))), "background = .* is not allowed: .east, north., two lists"),
-        (lambda: plots.route(MIXED, background=np.zeros((5, 2))), "is not allowed: .east, north., two lists of one length, is needed"),
-        (lambda: plots.route(MIXED, background=5), "background = 5 is not allowed: .east, north., two lists"),
-        (lambda: plots.route(MIXED, background=(["a"], ["b"])), "background = .* is not allowed: a finite number"),
-        (lambda: plots.route_signals(GOOD), "a Route is needed"),
-        (lambda: plots.challenge_paths(GAINS), "a Score is needed, not a Gains"),
+        (lambda: figures.route(WAY), "a Route is needed, not a Pose"),
+        (
+            lambda: figures.route(wmr.drive_route(WAY, wmr.Gains(1e308, 1e308, 1e308, 1e308))),
+            "driven has no sample",
+        ),
+        (
+            lambda: figures.route(MIXED, background=(np.ones(3), np.ones(2))),
+            "background = .* is not allowed: .east, north., two lists",
+        ),
+        (
+            lambda: figures.route(MIXED, background=(np.ones(5), np.ones(1))),
+            "background = .* is not allowed: .east, north., two lists",
+        ),
+        (
+            lambda: figures.route(MIXED, background=np.zeros((5, 2))),
+            "is not allowed: .east, north., two lists of one length, is needed",
+        ),
+        (
+            lambda: figures.route(MIXED, background=5),
+            "background = 5 is not allowed: .east, north., two lists",
+        ),
+        (
+            lambda: figures.route(MIXED, background=(["a"], ["b"])),
+            "background = .* is not allowed: a finite number",
+        ),
+        (lambda: figures.route_signals(GOOD), "a Route is needed"),
+        (lambda: figures.challenge_paths(GAINS), "a Score is needed, not a Gains"),
     ],
 )
 def test_bad_input(make, message):

@@ -9,20 +9,24 @@ import pytest
 from matplotlib.image import imread
 
 import wmrlib as wmr
-from wmrlib import plots
+from wmrbook import figures
 
 GAINS = wmr.paper.OUTDOOR_GAINS
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 START = wmr.pose_from_polar(wmr.PolarError(math.log(2) / 2, math.pi / 4, 0.0), ORIGIN)
 HOW = {"method": "continuous", "arrival_radius": 0.0, "duration": 6.0, "dt": 0.02}
-CORRECTED, PRINTED = (wmr.simulate(START, ORIGIN, GAINS, law=law, **HOW) for law in ("corrected", "printed"))
+CORRECTED, PRINTED = (
+    wmr.simulate(START, ORIGIN, GAINS, law=law, **HOW) for law in ("corrected", "printed")
+)
 PICTURES = {
-    "rate_sign": lambda: plots.rate_sign(GAINS, 0.3),
-    "rate_sign of the corrected law": lambda: plots.rate_sign(GAINS, 0.3, "corrected"),
-    "level_sets": lambda: plots.level_sets(GAINS),
-    "level_sets with runs": lambda: plots.level_sets(GAINS, 0.01, "printed", [CORRECTED, PRINTED]),
-    "lyapunov_runs": lambda: plots.lyapunov_runs([CORRECTED, PRINTED]),
-    "heading_errors": lambda: plots.heading_errors([CORRECTED, PRINTED], ["one", "two"]),
+    "rate_sign": lambda: figures.rate_sign(GAINS, 0.3),
+    "rate_sign of the corrected law": lambda: figures.rate_sign(GAINS, 0.3, "corrected"),
+    "level_sets": lambda: figures.level_sets(GAINS),
+    "level_sets with runs": lambda: figures.level_sets(
+        GAINS, 0.01, "printed", [CORRECTED, PRINTED]
+    ),
+    "lyapunov_runs": lambda: figures.lyapunov_runs([CORRECTED, PRINTED]),
+    "heading_errors": lambda: figures.heading_errors([CORRECTED, PRINTED], ["one", "two"]),
 }
 
 
@@ -52,20 +56,26 @@ def test_the_map_counts_what_the_closed_form_says():
     rng = np.random.default_rng(4)
     alpha, theta = rng.uniform(-math.pi, math.pi, (2, 400_000))
     speed, mixed = GAINS.v_max * (1 - math.exp(-GAINS.k_rho * 0.3)), np.cos(alpha) * np.sin(alpha)
-    rate = -0.3 * speed * np.cos(alpha) ** 2 - GAINS.k_alpha * alpha**2 + speed * mixed / 0.3 * (1 - mixed) * (alpha + GAINS.h * theta)
+    rate = (
+        -0.3 * speed * np.cos(alpha) ** 2
+        - GAINS.k_alpha * alpha**2
+        + speed * mixed / 0.3 * (1 - mixed) * (alpha + GAINS.h * theta)
+    )
     assert np.mean(rate > 0) == pytest.approx(0.24, abs=0.005)
     assert "V rises in the hatched 24 % and falls elsewhere" in PICTURES["rate_sign"]().alt
     assert "V falls everywhere" in PICTURES["rate_sign of the corrected law"]().alt
 
 
 def test_arrows_point_where_the_state_goes():
-    axes = plots.level_sets(GAINS, 0.01, "printed").figure.axes[0]
+    axes = figures.level_sets(GAINS, 0.01, "printed").figure.axes[0]
     falling, rising = (each for each in axes.collections if type(each).__name__ == "Quiver")
     assert rising.N > 20
     assert falling.N + rising.N == 225
     for arrows, rises in ((falling, False), (rising, True)):
         alpha, theta = np.radians(arrows.get_offsets()).T
-        _, *rates = wmr.polar_rate(0.01, alpha, *wmr.control_law(0.01, alpha, theta, GAINS, law="printed"))
+        _, *rates = wmr.polar_rate(
+            0.01, alpha, *wmr.control_law(0.01, alpha, theta, GAINS, law="printed")
+        )
         length = np.maximum(np.hypot(*rates), 1e-12)
         np.testing.assert_allclose(arrows.U, rates[0] / length, atol=1e-9)
         np.testing.assert_allclose(arrows.V, rates[1] / length, atol=1e-9)
@@ -79,7 +89,9 @@ def test_alpha_never_passes_the_half_turn():
     assert far > 180
     assert axes.get_xlim() == (-180.0, 180.0)
     assert axes.get_ylim() == pytest.approx((-far, far))
-    offsets = np.concatenate([each.get_offsets() for each in axes.collections if type(each).__name__ == "Quiver"])
+    offsets = np.concatenate(
+        [each.get_offsets() for each in axes.collections if type(each).__name__ == "Quiver"]
+    )
     np.testing.assert_allclose(np.abs(offsets).max(axis=0), (0.92 * 180.0, 0.92 * far))
 
 
@@ -105,11 +117,20 @@ def test_heading_errors_are_not_wrapped():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: plots.rate_sign(GAINS, 0.0), r"rho = 0\.0 is not allowed: a finite number above 0 is needed"),
-        (lambda: plots.rate_sign(GAINS, 1.0, "kanayama"), r"law = 'kanayama'"),
-        (lambda: plots.level_sets(GAINS, runs=[PRINTED] * 5), r"runs has 5 entries, which is not allowed: 0 to 4 are needed"),
-        (lambda: plots.lyapunov_runs([]), r"runs has 0 entries, which is not allowed: 1 to 4 are needed"),
-        (lambda: plots.heading_errors([PRINTED], ["one", "two"]), r"labels has 2 entries"),
+        (
+            lambda: figures.rate_sign(GAINS, 0.0),
+            r"rho = 0\.0 is not allowed: a finite number above 0 is needed",
+        ),
+        (lambda: figures.rate_sign(GAINS, 1.0, "kanayama"), r"law = 'kanayama'"),
+        (
+            lambda: figures.level_sets(GAINS, runs=[PRINTED] * 5),
+            r"runs has 5 entries, which is not allowed: 0 to 4 are needed",
+        ),
+        (
+            lambda: figures.lyapunov_runs([]),
+            r"runs has 0 entries, which is not allowed: 1 to 4 are needed",
+        ),
+        (lambda: figures.heading_errors([PRINTED], ["one", "two"]), r"labels has 2 entries"),
     ],
 )
 def test_bad_input(make, message):

@@ -12,8 +12,14 @@ from hypothesis import strategies as st
 import wmrlib as wmr
 
 GENTLE = wmr.Gains(k_rho=0.4, k_alpha=2.0, h=1.0, v_max=3.0)
-SQUARE = wmr.Pose(np.array([0.0, 20.0, 20.0, 0.0]), np.array([0.0, 0.0, 20.0, 20.0]), np.array([0.0, 0.8, 2.3, math.pi]))
-CAMPUS = wmr.GeoPoint(lat=[33.273572, 33.2738, 33.2742, 33.274087], lon=[44.373160, 44.3734, 44.3733, 44.373264])
+SQUARE = wmr.Pose(
+    np.array([0.0, 20.0, 20.0, 0.0]),
+    np.array([0.0, 0.0, 20.0, 20.0]),
+    np.array([0.0, 0.8, 2.3, math.pi]),
+)
+CAMPUS = wmr.GeoPoint(
+    lat=[33.273572, 33.2738, 33.2742, 33.274087], lon=[44.373160, 44.3734, 44.3733, 44.373264]
+)
 START = wmr.Pose(0.0, 0.0, 0.3)
 
 metres = st.floats(-40.0, 40.0)
@@ -49,7 +55,9 @@ def test_a_heading_has_as_much_of_the_turn_before_it_as_after(points):
     no_hairpin(points)
     headings = wmr.headings_along(x, y)
     direction = np.arctan2(np.diff(y), np.diff(x))
-    np.testing.assert_allclose(wmr.wrap_angle(headings[[0, -1]] - direction[[0, -1]]), 0.0, atol=1e-12)
+    np.testing.assert_allclose(
+        wmr.wrap_angle(headings[[0, -1]] - direction[[0, -1]]), 0.0, atol=1e-12
+    )
     before = wmr.wrap_angle(headings[1:-1] - direction[:-1])
     after = wmr.wrap_angle(direction[1:] - headings[1:-1])
     np.testing.assert_allclose(before, after, atol=1e-9)
@@ -64,20 +72,29 @@ def test_a_bisecting_heading_is_the_sum_of_the_unit_vectors(points):
     legs = np.diff(points, axis=0)
     units = legs / np.hypot(*legs.T)[:, None]
     middle = units[:-1] + units[1:]
-    np.testing.assert_allclose(wmr.wrap_angle(wmr.headings_along(x, y)[1:-1] - np.arctan2(middle[:, 1], middle[:, 0])), 0.0, atol=1e-7)
+    np.testing.assert_allclose(
+        wmr.wrap_angle(wmr.headings_along(x, y)[1:-1] - np.arctan2(middle[:, 1], middle[:, 0])),
+        0.0,
+        atol=1e-7,
+    )
 
 
 @given(lines, st.data())
 def test_points_that_repeat_change_no_heading(points, data):
     x, y = far_apart(points)
     count = np.array(data.draw(st.lists(st.integers(1, 3), min_size=len(x), max_size=len(x))))
-    np.testing.assert_array_equal(wmr.headings_along(np.repeat(x, count), np.repeat(y, count)), np.repeat(wmr.headings_along(x, y), count))
+    np.testing.assert_array_equal(
+        wmr.headings_along(np.repeat(x, count), np.repeat(y, count)),
+        np.repeat(wmr.headings_along(x, y), count),
+    )
 
 
 @pytest.mark.parametrize("angle", np.linspace(-3.0, 3.0, 7))
 def test_a_hairpin_is_taken_to_the_left(angle):
     x, y = np.cos(angle) * np.array([1.0, 7.0, 1.0]), np.sin(angle) * np.array([1.0, 7.0, 1.0])
-    np.testing.assert_allclose(np.cos(wmr.headings_along(x, y) - [angle, angle + math.pi / 2, angle + math.pi]), 1.0)
+    np.testing.assert_allclose(
+        np.cos(wmr.headings_along(x, y) - [angle, angle + math.pi / 2, angle + math.pi]), 1.0
+    )
 
 
 def test_without_a_leg_the_heading_is_east():
@@ -98,10 +115,15 @@ def by_hand(way, radii, **options):
 
 
 @pytest.mark.parametrize("method", ["arc", "euler", "continuous"])
-@pytest.mark.parametrize(("stop", "radii"), [(True, [0.05] * 3), (False, [2.0, 2.0, 0.05]), ([True, False, False], [0.05, 2.0, 2.0])])
+@pytest.mark.parametrize(
+    ("stop", "radii"),
+    [(True, [0.05] * 3), (False, [2.0, 2.0, 0.05]), ([True, False, False], [0.05, 2.0, 2.0])],
+)
 def test_a_route_is_its_legs_one_after_the_other(method, stop, radii):
     route = wmr.drive_route(SQUARE, GENTLE, stop=stop, method=method)
-    legs = by_hand([wmr.Pose(*map(float, each)) for each in zip(*SQUARE, strict=True)], radii, method=method)
+    legs = by_hand(
+        [wmr.Pose(*map(float, each)) for each in zip(*SQUARE, strict=True)], radii, method=method
+    )
     assert route.outcome is wmr.Outcome.ARRIVED
     assert route.reached == len(route.legs) == 3
     time = 0.0
@@ -110,7 +132,9 @@ def test_a_route_is_its_legs_one_after_the_other(method, stop, radii):
             np.testing.assert_array_equal(getattr(mine, name), getattr(theirs, name))
         here, last = route.leg == k, k == 2
         np.testing.assert_array_equal(route.V[here], theirs.V if last else theirs.V[:-1])
-        np.testing.assert_array_equal(route.omega[here], theirs.omega if last else theirs.omega[:-1])
+        np.testing.assert_array_equal(
+            route.omega[here], theirs.omega if last else theirs.omega[:-1]
+        )
         np.testing.assert_allclose(route.t[here], time + (theirs.t if last else theirs.t[:-1]))
         time += theirs.t[-1]
     assert route.time == pytest.approx(time)
@@ -122,8 +146,15 @@ def test_a_route_is_its_legs_one_after_the_other(method, stop, radii):
 def test_the_joined_path_is_driven_by_the_joined_twist():
     """Each sample's command, held for 0.1 s, leads to the next sample: at a change of goal too."""
     route = wmr.drive_route(SQUARE, GENTLE, stop=False)
-    there = wmr.advance(wmr.Pose(route.x[:-1], route.y[:-1], route.heading[:-1]), route.v[:-1], route.omega[:-1], 0.1)
-    np.testing.assert_allclose(np.array(there), np.array([route.x, route.y, route.heading])[:, 1:], atol=1e-12)
+    there = wmr.advance(
+        wmr.Pose(route.x[:-1], route.y[:-1], route.heading[:-1]),
+        route.v[:-1],
+        route.omega[:-1],
+        0.1,
+    )
+    np.testing.assert_allclose(
+        np.array(there), np.array([route.x, route.y, route.heading])[:, 1:], atol=1e-12
+    )
     np.testing.assert_allclose(np.diff(route.t), 0.1)
 
 
@@ -132,7 +163,13 @@ def test_the_joined_path_is_driven_by_the_joined_twist():
 def test_v_falls_in_each_leg_and_time_goes_on(points, heading, stop):
     x, y = far_apart(points)
     start = wmr.Pose(0.0, 0.0, heading)
-    route = wmr.drive_route(wmr.Pose(x, y, wmr.headings_along(x, y)), GENTLE, start=start, stop=stop, method="continuous")
+    route = wmr.drive_route(
+        wmr.Pose(x, y, wmr.headings_along(x, y)),
+        GENTLE,
+        start=start,
+        stop=stop,
+        method="continuous",
+    )
     assert (np.diff(route.t) > 0).all()
     assert (np.diff(route.leg) >= 0).all()
     for k, leg in enumerate(route.legs):
@@ -146,9 +183,15 @@ def test_a_mirrored_route_is_driven_in_mirror_image(points, heading, stop):
     x, y = far_apart(points)
     no_hairpin(points)
     gains = wmr.Gains(0.2, 2.0, 2.0, 3.0)
-    one = wmr.drive_route(wmr.Pose(x, y, wmr.headings_along(x, y)), gains, start=wmr.Pose(0, 0, heading), stop=stop)
-    other = wmr.drive_route(wmr.Pose(x, -y, wmr.headings_along(x, -y)), gains, start=wmr.Pose(0, 0, -heading), stop=stop)
-    assume(all(np.abs(leg.alpha[:1]).max() < 3.1 and np.abs(leg.theta).max() < 3.1 for leg in one.legs))  # at 180 deg rounding decides
+    one = wmr.drive_route(
+        wmr.Pose(x, y, wmr.headings_along(x, y)), gains, start=wmr.Pose(0, 0, heading), stop=stop
+    )
+    other = wmr.drive_route(
+        wmr.Pose(x, -y, wmr.headings_along(x, -y)), gains, start=wmr.Pose(0, 0, -heading), stop=stop
+    )
+    assume(
+        all(np.abs(leg.alpha[:1]).max() < 3.1 and np.abs(leg.theta).max() < 3.1 for leg in one.legs)
+    )  # at 180 deg rounding decides
     assert len(one) == len(other)
     np.testing.assert_allclose(one.x, other.x, atol=1e-6)
     np.testing.assert_allclose(one.y, -other.y, atol=1e-6)
@@ -164,14 +207,20 @@ def test_a_route_that_is_turned_and_moved_is_driven_the_same(points, angle, east
     gains = wmr.Gains(0.2, 2.0, 2.0, 3.0)
 
     def moved(x, y):
-        return math.cos(angle) * x - math.sin(angle) * y + east, math.sin(angle) * x + math.cos(angle) * y + north
+        return math.cos(angle) * x - math.sin(angle) * y + east, math.sin(angle) * x + math.cos(
+            angle
+        ) * y + north
 
     one = wmr.drive_route(wmr.Pose(x, y, wmr.headings_along(x, y)), gains, stop=False)
     u, v = moved(x, y)
     other = wmr.drive_route(wmr.Pose(u, v, wmr.headings_along(u, v)), gains, stop=False)
-    assume(all(np.abs(leg.alpha[:1]).max() < 3.1 and np.abs(leg.theta).max() < 3.1 for leg in one.legs))
+    assume(
+        all(np.abs(leg.alpha[:1]).max() < 3.1 and np.abs(leg.theta).max() < 3.1 for leg in one.legs)
+    )
     assert len(one) == len(other)
-    np.testing.assert_allclose(np.array(moved(one.x, one.y)), np.array([other.x, other.y]), atol=1e-6)
+    np.testing.assert_allclose(
+        np.array(moved(one.x, one.y)), np.array([other.x, other.y]), atol=1e-6
+    )
     np.testing.assert_allclose(one.omega, other.omega, atol=1e-5)
     np.testing.assert_allclose(one.V, other.V, atol=1e-5)
 
@@ -192,7 +241,9 @@ def test_a_leg_that_fails_is_the_last():
     assert [arrival.arrived for arrival in route.arrivals] == [True, False]
     assert route.waypoints.x.tolist() == [5.0, 500.0, 505.0]
     assert 30.0 < route.t[-1] < 60.0
-    assert repr(route).startswith("<Route: 1 of 3 waypoints reached; leg 2 did not arrive within the duration, ")
+    assert repr(route).startswith(
+        "<Route: 1 of 3 waypoints reached; leg 2 did not arrive within the duration, "
+    )
     assert "m from its waypoint>" in repr(route)
 
 
@@ -221,7 +272,10 @@ def test_a_start_on_the_first_waypoint_reaches_it_at_once():
 
 @pytest.mark.parametrize("method", ["arc", "continuous"])
 def test_a_start_that_has_turned_more_than_once_has_a_heading_as_all_others(method):
-    turned, plain = (wmr.drive_route(ONE, GENTLE, start=wmr.Pose(0.0, 0.0, heading), method=method) for heading in (7.0, 7.0 - 2 * math.pi))
+    turned, plain = (
+        wmr.drive_route(ONE, GENTLE, start=wmr.Pose(0.0, 0.0, heading), method=method)
+        for heading in (7.0, 7.0 - 2 * math.pi)
+    )
     assert turned.start.heading == 7.0
     assert turned.heading[0] == pytest.approx(7.0 - 2 * math.pi, abs=1e-12)
     np.testing.assert_allclose(turned.heading, plain.heading, atol=1e-6)
@@ -252,7 +306,10 @@ def test_arrays_cannot_be_written_to():
 
 def test_what_it_says():
     route = wmr.drive_route(SQUARE, GENTLE, stop=False)
-    assert repr(route) == f"<Route: 3 of 3 waypoints reached in {route.time:.4g} s, {route.length:.4g} m long>"
+    assert (
+        repr(route)
+        == f"<Route: 3 of 3 waypoints reached in {route.time:.4g} s, {route.length:.4g} m long>"
+    )
 
 
 # GPS points -----------------------------------------------------------------------------------------------------------
@@ -263,7 +320,9 @@ def test_poses_of_gps_points():
     first, second = (wmr.GeoPoint(lat=CAMPUS.lat[k], lon=CAMPUS.lon[k]) for k in (0, 1))
     assert (poses.x[0], poses.y[0]) == (0.0, 0.0)
     assert (poses.x[1], poses.y[1]) == pytest.approx(wmr.local_position(first, second))
-    assert poses.heading[0] == pytest.approx(math.pi / 2 - wmr.initial_bearing(first, second))  # from east, against from north
+    assert poses.heading[0] == pytest.approx(
+        math.pi / 2 - wmr.initial_bearing(first, second)
+    )  # from east, against from north
     np.testing.assert_array_equal(poses.heading, wmr.headings_along(poses.x, poses.y))
 
 
@@ -285,14 +344,21 @@ def test_a_point_that_repeats_under_another_longitude_is_one(lat, lon, degrees):
 
 
 def test_points_a_centimetre_apart_are_two():
-    near = wmr.point_at(wmr.GeoPoint(lat=33.3, lon=44.4), np.array([0.0, 0.01, 0.01]), np.array([0.0, 0.0, 0.01]))
+    near = wmr.point_at(
+        wmr.GeoPoint(lat=33.3, lon=44.4), np.array([0.0, 0.01, 0.01]), np.array([0.0, 0.0, 0.01])
+    )
     np.testing.assert_allclose(np.degrees(wmr.route_poses(near).heading), [0, 45, 90], atol=1e-4)
 
 
 def test_headings_that_are_given():
     chosen = wmr.route_poses(CAMPUS).heading
-    np.testing.assert_array_equal(wmr.route_poses(CAMPUS, [1.0, 2.0, 3.0, -1.0]).heading, [1.0, 2.0, 3.0, -1.0])
-    np.testing.assert_array_equal(wmr.route_poses(CAMPUS, [math.nan, None, 0.5, math.nan]).heading, [chosen[0], chosen[1], 0.5, chosen[3]])
+    np.testing.assert_array_equal(
+        wmr.route_poses(CAMPUS, [1.0, 2.0, 3.0, -1.0]).heading, [1.0, 2.0, 3.0, -1.0]
+    )
+    np.testing.assert_array_equal(
+        wmr.route_poses(CAMPUS, [math.nan, None, 0.5, math.nan]).heading,
+        [chosen[0], chosen[1], 0.5, chosen[3]],
+    )
 
 
 def test_another_origin_moves_the_frame():
@@ -311,7 +377,9 @@ def test_another_origin_moves_the_frame():
 def test_a_square_anywhere_on_earth_is_driven_as_in_the_plane(corner):
     home = wmr.GeoPoint(lat=corner[0], lon=corner[1])
     points = wmr.point_at(home, SQUARE.x, SQUARE.y)
-    route = wmr.drive_route(wmr.route_poses(points, SQUARE.heading, origin=home), GENTLE, stop=False)
+    route = wmr.drive_route(
+        wmr.route_poses(points, SQUARE.heading, origin=home), GENTLE, stop=False
+    )
     plane = wmr.drive_route(SQUARE, GENTLE, stop=False)
     np.testing.assert_allclose(route.x, plane.x, atol=1e-5)
     np.testing.assert_allclose(route.y, plane.y, atol=1e-5)
@@ -319,7 +387,12 @@ def test_a_square_anywhere_on_earth_is_driven_as_in_the_plane(corner):
 
 def test_out_to_gpx_and_back(tmp_path):
     route = wmr.drive_route(wmr.route_poses(CAMPUS), GENTLE, stop=False)
-    wmr.write_gpx(tmp_path / "route.gpx", wmr.route_points(route, CAMPUS), t=route.t, begin=datetime(2026, 3, 1, tzinfo=UTC))
+    wmr.write_gpx(
+        tmp_path / "route.gpx",
+        wmr.route_points(route, CAMPUS),
+        t=route.t,
+        begin=datetime(2026, 3, 1, tzinfo=UTC),
+    )
     track = wmr.read_track(tmp_path / "route.gpx")
     assert len(track) == len(route)
     np.testing.assert_allclose(track.t, route.t, atol=1e-3)
@@ -332,7 +405,9 @@ def test_out_to_gpx_and_back(tmp_path):
 
 def test_a_route_that_was_read_is_driven(tmp_path):
     wmr.write_geojson(tmp_path / "way.geojson", CAMPUS)
-    route = wmr.drive_route(wmr.route_poses(wmr.read_track(tmp_path / "way.geojson").points), GENTLE)
+    route = wmr.drive_route(
+        wmr.route_poses(wmr.read_track(tmp_path / "way.geojson").points), GENTLE
+    )
     assert route.outcome is wmr.Outcome.ARRIVED
 
 
@@ -345,36 +420,72 @@ MANY = wmr.GeoPoint(lat=[[1.0, 2.0]], lon=[[1.0, 2.0]])
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: wmr.headings_along([1.0, 2.0], [1.0]), r"mismatched lengths: x has shape \(2,\), y has shape \(1,\)"),
+        (
+            lambda: wmr.headings_along([1.0, 2.0], [1.0]),
+            r"mismatched lengths: x has shape \(2,\), y has shape \(1,\)",
+        ),
         (lambda: wmr.headings_along([], []), "at least one number"),
         (lambda: wmr.headings_along([1.0, math.nan], [1.0, 2.0]), r"x = .*nan.* is not allowed"),
         (lambda: wmr.route_poses([(1, 2)]), "a GeoPoint is needed, not a list"),
         (lambda: wmr.route_poses(MANY), "a list of at least one position is needed"),
-        (lambda: wmr.route_poses(CAMPUS, [1.0]), r"headings have shape \(1,\), points have shape \(4,\)"),
-        (lambda: wmr.route_poses(CAMPUS, [1.0, math.inf, 0, 0]), r"headings = .*inf.* is not allowed"),
+        (
+            lambda: wmr.route_poses(CAMPUS, [1.0]),
+            r"headings have shape \(1,\), points have shape \(4,\)",
+        ),
+        (
+            lambda: wmr.route_poses(CAMPUS, [1.0, math.inf, 0, 0]),
+            r"headings = .*inf.* is not allowed",
+        ),
         (
             lambda: wmr.route_poses(CAMPUS, ["n", "s", "e", "w"]),
             r"headings = \['n', 's', 'e', 'w'\] is not allowed: a list of finite numbers",
         ),
-        (lambda: wmr.route_poses(CAMPUS, [True, False, True, True]), r"headings = \[True, .* is not allowed"),
-        (lambda: wmr.route_poses(CAMPUS, [[1.0], [1.0, 2.0]]), r"headings = \[\[1\.0\], .* is not allowed"),
+        (
+            lambda: wmr.route_poses(CAMPUS, [True, False, True, True]),
+            r"headings = \[True, .* is not allowed",
+        ),
+        (
+            lambda: wmr.route_poses(CAMPUS, [[1.0], [1.0, 2.0]]),
+            r"headings = \[\[1\.0\], .* is not allowed",
+        ),
         (lambda: wmr.route_poses(CAMPUS, 1.0), r"headings = 1\.0 is not allowed"),
-        (lambda: wmr.route_poses(CAMPUS, origin=CAMPUS), "origin = .* is not allowed: a single point is needed"),
+        (
+            lambda: wmr.route_poses(CAMPUS, origin=CAMPUS),
+            "origin = .* is not allowed: a single point is needed",
+        ),
         (lambda: wmr.route_poses(CAMPUS, origin=(1, 2)), "a GeoPoint is needed, not a tuple"),
         (lambda: wmr.route_points(SQUARE, CAMPUS), "a Route is needed, not a Pose"),
-        (lambda: wmr.drive_route(ONE, GENTLE), "poses has 1 entries, which is not allowed: a waypoint besides the start is needed"),
+        (
+            lambda: wmr.drive_route(ONE, GENTLE),
+            "poses has 1 entries, which is not allowed: a waypoint besides the start is needed",
+        ),
         (lambda: wmr.drive_route(wmr.Pose([], [], []), GENTLE, start=ONE), "poses has 0 entries"),
         (lambda: wmr.drive_route([ONE], GENTLE), "a Pose is needed, not a list"),
-        (lambda: wmr.drive_route(wmr.Pose(np.ones((2, 2)), 0.0, 0.0), GENTLE), r"poses have shape \(2, 2\)"),
-        (lambda: wmr.drive_route(SQUARE, GENTLE, start=SQUARE), r"start\.x = .* is not allowed: one number is needed"),
+        (
+            lambda: wmr.drive_route(wmr.Pose(np.ones((2, 2)), 0.0, 0.0), GENTLE),
+            r"poses have shape \(2, 2\)",
+        ),
+        (
+            lambda: wmr.drive_route(SQUARE, GENTLE, start=SQUARE),
+            r"start\.x = .* is not allowed: one number is needed",
+        ),
         (
             lambda: wmr.drive_route(SQUARE, GENTLE, stop=[True]),
             r"stop = \[True\] is not allowed: True, False or a list of 3, one a waypoint",
         ),
-        (lambda: wmr.drive_route(SQUARE, GENTLE, stop=[[True], [True, False]]), r"stop = \[\[True\], \[True, False\]\] is not allowed"),
+        (
+            lambda: wmr.drive_route(SQUARE, GENTLE, stop=[[True], [True, False]]),
+            r"stop = \[\[True\], \[True, False\]\] is not allowed",
+        ),
         (lambda: wmr.drive_route(SQUARE, GENTLE, stop=1), "stop = 1 is not allowed"),
-        (lambda: wmr.drive_route(SQUARE, GENTLE, pass_radius=-1.0), r"pass_radius = -1\.0 is not allowed"),
-        (lambda: wmr.drive_route(SQUARE, GENTLE, arrival_radius=-1.0, stop=False), r"arrival_radius = -1\.0 is not allowed"),
+        (
+            lambda: wmr.drive_route(SQUARE, GENTLE, pass_radius=-1.0),
+            r"pass_radius = -1\.0 is not allowed",
+        ),
+        (
+            lambda: wmr.drive_route(SQUARE, GENTLE, arrival_radius=-1.0, stop=False),
+            r"arrival_radius = -1\.0 is not allowed",
+        ),
         (lambda: wmr.drive_route(SQUARE, GENTLE, law="prited"), "law = 'prited' is not allowed"),
         (lambda: wmr.drive_route(SQUARE, (1, 2, 3)), "a Gains is needed"),
     ],

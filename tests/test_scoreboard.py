@@ -16,17 +16,23 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import scoreboard
-from wmrlib.scoreboard import Scoreboard, certificate, verify
+from wmrbook import challenge
+from wmrbook.challenge import scoreboard
+from wmrbook.challenge.scoreboard import Scoreboard, certificate, verify
 
 PAPER = wmr.Gains(2.0, 1.0, 0.3, 4.0)
 GENTLE = wmr.Gains(0.2, 2.0, 2.0, 4.0)
-PLAIN = {"NUMBA_DISABLE_JIT": "1", "PYTHONDONTWRITEBYTECODE": "1"}  # no file is written but the board's
+PLAIN = {
+    "NUMBA_DISABLE_JIT": "1",
+    "PYTHONDONTWRITEBYTECODE": "1",
+}  # no file is written but the board's
 GOOD = wmr.Gains(0.128, 1.089, 1.42, 7.528)
 LINE = certificate("Ada", GOOD)
 UNSEEN = "\u00ad\u034f\u115f\u200b\u200e\u200f\u202a\u202e\u2060\u2066\u2069\u3164\ufeff\U000e0041"
 FILLERS = "\u034f\u115f\u1160\u17b4\u17b5\u2800\u3164\uffa0"
-seen = st.characters(exclude_categories=("C",), exclude_characters=FILLERS) | st.sampled_from("\u200c\u200d")
+seen = st.characters(exclude_categories=("C",), exclude_characters=FILLERS) | st.sampled_from(
+    "\u200c\u200d"
+)
 names = st.text(seen, min_size=1, max_size=60).filter(lambda text: any(map(str.isalnum, text)))
 
 
@@ -48,7 +54,9 @@ def body(line):
 
 
 def test_the_line_as_published():
-    assert signed("wmr-challenge seed=2026 gains=0.128,1.089,1.420,7.528 score=21.81 name=Ada") == LINE
+    assert (
+        signed("wmr-challenge seed=2026 gains=0.128,1.089,1.420,7.528 score=21.81 name=Ada") == LINE
+    )
     dated = certificate("Zoë B", PAPER, seed=7, date=datetime.date(2026, 3, 1))
     assert re.fullmatch(
         r"wmr-challenge seed=7 gains=2\.000,1\.000,0\.300,4\.000 score=\d+\.\d\d name=Zo%C3%AB%20B date=2026-03-01 check=[0-9a-f]{10}",
@@ -64,7 +72,7 @@ def test_what_is_certified_verifies(name, gains, date):
     verdict = verify(f"  {line}\r\n")
     assert verdict
     assert (verdict.entry.gains, verdict.entry.seed, verdict.entry.date) == (gains, 2026, date)
-    assert verdict.entry.points == wmr.challenge.score(gains).total
+    assert verdict.entry.points == challenge.score(gains).total
     assert certificate(verdict.entry.name, gains, date=date) == line
 
 
@@ -72,7 +80,11 @@ def test_every_single_change_is_found():
     line, rng = certificate("Ada L", GENTLE, date=datetime.date(2026, 3, 1)), random.Random(1)
     for k, character in enumerate(line):
         other = rng.choice([each for each in "0123456789abcdefz%., =-" if each != character])
-        for changed in (line[:k] + other + line[k + 1 :], line[:k] + line[k + 1 :], line[:k] + character + line[k:]):
+        for changed in (
+            line[:k] + other + line[k + 1 :],
+            line[:k] + line[k + 1 :],
+            line[:k] + character + line[k:],
+        ):
             if changed.strip() != line:
                 assert not verify(changed), changed
 
@@ -80,7 +92,10 @@ def test_every_single_change_is_found():
 def test_a_mistyped_digit_is_a_matter_of_the_checksum():
     verdict = verify(LINE.replace("1.089", "1.098"))
     assert (verdict.ok, verdict.entry) == (False, None)
-    assert repr(verdict) == "<Verdict: the checksum does not fit: a character was changed, lost or added>"
+    assert (
+        repr(verdict)
+        == "<Verdict: the checksum does not fit: a character was changed, lost or added>"
+    )
 
 
 def test_an_honest_checksum_does_not_help_a_wrong_score():
@@ -96,7 +111,10 @@ def test_an_honest_checksum_does_not_help_a_wrong_score():
         (("name=Ada", "name=%FF"), "the line can't be scored"),
         (("name=Ada", "name=%0A"), "the line can't be scored: name = "),
         (("name=Ada", "name=Ada date=2026-02-31"), "the line can't be scored"),
-        (("seed=2026", "seed=9999999999999999999"), "the line can't be scored: seed = 9999999999999999999"),
+        (
+            ("seed=2026", "seed=9999999999999999999"),
+            "the line can't be scored: seed = 9999999999999999999",
+        ),
         (("7.528", "0.000"), r"the line can't be scored: v_max = 0\.0"),
         (("7.528", "9" * 310 + ".000"), "the line can't be scored: v_max = inf"),
         (("seed=2026", "seed=2027"), "Ada states 21.81 points, but the gains give"),
@@ -132,7 +150,9 @@ def test_a_gain_of_minus_nothing_is_nothing():
 @pytest.mark.parametrize("unseen", UNSEEN, ids=lambda character: f"U+{ord(character):04X}")
 def test_no_name_holds_what_is_not_seen_or_turns_the_table_round(unseen):
     for name in (f"Ada{unseen}", f"Eve{unseen}adA", unseen):
-        with pytest.raises(ValueError, match=r"name = .* is not allowed: 1 to 60 readable characters") as error:
+        with pytest.raises(
+            ValueError, match=r"name = .* is not allowed: 1 to 60 readable characters"
+        ) as error:
             certificate(name, GOOD)
         assert unseen not in str(error.value) or unseen.isprintable()
     assert not verify(signed(body(LINE).replace("name=Ada", f"name={quote('Ada' + unseen)}")))
@@ -146,7 +166,15 @@ def test_huge_gains_are_certified_too():
 
 
 def test_the_best_of_each_name_is_ranked_and_ties_share_a_rank(board):
-    for name, gains in (("Bob", PAPER), ("ada", GENTLE), ("Ada", GOOD), ("Cy", GENTLE), ("Bob", GENTLE), ("Ada", PAPER), ("Dee", PAPER)):
+    for name, gains in (
+        ("Bob", PAPER),
+        ("ada", GENTLE),
+        ("Ada", GOOD),
+        ("Cy", GENTLE),
+        ("Bob", GENTLE),
+        ("Ada", PAPER),
+        ("Dee", PAPER),
+    ):
         board.add(name, gains)
     ranking = board.ranking()
     assert [(each.rank, each.entry.name, each.tries) for each in ranking.entries] == [
@@ -170,23 +198,37 @@ def test_seeds_are_ranked_apart(board):
     board.add("Ada", GOOD)
     board.add("Ada", GENTLE, seed=7)
     assert board.ranking().others == board.ranking(7).others == 1
-    assert board.ranking(7).entries[0].entry.points == wmr.challenge.score(GENTLE, wmr.challenge.from_seed(7)).total
+    assert (
+        board.ranking(7).entries[0].entry.points
+        == challenge.score(GENTLE, challenge.from_seed(7)).total
+    )
 
 
 def test_a_file_that_is_not_there_and_an_empty_one_have_no_entries(board):
     assert board.ranking().entries == ()
-    assert repr(board.ranking()) == "<Ranking: seed 2026; 0 names ranked, 0 lines refused, 0 of other seeds>"
+    assert (
+        repr(board.ranking())
+        == "<Ranking: seed 2026; 0 names ranked, 0 lines refused, 0 of other seeds>"
+    )
     board.path.write_bytes(b"")
     assert board.ranking().entries == ()
     assert board.add("Ada", GOOD) == LINE
     assert board.path.read_bytes() == f"{LINE}\n".encode()
 
 
-DAMAGED = b"\n# our class, 2026\r\n" + LINE[:60].encode() + b"\r\n\xff\xfe\x00 rubbish\n" + LINE.replace("21.81", "1.81").encode() + b"\n"
+DAMAGED = (
+    b"\n# our class, 2026\r\n"
+    + LINE[:60].encode()
+    + b"\r\n\xff\xfe\x00 rubbish\n"
+    + LINE.replace("21.81", "1.81").encode()
+    + b"\n"
+)
 
 
 def test_what_is_damaged_is_told_with_its_line_and_never_lost(board):
-    board.path.write_bytes(DAMAGED + signed(body(LINE).replace("21.81", "1.81")).encode())  # no newline at the end
+    board.path.write_bytes(
+        DAMAGED + signed(body(LINE).replace("21.81", "1.81")).encode()
+    )  # no newline at the end
     before = board.path.read_bytes()
     board.add("Bob", GENTLE)
     ranking = board.ranking()
@@ -247,7 +289,9 @@ def test_what_it_says(board):
 
 def test_one_line_refused_is_one_line(board):
     board.path.write_text("rubbish\n")
-    assert repr(board.ranking()).startswith("<Ranking: seed 2026; 0 names ranked, 1 line refused, 0 of other seeds>")
+    assert repr(board.ranking()).startswith(
+        "<Ranking: seed 2026; 0 names ranked, 1 line refused, 0 of other seeds>"
+    )
 
 
 def test_a_line_that_is_written_in_part_is_an_error(board):
@@ -259,7 +303,12 @@ def test_a_line_that_is_written_in_part_is_an_error(board):
         "try:\n    w.scoreboard.Scoreboard(sys.argv[1]).add('Ada', w.Gains(2.0, 1.0, 0.3))\n"
         "except OSError as error:\n    print(error.strerror, error.filename)"
     )
-    told = subprocess.run([sys.executable, "-c", code, str(board.path)], capture_output=True, text=True, env=os.environ | PLAIN)
+    told = subprocess.run(
+        [sys.executable, "-c", code, str(board.path)],
+        capture_output=True,
+        text=True,
+        env=os.environ | PLAIN,
+    )
     assert told.stdout == f"the line could not be written whole {board.path}\n", told.stderr
     assert board.path.stat().st_size == 30
     board.add("Bob", PAPER)
@@ -279,18 +328,25 @@ def test_processes_lose_no_line(board):
         "import sys, wmrlib as w; board = w.scoreboard.Scoreboard(sys.argv[1])\n"
         "for k in range(50): board.add(f'{sys.argv[2]} {k}', w.Gains(2.0, 1.0, 0.3))"
     )
-    writers = [subprocess.Popen([sys.executable, "-c", code, str(board.path), f"process {n}"]) for n in range(3)]
+    writers = [
+        subprocess.Popen([sys.executable, "-c", code, str(board.path), f"process {n}"])
+        for n in range(3)
+    ]
     assert [writer.wait(60) for writer in writers] == [0, 0, 0]
     lines = board.path.read_text().splitlines()
     assert lines[0] == "# no newline at the end"
-    assert sorted(lines[1:]) == sorted(certificate(f"process {n} {k}", PAPER) for n in range(3) for k in range(50))
+    assert sorted(lines[1:]) == sorted(
+        certificate(f"process {n} {k}", PAPER) for n in range(3) for k in range(50)
+    )
     assert len(board.ranking().entries) == 150
 
 
 def test_where_there_is_no_fcntl_a_byte_of_the_file_is_locked(board, monkeypatch):
     """Windows, as far as it can be played here."""
     calls = []
-    msvcrt = types.SimpleNamespace(LK_LOCK=1, LK_UNLCK=0, locking=lambda descriptor, mode, size: calls.append((mode, size)))
+    msvcrt = types.SimpleNamespace(
+        LK_LOCK=1, LK_UNLCK=0, locking=lambda descriptor, mode, size: calls.append((mode, size))
+    )
     monkeypatch.setitem(sys.modules, "fcntl", None)
     monkeypatch.setitem(sys.modules, "msvcrt", msvcrt)
     board.add("Ada", GOOD)

@@ -23,11 +23,18 @@ LIMITS = wmr.WheelLimits(track_width=0.5, max_speed=1.0)
 def scattered(count, seed=0):
     """Runs that arrive at very different times, and some that don't."""
     random = np.random.default_rng(seed)
-    starts = wmr.Pose(random.uniform(-9, 9, count), random.uniform(-9, 9, count), random.uniform(-3, 3, count))
+    starts = wmr.Pose(
+        random.uniform(-9, 9, count), random.uniform(-9, 9, count), random.uniform(-3, 3, count)
+    )
     return (
         starts,
         ORIGIN,
-        wmr.Gains(random.uniform(0.05, 1.0, count), random.uniform(0.5, 3.0, count), 0.6, random.uniform(0.5, 2.0, count)),
+        wmr.Gains(
+            random.uniform(0.05, 1.0, count),
+            random.uniform(0.5, 3.0, count),
+            0.6,
+            random.uniform(0.5, 2.0, count),
+        ),
     )
 
 
@@ -39,13 +46,30 @@ def same(one, other):
 
 
 @pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize(("wheels", "tolerance"), [(None, 1e-8), (LIMITS, 1e-4)])  # a step over the edge of the limits loses its order
+@pytest.mark.parametrize(
+    ("wheels", "tolerance"), [(None, 1e-8), (LIMITS, 1e-4)]
+)  # a step over the edge of the limits loses its order
 def test_runge_kutta_is_the_continuous_run(law, wheels, tolerance):
     headings = np.array([-2.0, 0.5, 3.0])
-    runs = wmr.sweep(wmr.Pose(-3.0, 1.0, headings), wmr.Pose(1.0, 2.0, -1.0), CALM, law=law, dt=0.01, duration=30.0, wheels=wheels)
+    runs = wmr.sweep(
+        wmr.Pose(-3.0, 1.0, headings),
+        wmr.Pose(1.0, 2.0, -1.0),
+        CALM,
+        law=law,
+        dt=0.01,
+        duration=30.0,
+        wheels=wheels,
+    )
     for i, heading in enumerate(headings):
         oracle = wmr.simulate(
-            wmr.Pose(-3, 1, float(heading)), wmr.Pose(1, 2, -1), CALM, law=law, method="continuous", dt=0.01, duration=30.0, wheels=wheels
+            wmr.Pose(-3, 1, float(heading)),
+            wmr.Pose(1, 2, -1),
+            CALM,
+            law=law,
+            method="continuous",
+            dt=0.01,
+            duration=30.0,
+            wheels=wheels,
         )
         truth = wmr.arrival(oracle)
         assert runs.arrived[i] == truth.arrived
@@ -54,14 +78,20 @@ def test_runge_kutta_is_the_continuous_run(law, wheels, tolerance):
             pytest.approx(truth.heading_error, abs=tolerance),
         )
         assert runs.distance[i] == pytest.approx(0.05, abs=1e-12)
-        assert runs.peak_omega[i] == pytest.approx(truth.peak_omega, rel=1e-3)  # the largest of the samples
-        assert runs.path_length[i] == pytest.approx(truth.path_length, abs=3e-4)  # the oracle's is a sum of trapezoids
+        assert runs.peak_omega[i] == pytest.approx(
+            truth.peak_omega, rel=1e-3
+        )  # the largest of the samples
+        assert runs.path_length[i] == pytest.approx(
+            truth.path_length, abs=3e-4
+        )  # the oracle's is a sum of trapezoids
 
 
 @pytest.mark.parametrize(("method", "factor"), [("rk4", 16.0), ("polar_euler", 2.0)])
 def test_order_of_the_methods_up_to_the_moment_of_arrival(method, factor):
     truth = wmr.arrival(wmr.simulate(wmr.Pose(-3, 1, 0.5), ORIGIN, CALM, method="continuous"))
-    coarse, fine = (wmr.sweep(wmr.Pose(-3, 1, 0.5), ORIGIN, CALM, method=method, dt=dt) for dt in (0.1, 0.05))
+    coarse, fine = (
+        wmr.sweep(wmr.Pose(-3, 1, 0.5), ORIGIN, CALM, method=method, dt=dt) for dt in (0.1, 0.05)
+    )
     for field in ("time", "heading_error"):
         errors = [getattr(run, field) - getattr(truth, field) for run in (coarse, fine)]
         assert errors[0] / errors[1] == pytest.approx(factor, rel=0.25)
@@ -96,21 +126,38 @@ def test_every_step_once_more_with_the_public_functions(method, law, wheels):
         state, length = state + change[:3], length + change[3]
     low, high = 0.0, dt
     for _ in range(60):
-        low, high = (low, middle) if state[0] + step(state, middle := 0.5 * (low + high))[0] <= 0.05 else (middle, high)
+        low, high = (
+            (low, middle)
+            if state[0] + step(state, middle := 0.5 * (low + high))[0] <= 0.05
+            else (middle, high)
+        )
     change = step(state, high)
     time, state, length = dt * (len(states) - 1) + high, state + change[:3], length + change[3]
 
-    run, paths = wmr.sweep(start, goal, CALM, law=law, method=method, dt=dt, wheels=wheels, trajectories=True)
-    expected = (True, time, wmr.wrap_angle(state[2] - state[1]), max(peak, rates(state)[1]), length, 0.05)
+    run, paths = wmr.sweep(
+        start, goal, CALM, law=law, method=method, dt=dt, wheels=wheels, trajectories=True
+    )
+    expected = (
+        True,
+        time,
+        wmr.wrap_angle(state[2] - state[1]),
+        max(peak, rates(state)[1]),
+        length,
+        0.05,
+    )
     assert run == pytest.approx(expected, abs=1e-10)
     n = len(states)
-    assert pytest.approx(np.array(states), abs=1e-10) == np.array([paths.rho[:n], paths.alpha[:n], paths.theta[:n]]).T
+    assert (
+        pytest.approx(np.array(states), abs=1e-10)
+        == np.array([paths.rho[:n], paths.alpha[:n], paths.theta[:n]]).T
+    )
     seen = wmr.polar_error(wmr.Pose(paths.x[:n], paths.y[:n], paths.heading[:n]), goal)
     assert seen.rho == pytest.approx(paths.rho[:n], abs=1e-12)
     assert np.abs(wmr.wrap_angle(seen.alpha - paths.alpha[:n])).max() < 1e-10
     assert np.abs(wmr.wrap_angle(seen.theta - paths.theta[:n])).max() < 1e-10
     assert (np.abs(paths.v[:n]), np.abs(paths.omega[:n])) == tuple(
-        pytest.approx(np.array(row), abs=1e-10) for row in zip(*((rates(each)[0][3], rates(each)[1]) for each in states), strict=True)
+        pytest.approx(np.array(row), abs=1e-10)
+        for row in zip(*((rates(each)[0][3], rates(each)[1]) for each in states), strict=True)
     )
     assert all(np.isnan(row[n:]).all() for row in paths[1:])
 
@@ -121,7 +168,10 @@ def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices():
     assert 0.2 < runs.arrived.mean() < 0.9
     order = np.random.default_rng(1).permutation(1500)
     moved = wmr.sweep(
-        wmr.Pose(*(row[order] for row in starts)), goal, wmr.Gains(*(np.broadcast_to(row, 1500)[order] for row in gains)), duration=30.0
+        wmr.Pose(*(row[order] for row in starts)),
+        goal,
+        wmr.Gains(*(np.broadcast_to(row, 1500)[order] for row in gains)),
+        duration=30.0,
     )
     assert same(moved, [field[order] for field in runs])
     alone = wmr.sweep(
@@ -136,8 +186,19 @@ def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices():
 @pytest.mark.parametrize("method", sweeping._METHODS)
 def test_edges(method):
     gains = wmr.Gains([0.4, 0.4, 1e308, 0.4], [2.0, 2.0, 1e308, 2.0], 0.6, [2.0, 2.0, 1e308, 2.0])
-    runs = wmr.sweep(wmr.Pose([0.0, 1e3, 5.0, 1.0], 0.0, 1.0), ORIGIN, gains, method=method, duration=2.0, arrival_radius=0.0)
-    assert runs.arrived.tolist()[:3] == [True, False, False]  # on the goal already, too far, out of the range of numbers
+    runs = wmr.sweep(
+        wmr.Pose([0.0, 1e3, 5.0, 1.0], 0.0, 1.0),
+        ORIGIN,
+        gains,
+        method=method,
+        duration=2.0,
+        arrival_radius=0.0,
+    )
+    assert runs.arrived.tolist()[:3] == [
+        True,
+        False,
+        False,
+    ]  # on the goal already, too far, out of the range of numbers
     assert runs.time.tolist()[:3] == [0.0, math.inf, math.inf]
     assert np.isfinite(runs.distance).all()
     assert np.isfinite(runs.heading_error).all()
@@ -148,7 +209,13 @@ def test_edges(method):
 
 def test_a_wrong_turn_of_theta_shows_in_the_heading():
     """A goal that looks back needs half a turn: the heading error on arrival is that of the pose, whatever the polar angles grew to."""
-    run = wmr.sweep(wmr.Pose(-3, 0.01, 0), wmr.Pose(0, 0, math.pi), wmr.Gains(0.1, 2.0, 6.0), duration=120.0, arrival_radius=0.01)
+    run = wmr.sweep(
+        wmr.Pose(-3, 0.01, 0),
+        wmr.Pose(0, 0, math.pi),
+        wmr.Gains(0.1, 2.0, 6.0),
+        duration=120.0,
+        arrival_radius=0.01,
+    )
     assert run.arrived
     assert abs(run.heading_error) < math.radians(1.0)
     assert run.path_length > 3.5
@@ -159,18 +226,34 @@ def test_a_wrong_turn_of_theta_shows_in_the_heading():
 
 def test_laws_broadcast_too():
     gains = wmr.Gains(np.array([0.4, 0.2])[:, None], 2.0, 0.6, 2.0)
-    mixed, paths = wmr.sweep(PAPER.start, ORIGIN._replace(x=5.0), gains, law=np.array(LAWS), duration=40.0, trajectories=True)
+    mixed, paths = wmr.sweep(
+        PAPER.start,
+        ORIGIN._replace(x=5.0),
+        gains,
+        law=np.array(LAWS),
+        duration=40.0,
+        trajectories=True,
+    )
     assert mixed.time.shape == (2, 3)
     assert paths.x.shape == (2, 3, 401)
     for j, law in enumerate(LAWS):
-        runs, alone = wmr.sweep(PAPER.start, ORIGIN._replace(x=5.0), gains, law=law, duration=40.0, trajectories=True)
+        runs, alone = wmr.sweep(
+            PAPER.start, ORIGIN._replace(x=5.0), gains, law=law, duration=40.0, trajectories=True
+        )
         assert same(runs, [field[:, j, None] for field in mixed])
         assert same(alone[1:], [row[:, j, None] for row in paths[1:]])
 
 
 @pytest.mark.parametrize("method", ["arc", "euler"])
 def test_trajectories_in_the_plane_are_those_of_simulate(method):
-    runs, paths = wmr.sweep(PAPER.start, wmr.Pose(3.0, [1.0, 2.0], 0.5), CALM, method=method, duration=20.0, trajectories=True)
+    runs, paths = wmr.sweep(
+        PAPER.start,
+        wmr.Pose(3.0, [1.0, 2.0], 0.5),
+        CALM,
+        method=method,
+        duration=20.0,
+        trajectories=True,
+    )
     for i, y in enumerate((1.0, 2.0)):
         alone = wmr.simulate(PAPER.start, wmr.Pose(3.0, y, 0.5), CALM, method=method, duration=20.0)
         for name in paths._fields[1:]:
@@ -184,39 +267,56 @@ def test_bad_input_names_argument_value_and_range():
     def sweep(**options):
         return wmr.sweep(ORIGIN, wmr.Pose(np.ones(1000), 0.0, 0.0), CALM, **options)
 
-    with pytest.raises(ValueError, match=r"method = 'continuous' .* 'rk4', 'polar_euler', 'arc', 'euler' is needed"):
+    with pytest.raises(
+        ValueError, match=r"method = 'continuous' .* 'rk4', 'polar_euler', 'arc', 'euler' is needed"
+    ):
         sweep(method="continuous")
-    with pytest.raises(ValueError, match=r"law = 'kanayama' .* one of 'corrected', 'printed', 'aicardi'"):
+    with pytest.raises(
+        ValueError, match=r"law = 'kanayama' .* one of 'corrected', 'printed', 'aicardi'"
+    ):
         sweep(law=["corrected", "kanayama"])
     with pytest.raises(ValueError, match=r"goals\.x has shape \(1000,\), law has shape \(2,\)"):
         sweep(law=["corrected", "printed"])
-    with pytest.raises(ValueError, match=r"trajectories = True .* 1,000 runs of 100,001 samples: at most 50,000,000"):
+    with pytest.raises(
+        ValueError,
+        match=r"trajectories = True .* 1,000 runs of 100,001 samples: at most 50,000,000",
+    ):
         sweep(trajectories=True, dt=0.01, duration=1000.0)
     with pytest.raises(ValueError, match=r"a WheelLimits is needed"):
         sweep(wheels=2.0)
-    with pytest.raises(ValueError, match=r"executor = 4 is not allowed: a Executor is needed, not a int"):
+    with pytest.raises(
+        ValueError, match=r"executor = 4 is not allowed: a Executor is needed, not a int"
+    ):
         sweep(executor=4)
 
 
 FRESH = """
 import wmrlib as w
-from wmrlib import _polar
+from wmrlib._loops import polar
 run = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.Gains(0.4, 2.0, 0.6, 2.0), duration=1.0, arrival_radius=2.9)
-stats = getattr(_polar.survey_of(_polar.RK4, 0, False), "stats", None)
+stats = getattr(polar.survey_of(polar.RK4, 0, False), "stats", None)
 print(run.time, run.heading_error, run.peak_omega, run.path_length, sum(stats.cache_misses.values()) if stats else None)
 """
 
 
 def test_a_fresh_process_compiles_nothing_and_plain_python_gives_the_same():
     def fresh(**environment):
-        done = subprocess.run([sys.executable, "-c", FRESH], capture_output=True, text=True, check=True, env=os.environ | environment)
+        done = subprocess.run(
+            [sys.executable, "-c", FRESH],
+            capture_output=True,
+            text=True,
+            check=True,
+            env=os.environ | environment,
+        )
         return done.stdout.split()
 
     fresh()  # fills the cache, if nobody has
     *compiled, misses = fresh()
     assert misses == "0"
     *plain, _ = fresh(NUMBA_DISABLE_JIT="1")
-    assert [float(value) for value in plain] == pytest.approx([float(value) for value in compiled], rel=1e-12)
+    assert [float(value) for value in plain] == pytest.approx(
+        [float(value) for value in compiled], rel=1e-12
+    )
     assert 0.1 < float(compiled[0]) < 1.0
 
 
@@ -246,7 +346,9 @@ def test_chunks_do_not_show(small_chunks, whole, recorded):
     if recorded:
         runs, paths = runs
         arrived = runs.arrived & (runs.time > 0.0)
-        assert np.array_equal(np.isfinite(paths.x).sum(axis=-1)[arrived], np.ceil(runs.time[arrived] / 0.05))
+        assert np.array_equal(
+            np.isfinite(paths.x).sum(axis=-1)[arrived], np.ceil(runs.time[arrived] / 0.05)
+        )
     assert same(runs, whole)
 
 
@@ -267,12 +369,16 @@ def test_ctrl_c_keeps_what_is_done(monkeypatch, small_chunks, whole):
 
         def submit(self, function, *arguments):
             self.submitted += 1
-            if self.submitted == 8:  # as the terminal does it: a signal, which comes while others work
+            if (
+                self.submitted == 8
+            ):  # as the terminal does it: a signal, which comes while others work
                 return super().submit(os.kill, os.getpid(), signal.SIGINT)
             return super().submit(function, *arguments)
 
     monkeypatch.setattr(sweeping, "ThreadPoolExecutor", lambda _: Interrupting(1))
-    with pytest.warns(RuntimeWarning, match=r"interrupted: [\d,]+ of 5,000 runs are done, the others are NaN"):
+    with pytest.warns(
+        RuntimeWarning, match=r"interrupted: [\d,]+ of 5,000 runs are done, the others are NaN"
+    ):
         runs = wmr.sweep(*CASE, **WHOLE)
     done = ~np.isnan(runs.time)
     assert 0 < done.sum() < 5000
@@ -323,7 +429,9 @@ def test_a_dask_cluster_that_loses_a_worker(small_chunks, whole):
                 os.kill(self.victim, signal.SIGTERM if os.name == "nt" else signal.SIGKILL)
 
     with (
-        distributed.LocalCluster(2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50) as cluster,
+        distributed.LocalCluster(
+            2, threads_per_worker=1, processes=True, dashboard_address=None, silence_logs=50
+        ) as cluster,
         distributed.Client(cluster) as client,
     ):
         workers = client.run(os.getpid)

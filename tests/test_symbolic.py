@@ -55,7 +55,9 @@ LAWS = {name: lambdified(*symbolic.law(name)) for name in POSE_LAWS}
 LOOPS = {name: lambdified(*symbolic.closed_loop(name)) for name in POSE_LAWS}
 ENERGY = lambdified(symbolic.lyapunov())
 SLOPES = {name: lambdified(symbolic.lyapunov_rate(name)) for name in POSE_LAWS}
-KANAYAMA = sp.lambdify((rho, alpha, theta, v_ref, omega_ref, k_x, k_y, k_heading), symbolic.law("kanayama"), "numpy")
+KANAYAMA = sp.lambdify(
+    (rho, alpha, theta, v_ref, omega_ref, k_x, k_y, k_heading), symbolic.law("kanayama"), "numpy"
+)
 
 
 @pytest.mark.parametrize("name", POSE_LAWS)
@@ -67,13 +69,21 @@ def test_laws_rates_and_lyapunov_functions_equal_wmrlib(name, state):
     twist = wmr.control_law(*polar, gains, law=name)
     np.testing.assert_allclose(LAWS[name](*state), twist, **EXACT)
     if polar[0] > 1e-200:
-        np.testing.assert_allclose(LOOPS[name](*state), wmr.polar_rate(polar[0], polar[1], *twist), **EXACT)
+        np.testing.assert_allclose(
+            LOOPS[name](*state), wmr.polar_rate(polar[0], polar[1], *twist), **EXACT
+        )
     np.testing.assert_allclose(ENERGY(*state)[0], wmr.lyapunov(*polar, c, weight), **EXACT)
-    np.testing.assert_allclose(SLOPES[name](*state)[0], wmr.lyapunov_rate(*polar, gains, law=name, L=weight), **EXACT)
+    np.testing.assert_allclose(
+        SLOPES[name](*state)[0], wmr.lyapunov_rate(*polar, gains, law=name, L=weight), **EXACT
+    )
 
 
 @settings(deadline=None)  # the first call compiles
-@given(state=st.tuples(distances, angles, angles, numbers(-2.0, 2.0), numbers(-2.0, 2.0), gain, gain, gain))
+@given(
+    state=st.tuples(
+        distances, angles, angles, numbers(-2.0, 2.0), numbers(-2.0, 2.0), gain, gain, gain
+    )
+)
 def test_kanayama_equals_wmrlib(state):
     expected = wmr.tracking_law(*state[:5], wmr.KanayamaGains(*state[5:]), law="kanayama")
     np.testing.assert_allclose(KANAYAMA(*state), expected, **EXACT)
@@ -93,10 +103,14 @@ def test_decay_is_finite_and_smooth_at_the_goal():
         derivative = decay(rho, k_rho).diff(rho, order) if order else decay(rho, k_rho)
         written = ((1 - sp.exp(-k_rho * rho)) / rho).diff(rho, order)
         assert sp.simplify(derivative.subs(rho, 0) - sp.limit(written, rho, 0)) == 0
-        assert derivative.subs({rho: 0.7, k_rho: 2}).evalf() == pytest.approx(float(written.subs({rho: 0.7, k_rho: 2})), rel=1e-12)
+        assert derivative.subs({rho: 0.7, k_rho: 2}).evalf() == pytest.approx(
+            float(written.subs({rho: 0.7, k_rho: 2})), rel=1e-12
+        )
     assert decay(rho, k_rho).diff(k_rho) == sp.exp(-k_rho * rho)
     tiny = sp.Float("1e-30", 40)
-    assert abs(decay(tiny, sp.Integer(2)).evalf(40) - 2 * (1 - tiny)) < 1e-38  # digits that 1 - exp(-2e-30) has lost
+    assert (
+        abs(decay(tiny, sp.Integer(2)).evalf(40) - 2 * (1 - tiny)) < 1e-38
+    )  # digits that 1 - exp(-2e-30) has lost
     assert decay(rho, k_rho).rewrite(sp.exp) == (1 - sp.exp(-k_rho * rho)) / rho
 
 
@@ -140,8 +154,12 @@ def test_the_proof_up_to_21_and_with_the_corrected_law():
     assert same(EQUATIONS[19].rhs.subs(polar), EQUATIONS[20].rhs)
     assert same(EQUATIONS[20].rhs, EQUATIONS[21].rhs)
     v, omega = symbolic.law()
-    assert same(EQUATIONS[21].rhs.subs({symbolic.v: v, symbolic.omega: omega}), symbolic.lyapunov_rate())
-    promised = -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * sp.cos(alpha) ** 2 - k_alpha * alpha**2
+    assert same(
+        EQUATIONS[21].rhs.subs({symbolic.v: v, symbolic.omega: omega}), symbolic.lyapunov_rate()
+    )
+    promised = (
+        -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * sp.cos(alpha) ** 2 - k_alpha * alpha**2
+    )
     assert same(symbolic.lyapunov_rate(), promised)
     assert same(symbolic.lyapunov(), EQUATIONS[18].rhs)
 
@@ -155,7 +173,9 @@ def test_25_follows_from_21_and_26_does_not_follow_from_25():
 
 
 def test_kanayama_falls_as_its_authors_say():
-    expected = -k_x * (rho * sp.cos(alpha)) ** 2 - v_ref * k_heading / k_y * sp.sin(alpha - theta) ** 2
+    expected = (
+        -k_x * (rho * sp.cos(alpha)) ** 2 - v_ref * k_heading / k_y * sp.sin(alpha - theta) ** 2
+    )
     assert sp.expand(symbolic.lyapunov_rate("kanayama") - expected) == 0
     along = symbolic.lyapunov("kanayama").subs({rho: 2, alpha: 0.3, theta: -0.4, k_y: 5})
     assert float(along) == pytest.approx(2.0 + (1.0 - math.cos(0.7)) / 5.0)
@@ -167,7 +187,11 @@ def test_near_the_goal_the_poles_are_those_of_tuning():
 
     def polynomial(name):
         matrix = sp.Matrix(symbolic.closed_loop(name)).jacobian(state).subs({rho: 0, theta: 0})
-        return sp.expand(matrix.applyfunc(lambda entry: sp.limit(textbook(entry), alpha, 0)).charpoly(s).as_expr())
+        return sp.expand(
+            matrix.applyfunc(lambda entry: sp.limit(textbook(entry), alpha, 0))
+            .charpoly(s)
+            .as_expr()
+        )
 
     assert sp.expand(polynomial("corrected") - (s + rate) * (s**2 + k_alpha * s + h * rate**2)) == 0
     assert sp.expand(polynomial("aicardi") - (s + k_rho) * (s**2 + k_alpha * s + h * k_rho**2)) == 0
@@ -176,11 +200,20 @@ def test_near_the_goal_the_poles_are_those_of_tuning():
 
 def test_the_geodesy_is_equations_11_to_17():
     a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
-    values = {symbolic.lat1: math.radians(a.lat), symbolic.lat2: math.radians(b.lat), symbolic.R: wmr.EARTH_RADIUS_M}
-    values |= {symbolic.dlat: math.radians(b.lat - a.lat), symbolic.dlong: math.radians(b.lon - a.lon)}
+    values = {
+        symbolic.lat1: math.radians(a.lat),
+        symbolic.lat2: math.radians(b.lat),
+        symbolic.R: wmr.EARTH_RADIUS_M,
+    }
+    values |= {
+        symbolic.dlat: math.radians(b.lat - a.lat),
+        symbolic.dlong: math.radians(b.lon - a.lon),
+    }
     for number in (13, 12, 16, 17, 15):
         values[EQUATIONS[number].lhs] = float(EQUATIONS[number].rhs.subs(values))
-    assert float(EQUATIONS[11].rhs.subs(values)) == pytest.approx(wmr.haversine_distance(a, b), rel=1e-9)
+    assert float(EQUATIONS[11].rhs.subs(values)) == pytest.approx(
+        wmr.haversine_distance(a, b), rel=1e-9
+    )
     assert values[symbolic.br] == pytest.approx(wmr.initial_bearing(a, b), rel=1e-9)
     sight = math.atan2(*reversed(wmr.local_position(a, b)))
     assert float(EQUATIONS[14].rhs.subs(values)) == pytest.approx(sight, abs=1e-5)
@@ -188,15 +221,24 @@ def test_the_geodesy_is_equations_11_to_17():
 
 def test_wheels_are_equations_1_and_2():
     left, right, width, radius = 0.7, 1.2, 0.4, 0.1
-    values = {symbolic.V_l: left, symbolic.V_r: right, symbolic.left_wheel: left / radius, symbolic.right_wheel: right / radius}
+    values = {
+        symbolic.V_l: left,
+        symbolic.V_r: right,
+        symbolic.left_wheel: left / radius,
+        symbolic.right_wheel: right / radius,
+    }
     values |= {symbolic.r: radius, symbolic.b: width}
     twist = [float(EQUATIONS[number].rhs.subs(values)) for number in (1, 2)]
     assert twist == pytest.approx(wmr.wheels_to_twist(left, right, width))
 
 
-@pytest.mark.parametrize("function", [symbolic.law, symbolic.closed_loop, symbolic.lyapunov, symbolic.lyapunov_rate])
+@pytest.mark.parametrize(
+    "function", [symbolic.law, symbolic.closed_loop, symbolic.lyapunov, symbolic.lyapunov_rate]
+)
 def test_an_unknown_law_is_a_value_error(function):
-    with pytest.raises(ValueError, match=r"name = 'lqr' is not allowed: one of 'corrected', 'printed', 'aicardi'"):
+    with pytest.raises(
+        ValueError, match=r"name = 'lqr' is not allowed: one of 'corrected', 'printed', 'aicardi'"
+    ):
         function("lqr")
 
 
@@ -204,7 +246,9 @@ def test_an_unknown_law_is_a_value_error(function):
 
 
 def test_the_committed_javascript_is_what_is_printed():
-    assert symbolic.MODEL_JS.read_text(encoding="utf-8") == symbolic.javascript(), "run python -m wmrlib.symbolic"
+    assert symbolic.MODEL_JS.read_text(encoding="utf-8") == symbolic.javascript(), (
+        "run python -m wmrlib.symbolic"
+    )
 
 
 def test_the_printed_circle_and_modes_are_those_of_wmrlib():
@@ -216,12 +260,20 @@ def test_the_printed_circle_and_modes_are_those_of_wmrlib():
         reference, angle = wmr.paper.circle(time), number("circle_angle", time)
         printed = [number(f"circle_{name}", angle) for name in ("x", "y", "heading")]
         assert printed == pytest.approx(reference[:3], abs=1e-12)
-        assert [number("circle_speed"), number("circle_turn")] == pytest.approx(reference[3:], rel=1e-12)
+        assert [number("circle_speed"), number("circle_turn")] == pytest.approx(
+            reference[3:], rel=1e-12
+        )
     for gains in (wmr.Gains(2.0, 1.0, 0.3), wmr.Gains(0.2, 4.0, 0.1)):
         ours = wmr.modes(gains)
-        assert number("mode_frequency", ours.distance_rate, gains.h) == pytest.approx(ours.natural_frequency)
-        assert number("mode_damping", ours.distance_rate, gains.k_alpha, gains.h) == pytest.approx(ours.damping)
-        assert number("mode_settling", ours.distance_rate, gains.k_alpha, gains.h) == pytest.approx(ours.heading_rate)
+        assert number("mode_frequency", ours.distance_rate, gains.h) == pytest.approx(
+            ours.natural_frequency
+        )
+        assert number("mode_damping", ours.distance_rate, gains.k_alpha, gains.h) == pytest.approx(
+            ours.damping
+        )
+        assert number("mode_settling", ours.distance_rate, gains.k_alpha, gains.h) == pytest.approx(
+            ours.heading_rate
+        )
 
 
 @pytest.mark.parametrize(("name", "function"), [("small_sinc", np.sinc), ("small_cos", np.cos)])
@@ -229,4 +281,6 @@ def test_the_printed_series_are_good_to_rounding(name, function):
     angles = np.linspace(1e-6, 0.1, 1001)
     expected = function(angles / np.pi) if function is np.sinc else function(angles)
     arguments, series, _ = symbolic.FORMULAS[name]
-    np.testing.assert_allclose(sp.lambdify(arguments, series, "numpy")(angles**2), expected, rtol=4e-16)
+    np.testing.assert_allclose(
+        sp.lambdify(arguments, series, "numpy")(angles**2), expected, rtol=4e-16
+    )

@@ -44,11 +44,17 @@ def gga(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", quality=1, tal
     return nmea(f"{talker}GGA,{clock},{lat},{lon},{quality},08,1.1,40.8,M,43.6,M,,0000")
 
 
-def rmc(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", status="A", mode="A", day="240709"):
+def rmc(
+    clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", status="A", mode="A", day="240709"
+):
     return nmea(f"GPRMC,{clock},{status},{lat},{lon},0.24,18.02,{day},,,{mode}")
 
 
-def gpx(inner, head='<?xml version="1.0"?>', root='gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"'):
+def gpx(
+    inner,
+    head='<?xml version="1.0"?>',
+    root='gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"',
+):
     return f"{head}\n<{root}>\n{inner}\n</{root.split()[0]}>"
 
 
@@ -71,7 +77,10 @@ def test_the_real_log():
     lines = LOG.read_text(encoding="utf-8").splitlines()
     counts = dict(track.report.skipped)
     assert counts.pop("comment") == (sum(line.startswith("#") for line in lines), 1)
-    assert counts.pop("same epoch again") == (9, 1 + next(i for i, line in enumerate(lines) if "RMC" in line))
+    assert counts.pop("same epoch again") == (
+        9,
+        1 + next(i for i, line in enumerate(lines) if "RMC" in line),
+    )
     assert counts.pop("other sentence").count == sum(line.startswith("$") for line in lines) - 18
     assert not counts
     assert not track.report.noted
@@ -90,14 +99,19 @@ def test_every_talker_is_heard(read, talker):
 
 
 def test_an_epoch_that_two_talkers_tell_of_counts_once(read):
-    track = read("\n".join([gga(talker="GN"), rmc(), gga(talker="GL", lat="5405.7000,N"), gga("104707.00")]))
+    track = read(
+        "\n".join([gga(talker="GN"), rmc(), gga(talker="GL", lat="5405.7000,N"), gga("104707.00")])
+    )
     assert track.points.lat.tolist() == pytest.approx([54 + 5.6081 / 60] * 2)
     assert dict(track.report.skipped) == {"same epoch again": (2, 2)}
 
 
 def test_south_and_west_are_negative(read):
     track = read(gga(lat="3351.5000,S", lon="15112.3000,W"))
-    assert (track.points.lat[0], track.points.lon[0]) == (pytest.approx(-(33 + 51.5 / 60)), pytest.approx(-(151 + 12.3 / 60)))
+    assert (track.points.lat[0], track.points.lon[0]) == (
+        pytest.approx(-(33 + 51.5 / 60)),
+        pytest.approx(-(151 + 12.3 / 60)),
+    )
 
 
 def test_time_goes_on_over_midnight(read):
@@ -107,7 +121,14 @@ def test_time_goes_on_over_midnight(read):
 
 def test_a_night_without_a_fix_goes_by_the_receivers_clock(read):
     track = read(
-        "\n".join([gga("190000"), *(gga(f"{hour % 24:02d}0000", quality=0) for hour in range(20, 32)), gga("080000"), gga("080001")])
+        "\n".join(
+            [
+                gga("190000"),
+                *(gga(f"{hour % 24:02d}0000", quality=0) for hour in range(20, 32)),
+                gga("080000"),
+                gga("080001"),
+            ]
+        )
     )
     assert track.t.tolist() == [0.0, 13 * 3600.0, 13 * 3600.0 + 1]
     assert dict(track.report.skipped) == {"sentence without a fix": (12, 2)}
@@ -116,30 +137,68 @@ def test_a_night_without_a_fix_goes_by_the_receivers_clock(read):
 @pytest.mark.parametrize("hour", range(24))
 def test_a_receiver_that_starts_cold_and_counts_from_midnight_does_no_harm(read, hour):
     cold = [gga(f"0000{second:02d}", quality=0) for second in range(30)]
-    track = read("\n".join([gga(f"{hour:02d}0000"), *cold, gga(f"{hour:02d}0500"), gga(f"{hour:02d}0501")]))
+    track = read(
+        "\n".join([gga(f"{hour:02d}0000"), *cold, gga(f"{hour:02d}0500"), gga(f"{hour:02d}0501")])
+    )
     assert track.t.tolist() == [0.0, 300.0, 301.0]
 
 
 DATED = {
     "a day and an hour": ([rmc("080000", day="290224"), rmc("090000", day="010324")], [0, 90000]),
-    "less than a day": ([rmc("100000", day="290224"), rmc("080000", day="010324"), rmc("080001", day="010324")], [0, 79200, 79201]),
-    "an afternoon": ([rmc(clock) for clock in ("080000", "080001", "210000", "210001")], [0, 1, 46800, 46801]),
-    "the same second of the next day": ([rmc("080000", day="311223"), rmc("080000", day="010124")], [0, 86400]),
+    "less than a day": (
+        [rmc("100000", day="290224"), rmc("080000", day="010324"), rmc("080001", day="010324")],
+        [0, 79200, 79201],
+    ),
+    "an afternoon": (
+        [rmc(clock) for clock in ("080000", "080001", "210000", "210001")],
+        [0, 1, 46800, 46801],
+    ),
+    "the same second of the next day": (
+        [rmc("080000", day="311223"), rmc("080000", day="010124")],
+        [0, 86400],
+    ),
     "GGA before RMC": (
-        [gga("080000"), rmc("080000", day="290224"), gga("070000"), rmc("070000", day="020324"), gga("070001")],
+        [
+            gga("080000"),
+            rmc("080000", day="290224"),
+            gga("070000"),
+            rmc("070000", day="020324"),
+            gga("070001"),
+        ],
         [0, 169200, 169201],
     ),
     "RMC before GGA": (
-        [rmc("080000", day="290224"), gga("080000"), rmc("070000", day="020324"), gga("070000"), gga("070000.5")],
+        [
+            rmc("080000", day="290224"),
+            gga("080000"),
+            rmc("070000", day="020324"),
+            gga("070000"),
+            gga("070000.5"),
+        ],
         [0, 169200, 169200.5],
     ),
     "a GGA between two RMC is of the nearer one's day": (
-        [rmc("080000", day="290224"), gga("080000.5"), gga("070000.5"), rmc("070001", day="020324")],
+        [
+            rmc("080000", day="290224"),
+            gga("080000.5"),
+            gga("070000.5"),
+            rmc("070001", day="020324"),
+        ],
         [0, 0.5, 169200.5, 169201],
     ),
-    "GGA of the evening before": ([gga("235959"), rmc("000000", day="010324"), gga("000001")], [0, 1, 2]),
+    "GGA of the evening before": (
+        [gga("235959"), rmc("000000", day="010324"), gga("000001")],
+        [0, 1, 2],
+    ),
     "no date": ([rmc("235959", day=""), rmc("000001", day="990099")], [0, 2]),
-    "date of no fix": ([rmc("080000", day="290224"), rmc("080001", day="060180", status="V"), rmc("080002", day="290224")], [0, 2]),
+    "date of no fix": (
+        [
+            rmc("080000", day="290224"),
+            rmc("080001", day="060180", status="V"),
+            rmc("080002", day="290224"),
+        ],
+        [0, 2],
+    ),
 }
 
 
@@ -152,7 +211,9 @@ def test_the_date_of_rmc_counts(read, name):
 
 @pytest.mark.parametrize("day", ["230709", "240708"])
 def test_an_earlier_date_is_time_that_runs_backwards(read, day):
-    assert dict(read("\n".join([rmc("080000"), rmc("090000", day=day)])).report.skipped) == {"time runs backwards": (1, 2)}
+    assert dict(read("\n".join([rmc("080000"), rmc("090000", day=day)])).report.skipped) == {
+        "time runs backwards": (1, 2)
+    }
 
 
 BAD_SENTENCES = {
@@ -184,21 +245,33 @@ def test_what_gives_no_position_is_counted(read, reason):
 
 @pytest.mark.parametrize(
     ("lat", "lon"),
-    [(",N", ",E"), ("0,N", "01049.4791,E"), ("5405.6081,", "01049.4791,E"), ("5405.6081,X", "01049.4791,E"), ("5405,N", "01049,E")],
+    [
+        (",N", ",E"),
+        ("0,N", "01049.4791,E"),
+        ("5405.6081,", "01049.4791,E"),
+        ("5405.6081,X", "01049.4791,E"),
+        ("5405,N", "01049,E"),
+    ],
 )
 def test_a_field_that_pynmea2_would_read_as_zero_is_not_used(read, lat, lon):
     with pytest.raises(ValueError, match="unreadable position"):
         read(gga(lat=lat, lon=lon))
 
 
-@pytest.mark.parametrize(("status", "mode"), [("V", "A"), ("A", "N"), ("A", "E"), ("A", "S"), ("", "")])
+@pytest.mark.parametrize(
+    ("status", "mode"), [("V", "A"), ("A", "N"), ("A", "E"), ("A", "S"), ("", "")]
+)
 def test_an_rmc_without_a_measured_fix_is_not_used(read, status, mode):
-    with pytest.raises(ValueError, match=r"it is NMEA, but 1 (sentence without a fix|position estimated)"):
+    with pytest.raises(
+        ValueError, match=r"it is NMEA, but 1 (sentence without a fix|position estimated)"
+    ):
         read(rmc(status=status, mode=mode))
 
 
 def test_where_the_gga_says_no_fix_the_rmc_is_not_believed(read):
-    with pytest.raises(ValueError, match=r"1 sentence without a fix \(first in line 2\); 1 same epoch again"):
+    with pytest.raises(
+        ValueError, match=r"1 sentence without a fix \(first in line 2\); 1 same epoch again"
+    ):
         read(rmc() + "\n" + gga(quality=0))
 
 
@@ -214,7 +287,10 @@ def test_makers_sentences_cut_short_do_no_harm(read):
     assert len(track) == 1
 
 
-SENTENCES = [gga(f"1047{k:02d}.00", lat=f"54{k:02d}.6081,N", talker=("GP", "GN", "GL")[k % 3]) for k in range(6)]
+SENTENCES = [
+    gga(f"1047{k:02d}.00", lat=f"54{k:02d}.6081,N", talker=("GP", "GN", "GL")[k % 3])
+    for k in range(6)
+]
 
 
 @given(st.integers(0, 5), st.integers(0, 200), st.integers(0, 255))
@@ -243,7 +319,10 @@ def test_a_corrupted_byte_is_never_used_silently(tmp_path_factory, which, place,
 
 
 def test_gpx_points_and_times(read):
-    points = (f'<trkpt lat="33.{k}" lon="-44.5"><ele>3</ele><time>2026-03-01T12:00:0{k}Z</time></trkpt>' for k in range(4))
+    points = (
+        f'<trkpt lat="33.{k}" lon="-44.5"><ele>3</ele><time>2026-03-01T12:00:0{k}Z</time></trkpt>'
+        for k in range(4)
+    )
     track = read(gpx(trk(*points)))
     assert track.source == "GPX"
     assert track.points.lat.tolist() == [33.0, 33.1, 33.2, 33.3]
@@ -252,10 +331,19 @@ def test_gpx_points_and_times(read):
 
 
 def test_gpx_with_a_prefix_or_in_utf_16_or_of_version_1_0(read):
-    prefixed = gpx(trk(GOOD), root='g:gpx version="1.1" creator="t" xmlns:g="http://www.topografix.com/GPX/1/1"')
+    prefixed = gpx(
+        trk(GOOD),
+        root='g:gpx version="1.1" creator="t" xmlns:g="http://www.topografix.com/GPX/1/1"',
+    )
     for name in ("trkseg", "trkpt", "trk"):
-        prefixed = prefixed.replace(f"<{name} ", f"<g:{name} ").replace(f"<{name}>", f"<g:{name}>").replace(f"</{name}>", f"</g:{name}>")
-    old = gpx(trk(GOOD), root='gpx version="1.0" creator="t" xmlns="http://www.topografix.com/GPX/1/0"')
+        prefixed = (
+            prefixed.replace(f"<{name} ", f"<g:{name} ")
+            .replace(f"<{name}>", f"<g:{name}>")
+            .replace(f"</{name}>", f"</g:{name}>")
+        )
+    old = gpx(
+        trk(GOOD), root='gpx version="1.0" creator="t" xmlns="http://www.topografix.com/GPX/1/0"'
+    )
     wide = gpx(trk(GOOD), head='<?xml version="1.0" encoding="utf-16"?>').encode("utf-16")
     for content in (prefixed, old, wide, gpx(trk(GOOD), root="gpx")):
         assert read(content).points.lat.tolist() == [33.27]
@@ -280,7 +368,9 @@ BAD_POINTS = {
 
 @pytest.mark.parametrize("reason", BAD_POINTS)
 def test_bad_points_of_gpx_are_counted_with_their_line(read, reason):
-    track = read(gpx(trk(GOOD, BAD_POINTS[reason], BAD_POINTS[reason], '<trkpt lat="34" lon="45"/>')))
+    track = read(
+        gpx(trk(GOOD, BAD_POINTS[reason], BAD_POINTS[reason], '<trkpt lat="34" lon="45"/>'))
+    )
     assert track.points.lat.tolist() == [33.27, 34.0]
     assert dict(track.report.skipped) == {reason: (2, 5)}
 
@@ -302,24 +392,47 @@ def test_an_unreadable_time_is_noted_and_its_position_used(read):
 
 LAUGHS = (
     '<!DOCTYPE gpx [<!ENTITY a "ha">'
-    + "".join(f'<!ENTITY {b} "{f"&{a};" * 10}">' for a, b in zip("abcdefgh", "bcdefghi", strict=True))
+    + "".join(
+        f'<!ENTITY {b} "{f"&{a};" * 10}">' for a, b in zip("abcdefgh", "bcdefghi", strict=True)
+    )
     + "]>"
 )
 REFUSED = {
     "billion laughs": (gpx(trk(GOOD) + "<x>&i;</x>", head=LAUGHS), "document type or an entity"),
-    "external entity": (gpx(trk(GOOD) + "<x>&e;</x>", head='<!DOCTYPE gpx [<!ENTITY e SYSTEM "file:///etc/passwd">]>'), "document type"),
-    "external subset": (gpx(trk(GOOD), head='<!DOCTYPE gpx SYSTEM "http://localhost:9/x.dtd">'), "document type"),
+    "external entity": (
+        gpx(
+            trk(GOOD) + "<x>&e;</x>",
+            head='<!DOCTYPE gpx [<!ENTITY e SYSTEM "file:///etc/passwd">]>',
+        ),
+        "document type",
+    ),
+    "external subset": (
+        gpx(trk(GOOD), head='<!DOCTYPE gpx SYSTEM "http://localhost:9/x.dtd">'),
+        "document type",
+    ),
     "empty document type": (gpx(trk(GOOD), head="<!DOCTYPE gpx>"), "document type"),
-    "KML": ('<kml xmlns="http://www.opengis.net/kml/2.2"><Placemark/></kml>', "it is a KML file, not a GPX file; export it as GPX$"),
+    "KML": (
+        '<kml xmlns="http://www.opengis.net/kml/2.2"><Placemark/></kml>',
+        "it is a KML file, not a GPX file; export it as GPX$",
+    ),
     "KML cut off": ("<kml><Placemark>", "it is a KML file, not a GPX file; export it as GPX$"),
     "TCX": ("<TrainingCenterDatabase/>", "it is a TCX file, not a GPX file; export it as GPX$"),
-    "web page": ("<!DOCTYPE html>\n<html><body><br></body></html>", "it is a web page, not a GPX file$"),
+    "web page": (
+        "<!DOCTYPE html>\n<html><body><br></body></html>",
+        "it is a web page, not a GPX file$",
+    ),
     "web page without a document type": ("<HTML><br></HTML>", "it is a web page, not a GPX file$"),
     "one element": ("<time>x</time>", "it is XML of the kind 'time', not a GPX file$"),
-    "nested too deep": (gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000), "its XML is nested too deep$"),
+    "nested too deep": (
+        gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000),
+        "its XML is nested too deep$",
+    ),
     "cut off": (gpx(trk(GOOD))[:-20], "its XML is broken"),
     "no point": (gpx(""), "holds no position"),
-    "only bad points": (gpx(trk('<trkpt lat="91" lon="0"/>')), r"1 latitude not in -90 to 90 \(first in line 4\)"),
+    "only bad points": (
+        gpx(trk('<trkpt lat="91" lon="0"/>')),
+        r"1 latitude not in -90 to 90 \(first in line 4\)",
+    ),
     "points outside a track": (gpx("<trk>" + GOOD + "</trk>"), "has 1 places <trkpt>, but only 0"),
 }
 
@@ -341,13 +454,20 @@ IDLE = {
 }
 
 
-@pytest.mark.parametrize("root", ["gpx", 'gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"'])
+@pytest.mark.parametrize(
+    "root", ["gpx", 'gpx version="1.1" creator="t" xmlns="http://www.topografix.com/GPX/1/1"']
+)
 @pytest.mark.parametrize("name", IDLE)
 def test_what_is_not_read_of_gpx_may_hold_anything(read, name, root):
     inner, outer = IDLE[name]
     space = "\n " if name == "spaces about the time" else ""
     point = f'<trkpt lat="33.27" lon="44.37"><time>{space}2026-03-01T12:00:00Z{space}</time>{inner}</trkpt>'
-    track = read(gpx(outer + trk(point, point.replace("33.27", "34").replace("12:00:00", "12:00:05")), root=root))
+    track = read(
+        gpx(
+            outer + trk(point, point.replace("33.27", "34").replace("12:00:00", "12:00:05")),
+            root=root,
+        )
+    )
     assert track.points.lat.tolist() == [33.27, 34.0]
     assert track.t.tolist() == [0.0, 5.0]
     assert repr(track.report) == "2 positions used"
@@ -356,12 +476,19 @@ def test_what_is_not_read_of_gpx_may_hold_anything(read, name, root):
 # CSV -----------------------------------------------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("header", ["lat,lon", "Latitude,Longitude", " LAT , lng", "latitude;long", "lat\tlongitude", "n|lat|lon"])
+@pytest.mark.parametrize(
+    "header",
+    ["lat,lon", "Latitude,Longitude", " LAT , lng", "latitude;long", "lat\tlongitude", "n|lat|lon"],
+)
 def test_headers(read, header):
     delimiter = next(d for d in ",;\t|" if d in header)
     row = delimiter.join(["7", "33.25", "44.5"] if header[0] == "n" else ["33.25", "44.5"])
     track = read(f"\ufeff# a comment\n{header}\n{row}\n")
-    assert (track.points.lat.tolist(), track.points.lon.tolist(), track.source) == ([33.25], [44.5], "CSV")
+    assert (track.points.lat.tolist(), track.points.lon.tolist(), track.source) == (
+        [33.25],
+        [44.5],
+        "CSV",
+    )
 
 
 def test_the_columns_may_stand_the_other_way_round(read):
@@ -369,10 +496,17 @@ def test_the_columns_may_stand_the_other_way_round(read):
 
 
 @pytest.mark.parametrize(
-    "times", [("5", "6.5"), ("2026-03-01T12:00:00Z", "2026-03-01T13:00:01.5+01:00"), ("2026-03-01 12:00:00", "2026-03-01 12:00:01.5")]
+    "times",
+    [
+        ("5", "6.5"),
+        ("2026-03-01T12:00:00Z", "2026-03-01T13:00:01.5+01:00"),
+        ("2026-03-01 12:00:00", "2026-03-01 12:00:01.5"),
+    ],
 )
 def test_times_are_seconds_or_iso(read, times):
-    track = read("time,lat,lon\n" + "\n".join(f"{time},33,44.{k}" for k, time in enumerate(times)) + "\n")
+    track = read(
+        "time,lat,lon\n" + "\n".join(f"{time},33,44.{k}" for k, time in enumerate(times)) + "\n"
+    )
     assert track.t.tolist() == [0.0, 1.5]
 
 
@@ -386,12 +520,18 @@ def test_times_are_seconds_or_iso(read, times):
 )
 def test_decimal_commas(read, content):
     track = read(content)
-    assert (track.points.lat.tolist(), track.points.lon.tolist(), track.t.tolist()) == ([33.5, -1.5], [44.25, 2.0], [0.0, 1.25])
+    assert (track.points.lat.tolist(), track.points.lon.tolist(), track.t.tolist()) == (
+        [33.5, -1.5],
+        [44.25, 2.0],
+        [0.0, 1.25],
+    )
 
 
 @pytest.mark.parametrize("cell", ["1,2,3", "1,234.5", "1.2,3", ",", "33,5 N"])
 def test_a_cell_of_more_than_a_decimal_comma_is_no_number(read, cell):
-    assert dict(read(f"lat;lon\n{cell};44\n1;2\n").report.skipped) == {"latitude or longitude not a number": (1, 2)}
+    assert dict(read(f"lat;lon\n{cell};44\n1;2\n").report.skipped) == {
+        "latitude or longitude not a number": (1, 2)
+    }
 
 
 WIDE = {"UTF-8 with its mark": "utf-8-sig", "UTF-16": "utf-16", "UTF-16, big-endian": "utf-16-be"}
@@ -406,8 +546,14 @@ TEXTS = {
 @pytest.mark.parametrize("code", WIDE)
 @pytest.mark.parametrize("source", TEXTS)
 def test_text_as_windows_writes_it(read, source, code):
-    track = read((b"\xfe\xff" if code == "UTF-16, big-endian" else b"") + TEXTS[source].encode(WIDE[code]))
-    assert (track.source, track.points.lat.tolist(), track.points.lon.tolist()) == (source, [33.5], [44.25])
+    track = read(
+        (b"\xfe\xff" if code == "UTF-16, big-endian" else b"") + TEXTS[source].encode(WIDE[code])
+    )
+    assert (track.source, track.points.lat.tolist(), track.points.lon.tolist()) == (
+        source,
+        [33.5],
+        [44.25],
+    )
     assert repr(track.report) == "1 position used"
 
 
@@ -440,14 +586,19 @@ def test_bad_rows_are_counted_with_their_line(read, reason):
     assert dict(track.report.skipped) == {reason: (1, 4)}
 
 
-@pytest.mark.parametrize("row", ["33", "33,", ",44", "nan,44", "NaN,NaN", "inf,44", "1_0,44", "33 44"])
+@pytest.mark.parametrize(
+    "row", ["33", "33,", ",44", "nan,44", "NaN,NaN", "inf,44", "1_0,44", "33 44"]
+)
 def test_rows_that_are_cut_or_no_numbers(read, row):
     assert read(f"lat,lon\n{row}\n1,2\n").points.lat.tolist() == [1.0]
 
 
 def test_milliseconds_are_no_seconds_and_a_cut_last_line_is_told(read):
     track = read("lat,lon,t\n1,2,1767225600000\n3,4,5")
-    assert dict(track.report.noted) == {"with an unreadable time": (1, 2), "in a last line without an end, which may be cut off": (1, 3)}
+    assert dict(track.report.noted) == {
+        "with an unreadable time": (1, 2),
+        "in a last line without an end, which may be cut off": (1, 3),
+    }
     assert np.isnan(track.t[0])
 
 
@@ -458,7 +609,10 @@ def test_milliseconds_are_no_seconds_and_a_cut_last_line_is_told(read):
         (" \n\r\n", "the file is empty"),
         (b"\xff\xfe", "the file is empty"),
         (b"\x00" * 200_000, "it is no NMEA, GPX or GeoJSON, and as a table"),
-        (b"x" * 200_000, "it is no NMEA, GPX or GeoJSON, and as a table its first line 'x{80}' does not name"),
+        (
+            b"x" * 200_000,
+            "it is no NMEA, GPX or GeoJSON, and as a table its first line 'x{80}' does not name",
+        ),
         ("var data=" + "1," * 100_000, "it is no NMEA, GPX or GeoJSON, and as a table"),
         ("lat,lon\n1," + "2" * 200_000, "its table is broken"),
         ("# lat,lon\n", "no header"),
@@ -472,8 +626,14 @@ def test_milliseconds_are_no_seconds_and_a_cut_last_line_is_told(read):
         (gga(quality=0), r"it is NMEA, but 1 sentence without a fix"),
         ('{"type": "Polygon"}', "no GeoJSON of points or lines, but of the kind 'Polygon'"),
         ('{"type": "Point", "coordinates": [200, 91]}', "1 latitude not in -90 to 90"),
-        ('{"type": "LineString", "coordinates": [[1, "2"], [true, 2], 3, [1e999, 0]]}', "3 position that is no pair of numbers"),
-        ('{"type": "Point", "coordinates": [1, 2], "crs": {"properties": {"name": "urn:ogc:def:crs:EPSG::3857"}}}', "not degrees"),
+        (
+            '{"type": "LineString", "coordinates": [[1, "2"], [true, 2], 3, [1e999, 0]]}',
+            "3 position that is no pair of numbers",
+        ),
+        (
+            '{"type": "Point", "coordinates": [1, 2], "crs": {"properties": {"name": "urn:ogc:def:crs:EPSG::3857"}}}',
+            "not degrees",
+        ),
         ('{"type": "Point", "coordinates": [1', "its JSON is not read"),
         ("[" * 100_000, "its JSON is not read"),
     ],
@@ -548,7 +708,9 @@ def test_scatter_of_the_log_against_the_ellipsoid():
     assert (found.east[-1] > 2, found.north[-1] > 0.5) == (True, True)
     assert found.cep == pytest.approx(np.median(np.hypot(east, north)), rel=0.0057)
     assert found.two_drms == pytest.approx(2 * math.hypot(found.std_east, found.std_north))
-    assert repr(found).startswith("<Standing: 9 positions about 54.0934728 deg N, 10.8247669 deg E; std 3.55 m east, 0.444 m north")
+    assert repr(found).startswith(
+        "<Standing: 9 positions about 54.0934728 deg N, 10.8247669 deg E; std 3.55 m east, 0.444 m north"
+    )
 
 
 CENTRES = {
@@ -569,7 +731,9 @@ def test_mean_and_scatter_anywhere(name):
     east, north = east - east.mean(), north - north.mean()
     found = wmr.standing(wmr.point_at(centre, east, north))
     assert wmr.haversine_distance(found.mean, centre) < 1e-6
-    assert math.hypot(found.std_east, found.std_north) == pytest.approx(math.hypot(east.std(ddof=1), north.std(ddof=1)), rel=1e-6)
+    assert math.hypot(found.std_east, found.std_north) == pytest.approx(
+        math.hypot(east.std(ddof=1), north.std(ddof=1)), rel=1e-6
+    )
     if "pole" not in name:  # there east depends on the longitude of the mean
         assert found.std_east == pytest.approx(east.std(ddof=1), rel=1e-6)
         assert found.covariance[0, 1] == pytest.approx(np.cov(east, north)[0, 1], abs=1e-6)
@@ -587,9 +751,13 @@ def test_the_mean_of_positions_far_apart_is_the_middle_of_their_frame():
 
 def test_half_the_positions_are_within_the_cep_and_nearly_all_within_2drms():
     rng = np.random.default_rng(1)
-    found = wmr.standing(wmr.point_at(wmr.paper.GPS_POINT_1, rng.normal(0, 2, 20_000), rng.normal(0, 2, 20_000)))
+    found = wmr.standing(
+        wmr.point_at(wmr.paper.GPS_POINT_1, rng.normal(0, 2, 20_000), rng.normal(0, 2, 20_000))
+    )
     assert found.cep == pytest.approx(2 * math.sqrt(2 * math.log(2)), rel=0.02)  # Rayleigh's median
-    assert np.mean(np.hypot(found.east, found.north) < found.two_drms) == pytest.approx(1 - math.exp(-4), abs=0.003)
+    assert np.mean(np.hypot(found.east, found.north) < found.two_drms) == pytest.approx(
+        1 - math.exp(-4), abs=0.003
+    )
 
 
 def test_standing_refuses_what_has_no_scatter():
@@ -605,7 +773,10 @@ def test_standing_refuses_what_has_no_scatter():
 
 WAYS = {"gpx": wmr.write_gpx, "geojson": wmr.write_geojson}
 paths = st.tuples(
-    st.floats(-89.9, 89.9), st.sampled_from([0.0, 44.37, 179.9999, -179.9999, 180.0, -180.0]), st.integers(1, 12), st.integers(0, 2**32)
+    st.floats(-89.9, 89.9),
+    st.sampled_from([0.0, 44.37, 179.9999, -179.9999, 180.0, -180.0]),
+    st.integers(1, 12),
+    st.integers(0, 2**32),
 )
 
 
@@ -631,7 +802,12 @@ def test_a_driven_run_comes_back_with_its_times(tmp_path):
     wmr.write_gpx(tmp_path / "run.gpx", points, t=run.t, begin=BEGIN)
     back = wmr.read_track(tmp_path / "run.gpx")
     assert np.abs(back.t - run.t).max() < 1e-6
-    assert wmr.haversine_distance(wmr.GeoPoint(lat=back.points.lat[-1], lon=back.points.lon[-1]), wmr.paper.GPS_POINT_2) < 0.07
+    assert (
+        wmr.haversine_distance(
+            wmr.GeoPoint(lat=back.points.lat[-1], lon=back.points.lon[-1]), wmr.paper.GPS_POINT_2
+        )
+        < 0.07
+    )
     east, north = wmr.local_position(wmr.paper.GPS_POINT_1, back.points)
     assert np.hypot(east - run.x, north - run.y).max() < 0.01
     assert not back.report.skipped
@@ -640,14 +816,24 @@ def test_a_driven_run_comes_back_with_its_times(tmp_path):
 def test_gpx_1_1_as_its_schema_asks(tmp_path):
     """Names, order, attributes and the range of values of the schema http://www.topografix.com/GPX/1/1/gpx.xsd."""
     points = wmr.GeoPoint(lat=[0.0, 1e-7, -1e-7, 5.0], lon=[179.9999999, 180.0, -180.0, -1e-7])
-    wmr.write_gpx(tmp_path / "a.gpx", points, t=[0, 0.25, math.nan, 2], begin=BEGIN, name="<b> & \"c\" 'd' é بغداد")
+    wmr.write_gpx(
+        tmp_path / "a.gpx",
+        points,
+        t=[0, 0.25, math.nan, 2],
+        begin=BEGIN,
+        name="<b> & \"c\" 'd' é بغداد",
+    )
     root = ElementTree.parse(tmp_path / "a.gpx").getroot()
     assert root.tag == GPX_11 + "gpx"
     assert root.attrib["version"] == "1.1"
     assert root.attrib["creator"] == "wmrlib"
     (track,) = root
     name, *segments = track
-    assert (track.tag, name.tag, {s.tag for s in segments}) == (GPX_11 + "trk", GPX_11 + "name", {GPX_11 + "trkseg"})
+    assert (track.tag, name.tag, {s.tag for s in segments}) == (
+        GPX_11 + "trk",
+        GPX_11 + "name",
+        {GPX_11 + "trkseg"},
+    )
     assert name.text == "<b> & \"c\" 'd' é بغداد"
     assert [len(segment) for segment in segments] == [1, 3]
     places = [point for segment in segments for point in segment]
@@ -659,23 +845,38 @@ def test_gpx_1_1_as_its_schema_asks(tmp_path):
     ]
     assert all([child.tag for child in point] in ([GPX_11 + "time"], []) for point in places)
     times = [point.findtext(GPX_11 + "time") for point in places]
-    assert times == ["2026-03-01T12:00:00Z", "2026-03-01T12:00:00.250000Z", None, "2026-03-01T12:00:02Z"]
+    assert times == [
+        "2026-03-01T12:00:00Z",
+        "2026-03-01T12:00:00.250000Z",
+        None,
+        "2026-03-01T12:00:02Z",
+    ]
 
 
 def test_geojson_is_longitude_first_and_cut_at_the_date_line(tmp_path):
-    wmr.write_geojson(tmp_path / "a.json", wmr.GeoPoint(lat=[10.0, 11.0, 12.0], lon=[179.0, -179.0, -178.0]), name='"q"')
+    wmr.write_geojson(
+        tmp_path / "a.json",
+        wmr.GeoPoint(lat=[10.0, 11.0, 12.0], lon=[179.0, -179.0, -178.0]),
+        name='"q"',
+    )
     feature = json.loads((tmp_path / "a.json").read_text(encoding="utf-8"))
     assert feature["type"] == "Feature"
     assert feature["properties"] == {"name": '"q"'}
     assert feature["geometry"] == {
         "type": "MultiLineString",
-        "coordinates": [[[179.0, 10.0], [180.0, 10.5]], [[-180.0, 10.5], [-179.0, 11.0], [-178.0, 12.0]]],
+        "coordinates": [
+            [[179.0, 10.0], [180.0, 10.5]],
+            [[-180.0, 10.5], [-179.0, 11.0], [-178.0, 12.0]],
+        ],
     }
     track = wmr.read_track(tmp_path / "a.json")
     assert track.points.lat.tolist() == [10.0, 11.0, 12.0]
     assert dict(track.report.skipped) == {"cut at the date line": (2, 2)}
     wmr.write_geojson(tmp_path / "b.json", wmr.GeoPoint(lat=33.5, lon=44.25))
-    assert json.loads((tmp_path / "b.json").read_text())["geometry"] == {"type": "Point", "coordinates": [44.25, 33.5]}
+    assert json.loads((tmp_path / "b.json").read_text())["geometry"] == {
+        "type": "Point",
+        "coordinates": [44.25, 33.5],
+    }
 
 
 @pytest.mark.parametrize("kind", ["Point", "MultiPoint"])
@@ -692,10 +893,20 @@ def test_geojson_collections(read):
     line = {"type": "LineString", "coordinates": [[1.5, 2.5, 30], [3, 4]]}
     features = [
         {"type": "Feature", "geometry": g}
-        for g in (line, None, {"type": "GeometryCollection", "geometries": [{"type": "Point", "coordinates": [5, 6]}]})
+        for g in (
+            line,
+            None,
+            {
+                "type": "GeometryCollection",
+                "geometries": [{"type": "Point", "coordinates": [5, 6]}],
+            },
+        )
     ]
     track = read(json.dumps({"type": "FeatureCollection", "features": features}))
-    assert (track.points.lon.tolist(), track.points.lat.tolist()) == ([1.5, 3.0, 5.0], [2.5, 4.0, 6.0])
+    assert (track.points.lon.tolist(), track.points.lat.tolist()) == (
+        [1.5, 3.0, 5.0],
+        [2.5, 4.0, 6.0],
+    )
 
 
 class SummerTime(tzinfo):
@@ -714,20 +925,50 @@ PAIR = wmr.GeoPoint(lat=[1.0, 2.0], lon=[3.0, 4.0])
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda p: wmr.write_gpx(p, wmr.GeoPoint(lat=[], lon=[])), "at least one position is needed"),
+        (
+            lambda p: wmr.write_gpx(p, wmr.GeoPoint(lat=[], lon=[])),
+            "at least one position is needed",
+        ),
         (lambda p: wmr.write_gpx(p, [1, 2]), "a GeoPoint is needed"),
         (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1]), "begin = None are not allowed together"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1, 2], begin=BEGIN), r"t has shape \(3,\), points have shape \(2,\)"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=[0, math.inf], begin=BEGIN), "a finite number or NaN is needed"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=["a", "b"], begin=BEGIN), r"^t = \['a', 'b'\] is not allowed"),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, t=[0, 1, 2], begin=BEGIN),
+            r"t has shape \(3,\), points have shape \(2,\)",
+        ),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, t=[0, math.inf], begin=BEGIN),
+            "a finite number or NaN is needed",
+        ),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, t=["a", "b"], begin=BEGIN),
+            r"^t = \['a', 'b'\] is not allowed",
+        ),
         (lambda p: wmr.write_gpx(p, PAIR, t={}, begin=BEGIN), r"^t = {} is not allowed"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=[True, False], begin=BEGIN), r"^t = \[True, False\] is not allowed"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1e18], begin=BEGIN), r"^t = 1e\+18 is not allowed: begin \+ t in the years 1 to 9999"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1], begin=datetime.max.replace(tzinfo=UTC)), r"^t = 1 is not allowed: begin \+ t"),
-        (lambda p: wmr.write_gpx(p, PAIR, t=[0, 1], begin=BEGIN.replace(tzinfo=None)), "with its time zone is needed"),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, t=[True, False], begin=BEGIN),
+            r"^t = \[True, False\] is not allowed",
+        ),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, t=[0, 1e18], begin=BEGIN),
+            r"^t = 1e\+18 is not allowed: begin \+ t in the years 1 to 9999",
+        ),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, t=[0, 1], begin=datetime.max.replace(tzinfo=UTC)),
+            r"^t = 1 is not allowed: begin \+ t",
+        ),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, t=[0, 1], begin=BEGIN.replace(tzinfo=None)),
+            "with its time zone is needed",
+        ),
         (lambda p: wmr.write_gpx(p, PAIR, name="a\x00b"), "without control characters"),
-        (lambda p: wmr.write_gpx(p, PAIR, name="\ud800"), r"^name = '\\ud800' is not allowed: a text that UTF-8 can hold is needed$"),
-        (lambda p: wmr.write_geojson(p, PAIR, name="\ud800"), r"^name = '\\ud800' is not allowed: a text that UTF-8 can hold is needed$"),
+        (
+            lambda p: wmr.write_gpx(p, PAIR, name="\ud800"),
+            r"^name = '\\ud800' is not allowed: a text that UTF-8 can hold is needed$",
+        ),
+        (
+            lambda p: wmr.write_geojson(p, PAIR, name="\ud800"),
+            r"^name = '\\ud800' is not allowed: a text that UTF-8 can hold is needed$",
+        ),
         (lambda p: wmr.write_geojson(p, PAIR, name=3), "a str is needed"),
     ],
 )
@@ -757,4 +998,7 @@ def test_times_are_counted_on_while_the_clocks_are_put_forward(tmp_path):
 
 def test_a_single_position_may_have_a_single_time(tmp_path):
     wmr.write_gpx(tmp_path / "a.gpx", wmr.GeoPoint(lat=1.0, lon=2.0), t=0.5, begin=BEGIN)
-    assert ElementTree.parse(tmp_path / "a.gpx").find(f".//{GPX_11}time").text == "2026-03-01T12:00:00.500000Z"
+    assert (
+        ElementTree.parse(tmp_path / "a.gpx").find(f".//{GPX_11}time").text
+        == "2026-03-01T12:00:00.500000Z"
+    )

@@ -35,7 +35,11 @@ def linearised(gains, law):
     rho, size = 1e-9, 1e-5
 
     def rate(alpha, theta, distance=rho):
-        return np.array(wmr.polar_rate(distance, alpha, *wmr.control_law(distance, alpha, theta, gains, law=law)))
+        return np.array(
+            wmr.polar_rate(
+                distance, alpha, *wmr.control_law(distance, alpha, theta, gains, law=law)
+            )
+        )
 
     along_alpha = (rate(size, 0.0) - rate(-size, 0.0)) / (2.0 * size)
     along_theta = (rate(0.0, size) - rate(0.0, -size)) / (2.0 * size)
@@ -50,7 +54,9 @@ def test_poles_equal_those_python_control_finds(gains, law):
     system = control.ss(linearised(gains, law), np.zeros((3, 1)), np.eye(3), np.zeros((3, 1)))
     frequencies, dampings, poles = control.damp(system, doprint=False)
     modes = wmr.modes(gains, law)
-    np.testing.assert_allclose(np.sort_complex(modes.poles), np.sort_complex(poles), rtol=1e-6, atol=1e-6)
+    np.testing.assert_allclose(
+        np.sort_complex(modes.poles), np.sort_complex(poles), rtol=1e-6, atol=1e-6
+    )
     oscillating = np.abs(np.imag(poles)) > 1e-3
     if oscillating.any():
         np.testing.assert_allclose(frequencies[oscillating], modes.natural_frequency, rtol=1e-6)
@@ -65,24 +71,42 @@ def test_simulated_runs_decay_as_the_modes_say(gains):
     """Near the goal theta[k+2] = (z1 + z2) theta[k+1] - z1 z2 theta[k] with z = exp(pole dt), whatever the model behind it."""
     dt = 0.05
     start = wmr.Pose(-1e-4, 0.0, 1e-4)
-    run = wmr.simulate(start, wmr.Pose(0.0, 0.0, -2e-4), gains, method="continuous", dt=dt, duration=40 * dt, arrival_radius=0.0)
+    run = wmr.simulate(
+        start,
+        wmr.Pose(0.0, 0.0, -2e-4),
+        gains,
+        method="continuous",
+        dt=dt,
+        duration=40 * dt,
+        arrival_radius=0.0,
+    )
     modes = wmr.modes(gains)
     far = run.rho > 1e-9
     slope = np.polyfit(run.t[far], np.log(run.rho[far]), 1)[0]
     assert slope == pytest.approx(-modes.distance_rate, rel=1e-3)
-    ((total, product), *_) = np.linalg.lstsq(np.column_stack([run.theta[1:-1], -run.theta[:-2]]), run.theta[2:])
+    ((total, product), *_) = np.linalg.lstsq(
+        np.column_stack([run.theta[1:-1], -run.theta[:-2]]), run.theta[2:]
+    )
     poles = np.log(np.roots([1.0, -total, product]).astype(complex)) / dt
-    np.testing.assert_allclose(np.sort_complex(poles), np.sort_complex(modes.poles[1:]), rtol=1e-2, atol=1e-2)
+    np.testing.assert_allclose(
+        np.sort_complex(poles), np.sort_complex(modes.poles[1:]), rtol=1e-2, atol=1e-2
+    )
 
 
 def test_the_printed_law_has_no_such_modes():
-    with pytest.raises(ValueError, match="law = 'printed' is not allowed: one of 'corrected', 'aicardi' is needed"):
+    with pytest.raises(
+        ValueError, match="law = 'printed' is not allowed: one of 'corrected', 'aicardi' is needed"
+    ):
         wmr.modes(wmr.paper.OUTDOOR_GAINS, "printed")
 
 
 def test_a_gain_of_zero_leaves_a_mode_that_does_not_settle():
     no_heading = wmr.modes(wmr.Gains(0.2, 2.0, 0.0))
-    assert (no_heading.heading_rate, no_heading.damping, no_heading.slower) == (0.0, math.inf, math.inf)
+    assert (no_heading.heading_rate, no_heading.damping, no_heading.slower) == (
+        0.0,
+        math.inf,
+        math.inf,
+    )
     no_distance = wmr.modes(wmr.Gains(0.0, 2.0, 1.0))
     assert no_distance.distance_rate == 0.0
     assert math.isnan(no_distance.slower)
@@ -103,15 +127,23 @@ def test_arrays_of_gains_give_arrays_of_modes():
 @settings(deadline=None)
 @given(distance_rate=rates, natural_frequency=rates, damping=st.floats(0.05, 5.0), v_max=rates)
 def test_gains_for_a_natural_frequency_have_it(distance_rate, natural_frequency, damping, v_max):
-    gains = wmr.gains_for(distance_rate, natural_frequency=natural_frequency, damping=damping, v_max=v_max)
+    gains = wmr.gains_for(
+        distance_rate, natural_frequency=natural_frequency, damping=damping, v_max=v_max
+    )
     modes = wmr.modes(gains)
     expected = distance_rate, natural_frequency, damping
-    assert (modes.distance_rate, modes.natural_frequency, modes.damping) == pytest.approx(expected, rel=1e-9)
+    assert (modes.distance_rate, modes.natural_frequency, modes.damping) == pytest.approx(
+        expected, rel=1e-9
+    )
     assert gains.v_max == v_max
 
 
 @settings(deadline=None)
-@given(distance_rate=rates, heading_rate=rates, damping=st.one_of(st.floats(0.05, 0.99), st.floats(1.01, 5.0)))
+@given(
+    distance_rate=rates,
+    heading_rate=rates,
+    damping=st.one_of(st.floats(0.05, 0.99), st.floats(1.01, 5.0)),
+)
 def test_gains_for_a_heading_rate_have_it(distance_rate, heading_rate, damping):
     modes = wmr.modes(wmr.gains_for(distance_rate, heading_rate=heading_rate, damping=damping))
     assert (modes.heading_rate, modes.damping) == pytest.approx((heading_rate, damping), rel=1e-9)
@@ -121,7 +153,9 @@ def test_gains_for_a_heading_rate_have_it(distance_rate, heading_rate, damping):
 def test_designed_gains_arrive_better_than_the_papers():
     case = wmr.paper.outdoor()
     designed = wmr.gains_for(0.8, heading_rate=1.0, damping=0.9)
-    found, ours = (wmr.arrival(wmr.simulate(case.start, case.goal, gains)) for gains in (case.gains, designed))
+    found, ours = (
+        wmr.arrival(wmr.simulate(case.start, case.goal, gains)) for gains in (case.gains, designed)
+    )
     assert ours.arrived
     assert abs(ours.heading_error) < abs(found.heading_error) / 5.0
     assert ours.peak_omega < found.peak_omega / 3.0
@@ -136,9 +170,15 @@ def test_arrays_of_specifications_give_arrays_of_gains():
 @pytest.mark.parametrize(
     ("arguments", "message"),
     [
-        ({}, "natural_frequency = None and heading_rate = None are not allowed together: one of the two is needed"),
+        (
+            {},
+            "natural_frequency = None and heading_rate = None are not allowed together: one of the two is needed",
+        ),
         ({"natural_frequency": 1.0, "heading_rate": 1.0}, "not allowed together"),
-        ({"heading_rate": 0.0}, "heading_rate = 0.0 is not allowed: a finite number above 0 is needed"),
+        (
+            {"heading_rate": 0.0},
+            "heading_rate = 0.0 is not allowed: a finite number above 0 is needed",
+        ),
         ({"natural_frequency": -1.0}, "natural_frequency = -1.0 is not allowed"),
         ({"natural_frequency": 1.0, "damping": 0.0}, "damping = 0.0 is not allowed"),
         ({"natural_frequency": 1.0, "v_max": 0.0}, "v_max = 0.0 is not allowed"),
@@ -166,12 +206,16 @@ def test_a_gain_map_has_an_axis_for_each_gain_in_order():
         for j in range(2):
             alone = wmr.sweep(case.start, case.goal, wmr.Gains(0.2, float(k_alpha[i]), float(h[j])))
             assert tuple(field[i, j] for field in mapped) == pytest.approx(tuple(alone))
-    assert np.abs(mapped.heading_error).argmin() == 1 * 2 + 1  # k_alpha 2, h 2: the gentle gains of chapter 0
+    assert (
+        np.abs(mapped.heading_error).argmin() == 1 * 2 + 1
+    )  # k_alpha 2, h 2: the gentle gains of chapter 0
 
 
 def test_a_gain_map_hands_its_options_to_the_sweep():
     case = wmr.paper.outdoor()
-    mapped = wmr.gain_map(case.start, case.goal, case.gains, {"k_rho": [1.0, 2.0]}, method="arc", duration=2.0)
+    mapped = wmr.gain_map(
+        case.start, case.goal, case.gains, {"k_rho": [1.0, 2.0]}, method="arc", duration=2.0
+    )
     assert not mapped.arrived.any()
 
 
@@ -179,7 +223,10 @@ def test_a_gain_map_hands_its_options_to_the_sweep():
     ("over", "message"),
     [
         ({}, r"over = \{\} is not allowed: at least one gain"),
-        ({"k_beta": [1.0]}, r"over = 'k_beta' is not allowed: one of 'k_rho', 'k_alpha', 'h', 'v_max' is needed"),
+        (
+            {"k_beta": [1.0]},
+            r"over = 'k_beta' is not allowed: one of 'k_rho', 'k_alpha', 'h', 'v_max' is needed",
+        ),
         ({"h": 1.0}, r"h has shape \(\), which is not allowed: a list of numbers is needed"),
         ({"h": [0.1, -0.1]}, r"h = .* is not allowed: a finite number at least 0 is needed"),
         ([("h", [1.0])], r"over = .* a Mapping is needed, not a list"),
@@ -204,11 +251,16 @@ def one_step(gains, method, dt, law="corrected"):
     def after(alpha, theta):
         v, omega = wmr.control_law(rho, alpha, theta, gains, law=law)
         if method == "polar_euler":
-            return np.array([alpha, theta]) + dt * np.array(wmr.polar_rate(rho, alpha, v, omega)[1:])
+            return np.array([alpha, theta]) + dt * np.array(
+                wmr.polar_rate(rho, alpha, v, omega)[1:]
+            )
         pose = wmr.pose_from_polar(wmr.PolarError(rho, alpha, theta), goal)
         return np.array(wmr.polar_error(wmr.advance(pose, v, omega, dt, method), goal)[1:])
 
-    columns = [(after(*shift) - after(*(-each for each in shift))) / (2.0 * size) for shift in ((size, 0.0), (0.0, size))]
+    columns = [
+        (after(*shift) - after(*(-each for each in shift))) / (2.0 * size)
+        for shift in ((size, 0.0), (0.0, size))
+    ]
     return np.column_stack(columns)
 
 
@@ -234,15 +286,22 @@ def test_the_papers_time_step_is_too_long_for_its_gains():
     assert limits == pytest.approx([1 / 19.2, 1 / 91.2, 2 / 91.2])
     assert max(limits) < wmr.paper.TIME_STEP
     assert wmr.longest_step(wmr.Gains(0.2, 2.0, 2.0)) == pytest.approx(2 / 2.8)
-    assert wmr.longest_step(STIFF, "polar_euler") == pytest.approx(4.0 / (9.0 + math.sqrt(81.0 - 4.0 * 0.5 * 0.64)))
+    assert wmr.longest_step(STIFF, "polar_euler") == pytest.approx(
+        4.0 / (9.0 + math.sqrt(81.0 - 4.0 * 0.5 * 0.64))
+    )
 
 
 @pytest.mark.parametrize("method", ["euler", "arc"])
 @pytest.mark.parametrize("gains", [GAINS[0], GAINS[2]])
 def test_simulated_runs_settle_up_to_the_longest_step_and_no_further(gains, method):
     def late_over_first(dt):
-        start, goal = wmr.Pose(-1e-3, -1e-6, 2e-3), wmr.Pose(0.0, 0.0, 0.0)  # at the origin, where a tiny rho keeps its digits
-        run = wmr.simulate(start, goal, gains, method=method, dt=dt, duration=3000 * dt, arrival_radius=0.0)
+        start, goal = (
+            wmr.Pose(-1e-3, -1e-6, 2e-3),
+            wmr.Pose(0.0, 0.0, 0.0),
+        )  # at the origin, where a tiny rho keeps its digits
+        run = wmr.simulate(
+            start, goal, gains, method=method, dt=dt, duration=3000 * dt, arrival_radius=0.0
+        )
         size = np.hypot(run.alpha, run.theta)[run.rho > 1e-290]
         return size[-size.size // 4 :].max() / size[0]
 
@@ -255,16 +314,25 @@ def test_arrays_of_gains_give_arrays_of_longest_steps():
     k_alpha = np.array([1.0, 2.0, 9.0])
     for method in SAMPLED:
         singly = [wmr.longest_step(wmr.Gains(0.2, each, 0.5), method) for each in k_alpha.tolist()]
-        np.testing.assert_allclose(wmr.longest_step(wmr.Gains(0.2, k_alpha, 0.5), method), singly, rtol=1e-12)
+        np.testing.assert_allclose(
+            wmr.longest_step(wmr.Gains(0.2, k_alpha, 0.5), method), singly, rtol=1e-12
+        )
 
 
 def test_longest_step_of_gains_of_zero():
     assert wmr.longest_step(wmr.Gains(2.0, 0.0, 0.3), "euler") == 0.0
-    assert [wmr.longest_step(wmr.Gains(0.0, 4.0, 0.3), method) for method in SAMPLED] == [0.5, 0.5, 0.5]  # it only turns: 2/k_alpha
+    assert [wmr.longest_step(wmr.Gains(0.0, 4.0, 0.3), method) for method in SAMPLED] == [
+        0.5,
+        0.5,
+        0.5,
+    ]  # it only turns: 2/k_alpha
 
 
 def test_longest_step_refuses():
-    with pytest.raises(ValueError, match=r"method = 'rk4' is not allowed: one of 'polar_euler', 'euler', 'arc' is needed"):
+    with pytest.raises(
+        ValueError,
+        match=r"method = 'rk4' is not allowed: one of 'polar_euler', 'euler', 'arc' is needed",
+    ):
         wmr.longest_step(GAINS[0], "rk4")
     with pytest.raises(ValueError, match=r"law = 'printed' is not allowed"):
         wmr.longest_step(GAINS[0], "arc", "printed")
@@ -277,7 +345,9 @@ def test_pareto_against_a_double_loop():
     costs[0, 0, 0], costs[1, 0, 1] = np.inf, np.nan
     points = costs.reshape(3, -1).T
     slow = [
-        bool(np.isfinite(p).all()) and not any(np.isfinite(q).all() and (q <= p).all() and (q != p).any() for q in points) for p in points
+        bool(np.isfinite(p).all())
+        and not any(np.isfinite(q).all() and (q <= p).all() and (q != p).any() for q in points)
+        for p in points
     ]
     chosen = wmr.pareto(*costs)
     assert chosen.shape == (5, 8)

@@ -23,7 +23,9 @@ def near(truth):
     return pytest.approx(float(truth), rel=TWO_ULP, abs=1e-300)
 
 
-both = pytest.mark.parametrize("form", [lambda function: function, _vecmath.vectorised], ids=["alone", "vectorised"])
+both = pytest.mark.parametrize(
+    "form", [lambda function: function, _vecmath.vectorised], ids=["alone", "vectorised"]
+)
 
 
 @both
@@ -43,7 +45,9 @@ def test_sincos_up_to_a_million_radians(angle):
 
 @pytest.mark.parametrize("angle", [1.1e6, -1e300, math.inf, -math.inf, math.nan])
 def test_a_direction_that_is_lost_is_not_a_number(angle):
-    assert np.isnan([*_vecmath.vector_sincos(angle), _vecmath.vectorised(_vecmath.sinc)(angle)]).all()
+    assert np.isnan(
+        [*_vecmath.vector_sincos(angle), _vecmath.vectorised(_vecmath.sinc)(angle)]
+    ).all()
 
 
 @both
@@ -53,7 +57,9 @@ def test_a_direction_that_is_lost_is_not_a_number(angle):
 @example(angle=-1.0000001e-8)
 @example(angle=5e-324)
 def test_sinc(form, angle):
-    assert form(_vecmath.sinc)(angle) == near(mpmath.sin(angle) / mpmath.mpf(angle) if angle else 1.0)
+    assert form(_vecmath.sinc)(angle) == near(
+        mpmath.sin(angle) / mpmath.mpf(angle) if angle else 1.0
+    )
 
 
 @both
@@ -65,7 +71,9 @@ def test_expm1(form, x):
 
 @both
 @given(
-    rho=st.floats(0.0, 1e3) | st.floats(0.0, 1e-6) | st.floats(-0.1, 0.0),  # a step may carry rho past the goal
+    rho=st.floats(0.0, 1e3)
+    | st.floats(0.0, 1e-6)
+    | st.floats(-0.1, 0.0),  # a step may carry rho past the goal
     k_rho=st.floats(0.0, 50.0) | st.floats(0.0, 1e-6),
 )
 @example(rho=0.0, k_rho=0.0)
@@ -76,8 +84,12 @@ def test_expm1(form, x):
 @example(rho=-0.095703125, k_rho=43.9461639526886)
 def test_decay(form, rho, k_rho):
     truth = -mpmath.expm1(-mpmath.mpf(k_rho) * mpmath.mpf(rho)) / mpmath.mpf(rho) if rho else k_rho
-    past = max(0.0, -k_rho * rho)  # the rounding of this product, half a unit, is made larger by as much as exp grows
-    assert form(_vecmath.decay)(rho, k_rho) == pytest.approx(float(truth), rel=TWO_ULP * (1.0 + past), abs=1e-300)
+    past = max(
+        0.0, -k_rho * rho
+    )  # the rounding of this product, half a unit, is made larger by as much as exp grows
+    assert form(_vecmath.decay)(rho, k_rho) == pytest.approx(
+        float(truth), rel=TWO_ULP * (1.0 + past), abs=1e-300
+    )
 
 
 @both
@@ -88,7 +100,10 @@ def test_not_a_number_stays_one(form):
 
 def test_a_loop_over_many_gives_the_same_to_the_last_digits():
     """In a loop LLVM computes several at once; what it then does in another order must not show."""
-    sincos, sinc, expm1 = (_vecmath.vectorised(function) for function in (_vecmath.sincos, _vecmath.sinc, _vecmath.expm1))
+    sincos, sinc, expm1 = (
+        _vecmath.vectorised(function)
+        for function in (_vecmath.sincos, _vecmath.sinc, _vecmath.expm1)
+    )
 
     @compiled
     def all_of(angle, sine, cosine, ratio, grown):
@@ -108,7 +123,11 @@ def test_a_vectorised_law_is_the_law():
     """The same text with the other sine inside, down to what the functions that it calls call."""
     law, gains = control.pose_law, control.GainsFields(2.0, 1.0, 0.3, 4.0)
     for code in control.POSE_LAWS.values():
-        assert _vecmath.vectorised(law)(3.0, 0.7, -2.0, gains, code) == pytest.approx(law(3.0, 0.7, -2.0, gains, code), rel=1e-14)
+        assert _vecmath.vectorised(law)(3.0, 0.7, -2.0, gains, code) == pytest.approx(
+            law(3.0, 0.7, -2.0, gains, code), rel=1e-14
+        )
     assert _vecmath.vectorised(law) is _vecmath.vectorised(law)
-    assert math.isnan(_vecmath.vectorised(law)(3.0, 1e7, -2.0, gains, 0)[0])  # vector_sincos is in it, three calls down
+    assert math.isnan(
+        _vecmath.vectorised(law)(3.0, 1e7, -2.0, gains, 0)[0]
+    )  # vector_sincos is in it, three calls down
     assert math.isfinite(law(3.0, 1e7, -2.0, gains, 0)[0])

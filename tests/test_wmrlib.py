@@ -6,12 +6,26 @@ import sys
 
 import wmrlib as wmr
 
-HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba", "tqdm", "dask", "distributed"}
+HEAVY = {
+    "sympy",
+    "matplotlib",
+    "ipywidgets",
+    "control",
+    "scipy.integrate",
+    "numba",
+    "tqdm",
+    "dask",
+    "distributed",
+}
 
 
 def modules_after(statement):
     code = f"import sys; {statement}; print(*sys.modules)"
-    return set(subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.split())
+    return set(
+        subprocess.run(
+            [sys.executable, "-c", code], capture_output=True, text=True, check=True
+        ).stdout.split()
+    )
 
 
 def test_importing_loads_nothing_heavy():
@@ -19,7 +33,9 @@ def test_importing_loads_nothing_heavy():
 
 
 def test_a_simulation_loads_numba_and_nothing_else_heavy():
-    used = modules_after("import wmrlib as w; w.simulate(w.Pose(0,0,0), w.Pose(1,1,0), w.Gains(2,1,1))")
+    used = modules_after(
+        "import wmrlib as w; w.simulate(w.Pose(0,0,0), w.Pose(1,1,0), w.Gains(2,1,1))"
+    )
     assert used & HEAVY == {"numba"}
 
 

@@ -1,10 +1,7 @@
 # The public names and where they live: read by lazy_loader at run time, and by editors and type checkers.
-from . import challenge as challenge
-from . import conventions as conventions
 from . import metrics as metrics
 from . import paper as paper
 from . import plots as plots
-from . import scoreboard as scoreboard
 from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
@@ -42,9 +39,9 @@ from .routes import drive_route as drive_route
 from .routes import headings_along as headings_along
 from .routes import route_points as route_points
 from .routes import route_poses as route_poses
-from .simulation import Arrival as Arrival
-from .simulation import Outcome as Outcome
-from .simulation import Trajectory as Trajectory
+from .runs import Arrival as Arrival
+from .runs import Outcome as Outcome
+from .runs import Trajectory as Trajectory
 from .simulation import simulate as simulate
 from .simulation import track as track
 from .sweeping import Trajectories as Trajectories

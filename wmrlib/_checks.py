@@ -11,7 +11,15 @@ import numpy as np
 Real = float | np.ndarray
 
 
-def real(name: str, value: Any, *, low: float = -math.inf, high: float = math.inf, above: float = -math.inf, nan: bool = False) -> Real:
+def real(
+    name: str,
+    value: Any,
+    *,
+    low: float = -math.inf,
+    high: float = math.inf,
+    above: float = -math.inf,
+    nan: bool = False,
+) -> Real:
     """Return `value` as a float, or as a float array if it has dimensions; every entry finite and within the bounds, or NaN if `nan`.
 
     Raises ValueError for text, booleans, complex numbers, rows of different lengths, NaN unless `nan` is True, infinities, and numbers
@@ -28,7 +36,9 @@ def real(name: str, value: Any, *, low: float = -math.inf, high: float = math.in
         fits = np.isfinite(array) & (array >= low) & (array <= high) & (array > above)
         if (fits | np.isnan(array) if nan else fits).all():
             return array if array.ndim else float(array)
-    raise ValueError(f"{name} = {_shown(value)} is not allowed: {_allowed(low, high, above)}{' or NaN' if nan else ''} is needed")
+    raise ValueError(
+        f"{name} = {_shown(value)} is not allowed: {_allowed(low, high, above)}{' or NaN' if nan else ''} is needed"
+    )
 
 
 def scalar(name: str, value: Any, **bounds: float) -> float:
@@ -36,7 +46,9 @@ def scalar(name: str, value: Any, **bounds: float) -> float:
     checked = real(name, value, **bounds)
     if isinstance(checked, float):
         return checked
-    raise ValueError(f"{name} = {_shown(value)} is not allowed: one number is needed, not an array of shape {checked.shape}")
+    raise ValueError(
+        f"{name} = {_shown(value)} is not allowed: one number is needed, not an array of shape {checked.shape}"
+    )
 
 
 def choice(name: str, value: Any, allowed: Collection[str]) -> str:
@@ -51,7 +63,9 @@ def instance(name: str, value: Any, kind: type) -> Any:
     """Return `value` if it is a `kind`; raises ValueError if it is not."""
     if isinstance(value, kind):
         return value
-    raise ValueError(f"{name} = {_shown(value)} is not allowed: a {kind.__name__} is needed, not a {type(value).__name__}")
+    raise ValueError(
+        f"{name} = {_shown(value)} is not allowed: a {kind.__name__} is needed, not a {type(value).__name__}"
+    )
 
 
 def same_shape(**arguments: Any) -> tuple[int, ...]:
@@ -61,14 +75,18 @@ def same_shape(**arguments: Any) -> tuple[int, ...]:
         return np.broadcast_shapes(*shapes.values())
     except ValueError:
         listed = ", ".join(f"{name} has shape {shape}" for name, shape in shapes.items() if shape)
-        raise ValueError(f"mismatched lengths: {listed}; shapes that broadcast together are needed") from None
+        raise ValueError(
+            f"mismatched lengths: {listed}; shapes that broadcast together are needed"
+        ) from None
 
 
 def _shape(name: str, value: Any) -> tuple[int, ...]:
     try:
         return np.shape(value)
     except ValueError:
-        raise ValueError(f"{name} = {_shown(value)} is not allowed: a number, or an array with rows of one length, is needed") from None
+        raise ValueError(
+            f"{name} = {_shown(value)} is not allowed: a number, or an array with rows of one length, is needed"
+        ) from None
 
 
 def _allowed(low: float, high: float, above: float) -> str:

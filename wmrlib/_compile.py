@@ -17,13 +17,15 @@ import numba
 import numpy as np
 
 _PACKAGE = Path(__file__).parent
-_SOURCES = ("_compile.py", "_vecmath.py", "kinematics.py", "gains.py", "control.py", "_kernels.py", "_polar.py")
+_SOURCES = sorted((*_PACKAGE.glob("*.py"), *_PACKAGE.glob("_loops/*.py")))
 
 
 def _cache_folder() -> str:
-    digest = hashlib.sha256(b"".join((_PACKAGE / name).read_bytes() for name in _SOURCES)).hexdigest()[:16]
+    digest = hashlib.sha256(b"".join(source.read_bytes() for source in _SOURCES)).hexdigest()[:16]
     user = os.environ.get("NUMBA_CACHE_DIR")
-    for parent in (Path(user),) if user else (_PACKAGE / "__pycache__", Path.home() / ".cache" / "wmrlib"):
+    for parent in (
+        (Path(user),) if user else (_PACKAGE / "__pycache__", Path.home() / ".cache" / "wmrlib")
+    ):
         folder = parent / f"compiled-{digest}"
         try:
             folder.mkdir(parents=True, exist_ok=True)
@@ -45,7 +47,9 @@ def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:
     """
     before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _CACHE_FOLDER or numba.config.CACHE_DIR
     try:
-        return numba.njit(function, cache=cache, error_model="numpy", nogil=True, fastmath={"contract"}, **options)
+        return numba.njit(
+            function, cache=cache, error_model="numpy", nogil=True, fastmath={"contract"}, **options
+        )
     finally:
         numba.config.CACHE_DIR = before
 
@@ -64,5 +68,9 @@ def elementwise(loop: Callable, outputs: int, *arguments, options: tuple = ()) -
     shape = arrays[0].shape
     results = tuple(np.empty(arrays[0].size) for _ in range(outputs))
     # Copies: a view that broadcasting made, or an array that can't be written to, would be another type to numba, with a warning.
-    loop(*(np.array(array, dtype=np.float64, order="C").ravel() for array in arrays), *options, *results)
+    loop(
+        *(np.array(array, dtype=np.float64, order="C").ravel() for array in arrays),
+        *options,
+        *results,
+    )
     return tuple(result.reshape(shape) if shape else float(result[0]) for result in results)

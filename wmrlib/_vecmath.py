@@ -24,7 +24,11 @@ from wmrlib._compile import formula
 LARGEST_ANGLE = 1e6  # rad; up to here a multiple of the first part of pi/2 is exact
 _SMALL = 1e-8  # below this, the next term of the series is under half a unit in the last place
 _QUARTERS_PER_RADIAN = 2.0 / math.pi
-_QUARTER_1, _QUARTER_2, _QUARTER_3 = 1.57079632673412561417, 6.07710050630396597660e-11, 2.02226624879595063154e-21  # their sum is pi/2
+_QUARTER_1, _QUARTER_2, _QUARTER_3 = (
+    1.57079632673412561417,
+    6.07710050630396597660e-11,
+    2.02226624879595063154e-21,
+)  # their sum is pi/2
 _DOUBLINGS_PER_UNIT = 1.0 / math.log(2.0)
 _LN2_1, _LN2_2 = 6.93147180369123816490e-1, 1.90821492927058770002e-10  # their sum is ln 2
 _S1, _S2, _S3 = -1.66666666666666324348e-1, 8.33333333332248946124e-3, -1.98412698298579493134e-4
@@ -55,16 +59,25 @@ def vector_sincos(angle):
     quarters = np.rint(angle * _QUARTERS_PER_RADIAN)
     coarse = angle - quarters * _QUARTER_1
     middle = coarse - quarters * _QUARTER_2
-    fine = quarters * _QUARTER_3 - ((coarse - middle) - quarters * _QUARTER_2)  # with what rounding took from the line above
+    fine = quarters * _QUARTER_3 - (
+        (coarse - middle) - quarters * _QUARTER_2
+    )  # with what rounding took from the line above
     r = middle - fine
-    rest = (middle - r) - fine  # r + rest is the angle less the quarters, to twice a double's digits
+    rest = (
+        middle - r
+    ) - fine  # r + rest is the angle less the quarters, to twice a double's digits
     z = r * r
     s = r + (r * z * (_S1 + z * (_S2 + z * (_S3 + z * (_S4 + z * (_S5 + z * _S6))))) + rest)
-    c = 1.0 - (0.5 * z - (z * z * (_C1 + z * (_C2 + z * (_C3 + z * (_C4 + z * (_C5 + z * _C6))))) - r * rest))
+    c = 1.0 - (
+        0.5 * z
+        - (z * z * (_C1 + z * (_C2 + z * (_C3 + z * (_C4 + z * (_C5 + z * _C6))))) - r * rest)
+    )
     quadrant = quarters - 4.0 * np.floor(0.25 * quarters)
     swapped = (quadrant == 1.0) | (quadrant == 3.0)
     sine, cosine = (c if swapped else s), (s if swapped else c)
-    return (-sine if quadrant >= 2.0 else sine), (-cosine if (quadrant == 1.0) | (quadrant == 2.0) else cosine)
+    return (-sine if quadrant >= 2.0 else sine), (
+        -cosine if (quadrant == 1.0) | (quadrant == 2.0) else cosine
+    )
 
 
 @formula
@@ -85,7 +98,12 @@ def vector_expm1(x):
     r = coarse - doublings * _LN2_2
     rest = (coarse - r) - doublings * _LN2_2  # what rounding took from the line above
     high = _F[8] + r * (_F[9] + r * (_F[10] + r * (_F[11] + r * (_F[12] + r * _F[13]))))
-    series = r + (rest + r * r * (_F[2] + r * (_F[3] + r * (_F[4] + r * (_F[5] + r * (_F[6] + r * (_F[7] + r * high)))))))
+    series = r + (
+        rest
+        + r
+        * r
+        * (_F[2] + r * (_F[3] + r * (_F[4] + r * (_F[5] + r * (_F[6] + r * (_F[7] + r * high))))))
+    )
     scale = power_of_two(doublings)
     return scale * series + (scale - 1.0)
 
@@ -102,7 +120,9 @@ def decay(rho, k_rho):
 @intrinsic
 def _prefer_512_bits(typing_context):
     def generate(context, builder, signature, arguments):
-        set.add(builder.function.attributes, '"prefer-vector-width"="512"')  # llvmlite's own `add` knows no attribute with a value
+        set.add(
+            builder.function.attributes, '"prefer-vector-width"="512"'
+        )  # llvmlite's own `add` knows no attribute with a value
         return context.get_dummy_value()
 
     return types.none(), generate
@@ -130,7 +150,9 @@ def _exponent_field(typing_context, n):
     def generate(context, builder, signature, arguments):
         double, integer = ir.DoubleType(), ir.IntType(64)
         aligned = builder.fadd(arguments[0], ir.Constant(double, 1.5 * 2.0**52 + 1023.0))
-        return builder.bitcast(builder.shl(builder.bitcast(aligned, integer), ir.Constant(integer, 52)), double)
+        return builder.bitcast(
+            builder.shl(builder.bitcast(aligned, integer), ir.Constant(integer, 52)), double
+        )
 
     return types.float64(types.float64), generate
 
@@ -142,9 +164,15 @@ def vectorised(function):
     """The same formula, whatever it calls included, with `vector_sincos` for `sincos` and `vector_expm1` for `expm1`."""
     if function not in _VECTORISED:
         plain = getattr(function, "py_func", function)
-        called = {name: plain.__globals__[name] for name in plain.__code__.co_names if _is_formula(plain.__globals__.get(name))}
+        called = {
+            name: plain.__globals__[name]
+            for name in plain.__code__.co_names
+            if _is_formula(plain.__globals__.get(name))
+        }
         names = plain.__globals__ | {name: vectorised(value) for name, value in called.items()}
-        _VECTORISED[function] = formula(FunctionType(plain.__code__, names, plain.__name__), cache=False)
+        _VECTORISED[function] = formula(
+            FunctionType(plain.__code__, names, plain.__name__), cache=False
+        )
     return _VECTORISED[function]
 
 

@@ -16,7 +16,16 @@ import math
 from wmrlib._checks import Real, choice, instance, real, same_shape
 from wmrlib._compile import compiled, elementwise, formula
 from wmrlib._vecmath import decay, sinc, sincos
-from wmrlib.gains import NO_TUNING, Gains, GainsFields, KanayamaGains, LinearGains, Tuning, WheelLimits, checked_wheels
+from wmrlib.gains import (
+    NO_TUNING,
+    Gains,
+    GainsFields,
+    KanayamaGains,
+    LinearGains,
+    Tuning,
+    WheelLimits,
+    checked_wheels,
+)
 from wmrlib.kinematics import polar_closing_rate, wrap
 
 CORRECTED, PRINTED, AICARDI, KANAYAMA, LINEAR = range(5)  # how the compiled loops name the laws
@@ -39,7 +48,9 @@ def corrected_law(rho, alpha, theta, gains):
 def printed_law(rho, alpha, theta, gains):
     sin_alpha, cos_alpha = sincos(alpha)
     pull = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
-    return pull, gains.k_alpha * alpha + pull * sin_alpha * cos_alpha * sinc(alpha) * (alpha + gains.h * theta)
+    return pull, gains.k_alpha * alpha + pull * sin_alpha * cos_alpha * sinc(alpha) * (
+        alpha + gains.h * theta
+    )
 
 
 @formula
@@ -129,7 +140,9 @@ def lyapunov_slope(rho, alpha, theta, gains, law, L):
 # The same for users: checked, broadcast, described --------------------------------------------------------------------
 
 
-def control_law(rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected") -> tuple[Real, Real]:
+def control_law(
+    rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected"
+) -> tuple[Real, Real]:
     """The twist (v, omega) in m/s and rad/s for the polar error (rho in m, alpha and theta in rad).
 
     "corrected": v = v_max (1 - exp(-k_rho rho)) cos(alpha), equation (22), and
@@ -141,10 +154,14 @@ def control_law(rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "c
     Raises ValueError for rho < 0, NaN, an unknown law or mismatched lengths.
     """
     state = _checked_state(rho, alpha, theta, gains)
-    return elementwise(_control_law_all, 2, *state, options=(POSE_LAWS[choice("law", law, POSE_LAWS)],))
+    return elementwise(
+        _control_law_all, 2, *state, options=(POSE_LAWS[choice("law", law, POSE_LAWS)],)
+    )
 
 
-def tracking_law(rho: Real, alpha: Real, theta: Real, v_ref: Real, omega_ref: Real, gains, law: str = "kanayama") -> tuple[Real, Real]:
+def tracking_law(
+    rho: Real, alpha: Real, theta: Real, v_ref: Real, omega_ref: Real, gains, law: str = "kanayama"
+) -> tuple[Real, Real]:
     """The twist (v, omega) for a goal that itself moves with (v_ref, omega_ref), in m/s and rad/s.
 
     With the error in the robot's frame, e_x = rho cos(alpha) ahead, e_y = rho sin(alpha) to the left, e_h = wrap(alpha - theta):
@@ -171,7 +188,9 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
     return elementwise(_lyapunov_value_all, 1, rho, alpha, theta, h, L)[0]
 
 
-def lyapunov_rate(rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected", L: Real = 1.0) -> Real:
+def lyapunov_rate(
+    rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected", L: Real = 1.0
+) -> Real:
     """V' along the closed loop: rho rho'/L + alpha alpha' + h theta theta', equation (19), for any of the pose laws.
 
     For "corrected" it equals -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which is never positive; for
@@ -179,7 +198,9 @@ def lyapunov_rate(rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = 
     """
     state, L = _checked_state(rho, alpha, theta, gains), real("L", L, above=0.0)
     same_shape(rho=rho, alpha=alpha, theta=theta, L=L)
-    return elementwise(_lyapunov_slope_all, 1, *state, L, options=(POSE_LAWS[choice("law", law, POSE_LAWS)],))[0]
+    return elementwise(
+        _lyapunov_slope_all, 1, *state, L, options=(POSE_LAWS[choice("law", law, POSE_LAWS)],)
+    )[0]
 
 
 def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]:
@@ -200,7 +221,9 @@ def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:
     kind = _GAINS_OF.get(code, Gains)
     instance("gains", gains, kind)
     if not all(type(field) is float for field in gains):
-        raise ValueError(f"gains = {gains!r} is not allowed: one number a gain is needed; sweep takes arrays of gains")
+        raise ValueError(
+            f"gains = {gains!r} is not allowed: one number a gain is needed; sweep takes arrays of gains"
+        )
     if kind is Gains:
         return Tuning(gains, *NO_TUNING[1:]), code
     return NO_TUNING._replace(**{law: gains}), code
@@ -219,7 +242,9 @@ def _checked_state(rho, alpha, theta, gains):
 @compiled
 def _control_law_all(rho, alpha, theta, k_rho, k_alpha, h, v_max, law, v, omega):
     for i in range(rho.size):
-        pull, omega[i] = pose_law(rho[i], alpha[i], theta[i], GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i]), law)
+        pull, omega[i] = pose_law(
+            rho[i], alpha[i], theta[i], GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i]), law
+        )
         v[i] = pull * rho[i]
 
 

@@ -41,7 +41,9 @@ class Gains(GainsFields):
         )
 
     @classmethod
-    def _make(cls, fields: Iterable[Real]) -> Gains:  # what `_replace` calls; the namedtuple's own would check nothing
+    def _make(
+        cls, fields: Iterable[Real]
+    ) -> Gains:  # what `_replace` calls; the namedtuple's own would check nothing
         return cls(*fields)
 
 
@@ -60,10 +62,17 @@ class KanayamaGains(_KanayamaFields):
     __slots__ = ()
 
     def __new__(cls, k_x: float, k_y: float, k_heading: float) -> KanayamaGains:
-        return super().__new__(cls, real("k_x", k_x, low=0.0), real("k_y", k_y, above=0.0), real("k_heading", k_heading, low=0.0))
+        return super().__new__(
+            cls,
+            real("k_x", k_x, low=0.0),
+            real("k_y", k_y, above=0.0),
+            real("k_heading", k_heading, low=0.0),
+        )
 
     @classmethod
-    def _make(cls, fields: Iterable[Real]) -> KanayamaGains:  # what `_replace` calls; the namedtuple's own would check nothing
+    def _make(
+        cls, fields: Iterable[Real]
+    ) -> KanayamaGains:  # what `_replace` calls; the namedtuple's own would check nothing
         return cls(*fields)
 
 
@@ -87,7 +96,9 @@ class LinearGains(_LinearFields):
     def __new__(cls, matrix) -> LinearGains:
         entries = real("matrix", matrix)
         if np.shape(entries) != (2, 3):
-            raise ValueError(f"matrix has shape {np.shape(entries)}, which is not allowed: (2, 3) is needed")
+            raise ValueError(
+                f"matrix has shape {np.shape(entries)}, which is not allowed: (2, 3) is needed"
+            )
         return super().__new__(cls, *(float(entry) for entry in np.ravel(entries)))
 
     def __getnewargs__(self) -> tuple:  # how it is copied and pickled
@@ -125,4 +136,6 @@ def checked_wheels(limits: WheelLimits | None, name: str = "wheels") -> WheelLim
     width, speed = instance(name, limits, WheelLimits)
     width = scalar(f"{name}.track_width", width, above=0.0)
     unlimited = isinstance(speed, float) and speed == math.inf
-    return WheelLimits(width, math.inf if unlimited else scalar(f"{name}.max_speed", speed, above=0.0))
+    return WheelLimits(
+        width, math.inf if unlimited else scalar(f"{name}.max_speed", speed, above=0.0)
+    )

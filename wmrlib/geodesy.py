@@ -71,7 +71,9 @@ def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
     return _number(np.where(bearing < turn, bearing, 0.0))  # mod rounds -1e-17 up to a full turn
 
 
-def destination_point(a: GeoPoint, distance: Real, bearing: Real, radius: float = EARTH_RADIUS_M) -> GeoPoint:
+def destination_point(
+    a: GeoPoint, distance: Real, bearing: Real, radius: float = EARTH_RADIUS_M
+) -> GeoPoint:
     """The point reached from `a` after `distance` metres along the great circle that leaves at `bearing` (radians from north).
 
     The inverse of `haversine_distance` and `initial_bearing` together. Longitudes come back in [-180, 180).
@@ -86,14 +88,18 @@ def destination_point(a: GeoPoint, distance: Real, bearing: Real, radius: float 
     same_shape(lat=a.lat, lon=a.lon, distance=distance, bearing=bearing)
     lat1, lon1 = np.radians(a.lat), np.radians(a.lon)
     north, east = np.sin(delta) * np.cos(bearing), np.sin(delta) * np.sin(bearing)
-    up = np.cos(lat1) * np.cos(delta) - np.sin(lat1) * north  # towards lon1 in the plane of the equator
+    up = (
+        np.cos(lat1) * np.cos(delta) - np.sin(lat1) * north
+    )  # towards lon1 in the plane of the equator
     lat2 = np.arctan2(np.sin(lat1) * np.cos(delta) + np.cos(lat1) * north, np.hypot(up, east))
     lon2 = np.degrees(lon1 + np.arctan2(east, up))
     lon2 = np.where((lon2 >= -180.0) & (lon2 < 180.0), lon2, np.mod(lon2 + 180.0, 360.0) - 180.0)
     return GeoPoint(lat=_number(np.clip(np.degrees(lat2), -90.0, 90.0)), lon=_number(lon2))
 
 
-def local_position(origin: GeoPoint, point: GeoPoint, radius: float = EARTH_RADIUS_M) -> tuple[Real, Real]:
+def local_position(
+    origin: GeoPoint, point: GeoPoint, radius: float = EARTH_RADIUS_M
+) -> tuple[Real, Real]:
     """`point` in the local frame of `origin`: (east, north) in metres.
 
     east = rho sin(br), north = rho cos(br): the distance and the bearing from the origin are exact (the azimuthal equidistant
@@ -109,7 +115,9 @@ def point_at(origin: GeoPoint, east: Real, north: Real, radius: float = EARTH_RA
     """The GeoPoint at (east, north) metres in the local frame of `origin`: the inverse of `local_position`."""
     east, north = real("east", east), real("north", north)
     same_shape(east=east, north=north)
-    return destination_point(origin, _number(np.hypot(east, north)), _number(np.arctan2(east, north)), radius)
+    return destination_point(
+        origin, _number(np.hypot(east, north)), _number(np.arctan2(east, north)), radius
+    )
 
 
 def sphere_error(lat: Real, bearing: Real, radius: float = EARTH_RADIUS_M) -> Real:

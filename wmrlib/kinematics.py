@@ -40,7 +40,9 @@ class Pose(_PoseFields):
         return super().__new__(cls, real("x", x), real("y", y), real("heading", heading))
 
     @classmethod
-    def _make(cls, fields: Iterable[Real]) -> Pose:  # what `_replace` calls; the namedtuple's own would check nothing
+    def _make(
+        cls, fields: Iterable[Real]
+    ) -> Pose:  # what `_replace` calls; the namedtuple's own would check nothing
         return cls(*fields)
 
 
@@ -174,7 +176,14 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
     """
     instance("pose", pose, Pose)
     instance("goal", goal, Pose)
-    same_shape(**{"pose.x": pose.x, "pose.heading": pose.heading, "goal.x": goal.x, "goal.heading": goal.heading})
+    same_shape(
+        **{
+            "pose.x": pose.x,
+            "pose.heading": pose.heading,
+            "goal.x": goal.x,
+            "goal.heading": goal.heading,
+        }
+    )
     return PolarError(*elementwise(_polar_from_pose_all, 3, *pose, *goal))
 
 
@@ -184,10 +193,18 @@ def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
     x = goal.x - rho cos(psi), y = goal.y - rho sin(psi), heading = psi - alpha, with psi = theta + goal.heading.
     """
     instance("goal", goal, Pose)
-    rho, alpha, theta = real("rho", polar[0], low=0.0), real("alpha", polar[1]), real("theta", polar[2])
-    same_shape(rho=rho, alpha=alpha, theta=theta, **{"goal.x": goal.x, "goal.heading": goal.heading})
+    rho, alpha, theta = (
+        real("rho", polar[0], low=0.0),
+        real("alpha", polar[1]),
+        real("theta", polar[2]),
+    )
+    same_shape(
+        rho=rho, alpha=alpha, theta=theta, **{"goal.x": goal.x, "goal.heading": goal.heading}
+    )
     sight = theta + goal.heading
-    return Pose(goal.x - rho * np.cos(sight), goal.y - rho * np.sin(sight), wrap_angle(sight - alpha))
+    return Pose(
+        goal.x - rho * np.cos(sight), goal.y - rho * np.sin(sight), wrap_angle(sight - alpha)
+    )
 
 
 def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
@@ -212,19 +229,25 @@ def _wrap_all(angle, wrapped):
 @compiled
 def _polar_from_pose_all(x, y, heading, goal_x, goal_y, goal_heading, rho, alpha, theta):
     for i in range(x.size):
-        rho[i], alpha[i], theta[i] = polar_from_pose(x[i], y[i], heading[i], goal_x[i], goal_y[i], goal_heading[i])
+        rho[i], alpha[i], theta[i] = polar_from_pose(
+            x[i], y[i], heading[i], goal_x[i], goal_y[i], goal_heading[i]
+        )
 
 
 @compiled
 def _polar_closing_rate_all(rho, alpha, pull, omega, rho_rate, alpha_rate, theta_rate):
     for i in range(rho.size):
-        rho_rate[i], alpha_rate[i], theta_rate[i] = polar_closing_rate(rho[i], alpha[i], pull[i], omega[i])
+        rho_rate[i], alpha_rate[i], theta_rate[i] = polar_closing_rate(
+            rho[i], alpha[i], pull[i], omega[i]
+        )
 
 
 @compiled
 def _euler_step_all(x, y, heading, v, omega, dt, new_x, new_y, new_heading):
     for i in range(x.size):
-        new_x[i], new_y[i], new_heading[i] = euler_step(x[i], y[i], heading[i], v[i], omega[i], dt[i])
+        new_x[i], new_y[i], new_heading[i] = euler_step(
+            x[i], y[i], heading[i], v[i], omega[i], dt[i]
+        )
 
 
 @compiled

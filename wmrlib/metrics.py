@@ -7,7 +7,7 @@ import math
 import numpy as np
 
 from wmrlib._checks import instance, scalar
-from wmrlib.simulation import Arrival, Outcome, Trajectory
+from wmrlib.runs import Arrival, Outcome, Trajectory
 
 
 def arrival(trajectory: Trajectory) -> Arrival:

@@ -13,7 +13,8 @@ from wmrlib.gains import Gains, WheelLimits
 from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.metrics import arrival, path_length
-from wmrlib.simulation import Arrival, Outcome, Trajectory, simulate
+from wmrlib.runs import Arrival, Outcome, Trajectory
+from wmrlib.simulation import simulate
 
 _HAIRPIN = math.pi - 1e-9  # rad: a turn of 180 deg but for rounding
 _APART = 1e-6  # m: nearer than this, two GPS points are one, and what lies between them is rounding
@@ -55,7 +56,9 @@ class Route:
         reached = f"{self.reached} of {len(self.stops)} waypoints reached"
         if self.outcome is Outcome.ARRIVED:
             return f"<Route: {reached} in {self.time:.4g} s, {self.length:.4g} m long>"
-        left = f", {self.arrivals[-1].distance:.4g} m from its waypoint" if len(self.legs[-1]) else ""
+        left = (
+            f", {self.arrivals[-1].distance:.4g} m from its waypoint" if len(self.legs[-1]) else ""
+        )
         return f"<Route: {reached}; leg {len(self.legs)} {self.outcome.message}{left}>"
 
     @property
@@ -86,7 +89,9 @@ def headings_along(x: Real, y: Real) -> np.ndarray:
     """
     x, y = np.atleast_1d(real("x", x)), np.atleast_1d(real("y", y))
     if x.shape != y.shape or x.ndim != 1 or not x.size:
-        raise ValueError(f"mismatched lengths: x has shape {x.shape}, y has shape {y.shape}; two lists of at least one number are needed")
+        raise ValueError(
+            f"mismatched lengths: x has shape {x.shape}, y has shape {y.shape}; two lists of at least one number are needed"
+        )
     moved = np.flatnonzero((np.diff(x) != 0.0) | (np.diff(y) != 0.0))
     if not moved.size:
         return np.zeros(x.size)
@@ -97,7 +102,11 @@ def headings_along(x: Real, y: Real) -> np.ndarray:
     return wrap_angle(direction[come] + 0.5 * np.where(np.abs(turn) > _HAIRPIN, math.pi, turn))
 
 
-def route_poses(points: GeoPoint, headings: Sequence[float] | np.ndarray | None = None, origin: GeoPoint | None = None) -> Pose:
+def route_poses(
+    points: GeoPoint,
+    headings: Sequence[float] | np.ndarray | None = None,
+    origin: GeoPoint | None = None,
+) -> Pose:
     """GPS points as poses in a local frame, x east and y north in metres: a Pose of arrays, for `drive_route`.
 
     points: a GeoPoint of arrays. headings: radians counter-clockwise from east, one a point; where one is NaN (or all, for None) it is
@@ -107,16 +116,26 @@ def route_poses(points: GeoPoint, headings: Sequence[float] | np.ndarray | None 
     or an origin of arrays.
     """
     lat, lon = _listed(points)
-    east, north = (np.ravel(value) for value in local_position(_origin(points if origin is None else _single(origin)), points))
-    apart = haversine_distance(GeoPoint(lat=lat[:-1], lon=lon[:-1]), GeoPoint(lat=lat[1:], lon=lon[1:])) >= _APART
-    first = np.maximum.accumulate(np.where([True, *apart], np.arange(lat.size), 0))  # of the points that are this one
+    east, north = (
+        np.ravel(value)
+        for value in local_position(_origin(points if origin is None else _single(origin)), points)
+    )
+    apart = (
+        haversine_distance(GeoPoint(lat=lat[:-1], lon=lon[:-1]), GeoPoint(lat=lat[1:], lon=lon[1:]))
+        >= _APART
+    )
+    first = np.maximum.accumulate(
+        np.where([True, *apart], np.arange(lat.size), 0)
+    )  # of the points that are this one
     east, north = east[first], north[first]
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
     given = _given(headings)
     if given.shape != lat.shape:
-        raise ValueError(f"mismatched lengths: headings have shape {given.shape}, points have shape {lon.shape}; the same is needed")
+        raise ValueError(
+            f"mismatched lengths: headings have shape {given.shape}, points have shape {lon.shape}; the same is needed"
+        )
     return Pose(east, north, np.where(np.isnan(given), chosen, given))
 
 
@@ -155,13 +174,20 @@ def drive_route(
     """
     listed = np.broadcast_arrays(*map(np.atleast_1d, instance("poses", poses, Pose)))
     if listed[0].ndim != 1:
-        raise ValueError(f"poses have shape {listed[0].shape}, which is not allowed: a list of poses is needed")
+        raise ValueError(
+            f"poses have shape {listed[0].shape}, which is not allowed: a list of poses is needed"
+        )
     way = [Pose(*map(float, each)) for each in zip(*listed, strict=True)]
     pose, way = (way[0], way[1:]) if start is None and way else (start, way)
     if not way:
-        raise ValueError(f"poses has {listed[0].size} entries, which is not allowed: a waypoint besides the start is needed")
+        raise ValueError(
+            f"poses has {listed[0].size} entries, which is not allowed: a waypoint besides the start is needed"
+        )
     stops = _stops(stop, len(way))
-    radius = {True: scalar("arrival_radius", arrival_radius, low=0.0), False: scalar("pass_radius", pass_radius, low=0.0)}
+    radius = {
+        True: scalar("arrival_radius", arrival_radius, low=0.0),
+        False: scalar("pass_radius", pass_radius, low=0.0),
+    }
     begin, legs = pose, []
     for goal, stopping in zip(way, stops, strict=True):
         options = {"law": law, "method": method, "dt": dt, "duration": duration, "wheels": wheels}
@@ -170,18 +196,32 @@ def drive_route(
             break
         pose = Pose(*(float(field[-1]) for field in (legs[-1].x, legs[-1].y, legs[-1].heading)))
     waypoints = Pose(*(np.array(column) for column in zip(*way, strict=True)))
-    return Route(begin, waypoints, stops, tuple(legs), tuple(map(_arrival, legs)), legs[-1].outcome, **_joined(legs))
+    return Route(
+        begin,
+        waypoints,
+        stops,
+        tuple(legs),
+        tuple(map(_arrival, legs)),
+        legs[-1].outcome,
+        **_joined(legs),
+    )
 
 
 def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
     driven = [k for k, leg in enumerate(legs) if len(leg)]
-    counts = {k: len(legs[k]) - (k != driven[-1]) for k in driven}  # where a leg ends the next one's sample stands
+    counts = {
+        k: len(legs[k]) - (k != driven[-1]) for k in driven
+    }  # where a leg ends the next one's sample stands
     arrays = {name: [getattr(legs[k], name)[: counts[k]] for k in driven] for name in _JOINED}
     ends = np.cumsum([0.0, *(legs[k].t[-1] for k in driven)])
     arrays["t"] = [end + legs[k].t[: counts[k]] for k, end in zip(driven, ends, strict=False)]
     joined = {name: np.concatenate([np.empty(0), *parts]) for name, parts in arrays.items()}
-    joined["heading"] = wrap_angle(joined["heading"])  # a start may look in a direction written as 7 rad
-    joined["leg"] = np.repeat(np.array(driven, dtype=int), np.array(list(counts.values()), dtype=int))
+    joined["heading"] = wrap_angle(
+        joined["heading"]
+    )  # a start may look in a direction written as 7 rad
+    joined["leg"] = np.repeat(
+        np.array(driven, dtype=int), np.array(list(counts.values()), dtype=int)
+    )
     for values in joined.values():
         values.flags.writeable = False
     return joined
@@ -197,7 +237,9 @@ def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
     except ValueError:  # lists of different lengths
         flags = np.empty(0)
     if flags.dtype != bool or flags.shape not in ((), (count,)):
-        raise ValueError(f"stop = {stop!r} is not allowed: True, False or a list of {count}, one a waypoint, is needed")
+        raise ValueError(
+            f"stop = {stop!r} is not allowed: True, False or a list of {count}, one a waypoint, is needed"
+        )
     return tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (count - 1), True)
 
 
@@ -208,7 +250,9 @@ def _given(headings: Sequence[float] | np.ndarray) -> np.ndarray:
     except (TypeError, ValueError):  # no list, or lists of different lengths
         given = np.empty(0, dtype=object)
     if given.dtype.kind not in "iuf" or np.isinf(given).any():
-        raise ValueError(f"headings = {headings!r} is not allowed: a list of finite numbers, or NaN where one is to be chosen, is needed")
+        raise ValueError(
+            f"headings = {headings!r} is not allowed: a list of finite numbers, or NaN where one is to be chosen, is needed"
+        )
     return given.astype(float)
 
 
@@ -216,7 +260,9 @@ def _listed(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
     instance("points", points, GeoPoint)
     lat, lon = np.broadcast_arrays(np.atleast_1d(points.lat), np.atleast_1d(points.lon))
     if lat.ndim != 1 or not lat.size:
-        raise ValueError(f"points have shape {lat.shape}, which is not allowed: a list of at least one position is needed")
+        raise ValueError(
+            f"points have shape {lat.shape}, which is not allowed: a list of at least one position is needed"
+        )
     return lat, lon
 
 

@@ -3,101 +3,24 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
-from enum import Enum
-from typing import Any, NamedTuple
 
 import numpy as np
 
-from wmrlib import _continuous as continuous
-from wmrlib import _kernels as kernels
-from wmrlib._checks import Real, choice, instance, real, scalar
+from wmrlib._checks import choice, instance, real, scalar
+from wmrlib._loops import continuous, plane, rows
 from wmrlib.control import POSE_LAWS, TRACKING_LAWS, tuning_of
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
-from wmrlib.kinematics import Pose, Reference, wrap_angle
+from wmrlib.kinematics import Pose, Reference
+from wmrlib.runs import Outcome, Trajectory, sample_count, single_pose
 
-MOST_SAMPLES = 10_000_000
-_STEPS = {"euler": kernels.EULER, "arc": kernels.ARC}
+_STEPS = {"euler": plane.EULER, "arc": plane.ARC}
 _METHODS = (*_STEPS, "continuous")
-
-
-class Outcome(Enum):
-    """How a run ended; the value is a sentence for the reader."""
-
-    ARRIVED = "arrived within the arrival radius"
-    TIMED_OUT = "did not arrive within the duration"
-    DIVERGED = "left the range of numbers"
-    COMPLETED = "followed the reference to the end"
-
-    @property
-    def message(self) -> str:
-        return self.value
-
-
-_OUTCOMES = (Outcome.ARRIVED, Outcome.TIMED_OUT, Outcome.DIVERGED, Outcome.COMPLETED)  # in the order of the kernels' codes
-
-
-@dataclass(frozen=True, eq=False, slots=True)
-class Trajectory:
-    """One run: arrays of equal length, one entry a sample, which can't be written to, and how it ended.
-
-    t: s; x, y: m; heading: rad; rho: m; alpha, theta: rad; v: m/s and omega: rad/s, what the law commands at that sample (after the
-    wheel limits; with a wheel lag, what the wheels do); V: the Lyapunov function, with L = 1. goal: the goal's Pose, with array fields
-    if it moves.
-    """
-
-    t: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
-    heading: np.ndarray
-    rho: np.ndarray
-    alpha: np.ndarray
-    theta: np.ndarray
-    v: np.ndarray
-    omega: np.ndarray
-    V: np.ndarray
-    outcome: Outcome
-    goal: Pose
-    gains: Any
-    law: str
-    method: str
-
-    def __len__(self) -> int:
-        return self.t.size
-
-    def __repr__(self) -> str:
-        last = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s" if len(self) else "no sample"
-        return f"<Trajectory: {self.law} law, {self.method}, {len(self)} samples, {last}: {self.outcome.message}>"
-
-    @property
-    def x_error(self) -> np.ndarray:
-        """goal.x - x, metres."""
-        return self.goal.x - self.x
-
-    @property
-    def y_error(self) -> np.ndarray:
-        """goal.y - y, metres."""
-        return self.goal.y - self.y
-
-    @property
-    def heading_error(self) -> np.ndarray:
-        """Theta - alpha = heading - goal.heading, radians in (-pi, pi]."""
-        return wrap_angle(self.theta - self.alpha)
-
-
-class Arrival(NamedTuple):
-    """What a run amounts to: numbers for one run, arrays for many.
-
-    arrived: within the arrival radius; time: s, infinite if it did not arrive; heading_error: heading - goal.heading at the last sample,
-    rad; peak_omega: largest |omega|, rad/s; path_length: m, backward motion included; distance: to the goal at the last sample, m.
-    """
-
-    arrived: bool | np.ndarray
-    time: Real
-    heading_error: Real
-    peak_omega: Real
-    path_length: Real
-    distance: Real
+_OUTCOMES = (
+    Outcome.ARRIVED,
+    Outcome.TIMED_OUT,
+    Outcome.DIVERGED,
+    Outcome.COMPLETED,
+)  # in the order of the loops' codes
 
 
 def simulate(
@@ -135,13 +58,27 @@ def simulate(
     limits, lag = checked_wheels(wheels), scalar("wheel_lag", wheel_lag, low=0.0)
     continuously = choice("method", method, _METHODS) == "continuous"
     if lag and not (continuously and arrival_radius):
-        raise ValueError(f'wheel_lag = {lag:g} is not allowed: 0, or method "continuous" with an arrival radius, is needed')
+        raise ValueError(
+            f'wheel_lag = {lag:g} is not allowed: 0, or method "continuous" with an arrival radius, is needed'
+        )
     if continuously:
-        t, record, outcome = continuous.to_goal(begin, end, tuning, code, limits, dt * np.arange(samples), arrival_radius, lag)
+        t, record, outcome = continuous.to_goal(
+            begin, end, tuning, code, limits, dt * np.arange(samples), arrival_radius, lag
+        )
     else:
         reference, record = np.zeros((5, samples)), np.empty((9, samples))
         reference[0], reference[1], reference[2] = end
-        count, outcome = kernels.drive(tuple(begin), reference, tuning, code, limits, _STEPS[method], dt, arrival_radius, record)
+        count, outcome = plane.drive(
+            tuple(begin),
+            reference,
+            tuning,
+            code,
+            limits,
+            _STEPS[method],
+            dt,
+            arrival_radius,
+            record,
+        )
         record, t = record[:, :count], dt * np.arange(count)
     return _trajectory(t, record, outcome, end, gains, law, method)
 
@@ -170,39 +107,30 @@ def track(
     t = dt * np.arange(samples)
 
     def path_at(times: np.ndarray) -> np.ndarray:
-        rows = zip(Reference._fields, instance("reference(t)", reference(times), Reference), strict=True)
-        return np.array([np.broadcast_to(real(f"reference(t).{name}", values), times.shape) for name, values in rows])
+        rows = zip(
+            Reference._fields, instance("reference(t)", reference(times), Reference), strict=True
+        )
+        return np.array(
+            [
+                np.broadcast_to(real(f"reference(t).{name}", values), times.shape)
+                for name, values in rows
+            ]
+        )
 
     path = path_at(t)
     if choice("method", method, _METHODS) == "continuous":
         record, outcome = continuous.after_reference(path_at, begin, path, tuning, code, limits, t)
     else:
         record = np.empty((9, samples))
-        count, outcome = kernels.drive(tuple(begin), path, tuning, code, limits, _STEPS[method], dt, -1.0, record)
+        count, outcome = plane.drive(
+            tuple(begin), path, tuning, code, limits, _STEPS[method], dt, -1.0, record
+        )
         record = record[:, :count]
     count, path.flags.writeable = record.shape[1], False
-    outcome = kernels.COMPLETED if outcome == kernels.TIMED_OUT else outcome
+    outcome = rows.COMPLETED if outcome == rows.TIMED_OUT else outcome
     return _trajectory(t[:count], record, outcome, Pose(*path[:3, :count]), gains, law, method)
 
 
 def _trajectory(t, record, outcome, goal, gains, law, method) -> Trajectory:
     t.flags.writeable = record.flags.writeable = False
     return Trajectory(t, *record, _OUTCOMES[outcome], goal, gains, law, method)
-
-
-def single_pose(name: str, pose: Pose) -> Pose:
-    """The pose, if its fields are numbers and not arrays; raises ValueError, which names the argument, if not."""
-    for field, value in zip(("x", "y", "heading"), instance(name, pose, Pose), strict=True):
-        if type(value) is not float:
-            raise ValueError(f"{name}.{field} = {value!r} is not allowed: one number is needed; sweep takes arrays")
-    return pose
-
-
-def sample_count(dt: float, duration: float) -> int:
-    """How many samples a run of `duration` seconds has, both ends included; raises ValueError as `simulate`."""
-    dt, duration = scalar("dt", dt, above=0.0), scalar("duration", duration, above=0.0)
-    if dt > duration:
-        raise ValueError(f"dt = {dt:g} is not allowed: at most the duration, {duration:g}, is needed")
-    if duration / dt > MOST_SAMPLES:
-        raise ValueError(f"duration = {duration:g} is not allowed: at most {MOST_SAMPLES:,} steps of dt = {dt:g} are needed")
-    return int(duration / dt + 1e-9) + 1

@@ -13,19 +13,26 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib import _kernels as kernels
-from wmrlib import _polar as polar
 from wmrlib._checks import choice, instance, same_shape, scalar
+from wmrlib._loops import plane, polar, rows
 from wmrlib.control import POSE_LAWS
 from wmrlib.gains import NO_TUNING, Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
-from wmrlib.simulation import Arrival, sample_count
+from wmrlib.runs import Arrival, sample_count
 
 MOST_RECORDED = 50_000_000
 _POLAR = {"rk4": polar.RK4, "polar_euler": polar.EULER}
-_PLANE = {"arc": kernels.ARC, "euler": kernels.EULER}
+_PLANE = {"arc": plane.ARC, "euler": plane.EULER}
 _METHODS = (*_POLAR, *_PLANE)
-_ROWS = ("starts.x", "starts.y", "starts.heading", "goals.x", "goals.y", "goals.heading", *(f"gains.{name}" for name in Gains._fields))
+_ROWS = (
+    "starts.x",
+    "starts.y",
+    "starts.heading",
+    "goals.x",
+    "goals.y",
+    "goals.heading",
+    *(f"gains.{name}" for name in Gains._fields),
+)
 # A chunk is large enough to be worth sending and small enough to be stopped after: these are evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 40_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
@@ -93,7 +100,11 @@ def sweep(
     NaN in every other field (the time of a run that did not arrive is infinite).
     Raises ValueError as `simulate`, and for shapes that don't broadcast.
     """
-    fields = (*instance("starts", starts, Pose), *instance("goals", goals, Pose), *instance("gains", gains, Gains))
+    fields = (
+        *instance("starts", starts, Pose),
+        *instance("goals", goals, Pose),
+        *instance("gains", gains, Gains),
+    )
     codes = _law_codes(law)
     shape = same_shape(**dict(zip(_ROWS, fields, strict=True)), law=codes)
     choice("method", method, _METHODS)
@@ -119,11 +130,17 @@ def sweep(
                 done += last - first
                 bar.update(last - first)
     except KeyboardInterrupt:
-        warnings.warn(f"interrupted: {done:,} of {total:,} runs are done, the others are NaN", RuntimeWarning, stacklevel=2)
+        warnings.warn(
+            f"interrupted: {done:,} of {total:,} runs are done, the others are NaN",
+            RuntimeWarning,
+            stacklevel=2,
+        )
     metrics = _arrival(summary, shape)
     if record is None:
         return metrics
-    return metrics, Trajectories(dt * np.arange(samples), *(row.reshape(*shape, samples) for row in record))
+    return metrics, Trajectories(
+        dt * np.arange(samples), *(row.reshape(*shape, samples) for row in record)
+    )
 
 
 def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray | None]:
@@ -142,7 +159,7 @@ def _summary(runs: np.ndarray, law: int, task: _Task) -> np.ndarray:
     method, limits, dt, samples, radius, _ = task
     summary = np.empty((6, runs.shape[1]))
     if method in _PLANE:
-        kernels.survey(runs, law, limits, _PLANE[method], dt, samples, radius, summary)
+        plane.survey(runs, law, limits, _PLANE[method], dt, samples, radius, summary)
         return summary
     states, step, steps = np.empty((polar.ROWS, runs.shape[1])), _POLAR[method], float(samples - 1)
     polar.begin(runs, steps, radius, states)
@@ -161,18 +178,32 @@ def _samples(runs: np.ndarray, law: int, task: _Task) -> np.ndarray:
     for i, run in enumerate(runs.T):
         reference = np.zeros((5, samples))
         reference[:3], tuning = run[3:6, None], NO_TUNING._replace(pose=Gains(*run[6:].tolist()))
-        count, _ = kernels.drive(tuple(run[:3].tolist()), reference, tuning, law, limits, _PLANE[method], dt, radius, single)
+        count, _ = plane.drive(
+            tuple(run[:3].tolist()),
+            reference,
+            tuning,
+            law,
+            limits,
+            _PLANE[method],
+            dt,
+            radius,
+            single,
+        )
         record[:, i, :count] = single[:8, :count]
     return record
 
 
-def _results(source: list[np.ndarray], total: int, task: _Task, executor: Executor | None) -> Iterator:
+def _results(
+    source: list[np.ndarray], total: int, task: _Task, executor: Executor | None
+) -> Iterator:
     """(first, last, result) of each chunk as it is done, with a bounded number of chunks under way."""
 
     def columns(first: int, last: int) -> np.ndarray:
         return np.array([field.flat[first:last] for field in source], dtype=float)
 
-    cores = len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    cores = (
+        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
+    )
     size = _chunk_size(total, task, cores, executor)
     chunks = ((first, min(first + size, total)) for first in range(0, total, size))
     if executor is None and (cores == 1 or size >= total):
@@ -180,8 +211,13 @@ def _results(source: list[np.ndarray], total: int, task: _Task, executor: Execut
         return
     pool, waiting = executor, {}
     if pool is None:
-        for law in np.unique(source[-1]):  # compile here, where Ctrl-C is heard, and not in a thread
-            run_chunk(np.full((len(source), 1), law, dtype=float), task._replace(samples=2, recorded=False))
+        for law in np.unique(
+            source[-1]
+        ):  # compile here, where Ctrl-C is heard, and not in a thread
+            run_chunk(
+                np.full((len(source), 1), law, dtype=float),
+                task._replace(samples=2, recorded=False),
+            )
         pool = ThreadPoolExecutor(cores)
     try:
         while True:
@@ -225,7 +261,7 @@ def _law_codes(law: str | np.ndarray) -> np.ndarray:
 
 def _arrival(summary: np.ndarray, shape: tuple[int, ...]) -> Arrival:
     outcome, time, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
-    arrived = outcome == kernels.ARRIVED
+    arrived = outcome == rows.ARRIVED
     if shape:
         return Arrival(arrived, np.where(arrived | np.isnan(time), time, np.inf), *rest)
     return Arrival(arrived, time if arrived or math.isnan(time) else math.inf, *rest)

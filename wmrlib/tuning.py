@@ -15,7 +15,7 @@ import numpy as np
 from wmrlib._checks import Real, choice, instance, real, same_shape
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
-from wmrlib.simulation import Arrival
+from wmrlib.runs import Arrival
 from wmrlib.sweeping import Trajectories, sweep
 
 _LAWS = ("corrected", "aicardi")
@@ -52,14 +52,20 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
     gap = half**2 - stiffness
     root = np.sqrt(gap.astype(complex))
     with np.errstate(divide="ignore", invalid="ignore"):
-        slow = np.where(gap > 0.0, stiffness / (half + root.real), half)  # not half - root, which would cancel
+        slow = np.where(
+            gap > 0.0, stiffness / (half + root.real), half
+        )  # not half - root, which would cancel
         fast = half + root
         return Modes(
             distance_rate=_plain(rate),
             heading_rate=_plain(slow),
             natural_frequency=_plain(np.sqrt(stiffness)),
             damping=_plain(half / np.sqrt(stiffness)),
-            poles=(_plain(np.asarray(-rate, dtype=complex)), _plain(np.where(gap > 0.0, -slow, -half + root)), _plain(-fast)),
+            poles=(
+                _plain(np.asarray(-rate, dtype=complex)),
+                _plain(np.where(gap > 0.0, -slow, -half + root)),
+                _plain(-fast),
+            ),
             slower=_plain(np.divide(rate, slow)),
         )
 
@@ -87,7 +93,10 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
         if choice("method", method, _SAMPLED) == "polar_euler":
             fading, flipping = k_alpha / (h * rate**2), _flipping(k_alpha, h * rate**2)
         elif method == "euler":
-            fading, flipping = k_alpha / (rate * (turn + h * rate)), _flipping(turn + rate, rate * (h * rate + 2.0 * turn))
+            fading, flipping = (
+                k_alpha / (rate * (turn + h * rate)),
+                _flipping(turn + rate, rate * (h * rate + 2.0 * turn)),
+            )
         else:
             fading, flipping = 2.0 * k_alpha / (rate * (turn + h * rate)), 2.0 / turn
         return _plain(np.fmin(np.fmin(fading, flipping), 1.0 / rate))
@@ -117,26 +126,48 @@ def gains_for(
     Raises ValueError for a rate, frequency, damping or v_max that is not positive (nothing would settle), if both or none of
     natural_frequency and heading_rate are given, for mismatched lengths, and for gains outside the range of numbers.
     """
-    distance_rate, damping = real("distance_rate", distance_rate, above=0.0), real("damping", damping, above=0.0)
+    distance_rate, damping = (
+        real("distance_rate", distance_rate, above=0.0),
+        real("damping", damping, above=0.0),
+    )
     if (natural_frequency is None) == (heading_rate is None):
         given = f"natural_frequency = {natural_frequency!r} and heading_rate = {heading_rate!r}"
         raise ValueError(f"{given} are not allowed together: one of the two is needed")
     if natural_frequency is None:
         heading_rate = real("heading_rate", heading_rate, above=0.0)
-        same_shape(distance_rate=distance_rate, heading_rate=heading_rate, damping=damping, v_max=v_max)
+        same_shape(
+            distance_rate=distance_rate, heading_rate=heading_rate, damping=damping, v_max=v_max
+        )
         # 1/(damping - sqrt(damping^2 - 1)) without the cancellation
-        per_rate = np.where(np.less(damping, 1.0), 1.0 / damping, damping + np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0)))
+        per_rate = np.where(
+            np.less(damping, 1.0),
+            1.0 / damping,
+            damping + np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0)),
+        )
         natural_frequency = heading_rate * per_rate
     else:
         natural_frequency = real("natural_frequency", natural_frequency, above=0.0)
-        same_shape(distance_rate=distance_rate, natural_frequency=natural_frequency, damping=damping, v_max=v_max)
+        same_shape(
+            distance_rate=distance_rate,
+            natural_frequency=natural_frequency,
+            damping=damping,
+            v_max=v_max,
+        )
     v_max = real("v_max", v_max, above=0.0)
     with np.errstate(over="ignore", under="ignore"):
-        h = real("(natural_frequency/distance_rate)^2", _plain(np.square(natural_frequency / distance_rate)), above=0.0)
-        return Gains(_plain(distance_rate / v_max), _plain(2.0 * damping * natural_frequency), h, v_max)
+        h = real(
+            "(natural_frequency/distance_rate)^2",
+            _plain(np.square(natural_frequency / distance_rate)),
+            above=0.0,
+        )
+        return Gains(
+            _plain(distance_rate / v_max), _plain(2.0 * damping * natural_frequency), h, v_max
+        )
 
 
-def gain_map(start: Pose, goal: Pose, gains: Gains, over: Mapping[str, np.ndarray], **options) -> Arrival | tuple[Arrival, Trajectories]:
+def gain_map(
+    start: Pose, goal: Pose, gains: Gains, over: Mapping[str, np.ndarray], **options
+) -> Arrival | tuple[Arrival, Trajectories]:
     """What the run from `start` to `goal` amounts to for every combination of gains: the paper's "trial and error", all at once.
 
     over: from the name of a gain to the values to try, a one-dimensional array; each field of the Arrival has one axis for each name, in
@@ -146,10 +177,14 @@ def gain_map(start: Pose, goal: Pose, gains: Gains, over: Mapping[str, np.ndarra
     fields = instance("gains", gains, Gains)._asdict()
     if not instance("over", over, Mapping):
         raise ValueError("over = {} is not allowed: at least one gain and its values are needed")
-    axes = {choice("over", name, Gains._fields): real(name, values) for name, values in over.items()}
+    axes = {
+        choice("over", name, Gains._fields): real(name, values) for name, values in over.items()
+    }
     for name, values in axes.items():
         if np.ndim(values) != 1:
-            raise ValueError(f"{name} has shape {np.shape(values)}, which is not allowed: a list of numbers is needed")
+            raise ValueError(
+                f"{name} has shape {np.shape(values)}, which is not allowed: a list of numbers is needed"
+            )
     grid = dict(zip(axes, np.meshgrid(*axes.values(), indexing="ij"), strict=True))
     return sweep(start, goal, Gains(**(fields | grid)), **options)
 
@@ -162,15 +197,23 @@ def pareto(*costs: Real) -> np.ndarray:
     """
     table = [np.asarray(each, dtype=float) for each in costs]
     if not table or any(each.shape != table[0].shape for each in table):
-        raise ValueError(f"costs of shape {[each.shape for each in table]} are not allowed: at least one, all of one shape, is needed")
+        raise ValueError(
+            f"costs of shape {[each.shape for each in table]} are not allowed: at least one, all of one shape, is needed"
+        )
     points = np.stack([each.ravel() for each in table], axis=1)
     finite = np.isfinite(points).all(axis=1)
     left = points[finite]
     chosen = np.zeros(len(points), dtype=bool)
-    chosen[finite] = [not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left]
+    chosen[finite] = [
+        not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left
+    ]
     return chosen.reshape(table[0].shape)
 
 
 def _plain(value):
     """A Python number for a number, an array for an array."""
-    return value.item() if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0) else value
+    return (
+        value.item()
+        if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0)
+        else value
+    )

@@ -37,7 +37,9 @@ def own_memory(*processes: psutil.Process) -> float:
 def students() -> list[Row]:
     rows = []
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        client = NotebookClient(nbformat.read(path, as_version=4), resources={"metadata": {"path": path.parent}})
+        client = NotebookClient(
+            nbformat.read(path, as_version=4), resources={"metadata": {"path": path.parent}}
+        )
         begin = time.perf_counter()
         with client.setup_kernel():
             started = time.perf_counter() - begin
@@ -51,7 +53,11 @@ def students() -> list[Row]:
 
 
 def laboratory() -> list[Row]:
-    with serve("jupyterlab", "--allow-root", "--notebook-dir=notebooks") as (process, address, seconds):
+    with serve("jupyterlab", "--allow-root", "--notebook-dir=notebooks") as (
+        process,
+        address,
+        seconds,
+    ):
         assert "jupyter" in read(address("lab"))
         return [
             Row("A student's JupyterLab, without its kernels", "it starts", seconds, "s"),
@@ -61,7 +67,11 @@ def laboratory() -> list[Row]:
 
 def readers() -> list[Row]:
     chapter = sorted((ROOT / "notebooks").glob("*.ipynb"))[0]
-    with serve("voila", "--Voila.config_file_paths=book/voila", chapter) as (process, address, seconds):
+    with serve("voila", "--Voila.config_file_paths=book/voila", chapter) as (
+        process,
+        address,
+        seconds,
+    ):
         rows = [Row("An app's readers", "the server starts", seconds, "s")]
         empty = own_memory(process)
         rows.append(Row("An app's readers", "the server alone", empty, "MB"))
@@ -70,8 +80,22 @@ def readers() -> list[Row]:
             with ThreadPoolExecutor(count) as pool:
                 pages = list(pool.map(read, [address("")] * count))
             assert all("wmr" in page for page in pages)
-            rows.append(Row("An app's readers", f"{count} come at once: the last page is complete", time.perf_counter() - begin, "s"))
-        rows.append(Row("An app's readers", "each reader's kernel", (own_memory(process) - empty) / sum(READERS), "MB"))
+            rows.append(
+                Row(
+                    "An app's readers",
+                    f"{count} come at once: the last page is complete",
+                    time.perf_counter() - begin,
+                    "s",
+                )
+            )
+        rows.append(
+            Row(
+                "An app's readers",
+                "each reader's kernel",
+                (own_memory(process) - empty) / sum(READERS),
+                "MB",
+            )
+        )
         return rows
 
 
@@ -79,11 +103,25 @@ def readers() -> list[Row]:
 def serve(module: str, *options) -> Iterator[tuple]:
     """A server that is there: its process, its addresses by path, and the seconds it took to start."""
     port, token, begin = free_port(), secrets.token_hex(8), time.perf_counter()
-    command = [sys.executable, "-m", module, "--no-browser", f"--port={port}", f"--{TOKENS[module]}={token}", *options]
-    server = subprocess.Popen(command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+    command = [
+        sys.executable,
+        "-m",
+        module,
+        "--no-browser",
+        f"--port={port}",
+        f"--{TOKENS[module]}={token}",
+        *options,
+    ]
+    server = subprocess.Popen(
+        command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
+    )
     try:
         wait_for(port)
-        yield psutil.Process(server.pid), lambda path: f"http://127.0.0.1:{port}/{path}?token={token}", time.perf_counter() - begin
+        yield (
+            psutil.Process(server.pid),
+            lambda path: f"http://127.0.0.1:{port}/{path}?token={token}",
+            time.perf_counter() - begin,
+        )
     finally:
         server.terminate()
         server.wait(60)
@@ -114,5 +152,10 @@ if __name__ == "__main__":
     for row in table:
         print(f"{row.section:48}{row.what:48}{row.value:10.4g} {row.unit}")
     if "--keep" in sys.argv:
-        kept = {"machine": machine(), "rows": [row._asdict() | {"value": float(f"{row.value:.3g}")} for row in table]}
-        (ROOT / "book" / "classroom.json").write_text(json.dumps(kept, indent=1) + "\n", encoding="utf-8")
+        kept = {
+            "machine": machine(),
+            "rows": [row._asdict() | {"value": float(f"{row.value:.3g}")} for row in table],
+        }
+        (ROOT / "book" / "classroom.json").write_text(
+            json.dumps(kept, indent=1) + "\n", encoding="utf-8"
+        )

@@ -23,22 +23,32 @@ FIRST_SWEEP = "import wmrlib as w; w.sweep(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.G
 
 def starting() -> list[Row]:
     section, times = "A fresh process", {}
-    for name, statement in (("import wmrlib", "import wmrlib"), ("import numba, to compare", "import numba")):
+    for name, statement in (
+        ("import wmrlib", "import wmrlib"),
+        ("import numba, to compare", "import numba"),
+    ):
         times[name] = min(process(statement) for _ in range(5))
-    for name, statement in (("import and first simulate", FIRST_RUN), ("import and first sweep", FIRST_SWEEP)):
+    for name, statement in (
+        ("import and first simulate", FIRST_RUN),
+        ("import and first sweep", FIRST_SWEEP),
+    ):
         with tempfile.TemporaryDirectory() as cache:
             times[f"{name}, compiled anew"] = process(statement, NUMBA_CACHE_DIR=cache)
-            times[f"{name}, cached"] = min(process(statement, NUMBA_CACHE_DIR=cache) for _ in range(3))
+            times[f"{name}, cached"] = min(
+                process(statement, NUMBA_CACHE_DIR=cache) for _ in range(3)
+            )
     return [Row(section, name, value, "s") for name, value in times.items()]
 
 
 def building(folder: Path, failures: list[str]) -> list[Row]:
     rows = []
     for chapter in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        seconds, done = command("-m", "nbconvert", "--to", "notebook", "--execute", f"--output-dir={folder}", chapter)
+        seconds, done = command(
+            "-m", "nbconvert", "--to", "notebook", "--execute", f"--output-dir={folder}", chapter
+        )
         rows.append(Row("The book", f"run {chapter.stem}", seconds, "s"))
         failures += [done.stderr[-500:]] if done.returncode else []
-    seconds, done = command(ROOT / "book" / "build.py", folder / "book")
+    seconds, done = command(ROOT / "book" / "tools" / "build.py", folder / "book")
     rows.append(Row("The book", "build all pages", seconds, "s"))
     failures += [done.stderr[-500:]] if done.returncode else []
     return rows
@@ -50,7 +60,15 @@ def explorer(failures: list[str]) -> list[Row]:
         failures.append(f"The explorer was not measured: {done.stderr.strip().splitlines()[-1]}")
         return []
     lines = done.stdout.splitlines()[1:]
-    return [Row("The explorer, slider event to finished picture, median", line[:40].strip(), float(line[40:48]), "ms") for line in lines]
+    return [
+        Row(
+            "The explorer, slider event to finished picture, median",
+            line[:40].strip(),
+            float(line[40:48]),
+            "ms",
+        )
+        for line in lines
+    ]
 
 
 def show(rows: list[Row]) -> None:
@@ -73,11 +91,18 @@ def main(fast: bool, keep: bool) -> None:
     if failures:
         sys.exit("\n".join(["", "Nothing is kept, because not all could be measured.", *failures]))
     if keep:
-        table = {"machine": machine(), "rows": [row._asdict() | {"value": float(f"{row.value:.4g}")} for row in rows]}
-        (ROOT / "book" / "speed.json").write_text(json.dumps(table, indent=1) + "\n", encoding="utf-8")
+        table = {
+            "machine": machine(),
+            "rows": [row._asdict() | {"value": float(f"{row.value:.4g}")} for row in rows],
+        }
+        (ROOT / "book" / "speed.json").write_text(
+            json.dumps(table, indent=1) + "\n", encoding="utf-8"
+        )
 
 
 if __name__ == "__main__":
-    if set(sys.argv[1:]) - {"--fast", "--keep"} or {"--fast", "--keep"} <= set(sys.argv[1:]):  # half a table is none to keep
+    if set(sys.argv[1:]) - {"--fast", "--keep"} or {"--fast", "--keep"} <= set(
+        sys.argv[1:]
+    ):  # half a table is none to keep
         sys.exit(__doc__)
     main("--fast" in sys.argv, "--keep" in sys.argv)

@@ -1,6 +1,6 @@
 """From a slider's event to the finished picture, side by side in one run: python tests/benchmarks/explorer_latency.py
 
-The static page is the book's kind of page: ipywidgets, jslink and the panel, opened from the disk, with the JavaScript that book/build.py
+The static page is the book's kind of page: ipywidgets, jslink and the panel, opened from the disk, with the JavaScript that book/tools/build.py
 fetched. In JupyterLab the same panel stands above `ipywidgets.interactive` with a matplotlib figure of the same run, and each is dragged by
 its slider's handle. The clock starts when the page hears of the pointer's step, and stops when the canvas is drawn or the new image is
 loaded. Machines differ and are noisy: quote medians, and the ratios rather than the milliseconds.
@@ -22,7 +22,7 @@ from playwright.sync_api import sync_playwright
 from wmrlib.explorer import Explorer
 
 ROOT = Path(__file__).resolve().parents[2]
-sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book")]
+sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book" / "tools")]
 from conftest import FLAGS  # noqa: E402
 from live import PATIENCE, free_port, serve  # noqa: E402
 
@@ -82,9 +82,16 @@ def static_page(folder: Path) -> Path:
     build.install_javascript()
     build.copy_javascript(folder / "vendor")
     explorer = Explorer()
-    data = embed_data([explorer], drop_defaults=False, state=dependency_state([explorer], drop_defaults=False))
-    state, view = (json.dumps(data[name]).replace("</", "<\\/") for name in ("manager_state", "view_specs"))
-    widgets = {"@jupyter-widgets": "vendor/widgets", "@jupyter-widgets/html-manager/dist": "vendor/widgets"}
+    data = embed_data(
+        [explorer], drop_defaults=False, state=dependency_state([explorer], drop_defaults=False)
+    )
+    state, view = (
+        json.dumps(data[name]).replace("</", "<\\/") for name in ("manager_state", "view_specs")
+    )
+    widgets = {
+        "@jupyter-widgets": "vendor/widgets",
+        "@jupyter-widgets/html-manager/dist": "vendor/widgets",
+    }
     paths = {**widgets, "anywidget": "vendor/anywidget/index"}
     page = folder / "index.html"
     page.write_text(
@@ -114,20 +121,39 @@ def in_page(browser, folder: Path) -> tuple[list[float], list[float]]:
 
 
 def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
-    notebook = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in (PANEL_CELL, INTERACTIVE_CELL)])
+    notebook = nbformat.v4.new_notebook(
+        cells=[nbformat.v4.new_code_cell(cell) for cell in (PANEL_CELL, INTERACTIVE_CELL)]
+    )
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
     nbformat.write(notebook, folder / "latency.ipynb")
     port = free_port()
     url = f"http://127.0.0.1:{port}/"
-    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1", f"--port={port}"]
-    command += ["--IdentityProvider.token=measure", f"--notebook-dir={folder}", "--LabApp.expose_app_in_browser=True"]
-    places = {f"JUPYTER{name}_DIR": str(folder / name) for name in ("LAB_SETTINGS", "LAB_WORKSPACES", "_CONFIG")}
+    command = [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        "--no-browser",
+        "--allow-root",
+        "--ip=127.0.0.1",
+        f"--port={port}",
+    ]
+    command += [
+        "--IdentityProvider.token=measure",
+        f"--notebook-dir={folder}",
+        "--LabApp.expose_app_in_browser=True",
+    ]
+    places = {
+        f"JUPYTER{name}_DIR": str(folder / name)
+        for name in ("LAB_SETTINGS", "LAB_WORKSPACES", "_CONFIG")
+    }
     with serve(command, f"{url}api", folder / "log.txt", **places):
         page = browser.new_page(viewport={"width": 1280, "height": 1800})
         page.goto(f"{url}lab/tree/latency.ipynb?token=measure", timeout=PATIENCE)
         kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
         page.wait_for_function(f"() => {kernel}?.status === 'idle'", timeout=PATIENCE)
-        page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")
+        page.evaluate(
+            "() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)"
+        )
         page.locator(".jp-OutputArea img[src^='data:image/png']").wait_for(timeout=PATIENCE)
         page.locator(".wmr-status:not(:empty)").wait_for(timeout=PATIENCE)
         page.wait_for_timeout(2000)
@@ -139,12 +165,16 @@ def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
 
 def main() -> None:
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as name:
-        browser = playwright.chromium.launch(executable_path=shutil.which("chromium"), headless=True, args=FLAGS)
+        browser = playwright.chromium.launch(
+            executable_path=shutil.which("chromium"), headless=True, args=FLAGS
+        )
         static, lab = Path(name, "static"), Path(name, "lab")
         static.mkdir()
         lab.mkdir()
         rows = {}
-        rows["panel, page without a kernel"], rows["its whole gain landscape"] = in_page(browser, static)
+        rows["panel, page without a kernel"], rows["its whole gain landscape"] = in_page(
+            browser, static
+        )
         rows["panel, JupyterLab"], rows["interactive with PNG, JupyterLab"] = in_lab(browser, lab)
         browser.close()
     print(f"{'slider event to finished picture [ms]':40}{'median':>8}{'90 %':>8}{'steps':>8}")

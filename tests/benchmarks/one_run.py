@@ -59,19 +59,51 @@ def loop_of(functions):
             shape = sin(alpha) / alpha if alpha else 1.0
             pull = v / rho if rho else v_max * k_rho * cos(alpha)
             omega = k_alpha * alpha + pull * shape * (alpha + h * theta)
-            path.append((x, y, heading, rho, alpha, theta, v, omega, 0.5 * (rho * rho + alpha * alpha + h * theta * theta)))
-            x, y, heading = x + v * cos(heading) * DT, y + v * sin(heading) * DT, wrap(heading + omega * DT)
+            path.append(
+                (
+                    x,
+                    y,
+                    heading,
+                    rho,
+                    alpha,
+                    theta,
+                    v,
+                    omega,
+                    0.5 * (rho * rho + alpha * alpha + h * theta * theta),
+                )
+            )
+            x, y, heading = (
+                x + v * cos(heading) * DT,
+                y + v * sin(heading) * DT,
+                wrap(heading + omega * DT),
+            )
         return np.array(path)
 
     return run
 
 
 def rows() -> list[Row]:
-    cases = {f"simulate, {method}": lambda m=method: wmr.simulate(START, GOAL, GAINS, method=m, **NEVER) for method in ("arc", "euler")}
-    cases["a loop in plain Python"] = loop_of((math.sin, math.cos, math.exp, math.hypot, math.atan2))
+    cases = {
+        f"simulate, {method}": lambda m=method: wmr.simulate(START, GOAL, GAINS, method=m, **NEVER)
+        for method in ("arc", "euler")
+    }
+    cases["a loop in plain Python"] = loop_of(
+        (math.sin, math.cos, math.exp, math.hypot, math.atan2)
+    )
     cases["a loop over numpy scalars"] = loop_of((np.sin, np.cos, np.exp, np.hypot, np.arctan2))
     cases["scipy solve_ivp (RK45)"] = scipy_alone()
     cases["python-control input_output_response"] = python_control()
-    cases["simulate, continuous (tolerance 1e-10)"] = lambda: wmr.simulate(START, GOAL, GAINS, method="continuous", **NEVER)
+    cases["simulate, continuous (tolerance 1e-10)"] = lambda: wmr.simulate(
+        START, GOAL, GAINS, method="continuous", **NEVER
+    )
     seconds = in_turn(cases)
-    return [Row("One run of 300 steps, against simulate", name, 1e3 * s, "ms", s / seconds["simulate, arc"]) for name, s in seconds.items()]
+    return [
+        Row(
+            "One run of 300 steps, against simulate",
+            name,
+            1e3 * s,
+            "ms",
+            s / seconds["simulate, arc"],
+        )
+        for name, s in seconds.items()
+    ]

@@ -14,8 +14,15 @@ from timing import Row, in_turn
 
 import wmrlib as wmr
 
-os.environ.setdefault("XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1")  # JAX on one core
-GOAL, RUNS, STEPS, DT = wmr.Pose(9000.0, 9000.0, 0.3), 10_000, 300, 0.02  # too far to arrive: all steps are taken
+os.environ.setdefault(
+    "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
+)  # JAX on one core
+GOAL, RUNS, STEPS, DT = (
+    wmr.Pose(9000.0, 9000.0, 0.3),
+    10_000,
+    300,
+    0.02,
+)  # too far to arrive: all steps are taken
 # GCC joins sin(a) and cos(a) to one call that has no vector form: the pass that does so is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
 BUILDS = {
@@ -34,12 +41,24 @@ def gains(runs: int) -> wmr.Gains:
 def states(runs: int) -> list[np.ndarray]:
     """rho, alpha, theta and the gains, as arrays of one entry a run."""
     polar = wmr.polar_error(wmr.paper.outdoor().start, GOAL)
-    return [np.full(runs, value) if np.ndim(value) == 0 else value.copy() for value in (*polar, *gains(runs))]
+    return [
+        np.full(runs, value) if np.ndim(value) == 0 else value.copy()
+        for value in (*polar, *gains(runs))
+    ]
 
 
 def sweep(method: str, runs: int, steps: int, executor):
     start, of = wmr.paper.outdoor().start, gains(runs)
-    return lambda: wmr.sweep(start, GOAL, of, method=method, dt=DT, duration=steps * DT, executor=executor, progress=False)
+    return lambda: wmr.sweep(
+        start,
+        GOAL,
+        of,
+        method=method,
+        dt=DT,
+        duration=steps * DT,
+        executor=executor,
+        progress=False,
+    )
 
 
 def in_c(folder: Path) -> dict[str, ctypes.CDLL]:
@@ -50,7 +69,10 @@ def in_c(folder: Path) -> dict[str, ctypes.CDLL]:
         library = folder / f"limit{len(libraries)}.so"
         source = Path(__file__).with_name("limit.c")
         done = subprocess.run(
-            [compiler, *options, "-shared", "-fPIC", source, "-o", library, "-lm"], capture_output=True, text=True, check=False
+            [compiler, *options, "-shared", "-fPIC", source, "-o", library, "-lm"],
+            capture_output=True,
+            text=True,
+            check=False,
         )
         if done.returncode:
             print(f"{name} was not compiled: {done.stderr}")
@@ -73,7 +95,11 @@ def numpy_case():
             v = v_max * (1 - np.exp(-k_rho * rho)) * cosine
             turning = v / rho * sine
             omega = k_alpha * alpha + v / rho * (sine / alpha) * (alpha + h * theta)
-            rho, alpha, theta = rho - DT * v * cosine, alpha + DT * (turning - omega), theta + DT * turning
+            rho, alpha, theta = (
+                rho - DT * v * cosine,
+                alpha + DT * (turning - omega),
+                theta + DT * turning,
+            )
         return rho
 
     return run
@@ -107,7 +133,9 @@ def against_the_limit(folder: Path) -> list[Row]:
     with ThreadPoolExecutor(1) as one:
         for method, title in (("euler", "Euler"), ("rk4", "Runge-Kutta")):
             cases = {name: c_case(library, method) for name, library in libraries.items()}
-            cases["wmrlib.sweep, metrics included"] = sweep("polar_euler" if method == "euler" else "rk4", RUNS, STEPS, one)
+            cases["wmrlib.sweep, metrics included"] = sweep(
+                "polar_euler" if method == "euler" else "rk4", RUNS, STEPS, one
+            )
             if method == "euler":
                 cases["numpy"] = numpy_case()
                 try:
@@ -118,21 +146,44 @@ def against_the_limit(folder: Path) -> list[Row]:
             limit = min((seconds[name] for name in libraries), default=None)
             section = f"10,000 gains by 300 steps on one core, {title}, against the fastest C"
             for name, value in seconds.items():
-                rows.append(Row(section, name, 1e9 * value / RUNS / STEPS, "ns a step", value / limit if limit else None))
+                rows.append(
+                    Row(
+                        section,
+                        name,
+                        1e9 * value / RUNS / STEPS,
+                        "ns a step",
+                        value / limit if limit else None,
+                    )
+                )
     return rows
 
 
 def growth() -> list[Row]:
     with ThreadPoolExecutor(1) as one:
-        sizes = [(n, 300) for n in (1000, 10_000, 100_000, 1_000_000)] + [(1000, n) for n in (3000, 30_000)]
+        sizes = [(n, 300) for n in (1000, 10_000, 100_000, 1_000_000)] + [
+            (1000, n) for n in (3000, 30_000)
+        ]
         seconds = in_turn({size: sweep("polar_euler", *size, one) for size in sizes}, repeat=3)
     each = {size: 1e9 * value / size[0] / size[1] for size, value in seconds.items()}
     section, base = "Growth, Euler on one core, against 10,000 runs of 300 steps", each[10_000, 300]
-    rows = [Row(section, f"{n:,} runs of {k:,} steps", value, "ns a step", value / base) for (n, k), value in each.items()]
+    rows = [
+        Row(section, f"{n:,} runs of {k:,} steps", value, "ns a step", value / base)
+        for (n, k), value in each.items()
+    ]
     pools = {n: ThreadPoolExecutor(n) for n in (1, *((2,) if (os.cpu_count() or 1) > 1 else ()))}
-    cores = in_turn({f"{n} core{'s' * (n > 1)}": sweep("rk4", 100_000, 300, pool) for n, pool in pools.items()}, repeat=7)
+    cores = in_turn(
+        {f"{n} core{'s' * (n > 1)}": sweep("rk4", 100_000, 300, pool) for n, pool in pools.items()},
+        repeat=7,
+    )
     for pool in pools.values():
         pool.shutdown()
     return rows + [
-        Row("100,000 runs of 300 steps, Runge-Kutta, against one core", name, s, "s", s / cores["1 core"]) for name, s in cores.items()
+        Row(
+            "100,000 runs of 300 steps, Runge-Kutta, against one core",
+            name,
+            s,
+            "s",
+            s / cores["1 core"],
+        )
+        for name, s in cores.items()
     ]

@@ -24,7 +24,9 @@ class Row(NamedTuple):
     ratio: float | None = None
 
 
-def in_turn(cases: dict[str, Callable], repeat: int = 7, at_least: float = 0.02) -> dict[str, float]:
+def in_turn(
+    cases: dict[str, Callable], repeat: int = 7, at_least: float = 0.02
+) -> dict[str, float]:
     """Seconds of one call of each case: the best of `repeat` rounds, in each of which every case has its turn."""
     counts = {}
     for name, function in cases.items():
@@ -44,15 +46,29 @@ def in_turn(cases: dict[str, Callable], repeat: int = 7, at_least: float = 0.02)
 
 def process(statement: str, **environment: str) -> float:
     """Seconds of a fresh Python process for one statement, timed inside, without Python's own start."""
-    code = f"import time; begin = time.perf_counter(); {statement}; print(time.perf_counter() - begin)"
-    run = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True, env=os.environ | environment)
+    code = (
+        f"import time; begin = time.perf_counter(); {statement}; print(time.perf_counter() - begin)"
+    )
+    run = subprocess.run(
+        [sys.executable, "-c", code],
+        capture_output=True,
+        text=True,
+        check=True,
+        env=os.environ | environment,
+    )
     return float(run.stdout)
 
 
 def command(*arguments: str | Path) -> tuple[float, subprocess.CompletedProcess]:
     """Seconds that a Python process takes, and what it said."""
     begin = time.perf_counter()
-    done = subprocess.run([sys.executable, *map(str, arguments)], capture_output=True, text=True, cwd=ROOT, check=False)
+    done = subprocess.run(
+        [sys.executable, *map(str, arguments)],
+        capture_output=True,
+        text=True,
+        cwd=ROOT,
+        check=False,
+    )
     return time.perf_counter() - begin, done
 
 
@@ -62,7 +78,18 @@ def machine() -> str:
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
         lines = cpuinfo.read_text(encoding="utf-8").splitlines()
-        name = next((line.split(":")[1].strip() for line in lines if line.startswith("model name")), name)
+        name = next(
+            (line.split(":")[1].strip() for line in lines if line.startswith("model name")), name
+        )
         flags = next((line for line in lines if line.startswith("flags")), "")
-        name += next((f", {title}" for flag, title in (("avx512f", "AVX-512"), ("avx2", "AVX2")) if flag in flags), "")
-    return f"{name}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
+        name += next(
+            (
+                f", {title}"
+                for flag, title in (("avx512f", "AVX-512"), ("avx2", "AVX2"))
+                if flag in flags
+            ),
+            "",
+        )
+    return (
+        f"{name}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
+    )

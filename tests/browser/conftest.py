@@ -20,7 +20,16 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-LOCAL = ("file:", "data:", "blob:", "about:", "http://127.0.0.1", "http://localhost", "ws://127.0.0.1", "ws://localhost")
+LOCAL = (
+    "file:",
+    "data:",
+    "blob:",
+    "about:",
+    "http://127.0.0.1",
+    "http://localhost",
+    "ws://127.0.0.1",
+    "ws://localhost",
+)
 NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 
 
@@ -61,10 +70,31 @@ def browser_page(browser):
         assert not troubles, "the page is not quiet:\n  " + "\n  ".join(troubles)
 
     page.assert_quiet = assert_quiet
-    page.on("request", lambda it: None if it.url.startswith(LOCAL) else troubles.append(f"outside request: {it.url[:200]}"))
-    page.on("requestfailed", lambda it: troubles.append(f"failed load: {it.url[:200]}: {it.failure}"))
-    page.on("response", lambda it: troubles.append(f"failed load: {it.url[:200]}: {it.status}") if it.status >= 400 else None)
-    page.on("console", lambda it: troubles.append(f"console error: {it.text[:300]}") if it.type == "error" else None)
+    page.on(
+        "request",
+        lambda it: (
+            None
+            if it.url.startswith(LOCAL)
+            else troubles.append(f"outside request: {it.url[:200]}")
+        ),
+    )
+    page.on(
+        "requestfailed", lambda it: troubles.append(f"failed load: {it.url[:200]}: {it.failure}")
+    )
+    page.on(
+        "response",
+        lambda it: (
+            troubles.append(f"failed load: {it.url[:200]}: {it.status}")
+            if it.status >= 400
+            else None
+        ),
+    )
+    page.on(
+        "console",
+        lambda it: (
+            troubles.append(f"console error: {it.text[:300]}") if it.type == "error" else None
+        ),
+    )
     page.on("pageerror", lambda it: troubles.append(f"uncaught exception: {str(it)[:300]}"))
     yield page
     context.close()
@@ -77,10 +107,14 @@ def panel_core(browser_page):
     from wmrlib import symbolic
 
     panel = Path(wmrlib.__file__).parent / "panel"
-    text = "".join((panel / name).read_text(encoding="utf-8") for name in ("model.js", "simulate.js"))
+    text = "".join(
+        (panel / name).read_text(encoding="utf-8") for name in ("model.js", "simulate.js")
+    )
     printed = map(symbolic.javascript_name, symbolic.FORMULAS)
     names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", *printed))
     browser_page.goto("about:blank")
-    browser_page.add_script_tag(type="module", content=f"{text}\nObject.assign(window, {{ {names}, loaded: true }});")
+    browser_page.add_script_tag(
+        type="module", content=f"{text}\nObject.assign(window, {{ {names}, loaded: true }});"
+    )
     browser_page.wait_for_function("window.loaded")
     return browser_page

@@ -17,8 +17,18 @@ def mounted(page, explorer, width=1280, height=720):
     page.set_content(PAGE)
     page.add_script_tag(content=HOST)
     panel = explorer.panel
-    traits = {name: value for name, value in panel.get_state().items() if not name.startswith(HIDDEN)}
-    page.evaluate("setup => mount(setup)", {"traits": traits, "controls": _controls(explorer), "module": panel._esm, "css": panel._css})
+    traits = {
+        name: value for name, value in panel.get_state().items() if not name.startswith(HIDDEN)
+    }
+    page.evaluate(
+        "setup => mount(setup)",
+        {
+            "traits": traits,
+            "controls": _controls(explorer),
+            "module": panel._esm,
+            "css": panel._css,
+        },
+    )
     return Panel(page).settled()
 
 
@@ -27,12 +37,22 @@ def _controls(explorer) -> list[dict]:
     found = []
     for control in (*explorer.sliders.values(), *explorer.menus.values()):
         trait = next(target[1] for source, target in ends if source[0] is control)
-        entry = {"name": trait, "text": control.description, "value": getattr(explorer.panel, trait)}
-        entry["display"] = next((source[1] for source, target in ends if target[0] is control.layout), None)
+        entry = {
+            "name": trait,
+            "text": control.description,
+            "value": getattr(explorer.panel, trait),
+        }
+        entry["display"] = next(
+            (source[1] for source, target in ends if target[0] is control.layout), None
+        )
         if hasattr(control, "options"):
             entry["options"] = list(control.options)
         else:
-            entry |= {"low": control.min, "high": control.max, "log": "Log" in type(control).__name__}
+            entry |= {
+                "low": control.min,
+                "high": control.max,
+                "log": "Log" in type(control).__name__,
+            }
         found.append(json.loads(json.dumps(entry)))
     return found
 
@@ -45,9 +65,15 @@ class Panel:
 
     def settled(self):
         """Wait until everything is drawn, the map included."""
-        self.page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
-        self.page.wait_for_function("() => panel.get('view') === 0 || document.querySelector('.wmr-map').dataset.finished === 'true'")
-        self.page.evaluate("() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))")
+        self.page.evaluate(
+            "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
+        )
+        self.page.wait_for_function(
+            "() => panel.get('view') === 0 || document.querySelector('.wmr-map').dataset.finished === 'true'"
+        )
+        self.page.evaluate(
+            "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
+        )
         return self
 
     def put(self, name, value):
@@ -64,18 +90,25 @@ class Panel:
         return self.settled()
 
     def set(self, **traits):
-        self.page.evaluate("traits => { for (const name in traits) panel.set(name, traits[name]); }", traits)
+        self.page.evaluate(
+            "traits => { for (const name in traits) panel.set(name, traits[name]); }", traits
+        )
         return self.settled()
 
     def get(self, name):
         return self.page.evaluate("name => panel.get(name)", name)
 
     def ends(self, name):
-        return self.page.evaluate("name => { const it = document.querySelector(`[data-control=${name}]`); return [it.min, it.max]; }", name)
+        return self.page.evaluate(
+            "name => { const it = document.querySelector(`[data-control=${name}]`); return [it.min, it.max]; }",
+            name,
+        )
 
     def picture(self) -> str:
         """A fingerprint of the pixels of the canvases that are shown."""
-        urls = self.page.evaluate("() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each => each.toDataURL())")
+        urls = self.page.evaluate(
+            "() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each => each.toDataURL())"
+        )
         return hashlib.sha256("".join(urls).encode()).hexdigest()
 
     def colours(self) -> list[int]:

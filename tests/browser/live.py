@@ -49,9 +49,13 @@ def assert_slider_matters(page, slider) -> None:
     slider.scroll_into_view_if_needed(timeout=PATIENCE)
     before, value = settled_picture(page), slider.get_attribute("aria-valuetext")
     slider.focus()
-    at_the_end = float(slider.get_attribute("aria-valuenow")) >= float(slider.get_attribute("aria-valuemax"))
+    at_the_end = float(slider.get_attribute("aria-valuenow")) >= float(
+        slider.get_attribute("aria-valuemax")
+    )
     page.keyboard.press("ArrowLeft" if at_the_end else "ArrowRight")
-    page.wait_for_function(f"before => ({PICTURE})() !== before", arg=before, timeout=PATIENCE, polling=100)
+    page.wait_for_function(
+        f"before => ({PICTURE})() !== before", arg=before, timeout=PATIENCE, polling=100
+    )
     assert slider.get_attribute("aria-valuetext") != value
 
 

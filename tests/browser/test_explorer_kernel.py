@@ -33,8 +33,20 @@ def lab(tmp_path_factory):
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_text(json.dumps(value))
     port = free_port()
-    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1", f"--port={port}"]
-    command += [f"--IdentityProvider.token={TOKEN}", f"--notebook-dir={home}", "--LabApp.expose_app_in_browser=True"]
+    command = [
+        sys.executable,
+        "-m",
+        "jupyterlab",
+        "--no-browser",
+        "--allow-root",
+        "--ip=127.0.0.1",
+        f"--port={port}",
+    ]
+    command += [
+        f"--IdentityProvider.token={TOKEN}",
+        f"--notebook-dir={home}",
+        "--LabApp.expose_app_in_browser=True",
+    ]
     places = {
         "JUPYTERLAB_SETTINGS_DIR": str(home / "settings"),
         "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
@@ -76,25 +88,45 @@ def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
 
     assert page.locator(".noUi-handle").count() == 8
-    assert page.locator(".noUi-handle:not([aria-label]), .wmr-controls select:not([aria-label])").count() == 0
+    assert (
+        page.locator(
+            ".noUi-handle:not([aria-label]), .wmr-controls select:not([aria-label])"
+        ).count()
+        == 0
+    )
 
     before = status.inner_text()
     page.locator(".noUi-handle").nth(1).focus()
     for _ in range(3):
         page.keyboard.press("ArrowRight")
-    page.wait_for_function("before => document.querySelector('.wmr-status').textContent !== before", arg=before, timeout=PATIENCE)
+    page.wait_for_function(
+        "before => document.querySelector('.wmr-status').textContent !== before",
+        arg=before,
+        timeout=PATIENCE,
+    )
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.03, h=0.3")
 
     before = status.inner_text()
-    page.locator(".wmr-map[data-finished=true]").click(position={"x": 250, "y": 100}, timeout=PATIENCE)
-    page.wait_for_function("before => document.querySelector('.wmr-status').textContent !== before", arg=before, timeout=PATIENCE)
+    page.locator(".wmr-map[data-finished=true]").click(
+        position={"x": 250, "y": 100}, timeout=PATIENCE
+    )
+    page.wait_for_function(
+        "before => document.querySelector('.wmr-status').textContent !== before",
+        arg=before,
+        timeout=PATIENCE,
+    )
     clicked = float(page.locator(".wmr-explorer .widget-readout").nth(1).inner_text())
     assert clicked != 1.03
     assert_python_sees(page, f"k_alpha={clicked},")
 
     run(page, 2)
-    page.wait_for_function("() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '2.5'", timeout=PATIENCE)
-    assert [handle.get_attribute("aria-valuenow") for handle in page.locator(".noUi-handle").all()[:3]] == ["1.5", "4.0", "2.5"]
+    page.wait_for_function(
+        "() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '2.5'",
+        timeout=PATIENCE,
+    )
+    assert [
+        handle.get_attribute("aria-valuenow") for handle in page.locator(".noUi-handle").all()[:3]
+    ] == ["1.5", "4.0", "2.5"]
     assert_python_sees(page, "k_rho=1.5, k_alpha=4.0, h=2.5", "aicardi")
 
     for typed, taken in [("3.21", "3.21"), ("nan", "3.21"), ("-7", "0.00"), ("1e9", "10.00")]:
@@ -106,12 +138,17 @@ def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page
         assert readout.inner_text() == taken
         status = page.locator(".wmr-status")
         if typed == "nan":
-            status.filter(has_text="k_alpha [1/s] = nan is not allowed: a number is needed").wait_for(timeout=PATIENCE)
+            status.filter(
+                has_text="k_alpha [1/s] = nan is not allowed: a number is needed"
+            ).wait_for(timeout=PATIENCE)
         else:
             status.filter(has_not_text="not allowed").wait_for(timeout=PATIENCE)
     assert_python_sees(page, "k_alpha=10.0,")
 
     page.locator("[data-do=reset]").click()
-    page.wait_for_function("() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '0.3'", timeout=PATIENCE)
+    page.wait_for_function(
+        "() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '0.3'",
+        timeout=PATIENCE,
+    )
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
     page.assert_quiet()

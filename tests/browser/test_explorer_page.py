@@ -32,7 +32,9 @@ def assert_sound(panel):
 
 
 @pytest.mark.parametrize("name", POSE_SLIDERS + CIRCLE_SLIDERS)
-def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_sound(browser_page, name):
+def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_sound(
+    browser_page, name
+):
     panel = mounted(browser_page, explorer_for(name))
     picture, figures = panel.picture(), panel.figures()
     for end in panel.ends(name):
@@ -47,15 +49,22 @@ def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_soun
 @pytest.mark.parametrize("law", ["corrected", "printed", "aicardi", "kanayama"])
 def test_every_slider_at_both_ends_on_the_circle_is_sound(browser_page, law):
     panel = mounted(browser_page, Explorer.circle(law=law))
-    shown = ("k_x", "k_y", "k_heading", "dt") if law == "kanayama" else ("k_rho", "k_alpha", "h", "dt")
+    shown = (
+        ("k_x", "k_y", "k_heading", "dt") if law == "kanayama" else ("k_rho", "k_alpha", "h", "dt")
+    )
     for name in shown:
         for end in panel.ends(name):
             assert_sound(panel.put(name, end))
 
 
-@pytest.mark.parametrize(("name", "circle"), [("pose_law", False), ("circle_law", True), ("method", False), ("preset", False)])
+@pytest.mark.parametrize(
+    ("name", "circle"),
+    [("pose_law", False), ("circle_law", True), ("method", False), ("preset", False)],
+)
 def test_every_choice_of_every_menu_changes_the_picture_and_the_figures(browser_page, name, circle):
-    panel = mounted(browser_page, Explorer.circle() if circle else Explorer(gains=wmr.Gains(1.0, 3.0, 1.0)))
+    panel = mounted(
+        browser_page, Explorer.circle() if circle else Explorer(gains=wmr.Gains(1.0, 3.0, 1.0))
+    )
     seen = {(panel.picture(), tuple(panel.figures().values()))}
     choices = browser_page.locator(f"[data-control={name}] option").count()
     first = panel.get(name)
@@ -159,7 +168,10 @@ def test_an_absurd_value_is_answered_in_the_panel(browser_page, trait):
     panel = mounted(browser_page, Explorer())
     good, before = panel.picture(), panel.get(trait)
     for value in ("NaN", "null", "Infinity", "-1e300", "'text'", "undefined"):
-        browser_page.evaluate(f"trait => panel.set(trait, {f'[0, {value}, 0]' if trait in ('start', 'goal') else value})", trait)
+        browser_page.evaluate(
+            f"trait => panel.set(trait, {f'[0, {value}, 0]' if trait in ('start', 'goal') else value})",
+            trait,
+        )
         panel.settled()
         assert panel.troubled()
         assert min(panel.colours()) > 10
@@ -177,7 +189,15 @@ def test_a_panel_that_begins_with_an_absurd_value_is_not_blank(browser_page):
     assert not panel.set(k_rho=1.0).troubled()
 
 
-@pytest.mark.parametrize("goal", [wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(0.0, 0.0, 2.0), wmr.Pose(1e-9, 0.0, 0.0), wmr.Pose(1e5, -1e5, 1.0)])
+@pytest.mark.parametrize(
+    "goal",
+    [
+        wmr.Pose(0.0, 0.0, 0.0),
+        wmr.Pose(0.0, 0.0, 2.0),
+        wmr.Pose(1e-9, 0.0, 0.0),
+        wmr.Pose(1e5, -1e5, 1.0),
+    ],
+)
 def test_a_start_on_the_goal_and_one_far_from_it(browser_page, goal):
     panel = mounted(browser_page, Explorer(wmr.Pose(0.0, 0.0, 0.0), goal))
     assert not panel.troubled()
@@ -229,7 +249,9 @@ def test_a_pinned_run_stays_as_a_ghost_until_it_is_unpinned_and_reset_returns_ho
     panel = mounted(browser_page, Explorer())
     home, figures = panel.picture(), panel.figures()
     panel.click("pin").put("k_alpha", 4.0)
-    assert figures["arrival"] in browser_page.locator("[data-figure=arrival] .wmr-pinned").inner_text()
+    assert (
+        figures["arrival"] in browser_page.locator("[data-figure=arrival] .wmr-pinned").inner_text()
+    )
     with_ghost = panel.picture()
     assert panel.click("unpin").picture() != with_ghost
     panel.drag(panel.handle("start", "move"), 30, 0)
@@ -247,7 +269,9 @@ def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(browser_page):
     panel.settled()
     assert panel.get("k_alpha") != 1.0
     assert panel.get("h") != 0.3
-    assert float(browser_page.locator("[data-control=k_alpha]").input_value()) == pytest.approx(panel.get("k_alpha"))
+    assert float(browser_page.locator("[data-control=k_alpha]").input_value()) == pytest.approx(
+        panel.get("k_alpha")
+    )
     assert panel.picture() != picture
     assert panel.figures() != figures
     h = panel.get("h")
@@ -310,7 +334,12 @@ def test_nothing_is_cut_off_or_overlaps_at_any_width(browser_page, width):
         assert left >= 0
         assert right <= width
         for other in boxes[i + 1 :]:
-            assert right <= other[0] + 0.5 or other[2] <= left + 0.5 or bottom <= other[1] + 0.5 or other[3] <= top + 0.5
+            assert (
+                right <= other[0] + 0.5
+                or other[2] <= left + 0.5
+                or bottom <= other[1] + 0.5
+                or other[3] <= top + 0.5
+            )
     clipped = browser_page.evaluate(
         "() => [...document.querySelectorAll('.wmr-figures .wmr-value')].filter(it => it.scrollWidth > it.clientWidth).length"
     )
@@ -330,6 +359,8 @@ def test_a_screen_reader_finds_names_and_a_summary(browser_page):
 
 def test_a_view_that_is_closed_answers_no_more(browser_page):
     panel = mounted(browser_page, Explorer())
-    panel.page.evaluate("() => { unmount(); drawings = 0; panel.set('k_rho', 1); document.documentElement.dataset.theme = 'dark'; }")
+    panel.page.evaluate(
+        "() => { unmount(); drawings = 0; panel.set('k_rho', 1); document.documentElement.dataset.theme = 'dark'; }"
+    )
     browser_page.wait_for_timeout(100)
     assert browser_page.evaluate("() => drawings") == 0

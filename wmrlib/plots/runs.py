@@ -14,9 +14,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.picture import Picture
-from wmrlib.plots._style import COLOURS, LINES, arrow, equal_scales, near_zero, new_figure
-from wmrlib.simulation import Trajectory
+from wmrlib.plots.picture import Picture
+from wmrlib.plots.style import COLOURS, LINES, arrow, equal_scales, near_zero, new_figure
+from wmrlib.runs import Trajectory
 
 
 def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) -> Picture:
@@ -27,16 +27,25 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     """
     runs = [runs] if isinstance(runs, Trajectory) else list(runs)
     if not 1 <= len(runs) <= len(LINES):
-        raise ValueError(f"runs has {len(runs)} entries, which is not allowed: 1 to {len(LINES)} are needed")
+        raise ValueError(
+            f"runs has {len(runs)} entries, which is not allowed: 1 to {len(LINES)} are needed"
+        )
     if len(labels) not in (0, len(runs)):
-        raise ValueError(f"labels has {len(labels)} entries, which is not allowed: one for each of the {len(runs)} runs is needed")
+        raise ValueError(
+            f"labels has {len(labels)} entries, which is not allowed: one for each of the {len(runs)} runs is needed"
+        )
     figure, axes = new_figure(5.5, 5.5)
     x, y = np.concatenate([run.x for run in runs]), np.concatenate([run.y for run in runs])
-    size = (0.04 if len(runs) == 1 else 0.025) * max(np.ptp(x), np.ptp(y), 1.0)  # several: one size, small beside their bends
+    size = (0.04 if len(runs) == 1 else 0.025) * max(
+        np.ptp(x), np.ptp(y), 1.0
+    )  # several: one size, small beside their bends
     for run, style in zip(runs, LINES, strict=False):
         draw_path(axes, run, style, robots=len(runs) == 1, size=size)
     if labels:
-        axes.legend([Line2D([], [], color=COLOURS["path"], ls=style) for style in LINES[: len(runs)]], labels)
+        axes.legend(
+            [Line2D([], [], color=COLOURS["path"], ls=style) for style in LINES[: len(runs)]],
+            labels,
+        )
     equal_scales(axes, x, y, room=0.12)
     names = [f"{label}: " for label in labels] or [""] * len(runs)
     words = [name + _path_in_words(run) for name, run in zip(names, runs, strict=True)]
@@ -51,10 +60,22 @@ def arrival(run: Trajectory, radius: float = 2.0) -> Picture:
     goal = _goal(run)
     axes.plot(run.x, run.y, color=COLOURS["path"])
     size = 0.3 * radius
-    axes.add_patch(arrow(Pose(run.x[-1], run.y[-1], run.heading[-1]), size, fc=COLOURS["robot"], ec=COLOURS["ink"], zorder=3))
+    axes.add_patch(
+        arrow(
+            Pose(run.x[-1], run.y[-1], run.heading[-1]),
+            size,
+            fc=COLOURS["robot"],
+            ec=COLOURS["ink"],
+            zorder=3,
+        )
+    )
     axes.add_patch(arrow(goal, size, fc="none", ec=COLOURS["goal"], lw=2.5, zorder=4))
     axes.set(
-        xlim=(goal.x - radius, goal.x + radius), ylim=(goal.y - radius, goal.y + radius), aspect="equal", xlabel="x [m]", ylabel="y [m]"
+        xlim=(goal.x - radius, goal.x + radius),
+        ylim=(goal.y - radius, goal.y + radius),
+        aspect="equal",
+        xlabel="x [m]",
+        ylabel="y [m]",
     )
     error = math.degrees(run.heading_error[-1])
     axes.set_title(f"heading left over: {error:.0f} deg", fontsize=12)
@@ -72,7 +93,10 @@ def twist(run: Trajectory) -> Picture:
     draw_series(lower, run, "omega", "omega [rad/s]")
     lower.set_xlabel("time [s]")
     figure.align_ylabels()
-    return Picture(figure, f"Over time: {_course_in_words(run, 'v', 'm/s')}; {_course_in_words(run, 'omega', 'rad/s')}.")
+    return Picture(
+        figure,
+        f"Over time: {_course_in_words(run, 'v', 'm/s')}; {_course_in_words(run, 'omega', 'rad/s')}.",
+    )
 
 
 def errors(run: Trajectory) -> Picture:
@@ -100,7 +124,9 @@ def lyapunov(run: Trajectory) -> Picture:
 
 def dashboard(run: Trajectory) -> Picture:
     """Path, v, omega, position errors and V of one run, side by side."""
-    figure, axes = new_figure(12.0, 6.0, mosaic=[["path", "v"], ["path", "omega"], ["path", "errors"], ["path", "V"]])
+    figure, axes = new_figure(
+        12.0, 6.0, mosaic=[["path", "v"], ["path", "omega"], ["path", "errors"], ["path", "V"]]
+    )
     draw_path(axes["path"], run)
     equal_scales(axes["path"], run.x, run.y, room=0.12)
     draw_series(axes["v"], run, "v", "v [m/s]")
@@ -112,11 +138,17 @@ def dashboard(run: Trajectory) -> Picture:
         axes[name].tick_params(labelbottom=False)
     axes["V"].set_xlabel("time [s]")
     figure.align_ylabels()
-    parts = _range_in_words(run.v, "v", "m/s"), _range_in_words(run.omega, "omega", "rad/s"), _rises_in_words(run)
+    parts = (
+        _range_in_words(run.v, "v", "m/s"),
+        _range_in_words(run.omega, "omega", "rad/s"),
+        _rises_in_words(run),
+    )
     return Picture(figure, f"{_path_in_words(run)}; {'; '.join(parts)}.")
 
 
-def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, robots: bool = True, size: float | None = None) -> list:
+def draw_path(
+    axes: Axes, run: Trajectory, style: str = "-", *, robots: bool = True, size: float | None = None
+) -> list:
     """The path, the start (filled) and the goal (open) as arrows, the robot on its way and at its end; the caller sets the scales.
 
     size: half the length of a robot's arrow in metres, a twenty-fifth of the path's width or height if not given.
@@ -126,12 +158,27 @@ def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, robots: bool = T
     artists = [*line]
     if robots:
         for share in np.linspace(0.0, 1.0, 11)[1:]:
-            k = int(np.searchsorted(_way(run), share * _way(run)[-1])) if share < 1.0 else -1  # it may turn where it stops
-            artists.append(axes.add_patch(arrow(Pose(run.x[k], run.y[k], run.heading[k]), size, fc=COLOURS["robot"], ec=COLOURS["ink"])))
+            k = (
+                int(np.searchsorted(_way(run), share * _way(run)[-1])) if share < 1.0 else -1
+            )  # it may turn where it stops
+            artists.append(
+                axes.add_patch(
+                    arrow(
+                        Pose(run.x[k], run.y[k], run.heading[k]),
+                        size,
+                        fc=COLOURS["robot"],
+                        ec=COLOURS["ink"],
+                    )
+                )
+            )
     goal = _goal(run)
     first = Pose(run.x[0], run.y[0], run.heading[0])
-    artists.append(axes.add_patch(arrow(goal, 1.5 * size, fc="none", ec=COLOURS["goal"], lw=2.0, zorder=4)))
-    artists.append(axes.add_patch(arrow(first, 1.5 * size, fc=COLOURS["start"], ec=COLOURS["start"], zorder=4)))
+    artists.append(
+        axes.add_patch(arrow(goal, 1.5 * size, fc="none", ec=COLOURS["goal"], lw=2.0, zorder=4))
+    )
+    artists.append(
+        axes.add_patch(arrow(first, 1.5 * size, fc=COLOURS["start"], ec=COLOURS["start"], zorder=4))
+    )
     axes.set(xlabel="x [m]", ylabel="y [m]")
     return artists
 
@@ -159,10 +206,23 @@ def draw_lyapunov(axes: Axes, run: Trajectory) -> list:
     rising = np.diff(run.V) > 1e-9 * run.V[0]
     points = np.column_stack([run.t, values])
     pieces = np.stack([points[:-1], points[1:]], axis=1)
-    artists = [axes.add_collection(LineCollection(pieces[~rising], color=COLOURS["V"], lw=2.0, label="falling"))]
+    artists = [
+        axes.add_collection(
+            LineCollection(pieces[~rising], color=COLOURS["V"], lw=2.0, label="falling")
+        )
+    ]
     if rising.any():
-        artists.append(axes.add_collection(LineCollection(pieces[rising], color=COLOURS["V_rising"], lw=5.0, label="rising")))
-    axes.set(ylabel="V [1]", yscale="log", xlim=(0.0, max(run.t[-1], 1e-9)), ylim=(values.min() / 2, values.max() * 2))
+        artists.append(
+            axes.add_collection(
+                LineCollection(pieces[rising], color=COLOURS["V_rising"], lw=5.0, label="rising")
+            )
+        )
+    axes.set(
+        ylabel="V [1]",
+        yscale="log",
+        xlim=(0.0, max(run.t[-1], 1e-9)),
+        ylim=(values.min() / 2, values.max() * 2),
+    )
     axes.legend(loc="upper right", fontsize=10)
     return artists
 
@@ -172,7 +232,9 @@ def _way(run: Trajectory) -> np.ndarray:
 
 
 def _goal(run: Trajectory) -> Pose:
-    return Pose(*(float(np.ravel(field)[-1]) for field in run.goal))  # of a moving goal, where it ends
+    return Pose(
+        *(float(np.ravel(field)[-1]) for field in run.goal)
+    )  # of a moving goal, where it ends
 
 
 def _range_in_words(values: np.ndarray, name: str, unit: str) -> str:
@@ -191,7 +253,11 @@ def _course_in_words(run: Trajectory, name: str, unit: str) -> str:
 
 
 def _three_digits(value: float) -> str:
-    return np.format_float_positional(value, 3, unique=False, fractional=False, trim="-") if value >= 1e-6 else "less than 1e-6"
+    return (
+        np.format_float_positional(value, 3, unique=False, fractional=False, trim="-")
+        if value >= 1e-6
+        else "less than 1e-6"
+    )
 
 
 def _rises_in_words(run: Trajectory) -> str:
@@ -221,5 +287,9 @@ def _mirrored(one: Trajectory, other: Trajectory) -> bool:
     for run in (one, other):
         goal = _goal(run)
         along = complex(goal.x - run.x[0], goal.y - run.y[0])
-        seen.append((run.x - run.x[0] + 1j * (run.y - run.y[0])) / along if along else np.zeros(len(run)))
-    return bool(np.allclose(seen[0], seen[1].conj(), atol=1e-3) and np.abs(seen[0].imag).max() > 1e-2)
+        seen.append(
+            (run.x - run.x[0] + 1j * (run.y - run.y[0])) / along if along else np.zeros(len(run))
+        )
+    return bool(
+        np.allclose(seen[0], seen[1].conj(), atol=1e-3) and np.abs(seen[0].imag).max() > 1e-2
+    )

@@ -12,7 +12,7 @@ from sympy.printing.precedence import PRECEDENCE
 from wmrlib.geodesy import EARTH_RADIUS_M
 from wmrlib.symbolic._formulas import C_FORMULAS, GEODESY, Formula
 
-C_HEADER = Path(__file__).parents[1] / "c" / "wmr_law.h"
+C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
 _FRAME = C_HEADER.with_name("frame.h")
 _FUNCTIONS = ("sin", "cos", "sqrt", "atan2", "expm1")
 
@@ -21,7 +21,10 @@ class _Printer(C99CodePrinter):
     """Numbers in WMR_C(...) and functions in WMR_F(...), which the header defines for float and for double."""
 
     def __init__(self):
-        library = {name: f"WMR_F({name})" for name in _FUNCTIONS} | {"Abs": "WMR_F(fabs)", "decay": "wmr_decay"}
+        library = {name: f"WMR_F({name})" for name in _FUNCTIONS} | {
+            "Abs": "WMR_F(fabs)",
+            "decay": "wmr_decay",
+        }
         super().__init__({"user_functions": library})
 
     def _print_Float(self, expr):  # noqa: N802 (sympy's name)
@@ -50,7 +53,9 @@ class _Printer(C99CodePrinter):
 def c_function(name: str, formula: Formula, real: str = "WMR_REAL") -> str:
     """One formula as a static C function wmr_`name` of numbers of type `real`; with "double" it is always in double precision."""
     body = re.sub(r"\s+", " ", _Printer().doprint(formula.value))
-    body = re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", body)  # a number needs no brackets of its own
+    body = re.sub(
+        r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", body
+    )  # a number needs no brackets of its own
     if real == "double":
         body = re.sub(r"WMR_[CF]\(([^()]+)\)", r"\1", body)
     arguments = ", ".join(f"{real} {each}" for each in formula.arguments)
@@ -62,9 +67,15 @@ def c_header() -> str:
     law = "\n".join(c_function(name, formula) for name, formula in C_FORMULAS.items())
     geodesy = "\n".join(c_function(name, formula, "double") for name, formula in GEODESY.items())
     text = _FRAME.read_text(encoding="utf-8").partition("*/\n")[2]  # what frame.h says of itself
-    places = {"/* @LAW@ */\n": law, "/* @GEODESY@ */\n": geodesy, "@EARTH_RADIUS_M@": repr(EARTH_RADIUS_M)}
+    places = {
+        "/* @LAW@ */\n": law,
+        "/* @GEODESY@ */\n": geodesy,
+        "@EARTH_RADIUS_M@": repr(EARTH_RADIUS_M),
+    }
     for place, printed in places.items():
         if text.count(place) != 1:
-            raise ValueError(f"frame.h has {place.strip()} {text.count(place)} times: once is needed")
+            raise ValueError(
+                f"frame.h has {place.strip()} {text.count(place)} times: once is needed"
+            )
         text = text.replace(place, printed)
     return text

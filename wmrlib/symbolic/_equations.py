@@ -57,27 +57,53 @@ def _equations() -> dict[int, sp.Basic]:
         3: sp.Eq(x_rate, v * sp.cos(theta)),
         4: sp.Eq(y_rate, v * sp.sin(theta)),
         5: sp.Eq(theta_rate, omega),
-        6: sp.Eq(sp.Matrix([x_rate, y_rate, theta_rate]), sp.Matrix([v * sp.cos(theta), v * sp.sin(theta), omega])),
+        6: sp.Eq(
+            sp.Matrix([x_rate, y_rate, theta_rate]),
+            sp.Matrix([v * sp.cos(theta), v * sp.sin(theta), omega]),
+        ),
         7: sp.Eq(rho_rate, -v * _COSINE),
         8: sp.Eq(theta_rate, v * _SINE / rho),
         9: sp.Eq(alpha_rate, -omega + v * _SINE / rho),
-        10: sp.Eq(sp.Matrix([rho_rate, alpha_rate, theta_rate]), sp.Matrix([-v * _COSINE, v * _SINE / rho - omega, -v * _SINE / rho])),
+        10: sp.Eq(
+            sp.Matrix([rho_rate, alpha_rate, theta_rate]),
+            sp.Matrix([-v * _COSINE, v * _SINE / rho - omega, -v * _SINE / rho]),
+        ),
         11: sp.Eq(rho, R * c),
         12: sp.Eq(c, 2 * sp.atan2(sp.sqrt(epsilon), sp.sqrt(1 - epsilon))),
         13: sp.Eq(epsilon, half_dlat**2 + sp.cos(lat1) * sp.cos(lat2) * half_dlong**2),
         14: sp.Eq(theta, sp.pi / 2 - br),
         15: sp.Eq(br, sp.atan2(zeta_x, zeta_y)),
         16: sp.Eq(zeta_x, sp.cos(lat2) * sp.sin(dlong)),
-        17: sp.Eq(zeta_y, sp.cos(lat1) * sp.sin(lat2) - sp.sin(lat1) * sp.cos(lat2) * sp.cos(dlong)),
+        17: sp.Eq(
+            zeta_y, sp.cos(lat1) * sp.sin(lat2) - sp.sin(lat1) * sp.cos(lat2) * sp.cos(dlong)
+        ),
         18: sp.Eq(V, rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2),
         19: sp.Eq(V_rate, rho * rho_rate / L + alpha * alpha_rate + h * theta * theta_rate),
-        20: sp.Eq(V_rate, rho / L * (-v * _COSINE) + alpha * (-omega + v * _SINE / rho) + theta * h * (v * _SINE / rho)),
+        20: sp.Eq(
+            V_rate,
+            rho / L * (-v * _COSINE)
+            + alpha * (-omega + v * _SINE / rho)
+            + theta * h * (v * _SINE / rho),
+        ),
         21: sp.Eq(V_rate, rho / L * (-v * _COSINE) + (alpha * (-omega) + grows)),
         22: sp.Eq(v, speed * _COSINE),
         23: omega > (alpha + h * theta) * k_alpha * _COSINE * _SINE,
         24: sp.Eq(omega, k_alpha * alpha + twice),
-        25: sp.Eq(V_rate, falls + (alpha * (-k_alpha * alpha - twice) + speed * _COSINE * _SINE / rho * (h * theta + alpha))),
-        26: sp.Eq(V_rate, sp.Abs(rho) / L * (-speed * _COSINE**2) - k_alpha * alpha**2 - k_alpha * alpha - left_over),
+        25: sp.Eq(
+            V_rate,
+            falls
+            + (
+                alpha * (-k_alpha * alpha - twice)
+                + speed * _COSINE * _SINE / rho * (h * theta + alpha)
+            ),
+        ),
+        26: sp.Eq(
+            V_rate,
+            sp.Abs(rho) / L * (-speed * _COSINE**2)
+            - k_alpha * alpha**2
+            - k_alpha * alpha
+            - left_over,
+        ),
     }
 
 

@@ -35,5 +35,7 @@ def javascript() -> str:
     functions = []
     for name, (arguments, value, says) in FORMULAS.items():
         body = re.sub(r"\s+", " ", printer.doprint(value))
-        functions.append(f"\n// {says}\nfunction {names[name]}({', '.join(map(str, arguments))}) {{\n  return {body};\n}}\n")
+        functions.append(
+            f"\n// {says}\nfunction {names[name]}({', '.join(map(str, arguments))}) {{\n  return {body};\n}}\n"
+        )
     return _HEADER + "".join(functions)

@@ -1,0 +1,144 @@
+r"""A Sphinx extension: what the notebooks write so that JupyterLab shows it too becomes the book's anchors, numbers and links.
+
+- A displayed formula with ``\tag{4.2, paper 24}`` becomes the book's equation (4.2) and the place where the paper's (24) is at home.
+- A bare ``(24)`` or ``(4.2)`` in a sentence becomes a link to that equation; one that is nowhere is a warning, and so an error.
+- A link to the DOI or the address of a work in references.bib becomes a link to its entry in the bibliography.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+from docutils import nodes
+from pybtex.database import parse_file
+from sphinx.util import logging
+
+TAG = re.compile(r"\\tag\{(?P<number>\d+\.\d+)(?:, (?P<relation>paper|corrects) (?P<paper>\d+))?\}")
+# Not after a letter, as in f(2), nor a bracket that closes.
+MENTION = re.compile(r"(?<![\w)\]])\((\d{1,2}|\d{1,2}\.\d{1,2})\)(?!\w)")
+CITED = "bibliography"
+
+log = logging.getLogger(__name__)
+
+
+def number_equations(app, doctree):
+    """Give each tagged formula its anchors, and remember where they are."""
+    places = equations(app.env)
+    for block in doctree.findall(nodes.math_block):
+        formula = block.astext().strip()
+        tag = TAG.search(formula)
+        if not tag:
+            if r"\tag" in formula:
+                log.warning(
+                    "a tag is 4.2, or 4.2, paper 24, or 4.2, corrects 24; not as in %s",
+                    formula,
+                    location=block,
+                )
+            continue
+        names = [tag["number"], *([tag["paper"]] if tag["relation"] == "paper" else [])]
+        for name in names:
+            if name in places:
+                log.warning("equation (%s) is numbered twice", name, location=block)
+            places[name] = app.env.docname
+        block["ids"] = [anchor(name) for name in names]
+        block["no-wrap"] = block["nowrap"] = (
+            True  # Sphinx would put several lines into `split`, where no tag may stand
+        )
+        block.children = [nodes.Text(f"\\begin{{equation}}\n{formula}\n\\end{{equation}}")]
+
+
+def link_mentions(app, doctree, docname):
+    """Turn (24) and (4.2) in running text into links."""
+    places = equations(app.env)
+    for text in list(doctree.findall(nodes.Text)):
+        if not MENTION.search(text) or not _in_a_sentence(text):
+            continue
+        parts, end = [], 0
+        for mention in MENTION.finditer(text):
+            if mention[1] not in places:
+                log.warning(
+                    "equation (%s) is nowhere in the book", mention[1], location=text.parent
+                )
+                continue
+            address = (
+                app.builder.get_relative_uri(docname, places[mention[1]]) + "#" + anchor(mention[1])
+            )
+            link = nodes.reference("", mention[0], internal=True, refuri=address)
+            parts += [nodes.Text(text[end : mention.start()]), link]
+            end = mention.end()
+        text.parent.replace(text, [*parts, nodes.Text(text[end:])])
+
+
+def link_citations(app, doctree, docname):
+    """Turn links to the works in references.bib into links to the bibliography."""
+    works = cited_works(Path(app.confdir) / "references.bib")
+    if docname == CITED:
+        return
+    for link in doctree.findall(nodes.reference):
+        if key := works.get(link.get("refuri", "")):
+            link["refuri"] = f"{app.builder.get_relative_uri(docname, CITED)}#cite-{key}"
+            link["internal"] = True
+
+
+def cited_works(path: Path) -> dict[str, str]:
+    """From the address of a work, its DOI's or its own, to its key."""
+    entries = parse_file(path).entries
+    addresses = {
+        key: f"https://doi.org/{it.fields['doi']}" if "doi" in it.fields else it.fields.get("url")
+        for key, it in entries.items()
+    }
+    return {address: key for key, address in addresses.items() if address}
+
+
+def anchor(number: str) -> str:
+    return f"equation-{number.replace('.', '-')}" if "." in number else f"paper-{number}"
+
+
+def equations(env) -> dict[str, str]:
+    """From an equation's number, ours or the paper's, to the page it is on."""
+    if not hasattr(env, "book_equations"):
+        env.book_equations = {}
+    return env.book_equations
+
+
+def forget(app, env, docname):
+    env.book_equations = {name: place for name, place in equations(env).items() if place != docname}
+
+
+def merge(app, env, docnames, other):
+    for name in equations(env).keys() & {
+        name for name, place in equations(other).items() if place in docnames
+    }:
+        log.warning("equation (%s) is numbered on two pages", name)
+    env.book_equations |= {
+        name: place for name, place in equations(other).items() if place in docnames
+    }
+
+
+def _in_a_sentence(text: nodes.Text) -> bool:
+    excluded = (
+        nodes.literal,
+        nodes.literal_block,
+        nodes.math,
+        nodes.math_block,
+        nodes.reference,
+        nodes.title,
+        nodes.raw,
+        nodes.comment,
+    )
+    parent = text.parent
+    while parent is not None:
+        if isinstance(parent, excluded):
+            return False
+        parent = parent.parent
+    return True
+
+
+def setup(app):
+    app.connect("doctree-read", number_equations)
+    app.connect("doctree-resolved", link_mentions)
+    app.connect("doctree-resolved", link_citations)
+    app.connect("env-purge-doc", forget)
+    app.connect("env-merge-info", merge)
+    return {"parallel_read_safe": True, "parallel_write_safe": True, "env_version": 1}

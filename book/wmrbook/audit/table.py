@@ -1,0 +1,114 @@
+"""The audit as a table, with links to the cells of the chapters that show each row."""
+
+from __future__ import annotations
+
+import json
+import re
+from collections.abc import Mapping, Sequence
+from pathlib import Path
+from typing import NamedTuple
+
+from wmrbook.audit.rows import Row, Verdict
+
+_TAG = "audit:"
+_HEAD = ("What", "Verdict", "The paper says", "What is found", "Shown in")
+
+
+class Place(NamedTuple):
+    """A cell that shows a row: the chapter's file, its number, the nearest heading above, and its place among the code cells.
+
+    The chapters are executed in order, so that this is the number that Jupyter shows beside the cell.
+    """
+
+    file: str
+    chapter: int
+    heading: str
+    cell: int
+
+
+def places(folder: str | Path = ".") -> dict[str, list[Place]]:
+    """From a row's item to the cells tagged ``audit:item`` in the notebooks of a folder whose names begin with a chapter's number.
+
+    Raises ValueError if the folder holds no such notebook.
+    """
+    notebooks = sorted(Path(folder).glob("[0-9][0-9]_*.ipynb"))
+    if not notebooks:
+        raise ValueError(
+            f"folder = {str(folder)!r} is not allowed: one with notebooks named like 04_lyapunov.ipynb is needed"
+        )
+    found: dict[str, list[Place]] = {}
+    for path in notebooks:
+        heading, number = path.stem, 0
+        for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+            if cell["cell_type"] == "markdown":
+                heading = (
+                    re.findall(r"^#{1,3} +(.+?) *$", "".join(cell["source"]), re.MULTILINE)
+                    or [heading]
+                )[-1]
+            number += cell["cell_type"] == "code"
+            for tag in cell["metadata"].get("tags", ()):
+                if cell["cell_type"] == "code" and tag.startswith(_TAG):
+                    place = Place(path.name, int(path.name[:2]), heading, number)
+                    found.setdefault(tag.removeprefix(_TAG), []).append(place)
+    return found
+
+
+def missing(rows: Sequence[Row], where: Mapping[str, Sequence[Place]]) -> list[str]:
+    """The items of the rows that no cell shows."""
+    return [row.item for row in rows if not where.get(row.item)]
+
+
+def tally(rows: Sequence[Row]) -> dict[Verdict, int]:
+    """How many rows have each verdict, in the order of Verdict."""
+    return {verdict: sum(row.verdict is verdict for row in rows) for verdict in Verdict}
+
+
+class Table:
+    """Rows as Markdown, which JupyterLab and MyST typeset with their mathematics, and as plain text."""
+
+    def __init__(self, rows: Sequence[Row], where: Mapping[str, Sequence[Place]]) -> None:
+        self.rows, self.where = tuple(rows), where
+
+    def _repr_mimebundle_(self, include=None, exclude=None):
+        return {"text/markdown": self.markdown(), "text/plain": repr(self)}
+
+    def markdown(self) -> str:
+        """A pipe table, one line for each row."""
+        lines = [_HEAD, ("---",) * len(_HEAD)]
+        for row in self.rows:
+            verdict = f"**{row.verdict.value}**: {row.why}"
+            lines.append(
+                (
+                    f"**{row.title}**",
+                    verdict,
+                    row.says,
+                    row.holds,
+                    _linked(self.where.get(row.item, ())),
+                )
+            )
+        return "\n".join(
+            "| " + " | ".join(cell.replace("|", r"\|") for cell in line) + " |" for line in lines
+        )
+
+    def __repr__(self) -> str:
+        width = max((len(row.title) for row in self.rows), default=0)
+        return "\n".join(
+            f"{row.title:{width}}  {row.verdict.value}: {row.why}" for row in self.rows
+        )
+
+
+def table(rows: Sequence[Row], where: Mapping[str, Sequence[Place]]) -> Table:
+    """The rows to look at, with the cells that `places` found for them."""
+    return Table(rows, where)
+
+
+def _linked(cells: Sequence[Place]) -> str:
+    """One link for each heading; cells under the same one share it."""
+    numbers: dict[tuple[str, int, str], list[str]] = {}
+    for file, chapter, heading, cell in cells:
+        numbers.setdefault((file, chapter, heading), []).append(str(cell))
+    links = []
+    for (file, chapter, heading), among in numbers.items():
+        title = re.sub(r"([\[\]])", r"\\\1", heading)
+        links.append(f"[{chapter}, {title}]({file}), cell {', '.join(among)}")
+    return "; ".join(links) or "no cell"

@@ -1,0 +1,1 @@
+"""The compiled loops over time: in the plane, in polar coordinates, and continuous."""

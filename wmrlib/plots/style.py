@@ -1,0 +1,74 @@
+"""What all figures have in common: colours by role, line styles, axes and arrows.
+
+The colours are those of Okabe and Ito, which colour-blind readers can tell apart; whatever a colour says, a line style, a marker or a
+label says too.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.patches import Polygon
+
+from wmrlib.kinematics import Pose
+
+COLOURS = {
+    "path": "#0072B2",
+    "start": "#009E73",
+    "goal": "#D55E00",
+    "robot": "#56B4E9",
+    "v": "#0072B2",
+    "omega": "#CC79A7",
+    "x_error": "#0072B2",
+    "y_error": "#E69F00",
+    "V": "#0072B2",
+    "V_rising": "#D40000",
+    "ink": "#222222",
+}
+STYLE = {
+    "font.size": 12,
+    "axes.grid": True,
+    "grid.alpha": 0.35,
+    "axes.spines.top": False,
+    "axes.spines.right": False,
+    "lines.linewidth": 2.0,
+}
+
+LINES = ("-", "--", ":", "-.")
+
+
+def new_figure(width: float, height: float, rows: int = 1, mosaic=None):
+    """A figure outside pyplot, so that nothing is shown twice or kept alive."""
+    import matplotlib as mpl
+
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(width, height), layout="constrained")
+        if mosaic:
+            return figure, figure.subplot_mosaic(mosaic, width_ratios=[1.0, 1.1])
+        return figure, figure.subplots(rows, sharex=True)
+
+
+def arrow(pose: Pose, size: float, **looks) -> Polygon:
+    """A dart as long as 2 `size` whose tip shows the heading."""
+    shape = np.array([[1.3, 0.0], [-0.9, 0.6], [-0.5, 0.0], [-0.9, -0.6]]) * size
+    cos, sin = math.cos(pose.heading), math.sin(pose.heading)
+    return Polygon(
+        shape @ np.array([[cos, sin], [-sin, cos]]) + [pose.x, pose.y], closed=True, **looks
+    )
+
+
+def equal_scales(axes: Axes, x: np.ndarray, y: np.ndarray, room: float = 0.08) -> None:
+    half = 0.5 * max(np.ptp(x), np.ptp(y), 1.0) * (1.0 + 2.0 * room)
+    middle_x, middle_y = 0.5 * (x.min() + x.max()), 0.5 * (y.min() + y.max())
+    axes.set(
+        xlim=(middle_x - half, middle_x + half),
+        ylim=(middle_y - half, middle_y + half),
+        aspect="equal",
+    )
+
+
+def near_zero(value: float) -> float:
+    return value if abs(value) >= 0.05 else 0.0  # no "-0.0" in a text
