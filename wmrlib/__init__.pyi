@@ -8,6 +8,7 @@ from .control import lyapunov as lyapunov
 from .control import lyapunov_rate as lyapunov_rate
 from .control import tracking_law as tracking_law
 from .explorer import Explorer as Explorer
+from .gains import GENTLE_GAINS as GENTLE_GAINS
 from .gains import Gains as Gains
 from .gains import KanayamaGains as KanayamaGains
 from .gains import LinearGains as LinearGains

@@ -47,6 +47,10 @@ class Gains(GainsFields):
         return cls(*fields)
 
 
+GENTLE_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
+"""The book's own gains for the paper's outdoor drive: well damped, and slow."""
+
+
 class _KanayamaFields(NamedTuple):
     k_x: Real
     k_y: Real

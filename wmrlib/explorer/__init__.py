@@ -8,7 +8,7 @@ from wmrlib import paper
 from wmrlib._checks import choice, instance, scalar
 from wmrlib.explorer.controls import DISPLAYS, MENUS, SLIDERS, menu, slider, widen
 from wmrlib.explorer.panel import Panel
-from wmrlib.gains import Gains, KanayamaGains
+from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate, track
@@ -17,7 +17,6 @@ POSE_LAWS = ("corrected", "printed", "aicardi")
 CIRCLE_LAWS = (*POSE_LAWS, "kanayama")
 METHODS = ("arc", "euler")
 VIEWS = ("time", "gains")
-DESIGNED_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 
@@ -237,7 +236,7 @@ def _presets() -> list[dict]:
             "dt": paper.TIME_STEP,
             "circle_law": 0,
         },
-        {"scenario": 0, **DESIGNED_GAINS._asdict(), "dt": paper.TIME_STEP, "pose_law": 0},
+        {"scenario": 0, **GENTLE_GAINS._asdict(), "dt": paper.TIME_STEP, "pose_law": 0},
     ]
 
 
