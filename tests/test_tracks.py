@@ -694,7 +694,7 @@ def test_a_track_cannot_be_changed():
 
 def test_scatter_of_the_log_against_the_ellipsoid():
     track = wmr.read_track(LOG)
-    found = wmr.standing(track)
+    found = wmr.stationary_scatter(track)
     assert found.mean == track.mean
     lines = [
         Geodesic.WGS84.Inverse(found.mean.lat, found.mean.lon, lat, lon)
@@ -709,7 +709,7 @@ def test_scatter_of_the_log_against_the_ellipsoid():
     assert found.cep == pytest.approx(np.median(np.hypot(east, north)), rel=0.0057)
     assert found.two_drms == pytest.approx(2 * math.hypot(found.std_east, found.std_north))
     assert repr(found).startswith(
-        "<Standing: 9 positions about 54.0934728 deg N, 10.8247669 deg E; std 3.55 m east, 0.444 m north"
+        "<StationaryScatter: 9 positions about 54.0934728 deg N, 10.8247669 deg E; std 3.55 m east, 0.444 m north"
     )
 
 
@@ -729,7 +729,7 @@ def test_mean_and_scatter_anywhere(name):
     rng = np.random.default_rng(9)
     east, north = rng.normal(0, 3, 400), rng.normal(0, 1, 400)
     east, north = east - east.mean(), north - north.mean()
-    found = wmr.standing(wmr.point_at(centre, east, north))
+    found = wmr.stationary_scatter(wmr.point_at(centre, east, north))
     assert wmr.haversine_distance(found.mean, centre) < 1e-6
     assert math.hypot(found.std_east, found.std_north) == pytest.approx(
         math.hypot(east.std(ddof=1), north.std(ddof=1)), rel=1e-6
@@ -743,7 +743,7 @@ def test_mean_and_scatter_anywhere(name):
 
 def test_the_mean_of_positions_far_apart_is_the_middle_of_their_frame():
     far = wmr.GeoPoint(lat=[60.0, 62.0, 40.0], lon=[170.0, -165.0, 179.0])
-    mean = wmr.standing(far).mean
+    mean = wmr.stationary_scatter(far).mean
     east, north = wmr.local_position(mean, far)
     assert (abs(east.mean()) < 1e-6, abs(north.mean()) < 1e-6) == (True, True)
     assert np.ptp(east) > 1e6
@@ -751,7 +751,7 @@ def test_the_mean_of_positions_far_apart_is_the_middle_of_their_frame():
 
 def test_half_the_positions_are_within_the_cep_and_nearly_all_within_2drms():
     rng = np.random.default_rng(1)
-    found = wmr.standing(
+    found = wmr.stationary_scatter(
         wmr.point_at(wmr.paper.GPS_POINT_1, rng.normal(0, 2, 20_000), rng.normal(0, 2, 20_000))
     )
     assert found.cep == pytest.approx(2 * math.sqrt(2 * math.log(2)), rel=0.02)  # Rayleigh's median
@@ -762,11 +762,11 @@ def test_half_the_positions_are_within_the_cep_and_nearly_all_within_2drms():
 
 def test_standing_refuses_what_has_no_scatter():
     with pytest.raises(ValueError, match="track has 1 position"):
-        wmr.standing(wmr.GeoPoint(lat=[1.0], lon=[2.0]))
+        wmr.stationary_scatter(wmr.GeoPoint(lat=[1.0], lon=[2.0]))
     with pytest.raises(ValueError, match="all over the Earth"):
-        wmr.standing(wmr.GeoPoint(lat=[0.0, 0.0], lon=[0.0, 180.0]))
+        wmr.stationary_scatter(wmr.GeoPoint(lat=[0.0, 0.0], lon=[0.0, 180.0]))
     with pytest.raises(ValueError, match="a GeoPoint is needed, not a list"):
-        wmr.standing([1.0, 2.0])
+        wmr.stationary_scatter([1.0, 2.0])
 
 
 # And back ------------------------------------------------------------------------------------------------------------

@@ -1,9 +1,7 @@
 """What the gains do near the goal, and gains from a specification: instead of "trial and error".
 
-Linearised at the goal, equations (7)-(9) under the corrected law fall into two parts, with
-rate = v_max k_rho: the distance, rho' = -rate rho, and the angles, whose characteristic equation
-is s^2 + k_alpha s + h rate^2 = 0. Aicardi's law has the same form with rate = k_rho. The printed
-law does not: its heading never settles.
+Equations (7)-(9) linearised at the goal fall into two parts: the distance, rho' = -rate rho, and
+the angles, see `_modes`. The printed law has no such form: its heading never settles.
 """
 
 from __future__ import annotations
@@ -29,10 +27,8 @@ class Modes(NamedTuple):
 
     Parameters
     ----------
-    distance_rate : float or array, 1/s; the distance falls by exp(-distance_rate t)
-    heading_rate : float or array, 1/s; the same for the slower mode of the angles
-    natural_frequency : float or array, rad/s; of the angles
-    damping : float or array; damping ratio of the angles, which oscillate below 1
+    distance_rate, heading_rate : float or array, 1/s; decay of the distance, of the angles
+    natural_frequency, damping : float or array, rad/s and ratio; of the angles
     poles : three complex numbers or arrays, 1/s; the distance's, then the angles' two
     slower : float or array; distance_rate/heading_rate
     """
@@ -79,9 +75,8 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
 def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> Real:
     """Return the longest time step with which the sampled robot still settles in its goal's pose.
 
-    One step near the goal multiplies (alpha, theta) by a matrix whose eigenvalues must stay inside
-    the unit circle. The shortest of three steps counts: oscillations no longer fade (determinant
-    1), the nose swings to and fro (eigenvalue -1), the robot drives past the goal (1/rate).
+    By Jury's conditions, derived in chapter 8: beyond it oscillations no longer fade, or the nose
+    swings to and fro, or the robot drives past the goal.
 
     Parameters
     ----------
@@ -96,8 +91,6 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
     Raises
     ------
     ValueError : not Gains, another method or another law
-
-    Jury's conditions, derived in chapter 8.
     """
     rate, k_alpha, h = _near_goal(gains, law)
     turn = k_alpha + rate
@@ -122,17 +115,10 @@ def gains_for(
 ) -> Gains:
     """Return the gains of the corrected law that settle as specified: the inverse of `modes`.
 
-    k_rho = distance_rate/v_max, k_alpha = 2 damping natural_frequency,
-    h = (natural_frequency/distance_rate)^2. The heading_rate is natural_frequency times damping
-    up to a damping of 1, and times damping - sqrt(damping^2 - 1) above.
-
     Parameters
     ----------
-    distance_rate : float or array, 1/s; the distance falls by exp(-distance_rate t)
-    natural_frequency : float or array, rad/s; of the angles; this or heading_rate
-    heading_rate : float or array, 1/s; of the slower mode of the angles
-    damping : float or array; damping ratio of the angles
-    v_max : float or array, m/s; the speed limit
+    distance_rate, v_max : float or array, 1/s and m/s
+    natural_frequency, heading_rate, damping : float or array, rad/s, 1/s and ratio; of the angles
 
     Returns
     -------
@@ -140,8 +126,8 @@ def gains_for(
 
     Raises
     ------
-    ValueError : an argument that is not positive, not exactly one of natural_frequency and
-        heading_rate, mismatched lengths, or gains outside the range of numbers
+    ValueError : not exactly one of natural_frequency and heading_rate, an argument that is not
+        positive, mismatched lengths, or gains outside the range of numbers
     """
     angles = {"natural_frequency": natural_frequency, "heading_rate": heading_rate}
     given = {name: value for name, value in angles.items() if value is not None}
@@ -174,10 +160,9 @@ def gain_map(
 
     Parameters
     ----------
-    start, goal : Pose
+    start, goal, options : as for `sweep`
     gains : Gains; those not in `over` are kept
     over : mapping from a gain's name to the values to try, a one-dimensional array
-    options : as for `sweep`
 
     Returns
     -------
@@ -219,17 +204,15 @@ def pareto(*costs: Real) -> np.ndarray:
     table = [np.asarray(each, dtype=float) for each in costs]
     shapes = [each.shape for each in table]
     if len(set(shapes)) != 1:
-        raise ValueError(
-            f"costs of shape {shapes} are not allowed: at least one, all of one shape, is needed"
-        )
-    points = np.stack([each.ravel() for each in table], axis=1)
-    finite = np.isfinite(points).all(axis=1)
-    left = points[finite]
-    chosen = np.zeros(len(points), dtype=bool)
-    chosen[finite] = [
+        needed = "at least one, all of one shape, is needed"
+        raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")
+    points = np.stack(table, axis=-1)
+    chosen = np.isfinite(points).all(axis=-1)
+    left = points[chosen]
+    chosen[chosen] = [
         not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left
     ]
-    return chosen.reshape(shapes[0])
+    return chosen
 
 
 def _near_goal(gains: Gains, law: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
