@@ -108,91 +108,46 @@ def test_talkers_hemispheres_and_epochs(read):
     assert len(read(b"\x00\x00" + gga().encode())) == 1  # a receiver's zero bytes before the first
 
 
+def log(words):
+    """G080000 is a GGA, N080000 one without a fix, R080000/290224 an RMC with its date."""
+    lines = []
+    for word in words.split():
+        kind, (clock, _, day) = word[0], word[1:].partition("/")
+        if kind == "R":
+            lines.append(rmc(clock, day=day))
+        else:
+            lines.append(gga(clock, quality=int(kind == "G")))
+    return lines
+
+
+NIGHT = " ".join(f"N{hour % 24:02d}0000" for hour in range(20, 32))  # goes by the receiver's clock
+COLD = " ".join(f"N0000{second:02d}" for second in range(30))  # may count from midnight
 CLOCKS = {
-    "midnight": ([gga("235959.00"), gga("000000.50"), gga("000001.00")], [0, 1.5, 2]),
-    "a night without a fix goes by the receiver's clock": (
-        [gga("190000")]
-        + [gga(f"{hour % 24:02d}0000", quality=0) for hour in range(20, 32)]
-        + [gga("080000"), gga("080001")],
-        [0, 13 * 3600, 13 * 3600 + 1],
-    ),
-    "a day and an hour": ([rmc("080000", day="290224"), rmc("090000", day="010324")], [0, 90000]),
-    "less than a day": (
-        [rmc("100000", day="290224"), rmc("080000", day="010324"), rmc("080001", day="010324")],
-        [0, 79200, 79201],
-    ),
-    "an afternoon": (
-        [rmc(clock) for clock in ("080000", "080001", "210000", "210001")],
-        [0, 1, 46800, 46801],
-    ),
-    "the same second of the next day": (
-        [rmc("080000", day="311223"), rmc("080000", day="010124")],
-        [0, 86400],
-    ),
-    "GGA before RMC": (
-        [
-            gga("080000"),
-            rmc("080000", day="290224"),
-            gga("070000"),
-            rmc("070000", day="020324"),
-            gga("070001"),
-        ],
-        [0, 169200, 169201],
-    ),
-    "RMC before GGA": (
-        [
-            rmc("080000", day="290224"),
-            gga("080000"),
-            rmc("070000", day="020324"),
-            gga("070000"),
-            gga("070000.5"),
-        ],
-        [0, 169200, 169200.5],
-    ),
-    "a GGA between two RMC is of the nearer one's day": (
-        [
-            rmc("080000", day="290224"),
-            gga("080000.5"),
-            gga("070000.5"),
-            rmc("070001", day="020324"),
-        ],
-        [0, 0.5, 169200.5, 169201],
-    ),
-    "GGA of the evening before": (
-        [gga("235959"), rmc("000000", day="010324"), gga("000001")],
-        [0, 1, 2],
-    ),
-    "no date": ([rmc("235959", day=""), rmc("000001", day="990099")], [0, 2]),
-    "the date of no fix": (
-        [
-            rmc("080000", day="290224"),
-            rmc("080001", day="060180", status="V"),
-            rmc("080002", day="290224"),
-        ],
-        [0, 2],
-    ),
-    # A receiver that starts cold may count from midnight.
-    **{
-        f"cold start at {hour} h": (
-            [
-                gga(f"{hour:02d}0000"),
-                *(gga(f"0000{s:02d}", quality=0) for s in range(30)),
-                gga(f"{hour:02d}0500"),
-                gga(f"{hour:02d}0501"),
-            ],
-            [0, 300, 301],
-        )
-        for hour in range(24)
-    },
+    "G235959.00 G000000.50 G000001.00": [0, 1.5, 2],
+    f"G190000 {NIGHT} G080000 G080001": [0, 13 * 3600, 13 * 3600 + 1],
+    "R080000/290224 R090000/010324": [0, 90000],
+    "R100000/290224 R080000/010324 R080001/010324": [0, 79200, 79201],
+    "R080000/240709 R080001/240709 R210000/240709 R210001/240709": [0, 1, 46800, 46801],
+    "R080000/311223 R080000/010124": [0, 86400],
+    "G080000 R080000/290224 G070000 R070000/020324 G070001": [0, 169200, 169201],
+    "R080000/290224 G080000 R070000/020324 G070000 G070000.5": [0, 169200, 169200.5],
+    # a GGA between two RMC is of the nearer one's day
+    "R080000/290224 G080000.5 G070000.5 R070001/020324": [0, 0.5, 169200.5, 169201],
+    "G235959 R000000/010324 G000001": [0, 1, 2],
+    "R235959/ R000001/990099": [0, 2],
+    **{f"G{h:02d}0000 {COLD} G{h:02d}0500 G{h:02d}0501": [0, 300, 301] for h in range(24)},
 }
 
 
 def test_time_goes_on_from_day_to_day(read):
-    for name, (sentences, times) in CLOCKS.items():
-        assert read(sentences).t.tolist() == times, name
-    for day in ("230709", "240708"):
-        backwards = read([rmc("080000"), rmc("090000", day=day)])
-        assert dict(backwards.report.skipped) == {"time runs backwards": (1, 2)}
+    for words, times in CLOCKS.items():
+        assert read(log(words)).t.tolist() == times, words
+    for words in ("R080000/240709 R090000/230709", "R080000/240709 R090000/240708"):
+        backwards = read(log(words)).report.skipped
+        assert dict(backwards) == {"time runs backwards": (1, 2)}
+    no_fix = rmc("080001", day="060180", status="V")  # its date does not count
+    sentences = [rmc("080000", day="290224"), no_fix, rmc("080002", day="290224")]
+    assert read(sentences).t.tolist() == [0, 2]
 
 
 BAD_SENTENCES = {
@@ -718,25 +673,23 @@ def test_times_of_gpx_in_any_zone_and_of_a_single_position(tmp_path):
 
 
 def test_bad_input_to_the_writers_and_the_scatter(tmp_path):
-    gpx_of = {
-        "begin = None are not allowed together": {"t": [0, 1]},
-        r"t has shape \(3,\), points have shape \(2,\)": {"t": [0, 1, 2], "begin": BEGIN},
-        "a finite number or NaN is needed": {"t": [0, math.inf], "begin": BEGIN},
-        r"^t = \['a', 'b'\] is not allowed": {"t": ["a", "b"], "begin": BEGIN},
-        r"^t = {} is not allowed": {"t": {}, "begin": BEGIN},
-        r"^t = \[True, False\] is not allowed": {"t": [True, False], "begin": BEGIN},
-        r"^t = 1e\+18 is not allowed: begin \+ t in the years 1 to 9999": {
-            "t": [0, 1e18],
-            "begin": BEGIN,
-        },
-        r"^t = 1 is not allowed: begin \+ t": {
-            "t": [0, 1],
-            "begin": datetime.max.replace(tzinfo=UTC),
-        },
-        "with its time zone is needed": {"t": [0, 1], "begin": BEGIN.replace(tzinfo=None)},
-        "without control characters": {"name": "a\x00b"},
-    }
-    cases = [(wmr.write_gpx, PAIR, options, message) for message, options in gpx_of.items()]
+    late, local = datetime.max.replace(tzinfo=UTC), BEGIN.replace(tzinfo=None)
+    cases = [
+        (wmr.write_gpx, PAIR, {"t": t, "begin": begin}, message)
+        for t, begin, message in [
+            ([0, 1], None, "begin = None are not allowed together"),
+            (None, BEGIN, "t = None and begin = .* are not allowed together"),
+            ([0, 1, 2], BEGIN, r"t has shape \(3,\), points have shape \(2,\)"),
+            ([0, math.inf], BEGIN, "a finite number or NaN is needed"),
+            (["a", "b"], BEGIN, r"^t = \['a', 'b'\] is not allowed"),
+            ({}, BEGIN, r"^t = {} is not allowed"),
+            ([True, False], BEGIN, r"^t = \[True, False\] is not allowed"),
+            ([0, 1e18], BEGIN, r"^t = 1e\+18 is not allowed: begin \+ t in the years 1 to 9999"),
+            ([0, 1], late, r"^t = 1 is not allowed: begin \+ t"),
+            ([0, 1], local, "with its time zone is needed"),
+        ]
+    ]
+    cases.append((wmr.write_gpx, PAIR, {"name": "a\x00b"}, "without control characters"))
     for write in (wmr.write_gpx, wmr.write_geojson):
         cases += [
             (write, wmr.GeoPoint(lat=[], lon=[]), {}, "at least one position is needed"),
