@@ -78,7 +78,7 @@ MISTAKES = [
     ("scatter", SCATTER.format("mean"), "4 numbers"),
     (
         "scatter",
-        "import wmrlib\ndef scatter(lat, lon):\n    return wmrlib.standing(lat)",
+        "import wmrlib\ndef scatter(lat, lon):\n    return wmrlib.stationary_scatter(lat)",
         "asks for your own formula",
     ),
     (

@@ -12,7 +12,7 @@ import wmrlib as wmr
 from wmrbook import figures
 
 GOAL = wmr.Pose(9.0, 57.0, 1.0)
-FOUND = wmr.standing(
+FOUND = wmr.stationary_scatter(
     wmr.read_track(Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea")
 )
 RANDOM = np.random.default_rng(4)
@@ -100,7 +100,7 @@ def test_scatter_says_how_many_positions_are_the_last_dot():
         np.array([0.0, -1.0, 1.0, 1.0, 1.0]),
     )
     for count, word in ((2, "last"), (3, "last"), (4, "last two"), (5, "last three")):
-        found = wmr.standing(wmr.GeoPoint(lat=place.lat[:count], lon=place.lon[:count]))
+        found = wmr.stationary_scatter(wmr.GeoPoint(lat=place.lat[:count], lon=place.lon[:count]))
         picture = figures.scatter(found)
         assert [text.get_text() for text in picture.figure.axes[0].texts] == ["first", word]
         assert (f"the {word} are one dot" in picture.alt) == (count > 3)
@@ -132,7 +132,7 @@ def test_robots_stand_where_they_ended():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: figures.scatter(ENDS), "a Standing is needed, not a Pose"),
+        (lambda: figures.scatter(ENDS), "a StationaryScatter is needed, not a Pose"),
         (lambda: figures.end_poses((1, 2, 3), GOAL, 0.1), "a Pose is needed"),
         (
             lambda: figures.near_goal({}, GOAL),

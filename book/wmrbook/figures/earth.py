@@ -9,6 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
+from wmrbook.ellipsoid import sphere_error
 from wmrlib._checks import instance
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
@@ -17,7 +18,6 @@ from wmrlib.geodesy import (
     haversine_distance,
     initial_bearing,
     local_position,
-    sphere_error,
 )
 from wmrlib.plots.picture import Picture
 from wmrlib.plots.style import COLOURS, STYLE, equal_scales, new_figure

@@ -13,18 +13,18 @@ from wmrlib._checks import instance, real, same_shape
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.plots.picture import Picture
 from wmrlib.plots.style import COLOURS, LINES, arrow, near_zero, new_figure
-from wmrlib.tracks import Standing
+from wmrlib.tracks import StationaryScatter
 
 _MOST_ARROWS = 150
 _COUNTS = {2: "two", 3: "three", 4: "four"}
 
 
-def scatter(found: Standing) -> Picture:
+def scatter(found: StationaryScatter) -> Picture:
     """The positions of a receiver that stands still, east and north of their mean, joined in their order; the circle holds half of them.
 
     If the last ones are equal, they are one dot, and the picture says how many they are.
     """
-    instance("found", found, Standing)
+    instance("found", found, StationaryScatter)
     figure, axes = new_figure(7.5, 3.9)
     axes.plot(found.east, found.north, "-", color=COLOURS["path"], lw=1.2)
     axes.plot(
