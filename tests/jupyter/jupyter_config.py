@@ -1,0 +1,1 @@
+c.KernelManager.transport = "ipc"  # noqa: F821
