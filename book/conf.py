@@ -1,15 +1,13 @@
 """Sphinx's configuration of the book, which `python book/tools/build.py` uses."""
 
-import sys
 from pathlib import Path
 
+import kernels
 from docutils import nodes
 from PIL import Image
 from sphinx.util import logging
 
 import wmrlib
-
-sys.path.insert(0, str(Path(__file__).parent / "tools"))  # for the book's own extension, crossref
 
 project = "From two GPS points to a parked robot"
 author = "the wmrlib authors"
@@ -25,6 +23,7 @@ bibtex_bibfiles = [str(Path(__file__).parent / "references.bib")]
 bibtex_cite_id = "cite-{key}"
 
 # The chapters show what they store, which the tests compare; the book's own pages are executed.
+kernels.use_files()
 nb_execution_mode = "force"
 nb_execution_excludepatterns = ["notebooks/*.ipynb"]
 nb_execution_timeout = 120

@@ -2,18 +2,16 @@
 
 from __future__ import annotations
 
-import atexit
 import functools
 import os
 import shutil
 import sys
-import tempfile
 from importlib.util import find_spec
 from pathlib import Path
 
+import kernels
 import pytest
 from hypothesis import settings
-from jupyter_client.connect import ConnectionFileMixin
 from pdf import BROWSERS
 
 settings.register_profile("repeatable", deadline=None, derandomize=True, print_blob=True)
@@ -30,7 +28,9 @@ TOOLS = {  # what a test may need, the commands that are it, and what to install
 def command(tool: str) -> str | None:
     """The path of the command that is this tool, or None."""
     beside = os.pathsep.join([os.environ["PATH"], str(Path(sys.executable).parent)])
-    return next((path for name in TOOLS[tool][0] if (path := shutil.which(name, path=beside))), None)
+    return next(
+        (path for name in TOOLS[tool][0] if (path := shutil.which(name, path=beside))), None
+    )
 
 
 def lacking(tool: str) -> str:
@@ -51,12 +51,6 @@ def pytest_runtest_setup(item):
 
 
 def pytest_configure(config):
-    """Let kernels talk through files: two that start at once can pick the same port."""
-    if sys.platform != "linux":  # Windows has no such files, macOS allows only short paths
-        return
-    ConnectionFileMixin.class_traits()["transport"].default_value = "ipc"  # nbval's kernels
-    if "JUPYTER_RUNTIME_DIR" not in os.environ:
-        folder = tempfile.mkdtemp(prefix="wmr", dir="/tmp")
-        atexit.register(shutil.rmtree, folder, ignore_errors=True)
-        os.environ["JUPYTER_RUNTIME_DIR"] = folder
-    os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")  # of applications
+    """Let the kernels of nbval, and of the applications that tests start, talk through files."""
+    kernels.use_files()
+    os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")

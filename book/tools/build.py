@@ -123,8 +123,8 @@ def copy_sources(source: Path) -> None:
 
 
 def environment() -> dict[str, str]:
-    """Return this environment with wmrlib and wmrbook importable by the pages' kernels."""
-    paths = [str(ROOT), str(BOOK), os.environ.get("PYTHONPATH")]
+    """Return this environment with wmrlib, wmrbook and these tools importable."""
+    paths = [str(ROOT), str(BOOK), str(BOOK / "tools"), os.environ.get("PYTHONPATH")]
     return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
 
 

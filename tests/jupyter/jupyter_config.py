@@ -1,1 +1,9 @@
-c.KernelManager.transport = "ipc"  # noqa: F821
+"""Read by each Jupyter application that a test starts."""
+
+import sys
+from pathlib import Path
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "book" / "tools"))
+import kernels  # noqa: E402
+
+kernels.use_files()
