@@ -50,6 +50,12 @@ def pytest_runtest_setup(item):
         (pytest.fail if os.environ.get("CI") else pytest.skip)(reason)
 
 
+@pytest.fixture(scope="session")
+def find_tool():
+    """The function that gives the path of a tool, or None."""
+    return command
+
+
 def pytest_configure(config):
     """Let the kernels of nbval, and of the applications that tests start, talk through files."""
     kernels.use_files()

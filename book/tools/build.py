@@ -12,6 +12,7 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
 import time
 from pathlib import Path
 
@@ -19,6 +20,7 @@ from pdf import find_browser, print_page
 
 BOOK = Path(__file__).resolve().parents[1]
 ROOT = BOOK.parent
+MODULES = BOOK / "node_modules"
 VENDOR = BOOK / "_static" / "vendor"
 # What the pages carry, by folder. MathJax draws in SVG: one file with every extension in it, and no
 # font files, which some browsers refuse to load from file://.
@@ -72,15 +74,25 @@ def sphinx(builder: str, output: Path) -> None:
 
 def install_javascript() -> None:
     """Run `npm ci`, unless what is installed is what the lock names."""
-    lock, installed = BOOK / "package-lock.json", BOOK / "node_modules" / ".package-lock.json"
-    if installed.exists() and installed.stat().st_mtime >= lock.stat().st_mtime:
+    if _javascript_is_there():
         return
     npm = shutil.which("npm") or shutil.which("npm", path=Path(sys.executable).parent)
     if npm is None:
         sys.exit(NO_NPM)
     say("npm fetches the JavaScript")
-    quiet = ["--loglevel=error", "--no-progress"]
-    subprocess.run([npm, "ci", *quiet], cwd=BOOK, check=True)
+    with tempfile.TemporaryDirectory(dir=BOOK) as folder:  # two builds may run at once
+        for name in ("package.json", "package-lock.json", ".npmrc"):
+            shutil.copy(BOOK / name, folder)
+        command = [npm, "ci", "--loglevel=error", "--no-progress"]
+        subprocess.run(command, cwd=folder, check=True)
+        if not _javascript_is_there():
+            shutil.rmtree(MODULES, ignore_errors=True)
+            Path(folder, "node_modules").rename(MODULES)
+
+
+def _javascript_is_there() -> bool:
+    lock, installed = BOOK / "package-lock.json", MODULES / ".package-lock.json"
+    return installed.exists() and installed.stat().st_mtime >= lock.stat().st_mtime
 
 
 def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES) -> None:
@@ -102,10 +114,9 @@ def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES
 
 def npm_files(pattern: str) -> list[Path]:
     """Return the installed files that a pattern names: at least one."""
-    modules = BOOK / "node_modules"
-    found = sorted(modules.glob(pattern))
+    found = sorted(MODULES.glob(pattern))
     if not found:
-        sys.exit(f"No file {pattern} in {modules}: delete that folder and build again.")
+        sys.exit(f"No file {pattern} in {MODULES}: delete that folder and build again.")
     return found
 
 

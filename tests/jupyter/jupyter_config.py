@@ -4,6 +4,6 @@ import sys
 from pathlib import Path
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "book" / "tools"))
-import kernels  # noqa: E402
+import kernels
 
 kernels.use_files()
