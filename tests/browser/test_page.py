@@ -14,6 +14,11 @@ import pypdfium2
 import pytest
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders
 
+DRAWN = """() => {
+    const type = 'application/vnd.jupyter.widget-view+json';
+    const panels = [...document.querySelectorAll(`script[type="${type}"]`)];
+    return panels.every(it => it.parentElement.querySelector('.jupyter-widgets'));
+}"""
 READY = os.environ.get("BOOK_HTML")
 pytestmark = [] if READY else pytest.mark.needs("npm")
 
@@ -46,25 +51,19 @@ def pages(site: Path) -> list[Path]:
 def opened(site, browser_page):
     """Opens a page and waits until it is drawn; a request that leaves the site is a trouble."""
     ours = (f"{site.as_uri()}/", "data:", "blob:")
-    browser_page.on(
-        "request",
-        lambda it: (
-            None
-            if it.url.startswith(ours)
-            else browser_page.troubles.append(f"left the site: {it.url}")
-        ),
-    )
+
+    def asked(request):
+        if not request.url.startswith(ours):
+            browser_page.troubles.append(f"left the site: {request.url}")
+
+    browser_page.on("request", asked)
 
     def open_page(name: str):
         browser_page.goto(f"{site.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
         browser_page.wait_for_function(
             "() => !window.MathJax || MathJax.startup.promise?.then(() => true)", timeout=PATIENCE
         )
-        browser_page.wait_for_function(
-            """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
-                .every(it => it.parentElement.querySelector('.jupyter-widgets'))""",
-            timeout=PATIENCE,
-        )
+        browser_page.wait_for_function(DRAWN, timeout=PATIENCE)
         return browser_page
 
     return open_page
