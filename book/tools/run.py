@@ -1,0 +1,113 @@
+"""Run the chapters and store what they show: outputs, and panels that live before anything is run.
+
+    python book/tools/run.py            # every chapter
+    python book/tools/run.py 00 04      # these
+
+Nothing random and nothing of this machine is stored: a second run changes only what the code did.
+"""
+
+from __future__ import annotations
+
+import argparse
+import os
+import re
+import sys
+import tempfile
+from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
+
+import nbformat
+from nbclient import NotebookClient
+from nbclient.exceptions import CellExecutionError
+from nbformat import NotebookNode
+from traitlets.config import Config
+
+BOOK = Path(__file__).resolve().parents[1]
+ROOT = BOOK.parent
+WIDGETS = "application/vnd.jupyter.widget-state+json"
+
+
+def main(numbers: list[str]) -> None:
+    """Run the chapters with these two-digit numbers, or all, each in a process of its own."""
+    chapters = sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+    if missing := sorted(set(numbers) - {path.name[:2] for path in chapters}):
+        raise SystemExit(f"no chapter {', '.join(missing)}: give two digits, such as 00 04")
+    paths = [path for path in chapters if not numbers or path.name[:2] in numbers]
+    folders = [str(ROOT), str(BOOK), os.environ.get("PYTHONPATH")]
+    os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, folders))  # the kernels inherit it
+    failed = 0
+    with ProcessPoolExecutor(min(len(paths), os.cpu_count() or 1)) as pool:
+        for path, trouble in zip(paths, pool.map(run, paths), strict=True):
+            print(f"{path.name}: {trouble or 'stored'}", flush=True)
+            failed += bool(trouble)
+    sys.exit(failed)
+
+
+def run(path: Path) -> str:
+    """Run one notebook in its folder and store it; return the error of a cell that fails."""
+    notebook = nbformat.read(path, as_version=4)
+    notebook.metadata.pop("widgets", None)
+    with tempfile.TemporaryDirectory() as folder:
+        sockets = {"transport": "ipc", "ip": f"{folder}/kernel"}  # two kernels may want one port
+        client = NotebookClient(
+            notebook,
+            timeout=600,
+            record_timing=False,
+            coalesce_streams=True,
+            resources={"metadata": {"path": path.parent}},
+            config=Config({"KernelManager": sockets if os.name == "posix" else {}}),
+        )
+        try:
+            client.execute()
+        except CellExecutionError as error:
+            return str(error)
+    path.write_text(stored(notebook), encoding="utf-8")
+    return ""
+
+
+def stored(notebook: NotebookNode) -> str:
+    """Return a notebook that was run as text, with its solutions folded and its widgets named."""
+    notebook.metadata.language_info.pop("version", None)
+    fold(notebook)
+    count = 0
+    for cell in notebook.cells:
+        if cell.cell_type == "code":
+            count += 1
+            cell.execution_count = count
+            for output in cell.outputs:
+                if "execution_count" in output:
+                    output.execution_count = count
+    names = {random: f"widget-{place:03}" for place, random in enumerate(slim(notebook), 1)}
+    text = nbformat.writes(notebook)
+    if names:
+        text = re.sub("|".join(names), lambda found: names[found[0]], text)
+    return nbformat.writes(nbformat.reads(text, as_version=4)) + "\n"  # sorted by the new names
+
+
+def fold(notebook: NotebookNode) -> None:
+    """Fold the solutions. JupyterLab unfolds what is run, but not below a folded heading."""
+    heading = None
+    for cell in notebook.cells:
+        if cell.cell_type == "markdown" and cell.source.startswith("#"):
+            heading = cell
+        elif "hide-cell" in cell.metadata.get("tags", ()):
+            cell.metadata["jupyter"] = {"source_hidden": True, "outputs_hidden": True}
+            heading.metadata["jp-MarkdownHeadingCollapsed"] = True
+
+
+def slim(notebook: NotebookNode) -> dict:
+    """Drop what is unset in the widgets' state; return it by random name, in order of creation."""
+    widgets = notebook.metadata.get("widgets", {}).get(WIDGETS, {}).get("state", {})
+    for widget in widgets.values():
+        widget["state"] = {
+            name: value for name, value in widget["state"].items() if value is not None
+        }
+    return widgets
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("chapters", nargs="*", metavar="NN", help="two digits, such as 00 04")
+    main(parser.parse_args().chapters)
