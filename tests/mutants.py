@@ -27,19 +27,21 @@ from pathlib import Path
 from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
-# A module's tests; "plain" ones run without compiling, which is quicker where a formula is called a
-# few thousand times.
-OWN = ("geodesy", "kinematics", "control", "simulation", "metrics", "routes", "tracks", "paper")
-PLANS = {module: f"plain {module}" for module in (*OWN, "symbolic")} | {
+PACKAGE = ROOT / "wmrlib"
+# The tests of a file or a folder; by default "plain NAME", which runs test_NAME without compiling.
+# That is quicker where a formula is called a few thousand times.
+PLANS = {
     "_vecmath": "jit vecmath",
-    "_loops/plane": "plain simulation",
+    "_modes": "plain tuning",
+    "_loops": "plain simulation",
     "_loops/polar": "jit sweeping",
-    "_loops/continuous": "plain simulation",
     "gains": "plain gains control",
+    "laws": "plain control simulation",
     "runs": "plain metrics simulation",
     "sweeping": "jit sweeping",
     "tuning": "jit tuning",
 }
+NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
 # The end of the path, what stands in the changed line, and why no test can tell the mutant.
 EQUIVALENT: list[tuple[str, str, str]] = []
 
@@ -68,27 +70,35 @@ os.makedirs(_CACHE_FOLDER, exist_ok=True)
 
 
 class Mutant(NamedTuple):
-    """`after` in place of the bytes from `start` to `end`."""
+    """`after` in place of the bytes from `start` to `end` of wmrlib's file `path`."""
 
-    module: str
     path: str
     start: int
     end: int
     after: str
 
     def __str__(self) -> str:
-        source = (ROOT / self.path).read_bytes()
+        source = (PACKAGE / self.path).read_bytes()
         line = source.count(b"\n", 0, self.start)
         before, shown = source[self.start : self.end].decode(), source.splitlines()[line].decode()
         return f"{self.path}:{line + 1}: {before!r} -> {self.after!r} in {shown.strip()}"
 
+    @property
+    def module(self) -> str:
+        return self.path.removesuffix(".py").split("/")[0]
 
-def mutants(module: str) -> Iterator[Mutant]:
-    package = ROOT / "wmrlib"
-    for file in sorted((package / module).rglob("*.py")) or [package / f"{module}.py"]:
+    @property
+    def plan(self) -> str:
+        own = PLANS.get(self.module, f"plain {self.module}")
+        return PLANS.get(self.path.removesuffix(".py"), own)
+
+
+def mutants() -> Iterator[Mutant]:
+    for file in sorted(PACKAGE.rglob("*.py")):
         for change in sorted(set(changes(file.read_bytes()))):
-            mutant = Mutant(module, file.relative_to(ROOT).as_posix(), *change)
-            if not any(path in str(mutant) and text in str(mutant) for path, text, _ in EQUIVALENT):
+            mutant = Mutant(file.relative_to(PACKAGE).as_posix(), *change)
+            known = (path in str(mutant) and text in str(mutant) for path, text, _ in EQUIVALENT)
+            if mutant.module not in NO_FORMULAS and not any(known):
                 yield mutant
 
 
@@ -150,16 +160,17 @@ class Copy:
                 file.write(text)
 
     def fate(self, mutant: Mutant) -> str:
-        if mutant.module not in self.limits:
+        if mutant.plan not in self.limits:
             begin = time.perf_counter()
-            if self.tests(mutant.module, "kept", 1200.0):
-                sys.exit(f"The tests of {mutant.module} fail without a mutant.")
-            self.limits[mutant.module] = 30.0 + 3.0 * (time.perf_counter() - begin)
-        file, source = self.folder / mutant.path, (ROOT / mutant.path).read_bytes()
+            if self.tests(mutant.plan, "kept", 1200.0):
+                sys.exit(f"The tests of {mutant.path}, {mutant.plan}, fail without a mutant.")
+            self.limits[mutant.plan] = 30.0 + 3.0 * (time.perf_counter() - begin)
+        file = self.folder / "wmrlib" / mutant.path
+        source = file.read_bytes()
         cache = "new" if re.search(rb"import.*\b(compiled|formula)\b", source) else "kept"
         file.write_bytes(source[: mutant.start] + mutant.after.encode() + source[mutant.end :])
         try:
-            failed = self.tests(mutant.module, cache, self.limits[mutant.module])
+            failed = self.tests(mutant.plan, cache, self.limits[mutant.plan])
             return "killed" if failed else "SURVIVED"
         except subprocess.TimeoutExpired:
             return "killed by the clock"
@@ -167,9 +178,9 @@ class Copy:
             file.write_bytes(source)
             shutil.rmtree(self.folder / "new", ignore_errors=True)
 
-    def tests(self, module: str, cache: str, limit: float) -> int:
-        """The exit status of pytest on a module's tests."""
-        how, *names = PLANS[module].split()
+    def tests(self, plan: str, cache: str, limit: float) -> int:
+        """The exit status of pytest on the tests of a plan."""
+        how, *names = plan.split()
         command = [sys.executable, "-m", "pytest", "-xqo", "addopts=", "-p", "no:cacheprovider"]
         command += [
             "-W",
@@ -187,9 +198,8 @@ class Copy:
 
 
 def main(count: int, jobs: int, seed: int, module: list[str]) -> None:
-    sites = [mutant for name in module for mutant in mutants(name)]
-    picked = random.Random(seed).sample(range(len(sites)), min(count, len(sites)))
-    chosen = [sites[index] for index in sorted(picked)]
+    sites = [mutant for mutant in mutants() if not module or mutant.module in module]
+    chosen = sorted(random.Random(seed).sample(sites, min(count, len(sites))))
     mine = threading.local()
     with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
 
@@ -217,5 +227,5 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=formatter)
     for name, default in {"count": 200, "jobs": 2, "seed": 1}.items():
         parser.add_argument(f"--{name}", type=int, default=default)
-    parser.add_argument("--module", nargs="+", choices=PLANS, default=list(PLANS))
+    parser.add_argument("--module", nargs="+", default=[])
     main(**vars(parser.parse_args()))
