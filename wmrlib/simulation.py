@@ -9,7 +9,7 @@ import numpy as np
 from wmrlib._checks import choice, instance, real, scalar
 from wmrlib._loops import continuous, plane, rows
 from wmrlib.control import POSE_LAWS, TRACKING_LAWS, tuning_of
-from wmrlib.gains import Gains, WheelLimits, checked_wheels
+from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.runs import Outcome, Trajectory, sample_count, single_pose
 
@@ -86,7 +86,7 @@ def simulate(
 def track(
     reference: Callable[[np.ndarray], Reference],
     start: Pose,
-    gains,
+    gains: Gains | KanayamaGains | LinearGains,
     *,
     law: str = "corrected",
     method: str = "arc",
