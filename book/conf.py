@@ -17,6 +17,7 @@ language = "en"
 
 exclude_patterns = ["course"]  # the graded exercises: only a table of them is shown
 extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
+extensions += ["reference"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 bibtex_bibfiles = [str(Path(__file__).parent / "references.bib")]
@@ -52,6 +53,12 @@ html_theme_options = {
     "pygments_dark_style": "a11y-high-contrast-dark",
 }
 copybutton_exclude = ".linenos, .gp"
+
+# The API reference. A parameter's type is text, such as "float or array, m", and stands nowhere else.
+autodoc_typehints = "none"
+napoleon_google_docstring = False
+napoleon_use_param = napoleon_use_rtype = False
+add_module_names = toc_object_entries = False
 
 # MathJax 3 as one file; mathjax.js holds its settings, so MyST must not write any.
 mathjax_path = "vendor/mathjax/tex-svg-full.js"
