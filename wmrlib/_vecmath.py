@@ -11,7 +11,9 @@ subtraction of a multiple of pi/2 or ln 2 in parts whose products are exact.
 from __future__ import annotations
 
 import math
-from types import FunctionType
+from collections.abc import Hashable
+from functools import partial
+from types import CellType, FunctionType
 
 import numba
 import numpy as np
@@ -161,19 +163,30 @@ _VECTORISED = {sincos: vector_sincos, expm1: vector_expm1}
 
 
 def vectorised(function):
-    """The same formula, whatever it calls included, with `vector_sincos` for `sincos` and `vector_expm1` for `expm1`."""
-    if function not in _VECTORISED:
+    """The same formula with `vector_sincos` for `sincos` and `vector_expm1` for `expm1`."""
+    return rebuilt(function, _VECTORISED, partial(formula, cache=False))
+
+
+def rebuilt(function, others, finish=lambda made: made):
+    """The same formula, whatever it calls included, that calls others[f] in the place of each f.
+
+    `others` keeps what is made; `finish` makes it out of a plain function.
+    """
+    if function not in others:
         plain = getattr(function, "py_func", function)
-        called = {
-            name: plain.__globals__[name]
-            for name in plain.__code__.co_names
-            if _is_formula(plain.__globals__.get(name))
-        }
-        names = plain.__globals__ | {name: vectorised(value) for name, value in called.items()}
-        _VECTORISED[function] = formula(
-            FunctionType(plain.__code__, names, plain.__name__), cache=False
+
+        def other(value):
+            known = isinstance(value, Hashable) and value in others
+            return rebuilt(value, others, finish) if known or _is_formula(value) else value
+
+        names = {name: other(plain.__globals__.get(name)) for name in plain.__code__.co_names}
+        used = {name: value for name, value in names.items() if name in plain.__globals__}
+        cells = tuple(CellType(other(cell.cell_contents)) for cell in plain.__closure__ or ())
+        made = FunctionType(
+            plain.__code__, plain.__globals__ | used, plain.__name__, plain.__defaults__, cells
         )
-    return _VECTORISED[function]
+        others[function] = finish(made)
+    return others[function]
 
 
 def _is_formula(value) -> bool:
