@@ -12,15 +12,15 @@ ROOT = Path(__file__).parent.parent
 FLIPS = {
     "the theta row (8)": (
         "03_polar_coordinates",
-        "kinematics.py",
-        "return -pull * rho * cos_alpha, turning - omega, turning",
-        "return -pull * rho * cos_alpha, turning - omega, -turning",
+        "motion.py",
+        "return -v_over_rho * rho * cos_alpha, turning - omega, turning",
+        "return -v_over_rho * rho * cos_alpha, turning - omega, -turning",
     ),
     "omega's second term, which corrects (24)": (
         "04_lyapunov",
-        "control.py",
-        "return pull, gains.k_alpha * alpha + pull * sinc(alpha) * (alpha + gains.h * theta)",
-        "return pull, gains.k_alpha * alpha - pull * sinc(alpha) * (alpha + gains.h * theta)",
+        "laws.py",
+        "gains.k_alpha * alpha + v_over_rho * sinc(alpha) * (alpha + gains.h * theta)",
+        "gains.k_alpha * alpha - v_over_rho * sinc(alpha) * (alpha + gains.h * theta)",
     ),
     "the bearing's arguments (15)": (
         "01_gps_to_metres",

@@ -5,6 +5,7 @@ import pytest
 from graded import lost
 
 from wmrbook import audit
+from wmrbook.equations import EQUATIONS
 from wmrbook.grading import Hint, verdicts
 from wmrlib import paper, symbolic
 
@@ -108,4 +109,4 @@ def test_counterexamples_are_those_of_the_paper_s_equations():
             assert part > 0
     assert 20 < accepted < 180
     assert wrong_side > 20
-    assert symbolic.EQUATIONS[23].gts == symbolic.omega
+    assert EQUATIONS[23].gts == symbolic.omega

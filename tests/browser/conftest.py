@@ -106,7 +106,7 @@ def panel_core(browser_page):
     """A `browser_page` with the panel's model and simulation in it, loaded as one ES module, as the panel does."""
     from wmrlib import symbolic
 
-    panel = Path(wmrlib.__file__).parent / "panel"
+    panel = Path(wmrlib.__file__).parent / "explorer" / "js"
     text = "".join(
         (panel / name).read_text(encoding="utf-8") for name in ("model.js", "simulate.js")
     )

@@ -8,9 +8,9 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrlib._loops import plane, polar, rows
-from wmrlib.control import command, lyapunov_value_of, wheel_share
 from wmrlib.gains import Tuning, WheelLimits
 from wmrlib.kinematics import Pose, polar_error, polar_from_pose, pose_from_polar, wrap_angle
+from wmrlib.laws import command, lyapunov_value_of, saturation_scale
 
 _TOLERANCE = {"method": "DOP853", "rtol": 1e-10, "atol": 1e-12}  # Dormand and Prince, order 8
 _STIFF = _TOLERANCE | {
@@ -106,7 +106,7 @@ def _with_commands(record, reference_twist, tuning, law, wheels):
     for k in range(record.shape[1]):
         rho, alpha, theta = record[rows.RHO : rows.V, k]
         v, omega = command(rho, alpha, theta, *reference_twist[:, k], tuning, law)
-        share = wheel_share(v, omega, wheels)
+        share = saturation_scale(v, omega, wheels)
         record[rows.V, k], record[rows.OMEGA, k] = share * v, share * omega
         record[rows.LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)
     return record

@@ -19,8 +19,8 @@ from wmrlib._loops.rows import (
     X,
     Y,
 )
-from wmrlib.control import command, lyapunov_value_of, pose_tuning, wheel_share
 from wmrlib.kinematics import arc_step, euler_step, polar_from_pose, wrap
+from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
 
 EULER, ARC = range(2)
 
@@ -30,7 +30,7 @@ def observe(x, y, heading, goal, tuning, law, wheels):
     """What the controller sees and what it commands: (rho, alpha, theta, v, omega). `goal` is (x, y, heading, v, omega)."""
     rho, alpha, theta = polar_from_pose(x, y, heading, goal[0], goal[1], goal[2])
     v, omega = command(rho, alpha, theta, goal[3], goal[4], tuning, law)
-    share = wheel_share(v, omega, wheels)
+    share = saturation_scale(v, omega, wheels)
     return rho, alpha, theta, share * v, share * omega
 
 
