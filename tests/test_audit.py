@@ -10,7 +10,7 @@ import pytest
 import sympy as sp
 
 import wmrlib as wmr
-from wmrbook import audit
+from wmrbook import audit, equations
 from wmrbook import figures as pictures
 from wmrbook.audit import Place, Verdict, figures, numbers, statements
 from wmrbook.audit.proof import rising
@@ -51,18 +51,18 @@ def test_every_row_says_what_it_found_and_why():
 
 def with_equation(monkeypatch, number, right):
     """The rows of the equations when one of them is printed with another right side."""
-    equation = symbolic.EQUATIONS[number]
+    equation = equations.EQUATIONS[number]
     changed = symbolic.omega > right if number == 23 else sp.Eq(equation.lhs, right, evaluate=False)
     monkeypatch.setattr(
-        symbolic, "EQUATIONS", MappingProxyType(symbolic.EQUATIONS | {number: changed})
+        equations, "EQUATIONS", MappingProxyType(equations.EQUATIONS | {number: changed})
     )
     return {row.item: row for row in audit.rows("equations")}
 
 
 @pytest.mark.parametrize("number", range(1, 27))
 def test_a_flipped_sign_is_noticed(monkeypatch, number):
-    right = symbolic.EQUATIONS[number].gts if number == 23 else symbolic.EQUATIONS[number].rhs
-    right = symbolic.EQUATIONS[23].lts if number == 23 else right
+    right = equations.EQUATIONS[number].gts if number == 23 else equations.EQUATIONS[number].rhs
+    right = equations.EQUATIONS[23].lts if number == 23 else right
     verdict = with_equation(monkeypatch, number, -right)[f"eq-{number}"].verdict
     assert verdict in (Verdict.TYPO, Verdict.WRONG)
 
@@ -71,7 +71,7 @@ def test_a_flipped_sign_is_noticed(monkeypatch, number):
     ("number", "old", "new", "verdict"),
     [
         (8, symbolic.v, -symbolic.v, Verdict.TYPO),  # (10) and (20) ... need the right one
-        (1, symbolic.V_l, -symbolic.V_l, Verdict.WRONG),
+        (1, equations.V_l, -equations.V_l, Verdict.WRONG),
         (13, symbolic.lat1, 2 * symbolic.lat1, Verdict.TYPO),
         (17, symbolic.lat1, -symbolic.lat1, Verdict.TYPO),
         (18, symbolic.h, -symbolic.h, Verdict.WRONG),
@@ -79,14 +79,14 @@ def test_a_flipped_sign_is_noticed(monkeypatch, number):
     ],
 )
 def test_a_sign_within_an_equation_is_noticed(monkeypatch, number, old, new, verdict):
-    row = with_equation(monkeypatch, number, symbolic.EQUATIONS[number].rhs.subs(old, new))[
+    row = with_equation(monkeypatch, number, equations.EQUATIONS[number].rhs.subs(old, new))[
         f"eq-{number}"
     ]
     assert row.verdict is verdict
 
 
 def test_mended_equations_hold(monkeypatch):
-    printed = symbolic.EQUATIONS[10].rhs
+    printed = equations.EQUATIONS[10].rhs
     assert (
         with_equation(monkeypatch, 10, sp.Matrix([printed[0], printed[1], -printed[2]]))[
             "eq-10"
@@ -109,7 +109,7 @@ def test_the_derived_law_is_the_librarys():
     assert audit.same(
         audit.slope(audit.steering()), symbolic.textbook(symbolic.lyapunov_rate("corrected"))
     )
-    for law, turning in (("corrected", audit.steering()), ("printed", symbolic.EQUATIONS[24].rhs)):
+    for law, turning in (("corrected", audit.steering()), ("printed", equations.EQUATIONS[24].rhs)):
         run = wmr.track(
             paper.circle,
             paper.CIRCLE_START,
@@ -120,7 +120,7 @@ def test_the_derived_law_is_the_librarys():
         )
         assert audit.circle_residual(turning) == pytest.approx(run.rho[-100:].mean(), rel=1e-6)
     assert rising(audit.slope(audit.steering())) is None
-    rho, alpha, theta, slope = rising(audit.slope(symbolic.EQUATIONS[24].rhs))
+    rho, alpha, theta, slope = rising(audit.slope(equations.EQUATIONS[24].rhs))
     assert slope == pytest.approx(
         wmr.lyapunov_rate(rho, alpha, theta, paper.OUTDOOR_GAINS, law="printed")
     )

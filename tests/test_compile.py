@@ -50,7 +50,7 @@ def test_second_process_compiles_nothing_and_an_edit_compiles_anew(copy):
     *second, misses = copy()
     assert (second, misses) == (first, "0")
 
-    control = copy.package / "control.py"
+    control = copy.package / "laws.py"
     control.write_text(
         control.read_text().replace("alpha + gains.h * theta", "alpha - gains.h * theta")
     )

@@ -6,10 +6,12 @@ from functools import cache
 
 import sympy as sp
 
+from wmrbook import equations
 from wmrbook.audit.rows import Row, Verdict, equation_row, finding, fits, printed, same
+from wmrbook.equations import V_l, V_r
 from wmrlib import paper, symbolic
 from wmrlib.geodesy import haversine_distance, local_position
-from wmrlib.symbolic import L, V_l, V_r, alpha, b, h, lat1, lat2, omega, rho, theta, v
+from wmrlib.symbolic import L, alpha, b, h, lat1, lat2, omega, rho, theta, v
 
 _RIGHT_TURN = sp.Matrix([[0, 1], [-1, 0]])
 
@@ -42,7 +44,7 @@ def rolling() -> sp.Matrix:
 def _robot_rows() -> list[Row]:
     speed, turning = wheels()
     by_spin = turning.subs(
-        {V_r: symbolic.right_wheel * symbolic.r, V_l: symbolic.left_wheel * symbolic.r}
+        {V_r: equations.right_wheel * equations.r, V_l: equations.left_wheel * equations.r}
     )
     rates = rolling()
     fits_6 = [same(printed(6)[i], rates[i]) for i in range(3)]
@@ -88,14 +90,14 @@ def _polar_rows() -> list[Row]:
     radial, turning, sweeping = rates = polar_rates()
     in_10 = [same(printed(10)[i], rates[i]) for i in range(3)]
     slopes = dict(
-        zip((symbolic.rho_rate, symbolic.alpha_rate, symbolic.theta_rate), rates, strict=True)
+        zip((equations.rho_rate, equations.alpha_rate, equations.theta_rate), rates, strict=True)
     )
     in_20 = same(
         printed(20),
         (
-            rho * symbolic.rho_rate / L
-            + alpha * symbolic.alpha_rate
-            + h * theta * symbolic.theta_rate
+            rho * equations.rho_rate / L
+            + alpha * equations.alpha_rate
+            + h * theta * equations.theta_rate
         ).subs(slopes),
     )
     by_lines = {
@@ -138,7 +140,7 @@ def _earth_rows() -> list[Row]:
     to_east, to_north = here.diff(lon1) / sp.cos(lat1), here.diff(lat1)
     arc = sp.Matrix([symbolic.R * sp.cos(s), symbolic.R * sp.sin(s)]).diff(s)
     length = sp.integrate(
-        sp.sqrt(sp.simplify(arc.dot(arc))).subs(sp.Abs(symbolic.R), symbolic.R), (s, 0, symbolic.c)
+        sp.sqrt(sp.simplify(arc.dot(arc))).subs(sp.Abs(symbolic.R), symbolic.R), (s, 0, equations.c)
     )
     quarter_chord = (there - here).dot(there - here) / 4
     haversine = printed(13).subs(symbolic.dlat, lat2 - lat1)
@@ -155,7 +157,7 @@ def _earth_rows() -> list[Row]:
         equation_row(11, length, distance, "The length of an arc of the angle $c$."),
         equation_row(
             12,
-            2 * sp.asin(sp.sqrt(symbolic.epsilon)),
+            2 * sp.asin(sp.sqrt(equations.epsilon)),
             distance,
             "Half the chord is $\\sin(c/2) = \\sqrt\\epsilon$.",
         ),
@@ -179,7 +181,7 @@ def _earth_rows() -> list[Row]:
     return [
         *rows,
         _compass_row(far_north),
-        _bearing_row(symbolic.zeta_x, symbolic.zeta_y, far_north),
+        _bearing_row(equations.zeta_x, equations.zeta_y, far_north),
         equation_row(
             16,
             sp.simplify(to_east.dot(there)),
@@ -192,8 +194,8 @@ def _earth_rows() -> list[Row]:
 
 def _compass_row(wanted_by) -> Row:
     """(14): the angle from east of the direction with the parts (sin br, cos br) along east and north."""
-    if same(sp.cos(printed(14)), sp.sin(symbolic.br)) and same(
-        sp.sin(printed(14)), sp.cos(symbolic.br)
+    if same(sp.cos(printed(14)), sp.sin(equations.br)) and same(
+        sp.sin(printed(14)), sp.cos(equations.br)
     ):
         return finding(
             14,
@@ -201,7 +203,7 @@ def _compass_row(wanted_by) -> Row:
             "From east, counter-clockwise, against from north, clockwise.",
             "both differences are 0",
         )
-    return equation_row(14, sp.pi / 2 - symbolic.br, wanted_by)
+    return equation_row(14, sp.pi / 2 - equations.br, wanted_by)
 
 
 def _bearing_row(east, north, wanted_by) -> Row:

@@ -7,9 +7,10 @@ import math
 import numpy as np
 import sympy as sp
 
+from wmrbook import equations
 from wmrbook.audit.equations import polar_rates
 from wmrbook.audit.rows import Row, Verdict, equation_row, finding, fits, latex, printed, same
-from wmrlib import paper, symbolic
+from wmrlib import paper
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 
 _COSINE, _SINE, _STATE = sp.cos(alpha), sp.sin(alpha), (rho, alpha, theta)
@@ -83,7 +84,7 @@ def _energy_rows() -> list[Row]:
     )
     is_bowl = is_bowl and all(value.is_positive for value in hessian.eigenvals())
     bowl = "Zero at the goal, positive elsewhere: a sum of squares with positive weights."
-    dots = symbolic.rho_rate, symbolic.alpha_rate, symbolic.theta_rate
+    dots = equations.rho_rate, equations.alpha_rate, equations.theta_rate
     chain = sum(energy.diff(each) * dot for each, dot in zip(_STATE, dots, strict=True))
     along = chain.subs(dict(zip(dots, rates, strict=True)))
     in_20, in_21 = same(printed(20), along), same(printed(21), along)
@@ -139,7 +140,7 @@ def _inequality_row() -> Row:
     """(23) is to make the second bracket of (21) negative: look for a state and an omega that obey (23) and do not."""
     gains, margin = paper.OUTDOOR_GAINS, 0.1
     values = {k_rho: gains.k_rho, k_alpha: gains.k_alpha, h: gains.h, v_max: gains.v_max, L: 1}
-    equation = symbolic.EQUATIONS[23]
+    equation = equations.EQUATIONS[23]
     obeying = (
         equation.gts + margin
         if equation.lts == omega

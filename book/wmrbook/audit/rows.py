@@ -12,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 import sympy as sp
 
+from wmrbook import equations
 from wmrlib import symbolic
 from wmrlib.paper import Published
 
@@ -109,7 +110,7 @@ def fits(value: float, printed: Published) -> bool:
 
 def printed(number: int) -> sp.Basic:
     """The right side of an equation as the paper prints it."""
-    return symbolic.EQUATIONS[number].rhs
+    return equations.EQUATIONS[number].rhs
 
 
 def equation_row(
@@ -120,7 +121,7 @@ def equation_row(
     It holds if the two are the same. If not, it is a typo if something else in the paper (a name and whether it is so) needs the derived
     form, and wrong if nothing does.
     """
-    equation = symbolic.EQUATIONS[number]
+    equation = equations.EQUATIONS[number]
     if same(equation.rhs, derived):
         return finding(
             number, Verdict.HOLDS, note or "The derivation gives the same.", "the difference is 0"
@@ -148,14 +149,14 @@ def _listed(names: list[str]) -> str:
 
 def finding(number: int, verdict: Verdict, holds: str, why: str) -> Row:
     return Row(
-        f"eq-{number}", f"({number})", formula(symbolic.EQUATIONS[number]), holds, verdict, why
+        f"eq-{number}", f"({number})", formula(equations.EQUATIONS[number]), holds, verdict, why
     )
 
 
 _SPEEDING = symbolic.v_max * (1 - sp.exp(-symbolic.k_rho * symbolic.rho))
 _NAMES = {
     symbolic.v_max: r"v_{\max}",
-    symbolic.br: r"\mathrm{br}",
+    equations.br: r"\mathrm{br}",
     symbolic.lat1: r"\mathrm{lat}_{1}",
     symbolic.lat2: r"\mathrm{lat}_{2}",
     symbolic.dlat: r"\Delta\mathrm{lat}",

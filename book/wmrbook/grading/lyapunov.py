@@ -10,11 +10,11 @@ from typing import Any
 
 import sympy as sp
 
+from wmrbook.equations import EQUATIONS
 from wmrbook.grading._expressions import expression, points, same, values
 from wmrbook.grading._hints import Hint, Passed, expect, number, ordered
 from wmrlib.paper import OUTDOOR_GAINS
 from wmrlib.symbolic import (
-    EQUATIONS,
     L,
     alpha,
     h,

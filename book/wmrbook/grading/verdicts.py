@@ -23,16 +23,17 @@ def counterexample_23(state: Any) -> Passed:
     """(rho, alpha, theta, omega): an omega that obeys (23), and with which the second part of (21) is positive all the same."""
     rho, alpha, theta, omega = numbers("`state_23`", state, 4)
     _expect_state(rho, alpha, theta)
+    from wmrbook.equations import EQUATIONS
     from wmrlib import symbolic as s
 
     values = _values(s, rho, alpha, theta) | {s.omega: omega}
-    speed = float(s.EQUATIONS[22].rhs.subs(values))
-    asked = float(s.EQUATIONS[23].gts.subs(values)), float(s.EQUATIONS[23].lts.subs(values))
+    speed = float(EQUATIONS[22].rhs.subs(values))
+    asked = float(EQUATIONS[23].gts.subs(values)), float(EQUATIONS[23].lts.subs(values))
     expect(
         asked[0] > asked[1],
         f"this omega does not obey (23), which asks for more than {asked[1]:.3g} rad/s: no counterexample yet.",
     )
-    second = s.EQUATIONS[21].rhs.coeff(s.L, 0)  # what is not divided by L
+    second = EQUATIONS[21].rhs.coeff(s.L, 0)  # what is not divided by L
     part = float(second.subs(values | {s.v: speed}))
     question = "Which omega does (21) itself ask for, and where is that more than (23) asks for?"
     _expect_positive(part, "(23) is obeyed, but the second part of (21)", question)
@@ -47,9 +48,10 @@ def counterexample_26(state: Any) -> Passed:
     rho, alpha, theta = numbers("`state_26`", state, 3)
     _expect_state(rho, alpha, theta)
     expect(abs(alpha) > 1e-6, "(26) divides by A: choose another alpha than 0.")
+    from wmrbook.equations import EQUATIONS
     from wmrlib import symbolic as s
 
-    value = float(s.EQUATIONS[26].rhs.subs(_values(s, rho, alpha, theta)))
+    value = float(EQUATIONS[26].rhs.subs(_values(s, rho, alpha, theta)))
     terms = "Which of its four terms can be positive at all, and which of the others gets small near the goal?"
     _expect_positive(value, "here the right side of (26)", terms)
     _expect_left(alpha)
