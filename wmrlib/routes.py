@@ -60,8 +60,8 @@ class Route:
         reached = f"{self.reached} of {len(self.stops)} waypoints reached"
         if self.outcome is Outcome.ARRIVED:
             return f"<Route: {reached} in {self.time:.4g} s, {self.length:.4g} m long>"
-        distance = self.arrivals[-1].distance
-        left = f", {distance:.4g} m from its waypoint" if len(self.legs[-1]) else ""
+        distance = f"{self.arrivals[-1].distance:.4g} m"
+        left = f", {distance} from its waypoint" if len(self.legs[-1]) else ""
         return f"<Route: {reached}; leg {len(self.legs)} {self.outcome.message}{left}>"
 
     @property
@@ -99,8 +99,8 @@ def headings_along(x: Real, y: Real) -> np.ndarray:
     """
     x, y = np.atleast_1d(real("x", x)), np.atleast_1d(real("y", y))
     if x.shape != y.shape or x.ndim != 1 or not x.size:
-        shapes = f"x has shape {x.shape}, y has shape {y.shape}; at least one number in each"
-        raise ValueError(f"mismatched lengths: {shapes} is needed")
+        shapes = f"x has shape {x.shape}, y has shape {y.shape}"
+        raise ValueError(f"mismatched lengths: {shapes}; at least one number in each is needed")
     moved = np.flatnonzero((np.diff(x) != 0.0) | (np.diff(y) != 0.0))
     if not moved.size:
         return np.zeros(x.size)
@@ -169,8 +169,8 @@ def route_points(route: Route, origin: GeoPoint) -> GeoPoint:
     ValueError : another type
     """
     lat, lon = position_list(origin)
-    first = GeoPoint(lat=lat[0], lon=lon[0])
-    return point_at(first, instance("route", route, Route).x, route.y)
+    x, y = instance("route", route, Route).x, route.y
+    return point_at(GeoPoint(lat=lat[0], lon=lon[0]), x, y)
 
 
 def drive_route(
@@ -208,8 +208,7 @@ def drive_route(
         needed = "a list with at least one waypoint besides the start is needed"
         raise ValueError(f"poses have shape {shape}, which is not allowed: {needed}")
     goals = [Pose(*map(float, each)) for each in zip(*listed, strict=True)]
-    if start is None:
-        start = goals.pop(0)
+    start = goals.pop(0) if start is None else start
     stops = _stops(stop, len(goals))
     stop_radius = scalar("arrival_radius", arrival_radius, low=0.0)
     pass_radius = scalar("pass_radius", pass_radius, low=0.0)
@@ -221,9 +220,9 @@ def drive_route(
         if leg.outcome is not Outcome.ARRIVED:
             break
         pose = Pose(float(leg.x[-1]), float(leg.y[-1]), float(leg.heading[-1]))
-    waypoints, outcome = Pose(*np.array(goals).T), legs[-1].outcome
+    waypoints = Pose(*np.array(goals).T)
     arrivals = tuple(arrival(leg) if len(leg) else _NOWHERE for leg in legs)
-    return Route(start, waypoints, stops, tuple(legs), arrivals, outcome, **_joined(legs))
+    return Route(start, waypoints, stops, tuple(legs), arrivals, leg.outcome, **_joined(legs))
 
 
 def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
