@@ -76,29 +76,25 @@ def test_a_flipped_sign_is_noticed(monkeypatch, part):
         assert verdict in (Verdict.TYPO, Verdict.WRONG), number
 
 
-@pytest.mark.parametrize(
-    ("number", "old", "factor", "verdict"),
-    [
+def test_a_sign_within_an_equation_is_noticed(monkeypatch):
+    for number, old, factor, verdict in (
         (8, symbolic.v, -1, Verdict.TYPO),  # (10) and (20) need the right one
         (1, symbolic.V_l, -1, Verdict.WRONG),
         (13, symbolic.lat1, 2, Verdict.TYPO),
         (17, symbolic.lat1, -1, Verdict.TYPO),
         (18, symbolic.h, -1, Verdict.WRONG),
         (22, symbolic.k_rho, -1, Verdict.WRONG),
-    ],
-)
-def test_a_sign_within_an_equation_is_noticed(monkeypatch, number, old, factor, verdict):
-    right = row.EQUATIONS[number].rhs.subs(old, factor * old)
-    assert verdict_with(monkeypatch, number, right) is verdict
+    ):
+        right = row.EQUATIONS[number].rhs.subs(old, factor * old)
+        assert verdict_with(monkeypatch, number, right) is verdict, number
 
 
-@pytest.mark.parametrize("number", [10, 24, 25, 26])
-def test_mended_equations_hold(monkeypatch, number):
+def test_mended_equations_hold(monkeypatch):
     slope = audit.slope(audit.steering())
     x_rate, alpha_rate, theta_rate = row.EQUATIONS[10].rhs
-    mended = sp.Matrix([x_rate, alpha_rate, -theta_rate])
-    right = {10: mended, 24: audit.steering(), 25: slope, 26: slope}[number]
-    assert verdict_with(monkeypatch, number, right) is Verdict.HOLDS
+    mended = {10: sp.Matrix([x_rate, alpha_rate, -theta_rate]), 24: audit.steering()}
+    for number, right in (mended | {25: slope, 26: slope}).items():
+        assert verdict_with(monkeypatch, number, right) is Verdict.HOLDS, number
 
 
 def test_the_derived_law_is_the_librarys():
