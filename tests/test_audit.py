@@ -186,7 +186,7 @@ def test_poles_and_growth_at_the_goal_are_those_of_the_linear_loop():
 
 def test_a_caption_of_its_own_is_no_typo(monkeypatch):
     for number in (4, 6):
-        monkeypatch.setitem(paper.CAPTIONS, number, f"Figure {number}.")
+        monkeypatch.setitem(figures.CAPTIONS, number, f"Figure {number}.")
     found = {row.item: row.verdict for row in audit.rows("figures")}
     assert (found["fig-4"], found["fig-6"]) == (Verdict.HOLDS, Verdict.OPEN)
 

@@ -91,10 +91,10 @@ def comparison() -> tuple[str, list[bool]]:
 
 def _row(number: int, says: str, holds: str, agrees: bool | Sequence[bool], why: str) -> Row:
     """By `depends`; what holds is a typo if the caption is another figure's."""
-    caption, verdict = paper.CAPTIONS[number], depends(np.ravel(agrees))
+    caption, verdict = CAPTIONS[number], depends(np.ravel(agrees))
     if verdict is Verdict.OPEN:
         why = MISSING
-    first = min(each for each, text in paper.CAPTIONS.items() if text == caption)
+    first = min(each for each, text in CAPTIONS.items() if text == caption)
     if first != number:
         why = f"the caption is that of Fig. {first}; {why}"
         verdict = Verdict.TYPO if verdict is Verdict.HOLDS else verdict
