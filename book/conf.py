@@ -1,15 +1,13 @@
-"""Sphinx's configuration of the book; `python book/tools/build.py` lays out the sources and calls Sphinx."""
+"""Sphinx's configuration of the book, which `python book/tools/build.py` uses."""
 
-import sys
 from pathlib import Path
 
+import kernels
 from docutils import nodes
 from PIL import Image
 from sphinx.util import logging
 
 import wmrlib
-
-sys.path.insert(0, str(Path(__file__).parent / "tools"))  # for the book's own extension, crossref
 
 project = "From two GPS points to a parked robot"
 author = "the wmrlib authors"
@@ -17,24 +15,24 @@ copyright = "the wmrlib authors. Prose: CC BY 4.0; code: BSD-3-Clause"
 version = release = wmrlib.__version__
 language = "en"
 
-exclude_patterns = [
-    "course"
-]  # the graded exercises are no pages: a table of them is made from their notebooks
+exclude_patterns = ["course"]  # the graded exercises: only a table of them is shown
 extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
+extensions += ["reference"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 bibtex_bibfiles = [str(Path(__file__).parent / "references.bib")]
 bibtex_cite_id = "cite-{key}"
 
-# Every page is executed at each build: a stored output can't be older than the code it shows.
+# The chapters show what they store, which the tests compare; the book's own pages are executed.
+kernels.use_files()
 nb_execution_mode = "force"
+nb_execution_excludepatterns = ["notebooks/*.ipynb"]
 nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_kernel_rgx_aliases = {".*": "python3"}
 nb_merge_streams = True
-nb_render_markdown_format = (
-    "myst"  # a table that a cell prints may have formulas and links to chapters
-)
+# A table that a cell prints may have formulas and links to chapters.
+nb_render_markdown_format = "myst"
 nb_output_stderr = "remove-warn"  # and a warning fails the build
 
 html_theme = "sphinx_book_theme"
@@ -42,12 +40,10 @@ html_title = project
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
 html_show_sphinx = False
-html_show_search_summary = (
-    False  # it is made by fetching the page found, which a browser forbids for file://
-)
-html_context = {
-    "default_mode": "auto"
-}  # light or dark as the reader's system is; the button overrides it
+# A summary would be made by fetching the page found, which a browser forbids for file://.
+html_show_search_summary = False
+# Light or dark as the reader's system is; the button overrides it.
+html_context = {"default_mode": "auto"}
 html_theme_options = {
     "navbar_persistent": [],  # the search field is in the side bar already
     "show_toc_level": 2,
@@ -58,12 +54,19 @@ html_theme_options = {
 }
 copybutton_exclude = ".linenos, .gp"
 
+# The API reference. A parameter's type is text, such as "float or array, m", and stands nowhere else.
+autodoc_typehints = "none"
+napoleon_google_docstring = False
+napoleon_use_param = napoleon_use_rtype = False
+add_module_names = toc_object_entries = False
+
 # MathJax 3 as one file; mathjax.js holds its settings, so MyST must not write any.
 mathjax_path = "vendor/mathjax/tex-svg-full.js"
 mathjax_config_path = "mathjax.js"
 myst_update_mathjax = False
 
-# The live widgets: widgets.js tells require.js where they are. A kind of widget that we lack is an error here, not a request to a CDN.
+# The live widgets: widgets.js tells require.js where they are. A widget that we lack is an error
+# here, not a request to a CDN.
 html_js_files = [("widgets.js", {"priority": 10})]
 nb_ipywidgets_js = {
     "vendor/requirejs/require.js": {},
@@ -72,7 +75,7 @@ nb_ipywidgets_js = {
 
 
 def describe_figures(app, doctree):
-    """Give each figure the alternative text that its PNG file carries, which MyST-NB leaves out; a figure without one is an error."""
+    """Give each figure the alternative text in its PNG file; a figure without one is an error."""
     for image in doctree.findall(nodes.image):
         path = app.srcdir / image["uri"].lstrip("/")
         if "alt" not in image and path.suffix == ".png":

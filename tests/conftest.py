@@ -1,6 +1,62 @@
-"""Shared by all tests: hypothesis draws the same examples on every machine, so that a red build can be repeated."""
+"""Shared by all tests: the same examples on every machine, and what a test needs of the machine."""
 
+from __future__ import annotations
+
+import functools
+import os
+import shutil
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import kernels
+import pytest
 from hypothesis import settings
+from pdf import BROWSERS
 
 settings.register_profile("repeatable", deadline=None, derandomize=True, print_blob=True)
 settings.load_profile("repeatable")
+
+TOOLS = {  # what a test may need, the commands that are it, and what to install
+    "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
+    "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
+    "npm": (("npm",), "npm (Debian: apt install npm)"),
+}
+
+
+@functools.cache
+def command(tool: str) -> str | None:
+    """The path of the command that is this tool, or None."""
+    beside = os.pathsep.join([os.environ["PATH"], str(Path(sys.executable).parent)])
+    return next(
+        (path for name in TOOLS[tool][0] if (path := shutil.which(name, path=beside))), None
+    )
+
+
+def lacking(tool: str) -> str:
+    """Why a test that needs the tool can't run here; empty if it can."""
+    if tool == "browser" and not find_spec("playwright"):
+        return "this test needs the Python package playwright"
+    return "" if command(tool) else f"this test needs {TOOLS[tool][1]}"
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_runtest_setup(item):
+    """Skip a test that lacks a tool before any fixture runs; where CI is set, fail it."""
+    wanted = {tool for mark in item.iter_markers("needs") for tool in mark.args}
+    if "browser" in item.fixturenames:
+        wanted.add("browser")
+    for reason in filter(None, map(lacking, sorted(wanted))):
+        (pytest.fail if os.environ.get("CI") else pytest.skip)(reason)
+
+
+@pytest.fixture(scope="session")
+def find_tool():
+    """The function that gives the path of a tool, or None."""
+    return command
+
+
+def pytest_configure(config):
+    """Let the kernels of nbval, and of the applications that tests start, talk through files."""
+    kernels.use_files()
+    os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")

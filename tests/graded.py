@@ -1,6 +1,8 @@
-"""An assignment of the course run in this process: which graded cells fail, and with what hint; and nbgrader, as a lecturer runs it."""
+"""An assignment of the course run in this process, and nbgrader run as a lecturer runs it."""
 
+import contextlib
 import json
+import linecache
 import os
 import subprocess
 import sys
@@ -15,91 +17,103 @@ BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 
 
 @cache
-def cells(chapter: str) -> list[tuple[str, str, int]]:
-    """(id, source, points) of the code cells; points is 0 for a cell that is not graded."""
+def cells(chapter: str) -> dict[str, tuple[str, int]]:
+    """{id: (source, points)} of the code cells; a cell that is not graded has 0 points."""
     (path,) = (ROOT / "book/course/source" / chapter).glob("*.ipynb")
-    notebook = json.loads(path.read_text(encoding="utf-8"))
-    code = [cell for cell in notebook["cells"] if cell["cell_type"] == "code"]
-    settings = [cell["metadata"]["nbgrader"] for cell in code]
-    return [
-        (s["grade_id"], "".join(c["source"]), s.get("points", 0) if s["grade"] else 0)
-        for c, s in zip(code, settings, strict=True)
+    found = {}
+    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+        if cell["cell_type"] == "code":
+            settings = cell["metadata"]["nbgrader"]
+            points = settings.get("points", 0) if settings["grade"] else 0
+            found[settings["grade_id"]] = "".join(cell["source"]), points
+    return found
+
+
+@cache
+def tasks(chapter: str) -> dict[str, list[str]]:
+    """{id of the cell with the answer: ids of the cells that grade it}."""
+    found: dict[str, list[str]] = {}
+    for name, (source, points) in cells(chapter).items():
+        if BEGIN in source:
+            found[name] = graded = []
+        elif points:
+            graded.append(name)
+    return found
+
+
+def graded(chapter: str, key: str) -> list[str]:
+    """The graded cells of a task, or those whose id is `key` or begins with it."""
+    every = [name for names in tasks(chapter).values() for name in names]
+    return tasks(chapter).get(key) or [
+        name for name in every if name == key or name.startswith(key + "-")
     ]
+
+
+def task_of(chapter: str, key: str) -> str:
+    """The cell with the answer that these graded cells grade."""
+    wanted = set(graded(chapter, key))
+    (found,) = (name for name, names in tasks(chapter).items() if wanted & set(names))
+    return found
+
+
+@cache
+def answers(chapter: str) -> dict:
+    """The right and wrong answers in the chapter's file of data."""
+    return tomllib.loads((ROOT / f"tests/data/course/{chapter}.toml").read_text(encoding="utf-8"))
 
 
 @cache
 def wrong_answers(chapter: str) -> list[dict]:
-    return tomllib.loads((ROOT / f"tests/data/course/{chapter}.toml").read_text(encoding="utf-8"))[
-        "answer"
-    ]
+    """The usual mistakes: name, cell, source, hint, and the graded cells that it loses."""
+    found = []
+    for name, wrong in answers(chapter)["mistake"].items():
+        loses = wrong["loses"].split()
+        found.append({**wrong, "name": name, "loses": loses, "cell": task_of(chapter, loses[0])})
+    return found
 
 
 def released(source: str) -> str:
     """What a student gets in the place of a cell with an answer."""
-    if BEGIN not in source:
-        return source
-    before, _, rest = source.partition(BEGIN)
-    return before + STUB + rest.partition(END)[2]
+    before, begin, rest = source.partition(BEGIN)
+    return before + STUB + rest.partition(END)[2] if begin else source
 
 
-def grade(
-    chapter: str, answers: dict[str, str] | None = None, *, empty: bool = False, graded: str = ""
-) -> dict[str, str | None]:
-    """Run the assignment with `answers` (from a cell's id to its source) in the place of the model's; {graded id: error or None}.
+@cache
+def _given(chapter: str) -> dict:
+    """The names that the notebook's other cells make, with the model's answers."""
+    names = {"__name__": "__main__"}
+    for name, (source, points) in cells(chapter).items():
+        if not points:
+            _run(source, f"<{chapter} {name}>", names)
+    return names
 
-    graded: run only those graded cells whose id begins so.
-    """
-    names, found = {"__name__": "__main__"}, {}
-    answers = answers or {}
-    assert set(answers) <= {name for name, _, _ in cells(chapter)}
-    for name, source, points in cells(chapter):
-        if points and not name.startswith(graded):
-            continue
-        source = answers.get(name, released(source) if empty else source)
+
+def _run(source: str, name: str, names: dict) -> None:
+    """Run a cell; as in Jupyter, `inspect` finds its source."""
+    linecache.cache[name] = len(source), None, source.splitlines(keepends=True), name
+    exec(compile(source, name, "exec"), names)
+
+
+def lost(chapter: str, key: str, source: str) -> dict[str, str]:
+    """How those of the graded cells `key` that fail with this answer do so."""
+    names, found = dict(_given(chapter)), {}
+    with contextlib.suppress(Exception):  # then the graded cells fail
+        _run(source, f"<{chapter} answer>", names)
+    for name in graded(chapter, key):
         try:
-            exec(compile(source, f"<{name}>", "exec"), names)
-            if points:
-                found[name] = None
+            _run(cells(chapter)[name][0], f"<{chapter} {name}>", names)
         except Exception as error:
-            if points:
-                found[name] = f"{type(error).__name__}: {error}"
-            elif not answers and not empty:
-                raise
+            found[name] = f"{type(error).__name__}: {error}"
     return found
-
-
-def assert_loses(chapter: str, wrong: dict) -> None:
-    """Exactly the graded cells that `wrong` names fail, one of them with its hint, and none by anything but a hint."""
-    found = grade(chapter, {wrong["cell"]: wrong["source"]})
-    lost = {name: error for name, error in found.items() if error is not None}
-    assert list(lost) == wrong["loses"], lost
-    assert all(error.startswith("Hint: ") for error in lost.values()), lost
-    assert any(wrong["hint"] in error for error in lost.values()), lost
-
-
-def assert_model_and_release(chapter: str) -> None:
-    """The model answers pass everything, and the empty release nothing."""
-    assert set(grade(chapter).values()) == {None}
-    assert None not in grade(chapter, empty=True).values()
-    for error in grade(chapter, empty=True).values():
-        assert "not written yet" in error or "no value yet" in error
-
-
-def lost(chapter: str, cell: str, source: str) -> dict[str, str]:
-    """The graded cells of this answer that fail with it, and their hints."""
-    found = grade(chapter, {cell: source}, graded=f"{cell}-")
-    assert found
-    return {name: error for name, error in found.items() if error is not None}
 
 
 def nbgrader(folder: Path, *arguments: str) -> None:
     """Run one of its commands in the folder of a course."""
+    paths = [str(ROOT), str(ROOT / "book"), os.environ.get("PYTHONPATH", "")]
     environment = os.environ | {
-        "PATH": os.pathsep.join(
-            [str(Path(sys.executable).parent), os.environ.get("PATH", "")]
-        ),  # it calls alembic by name
-        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")])),
-    }
+        "PATH": os.pathsep.join([str(Path(sys.executable).parent), os.environ.get("PATH", "")]),
+        "PYTHONPATH": os.pathsep.join(filter(None, paths)),
+    }  # it calls alembic by name
     command = [sys.executable, "-m", "nbgrader", *arguments]
     done = subprocess.run(
         command, cwd=folder, env=environment, capture_output=True, text=True, timeout=600

@@ -208,7 +208,7 @@ def test_growth_at_the_goal():
 
 def test_a_caption_of_its_own_is_no_typo(monkeypatch):
     for number in (4, 6):
-        monkeypatch.setitem(paper.CAPTIONS, number, f"Figure {number}.")
+        monkeypatch.setitem(figures.CAPTIONS, number, f"Figure {number}.")
     rows = {row.item: row.verdict for row in audit.rows("figures")}
     assert rows["fig-4"] is Verdict.HOLDS
     assert rows["fig-6"] is Verdict.OPEN

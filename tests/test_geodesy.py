@@ -10,6 +10,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
+from wmrbook.ellipsoid import sphere_error
 
 HALF_TURN_M = math.pi * wmr.EARTH_RADIUS_M
 latitudes = st.floats(-90.0, 90.0)
@@ -21,85 +22,60 @@ def bearing_deg(a, b):
     return math.degrees(wmr.initial_bearing(a, b))
 
 
-# Chris Veness, https://www.movable-type.co.uk/scripts/latlong.html, on the sphere of 6371 km -------------------------
+# Published vectors: https://www.movable-type.co.uk/scripts/latlong.html, sphere of 6371 km
 
 
-def test_distance_and_bearings_as_published():
+def test_distances_bearings_and_destination_as_published():
     cambridge, paris = wmr.GeoPoint(lat=52.205, lon=0.119), wmr.GeoPoint(lat=48.857, lon=2.351)
     assert wmr.haversine_distance(cambridge, paris) == pytest.approx(404_279, abs=0.5)
     assert bearing_deg(cambridge, paris) == pytest.approx(156.2, abs=0.05)
     assert bearing_deg(paris, cambridge) == pytest.approx(337.9, abs=0.05)
-
-
-def test_destination_as_published():
     greenwich = wmr.GeoPoint(lat=51.47788, lon=-0.00147)
     there = wmr.destination_point(greenwich, 7794.0, math.radians(300.7))
-    assert (there.lat, there.lon) == (
-        pytest.approx(51.5136, abs=5e-5),
-        pytest.approx(-0.0983, abs=5e-5),
-    )
+    assert (there.lat, there.lon) == pytest.approx((51.5136, -0.0983), abs=5e-5)
 
 
-def test_the_papers_pair():
+def test_the_papers_pair_on_the_sphere_and_on_the_ellipsoid():
     a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
-    assert wmr.haversine_distance(a, b) == pytest.approx(58.0758, abs=5e-5)
+    distance = wmr.haversine_distance(a, b)
+    assert distance == pytest.approx(58.0758, abs=5e-5)
     assert bearing_deg(a, b) == pytest.approx(9.5831, abs=5e-5)
-    assert wmr.local_position(a, b) == (
-        pytest.approx(9.6684, abs=5e-5),
-        pytest.approx(57.2654, abs=5e-5),
-    )
+    assert wmr.local_position(a, b) == pytest.approx((9.6684, 57.2654), abs=5e-5)
     swapped = [wmr.GeoPoint(lat=p.lon, lon=p.lat) for p in (a, b)]
     assert wmr.haversine_distance(*swapped) == pytest.approx(42.5355, abs=5e-5)
-
-
-# The ellipsoid, a second truth ---------------------------------------------------------------------------------------
-
-
-def test_the_papers_pair_on_the_ellipsoid():
-    a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
     line = Geodesic.WGS84.Inverse(a.lat, a.lon, b.lat, b.lon)
-    assert line["s12"] == pytest.approx(57.9343, abs=5e-5)
-    assert line["azi1"] == pytest.approx(9.6274, abs=5e-5)
-    assert wmr.haversine_distance(a, b) / line["s12"] - 1 == pytest.approx(0.00244, abs=5e-6)
+    assert (line["s12"], line["azi1"]) == pytest.approx((57.9343, 9.6274), abs=5e-5)
+    assert distance / line["s12"] - 1 == pytest.approx(0.00244, abs=5e-6)
 
 
-def test_hundred_metres_anywhere_are_within_the_spheres_error():
-    """The extremes, -0.45 % and +0.56 %, are those of facts worked out beforehand; the grid must reach and not pass them."""
-    errors, turns = [], []
+# The ellipsoid, a second truth
+
+
+def test_hundred_metres_anywhere_have_the_spheres_error():
+    """The extremes, -0.45 % and +0.56 %, were worked out beforehand; the grid reaches them."""
+    errors = []
     for lat in np.linspace(-89.0, 89.0, 90):
         for azimuth in np.arange(0.0, 360.0, 15.0):
             end = Geodesic.WGS84.Direct(lat, 20.0, azimuth, 100.0)
             a, b = wmr.GeoPoint(lat=lat, lon=20.0), wmr.GeoPoint(lat=end["lat2"], lon=end["lon2"])
             errors.append(wmr.haversine_distance(a, b) / 100.0 - 1.0)
-            turns.append(wmr.wrap_angle(wmr.initial_bearing(a, b) - math.radians(azimuth)))
-    assert min(errors) == pytest.approx(-0.0045, abs=1e-4)
-    assert max(errors) == pytest.approx(0.0056, abs=1e-4)
-    assert np.abs(turns).max() < math.radians(0.2)  # half of 1 - b^2/a^2
-
-
-def test_sphere_error_is_the_geodesics():
-    """A second method: 100 m lines walked on the ellipsoid, in all directions, from pole to pole."""
-    for lat in (-89.9, -60.0, -33.3, 0.0, 12.0, 45.0, 89.9):
-        for azimuth in np.arange(0.0, 360.0, 15.0):
-            end = Geodesic.WGS84.Direct(lat, 20.0, azimuth, 100.0)
-            line = wmr.GeoPoint(lat=lat, lon=20.0), wmr.GeoPoint(lat=end["lat2"], lon=end["lon2"])
-            walked = wmr.haversine_distance(*line) / 100.0 - 1.0
-            assert wmr.sphere_error(lat, math.radians(azimuth)) == pytest.approx(walked, abs=1e-7)
+            assert sphere_error(lat, math.radians(azimuth)) == pytest.approx(errors[-1], abs=1e-7)
+            turn = wmr.wrap_angle(wmr.initial_bearing(a, b) - math.radians(azimuth))
+            assert abs(turn) < math.radians(0.2)  # half of 1 - b^2/a^2
+    assert (min(errors), max(errors)) == pytest.approx((-0.0045, 0.0056), abs=1e-4)
 
 
 def test_sphere_error_takes_arrays_and_another_radius():
-    errors = wmr.sphere_error(np.array([[0.0], [90.0]]), np.array([0.0, math.pi / 2, math.pi]))
+    errors = sphere_error(np.array([[0.0], [90.0]]), np.array([0.0, math.pi / 2, math.pi]))
     assert errors.shape == (2, 3)
-    polar_axis, equator = (
-        6_356_752.314245,
-        6_378_137.0,
-    )  # the poles are round: b^2/a, a, a^2/b are all there is
+    # The poles are round: b^2/a, a, a^2/b are all there is.
+    polar_axis, equator = 6_356_752.314245, 6_378_137.0
     shares = [
         [equator / polar_axis**2, 1.0 / equator, equator / polar_axis**2],
         [polar_axis / equator**2] * 3,
     ]
     np.testing.assert_allclose(errors, wmr.EARTH_RADIUS_M * np.array(shares) - 1.0, atol=1e-12)
-    assert wmr.sphere_error(0.0, math.pi / 2, radius=equator) == pytest.approx(0.0, abs=1e-12)
+    assert sphere_error(0.0, math.pi / 2, radius=equator) == pytest.approx(0.0, abs=1e-12)
 
 
 @given(points, points)
@@ -108,22 +84,15 @@ def test_long_lines_are_within_the_spheres_error(a, b):
     assert wmr.haversine_distance(a, b) == pytest.approx(truth, rel=0.0057, abs=1e-6)
 
 
-# Properties ----------------------------------------------------------------------------------------------------------
-
-
-@given(points, points)
-def test_distance_is_symmetric(a, b):
-    assert wmr.haversine_distance(a, b) == pytest.approx(
-        wmr.haversine_distance(b, a), rel=1e-12, abs=1e-6
-    )
+# Properties
 
 
 @given(points, points, points)
-def test_triangle_inequality(a, b, c):
-    assert (
-        wmr.haversine_distance(a, c)
-        <= wmr.haversine_distance(a, b) + wmr.haversine_distance(b, c) + 1e-3
-    )
+def test_distance_is_a_metric(a, b, c):
+    ab, bc, ac = (wmr.haversine_distance(*pair) for pair in ((a, b), (b, c), (a, c)))
+    assert ab == pytest.approx(wmr.haversine_distance(b, a), rel=1e-12, abs=1e-6)
+    assert ac <= ab + bc + 1e-3
+    assert wmr.haversine_distance(a, a) == 0.0
 
 
 @given(points, points)
@@ -137,24 +106,23 @@ def test_distance_is_the_angle_between_the_vectors(a, b):
     assert wmr.haversine_distance(a, b) == pytest.approx(wmr.EARTH_RADIUS_M * angle, abs=2e-8)
 
 
-@pytest.mark.parametrize("antipode", [False, True])
-@pytest.mark.parametrize("gap", [1e-6, 1e-3, 1.0, 1e3, 1e6])
-def test_all_digits_at_both_ends(gap, antipode):
-    """Against 50 digits, for the very points that are passed: rounding costs nanometres at most, a thousandth of a micrometre's line."""
+def test_all_digits_at_both_ends():
+    """Against 50 digits, for the very points passed: rounding costs nanometres at most."""
     a = wmr.GeoPoint(lat=33.273572, lon=44.373160)
-    centre = wmr.GeoPoint(lat=-a.lat, lon=a.lon - 180.0) if antipode else a
-    b = wmr.destination_point(centre, gap, 0.4)
-    with mpmath.workdps(50):
-        lat1, lon1, lat2, lon2 = (
-            mpmath.radians(mpmath.mpf(degrees)) for degrees in (a.lat, a.lon, b.lat, b.lon)
-        )
-        e = (
-            mpmath.sin((lat2 - lat1) / 2) ** 2
-            + mpmath.cos(lat1) * mpmath.cos(lat2) * mpmath.sin((lon2 - lon1) / 2) ** 2
-        )
-        truth = 2 * wmr.EARTH_RADIUS_M * mpmath.atan2(mpmath.sqrt(e), mpmath.sqrt(1 - e))
-        error = abs(float(wmr.haversine_distance(a, b) - truth))
-    assert error <= max(1e-15 * float(truth), 1e-8 if antipode else 0.0)
+    antipode = wmr.GeoPoint(lat=-a.lat, lon=a.lon - 180.0)
+    sin, cos, sqrt = mpmath.sin, mpmath.cos, mpmath.sqrt
+    for gap in (1e-6, 1e-3, 1.0, 1e3, 1e6):
+        for centre, tolerance in ((a, 0.0), (antipode, 1e-8)):
+            b = wmr.destination_point(centre, gap, 0.4)
+            with mpmath.workdps(50):
+                lat1, lon1, lat2, lon2 = (
+                    mpmath.radians(mpmath.mpf(each)) for each in (a.lat, a.lon, b.lat, b.lon)
+                )
+                across = cos(lat1) * cos(lat2) * sin((lon2 - lon1) / 2) ** 2
+                e = sin((lat2 - lat1) / 2) ** 2 + across
+                truth = 2 * wmr.EARTH_RADIUS_M * mpmath.atan2(sqrt(e), sqrt(1 - e))
+                error = abs(float(wmr.haversine_distance(a, b) - truth))
+            assert error <= max(1e-15 * float(truth), tolerance)
 
 
 @given(
@@ -190,20 +158,16 @@ def test_point_at_undoes_local_position(lat, lon, east, north):
     assert back == (pytest.approx(east, abs=1e-5), pytest.approx(north, abs=1e-5))
 
 
-# The odd but legal ---------------------------------------------------------------------------------------------------
+# The odd but legal
 
 
-def test_same_point():
+def test_same_point_and_antipodes():
     a = wmr.GeoPoint(lat=33.0, lon=44.0)
-    assert wmr.haversine_distance(a, a) == 0.0
-    assert wmr.initial_bearing(a, a) == 0.0
+    assert (wmr.haversine_distance(a, a), wmr.initial_bearing(a, a)) == (0.0, 0.0)
     assert wmr.local_position(a, a) == (0.0, 0.0)
-
-
-@pytest.mark.parametrize("lat", [0.0, 33.3, -90.0, 90.0])
-def test_antipodes_are_half_a_turn_apart(lat):
-    a, b = wmr.GeoPoint(lat=lat, lon=20.0), wmr.GeoPoint(lat=-lat, lon=-160.0)
-    assert wmr.haversine_distance(a, b) == pytest.approx(HALF_TURN_M, rel=1e-12)
+    for lat in (0.0, 33.3, -90.0, 90.0):
+        pair = wmr.GeoPoint(lat=lat, lon=20.0), wmr.GeoPoint(lat=-lat, lon=-160.0)
+        assert wmr.haversine_distance(*pair) == pytest.approx(HALF_TURN_M, rel=1e-12)
 
 
 def test_across_the_date_line():
@@ -233,15 +197,9 @@ def test_from_the_poles():
     assert (over.lat < 90.0, abs(over.lon)) == (True, pytest.approx(180.0))
 
 
-@given(latitudes, longitudes, longitudes)
-def test_bearing_is_in_range(lat, lon, other):
-    assert (
-        0.0
-        <= wmr.initial_bearing(
-            wmr.GeoPoint(lat=lat, lon=lon), wmr.GeoPoint(lat=-lat / 2, lon=other)
-        )
-        < 2 * math.pi
-    )
+@given(points, points)
+def test_bearing_is_in_range(a, b):
+    assert 0.0 <= wmr.initial_bearing(a, b) < 2 * math.pi
 
 
 def test_arrays_broadcast():
@@ -255,60 +213,32 @@ def test_arrays_broadcast():
     assert wmr.destination_point(campus, distances, 0.5).lat.shape == (2, 3)
 
 
-# Bad input -----------------------------------------------------------------------------------------------------------
+# Bad input
 
 
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (
-            lambda: wmr.GeoPoint(lat=91.0, lon=0.0),
-            r"lat = 91\.0 is not allowed: a finite number at least -90 and at most 90 is needed",
-        ),
-        (
-            lambda: wmr.GeoPoint(lat=0.0, lon=-181),
-            r"lon = -181 is not allowed: .* at least -180 and at most 180",
-        ),
-        (lambda: wmr.GeoPoint(lat=math.nan, lon=0.0), r"lat = nan is not allowed"),
-        (lambda: wmr.GeoPoint(lat=[0.0, math.inf], lon=0.0), r"lat = \[0\.0, inf\] is not allowed"),
-        (lambda: wmr.GeoPoint(lat="33.2", lon=0.0), r"lat = '33\.2' is not allowed"),
-        (lambda: wmr.GeoPoint(lat=True, lon=0.0), r"lat = True is not allowed"),
-        (
-            lambda: wmr.GeoPoint(lat=[1.0, 2.0], lon=[1.0, 2.0, 3.0]),
-            r"mismatched lengths: lat has shape \(2,\), lon has shape \(3,\)",
-        ),
-        (
-            lambda: wmr.haversine_distance((33.0, 44.0), wmr.paper.GPS_POINT_1),
-            r"a = \(33\.0, 44\.0\) .* a GeoPoint is needed, not a tuple",
-        ),
-        (
-            lambda: wmr.haversine_distance(
-                wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2, radius=0.0
-            ),
-            r"radius = 0\.0 .* above 0",
-        ),
-        (
-            lambda: wmr.sphere_error(91.0, 0.0),
-            r"lat = 91\.0 is not allowed: .* at least -90 and at most 90",
-        ),
-        (lambda: wmr.sphere_error(0.0, math.inf), r"bearing = inf"),
-        (lambda: wmr.sphere_error(0.0, 0.0, radius=0.0), r"radius = 0\.0 .* above 0"),
-        (
-            lambda: wmr.sphere_error([0.0, 1.0], [0.0, 1.0, 2.0]),
-            r"mismatched lengths: lat has shape \(2,\), bearing has shape \(3,\)",
-        ),
-        (
-            lambda: wmr.destination_point(wmr.paper.GPS_POINT_1, -1.0, 0.0),
-            r"distance = -1\.0 .* at least 0",
-        ),
-        (lambda: wmr.destination_point(wmr.paper.GPS_POINT_1, 1.0, math.nan), r"bearing = nan"),
-    ],
-)
-def test_bad_input_names_argument_value_and_range(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
-
-
-def test_the_order_cannot_be_mixed_up():
+def test_bad_input_names_argument_value_and_range():
+    a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
+    geo = wmr.GeoPoint
+    latitude = r"lat = 91\.0 is not allowed: a finite number at least -90 and at most 90 is needed"
+    for make, message in [
+        (lambda: geo(lat=91.0, lon=0.0), latitude),
+        (lambda: geo(lat=0.0, lon=-181), "lon = -181 is not allowed: .* -180 and at most 180"),
+        (lambda: geo(lat=math.nan, lon=0.0), r"lat = nan is not allowed"),
+        (lambda: geo(lat=[0.0, math.inf], lon=0.0), r"lat = \[0\.0, inf\] is not allowed"),
+        (lambda: geo(lat="33.2", lon=0.0), r"lat = '33\.2' is not allowed"),
+        (lambda: geo(lat=True, lon=0.0), r"lat = True is not allowed"),
+        (lambda: geo(lat=[1.0] * 2, lon=[1.0] * 3), r"lat has shape \(2,\), lon has shape \(3,\)"),
+        (lambda: wmr.haversine_distance((33.0, 44.0), a), "a GeoPoint is needed, not a tuple"),
+        (lambda: wmr.haversine_distance(a, b, radius=0.0), r"radius = 0\.0 .* above 0"),
+        (lambda: wmr.destination_point(a, -1.0, 0.0), r"distance = -1\.0 .* at least 0"),
+        (lambda: wmr.destination_point(a, 1.0, math.nan), "bearing = nan"),
+        (lambda: wmr.point_at(a, [1.0] * 2, [1.0] * 3), "mismatched lengths: east has shape"),
+        (lambda: sphere_error(91.0, 0.0), latitude),
+        (lambda: sphere_error(0.0, math.inf), "bearing = inf"),
+        (lambda: sphere_error(0.0, 0.0, radius=0.0), r"radius = 0\.0 .* above 0"),
+        (lambda: sphere_error([0.0] * 2, [0.0] * 3), "mismatched lengths: lat has shape"),
+    ]:
+        with pytest.raises(ValueError, match=message):
+            make()
     with pytest.raises(TypeError):
-        wmr.GeoPoint(44.37, 33.27)
+        geo(44.37, 33.27)  # the order can't be mixed up

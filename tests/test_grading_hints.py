@@ -1,133 +1,86 @@
-"""What every check stands on: an answer is asked for its numbers, and its code for what it uses of wmrlib."""
+"""What every check stands on: how answers are asked for, and whether one calls the libraries."""
 
 import decimal
 import fractions
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
 import sympy as sp
 
+import wmrbook.audit
 import wmrlib
 import wmrlib as wmr
 import wmrlib.kinematics
-from wmrbook.grading import Hint, _hints
-from wmrlib import control_law, polar_error
+from wmrbook.grading import Hint, _hints, lyapunov, routes, verdicts
+from wmrlib import control_law, paper, polar_error
 from wmrlib import control_law as polar_error_of_mine
 from wmrlib import polar_error as seen_from
 
 GAINS = wmr.Gains(1.0, 2.0, 3.0)
-START = wmr.Pose(0.0, 0.0, 0.0)
+START, GOAL = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(1.0, 0.0, 0.0)
 ALLOWED = ("Pose", "polar_error")
 
 
-NUMBERS = [
-    1.5,
-    np.float32(1.5),
-    np.longdouble(1.5),
-    np.array(1.5),
-    np.array([1.5]),
-    np.array(1.5, dtype=object),
-]
+def test_a_number_may_have_many_forms():
+    numpys = [np.float32(1.5), np.longdouble(1.5), np.array(1.5), np.array([1.5])]
+    others = [np.array(1.5, dtype=object), sp.Rational(3, 2), fractions.Fraction(3, 2)]
+    for value in [1.5, *numpys, *others, decimal.Decimal("1.5")]:
+        assert _hints.number("it", value) == 1.5
 
 
-@pytest.mark.parametrize(
-    "value",
-    [*NUMBERS, sp.Rational(3, 2), fractions.Fraction(3, 2), decimal.Decimal("1.5")],
-    ids=repr,
-)
-def test_a_number_may_have_many_forms(value):
-    assert _hints.number("it", value) == 1.5
+def test_what_is_no_number():
+    for hint, values in {
+        "far too large": [10**400, -(10**5000)],
+        "one number is needed": [
+            *(np.complex128(1 + 2j), np.array(1 + 0j), np.True_, np.array(True)),
+            *(np.array(True, dtype=object), np.array("3.5"), np.array(b"3.5")),
+            *(np.array([1.0, 2.0]), np.array([])),
+        ],
+        "not a finite number": [np.array(math.nan)],
+        "something of the type list": [[10**5000]],
+    }.items():
+        for value in values:
+            with pytest.raises(Hint, match=hint):
+                _hints.number("it", value)
 
 
-@pytest.mark.parametrize(
-    ("value", "hint"),
-    [
-        (10**400, "far too large"),
-        (-(10**5000), "far too large"),
-        (np.complex128(1 + 2j), "one number is needed"),
-        (np.array(1 + 0j), "one number is needed"),
-        (np.True_, "one number is needed"),
-        (np.array(True), "one number is needed"),
-        (np.array(True, dtype=object), "one number is needed"),
-        (np.array("3.5"), "one number is needed"),
-        (np.array(b"3.5"), "one number is needed"),
-        (np.array([1.0, 2.0]), "one number is needed"),
-        (np.array([]), "one number is needed"),
-        (np.array(math.nan), "not a finite number"),
-        ([10**5000], "something of the type list"),
-    ],
-    ids=lambda each: str(type(each)),
-)
-@pytest.mark.filterwarnings("error")
-def test_what_is_no_number(value, hint):
-    with pytest.raises(Hint, match=hint):
-        _hints.number("it", value)
+def test_numbers_need_an_order():
+    for answer in [(1, 2), [1, 2], np.array([1, 2]), sp.Matrix([1, 2]), {"v": 1, "w": 2}.values()]:
+        assert _hints.ask_numbers(lambda a=answer: a, 2) == (1.0, 2.0)
+    unordered = {1.0, 2.0}, frozenset({1.0, 2.0}), {1.0: 3.0, 2.0: 4.0}
+    for answer in [*unordered, "12", 1.0, [1.0], (1.0, 2.0, 3.0), None]:
+        with pytest.raises(Hint, match="2 numbers, separated by commas, are needed"):
+            _hints.ask_numbers(lambda a=answer: a, 2)
 
 
-@pytest.mark.parametrize(
-    "answer",
-    [
-        {1.0, 2.0},
-        frozenset({1.0, 2.0}),
-        {1.0: 3.0, 2.0: 4.0},
-        "12",
-        1.0,
-        [1.0],
-        (1.0, 2.0, 3.0),
-        None,
-    ],
-)
-def test_numbers_need_an_order(answer):
-    with pytest.raises(Hint, match="2 numbers, separated by commas, are needed"):
-        _hints.ask_numbers(lambda: answer, 2)
+def by_name(*_):
+    return polar_error(START, GOAL)
 
 
-@pytest.mark.parametrize(
-    "answer",
-    [(1, 2), [1, 2], np.array([1, 2]), sp.Matrix([1, 2]), {"v": 1, "omega": 2}.values()],
-    ids=repr,
-)
-def test_ordered_numbers(answer):
-    assert _hints.ask_numbers(lambda: answer, 2) == (1.0, 2.0)
+def by_module(*_):
+    return wmr.polar_error(wmr.Pose(*START), GOAL)
 
 
-def by_name(pose, goal):
-    return polar_error(pose, goal)
+def by_submodule(*_):
+    return wmrlib.kinematics.polar_error(START, GOAL)
 
 
-def by_module(pose, goal):
-    return wmr.polar_error(wmr.Pose(*pose), goal)
+def by_another_name(*_):
+    return seen_from(START, GOAL)
 
 
-def by_submodule(pose, goal):
-    return wmrlib.kinematics.polar_error(pose, goal)
-
-
-def by_another_name(pose, goal):
-    return seen_from(pose, goal)
-
-
-def by_an_import_inside(pose, goal):
+def by_an_import_inside(*_):
     import wmrlib.kinematics as k
     from wmrlib import Pose
 
-    return (lambda: k.polar_error(Pose(*pose), goal))()
+    return (lambda: k.polar_error(Pose(*START), GOAL))()
 
 
-def and_a_helper(pose, goal):
-    return by_module(pose, goal)
-
-
-@pytest.mark.parametrize(
-    "function",
-    [by_name, by_module, by_submodule, by_another_name, by_an_import_inside, and_a_helper],
-)
-def test_what_is_allowed_may_be_used_in_any_way(function):
-    assert function(START, wmr.Pose(1.0, 0.0, 0.0)) == (1.0, 0.0, 0.0)
-    _hints.own_work(function, *ALLOWED)
-    with pytest.raises(Hint, match="of wmrlib; this task asks for your own formula"):
-        _hints.own_work(function)
+def by_a_helper(*_):
+    return by_module()
 
 
 def law_by_name(*polar):
@@ -162,21 +115,28 @@ def law_by_a_helper(*polar):
     return law_by_an_import_inside(*polar)
 
 
-LAWS = [law_by_name, law_by_module, law_by_submodule, law_by_another_name]
-LAWS += [law_by_an_import_inside, law_by_a_name_imported_inside, law_by_a_helper]
+def rule_of_the_book(computed, printed):
+    return wmrbook.audit.fits(computed, paper.Published(float(printed), "", ""))
 
 
-@pytest.mark.parametrize("function", LAWS)
-def test_what_is_not_allowed_is_found_in_any_way(function):
-    assert function(1.0, 0.5, 0.2) == control_law(1.0, 0.5, 0.2, GAINS)
-    with pytest.raises(
-        Hint, match=r"control_law` of wmrlib; of it only `Pose`, `polar_error` may be used here"
-    ):
+def test_a_call_of_the_libraries_is_found_in_any_way():
+    own = "this task asks for your own formula, with `math` or `numpy`"
+    allowed = [function for name, function in globals().items() if name.startswith("by_")]
+    laws = [function for name, function in globals().items() if name.startswith("law_by_")]
+    assert (len(allowed), len(laws)) == (6, 7)
+    for function in allowed:
+        assert function() == (1.0, 0.0, 0.0)
         _hints.own_work(function, *ALLOWED)
-    with pytest.raises(
-        Hint, match="of wmrlib; this task asks for your own formula, with `math` or `numpy`"
-    ):
-        _hints.own_work(function)
+    for function in laws:
+        assert function(1.0, 0.5, 0.2) == control_law(1.0, 0.5, 0.2, GAINS)
+        hint = "uses `control_law` of wmrlib; of it only `Pose`, `polar_error` may be used here"
+        with pytest.raises(Hint, match=hint):
+            _hints.own_work(function, *ALLOWED)
+    for function in [*allowed, *laws, wmr.control_law, wmr.Pose]:
+        with pytest.raises(Hint, match=f"of wmrlib; {own}"):
+            _hints.own_work(function)
+    with pytest.raises(Hint, match=f"`fits` of wmrbook; {own}"):
+        _hints.own_work(rule_of_the_book)
 
 
 def control(x):
@@ -191,17 +151,70 @@ def with_names_that_wmrlib_has_too(x):
     return wmr.polar_error(START, START).rho + control(x)
 
 
+def with_a_parameter_of_that_name(polar_error):
+    return polar_error(1.0)
+
+
 def with_a_module_that_does_not_exist(x):
     import wmrlib.nowhere as nowhere
 
     return nowhere.law(x)
 
 
-def test_data_and_names_of_ones_own_are_no_matter():
+def test_data_and_names_of_ones_own_are_no_call():
     assert with_data(2.0) == 2.0
-    _hints.own_work(with_data)
-    _hints.own_work(with_names_that_wmrlib_has_too, *ALLOWED)
     for allowed in ((), ALLOWED):
+        _hints.own_work(with_data, *allowed)
+        _hints.own_work(with_a_parameter_of_that_name, *allowed)
         _hints.own_work(with_a_module_that_does_not_exist, *allowed)
+        _hints.own_work(eval("lambda x: wmr.wrap_angle(x)"), *allowed)  # without a source
+    _hints.own_work(with_names_that_wmrlib_has_too, *ALLOWED)
     with pytest.raises(Hint, match=r"stops.* with ModuleNotFoundError"):
         _hints.ask(with_a_module_that_does_not_exist, 1.0)
+
+
+def test_the_bowl_falls_along_wmrlib_s_robot():
+    """A second method: the robot's own rates, and differences of V."""
+    for rho, alpha, theta in np.random.default_rng(7).uniform([0.1, -3, -3], 3, (20, 3)):
+        v, h, k_alpha, angles = math.cos(alpha), 2, 1.5, (rho, alpha, theta)
+        symbols = (lyapunov.rho, lyapunov.alpha, lyapunov.theta)
+        bowl = sp.lambdify(symbols, lyapunov.BOWL.subs({lyapunov.L: 1, lyapunov.h: h}))
+        omega = k_alpha * math.sin(alpha) + v / rho * (math.sin(alpha) + h * math.sin(theta))
+        step = 1e-6 * np.array(wmr.polar_rate(rho, alpha, v, omega))
+        slope = (bowl(*(angles + step)) - bowl(*(angles - step))) / 2e-6
+        assert slope == pytest.approx(-rho * v**2 - k_alpha * math.sin(alpha) ** 2, abs=1e-6)
+
+
+def test_the_sentences_are_those_of_the_log():
+    log = Path(__file__).parents[1] / "notebooks/data/ublox5-standing.nmea"
+    text = log.read_text(encoding="utf-8", errors="replace")
+    assert all(f"${body}*" in text for body in routes.BODIES)
+
+
+def test_the_rule_is_the_audit_s():
+    """But for printed zeros, which the audit's float does not know."""
+    for computed, printed in verdicts._printed(300):
+        if not printed.endswith("0"):
+            rounds, cuts, near = verdicts._verdict(decimal.Decimal(repr(computed)), printed)
+            assert (rounds or (cuts and near)) == rule_of_the_book(computed, printed)
+
+
+def test_counterexamples_are_those_of_the_paper_s_equations():
+    """Written out by hand: the check takes a state if and only if it refutes the claim."""
+    random, found = np.random.default_rng(1), []
+    for rho, alpha, theta, omega in random.uniform((0.01, -1, -3, -2), (1, 1.5, 3, 4), (60, 4)):
+        v = 4 * (1 - np.exp(-2 * rho)) * np.cos(alpha)
+        part = -alpha * omega + v * np.sin(alpha) / rho * (0.3 * theta + alpha)
+        obeyed = omega > (alpha + 0.3 * theta) * np.cos(alpha) * np.sin(alpha)
+        refutes = obeyed and part > 1e-3
+        try:
+            verdicts.counterexample_23((rho, alpha, theta, omega))
+            found.append("accepted")
+            assert refutes
+            assert alpha > 0
+        except Hint as hint:
+            side = bool(re.search("chapter 4's side", str(hint)))
+            found.append("side" if side else "claim holds")
+            assert side == bool(refutes)
+            assert not (refutes and alpha > 0)
+    assert min(map(found.count, ("accepted", "side", "claim holds"))) > 5

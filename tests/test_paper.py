@@ -54,27 +54,22 @@ def test_gains_that_settle_the_heading():
     assert designed.peak_omega == pytest.approx(0.64, abs=0.005)
 
 
-@pytest.mark.parametrize(
-    ("law", "residual"), [("corrected", 0.090), ("printed", 0.193), ("aicardi", 0.332)]
-)
-def test_circle_residuals(law, residual):
-    after = wmr.track(
-        wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, law=law, duration=40.0
-    )
-    assert wmr.residual(after) == pytest.approx(residual, abs=5e-4)
+def test_circle_residuals():
+    start, gains = wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS
 
+    def residual(**options):
+        options = {"gains": gains, "duration": 40.0} | options
+        return wmr.residual(wmr.track(wmr.paper.circle, start, **options))
 
-@pytest.mark.parametrize("v_max", [1.0, 2.0, 4.0])
-def test_circle_residual_is_predicted_by_v_max(v_max):
-    gains = wmr.paper.CIRCLE_GAINS._replace(v_max=v_max)
-    predicted = -math.log(1 - wmr.paper.CIRCLE_SPEED / v_max) / gains.k_rho
-    measured = wmr.residual(
-        wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, gains, duration=40.0)
-    )
-    assert measured == pytest.approx(predicted, rel=0.01)
-    assert (abs(measured - PUBLISHED["circle_residual"].value) < 0.011) == (
-        v_max == 4.0
-    )  # which v_max the paper must have used
+    for law, expected in (("corrected", 0.090), ("printed", 0.193), ("aicardi", 0.332)):
+        assert residual(law=law) == pytest.approx(expected, abs=5e-4)
+    for v_max in (1.0, 2.0, 4.0):
+        measured = residual(gains=gains._replace(v_max=v_max))
+        predicted = -math.log(1 - wmr.paper.CIRCLE_SPEED / v_max) / gains.k_rho
+        assert measured == pytest.approx(predicted, rel=0.01)
+        # which v_max the paper must have used
+        is_the_papers = abs(measured - PUBLISHED["circle_residual"].value) < 0.011
+        assert is_the_papers == (v_max == 4.0)
 
 
 def test_circle_is_the_papers_and_its_twist_is_its_derivative():

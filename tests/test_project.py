@@ -1,4 +1,4 @@
-"""What the repository promises of itself: the locked environment, the README's commands, the chapters' form."""
+"""What the repository promises of itself: the locks, the README's commands, the chapters' form."""
 
 import re
 import tomllib
@@ -16,23 +16,25 @@ CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
-def test_the_lock_pins_every_direct_dependency_within_its_range():
-    pins = [
-        Requirement(line)
-        for line in (ROOT / "environment.txt").read_text(encoding="utf-8").splitlines()
-        if line[:1].isalnum()
-    ]
-    locked = {}
-    for pin in pins:
-        assert str(pin.specifier).startswith("=="), pin
-        locked.setdefault(pin.name.lower(), []).append(str(pin.specifier)[2:])
-    wanted = [
-        *PROJECT["dependencies"],
-        *(line for extra in PROJECT["optional-dependencies"].values() for line in extra),
-    ]
+def pins(lock):
+    """Each package of a lock with its version; one may stand there for several Pythons."""
+    lines = (ROOT / lock).read_text(encoding="utf-8").splitlines()
+    found = [Requirement(line) for line in lines if line[:1].isalnum()]
+    assert all(str(each.specifier).startswith("==") for each in found)
+    return {(each.name.lower(), str(each.specifier)[2:]) for each in found}
+
+
+@pytest.mark.parametrize(
+    ("lock", "extras"),
+    [("environment.txt", ["book"]), ("tests/environment.txt", ["book", "site", "test"])],
+)
+def test_a_lock_pins_every_direct_dependency_within_its_range(lock, extras):
+    assert pins(lock) <= pins("tests/environment.txt")
+    optional = PROJECT["optional-dependencies"]
+    wanted = [*PROJECT["dependencies"], *(line for extra in extras for line in optional[extra])]
     for requirement in map(Requirement, wanted):
-        versions = locked.get(requirement.name.lower(), [])
-        assert versions, f"{requirement.name} is not in environment.txt"
+        versions = [version for name, version in pins(lock) if name == requirement.name.lower()]
+        assert versions, f"{requirement.name} is not in {lock}"
         assert all(version in requirement.specifier for version in versions), requirement
 
 

@@ -20,7 +20,6 @@ from .geodesy import haversine_distance as haversine_distance
 from .geodesy import initial_bearing as initial_bearing
 from .geodesy import local_position as local_position
 from .geodesy import point_at as point_at
-from .geodesy import sphere_error as sphere_error
 from .kinematics import PolarError as PolarError
 from .kinematics import Pose as Pose
 from .kinematics import Reference as Reference
@@ -47,10 +46,10 @@ from .simulation import simulate as simulate
 from .simulation import track as track
 from .sweeping import Trajectories as Trajectories
 from .sweeping import sweep as sweep
-from .tracks import Standing as Standing
+from .tracks import StationaryScatter as StationaryScatter
 from .tracks import Track as Track
 from .tracks import read_track as read_track
-from .tracks import standing as standing
+from .tracks import stationary_scatter as stationary_scatter
 from .tracks import write_geojson as write_geojson
 from .tracks import write_gpx as write_gpx
 from .tuning import Modes as Modes

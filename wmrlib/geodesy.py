@@ -1,7 +1,6 @@
-"""From GPS points to metres: the great circle on a sphere, and the local east-north frame; equations (11) to (17) of the paper.
+"""From GPS points to metres on a spherical Earth; equations (11) to (17) of the paper.
 
-The Earth is taken as a sphere. Over 100 m its distances differ from the WGS84 ellipsoid's by -0.45 % to +0.56 %, depending on
-where and in which direction: `sphere_error` tells, and chapter 1 derives it.
+Short distances differ from the WGS84 ellipsoid's by -0.45 % to +0.56 % (chapter 1).
 """
 
 from __future__ import annotations
@@ -14,18 +13,19 @@ from wmrlib._checks import Real, instance, real, same_shape
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
-WGS84_SEMI_MAJOR_M = 6_378_137.0
-"""The radius of the WGS84 ellipsoid's equator, in metres; its source is the standard NGA.STND.0036."""
-WGS84_FLATTENING = 1.0 / 298.257223563
-"""How much shorter than the equator's radius the polar one is, as a share of it; same source."""
 
 
 @dataclass(frozen=True, kw_only=True, slots=True)
 class GeoPoint:
-    """A point on the Earth, or many: latitude and longitude in degrees, by keyword, so that their order can't be mixed up.
+    """A point on the Earth, or many; by keyword, so that the order can't be mixed up.
 
-    lat: degrees north, -90 to 90; lon: degrees east, -180 to 180. Numbers, or arrays that broadcast together.
-    Raises ValueError for a value out of range, NaN, or mismatched lengths.
+    Parameters
+    ----------
+    lat, lon : float or array, degrees north (-90 to 90) and east (-180 to 180); they broadcast
+
+    Raises
+    ------
+    ValueError : a value out of range, NaN or mismatched lengths
     """
 
     lat: Real
@@ -38,33 +38,48 @@ class GeoPoint:
 
 
 def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M) -> Real:
-    """Great-circle distance from `a` to `b` in metres (in the unit of `radius`), by the haversine.
+    """Return the great-circle distance from `a` to `b`.
 
-    rho = R c, c = 2 atan2(sqrt(e), sqrt(1 - e)), e = sin^2(dlat/2) + cos(lat1) cos(lat2) sin^2(dlon/2); equations (11)-(13).
-    1 - e is computed as the haversine to the antipode of `a`, sin^2((lat1 + lat2)/2) + cos(lat1) cos(lat2) cos^2(dlon/2), which is equal
-    and lets the atan2 keep all digits at both ends: for points a micrometre apart, where an acos loses them, and near the antipode, where
-    a difference from 1 does.
+    Parameters
+    ----------
+    a, b : GeoPoint; they broadcast
+    radius : float, m; of the sphere
 
-    Fields of a and b may be arrays that broadcast; the result has their common shape. Raises ValueError for mismatched lengths
-    or a radius that is not positive.
+    Returns
+    -------
+    float or array, m; equations (11)-(13)
+
+    Raises
+    ------
+    ValueError : mismatched lengths, or a radius that is not positive
     """
     lat1, lat2, delta_lat, delta_lon = _radians(a, b)
     radius = real("radius", radius, above=0.0)
     across = np.cos(lat1) * np.cos(lat2)
     e = np.sin(delta_lat / 2) ** 2 + across * np.sin(delta_lon / 2) ** 2
+    # 1 - e without the difference, which loses digits near the antipode: the haversine to it
     rest = np.sin((lat2 + lat1) / 2) ** 2 + across * np.cos(delta_lon / 2) ** 2
     return _number(radius * 2.0 * np.arctan2(np.sqrt(e), np.sqrt(rest)))
 
 
 def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
-    """Direction in which the great circle leaves `a` towards `b`, in radians clockwise from north, in [0, 2 pi).
+    """Return the direction in which the great circle from `a` to `b` starts.
 
-    br = atan2(zeta_x, zeta_y), zeta_x = cos(lat2) sin(dlon), zeta_y = cos(lat1) sin(lat2) - sin(lat1) cos(lat2) cos(dlon);
-    equations (15)-(17). zeta_y is computed as sin(lat2 - lat1) + 2 sin(lat1) cos(lat2) sin^2(dlon/2), which is equal and does
-    not lose digits for points close together. Between equal points the bearing is 0. Shapes and errors as in `haversine_distance`.
+    Parameters
+    ----------
+    a, b : GeoPoint; they broadcast
+
+    Returns
+    -------
+    float or array, rad clockwise from north in [0, 2 pi), 0 for equal points; equations (15)-(17)
+
+    Raises
+    ------
+    ValueError : mismatched lengths
     """
     lat1, lat2, delta_lat, delta_lon = _radians(a, b)
     zeta_x = np.cos(lat2) * np.sin(delta_lon)
+    # equals (17), and loses no digits for points close together
     zeta_y = np.sin(delta_lat) + 2.0 * np.sin(lat1) * np.cos(lat2) * np.sin(delta_lon / 2) ** 2
     turn = 2.0 * np.pi
     bearing = np.mod(np.arctan2(zeta_x, zeta_y), turn)
@@ -74,13 +89,23 @@ def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
 def destination_point(
     a: GeoPoint, distance: Real, bearing: Real, radius: float = EARTH_RADIUS_M
 ) -> GeoPoint:
-    """The point reached from `a` after `distance` metres along the great circle that leaves at `bearing` (radians from north).
+    """Return the point at `distance` along the great circle that leaves `a` at `bearing`.
 
-    The inverse of `haversine_distance` and `initial_bearing` together. Longitudes come back in [-180, 180).
-    Fields of a, distance and bearing may be arrays that broadcast. Raises ValueError for NaN, a negative distance or mismatched lengths.
-    Source: https://www.movable-type.co.uk/scripts/latlong.html, "Destination point", rearranged so that short steps and the
-    neighbourhood of the poles keep their digits (an atan2 where the source has an asin).
+    Parameters
+    ----------
+    a : GeoPoint
+    distance, bearing : float or array, m (at least 0) and rad clockwise from north; they broadcast
+    radius : float, m; of the sphere
+
+    Returns
+    -------
+    GeoPoint, with longitudes in [-180, 180)
+
+    Raises
+    ------
+    ValueError : NaN, a negative distance, a radius that is not positive, or mismatched lengths
     """
+    # https://www.movable-type.co.uk/scripts/latlong.html, with an atan2 in place of its asin
     instance("a", a, GeoPoint)
     distance = real("distance", distance, low=0.0)
     bearing = real("bearing", bearing)
@@ -88,9 +113,8 @@ def destination_point(
     same_shape(lat=a.lat, lon=a.lon, distance=distance, bearing=bearing)
     lat1, lon1 = np.radians(a.lat), np.radians(a.lon)
     north, east = np.sin(delta) * np.cos(bearing), np.sin(delta) * np.sin(bearing)
-    up = (
-        np.cos(lat1) * np.cos(delta) - np.sin(lat1) * north
-    )  # towards lon1 in the plane of the equator
+    # towards lon1 in the plane of the equator
+    up = np.cos(lat1) * np.cos(delta) - np.sin(lat1) * north
     lat2 = np.arctan2(np.sin(lat1) * np.cos(delta) + np.cos(lat1) * north, np.hypot(up, east))
     lon2 = np.degrees(lon1 + np.arctan2(east, up))
     lon2 = np.where((lon2 >= -180.0) & (lon2 < 180.0), lon2, np.mod(lon2 + 180.0, 360.0) - 180.0)
@@ -100,11 +124,20 @@ def destination_point(
 def local_position(
     origin: GeoPoint, point: GeoPoint, radius: float = EARTH_RADIUS_M
 ) -> tuple[Real, Real]:
-    """`point` in the local frame of `origin`: (east, north) in metres.
+    """Return `point` in the local frame of `origin`: exact distance and bearing from there.
 
-    east = rho sin(br), north = rho cos(br): the distance and the bearing from the origin are exact (the azimuthal equidistant
-    projection). The paper's theta = 90 deg - br, equation (14), is the same direction counted from east. Shapes and errors as
-    in `haversine_distance`.
+    Parameters
+    ----------
+    origin, point : GeoPoint; they broadcast
+    radius : float, m; of the sphere
+
+    Returns
+    -------
+    (east, north), floats or arrays, m; the direction from east is that of equation (14)
+
+    Raises
+    ------
+    ValueError : as `haversine_distance`
     """
     distance = haversine_distance(origin, point, radius)
     bearing = initial_bearing(origin, point)
@@ -112,33 +145,40 @@ def local_position(
 
 
 def point_at(origin: GeoPoint, east: Real, north: Real, radius: float = EARTH_RADIUS_M) -> GeoPoint:
-    """The GeoPoint at (east, north) metres in the local frame of `origin`: the inverse of `local_position`."""
+    """Return the point at (east, north) in the local frame of `origin`: `local_position` undone.
+
+    Parameters
+    ----------
+    origin : GeoPoint
+    east, north : float or array, m; they broadcast
+    radius : float, m; of the sphere
+
+    Returns
+    -------
+    GeoPoint
+
+    Raises
+    ------
+    ValueError : NaN, or mismatched lengths
+    """
     east, north = real("east", east), real("north", north)
     same_shape(east=east, north=north)
-    return destination_point(
-        origin, _number(np.hypot(east, north)), _number(np.arctan2(east, north)), radius
-    )
+    distance, bearing = np.hypot(east, north), np.arctan2(east, north)
+    return destination_point(origin, _number(distance), _number(bearing), radius)
 
 
-def sphere_error(lat: Real, bearing: Real, radius: float = EARTH_RADIUS_M) -> Real:
-    """How much longer a short line is on the sphere than on the WGS84 ellipsoid, as a share of its length: 0.002 is 0.2 % too long.
-
-    R sqrt(cos^2(br)/M^2 + sin^2(br)/N^2) - 1, with the ellipsoid's radii of curvature M = a (1 - e^2)/w^3 along the meridian and N = a/w
-    across it, w = sqrt(1 - e^2 sin^2(lat)). lat in degrees, bearing in radians from north, on the ellipsoid; they broadcast. Of 100 m
-    lines `haversine_distance` and WGS84's geodesic give the same to 1e-7. Raises ValueError for a latitude out of range, NaN, mismatched
-    lengths, or a radius that is not positive. Source of M and N: any textbook of geodesy, such as Torge and Mueller, Geodesy.
-    """
-    lat, bearing = np.radians(real("lat", lat, low=-90.0, high=90.0)), real("bearing", bearing)
-    radius = real("radius", radius, above=0.0)
-    same_shape(lat=lat, bearing=bearing)
-    eccentricity_squared = WGS84_FLATTENING * (2.0 - WGS84_FLATTENING)
-    w = np.sqrt(1.0 - eccentricity_squared * np.sin(lat) ** 2)
-    along, across = WGS84_SEMI_MAJOR_M * (1.0 - eccentricity_squared) / w**3, WGS84_SEMI_MAJOR_M / w
-    return _number(radius * np.hypot(np.cos(bearing) / along, np.sin(bearing) / across) - 1.0)
+def position_list(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
+    """The latitudes and longitudes of a list of positions; raises ValueError for anything else."""
+    instance("points", points, GeoPoint)
+    lat, lon = np.broadcast_arrays(np.atleast_1d(points.lat), np.atleast_1d(points.lon))
+    if lat.ndim != 1 or not lat.size:
+        needed = "a list of at least one position is needed"
+        raise ValueError(f"points have shape {lat.shape}, which is not allowed: {needed}")
+    return lat, lon
 
 
 def _radians(a: GeoPoint, b: GeoPoint) -> tuple[Real, Real, Real, Real]:
-    """lat1, lat2, lat2 - lat1 and lon2 - lon1 in radians; the differences are taken in degrees, where they are exact for close points."""
+    """lat1, lat2 and the differences, taken in degrees, where they are exact for close points."""
     instance("a", a, GeoPoint)
     instance("b", b, GeoPoint)
     same_shape(**{"a.lat": a.lat, "a.lon": a.lon, "b.lat": b.lat, "b.lon": b.lon})

@@ -1,4 +1,4 @@
-"""What a run amounts to: arrival, effort, and the distance that is left behind a moving reference."""
+"""What a run amounts to: arrival, effort, and the distance left behind a moving reference."""
 
 from __future__ import annotations
 
@@ -11,9 +11,19 @@ from wmrlib.runs import Arrival, Outcome, Trajectory
 
 
 def arrival(trajectory: Trajectory) -> Arrival:
-    """When and how a run reached its goal, see Arrival for the fields and units.
+    """Return when and how a run reached its goal.
 
-    The time is infinite if it did not arrive. Raises ValueError for a trajectory without a sample.
+    Parameters
+    ----------
+    trajectory : Trajectory
+
+    Returns
+    -------
+    Arrival, with an infinite time if the run did not arrive
+
+    Raises
+    ------
+    ValueError : a trajectory without a sample
     """
     run = _with_samples(trajectory)
     arrived = run.outcome is Outcome.ARRIVED
@@ -28,10 +38,19 @@ def arrival(trajectory: Trajectory) -> Arrival:
 
 
 def path_length(trajectory: Trajectory) -> float:
-    """How far the robot rolled, forwards and backwards, in metres: the integral of |v|.
+    """Return how far the robot rolled, forwards and backwards: the integral of |v|.
 
-    Exact for "euler" and "arc", which hold v between samples; for "continuous" by the trapezoidal rule over the samples.
-    Raises ValueError for a trajectory without a sample.
+    Parameters
+    ----------
+    trajectory : Trajectory
+
+    Returns
+    -------
+    float, m; exact where v is held between samples, by the trapezoidal rule for "continuous"
+
+    Raises
+    ------
+    ValueError : a trajectory without a sample
     """
     run = _with_samples(trajectory)
     speed, step = np.abs(run.v), np.diff(run.t)
@@ -41,10 +60,20 @@ def path_length(trajectory: Trajectory) -> float:
 
 
 def residual(trajectory: Trajectory, last: float = 5.0) -> float:
-    """The mean distance to the reference over the last `last` seconds, in metres.
+    """Return the mean distance to the reference at the end of a run.
 
-    For the laws without feed-forward on a circle it settles near -ln(1 - speed/v_max)/k_rho, where (22) commands the reference's speed.
-    Raises ValueError for a trajectory without a sample, or if `last` is not positive.
+    Parameters
+    ----------
+    trajectory : Trajectory
+    last : float, s; how much of the end counts
+
+    Returns
+    -------
+    float, m; on a circle, without feed-forward, about -ln(1 - speed/v_max)/k_rho by (22)
+
+    Raises
+    ------
+    ValueError : a trajectory without a sample, or `last` not positive
     """
     run = _with_samples(trajectory)
     late = run.t >= run.t[-1] - scalar("last", last, above=0.0)

@@ -1,6 +1,6 @@
-"""The paper's scenarios and its published numbers, as data.
+"""The scenarios and the published numbers of the paper, as data.
 
-Yousif, W. K., and Ali, A. A.: Simulation of Pose to Pose Moving of the Mobile Robot with Specified GPS Points.
+Yousif and Ali: Simulation of Pose to Pose Moving of the Mobile Robot with Specified GPS Points.
 """
 
 from __future__ import annotations
@@ -10,36 +10,30 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import choice, real
+from wmrlib._checks import Real, choice, real
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, local_position
 from wmrlib.kinematics import Pose, Reference
 
+# The outdoor start and goal. The paper writes (longitude, latitude): read the other way round, its
+# points would be 42.5 m apart, not 58.
 GPS_POINT_1 = GeoPoint(lat=33.273572, lon=44.373160)
-"""The outdoor start. The paper writes (longitude, latitude); read the other way round, its points would be 42.5 m apart, not 58."""
 GPS_POINT_2 = GeoPoint(lat=33.274087, lon=44.373264)
-"""The outdoor goal."""
-START_HEADING = 2.0 * math.pi / 5.0
-"""The outdoor start's heading, rad."""
-GOAL_HEADING = -2.0 * math.pi / 6.0
-"""The outdoor goal's heading, rad."""
-TIME_STEP = 0.1
-"""The paper's time step, s."""
+START_HEADING = 2.0 * math.pi / 5.0  # rad
+GOAL_HEADING = -2.0 * math.pi / 6.0  # rad
+TIME_STEP = 0.1  # s
 OUTDOOR_GAINS = Gains(k_rho=2.0, k_alpha=1.0, h=0.3, v_max=4.0)
 
-CIRCLE_PERIOD = 40.0
-"""T, s."""
-CIRCLE_RADIUS = 4.0
-"""m."""
-CIRCLE_SPEED = 2.0 * math.pi * CIRCLE_RADIUS / CIRCLE_PERIOD
-"""Speed of the reference, m/s."""
+CIRCLE_PERIOD = 40.0  # T, s
+CIRCLE_RADIUS = 4.0  # m
+CIRCLE_SPEED = 2.0 * math.pi * CIRCLE_RADIUS / CIRCLE_PERIOD  # of the reference, m/s
 CIRCLE_START = Pose(1.0, 2.0, 0.0)
+# The paper gives no v_max for the circle; with 4 m/s the error that remains is the paper's.
 CIRCLE_GAINS = Gains(k_rho=1.9, k_alpha=1.0, h=0.05, v_max=4.0)
-"""The paper gives no v_max for the circle; with 4 m/s the error that remains is the paper's."""
 
 
 class Scenario(NamedTuple):
-    """A run from start to goal with the paper's gains and time step."""
+    """A run from start to goal with the paper's gains and time step, s."""
 
     start: Pose
     goal: Pose
@@ -87,27 +81,23 @@ PUBLISHED = {
     "time_step": Published(0.1, "s", "section 4"),
     "speed_limit": Published(4.0, "m/s", "section 4, Fig. 9"),
 }
-"""Every number that the paper prints of its own work, and two that it quotes, in the order in which they come."""
-
-_BLOCK_DIAGRAM = "Block diagram of the mobile robot controller."
-CAPTIONS = {
-    1: "Coordinate System Mobile Robot.",
-    2: "Mobile robot pose to pose configuration.",
-    **dict.fromkeys(range(3, 8), _BLOCK_DIAGRAM),
-    8: "Simulation sense of the tracking performance for the proposed mobile robot.",
-    9: "Linear velocity profile.",
-    10: "Angular velocity profile.",
-    11: "Tracking error in the x-direction.",
-    12: "Tracking error in the y-direction.",
-}
-"""What the paper prints below each of its figures; the pictures themselves are not in this repository."""
+"""Every number the paper prints of its own work, and two that it quotes, in order."""
 
 
 def outdoor(x_axis: str = "east") -> Scenario:
-    """The outdoor case: from GPS point 1 to GPS point 2.
+    """Return the outdoor case, from GPS point 1 to GPS point 2.
 
-    x_axis "east" follows the paper's section 2 (y is north); "north" follows its section 4, where the 57 m error is in x, so that x
-    points north and y east. The headings are counted from x towards y in both. Raises ValueError for another name.
+    Parameters
+    ----------
+    x_axis : "east" as in section 2 (y is north), or "north" as in section 4, whose 57 m are in x
+
+    Returns
+    -------
+    Scenario
+
+    Raises
+    ------
+    ValueError : another name
     """
     east, north = local_position(GPS_POINT_1, GPS_POINT_2)
     x, y = (east, north) if choice("x_axis", x_axis, ("east", "north")) == "east" else (north, east)
@@ -116,10 +106,20 @@ def outdoor(x_axis: str = "east") -> Scenario:
     )
 
 
-def circle(t) -> Reference:
-    """The circle's reference at time t [s], a number or an array: x = 4 cos(2 pi t/T) - 4, y = 4 sin(2 pi t/T), heading = 2 pi t/T + pi/2.
+def circle(t: Real) -> Reference:
+    """Return the circle's reference: x = 4 cos(2 pi t/T) - 4, y = 4 sin(2 pi t/T).
 
-    Its speed is 2 pi 4/T = 0.628 m/s and its turning rate 2 pi/T = 0.157 rad/s. Raises ValueError for NaN.
+    Parameters
+    ----------
+    t : float or array, s
+
+    Returns
+    -------
+    Reference, with v = 0.628 m/s and omega = 0.157 rad/s
+
+    Raises
+    ------
+    ValueError : NaN
     """
     turn = 2.0 * math.pi / CIRCLE_PERIOD
     angle = turn * real("t", t)

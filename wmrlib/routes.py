@@ -1,4 +1,4 @@
-"""A route of several points, driven pose to pose: headings chosen along the way or given, each waypoint a stop or passed."""
+"""A route of several points, driven pose to pose; each waypoint is a stop or is passed."""
 
 from __future__ import annotations
 
@@ -9,29 +9,33 @@ from dataclasses import dataclass
 import numpy as np
 
 from wmrlib._checks import Real, instance, real, same_shape, scalar
-from wmrlib.gains import Gains, WheelLimits
-from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at
+from wmrlib.gains import Gains
+from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at, position_list
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.metrics import arrival, path_length
 from wmrlib.runs import Arrival, Outcome, Trajectory
 from wmrlib.simulation import simulate
 
 _HAIRPIN = math.pi - 1e-9  # rad: a turn of 180 deg but for rounding
-_APART = 1e-6  # m: nearer than this, two GPS points are one, and what lies between them is rounding
-_JOINED = ("x", "y", "heading", "v", "omega", "V")
+_APART = 1e-6  # m: GPS points nearer than this are one, and what lies between them is rounding
+_JOINED = ("t", "x", "y", "heading", "v", "omega", "V")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Route:
-    """A driven route: its legs, each a Trajectory towards one waypoint, and their samples joined in arrays that can't be written to.
+    """A driven route: its legs, and their samples joined in arrays that can't be written to.
 
-    start: Pose; waypoints: Pose of arrays, in their order, all that were asked for; stops: one bool a waypoint, False for one that was
-    passed; legs and arrivals: one Trajectory and one Arrival a leg, up to the first that failed; outcome: ARRIVED if every waypoint was
-    reached, or else how the last leg failed.
-    Joined: t: s from the start; x, y: m; heading: rad in (-pi, pi]; v: m/s and omega: rad/s; V; leg: which of the `legs` a sample is of.
-    Where the goal changes the sample is the next leg's, whose command moves the robot on, so that no time stands there twice. V, (18), is
-    counted from each leg's own goal: it falls in each leg by itself, and may jump up where the goal changes. So the proof holds leg by
-    leg; the route as a whole ends because its legs are finitely many.
+    Where the goal changes, the sample is the next leg's, so that t increases strictly. V falls in
+    each leg by itself and may jump where the goal changes: the proof holds leg by leg.
+
+    Parameters
+    ----------
+    start, waypoints : Pose and Pose of arrays; all waypoints that were asked for, in order
+    stops : tuple of bool, one a waypoint; False for one that is passed
+    legs, arrivals : tuples of Trajectory and Arrival, one a leg, up to the first that failed
+    outcome : Outcome; ARRIVED if every waypoint was reached, or else the last leg's
+    t, x, y, heading, v, omega : arrays, s from the start, m, m, rad in (-pi, pi], m/s, rad/s
+    V, leg : arrays; (18) from each leg's own goal, and the index into `legs` of each sample
     """
 
     start: Pose
@@ -56,9 +60,8 @@ class Route:
         reached = f"{self.reached} of {len(self.stops)} waypoints reached"
         if self.outcome is Outcome.ARRIVED:
             return f"<Route: {reached} in {self.time:.4g} s, {self.length:.4g} m long>"
-        left = (
-            f", {self.arrivals[-1].distance:.4g} m from its waypoint" if len(self.legs[-1]) else ""
-        )
+        distance = self.arrivals[-1].distance
+        left = f", {distance:.4g} m from its waypoint" if len(self.legs[-1]) else ""
         return f"<Route: {reached}; leg {len(self.legs)} {self.outcome.message}{left}>"
 
     @property
@@ -68,30 +71,37 @@ class Route:
 
     @property
     def length(self) -> float:
-        """How far the robot rolled on all legs, forwards and backwards, metres."""
+        """How far the robot rolled on all legs, forwards and backwards, m."""
         return math.fsum(path_length(leg) for leg in self.legs if len(leg))
 
     @property
     def time(self) -> float:
-        """Seconds to the last waypoint; infinite if not every one was reached."""
+        """Time to the last waypoint, s; infinite if not every one was reached."""
         return float(self.t[-1]) if self.outcome is Outcome.ARRIVED else math.inf
 
 
 def headings_along(x: Real, y: Real) -> np.ndarray:
-    """Headings along a line of points (x, y in metres), one a point, radians in (-pi, pi].
+    """Return headings along a line of points: each bisects the turn at its point.
 
-    At the first point the direction of the first leg, at the last that of the last, and in between the direction that bisects the turn:
-    d + turn/2, with the incoming leg's direction d and the turn in (-pi, pi] to the outgoing one's. Half the turn is then done on each
-    side. The tangent of the circle through three points would lean towards the direction of the shorter leg, the one that a GPS error
-    turns the most; the bisecting direction does not look at lengths.
-    A turn of 180 deg (a hairpin) has no side: it is taken to the left. Points that repeat have one heading; a single point, or points
-    that are all equal, have the heading 0, east. Raises ValueError for NaN, no point, or x and y of different lengths.
+    The first is the direction of the first leg, the last that of the last. A hairpin of 180 deg is
+    taken to the left. Points that repeat have one heading; with no leg at all it is 0, east.
+
+    Parameters
+    ----------
+    x, y : arrays, m
+
+    Returns
+    -------
+    array, rad in (-pi, pi]
+
+    Raises
+    ------
+    ValueError : NaN, no point, or different lengths
     """
     x, y = np.atleast_1d(real("x", x)), np.atleast_1d(real("y", y))
     if x.shape != y.shape or x.ndim != 1 or not x.size:
-        raise ValueError(
-            f"mismatched lengths: x has shape {x.shape}, y has shape {y.shape}; two lists of at least one number are needed"
-        )
+        shapes = f"x has shape {x.shape}, y has shape {y.shape}"
+        raise ValueError(f"mismatched lengths: {shapes}; at least one number in each is needed")
     moved = np.flatnonzero((np.diff(x) != 0.0) | (np.diff(y) != 0.0))
     if not moved.size:
         return np.zeros(x.size)
@@ -107,44 +117,61 @@ def route_poses(
     headings: Sequence[float] | np.ndarray | None = None,
     origin: GeoPoint | None = None,
 ) -> Pose:
-    """GPS points as poses in a local frame, x east and y north in metres: a Pose of arrays, for `drive_route`.
+    """Return GPS points as poses in a local frame, for `drive_route`.
 
-    points: a GeoPoint of arrays. headings: radians counter-clockwise from east, one a point; where one is NaN (or all, for None) it is
-    chosen by `headings_along`. origin: the local frame's, a single GeoPoint; the first of the points for None. Right at the date line
-    and at the poles too, where one point has many longitudes: points less than a micrometre apart are one that repeats. See
-    `local_position` for the projection. Raises ValueError for no point, headings of another length, one that is infinite or no number,
-    or an origin of arrays.
+    Parameters
+    ----------
+    points : GeoPoint of arrays
+    headings : array, rad from east; NaN, or None for all, to choose it by `headings_along`
+    origin : single GeoPoint, of the local frame; the first point by default
+
+    Returns
+    -------
+    Pose of arrays
+
+    Raises
+    ------
+    ValueError : no point, headings of another length or not finite, or an origin of arrays
     """
-    lat, lon = _listed(points)
-    east, north = (
-        np.ravel(value)
-        for value in local_position(_origin(points if origin is None else _single(origin)), points)
-    )
-    apart = (
-        haversine_distance(GeoPoint(lat=lat[:-1], lon=lon[:-1]), GeoPoint(lat=lat[1:], lon=lon[1:]))
-        >= _APART
-    )
-    first = np.maximum.accumulate(
-        np.where([True, *apart], np.arange(lat.size), 0)
-    )  # of the points that are this one
+    lat, lon = position_list(points)
+    if origin is None:
+        origin = _first(points)
+    elif same_shape(lat=instance("origin", origin, GeoPoint).lat, lon=origin.lon):
+        raise ValueError(f"origin = {origin!r} is not allowed: a single point is needed")
+    east, north = (np.ravel(value) for value in local_position(origin, points))
+    before, after = GeoPoint(lat=lat[:-1], lon=lon[:-1]), GeoPoint(lat=lat[1:], lon=lon[1:])
+    # At a pole, or on the date line, one point may be given twice under two longitudes.
+    new = np.array([True, *(haversine_distance(before, after) >= _APART)])
+    first = np.maximum.accumulate(np.where(new, np.arange(lat.size), 0))  # of those that are one
     east, north = east[first], north[first]
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
-    given = _given(headings)
+    listed = np.atleast_1d(np.array(headings, dtype=object))
+    given = real("headings", [math.nan if each is None else each for each in listed], nan=True)
     if given.shape != lat.shape:
-        raise ValueError(
-            f"mismatched lengths: headings have shape {given.shape}, points have shape {lon.shape}; the same is needed"
-        )
+        shapes = f"headings have shape {given.shape}, points have shape {lat.shape}"
+        raise ValueError(f"mismatched lengths: {shapes}; the same is needed")
     return Pose(east, north, np.where(np.isnan(given), chosen, given))
 
 
 def route_points(route: Route, origin: GeoPoint) -> GeoPoint:
-    """The driven path as GPS points, for `write_gpx` and `write_geojson`: `point_at(origin, route.x, route.y)`.
+    """Return the driven path as GPS points, for `write_gpx` and `write_geojson`.
 
-    origin: that of `route_poses`, or the points that were given to it, whose first it is. Raises ValueError for another type.
+    Parameters
+    ----------
+    route : Route
+    origin : GeoPoint; that of `route_poses`, or the points given to it, whose first it is
+
+    Returns
+    -------
+    GeoPoint of arrays
+
+    Raises
+    ------
+    ValueError : another type
     """
-    return point_at(_origin(origin), instance("route", route, Route).x, route.y)
+    return point_at(_first(origin), instance("route", route, Route).x, route.y)
 
 
 def drive_route(
@@ -153,82 +180,78 @@ def drive_route(
     *,
     start: Pose | None = None,
     stop: bool | Sequence[bool] = True,
-    law: str = "corrected",
-    method: str = "arc",
-    dt: float = 0.1,
     duration: float = 120.0,
     arrival_radius: float = 0.05,
     pass_radius: float = 2.0,
-    wheels: WheelLimits | None = None,
+    **options,
 ) -> Route:
     """Drive from pose to pose, each leg by `simulate`; a leg that fails is the last.
 
-    poses: a Pose of arrays, one entry a waypoint. Without `start` the robot stands at the first, and the waypoints are the others; with
-    a start, a single Pose, all are waypoints. stop: True, to stop at each; False, to pass all but the last, where it stops; or one bool
-    a waypoint. A stop is reached within `arrival_radius` metres, and its goal is left when (22) has slowed the robot down; a waypoint
-    that is passed counts as reached within `pass_radius`, so that the robot need not crawl there, nor have its heading yet. A waypoint
-    within whose radius its leg starts is reached at once, by a leg of one sample.
-    duration: of each leg, s. gains, law, method, dt, wheels as in `simulate`.
+    A waypoint within whose radius its leg starts is reached at once, by a leg of one sample.
 
-    Raises ValueError as `simulate`, for no waypoint, or for a `stop` of another length.
+    Parameters
+    ----------
+    poses : Pose of arrays, one entry a waypoint
+    start : single Pose; by default the first of the poses
+    stop : bool, or one a waypoint; False passes all but the last
+    duration : float, s; of each leg
+    arrival_radius, pass_radius : float, m; within which a stop, or a waypoint passed, is reached
+    gains, options : as for `simulate`
+
+    Returns
+    -------
+    Route
+
+    Raises
+    ------
+    ValueError : as `simulate`, no waypoint, or a `stop` of another length
     """
     listed = np.broadcast_arrays(*map(np.atleast_1d, instance("poses", poses, Pose)))
-    if listed[0].ndim != 1:
-        raise ValueError(
-            f"poses have shape {listed[0].shape}, which is not allowed: a list of poses is needed"
-        )
-    way = [Pose(*map(float, each)) for each in zip(*listed, strict=True)]
-    pose, way = (way[0], way[1:]) if start is None and way else (start, way)
-    if not way:
-        raise ValueError(
-            f"poses has {listed[0].size} entries, which is not allowed: a waypoint besides the start is needed"
-        )
-    stops = _stops(stop, len(way))
-    radius = {
-        True: scalar("arrival_radius", arrival_radius, low=0.0),
-        False: scalar("pass_radius", pass_radius, low=0.0),
-    }
-    begin, legs = pose, []
-    for goal, stopping in zip(way, stops, strict=True):
-        options = {"law": law, "method": method, "dt": dt, "duration": duration, "wheels": wheels}
-        legs.append(simulate(pose, goal, gains, arrival_radius=radius[stopping], **options))
-        if legs[-1].outcome is not Outcome.ARRIVED:
+    shape = listed[0].shape
+    if len(shape) != 1 or shape[0] <= (start is None):
+        needed = "a list with at least one waypoint besides the start is needed"
+        raise ValueError(f"poses have shape {shape}, which is not allowed: {needed}")
+    goals = [Pose(*map(float, each)) for each in zip(*listed, strict=True)]
+    if start is None:
+        start = goals.pop(0)
+    stops = _stops(stop, len(goals))
+    arrival_radius = scalar("arrival_radius", arrival_radius, low=0.0)
+    pass_radius = scalar("pass_radius", pass_radius, low=0.0)
+    pose, legs = start, []
+    for goal, stopping in zip(goals, stops, strict=True):
+        radius = arrival_radius if stopping else pass_radius
+        leg = simulate(pose, goal, gains, duration=duration, arrival_radius=radius, **options)
+        legs.append(leg)
+        if leg.outcome is not Outcome.ARRIVED:
             break
-        pose = Pose(*(float(field[-1]) for field in (legs[-1].x, legs[-1].y, legs[-1].heading)))
-    waypoints = Pose(*(np.array(column) for column in zip(*way, strict=True)))
+        pose = Pose(float(leg.x[-1]), float(leg.y[-1]), float(leg.heading[-1]))
     return Route(
-        begin,
-        waypoints,
-        stops,
-        tuple(legs),
-        tuple(map(_arrival, legs)),
-        legs[-1].outcome,
+        start=start,
+        waypoints=Pose(*np.array(goals).T),
+        stops=stops,
+        legs=tuple(legs),
+        arrivals=tuple(
+            arrival(leg) if len(leg) else Arrival(False, math.inf, *[math.nan] * 4) for leg in legs
+        ),
+        outcome=legs[-1].outcome,
         **_joined(legs),
     )
 
 
 def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
-    driven = [k for k, leg in enumerate(legs) if len(leg)]
-    counts = {
-        k: len(legs[k]) - (k != driven[-1]) for k in driven
-    }  # where a leg ends the next one's sample stands
-    arrays = {name: [getattr(legs[k], name)[: counts[k]] for k in driven] for name in _JOINED}
-    ends = np.cumsum([0.0, *(legs[k].t[-1] for k in driven)])
-    arrays["t"] = [end + legs[k].t[: counts[k]] for k, end in zip(driven, ends, strict=False)]
-    joined = {name: np.concatenate([np.empty(0), *parts]) for name, parts in arrays.items()}
-    joined["heading"] = wrap_angle(
-        joined["heading"]
-    )  # a start may look in a direction written as 7 rad
-    joined["leg"] = np.repeat(
-        np.array(driven, dtype=int), np.array(list(counts.values()), dtype=int)
-    )
+    leg = np.repeat(np.arange(len(legs)), [len(each) for each in legs])
+    # Where a leg ends stands the next one's first sample, whose command moves the robot on.
+    kept = np.append(leg[1:] == leg[:-1], True)[: leg.size]
+    begins = np.cumsum([0.0, *(each.t[-1] if len(each) else 0.0 for each in legs)])
+    joined = {
+        name: np.concatenate([getattr(each, name) for each in legs])[kept] for name in _JOINED
+    }
+    joined["leg"] = leg[kept]
+    joined["t"] += begins[joined["leg"]]
+    joined["heading"] = wrap_angle(joined["heading"])  # a start's may be written as 7 rad
     for values in joined.values():
         values.flags.writeable = False
     return joined
-
-
-def _arrival(leg: Trajectory) -> Arrival:
-    return arrival(leg) if len(leg) else Arrival(False, math.inf, *[math.nan] * 4)
 
 
 def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
@@ -237,41 +260,11 @@ def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
     except ValueError:  # lists of different lengths
         flags = np.empty(0)
     if flags.dtype != bool or flags.shape not in ((), (count,)):
-        raise ValueError(
-            f"stop = {stop!r} is not allowed: True, False or a list of {count}, one a waypoint, is needed"
-        )
+        needed = f"True, False or a list of {count}, one a waypoint, is needed"
+        raise ValueError(f"stop = {stop!r} is not allowed: {needed}")
     return tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (count - 1), True)
 
 
-def _given(headings: Sequence[float] | np.ndarray) -> np.ndarray:
-    """The headings as floats, NaN where none is given."""
-    try:
-        given = np.asarray([math.nan if each is None else each for each in headings])
-    except (TypeError, ValueError):  # no list, or lists of different lengths
-        given = np.empty(0, dtype=object)
-    if given.dtype.kind not in "iuf" or np.isinf(given).any():
-        raise ValueError(
-            f"headings = {headings!r} is not allowed: a list of finite numbers, or NaN where one is to be chosen, is needed"
-        )
-    return given.astype(float)
-
-
-def _listed(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
-    instance("points", points, GeoPoint)
-    lat, lon = np.broadcast_arrays(np.atleast_1d(points.lat), np.atleast_1d(points.lon))
-    if lat.ndim != 1 or not lat.size:
-        raise ValueError(
-            f"points have shape {lat.shape}, which is not allowed: a list of at least one position is needed"
-        )
-    return lat, lon
-
-
-def _single(origin: GeoPoint) -> GeoPoint:
-    if same_shape(lat=instance("origin", origin, GeoPoint).lat, lon=origin.lon):
-        raise ValueError(f"origin = {origin!r} is not allowed: a single point is needed")
-    return origin
-
-
-def _origin(points: GeoPoint) -> GeoPoint:
-    lat, lon = _listed(points)
+def _first(points: GeoPoint) -> GeoPoint:
+    lat, lon = position_list(points)
     return GeoPoint(lat=float(lat[0]), lon=float(lon[0]))

@@ -4,11 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from enum import Enum
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, scalar
+from wmrlib._checks import Real, instance, refusal, scalar
+from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, wrap_angle
 
 MOST_SAMPLES = 10_000_000
@@ -24,16 +25,25 @@ class Outcome(Enum):
 
     @property
     def message(self) -> str:
+        """The sentence."""
         return self.value
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Trajectory:
-    """One run: arrays of equal length, one entry a sample, which can't be written to, and how it ended.
+    """One run, sample by sample, and how it ended.
 
-    t: s; x, y: m; heading: rad; rho: m; alpha, theta: rad; v: m/s and omega: rad/s, what the law commands at that sample (after the
-    wheel limits; with a wheel lag, what the wheels do); V: the Lyapunov function, with L = 1. goal: the goal's Pose, with array fields
-    if it moves.
+    Attributes
+    ----------
+    t : array, s; like the other arrays of the same length, it can't be written to
+    x, y, heading : arrays, m and rad, the robot's pose
+    rho, alpha, theta : arrays, m and rad, the polar error
+    v, omega : arrays, m/s and rad/s, what the law commands at the sample, after the wheel limits
+        (with a wheel lag: what the wheels do)
+    V : array, the law's Lyapunov function with L = 1
+    outcome : Outcome
+    goal : Pose, of arrays if it moves
+    gains, law, method : as passed in
     """
 
     t: np.ndarray
@@ -48,7 +58,7 @@ class Trajectory:
     V: np.ndarray
     outcome: Outcome
     goal: Pose
-    gains: Any
+    gains: Gains | KanayamaGains | LinearGains
     law: str
     method: str
 
@@ -56,34 +66,39 @@ class Trajectory:
         return self.t.size
 
     def __repr__(self) -> str:
-        last = (
-            f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s"
-            if len(self)
-            else "no sample"
-        )
-        return f"<Trajectory: {self.law} law, {self.method}, {len(self)} samples, {last}: {self.outcome.message}>"
+        end = "no sample"
+        if len(self):
+            end = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s"
+        what = f"{self.law} law, {self.method}, {len(self)} samples"
+        return f"<Trajectory: {what}, {end}: {self.outcome.message}>"
 
     @property
     def x_error(self) -> np.ndarray:
-        """goal.x - x, metres."""
+        """goal.x - x, m."""
         return self.goal.x - self.x
 
     @property
     def y_error(self) -> np.ndarray:
-        """goal.y - y, metres."""
+        """goal.y - y, m."""
         return self.goal.y - self.y
 
     @property
     def heading_error(self) -> np.ndarray:
-        """Theta - alpha = heading - goal.heading, radians in (-pi, pi]."""
+        """Heading error theta - alpha = heading - goal.heading, rad in (-pi, pi]."""
         return wrap_angle(self.theta - self.alpha)
 
 
 class Arrival(NamedTuple):
     """What a run amounts to: numbers for one run, arrays for many.
 
-    arrived: within the arrival radius; time: s, infinite if it did not arrive; heading_error: heading - goal.heading at the last sample,
-    rad; peak_omega: largest |omega|, rad/s; path_length: m, backward motion included; distance: to the goal at the last sample, m.
+    Attributes
+    ----------
+    arrived : bool, whether it came within the arrival radius
+    time : s, infinite if it did not arrive
+    heading_error : rad, heading - goal.heading at the last sample
+    peak_omega : rad/s, the largest |omega|
+    path_length : m, driving backwards included
+    distance : m, to the goal at the last sample
     """
 
     arrived: bool | np.ndarray
@@ -95,24 +110,18 @@ class Arrival(NamedTuple):
 
 
 def single_pose(name: str, pose: Pose) -> Pose:
-    """The pose, if its fields are numbers and not arrays; raises ValueError, which names the argument, if not."""
-    for field, value in zip(("x", "y", "heading"), instance(name, pose, Pose), strict=True):
+    """Return the pose if its fields are numbers; otherwise raise ValueError."""
+    for field, value in zip(Pose._fields, instance(name, pose, Pose), strict=True):
         if type(value) is not float:
-            raise ValueError(
-                f"{name}.{field} = {value!r} is not allowed: one number is needed; sweep takes arrays"
-            )
+            raise refusal(f"{name}.{field}", value, "one number", "; sweep takes arrays")
     return pose
 
 
 def sample_count(dt: float, duration: float) -> int:
-    """How many samples a run of `duration` seconds has, both ends included; raises ValueError as `simulate`."""
-    dt, duration = scalar("dt", dt, above=0.0), scalar("duration", duration, above=0.0)
+    """Return how many samples a run has, both ends included; raise ValueError as `simulate`."""
+    steps = scalar("duration", duration, above=0.0) / scalar("dt", dt, above=0.0)
     if dt > duration:
-        raise ValueError(
-            f"dt = {dt:g} is not allowed: at most the duration, {duration:g}, is needed"
-        )
-    if duration / dt > MOST_SAMPLES:
-        raise ValueError(
-            f"duration = {duration:g} is not allowed: at most {MOST_SAMPLES:,} steps of dt = {dt:g} are needed"
-        )
-    return int(duration / dt + 1e-9) + 1
+        raise refusal("dt", dt, f"at most the duration, {duration:g},")
+    if steps > MOST_SAMPLES:
+        raise refusal("duration", duration, f"at most {MOST_SAMPLES:,} steps of dt = {dt:g}")
+    return int(steps + 1e-9) + 1  # tenths are not exact

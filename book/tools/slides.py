@@ -1,21 +1,18 @@
-"""Make a reveal.js deck of each chapter: OUTPUT/index.html lists them, and all open from the disk with no network.
+"""Make a reveal.js deck of each chapter, from its stored outputs and panels.
 
-With --mark, make none: give the cells of the notebooks named the slide types that their authors have not given them.
+OUTPUT/index.html lists the decks, and all open from the disk with no network. Each cell's metadata
+slideshow.slide_type, as Jupyter's editors show it, says which part it plays.
 """
 
 from __future__ import annotations
 
-import argparse
-import os
 import re
 import shutil
 from pathlib import Path
 
-import marks
 import nbformat
-from build import BOOK, NPM_FILES, ROOT, copy_javascript, environment, install_javascript
+from build import BOOK, NPM_FILES, ROOT, arguments, copy_javascript, install_javascript
 from nbconvert.exporters import SlidesExporter
-from nbconvert.preprocessors import ExecutePreprocessor
 from nbformat import NotebookNode
 
 NOTEBOOKS = ROOT / "notebooks"
@@ -36,11 +33,12 @@ LINK = re.compile(r"(?<!!)\[([^\]]+)\]\(([^)\s]+)\)")
 
 
 def main(output: Path, chapters: list[str]) -> None:
-    """Execute the chapters whose numbers are given, or all, and write their decks, what they load, and their list."""
+    """Write the decks of the chapters given by number, or of all, what they load, and a list."""
     paths = sorted(NOTEBOOKS.glob("[0-9][0-9]_*.ipynb"))
     if missing := sorted(set(chapters) - {path.name[:2] for path in paths}):
         raise SystemExit(
-            f"no chapter {', '.join(missing)}: two digits each, such as 00 04, are needed, and OUTPUT before --chapters"
+            f"no chapter {', '.join(missing)}: two digits each, such as 00 04, are needed, "
+            "and OUTPUT before --chapters"
         )
     install_javascript()
     copy_javascript(output / "vendor", NPM_FILES | {"reveal": REVEAL_FILES})
@@ -48,49 +46,34 @@ def main(output: Path, chapters: list[str]) -> None:
         shutil.copy(path, output)
     for stale in output.glob("*.slides.html") if not chapters else ():
         stale.unlink()
+    exporter = SlidesExporter(
+        extra_template_basedirs=[str(BOOK)],
+        template_name="deck",
+        exclude_input_prompt=True,
+        exclude_output_prompt=True,
+    )
     for path in paths:
         if not chapters or path.name[:2] in chapters:
-            notebook = prepared(executed(path))
-            exporter = SlidesExporter(
-                extra_template_basedirs=[str(BOOK)],
-                template_name="deck",
-                exclude_input_prompt=True,
-                exclude_output_prompt=True,
-            )
-            (output / f"{path.stem}.slides.html").write_text(
-                exporter.from_notebook_node(notebook)[0], encoding="utf-8"
-            )
-            print(output / f"{path.stem}.slides.html", flush=True)
-    (output / "index.html").write_text(
-        contents(sorted(output.glob("*.slides.html"))), encoding="utf-8"
-    )
+            deck = output / f"{path.stem}.slides.html"
+            notebook = prepared(nbformat.read(path, as_version=4))
+            deck.write_text(exporter.from_notebook_node(notebook)[0], encoding="utf-8")
+            print(deck, flush=True)
+    decks = sorted(output.glob("*.slides.html"))
+    (output / "index.html").write_text(contents(decks), encoding="utf-8")
     print(output / "index.html")
 
 
-def executed(path: Path) -> NotebookNode:
-    """The notebook with the outputs of now, and the whole state of its widgets."""
-    os.environ.update(environment())  # the kernel inherits it
-    notebook = nbformat.read(path, as_version=4)
-    ExecutePreprocessor(timeout=120, store_widget_state=True).preprocess(
-        notebook, {"metadata": {"path": str(path.parent)}}
-    )
-    return notebook
-
-
 def prepared(notebook: NotebookNode) -> NotebookNode:
-    """The notebook as a deck wants it: every cell typed, solutions as notes, links to other decks, and with a title."""
-    cells = [part for cell in notebook.cells for part in marks.divided(cell)]
-    for cell, kind in zip(cells, marks.slide_types(cells), strict=True):
-        cell.metadata["slideshow"] = {"slide_type": kind}
+    """Return the notebook with a title, solutions as notes, and links to the other decks."""
+    title = next(line for line in notebook.cells[0].source.splitlines() if line.startswith("# "))
+    notebook.metadata["title"] = title[2:]
+    for cell in notebook.cells:
         if cell.cell_type == "markdown":
             cell.source = LINK.sub(_deck_link, cell.source)
         for output in cell.get("outputs", ()):
             if "text/markdown" in output.get("data", {}):
                 output.data["text/markdown"] = LINK.sub(_deck_link, output.data["text/markdown"])
-    notebook.metadata["title"] = next(
-        line for line in cells[0].source.splitlines() if line.startswith("# ")
-    )[2:]
-    notebook.cells = [part for cell in cells for part in _with_solution_in_notes(cell)]
+    notebook.cells = [part for cell in notebook.cells for part in _with_solution_in_notes(cell)]
     return notebook
 
 
@@ -111,7 +94,7 @@ def contents(decks: list[Path]) -> str:
 
 
 def _deck_link(link: re.Match) -> str:
-    """A link to a chapter leads to its deck; one into the book, which need not be there, becomes its words."""
+    """Lead to a chapter's deck; turn a link into the book, which may be absent, into words."""
     words, address = link.groups()
     if chapter := re.fullmatch(r"(\d\d_\w+)\.ipynb(?:#.*)?", address):
         return f"[{words}]({chapter[1]}.slides.html)"
@@ -130,31 +113,8 @@ def _with_solution_in_notes(cell: NotebookNode) -> list[NotebookNode]:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    default = BOOK / "_build" / "slides"
-    parser.add_argument(
-        "output",
-        nargs="?",
-        type=Path,
-        default=default,
-        metavar="OUTPUT",
-        help="a folder; book/_build/slides by default",
-    )
-    parser.add_argument(
-        "--chapters", nargs="+", default=[], metavar="NN", help="only these, such as 00 04"
-    )
-    parser.add_argument(
-        "--mark",
-        nargs="+",
-        type=Path,
-        metavar="NOTEBOOK",
-        help="fill in the slide types that are missing in these",
-    )
-    arguments = parser.parse_args()
-    if arguments.mark:
-        for notebook in arguments.mark:
-            marks.mark(notebook)
-    else:
-        main(arguments.output.resolve(), arguments.chapters)
+    parser = arguments(__doc__, BOOK / "_build" / "slides")
+    said = "only these, such as 00 04"
+    parser.add_argument("--chapters", nargs="+", default=[], metavar="NN", help=said)
+    given = parser.parse_args()
+    main(given.output.resolve(), given.chapters)

@@ -1,9 +1,7 @@
-"""A real Chromium for the tests that need one: started once a session, a fresh page for each test."""
+"""A real Chromium for the tests: started once a session, a fresh page for each test."""
 
 from __future__ import annotations
 
-import os
-import shutil
 from pathlib import Path
 
 import pytest
@@ -30,24 +28,14 @@ LOCAL = (
     "ws://127.0.0.1",
     "ws://localhost",
 )
-NAMES = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable")
-
-
-def _missing(reason: str):
-    """Skip, or fail where a browser is required: in CI."""
-    (pytest.fail if os.environ.get("CI") else pytest.skip)(reason)
 
 
 @pytest.fixture(scope="session")
-def browser():
-    """Chromium, headless; skips where there is none, and fails instead if the environment variable CI is set."""
-    try:
-        from playwright.sync_api import sync_playwright
-    except ImportError:
-        _missing("this test needs a browser, and playwright is not installed")
-    path = next(filter(None, map(shutil.which, NAMES)), None)
-    if path is None:
-        _missing(f"this test needs a browser, and none of {', '.join(NAMES)} is on the PATH")
+def browser(find_tool):
+    """Chromium, headless; without one, tests/conftest.py has skipped the test."""
+    from playwright.sync_api import sync_playwright
+
+    path = find_tool("browser")
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
         yield chromium
@@ -58,9 +46,9 @@ def browser():
 def browser_page(browser):
     """A fresh playwright page that fails the test on any trouble.
 
-    `page.troubles` lists requests to the outside, failed loads, console errors and uncaught exceptions, as sentences.
-    `page.assert_quiet()` fails if there are any; it is called at the end of the test too. A test that provokes a trouble on purpose
-    looks at `page.troubles` and clears it.
+    `page.troubles` lists, as sentences, requests to the outside, failed loads, console errors and
+    uncaught exceptions. `page.assert_quiet()` fails if there are any, and is called at the end. A
+    test that provokes a trouble on purpose looks at `page.troubles` and clears it.
     """
     context = browser.new_context(viewport={"width": 1300, "height": 900})
     page = context.new_page()
@@ -69,33 +57,30 @@ def browser_page(browser):
     def assert_quiet():
         assert not troubles, "the page is not quiet:\n  " + "\n  ".join(troubles)
 
+    def note(kind, what):
+        troubles.append(f"{kind}: {what[:300]}")
+
+    def asked(request):
+        if not request.url.startswith(LOCAL):
+            note("outside request", request.url)
+
+    def failed(request):
+        note("failed load", f"{request.failure}, {request.url}")
+
+    def answered(response):
+        if response.status >= 400:
+            note("failed load", f"{response.status}, {response.url}")
+
+    def said(message):
+        if message.type == "error":
+            note("console error", message.text)
+
     page.assert_quiet = assert_quiet
-    page.on(
-        "request",
-        lambda it: (
-            None
-            if it.url.startswith(LOCAL)
-            else troubles.append(f"outside request: {it.url[:200]}")
-        ),
-    )
-    page.on(
-        "requestfailed", lambda it: troubles.append(f"failed load: {it.url[:200]}: {it.failure}")
-    )
-    page.on(
-        "response",
-        lambda it: (
-            troubles.append(f"failed load: {it.url[:200]}: {it.status}")
-            if it.status >= 400
-            else None
-        ),
-    )
-    page.on(
-        "console",
-        lambda it: (
-            troubles.append(f"console error: {it.text[:300]}") if it.type == "error" else None
-        ),
-    )
-    page.on("pageerror", lambda it: troubles.append(f"uncaught exception: {str(it)[:300]}"))
+    page.on("request", asked)
+    page.on("requestfailed", failed)
+    page.on("response", answered)
+    page.on("console", said)
+    page.on("pageerror", lambda error: note("uncaught exception", str(error)))
     yield page
     context.close()
     assert_quiet()
@@ -103,10 +88,10 @@ def browser_page(browser):
 
 @pytest.fixture
 def panel_core(browser_page):
-    """A `browser_page` with the panel's model and simulation in it, loaded as one ES module, as the panel does."""
+    """A `browser_page` with the panel's model and simulation, loaded as one ES module."""
     from wmrlib import symbolic
 
-    panel = Path(wmrlib.__file__).parent / "panel"
+    panel = Path(wmrlib.__file__).parent / "explorer" / "js"
     text = "".join(
         (panel / name).read_text(encoding="utf-8") for name in ("model.js", "simulate.js")
     )

@@ -1,4 +1,4 @@
-"""A page with an Explorer's panel and plain inputs in the places of its sliders and menus, linked as the Explorer links them."""
+"""A page with an Explorer's panel, and plain inputs in place of its sliders and menus."""
 
 from __future__ import annotations
 
@@ -7,12 +7,35 @@ import json
 from pathlib import Path
 
 HOST = Path(__file__).with_name("host.js").read_text(encoding="utf-8")
-PAGE = "<!doctype html><html><head><meta charset='utf-8'><title>panel</title></head><body style='margin: 0'></body></html>"
+PAGE = "<!doctype html><meta charset='utf-8'><title>panel</title><body style='margin: 0'>"
+FRAMES = """() => new Promise(done =>
+    requestAnimationFrame(() => requestAnimationFrame(() => done())))"""
+MAP_IS_DONE = """() => panel.get('view') === 0
+    || document.querySelector('.wmr-map').dataset.finished === 'true'"""
+PUT = """([name, value]) => {
+    const input = document.querySelector(`[data-control=${name}]`);
+    const shown = input.closest('label').style.display !== 'none';
+    if (!shown) throw new Error(`${name} is hidden`);
+    input.value = value;
+    input.dispatchEvent(new Event('input'));
+}"""
+ENDS = """name => {
+    const it = document.querySelector(`[data-control=${name}]`);
+    return [it.min, it.max];
+}"""
+PIXELS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')]
+    .map(each => each.toDataURL())"""
+COLOURS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each => {
+    const image = each.getContext('2d').getImageData(0, 0, each.width, each.height);
+    return new Set(new Uint32Array(image.data.buffer)).size;
+})"""
+FIGURES = """() => Object.fromEntries([...document.querySelectorAll('[data-figure]')]
+    .map(it => [it.dataset.figure, it.children[1].textContent]))"""
 HIDDEN = ("_", "layout", "tabbable", "tooltip", "comm", "keys", "log")
 
 
 def mounted(page, explorer, width=1280, height=720):
-    """Show the explorer in the page, wait for its first picture, and return the Panel to drive it with."""
+    """Show the explorer in the page and return the Panel that drives it, once it is drawn."""
     page.set_viewport_size({"width": width, "height": height})
     page.set_content(PAGE)
     page.add_script_tag(content=HOST)
@@ -65,28 +88,14 @@ class Panel:
 
     def settled(self):
         """Wait until everything is drawn, the map included."""
-        self.page.evaluate(
-            "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
-        )
-        self.page.wait_for_function(
-            "() => panel.get('view') === 0 || document.querySelector('.wmr-map').dataset.finished === 'true'"
-        )
-        self.page.evaluate(
-            "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(() => done())))"
-        )
+        self.page.evaluate(FRAMES)
+        self.page.wait_for_function(MAP_IS_DONE)
+        self.page.evaluate(FRAMES)
         return self
 
     def put(self, name, value):
         """Move a slider or a menu, as a hand does: by its input."""
-        self.page.evaluate(
-            """([name, value]) => {
-                const input = document.querySelector(`[data-control=${name}]`);
-                if (input.closest('label').style.display === 'none') throw new Error(`${name} is hidden`);
-                input.value = value;
-                input.dispatchEvent(new Event('input'));
-            }""",
-            [name, value],
-        )
+        self.page.evaluate(PUT, [name, value])
         return self.settled()
 
     def set(self, **traits):
@@ -99,30 +108,18 @@ class Panel:
         return self.page.evaluate("name => panel.get(name)", name)
 
     def ends(self, name):
-        return self.page.evaluate(
-            "name => { const it = document.querySelector(`[data-control=${name}]`); return [it.min, it.max]; }",
-            name,
-        )
+        return self.page.evaluate(ENDS, name)
 
     def picture(self) -> str:
         """A fingerprint of the pixels of the canvases that are shown."""
-        urls = self.page.evaluate(
-            "() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each => each.toDataURL())"
-        )
-        return hashlib.sha256("".join(urls).encode()).hexdigest()
+        return hashlib.sha256("".join(self.page.evaluate(PIXELS)).encode()).hexdigest()
 
     def colours(self) -> list[int]:
         """How many colours each canvas that is shown has: a blank one has one."""
-        return self.page.evaluate(
-            """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each =>
-                new Set(new Uint32Array(each.getContext('2d').getImageData(0, 0, each.width, each.height).data.buffer)).size)"""
-        )
+        return self.page.evaluate(COLOURS)
 
     def figures(self) -> dict[str, str]:
-        return self.page.evaluate(
-            """() => Object.fromEntries(
-                [...document.querySelectorAll('[data-figure]')].map(it => [it.dataset.figure, it.children[1].textContent]))"""
-        )
+        return self.page.evaluate(FIGURES)
 
     def status(self) -> str:
         return self.page.locator(".wmr-status").inner_text()

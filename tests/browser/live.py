@@ -1,4 +1,4 @@
-"""What the tests of live pages share: a picture as a value, a slider moved by keyboard, a server that is up."""
+"""What the tests of live pages share: pictures as values, sliders moved by keyboard, servers."""
 
 from __future__ import annotations
 
@@ -15,7 +15,8 @@ ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 120_000  # ms for what takes seconds on a quiet machine
 # All that is drawn: canvases, and images for a panel that is made of those.
 PICTURE = """() => [
-    ...[...document.querySelectorAll('canvas')].filter(it => it.width && it.height).map(it => it.toDataURL()),
+    ...[...document.querySelectorAll('canvas')].filter(it => it.width && it.height)
+        .map(it => it.toDataURL()),
     ...[...document.querySelectorAll('img')].map(it => it.src),
 ].join()"""
 
@@ -36,7 +37,8 @@ def settled_picture(page) -> str:
     page.wait_for_function(
         f"""() => new Promise(done => {{
             const before = ({PICTURE})();
-            requestAnimationFrame(() => requestAnimationFrame(() => done(before !== '' && before === ({PICTURE})())));
+            const settled = () => done(before !== '' && before === ({PICTURE})());
+            requestAnimationFrame(() => requestAnimationFrame(settled));
         }})""",
         timeout=PATIENCE,
         polling=100,

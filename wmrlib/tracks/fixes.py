@@ -1,10 +1,11 @@
-"""What every reader of position files shares: the positions that are used, and an account of everything that is not."""
+"""What every reader of position files shares: the positions used, and an account of the rest."""
 
 from __future__ import annotations
 
 import math
 from collections.abc import Mapping
 from dataclasses import dataclass, field
+from datetime import UTC, datetime
 from types import MappingProxyType
 from typing import NamedTuple
 
@@ -12,7 +13,7 @@ NO_TIME = math.nan
 
 
 class Count(NamedTuple):
-    """How often something was met, and where first: the line of the file (of a GeoJSON file, the number of the position)."""
+    """How often something was met, and the line where it was met first."""
 
     count: int
     first: int
@@ -22,8 +23,12 @@ class Count(NamedTuple):
 class Report:
     """What was read from a file and what was not; `print` it.
 
-    used: positions; skipped: from the reason why a line gave no position to its Count; noted: the same for positions that are used
-    although something is amiss with them; unit: "line", or "position" for a file whose lines say nothing (GeoJSON).
+    Parameters
+    ----------
+    used : int; number of positions
+    skipped : mapping from the reason why a line gave no position to its Count
+    noted : the same for positions that are used although something is amiss with them
+    unit : what `Count.first` counts: "line", or "position" for GeoJSON
     """
 
     used: int
@@ -31,23 +36,21 @@ class Report:
     noted: Mapping[str, Count] = field(default_factory=dict)
     unit: str = "line"
 
-    def __post_init__(self) -> None:
-        object.__setattr__(self, "skipped", MappingProxyType(dict(self.skipped)))
-        object.__setattr__(self, "noted", MappingProxyType(dict(self.noted)))
-
     def __repr__(self) -> str:
         rows = [f"{self.used} position{'' if self.used == 1 else 's'} used"]
-        for reasons in (self.skipped, self.noted):
-            what = "not used" if reasons is self.skipped else "used, but"
-            rows += [
-                f"{what}: {count} {reason} (first in {self.unit} {first})"
-                for reason, (count, first) in reasons.items()
-            ]
+        rows += [f"not used: {each}" for each in self.listed(self.skipped)]
+        rows += [f"used, but: {each}" for each in self.listed(self.noted)]
         return "\n".join(rows)
+
+    def listed(self, reasons: Mapping[str, Count]) -> list[str]:
+        return [
+            f"{count} {reason} (first in {self.unit} {first})"
+            for reason, (count, first) in reasons.items()
+        ]
 
 
 class Fixes:
-    """The positions of one file, as they are found, and the reasons why others are not used."""
+    """The positions of one file as they are found, and the reasons why others are not used."""
 
     def __init__(self, unit: str = "line") -> None:
         self.lat: list[float] = []
@@ -64,47 +67,51 @@ class Fixes:
     def note(self, reason: str, line: int) -> None:
         _count(self._noted, reason, line)
 
-    def add(self, lat: float, lon: float, time: float, line: int) -> None:
-        """Use a position (degrees; s, NaN without a time), unless there is a reason not to."""
-        reason = misplaced(lat, lon)
-        if reason is None and time < self._last_time:
-            reason = "time runs backwards"
-        if (
-            reason is None
-            and time == self._last_time
-            and (lat, lon) == (self.lat[-1], self.lon[-1])
-        ):
-            reason = "same epoch again"
+    def add(self, lat: float, lon: float, time: float | None, line: int) -> bool:
+        """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
+        reason = _misplaced(lat, lon)
+        if reason is None and time is not None and time <= self._last_time:
+            if time < self._last_time:
+                reason = "time runs backwards"
+            elif (lat, lon) == (self.lat[-1], self.lon[-1]):
+                reason = "same epoch again"
         if reason is not None:
             self.skip(reason, line)
-            return
+            return False
+        if time is None:
+            self.note("with an unreadable time", line)
         self.lat.append(lat)
         self.lon.append(lon)
-        self.time.append(time)
-        if not math.isnan(time):
-            self._last_time = time
+        self.time.append(NO_TIME if time is None else time)
+        if not math.isnan(self.time[-1]):
+            self._last_time = self.time[-1]
+        return True
 
     def report(self) -> Report:
-        return Report(len(self.lat), self._skipped, self._noted, self._unit)
-
-
-def misplaced(lat: float, lon: float) -> str | None:
-    """Why this is no position on the Earth, if it is none."""
-    if not (math.isfinite(lat) and math.isfinite(lon)):
-        return "latitude or longitude not a number"
-    if not -90.0 <= lat <= 90.0:
-        return "latitude not in -90 to 90"
-    if not -180.0 <= lon <= 180.0:
-        return "longitude not in -180 to 180"
-    return None
+        skipped, noted = MappingProxyType(self._skipped), MappingProxyType(self._noted)
+        return Report(len(self.lat), skipped, noted, self._unit)
 
 
 def number(text: str | None) -> float:
-    """The number that the text is, NaN if it is none; Python's 1_000 is none."""
+    """Return the number, or NaN if the text is none; Python's 1_000 is none."""
     try:
         return float(text) if text and "_" not in text else math.nan
     except ValueError:
         return math.nan
+
+
+def timestamp(time: datetime) -> float:
+    """Seconds since 1970; a time without a zone is in UTC."""
+    return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp()
+
+
+def _misplaced(lat: float, lon: float) -> str | None:
+    """Return why (lat, lon) is invalid, or None."""
+    if not (math.isfinite(lat) and math.isfinite(lon)):
+        return "latitude or longitude not a number"
+    if not -90.0 <= lat <= 90.0:
+        return "latitude not in -90 to 90"
+    return None if -180.0 <= lon <= 180.0 else "longitude not in -180 to 180"
 
 
 def _count(reasons: dict[str, Count], reason: str, line: int) -> None:

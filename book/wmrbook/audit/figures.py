@@ -20,6 +20,18 @@ from wmrlib.simulation import simulate, track
 
 AXES = ("east", "north")
 MISSING = "it depends on the gains, Q and R of Cornejo et al. (2018), which are not published"
+_BLOCK_DIAGRAM = "Block diagram of the mobile robot controller."
+CAPTIONS = {
+    1: "Coordinate System Mobile Robot.",
+    2: "Mobile robot pose to pose configuration.",
+    **dict.fromkeys(range(3, 8), _BLOCK_DIAGRAM),
+    8: "Simulation sense of the tracking performance for the proposed mobile robot.",
+    9: "Linear velocity profile.",
+    10: "Angular velocity profile.",
+    11: "Tracking error in the x-direction.",
+    12: "Tracking error in the y-direction.",
+}
+"""What the paper prints below each figure; the pictures themselves are not in this repository."""
 
 
 @cache
@@ -88,9 +100,7 @@ def comparison() -> tuple[str, list[bool]]:
 
 def _row(number: int, says: str, holds: str, agrees: bool | Sequence[bool], why: str) -> Row:
     """By `depends`, of the content's outcome or outcomes; what holds is a typo if the caption is another figure's."""
-    first = min(
-        each for each, caption in paper.CAPTIONS.items() if caption == paper.CAPTIONS[number]
-    )
+    first = min(each for each, caption in CAPTIONS.items() if caption == CAPTIONS[number])
     caption = f"the caption is that of Fig. {first}; " if first != number else ""
     content = depends(np.ravel(agrees))
     verdict = Verdict.TYPO if caption and content is Verdict.HOLDS else content
@@ -98,7 +108,7 @@ def _row(number: int, says: str, holds: str, agrees: bool | Sequence[bool], why:
     return Row(
         f"fig-{number}",
         f"Fig. {number}",
-        f'"{paper.CAPTIONS[number]}" {says}'.strip(),
+        f'"{CAPTIONS[number]}" {says}'.strip(),
         holds,
         verdict,
         reason,

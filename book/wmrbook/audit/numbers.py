@@ -10,15 +10,15 @@ import sympy as sp
 
 from wmrbook.audit.figures import AXES, MISSING, chase, drive
 from wmrbook.audit.rows import Row, Verdict, fits
+from wmrbook.ellipsoid import FLATTENING, SEMI_MAJOR_M, sphere_error
 from wmrlib import paper
-from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, haversine_distance, initial_bearing
+from wmrlib.geodesy import GeoPoint, haversine_distance, initial_bearing
 from wmrlib.metrics import arrival, residual
 from wmrlib.runs import Outcome
 from wmrlib.tuning import modes
 
 _WEIGHTS = (0.1, 1.0, 10.0)
 _LAWS = (("aicardi",), *(("linear", weight) for weight in _WEIGHTS))
-WGS84_AXIS, WGS84_FLATTENING = 6378137.0, 1.0 / 298.257223563  # m; NIMA TR8350.2
 
 
 def rows() -> list[Row]:
@@ -73,17 +73,14 @@ def _given(key: str, used: float, works: bool, result: str) -> Row:
 
 
 def sphere_bounds() -> tuple[float, float]:
-    """The least and the greatest error of the sphere on a short line, in percent: its radius against the ellipsoid's radii of curvature."""
-    squared = WGS84_FLATTENING * (2.0 - WGS84_FLATTENING)
-    shape = 1.0 - squared * np.sin(np.linspace(0.0, math.pi / 2.0, 9001)) ** 2
-    meridian, across = WGS84_AXIS * (1.0 - squared) / shape**1.5, WGS84_AXIS / np.sqrt(shape)
-    errors = 100.0 * (EARTH_RADIUS_M / np.array([meridian, across]) - 1.0)
+    """The least and the greatest error of the sphere on a short line, in percent."""
+    errors = 100.0 * sphere_error(np.linspace(0.0, 90.0, 9001), np.array([[0.0], [math.pi / 2.0]]))
     return float(errors.min()), float(errors.max())
 
 
 def _earth() -> dict[str, Row]:
     low, high = sphere_bounds()
-    mean = WGS84_AXIS * (3.0 - WGS84_FLATTENING) / 3e3
+    mean = SEMI_MAJOR_M * (3.0 - FLATTENING) / 3e3
     number = {
         key: paper.PUBLISHED[key].value
         for key in ("start_latitude", "start_longitude", "goal_latitude", "goal_longitude")

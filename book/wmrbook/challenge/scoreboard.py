@@ -1,20 +1,21 @@
-"""Who has the best gains: the line that a student hands in for the tuning challenge, and a text file of such lines for a class.
+"""The line that a student hands in for the tuning challenge, and a class's text file of lines.
 
-A line names who, the seed, the gains and the score, in ASCII, and ends in a checksum, the first ten hexadecimal digits of the SHA-256 of
-what stands before it. The checksum finds a character that was lost or mistyped on the way. It is no signature: whoever can run this
-module can make a line in any name. What can't be made up is the score, which is computed again from the gains wherever it is read.
+A line names who, the seed, the gains and the score, in ASCII, and ends in a checksum, the first ten
+hexadecimal digits of the SHA-256 of what stands before it. The checksum finds a character that was
+lost or mistyped. It is no signature: whoever can run this module can make a line in any name. What
+can't be made up is the score, which is computed again from the gains wherever it is read.
 """
 
 from __future__ import annotations
 
 import datetime
-import errno
 import os
 from collections.abc import Iterator
-from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
+
+from filelock import FileLock
 
 from wmrbook.challenge import SEED, from_seed
 from wmrbook.challenge.certificate import JOINERS, Entry, Verdict, certificate, verify
@@ -32,14 +33,14 @@ __all__ = [
 ]
 
 _JOINERS = dict.fromkeys(map(ord, JOINERS))
-_UTF_16 = (
-    b"\xff\xfe",
-    b"\xfe\xff",
-)  # how such a file begins: some editors and PowerShell's > make one
+_UTF_16 = b"\xff\xfe", b"\xfe\xff"  # some editors, and PowerShell's >, begin a file so
 
 
 class Ranked(NamedTuple):
-    """A place in the ranking: rank, from 1, shared by equal points; Entry, the best of its name; tries: how many lines that name has."""
+    """A place in the ranking: the best entry of a name, and how many lines that name has.
+
+    rank counts from 1 and is shared by equal points.
+    """
 
     rank: int
     entry: Entry
@@ -56,9 +57,7 @@ class Refused(NamedTuple):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Ranking:
-    """A scoreboard as it was read: entries, a tuple of Ranked, the best first; refused, a tuple of Refused; others: how many lines are
-    true and of another seed; seed.
-    """
+    """A scoreboard as it was read, the best first; others: how many lines have another seed."""
 
     entries: tuple[Ranked, ...]
     refused: tuple[Refused, ...]
@@ -69,14 +68,14 @@ class Ranking:
         names, lines = _counted(self.entries, "name"), _counted(self.refused, "line")
         told = f"{names} ranked, {lines} refused, {self.others} of other seeds"
         rows = [f"<Ranking: seed {self.seed}; {told}>"]
+        columns = "{:>4}{:>9}{:>7}   {:<30}{}"
         if self.entries:
             rows.append(
-                f"{'rank':>4}{'points':>9}{'tries':>7}   {'k_rho, k_alpha, h, v_max':<30}name"
+                columns.format("rank", "points", "tries", "k_rho, k_alpha, h, v_max", "name")
             )
         for rank, entry, tries in self.entries:
-            rows.append(
-                f"{rank:>4}{entry.points:>9.2f}{tries:>7}   {', '.join(f'{gain:g}' for gain in entry.gains):<30}{entry.name}"
-            )
+            gains = ", ".join(f"{gain:g}" for gain in entry.gains)
+            rows.append(columns.format(rank, f"{entry.points:.2f}", tries, gains, entry.name))
         rows += [f"line {line} is not ranked: {reason}" for line, _, reason in self.refused]
         return "\n".join(rows)
 
@@ -84,9 +83,10 @@ class Ranking:
 class Scoreboard:
     """A text file of handed-in lines, one a line, and its ranking.
 
-    path: of the file, which need not exist yet. Lines that are empty or begin with # are let alone, so that the file can be edited by
-    hand; two boards are merged by joining their files. Lines are only ever added at the end, each by a single write under a lock of the
-    operating system: what stands in the file, damaged or not, stays, and of two who write at once both are there.
+    path: of the file, which need not exist yet. Empty lines and those that begin with # are let
+    alone, so that the file can be edited by hand; joined files make one board. Lines are only ever
+    added at the end, under a lock (a file beside it that ends in .lock): what stands in the file,
+    damaged or not, stays, and of two who write at once both are there.
     """
 
     def __init__(self, path: str | os.PathLike) -> None:
@@ -100,29 +100,29 @@ class Scoreboard:
     ) -> str:
         """Add a try, and return its line.
 
-        Raises ValueError as `certificate` and for a file in UTF-16, and OSError if the line can't be written, or only a part of it.
+        Raises ValueError as `certificate` and for a file in UTF-16, and OSError if the line can't
+        be written whole.
         """
         line = certificate(name, gains, seed, date)
         self._append(line)
         return line
 
     def add_line(self, line: str) -> Verdict:
-        """Add a line that was handed in, if it is true; the Verdict says whether it is.
-
-        Raises ValueError for another type and for a file in UTF-16, and OSError if the line can't be written, or only a part of it.
-        """
+        """Add a line that was handed in, if it is true; raises as `add`."""
         verdict = verify(line)
         if verdict:
             self._append(line.strip())
         return verdict
 
     def ranking(self, seed: int = SEED) -> Ranking:
-        """Read the file and compute all scores again: the best try of each name, by points; a file that is not there has none.
+        """Read the file and compute all scores again: the best try of each name, by points.
 
-        Names that differ only in upper and lower case, or in joiners, which are not seen, are one. Raises ValueError as
-        `challenge.from_seed`, and OSError if the file can't be read.
+        A file that is not there has no lines. Names that differ only in upper and lower case, or in
+        joiners, which are not seen, are one. Raises ValueError as `challenge.from_seed`, and
+        OSError if the file can't be read.
         """
-        seed, best, tries, refused, others = from_seed(seed).seed, {}, {}, [], 0
+        seed = from_seed(seed).seed
+        best, tries, refused, others = {}, {}, [], 0
         for number, text in self._lines():
             verdict = verify(text)
             if not verdict:
@@ -134,69 +134,35 @@ class Scoreboard:
                 tries[key] = tries.get(key, 0) + 1
                 if key not in best or verdict.entry.points < best[key].points:
                     best[key] = verdict.entry
-        points = sorted(entry.points for entry in best.values())
         ordered = sorted(best, key=lambda key: (best[key].points, key))
+        points = [best[key].points for key in ordered]
         entries = tuple(
             Ranked(1 + points.index(best[key].points), best[key], tries[key]) for key in ordered
         )
         return Ranking(entries, tuple(refused), others, seed)
 
+    def _content(self) -> bytes:
+        return self.path.read_bytes() if self.path.exists() else b""
+
     def _lines(self) -> Iterator[tuple[int, str]]:
-        content = self.path.read_bytes() if self.path.exists() else b""
-        text = content.decode("utf-16" if content[:2] in _UTF_16 else "utf-8", "backslashreplace")
-        for number, line in enumerate(text.split("\n"), start=1):
+        content = self._content()
+        encoding = "utf-16" if content.startswith(_UTF_16) else "utf-8"
+        lines = content.decode(encoding, "backslashreplace").split("\n")
+        for number, line in enumerate(lines, start=1):
             stripped = line.strip().strip("\ufeff")  # the mark of UTF-8, where files were joined
             if stripped and not stripped.startswith("#"):
                 yield number, stripped
 
     def _append(self, line: str) -> None:
-        descriptor = os.open(
-            self.path, os.O_RDWR | os.O_CREAT | os.O_APPEND | getattr(os, "O_BINARY", 0), 0o666
-        )
-        try:
-            with _locked(descriptor):
-                os.lseek(descriptor, 0, os.SEEK_SET)
-                if os.read(descriptor, 2) in _UTF_16:
-                    raise ValueError(
-                        f"{str(self.path)!r} is in UTF-16, to which no line is added: save it as UTF-8 or ASCII"
-                    )
-                end = os.lseek(descriptor, 0, os.SEEK_END)
-                os.lseek(descriptor, max(end - 1, 0), os.SEEK_SET)
-                unfinished = os.read(descriptor, 1) not in (
-                    b"",
-                    b"\n",
-                )  # edited by hand, or cut off
-                data = f"{chr(10) * unfinished}{line}\n".encode("ascii")
-                if os.write(descriptor, data) != len(data):
-                    raise OSError(
-                        errno.ENOSPC, "the line could not be written whole", str(self.path)
-                    )
-        finally:
-            os.close(descriptor)
+        with FileLock(f"{self.path}.lock", poll_interval=0.005):
+            content = self._content()
+            if content.startswith(_UTF_16):
+                remedy = "to which no line is added: save it as UTF-8 or ASCII"
+                raise ValueError(f"{str(self.path)!r} is in UTF-16, {remedy}")
+            unfinished = content and not content.endswith(b"\n")  # edited by hand, or cut off
+            with self.path.open("ab") as file:
+                file.write(b"\n" * bool(unfinished) + line.encode("ascii") + b"\n")
 
 
 def _counted(rows: tuple, word: str) -> str:
     return f"{len(rows)} {word}" if len(rows) == 1 else f"{len(rows)} {word}s"
-
-
-@contextmanager
-def _locked(descriptor: int) -> Iterator[None]:
-    """The file is this process's alone; the operating system lets go of it even if the process dies."""
-    try:
-        import fcntl
-    except ImportError:  # Windows, where a byte far behind the end stands for the file
-        import msvcrt
-
-        os.lseek(descriptor, 2**30, os.SEEK_SET)
-        msvcrt.locking(descriptor, msvcrt.LK_LOCK, 1)
-        try:
-            yield
-        finally:
-            os.lseek(descriptor, 2**30, os.SEEK_SET)
-            msvcrt.locking(descriptor, msvcrt.LK_UNLCK, 1)
-    else:
-        fcntl.flock(descriptor, fcntl.LOCK_EX)
-        try:
-            yield
-        finally:
-            fcntl.flock(descriptor, fcntl.LOCK_UN)

@@ -1,4 +1,4 @@
-"""Figures of GPS points, and of the Earth they lie on."""
+"""Chapter 1: GPS points and the Earth they lie on; and the map of chapter 0."""
 
 from __future__ import annotations
 
@@ -9,6 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
+from wmrbook.ellipsoid import sphere_error
+from wmrbook.figures._drawing import check_count, note, panels
 from wmrlib._checks import instance
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
@@ -17,47 +19,38 @@ from wmrlib.geodesy import (
     haversine_distance,
     initial_bearing,
     local_position,
-    sphere_error,
 )
 from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, STYLE, equal_scales, new_figure
+from wmrlib.plots.style import COLOURS, equal_scales, new_figure
 
 
 def local_map(origin: GeoPoint, point: GeoPoint) -> Picture:
-    """Two GPS points (single ones) in the local frame of the first: east to the right, north up, in metres, equal scales."""
+    """Two GPS points in the local frame of the first, east to the right and north up, in metres."""
     instance("origin", origin, GeoPoint)
     east, north = local_position(origin, point)
-    distance, bearing = (
-        haversine_distance(origin, point),
-        math.degrees(initial_bearing(origin, point)),
-    )
+    distance = haversine_distance(origin, point)
+    bearing = math.degrees(initial_bearing(origin, point))
     figure, axes = new_figure(5.0, 5.5)
     axes.plot([0, east], [0, north], "--", color=COLOURS["path"])
     axes.plot(0, 0, "o", ms=10, color=COLOURS["start"])
     axes.plot(east, north, "*", ms=15, color=COLOURS["goal"])
     for name, where, at in (("start", origin, (0, 0)), ("goal", point, (east, north))):
         label = f"{name}\n{where.lat:.6f} deg N\n{where.lon:.6f} deg E"
-        axes.annotate(
-            label, at, xytext=(10, -4), textcoords="offset points", va="center", fontsize=10
-        )
-    axes.annotate(
-        f"{distance:.2f} m at {bearing:.2f} deg",
-        (east / 2, north / 2),
-        xytext=(10, 0),
-        textcoords="offset points",
-        va="center",
-    )
+        note(axes, label, at, (10, -4), va="center", fontsize=10)
+    middle = east / 2, north / 2
+    note(axes, f"{distance:.2f} m at {bearing:.2f} deg", middle, (10, 0), va="center")
     equal_scales(axes, np.array([0, east]), np.array([0, north]), room=0.25)
     axes.set(xlabel="east [m]", ylabel="north [m]")
     return Picture(
         figure,
-        f"Map in metres: from the start at the origin a dashed line leads to the goal {east:.1f} m east and {north:.1f} m north; "
+        "Map in metres: from the start at the origin a dashed line leads to the goal "
+        f"{east:.1f} m east and {north:.1f} m north; "
         f"it is {distance:.2f} m long, at a bearing of {bearing:.2f} deg.",
     )
 
 
 def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
-    """The triangle of the north pole and two points on the globe, its sides and angles named, seen from between the points."""
+    """The triangle of the north pole and two points on a globe seen from between them."""
     instance("a", a, GeoPoint)
     instance("b", b, GeoPoint)
     view = GeoPoint(lat=45.0, lon=(a.lon + b.lon) / 2)
@@ -73,26 +66,17 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
     for start, end, style, colour, name, offset, side in sides:
         x, y = _seen(_great_circle(start, end), view)
         axes.plot(x, y, style, color=colour, lw=3.0)
-        axes.annotate(
-            name,
-            (x[50], y[50]),
-            offset,
-            textcoords="offset points",
-            ha=side,
-            fontsize=14,
-            color=colour,
-        )
+        note(axes, name, (x[50], y[50]), offset, ha=side, fontsize=14, color=colour)
     for corner, first, second, name, offset in (
         (pole, a, b, "$\\Delta\\mathrm{long}$", (0, -24)),
         (a, pole, b, "br", (14, 22)),
     ):
         turns = np.unwrap([initial_bearing(corner, first), initial_bearing(corner, second)])
-        x, y = _seen(
-            destination_point(corner, 0.16 * EARTH_RADIUS_M, np.linspace(*turns, 30)), view
-        )
+        arc = destination_point(corner, 0.16 * EARTH_RADIUS_M, np.linspace(*turns, 30))
+        x, y = _seen(arc, view)
         axes.plot(x, y, color=COLOURS["goal"])
         looks = {"ha": "center", "va": "center", "fontsize": 14, "color": COLOURS["goal"]}
-        axes.annotate(name, (x[15], y[15]), offset, textcoords="offset points", **looks)
+        note(axes, name, (x[15], y[15]), offset, **looks)
     named = (
         (pole, "north pole", (0, 10), "center"),
         (a, "point 1", (-10, -8), "right"),
@@ -100,127 +84,97 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
     )
     for point, name, offset, side in named:
         axes.plot(*_seen(point, view), "o", ms=8, color=COLOURS["ink"])
-        axes.annotate(
-            name, _seen(point, view), offset, textcoords="offset points", ha=side, fontsize=12
-        )
+        note(axes, name, _seen(point, view), offset, ha=side, fontsize=12)
     axes.set(xlim=(-1.08, 1.08), ylim=(-1.08, 1.12), aspect="equal")
     axes.set_axis_off()
-    arc, bearing = math.degrees(haversine_distance(a, b, 1.0)), math.degrees(initial_bearing(a, b))
+    length = math.degrees(haversine_distance(a, b, 1.0))
+    bearing = math.degrees(initial_bearing(a, b))
     return Picture(
         figure,
-        f"A globe with a triangle on it. From the north pole two meridians, {abs(b.lon - a.lon):.0f} deg of longitude apart, lead down to "
-        f"point 1 at latitude {a.lat:.0f} deg and point 2 at latitude {b.lat:.0f} deg: their lengths are 90 deg minus the latitudes. The "
-        f"third side joins the points; it is c = {arc:.1f} deg long and leaves point 1 at the bearing br = {bearing:.1f} deg from its "
-        "meridian.",
+        "A globe with a triangle on it. From the north pole two meridians, "
+        f"{abs(b.lon - a.lon):.0f} deg of longitude apart, lead down to "
+        f"point 1 at latitude {a.lat:.0f} deg and point 2 at latitude {b.lat:.0f} deg: "
+        "their lengths are 90 deg minus the latitudes. The third side joins the points; "
+        f"it is c = {length:.1f} deg long and leaves point 1 at the bearing br = {bearing:.1f} deg "
+        "from its meridian.",
     )
 
 
 def rounding_errors(
     near: np.ndarray, far: np.ndarray, errors: Mapping[str, tuple[np.ndarray, np.ndarray]]
 ) -> Picture:
-    """How far formulas for the distance are off by rounding alone, in metres, on logarithmic scales.
+    """Errors in metres that rounding alone makes in up to four formulas for the distance.
 
-    near, far: how far the second point is from the first, and from its antipode, in metres; errors: of each named formula the sizes of
-    its errors at `near` and at `far`, not all zero. An error of zero, which has no logarithm, and NaN, where a formula fails, are left
-    out. Raises ValueError for more than four formulas.
+    near, far: how far the second point is from the first, and from its antipode, in metres; errors:
+    for each formula the sizes of its errors at `near` and at `far`. An error of zero, which has no
+    logarithm, and NaN, where a formula fails, are left out.
     """
-    if not 1 <= len(errors) <= 4:
-        raise ValueError(
-            f"errors has {len(errors)} entries, which is not allowed: 1 to 4 are needed"
-        )
-    figure, (left, right) = _side_by_side(9.0, 4.2)
+    check_count("errors", errors, 1, 4)
+    figure, (left, right) = panels(1, 2, 9.0, 4.2, sharey=True)
     looks = zip(("goal", "y_error", "path", "omega"), "s^ox", strict=True)
     texts = []
     for (name, (at_near, at_far)), (role, marker) in zip(errors.items(), looks, strict=False):
         for axes, gaps, sizes in ((left, near, at_near), (right, far, at_far)):
             seen = sizes > 0
-            axes.loglog(
-                gaps[seen], sizes[seen], marker, ms=4.5, mfc="none", color=COLOURS[role], label=name
-            )
-        texts.append(
-            f"{name}: left {_error_in_words(near, at_near)}, right {_error_in_words(far, at_far)}"
-        )
+            style = {"ms": 4.5, "mfc": "none", "color": COLOURS[role], "label": name}
+            axes.loglog(gaps[seen], sizes[seen], marker, **style)
+        courses = _error_in_words(near, at_near), _error_in_words(far, at_far)
+        texts.append("{}: left {}, right {}".format(name, *courses))
     left.set(xlabel="distance [m]", ylabel="error [m]")
     right.set(xlabel="distance left to the antipode [m]")
     right.invert_xaxis()
-    figure.legend(
-        *left.get_legend_handles_labels(),
-        loc="outside upper center",
-        ncols=len(errors),
-        fontsize=11,
-        frameon=False,
-    )
+    handles = left.get_legend_handles_labels()
+    how = {"ncols": len(errors), "fontsize": 11, "frameon": False}
+    figure.legend(*handles, loc="outside upper center", **how)
     return Picture(
         figure,
-        f"Errors by rounding in two panels with logarithmic axes: left over the distance, from {_length(near.min())} to "
-        f"{_length(near.max())}, right over the distance left to the antipode, from {_length(far.max())} down to {_length(far.min())}. "
-        + "; ".join(texts)
-        + ".",
+        "Errors by rounding in two panels with logarithmic axes: left over the distance, "
+        f"from {_length(near.min())} to {_length(near.max())}, right over the distance left "
+        f"to the antipode, from {_length(far.max())} down to {_length(far.min())}. "
+        f"{'; '.join(texts)}.",
     )
 
 
 def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
-    """The sphere's error on short lines over bearing and latitude, in percent, with one line marked: at `point`, `bearing` in radians."""
+    """The sphere's error [%] on short lines over bearing [rad] and latitude; a star marks one."""
     instance("point", point, GeoPoint)
     bearings, latitudes = np.linspace(0.0, 180.0, 121), np.linspace(-90.0, 90.0, 181)
     percent = 100.0 * sphere_error(latitudes[:, None], np.radians(bearings))
+    grid = bearings, latitudes, percent
     figure, axes = new_figure(7.0, 5.0)
     axes.grid(False)
-    axes.contourf(
-        bearings,
-        latitudes,
-        percent,
-        levels=np.arange(-0.6, 0.61, 0.1),
-        cmap="PuOr_r",
-        vmin=-1.0,
-        vmax=1.0,
-    )
-    lines = axes.contour(
-        bearings,
-        latitudes,
-        percent,
-        levels=np.arange(-0.4, 0.51, 0.1),
-        colors=COLOURS["ink"],
-        linewidths=0.8,
-    )
-    at = [
-        (90, 72),
-        (90, 48),
-        (90, 31),
-        *((bearing, -1) for bearing in (81, 66, 56, 47, 38, 28.5, 15.5)),
-    ]
+    levels = np.arange(-0.6, 0.61, 0.1)
+    axes.contourf(*grid, levels=levels, cmap="PuOr_r", vmin=-1.0, vmax=1.0)
+    levels = np.arange(-0.4, 0.51, 0.1)
+    lines = axes.contour(*grid, levels=levels, colors=COLOURS["ink"], linewidths=0.8)
+    low = [(each, -1) for each in (81, 66, 56, 47, 38, 28.5, 15.5)]
     axes.clabel(
         lines,
         fmt=lambda level: "0" if abs(level) < 0.01 else f"{level:+.1f} %",
         fontsize=11,
-        manual=at,
+        manual=[(90, 72), (90, 48), (90, 31), *low],
     )
     here = 100.0 * sphere_error(point.lat, bearing)
-    axes.plot(math.degrees(bearing), point.lat, "*", ms=16, color=COLOURS["path"], mec="white")
-    axes.annotate(
-        f"{here:+.3f} %",
-        (math.degrees(bearing), point.lat),
-        (12, -4),
-        textcoords="offset points",
-        fontsize=12,
-        weight="bold",
-    )
-    axes.set(
-        xlabel="bearing [deg]",
-        ylabel="latitude [deg]",
-        xticks=range(0, 181, 30),
-        yticks=range(-90, 91, 30),
-    )
+    at = math.degrees(bearing), point.lat
+    axes.plot(*at, "*", ms=16, color=COLOURS["path"], mec="white")
+    note(axes, f"{here:+.3f} %", at, (12, -4), fontsize=12, weight="bold")
+    axes.set(xlabel="bearing [deg]", ylabel="latitude [deg]")
+    axes.set(xticks=range(0, 181, 30), yticks=range(-90, 91, 30))
     return Picture(
         figure,
-        f"Map of the sphere's error on short lines, over bearing and latitude: from {percent.min():+.2f} % at the poles to "
-        f"{percent.max():+.2f} % northwards on the equator, with {100.0 * sphere_error(0.0, math.pi / 2):+.2f} % eastwards there. A star "
-        f"at latitude {point.lat:.1f} deg and bearing {math.degrees(bearing):.1f} deg marks {here:+.3f} %.",
+        "Map of the sphere's error on short lines, over bearing and latitude: "
+        f"from {percent.min():+.2f} % at the poles to {percent.max():+.2f} % northwards "
+        f"on the equator, with {100.0 * sphere_error(0.0, math.pi / 2):+.2f} % eastwards there. "
+        f"A star at latitude {point.lat:.1f} deg and bearing {math.degrees(bearing):.1f} deg "
+        f"marks {here:+.3f} %.",
     )
 
 
 def _error_in_words(gaps: np.ndarray, sizes: np.ndarray) -> str:
-    """What becomes of an error as the gap closes: by medians in six bands, since rounding differs a little between machines."""
+    """The course of an error as the gap closes.
+
+    Medians of six bands decide, because rounding differs a little between machines.
+    """
     seen = sizes > 0
     edges = np.geomspace(gaps.max(), gaps.min(), 7)[1:-1]
     band = np.searchsorted(-edges, -gaps[seen])
@@ -235,38 +189,23 @@ def _error_in_words(gaps: np.ndarray, sizes: np.ndarray) -> str:
 
 def _length(size: float) -> str:
     """Rounded; below a nanometre as a power of ten."""
-    units = (1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")
-    return next(
-        (f"{size / unit:.5g} {name}" for unit, name in units if size >= 0.999 * unit),
-        f"{size:.0e} m",
-    )
-
-
-def _side_by_side(width: float, height: float):
-    import matplotlib as mpl
-    from matplotlib.figure import Figure
-
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=(width, height), layout="constrained")
-        return figure, figure.subplots(1, 2, sharey=True)
+    for unit, name in ((1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")):
+        if size >= 0.999 * unit:
+            return f"{size / unit:.5g} {name}"
+    return f"{size:.0e} m"
 
 
 def _great_circle(a: GeoPoint, b: GeoPoint) -> GeoPoint:
-    return destination_point(
-        a, np.linspace(0.0, haversine_distance(a, b), 101), initial_bearing(a, b)
-    )
+    steps = np.linspace(0.0, haversine_distance(a, b), 101)
+    return destination_point(a, steps, initial_bearing(a, b))
 
 
 def _seen(point: GeoPoint, view: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
-    """The globe of radius 1 seen from far away, above `view`: right and up."""
-    lat, turn, tilt = (
-        np.radians(point.lat),
-        np.radians(np.subtract(point.lon, view.lon)),
-        math.radians(view.lat),
-    )
-    return np.cos(lat) * np.sin(turn), math.cos(tilt) * np.sin(lat) - math.sin(tilt) * np.cos(
-        lat
-    ) * np.cos(turn)
+    """Right and up on the globe of radius 1, seen from far above `view`."""
+    lat, tilt = np.radians(point.lat), math.radians(view.lat)
+    turn = np.radians(np.subtract(point.lon, view.lon))
+    up = math.cos(tilt) * np.sin(lat) - math.sin(tilt) * np.cos(lat) * np.cos(turn)
+    return np.cos(lat) * np.sin(turn), up
 
 
 def _graticule(axes: Axes, view: GeoPoint) -> None:
@@ -274,6 +213,6 @@ def _graticule(axes: Axes, view: GeoPoint) -> None:
     meridians = [GeoPoint(lat=90.0 * every, lon=float(lon)) for lon in range(-180, 180, 30)]
     parallels = [GeoPoint(lat=float(lat), lon=180.0 * every) for lat in range(-60, 61, 30)]
     for line in meridians + parallels:
-        x, y = _seen(line, view)
         hidden = haversine_distance(view, line, 1.0) > math.pi / 2  # behind the edge of the globe
-        axes.plot(np.where(hidden, np.nan, x), np.where(hidden, np.nan, y), color="#999999", lw=0.6)
+        x, y = (np.where(hidden, np.nan, each) for each in _seen(line, view))
+        axes.plot(x, y, color="#999999", lw=0.6)

@@ -1,19 +1,28 @@
-"""What a check says, and how it asks a student's function: nothing that it returns or raises gets past without a clear sentence."""
+"""What a check says, and how it asks for an answer: whatever that is, the student reads a sentence."""
 
 from __future__ import annotations
 
-import contextlib
-import importlib
+import ast
+import inspect
 import math
+import textwrap
 import types
 from collections.abc import Callable, Iterator, Mapping, Set
-from typing import Any
+from contextlib import suppress
+from typing import Any, NoReturn
 
 import numpy as np
 
+from wmrlib.gains import Gains
+
+_LIBRARIES = ("wmrlib", "wmrbook")
+
 
 class Hint(AssertionError):  # noqa: N818  (its name is what a student reads)
-    """Why an answer does not pass. Jupyter shows the sentence alone: a traceback would show the check, and with it the answer."""
+    """Why an answer does not pass.
+
+    Jupyter shows the sentence alone: a traceback would show the check, and with it the answer.
+    """
 
     def _render_traceback_(self) -> list[str]:
         return [f"Hint: {self}"]
@@ -29,111 +38,9 @@ class Passed(str):
 
 
 def expect(holds: bool, hint: str) -> None:
-    """Raises Hint with this sentence unless the condition holds."""
+    """Raise Hint with this sentence unless the condition holds."""
     if not holds:
         raise Hint(hint)
-
-
-def ask(function: Callable, *arguments: Any, **keywords: Any) -> Any:
-    """What the student's function returns; that it is not written yet, or stops with an error, becomes a Hint."""
-    if not callable(function):
-        raise Hint(f"a function is needed here, not {_shown(function)}.")
-    try:
-        return function(*arguments, **keywords)
-    except NotImplementedError:
-        raise Hint(f"`{_name(function)}` is not written yet.") from None
-    except Exception as error:
-        given = ", ".join(
-            [
-                *map(_shown, arguments),
-                *(f"{key}={_shown(value)}" for key, value in keywords.items()),
-            ]
-        )
-        raise Hint(
-            f"`{_name(function)}({given})` stops{_line(error)} with {type(error).__name__}: {error}."
-        ) from None
-
-
-def ask_number(function: Callable, *arguments: Any, **keywords: Any) -> float:
-    """As `ask`, for a function that is to return one finite number."""
-    return number(f"`{_name(function)}`", ask(function, *arguments, **keywords), returned=True)
-
-
-def ask_numbers(
-    function: Callable, count: int, *arguments: Any, **keywords: Any
-) -> tuple[float, ...]:
-    """As `ask`, for a function that is to return `count` finite numbers."""
-    answer = ask(function, *arguments, **keywords)
-    if not ordered(answer, count):
-        raise Hint(
-            f"`{_name(function)}` returns {_shown(answer)}; {count} numbers, separated by commas, are needed."
-        )
-    return tuple(number(f"`{_name(function)}`", each, returned=True) for each in answer)
-
-
-def ordered(answer: Any, count: int) -> bool:
-    """Whether it is `count` things one after the other; a set or a dict has them in no order, and a text is one thing."""
-    try:
-        return not isinstance(answer, (str, bytes, Set, Mapping)) and len(answer) == count
-    except TypeError:  # one number, an array without dimensions, a class
-        return False
-
-
-def number(name: str, value: Any, *, returned: bool = False) -> float:
-    """The value as a float, if it is one finite real number; a Hint if not."""
-    if value is None or value is ...:
-        raise Hint(
-            f"{name} returns nothing: does it end in `return`?"
-            if returned
-            else f"{name} has no value yet."
-        )
-    plain = (
-        value.item() if isinstance(value, (np.generic, np.ndarray)) and value.size == 1 else value
-    )  # what stands in the array
-    if not isinstance(
-        plain, (bool, str, bytes, np.ndarray)
-    ):  # a number of sympy's, numpy's or Python's
-        try:
-            converted = float(plain)
-        except (TypeError, ValueError):
-            pass
-        except OverflowError:
-            raise Hint(
-                f"{name} {'returns' if returned else 'is'} a number that is far too large."
-            ) from None
-        else:
-            expect(
-                math.isfinite(converted),
-                f"{name} {'returns' if returned else 'is'} {converted}, which is not a finite number.",
-            )
-            return converted
-    raise Hint(f"{name} {'returns' if returned else 'is'} {_shown(value)}; one number is needed.")
-
-
-def floats(value: Any) -> np.ndarray | None:
-    """The numbers of a list, matrix or array; None if it holds anything else: texts, truths, complex numbers, rows of different lengths."""
-    try:
-        given = np.asarray(value)
-        return given.astype(float) if given.dtype.kind in "iufO" else None
-    except (TypeError, ValueError, OverflowError):
-        return None
-
-
-def own_work(function: Callable, *allowed: str) -> None:
-    """Raises Hint if the student's function, or one of the notebook's that it calls, uses wmrlib, but for the names `allowed`.
-
-    It reads the names in the compiled code. It is there to say what is asked for, not to withstand someone who hides it.
-    """
-    more = (
-        f"of it only {', '.join(f'`{each}`' for each in allowed)} may be used here."
-        if allowed
-        else ""
-    )
-    for name in _of_wmrlib(function, bool(allowed), set()):
-        asked = more or "this task asks for your own formula, with `math` or `numpy`."
-        expect(
-            name.split(".")[-1] in allowed, f"`{_name(function)}` uses `{name}` of wmrlib; {asked}"
-        )
 
 
 def close(value: float, right: float, relative: float = 1e-6, absolute: float = 1e-9) -> bool:
@@ -141,73 +48,195 @@ def close(value: float, right: float, relative: float = 1e-6, absolute: float = 
     return math.isclose(value, right, rel_tol=relative, abs_tol=absolute)
 
 
-def _of_wmrlib(function: Callable, parts: bool, seen: set) -> Iterator[str]:
-    """The names by which it uses wmrlib: functions and classes; with `parts` those that it takes out of a module, else the module."""
-    if not isinstance(function, types.FunctionType) or function in seen:
+def rule_out(value: Any, mistakes: dict[str, Any], equal: Callable[..., bool] = close) -> None:
+    """Raise the Hint of the first usual mistake, {hint: its result}, that gives the value."""
+    for hint, mistaken in mistakes.items():
+        expect(not equal(value, mistaken), hint)
+
+
+def explain(
+    value: Any, mistakes: dict[str, Any], otherwise: str, equal: Callable[..., bool] = close
+) -> NoReturn:
+    """As `rule_out`, for a wrong value: if no usual mistake gives it, the hint is `otherwise`."""
+    rule_out(value, mistakes, equal)
+    raise Hint(otherwise)
+
+
+def ask(function: Callable, *arguments: Any) -> Any:
+    """Return what the student's function returns; if it fails, raise a Hint that says how."""
+    if not callable(function):
+        raise Hint(f"a function is needed here, not {shown(function)}.")
+    try:
+        return function(*arguments)
+    except NotImplementedError:
+        raise Hint(f"`{_name(function)}` is not written yet.") from None
+    except Exception as error:
+        call = f"`{_name(function)}({', '.join(map(shown, arguments))})`"
+        what = f"{type(error).__name__}: {error}"
+        raise Hint(f"{call} stops{_line(error)} with {what}.") from None
+
+
+def ask_number(function: Callable, *arguments: Any) -> float:
+    """As `ask`, for a function that is to return one finite number."""
+    return number(f"`{_name(function)}`", ask(function, *arguments), returned=True)
+
+
+def ask_numbers(function: Callable, count: int, *arguments: Any) -> tuple[float, ...]:
+    """As `ask`, for a function that is to return `count` finite numbers."""
+    answer, name = ask(function, *arguments), f"`{_name(function)}`"
+    needed = f"{count} numbers, separated by commas, are needed."
+    expect(ordered(answer, count), f"{name} returns {shown(answer)}; {needed}")
+    return tuple(number(name, each, returned=True) for each in answer)
+
+
+def ask_truth(function: Callable, *arguments: Any) -> bool:
+    """As `ask`, for a function that is to return True or False."""
+    answer, name = ask(function, *arguments), _name(function)
+    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
+    truth = isinstance(answer, (bool, np.bool_))
+    expect(truth, f"`{name}` returns {shown(answer)}; True or False is needed.")
+    return bool(answer)
+
+
+def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np.ndarray:
+    """As `ask`, for a function that is to return finite numbers in this shape."""
+    name, answer = _name(function), ask(function, *arguments)
+    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
+    array = floats(answer)
+    needed = " x ".join(map(str, shape)) + (" number is" if shape == (1,) else " numbers are")
+    expect(array is not None, f"`{name}` returns {shown(answer)}; {needed} needed.")
+    got = " x ".join(map(str, array.shape)) + " numbers" if array.ndim else "one number"
+    expect(array.shape == shape, f"`{name}` returns {got}; {needed} needed.")
+    finite = bool(np.isfinite(array).all())
+    expect(finite, f"`{name}` returns a number that is not finite: {shown(array.tolist())}.")
+    return array
+
+
+def refuses(function: Callable, hint: str, *arguments: Any) -> None:
+    """Raise Hint unless the student's function raises ValueError for these arguments."""
+    try:
+        function(*arguments)
+    except ValueError:
         return
-    seen.add(function)
-    modules: dict[str, types.ModuleType] = {}
-    names = list(dict.fromkeys(_names(function.__code__)))
-    for name in names:
-        if (
-            "." in name or name not in function.__globals__
-        ):  # imported in the function, a builtin, or an attribute of something
-            if name.split(".")[0] == "wmrlib":
-                with contextlib.suppress(
-                    ImportError
-                ):  # then the function stops, which another hint says
-                    modules[name] = importlib.import_module(name)
-            continue
-        value = function.__globals__[name]
-        if isinstance(value, types.ModuleType):
-            if _home(value) == "wmrlib":
-                modules[name] = value
-        elif _home(value) == "wmrlib":  # what wmrlib's own functions call is no matter
-            yield getattr(value, "__name__", name)
-        else:
-            yield from _of_wmrlib(value, parts, seen)
-    if not parts:
-        yield from modules
-        return
-    looked_at: set = set()
-    while modules:
-        called, module = modules.popitem()
-        looked_at.add(module)
-        for name in names:
-            value = None if name in function.__globals__ else getattr(module, name, None)
-            if (
-                isinstance(value, types.ModuleType)
-                and _home(value) == "wmrlib"
-                and value not in looked_at
-            ):
-                modules[f"{called}.{name}"] = value
-            elif not isinstance(value, types.ModuleType) and _home(value) == "wmrlib":
-                yield f"{called}.{name}"
+    except Exception:
+        ask(function, *arguments)  # which says what happened
+    call = f"`{_name(function)}({', '.join(map(shown, arguments))})`"
+    raise Hint(f"{call} must raise ValueError: {hint}")
 
 
-def _names(code: types.CodeType) -> Iterator[str]:
-    """The global names, attributes and imports of a function and of those inside it."""
-    yield from code.co_names
-    for each in code.co_consts:
-        if isinstance(each, types.CodeType):
-            yield from _names(each)
+def expect_value(name: str, value: Any) -> None:
+    """Raise Hint if the value is still None or an ellipsis, as it was handed out."""
+    expect(value is not None and value is not ..., f"{name} has no value yet.")
 
 
-def _home(value: Any) -> str:
-    """The package that a module, function or class is from; nothing for an object that is only data."""
-    if isinstance(value, types.ModuleType):
-        return value.__name__.split(".")[0]
-    return str(getattr(value, "__module__", "")).split(".")[0] if callable(value) else ""
+def ordered(answer: Any, count: int) -> bool:
+    """Whether it is `count` things in order, which a set or dict has not; a text is one thing."""
+    try:
+        return not isinstance(answer, (str, bytes, Set, Mapping)) and len(answer) == count
+    except TypeError:  # one number, an array without dimensions, a class
+        return False
+
+
+def number(name: str, value: Any, *, returned: bool = False) -> float:
+    """Return the value as a float if it is one finite real number, of any type; else raise Hint."""
+    verb = "returns" if returned else "is"
+    if value is None or value is ...:
+        nothing = f"{name} returns nothing: does it end in `return`?"
+        raise Hint(nothing if returned else f"{name} has no value yet.")
+    single = isinstance(value, (np.generic, np.ndarray)) and value.size == 1
+    plain = value.item() if single else value
+    if not isinstance(plain, (bool, str, bytes, np.ndarray)):
+        with suppress(TypeError, ValueError):
+            try:
+                converted = float(plain)
+            except OverflowError:
+                raise Hint(f"{name} {verb} a number that is far too large.") from None
+            finite = math.isfinite(converted)
+            expect(finite, f"{name} {verb} {converted}, which is not a finite number.")
+            return converted
+    raise Hint(f"{name} {verb} {shown(value)}; one number is needed.")
+
+
+def numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
+    """Return the value as `count` finite floats, or raise Hint."""
+    expect_value(name, value)
+    row = isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) == 1
+    needed = f"{count} numbers, separated by commas, are needed."
+    expect(row and len(value) == count, f"{name} is {shown(value)}; {needed}")
+    return tuple(number(name, each) for each in value)
+
+
+def floats(value: Any) -> np.ndarray | None:
+    """Return the real numbers of a list, matrix or array; None if anything else is in it."""
+    try:
+        given = np.asarray(value)
+        return given.astype(float) if given.dtype.kind in "iufO" else None
+    except (TypeError, ValueError, OverflowError):
+        return None
+
+
+def gains_of(name: str, value: Any) -> Gains:
+    """Return the value if it is Gains of single numbers, or raise Hint."""
+    expect_value(name, value)
+    needed = "`wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=...)` is needed."
+    expect(isinstance(value, Gains), f"{name} is {shown(value)}; {needed}")
+    try:
+        single = all(np.ndim(field) == 0 for field in value)
+        expect(single, f"{name} holds arrays; one number a gain is needed.")
+        return Gains(*map(float, value))  # `_replace` does not check what it is given
+    except (TypeError, ValueError, OverflowError) as error:
+        raise Hint(f"{name}: {error}.") from None
+
+
+def own_work(function: Callable, *allowed: str) -> None:
+    """Raise Hint if the student's function calls the libraries, but for the names `allowed`.
+
+    It says what is asked for; it does not withstand someone who hides the call.
+    """
+    asked = "this task asks for your own formula, with `math` or `numpy`."
+    if allowed:
+        asked = f"of it only {', '.join(f'`{each}`' for each in allowed)} may be used here."
+    waiting, seen = [function], []
+    while waiting:
+        called = waiting.pop(0)
+        library = str(getattr(called, "__module__", "")).partition(".")[0]
+        if library in _LIBRARIES:
+            name = getattr(called, "__name__", "")
+            hint = f"`{_name(function)}` uses `{name}` of {library}; {asked}"
+            expect(name in allowed, hint)
+        elif isinstance(called, types.FunctionType) and called not in seen:
+            seen.append(called)
+            if called.__globals__ is function.__globals__:  # of the notebook
+                waiting += [each for each in _named(called) if callable(each)]
+
+
+def _named(function: types.FunctionType) -> Iterator[Any]:
+    """What the global names, attributes and imports in the function's source stand for."""
+    try:
+        tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
+    except (OSError, SyntaxError):
+        return  # without its source, a function passes
+    names = function.__globals__ | dict.fromkeys(function.__code__.co_varnames)
+
+    def value(node: ast.AST) -> Any:
+        if isinstance(node, ast.Attribute):
+            return getattr(value(node.value), node.attr, None)
+        return names.get(node.id) if isinstance(node, ast.Name) else None
+
+    for node in ast.walk(tree):
+        if isinstance(node, (ast.Import, ast.ImportFrom)):
+            with suppress(ImportError):  # the function stops there, and another hint says so
+                exec(compile(ast.Module([node], []), "<import>", "exec"), names)
+    for node in ast.walk(tree):
+        yield value(node)
 
 
 def _line(error: BaseException) -> str:
-    """Where in the student's code it happened: the last line of a cell that the error passed."""
+    """Return where in the student's code it happened: the last line of a cell that it passed."""
     place, trace = "", error.__traceback__
     while trace:
-        if (
-            "ipykernel" in trace.tb_frame.f_code.co_filename
-            or "<ipython" in trace.tb_frame.f_code.co_filename
-        ):
+        file = trace.tb_frame.f_code.co_filename
+        if "ipykernel" in file or "<ipython" in file:
             place = f" in line {trace.tb_lineno} of its cell"
         trace = trace.tb_next
     return place
@@ -217,11 +246,10 @@ def _name(function: Callable) -> str:
     return getattr(function, "__name__", type(function).__name__)
 
 
-def _shown(value: Any) -> str:
+def shown(value: Any) -> str:
+    """Return the value as text of at most 60 characters."""
     try:
         text = f"{value:.6g}" if isinstance(value, float) else repr(value)
-    except (
-        Exception
-    ):  # of what a student wrote, or of Python with an integer of more than 4300 digits
+    except Exception:  # of a student's class, or of an integer with more than 4300 digits
         text = f"something of the type {type(value).__name__}"
     return text if len(text) <= 60 else f"{text[:57]}..."

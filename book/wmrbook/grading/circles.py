@@ -7,8 +7,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._answers import refuses
-from wmrbook.grading._hints import Passed, ask_number, ask_numbers, close, expect, own_work
+from wmrbook.grading._hints import Passed, ask_number, ask_numbers, close, expect, own_work, refuses
 from wmrlib import paper
 from wmrlib.kinematics import Pose, Reference, advance, polar_error, wrap_angle
 from wmrlib.metrics import residual

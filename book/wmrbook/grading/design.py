@@ -8,8 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._answers import ask_array, gains_of
-from wmrbook.grading._hints import Passed, ask, ask_numbers, close, expect, own_work
+from wmrbook.grading._hints import (
+    Passed,
+    ask,
+    ask_array,
+    ask_numbers,
+    close,
+    expect,
+    gains_of,
+    own_work,
+)
 from wmrlib import paper
 from wmrlib.control import control_law
 from wmrlib.gains import Gains

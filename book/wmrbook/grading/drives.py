@@ -8,7 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import Hint, Passed, ask, ask_numbers, expect, floats, own_work
+from wmrbook.grading._hints import (
+    Hint,
+    Passed,
+    ask,
+    ask_numbers,
+    expect,
+    explain,
+    floats,
+    own_work,
+    rule_out,
+)
 from wmrlib.control import control_law
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, advance, polar_error, wrap_angle
@@ -16,9 +26,10 @@ from wmrlib.paper import outdoor
 from wmrlib.simulation import simulate
 
 Law = Callable[[float, float, float], tuple[float, float]]
+Axes = Callable[[float, float, float], tuple[float, float, float]]
 ARRIVAL_RADIUS = 0.05  # m
 _ALLOWED = ("Pose", "polar_error", "wrap_angle")
-_GENTLE = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
+_GAINS = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
 _ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
@@ -34,22 +45,17 @@ def drive_known(drive: Callable[..., Any]) -> Passed:
         seen: list[tuple[float, ...]] = []
         path = _path(drive, start, goal, lambda *polar, seen=seen: _spied(polar, seen), dt, 60.0)
         _explain_seen(seen, start, goal)
-        for k in range(len(path) - 1):
-            pose = Pose(*path[k])
-            command = control_law(*polar_error(pose, goal), _GENTLE)
-            _explain_step(path[k + 1], pose, command, dt, goal)
-        right = simulate(start, goal, _GENTLE, method="euler", dt=dt)
-        expect(
-            len(path) >= len(right),
-            f"it stops {polar_error(Pose(*path[-1]), goal).rho:.2f} m before the goal; 0.05 m are asked for.",
-        )
-        expect(
-            len(path) == len(right),
-            "it goes on after it has come within 0.05 m of the goal; that pose should be the last.",
-        )
-    return Passed(
-        f"The paper's trip in {len(simulate(case.start, case.goal, _GENTLE, method='euler'))} poses, each as `simulate` has it."
-    )
+        for row, following in zip(path, path[1:], strict=False):
+            pose = Pose(*row)
+            _explain_step(following, pose, control_law(*polar_error(pose, goal), _GAINS), dt)
+        right = simulate(start, goal, _GAINS, method="euler", dt=dt)
+        left = polar_error(Pose(*path[-1]), goal).rho
+        hint = f"it stops {left:.2f} m before the goal; 0.05 m are asked for."
+        expect(len(path) >= len(right), hint)
+        hint = "it goes on after it has come within 0.05 m of the goal; "
+        expect(len(path) == len(right), hint + "that pose should be the last.")
+    count = len(simulate(case.start, case.goal, _GAINS, method="euler"))
+    return Passed(f"The paper's trip in {count} poses, each as `simulate` has it.")
 
 
 def drive_arrives(drive: Callable[..., Any]) -> Passed:
@@ -59,16 +65,14 @@ def drive_arrives(drive: Callable[..., Any]) -> Passed:
     for k in range(12):
         angle = 2.0 * math.pi * k / 12 + 0.1
         start = Pose(12.0 * math.cos(angle), 12.0 * math.sin(angle), 2.0 * k)
-        path = _path(drive, start, _ORIGIN, _gentle_law, 0.02, 60.0)
+        path = _path(drive, start, _ORIGIN, _law, 0.02, 60.0)
         rho, off = math.hypot(*path[-1, :2]), abs(math.degrees(wrap_angle(float(path[-1, 2]))))
         from_where = f"from {math.degrees(wrap_angle(angle)):.0f} deg round the goal it ends"
         expect(rho <= ARRIVAL_RADIUS, f"{from_where} {rho:.2g} m away.")
         expect(off < 10.0, f"{from_where} at the right place, {off:.0f} deg off.")
         turned = math.degrees(np.abs(wrap_angle(np.diff(path[:, 2]))).sum())
-        expect(
-            turned < 540.0,
-            f"{from_where} well, but has turned by {turned:.0f} deg on its way: nobody has to. Wrap alpha and theta.",
-        )
+        hint = f"{from_where} well, but has turned by {turned:.0f} deg on its way: "
+        expect(turned < 540.0, hint + "nobody has to. Wrap alpha and theta.")
         worst = max(worst, off)
     return Passed(f"Twelve of twelve starts park; the worst is {worst:.1f} deg off.")
 
@@ -76,138 +80,108 @@ def drive_arrives(drive: Callable[..., Any]) -> Passed:
 def drive_obeys(drive: Callable[..., Any]) -> Passed:
     """It does what the law says, whatever the law, and stops when the time is up."""
     own_work(drive, *_ALLOWED)
-    for name, command in (
-        ("stands still", (0.0, 0.0)),
-        ("turns on the spot", (0.0, 0.7)),
-        ("drives in a circle", (1.0, 0.7)),
-        ("backs", (-1.0, 0.0)),
-    ):
-        path = _path(
-            drive, Pose(3.0, 4.0, 0.5), _ORIGIN, lambda *_, command=command: command, 0.125, 4.0
-        )
-        expect(
-            len(path) == 33,
-            f"in 4 s with dt = 0.125 s there are 33 poses, the start and one after each step; a robot that {name} has {len(path)}.",
-        )
+    commands = {
+        "stands still": (0.0, 0.0),
+        "turns on the spot": (0.0, 0.7),
+        "drives in a circle": (1.0, 0.7),
+        "backs": (-1.0, 0.0),
+    }
+    for does, command in commands.items():
         pose = Pose(3.0, 4.0, 0.5)
-        for k in range(1, 33):
+        path = _path(drive, pose, _ORIGIN, lambda *_, command=command: command, 0.125, 4.0)
+        hint = "in 4 s with dt = 0.125 s there are 33 poses, the start and one after each step; "
+        expect(len(path) == 33, f"{hint}a robot that {does} has {len(path)}.")
+        hint = f"under a law that {does} it does not: "
+        for row in path[1:]:
             pose = advance(pose, *command, 0.125, method="euler")
-            expect(
-                _same_pose(path[k], pose, 1e-6),
-                f"under a law that {name} it does not: is the law that is passed in the one that is used?",
-            )
-    there = _path(drive, Pose(0.01, 0.0, 0.5), _ORIGIN, _gentle_law, 0.1, 4.0)
-    expect(
-        len(there) == 1,
-        f"a robot that starts 1 cm from its goal has arrived, and needs no step; yours takes {len(there) - 1}.",
-    )
+            obeyed = _same_pose(row, pose, 1e-6)
+            expect(obeyed, hint + "is the law that is passed in the one that is used?")
+    there = _path(drive, Pose(0.01, 0.0, 0.5), _ORIGIN, _law, 0.1, 4.0)
+    hint = "a robot that starts 1 cm from its goal has arrived, and needs no step; "
+    expect(len(there) == 1, f"{hint}yours takes {len(there) - 1}.")
     return Passed("The loop obeys any law, and ends when the time is up.")
 
 
-def axes_known(with_x_north: Callable[[float, float, float], tuple[float, float, float]]) -> Passed:
-    """with_x_north(x, y, heading): the pose on the map with x north and y east, its heading counted from x towards y."""
+def axes_known(with_x_north: Axes) -> Passed:
+    """with_x_north(x, y, heading): the pose on the map with x north and y east."""
     own_work(with_x_north)
     for pose in _poses(20):
-        value, right = (
-            ask_numbers(with_x_north, 3, *pose),
-            (pose.y, pose.x, math.pi / 2.0 - pose.heading),
-        )
-        if not _same_pose(value, right):
-            expect(
-                math.dist(value[:2], pose[:2]) > 1e-9,
-                "x and y are as they were; which of the two is metres north on the new map?",
-            )
-            expect(
-                _near(value, right),
-                "the place is wrong: one number is metres north, the other metres east, and the new x is north.",
-            )
-            expect(
-                not _same_pose(value, (*right[:2], pose.heading)),
-                "the heading is as it was: a robot that looks north has 90 deg on the old map, and on the new one?",
-            )
-            expect(
-                not _same_pose(value, (*right[:2], -right[2])),
-                "the heading is turned, but goes round the wrong way: where do you get from x towards y on the new map?",
-            )
-            expect(False, "the heading is wrong: try robots that look north, east and south-east.")
+        value = ask_numbers(with_x_north, 3, *pose)
+        x, y, heading = right = pose.y, pose.x, math.pi / 2.0 - pose.heading
+        if _same_pose(value, right):
+            continue
+        hint = "x and y are as they were; which of the two is metres north on the new map?"
+        expect(math.dist(value[:2], pose[:2]) > 1e-9, hint)
+        hint = "the place is wrong: one number is metres north, the other metres east, "
+        expect(math.dist(value[:2], right[:2]) < 1e-9, hint + "and the new x is north.")
+        mistakes = {
+            "the heading is as it was: a robot that looks north has 90 deg on the old map, "
+            "and on the new one?": (x, y, pose.heading),
+            "the heading is turned, but goes round the wrong way: "
+            "where do you get from x towards y on the new map?": (x, y, -heading),
+        }
+        otherwise = "the heading is wrong: try robots that look north, east and south-east."
+        explain(value, mistakes, otherwise, _same_pose)
     return Passed("A robot that looks north has the heading 90 deg on one map, and 0 on the other.")
 
 
-def axes_properties(
-    with_x_north: Callable[[float, float, float], tuple[float, float, float]],
-) -> Passed:
-    """Doing it twice leads back, and a robot that drives in a left bend on one map drives in a right bend on the other."""
+def axes_properties(with_x_north: Axes) -> Passed:
+    """Twice leads back, and a left bend on one map is a right bend on the other."""
     own_work(with_x_north)
     for pose in _poses(20):
-        new = ask_numbers(with_x_north, 3, *pose)
-        expect(
-            _same_pose(ask_numbers(with_x_north, 3, *new), pose),
-            "done twice it must lead back: x east and y north are the first map again.",
-        )
+        new = Pose(*ask_numbers(with_x_north, 3, *pose))
+        twice = ask_numbers(with_x_north, 3, *new)
+        hint = "done twice it must lead back: x east and y north are the first map again."
+        expect(_same_pose(twice, pose), hint)
         after = ask_numbers(with_x_north, 3, *advance(pose, 1.5, 0.8, 0.5))
-        expect(
-            not _same_pose(after, advance(Pose(*new), 1.5, 0.8, 0.5)),
-            "this map is turned, not flipped: on the new one a left bend must look like a right bend.",
-        )
-        expect(
-            _same_pose(after, advance(Pose(*new), 1.5, -0.8, 0.5)),
-            "a robot that drives where it looks on one map does not do so on the other.",
-        )
-    return Passed(
-        "Twice leads back; left on one map is right on the other, so alpha, theta and omega change their signs."
-    )
+        hint = "this map is turned, not flipped: on the new one a left bend must look like "
+        hint += "a right bend."
+        expect(not _same_pose(after, advance(new, 1.5, 0.8, 0.5)), hint)
+        hint = "a robot that drives where it looks on one map does not do so on the other."
+        expect(_same_pose(after, advance(new, 1.5, -0.8, 0.5)), hint)
+    left = "Twice leads back; left on one map is right on the other,"
+    return Passed(f"{left} so alpha, theta and omega change their signs.")
 
 
 def _explain_seen(seen: list[tuple[float, ...]], start: Pose, goal: Pose) -> None:
-    """Raises Hint if the law is given something other than the polar error."""
+    """Raise Hint if the law is given something other than the polar error."""
     expect(bool(seen), "the law that is passed in is never asked.")
+    half = math.pi + 1e-9
+    wrapped = all(abs(alpha) <= half and abs(theta) <= half for _, alpha, theta in seen)
+    hint = "the law is given angles of more than half a turn: wrap alpha and theta."
+    expect(wrapped, hint)
     right = polar_error(start, goal)
-    for _, alpha, theta in seen:
-        expect(
-            abs(alpha) <= math.pi + 1e-9 and abs(theta) <= math.pi + 1e-9,
-            "the law is given angles of more than half a turn: wrap alpha and theta.",
-        )
-    if not np.allclose(seen[0], right, atol=1e-9):
-        expect(
-            not np.allclose(seen[0], (right.rho, right.theta, right.alpha), atol=1e-9),
-            "the law is given theta and alpha in the wrong order.",
-        )
-        sight = wrap_angle(right.alpha + start.heading)
-        expect(
-            not math.isclose(seen[0][2], sight, abs_tol=1e-9),
-            "the law is given a theta that is counted from east, not from the goal's heading.",
-        )
-        expect(False, "at the start the law is given something other than (rho, alpha, theta).")
-
-
-def _explain_step(
-    value: np.ndarray, pose: Pose, command: tuple[float, float], dt: float, goal: Pose
-) -> None:
-    """Raises Hint unless the value is Euler's step from the pose."""
-    if _same_pose(value, advance(pose, *command, dt, method="euler")):
+    if np.allclose(seen[0], right, atol=1e-9):
         return
+    swapped = (right.rho, right.theta, right.alpha)
+    hint = "the law is given theta and alpha in the wrong order."
+    expect(not np.allclose(seen[0], swapped, atol=1e-9), hint)
+    sight = wrap_angle(right.alpha + start.heading)
+    hint = "the law is given a theta that is counted from east, not from the goal's heading."
+    expect(not math.isclose(seen[0][2], sight, abs_tol=1e-9), hint)
+    expect(False, "at the start the law is given something other than (rho, alpha, theta).")
+
+
+def _explain_step(value: np.ndarray, pose: Pose, command: tuple[float, float], dt: float) -> None:
+    """Raise Hint unless the value is Euler's step from the pose."""
     v, omega = command
-    late = advance(Pose(pose.x, pose.y, pose.heading + omega * dt), v, 0.0, dt)
-    expect(
-        not _same_pose(value, late),
-        "x and y move along the *new* heading: Euler's step takes all rates at the old pose.",
-    )
-    expect(
-        not _same_pose(value, advance(pose, v, omega, dt)),
-        "this step is an arc; Euler's, along the old heading, is asked for.",
-    )
-    expect(
-        not _same_pose(value, advance(pose, v, omega, 1.0, method="euler")),
-        "this step takes a second: a rate times dt is wanted.",
-    )
-    expect(
-        not _same_pose(value, advance(pose, v, -omega, dt, method="euler")),
-        "the heading turns the wrong way: (5).",
-    )
-    expect(
-        _same_pose((*value[:2], 0.0), (*advance(pose, v, omega, dt, method="euler")[:2], 0.0)),
-        "a step leads to the wrong place: (3) and (4), times dt.",
-    )
+    right = advance(pose, v, omega, dt, method="euler")
+    if _same_pose(value, right):
+        return
+    late = advance(pose._replace(heading=pose.heading + omega * dt), v, 0.0, dt)
+    mistakes = {
+        "x and y move along the *new* heading: Euler's step takes all rates at the old pose.": late,
+        "this step is an arc; Euler's, along the old heading, is asked for.": advance(
+            pose, v, omega, dt
+        ),
+        "this step takes a second: a rate times dt is wanted.": advance(
+            pose, v, omega, 1.0, method="euler"
+        ),
+        "the heading turns the wrong way: (5).": advance(pose, v, -omega, dt, method="euler"),
+    }
+    rule_out(value, mistakes, _same_pose)
+    near = math.dist(value[:2], right[:2]) < 1e-9
+    expect(near, "a step leads to the wrong place: (3) and (4), times dt.")
     expect(False, "a step ends with the wrong heading: (5), times dt.")
 
 
@@ -231,28 +205,19 @@ def _path(
 
 def _spied(polar: tuple[float, ...], seen: list[tuple[float, ...]]) -> tuple[float, float]:
     seen.append(tuple(float(each) for each in polar))
-    return _gentle_law(*polar)
+    return _law(*polar)
 
 
-def _gentle_law(rho: float, alpha: float, theta: float) -> tuple[float, float]:
-    return control_law(float(rho), float(alpha), float(theta), _GENTLE)
+def _law(rho: float, alpha: float, theta: float) -> tuple[float, float]:
+    return control_law(float(rho), float(alpha), float(theta), _GAINS)
 
 
 def _same_pose(value, right, tolerance: float = 1e-9) -> bool:
-    return (
-        math.dist(value[:2], right[:2]) < tolerance
-        and abs(wrap_angle(float(value[2]) - right[2])) < tolerance
-    )
-
-
-def _near(value, right) -> bool:
-    return math.dist(value[:2], right[:2]) < 1e-9
+    off = abs(wrap_angle(float(value[2]) - right[2]))
+    return math.dist(value[:2], right[:2]) < tolerance and off < tolerance
 
 
 def _poses(count: int) -> list[Pose]:
-    return [
-        Pose(*row)
-        for row in np.random.default_rng(13)
-        .uniform([-50.0, -50.0, -3.0], [50.0, 50.0, 3.0], (count, 3))
-        .tolist()
-    ]
+    low, high = [-50.0, -50.0, -3.0], [50.0, 50.0, 3.0]
+    rows = np.random.default_rng(13).uniform(low, high, (count, 3))
+    return [Pose(*row) for row in rows.tolist()]

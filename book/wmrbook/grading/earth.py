@@ -1,4 +1,4 @@
-"""Checks of formulas on the Earth: the distance and the bearing between two GPS points, and the local frame."""
+"""Checks of formulas on the Earth: distance and bearing of two GPS points, and the local frame."""
 
 from __future__ import annotations
 
@@ -7,7 +7,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import Passed, ask_number, ask_numbers, close, expect, own_work
+from wmrbook.grading._hints import (
+    Passed,
+    ask_number,
+    ask_numbers,
+    close,
+    expect,
+    explain,
+    own_work,
+    rule_out,
+)
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
     GeoPoint,
@@ -19,64 +28,51 @@ from wmrlib.geodesy import (
 from wmrlib.paper import GPS_POINT_1, GPS_POINT_2
 
 Function = Callable[[float, float, float, float], float]
+Local = Callable[[float, float, float, float], tuple[float, float]]
 Pair = tuple[GeoPoint, GeoPoint]
 
 _SWAPPED = "this is what comes out with latitude and longitude swapped: which one has the cosine?"
 _DEGREES = "this is what comes out when degrees go into a sine: `math.radians` first."
 _RADIUS = "this is nearly right, less than 1 % off: is your Earth a sphere of 6371 km?"
-_MAP_TOLERANCE_M = (
-    0.02  # between the flat map and the sphere's over 300 m, up to 60 deg of latitude
-)
+_MAP_TOLERANCE_M = 0.02  # flat map against sphere, over 300 m and up to 60 deg of latitude
 
 
 def distance_known(distance: Function) -> Passed:
-    """distance(lat_1, lon_1, lat_2, lon_2): degrees in, metres out; right for the paper's points and for places all over the Earth."""
+    """distance(lat_1, lon_1, lat_2, lon_2): degrees in, metres out, all over the Earth."""
     own_work(distance)
     for a, b in [(GPS_POINT_1, GPS_POINT_2), *_places(20)]:
-        right, value = haversine_distance(a, b), ask_number(distance, a.lat, a.lon, b.lat, b.lon)
-        if not close(value, right, 1e-6, 1e-6):
-            expect(not close(value, haversine_distance(*_swapped(a, b))), _SWAPPED)
-            expect(not close(value, haversine_distance(*_in_degrees(a, b))), _DEGREES)
-            expect(
-                not close(value * 1000.0, right, 1e-3),
-                "the result is in kilometres; metres are asked for.",
-            )
-            expect(
-                not close(2.0 * value, right, 1e-3),
-                "the result is half as long as it should be: look at the factor in (12).",
-            )
-            expect(
-                close(value, right, 0.02),
-                "the distance between two known places is wrong: compare your haversine with (11) to (13), term by term.",
-            )
-            expect(
-                False,
-                "the distance is nearly right: is the radius 6371 km, and is nothing rounded on the way?",
-            )
-    return Passed(
-        f"{haversine_distance(GPS_POINT_1, GPS_POINT_2):.2f} m between the paper's two points, and right elsewhere."
-    )
+        right, value = haversine_distance(a, b), _between(distance, a, b)
+        if close(value, right, 1e-6, 1e-6):
+            continue
+        swapped, in_degrees = _swapped(a, b), _in_degrees(a, b)
+        mistakes = {_SWAPPED: swapped, _DEGREES: in_degrees}
+        rule_out(value, {hint: haversine_distance(*pair) for hint, pair in mistakes.items()})
+        mistakes = {
+            "the result is in kilometres; metres are asked for.": right / 1000.0,
+            "the result is half as long as it should be: look at the factor in (12).": right / 2.0,
+        }
+        rule_out(value, mistakes, lambda one, other: close(one, other, 1e-3))
+        hint = "the distance between two known places is wrong: compare your haversine with "
+        expect(close(value, right, 0.02), f"{hint}(11) to (13), term by term.")
+        hint = "the distance is nearly right: is the radius 6371 km, "
+        expect(False, f"{hint}and is nothing rounded on the way?")
+    metres = haversine_distance(GPS_POINT_1, GPS_POINT_2)
+    return Passed(f"{metres:.2f} m between the paper's two points, and right elsewhere.")
 
 
 def distance_properties(distance: Function) -> Passed:
-    """It is the same there and back, nothing from a point to itself, and does not change when the Earth is turned about its axis."""
+    """The same there and back, 0 from a point to itself, unchanged when the Earth is turned."""
     own_work(distance)
     for a, b in _places(20):
-        there = ask_number(distance, a.lat, a.lon, b.lat, b.lon)
+        there = _between(distance, a, b)
         expect(there > 1e-3, "the distance between two different places must be positive.")
-        expect(
-            close(there, ask_number(distance, b.lat, b.lon, a.lat, a.lon)),
-            "the way back is not as long as the way there.",
-        )
-        expect(
-            abs(ask_number(distance, a.lat, a.lon, a.lat, a.lon)) < 1e-6,
-            "from a point to itself it must be 0 m.",
-        )
+        back = _between(distance, b, a)
+        expect(close(there, back), "the way back is not as long as the way there.")
+        still = abs(_between(distance, a, a))
+        expect(still < 1e-6, "from a point to itself it must be 0 m.")
         turned = ask_number(distance, a.lat, a.lon - 25.0, b.lat, b.lon - 25.0)
-        expect(
-            close(there, turned, 1e-6),
-            "turn the Earth: if both longitudes change by the same, the distance must stay.",
-        )
+        hint = "turn the Earth: if both longitudes change by the same, the distance must stay."
+        expect(close(there, turned, 1e-6), hint)
     return Passed("There is as far as back, and only the difference of the longitudes counts.")
 
 
@@ -86,183 +82,131 @@ def distance_close(distance: Function) -> Passed:
     for metres in (1.0, 0.1, 0.01):
         lat = GPS_POINT_1.lat + math.degrees(metres / EARTH_RADIUS_M)
         value = ask_number(distance, GPS_POINT_1.lat, GPS_POINT_1.lon, lat, GPS_POINT_1.lon)
-        expect(
-            metres < 1.0 or 0.9 < value < 1.1,
-            f"two points 1 m apart come out {value:.4g} m apart: see to the checks above first.",
-        )
-        expect(
-            close(value, metres, 1e-3),
-            f"two points {metres:g} m apart come out {value:.4f} m apart: which function loses its digits near 0 m?",
-        )
+        hint = f"two points 1 m apart come out {value:.4g} m apart: see to the checks above first."
+        expect(metres < 1.0 or 0.9 < value < 1.1, hint)
+        hint = f"two points {metres:g} m apart come out {value:.4f} m apart: "
+        expect(close(value, metres, 1e-3), hint + "which function loses its digits near 0 m?")
     return Passed("One centimetre comes out as one centimetre.")
 
 
 def bearing_known(bearing: Function) -> Passed:
-    """bearing(lat_1, lon_1, lat_2, lon_2) in degrees clockwise from north, up to full turns: the four directions, and places."""
+    """bearing(lat_1, lon_1, lat_2, lon_2): degrees clockwise from north, up to full turns."""
     own_work(bearing)
     home = GeoPoint(lat=10.0, lon=20.0)
-    compass = [("north", 0.0, 1.0), ("south", 0.0, -1.0), ("east", 1.0, 0.0), ("west", -1.0, 0.0)]
-    for name, east, north in compass:
-        a, b = home, point_at(home, 1000.0 * east, 1000.0 * north)
-        value = ask_number(bearing, a.lat, a.lon, b.lat, b.lon)
-        _explain_bearing(
-            value,
-            a,
-            b,
-            f"to a point 1 km {name} of you the bearing comes out as {value:.4g}: where does it count from?",
-        )
+    compass = {"north": (0.0, 1.0), "south": (0.0, -1.0), "east": (1.0, 0.0), "west": (-1.0, 0.0)}
+    for name, (east, north) in compass.items():
+        there = point_at(home, 1000.0 * east, 1000.0 * north)
+        value = _between(bearing, home, there)
+        hint = f"to a point 1 km {name} of you the bearing comes out as {value:.4g}: "
+        _explain_bearing(value, home, there, hint + "where does it count from?")
     for a, b in [(GPS_POINT_1, GPS_POINT_2), *_places(20)]:
-        value = ask_number(bearing, a.lat, a.lon, b.lat, b.lon)
-        _explain_bearing(
-            value,
-            a,
-            b,
-            "the bearing between two known places is wrong: compare with (15) to (17), term by term.",
-        )
+        hint = "the bearing between two known places is wrong: "
+        hint += "compare with (15) to (17), term by term."
+        _explain_bearing(_between(bearing, a, b), a, b, hint)
     paper = math.degrees(initial_bearing(GPS_POINT_1, GPS_POINT_2))
     return Passed(f"{paper:.2f} deg for the paper's two points, and right elsewhere.")
 
 
 def bearing_range(bearing: Function) -> Passed:
-    """It is in [0, 360) everywhere: just west of north is nearly 360, and not a little less than 0."""
+    """It is in [0, 360): just west of north is nearly 360, not a little less than 0."""
     own_work(bearing)
     west_of_north = (GPS_POINT_1, point_at(GPS_POINT_1, -0.1, 57.0))
     for a, b in [west_of_north, *_places(40)]:
-        value = ask_number(bearing, a.lat, a.lon, b.lat, b.lon)
-        expect(
-            value >= 0.0,
-            f"the bearing comes out as {value:.4g} deg for a goal in the west; the compass goes on from 270 to 360.",
-        )
-        expect(value < 360.0, f"the bearing comes out as {value:.4g} deg: a full turn is 0 again.")
-    back = (west_of_north[1], west_of_north[0])
-    there, home = (
-        ask_number(bearing, a.lat, a.lon, b.lat, b.lon) for a, b in (west_of_north, back)
-    )
-    expect(
-        _same_direction(there, home + 180.0, 1e-3),
-        "over 57 m the way back must point the opposite way, to a thousandth of a degree.",
-    )
-    return Passed(
-        f"A goal 10 cm west of north is at {there:.1f} deg, the way back at {home:.1f} deg."
-    )
+        value = _between(bearing, a, b)
+        hint = f"the bearing comes out as {value:.4g} deg"
+        west = f"{hint} for a goal in the west; the compass goes on from 270 to 360."
+        expect(value >= 0.0, west)
+        expect(value < 360.0, f"{hint}: a full turn is 0 again.")
+    there, home = _between(bearing, *west_of_north), _between(bearing, *west_of_north[::-1])
+    hint = "over 57 m the way back must point the opposite way, to a thousandth of a degree."
+    expect(_same_direction(there, home + 180.0, 1e-3), hint)
+    where = f"A goal 10 cm west of north is at {there:.1f} deg"
+    return Passed(f"{where}, the way back at {home:.1f} deg.")
 
 
-def local_known(local: Callable[[float, float, float, float], tuple[float, float]]) -> Passed:
+def local_known(local: Local) -> Passed:
     """local(lat_0, lon_0, lat, lon): (east, north) in metres of points within 300 m, to 2 cm."""
     own_work(local)
     for origin, point in [(GPS_POINT_1, GPS_POINT_2), *_walks(30)]:
-        right = local_position(origin, point)
+        east, north = right = local_position(origin, point)
         value = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, point.lon)
-        if not _on_the_spot(value, right):
-            narrow = math.cos(math.radians(origin.lat))
-            wide = (right[0] / narrow, right[1])
-            expect(
-                not _on_the_spot(value[::-1], right),
-                "east and north have changed places: x is east and comes first.",
-            )
-            expect(
-                not _on_the_spot((-value[0], -value[1]), right),
-                "both signs are wrong: is it the origin as seen from the point?",
-            )
-            expect(
-                not _on_the_spot((-value[0], value[1]), right),
-                "the map is mirrored: longitudes grow to the east, and so does x.",
-            )
-            expect(
-                not _on_the_spot((value[0], -value[1]), right),
-                "the map is upside down: latitudes grow to the north, and so does y.",
-            )
-            expect(
-                not _on_the_spot(value, wide),
-                "north is right and east too long: a degree of longitude is shorter away from the equator.",
-            )
-            expect(
-                not _on_the_spot(value, (wide[0] * math.cos(origin.lat), right[1])),
-                "north is right and east is not: a cosine of degrees?",
-            )
-            expect(
-                not _on_the_spot((value[0] * 1000.0, value[1] * 1000.0), right),
-                "the result is in kilometres; metres are asked for.",
-            )
-            expect(
-                not _on_the_spot((math.radians(value[0]), math.radians(value[1])), right),
-                "57 times too long: metres for each *radian*.",
-            )
-            expect(math.dist(value, right) > 0.01 * math.hypot(*right), _RADIUS)
-            expect(
-                False,
-                f"a point comes out at ({value[0]:.5g}, {value[1]:.5g}) m, and is not there: try points due north, then due east.",
-            )
+        if _on_the_spot(value, right):
+            continue
+        wide = east / math.cos(math.radians(origin.lat))
+        degree = math.degrees(1.0)
+        mistakes = {
+            "east and north have changed places: x is east and comes first.": (north, east),
+            "both signs are wrong: is it the origin as seen from the point?": (-east, -north),
+            "the map is mirrored: longitudes grow to the east, and so does x.": (-east, north),
+            "the map is upside down: latitudes grow to the north, and so does y.": (east, -north),
+            "north is right and east too long: "
+            "a degree of longitude is shorter away from the equator.": (wide, north),
+            "north is right and east is not: a cosine of degrees?": (
+                wide * math.cos(origin.lat),
+                north,
+            ),
+        }
+        rule_out(value, mistakes, _on_the_spot)
+        factors = {
+            "the result is in kilometres; metres are asked for.": 1000.0,
+            "57 times too long: metres for each *radian*.": 1.0 / degree,
+        }
+        for hint, factor in factors.items():
+            expect(not _on_the_spot((value[0] * factor, value[1] * factor), right), hint)
+        expect(math.dist(value, right) > 0.01 * math.hypot(*right), _RADIUS)
+        place = f"a point comes out at ({value[0]:.5g}, {value[1]:.5g}) m, and is not there: "
+        expect(False, place + "try points due north, then due east.")
     east, north = local_position(GPS_POINT_1, GPS_POINT_2)
     return Passed(f"The paper's goal lies {east:.2f} m east and {north:.2f} m north of its start.")
 
 
-def local_properties(local: Callable[[float, float, float, float], tuple[float, float]]) -> Passed:
-    """As far to the east as to the west, as long as the distance, and no jump where longitudes go from 180 to -180."""
+def local_properties(local: Local) -> Passed:
+    """East mirrors west, the length is the distance, and nothing jumps at the date line."""
     own_work(local)
     for origin, point in _walks(20):
         offset = point.lon - origin.lon
         east, north = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, point.lon)
-        west, same = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, origin.lon - offset)
-        expect(
-            close(east, -west, 1e-6, 1e-6) and close(north, same, 1e-6, 1e-6),
-            "a point mirrored from east to west must only change x.",
-        )
-        apart = haversine_distance(origin, point)
-        length = math.hypot(east, north)
-        expect(
-            close(length, apart, 0.0, _MAP_TOLERANCE_M) or not close(length, apart, 0.01), _RADIUS
-        )
-        expect(
-            close(length, apart, 0.0, _MAP_TOLERANCE_M),
-            "x and y together must be as long as the distance.",
-        )
+        west, level = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, origin.lon - offset)
+        mirrored = close(east, -west, 1e-6, 1e-6) and close(north, level, 1e-6, 1e-6)
+        expect(mirrored, "a point mirrored from east to west must only change x.")
+        apart, length = haversine_distance(origin, point), math.hypot(east, north)
+        exact = close(length, apart, 0.0, _MAP_TOLERANCE_M)
+        expect(exact or not close(length, apart, 0.01), _RADIUS)
+        expect(exact, "x and y together must be as long as the distance.")
     for lat in (0.0, -17.0, 52.0):
         for lon, other in ((179.9995, -179.9995), (-179.9995, 179.9995)):
             right = local_position(GeoPoint(lat=lat, lon=lon), GeoPoint(lat=lat, lon=other))
-            east, north = ask_numbers(local, 2, lat, lon, lat, other)
-            far = f"from longitude {lon:g} to {other:g} deg it is a short walk, not {abs(east) / 1000.0:.0f} km"
-            expect(
-                _on_the_spot((east, north), right), f"{far}: full turns of a longitude don't count."
-            )
-    return Passed(
-        "East mirrors west, the length is the distance, and the date line is a line like any other."
-    )
+            value = ask_numbers(local, 2, lat, lon, lat, other)
+            far = f"from longitude {lon:g} to {other:g} deg it is a short walk, "
+            far += f"not {abs(value[0]) / 1000.0:.0f} km: full turns of a longitude don't count."
+            expect(_on_the_spot(value, right), far)
+    east = "East mirrors west, the length is the distance, "
+    return Passed(f"{east}and the date line is a line like any other.")
+
+
+def _between(function: Function, a: GeoPoint, b: GeoPoint) -> float:
+    return ask_number(function, a.lat, a.lon, b.lat, b.lon)
 
 
 def _explain_bearing(value: float, a: GeoPoint, b: GeoPoint, otherwise: str) -> None:
-    """Raises Hint unless the value is the bearing from a to b, up to full turns."""
+    """Raise Hint unless the value is the bearing from a to b, up to full turns."""
     right = math.degrees(initial_bearing(a, b))
     if _same_direction(value, right):
         return
-    expect(
-        not _same_direction(math.degrees(value), right),
-        "the result is in radians; degrees are asked for.",
-    )
-    expect(
-        not _same_direction(90.0 - value, right),
-        "this counts from east, as mathematicians do: which argument of atan2 comes first in (15)?",
-    )
-    expect(
-        not _same_direction(-value, right),
-        "east and west are mirrored: longitudes grow to the east.",
-    )
-    expect(
-        not _same_direction(value + 180.0, right),
-        "this points the opposite way: is it the way back, or an atan, which can't tell the two?",
-    )
-    expect(
-        not _same_direction(value, math.degrees(initial_bearing(*_swapped(a, b))) + _flip(a.lon)),
-        _SWAPPED,
-    )
-    lat_as_radians = math.degrees(a.lat)
-    expect(
-        not _same_direction(
-            value, math.degrees(initial_bearing(*_in_degrees(a, b))) + _flip(lat_as_radians)
-        ),
-        _DEGREES,
-    )
-    expect(False, otherwise)
+    radians = "the result is in radians; degrees are asked for."
+    expect(not _same_direction(math.degrees(value), right), radians)
+    swapped = math.degrees(initial_bearing(*_swapped(a, b))) + _flip(a.lon)
+    in_degrees = math.degrees(initial_bearing(*_in_degrees(a, b))) + _flip(math.degrees(a.lat))
+    mistakes = {
+        "this counts from east, as mathematicians do: "
+        "which argument of atan2 comes first in (15)?": 90.0 - right,
+        "east and west are mirrored: longitudes grow to the east.": -right,
+        "this points the opposite way: "
+        "is it the way back, or an atan, which can't tell the two?": right + 180.0,
+        _SWAPPED: swapped,
+        _DEGREES: in_degrees,
+    }
+    explain(value, mistakes, otherwise, _same_direction)
 
 
 def _same_direction(value: float, right: float, tolerance: float = 1e-6) -> bool:
@@ -285,7 +229,7 @@ def _in_degrees(*points: GeoPoint) -> list[GeoPoint]:
 
 
 def _anywhere(lat: float, lon: float) -> GeoPoint:
-    """The place with any two angles in degrees: who goes past a pole comes down on the other side, where (13) to (17) hold as well."""
+    """The place at any two angles in degrees; past a pole, (13) to (17) still hold."""
     lat_within = math.degrees(math.asin(math.sin(math.radians(lat))))
     return GeoPoint(lat=lat_within, lon=math.remainder(lon + _flip(lat), 360.0))
 
@@ -296,7 +240,7 @@ def _flip(lat: float) -> float:
 
 
 def _places(count: int) -> list[Pair]:
-    """Pairs of places that are the same each time, far enough from each other and from the poles for a mistake to show."""
+    """Pairs of places, far enough from each other and from the poles for a mistake to show."""
     random = np.random.default_rng(1)
     lats, lons = random.uniform(-70.0, 70.0, (count, 2)), random.uniform(-150.0, 150.0, (count, 2))
     return [
@@ -306,13 +250,11 @@ def _places(count: int) -> list[Pair]:
 
 
 def _walks(count: int) -> list[Pair]:
-    """Places up to 60 deg from the equator, and points 20 m to 300 m from them in all directions."""
-    random = np.random.default_rng(2)
-    rows = random.uniform(
-        [-60.0, -170.0, 20.0, -math.pi], [60.0, 170.0, 300.0, math.pi], (count, 4)
-    ).tolist()
-    origins = [(GeoPoint(lat=lat, lon=lon), length, angle) for lat, lon, length, angle in rows]
-    return [
-        (origin, point_at(origin, length * math.cos(angle), length * math.sin(angle)))
-        for origin, length, angle in origins
-    ]
+    """Places up to 60 deg from the equator, and points 20 m to 300 m from them."""
+    low, high = (-60.0, -170.0, 20.0, -math.pi), (60.0, 170.0, 300.0, math.pi)
+    found = []
+    for lat, lon, length, angle in np.random.default_rng(2).uniform(low, high, (count, 4)).tolist():
+        origin = GeoPoint(lat=lat, lon=lon)
+        point = point_at(origin, length * math.cos(angle), length * math.sin(angle))
+        found.append((origin, point))
+    return found

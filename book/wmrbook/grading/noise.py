@@ -9,7 +9,7 @@ import numpy as np
 
 from wmrbook.grading._hints import Passed, ask_number, ask_numbers, close, expect, own_work
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
-from wmrlib.tracks import standing
+from wmrlib.tracks import stationary_scatter
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
 
@@ -18,7 +18,7 @@ def scatter_known(scatter: Callable) -> Passed:
     """scatter(lat, lon) -> (mean_lat, mean_lon, std_east, std_north): degrees in, degrees and metres out."""
     own_work(scatter)
     for lat, lon in _logs(12):
-        right = standing(GeoPoint(lat=lat, lon=lon))
+        right = stationary_scatter(GeoPoint(lat=lat, lon=lon))
         mean_lat, mean_lon, east, north = ask_numbers(scatter, 4, lat.copy(), lon.copy())
         expect(
             not close(mean_lat, right.mean.lon, 1e-9),

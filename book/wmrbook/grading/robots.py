@@ -9,7 +9,6 @@ import numpy as np
 
 from wmrbook.grading._hints import (
     Passed,
-    _shown,
     ask,
     ask_number,
     ask_numbers,
@@ -17,6 +16,7 @@ from wmrbook.grading._hints import (
     expect,
     floats,
     own_work,
+    shown,
 )
 from wmrlib.control import control_law, limit_wheels
 from wmrlib.gains import Gains, WheelLimits
@@ -279,7 +279,7 @@ def _expect_stop(
     speeds = floats(answer)
     expect(
         speeds is not None and speeds.shape == (2,),
-        f"with {what} the robot gets {_shown(answer)}; two speeds are needed, whatever happens.",
+        f"with {what} the robot gets {shown(answer)}; two speeds are needed, whatever happens.",
     )
     left, right = speeds.tolist()
     expect(

@@ -9,8 +9,7 @@ from operator import xor
 
 import numpy as np
 
-from wmrbook.grading._answers import ask_array, ask_truth
-from wmrbook.grading._hints import Passed, ask_number, close, expect, own_work
+from wmrbook.grading._hints import Passed, ask_array, ask_number, ask_truth, close, expect, own_work
 from wmrlib.geodesy import EARTH_RADIUS_M
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m

@@ -8,8 +8,16 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._answers import gains_of, refuses
-from wmrbook.grading._hints import Passed, ask_number, ask_numbers, close, expect, own_work
+from wmrbook.grading._hints import (
+    Passed,
+    ask_number,
+    ask_numbers,
+    close,
+    expect,
+    gains_of,
+    own_work,
+    refuses,
+)
 from wmrlib import paper
 from wmrlib.kinematics import Pose
 from wmrlib.metrics import arrival

@@ -9,8 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._answers import ask_truth, numbers
-from wmrbook.grading._hints import Passed, ask_number, expect, own_work
+from wmrbook.grading._hints import Passed, ask_number, ask_truth, expect, numbers, own_work
 from wmrlib import paper
 from wmrlib.geodesy import EARTH_RADIUS_M
 

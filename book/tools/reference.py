@@ -1,0 +1,129 @@
+"""A Sphinx extension: the API reference, made of wmrlib's docstrings, and the links to it.
+
+- The directive ``library`` shows what `import wmrlib as wmr` offers from one module, in the order
+  of its source. A page with it needs no change when a name is added or renamed.
+- A name in a sentence, such as ``wmr.simulate`` or ``simulate(start, ...)``, links to its entry,
+  and so does each ``wmr.simulate`` in a code cell.
+"""
+
+from __future__ import annotations
+
+import inspect
+import re
+from functools import cache
+from importlib import import_module
+from pathlib import Path
+
+from docutils import nodes
+from sphinx.pycode import ModuleAnalyzer
+from sphinx.util.docutils import SphinxDirective
+
+import wmrlib
+
+PAGE = "api"
+NAME = re.compile(r"(?:wmr\.|wmrlib\.)?([A-Za-z_][\w.]*)(?:\(.*\))?", re.DOTALL)
+# Code as Pygments marks it up: the module in an import, and wmr.simulate or paper.outdoor.
+MODULE = re.compile(r'<span class="nn">wmrlib(?:\.\w+)*</span>')
+DOT = r'<span class="o">\.</span>'
+MEMBER = re.compile(
+    rf'<span class="n">(wmr|paper|plots|symbolic)</span>{DOT}<span class="n">(\w+)</span>'
+    rf'(?:{DOT}<span class="n">(\w+)</span>)?'
+)
+
+
+@cache
+def homes() -> dict[str, str]:
+    """The module of each name that `import wmrlib as wmr` offers, as wmrlib's stub has it."""
+    stub = Path(wmrlib.__file__).with_name("__init__.pyi").read_text(encoding="utf-8")
+    return {name: module for module, name in re.findall(r"from \.(\w+) import (\w+) as", stub)}
+
+
+class Library(SphinxDirective):
+    """``library:: geodesy`` gives an entry to each of wmrlib's names that are at home there."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        (home,) = self.arguments
+        module = import_module(f"wmrlib.{home}")
+        names = [name for name in vars(module) if homes().get(name) == home]
+        return self.parse_text_to_nodes("\n\n".join(entry(module, name) for name in names))
+
+
+def entry(module, name: str) -> str:
+    """The autodoc directive of a name; a constant's text is in the source only."""
+    value = getattr(module, name)
+    if inspect.isclass(value):
+        return f".. autoclass:: wmrlib.{name}\n   :members:"
+    if callable(value):
+        return f".. autofunction:: wmrlib.{name}"
+    said = ModuleAnalyzer.for_module(module.__name__).find_attr_docs()["", name]
+    return f".. py:data:: wmrlib.{name}\n   :value: {value!r}\n\n   " + "\n   ".join(said)
+
+
+def skip_fields(app, kind, name, value, skip, options):
+    """Leave out the fields of a NamedTuple: its docstring describes them."""
+    return True if type(value).__name__ == "_tuplegetter" else None
+
+
+def keep_bars(app, kind, name, value, options, lines):
+    """Let |v| be an absolute value, and not one of reStructuredText's substitutions."""
+    lines[:] = [line if "``" in line else line.replace("|", r"\|") for line in lines]
+
+
+def link_names(app, doctree, docname):
+    """Turn the names in sentences into links, and a docstring's other `names` into code."""
+    for name in [*doctree.findall(nodes.literal), *doctree.findall(nodes.title_reference)]:
+        parents = (nodes.title, nodes.reference, nodes.raw)
+        if any(isinstance(parent, parents) for parent in ancestors(name)):
+            continue
+        shown = NAME.fullmatch(name.astext())
+        code = nodes.literal("", name.astext())
+        name.replace_self(code)
+        if shown and (address := address_of(app, docname, f"wmrlib.{shown[1]}")):
+            code.replace_self(
+                nodes.reference("", "", code.deepcopy(), refuri=address, internal=True)
+            )
+
+
+def link_code(app, docname, template, context, doctree):
+    """Turn the library's names in code cells into links, and each import into one to the page."""
+
+    def link(code: re.Match) -> str:
+        names = [name for name in code.groups() if name and name != "wmr"]
+        for count in (2, 1):
+            name = ".".join(["wmrlib", *names[:count]])
+            if names and (address := address_of(app, docname, name)):
+                return f'<a href="{address}">{code[0]}</a>'
+        return code[0]
+
+    page = app.builder.get_relative_uri(docname, PAGE)
+    if docname != PAGE and "body" in context:
+        linked = MODULE.sub(rf'<a href="{page}">\g<0></a>', context["body"])
+        context["body"] = MEMBER.sub(link, linked)
+
+
+def address_of(app, docname: str, name: str) -> str:
+    """Where a name has its entry, seen from a page, or an empty string."""
+    found = app.env.domains.python_domain.objects.get(name)
+    if not found:
+        return ""
+    address = f"{app.builder.get_relative_uri(docname, found.docname)}#{found.node_id}"
+    return address[address.rindex("#") :] if address.startswith("#") else address  # one page
+
+
+def ancestors(node: nodes.Node):
+    while node.parent is not None:
+        node = node.parent
+        yield node
+
+
+def setup(app):
+    app.setup_extension("sphinx.ext.autodoc")
+    app.setup_extension("sphinx.ext.napoleon")
+    app.add_directive("library", Library)
+    app.connect("autodoc-skip-member", skip_fields)
+    app.connect("autodoc-process-docstring", keep_bars)
+    app.connect("doctree-resolved", link_names)
+    app.connect("html-page-context", link_code)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,96 @@
+"""What the figures of several chapters share."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping, Sequence, Sized
+
+import matplotlib as mpl
+import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+
+from wmrlib._checks import instance
+from wmrlib.kinematics import Pose
+from wmrlib.plots.style import COLOURS, LINES, STYLE, arrow
+from wmrlib.runs import Trajectory
+
+SERIES = (  # the colour's role and the line style of each of up to five runs
+    ("path", "-"),
+    ("goal", "--"),
+    ("start", "-."),
+    ("omega", ":"),
+    ("y_error", (0, (6, 1.5, 1, 1.5, 1, 1.5))),
+)
+
+
+def panels(rows: int, columns: int, width: float, height: float, **options):
+    """A figure outside pyplot, and the array of its axes."""
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=(width, height), layout="constrained")
+        return figure, figure.subplots(rows, columns, **options)
+
+
+def note(axes: Axes, text: str, at, offset=(0, 0), **looks) -> None:
+    """A text `offset` points from a place in data coordinates."""
+    axes.annotate(text, at, xytext=offset, textcoords="offset points", **looks)
+
+
+def pointer(axes: Axes, tail, tip, colour: str, zorder: float | None = None, **looks) -> None:
+    """An arrow from tail to tip."""
+    looks = {"arrowstyle": "-|>", "color": colour, "shrinkA": 0, "shrinkB": 0} | looks
+    more = {} if zorder is None else {"zorder": zorder}
+    axes.annotate("", tip, tail, arrowprops=looks, **more)
+
+
+def dart(axes: Axes, pose: Pose, size: float, fill: str, edge: str = "ink", **looks) -> None:
+    """A pose as an arrow; fill and edge are roles in COLOURS, or colours."""
+    fill, edge = (COLOURS.get(each, each) for each in (fill, edge))
+    axes.add_patch(arrow(pose, size, fc=fill, ec=edge, **looks))
+
+
+def pose_at(path: Pose | Trajectory, k: int) -> Pose:
+    """The k-th pose of a path."""
+    return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
+
+
+def legend_above(axes: Axes, columns: int, handles=None, fontsize: float = 11) -> None:
+    axes.legend(
+        handles=handles,
+        loc="lower center",
+        bbox_to_anchor=(0.5, 1.0),
+        ncols=columns,
+        frameon=False,
+        fontsize=fontsize,
+    )
+
+
+def figure_legend(figure: Figure) -> None:
+    """The legend of a figure's first axes above it, in as many columns as fit."""
+    labels = figure.axes[0].get_legend_handles_labels()[1]
+    width = 0.7 + 0.095 * max(map(len, labels))  # inches an entry, handle included
+    columns = max(1, min(len(labels), int(figure.get_figwidth() / width)))
+    rows = -(-len(labels) // columns)
+    columns = -(-len(labels) // rows)
+    figure.legend(loc="outside upper center", ncols=columns, fontsize=11, frameon=False)
+
+
+def check_count(name: str, entries: Sized, least: int, most: int) -> None:
+    if not least <= len(entries) <= most:
+        needed = f"{most}" if least == most else f"{least} to {most}"
+        raise ValueError(
+            f"{name} has {len(entries)} entries, which is not allowed: {needed} are needed"
+        )
+
+
+def check_series(runs: Mapping, kind: type = object) -> None:
+    """One to five entries of a mapping, each a `kind`."""
+    check_count("runs", instance("runs", runs, Mapping), 1, len(SERIES))
+    for label, run in runs.items():
+        instance(f"runs[{label!r}]", run, kind)
+
+
+def run_list(runs: Trajectory | Sequence[Trajectory], least: int = 1) -> list[Trajectory]:
+    """One run or several as a list of at most four."""
+    runs = [runs] if isinstance(runs, Trajectory) else list(runs)
+    check_count("runs", runs, least, len(LINES))
+    return runs

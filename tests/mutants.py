@@ -1,0 +1,231 @@
+"""Break wmrlib's formulas, one change at a time, and count how many breaks the tests notice.
+
+    python tests/mutants.py [--count 200] [--module control ...] [--jobs 2] [--seed 1]
+
+A mutant is the package with one operator, sign, constant, comparison, condition or call changed.
+It is tested in a copy of the repository, with the test files that PLANS names for its module. A
+mutant that hangs counts as killed. The exit status is 1 if fewer than 90 % are killed.
+"""
+
+from __future__ import annotations
+
+import argparse
+import ast
+import os
+import random
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import threading
+import time
+from collections.abc import Iterator
+from concurrent.futures import ThreadPoolExecutor
+from itertools import accumulate, pairwise
+from pathlib import Path
+from typing import NamedTuple
+
+ROOT = Path(__file__).resolve().parents[1]
+PACKAGE = ROOT / "wmrlib"
+# The tests of a file or a folder; by default "plain NAME", which runs test_NAME without compiling.
+# That is quicker where a formula is called a few thousand times.
+PLANS = {
+    "_vecmath": "jit vecmath",
+    "_modes": "plain tuning",
+    "_loops": "plain simulation",
+    "_loops/polar": "jit sweeping",
+    "gains": "plain gains control",
+    "laws": "plain control simulation",
+    "runs": "plain metrics simulation",
+    "sweeping": "jit sweeping",
+    "tuning": "jit tuning",
+}
+NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
+# The end of the path, what stands in the changed line, and why no test can tell the mutant.
+EQUIVALENT: list[tuple[str, str, str]] = []
+
+OPERATORS = {
+    **{"+": ["-"], "-": ["+"], "*": ["/"], "/": ["*"], "//": ["*"], "**": ["*"], "%": ["*"]},
+    **{"<": ["<=", ">="], "<=": ["<", ">"], ">": [">=", "<="], ">=": [">", "<"]},
+    **{"==": ["!="], "!=": ["=="], "is": ["is not"], "is not": ["is"], "in": ["not in"]},
+    **{"not in": ["in"], "and": ["or"], "or": ["and"], "&": ["|"], "+=": ["-="], "-=": ["+="]},
+}
+OPERATOR = re.compile(rb"(?:[\s)\\]|#.*\n)*(is not|not in|[a-z]+|[-+*/%&|<>=!@^]+)")
+SWAPPED = {"sin": "cos", "cos": "sin", "max": "min", "min": "max", "radians": "degrees"}
+DROPPED = {"wrap", "wrap_angle", "abs", "max", "min", "maximum", "minimum", "clip", "sqrt"}
+NOT_COMPUTED = {"annotation", "returns", "decorator_list", "bases"}
+# In the copies hypothesis does not shrink what fails, and what is compiled is kept for the next
+# mutant if that leaves the kernels alone.
+CONFTEST = """
+from hypothesis import Phase
+settings.load_profile("repeatable")
+settings.register_profile("mutants", phases=(Phase.explicit, Phase.generate))
+settings.load_profile("mutants")
+"""
+COMPILE = """
+_CACHE_FOLDER = os.environ["MUTANTS_CACHE"]
+os.makedirs(_CACHE_FOLDER, exist_ok=True)
+"""
+
+
+class Mutant(NamedTuple):
+    """`after` in place of the bytes from `start` to `end` of wmrlib's file `path`."""
+
+    path: str
+    start: int
+    end: int
+    after: str
+
+    def __str__(self) -> str:
+        source = (PACKAGE / self.path).read_bytes()
+        line = source.count(b"\n", 0, self.start)
+        before, shown = source[self.start : self.end].decode(), source.splitlines()[line].decode()
+        return f"{self.path}:{line + 1}: {before!r} -> {self.after!r} in {shown.strip()}"
+
+    @property
+    def module(self) -> str:
+        return self.path.removesuffix(".py").split("/")[0]
+
+    @property
+    def plan(self) -> str:
+        own = PLANS.get(self.module, f"plain {self.module}")
+        return PLANS.get(self.path.removesuffix(".py"), own)
+
+
+def mutants() -> Iterator[Mutant]:
+    for file in sorted(PACKAGE.rglob("*.py")):
+        for change in sorted(set(changes(file.read_bytes()))):
+            mutant = Mutant(file.relative_to(PACKAGE).as_posix(), *change)
+            known = (path in str(mutant) and text in str(mutant) for path, text, _ in EQUIVALENT)
+            if mutant.module not in NO_FORMULAS and not any(known):
+                yield mutant
+
+
+def changes(source: bytes) -> Iterator[tuple[int, int, str]]:
+    starts = [0, *accumulate(map(len, source.splitlines(keepends=True)))]
+
+    def at(node: ast.AST) -> tuple[int, int]:
+        first, last = starts[node.lineno - 1], starts[node.end_lineno - 1]
+        return first + node.col_offset, last + node.end_col_offset
+
+    for node in computed(ast.parse(source)):
+        parts = []
+        match node:
+            case ast.BoolOp(_, parts):
+                pass
+            case ast.BinOp(left, _, right) | ast.AugAssign(left, _, right):
+                parts = [left, right]
+            case ast.Compare(left, _, rights):
+                parts = [left, *rights]
+            case ast.UnaryOp(ast.USub() | ast.Not(), operand):
+                yield at(node)[0], at(operand)[0], ""
+            case ast.Constant(bool(value)):
+                yield *at(node), str(not value)
+            case ast.Constant(int(value) | float(value)):
+                yield *at(node), repr(2 * value or 1)
+            case ast.If(test) | ast.IfExp(test) if isinstance(test, ast.Name | ast.Call):
+                yield at(test)[0], at(test)[0], "not "
+            case ast.Call(func, [first, *_]):
+                name = getattr(func, "attr", getattr(func, "id", ""))
+                if name in DROPPED:
+                    yield *at(node), source[slice(*at(first))].decode()
+                if name in SWAPPED:
+                    yield at(func)[1] - len(name), at(func)[1], SWAPPED[name]
+        for left, right in pairwise(parts):
+            found = OPERATOR.match(source, at(left)[1], at(right)[0])
+            for after in OPERATORS.get(found[1].decode(), ()):
+                yield *found.span(1), after
+
+
+def computed(node: ast.AST) -> Iterator[ast.AST]:
+    """All nodes but annotations, bases, decorators and error texts."""
+    yield node
+    for field, value in ast.iter_fields(node):
+        for child in value if isinstance(value, list) else [value]:
+            skipped = isinstance(child, ast.Raise | ast.JoinedStr) or field in NOT_COMPUTED
+            if isinstance(child, ast.AST) and not skipped:
+                yield from computed(child)
+
+
+class Copy:
+    """A copy of the repository in which one mutant at a time is tested."""
+
+    def __init__(self, folder: Path) -> None:
+        self.folder, self.limits = folder, {}
+        left_out = shutil.ignore_patterns(".*", "_*build", "vendor", "node_modules", "__pycache__")
+        shutil.copytree(ROOT, folder, ignore=left_out)
+        for name, text in (("tests/conftest.py", CONFTEST), ("wmrlib/_compile.py", COMPILE)):
+            with (folder / name).open("a", encoding="utf-8") as file:
+                file.write(text)
+
+    def fate(self, mutant: Mutant) -> str:
+        if mutant.plan not in self.limits:
+            begin = time.perf_counter()
+            if self.tests(mutant.plan, "kept", 1200.0):
+                sys.exit(f"The tests of {mutant.path}, {mutant.plan}, fail without a mutant.")
+            self.limits[mutant.plan] = 30.0 + 3.0 * (time.perf_counter() - begin)
+        file = self.folder / "wmrlib" / mutant.path
+        source = file.read_bytes()
+        cache = "new" if re.search(rb"import.*\b(compiled|formula)\b", source) else "kept"
+        file.write_bytes(source[: mutant.start] + mutant.after.encode() + source[mutant.end :])
+        try:
+            failed = self.tests(mutant.plan, cache, self.limits[mutant.plan])
+            return "killed" if failed else "SURVIVED"
+        except subprocess.TimeoutExpired:
+            return "killed by the clock"
+        finally:
+            file.write_bytes(source)
+            shutil.rmtree(self.folder / "new", ignore_errors=True)
+
+    def tests(self, plan: str, cache: str, limit: float) -> int:
+        """The exit status of pytest on the tests of a plan."""
+        how, *names = plan.split()
+        command = [sys.executable, "-m", "pytest", "-xqo", "addopts=", "-p", "no:cacheprovider"]
+        command += [
+            "-W",
+            "ignore::RuntimeWarning",
+        ]  # numpy's, where compiled code overflows in silence
+        command += [f"tests/test_{name}.py" for name in names]
+        settings = os.environ | {
+            "PYTHONPATH": os.pathsep.join([str(self.folder), str(self.folder / "book")]),
+            "PYTHONDONTWRITEBYTECODE": "1",  # it would outlive a mutant of the same size
+            "NUMBA_DISABLE_JIT": str(int(how == "plain")),
+            "MUTANTS_CACHE": str(self.folder / cache),
+        }
+        options = {"cwd": self.folder, "env": settings, "timeout": limit, "capture_output": True}
+        return subprocess.run(command, **options).returncode
+
+
+def main(count: int, jobs: int, seed: int, module: list[str]) -> None:
+    sites = [mutant for mutant in mutants() if not module or mutant.module in module]
+    chosen = sorted(random.Random(seed).sample(sites, min(count, len(sites))))
+    mine = threading.local()
+    with tempfile.TemporaryDirectory() as folder, ThreadPoolExecutor(jobs) as pool:
+
+        def fate(mutant: Mutant) -> str:
+            if not hasattr(mine, "copy"):
+                mine.copy = Copy(Path(folder, str(threading.get_ident())))
+            return mine.copy.fate(mutant)
+
+        fates = {}
+        for mutant, fates[mutant] in zip(chosen, pool.map(fate, chosen), strict=True):
+            print(f"{fates[mutant]:20}{mutant}", flush=True)
+    survivors = [mutant for mutant, fate in fates.items() if fate == "SURVIVED"]
+    print(f"\n{'module':20}{'mutants':>9}{'killed':>9}{'survived':>9}{'rate':>9}")
+    for name in (*dict.fromkeys(mutant.module for mutant in chosen), "all"):
+        total = sum(name in (mutant.module, "all") for mutant in chosen)
+        alive = sum(name in (mutant.module, "all") for mutant in survivors)
+        print(f"{name:20}{total:9}{total - alive:9}{alive:9}{1 - alive / total:9.1%}")
+    print("\nSurvivors:", *survivors, sep="\n")
+    if len(survivors) > 0.1 * len(chosen):
+        sys.exit("Fewer than 90 % were killed.")
+
+
+if __name__ == "__main__":
+    formatter = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=formatter)
+    for name, default in {"count": 200, "jobs": 2, "seed": 1}.items():
+        parser.add_argument(f"--{name}", type=int, default=default)
+    parser.add_argument("--module", nargs="+", default=[])
+    main(**vars(parser.parse_args()))

@@ -1,0 +1,66 @@
+"""The API reference: it builds without a warning, and has an entry for each public name."""
+
+import inspect
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+import pytest
+from sphinx.util.inventory import InventoryFile
+
+import wmrlib as wmr
+
+BOOK = Path(__file__).resolve().parents[1] / "book"
+CHAPTER = """# A chapter
+
+It calls `wmr.simulate`, `simulate(start, goal)` and `paper.outdoor`, but not `rho`.
+
+```python
+import wmrlib as wmr
+wmr.simulate(a, wmr.paper.outdoor().goal, nothing.simulate)
+```
+"""
+
+
+@pytest.fixture(scope="module")
+def site(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("api")
+    source, html = folder / "source", folder / "html"
+    source.mkdir()
+    shutil.copy(BOOK / "api.md", source)
+    # Docstrings name the paper's equations, which link to the chapters.
+    equations = [f"$$\nx \\tag{{1.{n}, paper {n}}}\n$$\n" for n in range(1, 27)]
+    index = "\n".join([CHAPTER, *equations, "```{toctree}\napi\n```\n"])
+    (source / "index.md").write_text(index, encoding="utf-8")
+    command = [sys.executable, "-m", "sphinx", "-c", BOOK, "--fail-on-warning", "--nitpicky", "-q"]
+    paths = os.pathsep.join(map(str, (BOOK.parent, BOOK, BOOK / "tools")))
+    settings = os.environ | {"PYTHONPATH": paths}
+    subprocess.run([*command, source, html], cwd=source, env=settings, check=True)
+    return html
+
+
+def test_every_public_name_has_an_entry(site):
+    inventory = InventoryFile.loads((site / "objects.inv").read_bytes(), uri="")
+    entries = {
+        name for kind, names in inventory.data.items() if kind[:3] == "py:" for name in names
+    }
+    assert {f"wmrlib.{name}" for name in wmr.__all__} <= entries
+    assert not [name for name in entries if "._" in name]
+
+
+def test_sentences_and_code_link_to_the_entries(site):
+    chapter = (site / "index.html").read_text(encoding="utf-8")
+    assert chapter.count('href="api.html#wmrlib.simulate"') == 3
+    assert chapter.count('href="api.html#wmrlib.paper.outdoor"') == 2
+
+
+def test_public_functions_are_typed():
+    for name in filter(lambda name: inspect.isfunction(getattr(wmr, name)), wmr.__all__):
+        signature = inspect.signature(getattr(wmr, name))
+        named = [it for it in signature.parameters.values() if it.kind is not it.VAR_KEYWORD]
+        assert signature.empty not in [
+            signature.return_annotation,
+            *(it.annotation for it in named),
+        ]

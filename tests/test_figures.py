@@ -1,0 +1,866 @@
+"""The chapters' figures: each says its numbers, names its units and draws what it was given."""
+
+import dataclasses
+import html
+import io
+import math
+import re
+from functools import cache
+from pathlib import Path
+
+import numpy as np
+import pytest
+from matplotlib.colors import same_color
+from matplotlib.image import imread
+
+import wmrlib as wmr
+from wmrbook import challenge, figures
+from wmrlib import paper
+from wmrlib.plots import COLOURS
+
+GAINS, CIRCLE_GAINS, GENTLE = paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.GENTLE_GAINS
+ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
+CASE = paper.outdoor()
+ROBOT, GOAL = wmr.Pose(0.0, 0.0, math.radians(15)), wmr.Pose(4.0, 5.7, math.radians(-25))
+TRACK = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"
+
+
+# What the figures are given: computed once a process, and not at collection ---------------------
+
+
+@cache
+def drive(law="corrected", gains=GAINS, x_axis="east", **options):
+    case = paper.outdoor(x_axis)
+    return wmr.simulate(case.start, case.goal, gains, law=law, method="continuous", **options)
+
+
+@cache
+def chase():
+    return wmr.track(paper.circle, paper.CIRCLE_START, CIRCLE_GAINS, duration=40.0)
+
+
+@cache
+def near_goal_runs():
+    start = wmr.pose_from_polar(wmr.PolarError(math.log(2) / 2, math.pi / 4, 0.0), ORIGIN)
+    how = {"method": "continuous", "arrival_radius": 0.0, "duration": 6.0, "dt": 0.02}
+    return [wmr.simulate(start, ORIGIN, GAINS, law=law, **how) for law in ("corrected", "printed")]
+
+
+@cache
+def tried():
+    over = {"k_rho": np.array([0.1, 0.2, 0.5]), "h": np.array([1.0, 2.0, 4.0])}
+    runs = wmr.gain_map(CASE.start, CASE.goal, GENTLE, over, progress=False)
+    best = wmr.pareto(runs.time, np.abs(runs.heading_error))
+    return runs, best, {"gentle": wmr.arrival(drive(gains=GENTLE))}
+
+
+@cache
+def route(kind):
+    way = wmr.Pose(*np.array([(0, 0, 0.1), (25, 2, 0.8), (30, 30, 2.0), (0, 40, 3.0)], float).T)
+    gains = wmr.Gains(0.4, 2.0, 1.0, 3.0)
+    if kind == "mixed":
+        return wmr.drive_route(way, gains, stop=[False, True, True])
+    if kind == "stuck":
+        return wmr.drive_route(way._replace(y=np.array([0, 2, 90, 95.0])), gains, duration=20.0)
+    if kind == "lost":
+        return wmr.drive_route(way, wmr.Gains(1e308, 1e308, 1e308, 1e308))
+    return wmr.drive_route(wmr.Pose(3.0, 4.0, 1.0), gains, start=wmr.Pose(3.0, 4.0, 1.0))
+
+
+@cache
+def score(*gains, cases=12):
+    game = challenge.from_seed(1 if cases < 12 else challenge.SEED)
+    return challenge.score(wmr.Gains(*gains), dataclasses.replace(game, cases=game.cases[:cases]))
+
+
+WAY = wmr.Pose(np.linspace(-3.0, 0.0, 20), np.linspace(-2.0, 0.1, 20), np.linspace(1.0, 0.2, 20))
+GAPS = np.array([1e-6, 1e-3, 1.0])
+ERRORS = {
+    "one": (np.array([0.0, 1e-9, 5e-9]), np.array([0.02, 1e-3, 1e-4])),
+    "two": (GAPS * 1e-16, np.array([math.nan, 1e-9, 1e-9])),
+}
+LIMITS, LEFT = np.array([1.0, 2.0, 4.0]), np.array([0.524, 0.199, 0.090])
+GROUPS = {"one": (np.array([1.0, 2.0]), np.array([0.5, 0.4])), "two": (np.array([3.0]), [0.25])}
+STEPS, T = np.array([0.02, 0.1, 0.7, 1.0]), np.linspace(0.0, 1.0, 51)
+LIMITED = [wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(1.0, 0.0, 0.5), wmr.Pose(1.0, 3.0, 0.5)]
+PARK = wmr.Pose(9.0, 57.0, 1.0)
+SPREAD = np.random.default_rng(4).normal(0.0, 0.2, (2, 300))
+ENDS = wmr.Pose(9.0 + SPREAD[0], 57.0 + SPREAD[1], 1.0 + np.linspace(-3.1, 3.1, 300))
+RADII, SIGMAS = np.array([0.1, 0.3, 1.0]), np.array([0.0, 0.5, 1.0])
+SECONDS = np.linspace(0.0, 10.0, 51)
+
+
+def predict(v_max):
+    """What `LEFT` is nearly."""
+    return np.interp(v_max, LIMITS, LEFT - 0.001)
+
+
+def wheel_loops():
+    return {"slow": drive(wheel_lag=0.1), "at once": drive()}
+
+
+def time_steps():
+    gains = {"the paper's gains": GAINS, "gentle gains": GENTLE}
+    return figures.time_steps(CASE.start, CASE.goal, gains, STEPS)
+
+
+CASES = {
+    "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
+    "spherical_triangle": lambda: figures.spherical_triangle(
+        wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)
+    ),
+    "rounding_errors": lambda: figures.rounding_errors(GAPS, GAPS, ERRORS),
+    "sphere_error_map": lambda: figures.sphere_error_map(paper.GPS_POINT_1, math.radians(9.6274)),
+    "coordinate_system": lambda: figures.coordinate_system(
+        wmr.Pose(2.0, 1.5, math.radians(35.0)), 1.0, 0.25
+    ),
+    "turning_centre": lambda: figures.turning_centre(1.0, 0.8, 0.6),
+    "turning_centre, right": lambda: figures.turning_centre(1.0, -2.5, 0.6),
+    "commutator": lambda: figures.commutator(1.0, 0.5, 3),
+    "approach": lambda: figures.approach(GAINS),
+    "steps": lambda: figures.steps(4.0, 1.0, 0.5),
+    "polar_angles": lambda: figures.polar_angles(ROBOT, GOAL),
+    "polar_angles, clockwise": lambda: figures.polar_angles(
+        wmr.Pose(5.0, 0.0, 2.0), wmr.Pose(0.0, -4.0, 3.0)
+    ),
+    "third_angle": lambda: figures.third_angle(ROBOT, GOAL),
+    "path_choices": lambda: figures.path_choices(
+        {"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN
+    ),
+    "angles_over_time": lambda: figures.angles_over_time(drive()),
+    "angles_over_time of two": lambda: figures.angles_over_time([drive(), drive("aicardi")]),
+    "rate_sign": lambda: figures.rate_sign(GAINS, 0.3),
+    "rate_sign, corrected": lambda: figures.rate_sign(GAINS, 0.3, "corrected"),
+    "level_sets": lambda: figures.level_sets(GAINS),
+    "level_sets with runs": lambda: figures.level_sets(GAINS, 0.01, "printed", near_goal_runs()),
+    "lyapunov_runs": lambda: figures.lyapunov_runs(near_goal_runs()),
+    "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
+    "compare_runs": lambda: figures.compare_runs(
+        {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
+    ),
+    "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True, until=15),
+    "snapshots, tall": lambda: figures.snapshots(drive(), [0.0, 5.0, 10.0, drive().t[-1]]),
+    "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
+    "heading_shares": lambda: figures.heading_shares(
+        {"one": np.array([1.0, 2.0, -4.0, 30.0]), "two": np.array([4.0])}
+    ),
+    "block_diagram": lambda: figures.block_diagram(0.2, 4.0),
+    "chase": lambda: figures.chase({"one": chase()}),
+    "residual_curve": lambda: figures.residual_curve(LIMITS, LEFT, predict, published=0.1),
+    "tradeoff": lambda: figures.tradeoff(
+        GROUPS, (1.5, 0.3, "ours"), xlabel="peak speed [m/s]", ylabel="rms distance [m]"
+    ),
+    "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
+    "phase_portrait": lambda: figures.phase_portrait({"the paper's": GAINS, "gentle": GENTLE}, 0.5),
+    "pareto_front": lambda: figures.pareto_front(*tried()),
+    "time_steps": time_steps,
+    "orders": lambda: figures.orders(STEPS, {"linear": 3.0 * STEPS, "square": STEPS**2}),
+    "responses": lambda: figures.responses(
+        T, {"quick": 1.0 - np.exp(-10.0 * T), "slow": 1.0 - np.exp(-5.0 * T)}
+    ),
+    "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
+    "wheel_limited_paths": lambda: figures.wheel_limited_paths(
+        {"all of it": LIMITED, "part": LIMITED[:2]}, LIMITED[-1]
+    ),
+    "scatter": lambda: figures.scatter(wmr.stationary_scatter(wmr.read_track(TRACK))),
+    "end_poses": lambda: figures.end_poses(ENDS, PARK, 0.05),
+    "arrival_radii": lambda: figures.arrival_radii(
+        RADII, np.array([0.2, 0.5, 1.4]), np.array([80.0, 34.0, 60.0]), 0.5
+    ),
+    "near_goal": lambda: figures.near_goal(
+        {
+            "one": wmr.Pose(SECONDS, 57.0 + 0.0 * SECONDS, 0.0),
+            "two": wmr.Pose(SECONDS - 2.0, SECONDS + 49.0, 0.0),
+        },
+        PARK,
+    ),
+    "rising": lambda: figures.rising(
+        {"falls": (SECONDS, 1.5 * np.exp(-SECONDS)), "waves": (SECONDS, 2.0 + np.sin(SECONDS))}
+    ),
+    "rising, one": lambda: figures.rising({"falls": (SECONDS, np.exp(-SECONDS))}),
+    "rise_map": lambda: figures.rise_map(
+        SIGMAS, STEPS[:2], np.array([[0.0, 3.0, 18.0], [48.0, 47.0, 46.0]])
+    ),
+    "verdicts": lambda: figures.verdicts(
+        {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
+    ),
+    "route": lambda: figures.route(
+        route("mixed"), background=(np.linspace(0.0, 25.0, 30), np.linspace(1.0, 3.0, 30))
+    ),
+    "route, stuck": lambda: figures.route(route("stuck")),
+    "route, one pose": lambda: figures.route(route("point")),
+    "route_signals": lambda: figures.route_signals(route("mixed")),
+    "route_signals, one pose": lambda: figures.route_signals(route("point")),
+    "challenge_paths": lambda: figures.challenge_paths(score(0.128, 1.089, 1.42, 7.528)),
+    "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
+    "challenge_paths, five": lambda: figures.challenge_paths(score(2.0, 1.0, 0.3, cases=5)),
+    "challenge_paths, nowhere": lambda: figures.challenge_paths(score(1e300, 1e300, 1e300)),
+}
+picture = cache(lambda name: CASES[name]())
+
+
+# Every figure -----------------------------------------------------------------------------------
+
+
+def degrees_left(run):
+    return f"{math.degrees(wmr.arrival(run).heading_error):.0f} deg"
+
+
+def of_twist(v, omega, width):
+    """The wheels' speeds by the paper's (1) and (2), solved by numpy."""
+    right, left = np.linalg.solve([[0.5, 0.5], [1 / width, -1 / width]], [v, omega])
+    wheels = f"left wheel, {left:.2f} m/s, of its middle, {v:.2f} m/s"
+    return f"{wheels}, and of its right wheel, {right:.2f} m/s"
+
+
+def moved(step, turn, times):
+    """Where `times` commutators lead: back is along the turned heading."""
+    x, y = times * step * (1 - math.cos(turn)), -times * step * math.sin(turn)
+    return f"at x = {x:.3f} m and y = {y:.3f} m"
+
+
+def beside(driven):
+    """How far the route passes its first waypoint."""
+    way = driven.waypoints
+    return np.hypot(driven.x - way.x[0], driven.y - way.y[0]).min()
+
+
+SAYS = {  # what the text must say, in numbers that come from elsewhere
+    "local_map": lambda: ["58.08 m long, at a bearing of 9.58 deg"],
+    "spherical_triangle": lambda: [
+        "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
+    ],
+    "rounding_errors": lambda: [
+        "one: left level, below 10 nm, right rising as the gap closes, below 1 m; "
+        "two: left falling as the gap"
+    ],
+    "sphere_error_map": lambda: [
+        "from -0.45 % at the poles to +0.56 % northwards on the equator, with -0.11 % eastwards"
+    ],
+    "coordinate_system": lambda: ["35 deg from east"],
+    "turning_centre": lambda: [of_twist(1.0, 0.8, 0.6), "1.25 m to the left"],
+    "turning_centre, right": lambda: [of_twist(1.0, -2.5, 0.6), "0.40 m to the right"],
+    "commutator": lambda: [moved(1.0, 0.5, 3)],
+    "approach": lambda: ["-6.00 to 6.00 rad/s at 0.001 m"],
+    "steps": lambda: ["a circle of 4.0 m radius"],
+    "polar_angles": lambda: [
+        *("sight is at 55 deg", "heads 15 deg", "the goal -25 deg", "black arc from east"),
+        *("sight, is 40 deg", "sight, is 80 deg", "robot's, is 40 deg"),
+    ],
+    "third_angle": lambda: [
+        "theta = 80 deg, turned from the goal's heading to the line of sight",
+        "beta = -80 deg, turned back from the line of sight to the goal's heading, "
+        "as in Corke, Siegwart, PythonRobotics",
+    ],
+    "path_choices": lambda: ["one: ends 0.10 m from the goal, its heading 11 deg off"],
+    "rate_sign": lambda: [f"hatched {100 * rising_share():.0f} % and falls elsewhere"],
+    "rate_sign, corrected": lambda: ["V falls everywhere"],
+    "level_sets": lambda: ["0 of 225 arrows point outwards"],
+    "lyapunov_runs": lambda: [
+        "corrected: from 0.37 to",
+        "it never rises; printed: from 0.37 to 3.3, it rises, to 3.3 at most",
+    ],
+    "compare_runs": lambda: [
+        "one goes from 3.96 to 0.36 m/s",
+        "a dotted line marks the limit, 4 m/s",
+    ],
+    "compare_runs, log": lambda: ["one goes from 2.2 to 0.09 m."],
+    "snapshots, tall": lambda: [
+        "b after 5.0 s, 38.1 m to go, heading 84 deg",
+        "the goal's heading is -60 deg",
+    ],
+    "heading_shares": lambda: [
+        "one 25.0 % end more than 5 deg off, the worst 30.0 deg; two 0.0 % end"
+    ],
+    "block_diagram": lambda: ["every 0.2 s", "every 0.05 s"],
+    "chase": lambda: [
+        "A grey reference circle of radius 4 m about (-4, 0) m, driven once round "
+        "counter-clockwise from (0, 0) m, and the robot that starts at (1, 2) m; "
+        "distance from the goal at the end: one 0.090 m."
+    ],
+    "residual_curve": lambda: ["differ by at most 0.0010 m"],
+    "tradeoff": lambda: ["one from 0.4 to 0.5; two from 0.25 to 0.25; ours at (1.50, 0.30)"],
+    "root_locus": lambda: [
+        "for k_alpha from 0.1 to 20. "
+        f"The pair runs on a circle of {8.0 * math.sqrt(0.3):.2f} rad/s to the real axis and parts"
+    ],
+    "phase_portrait": lambda: ["with gentle gains (damping 0.884) one sweep, 0."],
+    "time_steps": lambda: [
+        "the paper's gains, euler: 46 deg at 0.02 s, longest step 0.011 s, 2 of 4 runs lost",
+        "gentle gains, arc: 2 deg at 0.02 s, ",
+        "deg at 0.7 s, longest step 0.714 s",
+    ],
+    "orders": lambda: ["linear with slope 1.00, 3 at 1 s; square with slope 2.00, 1 at 1 s"],
+    "responses": lambda: ["quick reaches 63 % after 0.100 s; slow reaches 63 % after 0.200 s"],
+    "inner_loops": lambda: [
+        f"one, slow: {degrees_left(drive(wheel_lag=0.1))}; one, at once: {degrees_left(drive())}"
+    ],
+    "wheel_limited_paths": lambda: [
+        "all of it: 4.0 m, as far as x = 1.0 m; part: 1.0 m, as far as x = 1.0 m, "
+        'at most 0.00 m beside the first. Not to be told from the first: "part".'
+    ],
+    "scatter": lambda: [
+        "9 positions",
+        "from 7.5 m west and 0.5 m south to 2.7 m east and 0.6 m north, where the last two are one",
+        "a dashed circle of 2.1 m holds half of them",
+    ],
+    "end_poses": lambda: [
+        "Left, 150 of 300 robots",
+        "about 15 % within 30 deg, about 50 % more than 90 deg off",
+    ],
+    "arrival_radii": lambda: [
+        "from 0.2 to 1.4 m, the heading error is smallest, about 35 deg, near 0.3 m"
+    ],
+    "near_goal": lambda: ["one, 1.0 m from the goal; two, 2.2 m from the goal"],
+    "rising": lambda: ["falls, 0 %; waves, 45 %"],
+    "rise_map": lambda: [
+        "0 % with no noise and a step of 0.02 s, about 20 % with 1 m of noise, "
+        "and about 50 % with no noise"
+    ],
+    "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
+    "route": lambda: [
+        "Path from (0.0, 0.0) m to (",
+        "3 of 3 waypoints reached, 2 to stop at and 1 to pass "
+        f"(at most {beside(route('mixed')):.1f} m aside); ",
+        f"in {route('mixed').time:.1f} s, with 30 points of a track behind it.",
+    ],
+    "route, stuck": lambda: [
+        "1 of 3 waypoints reached, 3 to stop at and 0 to pass; ",
+        "s without reaching the rest.",
+    ],
+    "route_signals": lambda: [
+        f"Over {route('mixed').time:.1f} s and 3 legs: v between",
+        "jumping up at 2 of 2 changes of the goal",
+    ],
+    "challenge_paths": lambda: [
+        "12 of them reached, with 21.81 points in the mean; "
+        "the dearest is case 12, far behind, with 42.7"
+    ],
+}
+
+
+def rising_share():
+    """V' under (24) at 0.3 m: corrected V' + (S cos sin/rho)(1 - cos sin)(alpha + h theta)."""
+    alpha, theta = np.random.default_rng(4).uniform(-math.pi, math.pi, (2, 400_000))
+    speed, mixed = GAINS.v_max * (1 - math.exp(-GAINS.k_rho * 0.3)), np.cos(alpha) * np.sin(alpha)
+    falling = -0.3 * speed * np.cos(alpha) ** 2 - GAINS.k_alpha * alpha**2
+    extra = speed * mixed / 0.3 * (1 - mixed) * (alpha + GAINS.h * theta)
+    return np.mean(falling + extra > 0)
+
+
+def test_every_figure_of_the_chapters_is_in_the_table():
+    assert {re.split("[, ]", name)[0] for name in CASES} == set(figures.__all__)
+    assert SAYS.keys() <= CASES.keys()
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_every_figure_draws_and_says_what_it_shows(name):
+    found = picture(name)
+    bundle, metadata = found._repr_mimebundle_()
+    assert metadata["image/png"]["alt"] == found.alt
+    assert bundle["text/html"].startswith(f'<img alt="{html.escape(found.alt)}" width=')
+    assert len(found.alt) > 60
+    assert found.alt.endswith(".")
+    assert not re.search(r"nan|-0\.0*(?![\d.])", found.alt)
+    for words in SAYS.get(name, list)():
+        assert words in found.alt
+    pixels = imread(io.BytesIO(bundle["image/png"]))[..., :3]
+    assert pixels.shape[1] == pytest.approx(1.5 * metadata["image/png"]["width"], abs=2)
+    full = 0.9 if name in ("sphere_error_map", "rise_map") else 0.7
+    assert 0.01 < np.mean(pixels.min(axis=2) < 0.9) < full  # neither blank nor flooded
+    for axes in found.figure.axes:
+        if not axes.axison or axes.get_label() == "<colorbar>":
+            continue
+        x = axes.get_xlabel() or found.figure.get_supxlabel()
+        y = axes.get_ylabel() or found.figure.get_supylabel()
+        assert "[" in x or not axes.xaxis.get_tick_params().get("labelbottom", True)
+        assert "[" in y or not axes.yaxis.get_tick_params().get("labelleft", True)
+
+
+# What is drawn is what was given ----------------------------------------------------------------
+
+
+def axes_of(name):
+    return picture(name).figure.axes
+
+
+def heading_of(dart):
+    tip, tail = dart.get_xy()[0], dart.get_xy()[2]
+    return math.atan2(tip[1] - tail[1], tip[0] - tail[0])
+
+
+def test_an_error_of_zero_and_a_failure_are_left_out():
+    for axes, sizes in zip(axes_of("rounding_errors"), ([2, 3], [3, 2]), strict=True):
+        assert [line.get_xdata().size for line in axes.lines] == sizes
+
+
+def test_an_error_that_has_its_peak_in_between_is_told_so():
+    gaps = np.geomspace(1e-6, 1e6, 60)
+    course = np.minimum(gaps, 1e-2 / gaps), np.full(60, 3e-9)
+    assert figures.rounding_errors(gaps, gaps, {"one": course}).alt.endswith(
+        "one: left rising and then falling as the gap closes, below 1 m, right level, below 10 nm."
+    )
+
+
+def test_the_triangle_has_three_sides_on_the_globe():
+    (axes,) = axes_of("spherical_triangle")
+    assert not axes.axison
+    sides = [line.get_data() for line in axes.lines if line.get_linewidth() == 3.0]
+    assert [len(x) for x, _ in sides] == [101] * 3
+    assert max(np.hypot(x, y).max() for x, y in sides) <= 1.0
+
+
+def test_the_maps_star_is_the_line_asked_for():
+    (axes,) = axes_of("sphere_error_map")
+    star = axes.lines[-1].get_xydata()[0]
+    assert star == pytest.approx([9.6274, paper.GPS_POINT_1.lat])
+    assert any("+0.244 %" in text.get_text() for text in axes.texts)
+
+
+def test_the_commutator_leads_sideways():
+    axes = figures.commutator(0.2, 0.1).figure.axes[0]
+    # the dart's corners lie a quarter of its size behind
+    end = axes.patches[2].get_xy()[:4].mean(axis=0) + 0.2 * 0.07 * np.array([0.25, 0.0])
+    assert end == pytest.approx([0.2 * (1 - math.cos(0.1)), -0.2 * math.sin(0.1)], abs=1e-9)
+
+
+def test_eulers_steps_are_a_polygon_and_the_arcs_lie_on_the_circle():
+    exact, arc, euler, _ = axes_of("steps")[0].lines
+    for line in (exact, arc):
+        np.testing.assert_allclose(np.hypot(line.get_xdata(), line.get_ydata() - 4.0), 4.0)
+    sides = np.hypot(*np.diff(euler.get_xydata(), axis=0).T)
+    np.testing.assert_allclose(sides, 2.0, rtol=1e-12)
+    assert euler.get_ydata()[1] == 0.0  # the first step goes along the tangent
+    for parts in (6, 12, 49):  # steps that divide the turn close the polygon and go no further
+        closed = figures.steps(4.0, 1.0, 2 * math.pi / parts).figure.axes[0].lines[2].get_xydata()
+        assert len(closed) == parts + 1
+        assert np.hypot(*closed[-1]) < 1e-12
+
+
+def test_at_the_goal_omega_still_depends_on_the_side():
+    nearest = figures.approach(GAINS._replace(h=0.3), [0.5, 1e-6]).figure.axes[0].lines[1]
+    seen = np.interp([0.0, 90.0], nearest.get_xdata(), nearest.get_ydata())
+    assert seen == pytest.approx([0.0, math.pi / 2], abs=1e-5)
+
+
+def test_arcs_begin_and_end_on_their_sides():
+    """Theta's arc runs from the goal's heading to the line of sight, beta's the other way."""
+    figure = picture("third_angle").figure
+    figure.canvas.draw()
+    one, other = figure.axes
+    assert (one.get_xlim(), one.get_ylim()) == (other.get_xlim(), other.get_ylim())
+    np.testing.assert_allclose(one.get_position().size, other.get_position().size, rtol=1e-3)
+    sight = math.atan2(GOAL.y, GOAL.x)
+    for axes, begin, end in ((one, GOAL.heading, sight), (other, sight, GOAL.heading)):
+        x, y = axes.lines[-1].get_data()
+        angles = np.arctan2(y - GOAL.y, x - GOAL.x)
+        assert angles[0] == pytest.approx(begin)
+        assert angles[-1] == pytest.approx(end, abs=0.05)  # the rest is the arrowhead
+        assert np.ptp(np.hypot(x - GOAL.x, y - GOAL.y)) < 1e-9
+
+
+@pytest.mark.parametrize("name", ["polar_angles", "polar_angles, clockwise", "third_angle"])
+def test_no_name_lies_on_the_line_of_sight(name):
+    figure = picture(name).figure
+    figure.canvas.draw()
+    for axes in figure.axes:
+        dashed = (line for line in axes.lines if line.get_linestyle() == "--")
+        ends = axes.transData.transform(next(dashed).get_xydata())
+        points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
+        boxes = [
+            text.get_window_extent() for text in axes.texts if text.get_text() in ("robot", "goal")
+        ]
+        assert len(boxes) == 2
+        assert not any(box.contains(*point) for box in boxes for point in points)
+
+
+def test_paths_and_angles_are_those_of_the_runs():
+    alpha, theta = axes_of("angles_over_time")
+    np.testing.assert_allclose(alpha.lines[0].get_ydata(), np.degrees(drive().alpha))
+    np.testing.assert_allclose(theta.lines[0].get_ydata(), np.degrees(drive().theta))
+    (axes,) = figures.path_choices({"one": WAY}, ORIGIN).figure.axes
+    assert axes.get_aspect() == 1.0
+    found = [heading_of(dart) for dart in axes.patches]  # start, end, goal
+    assert found == pytest.approx([1.0, 0.2, 0.0])
+
+
+def test_arrows_point_where_the_state_goes():
+    """And none lies beyond |alpha| = 180 deg; theta, not wrapped, goes as far as the run."""
+    (axes,) = axes_of("level_sets with runs")
+    far = 1.08 * np.degrees(np.abs(near_goal_runs()[1].theta).max())
+    assert far > 180
+    assert axes.get_xlim() == (-180.0, 180.0)
+    assert axes.get_ylim() == pytest.approx((-far, far))
+    falling, rising = (each for each in axes.collections if type(each).__name__ == "Quiver")
+    offsets = np.concatenate([falling.get_offsets(), rising.get_offsets()])
+    np.testing.assert_allclose(np.abs(offsets).max(axis=0), (0.92 * 180.0, 0.92 * far))
+    assert rising.N > 20
+    for arrows, rises in ((falling, False), (rising, True)):
+        alpha, theta = np.radians(arrows.get_offsets()).T
+        twist = wmr.control_law(0.01, alpha, theta, GAINS, law="printed")
+        _, *rates = wmr.polar_rate(0.01, alpha, *twist)
+        length = np.maximum(np.hypot(*rates), 1e-12)
+        np.testing.assert_allclose([arrows.U, arrows.V], rates / length, atol=1e-9)
+        assert ((alpha * rates[0] + GAINS.h * theta * rates[1] > 1e-12) == rises).all()
+
+
+def test_v_is_thick_where_it_rises_and_headings_are_not_wrapped():
+    _, wild = near_goal_runs()
+    calm, red = axes_of("lyapunov_runs")[0].collections
+    assert len(calm.get_segments()) == 0
+    assert len(red.get_segments()) == np.sum(np.diff(wild.V) > 1e-9 * wild.V[0]) > 50
+    drawn = axes_of("heading_errors")[0].lines[2].get_ydata()
+    np.testing.assert_allclose(drawn, np.degrees(wild.theta - wild.alpha))
+    assert drawn.max() > 180
+
+
+def test_compare_runs_draws_the_field_it_was_asked_for():
+    runs = {"one": drive(), "two": drive("printed", x_axis="north")}
+    for field in ("v", "omega", "x_error", "y_error", "rho"):
+        one, two = figures.compare_runs(runs, field).figure.axes[0].lines[-2:]
+        assert np.array_equal(one.get_ydata(), getattr(runs["one"], field))
+        assert np.array_equal(two.get_ydata(), getattr(runs["two"], field))
+        assert one.get_linestyle() != two.get_linestyle()  # never colour alone
+
+
+def test_on_a_logarithmic_scale_nothing_is_drawn_below_a_millionth():
+    tiny = dataclasses.replace(chase(), rho=np.geomspace(1.0, 1e-9, len(chase())))
+    axes = figures.compare_runs({"one": tiny}, "rho", log=True).figure.axes[0]
+    drawn = axes.lines[-1].get_ydata()
+    assert np.array_equal(np.isnan(drawn), tiny.rho < 1e-6)
+    assert axes.get_ylim()[0] == 1e-6
+    assert axes_of("compare_runs, log")[0].get_ylim()[0] > 0.01
+
+
+def test_a_course_is_told_once():
+    """No range where the ends are the range; and what rounds to zero is not called zero."""
+
+    def told(field, run):
+        return figures.compare_runs({"one": run}, field, level=(4.0, "the 4 m/s")).alt
+
+    assert ", between " in told("omega", chase())
+    assert told("v", chase()).endswith("a dotted line marks the 4 m/s.")
+    near = dataclasses.replace(chase(), rho=np.linspace(1.0, 1e-4, len(chase())))
+    assert "one goes from 1.00 to less than 0.01 m;" in told("rho", near)
+    x = chase().x + np.linspace(1.0, -1e-4, len(chase()))
+    past = dataclasses.replace(chase(), goal=chase().goal._replace(x=x))
+    assert "one goes from 1.00 to nearly 0 m;" in told("x_error", past)
+
+
+def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
+    run = drive()
+    moments = (0.0, 5.0, 10.0, run.t[-1])
+    for axes, moment in zip(axes_of("snapshots, tall"), moments, strict=True):
+        k = int(np.abs(run.t - moment).argmin())
+        poses = CASE.goal, (run.x[k], run.y[k], run.heading[k])
+        for dart, (x, y, heading) in zip(axes.patches, poses, strict=True):
+            assert heading_of(dart) == pytest.approx(math.remainder(heading, math.tau))
+            assert np.hypot(*(dart.get_xy()[[0, 2]].mean(axis=0) - [x, y])) < 2.0
+        so_far = np.column_stack([run.x, run.y])[: k + 1]
+        assert np.array_equal(axes.lines[1].get_xydata(), so_far)
+        assert axes.get_aspect() == 1.0
+
+
+def test_the_share_at_an_error_is_that_of_the_runs_below_it():
+    line = axes_of("heading_shares")[0].lines[0].get_xydata()[1:-1]
+    assert line.tolist() == [[1.0, 25.0], [2.0, 50.0], [4.0, 75.0], [30.0, 100.0]]
+
+
+def test_chase_draws_the_reference_and_each_run():
+    run = chase()
+    axes = figures.chase({"one": run, "two": run}).figure.axes[0]
+    reference, *lines = axes.lines
+    assert np.array_equal(reference.get_xydata(), np.column_stack(run.goal[:2]))
+    assert [np.array_equal(line.get_xydata().T, [run.x, run.y]) for line in lines] == [True] * 2
+    robot, goal = axes.patches
+    for dart, place, heading in ((robot, (1, 2), 0.0), (goal, (0, 0), math.pi / 2)):
+        assert heading_of(dart) == pytest.approx(heading, abs=1e-6)
+        assert np.hypot(*(dart.get_xy()[[0, 2]].mean(axis=0) - place)) < 0.3
+    assert [(text.get_text(), text.xy) for text in axes.texts] == [("goal at 0 s", (0.0, 0.0))]
+
+
+def test_a_chase_says_what_the_goal_does():
+    x, y, heading = chase().goal
+    stop = np.minimum(np.arange(len(x)), len(x) // 2)
+
+    def told(x, y):
+        run = dataclasses.replace(chase(), goal=wmr.Pose(x, y, heading))
+        return figures.chase({"one": run, "two": run}).alt
+
+    assert "driven once round clockwise from (0, 0) m, and 2 robots that start at" in told(x, -y)
+    assert "driven 0.5 times round counter-clockwise" in told(x[stop], y[stop])
+    assert told(x, x + 1.0).startswith("A grey reference from (0, 1) m to ")
+    assert told(0.0 * x + 2.0, 0.0 * y).startswith("A goal that stands still at (2, 0) m, and")
+
+
+def test_tradeoff_and_residual_curve_draw_their_points():
+    one, two, star = axes_of("tradeoff")[0].lines[:3]
+    assert one.get_xydata().tolist() == [[1.0, 0.5], [2.0, 0.4]]
+    assert one.get_marker() != two.get_marker()
+    assert star.get_xydata().tolist() == [[1.5, 0.3]]
+    line, circles, level = axes_of("residual_curve")[0].lines
+    assert np.array_equal(line.get_ydata(), predict(line.get_xdata()))
+    assert np.array_equal(circles.get_xydata(), np.column_stack([LIMITS, LEFT]))
+    assert set(level.get_ydata()) == {0.1}
+
+
+def test_the_crosses_are_the_roots():
+    (cross,) = [line for line in axes_of("root_locus")[0].lines if line.get_marker() == "x"]
+    roots = np.roots([1.0, 1.0, 0.3 * 8.0**2])
+    np.testing.assert_allclose(sorted(cross.get_ydata()), sorted(roots.imag))
+    np.testing.assert_allclose(cross.get_xdata(), roots.real)
+
+
+@pytest.mark.parametrize(
+    ("over", "values", "course"),
+    [
+        ("k_alpha", np.linspace(0.1, 2.0, 20), "The pair runs on a circle of 4.38 rad/s. At"),
+        ("k_alpha", np.array([10.0, 20.0]), "Both poles stay real."),
+        ("h", np.array([0.1, 1.0]), "The pair runs straight up and down at -0.50."),
+        (
+            "h",
+            np.geomspace(1e-4, 1.0, 100),
+            "The two poles meet at -0.50, and the pair then runs straight up and down.",
+        ),
+    ],
+)
+def test_a_locus_says_its_course_and_no_label_lies_across_the_left_axis(over, values, course):
+    found = figures.root_locus(GAINS, over, values)
+    assert course in found.alt
+    found.png()
+    axes = found.figure.axes[0]
+    for box in (text.get_window_extent() for text in axes.texts):
+        assert box.x0 > axes.bbox.x0 or box.x1 < axes.bbox.x0
+
+
+def test_a_portrait_counts_the_turns_of_the_tangent():
+    """The amplitude of s^2 + k_alpha s + h lam^2 falls to a twentieth in ln(20)/sigma seconds."""
+    text = figures.phase_portrait({"the paper's": GAINS}, 0.05).alt
+    swing = np.sqrt(0.3 * 8.0**2 - 0.25)
+    turns = float(re.search(r"a spiral of ([\d.]+) turns", text)[1])
+    assert turns == pytest.approx(np.log(20.0) / 0.5 * swing / (2.0 * np.pi), abs=0.2)
+    assert "horizontal" not in text
+    wide = figures.phase_portrait({"gentle": GENTLE}, 2.0).alt
+    assert "at alpha = +-90 deg the flow is horizontal" in wide
+
+
+def test_the_front_shows_what_is_below_its_border():
+    runs, best, marked = tried()
+    error = np.array(runs.heading_error)
+    error[np.unravel_index(np.flatnonzero(best)[:2], error.shape)] = 1e-5
+    found = figures.pareto_front(runs._replace(heading_error=error), best, marked)
+    above, below = found.figure.axes[0].collections
+    assert (len(above.get_offsets()), len(below.get_offsets())) == (best.sum() - 2, 2)
+    assert set(below.get_offsets()[:, 1]) == {found.figure.axes[0].get_ylim()[0]}
+    assert "2 triangles at the lower border are below 0.01 deg." in found.alt
+    assert "triangles" not in picture("pareto_front").alt
+
+
+def test_time_steps_draw_each_run_and_each_limit():
+    axes = axes_of("time_steps")[0]
+    drawn = {line.get_label(): line for line in axes.lines}
+    for method in ("arc", "euler"):
+        wanted = []
+        for dt in STEPS.tolist():
+            end = wmr.arrival(wmr.simulate(CASE.start, CASE.goal, GAINS, method=method, dt=dt))
+            wanted.append(abs(math.degrees(end.heading_error)) if end.arrived else math.nan)
+        np.testing.assert_allclose(drawn[method].get_ydata(), wanted)
+        limit = {wmr.longest_step(GAINS, method)}
+        assert any(set(line.get_xdata()) == limit for line in axes.lines)
+
+
+def test_wheel_limited_paths_say_how_far_one_strays_and_what_the_arrows_are():
+    away = [LIMITED[0], wmr.Pose(2.0, 1.5, 0.5), LIMITED[-1]]
+    near = [each._replace(x=each.x + 0.01) for each in LIMITED]
+    beyond = [*LIMITED, wmr.Pose(1.0, 5.0, 0.5)]  # on the line, but not on the path
+    paths = {"all of it": LIMITED, "aside": away, "beyond": beyond, "near": near}
+    found = figures.wheel_limited_paths(paths, LIMITED[-1])
+    strays = re.findall(r"at most ([\d.]+) m beside", found.alt)
+    assert strays == ["1.00", "2.00", "0.01"]
+    assert found.alt.endswith('Not to be told from the first: "near".')
+    legend = [text.get_text() for text in found.figure.axes[0].get_legend().get_texts()]
+    assert legend == [*paths, "start", "goal"]
+
+
+def test_scatter_says_how_many_positions_are_the_last_dot():
+    east, north = np.array([0.0, 3.0, 5.0, 5.0, 5.0]), np.array([0.0, -1.0, 1.0, 1.0, 1.0])
+    place = wmr.point_at(paper.GPS_POINT_1, east, north)
+    for count, word in ((2, "last"), (3, "last"), (4, "last two"), (5, "last three")):
+        found = wmr.stationary_scatter(wmr.GeoPoint(lat=place.lat[:count], lon=place.lon[:count]))
+        shown = figures.scatter(found)
+        assert [text.get_text() for text in shown.figure.axes[0].texts] == ["first", word]
+        assert (f"the {word} are one dot" in shown.alt) == (count > 3)
+
+
+def test_robots_stand_where_they_ended():
+    place, heading = axes_of("end_poses")
+    assert place.get_title().startswith("150 of 300 robots")
+    assert len(place.patches) == 150 + 4  # goal and circle, each with its rim
+    assert heading.get_title() == "all 300"
+    few = wmr.Pose(*(field[:20] for field in ENDS))
+    assert figures.end_poses(few, PARK, 0.05).alt.startswith("Left, all 20 robots")
+    first = axes_of("near_goal")[0].patches[0].get_xy()[:-1].mean(axis=0)
+    assert first == pytest.approx([10.0, 57.0], abs=0.3)
+
+
+def test_v_is_thick_and_red_where_it_rises_and_only_there():
+    falls, waves = axes_of("rising")
+    assert [len(lines.get_segments()) for lines in falls.collections] == [50, 0]
+    blue, red = waves.collections
+    assert len(red.get_segments()) == int((np.diff(2.0 + np.sin(SECONDS)) > 0).sum())
+    assert red.get_linewidth()[0] > 2 * blue.get_linewidth()[0]
+
+
+def test_the_verdicts_bars_differ_in_hatching_too():
+    bars = axes_of("verdicts")[0].patches
+    assert [bar.get_width() for bar in bars] == [21, 7, 3, 0]
+    assert len({bar.get_hatch() for bar in bars}) == 2
+
+
+def test_a_route_is_drawn_as_it_was_driven():
+    """Arrows for the wanted headings, and a marker each for a stop, a pass and what was missed."""
+    way, mixed = route("mixed").waypoints, route("mixed")
+    (axes,) = figures.route(mixed).figure.axes
+    np.testing.assert_array_equal(axes.lines[0].get_xydata().T, [mixed.x, mixed.y])
+    arrows = [note for note in axes.texts if not note.get_text()]
+    for k, note in enumerate(arrows):
+        tail, tip = np.array(note.get_position()), np.array(note.xy)
+        assert tail.tolist() == [way.x[k], way.y[k]]
+        assert math.atan2(*(tip - tail)[::-1]) == pytest.approx(way.heading[k])
+    assert [note.get_text() for note in axes.texts if note.get_text()] == ["1", "2", "3"]
+    for kind, wanted in (("mixed", "oss"), ("stuck", "ssxsx")):
+        lines = figures.route(route(kind)).figure.axes[0].lines
+        markers = [line.get_marker() for line in lines]
+        assert "".join(each for each in markers if each in "sox" and len(each) == 1) == wanted
+    legend = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert legend == ["path", "start", "stop", "passed"]
+
+
+def test_signals_are_cut_where_the_goal_changes():
+    mixed = route("mixed")
+    upper, lower = axes_of("route_signals")
+    parts = [line for line in lower.lines if same_color(line.get_color(), COLOURS["V"])]
+    changes = [line.get_xdata()[0] for line in upper.lines if line.get_linestyle() == "--"]
+    assert changes == pytest.approx(np.cumsum([leg.t[-1] for leg in mixed.legs])[:-1])
+    # down to the arrival itself
+    for part, leg, end in zip(parts, mixed.legs, [*changes, mixed.time], strict=True):
+        np.testing.assert_array_equal(part.get_ydata(), np.maximum(leg.V, 1e-12))
+        assert part.get_xdata()[-1] == pytest.approx(end)
+
+
+def test_a_jump_is_counted_from_the_arrival():
+    """One sample before the arrival V is still above that of the next leg."""
+    for last, dt, jumps in ((12.0, 1.0, 1), (9.0, 0.1, 0)):  # 9 m is nearer than the one passed
+        poses = wmr.Pose(np.array([0.0, 10.0, last]), np.zeros(3), np.zeros(3))
+        driven = wmr.drive_route(poses, wmr.Gains(0.3, 1.0, 1.5), stop=[False, True], dt=dt)
+        change = int(np.flatnonzero(np.diff(driven.leg))[0])
+        assert (driven.legs[0].V[-1] < driven.V[change + 1]) == jumps
+        assert driven.V[change + 1] < driven.V[change]
+        assert f"jumping up at {jumps} of 1 changes" in figures.route_signals(driven).alt
+
+
+def test_each_case_of_the_challenge_has_its_panel():
+    wild = score(5.0, 0.1, 5.0, 20.0)
+    panels = axes_of("challenge_paths, wild")
+    for k, (axes, row) in enumerate(zip(panels, wild.cases, strict=True), start=1):
+        assert axes.get_title().startswith(f"{k} {row.kind}: {row.points:.1f} points\n")
+        assert axes.lines[0].get_linestyle() == ("--" if row.note else "-")
+        assert row.note in axes.get_title()
+    assert sum(axes.axison for axes in axes_of("challenge_paths, five")) == 5
+
+
+def test_the_legend_says_which_arrow_is_the_start():
+    def legend(name):
+        (found,) = picture(name).figure.legends
+        labels = [text.get_text() for text in found.get_texts()]
+        return dict(zip(labels, found.legend_handles, strict=True))
+
+    assert "path that got the penalty" in legend("challenge_paths, wild")
+    handles = legend("challenge_paths")
+    assert list(handles) == ["path", "start", "goal"]
+    goal, start = axes_of("challenge_paths")[0].patches  # drawn in this order
+    assert same_color(handles["start"].get_markerfacecolor(), start.get_facecolor())
+    assert handles["goal"].get_markerfacecolor() == "none"
+    assert not goal.get_facecolor()[3]
+    assert same_color(handles["goal"].get_markeredgecolor(), goal.get_edgecolor())
+
+
+# Bad input --------------------------------------------------------------------------------------
+
+HERE = wmr.GeoPoint(lat=5.0, lon=0.0)
+FIVE = {str(k): STEPS for k in range(6)}
+PAIR = r"(?s)background = .* is not allowed: .east, north., two lists of one length, is needed"
+BAD = [
+    ("a GeoPoint is needed, not a tuple", "local_map", ((33, 44), HERE)),
+    ("a GeoPoint is needed, not a tuple", "spherical_triangle", ((5, 0), HERE)),
+    ("a GeoPoint is needed, not a tuple", "sphere_error_map", ((5, 0), 0.0)),
+    ("errors has 0 entries, .* 1 to 4 are needed", "rounding_errors", (GAPS, GAPS, {})),
+    (r"track_width = 0\.0 .* above 0", "coordinate_system", (ORIGIN, 0.0, 0.1)),
+    (r"wheel_radius = -0\.1 .* above 0", "coordinate_system", (ORIGIN, 1.0, -0.1)),
+    (r"omega = 0\.0 .* another number is needed", "turning_centre", (1.0, 0.0, 0.6)),
+    (r"step = 0\.0 .* above 0", "commutator", (0.0, 0.5)),
+    ("distances has 5 entries", "approach", (GAINS, [1, 2, 3, 4, 5])),
+    (r"omega = 0\.0 is not allowed", "steps", (1.0, 0.0, 0.1)),
+    ("tracks has 0 entries, .* 1 to 4 are needed", "path_choices", ({}, ORIGIN)),
+    ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
+    ("runs has 0 entries", "angles_over_time", ([],)),
+    ("a Pose is needed, not a tuple", "polar_angles", ((0, 0, 0), GOAL)),
+    (r"rho = 0\.0 .* above 0 is needed", "rate_sign", (GAINS, 0.0)),
+    ("law = 'kanayama'", "rate_sign", (GAINS, 1.0, "kanayama")),
+    ("runs has 5 .* 0 to 4 are", "level_sets", (GAINS, 0.01, "corrected", [0] * 5)),
+    ("runs has 0 entries, .* 1 to 4 are needed", "lyapunov_runs", ([],)),
+    ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
+    ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),
+    ("runs has 6 entries", "compare_runs", (FIVE, "v")),
+    (r"runs\['one'\] = 3 .* a Trajectory is needed", "compare_runs", ({"one": 3}, "v")),
+    ("runs = .* is not allowed: a Mapping is needed", "chase", ([3],)),
+    ("a Trajectory is needed", "snapshots", (3, [0.0, 1.0])),
+    ("one = .* is not allowed", "heading_shares", ({"one": np.array([math.nan])},)),
+    (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
+    ("choices has 0 entries, .* 1 to 2 are needed", "phase_portrait", ({}, 1.0)),
+    ("gains has 1 .* 2 are needed", "time_steps", (ROBOT, GOAL, {"one": GAINS}, STEPS)),
+    ("cases has 0 entries", "inner_loops", ({},)),
+    ("paths has 0 entries, .* 1 to 5 are needed", "wheel_limited_paths", ({}, GOAL)),
+    ("errors has 6 entries", "orders", (STEPS, FIVE)),
+    ("series has 0 entries", "responses", (T, {})),
+    ("a StationaryScatter is needed, not a Pose", "scatter", (ENDS,)),
+    ("a Pose is needed", "end_poses", ((1, 2, 3), GOAL, 0.1)),
+    ("paths has 0 entries, .* 1 to 4 are needed", "near_goal", ({}, GOAL)),
+    ("mismatched lengths", "arrival_radii", (RADII, RADII, np.ones(2), 0.5)),
+    (r"share has shape \(3, 2\).*\(2, 3\), one row", "rise_map", (SIGMAS, T[:2], np.ones((3, 2)))),
+    ("at most 100", "rise_map", (SIGMAS, T[:2], np.full((2, 3), 101.0))),
+    ("counts has 0 entries", "verdicts", ({},)),
+    ("a Route is needed, not a Pose", "route", (WAY,)),
+    ("a Route is needed", "route_signals", (3,)),
+    ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
+]
+
+
+def test_bad_input_is_named():
+    for message, name, arguments in BAD:
+        with pytest.raises(ValueError, match=message):
+            getattr(figures, name)(*arguments)
+
+
+def test_bad_input_beside_a_run_is_named():
+    for message, make in (
+        ("field = 'speed' .* one of 'v'", lambda: figures.compare_runs({"one": drive()}, "speed")),
+        ("times has 1 entries, .* 2 to 6", lambda: figures.snapshots(drive(), [0.0])),
+        (r"times = .* at most 15\.5", lambda: figures.snapshots(drive(), [0.0, 99.0])),
+        (
+            "mismatched lengths",
+            lambda: figures.residual_curve(LIMITS, LEFT[:2], predict, published=0.1),
+        ),
+        (
+            r"one x = 0\.0 is not allowed",
+            lambda: figures.tradeoff({"one": (0.0, 1.0)}, (1, 1, "a"), xlabel="", ylabel=""),
+        ),
+        ("driven has no sample", lambda: figures.route(route("lost"))),
+    ):
+        with pytest.raises(ValueError, match=message):
+            make()
+    for background in ((np.ones(3), np.ones(2)), (np.ones(5), np.ones(1)), np.zeros((5, 2)), 5):
+        with pytest.raises(ValueError, match=PAIR):
+            figures.route(route("mixed"), background)
+    with pytest.raises(ValueError, match=r"background = .* is not allowed: a finite number"):
+        figures.route(route("mixed"), (["a"], ["b"]))

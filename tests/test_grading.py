@@ -1,0 +1,135 @@
+"""The checks of the assignments: who is right passes, who is wrong reads a hint that says why.
+
+The answers stand in tests/data/course, a file a chapter:
+- `mistake`: usual mistakes as whole cells, with exactly the graded cells that each loses;
+- `right`: other right answers, `wrong`: other wrong ones, {part of the hint: answer or answers},
+  each for a task or for one graded cell. An answer is a cell, or stands at the {} of its `frame`
+  (without one: it is what the task's name gets), or is an edit `old => new` of the first right one;
+- `setup`: what these two may use.
+"""
+
+import inspect
+import math
+import re
+
+import numpy as np
+import pytest
+import sympy as sp
+from graded import (
+    ASSIGNMENTS,
+    answers,
+    cells,
+    lost,
+    released,
+    task_of,
+    tasks,
+    wrong_answers,
+)
+
+from wmrbook import grading
+from wmrbook.grading import Hint, Passed
+
+chapters = pytest.mark.parametrize("chapter", ASSIGNMENTS)
+MODULES = [name for name in dir(grading) if name.islower() and not name.startswith("_")]
+
+
+def whole(chapter: str, key: str, answer: str) -> str:
+    """The cell that an answer in the table stands for."""
+    task, data = task_of(chapter, key), answers(chapter)
+    target = re.match(r"(?:def )?(\w+)", cells(chapter)[task][0])[1]
+    if not re.search(rf"^(def )?{target}\b *[(=]", answer, re.M):
+        frames = data.get("frame", {})
+        frame = frames.get(key) or frames.get(task) or target + " = {}"
+        old, edit, new = answer.partition(" => ")
+        answer = frame.replace("{}", data["right"][task][0] if edit else answer)
+        assert old in answer
+        answer = answer.replace(old, new) if edit else answer
+    return data.get("setup", "") + answer
+
+
+@chapters
+def test_the_model_passes_and_the_release_does_not(chapter):
+    assert 2 <= len(tasks(chapter)) <= 4
+    for task in tasks(chapter):
+        model, _ = cells(chapter)[task]
+        assert lost(chapter, task, model) == {}
+        empty = lost(chapter, task, released(model))
+        assert list(empty) == tasks(chapter)[task]
+        assert all(re.search("not written yet|no value yet", each) for each in empty.values())
+
+
+@chapters
+def test_usual_mistakes_lose_exactly_their_points_with_their_hint(chapter):
+    made, found = [], {}
+    for wrong in wrong_answers(chapter):
+        made.append(wrong["cell"])
+        hints = lost(chapter, wrong["cell"], wrong["source"])
+        exactly = list(hints) == wrong["loses"] and any(wrong["hint"] in h for h in hints.values())
+        if not exactly or not all(each.startswith("Hint: ") for each in hints.values()):
+            found[wrong["name"]] = hints
+    assert found == {}
+    assert all(made.count(task) >= 2 for task in tasks(chapter))
+
+
+@chapters
+def test_right_answers_pass_in_whatever_form(chapter):
+    for key, right in answers(chapter)["right"].items():
+        for answer in right:
+            assert lost(chapter, key, whole(chapter, key, answer)) == {}, answer
+
+
+@chapters
+def test_hints_name_what_is_wrong(chapter):
+    found = {}
+    for key, table in answers(chapter)["wrong"].items():
+        for hint, wrong in table.items():
+            for answer in [wrong] if isinstance(wrong, str) else wrong:
+                hints = lost(chapter, key, whole(chapter, key, answer)).values()
+                if not any(hint in each for each in hints):
+                    found[key, answer] = list(hints)
+                assert all(each.startswith("Hint: ") for each in hints), hints
+    assert found == {}
+
+
+@chapters
+def test_every_task_has_other_answers(chapter):
+    for table in ("right", "wrong"):
+        assert {task_of(chapter, key) for key in answers(chapter)[table]} == set(tasks(chapter))
+
+
+NONSENSE = [
+    *(None, ..., 1.5, math.nan, math.inf, 1e308, 1e-308, 10**400, 1j, np.complex128(1 + 2j)),
+    *("1.5", True, np.array(True), dict, sp.Symbol("x"), {1.0}, {1.0, 2.0}, {1.0: 1.0, 2.0: 2.0}),
+    *((1.0, 2.0, 3.0, 4.0), [0.0, 0.0, 0.0], (-1e300, -1e300), np.ones((2, 2)), np.array([1.0, 0])),
+]
+
+
+@pytest.mark.parametrize("module", MODULES)
+def test_nonsense_is_answered_by_a_hint(module):
+    module = getattr(grading, module)
+    checks = [
+        check
+        for name, check in inspect.getmembers(module, inspect.isfunction)
+        if check.__module__ == module.__name__ and not name.startswith("_")
+    ]
+    assert len(checks) > 2
+    for check in checks:
+        assert inspect.getdoc(check)
+        assert check.__annotations__["return"] == "Passed"
+        for value in NONSENSE:
+            given = (value, lambda *_, v=value: v, lambda v=value: v, lambda *_, v=value: [v] * 2)
+            for answer in given:
+                with pytest.raises(Hint) as found:
+                    check(answer)
+                assert len(str(found.value)) < 400
+
+
+def test_every_graded_cell_calls_a_check_of_its_own():
+    called = [
+        re.fullmatch(r"grading\.(\w+\.\w+)\(\w+\)", cells(chapter)[name][0])[1]
+        for chapter in ASSIGNMENTS
+        for names in tasks(chapter).values()
+        for name in names
+    ]
+    assert len(called) == len(set(called)) > 70
+    assert Passed("as it is").__repr__() == "as it is"

@@ -1,0 +1,63 @@
+"""The wheel: what it carries, and that README's ten lines run where only the wheel is installed."""
+
+import os
+import re
+import subprocess
+import sys
+from pathlib import Path
+from zipfile import ZipFile
+
+import pytest
+
+ROOT = Path(__file__).resolve().parents[1]
+WANTED = {
+    "wmrlib/__init__.pyi",
+    "wmrlib/py.typed",
+    "wmrlib/_loops/polar.py",
+    "wmrlib/tracks/gpx.py",
+    "wmrlib/explorer/js/explorer.js",
+    "wmrlib/explorer/js/panel.css",
+    "wmrlib/symbolic/c/wmr_law.h",
+    "wmrlib/symbolic/c/example.c",
+    "wmrbook/__init__.py",
+    "wmrbook/figures/robot.py",
+}
+
+
+@pytest.fixture(scope="module")
+def wheel(tmp_path_factory):
+    folder = tmp_path_factory.mktemp("wheel")
+    command = [sys.executable, "-m", "hatchling", "build", "-t", "wheel", "-d", folder]
+    subprocess.run(command, cwd=ROOT, check=True, capture_output=True)
+    (built,) = folder.glob("*.whl")
+    return ZipFile(built)
+
+
+def test_it_has_the_packages_and_nothing_else(wheel):
+    files = {name for name in wheel.namelist() if not name.endswith(".pyc")}
+    assert files >= WANTED
+    (metadata,) = {name.split("/")[0] for name in files} - {"wmrlib", "wmrbook"}
+    assert re.fullmatch(r"wmrlib-[\d.]+\.dist-info", metadata)
+    in_the_tree = {
+        path.relative_to(base).as_posix()
+        for base, package in ((ROOT, "wmrlib"), (ROOT / "book", "wmrbook"))
+        for path in (base / package).rglob("*.py")
+    }
+    assert {name for name in files if name.endswith(".py")} == in_the_tree
+
+
+def test_the_readmes_ten_lines_run_from_it(wheel, tmp_path):
+    wheel.extractall(tmp_path / "site")
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    (lines,) = re.findall(r"```python\n(.*?)```", readme, re.DOTALL)
+    done = subprocess.run(
+        [sys.executable, "-c", f"{lines}\nprint(wmr.__file__)"],
+        cwd=tmp_path,
+        env=os.environ | {"PYTHONPATH": str(tmp_path / "site")},
+        capture_output=True,
+        text=True,
+        check=True,
+    )
+    *printed, file = done.stdout.splitlines()
+    assert printed
+    assert Path(file).is_relative_to(tmp_path / "site")

@@ -1,0 +1,99 @@
+"""The scatter of a receiver that does not move."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from wmrlib._checks import instance, same_shape
+from wmrlib.geodesy import GeoPoint, local_position, point_at
+
+if TYPE_CHECKING:
+    from wmrlib.tracks import Track
+
+
+@dataclass(frozen=True, eq=False, slots=True)
+class StationaryScatter:
+    """The scatter of a receiver that does not move.
+
+    Parameters
+    ----------
+    mean, n : GeoPoint and int; mean position, number of positions
+    east, north : array (n,), m; each position from the mean
+    std_east, std_north : float, m; standard deviations, with n - 1
+    covariance : array (2, 2), m^2; of (east, north), with n - 1
+    cep, two_drms : float, m; median distance from the mean, 2 sqrt(std_east^2 + std_north^2)
+    """
+
+    mean: GeoPoint
+    n: int
+    east: np.ndarray
+    north: np.ndarray
+    std_east: float
+    std_north: float
+    covariance: np.ndarray
+    cep: float
+    two_drms: float
+
+    def __repr__(self) -> str:
+        return (
+            f"<StationaryScatter: {self.n} positions about {self.mean.lat:.7f} deg N, "
+            f"{self.mean.lon:.7f} deg E; std {self.std_east:.3g} m east, "
+            f"{self.std_north:.3g} m north, CEP {self.cep:.3g} m, 2drms {self.two_drms:.3g} m>"
+        )
+
+
+def stationary_scatter(track: Track | GeoPoint) -> StationaryScatter:
+    """Return the mean position and the scatter about it, right at the date line and the poles too.
+
+    Parameters
+    ----------
+    track : Track, or GeoPoint of arrays
+
+    Returns
+    -------
+    StationaryScatter, in the local frame of the mean
+
+    Raises
+    ------
+    ValueError : fewer than two positions, or positions all over the Earth
+    """
+    points = instance("track", getattr(track, "points", track), GeoPoint)
+    n = math.prod(same_shape(lat=points.lat, lon=points.lon))
+    if n < 2:
+        raise ValueError(f"track has {n} position, which is not allowed: at least 2 are needed")
+    mean = mean_position(points)
+    east, north = (np.ravel(values) for values in local_position(mean, points))
+    covariance = np.cov(east, north)
+    std_east, std_north = np.sqrt(np.diag(covariance)).tolist()
+    return StationaryScatter(
+        mean=mean,
+        n=n,
+        east=east,
+        north=north,
+        std_east=std_east,
+        std_north=std_north,
+        covariance=covariance,
+        cep=float(np.median(np.hypot(east, north))),
+        two_drms=2.0 * math.hypot(std_east, std_north),
+    )
+
+
+def mean_position(points: GeoPoint) -> GeoPoint:
+    """The point from which the positions average to (0, 0) east and north, by Newton steps."""
+    lat, lon = np.broadcast_arrays(np.radians(points.lat), np.radians(points.lon))
+    vectors = np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)
+    x, y, z = (float(np.mean(values)) for values in vectors)
+    if math.hypot(x, y, z) < 0.5:
+        raise ValueError("points all over the Earth have no mean: points on one side are needed")
+    lat, lon = math.atan2(z, math.hypot(x, y)), math.atan2(y, x)
+    mean = GeoPoint(lat=math.degrees(lat), lon=math.degrees(lon))
+    for _ in range(100):
+        east, north = (float(np.mean(values)) for values in local_position(mean, points))
+        mean = point_at(mean, east, north)
+        if math.hypot(east, north) < 1e-7:  # m
+            break
+    return mean

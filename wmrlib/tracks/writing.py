@@ -1,0 +1,136 @@
+"""A path written to GPX and GeoJSON, cut at the date line so that none is drawn round the Earth."""
+
+from __future__ import annotations
+
+import json
+import math
+import os
+import re
+from datetime import UTC, datetime, timedelta
+from itertools import pairwise
+from pathlib import Path
+
+import numpy as np
+
+from wmrlib._checks import Real, instance, real
+from wmrlib.geodesy import GeoPoint, position_list
+
+_DECIMALS = 7  # of a degree: a centimetre
+_NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+
+
+def write_gpx(
+    path: str | os.PathLike,
+    points: GeoPoint,
+    *,
+    t: Real | None = None,
+    begin: datetime | None = None,
+    name: str = "wmrlib",
+) -> None:
+    """Write positions as one track of a GPX 1.1 file, with 7 decimals (a centimetre).
+
+    Parameters
+    ----------
+    path, name : str or PathLike of the file, and str, the track's name
+    points : GeoPoint of arrays; of a driven Trajectory, `point_at(origin, run.x, run.y)`
+    t, begin : array, s after `begin` (one a position, NaN for none), and datetime with a time zone
+
+    Raises
+    ------
+    ValueError : no position, t or begin without the other, t of another length, a begin without a
+        time zone, times outside the years 1 to 9999, or a name that XML can't hold
+    """
+    lat, lon = _rounded(points)
+    if (t is None) != (begin is None):
+        raise ValueError(
+            f"t = {t!r} and begin = {begin!r} are not allowed together: both or none are needed"
+        )
+    times = [None] * lat.size if t is None else _times(t, begin, lat.shape)
+    if _NOT_IN_XML.search(_utf8(name)):
+        raise ValueError(
+            f"name = {name!r} is not allowed: text without control characters is needed"
+        )
+    from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
+
+    lon = np.where(lon == 180.0, -180.0, lon)  # GPX 1.1: below 180
+    gpx, track = GPX(), GPXTrack(name=name)
+    gpx.creator = "wmrlib"
+    gpx.tracks.append(track)
+    for piece in _pieces(lon):
+        places = zip(lat[piece].tolist(), lon[piece].tolist(), piece, strict=True)
+        track.segments.append(
+            GPXTrackSegment([GPXTrackPoint(y, x, time=times[i]) for y, x, i in places])
+        )
+    Path(path).write_bytes(gpx.to_xml(version="1.1").encode())
+
+
+def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmrlib") -> None:
+    """Write positions as a GeoJSON Feature (RFC 7946) with 7 decimals (a centimetre).
+
+    Parameters
+    ----------
+    path, name : str or PathLike of the file, and str, the property "name"
+    points : GeoPoint of arrays; of a driven Trajectory, `point_at(origin, run.x, run.y)`
+
+    Raises
+    ------
+    ValueError : no position, or a name that is no text or that UTF-8 can't hold
+    """
+    lat, lon = _rounded(points)
+    places = np.column_stack([lon, lat])
+    lines = [places[piece].tolist() for piece in _pieces(lon)]
+    for before, after in pairwise(lines):
+        (x, y), (next_x, next_y) = before[-1], after[0]
+        side, gap = math.copysign(180.0, x), 360.0 - abs(next_x - x)
+        share = abs(side - x) / gap if gap > 0.0 else 0.0
+        crossing = round(y + share * (next_y - y), _DECIMALS)
+        before.append([side, crossing])
+        after.insert(0, [-side, crossing])
+    kind, coordinates = "MultiLineString", lines
+    if len(lines) == 1:
+        kind, coordinates = "LineString", lines[0]
+    if lat.size == 1:
+        kind, coordinates = "Point", lines[0][0]
+    feature = {
+        "type": "Feature",
+        "properties": {"name": _utf8(name)},
+        "geometry": {"type": kind, "coordinates": coordinates},
+    }
+    text = json.dumps(feature, ensure_ascii=False, allow_nan=False) + "\n"
+    Path(path).write_bytes(text.encode())
+
+
+def _rounded(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
+    lat, lon = position_list(points)
+    return np.round(lat, _DECIMALS) + 0.0, np.round(lon, _DECIMALS) + 0.0  # no -0.0
+
+
+def _pieces(lon: np.ndarray) -> list[np.ndarray]:
+    """The indices of the positions between one crossing of the date line and the next."""
+    return np.split(np.arange(lon.size), np.flatnonzero(np.abs(np.diff(lon)) > 180.0) + 1)
+
+
+def _times(t: Real, begin: datetime, shape: tuple[int, ...]) -> list[datetime | None]:
+    if instance("begin", begin, datetime).utcoffset() is None:
+        raise ValueError(f"begin = {begin!r} is not allowed: one with its time zone is needed")
+    t = np.atleast_1d(real("t", t, nan=True))
+    if t.shape != shape:
+        raise ValueError(f"mismatched lengths: t has shape {t.shape}, points have shape {shape}")
+    times = []
+    for seconds in t.tolist():
+        try:  # in UTC, so that a change to summer time loses no hour
+            after = None if math.isnan(seconds) else timedelta(seconds=seconds)
+            times.append(None if after is None else begin.astimezone(UTC) + after)
+        except OverflowError:
+            raise ValueError(
+                f"t = {seconds:g} is not allowed: begin + t in the years 1 to 9999 is needed"
+            ) from None
+    return times
+
+
+def _utf8(name: str) -> str:
+    try:
+        instance("name", name, str).encode()
+    except UnicodeEncodeError:
+        raise ValueError(f"name = {name!r} is not allowed: valid Unicode is needed") from None
+    return name
