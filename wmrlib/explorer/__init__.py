@@ -2,16 +2,18 @@
 
 from __future__ import annotations
 
-import ipywidgets as widgets
-
 from wmrlib import paper
-from wmrlib._checks import choice, instance, scalar
-from wmrlib.explorer.controls import DISPLAYS, MENUS, SLIDERS, menu, slider, widen
-from wmrlib.explorer.panel import Panel
+from wmrlib._checks import book_extra, choice, instance, scalar
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate, track
+
+with book_extra("wmrlib.explorer"):
+    import ipywidgets as widgets
+
+    from wmrlib.explorer.controls import DISPLAYS, MENUS, SLIDERS, menu, slider, widen
+    from wmrlib.explorer.panel import Panel
 
 POSE_LAWS = ("corrected", "printed", "aicardi")
 CIRCLE_LAWS = (*POSE_LAWS, "kanayama")

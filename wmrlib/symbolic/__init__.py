@@ -5,6 +5,11 @@ computes, finite at the goal. ``python -m wmrlib.symbolic`` prints `FORMULAS` in
 the C header ``wmr_law.h``.
 """
 
+from wmrlib._checks import book_extra
+
+with book_extra("wmrlib.symbolic"):
+    import sympy  # noqa: F401
+
 from wmrlib.symbolic._c_header import C_HEADER, c_function, c_header
 from wmrlib.symbolic._equations import EQUATIONS
 from wmrlib.symbolic._formulas import C_FORMULAS, FORMULAS, GEODESY, Formula

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real
+from wmrlib._checks import Real, book_extra, instance, real
 from wmrlib.geodesy import GeoPoint, position_list
 
 _DECIMALS = 7  # of a degree: a centimetre
@@ -50,7 +50,8 @@ def write_gpx(
         raise ValueError(
             f"name = {name!r} is not allowed: text without control characters is needed"
         )
-    from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
+    with book_extra("a GPX file"):
+        from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
 
     lon = np.where(lon == 180.0, -180.0, lon)  # GPX 1.1: below 180
     gpx, track = GPX(), GPXTrack(name=name)
