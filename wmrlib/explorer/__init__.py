@@ -2,26 +2,28 @@
 
 from __future__ import annotations
 
-import ipywidgets as widgets
-
 from wmrlib import paper
-from wmrlib._checks import choice, instance, scalar
-from wmrlib.explorer.controls import (
-    DISPLAYS,
-    MENUS,
-    METHODS,
-    SLIDERS,
-    laws_for,
-    menu,
-    slider,
-    widen,
-)
-from wmrlib.explorer.panel import Panel
+from wmrlib._checks import book_extra, choice, instance, scalar
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS
 from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate, track
+
+with book_extra("wmrlib.explorer"):
+    import ipywidgets as widgets
+
+    from wmrlib.explorer.controls import (
+        DISPLAYS,
+        MENUS,
+        METHODS,
+        SLIDERS,
+        laws_for,
+        menu,
+        slider,
+        widen,
+    )
+    from wmrlib.explorer.panel import Panel
 
 VIEWS = ("time", "gains")
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)

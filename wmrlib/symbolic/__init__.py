@@ -5,6 +5,11 @@ no formula is typed twice. ``python -m wmrlib.symbolic`` prints `FORMULAS` into 
 ``model.js`` and `C_FORMULAS` into the C header ``wmr_law.h``.
 """
 
+from wmrlib._checks import book_extra
+
+with book_extra("wmrlib.symbolic"):
+    import sympy  # noqa: F401
+
 from wmrlib.symbolic.c_header import *  # noqa: F403
 from wmrlib.symbolic.formulas import *  # noqa: F403
 from wmrlib.symbolic.javascript import *  # noqa: F403

@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real
+from wmrlib._checks import Real, book_extra, instance, real
 from wmrlib.geodesy import GeoPoint, position_list
 
 _DECIMALS = 7  # of a degree: a centimetre
@@ -47,7 +47,8 @@ def write_gpx(
         raise ValueError(f"{both} are not allowed together: both or none are needed")
     times = [None] * lat.size if t is None else _times(t, begin, lat.shape)
     _check_name(name, _NOT_IN_XML)
-    from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
+    with book_extra("a GPX file"):
+        from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
 
     lon = np.where(lon == 180.0, -180.0, lon)  # GPX 1.1: below 180
     gpx, track = GPX(), GPXTrack(name=name)
