@@ -24,8 +24,7 @@ from wmrlib.laws import saturation_scale
 RK4, EULER = range(2)
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
 _ROUND = 16  # steps between two looks at who has finished
-# The rows of a block. _LEFT counts the steps still to do; its sign turns in the step that would end
-# the run.
+# The rows of a block. _LEFT counts the steps to do; its sign turns when the next would end the run.
 _RHO, _ALPHA, _THETA, _LEFT, _PEAK, _LENGTH, _K_RHO, _K_ALPHA, _H, _V_MAX = range(10)
 _ROWS = 10
 
