@@ -40,6 +40,7 @@ html_title = project
 html_static_path = ["_static"]
 html_css_files = ["book.css"]
 html_show_sphinx = False
+html_domain_indices = False
 # A summary would be made by fetching the page found, which a browser forbids for file://.
 html_show_search_summary = False
 # Light or dark as the reader's system is; the button overrides it.
@@ -58,6 +59,7 @@ copybutton_exclude = ".linenos, .gp"
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_param = napoleon_use_rtype = False
+napoleon_custom_sections = [("Attributes", "params_style")]
 add_module_names = toc_object_entries = False
 
 # MathJax 3 as one file; mathjax.js holds its settings, so MyST must not write any.

@@ -12,15 +12,16 @@ FOOTER = (
     '<p style="width: 100%; text-align: center; font-size: 9px">'
     '<span class="pageNumber"></span></p>'
 )
-PATIENCE = 300_000  # ms: a whole book's formulas
-# Scripts draw the formulas and the widgets; a browser loads pictures further down only on demand.
-READY = """async () => {
+PATIENCE = 300_000  # ms: a whole book
+# Sphinx leaves the state of panels out of a single page, so a sentence stands in for each.
+PREPARE = """async () => {
+    const panel = 'script[type="application/vnd.jupyter.widget-view+json"]';
+    const said = '<p><em>The pages and the notebook have a live panel here.</em></p>';
+    document.querySelectorAll(panel).forEach(it => it.insertAdjacentHTML('afterend', said));
     document.querySelectorAll('details').forEach(it => { it.open = true; });
     document.querySelectorAll('img').forEach(it => { it.loading = 'eager'; });
     await MathJax.startup.promise;
     await Promise.all([...document.images].map(it => it.decode()));
-    return [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')]
-        .every(it => it.parentElement.querySelector('.jupyter-widgets'));
 }"""
 
 
@@ -47,7 +48,7 @@ def print_page(page: Path, pdf: Path) -> None:
         )
         opened = chromium.new_page(color_scheme="light")
         opened.goto(page.as_uri(), wait_until="load", timeout=PATIENCE)
-        opened.wait_for_function(READY, timeout=PATIENCE, polling=500)
+        opened.evaluate(PREPARE)
         margin = {"top": "18mm", "bottom": "18mm", "left": "16mm", "right": "16mm"}
         opened.pdf(
             path=pdf,

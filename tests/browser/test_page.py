@@ -175,5 +175,6 @@ def test_the_printed_book_holds_every_chapter(site):
         assert text.count(title) >= 1, title
         assert f"Exercise {int(chapter.name[:2])}.1" in text
     assert "Bibliography" in text
+    assert "have a live panel here" in text
     assert len(printed) > 10 * len(chapters())
     assert len(list(printed.get_toc())) > 5 * len(chapters())
