@@ -63,6 +63,7 @@ copybutton_exclude = ".linenos, .gp"
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_param = napoleon_use_rtype = False
+napoleon_custom_sections = [("Attributes", "params_style")]
 add_module_names = toc_object_entries = False
 
 # MathJax 3 as one file; mathjax.js holds its settings, so MyST must not write any.
