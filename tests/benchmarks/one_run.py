@@ -1,4 +1,4 @@
-"""One run of 300 steps: wmrlib against python-control, scipy and the loops that one writes by hand."""
+"""One run of 300 steps: wmrlib against python-control, scipy and loops written by hand."""
 
 from __future__ import annotations
 
@@ -19,7 +19,7 @@ NEVER = {"duration": STEPS * DT, "arrival_radius": 0.0}  # all steps are taken
 
 
 def python_control():
-    """The same law as a NonlinearIOSystem in polar coordinates; the formula is wmrlib's compiled one, so that only the tool differs."""
+    """The same law as a NonlinearIOSystem, with wmrlib's formula, so that only the tool differs."""
 
     def update(t, state, inputs, params):
         v_over_rho, omega = pose_law(state[0], state[1], state[2], GAINS, POSE_LAWS["corrected"])
