@@ -14,6 +14,7 @@ HIDDEN = ("_", "layout", "tabbable", "tooltip", "comm", "keys", "log")
 def mounted(page, explorer, width=1280, height=720):
     """Show the explorer in the page, wait for its first picture, and return the Panel to drive it with."""
     page.set_viewport_size({"width": width, "height": height})
+    page.goto("about:blank")  # forgets what was mounted before
     page.set_content(PAGE)
     page.add_script_tag(content=HOST)
     panel = explorer.panel
