@@ -1,8 +1,8 @@
 """Where the robot is, how it moves and how it sees its goal; equations (1) to (10) of the paper.
 
 The local frame has x east and y north. Headings are counter-clockwise from east. The signs of the
-polar error are Aicardi's: Corke and Siegwart write beta = -theta, so that their k_beta < 0 is
-h > 0 here. The formulas stand in `wmrlib.motion`; here they take arrays.
+polar error are Aicardi's: Corke and Siegwart write beta = -theta, and k_beta < 0 for h > 0. The
+formulas stand in `wmrlib.motion`; here they take arrays.
 """
 
 from __future__ import annotations
@@ -48,8 +48,8 @@ class Pose(_PoseFields):
 class PolarError(NamedTuple):
     """The goal as seen from the robot.
 
-    rho: the distance, m. alpha (the paper's A) and theta: the line of sight counted from the
-    robot's and from the goal's heading, rad, in (-pi, pi].
+    rho: the distance, m; alpha (the paper's A), theta: the line of sight counted from the robot's
+    and from the goal's heading, rad, in (-pi, pi].
     """
 
     rho: Real
@@ -81,7 +81,7 @@ def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, 
 
     Raises
     ------
-    ValueError : for NaN, a track width that is not positive, or mismatched lengths.
+    ValueError : for NaN, a width that is not positive, or mismatched lengths.
 
     Equations (1) and (2).
     """
@@ -94,9 +94,9 @@ def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, 
 def twist_to_wheels(v: Real, omega: Real, track_width: float) -> tuple[Real, Real]:
     """The wheels' ground speeds (left, right) in m/s: the inverse of `wheels_to_twist`."""
     v, omega = real("v", v), real("omega", omega)
-    half_width = real("track_width", track_width, above=0.0) / 2.0
-    same_shape(v=v, omega=omega, track_width=half_width)
-    return v - omega * half_width, v + omega * half_width
+    half = real("track_width", track_width, above=0.0) / 2.0
+    same_shape(v=v, omega=omega, track_width=half)
+    return v - omega * half, v + omega * half
 
 
 def wrap_angle(angle: Real) -> Real:
@@ -144,8 +144,7 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
 
     Parameters
     ----------
-    pose : Pose
-    v, omega, dt : float or array; m/s, rad/s, s
+    pose, v, omega, dt : Pose; float or array; m/s, rad/s, s
     method : "arc", the exact solution of (3)-(5), or "euler", the paper's step along the tangent.
 
     Returns

@@ -100,7 +100,7 @@ def _equations() -> dict[int, sp.Basic]:
 EQUATIONS = MappingProxyType(_equations())
 """From the paper's number to the equation as the paper prints it.
 
-They are sympy relations; A is alpha, 90 degrees are pi/2, and (6) and (10) are multiplied out. (10)
-contradicts (8), (23) does not follow from (21), (24) has cos A sin A twice, and (26) does not follow
-from (25).
+They are sympy relations; A is alpha, 90 degrees are pi/2, and (6) and (10) are multiplied out.
+(10) contradicts (8), (23) does not follow from (21), (24) has cos A sin A twice, and (26) does not
+follow from (25).
 """

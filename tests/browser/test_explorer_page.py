@@ -342,8 +342,8 @@ def test_a_screen_reader_finds_names_and_a_summary(browser_page):
     assert browser_page.locator(".wmr-handle[aria-label*='arrow keys']").count() == 4
     panel.put("k_alpha", 3.0)
     browser_page.wait_for_function("""() => {
-        const [heard, shown] = ['[aria-live]', '.wmr-status'].map((it) => document.querySelector(it));
-        return heard.textContent === shown.textContent;
+        const text = (it) => document.querySelector(it).textContent;
+        return text('[aria-live]') === text('.wmr-status');
     }""")
 
 

@@ -13,16 +13,8 @@ from wmrlib.simulation import simulate, track
 with book_extra("wmrlib.explorer"):
     import ipywidgets as widgets
 
-    from wmrlib.explorer.controls import (
-        DISPLAYS,
-        MENUS,
-        METHODS,
-        SLIDERS,
-        laws_for,
-        menu,
-        slider,
-        widen,
-    )
+    from wmrlib.explorer import controls
+    from wmrlib.explorer.controls import METHODS, laws_for, widen
     from wmrlib.explorer.panel import Panel
 
 VIEWS = ("time", "gains")
@@ -98,15 +90,16 @@ class Explorer(widgets.VBox):
         )
         self.links = []
         self.sliders = {
-            name: self._tied(name, slider(name, getattr(self.panel, name)), "value")
-            for name in SLIDERS
+            name: self._tied(name, controls.slider(name, getattr(self.panel, name)), "value")
+            for name in controls.SLIDERS
         }
         self.menus = {
-            name: self._tied(name, menu(name, getattr(self.panel, name)), "index") for name in MENUS
+            name: self._tied(name, controls.menu(name, getattr(self.panel, name)), "index")
+            for name in controls.MENUS
         }
-        controls = widgets.Box([*self.sliders.values(), *self.menus.values()])
-        controls.add_class("wmr-controls")
-        super().__init__([controls, self.panel])
+        box = widgets.Box([*self.sliders.values(), *self.menus.values()])
+        box.add_class("wmr-controls")
+        super().__init__([box, self.panel])
         self.add_class("wmr-explorer")
 
     @classmethod
@@ -150,17 +143,15 @@ class Explorer(widgets.VBox):
     @property
     def law(self) -> str:
         """The law in force, one that this goal allows; setting it moves the menu."""
-        return _law_names(self.moving)[self.menus[self._law_menu].index]
+        menu = self.menus["circle_law" if self.moving else "pose_law"]
+        return _law_names(self.moving)[menu.index]
 
     @law.setter
     def law(self, law: str) -> None:
-        names = _law_names(self.moving)
-        self.menus[self._law_menu].index = names.index(choice("law", law, names))
-        setattr(self.panel, self._law_menu, names.index(law))
-
-    @property
-    def _law_menu(self) -> str:
-        return "circle_law" if self.moving else "pose_law"
+        names, trait = _law_names(self.moving), "circle_law" if self.moving else "pose_law"
+        place = names.index(choice("law", law, names))
+        self.menus[trait].index = place
+        setattr(self.panel, trait, place)
 
     @property
     def start(self) -> Pose:
@@ -202,14 +193,11 @@ class Explorer(widgets.VBox):
             setattr(self.panel, name, value)
 
     def _tied(self, name: str, control, trait: str):
-        self._link((control, trait), (self.panel, name))
-        if display := DISPLAYS.get(name):
+        self.links.append(widgets.jslink((control, trait), (self.panel, name)))
+        if display := controls.DISPLAYS.get(name):
             control.layout.display = getattr(self.panel, display)
-            self._link((self.panel, display), (control.layout, "display"))
+            self.links.append(widgets.jslink((self.panel, display), (control.layout, "display")))
         return control
-
-    def _link(self, source: tuple, target: tuple) -> None:
-        self.links.append(widgets.jslink(source, target))
 
 
 def _moves(reference) -> bool:
