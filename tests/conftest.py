@@ -60,3 +60,10 @@ def pytest_configure(config):
     """Let the kernels of nbval, and of the applications that tests start, talk through files."""
     kernels.use_files()
     os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection(session):
+    """Show the header before the tests are collected, in a pipe too."""
+    if reporter := session.config.pluginmanager.get_plugin("terminalreporter"):
+        reporter.flush()
