@@ -55,7 +55,7 @@ html_theme_options = {
 }
 copybutton_exclude = ".linenos, .gp"
 
-# The API reference. A parameter's type is text, such as "float or array, m", and stands nowhere else.
+# The API reference. A parameter's type is text, such as "float or array, m".
 autodoc_typehints = "none"
 napoleon_google_docstring = False
 napoleon_use_param = napoleon_use_rtype = False

@@ -68,8 +68,19 @@ def wrong_answers(chapter: str) -> list[dict]:
     found = []
     for name, wrong in answers(chapter)["mistake"].items():
         loses = wrong["loses"].split()
-        found.append({**wrong, "name": name, "loses": loses, "cell": task_of(chapter, loses[0])})
+        cell = task_of(chapter, loses[0])
+        source = wrong.get("source") or edited(cells(chapter)[cell][0], wrong["edit"])
+        found.append({**wrong, "name": name, "loses": loses, "cell": cell, "source": source})
     return found
+
+
+def edited(source: str, edits: str | list[str]) -> str:
+    """The source after one or several edits, `old => new`."""
+    for edit in [edits] if isinstance(edits, str) else edits:
+        old, new = edit.split(" => ")
+        assert old in source, edit
+        source = source.replace(old, new)
+    return source
 
 
 def released(source: str) -> str:

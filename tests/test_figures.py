@@ -459,19 +459,18 @@ def test_arcs_begin_and_end_on_their_sides():
         assert np.ptp(np.hypot(x - GOAL.x, y - GOAL.y)) < 1e-9
 
 
-@pytest.mark.parametrize("name", ["polar_angles", "polar_angles, clockwise", "third_angle"])
-def test_no_name_lies_on_the_line_of_sight(name):
-    figure = picture(name).figure
-    figure.canvas.draw()
-    for axes in figure.axes:
-        dashed = (line for line in axes.lines if line.get_linestyle() == "--")
-        ends = axes.transData.transform(next(dashed).get_xydata())
-        points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
-        boxes = [
-            text.get_window_extent() for text in axes.texts if text.get_text() in ("robot", "goal")
-        ]
-        assert len(boxes) == 2
-        assert not any(box.contains(*point) for box in boxes for point in points)
+def test_no_name_lies_on_the_line_of_sight():
+    for name in ("polar_angles", "polar_angles, clockwise", "third_angle"):
+        figure = picture(name).figure
+        figure.canvas.draw()
+        for axes in figure.axes:
+            dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
+            ends = axes.transData.transform(dashed.get_xydata())
+            points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
+            names = [text for text in axes.texts if text.get_text() in ("robot", "goal")]
+            assert len(names) == 2
+            boxes = [text.get_window_extent() for text in names]
+            assert not any(box.contains(*point) for box in boxes for point in points), name
 
 
 def test_paths_and_angles_are_those_of_the_runs():
@@ -611,26 +610,20 @@ def test_the_crosses_are_the_roots():
     np.testing.assert_allclose(cross.get_xdata(), roots.real)
 
 
-@pytest.mark.parametrize(
-    ("over", "values", "course"),
-    [
+def test_a_locus_says_its_course_and_no_label_lies_across_the_left_axis():
+    meeting = "The two poles meet at -0.50, and the pair then runs straight up and down."
+    for over, values, course in (
         ("k_alpha", np.linspace(0.1, 2.0, 20), "The pair runs on a circle of 4.38 rad/s. At"),
         ("k_alpha", np.array([10.0, 20.0]), "Both poles stay real."),
         ("h", np.array([0.1, 1.0]), "The pair runs straight up and down at -0.50."),
-        (
-            "h",
-            np.geomspace(1e-4, 1.0, 100),
-            "The two poles meet at -0.50, and the pair then runs straight up and down.",
-        ),
-    ],
-)
-def test_a_locus_says_its_course_and_no_label_lies_across_the_left_axis(over, values, course):
-    found = figures.root_locus(GAINS, over, values)
-    assert course in found.alt
-    found.png()
-    axes = found.figure.axes[0]
-    for box in (text.get_window_extent() for text in axes.texts):
-        assert box.x0 > axes.bbox.x0 or box.x1 < axes.bbox.x0
+        ("h", np.geomspace(1e-4, 1.0, 100), meeting),
+    ):
+        found = figures.root_locus(GAINS, over, values)
+        assert course in found.alt
+        found.png()
+        axes = found.figure.axes[0]
+        for box in (text.get_window_extent() for text in axes.texts):
+            assert box.x0 > axes.bbox.x0 or box.x1 < axes.bbox.x0, course
 
 
 def test_a_portrait_counts_the_turns_of_the_tangent():

@@ -1,10 +1,11 @@
 """The checks of the assignments: who is right passes, who is wrong reads a hint that says why.
 
 The answers stand in tests/data/course, a file a chapter:
-- `mistake`: usual mistakes as whole cells, with exactly the graded cells that each loses;
+- `mistake`: usual mistakes as whole cells or as edits `old => new` of the model's, with exactly
+  the graded cells that each loses;
 - `right`: other right answers, `wrong`: other wrong ones, {part of the hint: answer or answers},
   each for a task or for one graded cell. An answer is a cell, or stands at the {} of its `frame`
-  (without one: it is what the task's name gets), or is an edit `old => new` of the first right one;
+  (without one: it is what the task's name gets), or is an edit of the first right one;
 - `setup`: what these two may use.
 """
 
@@ -19,6 +20,7 @@ from graded import (
     ASSIGNMENTS,
     answers,
     cells,
+    edited,
     lost,
     released,
     task_of,
@@ -40,10 +42,10 @@ def whole(chapter: str, key: str, answer: str) -> str:
     if not re.search(rf"^(def )?{target}\b *[(=]", answer, re.M):
         frames = data.get("frame", {})
         frame = frames.get(key) or frames.get(task) or target + " = {}"
-        old, edit, new = answer.partition(" => ")
-        answer = frame.replace("{}", data["right"][task][0] if edit else answer)
-        assert old in answer
-        answer = answer.replace(old, new) if edit else answer
+        if " => " in answer:
+            answer = edited(frame.replace("{}", data["right"][task][0]), answer)
+        else:
+            answer = frame.replace("{}", answer)
     return data.get("setup", "") + answer
 
 

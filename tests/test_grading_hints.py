@@ -83,16 +83,8 @@ def by_a_helper(*_):
     return by_module()
 
 
-def law_by_name(*polar):
-    return control_law(*polar, GAINS)
-
-
 def law_by_module(*polar):
     return wmr.control_law(*polar, GAINS)
-
-
-def law_by_submodule(*polar):
-    return wmrlib.control.control_law(*polar, GAINS)
 
 
 def law_by_another_name(*polar):
@@ -111,10 +103,6 @@ def law_by_a_name_imported_inside(*polar):
     return (lambda: mine(*polar, GAINS))()
 
 
-def law_by_a_helper(*polar):
-    return law_by_an_import_inside(*polar)
-
-
 def rule_of_the_book(computed, printed):
     return wmrbook.audit.fits(computed, paper.Published(float(printed), "", ""))
 
@@ -123,7 +111,7 @@ def test_a_call_of_the_libraries_is_found_in_any_way():
     own = "this task asks for your own formula, with `math` or `numpy`"
     allowed = [function for name, function in globals().items() if name.startswith("by_")]
     laws = [function for name, function in globals().items() if name.startswith("law_by_")]
-    assert (len(allowed), len(laws)) == (6, 7)
+    assert (len(allowed), len(laws)) == (6, 4)
     for function in allowed:
         assert function() == (1.0, 0.0, 0.0)
         _hints.own_work(function, *ALLOWED)

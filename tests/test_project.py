@@ -1,6 +1,8 @@
 """What the repository promises of itself: the locks, the README's commands, the chapters' form."""
 
 import re
+import subprocess
+import sys
 import tomllib
 from pathlib import Path
 
@@ -9,10 +11,17 @@ import pytest
 from packaging.requirements import Requirement
 from pybtex.database import parse_file
 
+from wmrlib.explorer import panel
+
 ROOT = Path(__file__).parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
 BOOK = ROOT / "book"
-CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+CHAPTERS = {
+    path.stem: nbformat.read(path, as_version=4)
+    for path in sorted((ROOT / "notebooks").glob("*.ipynb"))
+}
+VIEW = "application/vnd.jupyter.widget-view+json"
+STATE = "application/vnd.jupyter.widget-state+json"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
@@ -40,31 +49,60 @@ def test_a_lock_pins_every_direct_dependency_within_its_range(lock, extras):
 
 def test_the_readmes_commands_name_files_that_exist():
     commands = [line.strip() for line in README.splitlines() if "-m venv" in line]
-    assert [("jupyter lab" in line, "pytest" in line) for line in commands] == [
-        (True, False)
-    ] * 2 + [(False, True)] * 2
-    for line in README.splitlines():
-        for name in re.findall(
-            r"^    .*?(?:-r |lab |python |paths=)([\w.\\/-]+[./\\][\w.\\/-]+)", line
-        ):
-            assert (ROOT / name.replace("\\", "/")).exists(), name
+    kinds = [("jupyter lab" in line, "pytest" in line) for line in commands if "&&" in line]
+    assert kinds == [(True, False)] * 2 + [(False, True)] * 2
+    shell = "\n".join(line for line in README.splitlines() if line.startswith("    "))
+    named = re.findall(r"(?:-r |python |config=|paths=)(\w[\w.\\/-]+)", shell)
+    named = [name.replace("\\", "/") for name in named]
+    assert {"environment.txt", "book/lab/jupyter_lab_config.py"} < set(named)
+    for name in [*named, *re.findall(r"\]\((?!http)([^)]+)\)", README)]:
+        assert (ROOT / name).exists(), name
 
 
-def prose(path):
-    return "\n".join(
-        cell.source
-        for cell in nbformat.read(path, as_version=4).cells
-        if cell.cell_type == "markdown"
-    )
+def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
+    (lines,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
+    place, arrival = re.findall(r"  # (.*)", lines)
+    names = {}
+    exec(lines, names)
+    assert capsys.readouterr().out.strip() == arrival
+    assert f"{names['east']:.2f} m, {names['north']:.2f} m" == place
+
+
+@pytest.mark.parametrize(
+    ("part", "package"),
+    [
+        ("wmrlib.explorer", "anywidget"),
+        ("wmrlib.plots", "matplotlib"),
+        ("wmrlib.symbolic", "sympy"),
+        ("wmrbook", "filelock"),
+    ],
+)
+def test_a_part_without_its_package_says_what_to_install(part, package):
+    code = f"import sys; sys.modules['{package}'] = None; import {part}"
+    done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
+    wanted = f'{part} needs {package}: pip install "wmrlib[book]"'
+    assert done.stderr.splitlines()[-1] == f"ImportError: {wanted}"
+
+
+def prose(chapter):
+    cells = CHAPTERS[chapter].cells
+    return "\n".join(cell.source for cell in cells if cell.cell_type == "markdown")
+
+
+def code(chapter):
+    return [cell for cell in CHAPTERS[chapter].cells if cell.cell_type == "code"]
+
+
+def outputs(chapter, kind):
+    found = [output for cell in code(chapter) for output in cell.outputs]
+    return [output for output in found if kind in output.get("data", {})]
 
 
 def test_each_of_the_papers_equations_is_at_home_in_one_chapter():
-    homes = [
-        int(number)
-        for path in CHAPTERS
-        for number in re.findall(r"\\tag\{[\d.]+, paper (\d+)\}", prose(path))
+    tags = [
+        tag for name in CHAPTERS for tag in re.findall(r"\\tag\{[\d.]+, paper (\d+)\}", prose(name))
     ]
-    assert sorted(homes) == list(range(1, 27))
+    assert sorted(map(int, tags)) == list(range(1, 27))
 
 
 def test_every_work_that_is_cited_is_in_the_bibliography_and_every_work_there_is_cited():
@@ -83,42 +121,69 @@ def test_every_work_that_is_cited_is_in_the_bibliography_and_every_work_there_is
         assert addresses[key] in cited if addresses[key] else by_name, f"{key} is cited nowhere"
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
-class TestChapter:
-    def test_cells_are_small_and_executed_in_order(self, path):
-        code = [
-            cell for cell in nbformat.read(path, as_version=4).cells if cell.cell_type == "code"
-        ]
-        assert [cell.execution_count for cell in code] == list(range(1, len(code) + 1))
-        assert all(len(cell.source.splitlines()) <= 20 for cell in code)
+def test_a_chapters_cells_are_small_and_were_run_in_order():
+    for name in CHAPTERS:
+        for count, cell in enumerate(code(name), start=1):
+            lines = cell.source.splitlines()
+            assert cell.execution_count == count, name
+            assert len(lines) <= 20, f"{name}: {lines[0]}"
+            assert max(map(len, lines)) <= 92, f"{name}: {lines[0]}"
 
-    def test_it_has_objectives_and_a_summary(self, path):
+
+def test_a_chapter_has_objectives_exercises_and_a_summary():
+    for name in CHAPTERS:
         for part in ("After this chapter you can", "## Exercises", "## Summary"):
-            assert part in prose(path)
+            assert part in prose(name), name
 
-    def test_each_exercise_has_its_number_and_a_folded_solution(self, path):
-        exercises = re.split(r"^### Exercise ", prose(path), flags=re.MULTILINE)[1:]
-        assert len(exercises) >= 3
+
+def test_an_exercise_has_its_number_and_a_folded_solution():
+    for name in CHAPTERS:
+        exercises = re.split(r"^### Exercise ", prose(name), flags=re.MULTILINE)[1:]
+        assert len(exercises) >= 3, name
         for count, exercise in enumerate(exercises, start=1):
-            assert exercise.startswith(f"{int(path.name[:2])}.{count}: ")
-            assert (
-                exercise.count("<details><summary>Solution</summary>\n\n")
-                == exercise.count("\n\n</details>")
-                == 1
-            )
+            assert exercise.startswith(f"{int(name[:2])}.{count}: ")
+            assert exercise.count("<details><summary>Solution</summary>\n\n") == 1
+            assert exercise.count("\n\n</details>") == 1
 
-    def test_its_equations_are_numbered_in_order(self, path):
-        tags = re.findall(r"\\tag\{(\d+)\.(\d+)", prose(path))
-        assert tags == [(str(int(path.name[:2])), str(count)) for count in range(1, len(tags) + 1)]
 
-    def test_every_picture_has_its_text(self, path):
-        outputs = [
-            output
-            for cell in nbformat.read(path, as_version=4).cells
-            for output in cell.get("outputs", ())
-        ]
-        pictures = [output for output in outputs if "image/png" in output.get("data", {})]
-        assert pictures
-        for picture in pictures:
+def test_a_solutions_code_is_folded_and_stands_below_a_folded_heading():
+    for name, notebook in CHAPTERS.items():
+        heading = None
+        for cell in notebook.cells:
+            if cell.cell_type == "markdown" and cell.source.startswith("#"):
+                heading = cell
+            solution = "hide-cell" in cell.metadata.get("tags", ())
+            folded = heading.metadata.get("jp-MarkdownHeadingCollapsed", False)
+            assert cell is heading or solution == folded, f"{name}: {cell.source}"
+            if solution:
+                assert heading.source.startswith("### Exercise ")
+                assert cell.metadata.jupyter == {"source_hidden": True, "outputs_hidden": True}
+
+
+def test_a_chapters_equations_are_numbered_in_order():
+    for name in CHAPTERS:
+        tags = re.findall(r"\\tag\{(\d+)\.(\d+)", prose(name))
+        wanted = [(str(int(name[:2])), str(count)) for count in range(1, len(tags) + 1)]
+        assert tags == wanted, name
+
+
+def test_every_picture_has_its_text():
+    for name in CHAPTERS:
+        assert outputs(name, "image/png"), name
+        for picture in outputs(name, "image/png"):
             assert len(picture.metadata["image/png"]["alt"]) > 60
             assert picture.data["text/html"].startswith('<img alt="')
+
+
+def test_the_stored_panels_are_those_of_now():
+    """Else run book/tools/run.py: without their state a reader sees no panel before it is run."""
+    now = panel.Panel()
+    for name, notebook in CHAPTERS.items():
+        state = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
+        shown = {output.data[VIEW]["model_id"] for output in outputs(name, VIEW)}
+        assert shown <= set(state), name
+        drawn = [it["state"] for it in state.values() if it["model_name"] == "AnyModel"]
+        assert len(drawn) == len(shown)
+        for each in drawn:
+            assert each["_esm"] == panel.javascript(), name
+            assert each["_css"] == now._css, name

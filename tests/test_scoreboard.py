@@ -88,9 +88,8 @@ def test_every_single_change_is_found():
     assert "checksum does not fit: a character was changed, lost or added" in repr(mistyped)
 
 
-@pytest.mark.parametrize(
-    ("change", "reason"),
-    [
+def test_an_honest_checksum_does_not_help_a_line_that_is_not_true():
+    for change, reason in (
         (("21.81", "11.81"), "Ada states 11.81 points, but the gains give 21.81"),
         (("21.81", "21.80"), "Ada states 21.80 points"),
         (("name=Ada", "name=%FF"), "the line can't be scored"),
@@ -104,12 +103,10 @@ def test_every_single_change_is_found():
         (("1.089", "1.089,1.000"), "this is no line of the challenge"),
         (("seed=2026", "seed=٢٠٢٦"), "this is no line of the challenge"),
         (("wmr-challenge", "wmr-chalenge"), "this is no line of the challenge"),
-    ],
-)
-def test_an_honest_checksum_does_not_help_a_line_that_is_not_true(change, reason):
-    verdict = verify(signed(body(LINE).replace(*change)))
-    assert not verdict
-    assert re.match(reason, verdict.reason)
+    ):
+        verdict = verify(signed(body(LINE).replace(*change)))
+        assert not verdict, change
+        assert re.match(reason, verdict.reason)
 
 
 @given(st.text())

@@ -1,4 +1,4 @@
-"""The expressions against wmrlib's compiled formulas, against the paper's equations, and the committed JavaScript against both."""
+"""The expressions against wmrlib's compiled formulas and the paper, and what is printed of them."""
 
 from __future__ import annotations
 
@@ -7,13 +7,14 @@ import math
 import numpy as np
 import pytest
 import sympy as sp
-from hypothesis import given, settings
+from hypothesis import given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import symbolic
+from wmrbook import equations
+from wmrbook.equations import EQUATIONS
+from wmrlib import laws, symbolic
 from wmrlib.symbolic import (
-    EQUATIONS,
     L,
     alpha,
     decay,
@@ -31,9 +32,16 @@ from wmrlib.symbolic import (
     v_ref,
 )
 
-POSE_LAWS = ("corrected", "printed", "aicardi")
+POSE_LAWS = tuple(laws.POSE_LAWS)
 ARGUMENTS = (rho, alpha, theta, k_rho, k_alpha, h, v_max, L)
 EXACT = {"rtol": 1e-12, "atol": 1e-12}
+TRACKING = {
+    "kanayama": (wmr.KanayamaGains(1.3, 2.1, 0.7), (k_x, k_y, k_heading)),
+    "linear": (
+        wmr.LinearGains([[1.0, 0.2, 0.3], [-0.4, 2.0, 1.5]]),
+        sp.symbols("v_x v_y v_heading omega_x omega_y omega_heading", real=True),
+    ),
+}
 
 
 def numbers(low, high, *special):
@@ -44,57 +52,53 @@ def numbers(low, high, *special):
 distances = numbers(0.0, 100.0, 0.0, 1e-300, 1e-12, 9.9e-9, 1.1e-8, 1e-4)
 angles = numbers(-math.pi, math.pi, 0.0, 1e-300, -1e-12, 9.9e-9, -1.1e-8, math.pi / 2.0, math.pi)
 gain = numbers(0.01, 5.0)
-states = st.tuples(distances, angles, angles, gain, gain, gain, gain, gain)
 
 
-def lambdified(*expressions):
-    return sp.lambdify(ARGUMENTS, expressions, "numpy")
+def same(a, b):
+    return sp.expand(textbook(a) - textbook(b)) == 0
 
 
-LAWS = {name: lambdified(*symbolic.law(name)) for name in POSE_LAWS}
-LOOPS = {name: lambdified(*symbolic.closed_loop(name)) for name in POSE_LAWS}
-ENERGY = lambdified(symbolic.lyapunov())
-SLOPES = {name: lambdified(symbolic.lyapunov_rate(name)) for name in POSE_LAWS}
-KANAYAMA = sp.lambdify(
-    (rho, alpha, theta, v_ref, omega_ref, k_x, k_y, k_heading), symbolic.law("kanayama"), "numpy"
-)
+@pytest.fixture(scope="module", params=POSE_LAWS)
+def pose(request):
+    """(name, the law's expressions as functions of numbers)."""
+    name = request.param
+    parts = symbolic.law(name), symbolic.closed_loop(name)
+    parts += (symbolic.lyapunov(name),), (symbolic.lyapunov_rate(name),)
+    return name, [sp.lambdify(ARGUMENTS, part, "numpy") for part in parts]
 
 
-@pytest.mark.parametrize("name", POSE_LAWS)
-@settings(deadline=None)  # the first call compiles
-@given(state=states)
-def test_laws_rates_and_lyapunov_functions_equal_wmrlib(name, state):
-    *polar, a, b, c, d, weight = state
-    gains = wmr.Gains(a, b, c, d)
-    twist = wmr.control_law(*polar, gains, law=name)
-    np.testing.assert_allclose(LAWS[name](*state), twist, **EXACT)
+@given(polar=st.tuples(distances, angles, angles), gains=st.tuples(gain, gain, gain, gain), L=gain)
+def test_laws_rates_and_lyapunov_functions_equal_wmrlib(pose, polar, gains, L):
+    name, functions = pose
+    law, rates, value, slope = (function(*polar, *gains, L) for function in functions)
+    tuned = wmr.Gains(*gains)
+    twist = wmr.control_law(*polar, tuned, law=name)
+    np.testing.assert_allclose(law, twist, **EXACT)
     if polar[0] > 1e-200:
-        np.testing.assert_allclose(
-            LOOPS[name](*state), wmr.polar_rate(polar[0], polar[1], *twist), **EXACT
-        )
-    np.testing.assert_allclose(ENERGY(*state)[0], wmr.lyapunov(*polar, c, weight), **EXACT)
+        np.testing.assert_allclose(rates, wmr.polar_rate(*polar[:2], *twist), **EXACT)
+    np.testing.assert_allclose(value[0], wmr.lyapunov(*polar, gains[2], L), **EXACT)
+    np.testing.assert_allclose(slope[0], wmr.lyapunov_rate(*polar, tuned, name, L), **EXACT)
+
+
+@pytest.mark.parametrize("name", TRACKING)
+def test_tracking_laws_equal_wmrlib(name):
+    gains, symbols = TRACKING[name]
+    function = sp.lambdify(
+        (rho, alpha, theta, v_ref, omega_ref, *symbols), symbolic.law(name), "numpy"
+    )
+    random = np.random.default_rng(3)
+    state = random.uniform((0, -3, -3, -2, -2), (9, 3, 3, 2, 2), (500, 5)).T
+    expected = wmr.tracking_law(*state, gains, law=name)
+    np.testing.assert_allclose(function(*state, *gains), expected, **EXACT)
+
+
+def test_arrays_go_through_the_singularities_without_a_warning(pose):
+    name, (law, *_) = pose
+    distance = angle = np.array([0.0, 1e-12, 1.0])
+    expected = wmr.control_law(distance, angle, 0.5, wmr.Gains(2.0, 1.0, 0.3, 4.0), law=name)
     np.testing.assert_allclose(
-        SLOPES[name](*state)[0], wmr.lyapunov_rate(*polar, gains, law=name, L=weight), **EXACT
+        law(distance, angle, 0.5, 2.0, 1.0, 0.3, 4.0, 1.0), expected, **EXACT
     )
-
-
-@settings(deadline=None)  # the first call compiles
-@given(
-    state=st.tuples(
-        distances, angles, angles, numbers(-2.0, 2.0), numbers(-2.0, 2.0), gain, gain, gain
-    )
-)
-def test_kanayama_equals_wmrlib(state):
-    expected = wmr.tracking_law(*state[:5], wmr.KanayamaGains(*state[5:]), law="kanayama")
-    np.testing.assert_allclose(KANAYAMA(*state), expected, **EXACT)
-
-
-def test_arrays_go_through_the_singularities_without_a_warning():
-    distance, angle = np.array([0.0, 1e-12, 1.0]), np.array([0.0, 1e-12, 1.0])
-    for name in POSE_LAWS:
-        v, omega = LAWS[name](distance, angle, 0.5, 2.0, 1.0, 0.3, 4.0, 1.0)
-        expected = wmr.control_law(distance, angle, 0.5, wmr.Gains(2.0, 1.0, 0.3, 4.0), law=name)
-        np.testing.assert_allclose((v, omega), expected, **EXACT)
 
 
 def test_decay_is_finite_and_smooth_at_the_goal():
@@ -103,79 +107,58 @@ def test_decay_is_finite_and_smooth_at_the_goal():
         derivative = decay(rho, k_rho).diff(rho, order) if order else decay(rho, k_rho)
         written = ((1 - sp.exp(-k_rho * rho)) / rho).diff(rho, order)
         assert sp.simplify(derivative.subs(rho, 0) - sp.limit(written, rho, 0)) == 0
-        assert derivative.subs({rho: 0.7, k_rho: 2}).evalf() == pytest.approx(
-            float(written.subs({rho: 0.7, k_rho: 2})), rel=1e-12
-        )
+        point = {rho: 0.7, k_rho: 2}
+        assert derivative.subs(point).evalf() == pytest.approx(float(written.subs(point)))
     assert decay(rho, k_rho).diff(k_rho) == sp.exp(-k_rho * rho)
-    tiny = sp.Float("1e-30", 40)
-    assert (
-        abs(decay(tiny, sp.Integer(2)).evalf(40) - 2 * (1 - tiny)) < 1e-38
-    )  # digits that 1 - exp(-2e-30) has lost
-    assert decay(rho, k_rho).rewrite(sp.exp) == (1 - sp.exp(-k_rho * rho)) / rho
+    tiny = sp.Float("1e-30", 40)  # 1 - exp(-2e-30) has lost all digits
+    assert abs(decay(tiny, sp.Integer(2)).evalf(40) - 2 * (1 - tiny)) < 1e-38
 
 
-# The paper's equations ------------------------------------------------------------------------------------------------
+def test_the_table_knows_which_gains_a_law_ignores():
+    for name, row in laws.LAWS.items():
+        used = {each.name for part in symbolic.law(name) for each in part.free_symbols}
+        assert set(row.gains._fields) - set(row.ignores) <= used
+        assert not used & set(row.ignores)
 
 
-def same(a, b):
-    return sp.expand(textbook(a) - textbook(b)) == 0
+# The paper's equations, which stand in the book's package.
 
 
-def test_every_equation_is_there_and_can_not_be_changed():
+def test_the_equations_against_the_model_and_each_other():
+    """What holds, and that (10), (23), (24) and (26) don't."""
     assert list(EQUATIONS) == list(range(1, 27))
-    with pytest.raises(TypeError):
-        EQUATIONS[24] = EQUATIONS[22]
-
-
-def test_the_model_is_equations_7_to_9():
-    v, omega = symbolic.law()
-    twist = {symbolic.v: v, symbolic.omega: omega}
-    for number, rate in zip((7, 9, 8), symbolic.closed_loop(), strict=True):
-        assert same(EQUATIONS[number].rhs.subs(twist), rate)
-    assert sp.Matrix([EQUATIONS[n].rhs for n in (3, 4, 5)]) == EQUATIONS[6].rhs
-
-
-def test_equation_10_contradicts_8_and_agrees_with_7_and_9():
-    distance, steering, sight = EQUATIONS[10].rhs
-    assert distance == EQUATIONS[7].rhs
-    assert steering == EQUATIONS[9].rhs
-    assert sight == -EQUATIONS[8].rhs
-
-
-def test_the_laws_are_equations_22_and_24():
-    v, omega = symbolic.law("printed")
-    assert same(v, EQUATIONS[22].rhs)
-    assert same(omega, EQUATIONS[24].rhs)
-    assert not same(symbolic.law("corrected")[1], EQUATIONS[24].rhs)
-
-
-def test_the_proof_up_to_21_and_with_the_corrected_law():
-    polar = {EQUATIONS[n].lhs: EQUATIONS[n].rhs for n in (7, 8, 9)}
-    assert same(EQUATIONS[19].rhs.subs(polar), EQUATIONS[20].rhs)
-    assert same(EQUATIONS[20].rhs, EQUATIONS[21].rhs)
-    v, omega = symbolic.law()
-    assert same(
-        EQUATIONS[21].rhs.subs({symbolic.v: v, symbolic.omega: omega}), symbolic.lyapunov_rate()
+    e = {number: EQUATIONS[number].rhs for number in EQUATIONS if number != 23}
+    rates = {EQUATIONS[n].lhs: e[n] for n in (7, 8, 9)}
+    ours, printed = (
+        dict(zip((symbolic.v, symbolic.omega), symbolic.law(name), strict=True))
+        for name in ("corrected", "printed")
     )
-    promised = (
-        -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * sp.cos(alpha) ** 2 - k_alpha * alpha**2
-    )
-    assert same(symbolic.lyapunov_rate(), promised)
-    assert same(symbolic.lyapunov(), EQUATIONS[18].rhs)
-
-
-def test_25_follows_from_21_and_26_does_not_follow_from_25():
-    printed = {symbolic.v: EQUATIONS[22].rhs, symbolic.omega: EQUATIONS[24].rhs}
-    assert same(EQUATIONS[21].rhs.subs(printed), EQUATIONS[25].rhs)
-    assert same(symbolic.lyapunov_rate("printed"), EQUATIONS[25].rhs)
+    loop = dict(zip((7, 9, 8), symbolic.closed_loop(), strict=True))
+    speed = v_max * (1 - sp.exp(-k_rho * rho))
+    promised = -rho / L * speed * sp.cos(alpha) ** 2 - k_alpha * alpha**2
+    holds = {
+        **{f"({n}) is the model": (e[n].subs(ours), rate) for n, rate in loop.items()},
+        "(18)": (e[18], symbolic.lyapunov()),
+        "(19) gives (20)": (e[19].subs(rates), e[20]),
+        "(20) gives (21)": (e[20], e[21]),
+        "(21) with the corrected law": (e[21].subs(ours), symbolic.lyapunov_rate()),
+        "V' is what the proof promises": (symbolic.lyapunov_rate(), promised),
+        "(22)": (printed[symbolic.v], e[22]),
+        "(24) is the printed law": (printed[symbolic.omega], e[24]),
+        "(21) gives (25)": (e[21].subs(printed), e[25]),
+        "(25) is the printed law's": (symbolic.lyapunov_rate("printed"), e[25]),
+    }
+    assert [name for name, sides in holds.items() if not same(*sides)] == []
+    assert sp.Matrix([e[n] for n in (3, 4, 5)]) == e[6]
+    assert list(e[10]) == [e[7], e[9], -e[8]]
+    assert not same(ours[symbolic.omega], e[24])
     point = {rho: 0.5, alpha: 0.4, theta: -2.0, k_rho: 2, k_alpha: 1, h: 0.3, v_max: 4, L: 1}
-    assert abs((EQUATIONS[25].rhs - EQUATIONS[26].rhs).subs(point)) > 0.1
+    assert abs((e[25] - e[26]).subs(point)) > 0.1
 
 
 def test_kanayama_falls_as_its_authors_say():
-    expected = (
-        -k_x * (rho * sp.cos(alpha)) ** 2 - v_ref * k_heading / k_y * sp.sin(alpha - theta) ** 2
-    )
+    ahead, turn = rho * sp.cos(alpha), alpha - theta
+    expected = -k_x * ahead**2 - v_ref * k_heading / k_y * sp.sin(turn) ** 2
     assert sp.expand(symbolic.lyapunov_rate("kanayama") - expected) == 0
     along = symbolic.lyapunov("kanayama").subs({rho: 2, alpha: 0.3, theta: -0.4, k_y: 5})
     assert float(along) == pytest.approx(2.0 + (1.0 - math.cos(0.7)) / 5.0)
@@ -184,103 +167,66 @@ def test_kanayama_falls_as_its_authors_say():
 def test_near_the_goal_the_poles_are_those_of_tuning():
     s, rate = sp.Symbol("s"), v_max * k_rho
     state = sp.Matrix([rho, alpha, theta])
-
-    def polynomial(name):
+    expected = {
+        "corrected": (s + rate) * (s**2 + k_alpha * s + h * rate**2),
+        "aicardi": (s + k_rho) * (s**2 + k_alpha * s + h * k_rho**2),
+        "printed": (s + rate) * s * (s + k_alpha - rate),
+    }
+    for name, polynomial in expected.items():
         matrix = sp.Matrix(symbolic.closed_loop(name)).jacobian(state).subs({rho: 0, theta: 0})
-        return sp.expand(
-            matrix.applyfunc(lambda entry: sp.limit(textbook(entry), alpha, 0))
-            .charpoly(s)
-            .as_expr()
-        )
-
-    assert sp.expand(polynomial("corrected") - (s + rate) * (s**2 + k_alpha * s + h * rate**2)) == 0
-    assert sp.expand(polynomial("aicardi") - (s + k_rho) * (s**2 + k_alpha * s + h * k_rho**2)) == 0
-    assert sp.expand(polynomial("printed") - (s + rate) * s * (s + k_alpha - rate)) == 0
+        matrix = matrix.applyfunc(lambda entry: sp.limit(textbook(entry), alpha, 0))
+        assert sp.expand(matrix.charpoly(s).as_expr() - polynomial) == 0
+        near, a, b = symbolic.FORMULAS[f"{name}_modes"].expanded()
+        assert sp.expand((s + near) * (s**2 + a * s + b) - polynomial) == 0
 
 
-def test_the_geodesy_is_equations_11_to_17():
+def test_geodesy_and_wheels_are_equations_11_to_17_and_1_to_2():
     a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
-    values = {
-        symbolic.lat1: math.radians(a.lat),
-        symbolic.lat2: math.radians(b.lat),
-        symbolic.R: wmr.EARTH_RADIUS_M,
-    }
-    values |= {
-        symbolic.dlat: math.radians(b.lat - a.lat),
-        symbolic.dlong: math.radians(b.lon - a.lon),
-    }
+    values = {symbolic.lat1: math.radians(a.lat), symbolic.lat2: math.radians(b.lat)}
+    values |= {symbolic.R: wmr.EARTH_RADIUS_M, symbolic.dlat: math.radians(b.lat - a.lat)}
+    values[symbolic.dlong] = math.radians(b.lon - a.lon)
     for number in (13, 12, 16, 17, 15):
         values[EQUATIONS[number].lhs] = float(EQUATIONS[number].rhs.subs(values))
-    assert float(EQUATIONS[11].rhs.subs(values)) == pytest.approx(
-        wmr.haversine_distance(a, b), rel=1e-9
-    )
-    assert values[symbolic.br] == pytest.approx(wmr.initial_bearing(a, b), rel=1e-9)
-    sight = math.atan2(*reversed(wmr.local_position(a, b)))
-    assert float(EQUATIONS[14].rhs.subs(values)) == pytest.approx(sight, abs=1e-5)
-
-
-def test_wheels_are_equations_1_and_2():
+    distance, sight = (float(EQUATIONS[number].rhs.subs(values)) for number in (11, 14))
+    assert distance == pytest.approx(wmr.haversine_distance(a, b), rel=1e-9)
+    assert values[equations.br] == pytest.approx(wmr.initial_bearing(a, b), rel=1e-9)
+    assert sight == pytest.approx(math.atan2(*reversed(wmr.local_position(a, b))), abs=1e-5)
     left, right, width, radius = 0.7, 1.2, 0.4, 0.1
-    values = {
-        symbolic.V_l: left,
-        symbolic.V_r: right,
-        symbolic.left_wheel: left / radius,
-        symbolic.right_wheel: right / radius,
-    }
-    values |= {symbolic.r: radius, symbolic.b: width}
-    twist = [float(EQUATIONS[number].rhs.subs(values)) for number in (1, 2)]
+    wheels = {equations.V_l: left, equations.V_r: right, equations.r: radius, symbolic.b: width}
+    wheels |= {equations.left_wheel: left / radius, equations.right_wheel: right / radius}
+    twist = [float(EQUATIONS[number].rhs.subs(wheels)) for number in (1, 2)]
     assert twist == pytest.approx(wmr.wheels_to_twist(left, right, width))
 
 
-@pytest.mark.parametrize(
-    "function", [symbolic.law, symbolic.closed_loop, symbolic.lyapunov, symbolic.lyapunov_rate]
-)
-def test_an_unknown_law_is_a_value_error(function):
-    with pytest.raises(
-        ValueError, match=r"name = 'lqr' is not allowed: one of 'corrected', 'printed', 'aicardi'"
-    ):
-        function("lqr")
+def test_an_unknown_law_is_a_value_error():
+    for name in ("law", "closed_loop", "lyapunov", "lyapunov_rate"):
+        with pytest.raises(ValueError, match=r"name = 'lqr' is not allowed: one of 'corrected', "):
+            getattr(symbolic, name)("lqr")
 
 
-# Printing -------------------------------------------------------------------------------------------------------------
+# Printing
 
 
-def test_the_committed_javascript_is_what_is_printed():
-    assert symbolic.MODEL_JS.read_text(encoding="utf-8") == symbolic.javascript(), (
-        "run python -m wmrlib.symbolic"
-    )
+@pytest.mark.parametrize("name", ["javascript", "c_header"])
+def test_the_committed_file_is_what_is_printed(name):
+    path = {"javascript": symbolic.MODEL_JS, "c_header": symbolic.C_HEADER}[name]
+    printed = getattr(symbolic, name)()
+    assert path.read_text(encoding="utf-8") == printed, "run python -m wmrlib.symbolic"
 
 
-def test_the_printed_circle_and_modes_are_those_of_wmrlib():
+def test_the_printed_motion_and_circle_are_those_of_wmrlib():
+    """The panel's steps, polar error and reference, by their expressions."""
+
     def number(name, *values):
-        arguments, expression, _ = symbolic.FORMULAS[name]
-        return sp.lambdify(arguments, expression, "math")(*values)
+        formula = symbolic.FORMULAS[name]
+        return sp.lambdify(formula.arguments, formula.expanded(), "numpy")(*values)
 
+    pose, goal, twist = (0.3, -1.2, 2.0), (4.0, 5.0, -1.0), (1.5, -0.8, 0.3)
+    for method in ("euler", "arc"):
+        expected = wmr.advance(wmr.Pose(*pose), *twist, method)
+        assert number(f"{method}_step", *pose, *twist) == pytest.approx(list(expected), rel=1e-12)
+    expected = wmr.polar_error(wmr.Pose(*pose), wmr.Pose(*goal))
+    assert number("polar_from_pose", *pose, *goal) == pytest.approx(list(expected), rel=1e-12)
     for time in (0.0, 3.7, 41.0):
-        reference, angle = wmr.paper.circle(time), number("circle_angle", time)
-        printed = [number(f"circle_{name}", angle) for name in ("x", "y", "heading")]
-        assert printed == pytest.approx(reference[:3], abs=1e-12)
-        assert [number("circle_speed"), number("circle_turn")] == pytest.approx(
-            reference[3:], rel=1e-12
-        )
-    for gains in (wmr.Gains(2.0, 1.0, 0.3), wmr.Gains(0.2, 4.0, 0.1)):
-        ours = wmr.modes(gains)
-        assert number("mode_frequency", ours.distance_rate, gains.h) == pytest.approx(
-            ours.natural_frequency
-        )
-        assert number("mode_damping", ours.distance_rate, gains.k_alpha, gains.h) == pytest.approx(
-            ours.damping
-        )
-        assert number("mode_settling", ours.distance_rate, gains.k_alpha, gains.h) == pytest.approx(
-            ours.heading_rate
-        )
-
-
-@pytest.mark.parametrize(("name", "function"), [("small_sinc", np.sinc), ("small_cos", np.cos)])
-def test_the_printed_series_are_good_to_rounding(name, function):
-    angles = np.linspace(1e-6, 0.1, 1001)
-    expected = function(angles / np.pi) if function is np.sinc else function(angles)
-    arguments, series, _ = symbolic.FORMULAS[name]
-    np.testing.assert_allclose(
-        sp.lambdify(arguments, series, "numpy")(angles**2), expected, rtol=4e-16
-    )
+        expected = list(wmr.paper.circle(time))
+        assert number("circle", time) == pytest.approx(expected, rel=1e-12, abs=1e-12)

@@ -457,6 +457,8 @@ def test_a_file_without_a_position_says_why(read, tmp_path):
         ('lat,lon\n1,2\n"3,4\n', "its table is broken"),
         ('{"type": "Polygon"}', "no GeoJSON of points or lines, but of the kind 'Polygon'"),
         ('{"type": ["Point"], "coordinates": [1, 2]}', r"of the kind \['Point'\]"),
+        ('{"type": "LineString", "coordinates": 3}', "its JSON is not read: 'int' object"),
+        ('{"type": "MultiPoint"}', "its JSON is not read: 'coordinates'"),
         ('{"type": "Feature"}', "it is GeoJSON, but holds no position"),
         ("[1, 2]", "of the kind None"),
         ('{"type": "Point", "coordinates": [200, 91]}', "1 latitude not in -90 to 90"),
@@ -689,12 +691,19 @@ def test_bad_input_to_the_writers_and_the_scatter(tmp_path):
             ([0, 1], local, "with its time zone is needed"),
         ]
     ]
-    cases.append((wmr.write_gpx, PAIR, {"name": "a\x00b"}, "without control characters"))
+    cases.append(
+        (
+            wmr.write_gpx,
+            PAIR,
+            {"name": "a\x00b"},
+            r"^name = 'a\\x00b' is not allowed: one without '\\x00'",
+        )
+    )
     for write in (wmr.write_gpx, wmr.write_geojson):
         cases += [
             (write, wmr.GeoPoint(lat=[], lon=[]), {}, "at least one position is needed"),
             (write, [1, 2], {}, "a GeoPoint is needed"),
-            (write, PAIR, {"name": "\ud800"}, r"^name = '\\ud800' is not allowed: valid Unicode"),
+            (write, PAIR, {"name": "\ud800"}, r"^name = '\\ud800' is not allowed: one without"),
             (write, PAIR, {"name": 3}, "a str is needed"),
         ]
     (tmp_path / "old").write_text("as it was")

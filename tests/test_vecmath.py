@@ -1,9 +1,10 @@
-"""The elementary functions against mpmath, to two units in the last place, the removable singularities included.
+"""The elementary functions against mpmath, to two units in the last place, at 0 too.
 
 A unit is 2^-52 of the value. The laws see angles of some turns and rho up to a few hundred metres.
 """
 
 import math
+from types import SimpleNamespace
 
 import mpmath
 import numpy as np
@@ -131,3 +132,13 @@ def test_a_vectorised_law_is_the_law():
         _vecmath.vectorised(law)(3.0, 1e7, -2.0, gains, 0)[0]
     )  # vector_sincos is in it, three calls down
     assert math.isfinite(law(3.0, 1e7, -2.0, gains, 0)[0])
+
+
+def test_the_widest_vectors_are_asked_for_where_llvmlite_can_be_asked():
+    loop = compiled(lambda: _vecmath.widest_vectors(), cache=False)
+    loop()
+    assert '"prefer-vector-width"="512"' in loop.inspect_llvm(())
+    for other in (SimpleNamespace(), SimpleNamespace(attributes=["cold"])):
+        before = repr(other)
+        _vecmath._ask_for_512_bits(other)
+        assert repr(other) == before

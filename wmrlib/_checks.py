@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
 from typing import Any
 
 import numpy as np
@@ -16,6 +17,17 @@ def refusal(name: str, value: Any, needed: str, remark: str = "") -> ValueError:
     text = repr(value)
     shown = text if len(text) <= 80 else text[:77] + "..."
     return ValueError(f"{name} = {shown} is not allowed: {needed} is needed{remark}")
+
+
+@contextmanager
+def book_extra(part: str) -> Iterator[None]:
+    """Say what to install where an import in this block lacks its package."""
+    try:
+        yield
+    except ModuleNotFoundError as error:
+        raise ImportError(
+            f'{part} needs {error.name}: pip install "wmrlib[book]"', name=error.name
+        ) from error
 
 
 def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=False) -> Real:

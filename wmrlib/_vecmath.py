@@ -119,9 +119,8 @@ def decay(rho, k_rho):
 
 
 def _ask_for_512_bits(function) -> None:
-    # Past llvmlite's own `add`, which refuses an attribute with a value. Should llvmlite come to
-    # keep its attributes in another way, the loop is vectorised all the same, only less widely.
-    with suppress(AttributeError, TypeError):
+    with suppress(AttributeError, TypeError):  # without it, loops are vectorised less widely
+        # llvmlite's own `add` refuses an attribute with a value.
         set.add(function.attributes, '"prefer-vector-width"="512"')
 
 

@@ -1,4 +1,4 @@
-"""The numbers a law is tuned with, checked where they are made, in the form that the compiled loops take."""
+"""The gains of the laws, checked where they are made, in the form that compiled loops take."""
 
 from __future__ import annotations
 
@@ -21,11 +21,20 @@ class GainsFields(NamedTuple):
 
 
 class Gains(GainsFields):
-    """The gains of the laws "corrected", "printed" and "aicardi" (which knows no v_max).
+    """The gains of the laws "corrected", "printed" and "aicardi", which has no speed limit.
 
-    k_rho: how fast the speed falls near the goal, 1/m ("aicardi": 1/s); k_alpha: steering towards the goal, 1/s; h: weight of the
-    final heading; v_max: speed limit, m/s. The proof asks for positive gains; 0 is allowed, to see what a gain does. Fields may
-    be arrays that broadcast. Raises ValueError for a negative gain, a v_max that is not positive, NaN or mismatched lengths.
+    The proof asks for positive gains; 0 is allowed, to show what a gain does.
+
+    Parameters
+    ----------
+    k_rho : float or array, 1/m ("aicardi": 1/s). How fast the speed falls near the goal.
+    k_alpha : float or array, 1/s. Steering towards the goal.
+    h : float or array. Weight of the final heading.
+    v_max : float or array, m/s. Speed limit.
+
+    Raises
+    ------
+    ValueError : for a negative gain, a v_max that is not positive, NaN or mismatched lengths.
     """
 
     __slots__ = ()
@@ -40,11 +49,7 @@ class Gains(GainsFields):
             real("v_max", v_max, above=0.0),
         )
 
-    @classmethod
-    def _make(
-        cls, fields: Iterable[Real]
-    ) -> Gains:  # what `_replace` calls; the namedtuple's own would check nothing
-        return cls(*fields)
+    _make = classmethod(lambda cls, fields: cls(*fields))  # `_replace` calls it: checked too
 
 
 GENTLE_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
@@ -58,9 +63,15 @@ class _KanayamaFields(NamedTuple):
 
 
 class KanayamaGains(_KanayamaFields):
-    """The gains of the law "kanayama": k_x in 1/s, k_y in 1/m^2, k_heading in 1/m.
+    """The gains of the law "kanayama".
 
-    Raises ValueError for a negative gain, k_y = 0 or NaN.
+    Parameters
+    ----------
+    k_x, k_y, k_heading : float; 1/s, 1/m^2, 1/m
+
+    Raises
+    ------
+    ValueError : for a negative gain, k_y = 0 or NaN.
     """
 
     __slots__ = ()
@@ -73,11 +84,7 @@ class KanayamaGains(_KanayamaFields):
             real("k_heading", k_heading, low=0.0),
         )
 
-    @classmethod
-    def _make(
-        cls, fields: Iterable[Real]
-    ) -> KanayamaGains:  # what `_replace` calls; the namedtuple's own would check nothing
-        return cls(*fields)
+    _make = classmethod(lambda cls, fields: cls(*fields))  # `_replace` calls it: checked too
 
 
 class _LinearFields(NamedTuple):
@@ -90,9 +97,16 @@ class _LinearFields(NamedTuple):
 
 
 class LinearGains(_LinearFields):
-    """The gains of the law "linear": a 2 x 3 matrix K from the error (ahead in m, to the left in m, heading in rad) to (v, omega).
+    """The gains of the law "linear", such as K = control.lqr(A, B, Q, R)[0].
 
-    Raises ValueError for another shape or NaN. For example K = control.lqr(A, B, Q, R)[0].
+    Parameters
+    ----------
+    matrix : 2 x 3 numbers, from the error (ahead in m, to the left in m, heading in rad) to
+        (v in m/s, omega in rad/s).
+
+    Raises
+    ------
+    ValueError : for another shape or NaN.
     """
 
     __slots__ = ()
@@ -100,9 +114,8 @@ class LinearGains(_LinearFields):
     def __new__(cls, matrix) -> LinearGains:
         entries = real("matrix", matrix)
         if np.shape(entries) != (2, 3):
-            raise ValueError(
-                f"matrix has shape {np.shape(entries)}, which is not allowed: (2, 3) is needed"
-            )
+            shape = np.shape(entries)
+            raise ValueError(f"matrix has shape {shape}, which is not allowed: (2, 3) is needed")
         return super().__new__(cls, *(float(entry) for entry in np.ravel(entries)))
 
     def __getnewargs__(self) -> tuple:  # how it is copied and pickled
@@ -115,14 +128,20 @@ class LinearGains(_LinearFields):
 
 
 class WheelLimits(NamedTuple):
-    """The fastest that either wheel can turn: `track_width`, the distance between the wheels, m; `max_speed` over ground, m/s."""
+    """How fast a wheel can turn.
+
+    Parameters
+    ----------
+    track_width : float, m. The distance between the wheels.
+    max_speed : float, m/s over ground
+    """
 
     track_width: float
     max_speed: float = math.inf
 
 
 class Tuning(NamedTuple):
-    """The gains of every law side by side, as the compiled loops take them; those of the laws not in use are not looked at."""
+    """The gains of every law side by side, as the compiled loops take them."""
 
     pose: Gains
     kanayama: KanayamaGains = KanayamaGains(0.0, 1.0, 0.0)
@@ -134,12 +153,11 @@ NO_TUNING = Tuning(Gains(0.0, 0.0, 0.0))
 
 
 def checked_wheels(limits: WheelLimits | None, name: str = "wheels") -> WheelLimits:
-    """The limits as floats, and limits that never bind for None; raises ValueError, with the argument's name, as `limit_wheels`."""
+    """The limits as floats, with limits that never bind for None; ValueError names the argument."""
     if limits is None:
         return NO_LIMITS
     width, speed = instance(name, limits, WheelLimits)
     width = scalar(f"{name}.track_width", width, above=0.0)
-    unlimited = isinstance(speed, float) and speed == math.inf
-    return WheelLimits(
-        width, math.inf if unlimited else scalar(f"{name}.max_speed", speed, above=0.0)
-    )
+    if not (isinstance(speed, float) and speed == math.inf):
+        speed = scalar(f"{name}.max_speed", speed, above=0.0)
+    return WheelLimits(width, float(speed))

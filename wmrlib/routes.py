@@ -18,6 +18,7 @@ from wmrlib.simulation import simulate
 
 _HAIRPIN = math.pi - 1e-9  # rad: a turn of 180 deg but for rounding
 _APART = 1e-6  # m: GPS points nearer than this are one, and what lies between them is rounding
+_NOWHERE = Arrival(False, math.inf, *[math.nan] * 4)  # of a leg without a sample
 _JOINED = ("t", "x", "y", "heading", "v", "omega", "V")
 
 
@@ -25,13 +26,12 @@ _JOINED = ("t", "x", "y", "heading", "v", "omega", "V")
 class Route:
     """A driven route: its legs, and their samples joined in arrays that can't be written to.
 
-    Where the goal changes, the sample is the next leg's, so that t increases strictly. V falls in
-    each leg by itself and may jump where the goal changes: the proof holds leg by leg.
+    Where the goal changes, the sample is the next leg's, so that t increases strictly; V, which
+    falls in each leg by itself, may jump there.
 
     Parameters
     ----------
-    start, waypoints : Pose and Pose of arrays; all waypoints that were asked for, in order
-    stops : tuple of bool, one a waypoint; False for one that is passed
+    start, waypoints, stops : Pose, Pose of arrays, and one bool a waypoint, False if it is passed
     legs, arrivals : tuples of Trajectory and Arrival, one a leg, up to the first that failed
     outcome : Outcome; ARRIVED if every waypoint was reached, or else the last leg's
     t, x, y, heading, v, omega : arrays, s from the start, m, m, rad in (-pi, pi], m/s, rad/s
@@ -60,8 +60,8 @@ class Route:
         reached = f"{self.reached} of {len(self.stops)} waypoints reached"
         if self.outcome is Outcome.ARRIVED:
             return f"<Route: {reached} in {self.time:.4g} s, {self.length:.4g} m long>"
-        distance = self.arrivals[-1].distance
-        left = f", {distance:.4g} m from its waypoint" if len(self.legs[-1]) else ""
+        distance = f"{self.arrivals[-1].distance:.4g} m"
+        left = f", {distance} from its waypoint" if len(self.legs[-1]) else ""
         return f"<Route: {reached}; leg {len(self.legs)} {self.outcome.message}{left}>"
 
     @property
@@ -83,8 +83,7 @@ class Route:
 def headings_along(x: Real, y: Real) -> np.ndarray:
     """Return headings along a line of points: each bisects the turn at its point.
 
-    The first is the direction of the first leg, the last that of the last. A hairpin of 180 deg is
-    taken to the left. Points that repeat have one heading; with no leg at all it is 0, east.
+    A hairpin of 180 deg is taken to the left. Without any leg the heading is 0, east.
 
     Parameters
     ----------
@@ -113,9 +112,7 @@ def headings_along(x: Real, y: Real) -> np.ndarray:
 
 
 def route_poses(
-    points: GeoPoint,
-    headings: Sequence[float] | np.ndarray | None = None,
-    origin: GeoPoint | None = None,
+    points: GeoPoint, headings: Real | None = None, origin: GeoPoint | None = None
 ) -> Pose:
     """Return GPS points as poses in a local frame, for `drive_route`.
 
@@ -135,7 +132,7 @@ def route_poses(
     """
     lat, lon = position_list(points)
     if origin is None:
-        origin = _first(points)
+        origin = GeoPoint(lat=lat[0], lon=lon[0])
     elif same_shape(lat=instance("origin", origin, GeoPoint).lat, lon=origin.lon):
         raise ValueError(f"origin = {origin!r} is not allowed: a single point is needed")
     east, north = (np.ravel(value) for value in local_position(origin, points))
@@ -171,7 +168,9 @@ def route_points(route: Route, origin: GeoPoint) -> GeoPoint:
     ------
     ValueError : another type
     """
-    return point_at(_first(origin), instance("route", route, Route).x, route.y)
+    lat, lon = position_list(origin)
+    x, y = instance("route", route, Route).x, route.y
+    return point_at(GeoPoint(lat=lat[0], lon=lon[0]), x, y)
 
 
 def drive_route(
@@ -187,12 +186,9 @@ def drive_route(
 ) -> Route:
     """Drive from pose to pose, each leg by `simulate`; a leg that fails is the last.
 
-    A waypoint within whose radius its leg starts is reached at once, by a leg of one sample.
-
     Parameters
     ----------
-    poses : Pose of arrays, one entry a waypoint
-    start : single Pose; by default the first of the poses
+    poses, start : Pose of arrays, and single Pose; the first of the poses by default
     stop : bool, or one a waypoint; False passes all but the last
     duration : float, s; of each leg
     arrival_radius, pass_radius : float, m; within which a stop, or a waypoint passed, is reached
@@ -212,30 +208,21 @@ def drive_route(
         needed = "a list with at least one waypoint besides the start is needed"
         raise ValueError(f"poses have shape {shape}, which is not allowed: {needed}")
     goals = [Pose(*map(float, each)) for each in zip(*listed, strict=True)]
-    if start is None:
-        start = goals.pop(0)
+    start = goals.pop(0) if start is None else start
     stops = _stops(stop, len(goals))
-    arrival_radius = scalar("arrival_radius", arrival_radius, low=0.0)
+    stop_radius = scalar("arrival_radius", arrival_radius, low=0.0)
     pass_radius = scalar("pass_radius", pass_radius, low=0.0)
     pose, legs = start, []
     for goal, stopping in zip(goals, stops, strict=True):
-        radius = arrival_radius if stopping else pass_radius
+        radius = stop_radius if stopping else pass_radius
         leg = simulate(pose, goal, gains, duration=duration, arrival_radius=radius, **options)
         legs.append(leg)
         if leg.outcome is not Outcome.ARRIVED:
             break
         pose = Pose(float(leg.x[-1]), float(leg.y[-1]), float(leg.heading[-1]))
-    return Route(
-        start=start,
-        waypoints=Pose(*np.array(goals).T),
-        stops=stops,
-        legs=tuple(legs),
-        arrivals=tuple(
-            arrival(leg) if len(leg) else Arrival(False, math.inf, *[math.nan] * 4) for leg in legs
-        ),
-        outcome=legs[-1].outcome,
-        **_joined(legs),
-    )
+    waypoints = Pose(*np.array(goals).T)
+    arrivals = tuple(arrival(leg) if len(leg) else _NOWHERE for leg in legs)
+    return Route(start, waypoints, stops, tuple(legs), arrivals, leg.outcome, **_joined(legs))
 
 
 def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
@@ -243,9 +230,7 @@ def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
     # Where a leg ends stands the next one's first sample, whose command moves the robot on.
     kept = np.append(leg[1:] == leg[:-1], True)[: leg.size]
     begins = np.cumsum([0.0, *(each.t[-1] if len(each) else 0.0 for each in legs)])
-    joined = {
-        name: np.concatenate([getattr(each, name) for each in legs])[kept] for name in _JOINED
-    }
+    joined = {k: np.concatenate([getattr(each, k) for each in legs])[kept] for k in _JOINED}
     joined["leg"] = leg[kept]
     joined["t"] += begins[joined["leg"]]
     joined["heading"] = wrap_angle(joined["heading"])  # a start's may be written as 7 rad
@@ -263,8 +248,3 @@ def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
         needed = f"True, False or a list of {count}, one a waypoint, is needed"
         raise ValueError(f"stop = {stop!r} is not allowed: {needed}")
     return tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (count - 1), True)
-
-
-def _first(points: GeoPoint) -> GeoPoint:
-    lat, lon = position_list(points)
-    return GeoPoint(lat=float(lat[0]), lon=float(lon[0]))

@@ -25,7 +25,6 @@ class Outcome(Enum):
 
     @property
     def message(self) -> str:
-        """The sentence."""
         return self.value
 
 

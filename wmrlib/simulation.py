@@ -8,9 +8,9 @@ import numpy as np
 
 from wmrlib._checks import choice, instance, real, refusal, scalar
 from wmrlib._loops import continuous, plane, rows
-from wmrlib.control import POSE_LAWS, TRACKING_LAWS, tuning_of
 from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
+from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
 from wmrlib.runs import Outcome, Trajectory, sample_count, single_pose
 
 _STEPS = {"euler": plane.EULER, "arc": plane.ARC}

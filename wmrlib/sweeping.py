@@ -15,9 +15,9 @@ import numpy as np
 
 from wmrlib._checks import choice, instance, same_shape, scalar
 from wmrlib._loops import plane, polar, rows
-from wmrlib.control import POSE_LAWS
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
+from wmrlib.laws import POSE_LAWS
 from wmrlib.runs import Arrival, sample_count
 
 MOST_RECORDED = 50_000_000

@@ -216,7 +216,7 @@ def pareto(*costs: Real) -> np.ndarray:
 
 
 def _near_goal(gains: Gains, law: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The distance's rate, k_alpha and h."""
+    """The distance's rate, k_alpha and h, as arrays."""
     k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
     rate = k_rho * (v_max if choice("law", law, _LAWS) == "corrected" else 1.0)
     return np.asarray(rate), np.asarray(k_alpha), np.asarray(h)

@@ -1,7 +1,8 @@
-"""What a class costs a server: a student's JupyterLab, the memory and the time of a kernel, chapter by chapter, and readers of an app.
+"""What a class costs a server: memory and time of each chapter's kernel, JupyterLab, and an app.
 
-python tests/benchmarks/classroom.py [--keep]; --keep writes the table to book/classroom.json, which the lecturer's guide shows. It starts a
-kernel for each chapter, JupyterLab, and Voila with readers who all come at once. Memory is what a process has of its own (USS).
+python tests/benchmarks/classroom.py [--keep]; --keep writes the table to book/classroom.json, which
+the lecturer's guide shows. It starts a kernel for each chapter, JupyterLab, and Voila with readers
+who all come at once. Memory is what a process has to itself (USS).
 """
 
 from __future__ import annotations
@@ -101,7 +102,7 @@ def readers() -> list[Row]:
 
 @contextmanager
 def serve(module: str, *options) -> Iterator[tuple]:
-    """A server that is there: its process, its addresses by path, and the seconds it took to start."""
+    """A running server: its process, its addresses by path, and the seconds it took to start."""
     port, token, begin = free_port(), secrets.token_hex(8), time.perf_counter()
     command = [
         sys.executable,

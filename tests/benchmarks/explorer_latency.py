@@ -1,9 +1,11 @@
-"""From a slider's event to the finished picture, side by side in one run: python tests/benchmarks/explorer_latency.py
+"""From a slider's event to the finished picture: python tests/benchmarks/explorer_latency.py
 
-The static page is the book's kind of page: ipywidgets, jslink and the panel, opened from the disk, with the JavaScript that book/tools/build.py
-fetched. In JupyterLab the same panel stands above `ipywidgets.interactive` with a matplotlib figure of the same run, and each is dragged by
-its slider's handle. The clock starts when the page hears of the pointer's step, and stops when the canvas is drawn or the new image is
-loaded. Machines differ and are noisy: quote medians, and the ratios rather than the milliseconds.
+The static page is of the book's kind: ipywidgets, jslink and the panel, opened from the disk, with
+the JavaScript that book/tools/build.py fetched. In JupyterLab the same panel stands above
+`ipywidgets.interactive` with a matplotlib figure of the same run, and each is dragged by its
+slider's handle. The clock starts when the page hears of the pointer's step, and stops when the
+canvas is drawn or the new image is loaded. Machines differ and are noisy: quote medians, and the
+ratios rather than the milliseconds.
 """
 
 from __future__ import annotations
@@ -41,20 +43,31 @@ def show(k_rho=2.0, k_alpha=1.0, h=0.3):
     plt.show()
 ipywidgets.interactive(show, k_rho=(0.05, 5.0), k_alpha=(0.0, 10.0), h=(0.0, 5.0))
 """
-# `heard` is when the page hears of a step, `took` what each step took. A drawing counts for the step before it.
+# `heard` is when the page hears of a step, `took` what each step took. A drawing counts for the
+# step before it.
 STOPWATCH = """() => {
     Object.assign(window, { heard: null, took: [] });
-    addEventListener('pointermove', event => { if (event.buttons && heard === null) heard = performance.now(); }, true);
-    const stop = () => { if (heard !== null) { took.push(performance.now() - heard); heard = null; } };
-    addEventListener('drawn', () => { if (!document.querySelector('.wmr-map').checkVisibility()) stop(); });
-    document.addEventListener('load', event => { if (event.target.tagName === 'IMG') stop(); }, true);
+    addEventListener('pointermove', event => {
+        if (event.buttons && heard === null) heard = performance.now();
+    }, true);
+    const stop = () => {
+        if (heard !== null) took.push(performance.now() - heard);
+        heard = null;
+    };
+    addEventListener('drawn', () => {
+        if (!document.querySelector('.wmr-map').checkVisibility()) stop();
+    });
+    document.addEventListener('load', event => {
+        if (event.target.tagName === 'IMG') stop();
+    }, true);
 }"""
 MAP_STOPWATCH = """() => {
     took = [];
     heard = null;
     addEventListener('keydown', () => { heard = performance.now(); }, true);
     addEventListener('drawn', event => {
-        if (heard === null || event.target.querySelector('.wmr-map').dataset.finished !== 'true') return;
+        const map = event.target.querySelector('.wmr-map');
+        if (heard === null || map.dataset.finished !== 'true') return;
         took.push(performance.now() - heard);
         heard = null;
     });
@@ -62,7 +75,7 @@ MAP_STOPWATCH = """() => {
 
 
 def drag(page, handle, wait: float) -> list[float]:
-    """Drag a slider's handle to the right, step by step, waiting for each picture; returns what each step took, in ms."""
+    """Drag a slider's handle to the right step by step; return what each picture took, in ms."""
     page.evaluate(STOPWATCH)
     box = handle.bounding_box()
     x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
@@ -95,10 +108,13 @@ def static_page(folder: Path) -> Path:
     paths = {**widgets, "anywidget": "vendor/anywidget/index"}
     page = folder / "index.html"
     page.write_text(
-        f"""<!doctype html><html><head><meta charset="utf-8"><script>window.require = {{ paths: {json.dumps(paths)} }};</script>
-        <script src="vendor/requirejs/require.js"></script><script src="vendor/widgets/embed-amd.js"></script></head><body>
+        f"""<!doctype html><html><head><meta charset="utf-8">
+        <script>window.require = {{ paths: {json.dumps(paths)} }};</script>
+        <script src="vendor/requirejs/require.js"></script>
+        <script src="vendor/widgets/embed-amd.js"></script></head><body>
         <script type="application/vnd.jupyter.widget-state+json">{state}</script>
-        <script type="application/vnd.jupyter.widget-view+json">{view[1:-1]}</script></body></html>""",
+        <script type="application/vnd.jupyter.widget-view+json">{view[1:-1]}</script>
+        </body></html>""",
         encoding="utf-8",
     )
     return page

@@ -1,4 +1,4 @@
-"""One run of 300 steps: wmrlib against python-control, scipy and the loops that one writes by hand."""
+"""One run of 300 steps: wmrlib against python-control, scipy and loops written by hand."""
 
 from __future__ import annotations
 
@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from timing import Row, in_turn
 
 import wmrlib as wmr
-from wmrlib.control import CORRECTED, pose_law
 from wmrlib.kinematics import polar_closing_rate
+from wmrlib.laws import POSE_LAWS, pose_law
 
 STEPS, DT = 300, 0.1
 START, GOAL, GAINS, _ = wmr.paper.outdoor()
@@ -19,11 +19,11 @@ NEVER = {"duration": STEPS * DT, "arrival_radius": 0.0}  # all steps are taken
 
 
 def python_control():
-    """The same law as a NonlinearIOSystem in polar coordinates; the formula is wmrlib's compiled one, so that only the tool differs."""
+    """The same law as a NonlinearIOSystem, with wmrlib's formula, so that only the tool differs."""
 
     def update(t, state, inputs, params):
-        pull, omega = pose_law(state[0], state[1], state[2], GAINS, CORRECTED)
-        return polar_closing_rate(state[0], state[1], pull, omega)
+        v_over_rho, omega = pose_law(state[0], state[1], state[2], GAINS, POSE_LAWS["corrected"])
+        return polar_closing_rate(state[0], state[1], v_over_rho, omega)
 
     robot = control.nlsys(update, None, inputs=0, states=3, outputs=3)
     t = DT * np.arange(STEPS + 1)
@@ -33,8 +33,8 @@ def python_control():
 
 def scipy_alone():
     def rate(t, state):
-        pull, omega = pose_law(state[0], state[1], state[2], GAINS, CORRECTED)
-        return polar_closing_rate(state[0], state[1], pull, omega)
+        v_over_rho, omega = pose_law(state[0], state[1], state[2], GAINS, POSE_LAWS["corrected"])
+        return polar_closing_rate(state[0], state[1], v_over_rho, omega)
 
     t = DT * np.arange(STEPS + 1)
     first = list(wmr.polar_error(START, GOAL))
@@ -57,8 +57,8 @@ def loop_of(functions):
             alpha, theta = wrap(sight - heading), wrap(sight - GOAL.heading)
             v = v_max * (1 - exp(-k_rho * rho)) * cos(alpha)
             shape = sin(alpha) / alpha if alpha else 1.0
-            pull = v / rho if rho else v_max * k_rho * cos(alpha)
-            omega = k_alpha * alpha + pull * shape * (alpha + h * theta)
+            v_over_rho = v / rho if rho else v_max * k_rho * cos(alpha)
+            omega = k_alpha * alpha + v_over_rho * shape * (alpha + h * theta)
             path.append(
                 (
                     x,

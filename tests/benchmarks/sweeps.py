@@ -1,4 +1,4 @@
-"""Sweeps of 300 steps in nanoseconds a step: against vectorised C, scalar C, numpy and JAX, and how the cost grows."""
+"""Sweeps of 300 steps, in nanoseconds a step, against C, numpy and JAX, and how the cost grows."""
 
 from __future__ import annotations
 
@@ -17,13 +17,9 @@ import wmrlib as wmr
 os.environ.setdefault(
     "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
 )  # JAX on one core
-GOAL, RUNS, STEPS, DT = (
-    wmr.Pose(9000.0, 9000.0, 0.3),
-    10_000,
-    300,
-    0.02,
-)  # too far to arrive: all steps are taken
-# GCC joins sin(a) and cos(a) to one call that has no vector form: the pass that does so is disabled.
+GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
+RUNS, STEPS, DT = 10_000, 300, 0.02
+# GCC joins sin(a) and cos(a) into one call that has no vector form, unless that pass is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
 BUILDS = {
     "C, scalar (-O3 -march=native)": ("-O3", "-march=native"),
@@ -33,7 +29,7 @@ BUILDS = {
 
 
 def gains(runs: int) -> wmr.Gains:
-    """Different ones, with k_rho small enough for exp(-k_rho rho) to be a normal number: libmvec is slow where it is not."""
+    """Different gains, with k_rho so small that exp(-k_rho rho) is normal: else libmvec is slow."""
     random = np.random.default_rng(0)
     return wmr.Gains(0.02, random.uniform(0.2, 5.0, runs), random.uniform(0.0, 4.0, runs))
 

@@ -1,4 +1,4 @@
-"""How the benchmarks measure: in turn, the best of several repetitions, for machines are noisy and shared."""
+"""How the benchmarks measure: in turn, the best of several rounds, as machines are noisy."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[2]
 
 
 class Row(NamedTuple):
-    """One line of the table; `ratio` is to the line of its section that is named in the section's title."""
+    """One line of the table; the section's title names the line that `ratio` is to."""
 
     section: str
     what: str
@@ -27,7 +27,7 @@ class Row(NamedTuple):
 def in_turn(
     cases: dict[str, Callable], repeat: int = 7, at_least: float = 0.02
 ) -> dict[str, float]:
-    """Seconds of one call of each case: the best of `repeat` rounds, in each of which every case has its turn."""
+    """Seconds of one call of each case: the best of `repeat` rounds, each of all cases in turn."""
     counts = {}
     for name, function in cases.items():
         function()
@@ -45,7 +45,7 @@ def in_turn(
 
 
 def process(statement: str, **environment: str) -> float:
-    """Seconds of a fresh Python process for one statement, timed inside, without Python's own start."""
+    """Seconds of one statement in a fresh Python process, without Python's own start."""
     code = (
         f"import time; begin = time.perf_counter(); {statement}; print(time.perf_counter() - begin)"
     )

@@ -37,6 +37,7 @@ HIDDEN = ("_", "layout", "tabbable", "tooltip", "comm", "keys", "log")
 def mounted(page, explorer, width=1280, height=720):
     """Show the explorer in the page and return the Panel that drives it, once it is drawn."""
     page.set_viewport_size({"width": width, "height": height})
+    page.goto("about:blank")  # forgets what was mounted before
     page.set_content(PAGE)
     page.add_script_tag(content=HOST)
     panel = explorer.panel

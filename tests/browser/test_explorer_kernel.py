@@ -1,4 +1,4 @@
-"""The panel with a kernel, in JupyterLab: Python sees what the hand does, and the hand's sliders move with Python."""
+"""The panel in JupyterLab, with a kernel: Python sees what a hand does, and the reverse."""
 
 from __future__ import annotations
 
@@ -11,7 +11,8 @@ from live import PATIENCE, free_port, serve
 
 TOKEN = "only-for-this-test"
 CELLS = [
-    "from wmrlib.explorer import Explorer\nimport wmrlib as wmr\nexplorer = Explorer(view='gains')\nexplorer",
+    "from wmrlib.explorer import Explorer\nimport wmrlib as wmr\n"
+    "explorer = Explorer(view='gains')\nexplorer",
     "print('seen', explorer.gains, len(explorer.trajectory()), explorer.law, explorer.moving)",
     "explorer.gains, explorer.law = wmr.Gains(1.5, 4.0, 2.5), 'aicardi'",
 ]
@@ -68,7 +69,7 @@ def run(page, cell: int) -> None:
 
 
 def assert_python_sees(page, *words: str) -> None:
-    """Python says so of the explorer, at once or soon: a busy kernel is told of the last step of a drag when it has the time."""
+    """Python says so at once or soon: a busy kernel hears of the end of a drag when it can."""
     for _ in range(20):
         run(page, 1)
         said = page.locator(".jp-OutputArea-output:has-text('seen ')").inner_text(timeout=PATIENCE)

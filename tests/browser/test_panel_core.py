@@ -25,22 +25,28 @@ OUTDOOR = {
 }
 
 
+CALL = """([name, rows, count, gains]) => rows.map((row) => {
+  const given = row.slice(0, count);
+  const tuned = Object.fromEntries(gains.map((gain, i) => [gain, row[count + i]]));
+  if (gains.length) given.splice(3, 0, tuned);
+  return [window[name](...given)].flat();
+})"""
+
+
 def test_each_printed_formula_equals_its_expression(panel_core):
-    for name, (arguments, value, _) in symbolic.FORMULAS.items():
+    for name, formula in symbolic.FORMULAS.items():
         random = np.random.default_rng(7)
-        rows = random.uniform(-3.0, 3.0, (200, len(arguments)))
-        for column, argument in enumerate(arguments):
-            if argument.is_positive or argument.name == "rate":
+        symbols = (*formula.arguments, *formula.gains)
+        rows = random.uniform(-3.0, 3.0, (200, len(symbols)))
+        for column, symbol in enumerate(symbols):
+            if symbol.is_positive:
                 rows[:, column] = 10.0 ** random.uniform(-2.0, 1.0, 200)
-            elif argument.name == "square":
-                rows[:, column] = random.uniform(0.0, 0.01, 200)
-            elif argument.name in ("rho", "alpha", "angle", "theta"):
+            elif symbol.name in ("rho", "alpha", "angle", "theta"):
                 rows[:20, column] = np.repeat([0.0, 1e-12, 9e-9, 1.1e-8], 5)
-        request = [symbolic.javascript_name(name), rows.tolist()]
-        printed = panel_core.evaluate(
-            "([name, rows]) => rows.map((row) => window[name](...row))", request
-        )
-        function = sp.lambdify(arguments, value, "math")
+        gains = [gain.name for gain in formula.gains]
+        request = [symbolic.javascript_name(name), rows.tolist(), len(formula.arguments), gains]
+        printed = panel_core.evaluate(CALL, request)
+        function = sp.lambdify(symbols, formula.expanded(), "math")
         expected = [function(*row) for row in rows]
         np.testing.assert_allclose(printed, expected, rtol=1e-12, atol=1e-12, err_msg=name)
 
@@ -200,7 +206,9 @@ BAD_INPUT = [
 
 
 def test_bad_input_is_named(panel_core):
-    text = "(options) => { try { return simulate(options).n; } catch (error) { return String(error); } }"
+    text = """(options) => {
+        try { return simulate(options).n; } catch (error) { return String(error); }
+    }"""
     for change, message in BAD_INPUT:
         said = panel_core.evaluate(text, OUTDOOR | change)
         assert str(said).startswith(f"RangeError: {message}"), said

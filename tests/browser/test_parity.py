@@ -1,4 +1,4 @@
-"""The panel's JavaScript against wmrlib: every step of every run, whole trajectories, and what they amount to."""
+"""The panel's JavaScript against wmrlib: every step, whole trajectories, and their summaries."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ COLUMNS = ("t", "x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
 ANGLES = ("heading", "alpha", "theta")
 POSE_RUNS, CIRCLE_RUNS, SEED = 1100, 150, 20_240_601
 AGREES = 1e-9  # m and rad
-BELOW = 1e-11  # where the rounding errors that a run carries are predicted to be smaller than this, AGREES is demanded
+BELOW = 1e-11  # AGREES is demanded where the rounding that a run carries is predicted below this
 ROUNDING_M, ROUNDING_RAD = 1e-14, 1e-15  # of one step of a run of some 50 m
 
 # Arrays of doubles as base64: JSON would be four times as long, and would lose NaN.
@@ -31,13 +31,15 @@ SIMULATE_ALL = """([runs, columns]) => {
   let at = 0;
   for (const part of parts) { all.set(part, at); at += part.length; }
   const bytes = new Uint8Array(all.buffer), texts = [];
-  for (let i = 0; i < bytes.length; i += 32768) texts.push(String.fromCharCode.apply(null, bytes.subarray(i, i + 32768)));
+  for (let i = 0; i < bytes.length; i += 32768) {
+    texts.push(String.fromCharCode.apply(null, bytes.subarray(i, i + 32768)));
+  }
   return { ends, data: btoa(texts.join('')) };
 }"""
 
 
 class Run(NamedTuple):
-    """One run in both: `options` for the browser, `ours` wmrlib's trajectory, `theirs` the browser's columns."""
+    """One run in both: `ours` is wmrlib's trajectory, `theirs` the browser's columns."""
 
     options: dict[str, Any]
     ours: wmr.Trajectory
@@ -132,10 +134,11 @@ def _step(run: Run, pose: wmr.Pose, goal: wmr.Pose, v_ref, omega_ref) -> wmr.Pos
 
 
 def _carried_rounding(run: Run) -> tuple[np.ndarray, np.ndarray]:
-    """The rounding errors that wmrlib's own run carries at each sample, of the pose [m, rad] and of the line of sight [rad].
+    """The rounding errors that wmrlib's own run carries, of the pose and of the line of sight.
 
-    Predicted by the linearised step: its Jacobian J along the run takes the errors' covariance P to J P J' plus that of one more
-    rounding. The line of sight is off by the position's error over the distance.
+    Predicted by the linearised step: its Jacobian J along the run takes the errors' covariance P to
+    J P J' plus that of one more rounding. The line of sight is off by the position's error over the
+    distance.
     """
     ours, size = run.ours, 1e-7
     state = np.array([ours.x, ours.y, ours.heading])
@@ -174,11 +177,12 @@ def runs(panel_core):
 
 
 def test_every_step_and_whole_trajectories_equal_those_of_wmrlib(runs):
-    """Each step to rounding, in all runs; whole runs to 1e-9 m and rad, for as long as rounding errors don't grow beyond that.
+    """Each step to rounding; whole runs to 1e-9 m and rad, unless rounding errors outgrow that.
 
-    A run can amplify them without bound: where the sampled loop is unstable (dt v_max k_rho above 2, say), with the printed law near the
-    goal, or with the goal straight behind, where alpha jumps from pi to -pi. There two correct programs disagree, and so they are
-    compared up to the sample at which wmrlib's own rounding error is predicted to pass 1e-11.
+    A run can amplify them without bound: where the sampled loop is unstable (dt v_max k_rho above
+    2, say), with the printed law near the goal, or with the goal straight behind, where alpha jumps
+    from pi to -pi. There two correct programs disagree, so they are compared up to the sample at
+    which wmrlib's own rounding error is predicted to pass 1e-11.
     """
     whole, worst, whole_circle = 0, 0.0, 0
     for run in runs:
@@ -209,7 +213,8 @@ def test_every_step_and_whole_trajectories_equal_those_of_wmrlib(runs):
             )
             _assert_summary(run)
     print(
-        f"{whole} of {POSE_RUNS} runs and {whole_circle} of {CIRCLE_RUNS} on the circle compared to their end; worst deviation {worst:.1e}"
+        f"{whole} of {POSE_RUNS} runs and {whole_circle} of {CIRCLE_RUNS} on the circle compared "
+        f"to their end; worst deviation {worst:.1e}"
     )
     assert whole >= 1000
     assert whole_circle >= 100

@@ -7,8 +7,8 @@ import math
 import numpy as np
 
 from wmrlib._loops import plane, polar, rows
-from wmrlib.control import command, lyapunov_value_of, wheel_share
 from wmrlib.kinematics import Pose, polar_error, pose_from_polar, wrap_angle
+from wmrlib.laws import command, lyapunov_value_of, saturation_scale
 
 _TOLERANCE = {"rtol": 1e-10, "atol": 1e-12}
 
@@ -88,6 +88,6 @@ def _add_commands(record, goal_twist, tuning, law, wheels) -> None:
     for k in range(record.shape[1]):
         rho, alpha, theta = record[rows.RHO : rows.V, k]
         v, omega = command(rho, alpha, theta, *goal_twist[:, k], tuning, law)
-        share = wheel_share(v, omega, wheels)
+        share = saturation_scale(v, omega, wheels)
         record[rows.V, k], record[rows.OMEGA, k] = share * v, share * omega
         record[rows.LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)

@@ -8,8 +8,8 @@ import numpy as np
 
 from wmrlib._compile import compiled
 from wmrlib._loops import rows
-from wmrlib.control import command, lyapunov_value_of, pose_tuning, wheel_share
 from wmrlib.kinematics import arc_step, euler_step, polar_from_pose, wrap
+from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
 
 EULER, ARC = range(2)
 
@@ -19,7 +19,7 @@ def observe(pose, goal, goal_twist, tuning, law, wheels):
     """What the controller sees and commands: (rho, alpha, theta, v, omega)."""
     rho, alpha, theta = polar_from_pose(*pose, *goal)
     v, omega = command(rho, alpha, theta, *goal_twist, tuning, law)
-    share = wheel_share(v, omega, wheels)
+    share = saturation_scale(v, omega, wheels)
     return rho, alpha, theta, share * v, share * omega
 
 

@@ -13,23 +13,22 @@ from functools import lru_cache
 
 import numpy as np
 
-from wmrlib import control, kinematics
+from wmrlib import kinematics, laws
 from wmrlib._compile import compiled, formula
 from wmrlib._loops import rows
 from wmrlib._vecmath import vector_sincos, vectorised, widest_vectors
-from wmrlib.control import wheel_share
 from wmrlib.gains import NO_LIMITS, GainsFields
 from wmrlib.kinematics import polar_from_pose, wrap
+from wmrlib.laws import saturation_scale
 
 RK4, EULER = range(2)
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
 _ROUND = 16  # steps between two looks at who has finished
-# The rows of a block. _LEFT counts the steps still to do; its sign turns in the step that would end
-# the run.
+# The rows of a block. _LEFT counts the steps to do; its sign turns when the next would end the run.
 _RHO, _ALPHA, _THETA, _LEFT, _PEAK, _LENGTH, _K_RHO, _K_ALPHA, _H, _V_MAX = range(10)
 _ROWS = 10
 
-pose_law = vectorised(control.pose_law)
+pose_law = vectorised(laws.pose_law)
 polar_closing_rate = vectorised(kinematics.polar_closing_rate)
 
 
@@ -38,10 +37,12 @@ def closed_loop(polar, loop):
     """(rho', alpha', theta', v, omega): (7)-(9) under one of the pose laws and the wheel limits."""
     rho, alpha, theta = polar
     gains, law, wheels = loop
-    pull, omega = pose_law(rho, alpha, theta, gains, law)
-    share = wheel_share(pull * rho, omega, wheels)
-    rho_rate, alpha_rate, theta_rate = polar_closing_rate(rho, alpha, share * pull, share * omega)
-    return rho_rate, alpha_rate, theta_rate, share * pull * rho, share * omega
+    v_over_rho, omega = pose_law(rho, alpha, theta, gains, law)
+    share = saturation_scale(v_over_rho * rho, omega, wheels)
+    rho_rate, alpha_rate, theta_rate = polar_closing_rate(
+        rho, alpha, share * v_over_rho, share * omega
+    )
+    return rho_rate, alpha_rate, theta_rate, share * v_over_rho * rho, share * omega
 
 
 @compiled

@@ -1,33 +1,46 @@
-"""The live panel: the paper's robot under sliders, in a notebook, an app, slides, or a page without a kernel."""
+"""The live panel: the robot under sliders, in a notebook, slides, or a page without a kernel."""
 
 from __future__ import annotations
 
-import ipywidgets as widgets
-
 from wmrlib import paper
-from wmrlib._checks import choice, instance, scalar
-from wmrlib.explorer.controls import DISPLAYS, MENUS, SLIDERS, menu, slider, widen
-from wmrlib.explorer.panel import Panel
+from wmrlib._checks import book_extra, choice, instance, scalar
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
 from wmrlib.kinematics import Pose
+from wmrlib.laws import LAWS
 from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate, track
 
-POSE_LAWS = ("corrected", "printed", "aicardi")
-CIRCLE_LAWS = (*POSE_LAWS, "kanayama")
-METHODS = ("arc", "euler")
+with book_extra("wmrlib.explorer"):
+    import ipywidgets as widgets
+
+    from wmrlib.explorer import controls
+    from wmrlib.explorer.controls import METHODS, laws_for, widen
+    from wmrlib.explorer.panel import Panel
+
 VIEWS = ("time", "gains")
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 
 
 class Explorer(widgets.VBox):
-    """The robot on its way from `start` to `goal` under sliders for its gains, or after the paper's circle.
+    """The robot on its way from `start` to `goal`, or after the paper's circle, under sliders.
 
-    start, goal: Pose, the paper's outdoor pair by default; gains: Gains, the paper's by default. law: "corrected", "printed", "aicardi",
-    and "kanayama" (with feed-forward) if the goal moves. method: "arc" or "euler", see `simulate`. dt, duration: s; arrival_radius: m.
-    reference: None for a goal that stands still, "circle" (or `paper.circle`) for the paper's moving one. feedback: KanayamaGains.
-    view: "time" or "gains", the landscape. Everything but `trajectory` works without a kernel too. Raises ValueError for anything else.
+    Everything but `trajectory` works without a kernel too.
+
+    Parameters
+    ----------
+    start, goal : Pose; by default the paper's outdoor pair.
+    gains : Gains; by default the paper's.
+    law : "corrected", "printed", "aicardi" or, if the goal moves, "kanayama".
+    method : "arc" or "euler", see `simulate`.
+    dt, duration, arrival_radius : float; s, s, m
+    reference : None for a goal that stands still, "circle" (or `paper.circle`) for the moving one.
+    feedback : KanayamaGains
+    view : "time" or "gains", the gain landscape.
+
+    Raises
+    ------
+    ValueError : for anything else.
     """
 
     def __init__(
@@ -49,12 +62,12 @@ class Explorer(widgets.VBox):
         outdoor = paper.outdoor()
         start = (paper.CIRCLE_START if moving else outdoor.start) if start is None else start
         gains = (paper.CIRCLE_GAINS if moving else outdoor.gains) if gains is None else gains
-        chosen = choice("law", law, CIRCLE_LAWS if moving else POSE_LAWS)
+        names = _law_names(moving)
+        place = names.index(choice("law", law, names))
         dt, duration = scalar("dt", dt, above=0.0), scalar("duration", duration, above=0.0)
-        if not 0 < duration / dt <= 100_000 or dt > duration:
-            raise ValueError(
-                f"dt = {dt:g} is not allowed: from the duration/100000 to the duration, {duration:g}, is needed"
-            )
+        if not duration / dt <= 100_000 or dt > duration:
+            needed = f"from the duration/100000 to the duration, {duration:g},"
+            raise ValueError(f"dt = {dt:g} is not allowed: {needed} is needed")
         home = {
             "scenario": int(moving),
             "start": _three("start", start),
@@ -62,13 +75,13 @@ class Explorer(widgets.VBox):
             **_numbers("gains", gains, Gains),
             **_numbers("feedback", feedback, KanayamaGains),
             "dt": dt,
-            "pose_law": 0 if moving else POSE_LAWS.index(chosen),
-            "circle_law": CIRCLE_LAWS.index(chosen) if moving else 0,
-            "method": METHODS.index(choice("method", method, METHODS)),
+            "pose_law": 0 if moving else place,
+            "circle_law": place if moving else 0,
+            "method": list(METHODS).index(choice("method", method, METHODS)),
         }
         self.panel = Panel(
             **home,
-            **_displays(moving, chosen, choice("view", view, VIEWS) == "gains"),
+            **_displays(moving, place, choice("view", view, VIEWS) == "gains"),
             view=VIEWS.index(view),
             duration=duration,
             arrival_radius=scalar("arrival_radius", arrival_radius, low=0.0),
@@ -77,25 +90,26 @@ class Explorer(widgets.VBox):
         )
         self.links = []
         self.sliders = {
-            name: self._tied(name, slider(name, getattr(self.panel, name)), "value")
-            for name in SLIDERS
+            name: self._tied(name, controls.slider(name, getattr(self.panel, name)), "value")
+            for name in controls.SLIDERS
         }
         self.menus = {
-            name: self._tied(name, menu(name, getattr(self.panel, name)), "index") for name in MENUS
+            name: self._tied(name, controls.menu(name, getattr(self.panel, name)), "index")
+            for name in controls.MENUS
         }
-        controls = widgets.Box([*self.sliders.values(), *self.menus.values()])
-        controls.add_class("wmr-controls")
-        super().__init__([controls, self.panel])
+        box = widgets.Box([*self.sliders.values(), *self.menus.values()])
+        box.add_class("wmr-controls")
+        super().__init__([box, self.panel])
         self.add_class("wmr-explorer")
 
     @classmethod
     def circle(cls, **options) -> Explorer:
-        """The paper's moving goal, on a circle of 4 m radius once round in 40 s; options as for Explorer."""
+        """An Explorer of the paper's moving goal: a circle of 4 m radius, once round in 40 s."""
         return cls(reference="circle", **options)
 
     @property
     def gains(self) -> Gains:
-        """The gains that the sliders show; setting them moves the sliders (and widens one whose range is too small)."""
+        """The gains that the sliders show; setting them moves the sliders."""
         return Gains(*(self.sliders[name].value for name in Gains._fields))
 
     @gains.setter
@@ -113,14 +127,13 @@ class Explorer(widgets.VBox):
 
     @property
     def dt(self) -> float:
-        """The time step, s; setting it moves the slider. Raises ValueError unless it is positive and at most the duration."""
+        """The time step, s, at most the duration; setting it moves the slider."""
         return self.sliders["dt"].value
 
     @dt.setter
     def dt(self, dt: float) -> None:
-        self._set(
-            {"dt": scalar("dt", dt, low=self.panel.duration / 100_000, high=self.panel.duration)}
-        )
+        longest = self.panel.duration
+        self._set({"dt": scalar("dt", dt, low=longest / 100_000, high=longest)})
 
     @property
     def moving(self) -> bool:
@@ -129,20 +142,20 @@ class Explorer(widgets.VBox):
 
     @property
     def law(self) -> str:
-        """The law in force; setting it moves the menu. Raises ValueError for one that this goal doesn't allow."""
-        return CIRCLE_LAWS[self.menus["circle_law" if self.moving else "pose_law"].index]
+        """The law in force, one that this goal allows; setting it moves the menu."""
+        menu = self.menus["circle_law" if self.moving else "pose_law"]
+        return _law_names(self.moving)[menu.index]
 
     @law.setter
     def law(self, law: str) -> None:
-        laws = CIRCLE_LAWS if self.moving else POSE_LAWS
-        name = "circle_law" if self.moving else "pose_law"
-        place = laws.index(choice("law", law, laws))
-        self.menus[name].index = place
-        setattr(self.panel, name, place)
+        names, trait = _law_names(self.moving), "circle_law" if self.moving else "pose_law"
+        place = names.index(choice("law", law, names))
+        self.menus[trait].index = place
+        setattr(self.panel, trait, place)
 
     @property
     def start(self) -> Pose:
-        """Where the robot starts; dragging its handle changes it, and setting it moves the handle."""
+        """Where the robot starts; setting it moves its handle, and dragging the handle sets it."""
         return Pose(*self.panel.start)
 
     @start.setter
@@ -151,7 +164,7 @@ class Explorer(widgets.VBox):
 
     @property
     def goal(self) -> Pose:
-        """The goal that stands still; dragging its handle changes it, and setting it moves the handle."""
+        """The goal that stands still; setting it moves its handle, and dragging that sets it."""
         return Pose(*self.panel.goal)
 
     @goal.setter
@@ -159,40 +172,32 @@ class Explorer(widgets.VBox):
         self.panel.goal = _three("goal", goal)
 
     def trajectory(self) -> Trajectory:
-        """The run that the panel shows, computed by `wmrlib.simulate`, or `wmrlib.track` if the goal moves."""
+        """The run that the panel shows, by `wmrlib.simulate` or `wmrlib.track`."""
         how = {
             "law": self.law,
-            "method": METHODS[self.menus["method"].index],
+            "method": list(METHODS)[self.menus["method"].index],
             "dt": self.dt,
             "duration": self.panel.duration,
         }
         if self.moving:
-            return track(
-                paper.circle,
-                self.start,
-                self.feedback if self.law == "kanayama" else self.gains,
-                **how,
-            )
-        return simulate(
-            self.start, self.goal, self.gains, arrival_radius=self.panel.arrival_radius, **how
-        )
+            gains = self.gains if LAWS[self.law].gains is Gains else self.feedback
+            return track(paper.circle, self.start, gains, **how)
+        radius = self.panel.arrival_radius
+        return simulate(self.start, self.goal, self.gains, arrival_radius=radius, **how)
 
     def _set(self, values: dict[str, float]) -> None:
-        # Both ends of the browser's link, for where there is no browser yet; they agree, so that neither overtakes the other.
+        # Both ends of the browser's link: there may be no browser yet, and neither may lag behind.
         for name, value in values.items():
             widen(self.sliders[name], value)
             self.sliders[name].value = value
             setattr(self.panel, name, value)
 
     def _tied(self, name: str, control, trait: str):
-        self._link((control, trait), (self.panel, name))
-        if display := DISPLAYS.get(name):
+        self.links.append(widgets.jslink((control, trait), (self.panel, name)))
+        if display := controls.DISPLAYS.get(name):
             control.layout.display = getattr(self.panel, display)
-            self._link((self.panel, display), (control.layout, "display"))
+            self.links.append(widgets.jslink((self.panel, display), (control.layout, "display")))
         return control
-
-    def _link(self, source: tuple, target: tuple) -> None:
-        self.links.append(widgets.jslink(source, target))
 
 
 def _moves(reference) -> bool:
@@ -200,9 +205,12 @@ def _moves(reference) -> bool:
         return False
     if reference is paper.circle or (isinstance(reference, str) and reference == "circle"):
         return True
-    raise ValueError(
-        f"reference = {reference!r} is not allowed: None, 'circle' or wmrlib.paper.circle is needed"
-    )
+    needed = "None, 'circle' or wmrlib.paper.circle is needed"
+    raise ValueError(f"reference = {reference!r} is not allowed: {needed}")
+
+
+def _law_names(moving: bool) -> list[str]:
+    return [law["name"] for law in laws_for(moving)]
 
 
 def _three(name: str, pose: Pose) -> list[float]:
@@ -218,31 +226,20 @@ def _numbers(name: str, gains, kind: type) -> dict[str, float]:
 
 
 def _presets() -> list[dict]:
-    outdoor, circle_start = paper.outdoor(), _three("start", paper.CIRCLE_START)
-    start, goal = _three("start", outdoor.start), _three("goal", outdoor.goal)
+    outdoor = paper.outdoor()
+    still, moving = {"scenario": 0, "pose_law": 0}, {"scenario": 1, "circle_law": 0}
+    poses = {"start": _three("start", outdoor.start), "goal": _three("goal", outdoor.goal)}
+    circle = {"start": _three("start", paper.CIRCLE_START), "dt": paper.TIME_STEP}
     return [
-        {
-            "scenario": 0,
-            "start": start,
-            "goal": goal,
-            **outdoor.gains._asdict(),
-            "dt": outdoor.dt,
-            "pose_law": 0,
-        },
-        {
-            "scenario": 1,
-            "start": circle_start,
-            **paper.CIRCLE_GAINS._asdict(),
-            "dt": paper.TIME_STEP,
-            "circle_law": 0,
-        },
-        {"scenario": 0, **GENTLE_GAINS._asdict(), "dt": paper.TIME_STEP, "pose_law": 0},
+        still | poses | outdoor.gains._asdict() | {"dt": outdoor.dt},
+        moving | circle | paper.CIRCLE_GAINS._asdict(),
+        still | GENTLE_GAINS._asdict() | {"dt": paper.TIME_STEP},
     ]
 
 
-def _displays(moving: bool, law: str, mapped: bool) -> dict[str, str]:
+def _displays(moving: bool, place: int, mapped: bool) -> dict[str, str]:
     # As displaysOf in settings.js, for the moment before it runs.
-    forward = law == "kanayama"
-    shown = {"gains": not forward, "limit": not forward and law != "aicardi", "feedback": forward}
+    gains = laws_for(moving)[place]["gains"]
+    shown = {"gains": "k_rho" in gains, "limit": "v_max" in gains, "feedback": "k_x" in gains}
     shown |= {"pose_law": not moving, "circle_law": moving, "map": mapped}
     return {f"{name}_display": "flex" if on else "none" for name, on in shown.items()}

@@ -1,10 +1,12 @@
-"""The panel's sliders and menus: ordinary ipywidgets, named, with units, ranges and a word on what each is for."""
+"""The panel's laws and methods, and its sliders and menus: ordinary ipywidgets."""
 
 from __future__ import annotations
 
 import math
 
 import ipywidgets as widgets
+
+from wmrlib.laws import LAWS
 
 # name: (label, lowest, highest); linear scales where 0 is worth a look, a logarithmic one for dt
 SLIDERS = {
@@ -17,12 +19,31 @@ SLIDERS = {
     "k_heading": ("k_heading [1/m]", 0.0, 10.0),
     "dt": ("dt [s]", 0.01, 1.0),
 }
+PANEL_LAWS = [
+    {
+        "name": name,
+        "title": law.title,
+        "needs_reference": law.needs_reference,
+        "gains": [gain for gain in law.gains._fields if gain not in law.ignores],
+    }
+    for name, law in LAWS.items()
+    if SLIDERS.keys() >= set(law.gains._fields)
+]
+"""The laws whose gains have sliders: what the panel and its menus know of them."""
+METHODS = {"arc": "arcs, exact", "euler": "straight steps (Euler)"}
+
+
+def laws_for(moving: bool) -> list[dict]:
+    """The laws for a goal that moves, or for one that stands still."""
+    return [law for law in PANEL_LAWS if moving or not law["needs_reference"]]
+
+
 # name: (label, choices)
 MENUS = {
     "preset": ("Preset", ("your own", "the paper, outdoors", "the paper, circle", "gentle gains")),
-    "pose_law": ("Law", ("corrected", "printed", "Aicardi")),
-    "circle_law": ("Law", ("corrected", "printed", "Aicardi", "feed-forward (Kanayama)")),
-    "method": ("Motion", ("arcs, exact", "straight steps (Euler)")),
+    "pose_law": ("Law", tuple(law["title"] for law in laws_for(False))),
+    "circle_law": ("Law", tuple(law["title"] for law in laws_for(True))),
+    "method": ("Motion", tuple(METHODS.values())),
     "view": ("View", ("time charts", "gain landscape")),
     "metric": ("Map shows", ("heading error", "arrival time", "peak |omega|")),
     "axes": ("Map over", ("k_alpha and h", "k_rho and h")),
@@ -41,7 +62,7 @@ _TIPS = {
     "k_alpha": "steering towards the goal",
     "h": "weight of the final heading",
     "v_max": "speed limit",
-    "k_x": "pull along the heading",
+    "k_x": "closing in along the heading",
     "k_y": "steering against the distance to the side",
     "k_heading": "steering against the heading error",
     "dt": "time from one command to the next",

@@ -1,4 +1,4 @@
-"""The panel's picture as a widget: its traits, and the JavaScript that draws it. `explorer` puts the sliders around it."""
+"""The panel's picture as a widget: its traits, and the JavaScript that draws it."""
 
 from __future__ import annotations
 
@@ -8,8 +8,10 @@ from pathlib import Path
 import anywidget
 import traitlets
 
+from wmrlib.explorer.controls import METHODS, PANEL_LAWS
+
 _PARTS = Path(__file__).parent / "js"
-# One module out of several files, in the order in which they use each other; a page without a kernel can load no second one.
+# One module out of several files: a page without a kernel can load no second one.
 _ORDER = (
     "model",
     "simulate",
@@ -59,7 +61,11 @@ def _shown(value: str = "flex"):
 
 
 class Panel(anywidget.AnyWidget):
-    """The picture: canvases, figures and buttons, without the sliders. Menus are numbers: the place of the choice in its list."""
+    """The picture: canvases, figures and buttons, without the sliders.
+
+    Each menu is a number, the place of the choice in its list. `laws` and `methods` are those of
+    `controls`.
+    """
 
     _esm = traitlets.Unicode(javascript()).tag(sync=True)
     _css = traitlets.Unicode((_PARTS / "panel.css").read_text(encoding="utf-8")).tag(sync=True)
@@ -74,3 +80,5 @@ class Panel(anywidget.AnyWidget):
     pose_law_display, circle_law_display, map_display = _shown(), _shown("none"), _shown("none")
     home = traitlets.Dict().tag(sync=True)
     presets = traitlets.List().tag(sync=True)
+    laws = traitlets.List(PANEL_LAWS).tag(sync=True)
+    methods = traitlets.List(list(METHODS)).tag(sync=True)

@@ -1,5 +1,10 @@
 """The figures that more than one place uses, each with its alternative text."""
 
+from wmrlib._checks import book_extra
+
+with book_extra("wmrlib.plots"):
+    import matplotlib  # noqa: F401
+
 from wmrlib.plots.picture import Picture
 from wmrlib.plots.runs import arrival, dashboard, errors, lyapunov, path, twist
 from wmrlib.plots.style import COLOURS, LINES, STYLE, arrow, equal_scales, near_zero, new_figure

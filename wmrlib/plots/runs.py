@@ -1,4 +1,4 @@
-"""Figures of runs."""
+"""Figures of runs: each function takes a Trajectory and returns a Picture."""
 
 from __future__ import annotations
 
@@ -86,7 +86,7 @@ def arrival(run: Trajectory, radius: float = 2.0) -> Picture:
 
 
 def twist(run: Trajectory) -> Picture:
-    """Show the commanded v [m/s] and omega [rad/s] of a Trajectory over time, as a Picture."""
+    """Show the commanded v [m/s] and omega [rad/s] over time."""
     figure, (upper, lower) = new_figure(7.0, 4.5, rows=2)
     _draw_series(upper, run, "v [m/s]", v="-")
     _draw_series(lower, run, "omega [rad/s]", omega="-")
@@ -111,8 +111,7 @@ def lyapunov(run: Trajectory) -> Picture:
     _draw_lyapunov(axes, run)
     axes.set_xlabel("time [s]")
     ends = f"from {_three_digits(run.V[0])} to {_three_digits(run.V[-1])}"
-    words = f"{ends}; {_rises_in_words(run)}"
-    return Picture(figure, f"V over time, on a logarithmic scale: {words}.")
+    return Picture(figure, f"V over time, on a logarithmic scale: {ends}; {_rises_in_words(run)}.")
 
 
 def dashboard(run: Trajectory) -> Picture:
@@ -135,10 +134,7 @@ def dashboard(run: Trajectory) -> Picture:
 
 
 def _draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, robots: bool = True):
-    """Draw the path, the start (filled), the goal (open) and the robot on its way and at its end.
-
-    An arrow for the robot is as long as 2 `size`, those for start and goal as 3.
-    """
+    """Draw the path, the start (filled), the goal (open) and the robot on its way."""
     axes.plot(run.x, run.y, style, color=COLOURS["path"])
     way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(run.x), np.diff(run.y)))])
     tenths = np.searchsorted(way, np.linspace(0.0, 1.0, 11)[1:-1] * way[-1])

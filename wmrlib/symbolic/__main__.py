@@ -1,4 +1,4 @@
-"""``python -m wmrlib.symbolic`` prints model.js and wmr_law.h where they are kept; ``--c PATH`` prints the C header elsewhere."""
+"""``python -m wmrlib.symbolic`` prints model.js and wmr_law.h; ``--c PATH`` only the header."""
 
 import argparse
 import sys

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
+from wmrlib._checks import book_extra
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks.fixes import Count, Fixes, Report
 from wmrlib.tracks.scatter import StationaryScatter, mean_position, stationary_scatter
@@ -104,14 +105,16 @@ def _read(data: bytes) -> tuple[str, Fixes]:
     if not begin:
         raise ValueError("the file is empty")
     if begin == b"<":
-        from wmrlib.tracks import gpx
+        with book_extra("a GPX file"):
+            from wmrlib.tracks import gpx
 
         return "GPX", gpx.read(data)  # XML itself says how it is encoded
     from wmrlib.tracks import tables
 
     if begin in (b"{", b"["):
         return "GeoJSON", tables.read_geojson(text)
-    from wmrlib.tracks import nmea
+    with book_extra("an NMEA log"):
+        from wmrlib.tracks import nmea
 
     if nmea.looks_like(text):
         return "NMEA", nmea.read(text)

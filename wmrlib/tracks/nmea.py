@@ -105,11 +105,11 @@ def _trouble(sentence: pynmea2.TalkerSentence, second: float | None) -> str | No
 
 def _on_one_clock(heard: list[_Heard]) -> list[_Heard]:
     """Count the seconds on from day to day, by RMC's dates or by the nearest time already known."""
-    days = [_day(each) for each in heard]
-    first = next((day for day in days if day is not None), 0)
+    dates = [getattr(each.sentence, "datestamp", None) for each in heard]  # a GGA has none
+    first = next((day for day in dates if isinstance(day, date)), None)
     dated = [
-        None if day is None else each.second + DAY * (day - first)
-        for each, day in zip(heard, days, strict=True)
+        each.second + DAY * (day - first).days if isinstance(day, date) else None
+        for each, day in zip(heard, dates, strict=True)
     ]
     ahead = list(accumulate(reversed(dated), lambda later, this: later if this is None else this))
     last, counted = None, []
@@ -123,9 +123,3 @@ def _on_one_clock(heard: list[_Heard]) -> list[_Heard]:
         if each.usable or last is None or second > last:
             last = second
     return counted
-
-
-def _day(heard: _Heard) -> int | None:
-    if heard.sentence.sentence_type != "RMC" or not isinstance(heard.sentence.datestamp, date):
-        return None
-    return heard.sentence.datestamp.toordinal()

@@ -12,9 +12,8 @@ from typing import Any
 
 from wmrlib.tracks.fixes import NO_TIME, Fixes, number, timestamp
 
-LATITUDE = {"lat", "latitude"}
-LONGITUDE = {"lon", "lng", "long", "longitude"}
-TIME = {"time", "timestamp", "datetime", "t"}
+LATITUDE, LONGITUDE = {"lat", "latitude"}, {"lon", "lng", "long", "longitude"}
+_COLUMNS = (LATITUDE, LONGITUDE, {"time", "timestamp", "datetime", "t"})
 _DELIMITERS = ",;\t|"
 _MOST_SECONDS = 1e11  # milliseconds since 1970 are more
 _WGS84 = ("CRS84", "EPSG::4326", "EPSG:4326")
@@ -58,28 +57,22 @@ def read_csv(data: bytes) -> Fixes:
 
 def _header(line: str) -> tuple[str, int, list[int | None]]:
     """The delimiter, the number of cells, and the columns of latitude, longitude and time."""
+    shown = repr(line.strip()[:80])
     for delimiter in _DELIMITERS:
         try:
             cells = next(csv.reader([line], delimiter=delimiter))
         except csv.Error:  # 131072 characters without a delimiter
             continue
         names = [cell.strip().casefold() for cell in cells]
-        found = [
-            [i for i, name in enumerate(names) if name in known]
-            for known in (LATITUDE, LONGITUDE, TIME)
-        ]
+        found = [[i for i, name in enumerate(names) if name in known] for known in _COLUMNS]
         if found[0] and found[1]:
-            for columns in found:
-                if len(columns) > 1:
-                    given = sorted({names[i] for i in columns})
-                    raise ValueError(
-                        f"its header names more than one column of {given}: {line.strip()[:80]!r}"
-                    )
+            for several in (columns for columns in found if len(columns) > 1):
+                given = sorted({names[i] for i in several})
+                raise ValueError(f"its header names more than one column of {given}: {shown}")
             return delimiter, len(names), [columns[0] if columns else None for columns in found]
-    raise ValueError(
-        f"it is no NMEA, GPX or GeoJSON, and as a table its first line {line.strip()[:80]!r} "
-        f"does not name one of {sorted(LATITUDE)} and one of {sorted(LONGITUDE)}"
-    )
+    wanted = f"one of {sorted(LATITUDE)} and one of {sorted(LONGITUDE)}"
+    first = f"as a table its first line {shown} does not name {wanted}"
+    raise ValueError(f"it is no NMEA, GPX or GeoJSON, and {first}")
 
 
 def _number(cell: str) -> float:
@@ -102,8 +95,8 @@ def read_geojson(data: bytes) -> Fixes:
     """The positions of all points and lines, RFC 7946; a line cut at the date line is rejoined."""
     try:
         document = json.loads(data)
-        lines = list(_lines(document))
-    except (ValueError, RecursionError) as error:
+        lines = [list(line) for line in _lines(document)]
+    except (ValueError, LookupError, TypeError, RecursionError) as error:
         raise ValueError(f"its JSON is not read: {error}") from None
     crs = document.get("crs")
     if crs and not str(crs).rstrip("'}\" ").endswith(_WGS84):
@@ -124,25 +117,21 @@ def read_geojson(data: bytes) -> Fixes:
 
 def _lines(node: Any) -> Iterator[list]:
     """Each geometry as lists of positions, longitude before latitude."""
-    member = node if isinstance(node, dict) else {}
-    kind, places = member.get("type"), member.get("coordinates")
-    parts = member.get({"FeatureCollection": "features"}.get(str(kind), "geometries"))
-    if kind == "Feature":
-        geometry = member.get("geometry")
-        parts = [] if geometry is None else [geometry]
-    if kind in ("Feature", "FeatureCollection", "GeometryCollection") and isinstance(parts, list):
-        for part in parts:
-            yield from _lines(part)
-        return
-    if kind not in ("Point", "LineString", "MultiPoint", "MultiLineString"):
-        places = None
-    if not isinstance(places, list):
+    kind = node.get("type") if isinstance(node, dict) else None
+    if kind in ("FeatureCollection", "GeometryCollection"):
+        for member in node["features" if kind == "FeatureCollection" else "geometries"]:
+            yield from _lines(member)
+    elif kind == "Feature":
+        if node.get("geometry") is not None:
+            yield from _lines(node["geometry"])
+    elif kind == "Point":
+        yield [node["coordinates"]]
+    elif kind == "MultiPoint":
+        yield from ([place] for place in node["coordinates"])
+    elif kind in ("LineString", "MultiLineString"):
+        yield from [node["coordinates"]] if kind == "LineString" else node["coordinates"]
+    else:
         raise ValueError(f"it is no GeoJSON of points or lines, but of the kind {kind!r}")
-    if kind == "MultiPoint":
-        places = [[place] for place in places]
-    elif kind != "MultiLineString":
-        places = [places] if kind == "LineString" else [[places]]
-    yield from (line if isinstance(line, list) else [line] for line in places)
 
 
 def _is_pair(position: Any) -> bool:

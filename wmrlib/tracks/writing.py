@@ -12,11 +12,12 @@ from pathlib import Path
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real
+from wmrlib._checks import Real, book_extra, instance, real
 from wmrlib.geodesy import GeoPoint, position_list
 
 _DECIMALS = 7  # of a degree: a centimetre
 _NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_NOT_IN_UTF8 = re.compile("[\ud800-\udfff]")
 
 
 def write_gpx(
@@ -42,15 +43,12 @@ def write_gpx(
     """
     lat, lon = _rounded(points)
     if (t is None) != (begin is None):
-        raise ValueError(
-            f"t = {t!r} and begin = {begin!r} are not allowed together: both or none are needed"
-        )
+        both = f"t = {t!r} and begin = {begin!r}"
+        raise ValueError(f"{both} are not allowed together: both or none are needed")
     times = [None] * lat.size if t is None else _times(t, begin, lat.shape)
-    if _NOT_IN_XML.search(_utf8(name)):
-        raise ValueError(
-            f"name = {name!r} is not allowed: text without control characters is needed"
-        )
-    from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
+    _check_name(name, _NOT_IN_XML)
+    with book_extra("a GPX file"):
+        from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
 
     lon = np.where(lon == 180.0, -180.0, lon)  # GPX 1.1: below 180
     gpx, track = GPX(), GPXTrack(name=name)
@@ -77,6 +75,7 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
     ValueError : no position, or a name that is no text or that UTF-8 can't hold
     """
     lat, lon = _rounded(points)
+    _check_name(name, _NOT_IN_UTF8)
     places = np.column_stack([lon, lat])
     lines = [places[piece].tolist() for piece in _pieces(lon)]
     for before, after in pairwise(lines):
@@ -86,16 +85,12 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
         crossing = round(y + share * (next_y - y), _DECIMALS)
         before.append([side, crossing])
         after.insert(0, [-side, crossing])
-    kind, coordinates = "MultiLineString", lines
+    geometry = {"type": "MultiLineString", "coordinates": lines}
     if len(lines) == 1:
-        kind, coordinates = "LineString", lines[0]
+        geometry = {"type": "LineString", "coordinates": lines[0]}
     if lat.size == 1:
-        kind, coordinates = "Point", lines[0][0]
-    feature = {
-        "type": "Feature",
-        "properties": {"name": _utf8(name)},
-        "geometry": {"type": kind, "coordinates": coordinates},
-    }
+        geometry = {"type": "Point", "coordinates": lines[0][0]}
+    feature = {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
     text = json.dumps(feature, ensure_ascii=False, allow_nan=False) + "\n"
     Path(path).write_bytes(text.encode())
 
@@ -116,21 +111,17 @@ def _times(t: Real, begin: datetime, shape: tuple[int, ...]) -> list[datetime | 
     t = np.atleast_1d(real("t", t, nan=True))
     if t.shape != shape:
         raise ValueError(f"mismatched lengths: t has shape {t.shape}, points have shape {shape}")
-    times = []
-    for seconds in t.tolist():
-        try:  # in UTC, so that a change to summer time loses no hour
-            after = None if math.isnan(seconds) else timedelta(seconds=seconds)
-            times.append(None if after is None else begin.astimezone(UTC) + after)
-        except OverflowError:
-            raise ValueError(
-                f"t = {seconds:g} is not allowed: begin + t in the years 1 to 9999 is needed"
-            ) from None
-    return times
+    return [_after(begin, seconds) for seconds in t.tolist()]
 
 
-def _utf8(name: str) -> str:
-    try:
-        instance("name", name, str).encode()
-    except UnicodeEncodeError:
-        raise ValueError(f"name = {name!r} is not allowed: valid Unicode is needed") from None
-    return name
+def _after(begin: datetime, seconds: float) -> datetime | None:
+    try:  # in UTC, so that a change to summer time loses no hour
+        return None if math.isnan(seconds) else begin.astimezone(UTC) + timedelta(seconds=seconds)
+    except OverflowError:
+        needed = "begin + t in the years 1 to 9999 is needed"
+        raise ValueError(f"t = {seconds:g} is not allowed: {needed}") from None
+
+
+def _check_name(name: str, forbidden: re.Pattern) -> None:
+    if found := forbidden.search(instance("name", name, str)):
+        raise ValueError(f"name = {name!r} is not allowed: one without {found[0]!r} is needed")

@@ -1,20 +1,20 @@
 """Yousif and Ali's paper, line by line: what it says, what holds, and by which computation.
 
->>> from wmrlib import audit
+>>> from wmrbook import audit
 >>> [row.verdict.value for row in audit.rows("equations")[:2]]
 ['✓ holds', '✓ holds']
 
-Every verdict follows from a computation made when `rows` is called; the rules stand in `equation_row` (equations), `fits` (numbers) and
-`rows.depends`: what rests on numbers that nobody published is computed with several choices of them, and cannot be reproduced if they
-disagree.
+Every verdict follows from a computation made when `rows` is called; the rules are `equation_row`
+(equations), `fits` (numbers) and `depends`: what rests on numbers that nobody published is computed
+with several choices of them, and cannot be reproduced if they disagree.
 """
 
 from __future__ import annotations
 
 from wmrbook.audit import equations, figures, numbers, proof, statements
 from wmrbook.audit.proof import circle_residual, slope, steering
-from wmrbook.audit.rows import Row, Verdict, depends, equation_row, fits, same
-from wmrbook.audit.table import Place, Table, missing, places, table, tally
+from wmrbook.audit.row import Row, Verdict, depends, equation_row, equivalent, fits
+from wmrbook.audit.table import Place, Table, missing, places, tally
 from wmrlib._checks import choice
 
 __all__ = [
@@ -26,14 +26,13 @@ __all__ = [
     "circle_residual",
     "depends",
     "equation_row",
+    "equivalent",
     "fits",
     "missing",
     "places",
     "rows",
-    "same",
     "slope",
     "steering",
-    "table",
     "tally",
 ]
 
@@ -48,9 +47,10 @@ GROUPS = tuple(_PARTS)
 
 
 def rows(group: str | None = None) -> list[Row]:
-    """The rows of one group of GROUPS, or of all: equations (1) to (26), figures 1 to 12, `wmrlib.paper.PUBLISHED`, and statements.
+    """The rows of one group of GROUPS, or of all, computed in some seconds.
 
-    Takes some seconds: each is computed. Raises ValueError for an unknown group.
+    Equations (1) to (26), figures 1 to 12, the numbers of `wmrlib.paper.PUBLISHED`, and statements.
+    Raises ValueError for an unknown group.
     """
     if group is not None:
         return _PARTS[choice("group", group, GROUPS)]()

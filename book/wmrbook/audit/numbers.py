@@ -8,35 +8,31 @@ from fractions import Fraction
 import numpy as np
 import sympy as sp
 
-from wmrbook.audit.figures import AXES, MISSING, chase, drive
-from wmrbook.audit.rows import Row, Verdict, fits
+from wmrbook.audit.figures import AXES, MISSING, circle_run, outdoor_run
+from wmrbook.audit.row import Row, Verdict, fits
 from wmrbook.ellipsoid import FLATTENING, SEMI_MAJOR_M, sphere_error
 from wmrlib import paper
 from wmrlib.geodesy import GeoPoint, haversine_distance, initial_bearing
 from wmrlib.metrics import arrival, residual
 from wmrlib.runs import Outcome
-from wmrlib.tuning import modes
+from wmrlib.tuning import longest_step, modes
 
 _WEIGHTS = (0.1, 1.0, 10.0)
-_LAWS = (("aicardi",), *(("linear", weight) for weight in _WEIGHTS))
 
 
 def rows() -> list[Row]:
     """A row for each key of `wmrlib.paper.PUBLISHED`, in its order."""
-    found = _earth() | _circle() | _outdoor() | _loops()
+    every = [*_earth(), *_circle(), *_outdoor(), *_loops()]
+    found = {row.item: row for row in every}
     return [found[key] for key in paper.PUBLISHED]
 
 
-def _row(key: str, verdict: Verdict, holds: str, why: str) -> Row:
+def _row(key: str, verdict: Verdict | bool, holds: str, why: str) -> Row:
+    if isinstance(verdict, bool):
+        verdict = Verdict.HOLDS if verdict else Verdict.WRONG
     value, unit, place = paper.PUBLISHED[key]
-    return Row(
-        key,
-        key.replace("_", " "),
-        f"{_shown(value)} {unit}".strip() + f" ({place})",
-        holds,
-        verdict,
-        why,
-    )
+    says = f"{_shown(value)} {unit}".strip() + f" ({place})"
+    return Row(key, key.replace("_", " "), says, holds, verdict, why)
 
 
 def _shown(value: float) -> str:
@@ -47,213 +43,177 @@ def _shown(value: float) -> str:
     return f"{value:.10g}"
 
 
-def _computed(key: str, *values: float, note: str = "{}") -> Row:
-    """Holds if one of the computed values is what is printed; several are several readings of the paper."""
+def _computed(key: str, note: str, *values: float) -> Row:
+    """Holds if one of the values is what is printed; several are several readings of the paper."""
     agrees = any(fits(value, paper.PUBLISHED[key]) for value in values)
     why = "ours has the printed digits" if agrees else "no reading gives the printed digits"
-    return _row(key, Verdict.HOLDS if agrees else Verdict.WRONG, note.format(*values), why)
+    return _row(key, agrees, note.format(*values), why)
 
 
 def _given(key: str, used: float, works: bool, result: str) -> Row:
     """An input holds if the run that was made with it has the result that the paper reports."""
-    same = used == paper.PUBLISHED[key].value
-    if same and works:
-        return _row(
-            key,
-            Verdict.HOLDS,
-            f"An input: with it, {result}.",
-            "the result that rests on it is reproduced",
-        )
-    why = (
-        "the run with the paper's result used another value"
-        if not same
-        else "the result that rests on it is not reproduced"
-    )
-    return _row(key, Verdict.WRONG, f"An input: with {used:.10g}, {result}.", why)
+    if used != paper.PUBLISHED[key].value:
+        why = "the run with the paper's result used another value"
+        return _row(key, False, f"An input: with {used:.10g}, {result}.", why)
+    if not works:
+        why = "the result that rests on it is not reproduced"
+        return _row(key, False, f"An input: with {used:.10g}, {result}.", why)
+    why = "the result that rests on it is reproduced"
+    return _row(key, True, f"An input: with it, {result}.", why)
 
 
 def sphere_bounds() -> tuple[float, float]:
     """The least and the greatest error of the sphere on a short line, in percent."""
-    errors = 100.0 * sphere_error(np.linspace(0.0, 90.0, 9001), np.array([[0.0], [math.pi / 2.0]]))
+    latitudes = np.linspace(0.0, 90.0, 9001)[:, None]
+    errors = 100.0 * sphere_error(latitudes, np.array([0.0, math.pi / 2.0]))
     return float(errors.min()), float(errors.max())
 
 
-def _earth() -> dict[str, Row]:
+def _earth() -> list[Row]:
     low, high = sphere_bounds()
     mean = SEMI_MAJOR_M * (3.0 - FLATTENING) / 3e3
-    number = {
-        key: paper.PUBLISHED[key].value
-        for key in ("start_latitude", "start_longitude", "goal_latitude", "goal_longitude")
-    }
+    used = {"start": paper.GPS_POINT_1, "goal": paper.GPS_POINT_2}
+    names = {"latitude": "lat", "longitude": "lon"}
     start, goal = (
-        GeoPoint(lat=number[f"{end}_latitude"], lon=number[f"{end}_longitude"])
-        for end in ("start", "goal")
+        GeoPoint(**{names[name]: paper.PUBLISHED[f"{end}_{name}"].value for name in names})
+        for end in used
     )
     distance, bearing = haversine_distance(start, goal), math.degrees(initial_bearing(start, goal))
     swapped = haversine_distance(*(GeoPoint(lat=each.lon, lon=each.lat) for each in (start, goal)))
     reproduced = fits(distance, paper.PUBLISHED["distance"])
     result = f"the distance is {distance:.2f} m (read in the other order, {swapped:.2f} m)"
-    used = {"start": paper.GPS_POINT_1, "goal": paper.GPS_POINT_2}
-    points = {
-        f"{end}_{name}": _given(f"{end}_{name}", getattr(used[end], name[:3]), reproduced, result)
-        for end in used
-        for name in ("latitude", "longitude")
-    }
-    range_note = f"From {low:+.2f} % to {high:+.2f} %, by the radii of curvature; half of that range is {{:.3f}} %."
-    return points | {
-        "earth_radius": _computed(
-            "earth_radius", mean, note="The mean radius of WGS84, (2a + b)/3, is {:.4f} km."
-        ),
-        "sphere_error": _computed("sphere_error", 0.5 * (high - low), note=range_note),
-        "distance": _computed("distance", distance, note="(11) to (13) give {:.4f} m."),
-        "bearing": _computed("bearing", bearing, note="(15) to (17) give {:.4f} deg."),
-    }
-
-
-def _circle() -> dict[str, Row]:
-    run, gains, reference = (
-        chase(),
-        paper.CIRCLE_GAINS,
-        paper.circle(np.array([0.0, 1e-4, paper.CIRCLE_PERIOD])),
+    sphere_note = (
+        f"From {low:+.2f} % to {high:+.2f} %, by the radii of curvature; "
+        "half of that range is {:.3f} %."
     )
+    return [
+        *(
+            _given(f"{end}_{name}", getattr(point, names[name]), reproduced, result)
+            for end, point in used.items()
+            for name in names
+        ),
+        _computed("earth_radius", "The mean radius of WGS84, (2a + b)/3, is {:.4f} km.", mean),
+        _computed("sphere_error", sphere_note, 0.5 * (high - low)),
+        _computed("distance", "(11) to (13) give {:.4f} m.", distance),
+        _computed("bearing", "(15) to (17) give {:.4f} deg.", bearing),
+    ]
+
+
+def _circle() -> list[Row]:
+    run = circle_run()
+    reference = paper.circle(np.array([0.0, 1e-4]))
+    x, y, heading = (float(np.diff(field)[0]) for field in reference[:3])
+    lap, width = math.tau * 1e-4 / heading, float(np.ptp(run.goal.x))
     behind = residual(run)
-    works, result = (
-        fits(behind, paper.PUBLISHED["circle_residual"]),
-        f"the circle ends {behind:.4f} m behind",
-    )
-    tangent = math.atan2(reference.y[1] - reference.y[0], reference.x[1] - reference.x[0])
-    lap = math.tau / float(np.gradient(reference.heading[:2], 1e-4)[0])
-    return {
-        **{f"lqr_{name}_advantage": _advantage(name) for name in "yx"},
-        "circle_period": _computed(
-            "circle_period", lap, note="The reference turns once in {:.1f} s."
+    works = fits(behind, paper.PUBLISHED["circle_residual"])
+    result = f"the circle ends {behind:.4f} m behind"
+    inputs = {"start_heading": paper.CIRCLE_START.heading}
+    inputs |= {name: getattr(paper.CIRCLE_GAINS, name) for name in ("k_rho", "k_alpha", "h")}
+    left = "{:.4f} m, with $v_{{\\max}} = 4$ m/s, which the paper does not give here."
+    return [
+        *(_advantage(f"lqr_{name}_advantage", f"{name}_error") for name in "yx"),
+        *(_given(f"circle_{name}", value, works, result) for name, value in inputs.items()),
+        *(
+            _computed(
+                f"circle_{name}_error",
+                f"The first error in {name} is {{:.3f}} m.",
+                abs(float(getattr(run, f"{name}_error")[0])),
+            )
+            for name in "xy"
         ),
-        "circle_radius": _computed(
-            "circle_radius",
-            float(np.ptp(run.goal.x)) / 2,
-            note="Half the width of the reference's path is {:.3f} m.",
+        _computed("circle_period", "The reference turns once in {:.1f} s.", lap),
+        _computed(
+            "circle_radius", "Half the width of the reference's path is {:.3f} m.", width / 2
         ),
-        "circle_x_error": _computed(
-            "circle_x_error", abs(float(run.x_error[0])), note="The first error in x is {:.3f} m."
-        ),
-        "circle_y_error": _computed(
-            "circle_y_error", abs(float(run.y_error[0])), note="The first error in y is {:.3f} m."
-        ),
-        "circle_reference_heading": _tangent(tangent),
-        "circle_start_heading": _given(
-            "circle_start_heading", paper.CIRCLE_START.heading, works, result
-        ),
-        "circle_residual": _computed(
-            "circle_residual",
-            behind,
-            note="{:.4f} m, with $v_{{\\max}} = 4$ m/s, which the paper does not give here.",
-        ),
-        **{
-            f"circle_{name}": _given(f"circle_{name}", getattr(gains, name), works, result)
-            for name in ("k_rho", "k_alpha", "h")
-        },
-    }
+        _computed("circle_residual", left, behind),
+        _tangent(math.atan2(y, x)),
+    ]
 
 
-def _advantage(name: str) -> Row:
-    """By how many percent an LQR's rms error on the circle is below a polar law's: with weights on both sides of what is printed, open."""
-    key, rms = (
-        f"lqr_{name}_advantage",
-        [math.sqrt(np.mean(getattr(chase(*law), f"{name}_error") ** 2)) for law in _LAWS],
-    )
-    better = [100.0 * (1.0 - each / rms[0]) for each in rms[1:]]
+def _advantage(key: str, error: str) -> Row:
+    """By how many percent an LQR's rms error on the circle is below a polar law's.
+
+    Weights give advantages on both sides of what is printed: open.
+    """
+    laws = [("aicardi",), *(("linear", weight) for weight in _WEIGHTS)]
+    polar, *lqr = (math.sqrt(np.mean(getattr(circle_run(*law), error) ** 2)) for law in laws)
+    better = [100.0 * (1.0 - each / polar) for each in lqr]
     listed = ", ".join(
         f"{each:.1f} % with q = {weight:g}" for each, weight in zip(better, _WEIGHTS, strict=True)
     )
-    text = f"On the paper's circle, an LQR with $Q = qI$ and $R = I$ is better than Aicardi's law by {listed}."
+    text = (
+        "On the paper's circle, an LQR with $Q = qI$ and $R = I$ "
+        f"is better than Aicardi's law by {listed}."
+    )
     if min(better) < paper.PUBLISHED[key].value < max(better):
         return _row(key, Verdict.OPEN, text, MISSING)
-    return _row(key, Verdict.WRONG, text, "outside of what the weights tried give")
+    return _row(key, False, text, "outside of what the weights tried give")
 
 
 def _tangent(tangent: float) -> Row:
-    key, wanted = "circle_reference_heading", paper.PUBLISHED["circle_reference_heading"].value
-    agrees = abs(tangent - wanted) < 1e-4
+    key = "circle_reference_heading"
+    agrees = abs(tangent - paper.PUBLISHED[key].value) < 1e-4
     text = f"The reference sets out at {math.degrees(tangent):.2f} deg from the x axis."
-    return _row(
-        key,
-        Verdict.HOLDS if agrees else Verdict.WRONG,
-        text,
-        "along the path's tangent" if agrees else "not along the path's tangent",
-    )
+    return _row(key, agrees, text, f"{'' if agrees else 'not '}along the path's tangent")
 
 
-def _outdoor() -> dict[str, Row]:
-    runs, gains = {axis: drive(axis) for axis in AXES}, paper.OUTDOOR_GAINS
-    works = all(run.outcome is Outcome.ARRIVED for run in runs.values())
-    times = {axis: arrival(run).time for axis, run in runs.items()}
-    result = f"the robot is within 5 cm after {times['east']:.1f} s (x east) or {times['north']:.1f} s (x north)"
-    errors = {
-        name: [abs(float(getattr(run, f"{name}_error")[0])) for run in runs.values()]
-        for name in "xy"
+def _outdoor() -> list[Row]:
+    runs = [outdoor_run(axis) for axis in AXES]
+    works = all(run.outcome is Outcome.ARRIVED for run in runs)
+    times = (f"{arrival(run).time:.1f} s (x {axis})" for axis, run in zip(AXES, runs, strict=True))
+    result = f"the robot is within 5 cm after {' or '.join(times)}"
+    inputs = {"start_heading": paper.START_HEADING, "goal_heading": paper.GOAL_HEADING}
+    inputs |= {
+        f"outdoor_{name}": getattr(paper.OUTDOOR_GAINS, name) for name in ("k_rho", "k_alpha", "h")
     }
     both = "x east: {:.2f} m; x north: {:.2f} m."
-    fastest = max(float(run.v.max()) for run in runs.values())
-    return {
-        "start_heading": _given("start_heading", paper.START_HEADING, works, result),
-        "goal_heading": _given("goal_heading", paper.GOAL_HEADING, works, result),
-        **{
-            f"{name}_error_at_start": _computed(f"{name}_error_at_start", *errors[name], note=both)
-            for name in "xy"
-        },
-        **{
-            f"outdoor_{name}": _given(f"outdoor_{name}", getattr(gains, name), works, result)
-            for name in ("k_rho", "k_alpha", "h")
-        },
-        "speed_limit": _computed(
-            "speed_limit", fastest, note="The fastest of both runs is {:.4f} m/s."
+    fastest = max(float(run.v.max()) for run in runs)
+    return [
+        *(_given(key, used, works, result) for key, used in inputs.items()),
+        *(
+            _computed(
+                f"{name}_at_start", both, *(abs(float(getattr(run, name)[0])) for run in runs)
+            )
+            for name in ("x_error", "y_error")
         ),
-    }
+        _computed("speed_limit", "The fastest of both runs is {:.4f} m/s.", fastest),
+    ]
 
 
 def slowest_pole(ratio: float) -> float:
-    """The largest real part of the angles' poles near the goal, 1/s, behind wheels `ratio` times as fast as the distance's rate.
+    """The largest real part [1/s] of the angles' poles behind wheels `ratio` times as fast.
 
-    Both commands lag by 1/(ratio rate). The robot then brakes late: v = p rho with p(1 - p lag) = rate.
+    As fast as the distance's rate: both commands lag by 1/(ratio rate). The robot then brakes late:
+    v = p rho with p(1 - p lag) = rate.
     """
     gains = paper.OUTDOOR_GAINS
     rate = gains.v_max * gains.k_rho
     lag = 1.0 / (ratio * rate)
     p = (1.0 - math.sqrt(1.0 - 4.0 * rate * lag)) / (2.0 * lag)
-    matrix = [
-        [p, 0.0, -1.0],
-        [p, 0.0, 0.0],
-        [(gains.k_alpha + rate) / lag, rate * gains.h / lag, -1.0 / lag],
-    ]
-    return float(np.linalg.eigvals(np.array(matrix)).real.max())
+    turning = [(gains.k_alpha + rate) / lag, rate * gains.h / lag, -1.0 / lag]
+    matrix = np.array([[p, 0.0, -1.0], [p, 0.0, 0.0], turning])
+    return float(np.linalg.eigvals(matrix).real.max())
 
 
-def _loops() -> dict[str, Row]:
-    gains, dt, ratio = (
-        paper.OUTDOOR_GAINS,
-        paper.PUBLISHED["time_step"].value,
-        paper.PUBLISHED["inner_loop"].value,
-    )
+def _loops() -> list[Row]:
+    gains, dt = paper.OUTDOOR_GAINS, paper.PUBLISHED["time_step"].value
     growth = max(abs(1.0 + dt * pole) for pole in modes(gains).poles)
-    border = gains.k_alpha / (gains.h * (gains.v_max * gains.k_rho) ** 2)
-    step = f"An Euler step multiplies the angles near the goal by {growth:.3f}; only steps below {border:.3f} s shrink them."
-    settles = growth < 1.0
+    border = longest_step(gains, "polar_euler")
+    step = (
+        f"An Euler step multiplies the angles near the goal by {growth:.3f}; "
+        f"only steps below {border:.3f} s shrink them."
+    )
+    shrinking = "the angles shrink"
+    growing = "the angles grow, so that the pose can't converge"
+    ratio = paper.PUBLISHED["inner_loop"].value
     pole = slowest_pole(ratio)
-    calmer = f"{slowest_pole(3 * ratio):+.2f} with {3 * ratio:g} times"
-    wheels = f"The slowest pole at the goal is {pole:+.2f} 1/s with wheels {ratio:g} times faster, {calmer}."
-    return {
-        "time_step": _row(
-            "time_step",
-            Verdict.HOLDS if settles else Verdict.WRONG,
-            step,
-            "the angles shrink" if settles else "the angles grow, so that the pose can't converge",
-        ),
-        "inner_loop": _row(
-            "inner_loop",
-            Verdict.HOLDS if pole < 0.0 else Verdict.WRONG,
-            wheels,
-            "the heading settles"
-            if pole < 0.0
-            else "too slow for the paper's own gains: the heading does not settle",
-        ),
-    }
+    wheels = (
+        f"The slowest pole at the goal is {pole:+.2f} 1/s with wheels {ratio:g} times faster, "
+        f"{slowest_pole(3 * ratio):+.2f} with {3 * ratio:g} times."
+    )
+    slow = "too slow for the paper's own gains: the heading does not settle"
+    settles = "the heading settles" if pole < 0.0 else slow
+    return [
+        _row("time_step", growth < 1.0, step, shrinking if growth < 1.0 else growing),
+        _row("inner_loop", pole < 0.0, wheels, settles),
+    ]

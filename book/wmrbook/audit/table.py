@@ -8,16 +8,16 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
-from wmrbook.audit.rows import Row, Verdict
+from wmrbook.audit.row import Row, Verdict
 
 _TAG = "audit:"
 _HEAD = ("What", "Verdict", "The paper says", "What is found", "Shown in")
 
 
 class Place(NamedTuple):
-    """A cell that shows a row: the chapter's file, its number, the nearest heading above, and its place among the code cells.
+    """A cell that shows a row: its chapter, the heading above, and its place among the code cells.
 
-    The chapters are executed in order, so that this is the number that Jupyter shows beside the cell.
+    The chapters are executed in order, so that Jupyter shows this number beside the cell.
     """
 
     file: str
@@ -27,29 +27,28 @@ class Place(NamedTuple):
 
 
 def places(folder: str | Path = ".") -> dict[str, list[Place]]:
-    """From a row's item to the cells tagged ``audit:item`` in the notebooks of a folder whose names begin with a chapter's number.
+    """From a row's item to the cells tagged ``audit:item`` in the chapters of a folder.
 
-    Raises ValueError if the folder holds no such notebook.
+    Raises ValueError if the folder holds no notebook whose name begins with a chapter's number.
     """
     notebooks = sorted(Path(folder).glob("[0-9][0-9]_*.ipynb"))
     if not notebooks:
-        raise ValueError(
-            f"folder = {str(folder)!r} is not allowed: one with notebooks named like 04_lyapunov.ipynb is needed"
-        )
+        wanted = "one with notebooks named like 04_lyapunov.ipynb is needed"
+        raise ValueError(f"folder = {str(folder)!r} is not allowed: {wanted}")
     found: dict[str, list[Place]] = {}
     for path in notebooks:
         heading, number = path.stem, 0
         for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
             if cell["cell_type"] == "markdown":
-                heading = (
-                    re.findall(r"^#{1,3} +(.+?) *$", "".join(cell["source"]), re.MULTILINE)
-                    or [heading]
-                )[-1]
-            number += cell["cell_type"] == "code"
-            for tag in cell["metadata"].get("tags", ()):
-                if cell["cell_type"] == "code" and tag.startswith(_TAG):
-                    place = Place(path.name, int(path.name[:2]), heading, number)
-                    found.setdefault(tag.removeprefix(_TAG), []).append(place)
+                text = "".join(cell["source"])
+                headings = re.findall(r"^#{1,3} +(.+?) *$", text, re.MULTILINE)
+                heading = [heading, *headings][-1]
+            elif cell["cell_type"] == "code":
+                number += 1
+                place = Place(path.name, int(path.name[:2]), heading, number)
+                for tag in cell["metadata"].get("tags", ()):
+                    if tag.startswith(_TAG):
+                        found.setdefault(tag.removeprefix(_TAG), []).append(place)
     return found
 
 
@@ -64,10 +63,14 @@ def tally(rows: Sequence[Row]) -> dict[Verdict, int]:
 
 
 class Table:
-    """Rows as Markdown, which JupyterLab and MyST typeset with their mathematics, and as plain text."""
+    """The rows to look at, with the cells that `places` found for them.
+
+    JupyterLab and MyST typeset the Markdown with its mathematics.
+    """
 
     def __init__(self, rows: Sequence[Row], where: Mapping[str, Sequence[Place]]) -> None:
-        self.rows, self.where = tuple(rows), where
+        self.rows = tuple(rows)
+        self.where = where
 
     def _repr_mimebundle_(self, include=None, exclude=None):
         return {"text/markdown": self.markdown(), "text/plain": repr(self)}
@@ -77,29 +80,15 @@ class Table:
         lines = [_HEAD, ("---",) * len(_HEAD)]
         for row in self.rows:
             verdict = f"**{row.verdict.value}**: {row.why}"
-            lines.append(
-                (
-                    f"**{row.title}**",
-                    verdict,
-                    row.says,
-                    row.holds,
-                    _linked(self.where.get(row.item, ())),
-                )
-            )
-        return "\n".join(
-            "| " + " | ".join(cell.replace("|", r"\|") for cell in line) + " |" for line in lines
-        )
+            shown = _linked(self.where.get(row.item, ()))
+            lines.append((f"**{row.title}**", verdict, row.says, row.holds, shown))
+        escaped = ((cell.replace("|", r"\|") for cell in line) for line in lines)
+        return "\n".join(f"| {' | '.join(line)} |" for line in escaped)
 
     def __repr__(self) -> str:
         width = max((len(row.title) for row in self.rows), default=0)
-        return "\n".join(
-            f"{row.title:{width}}  {row.verdict.value}: {row.why}" for row in self.rows
-        )
-
-
-def table(rows: Sequence[Row], where: Mapping[str, Sequence[Place]]) -> Table:
-    """The rows to look at, with the cells that `places` found for them."""
-    return Table(rows, where)
+        lines = (f"{row.title:{width}}  {row.verdict.value}: {row.why}" for row in self.rows)
+        return "\n".join(lines)
 
 
 def _linked(cells: Sequence[Place]) -> str:

@@ -1,13 +1,14 @@
-"""The checks of the graded exercises: each tries a property of an answer, and where it fails gives a hint and not the answer.
+"""The checks of the graded exercises: where an answer fails, they give a hint, not the answer.
 
-A check takes what a student wrote (a function, a number, gains, an expression), returns a sentence to show if it is right, and raises
-Hint if it is not. Where a usual mistake explains what is seen (latitude and longitude swapped, degrees in a sine), the hint says so. The
-assignments are in book/course; one module here for each kind of thing that is asked for.
+A check takes what a student wrote (a function, a number, gains, an expression) and tries properties
+of it. It returns a sentence if they hold, and raises Hint if not; where a usual mistake explains
+what comes out (latitude and longitude swapped, degrees in a sine), the hint says so. The
+assignments are in book/course; there is one module here for each kind of task.
 """
 
 import lazy_loader
 
-# An assignment uses one or two of them, and only some need sympy: each is imported when it is first named.
+# An assignment uses one or two of them, and only some need sympy: each is imported when first used.
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submodules=[

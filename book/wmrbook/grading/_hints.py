@@ -1,4 +1,4 @@
-"""What a check says, and how it asks for an answer: whatever that is, the student reads a sentence."""
+"""What a check says, and how it asks for an answer: whatever comes, a student reads a hint."""
 
 from __future__ import annotations
 

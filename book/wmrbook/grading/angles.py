@@ -1,4 +1,4 @@
-"""Checks of polar coordinates: the polar error, the signs in its rates, and gains out of a textbook with other signs."""
+"""Checks of polar coordinates: the polar error, the signs in its rates, a textbook's gains."""
 
 from __future__ import annotations
 
@@ -11,7 +11,16 @@ import sympy as sp
 
 from wmrbook.conventions import gains_near_goal
 from wmrbook.grading._expressions import expression
-from wmrbook.grading._hints import Passed, ask_numbers, close, expect, own_work
+from wmrbook.grading._hints import (
+    Passed,
+    ask_numbers,
+    close,
+    expect,
+    expect_value,
+    explain,
+    own_work,
+    rule_out,
+)
 from wmrlib.gains import Gains
 from wmrlib.kinematics import PolarError, Pose, advance, polar_error, pose_from_polar, wrap_angle
 from wmrlib.symbolic import angle, rho
@@ -21,7 +30,7 @@ _ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
 def polar_known(polar: Polar) -> Passed:
-    """polar(x, y, heading, x_goal, y_goal, goal_heading): (rho, alpha, theta) in m and rad, right up to full turns."""
+    """polar(x, y, heading, x_goal, y_goal, goal_heading): (rho, alpha, theta), up to full turns."""
     own_work(polar)
     for pose, goal in _pairs(40):
         _explain_polar(ask_numbers(polar, 3, *pose, *goal), pose, goal)
@@ -29,193 +38,164 @@ def polar_known(polar: Polar) -> Passed:
 
 
 def polar_range(polar: Polar) -> Passed:
-    """Both angles are between -pi and pi, also with the goal straight behind and with headings of more than a turn."""
+    """Both angles are in [-pi, pi], with the goal straight behind and after full turns too."""
     own_work(polar)
-    straight_behind = (Pose(0.0, 0.0, 0.3), Pose(-5.0 * math.cos(0.3), -5.0 * math.sin(0.3), 0.3))
+    behind = (Pose(0.0, 0.0, 0.3), Pose(-5.0 * math.cos(0.3), -5.0 * math.sin(0.3), 0.3))
     turned = [
-        (Pose(*pose[:2], pose.heading + 9.0), Pose(*goal[:2], goal.heading - 7.0))
+        (pose._replace(heading=pose.heading + 9.0), goal._replace(heading=goal.heading - 7.0))
         for pose, goal in _pairs(20)
     ]
     most = 0.0
-    for pose, goal in [straight_behind, *_pairs(40), *turned]:
-        for name, value in zip(
-            ("alpha", "theta"), ask_numbers(polar, 3, *pose, *goal)[1:], strict=True
-        ):
+    for pose, goal in [behind, *_pairs(40), *turned]:
+        for name, value in zip(("alpha", "theta"), _seen(polar, pose, goal)[1:], strict=True):
             most = max(most, abs(value))
-            expect(
-                abs(value) <= math.pi + 1e-9,
-                f"{name} comes out as {math.degrees(value):.0f} deg: nobody turns further than half a turn. Bring it into (-pi, pi].",
-            )
-    expect(
-        most > math.pi / 2.0,
-        f"some goals lie behind the robot, and no angle is larger than {math.degrees(most):.0f} deg.",
-    )
-    behind = math.degrees(abs(ask_numbers(polar, 3, *straight_behind[0], *straight_behind[1])[1]))
-    return Passed(f"No angle is larger than half a turn; straight behind is at {behind:.0f} deg.")
+            hint = f"{name} comes out as {math.degrees(value):.0f} deg: "
+            hint += "nobody turns further than half a turn. Bring it into (-pi, pi]."
+            expect(abs(value) <= math.pi + 1e-9, hint)
+    hint = "some goals lie behind the robot, and no angle is larger than "
+    expect(most > math.pi / 2.0, f"{hint}{math.degrees(most):.0f} deg.")
+    straight = math.degrees(abs(_seen(polar, *behind)[1]))
+    return Passed(f"No angle is larger than half a turn; straight behind is at {straight:.0f} deg.")
 
 
 def polar_properties(polar: Polar) -> Passed:
     """A mirrored start sees mirrored angles, and a map that is moved and turned changes nothing."""
     own_work(polar)
     for pose, goal in _pairs(20):
-        seen = ask_numbers(polar, 3, *pose, *goal)
-        mirrored = ask_numbers(
-            polar, 3, pose.x, -pose.y, -pose.heading, goal.x, -goal.y, -goal.heading
-        )
-        expect(
-            close(mirrored[0], seen[0]) and _angles_equal((-mirrored[1], -mirrored[2]), seen[1:]),
-            "seen in a mirror along the x axis, rho must stay and both angles change their sign.",
-        )
-        moved = ask_numbers(polar, 3, *_moved(pose), *_moved(goal))
-        expect(
-            close(moved[0], seen[0], 1e-9) and _angles_equal(moved[1:], seen[1:]),
-            "robot and goal moved and turned together must see the same: is an angle counted from east?",
-        )
-        expect(
-            abs(seen[1]) + abs(seen[2]) > 0.0,
-            "both angles are zero for a robot and a goal that don't face each other.",
-        )
+        distance, *both = _seen(polar, pose, goal)
+        mirrored = [Pose(each.x, -each.y, -each.heading) for each in (pose, goal)]
+        there, *angles = _seen(polar, *mirrored)
+        hint = "seen in a mirror along the x axis, "
+        hint += "rho must stay and both angles change their sign."
+        opposite = [-each for each in angles]
+        expect(close(there, distance) and _angles_equal(opposite, both), hint)
+        there, *angles = _seen(polar, _moved(pose), _moved(goal))
+        hint = "robot and goal moved and turned together must see the same: "
+        hint += "is an angle counted from east?"
+        expect(close(there, distance, 1e-9) and _angles_equal(angles, both), hint)
+        hint = "both angles are zero for a robot and a goal that don't face each other."
+        expect(abs(both[0]) + abs(both[1]) > 0.0, hint)
     return Passed("Left mirrors right, and where east is does not matter.")
 
 
 def tail_rows(tail_model: Any) -> Passed:
-    """The rows of rho' and of the tail camera's angle', 3 x 2 in rho and angle, against the robot itself, moved a little."""
-    rows, states = _rows(tail_model), _tail_states()
-    if not all(_fits(rows[:2], measured[:2], where) for where, measured in states):
+    """The rows of rho' and of the tail camera's angle', against a robot that is moved a little."""
+    rows = _rows(tail_model)
+    if not _fits(rows[:2], slice(2)):
         turned = [[entry.subs(angle, angle + sp.pi) for entry in row] for row in rows]
-        expect(
-            not all(_fits(turned[:2], measured[:2], where) for where, measured in states),
-            "this is what a camera on the nose sees: what does half a turn do to a cosine and to a sine?",
-        )
+        hint = "this is what a camera on the nose sees: "
+        hint += "what does half a turn do to a cosine and to a sine?"
+        expect(not _fits(turned[:2], slice(2)), hint)
         for row, name in ((0, "rho'"), (1, "angle'")):
-            for column, command in ((0, "v"), (1, "omega")):
-                expect(
-                    all(
-                        _fits(
-                            [[rows[row][column]]],
-                            measured[row : row + 1, column : column + 1],
-                            where,
-                        )
-                        for where, measured in states
-                    ),
-                    f"the entry of {name} under {command} is not what a robot measures that "
-                    f"{'drives ahead' if column == 0 else 'turns to the left'}: draw it, and look at the sign.",
-                )
+            for column, command, does in (
+                (0, "v", "drives ahead"),
+                (1, "omega", "turns to the left"),
+            ):
+                hint = f"the entry of {name} under {command} is not what a robot measures that "
+                hint += f"{does}: draw it, and look at the sign."
+                expect(_fits([[rows[row][column]]], slice(row, row + 1), column), hint)
     return Passed("A robot that is moved by a hundredth of a millimetre measures these two rows.")
 
 
 def tail_third(tail_model: Any) -> Passed:
     """The row of beta'."""
-    rows, states = _rows(tail_model), _tail_states()
-    opposite = [[-entry for entry in rows[2]]]
-    if not all(_fits(rows[2:], measured[2:], where) for where, measured in states):
-        expect(
-            not all(_fits(opposite, measured[2:], where) for where, measured in states),
-            "the third row has the opposite sign: whose angle is it, theta or beta, and what does the tail do to the sine?",
-        )
-        expect(
-            False,
-            "the third row is not what a robot measures: beta changes only as the line of sight swings.",
-        )
+    rows = _rows(tail_model)
+    hint = "the third row has the opposite sign: "
+    hint += "whose angle is it, theta or beta, and what does the tail do to the sine?"
+    expect(not _fits([[-entry for entry in rows[2]]], slice(2, 3)), hint)
+    hint = "the third row is not what a robot measures: "
+    expect(_fits(rows[2:], slice(2, 3)), f"{hint}beta changes only as the line of sight swings.")
     return Passed("And the third row too: the sign is found.")
 
 
 def textbook_gains(
     our_gains: Callable[[float, float, float, float], tuple[float, float, float]],
 ) -> Passed:
-    """our_gains(k_rho, k_alpha, k_beta, v_max): (k_rho, k_alpha, h) of the corrected law that does the same near the goal."""
+    """our_gains(k_rho, k_alpha, k_beta, v_max): gains that do the same near the goal."""
     own_work(our_gains)
     for theirs in ((3.0, 8.0, -1.5), *_their_gains(12)):
         for v_max in (0.5, 1.0, 4.0):
             k_rho, k_alpha, h = ask_numbers(our_gains, 3, *theirs, v_max)
+            hint = "h comes out negative: "
             expect(
                 h >= 0.0,
-                "h comes out negative: how do theta and beta differ, and what does that do to their gains?",
+                f"{hint}how do theta and beta differ, and what does that do to their gains?",
             )
-            expect(
-                k_rho >= 0.0 and k_alpha >= 0.0,
-                "gains that park the robot there come out negative here: one of the differences is turned round.",
-            )
+            hint = "gains that park the robot there come out negative here: "
+            expect(min(k_rho, k_alpha) >= 0.0, f"{hint}one of the differences is turned round.")
             back = gains_near_goal(Gains(k_rho, k_alpha, h, v_max), "siegwart")
-            if not all(close(value, right) for value, right in zip(back, theirs, strict=True)):
-                expect(
-                    close(back[0], theirs[0]),
-                    f"with v_max = {v_max:g} m/s the speeds near the goal are not the same: what is (22) for small rho? Look at the units.",
-                )
-                expect(
-                    not close(k_alpha, theirs[1]),
-                    "k_alpha is taken over as it is; but our omega has alpha in its other term too.",
-                )
-                expect(
-                    close(back[1], theirs[1]),
-                    "near the goal, with theta = 0, the two robots turn at different rates: look at alpha's gain.",
-                )
-                expect(
-                    False,
-                    "near the goal, with alpha = 0, the two robots turn at different rates: look at h, and at its unit.",
-                )
+            hint = f"with v_max = {v_max:g} m/s the speeds near the goal are not the same: "
+            expect(
+                close(back[0], theirs[0]), f"{hint}what is (22) for small rho? Look at the units."
+            )
+            if not close(back[1], theirs[1]):
+                hint = "k_alpha is taken over as it is; "
+                hint += "but our omega has alpha in its other term too."
+                expect(not close(k_alpha, theirs[1]), hint)
+            turn = "the two robots turn at different rates: look at"
+            expect(
+                close(back[1], theirs[1]), f"near the goal, with theta = 0, {turn} alpha's gain."
+            )
+            hint = f"near the goal, with alpha = 0, {turn} h, and at its unit."
+            expect(close(back[2], theirs[2]), hint)
     return Passed("Near the goal both laws command the same: (3, 8, -1.5) is stable in both books.")
 
 
+def _seen(polar: Polar, pose: Pose, goal: Pose) -> tuple[float, ...]:
+    return ask_numbers(polar, 3, *pose, *goal)
+
+
 def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
-    """Raises Hint unless the value is the polar error, up to full turns."""
+    """Raise Hint unless the value is the polar error, up to full turns."""
     distance, alpha, theta = polar_error(pose, goal)
     if not close(value[0], distance):
-        expect(
-            not close(value[0], distance**2), "rho comes out squared: metres, not square metres."
-        )
-        expect(False, "rho is not the distance between robot and goal.")
+        mistakes = {"rho comes out squared: metres, not square metres.": distance**2}
+        explain(value[0], mistakes, "rho is not the distance between robot and goal.")
     seen, right = value[1:], (alpha, theta)
     if _angles_equal(seen, right):
         return
+    in_degrees = _angles_equal([math.radians(each) for each in seen], right)
+    expect(not in_degrees, "the angles are in degrees; radians are asked for.")
     sight = alpha + pose.heading
-    swapped = math.pi / 2.0 - sight
-    expect(
-        not _angles_equal([math.radians(each) for each in seen], right),
-        "the angles are in degrees; radians are asked for.",
-    )
-    expect(
-        not _angles_equal((seen[0] + math.pi, seen[1] + math.pi), right),
-        "the line of sight goes from the robot to the goal; yours goes back."
-        if goal.x > pose.x
-        else "with the goal in the west the line of sight points the opposite way: an atan of a quotient can't tell, an atan2 can.",
-    )
-    expect(
-        not _angles_equal(seen, (swapped - pose.heading, swapped - goal.heading)),
-        "the line of sight is counted from north, clockwise: which argument of atan2 comes first?",
-    )
-    expect(not _angles_equal(seen, right[::-1]), "alpha and theta have changed places.")
-    expect(
-        not _angles_equal(seen, (-alpha, -theta)),
-        "both angles have the wrong sign: from the heading *to* the line of sight.",
-    )
+    from_north = math.pi / 2.0 - sight
+    back = "the line of sight goes from the robot to the goal; yours goes back."
+    if goal.x <= pose.x:
+        back = "with the goal in the west the line of sight points the opposite way: "
+        back += "an atan of a quotient can't tell, an atan2 can."
+    mistakes = {
+        back: (alpha + math.pi, theta + math.pi),
+        "the line of sight is counted from north, clockwise: which argument of atan2 "
+        "comes first?": (from_north - pose.heading, from_north - goal.heading),
+        "alpha and theta have changed places.": (theta, alpha),
+        "both angles have the wrong sign: from the heading *to* the line of sight.": (
+            -alpha,
+            -theta,
+        ),
+    }
+    rule_out(seen, mistakes, _angles_equal)
     if _angles_equal(seen[:1], right[:1]):
-        expect(
-            not _angles_equal(seen[1:], (-theta,)),
-            "theta has the opposite sign: this is the beta of Corke and Siegwart.",
-        )
-        expect(
-            not _angles_equal(seen[1:], (sight,)),
-            "theta is counted from east: it is asked for from the goal's heading.",
-        )
         error = pose.heading - goal.heading
-        expect(
-            not (_angles_equal(seen[1:], (error,)) or _angles_equal(seen[1:], (-error,))),
-            "this third angle is between the two headings; theta has the line of sight on one side.",
-        )
-        expect(False, "rho and alpha are right, theta is not: compare with (3.2).")
-    expect(
-        not _angles_equal(seen[:1], (-alpha,)),
-        "alpha has the wrong sign: with the goal on the left it is positive.",
-    )
-    expect(False, "alpha is not the angle from the robot's heading to the line of sight.")
+        third = any(_angle_equal(seen[1], each) for each in (error, -error))
+        hint = "this third angle is between the two headings; "
+        expect(not third, f"{hint}theta has the line of sight on one side.")
+        mistakes = {
+            "theta has the opposite sign: this is the beta of Corke and Siegwart.": -theta,
+            "theta is counted from east: it is asked for from the goal's heading.": sight,
+        }
+        otherwise = "rho and alpha are right, theta is not: compare with (3.2)."
+        explain(seen[1], mistakes, otherwise, _angle_equal)
+    mistakes = {"alpha has the wrong sign: with the goal on the left it is positive.": -alpha}
+    otherwise = "alpha is not the angle from the robot's heading to the line of sight."
+    explain(seen[0], mistakes, otherwise, _angle_equal)
 
 
-def _angles_equal(one, other) -> bool:
+def _angle_equal(one: float, other: float) -> bool:
     """Up to full turns."""
-    return all(
-        abs(math.remainder(a - b, 2.0 * math.pi)) < 1e-9 for a, b in zip(one, other, strict=True)
-    )
+    return abs(math.remainder(one - other, 2.0 * math.pi)) < 1e-9
+
+
+def _angles_equal(some, others) -> bool:
+    return all(_angle_equal(one, other) for one, other in zip(some, others, strict=True))
 
 
 def _moved(pose: Pose) -> Pose:
@@ -234,15 +214,12 @@ def _pairs(count: int) -> list[tuple[Pose, Pose]]:
 
 
 def _rows(model: Any) -> list[list[sp.Expr]]:
-    expect(model is not None and model is not ..., "`tail_model` has no value yet.")
-    expect(
-        isinstance(model, sp.MatrixBase),
-        "`tail_model` has to be a matrix: `sp.Matrix([[..., ...], [..., ...], [..., ...]])`.",
-    )
-    expect(
-        model.shape == (3, 2),
-        f"`tail_model` has the shape {model.shape}; three rows (rho', angle', beta') by two columns (v, omega) are needed.",
-    )
+    expect_value("`tail_model`", model)
+    hint = "`tail_model` has to be a matrix: `sp.Matrix([[..., ...], [..., ...], [..., ...]])`."
+    expect(isinstance(model, sp.MatrixBase), hint)
+    hint = f"`tail_model` has the shape {model.shape}; "
+    hint += "three rows (rho', angle', beta') by two columns (v, omega) are needed."
+    expect(model.shape == (3, 2), hint)
     return [
         [expression("tail_model", entry, (rho, angle)) for entry in model.row(k)] for k in range(3)
     ]
@@ -250,11 +227,9 @@ def _rows(model: Any) -> list[list[sp.Expr]]:
 
 def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
     """(rho, angle), and the 3 x 2 rates there by central differences of what the robot sees."""
-    random, dt = np.random.default_rng(6), 1e-5
-    found = []
-    for distance, alpha, theta in random.uniform(
-        [0.5, -3.0, -3.0], [5.0, 3.0, 3.0], (12, 3)
-    ).tolist():
+    dt, found = 1e-5, []
+    states = np.random.default_rng(6).uniform([0.5, -3.0, -3.0], [5.0, 3.0, 3.0], (12, 3))
+    for distance, alpha, theta in states.tolist():
         pose = pose_from_polar(PolarError(distance, alpha, theta), _ORIGIN)
         columns = []
         for v, omega in ((1.0, 0.0), (0.0, 1.0)):
@@ -262,20 +237,25 @@ def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
                 polar_error(advance(pose, sign * v, sign * omega, dt), _ORIGIN)
                 for sign in (-1.0, 1.0)
             )
-            swings = [wrap_angle(b - a) for a, b in zip(before[1:], after[1:], strict=True)]
-            columns.append(
-                [(after.rho - before.rho) / (2 * dt), swings[0] / (2 * dt), -swings[1] / (2 * dt)]
+            nose, line = (
+                wrap_angle(after.alpha - before.alpha),
+                wrap_angle(after.theta - before.theta),
             )
-        found.append(((distance, wrap_angle(alpha - math.pi)), np.array(columns).T))
+            columns.append([after.rho - before.rho, nose, -line])
+        rates = np.transpose(columns) / (2.0 * dt)
+        found.append(((distance, wrap_angle(alpha - math.pi)), rates))
     return found
 
 
-def _fits(rows: list[list[sp.Expr]], measured: np.ndarray, where: tuple[float, float]) -> bool:
-    values = [
-        [complex(entry.subs({rho: where[0], angle: where[1]}).evalf()) for entry in row]
-        for row in rows
-    ]
-    return bool(np.allclose(values, measured, atol=1e-6))
+def _fits(rows: list[list[sp.Expr]], which: slice, column: int | None = None) -> bool:
+    """Whether these rows (or one column of them) are what the robot measures, in all states."""
+    entries = sp.lambdify((rho, angle), rows)
+    columns = slice(None) if column is None else slice(column, column + 1)
+    with np.errstate(all="ignore"):
+        return all(
+            np.allclose(np.array(entries(*where), complex), rates[which, columns], atol=1e-6)
+            for where, rates in _tail_states()
+        )
 
 
 def _their_gains(count: int) -> list[list[float]]:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 from typing import Any
@@ -45,7 +46,7 @@ def drive_known(drive: Callable[..., Any]) -> Passed:
         seen: list[tuple[float, ...]] = []
         path = _path(drive, start, goal, lambda *polar, seen=seen: _spied(polar, seen), dt, 60.0)
         _explain_seen(seen, start, goal)
-        for row, following in zip(path, path[1:], strict=False):
+        for row, following in itertools.pairwise(path):
             pose = Pose(*row)
             _explain_step(following, pose, control_law(*polar_error(pose, goal), _GAINS), dt)
         right = simulate(start, goal, _GAINS, method="euler", dt=dt)

@@ -1,4 +1,4 @@
-"""Checks of a noisy receiver: its scatter in metres, the arrival radius it asks for, and what averaging leaves of it."""
+"""Checks of a noisy receiver: its scatter, its arrival radius, and what averaging leaves."""
 
 from __future__ import annotations
 
@@ -7,7 +7,16 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import Passed, ask_number, ask_numbers, close, expect, own_work
+from wmrbook.grading._hints import (
+    Passed,
+    ask_number,
+    ask_numbers,
+    close,
+    expect,
+    explain,
+    own_work,
+    rule_out,
+)
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
 from wmrlib.tracks import stationary_scatter
 
@@ -15,60 +24,51 @@ DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
 
 
 def scatter_known(scatter: Callable) -> Passed:
-    """scatter(lat, lon) -> (mean_lat, mean_lon, std_east, std_north): degrees in, degrees and metres out."""
+    """scatter(lat, lon) -> (mean_lat, mean_lon, std_east, std_north): degrees and metres."""
     own_work(scatter)
     for lat, lon in _logs(12):
         right = stationary_scatter(GeoPoint(lat=lat, lon=lon))
-        mean_lat, mean_lon, east, north = ask_numbers(scatter, 4, lat.copy(), lon.copy())
-        expect(
-            not close(mean_lat, right.mean.lon, 1e-9),
-            "the mean longitude comes first; the latitude is asked for first.",
-        )
+        mean_lat, mean_lon, *stds = ask_numbers(scatter, 4, lat.copy(), lon.copy())
+        hint = "the mean longitude comes first; the latitude is asked for first."
+        expect(not close(mean_lat, right.mean.lon, 1e-9), hint)
         for name, value, wanted in (
             ("latitude", mean_lat, right.mean.lat),
             ("longitude", mean_lon, right.mean.lon),
         ):
-            expect(
-                abs(value - wanted) < 2e-9,
-                f"the mean {name} is {abs(value - wanted) * DEGREE:.3g} m off; it is a plain mean, in degrees.",
-            )
-        _expect_scatter(east, north, lat, lon, right)
+            off = abs(value - wanted)
+            hint = f"the mean {name} is {off * DEGREE:.3g} m off; it is a plain mean, in degrees."
+            expect(off < 2e-9, hint)
+        if not _near(stds, (right.std_east, right.std_north)):
+            _explain_scatter(stds, lat, lon, right)
     return Passed("Twelve receivers from the equator to 70 deg: mean and scatter are right.")
 
 
 def scatter_properties(scatter: Callable) -> Passed:
-    """Another longitude, the other hemisphere, another order: the same scatter; twice the error, twice the scatter."""
+    """The same elsewhere and in another order; twice the error is twice the scatter."""
     own_work(scatter)
     for lat, lon in _logs(5):
         found = np.array(ask_numbers(scatter, 4, lat.copy(), lon.copy())[2:])
         expect(bool((found > 0.0).all()), "a standard deviation is positive.")
-        for changed, hint in [
-            ((lat, lon - 30.0), "30 deg further west the same receiver must scatter as much."),
-            ((-lat, lon), "on the other hemisphere the same receiver must scatter as much."),
-            ((lat[::-1], lon[::-1]), "the order of the looks must not count."),
+        doubled = 2.0 * lat - lat.mean(), 2.0 * lon - lon.mean()
+        for changed, times, hint in [
+            ((lat, lon - 30.0), 1.0, "30 deg further west the same receiver must scatter as much."),
+            ((-lat, lon), 1.0, "on the other hemisphere the same receiver must scatter as much."),
+            ((lat[::-1], lon[::-1]), 1.0, "the order of the looks must not count."),
+            (doubled, 2.0, "twice as far from the mean must be twice the standard deviation."),
         ]:
-            expect(
-                np.allclose(ask_numbers(scatter, 4, *map(np.array, changed))[2:], found, rtol=1e-6),
-                hint,
-            )
-        doubled = ask_numbers(scatter, 4, 2.0 * lat - lat.mean(), 2.0 * lon - lon.mean())[2:]
-        expect(
-            np.allclose(doubled, 2.0 * found, rtol=1e-6),
-            "twice as far from the mean must be twice the standard deviation.",
-        )
+            stds = ask_numbers(scatter, 4, *map(np.array, changed))[2:]
+            expect(np.allclose(stds, times * found, rtol=1e-6), hint)
     lon = np.array([-1e-5, 0.0, 1e-5, 2e-5])
     east, north = ask_numbers(scatter, 4, 60.0 + lon, lon)[2:]
-    expect(
-        close(2.0 * east, north, 1e-4),
-        "at 60 deg of latitude a degree of longitude is half as long as one of latitude.",
-    )
-    return Passed(
-        f"At 60 deg, a step of 1e-5 deg is {1e-5 * DEGREE:.2f} m to the north and {0.5e-5 * DEGREE:.2f} m to the east."
-    )
+    hint = "at 60 deg of latitude a degree of longitude is half as long as one of latitude."
+    expect(close(2.0 * east, north, 1e-4), hint)
+    step = 1e-5 * DEGREE
+    north = f"At 60 deg, a step of 1e-5 deg is {step:.2f} m to the north"
+    return Passed(f"{north} and {0.5 * step:.2f} m to the east.")
 
 
 def radius_share(arrival_radius: Callable) -> Passed:
-    """arrival_radius(share, looks, sigma): of 40 000 simulated robots on the goal, this share stops within so many looks."""
+    """arrival_radius(share, looks, sigma): this share of simulated robots on the goal stops."""
     own_work(arrival_radius)
     random = np.random.default_rng(91)
     for share, looks in ((0.5, 1), (0.9, 1), (0.5, 10), (0.9, 5), (0.99, 20), (0.1, 3)):
@@ -78,9 +78,9 @@ def radius_share(arrival_radius: Callable) -> Passed:
         nearest = np.hypot(*random.standard_normal((2, 40_000, looks))).min(axis=1) * sigma
         stopped = float((nearest < value).mean())
         if abs(stopped - share) > 0.012:
-            _explain_radius(value, share, looks, sigma)
-            hint = f"with your radius {100 * stopped:.1f} % of 40 000 robots stop (looks: {looks}); {100 * share:.0f} % were wanted."
-            expect(False, hint)
+            hint = f"with your radius {100 * stopped:.1f} % of 40 000 robots stop "
+            hint += f"(looks: {looks}); {100 * share:.0f} % were wanted."
+            _explain_radius(value, share, looks, sigma, hint)
     return Passed("40 000 simulated robots, six times: the wanted share of them stops.")
 
 
@@ -89,20 +89,15 @@ def radius_properties(arrival_radius: Callable) -> Passed:
     own_work(arrival_radius)
     for share, looks, sigma in ((0.2, 2, 0.5), (0.5, 7, 1.5), (0.95, 12, 2.5)):
         value = ask_number(arrival_radius, share, looks, sigma)
-        expect(
-            close(ask_number(arrival_radius, share, looks, 3.0 * sigma), 3.0 * value),
-            "three times the noise needs three times the radius.",
-        )
+        noisy = ask_number(arrival_radius, share, looks, 3.0 * sigma)
+        expect(close(noisy, 3.0 * value), "three times the noise needs three times the radius.")
         hint = "with four times the looks half of the radius does: how often are all looks outside?"
         expect(close(2.0 * ask_number(arrival_radius, share, 4 * looks, sigma), value), hint)
-        expect(
-            ask_number(arrival_radius, 0.5 + 0.5 * share, looks, sigma) > value,
-            "a larger share needs a larger radius.",
-        )
+        larger = ask_number(arrival_radius, 0.5 + 0.5 * share, looks, sigma)
+        expect(larger > value, "a larger share needs a larger radius.")
     value = ask_number(arrival_radius, 0.9, 10, 0.5)
-    return Passed(
-        f"Half a metre of noise, ten looks: {value:.2f} m stop 90 % of the robots on the goal."
-    )
+    noise = f"Half a metre of noise, ten looks: {value:.2f} m"
+    return Passed(f"{noise} stop 90 % of the robots on the goal.")
 
 
 def mean_white(scatter_of_mean: Callable) -> Passed:
@@ -110,160 +105,133 @@ def mean_white(scatter_of_mean: Callable) -> Passed:
     own_work(scatter_of_mean)
     for sigma, n in ((0.5, 1), (0.5, 2), (1.5, 9), (3.0, 100)):
         value, right = ask_number(scatter_of_mean, sigma, n, 0.0), sigma / math.sqrt(n)
-        expect(
-            not close(value, right**2) or close(value, right),
-            "this is the variance, in m^2; its root is asked for.",
-        )
-        expect(
-            not close(value, sigma / n) or n == 1,
-            "independent errors do not add up like equal ones: their variances do.",
-        )
-        expect(
-            close(value, right),
-            f"{n} independent looks of {sigma:g} m: the mean comes out with {value:.4g} m.",
-        )
+        if not close(value, right):
+            mistakes = {
+                "this is the variance, in m^2; its root is asked for.": right**2,
+                "independent errors do not add up like equal ones: their variances do.": sigma / n
+                if n > 1
+                else math.inf,
+            }
+            hint = f"{n} independent looks of {sigma:g} m: "
+            explain(value, mistakes, f"{hint}the mean comes out with {value:.4g} m.")
     return Passed("Nine independent looks: a third of the scatter of one.")
 
 
 def mean_correlated(scatter_of_mean: Callable) -> Passed:
     """The same for looks that are alike: against the sum over all pairs, and the limits."""
     own_work(scatter_of_mean)
-    random = np.random.default_rng(93)
-    cases = [
-        (float(random.uniform(0.3, 3.0)), n, float(c))
-        for n, c in zip((2, 3, 5, 9, 30, 200), random.uniform(0.2, 0.98, 6), strict=True)
-    ]
+    random, sizes = np.random.default_rng(93), (2, 3, 5, 9, 30, 200)
+    alike = random.uniform(0.2, 0.98, 6).tolist()
+    cases = [(random.uniform(0.3, 3.0), n, c) for n, c in zip(sizes, alike, strict=True)]
     for sigma, n, c in [*cases, (1.0, 4, -0.5)]:
         value, apart = ask_number(scatter_of_mean, sigma, n, c), np.arange(n)
         right = sigma / n * math.sqrt((c ** np.abs(apart[:, None] - apart)).sum())
         if not close(value, right, 1e-6):
-            _explain_mean(value, sigma, n, c, right)
-            hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.2f}: the mean comes out with {value:.4g} m. Write the variance "
-            expect(
-                False,
-                hint
-                + "of the sum as a sum over all pairs of looks, and count how many pairs are k apart.",
-            )
+            hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.2f}: "
+            hint += f"the mean comes out with {value:.4g} m. Write the variance of the sum as a "
+            hint += "sum over all pairs of looks, and count how many pairs are k apart."
+            _explain_mean(value, sigma, n, c, right, hint)
     for n in (1, 5, 50):
-        expect(
-            close(ask_number(scatter_of_mean, 0.8, n, 1.0), 0.8),
-            "errors that are all the same (correlation 1) do not average out at all.",
-        )
+        hint = "errors that are all the same (correlation 1) do not average out at all."
+        expect(close(ask_number(scatter_of_mean, 0.8, n, 1.0), 0.8), hint)
     value = ask_number(scatter_of_mean, 1.0, 9, 0.9)
-    return Passed(
-        f"Nine looks, neighbours alike by 0.9: the mean keeps {100 * value:.0f} % of the scatter, where white noise keeps 33 %."
-    )
+    kept = f"the mean keeps {100 * value:.0f} % of the scatter, where white noise keeps 33 %."
+    return Passed(f"Nine looks, neighbours alike by 0.9: {kept}")
 
 
-def _expect_scatter(east: float, north: float, lat: np.ndarray, lon: np.ndarray, right) -> None:
+def _near(stds, others) -> bool:
+    return np.allclose(stds, others, rtol=1e-4)
+
+
+def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right) -> None:
     n, middle = lat.size, right.mean.lat
-    wanted = right.std_east, right.std_north
-    if np.allclose((east, north), wanted, rtol=1e-4):
-        return
+    east, north = wanted = right.std_east, right.std_north
     cos, fewer = math.cos(math.radians(middle)), math.sqrt((n - 1) / n)
-    shapes = [
-        ((wanted[1], wanted[0]), "east and north are swapped."),
-        ((lon.std(ddof=1), lat.std(ddof=1)), "the scatter is in degrees; metres are asked for."),
+    lat_std, lon_std, degree = lat.std(ddof=1), lon.std(ddof=1), math.degrees(1.0)
+    in_degrees = "the scatter is in degrees; metres are asked for."
+    mistakes = [
+        ((north, east), "east and north are swapped."),
+        ((lon_std, lat_std), in_degrees),
+        ((lon_std * cos, lat_std), in_degrees),
         (
-            (lon.std(ddof=1) * cos, lat.std(ddof=1)),
-            "the scatter is in degrees; metres are asked for.",
-        ),
-        (
-            (wanted[0] * math.degrees(1.0), wanted[1] * math.degrees(1.0)),
+            (east * degree, north * degree),
             "an arc is the radius times an angle in radians, not in degrees.",
         ),
         (
-            (wanted[0] / cos, wanted[1]),
-            "a degree of longitude is not as long as one of latitude: where is the latitude in your std_east?",
+            (east / cos, north),
+            "a degree of longitude is not as long as one of latitude: "
+            "where is the latitude in your std_east?",
         ),
         (
-            (wanted[0] / cos, wanted[1] * cos),
-            "the cosine stands at the wrong one of the two: which circles get smaller towards the poles?",
+            (east / cos, north * cos),
+            "the cosine stands at the wrong one of the two: "
+            "which circles get smaller towards the poles?",
         ),
-        ((wanted[0] / cos * abs(math.cos(middle)), wanted[1]), "a cosine was given degrees."),
-        (
-            (wanted[0] ** 2, wanted[1] ** 2),
-            "these are variances, in m^2; their roots are asked for.",
-        ),
+        ((east / cos * abs(math.cos(middle)), north), "a cosine was given degrees."),
+        ((east**2, north**2), "these are variances, in m^2; their roots are asked for."),
     ]
-    for (mistaken_east, mistaken_north), hint in shapes:
+    for mistaken, hint in mistakes:
         for share in (1.0, fewer):
-            expect(
-                not np.allclose(
-                    (east, north), (mistaken_east * share, mistaken_north * share), rtol=1e-4
-                ),
-                hint,
-            )
-    small = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small"
-    hint = f"{small}: the mean was computed from the same looks. How many are left?"
-    expect(not np.allclose((east, north), (wanted[0] * fewer, wanted[1] * fewer), rtol=1e-4), hint)
-    expect(
-        not np.allclose((east, north), wanted, rtol=5e-3),
-        "nearly right: is the radius 6371 km, and the cosine that of the mean latitude?",
-    )
-    for name, value, correct in (("east", east, wanted[0]), ("north", north, wanted[1])):
-        expect(
-            close(value, correct, 1e-4),
-            f"std_{name} is wrong: {n} looks come out with {value:.4g} m.",
-        )
+            expect(not _near(stds, np.multiply(mistaken, share)), hint)
+    small = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small: "
+    hint = "the mean was computed from the same looks. How many are left?"
+    expect(not _near(stds, np.multiply(wanted, fewer)), small + hint)
+    hint = "nearly right: is the radius 6371 km, and the cosine that of the mean latitude?"
+    expect(not np.allclose(stds, wanted, rtol=5e-3), hint)
+    for name, value, correct in zip(("east", "north"), stds, wanted, strict=True):
+        hint = f"std_{name} is wrong: {n} looks come out with {value:.4g} m."
+        expect(close(value, correct, 1e-4), hint)
 
 
-def _explain_radius(value: float, share: float, looks: int, sigma: float) -> None:
-    right = sigma * math.sqrt(-2.0 * math.log1p(-share) / looks)
-    expect(
-        not close(value, right * math.sqrt(looks)) or looks == 1,
-        "the number of looks does not count in your radius: this is for one look.",
-    )
-    expect(not close(value, right * looks), "more looks need a smaller radius, not a larger one.")
-    expect(
-        not close(value, sigma * math.sqrt(-2.0 * math.log(share) / looks)),
-        "this is for the robots that do *not* stop: share or 1 - share?",
-    )
-    expect(not close(value, right / math.sqrt(2.0)), "look at the 2 in (9.1).")
-    expect(
-        not close(value, sigma * (right / sigma) ** 2), "(9.1) holds R^2: is there a root missing?"
-    )
-    mistaken = sigma * math.sqrt(-2.0 * math.log1p(-share / looks))
-    expect(
-        not close(value, mistaken),
-        "chances do not simply add up over the looks: what is the chance that *none* of them stops the robot?",
-    )
+def _explain_radius(value: float, share: float, looks: int, sigma: float, hint: str) -> None:
+    missed = -2.0 * math.log1p(-share)  # (R/sigma)^2 for one look
+    right = sigma * math.sqrt(missed / looks)
+    mistakes = {
+        "the number of looks does not count in your radius: this is for one look.": sigma
+        * math.sqrt(missed)
+        if looks > 1
+        else math.inf,
+        "more looks need a smaller radius, not a larger one.": right * looks
+        if looks > 1
+        else math.inf,
+        "this is for the robots that do *not* stop: share or 1 - share?": sigma
+        * math.sqrt(-2.0 * math.log(share) / looks),
+        "look at the 2 in (9.1).": right / math.sqrt(2.0),
+        "(9.1) holds R^2: is there a root missing?": sigma * missed / looks,
+        "chances do not simply add up over the looks: what is the chance that *none* of them "
+        "stops the robot?": sigma * math.sqrt(-2.0 * math.log1p(-share / looks)),
+    }
+    explain(value, mistakes, hint)
 
 
-def _explain_mean(value: float, sigma: float, n: int, c: float, right: float) -> None:
+def _explain_mean(value: float, sigma: float, n: int, c: float, right: float, hint: str) -> None:
     k, white = np.arange(1, n), sigma / math.sqrt(n)
-    expect(not close(value, right**2), "this is the variance, in m^2; its root is asked for.")
-    expect(
-        not close(value, white),
-        "the correlation does not count in your result: neighbours that are alike tell less than two strangers.",
-    )
-    once = white * math.sqrt(max(0.0, 1.0 + float((c**k * (1.0 - k / n)).sum())))
-    expect(
-        not close(value, once),
-        "each pair of looks stands in the square of the sum twice: once as (i, j), once as (j, i).",
-    )
-    every = white * math.sqrt(max(0.0, 1.0 + 2.0 * float((c**k).sum())))
-    expect(not close(value, every), "there are n - k pairs that are k apart, not n.")
-    many = white * math.sqrt((1.0 + c) / (1.0 - c))
-    expect(
-        not close(value, many),
-        "this holds for very many looks; the first and the last have fewer neighbours.",
-    )
-    alone = white * math.sqrt(max(0.0, 1.0 + 2.0 * c * (n - 1) / n))
-    expect(
-        not close(value, alone),
-        "not only neighbours are alike: what about looks that are two or three apart?",
-    )
+
+    def mean(pairs: float) -> float:
+        return white * math.sqrt(max(0.0, 1.0 + pairs))
+
+    rule_out(value, {"this is the variance, in m^2; its root is asked for.": right**2})
+    mistakes = {
+        "the correlation does not count in your result: "
+        "neighbours that are alike tell less than two strangers.": white,
+        "each pair of looks stands in the square of the sum twice: "
+        "once as (i, j), once as (j, i).": mean(float((c**k * (1.0 - k / n)).sum())),
+        "there are n - k pairs that are k apart, not n.": mean(2.0 * float((c**k).sum())),
+        "this holds for very many looks; the first and the last have fewer neighbours.": white
+        * math.sqrt((1.0 + c) / (1.0 - c)),
+        "not only neighbours are alike: what about looks that are two or three apart?": mean(
+            2.0 * c * (n - 1) / n
+        ),
+    }
+    explain(value, mistakes, hint)
 
 
 def _logs(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Latitudes and longitudes of receivers that stand still, the first one at a middle latitude."""
+    """Latitudes and longitudes of receivers that stand still; the last is on the equator."""
     random, found = np.random.default_rng(90), []
     for k in range(count):
-        at = GeoPoint(
-            lat=random.uniform(35.0, 70.0) * (1.0 if k % 2 == 0 else -1.0),
-            lon=random.uniform(-120.0, 150.0),
-        )
+        lat = random.uniform(35.0, 70.0) * (1.0 if k % 2 == 0 else -1.0)
+        at = GeoPoint(lat=lat, lon=random.uniform(-120.0, 150.0))
         at = GeoPoint(lat=0.02, lon=10.0) if k == count - 1 else at
         n, spread = int(random.integers(4, 30)), random.uniform(0.3, 4.0, 2)
         points = point_at(at, *(spread[:, None] * random.standard_normal((2, n))))

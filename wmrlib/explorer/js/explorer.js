@@ -92,8 +92,7 @@ function render({ model, el }) {
   }
 
   function drawLandscape() {
-    const forward = state.settings && state.settings.law === 'kanayama';
-    const note = forward ? 'The feed-forward law does not use these gains.' : !state.settings ? 'no run yet' : '';
+    const note = !state.settings ? 'no run yet' : mapped(state.settings) ? '' : 'This law does not use these gains.';
     if (!note) gainMap.update(state.settings, model.get('axes'), model.get('metric'));
     if (!note && gainMap.step(pressed)) schedule();
     drawMap(mapCanvas, state.colours, { map: gainMap.map, gains: state.settings && state.settings.gains, note });
@@ -168,7 +167,7 @@ function render({ model, el }) {
   find('.wmr-time').addEventListener('input', (event) => { Object.assign(state, { time: Number(event.target.value), playing: null }); schedule(); });
 
   dragOver(charts, (x) => { Object.assign(state, { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x), playing: null }); schedule(); });
-  dragOver(mapCanvas, (x, y) => { if (gainMap.map && state.settings.law !== 'kanayama') write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y)); });
+  dragOver(mapCanvas, (x, y) => { if (gainMap.map && mapped(state.settings)) write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y)); });
   mapCanvas.addEventListener('keydown', (event) => {
     const move = MOVES[event.key], { map } = gainMap;
     if (!move || !map) return;

@@ -2,9 +2,9 @@
 
 const FIGURES = ['arrival', 'heading', 'peak', 'length', 'damping', 'slower'];
 
-// The closed loop near a goal that stands still; feed-forward acts on a moving goal only, and has no such figures.
+// The closed loop near a goal that stands still; a law that needs a moving one has no such figures.
 function modesOf(settings) {
-  return settings.law === 'kanayama' ? null : modes(settings.gains, settings.law);
+  return LAWS[settings.law].modes ? modes(settings.gains, settings.law) : null;
 }
 
 // "16 × slower", "1.3 × faster": how the heading's rate compares with the distance's.
@@ -14,7 +14,7 @@ function comparedWith(slower) {
 
 function figuresOf(settings, run, summary) {
   const near = modesOf(settings), moving = settings.reference !== null;
-  const none = settings.law === 'printed' ? 'the heading is not steered near the goal' : 'not defined for this law';
+  const none = near && near.slower === Infinity ? 'the heading is not steered near the goal' : 'not defined for this law';
   const known = near && Number.isFinite(near.damping);
   return {
     arrival: moving

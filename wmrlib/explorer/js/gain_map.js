@@ -12,19 +12,8 @@ const LEVELS = [10, 40]; // cells a side: a first impression, then the whole
 const BUDGETS = { moving: 7, resting: 60 }; // ms of a frame, which a moving hand needs for itself
 const REST = 20; // ms without a change after which a hand is taken to rest, unless it still holds a pointer down
 
+const mapped = (settings) => AXES.flat().every((name) => LAWS[settings.law].gains.includes(name));
 const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
-
-// One row of a map. Behind a moving goal nothing arrives: there it is what the end of the run amounts to.
-function rowOf(options) {
-  if (options.reference === null) return landscape(options);
-  const { kx, xs, ky, ys, metric, gains } = options, lasting = metric === 'time' ? 'residual' : metric;
-  return Array.from(xs, (x) => {
-    scratch = simulate({ ...options, gains: { ...gains, [kx]: x, [ky]: ys[0] } }, scratch);
-    return summarise(scratch)[lasting];
-  });
-}
-
-let scratch = null; // the memory of the last run of a map, lent to the next
 
 // Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step(held)` works for one
 // budget and says whether there is more to do.
@@ -43,7 +32,7 @@ function buildGainMap() {
       while (job && performance.now() < stop) {
         const { settings, kx, ky, measure, n, row } = job;
         const xs = centres(kx, n), ys = centres(ky, n).subarray(row, row + 1);
-        job.values.set(rowOf({ ...settings, kx, xs, ky, ys, metric: measure.key }), row * n);
+        job.values.set(landscape({ ...settings, kx, xs, ky, ys, metric: measure.key }), row * n);
         job.row += 1;
         if (job.row === n) {
           done = job;

@@ -1,131 +1,114 @@
-// The model's formulas, printed from sympy: change wmrlib/symbolic, then run python -m wmrlib.symbolic.
+// Printed from wmrlib's formulas by python -m wmrlib.symbolic: change those.
 
 // sin(angle)/angle, which is 1 at 0
-function sinc(angle, sine) {
-  return ((Math.abs(angle) > 1.0e-8) ? ( sine/angle ) : ( 1 ));
+function sinc(angle) {
+  return ((Math.abs(angle) > 1e-08) ? ( Math.sin(angle)/angle ) : ( 1 ));
 }
 
 // (1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0
 function decay(rho, k_rho) {
-  return ((k_rho*Math.abs(rho) > 1.0e-8) ? ( -Math.expm1(-k_rho*rho)/rho ) : ( k_rho*(-1/2*k_rho*rho + 1) ));
+  return ((k_rho*Math.abs(rho) > 1e-08) ? ( -Math.expm1(-k_rho*rho)/rho ) : ( k_rho*(-1/2*k_rho*rho + 1) ));
 }
 
-// sin(angle)/angle of an angle up to 0.1, from its square
-function smallSinc(square) {
-  return square*(square*(square*((1/362880)*square - 1/5040) + 1/120) - 1/6) + 1;
+// (22), and the omega that the proof needs
+function correctedLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+  const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);
+  return [rho*v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*sinc(alpha)];
 }
 
-// cos(angle) of an angle up to 0.1, from its square
-function smallCos(square) {
-  return square*(square*(square*((1/40320)*square - 1/720) + 1/24) - 1/2) + 1;
+// (22) and (24) as the paper prints them
+function printedLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+  const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);
+  return [rho*v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*Math.sin(alpha)*Math.cos(alpha)*sinc(alpha)];
 }
 
-// v/rho by (22)
-function correctedPull(rho, cos_alpha, k_rho, v_max) {
-  return cos_alpha*v_max*decay(rho, k_rho);
+// Aicardi et al. (1995), without a speed limit
+function aicardiLaw(rho, alpha, theta, { k_rho, k_alpha, h }) {
+  const v_over_rho = k_rho*Math.cos(alpha);
+  return [rho*v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*sinc(alpha)];
 }
 
-// the omega that makes the proof work
-function correctedOmega(alpha, theta, sinc_alpha, pull, k_alpha, h) {
-  return alpha*k_alpha + pull*sinc_alpha*(alpha + h*theta);
+// Kanayama et al. (1990), feed-forward and feedback
+function kanayamaLaw(rho, alpha, theta, { k_x, k_y, k_heading }, v_ref, omega_ref) {
+  const part0 = alpha - theta;
+  return [k_x*rho*Math.cos(alpha) + v_ref*Math.cos(part0), omega_ref + v_ref*(k_heading*Math.sin(part0) + k_y*rho*Math.sin(alpha))];
 }
 
-// (24) as the paper prints it
-function printedOmega(alpha, theta, sin_alpha, cos_alpha, sinc_alpha, pull, k_alpha, h) {
-  return alpha*k_alpha + cos_alpha*pull*sin_alpha*sinc_alpha*(alpha + h*theta);
+// feed-forward and a constant matrix, such as `control.lqr` computes
+function linearLaw(rho, alpha, theta, { v_x, v_y, v_heading, omega_x, omega_y, omega_heading }, v_ref, omega_ref) {
+  const part0 = rho*Math.cos(alpha);
+  const part1 = rho*Math.sin(alpha);
+  const part2 = alpha - theta;
+  const part3 = wrap(part2);
+  return [part0*v_x + part1*v_y + part3*v_heading + v_ref*Math.cos(part2), omega_heading*part3 + omega_ref + omega_x*part0 + omega_y*part1];
 }
 
-// v/rho of the linear law; its omega is the corrected one
-function aicardiPull(cos_alpha, k_rho) {
-  return cos_alpha*k_rho;
+// its Lyapunov function
+function poseValue(rho, alpha, theta, { h }) {
+  return (1/2)*(alpha*alpha) + (1/2)*h*(theta*theta) + (1/2)*(rho*rho);
 }
 
-// how far the goal lies ahead
-function bodyAhead(rho, cos_alpha) {
-  return cos_alpha*rho;
+// its Lyapunov function
+function kanayamaValue(rho, alpha, theta, { k_y }) {
+  return (1/2)*(rho*rho) + (1 - Math.cos(alpha - theta))/k_y;
 }
 
-// how far the goal lies to the left
-function bodyLeft(rho, sin_alpha) {
-  return rho*sin_alpha;
+// its Lyapunov function
+function linearValue(rho, alpha, theta) {
+  return (1/2)*(rho*rho) + (1/2)*(wrap(alpha - theta)*wrap(alpha - theta));
 }
 
-// v of the law with feed-forward
-function kanayamaV(ahead, turn, v_ref, k_x) {
-  return ahead*k_x + v_ref*Math.cos(turn);
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+function correctedModes({ k_rho, k_alpha, h, v_max }) {
+  return [k_rho*v_max, k_alpha, h*(k_rho*k_rho)*(v_max*v_max)];
 }
 
-// its omega
-function kanayamaOmega(left, turn, v_ref, omega_ref, k_y, k_heading) {
-  return omega_ref + v_ref*(k_heading*Math.sin(turn) + k_y*left);
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+function printedModes({ k_rho, k_alpha, v_max }) {
+  const part0 = k_rho*v_max;
+  return [part0, k_alpha - part0, 0];
 }
 
-// V, (18)
-function lyapunovValue(rho, alpha, theta, h, L) {
-  return (1/2)*(alpha*alpha) + (1/2)*h*(theta*theta) + (1/2)*(rho*rho)/L;
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+function aicardiModes({ k_rho, k_alpha, h }) {
+  return [k_rho, k_alpha, h*(k_rho*k_rho)];
 }
 
-// its V
-function kanayamaValue(ahead, left, turn, k_y) {
-  return (1/2)*(ahead*ahead) + (1/2)*(left*left) + (1 - Math.cos(turn))/k_y;
+// method euler
+function eulerStep(x, y, heading, v, omega, dt) {
+  const part0 = dt*v;
+  return [part0*Math.cos(heading) + x, part0*Math.sin(heading) + y, wrap(dt*omega + heading)];
 }
 
-// (7)
-function rhoRate(rho, cos_alpha, pull) {
-  return -cos_alpha*pull*rho;
+// method arc
+function arcStep(x, y, heading, v, omega, dt) {
+  const part0 = dt*omega;
+  const part1 = (1/2)*part0;
+  const part2 = heading + part1;
+  const part3 = dt*v*sinc(part1);
+  return [part3*Math.cos(part2) + x, part3*Math.sin(part2) + y, wrap(heading + part0)];
 }
 
-// (8)
-function thetaRate(sin_alpha, pull) {
-  return pull*sin_alpha;
+// rho, alpha, theta
+function polarFromPose(x, y, heading, goal_x, goal_y, goal_heading) {
+  const part0 = goal_x - x;
+  const part1 = goal_y - y;
+  const part2 = -Math.atan2(part1, part0);
+  return [Math.sqrt((part0*part0) + (part1*part1)), wrap(-heading - part2), wrap(-goal_heading - part2)];
 }
 
-// (9)
-function alphaRate(sin_alpha, pull, omega) {
-  return -omega + pull*sin_alpha;
+// x, y, heading, v, omega of the goal
+function circle(t) {
+  const part0 = (1/20)*Math.PI;
+  const part1 = part0*t;
+  return [4*Math.cos(part1) - 4, 4*Math.sin(part1), part1 + (1/2)*Math.PI, 0.6283185307179586, part0];
 }
 
-// natural frequency near the goal, with rate = v_max k_rho
-function modeFrequency(rate, h) {
-  return Math.sqrt(h)*rate;
-}
-
-// damping near the goal
-function modeDamping(rate, k_alpha, h) {
-  return (1/2)*k_alpha/(Math.sqrt(h)*rate);
-}
-
-// the rate at which the heading settles near the goal
-function modeSettling(rate, k_alpha, h) {
-  return ((h*(rate*rate) - 1/4*(k_alpha*k_alpha) >= 0) ? ( (1/2)*k_alpha ) : ( h*(rate*rate)/((1/2)*k_alpha + Math.sqrt(-h*(rate*rate) + (1/4)*(k_alpha*k_alpha))) ));
-}
-
-// where the paper's circle is at time t
-function circleAngle(t) {
-  return (1/20)*Math.PI*t;
-}
-
-// x_r
-function circleX(angle) {
-  return 4*Math.cos(angle) - 4;
-}
-
-// y_r
-function circleY(angle) {
-  return 4*Math.sin(angle);
-}
-
-// theta_r
-function circleHeading(angle) {
-  return angle + (1/2)*Math.PI;
-}
-
-// speed of the reference
-function circleSpeed() {
-  return (1/5)*Math.PI;
-}
-
-// turning rate of the reference
-function circleTurn() {
-  return (1/20)*Math.PI;
-}
+const LAWS = {
+  corrected: { command: correctedLaw, value: poseValue, modes: correctedModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
+  printed: { command: printedLaw, value: poseValue, modes: printedModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
+  aicardi: { command: aicardiLaw, value: poseValue, modes: aicardiModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
+  kanayama: { command: kanayamaLaw, value: kanayamaValue, modes: null, gains: ['k_x', 'k_y', 'k_heading'], needsReference: true },
+  linear: { command: linearLaw, value: linearValue, modes: null, gains: ['v_x', 'v_y', 'v_heading', 'omega_x', 'omega_y', 'omega_heading'], needsReference: true },
+};
+const STEPS = { euler: eulerStep, arc: arcStep };

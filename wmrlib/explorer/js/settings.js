@@ -1,19 +1,23 @@
 // From the widget's traits to what `simulate` takes, and what is wrong with them, in words.
 
-const POSE_LAWS = ['corrected', 'printed', 'aicardi'];
-const CIRCLE_LAWS = [...POSE_LAWS, 'kanayama'];
-const METHODS = ['arc', 'euler'];
 const GAINS = ['k_rho', 'k_alpha', 'h', 'v_max'], FEEDBACK = ['k_x', 'k_y', 'k_heading'];
+// One gain out of each group of sliders that appear together.
+const GROUPS = { gains: 'k_rho', limit: 'v_max', feedback: 'k_x' };
 const LONGEST = 100_000; // steps: what a frame still has time for
 const FARTHEST = 1e6; // m: beyond, the plane is no longer a map
 
 const pick = (model, names) => Object.fromEntries(names.map((name) => [name, model.get(name)]));
 
+// The row of the law in force in the table of laws that the panel is given.
+function lawOf(model) {
+  const moving = model.get('scenario') === 1, laws = model.get('laws').filter((law) => moving || !law.needs_reference);
+  return laws[model.get(moving ? 'circle_law' : 'pose_law')];
+}
+
 function settingsOf(model) {
-  const moving = model.get('scenario') === 1;
   return {
-    start: model.get('start'), goal: model.get('goal'), reference: moving ? 'circle' : null,
-    law: moving ? CIRCLE_LAWS[model.get('circle_law')] : POSE_LAWS[model.get('pose_law')], method: METHODS[model.get('method')],
+    start: model.get('start'), goal: model.get('goal'), reference: model.get('scenario') === 1 ? 'circle' : null,
+    law: lawOf(model).name, method: model.get('methods')[model.get('method')],
     gains: pick(model, GAINS), feedback: pick(model, FEEDBACK),
     dt: model.get('dt'), duration: model.get('duration'), arrivalRadius: model.get('arrival_radius'),
   };
@@ -36,9 +40,9 @@ function runOf(settings) {
 
 // Which of the sliders and menus apply: traits that are tied to the display of their layouts.
 function displaysOf(model) {
-  const moving = model.get('scenario') === 1, forward = moving && CIRCLE_LAWS[model.get('circle_law')] === 'kanayama';
-  const limited = !forward && (moving ? CIRCLE_LAWS[model.get('circle_law')] : POSE_LAWS[model.get('pose_law')]) !== 'aicardi';
-  const shown = { gains: !forward, limit: limited, feedback: forward, pose_law: !moving, circle_law: moving, map: model.get('view') === 1 };
+  const moving = model.get('scenario') === 1, { gains } = lawOf(model);
+  const shown = { pose_law: !moving, circle_law: moving, map: model.get('view') === 1 };
+  for (const [group, gain] of Object.entries(GROUPS)) shown[group] = gains.includes(gain);
   return Object.entries(shown).map(([name, on]) => [`${name}_display`, on ? 'flex' : 'none']);
 }
 

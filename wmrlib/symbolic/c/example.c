@@ -1,4 +1,4 @@
-/* A drive with wmr_law.h: the main loop of a robot, with a robot made of arithmetic in place of motors and a receiver.
+/* A drive with wmr_law.h: a robot's main loop, with arithmetic in place of motors and a receiver.
    cc -std=c99 -Wall -Wextra -Werror example.c -o example -lm && ./example */
 #include <stdio.h>
 
@@ -6,15 +6,17 @@
 
 static wmr_pose robot; /* stands for the hardware */
 
-static int read_pose(wmr_pose *pose) { /* from GPS and compass; returns 0 when there is nothing new */
+static int read_pose(wmr_pose *pose) { /* from GPS and compass; 0 when there is nothing new */
   *pose = robot;
   return 1;
 }
 
-static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds) { /* to the wheel loop */
+/* to the wheel loop */
+static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds) {
   const WMR_REAL v = (wheels.left + wheels.right) / WMR_C(2.0);
-  const WMR_REAL turn = (wheels.right - wheels.left) / track_width * seconds, middle = robot.heading + turn / WMR_C(2.0);
-  const WMR_REAL chord = v * seconds * wmr_sinc(turn / WMR_C(2.0), WMR_F(sin)(turn / WMR_C(2.0)));
+  const WMR_REAL turn = (wheels.right - wheels.left) / track_width * seconds;
+  const WMR_REAL middle = robot.heading + turn / WMR_C(2.0);
+  const WMR_REAL chord = v * seconds * wmr_sinc(turn / WMR_C(2.0));
   robot.x += chord * WMR_F(cos)(middle);
   robot.y += chord * WMR_F(sin)(middle);
   robot.heading = wmr_wrap(robot.heading + turn);
@@ -22,7 +24,8 @@ static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds
 
 int main(void) {
   const wmr_gains gains = {WMR_C(0.2), WMR_C(2.0), WMR_C(2.0), WMR_C(4.0)};
-  const WMR_REAL track_width = WMR_C(0.5), max_speed = WMR_C(2.0), arrived = WMR_C(0.05), period = WMR_C(0.05);
+  const WMR_REAL track_width = WMR_C(0.5), max_speed = WMR_C(2.0);
+  const WMR_REAL arrived = WMR_C(0.05), period = WMR_C(0.05);
   const int patience = 10; /* periods without a new pose, then stop */
   double east, north;
   int count, silent = 0;
@@ -30,7 +33,7 @@ int main(void) {
   wmr_polar error = {0, 0, 0};
   const wmr_wheels stopped = {0, 0, WMR_STOP};
 
-  wmr_local_position(33.273572, 44.373160, 33.274087, 44.373264, &east, &north); /* in double, once */
+  wmr_local_position(33.273572, 44.373160, 33.274087, 44.373264, &east, &north); /* once */
   goal.x = (WMR_REAL)east;
   goal.y = (WMR_REAL)north;
   robot = pose;

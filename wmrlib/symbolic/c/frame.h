@@ -1,13 +1,16 @@
-/* The frame of wmr_law.h: wmrlib.symbolic puts the printed formulas where the @ signs are. Not to be included. */
-/* wmr_law.h: from a pose to the speeds of two wheels. Printed by wmrlib.symbolic; change that, then run python -m wmrlib.symbolic.
+/* The frame of wmr_law.h: wmrlib.symbolic puts the printed functions where the @ signs are. */
+/* wmr_law.h: from a pose to the speeds of two wheels.
+   Printed by python -m wmrlib.symbolic from the formulas of wmrlib: change those.
 
-   C99 or C++11; needs nothing but <math.h>; no state, no memory, no loop. Metres, seconds, radians. x is east, y is north, and headings
-   and turns are counter-clockwise, a heading from east.
+   C99 or C++11; needs nothing but <math.h>; no state, no memory, no loop. Metres, seconds, radians.
+   x is east, y is north, and headings and turns are counter-clockwise, a heading from east.
 
-   #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in double (see wmr_local_position).
+   #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in
+   double (see wmr_local_position).
 
-   Whatever is not a number, infinite or out of range going in, or not finite coming out, gives v = omega = 0 and status WMR_STOP; only a
-   max_speed may be infinite. Compile without -ffast-math or -ffinite-math-only, which take such checks away.
+   An argument that is NaN, infinite or out of range, or a result that is not finite, gives
+   v = omega = 0 and status WMR_STOP; only a max_speed may be infinite. Compile without -ffast-math
+   or -ffinite-math-only, which remove such checks.
 
    SPDX-License-Identifier: BSD-3-Clause */
 #ifndef WMR_LAW_H
@@ -15,8 +18,9 @@
 
 #include <math.h>
 
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
-#error "wmr_law.h needs NaN and infinity: compile without -ffast-math, -ffinite-math-only or /fp:fast"
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "wmr_law.h needs NaN and infinity: compile without -ffast-math or /fp:fast"
 #endif
 
 #ifndef WMR_REAL
@@ -40,95 +44,87 @@ enum { WMR_OK = 0, WMR_STOP = 1 };
 
 typedef struct { WMR_REAL x, y, heading; } wmr_pose;
 typedef struct { WMR_REAL rho, alpha, theta; } wmr_polar;
-/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (for aicardi too, which has no use for it) */
+/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (even for aicardi) */
 typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
 
-/* The formulas, printed ------------------------------------------------------------------------------------------------ */
-
-/* @LAW@ */
-
-/* What a program calls ------------------------------------------------------------------------------------------------- */
+/* @FORMULAS@ */
 
 static inline int wmr_is_finite(WMR_REAL number) { return number - number == WMR_C(0.0); }
 
-static inline int wmr_is_size(WMR_REAL number) { return number >= WMR_C(0.0) && wmr_is_finite(number); }
+static inline int wmr_is_size(WMR_REAL number) {
+  return number >= WMR_C(0.0) && wmr_is_finite(number);
+}
 
-/* The same direction in (-pi, pi]. In float it loses 2e-7 rad with each whole turn: keep headings within one. */
+/* The same direction in (-pi, pi]. In float it loses 2e-7 rad with each whole turn: keep headings
+   within one. */
 static inline WMR_REAL wmr_wrap(WMR_REAL angle) {
   return wmr_turned_back(WMR_F(fmod)(angle, WMR_C(6.28318530717958647692)));
 }
 
-/* The goal as seen from the robot: rho, alpha (from the heading) and theta (from the goal's heading) to the line of sight. */
+/* The goal as seen from the robot: rho, and the line of sight from the robot's heading, alpha, and
+   from the goal's, theta. */
 static inline wmr_polar wmr_polar_error(wmr_pose pose, wmr_pose goal) {
   const WMR_REAL east = goal.x - pose.x, north = goal.y - pose.y;
   const WMR_REAL sight = wmr_sight(east, north);
-  const wmr_polar error = {wmr_distance(east, north), wmr_wrap(sight - pose.heading), wmr_wrap(sight - goal.heading)};
+  const wmr_polar error = {wmr_distance(east, north), wmr_wrap(sight - pose.heading),
+                           wmr_wrap(sight - goal.heading)};
   return error;
 }
 
 /* The twist if all of it can be trusted, and otherwise a stop. */
-static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v, WMR_REAL omega) {
+static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v,
+                                    WMR_REAL omega) {
   const wmr_twist stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const wmr_twist twist = {v, omega, WMR_OK};
-  const int known = wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
-  const int tuned = wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h);
+  const int known =
+      wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
+  const int tuned =
+      wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h);
   const int fast = wmr_is_size(gains.v_max) && gains.v_max > WMR_C(0.0);
   return known && tuned && fast && wmr_is_finite(v) && wmr_is_finite(omega) ? twist : stop;
 }
 
-/* The corrected law: (22), and the omega that makes the proof work. Finite at rho = 0 and at alpha = 0. */
-static inline wmr_twist wmr_law(wmr_polar error, wmr_gains gains) {
-  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
-  const WMR_REAL pull = wmr_corrected_pull(error.rho, cosine, gains.k_rho, gains.v_max);
-  return wmr_checked(error, gains, pull * error.rho, wmr_corrected_omega(error.alpha, error.theta, sinc, pull, gains.k_alpha, gains.h));
-}
+/* @LAWS@ */
 
-/* (22) and (24) as the paper prints them: for comparison, not for a robot. */
-static inline wmr_twist wmr_law_printed(wmr_polar error, wmr_gains gains) {
-  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
-  const WMR_REAL pull = wmr_corrected_pull(error.rho, cosine, gains.k_rho, gains.v_max);
-  const WMR_REAL omega = wmr_printed_omega(error.alpha, error.theta, sine, cosine, sinc, pull, gains.k_alpha, gains.h);
-  return wmr_checked(error, gains, pull * error.rho, omega);
-}
-
-/* Aicardi's linear law, whose v has no limit. */
-static inline wmr_twist wmr_law_aicardi(wmr_polar error, wmr_gains gains) {
-  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
-  const WMR_REAL pull = wmr_aicardi_pull(cosine, gains.k_rho);
-  return wmr_checked(error, gains, pull * error.rho, wmr_corrected_omega(error.alpha, error.theta, sinc, pull, gains.k_alpha, gains.h));
-}
-
-/* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by one factor so that neither is faster
-   than max_speed and the path keeps its curvature. track_width and max_speed are above 0; a max_speed of INFINITY is no limit. */
-static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width, WMR_REAL max_speed) {
+/* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by
+   one factor so that neither is faster than max_speed and the path keeps its curvature. track_width
+   and max_speed are above 0; a max_speed of INFINITY is no limit. */
+static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width,
+                                            WMR_REAL max_speed) {
   const wmr_wheels stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const WMR_REAL fastest = wmr_fastest_wheel(twist.v, twist.omega, track_width);
-  const WMR_REAL share = wmr_wheel_share(max_speed, fastest);
-  const WMR_REAL v = share * twist.v, omega = share * twist.omega;
-  const wmr_wheels wheels = {wmr_left_wheel(v, omega, track_width), wmr_right_wheel(v, omega, track_width), WMR_OK};
-  const int allowed = twist.status == WMR_OK && track_width > WMR_C(0.0) && max_speed > WMR_C(0.0);
+  const WMR_REAL scale = wmr_saturation_scale(max_speed, fastest);
+  const WMR_REAL v = scale * twist.v, omega = scale * twist.omega;
+  const wmr_wheels wheels = {wmr_left_wheel(v, omega, track_width),
+                             wmr_right_wheel(v, omega, track_width), WMR_OK};
+  const int allowed =
+      twist.status == WMR_OK && track_width > WMR_C(0.0) && max_speed > WMR_C(0.0);
   return allowed && wmr_is_finite(wheels.left) && wmr_is_finite(wheels.right) ? wheels : stop;
 }
 
-/* GPS, always in double: a float holds a latitude of 44 degrees to 4e-6 degrees, which is 0.4 m ------------------------- */
+/* GPS, always in double: a float holds a latitude of 44 degrees to 4e-6 degrees, which is 0.4 m. */
 
 /* @GEODESY@ */
 
-static inline int wmr_on_earth(double lat, double lon) { return fabs(lat) <= 90.0 && fabs(lon) <= 180.0; }
+static inline int wmr_on_earth(double lat, double lon) {
+  return fabs(lat) <= 90.0 && fabs(lon) <= 180.0;
+}
 
-/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on the law may count in floats. Both are NaN,
-   which stops the law, if a point is not on the Earth: no fix yet, or latitude and longitude mixed up. */
-static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon, double *east, double *north) {
+/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on floats
+   will do. Both are NaN, which stops the law, if a point is not on the Earth: no fix yet, or
+   latitude and longitude mixed up. */
+static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon,
+                                      double *east, double *north) {
   const double degree = 3.14159265358979323846 / 180.0;
-  const double lat1 = lat_0 * degree, lat2 = lat * degree, dlat = (lat - lat_0) * degree, dlong = (lon - lon_0) * degree;
-  const double epsilon = wmr_epsilon(lat1, lat2, dlat, dlong), rest = wmr_rest(lat1, lat2, dlong);
+  const double lat1 = lat_0 * degree, lat2 = lat * degree;
+  const double dlat = (lat - lat_0) * degree, dlong = (lon - lon_0) * degree;
   const int known = wmr_on_earth(lat_0, lon_0) && wmr_on_earth(lat, lon);
-  const double rho = known ? wmr_sphere_distance(epsilon, rest, @EARTH_RADIUS_M@) : (double)NAN;
-  const double bearing = wmr_bearing(wmr_zeta_x(lat2, dlong), wmr_zeta_y(lat1, lat2, dlat, dlong));
-  *east = rho * sin(bearing);
-  *north = rho * cos(bearing);
+  const double rho = wmr_sphere_distance(lat1, lat2, dlat, dlong, @EARTH_RADIUS_M@);
+  const double bearing = wmr_bearing(lat1, lat2, dlat, dlong);
+  *east = known ? rho * sin(bearing) : (double)NAN;
+  *north = known ? rho * cos(bearing) : (double)NAN;
 }
 
 #endif

@@ -1,12 +1,15 @@
-/* wmr_law.h: from a pose to the speeds of two wheels. Printed by wmrlib.symbolic; change that, then run python -m wmrlib.symbolic.
+/* wmr_law.h: from a pose to the speeds of two wheels.
+   Printed by python -m wmrlib.symbolic from the formulas of wmrlib: change those.
 
-   C99 or C++11; needs nothing but <math.h>; no state, no memory, no loop. Metres, seconds, radians. x is east, y is north, and headings
-   and turns are counter-clockwise, a heading from east.
+   C99 or C++11; needs nothing but <math.h>; no state, no memory, no loop. Metres, seconds, radians.
+   x is east, y is north, and headings and turns are counter-clockwise, a heading from east.
 
-   #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in double (see wmr_local_position).
+   #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in
+   double (see wmr_local_position).
 
-   Whatever is not a number, infinite or out of range going in, or not finite coming out, gives v = omega = 0 and status WMR_STOP; only a
-   max_speed may be infinite. Compile without -ffast-math or -ffinite-math-only, which take such checks away.
+   An argument that is NaN, infinite or out of range, or a result that is not finite, gives
+   v = omega = 0 and status WMR_STOP; only a max_speed may be infinite. Compile without -ffast-math
+   or -ffinite-math-only, which remove such checks.
 
    SPDX-License-Identifier: BSD-3-Clause */
 #ifndef WMR_LAW_H
@@ -14,8 +17,9 @@
 
 #include <math.h>
 
-#if defined(__FAST_MATH__) || (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__) || defined(_M_FP_FAST)
-#error "wmr_law.h needs NaN and infinity: compile without -ffast-math, -ffinite-math-only or /fp:fast"
+#if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
+    (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
+#error "wmr_law.h needs NaN and infinity: compile without -ffast-math or /fp:fast"
 #endif
 
 #ifndef WMR_REAL
@@ -39,16 +43,14 @@ enum { WMR_OK = 0, WMR_STOP = 1 };
 
 typedef struct { WMR_REAL x, y, heading; } wmr_pose;
 typedef struct { WMR_REAL rho, alpha, theta; } wmr_polar;
-/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (for aicardi too, which has no use for it) */
+/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (even for aicardi) */
 typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
 
-/* The formulas, printed ------------------------------------------------------------------------------------------------ */
-
 /* sin(angle)/angle, which is 1 at 0 */
-static inline WMR_REAL wmr_sinc(WMR_REAL angle, WMR_REAL sine) {
-  return ((WMR_F(fabs)(angle) > WMR_C(1e-08)) ? ( sine/angle ) : ( WMR_C(1.0) ));
+static inline WMR_REAL wmr_sinc(WMR_REAL angle) {
+  return ((WMR_F(fabs)(angle) > WMR_C(1e-08)) ? ( WMR_F(sin)(angle)/angle ) : ( WMR_C(1.0) ));
 }
 
 /* (1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0 */
@@ -56,32 +58,12 @@ static inline WMR_REAL wmr_decay(WMR_REAL rho, WMR_REAL k_rho) {
   return ((k_rho*WMR_F(fabs)(rho) > WMR_C(1e-08)) ? ( -WMR_F(expm1)(-k_rho*rho)/rho ) : ( k_rho*(-WMR_C(0.5)*k_rho*rho + WMR_C(1.0)) ));
 }
 
-/* v/rho by (22) */
-static inline WMR_REAL wmr_corrected_pull(WMR_REAL rho, WMR_REAL cos_alpha, WMR_REAL k_rho, WMR_REAL v_max) {
-  return cos_alpha*v_max*wmr_decay(rho, k_rho);
-}
-
-/* the omega that makes the proof work */
-static inline WMR_REAL wmr_corrected_omega(WMR_REAL alpha, WMR_REAL theta, WMR_REAL sinc_alpha, WMR_REAL pull, WMR_REAL k_alpha, WMR_REAL h) {
-  return alpha*k_alpha + pull*sinc_alpha*(alpha + h*theta);
-}
-
-/* (24) as the paper prints it */
-static inline WMR_REAL wmr_printed_omega(WMR_REAL alpha, WMR_REAL theta, WMR_REAL sin_alpha, WMR_REAL cos_alpha, WMR_REAL sinc_alpha, WMR_REAL pull, WMR_REAL k_alpha, WMR_REAL h) {
-  return alpha*k_alpha + cos_alpha*pull*sin_alpha*sinc_alpha*(alpha + h*theta);
-}
-
-/* v/rho of the linear law; its omega is the corrected one */
-static inline WMR_REAL wmr_aicardi_pull(WMR_REAL cos_alpha, WMR_REAL k_rho) {
-  return cos_alpha*k_rho;
-}
-
 /* V, (18) */
 static inline WMR_REAL wmr_lyapunov_value(WMR_REAL rho, WMR_REAL alpha, WMR_REAL theta, WMR_REAL h, WMR_REAL L) {
   return WMR_C(0.5)*(alpha*alpha) + WMR_C(0.5)*h*(theta*theta) + WMR_C(0.5)*(rho*rho)/L;
 }
 
-/* an angle within a turn of 0, in (-pi, pi] */
+/* an angle within a turn of 0 */
 static inline WMR_REAL wmr_turned_back(WMR_REAL angle) {
   return ((angle > WMR_C(3.14159265358979323846)) ? ( angle - WMR_C(2.0)*WMR_C(3.14159265358979323846) ) : ((angle <= -WMR_C(3.14159265358979323846)) ? ( angle + WMR_C(2.0)*WMR_C(3.14159265358979323846) ) : ( angle )));
 }
@@ -96,134 +78,136 @@ static inline WMR_REAL wmr_sight(WMR_REAL east, WMR_REAL north) {
   return WMR_F(atan2)(north, east);
 }
 
-/* its ground speed, from (1) and (2) */
+/* ground speed, from (1) and (2) */
 static inline WMR_REAL wmr_left_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
   return -WMR_C(0.5)*b*omega + v;
 }
 
-/* its ground speed, from (1) and (2) */
+/* ground speed, from (1) and (2) */
 static inline WMR_REAL wmr_right_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
   return WMR_C(0.5)*b*omega + v;
 }
 
-/* the ground speed of the faster wheel */
+/* speed of the faster wheel */
 static inline WMR_REAL wmr_fastest_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
   return WMR_C(0.5)*b*WMR_F(fabs)(omega) + WMR_F(fabs)(v);
 }
 
-/* the share of the twist that the faster wheel, at `fastest`, can follow within its max_speed */
-static inline WMR_REAL wmr_wheel_share(WMR_REAL max_speed, WMR_REAL fastest) {
+/* the factor on the twist for a max_speed */
+static inline WMR_REAL wmr_saturation_scale(WMR_REAL max_speed, WMR_REAL fastest) {
   return ((fastest > max_speed) ? ( max_speed/fastest ) : ( WMR_C(1.0) ));
 }
 
-/* What a program calls ------------------------------------------------------------------------------------------------- */
-
 static inline int wmr_is_finite(WMR_REAL number) { return number - number == WMR_C(0.0); }
 
-static inline int wmr_is_size(WMR_REAL number) { return number >= WMR_C(0.0) && wmr_is_finite(number); }
+static inline int wmr_is_size(WMR_REAL number) {
+  return number >= WMR_C(0.0) && wmr_is_finite(number);
+}
 
-/* The same direction in (-pi, pi]. In float it loses 2e-7 rad with each whole turn: keep headings within one. */
+/* The same direction in (-pi, pi]. In float it loses 2e-7 rad with each whole turn: keep headings
+   within one. */
 static inline WMR_REAL wmr_wrap(WMR_REAL angle) {
   return wmr_turned_back(WMR_F(fmod)(angle, WMR_C(6.28318530717958647692)));
 }
 
-/* The goal as seen from the robot: rho, alpha (from the heading) and theta (from the goal's heading) to the line of sight. */
+/* The goal as seen from the robot: rho, and the line of sight from the robot's heading, alpha, and
+   from the goal's, theta. */
 static inline wmr_polar wmr_polar_error(wmr_pose pose, wmr_pose goal) {
   const WMR_REAL east = goal.x - pose.x, north = goal.y - pose.y;
   const WMR_REAL sight = wmr_sight(east, north);
-  const wmr_polar error = {wmr_distance(east, north), wmr_wrap(sight - pose.heading), wmr_wrap(sight - goal.heading)};
+  const wmr_polar error = {wmr_distance(east, north), wmr_wrap(sight - pose.heading),
+                           wmr_wrap(sight - goal.heading)};
   return error;
 }
 
 /* The twist if all of it can be trusted, and otherwise a stop. */
-static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v, WMR_REAL omega) {
+static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v,
+                                    WMR_REAL omega) {
   const wmr_twist stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const wmr_twist twist = {v, omega, WMR_OK};
-  const int known = wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
-  const int tuned = wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h);
+  const int known =
+      wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
+  const int tuned =
+      wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h);
   const int fast = wmr_is_size(gains.v_max) && gains.v_max > WMR_C(0.0);
   return known && tuned && fast && wmr_is_finite(v) && wmr_is_finite(omega) ? twist : stop;
 }
 
-/* The corrected law: (22), and the omega that makes the proof work. Finite at rho = 0 and at alpha = 0. */
+/* (22), and the omega that the proof needs */
 static inline wmr_twist wmr_law(wmr_polar error, wmr_gains gains) {
-  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
-  const WMR_REAL pull = wmr_corrected_pull(error.rho, cosine, gains.k_rho, gains.v_max);
-  return wmr_checked(error, gains, pull * error.rho, wmr_corrected_omega(error.alpha, error.theta, sinc, pull, gains.k_alpha, gains.h));
+  const WMR_REAL rho = error.rho, alpha = error.alpha, theta = error.theta;
+  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h, v_max = gains.v_max;
+  const WMR_REAL v_over_rho = v_max*WMR_F(cos)(alpha)*wmr_decay(rho, k_rho);
+  const WMR_REAL omega = alpha*k_alpha + v_over_rho*(alpha + h*theta)*wmr_sinc(alpha);
+  return wmr_checked(error, gains, rho*v_over_rho, omega);
 }
 
-/* (22) and (24) as the paper prints them: for comparison, not for a robot. */
+/* (22) and (24) as the paper prints them */
 static inline wmr_twist wmr_law_printed(wmr_polar error, wmr_gains gains) {
-  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
-  const WMR_REAL pull = wmr_corrected_pull(error.rho, cosine, gains.k_rho, gains.v_max);
-  const WMR_REAL omega = wmr_printed_omega(error.alpha, error.theta, sine, cosine, sinc, pull, gains.k_alpha, gains.h);
-  return wmr_checked(error, gains, pull * error.rho, omega);
+  const WMR_REAL rho = error.rho, alpha = error.alpha, theta = error.theta;
+  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h, v_max = gains.v_max;
+  const WMR_REAL v_over_rho = v_max*WMR_F(cos)(alpha)*wmr_decay(rho, k_rho);
+  const WMR_REAL omega = alpha*k_alpha + v_over_rho*(alpha + h*theta)*WMR_F(sin)(alpha)*WMR_F(cos)(alpha)*wmr_sinc(alpha);
+  return wmr_checked(error, gains, rho*v_over_rho, omega);
 }
 
-/* Aicardi's linear law, whose v has no limit. */
+/* Aicardi et al. (1995), without a speed limit */
 static inline wmr_twist wmr_law_aicardi(wmr_polar error, wmr_gains gains) {
-  const WMR_REAL sine = WMR_F(sin)(error.alpha), cosine = WMR_F(cos)(error.alpha), sinc = wmr_sinc(error.alpha, sine);
-  const WMR_REAL pull = wmr_aicardi_pull(cosine, gains.k_rho);
-  return wmr_checked(error, gains, pull * error.rho, wmr_corrected_omega(error.alpha, error.theta, sinc, pull, gains.k_alpha, gains.h));
+  const WMR_REAL rho = error.rho, alpha = error.alpha, theta = error.theta;
+  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h;
+  const WMR_REAL v_over_rho = k_rho*WMR_F(cos)(alpha);
+  const WMR_REAL omega = alpha*k_alpha + v_over_rho*(alpha + h*theta)*wmr_sinc(alpha);
+  return wmr_checked(error, gains, rho*v_over_rho, omega);
 }
 
-/* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by one factor so that neither is faster
-   than max_speed and the path keeps its curvature. track_width and max_speed are above 0; a max_speed of INFINITY is no limit. */
-static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width, WMR_REAL max_speed) {
+/* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by
+   one factor so that neither is faster than max_speed and the path keeps its curvature. track_width
+   and max_speed are above 0; a max_speed of INFINITY is no limit. */
+static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width,
+                                            WMR_REAL max_speed) {
   const wmr_wheels stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const WMR_REAL fastest = wmr_fastest_wheel(twist.v, twist.omega, track_width);
-  const WMR_REAL share = wmr_wheel_share(max_speed, fastest);
-  const WMR_REAL v = share * twist.v, omega = share * twist.omega;
-  const wmr_wheels wheels = {wmr_left_wheel(v, omega, track_width), wmr_right_wheel(v, omega, track_width), WMR_OK};
-  const int allowed = twist.status == WMR_OK && track_width > WMR_C(0.0) && max_speed > WMR_C(0.0);
+  const WMR_REAL scale = wmr_saturation_scale(max_speed, fastest);
+  const WMR_REAL v = scale * twist.v, omega = scale * twist.omega;
+  const wmr_wheels wheels = {wmr_left_wheel(v, omega, track_width),
+                             wmr_right_wheel(v, omega, track_width), WMR_OK};
+  const int allowed =
+      twist.status == WMR_OK && track_width > WMR_C(0.0) && max_speed > WMR_C(0.0);
   return allowed && wmr_is_finite(wheels.left) && wmr_is_finite(wheels.right) ? wheels : stop;
 }
 
-/* GPS, always in double: a float holds a latitude of 44 degrees to 4e-6 degrees, which is 0.4 m ------------------------- */
+/* GPS, always in double: a float holds a latitude of 44 degrees to 4e-6 degrees, which is 0.4 m. */
 
-/* (13) */
-static inline double wmr_epsilon(double lat1, double lat2, double Delta_lat, double Delta_long) {
-  return (sin(0.5*Delta_lat)*sin(0.5*Delta_lat)) + (sin(0.5*Delta_long)*sin(0.5*Delta_long))*cos(lat1)*cos(lat2);
+/* (11) to (13) */
+static inline double wmr_sphere_distance(double lat1, double lat2, double Delta_lat, double Delta_long, double R) {
+  const double part0 = 0.5*Delta_long;
+  const double part1 = cos(lat1)*cos(lat2);
+  return 2.0*R*atan2(sqrt(part1*(sin(part0)*sin(part0)) + (sin(0.5*Delta_lat)*sin(0.5*Delta_lat))), sqrt(part1*(cos(part0)*cos(part0)) + (sin(0.5*lat1 + 0.5*lat2)*sin(0.5*lat1 + 0.5*lat2))));
 }
 
-/* 1 - epsilon, without the difference */
-static inline double wmr_rest(double lat1, double lat2, double Delta_long) {
-  return (sin(0.5*lat1 + 0.5*lat2)*sin(0.5*lat1 + 0.5*lat2)) + (cos(0.5*Delta_long)*cos(0.5*Delta_long))*cos(lat1)*cos(lat2);
+/* (15) to (17) */
+static inline double wmr_bearing(double lat1, double lat2, double Delta_lat, double Delta_long) {
+  const double part0 = cos(lat2);
+  return atan2(part0*sin(Delta_long), 2.0*part0*(sin(0.5*Delta_long)*sin(0.5*Delta_long))*sin(lat1) + sin(Delta_lat));
 }
 
-/* (11) and (12) */
-static inline double wmr_sphere_distance(double epsilon, double rest, double R) {
-  return 2.0*R*atan2(sqrt(epsilon), sqrt(rest));
+static inline int wmr_on_earth(double lat, double lon) {
+  return fabs(lat) <= 90.0 && fabs(lon) <= 180.0;
 }
 
-/* (16) */
-static inline double wmr_zeta_x(double lat2, double Delta_long) {
-  return sin(Delta_long)*cos(lat2);
-}
-
-/* (17), without losing digits nearby */
-static inline double wmr_zeta_y(double lat1, double lat2, double Delta_lat, double Delta_long) {
-  return sin(Delta_lat) + 2.0*(sin(0.5*Delta_long)*sin(0.5*Delta_long))*sin(lat1)*cos(lat2);
-}
-
-/* (15) */
-static inline double wmr_bearing(double zeta_x, double zeta_y) {
-  return atan2(zeta_x, zeta_y);
-}
-
-static inline int wmr_on_earth(double lat, double lon) { return fabs(lat) <= 90.0 && fabs(lon) <= 180.0; }
-
-/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on the law may count in floats. Both are NaN,
-   which stops the law, if a point is not on the Earth: no fix yet, or latitude and longitude mixed up. */
-static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon, double *east, double *north) {
+/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on floats
+   will do. Both are NaN, which stops the law, if a point is not on the Earth: no fix yet, or
+   latitude and longitude mixed up. */
+static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon,
+                                      double *east, double *north) {
   const double degree = 3.14159265358979323846 / 180.0;
-  const double lat1 = lat_0 * degree, lat2 = lat * degree, dlat = (lat - lat_0) * degree, dlong = (lon - lon_0) * degree;
-  const double epsilon = wmr_epsilon(lat1, lat2, dlat, dlong), rest = wmr_rest(lat1, lat2, dlong);
+  const double lat1 = lat_0 * degree, lat2 = lat * degree;
+  const double dlat = (lat - lat_0) * degree, dlong = (lon - lon_0) * degree;
   const int known = wmr_on_earth(lat_0, lon_0) && wmr_on_earth(lat, lon);
-  const double rho = known ? wmr_sphere_distance(epsilon, rest, 6371000.0) : (double)NAN;
-  const double bearing = wmr_bearing(wmr_zeta_x(lat2, dlong), wmr_zeta_y(lat1, lat2, dlat, dlong));
-  *east = rho * sin(bearing);
-  *north = rho * cos(bearing);
+  const double rho = wmr_sphere_distance(lat1, lat2, dlat, dlong, 6371000.0);
+  const double bearing = wmr_bearing(lat1, lat2, dlat, dlong);
+  *east = known ? rho * sin(bearing) : (double)NAN;
+  *north = known ? rho * cos(bearing) : (double)NAN;
 }
 
 #endif

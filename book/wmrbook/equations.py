@@ -6,43 +6,33 @@ from types import MappingProxyType
 
 import sympy as sp
 
-from wmrlib.symbolic._model import (
-    _COSINE,
-    _SINE,
+from wmrlib.symbolic import (
     L,
     R,
-    V,
-    V_l,
-    V_r,
-    V_rate,
     alpha,
-    alpha_rate,
     b,
-    br,
-    c,
     dlat,
     dlong,
-    epsilon,
     h,
     k_alpha,
     k_rho,
     lat1,
     lat2,
-    left_wheel,
     omega,
-    r,
     rho,
-    rho_rate,
-    right_wheel,
     theta,
-    theta_rate,
     v,
     v_max,
-    x_rate,
-    y_rate,
-    zeta_x,
-    zeta_y,
 )
+
+# Rates, whose names sympy typesets with a dot, and what only these equations need.
+rho_rate, alpha_rate, theta_rate, V_rate, x_rate, y_rate = sp.symbols(
+    "rhodot alphadot thetadot Vdot xdot ydot", real=True
+)
+V, V_r, V_l, right_wheel, left_wheel, r, c, epsilon, br, zeta_x, zeta_y = sp.symbols(
+    "V V_r V_l w_R w_L r c epsilon br zeta_x zeta_y", real=True
+)
+_SINE, _COSINE = sp.sin(alpha), sp.cos(alpha)
 
 
 def _equations() -> dict[int, sp.Basic]:
@@ -108,5 +98,9 @@ def _equations() -> dict[int, sp.Basic]:
 
 
 EQUATIONS = MappingProxyType(_equations())
-"""From the paper's number to the equation as the paper prints it (sympy relations; A is alpha, 90 degrees are pi/2, and (6) and (10) are
-multiplied out). (10) contradicts (8), (23) does not follow from (21), (24) has cos A sin A twice, (26) does not follow from (25)."""
+"""From the paper's number to the equation as the paper prints it.
+
+They are sympy relations; A is alpha, 90 degrees are pi/2, and (6) and (10) are multiplied out.
+(10) contradicts (8), (23) does not follow from (21), (24) has cos A sin A twice, and (26) does not
+follow from (25).
+"""

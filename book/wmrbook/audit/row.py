@@ -1,4 +1,4 @@
-"""One line of the audit, the verdicts, and the rules by which a verdict follows from a comparison."""
+"""One line of the audit, the verdicts, and the rules by which a verdict follows."""
 
 from __future__ import annotations
 
@@ -12,7 +12,10 @@ from typing import NamedTuple
 import numpy as np
 import sympy as sp
 
+from wmrbook import equations
+from wmrbook.equations import EQUATIONS
 from wmrlib import symbolic
+from wmrlib.gains import Gains
 from wmrlib.paper import Published
 
 
@@ -26,20 +29,23 @@ class Verdict(Enum):
 
 
 def depends(outcomes: Iterable[bool]) -> Verdict:
-    """The verdict on what rests on something unpublished, from its outcome with each of several choices of that.
+    """The verdict on what rests on something unpublished, from its outcome with several choices.
 
-    It holds if it is so with every choice, is wrong if with none, and cannot be reproduced if the choices differ.
+    It holds if it is so with every choice, is wrong if with none, and cannot be reproduced if the
+    choices differ.
     """
     found = set(map(bool, outcomes))
-    return Verdict.OPEN if len(found) > 1 else Verdict.HOLDS if found == {True} else Verdict.WRONG
+    if len(found) > 1:
+        return Verdict.OPEN
+    return Verdict.HOLDS if found == {True} else Verdict.WRONG
 
 
 class Row(NamedTuple):
     """One thing that the paper says.
 
-    item: the tag of the cells that show it, without "audit:"; title: its name for a reader; says: what the paper says; holds: what was
-    found, with its numbers; verdict: a Verdict; why: the outcome of the comparison from which the verdict follows. Texts are Markdown
-    with $...$ for mathematics.
+    item: the tag of the cells that show it, without "audit:"; says: what the paper says; holds:
+    what was found, with its numbers; why: the outcome of the comparison from which the verdict
+    follows. Texts are Markdown with $...$ for mathematics.
     """
 
     item: str
@@ -56,11 +62,12 @@ _FURTHEST_CUT = 0.01
 
 
 @cache
-def same(first: sp.Basic, second: sp.Basic) -> bool:
-    """Whether two expressions (or matrices of one shape) are equal for all values of their symbols.
+def equivalent(first: sp.Basic, second: sp.Basic) -> bool:
+    """Whether two expressions, or matrices of one shape, are equal for all values of their symbols.
 
-    They are not if they differ at one of 20 random points. If they agree there, sympy must prove it: the difference simplifies to zero, or
-    every derivative of it does (it is then a constant, and zero at the points). Raises ArithmeticError if it can do neither.
+    They are not if they differ at one of 20 random points. If they agree there, sympy must prove
+    it: the difference simplifies to zero, or every derivative of it does (it is then a constant,
+    and zero at the points). Raises ArithmeticError if it can do neither.
     """
     difference = sp.Matrix([first - second])
     symbols = sorted(difference.free_symbols, key=str)
@@ -69,34 +76,32 @@ def same(first: sp.Basic, second: sp.Basic) -> bool:
         if not np.allclose(np.array(value(*point), dtype=float), 0.0, atol=TOLERANCE):
             return False
     for entry in difference:
-        if not _vanishes(entry) and any(
-            sp.simplify(entry.diff(symbol)) != 0 for symbol in entry.free_symbols
-        ):
+        slopes = (sp.simplify(entry.diff(symbol)) for symbol in entry.free_symbols)
+        if not _vanishes(entry) and any(slope != 0 for slope in slopes):
             raise ArithmeticError(
-                f"{entry} is zero at {_POINTS} points, and sympy can't prove that it is zero everywhere"
+                f"{entry} is zero at {_POINTS} points, "
+                "and sympy can't prove that it is zero everywhere"
             )
     return True
 
 
 def _vanishes(expression: sp.Expr) -> bool:
-    """Whether sympy can prove it to be zero: as a polynomial in sines and cosines of single angles first, which is quick."""
+    """Whether sympy can prove it to be zero, first and quickly as a polynomial in sines."""
     angles = {symbol for each in expression.atoms(sp.sin, sp.cos) for symbol in each.free_symbols}
-    polynomial = sp.expand_trig(
-        expression.subs({each: 2 * each for each in angles}, simultaneous=True)
-    )  # halves are whole angles then
+    doubled = {each: 2 * each for each in angles}  # halves are whole angles then
+    polynomial = sp.expand_trig(expression.subs(doubled, simultaneous=True))
     polynomial = sp.expand(sp.numer(sp.together(polynomial)))
     for angle in {each.args[0] for each in polynomial.atoms(sp.sin)}:
-        polynomial = sp.expand(
-            sp.rem(polynomial, sp.sin(angle) ** 2 + sp.cos(angle) ** 2 - 1, sp.sin(angle))
-        )
+        identity = sp.sin(angle) ** 2 + sp.cos(angle) ** 2 - 1
+        polynomial = sp.expand(sp.rem(polynomial, identity, sp.sin(angle)))
     return polynomial == 0 or sp.simplify(expression) == 0
 
 
 def fits(value: float, printed: Published) -> bool:
     """Whether a computed value is what the paper prints.
 
-    It is if it rounds to the printed digits, or if cutting it off after them leaves them and less than 1 % is lost by that. A multiple of
-    pi is compared to rounding.
+    It is if it rounds to the printed digits, or if cutting it off after them leaves them and less
+    than 1 % is lost by that. A multiple of pi is compared to rounding.
     """
     digits = Decimal(repr(printed.value))
     if len(digits.as_tuple().digits) > 12:
@@ -107,9 +112,19 @@ def fits(value: float, printed: Published) -> bool:
     return abs(gap) <= 0.5 * unit or cut
 
 
+def equation(number: int) -> sp.Basic:
+    """An equation as the paper prints it."""
+    return EQUATIONS[number]
+
+
 def printed(number: int) -> sp.Basic:
     """The right side of an equation as the paper prints it."""
-    return symbolic.EQUATIONS[number].rhs
+    return equation(number).rhs
+
+
+def at(gains: Gains) -> dict[sp.Symbol, float]:
+    """The gains as values of their symbols."""
+    return {getattr(symbolic, name): value for name, value in gains._asdict().items()}
 
 
 def equation_row(
@@ -117,45 +132,32 @@ def equation_row(
 ) -> Row:
     """The row of an equation whose right side is compared with a derivation.
 
-    It holds if the two are the same. If not, it is a typo if something else in the paper (a name and whether it is so) needs the derived
-    form, and wrong if nothing does.
+    It holds if the two are equivalent. If not, it is a typo if something else in the paper (a name
+    and whether it is so) needs the derived form, and wrong if nothing does.
     """
-    equation = symbolic.EQUATIONS[number]
-    if same(equation.rhs, derived):
-        return finding(
-            number, Verdict.HOLDS, note or "The derivation gives the same.", "the difference is 0"
-        )
+    left = equation(number).lhs
+    if equivalent(printed(number), derived):
+        note = note or "The derivation gives the same."
+        return finding(number, Verdict.HOLDS, note, "the difference is 0")
+    right = f"It should be {formula(sp.Eq(left, derived))}. {note}".strip()
     needed = [name for name, so in wanted_by.items() if so]
-    right = f"It should be {formula(sp.Eq(equation.lhs, derived))}. {note}".strip()
     if needed:
-        return finding(
-            number,
-            Verdict.TYPO,
-            right,
-            f"the difference is not 0, and the derived form is what {_listed(needed)} need",
-        )
-    return finding(
-        number,
-        Verdict.WRONG,
-        right,
-        "the difference is not 0, and nothing in the paper has the derived form",
-    )
-
-
-def _listed(names: list[str]) -> str:
-    return " and ".join(filter(None, (", ".join(names[:-1]), names[-1])))
+        listed = " and ".join(filter(None, (", ".join(needed[:-1]), needed[-1])))
+        why = f"the difference is not 0, and the derived form is what {listed} need"
+        return finding(number, Verdict.TYPO, right, why)
+    why = "the difference is not 0, and nothing in the paper has the derived form"
+    return finding(number, Verdict.WRONG, right, why)
 
 
 def finding(number: int, verdict: Verdict, holds: str, why: str) -> Row:
-    return Row(
-        f"eq-{number}", f"({number})", formula(symbolic.EQUATIONS[number]), holds, verdict, why
-    )
+    """The row of an equation."""
+    return Row(f"eq-{number}", f"({number})", formula(equation(number)), holds, verdict, why)
 
 
 _SPEEDING = symbolic.v_max * (1 - sp.exp(-symbolic.k_rho * symbolic.rho))
 _NAMES = {
     symbolic.v_max: r"v_{\max}",
-    symbolic.br: r"\mathrm{br}",
+    equations.br: r"\mathrm{br}",
     symbolic.lat1: r"\mathrm{lat}_{1}",
     symbolic.lat2: r"\mathrm{lat}_{2}",
     symbolic.dlat: r"\Delta\mathrm{lat}",
@@ -164,20 +166,19 @@ _NAMES = {
 
 
 def latex(expression: sp.Basic) -> str:
-    """LaTeX that fits into a cell of a Markdown table: without vertical bars, and with u for v_max (1 - exp(-k_rho rho))."""
+    """LaTeX for a cell of a Markdown table: no vertical bars, u for v_max (1 - exp(-k_rho rho))."""
     text = sp.latex(expression.subs(_SPEEDING, sp.Symbol("u")), symbol_names=_NAMES)
-    bars = (
+    for plain, typeset in (
         (r"\left|", r"\left\vert "),
         (r"\right|", r"\right\vert "),
         (r"\operatorname{atan}_{2}", r"\operatorname{atan2}"),
-    )
-    for plain, typeset in bars:
+    ):
         text = text.replace(plain, typeset)
     return text
 
 
 def formula(relation: sp.Basic) -> str:
-    """An equation in $...$, in parts between which a narrow cell can break the line: one for each term of a sum."""
+    """An equation in $...$, one part for each term, so that a narrow cell can break the line."""
     if not (isinstance(relation, sp.Eq) and isinstance(relation.rhs, sp.Add)):
         return f"${latex(relation)}$"
     first, *others = (latex(term) for term in relation.rhs.as_ordered_terms())

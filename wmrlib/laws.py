@@ -1,0 +1,232 @@
+"""Every law, once: a formula and one row in `LAWS`; equations (18), (22) and (24) of the paper.
+
+All else follows from these two: what `control` computes, the compiled loops, the sympy expressions,
+the panel's JavaScript and menu, and the C header.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import NamedTuple
+
+from wmrlib._checks import choice, instance
+from wmrlib._compile import compiled, formula
+from wmrlib._vecmath import decay, sinc, sincos
+from wmrlib.gains import (
+    NO_TUNING,
+    Gains,
+    GainsFields,
+    KanayamaGains,
+    LinearGains,
+    Tuning,
+)
+from wmrlib.kinematics import wrap
+
+# The formulas, one number at a time. A pose law gives v/rho, which is finite at the goal, where the
+# polar model divides v by rho; a law for a moving goal gives v.
+
+
+@formula
+def corrected_law(rho, alpha, theta, gains):
+    cos_alpha = sincos(alpha)[1]
+    v_over_rho = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
+    return v_over_rho, gains.k_alpha * alpha + v_over_rho * sinc(alpha) * (alpha + gains.h * theta)
+
+
+@formula
+def printed_law(rho, alpha, theta, gains):
+    sin_alpha, cos_alpha = sincos(alpha)
+    v_over_rho = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
+    steering = sin_alpha * cos_alpha * sinc(alpha) * (alpha + gains.h * theta)
+    return v_over_rho, gains.k_alpha * alpha + v_over_rho * steering
+
+
+@formula
+def aicardi_law(rho, alpha, theta, gains):
+    v_over_rho = gains.k_rho * sincos(alpha)[1]
+    return v_over_rho, gains.k_alpha * alpha + v_over_rho * sinc(alpha) * (alpha + gains.h * theta)
+
+
+@formula
+def kanayama_law(ahead, left, turn, v_ref, omega_ref, gains):
+    sin_turn, cos_turn = sincos(turn)
+    v = v_ref * cos_turn + gains.k_x * ahead
+    return v, omega_ref + v_ref * (gains.k_y * left + gains.k_heading * sin_turn)
+
+
+@formula
+def linear_law(ahead, left, turn, v_ref, omega_ref, gains):
+    v = v_ref * sincos(turn)[1] + gains.v_x * ahead + gains.v_y * left + gains.v_heading * turn
+    return v, omega_ref + gains.omega_x * ahead + gains.omega_y * left + gains.omega_heading * turn
+
+
+@formula
+def body_error(rho, alpha, theta):
+    """The goal in the robot's frame: metres ahead, metres to the left, and its heading."""
+    sin_alpha, cos_alpha = sincos(alpha)
+    return rho * cos_alpha, rho * sin_alpha, wrap(alpha - theta)
+
+
+@formula
+def lyapunov_value(rho, alpha, theta, h, L):
+    return rho * rho / (2.0 * L) + 0.5 * (alpha * alpha + h * theta * theta)
+
+
+@formula
+def pose_value(rho, alpha, theta, gains):
+    return lyapunov_value(rho, alpha, theta, gains.h, 1.0)
+
+
+@formula
+def kanayama_value(rho, alpha, theta, gains):
+    return 0.5 * rho * rho + (1.0 - sincos(alpha - theta)[1]) / gains.k_y
+
+
+@formula
+def linear_value(rho, alpha, theta, gains):
+    """Half the squared error: the law brings no Lyapunov function of its own."""
+    turn = wrap(alpha - theta)
+    return 0.5 * (rho * rho + turn * turn)
+
+
+@formula
+def fastest_wheel(v, omega, track_width):
+    return abs(v) + 0.5 * abs(omega) * track_width
+
+
+@formula
+def saturation_scale(v, omega, wheels):
+    """The factor on the twist that brings the faster wheel down to its limit."""
+    fastest = fastest_wheel(v, omega, wheels.track_width)
+    return wheels.max_speed / fastest if fastest > wheels.max_speed else 1.0
+
+
+class Law(NamedTuple):
+    """A row of `LAWS`.
+
+    `formula` takes (rho, alpha, theta, gains) and returns (v/rho, omega). If the law needs a
+    reference it takes (ahead, left, turn, v_ref, omega_ref, gains) and returns (v, omega).
+    `value` is its Lyapunov function of (rho, alpha, theta, gains). `title` is for menus. `ignores`
+    names the gains that the formula has no use for.
+    """
+
+    formula: Callable
+    gains: type
+    title: str
+    says: str
+    value: Callable = pose_value
+    needs_reference: bool = False
+    ignores: tuple[str, ...] = ()
+
+
+LAWS = {
+    "corrected": Law(corrected_law, Gains, "corrected", "(22), and the omega that the proof needs"),
+    "printed": Law(printed_law, Gains, "printed", "(22) and (24) as the paper prints them"),
+    "aicardi": Law(
+        aicardi_law,
+        Gains,
+        "Aicardi",
+        "Aicardi et al. (1995), without a speed limit",
+        ignores=("v_max",),
+    ),
+    "kanayama": Law(
+        kanayama_law,
+        KanayamaGains,
+        "feed-forward (Kanayama)",
+        "Kanayama et al. (1990), feed-forward and feedback",
+        kanayama_value,
+        needs_reference=True,
+    ),
+    "linear": Law(
+        linear_law,
+        LinearGains,
+        "feed-forward (matrix)",
+        "feed-forward and a constant matrix, such as `control.lqr` computes",
+        linear_value,
+        needs_reference=True,
+    ),
+}
+"""Every law, by name. The compiled loops know a law by its place in this table."""
+TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
+POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name].needs_reference}
+
+
+def _choose(functions: dict[int, Callable]) -> Callable:
+    """One compiled function of (law, *arguments) that calls the function of that law."""
+    (code, chosen), *rest = functions.items()
+    if not rest:
+        return formula(lambda law, *arguments: chosen(*arguments), cache=False)
+    others = _choose(dict(rest))
+
+    def choose(law, *arguments):
+        if law == code:
+            return chosen(*arguments)
+        return others(law, *arguments)
+
+    return formula(choose, cache=False)
+
+
+def _place_of(gains: type) -> int:
+    """Where a Tuning holds gains of this type."""
+    return next(place for place, each in enumerate(NO_TUNING) if isinstance(each, gains))
+
+
+def _commanding(row: Law) -> Callable:
+    steer, place = row.formula, _place_of(row.gains)
+
+    def to_goal(rho, alpha, theta, v_ref, omega_ref, tuning):
+        v_over_rho, omega = steer(rho, alpha, theta, tuning[place])
+        return v_over_rho * rho, omega
+
+    def after_reference(rho, alpha, theta, v_ref, omega_ref, tuning):
+        ahead, left, turn = body_error(rho, alpha, theta)
+        return steer(ahead, left, turn, v_ref, omega_ref, tuning[place])
+
+    return formula(after_reference if row.needs_reference else to_goal, cache=False)
+
+
+def _valuing(row: Law) -> Callable:
+    value, place = row.value, _place_of(row.gains)
+    return formula(
+        lambda rho, alpha, theta, tuning: value(rho, alpha, theta, tuning[place]), cache=False
+    )
+
+
+_pose_law = _choose({code: LAWS[name].formula for name, code in POSE_LAWS.items()})
+_command = _choose({code: _commanding(LAWS[name]) for name, code in TRACKING_LAWS.items()})
+_value = _choose({code: _valuing(LAWS[name]) for name, code in TRACKING_LAWS.items()})
+
+
+@formula
+def pose_law(rho, alpha, theta, gains, law):
+    """(v/rho, omega) of a pose law."""
+    return _pose_law(law, rho, alpha, theta, gains)
+
+
+@compiled
+def command(rho, alpha, theta, v_ref, omega_ref, tuning, law):
+    """(v, omega) of any of the laws."""
+    return _command(law, rho, alpha, theta, v_ref, omega_ref, tuning)
+
+
+@compiled
+def lyapunov_value_of(rho, alpha, theta, tuning, law):
+    """Each law's own Lyapunov function, with L = 1."""
+    return _value(law, rho, alpha, theta, tuning)
+
+
+@compiled
+def pose_tuning(k_rho, k_alpha, h, v_max):
+    """A Tuning for one of the pose laws, made inside a compiled loop."""
+    return Tuning(GainsFields(k_rho, k_alpha, h, v_max), NO_TUNING.kanayama, NO_TUNING.linear)
+
+
+def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:
+    """The gains and the law as the compiled loops take them; ValueError if they don't match."""
+    code = laws[choice("law", law, laws)]
+    instance("gains", gains, LAWS[law].gains)
+    if not all(type(field) is float for field in gains):
+        needed = "one number a gain is needed; sweep takes arrays of gains"
+        raise ValueError(f"gains = {gains!r} is not allowed: {needed}")
+    place = _place_of(LAWS[law].gains)
+    return Tuning(*NO_TUNING[:place], gains, *NO_TUNING[place + 1 :]), code

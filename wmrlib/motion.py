@@ -1,0 +1,56 @@
+"""How the robot moves and sees its goal, one number at a time; equations (3) to (9)."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wmrlib._compile import compiled, formula
+from wmrlib._vecmath import sinc, sincos
+
+_TURN = 2.0 * math.pi
+
+
+@compiled
+def wrap(angle):
+    if -math.pi < angle <= math.pi:
+        return angle
+    angle = np.fmod(angle, _TURN)  # exact, and so is what follows
+    if angle > math.pi:
+        return angle - _TURN
+    return angle + _TURN if angle <= -math.pi else angle
+
+
+@compiled
+def polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading):
+    east, north = goal_x - x, goal_y - y
+    sight = math.atan2(north, east)
+    return math.sqrt(east * east + north * north), wrap(sight - heading), wrap(sight - goal_heading)
+
+
+@formula
+def polar_closing_rate(rho, alpha, v_over_rho, omega):
+    """(7)-(9) with v/rho, so that nothing is divided by zero at the goal."""
+    sin_alpha, cos_alpha = sincos(alpha)
+    turning = v_over_rho * sin_alpha
+    return -v_over_rho * rho * cos_alpha, turning - omega, turning
+
+
+@compiled
+def euler_step(x, y, heading, v, omega, dt):
+    sin_heading, cos_heading = sincos(heading)
+    return x + v * cos_heading * dt, y + v * sin_heading * dt, wrap(heading + omega * dt)
+
+
+@compiled
+def arc_step(x, y, heading, v, omega, dt):
+    """The arc's chord points half the turn aside and is sinc(half the turn) times as long."""
+    half_turn = 0.5 * omega * dt
+    sin_chord, cos_chord = sincos(heading + half_turn)
+    chord = v * dt * sinc(half_turn)
+    return x + chord * cos_chord, y + chord * sin_chord, wrap(heading + 2.0 * half_turn)
+
+
+STEPS = {"euler": euler_step, "arc": arc_step}
+"""How the robot moves while a twist is held, by name."""

@@ -1,0 +1,101 @@
+"""The law as one C header without dependencies, in float or double, for the robot's processor."""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import sympy as sp
+from sympy.printing.c import C99CodePrinter
+from sympy.printing.precedence import PRECEDENCE
+
+from wmrlib.geodesy import EARTH_RADIUS_M
+from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, GEODESY, Formula
+
+C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
+_FRAME = C_HEADER.with_name("frame.h")
+_FUNCTIONS = ("sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "expm1", "log")
+_OURS = {name: f"wmr_{name}" for name in ("decay", "wrap")} | {"Abs": "WMR_F(fabs)"}
+
+
+class _Printer(C99CodePrinter):
+    """Numbers in WMR_C(...) and functions in WMR_F(...), which the header has for both types."""
+
+    def __init__(self):
+        library = {name: f"WMR_F({name})" for name in _FUNCTIONS}
+        super().__init__({"user_functions": library | _OURS})
+
+    def _print_Float(self, expr):  # noqa: N802 (sympy's name)
+        return f"WMR_C({float(expr)!r})"
+
+    _print_Integer = _print_Rational = _print_Float  # noqa: N815
+
+    def _print_Pi(self, expr):  # noqa: N802
+        return "WMR_C(3.14159265358979323846)"
+
+    def _print_sinc(self, expr):
+        return f"wmr_sinc({self._print(expr.args[0])})"
+
+    def _print_Pow(self, expr):  # noqa: N802
+        base = self.parenthesize(expr.base, PRECEDENCE["Mul"])
+        if expr.exp == 2:
+            return f"({base}*{base})"
+        if expr.exp == sp.Rational(1, 2):
+            return f"WMR_F(sqrt)({self._print(expr.base)})"
+        if expr.exp == -1:
+            return f"WMR_C(1.0)/{base}"
+        return f"WMR_F(pow)({self._print(expr.base)}, {self._print(expr.exp)})"
+
+    def line(self, expression: sp.Expr) -> str:
+        text = re.sub(r"\s+", " ", self.doprint(expression))
+        return re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", text)  # brackets of its own
+
+
+def c_function(name: str, formula: Formula, real: str = "WMR_REAL") -> str:
+    """One formula as a static C function.
+
+    Parameters
+    ----------
+    name : its name without the wmr_
+    formula : of `C_FORMULAS`, `GEODESY` or `C_LAWS`; a law takes a wmr_polar and wmr_gains
+    real : type of its numbers; with "double" it computes in double precision always
+
+    Returns
+    -------
+    The C text.
+    """
+    printer, arguments = _Printer(), [f"{real} {each}" for each in formula.arguments]
+    lines = [f"const {real} {each} = {printer.line(value)};" for each, value in formula.locals_]
+    values, kind = [printer.line(value) for value in formula.values], real
+    if formula.gains:
+        used = sp.Tuple(*formula.expanded()).free_symbols
+        state = [f"{each} = error.{each}" for each in formula.arguments if each in used]
+        gains = [f"{each} = gains.{each}" for each in formula.gains]
+        lines = [f"const {real} {', '.join(each)};" for each in (state, gains)] + lines
+        lines.append(f"const {real} omega = {values[1]};")
+        arguments, kind = ["wmr_polar error", "wmr_gains gains"], "wmr_twist"
+        values = [f"wmr_checked(error, gains, {values[0]}, omega)"]
+    body = "".join(f"  {line}\n" for line in [*lines, f"return {values[0]};"])
+    head = f"static inline {kind} wmr_{name}({', '.join(arguments)}) {{"
+    text = f"/* {formula.says} */\n{head}\n{body}}}\n"
+    return re.sub(r"WMR_[CF]\(([^()]+)\)", r"\1", text) if real == "double" else text
+
+
+def c_header() -> str:
+    """The text of ``wmr_law.h``: ``frame.h`` with the printed functions in their places."""
+    text = _FRAME.read_text(encoding="utf-8").partition("*/\n")[2]  # what frame.h says of itself
+    places = {"@EARTH_RADIUS_M@": repr(EARTH_RADIUS_M)}
+    tables = (("FORMULAS", C_FORMULAS), ("LAWS", C_LAWS), ("GEODESY", GEODESY))
+    for place, table in tables:
+        real = "double" if table is GEODESY else "WMR_REAL"
+        printed = "\n".join(c_function(name, formula, real) for name, formula in table.items())
+        places[f"/* @{place}@ */\n"] = printed
+    for place, printed in places.items():
+        if text.count(place) != 1:
+            found = f"frame.h has {place.strip()} {text.count(place)} times"
+            raise ValueError(f"{found}: once is needed")
+        text = text.replace(place, printed)
+    return text
+
+
+__all__ = ["C_HEADER", "c_function", "c_header"]
