@@ -105,7 +105,7 @@ def go_to_panel(page):
 
 
 @pytest.mark.parametrize(
-    ("key", "size"), zip(("ArrowRight", "Space", "PageDown"), SIZES, strict=True), ids=str
+    ("key", "size"), list(zip(("ArrowRight", "Space", "PageDown"), SIZES, strict=True)), ids=str
 )
 def test_a_key_walks_through_the_whole_deck_and_each_slide_fits(decks, opened, key, size):
     for path in made(decks):
