@@ -7,13 +7,13 @@ import nbgrader
 c = get_config()  # noqa: F821  (nbgrader provides it)
 
 c.CourseDirectory.course_id = "wmr"
-# What stands in the place of an answer in what students get: a cell that is left as it is fails by this, and its checks with it.
+# What students get in the place of an answer: an untouched cell fails by it, and so do its checks.
 c.ClearSolutions.code_stub = {
     "python": 'raise NotImplementedError("write your answer here")'
 }
 c.ExecutePreprocessor.timeout = 120  # s for a cell: an endless loop ends
 
-# The feedback is a page that opens without a network: nbgrader's, but with the template beside this file in front of it.
+# The feedback opens without a network: nbgrader's page, with the template beside this file first.
 c.HTMLExporter.template_name = "offline"
 c.HTMLExporter.extra_template_basedirs = [
     str(Path(__file__).parent / "templates"),
