@@ -84,7 +84,7 @@ class Trajectory:
     @property
     def heading_error(self) -> np.ndarray:
         """Heading error theta - alpha = heading - goal.heading, rad in (-pi, pi]."""
-        return wrap_angle(self.theta - self.alpha)
+        return np.asarray(wrap_angle(self.theta - self.alpha))
 
 
 class Arrival(NamedTuple):

@@ -136,4 +136,5 @@ def track(
 def _trajectory(t, record, outcome, goal, gains, law, method) -> Trajectory:
     t = t[: record.shape[1]]
     t.flags.writeable = record.flags.writeable = False
-    return Trajectory(t, *record, _OUTCOMES[outcome], goal, gains, law, method)
+    ended = _OUTCOMES[outcome]
+    return Trajectory(t, *record, ended, goal, gains, law, method)  # type: ignore[call-arg]

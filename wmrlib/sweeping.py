@@ -5,8 +5,8 @@ from __future__ import annotations
 import math
 import os
 import warnings
-from collections.abc import Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
+from collections.abc import Generator, Iterator
+from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import closing, contextmanager
 from itertools import islice
 from typing import NamedTuple
@@ -172,7 +172,7 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     return summary, record
 
 
-def _results(source, total: int, task: _Task, executor: Executor | None) -> Iterator:
+def _results(source, total: int, task: _Task, executor: Executor | None) -> Generator:
     """(first, last, result) of each chunk as it is done, with a bounded number under way."""
 
     def columns(first: int, last: int) -> np.ndarray:
@@ -185,7 +185,8 @@ def _results(source, total: int, task: _Task, executor: Executor | None) -> Iter
     if executor is None and (cores == 1 or size >= total):
         yield from ((*chunk, run_chunk(columns(*chunk), task)) for chunk in chunks)
         return
-    pool, waiting = executor, {}
+    pool = executor
+    waiting: dict[Future, tuple[int, int]] = {}
     if pool is None:  # compile here, where Ctrl-C is heard, and not in a thread
         laws = np.unique(source[-1])
         run_chunk(np.tile(laws, (len(source), 1)), task._replace(samples=2))

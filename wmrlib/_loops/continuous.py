@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import numpy as np
 
 from wmrlib._loops import plane, polar, rows
-from wmrlib.kinematics import Pose, polar_error, pose_from_polar, wrap_angle
+from wmrlib.kinematics import PolarError, Pose, polar_error, pose_from_polar, wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, saturation_scale
 
 _TOLERANCE = {"rtol": 1e-10, "atol": 1e-12}
@@ -30,13 +31,15 @@ def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
     def left_to_go(_, state):
         return state[0] - arrival_radius
 
-    left_to_go.terminal, left_to_go.direction = True, -1.0
+    event: Any = left_to_go if arrival_radius > 0.0 else None
+    if event:
+        event.terminal = True
+        event.direction = -1.0
     first = polar_error(start, goal)
     begin = (*first, 0.0, 0.0) if lag else first
     if first.rho <= arrival_radius:
         t, states, outcome = t[:1], np.array(begin)[:, None], rows.ARRIVED
     else:
-        event = left_to_go if arrival_radius > 0.0 else None
         run, outcome = _integrated(rate, begin, t, "LSODA" if lag else "DOP853", event)
         t, states = run.t, run.y
         if run.status == 1:  # the event: its moment is the last sample
@@ -44,7 +47,7 @@ def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
             states = np.hstack([states, run.y_events[0].T])
     states[0] = np.maximum(states[0], 0.0)  # rounding can carry rho a hair past the goal
     record = np.empty((9, t.size))
-    record[: rows.RHO] = pose_from_polar(states[:3], goal)
+    record[: rows.RHO] = pose_from_polar(PolarError(*states[:3]), goal)
     record[rows.RHO : rows.V] = states[:3]
     _add_commands(record, np.zeros((2, t.size)), tuning, law, wheels)
     if lag:
