@@ -186,35 +186,6 @@ def gain_map(
     return sweep(start, goal, Gains(**(fields | grid)), **options)
 
 
-def pareto(*costs: Real) -> np.ndarray:
-    """Return which choices no other one dominates: as cheap in every cost and cheaper in one.
-
-    Parameters
-    ----------
-    costs : arrays of one shape, any units; less is better
-
-    Returns
-    -------
-    array of bool, in that shape; False where a cost is infinite or NaN
-
-    Raises
-    ------
-    ValueError : no costs, or different shapes
-    """
-    table = [np.asarray(each, dtype=float) for each in costs]
-    shapes = [each.shape for each in table]
-    if len(set(shapes)) != 1:
-        needed = "at least one, all of one shape, is needed"
-        raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")
-    points = np.stack(table, axis=-1)
-    chosen = np.isfinite(points).all(axis=-1)
-    left = points[chosen]
-    chosen[chosen] = [
-        not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left
-    ]
-    return chosen
-
-
 def _near_goal(gains: Gains, law: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The distance's rate, k_alpha and h, as arrays."""
     k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)

@@ -6,7 +6,7 @@ with book_extra("wmrlib.plots"):
     import matplotlib  # noqa: F401
 
 from wmrlib.plots.picture import Picture
-from wmrlib.plots.runs import arrival, dashboard, errors, lyapunov, path, twist
+from wmrlib.plots.runs import dashboard, path
 from wmrlib.plots.style import COLOURS, LINES, STYLE, arrow, equal_scales, near_zero, new_figure
 
 __all__ = [
@@ -14,14 +14,10 @@ __all__ = [
     "LINES",
     "STYLE",
     "Picture",
-    "arrival",
     "arrow",
     "dashboard",
     "equal_scales",
-    "errors",
-    "lyapunov",
     "near_zero",
     "new_figure",
     "path",
-    "twist",
 ]
