@@ -129,6 +129,7 @@ CASES = {
         wmr.Pose(5.0, 0.0, 2.0), wmr.Pose(0.0, -4.0, 3.0)
     ),
     "third_angle": lambda: figures.third_angle(ROBOT, GOAL),
+    "mirrored_paths": lambda: figures.mirrored_paths([drive(), drive("aicardi")], ["one", "two"]),
     "path_choices": lambda: figures.path_choices(
         {"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN
     ),

@@ -80,14 +80,14 @@ def test_a_path_that_begins_backwards_says_so():
     runs = [wmr.simulate(start, ORIGIN, PAPER.gains) for start in starts]
     k = int(np.flatnonzero(runs[0].v > 0)[0])
     t, x, y = runs[0].t[k], runs[0].x[k], runs[0].y[k]
-    alt = plots.path(runs, ["one", "two"]).alt
+    alt = figures.mirrored_paths(runs, ["one", "two"]).alt
     begin = "the robot starts at (-10.0, 0.0) m heading"
     assert alt.startswith(f"Path in metres: one: {begin} -174 deg, ")  # wrapped
     assert f"; two: {begin} 174 deg, " in alt
     assert f"backs up for the first {t:.1f} s as far as ({x:.1f}, {y:.1f}) m" in alt
     assert alt.endswith("; the two paths are mirror images.")
     for others in ([runs[0], runs[0]], [RUN, PARKED]):
-        assert "mirror" not in plots.path(others).alt
+        assert "mirror" not in figures.mirrored_paths(others, []).alt
     assert "backs up" not in plots.path(RUN).alt
 
 

@@ -7,14 +7,14 @@ with book_extra("wmrlib.plots"):
 
 from wmrlib.plots.picture import Picture
 from wmrlib.plots.runs import dashboard, path
-from wmrlib.plots.style import COLOURS, LINES, STYLE, arrow, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, LINES, STYLE, dart, equal_scales, near_zero, new_figure
 
 __all__ = [
     "COLOURS",
     "LINES",
     "STYLE",
     "Picture",
-    "arrow",
+    "dart",
     "dashboard",
     "equal_scales",
     "near_zero",

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
-from wmrlib.kinematics import Pose, wrap_angle
+from wmrlib.kinematics import wrap_angle
 from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, LINES, arrow, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, LINES, dart, equal_scales, near_zero, new_figure, pose_at
 from wmrlib.runs import Trajectory
 
 
@@ -33,7 +33,8 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     ValueError : another number of runs or labels
     """
     runs = [runs] if isinstance(runs, Trajectory) else list(runs)
-    single, count = len(runs) == 1, len(runs)
+    count = len(runs)
+    single = count == 1
     if not 1 <= count <= len(LINES):
         needed = f"1 to {len(LINES)} are needed"
         raise ValueError(f"runs has {count} entries, which is not allowed: {needed}")
@@ -51,8 +52,6 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     equal_scales(axes, x, y, room=0.12)
     names = [f"{label}: " for label in labels] or [""] * count
     words = [name + _path_in_words(run) for name, run in zip(names, runs, strict=True)]
-    if count == 2 and _mirrored(*runs):
-        words.append("the two paths are mirror images")
     return Picture(figure, "Path in metres: " + "; ".join(words) + ".")
 
 
@@ -79,16 +78,13 @@ def _draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, ro
     """Draw the path, the start (filled), the goal (open) and the robot on its way."""
     axes.plot(run.x, run.y, style, color=COLOURS["path"])
     way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(run.x), np.diff(run.y)))])
-    tenths = np.searchsorted(way, np.linspace(0.0, 1.0, 11)[1:-1] * way[-1])
-    for k in (*tenths, -1) if robots else ():  # -1: the robot may turn where it stops
-        _draw_arrow(axes, _pose(run, k), size, "robot", "ink")
-    _draw_arrow(axes, _goal(run), 1.5 * size, "none", "goal", lw=2.0, zorder=4)
-    _draw_arrow(axes, _pose(run, 0), 1.5 * size, "start", "start", zorder=4)
+    passed = np.searchsorted(way, np.linspace(0.0, 1.0, 11)[1:-1] * way[-1])
+    for k in (*passed, -1) if robots else ():  # -1: the robot may turn where it stops
+        dart(axes, pose_at(run, k), size, "robot")
+    # A goal that moves is shown where it ends.
+    dart(axes, pose_at(run.goal, -1), 1.5 * size, "none", "goal", lw=2.0, zorder=4)
+    dart(axes, pose_at(run, 0), 1.5 * size, "start", "start", zorder=4)
     axes.set(xlabel="x [m]", ylabel="y [m]")
-
-
-def _draw_arrow(axes: Axes, pose: Pose, size: float, fill: str, edge: str, **looks) -> None:
-    axes.add_patch(arrow(pose, size, fc=COLOURS.get(fill, fill), ec=COLOURS[edge], **looks))
 
 
 def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:
@@ -114,15 +110,6 @@ def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
     xlim, ylim = (0.0, max(run.t[-1], 1e-9)), (values.min() / 2, values.max() * 2)
     axes.set(ylabel="V [1]", yscale="log", xlim=xlim, ylim=ylim)
     axes.legend(loc="upper right", fontsize=10)
-
-
-def _pose(run: Trajectory, k: int) -> Pose:
-    return Pose(run.x[k], run.y[k], run.heading[k])
-
-
-def _goal(run: Trajectory) -> Pose:
-    """Where the goal stands, or where it ends if it moves."""
-    return Pose(*(float(np.ravel(field)[-1]) for field in run.goal))
 
 
 def _rising(run: Trajectory) -> np.ndarray:
@@ -156,18 +143,3 @@ def _path_in_words(run: Trajectory) -> str:
         f"heading {heading:.0f} deg{cusp} and is {run.rho[-1]:.2f} m from the goal "
         f"after {run.t[-1]:.1f} s, its heading {error:.0f} deg from the goal's"
     )
-
-
-def _mirrored(one: Trajectory, other: Trajectory) -> bool:
-    """Whether one path is the other's mirror image in the line from its start to its goal."""
-    if len(one) != len(other):
-        return False
-    left, right = _along_the_line(one), _along_the_line(other)
-    return bool(np.allclose(left, right.conj(), atol=1e-3) and np.abs(left.imag).max() > 1e-2)
-
-
-def _along_the_line(run: Trajectory) -> np.ndarray:
-    """The path as complex numbers, 0 at the start and 1 at the goal."""
-    goal = _goal(run)
-    line = complex(goal.x - run.x[0], goal.y - run.y[0])
-    return (run.x - run.x[0] + 1j * (run.y - run.y[0])) / line if line else np.zeros(len(run))

@@ -15,6 +15,7 @@ from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
 
 from wmrlib.kinematics import Pose
+from wmrlib.runs import Trajectory
 
 COLOURS = {
     "path": "#0072B2",
@@ -60,12 +61,18 @@ def new_figure(width: float, height: float, rows: int = 1, mosaic=None) -> tuple
         return figure, figure.subplots(rows, sharex=True)
 
 
-def arrow(pose: Pose, size: float, **looks) -> Polygon:
-    """Return a dart that is 2 `size` long and whose tip shows the heading."""
+def dart(axes: Axes, pose: Pose, size: float, fill: str, edge: str = "ink", **looks) -> None:
+    """Draw a pose as a dart 2 `size` long; fill and edge are roles in COLOURS, or colours."""
     shape = np.array([[1.3, 0.0], [-0.9, 0.6], [-0.5, 0.0], [-0.9, -0.6]]) * size
     cos, sin = math.cos(pose.heading), math.sin(pose.heading)
     corners = shape @ np.array([[cos, sin], [-sin, cos]]) + np.array([pose.x, pose.y])
-    return Polygon(corners, closed=True, **looks)
+    fill, edge = (COLOURS.get(each, each) for each in (fill, edge))
+    axes.add_patch(Polygon(corners, closed=True, fc=fill, ec=edge, **looks))
+
+
+def pose_at(path: Pose | Trajectory, k: int) -> Pose:
+    """Return the k-th pose of a path."""
+    return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
 
 
 def equal_scales(axes: Axes, x: np.ndarray, y: np.ndarray, room: float = 0.08) -> None:

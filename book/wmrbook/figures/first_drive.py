@@ -6,10 +6,9 @@ import math
 
 import numpy as np
 
-from wmrbook.figures._drawing import dart, pose_at
 from wmrlib.plots.picture import Picture
 from wmrlib.plots.runs import draw_lyapunov, draw_series, range_in_words, rises_in_words, tenths
-from wmrlib.plots.style import COLOURS, new_figure
+from wmrlib.plots.style import COLOURS, dart, new_figure, pose_at
 from wmrlib.runs import Trajectory
 
 
