@@ -5,9 +5,8 @@ from wmrlib._checks import book_extra
 with book_extra("wmrlib.plots"):
     import matplotlib  # noqa: F401
 
-from wmrlib.plots.picture import Picture
 from wmrlib.plots.runs import dashboard, path
-from wmrlib.plots.style import COLOURS, LINES, STYLE, dart, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, LINES, STYLE, Picture, dart, equal_scales, new_figure
 
 __all__ = [
     "COLOURS",
@@ -17,7 +16,6 @@ __all__ = [
     "dart",
     "dashboard",
     "equal_scales",
-    "near_zero",
     "new_figure",
     "path",
 ]

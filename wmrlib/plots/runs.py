@@ -10,9 +10,8 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
-from wmrlib.kinematics import wrap_angle
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, LINES, dart, equal_scales, near_zero, new_figure, pose_at
+from wmrlib.kinematics import Pose, wrap_angle
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, near_zero, new_figure
 from wmrlib.runs import Trajectory
 
 
@@ -85,6 +84,11 @@ def _draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, ro
     dart(axes, pose_at(run.goal, -1), 1.5 * size, "none", "goal", lw=2.0, zorder=4)
     dart(axes, pose_at(run, 0), 1.5 * size, "start", "start", zorder=4)
     axes.set(xlabel="x [m]", ylabel="y [m]")
+
+
+def pose_at(path: Pose | Trajectory, k: int) -> Pose:
+    """Return the k-th pose of a path."""
+    return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
 
 
 def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:

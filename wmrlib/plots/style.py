@@ -1,4 +1,4 @@
-"""What all figures have in common: colours by role, line styles, axes and arrows.
+"""What all figures have in common: colours by role, line styles, axes, darts and a text.
 
 The colours are those of Okabe and Ito, which colour-blind readers can tell apart. Whatever a colour
 says, a line style, a marker or a label says too.
@@ -6,6 +6,9 @@ says, a line style, a marker or a label says too.
 
 from __future__ import annotations
 
+import base64
+import html
+import io
 import math
 
 import matplotlib as mpl
@@ -13,9 +16,10 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
+from PIL import Image
+from PIL.PngImagePlugin import PngInfo
 
 from wmrlib.kinematics import Pose
-from wmrlib.runs import Trajectory
 
 COLOURS = {
     "path": "#0072B2",
@@ -39,6 +43,40 @@ STYLE = {
     "lines.linewidth": 2.0,
 }
 LINES = ("-", "--", ":", "-.")
+
+
+class Picture:
+    """A figure and its alternative text, which Jupyter shows as a PNG image with that text.
+
+    Parameters
+    ----------
+    figure : matplotlib's Figure, to change or save
+    alt : str, for readers who don't see the figure, and for tests
+    """
+
+    def __init__(self, figure: Figure, alt: str) -> None:
+        self.figure = figure
+        self.alt = alt
+
+    def __repr__(self) -> str:
+        return f"<Picture: {self.alt}>"
+
+    def png(self, dots_per_inch: float = 108.0) -> bytes:
+        """Return a PNG file of 256 colours, a third of the full size, with the text inside."""
+        buffer, file, text = io.BytesIO(), io.BytesIO(), PngInfo()
+        self.figure.savefig(buffer, format="png", dpi=dots_per_inch)
+        text.add_itxt("Description", self.alt)
+        few = Image.open(buffer).convert("RGB").quantize(256, dither=Image.Dither.NONE)
+        few.save(file, "PNG", optimize=True, pnginfo=text)
+        return file.getvalue()
+
+    def _repr_mimebundle_(self, include=None, exclude=None):
+        """As HTML first: JupyterLab gives a bare image/png no text. As PNG for a printed book."""
+        png, width = self.png(), round(self.figure.get_figwidth() * 72)
+        source = f"data:image/png;base64,{base64.b64encode(png).decode()}"
+        image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{source}">'
+        bundle = {"text/html": image, "image/png": png, "text/plain": repr(self)}
+        return bundle, {"image/png": {"alt": self.alt, "width": width}}
 
 
 def new_figure(width: float, height: float, rows: int = 1, mosaic=None) -> tuple:
@@ -68,11 +106,6 @@ def dart(axes: Axes, pose: Pose, size: float, fill: str, edge: str = "ink", **lo
     corners = shape @ np.array([[cos, sin], [-sin, cos]]) + np.array([pose.x, pose.y])
     fill, edge = (COLOURS.get(each, each) for each in (fill, edge))
     axes.add_patch(Polygon(corners, closed=True, fc=fill, ec=edge, **looks))
-
-
-def pose_at(path: Pose | Trajectory, k: int) -> Pose:
-    """Return the k-th pose of a path."""
-    return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
 
 
 def equal_scales(axes: Axes, x: np.ndarray, y: np.ndarray, room: float = 0.08) -> None:

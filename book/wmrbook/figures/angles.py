@@ -13,9 +13,8 @@ from wmrbook.conventions import CONVENTIONS, translate
 from wmrbook.figures._drawing import check_count, note, panels, run_list
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.runs import path
-from wmrlib.plots.style import COLOURS, LINES, dart, equal_scales, near_zero, new_figure, pose_at
+from wmrlib.plots.runs import path, pose_at
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, near_zero, new_figure
 from wmrlib.runs import Trajectory
 
 

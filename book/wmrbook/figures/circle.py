@@ -12,8 +12,8 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
 from wmrlib._checks import real
 from wmrlib.kinematics import Pose
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, dart, equal_scales, near_zero, new_figure, pose_at
+from wmrlib.plots.runs import pose_at
+from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, near_zero, new_figure
 from wmrlib.runs import Trajectory
 
 _MARKERS = ("o", "s", "^", "D", "v")

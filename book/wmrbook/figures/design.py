@@ -16,8 +16,7 @@ from wmrbook.figures._drawing import check_count, note, panels
 from wmrlib import symbolic
 from wmrlib._checks import choice, instance, real
 from wmrlib.gains import Gains
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, new_figure
+from wmrlib.plots.style import COLOURS, Picture, new_figure
 from wmrlib.runs import Arrival
 from wmrlib.tuning import modes
 

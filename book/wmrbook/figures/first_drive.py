@@ -6,9 +6,15 @@ import math
 
 import numpy as np
 
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.runs import draw_lyapunov, draw_series, range_in_words, rises_in_words, tenths
-from wmrlib.plots.style import COLOURS, dart, new_figure, pose_at
+from wmrlib.plots.runs import (
+    draw_lyapunov,
+    draw_series,
+    pose_at,
+    range_in_words,
+    rises_in_words,
+    tenths,
+)
+from wmrlib.plots.style import COLOURS, Picture, dart, new_figure
 from wmrlib.runs import Trajectory
 
 

@@ -12,8 +12,8 @@ from matplotlib.patches import Circle
 from wmrbook.figures._drawing import check_count, legend_above, note
 from wmrlib._checks import instance, real, same_shape
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, LINES, dart, near_zero, new_figure, pose_at
+from wmrlib.plots.runs import pose_at
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, near_zero, new_figure
 from wmrlib.tracks import StationaryScatter
 
 _MOST_DARTS = 150

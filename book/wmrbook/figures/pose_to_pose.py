@@ -22,8 +22,8 @@ from wmrbook.figures._drawing import (
     pointer,
 )
 from wmrlib._checks import choice, instance, real, scalar
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, dart, new_figure, pose_at
+from wmrlib.plots.runs import pose_at
+from wmrlib.plots.style import COLOURS, Picture, dart, new_figure
 from wmrlib.runs import Trajectory
 
 _LEAST = 1e-6  # of a logarithmic scale

@@ -12,8 +12,7 @@ from wmrbook.figures._drawing import check_count
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.metrics import arrival
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, dart, new_figure
+from wmrlib.plots.style import COLOURS, Picture, dart, new_figure
 from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate
 from wmrlib.tuning import longest_step
