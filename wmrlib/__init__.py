@@ -1,4 +1,4 @@
-"""wmrlib: from two GPS points to a parked robot. Each name is loaded when it is first used, so that importing costs next to nothing."""
+"""wmrlib: from two GPS points to a parked robot. Each name is loaded when it is first used."""
 
 import lazy_loader
 

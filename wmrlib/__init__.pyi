@@ -1,4 +1,4 @@
-# The public names and where they live: read by lazy_loader at run time, and by editors and type checkers.
+# The public names and where they live, for lazy_loader, editors and type checkers.
 from . import metrics as metrics
 from . import paper as paper
 from . import plots as plots
