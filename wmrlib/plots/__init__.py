@@ -6,16 +6,6 @@ with book_extra("wmrlib.plots"):
     import matplotlib  # noqa: F401
 
 from wmrlib.plots.runs import dashboard, path
-from wmrlib.plots.style import COLOURS, LINES, STYLE, Picture, dart, equal_scales, new_figure
+from wmrlib.plots.style import COLOURS, LINES, Picture
 
-__all__ = [
-    "COLOURS",
-    "LINES",
-    "STYLE",
-    "Picture",
-    "dart",
-    "dashboard",
-    "equal_scales",
-    "new_figure",
-    "path",
-]
+__all__ = ["COLOURS", "LINES", "Picture", "dashboard", "path"]

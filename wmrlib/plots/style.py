@@ -80,18 +80,7 @@ class Picture:
 
 
 def new_figure(width: float, height: float, rows: int = 1, mosaic=None) -> tuple:
-    """Make a figure outside pyplot, so that nothing is shown twice or kept alive.
-
-    Parameters
-    ----------
-    width, height : float, inches
-    rows : int, how many axes stand above each other, over one x
-    mosaic : as in matplotlib's `subplot_mosaic`, instead of `rows`
-
-    Returns
-    -------
-    figure, axes
-    """
+    """A figure (inches) outside pyplot, which would show it twice, and its rows or mosaic."""
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=(width, height), layout="constrained")
         if mosaic:

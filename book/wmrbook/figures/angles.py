@@ -119,7 +119,6 @@ def mirrored_paths(runs: Sequence[Trajectory], labels: Sequence[str]) -> Picture
     """Two paths; the text says whether one is the other's mirror image."""
     check_count("runs", runs, 2, 2)
     picture = path(runs, labels)
-    # Complex numbers, 0 at the start and 1 at the goal; what the line mirrors is the conjugate.
     if len(runs[0]) == len(runs[1]):
         left, right = map(_along_the_line, runs)
         if np.allclose(left, right.conj(), atol=1e-3) and np.abs(left.imag).max() > 1e-2:
@@ -224,6 +223,7 @@ def _span(angle: np.ndarray) -> str:
 
 
 def _along_the_line(run: Trajectory) -> np.ndarray:
+    """The path as complex numbers, 0 at the start and 1 at the goal; its mirror image conjugates."""
     goal = pose_at(run.goal, -1)
     line = complex(goal.x - run.x[0], goal.y - run.y[0])
     return (run.x - run.x[0] + 1j * (run.y - run.y[0])) / line if line else np.zeros(len(run))
