@@ -223,7 +223,7 @@ def _span(angle: np.ndarray) -> str:
 
 
 def _along_the_line(run: Trajectory) -> np.ndarray:
-    """The path as complex numbers, 0 at the start and 1 at the goal; its mirror image conjugates."""
+    """The path as complex numbers, 0 at the start and 1 at the goal; a mirror image conjugates."""
     goal = pose_at(run.goal, -1)
     line = complex(goal.x - run.x[0], goal.y - run.y[0])
     return (run.x - run.x[0] + 1j * (run.y - run.y[0])) / line if line else np.zeros(len(run))
