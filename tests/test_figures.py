@@ -15,6 +15,7 @@ from matplotlib.image import imread
 
 import wmrlib as wmr
 from wmrbook import challenge, figures
+from wmrbook.pareto import pareto
 from wmrlib import paper
 from wmrlib.plots import COLOURS
 
@@ -50,7 +51,7 @@ def near_goal_runs():
 def tried():
     over = {"k_rho": np.array([0.1, 0.2, 0.5]), "h": np.array([1.0, 2.0, 4.0])}
     runs = wmr.gain_map(CASE.start, CASE.goal, GENTLE, over, progress=False)
-    best = wmr.pareto(runs.time, np.abs(runs.heading_error))
+    best = pareto(runs.time, np.abs(runs.heading_error))
     return runs, best, {"gentle": wmr.arrival(drive(gains=GENTLE))}
 
 
@@ -106,6 +107,10 @@ def time_steps():
 
 CASES = {
     "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
+    "arrival": lambda: figures.arrival(drive()),
+    "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
+    "position_errors": lambda: figures.position_errors(drive()),
+    "twist": lambda: figures.twist(drive()),
     "spherical_triangle": lambda: figures.spherical_triangle(
         wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)
     ),
@@ -124,6 +129,7 @@ CASES = {
         wmr.Pose(5.0, 0.0, 2.0), wmr.Pose(0.0, -4.0, 3.0)
     ),
     "third_angle": lambda: figures.third_angle(ROBOT, GOAL),
+    "mirrored_paths": lambda: figures.mirrored_paths([drive(), drive("aicardi")], ["one", "two"]),
     "path_choices": lambda: figures.path_choices(
         {"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN
     ),

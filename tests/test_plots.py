@@ -24,10 +24,6 @@ PICTURES = {
     "local_map": lambda: figures.local_map(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2),
     "path": lambda: plots.path(RUN),
     "paths": lambda: plots.path([RUN, PARKED], ["one", "two"]),
-    "arrival": lambda: plots.arrival(RUN),
-    "twist": lambda: plots.twist(RUN),
-    "errors": lambda: plots.errors(RUN),
-    "lyapunov": lambda: plots.lyapunov(RUN),
     "dashboard": lambda: plots.dashboard(RUN),
     "dashboard of a circle": lambda: plots.dashboard(CIRCLE),
     "dashboard of a single sample": lambda: plots.dashboard(PARKED),
@@ -60,17 +56,20 @@ def test_texts_carry_the_numbers():
     wave = replace(RUN, omega=np.sin(RUN.t))  # up again and again: no one spell
     for picture, words in (
         (PICTURES["local_map"](), "58.08 m long, at a bearing of 9.58 deg"),
-        (plots.arrival(RUN), "stops 0.05 m from it, its heading 27 deg clockwise of the open"),
-        (plots.arrival(mirrored), "27 deg counter-clockwise of the open arrow"),
-        (plots.errors(RUN), "x error goes from 9.7 m to 0.0 m, the y error from 57.3 m to 0.0 m"),
-        (plots.lyapunov(RUN), "from 1690 to 0.132; V falls in every step"),
-        (plots.twist(RUN), "Over time: v goes from 4.0 to 0.4 m/s, within 5 % of its peak, 4.0"),
-        (plots.twist(RUN), f"peak, 4.0 m/s, from 0.0 to {until:.1f} s; omega goes from 0.2 to"),
+        (figures.arrival(RUN), "stops 0.05 m from it, its heading 27 deg clockwise of the open"),
+        (figures.arrival(mirrored), "27 deg counter-clockwise of the open arrow"),
         (
-            plots.twist(RUN),
+            figures.position_errors(RUN),
+            "x error goes from 9.7 m to 0.0 m, the y error from 57.3 m to 0.0 m",
+        ),
+        (figures.lyapunov_over_time(RUN), "from 1690 to 0.132; V falls in every step"),
+        (figures.twist(RUN), "Over time: v goes from 4.0 to 0.4 m/s, within 5 % of its peak, 4.0"),
+        (figures.twist(RUN), f"peak, 4.0 m/s, from 0.0 to {until:.1f} s; omega goes from 0.2 to"),
+        (
+            figures.twist(RUN),
             "to -4.1 rad/s, within 5 % of its peak, -4.3 rad/s, from 15.4 to 15.5 s.",
         ),
-        (plots.twist(wave), "omega goes from 0.0 to 0.2 rad/s, between -1.0 and 1.0 rad/s."),
+        (figures.twist(wave), "omega goes from 0.0 to 0.2 rad/s, between -1.0 and 1.0 rad/s."),
         (plots.dashboard(RUN), "; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s; V"),
     ):
         assert words in picture.alt
@@ -81,29 +80,32 @@ def test_a_path_that_begins_backwards_says_so():
     runs = [wmr.simulate(start, ORIGIN, PAPER.gains) for start in starts]
     k = int(np.flatnonzero(runs[0].v > 0)[0])
     t, x, y = runs[0].t[k], runs[0].x[k], runs[0].y[k]
-    alt = plots.path(runs, ["one", "two"]).alt
+    alt = figures.mirrored_paths(runs, ["one", "two"]).alt
     begin = "the robot starts at (-10.0, 0.0) m heading"
     assert alt.startswith(f"Path in metres: one: {begin} -174 deg, ")  # wrapped
     assert f"; two: {begin} 174 deg, " in alt
     assert f"backs up for the first {t:.1f} s as far as ({x:.1f}, {y:.1f}) m" in alt
     assert alt.endswith("; the two paths are mirror images.")
     for others in ([runs[0], runs[0]], [RUN, PARKED]):
-        assert "mirror" not in plots.path(others).alt
+        assert "mirror" not in figures.mirrored_paths(others, []).alt
     assert "backs up" not in plots.path(RUN).alt
 
 
 def test_v_is_red_where_it_rises_and_only_there():
-    falling, rising = plots.lyapunov(CIRCLE).figure.axes[0].collections
+    falling, rising = figures.lyapunov_over_time(CIRCLE).figure.axes[0].collections
     rises = np.diff(CIRCLE.V) > 1e-9 * CIRCLE.V[0]
     assert 0 < rises.sum() < rises.size
     assert len(rising.get_segments()) == rises.sum()
     assert len(falling.get_segments()) == (~rises).sum()
     assert rising.get_linewidth()[0] > 2 * falling.get_linewidth()[0]  # a shape beside the colour
-    assert len(plots.lyapunov(RUN).figure.axes[0].collections) == 1
+    assert len(figures.lyapunov_over_time(RUN).figure.axes[0].collections) == 1
 
 
 def test_lines_are_the_runs_fields():
-    for picture, names in ((plots.twist(RUN), "v omega"), (plots.errors(RUN), "x_error y_error")):
+    for picture, names in (
+        (figures.twist(RUN), "v omega"),
+        (figures.position_errors(RUN), "x_error y_error"),
+    ):
         curves = [
             line for axes in picture.figure.axes for line in axes.lines if len(line.get_xdata()) > 2
         ]
@@ -128,7 +130,7 @@ def test_path_has_equal_scales_and_the_robots_heading():
         assert seen == pytest.approx([last, PAPER.goal.heading, PAPER.start.heading])
         top = axes.patches[-2].get_xy()[:, 1].max()
         assert top < axes.get_ylim()[1] - 0.01 * np.ptp(axes.get_ylim())  # clear of the frame
-    robot, goal = plots.arrival(RUN).figure.axes[0].patches
+    robot, goal = figures.arrival(RUN).figure.axes[0].patches
     assert tip_heading(robot) == pytest.approx(RUN.heading[-1])
     assert tip_heading(goal) == pytest.approx(PAPER.goal.heading)
 

@@ -10,6 +10,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
+from wmrbook.pareto import pareto
 from wmrlib import _modes
 
 PAPER = wmr.paper.OUTDOOR_GAINS
@@ -265,7 +266,7 @@ def test_pareto_against_a_double_loop():
         and not any(np.isfinite(q).all() and (q <= p).all() and (q != p).any() for q in points)
         for p in points
     ]
-    chosen = wmr.pareto(*costs)
+    chosen = pareto(*costs)
     assert chosen.shape == (5, 8)
     assert 0 < chosen.sum() < chosen.size
     np.testing.assert_array_equal(chosen.ravel(), slow)
@@ -303,4 +304,4 @@ def test_bad_input():
     refuses([*steps, (((1.0,) * 4,), "a Gains is needed")], lambda each: wmr.longest_step(*each))
     refuses([((PAPER, "printed"), law)], lambda each: wmr.modes(*each))
     shapes = [((), "all of one shape"), ((np.zeros(2), np.zeros(3)), "all of one shape")]
-    refuses(shapes, lambda costs: wmr.pareto(*costs))
+    refuses(shapes, lambda costs: pareto(*costs))

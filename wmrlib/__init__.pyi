@@ -57,4 +57,3 @@ from .tuning import gain_map as gain_map
 from .tuning import gains_for as gains_for
 from .tuning import longest_step as longest_step
 from .tuning import modes as modes
-from .tuning import pareto as pareto

@@ -60,6 +60,11 @@ def scalar(name: str, value: Any, **bounds: float) -> float:
     raise refusal(name, value, "one number", f", not an array of shape {checked.shape}")
 
 
+def plain(value: Any) -> Any:
+    """Return a Python number for a number, and an array as it is."""
+    return value if np.ndim(value) else np.asarray(value).item()
+
+
 def choice(name: str, value: Any, allowed: Collection[str]) -> str:
     """Return `value` if it is one of `allowed`; otherwise raise ValueError, which lists them."""
     if isinstance(value, str) and value in allowed:

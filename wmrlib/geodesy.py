@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real, same_shape
+from wmrlib._checks import Real, instance, plain, real, same_shape
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
@@ -59,7 +59,7 @@ def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M)
     e = np.sin(delta_lat / 2) ** 2 + across * np.sin(delta_lon / 2) ** 2
     # 1 - e without the difference, which loses digits near the antipode: the haversine to it
     rest = np.sin((lat2 + lat1) / 2) ** 2 + across * np.cos(delta_lon / 2) ** 2
-    return _number(radius * 2.0 * np.arctan2(np.sqrt(e), np.sqrt(rest)))
+    return plain(radius * 2.0 * np.arctan2(np.sqrt(e), np.sqrt(rest)))
 
 
 def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
@@ -83,7 +83,7 @@ def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
     zeta_y = np.sin(delta_lat) + 2.0 * np.sin(lat1) * np.cos(lat2) * np.sin(delta_lon / 2) ** 2
     turn = 2.0 * np.pi
     bearing = np.mod(np.arctan2(zeta_x, zeta_y), turn)
-    return _number(np.where(bearing < turn, bearing, 0.0))  # mod rounds -1e-17 up to a full turn
+    return plain(np.where(bearing < turn, bearing, 0.0))  # mod rounds -1e-17 up to a full turn
 
 
 def destination_point(
@@ -118,7 +118,7 @@ def destination_point(
     lat2 = np.arctan2(np.sin(lat1) * np.cos(delta) + np.cos(lat1) * north, np.hypot(up, east))
     lon2 = np.degrees(lon1 + np.arctan2(east, up))
     lon2 = np.where((lon2 >= -180.0) & (lon2 < 180.0), lon2, np.mod(lon2 + 180.0, 360.0) - 180.0)
-    return GeoPoint(lat=_number(np.clip(np.degrees(lat2), -90.0, 90.0)), lon=_number(lon2))
+    return GeoPoint(lat=plain(np.clip(np.degrees(lat2), -90.0, 90.0)), lon=plain(lon2))
 
 
 def local_position(
@@ -141,7 +141,7 @@ def local_position(
     """
     distance = haversine_distance(origin, point, radius)
     bearing = initial_bearing(origin, point)
-    return _number(distance * np.sin(bearing)), _number(distance * np.cos(bearing))
+    return plain(distance * np.sin(bearing)), plain(distance * np.cos(bearing))
 
 
 def point_at(origin: GeoPoint, east: Real, north: Real, radius: float = EARTH_RADIUS_M) -> GeoPoint:
@@ -164,7 +164,7 @@ def point_at(origin: GeoPoint, east: Real, north: Real, radius: float = EARTH_RA
     east, north = real("east", east), real("north", north)
     same_shape(east=east, north=north)
     distance, bearing = np.hypot(east, north), np.arctan2(east, north)
-    return destination_point(origin, _number(distance), _number(bearing), radius)
+    return destination_point(origin, plain(distance), plain(bearing), radius)
 
 
 def position_list(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
@@ -184,7 +184,3 @@ def _radians(a: GeoPoint, b: GeoPoint) -> tuple[Real, Real, Real, Real]:
     same_shape(**{"a.lat": a.lat, "a.lon": a.lon, "b.lat": b.lat, "b.lon": b.lon})
     differences = np.radians(np.subtract(b.lat, a.lat)), np.radians(np.subtract(b.lon, a.lon))
     return np.radians(a.lat), np.radians(b.lat), *differences
-
-
-def _number(value: Real) -> Real:
-    return float(value) if np.ndim(value) == 0 else value

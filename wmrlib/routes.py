@@ -57,12 +57,12 @@ class Route:
         return self.t.size
 
     def __repr__(self) -> str:
-        reached = f"{self.reached} of {len(self.stops)} waypoints reached"
+        text = f"<Route: {self.reached} of {len(self.stops)} waypoints reached"
         if self.outcome is Outcome.ARRIVED:
-            return f"<Route: {reached} in {self.time:.4g} s, {self.length:.4g} m long>"
-        distance = f"{self.arrivals[-1].distance:.4g} m"
-        left = f", {distance} from its waypoint" if len(self.legs[-1]) else ""
-        return f"<Route: {reached}; leg {len(self.legs)} {self.outcome.message}{left}>"
+            return f"{text} in {self.time:.4g} s, {self.length:.4g} m long>"
+        text += f"; leg {len(self.legs)} {self.outcome.message}"
+        distance = self.arrivals[-1].distance  # NaN without a sample
+        return text + (">" if math.isnan(distance) else f", {distance:.4g} m from its waypoint>")
 
     @property
     def reached(self) -> int:
@@ -83,15 +83,13 @@ class Route:
 def headings_along(x: Real, y: Real) -> np.ndarray:
     """Return headings along a line of points: each bisects the turn at its point.
 
-    A hairpin of 180 deg is taken to the left. Without any leg the heading is 0, east.
-
     Parameters
     ----------
     x, y : arrays, m
 
     Returns
     -------
-    array, rad in (-pi, pi]
+    array, rad in (-pi, pi]; a hairpin of 180 deg turns left; 0, east, without any leg
 
     Raises
     ------

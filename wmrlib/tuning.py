@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, choice, instance, real, same_shape
+from wmrlib._checks import Real, choice, instance, plain, real, same_shape
 from wmrlib._modes import mode_damping, mode_frequency, mode_settling
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
@@ -63,12 +63,12 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
         swing = 1j * np.sqrt(np.maximum(h * rate * rate - (k_alpha / 2) ** 2, 0.0))
         poles = -rate + 0j, swing - slow, slow - k_alpha - swing
         return Modes(
-            distance_rate=_plain(rate),
-            heading_rate=_plain(slow),
-            natural_frequency=_plain(mode_frequency(rate, h)),
-            damping=_plain(mode_damping(rate, k_alpha, h)),
-            poles=tuple(_plain(pole) for pole in poles),
-            slower=_plain(rate / slow),
+            distance_rate=plain(rate),
+            heading_rate=plain(slow),
+            natural_frequency=plain(mode_frequency(rate, h)),
+            damping=plain(mode_damping(rate, k_alpha, h)),
+            poles=tuple(plain(pole) for pole in poles),
+            slower=plain(rate / slow),
         )
 
 
@@ -102,7 +102,7 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
             flipping = _flipping(turn + rate, rate * (h * rate + 2.0 * turn))
         if method == "arc":
             fading, flipping = 2.0 * fading, 2.0 / turn
-        return _plain(np.fmin(np.fmin(fading, flipping), 1.0 / rate))
+        return plain(np.fmin(np.fmin(fading, flipping), 1.0 / rate))
 
 
 def gains_for(
@@ -144,10 +144,10 @@ def gains_for(
         root = np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0))
         frequency = frequency * np.where(np.less(damping, 1.0), 1.0 / damping, damping + root)
     with np.errstate(over="ignore", under="ignore"):
-        h = _plain(np.square(frequency / distance_rate))
+        h = plain(np.square(frequency / distance_rate))
         return Gains(
-            _plain(distance_rate / v_max),
-            _plain(2.0 * damping * frequency),
+            plain(distance_rate / v_max),
+            plain(2.0 * damping * frequency),
             real("(natural_frequency/distance_rate)^2", h, above=0.0),
             v_max,
         )
@@ -186,35 +186,6 @@ def gain_map(
     return sweep(start, goal, Gains(**(fields | grid)), **options)
 
 
-def pareto(*costs: Real) -> np.ndarray:
-    """Return which choices no other one dominates: as cheap in every cost and cheaper in one.
-
-    Parameters
-    ----------
-    costs : arrays of one shape, any units; less is better
-
-    Returns
-    -------
-    array of bool, in that shape; False where a cost is infinite or NaN
-
-    Raises
-    ------
-    ValueError : no costs, or different shapes
-    """
-    table = [np.asarray(each, dtype=float) for each in costs]
-    shapes = [each.shape for each in table]
-    if len(set(shapes)) != 1:
-        needed = "at least one, all of one shape, is needed"
-        raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")
-    points = np.stack(table, axis=-1)
-    chosen = np.isfinite(points).all(axis=-1)
-    left = points[chosen]
-    chosen[chosen] = [
-        not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left
-    ]
-    return chosen
-
-
 def _near_goal(gains: Gains, law: str) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
     """The distance's rate, k_alpha and h, as arrays."""
     k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
@@ -226,8 +197,3 @@ def _flipping(b: np.ndarray, a: np.ndarray) -> np.ndarray:
     """The smallest positive root of a dt^2 - 2 b dt + 4 = 0, where 1 + trace + determinant is 0."""
     gap = b**2 - 4.0 * a
     return np.where(gap >= 0.0, 4.0 / (b + np.sqrt(np.maximum(gap, 0.0))), np.inf)
-
-
-def _plain(value: Real) -> Real:
-    """A Python number for a number, an array for an array."""
-    return value if np.ndim(value) else np.asarray(value).item()

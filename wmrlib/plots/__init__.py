@@ -5,23 +5,7 @@ from wmrlib._checks import book_extra
 with book_extra("wmrlib.plots"):
     import matplotlib  # noqa: F401
 
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.runs import arrival, dashboard, errors, lyapunov, path, twist
-from wmrlib.plots.style import COLOURS, LINES, STYLE, arrow, equal_scales, near_zero, new_figure
+from wmrlib.plots.runs import dashboard, path
+from wmrlib.plots.style import COLOURS, LINES, Picture
 
-__all__ = [
-    "COLOURS",
-    "LINES",
-    "STYLE",
-    "Picture",
-    "arrival",
-    "arrow",
-    "dashboard",
-    "equal_scales",
-    "errors",
-    "lyapunov",
-    "near_zero",
-    "new_figure",
-    "path",
-    "twist",
-]
+__all__ = ["COLOURS", "LINES", "Picture", "dashboard", "path"]

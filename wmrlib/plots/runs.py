@@ -11,8 +11,7 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, LINES, arrow, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, near_zero, new_figure
 from wmrlib.runs import Trajectory
 
 
@@ -33,7 +32,8 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     ValueError : another number of runs or labels
     """
     runs = [runs] if isinstance(runs, Trajectory) else list(runs)
-    single, count = len(runs) == 1, len(runs)
+    count = len(runs)
+    single = count == 1
     if not 1 <= count <= len(LINES):
         needed = f"1 to {len(LINES)} are needed"
         raise ValueError(f"runs has {count} entries, which is not allowed: {needed}")
@@ -51,67 +51,7 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     equal_scales(axes, x, y, room=0.12)
     names = [f"{label}: " for label in labels] or [""] * count
     words = [name + _path_in_words(run) for name, run in zip(names, runs, strict=True)]
-    if count == 2 and _mirrored(*runs):
-        words.append("the two paths are mirror images")
     return Picture(figure, "Path in metres: " + "; ".join(words) + ".")
-
-
-def arrival(run: Trajectory, radius: float = 2.0) -> Picture:
-    """Show where the robot stops (filled arrow) and how it should stand there (open arrow).
-
-    Parameters
-    ----------
-    run : Trajectory
-    radius : float, m, how far around the goal to show
-
-    Returns
-    -------
-    Picture
-    """
-    figure, axes = new_figure(5.0, 5.0)
-    goal, size = _goal(run), 0.3 * radius
-    axes.plot(run.x, run.y, color=COLOURS["path"])
-    _draw_arrow(axes, _pose(run, -1), size, "robot", "ink", zorder=3)
-    _draw_arrow(axes, goal, size, "none", "goal", lw=2.5, zorder=4)
-    xlim, ylim = (goal.x - radius, goal.x + radius), (goal.y - radius, goal.y + radius)
-    axes.set(xlim=xlim, ylim=ylim, aspect="equal", xlabel="x [m]", ylabel="y [m]")
-    error = math.degrees(run.heading_error[-1])
-    axes.set_title(f"heading left over: {error:.0f} deg", fontsize=12)
-    return Picture(
-        figure,
-        f"The last {radius:.0f} m before the goal: the robot stops {run.rho[-1]:.2f} m from it, "
-        f"its heading {abs(error):.0f} deg {'clockwise' if error < 0.0 else 'counter-clockwise'} "
-        "of the open arrow that marks the wanted one.",
-    )
-
-
-def twist(run: Trajectory) -> Picture:
-    """Show the commanded v [m/s] and omega [rad/s] over time."""
-    figure, (upper, lower) = new_figure(7.0, 4.5, rows=2)
-    _draw_series(upper, run, "v [m/s]", v="-")
-    _draw_series(lower, run, "omega [rad/s]", omega="-")
-    lower.set_xlabel("time [s]")
-    figure.align_ylabels()
-    words = f"{_course_in_words(run, 'v', 'm/s')}; {_course_in_words(run, 'omega', 'rad/s')}"
-    return Picture(figure, f"Over time: {words}.")
-
-
-def errors(run: Trajectory) -> Picture:
-    """Show x_error and y_error [m] over time, as in the paper's figures 11 and 12."""
-    figure, axes = new_figure(7.0, 3.2)
-    _draw_series(axes, run, "error [m]", x_error="-", y_error="--")
-    axes.set_xlabel("time [s]")
-    x, y = (f"{each[0]:.1f} m to {_tenths(each[-1])} m" for each in (run.x_error, run.y_error))
-    return Picture(figure, f"Over time: the x error goes from {x}, the y error from {y}.")
-
-
-def lyapunov(run: Trajectory) -> Picture:
-    """Show V over time on a logarithmic scale; thick and red wherever it rises."""
-    figure, axes = new_figure(7.0, 3.2)
-    _draw_lyapunov(axes, run)
-    axes.set_xlabel("time [s]")
-    ends = f"from {_three_digits(run.V[0])} to {_three_digits(run.V[-1])}"
-    return Picture(figure, f"V over time, on a logarithmic scale: {ends}; {_rises_in_words(run)}.")
 
 
 def dashboard(run: Trajectory) -> Picture:
@@ -120,36 +60,38 @@ def dashboard(run: Trajectory) -> Picture:
     figure, axes = new_figure(12.0, 6.0, mosaic=mosaic)
     _draw_path(axes["path"], run, size=0.04 * max(np.ptp(run.x), np.ptp(run.y), 1.0))
     equal_scales(axes["path"], run.x, run.y, room=0.12)
-    _draw_series(axes["v"], run, "v [m/s]", v="-")
-    _draw_series(axes["omega"], run, "omega [rad/s]", omega="-")
-    _draw_series(axes["errors"], run, "error [m]", x_error="-", y_error="--")
-    _draw_lyapunov(axes["V"], run)
+    draw_series(axes["v"], run, "v [m/s]", v="-")
+    draw_series(axes["omega"], run, "omega [rad/s]", omega="-")
+    draw_series(axes["errors"], run, "error [m]", x_error="-", y_error="--")
+    draw_lyapunov(axes["V"], run)
     for name in ("v", "omega", "errors"):
         axes[name].sharex(axes["V"])
         axes[name].tick_params(labelbottom=False)
     axes["V"].set_xlabel("time [s]")
     figure.align_ylabels()
-    v, omega = f"v {_range_in_words(run.v, 'm/s')}", f"omega {_range_in_words(run.omega, 'rad/s')}"
-    return Picture(figure, f"{_path_in_words(run)}; {v}; {omega}; {_rises_in_words(run)}.")
+    v, omega = f"v {range_in_words(run.v, 'm/s')}", f"omega {range_in_words(run.omega, 'rad/s')}"
+    return Picture(figure, f"{_path_in_words(run)}; {v}; {omega}; {rises_in_words(run)}.")
 
 
 def _draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, robots: bool = True):
     """Draw the path, the start (filled), the goal (open) and the robot on its way."""
     axes.plot(run.x, run.y, style, color=COLOURS["path"])
     way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(run.x), np.diff(run.y)))])
-    tenths = np.searchsorted(way, np.linspace(0.0, 1.0, 11)[1:-1] * way[-1])
-    for k in (*tenths, -1) if robots else ():  # -1: the robot may turn where it stops
-        _draw_arrow(axes, _pose(run, k), size, "robot", "ink")
-    _draw_arrow(axes, _goal(run), 1.5 * size, "none", "goal", lw=2.0, zorder=4)
-    _draw_arrow(axes, _pose(run, 0), 1.5 * size, "start", "start", zorder=4)
+    passed = np.searchsorted(way, np.linspace(0.0, 1.0, 11)[1:-1] * way[-1])
+    for k in (*passed, -1) if robots else ():  # -1: the robot may turn where it stops
+        dart(axes, pose_at(run, k), size, "robot")
+    # A goal that moves is shown where it ends.
+    dart(axes, pose_at(run.goal, -1), 1.5 * size, "none", "goal", lw=2.0, zorder=4)
+    dart(axes, pose_at(run, 0), 1.5 * size, "start", "start", zorder=4)
     axes.set(xlabel="x [m]", ylabel="y [m]")
 
 
-def _draw_arrow(axes: Axes, pose: Pose, size: float, fill: str, edge: str, **looks) -> None:
-    axes.add_patch(arrow(pose, size, fc=COLOURS.get(fill, fill), ec=COLOURS[edge], **looks))
+def pose_at(path: Pose | Trajectory, k: int) -> Pose:
+    """Return the k-th pose of a path."""
+    return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
 
 
-def _draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:
+def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:
     """Draw the named fields over time, each in its style."""
     axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
     for name, style in styles.items():
@@ -160,7 +102,7 @@ def _draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None
         axes.legend(loc="upper right", fontsize=10)
 
 
-def _draw_lyapunov(axes: Axes, run: Trajectory) -> None:
+def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
     values, rising = np.maximum(run.V, 1e-12), _rising(run)  # V = 0 on the goal has no logarithm
     points = np.column_stack([run.t, values])
     pieces = np.stack([points[:-1], points[1:]], axis=1)
@@ -174,46 +116,19 @@ def _draw_lyapunov(axes: Axes, run: Trajectory) -> None:
     axes.legend(loc="upper right", fontsize=10)
 
 
-def _pose(run: Trajectory, k: int) -> Pose:
-    return Pose(run.x[k], run.y[k], run.heading[k])
-
-
-def _goal(run: Trajectory) -> Pose:
-    """Where the goal stands, or where it ends if it moves."""
-    return Pose(*(float(np.ravel(field)[-1]) for field in run.goal))
-
-
 def _rising(run: Trajectory) -> np.ndarray:
     return np.diff(run.V) > 1e-9 * run.V[0]
 
 
-def _tenths(value: float) -> str:
+def tenths(value: float) -> str:
     return f"{near_zero(value):.1f}"
 
 
-def _range_in_words(values: np.ndarray, unit: str) -> str:
-    return f"between {_tenths(values.min())} and {_tenths(values.max())} {unit}"
+def range_in_words(values: np.ndarray, unit: str) -> str:
+    return f"between {tenths(values.min())} and {tenths(values.max())} {unit}"
 
 
-def _course_in_words(run: Trajectory, name: str, unit: str) -> str:
-    values = getattr(run, name)
-    high = np.abs(values) >= 0.95 * np.abs(values).max()
-    first, last = np.flatnonzero(high)[[0, -1]]
-    text = f"{name} goes from {_tenths(values[0])} to {_tenths(values[-1])} {unit}"
-    if not high[first : last + 1].all():
-        return f"{text}, {_range_in_words(values, unit)}"
-    peak = f"{_tenths(values[np.abs(values).argmax()])} {unit}"
-    spell = f"from {run.t[first]:.1f} to {run.t[last]:.1f} s"
-    return f"{text}, within 5 % of its peak, {peak}, {spell}"
-
-
-def _three_digits(value: float) -> str:
-    if value < 1e-6:
-        return "less than 1e-6"
-    return np.format_float_positional(value, 3, unique=False, fractional=False, trim="-")
-
-
-def _rises_in_words(run: Trajectory) -> str:
+def rises_in_words(run: Trajectory) -> str:
     rises = int(_rising(run).sum())
     return f"V rises in {rises} of {len(run) - 1} steps" if rises else "V falls in every step"
 
@@ -223,27 +138,12 @@ def _path_in_words(run: Trajectory) -> str:
     heading = math.degrees(wrap_angle(run.heading[0]))
     cusp = ""
     if k := int(np.argmax(run.v >= 0.0)):  # the first sample at which it does not back up
-        there = f"({_tenths(run.x[k])}, {_tenths(run.y[k])}) m"
+        there = f"({tenths(run.x[k])}, {tenths(run.y[k])}) m"
         cusp = (
             f", backs up for the first {run.t[k]:.1f} s as far as {there}, reverses there in a cusp"
         )
     return (
-        f"the robot starts at ({_tenths(run.x[0])}, {_tenths(run.y[0])}) m "
+        f"the robot starts at ({tenths(run.x[0])}, {tenths(run.y[0])}) m "
         f"heading {heading:.0f} deg{cusp} and is {run.rho[-1]:.2f} m from the goal "
         f"after {run.t[-1]:.1f} s, its heading {error:.0f} deg from the goal's"
     )
-
-
-def _mirrored(one: Trajectory, other: Trajectory) -> bool:
-    """Whether one path is the other's mirror image in the line from its start to its goal."""
-    if len(one) != len(other):
-        return False
-    left, right = _along_the_line(one), _along_the_line(other)
-    return bool(np.allclose(left, right.conj(), atol=1e-3) and np.abs(left.imag).max() > 1e-2)
-
-
-def _along_the_line(run: Trajectory) -> np.ndarray:
-    """The path as complex numbers, 0 at the start and 1 at the goal."""
-    goal = _goal(run)
-    line = complex(goal.x - run.x[0], goal.y - run.y[0])
-    return (run.x - run.x[0] + 1j * (run.y - run.y[0])) / line if line else np.zeros(len(run))

@@ -49,7 +49,7 @@ _SYMBOLIC = {
     _checks.real: lambda name, value, **bounds: value,
     _checks.same_shape: lambda **arguments: None,
     geodesy._radians: lambda a, b: (a[0], b[0], b[1], b[2]),
-    geodesy._number: lambda value: value,
+    _checks.plain: lambda value: value,
 }
 
 

@@ -100,8 +100,12 @@ def number(text: str | None) -> float:
         return math.nan
 
 
-def timestamp(time: datetime) -> float:
-    """Seconds since 1970; a time without a zone is in UTC."""
+def timestamp(text: str) -> float | None:
+    """Seconds since 1970 of an ISO 8601 time, in UTC unless it has a zone; None if it is none."""
+    try:
+        time = datetime.fromisoformat(text)
+    except ValueError:
+        return None
     return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp()
 
 

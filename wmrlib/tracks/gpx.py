@@ -9,7 +9,6 @@ from xml.sax import SAXParseException
 from xml.sax.handler import ContentHandler, feature_namespaces
 
 from defusedxml import DefusedXmlException, sax
-from gpxpy.gpxfield import TIME_TYPE
 
 from wmrlib.tracks.fixes import NO_TIME, Fixes, number, timestamp
 
@@ -62,13 +61,11 @@ class _Outline(ContentHandler):
 def read(data: bytes) -> Fixes:
     """The track points of all segments; without any the route points, or else the waypoints."""
     places = _places(data)
-    counts = {kind: sum(place.path[-1] == kind for place in places) for kind in _PATHS}
-    kind = next((kind for kind in _PATHS if counts[kind]), "trkpt")
-    expected = sum(place.path == _PATHS[kind] for place in places)
-    if expected < counts[kind]:
-        raise ValueError(
-            f"it has {counts[kind]} places <{kind}>, but only {expected} where GPX has them"
-        )
+    kinds = [place.path[-1] for place in places]
+    kind = next((kind for kind in _PATHS if kind in kinds), "trkpt")
+    count, expected = kinds.count(kind), sum(place.path == _PATHS[kind] for place in places)
+    if expected < count:
+        raise ValueError(f"it has {count} places <{kind}>, but only {expected} where GPX has them")
     fixes = Fixes()
     for line, path, lat, lon, times in places:
         if path[-1] != kind:
@@ -76,7 +73,8 @@ def read(data: bytes) -> Fixes:
         elif lat is None or lon is None:
             fixes.skip("point without a latitude or longitude", line)
         else:
-            fixes.add(number(lat), number(lon), _time("".join(times).strip()), line)
+            text = "".join(times).strip()
+            fixes.add(number(lat), number(lon), timestamp(text) if text else NO_TIME, line)
     return fixes
 
 
@@ -98,10 +96,3 @@ def _places(data: bytes) -> list[_Place]:
     except (SAXParseException, LookupError, ValueError) as error:
         wrong = f"its XML is broken: {error}"
     raise ValueError(_OTHERS.get(outline.root.casefold(), wrong))
-
-
-def _time(text: str) -> float | None:
-    if not text:
-        return NO_TIME
-    time = TIME_TYPE.from_string(text)
-    return None if time is None else timestamp(time)

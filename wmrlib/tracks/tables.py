@@ -6,7 +6,6 @@ import csv
 import json
 import math
 from collections.abc import Iterator
-from datetime import datetime
 from itertools import pairwise
 from typing import Any
 
@@ -81,14 +80,11 @@ def _number(cell: str) -> float:
 
 
 def _time(text: str) -> float | None:
-    """Seconds or an ISO 8601 time (UTC unless it says otherwise); None if it is neither."""
+    """Seconds or an ISO 8601 time; None if it is neither."""
     seconds = _number(text)
     if math.isfinite(seconds):
         return seconds if abs(seconds) < _MOST_SECONDS else None
-    try:
-        return timestamp(datetime.fromisoformat(text))
-    except ValueError:
-        return None
+    return timestamp(text)
 
 
 def read_geojson(data: bytes) -> Fixes:

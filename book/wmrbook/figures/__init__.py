@@ -5,9 +5,16 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
+        "first_drive": ["arrival", "lyapunov_over_time", "position_errors", "twist"],
         "earth": ["local_map", "rounding_errors", "sphere_error_map", "spherical_triangle"],
         "robot": ["approach", "commutator", "coordinate_system", "steps", "turning_centre"],
-        "angles": ["angles_over_time", "path_choices", "polar_angles", "third_angle"],
+        "angles": [
+            "angles_over_time",
+            "mirrored_paths",
+            "path_choices",
+            "polar_angles",
+            "third_angle",
+        ],
         "lyapunov": ["heading_errors", "level_sets", "lyapunov_runs", "rate_sign"],
         "pose_to_pose": ["block_diagram", "compare_runs", "heading_shares", "snapshots"],
         "circle": ["chase", "residual_curve", "tradeoff"],

@@ -5,13 +5,11 @@ from __future__ import annotations
 from collections.abc import Mapping, Sequence, Sized
 
 import matplotlib as mpl
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wmrlib._checks import instance
-from wmrlib.kinematics import Pose
-from wmrlib.plots.style import COLOURS, LINES, STYLE, arrow
+from wmrlib.plots.style import LINES, STYLE
 from wmrlib.runs import Trajectory
 
 SERIES = (  # the colour's role and the line style of each of up to five runs
@@ -40,17 +38,6 @@ def pointer(axes: Axes, tail, tip, colour: str, zorder: float | None = None, **l
     looks = {"arrowstyle": "-|>", "color": colour, "shrinkA": 0, "shrinkB": 0} | looks
     more = {} if zorder is None else {"zorder": zorder}
     axes.annotate("", tip, tail, arrowprops=looks, **more)
-
-
-def dart(axes: Axes, pose: Pose, size: float, fill: str, edge: str = "ink", **looks) -> None:
-    """A pose as an arrow; fill and edge are roles in COLOURS, or colours."""
-    fill, edge = (COLOURS.get(each, each) for each in (fill, edge))
-    axes.add_patch(arrow(pose, size, fc=fill, ec=edge, **looks))
-
-
-def pose_at(path: Pose | Trajectory, k: int) -> Pose:
-    """The k-th pose of a path."""
-    return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
 
 
 def legend_above(axes: Axes, columns: int, handles=None, fontsize: float = 11) -> None:

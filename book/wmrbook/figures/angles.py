@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from wmrbook.conventions import CONVENTIONS, translate
-from wmrbook.figures._drawing import check_count, dart, note, panels, pose_at, run_list
+from wmrbook.figures._drawing import check_count, note, panels, run_list
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, LINES, equal_scales, near_zero, new_figure
+from wmrlib.plots.runs import path, pose_at
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, near_zero, new_figure
 from wmrlib.runs import Trajectory
 
 
@@ -115,6 +115,17 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     return Picture(figure, f"{said}{'; '.join(words)}.")
 
 
+def mirrored_paths(runs: Sequence[Trajectory], labels: Sequence[str]) -> Picture:
+    """Two paths; the text says whether one is the other's mirror image."""
+    check_count("runs", runs, 2, 2)
+    picture = path(runs, labels)
+    if len(runs[0]) == len(runs[1]):
+        left, right = map(_along_the_line, runs)
+        if np.allclose(left, right.conj(), atol=1e-3) and np.abs(left.imag).max() > 1e-2:
+            picture.alt = picture.alt.removesuffix(".") + "; the two paths are mirror images."
+    return picture
+
+
 def angles_over_time(
     runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()
 ) -> Picture:
@@ -209,3 +220,10 @@ def _degrees(angle: float) -> str:
 def _span(angle: np.ndarray) -> str:
     low, high = (near_zero(math.degrees(value)) for value in (angle.min(), angle.max()))
     return f"between {low:.0f} and {high:.0f} deg"
+
+
+def _along_the_line(run: Trajectory) -> np.ndarray:
+    """The path as complex numbers, 0 at the start and 1 at the goal; a mirror image conjugates."""
+    goal = pose_at(run.goal, -1)
+    line = complex(goal.x - run.x[0], goal.y - run.y[0])
+    return (run.x - run.x[0] + 1j * (run.y - run.y[0])) / line if line else np.zeros(len(run))

@@ -5,8 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from wmrbook.figures._drawing import check_count
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, new_figure
+from wmrlib.plots.style import COLOURS, Picture, new_figure
 
 _LOOKS = (("#56B4E9", ""), ("#F0E442", "//"), ("#D55E00", "xx"), ("#BBBBBB", ".."))
 

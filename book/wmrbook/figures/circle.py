@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
-from wmrbook.figures._drawing import SERIES, check_series, dart, figure_legend, note, pose_at
+from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
 from wmrlib._checks import real
 from wmrlib.kinematics import Pose
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, equal_scales, near_zero, new_figure
+from wmrlib.plots.runs import pose_at
+from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, near_zero, new_figure
 from wmrlib.runs import Trajectory
 
 _MARKERS = ("o", "s", "^", "D", "v")

@@ -16,8 +16,7 @@ from wmrbook.figures._drawing import check_count, note, panels
 from wmrlib import symbolic
 from wmrlib._checks import choice, instance, real
 from wmrlib.gains import Gains
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, new_figure
+from wmrlib.plots.style import COLOURS, Picture, new_figure
 from wmrlib.runs import Arrival
 from wmrlib.tuning import modes
 
@@ -99,7 +98,7 @@ def phase_portrait(choices: Mapping[str, Gains], limit: float) -> Picture:
 def pareto_front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]) -> Picture:
     """Time against the heading error left over: all that arrived, the undominated and the marked.
 
-    best: booleans in the shape of the runs, as of `wmrlib.pareto`, drawn large and coloured by peak
+    best: booleans in the shape of the runs, as of `pareto`, drawn large and coloured by peak
     |omega|. An error below 0.01 deg is drawn at the lower border, an undominated one as a triangle.
     """
     arrived, best = np.ravel(tried.arrived), np.ravel(best)

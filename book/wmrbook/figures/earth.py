@@ -20,8 +20,7 @@ from wmrlib.geodesy import (
     initial_bearing,
     local_position,
 )
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, equal_scales, new_figure
+from wmrlib.plots.style import COLOURS, Picture, equal_scales, new_figure
 
 
 def local_map(origin: GeoPoint, point: GeoPoint) -> Picture:

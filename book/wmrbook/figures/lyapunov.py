@@ -16,8 +16,7 @@ from wmrlib._checks import scalar
 from wmrlib.control import control_law, lyapunov, lyapunov_rate
 from wmrlib.gains import Gains
 from wmrlib.kinematics import polar_rate
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, LINES, new_figure
+from wmrlib.plots.style import COLOURS, LINES, Picture, new_figure
 from wmrlib.runs import Trajectory
 
 _RISING_EDGE, _RISING_FILL = "#D55E00", "#F7C9A8"

@@ -9,11 +9,11 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
-from wmrbook.figures._drawing import check_count, dart, legend_above, note, pose_at
+from wmrbook.figures._drawing import check_count, legend_above, note
 from wmrlib._checks import instance, real, same_shape
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, LINES, near_zero, new_figure
+from wmrlib.plots.runs import pose_at
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, near_zero, new_figure
 from wmrlib.tracks import StationaryScatter
 
 _MOST_DARTS = 150

@@ -17,15 +17,13 @@ from wmrbook.figures._drawing import (
     SERIES,
     check_count,
     check_series,
-    dart,
     figure_legend,
     panels,
     pointer,
-    pose_at,
 )
 from wmrlib._checks import choice, instance, real, scalar
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, new_figure
+from wmrlib.plots.runs import pose_at
+from wmrlib.plots.style import COLOURS, Picture, dart, new_figure
 from wmrlib.runs import Trajectory
 
 _LEAST = 1e-6  # of a logarithmic scale

@@ -11,11 +11,10 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from wmrbook.challenge import Score, drive_cases
-from wmrbook.figures._drawing import dart, legend_above, note, panels, pointer
+from wmrbook.figures._drawing import legend_above, note, panels, pointer
 from wmrlib._checks import instance, real
 from wmrlib.kinematics import Pose
-from wmrlib.plots.picture import Picture
-from wmrlib.plots.style import COLOURS, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, near_zero, new_figure
 from wmrlib.routes import Route
 
 _STOP, _PASS, _TRACK = COLOURS["goal"], COLOURS["omega"], "#777777"

@@ -1,0 +1,25 @@
+"""Choices that no other one beats in every respect (chapter 7)."""
+
+from __future__ import annotations
+
+import numpy as np
+
+
+def pareto(*costs: np.ndarray) -> np.ndarray:
+    """Which choices no other one dominates: as cheap in every cost and cheaper in one.
+
+    costs: arrays of one shape, of which less is better. Returns booleans in that shape, False where
+    a cost is infinite or NaN.
+    """
+    table = [np.asarray(each, dtype=float) for each in costs]
+    shapes = [each.shape for each in table]
+    if len(set(shapes)) != 1:
+        needed = "at least one, all of one shape, is needed"
+        raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")
+    points = np.stack(table, axis=-1)
+    chosen = np.isfinite(points).all(axis=-1)
+    left = points[chosen]
+    chosen[chosen] = [
+        not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left
+    ]
+    return chosen
