@@ -106,7 +106,8 @@ def headings_along(x: Real, y: Real) -> np.ndarray:
     before = np.searchsorted(moved, np.arange(x.size))  # how many legs lie behind each point
     come, leave = np.maximum(before - 1, 0), np.minimum(before, moved.size - 1)
     turn = wrap_angle(direction[leave] - direction[come])
-    return wrap_angle(direction[come] + 0.5 * np.where(np.abs(turn) > _HAIRPIN, math.pi, turn))
+    turn = np.where(np.abs(turn) > _HAIRPIN, math.pi, turn)
+    return np.asarray(wrap_angle(direction[come] + 0.5 * turn))
 
 
 def route_poses(
@@ -136,14 +137,15 @@ def route_poses(
     east, north = (np.ravel(value) for value in local_position(origin, points))
     before, after = GeoPoint(lat=lat[:-1], lon=lon[:-1]), GeoPoint(lat=lat[1:], lon=lon[1:])
     # At a pole, or on the date line, one point may be given twice under two longitudes.
-    new = np.array([True, *(haversine_distance(before, after) >= _APART)])
+    new = np.append(True, np.asarray(haversine_distance(before, after)) >= _APART)
     first = np.maximum.accumulate(np.where(new, np.arange(lat.size), 0))  # of those that are one
     east, north = east[first], north[first]
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
     listed = np.atleast_1d(np.array(headings, dtype=object))
-    given = real("headings", [math.nan if each is None else each for each in listed], nan=True)
+    known = [math.nan if each is None else each for each in listed]
+    given = np.asarray(real("headings", known, nan=True))
     if given.shape != lat.shape:
         shapes = f"headings have shape {given.shape}, points have shape {lat.shape}"
         raise ValueError(f"mismatched lengths: {shapes}; the same is needed")

@@ -10,6 +10,7 @@ import base64
 import html
 import io
 import math
+from typing import Any
 
 import matplotlib as mpl
 import numpy as np
@@ -34,7 +35,7 @@ COLOURS = {
     "V_rising": "#D40000",
     "ink": "#222222",
 }
-STYLE = {
+STYLE: dict[Any, float] = {
     "font.size": 12,
     "axes.grid": True,
     "grid.alpha": 0.35,

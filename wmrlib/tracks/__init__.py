@@ -90,9 +90,9 @@ def read_track(path: str | os.PathLike) -> Track:
     time = np.array(fixes.time)
     timed = time[~np.isnan(time)]
     t = time - timed[0] if timed.size else time
-    points = GeoPoint(lat=fixes.lat, lon=fixes.lon)
+    points = GeoPoint(lat=np.array(fixes.lat), lon=np.array(fixes.lon))
     for values in (points.lat, points.lon, t):
-        values.flags.writeable = False
+        np.asarray(values).flags.writeable = False
     return Track(points, t, source, report)
 
 

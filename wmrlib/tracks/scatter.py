@@ -89,8 +89,8 @@ def mean_position(points: GeoPoint) -> GeoPoint:
     x, y, z = (float(np.mean(values)) for values in vectors)
     if math.hypot(x, y, z) < 0.5:
         raise ValueError("points all over the Earth have no mean: points on one side are needed")
-    lat, lon = math.atan2(z, math.hypot(x, y)), math.atan2(y, x)
-    mean = GeoPoint(lat=math.degrees(lat), lon=math.degrees(lon))
+    north_of_equator = math.degrees(math.atan2(z, math.hypot(x, y)))
+    mean = GeoPoint(lat=north_of_equator, lon=math.degrees(math.atan2(y, x)))
     for _ in range(100):
         east, north = (float(np.mean(values)) for values in local_position(mean, points))
         mean = point_at(mean, east, north)

@@ -42,10 +42,13 @@ def write_gpx(
         time zone, times outside the years 1 to 9999, or a name that XML can't hold
     """
     lat, lon = _rounded(points)
-    if (t is None) != (begin is None):
+    if t is not None and begin is not None:
+        times = _times(t, begin, lat.shape)
+    elif t is begin:
+        times = [None] * lat.size
+    else:
         both = f"t = {t!r} and begin = {begin!r}"
         raise ValueError(f"{both} are not allowed together: both or none are needed")
-    times = [None] * lat.size if t is None else _times(t, begin, lat.shape)
     _check_name(name, _NOT_IN_XML)
     with book_extra("a GPX file"):
         from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
