@@ -65,7 +65,8 @@ def browser_page(browser):
             note("outside request", request.url)
 
     def failed(request):
-        note("failed load", f"{request.failure}, {request.url}")
+        if request.failure != "net::ERR_ABORTED":  # the page itself gave it up, as when it closes
+            note("failed load", f"{request.failure}, {request.url}")
 
     def answered(response):
         if response.status >= 400:
