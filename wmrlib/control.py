@@ -29,9 +29,9 @@ def control_law(
     ----------
     rho, alpha, theta : float or array; m, rad, rad. The polar error.
     gains : Gains, whose fields may be arrays that broadcast with the polar error.
-    law : "corrected": v = v_max (1 - exp(-k_rho rho)) cos(alpha) and omega = k_alpha alpha
-        + v/rho sin(alpha)/alpha (alpha + h theta); "printed": with cos(alpha) sin(alpha) once
-        more in the second term; "aicardi": as corrected, with v = k_rho rho cos(alpha).
+    law : "corrected": v = v_max (1 - exp(-k_rho rho)) cos(alpha) and
+        omega = k_alpha alpha + v/rho sin(alpha)/alpha (alpha + h theta); "printed": with
+        cos(alpha) sin(alpha) once more in the second term; "aicardi": v = k_rho rho cos(alpha).
 
     Returns
     -------

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, plain, real, same_shape
+from wmrlib._checks import Real, instance, plain, real, same_shape, scalar
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
@@ -54,7 +54,7 @@ def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M)
     ValueError : mismatched lengths, or a radius that is not positive
     """
     lat1, lat2, delta_lat, delta_lon = _radians(a, b)
-    radius = real("radius", radius, above=0.0)
+    radius = scalar("radius", radius, above=0.0)
     across = np.cos(lat1) * np.cos(lat2)
     e = np.sin(delta_lat / 2) ** 2 + across * np.sin(delta_lon / 2) ** 2
     # 1 - e without the difference, which loses digits near the antipode: the haversine to it

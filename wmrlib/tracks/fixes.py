@@ -15,7 +15,7 @@ NO_TIME = math.nan
 class Count(NamedTuple):
     """How often something was met, and the line where it was met first."""
 
-    count: int
+    count: int  # type: ignore[assignment]  # hides tuple.count, which nobody calls here
     first: int
 
 

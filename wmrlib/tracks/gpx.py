@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import re
 from io import BytesIO
-from typing import NamedTuple
+from typing import Any, NamedTuple
 from xml.sax import SAXParseException
 from xml.sax.handler import ContentHandler, feature_namespaces
 
@@ -35,7 +35,9 @@ class _Place(NamedTuple):
 
 
 class _Outline(ContentHandler):
-    """The places with their lines, which gpxpy does not know."""
+    """The places of a GPX file, each with its line."""
+
+    _locator: Any
 
     def __init__(self) -> None:
         super().__init__()

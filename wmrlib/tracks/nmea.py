@@ -4,8 +4,7 @@ from __future__ import annotations
 
 import re
 from datetime import date, time
-from itertools import accumulate
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import pynmea2
 
@@ -106,14 +105,16 @@ def _trouble(sentence: pynmea2.TalkerSentence, second: float | None) -> str | No
 def _on_one_clock(heard: list[_Heard]) -> list[_Heard]:
     """Count the seconds on from day to day, by RMC's dates or by the nearest time already known."""
     dates = [getattr(each.sentence, "datestamp", None) for each in heard]  # a GGA has none
-    first = next((day for day in dates if isinstance(day, date)), None)
-    dated = [
+    first: Any = next((day for day in dates if isinstance(day, date)), None)
+    dated: list[Any] = [
         each.second + DAY * (day - first).days if isinstance(day, date) else None
         for each, day in zip(heard, dates, strict=True)
     ]
-    ahead = list(accumulate(reversed(dated), lambda later, this: later if this is None else this))
+    ahead: list[Any] = [None]
+    for second in reversed(dated):
+        ahead.append(ahead[-1] if second is None else second)
     last, counted = None, []
-    for each, second, next_dated in zip(heard, dated, reversed(ahead), strict=True):
+    for each, second, next_dated in zip(heard, dated, reversed(ahead[1:]), strict=True):
         if second is None:
             known = [time for time in (last, next_dated) if time is not None]
             choices = [(each.second + DAY * round((k - each.second) / DAY), k) for k in known]

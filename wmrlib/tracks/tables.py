@@ -54,7 +54,7 @@ def read_csv(data: bytes) -> Fixes:
     return fixes
 
 
-def _header(line: str) -> tuple[str, int, list[int | None]]:
+def _header(line: str) -> tuple[str, int, list[Any]]:
     """The delimiter, the number of cells, and the columns of latitude, longitude and time."""
     shown = repr(line.strip()[:80])
     for delimiter in _DELIMITERS:
