@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, plain, real, same_shape, scalar
+from wmrlib._checks import Real, instance, plain, real, same_shape
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
@@ -54,12 +54,12 @@ def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M)
     ValueError : mismatched lengths, or a radius that is not positive
     """
     lat1, lat2, delta_lat, delta_lon = _radians(a, b)
-    radius = scalar("radius", radius, above=0.0)
+    metres = real("radius", radius, above=0.0)
     across = np.cos(lat1) * np.cos(lat2)
     e = np.sin(delta_lat / 2) ** 2 + across * np.sin(delta_lon / 2) ** 2
     # 1 - e without the difference, which loses digits near the antipode: the haversine to it
     rest = np.sin((lat2 + lat1) / 2) ** 2 + across * np.cos(delta_lon / 2) ** 2
-    return plain(radius * 2.0 * np.arctan2(np.sqrt(e), np.sqrt(rest)))
+    return plain(metres * 2.0 * np.arctan2(np.sqrt(e), np.sqrt(rest)))
 
 
 def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
