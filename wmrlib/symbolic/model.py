@@ -47,7 +47,7 @@ _SYMBOLIC = {
     _vecmath.decay: decay,
     motion.wrap: wrap,
     _checks.real: lambda name, value, **bounds: value,
-    _checks.same_shape: lambda **arguments: None,
+    _checks.reals: lambda above_0, **values: values.values(),
     geodesy._radians: lambda a, b: (a[0], b[0], b[1], b[2]),
     geodesy._number: lambda value: value,
 }
