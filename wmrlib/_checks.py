@@ -109,11 +109,11 @@ def checked(**bounds: Collection[str]) -> Callable[[Kind], Kind]:
     """Pass the fields of a NamedTuple through `reals` wherever one is made, by `_replace` too."""
 
     def decorate(kind: Any) -> Any:
-        plain = kind.__new__
+        unchecked = kind.__new__
 
-        @wraps(plain)  # numba and the reference read the signature
+        @wraps(unchecked)  # numba and the reference read the signature
         def new(cls, *values, **named):
-            return plain(cls, *reals(**bounds, **plain(cls, *values, **named)._asdict()))
+            return unchecked(cls, *reals(**bounds, **unchecked(cls, *values, **named)._asdict()))
 
         kind.__new__ = new
         kind._make = classmethod(lambda cls, values: cls(*values))  # `_replace` calls it

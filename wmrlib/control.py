@@ -23,15 +23,15 @@ from wmrlib.laws import (
 def control_law(
     rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected"
 ) -> tuple[Real, Real]:
-    """The twist that a pose law commands; finite at rho = 0 and at alpha = 0.
+    """The twist that a pose law commands, (22) and (24); finite at rho = 0 and at alpha = 0.
 
     Parameters
     ----------
     rho, alpha, theta : float or array; m, rad, rad. The polar error.
     gains : Gains, whose fields may be arrays that broadcast with the polar error.
-    law : "corrected": v = v_max (1 - exp(-k_rho rho)) cos(alpha) and omega = k_alpha alpha
-        + v/rho sin(alpha)/alpha (alpha + h theta); "printed": with cos(alpha) sin(alpha) once
-        more in the second term; "aicardi": as corrected, with v = k_rho rho cos(alpha).
+    law : "corrected": v = v_max (1 - exp(-k_rho rho)) cos(alpha) and
+        omega = k_alpha alpha + v/rho sin(alpha)/alpha (alpha + h theta); "printed": with
+        cos(alpha) sin(alpha) once more in omega; "aicardi": with v = k_rho rho cos(alpha).
 
     Returns
     -------
@@ -40,8 +40,6 @@ def control_law(
     Raises
     ------
     ValueError : for rho < 0, NaN, an unknown law or mismatched lengths.
-
-    Equations (22) and (24).
     """
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned)
@@ -77,12 +75,11 @@ def tracking_law(
 
 
 def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Real:
-    """V = rho^2/(2 L) + (alpha^2 + h theta^2)/2.
+    """V = rho^2/(2 L) + (alpha^2 + h theta^2)/2, equation (18).
 
     Parameters
     ----------
-    rho, alpha, theta : float or array; m, rad, rad. The polar error.
-    h, L : float or array; no unit, m^2. The weights of theta and, inversely, of rho.
+    rho, alpha, theta, h, L : float or array; m, rad, rad, no unit, m^2
 
     Returns
     -------
@@ -91,8 +88,6 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
     Raises
     ------
     ValueError : for rho < 0, h < 0, L that is not positive, NaN or mismatched lengths.
-
-    Equation (18).
     """
     state = _checked(rho=rho, alpha=alpha, theta=theta, h=h, L=L)
     return elementwise(_lyapunov_all, 1, *state)[0]
@@ -101,15 +96,14 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
 def lyapunov_rate(
     rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected", L: Real = 1.0
 ) -> Real:
-    """V' = rho rho'/L + alpha alpha' + h theta theta' along the closed loop of a pose law.
+    """V' = rho rho'/L + alpha alpha' + h theta theta', (19), along a pose law's closed loop.
 
     For "corrected" it is -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which
     is never positive; for "printed" it is positive in places.
 
     Parameters
     ----------
-    rho, alpha, theta, gains, law : as for `control_law`.
-    L : float or array; m^2
+    rho, alpha, theta, gains, law, L : as for `control_law` and `lyapunov`.
 
     Returns
     -------
@@ -118,8 +112,6 @@ def lyapunov_rate(
     Raises
     ------
     ValueError : as `control_law`, and for L that is not positive.
-
-    Equation (19).
     """
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned, L=L)
@@ -131,8 +123,7 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
 
     Parameters
     ----------
-    v, omega : float or array; m/s, rad/s
-    limits : WheelLimits
+    v, omega, limits : float or array, m/s; float or array, rad/s; WheelLimits
 
     Returns
     -------

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, checked, choice, instance, real, reals, same_shape
+from wmrlib._checks import Real, checked, choice, instance, real, reals
 from wmrlib._compile import compiled, elementwise
 from wmrlib.motion import STEPS, arc_step, euler_step, polar_closing_rate, polar_from_pose, wrap
 
@@ -58,7 +58,7 @@ class Reference(NamedTuple):
 
 
 def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, Real]:
-    """The twist v = (V_r + V_l)/2, omega = (V_r - V_l)/b of a robot whose wheels roll.
+    """The twist of a robot whose wheels roll: (1) v = (V_r + V_l)/2, (2) omega = (V_r - V_l)/b.
 
     Parameters
     ----------
@@ -72,12 +72,9 @@ def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, 
     Raises
     ------
     ValueError : for NaN, a width that is not positive, or mismatched lengths.
-
-    Equations (1) and (2).
     """
-    left, right, width = reals(
-        above_0=("track_width",), left=left, right=right, track_width=track_width
-    )
+    wheels = {"left": left, "right": right, "track_width": track_width}
+    left, right, width = reals(above_0=("track_width",), **wheels)
     return (left + right) / 2.0, (right - left) / width
 
 
@@ -106,7 +103,7 @@ def wrap_angle(angle: Real) -> Real:
 
 
 def pose_rate(heading: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
-    """The pose's rate: x' = v cos(heading), y' = v sin(heading), heading' = omega.
+    """The pose's rate, (3) to (6): x' = v cos(heading), y' = v sin(heading), heading' = omega.
 
     Parameters
     ----------
@@ -119,8 +116,6 @@ def pose_rate(heading: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
     Raises
     ------
     ValueError : for NaN or mismatched lengths.
-
-    Equations (3) to (6).
     """
     heading, v, omega = reals(heading=heading, v=v, omega=omega)
     return v * np.cos(heading), v * np.sin(heading), omega
@@ -166,8 +161,8 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
     ------
     ValueError : for mismatched lengths.
     """
-    same_shape(**_fields(pose=pose, goal=goal))
-    return PolarError(*elementwise(_polar_from_pose_all, 3, *pose, *goal))
+    fields = reals(**_fields(pose=pose, goal=goal))
+    return PolarError(*elementwise(_polar_from_pose_all, 3, *fields))
 
 
 def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
@@ -179,9 +174,10 @@ def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
 
 
 def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
-    """The polar error's rate under the twist (v, omega).
+    """The polar error's rate, (7) to (9), under the twist (v, omega).
 
-    rho' = -v cos(alpha), theta' = v sin(alpha)/rho and alpha' = theta' - omega.
+    rho' = -v cos(alpha), theta' = v sin(alpha)/rho and alpha' = theta' - omega. The theta row of
+    (10) has the other sign and contradicts (8).
 
     Parameters
     ----------
@@ -194,18 +190,14 @@ def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real
     Raises
     ------
     ValueError : unless rho > 0 (the goal has no direction when on it), NaN, mismatched lengths.
-
-    Equations (7) to (9). The theta row of (10) has the other sign and contradicts (8).
     """
     rho, alpha, v, omega = reals(above_0=("rho",), rho=rho, alpha=alpha, v=v, omega=omega)
     return elementwise(_polar_closing_rate_all, 3, rho, alpha, v / rho, omega)
 
 
 def _fields(**poses: Pose) -> dict[str, Real]:
-    checked_poses = {name: instance(name, pose, Pose)._asdict() for name, pose in poses.items()}
-    return {
-        f"{name}.{field}": pose[field] for name, pose in checked_poses.items() for field in pose
-    }
+    named = [(name, instance(name, pose, Pose)._asdict()) for name, pose in poses.items()]
+    return {f"{name}.{field}": pose[field] for name, pose in named for field in pose}
 
 
 @compiled
