@@ -117,8 +117,8 @@ BAD = [
         {"method": "continuous"},
         "method = 'continuous' is not allowed: one of 'arc', 'euler' is needed",
     ),
-    ({"dt": 0.0}, "dt = 0.0 is not allowed: a finite number above 0"),
-    ({"dt": 61.0}, "dt = 61 is not allowed"),
+    ({"dt": 0.0}, "dt = 0.0 is not allowed: a finite number at least 0.0006 and at most 60"),
+    ({"dt": 61.0}, "dt = 61.0 is not allowed"),
     ({"dt": 1e-9}, "dt = 1e-09 is not allowed"),
     ({"duration": math.nan}, "duration = nan is not allowed"),
     (

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
-from typing import Any
+from functools import wraps
+from typing import Any, TypeVar
 
 import numpy as np
 
 Real = float | np.ndarray
+Kind = TypeVar("Kind", bound=type)
 
 
 def refusal(name: str, value: Any, needed: str, remark: str = "") -> ValueError:
@@ -93,3 +95,33 @@ def same_shape(**arguments: Any) -> tuple[int, ...]:
         listed = ", ".join(f"{name} has shape {shape}" for name, shape in shapes.items() if shape)
         needed = "shapes that broadcast together are needed"
         raise ValueError(f"mismatched lengths: {listed}; {needed}") from None
+
+
+def reals(
+    *, at_least_0: Collection[str] = (), above_0: Collection[str] = (), **values: Any
+) -> list[Real]:
+    """Each value through `real`; ValueError too where their shapes don't broadcast together."""
+    bounds = {name: {"low": 0.0} for name in at_least_0} | {
+        name: {"above": 0.0} for name in above_0
+    }
+    numbers = [real(name, value, **bounds.get(name, {})) for name, value in values.items()]
+    if any(type(number) is not float for number in numbers):
+        same_shape(**values)
+    return numbers
+
+
+def checked(**bounds: Collection[str]) -> Callable[[Kind], Kind]:
+    """Pass the fields of a NamedTuple through `reals` wherever one is made, by `_replace` too."""
+
+    def decorate(kind: Any) -> Any:
+        unchecked = kind.__new__
+
+        @wraps(unchecked)  # numba and the reference read the signature
+        def new(cls, *values, **named):
+            return unchecked(cls, *reals(**bounds, **unchecked(cls, *values, **named)._asdict()))
+
+        kind.__new__ = new
+        kind._make = classmethod(lambda cls, values: cls(*values))  # `_replace` calls it
+        return kind
+
+    return decorate

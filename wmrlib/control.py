@@ -5,9 +5,9 @@ The formulas stand in `wmrlib.laws`. Here they take arrays and say what is wrong
 
 from __future__ import annotations
 
-from wmrlib._checks import Real, choice, instance, real, same_shape
+from wmrlib._checks import Real, choice, instance, reals
 from wmrlib._compile import compiled, elementwise
-from wmrlib.gains import Gains, GainsFields, WheelLimits, checked_wheels
+from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import polar_closing_rate
 from wmrlib.laws import (
     POSE_LAWS,
@@ -23,7 +23,7 @@ from wmrlib.laws import (
 def control_law(
     rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected"
 ) -> tuple[Real, Real]:
-    """The twist that a pose law commands; finite at rho = 0 and at alpha = 0.
+    """The twist that a pose law commands, (22) and (24); finite at rho = 0 and at alpha = 0.
 
     Parameters
     ----------
@@ -31,7 +31,7 @@ def control_law(
     gains : Gains, whose fields may be arrays that broadcast with the polar error.
     law : "corrected": v = v_max (1 - exp(-k_rho rho)) cos(alpha) and
         omega = k_alpha alpha + v/rho sin(alpha)/alpha (alpha + h theta); "printed": with
-        cos(alpha) sin(alpha) once more in the second term; "aicardi": v = k_rho rho cos(alpha).
+        cos(alpha) sin(alpha) once more in omega; "aicardi": with v = k_rho rho cos(alpha).
 
     Returns
     -------
@@ -40,10 +40,9 @@ def control_law(
     Raises
     ------
     ValueError : for rho < 0, NaN, an unknown law or mismatched lengths.
-
-    Equations (22) and (24).
     """
-    state = _checked_state(rho, alpha, theta, gains)
+    tuned = instance("gains", gains, Gains)._asdict()
+    state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned)
     v_over_rho, omega = elementwise(_pose_law_all, 2, *state, options=(_code(law),))
     return v_over_rho * state[0], omega
 
@@ -71,20 +70,16 @@ def tracking_law(
     ------
     ValueError : for rho < 0, NaN, an unknown law, gains of another law or mismatched lengths.
     """
-    rho, alpha, theta = real("rho", rho, low=0.0), real("alpha", alpha), real("theta", theta)
-    v_ref, omega_ref = real("v_ref", v_ref), real("omega_ref", omega_ref)
-    same_shape(rho=rho, alpha=alpha, theta=theta, v_ref=v_ref, omega_ref=omega_ref)
-    options = tuning_of(gains, law, TRACKING_LAWS)
-    return elementwise(_command_all, 2, rho, alpha, theta, v_ref, omega_ref, options=options)
+    state = _checked(rho=rho, alpha=alpha, theta=theta, v_ref=v_ref, omega_ref=omega_ref)
+    return elementwise(_command_all, 2, *state, options=tuning_of(gains, law, TRACKING_LAWS))
 
 
 def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Real:
-    """V = rho^2/(2 L) + (alpha^2 + h theta^2)/2.
+    """V = rho^2/(2 L) + (alpha^2 + h theta^2)/2, equation (18).
 
     Parameters
     ----------
-    rho, alpha, theta : float or array; m, rad, rad. The polar error.
-    h, L : float or array; no unit, m^2. The weights of theta and, inversely, of rho.
+    rho, alpha, theta, h, L : float or array; m, rad, rad, no unit, m^2
 
     Returns
     -------
@@ -93,27 +88,22 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
     Raises
     ------
     ValueError : for rho < 0, h < 0, L that is not positive, NaN or mismatched lengths.
-
-    Equation (18).
     """
-    rho, alpha, theta = real("rho", rho, low=0.0), real("alpha", alpha), real("theta", theta)
-    h, L = real("h", h, low=0.0), real("L", L, above=0.0)
-    same_shape(rho=rho, alpha=alpha, theta=theta, h=h, L=L)
-    return elementwise(_lyapunov_all, 1, rho, alpha, theta, h, L)[0]
+    state = _checked(rho=rho, alpha=alpha, theta=theta, h=h, L=L)
+    return elementwise(_lyapunov_all, 1, *state)[0]
 
 
 def lyapunov_rate(
     rho: Real, alpha: Real, theta: Real, gains: Gains, law: str = "corrected", L: Real = 1.0
 ) -> Real:
-    """V' = rho rho'/L + alpha alpha' + h theta theta' along the closed loop of a pose law.
+    """V' = rho rho'/L + alpha alpha' + h theta theta', (19), along a pose law's closed loop.
 
     For "corrected" it is -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which
     is never positive; for "printed" it is positive in places.
 
     Parameters
     ----------
-    rho, alpha, theta, gains, law : as for `control_law`.
-    L : float or array; m^2
+    rho, alpha, theta, gains, law, L : as for `control_law` and `lyapunov`.
 
     Returns
     -------
@@ -122,12 +112,10 @@ def lyapunov_rate(
     Raises
     ------
     ValueError : as `control_law`, and for L that is not positive.
-
-    Equation (19).
     """
-    state, L = _checked_state(rho, alpha, theta, gains), real("L", L, above=0.0)
-    same_shape(rho=rho, alpha=alpha, theta=theta, L=L, **gains._asdict())
-    return elementwise(_lyapunov_rate_all, 1, *state, L, options=(_code(law),))[0]
+    tuned = instance("gains", gains, Gains)._asdict()
+    state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned, L=L)
+    return elementwise(_lyapunov_rate_all, 1, *state, options=(_code(law),))[0]
 
 
 def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]:
@@ -135,8 +123,7 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
 
     Parameters
     ----------
-    v, omega : float or array; m/s, rad/s
-    limits : WheelLimits
+    v, omega, limits : float or array, m/s; float or array, rad/s; WheelLimits
 
     Returns
     -------
@@ -146,17 +133,14 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
     ------
     ValueError : for NaN, a width or speed that is not positive, or mismatched lengths.
     """
-    v, omega, limits = real("v", v), real("omega", omega), checked_wheels(limits, "limits")
-    same_shape(v=v, omega=omega)
+    v, omega = reals(v=v, omega=omega)
+    limits = checked_wheels(limits, "limits")
     scale = elementwise(_saturation_scale_all, 1, v, omega, options=(limits,))[0]
     return v * scale, omega * scale
 
 
-def _checked_state(rho, alpha, theta, gains):
-    instance("gains", gains, Gains)
-    state = real("rho", rho, low=0.0), real("alpha", alpha), real("theta", theta), *gains
-    same_shape(rho=rho, alpha=alpha, theta=theta, **gains._asdict())
-    return state
+def _checked(**state: Real) -> list[Real]:
+    return reals(at_least_0=("rho", "h"), above_0=("L",), **state)
 
 
 def _code(law: str) -> int:
@@ -166,7 +150,7 @@ def _code(law: str) -> int:
 @compiled
 def _pose_law_all(rho, alpha, theta, k_rho, k_alpha, h, v_max, law, v_over_rho, omega):
     for i in range(rho.size):
-        gains = GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i])
+        gains = Gains(k_rho[i], k_alpha[i], h[i], v_max[i])
         v_over_rho[i], omega[i] = pose_law(rho[i], alpha[i], theta[i], gains, law)
 
 
@@ -185,7 +169,7 @@ def _lyapunov_all(rho, alpha, theta, h, L, value):
 @compiled
 def _lyapunov_rate_all(rho, alpha, theta, k_rho, k_alpha, h, v_max, L, law, rate):
     for i in range(rho.size):
-        gains = GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i])
+        gains = Gains(k_rho[i], k_alpha[i], h[i], v_max[i])
         v_over_rho, omega = pose_law(rho[i], alpha[i], theta[i], gains, law)
         rates = polar_closing_rate(rho[i], alpha[i], v_over_rho, omega)
         angles = alpha[i] * rates[1] + h[i] * theta[i] * rates[2]

@@ -8,19 +8,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real, same_shape, scalar
+from wmrlib._checks import Real, checked, instance, real, scalar
 
 
-class GainsFields(NamedTuple):
-    """Gains without the checks, which compiled loops can make."""
-
-    k_rho: Real
-    k_alpha: Real
-    h: Real
-    v_max: Real
-
-
-class Gains(GainsFields):
+@checked(at_least_0=("k_rho", "k_alpha", "h"), above_0=("v_max",))
+class Gains(NamedTuple):
     """The gains of the laws "corrected", "printed" and "aicardi", which has no speed limit.
 
     The proof asks for positive gains; 0 is allowed, to show what a gain does.
@@ -37,32 +29,18 @@ class Gains(GainsFields):
     ValueError : for a negative gain, a v_max that is not positive, NaN or mismatched lengths.
     """
 
-    __slots__ = ()
-
-    def __new__(cls, k_rho: Real, k_alpha: Real, h: Real, v_max: Real = 4.0) -> Gains:
-        same_shape(k_rho=k_rho, k_alpha=k_alpha, h=h, v_max=v_max)
-        return super().__new__(
-            cls,
-            real("k_rho", k_rho, low=0.0),
-            real("k_alpha", k_alpha, low=0.0),
-            real("h", h, low=0.0),
-            real("v_max", v_max, above=0.0),
-        )
-
-    _make = classmethod(lambda cls, fields: cls(*fields))  # `_replace` calls it: checked too
+    k_rho: Real
+    k_alpha: Real
+    h: Real
+    v_max: Real = 4.0
 
 
 GENTLE_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 """The book's own gains for the paper's outdoor drive: well damped, and slow."""
 
 
-class _KanayamaFields(NamedTuple):
-    k_x: Real
-    k_y: Real
-    k_heading: Real
-
-
-class KanayamaGains(_KanayamaFields):
+@checked(at_least_0=("k_x", "k_heading"), above_0=("k_y",))
+class KanayamaGains(NamedTuple):
     """The gains of the law "kanayama".
 
     Parameters
@@ -74,17 +52,9 @@ class KanayamaGains(_KanayamaFields):
     ValueError : for a negative gain, k_y = 0 or NaN.
     """
 
-    __slots__ = ()
-
-    def __new__(cls, k_x: float, k_y: float, k_heading: float) -> KanayamaGains:
-        return super().__new__(
-            cls,
-            real("k_x", k_x, low=0.0),
-            real("k_y", k_y, above=0.0),
-            real("k_heading", k_heading, low=0.0),
-        )
-
-    _make = classmethod(lambda cls, fields: cls(*fields))  # `_replace` calls it: checked too
+    k_x: Real
+    k_y: Real
+    k_heading: Real
 
 
 class _LinearFields(NamedTuple):
@@ -113,10 +83,9 @@ class LinearGains(_LinearFields):
 
     def __new__(cls, matrix) -> LinearGains:
         entries = real("matrix", matrix)
-        if np.shape(entries) != (2, 3):
-            shape = np.shape(entries)
+        if (shape := np.shape(entries)) != (2, 3):
             raise ValueError(f"matrix has shape {shape}, which is not allowed: (2, 3) is needed")
-        return super().__new__(cls, *(float(entry) for entry in np.ravel(entries)))
+        return super().__new__(cls, *np.ravel(entries).tolist())
 
     def __getnewargs__(self) -> tuple:  # how it is copied and pickled
         return ((self[:3], self[3:]),)

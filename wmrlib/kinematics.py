@@ -11,18 +11,13 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, choice, instance, real, same_shape
+from wmrlib._checks import Real, checked, choice, instance, real, reals
 from wmrlib._compile import compiled, elementwise
 from wmrlib.motion import STEPS, arc_step, euler_step, polar_closing_rate, polar_from_pose, wrap
 
 
-class _PoseFields(NamedTuple):
-    x: Real
-    y: Real
-    heading: Real
-
-
-class Pose(_PoseFields):
+@checked()
+class Pose(NamedTuple):
     """Where the robot is and where it looks, or many such poses.
 
     Parameters
@@ -35,14 +30,9 @@ class Pose(_PoseFields):
     ValueError : for a value that is not finite, or mismatched lengths.
     """
 
-    __slots__ = ()
-
-    def __new__(cls, x: Real, y: Real, heading: Real) -> Pose:
-        if not type(x) is type(y) is type(heading) is float:
-            same_shape(x=x, y=y, heading=heading)
-        return super().__new__(cls, real("x", x), real("y", y), real("heading", heading))
-
-    _make = classmethod(lambda cls, fields: cls(*fields))  # `_replace` calls it: checked too
+    x: Real
+    y: Real
+    heading: Real
 
 
 class PolarError(NamedTuple):
@@ -68,7 +58,7 @@ class Reference(NamedTuple):
 
 
 def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, Real]:
-    """The twist v = (V_r + V_l)/2, omega = (V_r - V_l)/b of a robot whose wheels roll.
+    """The twist of a robot whose wheels roll: (1) v = (V_r + V_l)/2, (2) omega = (V_r - V_l)/b.
 
     Parameters
     ----------
@@ -82,21 +72,16 @@ def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, 
     Raises
     ------
     ValueError : for NaN, a width that is not positive, or mismatched lengths.
-
-    Equations (1) and (2).
     """
-    left, right = real("left", left), real("right", right)
-    width = real("track_width", track_width, above=0.0)
-    same_shape(left=left, right=right, track_width=width)
+    wheels = {"left": left, "right": right, "track_width": track_width}
+    left, right, width = reals(above_0=("track_width",), **wheels)
     return (left + right) / 2.0, (right - left) / width
 
 
 def twist_to_wheels(v: Real, omega: Real, track_width: float) -> tuple[Real, Real]:
     """The wheels' ground speeds (left, right) in m/s: the inverse of `wheels_to_twist`."""
-    v, omega = real("v", v), real("omega", omega)
-    half = real("track_width", track_width, above=0.0) / 2.0
-    same_shape(v=v, omega=omega, track_width=half)
-    return v - omega * half, v + omega * half
+    v, omega, width = reals(above_0=("track_width",), v=v, omega=omega, track_width=track_width)
+    return v - omega * (width / 2.0), v + omega * (width / 2.0)
 
 
 def wrap_angle(angle: Real) -> Real:
@@ -118,7 +103,7 @@ def wrap_angle(angle: Real) -> Real:
 
 
 def pose_rate(heading: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
-    """The pose's rate: x' = v cos(heading), y' = v sin(heading), heading' = omega.
+    """The pose's rate, (3) to (6): x' = v cos(heading), y' = v sin(heading), heading' = omega.
 
     Parameters
     ----------
@@ -131,11 +116,8 @@ def pose_rate(heading: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
     Raises
     ------
     ValueError : for NaN or mismatched lengths.
-
-    Equations (3) to (6).
     """
-    heading, v, omega = real("heading", heading), real("v", v), real("omega", omega)
-    same_shape(heading=heading, v=v, omega=omega)
+    heading, v, omega = reals(heading=heading, v=v, omega=omega)
     return v * np.cos(heading), v * np.sin(heading), omega
 
 
@@ -157,9 +139,8 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
     """
     instance("pose", pose, Pose)
     exact = choice("method", method, STEPS) == "arc"
-    v, omega, dt = real("v", v), real("omega", omega), real("dt", dt, low=0.0)
-    same_shape(pose=pose.x, heading=pose.heading, v=v, omega=omega, dt=dt)
-    return Pose(*elementwise(_step_all, 3, *pose, v, omega, dt, options=(exact,)))
+    state = reals(at_least_0=("dt",), **pose._asdict(), v=v, omega=omega, dt=dt)
+    return Pose(*elementwise(_step_all, 3, *state, options=(exact,)))
 
 
 def polar_error(pose: Pose, goal: Pose) -> PolarError:
@@ -180,23 +161,23 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
     ------
     ValueError : for mismatched lengths.
     """
-    same_shape(**_shapes(pose=pose, goal=goal))
-    return PolarError(*elementwise(_polar_from_pose_all, 3, *pose, *goal))
+    fields = reals(**_fields(pose=pose, goal=goal))
+    return PolarError(*elementwise(_polar_from_pose_all, 3, *fields))
 
 
 def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
     """The pose that sees `goal` as `polar`: the inverse of `polar_error`."""
-    rho, alpha = real("rho", polar[0], low=0.0), real("alpha", polar[1])
-    theta = real("theta", polar[2])
-    same_shape(rho=rho, alpha=alpha, theta=theta, **_shapes(goal=goal))
+    named = PolarError(*polar)._asdict() | _fields(goal=goal)
+    rho, alpha, theta, *_ = reals(at_least_0=("rho",), **named)
     psi = theta + goal.heading
     return Pose(goal.x - rho * np.cos(psi), goal.y - rho * np.sin(psi), wrap_angle(psi - alpha))
 
 
 def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
-    """The polar error's rate under the twist (v, omega).
+    """The polar error's rate, (7) to (9), under the twist (v, omega).
 
-    rho' = -v cos(alpha), theta' = v sin(alpha)/rho and alpha' = theta' - omega.
+    rho' = -v cos(alpha), theta' = v sin(alpha)/rho and alpha' = theta' - omega. The theta row of
+    (10) has the other sign and contradicts (8).
 
     Parameters
     ----------
@@ -209,18 +190,14 @@ def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real
     Raises
     ------
     ValueError : unless rho > 0 (the goal has no direction when on it), NaN, mismatched lengths.
-
-    Equations (7) to (9). The theta row of (10) has the other sign and contradicts (8).
     """
-    rho, alpha = real("rho", rho, above=0.0), real("alpha", alpha)
-    v, omega = real("v", v), real("omega", omega)
-    same_shape(rho=rho, alpha=alpha, v=v, omega=omega)
+    rho, alpha, v, omega = reals(above_0=("rho",), rho=rho, alpha=alpha, v=v, omega=omega)
     return elementwise(_polar_closing_rate_all, 3, rho, alpha, v / rho, omega)
 
 
-def _shapes(**poses: Pose) -> dict:
-    fields = [(name, field) for name in poses for field in ("x", "heading")]
-    return {f"{n}.{field}": getattr(instance(n, poses[n], Pose), field) for n, field in fields}
+def _fields(**poses: Pose) -> dict[str, Real]:
+    named = [(name, instance(name, pose, Pose)._asdict()) for name, pose in poses.items()]
+    return {f"{name}.{field}": pose[field] for name, pose in named for field in pose}
 
 
 @compiled

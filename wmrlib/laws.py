@@ -12,14 +12,7 @@ from typing import NamedTuple
 from wmrlib._checks import choice, instance
 from wmrlib._compile import compiled, formula
 from wmrlib._vecmath import decay, sinc, sincos
-from wmrlib.gains import (
-    NO_TUNING,
-    Gains,
-    GainsFields,
-    KanayamaGains,
-    LinearGains,
-    Tuning,
-)
+from wmrlib.gains import NO_TUNING, Gains, KanayamaGains, LinearGains, Tuning
 from wmrlib.kinematics import wrap
 
 # The formulas, one number at a time. A pose law gives v/rho, which is finite at the goal, where the
@@ -119,32 +112,17 @@ class Law(NamedTuple):
     ignores: tuple[str, ...] = ()
 
 
+_AICARDI = "Aicardi et al. (1995), without a speed limit"
+_KANAYAMA = "Kanayama et al. (1990), feed-forward and feedback"
+_LINEAR = "feed-forward and a constant matrix, such as `control.lqr` computes"
 LAWS = {
     "corrected": Law(corrected_law, Gains, "corrected", "(22), and the omega that the proof needs"),
     "printed": Law(printed_law, Gains, "printed", "(22) and (24) as the paper prints them"),
-    "aicardi": Law(
-        aicardi_law,
-        Gains,
-        "Aicardi",
-        "Aicardi et al. (1995), without a speed limit",
-        ignores=("v_max",),
-    ),
+    "aicardi": Law(aicardi_law, Gains, "Aicardi", _AICARDI, ignores=("v_max",)),
     "kanayama": Law(
-        kanayama_law,
-        KanayamaGains,
-        "feed-forward (Kanayama)",
-        "Kanayama et al. (1990), feed-forward and feedback",
-        kanayama_value,
-        needs_reference=True,
+        kanayama_law, KanayamaGains, "feed-forward (Kanayama)", _KANAYAMA, kanayama_value, True
     ),
-    "linear": Law(
-        linear_law,
-        LinearGains,
-        "feed-forward (matrix)",
-        "feed-forward and a constant matrix, such as `control.lqr` computes",
-        linear_value,
-        needs_reference=True,
-    ),
+    "linear": Law(linear_law, LinearGains, "feed-forward (matrix)", _LINEAR, linear_value, True),
 }
 """Every law, by name. The compiled loops know a law by its place in this table."""
 TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
@@ -187,9 +165,7 @@ def _commanding(row: Law) -> Callable:
 
 def _valuing(row: Law) -> Callable:
     value, place = row.value, _place_of(row.gains)
-    return formula(
-        lambda rho, alpha, theta, tuning: value(rho, alpha, theta, tuning[place]), cache=False
-    )
+    return formula(lambda r, a, t, tuning: value(r, a, t, tuning[place]), cache=False)
 
 
 _pose_law = _choose({code: LAWS[name].formula for name, code in POSE_LAWS.items()})
@@ -218,7 +194,7 @@ def lyapunov_value_of(rho, alpha, theta, tuning, law):
 @compiled
 def pose_tuning(k_rho, k_alpha, h, v_max):
     """A Tuning for one of the pose laws, made inside a compiled loop."""
-    return Tuning(GainsFields(k_rho, k_alpha, h, v_max), NO_TUNING.kanayama, NO_TUNING.linear)
+    return Tuning(Gains(k_rho, k_alpha, h, v_max), NO_TUNING.kanayama, NO_TUNING.linear)
 
 
 def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:

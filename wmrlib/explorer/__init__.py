@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from wmrlib import paper
-from wmrlib._checks import book_extra, choice, instance, scalar
+from wmrlib._checks import book_extra, choice, instance, refusal, scalar
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS
@@ -22,6 +22,26 @@ FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 
 
+def _tuned(name: str, kind: type, says: str) -> property:
+    def get(self):
+        return kind(*(self.sliders[field].value for field in kind._fields))
+
+    def move(self, gains):
+        self._set(_numbers(name, gains, kind))
+
+    return property(get, move, doc=says)
+
+
+def _placed(name: str, says: str) -> property:
+    def get(self):
+        return Pose(*getattr(self.panel, name))
+
+    def move(self, pose):
+        setattr(self.panel, name, _three(name, pose))
+
+    return property(get, move, doc=says)
+
+
 class Explorer(widgets.VBox):
     """The robot on its way from `start` to `goal`, or after the paper's circle, under sliders.
 
@@ -29,8 +49,7 @@ class Explorer(widgets.VBox):
 
     Parameters
     ----------
-    start, goal : Pose; by default the paper's outdoor pair.
-    gains : Gains; by default the paper's.
+    start, goal, gains : Pose, Pose, Gains; by default the paper's.
     law : "corrected", "printed", "aicardi" or, if the goal moves, "kanayama".
     method : "arc" or "euler", see `simulate`.
     dt, duration, arrival_radius : float; s, s, m
@@ -62,19 +81,14 @@ class Explorer(widgets.VBox):
         outdoor = paper.outdoor()
         start = (paper.CIRCLE_START if moving else outdoor.start) if start is None else start
         gains = (paper.CIRCLE_GAINS if moving else outdoor.gains) if gains is None else gains
-        names = _law_names(moving)
-        place = names.index(choice("law", law, names))
-        dt, duration = scalar("dt", dt, above=0.0), scalar("duration", duration, above=0.0)
-        if not duration / dt <= 100_000 or dt > duration:
-            needed = f"from the duration/100000 to the duration, {duration:g},"
-            raise ValueError(f"dt = {dt:g} is not allowed: {needed} is needed")
+        place, duration = _place(law, moving), scalar("duration", duration, above=0.0)
         home = {
             "scenario": int(moving),
             "start": _three("start", start),
             "goal": _three("goal", outdoor.goal if goal is None else goal),
             **_numbers("gains", gains, Gains),
             **_numbers("feedback", feedback, KanayamaGains),
-            "dt": dt,
+            "dt": _step(dt, duration),
             "pose_law": 0 if moving else place,
             "circle_law": place if moving else 0,
             "method": list(METHODS).index(choice("method", method, METHODS)),
@@ -107,23 +121,10 @@ class Explorer(widgets.VBox):
         """An Explorer of the paper's moving goal: a circle of 4 m radius, once round in 40 s."""
         return cls(reference="circle", **options)
 
-    @property
-    def gains(self) -> Gains:
-        """The gains that the sliders show; setting them moves the sliders."""
-        return Gains(*(self.sliders[name].value for name in Gains._fields))
-
-    @gains.setter
-    def gains(self, gains: Gains) -> None:
-        self._set(_numbers("gains", gains, Gains))
-
-    @property
-    def feedback(self) -> KanayamaGains:
-        """The gains of the law with feed-forward; setting them moves their sliders."""
-        return KanayamaGains(*(self.sliders[name].value for name in KanayamaGains._fields))
-
-    @feedback.setter
-    def feedback(self, feedback: KanayamaGains) -> None:
-        self._set(_numbers("feedback", feedback, KanayamaGains))
+    gains = _tuned("gains", Gains, "The gains that the sliders show; setting them moves these.")
+    feedback = _tuned("feedback", KanayamaGains, "The same for the law with feed-forward.")
+    start = _placed("start", "Where the robot starts; setting it moves its handle.")
+    goal = _placed("goal", "The goal that stands still; setting it moves its handle.")
 
     @property
     def dt(self) -> float:
@@ -132,8 +133,7 @@ class Explorer(widgets.VBox):
 
     @dt.setter
     def dt(self, dt: float) -> None:
-        longest = self.panel.duration
-        self._set({"dt": scalar("dt", dt, low=longest / 100_000, high=longest)})
+        self._set({"dt": _step(dt, self.panel.duration)})
 
     @property
     def moving(self) -> bool:
@@ -144,41 +144,18 @@ class Explorer(widgets.VBox):
     def law(self) -> str:
         """The law in force, one that this goal allows; setting it moves the menu."""
         menu = self.menus["circle_law" if self.moving else "pose_law"]
-        return _law_names(self.moving)[menu.index]
+        return laws_for(self.moving)[menu.index]["name"]
 
     @law.setter
     def law(self, law: str) -> None:
-        names, trait = _law_names(self.moving), "circle_law" if self.moving else "pose_law"
-        place = names.index(choice("law", law, names))
+        trait, place = "circle_law" if self.moving else "pose_law", _place(law, self.moving)
         self.menus[trait].index = place
         setattr(self.panel, trait, place)
 
-    @property
-    def start(self) -> Pose:
-        """Where the robot starts; setting it moves its handle, and dragging the handle sets it."""
-        return Pose(*self.panel.start)
-
-    @start.setter
-    def start(self, start: Pose) -> None:
-        self.panel.start = _three("start", start)
-
-    @property
-    def goal(self) -> Pose:
-        """The goal that stands still; setting it moves its handle, and dragging that sets it."""
-        return Pose(*self.panel.goal)
-
-    @goal.setter
-    def goal(self, goal: Pose) -> None:
-        self.panel.goal = _three("goal", goal)
-
     def trajectory(self) -> Trajectory:
         """The run that the panel shows, by `wmrlib.simulate` or `wmrlib.track`."""
-        how = {
-            "law": self.law,
-            "method": list(METHODS)[self.menus["method"].index],
-            "dt": self.dt,
-            "duration": self.panel.duration,
-        }
+        method = list(METHODS)[self.menus["method"].index]
+        how = {"law": self.law, "method": method, "dt": self.dt, "duration": self.panel.duration}
         if self.moving:
             gains = self.gains if LAWS[self.law].gains is Gains else self.feedback
             return track(paper.circle, self.start, gains, **how)
@@ -205,12 +182,16 @@ def _moves(reference) -> bool:
         return False
     if reference is paper.circle or (isinstance(reference, str) and reference == "circle"):
         return True
-    needed = "None, 'circle' or wmrlib.paper.circle is needed"
-    raise ValueError(f"reference = {reference!r} is not allowed: {needed}")
+    raise refusal("reference", reference, "None, 'circle' or wmrlib.paper.circle")
 
 
-def _law_names(moving: bool) -> list[str]:
-    return [law["name"] for law in laws_for(moving)]
+def _place(law: str, moving: bool) -> int:
+    names = [each["name"] for each in laws_for(moving)]
+    return names.index(choice("law", law, names))
+
+
+def _step(dt: float, duration: float) -> float:
+    return scalar("dt", dt, low=duration / 100_000, high=duration)
 
 
 def _three(name: str, pose: Pose) -> list[float]:

@@ -8,16 +8,16 @@ import ipywidgets as widgets
 
 from wmrlib.laws import LAWS
 
-# name: (label, lowest, highest); linear scales where 0 is worth a look, a logarithmic one for dt
+# name: (label, tip, lowest, highest); the scale of dt is logarithmic, as 0 is not worth a look
 SLIDERS = {
-    "k_rho": ("k_rho [1/m]", 0.0, 5.0),
-    "k_alpha": ("k_alpha [1/s]", 0.0, 10.0),
-    "h": ("h [1]", 0.0, 5.0),
-    "v_max": ("v_max [m/s]", 0.1, 10.0),
-    "k_x": ("k_x [1/s]", 0.0, 5.0),
-    "k_y": ("k_y [1/m²]", 0.05, 20.0),
-    "k_heading": ("k_heading [1/m]", 0.0, 10.0),
-    "dt": ("dt [s]", 0.01, 1.0),
+    "k_rho": ("k_rho [1/m]", "how near the goal the robot slows down", 0.0, 5.0),
+    "k_alpha": ("k_alpha [1/s]", "steering towards the goal", 0.0, 10.0),
+    "h": ("h [1]", "weight of the final heading", 0.0, 5.0),
+    "v_max": ("v_max [m/s]", "speed limit", 0.1, 10.0),
+    "k_x": ("k_x [1/s]", "closing in along the heading", 0.0, 5.0),
+    "k_y": ("k_y [1/m²]", "steering against the distance to the side", 0.05, 20.0),
+    "k_heading": ("k_heading [1/m]", "steering against the heading error", 0.0, 10.0),
+    "dt": ("dt [s]", "time from one command to the next", 0.01, 1.0),
 }
 PANEL_LAWS = [
     {
@@ -38,15 +38,18 @@ def laws_for(moving: bool) -> list[dict]:
     return [law for law in PANEL_LAWS if moving or not law["needs_reference"]]
 
 
-# name: (label, choices)
+_LAW = "Law", "what turns the error into speed and turning rate"
+_PRESETS = "your own", "the paper, outdoors", "the paper, circle", "gentle gains"
+_METRICS = "heading error", "arrival time", "peak |omega|"
+# name: (label, tip, choices)
 MENUS = {
-    "preset": ("Preset", ("your own", "the paper, outdoors", "the paper, circle", "gentle gains")),
-    "pose_law": ("Law", tuple(law["title"] for law in laws_for(False))),
-    "circle_law": ("Law", tuple(law["title"] for law in laws_for(True))),
-    "method": ("Motion", tuple(METHODS.values())),
-    "view": ("View", ("time charts", "gain landscape")),
-    "metric": ("Map shows", ("heading error", "arrival time", "peak |omega|")),
-    "axes": ("Map over", ("k_alpha and h", "k_rho and h")),
+    "preset": ("Preset", "gains and scenes to start from", _PRESETS),
+    "pose_law": (*_LAW, tuple(law["title"] for law in laws_for(False))),
+    "circle_law": (*_LAW, tuple(law["title"] for law in laws_for(True))),
+    "method": ("Motion", "how the robot moves while a command is held", tuple(METHODS.values())),
+    "view": ("View", "what stands beside the path", ("time charts", "gain landscape")),
+    "metric": ("Map shows", "what the colours mean", _METRICS),
+    "axes": ("Map over", "which gains the map spans", ("k_alpha and h", "k_rho and h")),
 }
 # The trait of the panel that says whether a control applies.
 DISPLAYS = {
@@ -57,37 +60,18 @@ DISPLAYS = {
     "circle_law": "circle_law_display",
     **dict.fromkeys(("metric", "axes"), "map_display"),
 }
-_TIPS = {
-    "k_rho": "how near the goal the robot slows down",
-    "k_alpha": "steering towards the goal",
-    "h": "weight of the final heading",
-    "v_max": "speed limit",
-    "k_x": "closing in along the heading",
-    "k_y": "steering against the distance to the side",
-    "k_heading": "steering against the heading error",
-    "dt": "time from one command to the next",
-    "preset": "gains and scenes to start from",
-    "pose_law": "what turns the error into speed and turning rate",
-    "circle_law": "what turns the error into speed and turning rate",
-    "method": "how the robot moves while a command is held",
-    "view": "what stands beside the path",
-    "metric": "what the colours mean",
-    "axes": "which gains the map spans",
-}
 
 
 def slider(name: str, value: float):
     """The slider of that name at that value, wide enough for it; its number can be typed over."""
-    text, low, high = SLIDERS[name]
-    common = {"description": text, "tooltip": _TIPS[name], "layout": {"width": "auto"}}
+    text, tip, low, high = SLIDERS[name]
+    common = {"description": text, "tooltip": tip, "layout": {"width": "auto"}}
     if name == "dt":
-        made = widgets.FloatLogSlider(
-            min=math.log10(low), max=math.log10(high), step=0.02, readout_format=".3f", **common
-        )
+        common |= {"min": math.log10(low), "max": math.log10(high), "readout_format": ".3f"}
+        made = widgets.FloatLogSlider(step=0.02, **common)
     else:
-        made = widgets.FloatSlider(
-            min=low, max=high, value=low, step=0.01, readout_format=".2f", **common
-        )
+        common |= {"min": low, "max": high, "value": low, "readout_format": ".2f"}
+        made = widgets.FloatSlider(step=0.01, **common)
     widen(made, value)
     made.value = value
     return made
@@ -103,11 +87,6 @@ def widen(made, value: float) -> None:
 
 def menu(name: str, index: int):
     """The menu of that name at that choice."""
-    text, options = MENUS[name]
-    return widgets.Dropdown(
-        description=text,
-        options=options,
-        index=index,
-        tooltip=_TIPS[name],
-        layout={"width": "auto"},
-    )
+    text, tip, options = MENUS[name]
+    common = {"description": text, "tooltip": tip, "layout": {"width": "auto"}}
+    return widgets.Dropdown(options=options, index=index, **common)

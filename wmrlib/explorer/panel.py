@@ -3,28 +3,21 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Callable, Iterator
 from pathlib import Path
+from typing import Any
 
 import anywidget
 import traitlets
 
+from wmrlib._checks import refusal
 from wmrlib.explorer.controls import METHODS, PANEL_LAWS
 
 _PARTS = Path(__file__).parent / "js"
 # One module out of several files: a page without a kernel can load no second one.
-_ORDER = (
-    "model",
-    "simulate",
-    "style",
-    "surface",
-    "settings",
-    "figures",
-    "scene",
-    "handles",
-    "charts",
-    "gain_map",
-    "explorer",
-)
+_MODEL = "model", "simulate"
+_PICTURE = "style", "surface", "settings", "figures", "scene", "handles", "charts", "gain_map"
+_ORDER = *_MODEL, *_PICTURE, "explorer"
 
 
 def javascript() -> str:
@@ -37,27 +30,13 @@ class _Finite(traitlets.Float):
 
     def validate(self, obj, value):
         number = super().validate(obj, value)
-        if not math.isfinite(number):
-            raise ValueError(f"{self.name} = {value!r} is not allowed: a finite number is needed")
-        return number
+        if math.isfinite(number):
+            return number
+        raise refusal(self.name, value, "a finite number")
 
 
-def _finite(value: float):
-    return _Finite(value).tag(sync=True)
-
-
-def _index():
-    return traitlets.Int(0, min=0).tag(sync=True)
-
-
-def _pose():
-    return traitlets.List(_Finite(), minlen=3, maxlen=3, default_value=[0.0, 0.0, 0.0]).tag(
-        sync=True
-    )
-
-
-def _shown(value: str = "flex"):
-    return traitlets.Unicode(value).tag(sync=True)
+def _synced(count: int, kind: Callable, *default: Any, **bounds: int) -> Iterator[Any]:
+    return (kind(*default, **bounds).tag(sync=True) for _ in range(count))
 
 
 class Panel(anywidget.AnyWidget):
@@ -69,15 +48,13 @@ class Panel(anywidget.AnyWidget):
 
     _esm = traitlets.Unicode(javascript()).tag(sync=True)
     _css = traitlets.Unicode((_PARTS / "panel.css").read_text(encoding="utf-8")).tag(sync=True)
-    start, goal = _pose(), _pose()
-    k_rho, k_alpha, h, v_max = _finite(2.0), _finite(1.0), _finite(0.3), _finite(4.0)
-    k_x, k_y, k_heading = _finite(1.0), _finite(2.0), _finite(2.0)
-    dt, duration, arrival_radius = _finite(0.1), _finite(60.0), _finite(0.05)
-    scenario, pose_law, circle_law, method, view, metric, axes, preset = (
-        _index() for _ in range(8)
-    )
-    gains_display, limit_display, feedback_display = _shown(), _shown(), _shown("none")
-    pose_law_display, circle_law_display, map_display = _shown(), _shown("none"), _shown("none")
+    start, goal = _synced(2, traitlets.List, _Finite(), [0.0, 0.0, 0.0], minlen=3, maxlen=3)
+    k_rho, k_alpha, h, v_max, k_x, k_y, k_heading = _synced(7, _Finite)
+    dt, duration, arrival_radius = _synced(3, _Finite)
+    scenario, preset, pose_law, circle_law, method = _synced(5, traitlets.Int, min=0)
+    view, metric, axes = _synced(3, traitlets.Int, min=0)
+    gains_display, limit_display, feedback_display = _synced(3, traitlets.Unicode)
+    pose_law_display, circle_law_display, map_display = _synced(3, traitlets.Unicode)
     home = traitlets.Dict().tag(sync=True)
     presets = traitlets.List().tag(sync=True)
     laws = traitlets.List(PANEL_LAWS).tag(sync=True)

@@ -56,13 +56,12 @@ def c_function(name: str, formula: Formula, real: str = "WMR_REAL") -> str:
 
     Parameters
     ----------
-    name : its name without the wmr_
-    formula : of `C_FORMULAS`, `GEODESY` or `C_LAWS`; a law takes a wmr_polar and wmr_gains
+    name, formula : its name without the wmr_; of `C_FORMULAS`, `GEODESY` or `C_LAWS`
     real : type of its numbers; with "double" it computes in double precision always
 
     Returns
     -------
-    The C text.
+    str
     """
     printer, arguments = _Printer(), [f"{real} {each}" for each in formula.arguments]
     lines = [f"const {real} {each} = {printer.line(value)};" for each, value in formula.locals_]
@@ -91,9 +90,7 @@ def c_header() -> str:
         printed = "\n".join(c_function(name, formula, real) for name, formula in table.items())
         places[f"/* @{place}@ */\n"] = printed
     for place, printed in places.items():
-        if text.count(place) != 1:
-            found = f"frame.h has {place.strip()} {text.count(place)} times"
-            raise ValueError(f"{found}: once is needed")
+        assert text.count(place) == 1, place
         text = text.replace(place, printed)
     return text
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from types import MappingProxyType
 from typing import NamedTuple
 
 import sympy as sp
@@ -45,20 +44,20 @@ def _law(name: str) -> Formula:
     """(v, omega) of a law, with v/rho as a local, which is finite at the goal."""
     row, gains, (speed, turning) = laws.LAWS[name], vars(gains_of(name)).values(), steering(name)
     if row.needs_reference:
-        return _shared((*_STATE, s.v_ref, s.omega_ref), (speed, turning), row.says, gains)
+        return _shared((*s.STATE, s.v_ref, s.omega_ref), (speed, turning), row.says, gains)
     used = tuple(each for each in gains if speed.has(each) or turning.has(each))
     values = s.rho * s.v_over_rho, turning.subs(speed, s.v_over_rho)
-    return Formula(_STATE, values, row.says, used, ((s.v_over_rho, speed),))
+    return Formula(s.STATE, values, row.says, used, ((s.v_over_rho, speed),))
 
 
 def _value(name: str) -> Formula:
-    value = read(laws.LAWS[name].value, *_STATE, gains_of(name))
-    return _shared(_STATE, value, "its Lyapunov function", vars(gains_of(name)).values())
+    value = read(laws.LAWS[name].value, *s.STATE, gains_of(name))
+    return _shared(s.STATE, value, "its Lyapunov function", vars(gains_of(name)).values())
 
 
 def _modes(name: str) -> Formula:
     """How a pose law settles near the goal, out of its linearised closed loop."""
-    goal = dict.fromkeys(_STATE, 0)
+    goal = dict.fromkeys(s.STATE, 0)
     rates = sp.Matrix(closed_loop(name)[1:]).replace(sp.sinc, lambda each: 1 - each**2 / 6)
     angles = rates.jacobian([s.alpha, s.theta]).subs(goal)
     values = steering(name)[0].subs(goal), -angles.trace(), angles.det()
@@ -66,74 +65,61 @@ def _modes(name: str) -> Formula:
     return _shared((), tuple(map(sp.expand, values)), says, vars(gains_of(name)).values())
 
 
-_STATE = s.rho, s.alpha, s.theta
 _POSE, _GOAL = (s.x, s.y, s.heading), (s.goal_x, s.goal_y, s.goal_heading)
 _TWIST = s.v, s.omega, s.dt
+_DECAY = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
 _GUARDS = {
     "sinc": Formula((s.angle,), (s.GUARDED_SINC,), "sin(angle)/angle, which is 1 at 0"),
-    "decay": Formula(
-        (s.rho, s.k_rho), (s.GUARDED_DECAY,), "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
-    ),
+    "decay": Formula((s.rho, s.k_rho), (s.GUARDED_DECAY,), _DECAY),
 }
-FORMULAS = MappingProxyType(
-    _GUARDS
-    | {row.formula.__name__: _law(name) for name, row in laws.LAWS.items()}
-    | {row.value.__name__: _value(name) for name, row in laws.LAWS.items()}
-    | {f"{name}_modes": _modes(name) for name in laws.POSE_LAWS}
-    | {
+_GOAL_SEEN = read(motion.polar_from_pose, *_POSE, *_GOAL)
+FORMULAS = {
+    **_GUARDS,
+    **{row.formula.__name__: _law(name) for name, row in laws.LAWS.items()},
+    **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
+    **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
+    **{
         step.__name__: _shared(_POSE + _TWIST, read(step, *_POSE, *_TWIST), f"method {name}")
         for name, step in motion.STEPS.items()
-    }
-    | {
-        "polar_from_pose": _shared(
-            _POSE + _GOAL, read(motion.polar_from_pose, *_POSE, *_GOAL), "rho, alpha, theta"
-        ),
-        "circle": _shared((s.t,), read(paper.circle, s.t), "x, y, heading, v, omega of the goal"),
-    }
-)
+    },
+    "polar_from_pose": _shared(_POSE + _GOAL, _GOAL_SEEN, "rho, alpha, theta"),
+    "circle": _shared((s.t,), read(paper.circle, s.t), "x, y, heading, v, omega of the goal"),
+}
 """What is printed for the panel, by name."""
 
-C_LAWS = MappingProxyType(
-    {
-        "law" if name == "corrected" else f"law_{name}": _law(name)
-        for name in laws.POSE_LAWS
-        if laws.LAWS[name].gains is Gains
-    }
-)
+C_LAWS = {
+    "law" if name == "corrected" else f"law_{name}": _law(name)
+    for name in laws.POSE_LAWS
+    if laws.LAWS[name].gains is Gains
+}
 """The laws that the C header has, by their names there."""
 
 _DISTANCE, _SIGHT, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
 _WHEELS = read(kinematics.twist_to_wheels, s.v, s.omega, s.b)
 _TWIST_AND_WIDTH = s.v, s.omega, s.b
-_ENERGY = read(laws.lyapunov_value, *_STATE, s.h, s.L)
+_ENERGY = read(laws.lyapunov_value, *s.STATE, s.h, s.L)
 _FASTEST = read(laws.fastest_wheel, *_TWIST_AND_WIDTH)
-C_FORMULAS = MappingProxyType(
-    _GUARDS
-    | {
-        "lyapunov_value": Formula((*_STATE, s.h, s.L), _ENERGY, "V, (18)"),
-        "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
-        "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
-        "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
-        "left_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[:1], "ground speed, from (1) and (2)"),
-        "right_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[1:], "ground speed, from (1) and (2)"),
-        "fastest_wheel": Formula(_TWIST_AND_WIDTH, _FASTEST, "speed of the faster wheel"),
-        "saturation_scale": Formula(
-            (s.max_speed, s.fastest), (s.SATURATED,), "the factor on the twist for a max_speed"
-        ),
-    }
-)
+_SCALE = "the factor on the twist for a max_speed"
+C_FORMULAS = {
+    **_GUARDS,
+    "lyapunov_value": Formula((*s.STATE, s.h, s.L), _ENERGY, "V, (18)"),
+    "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
+    "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
+    "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
+    "left_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[:1], "ground speed, from (1) and (2)"),
+    "right_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[1:], "ground speed, from (1) and (2)"),
+    "fastest_wheel": Formula(_TWIST_AND_WIDTH, _FASTEST, "speed of the faster wheel"),
+    "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
+}
 """What a robot needs around the law, each a function of numbers."""
 
 _START, _END = (s.lat1,), (s.lat2, s.dlat, s.dlong)
-_BETWEEN = _START + _END
-GEODESY = MappingProxyType(
-    {
-        "sphere_distance": _shared(
-            (*_BETWEEN, s.R), read(geodesy.haversine_distance, _START, _END, s.R), "(11) to (13)"
-        ),
-        "bearing": _shared(_BETWEEN, read(geodesy.initial_bearing, _START, _END), "(15) to (17)"),
-    }
-)
+_LENGTH = read(geodesy.haversine_distance, _START, _END, s.R)
+_BEARING = read(geodesy.initial_bearing, _START, _END)
+GEODESY = {
+    "sphere_distance": _shared((*_START, *_END, s.R), _LENGTH, "(11) to (13)"),
+    "bearing": _shared(_START + _END, _BEARING, "(15) to (17)"),
+}
 """The functions of two GPS points, which need doubles."""
 
 __all__ = ["C_FORMULAS", "C_LAWS", "FORMULAS", "GEODESY", "Formula"]

@@ -12,42 +12,28 @@ import sympy as sp
 
 from wmrlib import _checks, _vecmath, geodesy, laws, motion
 from wmrlib._checks import choice
-from wmrlib.symbolic import symbols
-from wmrlib.symbolic.symbols import (
-    L,
-    ahead,
-    alpha,
-    decay,
-    h,
-    left,
-    omega_ref,
-    rho,
-    theta,
-    turn,
-    v_ref,
-    wrap,
-)
+from wmrlib.symbolic import symbols as s
 
 LAWS = tuple(laws.LAWS)
 
 
 def _sincos(angle: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
-    angle = angle.args[0] if isinstance(angle, wrap) else angle
+    angle = angle.args[0] if isinstance(angle, s.wrap) else angle
     return sp.sin(angle), sp.cos(angle)
 
 
 _LIBRARY = SimpleNamespace(
-    **(vars(sp) | {"arctan2": sp.atan2, "mod": lambda x, turn: x, "where": lambda test, x, y: x})
+    **(vars(sp) | {"arctan2": sp.atan2, "mod": lambda x, period: x, "where": lambda test, x, y: x})
 )
 _SYMBOLIC = {
     math: _LIBRARY,
     np: _LIBRARY,
     _vecmath.sincos: _sincos,
     _vecmath.sinc: sp.sinc,
-    _vecmath.decay: decay,
-    motion.wrap: wrap,
+    _vecmath.decay: s.decay,
+    motion.wrap: s.wrap,
     _checks.real: lambda name, value, **bounds: value,
-    _checks.same_shape: lambda **arguments: None,
+    _checks.reals: lambda above_0, **values: values.values(),
     geodesy._radians: lambda a, b: (a[0], b[0], b[1], b[2]),
     _checks.plain: lambda value: value,
 }
@@ -69,14 +55,14 @@ def _exact(expression: sp.Expr) -> sp.Expr:
 def gains_of(name: str) -> SimpleNamespace:
     """The gains of a law, each field a symbol."""
     fields = laws.LAWS[name].gains._fields
-    return SimpleNamespace(**{f: vars(symbols).get(f, sp.Symbol(f, real=True)) for f in fields})
+    return SimpleNamespace(**{f: vars(s).get(f, sp.Symbol(f, real=True)) for f in fields})
 
 
 def steering(name: str) -> tuple[sp.Expr, sp.Expr]:
     """What a law's formula returns: (v/rho, omega), or (v, omega) if it needs a reference."""
-    state = (rho, alpha, theta)
+    state = s.STATE
     if laws.LAWS[name].needs_reference:
-        state = (*read(laws.body_error, *state), v_ref, omega_ref)
+        state = *read(laws.body_error, *s.STATE), s.v_ref, s.omega_ref
     return read(laws.LAWS[name].formula, *state, gains_of(name))
 
 
@@ -98,11 +84,11 @@ def law(name: str = "corrected") -> tuple[sp.Expr, sp.Expr]:
     ValueError : for another name.
     """
     speed, turning = steering(choice("name", name, LAWS))
-    return (speed if laws.LAWS[name].needs_reference else speed * rho), turning
+    return (speed if laws.LAWS[name].needs_reference else speed * s.rho), turning
 
 
 def closed_loop(name: str = "corrected") -> tuple[sp.Expr, sp.Expr, sp.Expr]:
-    """The polar error's rates under a pose law, smooth through the goal.
+    """The rates (7) to (9) of the polar error under a pose law, smooth through the goal.
 
     Parameters
     ----------
@@ -115,12 +101,9 @@ def closed_loop(name: str = "corrected") -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     Raises
     ------
     ValueError : for another name.
-
-    Equations (7) to (9).
     """
-    return read(
-        motion.polar_closing_rate, rho, alpha, *steering(choice("name", name, laws.POSE_LAWS))
-    )
+    twist = steering(choice("name", name, laws.POSE_LAWS))
+    return read(motion.polar_closing_rate, s.rho, s.alpha, *twist)
 
 
 def lyapunov(name: str = "corrected") -> sp.Expr:
@@ -137,21 +120,18 @@ def lyapunov(name: str = "corrected") -> sp.Expr:
     Raises
     ------
     ValueError : for another name.
-
-    Equation (18).
     """
     row = laws.LAWS[choice("name", name, LAWS)]
     if row.value is laws.pose_value:
-        return read(laws.lyapunov_value, rho, alpha, theta, h, L)[0]
-    return read(row.value, rho, alpha, theta, gains_of(name))[0]
+        return read(laws.lyapunov_value, *s.STATE, s.h, s.L)[0]
+    return read(row.value, *s.STATE, gains_of(name))[0]
 
 
 def lyapunov_rate(name: str = "corrected") -> sp.Expr:
-    """V' along the closed loop: the gradient of V times the rates.
+    """V' of (19) along the closed loop: the gradient of V times the rates.
 
-    For "corrected" it is -(rho/L) v_max (1 - exp(-k_rho rho)) cos^2(alpha) - k_alpha alpha^2, which
-    `sympy.expand` finds after `textbook`. If the law needs a reference the rates are those of the
-    error in the robot's frame.
+    `sympy.expand` after `textbook` gives it as in `wmrlib.lyapunov_rate`. If the law needs a
+    reference the rates are those of the error in the robot's frame.
 
     Parameters
     ----------
@@ -164,22 +144,20 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     Raises
     ------
     ValueError : for another name.
-
-    Equation (19).
     """
-    energy, state = lyapunov(name), (rho, alpha, theta)
+    energy, (speed, turning) = lyapunov(name), law(name)
     if not laws.LAWS[name].needs_reference:
-        rates = closed_loop(name)
-        return sum(energy.diff(each) * rate for each, rate in zip(state, rates, strict=True))
-    speed, turning = law(name)
-    body = {ahead: rho * sp.cos(alpha), left: rho * sp.sin(alpha), turn: alpha - theta}
-    rates = {
-        ahead: turning * body[left] - speed + v_ref * sp.cos(body[turn]),
-        left: v_ref * sp.sin(body[turn]) - turning * body[ahead],
-        turn: omega_ref - turning,
+        rates = zip(s.STATE, closed_loop(name), strict=True)
+        return sum(energy.diff(each) * rate for each, rate in rates)
+    ahead, left, turn = s.rho * sp.cos(s.alpha), s.rho * sp.sin(s.alpha), s.alpha - s.theta
+    body_rates = {
+        s.ahead: turning * left - speed + s.v_ref * sp.cos(turn),
+        s.left: s.v_ref * sp.sin(turn) - turning * ahead,
+        s.turn: s.omega_ref - turning,
     }
-    energy = energy.subs({rho: sp.sqrt(ahead**2 + left**2), alpha: theta + turn})
-    return sum(energy.diff(each).subs(body) * rate for each, rate in rates.items())
+    body = {s.ahead: ahead, s.left: left, s.turn: turn}
+    energy = energy.subs({s.rho: sp.sqrt(s.ahead**2 + s.left**2), s.alpha: s.theta + s.turn})
+    return sum(energy.diff(each).subs(body) * rate for each, rate in body_rates.items())
 
 
 __all__ = ["LAWS", "closed_loop", "law", "lyapunov", "lyapunov_rate"]

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import partial
+
 import mpmath
 import numpy as np
 import sympy as sp
@@ -9,20 +11,17 @@ from sympy.codegen.cfunctions import expm1
 
 from wmrlib import _vecmath, motion
 
-rho, alpha, theta, v, omega, v_ref, omega_ref = sp.symbols(
-    "rho alpha theta v omega v_ref omega_ref", real=True
-)  # alpha is the paper's A
-k_rho, k_alpha, h, v_max, L, k_x, k_y, k_heading = sp.symbols(
-    "k_rho k_alpha h v_max L k_x k_y k_heading", positive=True
-)
-x, y, heading, goal_x, goal_y, goal_heading, dt = sp.symbols(
-    "x y heading goal_x goal_y goal_heading dt", real=True
-)
-v_over_rho, ahead, left, turn, angle, t = sp.symbols(
-    "v_over_rho ahead left turn angle t", real=True
-)
-lat1, lat2, dlat, dlong, R = sp.symbols("lat1 lat2 Delta_lat Delta_long R", real=True)
-east, north, b, fastest, max_speed = sp.symbols("east north b fastest max_speed", real=True)
+_real = partial(sp.symbols, real=True)
+_positive = partial(sp.symbols, positive=True)
+
+rho, alpha, theta = STATE = _real("rho alpha theta")  # alpha is the paper's A
+v, omega, v_ref, omega_ref, v_over_rho = _real("v omega v_ref omega_ref v_over_rho")
+k_rho, k_alpha, h, v_max, L = _positive("k_rho k_alpha h v_max L")
+k_x, k_y, k_heading = _positive("k_x k_y k_heading")
+x, y, heading, goal_x, goal_y, goal_heading = _real("x y heading goal_x goal_y goal_heading")
+ahead, left, turn, angle, t, dt = _real("ahead left turn angle t dt")
+lat1, lat2, dlat, dlong, R = _real("lat1 lat2 Delta_lat Delta_long R")
+east, north, b, fastest, max_speed = _real("east north b fastest max_speed")
 
 _SMALL = sp.Float(_vecmath._SMALL)
 
@@ -42,9 +41,8 @@ class decay(sp.Function):  # noqa: N801 (sympy names its functions in lower case
         falling = sp.exp(-k_rho * rho)
         if argindex == 2:
             return falling
-        return sp.Piecewise(
-            ((k_rho * falling - self) / rho, sp.Ne(rho, 0)), (-(k_rho**2) / 2, True)
-        )
+        elsewhere = (k_rho * falling - self) / rho
+        return sp.Piecewise((elsewhere, sp.Ne(rho, 0)), (-(k_rho**2) / 2, True))
 
     def _eval_rewrite_as_exp(self, rho, k_rho, **_):
         return (1 - sp.exp(-k_rho * rho)) / rho
@@ -79,9 +77,8 @@ SATURATED = sp.Piecewise((max_speed / fastest, fastest > max_speed), (1, True))
 
 def textbook(expression: sp.Expr) -> sp.Expr:
     """The expression with sinc and decay written out as in the paper: undefined at the goal."""
-    return expression.replace(decay, lambda *each: decay(*each).rewrite(sp.exp)).replace(
-        sp.sinc, lambda each: sp.sin(each) / each
-    )
+    plain = expression.replace(decay, lambda *each: decay(*each).rewrite(sp.exp))
+    return plain.replace(sp.sinc, lambda each: sp.sin(each) / each)
 
 
 __all__ = [name for name, value in globals().items() if isinstance(value, sp.Symbol)]
