@@ -13,6 +13,7 @@ import wmrlib as wmr
 from wmrbook import audit
 from wmrbook import equations as paper_symbols
 from wmrbook.audit import Place, Verdict, equations, figures, numbers, proof, row, statements
+from wmrbook.published import PUBLISHED, Published
 from wmrlib import paper, symbolic
 
 FOUND = {
@@ -39,7 +40,7 @@ def all_rows():
 
 def test_everything_has_a_row_and_the_verdict_found_by_hand():
     items = [f"eq-{n}" for n in range(1, 27)] + [f"fig-{n}" for n in range(1, 13)]
-    assert list(all_rows())[:-6] == [*items, *paper.PUBLISHED]
+    assert list(all_rows())[:-6] == [*items, *PUBLISHED]
     assert all(item.startswith("claim-") for item in list(all_rows())[-6:])
     assert sum(len(audit.rows(group)) for group in audit.GROUPS[1:]) + 26 == len(all_rows())
     for verdict, items in FOUND.items():
@@ -127,7 +128,7 @@ def test_equivalence_is_proved_or_refused():
 def verdict_of_number(monkeypatch, key, value):
     """The verdict on a number when the paper prints another value."""
     with monkeypatch.context() as patched:
-        patched.setitem(paper.PUBLISHED, key, paper.PUBLISHED[key]._replace(value=value))
+        patched.setitem(PUBLISHED, key, PUBLISHED[key]._replace(value=value))
         return {row.item: row.verdict for row in audit.rows("numbers")}[key]
 
 
@@ -146,12 +147,12 @@ def test_a_number_fits_by_rounding_or_by_a_small_cut():
         (math.pi / 2, math.pi / 2, True),
         (1.571, math.pi / 2, False),
     ):
-        assert audit.fits(value, paper.Published(printed, "", "here")) is agrees, value
+        assert audit.fits(value, Published(printed, "", "here")) is agrees, value
 
 
 def test_another_number_is_noticed_and_the_right_one_holds(monkeypatch):
-    for key in paper.PUBLISHED.keys() - FOUND[Verdict.WRONG] - FOUND[Verdict.OPEN]:
-        value = paper.PUBLISHED[key].value
+    for key in PUBLISHED.keys() - FOUND[Verdict.WRONG] - FOUND[Verdict.OPEN]:
+        value = PUBLISHED[key].value
         another = value + 0.01 if key.endswith("itude") else 3.0 * value + (value == 0.0)
         assert verdict_of_number(monkeypatch, key, another) is Verdict.WRONG, key
     right = {"bearing": 9.58, "y_error_at_start": 9.67, "time_step": 0.05, "inner_loop": 20.0}

@@ -6,8 +6,7 @@ import numpy as np
 import pytest
 
 import wmrlib as wmr
-
-PUBLISHED = wmr.paper.PUBLISHED
+from wmrbook.published import PUBLISHED
 
 
 def run(x_axis, gains=None, **options):

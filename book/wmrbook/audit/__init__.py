@@ -49,7 +49,7 @@ GROUPS = tuple(_PARTS)
 def rows(group: str | None = None) -> list[Row]:
     """The rows of one group of GROUPS, or of all, computed in some seconds.
 
-    Equations (1) to (26), figures 1 to 12, the numbers of `wmrlib.paper.PUBLISHED`, and statements.
+    Equations (1) to (26), figures 1 to 12, the numbers of `PUBLISHED`, and statements.
     Raises ValueError for an unknown group.
     """
     if group is not None:

@@ -8,6 +8,7 @@ import sympy as sp
 
 from wmrbook import equations as symbols
 from wmrbook.audit.row import Row, Verdict, equation_row, equivalent, finding, fits, printed
+from wmrbook.published import PUBLISHED
 from wmrlib import paper, symbolic
 from wmrlib.geodesy import haversine_distance, local_position
 from wmrlib.symbolic import L, alpha, b, h, lat1, lat2, omega, rho, theta, v
@@ -145,10 +146,8 @@ def earth_rows() -> list[Row]:
         sp.cos(printed(15)) * size, north
     )
     pair = paper.GPS_POINT_1, paper.GPS_POINT_2
-    distance = {
-        "the distance of 58.07 m": fits(haversine_distance(*pair), paper.PUBLISHED["distance"])
-    }
-    start_error = fits(local_position(*pair)[1], paper.PUBLISHED["x_error_at_start"])
+    distance = {"the distance of 58.07 m": fits(haversine_distance(*pair), PUBLISHED["distance"])}
+    start_error = fits(local_position(*pair)[1], PUBLISHED["x_error_at_start"])
     far_north = {"the error of 57 m at the start": start_error}
     half_chord = "Half the chord is $\\sin(c/2) = \\sqrt\\epsilon$."
     chord = "A quarter of the squared chord between two unit vectors."

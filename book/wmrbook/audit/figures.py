@@ -10,6 +10,7 @@ import numpy as np
 from scipy.linalg import solve_continuous_are
 
 from wmrbook.audit.row import Row, Verdict, depends, fits
+from wmrbook.published import PUBLISHED
 from wmrlib import paper
 from wmrlib.control import control_law
 from wmrlib.gains import LinearGains
@@ -156,11 +157,11 @@ def _loop_row() -> Row:
 def _circles() -> list[Row]:
     run = circle_run()
     off = {name: abs(getattr(run, f"{name}_error")[0]) for name in "xy"}
-    at_start = all(fits(off[name], paper.PUBLISHED[f"circle_{name}_error"]) for name in "xy")
+    at_start = all(fits(off[name], PUBLISHED[f"circle_{name}_error"]) for name in "xy")
     starts = f"The start is {off['x']:.0f} m and {off['y']:.0f} m off, and the robot follows."
     behind = residual(run)
     ends = f"It ends at {behind:.4f} m with $v_{{\\max}} = 4$ m/s."
-    converges = fits(behind, paper.PUBLISHED["circle_residual"])
+    converges = fits(behind, PUBLISHED["circle_residual"])
     rivals, nearer = comparison()
     paths = "The paths of both controllers, the paper's nearer to the circle."
     errors = "The errors of both controllers, the paper's the smaller."
@@ -184,7 +185,7 @@ def _outdoor() -> list[Row]:
         )
     )
     fastest = [run.v.max() for run in runs]
-    limit = paper.PUBLISHED["speed_limit"]
+    limit = PUBLISHED["speed_limit"]
     limited = all(fits(each, limit) and each <= limit.value for each in fastest)
     calm = max(abs(outdoor_run(axis, 0.0, 40.0).omega[-1]) for axis in AXES) < 1e-3
     peaks = both(
@@ -218,7 +219,7 @@ def _outdoor() -> list[Row]:
         ),
     ]
     for number, name in ((11, "x_error"), (12, "y_error")):
-        key = paper.PUBLISHED[f"{name}_at_start"]
+        key = PUBLISHED[f"{name}_at_start"]
         errors = [abs(getattr(run, name)) for run in runs]
         ends = max(error[-1] for error in errors)
         fitting = [axis for axis, error in zip(AXES, errors, strict=True) if fits(error[0], key)]

@@ -11,6 +11,7 @@ import sympy as sp
 from wmrbook.audit.figures import AXES, MISSING, circle_run, outdoor_run
 from wmrbook.audit.row import Row, Verdict, fits
 from wmrbook.ellipsoid import FLATTENING, SEMI_MAJOR_M, sphere_error
+from wmrbook.published import PUBLISHED
 from wmrlib import paper
 from wmrlib.geodesy import GeoPoint, haversine_distance, initial_bearing
 from wmrlib.metrics import arrival, residual
@@ -21,16 +22,16 @@ _WEIGHTS = (0.1, 1.0, 10.0)
 
 
 def rows() -> list[Row]:
-    """A row for each key of `wmrlib.paper.PUBLISHED`, in its order."""
+    """A row for each key of `wmrbook.published.PUBLISHED`, in its order."""
     every = [*_earth(), *_circle(), *_outdoor(), *_loops()]
     found = {row.item: row for row in every}
-    return [found[key] for key in paper.PUBLISHED]
+    return [found[key] for key in PUBLISHED]
 
 
 def _row(key: str, verdict: Verdict | bool, holds: str, why: str) -> Row:
     if isinstance(verdict, bool):
         verdict = Verdict.HOLDS if verdict else Verdict.WRONG
-    value, unit, place = paper.PUBLISHED[key]
+    value, unit, place = PUBLISHED[key]
     says = f"{_shown(value)} {unit}".strip() + f" ({place})"
     return Row(key, key.replace("_", " "), says, holds, verdict, why)
 
@@ -45,14 +46,14 @@ def _shown(value: float) -> str:
 
 def _computed(key: str, note: str, *values: float) -> Row:
     """Holds if one of the values is what is printed; several are several readings of the paper."""
-    agrees = any(fits(value, paper.PUBLISHED[key]) for value in values)
+    agrees = any(fits(value, PUBLISHED[key]) for value in values)
     why = "ours has the printed digits" if agrees else "no reading gives the printed digits"
     return _row(key, agrees, note.format(*values), why)
 
 
 def _given(key: str, used: float, works: bool, result: str) -> Row:
     """An input holds if the run that was made with it has the result that the paper reports."""
-    if used != paper.PUBLISHED[key].value:
+    if used != PUBLISHED[key].value:
         why = "the run with the paper's result used another value"
         return _row(key, False, f"An input: with {used:.10g}, {result}.", why)
     if not works:
@@ -75,12 +76,12 @@ def _earth() -> list[Row]:
     used = {"start": paper.GPS_POINT_1, "goal": paper.GPS_POINT_2}
     names = {"latitude": "lat", "longitude": "lon"}
     start, goal = (
-        GeoPoint(**{names[name]: paper.PUBLISHED[f"{end}_{name}"].value for name in names})
+        GeoPoint(**{names[name]: PUBLISHED[f"{end}_{name}"].value for name in names})
         for end in used
     )
     distance, bearing = haversine_distance(start, goal), math.degrees(initial_bearing(start, goal))
     swapped = haversine_distance(*(GeoPoint(lat=each.lon, lon=each.lat) for each in (start, goal)))
-    reproduced = fits(distance, paper.PUBLISHED["distance"])
+    reproduced = fits(distance, PUBLISHED["distance"])
     result = f"the distance is {distance:.2f} m (read in the other order, {swapped:.2f} m)"
     sphere_note = (
         f"From {low:+.2f} % to {high:+.2f} %, by the radii of curvature; "
@@ -105,7 +106,7 @@ def _circle() -> list[Row]:
     x, y, heading = (float(np.diff(field)[0]) for field in reference[:3])
     lap, width = math.tau * 1e-4 / heading, float(np.ptp(run.goal.x))
     behind = residual(run)
-    works = fits(behind, paper.PUBLISHED["circle_residual"])
+    works = fits(behind, PUBLISHED["circle_residual"])
     result = f"the circle ends {behind:.4f} m behind"
     inputs = {"start_heading": paper.CIRCLE_START.heading}
     inputs |= {name: getattr(paper.CIRCLE_GAINS, name) for name in ("k_rho", "k_alpha", "h")}
@@ -145,14 +146,14 @@ def _advantage(key: str, error: str) -> Row:
         "On the paper's circle, an LQR with $Q = qI$ and $R = I$ "
         f"is better than Aicardi's law by {listed}."
     )
-    if min(better) < paper.PUBLISHED[key].value < max(better):
+    if min(better) < PUBLISHED[key].value < max(better):
         return _row(key, Verdict.OPEN, text, MISSING)
     return _row(key, False, text, "outside of what the weights tried give")
 
 
 def _tangent(tangent: float) -> Row:
     key = "circle_reference_heading"
-    agrees = abs(tangent - paper.PUBLISHED[key].value) < 1e-4
+    agrees = abs(tangent - PUBLISHED[key].value) < 1e-4
     text = f"The reference sets out at {math.degrees(tangent):.2f} deg from the x axis."
     return _row(key, agrees, text, f"{'' if agrees else 'not '}along the path's tangent")
 
@@ -196,7 +197,7 @@ def slowest_pole(ratio: float) -> float:
 
 
 def _loops() -> list[Row]:
-    gains, dt = paper.OUTDOOR_GAINS, paper.PUBLISHED["time_step"].value
+    gains, dt = paper.OUTDOOR_GAINS, PUBLISHED["time_step"].value
     growth = max(abs(1.0 + dt * pole) for pole in modes(gains).poles)
     border = longest_step(gains, "polar_euler")
     step = (
@@ -205,7 +206,7 @@ def _loops() -> list[Row]:
     )
     shrinking = "the angles shrink"
     growing = "the angles grow, so that the pose can't converge"
-    ratio = paper.PUBLISHED["inner_loop"].value
+    ratio = PUBLISHED["inner_loop"].value
     pole = slowest_pole(ratio)
     wheels = (
         f"The slowest pole at the goal is {pole:+.2f} 1/s with wheels {ratio:g} times faster, "

@@ -21,6 +21,7 @@ from wmrbook.audit.row import (
     latex,
     printed,
 )
+from wmrbook.published import PUBLISHED
 from wmrlib import paper
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 
@@ -167,7 +168,7 @@ def law_rows() -> list[Row]:
     """(24) to (26)."""
     law = steering()
     derived, as_printed = circle_residual(law), circle_residual(printed(24))
-    wanted = paper.PUBLISHED["circle_residual"]
+    wanted = PUBLISHED["circle_residual"]
     needed = {
         "the proof": equivalent(slope(law), _CLOSED),
         "Fig. 5": fits(derived, wanted) and not fits(as_printed, wanted),

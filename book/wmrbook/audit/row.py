@@ -14,9 +14,9 @@ import sympy as sp
 
 from wmrbook import equations
 from wmrbook.equations import EQUATIONS
+from wmrbook.published import Published
 from wmrlib import symbolic
 from wmrlib.gains import Gains
-from wmrlib.paper import Published
 
 
 class Verdict(Enum):

@@ -9,6 +9,7 @@ import numpy as np
 from wmrbook.audit.figures import AXES, MISSING, circle_run, comparison, outdoor_run
 from wmrbook.audit.proof import rising, slope
 from wmrbook.audit.row import Row, Verdict, at, depends, printed
+from wmrbook.published import PUBLISHED
 from wmrlib import paper, symbolic
 from wmrlib.metrics import arrival
 from wmrlib.simulation import simulate
@@ -110,7 +111,7 @@ def _pose() -> Row:
 
 def _figure_5() -> Row:
     circle, outdoor = (float(run.v.max()) for run in (circle_run(), outdoor_run("east")))
-    limit = paper.PUBLISHED["speed_limit"].value
+    limit = PUBLISHED["speed_limit"].value
     reached, meant = (abs(speed - limit) < 0.01 * limit for speed in (circle, outdoor))
     text = f"The run of Fig. 5 reaches {circle:.2f} m/s, that of Fig. 9 {outdoor:.2f} m/s."
     says = "Limited to 4 m/s, as indicated in Fig. 5."
