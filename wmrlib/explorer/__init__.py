@@ -189,15 +189,12 @@ def _step(dt: float, duration: float) -> float:
 
 
 def _three(name: str, pose: Pose) -> list[float]:
-    return [
-        scalar(f"{name}.{field}", value, low=-1e6, high=1e6)
-        for field, value in instance(name, pose, Pose)._asdict().items()
-    ]
+    return list(_numbers(name, pose, Pose).values())
 
 
-def _numbers(name: str, gains, kind: type) -> dict[str, float]:
-    fields = instance(name, gains, kind)._asdict()
-    return {field: scalar(f"{name}.{field}", value, high=1e6) for field, value in fields.items()}
+def _numbers(name: str, value, kind: type) -> dict[str, float]:
+    fields = instance(name, value, kind)._asdict()
+    return {f: scalar(f"{name}.{f}", each, low=-1e6, high=1e6) for f, each in fields.items()}
 
 
 def _presets() -> list[dict]:

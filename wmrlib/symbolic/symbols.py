@@ -59,10 +59,8 @@ class wrap(sp.Function):  # noqa: N801
 
 
 GUARDED_SINC = sp.Piecewise((sp.sin(angle) / angle, sp.Abs(angle) > _SMALL), (1, True))
-GUARDED_DECAY = sp.Piecewise(
-    (-expm1(-k_rho * rho) / rho, sp.Abs(k_rho * rho) > _SMALL),
-    (k_rho * (1 - k_rho * rho / 2), True),
-)
+_ELSEWHERE = -expm1(-k_rho * rho) / rho, sp.Abs(k_rho * rho) > _SMALL
+GUARDED_DECAY = sp.Piecewise(_ELSEWHERE, (k_rho * (1 - k_rho * rho / 2), True))
 TURNED_BACK = sp.Piecewise(
     (angle - 2 * sp.pi, angle > sp.pi), (angle + 2 * sp.pi, angle <= -sp.pi), (angle, True)
 )
