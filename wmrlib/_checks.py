@@ -97,9 +97,7 @@ def same_shape(**arguments: Any) -> tuple[int, ...]:
         raise ValueError(f"mismatched lengths: {listed}; {needed}") from None
 
 
-def reals(
-    *, at_least_0: Collection[str] = (), above_0: Collection[str] = (), **values: Any
-) -> list[Real]:
+def reals(*, at_least_0=(), above_0=(), **values: Any) -> list[Real]:
     """Each value through `real`; ValueError too where their shapes don't broadcast together."""
     bounds = {name: {"low": 0.0} for name in at_least_0} | {
         name: {"above": 0.0} for name in above_0

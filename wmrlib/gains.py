@@ -101,8 +101,7 @@ class WheelLimits(NamedTuple):
 
     Parameters
     ----------
-    track_width : float, m. The distance between the wheels.
-    max_speed : float, m/s over ground
+    track_width, max_speed : float; m from wheel to wheel, m/s over ground
     """
 
     track_width: float

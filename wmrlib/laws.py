@@ -9,7 +9,7 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from wmrlib._checks import choice, instance
+from wmrlib._checks import choice, instance, refusal
 from wmrlib._compile import compiled, formula
 from wmrlib._vecmath import decay, sinc, sincos
 from wmrlib.gains import NO_TUNING, Gains, KanayamaGains, LinearGains, Tuning
@@ -202,7 +202,6 @@ def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:
     code = laws[choice("law", law, laws)]
     instance("gains", gains, LAWS[law].gains)
     if not all(type(field) is float for field in gains):
-        needed = "one number a gain is needed; sweep takes arrays of gains"
-        raise ValueError(f"gains = {gains!r} is not allowed: {needed}")
+        raise refusal("gains", gains, "one number a gain", "; sweep takes arrays of gains")
     place = _place_of(LAWS[law].gains)
     return Tuning(*NO_TUNING[:place], gains, *NO_TUNING[place + 1 :]), code

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from wmrlib import paper
 from wmrlib._checks import book_extra, choice, instance, refusal, scalar
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
@@ -14,7 +16,7 @@ with book_extra("wmrlib.explorer"):
     import ipywidgets as widgets
 
     from wmrlib.explorer import controls
-    from wmrlib.explorer.controls import METHODS, laws_for, widen
+    from wmrlib.explorer.controls import METHODS, SLIDERS, laws_for, widen
     from wmrlib.explorer.panel import Panel
 
 VIEWS = ("time", "gains")
@@ -23,23 +25,19 @@ FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 
 
 def _tuned(name: str, kind: type, says: str) -> property:
-    def get(self):
-        return kind(*(self.sliders[field].value for field in kind._fields))
-
-    def move(self, gains):
-        self._set(_numbers(name, gains, kind))
-
-    return property(get, move, doc=says)
+    return property(
+        lambda self: kind(*(self.sliders[field].value for field in kind._fields)),
+        lambda self, gains: self._set(_numbers(name, gains, kind)),
+        doc=says,
+    )
 
 
 def _placed(name: str, says: str) -> property:
-    def get(self):
-        return Pose(*getattr(self.panel, name))
-
-    def move(self, pose):
-        setattr(self.panel, name, _three(name, pose))
-
-    return property(get, move, doc=says)
+    return property(
+        lambda self: Pose(*getattr(self.panel, name)),
+        lambda self, pose: setattr(self.panel, name, _three(name, pose)),
+        doc=says,
+    )
 
 
 class Explorer(widgets.VBox):
@@ -103,14 +101,8 @@ class Explorer(widgets.VBox):
             presets=_presets(),
         )
         self.links = []
-        self.sliders = {
-            name: self._tied(name, controls.slider(name, getattr(self.panel, name)), "value")
-            for name in controls.SLIDERS
-        }
-        self.menus = {
-            name: self._tied(name, controls.menu(name, getattr(self.panel, name)), "index")
-            for name in controls.MENUS
-        }
+        self.sliders = {name: self._tied(name, controls.slider, "value") for name in SLIDERS}
+        self.menus = {name: self._tied(name, controls.menu, "index") for name in controls.MENUS}
         box = widgets.Box([*self.sliders.values(), *self.menus.values()])
         box.add_class("wmr-controls")
         super().__init__([box, self.panel])
@@ -148,7 +140,8 @@ class Explorer(widgets.VBox):
 
     @law.setter
     def law(self, law: str) -> None:
-        trait, place = "circle_law" if self.moving else "pose_law", _place(law, self.moving)
+        place = _place(law, self.moving)
+        trait = "circle_law" if self.moving else "pose_law"
         self.menus[trait].index = place
         setattr(self.panel, trait, place)
 
@@ -169,7 +162,8 @@ class Explorer(widgets.VBox):
             self.sliders[name].value = value
             setattr(self.panel, name, value)
 
-    def _tied(self, name: str, control, trait: str):
+    def _tied(self, name: str, make: Callable, trait: str):
+        control = make(name, getattr(self.panel, name))
         self.links.append(widgets.jslink((control, trait), (self.panel, name)))
         if display := controls.DISPLAYS.get(name):
             control.layout.display = getattr(self.panel, display)
@@ -195,15 +189,12 @@ def _step(dt: float, duration: float) -> float:
 
 
 def _three(name: str, pose: Pose) -> list[float]:
-    return [
-        scalar(f"{name}.{field}", value, low=-1e6, high=1e6)
-        for field, value in instance(name, pose, Pose)._asdict().items()
-    ]
+    return list(_numbers(name, pose, Pose).values())
 
 
-def _numbers(name: str, gains, kind: type) -> dict[str, float]:
-    fields = instance(name, gains, kind)._asdict()
-    return {field: scalar(f"{name}.{field}", value, high=1e6) for field, value in fields.items()}
+def _numbers(name: str, value, kind: type) -> dict[str, float]:
+    fields = instance(name, value, kind)._asdict()
+    return {f: scalar(f"{name}.{f}", each, low=-1e6, high=1e6) for f, each in fields.items()}
 
 
 def _presets() -> list[dict]:

@@ -6,12 +6,8 @@ from pathlib import Path
 
 from wmrlib.symbolic import C_HEADER, MODEL_JS, c_header, javascript
 
-parser = argparse.ArgumentParser(
-    prog="python -m wmrlib.symbolic", description="Print the formulas as JavaScript and as C."
-)
-parser.add_argument(
-    "--c", metavar="PATH", help="print only the C header, into this file; - is the screen"
-)
+parser = argparse.ArgumentParser(prog="python -m wmrlib.symbolic", description=__doc__)
+parser.add_argument("--c", metavar="PATH", help="where the header goes; - is the screen")
 target = parser.parse_args().c
 if target == "-":
     sys.stdout.write(c_header())

@@ -15,7 +15,7 @@ from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, GEODESY, Formula
 C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
 _FRAME = C_HEADER.with_name("frame.h")
 _FUNCTIONS = ("sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "expm1", "log")
-_OURS = {name: f"wmr_{name}" for name in ("decay", "wrap")} | {"Abs": "WMR_F(fabs)"}
+_OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap")} | {"Abs": "WMR_F(fabs)"}
 
 
 class _Printer(C99CodePrinter):
@@ -33,8 +33,7 @@ class _Printer(C99CodePrinter):
     def _print_Pi(self, expr):  # noqa: N802
         return "WMR_C(3.14159265358979323846)"
 
-    def _print_sinc(self, expr):
-        return f"wmr_sinc({self._print(expr.args[0])})"
+    _print_sinc = C99CodePrinter._print_Function  # where sympy prints cases
 
     def _print_Pow(self, expr):  # noqa: N802
         base = self.parenthesize(expr.base, PRECEDENCE["Mul"])

@@ -30,9 +30,8 @@ class _Printer(JavascriptCodePrinter):
         return re.sub(r"\s+", " ", self.doprint(expression))
 
 
-_PRINTER = _Printer(
-    {"user_functions": {name: name for name in ("sinc", "decay", "wrap")} | {"expm1": "Math.expm1"}}
-)
+_OURS = {name: name for name in ("sinc", "decay", "wrap")}
+_PRINTER = _Printer({"user_functions": _OURS | {"expm1": "Math.expm1"}})
 
 
 def javascript_name(name: str) -> str:

@@ -75,9 +75,8 @@ def law(name: str = "corrected") -> tuple[sp.Expr, sp.Expr]:
 
     Returns
     -------
-    v, omega : expressions in rho, alpha, theta, the law's gains and, if it needs a reference,
-        v_ref and omega_ref; m/s, rad/s. ``sympy.lambdify`` of them equals `wmrlib.control_law` and
-        `wmrlib.tracking_law`.
+    v, omega : expressions, m/s, rad/s; by ``sympy.lambdify`` they equal `wmrlib.control_law` and
+        `wmrlib.tracking_law`
 
     Raises
     ------
@@ -107,7 +106,7 @@ def closed_loop(name: str = "corrected") -> tuple[sp.Expr, sp.Expr, sp.Expr]:
 
 
 def lyapunov(name: str = "corrected") -> sp.Expr:
-    """The Lyapunov function of a law: V of (18), or its own, such as rho^2/2 + (1 - cos)/k_y.
+    """The Lyapunov function of a law: V of (18), or its own.
 
     Parameters
     ----------

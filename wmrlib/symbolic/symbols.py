@@ -4,7 +4,6 @@ from __future__ import annotations
 
 from functools import partial
 
-import mpmath
 import numpy as np
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
@@ -27,7 +26,7 @@ _SMALL = sp.Float(_vecmath._SMALL)
 
 
 class decay(sp.Function):  # noqa: N801 (sympy names its functions in lower case)
-    """(1 - exp(-k_rho rho))/rho, k_rho at rho = 0; ``rewrite(sympy.exp)`` writes it out."""
+    """(1 - exp(-k_rho rho))/rho, k_rho at rho = 0; `textbook` writes it out."""
 
     nargs = 2
     _imp_ = staticmethod(np.vectorize(_vecmath.decay, otypes=[float]))  # what lambdify calls
@@ -44,14 +43,9 @@ class decay(sp.Function):  # noqa: N801 (sympy names its functions in lower case
         elsewhere = (k_rho * falling - self) / rho
         return sp.Piecewise((elsewhere, sp.Ne(rho, 0)), (-(k_rho**2) / 2, True))
 
-    def _eval_rewrite_as_exp(self, rho, k_rho, **_):
-        return (1 - sp.exp(-k_rho * rho)) / rho
-
     def _eval_evalf(self, prec):
-        if all(argument.is_number for argument in self.args):
-            with mpmath.workprec(prec):
-                rho, k_rho = (argument._to_mpmath(prec) for argument in self.args)
-                return sp.Expr._from_mpmath(-mpmath.expm1(-k_rho * rho) / rho, prec)
+        rho, k_rho = self.args
+        return (-expm1(-k_rho * rho) / rho)._eval_evalf(prec) if self.is_number else None
 
 
 class wrap(sp.Function):  # noqa: N801
@@ -65,10 +59,8 @@ class wrap(sp.Function):  # noqa: N801
 
 
 GUARDED_SINC = sp.Piecewise((sp.sin(angle) / angle, sp.Abs(angle) > _SMALL), (1, True))
-GUARDED_DECAY = sp.Piecewise(
-    (-expm1(-k_rho * rho) / rho, sp.Abs(k_rho * rho) > _SMALL),
-    (k_rho * (1 - k_rho * rho / 2), True),
-)
+_ELSEWHERE = -expm1(-k_rho * rho) / rho, sp.Abs(k_rho * rho) > _SMALL
+GUARDED_DECAY = sp.Piecewise(_ELSEWHERE, (k_rho * (1 - k_rho * rho / 2), True))
 TURNED_BACK = sp.Piecewise(
     (angle - 2 * sp.pi, angle > sp.pi), (angle + 2 * sp.pi, angle <= -sp.pi), (angle, True)
 )
@@ -77,7 +69,7 @@ SATURATED = sp.Piecewise((max_speed / fastest, fastest > max_speed), (1, True))
 
 def textbook(expression: sp.Expr) -> sp.Expr:
     """The expression with sinc and decay written out as in the paper: undefined at the goal."""
-    plain = expression.replace(decay, lambda *each: decay(*each).rewrite(sp.exp))
+    plain = expression.replace(decay, lambda rho, k_rho: (1 - sp.exp(-k_rho * rho)) / rho)
     return plain.replace(sp.sinc, lambda each: sp.sin(each) / each)
 
 
