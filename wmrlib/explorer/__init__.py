@@ -100,7 +100,7 @@ class Explorer(widgets.VBox):
             home=home,
             presets=_presets(),
         )
-        self.links = []
+        self.links: list = []
         self.sliders = {name: self._tied(name, controls.slider, "value") for name in SLIDERS}
         self.menus = {name: self._tied(name, controls.menu, "index") for name in controls.MENUS}
         box = widgets.Box([*self.sliders.values(), *self.menus.values()])

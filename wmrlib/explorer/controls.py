@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from typing import Any
 
 import ipywidgets as widgets
 
@@ -65,7 +66,7 @@ DISPLAYS = {
 def slider(name: str, value: float):
     """The slider of that name at that value, wide enough for it; its number can be typed over."""
     text, tip, low, high = SLIDERS[name]
-    common = {"description": text, "tooltip": tip, "layout": {"width": "auto"}}
+    common: dict[str, Any] = {"description": text, "tooltip": tip, "layout": {"width": "auto"}}
     if name == "dt":
         common |= {"min": math.log10(low), "max": math.log10(high), "readout_format": ".3f"}
         made = widgets.FloatLogSlider(step=0.02, **common)
@@ -88,5 +89,5 @@ def widen(made, value: float) -> None:
 def menu(name: str, index: int):
     """The menu of that name at that choice."""
     text, tip, options = MENUS[name]
-    common = {"description": text, "tooltip": tip, "layout": {"width": "auto"}}
+    common: dict[str, Any] = {"description": text, "tooltip": tip, "layout": {"width": "auto"}}
     return widgets.Dropdown(options=options, index=index, **common)

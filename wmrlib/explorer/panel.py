@@ -32,7 +32,7 @@ class _Finite(traitlets.Float):
         number = super().validate(obj, value)
         if math.isfinite(number):
             return number
-        raise refusal(self.name, value, "a finite number")
+        raise refusal(str(self.name), value, "a finite number")
 
 
 def _synced(count: int, kind: Callable, *default: Any, **bounds: int) -> Iterator[Any]:
@@ -56,6 +56,6 @@ class Panel(anywidget.AnyWidget):
     gains_display, limit_display, feedback_display = _synced(3, traitlets.Unicode)
     pose_law_display, circle_law_display, map_display = _synced(3, traitlets.Unicode)
     home = traitlets.Dict().tag(sync=True)
-    presets = traitlets.List().tag(sync=True)
+    presets: traitlets.List = traitlets.List().tag(sync=True)
     laws = traitlets.List(PANEL_LAWS).tag(sync=True)
     methods = traitlets.List(list(METHODS)).tag(sync=True)

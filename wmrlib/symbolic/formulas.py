@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterable
 from typing import NamedTuple
 
 import sympy as sp
@@ -33,7 +34,7 @@ class Formula(NamedTuple):
         return tuple(values)
 
 
-def _shared(arguments: tuple, values: tuple, says: str, gains: tuple = ()) -> Formula:
+def _shared(arguments: tuple, values: tuple, says: str, gains: Iterable = ()) -> Formula:
     """The function that computes what its values have in common once."""
     used = tuple(each for each in gains if any(value.has(each) for value in values))
     locals_, values = sp.cse(values, symbols=sp.numbered_symbols("part"))
