@@ -122,7 +122,7 @@ def test_a_loop_over_many_gives_the_same_to_the_last_digits():
 
 def test_a_vectorised_law_is_the_law():
     """The same text with the other sine inside, down to what the functions that it calls call."""
-    law, gains = control.pose_law, control.Gains(2.0, 1.0, 0.3, 4.0)
+    law, gains = control.pose_law, control.GainsFields(2.0, 1.0, 0.3, 4.0)
     for code in control.POSE_LAWS.values():
         assert _vecmath.vectorised(law)(3.0, 0.7, -2.0, gains, code) == pytest.approx(
             law(3.0, 0.7, -2.0, gains, code), rel=1e-14

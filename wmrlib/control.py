@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from wmrlib._checks import Real, choice, instance, reals
 from wmrlib._compile import compiled, elementwise
-from wmrlib.gains import Gains, WheelLimits, checked_wheels
+from wmrlib.gains import Gains, GainsFields, WheelLimits, checked_wheels
 from wmrlib.kinematics import polar_closing_rate
 from wmrlib.laws import (
     POSE_LAWS,
@@ -150,7 +150,7 @@ def _code(law: str) -> int:
 @compiled
 def _pose_law_all(rho, alpha, theta, k_rho, k_alpha, h, v_max, law, v_over_rho, omega):
     for i in range(rho.size):
-        gains = Gains(k_rho[i], k_alpha[i], h[i], v_max[i])
+        gains = GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i])
         v_over_rho[i], omega[i] = pose_law(rho[i], alpha[i], theta[i], gains, law)
 
 
@@ -169,7 +169,7 @@ def _lyapunov_all(rho, alpha, theta, h, L, value):
 @compiled
 def _lyapunov_rate_all(rho, alpha, theta, k_rho, k_alpha, h, v_max, L, law, rate):
     for i in range(rho.size):
-        gains = Gains(k_rho[i], k_alpha[i], h[i], v_max[i])
+        gains = GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i])
         v_over_rho, omega = pose_law(rho[i], alpha[i], theta[i], gains, law)
         rates = polar_closing_rate(rho[i], alpha[i], v_over_rho, omega)
         angles = alpha[i] * rates[1] + h[i] * theta[i] * rates[2]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from collections import namedtuple
 from collections.abc import Iterable
 from typing import NamedTuple
 
@@ -35,6 +36,8 @@ class Gains(NamedTuple):
     v_max: Real = 4.0
 
 
+# What compiled loops make: unchecked, as the rows that fill up a block are all 0.
+GainsFields = namedtuple("GainsFields", "k_rho k_alpha h v_max")
 GENTLE_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 """The book's own gains for the paper's outdoor drive: well damped, and slow."""
 

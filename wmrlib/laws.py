@@ -12,7 +12,7 @@ from typing import NamedTuple
 from wmrlib._checks import choice, instance, refusal
 from wmrlib._compile import compiled, formula
 from wmrlib._vecmath import decay, sinc, sincos
-from wmrlib.gains import NO_TUNING, Gains, KanayamaGains, LinearGains, Tuning
+from wmrlib.gains import NO_TUNING, Gains, GainsFields, KanayamaGains, LinearGains, Tuning
 from wmrlib.kinematics import wrap
 
 # The formulas, one number at a time. A pose law gives v/rho, which is finite at the goal, where the
@@ -194,7 +194,7 @@ def lyapunov_value_of(rho, alpha, theta, tuning, law):
 @compiled
 def pose_tuning(k_rho, k_alpha, h, v_max):
     """A Tuning for one of the pose laws, made inside a compiled loop."""
-    return Tuning(Gains(k_rho, k_alpha, h, v_max), NO_TUNING.kanayama, NO_TUNING.linear)
+    return Tuning(GainsFields(k_rho, k_alpha, h, v_max), NO_TUNING.kanayama, NO_TUNING.linear)
 
 
 def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:

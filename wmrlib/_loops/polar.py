@@ -17,7 +17,7 @@ from wmrlib import kinematics, laws
 from wmrlib._compile import compiled, formula
 from wmrlib._loops import rows
 from wmrlib._vecmath import vector_sincos, vectorised, widest_vectors
-from wmrlib.gains import NO_LIMITS, Gains
+from wmrlib.gains import NO_LIMITS, GainsFields
 from wmrlib.kinematics import polar_from_pose, wrap
 from wmrlib.laws import saturation_scale
 
@@ -93,7 +93,7 @@ def finite(polar):
 def read(block, i):
     """The state of the run in place i, its counters and its gains."""
     polar = block[_RHO, i], block[_ALPHA, i], block[_THETA, i]
-    gains = Gains(block[_K_RHO, i], block[_K_ALPHA, i], block[_H, i], block[_V_MAX, i])
+    gains = GainsFields(block[_K_RHO, i], block[_K_ALPHA, i], block[_H, i], block[_V_MAX, i])
     return polar, block[_LEFT, i], block[_PEAK, i], block[_LENGTH, i], gains
 
 

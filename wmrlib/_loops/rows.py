@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from wmrlib._compile import formula
-from wmrlib.gains import Gains
+from wmrlib.gains import GainsFields
 
 ARRIVED, TIMED_OUT, DIVERGED, COMPLETED = range(4)  # how a run ends, in the order of `Outcome`
 X, Y, HEADING, RHO, ALPHA, THETA, V, OMEGA, LYAPUNOV = range(9)  # the rows of a recorded run
@@ -20,7 +20,7 @@ def run_of(runs, i):
     """The start, the goal and the gains of run i."""
     start = runs[START_X, i], runs[START_Y, i], runs[START_HEADING, i]
     goal = runs[GOAL_X, i], runs[GOAL_Y, i], runs[GOAL_HEADING, i]
-    return start, goal, Gains(runs[K_RHO, i], runs[K_ALPHA, i], runs[H, i], runs[V_MAX, i])
+    return start, goal, GainsFields(runs[K_RHO, i], runs[K_ALPHA, i], runs[H, i], runs[V_MAX, i])
 
 
 @formula
