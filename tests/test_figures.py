@@ -108,6 +108,7 @@ def time_steps():
 CASES = {
     "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
     "arrival": lambda: figures.arrival(drive()),
+    "dashboard": lambda: figures.dashboard(drive()),
     "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
     "position_errors": lambda: figures.position_errors(drive()),
     "twist": lambda: figures.twist(drive()),

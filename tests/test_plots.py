@@ -24,9 +24,9 @@ PICTURES = {
     "local_map": lambda: figures.local_map(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2),
     "path": lambda: plots.path(RUN),
     "paths": lambda: plots.path([RUN, PARKED], ["one", "two"]),
-    "dashboard": lambda: plots.dashboard(RUN),
-    "dashboard of a circle": lambda: plots.dashboard(CIRCLE),
-    "dashboard of a single sample": lambda: plots.dashboard(PARKED),
+    "dashboard": lambda: figures.dashboard(RUN),
+    "dashboard of a circle": lambda: figures.dashboard(CIRCLE),
+    "dashboard of a single sample": lambda: figures.dashboard(PARKED),
 }
 
 
@@ -70,7 +70,10 @@ def test_texts_carry_the_numbers():
             "to -4.1 rad/s, within 5 % of its peak, -4.3 rad/s, from 15.4 to 15.5 s.",
         ),
         (figures.twist(wave), "omega goes from 0.0 to 0.2 rad/s, between -1.0 and 1.0 rad/s."),
-        (plots.dashboard(RUN), "; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s; V"),
+        (
+            figures.dashboard(RUN),
+            "; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s; V",
+        ),
     ):
         assert words in picture.alt
 

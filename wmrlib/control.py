@@ -7,7 +7,7 @@ from __future__ import annotations
 
 from wmrlib._checks import Real, choice, instance, reals
 from wmrlib._compile import compiled, elementwise
-from wmrlib.gains import Gains, GainsFields, WheelLimits, checked_wheels
+from wmrlib.gains import Gains, GainsFields, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import polar_closing_rate
 from wmrlib.laws import (
     POSE_LAWS,
@@ -48,7 +48,13 @@ def control_law(
 
 
 def tracking_law(
-    rho: Real, alpha: Real, theta: Real, v_ref: Real, omega_ref: Real, gains, law: str = "kanayama"
+    rho: Real,
+    alpha: Real,
+    theta: Real,
+    v_ref: Real,
+    omega_ref: Real,
+    gains: Gains | KanayamaGains | LinearGains,
+    law: str = "kanayama",
 ) -> tuple[Real, Real]:
     """The twist for a goal that itself moves, by any of the laws.
 

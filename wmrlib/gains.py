@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections import namedtuple
-from collections.abc import Iterable
 from typing import NamedTuple
 
 import numpy as np
@@ -94,7 +93,7 @@ class LinearGains(_LinearFields):
         return ((self[:3], self[3:]),)
 
     @classmethod
-    def _make(cls, fields: Iterable[float]) -> LinearGains:  # what `_replace` calls
+    def _make(cls, fields):  # type: ignore[override]  # what `_replace` calls
         entries = [scalar(name, value) for name, value in zip(cls._fields, fields, strict=True)]
         return cls((entries[:3], entries[3:]))
 

@@ -7,7 +7,7 @@ the panel's JavaScript and menu, and the C header.
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from wmrlib._checks import choice, instance, refusal
 from wmrlib._compile import compiled, formula
@@ -104,7 +104,7 @@ class Law(NamedTuple):
     """
 
     formula: Callable
-    gains: type
+    gains: Any  # the type of its gains
     title: str
     says: str
     value: Callable = pose_value
@@ -204,4 +204,4 @@ def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:
     if not all(type(field) is float for field in gains):
         raise refusal("gains", gains, "one number a gain", "; sweep takes arrays of gains")
     place = _place_of(LAWS[law].gains)
-    return Tuning(*NO_TUNING[:place], gains, *NO_TUNING[place + 1 :]), code
+    return NO_TUNING._replace(**{NO_TUNING._fields[place]: gains}), code

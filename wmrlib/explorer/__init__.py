@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
+from typing import Any
+
 from wmrlib import paper
 from wmrlib._checks import book_extra, choice, instance, refusal, scalar
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
@@ -24,7 +26,7 @@ FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 
 
-def _tuned(name: str, kind: type, says: str) -> property:
+def _tuned(name: str, kind: Any, says: str) -> property:
     return property(
         lambda self: kind(*(self.sliders[field].value for field in kind._fields)),
         lambda self, gains: self._set(_numbers(name, gains, kind)),

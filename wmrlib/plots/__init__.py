@@ -5,7 +5,7 @@ from wmrlib._checks import book_extra
 with book_extra("wmrlib.plots"):
     import matplotlib  # noqa: F401
 
-from wmrlib.plots.runs import dashboard, path
+from wmrlib.plots.runs import path
 from wmrlib.plots.style import COLOURS, LINES, Picture
 
-__all__ = ["COLOURS", "LINES", "Picture", "dashboard", "path"]
+__all__ = ["COLOURS", "LINES", "Picture", "path"]

@@ -7,7 +7,6 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
 from wmrlib.kinematics import Pose, wrap_angle
@@ -44,36 +43,17 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     x, y = np.concatenate([run.x for run in runs]), np.concatenate([run.y for run in runs])
     size = (0.04 if single else 0.025) * max(np.ptp(x), np.ptp(y), 1.0)
     for run, style in zip(runs, LINES, strict=False):
-        _draw_path(axes, run, style, robots=single, size=size)
+        draw_path(axes, run, style, robots=single, size=size)
     if labels:
         lines = [Line2D([], [], color=COLOURS["path"], ls=style) for style in LINES[:count]]
         axes.legend(lines, labels)
     equal_scales(axes, x, y, room=0.12)
     names = [f"{label}: " for label in labels] or [""] * count
-    words = [name + _path_in_words(run) for name, run in zip(names, runs, strict=True)]
+    words = [name + path_in_words(run) for name, run in zip(names, runs, strict=True)]
     return Picture(figure, "Path in metres: " + "; ".join(words) + ".")
 
 
-def dashboard(run: Trajectory) -> Picture:
-    """Show path, v, omega, position errors and V of one run side by side."""
-    mosaic = [["path", "v"], ["path", "omega"], ["path", "errors"], ["path", "V"]]
-    figure, axes = new_figure(12.0, 6.0, mosaic=mosaic)
-    _draw_path(axes["path"], run, size=0.04 * max(np.ptp(run.x), np.ptp(run.y), 1.0))
-    equal_scales(axes["path"], run.x, run.y, room=0.12)
-    draw_series(axes["v"], run, "v [m/s]", v="-")
-    draw_series(axes["omega"], run, "omega [rad/s]", omega="-")
-    draw_series(axes["errors"], run, "error [m]", x_error="-", y_error="--")
-    draw_lyapunov(axes["V"], run)
-    for name in ("v", "omega", "errors"):
-        axes[name].sharex(axes["V"])
-        axes[name].tick_params(labelbottom=False)
-    axes["V"].set_xlabel("time [s]")
-    figure.align_ylabels()
-    v, omega = f"v {range_in_words(run.v, 'm/s')}", f"omega {range_in_words(run.omega, 'rad/s')}"
-    return Picture(figure, f"{_path_in_words(run)}; {v}; {omega}; {rises_in_words(run)}.")
-
-
-def _draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, robots: bool = True):
+def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, robots: bool = True):
     """Draw the path, the start (filled), the goal (open) and the robot on its way."""
     axes.plot(run.x, run.y, style, color=COLOURS["path"])
     way = np.concatenate([[0.0], np.cumsum(np.hypot(np.diff(run.x), np.diff(run.y)))])
@@ -91,49 +71,11 @@ def pose_at(path: Pose | Trajectory, k: int) -> Pose:
     return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
 
 
-def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:
-    """Draw the named fields over time, each in its style."""
-    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-    for name, style in styles.items():
-        words = name.replace("_", " ")
-        axes.plot(run.t, getattr(run, name), style, color=COLOURS[name], label=words)
-    axes.set_ylabel(label)
-    if len(styles) > 1:
-        axes.legend(loc="upper right", fontsize=10)
-
-
-def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
-    values, rising = np.maximum(run.V, 1e-12), _rising(run)  # V = 0 on the goal has no logarithm
-    points = np.column_stack([run.t, values])
-    pieces = np.stack([points[:-1], points[1:]], axis=1)
-    falling = LineCollection(pieces[~rising], color=COLOURS["V"], lw=2.0, label="falling")
-    axes.add_collection(falling)
-    if rising.any():
-        thick = LineCollection(pieces[rising], color=COLOURS["V_rising"], lw=5.0, label="rising")
-        axes.add_collection(thick)
-    xlim, ylim = (0.0, max(run.t[-1], 1e-9)), (values.min() / 2, values.max() * 2)
-    axes.set(ylabel="V [1]", yscale="log", xlim=xlim, ylim=ylim)
-    axes.legend(loc="upper right", fontsize=10)
-
-
-def _rising(run: Trajectory) -> np.ndarray:
-    return np.diff(run.V) > 1e-9 * run.V[0]
-
-
 def tenths(value: float) -> str:
     return f"{near_zero(value):.1f}"
 
 
-def range_in_words(values: np.ndarray, unit: str) -> str:
-    return f"between {tenths(values.min())} and {tenths(values.max())} {unit}"
-
-
-def rises_in_words(run: Trajectory) -> str:
-    rises = int(_rising(run).sum())
-    return f"V rises in {rises} of {len(run) - 1} steps" if rises else "V falls in every step"
-
-
-def _path_in_words(run: Trajectory) -> str:
+def path_in_words(run: Trajectory) -> str:
     error = math.degrees(run.heading_error[-1])
     heading = math.degrees(wrap_angle(run.heading[0]))
     cusp = ""

@@ -1,21 +1,35 @@
-"""Chapter 0: speeds, position errors and V over the first drive, and how it ends."""
+"""The front page and chapter 0: path, speeds, position errors and V of a drive, and its end."""
 
 from __future__ import annotations
 
 import math
 
 import numpy as np
+from matplotlib.axes import Axes
+from matplotlib.collections import LineCollection
 
-from wmrlib.plots.runs import (
-    draw_lyapunov,
-    draw_series,
-    pose_at,
-    range_in_words,
-    rises_in_words,
-    tenths,
-)
-from wmrlib.plots.style import COLOURS, Picture, dart, new_figure
+from wmrlib.plots.runs import draw_path, path_in_words, pose_at, tenths
+from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
+
+
+def dashboard(run: Trajectory) -> Picture:
+    """Show path, v, omega, position errors and V of one run side by side."""
+    mosaic = [["path", "v"], ["path", "omega"], ["path", "errors"], ["path", "V"]]
+    figure, axes = new_figure(12.0, 6.0, mosaic=mosaic)
+    draw_path(axes["path"], run, size=0.04 * max(np.ptp(run.x), np.ptp(run.y), 1.0))
+    equal_scales(axes["path"], run.x, run.y, room=0.12)
+    draw_series(axes["v"], run, "v [m/s]", v="-")
+    draw_series(axes["omega"], run, "omega [rad/s]", omega="-")
+    draw_series(axes["errors"], run, "error [m]", x_error="-", y_error="--")
+    draw_lyapunov(axes["V"], run)
+    for name in ("v", "omega", "errors"):
+        axes[name].sharex(axes["V"])
+        axes[name].tick_params(labelbottom=False)
+    axes["V"].set_xlabel("time [s]")
+    figure.align_ylabels()
+    v, omega = f"v {range_in_words(run.v, 'm/s')}", f"omega {range_in_words(run.omega, 'rad/s')}"
+    return Picture(figure, f"{path_in_words(run)}; {v}; {omega}; {rises_in_words(run)}.")
 
 
 def arrival(run: Trajectory, radius: float = 2.0) -> Picture:
@@ -85,3 +99,41 @@ def _three_digits(value: float) -> str:
     if value < 1e-6:
         return "less than 1e-6"
     return np.format_float_positional(value, 3, unique=False, fractional=False, trim="-")
+
+
+def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:
+    """Draw the named fields over time, each in its style."""
+    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
+    for name, style in styles.items():
+        words = name.replace("_", " ")
+        axes.plot(run.t, getattr(run, name), style, color=COLOURS[name], label=words)
+    axes.set_ylabel(label)
+    if len(styles) > 1:
+        axes.legend(loc="upper right", fontsize=10)
+
+
+def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
+    values, rising = np.maximum(run.V, 1e-12), _rising(run)  # V = 0 on the goal has no logarithm
+    points = np.column_stack([run.t, values])
+    pieces = np.stack([points[:-1], points[1:]], axis=1)
+    falling = LineCollection(pieces[~rising], color=COLOURS["V"], lw=2.0, label="falling")
+    axes.add_collection(falling)
+    if rising.any():
+        thick = LineCollection(pieces[rising], color=COLOURS["V_rising"], lw=5.0, label="rising")
+        axes.add_collection(thick)
+    xlim, ylim = (0.0, max(run.t[-1], 1e-9)), (values.min() / 2, values.max() * 2)
+    axes.set(ylabel="V [1]", yscale="log", xlim=xlim, ylim=ylim)
+    axes.legend(loc="upper right", fontsize=10)
+
+
+def _rising(run: Trajectory) -> np.ndarray:
+    return np.diff(run.V) > 1e-9 * run.V[0]
+
+
+def range_in_words(values: np.ndarray, unit: str) -> str:
+    return f"between {tenths(values.min())} and {tenths(values.max())} {unit}"
+
+
+def rises_in_words(run: Trajectory) -> str:
+    rises = int(_rising(run).sum())
+    return f"V rises in {rises} of {len(run) - 1} steps" if rises else "V falls in every step"
