@@ -113,7 +113,7 @@ class WheelLimits(NamedTuple):
 class Tuning(NamedTuple):
     """The gains of every law side by side, as the compiled loops take them."""
 
-    pose: Gains
+    pose: Gains | GainsFields
     kanayama: KanayamaGains = KanayamaGains(0.0, 1.0, 0.0)
     linear: LinearGains = LinearGains(np.zeros((2, 3)))
 
