@@ -3,7 +3,7 @@
     python tests/mutants.py [--count 200] [--module control ...] [--jobs 2] [--seed 1]
 
 A mutant is the package with one operator, sign, constant, comparison, condition or call changed.
-It is tested in a copy of the repository, with the test files that PLANS names for its module. A
+It is tested in a copy of the repository, with the test files that PLANS names, or test_MODULE. A
 mutant that hangs counts as killed. The exit status is 1 if fewer than 90 % are killed.
 """
 
@@ -34,9 +34,11 @@ PLANS = {
     "_vecmath": "jit vecmath",
     "_modes": "plain tuning",
     "_loops": "plain simulation",
+    "_loops/plane": "jit sweeping",
     "_loops/polar": "jit sweeping",
     "gains": "plain gains control",
     "laws": "plain control simulation",
+    "motion": "plain kinematics simulation",
     "runs": "plain metrics simulation",
     "sweeping": "jit sweeping",
     "tuning": "jit tuning",

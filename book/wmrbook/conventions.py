@@ -2,7 +2,7 @@
 
 Some write theta, some beta = -theta. All of them turn with omega = k_alpha alpha + (sign) k_beta
 beta and mean the same robot; only the third angle's sign differs, and with it that of its gain. The
-rest of wmrlib has Aicardi's signs, as the paper's (7)-(9).
+library has Aicardi's signs, as the paper's (7)-(9).
 """
 
 from __future__ import annotations

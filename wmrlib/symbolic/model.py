@@ -1,4 +1,4 @@
-"""What the functions of `laws`, `motion`, `geodesy` and `paper` return for symbols."""
+"""What the functions of `laws`, `motion` and `geodesy` return for symbols."""
 
 from __future__ import annotations
 

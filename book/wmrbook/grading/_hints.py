@@ -43,6 +43,11 @@ def expect(holds: bool, hint: str) -> None:
         raise Hint(hint)
 
 
+def angle_equal(one: float, other: float) -> bool:
+    """Up to full turns."""
+    return abs(math.remainder(one - other, 2.0 * math.pi)) < 1e-9
+
+
 def close(value: float, right: float, relative: float = 1e-6, absolute: float = 1e-9) -> bool:
     """Whether two numbers are equal up to rounding."""
     return math.isclose(value, right, rel_tol=relative, abs_tol=absolute)

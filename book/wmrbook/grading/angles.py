@@ -13,6 +13,7 @@ from wmrbook.conventions import gains_near_goal
 from wmrbook.grading._expressions import expression
 from wmrbook.grading._hints import (
     Passed,
+    angle_equal,
     ask_numbers,
     close,
     expect,
@@ -175,7 +176,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
     rule_out(seen, mistakes, _angles_equal)
     if _angles_equal(seen[:1], right[:1]):
         error = pose.heading - goal.heading
-        third = any(_angle_equal(seen[1], each) for each in (error, -error))
+        third = any(angle_equal(seen[1], each) for each in (error, -error))
         hint = "this third angle is between the two headings; "
         expect(not third, f"{hint}theta has the line of sight on one side.")
         mistakes = {
@@ -183,19 +184,14 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
             "theta is counted from east: it is asked for from the goal's heading.": sight,
         }
         otherwise = "rho and alpha are right, theta is not: compare with (3.2)."
-        explain(seen[1], mistakes, otherwise, _angle_equal)
+        explain(seen[1], mistakes, otherwise, angle_equal)
     mistakes = {"alpha has the wrong sign: with the goal on the left it is positive.": -alpha}
     otherwise = "alpha is not the angle from the robot's heading to the line of sight."
-    explain(seen[0], mistakes, otherwise, _angle_equal)
-
-
-def _angle_equal(one: float, other: float) -> bool:
-    """Up to full turns."""
-    return abs(math.remainder(one - other, 2.0 * math.pi)) < 1e-9
+    explain(seen[0], mistakes, otherwise, angle_equal)
 
 
 def _angles_equal(some, others) -> bool:
-    return all(_angle_equal(one, other) for one, other in zip(some, others, strict=True))
+    return all(angle_equal(one, other) for one, other in zip(some, others, strict=True))
 
 
 def _moved(pose: Pose) -> Pose:

@@ -9,6 +9,7 @@ import numpy as np
 
 from wmrbook.grading._hints import (
     Passed,
+    angle_equal,
     ask,
     ask_number,
     ask_numbers,
@@ -35,7 +36,7 @@ def compass_known(heading_of: Callable) -> Passed:
     for compass, declination in _compasses(20):
         value, turn = ask_number(heading_of, compass, declination), math.radians(declination)
         right = math.pi / 2.0 - math.radians(compass) - turn
-        if _same_angle(value, right):
+        if angle_equal(value, right):
             continue
         degrees = math.degrees(right), (math.degrees(right) + 180.0) % 360.0 - 180.0
         in_degrees = any(close(value, each) for each in degrees)
@@ -54,7 +55,7 @@ def compass_known(heading_of: Callable) -> Passed:
             f"your robot looks the other way round: {_BY_HAND}": right + math.pi,
         }
         case = f"{compass:.0f} deg with a declination of {declination:.1f} deg"
-        explain(value, mistakes, f"{case} come out as {value:.4g} rad: {_BY_HAND}", _same_angle)
+        explain(value, mistakes, f"{case} come out as {value:.4g} rad: {_BY_HAND}", angle_equal)
     return Passed("Twenty compasses, each read as the heading that the law wants.")
 
 
@@ -67,7 +68,7 @@ def compass_range(heading_of: Callable) -> Passed:
         hint = f"{compass:g} deg come out as {value:.4g} rad, which is not in (-pi, pi]."
         expect(abs(value) <= math.pi + 1e-12, hint)
         more = ask_number(heading_of, compass + 360.0, declination)
-        expect(_same_angle(value, more), "a whole turn more must be the same heading.")
+        expect(angle_equal(value, more), "a whole turn more must be the same heading.")
     turned = wrap_angle(ask_number(heading_of, 50.0, 2.0) - ask_number(heading_of, 40.0, 2.0))
     hint = "when the robot turns to the right, "
     expect(turned < 0.0, f"{hint}the compass counts up and the heading must count down.")
@@ -189,10 +190,6 @@ def step_drives(wheel_speeds: Callable) -> Passed:
         hint += "which is not the corrected law within their limits."
         explain(speeds, {a_twist: limited}, hint, np.allclose)
     return Passed("Sixty poses: the law's wheels, never beyond their limits.")
-
-
-def _same_angle(one: float, other: float) -> bool:
-    return abs(math.remainder(one - other, 2.0 * math.pi)) < 1e-9
 
 
 def _same_way(one: float, other: float) -> bool:

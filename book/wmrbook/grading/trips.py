@@ -130,7 +130,7 @@ def home_omega(my_gains: Any) -> Passed:
     """It never turns faster than 1.6 rad/s."""
     fastest = _home(my_gains).peak_omega
     hint = f"it turns with up to {fastest:.2f} rad/s. "
-    hint += "At the start, by k_alpha, or in the last bend? `figures.dashboard` shows it."
+    hint += "At the start, by k_alpha, or in the last bend? `wmrbook.figures.dashboard` shows it."
     expect(fastest < HOME_OMEGA, hint)
     return Passed(f"Never faster than {fastest:.2f} rad/s.")
 
