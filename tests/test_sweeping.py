@@ -280,10 +280,12 @@ def test_ctrl_c_keeps_what_is_done(monkeypatch, ctrl_c, small_chunks, whole):
         submitted = 0
 
         def submit(self, function, *arguments):
+            def interrupted(*arguments):  # by a signal, as from the terminal, while others work
+                signal.raise_signal(signal.SIGINT)
+                return function(*arguments)
+
             self.submitted += 1
-            if self.submitted == 8:  # a signal, as from the terminal, while others work
-                return super().submit(signal.raise_signal, signal.SIGINT)
-            return super().submit(function, *arguments)
+            return super().submit(interrupted if self.submitted == 8 else function, *arguments)
 
     monkeypatch.setattr(sweeping, "ThreadPoolExecutor", lambda _: Interrupting(1))
     message = r"^interrupted: [\d,]+ of 5,000 runs are done, the others are NaN$"

@@ -41,10 +41,10 @@ from .routes import route_points as route_points
 from .routes import route_poses as route_poses
 from .runs import Arrival as Arrival
 from .runs import Outcome as Outcome
+from .runs import Trajectories as Trajectories
 from .runs import Trajectory as Trajectory
 from .simulation import simulate as simulate
 from .simulation import track as track
-from .sweeping import Trajectories as Trajectories
 from .sweeping import sweep as sweep
 from .tracks import StationaryScatter as StationaryScatter
 from .tracks import Track as Track

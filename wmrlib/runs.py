@@ -108,6 +108,30 @@ class Arrival(NamedTuple):
     distance: Real
 
 
+class Trajectories(NamedTuple):
+    """Many runs sample by sample, NaN after each run's end.
+
+    With "rk4" and "polar_euler", which arrive between two samples, the last one is the one before
+    arrival, and alpha and theta never jump.
+
+    Attributes
+    ----------
+    t : array, s
+    x, y, heading, rho, alpha, theta, v, omega : arrays of the sweep's shape with a last axis as
+        long as `t`, in the units of Trajectory
+    """
+
+    t: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    heading: np.ndarray
+    rho: np.ndarray
+    alpha: np.ndarray
+    theta: np.ndarray
+    v: np.ndarray
+    omega: np.ndarray
+
+
 def single_pose(name: str, pose: Pose) -> Pose:
     """Return the pose if its fields are numbers; otherwise raise ValueError."""
     for field, value in zip(Pose._fields, instance(name, pose, Pose), strict=True):

@@ -4,8 +4,10 @@ from __future__ import annotations
 
 import math
 import os
+import signal
+import threading
 import warnings
-from collections.abc import Generator, Iterator
+from collections.abc import Callable, Generator, Iterator
 from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
 from contextlib import closing, contextmanager
 from itertools import islice
@@ -18,7 +20,7 @@ from wmrlib._loops import plane, polar, rows
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
 from wmrlib.laws import POSE_LAWS
-from wmrlib.runs import Arrival, sample_count
+from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
 _METHODS = {
@@ -30,32 +32,8 @@ _METHODS = {
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 40_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
-_BAR_AFTER = 1.0  # s
+_BAR_AFTER = 1.0  # s, and how long a wait may leave Ctrl-C unheard
 _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
-
-
-class Trajectories(NamedTuple):
-    """Many runs sample by sample, NaN after each run's end.
-
-    With "rk4" and "polar_euler", which arrive between two samples, the last one is the one before
-    arrival, and alpha and theta never jump.
-
-    Attributes
-    ----------
-    t : array, s
-    x, y, heading, rho, alpha, theta, v, omega : arrays of the sweep's shape with a last axis as
-        long as `t`, in the units of Trajectory
-    """
-
-    t: np.ndarray
-    x: np.ndarray
-    y: np.ndarray
-    heading: np.ndarray
-    rho: np.ndarray
-    alpha: np.ndarray
-    theta: np.ndarray
-    v: np.ndarray
-    omega: np.ndarray
 
 
 class _Task(NamedTuple):
@@ -140,9 +118,9 @@ def sweep(
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
     source = [np.broadcast_to(field, shape) for field in fields.values()]
-    bar = _bar(total, total * task.cost, progress)
+    watch = _watched(total, total * task.cost, progress)
     try:
-        with bar as advance, closing(_results(source, total, task, executor)) as results:
+        with watch as advance, closing(_results(source, total, task, executor, advance)) as results:
             for first, last, (metrics, paths) in results:
                 summary[:, first:last], record[:, first:last] = metrics, paths
                 advance(last - first)
@@ -172,7 +150,7 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     return summary, record
 
 
-def _results(source, total: int, task: _Task, executor: Executor | None) -> Generator:
+def _results(source, total: int, task: _Task, executor: Executor | None, advance) -> Generator:
     """(first, last, result) of each chunk as it is done, with a bounded number under way."""
 
     def columns(first: int, last: int) -> np.ndarray:
@@ -200,7 +178,8 @@ def _results(source, total: int, task: _Task, executor: Executor | None) -> Gene
                     yield *chunk, run_chunk(columns(*chunk), task)
             if not waiting:
                 return
-            for future in wait(waiting, return_when=FIRST_COMPLETED).done:
+            advance(0)
+            for future in wait(waiting, _BAR_AFTER, FIRST_COMPLETED).done:
                 chunk = waiting.pop(future)
                 lost = future.cancelled() or future.exception() is not None
                 yield *chunk, run_chunk(columns(*chunk), task) if lost else future.result()
@@ -227,12 +206,32 @@ def _law_codes(law: str | np.ndarray) -> np.ndarray:
 
 
 @contextmanager
-def _bar(total: int, work: int, wanted: bool) -> Iterator:
-    """A progress bar if the work is long: what is to be called with the number of runs done."""
-    if not wanted or work < _LONG_WORK:
-        yield lambda runs: None
-        return
-    from tqdm.auto import tqdm  # here, because it asks what it is shown in
+def _watched(total: int, work: int, wanted: bool) -> Iterator[Callable[[int], None]]:
+    """Show a bar if the work is long; what is yielded takes the number of runs done.
 
-    with tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER) as bar:
-        yield bar.update
+    Ctrl-C is held back until it is called: raised in a wait, it could break the lock there.
+    """
+    pressed: list[bool] = []
+    bar = None
+    if wanted and work >= _LONG_WORK:
+        from tqdm.auto import tqdm  # here, because it asks what it is shown in
+
+        bar = tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
+
+    def advance(runs: int) -> None:
+        if bar is not None:
+            bar.update(runs)
+        if pressed:
+            raise KeyboardInterrupt
+
+    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    heard = usual and threading.current_thread() is threading.main_thread()
+    if heard:
+        signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
+    try:
+        yield advance
+    finally:
+        if heard:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        if bar is not None:
+            bar.close()

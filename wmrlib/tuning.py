@@ -15,8 +15,8 @@ from wmrlib._checks import Real, choice, instance, plain, real, same_shape
 from wmrlib._modes import mode_damping, mode_frequency, mode_settling
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
-from wmrlib.runs import Arrival
-from wmrlib.sweeping import Trajectories, sweep
+from wmrlib.runs import Arrival, Trajectories
+from wmrlib.sweeping import sweep
 
 _LAWS = ("corrected", "aicardi")
 _SAMPLED = ("polar_euler", "euler", "arc")

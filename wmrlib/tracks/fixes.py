@@ -43,10 +43,8 @@ class Report:
         return "\n".join(rows)
 
     def listed(self, reasons: Mapping[str, Count]) -> list[str]:
-        return [
-            f"{count} {reason} (first in {self.unit} {first})"
-            for reason, (count, first) in reasons.items()
-        ]
+        rows = reasons.items()
+        return [f"{n} {reason} (first in {self.unit} {first})" for reason, (n, first) in rows]
 
 
 class Fixes:

@@ -69,17 +69,8 @@ def stationary_scatter(track: Track | GeoPoint) -> StationaryScatter:
     east, north = (np.ravel(values) for values in local_position(mean, points))
     covariance = np.cov(east, north)
     std_east, std_north = np.sqrt(np.diag(covariance)).tolist()
-    return StationaryScatter(
-        mean=mean,
-        n=n,
-        east=east,
-        north=north,
-        std_east=std_east,
-        std_north=std_north,
-        covariance=covariance,
-        cep=float(np.median(np.hypot(east, north))),
-        two_drms=2.0 * math.hypot(std_east, std_north),
-    )
+    cep, two_drms = float(np.median(np.hypot(east, north))), 2.0 * math.hypot(std_east, std_north)
+    return StationaryScatter(mean, n, east, north, std_east, std_north, covariance, cep, two_drms)
 
 
 def mean_position(points: GeoPoint) -> GeoPoint:
