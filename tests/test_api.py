@@ -47,6 +47,9 @@ def test_every_public_name_has_an_entry(site):
         name for kind, names in inventory.data.items() if kind[:3] == "py:" for name in names
     }
     assert {f"wmrlib.{name}" for name in wmr.__all__} <= entries
+    page = (site / "api.html").read_text(encoding="utf-8")
+    assert page.count("Raises<span") > 20
+    assert ":raises" not in page  # a section that was not understood
 
 
 def test_sentences_and_code_link_to_the_entries(site):

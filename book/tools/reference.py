@@ -86,6 +86,17 @@ def link_names(app, doctree, docname):
             )
 
 
+def split_errors(app, what, name, obj, options, lines):
+    """Give an error of a Raises section, "ValueError : why", the two lines that napoleon reads."""
+    if "Raises" not in lines:
+        return
+    first = lines.index("Raises") + 2
+    for k in range(len(lines) - 1, first - 1, -1):
+        error, colon, why = lines[k].partition(" : ")
+        if colon and error.isidentifier():
+            lines[k : k + 1] = [error, f"    {why}"]
+
+
 def link_code(app, docname, template, context, doctree):
     """Turn the library's names in code cells into links, and each import into one to the page."""
 
@@ -124,6 +135,7 @@ def setup(app):
     app.add_directive("library", Library)
     app.connect("autodoc-skip-member", skip_fields)
     app.connect("autodoc-process-docstring", keep_bars)
+    app.connect("autodoc-process-docstring", split_errors, priority=400)  # before napoleon
     app.connect("doctree-resolved", link_names)
     app.connect("html-page-context", link_code)
     return {"parallel_read_safe": True, "parallel_write_safe": True}
