@@ -85,6 +85,7 @@ def test_pose_from_polar_undoes_polar_error(pose, goal):
     back = wmr.pose_from_polar(wmr.polar_error(pose, goal), goal)
     assert (back.x, back.y) == (pytest.approx(pose.x, abs=1e-9), pytest.approx(pose.y, abs=1e-9))
     assert abs(wmr.wrap_angle(back.heading - pose.heading)) < 1e-12
+    assert -math.pi < back.heading <= math.pi
 
 
 @given(st.floats(0.5, 100), angles, angles, st.floats(-3, 3), st.floats(-3, 3))
