@@ -251,3 +251,15 @@ def test_bad_input_names_argument_value_and_range():
     for make, message in BAD:
         with pytest.raises(ValueError, match=message):
             make(wmr.paper.OUTDOOR_GAINS)
+
+
+def test_laws_for_a_moving_goal_know_angles_up_to_full_turns_and_their_v():
+    linear = wmr.LinearGains([[1.0, 0.0, 0.3], [0.0, 2.0, 1.5]])
+    kanayama = wmr.KanayamaGains(1.0, 2.0, 2.0)
+    for law, gains in (("linear", linear), ("kanayama", kanayama)):
+        once = wmr.tracking_law(0.7, 3.0, -3.0, 0.6, 0.1, gains, law=law)
+        turned = wmr.tracking_law(0.7, 3.0 - 2.0 * math.pi, -3.0, 0.6, 0.1, gains, law=law)
+        assert turned == pytest.approx(once, abs=1e-12)
+    run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, kanayama, law="kanayama")
+    value = 0.5 * run.rho**2 + (1.0 - np.cos(run.alpha - run.theta)) / kanayama.k_y
+    assert pytest.approx(value, abs=1e-12) == run.V
