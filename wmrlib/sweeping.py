@@ -32,7 +32,8 @@ _METHODS = {
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 40_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
-_BAR_AFTER = 1.0  # s, and how long a wait may leave Ctrl-C unheard
+_BAR_AFTER = 1.0  # s
+_HEARD_AFTER = 0.5  # s; so late a wait may hear Ctrl-C
 _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
 
 
@@ -179,7 +180,7 @@ def _results(source, total: int, task: _Task, executor: Executor | None, advance
             if not waiting:
                 return
             advance(0)
-            for future in wait(waiting, _BAR_AFTER, FIRST_COMPLETED).done:
+            for future in wait(waiting, _HEARD_AFTER, FIRST_COMPLETED).done:
                 chunk = waiting.pop(future)
                 lost = future.cancelled() or future.exception() is not None
                 yield *chunk, run_chunk(columns(*chunk), task) if lost else future.result()
