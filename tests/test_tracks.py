@@ -159,7 +159,6 @@ BAD_SENTENCES = {
     "latitude not in -90 to 90": gga("104707.00", lat="9005.6081,N"),
     "longitude not in -180 to 180": gga("104707.00", lon="18049.4791,E"),
     "fix without a readable time": gga(""),
-    "time runs backwards": gga("104705.00"),
     "other sentence": nmea("GPGLL,5405.6081,N,01049.4791,E,104707.000,A,A"),
     "line that is no sentence": "5405.6081,N,01049.4791,E",
     "comment": "# 54.09, 10.82",

@@ -33,7 +33,8 @@ class Track:
     Parameters
     ----------
     points, source, report : GeoPoint of arrays, "NMEA", "GPX", "CSV" or "GeoJSON", and Report
-    t : array, s; since the first position that has a time, NaN where there is none
+    t : array, s; since the first position that has a time, NaN where there is none; in order
+        within a segment of GPX, and in the whole of another file
     """
 
     points: GeoPoint
@@ -41,12 +42,26 @@ class Track:
     source: str
     report: Report
 
+    def __post_init__(self) -> None:
+        for values in (self.points.lat, self.points.lon, self.t):
+            np.asarray(values).flags.writeable = False
+
+    def __reduce__(self) -> tuple:  # a copy's arrays would be writeable
+        return Track, (self.points, self.t, self.source, self.report)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Track) and self._content() == other._content()
+
+    def _content(self) -> tuple:
+        rows = self.points.lat, self.points.lon, self.t
+        return *(np.asarray(row).tobytes() for row in rows), self.source, self.report
+
     def __len__(self) -> int:
         return self.t.size
 
     def __repr__(self) -> str:
         timed = self.t[~np.isnan(self.t)]
-        span = f"over {timed[-1]:.6g} s" if timed.size else "without times"
+        span = f"over {np.ptp(timed):.6g} s" if timed.size else "without times"
         left = sum(each.count for each in self.report.skipped.values())
         return f"<Track: {len(self)} positions from {self.source}, {span}; {left} not used>"
 
@@ -81,19 +96,15 @@ def read_track(path: str | os.PathLike) -> Track:
     data = Path(path).read_bytes()
     try:
         source, fixes = _read(data)
-        report = fixes.report()
+        (lat, lon, time), report = fixes.settle()
         if not report.used:
             reasons = "; ".join(report.listed(report.skipped))
             raise ValueError(f"it is {source}, but {reasons or 'holds no position'}")
     except ValueError as error:
         raise ValueError(f"no position in {str(path)!r}: {error}") from None
-    time = np.array(fixes.time)
     timed = time[~np.isnan(time)]
     t = time - timed[0] if timed.size else time
-    points = GeoPoint(lat=np.array(fixes.lat), lon=np.array(fixes.lon))
-    for values in (points.lat, points.lon, t):
-        np.asarray(values).flags.writeable = False
-    return Track(points, t, source, report)
+    return Track(GeoPoint(lat=lat, lon=lon), t, source, report)
 
 
 def _read(data: bytes) -> tuple[str, Fixes]:
