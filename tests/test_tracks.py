@@ -261,7 +261,8 @@ def test_routes_and_waypoints_are_read_where_there_is_no_track(read):
     assert places(read(gpx(wpt))) == ([3.0], [4.0])
     track = read(gpx(wpt + "\n" + rte + "\n" + trk(GOOD)))
     assert places(track) == ([33.27], [44.37])
-    assert dict(track.report.skipped) == {"waypoint or route point beside the track": (2, 3)}
+    beside = {"waypoint beside the track points": (1, 3)}
+    assert dict(track.report.skipped) == beside | {"route point beside the track points": (1, 4)}
 
 
 def test_bad_points_of_gpx_are_counted_with_their_line(read):
@@ -300,9 +301,8 @@ REFUSED = [
     ("<!DOCTYPE html>\n<html><br></html>", "it is a web page, not a GPX file$"),
     ("<HTML><br></HTML>", "it is a web page, not a GPX file$"),
     ("<time>x</time>", "it is XML of the kind 'time', not a GPX file$"),
-    (gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000), "has 1 places <trkpt>, but only 0"),
-    (gpx("<trk>" + GOOD + "</trk>"), "has 1 places <trkpt>, but only 0 where GPX has them"),
-    (gpx(trk(GOOD, "<x>", GOOD, "</x>")), "has 2 places <trkpt>, but only 1"),
+    (gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000), "but 1 track point outside <trkseg>"),
+    (gpx("<rte>" + GOOD + "</rte>"), r"1 track point outside <trkseg> \(first in line 3\)$"),
     (gpx(trk(GOOD))[:-20], "its XML is broken"),
     (gpx("<a:b/>"), "its XML is broken: .*unbound prefix"),
     (gpx(""), "it is GPX, but holds no position"),
@@ -685,8 +685,8 @@ def test_bad_input_to_the_writers_and_the_scatter(tmp_path):
             (["a", "b"], BEGIN, r"^t = \['a', 'b'\] is not allowed"),
             ({}, BEGIN, r"^t = {} is not allowed"),
             ([True, False], BEGIN, r"^t = \[True, False\] is not allowed"),
-            ([0, 1e18], BEGIN, r"^t = 1e\+18 is not allowed: begin \+ t in the years 1 to 9999"),
-            ([0, 1], late, r"^t = 1 is not allowed: begin \+ t"),
+            ([0, 1e18], BEGIN, r"^t = .*e\+18.* is not allowed: begin \+ t in the years"),
+            ([0, 1], late, r"^t = .* is not allowed: begin \+ t"),
             ([0, 1], local, "with its time zone is needed"),
         ]
     ]

@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from pathlib import Path
+from io import BufferedReader
 
 import numpy as np
 
 from wmrlib._checks import book_extra
 from wmrlib.geodesy import GeoPoint
+from wmrlib.tracks import gpx, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
 from wmrlib.tracks.scatter import StationaryScatter, mean_position, stationary_scatter
 from wmrlib.tracks.writing import write_geojson, write_gpx
@@ -24,6 +25,12 @@ __all__ = [
     "write_geojson",
     "write_gpx",
 ]
+
+_BINARY = (
+    (b"\x1f\x8b", 0, "compressed by gzip; unpack it"),
+    (b"PK\x03\x04", 0, "a zip archive, as a KMZ file is; unpack it, and export KML as GPX"),
+    (b".FIT", 8, "a FIT file; export it as GPX"),
+)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -93,35 +100,31 @@ def read_track(path: str | os.PathLike) -> Track:
     ------
     ValueError : a file without a position; the message says why
     """
-    data = Path(path).read_bytes()
     try:
-        source, fixes = _read(data)
+        with open(path, "rb") as file:
+            source, fixes = _read(file)
         (lat, lon, time), report = fixes.settle()
         if not report.used:
             reasons = "; ".join(report.listed(report.skipped))
             raise ValueError(f"it is {source}, but {reasons or 'holds no position'}")
     except ValueError as error:
-        raise ValueError(f"no position in {str(path)!r}: {error}") from None
+        raise ValueError(f"no position in {os.fspath(path)!r}: {error}") from None
     timed = time[~np.isnan(time)]
     t = time - timed[0] if timed.size else time
     return Track(GeoPoint(lat=lat, lon=lon), t, source, report)
 
 
-def _read(data: bytes) -> tuple[str, Fixes]:
-    text = data
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # as PowerShell's > writes
-        text = data.decode("utf-16", errors="replace").encode()
-    text = text.removeprefix(b"\xef\xbb\xbf")
+def _read(file: BufferedReader) -> tuple[str, Fixes]:
+    head = file.peek()
+    for mark, place, kind in _BINARY:
+        if head.startswith(mark, place):
+            raise ValueError(f"it is {kind}")
+    if _utf_8(head).lstrip(b" \t\r\n\0")[:1] == b"<":
+        return "GPX", gpx.read(file)  # XML itself says how it is encoded
+    text = _utf_8(file.read())
     begin = text.lstrip()[:1]
     if not begin:
         raise ValueError("the file is empty")
-    if begin == b"<":
-        with book_extra("a GPX file"):
-            from wmrlib.tracks import gpx
-
-        return "GPX", gpx.read(data)  # XML itself says how it is encoded
-    from wmrlib.tracks import tables
-
     if begin in (b"{", b"["):
         return "GeoJSON", tables.read_geojson(text)
     with book_extra("an NMEA log"):
@@ -130,3 +133,9 @@ def _read(data: bytes) -> tuple[str, Fixes]:
     if nmea.looks_like(text):
         return "NMEA", nmea.read(text)
     return "CSV", tables.read_csv(text)
+
+
+def _utf_8(data: bytes) -> bytes:
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # as PowerShell's > writes
+        data = data.decode("utf-16", errors="replace").encode()
+    return data.removeprefix(b"\xef\xbb\xbf")

@@ -74,11 +74,11 @@ class Fixes:
         self._noted: dict[str, Count] = {}
         self._unit = unit
 
-    def skip(self, reason: str, line: int, count: int = 1) -> None:
-        _count(self._skipped, reason, line, count)
+    def skip(self, reason: str, line: int, times: int = 1) -> None:
+        count(self._skipped, reason, line, times)
 
     def note(self, reason: str, line: int) -> None:
-        _count(self._noted, reason, line, 1)
+        count(self._noted, reason, line)
 
     def begin_segment(self) -> None:
         """From here on times may be earlier than before."""
@@ -142,28 +142,25 @@ def _misplaced(lat: float, lon: float) -> str | None:
     return None if -180.0 <= lon <= 180.0 else "longitude not in -180 to 180"
 
 
-def _count(reasons: dict[str, Count], reason: str, line: int, count: int) -> None:
-    before, first = reasons.get(reason, (0, line))
-    reasons[reason] = Count(before + count, min(first, line))
+def count(met: dict[str, Count], what: str, line: int, times: int = 1) -> None:
+    before, first = met.get(what, (0, line))
+    met[what] = Count(before + times, min(first, line))
 
 
 def _backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
     """Which positions are left over by the longest run in order of time in each segment."""
     timed = np.flatnonzero(~np.isnan(time))
-    time, segment = time[timed], segment[timed]
-    if not ((np.diff(time) < 0.0) & (np.diff(segment) == 0)).any():
-        return timed[:0]
-    _, rank = np.unique(segment + 1j * time, return_inverse=True)  # by segment, then by time
-    # Patience sorting, from the last to the first so that of two runs as long the earlier is kept.
-    falling, heads, tops = array("q", -rank), array("q"), array("q")
-    following = np.full(rank.size, -1)
-    for i in reversed(range(rank.size)):
-        length = bisect_right(tops, falling[i])
-        if length:
-            following[i] = heads[length - 1]
-        heads[length : length + 1] = array("q", [i])
-        tops[length : length + 1] = array("q", [falling[i]])
-    left, i = np.ones(rank.size, bool), heads[-1]
-    while i >= 0:
-        left[i], i = False, following[i]
-    return timed[left]
+    back = (np.diff(time[timed]) < 0.0) & (np.diff(segment[timed]) == 0)
+    judged = timed[np.isin(segment[timed], segment[timed[1:][back]])]
+    _, rank = np.unique(segment[judged] + 1j * time[judged], return_inverse=True)
+    # Patience sorting from the last to the first; of two runs as long the earlier is kept.
+    falling, ends = array("q", -rank), array("q")
+    lengths = array("q", falling)  # of the longest run that begins there, less one
+    for i in reversed(range(len(falling))):
+        lengths[i] = bisect_right(ends, falling[i])
+        ends[lengths[i] : lengths[i] + 1] = array("q", [falling[i]])
+    left, wanted = np.ones(len(lengths), bool), len(ends) - 1
+    for i, length in enumerate(lengths):
+        if length == wanted:
+            left[i], wanted = False, wanted - 1
+    return judged[left]

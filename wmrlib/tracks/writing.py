@@ -6,13 +6,17 @@ import json
 import math
 import os
 import re
+import secrets
+import shutil
+from contextlib import suppress
 from datetime import UTC, datetime, timedelta
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
 
 import numpy as np
 
-from wmrlib._checks import Real, book_extra, instance, real
+from wmrlib._checks import Real, book_extra, instance, real, refusal
 from wmrlib.geodesy import GeoPoint, position_list
 
 _DECIMALS = 7  # of a degree: a centimetre
@@ -42,13 +46,10 @@ def write_gpx(
         time zone, times outside the years 1 to 9999, or a name that XML can't hold
     """
     lat, lon = _rounded(points)
-    if t is not None and begin is not None:
-        times = _times(t, begin, lat.shape)
-    elif t is begin:
-        times = [None] * lat.size
-    else:
+    if (t is None) is not (begin is None):
         both = f"t = {t!r} and begin = {begin!r}"
         raise ValueError(f"{both} are not allowed together: both or none are needed")
+    times = [None] * lat.size if begin is None else _times(t, begin, lat.shape)
     _check_name(name, _NOT_IN_XML)
     with book_extra("a GPX file"):
         from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
@@ -62,7 +63,7 @@ def write_gpx(
         track.segments.append(
             GPXTrackSegment([GPXTrackPoint(y, x, time=times[i]) for y, x, i in places])
         )
-    Path(path).write_bytes(gpx.to_xml(version="1.1").encode())
+    overwrite(path, gpx.to_xml(version="1.1").encode())
 
 
 def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmrlib") -> None:
@@ -95,7 +96,31 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
         geometry = {"type": "Point", "coordinates": lines[0][0]}
     feature = {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
     text = json.dumps(feature, ensure_ascii=False, allow_nan=False) + "\n"
-    Path(path).write_bytes(text.encode())
+    overwrite(path, text.encode())
+
+
+def overwrite(path: str | os.PathLike, data: bytes) -> None:
+    """Replace a file's content at once; what was there stays where that fails."""
+    if os.path.exists(path):
+        with open(path, "ab") as file:  # refused here, if it is read-only or a folder
+            if not os.path.isfile(path):  # a pipe
+                file.write(data)
+                return
+    target = Path(os.path.realpath(path))  # a link stays a link
+    new = target.with_name(f".{secrets.token_hex(8)}.tmp")
+    try:
+        with new.open("xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        if target.exists():
+            shutil.copymode(target, new)
+        new.replace(target)
+    except OSError as error:  # it may name the new file
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
+    finally:
+        with suppress(OSError):
+            new.unlink()
 
 
 def _rounded(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
@@ -108,21 +133,17 @@ def _pieces(lon: np.ndarray) -> list[np.ndarray]:
     return np.split(np.arange(lon.size), np.flatnonzero(np.abs(np.diff(lon)) > 180.0) + 1)
 
 
-def _times(t: Real, begin: datetime, shape: tuple[int, ...]) -> list[datetime | None]:
+def _times(t: Any, begin: datetime, shape: tuple[int, ...]) -> list[datetime | None]:
     if instance("begin", begin, datetime).utcoffset() is None:
         raise ValueError(f"begin = {begin!r} is not allowed: one with its time zone is needed")
     t = np.atleast_1d(real("t", t, nan=True))
     if t.shape != shape:
         raise ValueError(f"mismatched lengths: t has shape {t.shape}, points have shape {shape}")
-    return [_after(begin, seconds) for seconds in t.tolist()]
-
-
-def _after(begin: datetime, seconds: float) -> datetime | None:
     try:  # in UTC, so that a change to summer time loses no hour
-        return None if math.isnan(seconds) else begin.astimezone(UTC) + timedelta(seconds=seconds)
+        begin = begin.astimezone(UTC)
+        return [None if math.isnan(s) else begin + timedelta(seconds=s) for s in t.tolist()]
     except OverflowError:
-        needed = "begin + t in the years 1 to 9999 is needed"
-        raise ValueError(f"t = {seconds:g} is not allowed: {needed}") from None
+        raise refusal("t", t, "begin + t in the years 1 to 9999") from None
 
 
 def _check_name(name: str, forbidden: re.Pattern) -> None:
