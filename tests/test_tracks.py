@@ -1,8 +1,15 @@
 """Positions in files, against the sentences themselves, the ellipsoid and by property."""
 
+import copy
+import gzip
 import json
 import math
+import os
+import pickle
 import random
+import subprocess
+import sys
+import tracemalloc
 from datetime import UTC, datetime, timedelta, tzinfo
 from functools import reduce
 from operator import xor
@@ -18,6 +25,7 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib.tracks import Count, Report
+from wmrlib.tracks.fixes import Fixes, timestamp
 
 LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"
 GPX_11 = "{http://www.topografix.com/GPX/1/1}"
@@ -66,6 +74,91 @@ def trk(*points):
 
 GOOD = '<trkpt lat="33.27" lon="44.37"/>'
 LAT, LON = 54 + 5.6081 / 60, 10 + 49.4791 / 60  # of gga() and rmc()
+
+# What all files share
+
+
+def in_order(times):
+    """How long the longest run in order is, by trying all."""
+    best = []
+    for i, time in enumerate(times):
+        best.append(1 + max((best[j] for j in range(i) if times[j] <= time), default=0))
+    return max(best, default=0)
+
+
+@given(st.lists(st.lists(st.none() | st.integers(0, 9), max_size=12), max_size=4))
+def test_a_time_out_of_order_costs_its_own_position_only(segments):
+    fixes, line = Fixes(), 0
+    for segment in segments:
+        fixes.begin_segment()
+        for second in segment:
+            fixes.add(line % 90, len(segment), math.nan if second is None else second, line)
+            line += 1
+    (lat, _, time), report = fixes.settle()
+    kept = [[s for s in segment if s is not None] for segment in segments]
+    untimed = sum(len(segment) for segment in segments) - sum(map(len, kept))
+    assert report.used == lat.size == untimed + sum(map(in_order, kept))
+    assert sum(count for count, _ in report.skipped.values()) == line - lat.size
+    rows = iter(zip(lat.astype(int).tolist(), time.tolist(), strict=True))
+    used, first_lost = dict(rows), []
+    line = 0
+    for segment in segments:
+        numbers = range(line, line + len(segment))
+        stays = [used[k] for k in numbers if not math.isnan(used.get(k, math.nan))]
+        assert stays == sorted(stays)
+        first_lost += [k for k in numbers if k not in used]
+        line += len(segment)
+    if first_lost:
+        assert report.skipped["time runs backwards"].first == first_lost[0]
+
+
+def test_of_two_times_in_the_wrong_order_the_first_stays():
+    for times, kept in [([5, 3], [5]), ([1, 9, 2, 3], [1, 2, 3]), ([1, 2, 9, 8], [1, 2, 9])]:
+        fixes = Fixes()
+        for line, time in enumerate(times):
+            fixes.add(1.0, 2.0, time, line)
+        assert fixes.settle()[0][2].tolist() == kept
+
+
+TIMES = {
+    "2016-12-31T23:59:59Z": 1483228799,
+    "2016-12-31T23:59:60Z": 1483228800,
+    "2016-12-31T23:59:60.5Z": 1483228800.5,
+    "2017-01-01T05:29:60+05:30": 1483228800,
+    "2016-12-31T24:00:00Z": 1483228800,
+    "2016-12-31T24:00": 1483228800,
+    "2016-12-31T24:00:00.000+01:00": 1483225200,
+    "2017-01-01T00:00:00": 1483228800,
+    "2017-01-01T00:00:00.1234567Z": 1483228800.123456,
+    "2017-01-01T01:00:00,5+01:00": 1483228800.5,
+    "2016-12-31T24:00:01Z": None,
+    "2016-12-31T24:30:00Z": None,
+    "2016-12-31T23:60:00Z": None,
+    "2016-12-31T23:59:61Z": None,
+    "2016-12-32T24:00:00Z": None,
+    "24:00:00": None,
+}
+
+
+def test_times_as_iso_8601_has_them():
+    for text, seconds in TIMES.items():
+        assert timestamp(text) == seconds, text
+
+
+def test_a_copy_of_a_track_is_equal_and_read_only(read):
+    track = read(gpx(trk(GOOD, '<trkpt lat="91" lon="0"/>', '<trkpt lat="34" lon="45"/>')))
+    for same in (copy.copy(track), copy.deepcopy(track), pickle.loads(pickle.dumps(track))):
+        assert same == track
+        assert (same.report, repr(same)) == (track.report, repr(track))
+        for values in (same.points.lat, same.points.lon, same.t):
+            with pytest.raises(ValueError, match="read-only"):
+                values[0] = 0.0
+        with pytest.raises(TypeError):
+            same.report.skipped["comment"] = Count(0, 0)
+    assert track != read(gpx(trk(GOOD, '<trkpt lat="34" lon="45"/>')))
+    assert track != read(gpx(trk(GOOD, '<trkpt lat="91" lon="0"/>', '<trkpt lat="34" lon="46"/>')))
+    assert track != 3
+
 
 # NMEA
 
