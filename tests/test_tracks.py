@@ -113,6 +113,14 @@ def test_a_time_out_of_order_costs_its_own_position_only(segments):
         assert report.skipped["time runs backwards"].first == first_lost[0]
 
 
+def test_a_report_tells_the_first_line_however_late_it_is_found():
+    fixes = Fixes()
+    for line in (3, 5, 8):
+        fixes.add(1.0, 2.0, 0.0, line)
+    fixes.skip("same epoch again", 7, 2)
+    assert dict(fixes.settle()[1].skipped) == {"same epoch again": (4, 5)}
+
+
 def test_of_two_runs_as_long_the_nearest_times_stay():
     for times, kept in [
         ([5, 3], [5]),
@@ -350,7 +358,8 @@ def test_gpx_points_and_times_of_every_dialect(read):
         prefixed = prefixed.replace(f"<{name}", f"<g:{name}").replace(f"</{name}", f"</g:{name}")
     old = gpx(trk(GOOD), root='gpx version="1.0" xmlns="http://www.topografix.com/GPX/1/0"')
     wide = gpx(trk(GOOD), head='<?xml version="1.0" encoding="utf-16"?>').encode("utf-16")
-    for content in (prefixed, old, wide, gpx(trk(GOOD), root="gpx")):
+    untrue = gpx(trk(GOOD), head='<?xml version="1.0" encoding="UTF-8"?>').encode("utf-16")
+    for content in (prefixed, old, wide, untrue, gpx(trk(GOOD), root="gpx")):
         assert places(read(content)) == ([33.27], [44.37])
 
 
@@ -826,7 +835,7 @@ def test_a_driven_run_comes_back_with_its_times(tmp_path):
 def test_gpx_1_1_as_its_schema_asks(tmp_path):
     """Names, order, attributes and ranges of http://www.topografix.com/GPX/1/1/gpx.xsd."""
     points = wmr.GeoPoint(lat=[0.0, 1e-7, -1e-7, 5.0], lon=[179.9999999, 180.0, -180.0, -1e-7])
-    title, file = "<b> & \"c\" 'd' é بغداد", tmp_path / "a.gpx"
+    title, file = "<b> & \"c\" 'd' ]]> \r é بغداد", tmp_path / "a.gpx"
     wmr.write_gpx(file, points, t=[0, 0.25, math.nan, 2], begin=BEGIN, name=title)
     root = ElementTree.parse(file).getroot()
     assert root.tag == GPX_11 + "gpx"
@@ -838,10 +847,10 @@ def test_gpx_1_1_as_its_schema_asks(tmp_path):
     assert [len(segment) for segment in segments] == [1, 3]
     found = [point for segment in segments for point in segment]
     assert [tuple(point.attrib.items()) for point in found] == [
-        (("lat", "0"), ("lon", "179.9999999")),
-        (("lat", "0.0000001"), ("lon", "-180.0")),
-        (("lat", "-0.0000001"), ("lon", "-180.0")),
-        (("lat", "5.0"), ("lon", "-0.0000001")),
+        (("lat", "0.0000000"), ("lon", "179.9999999")),
+        (("lat", "0.0000001"), ("lon", "-180.0000000")),
+        (("lat", "-0.0000001"), ("lon", "-180.0000000")),
+        (("lat", "5.0000000"), ("lon", "-0.0000001")),
     ]
     assert all([child.tag for child in point] in ([GPX_11 + "time"], []) for point in found)
     day = "2026-03-01T12:00:0"

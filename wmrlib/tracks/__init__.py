@@ -82,11 +82,13 @@ def read_track(path: str | os.PathLike) -> Track:
     """Read positions from NMEA sentences, GPX, GeoJSON or a CSV table; the content tells which.
 
     NMEA: GGA of every talker, and RMC for seconds without one; each epoch once; checksum needed.
-    GPX: the track points, or else the route's, or else the waypoints; no document type or entity.
+    GPX: the track points, or else the route's, or else the waypoints, whose times tell when they
+    were made and are not used; no document type or entity. Extensions are passed over.
     GeoJSON: all points and lines, RFC 7946. Text is UTF-8, or UTF-16 with its byte order mark.
     CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees;
     optionally time, timestamp, datetime or t, in seconds or ISO 8601. Cells are separated by a
     comma, semicolon, tab or |; decimal commas are read, in quotes where commas separate cells.
+    Where times run backwards, the longest run in order is used (in GPX, of each segment).
 
     Parameters
     ----------
@@ -99,6 +101,7 @@ def read_track(path: str | os.PathLike) -> Track:
     Raises
     ------
     ValueError : a file without a position; the message says why
+    OSError : a file that can't be opened
     """
     try:
         with open(path, "rb") as file:

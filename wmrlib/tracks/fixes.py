@@ -150,8 +150,8 @@ def count(met: dict[str, Count], what: str, line: int, times: int = 1) -> None:
 def _backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
     """Which positions are left over by the longest run in order of time in each segment."""
     timed = np.flatnonzero(~np.isnan(time))
-    back = (np.diff(time[timed]) < 0.0) & (np.diff(segment[timed]) == 0)
-    judged = timed[np.isin(segment[timed], segment[timed[1:][back]])]
+    back = timed[1:][np.diff(time[timed]) < 0.0]
+    judged = timed[np.isin(segment[timed], segment[back])]
     if not judged.size:
         return judged
     _, rank = np.unique(segment[judged] + 1j * time[judged], return_inverse=True)
@@ -165,6 +165,6 @@ def _backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
     kept = lengths.index(len(ends) - 1)
     left = np.arange(rank.size) != kept
     for i in array("q", np.lexsort((rank, np.negative(lengths)))):
-        if i > kept and lengths[i] < lengths[kept] and falling[i] <= falling[kept]:
+        if i > kept and falling[i] <= falling[kept]:
             left[i], kept = False, i
     return judged[left]
