@@ -163,15 +163,19 @@ def _backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
     timed = np.flatnonzero(~np.isnan(time))
     back = (np.diff(time[timed]) < 0.0) & (np.diff(segment[timed]) == 0)
     judged = timed[np.isin(segment[timed], segment[timed[1:][back]])]
+    if not judged.size:
+        return judged
     _, rank = np.unique(segment[judged] + 1j * time[judged], return_inverse=True)
-    # Patience sorting from the last to the first; of two runs as long the earlier is kept.
+    # Patience sorting, from the last to the first.
     falling, ends = array("q", -rank), array("q")
     lengths = array("q", falling)  # of the longest run that begins there, less one
     for i in reversed(range(len(falling))):
         lengths[i] = bisect_right(ends, falling[i])
         ends[lengths[i] : lengths[i] + 1] = array("q", [falling[i]])
-    left, wanted = np.ones(len(lengths), bool), len(ends) - 1
-    for i, length in enumerate(lengths):
-        if length == wanted:
-            left[i], wanted = False, wanted - 1
+    # Of runs as long, the one that begins first and then goes on with the nearest times.
+    kept = lengths.index(len(ends) - 1)
+    left = np.arange(rank.size) != kept
+    for i in array("q", np.lexsort((rank, np.negative(lengths)))):
+        if i > kept and lengths[i] < lengths[kept] and falling[i] <= falling[kept]:
+            left[i], kept = False, i
     return judged[left]

@@ -29,6 +29,7 @@ class _Outline:
         self.places = {kind: Fixes() for kind in _PARENT}
         self.met: dict[str, Count] = {}
         self.path: list[str] = []
+        self.spaces: set[str] = set()
         self.clock: list[str] = []
         self.parser = parser
         parser.buffer_text = True
@@ -90,7 +91,7 @@ def read(file: BufferedReader) -> Fixes:
     try:
         outline.parser.ParseFile(file)
     except (expat.ExpatError, LookupError) as error:
-        page = _WEB_PAGE.search(head.replace(b"\0", b"")[:1000])
+        page = not outline.spaces and _WEB_PAGE.search(head.replace(b"\0", b""))
         raise ValueError(_OTHERS["html"] if page else f"its XML is broken: {error}") from None
     finally:
         del outline.parser  # it refers to the outline, which would be kept
