@@ -2,14 +2,16 @@
 
 import os
 import shutil
+import struct
 import subprocess
 import sys
+from hashlib import sha256
 from pathlib import Path
 
 import numba
 import numpy as np
 import pytest
-from hypothesis import given, settings
+from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
@@ -18,6 +20,7 @@ from wmrlib._loops import plane, polar
 
 PACKAGE = Path(wmr.__file__).parent
 TERM = "alpha + gains.h * theta"  # of the laws
+FACTOR = 1.7
 RUN = """
 import wmrlib as w
 run = w.simulate(w.Pose(0, 0, 0), w.Pose(3, 1, 0.5), w.Gains(1, 2, 0.5), dt=0.05)
@@ -108,7 +111,7 @@ def test_what_the_package_cannot_keep_is_kept_at_home_and_what_it_has_is_found(c
 
 
 def test_two_processes_at_once_keep_what_each_compiled(copy):
-    angles = "4.0", "4"
+    angles = "4.5", "4"
     both = [process(copy, TWO_KINDS, angle) for angle in angles]
     alone = [printed(each) for each in both]
     assert [misses for _, misses in alone] == ["1", "1"]
@@ -117,43 +120,54 @@ def test_two_processes_at_once_keep_what_each_compiled(copy):
 
 @pytest.fixture(scope="module")
 def kept(tmp_path_factory):
-    """A function compiled and kept, what is in its file, and that file."""
-    folder = tmp_path_factory.mktemp("kept")
+    """What is in the file of a compiled function, and that file."""
+    folder = tmp_path_factory.mktemp("kept") / "new"
     with pytest.MonkeyPatch.context() as patch:
-        patch.setattr(_compile, "_FOLDERS", [folder / "new"])
-        assert _compile.compiled(half)(3.0) == 1.5
-        (file,) = (folder / "new").iterdir()
+        patch.setattr(_compile, "_FOLDERS", [folder])
+        assert compiled_again() == (3.0 * FACTOR, 1)
+        (file,) = folder.iterdir()
         yield file.read_bytes(), file
 
 
-def half(number):
-    return number / 2.0
+def scaled(number):
+    return number * FACTOR
 
 
-def again():
-    made = _compile.compiled(half)
+def compiled_again():
+    made = _compile.compiled(scaled)
     return made(3.0), sum(made.stats.cache_misses.values())
 
 
+@st.composite
+def damage(draw):
+    """What a file of these bytes becomes: a part of it is lost or replaced."""
+    begin, end = sorted(draw(st.tuples(*[st.floats(0.0, 1.0)] * 2)))
+    other = draw(st.binary(max_size=9))
+    return lambda content: (
+        content[: int(begin * len(content))] + other + content[int(end * len(content)) :]
+    )
+
+
 @settings(max_examples=40)
-@given(data=st.data())
-def test_a_damaged_file_is_compiled_anew(kept, data):
+@given(damaged=damage())
+@example(lambda content: content.replace(struct.pack("<d", FACTOR), struct.pack("<d", 8.0)))
+@example(lambda content: sha256(b"not ours").digest() + b"not ours")
+def test_a_damaged_file_is_compiled_anew(kept, damaged):
     content, file = kept
-    begin = data.draw(st.integers(0, len(content) - 1))
-    end = data.draw(st.integers(begin, len(content)))
-    file.write_bytes(content[:begin] + data.draw(st.binary(max_size=9)) + content[end:])
-    damaged = file.read_bytes() != content
-    assert again() == (1.5, damaged)
-    assert again() == (1.5, 0)
+    file.write_bytes(damaged(content))
+    assert compiled_again() == (3.0 * FACTOR, damaged(content) != content)
+    assert compiled_again() == (3.0 * FACTOR, 0)
 
 
 def test_what_is_compiled_for_something_else_is_kept_in_another_file(monkeypatch):
-    def files(loop):
-        return _compile._Cache(loop.py_func).files((), loop.targetctx.codegen())
+    def names(loop, *signature):
+        paths = _compile._Cache(loop.py_func).files(signature, loop.targetctx.codegen())
+        return {path.name for path in paths}
 
-    loops = plane.record, polar.record, polar.survey_of(0, 0, True), polar.survey_of(1, 0, True)
-    places = [files(loop) for loop in (*loops, polar.survey_of(0, 1, True))]
-    assert len({file.name for folder in places for file in folder}) == len(places)
+    chosen = [(0, 0, True), (1, 0, True), (0, 1, True), (0, 0, False)]
+    loops = plane.record, polar.record, *(polar.survey_of(*each) for each in chosen)
+    found = [names(loop) for loop in loops] + [names(plane.record, numba.float64)]
+    assert len(set.union(*found)) == len(found)
     before = _compile._folders()
     monkeypatch.setattr(numba, "__version__", "0.0")
     assert not set(_compile._folders()) & set(before)

@@ -52,8 +52,8 @@ class _Cache(NullCache):
     def files(self, signature, codegen) -> list[Path]:
         name = self.function.__name__
         constants = [cell.cell_contents for cell in self.function.__closure__ or ()]
-        key = self.function.__module__, name, constants, signature, codegen.magic_tuple()
-        return [folder / f"{name}-{sha256(repr(key).encode()).hexdigest()[:16]}" for folder in _FOLDERS]
+        key = repr((self.function.__module__, constants, signature, codegen.magic_tuple()))
+        return [folder / f"{name}-{sha256(key.encode()).hexdigest()[:16]}" for folder in _FOLDERS]
 
     def load_overload(self, signature, target_context):
         target_context.refresh()
