@@ -31,7 +31,9 @@ class _Printer(JavascriptCodePrinter):
 
 
 _OURS = {name: name for name in ("sinc", "decay", "wrap")}
-_PRINTER = _Printer({"user_functions": _OURS | {"expm1": "Math.expm1"}})
+_MATHS = {"turned_back": "turnedBack", "expm1": "Math.expm1"}
+_MATHS["fmod"] = [(lambda *_: True, lambda number, period: f"({number} % ({period}))")]
+_PRINTER = _Printer({"user_functions": _OURS | _MATHS})
 
 
 def javascript_name(name: str) -> str:
