@@ -23,10 +23,10 @@ TERM = "alpha + gains.h * theta"  # of the laws
 FACTOR = 1.7
 RUN = """
 import wmrlib as w
-run = w.simulate(w.Pose(0, 0, 0), w.Pose(3, 1, 0.5), w.Gains(1, 2, 0.5), dt=0.05)
-from wmrlib._loops import plane
-stats = getattr(plane.drive, "stats", None)
-print(float(run.x[-1]), float(run.heading[-1]), sum(stats.cache_misses.values()) if stats else None)
+from wmrlib import control
+print(*w.control_law(3.0, 0.5, -1.0, w.Gains(1, 2, 0.5)))
+stats = getattr(control._pose_law_all, "stats", None)
+print(sum(stats.cache_misses.values()) if stats else None)
 """
 # Where nothing can be kept, as a child finds it before it imports wmrlib.
 NOWHERE = {

@@ -14,7 +14,6 @@ import sys
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
-from dataclasses import dataclass
 from functools import lru_cache
 from hashlib import sha256
 from pathlib import Path
@@ -43,11 +42,11 @@ def _folders() -> list[Path]:
 _FOLDERS = _folders()
 
 
-@dataclass
 class _Cache(NullCache):
     """The binaries of a function. One that is not there, or damaged, is compiled anew."""
 
-    function: Callable
+    def __init__(self, function: Callable) -> None:
+        self.function = function
 
     def files(self, signature, codegen) -> list[Path]:
         name = self.function.__name__
@@ -73,22 +72,20 @@ class _Cache(NullCache):
 
 def _kept(file: Path, content: bytes) -> bool:
     part = file.with_name(uuid4().hex)  # other processes see the whole file or none
-    try:
+    with suppress(OSError):
         file.parent.mkdir(parents=True, exist_ok=True)
         part.write_bytes(content)
         part.replace(file)
-    except OSError:
-        with suppress(OSError):
-            part.unlink()
+    with suppress(OSError):  # what did not become the file
+        part.unlink()
     return os.path.exists(file)  # Windows replaces no file that another process is reading
 
 
 @lru_cache
 def _warn() -> None:
     places = " or ".join(str(folder.parent) for folder in _FOLDERS)
-    remedy = "set NUMBA_CACHE_DIR to a folder that can be written to and has space"
-    text = f"compiled code can't be kept in {places}: each process compiles anew, unless you "
-    warnings.warn(text + remedy, RuntimeWarning, stacklevel=2)
+    text = f"compiled code can't be kept in {places}, so each process compiles anew: "
+    warnings.warn(text + "set NUMBA_CACHE_DIR to a folder for it", RuntimeWarning, stacklevel=2)
 
 
 def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:

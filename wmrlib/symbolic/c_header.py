@@ -21,10 +21,6 @@ _OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap", "turned_back"
 class _Printer(C99CodePrinter):
     """Numbers in WMR_C(...) and functions in WMR_F(...), which the header has for both types."""
 
-    def __init__(self):
-        library = {name: f"WMR_F({name})" for name in _FUNCTIONS}
-        super().__init__({"user_functions": library | _OURS | {"Abs": "WMR_F(fabs)"}})
-
     def _print_Float(self, expr):  # noqa: N802 (sympy's name)
         return f"WMR_C({float(expr)!r})"
 
@@ -36,18 +32,17 @@ class _Printer(C99CodePrinter):
     _print_sinc = C99CodePrinter._print_Function  # where sympy prints cases
 
     def _print_Pow(self, expr):  # noqa: N802
-        base = self.parenthesize(expr.base, PRECEDENCE["Mul"])
-        if expr.exp == 2:
-            return f"({base}*{base})"
-        if expr.exp == sp.Rational(1, 2):
-            return f"WMR_F(sqrt)({self._print(expr.base)})"
-        if expr.exp == -1:
-            return f"WMR_C(1.0)/{base}"
-        return f"WMR_F(pow)({self._print(expr.base)}, {self._print(expr.exp)})"
+        factor, base = self.parenthesize(expr.base, PRECEDENCE["Mul"]), self._print(expr.base)
+        own = {2: f"({factor}*{factor})", sp.S.Half: f"WMR_F(sqrt)({base})", -1: f"1/{factor}"}
+        return own.get(expr.exp) or f"WMR_F(pow)({base}, {self._print(expr.exp)})"
 
     def line(self, expression: sp.Expr) -> str:
         text = re.sub(r"\s+", " ", self.doprint(expression))
         return re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", text)  # brackets of its own
+
+
+_LIBRARY = {name: f"WMR_F({name})" for name in _FUNCTIONS} | {"Abs": "WMR_F(fabs)"}
+_PRINTER = _Printer({"user_functions": _LIBRARY | _OURS})
 
 
 def c_function(name: str, formula: Formula) -> str:
@@ -61,9 +56,9 @@ def c_function(name: str, formula: Formula) -> str:
     -------
     str
     """
-    printer, arguments = _Printer(), [f"WMR_REAL {each}" for each in formula.arguments]
-    lines = [f"const WMR_REAL {each} = {printer.line(value)};" for each, value in formula.locals_]
-    values, kind = [printer.line(value) for value in formula.values], "WMR_REAL"
+    arguments, kind = [f"WMR_REAL {each}" for each in formula.arguments], "WMR_REAL"
+    lines = [f"const WMR_REAL {each} = {_PRINTER.line(value)};" for each, value in formula.locals_]
+    values = [_PRINTER.line(value) for value in formula.values]
     if formula.gains:
         used = sp.Tuple(*formula.expanded()).free_symbols
         state = [f"{each} = error.{each}" for each in formula.arguments if each in used]
