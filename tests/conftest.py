@@ -18,9 +18,11 @@ settings.register_profile("repeatable", deadline=None, derandomize=True, print_b
 settings.load_profile("repeatable")
 
 TOOLS = {  # what a test may need, the commands that are it, and what to install
+    "avr": (("avr-gcc",), "a compiler for AVR boards (Debian: apt install gcc-avr avr-libc)"),
     "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
     "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
     "npm": (("npm",), "npm (Debian: apt install npm)"),
+    "simavr": (("simavr",), "simavr, which simulates AVR boards (Debian: apt install simavr)"),
 }
 
 
