@@ -13,7 +13,7 @@ from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at, position_list
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.metrics import arrival, path_length
-from wmrlib.runs import Arrival, Outcome, Trajectory
+from wmrlib.runs import Arrival, Outcome, ReadOnly, Trajectory
 from wmrlib.simulation import simulate
 
 _HAIRPIN = math.pi - 1e-9  # rad: a turn of 180 deg but for rounding
@@ -23,7 +23,7 @@ _JOINED = ("t", "x", "y", "heading", "v", "omega", "V")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Route:
+class Route(ReadOnly):
     """A driven route: its legs, and their samples joined in arrays that can't be written to.
 
     Where the goal changes, the sample is the next leg's, so that t increases strictly; V, which
@@ -233,9 +233,6 @@ def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
     joined = {k: np.concatenate([getattr(each, k) for each in legs])[kept] for k in _JOINED}
     joined["leg"] = leg[kept]
     joined["t"] += begins[joined["leg"]]
-    joined["heading"] = wrap_angle(joined["heading"])  # a start's may be written as 7 rad
-    for values in joined.values():
-        values.flags.writeable = False
     return joined
 
 
