@@ -43,10 +43,7 @@ def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=Fals
     """
     if type(value) is float and math.isfinite(value) and low <= value <= high and value > above:
         return value  # the common case, kept quick: a simulation checks a dozen numbers
-    try:
-        array = np.array(None) if _masked(value) else np.asarray(value)
-    except (ValueError, TypeError, OverflowError, RecursionError):  # ragged rows, say
-        array = np.array(None)
+    array = as_array(value)
     if array.dtype.kind in "iuf":
         array = array.astype(np.float64)
         fits = np.isfinite(array) & (array >= low) & (array <= high) & (array > above)
@@ -69,6 +66,14 @@ def _masked(value: Any) -> bool:
     """Whether numpy would put a number where a mask says that there is none."""
     listed = isinstance(value, list | tuple) and any(map(_masked, value))
     return listed or isinstance(value, np.ma.MaskedArray)
+
+
+def as_array(value: Any) -> np.ndarray:
+    """The value as an array; as one of no number if it is ragged, masked or no array at all."""
+    try:
+        return np.array(...) if _masked(value) else np.asarray(value)
+    except (ValueError, TypeError, OverflowError, RecursionError):
+        return np.array(...)
 
 
 def plain(value: Any) -> Any:

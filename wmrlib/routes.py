@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real, same_shape, scalar
+from wmrlib._checks import Real, as_array, instance, real, refusal, same_shape, scalar
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at, position_list
 from wmrlib.kinematics import Pose, wrap_angle
@@ -143,7 +143,7 @@ def route_poses(
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
-    listed = np.atleast_1d(np.array(headings, dtype=object))
+    listed = np.atleast_1d(as_array(headings))
     known = [math.nan if each is None else each for each in listed]
     given = np.asarray(real("headings", known, nan=True))
     if given.shape != lat.shape:
@@ -168,7 +168,7 @@ def route_points(route: Route, origin: GeoPoint) -> GeoPoint:
     ------
     ValueError : another type
     """
-    lat, lon = position_list(origin)
+    lat, lon = position_list(origin, "origin")
     x, y = instance("route", route, Route).x, route.y
     return point_at(GeoPoint(lat=lat[0], lon=lon[0]), x, y)
 
@@ -237,11 +237,7 @@ def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
 
 
 def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
-    try:
-        flags = np.asarray(stop)
-    except ValueError:  # lists of different lengths
-        flags = np.empty(0)
+    flags = as_array(stop)
     if flags.dtype != bool or flags.shape not in ((), (count,)):
-        needed = f"True, False or a list of {count}, one a waypoint, is needed"
-        raise ValueError(f"stop = {stop!r} is not allowed: {needed}")
+        raise refusal("stop", stop, f"True, False or a list of {count}, one a waypoint,")
     return tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (count - 1), True)

@@ -142,5 +142,5 @@ def _held(method, dt, radius, start, path, *loop) -> tuple:
 
 
 def _trajectory(t, record, outcome, peak, length, *setting) -> Trajectory:
-    ended = _OUTCOMES[outcome]
-    return Trajectory(t[: record.shape[1]], *record, ended, *setting, peak, length)  # type: ignore[call-arg]
+    fields = t[: record.shape[1]], *record, _OUTCOMES[outcome], *setting, peak, length
+    return Trajectory(*fields)

@@ -15,7 +15,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import choice, instance, same_shape, scalar
+from wmrlib._checks import as_array, choice, instance, same_shape, scalar
 from wmrlib._loops import plane, polar, rows
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
@@ -201,7 +201,7 @@ def _chunk_size(total: int, task: _Task, cores: int, executor: Executor | None) 
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:
-    names = np.asarray(law)
+    names = as_array(law)
     codes = [POSE_LAWS[choice("law", name, POSE_LAWS)] for name in names.ravel().tolist()]
     return np.array(codes, dtype=float).reshape(names.shape)
 

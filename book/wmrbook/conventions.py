@@ -53,7 +53,8 @@ def translate(polar: tuple[Real, Real, Real], source: str, target: str) -> tuple
     """
     sign = CONVENTIONS[choice("source", source, CONVENTIONS)].third
     sign *= CONVENTIONS[choice("target", target, CONVENTIONS)].third
-    if not isinstance(polar, list | tuple | np.ndarray) or np.shape(polar)[:1] != (3,):
+    listed = isinstance(polar, list | tuple | np.ndarray) and np.iterable(polar)
+    if not listed or len(polar) != 3:
         raise refusal("polar", polar, "three numbers or three arrays")
     rho, alpha, third = reals(
         at_least_0=("rho",), **dict(zip(("rho", "alpha", "third angle"), polar, strict=True))
