@@ -171,7 +171,8 @@ def test_odd_arguments_are_refused_by_name(function):
     for name in valid:
         for odd in ODD if name != "reference" else ODD[1:7]:  # a function's own errors are its own
             refused(function, valid | {name: odd}, name)
-        for odd in (object(), 10**5000, LOOP, Unreadable(), np.ma.masked):
+        no_numbers = (float("inf"), *([] if name == "headings" else [float("nan")]))
+        for odd in (object(), 10**5000, LOOP, Unreadable(), np.ma.masked, *no_numbers):
             assert refused(function, valid | {name: odd}, name), (name, type(odd))
 
 

@@ -83,6 +83,17 @@ def test_residual_is_the_mean_of_the_end():
     assert wmr.residual(run, last=1e9) == pytest.approx(run.rho.mean())
 
 
+def test_whatever_is_above_0_counts():
+    """However short: a run of a millisecond, its last microsecond, a track of a millimetre."""
+    run = wmr.simulate(ORIGIN, wmr.Pose(5, 1, 0), wmr.GENTLE_GAINS, dt=1e-3, duration=1e-3)
+    assert (len(run), wmr.residual(run, last=1e-6)) == (2, run.rho[-1])
+    left, right = wmr.twist_to_wheels(1.0, 1.0, 1e-3)
+    twist = wmr.wheels_to_twist(left, right, 1e-3)
+    assert (right - left, *twist) == pytest.approx((1e-3, 1.0, 1.0))
+    limited = wmr.limit_wheels(1.0, 1.0, wmr.WheelLimits(1e-3, 1e-3))
+    assert wmr.twist_to_wheels(*limited, 1e-3)[1] == pytest.approx(1e-3)
+
+
 def test_bad_input():
     empty = wmr.simulate(ORIGIN, wmr.Pose(5, 1, 0), wmr.Gains(1e308, 1e308, 1e308, 1e308))
     run = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains)

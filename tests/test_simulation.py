@@ -186,6 +186,15 @@ def test_samples_follow_from_each_other(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
+def test_a_moving_goal_is_followed_with_headings_in_the_half_open_turn(method):
+    """Twice round the circle, where the reference's own heading grows to 14 rad."""
+    run = circle(method=method, duration=80.0)
+    assert run.goal.heading[-1] > 4.0 * math.pi
+    assert np.all((-math.pi < run.heading) & (run.heading <= math.pi))
+    assert np.diff(np.unwrap(run.heading)).sum() > 3.0 * math.pi
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_outcomes(method):
     run = wmr.simulate(ORIGIN, ORIGIN, CALM, method=method)
     assert (len(run), run.outcome, run.t[0], run.rho[0]) == (1, wmr.Outcome.ARRIVED, 0.0, 0.0)

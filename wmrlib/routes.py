@@ -143,9 +143,9 @@ def route_poses(
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
-    listed = np.atleast_1d(as_array(headings))
-    known = [math.nan if each is None else each for each in listed]
-    given = np.asarray(real("headings", known, nan=True))
+    if isinstance(headings, list | tuple):
+        headings = [math.nan if each is None else each for each in headings]
+    given = np.atleast_1d(real("headings", headings, nan=True))
     if given.shape != lat.shape:
         shapes = f"headings have shape {given.shape}, points have shape {lat.shape}"
         raise ValueError(f"mismatched lengths: {shapes}; the same is needed")

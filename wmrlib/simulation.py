@@ -69,12 +69,12 @@ def simulate(
         raise refusal("wheel_lag", lag, '0, or method "continuous" with an arrival radius,')
     t = dt * np.arange(samples)
     if continuously:
-        t, *run = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
+        run = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
     else:
         path = np.zeros((5, samples))
         path[rows.X], path[rows.Y], path[rows.HEADING] = end
-        run = _held(method, dt, radius, begin, path, tuning, code, limits)
-    return _trajectory(t, *run, end, gains, law, method)
+        run = _held(t, method, dt, radius, begin, path, tuning, code, limits)
+    return _trajectory(*run, end, gains, law, method)
 
 
 def track(
@@ -125,22 +125,20 @@ def track(
 
     path = path_at(t)
     if choice("method", method, _METHODS) == "continuous":
-        t, *run = continuous.after_reference(path_at, begin, tuning, code, limits, t)
+        run = continuous.after_reference(path_at, begin, tuning, code, limits, t)
     else:
-        run = _held(method, dt, -1.0, begin, path, tuning, code, limits)
-    record, outcome, *sums = run
-    goal = Pose(*path[: rows.GOAL_V, : record.shape[1]])
+        run = _held(t, method, dt, -1.0, begin, path, tuning, code, limits)
+    t, record, outcome, *sums = run
     ended = rows.COMPLETED if outcome == rows.TIMED_OUT else outcome
-    return _trajectory(t, record, ended, *sums, goal, gains, law, method)
+    return _trajectory(t, record, ended, *sums, Pose(*path[:3, : t.size]), gains, law, method)
 
 
-def _held(method, dt, radius, start, path, *loop) -> tuple:
-    """A run whose twist is held for dt: (record, outcome, peak omega, path length)."""
+def _held(t, method, dt, radius, start, path, *loop) -> tuple:
+    """(t, record, outcome, peak omega, path length) of a run whose twist is held for dt."""
     record, outcome = plane.drive(tuple(start), path, *loop, _STEPS[method], dt, radius)
     v, omega = np.abs(record[rows.V : rows.LYAPUNOV])
-    return record, outcome, omega.max(initial=0.0), dt * v[:-1].sum()
+    return t[: v.size], record, outcome, omega.max(initial=0.0), dt * v[:-1].sum()
 
 
 def _trajectory(t, record, outcome, peak, length, *setting) -> Trajectory:
-    fields = t[: record.shape[1]], *record, _OUTCOMES[outcome], *setting, peak, length
-    return Trajectory(*fields)
+    return Trajectory(*(t, *record, _OUTCOMES[outcome], *setting, peak, length))

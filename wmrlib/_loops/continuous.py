@@ -45,7 +45,9 @@ def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
     left_to_go.terminal, left_to_go.direction = True, -1.0  # type: ignore[attr-defined]
     first = polar_error(start, goal)
     begin = np.array([*first, *[0.0] * (3 if lag else 1)])
-    if not arrival_radius < first.rho < math.inf:
+    if first.rho == math.inf:
+        return t[:0], np.empty((9, 0)), rows.DIVERGED, 0.0, 0.0
+    if first.rho <= arrival_radius:
         return _summed_up(t[:1], t[:1], lambda _: begin[:, None], rows.ARRIVED, recorded)
     return _integrated(rate, begin, t, recorded, left_to_go)
 
@@ -101,9 +103,9 @@ def _summed_up(t, steps, state_at, outcome, recorded):
     The last of the states is the metres rolled; the steps are those of the integrator.
     """
     states = state_at(t)
-    states = states[:, : _known(states)]
-    record = recorded(t[: states.shape[1]], states)
-    known = _known(record[rows.RHO : rows.LYAPUNOV])
+    record = recorded(t, states)
+    finite = np.isfinite(record[rows.RHO : rows.LYAPUNOV]).all(axis=0)
+    known = int(np.logical_and.accumulate(finite).sum())
     if known < t.size:
         t, record, outcome = t[:known], record[:, :known], rows.DIVERGED
     if not known:
@@ -116,11 +118,6 @@ def _summed_up(t, steps, state_at, outcome, recorded):
         k, peak = int(turning.argmax()), max(peak, turning.max())
         times = np.linspace(times[max(k - 1, 0)], times[min(k + 1, times.size - 1)], 17)
     return t, record, outcome, peak, states[-1, known - 1]
-
-
-def _known(columns) -> int:
-    """How many columns there are before the first that is not finite."""
-    return int(np.logical_and.accumulate(np.isfinite(columns).all(axis=0)).sum())
 
 
 @compiled
