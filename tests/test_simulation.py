@@ -314,6 +314,24 @@ def test_continuous_with_stiff_gains(start, gains):
     np.testing.assert_allclose([run.rho, run.alpha, run.theta], truth, atol=1e-7)
 
 
+def test_stiff_gains_arrive_although_a_trial_step_passes_the_goal():
+    ends = wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(5.0, 3.0, 1.0)
+    run = wmr.simulate(*ends, wmr.Gains(1e6, 1e6, 1e6), method="continuous")
+    assert run.outcome is wmr.Outcome.ARRIVED
+
+
+def test_backing_up_after_a_reference_counts_as_way():
+    def still(t):
+        return wmr.Reference(0.0 * t, 0.0, 0.0, 0.0, 0.0)
+
+    options = {"method": "continuous", "duration": 2.0}
+    tracked = wmr.track(still, wmr.Pose(-5.0, 1.0, 3.0), CALM, **options)
+    driven = wmr.simulate(wmr.Pose(-5.0, 1.0, 3.0), ORIGIN, CALM, **options)
+    assert tracked.v.min() < 0.0
+    assert tracked.path_length == pytest.approx(driven.path_length, abs=1e-7)
+    assert tracked.peak_omega == pytest.approx(driven.peak_omega, rel=1e-7)
+
+
 def test_a_run_that_takes_too_long_is_refused():
     """It truly turns round and round, 10,000 times a second."""
     restless = wmr.Gains(0.5, 1e3, 1e6, 1e6)
