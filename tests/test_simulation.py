@@ -316,7 +316,8 @@ def test_continuous_with_stiff_gains(start, gains):
 
 def test_stiff_gains_arrive_although_a_trial_step_passes_the_goal():
     ends = wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(5.0, 3.0, 1.0)
-    run = wmr.simulate(*ends, wmr.Gains(1e6, 1e6, 1e6), method="continuous")
+    options = {"method": "continuous", "arrival_radius": 1e-3}
+    run = wmr.simulate(*ends, wmr.Gains(1e6, 1e6, 1e6), **options)
     assert run.outcome is wmr.Outcome.ARRIVED
 
 
