@@ -240,10 +240,13 @@ def test_places_beyond_the_squares_of_numbers(method):
         assert (lost.outcome, len(lost)) == (wmr.Outcome.DIVERGED, 0)
 
 
-def test_a_sweep_knows_no_distance_where_there_is_no_sample():
-    lost = wmr.sweep(wmr.Pose(1e308, 0, 0), wmr.Pose(-1e308, 0, 0), CALM, method="arc")
-    assert (lost.arrived, lost.time) == (False, math.inf)
-    assert np.isnan(lost[2:]).all()
+def test_a_sweep_knows_the_distance_where_there_is_no_sample():
+    gains = wmr.Gains(1e308, 1e308, 1e308, 1e308)
+    for method in ("arc", "euler"):
+        lost = wmr.sweep(wmr.Pose([3.0, 1e308], 4.0, 1.0), ORIGIN, gains, method=method)
+        assert not lost.arrived.any()
+        assert lost.distance == pytest.approx([5.0, 1e308])
+        assert lost.heading_error == pytest.approx([1.0, 1.0])
     far = wmr.sweep(wmr.Pose(1e200, 0, 0), ORIGIN, CALM, method="arc")
     assert far.distance == 1e200
 

@@ -63,12 +63,11 @@ def survey(runs, law, wheels, step, dt, samples, arrival_radius):
         start, goal, gains = rows.run_of(runs, i)
         pose, tuning = (start[0], start[1], wrap(start[2])), pose_tuning(*gains)
         outcome, last, peak, length = rows.TIMED_OUT, 0, 0.0, 0.0
+        rho, alpha, theta = polar_from_pose(*pose, *goal)
         for k in range(samples):
             seen = observe(pose, goal, (0.0, 0.0), tuning, law, wheels)
             if not math.isfinite(seen[0] + seen[3] + seen[4]):
                 outcome = rows.DIVERGED
-                if k == 0:
-                    rho = alpha = theta = peak = length = math.nan
                 break
             last, (rho, alpha, theta, v, omega) = k, seen
             peak = max(peak, abs(omega))
