@@ -23,9 +23,9 @@ TERM = "alpha + gains.h * theta"  # of the laws
 FACTOR = 1.7
 RUN = """
 import wmrlib as w
-from wmrlib import control
+from wmrlib import _compile, control
 print(*w.control_law(3.0, 0.5, -1.0, w.Gains(1, 2, 0.5)))
-stats = getattr(control._pose_law_all, "stats", None)
+stats = getattr(_compile.loop_over(control._numbers_to_law), "stats", None)
 print(sum(stats.cache_misses.values()) if stats else None)
 """
 # Where nothing can be kept, as a child finds it before it imports wmrlib.
