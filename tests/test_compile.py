@@ -15,7 +15,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import _compile
+from wmrlib import _compile, motion
 from wmrlib._loops import plane, polar
 
 PACKAGE = Path(wmr.__file__).parent
@@ -199,3 +199,11 @@ def test_one_entry_beside_a_number_and_read_only_arrays_bring_no_warning():
     assert wmr.polar_error(wmr.Pose(one, one, one), goal).rho.tolist() == [1.0]
     assert wmr.polar_error(wmr.Pose(fixed, 0.0, 0.0), goal).rho.tolist() == [1.0] * 3
     assert wmr.wrap_angle(np.zeros((2, 3)).T).shape == (3, 2)
+
+
+def test_the_loops_over_two_formulas_are_kept_in_two_files():
+    loops = [_compile.loop_over(step) for step in motion.STEPS.values()]
+    euler, arc = (
+        _compile._Cache(loop.py_func).files((), loop.targetctx.codegen()) for loop in loops
+    )
+    assert not set(euler) & set(arc)
