@@ -60,13 +60,26 @@ OPERATOR = re.compile(rb"(?:[\s)\\]|#.*\n)*(is not|not in|[a-z]+|[-+*/%&|<>=!@^]
 SWAPPED = {"sin": "cos", "cos": "sin", "max": "min", "min": "max", "radians": "degrees"}
 DROPPED = {"wrap", "wrap_angle", "abs", "max", "min", "maximum", "minimum", "clip", "sqrt"}
 NOT_COMPUTED = {"annotation", "returns", "decorator_list", "bases"}
-# In the copies hypothesis does not shrink what fails, and what is compiled is kept for the next
-# mutant if that leaves the kernels alone.
+# In the copies hypothesis does not shrink what fails, the tests that are soon done run first, and
+# what is compiled is kept for the next mutant if that leaves the kernels alone.
 CONFTEST = """
+import json
 from hypothesis import Phase
 settings.load_profile("repeatable")
 settings.register_profile("mutants", phases=(Phase.explicit, Phase.generate))
 settings.load_profile("mutants")
+_TOOK = Path(os.environ["MUTANTS_TOOK"])
+_took = json.loads(_TOOK.read_text()) if _TOOK.exists() else {}
+
+def pytest_collection_modifyitems(items):
+    items.sort(key=lambda item: _took.get(item.nodeid, 0.0))
+
+def pytest_runtest_logreport(report):
+    _took[report.nodeid] = max(report.duration, _took.get(report.nodeid, 0.0))
+
+def pytest_sessionfinish(exitstatus):
+    if exitstatus == 0:
+        _TOOK.write_text(json.dumps(_took))
 """
 COMPILE = """
 _CACHE_FOLDER = os.environ["MUTANTS_CACHE"]
@@ -187,16 +200,14 @@ class Copy:
         """The exit status of pytest on the tests of a plan."""
         how, *names = plan.split()
         command = [sys.executable, "-m", "pytest", "-xqo", "addopts=", "-p", "no:cacheprovider"]
-        command += [
-            "-W",
-            "ignore::RuntimeWarning",
-        ]  # numpy's, where compiled code overflows in silence
+        command += ["-W", "ignore::RuntimeWarning"]  # numpy's; compiled code overflows in silence
         command += [f"tests/test_{name}.py" for name in names]
         settings = os.environ | {
             "PYTHONPATH": os.pathsep.join([str(self.folder), str(self.folder / "book")]),
             "PYTHONDONTWRITEBYTECODE": "1",  # it would outlive a mutant of the same size
             "NUMBA_DISABLE_JIT": str(int(how == "plain")),
             "MUTANTS_CACHE": str(self.folder / cache),
+            "MUTANTS_TOOK": str(self.folder / f"{plan}.json"),
         }
         options = {"cwd": self.folder, "env": settings, "timeout": limit, "capture_output": True}
         return subprocess.run(command, **options).returncode
