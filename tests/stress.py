@@ -19,6 +19,7 @@ import math
 import os
 import random
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -368,6 +369,80 @@ def damaged_bytes(kind: str, rng: random.Random):
     return bytes(data), None, 0, 0
 
 
+# Hosts -------------------------------------------------------------------------------------------
+
+USED = """
+import sys, numpy as np, wmrlib as wmr
+start, goal, gains = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(3.0, 2.0, 1.0), wmr.GENTLE_GAINS
+said = [*wmr.sweep(wmr.Pose([0.0, 1.0], 0.0, 0.0), goal, gains, progress=False)]
+for method in ("arc", "euler", "continuous"):
+    said += wmr.arrival(wmr.simulate(start, goal, gains, method=method))
+said += [*wmr.modes(gains), *wmr.control_law(1.0, 2.0, 0.5, gains)]
+said += wmr.read_track(sys.argv[1]).points
+import matplotlib
+matplotlib.use("agg")
+import wmrlib.plots, wmrlib.symbolic, wmrlib.explorer
+print([np.round(np.asarray(each, dtype=float), 6).tolist() for each in said])
+"""
+FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))"
+NOBODY = "import os, pwd; del os.environ['HOME']; pwd.getpwuid = {}.__getitem__"
+HOSTS = {  # what the process does before it imports wmrlib, what it is given, and Python's options
+    "as it should be": ("", {}, ()),
+    "a user without a home or an entry": (NOBODY, {}, ()),
+    "a home that is a file": ("", {"HOME": "/dev/null"}, ()),
+    "a full disk": (FULL, {}, ()),
+    "no folder for temporary files": ("", {"TMPDIR": "/nowhere"}, ()),
+    "a cache folder that can't be": ("", {"NUMBA_CACHE_DIR": "/dev/null/x"}, ()),
+    "without docstrings and assertions": ("", {}, ("-OO",)),
+    "an ASCII locale": ("", {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}, ()),
+    "every warning an error": ("", {"PYTHONWARNINGS": "error:::wmrlib"}, ()),
+    "without numba's compiler": ("", {"NUMBA_DISABLE_JIT": "1"}, ()),
+    "one thread": ("", {"NUMBA_NUM_THREADS": "1", "OMP_NUM_THREADS": "1"}, ()),
+}
+
+
+def attack_hosts(seed: int) -> Iterator[Row]:
+    rng = random.Random(seed)
+    with tempfile.TemporaryDirectory() as folder:
+        site, caches = Path(folder, "site"), Path(folder, "caches")
+        for place in (Path(folder), site, caches):
+            place.mkdir(exist_ok=True)
+            place.chmod(0o755)
+        ignored = shutil.ignore_patterns("__pycache__")
+        shutil.copytree(Path(wmr.__file__).parent, site / "wmrlib", ignore=ignored)
+        (site / "wmrlib" / "__pycache__").touch()  # nobody, not even root, makes a folder of it
+        log = site / "log.csv"
+        log.write_text("lat,lon\n33.27,44.37\n", encoding="utf-8")
+
+        def begin(code: str, settings: dict, options: tuple = ()) -> subprocess.Popen:
+            own = {"PYTHONPATH": str(site), "PYTHONDONTWRITEBYTECODE": "1", "HOME": folder}
+            own |= {"MPLCONFIGDIR": str(caches)} | settings
+            kept = {name: value for name, value in os.environ.items() if name[:6] != "NUMBA_"}
+            command = [sys.executable, *options, "-c", f"{code}\n{USED}", str(log)]
+            pipes = {"stdout": subprocess.PIPE, "stderr": subprocess.PIPE, "text": True}
+            return subprocess.Popen(command, env=kept | own, cwd=folder, **pipes)
+
+        def row(held: str, process: subprocess.Popen, expected: str | None) -> Row:
+            out, errors = process.communicate()
+            told = errors.count("can't be kept")
+            right = bool(out) and out == (expected or out) and told <= 1 and not process.returncode
+            return Row("hosts", f"{held}: it runs, and is right", 1, not right, (errors[-500:],))
+
+        expected = begin("", {"NUMBA_CACHE_DIR": str(caches)}).communicate()[0]
+        for held, host in HOSTS.items():
+            yield row(held, begin(*host), expected)
+        for binary in [path for path in caches.rglob("*") if path.is_file()]:
+            content = bytearray(binary.read_bytes())
+            i = rng.randrange(len(content) + 1)
+            content[i : i + rng.randrange(1, 100)] = rng.randbytes(rng.randrange(50))
+            binary.write_bytes(content)
+        damaged = begin("", {"NUMBA_CACHE_DIR": str(caches)})
+        yield row("each file of the cache is damaged", damaged, expected)
+        cold = {"NUMBA_CACHE_DIR": str(caches / "cold")}
+        for process in [begin("", cold) for _ in range(4)]:
+            yield row("four at once on a cold cache", process, expected)
+
+
 # The rest ----------------------------------------------------------------------------------------
 
 
@@ -431,7 +506,8 @@ def main(attacks, runs, files, examples, mutants, jobs, seed) -> None:
         begin = time.perf_counter()
         for _, held, tried, found, seen in together(todo[name]()):
             print(f"{name:11}{held:58}{tried:12,}{found:8,}", flush=True)
-            print(*(f"           {each}" for each in seen), sep="\n", end="\n" * bool(seen))
+            for each in seen if found else ():
+                print(f"           {each}", flush=True)
             wrong += found if name != "mutants" else found > 0.05 * tried
         print(f"{name:11}took {time.perf_counter() - begin:.0f} s", flush=True)
     sys.exit(f"{wrong:,} wrong" if wrong else None)
