@@ -44,10 +44,23 @@ PLANS = {
     "tuning": "jit tuning",
 }
 NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
-# The file, what its line or change reads, and why no test can tell the mutant.
+# The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
-    ("geodesy.py", "'+' -> '-' in lon2 = np.where", "half a turn more or less, in mod 360"),
-    ("geodesy.py", "'>=' -> '>' in lon2 = np.where", "mod gives -180 back as it is"),
+    ("", "strict=True", "all lengths are equal"),
+    ("_loops/polar.py", "inside[i] = -1", "any negative number says that a place is empty"),
+    ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
+    ("_vecmath.py", "in tiny = ", "both branches agree at the border"),
+    ("_vecmath.py", "> _HIGHEST else x", "both branches agree at the border"),
+    ("gains.py", "KanayamaGains(0.0, 1.0, 0.0)", "fills the place of gains that are not used"),
+    ("geodesy.py", "in lon2 = np.where", "half a turn more or less, in mod 360, which keeps -180"),
+    ("routes.py", "in _APART = ", "a tolerance"),
+    ("runs.py", "int(steps + 1e-9)", "a tolerance"),
+    ("runs.py", "if steps > MOST_SAMPLES", "one step in ten million"),
+    ("simulation.py", "np.zeros((5, samples))", "rows that are not used"),
+    ("sweeping.py", "_CHUNK", "how runs are cut into chunks does not show"),
+    ("sweeping.py", "cores = ", "how many threads there are does not show"),
+    ("sweeping.py", "in bar = tqdm", "how the bar looks"),
+    ("symbolic/formulas.py", "motion.polar_from_pose, 0, 0, 0", "what the result does not read"),
 ]
 
 OPERATORS = {
