@@ -61,7 +61,9 @@ def run(path: Path) -> str:
             client.execute()
         except CellExecutionError as error:
             return str(error)
-    path.write_text(stored(notebook), encoding="utf-8")
+    whole = path.with_suffix(".new")  # a full disk leaves the chapter as it was
+    whole.write_text(stored(notebook), encoding="utf-8")
+    whole.replace(path)
     return ""
 
 

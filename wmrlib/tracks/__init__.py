@@ -4,12 +4,13 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from pathlib import Path
+from io import BufferedReader
 
 import numpy as np
 
 from wmrlib._checks import book_extra
 from wmrlib.geodesy import GeoPoint
+from wmrlib.tracks import gpx, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
 from wmrlib.tracks.scatter import StationaryScatter, mean_position, stationary_scatter
 from wmrlib.tracks.writing import write_geojson, write_gpx
@@ -25,6 +26,12 @@ __all__ = [
     "write_gpx",
 ]
 
+_BINARY = (
+    (b"\x1f\x8b", 0, "compressed by gzip; unpack it"),
+    (b"PK\x03\x04", 0, "a zip archive, as a KMZ file is; unpack it, and export KML as GPX"),
+    (b".FIT", 8, "a FIT file; export it as GPX"),
+)
+
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Track:
@@ -33,7 +40,8 @@ class Track:
     Parameters
     ----------
     points, source, report : GeoPoint of arrays, "NMEA", "GPX", "CSV" or "GeoJSON", and Report
-    t : array, s; since the first position that has a time, NaN where there is none
+    t : array, s; since the first position that has a time, NaN where there is none; in order
+        within a segment of GPX, and in the whole of another file
     """
 
     points: GeoPoint
@@ -41,12 +49,26 @@ class Track:
     source: str
     report: Report
 
+    def __post_init__(self) -> None:
+        for values in (self.points.lat, self.points.lon, self.t):
+            np.asarray(values).flags.writeable = False
+
+    def __reduce__(self) -> tuple:  # a copy's arrays would be writeable
+        return Track, (self.points, self.t, self.source, self.report)
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, Track) and self._content() == other._content()
+
+    def _content(self) -> tuple:
+        rows = self.points.lat, self.points.lon, self.t
+        return *(np.asarray(row).tobytes() for row in rows), self.source, self.report
+
     def __len__(self) -> int:
         return self.t.size
 
     def __repr__(self) -> str:
         timed = self.t[~np.isnan(self.t)]
-        span = f"over {timed[-1]:.6g} s" if timed.size else "without times"
+        span = f"over {np.ptp(timed):.6g} s" if timed.size else "without times"
         left = sum(each.count for each in self.report.skipped.values())
         return f"<Track: {len(self)} positions from {self.source}, {span}; {left} not used>"
 
@@ -60,11 +82,13 @@ def read_track(path: str | os.PathLike) -> Track:
     """Read positions from NMEA sentences, GPX, GeoJSON or a CSV table; the content tells which.
 
     NMEA: GGA of every talker, and RMC for seconds without one; each epoch once; checksum needed.
-    GPX: the track points, or else the route's, or else the waypoints; no document type or entity.
+    GPX: the track points, or else the route's, or else the waypoints, whose times tell when they
+    were made and are not used; no document type or entity. Extensions are passed over.
     GeoJSON: all points and lines, RFC 7946. Text is UTF-8, or UTF-16 with its byte order mark.
     CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees;
     optionally time, timestamp, datetime or t, in seconds or ISO 8601. Cells are separated by a
     comma, semicolon, tab or |; decimal commas are read, in quotes where commas separate cells.
+    Where times run backwards, the longest run in order is used (in GPX, of each segment).
 
     Parameters
     ----------
@@ -77,40 +101,33 @@ def read_track(path: str | os.PathLike) -> Track:
     Raises
     ------
     ValueError : a file without a position; the message says why
+    OSError : a file that can't be opened
     """
-    data = Path(path).read_bytes()
     try:
-        source, fixes = _read(data)
-        report = fixes.report()
+        with open(path, "rb") as file:
+            source, fixes = _read(file)
+        (lat, lon, time), report = fixes.settle()
         if not report.used:
             reasons = "; ".join(report.listed(report.skipped))
             raise ValueError(f"it is {source}, but {reasons or 'holds no position'}")
     except ValueError as error:
-        raise ValueError(f"no position in {str(path)!r}: {error}") from None
-    time = np.array(fixes.time)
+        raise ValueError(f"no position in {os.fspath(path)!r}: {error}") from None
     timed = time[~np.isnan(time)]
     t = time - timed[0] if timed.size else time
-    points = GeoPoint(lat=np.array(fixes.lat), lon=np.array(fixes.lon))
-    for values in (points.lat, points.lon, t):
-        np.asarray(values).flags.writeable = False
-    return Track(points, t, source, report)
+    return Track(GeoPoint(lat=lat, lon=lon), t, source, report)
 
 
-def _read(data: bytes) -> tuple[str, Fixes]:
-    text = data
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # as PowerShell's > writes
-        text = data.decode("utf-16", errors="replace").encode()
-    text = text.removeprefix(b"\xef\xbb\xbf")
+def _read(file: BufferedReader) -> tuple[str, Fixes]:
+    head = file.peek()
+    for mark, place, kind in _BINARY:
+        if head.startswith(mark, place):
+            raise ValueError(f"it is {kind}")
+    if _utf_8(head).lstrip(b" \t\r\n\0")[:1] == b"<":
+        return "GPX", gpx.read(file)  # XML itself says how it is encoded
+    text = _utf_8(file.read())
     begin = text.lstrip()[:1]
     if not begin:
         raise ValueError("the file is empty")
-    if begin == b"<":
-        with book_extra("a GPX file"):
-            from wmrlib.tracks import gpx
-
-        return "GPX", gpx.read(data)  # XML itself says how it is encoded
-    from wmrlib.tracks import tables
-
     if begin in (b"{", b"["):
         return "GeoJSON", tables.read_geojson(text)
     with book_extra("an NMEA log"):
@@ -119,3 +136,9 @@ def _read(data: bytes) -> tuple[str, Fixes]:
     if nmea.looks_like(text):
         return "NMEA", nmea.read(text)
     return "CSV", tables.read_csv(text)
+
+
+def _utf_8(data: bytes) -> bytes:
+    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # as PowerShell's > writes
+        data = data.decode("utf-16", errors="replace").encode()
+    return data.removeprefix(b"\xef\xbb\xbf")

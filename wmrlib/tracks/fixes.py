@@ -3,13 +3,23 @@
 from __future__ import annotations
 
 import math
+import re
+from array import array
+from bisect import bisect_right
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
 from types import MappingProxyType
 from typing import NamedTuple
 
+import numpy as np
+
 NO_TIME = math.nan
+# What ISO 8601 allows and datetime does not: what to read instead, and the seconds to add.
+_BEYOND = (
+    (re.compile(r"(?<=[T ])24(?=:00(?::00(?:[.,]0+)?)?(?:Z|[+-]|$))"), "00", 86400.0),
+    (re.compile(r"(?<=:\d\d:)60(?!\d)"), "59", 1.0),  # a leap second
+)
 
 
 class Count(NamedTuple):
@@ -36,6 +46,13 @@ class Report:
     noted: Mapping[str, Count] = field(default_factory=dict)
     unit: str = "line"
 
+    def __post_init__(self) -> None:
+        for name in ("skipped", "noted"):
+            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+
+    def __reduce__(self) -> tuple:  # a mapping proxy can't be pickled
+        return Report, (self.used, dict(self.skipped), dict(self.noted), self.unit)
+
     def __repr__(self) -> str:
         rows = [f"{self.used} position{'' if self.used == 1 else 's'} used"]
         rows += [f"not used: {each}" for each in self.listed(self.skipped)]
@@ -51,28 +68,25 @@ class Fixes:
     """The positions of one file as they are found, and the reasons why others are not used."""
 
     def __init__(self, unit: str = "line") -> None:
-        self.lat: list[float] = []
-        self.lon: list[float] = []
-        self.time: list[float] = []
+        self.lat, self.lon, self.time = array("d"), array("d"), array("d")
+        self._lines, self._segments = array("q"), array("q")
         self._skipped: dict[str, Count] = {}
         self._noted: dict[str, Count] = {}
         self._unit = unit
-        self._last_time = -math.inf
 
-    def skip(self, reason: str, line: int) -> None:
-        _count(self._skipped, reason, line)
+    def skip(self, reason: str, line: int, times: int = 1) -> None:
+        count(self._skipped, reason, line, times)
 
     def note(self, reason: str, line: int) -> None:
-        _count(self._noted, reason, line)
+        count(self._noted, reason, line)
+
+    def begin_segment(self) -> None:
+        """From here on times may be earlier than before."""
+        self._segments.append(len(self.lat))
 
     def add(self, lat: float, lon: float, time: float | None, line: int) -> bool:
         """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
         reason = _misplaced(lat, lon)
-        if reason is None and time is not None and time <= self._last_time:
-            if time < self._last_time:
-                reason = "time runs backwards"
-            elif (lat, lon) == (self.lat[-1], self.lon[-1]):
-                reason = "same epoch again"
         if reason is not None:
             self.skip(reason, line)
             return False
@@ -81,13 +95,21 @@ class Fixes:
         self.lat.append(lat)
         self.lon.append(lon)
         self.time.append(NO_TIME if time is None else time)
-        if not math.isnan(self.time[-1]):
-            self._last_time = self.time[-1]
+        self._lines.append(line)
         return True
 
-    def report(self) -> Report:
-        skipped, noted = MappingProxyType(self._skipped), MappingProxyType(self._noted)
-        return Report(len(self.lat), skipped, noted, self._unit)
+    def settle(self) -> tuple[np.ndarray, Report]:
+        """The rows lat, lon and time of the positions in order, each epoch once, and the report."""
+        table = np.array([self.lat, self.lon, self.time])
+        segment = np.searchsorted(self._segments, np.arange(len(self.lat)), side="right")
+        late = _backwards(table[2], segment)
+        kept = np.delete(np.arange(len(self.lat)), late)
+        again = kept[1:][(np.diff(table[:, kept]) == 0.0).all(axis=0)]
+        for reason, gone in (("time runs backwards", late), ("same epoch again", again)):
+            if gone.size:
+                self.skip(reason, self._lines[gone[0]], gone.size)
+        table = np.delete(table, np.concatenate([late, again]), axis=1)
+        return table, Report(table.shape[1], self._skipped, self._noted, self._unit)
 
 
 def number(text: str | None) -> float:
@@ -103,6 +125,10 @@ def timestamp(text: str) -> float | None:
     try:
         time = datetime.fromisoformat(text)
     except ValueError:
+        for pattern, digits, seconds in _BEYOND:
+            if pattern.search(text):
+                before = timestamp(pattern.sub(digits, text))
+                return None if before is None else before + seconds
         return None
     return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp()
 
@@ -116,6 +142,29 @@ def _misplaced(lat: float, lon: float) -> str | None:
     return None if -180.0 <= lon <= 180.0 else "longitude not in -180 to 180"
 
 
-def _count(reasons: dict[str, Count], reason: str, line: int) -> None:
-    count, first = reasons.get(reason, (0, line))
-    reasons[reason] = Count(count + 1, first)
+def count(met: dict[str, Count], what: str, line: int, times: int = 1) -> None:
+    before, first = met.get(what, (0, line))
+    met[what] = Count(before + times, min(first, line))
+
+
+def _backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
+    """Which positions are left over by the longest run in order of time in each segment."""
+    timed = np.flatnonzero(~np.isnan(time))
+    back = timed[1:][np.diff(time[timed]) < 0.0]
+    judged = timed[np.isin(segment[timed], segment[back])]
+    if not judged.size:
+        return judged
+    _, rank = np.unique(segment[judged] + 1j * time[judged], return_inverse=True)
+    # Patience sorting, from the last to the first.
+    falling, ends = array("q", -rank), array("q")
+    lengths = array("q", falling)  # of the longest run that begins there, less one
+    for i in reversed(range(len(falling))):
+        lengths[i] = bisect_right(ends, falling[i])
+        ends[lengths[i] : lengths[i] + 1] = array("q", [falling[i]])
+    # Of runs as long, the one that begins first and then goes on with the nearest times.
+    kept = lengths.index(len(ends) - 1)
+    left = np.arange(rank.size) != kept
+    for i in array("q", np.lexsort((rank, np.negative(lengths)))):
+        if i > kept and falling[i] <= falling[kept]:
+            left[i], kept = False, i
+    return judged[left]

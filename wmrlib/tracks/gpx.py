@@ -1,23 +1,19 @@
-"""Positions in GPX files; defusedxml refuses what XML can be misused for."""
+"""Positions in GPX files, read as a stream; without a document type XML has no entities."""
 
 from __future__ import annotations
 
 import re
-from io import BytesIO
-from typing import Any, NamedTuple
-from xml.sax import SAXParseException
-from xml.sax.handler import ContentHandler, feature_namespaces
+from io import BufferedReader
+from typing import Any
+from xml.parsers import expat
 
-from defusedxml import DefusedXmlException, sax
-
-from wmrlib.tracks.fixes import NO_TIME, Fixes, number, timestamp
+from wmrlib.tracks.fixes import NO_TIME, Count, Fixes, count, number, timestamp
 
 # Where each kind of place belongs; the first kind that a file has is its track.
-_PATHS = {
-    "trkpt": ["gpx", "trk", "trkseg", "trkpt"],
-    "rtept": ["gpx", "rte", "rtept"],
-    "wpt": ["gpx", "wpt"],
-}
+_PARENT = {"trkpt": "trkseg", "rtept": "rte", "wpt": "gpx"}
+_WORDS = {"trkpt": "track point", "rtept": "route point", "wpt": "waypoint"}
+_SPACES = {"", "http://www.topografix.com/GPX/1/0", "http://www.topografix.com/GPX/1/1"}
+_FOREIGN = "extensions"
 _OTHERS = {
     "kml": "it is a KML file, not a GPX file; export it as GPX",
     "html": "it is a web page, not a GPX file",
@@ -26,75 +22,81 @@ _OTHERS = {
 _WEB_PAGE = re.compile(rb"<(!doctype\s+)?html\b", re.IGNORECASE)
 
 
-class _Place(NamedTuple):
-    line: int
-    path: list[str]
-    lat: str | None
-    lon: str | None
-    times: list[str]
+class _Outline:
+    """The places of a GPX file, by their kind; expat calls the methods."""
 
-
-class _Outline(ContentHandler):
-    """The places of a GPX file, each with its line."""
-
-    _locator: Any
-
-    def __init__(self) -> None:
-        super().__init__()
+    def __init__(self, parser: expat.XMLParserType) -> None:
+        self.places = {kind: Fixes() for kind in _PARENT}
+        self.met: dict[str, Count] = {}
         self.path: list[str] = []
-        self.root = ""
-        self.places: list[_Place] = []
+        self.spaces: set[str] = set()
+        self.clock: list[str] = []
+        self.parser = parser
+        parser.buffer_text = True
+        parser.StartDoctypeDeclHandler = self.doctype
+        parser.StartElementHandler = self.root
+        parser.EndElementHandler = self.end
 
-    def startElementNS(self, name, qname, attrs):  # noqa: N802
-        self.path.append(name[1])
-        self.root = self.root or name[1]
-        if name[1] in _PATHS:
-            line, lat, lon = self._locator.getLineNumber(), (None, "lat"), (None, "lon")
-            self.places.append(_Place(line, [*self.path], attrs.get(lat), attrs.get(lon), []))
+    def doctype(self, name: str, *_: Any) -> None:
+        wrong = "its XML holds a document type or an entity, which is not read"
+        raise ValueError(_OTHERS.get(name.casefold(), wrong))
 
-    def endElementNS(self, name, qname):  # noqa: N802
-        self.path.pop()
+    def root(self, name: str, _: Any) -> None:
+        space, _, kind = name.rpartition(" ")
+        if kind != "gpx":
+            wrong = f"it is XML of the kind {kind!r}, not a GPX file"
+            raise ValueError(_OTHERS.get(kind.casefold(), wrong))
+        self.path.append(kind)
+        self.spaces = {space, *_SPACES}
+        self.parser.StartElementHandler = self.start
 
-    def characters(self, content):
-        if self.places and self.path == [*self.places[-1].path, "time"]:
-            self.places[-1].times.append(content)
+    def start(self, name: str, attributes: dict[str, str]) -> None:
+        parent, (space, _, name) = self.path[-1], name.rpartition(" ")
+        if parent == _FOREIGN or space not in self.spaces:
+            name = _FOREIGN
+        elif name in _PARENT:
+            line = self.parser.CurrentLineNumber
+            count(self.met, name, line)
+            if parent == _PARENT[name]:
+                self.place = attributes.get("lat"), attributes.get("lon"), line
+            else:
+                self.places[name].skip(f"{_WORDS[name]} outside <{_PARENT[name]}>", line)
+                name = ""
+        elif name == "time" and parent in _PARENT:
+            self.parser.CharacterDataHandler = self.clock.append
+        elif name == "trkseg":
+            self.places["trkpt"].begin_segment()
+        self.path.append(name)
+
+    def end(self, _: Any) -> None:
+        name = self.path.pop()
+        if name == "time":
+            self.parser.CharacterDataHandler = None
+        elif name in _PARENT:
+            (lat, lon, line), time = self.place, "".join(self.clock).strip()
+            self.clock.clear()
+            fixes, passed = self.places[name], name == "trkpt"
+            second = timestamp(time) if passed and time else NO_TIME
+            if lat is None or lon is None:
+                fixes.skip("point without a latitude or longitude", line)
+            elif fixes.add(number(lat), number(lon), second, line) and time and not passed:
+                fixes.note("with a time, which tells when it was made, not passed", line)
 
 
-def read(data: bytes) -> Fixes:
+def read(file: BufferedReader) -> Fixes:
     """The track points of all segments; without any the route points, or else the waypoints."""
-    places = _places(data)
-    kinds = [place.path[-1] for place in places]
-    kind = next((kind for kind in _PATHS if kind in kinds), "trkpt")
-    count, expected = kinds.count(kind), sum(place.path == _PATHS[kind] for place in places)
-    if expected < count:
-        raise ValueError(f"it has {count} places <{kind}>, but only {expected} where GPX has them")
-    fixes = Fixes()
-    for line, path, lat, lon, times in places:
-        if path[-1] != kind:
-            fixes.skip("waypoint or route point beside the track", line)
-        elif lat is None or lon is None:
-            fixes.skip("point without a latitude or longitude", line)
-        else:
-            text = "".join(times).strip()
-            fixes.add(number(lat), number(lon), timestamp(text) if text else NO_TIME, line)
-    return fixes
-
-
-def _places(data: bytes) -> list[_Place]:
-    outline, parser = _Outline(), sax.make_parser()
-    parser.forbid_dtd = True
-    parser.setFeature(feature_namespaces, True)
-    parser.setContentHandler(outline)
+    head = file.peek()
+    encoding = "utf-16" if head.startswith((b"\xff\xfe", b"\xfe\xff")) else None
+    outline = _Outline(expat.ParserCreate(encoding, " "))
     try:
-        parser.parse(BytesIO(data))
-        if outline.root == "gpx":
-            return outline.places
-        wrong = f"it is XML of the kind {outline.root!r}, not a GPX file"
-    except DefusedXmlException as error:
-        name = type(error).__name__
-        wrong = f"its XML holds a document type or an entity ({name}), which is not read"
-        if _WEB_PAGE.search(data[:1000]):
-            outline.root = "html"
-    except (SAXParseException, LookupError, ValueError) as error:
-        wrong = f"its XML is broken: {error}"
-    raise ValueError(_OTHERS.get(outline.root.casefold(), wrong))
+        outline.parser.ParseFile(file)
+    except (expat.ExpatError, LookupError) as error:
+        page = not outline.spaces and _WEB_PAGE.search(head.replace(b"\0", b""))
+        raise ValueError(_OTHERS["html"] if page else f"its XML is broken: {error}") from None
+    finally:
+        del outline.parser  # it refers to the outline, which would be kept
+    kind, *others = [kind for kind in _PARENT if kind in outline.met] or ["trkpt"]
+    for other in others:
+        times, line = outline.met[other]
+        outline.places[kind].skip(f"{_WORDS[other]} beside the {_WORDS[kind]}s", line, times)
+    return outline.places[kind]

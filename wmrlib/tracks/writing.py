@@ -6,16 +6,24 @@ import json
 import math
 import os
 import re
+import secrets
+import shutil
+from contextlib import suppress
 from datetime import UTC, datetime, timedelta
 from itertools import pairwise
 from pathlib import Path
+from typing import Any
+from xml.sax.saxutils import escape
 
 import numpy as np
 
-from wmrlib._checks import Real, book_extra, instance, real
+from wmrlib._checks import Real, instance, real, refusal
 from wmrlib.geodesy import GeoPoint, position_list
 
 _DECIMALS = 7  # of a degree: a centimetre
+_GPX_11 = """<?xml version="1.0" encoding="UTF-8"?>
+<gpx xmlns="http://www.topografix.com/GPX/1/1" version="1.1" creator="wmrlib">"""
+_RETURN = {"\r": "&#13;"}  # a bare one is read as a line's end
 _NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _NOT_IN_UTF8 = re.compile("[\ud800-\udfff]")
 
@@ -40,29 +48,20 @@ def write_gpx(
     ------
     ValueError : no position, t or begin without the other, t of another length, a begin without a
         time zone, times outside the years 1 to 9999, or a name that XML can't hold
+    OSError : a file that can't be written; one that was there stays as it was
     """
     lat, lon = _rounded(points)
-    if t is not None and begin is not None:
-        times = _times(t, begin, lat.shape)
-    elif t is begin:
-        times = [None] * lat.size
-    else:
+    if (t is None) is not (begin is None):
         both = f"t = {t!r} and begin = {begin!r}"
         raise ValueError(f"{both} are not allowed together: both or none are needed")
+    times = [""] * lat.size if begin is None else _times(t, begin, lat.shape)
     _check_name(name, _NOT_IN_XML)
-    with book_extra("a GPX file"):
-        from gpxpy.gpx import GPX, GPXTrack, GPXTrackPoint, GPXTrackSegment
-
     lon = np.where(lon == 180.0, -180.0, lon)  # GPX 1.1: below 180
-    gpx, track = GPX(), GPXTrack(name=name)
-    gpx.creator = "wmrlib"
-    gpx.tracks.append(track)
+    rows = [_GPX_11, f"<trk><name>{escape(name, _RETURN)}</name>"]
     for piece in _pieces(lon):
-        places = zip(lat[piece].tolist(), lon[piece].tolist(), piece, strict=True)
-        track.segments.append(
-            GPXTrackSegment([GPXTrackPoint(y, x, time=times[i]) for y, x, i in places])
-        )
-    Path(path).write_bytes(gpx.to_xml(version="1.1").encode())
+        places = (f'<trkpt lat="{lat[i]:.7f}" lon="{lon[i]:.7f}">{times[i]}</trkpt>' for i in piece)
+        rows += ["<trkseg>", *places, "</trkseg>"]
+    overwrite(path, "\n".join([*rows, "</trk>", "</gpx>", ""]).encode())
 
 
 def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmrlib") -> None:
@@ -76,6 +75,7 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
     Raises
     ------
     ValueError : no position, or a name that is no text or that UTF-8 can't hold
+    OSError : as `write_gpx`
     """
     lat, lon = _rounded(points)
     _check_name(name, _NOT_IN_UTF8)
@@ -95,7 +95,31 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
         geometry = {"type": "Point", "coordinates": lines[0][0]}
     feature = {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
     text = json.dumps(feature, ensure_ascii=False, allow_nan=False) + "\n"
-    Path(path).write_bytes(text.encode())
+    overwrite(path, text.encode())
+
+
+def overwrite(path: str | os.PathLike, data: bytes) -> None:
+    """Replace a file's content at once; what was there stays where that fails."""
+    if os.path.exists(path):
+        with open(path, "ab") as file:  # refused here, if it is read-only or a folder
+            if not os.path.isfile(path):  # a pipe
+                file.write(data)
+                return
+    target = Path(os.path.realpath(path))  # a link stays a link
+    new = target.with_name(f".{secrets.token_hex(8)}.tmp")
+    try:
+        with new.open("xb") as file:
+            file.write(data)
+            file.flush()
+            os.fsync(file.fileno())
+        if target.exists():
+            shutil.copymode(target, new)
+        new.replace(target)
+    except OSError as error:  # it may name the new file
+        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
+    finally:
+        with suppress(OSError):
+            new.unlink()
 
 
 def _rounded(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
@@ -108,21 +132,18 @@ def _pieces(lon: np.ndarray) -> list[np.ndarray]:
     return np.split(np.arange(lon.size), np.flatnonzero(np.abs(np.diff(lon)) > 180.0) + 1)
 
 
-def _times(t: Real, begin: datetime, shape: tuple[int, ...]) -> list[datetime | None]:
+def _times(t: Any, begin: datetime, shape: tuple[int, ...]) -> list[str]:
     if instance("begin", begin, datetime).utcoffset() is None:
         raise ValueError(f"begin = {begin!r} is not allowed: one with its time zone is needed")
     t = np.atleast_1d(real("t", t, nan=True))
     if t.shape != shape:
         raise ValueError(f"mismatched lengths: t has shape {t.shape}, points have shape {shape}")
-    return [_after(begin, seconds) for seconds in t.tolist()]
-
-
-def _after(begin: datetime, seconds: float) -> datetime | None:
     try:  # in UTC, so that a change to summer time loses no hour
-        return None if math.isnan(seconds) else begin.astimezone(UTC) + timedelta(seconds=seconds)
+        begin = begin.astimezone(UTC)
+        times = [None if math.isnan(s) else begin + timedelta(seconds=s) for s in t.tolist()]
     except OverflowError:
-        needed = "begin + t in the years 1 to 9999 is needed"
-        raise ValueError(f"t = {seconds:g} is not allowed: {needed}") from None
+        raise refusal("t", t, "begin + t in the years 1 to 9999") from None
+    return [f"<time>{time.isoformat()[:-6]}Z</time>" if time else "" for time in times]
 
 
 def _check_name(name: str, forbidden: re.Pattern) -> None:
