@@ -11,6 +11,7 @@ import re
 import subprocess
 import sys
 import tracemalloc
+from collections import Counter
 from datetime import UTC, datetime, timedelta, tzinfo
 from functools import reduce
 from operator import xor
@@ -186,8 +187,8 @@ def test_the_real_log(read):
     first_rmc = 1 + next(i for i, line in enumerate(lines) if "RMC" in line)
     counts = dict(track.report.skipped)
     assert counts.pop("comment") == (sum(line.startswith("#") for line in lines), 1)
-    assert counts.pop("same epoch again") == (9, first_rmc)
-    assert counts.pop("other sentence").count == sum(line.startswith("$") for line in lines) - 18
+    assert counts.pop("same epoch again") == (18, first_rmc)  # RMC and GLL
+    assert counts.pop("other sentence").count == sum(line.startswith("$") for line in lines) - 27
     assert not counts
     assert not track.report.noted
     assert repr(track) == "<Track: 9 positions from NMEA, over 8 s; 77 not used>"
@@ -262,11 +263,11 @@ BAD_SENTENCES = {
     "sentence without a checksum": gga("104707.00")[:-3],
     "sentence without a fix": gga("104707.00", quality=0),
     "position estimated, put in by hand or simulated": gga("104707.00", quality=6),
-    "unreadable position": gga("104707.00", lat="5460.0000,N"),  # pynmea2 makes 55 degrees of it
+    "unreadable position": gga("104707.00", lat="5460.0000,N"),  # not 55 degrees
     "latitude not in -90 to 90": gga("104707.00", lat="9005.6081,N"),
     "longitude not in -180 to 180": gga("104707.00", lon="18049.4791,E"),
     "fix without a readable time": gga(""),
-    "other sentence": nmea("GPGLL,5405.6081,N,01049.4791,E,104707.000,A,A"),
+    "other sentence": nmea("GPVTG,18.02,T,,M,0.24,N,0.4,K,A"),
     "line that is no sentence": "5405.6081,N,01049.4791,E",
     "comment": "# 54.09, 10.82",
     "same epoch again": rmc(lat="5405.7000,N"),
@@ -289,7 +290,7 @@ def test_a_fix_that_is_none_is_not_used(read):
     estimated = "1 position estimated"
     unreadable = "1 unreadable position"
     for sentence, message in [
-        # pynmea2 would read these as zero
+        # not zero
         (gga(lat=",N", lon=",E"), unreadable),
         (gga(lat="0,N"), unreadable),
         (gga(lat="5405.6081,"), unreadable),
@@ -304,7 +305,7 @@ def test_a_fix_that_is_none_is_not_used(read):
         (gga(quality=9), no_fix),
         (gga(quality=8), estimated),
         # where the GGA says there is no fix, the RMC is not believed
-        (rmc() + "\n" + gga(quality=0), no_fix + r" \(first in line 2\); 1 same epoch again"),
+        (rmc() + "\n" + gga(quality=0), r"1 .* says has no fix \(first in line 1\); " + no_fix),
     ]:
         with pytest.raises(ValueError, match="it is NMEA, but " + message):
             read(sentence)
@@ -339,6 +340,163 @@ def test_a_corrupted_byte_is_never_used_silently(tmp_path_factory, which, place,
         assert which not in kept
     if len(kept) < 6:
         assert track.report.skipped
+
+
+def gns(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", mode="AN", sats="08"):
+    return nmea(f"GNGNS,{clock},{lat},{lon},{mode},{sats},1.1,40.8,43.6,,")
+
+
+def gll(clock="104706.00", lat="5405.6081,N", lon="01049.4791,E", status="A", mode="A"):
+    return nmea(f"GPGLL,{lat},{lon},{clock},{status},{mode}")
+
+
+AIS = "!AIVDM,1,1,,B,177KQJ5000G?tO`K>RA1wUbN0TKH,0*5C"
+PUBX = nmea("PUBX,00,104707.00,5405.6081,N,01049.4791,E,40.8,G3,2.1,2.0,0,0,0,1.1,1.2,0.9,8,0,0")
+
+
+@pytest.mark.parametrize("sentence", [gga(), gns(), rmc(), gll()])
+def test_a_sentence_is_found_whatever_stands_beside_it(read, sentence):
+    body, checksum = sentence[1:].split("*")
+    for content, left in [
+        ("$" + sentence, {}),
+        ("\\s:station$1,c:1241544035*4A\\".replace("$1", "") + sentence, {}),
+        (f"2026-03-01 10:47:06.2 {sentence} ok", {}),
+        (f"${body}*{checksum.lower()}", {}),
+        (f"\0\0{sentence}\0", {}),
+        (f"{AIS}\r{sentence}\r{PUBX}\r", {"other sentence": (2, 1)}),
+        (f"{AIS}\r\n{AIS}{sentence}{PUBX}\r\n", {"other sentence": (3, 1)}),
+        (f"\\s:x*00\\{AIS}\n{sentence}", {"other sentence": (1, 1)}),
+        (f"\n\n$GPGGA,1047{sentence}", {"sentence without a checksum": (1, 3)}),
+        (f"{sentence[30:]}{sentence}", {"unreadable sentence": (1, 1)}),
+        (f"{sentence[30:]}\n{sentence}", {"line that is no sentence": (1, 1)}),
+        (
+            f"{sentence[30:]}{AIS[:-1]}{sentence}{PUBX}",
+            {"unreadable sentence": (1, 1), "other sentence": (1, 1)},
+        ),
+        (nmea("GPTXT,01,01,02,Hello!") + sentence, {"other sentence": (1, 1)}),
+        (f"# {sentence}\n{sentence}", {"comment": (1, 1)}),
+        (f"{sentence[:-1]}\n{sentence}", {"wrong checksum": (1, 1)}),
+        (f"${body}*\n{sentence}", {"wrong checksum": (1, 1)}),
+        (f"$GP\n{sentence}", {"line that is no sentence": (1, 1)}),
+    ]:
+        for written in (content, content.encode("utf-16")):
+            track = read(written)
+            assert places(track) == (pytest.approx([LAT]), pytest.approx([LON])), content
+            assert dict(track.report.skipped) == left, content
+
+
+def test_the_most_trusted_sentence_of_an_epoch_decides(read):
+    denied = "sentence of an epoch that a more trusted one says has no fix"
+    kinds = [
+        (gga(lat="5400.0000,N"), gga(quality=0)),
+        (gns(lat="5401.0000,N"), gns(mode="NN")),
+        (rmc(lat="5402.0000,N"), rmc(status="V")),
+        (gll(lat="5403.0000,N"), gll(status="V")),
+    ]
+    for best, (good, none) in enumerate(kinds):
+        worse = [fix for fix, _ in kinds[best:]]
+        for order in (worse, worse[::-1]):
+            track = read(order)
+            assert track.points.lat.tolist() == pytest.approx([54 + best / 60])
+            again = {"same epoch again": (3 - best, 1 if best < 3 and order[0] != good else 2)}
+            assert dict(track.report.skipped) == (again if best < 3 else {})
+            without = [none if each == good else each for each in order]
+            if best < 3:
+                with pytest.raises(ValueError, match=f"{3 - best} {denied}"):
+                    read(without)
+        others = [fix for fix, _ in kinds[:best]]
+        assert len(read([none, *others, gga("104707.00")])) == 2 - (best == 0)
+    # no satellites: of two it is the other, and alone it is told
+    track = read([gga().replace(",08,", ",00,"), gga()])
+    assert dict(track.report.skipped) == {"wrong checksum": (1, 1)}
+    satless = nmea(gga()[1:-3].replace(",08,", ",00,"))
+    track = read([gga("104705.00"), satless, rmc(lat="5402.0000,N")])
+    assert track.points.lat.tolist() == pytest.approx([LAT] * 2)
+    assert dict(track.report.noted) == {"by a sentence that counts 0 satellites": (1, 2)}
+    assert not read([satless, gga()]).report.noted
+    # a position that is out of range denies nothing
+    track = read([gga(lat="9005.6081,N"), rmc()])
+    assert dict(track.report.skipped) == {"latitude not in -90 to 90": (1, 1)}
+    # a fix that is said to be missing too early is none the less in its place
+    track = read([gga("104706.00"), gga("104709.00", quality=0), *map(gga, ("104708", "104709"))])
+    assert track.t.tolist() == [0, 2, 3]
+    track = read([rmc("104706"), rmc("104707"), gga("104706"), gga("104707")])
+    assert track.t.tolist() == [0, 1]
+    # sentences that come late belong to their epoch
+    late = [gga("235959.00"), gga("000000.00"), rmc("235959.00", day="310126"), gll("000000.00")]
+    track = read(late)
+    assert (len(track), track.t.tolist()) == (2, [0, 1])
+    assert dict(track.report.skipped) == {"same epoch again": (2, 3)}
+
+
+CLAIMS = ("fix", "none", "estimated", "unreadable", "damaged")
+WRITTEN = {
+    "GGA": lambda clock, claim: gga(clock, quality={"none": 0, "estimated": 6}.get(claim, 1)),
+    "GNS": lambda clock, claim: gns(clock, mode={"none": "NN", "estimated": "EN"}.get(claim, "AN")),
+    "RMC": lambda clock, claim: rmc(clock, mode={"none": "N", "estimated": "E"}.get(claim, "A")),
+    "GLL": lambda clock, claim: gll(clock, mode={"none": "N", "estimated": "E"}.get(claim, "A")),
+}
+REASONS = {
+    "none": "sentence without a fix",
+    "estimated": "position estimated, put in by hand or simulated",
+    "unreadable": "unreadable position",
+    "damaged": "wrong checksum",
+}
+HEARD = st.lists(st.tuples(st.sampled_from(list(WRITTEN)), st.sampled_from(CLAIMS)), max_size=6)
+
+
+@given(st.lists(HEARD, min_size=1, max_size=6), st.integers(1, 400))
+def test_every_sentence_is_used_or_counted_with_its_reason(tmp_path_factory, epochs, block):
+    """Epoch by epoch, against the rule itself; wherever the blocks end that are read at a time."""
+    lines, expected, used = [], Counter(), 0
+    first = {}
+    for second, heard in enumerate(epochs):
+        ranks = {"fix": [], "none": [], "estimated": []}
+        for kind, claim in heard:
+            line = WRITTEN[kind](f"2359{54 + second:02d}.0", claim)
+            if claim == "unreadable":
+                line = nmea(line[1:-3].replace("5405.6081", "5460.0000"))
+            lines.append(line.replace(",E", ",F", 1) if claim == "damaged" else line)
+            if claim != "fix":
+                expected[REASONS[claim]] += 1
+                first.setdefault(REASONS[claim], len(lines))
+            ranks.setdefault(claim, []).append(list(WRITTEN).index(kind))
+        fixes, denied = ranks["fix"], ranks["none"] + ranks["estimated"]
+        if fixes and min(fixes) <= min(denied, default=9):
+            used += 1
+            expected["same epoch again"] += len(fixes) - 1
+        else:
+            reason = "sentence of an epoch that a more trusted one says has no fix"
+            expected[reason] += len(fixes)
+    path = tmp_path_factory.getbasetemp() / "generated.nmea"
+    path.write_text("\n".join([*lines, ""]), newline="\r\n")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr("wmrlib.tracks.sentences._BLOCK", block)
+        if used:
+            report = wmr.read_track(path).report
+            assert report.used == used
+            assert {why: count for why, (count, _) in report.skipped.items()} == +expected
+            assert all(report.skipped[why].first == line for why, line in first.items())
+            assert report.used + sum(count for count, _ in report.skipped.values()) == len(lines)
+        else:
+            with pytest.raises(ValueError, match="no position in") as error:
+                wmr.read_track(path)
+            for reason, count in (+expected).items():
+                assert f"{count} {reason}" in str(error.value)
+
+
+def test_large_logs_and_tables_are_streams(tmp_path):
+    """At the peak a position takes 200 bytes, and a block at a time whatever it takes."""
+    log = "\n".join(gga(f"{k // 3600:02d}{k // 60 % 60:02d}{k % 60:02d}") for k in range(20_000))
+    table = "lat,lon,t,note\n" + "".join(f"1,2,{k},{'x' * 300}\n" for k in range(20_000))
+    for text in (log, table):
+        path = tmp_path / "large"
+        path.write_text(text)
+        tracemalloc.start()
+        assert len(wmr.read_track(path)) == 20_000
+        peak = tracemalloc.get_traced_memory()[1]
+        tracemalloc.stop()
+        assert peak < 20_000 * 200 + 2_000_000
 
 
 # GPX
@@ -596,6 +754,121 @@ def test_tables_of_every_kind(read):
         np.testing.assert_array_equal(track.t, t)
 
 
+V900 = "INDEX,TAG,DATE,TIME,LATITUDE N/S,LONGITUDE E/W,HEIGHT,SPEED,HEADING,FIX MODE,VALID,PDOP\n"
+V900_ROW = "{},T,090522,{},33.85{}S,151.21{}E,30,1,0,{},{},1.6\n"
+BT747 = "INDEX,RCR,DATE,TIME,VALID,LATITUDE,N/S,LONGITUDE,E/W,HEIGHT(m),SPEED(km/h),NSAT\n"
+BT747_ROW = "{},TD,{},{},{},{},{},{},{},30.5 M,1.25 km/h,9,\n"
+
+
+def test_tables_of_data_loggers(read):
+    """Hemispheres, dates and fixes in columns of their own."""
+    rows = [("235959", 1, 2, "3D", "SPS"), ("5", 3, 4, "", "DGPS"), ("6", 5, 6, "2D", "")]
+    begin, end, day = "090522", "090523", V900_ROW
+    lines = [
+        day.replace(begin, begin if k == 0 else end).format(k, *row) for k, row in enumerate(rows)
+    ]
+    track = read(V900 + "".join(lines))
+    assert places(track) == ([-33.851, -33.853, -33.855], [151.212, 151.214, 151.216])
+    assert track.t.tolist() == [0, 6, 7]
+    assert repr(track.report) == "3 positions used"
+    for bad in ("No fix", "no fix", "NO FIX", "V", "0", "invalid"):
+        track = read(V900 + lines[0] + V900_ROW.format(1, "5", 3, 4, "", bad))
+        assert dict(track.report.skipped) == {"row without a fix": (1, 3)}, bad
+    for mode in ("0", "1", "none"):
+        track = read(V900 + lines[0] + V900_ROW.format(1, "5", 3, 4, mode, "SPS"))
+        assert dict(track.report.skipped) == {"row without a fix": (1, 3)}, mode
+    track = read(V900 + lines[0] + V900_ROW.format(1, "235960", 3, 4, "", "Estimated mode"))
+    assert list(track.report.skipped) == ["position estimated, put in by hand or simulated"]
+    track = read(V900 + V900_ROW.format(1, "5", 3, 4, "", "banana"))
+    assert dict(track.report.noted) == {"with an unknown word on its fix": (1, 2)}
+
+    def second(day, clock, *place, valid="SPS"):
+        place = place or ("33.8568", "S", "151.2153", "E")
+        first = BT747_ROW.format(1, "2013/05/12", "23:59:59.500", "SPS", 1, "N", 2, "W")
+        return read(BT747 + first + BT747_ROW.format(2, day, clock, valid, *place))
+
+    track = second("2013/05/13", "00:00:01.250")
+    assert (places(track), track.t.tolist()) == (([1, -33.8568], [-2, 151.2153]), [0, 1.75])
+    for day, clock in [
+        ("2013-05-13", "000001.25"),
+        ("130513", "00:00:01,25".replace(",", ".")),
+        ("20130513", "1.25"),
+        ("2013/05/13", "2013-05-13T00:00:01.25Z"),
+    ]:
+        assert second(day, clock).t.tolist() == [0, 1.75], (day, clock)
+    for day, clock in [("yesterday", "00:00:01"), ("2013/05/13", "250001"), ("", "000001")]:
+        track = second(day, clock)
+        assert dict(track.report.noted) == {"with an unreadable time": (1, 3)}, (day, clock)
+    for side in ("", "E", "X", "+"):
+        track = second("2013/05/13", "000001", "33.8568", side, "151.2153", "E")
+        assert dict(track.report.skipped) == {"row without a readable hemisphere": (1, 3)}
+    for number, reason in {"0": "row without a fix", "6": "position estimated, put in"}.items():
+        table = f"lat,lon,fix quality\n1,2,{number}\n3,4,5\n"
+        assert next(iter(read(table).report.skipped)).startswith(reason)
+    assert len(read("lat,lon,status\n1,2,0\n3,4,A\n")) == 2
+
+
+def degrees_in_words(value, sides):
+    """Each way to write degrees that leaves no doubt, and each that contradicts itself."""
+    size, (plus, minus) = f"{abs(value):.7f}", sides
+    side, other, sign = (minus, plus, "-") if value < 0 else (plus, minus, "+")
+    right = [f"{sign}{size}", f"{size}{side}", f"{side}{size}", f"{size} {side.lower()}"]
+    right += [f"{sign}{size}{side}", f"{side} {sign}{size}", f"{size}\N{DEGREE SIGN}{side}"]
+    return right, [f"{sign}{size}{other}", f"{other}{sign}{size}", f"{side}{size}{other}"]
+
+
+@given(st.floats(-90, 90), st.floats(-180, 180), st.data())
+def test_a_sign_and_a_hemisphere_agree_or_the_row_is_refused(tmp_path_factory, lat, lon, data):
+    path = tmp_path_factory.getbasetemp() / "signs.csv"
+    lat, lon = round(lat, 7), round(lon, 7)
+    ways, doubts = degrees_in_words(lat, "NS")
+    y, x = data.draw(st.sampled_from(ways)), degrees_in_words(lon, "EW")[0]
+    x = data.draw(st.sampled_from(x))
+    wrong = data.draw(st.sampled_from(doubts))
+    path.write_text(f"lon;lat\n{x};{y}\n{x};{wrong}\n{lon};{lat}\n", encoding="utf-8")
+    track = wmr.read_track(path)
+    assert places(track) == ([lat, lat], [lon, lon])
+    assert dict(track.report.skipped) == {"sign and hemisphere that contradict each other": (1, 3)}
+
+
+ODD = ["", "# 1,2,3,N", "1,2,3", "91,2,3,N", '"1,5",2,3,N', "1,2,x,S", "-1,2,3,S", "-1,2,3,N"]
+ODD += ['1,2,"3\n",N', '"1\r\n2",3,4,N', "1_0,2,3,N", "1,2,3,n", "+1,2,3,S", "1,inf,3,N", ",,,"]
+ROWS = st.sampled_from(["1,2,0,N", "1.5,-2,0.5,S", "3,4,2026-03-01T12:00:00Z,N", *ODD])
+
+
+@given(st.lists(ROWS, min_size=1, max_size=12), st.integers(1, 12))
+def test_rows_read_together_are_read_as_one_by_one(tmp_path_factory, rows, at_once):
+    path = tmp_path_factory.getbasetemp() / "rows.csv"
+    path.write_bytes("\n".join(["lat,lon,t,N/S", *rows, "5,6,7e9,N", ""]).encode())
+    tracks = []
+    for number in (1, at_once):
+        with pytest.MonkeyPatch.context() as patch:
+            patch.setattr("wmrlib.tracks.tables._AT_ONCE", number)
+            if number == 1:
+                patch.setattr("wmrlib.tracks.tables._add_plain", lambda *_: False)
+            tracks.append(wmr.read_track(path))
+    assert tracks[0] == tracks[1]
+
+
+def test_names_of_columns_with_their_units(read):
+    for header, row in {
+        "LATITUDE N/S,LONGITUDE E/W,TIME": "33.5N,44.25E,5",
+        "Latitude (deg),Longitude (deg),t [s]": "33.5,44.25,5",
+        "lat_deg;lon_deg;time_s": "33.5;44.25;5",
+        "latitudeE7,longitudeE7,time (ms)": "335000000,442500000,5000",
+        "t_ms\tlat_e7\tlon_e7": "5000\t335000000\t442500000",
+        "latitude (deg),lat,lon,t": "1,33.5,44.25,5",
+        "lat,ns,lon,ew,t": "33.5,N,44.25,E,5",
+    }.items():
+        assert places(read(f"{header}\n{row}\n")) == ([33.5], [44.25]), header
+    assert read("t_ms,lat,lon\n5000,1,2\n6500,3,4\n").t.tolist() == [0, 1.5]
+    for header in ("lat (rad),lon (rad)", "position_lat,position_long"):
+        with pytest.raises(ValueError, match="does not name"):
+            read(f"{header}\n1,2\n")
+    with pytest.raises(ValueError, match=r"more than one column of \['lat \(deg\)', 'lat_e7'\]"):
+        read("lat (deg),lat_e7,lon\n1,2,3\n")
+
+
 def test_text_as_windows_writes_it(read):
     for source, text in {
         "NMEA": gga(lat="3330.0000,N", lon="04415.0000,E") + "\r\n",
@@ -613,7 +886,7 @@ def test_text_as_windows_writes_it(read):
 def test_bad_rows_are_counted_with_their_line(read):
     width = "row with more or fewer cells than the header"
     no_number = "latitude or longitude not a number"
-    cells = ["33.27 N", "nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '"1.2,3"', '","']
+    cells = ["33 27 N", "nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '"1.2,3"', '","']
     for reason, row in [
         ("latitude not in -90 to 90", "1,91,44"),
         ("longitude not in -180 to 180", "1,33,200"),

@@ -4,13 +4,12 @@ from __future__ import annotations
 
 import os
 from dataclasses import dataclass
-from io import BufferedReader
+from io import BufferedReader, TextIOWrapper
 
 import numpy as np
 
-from wmrlib._checks import book_extra
 from wmrlib.geodesy import GeoPoint
-from wmrlib.tracks import gpx, tables
+from wmrlib.tracks import geojson, gpx, nmea, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
 from wmrlib.tracks.scatter import StationaryScatter, mean_position, stationary_scatter
 from wmrlib.tracks.writing import write_geojson, write_gpx
@@ -81,13 +80,15 @@ class Track:
 def read_track(path: str | os.PathLike) -> Track:
     """Read positions from NMEA sentences, GPX, GeoJSON or a CSV table; the content tells which.
 
-    NMEA: GGA of every talker, and RMC for seconds without one; each epoch once; checksum needed.
+    NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once;
+    not where the most trusted of these says that there is no fix; checksum needed.
     GPX: the track points, or else the route's, or else the waypoints, whose times tell when they
     were made and are not used; no document type or entity. Extensions are passed over.
     GeoJSON: all points and lines, RFC 7946. Text is UTF-8, or UTF-16 with its byte order mark.
-    CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees;
-    optionally time, timestamp, datetime or t, in seconds or ISO 8601. Cells are separated by a
-    comma, semicolon, tab or |; decimal commas are read, in quotes where commas separate cells.
+    CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees
+    or e7; optionally N/S and E/W; time, timestamp, datetime or t, in seconds, ms or ISO 8601, or
+    date (y/m/d or yymmdd) and time; valid, fix, quality or status. Cells are separated by a comma,
+    semicolon, tab or |; decimal commas are read, in quotes where commas separate cells.
     Where times run backwards, the longest run in order is used (in GPX, of each segment).
 
     Parameters
@@ -124,18 +125,23 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
             raise ValueError(f"it is {kind}")
     if _utf_8(head).lstrip(b" \t\r\n\0")[:1] == b"<":
         return "GPX", gpx.read(file)  # XML itself says how it is encoded
-    text = _utf_8(file.read())
-    begin = text.lstrip()[:1]
-    if not begin:
-        raise ValueError("the file is empty")
-    if begin in (b"{", b"["):
-        return "GeoJSON", tables.read_geojson(text)
-    with book_extra("an NMEA log"):
-        from wmrlib.tracks import nmea
-
-    if nmea.looks_like(text):
-        return "NMEA", nmea.read(text)
-    return "CSV", tables.read_csv(text)
+    wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))  # as PowerShell's > writes
+    # The checksums of NMEA are of bytes, which surrogates keep.
+    coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
+    with TextIOWrapper(file, coding, errors, newline="") as text:
+        begin = next((line.lstrip()[0] for line in text if line.strip()), None)
+        if begin is None:
+            raise ValueError("the file is empty")
+        text.seek(0)
+        if begin in "{[":
+            return "GeoJSON", geojson.read(text.read())
+        try:
+            return "CSV", tables.read_csv(text)
+        except tables.NoHeaderError:
+            text.seek(0)
+            if (fixes := nmea.read(text)) is None:
+                raise
+            return "NMEA", fixes
 
 
 def _utf_8(data: bytes) -> bytes:

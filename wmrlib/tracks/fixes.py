@@ -48,7 +48,8 @@ class Report:
 
     def __post_init__(self) -> None:
         for name in ("skipped", "noted"):
-            object.__setattr__(self, name, MappingProxyType(dict(getattr(self, name))))
+            rows = sorted(getattr(self, name).items(), key=lambda row: row[1].first)
+            object.__setattr__(self, name, MappingProxyType(dict(rows)))
 
     def __reduce__(self) -> tuple:  # a mapping proxy can't be pickled
         return Report, (self.used, dict(self.skipped), dict(self.noted), self.unit)
@@ -77,8 +78,12 @@ class Fixes:
     def skip(self, reason: str, line: int, times: int = 1) -> None:
         count(self._skipped, reason, line, times)
 
-    def note(self, reason: str, line: int) -> None:
-        count(self._noted, reason, line)
+    def note(self, reason: str, line: int, times: int = 1) -> None:
+        count(self._noted, reason, line, times)
+
+    @property
+    def reasons(self) -> set[str]:
+        return set(self._skipped)
 
     def begin_segment(self) -> None:
         """From here on times may be earlier than before."""
@@ -86,7 +91,7 @@ class Fixes:
 
     def add(self, lat: float, lon: float, time: float | None, line: int) -> bool:
         """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
-        reason = _misplaced(lat, lon)
+        reason = misplaced(lat, lon)
         if reason is not None:
             self.skip(reason, line)
             return False
@@ -97,6 +102,12 @@ class Fixes:
         self.time.append(NO_TIME if time is None else time)
         self._lines.append(line)
         return True
+
+    def extend(self, *columns: np.ndarray) -> None:
+        """Use many positions at once: lat, lon and time as for `add`, in range, and lines."""
+        rows: list[array] = [self.lat, self.lon, self.time, self._lines]
+        for ours, values in zip(rows, columns, strict=True):
+            ours.frombytes(np.asarray(values, ours.typecode).tobytes())
 
     def settle(self) -> tuple[np.ndarray, Report]:
         """The rows lat, lon and time of the positions in order, each epoch once, and the report."""
@@ -133,7 +144,7 @@ def timestamp(text: str) -> float | None:
     return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp()
 
 
-def _misplaced(lat: float, lon: float) -> str | None:
+def misplaced(lat: float, lon: float) -> str | None:
     """Return why (lat, lon) is invalid, or None."""
     if not (math.isfinite(lat) and math.isfinite(lon)):
         return "latitude or longitude not a number"

@@ -1,77 +1,227 @@
-"""Positions in CSV tables and in GeoJSON."""
+"""Positions in CSV tables."""
 
 from __future__ import annotations
 
 import csv
-import json
 import math
-from collections.abc import Iterator
-from itertools import pairwise
-from typing import Any
+import re
+from collections.abc import Iterable, Iterator
+from functools import lru_cache
+from itertools import islice
+from typing import Any, NamedTuple
+
+import numpy as np
 
 from wmrlib.tracks.fixes import NO_TIME, Fixes, number, timestamp
 
 LATITUDE, LONGITUDE = {"lat", "latitude"}, {"lon", "lng", "long", "longitude"}
-_COLUMNS = (LATITUDE, LONGITUDE, {"time", "timestamp", "datetime", "t"})
+_TIME = {"time", "timestamp", "datetime", "t"}
+_NORTH, _EAST = {"n s", "ns", "lat dir", "lat ref"}, {"e w", "ew", "lon dir", "lon ref"}
+_BESIDE = {"deg", "degrees", "n", "s", "e", "w", "sec", "utc"}  # what a name may hold as well
+_UNITS = {"e7": 1e7, "ms": 1e3}  # how many make a degree or a second
+# Columns that tell whether there is a fix, and the digits that say no.
+_FIX = {"valid": "0", "fix": "0", "status": "", "fix status": "", "gps status": ""}
+_FIX |= dict.fromkeys(("quality", "fix quality", "gps quality"), "0678")
+_FIX |= dict.fromkeys(("fix mode", "fix type"), "01")
+_NO = {"no", "not", "none", "nofix", "invalid", "void", "false", "v", "n", "-1"}
+_YES = {"yes", "true", "ok", "valid", "fix", "fixed", "float", "y", "a", "d", "p", "r", "f"}
+_YES |= {"gps", "gnss", "sps", "dgps", "pps", "rtk", "frtk"}
+_ESTIMATED = {"estimated", "dead", "manual", "simulator", "simulation", "e", "m", "s"}
 _DELIMITERS = ",;\t|"
 _MOST_SECONDS = 1e11  # milliseconds since 1970 are more
-_WGS84 = ("CRS84", "EPSG::4326", "EPSG:4326")
+_LINE_END = re.compile("\r\n?|\n")
+_AT_ONCE = 1000  # rows
 
 
-def read_csv(data: bytes) -> Fixes:
+class NoHeaderError(ValueError):
+    """No line names the columns."""
+
+
+class _Columns(NamedTuple):
+    """Where a row has what; a column that is missing is None."""
+
+    delimiter: str
+    width: int
+    places: list[Any]  # latitude, longitude, time, date, N/S, E/W
+    units: list[float]
+    fixes: list[tuple[int, str]]
+
+
+def read_csv(text: Iterable[str]) -> Fixes:
     """Rows under the first line that is neither blank nor a comment (#): the columns' names."""
-    lines = data.decode("utf-8", errors="replace").splitlines(keepends=True)
-    told = [i for i, line in enumerate(lines) if line.strip()]
-    header = next((i for i in told if not lines[i].startswith("#")), None)
-    if header is None:
-        raise ValueError("it has no header that names the columns of latitude and longitude")
-    delimiter, width, (y, x, t) = _header(lines[header])
-    fixes = Fixes()
-    for i in told[: told.index(header)]:
-        fixes.skip("comment", i + 1)
-    reader = csv.reader(lines[header:], delimiter=delimiter, strict=True)
+    fixes, last = Fixes(), [""]
+    lines = _remembering(text, last)
+    for header, line in enumerate(lines, 1):
+        if line.strip() and not line.startswith("#"):
+            break
+        if line.strip():
+            fixes.skip("comment", header)
+    else:
+        raise NoHeaderError("it has no header that names the columns of latitude and longitude")
+    columns, at = _header(line), header + 1
+    reader = csv.reader(lines, delimiter=columns.delimiter, strict=True)
     try:
-        next(reader)
-        done = reader.line_num
-        for row in reader:
-            line, height, done = header + done + 1, reader.line_num - done, reader.line_num
-            filled = [bool(cell.strip()) for cell in row]
-            if not any(filled):
+        while rows := list(islice(reader, _AT_ONCE)):
+            if header + reader.line_num == at + len(rows) - 1 and _add_plain(
+                fixes, rows, columns, at
+            ):
+                at += len(rows)
                 continue
-            if row[0].startswith("#"):
-                fixes.skip("comment", line)
-            elif height > 1:
-                fixes.skip("row with a cell over several lines", line)
-            elif len(row) < width or any(filled[width:]):  # as a decimal comma makes them
-                fixes.skip("row with more or fewer cells than the header", line)
-            else:
-                time = NO_TIME if t is None or not filled[t] else _time(row[t].strip())
-                fixes.add(_number(row[y]), _number(row[x]), time, line)
+            for row in rows:
+                reason = _amiss(row, columns)
+                if reason is None:
+                    _add(fixes, row, columns, at)
+                elif reason:
+                    fixes.skip(reason, at)
+                at += 1 + len(_LINE_END.findall("|".join(row)))
     except csv.Error as error:
         raise ValueError(f"its table is broken: {error}") from None
-    if fixes.lat and lines[-1].strip() and not lines[-1].endswith(("\n", "\r")):
-        fixes.note("in a last line without an end, which may be cut off", len(lines))
+    if fixes.lat and last[0].strip() and not last[0].endswith(("\n", "\r")):
+        fixes.note("in a last line without an end, which may be cut off", at - 1)
     return fixes
 
 
-def _header(line: str) -> tuple[str, int, list[Any]]:
-    """The delimiter, the number of cells, and the columns of latitude, longitude and time."""
+def _remembering(text: Iterable[str], last: list[str]) -> Iterator[str]:
+    for last[0] in text:
+        yield last[0]
+
+
+def _header(line: str) -> _Columns:
     shown = repr(line.strip()[:80])
     for delimiter in _DELIMITERS:
         try:
             cells = next(csv.reader([line], delimiter=delimiter))
         except csv.Error:  # 131072 characters without a delimiter
             continue
-        names = [cell.strip().casefold() for cell in cells]
-        found = [[i for i, name in enumerate(names) if name in known] for known in _COLUMNS]
-        if found[0] and found[1]:
-            for several in (columns for columns in found if len(columns) > 1):
-                given = sorted({names[i] for i in several})
+        words = [re.findall(r"[^\W_]+", re.sub("e7$", " e7", cell.casefold())) for cell in cells]
+        full = [" ".join(each) for each in words]
+        short = [" ".join(w for w in each if w not in _BESIDE | {*_UNITS}) for each in words]
+        places: list[Any] = []
+        for known in (LATITUDE, LONGITUDE, _TIME, {"date"}, _NORTH, _EAST):
+            found = [i for i, name in enumerate(full) if name in known]
+            found = found or [i for i, name in enumerate(short) if name in known]
+            if len(found) > 1:
+                given = sorted({cells[i].strip().casefold() for i in found})
                 raise ValueError(f"its header names more than one column of {given}: {shown}")
-            return delimiter, len(names), [columns[0] if columns else None for columns in found]
+            places.append(found[0] if found else None)
+        if None not in places[:2]:
+            units = [
+                math.prod(_UNITS.get(word, 1.0) for word in words[i]) if i is not None else 1.0
+                for i in places[:3]
+            ]
+            fixes = [(i, _FIX[name]) for i, name in enumerate(full) if name in _FIX]
+            return _Columns(delimiter, len(cells), places, units, fixes)
     wanted = f"one of {sorted(LATITUDE)} and one of {sorted(LONGITUDE)}"
     first = f"as a table its first line {shown} does not name {wanted}"
-    raise ValueError(f"it is no NMEA, GPX or GeoJSON, and {first}")
+    raise NoHeaderError(f"it is no NMEA, GPX or GeoJSON, and {first}")
+
+
+def _amiss(row: list[str], columns: _Columns) -> str | None:
+    """Return why a row has no position, "" if it is blank, or None."""
+    if not any(map(str.strip, row)):
+        return ""
+    if row[0].startswith("#"):
+        return "comment"
+    if _LINE_END.search("|".join(row)):
+        return "row with a cell over several lines"
+    if len(row) < columns.width or any(map(str.strip, row[columns.width :])):  # by decimal commas
+        return "row with more or fewer cells than the header"
+    reasons = (_without_fix(row[i], digits) for i, digits in columns.fixes)
+    return next(filter(None, reasons), None)
+
+
+def _add_plain(fixes: Fixes, rows: list[list[str]], columns: _Columns, line: int) -> bool:
+    """Use rows of mere numbers and times at once; False if any of them needs a closer look."""
+    if {len(row) for row in rows} != {columns.width}:
+        return False
+    cells = list(zip(*rows, strict=True))
+    (y, x, t, _, *sides), (per_y, per_x, _) = columns.places, columns.units
+    said = {_without_fix(cell, digits) for i, digits in columns.fixes for cell in {*cells[i]}}
+    if said - {""} or any("#" in cell for cell in cells[0]):
+        return False
+    try:
+        lat, lon = _plain(cells[y]), _plain(cells[x])
+        time = _times(cells, columns) if t is not None else np.full(len(rows), NO_TIME)
+    except ValueError:
+        return False
+    for values, i, letters in zip((lat, lon), sides, ("NS", "EW"), strict=True):
+        if i is not None:
+            if not {*cells[i]} <= {*letters} or np.signbit(values).any():
+                return False
+            values[np.array(cells[i]) == letters[1]] *= -1.0
+    lat, lon = lat / per_y, lon / per_x
+    plain = (np.abs(lat) <= 90.0) & (np.abs(lon) <= 180.0)
+    if t is not None:
+        plain &= np.abs(time) < _MOST_SECONDS
+    if plain.all():
+        fixes.extend(lat, lon, time, np.arange(line, line + len(rows)))
+    return bool(plain.all())
+
+
+def _plain(cells: tuple[str, ...]) -> np.ndarray:
+    """Numbers of cells; ValueError where `float` would not do, or would read too much."""
+    if not {"_", "+"}.isdisjoint("".join(cells)):
+        raise ValueError
+    return np.array([*map(float, cells)])
+
+
+def _times(cells: list[tuple[str, ...]], columns: _Columns) -> np.ndarray:
+    """Seconds, NaN where they are unreadable."""
+    (_, _, t, date, *_), per_second = columns.places, columns.units[2]
+    if date is not None:
+        return np.array([*map(_date_and_time, cells[date], cells[t])], float)
+    try:
+        return _plain(cells[t]) / per_second
+    except ValueError:
+        return np.array([_time(text, per_second) for text in cells[t]], float)
+
+
+def _add(fixes: Fixes, row: list[str], columns: _Columns, line: int) -> None:
+    """Use a row's position, or count why not."""
+    (y, x, t, date, north, east), (per_y, per_x, per_t) = columns.places, columns.units
+    try:
+        lat = _degrees(row[y], "NS", None if north is None else row[north])
+        lon = _degrees(row[x], "EW", None if east is None else row[east])
+    except ValueError as error:
+        fixes.skip(str(error), line)
+        return
+    time: float | None = NO_TIME
+    if t is not None and (text := row[t].strip()):
+        time = _time(text, per_t) if date is None else _date_and_time(row[date], text)
+    known = all(_without_fix(row[i], digits) == "" for i, digits in columns.fixes)
+    if fixes.add(lat / per_y, lon / per_x, time, line) and not known:
+        fixes.note("with an unknown word on its fix", line)
+
+
+@lru_cache(maxsize=64)
+def _without_fix(cell: str, digits: str) -> str | None:
+    """Return why there is no fix by a cell, "" where there is one, or None if that is not known."""
+    words = re.findall("[a-z]+|-?[0-9]+", cell.casefold())
+    first = words[0] if words else "yes"  # an empty cell says nothing
+    if first in _NO or first in tuple(digits.replace("678", "")):
+        return "row without a fix"
+    if first in _ESTIMATED or first in tuple(digits):
+        return "position estimated, put in by hand or simulated"
+    return "" if first in _YES or first.isdigit() else None
+
+
+def _degrees(cell: str, sides: str, side: str | None) -> float:
+    """Degrees, NaN if there are none; ValueError where sign and hemisphere leave a doubt."""
+    value = _number(cell)
+    if side is None and math.isfinite(value):
+        return value
+    text = cell.strip().upper()
+    bare = text.strip(sides + " \N{DEGREE SIGN}")
+    named = {*text.replace(bare, "", 1)} & {*sides}
+    if side is not None:
+        letter = side.strip().upper()[:1]
+        if not letter or letter not in sides:
+            raise ValueError("row without a readable hemisphere")
+        named.add(letter)
+    value, negative = _number(bare), sides[1] in named
+    if len(named) > 1 or (named and bare[:1] == ("+" if negative else "-")):
+        raise ValueError("sign and hemisphere that contradict each other")
+    return -abs(value) if negative else value
 
 
 def _number(cell: str) -> float:
@@ -79,67 +229,18 @@ def _number(cell: str) -> float:
     return number(cell if "." in cell else cell.replace(",", ".", 1))
 
 
-def _time(text: str) -> float | None:
+def _time(text: str, per_second: float) -> float | None:
     """Seconds or an ISO 8601 time; None if it is neither."""
-    seconds = _number(text)
+    seconds = _number(text) / per_second
     if math.isfinite(seconds):
         return seconds if abs(seconds) < _MOST_SECONDS else None
-    return timestamp(text)
+    return timestamp(text.strip())
 
 
-def read_geojson(data: bytes) -> Fixes:
-    """The positions of all points and lines, RFC 7946; a line cut at the date line is rejoined."""
-    try:
-        document = json.loads(data)
-        lines = [list(line) for line in _lines(document)]
-    except (ValueError, LookupError, TypeError, RecursionError) as error:
-        raise ValueError(f"its JSON is not read: {error}") from None
-    crs = document.get("crs")
-    if crs and not str(crs).rstrip("'}\" ").endswith(_WGS84):
-        raise ValueError(f"its coordinates are not degrees on WGS84, but {str(crs)[:80]}")
-    fixes, place = Fixes("position"), 0
-    cuts = [False, *(_is_cut(before, after) for before, after in pairwise(lines)), False]
-    for line, cut_before, cut_after in zip(lines, cuts, cuts[1:], strict=False):
-        for j, position in enumerate(line):
-            place += 1
-            if (j == 0 and cut_before) or (j == len(line) - 1 and cut_after):
-                fixes.skip("cut at the date line", place)
-            elif not _is_pair(position):
-                fixes.skip("position that is no pair of numbers", place)
-            else:
-                fixes.add(float(position[1]), float(position[0]), NO_TIME, place)
-    return fixes
-
-
-def _lines(node: Any) -> Iterator[list]:
-    """Each geometry as lists of positions, longitude before latitude."""
-    kind = node.get("type") if isinstance(node, dict) else None
-    if kind in ("FeatureCollection", "GeometryCollection"):
-        for member in node["features" if kind == "FeatureCollection" else "geometries"]:
-            yield from _lines(member)
-    elif kind == "Feature":
-        if node.get("geometry") is not None:
-            yield from _lines(node["geometry"])
-    elif kind == "Point":
-        yield [node["coordinates"]]
-    elif kind == "MultiPoint":
-        yield from ([place] for place in node["coordinates"])
-    elif kind in ("LineString", "MultiLineString"):
-        yield from [node["coordinates"]] if kind == "LineString" else node["coordinates"]
-    else:
-        raise ValueError(f"it is no GeoJSON of points or lines, but of the kind {kind!r}")
-
-
-def _is_pair(position: Any) -> bool:
-    numbers = position[:2] if isinstance(position, list) else []
-    return len(numbers) == 2 and all(
-        type(value) is float or (type(value) is int and abs(value) < 1000) for value in numbers
-    )
-
-
-def _is_cut(before: list, after: list) -> bool:
-    """Whether two lines meet at the date line as the two halves of one that was cut there."""
-    if min(len(before), len(after)) < 2 or not (_is_pair(before[-1]) and _is_pair(after[0])):
-        return False
-    (lon, lat), (other_lon, other_lat) = before[-1][:2], after[0][:2]
-    return lat == other_lat and {lon, other_lon} == {180.0, -180.0}
+def _date_and_time(date: str, time: str) -> float | None:
+    """Seconds since 1970 of 2013/05/12 or 130512 and 12:34:56.7 or 123456; None if unreadable."""
+    day, (clock, dot, fraction) = date.strip().replace("/", "-"), time.strip().partition(".")
+    if day.isdigit() and len(day) < 7:  # a spreadsheet drops zeros in front
+        day = ("19" if day.zfill(6) >= "80" else "20") + day.zfill(6)
+    moment = timestamp(f"{day}T{clock.zfill(6) if clock.isdigit() else clock}{dot}{fraction}")
+    return timestamp(time.strip()) if moment is None else moment
