@@ -5,19 +5,24 @@ import os
 import signal
 import subprocess
 import sys
+import warnings
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from itertools import product
+from itertools import pairwise, product
 
 import numpy as np
 import pytest
+from hypothesis import assume, example, given, settings
+from hypothesis import strategies as st
+from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
-from wmrlib import sweeping
+from wmrlib import _chunks, sweeping
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
 CALM = wmr.Gains(k_rho=0.4, k_alpha=2.0, h=0.6, v_max=2.0)
 LAWS = ("corrected", "printed", "aicardi")
+METHODS = tuple(sweeping._METHODS)
 LIMITS = wmr.WheelLimits(track_width=0.5, max_speed=1.0)
 
 
@@ -37,23 +42,146 @@ def same(one, other):
 # The polar closed loop ---------------------------------------------------------------------------
 
 
-@pytest.mark.parametrize("law", LAWS)
-def test_runge_kutta_is_the_continuous_run(law):
-    start, goal, headings = wmr.Pose(-3.0, 1.0, 0.0), wmr.Pose(1.0, 2.0, -1.0), (-2.0, 0.5, 3.0)
-    # A step over the edge of the limits loses its order.
-    for wheels, tolerance in ((None, 1e-8), (LIMITS, 1e-4)):
-        options = {"law": law, "dt": 0.01, "duration": 30.0, "wheels": wheels}
-        runs = wmr.sweep(start._replace(heading=headings), goal, CALM, **options)
-        for i, heading in enumerate(headings):
-            begin = start._replace(heading=heading)
-            truth = wmr.arrival(wmr.simulate(begin, goal, CALM, method="continuous", **options))
-            assert runs.arrived[i] == truth.arrived
-            assert runs.time[i] == pytest.approx(truth.time, abs=tolerance)
-            assert runs.heading_error[i] == pytest.approx(truth.heading_error, abs=tolerance)
-            assert runs.distance[i] == pytest.approx(0.05, abs=1e-12)
-            # The oracle's peak is the largest of its samples, its length a sum of trapezoids.
-            assert runs.peak_omega[i] == pytest.approx(truth.peak_omega, rel=1e-3)
-            assert runs.path_length[i] == pytest.approx(truth.path_length, abs=3e-4)
+def integrated(start, goal, gains, law, wheels, radius, duration=30.0):
+    """The run by scipy, out of the public functions, at a tolerance of 1e-12."""
+
+    def twist(rho, alpha, theta):
+        v, omega = wmr.control_law(np.maximum(rho, 1e-300), alpha, theta, gains, law=law)
+        return wmr.limit_wheels(v, omega, wheels) if wheels else (v, omega)
+
+    def rates(_, state):
+        v, omega = twist(*state[:3])
+        return [*wmr.polar_rate(max(state[0], 1e-300), state[1], v, omega), abs(v)]
+
+    def there(_, state):
+        return state[0] - radius
+
+    there.terminal = True
+    begin = [*wmr.polar_error(start, goal), 0.0]
+    how = {"events": there, "dense_output": True, "rtol": 1e-12, "atol": 1e-13}
+    run = solve_ivp(rates, (0.0, duration), begin, "DOP853", **how)
+    t = np.unique(np.concatenate([np.linspace(a, b, 200) for a, b in pairwise(run.t)]))
+    for _ in range(3):  # the largest |omega|, closer and closer
+        i = np.abs(twist(*run.sol(t)[:3])[1]).argmax()
+        peak = np.abs(twist(*run.sol(t)[:3])[1])[i]
+        t = np.linspace(t[max(i - 1, 0)], t[min(i + 1, t.size - 1)], 200)
+    rho, alpha, theta, length = run.y[:, -1]
+    time = run.t[-1] if run.status else math.inf
+    return bool(run.status), time, wmr.wrap_angle(theta - alpha), peak, length, rho
+
+
+def decades(low, high):
+    return st.floats(math.log10(low), math.log10(high)).map(lambda x: 10.0**x)
+
+
+turns = st.floats(-math.pi, math.pi)
+starts = st.builds(
+    lambda far, sight, heading: wmr.Pose(-far * math.cos(sight), -far * math.sin(sight), heading),
+    decades(0.01, 100.0), turns, turns,
+)  # fmt: skip
+wide_gains = st.builds(
+    wmr.Gains,
+    decades(0.02, 10.0), decades(0.1, 20.0), decades(0.01, 20.0) | st.just(0.0), decades(0.1, 20.0),
+)  # fmt: skip
+limits = st.none() | st.builds(wmr.WheelLimits, st.floats(0.2, 1.0), st.floats(0.3, 5.0))
+
+
+@settings(max_examples=60, deadline=None)
+@example(wmr.Pose(-10, -5, 0), wmr.Pose(0, 0, 1), wmr.Gains(3, 0.5, 4, 8), LAWS[0], None, 0.05)
+@example(wmr.Pose(-3, 1, -2.0), ORIGIN, CALM, "aicardi", LIMITS, 0.05)
+@given(starts, turns.map(lambda heading: wmr.Pose(0, 0, heading)), wide_gains,
+       st.sampled_from(LAWS), limits, decades(1e-3, 0.3))  # fmt: skip
+def test_the_default_is_as_right_as_promised(start, goal, gains, law, wheels, radius):
+    assume(law != "printed" or gains.k_alpha > 1.5 * gains.k_rho * gains.v_max)  # which settles
+    options = {"law": law, "wheels": wheels, "arrival_radius": radius, "duration": 30.0}
+    run = wmr.sweep(start, goal, gains, **options)
+    truth = integrated(start, goal, gains, law, wheels, radius)
+    assert run.arrived == truth[0]
+    run = run._replace(heading_error=truth[2] + wmr.wrap_angle(run.heading_error - truth[2]))
+    tolerance = 1e-4 if wheels else 1e-6
+    for name, value, right in zip(run._fields[1:], run[1:], truth[1:], strict=True):
+        assert value == pytest.approx(right, abs=tolerance, rel=tolerance), name
+
+
+@settings(max_examples=30, deadline=None)
+@given(starts, wide_gains, st.sampled_from(("corrected", "aicardi")), st.floats(0.01, 0.5))
+def test_the_samples_lie_on_the_same_run_and_dt_changes_nothing_else(start, gains, law, dt):
+    options = {"law": law, "duration": 10.0, "dt": dt}
+    run, paths = wmr.sweep(start, ORIGIN, gains, trajectories=True, **options)
+    assert same(run, wmr.sweep(start, ORIGIN, gains, **options))
+    alone = wmr.simulate(start, ORIGIN, gains, method="continuous", **options)
+    count = np.isfinite(paths.rho).sum()
+    assert abs(count - (len(alone) - run.arrived)) <= 1
+    count = min(count, len(alone) - run.arrived)
+    for name in paths._fields[1:]:
+        ours, theirs = getattr(paths, name)[:count], getattr(alone, name)[:count]
+        off = ours - theirs if name != "heading" else wmr.wrap_angle(ours - theirs)
+        assert np.all(np.abs(off) <= 1e-6 * (1.0 + np.abs(theirs))), name
+
+
+def test_the_length_counts_both_ways_and_the_peak_is_between_the_samples():
+    """Backwards and forwards again; |omega| is largest within a step."""
+    gains = wmr.Gains(0.4, 0.5, 2.0, 2.0)
+    start, goal = wmr.Pose(-5.0, 0.0, 1.8), wmr.Pose(0.0, 0.0, 2.0)
+    truth = integrated(start, goal, gains, LAWS[0], None, 0.05)
+    assert wmr.sweep(start, goal, gains)[3:] == pytest.approx(truth[3:], abs=1e-7)
+
+
+@pytest.mark.parametrize("gains", [(0.5, 1e6, 1.0, 4.0), (2.0, 1e9, 1e9, 4)])
+def test_hopeless_gains_are_given_up_with_a_warning(gains):
+    stiff = wmr.Gains(*([0.5, one] for one in gains))
+    with pytest.warns(RuntimeWarning, match=r"1 of 2 runs are NaN: .* more than 100,000 steps"):
+        run, paths = wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, stiff, trajectories=True)
+    assert np.isnan([field[1] for field in run[1:]]).all()
+    assert not run.arrived[1]
+    assert np.isnan(paths.x[1]).all()
+    assert np.isfinite(run.heading_error[0])
+
+
+extremes = st.sampled_from([0.0, 1e-150, 1e-9, 1.0, 1e9, 1e150, 1e300])
+
+
+@settings(max_examples=60, deadline=None)
+@given(extremes, turns | st.just(math.pi), st.tuples(*[extremes] * 3), extremes.filter(bool),
+       st.sampled_from([0.0, 1e-9, 1.0]), st.sampled_from(METHODS))  # fmt: skip
+def test_whoever_says_that_it_arrived_is_there(far, heading, gains, v_max, radius, method):
+    options = {"method": method, "arrival_radius": radius, "duration": 1.0}
+    with warnings.catch_warnings(action="ignore"):
+        run = wmr.sweep(wmr.Pose(-far, 0.0, heading), ORIGIN, wmr.Gains(*gains, v_max), **options)
+    if run.arrived:
+        assert np.isfinite(run).all()
+        assert run.distance <= radius * (1.0 + 1e-9)
+        assert radius > 0.0 or far == 0.0
+    else:
+        assert run.time == math.inf or math.isnan(run.time)
+        assert run.distance != 0.0 or far == 0.0 or radius == 0.0
+
+
+@settings(max_examples=40, deadline=None)
+@given(starts, wide_gains, st.floats(0.005, 0.5))
+def test_runge_kutta_without_a_warning_is_right_to_a_hundredth(start, gains, dt):
+    options = {"dt": dt, "duration": 30.0}
+    with warnings.catch_warnings(record=True, action="always") as warned:
+        run = wmr.sweep(start, ORIGIN, gains, method="rk4", **options)
+    fastest = max(
+        gains.k_alpha, gains.k_rho * gains.v_max, gains.k_rho * gains.v_max * math.sqrt(gains.h)
+    )
+    assert bool(warned) == (dt * fastest > 0.5)
+    truth = wmr.sweep(start, ORIGIN, gains, **options)
+    if not warned and run.arrived and truth.arrived:
+        assert abs(wmr.wrap_angle(run.heading_error - truth.heading_error)) < 0.02
+        assert run.time == pytest.approx(truth.time, abs=0.02)
+
+
+def test_a_warning_of_long_steps_counts_the_runs_and_names_the_worst():
+    gains = wmr.Gains([0.1, 2.0, 4.0], 1.0, 0.3)
+    message = r"dt = 0\.1 s is too long for method = 'rk4' in 2 of 3 runs, .* at most 0\.0312 s"
+    with pytest.warns(RuntimeWarning, match=message) as warned:
+        wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, gains, method="rk4")
+    assert len(warned) == 1
+    own = wmr.longest_step(wmr.Gains(4.0, 1.0, 0.3), "polar_euler")
+    with pytest.warns(RuntimeWarning, match=f"'polar_euler' in 2 of 3 .* at most {own:.3g} s"):
+        wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, gains, method="polar_euler")
 
 
 @pytest.mark.parametrize(("method", "factor"), [("rk4", 16.0), ("polar_euler", 2.0)])
@@ -126,12 +254,13 @@ def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices():
         assert same(some, [field[order] for field in runs])
 
 
-@pytest.mark.parametrize("method", sweeping._METHODS)
+@pytest.mark.parametrize("method", METHODS)
 def test_edges(method):
     """On the goal already, too far, out of the range of numbers."""
     gains = wmr.Gains([0.4, 0.4, 1e308], [2.0, 2.0, 1e308], 0.6, [2.0, 2.0, 1e308])
     options = {"method": method, "duration": 2.0, "arrival_radius": 0.0}
-    runs = wmr.sweep(wmr.Pose([0.0, 1e3, 5.0], 0.0, 1.0), ORIGIN, gains, **options)
+    with warnings.catch_warnings(action="ignore"):  # no step is short enough for the last
+        runs = wmr.sweep(wmr.Pose([0.0, 1e3, 5.0], 0.0, 1.0), ORIGIN, gains, **options)
     assert runs.arrived.tolist() == [True, False, False]
     assert runs.time.tolist() == [0.0, math.inf, math.inf]
     assert np.isfinite([runs.distance, runs.heading_error]).all()
@@ -192,13 +321,15 @@ def test_bad_input_names_argument_value_and_range():
     many, samples = {"trajectories": True, "dt": 0.01, "duration": 1000.0}, "100,001 samples"
     for options, message in [
         ({"starts": (0, 0, 0)}, r"starts = \(0, 0, 0\) .* a Pose is needed"),
-        ({"method": "continuous"}, "'rk4', 'polar_euler', 'arc', 'euler' is needed"),
+        ({"method": "heun"}, "'continuous', 'rk4', 'polar_euler', 'arc', 'euler' is needed"),
         ({"law": ["corrected", "kanayama"]}, "law = 'kanayama' .* one of 'corrected', 'printed'"),
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
         ({"wheels": 2.0}, "a WheelLimits is needed"),
         ({"executor": 4}, "executor = 4 is not allowed: a Executor is needed, not a int"),
         ({"arrival_radius": -1.0}, r"arrival_radius = -1\.0"),
+        ({"trajectories": "no"}, "trajectories = 'no' is not allowed: True or False is needed"),
+        ({"progress": 1}, "progress = 1 is not allowed: True or False is needed"),
     ]:
         valid = {"starts": ORIGIN, "goals": wmr.Pose(np.ones(1000), 0.0, 0.0), "gains": CALM}
         with pytest.raises(ValueError, match=message):
@@ -207,10 +338,10 @@ def test_bad_input_names_argument_value_and_range():
 
 FRESH = """
 import wmrlib as w
-from wmrlib._loops import polar
+from wmrlib._loops import blocks, polar
 options = {"duration": 1.0, "arrival_radius": 2.9}
 run = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.Gains(0.4, 2.0, 0.6, 2.0), **options)
-stats = getattr(polar.survey_of(polar.RK4, 0, False), "stats", None)
+stats = getattr(blocks.survey_of(polar.CONTINUOUS, 0, False), "stats", None)
 print(*map(float, run), sum(stats.cache_misses.values()) if stats else None)
 """
 
@@ -258,7 +389,7 @@ def test_chunks_do_not_show(small_chunks, whole):
 
 
 def test_a_bar_on_long_work_only(monkeypatch, capsys):
-    monkeypatch.setattr(sweeping, "_BAR_AFTER", 0.0)
+    monkeypatch.setattr(_chunks, "_BAR_AFTER", 0.0)
     wmr.sweep(*CASE, duration=1.0)
     monkeypatch.setattr(sweeping, "_LONG_WORK", 0)
     wmr.sweep(*CASE, duration=1.0, progress=False)
@@ -287,7 +418,7 @@ def test_ctrl_c_keeps_what_is_done(monkeypatch, ctrl_c, small_chunks, whole):
             self.submitted += 1
             return super().submit(interrupted if self.submitted == 8 else function, *arguments)
 
-    monkeypatch.setattr(sweeping, "ThreadPoolExecutor", lambda _: Interrupting(1))
+    monkeypatch.setattr(_chunks.futures, "ThreadPoolExecutor", lambda _: Interrupting(1))
     message = r"^interrupted: [\d,]+ of 5,000 runs are done, the others are NaN$"
     with pytest.warns(RuntimeWarning, match=message) as warned:
         runs = wmr.sweep(*CASE, **WHOLE)
@@ -316,8 +447,58 @@ class Losing(Executor):
         return future
 
 
-def test_lost_chunks_are_run_here(small_chunks, whole):
-    assert same(wmr.sweep(*CASE, **WHOLE, executor=Losing()), whole)
+def test_lost_chunks_are_run_here_with_a_warning(small_chunks, whole):
+    with pytest.warns(RuntimeWarning, match="12 chunks were lost .* run here: ConnectionError"):
+        assert same(wmr.sweep(*CASE, **WHOLE, executor=Losing()), whole)
+
+
+def test_an_error_of_the_job_itself_is_raised(small_chunks):
+    class Failing(ThreadPoolExecutor):
+        def submit(self, *_):
+            return super().submit(int, "no number")
+
+    with pytest.raises(ValueError, match="invalid literal"):
+        wmr.sweep(*CASE, **WHOLE, executor=Failing(1))
+
+
+POOL = """
+import os, signal, sys, threading, time, warnings
+from concurrent.futures import ProcessPoolExecutor
+import multiprocessing as mp
+import numpy as np, wmrlib as w
+from wmrlib import sweeping
+
+if __name__ == "__main__":
+    sweeping._REMOTE_CHUNK = 400_000
+    signal.signal(signal.SIGINT, signal.default_int_handler)
+    pool = ProcessPoolExecutor(2, mp_context=mp.get_context(sys.argv[1]))
+    arguments = w.Pose(np.linspace(-9, -1, 3_000_000), 1, 0), w.Pose(0, 0, 0), w.Gains(1, 2, 1)
+    w.sweep(w.Pose(np.linspace(-9, -1, 600), 1, 0), *arguments[1:], executor=pool)
+    pressed = []
+    def press():
+        pressed.append(time.monotonic())
+        os.killpg(0, signal.SIGINT)
+    threading.Timer(1.0, press).start()
+    with warnings.catch_warnings(record=True, action="always") as warned:
+        runs = w.sweep(*arguments, executor=pool, progress=False)
+    late = time.monotonic() - pressed[0]
+    pool.shutdown(cancel_futures=True)
+    print(late, np.isfinite(runs.heading_error).sum(), len(warned))
+"""
+
+
+@pytest.mark.skipif(os.name == "nt", reason="this test needs process groups")
+@pytest.mark.parametrize("method", ["fork", "spawn"])
+def test_ctrl_c_over_a_process_pool_keeps_what_is_done_and_prints_nothing(method, tmp_path):
+    (tmp_path / "pool.py").write_text(POOL, encoding="utf-8")
+    command = [sys.executable, str(tmp_path / "pool.py"), method]
+    options = {"capture_output": True, "text": True, "start_new_session": True, "timeout": 300}
+    done = subprocess.run(command, check=True, **options)
+    late, finished, warned = map(float, done.stdout.split())
+    assert done.stderr == ""
+    assert late < 2.0  # a second on a machine with nothing else to do
+    assert 0 < finished < 3_000_000
+    assert warned == 1
 
 
 def test_a_dask_cluster_that_loses_a_worker(small_chunks, whole):
@@ -348,6 +529,7 @@ def test_a_dask_cluster_that_loses_a_worker(small_chunks, whole):
         assert len(workers) == 2
         with client.get_executor(pure=False) as executor:
             killing = Killing(executor, next(iter(workers.values())))
-            runs = wmr.sweep(*CASE, **WHOLE, executor=killing)
+            with warnings.catch_warnings(action="ignore"):  # whether a chunk is lost, dask decides
+                runs = wmr.sweep(*CASE, **WHOLE, executor=killing)
         assert killing.killed
     assert same(runs, whole)

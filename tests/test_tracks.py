@@ -258,6 +258,24 @@ def test_time_goes_on_from_day_to_day(read):
     assert read(sentences).t.tolist() == [0, 2]
 
 
+@given(
+    kinds=st.text("GR", min_size=9, max_size=30),
+    wrong=st.integers(1, 28),
+    day=st.sampled_from(["010180", "230709", "250709", "010199", "010149"]),
+)
+def test_a_wrong_date_costs_its_own_epoch_only(tmp_path_factory, kinds, wrong, day):
+    words = [f"{kind}0800{second:02d}" for second, kind in enumerate(f"R{kinds}R")]
+    words = [word + "/240709" * (word[0] == "R") for word in words]
+    path, wrong = tmp_path_factory.mktemp("log") / "log.nmea", 1 + wrong % len(kinds)
+    path.write_text("\n".join(log(" ".join(words))))
+    assert wmr.read_track(path).t.tolist() == [*range(len(words))]
+    words[wrong] = f"R0800{wrong:02d}/{day}"
+    path.write_text("\n".join(log(" ".join(words))))
+    track = wmr.read_track(path)
+    assert track.t.tolist() == [second for second in range(len(words)) if second != wrong]
+    assert dict(track.report.skipped) == {"time runs backwards": (1, 1 + wrong)}
+
+
 BAD_SENTENCES = {
     "wrong checksum": gga("104707.00").replace("*", "0*"),
     "sentence without a checksum": gga("104707.00")[:-3],

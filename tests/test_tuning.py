@@ -228,6 +228,52 @@ def test_eigenvalues_of_a_step_leave_the_unit_circle_at_the_longest_step():
         assert speed * longest == pytest.approx(1e-6, rel=1e-5)
 
 
+wide = st.floats(-2.0, 1.3).map(lambda x: 10.0**x)
+
+
+@given(st.builds(wmr.Gains, wide, wide, wide, wide), st.floats(0.01, 0.999))
+def test_a_runge_kutta_step_shrinks_every_mode_up_to_the_longest_and_no_further(gains, share):
+    longest = wmr.longest_step(gains, "rk4")
+    poles = np.array(wmr.modes(gains).poles)
+
+    def growth(dt):
+        z = dt * poles
+        return np.abs(1 + z + z**2 / 2 + z**3 / 6 + z**4 / 24).max()
+
+    assert growth(share * longest) < 1.0 < growth(1.001 * longest)
+    assert wmr.longest_step(gains, "continuous") == math.inf
+
+
+def test_runs_by_runge_kutta_settle_up_to_the_longest_step_and_no_further():
+    start, goal = wmr.Pose(-1e-3, -1e-6, 2e-3), wmr.Pose(0.0, 0.0, 0.0)
+    for gains in (PAPER, GENTLE, STIFF):
+        for share, settles in ((0.95, True), (1.05, False)):
+            dt = share * wmr.longest_step(gains, "rk4")
+            options = {"dt": dt, "duration": 60 * dt, "arrival_radius": 0.0, "trajectories": True}
+            with pytest.warns(RuntimeWarning, match="too long for method = 'rk4'"):
+                _, run = wmr.sweep(start, goal, gains, method="rk4", **options)
+            size = np.hypot(run.rho / 1e-3, np.hypot(run.alpha, run.theta) / 2e-3)
+            size = size[np.isfinite(size)]
+            assert size[-1] < 0.9 * size[0] if settles else size[-1] > 1.1 * size[0]
+
+
+@given(st.integers(5, 40).map(float), st.floats(0.01, 0.999))
+def test_every_step_shorter_than_the_longest_settles(k_alpha, share):
+    """Also where an eigenvalue only touches -1, which these gains do: a double root."""
+    gains = wmr.Gains(0.25, k_alpha, (k_alpha**2 - 4.0 * k_alpha - 4.0) / 4.0)
+    touching = 4.0 / (k_alpha + 2.0)
+    longest = wmr.longest_step(gains, "euler")
+    assert longest <= touching
+    assert np.abs(np.linalg.eigvals(one_step(gains, "euler", share * longest))).max() < 1.0
+
+
+@given(rates, rates)
+def test_gains_are_critically_damped_unless_told_otherwise(distance_rate, rate):
+    for asked in ({"natural_frequency": rate}, {"heading_rate": rate}):
+        modes = wmr.modes(wmr.gains_for(distance_rate, **asked))
+        assert modes.damping == pytest.approx(1.0)
+
+
 def test_longest_steps_by_hand():
     limits = [wmr.longest_step(PAPER, method) for method in SAMPLED]
     assert limits == pytest.approx([1 / 19.2, 1 / 91.2, 2 / 91.2])
@@ -298,9 +344,11 @@ def test_bad_input():
         ([("h", [1.0])], "over = .* a Mapping is needed, not a list"),
     ]
     refuses(maps, lambda over: wmr.gain_map(start, goal, PAPER, over))
-    method = "method = 'rk4' is not allowed: one of 'polar_euler', 'euler', 'arc' is needed"
+    method = (
+        "method = 'heun' .*: one of 'continuous', 'rk4', 'polar_euler', 'euler', 'arc' is needed"
+    )
     law = "law = 'printed' is not allowed: one of 'corrected', 'aicardi' is needed"
-    steps = [((PAPER, "rk4"), method), ((PAPER, "arc", "printed"), law)]
+    steps = [((PAPER, "heun"), method), ((PAPER, "arc", "printed"), law)]
     refuses([*steps, (((1.0,) * 4,), "a Gains is needed")], lambda each: wmr.longest_step(*each))
     refuses([((PAPER, "printed"), law)], lambda each: wmr.modes(*each))
     shapes = [((), "all of one shape"), ((np.zeros(2), np.zeros(3)), "all of one shape")]

@@ -3,38 +3,35 @@
 from __future__ import annotations
 
 import math
-import os
-import signal
-import threading
 import warnings
-from collections.abc import Callable, Generator, Iterator
-from concurrent.futures import FIRST_COMPLETED, Executor, Future, ThreadPoolExecutor, wait
-from contextlib import closing, contextmanager
-from itertools import islice
+from collections.abc import Generator, Iterator
+from concurrent.futures import Executor
+from contextlib import closing
 from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import choice, instance, same_shape, scalar
-from wmrlib._loops import plane, polar, rows
+from wmrlib import _chunks
+from wmrlib._checks import choice, instance, refusal, same_shape, scalar
+from wmrlib._loops import adaptive, blocks, plane, polar, rows
+from wmrlib._modes import fastest_mode, longest_euler_step
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
-from wmrlib.laws import POSE_LAWS
+from wmrlib.laws import LAWS, POSE_LAWS
 from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
 _METHODS = {
-    "rk4": (polar, polar.RK4),
-    "polar_euler": (polar, polar.EULER),
+    "continuous": (blocks, polar.CONTINUOUS),
+    "rk4": (blocks, polar.RK4),
+    "polar_euler": (blocks, polar.EULER),
     "arc": (plane, plane.ARC),
     "euler": (plane, plane.EULER),
 }
+_RK4_REACH = 0.5  # rad or nepers of the fastest mode in a step, for errors about a hundredth of one
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
-_LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 40_000_000, 40_000_000
+_LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 20_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
-_BAR_AFTER = 1.0  # s
-_HEARD_AFTER = 0.5  # s; so late a wait may hear Ctrl-C
-_IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
 
 
 class _Task(NamedTuple):
@@ -49,7 +46,9 @@ class _Task(NamedTuple):
 
     @property
     def cost(self) -> int:
-        """Evaluations of the law in one run."""
+        """Evaluations of the law in one run, about."""
+        if self.method == "continuous":
+            return 700 + 14 * self.samples * self.recorded
         return self.samples * (4 if self.method == "rk4" else 1)
 
 
@@ -59,7 +58,7 @@ def sweep(
     gains: Gains,
     *,
     law: str | np.ndarray = "corrected",
-    method: str = "rk4",
+    method: str = "continuous",
     dt: float = 0.1,
     duration: float = 60.0,
     arrival_radius: float = 0.05,
@@ -70,23 +69,28 @@ def sweep(
 ) -> Arrival | tuple[Arrival, Trajectories]:
     """Drive many runs at once and sum each one up.
 
-    Ctrl-C (the square button in Jupyter) stops the sweep with a warning and keeps what is done; the
-    other runs have arrived = False and NaN in every other field.
+    "continuous" is right to 1e-6 (m, s, rad, or as a share of what is larger than 1), and to 1e-4
+    with wheel limits, at whose edge the motion has a corner. The promise is for a law that settles:
+    small errors grow where "printed" drives away from its goal's direction, and no step decides how
+    such a run ends. A run of more than 100,000 steps is given up with a warning, as is what Ctrl-C
+    (the square button in Jupyter) leaves undone: arrived = False and NaN in every other field. A
+    fixed step that is too long for the gains is a warning too, once a sweep.
 
     Parameters
     ----------
     starts, goals : Pose, m and rad, whose fields broadcast with those of gains and law
     gains : Gains
     law : str or array of str, as in `simulate`
-    method : "rk4" and "polar_euler": the law acts all the time, as in the "continuous" of
-        `simulate`; (7)-(9) are integrated by Runge-Kutta steps of order 4 or by Euler's, the last
-        of which is shortened to end on the arrival radius. "arc" and "euler": each entry equals
-        `arrival(simulate(...))` of that run.
-    dt, duration, arrival_radius, wheels : as in `simulate`
+    method : "continuous": the law acts all the time, as in that of `simulate`; (7)-(9) are
+        integrated with error control. "rk4" and "polar_euler": the same by Runge-Kutta steps of
+        order 4, or by Euler's, of length dt; the last is shortened to end on the arrival radius.
+        "arc" and "euler": each entry equals `arrival(simulate(...))` of that run.
+    dt, duration, arrival_radius, wheels : as in `simulate`; with "continuous", dt only says where
+        the samples lie
     trajectories : bool, whether to return the samples too, at most fifty million in all
     executor : Executor to which chunks of runs are sent, for example dask's
-        `Client.get_executor()`; a chunk that is lost with its worker is run here. None: threads on
-        all cores.
+        `Client.get_executor()`; a chunk that is lost with its worker is run here, with a warning.
+        None: threads on all cores.
     progress : bool, whether to show a bar when the work takes longer than about a second
 
     Returns
@@ -108,6 +112,9 @@ def sweep(
     choice("method", method, _METHODS)
     samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
     task = _Task(method, checked_wheels(wheels), float(dt), samples, radius, bool(trajectories))
+    for name, value in (("trajectories", trajectories), ("progress", progress)):
+        if not isinstance(value, bool | np.bool_):
+            raise refusal(name, value, "True or False")
     if executor is not None:
         instance("executor", executor, Executor)
     total = math.prod(shape)
@@ -119,15 +126,17 @@ def sweep(
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
     source = [np.broadcast_to(field, shape) for field in fields.values()]
-    watch = _watched(total, total * task.cost, progress)
-    try:
-        with watch as advance, closing(_results(source, total, task, executor, advance)) as results:
-            for first, last, (metrics, paths) in results:
-                summary[:, first:last], record[:, first:last] = metrics, paths
-                advance(last - first)
-    except KeyboardInterrupt:
-        done = total - np.isnan(summary[rows.OUTCOME]).sum()
-        message = f"interrupted: {done:,} of {total:,} runs are done, the others are NaN"
+    warned = _too_long(fields, shape, task)
+    lost: list[BaseException] = []
+    long = progress and total * task.cost >= _LONG_WORK
+    with (
+        _chunks.watched(total, long) as go_on,
+        closing(_results(source, total, task, executor, go_on, lost)) as results,
+    ):
+        for (first, last), (metrics, paths) in results:
+            summary[:, first:last], record[:, first:last] = metrics, paths
+            go_on(last - first)
+    for message in (*warned, *_shortcomings(summary, lost)):
         warnings.warn(message, RuntimeWarning, stacklevel=2)
     outcome, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
     metrics = Arrival(outcome == rows.ARRIVED, *rest)
@@ -141,54 +150,60 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
     (module, step), count = _METHODS[task.method], runs.shape[1]
     summary = np.empty((len(Arrival._fields), count))
-    record = np.empty((rows.LYAPUNOV, count, task.samples if task.recorded else 0))
+    record = np.full((rows.LYAPUNOV, count, task.samples if task.recorded else 0), np.nan)
     for law in np.unique(runs[-1]):
         members = np.flatnonzero(runs[-1] == law)
         common = int(law), task.limits, step, task.dt, task.samples, task.arrival_radius
         summary[:, members] = module.survey(runs[:-1, members], *common)
         if task.recorded:
+            members = members[summary[rows.OUTCOME, members] != rows.UNFINISHED]
             record[:, members] = module.record(runs[:-1, members], *common)
     return summary, record
 
 
-def _results(source, total: int, task: _Task, executor: Executor | None, advance) -> Generator:
-    """(first, last, result) of each chunk as it is done, with a bounded number under way."""
+def _results(source, total: int, task: _Task, executor, go_on, lost: list) -> Generator:
+    def arguments(chunk: tuple[int, int]) -> tuple[np.ndarray, _Task]:
+        return np.array([field.flat[slice(*chunk)] for field in source], dtype=float), task
 
-    def columns(first: int, last: int) -> np.ndarray:
-        return np.array([field.flat[first:last] for field in source], dtype=float)
-
-    allowed = getattr(os, "sched_getaffinity", None)  # not on every system
-    cores = len(allowed(0)) if allowed else os.cpu_count() or 1
+    cores = _chunks.cores()
     size = _chunk_size(total, task, cores, executor)
-    chunks = ((first, min(first + size, total)) for first in range(0, total, size))
+    chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
     if executor is None and (cores == 1 or size >= total):
-        yield from ((*chunk, run_chunk(columns(*chunk), task)) for chunk in chunks)
-        return
-    pool = executor
-    waiting: dict[Future, tuple[int, int]] = {}
-    if pool is None:  # compile here, where Ctrl-C is heard, and not in a thread
+        return _chunks.here(run_chunk, chunks, arguments, go_on)
+    if executor is None:  # compile here, and not in several threads
         laws = np.unique(source[-1])
         run_chunk(np.tile(laws, (len(source), 1)), task._replace(samples=2))
-        pool = ThreadPoolExecutor(cores)
-    try:
-        while True:
-            for chunk in islice(chunks, _IN_FLIGHT - len(waiting)):
-                try:
-                    waiting[pool.submit(run_chunk, columns(*chunk), task)] = chunk
-                except RuntimeError:  # the executor is broken or closed
-                    yield *chunk, run_chunk(columns(*chunk), task)
-            if not waiting:
-                return
-            advance(0)
-            for future in wait(waiting, _HEARD_AFTER, FIRST_COMPLETED).done:
-                chunk = waiting.pop(future)
-                lost = future.cancelled() or future.exception() is not None
-                yield *chunk, run_chunk(columns(*chunk), task) if lost else future.result()
-    finally:
-        for future in waiting:
-            future.cancel()
-        if executor is None:
-            pool.shutdown(cancel_futures=True)
+    return _chunks.spread(run_chunk, chunks, arguments, go_on, executor, lost)
+
+
+def _too_long(fields: dict, shape: tuple[int, ...], task: _Task) -> list[str]:
+    """What there is to say on a fixed step in polar coordinates."""
+    if task.method not in ("rk4", "polar_euler"):
+        return []
+    k_rho, k_alpha, h, v_max = (np.asarray(fields[f"gains.{name}"]) for name in Gains._fields)
+    limits = np.array(["v_max" not in row.ignores for row in LAWS.values()])
+    with np.errstate(all="ignore"):
+        rate = k_rho * np.where(limits[fields["law"].astype(int)], v_max, 1.0)
+        if task.method == "rk4":
+            longest = _RK4_REACH / fastest_mode(rate, k_alpha, h)
+        else:
+            longest = longest_euler_step(rate, k_alpha, h)
+    runs = np.broadcast_to(task.dt > longest, shape).sum()
+    said = f"dt = {task.dt:g} s is too long for method = {task.method!r} in {runs:,} of "
+    said += f"{math.prod(shape):,} runs, the worst of which needs at most {{:.3g}} s"
+    return [said.format(longest.min())] if runs else []
+
+
+def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[str]:
+    outcome = summary[rows.OUTCOME]
+    done, given_up = (~np.isnan(outcome)).sum(), (outcome == rows.UNFINISHED).sum()
+    if done < outcome.size:
+        yield f"interrupted: {done:,} of {outcome.size:,} runs are done, the others are NaN"
+    if given_up:
+        most = f"{adaptive.MOST_TRIALS:,.0f} steps"
+        yield f"{given_up:,} of {outcome.size:,} runs are NaN: their gains need more than {most}"
+    if lost:
+        yield f"{len(lost):,} chunks were lost with their worker and run here: {lost[-1]!r}"
 
 
 def _chunk_size(total: int, task: _Task, cores: int, executor: Executor | None) -> int:
@@ -197,42 +212,10 @@ def _chunk_size(total: int, task: _Task, cores: int, executor: Executor | None) 
     size = min(work // task.cost, math.ceil(total / parts))
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)
-    return polar.BLOCK * max(1, math.ceil(size / polar.BLOCK))
+    return blocks.BLOCK * max(1, math.ceil(size / blocks.BLOCK))
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:
     names = np.asarray(law)
     codes = [POSE_LAWS[choice("law", name, POSE_LAWS)] for name in names.ravel().tolist()]
     return np.array(codes, dtype=float).reshape(names.shape)
-
-
-@contextmanager
-def _watched(total: int, work: int, wanted: bool) -> Iterator[Callable[[int], None]]:
-    """Show a bar if the work is long; what is yielded takes the number of runs done.
-
-    Ctrl-C is held back until it is called: raised in a wait, it could break the lock there.
-    """
-    pressed: list[bool] = []
-    bar = None
-    if wanted and work >= _LONG_WORK:
-        from tqdm.auto import tqdm  # here, because it asks what it is shown in
-
-        bar = tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
-
-    def advance(runs: int) -> None:
-        if bar is not None:
-            bar.update(runs)
-        if pressed:
-            raise KeyboardInterrupt
-
-    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    heard = usual and threading.current_thread() is threading.main_thread()
-    if heard:
-        signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
-    try:
-        yield advance
-    finally:
-        if heard:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
-        if bar is not None:
-            bar.close()

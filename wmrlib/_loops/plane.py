@@ -65,10 +65,12 @@ def survey(runs, law, wheels, step, dt, samples, arrival_radius):
         rho, alpha, theta = 0.0, 0.0, 0.0
         for k in range(samples):
             seen = observe(pose, goal, (0.0, 0.0), tuning, law, wheels)
-            if not math.isfinite(seen[0] + seen[3] + seen[4]):
+            broken = not math.isfinite(seen[0] + seen[3] + seen[4])
+            if k == 0 or not broken:
+                last, (rho, alpha, theta, v, omega) = k, seen
+            if broken:
                 outcome = rows.DIVERGED
                 break
-            last, (rho, alpha, theta, v, omega) = k, seen
             peak = max(peak, abs(omega))
             if rho <= arrival_radius:
                 outcome = rows.ARRIVED

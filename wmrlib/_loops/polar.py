@@ -1,32 +1,23 @@
-"""The closed loop in polar coordinates, many runs at once: the compiled loops of a sweep.
+"""The closed loop in polar coordinates, and fixed steps of it.
 
-The runs stand side by side in a block, so that the inner loop does one step of all of them and LLVM
-computes four or eight with each instruction (see `_vecmath`). A run that arrives gives its place to
-the next. No step needs an arc tangent: the heading error is theta - alpha. Throughout, `polar` is
-(rho, alpha, theta) and `loop` is (gains, law, wheels), which closes the loop.
+Runs stand side by side in a block, so that the inner loop does one step of all of them and LLVM
+computes four or eight with each instruction (see `_vecmath`). No step needs an arc tangent: the
+heading error is theta - alpha. Throughout, `polar` is (rho, alpha, theta) and `loop` is (gains,
+law, wheels), which closes the loop.
 """
 
 from __future__ import annotations
 
-import math
-from functools import lru_cache
-
-import numpy as np
-
 from wmrlib import kinematics, laws
 from wmrlib._compile import compiled, formula
-from wmrlib._loops import rows
-from wmrlib._vecmath import vector_sincos, vectorised, widest_vectors
-from wmrlib.gains import NO_LIMITS, GainsFields
-from wmrlib.kinematics import polar_from_pose, wrap
+from wmrlib._vecmath import vectorised
+from wmrlib.gains import GainsFields
 from wmrlib.laws import saturation_scale
 
-RK4, EULER = range(2)
-BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
-_ROUND = 16  # steps between two looks at who has finished
-# The rows of a block. _LEFT counts the steps to do; its sign turns when the next would end the run.
-_RHO, _ALPHA, _THETA, _LEFT, _PEAK, _LENGTH, _K_RHO, _K_ALPHA, _H, _V_MAX = range(10)
-_ROWS = 10
+RK4, EULER, CONTINUOUS = range(3)
+# The rows of a block. LEFT is the time to go, or the number of fixed steps; its sign turns when the
+# next step would end the run. The last three are for steps with error control.
+RHO, ALPHA, THETA, LEFT, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, STEP, SWING, TRIALS = range(13)
 
 pose_law = vectorised(laws.pose_law)
 polar_closing_rate = vectorised(kinematics.polar_closing_rate)
@@ -92,9 +83,9 @@ def finite(polar):
 @formula
 def read(block, i):
     """The state of the run in place i, its counters and its gains."""
-    polar = block[_RHO, i], block[_ALPHA, i], block[_THETA, i]
-    gains = GainsFields(block[_K_RHO, i], block[_K_ALPHA, i], block[_H, i], block[_V_MAX, i])
-    return polar, block[_LEFT, i], block[_PEAK, i], block[_LENGTH, i], gains
+    polar = block[RHO, i], block[ALPHA, i], block[THETA, i]
+    gains = GainsFields(block[K_RHO, i], block[K_ALPHA, i], block[H, i], block[V_MAX, i])
+    return polar, block[LEFT, i], block[PEAK, i], block[LENGTH, i], gains
 
 
 @formula
@@ -104,12 +95,12 @@ def advance(block, i, method, law, wheels, dt, arrival_radius):
     new, rolled, turning = step_of(method, polar, (gains, law, wheels), dt)
     going = left > 0.0
     taken = going & (new[0] > arrival_radius) & finite(new)
-    block[_RHO, i] = new[0] if taken else polar[0]
-    block[_ALPHA, i] = new[1] if taken else polar[1]
-    block[_THETA, i] = new[2] if taken else polar[2]
-    block[_PEAK, i] = turning if taken & (turning > peak) else peak
-    block[_LENGTH, i] = length + rolled if taken else length
-    block[_LEFT, i] = left - 1.0 if taken else (-left if going else left)
+    block[RHO, i] = new[0] if taken else polar[0]
+    block[ALPHA, i] = new[1] if taken else polar[1]
+    block[THETA, i] = new[2] if taken else polar[2]
+    block[PEAK, i] = turning if taken & (turning > peak) else peak
+    block[LENGTH, i] = length + rolled if taken else length
+    block[LEFT, i] = left - 1.0 if taken else (-left if going else left)
 
 
 @compiled
@@ -121,115 +112,10 @@ def last_step(method, polar, loop, dt, arrival_radius):
     for _ in range(60):
         tau = (low * below - high * above) / (below - above)
         miss = one_step(method, polar, loop, tau)[0][0] - arrival_radius
-        if abs(miss) <= 1e-15 * polar[0]:
+        if abs(miss) <= 1e-14 * polar[0]:
             break
         if miss > 0.0:
             low, above, below = tau, miss, 0.5 * below
         else:
             high, below, above = tau, miss, 0.5 * above
     return tau
-
-
-@compiled
-def begin(runs, steps, arrival_radius):
-    """The state of each run at its beginning, with the rows of a block."""
-    states = np.empty((_ROWS, runs.shape[1]))
-    for i in range(runs.shape[1]):
-        start, goal, gains = rows.run_of(runs, i)
-        rho, alpha, theta = polar_from_pose(*start, *goal)
-        states[_RHO, i], states[_ALPHA, i], states[_THETA, i] = rho, alpha, theta
-        states[_LEFT, i] = steps if rho > arrival_radius else -steps
-        states[_PEAK, i], states[_LENGTH, i] = 0.0, 0.0
-        states[_K_RHO, i], states[_K_ALPHA, i], states[_H, i], states[_V_MAX, i] = gains
-    return states
-
-
-@lru_cache
-def survey_of(method, law, limited):
-    """The loop that takes every run to its last step, for one method and law.
-
-    Each is compiled by itself: asking for the law in every step would cost more than the step.
-    """
-
-    def survey(states, wheels, dt, arrival_radius):
-        widest_vectors()
-        limits = wheels if limited else NO_LIMITS
-        runs = states.shape[1]
-        block, inside = np.zeros((_ROWS, BLOCK)), np.full(BLOCK, -1)  # -1: empty
-        waiting = done = 0
-        while True:
-            for i in range(BLOCK):
-                if inside[i] >= 0 and block[_LEFT, i] <= 0.0:
-                    for row in range(_ROWS):
-                        states[row, inside[i]] = block[row, i]
-                    inside[i] = -1
-                    done += 1
-                if inside[i] < 0 and waiting < runs:
-                    inside[i] = waiting
-                    for row in range(_ROWS):
-                        block[row, i] = states[row, waiting]
-                    waiting += 1
-            if done == runs:
-                return
-            for _ in range(_ROUND):
-                # LLVM vectorises this loop; in a function of its own it would not know the law.
-                for i in range(BLOCK):
-                    advance(block, i, method, law, limits, dt, arrival_radius)
-
-    return compiled(survey)
-
-
-@compiled
-def conclude(states, law, wheels, method, dt, steps, arrival_radius):
-    """Sum up each run; the step in which it arrives is shortened to end on the radius."""
-    summary = np.empty((rows.DISTANCE + 1, states.shape[1]))
-    for i in range(states.shape[1]):
-        polar, left, peak, length, gains = read(states, i)
-        loop = gains, law, wheels
-        outcome, time = rows.TIMED_OUT, (steps - abs(left)) * dt
-        new, _, turning = one_step(method, polar, loop, dt)
-        peak = max(peak, turning) if math.isfinite(turning) else peak
-        if polar[0] <= arrival_radius:
-            outcome = rows.ARRIVED
-        elif left < 0.0 and not finite(new):
-            outcome = rows.DIVERGED
-        elif left < 0.0:
-            outcome, tau = rows.ARRIVED, last_step(method, polar, loop, dt, arrival_radius)
-            polar, rolled, _ = one_step(method, polar, loop, tau)
-            peak = max(peak, one_step(method, polar, loop, 0.0)[2])
-            time, length = time + tau, length + rolled
-        error = wrap(polar[2] - polar[1])
-        rows.summarise(summary, i, outcome, time, error, peak, length, polar[0])
-    return summary
-
-
-def survey(runs, law, wheels, method, dt, samples, arrival_radius):
-    """Sum up many runs, as `plane.survey` does."""
-    steps = float(samples - 1)
-    states = begin(runs, steps, arrival_radius)
-    survey_of(method, law, wheels.max_speed < math.inf)(states, wheels, dt, arrival_radius)
-    return conclude(states, law, wheels, method, dt, steps, arrival_radius)
-
-
-@compiled
-def record(runs, law, wheels, method, dt, samples, arrival_radius):
-    """The same runs sample by sample up to the last one before arrival, as `plane.record` does."""
-    records = np.full((rows.LYAPUNOV, runs.shape[1], samples), np.nan)
-    for i in range(runs.shape[1]):
-        start, goal, gains = rows.run_of(runs, i)
-        polar, loop = polar_from_pose(*start, *goal), (gains, law, wheels)
-        for k in range(samples):
-            rho, alpha, theta = polar
-            _, _, _, v, omega = closed_loop(polar, loop)
-            sine, cosine = vector_sincos(theta + goal[2])
-            records[rows.X, i, k] = goal[0] - rho * cosine
-            records[rows.Y, i, k] = goal[1] - rho * sine
-            records[rows.HEADING, i, k] = wrap(theta - alpha + goal[2])
-            records[rows.RHO, i, k], records[rows.ALPHA, i, k] = rho, alpha
-            records[rows.THETA, i, k] = theta
-            records[rows.V, i, k], records[rows.OMEGA, i, k] = v, omega
-            new = one_step(method, polar, loop, dt)[0]
-            if rho <= arrival_radius or new[0] <= arrival_radius or not finite(new):
-                break
-            polar = new
-    return records

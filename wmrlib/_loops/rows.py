@@ -7,7 +7,8 @@ import math
 from wmrlib._compile import formula
 from wmrlib.gains import GainsFields
 
-ARRIVED, TIMED_OUT, DIVERGED, COMPLETED = range(4)  # how a run ends, in the order of `Outcome`
+# How a run ends, in the order of `Outcome`; the last is a sweep's that ran out of steps.
+ARRIVED, TIMED_OUT, DIVERGED, COMPLETED, UNFINISHED = range(5)
 X, Y, HEADING, RHO, ALPHA, THETA, V, OMEGA, LYAPUNOV = range(9)  # the rows of a recorded run
 GOAL_V, GOAL_OMEGA = 3, 4  # the rows of a reference after X, Y and HEADING
 # Many runs, one a column: what each is given, and what it amounts to (in the order of `Arrival`).

@@ -113,7 +113,7 @@ class Fixes:
         """The rows lat, lon and time of the positions in order, each epoch once, and the report."""
         table = np.array([self.lat, self.lon, self.time])
         segment = np.searchsorted(self._segments, np.arange(len(self.lat)), side="right")
-        late = _backwards(table[2], segment)
+        late = backwards(table[2], segment)
         kept = np.delete(np.arange(len(self.lat)), late)
         again = kept[1:][(np.diff(table[:, kept]) == 0.0).all(axis=0)]
         for reason, gone in (("time runs backwards", late), ("same epoch again", again)):
@@ -158,7 +158,7 @@ def count(met: dict[str, Count], what: str, line: int, times: int = 1) -> None:
     met[what] = Count(before + times, min(first, line))
 
 
-def _backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
+def backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
     """Which positions are left over by the longest run in order of time in each segment."""
     timed = np.flatnonzero(~np.isnan(time))
     back = timed[1:][np.diff(time[timed]) < 0.0]

@@ -11,7 +11,7 @@ from typing import Any, TextIO
 
 import numpy as np
 
-from wmrlib.tracks.fixes import Fixes, misplaced
+from wmrlib.tracks.fixes import Fixes, backwards, misplaced
 from wmrlib.tracks.sentences import COMMENT, NO_SENTENCE, sentences
 
 DAY = 86400.0
@@ -159,17 +159,24 @@ def _apart(second: float, other: float) -> float:
 
 def _on_one_clock(second: np.ndarray, day: np.ndarray, fixed: np.ndarray) -> np.ndarray:
     """Count the seconds on from day to day, by dates or by the nearest time already known."""
-    known = ~np.isnan(day)
-    time = second + DAY * (day - day[known.argmax()]) if known.any() else day.copy()
-    following = np.where(known, np.arange(day.size), day.size)
+    dated, believed = np.flatnonzero(~np.isnan(day)), np.zeros(day.size, bool)
+    time = day.copy()
+    if dated.size:
+        time = second + DAY * (day - day[dated[0]])
+        odd = np.isin(np.arange(dated.size), backwards(time[dated], np.zeros(dated.size)))
+        # A wrong date is its epoch's own fault; where most around are as odd, a log was appended.
+        believed[dated] = ~odd | (np.convolve(odd, np.ones(7))[3:-3] > 3.0)
+    following = np.where(believed, np.arange(day.size), day.size)
     ahead = np.append(time, math.nan)[np.minimum.accumulate(following[::-1])[::-1]]
     cells: Any = time.data
     last = math.nan
-    rows = zip(second.copy().data, ahead.data, fixed.data, strict=True)
-    for row, (each, later, use) in enumerate(rows):
+    rows = zip(second.copy().data, ahead.data, fixed.data, believed.data, strict=True)
+    for row, (each, later, use, sure) in enumerate(rows):
         if math.isnan(cells[row]):
             choices = [(each + DAY * round((k - each) / DAY), k) for k in (last, later) if k == k]
             cells[row], _ = min(choices, key=lambda c: abs(c[0] - c[1]), default=(each, each))
+        elif not sure:
+            continue
         # Before its first fix a cold receiver may count from 0:00.
         if use or not cells[row] <= last:
             last = cells[row]

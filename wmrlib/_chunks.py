@@ -1,0 +1,128 @@
+"""Work in chunks, on threads or on an executor, which Ctrl-C stops and keeps what is done."""
+
+from __future__ import annotations
+
+import multiprocessing
+import os
+import signal
+import threading
+from collections.abc import Callable, Generator, Iterable, Iterator
+from concurrent import futures
+from contextlib import contextmanager, nullcontext
+from itertools import islice
+from typing import Any
+
+_BAR_AFTER = 1.0  # s
+_HEARD_AFTER = 0.5  # s; so late a wait may hear Ctrl-C
+_IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
+_LOST = futures.BrokenExecutor, futures.CancelledError, ConnectionError, KeyboardInterrupt
+
+
+def cores() -> int:
+    allowed = getattr(os, "sched_getaffinity", None)  # not on every system
+    return len(allowed(0)) if allowed else os.cpu_count() or 1
+
+
+def here(job: Callable, chunks: Iterable, arguments: Callable, go_on: Callable) -> Generator:
+    """(chunk, result) of each chunk, one after the other."""
+    for chunk in chunks:
+        yield chunk, job(*arguments(chunk))
+        if not go_on(0):
+            return
+
+
+def spread(job, chunks: Iterable, arguments, go_on, executor, lost: list) -> Generator:
+    """The same as each chunk is done elsewhere, with a bounded number under way.
+
+    What is lost with its worker is done here, and why is added to `lost`. An error of the job
+    itself is raised.
+    """
+    pool, chunks = executor or futures.ThreadPoolExecutor(cores()), iter(chunks)
+    waiting: dict[futures.Future, Any] = {}
+    going = True
+    try:
+        while going:
+            for chunk in islice(chunks, _IN_FLIGHT - len(waiting)):
+                try:
+                    with _deaf_children() if executor else nullcontext():
+                        future = pool.submit(_deaf, job, *arguments(chunk))
+                    waiting[future] = chunk
+                except RuntimeError as error:  # the executor is broken or closed
+                    lost.append(error)
+                    yield chunk, job(*arguments(chunk))
+                if not go_on(0):
+                    break
+            if not waiting:
+                return
+            going = go_on(0)
+            patience = _HEARD_AFTER if going else 0.0
+            for future in futures.wait(waiting, patience, futures.FIRST_COMPLETED).done:
+                chunk = waiting.pop(future)
+                why = futures.CancelledError() if future.cancelled() else future.exception()
+                if why is None:
+                    yield chunk, future.result()
+                elif not _is_lost(why):
+                    raise why
+                elif going:
+                    lost.append(why)
+                    yield chunk, job(*arguments(chunk))
+    finally:
+        for future in waiting:
+            future.cancel()
+        if executor is None:
+            pool.shutdown(cancel_futures=True)
+
+
+def _is_lost(error: BaseException) -> bool:
+    return isinstance(error, _LOST) or type(error).__module__.startswith("distributed.")
+
+
+def _deaf(job: Callable, *arguments: Any) -> Any:
+    """The job; Ctrl-C, which a terminal sends to a pool's processes too, is not theirs to hear."""
+    worker = multiprocessing.parent_process() is not None
+    if worker and threading.current_thread() is threading.main_thread():
+        signal.signal(signal.SIGINT, signal.SIG_IGN)
+    return job(*arguments)
+
+
+@contextmanager
+def _deaf_children() -> Iterator[None]:
+    """Processes that begin here do not hear Ctrl-C, not even while they import their modules."""
+    mask = getattr(signal, "pthread_sigmask", None)  # not on Windows
+    before = mask(signal.SIG_BLOCK, {signal.SIGINT}) if mask else None
+    try:
+        yield
+    finally:
+        if mask:
+            mask(signal.SIG_SETMASK, before)
+
+
+@contextmanager
+def watched(total: int, bar_wanted: bool) -> Iterator[Callable[[int], bool]]:
+    """What is yielded takes the number of runs just done, and says whether to go on.
+
+    Ctrl-C is only noted: raised in a wait, it could break the lock there.
+    """
+    pressed: list[bool] = []
+    bar = None
+    if bar_wanted:
+        from tqdm.auto import tqdm  # here, because it asks what it is shown in
+
+        bar = tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
+
+    def go_on(runs: int) -> bool:
+        if bar is not None:
+            bar.update(runs)
+        return not pressed
+
+    usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
+    heard = usual and threading.current_thread() is threading.main_thread()
+    if heard:
+        signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
+    try:
+        yield go_on
+    finally:
+        if heard:
+            signal.signal(signal.SIGINT, signal.default_int_handler)
+        if bar is not None:
+            bar.close()

@@ -1,0 +1,158 @@
+"""Many runs of the polar closed loop, side by side in blocks, from their poses to their sums.
+
+A run that is over gives its place to the next. `whole` is what a run is given to spend: fixed steps
+or, with error control, seconds.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import lru_cache
+
+import numpy as np
+
+from wmrlib._compile import compiled
+from wmrlib._loops import adaptive, polar, rows
+from wmrlib._loops.polar import CONTINUOUS, EULER, closed_loop, finite, last_step, one_step
+from wmrlib._vecmath import vector_sincos, widest_vectors
+from wmrlib.gains import NO_LIMITS
+from wmrlib.kinematics import polar_from_pose, wrap
+
+BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
+_VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
+_ROUNDS = {polar.RK4: 16, EULER: 16, CONTINUOUS: 4}  # steps between two looks at who has finished
+
+
+@compiled
+def begin(runs, law, wheels, whole, arrival_radius):
+    """The state of each run at its beginning, with the rows of a block."""
+    states = np.empty((polar.TRIALS + 1, runs.shape[1]))
+    for i in range(runs.shape[1]):
+        start, goal, gains = rows.run_of(runs, i)
+        at, loop = polar_from_pose(*start, *goal), (gains, law, wheels)
+        rates = closed_loop(at, loop)
+        pace = abs(rates[0]) / max(at[0], 1e-300) + abs(rates[1]) + abs(rates[2])
+        step = 0.1 / max(pace, 1e-300)
+        states[polar.RHO, i], states[polar.ALPHA, i], states[polar.THETA, i] = at
+        states[polar.LEFT, i] = whole if at[0] > arrival_radius else -whole
+        states[polar.PEAK, i], states[polar.LENGTH, i] = abs(rates[4]), 0.0
+        states[polar.K_RHO, i], states[polar.K_ALPHA, i] = gains.k_rho, gains.k_alpha
+        states[polar.H, i], states[polar.V_MAX, i] = gains.h, gains.v_max
+        states[polar.STEP, i], states[polar.TRIALS, i] = step, adaptive.MOST_TRIALS
+        states[polar.SWING, i] = adaptive.swing(at, rates, 1e-6 * min(step, 1.0), loop)
+    return states
+
+
+@lru_cache
+def survey_of(method, law, limited):
+    """The loop that takes every run to its end, or to its last step, for one method and law.
+
+    Each is compiled by itself: asking for the law in every step would cost more than the step.
+    """
+    rounds = _ROUNDS[method]
+
+    def survey(states, wheels, dt, arrival_radius):
+        widest_vectors()
+        limits = wheels if limited else NO_LIMITS
+        block, inside = np.zeros((polar.TRIALS + 1, BLOCK)), np.zeros(BLOCK, np.int64)
+        waiting = width = 0
+        while True:
+            i = 0
+            while i < width:
+                if block[polar.LEFT, i] <= 0.0:
+                    width -= 1
+                    for row in range(polar.TRIALS + 1):
+                        states[row, inside[i]] = block[row, i]
+                        block[row, i] = block[row, width]
+                    inside[i] = inside[width]
+                else:
+                    i += 1
+            while width < BLOCK and waiting < states.shape[1]:
+                inside[width] = waiting
+                for row in range(polar.TRIALS + 1):
+                    block[row, width] = states[row, waiting]
+                width, waiting = width + 1, waiting + 1
+            if width == 0:
+                return
+            used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
+            for _ in range(rounds):
+                # LLVM vectorises this loop; in a function of its own it would not know the law.
+                for i in range(used):
+                    if method == CONTINUOUS:
+                        adaptive.advance(block, i, law, limits, arrival_radius)
+                    else:
+                        polar.advance(block, i, method, law, limits, dt, arrival_radius)
+
+    return compiled(survey)
+
+
+@compiled
+def conclude(states, law, wheels, method, dt, whole, arrival_radius):
+    """Sum up each run; a fixed step in which it arrives is shortened to end on the radius."""
+    summary = np.empty((rows.DISTANCE + 1, states.shape[1]))
+    for i in range(states.shape[1]):
+        at, left, peak, length, gains = polar.read(states, i)
+        loop = gains, law, wheels
+        outcome, time = rows.TIMED_OUT, (whole - abs(left)) * (1.0 if method == CONTINUOUS else dt)
+        now, _, turning = one_step(EULER, at, loop, 0.0)
+        started_there = left == -whole and at[0] <= arrival_radius
+        if not finite(now):
+            outcome = rows.DIVERGED
+        elif started_there or 0.0 < at[0] <= arrival_radius * (1.0 + adaptive.SHARP):
+            outcome = rows.ARRIVED
+        elif left < 0.0 and method == CONTINUOUS:
+            outcome = rows.UNFINISHED
+        elif left < 0.0:
+            outcome = rows.DIVERGED
+            if arrival_radius > 0.0 and finite(one_step(method, at, loop, dt)[0]):
+                outcome, tau = rows.ARRIVED, last_step(method, at, loop, dt, arrival_radius)
+                at, rolled, _ = one_step(method, at, loop, tau)
+                turning = max(turning, one_step(method, at, loop, 0.0)[2])
+                time, length = time + tau, length + rolled
+        peak = max(peak, turning)
+        rows.summarise(summary, i, outcome, time, wrap(at[2] - at[1]), peak, length, at[0])
+        if outcome == rows.UNFINISHED:
+            summary[rows.TIME :, i] = math.nan
+    return summary
+
+
+def survey(runs, law, wheels, method, dt, samples, arrival_radius):
+    """Sum up many runs, as `plane.survey` does."""
+    whole = (samples - 1) * (dt if method == CONTINUOUS else 1.0)
+    states = begin(runs, law, wheels, whole, arrival_radius)
+    survey_of(method, law, wheels.max_speed < math.inf)(states, wheels, dt, arrival_radius)
+    return conclude(states, law, wheels, method, dt, whole, arrival_radius)
+
+
+@compiled
+def note(records, k, runs, states, law, wheels):
+    """Record sample k of each run."""
+    for i in range(runs.shape[1]):
+        _, goal, _ = rows.run_of(runs, i)
+        (rho, alpha, theta), left, _, _, gains = polar.read(states, i)
+        if left < 0.0 and k > 0:
+            continue
+        _, _, _, v, omega = closed_loop((rho, alpha, theta), (gains, law, wheels))
+        sine, cosine = vector_sincos(theta + goal[2])
+        records[rows.X, i, k] = goal[0] - rho * cosine
+        records[rows.Y, i, k] = goal[1] - rho * sine
+        records[rows.HEADING, i, k] = wrap(theta - alpha + goal[2])
+        records[rows.RHO, i, k], records[rows.ALPHA, i, k] = rho, alpha
+        records[rows.THETA, i, k] = theta
+        records[rows.V, i, k], records[rows.OMEGA, i, k] = v, omega
+
+
+def record(runs, law, wheels, method, dt, samples, arrival_radius):
+    """The same runs sample by sample up to the last one before arrival, as `plane.record` does."""
+    records = np.full((rows.LYAPUNOV, runs.shape[1], samples), np.nan)
+    whole = dt if method == CONTINUOUS else 1.0
+    states = begin(runs, law, wheels, whole, arrival_radius)
+    step = survey_of(method, law, wheels.max_speed < math.inf)
+    for k in range(samples):
+        note(records, k, runs, states, law, wheels)
+        going = states[polar.LEFT] >= 0.0
+        if k == samples - 1 or not going.any():
+            break
+        states[polar.LEFT, going], states[polar.TRIALS] = whole, adaptive.MOST_TRIALS
+        step(states, wheels, dt, arrival_radius)
+    return records
