@@ -20,9 +20,11 @@ examples = int(os.environ.get("STRESS_EXAMPLES", "100"))
 settings.register_profile("stress", deadline=None, print_blob=True, max_examples=examples)
 
 TOOLS = {  # what a test may need, the commands that are it, and what to install
+    "avr": (("avr-gcc",), "a compiler for AVR boards (Debian: apt install gcc-avr avr-libc)"),
     "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
     "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
     "npm": (("npm",), "npm (Debian: apt install npm)"),
+    "simavr": (("simavr",), "simavr, which simulates AVR boards (Debian: apt install simavr)"),
 }
 
 

@@ -2,21 +2,25 @@
 
 import ctypes
 import math
+import re
 import shutil
+import struct
 import subprocess
 
 import numpy as np
 import pytest
+from hypothesis import example, given
+from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib import symbolic
 
-pytestmark = pytest.mark.needs("compiler")
 CC = shutil.which("cc") or shutil.which("gcc")
 CXX = shutil.which("c++") or shutil.which("g++")
 STRICT = "-Wall -Wextra -Werror -pedantic -Wconversion -Wdouble-promotion -ffp-contract=off -O2"
 FOLDER = symbolic.C_HEADER.parent
 REALS = {"double": (ctypes.c_double, 1e-13), "float": (ctypes.c_float, 4e-6)}
+GIVEN = {"local": ctypes.c_double, "local_e7": ctypes.c_int32}
 LAWS = {name.removeprefix("law_").replace("law", "corrected"): name for name in symbolic.C_LAWS}
 CALLS = "".join(
     f"""void {name}(const R *s, R *out) {{
@@ -33,11 +37,51 @@ void wheels(const R *s, R *out) { wmr_twist t = {s[0], s[1], WMR_OK};
   out[0] = w.left; out[1] = w.right; out[2] = (R)w.status; }
 void wrapped(const R *s, R *out) { out[0] = wmr_wrap(s[0]); }
 void energy(const R *s, R *out) { out[0] = wmr_lyapunov_value(s[0], s[1], s[2], s[3], s[4]); }
-void local(const double *s, double *out) {
+void local(const double *s, R *out) {
   wmr_local_position(s[0], s[1], s[2], s[3], out, out + 1); }
+void local_e7(const int32_t *s, R *out) {
+  wmr_local_position_e7(s[0], s[1], s[2], s[3], out, out + 1); }
+void less_1(const R *s, R *out) { out[0] = wmr_expm1(s[0]); }
+"""
+AVR_STRICT = STRICT.replace("-Wdouble-promotion", "")  # there are no doubles to promote to
+AVR = """#define WMR_REAL float
+#include "wmr_law.h"
+#include <avr/interrupt.h>
+#include <avr/pgmspace.h>
+#include <avr/sleep.h>
+typedef struct { int32_t gps[4]; float heading, goal_heading; wmr_gains gains; } drive;
+static const drive DRIVES[] PROGMEM = {
+#include "drives.h"
+};
+static void send(char letter) { while (!(UCSR0A & (1 << UDRE0))) {} UDR0 = (uint8_t)letter; }
+static void show(float number) {
+  union { float number; uint8_t bytes[4]; } same = {number};
+  for (int i = 0; i < 4; ++i) {
+    send("0123456789abcdef"[same.bytes[i] >> 4]); send("0123456789abcdef"[same.bytes[i] & 15]);
+  }
+}
+int main(void) {
+  UCSR0B = 1 << TXEN0;
+  for (unsigned i = 0; i < sizeof DRIVES / sizeof *DRIVES; ++i) {
+    drive d;
+    memcpy_P(&d, &DRIVES[i], sizeof d);
+    wmr_pose pose = {0, 0, d.heading}, goal = {0, 0, d.goal_heading};
+    wmr_local_position_e7(d.gps[0], d.gps[1], d.gps[2], d.gps[3], &goal.x, &goal.y);
+    wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), d.gains);
+    wmr_wheels wheels = wmr_limited_wheels(twist, 0.5F, 2.0F);
+    show(goal.x), show(goal.y), show(wheels.left), show(wheels.right);
+    send('\\n');
+  }
+  cli();
+  sleep_enable();
+  sleep_cpu(); /* without interrupts this ends the simulation */
+}
 """
 STATE, WHEELS = [1.0, 0.5, -0.5, 2.0, 1.0, 0.3, 4.0], [1.0, 0.5, 0.4, 2.0]
 STOP = [0, 0, 1]
+
+
+compiler = pytest.mark.needs("compiler")
 
 
 def build(source, folder, *options, compiler=(CC, "-std=c99")):
@@ -56,9 +100,9 @@ def compiled(request, tmp_path_factory):
     (folder / "calls.c").write_text(head + CALLS)
     library = ctypes.CDLL(str(build(folder / "calls.c", folder, "-shared", "-fPIC")))
 
-    def call(name, *values, kind=kind):
-        out = (kind * 3)()
-        getattr(library, name)((kind * len(values))(*values), out)
+    def call(name, *values):
+        out, given = (kind * 3)(), GIVEN.get(name, kind)
+        getattr(library, name)((given * len(values))(*values), out)
         return np.array(out[:], dtype=float)
 
     return call, tolerance, lambda values: [kind(value).value for value in values]
@@ -78,6 +122,7 @@ def states(count=1000):
     return [*drawn.tolist(), *np.hstack([edges.T, tuned]).tolist()]
 
 
+@compiler
 def test_the_laws_are_those_of_wmrlib(compiled):
     call, tolerance, rounded = compiled
     for state in map(rounded, states()):
@@ -92,6 +137,7 @@ def test_the_laws_are_those_of_wmrlib(compiled):
             assert abs(omega - expected[1]) <= tolerance * size, (law, state)
 
 
+@compiler
 def test_poses_angles_wheels_and_energy(compiled):
     call, tolerance, rounded = compiled
     rng = np.random.default_rng(6)
@@ -118,6 +164,7 @@ def test_poses_angles_wheels_and_energy(compiled):
     assert no_limit == pytest.approx([98.75, 101.25, 0], rel=tolerance)
 
 
+@compiler
 def test_what_is_no_number_or_out_of_range_stops_the_robot(compiled):
     call, _, _ = compiled
     never = (math.nan, math.inf, -math.inf)
@@ -136,32 +183,58 @@ def test_what_is_no_number_or_out_of_range_stops_the_robot(compiled):
         assert call("wheels", *replaced(WHEELS, place, value)).tolist() == STOP, (place, value)
 
 
+@compiler
 def test_a_point_that_is_not_on_the_earth_stops_the_robot(compiled):
     call, _, _ = compiled
-    off = [(0, 90.1), (0, -90.1), (2, 95.0), (1, 180.1), (3, -180.1), (3, 359.0)]
-    off += [(place, value) for place in range(4) for value in (math.nan, math.inf, -math.inf)]
-    for place, value in off:
-        points = replaced([33.273572, 44.373160, 33.274087, 44.373264], place, value)
-        east, north, _ = call("local", *points, kind=ctypes.c_double)
-        assert math.isnan(east)
-        assert math.isnan(north)
+    points = [33.273572, 44.373160, 33.274087, 44.373264]
+    off = [(0, 90.1), (0, -90.1), (2, 95.0), (1, 180.1), (3, -180.1), (3, 200.0)]
+    bad = [("local", *replaced(points, *each)) for each in off]
+    bad += [("local_e7", *(round(1e7 * value) for value in point)) for _, *point in bad]
+    never = (math.nan, math.inf, -math.inf, 359.0)
+    bad += [("local", *replaced(points, k, value)) for k in (1, 3) for value in never]
+    bad += [("local", *replaced(points, k, value)) for k in (0, 2) for value in never]
+    integers = [round(1e7 * value) for value in points]
+    no_fix = (-(2**31), 2**31 - 1)
+    bad += [("local_e7", *replaced(integers, k, each)) for k in range(4) for each in no_fix]
+    for name, *point in bad:
+        east, north, _ = call(name, *point)
+        assert math.isnan(east), (name, point)
+        assert math.isnan(north), (name, point)
         error = call("polar", 0.0, 0.0, 1.2, east, north, -1.0)
         assert call("corrected", *error, *STATE[3:]).tolist() == STOP
 
 
-def test_gps_points_stay_in_double(compiled):
-    call, _, _ = compiled
-    rng = np.random.default_rng(7)
-    start = rng.uniform((-80, -179), (80, 179), (500, 2))
-    pairs = np.hstack([start, start + rng.uniform(-1e-2, 1e-2, (500, 2))]).tolist()
-    edges = [(90.0, 180.0, 89.9999, -180.0), (-90.0, -180.0, -89.9999, 180.0)]
-    for points in [*pairs, *edges, (0.0, 180.0, 0.0, -180.0)]:
-        a = wmr.GeoPoint(lat=points[0], lon=points[1])
-        b = wmr.GeoPoint(lat=points[2], lon=points[3])
-        got = call("local", *points, kind=ctypes.c_double)[:2]
-        assert got == pytest.approx(wmr.local_position(a, b), abs=1e-8)
+latitudes = st.integers(-800_000_000, 800_000_000)
+longitudes = st.integers(-1_800_000_000, 1_800_000_000)
+apart = st.integers(-100_000, 100_000)  # up to 1.1 km
 
 
+@compiler
+@given(lat=latitudes, lon=longitudes, dlat=apart, dlon=apart)
+@example(lat=0, lon=1_800_000_000, dlat=5_150, dlon=1_040)  # over the date line
+@example(lat=0, lon=-1_800_000_000, dlat=0, dlon=-1)
+def test_gps_points_as_degrees_and_as_integers(compiled, lat, lon, dlat, dlon):
+    call, tolerance, _ = compiled
+    date_line = 1_800_000_000
+    points = [lat, lon, lat + dlat, (lon + dlon + date_line) % (2 * date_line) - date_line]
+    degrees = [each / 1e7 for each in points]
+    a = wmr.GeoPoint(lat=degrees[0], lon=degrees[1])
+    b = wmr.GeoPoint(lat=degrees[2], lon=degrees[3])
+    expected = wmr.local_position(a, b)
+    close = 1e-8 + 0.2 * tolerance * math.hypot(*expected)  # in float under 1 mm of 1 km
+    assert call("local_e7", *points)[:2] == pytest.approx(expected, abs=close)
+    assert call("local", *degrees)[:2] == pytest.approx(expected, abs=close)
+
+
+@compiler
+@given(x=st.floats(-120.0, 60.0) | st.floats(-1e-3, 1e-3))
+def test_exp_less_1(compiled, x):
+    call, tolerance, rounded = compiled
+    (x,) = rounded([x])
+    assert call("less_1", x)[0] == pytest.approx(math.expm1(x), rel=tolerance)
+
+
+@compiler
 @pytest.mark.parametrize("option", ["-ffast-math", "-ffinite-math-only"])
 def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, option):
     (tmp_path / "empty.c").write_text('#include "wmr_law.h"\nint main(void) { return 0; }\n')
@@ -172,6 +245,7 @@ def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, option):
     assert "wmr_law.h needs NaN and infinity" in told.stderr
 
 
+@compiler
 @pytest.mark.parametrize(("real", "tolerance"), [("double", 2e-9), ("float", 2e-3)])
 def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
     program = build(FOLDER / "example.c", tmp_path, f"-DWMR_REAL={real}")
@@ -187,9 +261,66 @@ def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
     assert reached == pytest.approx(list(pose), abs=tolerance)
 
 
+@compiler
 @pytest.mark.skipif(not CXX, reason="this test needs a C++ compiler (Debian: apt install g++)")
 @pytest.mark.parametrize("real", REALS)
 def test_it_is_cpp_too(tmp_path, real):
     text = f'#define WMR_REAL {real}\n#include "wmr_law.h"\nint main() {{ return 0; }}\n'
     (tmp_path / "empty.cpp").write_text(text)
     build(tmp_path / "empty.cpp", tmp_path, compiler=(CXX, "-std=c++11"))
+
+
+# On an ATmega328P, where double is float and <math.h> has no expm1.
+
+
+@pytest.fixture
+def avr_gcc(find_tool, tmp_path):
+    """Compile a program for the board."""
+
+    def compile_(source):
+        (tmp_path / "board.c").write_text(source)
+        command = [find_tool("avr"), "-mmcu=atmega328p", *AVR_STRICT.split()]
+        command += ["-std=c99", f"-I{FOLDER}", "board.c", "-o", "board.elf", "-lm"]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
+
+    return compile_
+
+
+@pytest.mark.needs("avr", "simavr")
+def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float(
+    avr_gcc, find_tool, tmp_path
+):
+    rng = np.random.default_rng(8)
+    drives = []
+    for _ in range(150):
+        lat, lon = rng.integers((-800_000_000, -1_790_000_000), (800_000_000, 1_790_000_000))
+        gps = [lat, lon, *rng.integers(-30_000, 30_000, 2)]
+        gps = [*gps[:2], gps[0] + gps[2], gps[1] + gps[3]]
+        floats = rng.uniform((-3, -3, 0.05, 0.1, 0.05, 0.5), (3, 3, 3, 3, 3, 4))
+        drives.append((list(map(int, gps)), np.float32(floats).astype(float).tolist()))
+    lines = [f"{{{{{gps}}}, {a!r}, {b!r}, {{{gains}}}}},\n" for gps, (a, b, *gains) in drives]
+    text = "".join(lines).replace("[", "").replace("]", "")
+    (tmp_path / "drives.h").write_text(re.sub(r"(-?\d+\.[\de-]+)", r"\1F", text))
+    done = avr_gcc(AVR)
+    assert done.returncode == 0, done.stderr
+    command = [find_tool("simavr"), "-m", "atmega328p", "-f", "16000000", "board.elf"]
+    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=100)
+    rows = re.findall(r"[0-9a-f]{32}", ran.stdout + ran.stderr)
+    assert len(rows) == len(drives)
+    for row, (gps, (heading, goal_heading, *gains)) in zip(rows, drives, strict=True):
+        east, north, *wheels = struct.unpack("<4f", bytes.fromhex(row))
+        a, b = (wmr.GeoPoint(lat=gps[k] / 1e7, lon=gps[k + 1] / 1e7) for k in (0, 2))
+        expected = wmr.local_position(a, b)
+        assert (east, north) == pytest.approx(expected, abs=2e-4)
+        error = wmr.polar_error(wmr.Pose(0, 0, heading), wmr.Pose(*expected, goal_heading))
+        twist = wmr.control_law(*error, wmr.Gains(*gains))
+        limited = wmr.limit_wheels(*twist, wmr.WheelLimits(0.5, 2.0))
+        assert wheels == pytest.approx(wmr.twist_to_wheels(*limited, 0.5), abs=2e-5)
+
+
+@pytest.mark.needs("avr")
+def test_there_degrees_in_double_do_not_compile(avr_gcc):
+    call = "float x, y; wmr_local_position(33.2, 44.3, 33.3, 44.4, &x, &y);"
+    told = avr_gcc(f'#define WMR_REAL float\n#include "wmr_law.h"\nint main(void) {{ {call} }}\n')
+    assert told.returncode
+    assert "a_double_has_4_bytes_here_call_wmr_local_position_e7" in told.stderr

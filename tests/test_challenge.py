@@ -100,6 +100,41 @@ def test_seeds_differ_in_sides_too():
     assert np.all(np.abs(np.mean(left, axis=0) - 0.5) < 0.12)
 
 
+@given(st.integers(0, 2**63 - 1))
+def test_a_drive_counts_five_times_from_a_micrometre_around(seed):
+    game, seen = from_seed(seed), []
+
+    def watched(starts, *others, **options):
+        seen.append(starts)
+        return wmr.sweep(starts, *others, **options)
+
+    with pytest.MonkeyPatch.context() as patched:
+        patched.setattr(challenge, "sweep", watched)
+        score(GENTLE, game)
+    x, y = (np.round(1e6 * (each - each[0])).T.tolist() for each in (seen[0].x, seen[0].y))
+    around = {(0.0, 0.0), (1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)}
+    for case_x, case_y in zip(x, y, strict=True):
+        assert set(zip(case_x, case_y, strict=True)) == around
+
+
+@given(st.integers(1, 4), st.floats(0.01, 3.0), st.floats(0.01, 1.0), st.sampled_from([-1, 1]))
+def test_a_case_hangs_on_rounding_beyond_one_step_or_one_point(which, points, dt, sign):
+    same = np.zeros(5)
+    other = sign * (np.arange(5) == which)
+    assert not challenge._tipped(same, same, dt)
+    assert challenge._tipped(points * other, same, dt) == (points > 1.0)
+    assert not challenge._tipped(same, dt * other, dt)
+    assert challenge._tipped(same, 2.0 * dt * other, dt)
+
+
+@given(st.floats(0.1, 2.0), st.floats(0.1, 5.0), st.floats(1.0, 90.0))
+def test_a_case_not_reached_costs_the_worst_arrival(width, speed, duration):
+    """All the time, half a point a degree of 180, four a rad/s of a turn on the spot."""
+    game = replace(from_seed(), wheels=wmr.WheelLimits(width, speed), duration=duration)
+    turn = wmr.wheels_to_twist(-speed, speed, width)[1]
+    assert game.penalty == pytest.approx(duration + 90.0 + 4.0 * turn)
+
+
 # The score --------------------------------------------------------------------------------------
 
 

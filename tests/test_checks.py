@@ -41,6 +41,24 @@ def test_real_names_the_argument_its_value_and_what_is_needed(bounds, value, nee
 
 
 @pytest.mark.parametrize(
+    "hidden",
+    [
+        np.ma.masked,
+        np.ma.array([1.0, 2.0], mask=[False, True]),
+        [np.ma.array([1.0, 2.0], mask=[False, True])],
+        ([[1.0, np.ma.masked]],),
+        [1.0, 10**400],
+        10**5000,
+    ],
+    ids=range(6),  # str(10**5000) is an error
+)
+def test_what_is_masked_or_beyond_a_float_is_no_number(hidden):
+    for name, check in (("x", _checks.real), ("dt", _checks.scalar)):
+        with pytest.raises(ValueError, match=rf"(?s)^{name} = .* is not allowed: {FINITE}"):
+            check(name, hidden, **({"nan": True} if name == "x" else {}))
+
+
+@pytest.mark.parametrize(
     ("check", "message"),
     [
         (lambda: _checks.real("x", [math.nan] * 1000), r"^x = .{77}\.\.\. is not allowed"),

@@ -2,37 +2,73 @@
 
 import os
 import shutil
+import struct
 import subprocess
 import sys
+from hashlib import sha256
 from pathlib import Path
 
+import numba
 import numpy as np
 import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib import _compile
+from wmrlib._loops import plane, polar
 
 PACKAGE = Path(wmr.__file__).parent
 TERM = "alpha + gains.h * theta"  # of the laws
+FACTOR = 1.7
 RUN = """
 import wmrlib as w
-run = w.simulate(w.Pose(0, 0, 0), w.Pose(3, 1, 0.5), w.Gains(1, 2, 0.5), dt=0.05)
-from wmrlib._loops import plane
-stats = getattr(plane.drive, "stats", None)
-print(float(run.x[-1]), float(run.heading[-1]), sum(stats.cache_misses.values()) if stats else None)
+from wmrlib import control
+print(*w.control_law(3.0, 0.5, -1.0, w.Gains(1, 2, 0.5)))
+stats = getattr(control._pose_law_all, "stats", None)
+print(sum(stats.cache_misses.values()) if stats else None)
+"""
+# Where nothing can be kept, as a child finds it before it imports wmrlib.
+NOWHERE = {
+    "the home is a file": "",
+    "a full disk": "import resource as r; r.setrlimit(r.RLIMIT_FSIZE, (0, 0))",
+    "no home": "import os, pwd; del os.environ['HOME']; pwd.getpwuid = {}.__getitem__",
+}
+ONE_CALL = "\nimport wmrlib as w; print(w.wrap_angle(4.0))"
+TWO_KINDS = """
+import sys
+from wmrlib.motion import wrap
+for angle in map(eval, sys.argv[1:]):
+    print(wrap(angle))
+print(sum(wrap.stats.cache_misses.values()))
 """
 
 
-def test_a_second_process_compiles_nothing_an_edit_compiles_anew_and_plain_python_agrees(tmp_path):
-    copy = tmp_path / "wmrlib"
-    shutil.copytree(PACKAGE, copy, ignore=shutil.ignore_patterns("__pycache__"))
+@pytest.fixture
+def copy(tmp_path):
+    """A copy of the package in which nothing is compiled."""
+    package = tmp_path / "site" / "wmrlib"
+    return Path(shutil.copytree(PACKAGE, package, ignore=shutil.ignore_patterns("__pycache__")))
 
+
+def process(copy, code, *arguments, **more):
+    """A process that runs `code` with the copy."""
+    variables = {name: value for name, value in os.environ.items() if name[:6] != "NUMBA_"}
+    variables |= {"PYTHONPATH": str(copy.parent), "PYTHONDONTWRITEBYTECODE": "1"} | more
+    options = {"cwd": copy.parent, "env": variables, "text": True, "stderr": subprocess.PIPE}
+    command = [sys.executable, "-c", code, *arguments]
+    return subprocess.Popen(command, stdout=subprocess.PIPE, **options)
+
+
+def printed(process):
+    out, err = process.communicate()
+    assert process.returncode == 0, err
+    return out.split()
+
+
+def test_a_second_process_compiles_nothing_an_edit_compiles_anew_and_plain_python_agrees(copy):
     def fresh(**more):
-        settings = {name: value for name, value in os.environ.items() if name[:6] != "NUMBA_"}
-        settings |= {"PYTHONPATH": str(tmp_path), "PYTHONDONTWRITEBYTECODE": "1"} | more
-        options = {"cwd": tmp_path, "env": settings, "text": True, "check": True}
-        command = [sys.executable, "-c", RUN]
-        *ends, misses = subprocess.run(command, capture_output=True, **options).stdout.split()
+        *ends, misses = printed(process(copy, RUN, **more))
         return [float(end) for end in ends], misses
 
     first = fresh()
@@ -48,6 +84,97 @@ def test_a_second_process_compiles_nothing_an_edit_compiles_anew_and_plain_pytho
     assert edited != pytest.approx(first[0], rel=1e-3)
 
 
+@pytest.mark.skipif(os.name == "nt", reason="this test needs POSIX")
+@pytest.mark.parametrize("reason", NOWHERE)
+def test_where_nothing_can_be_kept_it_runs_and_warns_once(copy, reason):
+    (copy / "__pycache__").touch()  # of a file nobody, root included, makes a folder
+    home = copy.parent / "home"
+    home.mkdir() if reason == "a full disk" else home.touch()
+    child = process(copy, NOWHERE[reason] + ONE_CALL, HOME=str(home))
+    out, err = child.communicate()
+    assert float(out) == pytest.approx(4.0 - 2.0 * np.pi), err
+    assert err.count("RuntimeWarning: compiled code can't be kept in ") == 1
+    assert "set NUMBA_CACHE_DIR" in err
+    assert not any(path.is_file() for path in home.rglob("*"))
+
+
+def test_what_the_package_cannot_keep_is_kept_at_home_and_what_it_has_is_found(copy):
+    cache, home = copy / "__pycache__", copy.parent / "home"
+    cache.touch()
+    homes = {"HOME": str(home), "USERPROFILE": str(home)}
+    assert printed(process(copy, TWO_KINDS, "4.0", **homes))[1] == "1"
+    assert printed(process(copy, TWO_KINDS, "4.0", **homes))[1] == "0"
+    cache.unlink()
+    shutil.move(home / ".cache" / "wmrlib", cache)
+    assert printed(process(copy, TWO_KINDS, "4.0", **homes))[1] == "0"
+    assert not any((home / ".cache").iterdir())
+
+
+def test_two_processes_at_once_keep_what_each_compiled(copy):
+    angles = "4.5", "4"
+    both = [process(copy, TWO_KINDS, angle) for angle in angles]
+    alone = [printed(each) for each in both]
+    assert [misses for _, misses in alone] == ["1", "1"]
+    assert printed(process(copy, TWO_KINDS, *angles)) == [alone[0][0], alone[1][0], "0"]
+
+
+@pytest.fixture(scope="module")
+def kept(tmp_path_factory):
+    """What is in the file of a compiled function, and that file."""
+    folder = tmp_path_factory.mktemp("kept") / "new"
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(_compile, "_FOLDERS", [folder])
+        assert compiled_again() == (3.0 * FACTOR, 1)
+        (file,) = folder.iterdir()
+        yield file.read_bytes(), file
+
+
+def scaled(number):
+    return number * FACTOR
+
+
+def compiled_again():
+    made = _compile.compiled(scaled)
+    return made(3.0), sum(made.stats.cache_misses.values())
+
+
+@st.composite
+def damage(draw):
+    """What a file of these bytes becomes: a part of it is lost or replaced."""
+    begin, end = sorted(draw(st.tuples(*[st.floats(0.0, 1.0)] * 2)))
+    other = draw(st.binary(max_size=9))
+    return lambda content: (
+        content[: int(begin * len(content))] + other + content[int(end * len(content)) :]
+    )
+
+
+@settings(max_examples=40)
+@given(damaged=damage())
+@example(lambda content: content.replace(struct.pack("<d", FACTOR), struct.pack("<d", 8.0)))
+@example(lambda content: sha256(b"not ours").digest() + b"not ours")
+def test_a_damaged_file_is_compiled_anew(kept, damaged):
+    content, file = kept
+    file.write_bytes(damaged(content))
+    assert compiled_again() == (3.0 * FACTOR, damaged(content) != content)
+    assert compiled_again() == (3.0 * FACTOR, 0)
+
+
+def test_what_is_compiled_for_something_else_is_kept_in_another_file(monkeypatch):
+    def names(loop, *signature):
+        paths = _compile._Cache(loop.py_func).files(signature, loop.targetctx.codegen())
+        return {path.name for path in paths}
+
+    chosen = [(0, 0, True), (1, 0, True), (0, 1, True), (0, 0, False)]
+    loops = plane.record, polar.record, *(polar.survey_of(*each) for each in chosen)
+    found = [names(loop) for loop in loops] + [names(plane.record, numba.float64)]
+    assert len(set.union(*found)) == len(found)
+    before = _compile._folders()
+    monkeypatch.setattr(numba, "__version__", "0.0")
+    assert not set(_compile._folders()) & set(before)
+    monkeypatch.setattr(sys.implementation, "cache_tag", "cpython-399")
+    assert len({*before, *_compile._folders()}) == 2 * len(before)
+
+
 def test_an_edit_to_any_compiled_module_leads_to_another_folder(monkeypatch, tmp_path):
     users = {
         path
@@ -58,24 +185,12 @@ def test_an_edit_to_any_compiled_module_leads_to_another_folder(monkeypatch, tmp
     copies = [Path(shutil.copy(path, tmp_path / f"{k}.py")) for k, path in enumerate(users)]
     monkeypatch.setattr(_compile, "_SOURCES", copies)
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "mine"))
-    folders = {_compile._cache_folder()}
+    folders = {*_compile._folders()}
     for path in copies:
         path.write_text("# an edit", encoding="utf-8")
-        folders.add(_compile._cache_folder())
+        folders |= {*_compile._folders()}
     assert len(folders) == len(users) + 1
-    assert all(Path(folder).parent == tmp_path / "mine" for folder in folders)
-
-
-def test_where_the_package_cannot_be_written_to_the_cache_is_at_home_or_numbas(
-    monkeypatch, tmp_path
-):
-    (tmp_path / "file").touch()
-    monkeypatch.delenv("NUMBA_CACHE_DIR", raising=False)
-    monkeypatch.setattr(_compile, "_PACKAGE", tmp_path / "file")
-    monkeypatch.setattr(Path, "home", lambda: tmp_path)
-    assert Path(_compile._cache_folder()).parent == tmp_path / ".cache" / "wmrlib"
-    monkeypatch.setattr(Path, "home", lambda: tmp_path / "file")
-    assert _compile._cache_folder() == ""
+    assert all(folder.parent == tmp_path / "mine" for folder in folders)
 
 
 def test_one_entry_beside_a_number_and_read_only_arrays_bring_no_warning():

@@ -131,6 +131,15 @@ def test_euler_is_the_tangent(pose, v, omega):
     assert abs(wmr.wrap_angle(there.heading - pose.heading - 0.5 * heading_rate)) < 1e-12
 
 
+@given(
+    st.floats(-1e3, 1e3), st.floats(-1e3, 1e3), st.sampled_from(["arc", "euler"]), st.floats(0, 9)
+)
+def test_a_step_ends_with_a_heading_in_the_half_open_turn(heading, omega, method, dt):
+    there = wmr.advance(wmr.Pose(0.0, 0.0, heading), 1.0, omega, dt, method)
+    assert -math.pi < there.heading <= math.pi
+    assert abs(wmr.wrap_angle(there.heading - heading - omega * dt)) < 1e-9
+
+
 def test_arrays_broadcast():
     many = wmr.polar_error(wmr.Pose(np.zeros((3, 1)), 0.0, 0.0), wmr.Pose(np.ones(4), 1.0, 0.5))
     assert many.rho.shape == (3, 4)

@@ -4,6 +4,8 @@ import math
 
 import numpy as np
 import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
 
 import wmrlib as wmr
 
@@ -41,15 +43,55 @@ def test_path_length_is_that_of_the_polyline_and_counts_backing_up():
 def test_peak_omega_and_heading_error():
     run = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, method="continuous")
     result = wmr.arrival(run)
-    assert result.peak_omega == -run.omega.min() > -run.omega[-1] > run.omega.max()
+    assert result.peak_omega > -run.omega.min() > -run.omega[-1] > run.omega.max()
     error = wmr.wrap_angle(run.heading[-1] - PAPER.goal.heading)
     assert result.heading_error == pytest.approx(error)
+
+
+@settings(max_examples=10)
+@given(
+    st.builds(wmr.Pose, st.floats(-9, 9), st.floats(-9, 9), st.floats(-3, 3)),
+    st.builds(wmr.Gains, *[st.floats(0.2, 3.0)] * 4),
+    st.sampled_from([None, wmr.WheelLimits(0.5, 1.0)]),
+    st.sampled_from([0.0, 0.2]),
+)
+def test_peak_and_path_between_the_samples(start, gains, wheels, lag):
+    """However far apart the samples are: against a run with hundreds of times as many."""
+    assume(math.hypot(start.x, start.y) > 0.2)
+    options = {"method": "continuous", "duration": 4.0, "wheels": wheels, "wheel_lag": lag}
+    coarse, fine = (wmr.simulate(start, ORIGIN, gains, dt=dt, **options) for dt in (2.0, 0.005))
+    peak, speed = np.abs(fine.omega).max(), np.abs(fine.v)
+    assert coarse.peak_omega == pytest.approx(peak, rel=0.02)
+    assert coarse.peak_omega > peak - 1e-7 * (1.0 + peak)
+    assert coarse.peak_omega == pytest.approx(fine.peak_omega, rel=1e-6, abs=1e-9)
+    trapezoids = 0.5 * (speed[1:] + speed[:-1]) @ np.diff(fine.t)
+    assert coarse.path_length == pytest.approx(trapezoids, abs=1e-3)
+    assert coarse.path_length == pytest.approx(fine.path_length, abs=1e-8)
+
+
+def test_a_peak_that_the_samples_miss():
+    """Wheels at rest that follow a command for a moment: omega rises and falls within 0.1 s."""
+    gains, start = wmr.Gains(0.2, 20.0, 2.0), wmr.Pose(-5.0, 0.0, 2.0)
+    options = {"method": "continuous", "wheel_lag": 0.01, "duration": 5.0}
+    run = wmr.simulate(start, ORIGIN, gains, dt=1.0, **options)
+    assert wmr.arrival(run).peak_omega > 10.0 * np.abs(run.omega).max()
 
 
 def test_residual_is_the_mean_of_the_end():
     run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, duration=40.0)
     assert wmr.residual(run, last=2.0) == pytest.approx(run.rho[380:].mean())
     assert wmr.residual(run, last=1e9) == pytest.approx(run.rho.mean())
+
+
+def test_whatever_is_above_0_counts():
+    """However short: a run of a millisecond, its last microsecond, a track of a millimetre."""
+    run = wmr.simulate(ORIGIN, wmr.Pose(5, 1, 0), wmr.GENTLE_GAINS, dt=1e-3, duration=1e-3)
+    assert (len(run), wmr.residual(run, last=1e-6)) == (2, run.rho[-1])
+    left, right = wmr.twist_to_wheels(1.0, 1.0, 1e-3)
+    twist = wmr.wheels_to_twist(left, right, 1e-3)
+    assert (right - left, *twist) == pytest.approx((1e-3, 1.0, 1.0))
+    limited = wmr.limit_wheels(1.0, 1.0, wmr.WheelLimits(1e-3, 1e-3))
+    assert wmr.twist_to_wheels(*limited, 1e-3)[1] == pytest.approx(1e-3)
 
 
 def test_bad_input():

@@ -1,6 +1,7 @@
 """The paper's data, and the numbers that the project sets against the paper's."""
 
 import math
+import re
 
 import numpy as np
 import pytest
@@ -81,6 +82,62 @@ def test_circle_is_the_papers_and_its_twist_is_its_derivative():
     assert (after.heading - before.heading) / (2 * dt) == pytest.approx(here.omega, rel=1e-8)
     direction = np.arctan2(after.y - before.y, after.x - before.x)
     assert wmr.wrap_angle(direction - here.heading) == pytest.approx(np.zeros(9), abs=1e-7)
+
+
+# The paper's words, with the name of each number.
+QUOTED = """
+the $y_error$, $x_error$ in LQR better by {lqr_y_advantage: 0.52}% and {lqr_x_advantage: 7.52} %
+an error of about {sphere_error: 0.5}% in a large scale of 100 m
+mean earth radius R = {earth_radius: 6371} km
+an inside control loop that is faster {inner_loop: 10} times of the main loop [printed: ten]
+x_r = {circle_radius: 4} cos(2 pi t/T) - 4, where T = {circle_period: 40} sec is the cyclic time
+The initial error is {circle_x_error: 1} m in the x-direction and {circle_y_error: 2} m in the y
+The initial reference starts at [0, 0, {circle_reference_heading: pi/2}]
+the initial robot posture [1, 2, {circle_start_heading: 0}]
+k_rho = {circle_k_rho: 1.9}, k_alpha = {circle_k_alpha: 1} and h = {circle_h: 0.05}
+the total error converges to {circle_residual: 0.1} m at the end
+GPS-point-1 = ({start_longitude: 44.373160}, {start_latitude: 33.273572})
+GPS-point-2 = ({goal_longitude: 44.373264}, {goal_latitude: 33.274087})
+The straight distance between these two points is {distance: 58.07} meters
+the bearing angle calculated by Eq. (15) is {bearing: 9.4} degrees
+an initial angle is {start_heading: 2*pi/5}, and the goal with angle {goal_heading: -2*pi/6}
+The error at starting is {x_error_at_start: 57} meters in the x-direction
+the error at y-direction is {y_error_at_start: 8} meter
+k_rho = {outdoor_k_rho: 2}, k_alpha = {outdoor_k_alpha: 1}, h = {outdoor_h: 0.3}
+time-stepping {time_step: 0.1} seconds. The linear speed is limited at {speed_limit: 4} m/s
+"""
+
+
+def quoted():
+    found = re.findall(r"{(\w+): ([^}]+)}", QUOTED)
+    return {name: float(eval(number, {"pi": math.pi})) for name, number in found}
+
+
+def test_published_numbers_are_those_that_the_paper_prints():
+    assert {name: each.value for name, each in PUBLISHED.items()} == quoted()
+
+
+def test_scenarios_are_those_that_the_paper_prints():
+    said, paper = quoted(), wmr.paper
+    circle = [said[f"circle_{name}"] for name in ("k_rho", "k_alpha", "h")]
+    outdoor = [said[f"outdoor_{name}"] for name in ("k_rho", "k_alpha", "h")]
+    assert wmr.Gains(*circle, v_max=said["speed_limit"]) == paper.CIRCLE_GAINS
+    assert wmr.Gains(*outdoor, v_max=said["speed_limit"]) == paper.outdoor().gains
+    assert (said["circle_radius"], said["circle_period"]) == (
+        paper.CIRCLE_RADIUS,
+        paper.CIRCLE_PERIOD,
+    )
+    speed = 2.0 * math.pi * said["circle_radius"] / said["circle_period"]
+    assert pytest.approx(speed) == paper.CIRCLE_SPEED
+    start = said["circle_x_error"], said["circle_y_error"], said["circle_start_heading"]
+    assert start == paper.CIRCLE_START
+    assert paper.circle(0.0).heading == said["circle_reference_heading"]
+    for end, point in (("start", paper.GPS_POINT_1), ("goal", paper.GPS_POINT_2)):
+        assert (said[f"{end}_latitude"], said[f"{end}_longitude"]) == (point.lat, point.lon)
+    case = paper.outdoor()
+    headings = case.start.heading, case.goal.heading
+    assert (*headings, case.dt) == (said["start_heading"], said["goal_heading"], said["time_step"])
+    assert 1000.0 * said["earth_radius"] == wmr.EARTH_RADIUS_M
 
 
 def test_unknown_axis():

@@ -80,6 +80,20 @@ def test_headings_bisect_the_turns(points, data):
     np.testing.assert_array_equal(repeated, np.repeat(headings, count))
 
 
+@given(st.floats(-8.0, -1.0), st.booleans(), st.floats(-3.0, 3.0))
+def test_only_a_turn_of_180_degrees_is_a_hairpin(power, left, direction):
+    """Up to a hundredth of a microradian short of it, its side counts; at it, rounding decides."""
+    for short, side in ((10.0**power, 1.0 if left else -1.0), (1e-12, 1.0)):
+        turn = (1.0 if left else -1.0) * (math.pi - short)
+        x, y = np.cumsum(
+            [[0.0, 0.0], *([math.cos(a), math.sin(a)] for a in (direction, direction + turn))],
+            axis=0,
+        ).T
+        expected = direction + side * 0.5 * math.pi
+        off = wmr.wrap_angle(wmr.headings_along(x, y)[1] - expected)
+        assert off == pytest.approx(0.0, abs=0.51 * short + 1e-9)
+
+
 # Driving
 
 

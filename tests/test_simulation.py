@@ -1,11 +1,14 @@
 """Runs against the continuous oracle, by property, from all sides, and at the edges."""
 
+import copy
 import math
+import pickle
+import time
 from itertools import product
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
@@ -183,6 +186,15 @@ def test_samples_follow_from_each_other(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
+def test_a_moving_goal_is_followed_with_headings_in_the_half_open_turn(method):
+    """Twice round the circle, where the reference's own heading grows to 14 rad."""
+    run = circle(method=method, duration=80.0)
+    assert run.goal.heading[-1] > 4.0 * math.pi
+    assert np.all((-math.pi < run.heading) & (run.heading <= math.pi))
+    assert np.ptp(np.unwrap(run.heading)) > 2.0 * math.pi
+
+
+@pytest.mark.parametrize("method", METHODS)
 def test_outcomes(method):
     run = wmr.simulate(ORIGIN, ORIGIN, CALM, method=method)
     assert (len(run), run.outcome, run.t[0], run.rho[0]) == (1, wmr.Outcome.ARRIVED, 0.0, 0.0)
@@ -210,6 +222,125 @@ def test_absurd_gains_end_before_a_nan():
     run = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, method="continuous")
     end = "157 samples, 0.05 m from the goal after 15.52 s: arrived within the arrival radius>"
     assert repr(run) == f"<Trajectory: corrected law, continuous, {end}"
+
+
+@pytest.mark.parametrize("method", METHODS)
+def test_places_beyond_the_squares_of_numbers(method):
+    """The squares of 1e200 and 1e-200 are infinite and 0; their distances are not."""
+    far = wmr.simulate(wmr.Pose(1e200, 1e200, 0.0), ORIGIN, CALM, method=method, duration=1.0)
+    assert far.outcome is wmr.Outcome.TIMED_OUT
+    assert far.rho == pytest.approx(math.sqrt(2.0) * 1e200)
+    near = wmr.simulate(wmr.Pose(3e-200, 4e-200, 0.0), ORIGIN, CALM, method=method)
+    assert near.rho == pytest.approx([5e-200], rel=1e-12, abs=0.0)
+    beyond = wmr.simulate(
+        wmr.Pose(1e308, 0.0, 0.0), wmr.Pose(-1e308, 0.0, 0.0), CALM, method=method
+    )
+    wild = wmr.simulate(ORIGIN, ORIGIN, wmr.Gains(1e300, 1e300, 1e300, 1e300), method=method)
+    for lost in (beyond, wild):
+        assert (lost.outcome, len(lost)) == (wmr.Outcome.DIVERGED, 0)
+
+
+def test_a_sweep_knows_the_distance_where_there_is_no_sample():
+    gains = wmr.Gains(1e308, 1e308, 1e308, 1e308)
+    for method in ("arc", "euler"):
+        lost = wmr.sweep(wmr.Pose([3.0, 1e308], 4.0, 1.0), ORIGIN, gains, method=method)
+        assert not lost.arrived.any()
+        assert lost.distance == pytest.approx([5.0, 1e308])
+        assert lost.heading_error == pytest.approx([1.0, 1.0])
+    far = wmr.sweep(wmr.Pose(1e200, 0, 0), ORIGIN, CALM, method="arc")
+    assert far.distance == 1e200
+
+
+TURNS = st.integers(-50, 50)
+
+
+@settings(max_examples=8)
+@given(poses, poses, TURNS, TURNS)
+def test_a_heading_may_be_written_with_full_turns(start, goal, turns, goal_turns):
+    assume(math.hypot(start.y - goal.y, start.x - goal.x) > 0.1)
+    again, there = (
+        pose._replace(heading=pose.heading + 2.0 * math.pi * count)
+        for pose, count in ((start, turns), (goal, goal_turns))
+    )
+    for method in METHODS:
+        options = {"method": method, "duration": 2.0}
+        plain = wmr.simulate(start, goal, CALM, **options)
+        turned = wmr.simulate(again, there, CALM, **options)
+        assume(clear_of_pi(plain))
+        assert np.all((-math.pi < turned.heading) & (turned.heading <= math.pi))
+        assert np.abs(wmr.wrap_angle(turned.heading - plain.heading)).max() < 1e-9
+        if method == "continuous":
+            continue
+        more = {"method": method, "duration": 2.0, "trajectories": True}
+        summary, swept = wmr.sweep(again, there, CALM, **more)
+        assert summary == pytest.approx(tuple(wmr.arrival(turned)), rel=1e-12)
+        np.testing.assert_array_equal(swept.heading[: len(turned)], turned.heading)
+
+
+def test_copies_of_a_run_are_the_run_and_stay_read_only():
+    runs = [circle(duration=1.0), wmr.simulate(ORIGIN, FAR, CALM, duration=1.0)]
+    route = wmr.drive_route(wmr.Pose([0.0, 5.0], [0.0, 0.0], 0.0), CALM)
+    for run in (*runs, route):
+        for again in (copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))):
+            for name in type(run).__slots__:
+                value, other = getattr(run, name), getattr(again, name)
+                if isinstance(value, np.ndarray) or name in ("goal", "waypoints"):
+                    np.testing.assert_array_equal(value, other)
+                elif name != "legs":
+                    assert value == other
+                for each in other if name in ("goal", "waypoints") else [other]:
+                    if isinstance(each, np.ndarray):
+                        with pytest.raises(ValueError, match="read-only"):
+                            each[0] = 1.0
+
+
+FAST = st.floats(0.0, 6.0).map(lambda power: 10.0**power)
+
+
+@settings(max_examples=6)
+@given(poses, st.builds(wmr.Gains, st.just(0.5), FAST, st.just(0.5), st.just(2.0)))
+@example(wmr.Pose(-5.0, -2.0, 0.3), wmr.Gains(1e6, 1e6, 1e6))
+def test_continuous_with_stiff_gains(start, gains):
+    """Against Radau, in the time that slow gains take."""
+
+    def rate(_, state):
+        rho, alpha, theta = max(state[0], 1e-9), *state[1:]
+        return wmr.polar_rate(rho, alpha, *wmr.control_law(rho, alpha, theta, gains))
+
+    assume(math.hypot(start.x, start.y) > 0.1)
+    begin = time.perf_counter()
+    options = {"method": "continuous", "dt": 0.25, "duration": 1.0}
+    run = wmr.simulate(start, ORIGIN, gains, **options)
+    assert time.perf_counter() - begin < 2.0
+    times = {"t_eval": run.t, "rtol": 1e-9, "atol": 1e-12}
+    truth = solve_ivp(rate, (0.0, run.t[-1]), wmr.polar_error(start, ORIGIN), "Radau", **times).y
+    np.testing.assert_allclose([run.rho, run.alpha, run.theta], truth, atol=1e-7)
+
+
+def test_stiff_gains_arrive_although_a_trial_step_passes_the_goal():
+    ends = wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(5.0, 3.0, 1.0)
+    options = {"method": "continuous", "arrival_radius": 1e-3}
+    run = wmr.simulate(*ends, wmr.Gains(1e6, 1e6, 1e6), **options)
+    assert run.outcome is wmr.Outcome.ARRIVED
+
+
+def test_backing_up_after_a_reference_counts_as_way():
+    def still(t):
+        return wmr.Reference(0.0 * t, 0.0, 0.0, 0.0, 0.0)
+
+    options = {"method": "continuous", "duration": 2.0}
+    tracked = wmr.track(still, wmr.Pose(-5.0, 1.0, 3.0), CALM, **options)
+    driven = wmr.simulate(wmr.Pose(-5.0, 1.0, 3.0), ORIGIN, CALM, **options)
+    assert tracked.v.min() < 0.0
+    assert tracked.path_length == pytest.approx(driven.path_length, abs=1e-7)
+    assert tracked.peak_omega == pytest.approx(driven.peak_omega, rel=1e-7)
+
+
+def test_a_run_that_takes_too_long_is_refused():
+    """It truly turns round and round, 10,000 times a second."""
+    restless = wmr.Gains(0.5, 1e3, 1e6, 1e6)
+    with pytest.raises(ValueError, match=r"method = .continuous. .* more than 30,[0-9]00 times"):
+        wmr.simulate(wmr.Pose(-5, 0, 1), ORIGIN, restless, method="continuous", duration=0.2)
 
 
 def test_the_last_sample_is_at_the_duration_although_tenths_are_not_exact():

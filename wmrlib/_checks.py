@@ -16,7 +16,10 @@ Kind = TypeVar("Kind", bound=type)
 
 def refusal(name: str, value: Any, needed: str, remark: str = "") -> ValueError:
     """The error that every check raises."""
-    text = repr(value)
+    try:
+        text = repr(value)
+    except Exception:  # an int of 5,000 digits, say
+        text = object.__repr__(value)
     shown = text if len(text) <= 80 else text[:77] + "..."
     return ValueError(f"{name} = {shown} is not allowed: {needed} is needed{remark}")
 
@@ -36,14 +39,11 @@ def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=Fals
     """Return `value` as a float or, if it has dimensions, as a float array.
 
     Raises ValueError unless every entry is a finite real number with low <= value <= high and
-    value > above, or NaN if `nan`; text, booleans and ragged rows are refused.
+    value > above, or NaN if `nan`; text, booleans, ragged rows and masked arrays are refused.
     """
     if type(value) is float and math.isfinite(value) and low <= value <= high and value > above:
         return value  # the common case, kept quick: a simulation checks a dozen numbers
-    try:
-        array = np.asarray(value)
-    except ValueError:  # ragged rows
-        array = np.array(None)
+    array = as_array(value)
     if array.dtype.kind in "iuf":
         array = array.astype(np.float64)
         fits = np.isfinite(array) & (array >= low) & (array <= high) & (array > above)
@@ -60,6 +60,20 @@ def scalar(name: str, value: Any, **bounds: float) -> float:
     if isinstance(checked, float):
         return checked
     raise refusal(name, value, "one number", f", not an array of shape {checked.shape}")
+
+
+def _masked(value: Any) -> bool:
+    """Whether numpy would put a number where a mask says that there is none."""
+    listed = isinstance(value, list | tuple) and any(map(_masked, value))
+    return listed or isinstance(value, np.ma.MaskedArray)
+
+
+def as_array(value: Any) -> np.ndarray:
+    """The value as an array; as one of no number if it is ragged, masked or no array at all."""
+    try:
+        return np.array(...) if _masked(value) else np.asarray(value)
+    except (ValueError, TypeError, OverflowError, RecursionError):
+        return np.array(...)
 
 
 def plain(value: Any) -> Any:

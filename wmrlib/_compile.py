@@ -1,57 +1,104 @@
-"""How formulas are compiled: numba, cached on disk, called on one number or on whole arrays.
+"""How formulas are compiled: numba, kept on disk, called on one number or on whole arrays.
 
-To tell whether a cached binary is still good, numba looks only at the file of the function itself.
-A loop that calls a formula from another file would go on running the old formula after an edit.
-The cache is therefore kept in a folder named after the text of *all* compiled modules, so that an
-edit to any of them compiles anew.
+numba's own cache looks only at the file of the function itself to tell whether a binary is still
+good, so a loop would go on running an old formula out of another file; and where it can't write it
+raises an error. Here binaries are in a folder named after the text of *all* compiled modules, each
+with a checksum and named after what it was compiled for.
 """
 
 from __future__ import annotations
 
-import hashlib
 import os
-import tempfile
+import pickle
+import sys
+import warnings
 from collections.abc import Callable
+from contextlib import suppress
+from functools import lru_cache
+from hashlib import sha256
 from pathlib import Path
+from uuid import uuid4
 
 import numba
 import numpy as np
+from numba.core.caching import NullCache
+from numba.core.compiler import CompileResult
+from numba.core.serialize import dumps
 
 _PACKAGE = Path(__file__).parent
 _SOURCES = sorted((*_PACKAGE.glob("*.py"), *_PACKAGE.glob("_loops/*.py")))
 
 
-def _cache_folder() -> str:
-    digest = hashlib.sha256(b"".join(source.read_bytes() for source in _SOURCES)).hexdigest()[:16]
+def _folders() -> list[Path]:
+    """Where binaries are looked for, and kept in the first that can be written to."""
+    compiler = f"{numba.__version__} {sys.implementation.cache_tag}".encode()
+    digest = sha256(compiler + b"".join(source.read_bytes() for source in _SOURCES)).hexdigest()
     own = os.environ.get("NUMBA_CACHE_DIR")
-    usual = (_PACKAGE / "__pycache__", Path.home() / ".cache" / "wmrlib")
-    for parent in (Path(own),) if own else usual:
-        folder = parent / f"compiled-{digest}"
-        try:
-            folder.mkdir(parents=True, exist_ok=True)
-            with tempfile.TemporaryFile(dir=folder):
-                return str(folder)
-        except OSError:  # installed where the reader may not write: try the next place
-            continue
-    return ""  # numba then chooses by itself
+    places = (own,) if own else (_PACKAGE / "__pycache__", os.path.expanduser("~/.cache/wmrlib"))
+    # What still begins with a tilde is the home of a user that has none.
+    return [Path(place, f"compiled-{digest[:16]}") for place in places if str(place)[0] != "~"]
 
 
-_CACHE_FOLDER = _cache_folder()
+_FOLDERS = _folders()
+
+
+class _Cache(NullCache):
+    """The binaries of a function. One that is not there, or damaged, is compiled anew."""
+
+    def __init__(self, function: Callable) -> None:
+        self.function = function
+
+    def files(self, signature, codegen) -> list[Path]:
+        name = self.function.__name__
+        constants = [cell.cell_contents for cell in self.function.__closure__ or ()]
+        key = repr((self.function.__module__, constants, signature, codegen.magic_tuple()))
+        return [folder / f"{name}-{sha256(key.encode()).hexdigest()[:16]}" for folder in _FOLDERS]
+
+    def load_overload(self, signature, target_context):
+        target_context.refresh()
+        for file in self.files(signature, target_context.codegen()):
+            with suppress(Exception):
+                content = file.read_bytes()
+                if content[:32] == sha256(content[32:]).digest():
+                    return CompileResult._rebuild(target_context, *pickle.loads(content[32:]))
+        return None
+
+    def save_overload(self, signature, data):
+        binary = dumps(data._reduce())
+        content = sha256(binary).digest() + binary
+        if not any(_kept(file, content) for file in self.files(signature, data.codegen)):
+            _warn()
+
+
+def _kept(file: Path, content: bytes) -> bool:
+    part = file.with_name(uuid4().hex)  # other processes see the whole file or none
+    with suppress(OSError):
+        file.parent.mkdir(parents=True, exist_ok=True)
+        part.write_bytes(content)
+        part.replace(file)
+    with suppress(OSError):  # what did not become the file
+        part.unlink()
+    return os.path.exists(file)  # Windows replaces no file that another process is reading
+
+
+@lru_cache
+def _warn() -> None:
+    places = " or ".join(str(folder.parent) for folder in _FOLDERS)
+    text = f"compiled code can't be kept in {places}, so each process compiles anew: "
+    warnings.warn(text + "set NUMBA_CACHE_DIR to a folder for it", RuntimeWarning, stacklevel=2)
 
 
 def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:
     """Return `function` compiled by numba on its first call for each set of argument types.
 
     Divisions follow IEEE 754 as in numpy (no ZeroDivisionError); a product and a sum may be rounded
-    once rather than twice. ``NUMBA_DISABLE_JIT=1`` leaves plain Python.
+    once rather than twice. ``NUMBA_DISABLE_JIT=1`` leaves plain Python. If it is kept in the
+    `cache`, it may close over plain numbers only.
     """
-    before, numba.config.CACHE_DIR = numba.config.CACHE_DIR, _CACHE_FOLDER or numba.config.CACHE_DIR
-    try:
-        return numba.njit(
-            function, cache=cache, error_model="numpy", nogil=True, fastmath={"contract"}, **options
-        )
-    finally:
-        numba.config.CACHE_DIR = before
+    made = numba.njit(error_model="numpy", nogil=True, fastmath={"contract"}, **options)(function)
+    if cache and made is not function:
+        made._cache = _Cache(function)
+    return made
 
 
 def formula(function: Callable, *, cache: bool = True) -> Callable:

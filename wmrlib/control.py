@@ -8,7 +8,7 @@ from __future__ import annotations
 from wmrlib._checks import Real, choice, instance, reals
 from wmrlib._compile import compiled, elementwise
 from wmrlib.gains import Gains, GainsFields, KanayamaGains, LinearGains, WheelLimits, checked_wheels
-from wmrlib.kinematics import polar_closing_rate
+from wmrlib.kinematics import _polar_closing_rate_all
 from wmrlib.laws import (
     POSE_LAWS,
     TRACKING_LAWS,
@@ -121,7 +121,10 @@ def lyapunov_rate(
     """
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned, L=L)
-    return elementwise(_lyapunov_rate_all, 1, *state, options=(_code(law),))[0]
+    rho, alpha, theta, *_, h, _, L = state
+    v_over_rho, omega = elementwise(_pose_law_all, 2, *state[:-1], options=(_code(law),))
+    rates = elementwise(_polar_closing_rate_all, 3, rho, alpha, v_over_rho, omega)
+    return rho * rates[0] / L + (alpha * rates[1] + h * theta * rates[2])
 
 
 def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]:
@@ -170,16 +173,6 @@ def _command_all(rho, alpha, theta, v_ref, omega_ref, tuning, law, v, omega):
 def _lyapunov_all(rho, alpha, theta, h, L, value):
     for i in range(rho.size):
         value[i] = lyapunov_value(rho[i], alpha[i], theta[i], h[i], L[i])
-
-
-@compiled
-def _lyapunov_rate_all(rho, alpha, theta, k_rho, k_alpha, h, v_max, L, law, rate):
-    for i in range(rho.size):
-        gains = GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i])
-        v_over_rho, omega = pose_law(rho[i], alpha[i], theta[i], gains, law)
-        rates = polar_closing_rate(rho[i], alpha[i], v_over_rho, omega)
-        angles = alpha[i] * rates[1] + h[i] * theta[i] * rates[2]
-        rate[i] = rho[i] * rates[0] / L[i] + angles
 
 
 @compiled

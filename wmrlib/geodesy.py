@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, plain, real, same_shape
+from wmrlib._checks import Real, instance, plain, real, reals, same_shape
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
@@ -53,7 +53,7 @@ def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M)
     ------
     ValueError : mismatched lengths, or a radius that is not positive
     """
-    lat1, lat2, delta_lat, delta_lon = _radians(a, b)
+    lat1, lat2, delta_lat, delta_lon = _radians(a=a, b=b)
     metres = real("radius", radius, above=0.0)
     across = np.cos(lat1) * np.cos(lat2)
     e = np.sin(delta_lat / 2) ** 2 + across * np.sin(delta_lon / 2) ** 2
@@ -77,7 +77,7 @@ def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
     ------
     ValueError : mismatched lengths
     """
-    lat1, lat2, delta_lat, delta_lon = _radians(a, b)
+    lat1, lat2, delta_lat, delta_lon = _radians(a=a, b=b)
     zeta_x = np.cos(lat2) * np.sin(delta_lon)
     # equals (17), and loses no digits for points close together
     zeta_y = np.sin(delta_lat) + 2.0 * np.sin(lat1) * np.cos(lat2) * np.sin(delta_lon / 2) ** 2
@@ -139,6 +139,7 @@ def local_position(
     ------
     ValueError : as `haversine_distance`
     """
+    _radians(origin=origin, point=point)  # its checks, by these names
     distance = haversine_distance(origin, point, radius)
     bearing = initial_bearing(origin, point)
     return plain(distance * np.sin(bearing)), plain(distance * np.cos(bearing))
@@ -161,26 +162,26 @@ def point_at(origin: GeoPoint, east: Real, north: Real, radius: float = EARTH_RA
     ------
     ValueError : NaN, or mismatched lengths
     """
-    east, north = real("east", east), real("north", north)
-    same_shape(east=east, north=north)
+    instance("origin", origin, GeoPoint)
+    east, north = reals(east=east, north=north)
     distance, bearing = np.hypot(east, north), np.arctan2(east, north)
     return destination_point(origin, plain(distance), plain(bearing), radius)
 
 
-def position_list(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
+def position_list(points: GeoPoint, name: str = "points") -> tuple[np.ndarray, np.ndarray]:
     """The latitudes and longitudes of a list of positions; raises ValueError for anything else."""
-    instance("points", points, GeoPoint)
+    instance(name, points, GeoPoint)
     lat, lon = np.broadcast_arrays(np.atleast_1d(points.lat), np.atleast_1d(points.lon))
     if lat.ndim != 1 or not lat.size:
         needed = "a list of at least one position is needed"
-        raise ValueError(f"points have shape {lat.shape}, which is not allowed: {needed}")
+        raise ValueError(f"{name} has shape {lat.shape}, which is not allowed: {needed}")
     return lat, lon
 
 
-def _radians(a: GeoPoint, b: GeoPoint) -> tuple[Real, Real, Real, Real]:
+def _radians(**points: GeoPoint) -> tuple[Real, Real, Real, Real]:
     """lat1, lat2 and the differences, taken in degrees, where they are exact for close points."""
-    instance("a", a, GeoPoint)
-    instance("b", b, GeoPoint)
-    same_shape(**{"a.lat": a.lat, "a.lon": a.lon, "b.lat": b.lat, "b.lon": b.lon})
+    named = {name: instance(name, point, GeoPoint) for name, point in points.items()}
+    same_shape(**{f"{k}.{f}": getattr(named[k], f) for k in named for f in ("lat", "lon")})
+    a, b = named.values()
     differences = np.radians(np.subtract(b.lat, a.lat)), np.radians(np.subtract(b.lon, a.lon))
     return np.radians(a.lat), np.radians(b.lat), *differences

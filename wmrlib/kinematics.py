@@ -167,7 +167,7 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
 
 def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
     """The pose that sees `goal` as `polar`: the inverse of `polar_error`."""
-    named = PolarError(*polar)._asdict() | _fields(goal=goal)
+    named = instance("polar", polar, PolarError)._asdict() | _fields(goal=goal)
     rho, alpha, theta, *_ = reals(at_least_0=("rho",), **named)
     psi = theta + goal.heading
     return Pose(goal.x - rho * np.cos(psi), goal.y - rho * np.sin(psi), wrap_angle(psi - alpha))

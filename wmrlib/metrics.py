@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
 from wmrlib._checks import instance, scalar
 from wmrlib.runs import Arrival, Outcome, Trajectory
 
@@ -31,8 +29,8 @@ def arrival(trajectory: Trajectory) -> Arrival:
         arrived=arrived,
         time=float(run.t[-1]) if arrived else math.inf,
         heading_error=float(run.heading_error[-1]),
-        peak_omega=float(np.abs(run.omega).max()),
-        path_length=path_length(run),
+        peak_omega=run.peak_omega,
+        path_length=run.path_length,
         distance=float(run.rho[-1]),
     )
 
@@ -46,17 +44,13 @@ def path_length(trajectory: Trajectory) -> float:
 
     Returns
     -------
-    float, m; exact where v is held between samples, by the trapezoidal rule for "continuous"
+    float, m
 
     Raises
     ------
     ValueError : a trajectory without a sample
     """
-    run = _with_samples(trajectory)
-    speed, step = np.abs(run.v), np.diff(run.t)
-    if run.method == "continuous":
-        return float(np.sum(0.5 * (speed[1:] + speed[:-1]) * step))
-    return float(np.sum(speed[:-1] * step))
+    return _with_samples(trajectory).path_length
 
 
 def residual(trajectory: Trajectory, last: float = 5.0) -> float:

@@ -26,7 +26,7 @@ def wrap(angle):
 def polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading):
     east, north = goal_x - x, goal_y - y
     sight = math.atan2(north, east)
-    return math.sqrt(east * east + north * north), wrap(sight - heading), wrap(sight - goal_heading)
+    return math.hypot(east, north), wrap(sight - heading), wrap(sight - goal_heading)
 
 
 @formula

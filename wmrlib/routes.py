@@ -8,12 +8,12 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real, same_shape, scalar
+from wmrlib._checks import Real, as_array, instance, real, refusal, same_shape, scalar
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at, position_list
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.metrics import arrival, path_length
-from wmrlib.runs import Arrival, Outcome, Trajectory
+from wmrlib.runs import Arrival, Outcome, ReadOnly, Trajectory
 from wmrlib.simulation import simulate
 
 _HAIRPIN = math.pi - 1e-9  # rad: a turn of 180 deg but for rounding
@@ -23,7 +23,7 @@ _JOINED = ("t", "x", "y", "heading", "v", "omega", "V")
 
 
 @dataclass(frozen=True, eq=False, slots=True)
-class Route:
+class Route(ReadOnly):
     """A driven route: its legs, and their samples joined in arrays that can't be written to.
 
     Where the goal changes, the sample is the next leg's, so that t increases strictly; V, which
@@ -143,9 +143,9 @@ def route_poses(
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
-    listed = np.atleast_1d(np.array(headings, dtype=object))
-    known = [math.nan if each is None else each for each in listed]
-    given = np.asarray(real("headings", known, nan=True))
+    if isinstance(headings, list | tuple):
+        headings = [math.nan if each is None else each for each in headings]
+    given = np.atleast_1d(real("headings", headings, nan=True))
     if given.shape != lat.shape:
         shapes = f"headings have shape {given.shape}, points have shape {lat.shape}"
         raise ValueError(f"mismatched lengths: {shapes}; the same is needed")
@@ -168,7 +168,7 @@ def route_points(route: Route, origin: GeoPoint) -> GeoPoint:
     ------
     ValueError : another type
     """
-    lat, lon = position_list(origin)
+    lat, lon = position_list(origin, "origin")
     x, y = instance("route", route, Route).x, route.y
     return point_at(GeoPoint(lat=lat[0], lon=lon[0]), x, y)
 
@@ -233,18 +233,11 @@ def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
     joined = {k: np.concatenate([getattr(each, k) for each in legs])[kept] for k in _JOINED}
     joined["leg"] = leg[kept]
     joined["t"] += begins[joined["leg"]]
-    joined["heading"] = wrap_angle(joined["heading"])  # a start's may be written as 7 rad
-    for values in joined.values():
-        values.flags.writeable = False
     return joined
 
 
 def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
-    try:
-        flags = np.asarray(stop)
-    except ValueError:  # lists of different lengths
-        flags = np.empty(0)
+    flags = as_array(stop)
     if flags.dtype != bool or flags.shape not in ((), (count,)):
-        needed = f"True, False or a list of {count}, one a waypoint, is needed"
-        raise ValueError(f"stop = {stop!r} is not allowed: {needed}")
+        raise refusal("stop", stop, f"True, False or a list of {count}, one a waypoint,")
     return tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (count - 1), True)

@@ -28,14 +28,32 @@ class Outcome(Enum):
         return self.value
 
 
+class ReadOnly:
+    """A frozen dataclass whose arrays can't be written to, in copies and pickles too."""
+
+    __slots__: tuple[str, ...] = ()
+
+    def __post_init__(self) -> None:
+        for value in self._values():
+            for array in value if isinstance(value, tuple) else (value,):
+                if isinstance(array, np.ndarray):
+                    array.flags.writeable = False
+
+    def __reduce__(self) -> tuple:
+        return type(self), self._values()
+
+    def _values(self) -> tuple:
+        return tuple(getattr(self, name) for name in self.__slots__)
+
+
 @dataclass(frozen=True, eq=False, slots=True)
-class Trajectory:
+class Trajectory(ReadOnly):
     """One run, sample by sample, and how it ended.
 
     Attributes
     ----------
     t : array, s; like the other arrays of the same length, it can't be written to
-    x, y, heading : arrays, m and rad, the robot's pose
+    x, y, heading : arrays, m and rad in (-pi, pi], the robot's pose
     rho, alpha, theta : arrays, m and rad, the polar error
     v, omega : arrays, m/s and rad/s, what the law commands at the sample, after the wheel limits
         (with a wheel lag: what the wheels do)
@@ -43,6 +61,7 @@ class Trajectory:
     outcome : Outcome
     goal : Pose, of arrays if it moves
     gains, law, method : as passed in
+    peak_omega, path_length : float, rad/s and m, see Arrival; between the samples too
     """
 
     t: np.ndarray
@@ -60,6 +79,8 @@ class Trajectory:
     gains: Gains | KanayamaGains | LinearGains
     law: str
     method: str
+    peak_omega: float
+    path_length: float
 
     def __len__(self) -> int:
         return self.t.size

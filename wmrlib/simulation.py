@@ -6,7 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrlib._checks import choice, instance, real, refusal, scalar
+from wmrlib._checks import choice, instance, reals, refusal, scalar
 from wmrlib._loops import continuous, plane, rows
 from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
@@ -41,7 +41,7 @@ def simulate(
     method : "euler", the paper's: the twist is held for `dt` and the pose moves along its tangent;
         "arc": the twist is held and the pose moves along the exact arc;
         "continuous": the law acts all the time; (rho, alpha, theta) is integrated with error
-        control (DOP853, relative tolerance 1e-10).
+        control (LSODA, relative tolerance 1e-11).
         The first two see alpha and theta in (-pi, pi]; in the last these never jump.
     dt : float, s, between samples; "continuous" adds the moment of arrival
     duration : float, s, after which the robot stops, at most ten million dt
@@ -69,14 +69,12 @@ def simulate(
         raise refusal("wheel_lag", lag, '0, or method "continuous" with an arrival radius,')
     t = dt * np.arange(samples)
     if continuously:
-        t, record, outcome = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
+        run = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
     else:
         path = np.zeros((5, samples))
         path[rows.X], path[rows.Y], path[rows.HEADING] = end
-        record, outcome = plane.drive(
-            tuple(begin), path, tuning, code, limits, _STEPS[method], dt, radius
-        )
-    return _trajectory(t, record, outcome, end, gains, law, method)
+        run = _held(t, method, dt, radius, begin, path, tuning, code, limits)
+    return _trajectory(*run, end, gains, law, method)
 
 
 def track(
@@ -109,6 +107,8 @@ def track(
     ------
     ValueError : as `simulate`
     """
+    if not callable(reference):
+        raise refusal("reference", reference, "a function of time")
     begin = single_pose("start", start)
     tuning, code = tuning_of(gains, law, TRACKING_LAWS)
     samples, dt = sample_count(dt, duration), float(dt)
@@ -116,25 +116,29 @@ def track(
     t = dt * np.arange(samples)
 
     def path_at(times: np.ndarray) -> np.ndarray:
-        fields = instance("reference(t)", reference(times), Reference)._asdict().items()
-        checked = [real(f"reference(t).{name}", values) for name, values in fields]
-        return np.array([np.broadcast_to(values, times.shape) for values in checked])
+        fields = instance("reference(t)", reference(times), Reference)._asdict()
+        named = {f"reference(t).{name}": values for name, values in fields.items()}
+        path = np.array(np.broadcast_arrays(*reals(**named, t=times))[:-1])
+        if path.shape[1:] != times.shape:
+            raise refusal("reference(t)", named, "one number, or one a time, in each field")
+        return path
 
     path = path_at(t)
     if choice("method", method, _METHODS) == "continuous":
-        record, outcome = continuous.after_reference(path_at, begin, path, tuning, code, limits, t)
+        run = continuous.after_reference(path_at, begin, tuning, code, limits, t)
     else:
-        record, outcome = plane.drive(
-            tuple(begin), path, tuning, code, limits, _STEPS[method], dt, -1.0
-        )
-    path.flags.writeable = False
-    outcome = rows.COMPLETED if outcome == rows.TIMED_OUT else outcome
-    goal = Pose(*path[: rows.GOAL_V, : record.shape[1]])
-    return _trajectory(t, record, outcome, goal, gains, law, method)
+        run = _held(t, method, dt, -1.0, begin, path, tuning, code, limits)
+    t, record, outcome, *sums = run
+    ended = rows.COMPLETED if outcome == rows.TIMED_OUT else outcome
+    return _trajectory(t, record, ended, *sums, Pose(*path[:3, : t.size]), gains, law, method)
 
 
-def _trajectory(t, record, outcome, goal, gains, law, method) -> Trajectory:
-    t = t[: record.shape[1]]
-    t.flags.writeable = record.flags.writeable = False
-    ended = _OUTCOMES[outcome]
-    return Trajectory(t, *record, ended, goal, gains, law, method)  # type: ignore[call-arg]
+def _held(t, method, dt, radius, start, path, *loop) -> tuple:
+    """(t, record, outcome, peak omega, path length) of a run whose twist is held for dt."""
+    record, outcome = plane.drive(tuple(start), path, *loop, _STEPS[method], dt, radius)
+    v, omega = np.abs(record[rows.V : rows.LYAPUNOV])
+    return t[: v.size], record, outcome, omega.max(initial=0.0), dt * v[:-1].sum()
+
+
+def _trajectory(t, record, outcome, peak, length, *setting) -> Trajectory:
+    return Trajectory(*(t, *record, _OUTCOMES[outcome], *setting, peak, length))

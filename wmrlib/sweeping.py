@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib import _chunks
-from wmrlib._checks import choice, instance, refusal, same_shape, scalar
+from wmrlib._checks import as_array, choice, instance, refusal, same_shape, scalar
 from wmrlib._loops import adaptive, blocks, plane, polar, rows
 from wmrlib._modes import fastest_mode, longest_euler_step
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
@@ -216,6 +216,6 @@ def _chunk_size(total: int, task: _Task, cores: int, executor: Executor | None) 
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:
-    names = np.asarray(law)
+    names = as_array(law)
     codes = [POSE_LAWS[choice("law", name, POSE_LAWS)] for name in names.ravel().tolist()]
     return np.array(codes, dtype=float).reshape(names.shape)

@@ -10,7 +10,9 @@ from __future__ import annotations
 from types import MappingProxyType
 from typing import NamedTuple
 
-from wmrlib._checks import Real, choice, instance, real, same_shape
+import numpy as np
+
+from wmrlib._checks import Real, choice, instance, reals, refusal
 from wmrlib.gains import Gains
 
 
@@ -51,9 +53,12 @@ def translate(polar: tuple[Real, Real, Real], source: str, target: str) -> tuple
     """
     sign = CONVENTIONS[choice("source", source, CONVENTIONS)].third
     sign *= CONVENTIONS[choice("target", target, CONVENTIONS)].third
-    rho, alpha = real("rho", polar[0], low=0.0), real("alpha", polar[1])
-    third = real("third angle", polar[2])
-    same_shape(rho=rho, alpha=alpha, **{"third angle": third})
+    listed = isinstance(polar, list | tuple | np.ndarray) and np.iterable(polar)
+    if not listed or len(polar) != 3:
+        raise refusal("polar", polar, "three numbers or three arrays")
+    rho, alpha, third = reals(
+        at_least_0=("rho",), **dict(zip(("rho", "alpha", "third angle"), polar, strict=True))
+    )
     return rho, alpha, third if sign == 1 else 0.0 - third
 
 

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
+from wmrlib._checks import as_array, refusal
+
 
 def pareto(*costs: np.ndarray) -> np.ndarray:
     """Which choices no other one dominates: as cheap in every cost and cheaper in one.
@@ -11,13 +13,15 @@ def pareto(*costs: np.ndarray) -> np.ndarray:
     costs: arrays of one shape, of which less is better. Returns booleans in that shape, False where
     a cost is infinite or NaN.
     """
-    table = [np.asarray(each, dtype=float) for each in costs]
+    table = [as_array(each) for each in costs]
+    if any(each.dtype.kind not in "iuf" for each in table):
+        raise refusal("costs", costs, "arrays of numbers")
     shapes = [each.shape for each in table]
     if len(set(shapes)) != 1:
         needed = "at least one, all of one shape, is needed"
         raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")
-    points = np.stack(table, axis=-1)
-    chosen = np.isfinite(points).all(axis=-1)
+    points = np.stack(table, axis=-1).astype(float)
+    chosen = np.array(np.isfinite(points).all(axis=-1))
     left = points[chosen]
     chosen[chosen] = [
         not ((left <= one).all(axis=1) & (left < one).any(axis=1)).any() for one in left

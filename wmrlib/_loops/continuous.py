@@ -2,20 +2,20 @@
 
 from __future__ import annotations
 
+import itertools
 import math
-from typing import Any
 
 import numpy as np
 
+from wmrlib._checks import refusal
+from wmrlib._compile import compiled
 from wmrlib._loops import plane, polar, rows
 from wmrlib.kinematics import PolarError, Pose, polar_error, pose_from_polar, wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, saturation_scale
 
-_TOLERANCE = {"rtol": 1e-10, "atol": 1e-12}
-
 
 def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
-    """(t, record, outcome) of one run in (rho, alpha, theta), at the times `t` and on arrival.
+    """One run in (rho, alpha, theta), at the times `t` and on arrival, as `_summed_up` gives it.
 
     With a lag the state is (rho, alpha, theta, v, omega), from rest, and the record's v and omega
     are what the wheels do.
@@ -23,74 +23,109 @@ def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
     loop = tuning.pose, law, wheels
 
     def rate(_, state):
-        state = tuple(state)
+        rho, alpha, theta, *twist, _ = state
         if lag:
-            return polar.lagging_loop(state[:3], *state[3:], loop, lag)
-        return polar.closed_loop(state, loop)[:3]
+            return *polar.lagging_loop((rho, alpha, theta), *twist, loop, lag), abs(twist[0])
+        *rates, v, _ = polar.closed_loop((max(rho, 0.0), alpha, theta), loop)  # tried past the goal
+        return *rates, abs(v)
+
+    def recorded(times, states):
+        states[0] = np.maximum(states[0], 0.0)  # rounding can carry rho a hair past the goal
+        record = np.empty((9, times.size))
+        record[: rows.RHO] = pose_from_polar(PolarError(*states[:3]), goal)
+        record[rows.RHO : rows.V] = states[:3]
+        _add_commands(record, np.zeros((2, times.size)), tuning, law, wheels)
+        if lag:
+            record[rows.V : rows.LYAPUNOV] = states[3:5]
+        return record
 
     def left_to_go(_, state):
-        return state[0] - arrival_radius
+        return state[0] - (arrival_radius or -1.0)
 
-    event: Any = left_to_go if arrival_radius > 0.0 else None
-    if event:
-        event.terminal = True
-        event.direction = -1.0
+    left_to_go.terminal, left_to_go.direction = True, -1.0  # type: ignore[attr-defined]
     first = polar_error(start, goal)
-    begin = (*first, 0.0, 0.0) if lag else first
+    begin = np.array([*first, *[0.0] * (3 if lag else 1)])
+    if first.rho == math.inf:
+        return t[:0], np.empty((9, 0)), rows.DIVERGED, 0.0, 0.0
     if first.rho <= arrival_radius:
-        t, states, outcome = t[:1], np.array(begin)[:, None], rows.ARRIVED
-    else:
-        run, outcome = _integrated(rate, begin, t, "LSODA" if lag else "DOP853", event)
-        t, states = run.t, run.y
-        if run.status == 1:  # the event: its moment is the last sample
-            t, outcome = np.append(t, run.t_events[0]), rows.ARRIVED
-            states = np.hstack([states, run.y_events[0].T])
-    states[0] = np.maximum(states[0], 0.0)  # rounding can carry rho a hair past the goal
-    record = np.empty((9, t.size))
-    record[: rows.RHO] = pose_from_polar(PolarError(*states[:3]), goal)
-    record[rows.RHO : rows.V] = states[:3]
-    _add_commands(record, np.zeros((2, t.size)), tuning, law, wheels)
-    if lag:
-        record[rows.V : rows.LYAPUNOV] = states[3:]
-    return t, record, outcome
+        return _summed_up(t[:1], t[:1], lambda _: begin[:, None], rows.ARRIVED, recorded)
+    return _integrated(rate, begin, t, recorded, left_to_go)
 
 
-def after_reference(path_at, start, path, tuning, law, wheels, t):
-    """(record, outcome) of one run after a moving reference, integrated in (x, y, heading).
+def after_reference(path_at, start, tuning, law, wheels, t):
+    """One run after a moving reference, integrated in (x, y, heading), as `_summed_up` gives it.
 
     In the plane, because there the line of sight may pass through zero distance.
     """
 
-    def rate(time, pose):
+    def rate(time, state):
         x, y, heading, *twist = path_at(np.array([time]))[:, 0]
         _, _, _, v, omega = plane.observe(
-            tuple(pose), (x, y, heading), tuple(twist), tuning, law, wheels
+            tuple(state[:3]), (x, y, heading), tuple(twist), tuning, law, wheels
         )
-        return v * math.cos(pose[2]), v * math.sin(pose[2]), omega
+        return v * math.cos(state[2]), v * math.sin(state[2]), omega, abs(v)
 
-    run, outcome = _integrated(rate, start, t, "DOP853")
-    path = path[:, : run.t.size]
-    pose, record = Pose(*run.y), np.empty((9, run.t.size))
-    record[: rows.RHO] = pose._replace(heading=wrap_angle(pose.heading))
-    record[rows.RHO : rows.V] = polar_error(pose, Pose(*path[:3]))
-    _add_commands(record, path[3:], tuning, law, wheels)
-    return record, outcome
+    def recorded(times, states):
+        path = path_at(times)
+        pose, record = Pose(*states[:3]), np.empty((9, times.size))
+        record[: rows.RHO] = pose._replace(heading=wrap_angle(pose.heading))
+        record[rows.RHO : rows.V] = polar_error(pose, Pose(*path[:3]))
+        _add_commands(record, path[3:], tuning, law, wheels)
+        return record
+
+    return _integrated(rate, np.array([*start, 0.0]), t, recorded)
 
 
-def _integrated(rate, begin, t, method, event=None):
-    """The run with error control, and how it ends; LSODA is quicker where a lag is short."""
+def _integrated(rate, begin, t, recorded, event=None):
+    """The run with error control, whether its motion is fast, slow or both (stiff)."""
     from scipy.integrate import solve_ivp  # here, because importing it takes longer than all else
 
-    span = 0.0, t[-1]
-    run = solve_ivp(rate, span, begin, method, t_eval=t, events=event, **_TOLERANCE)
-    return run, rows.TIMED_OUT if run.success else rows.DIVERGED
+    most = 30_000 + 100 * t.size
+    count = itertools.count()
+
+    def counted(time, state):
+        if next(count) > most:
+            words = f", or other gains: the law would act more than {most:,} times"
+            raise refusal("method", "continuous", "'arc' or 'euler'", words)
+        return rate(time, state)
+
+    # A first step of its own: the run is then the same whatever its duration.
+    more = {"first_step": min(1e-12, t[-1]), "dense_output": True, "rtol": 1e-11, "atol": 1e-13}
+    run = solve_ivp(counted, (0.0, t[-1]), begin, "LSODA", events=event, **more)
+    outcome = (rows.TIMED_OUT, rows.ARRIVED, rows.DIVERGED)[run.status]
+    end = run.t[-1]
+    return _summed_up(np.append(t[t < end], end), run.t, run.sol, outcome, recorded)
 
 
-def _add_commands(record, goal_twist, tuning, law, wheels) -> None:
+def _summed_up(t, steps, state_at, outcome, recorded):
+    """(t, record, outcome, peak omega, path length), as far as the run's numbers are finite.
+
+    The last of the states is the metres rolled; the steps are those of the integrator.
+    """
+    states = state_at(t)
+    record = recorded(t, states)
+    finite = np.isfinite(record[rows.RHO : rows.LYAPUNOV]).all(axis=0)
+    known = int(np.logical_and.accumulate(finite).sum())
+    if known < t.size:
+        t, record, outcome = t[:known], record[:, :known], rows.DIVERGED
+    if not known:
+        return t, record, outcome, 0.0, 0.0
+    moments = np.union1d(t, steps[steps <= t[-1]])
+    places = np.arange(8 * moments.size - 7) / 8.0
+    times, peak = np.interp(places, np.arange(moments.size), moments), 0.0
+    for _ in range(8):  # ever closer around the peak
+        turning = np.abs(recorded(times, state_at(times))[rows.OMEGA])
+        k, peak = int(turning.argmax()), max(peak, turning.max())
+        times = np.linspace(times[max(k - 1, 0)], times[min(k + 1, times.size - 1)], 17)
+    return t, record, outcome, peak, states[-1, known - 1]
+
+
+@compiled
+def _add_commands(record, goal_twist, tuning, law, wheels):
     """Fill in what the law commands at each recorded state, and V."""
     for k in range(record.shape[1]):
-        rho, alpha, theta = record[rows.RHO : rows.V, k]
-        v, omega = command(rho, alpha, theta, *goal_twist[:, k], tuning, law)
+        polar = record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k]
+        v, omega = command(*polar, goal_twist[0, k], goal_twist[1, k], tuning, law)
         share = saturation_scale(v, omega, wheels)
         record[rows.V, k], record[rows.OMEGA, k] = share * v, share * omega
-        record[rows.LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)
+        record[rows.LYAPUNOV, k] = lyapunov_value_of(*polar, tuning, law)

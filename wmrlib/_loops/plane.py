@@ -37,7 +37,8 @@ def drive(start, reference, tuning, law, wheels, step, dt, arrival_radius):
 
     Stops on arrival; a negative radius never arrives, so a reference is followed to its end.
     """
-    pose, record = start, np.empty((rows.LYAPUNOV + 1, reference.shape[1]))
+    pose = start[0], start[1], wrap(start[2])
+    record = np.empty((rows.LYAPUNOV + 1, reference.shape[1]))
     for k in range(reference.shape[1]):
         goal = reference[rows.X, k], reference[rows.Y, k], reference[rows.HEADING, k]
         goal_twist = reference[rows.GOAL_V, k], reference[rows.GOAL_OMEGA, k]
@@ -59,10 +60,10 @@ def survey(runs, law, wheels, step, dt, samples, arrival_radius):
     """Sum up many runs to goals that stand still, without recording them."""
     summary = np.empty((rows.DISTANCE + 1, runs.shape[1]))
     for i in range(runs.shape[1]):
-        pose, goal, gains = rows.run_of(runs, i)
-        tuning = pose_tuning(*gains)
+        start, goal, gains = rows.run_of(runs, i)
+        pose, tuning = (start[0], start[1], wrap(start[2])), pose_tuning(*gains)
         outcome, last, peak, length = rows.TIMED_OUT, 0, 0.0, 0.0
-        rho, alpha, theta = 0.0, 0.0, 0.0
+        rho, alpha, theta = polar_from_pose(*pose, *goal)
         for k in range(samples):
             seen = observe(pose, goal, (0.0, 0.0), tuning, law, wheels)
             broken = not math.isfinite(seen[0] + seen[3] + seen[4])

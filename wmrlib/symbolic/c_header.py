@@ -10,20 +10,16 @@ from sympy.printing.c import C99CodePrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from wmrlib.geodesy import EARTH_RADIUS_M
-from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, GEODESY, Formula
+from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, Formula
 
 C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
 _FRAME = C_HEADER.with_name("frame.h")
-_FUNCTIONS = ("sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "expm1", "log")
-_OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap")} | {"Abs": "WMR_F(fabs)"}
+_FUNCTIONS = ("sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "fmod")
+_OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap", "turned_back", "expm1")}
 
 
 class _Printer(C99CodePrinter):
     """Numbers in WMR_C(...) and functions in WMR_F(...), which the header has for both types."""
-
-    def __init__(self):
-        library = {name: f"WMR_F({name})" for name in _FUNCTIONS}
-        super().__init__({"user_functions": library | _OURS})
 
     def _print_Float(self, expr):  # noqa: N802 (sympy's name)
         return f"WMR_C({float(expr)!r})"
@@ -36,57 +32,52 @@ class _Printer(C99CodePrinter):
     _print_sinc = C99CodePrinter._print_Function  # where sympy prints cases
 
     def _print_Pow(self, expr):  # noqa: N802
-        base = self.parenthesize(expr.base, PRECEDENCE["Mul"])
-        if expr.exp == 2:
-            return f"({base}*{base})"
-        if expr.exp == sp.Rational(1, 2):
-            return f"WMR_F(sqrt)({self._print(expr.base)})"
-        if expr.exp == -1:
-            return f"WMR_C(1.0)/{base}"
-        return f"WMR_F(pow)({self._print(expr.base)}, {self._print(expr.exp)})"
+        factor, base = self.parenthesize(expr.base, PRECEDENCE["Mul"]), self._print(expr.base)
+        own = {2: f"({factor}*{factor})", sp.S.Half: f"WMR_F(sqrt)({base})", -1: f"1/{factor}"}
+        return own.get(expr.exp) or f"WMR_F(pow)({base}, {self._print(expr.exp)})"
 
     def line(self, expression: sp.Expr) -> str:
         text = re.sub(r"\s+", " ", self.doprint(expression))
         return re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", text)  # brackets of its own
 
 
-def c_function(name: str, formula: Formula, real: str = "WMR_REAL") -> str:
+_LIBRARY = {name: f"WMR_F({name})" for name in _FUNCTIONS} | {"Abs": "WMR_F(fabs)"}
+_PRINTER = _Printer({"user_functions": _LIBRARY | _OURS})
+
+
+def c_function(name: str, formula: Formula) -> str:
     """One formula as a static C function.
 
     Parameters
     ----------
-    name, formula : its name without the wmr_; of `C_FORMULAS`, `GEODESY` or `C_LAWS`
-    real : type of its numbers; with "double" it computes in double precision always
+    name, formula : its name without the wmr_; of `C_FORMULAS` or `C_LAWS`
 
     Returns
     -------
     str
     """
-    printer, arguments = _Printer(), [f"{real} {each}" for each in formula.arguments]
-    lines = [f"const {real} {each} = {printer.line(value)};" for each, value in formula.locals_]
-    values, kind = [printer.line(value) for value in formula.values], real
+    arguments, kind = [f"WMR_REAL {each}" for each in formula.arguments], "WMR_REAL"
+    lines = [f"const WMR_REAL {each} = {_PRINTER.line(value)};" for each, value in formula.locals_]
+    values = [_PRINTER.line(value) for value in formula.values]
     if formula.gains:
         used = sp.Tuple(*formula.expanded()).free_symbols
         state = [f"{each} = error.{each}" for each in formula.arguments if each in used]
         gains = [f"{each} = gains.{each}" for each in formula.gains]
-        lines = [f"const {real} {', '.join(each)};" for each in (state, gains)] + lines
-        lines.append(f"const {real} omega = {values[1]};")
+        lines = [f"const WMR_REAL {', '.join(each)};" for each in (state, gains)] + lines
+        lines.append(f"const WMR_REAL omega = {values[1]};")
         arguments, kind = ["wmr_polar error", "wmr_gains gains"], "wmr_twist"
         values = [f"wmr_checked(error, gains, {values[0]}, omega)"]
     body = "".join(f"  {line}\n" for line in [*lines, f"return {values[0]};"])
     head = f"static inline {kind} wmr_{name}({', '.join(arguments)}) {{"
-    text = f"/* {formula.says} */\n{head}\n{body}}}\n"
-    return re.sub(r"WMR_[CF]\(([^()]+)\)", r"\1", text) if real == "double" else text
+    return f"/* {formula.says} */\n{head}\n{body}}}\n"
 
 
 def c_header() -> str:
     """The text of ``wmr_law.h``: ``frame.h`` with the printed functions in their places."""
     text = _FRAME.read_text(encoding="utf-8").partition("*/\n")[2]  # what frame.h says of itself
     places = {"@EARTH_RADIUS_M@": repr(EARTH_RADIUS_M)}
-    tables = (("FORMULAS", C_FORMULAS), ("LAWS", C_LAWS), ("GEODESY", GEODESY))
-    for place, table in tables:
-        real = "double" if table is GEODESY else "WMR_REAL"
-        printed = "\n".join(c_function(name, formula, real) for name, formula in table.items())
+    for place, table in (("FORMULAS", C_FORMULAS), ("LAWS", C_LAWS)):
+        printed = "\n".join(c_function(name, formula) for name, formula in table.items())
         places[f"/* @{place}@ */\n"] = printed
     for place, printed in places.items():
         assert text.count(place) == 1, place

@@ -68,10 +68,13 @@ def _modes(name: str) -> Formula:
 
 _POSE, _GOAL = (s.x, s.y, s.heading), (s.goal_x, s.goal_y, s.goal_heading)
 _TWIST = s.v, s.omega, s.dt
+_WRAP = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
 _DECAY = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
 _GUARDS = {
     "sinc": Formula((s.angle,), (s.GUARDED_SINC,), "sin(angle)/angle, which is 1 at 0"),
     "decay": Formula((s.rho, s.k_rho), (s.GUARDED_DECAY,), _DECAY),
+    "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
+    "wrap": Formula((s.angle,), (s.GUARDED_WRAP,), _WRAP),
 }
 _GOAL_SEEN = read(motion.polar_from_pose, *_POSE, *_GOAL)
 FORMULAS = {
@@ -101,26 +104,21 @@ _TWIST_AND_WIDTH = s.v, s.omega, s.b
 _ENERGY = read(laws.lyapunov_value, *s.STATE, s.h, s.L)
 _FASTEST = read(laws.fastest_wheel, *_TWIST_AND_WIDTH)
 _SCALE = "the factor on the twist for a max_speed"
+_START, _END = (s.lat1,), (s.lat2, s.dlat, s.dlong)
+_LENGTH = read(geodesy.haversine_distance, _START, _END, s.R)
+_BEARING = read(geodesy.initial_bearing, _START, _END)
 C_FORMULAS = {
     **_GUARDS,
     "lyapunov_value": Formula((*s.STATE, s.h, s.L), _ENERGY, "V, (18)"),
-    "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
     "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
     "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
     "left_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[:1], "ground speed, from (1) and (2)"),
     "right_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[1:], "ground speed, from (1) and (2)"),
     "fastest_wheel": Formula(_TWIST_AND_WIDTH, _FASTEST, "speed of the faster wheel"),
     "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
-}
-"""What a robot needs around the law, each a function of numbers."""
-
-_START, _END = (s.lat1,), (s.lat2, s.dlat, s.dlong)
-_LENGTH = read(geodesy.haversine_distance, _START, _END, s.R)
-_BEARING = read(geodesy.initial_bearing, _START, _END)
-GEODESY = {
     "sphere_distance": _shared((*_START, *_END, s.R), _LENGTH, "(11) to (13)"),
     "bearing": _shared(_START + _END, _BEARING, "(15) to (17)"),
 }
-"""The functions of two GPS points, which need doubles."""
+"""What a robot needs around the law, each a function of numbers."""
 
-__all__ = ["C_FORMULAS", "C_LAWS", "FORMULAS", "GEODESY", "Formula"]
+__all__ = ["C_FORMULAS", "C_LAWS", "FORMULAS", "Formula"]

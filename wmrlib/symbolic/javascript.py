@@ -30,8 +30,9 @@ class _Printer(JavascriptCodePrinter):
         return re.sub(r"\s+", " ", self.doprint(expression))
 
 
-_OURS = {name: name for name in ("sinc", "decay", "wrap")}
-_PRINTER = _Printer({"user_functions": _OURS | {"expm1": "Math.expm1"}})
+_OURS = {name: name for name in ("sinc", "decay", "wrap")} | {"turned_back": "turnedBack"}
+_REST = [(lambda *_: True, lambda number, period: f"({number} % ({period}))")]
+_PRINTER = _Printer({"user_functions": _OURS | {"expm1": "Math.expm1", "fmod": _REST}})
 
 
 def javascript_name(name: str) -> str:

@@ -23,7 +23,9 @@ def _sincos(angle: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
 
 
 _LIBRARY = SimpleNamespace(
-    **(vars(sp) | {"arctan2": sp.atan2, "mod": lambda x, period: x, "where": lambda test, x, y: x})
+    **(vars(sp) | {"arctan2": sp.atan2, "hypot": lambda x, y: sp.sqrt(x**2 + y**2)}),
+    mod=lambda x, period: x,
+    where=lambda test, x, y: x,
 )
 _SYMBOLIC = {
     math: _LIBRARY,

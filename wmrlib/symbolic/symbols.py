@@ -64,6 +64,8 @@ GUARDED_DECAY = sp.Piecewise(_ELSEWHERE, (k_rho * (1 - k_rho * rho / 2), True))
 TURNED_BACK = sp.Piecewise(
     (angle - 2 * sp.pi, angle > sp.pi), (angle + 2 * sp.pi, angle <= -sp.pi), (angle, True)
 )
+_WITHIN, _TURN = sp.And(angle > -sp.pi, angle <= sp.pi), sp.Function("fmod")(angle, 2 * sp.pi)
+GUARDED_WRAP = sp.Piecewise((angle, _WITHIN), (sp.Function("turned_back")(_TURN), True))
 SATURATED = sp.Piecewise((max_speed / fastest, fastest > max_speed), (1, True))
 
 

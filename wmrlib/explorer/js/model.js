@@ -10,6 +10,16 @@ function decay(rho, k_rho) {
   return ((k_rho*Math.abs(rho) > 1e-08) ? ( -Math.expm1(-k_rho*rho)/rho ) : ( k_rho*(-1/2*k_rho*rho + 1) ));
 }
 
+// an angle within a turn of 0
+function turnedBack(angle) {
+  return ((angle > Math.PI) ? ( angle - 2*Math.PI ) : ((angle <= -Math.PI) ? ( angle + 2*Math.PI ) : ( angle )));
+}
+
+// the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn
+function wrap(angle) {
+  return ((angle <= Math.PI && angle > -Math.PI) ? ( angle ) : ( turnedBack((angle % (2*Math.PI))) ));
+}
+
 // (22), and the omega that the proof needs
 function correctedLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
   const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);

@@ -6,15 +6,6 @@ const RUN_COLUMNS = ['t', 'x', 'y', 'heading', 'rho', 'alpha', 'theta', 'v', 'om
 const CIRCLE_COLUMNS = ['goalX', 'goalY', 'goalHeading'];
 const POSITIVE = ['v_max', 'k_y']; // the gains that may not be 0
 const MOST_SAMPLES = 1000000;
-const FULL_TURN = 2 * Math.PI;
-
-// The same direction in (-pi, pi]; % on doubles is the exact fmod, as in wmrlib.
-function wrap(angle) {
-  if (-Math.PI < angle && angle <= Math.PI) return angle;
-  angle %= FULL_TURN;
-  if (angle > Math.PI) return angle - FULL_TURN;
-  return angle <= -Math.PI ? angle + FULL_TURN : angle;
-}
 
 // One run, sample by sample, into `columns`; gives [samples, outcome].
 function drive(setup, columns) {

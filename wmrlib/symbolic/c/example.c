@@ -27,15 +27,12 @@ int main(void) {
   const WMR_REAL track_width = WMR_C(0.5), max_speed = WMR_C(2.0);
   const WMR_REAL arrived = WMR_C(0.05), period = WMR_C(0.05);
   const int patience = 10; /* periods without a new pose, then stop */
-  double east, north;
   int count, silent = 0;
   wmr_pose goal = {0, 0, WMR_C(-1.0471975511965976)}, pose = {0, 0, WMR_C(1.2566370614359172)};
   wmr_polar error = {0, 0, 0};
   const wmr_wheels stopped = {0, 0, WMR_STOP};
 
-  wmr_local_position(33.273572, 44.373160, 33.274087, 44.373264, &east, &north); /* once */
-  goal.x = (WMR_REAL)east;
-  goal.y = (WMR_REAL)north;
+  wmr_local_position_e7(332735720, 443731600, 332740870, 443732640, &goal.x, &goal.y); /* once */
   robot = pose;
 
   for (count = 0; count < 2000; ++count) { /* each turn one period of the timer */

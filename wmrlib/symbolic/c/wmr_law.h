@@ -1,11 +1,13 @@
 /* wmr_law.h: from a pose to the speeds of two wheels.
    Printed by python -m wmrlib.symbolic from the formulas of wmrlib: change those.
 
-   C99 or C++11; needs nothing but <math.h>; no state, no memory, no loop. Metres, seconds, radians.
-   x is east, y is north, and headings and turns are counter-clockwise, a heading from east.
+   C99 or C++11; needs only <float.h>, <math.h> and <stdint.h>; no state, no memory, no loop.
+   Metres, seconds, radians. x is east, y is north, and headings and turns are counter-clockwise, a
+   heading from east.
 
-   #define WMR_REAL float before the #include for a processor without doubles; GPS degrees stay in
-   double (see wmr_local_position).
+   #define WMR_REAL float before the #include for a processor without doubles. GPS points come as
+   doubles (wmr_local_position) or as integers of 1e-7 degrees (wmr_local_position_e7), as receivers
+   send them; where a double has 4 bytes, as on AVR, only as integers.
 
    An argument that is NaN, infinite or out of range, or a result that is not finite, gives
    v = omega = 0 and status WMR_STOP; only a max_speed may be infinite. Compile without -ffast-math
@@ -15,7 +17,9 @@
 #ifndef WMR_LAW_H
 #define WMR_LAW_H
 
+#include <float.h>
 #include <math.h>
+#include <stdint.h>
 
 #if defined(__FAST_MATH__) || defined(_M_FP_FAST) || \
     (defined(__FINITE_MATH_ONLY__) && __FINITE_MATH_ONLY__)
@@ -48,6 +52,14 @@ typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
 
+/* exp(x) - 1 by Kahan's formula, since not every library has expm1: the rounding of u is in the
+   numerator and in the denominator. */
+static inline WMR_REAL wmr_expm1(WMR_REAL x) {
+  const WMR_REAL u = WMR_F(exp)(x), above_1 = u - WMR_C(1.0);
+  if (above_1 == WMR_C(0.0)) return x;
+  return above_1 == WMR_C(-1.0) ? above_1 : above_1 * x / WMR_F(log)(u);
+}
+
 /* sin(angle)/angle, which is 1 at 0 */
 static inline WMR_REAL wmr_sinc(WMR_REAL angle) {
   return ((WMR_F(fabs)(angle) > WMR_C(1e-08)) ? ( WMR_F(sin)(angle)/angle ) : ( WMR_C(1.0) ));
@@ -55,17 +67,22 @@ static inline WMR_REAL wmr_sinc(WMR_REAL angle) {
 
 /* (1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0 */
 static inline WMR_REAL wmr_decay(WMR_REAL rho, WMR_REAL k_rho) {
-  return ((k_rho*WMR_F(fabs)(rho) > WMR_C(1e-08)) ? ( -WMR_F(expm1)(-k_rho*rho)/rho ) : ( k_rho*(-WMR_C(0.5)*k_rho*rho + WMR_C(1.0)) ));
-}
-
-/* V, (18) */
-static inline WMR_REAL wmr_lyapunov_value(WMR_REAL rho, WMR_REAL alpha, WMR_REAL theta, WMR_REAL h, WMR_REAL L) {
-  return WMR_C(0.5)*(alpha*alpha) + WMR_C(0.5)*h*(theta*theta) + WMR_C(0.5)*(rho*rho)/L;
+  return ((k_rho*WMR_F(fabs)(rho) > WMR_C(1e-08)) ? ( -wmr_expm1(-k_rho*rho)/rho ) : ( k_rho*(-WMR_C(0.5)*k_rho*rho + WMR_C(1.0)) ));
 }
 
 /* an angle within a turn of 0 */
 static inline WMR_REAL wmr_turned_back(WMR_REAL angle) {
   return ((angle > WMR_C(3.14159265358979323846)) ? ( angle - WMR_C(2.0)*WMR_C(3.14159265358979323846) ) : ((angle <= -WMR_C(3.14159265358979323846)) ? ( angle + WMR_C(2.0)*WMR_C(3.14159265358979323846) ) : ( angle )));
+}
+
+/* the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn */
+static inline WMR_REAL wmr_wrap(WMR_REAL angle) {
+  return ((angle <= WMR_C(3.14159265358979323846) && angle > -WMR_C(3.14159265358979323846)) ? ( angle ) : ( wmr_turned_back(WMR_F(fmod)(angle, WMR_C(2.0)*WMR_C(3.14159265358979323846))) ));
+}
+
+/* V, (18) */
+static inline WMR_REAL wmr_lyapunov_value(WMR_REAL rho, WMR_REAL alpha, WMR_REAL theta, WMR_REAL h, WMR_REAL L) {
+  return WMR_C(0.5)*(alpha*alpha) + WMR_C(0.5)*h*(theta*theta) + WMR_C(0.5)*(rho*rho)/L;
 }
 
 /* rho */
@@ -98,16 +115,23 @@ static inline WMR_REAL wmr_saturation_scale(WMR_REAL max_speed, WMR_REAL fastest
   return ((fastest > max_speed) ? ( max_speed/fastest ) : ( WMR_C(1.0) ));
 }
 
+/* (11) to (13) */
+static inline WMR_REAL wmr_sphere_distance(WMR_REAL lat1, WMR_REAL lat2, WMR_REAL Delta_lat, WMR_REAL Delta_long, WMR_REAL R) {
+  const WMR_REAL part0 = WMR_C(0.5)*Delta_long;
+  const WMR_REAL part1 = WMR_F(cos)(lat1)*WMR_F(cos)(lat2);
+  return WMR_C(2.0)*R*WMR_F(atan2)(WMR_F(sqrt)(part1*(WMR_F(sin)(part0)*WMR_F(sin)(part0)) + (WMR_F(sin)(WMR_C(0.5)*Delta_lat)*WMR_F(sin)(WMR_C(0.5)*Delta_lat))), WMR_F(sqrt)(part1*(WMR_F(cos)(part0)*WMR_F(cos)(part0)) + (WMR_F(sin)(WMR_C(0.5)*lat1 + WMR_C(0.5)*lat2)*WMR_F(sin)(WMR_C(0.5)*lat1 + WMR_C(0.5)*lat2))));
+}
+
+/* (15) to (17) */
+static inline WMR_REAL wmr_bearing(WMR_REAL lat1, WMR_REAL lat2, WMR_REAL Delta_lat, WMR_REAL Delta_long) {
+  const WMR_REAL part0 = WMR_F(cos)(lat2);
+  return WMR_F(atan2)(part0*WMR_F(sin)(Delta_long), WMR_C(2.0)*part0*(WMR_F(sin)(WMR_C(0.5)*Delta_long)*WMR_F(sin)(WMR_C(0.5)*Delta_long))*WMR_F(sin)(lat1) + WMR_F(sin)(Delta_lat));
+}
+
 static inline int wmr_is_finite(WMR_REAL number) { return number - number == WMR_C(0.0); }
 
 static inline int wmr_is_size(WMR_REAL number) {
   return number >= WMR_C(0.0) && wmr_is_finite(number);
-}
-
-/* The same direction in (-pi, pi]. In float it loses 2e-7 rad with each whole turn: keep headings
-   within one. */
-static inline WMR_REAL wmr_wrap(WMR_REAL angle) {
-  return wmr_turned_back(WMR_F(fmod)(angle, WMR_C(6.28318530717958647692)));
 }
 
 /* The goal as seen from the robot: rho, and the line of sight from the robot's heading, alpha, and
@@ -176,38 +200,56 @@ static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_widt
   return allowed && wmr_is_finite(wheels.left) && wmr_is_finite(wheels.right) ? wheels : stop;
 }
 
-/* GPS, always in double: a float holds a latitude of 44 degrees to 4e-6 degrees, which is 0.4 m. */
-
-/* (11) to (13) */
-static inline double wmr_sphere_distance(double lat1, double lat2, double Delta_lat, double Delta_long, double R) {
-  const double part0 = 0.5*Delta_long;
-  const double part1 = cos(lat1)*cos(lat2);
-  return 2.0*R*atan2(sqrt(part1*(sin(part0)*sin(part0)) + (sin(0.5*Delta_lat)*sin(0.5*Delta_lat))), sqrt(part1*(cos(part0)*cos(part0)) + (sin(0.5*lat1 + 0.5*lat2)*sin(0.5*lat1 + 0.5*lat2))));
+/* A point in metres east and north of an origin on a sphere, by their latitudes and the differences
+   of latitude and of longitude, all in degrees. */
+static inline void wmr_offset(WMR_REAL lat_0, WMR_REAL lat, WMR_REAL dlat, WMR_REAL dlon,
+                              WMR_REAL *east, WMR_REAL *north) {
+  const WMR_REAL degree = WMR_C(0.01745329251994329577);
+  const WMR_REAL lat1 = lat_0 * degree, lat2 = lat * degree, dlong = dlon * degree;
+  const WMR_REAL bearing = wmr_bearing(lat1, lat2, dlat * degree, dlong);
+  const WMR_REAL rho =
+      wmr_sphere_distance(lat1, lat2, dlat * degree, dlong, WMR_C(6371000.0));
+  *east = rho * WMR_F(sin)(bearing);
+  *north = rho * WMR_F(cos)(bearing);
 }
 
-/* (15) to (17) */
-static inline double wmr_bearing(double lat1, double lat2, double Delta_lat, double Delta_long) {
-  const double part0 = cos(lat2);
-  return atan2(part0*sin(Delta_long), 2.0*part0*(sin(0.5*Delta_long)*sin(0.5*Delta_long))*sin(lat1) + sin(Delta_lat));
+/* A point in metres east and north of an origin, for example of the start; both in 1e-7 degrees
+   (11 mm). The integers are subtracted exactly, and then floats will do: a float alone holds a
+   latitude of 44 degrees to 4e-6 degrees, which is 0.4 m. Both are NaN, which stops the law, if a
+   point is not on the Earth: no fix yet, or latitude and longitude mixed up. */
+static inline void wmr_local_position_e7(int32_t lat_0, int32_t lon_0, int32_t lat, int32_t lon,
+                                         WMR_REAL *east, WMR_REAL *north) {
+  const int32_t pole = 900000000, date_line = 1800000000;
+  const int known = -pole <= lat_0 && lat_0 <= pole && -pole <= lat && lat <= pole &&
+                    -date_line <= lon_0 && lon_0 <= date_line && -date_line <= lon &&
+                    lon <= date_line;
+  const int64_t eastward = (int64_t)lon - lon_0, turn = 2 * (int64_t)date_line;
+  const int64_t dlon = eastward > date_line    ? eastward - turn
+                       : eastward < -date_line ? eastward + turn
+                                               : eastward;
+  const WMR_REAL unit = WMR_C(1e-7);
+  wmr_offset((WMR_REAL)lat_0 * unit, (WMR_REAL)lat * unit,
+             known ? (WMR_REAL)(lat - lat_0) * unit : (WMR_REAL)NAN, (WMR_REAL)dlon * unit, east,
+             north);
 }
 
+#if DBL_MANT_DIG < 53
+#define wmr_local_position(lat_0, lon_0, lat, lon, east, north) \
+  a_double_has_4_bytes_here_call_wmr_local_position_e7
+#else
 static inline int wmr_on_earth(double lat, double lon) {
   return fabs(lat) <= 90.0 && fabs(lon) <= 180.0;
 }
 
-/* A point in metres east and north of an origin; both in degrees, on a sphere. From here on floats
-   will do. Both are NaN, which stops the law, if a point is not on the Earth: no fix yet, or
-   latitude and longitude mixed up. */
+/* The same for degrees. */
 static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon,
-                                      double *east, double *north) {
-  const double degree = 3.14159265358979323846 / 180.0;
-  const double lat1 = lat_0 * degree, lat2 = lat * degree;
-  const double dlat = (lat - lat_0) * degree, dlong = (lon - lon_0) * degree;
+                                      WMR_REAL *east, WMR_REAL *north) {
   const int known = wmr_on_earth(lat_0, lon_0) && wmr_on_earth(lat, lon);
-  const double rho = wmr_sphere_distance(lat1, lat2, dlat, dlong, 6371000.0);
-  const double bearing = wmr_bearing(lat1, lat2, dlat, dlong);
-  *east = known ? rho * sin(bearing) : (double)NAN;
-  *north = known ? rho * cos(bearing) : (double)NAN;
+  const double eastward = lon - lon_0;
+  const double dlon = fabs(eastward) > 180.0 ? eastward - copysign(360.0, eastward) : eastward;
+  wmr_offset((WMR_REAL)lat_0, (WMR_REAL)lat, known ? (WMR_REAL)(lat - lat_0) : (WMR_REAL)NAN,
+             (WMR_REAL)dlon, east, north);
 }
+#endif
 
 #endif

@@ -1,0 +1,240 @@
+"""Odd arguments, thrown at every public function: only a ValueError that names the argument."""
+
+import inspect
+import warnings
+from datetime import date
+from decimal import Decimal
+from fractions import Fraction
+from types import FunctionType
+
+import numpy as np
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+from wmrbook.conventions import CONVENTIONS, gains_near_goal, translate
+from wmrbook.pareto import pareto
+
+PAPER = wmr.paper.outdoor()
+POINT, OTHER = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
+GAINS, ORIGIN, LIMITS = wmr.GENTLE_GAINS, wmr.Pose(0.0, 0.0, 0.0), wmr.WheelLimits(0.5, 2.0)
+GOAL = wmr.Pose(1.0, 1.0, 0.0)
+RUN = wmr.simulate(ORIGIN, GOAL, GAINS)
+POLAR = {"rho": 1.0, "alpha": 0.5, "theta": 0.2}
+DRIVE = {"method": "arc", "dt": 0.1, "duration": 1.0, "arrival_radius": 0.05, "wheels": LIMITS}
+WAY = wmr.Pose([0.0, 1.0], [0.0, 1.0], 0.0)
+VALID = {
+    wmr.Pose: {"x": 0.0, "y": 0.0, "heading": 0.0},
+    wmr.Gains: {"k_rho": 1.0, "k_alpha": 1.0, "h": 1.0, "v_max": 1.0},
+    wmr.KanayamaGains: {"k_x": 1.0, "k_y": 1.0, "k_heading": 1.0},
+    wmr.LinearGains: {"matrix": np.ones((2, 3))},
+    wmr.GeoPoint: {"lat": 33.0, "lon": 44.0},
+    wmr.wheels_to_twist: {"left": 1.0, "right": 1.0, "track_width": 0.5},
+    wmr.twist_to_wheels: {"v": 1.0, "omega": 1.0, "track_width": 0.5},
+    wmr.wrap_angle: {"angle": 1.0},
+    wmr.pose_rate: {"heading": 1.0, "v": 1.0, "omega": 1.0},
+    wmr.advance: {"pose": ORIGIN, "v": 1.0, "omega": 1.0, "dt": 0.1, "method": "arc"},
+    wmr.polar_error: {"pose": ORIGIN, "goal": GOAL},
+    wmr.pose_from_polar: {"polar": wmr.PolarError(1.0, 0.5, 0.2), "goal": GOAL},
+    wmr.polar_rate: {"rho": 1.0, "alpha": 0.5, "v": 1.0, "omega": 1.0},
+    wmr.control_law: POLAR | {"gains": GAINS, "law": "corrected"},
+    wmr.tracking_law: POLAR | {"v_ref": 1.0, "omega_ref": 0.1, "gains": GAINS, "law": "corrected"},
+    wmr.lyapunov: POLAR | {"h": 1.0, "L": 1.0},
+    wmr.lyapunov_rate: POLAR | {"gains": GAINS, "law": "corrected", "L": 1.0},
+    wmr.limit_wheels: {"v": 1.0, "omega": 1.0, "limits": LIMITS},
+    wmr.haversine_distance: {"a": POINT, "b": OTHER, "radius": 1.0},
+    wmr.initial_bearing: {"a": POINT, "b": OTHER},
+    wmr.destination_point: {"a": POINT, "distance": 1.0, "bearing": 1.0, "radius": 10.0},
+    wmr.local_position: {"origin": POINT, "point": OTHER, "radius": 10.0},
+    wmr.point_at: {"origin": POINT, "east": 1.0, "north": 1.0, "radius": 10.0},
+    wmr.simulate: {"start": ORIGIN, "goal": GOAL, "gains": GAINS, "law": "corrected"}
+    | DRIVE
+    | {"wheel_lag": 0.0},
+    wmr.track: {"reference": wmr.paper.circle, "start": ORIGIN, "gains": GAINS, "law": "corrected"}
+    | {"method": "arc", "dt": 0.1, "duration": 1.0, "wheels": LIMITS},
+    wmr.sweep: {"starts": ORIGIN, "goals": GOAL, "gains": GAINS, "law": "corrected"}
+    | DRIVE
+    | {"executor": None},
+    wmr.arrival: {"trajectory": RUN},
+    wmr.path_length: {"trajectory": RUN},
+    wmr.residual: {"trajectory": RUN, "last": 1.0},
+    wmr.headings_along: {"x": [0.0, 1.0], "y": [0.0, 1.0]},
+    wmr.route_poses: {
+        "points": wmr.GeoPoint(lat=[33.0, 33.1], lon=[44.0, 44.1]),
+        "headings": [0.0, 1.0],
+        "origin": POINT,
+    },
+    wmr.route_points: {"route": wmr.drive_route(WAY, GAINS), "origin": POINT},
+    wmr.drive_route: {"poses": WAY, "gains": GAINS, "start": ORIGIN, "stop": True}
+    | {"duration": 1.0, "arrival_radius": 0.1, "pass_radius": 1.0},
+    wmr.modes: {"gains": GAINS, "law": "corrected"},
+    wmr.paper.outdoor: {"x_axis": "east"},
+    wmr.paper.circle: {"t": 1.0},
+    translate: {"polar": (1.0, 0.5, 0.2), "source": "aicardi", "target": "corke"},
+    gains_near_goal: {"gains": GAINS, "convention": "corke"},
+}
+# Tested where their files are.
+ELSEWHERE = {"read_track", "stationary_scatter", "write_geojson", "write_gpx"}
+ELSEWHERE |= {"gain_map", "gains_for", "longest_step"}
+NAMED = {  # what a text may call an argument that consists of others
+    "matrix": ("matrix",),
+    "polar": ("polar", "third angle", "rho", "alpha"),
+    "points": ("points",),
+}
+
+
+class Unreadable:
+    """Refuses to be an array, and to be shown."""
+
+    def __array__(self, *_, **__):
+        raise TypeError("not an array")
+
+    def __repr__(self):
+        raise RuntimeError("not a text")
+
+
+LOOP = []
+LOOP.append(LOOP)
+ODD = [
+    *(
+        "",
+        "north",
+        b"1",
+        "3",
+        1j,
+        np.datetime64("2026-01-01"),
+        date(2026, 1, 1),
+        ...,
+        NotImplemented,
+    ),
+    *({}, {1: 2}, {"x": 1.0}, set(), frozenset({1}), object(), Unreadable(), int, np.sin, LOOP),
+    *(10**400, -(10**400), 10**5000, [1, 10**400], [1.0, 10**400], float("nan"), float("inf")),
+    *(
+        [[1.0], [1.0, 2.0]],
+        [None],
+        [[]],
+        [object()],
+        ["a", 1.0],
+        np.array([None, 1.0], dtype=object),
+    ),
+    *(np.ma.masked, np.ma.array([1.0], mask=[True]), [np.ma.array([1.0, 2.0], mask=[True, False])]),
+    *(
+        np.zeros(3, dtype="V8"),
+        np.array(["a"]),
+        np.zeros((2, 0), dtype=complex),
+        range(0),
+        iter([]),
+    ),
+    *(wmr.PolarError("a", None, 1.0), wmr.PolarError(10**400, 0, 0), wmr.WheelLimits(None, "fast")),
+    *(wmr.WheelLimits([1.0, [2.0]], 1.0), wmr.WheelLimits(1.0, 10**400), (1.0,), (1.0, "a", 2.0)),
+    *(Decimal(1), Fraction(1, 3), np.array([1 + 1j]), memoryview(b"12"), [True, 1.0], -1.0),
+]
+
+
+def said(function, *arguments, **named):
+    """The text of the ValueError that comes, or nothing; no other error may come."""
+    try:
+        with warnings.catch_warnings():
+            warnings.simplefilter("error", UserWarning)
+            warnings.simplefilter("error", DeprecationWarning)
+            with np.errstate(all="ignore"):
+                function(*arguments, **named)
+    except ValueError as error:
+        return str(error)
+    return ""
+
+
+def refused(function, arguments, name):
+    """Whether a ValueError comes, whose text names the argument."""
+    text = said(function, **arguments)
+    assert not text or any(each in text for each in (name, *NAMED.get(name, ()))), (name, text)
+    return bool(text)
+
+
+def test_every_public_function_is_among_them():
+    public = [getattr(wmr, name) for name in wmr.__all__ if name not in ELSEWHERE]
+    public += [getattr(wmr.paper, name) for name in ("outdoor", "circle")]
+    functions = {each for each in public if inspect.isfunction(each)}
+    assert functions <= set(VALID)
+    for function, arguments in VALID.items():
+        function(**arguments)
+        if isinstance(function, FunctionType):
+            parameters = inspect.signature(function).parameters
+            flags = {"options", "trajectories", "progress"}
+            assert set(arguments) == set(parameters) - flags, function
+
+
+@pytest.mark.parametrize("function", VALID, ids=lambda function: function.__name__)
+def test_odd_arguments_are_refused_by_name(function):
+    valid = VALID[function]
+    for name in valid:
+        for odd in ODD if name != "reference" else ODD[1:7]:  # a function's own errors are its own
+            refused(function, valid | {name: odd}, name)
+        no_numbers = (float("inf"), *([] if name == "headings" else [float("nan")]))
+        for odd in (object(), 10**5000, LOOP, Unreadable(), np.ma.masked, *no_numbers):
+            assert refused(function, valid | {name: odd}, name), (name, type(odd))
+
+
+anything = st.deferred(
+    lambda: (
+        st.none()
+        | st.booleans()
+        | st.integers()
+        | st.floats()
+        | st.complex_numbers()
+        | st.text(max_size=3)
+        | st.binary(max_size=3)
+        | st.sampled_from(range(len(ODD))).map(ODD.__getitem__)
+        | st.lists(anything, max_size=3)
+        | st.tuples(anything, anything, anything)
+        | st.dictionaries(st.text(max_size=2), anything, max_size=2)
+    )
+)
+
+
+@settings(max_examples=300)
+@given(st.sampled_from(list(VALID)), st.data())
+def test_whatever_is_passed_a_refusal_names_it(function, data):
+    valid = VALID[function]
+    name = data.draw(st.sampled_from(sorted(valid)))
+    refused(function, valid | {name: data.draw(anything)}, name)
+
+
+REFERENCES = [
+    lambda t: None,
+    lambda t: wmr.Reference(None, 0.0, 0.0, 0.0, 0.0),
+    lambda t: wmr.Reference(np.zeros(3), 0.0, 0.0, 0.0, 0.0),
+    lambda t: wmr.Reference(np.zeros((2, t.size)), 0.0, 0.0, 0.0, 0.0),
+    lambda t: wmr.Reference(10**400, 0.0, 0.0, 0.0, 0.0),
+    lambda t: wmr.Reference(np.ma.array(t, mask=t > 0.5), 0.0, 0.0, 0.0, 0.0),
+    lambda t: wmr.Reference("here", 0.0, 0.0, 0.0, 0.0),
+]
+
+
+@pytest.mark.parametrize("method", ["arc", "continuous"])
+@pytest.mark.parametrize("reference", REFERENCES)
+def test_what_a_reference_returns_is_named(reference, method):
+    with pytest.raises(ValueError, match=r"reference\(t\)"):
+        wmr.track(reference, ORIGIN, GAINS, method=method, duration=1.0)
+
+
+@given(st.lists(anything, max_size=3))
+def test_pareto_takes_numbers_of_one_shape(costs):
+    if text := said(pareto, *costs):
+        assert "costs" in text
+    else:
+        chosen = pareto(*costs)
+        assert chosen.dtype == bool
+        for each in costs:
+            assert np.asarray(each).dtype.kind in "iuf"
+            assert np.shape(each) == chosen.shape
+
+
+@given(anything, st.sampled_from(sorted(CONVENTIONS)))
+def test_translate_twice_is_where_it_began(polar, target):
+    if text := said(translate, polar, "aicardi", target):
+        assert any(word in text for word in NAMED["polar"])
+    else:
+        there = translate(polar, "aicardi", target)
+        np.testing.assert_array_equal(translate(there, target, "aicardi"), polar)
