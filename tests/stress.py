@@ -386,7 +386,8 @@ said = [*wmr.sweep(wmr.Pose([0.0, 1.0], 0.0, 0.0), goal, gains, progress=False)]
 for method in ("arc", "euler", "continuous"):
     said += wmr.arrival(wmr.simulate(start, goal, gains, method=method))
 said += [*wmr.modes(gains), *wmr.control_law(1.0, 2.0, 0.5, gains)]
-said += wmr.read_track(sys.argv[1]).points
+points = wmr.read_track(sys.argv[1]).points
+said += [points.lat, points.lon]
 import matplotlib
 matplotlib.use("agg")
 import wmrlib.plots, wmrlib.symbolic, wmrlib.explorer
