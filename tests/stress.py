@@ -391,7 +391,7 @@ said += [points.lat, points.lon]
 import matplotlib
 matplotlib.use("agg")
 import wmrlib.plots, wmrlib.symbolic, wmrlib.explorer
-print([np.round(np.asarray(each, dtype=float), 6).tolist() for each in said])
+print([np.round(np.asarray(each, dtype=complex), 6).tolist() for each in said])
 """
 FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))"
 NOBODY = "import os, pwd; del os.environ['HOME']; pwd.getpwuid = {}.__getitem__"
