@@ -49,10 +49,22 @@ PLANS = {
     "tuning": "jit tuning",
 }
 NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
-# The file, what its line or change reads, and why no test can tell the mutant.
+# The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
-    ("geodesy.py", "'+' -> '-' in lon2 = np.where", "half a turn more or less, in mod 360"),
-    ("geodesy.py", "'>=' -> '>' in lon2 = np.where", "mod gives -180 back as it is"),
+    ("_loops/polar.py", "inside[i] = -1", "any negative number says that a place is empty"),
+    ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
+    ("_vecmath.py", "in tiny = ", "both branches agree at the border"),
+    ("_vecmath.py", "> _HIGHEST else x", "both branches agree at the border"),
+    ("gains.py", "KanayamaGains(0.0, 1.0, 0.0)", "fills the place of gains that are not used"),
+    ("geodesy.py", "in lon2 = np.where", "half a turn more or less, in mod 360, which keeps -180"),
+    ("routes.py", "in _APART = ", "a tolerance"),
+    ("runs.py", "int(steps + 1e-9)", "a tolerance"),
+    ("runs.py", "if steps > MOST_SAMPLES", "one step in ten million"),
+    ("simulation.py", "np.zeros((5, samples))", "rows that are not used"),
+    ("sweeping.py", "_CHUNK", "how runs are cut into chunks does not show"),
+    ("sweeping.py", "cores = ", "how many threads there are does not show"),
+    ("sweeping.py", "in bar = tqdm", "how the bar looks"),
+    ("symbolic/formulas.py", "motion.polar_from_pose, 0, 0, 0", "what the result does not read"),
 ]
 
 OPERATORS = {
@@ -65,13 +77,26 @@ OPERATOR = re.compile(rb"(?:[\s)\\]|#.*\n)*(is not|not in|[a-z]+|[-+*/%&|<>=!@^]
 SWAPPED = {"sin": "cos", "cos": "sin", "max": "min", "min": "max", "radians": "degrees"}
 DROPPED = {"wrap", "wrap_angle", "abs", "max", "min", "maximum", "minimum", "clip", "sqrt"}
 NOT_COMPUTED = {"annotation", "returns", "decorator_list", "bases"}
-# In the copies hypothesis does not shrink what fails, and what is compiled is kept for the next
-# mutant if that leaves the kernels alone.
+# In the copies hypothesis does not shrink what fails, the tests that are soon done run first, and
+# what is compiled is kept for the next mutant if that leaves the kernels alone.
 CONFTEST = """
+import json
 from hypothesis import Phase
 settings.load_profile("repeatable")
 settings.register_profile("mutants", phases=(Phase.explicit, Phase.generate))
 settings.load_profile("mutants")
+_TOOK = Path(os.environ["MUTANTS_TOOK"])
+_took = json.loads(_TOOK.read_text()) if _TOOK.exists() else {}
+
+def pytest_collection_modifyitems(items):
+    items.sort(key=lambda item: _took.get(item.nodeid, 0.0))
+
+def pytest_runtest_logreport(report):
+    _took[report.nodeid] = max(report.duration, _took.get(report.nodeid, 0.0))
+
+def pytest_sessionfinish(exitstatus):
+    if exitstatus == 0:
+        _TOOK.write_text(json.dumps(_took))
 """
 COMPILE = """
 _CACHE_FOLDER = os.environ["MUTANTS_CACHE"]
@@ -149,7 +174,9 @@ def changes(source: bytes) -> Iterator[tuple[int, int, str]]:
 
 
 def computed(node: ast.AST) -> Iterator[ast.AST]:
-    """All nodes but annotations, bases, decorators and error texts."""
+    """All nodes but annotations, bases, decorators, error texts, and zip's check of lengths."""
+    if isinstance(node, ast.keyword) and node.arg == "strict":
+        return
     yield node
     for field, value in ast.iter_fields(node):
         for child in value if isinstance(value, list) else [value]:
@@ -192,16 +219,14 @@ class Copy:
         """The exit status of pytest on the tests of a plan."""
         how, *names = plan.split()
         command = [sys.executable, "-m", "pytest", "-xqo", "addopts=", "-p", "no:cacheprovider"]
-        command += [
-            "-W",
-            "ignore::RuntimeWarning",
-        ]  # numpy's, where compiled code overflows in silence
+        command += ["-W", "ignore::RuntimeWarning"]  # numpy's; compiled code overflows in silence
         command += [f"tests/test_{name}.py" for name in names]
         settings = os.environ | {
             "PYTHONPATH": os.pathsep.join([str(self.folder), str(self.folder / "book")]),
             "PYTHONDONTWRITEBYTECODE": "1",  # it would outlive a mutant of the same size
             "NUMBA_DISABLE_JIT": str(int(how == "plain")),
             "MUTANTS_CACHE": str(self.folder / cache),
+            "MUTANTS_TOOK": str(self.folder / f"{plan}.json"),
         }
         options = {"cwd": self.folder, "env": settings, "timeout": limit, "capture_output": True}
         return subprocess.run(command, **options).returncode

@@ -136,7 +136,7 @@ def tuned_elsewhere(gains: Any) -> Passed:
     far, sight = random.uniform(20.0, 60.0, 20), random.uniform(-math.pi, math.pi, 20)
     heading = random.uniform(-math.pi, math.pi, 20)
     starts = _mirrored(far * np.cos(sight), far * np.sin(sight), heading)
-    ends = sweep(starts, Pose(0.0, 0.0, 0.0), gains, dt=0.02, duration=60.0, progress=False)
+    ends = sweep(starts, Pose(0.0, 0.0, 0.0), gains, duration=60.0, progress=False)
     late = np.sum(~ends.arrived)
     expect(late == 0, f"of 40 other starts, {late} have not arrived after 60 s.")
     off = np.abs(np.degrees(ends.heading_error))
