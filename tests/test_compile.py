@@ -15,7 +15,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import _compile
+from wmrlib import _compile, motion
 from wmrlib._loops import blocks, plane
 
 PACKAGE = Path(wmr.__file__).parent
@@ -23,9 +23,9 @@ TERM = "alpha + gains.h * theta"  # of the laws
 FACTOR = 1.7
 RUN = """
 import wmrlib as w
-from wmrlib import control
+from wmrlib import _compile, control
 print(*w.control_law(3.0, 0.5, -1.0, w.Gains(1, 2, 0.5)))
-stats = getattr(control._pose_law_all, "stats", None)
+stats = getattr(_compile.loop_over(control._numbers_to_law), "stats", None)
 print(sum(stats.cache_misses.values()) if stats else None)
 """
 # Where nothing can be kept, as a child finds it before it imports wmrlib.
@@ -199,3 +199,11 @@ def test_one_entry_beside_a_number_and_read_only_arrays_bring_no_warning():
     assert wmr.polar_error(wmr.Pose(one, one, one), goal).rho.tolist() == [1.0]
     assert wmr.polar_error(wmr.Pose(fixed, 0.0, 0.0), goal).rho.tolist() == [1.0] * 3
     assert wmr.wrap_angle(np.zeros((2, 3)).T).shape == (3, 2)
+
+
+def test_the_loops_over_two_formulas_are_kept_in_two_files():
+    loops = [_compile.loop_over(step) for step in motion.STEPS.values()]
+    euler, arc = (
+        _compile._Cache(loop.py_func).files((), loop.targetctx.codegen()) for loop in loops
+    )
+    assert not set(euler) & set(arc)

@@ -50,8 +50,9 @@ class _Cache(NullCache):
 
     def files(self, signature, codegen) -> list[Path]:
         name = self.function.__name__
-        constants = [cell.cell_contents for cell in self.function.__closure__ or ()]
-        key = repr((self.function.__module__, constants, signature, codegen.magic_tuple()))
+        closed_over = [cell.cell_contents for cell in self.function.__closure__ or ()]
+        closed_over = [getattr(each, "__qualname__", each) for each in closed_over]
+        key = repr((self.function.__module__, closed_over, signature, codegen.magic_tuple()))
         return [folder / f"{name}-{sha256(key.encode()).hexdigest()[:16]}" for folder in _FOLDERS]
 
     def load_overload(self, signature, target_context):
@@ -93,7 +94,7 @@ def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:
 
     Divisions follow IEEE 754 as in numpy (no ZeroDivisionError); a product and a sum may be rounded
     once rather than twice. ``NUMBA_DISABLE_JIT=1`` leaves plain Python. If it is kept in the
-    `cache`, it may close over plain numbers only.
+    `cache`, it may close over plain numbers and compiled functions of a name of their own only.
     """
     made = numba.njit(error_model="numpy", nogil=True, fastmath={"contract"}, **options)(function)
     if cache and made is not function:
@@ -106,15 +107,26 @@ def formula(function: Callable, *, cache: bool = True) -> Callable:
     return compiled(function, cache=cache, forceinline=True)
 
 
-def elementwise(loop: Callable, outputs: int, *arguments, options: tuple = ()) -> tuple:
-    """Broadcast `arguments` and run `loop(*flat_inputs, *options, *flat_outputs)`.
+@lru_cache
+def loop_over(one: Callable) -> Callable:
+    """The loop that calls a compiled function for each row of its columns."""
+
+    def loop(results, options, *columns):
+        for i, row in enumerate(zip(*columns)):  # noqa: B905 (numba's has no `strict`)
+            results[i] = one(*row, *options)
+
+    return compiled(loop)
+
+
+def elementwise(one: Callable, outputs: int, *arguments, options: tuple = ()) -> tuple:
+    """Broadcast `arguments` and call `one(*numbers, *options)` for each entry.
 
     Numbers in give numbers out. A shape that does not broadcast raises numpy's ValueError.
     """
     arrays = np.broadcast_arrays(*arguments)
     shape = arrays[0].shape
     # Copied: a broadcast view or a read-only array is another type to numba, and brings a warning.
-    inputs = [np.array(array, dtype=np.float64, order="C").ravel() for array in arrays]
-    results = [np.empty(arrays[0].size) for _ in range(outputs)]
-    loop(*inputs, *options, *results)
-    return tuple(result.reshape(shape) if shape else float(result[0]) for result in results)
+    columns = [np.array(array, dtype=np.float64, order="C").ravel() for array in arrays]
+    results = np.empty((arrays[0].size, outputs))
+    loop_over(one)(results, options, *columns)
+    return tuple(each.reshape(shape) if shape else float(each[0]) for each in results.T.copy())

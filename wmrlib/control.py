@@ -6,9 +6,8 @@ The formulas stand in `wmrlib.laws`. Here they take arrays and say what is wrong
 from __future__ import annotations
 
 from wmrlib._checks import Real, choice, instance, reals
-from wmrlib._compile import compiled, elementwise
+from wmrlib._compile import elementwise, formula
 from wmrlib.gains import Gains, GainsFields, KanayamaGains, LinearGains, WheelLimits, checked_wheels
-from wmrlib.kinematics import _polar_closing_rate_all
 from wmrlib.laws import (
     POSE_LAWS,
     TRACKING_LAWS,
@@ -18,6 +17,7 @@ from wmrlib.laws import (
     saturation_scale,
     tuning_of,
 )
+from wmrlib.motion import polar_closing_rate
 
 
 def control_law(
@@ -43,7 +43,7 @@ def control_law(
     """
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned)
-    v_over_rho, omega = elementwise(_pose_law_all, 2, *state, options=(_code(law),))
+    v_over_rho, omega = elementwise(_numbers_to_law, 2, *state, options=(_code(law),))
     return v_over_rho * state[0], omega
 
 
@@ -77,7 +77,7 @@ def tracking_law(
     ValueError : for rho < 0, NaN, an unknown law, gains of another law or mismatched lengths.
     """
     state = _checked(rho=rho, alpha=alpha, theta=theta, v_ref=v_ref, omega_ref=omega_ref)
-    return elementwise(_command_all, 2, *state, options=tuning_of(gains, law, TRACKING_LAWS))
+    return elementwise(command, 2, *state, options=tuning_of(gains, law, TRACKING_LAWS))
 
 
 def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Real:
@@ -96,7 +96,7 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
     ValueError : for rho < 0, h < 0, L that is not positive, NaN or mismatched lengths.
     """
     state = _checked(rho=rho, alpha=alpha, theta=theta, h=h, L=L)
-    return elementwise(_lyapunov_all, 1, *state)[0]
+    return elementwise(lyapunov_value, 1, *state)[0]
 
 
 def lyapunov_rate(
@@ -122,8 +122,8 @@ def lyapunov_rate(
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned, L=L)
     rho, alpha, theta, *_, h, _, L = state
-    v_over_rho, omega = elementwise(_pose_law_all, 2, *state[:-1], options=(_code(law),))
-    rates = elementwise(_polar_closing_rate_all, 3, rho, alpha, v_over_rho, omega)
+    v_over_rho, omega = elementwise(_numbers_to_law, 2, *state[:-1], options=(_code(law),))
+    rates = elementwise(polar_closing_rate, 3, rho, alpha, v_over_rho, omega)
     return rho * rates[0] / L + (alpha * rates[1] + h * theta * rates[2])
 
 
@@ -144,7 +144,7 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
     """
     v, omega = reals(v=v, omega=omega)
     limits = checked_wheels(limits, "limits")
-    scale = elementwise(_saturation_scale_all, 1, v, omega, options=(limits,))[0]
+    scale = elementwise(saturation_scale, 1, v, omega, options=(limits,))[0]
     return v * scale, omega * scale
 
 
@@ -156,26 +156,6 @@ def _code(law: str) -> int:
     return POSE_LAWS[choice("law", law, POSE_LAWS)]
 
 
-@compiled
-def _pose_law_all(rho, alpha, theta, k_rho, k_alpha, h, v_max, law, v_over_rho, omega):
-    for i in range(rho.size):
-        gains = GainsFields(k_rho[i], k_alpha[i], h[i], v_max[i])
-        v_over_rho[i], omega[i] = pose_law(rho[i], alpha[i], theta[i], gains, law)
-
-
-@compiled
-def _command_all(rho, alpha, theta, v_ref, omega_ref, tuning, law, v, omega):
-    for i in range(rho.size):
-        v[i], omega[i] = command(rho[i], alpha[i], theta[i], v_ref[i], omega_ref[i], tuning, law)
-
-
-@compiled
-def _lyapunov_all(rho, alpha, theta, h, L, value):
-    for i in range(rho.size):
-        value[i] = lyapunov_value(rho[i], alpha[i], theta[i], h[i], L[i])
-
-
-@compiled
-def _saturation_scale_all(v, omega, limits, scale):
-    for i in range(v.size):
-        scale[i] = saturation_scale(v[i], omega[i], limits)
+@formula
+def _numbers_to_law(rho, alpha, theta, k_rho, k_alpha, h, v_max, law):
+    return pose_law(rho, alpha, theta, GainsFields(k_rho, k_alpha, h, v_max), law)

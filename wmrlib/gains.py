@@ -59,13 +59,7 @@ class KanayamaGains(NamedTuple):
     k_heading: Real
 
 
-class _LinearFields(NamedTuple):
-    v_x: float
-    v_y: float
-    v_heading: float
-    omega_x: float
-    omega_y: float
-    omega_heading: float
+_LinearFields = namedtuple("_LinearFields", "v_x v_y v_heading omega_x omega_y omega_heading")
 
 
 class LinearGains(_LinearFields):

@@ -107,11 +107,10 @@ def destination_point(
     """
     # https://www.movable-type.co.uk/scripts/latlong.html, with an atan2 in place of its asin
     instance("a", a, GeoPoint)
-    distance = real("distance", distance, low=0.0)
-    bearing = real("bearing", bearing)
+    named = {"lat": a.lat, "lon": a.lon, "distance": distance, "bearing": bearing}
+    lat1, lon1, distance, bearing = reals(at_least_0=("distance",), **named)
+    lat1, lon1 = np.radians(lat1), np.radians(lon1)
     delta = distance / real("radius", radius, above=0.0)
-    same_shape(lat=a.lat, lon=a.lon, distance=distance, bearing=bearing)
-    lat1, lon1 = np.radians(a.lat), np.radians(a.lon)
     north, east = np.sin(delta) * np.cos(bearing), np.sin(delta) * np.sin(bearing)
     # towards lon1 in the plane of the equator
     up = np.cos(lat1) * np.cos(delta) - np.sin(lat1) * north

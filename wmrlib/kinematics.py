@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib._checks import Real, checked, choice, instance, real, reals
-from wmrlib._compile import compiled, elementwise
-from wmrlib.motion import STEPS, arc_step, euler_step, polar_closing_rate, polar_from_pose, wrap
+from wmrlib._compile import elementwise
+from wmrlib.motion import STEPS, polar_closing_rate, polar_from_pose, wrap
 
 
 @checked()
@@ -99,7 +99,7 @@ def wrap_angle(angle: Real) -> Real:
     ------
     ValueError : if an angle is not finite.
     """
-    return elementwise(_wrap_all, 1, real("angle", angle))[0]
+    return elementwise(wrap, 1, real("angle", angle))[0]
 
 
 def pose_rate(heading: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
@@ -138,9 +138,9 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
     ValueError : for NaN, a negative dt, an unknown method or mismatched lengths.
     """
     instance("pose", pose, Pose)
-    exact = choice("method", method, STEPS) == "arc"
+    step = STEPS[choice("method", method, STEPS)]
     state = reals(at_least_0=("dt",), **pose._asdict(), v=v, omega=omega, dt=dt)
-    return Pose(*elementwise(_step_all, 3, *state, options=(exact,)))
+    return Pose(*elementwise(step, 3, *state))
 
 
 def polar_error(pose: Pose, goal: Pose) -> PolarError:
@@ -162,7 +162,7 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
     ValueError : for mismatched lengths.
     """
     fields = reals(**_fields(pose=pose, goal=goal))
-    return PolarError(*elementwise(_polar_from_pose_all, 3, *fields))
+    return PolarError(*elementwise(polar_from_pose, 3, *fields))
 
 
 def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
@@ -192,36 +192,9 @@ def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real
     ValueError : unless rho > 0 (the goal has no direction when on it), NaN, mismatched lengths.
     """
     rho, alpha, v, omega = reals(above_0=("rho",), rho=rho, alpha=alpha, v=v, omega=omega)
-    return elementwise(_polar_closing_rate_all, 3, rho, alpha, v / rho, omega)
+    return elementwise(polar_closing_rate, 3, rho, alpha, v / rho, omega)
 
 
 def _fields(**poses: Pose) -> dict[str, Real]:
     named = [(name, instance(name, pose, Pose)._asdict()) for name, pose in poses.items()]
     return {f"{name}.{field}": pose[field] for name, pose in named for field in pose}
-
-
-@compiled
-def _wrap_all(angle, wrapped):
-    for i in range(angle.size):
-        wrapped[i] = wrap(angle[i])
-
-
-@compiled
-def _polar_from_pose_all(x, y, heading, goal_x, goal_y, goal_heading, rho, alpha, theta):
-    for i in range(x.size):
-        goal = goal_x[i], goal_y[i], goal_heading[i]
-        rho[i], alpha[i], theta[i] = polar_from_pose(x[i], y[i], heading[i], *goal)
-
-
-@compiled
-def _polar_closing_rate_all(rho, alpha, v_over_rho, omega, d_rho, d_alpha, d_theta):
-    for i in range(rho.size):
-        rates = polar_closing_rate(rho[i], alpha[i], v_over_rho[i], omega[i])
-        d_rho[i], d_alpha[i], d_theta[i] = rates
-
-
-@compiled
-def _step_all(x, y, heading, v, omega, dt, exact, new_x, new_y, new_heading):
-    for i in range(x.size):
-        state = x[i], y[i], heading[i], v[i], omega[i], dt[i]
-        new_x[i], new_y[i], new_heading[i] = arc_step(*state) if exact else euler_step(*state)

@@ -130,16 +130,16 @@ POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name
 
 
 def _choose(functions: dict[int, Callable]) -> Callable:
-    """One compiled function of (law, *arguments) that calls the function of that law."""
+    """One compiled function of (*arguments, law) that calls the function of that law."""
     (code, chosen), *rest = functions.items()
     if not rest:
-        return formula(lambda law, *arguments: chosen(*arguments), cache=False)
+        return formula(lambda *arguments: chosen(*arguments[:-1]), cache=False)
     others = _choose(dict(rest))
 
-    def choose(law, *arguments):
-        if law == code:
-            return chosen(*arguments)
-        return others(law, *arguments)
+    def choose(*arguments):
+        if arguments[-1] == code:
+            return chosen(*arguments[:-1])
+        return others(*arguments)
 
     return formula(choose, cache=False)
 
@@ -168,27 +168,17 @@ def _valuing(row: Law) -> Callable:
     return formula(lambda r, a, t, tuning: value(r, a, t, tuning[place]), cache=False)
 
 
-_pose_law = _choose({code: LAWS[name].formula for name, code in POSE_LAWS.items()})
+pose_law = _choose({code: LAWS[name].formula for name, code in POSE_LAWS.items()})
+"""(v/rho, omega) of a pose law: a function of (rho, alpha, theta, gains, law)."""
 _command = _choose({code: _commanding(LAWS[name]) for name, code in TRACKING_LAWS.items()})
-_value = _choose({code: _valuing(LAWS[name]) for name, code in TRACKING_LAWS.items()})
-
-
-@formula
-def pose_law(rho, alpha, theta, gains, law):
-    """(v/rho, omega) of a pose law."""
-    return _pose_law(law, rho, alpha, theta, gains)
+lyapunov_value_of = _choose({code: _valuing(LAWS[name]) for name, code in TRACKING_LAWS.items()})
+"""Each law's own Lyapunov function with L = 1, of (rho, alpha, theta, tuning, law)."""
 
 
 @compiled
 def command(rho, alpha, theta, v_ref, omega_ref, tuning, law):
     """(v, omega) of any of the laws."""
-    return _command(law, rho, alpha, theta, v_ref, omega_ref, tuning)
-
-
-@compiled
-def lyapunov_value_of(rho, alpha, theta, tuning, law):
-    """Each law's own Lyapunov function, with L = 1."""
-    return _value(law, rho, alpha, theta, tuning)
+    return _command(rho, alpha, theta, v_ref, omega_ref, tuning, law)
 
 
 @compiled

@@ -231,9 +231,8 @@ def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
     kept = np.append(leg[1:] == leg[:-1], True)[: leg.size]
     begins = np.cumsum([0.0, *(each.t[-1] if len(each) else 0.0 for each in legs)])
     joined = {k: np.concatenate([getattr(each, k) for each in legs])[kept] for k in _JOINED}
-    joined["leg"] = leg[kept]
-    joined["t"] += begins[joined["leg"]]
-    return joined
+    joined["t"] += begins[leg[kept]]
+    return joined | {"leg": leg[kept]}
 
 
 def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:

@@ -8,8 +8,8 @@ import numpy as np
 
 from wmrlib._compile import compiled
 from wmrlib._loops import rows
-from wmrlib.kinematics import arc_step, euler_step, polar_from_pose, wrap
 from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
+from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
 
 EULER, ARC = range(2)
 

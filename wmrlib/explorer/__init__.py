@@ -119,14 +119,11 @@ class Explorer(widgets.VBox):
     start = _placed("start", "Where the robot starts; setting it moves its handle.")
     goal = _placed("goal", "The goal that stands still; setting it moves its handle.")
 
-    @property
-    def dt(self) -> float:
-        """The time step, s, at most the duration; setting it moves the slider."""
-        return self.sliders["dt"].value
-
-    @dt.setter
-    def dt(self, dt: float) -> None:
-        self._set({"dt": _step(dt, self.panel.duration)})
+    dt = property(
+        lambda self: self.sliders["dt"].value,
+        lambda self, dt: self._set({"dt": _step(dt, self.panel.duration)}),
+        doc="The time step, s, at most the duration; setting it moves the slider.",
+    )
 
     @property
     def moving(self) -> bool:
@@ -173,10 +170,9 @@ class Explorer(widgets.VBox):
 
 
 def _moves(reference) -> bool:
-    if reference is None:
-        return False
-    if reference is paper.circle or (isinstance(reference, str) and reference == "circle"):
-        return True
+    moving = reference is paper.circle or (isinstance(reference, str) and reference == "circle")
+    if moving or reference is None:
+        return moving
     raise refusal("reference", reference, "None, 'circle' or wmrlib.paper.circle")
 
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
 
@@ -71,21 +71,17 @@ def pose_at(path: Pose | Trajectory, k: int) -> Pose:
     return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
 
 
-def tenths(value: float) -> str:
-    return f"{near_zero(value):.1f}"
-
-
 def path_in_words(run: Trajectory) -> str:
     error = math.degrees(run.heading_error[-1])
     heading = math.degrees(wrap_angle(run.heading[0]))
     cusp = ""
     if k := int(np.argmax(run.v >= 0.0)):  # the first sample at which it does not back up
-        there = f"({tenths(run.x[k])}, {tenths(run.y[k])}) m"
+        there = f"({run.x[k]:z.1f}, {run.y[k]:z.1f}) m"
         cusp = (
             f", backs up for the first {run.t[k]:.1f} s as far as {there}, reverses there in a cusp"
         )
     return (
-        f"the robot starts at ({tenths(run.x[0])}, {tenths(run.y[0])}) m "
+        f"the robot starts at ({run.x[0]:z.1f}, {run.y[0]:z.1f}) m "
         f"heading {heading:.0f} deg{cusp} and is {run.rho[-1]:.2f} m from the goal "
         f"after {run.t[-1]:.1f} s, its heading {error:.0f} deg from the goal's"
     )

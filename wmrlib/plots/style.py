@@ -104,8 +104,3 @@ def equal_scales(axes: Axes, x: np.ndarray, y: np.ndarray, room: float = 0.08) -
     middle_x, middle_y = 0.5 * (x.min() + x.max()), 0.5 * (y.min() + y.max())
     xlim, ylim = (middle_x - half, middle_x + half), (middle_y - half, middle_y + half)
     axes.set(xlim=xlim, ylim=ylim, aspect="equal")
-
-
-def near_zero(value: float) -> float:
-    """Return 0 for what would be printed as "-0.0"."""
-    return value if abs(value) >= 0.05 else 0.0

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from typing import NamedTuple
 
 import sympy as sp
@@ -41,6 +41,10 @@ def _shared(arguments: tuple, values: tuple, says: str, gains: Iterable = ()) ->
     return Formula(arguments, tuple(values), says, used, tuple(locals_))
 
 
+def _read(function: Callable, arguments: tuple, says: str) -> Formula:
+    return _shared(arguments, read(function, *arguments), says)
+
+
 def _law(name: str) -> Formula:
     """(v, omega) of a law, with v/rho as a local, which is finite at the goal."""
     row, gains, (speed, turning) = laws.LAWS[name], vars(gains_of(name)).values(), steering(name)
@@ -76,18 +80,17 @@ _GUARDS = {
     "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
     "wrap": Formula((s.angle,), (s.GUARDED_WRAP,), _WRAP),
 }
-_GOAL_SEEN = read(motion.polar_from_pose, *_POSE, *_GOAL)
 FORMULAS = {
     **_GUARDS,
     **{row.formula.__name__: _law(name) for name, row in laws.LAWS.items()},
     **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
     **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
     **{
-        step.__name__: _shared(_POSE + _TWIST, read(step, *_POSE, *_TWIST), f"method {name}")
+        step.__name__: _read(step, _POSE + _TWIST, f"method {name}")
         for name, step in motion.STEPS.items()
     },
-    "polar_from_pose": _shared(_POSE + _GOAL, _GOAL_SEEN, "rho, alpha, theta"),
-    "circle": _shared((s.t,), read(paper.circle, s.t), "x, y, heading, v, omega of the goal"),
+    "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
+    "circle": _read(paper.circle, (s.t,), "x, y, heading, v, omega of the goal"),
 }
 """What is printed for the panel, by name."""
 
@@ -101,20 +104,18 @@ C_LAWS = {
 _DISTANCE, _SIGHT, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
 _WHEELS = read(kinematics.twist_to_wheels, s.v, s.omega, s.b)
 _TWIST_AND_WIDTH = s.v, s.omega, s.b
-_ENERGY = read(laws.lyapunov_value, *s.STATE, s.h, s.L)
-_FASTEST = read(laws.fastest_wheel, *_TWIST_AND_WIDTH)
 _SCALE = "the factor on the twist for a max_speed"
 _START, _END = (s.lat1,), (s.lat2, s.dlat, s.dlong)
 _LENGTH = read(geodesy.haversine_distance, _START, _END, s.R)
 _BEARING = read(geodesy.initial_bearing, _START, _END)
 C_FORMULAS = {
     **_GUARDS,
-    "lyapunov_value": Formula((*s.STATE, s.h, s.L), _ENERGY, "V, (18)"),
+    "lyapunov_value": _read(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
     "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
     "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
     "left_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[:1], "ground speed, from (1) and (2)"),
     "right_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[1:], "ground speed, from (1) and (2)"),
-    "fastest_wheel": Formula(_TWIST_AND_WIDTH, _FASTEST, "speed of the faster wheel"),
+    "fastest_wheel": _read(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
     "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
     "sphere_distance": _shared((*_START, *_END, s.R), _LENGTH, "(11) to (13)"),
     "bearing": _shared(_START + _END, _BEARING, "(15) to (17)"),

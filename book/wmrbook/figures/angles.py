@@ -14,7 +14,7 @@ from wmrbook.figures._drawing import check_count, note, panels, run_list
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.plots.runs import path, pose_at
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
 
@@ -100,10 +100,10 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
         dart(axes, pose_at(path, 0), size, "start", "start", zorder=4)
         dart(axes, end, size, role, zorder=3)
         handles.append(Line2D([], [], color=COLOURS[role], ls=style, label=label))
-        left = near_zero(math.degrees(wrap_angle(end.heading - goal.heading)))
+        left = math.degrees(wrap_angle(end.heading - goal.heading))
         distance = math.hypot(goal.x - end.x, goal.y - end.y)
         words.append(
-            f"{label}: ends {distance:.2f} m from the goal, its heading {left:.0f} deg off"
+            f"{label}: ends {distance:.2f} m from the goal, its heading {left:z.0f} deg off"
         )
     dart(axes, goal, 1.3 * size, "none", "goal", lw=2.0, zorder=5)
     above = {"loc": "upper center", "bbox_to_anchor": (0.5, 1.0 + 0.09 * len(handles))}
@@ -218,8 +218,8 @@ def _degrees(angle: float) -> str:
 
 
 def _span(angle: np.ndarray) -> str:
-    low, high = (near_zero(math.degrees(value)) for value in (angle.min(), angle.max()))
-    return f"between {low:.0f} and {high:.0f} deg"
+    low, high = math.degrees(angle.min()), math.degrees(angle.max())
+    return f"between {low:z.0f} and {high:z.0f} deg"
 
 
 def _along_the_line(run: Trajectory) -> np.ndarray:

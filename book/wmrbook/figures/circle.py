@@ -13,7 +13,7 @@ from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
 from wmrlib._checks import real
 from wmrlib.kinematics import Pose
 from wmrlib.plots.runs import pose_at
-from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
 _MARKERS = ("o", "s", "^", "D", "v")
@@ -119,9 +119,13 @@ def _plain_ticks(axes: Axes) -> None:
         axis.set_minor_locator(LogLocator(subs=()))
 
 
+def _near_zero(value: float) -> float:
+    return value if abs(value) >= 0.05 else 0.0
+
+
 def _course_of_goal(x: np.ndarray, y: np.ndarray) -> str:
     """Where the goal stands or goes; a circle is found by least squares."""
-    begin, end = (f"({near_zero(x[k]):.3g}, {near_zero(y[k]):.3g})" for k in (0, -1))
+    begin, end = (f"({_near_zero(x[k]):.3g}, {_near_zero(y[k]):.3g})" for k in (0, -1))
     far = max(np.ptp(x), np.ptp(y))
     if far < 1e-9:
         return f"A goal that stands still at {begin} m"
@@ -135,6 +139,6 @@ def _course_of_goal(x: np.ndarray, y: np.ndarray) -> str:
     left = (x[0] - a) * (y[1] - b) > (y[0] - b) * (x[1] - a)
     return (
         f"A grey reference circle of radius {radius:.3g} m "
-        f"about ({near_zero(a):.3g}, {near_zero(b):.3g}) m, "
+        f"about ({_near_zero(a):.3g}, {_near_zero(b):.3g}) m, "
         f"driven {driven} {'counter-clockwise' if left else 'clockwise'} from {begin} m"
     )

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from wmrlib.plots.runs import draw_path, path_in_words, pose_at, tenths
+from wmrlib.plots.runs import draw_path, path_in_words, pose_at
 from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
@@ -70,7 +70,7 @@ def position_errors(run: Trajectory) -> Picture:
     figure, axes = new_figure(7.0, 3.2)
     draw_series(axes, run, "error [m]", x_error="-", y_error="--")
     axes.set_xlabel("time [s]")
-    x, y = (f"{each[0]:.1f} m to {tenths(each[-1])} m" for each in (run.x_error, run.y_error))
+    x, y = (f"{each[0]:.1f} m to {each[-1]:z.1f} m" for each in (run.x_error, run.y_error))
     return Picture(figure, f"Over time: the x error goes from {x}, the y error from {y}.")
 
 
@@ -87,10 +87,10 @@ def _course_in_words(run: Trajectory, name: str, unit: str) -> str:
     values = getattr(run, name)
     high = np.abs(values) >= 0.95 * np.abs(values).max()
     first, last = np.flatnonzero(high)[[0, -1]]
-    text = f"{name} goes from {tenths(values[0])} to {tenths(values[-1])} {unit}"
+    text = f"{name} goes from {values[0]:z.1f} to {values[-1]:z.1f} {unit}"
     if not high[first : last + 1].all():
         return f"{text}, {range_in_words(values, unit)}"
-    peak = f"{tenths(values[np.abs(values).argmax()])} {unit}"
+    peak = f"{values[np.abs(values).argmax()]:z.1f} {unit}"
     spell = f"from {run.t[first]:.1f} to {run.t[last]:.1f} s"
     return f"{text}, within 5 % of its peak, {peak}, {spell}"
 
@@ -131,7 +131,7 @@ def _rising(run: Trajectory) -> np.ndarray:
 
 
 def range_in_words(values: np.ndarray, unit: str) -> str:
-    return f"between {tenths(values.min())} and {tenths(values.max())} {unit}"
+    return f"between {values.min():z.1f} and {values.max():z.1f} {unit}"
 
 
 def rises_in_words(run: Trajectory) -> str:

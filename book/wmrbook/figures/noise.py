@@ -13,7 +13,7 @@ from wmrbook.figures._drawing import check_count, legend_above, note
 from wmrlib._checks import instance, real, same_shape
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.plots.runs import pose_at
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, new_figure
 from wmrlib.tracks import StationaryScatter
 
 _MOST_DARTS = 150
@@ -213,4 +213,4 @@ def _fives(value: float) -> int:
 
 def _compass(east: float, north: float) -> str:
     along, across = ("west" if east < 0 else "east"), ("south" if north < 0 else "north")
-    return f"{abs(near_zero(east)):.1f} m {along} and {abs(near_zero(north)):.1f} m {across}"
+    return f"{abs(east):.1f} m {along} and {abs(north):.1f} m {across}"

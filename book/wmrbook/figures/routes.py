@@ -14,7 +14,7 @@ from wmrbook.challenge import Score, drive_cases
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
 from wmrlib._checks import instance, real
 from wmrlib.kinematics import Pose
-from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, near_zero, new_figure
+from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.routes import Route
 
 _STOP, _PASS, _TRACK = COLOURS["goal"], COLOURS["omega"], "#777777"
@@ -87,11 +87,11 @@ def route_signals(driven: Route) -> Picture:
     upper.legend(handles=[Line2D([], [], label="the goal changes", **dashed)], **above)
     figure.align_ylabels()
     jumps = sum(driven.legs[b].V[0] > driven.legs[a].V[-1] for a, b in pairwise(shown))
-    low, high = near_zero(driven.v.min()), near_zero(driven.v.max())
+    low, high = driven.v.min(), driven.v.max()
     return Picture(
         figure,
-        f"Over {driven.t[-1]:.1f} s and {len(driven.legs)} legs: v between {low:.1f} and "
-        f"{high:.1f} m/s; V from {driven.V[0]:.3g} to {driven.V[-1]:.3g} on a logarithmic scale, "
+        f"Over {driven.t[-1]:.1f} s and {len(driven.legs)} legs: v between {low:z.1f} and "
+        f"{high:z.1f} m/s; V from {driven.V[0]:.3g} to {driven.V[-1]:.3g} on a logarithmic scale, "
         f"jumping up at {jumps} of {len(changes)} changes of the goal.",
     )
 
@@ -160,9 +160,7 @@ def _marker(label: str, colour: str, marker: str, fill: str = "none") -> Line2D:
 
 def _in_words(driven: Route) -> str:
     count, passed, way = len(driven.stops), driven.stops.count(False), driven.waypoints
-    first, last = (
-        f"({near_zero(driven.x[k]):.1f}, {near_zero(driven.y[k]):.1f}) m" for k in (0, -1)
-    )
+    first, last = (f"({driven.x[k]:z.1f}, {driven.y[k]:z.1f}) m" for k in (0, -1))
     aside = [
         np.hypot(driven.x - way.x[k], driven.y - way.y[k]).min()
         for k in range(driven.reached)
