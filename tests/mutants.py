@@ -53,11 +53,14 @@ NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
 EQUIVALENT = [
     ("_loops/polar.py", "inside[i] = -1", "any negative number says that a place is empty"),
     ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
+    ("_vecmath.py", "'-' -> '+' in fine = ", "less than a rounding"),
     ("_vecmath.py", "in tiny = ", "both branches agree at the border"),
     ("_vecmath.py", "> _HIGHEST else x", "both branches agree at the border"),
     ("gains.py", "KanayamaGains(0.0, 1.0, 0.0)", "fills the place of gains that are not used"),
     ("geodesy.py", "in lon2 = np.where", "half a turn more or less, in mod 360, which keeps -180"),
     ("routes.py", "in _APART = ", "a tolerance"),
+    ("routes.py", "in new = np.append(True", "the first point is taken as new in the next line too"),
+    ("routes.py", "in begins = ", "no leg comes after one without a sample"),
     ("runs.py", "int(steps + 1e-9)", "a tolerance"),
     ("runs.py", "if steps > MOST_SAMPLES", "one step in ten million"),
     ("simulation.py", "np.zeros((5, samples))", "rows that are not used"),
@@ -99,8 +102,7 @@ def pytest_sessionfinish(exitstatus):
         _TOOK.write_text(json.dumps(_took))
 """
 COMPILE = """
-_CACHE_FOLDER = os.environ["MUTANTS_CACHE"]
-os.makedirs(_CACHE_FOLDER, exist_ok=True)
+_FOLDERS = [Path(os.environ["MUTANTS_CACHE"])]
 """
 
 
