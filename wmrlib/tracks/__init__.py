@@ -11,16 +11,13 @@ import numpy as np
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks import geojson, gpx, nmea, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
-from wmrlib.tracks.scatter import StationaryScatter, mean_position, stationary_scatter
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
 __all__ = [
     "Count",
     "Report",
-    "StationaryScatter",
     "Track",
     "read_track",
-    "stationary_scatter",
     "write_geojson",
     "write_gpx",
 ]
@@ -70,11 +67,6 @@ class Track:
         span = f"over {np.ptp(timed):.6g} s" if timed.size else "without times"
         left = sum(each.count for each in self.report.skipped.values())
         return f"<Track: {len(self)} positions from {self.source}, {span}; {left} not used>"
-
-    @property
-    def mean(self) -> GeoPoint:
-        """The point from which the positions average to (0, 0) east and north."""
-        return mean_position(self.points)
 
 
 def read_track(path: str | os.PathLike) -> Track:
