@@ -853,18 +853,16 @@ ODD += ['1,2,"3\n",N', '"1\r\n2",3,4,N', "1_0,2,3,N", "1,2,3,n", "+1,2,3,S", "1,
 ROWS = st.sampled_from(["1,2,0,N", "1.5,-2,0.5,S", "3,4,2026-03-01T12:00:00Z,N", *ODD])
 
 
-@given(st.lists(ROWS, min_size=1, max_size=12), st.integers(1, 12))
-def test_rows_read_together_are_read_as_one_by_one(tmp_path_factory, rows, at_once):
+@given(st.lists(ROWS, max_size=12))
+def test_every_row_is_kept_or_counted_with_its_line(tmp_path_factory, rows):
     path = tmp_path_factory.getbasetemp() / "rows.csv"
-    path.write_bytes("\n".join(["lat,lon,t,N/S", *rows, "5,6,7e9,N", ""]).encode())
-    tracks = []
-    for number in (1, at_once):
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr("wmrlib.tracks.tables._AT_ONCE", number)
-            if number == 1:
-                patch.setattr("wmrlib.tracks.tables._add_plain", lambda *_: False)
-            tracks.append(wmr.read_track(path))
-    assert tracks[0] == tracks[1]
+    lines = ["lat,lon,t,N/S", *rows, "5,6,7e9,N", ""]
+    path.write_bytes("\n".join(lines).encode())
+    report = wmr.read_track(path).report
+    found = sum(row not in ("", ",,,") for row in rows) + 1
+    assert report.used + sum(count for count, _ in report.skipped.values()) == found
+    begins = {1 + "\n".join(lines[:k]).count("\n") + (k > 0) for k in range(len(lines))}
+    assert {first for _, first in report.skipped.values()} <= begins
 
 
 def test_names_of_columns_with_their_units(read):

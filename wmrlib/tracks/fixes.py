@@ -146,11 +146,11 @@ def timestamp(text: str) -> float | None:
 
 def misplaced(lat: float, lon: float) -> str | None:
     """Return why (lat, lon) is invalid, or None."""
+    if -90.0 <= lat <= 90.0 and -180.0 <= lon <= 180.0:
+        return None
     if not (math.isfinite(lat) and math.isfinite(lon)):
         return "latitude or longitude not a number"
-    if not -90.0 <= lat <= 90.0:
-        return "latitude not in -90 to 90"
-    return None if -180.0 <= lon <= 180.0 else "longitude not in -180 to 180"
+    return "longitude not in -180 to 180" if -90.0 <= lat <= 90.0 else "latitude not in -90 to 90"
 
 
 def count(met: dict[str, Count], what: str, line: int, times: int = 1) -> None:
