@@ -93,9 +93,8 @@ class _Epochs:
 def read(text: TextIO) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
     fixes, epochs = Fixes(), _Epochs()
-    for line, body in sentences(text, _KINDS, fixes):
-        trouble = _trouble(epochs, body.split(","), line)
-        if trouble:
+    for line, fields in sentences(text, _KINDS, fixes):
+        if trouble := _trouble(epochs, fields, line):
             fixes.skip(trouble, line)
     epochs.tell(fixes)
     return fixes if fixes.lat or fixes.reasons - {COMMENT, NO_SENTENCE} else None
