@@ -115,11 +115,11 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
     for mark, place, kind in _BINARY:
         if head.startswith(mark, place):
             raise ValueError(f"it is {kind}")
-    if _utf_8(head).lstrip(b" \t\r\n\0")[:1] == b"<":
-        return "GPX", gpx.read(file)  # XML itself says how it is encoded
     wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))  # as PowerShell's > writes
     # The checksums of NMEA are of bytes, which surrogates keep.
     coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
+    if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
+        return "GPX", gpx.read(file)  # XML itself says how it is encoded
     with TextIOWrapper(file, coding, errors, newline="") as text:
         begin = next((line.lstrip()[0] for line in text if line.strip()), None)
         if begin is None:
@@ -134,9 +134,3 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
             if (fixes := nmea.read(text)) is None:
                 raise
             return "NMEA", fixes
-
-
-def _utf_8(data: bytes) -> bytes:
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # as PowerShell's > writes
-        data = data.decode("utf-16", errors="replace").encode()
-    return data.removeprefix(b"\xef\xbb\xbf")

@@ -97,7 +97,7 @@ def read(text: TextIO) -> Fixes | None:
         if trouble := _trouble(epochs, fields, line):
             fixes.skip(trouble, line)
     epochs.tell(fixes)
-    return fixes if fixes.lat or fixes.reasons - {COMMENT, NO_SENTENCE} else None
+    return fixes if fixes.lat or fixes.skipped.keys() - {COMMENT, NO_SENTENCE} else None
 
 
 def _trouble(epochs: _Epochs, fields: list[str], line: int) -> str | None:
