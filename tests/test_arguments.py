@@ -75,7 +75,7 @@ VALID = {
     gains_near_goal: {"gains": GAINS, "convention": "corke"},
 }
 # Tested where their files are.
-ELSEWHERE = {"read_track", "stationary_scatter", "write_geojson", "write_gpx"}
+ELSEWHERE = {"read_track", "write_geojson", "write_gpx"}
 ELSEWHERE |= {"gain_map", "gains_for", "longest_step"}
 NAMED = {  # what a text may call an argument that consists of others
     "matrix": ("matrix",),

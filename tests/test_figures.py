@@ -16,6 +16,7 @@ from matplotlib.image import imread
 import wmrlib as wmr
 from wmrbook import challenge, figures
 from wmrbook.pareto import pareto
+from wmrbook.scatter import stationary_scatter
 from wmrlib import paper
 from wmrlib.plots import COLOURS
 
@@ -169,7 +170,7 @@ CASES = {
     "wheel_limited_paths": lambda: figures.wheel_limited_paths(
         {"all of it": LIMITED, "part": LIMITED[:2]}, LIMITED[-1]
     ),
-    "scatter": lambda: figures.scatter(wmr.stationary_scatter(wmr.read_track(TRACK))),
+    "scatter": lambda: figures.scatter(stationary_scatter(wmr.read_track(TRACK))),
     "end_poses": lambda: figures.end_poses(ENDS, PARK, 0.05),
     "arrival_radii": lambda: figures.arrival_radii(
         RADII, np.array([0.2, 0.5, 1.4]), np.array([80.0, 34.0, 60.0]), 0.5
@@ -686,7 +687,7 @@ def test_scatter_says_how_many_positions_are_the_last_dot():
     east, north = np.array([0.0, 3.0, 5.0, 5.0, 5.0]), np.array([0.0, -1.0, 1.0, 1.0, 1.0])
     place = wmr.point_at(paper.GPS_POINT_1, east, north)
     for count, word in ((2, "last"), (3, "last"), (4, "last two"), (5, "last three")):
-        found = wmr.stationary_scatter(wmr.GeoPoint(lat=place.lat[:count], lon=place.lon[:count]))
+        found = stationary_scatter(wmr.GeoPoint(lat=place.lat[:count], lon=place.lon[:count]))
         shown = figures.scatter(found)
         assert [text.get_text() for text in shown.figure.axes[0].texts] == ["first", word]
         assert (f"the {word} are one dot" in shown.alt) == (count > 3)

@@ -21,7 +21,6 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from geographiclib.geodesic import Geodesic
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -854,18 +853,16 @@ ODD += ['1,2,"3\n",N', '"1\r\n2",3,4,N', "1_0,2,3,N", "1,2,3,n", "+1,2,3,S", "1,
 ROWS = st.sampled_from(["1,2,0,N", "1.5,-2,0.5,S", "3,4,2026-03-01T12:00:00Z,N", *ODD])
 
 
-@given(st.lists(ROWS, min_size=1, max_size=12), st.integers(1, 12))
-def test_rows_read_together_are_read_as_one_by_one(tmp_path_factory, rows, at_once):
+@given(st.lists(ROWS, max_size=12))
+def test_every_row_is_kept_or_counted_with_its_line(tmp_path_factory, rows):
     path = tmp_path_factory.getbasetemp() / "rows.csv"
-    path.write_bytes("\n".join(["lat,lon,t,N/S", *rows, "5,6,7e9,N", ""]).encode())
-    tracks = []
-    for number in (1, at_once):
-        with pytest.MonkeyPatch.context() as patch:
-            patch.setattr("wmrlib.tracks.tables._AT_ONCE", number)
-            if number == 1:
-                patch.setattr("wmrlib.tracks.tables._add_plain", lambda *_: False)
-            tracks.append(wmr.read_track(path))
-    assert tracks[0] == tracks[1]
+    lines = ["lat,lon,t,N/S", *rows, "5,6,7e9,N", ""]
+    path.write_bytes("\n".join(lines).encode())
+    report = wmr.read_track(path).report
+    found = sum(row not in ("", ",,,") for row in rows) + 1
+    assert report.used + sum(count for count, _ in report.skipped.values()) == found
+    begins = {1 + "\n".join(lines[:k]).count("\n") + (k > 0) for k in range(len(lines))}
+    assert {first for _, first in report.skipped.values()} <= begins
 
 
 def test_names_of_columns_with_their_units(read):
@@ -1027,64 +1024,6 @@ def test_whatever_a_file_holds_it_is_read_or_refused(read):
             else:
                 assert len(track) == track.report.used > 0
         assert refused < 300
-
-
-# A receiver that does not move
-
-
-def test_scatter_of_the_log_against_the_ellipsoid():
-    track = wmr.read_track(LOG)
-    found = wmr.stationary_scatter(track)
-    assert found.mean == track.mean
-    lines = [
-        Geodesic.WGS84.Inverse(found.mean.lat, found.mean.lon, lat, lon)
-        for lat, lon in zip(*places(track), strict=True)
-    ]
-    distance = np.array([line["s12"] for line in lines])
-    bearing = np.radians([line["azi1"] for line in lines])
-    east, north = distance * np.sin(bearing), distance * np.cos(bearing)
-    np.testing.assert_allclose(found.east, east, rtol=0.0057, atol=1e-3)
-    np.testing.assert_allclose(found.north, north, rtol=0.0057, atol=1e-3)
-    assert found.std_east == pytest.approx(east.std(ddof=1), rel=0.0057)
-    assert found.std_north == pytest.approx(north.std(ddof=1), rel=0.0057)
-    assert found.covariance[0, 1] == pytest.approx(np.cov(east, north)[0, 1], rel=0.012)
-    assert found.cep == pytest.approx(np.median(distance), rel=0.0057)
-    assert found.two_drms == pytest.approx(2 * math.hypot(found.std_east, found.std_north))
-    assert repr(found).startswith(
-        "<StationaryScatter: 9 positions about 54.0934728 deg N, 10.8247669 deg E; "
-        "std 3.55 m east, 0.444 m north"
-    )
-
-
-def test_mean_and_scatter_anywhere():
-    """Positions laid about a centre with a known scatter, over the date line and over the poles."""
-    rng = np.random.default_rng(9)
-    east, north = rng.normal(0, 3, 400), rng.normal(0, 1, 400)
-    east, north = east - east.mean(), north - north.mean()
-    std_east, std_north = east.std(ddof=1), north.std(ddof=1)
-    for lat, lon in [(33.27, 44.37), (10.0, 180.0), (-40.0, -180.0), (90.0, 0.0), (-90.0, 70.0)]:
-        centre = wmr.GeoPoint(lat=lat, lon=lon)
-        found = wmr.stationary_scatter(wmr.point_at(centre, east, north))
-        assert wmr.haversine_distance(found.mean, centre) < 1e-6
-        size = math.hypot(found.std_east, found.std_north)
-        assert size == pytest.approx(math.hypot(std_east, std_north), rel=1e-6)
-        if abs(lat) < 90.0:  # at a pole east depends on the longitude of the mean
-            assert found.std_east == pytest.approx(std_east, rel=1e-6)
-            assert found.covariance[0, 1] == pytest.approx(np.cov(east, north)[0, 1], abs=1e-6)
-        assert (found.east.mean(), found.north.mean()) == pytest.approx((0, 0), abs=1e-6)
-    # far apart, the mean is still the middle of its frame
-    far = wmr.GeoPoint(lat=[60.0, 62.0, 40.0], lon=[170.0, -165.0, 179.0])
-    east, north = wmr.local_position(wmr.stationary_scatter(far).mean, far)
-    assert (east.mean(), north.mean()) == pytest.approx((0, 0), abs=1e-6)
-    assert np.ptp(east) > 1e6
-
-
-def test_half_the_positions_are_within_the_cep_and_nearly_all_within_2drms():
-    east, north = np.random.default_rng(1).normal(0, 2, (2, 20_000))
-    found = wmr.stationary_scatter(wmr.point_at(wmr.paper.GPS_POINT_1, east, north))
-    assert found.cep == pytest.approx(2 * math.sqrt(2 * math.log(2)), rel=0.02)  # Rayleigh's median
-    within = np.hypot(found.east, found.north) < found.two_drms
-    assert np.mean(within) == pytest.approx(1 - math.exp(-4), abs=0.003)
 
 
 # And back
@@ -1257,7 +1196,7 @@ def test_times_of_gpx_in_any_zone_and_of_a_single_position(tmp_path):
         assert [time.text for time in ElementTree.parse(file).iter(GPX_11 + "time")] == times
 
 
-def test_bad_input_to_the_writers_and_the_scatter(tmp_path):
+def test_bad_input_to_the_writers(tmp_path):
     late, local = datetime.max.replace(tzinfo=UTC), BEGIN.replace(tzinfo=None)
     cases = [
         (wmr.write_gpx, PAIR, {"t": t, "begin": begin}, message)
@@ -1296,9 +1235,3 @@ def test_bad_input_to_the_writers_and_the_scatter(tmp_path):
                 write(path, points, **options)
     assert (tmp_path / "old").read_text() == "as it was"
     assert not (tmp_path / "new").exists()
-    with pytest.raises(ValueError, match="track has 1 position"):
-        wmr.stationary_scatter(wmr.GeoPoint(lat=[1.0], lon=[2.0]))
-    with pytest.raises(ValueError, match="all over the Earth"):
-        wmr.stationary_scatter(wmr.GeoPoint(lat=[0.0, 0.0], lon=[0.0, 180.0]))
-    with pytest.raises(ValueError, match="a GeoPoint is needed, not a list"):
-        wmr.stationary_scatter([1.0, 2.0])

@@ -46,10 +46,8 @@ from .runs import Trajectory as Trajectory
 from .simulation import simulate as simulate
 from .simulation import track as track
 from .sweeping import sweep as sweep
-from .tracks import StationaryScatter as StationaryScatter
 from .tracks import Track as Track
 from .tracks import read_track as read_track
-from .tracks import stationary_scatter as stationary_scatter
 from .tracks import write_geojson as write_geojson
 from .tracks import write_gpx as write_gpx
 from .tuning import Modes as Modes

@@ -11,16 +11,13 @@ import numpy as np
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks import geojson, gpx, nmea, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
-from wmrlib.tracks.scatter import StationaryScatter, mean_position, stationary_scatter
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
 __all__ = [
     "Count",
     "Report",
-    "StationaryScatter",
     "Track",
     "read_track",
-    "stationary_scatter",
     "write_geojson",
     "write_gpx",
 ]
@@ -71,11 +68,6 @@ class Track:
         left = sum(each.count for each in self.report.skipped.values())
         return f"<Track: {len(self)} positions from {self.source}, {span}; {left} not used>"
 
-    @property
-    def mean(self) -> GeoPoint:
-        """The point from which the positions average to (0, 0) east and north."""
-        return mean_position(self.points)
-
 
 def read_track(path: str | os.PathLike) -> Track:
     """Read positions from NMEA sentences, GPX, GeoJSON or a CSV table; the content tells which.
@@ -123,11 +115,11 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
     for mark, place, kind in _BINARY:
         if head.startswith(mark, place):
             raise ValueError(f"it is {kind}")
-    if _utf_8(head).lstrip(b" \t\r\n\0")[:1] == b"<":
-        return "GPX", gpx.read(file)  # XML itself says how it is encoded
     wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))  # as PowerShell's > writes
     # The checksums of NMEA are of bytes, which surrogates keep.
     coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
+    if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
+        return "GPX", gpx.read(file)  # XML itself says how it is encoded
     with TextIOWrapper(file, coding, errors, newline="") as text:
         begin = next((line.lstrip()[0] for line in text if line.strip()), None)
         if begin is None:
@@ -142,9 +134,3 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
             if (fixes := nmea.read(text)) is None:
                 raise
             return "NMEA", fixes
-
-
-def _utf_8(data: bytes) -> bytes:
-    if data[:2] in (b"\xff\xfe", b"\xfe\xff"):  # as PowerShell's > writes
-        data = data.decode("utf-16", errors="replace").encode()
-    return data.removeprefix(b"\xef\xbb\xbf")

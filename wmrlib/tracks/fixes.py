@@ -71,19 +71,15 @@ class Fixes:
     def __init__(self, unit: str = "line") -> None:
         self.lat, self.lon, self.time = array("d"), array("d"), array("d")
         self._lines, self._segments = array("q"), array("q")
-        self._skipped: dict[str, Count] = {}
+        self.skipped: dict[str, Count] = {}
         self._noted: dict[str, Count] = {}
         self._unit = unit
 
     def skip(self, reason: str, line: int, times: int = 1) -> None:
-        count(self._skipped, reason, line, times)
+        count(self.skipped, reason, line, times)
 
     def note(self, reason: str, line: int, times: int = 1) -> None:
         count(self._noted, reason, line, times)
-
-    @property
-    def reasons(self) -> set[str]:
-        return set(self._skipped)
 
     def begin_segment(self) -> None:
         """From here on times may be earlier than before."""
@@ -120,7 +116,7 @@ class Fixes:
             if gone.size:
                 self.skip(reason, self._lines[gone[0]], gone.size)
         table = np.delete(table, np.concatenate([late, again]), axis=1)
-        return table, Report(table.shape[1], self._skipped, self._noted, self._unit)
+        return table, Report(table.shape[1], self.skipped, self._noted, self._unit)
 
 
 def number(text: str | None) -> float:
@@ -146,11 +142,11 @@ def timestamp(text: str) -> float | None:
 
 def misplaced(lat: float, lon: float) -> str | None:
     """Return why (lat, lon) is invalid, or None."""
+    if -90.0 <= lat <= 90.0 and -180.0 <= lon <= 180.0:
+        return None
     if not (math.isfinite(lat) and math.isfinite(lon)):
         return "latitude or longitude not a number"
-    if not -90.0 <= lat <= 90.0:
-        return "latitude not in -90 to 90"
-    return None if -180.0 <= lon <= 180.0 else "longitude not in -180 to 180"
+    return "longitude not in -180 to 180" if -90.0 <= lat <= 90.0 else "latitude not in -90 to 90"
 
 
 def count(met: dict[str, Count], what: str, line: int, times: int = 1) -> None:

@@ -33,8 +33,8 @@ class _Epochs:
     def __init__(self) -> None:
         self._table, self._rows, self._now = array("d"), dict[float, int](), math.nan
 
-    def _row(self, second: float, day: float, *new: float) -> int | None:
-        """Where the epoch's row begins; None if it is `new`, as one of another date is."""
+    def _row(self, second: float, day: float) -> int:
+        """Where the epoch's row begins; one of another date is a new epoch."""
         row = self._rows.get(second)
         latest, self._now = self._now, second
         if row is not None and _apart(second, latest) <= _TOGETHER:
@@ -44,29 +44,26 @@ class _Epochs:
                 return row
         if len(self._rows) > 99:
             self._rows = {s: i for s, i in self._rows.items() if _apart(s, second) <= _TOGETHER}
-        self._rows[second] = len(self._table)
-        self._table.extend((*new, second, day))
-        return None
+        self._rows[second] = row = len(self._table)
+        nowhere = math.nan, math.nan, math.inf, math.inf
+        self._table.extend((*nowhere, 0, _LAST, _LAST, second, day))
+        return row
 
     def deny(self, second: float, rank: float) -> None:
         """Hear that there is no fix."""
-        new = math.nan, math.nan, math.inf, math.inf, 0, _LAST, rank
-        row, table = self._row(second, math.nan, *new), self._table
-        if row is not None:
-            table[row + _DENIED] = min(rank, table[row + _DENIED])
+        denied = self._row(second, math.nan) + _DENIED
+        self._table[denied] = min(rank, self._table[denied])
 
     def hear(
         self, second: float, day: float, rank: float, lat: float, lon: float, line: float
     ) -> None:
         """Hear of a position; the epoch's is the first one of the best rank."""
-        row = self._row(second, day, lat, lon, line, math.inf, 1, rank, _LAST)
-        table = self._table
-        if row is not None:
-            table[row + _COUNT] += 1
-            if rank < table[row + _RANK]:
-                table[row + _LAT], table[row + _LON], table[row + _RANK] = lat, lon, rank
-                table[row + _LINE], line = line, table[row + _LINE]
-            table[row + _OTHER] = min(line, table[row + _OTHER])
+        row, table = self._row(second, day), self._table
+        table[row + _COUNT] += 1
+        if rank < table[row + _RANK]:
+            table[row + _LAT], table[row + _LON], table[row + _RANK] = lat, lon, rank
+            table[row + _LINE], line = line, table[row + _LINE]
+        table[row + _OTHER] = min(line, table[row + _OTHER])
 
     def tell(self, fixes: Fixes) -> None:
         """Use the position of each epoch, and count the others."""
@@ -93,12 +90,11 @@ class _Epochs:
 def read(text: TextIO) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
     fixes, epochs = Fixes(), _Epochs()
-    for line, body in sentences(text, _KINDS, fixes):
-        trouble = _trouble(epochs, body.split(","), line)
-        if trouble:
+    for line, fields in sentences(text, _KINDS, fixes):
+        if trouble := _trouble(epochs, fields, line):
             fixes.skip(trouble, line)
     epochs.tell(fixes)
-    return fixes if fixes.lat or fixes.reasons - {COMMENT, NO_SENTENCE} else None
+    return fixes if fixes.lat or fixes.skipped.keys() - {COMMENT, NO_SENTENCE} else None
 
 
 def _trouble(epochs: _Epochs, fields: list[str], line: int) -> str | None:

@@ -7,10 +7,7 @@ import math
 import re
 from collections.abc import Iterable, Iterator
 from functools import lru_cache
-from itertools import islice
 from typing import Any, NamedTuple
-
-import numpy as np
 
 from wmrlib.tracks.fixes import NO_TIME, Fixes, number, timestamp
 
@@ -29,8 +26,6 @@ _YES |= {"gps", "gnss", "sps", "dgps", "pps", "rtk", "frtk"}
 _ESTIMATED = {"estimated", "dead", "manual", "simulator", "simulation", "e", "m", "s"}
 _DELIMITERS = ",;\t|"
 _MOST_SECONDS = 1e11  # milliseconds since 1970 are more
-_LINE_END = re.compile("\r\n?|\n")
-_AT_ONCE = 1000  # rows
 
 
 class NoHeaderError(ValueError):
@@ -58,26 +53,17 @@ def read_csv(text: Iterable[str]) -> Fixes:
             fixes.skip("comment", header)
     else:
         raise NoHeaderError("it has no header that names the columns of latitude and longitude")
-    columns, at = _header(line), header + 1
+    columns, begin = _header(line), header + 1
     reader = csv.reader(lines, delimiter=columns.delimiter, strict=True)
     try:
-        while rows := list(islice(reader, _AT_ONCE)):
-            if header + reader.line_num == at + len(rows) - 1 and _add_plain(
-                fixes, rows, columns, at
-            ):
-                at += len(rows)
-                continue
-            for row in rows:
-                reason = _amiss(row, columns)
-                if reason is None:
-                    _add(fixes, row, columns, at)
-                elif reason:
-                    fixes.skip(reason, at)
-                at += 1 + len(_LINE_END.findall("|".join(row)))
+        for row in reader:
+            following = header + 1 + reader.line_num
+            _use(fixes, row, columns, begin, following - begin)
+            begin = following
     except csv.Error as error:
         raise ValueError(f"its table is broken: {error}") from None
     if fixes.lat and last[0].strip() and not last[0].endswith(("\n", "\r")):
-        fixes.note("in a last line without an end, which may be cut off", at - 1)
+        fixes.note("in a last line without an end, which may be cut off", begin - 1)
     return fixes
 
 
@@ -116,80 +102,30 @@ def _header(line: str) -> _Columns:
     raise NoHeaderError(f"it is no NMEA, GPX or GeoJSON, and {first}")
 
 
-def _amiss(row: list[str], columns: _Columns) -> str | None:
-    """Return why a row has no position, "" if it is blank, or None."""
-    if not any(map(str.strip, row)):
-        return ""
+def _use(fixes: Fixes, row: list[str], columns: _Columns, line: int, lines: int) -> None:
+    """Use a row's position, or count why not; a blank row counts for nothing."""
+    if not "".join(row).strip():
+        return
     if row[0].startswith("#"):
-        return "comment"
-    if _LINE_END.search("|".join(row)):
-        return "row with a cell over several lines"
-    if len(row) < columns.width or any(map(str.strip, row[columns.width :])):  # by decimal commas
-        return "row with more or fewer cells than the header"
-    reasons = (_without_fix(row[i], digits) for i, digits in columns.fixes)
-    return next(filter(None, reasons), None)
-
-
-def _add_plain(fixes: Fixes, rows: list[list[str]], columns: _Columns, line: int) -> bool:
-    """Use rows of mere numbers and times at once; False if any of them needs a closer look."""
-    if {len(row) for row in rows} != {columns.width}:
-        return False
-    cells = list(zip(*rows, strict=True))
-    (y, x, t, _, *sides), (per_y, per_x, _) = columns.places, columns.units
-    said = {_without_fix(cell, digits) for i, digits in columns.fixes for cell in {*cells[i]}}
-    if said - {""} or any("#" in cell for cell in cells[0]):
-        return False
-    try:
-        lat, lon = _plain(cells[y]), _plain(cells[x])
-        time = _times(cells, columns) if t is not None else np.full(len(rows), NO_TIME)
-    except ValueError:
-        return False
-    for values, i, letters in zip((lat, lon), sides, ("NS", "EW"), strict=True):
-        if i is not None:
-            if not {*cells[i]} <= {*letters} or np.signbit(values).any():
-                return False
-            values[np.array(cells[i]) == letters[1]] *= -1.0
-    lat, lon = lat / per_y, lon / per_x
-    plain = (np.abs(lat) <= 90.0) & (np.abs(lon) <= 180.0)
-    if t is not None:
-        plain &= np.abs(time) < _MOST_SECONDS
-    if plain.all():
-        fixes.extend(lat, lon, time, np.arange(line, line + len(rows)))
-    return bool(plain.all())
-
-
-def _plain(cells: tuple[str, ...]) -> np.ndarray:
-    """Numbers of cells; ValueError where `float` would not do, or would read too much."""
-    if not {"_", "+"}.isdisjoint("".join(cells)):
-        raise ValueError
-    return np.array([*map(float, cells)])
-
-
-def _times(cells: list[tuple[str, ...]], columns: _Columns) -> np.ndarray:
-    """Seconds, NaN where they are unreadable."""
-    (_, _, t, date, *_), per_second = columns.places, columns.units[2]
-    if date is not None:
-        return np.array([*map(_date_and_time, cells[date], cells[t])], float)
-    try:
-        return _plain(cells[t]) / per_second
-    except ValueError:
-        return np.array([_time(text, per_second) for text in cells[t]], float)
-
-
-def _add(fixes: Fixes, row: list[str], columns: _Columns, line: int) -> None:
-    """Use a row's position, or count why not."""
+        return fixes.skip("comment", line)
+    if lines > 1:
+        return fixes.skip("row with a cell over several lines", line)
+    width = columns.width
+    if len(row) != width and (len(row) < width or any(map(str.strip, row[width:]))):
+        return fixes.skip("row with more or fewer cells than the header", line)  # decimal commas
+    said = [_without_fix(row[i], digits) for i, digits in columns.fixes]
+    if reason := next(filter(None, said), None):
+        return fixes.skip(reason, line)
     (y, x, t, date, north, east), (per_y, per_x, per_t) = columns.places, columns.units
     try:
         lat = _degrees(row[y], "NS", None if north is None else row[north])
         lon = _degrees(row[x], "EW", None if east is None else row[east])
     except ValueError as error:
-        fixes.skip(str(error), line)
-        return
+        return fixes.skip(str(error), line)
     time: float | None = NO_TIME
     if t is not None and (text := row[t].strip()):
         time = _time(text, per_t) if date is None else _date_and_time(row[date], text)
-    known = all(_without_fix(row[i], digits) == "" for i, digits in columns.fixes)
-    if fixes.add(lat / per_y, lon / per_x, time, line) and not known:
+    if fixes.add(lat / per_y, lon / per_x, time, line) and None in said:
         fixes.note("with an unknown word on its fix", line)
 
 
@@ -207,34 +143,36 @@ def _without_fix(cell: str, digits: str) -> str | None:
 
 def _degrees(cell: str, sides: str, side: str | None) -> float:
     """Degrees, NaN if there are none; ValueError where sign and hemisphere leave a doubt."""
-    value = _number(cell)
-    if side is None and math.isfinite(value):
-        return value
-    text = cell.strip().upper()
-    bare = text.strip(sides + " \N{DEGREE SIGN}")
-    named = {*text.replace(bare, "", 1)} & {*sides}
+    bare, letters, value = cell, "", _number(cell)
+    if not math.isfinite(value):
+        text = cell.strip().upper()
+        bare = text.strip(sides + " \N{DEGREE SIGN}")
+        letters, value = text.replace(bare, "", 1), _number(bare)
     if side is not None:
         letter = side.strip().upper()[:1]
         if not letter or letter not in sides:
             raise ValueError("row without a readable hemisphere")
-        named.add(letter)
-    value, negative = _number(bare), sides[1] in named
-    if len(named) > 1 or (named and bare[:1] == ("+" if negative else "-")):
+        letters += letter
+    plus, minus, sign = sides[0] in letters, sides[1] in letters, bare.lstrip()[:1]
+    if (plus and (minus or sign == "-")) or (minus and sign == "+"):
         raise ValueError("sign and hemisphere that contradict each other")
-    return -abs(value) if negative else value
+    return -abs(value) if minus else value
 
 
 def _number(cell: str) -> float:
     """The number of a cell; a single comma is a decimal comma, since it does not end the cell."""
-    return number(cell if "." in cell else cell.replace(",", ".", 1))
+    try:
+        return math.nan if "_" in cell else float(cell)
+    except ValueError:
+        return number("" if "." in cell else cell.replace(",", ".", 1))
 
 
 def _time(text: str, per_second: float) -> float | None:
     """Seconds or an ISO 8601 time; None if it is neither."""
-    seconds = _number(text) / per_second
+    seconds = math.nan if ":" in text else _number(text) / per_second
     if math.isfinite(seconds):
         return seconds if abs(seconds) < _MOST_SECONDS else None
-    return timestamp(text.strip())
+    return timestamp(text)
 
 
 def _date_and_time(date: str, time: str) -> float | None:

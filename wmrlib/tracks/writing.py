@@ -88,11 +88,10 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
         crossing = round(y + share * (next_y - y), _DECIMALS)
         before.append([side, crossing])
         after.insert(0, [-side, crossing])
-    geometry = {"type": "MultiLineString", "coordinates": lines}
+    kind, coordinates = "MultiLineString", lines
     if len(lines) == 1:
-        geometry = {"type": "LineString", "coordinates": lines[0]}
-    if lat.size == 1:
-        geometry = {"type": "Point", "coordinates": lines[0][0]}
+        kind, coordinates = ("LineString", lines[0]) if lat.size > 1 else ("Point", lines[0][0])
+    geometry = {"type": kind, "coordinates": coordinates}
     feature = {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
     text = json.dumps(feature, ensure_ascii=False, allow_nan=False) + "\n"
     overwrite(path, text.encode())

@@ -17,8 +17,8 @@ from wmrbook.grading._hints import (
     own_work,
     rule_out,
 )
+from wmrbook.scatter import stationary_scatter
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
-from wmrlib.tracks import stationary_scatter
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
 

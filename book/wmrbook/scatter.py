@@ -4,15 +4,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from wmrlib._checks import instance, same_shape
 from wmrlib.geodesy import GeoPoint, local_position, point_at
-
-if TYPE_CHECKING:
-    from wmrlib.tracks import Track
+from wmrlib.tracks import Track
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -65,7 +62,7 @@ def stationary_scatter(track: Track | GeoPoint) -> StationaryScatter:
     n = math.prod(same_shape(lat=points.lat, lon=points.lon))
     if n < 2:
         raise ValueError(f"track has {n} position, which is not allowed: at least 2 are needed")
-    mean = mean_position(points)
+    mean = _mean_position(points)
     east, north = (np.ravel(values) for values in local_position(mean, points))
     covariance = np.cov(east, north)
     std_east, std_north = np.sqrt(np.diag(covariance)).tolist()
@@ -73,7 +70,7 @@ def stationary_scatter(track: Track | GeoPoint) -> StationaryScatter:
     return StationaryScatter(mean, n, east, north, std_east, std_north, covariance, cep, two_drms)
 
 
-def mean_position(points: GeoPoint) -> GeoPoint:
+def _mean_position(points: GeoPoint) -> GeoPoint:
     """The point from which the positions average to (0, 0) east and north, by Newton steps."""
     lat, lon = np.broadcast_arrays(np.radians(points.lat), np.radians(points.lon))
     vectors = np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)
