@@ -12,6 +12,7 @@ from wmrlib._compile import compiled
 from wmrlib._loops import plane, polar, rows
 from wmrlib.kinematics import PolarError, Pose, polar_error, pose_from_polar, wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, saturation_scale
+from wmrlib.motion import polar_closing_rate
 
 
 def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
@@ -24,9 +25,10 @@ def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
 
     def rate(_, state):
         rho, alpha, theta, *twist, _ = state
+        *rates, v, omega = polar.closed_loop((max(rho, 0.0), alpha, theta), loop)  # tried past it
         if lag:
-            return *polar.lagging_loop((rho, alpha, theta), *twist, loop, lag), abs(twist[0])
-        *rates, v, _ = polar.closed_loop((max(rho, 0.0), alpha, theta), loop)  # tried past the goal
+            wanted, (v, omega) = np.array([v, omega]), twist
+            rates = *polar_closing_rate(rho, alpha, v / rho, omega), *(wanted - twist) / lag
         return *rates, abs(v)
 
     def recorded(times, states):
