@@ -71,8 +71,7 @@ def simulate(
     if continuously:
         run = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
     else:
-        path = np.zeros((5, samples))
-        path[rows.X], path[rows.Y], path[rows.HEADING] = end
+        path = np.array([*end, 0.0, 0.0])[:, None]
         run = _held(t, method, dt, radius, begin, path, tuning, code, limits)
     return _trajectory(*run, end, gains, law, method)
 

@@ -164,7 +164,7 @@ def _results(source, total: int, task: _Task, executor, go_on, lost: list) -> Ge
 
     size = _chunk_size(total, task, executor)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
-    if executor is None:  # compile here, and not in several threads
+    if executor is None and len(chunks) > 1:  # compile here, and not in several threads
         laws = np.unique(source[-1])
         run_chunk(np.tile(laws, (len(source), 1)), task._replace(samples=2))
     return _chunks.spread(run_chunk, chunks, arguments, go_on, executor, lost)

@@ -27,19 +27,17 @@ _ROUNDS = {polar.RK4: 16, EULER: 16, CONTINUOUS: 4}  # steps between two looks a
 def begin(runs, law, wheels, whole, arrival_radius):
     """The state of each run at its beginning, with the rows of a block."""
     states = np.empty((polar.TRIALS + 1, runs.shape[1]))
+    states[polar.K_RHO : polar.STEP] = runs[-4:]
     for i in range(runs.shape[1]):
         start, goal, gains = rows.run_of(runs, i)
         at, loop = polar_from_pose(*start, *goal), (gains, law, wheels)
         rates = closed_loop(at, loop)
         pace = abs(rates[0]) / max(at[0], 1e-300) + abs(rates[1]) + abs(rates[2])
         step = 0.1 / max(pace, 1e-300)
-        states[polar.RHO, i], states[polar.ALPHA, i], states[polar.THETA, i] = at
-        states[polar.LEFT, i] = whole if at[0] > arrival_radius else -whole
-        states[polar.PEAK, i], states[polar.LENGTH, i] = abs(rates[4]), 0.0
-        states[polar.K_RHO, i], states[polar.K_ALPHA, i] = gains.k_rho, gains.k_alpha
-        states[polar.H, i], states[polar.V_MAX, i] = gains.h, gains.v_max
-        states[polar.STEP, i], states[polar.TRIALS, i] = step, adaptive.MOST_TRIALS
-        states[polar.SWING, i] = adaptive.swing(at, rates, 1e-6 * min(step, 1.0), loop)
+        left = whole if at[0] > arrival_radius else -whole
+        swing = adaptive.swing(at, rates, 1e-6 * min(step, 1.0), loop)
+        states[: polar.K_RHO, i] = (*at, left, abs(rates[4]), 0.0)
+        states[polar.STEP :, i] = (step, swing, adaptive.MOST_TRIALS)
     return states
 
 

@@ -33,24 +33,26 @@ def move(pose, v, omega, dt, step):
 
 @compiled
 def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radius):
-    """Record one run after the goal in column k of `reference` at k dt: (samples, outcome).
+    """Record one run after the goal in column k of `reference`, or its last: (samples, outcome).
 
     Stops on arrival; a negative radius never arrives, so a reference is followed to its end.
     """
     pose = start[0], start[1], wrap(start[2])
-    samples = reference.shape[1]
-    for k in range(samples):
-        x, y, heading, goal_v, goal_omega = reference[:, k]
-        goal, goal_twist = (x, y, heading), (goal_v, goal_omega)
+    for k in range(record.shape[0]):
+        now = min(k, reference.shape[1] - 1)
+        goal = reference[rows.X, now], reference[rows.Y, now], reference[rows.HEADING, now]
+        goal_twist = reference[rows.GOAL_V, now], reference[rows.GOAL_OMEGA, now]
         rho, alpha, theta, v, omega = observe(pose, goal, goal_twist, tuning, law, wheels)
         value = lyapunov_value_of(rho, alpha, theta, tuning, law)
-        record[k] = (*pose, rho, alpha, theta, v, omega, value)
+        record[k, rows.X], record[k, rows.Y], record[k, rows.HEADING] = pose
+        record[k, rows.RHO], record[k, rows.ALPHA], record[k, rows.THETA] = rho, alpha, theta
+        record[k, rows.V], record[k, rows.OMEGA], record[k, rows.LYAPUNOV] = v, omega, value
         if not math.isfinite(rho + v + omega):
             return k, rows.DIVERGED
         if rho <= arrival_radius:
             return k + 1, rows.ARRIVED
         pose = move(pose, v, omega, dt, step)
-    return samples, rows.TIMED_OUT
+    return record.shape[0], rows.TIMED_OUT
 
 
 @compiled
@@ -58,11 +60,11 @@ def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded):
     """Sum up many runs to goals that stand still; their samples too, NaN after each one's end."""
     summary = np.empty((rows.DISTANCE + 1, runs.shape[1]))
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
-    run, reference = np.empty((samples, rows.LYAPUNOV + 1)), np.zeros((5, samples))
+    run = np.empty((samples, rows.LYAPUNOV + 1))
+    reference = np.zeros((rows.GOAL_OMEGA + 1, 1))
     for i in range(runs.shape[1]):
         start, goal, gains = rows.run_of(runs, i)
-        for row in range(3):
-            reference[row] = goal[row]
+        reference[: rows.GOAL_V, 0] = goal
         loop = pose_tuning(*gains), law, wheels, step, dt, arrival_radius
         count, outcome = drive(run, start, reference, *loop)
         last, peak, length = max(count - 1, 0), 0.0, 0.0

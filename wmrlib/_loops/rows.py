@@ -10,6 +10,7 @@ from wmrlib.gains import GainsFields
 # How a run ends, in the order of `Outcome`; the last is a sweep's that ran out of steps.
 ARRIVED, TIMED_OUT, DIVERGED, COMPLETED, UNFINISHED = range(5)
 X, Y, HEADING, RHO, ALPHA, THETA, V, OMEGA, LYAPUNOV = range(9)  # the rows of a recorded run
+GOAL_V, GOAL_OMEGA = 3, 4  # the rows of a reference after X, Y and HEADING
 # What many runs, one a column, amount to, in the order of `Arrival`.
 OUTCOME, TIME, HEADING_ERROR, PEAK_OMEGA, PATH_LENGTH, DISTANCE = range(6)
 
