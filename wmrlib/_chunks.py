@@ -23,16 +23,8 @@ def cores() -> int:
     return len(allowed(0)) if allowed else os.cpu_count() or 1
 
 
-def here(job: Callable, chunks: Iterable, arguments: Callable, go_on: Callable) -> Generator:
-    """(chunk, result) of each chunk, one after the other."""
-    for chunk in chunks:
-        yield chunk, job(*arguments(chunk))
-        if not go_on(0):
-            return
-
-
 def spread(job, chunks: Iterable, arguments, go_on, executor, lost: list) -> Generator:
-    """The same as each chunk is done elsewhere, with a bounded number under way.
+    """(chunk, result) as each is done, on threads without an executor; a bounded number at a time.
 
     What is lost with its worker is done here, and why is added to `lost`. An error of the job
     itself is raised.
@@ -104,14 +96,13 @@ def watched(total: int, bar_wanted: bool) -> Iterator[Callable[[int], bool]]:
     Ctrl-C is only noted: raised in a wait, it could break the lock there.
     """
     pressed: list[bool] = []
-    bar = None
     if bar_wanted:
         from tqdm.auto import tqdm  # here, because it asks what it is shown in
 
         bar = tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
 
     def go_on(runs: int) -> bool:
-        if bar is not None:
+        if bar_wanted:
             bar.update(runs)
         return not pressed
 
@@ -119,10 +110,9 @@ def watched(total: int, bar_wanted: bool) -> Iterator[Callable[[int], bool]]:
     heard = usual and threading.current_thread() is threading.main_thread()
     if heard:
         signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
-    try:
-        yield go_on
-    finally:
-        if heard:
-            signal.signal(signal.SIGINT, signal.default_int_handler)
-        if bar is not None:
-            bar.close()
+    with bar if bar_wanted else nullcontext():
+        try:
+            yield go_on
+        finally:
+            if heard:
+                signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -33,7 +33,5 @@ def fastest_mode(rate, k_alpha, h):
 
 def longest_euler_step(rate, k_alpha, h):
     """The longest Euler step of the linear modes that settles, s: |1 + pole dt| < 1."""
-    half, stiffness = k_alpha / 2, h * rate * rate
-    gap = half * half - stiffness
-    settling = where(gap > 0, 2 / (half + sqrt(maximum(gap, 0.0))), k_alpha / stiffness)
-    return fmin(settling, 1 / rate)
+    quicker = k_alpha - mode_settling(rate, k_alpha, h)
+    return fmin(fmin(k_alpha / (h * rate * rate), 2 / quicker), 1 / rate)

@@ -71,8 +71,7 @@ def simulate(
     if continuously:
         run = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
     else:
-        path = np.zeros((5, samples))
-        path[rows.X], path[rows.Y], path[rows.HEADING] = end
+        path = np.array([*end, 0.0, 0.0])[:, None]
         run = _held(t, method, dt, radius, begin, path, tuning, code, limits)
     return _trajectory(*run, end, gains, law, method)
 
@@ -135,9 +134,12 @@ def track(
 
 def _held(t, method, dt, radius, start, path, *loop) -> tuple:
     """(t, record, outcome, peak omega, path length) of a run whose twist is held for dt."""
-    record, outcome = plane.drive(tuple(start), path, *loop, _STEPS[method], dt, radius)
+    record = np.empty((rows.LYAPUNOV + 1, t.size))
+    steps = _STEPS[method], dt, radius
+    count, outcome = plane.drive(record.T, tuple(start), path, *loop, *steps)
+    record = record[:, :count]
     v, omega = np.abs(record[rows.V : rows.LYAPUNOV])
-    return t[: v.size], record, outcome, omega.max(initial=0.0), dt * v[:-1].sum()
+    return t[:count], record, outcome, omega.max(initial=0.0), dt * v[:-1].sum()
 
 
 def _trajectory(t, record, outcome, peak, length, *setting) -> Trajectory:

@@ -126,7 +126,7 @@ def sweep(
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
     source = [np.broadcast_to(field, shape) for field in fields.values()]
-    warned = _too_long(fields, shape, task)
+    warned = _too_long(gains, fields["law"], shape, task)
     lost: list[BaseException] = []
     long = progress and total * task.cost >= _LONG_WORK
     with (
@@ -150,14 +150,11 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
     (module, step), count = _METHODS[task.method], runs.shape[1]
     summary = np.empty((len(Arrival._fields), count))
-    record = np.full((rows.LYAPUNOV, count, task.samples if task.recorded else 0), np.nan)
+    record = np.empty((rows.LYAPUNOV, count, task.samples if task.recorded else 0))
     for law in np.unique(runs[-1]):
         members = np.flatnonzero(runs[-1] == law)
-        common = int(law), task.limits, step, task.dt, task.samples, task.arrival_radius
-        summary[:, members] = module.survey(runs[:-1, members], *common)
-        if task.recorded:
-            members = members[summary[rows.OUTCOME, members] != rows.UNFINISHED]
-            record[:, members] = module.record(runs[:-1, members], *common)
+        common = int(law), task.limits, step, *task[2:]
+        summary[:, members], record[:, members] = module.survey(runs[:-1, members], *common)
     return summary, record
 
 
@@ -165,29 +162,24 @@ def _results(source, total: int, task: _Task, executor, go_on, lost: list) -> Ge
     def arguments(chunk: tuple[int, int]) -> tuple[np.ndarray, _Task]:
         return np.array([field.flat[slice(*chunk)] for field in source], dtype=float), task
 
-    cores = _chunks.cores()
-    size = _chunk_size(total, task, cores, executor)
+    size = _chunk_size(total, task, executor)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
-    if executor is None and (cores == 1 or size >= total):
-        return _chunks.here(run_chunk, chunks, arguments, go_on)
-    if executor is None:  # compile here, and not in several threads
+    if executor is None and len(chunks) > 1:  # compile here, and not in several threads
         laws = np.unique(source[-1])
         run_chunk(np.tile(laws, (len(source), 1)), task._replace(samples=2))
     return _chunks.spread(run_chunk, chunks, arguments, go_on, executor, lost)
 
 
-def _too_long(fields: dict, shape: tuple[int, ...], task: _Task) -> list[str]:
+def _too_long(gains: Gains, law: np.ndarray, shape: tuple[int, ...], task: _Task) -> list[str]:
     """What there is to say on a fixed step in polar coordinates."""
     if task.method not in ("rk4", "polar_euler"):
         return []
-    k_rho, k_alpha, h, v_max = (np.asarray(fields[f"gains.{name}"]) for name in Gains._fields)
-    limits = np.array(["v_max" not in row.ignores for row in LAWS.values()])
+    k_rho, k_alpha, h, v_max = gains
+    free = np.array(["v_max" in row.ignores for row in LAWS.values()])
     with np.errstate(all="ignore"):
-        rate = k_rho * np.where(limits[fields["law"].astype(int)], v_max, 1.0)
-        if task.method == "rk4":
-            longest = _RK4_REACH / fastest_mode(rate, k_alpha, h)
-        else:
-            longest = longest_euler_step(rate, k_alpha, h)
+        mode = k_rho * np.where(free[law.astype(int)], 1.0, v_max), k_alpha, h
+        euler = task.method == "polar_euler"
+        longest = longest_euler_step(*mode) if euler else _RK4_REACH / fastest_mode(*mode)
     runs = np.broadcast_to(task.dt > longest, shape).sum()
     said = f"dt = {task.dt:g} s is too long for method = {task.method!r} in {runs:,} of "
     said += f"{math.prod(shape):,} runs, the worst of which needs at most {{:.3g}} s"
@@ -206,9 +198,9 @@ def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[st
         yield f"{len(lost):,} chunks were lost with their worker and run here: {lost[-1]!r}"
 
 
-def _chunk_size(total: int, task: _Task, cores: int, executor: Executor | None) -> int:
+def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
     """Whole blocks of runs, at least four chunks for each core that is known of."""
-    work, parts = (_LOCAL_CHUNK, 4 * cores) if executor is None else (_REMOTE_CHUNK, 16)
+    work, parts = (_LOCAL_CHUNK, 4 * _chunks.cores()) if executor is None else (_REMOTE_CHUNK, 16)
     size = min(work // task.cost, math.ceil(total / parts))
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)

@@ -7,6 +7,7 @@ the angles, see `_modes`. The printed law has no such form: its heading never se
 from __future__ import annotations
 
 from collections.abc import Mapping
+from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
@@ -100,8 +101,7 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
         if choice("method", method, _METHODS) == "continuous":
             return plain(np.full(np.broadcast(rate, k_alpha, h).shape, np.inf))
         if method == "rk4":
-            reaches = [_rk4_reach(np.asarray(pole)) for pole in modes(gains, law).poles]
-            return plain(np.fmin(np.fmin(*reaches[:2]), reaches[2]))
+            return plain(reduce(np.fmin, map(_rk4_reach, modes(gains, law).poles)))
         if method == "polar_euler":
             return plain(longest_euler_step(rate, k_alpha, h))
         fading = k_alpha / (rate * (turn + h * rate))
@@ -205,10 +205,10 @@ def _flipping(b: np.ndarray, a: np.ndarray) -> np.ndarray:
     return np.where(gap >= 0.0, 4.0 / (b + np.sqrt(np.maximum(gap, 0.0))), np.inf)
 
 
-def _rk4_reach(pole: np.ndarray) -> np.ndarray:
+def _rk4_reach(pole: complex | np.ndarray) -> np.ndarray:
     """The longest step that shrinks this mode, by bisection: shorter ones all do."""
     size = np.abs(pole)
-    low, high = np.zeros(pole.shape), np.full(pole.shape, 4.0)
+    low, high = np.zeros(size.shape), np.full(size.shape, 4.0)
     for _ in range(50):
         middle = 0.5 * (low + high)
         z = middle * pole / size

@@ -8,6 +8,8 @@ it does: arrival, a change between forwards and backwards, and the largest |omeg
 
 from __future__ import annotations
 
+from functools import reduce
+
 import numpy as np
 
 from wmrlib._compile import formula
@@ -64,26 +66,20 @@ def _moving(weights):
     return formula(eval(f"lambda state, dt, k: ({moved})"), cache=False)
 
 
-_to2, _to3, _to4, _to5, _to6, _to7, _to8, _to9, _to10, _to11, _to12 = map(_moving, _STAGES)
+def _with_stage(before, weights):
+    """The slopes of the stages before, and of one more: the rates there, and omega."""
+    to_stage = _moving(weights)
+
+    def slopes(state, dt, loop):
+        known = before(state, dt, loop)
+        return (*known, closed_loop(to_stage(state, dt, known)[:3], loop))
+
+    return formula(slopes, cache=False)
+
+
+_first_slope = formula(lambda state, dt, loop: (closed_loop(state[:3], loop),), cache=False)
+_slopes = reduce(_with_stage, _STAGES, _first_slope)
 _to_end, _fifth, _third = map(_moving, (_WEIGHTS, _FIFTH, _THIRD))
-
-
-@formula
-def _slopes(state, dt, loop):
-    """The rates of the state, and omega, at the twelve stages."""
-    k1 = closed_loop(state[:3], loop)
-    k2 = closed_loop(_to2(state, dt, (k1,))[:3], loop)
-    k3 = closed_loop(_to3(state, dt, (k1, k2))[:3], loop)
-    k4 = closed_loop(_to4(state, dt, (k1, k2, k3))[:3], loop)
-    k5 = closed_loop(_to5(state, dt, (k1, k2, k3, k4))[:3], loop)
-    k6 = closed_loop(_to6(state, dt, (k1, k2, k3, k4, k5))[:3], loop)
-    k7 = closed_loop(_to7(state, dt, (k1, k2, k3, k4, k5, k6))[:3], loop)
-    k8 = closed_loop(_to8(state, dt, (k1, k2, k3, k4, k5, k6, k7))[:3], loop)
-    k9 = closed_loop(_to9(state, dt, (k1, k2, k3, k4, k5, k6, k7, k8))[:3], loop)
-    k10 = closed_loop(_to10(state, dt, (k1, k2, k3, k4, k5, k6, k7, k8, k9))[:3], loop)
-    k11 = closed_loop(_to11(state, dt, (k1, k2, k3, k4, k5, k6, k7, k8, k9, k10))[:3], loop)
-    k12 = closed_loop(_to12(state, dt, (k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11))[:3], loop)
-    return k1, k2, k3, k4, k5, k6, k7, k8, k9, k10, k11, k12
 
 
 @formula

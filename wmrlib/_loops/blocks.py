@@ -27,19 +27,17 @@ _ROUNDS = {polar.RK4: 16, EULER: 16, CONTINUOUS: 4}  # steps between two looks a
 def begin(runs, law, wheels, whole, arrival_radius):
     """The state of each run at its beginning, with the rows of a block."""
     states = np.empty((polar.TRIALS + 1, runs.shape[1]))
+    states[polar.K_RHO : polar.STEP] = runs[-4:]
     for i in range(runs.shape[1]):
         start, goal, gains = rows.run_of(runs, i)
         at, loop = polar_from_pose(*start, *goal), (gains, law, wheels)
         rates = closed_loop(at, loop)
         pace = abs(rates[0]) / max(at[0], 1e-300) + abs(rates[1]) + abs(rates[2])
         step = 0.1 / max(pace, 1e-300)
-        states[polar.RHO, i], states[polar.ALPHA, i], states[polar.THETA, i] = at
-        states[polar.LEFT, i] = whole if at[0] > arrival_radius else -whole
-        states[polar.PEAK, i], states[polar.LENGTH, i] = abs(rates[4]), 0.0
-        states[polar.K_RHO, i], states[polar.K_ALPHA, i] = gains.k_rho, gains.k_alpha
-        states[polar.H, i], states[polar.V_MAX, i] = gains.h, gains.v_max
-        states[polar.STEP, i], states[polar.TRIALS, i] = step, adaptive.MOST_TRIALS
-        states[polar.SWING, i] = adaptive.swing(at, rates, 1e-6 * min(step, 1.0), loop)
+        left = whole if at[0] > arrival_radius else -whole
+        swing = adaptive.swing(at, rates, 1e-6 * min(step, 1.0), loop)
+        states[: polar.K_RHO, i] = (*at, left, abs(rates[4]), 0.0)
+        states[polar.STEP :, i] = (step, swing, adaptive.MOST_TRIALS)
     return states
 
 
@@ -116,14 +114,6 @@ def conclude(states, law, wheels, method, dt, whole, arrival_radius):
     return summary
 
 
-def survey(runs, law, wheels, method, dt, samples, arrival_radius):
-    """Sum up many runs, as `plane.survey` does."""
-    whole = (samples - 1) * (dt if method == CONTINUOUS else 1.0)
-    states = begin(runs, law, wheels, whole, arrival_radius)
-    survey_of(method, law, wheels.max_speed < math.inf)(states, wheels, dt, arrival_radius)
-    return conclude(states, law, wheels, method, dt, whole, arrival_radius)
-
-
 @compiled
 def note(records, k, runs, states, law, wheels):
     """Record sample k of each run."""
@@ -134,25 +124,27 @@ def note(records, k, runs, states, law, wheels):
             continue
         _, _, _, v, omega = closed_loop((rho, alpha, theta), (gains, law, wheels))
         sine, cosine = vector_sincos(theta + goal[2])
-        records[rows.X, i, k] = goal[0] - rho * cosine
-        records[rows.Y, i, k] = goal[1] - rho * sine
-        records[rows.HEADING, i, k] = wrap(theta - alpha + goal[2])
-        records[rows.RHO, i, k], records[rows.ALPHA, i, k] = rho, alpha
-        records[rows.THETA, i, k] = theta
-        records[rows.V, i, k], records[rows.OMEGA, i, k] = v, omega
+        x, y = goal[0] - rho * cosine, goal[1] - rho * sine
+        records[:, i, k] = (x, y, wrap(theta - alpha + goal[2]), rho, alpha, theta, v, omega)
 
 
-def record(runs, law, wheels, method, dt, samples, arrival_radius):
-    """The same runs sample by sample up to the last one before arrival, as `plane.record` does."""
-    records = np.full((rows.LYAPUNOV, runs.shape[1], samples), np.nan)
-    whole = dt if method == CONTINUOUS else 1.0
+def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded):
+    """As `plane.survey`; the last sample is the one before arrival."""
+    pace = dt if method == CONTINUOUS else 1.0
+    whole, drive = (samples - 1) * pace, survey_of(method, law, wheels.max_speed < math.inf)
     states = begin(runs, law, wheels, whole, arrival_radius)
-    step = survey_of(method, law, wheels.max_speed < math.inf)
-    for k in range(samples):
+    drive(states, wheels, dt, arrival_radius)
+    summary = conclude(states, law, wheels, method, dt, whole, arrival_radius)
+    records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
+    states = begin(runs, law, wheels, pace, arrival_radius)
+    given_up = summary[rows.OUTCOME] == rows.UNFINISHED
+    states[polar.LEFT, given_up] = -pace
+    for k in range(records.shape[2]):
         note(records, k, runs, states, law, wheels)
         going = states[polar.LEFT] >= 0.0
-        if k == samples - 1 or not going.any():
+        if not going.any():
             break
-        states[polar.LEFT, going], states[polar.TRIALS] = whole, adaptive.MOST_TRIALS
-        step(states, wheels, dt, arrival_radius)
-    return records
+        states[polar.LEFT, going], states[polar.TRIALS] = pace, adaptive.MOST_TRIALS
+        drive(states, wheels, dt, arrival_radius)
+    records[:, given_up] = math.nan
+    return summary, records

@@ -12,6 +12,7 @@ from wmrlib._compile import compiled
 from wmrlib._loops import plane, polar, rows
 from wmrlib.kinematics import PolarError, Pose, polar_error, pose_from_polar, wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, saturation_scale
+from wmrlib.motion import polar_closing_rate
 
 
 def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
@@ -24,20 +25,19 @@ def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
 
     def rate(_, state):
         rho, alpha, theta, *twist, _ = state
+        *rates, v, omega = polar.closed_loop((max(rho, 0.0), alpha, theta), loop)  # tried past it
         if lag:
-            return *polar.lagging_loop((rho, alpha, theta), *twist, loop, lag), abs(twist[0])
-        *rates, v, _ = polar.closed_loop((max(rho, 0.0), alpha, theta), loop)  # tried past the goal
+            wanted, (v, omega) = np.array([v, omega]), twist
+            rates = *polar_closing_rate(rho, alpha, v / rho, omega), *(wanted - twist) / lag
         return *rates, abs(v)
 
     def recorded(times, states):
         states[0] = np.maximum(states[0], 0.0)  # rounding can carry rho a hair past the goal
-        record = np.empty((9, times.size))
-        record[: rows.RHO] = pose_from_polar(PolarError(*states[:3]), goal)
-        record[rows.RHO : rows.V] = states[:3]
-        _add_commands(record, np.zeros((2, times.size)), tuning, law, wheels)
+        pose = pose_from_polar(PolarError(*states[:3]), goal)
+        made = _commands(states[:3], np.zeros((2, times.size)), tuning, law, wheels)
         if lag:
-            record[rows.V : rows.LYAPUNOV] = states[3:5]
-        return record
+            made[:2] = states[3:5]
+        return np.vstack([*pose, states[:3], made])
 
     def left_to_go(_, state):
         return state[0] - (arrival_radius or -1.0)
@@ -66,12 +66,10 @@ def after_reference(path_at, start, tuning, law, wheels, t):
         return v * math.cos(state[2]), v * math.sin(state[2]), omega, abs(v)
 
     def recorded(times, states):
-        path = path_at(times)
-        pose, record = Pose(*states[:3]), np.empty((9, times.size))
-        record[: rows.RHO] = pose._replace(heading=wrap_angle(pose.heading))
-        record[rows.RHO : rows.V] = polar_error(pose, Pose(*path[:3]))
-        _add_commands(record, path[3:], tuning, law, wheels)
-        return record
+        path, pose = path_at(times), Pose(*states[:3])
+        error = np.array(polar_error(pose, Pose(*path[:3])))
+        made = _commands(error, path[3:], tuning, law, wheels)
+        return np.vstack([*pose[:2], wrap_angle(pose.heading), error, made])
 
     return _integrated(rate, np.array([*start, 0.0]), t, recorded)
 
@@ -121,11 +119,12 @@ def _summed_up(t, steps, state_at, outcome, recorded):
 
 
 @compiled
-def _add_commands(record, goal_twist, tuning, law, wheels):
-    """Fill in what the law commands at each recorded state, and V."""
-    for k in range(record.shape[1]):
-        polar = record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k]
-        v, omega = command(*polar, goal_twist[0, k], goal_twist[1, k], tuning, law)
+def _commands(polar, goal_twist, tuning, law, wheels):
+    """What the law commands in each column of `polar`, (v, omega), and V."""
+    made = np.empty((3, polar.shape[1]))
+    for k in range(polar.shape[1]):
+        rho, alpha, theta = polar[:, k]
+        v, omega = command(rho, alpha, theta, goal_twist[0, k], goal_twist[1, k], tuning, law)
         share = saturation_scale(v, omega, wheels)
-        record[rows.V, k], record[rows.OMEGA, k] = share * v, share * omega
-        record[rows.LYAPUNOV, k] = lyapunov_value_of(*polar, tuning, law)
+        made[:, k] = (share * v, share * omega, lyapunov_value_of(rho, alpha, theta, tuning, law))
+    return made

@@ -32,67 +32,47 @@ def move(pose, v, omega, dt, step):
 
 
 @compiled
-def drive(start, reference, tuning, law, wheels, step, dt, arrival_radius):
-    """One run after the goal in column k of `reference` at k dt: (record, outcome).
+def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radius):
+    """Record one run after the goal in column k of `reference`, or its last: (samples, outcome).
 
     Stops on arrival; a negative radius never arrives, so a reference is followed to its end.
     """
     pose = start[0], start[1], wrap(start[2])
-    record = np.empty((rows.LYAPUNOV + 1, reference.shape[1]))
-    for k in range(reference.shape[1]):
-        goal = reference[rows.X, k], reference[rows.Y, k], reference[rows.HEADING, k]
-        goal_twist = reference[rows.GOAL_V, k], reference[rows.GOAL_OMEGA, k]
+    for k in range(record.shape[0]):
+        now = min(k, reference.shape[1] - 1)
+        goal = reference[rows.X, now], reference[rows.Y, now], reference[rows.HEADING, now]
+        goal_twist = reference[rows.GOAL_V, now], reference[rows.GOAL_OMEGA, now]
         rho, alpha, theta, v, omega = observe(pose, goal, goal_twist, tuning, law, wheels)
+        value = lyapunov_value_of(rho, alpha, theta, tuning, law)
+        record[k, rows.X], record[k, rows.Y], record[k, rows.HEADING] = pose
+        record[k, rows.RHO], record[k, rows.ALPHA], record[k, rows.THETA] = rho, alpha, theta
+        record[k, rows.V], record[k, rows.OMEGA], record[k, rows.LYAPUNOV] = v, omega, value
         if not math.isfinite(rho + v + omega):
-            return record[:, :k], rows.DIVERGED
-        record[rows.X, k], record[rows.Y, k], record[rows.HEADING, k] = pose
-        record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k] = rho, alpha, theta
-        record[rows.V, k], record[rows.OMEGA, k] = v, omega
-        record[rows.LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)
+            return k, rows.DIVERGED
         if rho <= arrival_radius:
-            return record[:, : k + 1], rows.ARRIVED
+            return k + 1, rows.ARRIVED
         pose = move(pose, v, omega, dt, step)
-    return record[:, :], rows.TIMED_OUT
+    return record.shape[0], rows.TIMED_OUT
 
 
 @compiled
-def survey(runs, law, wheels, step, dt, samples, arrival_radius):
-    """Sum up many runs to goals that stand still, without recording them."""
+def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded):
+    """Sum up many runs to goals that stand still; their samples too, NaN after each one's end."""
     summary = np.empty((rows.DISTANCE + 1, runs.shape[1]))
+    records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
+    run = np.empty((samples, rows.LYAPUNOV + 1))
+    reference = np.zeros((rows.GOAL_OMEGA + 1, 1))
     for i in range(runs.shape[1]):
         start, goal, gains = rows.run_of(runs, i)
-        pose, tuning = (start[0], start[1], wrap(start[2])), pose_tuning(*gains)
-        outcome, last, peak, length = rows.TIMED_OUT, 0, 0.0, 0.0
-        rho, alpha, theta = polar_from_pose(*pose, *goal)
-        for k in range(samples):
-            seen = observe(pose, goal, (0.0, 0.0), tuning, law, wheels)
-            broken = not math.isfinite(seen[0] + seen[3] + seen[4])
-            if k == 0 or not broken:
-                last, (rho, alpha, theta, v, omega) = k, seen
-            if broken:
-                outcome = rows.DIVERGED
-                break
-            peak = max(peak, abs(omega))
-            if rho <= arrival_radius:
-                outcome = rows.ARRIVED
-                break
-            if k + 1 < samples:
-                length += abs(v) * dt
-            pose = move(pose, v, omega, dt, step)
+        reference[: rows.GOAL_V, 0] = goal
+        loop = pose_tuning(*gains), law, wheels, step, dt, arrival_radius
+        count, outcome = drive(run, start, reference, *loop)
+        last, peak, length = max(count - 1, 0), 0.0, 0.0
+        for k in range(count):
+            peak = max(peak, abs(run[k, rows.OMEGA]))
+            length += abs(run[k, rows.V]) * dt if k < last else 0.0
+        rho, alpha, theta = run[last, rows.RHO : rows.V]
         rows.summarise(summary, i, outcome, last * dt, wrap(theta - alpha), peak, length, rho)
-    return summary
-
-
-@compiled
-def record(runs, law, wheels, step, dt, samples, arrival_radius):
-    """The same runs sample by sample, NaN after each one's end."""
-    records = np.full((rows.LYAPUNOV, runs.shape[1], samples), np.nan)
-    reference = np.zeros((rows.GOAL_OMEGA + 1, samples))
-    for i in range(runs.shape[1]):
-        start, goal, gains = rows.run_of(runs, i)
-        for row in range(3):
-            reference[row] = goal[row]
-        tuning = pose_tuning(*gains)
-        run, _ = drive(start, reference, tuning, law, wheels, step, dt, arrival_radius)
-        records[:, i, : run.shape[1]] = run[: rows.LYAPUNOV]
-    return records
+        if recorded:
+            records[:, i, :count] = run[:count, : rows.LYAPUNOV].T
+    return summary, records

@@ -36,14 +36,6 @@ def closed_loop(polar, loop):
     return rho_rate, alpha_rate, theta_rate, share * v_over_rho * rho, share * omega
 
 
-@compiled
-def lagging_loop(polar, v, omega, loop, lag):
-    """(rho', alpha', theta', v', omega') when v and omega lag behind the command."""
-    _, _, _, v_wanted, omega_wanted = closed_loop(polar, loop)
-    rho_rate, alpha_rate, theta_rate = polar_closing_rate(polar[0], polar[1], v / polar[0], omega)
-    return rho_rate, alpha_rate, theta_rate, (v_wanted - v) / lag, (omega_wanted - omega) / lag
-
-
 @formula
 def moved(polar, rates, dt):
     return polar[0] + dt * rates[0], polar[1] + dt * rates[1], polar[2] + dt * rates[2]
