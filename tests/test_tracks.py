@@ -14,6 +14,7 @@ import tracemalloc
 from collections import Counter
 from datetime import UTC, datetime, timedelta, tzinfo
 from functools import reduce
+from itertools import product
 from operator import xor
 from pathlib import Path
 from time import process_time
@@ -953,6 +954,14 @@ def test_geojson_collections_and_points_at_the_date_line(read):
         assert read(json.dumps(document)).points.lon.tolist() == [180.0, -180.0]
 
 
+def test_only_halves_that_meet_at_the_date_line_are_one_line(read):
+    for lon, other_lon, other_lat in product((180.0, -180.0, 10.0), (180.0, -180.0), (5.0, 6.0)):
+        lines = [[[1.0, 2.0], [lon, 5.0]], [[other_lon, other_lat], [3.0, 4.0]]]
+        track = read(json.dumps({"type": "MultiLineString", "coordinates": lines}))
+        meet = other_lat == 5.0 and lon == -other_lon
+        assert track.points.lat.tolist() == [2.0, *([] if meet else [5.0, other_lat]), 4.0]
+
+
 # Whatever a file holds
 
 NO_KIND = "it is no NMEA, GPX or GeoJSON, and as a table"
@@ -1107,6 +1116,9 @@ def test_geojson_is_longitude_first_and_cut_at_the_date_line(tmp_path):
     wmr.write_geojson(file, wmr.GeoPoint(lat=33.5, lon=44.25))
     point = {"type": "Point", "coordinates": [44.25, 33.5]}
     assert json.loads(file.read_text())["geometry"] == point
+    for write in (wmr.write_gpx, wmr.write_geojson):
+        write(file, wmr.GeoPoint(lat=[-1e-9, 1.0], lon=[-1e-9, 1.0]))
+        assert "-0" not in file.read_text()
 
 
 FULL_DISK = """
