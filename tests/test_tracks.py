@@ -88,7 +88,21 @@ def in_order(times):
     return max(best, default=0)
 
 
-@given(st.lists(st.lists(st.none() | st.integers(0, 9), max_size=12), max_size=4))
+@given(st.integers(2, 9), st.integers(1, 3), st.integers(1, 8), st.sampled_from([-5.0, 99.0]))
+def test_a_wrong_time_costs_itself_however_often_it_stands_there(count, often, place, wrong):
+    times, place = [*range(count)], min(place, count - 1)
+    fixes = Fixes()
+    for line, second in enumerate(times[:place] + often * [wrong] + times[place:]):
+        fixes.add(line, 0.0, second, line)
+    assert fixes.settle()[0][2].tolist() == times
+
+
+seconds = st.lists(
+    st.none() | st.integers(0, 20), unique_by=lambda s: object() if s is None else s, max_size=12
+)
+
+
+@given(st.lists(seconds, max_size=4))
 def test_a_time_out_of_order_costs_its_own_position_only(segments):
     fixes, line = Fixes(), 0
     for segment in segments:

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 import re
 from array import array
-from bisect import bisect_right
+from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -164,14 +164,15 @@ def backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
     _, rank = np.unique(segment[judged] + 1j * time[judged], return_inverse=True)
     # Patience sorting, from the last to the first.
     falling, ends = array("q", -rank), array("q")
-    lengths = array("q", falling)  # of the longest run that begins there, less one
+    lengths = array("q", falling)  # in epochs, of the longest run that begins there, less one
     for i in reversed(range(len(falling))):
-        lengths[i] = bisect_right(ends, falling[i])
+        lengths[i] = bisect_left(ends, falling[i])
         ends[lengths[i] : lengths[i] + 1] = array("q", [falling[i]])
     # Of runs as long, the one that begins first and then goes on with the nearest times.
     kept = lengths.index(len(ends) - 1)
     left = np.arange(rank.size) != kept
     for i in array("q", np.lexsort((rank, np.negative(lengths)))):
-        if i > kept and falling[i] <= falling[kept]:
+        same = (falling[i], lengths[i]) == (falling[kept], lengths[kept])
+        if i > kept and (same or falling[i] < falling[kept]):
             left[i], kept = False, i
     return judged[left]
