@@ -293,7 +293,8 @@ def trouble_with(path: Path, healthy: set | None, excused: int, wild: int) -> st
     used = {*zip(*(np.round(both * 1e6).astype(int).tolist() for both in (lat, lon)), strict=True)}
     lost, invented = healthy - used, used - healthy
     # One wrong time costs itself; of several beside each other nobody knows which time is wrong.
-    if len(lost) > excused + max(0, wild - 1) or len(invented) > wild:
+    nobody_knows = max(0, wild - 1) + (len(healthy) <= wild)
+    if len(lost) > excused + nobody_knows or len(invented) > wild:
         return f"lost {sorted(lost)[:3]}, made up {sorted(invented)[:3]}; {track.report!r}"
     return ""
 

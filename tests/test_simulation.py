@@ -520,3 +520,17 @@ def test_lagging_wheels_settle_or_not_as_their_poles_say(ratio):
     _, minus_product = np.linalg.lstsq(before, theta[2:], rcond=None)[0]
     assert 0.5 * math.log(-minus_product) / dt == pytest.approx(growth, abs=0.02)
     assert (growth > 0.0) == (ratio == 10.0)
+
+
+@given(exponent=st.integers(-12, 0))
+@settings(max_examples=13)
+def test_continuous_is_as_right_however_small_the_radius(exponent):
+    start, gains = wmr.Pose(0.07, 0.33, -2.92), wmr.Gains(0.9, 9.9, 0.37, 0.6)
+    how = {"arrival_radius": 0.3 * 10.0**exponent, "duration": 90.0}
+    run = wmr.arrival(
+        wmr.simulate(start, wmr.Pose(0.0, 0.0, 0.0), gains, method="continuous", **how)
+    )
+    many = wmr.sweep(start, wmr.Pose(0.0, 0.0, 0.0), gains, **how)
+    assert run.arrived
+    assert many.arrived
+    assert run.time == pytest.approx(many.time, rel=1e-7)

@@ -219,6 +219,8 @@ def test_the_real_log(read):
 def test_talkers_hemispheres_and_epochs(read):
     for talker in ("GP", "GN", "GL", "GA", "GB", "BD", "QZ"):
         assert len(read(gga(talker=talker))) == 1
+    for quality in (1, 2, 3, 4, 5, 9):  # 9: by some receivers with the help of satellites
+        assert len(read(gga(quality=quality))) == 1
     track = read([gga(talker="GN"), rmc(), gga(talker="GL", lat="5405.7000,N"), gga("104707.00")])
     assert track.points.lat.tolist() == pytest.approx([LAT] * 2)
     assert dict(track.report.skipped) == {"same epoch again": (2, 2)}
@@ -334,7 +336,7 @@ def test_a_fix_that_is_none_is_not_used(read):
         (rmc(mode="E"), estimated),
         (rmc(mode="M"), estimated),
         (rmc(mode="S"), estimated),
-        (gga(quality=9), no_fix),
+        (gga(quality=10), no_fix),
         (gga(quality=8), estimated),
         # where the GGA says there is no fix, the RMC is not believed
         (rmc() + "\n" + gga(quality=0), r"1 .* says has no fix \(first in line 1\); " + no_fix),
@@ -942,6 +944,34 @@ def test_bad_rows_are_counted_with_their_line(read):
     begin = process_time()
     assert len(read("lat,lon\n1,2\n" + "\n" * 50_000)) == 1
     assert process_time() - begin < 1.5  # with a pattern that runs on over lines 5 s and more
+
+
+SIDES = ["Dir", "Direction", "Ref", "Hemi", "Hemisphere", "Indicator"]
+PAIRS = [
+    ("N/S", "E/W"),
+    ("n_s", "e_w"),
+    ("NS Indicator", "EW Indicator"),
+    ("North/South", "East/West"),
+]
+PAIRS += [
+    (f"{lat}{gap}{side}", f"{lon}{gap}{side}")
+    for lat, lon in (("Lat", "Lon"), ("Latitude", "Longitude"))
+    for gap in ("", " ", "_")
+    for side in SIDES
+]
+
+
+def test_hemispheres_and_fixes_are_known_by_many_names(read):
+    for north, east in PAIRS:
+        track = read(f"Latitude,{north},Longitude,{east}\n33.5,S,70.6,W\n1.0,N,2.0,E\n")
+        assert places(track) == ([-33.5, 1.0], [-70.6, 2.0]), north
+    for name in ("fix", "fixType", "Fix_Type", "FixQuality", "gps fix", "is_valid", "isValid"):
+        track = read(f"lat,lon,{name}\n0,0,0\n33.5,44,3\n")
+        assert places(track) == ([33.5], [44.0]), name
+        assert dict(track.report.skipped) == {"row without a fix": Count(1, 2)}
+    for name, units in (("time_us", 1e6), ("gps time", 1.0), ("Date Time", 1.0), ("timeMs", 1e3)):
+        track = read(f"{name},lat,lon\n1000000,0,0\n4000000,33.5,44\n")
+        assert track.t.tolist() == [0.0, 3e6 / units], name
 
 
 # GeoJSON

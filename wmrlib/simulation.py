@@ -44,7 +44,8 @@ def simulate(
         control (LSODA, relative tolerance 1e-11).
         The first two see alpha and theta in (-pi, pi]; in the last these never jump.
     dt : float, s, between samples; "continuous" adds the moment of arrival
-    duration : float, s, after which the robot stops, at most ten million dt
+    duration : float, s, within which lies the last sample, where the robot stops; at most ten
+        million dt
     arrival_radius : float, m, within which it stops; 0 drives on
     wheels : WheelLimits or None, see `limit_wheels`
     wheel_lag : float, s; with "continuous" and an arrival radius, the wheels start at rest and

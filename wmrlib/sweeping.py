@@ -86,7 +86,7 @@ def sweep(
         order 4, or by Euler's, of length dt; the last is shortened to end on the arrival radius.
         "arc" and "euler": each entry equals `arrival(simulate(...))` of that run.
     dt, duration, arrival_radius, wheels : as in `simulate`; with "continuous", dt only says where
-        the samples lie
+        the samples lie; the last one within the duration ends the run
     trajectories : bool, whether to return the samples too, at most fifty million in all
     executor : Executor to which chunks of runs are sent, for example dask's
         `Client.get_executor()`; a chunk that is lost with its worker is run here, with a warning.

@@ -207,7 +207,7 @@ def _flipping(b: np.ndarray, a: np.ndarray) -> np.ndarray:
 
 def _rk4_reach(pole: complex | np.ndarray) -> np.ndarray:
     """The longest step that shrinks this mode, by bisection: shorter ones all do."""
-    size = np.abs(pole)
+    size = np.maximum(np.abs(pole), 1e-300)  # what never moves is shrunk by no step
     low, high = np.zeros(size.shape), np.full(size.shape, 4.0)
     for _ in range(50):
         middle = 0.5 * (low + high)

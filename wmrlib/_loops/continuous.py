@@ -49,7 +49,7 @@ def to_goal(start, goal, tuning, law, wheels, t, arrival_radius, lag):
         return t[:0], np.empty((9, 0)), rows.DIVERGED, 0.0, 0.0
     if first.rho <= arrival_radius:
         return _summed_up(t[:1], t[:1], lambda _: begin[:, None], rows.ARRIVED, recorded)
-    return _integrated(rate, begin, t, recorded, left_to_go)
+    return _integrated(rate, begin, t, recorded, left_to_go, arrival_radius)
 
 
 def after_reference(path_at, start, tuning, law, wheels, t):
@@ -74,7 +74,7 @@ def after_reference(path_at, start, tuning, law, wheels, t):
     return _integrated(rate, np.array([*start, 0.0]), t, recorded)
 
 
-def _integrated(rate, begin, t, recorded, event=None):
+def _integrated(rate, begin, t, recorded, event=None, nearest=1.0):
     """The run with error control, whether its motion is fast, slow or both (stiff)."""
     from scipy.integrate import solve_ivp  # here, because importing it takes longer than all else
 
@@ -88,7 +88,8 @@ def _integrated(rate, begin, t, recorded, event=None):
         return rate(time, state)
 
     # A first step of its own: the run is then the same whatever its duration.
-    more = {"first_step": min(1e-12, t[-1]), "dense_output": True, "rtol": 1e-11, "atol": 1e-13}
+    more = {"first_step": min(1e-12, t[-1]), "dense_output": True, "rtol": 1e-11}
+    more["atol"] = [min(1e-13, 1e-10 * (nearest or 1.0)), *[1e-13] * (begin.size - 1)]
     run = solve_ivp(counted, (0.0, t[-1]), begin, "LSODA", events=event, **more)
     outcome = (rows.TIMED_OUT, rows.ARRIVED, rows.DIVERGED)[run.status]
     end = run.t[-1]
@@ -101,8 +102,9 @@ def _summed_up(t, steps, state_at, outcome, recorded):
     The last of the states is the metres rolled; the steps are those of the integrator.
     """
     states = state_at(t)
-    record = recorded(t, states)
-    finite = np.isfinite(record[rows.RHO : rows.LYAPUNOV]).all(axis=0)
+    whole = np.isfinite(states).all(axis=0)
+    record = recorded(t, np.where(whole, states, 0.0))
+    finite = whole & np.isfinite(record[rows.RHO : rows.LYAPUNOV]).all(axis=0)
     known = int(np.logical_and.accumulate(finite).sum())
     if known < t.size:
         t, record, outcome = t[:known], record[:, :known], rows.DIVERGED

@@ -8,6 +8,7 @@ from io import BufferedReader, TextIOWrapper
 
 import numpy as np
 
+from wmrlib._checks import refusal
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks import geojson, gpx, nmea, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
@@ -96,6 +97,8 @@ def read_track(path: str | os.PathLike) -> Track:
     ValueError : a file without a position; the message says why
     OSError : a file that can't be opened
     """
+    if not isinstance(path, str | os.PathLike):
+        raise refusal("path", path, "a str or PathLike", f", not a {type(path).__name__}")
     try:
         with open(path, "rb") as file:
             source, fixes = _read(file)

@@ -20,7 +20,7 @@ _PLACE = re.compile(r"[0-9]{2}[0-5][0-9]\.[0-9]+,[NS],[0-9]{3}[0-5][0-9]\.[0-9]+
 # The most trusted kind first: its rank, and the fields where its time and its position begin.
 _KINDS = {"GGA": (0, 1, 2), "GNS": (1, 1, 2), "RMC": (2, 1, 3), "GLL": (3, 5, 1)}
 _LAST = len(_KINDS)
-_MODES = dict(zip("12345678", "ADPRFEMS", strict=True))  # of the qualities of a GGA
+_MODES = dict(zip("123456789", "ADPRFEMSD", strict=True))  # of the qualities of a GGA
 _MEASURED, _OTHERWISE = frozenset("ADPRF"), frozenset("EMS")
 _TOGETHER = 3.0  # s; the sentences of an epoch come within it
 # The columns of the table of epochs. OTHER: the first line of its positions that are not used.

@@ -12,12 +12,16 @@ from typing import Any, NamedTuple
 from wmrlib.tracks.fixes import NO_TIME, Fixes, number, timestamp
 
 LATITUDE, LONGITUDE = {"lat", "latitude"}, {"lon", "lng", "long", "longitude"}
-_TIME = {"time", "timestamp", "datetime", "t"}
-_NORTH, _EAST = {"n s", "ns", "lat dir", "lat ref"}, {"e w", "ew", "lon dir", "lon ref"}
-_BESIDE = {"deg", "degrees", "n", "s", "e", "w", "sec", "utc"}  # what a name may hold as well
-_UNITS = {"e7": 1e7, "ms": 1e3}  # how many make a degree or a second
+_TIME = {"time", "timestamp", "datetime", "date time", "t"}
+_SIDES = {"dir", "direction", "ref", "reference", "hemi", "hemisphere", "indicator"}
+_NORTH = {"n s", "ns", "north south", *(f"{name} {side}" for name in LATITUDE for side in _SIDES)}
+_EAST = {"e w", "ew", "east west", *(f"{name} {side}" for name in LONGITUDE for side in _SIDES)}
+_NORTH, _EAST = ({*names, *(f"{n} indicator" for n in names)} for names in (_NORTH, _EAST))
+_BESIDE = {"deg", "degrees", "n", "s", "e", "w", "sec", "utc", "gps"}  # what a name may hold too
+_UNITS = {"e7": 1e7, "ms": 1e3, "us": 1e6}  # how many make a degree or a second
 # Columns that tell whether there is a fix, and the digits that say no.
-_FIX = {"valid": "0", "fix": "0", "status": "", "fix status": "", "gps status": ""}
+_FIX = dict.fromkeys(("valid", "is valid", "fix", "gps fix"), "0")
+_FIX |= dict.fromkeys(("status", "fix status", "gps status"), "")
 _FIX |= dict.fromkeys(("quality", "fix quality", "gps quality"), "0678")
 _FIX |= dict.fromkeys(("fix mode", "fix type"), "01")
 _NO = {"no", "not", "none", "nofix", "invalid", "void", "false", "v", "n", "-1"}
@@ -79,7 +83,8 @@ def _header(line: str) -> _Columns:
             cells = next(csv.reader([line], delimiter=delimiter))
         except csv.Error:  # 131072 characters without a delimiter
             continue
-        words = [re.findall(r"[^\W_]+", re.sub("e7$", " e7", cell.casefold())) for cell in cells]
+        apart = [re.sub("(?<=[a-z])(?=[A-Z])|(?=[eE]7$)", " ", cell).casefold() for cell in cells]
+        words = [re.findall(r"[^\W_]+", cell) for cell in apart]
         full = [" ".join(each) for each in words]
         short = [" ".join(w for w in each if w not in _BESIDE | {*_UNITS}) for each in words]
         places: list[Any] = []

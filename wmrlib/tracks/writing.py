@@ -99,7 +99,7 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
 
 def overwrite(path: str | os.PathLike, data: bytes) -> None:
     """Replace a file's content at once; what was there stays where that fails."""
-    if os.path.exists(path):
+    if os.path.exists(path) or not os.path.basename(path):
         with open(path, "ab") as file:  # refused here, if it is read-only or a folder
             if not os.path.isfile(path):  # a pipe
                 file.write(data)
