@@ -34,11 +34,10 @@ def _folders() -> list[Path]:
     compiler = f"{numba.__version__} {sys.implementation.cache_tag}".encode()
     digest = sha256(compiler + b"".join(source.read_bytes() for source in _SOURCES)).hexdigest()
     own = os.environ.get("NUMBA_CACHE_DIR")
-    places = map(
-        os.path.expanduser, (own,) if own else (_PACKAGE / "__pycache__", "~/.cache/wmrlib")
-    )
+    given = [own] if own else [str(_PACKAGE / "__pycache__"), "~/.cache/wmrlib"]
+    places = [os.path.expanduser(place) for place in given]
     # What still begins with a tilde is the home of a user that has none.
-    return [Path(place, f"compiled-{digest[:16]}") for place in places if str(place)[0] != "~"]
+    return [Path(place, f"compiled-{digest[:16]}") for place in places if place[0] != "~"]
 
 
 _FOLDERS = _folders()
