@@ -14,9 +14,11 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
+from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
 from wmrlib import _chunks, sweeping
+from wmrlib._loops import adaptive
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -84,6 +86,17 @@ wide_gains = st.builds(
     decades(0.02, 10.0), decades(0.1, 20.0), decades(0.01, 20.0) | st.just(0.0), decades(0.1, 20.0),
 )  # fmt: skip
 limits = st.none() | st.builds(wmr.WheelLimits, st.floats(0.2, 1.0), st.floats(0.3, 5.0))
+
+
+def test_the_steps_have_the_coefficients_of_their_authors():
+    stages = [np.pad(row, (0, 11 - len(row))) for row in adaptive._STAGES]
+    for ours, theirs in (
+        (stages, dop853_coefficients.A[1:12, :11]),
+        (adaptive._WEIGHTS, dop853_coefficients.B[:12]),
+        (adaptive._FIFTH, dop853_coefficients.E5[:12]),
+        (adaptive._THIRD, dop853_coefficients.E3[:12]),
+    ):
+        np.testing.assert_allclose(ours, theirs, rtol=1e-15, atol=1e-16)
 
 
 @settings(max_examples=60, deadline=None)
