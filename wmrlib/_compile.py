@@ -43,6 +43,15 @@ def _folders() -> list[Path]:
 _FOLDERS = _folders()
 
 
+def _identity(value):
+    """What tells a function from others of its name: the numbers and functions it closes over."""
+    function = getattr(value, "py_func", value)
+    if not hasattr(function, "__code__"):
+        return value
+    cells = [_identity(cell.cell_contents) for cell in function.__closure__ or ()]
+    return function.__module__, function.__qualname__, cells
+
+
 class _Cache(NullCache):
     """The binaries of a function. One that is not there, or damaged, is compiled anew."""
 
@@ -51,9 +60,7 @@ class _Cache(NullCache):
 
     def files(self, signature, codegen) -> list[Path]:
         name = self.function.__name__
-        closed_over = [cell.cell_contents for cell in self.function.__closure__ or ()]
-        closed_over = [getattr(each, "__qualname__", each) for each in closed_over]
-        key = repr((self.function.__module__, closed_over, signature, codegen.magic_tuple()))
+        key = repr((_identity(self.function), signature, codegen.magic_tuple()))
         return [folder / f"{name}-{sha256(key.encode()).hexdigest()[:16]}" for folder in _FOLDERS]
 
     def load_overload(self, signature, target_context):
@@ -95,7 +102,7 @@ def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:
 
     Divisions follow IEEE 754 as in numpy (no ZeroDivisionError); a product and a sum may be rounded
     once rather than twice. ``NUMBA_DISABLE_JIT=1`` leaves plain Python. If it is kept in the
-    `cache`, it may close over plain numbers and compiled functions of a name of their own only.
+    `cache`, it may close over plain numbers and compiled functions only.
     """
     made = numba.njit(error_model="numpy", nogil=True, fastmath={"contract"}, **options)(function)
     if cache and made is not function:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrlib._checks import choice, instance, reals, refusal, scalar
-from wmrlib._loops import continuous, plane, rows
+from wmrlib._loops import alone, plane, rows
 from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
@@ -70,7 +70,7 @@ def simulate(
         raise refusal("wheel_lag", lag, '0, or method "continuous" with an arrival radius,')
     t = dt * np.arange(samples)
     if continuously:
-        run = continuous.to_goal(begin, end, tuning, code, limits, t, radius, lag)
+        run = alone.to_goal(begin, end, tuning, code, limits, t, radius, lag)
     else:
         path = np.array([*end, 0.0, 0.0])[:, None]
         run = _held(t, method, dt, radius, begin, path, tuning, code, limits)
@@ -125,7 +125,7 @@ def track(
 
     path = path_at(t)
     if choice("method", method, _METHODS) == "continuous":
-        run = continuous.after_reference(path_at, begin, tuning, code, limits, t)
+        run = alone.after_reference(path_at, begin, tuning, code, limits, t)
     else:
         run = _held(t, method, dt, -1.0, begin, path, tuning, code, limits)
     t, record, outcome, *sums = run

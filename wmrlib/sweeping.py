@@ -22,7 +22,7 @@ from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
 _METHODS = {
-    "continuous": (blocks, polar.CONTINUOUS),
+    "continuous": (adaptive, None),
     "rk4": (blocks, polar.RK4),
     "polar_euler": (blocks, polar.EULER),
     "arc": (plane, plane.ARC),

@@ -1,173 +1,194 @@
-"""Steps with error control for runs side by side in a block, each with its own length of step.
+"""The law acting all the time, in polar coordinates and with error control.
 
-Dormand and Prince's method of order 8 with Hairer's estimate of its error (Hairer, Norsett and
-Wanner, Solving Ordinary Differential Equations I, II.5). A state is (rho, alpha, theta, rolled),
-with rolled signed as v is. A step may have to end on an event, and is tried again, shorter, until
-it does: arrival, a change between forwards and backwards, and the largest |omega| so far.
+Many runs to their ends, one run step by step, and what it does at given times: a sample is a step
+of its own, from the beginning of the step that it lies in.
 """
 
 from __future__ import annotations
 
-from functools import reduce
+import math
+from functools import lru_cache
 
 import numpy as np
 
-from wmrlib._compile import formula
-from wmrlib._loops import polar
-from wmrlib._loops.polar import closed_loop
+from wmrlib._compile import compiled
+from wmrlib._loops import rows, steps
+from wmrlib._loops.polar import closed_loop, polar_closing_rate
+from wmrlib._vecmath import sincos, widest_vectors
+from wmrlib.gains import NO_LIMITS, GainsFields
+from wmrlib.kinematics import polar_from_pose, wrap
 
-TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
 MOST_TRIALS = 100_000.0
-SHARP = 1e-12  # so close to the arrival radius a run ends, as a share of it
-_SLACK = 1e-8  # what an event may miss of the metres rolled and of the largest |omega|
-_GLIMPSE = 1e-6  # share of a step by which the law is evaluated again for the rate of omega
-
-# fmt: off
-_STAGES = (
-    (0.05260015195876773,),
-    (0.0197250569845379, 0.0591751709536137),
-    (0.02958758547680685, 0, 0.08876275643042054),
-    (0.2413651341592667, 0, -0.8845494793282861, 0.924834003261792),
-    (0.037037037037037035, 0, 0, 0.17082860872947386, 0.12546768756682242),
-    (0.037109375, 0, 0, 0.17025221101954405, 0.06021653898045596, -0.017578125),
-    (0.03709200011850479, 0, 0, 0.17038392571223998, 0.10726203044637328, -0.015319437748624402,
-        0.008273789163814023),
-    (0.6241109587160757, 0, 0, -3.3608926294469414, -0.868219346841726, 27.59209969944671,
-        20.154067550477894, -43.48988418106996),
-    (0.47766253643826434, 0, 0, -2.4881146199716677, -0.590290826836843, 21.230051448181193,
-        15.279233632882423, -33.28821096898486, -0.020331201708508627),
-    (-0.9371424300859873, 0, 0, 5.186372428844064, 1.0914373489967295, -8.149787010746927,
-        -18.52006565999696, 22.739487099350505, 2.4936055526796523, -3.0467644718982196),
-    (2.273310147516538, 0, 0, -10.53449546673725, -2.0008720582248625, -17.9589318631188,
-        27.94888452941996, -2.8589982771350235, -8.87285693353063, 12.360567175794303,
-        0.6433927460157636),
-)
-_WEIGHTS = (0.054293734116568765, 0, 0, 0, 0, 4.450312892752409, 1.8915178993145003,
-        -5.801203960010585, 0.3111643669578199, -0.1521609496625161, 0.20136540080403034,
-        0.04471061572777259)
-_FIFTH = (0.01312004499419488, 0, 0, 0, 0, -1.2251564463762044, -0.4957589496572502,
-        1.6643771824549864, -0.35032884874997366, 0.3341791187130175, 0.08192320648511571,
-        -0.022355307863886294)
-_THIRD = (-0.18980075407240762, 0, 0, 0, 0, 4.450312892752409, 1.8915178993145003,
-        -5.801203960010585, -0.4226823213237919, -0.1521609496625161, 0.20136540080403034,
-        0.02265179219836082)
-
-# fmt: on
+TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
+_BEYOND = 1e100  # m or rad: whoever gets so far in so many steps never ends
+_ROUNDS = 4  # steps between two looks at who has finished
 
 
-def _moving(weights):
-    """A formula for the state moved by dt times the weighted sum of the slopes k.
+@lru_cache
+def loops_of(law, limited, lagging):
+    """The loops for one law, compiled by themselves: asking for it would cost more than a step."""
+    size = 6 if lagging else 4
 
-    Written out, because LLVM does not vectorise a loop that holds another.
-    """
-    kept = [(place, weight) for place, weight in enumerate(weights) if weight]
-    sums = (" + ".join(f"{w!r} * k[{j}][{row}]" for j, w in kept) for row in range(4))
-    moved = ", ".join(f"state[{row}] + dt * ({total})" for row, total in enumerate(sums))
-    return formula(eval(f"lambda state, dt, k: ({moved})"), cache=False)
+    @compiled
+    def slopes(bench, used, stage, wheels, lag):
+        widest_vectors()
+        limits = wheels if limited else NO_LIMITS
+        at, out = bench[steps.source_of(stage) :], bench[steps.SLOPES + stage * steps.STAGE :]
+        for i in range(used):
+            gains = GainsFields(
+                bench[steps.K_RHO + i],
+                bench[steps.K_ALPHA + i],
+                bench[steps.H + i],
+                bench[steps.V_MAX + i],
+            )
+            loop = gains, law, limits
+            r, a, t, v, omega = closed_loop((at[i], at[steps.ALPHA + i], at[steps.THETA + i]), loop)
+            if lagging:
+                out[steps.V + i], out[steps.OMEGA + i] = (
+                    (v - at[steps.V + i]) / lag,
+                    (omega - at[steps.OMEGA + i]) / lag,
+                )
+                v, omega = at[steps.V + i], at[steps.OMEGA + i]
+                rho = at[i] if at[i] != 0.0 else 1.0  # on the goal v is 0
+                r, a, t = polar_closing_rate(rho, at[steps.ALPHA + i], v / rho, omega)
+            out[i], out[steps.ALPHA + i], out[steps.THETA + i] = r, a, t
+            out[steps.ROLLED + i], out[steps.TURNING + i] = v, omega
+
+    @compiled
+    def begin(bench, used, wheels, lag):
+        for stage in (0, steps.BEFORE):
+            slopes(bench, used, stage, wheels, lag)
+            steps.get_ready(bench, used, stage)
+
+    @compiled
+    def trial(bench, used, radius, wheels, lag):
+        steps.set_steps(bench, used)
+        for stage in range(1, steps.BEFORE + 1):
+            steps.move(bench, used, size, stage)
+            slopes(bench, used, stage, wheels, lag)
+        steps.judge(bench, used, size, 1e-150, radius, TOLERANCE)
+
+    @compiled
+    def drive(states, radius, wheels, lag):
+        bench, inside = np.zeros(steps.ROOM), np.zeros(steps.LANES, np.int64)
+        for first in range(0, states.shape[1], steps.LANES):
+            used = min(steps.LANES, states.shape[1] - first)
+            for i in range(used):
+                steps.sit(bench, i, states, first + i)
+            begin(bench, steps.LANES, wheels, lag)
+            for i in range(used):
+                steps.keep(bench, i, states, first + i)
+        width = waiting = 0
+        while True:
+            width, waiting = steps.exchange(states, bench, inside, width, waiting)
+            if width == 0:
+                return
+            for _ in range(_ROUNDS):
+                trial(bench, steps.LANES, radius, wheels, lag)
+
+    @compiled
+    def trace(state, radius, wheels, lag):
+        """What is kept of one run at the beginning of each step, and at its end, in columns."""
+        bench, log, count = np.zeros(steps.ROOM), np.empty((steps.KEPT, 64)), 0
+        steps.sit(bench, 0, state, 0)
+        begin(bench, 1, wheels, lag)
+        while True:
+            if count == log.shape[1]:
+                log = steps.doubled(log)
+            steps.keep(bench, 0, log, count)
+            left = bench[steps.LEFT]
+            if not left > 0.0:
+                return log[:, : count + 1]
+            trial(bench, 1, radius, wheels, lag)
+            count += bench[steps.LEFT] != left
+
+    @compiled
+    def sample(log, t, wheels, lag):
+        """(rho, alpha, theta, v, omega) at the times t."""
+        bench, made = np.zeros(steps.ROOM), np.empty((5, t.size))
+        for first in range(0, t.size, steps.LANES):
+            steps.sit_back(bench, log, t[first : first + steps.LANES])
+            for stage in range(1, steps.LAST + 1):
+                steps.move(bench, steps.LANES, size, stage)
+                slopes(bench, steps.LANES, stage, wheels, lag)
+            steps.read(bench, made, first)
+        return made
+
+    return drive, trace, sample
 
 
-def _with_stage(before, weights):
-    """The slopes of the stages before, and of one more: the rates there, and omega."""
-    to_stage = _moving(weights)
-
-    def slopes(state, dt, loop):
-        known = before(state, dt, loop)
-        return (*known, closed_loop(to_stage(state, dt, known)[:3], loop))
-
-    return formula(slopes, cache=False)
-
-
-_first_slope = formula(lambda state, dt, loop: (closed_loop(state[:3], loop),), cache=False)
-_slopes = reduce(_with_stage, _STAGES, _first_slope)
-_to_end, _fifth, _third = map(_moving, (_WEIGHTS, _FIFTH, _THIRD))
-
-
-@formula
-def larger(one, other):
-    return one if one > other else other  # `max` is not vectorised
+@compiled
+def begun(runs, whole, radius, most):
+    """What is kept of runs when they begin, one a column."""
+    states = np.zeros((steps.KEPT, runs.shape[1]))
+    for i in range(runs.shape[1]):
+        start, goal, _ = rows.run_of(runs, i)
+        rho, alpha, theta = polar_from_pose(*start, *goal)
+        states[steps.RHO // steps.LANES, i], states[steps.ALPHA // steps.LANES, i] = rho, alpha
+        states[steps.THETA // steps.LANES, i], states[steps.TRIALS // steps.LANES, i] = theta, most
+        states[steps.LEFT // steps.LANES, i] = whole if rho > radius else -whole
+        for k in range(4):
+            states[steps.K_RHO // steps.LANES + k, i] = runs[6 + k, i]
+    return states
 
 
-@formula
-def _size(miss, rho):
-    of_angles = larger(abs(miss[1]), abs(miss[2]))
-    return larger(of_angles, larger(abs(miss[0]) / (abs(rho) + 1e-150), abs(miss[3]) / (1.0 + rho)))
+@compiled
+def summed_up(states, whole, radius):
+    """What became of each run."""
+    summary = np.empty((rows.DISTANCE + 1, states.shape[1]))
+    for i in range(states.shape[1]):
+        rho, alpha, theta = (
+            states[0, i],
+            states[steps.ALPHA // steps.LANES, i],
+            states[steps.THETA // steps.LANES, i],
+        )
+        left, total = states[steps.LEFT // steps.LANES, i], rho + alpha + theta
+        for row in range(steps.SLOPES // steps.LANES, steps.KEPT):
+            total += states[row, i]
+        outcome = rows.TIMED_OUT
+        far = left < 0.0 and max(abs(rho), abs(alpha), abs(theta)) > _BEYOND
+        if far or not math.isfinite(total):
+            outcome = rows.DIVERGED
+        elif rho <= radius * (1.0 + steps.SHARP) and (rho > 0.0 or left == -whole):
+            outcome = rows.ARRIVED
+        elif left < 0.0:
+            outcome = rows.UNFINISHED
+        peak, length = states[steps.PEAK // steps.LANES, i], states[steps.LENGTH // steps.LANES, i]
+        sums = wrap(theta - alpha), peak, length, rho
+        rows.summarise(summary, i, outcome, whole - abs(left), *sums)
+        if outcome == rows.UNFINISHED:
+            summary[rows.TIME :, i] = math.nan
+    return summary
 
 
-@formula
-def _trial(state, dt, loop):
-    """The state after a step, the rates at both ends, and the error in units of the tolerance."""
-    slopes, nothing = _slopes(state, dt, loop), (0.0, 0.0, 0.0, 0.0)
-    new = _to_end(state, dt, slopes)
-    fifth, third = _fifth(nothing, dt, slopes), _third(nothing, dt, slopes)
-    fine, coarse = _size(fifth, new[0]), 0.1 * _size(third, new[0])
-    error = fine * fine / np.sqrt(fine * fine + coarse * coarse + 1e-300)
-    return new, slopes[0], closed_loop(new[:3], loop), error / TOLERANCE
+@compiled
+def put_down(record, made, goal):
+    """Samples as a run records them; their rho may be a hair below 0."""
+    for k in range(made.shape[1]):
+        rho, alpha, theta = max(made[0, k], 0.0), made[1, k], made[2, k]
+        sine, cosine = sincos(theta + goal[2])
+        record[rows.X, k], record[rows.Y, k] = goal[0] - rho * cosine, goal[1] - rho * sine
+        record[rows.HEADING, k], record[rows.RHO, k] = wrap(theta - alpha + goal[2]), rho
+        record[rows.ALPHA, k], record[rows.THETA, k] = alpha, theta
+        record[rows.V, k], record[rows.OMEGA, k] = made[3, k], made[4, k]
 
 
-@formula
-def swing(state, rates, little, loop):
-    """The rate of omega."""
-    ahead = polar.moved(state, rates, little)
-    return (closed_loop(ahead, loop)[4] - rates[4]) / little
-
-
-@formula
-def _until_turn(f0, rate0, f1, rate1, dt, slack):
-    """How long f goes on before it turns round, if more than the slack of it is missed at the end.
-
-    By the cubic with these values and rates at both ends.
-    """
-    middle = rate0 + rate1 - 3.0 * (f1 - f0) / dt
-    root = np.sqrt(middle * middle - rate0 * rate1)
-    root = root if rate1 > 0.0 else -root
-    turn = dt - dt * (rate1 + root - middle) / (rate1 - rate0 + 2.0 * root)
-    before, after = abs(rate0) * turn, abs(rate1) * (dt - turn)
-    missed = before if before < after else after
-    return turn if (rate0 * rate1 < 0.0) & (missed > slack) else dt
-
-
-@formula
-def _until_arrival(rho0, rate0, rho1, rate1, dt, radius):
-    """When rho passes the radius, by the cubic for the time as a function of rho."""
-    fall = rho1 - rho0
-    s = (radius - rho0) / fall
-    ends = (1.0 - s) * (1.0 - s) * fall / rate0 - s * (1.0 - s) * fall / rate1
-    time = s * (ends + s * (3.0 - 2.0 * s) * dt)
-    time = time if (time > 0.0) & (time < dt) else s * dt
-    return time if rho1 < radius * (1.0 - SHARP) else dt
-
-
-@formula
-def advance(block, i, law, wheels, radius):
-    """Try a step of the run in place i, and take it if it is accurate and ends at its events."""
-    at, left, peak, length, gains = polar.read(block, i)
-    step, swing0, loop = block[polar.STEP, i], block[polar.SWING, i], (gains, law, wheels)
-    dt = step if step < left else left
-    new, first, last, error = _trial((*at, 0.0), dt, loop)
-    swing1, turning = swing(new[:3], last, _GLIMPSE * dt, loop), abs(last[4])
-
-    wanted = _until_arrival(at[0], first[0], new[0], last[0], dt, radius)
-    turn = _until_turn(0.0, first[3], new[3], last[3], dt, _SLACK * (1.0 + at[0]))
-    wanted = turn if turn < wanted else wanted
-    turn = _until_turn(first[4], swing0, last[4], swing1, dt, _SLACK * (1.0 + peak))
-    top = abs(first[4]) + abs(swing0) * turn
-    highest = (first[4] * swing0 > 0.0) & (top > peak + _SLACK)
-    wanted = turn if highest & (turn < wanted) else wanted
-
-    growth = 0.9 / np.sqrt(np.sqrt(np.sqrt(error)))
-    growth = (growth if growth < 5.0 else 5.0) if growth > 0.2 else 0.2  # 0.2 for NaN too
-    going, accurate = left > 0.0, error <= 1.0
-    taken = going & accurate & (wanted >= dt)
-    block[polar.RHO, i] = new[0] if taken else at[0]
-    block[polar.ALPHA, i] = new[1] if taken else at[1]
-    block[polar.THETA, i] = new[2] if taken else at[2]
-    block[polar.PEAK, i] = turning if taken & (turning > peak) else peak
-    block[polar.LENGTH, i] = length + abs(new[3]) if taken else length
-    block[polar.SWING, i] = swing1 if taken else swing0
-    again = wanted if accurate & (wanted < dt) else growth * dt
-    block[polar.STEP, i] = again if going else step
-    block[polar.TRIALS, i] -= 1.0
-    arrived = (radius > 0.0) & (new[0] <= radius * (1.0 + SHARP))
-    rest = left - dt if taken else left
-    over = going & ((taken & arrived) | (block[polar.TRIALS, i] <= 0.0) & (rest > 0.0))
-    block[polar.LEFT, i] = -rest if over else rest
+def survey(runs, law, wheels, _, dt, samples, radius, recorded):
+    """As `plane.survey`; the last sample is the one before arrival."""
+    drive, trace, sample = loops_of(law, wheels.max_speed < math.inf, False)
+    whole = (samples - 1) * dt
+    begin, how = begun(runs, whole, radius, MOST_TRIALS), (radius, wheels, 0.0)
+    states = begin.copy()
+    drive(states, *how)
+    summary = summed_up(states, whole, radius)
+    records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
+    going, t = (
+        np.isin(summary[rows.OUTCOME], (rows.ARRIVED, rows.TIMED_OUT)),
+        dt * np.arange(samples),
+    )
+    for i in np.flatnonzero(going) if recorded else ():
+        log = trace(begin[:, i : i + 1], *how)
+        left = log[steps.LEFT // steps.LANES, -1]
+        count = max(1, np.searchsorted(t, whole - abs(left))) if left else samples
+        put_down(records[:, i], sample(log, t[:count], wheels, 0.0), tuple(runs[3:6, i]))
+    return summary, records

@@ -1,7 +1,6 @@
 """Many runs of the polar closed loop, side by side in blocks, from their poses to their sums.
 
-A run that is over gives its place to the next. `whole` is what a run is given to spend: fixed steps
-or, with error control, seconds.
+A run that is over gives its place to the next. `whole` is how many steps a run is given.
 """
 
 from __future__ import annotations
@@ -12,32 +11,27 @@ from functools import lru_cache
 import numpy as np
 
 from wmrlib._compile import compiled
-from wmrlib._loops import adaptive, polar, rows
-from wmrlib._loops.polar import CONTINUOUS, EULER, closed_loop, finite, last_step, one_step
+from wmrlib._loops import polar, rows
+from wmrlib._loops.polar import EULER, closed_loop, finite, last_step, one_step
 from wmrlib._vecmath import vector_sincos, widest_vectors
 from wmrlib.gains import NO_LIMITS
 from wmrlib.kinematics import polar_from_pose, wrap
 
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
 _VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
-_ROUNDS = {polar.RK4: 16, EULER: 16, CONTINUOUS: 4}  # steps between two looks at who has finished
+_ROUNDS = 16  # steps between two looks at who has finished
 
 
 @compiled
 def begin(runs, law, wheels, whole, arrival_radius):
     """The state of each run at its beginning, with the rows of a block."""
-    states = np.empty((polar.TRIALS + 1, runs.shape[1]))
-    states[polar.K_RHO : polar.STEP] = runs[-4:]
+    states = np.empty((polar.ROWS, runs.shape[1]))
+    states[polar.K_RHO : polar.ROWS] = runs[-4:]
     for i in range(runs.shape[1]):
         start, goal, gains = rows.run_of(runs, i)
         at, loop = polar_from_pose(*start, *goal), (gains, law, wheels)
-        rates = closed_loop(at, loop)
-        pace = abs(rates[0]) / max(at[0], 1e-300) + abs(rates[1]) + abs(rates[2])
-        step = 0.1 / max(pace, 1e-300)
         left = whole if at[0] > arrival_radius else -whole
-        swing = adaptive.swing(at, rates, 1e-6 * min(step, 1.0), loop)
-        states[: polar.K_RHO, i] = (*at, left, abs(rates[4]), 0.0)
-        states[polar.STEP :, i] = (step, swing, adaptive.MOST_TRIALS)
+        states[: polar.K_RHO, i] = (*at, left, abs(closed_loop(at, loop)[4]), 0.0)
     return states
 
 
@@ -47,19 +41,18 @@ def survey_of(method, law, limited):
 
     Each is compiled by itself: asking for the law in every step would cost more than the step.
     """
-    rounds = _ROUNDS[method]
 
     def survey(states, wheels, dt, arrival_radius):
         widest_vectors()
         limits = wheels if limited else NO_LIMITS
-        block, inside = np.zeros((polar.TRIALS + 1, BLOCK)), np.zeros(BLOCK, np.int64)
+        block, inside = np.zeros((polar.ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
         waiting = width = 0
         while True:
             i = 0
             while i < width:
                 if block[polar.LEFT, i] <= 0.0:
                     width -= 1
-                    for row in range(polar.TRIALS + 1):
+                    for row in range(polar.ROWS):
                         states[row, inside[i]] = block[row, i]
                         block[row, i] = block[row, width]
                     inside[i] = inside[width]
@@ -67,19 +60,16 @@ def survey_of(method, law, limited):
                     i += 1
             while width < BLOCK and waiting < states.shape[1]:
                 inside[width] = waiting
-                for row in range(polar.TRIALS + 1):
+                for row in range(polar.ROWS):
                     block[row, width] = states[row, waiting]
                 width, waiting = width + 1, waiting + 1
             if width == 0:
                 return
             used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
-            for _ in range(rounds):
+            for _ in range(_ROUNDS):
                 # LLVM vectorises this loop; in a function of its own it would not know the law.
                 for i in range(used):
-                    if method == CONTINUOUS:
-                        adaptive.advance(block, i, law, limits, arrival_radius)
-                    else:
-                        polar.advance(block, i, method, law, limits, dt, arrival_radius)
+                    polar.advance(block, i, method, law, limits, dt, arrival_radius)
 
     return compiled(survey)
 
@@ -91,15 +81,13 @@ def conclude(states, law, wheels, method, dt, whole, arrival_radius):
     for i in range(states.shape[1]):
         at, left, peak, length, gains = polar.read(states, i)
         loop = gains, law, wheels
-        outcome, time = rows.TIMED_OUT, (whole - abs(left)) * (1.0 if method == CONTINUOUS else dt)
+        outcome, time = rows.TIMED_OUT, (whole - abs(left)) * dt
         now, _, turning = one_step(EULER, at, loop, 0.0)
         started_there = left == -whole and at[0] <= arrival_radius
         if not finite(now):
             outcome = rows.DIVERGED
-        elif started_there or 0.0 < at[0] <= arrival_radius * (1.0 + adaptive.SHARP):
+        elif started_there:
             outcome = rows.ARRIVED
-        elif left < 0.0 and method == CONTINUOUS:
-            outcome = rows.UNFINISHED
         elif left < 0.0:
             outcome = rows.DIVERGED
             if arrival_radius > 0.0 and finite(one_step(method, at, loop, dt)[0]):
@@ -109,8 +97,6 @@ def conclude(states, law, wheels, method, dt, whole, arrival_radius):
                 time, length = time + tau, length + rolled
         peak = max(peak, turning)
         rows.summarise(summary, i, outcome, time, wrap(at[2] - at[1]), peak, length, at[0])
-        if outcome == rows.UNFINISHED:
-            summary[rows.TIME :, i] = math.nan
     return summary
 
 
@@ -130,21 +116,17 @@ def note(records, k, runs, states, law, wheels):
 
 def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded):
     """As `plane.survey`; the last sample is the one before arrival."""
-    pace = dt if method == CONTINUOUS else 1.0
-    whole, drive = (samples - 1) * pace, survey_of(method, law, wheels.max_speed < math.inf)
+    whole, drive = samples - 1.0, survey_of(method, law, wheels.max_speed < math.inf)
     states = begin(runs, law, wheels, whole, arrival_radius)
     drive(states, wheels, dt, arrival_radius)
     summary = conclude(states, law, wheels, method, dt, whole, arrival_radius)
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
-    states = begin(runs, law, wheels, pace, arrival_radius)
-    given_up = summary[rows.OUTCOME] == rows.UNFINISHED
-    states[polar.LEFT, given_up] = -pace
+    states = begin(runs, law, wheels, 1.0, arrival_radius)
     for k in range(records.shape[2]):
         note(records, k, runs, states, law, wheels)
         going = states[polar.LEFT] >= 0.0
         if not going.any():
             break
-        states[polar.LEFT, going], states[polar.TRIALS] = pace, adaptive.MOST_TRIALS
+        states[polar.LEFT, going] = 1.0
         drive(states, wheels, dt, arrival_radius)
-    records[:, given_up] = math.nan
     return summary, records

@@ -14,10 +14,10 @@ from wmrlib._vecmath import vectorised
 from wmrlib.gains import GainsFields
 from wmrlib.laws import saturation_scale
 
-RK4, EULER, CONTINUOUS = range(3)
-# The rows of a block. LEFT is the time to go, or the number of fixed steps; its sign turns when the
-# next step would end the run. The last three are for steps with error control.
-RHO, ALPHA, THETA, LEFT, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, STEP, SWING, TRIALS = range(13)
+RK4, EULER = range(2)
+# The rows of a block. LEFT is the number of steps to go; its sign turns when the next step would
+# end the run.
+RHO, ALPHA, THETA, LEFT, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, ROWS = range(11)
 
 pose_law = vectorised(laws.pose_law)
 polar_closing_rate = vectorised(kinematics.polar_closing_rate)

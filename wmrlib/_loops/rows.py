@@ -26,5 +26,6 @@ def run_of(runs, i):
 @formula
 def summarise(summary, i, outcome, time, heading_error, peak_omega, path_length, distance):
     """Write down what run i amounts to; who does not arrive takes forever."""
-    time = time if outcome == ARRIVED else math.inf
-    summary[:, i] = (float(outcome), time, heading_error, peak_omega, path_length, distance)
+    summary[OUTCOME, i], summary[TIME, i] = outcome, time if outcome == ARRIVED else math.inf
+    summary[HEADING_ERROR, i], summary[PEAK_OMEGA, i] = heading_error, peak_omega
+    summary[PATH_LENGTH, i], summary[DISTANCE, i] = path_length, distance

@@ -1,0 +1,154 @@
+"""One run with the law acting all the time: to a goal that stands still, or after one that moves.
+
+Each gives (t, record, outcome, peak omega, path length), as far as the run's numbers are finite.
+"""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wmrlib._checks import refusal
+from wmrlib._compile import compiled
+from wmrlib._loops import adaptive, plane, rows, steps
+from wmrlib._vecmath import sincos
+from wmrlib.kinematics import polar_from_pose, wrap
+from wmrlib.laws import lyapunov_value_of
+
+_MOST_TRIALS = 1_000_000.0
+
+
+def to_goal(start, goal, tuning, law, wheels, t, radius, lag):
+    """At the times `t` and on arrival.
+
+    With a lag the wheels begin at rest, and the record's v and omega are what they do.
+    """
+    _, trace, sample = adaptive.loops_of(law, wheels.max_speed < math.inf, lag > 0.0)
+    run = np.array([*start, *goal, *tuning.pose])[:, None]
+    log = trace(adaptive.begun(run, t[-1], radius, _MOST_TRIALS), radius, wheels, lag)
+
+    def recorded(record, times):
+        adaptive.put_down(record, sample(log, times, wheels, lag), tuple(goal))
+
+    return _finished(t, log, radius, recorded, tuning, law)
+
+
+@compiled
+def _see(bench, used, stage, goals, tuning, law, wheels):
+    """The slopes in the plane; column i of `goals` is the goal of run i, and its twist."""
+    at, out = bench[steps.source_of(stage) :], bench[steps.SLOPES + stage * steps.STAGE :]
+    for i in range(used):
+        x, y, heading, goal_v, goal_omega = goals[:, i]
+        pose, goal = (at[i], at[steps.ALPHA + i], at[steps.THETA + i]), (x, y, heading)
+        _, _, _, v, omega = plane.observe(pose, goal, (goal_v, goal_omega), tuning, law, wheels)
+        sine, cosine = sincos(at[steps.THETA + i])
+        out[i], out[steps.ALPHA + i], out[steps.THETA + i] = v * cosine, v * sine, omega
+        out[steps.ROLLED + i], out[steps.TURNING + i] = v, omega
+
+
+@compiled
+def _ready_after(bench, stage, goals, *loop):
+    _see(bench, 1, stage, goals, *loop)
+    steps.get_ready(bench, 1, stage)
+
+
+@compiled
+def _trials_after(bench, path, log, *loop):
+    """Try steps of one length: how many are taken, as the columns of `log` before each.
+
+    path[:, stage, k] is the goal at a stage of step k, and its twist. The next steps are of another
+    length if one is refused, or could well be longer.
+    """
+    for k in range(path.shape[2]):
+        dt, left = bench[steps.DT], bench[steps.LEFT]
+        steps.keep(bench, 0, log, k)
+        for stage in range(1, steps.BEFORE + 1):
+            steps.move(bench, 1, 4, stage)
+            _see(bench, 1, stage, path[:, stage, k : k + 1], *loop)
+        steps.judge(bench, 1, 4, 1.0, -np.inf, adaptive.TOLERANCE)
+        steps.set_steps(bench, 1)
+        if bench[steps.LEFT] == left:
+            return k
+        if bench[steps.LEFT] < dt or not 0.8 * dt <= bench[steps.DT] <= 1.3 * dt:
+            return k + 1
+        bench[steps.DT] = dt
+    return path.shape[2]
+
+
+@compiled
+def _sample_after(bench, path, made, first, *loop):
+    for stage in range(1, steps.LAST + 1):
+        steps.move(bench, steps.LANES, 4, stage)
+        _see(bench, path.shape[2], stage, path[:, stage], *loop)
+    steps.read(bench, made, first)
+
+
+@compiled
+def _put_down(record, made, path):
+    for k in range(made.shape[1]):
+        x, y, heading = made[0, k], made[1, k], wrap(made[2, k])
+        seen = polar_from_pose(x, y, heading, path[0, k], path[1, k], path[2, k])
+        record[rows.X, k], record[rows.Y, k], record[rows.HEADING, k] = x, y, heading
+        record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k] = seen
+        record[rows.V, k], record[rows.OMEGA, k] = made[3, k], made[4, k]
+
+
+def after_reference(path_at, start, tuning, law, wheels, t):
+    """In the plane, because there the line of sight may pass through zero distance."""
+    bench, loop, taken, whole = np.zeros(steps.ROOM), (tuning, law, wheels), [], t[-1]
+    kept = bench.reshape(-1, steps.LANES)[: steps.KEPT, :1]
+
+    def path(begin, dt):
+        times = np.clip(begin + np.multiply.outer(steps.NODES, dt), 0.0, whole)
+        return path_at(times.ravel()).reshape(5, *times.shape)
+
+    kept[:3, 0], bench[steps.LEFT], bench[steps.TRIALS] = start, whole, _MOST_TRIALS
+    for stage in (0, steps.BEFORE):
+        _ready_after(bench, stage, path_at(bench[steps.DT : steps.DT + 1]), *loop)
+    bench[steps.DT] = min(bench[steps.STEP], whole)
+    many = 1
+    while bench[steps.LEFT] > 0.0:
+        dt, log = np.full(many, bench[steps.DT]), np.empty((steps.KEPT, many))
+        goals = path(whole - bench[steps.LEFT] + dt * np.arange(many), dt)
+        count = _trials_after(bench, goals, log, *loop)
+        taken.append(log[:, :count])
+        many = min(2 * many, 16) if count == many else 1
+    log = np.hstack([*taken, kept])
+
+    def recorded(record, times):
+        made = np.empty((5, times.size))
+        for first in range(0, times.size, steps.LANES):
+            some = times[first : first + steps.LANES]
+            steps.sit_back(bench, log, some)
+            dt = bench[steps.DT : steps.DT + some.size]
+            _sample_after(bench, path(some - dt, dt), made, first, *loop)
+        _put_down(record, made, path_at(times))
+
+    return _finished(t, log, -math.inf, recorded, tuning, law)
+
+
+@compiled
+def _values(record, tuning, law):
+    for k in range(record.shape[1]):
+        rho, alpha, theta = record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k]
+        record[rows.LYAPUNOV, k] = lyapunov_value_of(rho, alpha, theta, tuning, law)
+
+
+def _finished(t, log, radius, recorded, tuning, law):
+    outcome, *_, peak, length, _ = adaptive.summed_up(log[:, -1:], t[-1], radius)[:, 0].tolist()
+    if outcome == rows.UNFINISHED:
+        words = f", or other gains: the run would take more than {_MOST_TRIALS:,.0f} steps"
+        raise refusal("method", "continuous", "'arc' or 'euler'", words)
+    end = t[-1] - abs(log[steps.LEFT // steps.LANES, -1])
+    t = np.append(t[t < end], end)
+    record = np.empty((rows.LYAPUNOV + 1, t.size))
+    recorded(record, t)
+    _values(record, tuning, law)
+    if outcome == rows.DIVERGED:
+        known = int(
+            np.logical_and.accumulate(np.isfinite(record[: rows.LYAPUNOV]).all(axis=0)).sum()
+        )
+        t, record = t[:known], record[:, :known]
+        peak, length = (peak, length) if known else (0.0, 0.0)
+    return t, record, int(outcome), peak, length
