@@ -40,8 +40,8 @@ def simulate(
     law : "corrected", "printed" or "aicardi", see `control_law`
     method : "euler", the paper's: the twist is held for `dt` and the pose moves along its tangent;
         "arc": the twist is held and the pose moves along the exact arc;
-        "continuous": the law acts all the time; (rho, alpha, theta) is integrated with error
-        control (LSODA, relative tolerance 1e-11).
+        "continuous": the law acts all the time; (rho, alpha, theta) is integrated by Dormand and
+        Prince's method of order 8, right to about 1e-9.
         The first two see alpha and theta in (-pi, pi]; in the last these never jump.
     dt : float, s, between samples; "continuous" adds the moment of arrival
     duration : float, s, within which lies the last sample, where the robot stops; at most ten

@@ -24,6 +24,30 @@ _BEYOND = 1e100  # m or rad: whoever gets so far in so many steps never ends
 _ROUNDS = 4  # steps between two looks at who has finished
 
 
+@compiled
+def sit_back(bench, log, t):
+    """Seat a run where it was at the beginnings of the steps that the times t lie in."""
+    step = 0
+    for i in range(t.size):
+        while step + 2 < log.shape[1] and log[steps.TIME // steps.LANES, step + 1] <= t[i]:
+            step += 1
+        steps.sit(bench, i, log, step)
+        bench[steps.DT + i] = t[i] - bench[steps.TIME + i]
+
+
+@compiled
+def read(bench, made, first):
+    """(rho, alpha, theta, v, omega), or (x, y, heading, v, omega), at the ends of the steps."""
+    end = steps.SLOPES + steps.LAST * steps.STAGE
+    for i in range(min(steps.LANES, made.shape[1] - first)):
+        for row in range(3):
+            made[row, first + i] = bench[steps.NEW + row * steps.LANES + i]
+        made[3, first + i], made[4, first + i] = (
+            bench[end + steps.ROLLED + i],
+            bench[end + steps.TURNING + i],
+        )
+
+
 @lru_cache
 def loops_of(law, limited, lagging):
     """The loops for one law, compiled by themselves: asking for it would cost more than a step."""
@@ -107,11 +131,11 @@ def loops_of(law, limited, lagging):
         """(rho, alpha, theta, v, omega) at the times t."""
         bench, made = np.zeros(steps.ROOM), np.empty((5, t.size))
         for first in range(0, t.size, steps.LANES):
-            steps.sit_back(bench, log, t[first : first + steps.LANES])
+            sit_back(bench, log, t[first : first + steps.LANES])
             for stage in range(1, steps.LAST + 1):
                 steps.move(bench, steps.LANES, size, stage)
                 slopes(bench, steps.LANES, stage, wheels, lag)
-            steps.read(bench, made, first)
+            read(bench, made, first)
         return made
 
     return drive, trace, sample
@@ -155,7 +179,7 @@ def summed_up(states, whole, radius):
             outcome = rows.UNFINISHED
         peak, length = states[steps.PEAK // steps.LANES, i], states[steps.LENGTH // steps.LANES, i]
         sums = wrap(theta - alpha), peak, length, rho
-        rows.summarise(summary, i, outcome, whole - abs(left), *sums)
+        rows.summarise(summary, i, outcome, states[steps.TIME // steps.LANES, i], *sums)
         if outcome == rows.UNFINISHED:
             summary[rows.TIME :, i] = math.nan
     return summary
@@ -188,7 +212,7 @@ def survey(runs, law, wheels, _, dt, samples, radius, recorded):
     )
     for i in np.flatnonzero(going) if recorded else ():
         log = trace(begin[:, i : i + 1], *how)
-        left = log[steps.LEFT // steps.LANES, -1]
-        count = max(1, np.searchsorted(t, whole - abs(left))) if left else samples
+        arrived = summary[rows.OUTCOME, i] == rows.ARRIVED
+        count = max(1, np.searchsorted(t, summary[rows.TIME, i])) if arrived else samples
         put_down(records[:, i], sample(log, t[:count], wheels, 0.0), tuple(runs[3:6, i]))
     return summary, records

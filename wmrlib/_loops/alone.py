@@ -81,7 +81,7 @@ def _sample_after(bench, path, made, first, *loop):
     for stage in range(1, steps.LAST + 1):
         steps.move(bench, steps.LANES, 4, stage)
         _see(bench, path.shape[2], stage, path[:, stage], *loop)
-    steps.read(bench, made, first)
+    adaptive.read(bench, made, first)
 
 
 @compiled
@@ -110,7 +110,7 @@ def after_reference(path_at, start, tuning, law, wheels, t):
     many = 1
     while bench[steps.LEFT] > 0.0:
         dt, log = np.full(many, bench[steps.DT]), np.empty((steps.KEPT, many))
-        goals = path(whole - bench[steps.LEFT] + dt * np.arange(many), dt)
+        goals = path(bench[steps.TIME] + dt * np.arange(many), dt)
         count = _trials_after(bench, goals, log, *loop)
         taken.append(log[:, :count])
         many = min(2 * many, 16) if count == many else 1
@@ -120,7 +120,7 @@ def after_reference(path_at, start, tuning, law, wheels, t):
         made = np.empty((5, times.size))
         for first in range(0, times.size, steps.LANES):
             some = times[first : first + steps.LANES]
-            steps.sit_back(bench, log, some)
+            adaptive.sit_back(bench, log, some)
             dt = bench[steps.DT : steps.DT + some.size]
             _sample_after(bench, path(some - dt, dt), made, first, *loop)
         _put_down(record, made, path_at(times))
@@ -140,7 +140,7 @@ def _finished(t, log, radius, recorded, tuning, law):
     if outcome == rows.UNFINISHED:
         words = f", or other gains: the run would take more than {_MOST_TRIALS:,.0f} steps"
         raise refusal("method", "continuous", "'arc' or 'euler'", words)
-    end = t[-1] - abs(log[steps.LEFT // steps.LANES, -1])
+    end = t[-1] if outcome == rows.TIMED_OUT else log[steps.TIME // steps.LANES, -1]
     t = np.append(t[t < end], end)
     record = np.empty((rows.LYAPUNOV + 1, t.size))
     recorded(record, t)

@@ -25,13 +25,13 @@ _GLIMPSE = 1e-6  # share of a step before its end at which omega is looked at to
 # A state is rho, alpha and theta, or x, y and heading; then the metres rolled in the step, signed
 # as v is; with wheels that lag, their v and omega too.
 RHO, ALPHA, THETA, ROLLED, V, OMEGA = range(0, 6 * LANES, LANES)
-# LEFT is the time to go; its sign turns when the run is over before.
-LEFT, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, STEP, SWING, TRIALS = range(
-    6 * LANES, 16 * LANES, LANES
+# TIME has passed, and LEFT is to go: its sign turns if the run is over before.
+LEFT, TIME, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, STEP, SWING, TRIALS = range(
+    6 * LANES, 17 * LANES, LANES
 )
-SLOPES, STAGE = 16 * LANES, 7 * LANES  # of each stage, the rates of the state and then omega
+SLOPES, STAGE = 17 * LANES, 7 * LANES  # of each stage, the rates of the state and then omega
 TURNING = 6 * LANES
-KEPT = 23  # rows: what is kept of a run between two steps
+KEPT = 24  # rows: what is kept of a run between two steps
 LAST, BEFORE = 12, 13  # the stages at the end of a step, and a glimpse before it
 _FINE_MISS, _COARSE_MISS = 14, 15  # no stages, but Hairer's two estimates of the error
 NEW, NEAR, _FINE, _COARSE, DT, ROOM = range(
@@ -173,6 +173,7 @@ def judge(bench, used, size, smallest, radius, tolerance):
         bench[_FINE + i] = 1.0 if taken else 0.0
         bench[PEAK + i] = turning if taken & (turning > peak) else peak
         bench[LENGTH + i] += abs(rolled) if taken else 0.0
+        bench[TIME + i] += dt if taken else 0.0
         bench[SWING + i] = swing1 if taken else swing
         again = wanted if accurate & (wanted < dt) else growth * dt
         bench[STEP + i] = again if going else bench[STEP + i]
@@ -233,24 +234,3 @@ def doubled(log):
         for k in range(log.shape[1]):
             longer[row, k] = log[row, k]
     return longer
-
-
-@compiled
-def sit_back(bench, log, t):
-    """Seat a run where it was at the beginnings of the steps that the times t lie in."""
-    whole, step = log[LEFT // LANES, 0], 0
-    for i in range(t.size):
-        while step + 2 < log.shape[1] and whole - log[LEFT // LANES, step + 1] <= t[i]:
-            step += 1
-        sit(bench, i, log, step)
-        bench[DT + i] = t[i] - (whole - log[LEFT // LANES, step])
-
-
-@compiled
-def read(bench, made, first):
-    """(rho, alpha, theta, v, omega), or (x, y, heading, v, omega), at the ends of the steps."""
-    end = SLOPES + LAST * STAGE
-    for i in range(min(LANES, made.shape[1] - first)):
-        for row in range(3):
-            made[row, first + i] = bench[NEW + row * LANES + i]
-        made[3, first + i], made[4, first + i] = bench[end + ROLLED + i], bench[end + TURNING + i]
