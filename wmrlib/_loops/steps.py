@@ -73,7 +73,7 @@ def _until_turn(f0, rate0, f1, rate1, dt, slack):
     By the cubic with these values and rates at both ends.
     """
     middle = rate0 + rate1 - 3.0 * (f1 - f0) / dt
-    root = np.sqrt(middle * middle - rate0 * rate1)
+    root = np.sqrt(larger(middle * middle - rate0 * rate1, 0.0))
     root = root if rate1 > 0.0 else -root
     turn = dt - dt * (rate1 + root - middle) / (rate1 - rate0 + 2.0 * root)
     before, after = abs(rate0) * turn, abs(rate1) * (dt - turn)
