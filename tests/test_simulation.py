@@ -6,6 +6,7 @@ import pickle
 import time
 from itertools import product
 
+import mpmath
 import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
@@ -292,6 +293,46 @@ def test_copies_of_a_run_are_the_run_and_stay_read_only():
                     if isinstance(each, np.ndarray):
                         with pytest.raises(ValueError, match="read-only"):
                             each[0] = 1.0
+
+
+HARD = [
+    (wmr.Pose(-1.0, 0.0, math.pi), PAPER.gains, "corrected"),  # the goal straight behind
+    (wmr.Pose(-1e-6, 1e-6, 2.0), PAPER.gains, "corrected"),
+    (wmr.Pose(-3e4, 2e4, -1.0), PAPER.gains, "corrected"),
+    (wmr.Pose(2.0, 0.0, 0.1), PAPER.gains, "corrected"),  # theta = pi
+    (wmr.Pose(-0.1, 0.3, 2.0), wmr.Gains(3.0, 0.5, 4.0, 8.0), "corrected"),
+    (wmr.Pose(-2.0, 1.0, 1.0), wmr.Gains(0.5, 40.0, 20.0, 4.0), "corrected"),
+    (wmr.Pose(-2.0, 1.0, 1.0), wmr.Gains(0.01, 0.1, 0.0, 0.1), "corrected"),
+    (wmr.Pose(-2.0, 1.0, 0.5), PAPER.gains, "printed"),
+    (wmr.Pose(-2.0, -1.0, 2.5), wmr.Gains(2.0, 9.0, 5.0, 4.0), "aicardi"),
+    (wmr.Pose(-1e-3, 0.0, -3.0), wmr.Gains(6.0, 1.0, 9.0, 4.0), "aicardi"),
+]
+
+
+@pytest.mark.parametrize(("start", "gains", "law"), HARD)
+def test_continuous_against_taylor_series_at_thirty_digits(start, gains, law):
+    """The law written once more, in mpmath, from the same polar error."""
+    k_rho, k_alpha, h, v_max = map(mpmath.mpf, gains)
+
+    def rate(_, state):
+        rho, alpha, theta = state
+        pull = k_rho if law == "aicardi" else -v_max * mpmath.expm1(-k_rho * rho) / rho
+        v = pull * mpmath.cos(alpha)
+        turning = v * mpmath.sin(alpha)
+        steering = turning * (alpha + h * theta) / alpha
+        if law == "printed":
+            steering *= mpmath.cos(alpha) * mpmath.sin(alpha)
+        return [-v * rho * mpmath.cos(alpha), turning - k_alpha * alpha - steering, turning]
+
+    with mpmath.workdps(30):
+        seen = map(mpmath.mpf, wmr.polar_error(start, ORIGIN))
+        truth = mpmath.odefun(rate, 0, list(seen), tol=mpmath.mpf("1e-13"))(0.05)
+        truth = np.array([float(each) for each in truth])
+    how = {"law": law, "dt": 0.05, "duration": 0.05, "arrival_radius": 0.0}
+    run = wmr.simulate(start, ORIGIN, gains, method="continuous", **how)
+    end = [run.rho[-1], run.alpha[-1], run.theta[-1]]
+    assert end == pytest.approx(truth, rel=1e-10, abs=1e-10)
+    assert run.rho[-1] == pytest.approx(truth[0], rel=1e-10)
 
 
 FAST = st.floats(0.0, 6.0).map(lambda power: 10.0**power)
