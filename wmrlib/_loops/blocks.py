@@ -20,7 +20,7 @@ from wmrlib.kinematics import polar_from_pose, wrap
 
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
 _VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
-_ROUNDS = {polar.RK4: 16, EULER: 16, CONTINUOUS: 4}  # steps between two looks at who has finished
+_ROUNDS = 16  # steps between two looks at who has finished
 
 
 @compiled
@@ -42,24 +42,24 @@ def begin(runs, law, wheels, whole, arrival_radius):
 
 
 @lru_cache
-def survey_of(method, law, limited):
+def survey_of(method, law, limited, advance=polar.advance):
     """The loop that takes every run to its end, or to its last step, for one method and law.
 
     Each is compiled by itself: asking for the law in every step would cost more than the step.
     """
-    rounds = _ROUNDS[method]
+    rounds = 4 if method == CONTINUOUS else _ROUNDS
 
     def survey(states, wheels, dt, arrival_radius):
         widest_vectors()
         limits = wheels if limited else NO_LIMITS
-        block, inside = np.zeros((polar.TRIALS + 1, BLOCK)), np.zeros(BLOCK, np.int64)
+        block, inside = np.zeros((states.shape[0], BLOCK)), np.zeros(BLOCK, np.int64)
         waiting = width = 0
         while True:
             i = 0
             while i < width:
                 if block[polar.LEFT, i] <= 0.0:
                     width -= 1
-                    for row in range(polar.TRIALS + 1):
+                    for row in range(states.shape[0]):
                         states[row, inside[i]] = block[row, i]
                         block[row, i] = block[row, width]
                     inside[i] = inside[width]
@@ -67,19 +67,18 @@ def survey_of(method, law, limited):
                     i += 1
             while width < BLOCK and waiting < states.shape[1]:
                 inside[width] = waiting
-                for row in range(polar.TRIALS + 1):
+                for row in range(states.shape[0]):
                     block[row, width] = states[row, waiting]
                 width, waiting = width + 1, waiting + 1
             if width == 0:
                 return
             used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
             for _ in range(rounds):
-                # LLVM vectorises this loop; in a function of its own it would not know the law.
-                for i in range(used):
-                    if method == CONTINUOUS:
+                if method == CONTINUOUS:
+                    for i in range(used):
                         adaptive.advance(block, i, law, limits, arrival_radius)
-                    else:
-                        polar.advance(block, i, method, law, limits, dt, arrival_radius)
+                else:
+                    advance(block, used, method, law, limits, dt, arrival_radius)
 
     return compiled(survey)
 

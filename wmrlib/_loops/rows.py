@@ -27,4 +27,6 @@ def run_of(runs, i):
 def summarise(summary, i, outcome, time, heading_error, peak_omega, path_length, distance):
     """Write down what run i amounts to; who does not arrive takes forever."""
     time = time if outcome == ARRIVED else math.inf
-    summary[:, i] = (float(outcome), time, heading_error, peak_omega, path_length, distance)
+    sums = float(outcome), time, heading_error, peak_omega, path_length, distance
+    for row, value in enumerate(sums):  # to set a column at once takes a second to compile
+        summary[row, i] = value
