@@ -161,7 +161,7 @@ def vector_atan2(y, x):
     high, wide = abs(y), abs(x)
     steep = high > wide
     short, long = (wide if steep else high), (high if steep else wide)
-    long = long if long > _LEAST else _LEAST
+    long = _LEAST if long < _LEAST else long
     turned = short > _HALF_OF_EIGHTH * long  # back by pi/4, where the series is long
     r = (short - long if turned else short) / (long + short if turned else long)
     z = r * r

@@ -104,7 +104,7 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
         rho, alpha, theta, v, omega = observe(pose, goal, (0.0, 0.0), *loop)
         last, arrived = samples - 1 - int(abs(left)), rho <= arrival_radius
         outcome, peak = rows.ARRIVED if arrived else rows.TIMED_OUT, max(peak, abs(omega))
-        known = math.isfinite(rho + v + omega) and (arrived or left == 0.0)
+        known = last > 0 and math.isfinite(rho + v + omega) and (arrived or left == 0.0)
         if records.shape[2] or not known:
             reference[rows.X, 0], reference[rows.Y, 0], reference[rows.HEADING, 0] = goal
             count, outcome = drive(run, start, reference, *loop, step, dt, arrival_radius)
