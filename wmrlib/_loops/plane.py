@@ -66,7 +66,7 @@ def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radiu
 
 @formula
 def hold(block, used, step, law, wheels, dt, arrival_radius):
-    """Hold the twist of each run for one step, unless it is over, arrives or has no number.
+    """Hold the twist of each run for one step, unless it is over or has arrived.
 
     In three loops, because a processor has too few registers for all their constants at once, and
     too little foresight to begin the next runs before the end of a long step.
@@ -79,7 +79,7 @@ def hold(block, used, step, law, wheels, dt, arrival_radius):
         _, left, peak, length, gains = polar.read(block, i)
         seen = block[RHO, i], block[ALPHA, i], block[THETA, i]
         _, _, _, v, omega = polar.closed_loop(seen, (gains, law, wheels))
-        taken = (left > 0.0) & (seen[0] > arrival_radius) & polar.finite((seen[0], v, omega))
+        taken = (left > 0.0) & (seen[0] > arrival_radius)
         v, omega = (v if taken else 0.0), (omega if taken else 0.0)
         block[V, i], block[OMEGA, i] = v, omega
         block[polar.LEFT, i] = left - 1.0 if taken else -abs(left)
