@@ -28,8 +28,8 @@ from typing import NamedTuple
 
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "wmrlib"
-# The tests of a file or a folder, in this order until one fails; by default "plain NAME", which runs
-# test_NAME without compiling. That is quicker where a formula is called a few thousand times.
+# The tests of a file or a folder, in this order until one fails; by default "plain NAME", which
+# runs test_NAME without compiling: quicker where a formula is called a few thousand times.
 PLANS = {
     "_vecmath": "jit vecmath",
     "_modes": "plain tuning",

@@ -188,7 +188,7 @@ def rows_of_samples(runs: Runs, rate: float, rng) -> Iterator[Row]:
         for i in range(few.size):
             options = runs.options | {"dt": 0.2 / rate, "method": method}
             alone = wmr.arrival(wmr.simulate(*some.one(i), **options))
-            wrong[i] = not np.allclose(alone, [values[i] for values in ends], rtol=1e-12, atol=0.0)
+            wrong[i] = not np.allclose(alone, [values[i] for values in ends], rtol=1e-9, atol=1e-9)
         yield some.row(f"{method}: a sweep is many simulates", wrong, few.size)
         steps = [some.sweep(method=method, **short | {"dt": dt / rate}) for dt in STEPS]
         coarse, middle, fine = (apart(each, truth) for each in steps)

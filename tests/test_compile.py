@@ -165,8 +165,8 @@ def test_what_is_compiled_for_something_else_is_kept_in_another_file(monkeypatch
         return {path.name for path in paths}
 
     chosen = [(0, 0, True), (1, 0, True), (0, 1, True), (0, 0, False)]
-    loops = plane.survey, blocks.note, *(blocks.survey_of(*each) for each in chosen)
-    found = [names(loop) for loop in loops] + [names(plane.survey, numba.float64)]
+    loops = plane.conclude, blocks.note, *(blocks.survey_of(*each) for each in chosen)
+    found = [names(loop) for loop in loops] + [names(plane.conclude, numba.float64)]
     assert len(set.union(*found)) == len(found)
     before = _compile._folders()
     monkeypatch.setattr(numba, "__version__", "0.0")

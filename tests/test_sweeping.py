@@ -107,6 +107,7 @@ def test_the_steps_have_the_coefficients_of_their_authors():
        st.sampled_from(LAWS), limits, decades(1e-3, 0.3))  # fmt: skip
 def test_the_default_is_as_right_as_promised(start, goal, gains, law, wheels, radius):
     assume(law != "printed" or gains.k_alpha > 1.5 * gains.k_rho * gains.v_max)  # which settles
+    assume(math.hypot(start.x - goal.x, start.y - goal.y) > radius)
     options = {"law": law, "wheels": wheels, "arrival_radius": radius, "duration": 30.0}
     run = wmr.sweep(start, goal, gains, **options)
     truth = integrated(start, goal, gains, law, wheels, radius)
@@ -329,6 +330,76 @@ def test_sweeps_in_the_plane_are_the_runs_of_simulate(method):
                 row = getattr(paths, name)[i, j]
                 assert row[: len(alone)] == pytest.approx(getattr(alone, name), abs=1e-12)
                 assert np.isnan(row[len(alone) :]).all()
+
+
+def alone(start, goal, gains, **options):
+    """The run of `simulate`; without a sample, nothing but that it did not arrive."""
+    run = wmr.simulate(start, goal, gains, **options)
+    return wmr.arrival(run) if len(run) else wmr.Arrival(False, math.inf, *[math.nan] * 4)
+
+
+@pytest.mark.parametrize("wheels", [None, LIMITS])
+@pytest.mark.parametrize("method", ["arc", "euler"])
+def test_in_the_plane_too_whoever_arrives_gives_its_place_to_the_next(method, wheels):
+    starts, goal, gains = scattered(1500)
+    options = {"method": method, "wheels": wheels, "duration": 30.0}
+    runs = wmr.sweep(starts, goal, gains, **options)
+    assert 0.1 < runs.arrived.mean() < 0.9
+    order = np.random.default_rng(1).permutation(1500)
+    moved = wmr.Pose(*(row[order] for row in starts))
+    again = wmr.sweep(moved, goal, wmr.Gains(*(row[order] for row in gains)), **options)
+    assert same(again, [field[order] for field in runs])
+    for i in order[:200]:
+        start, tuned = (type(row)(*(float(each[i]) for each in row)) for row in (starts, gains))
+        single = alone(start, goal, tuned, **options)
+        assert [field[i] for field in runs] == pytest.approx(single, rel=1e-9, abs=1e-9)
+
+
+_HALF = math.pi / 2
+HARD = {
+    "on the goal": ((1.0, 2.0, 3.0), (1.0, 2.0, -1.0), CALM),
+    "on the goal, with a minus": ((-0.0, -0.0, 1.0), (-0.0, -0.0, -1.0), CALM),
+    "straight behind": ((3.0, 0.0, 0.0), (0.0, 0.0, 0.0), CALM),
+    "straight behind, looking back": ((3.0, -0.0, -0.0), (0.0, 0.0, math.pi), CALM),
+    "straight behind, no steering": ((0.0, 3.0, _HALF), (0.0, 0.0, -math.pi), (0.4, 0.0, 0.0, 2)),
+    "on a seam": ((0.0, -3.0, -_HALF), (0.0, 0.0, _HALF), CALM),
+    "no speed": ((-3.0, 1.0, 2.5), (0.0, 0.0, 0.0), (0.0, 2.0, 0.6, 2.0)),
+    "many turns": ((-3.0, 1.0, 1e3), (2.0, 0.5, -1e5), CALM),
+    "more turns than vectors know": ((-3.0, 1.0, 2e6), (2.0, 0.5, -1e300), CALM),
+    "turns in each step": ((-3.0, 1.0, 2.5), (2.0, 0.5, -1.0), (0.4, 400.0, 0.6, 2.0)),
+    "a million radians a step": ((-3.0, 1.0, 2.5), (2.0, 0.5, -1.0), (0.4, 2e7, 0.6, 2.0)),
+    "far": ((-3e200, 1e200, 0.5), (0.0, 0.0, 0.0), (1e-200, 2.0, 0.6, 2e200)),
+    "too far": ((-1e308, 1e308, 0.5), (1e308, -1e308, 0.0), CALM),
+    "near": ((-3e-139, 1e-139, 0.5), (0.0, 0.0, 0.0), CALM),
+    "too near from the second step": ((-1e-139, 0.0, 0.0), (0.0, 0.0, 1.0), (9.9999, 2, 0.6, 1)),
+    "so near that squares lose digits": ((-3e-160, 1e-160, 0.5), (0.0, 0.0, 0.0), CALM),
+    "so near that squares are 0": ((-3e-200, 1e-200, 0.5), (0.0, 0.0, 0.0), CALM),
+    "as near as can be": ((5e-324, 0.0, 0.5), (0.0, 0.0, 0.0), CALM),
+    "out of the range of numbers": ((-3.0, 1.0, 0.5), (0.0, 0.0, 0.0), (1e308, 1e308, 0.6, 1e308)),
+    "out of it after some steps": ((-3.0, 1.0, 0.5), (0.0, 0.0, 0.0), (1e3, 2.0, 0.6, 1e3)),
+}
+
+
+@pytest.mark.parametrize("law", LAWS)
+@pytest.mark.parametrize("method", ["arc", "euler"])
+@pytest.mark.parametrize("radius", [0.0, 1e-160, 0.05])
+def test_in_the_plane_hard_runs_too_are_those_of_simulate(method, law, radius):
+    """Side by side, as one may hurt its neighbours, and driven for five steps."""
+    starts, goals, gains = (np.array(each, float).T for each in zip(*HARD.values(), strict=True))
+    runs = wmr.Pose(*starts), wmr.Pose(*goals), wmr.Gains(*gains)
+    options = {"method": method, "law": law, "arrival_radius": radius, "duration": 0.5}
+    swept = wmr.sweep(*runs, **options)
+    for i, name in enumerate(HARD):
+        single = alone(*(type(row)(*(float(each[i]) for each in row)) for row in runs), **options)
+        mine = [field[i] for field in swept]
+        if np.isnan(single.distance):
+            assert not mine[0], name
+            continue
+        assert mine[:2] == list(single[:2]), name
+        assert abs(wmr.wrap_angle(mine[2] - single[2])) < 1e-9, name
+        assert mine[3] == pytest.approx(single[3], rel=1e-9, abs=1e-14), name
+        metres = {"rel": 1e-9, "abs": 1e-14 * np.abs(starts[:2, i]).max()}
+        assert mine[4:] == pytest.approx(single[4:], **metres), name
 
 
 def test_bad_input_names_argument_value_and_range():

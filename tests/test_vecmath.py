@@ -3,6 +3,7 @@
 A unit is 2^-52 of the value. The laws see angles of some turns and rho up to a few hundred metres.
 """
 
+import itertools
 import math
 from types import SimpleNamespace
 
@@ -17,6 +18,7 @@ from wmrlib._compile import compiled
 
 mpmath.mp.dps = 40
 TWO_ULP = 2.0 * 2.0**-52
+TWO_NUMBERS = "decay", "distance", "direction"
 angles = st.floats(-math.pi, math.pi) | st.floats(-1e3, 1e3) | st.floats(-1e-7, 1e-7)
 
 
@@ -93,30 +95,78 @@ def test_decay(form, rho, k_rho):
     )
 
 
+lengths = st.floats(-1e3, 1e3) | st.floats(-1e150, 1e150) | st.floats(-1e-100, 1e-100)
+
+
+@both
+@given(y=lengths, x=lengths)
+@example(y=1.0, x=1.0)
+@example(y=math.sqrt(2.0) - 1.0, x=1.0)  # where the direction is first turned back by pi/4
+@example(y=5e-324, x=-5e-324)
+@example(y=1e150, x=1e-200)
+def test_direction_and_distance(form, y, x):
+    truth = mpmath.atan2(y, x) if y or x > 0.0 else math.atan2(y, x)  # mpmath knows no -0
+    assert form(_vecmath.direction)(y, x) == near(truth)
+    away, truth = form(_vecmath.distance)(x, y), mpmath.hypot(x, y)
+    assert away == near(truth) or max(away, truth) < _vecmath.NEAREST
+
+
+edges = 0.0, 1.0, 1e300, math.inf
+
+
+@both
+def test_direction_has_the_signs_of_atan2_on_every_axis(form):
+    ends = [sign * edge for edge in edges for sign in (1.0, -1.0)]
+    for y, x in itertools.product(ends, ends):
+        mine, truth = form(_vecmath.direction)(y, x), math.atan2(y, x)
+        if abs(y) == abs(x) == math.inf and math.isnan(mine):
+            assert form is _vecmath.vectorised
+        else:
+            assert (mine, math.copysign(1.0, mine)) == (near(truth), math.copysign(1.0, truth))
+
+
+@given(angles | st.floats(-1e6, 1e6) | st.integers(-300_000, 300_000).map(lambda n: n * math.pi))
+@example(math.pi)
+@example(-math.pi)
+@example(np.nextafter(math.pi, 4.0))
+@example(np.nextafter(-math.pi, -4.0))
+@example(1e6)
+def test_wrap_is_exact(angle):
+    turns = mpmath.ceil((mpmath.mpf(angle) - math.pi) / mpmath.mpf(2.0 * math.pi))
+    truth = float(mpmath.mpf(angle) - turns * mpmath.mpf(2.0 * math.pi))
+    assert _vecmath.wrap(angle) == _vecmath.vector_wrap(angle) == truth
+
+
 @both
 def test_not_a_number_stays_one(form):
-    expm1, decay = form(_vecmath.expm1), form(_vecmath.decay)
-    assert np.isnan([expm1(math.nan), decay(math.nan, 1.0), decay(1.0, math.nan)]).all()
+    for function, count in (("expm1", 1), ("wrap", 1), *dict.fromkeys(TWO_NUMBERS, 2).items()):
+        for place in range(count):
+            numbers = [math.nan if k == place else 1.0 for k in range(count)]
+            assert math.isnan(form(getattr(_vecmath, function))(*numbers)), function
+    assert np.isnan([_vecmath.vector_wrap(1.1e6), _vecmath.vector_wrap(math.inf)]).all()
 
 
 def test_a_loop_over_many_gives_the_same_to_the_last_digits():
     """In a loop LLVM computes several at once; what it then does in another order must not show."""
-    sincos, sinc, expm1 = (
-        _vecmath.vectorised(function)
-        for function in (_vecmath.sincos, _vecmath.sinc, _vecmath.expm1)
+    names = "sincos", "sinc", "expm1", "distance", "direction", "wrap"
+    sincos, sinc, expm1, distance, direction, wrap = (
+        _vecmath.vectorised(getattr(_vecmath, name)) for name in names
     )
 
     @compiled
-    def all_of(angle, sine, cosine, ratio, grown):
+    def all_of(angle, sine, cosine, ratio, grown, away, sight, wrapped):
         for i in range(angle.size):
             sine[i], cosine[i] = sincos(angle[i])
             ratio[i], grown[i] = sinc(angle[i]), expm1(-abs(angle[i]))
+            away[i], sight[i] = distance(angle[i], 3.0), direction(angle[i], 3.0)
+            wrapped[i] = wrap(angle[i])
 
     angle = np.linspace(-50.0, 50.0, 1001)
-    results = np.empty((4, angle.size))
+    results = np.empty((7, angle.size))
     all_of(angle, *results)
     for i, each in enumerate(angle):
         alone = (*sincos(each), sinc(each), expm1(-abs(each)))
+        alone += distance(each, 3.0), direction(each, 3.0), wrap(each)
         assert tuple(results[:, i]) == pytest.approx(alone, rel=TWO_ULP)
 
 

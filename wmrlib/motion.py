@@ -2,31 +2,15 @@
 
 from __future__ import annotations
 
-import math
-
-import numpy as np
-
 from wmrlib._compile import compiled, formula
-from wmrlib._vecmath import sinc, sincos
-
-_TURN = 2.0 * math.pi
-
-
-@compiled
-def wrap(angle):
-    if -math.pi < angle <= math.pi:
-        return angle
-    angle = np.fmod(angle, _TURN)  # exact, and so is what follows
-    if angle > math.pi:
-        return angle - _TURN
-    return angle + _TURN if angle <= -math.pi else angle
+from wmrlib._vecmath import direction, distance, sinc, sincos, wrap
 
 
 @compiled
 def polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading):
     east, north = goal_x - x, goal_y - y
-    sight = math.atan2(north, east)
-    return math.hypot(east, north), wrap(sight - heading), wrap(sight - goal_heading)
+    sight = direction(north, east)
+    return distance(east, north), wrap(sight - heading), wrap(sight - goal_heading)
 
 
 @formula

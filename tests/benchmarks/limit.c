@@ -1,4 +1,5 @@
-/* The limit: the polar closed loop under the corrected law, (7)-(9) and (22), as one writes it in C. Blocks of runs stay in the cache. */
+/* The limit: the closed loop under the corrected law, (7)-(9) and (22), in polar coordinates and in the plane, as one writes it in C.
+   Blocks of runs stay in the cache. */
 #include <math.h>
 
 enum { BLOCK = 256 };
@@ -37,4 +38,38 @@ SWEEP(rk4, {
     rho[i] = r + dt / 6 * (p.rho + 2 * (q.rho + u.rho) + w.rho);
     alpha[i] = a + dt / 6 * (p.alpha + 2 * (q.alpha + u.alpha) + w.alpha);
     theta[i] = t + dt / 6 * (p.theta + 2 * (q.theta + u.theta) + w.theta);
+})
+
+/* Sampled control in the plane: the twist is held for a step along the tangent, or along the arc. */
+
+static inline double wrap(double angle) { return angle - 2 * M_PI * rint(angle / (2 * M_PI)); }
+
+#define PLANE(name, ...)                                                                                                          \
+    void name(double *restrict x, double *restrict y, double *restrict heading, const double *restrict goal_x,                   \
+              const double *restrict goal_y, const double *restrict goal_heading, const double *restrict k_rho,                  \
+              const double *restrict k_alpha, const double *restrict h, const double *restrict v_max, long runs, long steps,     \
+              double dt) {                                                                                                       \
+        for (long first = 0; first < runs; first += BLOCK) {                                                                     \
+            long last = first + BLOCK < runs ? first + BLOCK : runs;                                                             \
+            for (long k = 0; k < steps; k++)                                                                                     \
+                for (long i = first; i < last; i++) {                                                                            \
+                    double east = goal_x[i] - x[i], north = goal_y[i] - y[i], sight = atan2(north, east);                        \
+                    double rho = sqrt(east * east + north * north);                                                              \
+                    double alpha = wrap(sight - heading[i]), theta = wrap(sight - goal_heading[i]);                              \
+                    double v = v_max[i] * (1 - exp(-k_rho[i] * rho)) * cos(alpha);                                               \
+                    double omega = k_alpha[i] * alpha + v / rho * (sin(alpha) / alpha) * (alpha + h[i] * theta);                 \
+                    __VA_ARGS__                                                                                                  \
+                }                                                                                                                \
+        }                                                                                                                        \
+    }
+
+PLANE(tangent, {
+    x[i] += dt * v * cos(heading[i]), y[i] += dt * v * sin(heading[i]);
+    heading[i] = wrap(heading[i] + dt * omega);
+})
+
+PLANE(arc, {
+    double half = dt * omega / 2, chord = dt * v * (sin(half) / half), along = heading[i] + half;
+    x[i] += chord * cos(along), y[i] += chord * sin(along);
+    heading[i] = wrap(along + half);
 })

@@ -19,6 +19,12 @@ os.environ.setdefault(
 )  # JAX on one core
 GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
 RUNS, STEPS, DT = 10_000, 300, 0.02
+METHODS = (  # of a sweep, the functions in C, and titles
+    ("polar_euler", "euler", "Euler"),
+    ("rk4", "rk4", "Runge-Kutta"),
+    ("euler", "tangent", "sampled, Euler"),
+    ("arc", "arc", "sampled, arc"),
+)
 # GCC joins sin(a) and cos(a) into one call that has no vector form, unless that pass is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
 BUILDS = {
@@ -41,6 +47,12 @@ def states(runs: int) -> list[np.ndarray]:
         np.full(runs, value) if np.ndim(value) == 0 else value.copy()
         for value in (*polar, *gains(runs))
     ]
+
+
+def plane_states(runs: int) -> list[np.ndarray]:
+    """The start, the goal and the gains."""
+    row = (*wmr.paper.outdoor().start, *GOAL, *gains(runs))
+    return [np.array(np.broadcast_to(value, runs), dtype=float) for value in row]
 
 
 def sweep(method: str, runs: int, steps: int, executor):
@@ -77,10 +89,11 @@ def in_c(folder: Path) -> dict[str, ctypes.CDLL]:
     return libraries
 
 
-def c_case(library: ctypes.CDLL, method: str):
-    function, pointer = getattr(library, method), np.ctypeslib.ndpointer(np.float64, flags="C")
-    function.argtypes = [pointer] * 7 + [ctypes.c_long] * 2 + [ctypes.c_double]
-    return lambda: function(*states(RUNS), RUNS, STEPS, DT)
+def c_case(library: ctypes.CDLL, name: str):
+    function, pointer = getattr(library, name), np.ctypeslib.ndpointer(np.float64, flags="C")
+    begin = plane_states if name in ("tangent", "arc") else states
+    function.argtypes = [pointer] * len(begin(1)) + [ctypes.c_long] * 2 + [ctypes.c_double]
+    return lambda: function(*begin(RUNS), RUNS, STEPS, DT)
 
 
 def numpy_case():
@@ -127,12 +140,10 @@ def against_the_limit(folder: Path) -> list[Row]:
     if not libraries:
         print("gcc was not found: no limit to compare with")
     with ThreadPoolExecutor(1) as one:
-        for method, title in (("euler", "Euler"), ("rk4", "Runge-Kutta")):
-            cases = {name: c_case(library, method) for name, library in libraries.items()}
-            cases["wmrlib.sweep, metrics included"] = sweep(
-                "polar_euler" if method == "euler" else "rk4", RUNS, STEPS, one
-            )
-            if method == "euler":
+        for method, function, title in METHODS:
+            cases = {name: c_case(library, function) for name, library in libraries.items()}
+            cases["wmrlib.sweep, metrics included"] = sweep(method, RUNS, STEPS, one)
+            if method == "polar_euler":
                 cases["numpy"] = numpy_case()
                 try:
                     cases["JAX"] = jax_case()

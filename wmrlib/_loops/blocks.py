@@ -36,7 +36,7 @@ def begin(runs, law, wheels, whole, arrival_radius):
 
 
 @lru_cache
-def survey_of(method, law, limited):
+def survey_of(method, law, limited, advance=polar.advance):
     """The loop that takes every run to its end, or to its last step, for one method and law.
 
     Each is compiled by itself: asking for the law in every step would cost more than the step.
@@ -45,14 +45,14 @@ def survey_of(method, law, limited):
     def survey(states, wheels, dt, arrival_radius):
         widest_vectors()
         limits = wheels if limited else NO_LIMITS
-        block, inside = np.zeros((polar.ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
+        block, inside = np.zeros((states.shape[0], BLOCK)), np.zeros(BLOCK, np.int64)
         waiting = width = 0
         while True:
             i = 0
             while i < width:
                 if block[polar.LEFT, i] <= 0.0:
                     width -= 1
-                    for row in range(polar.ROWS):
+                    for row in range(states.shape[0]):
                         states[row, inside[i]] = block[row, i]
                         block[row, i] = block[row, width]
                     inside[i] = inside[width]
@@ -60,16 +60,14 @@ def survey_of(method, law, limited):
                     i += 1
             while width < BLOCK and waiting < states.shape[1]:
                 inside[width] = waiting
-                for row in range(polar.ROWS):
+                for row in range(states.shape[0]):
                     block[row, width] = states[row, waiting]
                 width, waiting = width + 1, waiting + 1
             if width == 0:
                 return
             used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
             for _ in range(_ROUNDS):
-                # LLVM vectorises this loop; in a function of its own it would not know the law.
-                for i in range(used):
-                    polar.advance(block, i, method, law, limits, dt, arrival_radius)
+                advance(block, used, method, law, limits, dt, arrival_radius)
 
     return compiled(survey)
 

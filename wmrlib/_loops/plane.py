@@ -6,12 +6,21 @@ import math
 
 import numpy as np
 
-from wmrlib._compile import compiled
-from wmrlib._loops import rows
+from wmrlib._compile import compiled, formula
+from wmrlib._loops import blocks, polar, rows
+from wmrlib._vecmath import NEAREST, vectorised
+from wmrlib.kinematics import wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
 from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
 
-EULER, ARC = range(2)
+EULER, ARC = 3, 4  # beside the methods in polar coordinates
+# The rows of a block: the pose is where the polar coordinates are, and then as in `polar`. The last
+# three are what a step has seen, and what it then commands.
+X, Y, HEADING = polar.RHO, polar.ALPHA, polar.THETA
+GOAL_X, GOAL_Y, GOAL_HEADING, RHO, ALPHA, THETA = range(polar.ROWS, polar.ROWS + 6)
+V, OMEGA = ALPHA, THETA
+
+_seen_from, _along_arc, _along_tangent = map(vectorised, (polar_from_pose, arc_step, euler_step))
 
 
 @compiled
@@ -55,24 +64,68 @@ def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radiu
     return record.shape[0], rows.TIMED_OUT
 
 
+@formula
+def hold(block, used, step, law, wheels, dt, arrival_radius):
+    """Hold the twist of each run for one step, unless it is over or has arrived.
+
+    In three loops, because a processor has too few registers for all their constants at once, and
+    too little foresight to begin the next runs before the end of a long step.
+    """
+    for i in range(used):
+        pose, _, _, _, _ = polar.read(block, i)
+        seen = _seen_from(*pose, block[GOAL_X, i], block[GOAL_Y, i], block[GOAL_HEADING, i])
+        block[RHO, i], block[ALPHA, i], block[THETA, i] = seen
+    for i in range(used):
+        _, left, peak, length, gains = polar.read(block, i)
+        seen = block[RHO, i], block[ALPHA, i], block[THETA, i]
+        _, _, _, v, omega = polar.closed_loop(seen, (gains, law, wheels))
+        taken = (left > 0.0) & (seen[0] > arrival_radius)
+        v, omega = (v if taken else 0.0), (omega if taken else 0.0)
+        block[V, i], block[OMEGA, i] = v, omega
+        block[polar.LEFT, i] = left - 1.0 if taken else -abs(left)
+        block[polar.PEAK, i] = abs(omega) if abs(omega) > peak else peak
+        block[polar.LENGTH, i] = length + dt * abs(v)
+    for i in range(used):
+        pose, _, _, _, _ = polar.read(block, i)
+        twist = block[V, i], block[OMEGA, i]
+        new = _along_arc(*pose, *twist, dt) if step == ARC else _along_tangent(*pose, *twist, dt)
+        block[X, i], block[Y, i], block[HEADING, i] = new
+
+
 @compiled
-def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded):
-    """Sum up many runs to goals that stand still; their samples too, NaN after each one's end."""
+def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radius):
+    """Sum up each run. Those to record, and those that ended without a number, are driven alone."""
     summary = np.empty((rows.DISTANCE + 1, runs.shape[1]))
-    records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
-    run = np.empty((samples, rows.LYAPUNOV + 1))
-    reference = np.zeros((rows.GOAL_OMEGA + 1, 1))
+    run, reference = np.empty((samples, rows.LYAPUNOV + 1)), np.zeros((rows.GOAL_OMEGA + 1, 1))
     for i in range(runs.shape[1]):
         start, goal, gains = rows.run_of(runs, i)
-        reference[: rows.GOAL_V, 0] = goal
-        loop = pose_tuning(*gains), law, wheels, step, dt, arrival_radius
-        count, outcome = drive(run, start, reference, *loop)
-        last, peak, length = max(count - 1, 0), 0.0, 0.0
-        for k in range(count):
-            peak = max(peak, abs(run[k, rows.OMEGA]))
-            length += abs(run[k, rows.V]) * dt if k < last else 0.0
-        rho, alpha, theta = run[last, rows.RHO : rows.V]
+        pose, left, peak, length, _ = polar.read(states, i)
+        loop = pose_tuning(*gains), law, wheels
+        rho, alpha, theta, v, omega = observe(pose, goal, (0.0, 0.0), *loop)
+        last, arrived = samples - 1 - int(abs(left)), rho <= arrival_radius
+        outcome, peak = rows.ARRIVED if arrived else rows.TIMED_OUT, max(peak, abs(omega))
+        known = last > 0 and math.isfinite(rho + v + omega) and (arrived or left == 0.0)
+        if records.shape[2] or not known:
+            reference[rows.X, 0], reference[rows.Y, 0], reference[rows.HEADING, 0] = goal
+            count, outcome = drive(run, start, reference, *loop, step, dt, arrival_radius)
+            last, peak, length = max(count - 1, 0), 0.0, 0.0
+            for k in range(count):
+                peak = max(peak, abs(run[k, rows.OMEGA]))
+                length += abs(run[k, rows.V]) * dt if k < last else 0.0
+                for row in range(rows.LYAPUNOV if records.shape[2] else 0):
+                    records[row, i, k] = run[k, row]
+            rho, alpha, theta = run[last, rows.RHO : rows.V]
         rows.summarise(summary, i, outcome, last * dt, wrap(theta - alpha), peak, length, rho)
-        if recorded:
-            records[:, i, :count] = run[:count, : rows.LYAPUNOV].T
-    return summary, records
+    return summary
+
+
+def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded):
+    """Sum up many runs to goals that stand still; their samples too, NaN after each one's end."""
+    states = np.zeros((THETA + 1, runs.shape[1]))
+    states[X], states[Y], states[HEADING] = runs[0], runs[1], wrap_angle(runs[2])
+    states[GOAL_X:RHO], states[polar.K_RHO : GOAL_X] = runs[3:6], runs[6:]
+    states[polar.LEFT] = 0.0 if recorded else samples - 1.0
+    all_steps = blocks.survey_of(step, law, wheels.max_speed < math.inf, hold)
+    all_steps(states, wheels, dt, max(arrival_radius, NEAREST))
+    records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
+    return conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radius), records

@@ -81,18 +81,18 @@ def read(block, i):
 
 
 @formula
-def advance(block, i, method, law, wheels, dt, arrival_radius):
-    """One step of the run in place i, unless it is over, or would arrive or diverge in the step."""
-    polar, left, peak, length, gains = read(block, i)
-    new, rolled, turning = step_of(method, polar, (gains, law, wheels), dt)
-    going = left > 0.0
-    taken = going & (new[0] > arrival_radius) & finite(new)
-    block[RHO, i] = new[0] if taken else polar[0]
-    block[ALPHA, i] = new[1] if taken else polar[1]
-    block[THETA, i] = new[2] if taken else polar[2]
-    block[PEAK, i] = turning if taken & (turning > peak) else peak
-    block[LENGTH, i] = length + rolled if taken else length
-    block[LEFT, i] = left - 1.0 if taken else (-left if going else left)
+def advance(block, used, method, law, wheels, dt, arrival_radius):
+    """One step of each run, unless it is over, or would arrive or diverge in the step."""
+    for i in range(used):
+        polar, left, peak, length, gains = read(block, i)
+        new, rolled, turning = step_of(method, polar, (gains, law, wheels), dt)
+        taken = (left > 0.0) & (new[0] > arrival_radius) & finite(new)
+        block[RHO, i] = new[0] if taken else polar[0]
+        block[ALPHA, i] = new[1] if taken else polar[1]
+        block[THETA, i] = new[2] if taken else polar[2]
+        block[PEAK, i] = turning if taken & (turning > peak) else peak
+        block[LENGTH, i] = length + rolled if taken else length
+        block[LEFT, i] = left - 1.0 if taken else -abs(left)
 
 
 @compiled
