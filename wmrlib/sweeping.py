@@ -84,7 +84,8 @@ def sweep(
     method : "continuous": the law acts all the time, as in that of `simulate`; (7)-(9) are
         integrated with error control. "rk4" and "polar_euler": the same by Runge-Kutta steps of
         order 4, or by Euler's, of length dt; the last is shortened to end on the arrival radius.
-        "arc" and "euler": each entry equals `arrival(simulate(...))` of that run.
+        "arc" and "euler": each entry is `arrival(simulate(...))` of that run, to 1e-9 unless the
+        run magnifies rounding.
     dt, duration, arrival_radius, wheels : as in `simulate`; with "continuous", dt only says where
         the samples lie; the last one within the duration ends the run
     trajectories : bool, whether to return the samples too, at most fifty million in all
