@@ -141,6 +141,7 @@ CASES = {
     "rate_sign, corrected": lambda: figures.rate_sign(GAINS, 0.3, "corrected"),
     "level_sets": lambda: figures.level_sets(GAINS),
     "level_sets with runs": lambda: figures.level_sets(GAINS, 0.01, "printed", near_goal_runs()),
+    "bowl": lambda: figures.bowl(GAINS, near_goal_runs()),
     "lyapunov_runs": lambda: figures.lyapunov_runs(near_goal_runs()),
     "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
     "compare_runs": lambda: figures.compare_runs(
@@ -264,6 +265,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "rate_sign": lambda: [f"hatched {100 * rising_share():.0f} % and falls elsewhere"],
     "rate_sign, corrected": lambda: ["V falls everywhere"],
     "level_sets": lambda: ["0 of 225 arrows point outwards"],
+    "bowl": lambda: ["bottom at (0, 0) deg", "falling all the way; a run", "rising at times"],
     "lyapunov_runs": lambda: [
         "corrected: from 0.37 to",
         "it never rises; printed: from 0.37 to 3.3, it rises, to 3.3 at most",
