@@ -148,6 +148,10 @@ CASES = {
         {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
     ),
     "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True, until=15),
+    "heading_over_distance": lambda: figures.heading_over_distance({"one": drive()}),
+    "last_seconds": lambda: figures.last_seconds(
+        {"one": drive(), "two": wmr.simulate(CASE.start, CASE.goal, GAINS)}
+    ),
     "snapshots, tall": lambda: figures.snapshots(drive(), [0.0, 5.0, 10.0, drive().t[-1]]),
     "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
     "heading_shares": lambda: figures.heading_shares(
@@ -274,13 +278,17 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "one goes from 3.96 to 0.36 m/s",
         "a dotted line marks the limit, 4 m/s",
     ],
+    "heading_over_distance": lambda: ["27 deg at 0.05 m", " deg at 0.1 m"],
+    "last_seconds": lambda: [
+        "one ends at 15.5 s, |omega| at most 4.3 rad/s; two ends at 15.6 s, |omega| at most 6.3"
+    ],
     "compare_runs, log": lambda: ["one goes from 2.2 to 0.09 m."],
     "snapshots, tall": lambda: [
         "b after 5.0 s, 38.1 m to go, heading 84 deg",
         "the goal's heading is -60 deg",
     ],
     "heading_shares": lambda: [
-        "one 25.0 % end more than 5 deg off, the worst 30.0 deg; two 0.0 % end"
+        "one 25.0 % are more than 5 deg off, the worst 30.0 deg; two 0.0 % are"
     ],
     "block_diagram": lambda: ["every 0.2 s", "every 0.05 s"],
     "chase": lambda: [
