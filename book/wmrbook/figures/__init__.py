@@ -15,7 +15,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "polar_angles",
             "third_angle",
         ],
-        "lyapunov": ["bowl", "heading_errors", "level_sets", "lyapunov_runs", "rate_sign"],
+        "lyapunov": ["bowl", "heading_errors", "lyapunov_runs"],
         "pose_to_pose": [
             "block_diagram",
             "compare_runs",

@@ -94,7 +94,7 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     figure, axes = new_figure(6.5, 5.5)
     handles, words = [], []
     size = 0.07 * max(max(np.ptp(track.x), np.ptp(track.y)) for track in tracks.values())
-    roles = "v", "goal", "omega", "ink"
+    roles = "path", "y_error", "omega", "ink"
     for (label, track), style, role in zip(tracks.items(), LINES, roles, strict=False):
         axes.plot(track.x, track.y, style, color=COLOURS[role])
         path = Pose(*np.broadcast_arrays(*track))
