@@ -137,16 +137,17 @@ CASES = {
     ),
     "angles_over_time": lambda: figures.angles_over_time(drive()),
     "angles_over_time of two": lambda: figures.angles_over_time([drive(), drive("aicardi")]),
-    "rate_sign": lambda: figures.rate_sign(GAINS, 0.3),
-    "rate_sign, corrected": lambda: figures.rate_sign(GAINS, 0.3, "corrected"),
-    "level_sets": lambda: figures.level_sets(GAINS),
-    "level_sets with runs": lambda: figures.level_sets(GAINS, 0.01, "printed", near_goal_runs()),
+    "bowl": lambda: figures.bowl(GAINS, near_goal_runs()),
     "lyapunov_runs": lambda: figures.lyapunov_runs(near_goal_runs()),
     "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
     "compare_runs": lambda: figures.compare_runs(
         {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
     ),
     "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True, until=15),
+    "heading_over_distance": lambda: figures.heading_over_distance({"one": drive()}),
+    "last_seconds": lambda: figures.last_seconds(
+        {"one": drive(), "two": wmr.simulate(CASE.start, CASE.goal, GAINS)}
+    ),
     "snapshots, tall": lambda: figures.snapshots(drive(), [0.0, 5.0, 10.0, drive().t[-1]]),
     "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
     "heading_shares": lambda: figures.heading_shares(
@@ -261,9 +262,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "as in Corke, Siegwart, PythonRobotics",
     ],
     "path_choices": lambda: ["one: ends 0.10 m from the goal, its heading 11 deg off"],
-    "rate_sign": lambda: [f"hatched {100 * rising_share():.0f} % and falls elsewhere"],
-    "rate_sign, corrected": lambda: ["V falls everywhere"],
-    "level_sets": lambda: ["0 of 225 arrows point outwards"],
+    "bowl": lambda: ["bottom at (0, 0) deg", "falling all the way; a run", "rising at times"],
     "lyapunov_runs": lambda: [
         "corrected: from 0.37 to",
         "it never rises; printed: from 0.37 to 3.3, it rises, to 3.3 at most",
@@ -272,13 +271,17 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "one goes from 3.96 to 0.36 m/s",
         "a dotted line marks the limit, 4 m/s",
     ],
+    "heading_over_distance": lambda: ["27 deg at 0.05 m", " deg at 0.1 m"],
+    "last_seconds": lambda: [
+        "one ends at 15.5 s, |omega| at most 4.3 rad/s; two ends at 15.6 s, |omega| at most 6.3"
+    ],
     "compare_runs, log": lambda: ["one goes from 2.2 to 0.09 m."],
     "snapshots, tall": lambda: [
         "b after 5.0 s, 38.1 m to go, heading 84 deg",
         "the goal's heading is -60 deg",
     ],
     "heading_shares": lambda: [
-        "one 25.0 % end more than 5 deg off, the worst 30.0 deg; two 0.0 % end"
+        "one 25.0 % are more than 5 deg off, the worst 30.0 deg; two 0.0 % are"
     ],
     "block_diagram": lambda: ["every 0.2 s", "every 0.05 s"],
     "chase": lambda: [
@@ -345,15 +348,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "the dearest is case 12, far behind, with 42.7"
     ],
 }
-
-
-def rising_share():
-    """V' under (24) at 0.3 m: corrected V' + (S cos sin/rho)(1 - cos sin)(alpha + h theta)."""
-    alpha, theta = np.random.default_rng(4).uniform(-math.pi, math.pi, (2, 400_000))
-    speed, mixed = GAINS.v_max * (1 - math.exp(-GAINS.k_rho * 0.3)), np.cos(alpha) * np.sin(alpha)
-    falling = -0.3 * speed * np.cos(alpha) ** 2 - GAINS.k_alpha * alpha**2
-    extra = speed * mixed / 0.3 * (1 - mixed) * (alpha + GAINS.h * theta)
-    return np.mean(falling + extra > 0)
 
 
 def test_every_figure_of_the_chapters_is_in_the_table():
@@ -491,24 +485,13 @@ def test_paths_and_angles_are_those_of_the_runs():
     assert found == pytest.approx([1.0, 0.2, 0.0])
 
 
-def test_arrows_point_where_the_state_goes():
-    """And none lies beyond |alpha| = 180 deg; theta, not wrapped, goes as far as the run."""
-    (axes,) = axes_of("level_sets with runs")
-    far = 1.08 * np.degrees(np.abs(near_goal_runs()[1].theta).max())
-    assert far > 180
-    assert axes.get_xlim() == (-180.0, 180.0)
-    assert axes.get_ylim() == pytest.approx((-far, far))
-    falling, rising = (each for each in axes.collections if type(each).__name__ == "Quiver")
-    offsets = np.concatenate([falling.get_offsets(), rising.get_offsets()])
-    np.testing.assert_allclose(np.abs(offsets).max(axis=0), (0.92 * 180.0, 0.92 * far))
-    assert rising.N > 20
-    for arrows, rises in ((falling, False), (rising, True)):
-        alpha, theta = np.radians(arrows.get_offsets()).T
-        twist = wmr.control_law(0.01, alpha, theta, GAINS, law="printed")
-        _, *rates = wmr.polar_rate(0.01, alpha, *twist)
-        length = np.maximum(np.hypot(*rates), 1e-12)
-        np.testing.assert_allclose([arrows.U, arrows.V], rates / length, atol=1e-9)
-        assert ((alpha * rates[0] + GAINS.h * theta * rates[1] > 1e-12) == rises).all()
+def test_the_runs_lie_on_the_bowl():
+    (axes,) = axes_of("bowl")
+    runs = [line for line in axes.lines if len(line.get_data_3d()[0]) == len(near_goal_runs()[0])]
+    for line, run in zip(runs, near_goal_runs(), strict=True):
+        alpha, theta, height = line.get_data_3d()
+        np.testing.assert_allclose([alpha, theta], np.degrees([run.alpha, run.theta]))
+        np.testing.assert_allclose(height, 0.5 * (run.alpha**2 + GAINS.h * run.theta**2))
 
 
 def test_v_is_thick_where_it_rises_and_headings_are_not_wrapped():
@@ -806,9 +789,6 @@ BAD = [
     ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
     ("runs has 0 entries", "angles_over_time", ([],)),
     ("a Pose is needed, not a tuple", "polar_angles", ((0, 0, 0), GOAL)),
-    (r"rho = 0\.0 .* above 0 is needed", "rate_sign", (GAINS, 0.0)),
-    ("law = 'kanayama'", "rate_sign", (GAINS, 1.0, "kanayama")),
-    ("runs has 5 .* 0 to 4 are", "level_sets", (GAINS, 0.01, "corrected", [0] * 5)),
     ("runs has 0 entries, .* 1 to 4 are needed", "lyapunov_runs", ([],)),
     ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
     ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),

@@ -17,6 +17,8 @@ from wmrlib.plots.runs import path, pose_at
 from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
+_ALPHA, _THETA = "omega", "y_error"  # the roles with the panel's colours of these angles
+
 
 def polar_angles(pose: Pose, goal: Pose) -> Picture:
     """rho, alpha, theta, the headings and gamma = heading - goal.heading of one robot and one goal.
@@ -35,10 +37,10 @@ def polar_angles(pose: Pose, goal: Pose) -> Picture:
     _ray(axes, goal, 0.0, 0.62 * rho, "east", **east)
     _ray(axes, pose, goal.heading, 0.62 * rho, "goal's heading, moved", **moved)
     _arc(axes, pose, 0.0, pose.heading, 0.28 * rho, _degrees(pose.heading), "ink", 11)
-    _arc(axes, pose, pose.heading, alpha, 0.38 * rho, r"$\alpha$", "v")
-    _arc(axes, pose, goal.heading, gamma, 0.50 * rho, r"$\gamma$", "omega")
+    _arc(axes, pose, pose.heading, alpha, 0.38 * rho, r"$\alpha$", _ALPHA)
+    _arc(axes, pose, goal.heading, gamma, 0.50 * rho, r"$\gamma$", "ink")
     _arc(axes, goal, 0.0, goal.heading, 0.28 * rho, _degrees(goal.heading), "ink", 11)
-    _arc(axes, goal, goal.heading, theta, 0.48 * rho, r"$\theta$", "goal")
+    _arc(axes, goal, goal.heading, theta, 0.48 * rho, r"$\theta$", _THETA)
     middle = 0.5 * (pose.x + goal.x), 0.5 * (pose.y + goal.y)
     note(axes, r"$\rho$", middle, (-16, 8), fontsize=16)
     _room(axes, pose, goal, rho * np.array([-0.25, 0.98]), rho * np.array([-0.35, 0.62]))
@@ -71,7 +73,7 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
         (right, sight, beta, r"$\beta$", theirs),
     ):
         _scene(axes, pose, goal, rho, sight)
-        _arc(axes, goal, begin, turn, 0.40 * rho, f"{name} = {_degrees(turn)}", "goal")
+        _arc(axes, goal, begin, turn, 0.40 * rho, f"{name} = {_degrees(turn)}", _THETA)
         axes.set_title(title, fontsize=12)
         _room(axes, pose, goal, rho * np.array([-0.32, 0.98]), rho * np.array([-0.25, 0.62]))
     return Picture(
@@ -92,7 +94,7 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     figure, axes = new_figure(6.5, 5.5)
     handles, words = [], []
     size = 0.07 * max(max(np.ptp(track.x), np.ptp(track.y)) for track in tracks.values())
-    roles = "v", "goal", "omega", "ink"
+    roles = "path", "y_error", "omega", "ink"
     for (label, track), style, role in zip(tracks.items(), LINES, roles, strict=False):
         axes.plot(track.x, track.y, style, color=COLOURS[role])
         path = Pose(*np.broadcast_arrays(*track))
@@ -133,7 +135,7 @@ def angles_over_time(
     runs = run_list(runs)
     figure, rows = new_figure(7.5, 5.0, rows=2)
     names = list(labels) or [f"run {k}" for k in range(1, len(runs) + 1)]
-    for axes, name, role in zip(rows, ("alpha", "theta"), ("v", "goal"), strict=True):
+    for axes, name, role in zip(rows, ("alpha", "theta"), (_ALPHA, _THETA), strict=True):
         for run, style, label in zip(runs, LINES, names, strict=False):
             degrees = np.degrees(getattr(run, name))
             axes.plot(run.t, degrees, style, color=COLOURS[role], label=label)

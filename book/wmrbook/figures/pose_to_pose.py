@@ -88,6 +88,66 @@ def compare_runs(
     return Picture(figure, f"The {name} over time{scale}: {'; '.join(parts)}{said}.")
 
 
+def heading_over_distance(
+    runs: Mapping[str, Trajectory], *, radii: Sequence[float] = (0.05, 0.1), start: float = 1.0
+) -> Picture:
+    """The heading error theta - alpha [deg] of several runs over the distance to the goal.
+
+    From `start` [m] on; dotted lines mark arrival `radii` [m] at which a run might be stopped.
+    """
+    check_series(runs, Trajectory)
+    radii = real("radii", list(radii), above=0.0)
+    figure, axes = new_figure(7.5, 3.8)
+    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
+    said = []
+    for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
+        near = run.rho <= start
+        distance, error = run.rho[near], np.degrees(run.theta - run.alpha)[near]
+        axes.plot(distance, error, color=COLOURS[role], ls=style, label=title)
+        at = (f"{np.interp(-each, -distance, error):z.0f} deg at {each:g} m" for each in radii)
+        said.append(
+            f"{title} between {error.min():z.0f} and {error.max():z.0f} deg, {', '.join(at)}"
+        )
+    for radius in radii:
+        axes.axvline(radius, color=COLOURS["ink"], ls=":", lw=1.2)
+    last = min(run.rho.min() for run in runs.values())
+    axes.set(xscale="log", xlim=(start, max(last, 1e-4)))
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.set(xlabel="distance to the goal [m]", ylabel="heading error [deg]")
+    figure_legend(figure)
+    marks = " and ".join(f"{radius:g}" for radius in radii)
+    what = f"The heading error over the distance from {start:g} m on, dotted lines at {marks} m"
+    return Picture(figure, f"{what}: {'; '.join(said)}.")
+
+
+def last_seconds(runs: Mapping[str, Trajectory], seconds: float = 1.5) -> Picture:
+    """Alpha [deg] and omega of several runs from `seconds` before the first of them ends.
+
+    The commands of a sampled run are drawn as the steps in which they are held.
+    """
+    check_series(runs, Trajectory)
+    seconds = scalar("seconds", seconds, above=0.0)
+    figure, (above, below) = new_figure(7.5, 5.2, rows=2)
+    begin = min(run.t[-1] for run in runs.values()) - seconds
+    said = []
+    for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
+        late = run.t >= begin - 1e-9
+        looks = {"color": COLOURS[role], "ls": style}
+        above.plot(run.t[late], np.degrees(run.alpha[late]), label=title, **looks)
+        turning = run.omega[late]
+        if run.method != "continuous":
+            looks["drawstyle"] = "steps-post"
+            turning = np.r_[turning[:-1], turning[-2:-1]]  # the robot stops before the last one
+        below.plot(run.t[late], turning, **looks)
+        peak = np.abs(run.omega[late]).max()
+        said.append(f"{title} ends at {run.t[-1]:.1f} s, |omega| at most {peak:.1f} rad/s")
+    above.set(ylabel="alpha [deg]")
+    below.set(xlabel="time [s]", ylabel="omega [rad/s]")
+    figure_legend(figure)
+    what = f"Alpha and omega over the last {seconds:g} s"
+    return Picture(figure, f"{what}: {'; '.join(said)}.")
+
+
 def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
     """The robot at two to six moments [s] of its run, one panel each, with the path so far."""
     instance("run", run, Trajectory)
@@ -117,10 +177,15 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
     return Picture(figure, f"Snapshots of one drive: {'; '.join(said)}; {goal_said}.")
 
 
-def heading_shares(errors: Mapping[str, np.ndarray], *, allowed: float = 5.0) -> Picture:
+def heading_shares(
+    errors: Mapping[str, np.ndarray],
+    *,
+    allowed: float = 5.0,
+    of: str = "heading error at arrival",
+) -> Picture:
     """The cumulative share of runs over their heading error [deg], one line for each label.
 
-    A dotted line marks the `allowed` error.
+    A dotted line marks the `allowed` error; `of` says which error it is.
     """
     check_series(errors)
     figure, axes = new_figure(7.0, 3.8)
@@ -132,14 +197,14 @@ def heading_shares(errors: Mapping[str, np.ndarray], *, allowed: float = 5.0) ->
         steps = np.r_[0.0, values, widest], np.r_[0.0, share, 100.0]
         axes.plot(*steps, drawstyle="steps-post", color=COLOURS[role], ls=style, label=title)
         said.append(
-            f"{title} {100.0 * np.mean(values > allowed):.1f} % end more than {allowed:g} deg off, "
+            f"{title} {100.0 * np.mean(values > allowed):.1f} % are more than {allowed:g} deg off, "
             f"the worst {values[-1]:.1f} deg"
         )
     axes.axvline(allowed, color=COLOURS["ink"], ls=":", lw=1.2, label=f"{allowed:g} deg")
-    axes.set(xlabel="heading error at arrival [deg]", ylabel="share of the starts [%]")
+    axes.set(xlabel=f"{of} [deg]", ylabel="share of the starts [%]")
     axes.set(xlim=(0, widest), ylim=(0, 102))
     figure_legend(figure)
-    what = "Share of many starts against the heading error at arrival"
+    what = f"Share of many starts against the {of}"
     return Picture(figure, f"{what}: {'; '.join(said)}.")
 
 

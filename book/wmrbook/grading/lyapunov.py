@@ -147,7 +147,7 @@ def rising(state: Any) -> Passed:
     """A state with the goal on the right, within 1 m, where (24) as printed makes V rise."""
     slope = _printed_slope(state)
     hint = f"V' is {float(slope):.3g} there: V falls. "
-    hint += "Which sign has the extra term of (4.11) with the goal on the right?"
+    hint += "Which sign has the extra rate with the goal on the right?"
     expect(slope > 0, hint)
     rises = f"V rises there by {float(slope):.2f} a second"
     return Passed(f"{rises}: one state is enough to refute the proof.")
@@ -157,7 +157,7 @@ def rising_fast(state: Any) -> Passed:
     """The same, with V' more than 5 per second."""
     slope = _printed_slope(state)
     hint = f"V' is {float(slope):.3g} per second there; more than 5 is asked for: "
-    expect(slope > 5, f"{hint}what makes the extra term of (4.11) large?")
+    expect(slope > 5, f"{hint}what makes the extra rate large?")
     return Passed(f'V rises by {float(slope):.2f} a second, although (25) says "< 0".')
 
 
