@@ -17,10 +17,13 @@ from wmrlib import paper, symbolic
 
 FOUND = {
     Verdict.WRONG: {
-        *("eq-23", "eq-26", "bearing", "y_error_at_start", "claim-stable", "claim-omega"),
+        *("eq-23", "eq-26", "bearing", "y_error_at_start", "claim-stable"),
     },
     Verdict.TYPO: {"eq-10", "eq-24", "eq-25", "claim-captions", "claim-limit"},
-    Verdict.OPEN: {"circle_residual", "time_step", "inner_loop", "claim-cornejo", "claim-pose"},
+    Verdict.OPEN: {
+        *("circle_residual", "time_step", "inner_loop"),
+        *("claim-cornejo", "claim-omega", "claim-pose"),
+    },
 }
 PARTS = {  # who makes the rows of which equations
     range(1, 7): equations.robot_rows,
@@ -51,7 +54,7 @@ def test_everything_has_a_row_and_the_verdict_found_by_hand():
     assert sum(len(audit.rows(group)) for group in audit.GROUPS[1:]) + 26 == len(all_rows())
     for verdict, items in FOUND.items():
         assert {item for item, row in all_rows().items() if row.verdict is verdict} == items
-    counts = {Verdict.HOLDS: 26, Verdict.TYPO: 5, Verdict.WRONG: 6, Verdict.OPEN: 5}
+    counts = {Verdict.HOLDS: 26, Verdict.TYPO: 5, Verdict.WRONG: 5, Verdict.OPEN: 6}
     assert audit.tally(list(all_rows().values())) == counts
     for found in all_rows().values():
         assert found.says
