@@ -189,6 +189,8 @@ CASES = {
     "rise_map": lambda: figures.rise_map(
         SIGMAS, STEPS[:2], np.array([[0.0, 3.0, 18.0], [48.0, 47.0, 46.0]])
     ),
+    "sign_of_rate": lambda: figures.sign_of_rate(lambda alpha, theta: alpha + np.pi / 2),
+    "sign_of_rate, falls": lambda: figures.sign_of_rate(lambda alpha, theta: -(alpha**2)),
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
     ),
@@ -325,6 +327,8 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "0 % with no noise and a step of 0.02 s, about 20 % with 1 m of noise, "
         "and about 50 % with no noise"
     ],
+    "sign_of_rate": lambda: ["V rises in the hatched 75 % and falls elsewhere"],
+    "sign_of_rate, falls": lambda: ["hatched 0 %"],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
