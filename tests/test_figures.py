@@ -189,8 +189,6 @@ CASES = {
     "rise_map": lambda: figures.rise_map(
         SIGMAS, STEPS[:2], np.array([[0.0, 3.0, 18.0], [48.0, 47.0, 46.0]])
     ),
-    "sign_of_rate": lambda: figures.sign_of_rate(lambda alpha, theta: alpha + np.pi / 2),
-    "sign_of_rate, falls": lambda: figures.sign_of_rate(lambda alpha, theta: -(alpha**2)),
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
     ),
@@ -201,6 +199,8 @@ CASES = {
     "route, one pose": lambda: figures.route(route("point")),
     "route_signals": lambda: figures.route_signals(route("mixed")),
     "route_signals, one pose": lambda: figures.route_signals(route("point")),
+    "sign_of_rate": lambda: figures.sign_of_rate(lambda alpha, theta: alpha + np.pi / 2),
+    "sign_of_rate, falls": lambda: figures.sign_of_rate(lambda alpha, theta: -(alpha**2)),
     "challenge_paths": lambda: figures.challenge_paths(score(0.128, 1.089, 1.42, 7.528)),
     "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
     "challenge_paths, five": lambda: figures.challenge_paths(score(2.0, 1.0, 0.3, cases=5)),
@@ -327,9 +327,9 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "0 % with no noise and a step of 0.02 s, about 20 % with 1 m of noise, "
         "and about 50 % with no noise"
     ],
+    "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
     "sign_of_rate": lambda: ["V rises in the hatched 75 % and falls elsewhere"],
     "sign_of_rate, falls": lambda: ["hatched 0 %"],
-    "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
         "3 of 3 waypoints reached, 2 to stop at and 1 to pass "

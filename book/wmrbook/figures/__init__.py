@@ -21,7 +21,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "design": ["pareto_front", "phase_portrait", "root_locus"],
         "sampling": ["inner_loops", "orders", "responses", "time_steps", "wheel_limited_paths"],
         "noise": ["arrival_radii", "end_poses", "near_goal", "rise_map", "rising", "scatter"],
-        "audit": ["sign_of_rate", "verdicts"],
+        "audit": ["verdicts"],
         "routes": ["challenge_paths", "route", "route_signals"],
+        "refuted": ["sign_of_rate"],
     },
 )
