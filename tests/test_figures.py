@@ -200,6 +200,8 @@ CASES = {
     "route, one pose": lambda: figures.route(route("point")),
     "route_signals": lambda: figures.route_signals(route("mixed")),
     "route_signals, one pose": lambda: figures.route_signals(route("point")),
+    "sign_of_rate": lambda: figures.sign_of_rate(lambda alpha, theta: alpha + np.pi / 2),
+    "sign_of_rate, falls": lambda: figures.sign_of_rate(lambda alpha, theta: -(alpha**2)),
     "challenge_paths": lambda: figures.challenge_paths(score(0.128, 1.089, 1.42, 7.528)),
     "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
     "challenge_paths, five": lambda: figures.challenge_paths(score(2.0, 1.0, 0.3, cases=5)),
@@ -329,6 +331,8 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "and about 50 % with no noise"
     ],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
+    "sign_of_rate": lambda: ["V rises in the hatched 75 % and falls elsewhere"],
+    "sign_of_rate, falls": lambda: ["hatched 0 %"],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
         "3 of 3 waypoints reached, 2 to stop at and 1 to pass "

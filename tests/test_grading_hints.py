@@ -202,7 +202,7 @@ def test_counterexamples_are_those_of_the_paper_s_equations():
             assert refutes
             assert alpha > 0
         except Hint as hint:
-            side = bool(re.search("chapter 4's side", str(hint)))
+            side = bool(re.search("chapter 10's side", str(hint)))
             found.append("side" if side else "claim holds")
             assert side == bool(refutes)
             assert not (refutes and alpha > 0)

@@ -5,30 +5,31 @@
 ['✓ holds', '✓ holds']
 
 Every verdict follows from a computation made when `rows` is called; the rules are `equation_row`
-(equations), `fits` (numbers) and `depends`: what rests on numbers that nobody published is computed
-with several choices of them, and cannot be reproduced if they disagree.
+(equations), `fits` (numbers) and `decide`: what rests on a threshold of ours, or on what nobody
+published, is computed with several of them, and is not decided if they disagree.
 """
 
 from __future__ import annotations
 
-from wmrbook.audit import equations, figures, numbers, proof, statements
-from wmrbook.audit.proof import circle_residual, slope, steering
-from wmrbook.audit.row import Row, Verdict, depends, equation_row, equivalent, fits
+from wmrbook.audit import claims, equations, proof
+from wmrbook.audit.proof import near_goal, slope, steering
+from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equation_row, equivalent, fits
 from wmrbook.audit.table import Place, Table, missing, places, tally
 from wmrlib._checks import choice
 
 __all__ = [
     "GROUPS",
+    "THRESHOLDS",
     "Place",
     "Row",
     "Table",
     "Verdict",
-    "circle_residual",
-    "depends",
+    "decide",
     "equation_row",
     "equivalent",
     "fits",
     "missing",
+    "near_goal",
     "places",
     "rows",
     "slope",
@@ -38,18 +39,17 @@ __all__ = [
 
 _PARTS = {
     "equations": lambda: [*equations.rows(), *proof.rows()],
-    "figures": figures.rows,
-    "numbers": numbers.rows,
-    "statements": statements.rows,
+    "numbers": claims.numbers,
+    "statements": claims.statements,
 }
 GROUPS = tuple(_PARTS)
-"""The four kinds of things that a paper says, in the order of `rows`."""
+"""The three kinds of things that a paper says, in the order of `rows`."""
 
 
 def rows(group: str | None = None) -> list[Row]:
     """The rows of one group of GROUPS, or of all, computed in some seconds.
 
-    Equations (1) to (26), figures 1 to 12, the numbers of `PUBLISHED`, and statements.
+    Equations (1) to (26), the numbers of `PUBLISHED` that can be checked, and statements.
     Raises ValueError for an unknown group.
     """
     if group is not None:

@@ -3,10 +3,11 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from decimal import Decimal
 from enum import Enum
 from functools import cache
+from itertools import product
 from typing import NamedTuple
 
 import numpy as np
@@ -16,7 +17,6 @@ from wmrbook import equations
 from wmrbook.equations import EQUATIONS
 from wmrbook.published import Published
 from wmrlib import symbolic
-from wmrlib.gains import Gains
 
 
 class Verdict(Enum):
@@ -25,16 +25,28 @@ class Verdict(Enum):
     HOLDS = "✓ holds"
     TYPO = "✎ typo"
     WRONG = "✗ wrong"
-    OPEN = "? cannot be reproduced"
+    OPEN = "? not decided"
 
 
-def depends(outcomes: Iterable[bool]) -> Verdict:
-    """The verdict on what rests on something unpublished, from its outcome with several choices.
+THRESHOLDS = {
+    "cut": 0.01,  # the share of a number that cutting its digits off may lose
+    "parked": math.radians(5.0),  # a heading that is right, rad
+    "arrival": 0.05,  # where a robot stops before its goal, m
+    "end": 1.0,  # the end of the line to the goal, m
+    "reached": 0.01,  # the share of a speed limit that may be missing
+    "v_max": 4.0,  # the speed limit on the circle, m/s, which only the outdoor case states
+}
+"""Every number that we chose; `decide` halves and doubles each that a verdict rests on."""
 
-    It holds if it is so with every choice, is wrong if with none, and cannot be reproduced if the
-    choices differ.
+
+def decide(test: Callable[..., bool], *names: str, over: Iterable[tuple] = ((),)) -> Verdict:
+    """The verdict on what `test` finds with each named threshold halved, as it is and doubled.
+
+    over: what nobody published, as tuples of arguments that `test` takes before the thresholds.
+    It holds if every outcome is true, is wrong if none is, and is not decided if they differ.
     """
-    found = set(map(bool, outcomes))
+    scaled = [[factor * THRESHOLDS[name] for factor in (0.5, 1.0, 2.0)] for name in names]
+    found = {bool(test(*known, *chosen)) for known in over for chosen in product(*scaled)}
     if len(found) > 1:
         return Verdict.OPEN
     return Verdict.HOLDS if found == {True} else Verdict.WRONG
@@ -56,9 +68,8 @@ class Row(NamedTuple):
     why: str
 
 
-TOLERANCE = 1e-9
+_TOLERANCE = 1e-9
 _POINTS = 20
-_FURTHEST_CUT = 0.01
 
 
 @cache
@@ -73,7 +84,7 @@ def equivalent(first: sp.Basic, second: sp.Basic) -> bool:
     symbols = sorted(difference.free_symbols, key=str)
     value, random = sp.lambdify(symbols, difference, "numpy"), np.random.default_rng(26)
     for point in random.uniform(0.1, 0.9, (_POINTS, len(symbols))):
-        if not np.allclose(np.array(value(*point), dtype=float), 0.0, atol=TOLERANCE):
+        if not np.allclose(np.array(value(*point), dtype=float), 0.0, atol=_TOLERANCE):
             return False
     for entry in difference:
         slopes = (sp.simplify(entry.diff(symbol)) for symbol in entry.free_symbols)
@@ -97,19 +108,19 @@ def _vanishes(expression: sp.Expr) -> bool:
     return polynomial == 0 or sp.simplify(expression) == 0
 
 
-def fits(value: float, printed: Published) -> bool:
+def fits(value: float, printed: Published, cut: float = THRESHOLDS["cut"]) -> bool:
     """Whether a computed value is what the paper prints.
 
-    It is if it rounds to the printed digits, or if cutting it off after them leaves them and less
-    than 1 % is lost by that. A multiple of pi is compared to rounding.
+    It is if it rounds to the printed digits, or if cutting it off after them leaves them and no
+    larger share than `cut` is lost by that. A multiple of pi is compared to rounding.
     """
     digits = Decimal(repr(printed.value))
     if len(digits.as_tuple().digits) > 12:
         return math.isclose(value, printed.value, rel_tol=1e-12)
     unit = float(Decimal(1).scaleb(Decimal(f"{digits.normalize():f}").as_tuple().exponent))
     gap = abs(value) - abs(printed.value) if value * printed.value >= 0.0 else -math.inf
-    cut = 0.0 <= gap < unit and gap <= _FURTHEST_CUT * abs(printed.value)
-    return abs(gap) <= 0.5 * unit or cut
+    cut_off = 0.0 <= gap < unit and gap <= cut * abs(printed.value)
+    return abs(gap) <= 0.5 * unit or cut_off
 
 
 def equation(number: int) -> sp.Basic:
@@ -120,11 +131,6 @@ def equation(number: int) -> sp.Basic:
 def printed(number: int) -> sp.Basic:
     """The right side of an equation as the paper prints it."""
     return equation(number).rhs
-
-
-def at(gains: Gains) -> dict[sp.Symbol, float]:
-    """The gains as values of their symbols."""
-    return {getattr(symbolic, name): value for name, value in gains._asdict().items()}
 
 
 def equation_row(
@@ -143,7 +149,7 @@ def equation_row(
     needed = [name for name, so in wanted_by.items() if so]
     if needed:
         listed = " and ".join(filter(None, (", ".join(needed[:-1]), needed[-1])))
-        why = f"the difference is not 0, and the derived form is what {listed} need"
+        why = f"the difference is not 0, and the derived form is needed by {listed}"
         return finding(number, Verdict.TYPO, right, why)
     why = "the difference is not 0, and nothing in the paper has the derived form"
     return finding(number, Verdict.WRONG, right, why)

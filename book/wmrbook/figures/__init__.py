@@ -30,5 +30,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "noise": ["arrival_radii", "end_poses", "near_goal", "rise_map", "rising", "scatter"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route", "route_signals"],
+        "refuted": ["sign_of_rate"],
     },
 )

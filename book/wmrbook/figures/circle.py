@@ -36,7 +36,7 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     every_y = np.concatenate([goal.y, *(run.y for run in runs.values())])
     start, target = pose_at(first, 0), pose_at(goal, 0)
     size = 0.03 * max(np.ptp(every_x), np.ptp(every_y))
-    dart(axes, start, size, "robot", zorder=4)
+    dart(axes, start, size, "start", zorder=4)
     dart(axes, target, size, "white", "goal", lw=2.0, zorder=3)
     equal_scales(axes, every_x, every_y)
     inward, ha = (-12, "right") if target.x > sum(axes.get_xlim()) / 2 else (12, "left")
@@ -68,7 +68,7 @@ def residual_curve(v_max, simulated, predict: Callable, *, published: float) -> 
     fine = np.linspace(v_max[0], v_max[-1], 300)
     figure, axes = new_figure(7.0, 3.6)
     axes.plot(fine, predict(fine), color=COLOURS["path"], label="predicted")
-    circles = {"color": COLOURS["goal"], "mfc": "none", "mew": 2.0, "ms": 8}
+    circles = {"color": COLOURS["ink"], "mfc": "none", "mew": 2.0, "ms": 8}
     axes.plot(v_max, simulated, "o", label="simulated", **circles)
     label = f"the paper's {published:g} m"
     axes.axhline(published, color=COLOURS["ink"], ls=":", lw=1.2, label=label)
@@ -98,7 +98,7 @@ def tradeoff(
         x, y = real(f"{title} x", x, above=0.0), real(f"{title} y", y, above=0.0)
         axes.plot(x, y, marker, color=COLOURS[role], ms=5, mfc="none", mew=1.2, label=title)
         said.append(f"{title} from {y.min():.2g} to {y.max():.2g}")
-    star = {"ms": 20, "color": COLOURS["V_rising"], "mec": "white", "zorder": 5}
+    star = {"ms": 20, "color": COLOURS["ink"], "mec": "white", "zorder": 5}
     axes.plot(*mark[:2], "*", label=mark[2], **star)
     axes.axvline(mark[0], color=COLOURS["ink"], lw=1.0, ls=":")
     axes.axhline(mark[1], color=COLOURS["ink"], lw=1.0, ls=":")

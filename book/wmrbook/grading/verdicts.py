@@ -131,7 +131,7 @@ def _expect_positive(value: float, what: str, question: str) -> None:
 
 
 def _expect_left(alpha: float) -> None:
-    hint = "right, but this is chapter 4's side: "
+    hint = "right, but this is chapter 10's side: "
     expect(alpha > 0.0, f"{hint}find a state with alpha > 0, the goal to the left.")
 
 

@@ -1,0 +1,296 @@
+"""What the paper prints as a number or says in words, each sentence judged once.
+
+Inputs such as gains, and what any gains would make true, such as that the distance falls, have no
+row: they could not fail. Nor has "smooth", for which the paper gives no measure.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+from itertools import product
+
+import numpy as np
+
+from wmrbook.audit.proof import near_goal, rising, slope, steering
+from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, fits, printed
+from wmrbook.ellipsoid import FLATTENING, SEMI_MAJOR_M, sphere_error
+from wmrbook.published import PUBLISHED
+from wmrlib import paper, symbolic
+from wmrlib.gains import WheelLimits
+from wmrlib.geodesy import GeoPoint, haversine_distance, initial_bearing
+from wmrlib.metrics import arrival, residual
+from wmrlib.runs import Trajectory
+from wmrlib.simulation import simulate, track
+from wmrlib.tuning import longest_step, modes
+
+AXES = ("east", "north")
+_METHODS = ("polar_euler", "euler", "arc", "continuous")
+_BLOCK_DIAGRAM = "Block diagram of the mobile robot controller."
+CAPTIONS = {
+    1: "Coordinate System Mobile Robot.",
+    2: "Mobile robot pose to pose configuration.",
+    **dict.fromkeys(range(3, 8), _BLOCK_DIAGRAM),
+    8: "Simulation sense of the tracking performance for the proposed mobile robot.",
+    9: "Linear velocity profile.",
+    10: "Angular velocity profile.",
+    11: "Tracking error in the x-direction.",
+    12: "Tracking error in the y-direction.",
+}
+"""What the paper prints below each figure; the pictures themselves are not in this repository."""
+
+
+@cache
+def outdoor_run(x_axis: str, radius: float, law: str = "corrected") -> Trajectory:
+    """The outdoor case in continuous time until `radius` before the goal, x "east" or "north"."""
+    case = paper.outdoor(x_axis)
+    how = {"law": law, "method": "continuous", "arrival_radius": radius, "dt": 0.01}
+    return simulate(case.start, case.goal, case.gains, **how)
+
+
+@cache
+def circle_run(law: str = "corrected", wheels=None, **changed: float) -> Trajectory:
+    """The circle with the paper's gains but for those that are changed."""
+    gains = paper.CIRCLE_GAINS._replace(**changed)
+    how = {"law": law, "wheels": wheels, "duration": paper.CIRCLE_PERIOD}
+    return track(paper.circle, paper.CIRCLE_START, gains, **how)
+
+
+# Numbers ----------------------------------------------------------------------------------------
+
+
+def numbers() -> list[Row]:
+    """A row for each number of `PUBLISHED` that is not an input or another work's, in its order."""
+    found = {row.item: row for row in [*_earth(), *_circle(), *_outdoor(), *_loops()]}
+    return [found[key] for key in PUBLISHED if key in found]
+
+
+def _number(key: str, verdict: Verdict, holds: str, why: str) -> Row:
+    value, unit, place = PUBLISHED[key]
+    shown = r"$\pi/2$" if value == math.pi / 2 else f"{value:.10g}"
+    return Row(key, key.replace("_", " "), f"{shown} {unit} ({place})", holds, verdict, why)
+
+
+def _computed(key: str, note: str, *values: float) -> Row:
+    """Holds if one of the values is what is printed; several are several readings of the paper."""
+    verdict = decide(lambda cut: any(fits(each, PUBLISHED[key], cut) for each in values), "cut")
+    if verdict is Verdict.OPEN:
+        why = "it depends on how much a cut may lose"
+    else:
+        agrees = verdict is Verdict.HOLDS
+        why = "ours has the printed digits" if agrees else "no reading gives the printed digits"
+    return _number(key, verdict, note.format(*values), why)
+
+
+def sphere_bounds() -> tuple[float, float]:
+    """The least and the greatest error of the sphere on a short line, in percent."""
+    latitudes = np.linspace(0.0, 90.0, 9001)[:, None]
+    errors = 100.0 * sphere_error(latitudes, np.array([0.0, math.pi / 2.0]))
+    return float(errors.min()), float(errors.max())
+
+
+def _earth() -> list[Row]:
+    low, high = sphere_bounds()
+    start, goal = (
+        GeoPoint(lat=PUBLISHED[f"{end}_latitude"].value, lon=PUBLISHED[f"{end}_longitude"].value)
+        for end in ("start", "goal")
+    )
+    mean = "The mean radius of WGS84, (2a + b)/3, is {:.4f} km."
+    sphere = f"From {low:+.2f} % to {high:+.2f} %; half of that range is {{:.3f}} %."
+    bearing = math.degrees(initial_bearing(start, goal))
+    return [
+        _computed("earth_radius", mean, SEMI_MAJOR_M * (3.0 - FLATTENING) / 3e3),
+        _computed("sphere_error", sphere, 0.5 * (high - low)),
+        _computed("distance", "(11) to (13) give {:.4f} m.", haversine_distance(start, goal)),
+        _computed("bearing", "(15) to (17) give {:.4f} deg.", bearing),
+    ]
+
+
+def _circle() -> list[Row]:
+    x, y = (np.diff(field)[0] for field in paper.circle(np.array([0.0, 1e-9]))[:2])
+    key, choices = "circle_residual", [factor * THRESHOLDS["v_max"] for factor in (0.5, 1.0, 2.0)]
+    behind = ", ".join(f"{residual(circle_run(v_max=v)):.3f} m with {v:g} m/s" for v in choices)
+    verdict = decide(
+        lambda v, cut: fits(residual(circle_run(v_max=v)), PUBLISHED[key], cut), "v_max", "cut"
+    )
+    so = verdict is not Verdict.OPEN
+    text = f"For the limits $v_{{\\max}}$: {behind}."
+    why = "so with each limit" if so else "the circle's speed limit is not given"
+    tangent = math.degrees(math.atan2(y, x))
+    agrees = abs(tangent - math.degrees(PUBLISHED["circle_reference_heading"].value)) < 1e-4
+    return [
+        _number(
+            "circle_reference_heading",
+            Verdict.HOLDS if agrees else Verdict.WRONG,
+            f"The reference sets out at {tangent:.2f} deg from the x axis.",
+            f"{'' if agrees else 'not '}along the path's tangent",
+        ),
+        _number(key, verdict, text, why),
+    ]
+
+
+def _outdoor() -> list[Row]:
+    goals = [paper.outdoor(axis).goal for axis in AXES]
+    both = "x east: {:.2f} m; x north: {:.2f} m."
+    return [
+        _computed(f"{name}_error_at_start", both, *(abs(getattr(goal, name)) for goal in goals))
+        for name in "xy"
+    ]
+
+
+def slowest_pole(rate: float) -> float:
+    """The largest real part [1/s] of the angles' poles, both commands lagging by 1/rate.
+
+    The robot then brakes late: v = p rho with p(1 - p lag) = v_max k_rho. Infinite if there is no
+    such p.
+    """
+    gains, lag = paper.OUTDOOR_GAINS, 1.0 / rate
+    steep = gains.v_max * gains.k_rho
+    if 4.0 * steep * lag > 1.0:
+        return math.inf
+    p = (1.0 - math.sqrt(1.0 - 4.0 * steep * lag)) / (2.0 * lag)
+    turning = [(gains.k_alpha + steep) / lag, steep * gains.h / lag, -1.0 / lag]
+    matrix = np.array([[p, 0.0, -1.0], [p, 0.0, 0.0], turning])
+    return float(np.linalg.eigvals(matrix).real.max())
+
+
+def _loops() -> list[Row]:
+    gains, dt = paper.OUTDOOR_GAINS, PUBLISHED["time_step"].value
+    borders = {method: longest_step(gains, method) for method in _METHODS}
+    step = "It must be below {:.3f} s with Euler in polar coordinates, {:.3f} s with Euler and "
+    step += "{:.3f} s with arcs in the plane; a solver may print every 0.1 s."
+    ratio, main = PUBLISHED["inner_loop"].value, modes(gains)
+    rates = {"the distance": main.distance_rate, "a sample": math.tau / dt}
+    poles = {name: slowest_pole(ratio * rate) for name, rate in rates.items()}
+    wheels = ", ".join(f"{pole:+.2f} 1/s if it is that of {name}" for name, pole in poles.items())
+    verdicts = {
+        "time_step": decide(lambda method: dt < borders[method], over=[(m,) for m in _METHODS]),
+        "inner_loop": decide(lambda name: poles[name] < 0.0, over=[(name,) for name in rates]),
+    }
+    texts = {"time_step": step.format(*borders.values())}
+    texts["inner_loop"] = f"The slowest pole with wheels {ratio:g} times the main rate: {wheels}."
+    whys = {
+        "time_step": "it depends on how the authors stepped, which is not given",
+        "inner_loop": "it depends on which rate the main loop's is",
+    }
+    return [
+        _number(key, verdict, texts[key], whys[key] if verdict is Verdict.OPEN else "in each case")
+        for key, verdict in verdicts.items()
+    ]
+
+
+# Statements -------------------------------------------------------------------------------------
+
+
+def statements() -> list[Row]:
+    """A row for each statement, those about figures included."""
+    return [_captions(), _stable(), _better(), _still(), _pose(), _figure_5()]
+
+
+def _claim(name: str, title: str, says: str, holds: str, verdict: Verdict, *whys: str) -> Row:
+    """whys: the reason if it holds, if it does not, and if it is not decided."""
+    order = (Verdict.HOLDS, Verdict.WRONG, Verdict.OPEN)
+    why = whys[order.index(verdict)] if verdict in order else whys[1]
+    return Row(f"claim-{name}", title, says, holds, verdict, why)
+
+
+def _captions() -> Row:
+    texts = list(CAPTIONS.values())
+    again = [number for number, text in CAPTIONS.items() if texts.index(text) != number - 1]
+    verdict = Verdict.TYPO if again else Verdict.HOLDS
+    listed = ", ".join(map(str, again)) or "none"
+    text = f"The caption of another figure stands below Figs.: {listed}."
+    whys = "each has its own", "the text says what these figures show"
+    return _claim("captions", "Captions", f'Fig. 3: "{CAPTIONS[3]}"', text, verdict, *whys)
+
+
+def _stable() -> Row:
+    first = rising(slope(printed(24)))
+    text = (
+        "" if first is None else "With (24) as printed $\\dot V$ rises somewhere, for all gains. "
+    )
+    level = near_goal(slope(steering())).subs(symbolic.alpha, 0)
+    text += f"Corrected, at $\\rho = \\alpha = 0$ $\\dot V = {level}$ for every $\\theta$."
+    proved = first is None and level != 0
+    verdict = Verdict.HOLDS if proved else Verdict.WRONG
+    whys = "the proof holds", "true of the corrected law, but the last step is not in the paper"
+    says = "The globally asymptotic stability has been proved."
+    return _claim("stable", "Stability", says, text, verdict, *whys)
+
+
+def _better() -> Row:
+    """By the rms of the paper's index, the distance, over the whole drive; both limited alike.
+
+    Two choices for the rival, Aicardi's law v = k_rho rho cos(alpha): the number that the paper has
+    for k_rho, and the slope v_max k_rho that (22) has at the goal.
+    """
+    wheels, gains = WheelLimits(0.4, PUBLISHED["speed_limit"].value), paper.CIRCLE_GAINS
+
+    def index(law: str, k_rho: float) -> float:
+        return math.sqrt(np.mean(circle_run(law, wheels, k_rho=k_rho).rho ** 2))
+
+    ours = index("corrected", gains.k_rho)
+    rivals = {k: index("aicardi", k) for k in (gains.k_rho, gains.v_max * gains.k_rho)}
+    listed = ", ".join(f"{rival:.3f} m with {k:.1f} 1/s" for k, rival in rivals.items())
+    text = f"Rms distance {ours:.3f} m; a stand-in, Aicardi's law: {listed}."
+    verdict = decide(lambda k: ours < rivals[k], over=[(k,) for k in rivals])
+    whys = "less than each", "more than each", "the rival's law and gains are not published"
+    says = "Better than the controller of Cornejo et al. (Figs. 6 and 7)."
+    return _claim("cornejo", "Comparison", says, text, verdict, *whys)
+
+
+def _still() -> Row:
+    """By the law and the reading: whether the robot turns less at the end of the line than before.
+
+    Which law the authors ran is not known: (24) as printed or the one that their proof needs.
+    """
+
+    def turns(axis: str, law: str, radius: float, end: float) -> tuple[float, float]:
+        run = outdoor_run(axis, radius, law)
+        return abs(run.omega[run.rho < end]).max(), abs(run.omega[run.rho >= end]).max()
+
+    each = list(product(AXES, ("corrected", "printed")))
+    verdict = decide(lambda *case: bool(np.less(*turns(*case))), "arrival", "end", over=each)
+    limits = THRESHOLDS["arrival"], THRESHOLDS["end"]
+    listed = "; ".join(
+        f"{law}, x {axis}: {turns(axis, law, *limits)[0]:.1f} rad/s" for axis, law in each
+    )
+    whys = "less than before", "more than before", "it depends on the law that the authors ran"
+    says = "It converges to zero because of the linear tracking path (Fig. 10)."
+    text = f"The largest $\\omega$ in the last {limits[1]:g} m: {listed}."
+    return _claim("omega", "Turning rate", says, text, verdict, *whys)
+
+
+def _pose() -> Row:
+    def off(axis: str, radius: float) -> float:
+        return abs(float(arrival(outdoor_run(axis, radius)).heading_error))
+
+    radii = [factor * THRESHOLDS["arrival"] for factor in (0.5, 1.0, 2.0)]
+    listed = "; ".join(
+        f"x {axis}: " + ", ".join(f"{math.degrees(off(axis, radius)):.1f}" for radius in radii)
+        for axis in AXES
+    )
+    stops = ", ".join(f"{100 * radius:g}" for radius in radii)
+    verdict = decide(
+        lambda axis, radius, most: off(axis, radius) < most,
+        *("arrival", "parked"),
+        over=[(axis,) for axis in AXES],
+    )
+    text = f"Degrees off on stopping {stops} cm short of the goal: {listed}."
+    whys = "parked, wherever it stops", "not parked, wherever it stops"
+    says = "The robot moves from pose to pose, its error to zero (Fig. 8)."
+    return _claim("pose", "Pose to pose", says, text, verdict, *whys, "by where one stops")
+
+
+def _figure_5() -> Row:
+    limit, shown = PUBLISHED["speed_limit"].value, [circle_run(), outdoor_run("east", 0.05)]
+    circle, outdoor = (float(run.v.max()) for run in shown)
+    reached = [
+        decide(lambda missing, fastest=each: fastest > (1.0 - missing) * limit, "reached")
+        for each in (circle, outdoor)
+    ]
+    verdict = Verdict.TYPO if reached == [Verdict.WRONG, Verdict.HOLDS] else reached[0]
+    text = f"The run of Fig. 5 reaches {circle:.2f} m/s, that of Fig. 9 {outdoor:.2f} m/s."
+    whys = "so it is", "Fig. 9 is meant", "by how near counts as reached"
+    says = "Limited to 4 m/s, as indicated in Fig. 5."
+    return _claim("limit", "The limit", says, text, verdict, *whys)
