@@ -110,6 +110,9 @@ CASES = {
     "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
     "arrival": lambda: figures.arrival(drive()),
     "dashboard": lambda: figures.dashboard(drive()),
+    "heading_to_go": lambda: figures.heading_to_go(
+        {"one": drive(arrival_radius=0.01), "two": drive(gains=GENTLE)}
+    ),
     "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
     "position_errors": lambda: figures.position_errors(drive()),
     "twist": lambda: figures.twist(drive()),
@@ -235,6 +238,11 @@ def beside(driven):
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
     "local_map": lambda: ["58.08 m long, at a bearing of 9.58 deg"],
+    "heading_to_go": lambda: [  # the swing of the paper's gains; the gentle ones stop at 5 cm
+        "deg at 2 m, then between -59 and",
+        "deg, -59 deg at 0.01 m; two,",
+        "2 deg at 0.05 m",
+    ],
     "spherical_triangle": lambda: [
         "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
     ],
