@@ -30,8 +30,8 @@ def coordinate_system(pose: Pose, track_width: float, wheel_radius: float) -> Pi
     for side, tip, role, name, offset in (
         (0.0, (1.9 * b, 0.0), "path", "$X_r$", (4, 4)),
         (0.0, (0.0, 1.4 * b), "path", "$Y_r$", (-22, 0)),
-        (0.5 * b, (1.2 * b, 0.5 * b), "goal", "$V_l$", (4, 4)),
-        (-0.5 * b, (1.2 * b, -0.5 * b), "goal", "$V_r$", (6, -8)),
+        (0.5 * b, (1.2 * b, 0.5 * b), "y_error", "$V_l$", (4, 4)),
+        (-0.5 * b, (1.2 * b, -0.5 * b), "y_error", "$V_r$", (6, -8)),
     ):
         end = _placed(pose, tip)
         pointer(axes, _placed(pose, (0.0, side)), end, COLOURS[role], lw=2.2, zorder=5)
@@ -78,14 +78,14 @@ def turning_centre(v: float, omega: float, track_width: float) -> Picture:
     axes.plot(ends, [0, 0], ":", color=COLOURS["ink"], lw=1.5)
     axes.plot(ends, heights, "--", color=COLOURS["ink"], lw=1.2)
     for x, speed, role, name in (
-        (-b / 2, left, "goal", "V_l"),
+        (-b / 2, left, "y_error", "V_l"),
         (0.0, v, "path", "v"),
-        (b / 2, right, "goal", "V_r"),
+        (b / 2, right, "y_error", "V_r"),
     ):
         pointer(axes, (x, 0.0), (x, speed), COLOURS[role], lw=2.2, zorder=5)
         label = f"${name}$ = {speed:.2f} m/s"
         note(axes, label, (x, speed), (-8, 6), ha="right", fontsize=12)
-    axes.plot(centre, 0, "o", ms=11, color=COLOURS["start"], zorder=5)
+    axes.plot(centre, 0, "o", ms=11, color=COLOURS["ink"], zorder=5)
     note(axes, "turning centre", (centre, 0), (0, -26), ha="center", fontsize=12)
     low, high = min(0.0, left, v, right), max(0.0, left, v, right)
     axes.set(xlim=(ends[0] - 0.6 * b, ends[1] + 1.6 * b), aspect="equal")
@@ -118,7 +118,7 @@ def commutator(step: float, turn: float, times: int = 1) -> Picture:
             axes.plot(x[move], y[move], style, color=COLOURS[role], label=label)
         dart(axes, poses[first + 1], size, "none", "robot", lw=1.5, zorder=3)
         dart(axes, poses[first + 2], size, "robot", zorder=3)
-        dart(axes, poses[first + 4], size, "none", "goal", lw=2.0, zorder=4)
+        dart(axes, poses[first + 4], size, "none", lw=2.0, zorder=4)
     dart(axes, poses[0], size, "start", "start", zorder=5)
     axes.set(xlim=(x.min() - 0.2 * step, x.max() + 0.5 * step), aspect="equal")
     axes.set(ylim=(y.min() - 0.2 * step, y.max() + 0.2 * step), xlabel="x [m]", ylabel="y [m]")
@@ -141,7 +141,7 @@ def approach(gains: Gains, distances: Sequence[float] = (10.0, 1.0, 0.001)) -> P
     check_count("distances", distances, 1, len(LINES))
     sight = np.linspace(-math.pi, math.pi, 721)[1:-1]
     figure, axes = new_figure(7.0, 3.8)
-    roles = "path", "y_error", "goal", "omega"
+    roles = "path", "y_error", "ink", "omega"
     spans = []
     for distance, style, role in zip(distances, LINES, roles, strict=False):
         pose = Pose(-distance * np.cos(sight), -distance * np.sin(sight), 0.0)
@@ -178,7 +178,7 @@ def steps(v: float, omega: float, dt: float) -> Picture:
     figure, axes = new_figure(5.6, 5.6)
     axes.plot(exact.x, exact.y, "-", color=COLOURS["path"], label="exact")
     axes.plot(*paths["arc"].T, "o", ms=6, mfc="none", color=COLOURS["path"], label='"arc"')
-    axes.plot(*paths["euler"].T, "s--", ms=5, lw=1.2, color=COLOURS["goal"], label='"euler"')
+    axes.plot(*paths["euler"].T, "s--", ms=5, lw=1.2, color=COLOURS["y_error"], label='"euler"')
     axes.plot(0, 0, "*", ms=15, color=COLOURS["start"])
     equal_scales(axes, *np.concatenate([*paths.values(), np.column_stack([exact.x, exact.y])]).T)
     axes.legend(loc="center", fontsize=11)
