@@ -128,6 +128,7 @@ CASES = {
     "turning_centre, right": lambda: figures.turning_centre(1.0, -2.5, 0.6),
     "commutator": lambda: figures.commutator(1.0, 0.5, 3),
     "approach": lambda: figures.approach(GAINS),
+    "robot_loops": lambda: figures.robot_loops(0.2, 4.0),
     "steps": lambda: figures.steps(4.0, 1.0, 0.5),
     "polar_angles": lambda: figures.polar_angles(ROBOT, GOAL),
     "polar_angles, clockwise": lambda: figures.polar_angles(
@@ -254,6 +255,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "from -0.45 % at the poles to +0.56 % northwards on the equator, with -0.11 % eastwards"
     ],
     "coordinate_system": lambda: ["35 deg from east"],
+    "robot_loops": lambda: ["the polar error every 0.2 s; the wheel", "loops every 0.05 s"],
     "turning_centre": lambda: [of_twist(1.0, 0.8, 0.6), "1.25 m to the left"],
     "turning_centre, right": lambda: [of_twist(1.0, -2.5, 0.6), "0.40 m to the right"],
     "commutator": lambda: [moved(1.0, 0.5, 3)],

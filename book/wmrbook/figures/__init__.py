@@ -14,7 +14,14 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "twist",
         ],
         "earth": ["local_map", "rounding_errors", "sphere_error_map", "spherical_triangle"],
-        "robot": ["approach", "commutator", "coordinate_system", "steps", "turning_centre"],
+        "robot": [
+            "approach",
+            "commutator",
+            "coordinate_system",
+            "robot_loops",
+            "steps",
+            "turning_centre",
+        ],
         "angles": [
             "angles_over_time",
             "mirrored_paths",
