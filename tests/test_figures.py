@@ -110,6 +110,9 @@ CASES = {
     "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
     "arrival": lambda: figures.arrival(drive()),
     "dashboard": lambda: figures.dashboard(drive()),
+    "heading_to_go": lambda: figures.heading_to_go(
+        {"one": drive(arrival_radius=0.01), "two": drive(gains=GENTLE)}
+    ),
     "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
     "position_errors": lambda: figures.position_errors(drive()),
     "twist": lambda: figures.twist(drive()),
@@ -125,6 +128,7 @@ CASES = {
     "turning_centre, right": lambda: figures.turning_centre(1.0, -2.5, 0.6),
     "commutator": lambda: figures.commutator(1.0, 0.5, 3),
     "approach": lambda: figures.approach(GAINS),
+    "robot_loops": lambda: figures.robot_loops(0.2, 4.0),
     "steps": lambda: figures.steps(4.0, 1.0, 0.5),
     "polar_angles": lambda: figures.polar_angles(ROBOT, GOAL),
     "polar_angles, clockwise": lambda: figures.polar_angles(
@@ -238,6 +242,11 @@ def beside(driven):
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
     "local_map": lambda: ["58.08 m long, at a bearing of 9.58 deg"],
+    "heading_to_go": lambda: [  # the swing of the paper's gains; the gentle ones stop at 5 cm
+        "deg at 2 m, then between -59 and",
+        "deg, -59 deg at 0.01 m; two,",
+        "2 deg at 0.05 m",
+    ],
     "spherical_triangle": lambda: [
         "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
     ],
@@ -249,6 +258,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "from -0.45 % at the poles to +0.56 % northwards on the equator, with -0.11 % eastwards"
     ],
     "coordinate_system": lambda: ["35 deg from east"],
+    "robot_loops": lambda: ["the polar error every 0.2 s; the wheel", "loops every 0.05 s"],
     "turning_centre": lambda: [of_twist(1.0, 0.8, 0.6), "1.25 m to the left"],
     "turning_centre, right": lambda: [of_twist(1.0, -2.5, 0.6), "0.40 m to the right"],
     "commutator": lambda: [moved(1.0, 0.5, 3)],

@@ -5,9 +5,23 @@ import lazy_loader
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "first_drive": ["arrival", "dashboard", "lyapunov_over_time", "position_errors", "twist"],
+        "first_drive": [
+            "arrival",
+            "dashboard",
+            "heading_to_go",
+            "lyapunov_over_time",
+            "position_errors",
+            "twist",
+        ],
         "earth": ["local_map", "rounding_errors", "sphere_error_map", "spherical_triangle"],
-        "robot": ["approach", "commutator", "coordinate_system", "steps", "turning_centre"],
+        "robot": [
+            "approach",
+            "commutator",
+            "coordinate_system",
+            "robot_loops",
+            "steps",
+            "turning_centre",
+        ],
         "angles": [
             "angles_over_time",
             "mirrored_paths",

@@ -73,8 +73,8 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
         turns = np.unwrap([initial_bearing(corner, first), initial_bearing(corner, second)])
         arc = destination_point(corner, 0.16 * EARTH_RADIUS_M, np.linspace(*turns, 30))
         x, y = _seen(arc, view)
-        axes.plot(x, y, color=COLOURS["goal"])
-        looks = {"ha": "center", "va": "center", "fontsize": 14, "color": COLOURS["goal"]}
+        axes.plot(x, y, color=COLOURS["omega"])
+        looks = {"ha": "center", "va": "center", "fontsize": 14, "color": COLOURS["omega"]}
         note(axes, name, (x[15], y[15]), offset, **looks)
     named = (
         (pole, "north pole", (0, 10), "center"),
@@ -110,7 +110,7 @@ def rounding_errors(
     """
     check_count("errors", errors, 1, 4)
     figure, (left, right) = panels(1, 2, 9.0, 4.2, sharey=True)
-    looks = zip(("goal", "y_error", "path", "omega"), "s^ox", strict=True)
+    looks = zip(("ink", "y_error", "path", "omega"), "s^ox", strict=True)
     texts = []
     for (name, (at_near, at_far)), (role, marker) in zip(errors.items(), looks, strict=False):
         for axes, gaps, sizes in ((left, near, at_near), (right, far, at_far)):

@@ -3,14 +3,19 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
+from wmrbook.figures._drawing import check_count
+from wmrlib._checks import instance
 from wmrlib.plots.runs import draw_path, path_in_words, pose_at
-from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
+from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
+
+_DISTANCES = 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0  # m, labelled on a logarithmic axis
 
 
 def dashboard(run: Trajectory) -> Picture:
@@ -52,6 +57,32 @@ def arrival(run: Trajectory, radius: float = 2.0) -> Picture:
         f"its heading {abs(error):.0f} deg {'clockwise' if error < 0.0 else 'counter-clockwise'} "
         "of the open arrow that marks the wanted one.",
     )
+
+
+def heading_to_go(runs: Mapping[str, Trajectory], far: float = 2.0) -> Picture:
+    """The heading error [deg] of one to four runs over the distance still to go, from `far` m on.
+
+    An arrival radius is a vertical line here: where it crosses a curve, that is what is left over.
+    """
+    check_count("runs", instance("runs", runs, Mapping), 1, len(LINES))
+    figure, axes = new_figure(7.0, 3.8)
+    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
+    told, roles = [], ("path", "y_error", "omega", "ink")
+    for (name, run), style, role in zip(runs.items(), LINES, roles, strict=False):
+        near = run.rho <= far
+        error = np.degrees(np.unwrap(run.heading_error[near]))
+        axes.plot(run.rho[near], error, style, color=COLOURS[role], label=name)
+        told.append(
+            f"{name}, {error[0]:z.0f} deg at {far:g} m, then between {error.min():z.0f} and "
+            f"{error.max():z.0f} deg, {error[-1]:z.0f} deg at {run.rho[-1]:.2g} m"
+        )
+    axes.set(xscale="log", xlabel="distance to go [m]", ylabel="heading error [deg]")
+    axes.invert_xaxis()
+    ticks = [each for each in _DISTANCES if each <= far]
+    axes.set_xticks(ticks, [f"{each:g}" for each in ticks])
+    axes.minorticks_off()
+    axes.legend(loc="upper right", fontsize=11)
+    return Picture(figure, f"The heading error over the distance to go: {'; '.join(told)}.")
 
 
 def twist(run: Trajectory) -> Picture:

@@ -7,7 +7,7 @@ from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.patches import Arc, Polygon
+from matplotlib.patches import Arc, FancyBboxPatch, Polygon
 
 from wmrbook.figures._drawing import check_count, note, pointer
 from wmrlib._checks import instance, real, scalar
@@ -30,8 +30,8 @@ def coordinate_system(pose: Pose, track_width: float, wheel_radius: float) -> Pi
     for side, tip, role, name, offset in (
         (0.0, (1.9 * b, 0.0), "path", "$X_r$", (4, 4)),
         (0.0, (0.0, 1.4 * b), "path", "$Y_r$", (-22, 0)),
-        (0.5 * b, (1.2 * b, 0.5 * b), "goal", "$V_l$", (4, 4)),
-        (-0.5 * b, (1.2 * b, -0.5 * b), "goal", "$V_r$", (6, -8)),
+        (0.5 * b, (1.2 * b, 0.5 * b), "y_error", "$V_l$", (4, 4)),
+        (-0.5 * b, (1.2 * b, -0.5 * b), "y_error", "$V_r$", (6, -8)),
     ):
         end = _placed(pose, tip)
         pointer(axes, _placed(pose, (0.0, side)), end, COLOURS[role], lw=2.2, zorder=5)
@@ -78,14 +78,14 @@ def turning_centre(v: float, omega: float, track_width: float) -> Picture:
     axes.plot(ends, [0, 0], ":", color=COLOURS["ink"], lw=1.5)
     axes.plot(ends, heights, "--", color=COLOURS["ink"], lw=1.2)
     for x, speed, role, name in (
-        (-b / 2, left, "goal", "V_l"),
+        (-b / 2, left, "y_error", "V_l"),
         (0.0, v, "path", "v"),
-        (b / 2, right, "goal", "V_r"),
+        (b / 2, right, "y_error", "V_r"),
     ):
         pointer(axes, (x, 0.0), (x, speed), COLOURS[role], lw=2.2, zorder=5)
         label = f"${name}$ = {speed:.2f} m/s"
         note(axes, label, (x, speed), (-8, 6), ha="right", fontsize=12)
-    axes.plot(centre, 0, "o", ms=11, color=COLOURS["start"], zorder=5)
+    axes.plot(centre, 0, "o", ms=11, color=COLOURS["ink"], zorder=5)
     note(axes, "turning centre", (centre, 0), (0, -26), ha="center", fontsize=12)
     low, high = min(0.0, left, v, right), max(0.0, left, v, right)
     axes.set(xlim=(ends[0] - 0.6 * b, ends[1] + 1.6 * b), aspect="equal")
@@ -118,7 +118,7 @@ def commutator(step: float, turn: float, times: int = 1) -> Picture:
             axes.plot(x[move], y[move], style, color=COLOURS[role], label=label)
         dart(axes, poses[first + 1], size, "none", "robot", lw=1.5, zorder=3)
         dart(axes, poses[first + 2], size, "robot", zorder=3)
-        dart(axes, poses[first + 4], size, "none", "goal", lw=2.0, zorder=4)
+        dart(axes, poses[first + 4], size, "none", lw=2.0, zorder=4)
     dart(axes, poses[0], size, "start", "start", zorder=5)
     axes.set(xlim=(x.min() - 0.2 * step, x.max() + 0.5 * step), aspect="equal")
     axes.set(ylim=(y.min() - 0.2 * step, y.max() + 0.2 * step), xlabel="x [m]", ylabel="y [m]")
@@ -141,7 +141,7 @@ def approach(gains: Gains, distances: Sequence[float] = (10.0, 1.0, 0.001)) -> P
     check_count("distances", distances, 1, len(LINES))
     sight = np.linspace(-math.pi, math.pi, 721)[1:-1]
     figure, axes = new_figure(7.0, 3.8)
-    roles = "path", "y_error", "goal", "omega"
+    roles = "path", "y_error", "ink", "omega"
     spans = []
     for distance, style, role in zip(distances, LINES, roles, strict=False):
         pose = Pose(-distance * np.cos(sight), -distance * np.sin(sight), 0.0)
@@ -155,6 +155,61 @@ def approach(gains: Gains, distances: Sequence[float] = (10.0, 1.0, 0.001)) -> P
     return Picture(
         figure,
         f"Commanded omega over the direction in which the goal lies: it spans {', '.join(spans)}.",
+    )
+
+
+_BLOCKS = {  # name: what it does, the colour's role, its centre
+    "polar error": ("rho, alpha, theta\nto the goal", "path", (1.2, 3.9)),
+    "control law": ("v, omega", "path", (3.8, 3.9)),
+    "wheel loops": ("one a motor", "y_error", (6.4, 3.9)),
+    "robot": ("moves", "robot", (9.0, 3.9)),
+    "receiver": ("fix: position,\n1 to 10 a second", "omega", (9.0, 1.1)),
+    "compass": ("heading", "omega", (6.4, 1.1)),
+    "pose": ("fix + heading + odometry,\nin metres", "path", (2.5, 1.1)),
+}
+
+
+def robot_loops(time_step: float, times_faster: float) -> Picture:
+    """A real robot's loops: receiver and compass stand in the way back, and so inside the loop.
+
+    time_step: of the law, s; times_faster: how often in it the wheel loops act.
+    """
+    time_step = scalar("time_step", time_step, above=0.0)
+    inner = time_step / scalar("times_faster", times_faster, above=0.0)
+    figure, axes = new_figure(9.0, 5.0)
+    axes.set_axis_off()
+    axes.set(xlim=(0.0, 10.2), ylim=(0.0, 5.6))
+    middle = {"ha": "center", "va": "center", "fontsize": 11}
+    for name, (does, role, (x, y)) in _BLOCKS.items():
+        half = 1.35 if name == "pose" else 0.95
+        looks = {"boxstyle": "round,pad=0.06", "fc": "white", "ec": COLOURS[role], "lw": 2.5}
+        axes.add_patch(FancyBboxPatch((x - half, y - 0.6), 2 * half, 1.2, **looks))
+        axes.text(x, y + 0.33, name, weight="bold", **middle)
+        axes.text(x, y - 0.2, does, **middle | {"fontsize": 10})
+    ink, wheels = {"colour": COLOURS["ink"], "lw": 2.0}, {"color": COLOURS["y_error"], "lw": 2.0}
+    for x0, x1, y in ((2.2, 2.8, 3.9), (4.8, 5.4, 3.9), (7.4, 8.0, 3.9), (5.4, 3.9, 1.1)):
+        pointer(axes, (x0, y), (x1, y), **ink)
+    for x, low, high in ((9.0, 3.25, 1.75), (1.2, 5.3, 4.55), (1.2, 1.75, 3.25)):
+        pointer(axes, (x, low), (x, high), **ink)
+    axes.plot([9.0, 6.4], [2.3, 2.3], color=COLOURS["ink"], lw=2.0)
+    pointer(axes, (6.4, 2.32), (6.4, 1.75), **ink)
+    axes.plot([9.0, 9.0, 2.9], [0.44, 0.2, 0.2], color=COLOURS["ink"], lw=2.0)
+    pointer(axes, (2.9, 0.18), (2.9, 0.44), **ink)
+    axes.text(1.4, 5.1, "goal: GPS point to metres, once", ha="left", va="center", fontsize=11)
+    axes.text(1.35, 2.85, f"every {time_step:g} s", ha="left", va="center", fontsize=11)
+    axes.plot([8.7, 8.7, 6.6], [4.55, 4.95, 4.95], ls="--", **wheels)
+    pointer(axes, (6.6, 4.95), (6.6, 4.55), COLOURS["y_error"], lw=2.0, ls="--")
+    axes.text(7.65, 5.15, f"wheel speeds, every {inner:g} s", **middle)
+    axes.plot([6.2, 6.2], [3.25, 2.6], ls="--", **wheels)
+    axes.plot([6.2, 3.2], [2.6, 2.6], ls="--", **wheels)
+    pointer(axes, (3.2, 2.62), (3.2, 1.75), COLOURS["y_error"], lw=2.0, ls="--")
+    axes.text(4.6, 2.8, "odometry", **middle)
+    chain = " to ".join(list(_BLOCKS)[:4])
+    return Picture(
+        figure,
+        f"Block diagram: {chain}; the way back is receiver and compass to pose, joined by the "
+        f"wheels' odometry, and from there to the polar error every {time_step:g} s; the wheel "
+        f"speeds are fed back to the wheel loops every {inner:g} s.",
     )
 
 
@@ -178,7 +233,7 @@ def steps(v: float, omega: float, dt: float) -> Picture:
     figure, axes = new_figure(5.6, 5.6)
     axes.plot(exact.x, exact.y, "-", color=COLOURS["path"], label="exact")
     axes.plot(*paths["arc"].T, "o", ms=6, mfc="none", color=COLOURS["path"], label='"arc"')
-    axes.plot(*paths["euler"].T, "s--", ms=5, lw=1.2, color=COLOURS["goal"], label='"euler"')
+    axes.plot(*paths["euler"].T, "s--", ms=5, lw=1.2, color=COLOURS["y_error"], label='"euler"')
     axes.plot(0, 0, "*", ms=15, color=COLOURS["start"])
     equal_scales(axes, *np.concatenate([*paths.values(), np.column_stack([exact.x, exact.y])]).T)
     axes.legend(loc="center", fontsize=11)
