@@ -20,7 +20,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "circle": ["chase", "residual_curve", "tradeoff"],
         "design": ["pareto_front", "phase_portrait", "root_locus"],
         "sampling": ["inner_loops", "orders", "responses", "time_steps", "wheel_limited_paths"],
-        "noise": ["arrival_radii", "end_poses", "near_goal", "rise_map", "rising", "scatter"],
+        "noise": ["end_poses", "memories", "rising", "scatter"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route", "route_signals"],
     },
