@@ -164,6 +164,9 @@ CASES = {
     ),
     "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
     "phase_portrait": lambda: figures.phase_portrait({"the paper's": GAINS, "gentle": GENTLE}, 0.5),
+    "last_metre": lambda: figures.last_metre(
+        {"paper": drive(dt=0.01), "gentle": drive(gains=GENTLE, dt=0.01)}, (0.2, 0.1)
+    ),
     "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
     "orders": lambda: figures.orders(STEPS, {"linear": 3.0 * STEPS, "square": STEPS**2}),
@@ -285,6 +288,10 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         f"The pair runs on a circle of {8.0 * math.sqrt(0.3):.2f} rad/s to the real axis and parts"
     ],
     "phase_portrait": lambda: ["with gentle gains (damping 0.884) one sweep, 0."],
+    "last_metre": lambda: [
+        "from 1 m to 0.05 m: paper between -27 and 106 deg, 32 deg at 0.2 m, -1 deg at 0.1 m; "
+        "gentle between 2 and ",
+    ],
     "time_steps": lambda: [
         "the paper's gains, euler: 46 deg at 0.02 s, longest step 0.011 s, 2 of 4 runs lost",
         "gentle gains, arc: 2 deg at 0.02 s, ",
@@ -805,6 +812,7 @@ BAD = [
     ("one = .* is not allowed", "heading_shares", ({"one": np.array([math.nan])},)),
     (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
     ("choices has 0 entries, .* 1 to 2 are needed", "phase_portrait", ({}, 1.0)),
+    ("runs has 0 entries, .* 1 to 4 are needed", "last_metre", ({}, (0.1,))),
     ("gains has 1 .* 2 are needed", "time_steps", (ROBOT, GOAL, {"one": GAINS}, STEPS)),
     ("cases has 0 entries", "inner_loops", ({},)),
     ("series has 0 entries, .* 1 to 4 are needed", "memories", (MEMORY, {})),
