@@ -169,7 +169,6 @@ CASES = {
     ),
     "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
-    "orders": lambda: figures.orders(STEPS, {"linear": 3.0 * STEPS, "square": STEPS**2}),
     "responses": lambda: figures.responses(
         T, {"quick": 1.0 - np.exp(-10.0 * T), "slow": 1.0 - np.exp(-5.0 * T)}
     ),
@@ -297,7 +296,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "gentle gains, arc: 2 deg at 0.02 s, ",
         "deg at 0.7 s, longest step 0.714 s",
     ],
-    "orders": lambda: ["linear with slope 1.00, 3 at 1 s; square with slope 2.00, 1 at 1 s"],
     "responses": lambda: ["quick reaches 63 % after 0.100 s; slow reaches 63 % after 0.200 s"],
     "inner_loops": lambda: [
         f"one, slow: {degrees_left(drive(wheel_lag=0.1))}; one, at once: {degrees_left(drive())}"

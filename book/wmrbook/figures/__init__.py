@@ -19,7 +19,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "pose_to_pose": ["block_diagram", "compare_runs", "heading_shares", "snapshots"],
         "circle": ["chase", "residual_curve", "tradeoff"],
         "design": ["last_metre", "pareto_front", "phase_portrait", "root_locus"],
-        "sampling": ["inner_loops", "orders", "responses", "time_steps", "wheel_limited_paths"],
+        "sampling": ["inner_loops", "responses", "time_steps", "wheel_limited_paths"],
         "noise": ["end_poses", "memories", "rising", "scatter"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route", "route_signals"],
