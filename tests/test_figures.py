@@ -88,7 +88,11 @@ LIMITED = [wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(1.0, 0.0, 0.5), wmr.Pose(1.0, 3.0, 
 PARK = wmr.Pose(9.0, 57.0, 1.0)
 SPREAD = np.random.default_rng(4).normal(0.0, 0.2, (2, 300))
 ENDS = wmr.Pose(9.0 + SPREAD[0], 57.0 + SPREAD[1], 1.0 + np.linspace(-3.1, 3.1, 300))
-RADII, SIGMAS = np.array([0.1, 0.3, 1.0]), np.array([0.0, 0.5, 1.0])
+MEMORY = np.array([0.0, 3.0, 1e9])  # s
+FOUND = {  # distance, m, and heading error, deg
+    "10 Hz": (np.array([0.2, 0.5, 1.4]), np.array([80.0, 91.0, 12.0])),
+    "1 Hz": (np.array([0.3, 0.6, 1.5]), np.array([70.0, 40.0, 20.0])),
+}
 SECONDS = np.linspace(0.0, 10.0, 51)
 
 
@@ -165,9 +169,11 @@ CASES = {
     ),
     "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
     "phase_portrait": lambda: figures.phase_portrait({"the paper's": GAINS, "gentle": GENTLE}, 0.5),
+    "last_metre": lambda: figures.last_metre(
+        {"paper": drive(dt=0.01), "gentle": drive(gains=GENTLE, dt=0.01)}, (0.2, 0.1)
+    ),
     "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
-    "orders": lambda: figures.orders(STEPS, {"linear": 3.0 * STEPS, "square": STEPS**2}),
     "responses": lambda: figures.responses(
         T, {"quick": 1.0 - np.exp(-10.0 * T), "slow": 1.0 - np.exp(-5.0 * T)}
     ),
@@ -177,23 +183,11 @@ CASES = {
     ),
     "scatter": lambda: figures.scatter(stationary_scatter(wmr.read_track(TRACK))),
     "end_poses": lambda: figures.end_poses(ENDS, PARK, 0.05),
-    "arrival_radii": lambda: figures.arrival_radii(
-        RADII, np.array([0.2, 0.5, 1.4]), np.array([80.0, 34.0, 60.0]), 0.5
-    ),
-    "near_goal": lambda: figures.near_goal(
-        {
-            "one": wmr.Pose(SECONDS, 57.0 + 0.0 * SECONDS, 0.0),
-            "two": wmr.Pose(SECONDS - 2.0, SECONDS + 49.0, 0.0),
-        },
-        PARK,
-    ),
+    "memories": lambda: figures.memories(MEMORY, FOUND),
     "rising": lambda: figures.rising(
         {"falls": (SECONDS, 1.5 * np.exp(-SECONDS)), "waves": (SECONDS, 2.0 + np.sin(SECONDS))}
     ),
     "rising, one": lambda: figures.rising({"falls": (SECONDS, np.exp(-SECONDS))}),
-    "rise_map": lambda: figures.rise_map(
-        SIGMAS, STEPS[:2], np.array([[0.0, 3.0, 18.0], [48.0, 47.0, 46.0]])
-    ),
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
     ),
@@ -308,12 +302,15 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         f"The pair runs on a circle of {8.0 * math.sqrt(0.3):.2f} rad/s to the real axis and parts"
     ],
     "phase_portrait": lambda: ["with gentle gains (damping 0.884) one sweep, 0."],
+    "last_metre": lambda: [
+        "from 1 m to 0.05 m: paper between -27 and 106 deg, 32 deg at 0.2 m, -1 deg at 0.1 m; "
+        "gentle between 2 and ",
+    ],
     "time_steps": lambda: [
         "the paper's gains, euler: 46 deg at 0.02 s, longest step 0.011 s, 2 of 4 runs lost",
         "gentle gains, arc: 2 deg at 0.02 s, ",
         "deg at 0.7 s, longest step 0.714 s",
     ],
-    "orders": lambda: ["linear with slope 1.00, 3 at 1 s; square with slope 2.00, 1 at 1 s"],
     "responses": lambda: ["quick reaches 63 % after 0.100 s; slow reaches 63 % after 0.200 s"],
     "inner_loops": lambda: [
         f"one, slow: {degrees_left(drive(wheel_lag=0.1))}; one, at once: {degrees_left(drive())}"
@@ -331,15 +328,11 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "Left, 150 of 300 robots",
         "about 15 % within 30 deg, about 50 % more than 90 deg off",
     ],
-    "arrival_radii": lambda: [
-        "from 0.2 to 1.4 m, the heading error is smallest, about 35 deg, near 0.3 m"
+    "memories": lambda: [
+        "from white to constant: 10 Hz, from 0.2 m and about 80 deg to 1.4 m and 10 deg, "
+        "the heading worst, about 90 deg, at 3 s; 1 Hz, "
     ],
-    "near_goal": lambda: ["one, 1.0 m from the goal; two, 2.2 m from the goal"],
     "rising": lambda: ["falls, 0 %; waves, 45 %"],
-    "rise_map": lambda: [
-        "0 % with no noise and a step of 0.02 s, about 20 % with 1 m of noise, "
-        "and about 50 % with no noise"
-    ],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
     "sign_of_rate": lambda: ["V rises in the hatched 75 % and falls elsewhere"],
     "sign_of_rate, falls": lambda: ["hatched 0 %"],
@@ -382,7 +375,7 @@ def test_every_figure_draws_and_says_what_it_shows(name):
         assert words in found.alt
     pixels = imread(io.BytesIO(bundle["image/png"]))[..., :3]
     assert pixels.shape[1] == pytest.approx(1.5 * metadata["image/png"]["width"], abs=2)
-    full = 0.9 if name in ("sphere_error_map", "rise_map") else 0.7
+    full = 0.9 if name == "sphere_error_map" else 0.7
     assert 0.01 < np.mean(pixels.min(axis=2) < 0.9) < full  # neither blank nor flooded
     for axes in found.figure.axes:
         if not axes.axison or axes.get_label() == "<colorbar>":
@@ -697,8 +690,6 @@ def test_robots_stand_where_they_ended():
     assert heading.get_title() == "all 300"
     few = wmr.Pose(*(field[:20] for field in ENDS))
     assert figures.end_poses(few, PARK, 0.05).alt.startswith("Left, all 20 robots")
-    first = axes_of("near_goal")[0].patches[0].get_xy()[:-1].mean(axis=0)
-    assert first == pytest.approx([10.0, 57.0], abs=0.3)
 
 
 def test_v_is_thick_and_red_where_it_rises_and_only_there():
@@ -813,17 +804,11 @@ BAD = [
     ("one = .* is not allowed", "heading_shares", ({"one": np.array([math.nan])},)),
     (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
     ("choices has 0 entries, .* 1 to 2 are needed", "phase_portrait", ({}, 1.0)),
+    ("runs has 0 entries, .* 1 to 4 are needed", "last_metre", ({}, (0.1,))),
     ("gains has 1 .* 2 are needed", "time_steps", (ROBOT, GOAL, {"one": GAINS}, STEPS)),
     ("cases has 0 entries", "inner_loops", ({},)),
-    ("paths has 0 entries, .* 1 to 5 are needed", "wheel_limited_paths", ({}, GOAL)),
-    ("errors has 6 entries", "orders", (STEPS, FIVE)),
-    ("series has 0 entries", "responses", (T, {})),
-    ("a StationaryScatter is needed, not a Pose", "scatter", (ENDS,)),
-    ("a Pose is needed", "end_poses", ((1, 2, 3), GOAL, 0.1)),
-    ("paths has 0 entries, .* 1 to 4 are needed", "near_goal", ({}, GOAL)),
-    ("mismatched lengths", "arrival_radii", (RADII, RADII, np.ones(2), 0.5)),
-    (r"share has shape \(3, 2\).*\(2, 3\), one row", "rise_map", (SIGMAS, T[:2], np.ones((3, 2)))),
-    ("at most 100", "rise_map", (SIGMAS, T[:2], np.full((2, 3), 101.0))),
+    ("series has 0 entries, .* 1 to 4 are needed", "memories", (MEMORY, {})),
+    ("mismatched lengths", "memories", (MEMORY, {"one": (np.ones(3), np.ones(2))})),
     ("counts has 0 entries", "verdicts", ({},)),
     ("a Route is needed, not a Pose", "route", (WAY,)),
     ("a Route is needed", "route_signals", (3,)),

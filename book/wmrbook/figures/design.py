@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 
 import numpy as np
 import sympy as sp
@@ -16,10 +16,11 @@ from wmrbook.figures._drawing import check_count, note, panels
 from wmrlib import symbolic
 from wmrlib._checks import choice, instance, real
 from wmrlib.gains import Gains
-from wmrlib.plots.style import COLOURS, Picture, new_figure
-from wmrlib.runs import Arrival
+from wmrlib.plots.style import COLOURS, LINES, Picture, new_figure
+from wmrlib.runs import Arrival, Trajectory
 from wmrlib.tuning import modes
 
+_ROLES = "path", "y_error", "omega", "ink"
 _MARKS = ("X", "D", "P", "s")
 _LEAST_DEG = 1e-2  # heading left over
 
@@ -40,9 +41,9 @@ def root_locus(gains: Gains, over: str, values: np.ndarray) -> Picture:
     for pole, style, name in zip(poles, ("-", "--"), names, strict=True):
         axes.plot(pole.real, pole.imag, style, color=COLOURS["path"], label=name)
     value = f"{over} = {getattr(gains, over):g}"
-    axes.plot(at.real, at.imag, "x", ms=11, mew=3, color=COLOURS["goal"], label=value)
+    axes.plot(at.real, at.imag, "x", ms=11, mew=3, color=COLOURS["y_error"], label=value)
     distance_pole = here.poles[0].real
-    square = {"ms": 9, "color": COLOURS["start"], "label": "the distance's pole"}
+    square = {"ms": 9, "color": COLOURS["ink"], "label": "the distance's pole"}
     axes.plot(distance_pole, 0.0, "s", **square)
     reach = 1.15 * max(np.abs(poles.imag).max(), np.abs(at.imag).max(), 0.5)
     left = 1.15 * min(poles.real.min(), at.real.min(), distance_pole)
@@ -95,8 +96,37 @@ def phase_portrait(choices: Mapping[str, Gains], limit: float) -> Picture:
     )
 
 
+def last_metre(runs: Mapping[str, Trajectory], radii: Sequence[float]) -> Picture:
+    """The heading error against the distance left [m], from 1 m on, of up to four runs.
+
+    Each run is one of "continuous", whose angles never jump. radii: arrival radii to mark, m.
+    """
+    check_count("runs", instance("runs", runs, Mapping), 1, len(LINES))
+    figure, axes = new_figure(7.5, 4.2)
+    texts, drawn = [], []
+    for (name, run), style, role in zip(runs.items(), LINES, _ROLES, strict=False):
+        error = np.degrees(run.theta - run.alpha)
+        axes.plot(run.rho, error, style, color=COLOURS[role], label=name)
+        there = np.interp(-np.asarray(radii), -run.rho, error)
+        left = ", ".join(f"{round(e)} deg at {r:g} m" for e, r in zip(there, radii, strict=True))
+        least, most = error[run.rho <= 1.0].min(), error[run.rho <= 1.0].max()
+        drawn += [1.1 * least, 1.1 * most]
+        texts.append(f"{name} between {round(least)} and {round(most)} deg, {left}")
+    for radius in radii:
+        axes.axvline(radius, color=COLOURS["ink"], ls=":", lw=1.2)
+    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
+    least = min(float(run.rho[-1]) for run in runs.values())
+    axes.set(xscale="log", xlim=(1.0, least), ylabel="heading error [deg]")
+    axes.set_ylim(min(drawn), max(drawn))
+    axes.set_xlabel("distance left to the goal [m], the goal to the right")
+    axes.xaxis.set_major_formatter("{x:g}")
+    axes.legend(fontsize=10)
+    what = f"Heading error against the distance left, from 1 m to {least:.3g} m"
+    return Picture(figure, f"{what}: {'; '.join(texts)}.")
+
+
 def pareto_front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]) -> Picture:
-    """Time against the heading error left over: all that arrived, the undominated and the marked.
+    """Time against the heading error: all that arrived, the undominated and the marked.
 
     best: booleans in the shape of the runs, as of `pareto`, drawn large and coloured by peak
     |omega|. An error below 0.01 deg is drawn at the lower border, an undominated one as a triangle.
@@ -118,13 +148,13 @@ def pareto_front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]
         triangle = {"marker": "v", "clip_on": False, "label": f"below {_LEAST_DEG:g} deg"}
         axes.scatter(time[below], drawn[below], c=peak[below], s=45, **triangle, **looks)
     figure.colorbar(dots, ax=axes, label="peak |omega| [rad/s]").ax.tick_params(labelbottom=False)
-    star = {"ms": 13, "color": COLOURS["goal"], "mec": COLOURS["ink"], "ls": "none", "zorder": 4}
+    star = {"ms": 13, "color": COLOURS["y_error"], "mec": COLOURS["ink"], "ls": "none", "zorder": 4}
     words = []
     for (name, run), mark in zip(marked.items(), _MARKS, strict=False):
         left = abs(math.degrees(run.heading_error))
         axes.plot(run.time, left, mark, label=name, **star)
         words.append(f"{name} {run.time:.1f} s, {left:.1f} deg")
-    axes.set(xlabel="time to arrive [s]", ylabel="heading left over [deg]")
+    axes.set(xlabel="time to arrive [s]", ylabel="heading error [deg]")
     axes.set(yscale="log", ylim=(_LEAST_DEG, 200.0))
     figure.legend(loc="outside upper center", ncols=5, fontsize=10)
     if below.any():

@@ -9,11 +9,10 @@ import numpy as np
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
-from wmrbook.figures._drawing import check_count, legend_above, note
+from wmrbook.figures._drawing import check_count, figure_legend, legend_above, note
 from wmrbook.scatter import StationaryScatter
 from wmrlib._checks import instance, real, same_shape
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.plots.runs import pose_at
 from wmrlib.plots.style import COLOURS, LINES, Picture, dart, new_figure
 
 _MOST_DARTS = 150
@@ -101,57 +100,39 @@ def end_poses(ends: Pose, goal: Pose, radius: float) -> Picture:
     )
 
 
-def arrival_radii(
-    radius: np.ndarray, distance: np.ndarray, heading_deg: np.ndarray, sigma: float
-) -> Picture:
-    """Distance [m] and heading error [deg] at the end over the arrival radius [m].
+def memories(memory: np.ndarray, series: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
+    """Distance [m] and heading error [deg] at the end over the memory [s] of a receiver's error.
 
-    A line marks the noise sigma [m].
+    series: from a name to (distance, heading error), up to four, each as long as `memory`. A memory
+    of 0 is called white, one above 1e6 s constant.
     """
-    radius, distance = real("radius", radius), real("distance", distance)
-    heading_deg = real("heading_deg", heading_deg)
-    same_shape(radius=radius, distance=distance, heading_deg=heading_deg)
-    figure, (upper, lower) = new_figure(7.0, 4.8, rows=2)
-    upper.plot(radius, distance, "o-", color=COLOURS["x_error"])
-    upper.plot(radius, radius, ":", color=COLOURS["ink"], label="the radius itself")
-    upper.set(ylabel="distance [m]", xscale="log", ylim=(0.0, None))
-    lower.plot(radius, heading_deg, "s--", color=COLOURS["y_error"])
-    lower.set(xlabel="arrival radius [m]", ylabel="heading error [deg]", ylim=(0.0, None))
-    for axes in (upper, lower):
-        axes.axvline(sigma, color=COLOURS["goal"], ls="-.", lw=1.5, label=f"sigma, {sigma:g} m")
-    upper.legend(loc="upper left", fontsize=10)
-    lower.set_xticks(radius, [f"{value:g}" for value in radius])
-    lower.minorticks_off()
+    memory = real("memory", memory)
+    check_count("series", instance("series", series, Mapping), 1, len(LINES))
+    figure, rows = new_figure(7.5, 5.6, rows=2)
+    told, at = [], np.arange(memory.size)
+    roles = "path", "y_error", "omega", "ink"
+    for (name, found), style, role, marker in zip(
+        series.items(), LINES, roles, "os^D", strict=False
+    ):
+        for axes, values in zip(rows, found, strict=True):
+            same_shape(memory=memory, **{f"series[{name!r}]": values})
+            label = name if axes is rows[0] else None  # once in the legend
+            axes.plot(at, values, style, marker=marker, color=COLOURS[role], label=label)
+        worst = int(np.argmax(found[1]))
+        told.append(
+            f"{name}, from {found[0][0]:.1f} m and about {_fives(found[1][0])} deg to "
+            f"{found[0][-1]:.1f} m and {_fives(found[1][-1])} deg, the heading worst, about "
+            f"{_fives(found[1][worst])} deg, at {_named(memory[worst])}"
+        )
+    rows[0].set(ylabel="distance, rms [m]", ylim=(0.0, None))
+    rows[1].set(ylabel="heading error, rms [deg]", ylim=(0.0, None))
+    rows[1].set_xlabel("memory of the receiver's error [s]")
+    rows[1].set_xticks(at, [_named(value).removesuffix(" s") for value in memory])
     figure.align_ylabels()
-    best = int(np.argmin(heading_deg))
-    return Picture(
-        figure,
-        f"Over arrival radii from {radius[0]:g} to {radius[-1]:g} m: the distance at the end goes "
-        f"from {distance[0]:.1f} to {distance[-1]:.1f} m, the heading error is smallest, "
-        f"about {_fives(heading_deg[best])} deg, near {radius[best]:g} m.",
-    )
-
-
-def near_goal(paths: Mapping[str, Pose], goal: Pose, radius: float = 4.0) -> Picture:
-    """The last metres of one to four robots, each a Pose of arrays that ends where it stands."""
-    check_count("paths", instance("paths", paths, Mapping), 1, len(LINES))
-    figure, axes = new_figure(5.5, 5.5)
-    roles = "path", "y_error", "omega", "start"
-    told = []
-    for (name, path), style, role in zip(paths.items(), LINES, roles, strict=False):
-        axes.plot(path.x, path.y, style, color=COLOURS[role], label=name)
-        end = pose_at(path, -1)
-        dart(axes, end, 0.07 * radius, role, zorder=3)
-        told.append(f"{name}, {math.hypot(end.x - goal.x, end.y - goal.y):.1f} m from the goal")
-    dart(axes, goal, 0.1 * radius, "none", "goal", lw=2.5, zorder=4)
-    axes.set(xlim=(goal.x - radius, goal.x + radius), xlabel="x [m]", aspect="equal")
-    axes.set(ylim=(goal.y - radius, goal.y + radius), ylabel="y [m]")
-    axes.legend(loc="lower left", fontsize=10)
-    return Picture(
-        figure,
-        f"The last {radius:.0f} m about the open arrow of the goal, and where each robot stands: "
-        f"{'; '.join(told)}.",
-    )
+    figure_legend(figure)
+    what = "Distance and heading error at the end over the memory, from"
+    span = f"{_named(memory[0])} to {_named(memory[-1])}"
+    return Picture(figure, f"{what} {span}: {'; '.join(told)}.")
 
 
 def rising(runs: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
@@ -182,29 +163,8 @@ def rising(runs: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
     return Picture(figure, f"{what}: {'; '.join(told)}.")
 
 
-def rise_map(sigma: np.ndarray, dt: np.ndarray, share: np.ndarray) -> Picture:
-    """The share of time in which V rises [%], a row a time step dt [s], a column a sigma [m]."""
-    sigma, dt = real("sigma", sigma), real("dt", dt)
-    share = real("share", share, low=0.0, high=100.0)
-    if share.shape != (len(dt), len(sigma)):
-        wanted = f"{(len(dt), len(sigma))}, one row a dt, is needed"
-        raise ValueError(f"share has shape {share.shape}, which is not allowed: {wanted}")
-    figure, axes = new_figure(8.0, 4.6)
-    axes.grid(visible=False)
-    image = axes.imshow(share, cmap="cividis", origin="lower", aspect="auto", vmin=0.0, vmax=50.0)
-    for (row, column), value in np.ndenumerate(share):
-        colour = "white" if value < 25 else "black"
-        axes.text(column, row, f"{value:.0f}", ha="center", va="center", color=colour)
-    axes.set_xticks(range(len(sigma)), [f"{value:g}" for value in sigma])
-    axes.set_yticks(range(len(dt)), [f"{value:g}" for value in dt])
-    axes.set(xlabel="noise of the position, sigma [m]", ylabel="time step dt [s]")
-    figure.colorbar(image, ax=axes).set_label("share of time with V rising [%]")
-    return Picture(
-        figure,
-        f"Map of the share of time in which V rises: {share[0, 0]:.0f} % with no noise and a step "
-        f"of {dt[0]:g} s, about {_fives(share[0, -1])} % with {sigma[-1]:g} m of noise, "
-        f"and about {_fives(share[-1, 0])} % with no noise and a step of {dt[-1]:g} s.",
-    )
+def _named(memory: float) -> str:
+    return "white" if memory == 0.0 else "constant" if memory > 1e6 else f"{memory:g} s"
 
 
 def _fives(value: float) -> int:

@@ -1,4 +1,4 @@
-"""Chapter 8: what the clock and the wheels do: time steps, orders, inner loops, wheel limits."""
+"""Chapter 8: what the clock and the wheels do: time steps, inner loops, wheel limits."""
 
 from __future__ import annotations
 
@@ -19,8 +19,8 @@ from wmrlib.tuning import longest_step
 
 _SERIES = (  # colour, line style and marker of each of up to five lines
     (COLOURS["path"], "-", "o"),
-    (COLOURS["goal"], "--", "s"),
-    (COLOURS["start"], "-.", "^"),
+    (COLOURS["y_error"], "--", "s"),
+    (COLOURS["V_rising"], "-.", "^"),
     (COLOURS["omega"], ":", "D"),
     (COLOURS["ink"], "-", ""),
 )
@@ -43,7 +43,7 @@ def time_steps(
         axes.axhline(truth, color=COLOURS["ink"], ls=":", label=f"continuous: {truth:.1f} deg")
         for method, colour, style, marker, top in (
             ("arc", COLOURS["path"], "-", "s", 186.0),
-            ("euler", COLOURS["goal"], "--", "o", 194.0),
+            ("euler", COLOURS["y_error"], "--", "o", 194.0),
         ):
             runs = [
                 arrival(simulate(start, goal, tried, method=method, dt=float(dt))) for dt in steps
@@ -61,24 +61,6 @@ def time_steps(
     rows[-1].set(xlabel="time step dt [s], crosses: did not arrive")
     rows[-1].xaxis.set_major_formatter("{x:g}")
     what = "Heading error on arrival against the time step, two panels"
-    return Picture(figure, f"{what}: {'; '.join(texts)}.")
-
-
-def orders(
-    steps: Sequence[float], errors: Mapping[str, Sequence[float]], what: str = "error [m]"
-) -> Picture:
-    """Up to five errors against the time step [s], both logarithmic, with the slope of each."""
-    check_count("errors", errors, 1, len(_SERIES))
-    figure, axes = new_figure(7.0, 4.2)
-    texts = []
-    for (name, values), (colour, style, marker) in zip(errors.items(), _SERIES, strict=False):
-        slope = np.polyfit(np.log(steps), np.log(values), 1)[0]
-        label = f"{name}: slope {slope:.2f}"
-        axes.plot(steps, values, style, color=colour, marker=marker, label=label)
-        texts.append(f"{name} with slope {slope:.2f}, {values[-1]:.2g} at {steps[-1]:g} s")
-    axes.set(xscale="log", yscale="log", xlabel="time step dt [s]", ylabel=what)
-    axes.legend(loc="upper left", fontsize=10)
-    what = "Straight lines in logarithmic scales, errors against the time step"
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
@@ -114,15 +96,14 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
         for (label, run), (colour, style, _) in zip(runs.items(), _SERIES, strict=False):
             heading = np.degrees(run.theta - run.alpha)  # "continuous" never jumps
             axes.plot(run.rho, heading, style, color=colour, label=label)
-            texts.append(f"{title}, {label}: {heading[-1]:.0f} deg")
+            texts.append(f"{title}, {label}: {round(heading[-1])} deg")
         axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-        axes.set(xscale="log", xlim=(5.0, 0.05), ylabel="heading error [deg]")
+        least = min(float(run.rho[-1]) for runs in cases.values() for run in runs.values())
+        axes.set(xscale="log", xlim=(5.0, least), ylabel="heading error [deg]")
         axes.set_title(title, fontsize=12)
         axes.legend(title="inner loop", title_fontsize=10, **_BESIDE)
     rows[-1].set_xlabel("distance left to the goal [m], the goal to the right")
-    ticks = [5.0, 2.0, 1.0, 0.5, 0.2, 0.1, 0.05]
-    rows[-1].set_xticks(ticks, [f"{tick:g}" for tick in ticks])
-    rows[-1].minorticks_off()
+    rows[-1].xaxis.set_major_formatter("{x:g}")
     what = "Heading error against the distance left to the goal; where it ends"
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
