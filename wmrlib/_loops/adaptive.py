@@ -21,31 +21,34 @@ from wmrlib.kinematics import polar_from_pose, wrap
 MOST_TRIALS = 100_000.0
 TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
 _BEYOND = 1e100  # m or rad: whoever gets so far in so many steps never ends
+_LEFT, _TIME = steps.LEFT // steps.LANES, steps.TIME // steps.LANES
 _ROUNDS = 4  # steps between two looks at who has finished
 
 
 @compiled
 def sit_back(bench, log, t):
     """Seat a run where it was at the beginnings of the steps that the times t lie in."""
-    step = 0
+    step, seats = 0, bench.reshape(-1, steps.LANES)
     for i in range(t.size):
-        while step + 2 < log.shape[1] and log[steps.TIME // steps.LANES, step + 1] <= t[i]:
+        while step + 2 < log.shape[1] and log[_TIME, step + 1] <= t[i]:
             step += 1
-        steps.sit(bench, i, log, step)
+        rows.sit(seats, i, log, step)
         bench[steps.DT + i] = t[i] - bench[steps.TIME + i]
 
 
 @compiled
-def read(bench, made, first):
-    """(rho, alpha, theta, v, omega), or (x, y, heading, v, omega), at the ends of the steps."""
+def put_down(bench, record, first, goal):
+    """Record the ends of the steps; rounding can carry rho a hair past the goal."""
     end = steps.SLOPES + steps.LAST * steps.STAGE
-    for i in range(min(steps.LANES, made.shape[1] - first)):
-        for row in range(3):
-            made[row, first + i] = bench[steps.NEW + row * steps.LANES + i]
-        made[3, first + i], made[4, first + i] = (
-            bench[end + steps.ROLLED + i],
-            bench[end + steps.TURNING + i],
-        )
+    for i in range(min(steps.LANES, record.shape[1] - first)):
+        k, rho = first + i, max(bench[steps.NEW + i], 0.0)
+        alpha, theta = bench[steps.NEW + steps.ALPHA + i], bench[steps.NEW + steps.THETA + i]
+        sine, cosine = sincos(theta + goal[2])
+        record[rows.X, k], record[rows.Y, k] = goal[0] - rho * cosine, goal[1] - rho * sine
+        record[rows.HEADING, k], record[rows.RHO, k] = wrap(theta - alpha + goal[2]), rho
+        record[rows.ALPHA, k], record[rows.THETA, k] = alpha, theta
+        record[rows.V, k] = bench[end + steps.ROLLED + i]
+        record[rows.OMEGA, k] = bench[end + steps.TURNING + i]
 
 
 @lru_cache
@@ -95,16 +98,16 @@ def loops_of(law, limited, lagging):
     @compiled
     def drive(states, radius, wheels, lag):
         bench, inside = np.zeros(steps.ROOM), np.zeros(steps.LANES, np.int64)
+        seats, width, waiting = bench.reshape(-1, steps.LANES), 0, 0
         for first in range(0, states.shape[1], steps.LANES):
             used = min(steps.LANES, states.shape[1] - first)
             for i in range(used):
-                steps.sit(bench, i, states, first + i)
+                rows.sit(seats, i, states, first + i)
             begin(bench, steps.LANES, wheels, lag)
             for i in range(used):
-                steps.keep(bench, i, states, first + i)
-        width = waiting = 0
+                rows.sit(states, first + i, seats[: steps.KEPT], i)
         while True:
-            width, waiting = steps.exchange(states, bench, inside, width, waiting)
+            width, waiting = rows.exchange(states, seats, inside, width, waiting, _LEFT)
             if width == 0:
                 return
             for _ in range(_ROUNDS):
@@ -114,12 +117,13 @@ def loops_of(law, limited, lagging):
     def trace(state, radius, wheels, lag):
         """What is kept of one run at the beginning of each step, and at its end, in columns."""
         bench, log, count = np.zeros(steps.ROOM), np.empty((steps.KEPT, 64)), 0
-        steps.sit(bench, 0, state, 0)
+        seats = bench.reshape(-1, steps.LANES)
+        rows.sit(seats, 0, state, 0)
         begin(bench, 1, wheels, lag)
         while True:
             if count == log.shape[1]:
                 log = steps.doubled(log)
-            steps.keep(bench, 0, log, count)
+            rows.sit(log, count, seats[: steps.KEPT], 0)
             left = bench[steps.LEFT]
             if not left > 0.0:
                 return log[:, : count + 1]
@@ -127,16 +131,15 @@ def loops_of(law, limited, lagging):
             count += bench[steps.LEFT] != left
 
     @compiled
-    def sample(log, t, wheels, lag):
-        """(rho, alpha, theta, v, omega) at the times t."""
-        bench, made = np.zeros(steps.ROOM), np.empty((5, t.size))
+    def sample(log, t, wheels, lag, record, goal):
+        """Record the run at the times t."""
+        bench = np.zeros(steps.ROOM)
         for first in range(0, t.size, steps.LANES):
             sit_back(bench, log, t[first : first + steps.LANES])
             for stage in range(1, steps.LAST + 1):
                 steps.move(bench, steps.LANES, size, stage)
                 slopes(bench, steps.LANES, stage, wheels, lag)
-            read(bench, made, first)
-        return made
+            put_down(bench, record, first, goal)
 
     return drive, trace, sample
 
@@ -150,7 +153,7 @@ def begun(runs, whole, radius, most):
         rho, alpha, theta = polar_from_pose(*start, *goal)
         states[steps.RHO // steps.LANES, i], states[steps.ALPHA // steps.LANES, i] = rho, alpha
         states[steps.THETA // steps.LANES, i], states[steps.TRIALS // steps.LANES, i] = theta, most
-        states[steps.LEFT // steps.LANES, i] = whole if rho > radius else -whole
+        states[_LEFT, i] = whole if rho > radius else -whole
         for k in range(4):
             states[steps.K_RHO // steps.LANES + k, i] = runs[6 + k, i]
     return states
@@ -166,7 +169,7 @@ def summed_up(states, whole, radius):
             states[steps.ALPHA // steps.LANES, i],
             states[steps.THETA // steps.LANES, i],
         )
-        left, total = states[steps.LEFT // steps.LANES, i], rho + alpha + theta
+        left, total = states[_LEFT, i], rho + alpha + theta
         for row in range(steps.SLOPES // steps.LANES, steps.KEPT):
             total += states[row, i]
         outcome = rows.TIMED_OUT
@@ -179,22 +182,10 @@ def summed_up(states, whole, radius):
             outcome = rows.UNFINISHED
         peak, length = states[steps.PEAK // steps.LANES, i], states[steps.LENGTH // steps.LANES, i]
         sums = wrap(theta - alpha), peak, length, rho
-        rows.summarise(summary, i, outcome, states[steps.TIME // steps.LANES, i], *sums)
+        rows.summarise(summary, i, outcome, states[_TIME, i], *sums)
         if outcome == rows.UNFINISHED:
             summary[rows.TIME :, i] = math.nan
     return summary
-
-
-@compiled
-def put_down(record, made, goal):
-    """Samples as a run records them; their rho may be a hair below 0."""
-    for k in range(made.shape[1]):
-        rho, alpha, theta = max(made[0, k], 0.0), made[1, k], made[2, k]
-        sine, cosine = sincos(theta + goal[2])
-        record[rows.X, k], record[rows.Y, k] = goal[0] - rho * cosine, goal[1] - rho * sine
-        record[rows.HEADING, k], record[rows.RHO, k] = wrap(theta - alpha + goal[2]), rho
-        record[rows.ALPHA, k], record[rows.THETA, k] = alpha, theta
-        record[rows.V, k], record[rows.OMEGA, k] = made[3, k], made[4, k]
 
 
 def survey(runs, law, wheels, _, dt, samples, radius, recorded):
@@ -206,13 +197,11 @@ def survey(runs, law, wheels, _, dt, samples, radius, recorded):
     drive(states, *how)
     summary = summed_up(states, whole, radius)
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
-    going, t = (
-        np.isin(summary[rows.OUTCOME], (rows.ARRIVED, rows.TIMED_OUT)),
-        dt * np.arange(samples),
-    )
+    going = np.isin(summary[rows.OUTCOME], (rows.ARRIVED, rows.TIMED_OUT))
+    t = dt * np.arange(samples)
     for i in np.flatnonzero(going) if recorded else ():
         log = trace(begin[:, i : i + 1], *how)
         arrived = summary[rows.OUTCOME, i] == rows.ARRIVED
         count = max(1, np.searchsorted(t, summary[rows.TIME, i])) if arrived else samples
-        put_down(records[:, i], sample(log, t[:count], wheels, 0.0), tuple(runs[3:6, i]))
+        sample(log, t[:count], wheels, 0.0, records[:, i, :count], tuple(runs[3:6, i]))
     return summary, records

@@ -29,7 +29,7 @@ def to_goal(start, goal, tuning, law, wheels, t, radius, lag):
     log = trace(adaptive.begun(run, t[-1], radius, _MOST_TRIALS), radius, wheels, lag)
 
     def recorded(record, times):
-        adaptive.put_down(record, sample(log, times, wheels, lag), tuple(goal))
+        sample(log, times, wheels, lag, record, tuple(goal))
 
     return _finished(t, log, radius, recorded, tuning, law)
 
@@ -60,9 +60,10 @@ def _trials_after(bench, path, log, *loop):
     path[:, stage, k] is the goal at a stage of step k, and its twist. The next steps are of another
     length if one is refused, or could well be longer.
     """
+    seats = bench.reshape(-1, steps.LANES)
     for k in range(path.shape[2]):
         dt, left = bench[steps.DT], bench[steps.LEFT]
-        steps.keep(bench, 0, log, k)
+        rows.sit(log, k, seats[: steps.KEPT], 0)
         for stage in range(1, steps.BEFORE + 1):
             steps.move(bench, 1, 4, stage)
             _see(bench, 1, stage, path[:, stage, k : k + 1], *loop)
@@ -77,21 +78,22 @@ def _trials_after(bench, path, log, *loop):
 
 
 @compiled
-def _sample_after(bench, path, made, first, *loop):
+def _sample_after(bench, path, record, first, *loop):
+    """Record the ends of the steps; path[:, stage, i] is the goal of run i, and its twist."""
     for stage in range(1, steps.LAST + 1):
         steps.move(bench, steps.LANES, 4, stage)
         _see(bench, path.shape[2], stage, path[:, stage], *loop)
-    adaptive.read(bench, made, first)
-
-
-@compiled
-def _put_down(record, made, path):
-    for k in range(made.shape[1]):
-        x, y, heading = made[0, k], made[1, k], wrap(made[2, k])
-        seen = polar_from_pose(x, y, heading, path[0, k], path[1, k], path[2, k])
+    for i in range(path.shape[2]):
+        k, x, y = first + i, bench[steps.NEW + i], bench[steps.NEW + steps.ALPHA + i]
+        heading, goal = wrap(bench[steps.NEW + steps.THETA + i]), path[:3, steps.LAST, i]
+        seen = polar_from_pose(x, y, heading, goal[0], goal[1], goal[2])
         record[rows.X, k], record[rows.Y, k], record[rows.HEADING, k] = x, y, heading
         record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k] = seen
-        record[rows.V, k], record[rows.OMEGA, k] = made[3, k], made[4, k]
+        end = steps.SLOPES + steps.LAST * steps.STAGE + i
+        record[rows.V, k], record[rows.OMEGA, k] = (
+            bench[end + steps.ROLLED],
+            bench[end + steps.TURNING],
+        )
 
 
 def after_reference(path_at, start, tuning, law, wheels, t):
@@ -117,13 +119,11 @@ def after_reference(path_at, start, tuning, law, wheels, t):
     log = np.hstack([*taken, kept])
 
     def recorded(record, times):
-        made = np.empty((5, times.size))
         for first in range(0, times.size, steps.LANES):
             some = times[first : first + steps.LANES]
             adaptive.sit_back(bench, log, some)
             dt = bench[steps.DT : steps.DT + some.size]
-            _sample_after(bench, path(some - dt, dt), made, first, *loop)
-        _put_down(record, made, path_at(times))
+            _sample_after(bench, path(some - dt, dt), record, first, *loop)
 
     return _finished(t, log, -math.inf, recorded, tuning, law)
 

@@ -48,21 +48,7 @@ def survey_of(method, law, limited, advance=polar.advance):
         block, inside = np.zeros((states.shape[0], BLOCK)), np.zeros(BLOCK, np.int64)
         waiting = width = 0
         while True:
-            i = 0
-            while i < width:
-                if block[polar.LEFT, i] <= 0.0:
-                    width -= 1
-                    for row in range(states.shape[0]):
-                        states[row, inside[i]] = block[row, i]
-                        block[row, i] = block[row, width]
-                    inside[i] = inside[width]
-                else:
-                    i += 1
-            while width < BLOCK and waiting < states.shape[1]:
-                inside[width] = waiting
-                for row in range(states.shape[0]):
-                    block[row, width] = states[row, waiting]
-                width, waiting = width + 1, waiting + 1
+            width, waiting = rows.exchange(states, block, inside, width, waiting, polar.LEFT)
             if width == 0:
                 return
             used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrlib._compile import formula
+from wmrlib._compile import compiled, formula
 from wmrlib.gains import GainsFields
 
 # How a run ends, in the order of `Outcome`; the last is a sweep's that ran out of steps.
@@ -30,3 +30,29 @@ def summarise(summary, i, outcome, time, heading_error, peak_omega, path_length,
     sums = float(outcome), time, heading_error, peak_omega, path_length, distance
     for row, value in enumerate(sums):  # to set a column at once takes a second to compile
         summary[row, i] = value
+
+
+@compiled
+def sit(seats, i, states, k):
+    """Seat the run of column k in place i."""
+    for row in range(states.shape[0]):
+        seats[row, i] = states[row, k]
+
+
+@compiled
+def exchange(states, seats, inside, width, waiting, left):
+    """Write down the runs with nothing `left`, and seat others: how many sit, and who is next."""
+    i = 0
+    while i < width:
+        if seats[left, i] <= 0.0:
+            width -= 1
+            sit(states, inside[i], seats[: states.shape[0]], i)
+            sit(seats, i, seats[: states.shape[0]], width)
+            inside[i] = inside[width]
+        else:
+            i += 1
+    while width < seats.shape[1] and waiting < states.shape[1]:
+        inside[width] = waiting
+        sit(seats, width, states, waiting)
+        width, waiting = width + 1, waiting + 1
+    return width, waiting

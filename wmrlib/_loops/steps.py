@@ -193,40 +193,6 @@ def judge(bench, used, size, smallest, radius, tolerance):
 
 
 @compiled
-def exchange(states, bench, inside, width, waiting):
-    """Take the runs that are over off the bench and seat others: how many sit, who is next."""
-    i = 0
-    while i < width:
-        if bench[LEFT + i] <= 0.0:
-            width -= 1
-            keep(bench, i, states, inside[i])
-            for row in range(states.shape[0]):
-                bench[row * LANES + i] = bench[row * LANES + width]
-            inside[i] = inside[width]
-        else:
-            i += 1
-    while width < LANES and waiting < states.shape[1]:
-        inside[width] = waiting
-        sit(bench, width, states, waiting)
-        width, waiting = width + 1, waiting + 1
-    return width, waiting
-
-
-@compiled
-def sit(bench, i, states, k):
-    """Seat the run of column k in place i."""
-    for row in range(states.shape[0]):
-        bench[row * LANES + i] = states[row, k]
-
-
-@compiled
-def keep(bench, i, states, k):
-    """Write the run in place i down in column k."""
-    for row in range(states.shape[0]):
-        states[row, k] = bench[row * LANES + i]
-
-
-@compiled
 def doubled(log):
     """The same columns, and room for as many more."""
     longer = np.empty((log.shape[0], 2 * log.shape[1]))
