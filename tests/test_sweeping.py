@@ -45,15 +45,25 @@ def same(one, other):
 
 
 def integrated(start, goal, gains, law, wheels, radius, duration=30.0):
-    """The run by scipy, out of the public functions, at a tolerance of 1e-12."""
+    """The run by scipy at a tolerance of 1e-12, with the laws written out once more."""
+    k_rho, k_alpha, h, v_max = gains
 
     def twist(rho, alpha, theta):
-        v, omega = wmr.control_law(np.maximum(rho, 1e-300), alpha, theta, gains, law=law)
+        v, omega = wmr.control_law(np.maximum(rho, 0.0), alpha, theta, gains, law=law)
         return wmr.limit_wheels(v, omega, wheels) if wheels else (v, omega)
 
     def rates(_, state):
-        v, omega = twist(*state[:3])
-        return [*wmr.polar_rate(max(state[0], 1e-300), state[1], v, omega), abs(v)]
+        rho, alpha, theta = max(state[0], 1e-300), state[1], state[2]
+        sine, cosine = math.sin(alpha), math.cos(alpha)
+        pull = k_rho if law == "aicardi" else -v_max * math.expm1(-k_rho * rho) / rho
+        needed = pull * cosine * (sine / alpha if alpha else 1.0) * (alpha + h * theta)
+        omega = k_alpha * alpha + needed * (cosine * sine if law == "printed" else 1.0)
+        v, share = pull * rho * cosine, 1.0
+        if wheels:
+            fastest = abs(v) + 0.5 * abs(omega) * wheels.track_width
+            share = min(1.0, wheels.max_speed / max(fastest, 1e-300))
+        turning = share * pull * cosine * sine
+        return [-share * v * cosine, turning - share * omega, turning, abs(share * v)]
 
     def there(_, state):
         return state[0] - radius
