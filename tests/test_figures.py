@@ -76,11 +76,6 @@ def score(*gains, cases=12):
 
 
 WAY = wmr.Pose(np.linspace(-3.0, 0.0, 20), np.linspace(-2.0, 0.1, 20), np.linspace(1.0, 0.2, 20))
-GAPS = np.array([1e-6, 1e-3, 1.0])
-ERRORS = {
-    "one": (np.array([0.0, 1e-9, 5e-9]), np.array([0.02, 1e-3, 1e-4])),
-    "two": (GAPS * 1e-16, np.array([math.nan, 1e-9, 1e-9])),
-}
 LIMITS, LEFT = np.array([1.0, 2.0, 4.0]), np.array([0.524, 0.199, 0.090])
 GROUPS = {"one": (np.array([1.0, 2.0]), np.array([0.5, 0.4])), "two": (np.array([3.0]), [0.25])}
 STEPS, T = np.array([0.02, 0.1, 0.7, 1.0]), np.linspace(0.0, 1.0, 51)
@@ -119,7 +114,6 @@ CASES = {
     "spherical_triangle": lambda: figures.spherical_triangle(
         wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)
     ),
-    "rounding_errors": lambda: figures.rounding_errors(GAPS, GAPS, ERRORS),
     "sphere_error_map": lambda: figures.sphere_error_map(paper.GPS_POINT_1, math.radians(9.6274)),
     "coordinate_system": lambda: figures.coordinate_system(
         wmr.Pose(2.0, 1.5, math.radians(35.0)), 1.0, 0.25
@@ -249,10 +243,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "spherical_triangle": lambda: [
         "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
-    ],
-    "rounding_errors": lambda: [
-        "one: left level, below 10 nm, right rising as the gap closes, below 1 m; "
-        "two: left falling as the gap"
     ],
     "sphere_error_map": lambda: [
         "from -0.45 % at the poles to +0.56 % northwards on the equator, with -0.11 % eastwards"
@@ -403,19 +393,6 @@ def axes_of(name):
 def heading_of(dart):
     tip, tail = dart.get_xy()[0], dart.get_xy()[2]
     return math.atan2(tip[1] - tail[1], tip[0] - tail[0])
-
-
-def test_an_error_of_zero_and_a_failure_are_left_out():
-    for axes, sizes in zip(axes_of("rounding_errors"), ([2, 3], [3, 2]), strict=True):
-        assert [line.get_xdata().size for line in axes.lines] == sizes
-
-
-def test_an_error_that_has_its_peak_in_between_is_told_so():
-    gaps = np.geomspace(1e-6, 1e6, 60)
-    course = np.minimum(gaps, 1e-2 / gaps), np.full(60, 3e-9)
-    assert figures.rounding_errors(gaps, gaps, {"one": course}).alt.endswith(
-        "one: left rising and then falling as the gap closes, below 1 m, right level, below 10 nm."
-    )
 
 
 def test_the_triangle_has_three_sides_on_the_globe():
@@ -792,7 +769,6 @@ BAD = [
     ("a GeoPoint is needed, not a tuple", "local_map", ((33, 44), HERE)),
     ("a GeoPoint is needed, not a tuple", "spherical_triangle", ((5, 0), HERE)),
     ("a GeoPoint is needed, not a tuple", "sphere_error_map", ((5, 0), 0.0)),
-    ("errors has 0 entries, .* 1 to 4 are needed", "rounding_errors", (GAPS, GAPS, {})),
     (r"track_width = 0\.0 .* above 0", "coordinate_system", (ORIGIN, 0.0, 0.1)),
     (r"wheel_radius = -0\.1 .* above 0", "coordinate_system", (ORIGIN, 1.0, -0.1)),
     (r"omega = 0\.0 .* another number is needed", "turning_centre", (1.0, 0.0, 0.6)),
