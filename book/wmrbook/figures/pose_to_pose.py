@@ -35,11 +35,11 @@ _FIELDS = {
     "rho": ("distance to the goal [m]", "distance", "m"),
 }
 _BOXES = (  # name, what it does, the colour's role, centre: row by row, there and back
-    ("GPS", "two points,\ntwo headings", "start", (1.2, 4.1)),
-    ("geodesy", "(11)-(17):\ngoal in metres", "start", (4.5, 4.1)),
+    ("GPS", "two points,\ntwo headings", "y_error", (1.2, 4.1)),
+    ("geodesy", "(11)-(17):\ngoal in metres", "y_error", (4.5, 4.1)),
     ("polar error", "Fig. 2: rho,\nalpha, theta", "path", (7.8, 4.1)),
     ("control law", "(22), (24) corrected:\nv and omega", "path", (7.8, 1.5)),
-    ("wheel loop", "(1), (2): left and\nright wheel", "goal", (4.5, 1.5)),
+    ("wheel loop", "(1), (2): left and\nright wheel", "omega", (4.5, 1.5)),
     ("robot", "(3)-(6): x, y,\nheading", "robot", (1.2, 1.5)),
 )
 _SIGNALS = ("lat, lon", "goal pose", "polar error", "v, omega", "wheel speeds")
@@ -238,8 +238,8 @@ def block_diagram(time_step: float, times_faster: float) -> Picture:
     axes.plot([1.2, 1.2, 7.2, 7.2], [2.18, 2.8, 2.8, 3.0], color=COLOURS["ink"], lw=2.0)
     pointer(axes, (7.2, 2.98), (7.2, 3.42), **ink)
     axes.text(4.2, 3.0, f"pose, fed back every {time_step:g} s", fontsize=11, **centred)
-    axes.plot([1.2, 1.2, 4.5], [0.82, 0.4, 0.4], color=COLOURS["goal"], lw=2.0, ls="--")
-    pointer(axes, (4.5, 0.4), (4.5, 0.82), COLOURS["goal"], lw=2.0, ls="--")
+    axes.plot([1.2, 1.2, 4.5], [0.82, 0.4, 0.4], color=COLOURS["omega"], lw=2.0, ls="--")
+    pointer(axes, (4.5, 0.4), (4.5, 0.82), COLOURS["omega"], lw=2.0, ls="--")
     axes.text(2.85, 0.15, f"wheel speeds, fed back every {inner:g} s", fontsize=11, **centred)
     return Picture(
         figure,
