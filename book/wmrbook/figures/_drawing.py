@@ -16,8 +16,8 @@ SERIES = (  # the colour's role and the line style of each of up to five runs
     ("path", "-"),
     ("y_error", "--"),
     ("omega", "-."),
-    ("ink", ":"),
-    ("robot", (0, (6, 1.5, 1, 1.5, 1, 1.5))),
+    ("ink", (0, (6, 1.5, 1, 1.5, 1, 1.5))),
+    ("robot", ":"),
 )
 
 
