@@ -141,7 +141,7 @@ CASES = {
     "compare_runs": lambda: figures.compare_runs(
         {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
     ),
-    "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True, until=15),
+    "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True),
     "heading_over_distance": lambda: figures.heading_over_distance({"one": drive()}),
     "last_seconds": lambda: figures.last_seconds(
         {"one": drive(), "two": wmr.simulate(CASE.start, CASE.goal, GAINS)}
@@ -497,7 +497,7 @@ def test_v_is_thick_where_it_rises_and_headings_are_not_wrapped():
 
 def test_compare_runs_draws_the_field_it_was_asked_for():
     runs = {"one": drive(), "two": drive("printed", x_axis="north")}
-    for field in ("v", "omega", "x_error", "y_error", "rho"):
+    for field in ("v", "omega", "rho"):
         one, two = figures.compare_runs(runs, field).figure.axes[0].lines[-2:]
         assert np.array_equal(one.get_ydata(), getattr(runs["one"], field))
         assert np.array_equal(two.get_ydata(), getattr(runs["two"], field))
@@ -523,9 +523,8 @@ def test_a_course_is_told_once():
     assert told("v", chase()).endswith("a dotted line marks the 4 m/s.")
     near = dataclasses.replace(chase(), rho=np.linspace(1.0, 1e-4, len(chase())))
     assert "one goes from 1.00 to less than 0.01 m;" in told("rho", near)
-    x = chase().x + np.linspace(1.0, -1e-4, len(chase()))
-    past = dataclasses.replace(chase(), goal=chase().goal._replace(x=x))
-    assert "one goes from 1.00 to nearly 0 m;" in told("x_error", past)
+    past = dataclasses.replace(chase(), omega=np.linspace(1.0, -1e-4, len(chase())))
+    assert "one goes from 1.00 to nearly 0 rad/s;" in told("omega", past)
 
 
 def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():

@@ -29,7 +29,8 @@ def test_a_chapters_cells_make_slides(path):
             assert prose.count("### Exercise") == 1
             assert kind(cell) in ("slide", "subslide"), cell.source
         if kind(cell) == "notes":  # what is derived or computed is for the class to see
-            assert prose and "$$" not in prose, cell.source
+            assert prose, cell.source
+            assert "$$" not in prose, cell.source
         if "hide-cell" in cell.metadata.get("tags", ()):  # it computes a solution
             assert kind(cell) == "skip", cell.source
     assert types.count("slide") + types.count("subslide") >= 12

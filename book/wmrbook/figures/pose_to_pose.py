@@ -1,4 +1,4 @@
-"""Chapter 5: several runs on one axis, moments of one run, and the block diagram (chapter 11 too).
+"""Chapter 5: several runs on one axis, moments of one run, and the block diagram.
 
 `runs` maps one to five labels to Trajectories; a label keeps its colour and line style in all
 figures whose labels stand in the same order.
@@ -30,8 +30,6 @@ _LEAST = 1e-6  # of a logarithmic scale
 _FIELDS = {
     "v": ("v [m/s]", "speed v", "m/s"),
     "omega": ("omega [rad/s]", "turning rate omega", "rad/s"),
-    "x_error": ("x error [m]", "x error", "m"),
-    "y_error": ("y error [m]", "y error", "m"),
     "rho": ("distance to the goal [m]", "distance", "m"),
 }
 _BOXES = (  # name, what it does, the colour's role, centre: row by row, there and back
@@ -51,12 +49,11 @@ def compare_runs(
     *,
     log: bool = False,
     level: tuple[float, str] | None = None,
-    until: float | None = None,
 ) -> Picture:
-    """One field of several runs over time: "v", "omega", "x_error", "y_error" or "rho".
+    """One field of several runs over time: "v", "omega" or "rho".
 
     log: a logarithmic scale (values below 1e-6 are not drawn); level: a value and its name, drawn
-    as a thin dotted line; until: the last second shown.
+    as a thin dotted line.
     """
     check_series(runs, Trajectory)
     label, name, unit = _FIELDS[choice("field", field, _FIELDS)]
@@ -75,8 +72,6 @@ def compare_runs(
         number = "" if f"{value:g} {unit}" in level[1] else f", {value:g} {unit}"
         said = f"; a dotted line marks {level[1]}{number}"
     axes.set(xlabel="time [s]", ylabel=label)
-    if until is not None:
-        axes.set_xlim(0.0, until)
     if log:
         axes.set_yscale("log")
         if min(values.min() for values in fields.values()) < _LEAST:
