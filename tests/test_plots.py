@@ -1,9 +1,12 @@
 """Figures: each has its alternative text, with the numbers of the run, and draws what it holds."""
 
+import colorsys
 import html
 import io
 import math
+import re
 from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,6 +14,7 @@ from matplotlib.image import imread
 
 import wmrlib as wmr
 from wmrbook import figures
+from wmrbook.figures._drawing import SERIES
 from wmrlib import plots
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
@@ -154,3 +158,57 @@ def test_the_arrows_of_several_paths_have_one_size():
 def test_bad_input(make, message):
     with pytest.raises(ValueError, match=message):
         make()
+
+
+SHARED = "path", "start", "goal", "rho", "alpha", "theta"
+
+
+def panel_colours():
+    """The panel's colours by role, as red, green and blue from 0 to 1, in each of its themes."""
+    css = Path(wmr.__file__).parent.joinpath("explorer/js/panel.css").read_text(encoding="utf-8")
+    blocks = [block for block in re.findall(r"\{(.*?)\}", css, re.DOTALL) if "--paper:" in block]
+    assert len(blocks) == 2
+    return [
+        {role: channels(code) for role, code in re.findall(r"--(\w+): (#[0-9a-f]{6});", block)}
+        for block in blocks
+    ]
+
+
+def channels(code):
+    return [int(code[at : at + 2], 16) / 255 for at in (1, 3, 5)]
+
+
+def hue_deg(colour):
+    """The hue, or None of a grey."""
+    hue, saturation, _ = colorsys.rgb_to_hsv(*colour)
+    return 360.0 * hue if saturation > 0.1 else None
+
+
+def hues_apart(one, other):
+    return abs((one - other + 180.0) % 360.0 - 180.0)
+
+
+def brightness(colour):
+    """The relative luminance of WCAG 2."""
+    linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in colour]
+    return float(np.dot([0.2126, 0.7152, 0.0722], linear))
+
+
+@pytest.mark.parametrize("theme", [0, 1], ids=["light", "dark"])
+@pytest.mark.parametrize("role", SHARED)
+def test_a_thing_has_one_hue_in_the_figures_and_the_panel_and_is_legible_there(role, theme):
+    colours = panel_colours()[theme]
+    drawn, shown = hue_deg(channels(plots.COLOURS[role])), hue_deg(colours[role])
+    assert (drawn is None) == (shown is None)
+    assert drawn is None or hues_apart(drawn, shown) < 10.0
+    low, high = sorted(map(brightness, (colours[role], colours["paper"])))
+    assert (high + 0.05) / (low + 0.05) > 4.5  # of text
+
+
+def test_different_things_have_different_hues_and_no_run_has_a_poses():
+    for colours in ({role: channels(plots.COLOURS[role]) for role in SHARED}, *panel_colours()):
+        hues = sorted(hue_deg(colours[role]) for role in SHARED if role != "rho")
+        assert all(hues_apart(a, b) > 20.0 for a, b in zip(hues, hues[1:] + hues[:1], strict=True))
+    series = [plots.COLOURS[role] for role, _ in SERIES]
+    assert len(set(series)) == len(series)
+    assert not set(series) & {plots.COLOURS["start"], plots.COLOURS["goal"]}

@@ -28,10 +28,12 @@ def test_a_chapters_cells_make_slides(path):
         if "### Exercise" in prose:
             assert prose.count("### Exercise") == 1
             assert kind(cell) in ("slide", "subslide"), cell.source
+        if kind(cell) == "notes":  # what is derived or computed is for the class to see
+            assert prose, cell.source
+            assert "$$" not in prose, cell.source
         if "hide-cell" in cell.metadata.get("tags", ()):  # it computes a solution
-            assert kind(cell) in ("notes", "skip"), cell.source
+            assert kind(cell) == "skip", cell.source
     assert types.count("slide") + types.count("subslide") >= 12
-    assert types.count("notes") >= 3
     shown = [cell for cell in cells if kind(cell) not in ("notes", "skip")]
     assert any(
         "image/png" in output.get("data", {})

@@ -1,7 +1,8 @@
 """What all figures have in common: colours by role, line styles, axes, darts and a text.
 
-The colours are those of Okabe and Ito, which colour-blind readers can tell apart. Whatever a colour
-says, a line style, a marker or a label says too.
+The colours are those of Okabe and Ito, which colour-blind readers can tell apart, some darker where
+they colour text. Whatever a colour says, a line style, a marker or a label says too. What the live
+panel shows as well has the same hue there, in explorer/js/panel.css.
 """
 
 from __future__ import annotations
@@ -26,6 +27,9 @@ COLOURS = {
     "path": "#0072B2",
     "start": "#009E73",
     "goal": "#D55E00",
+    "rho": "#222222",
+    "alpha": "#A8447F",
+    "theta": "#7D7000",
     "robot": "#56B4E9",
     "v": "#0072B2",
     "omega": "#CC79A7",

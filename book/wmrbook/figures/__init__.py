@@ -13,7 +13,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "position_errors",
             "twist",
         ],
-        "earth": ["local_map", "rounding_errors", "sphere_error_map", "spherical_triangle"],
+        "earth": ["local_map", "sphere_error_map", "spherical_triangle"],
         "robot": [
             "approach",
             "commutator",

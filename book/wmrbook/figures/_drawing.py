@@ -14,10 +14,10 @@ from wmrlib.runs import Trajectory
 
 SERIES = (  # the colour's role and the line style of each of up to five runs
     ("path", "-"),
-    ("goal", "--"),
-    ("start", "-."),
-    ("omega", ":"),
-    ("y_error", (0, (6, 1.5, 1, 1.5, 1, 1.5))),
+    ("y_error", "--"),
+    ("omega", "-."),
+    ("ink", (0, (6, 1.5, 1, 1.5, 1, 1.5))),
+    ("robot", ":"),
 )
 
 

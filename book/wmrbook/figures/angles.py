@@ -17,8 +17,6 @@ from wmrlib.plots.runs import path, pose_at
 from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
-_ALPHA, _THETA = "omega", "y_error"  # the roles with the panel's colours of these angles
-
 
 def polar_angles(pose: Pose, goal: Pose) -> Picture:
     """rho, alpha, theta, the headings and gamma = heading - goal.heading of one robot and one goal.
@@ -37,12 +35,12 @@ def polar_angles(pose: Pose, goal: Pose) -> Picture:
     _ray(axes, goal, 0.0, 0.62 * rho, "east", **east)
     _ray(axes, pose, goal.heading, 0.62 * rho, "goal's heading, moved", **moved)
     _arc(axes, pose, 0.0, pose.heading, 0.28 * rho, _degrees(pose.heading), "ink", 11)
-    _arc(axes, pose, pose.heading, alpha, 0.38 * rho, r"$\alpha$", _ALPHA)
+    _arc(axes, pose, pose.heading, alpha, 0.38 * rho, r"$\alpha$", "alpha")
     _arc(axes, pose, goal.heading, gamma, 0.50 * rho, r"$\gamma$", "ink")
     _arc(axes, goal, 0.0, goal.heading, 0.28 * rho, _degrees(goal.heading), "ink", 11)
-    _arc(axes, goal, goal.heading, theta, 0.48 * rho, r"$\theta$", _THETA)
+    _arc(axes, goal, goal.heading, theta, 0.48 * rho, r"$\theta$", "theta")
     middle = 0.5 * (pose.x + goal.x), 0.5 * (pose.y + goal.y)
-    note(axes, r"$\rho$", middle, (-16, 8), fontsize=16)
+    note(axes, r"$\rho$", middle, (-16, 8), fontsize=16, color=COLOURS["rho"])
     _room(axes, pose, goal, rho * np.array([-0.25, 0.98]), rho * np.array([-0.35, 0.62]))
     return Picture(
         figure,
@@ -73,7 +71,7 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
         (right, sight, beta, r"$\beta$", theirs),
     ):
         _scene(axes, pose, goal, rho, sight)
-        _arc(axes, goal, begin, turn, 0.40 * rho, f"{name} = {_degrees(turn)}", _THETA)
+        _arc(axes, goal, begin, turn, 0.40 * rho, f"{name} = {_degrees(turn)}", "theta")
         axes.set_title(title, fontsize=12)
         _room(axes, pose, goal, rho * np.array([-0.32, 0.98]), rho * np.array([-0.25, 0.62]))
     return Picture(
@@ -135,10 +133,10 @@ def angles_over_time(
     runs = run_list(runs)
     figure, rows = new_figure(7.5, 5.0, rows=2)
     names = list(labels) or [f"run {k}" for k in range(1, len(runs) + 1)]
-    for axes, name, role in zip(rows, ("alpha", "theta"), (_ALPHA, _THETA), strict=True):
+    for axes, name in zip(rows, ("alpha", "theta"), strict=True):
         for run, style, label in zip(runs, LINES, names, strict=False):
             degrees = np.degrees(getattr(run, name))
-            axes.plot(run.t, degrees, style, color=COLOURS[role], label=label)
+            axes.plot(run.t, degrees, style, color=COLOURS[name], label=label)
         for half_turn in (-180.0, 180.0):
             axes.axhline(half_turn, color=COLOURS["ink"], lw=1.0, ls=":")
         axes.set(ylabel=f"{name} [deg]", yticks=np.arange(-180, 181, 90))
@@ -170,8 +168,8 @@ def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None
         aside = sight + math.copysign(math.pi / 2, math.sin(sight - at.heading))
         offset = 36.0 * math.cos(aside), 28.0 * math.sin(aside)
         note(axes, name, (at.x, at.y), offset, ha="center", va="center", fontsize=12)
-    axes.plot([pose.x, goal.x], [pose.y, goal.y], "--", color=COLOURS["path"])
-    _ray(axes, goal, sight, 0.62 * rho, "line of sight", color=COLOURS["path"], lw=1.2, ls="--")
+    axes.plot([pose.x, goal.x], [pose.y, goal.y], "--", color=COLOURS["rho"])
+    _ray(axes, goal, sight, 0.62 * rho, "line of sight", color=COLOURS["rho"], lw=1.2, ls="--")
     axes.set(xlabel="x [m]", ylabel="y [m]")
 
 

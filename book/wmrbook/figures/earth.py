@@ -3,14 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Circle
 
 from wmrbook.ellipsoid import sphere_error
-from wmrbook.figures._drawing import check_count, note, panels
+from wmrbook.figures._drawing import note
 from wmrlib._checks import instance
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
@@ -99,41 +98,6 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
     )
 
 
-def rounding_errors(
-    near: np.ndarray, far: np.ndarray, errors: Mapping[str, tuple[np.ndarray, np.ndarray]]
-) -> Picture:
-    """Errors in metres that rounding alone makes in up to four formulas for the distance.
-
-    near, far: how far the second point is from the first, and from its antipode, in metres; errors:
-    for each formula the sizes of its errors at `near` and at `far`. An error of zero, which has no
-    logarithm, and NaN, where a formula fails, are left out.
-    """
-    check_count("errors", errors, 1, 4)
-    figure, (left, right) = panels(1, 2, 9.0, 4.2, sharey=True)
-    looks = zip(("ink", "y_error", "path", "omega"), "s^ox", strict=True)
-    texts = []
-    for (name, (at_near, at_far)), (role, marker) in zip(errors.items(), looks, strict=False):
-        for axes, gaps, sizes in ((left, near, at_near), (right, far, at_far)):
-            seen = sizes > 0
-            style = {"ms": 4.5, "mfc": "none", "color": COLOURS[role], "label": name}
-            axes.loglog(gaps[seen], sizes[seen], marker, **style)
-        courses = _error_in_words(near, at_near), _error_in_words(far, at_far)
-        texts.append("{}: left {}, right {}".format(name, *courses))
-    left.set(xlabel="distance [m]", ylabel="error [m]")
-    right.set(xlabel="distance left to the antipode [m]")
-    right.invert_xaxis()
-    handles = left.get_legend_handles_labels()
-    how = {"ncols": len(errors), "fontsize": 11, "frameon": False}
-    figure.legend(*handles, loc="outside upper center", **how)
-    return Picture(
-        figure,
-        "Errors by rounding in two panels with logarithmic axes: left over the distance, "
-        f"from {_length(near.min())} to {_length(near.max())}, right over the distance left "
-        f"to the antipode, from {_length(far.max())} down to {_length(far.min())}. "
-        f"{'; '.join(texts)}.",
-    )
-
-
 def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
     """The sphere's error [%] on short lines over bearing [rad] and latitude; a star marks one."""
     instance("point", point, GeoPoint)
@@ -167,31 +131,6 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
         f"A star at latitude {point.lat:.1f} deg and bearing {math.degrees(bearing):.1f} deg "
         f"marks {here:+.3f} %.",
     )
-
-
-def _error_in_words(gaps: np.ndarray, sizes: np.ndarray) -> str:
-    """The course of an error as the gap closes.
-
-    Medians of six bands decide, because rounding differs a little between machines.
-    """
-    seen = sizes > 0
-    edges = np.geomspace(gaps.max(), gaps.min(), 7)[1:-1]
-    band = np.searchsorted(-edges, -gaps[seen])
-    typical = np.array([np.log10(np.median(sizes[seen][band == k])) for k in np.unique(band)])
-    bound = f"below {_length(100.0 ** math.ceil(math.log10(np.nanmax(sizes)) / 2))}"
-    if np.ptp(typical) < 1.0:
-        return f"level, {bound}"
-    if typical.max() - max(typical[0], typical[-1]) > 1.0:
-        return f"rising and then falling as the gap closes, {bound}"
-    return f"{'falling' if typical[0] > typical[-1] else 'rising'} as the gap closes, {bound}"
-
-
-def _length(size: float) -> str:
-    """Rounded; below a nanometre as a power of ten."""
-    for unit, name in ((1e3, "km"), (1.0, "m"), (1e-3, "mm"), (1e-6, "um"), (1e-9, "nm")):
-        if size >= 0.999 * unit:
-            return f"{size / unit:.5g} {name}"
-    return f"{size:.0e} m"
 
 
 def _great_circle(a: GeoPoint, b: GeoPoint) -> GeoPoint:

@@ -1,4 +1,4 @@
-"""Chapter 5: several runs on one axis, moments of one run, and the block diagram (chapter 11 too).
+"""Chapter 5: several runs on one axis, moments of one run, and the block diagram.
 
 `runs` maps one to five labels to Trajectories; a label keeps its colour and line style in all
 figures whose labels stand in the same order.
@@ -30,16 +30,14 @@ _LEAST = 1e-6  # of a logarithmic scale
 _FIELDS = {
     "v": ("v [m/s]", "speed v", "m/s"),
     "omega": ("omega [rad/s]", "turning rate omega", "rad/s"),
-    "x_error": ("x error [m]", "x error", "m"),
-    "y_error": ("y error [m]", "y error", "m"),
     "rho": ("distance to the goal [m]", "distance", "m"),
 }
 _BOXES = (  # name, what it does, the colour's role, centre: row by row, there and back
-    ("GPS", "two points,\ntwo headings", "start", (1.2, 4.1)),
-    ("geodesy", "(11)-(17):\ngoal in metres", "start", (4.5, 4.1)),
+    ("GPS", "two points,\ntwo headings", "y_error", (1.2, 4.1)),
+    ("geodesy", "(11)-(17):\ngoal in metres", "y_error", (4.5, 4.1)),
     ("polar error", "Fig. 2: rho,\nalpha, theta", "path", (7.8, 4.1)),
     ("control law", "(22), (24) corrected:\nv and omega", "path", (7.8, 1.5)),
-    ("wheel loop", "(1), (2): left and\nright wheel", "goal", (4.5, 1.5)),
+    ("wheel loop", "(1), (2): left and\nright wheel", "omega", (4.5, 1.5)),
     ("robot", "(3)-(6): x, y,\nheading", "robot", (1.2, 1.5)),
 )
 _SIGNALS = ("lat, lon", "goal pose", "polar error", "v, omega", "wheel speeds")
@@ -51,12 +49,11 @@ def compare_runs(
     *,
     log: bool = False,
     level: tuple[float, str] | None = None,
-    until: float | None = None,
 ) -> Picture:
-    """One field of several runs over time: "v", "omega", "x_error", "y_error" or "rho".
+    """One field of several runs over time: "v", "omega" or "rho".
 
     log: a logarithmic scale (values below 1e-6 are not drawn); level: a value and its name, drawn
-    as a thin dotted line; until: the last second shown.
+    as a thin dotted line.
     """
     check_series(runs, Trajectory)
     label, name, unit = _FIELDS[choice("field", field, _FIELDS)]
@@ -75,8 +72,6 @@ def compare_runs(
         number = "" if f"{value:g} {unit}" in level[1] else f", {value:g} {unit}"
         said = f"; a dotted line marks {level[1]}{number}"
     axes.set(xlabel="time [s]", ylabel=label)
-    if until is not None:
-        axes.set_xlim(0.0, until)
     if log:
         axes.set_yscale("log")
         if min(values.min() for values in fields.values()) < _LEAST:
@@ -238,8 +233,8 @@ def block_diagram(time_step: float, times_faster: float) -> Picture:
     axes.plot([1.2, 1.2, 7.2, 7.2], [2.18, 2.8, 2.8, 3.0], color=COLOURS["ink"], lw=2.0)
     pointer(axes, (7.2, 2.98), (7.2, 3.42), **ink)
     axes.text(4.2, 3.0, f"pose, fed back every {time_step:g} s", fontsize=11, **centred)
-    axes.plot([1.2, 1.2, 4.5], [0.82, 0.4, 0.4], color=COLOURS["goal"], lw=2.0, ls="--")
-    pointer(axes, (4.5, 0.4), (4.5, 0.82), COLOURS["goal"], lw=2.0, ls="--")
+    axes.plot([1.2, 1.2, 4.5], [0.82, 0.4, 0.4], color=COLOURS["omega"], lw=2.0, ls="--")
+    pointer(axes, (4.5, 0.4), (4.5, 0.82), COLOURS["omega"], lw=2.0, ls="--")
     axes.text(2.85, 0.15, f"wheel speeds, fed back every {inner:g} s", fontsize=11, **centred)
     return Picture(
         figure,

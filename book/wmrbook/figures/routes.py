@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from itertools import pairwise
-from typing import Any
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -12,35 +11,27 @@ from matplotlib.lines import Line2D
 
 from wmrbook.challenge import Score, drive_cases
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
-from wmrlib._checks import instance, real
+from wmrlib._checks import instance
 from wmrlib.kinematics import Pose
 from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.routes import Route
 
-_STOP, _PASS, _TRACK = COLOURS["goal"], COLOURS["omega"], "#777777"
+_STOP, _PASS = COLOURS["goal"], COLOURS["omega"]
 
 
-def route(driven: Route, background: tuple[np.ndarray, np.ndarray] | None = None) -> Picture:
+def route(driven: Route) -> Picture:
     """The path through the waypoints, with arrows for the start and the wanted headings.
 
     A stop is a square, a waypoint to pass a circle, both numbered; one that was not reached is
-    crossed out. background: (east, north), arrays in metres of the same frame, drawn as dots.
+    crossed out.
     """
     _with_samples(driven)
     figure, axes = new_figure(7.0, 6.6)
     way = driven.waypoints
-    x, y = [driven.x, way.x], [driven.y, way.y]
     start = _marker("start", COLOURS["start"], ">", COLOURS["start"])
     handles = [Line2D([], [], color=COLOURS["path"], label="path"), start]
-    behind = ""
-    if background is not None:
-        east, north = _pair(background)
-        axes.plot(east, north, ".", color=_TRACK, ms=5, zorder=1)
-        handles.append(Line2D([], [], color=_TRACK, ls="", marker=".", label="track"))
-        x.append(east)
-        y.append(north)
-        behind = f", with {east.size} points of a track behind it"
-    equal_scales(axes, np.concatenate(x), np.concatenate(y), room=0.14)
+    x, y = (np.concatenate(each) for each in ([driven.x, way.x], [driven.y, way.y]))
+    equal_scales(axes, x, y, room=0.14)
     axes.plot(driven.x, driven.y, color=COLOURS["path"], zorder=2)
     span = np.ptp(axes.get_xlim())
     dart(axes, driven.start, 0.025 * span, "start", zorder=5)
@@ -55,7 +46,7 @@ def route(driven: Route, background: tuple[np.ndarray, np.ndarray] | None = None
         handles.append(_marker("not reached", COLOURS["ink"], "x"))
     legend_above(axes, len(handles), handles)
     axes.set(xlabel="x, east [m]", ylabel="y, north [m]")
-    return Picture(figure, f"{_in_words(driven)}{behind}.")
+    return Picture(figure, f"{_in_words(driven)}.")
 
 
 def route_signals(driven: Route) -> Picture:
@@ -173,15 +164,6 @@ def _in_words(driven: Route) -> str:
         f"{count - passed} to stop at and {passed} to pass{nearest}; "
         f"{driven.length:.1f} m in {driven.t[-1]:.1f} s{end}"
     )
-
-
-def _pair(background: Any) -> tuple[np.ndarray, np.ndarray]:
-    pair = tuple(background) if np.iterable(background) else ()
-    if len(pair) != 2 or np.shape(pair[0]) != np.shape(pair[1]):
-        wanted = "(east, north), two lists of one length, is needed"
-        raise ValueError(f"background = {background!r} is not allowed: {wanted}")
-    east, north = (np.ravel(real("background", values)) for values in pair)
-    return east, north
 
 
 def _with_samples(driven: Route) -> None:

@@ -2,12 +2,12 @@
 
 const CHARTS = [
   { name: 'v', title: 'v [m/s]', lines: [{ role: 'path', of: (run) => run.v }] },
-  { name: 'omega', title: 'ω [rad/s]', lines: [{ role: 'start', of: (run) => run.omega }] },
+  { name: 'omega', title: 'ω [rad/s]', lines: [{ role: 'path', of: (run) => run.omega }] },
   {
     name: 'error', title: 'position error [m]',
     lines: [
       { role: 'path', of: (run) => difference(run.goalX, run.x), tag: 'x' },
-      { role: 'goal', of: (run) => difference(run.goalY, run.y), tag: 'y', dash: [7, 5] },
+      { role: 'ink', of: (run) => difference(run.goalY, run.y), tag: 'y', dash: [7, 5] },
     ],
   },
   { name: 'V', title: 'V [1], L = 1 m²', log: true, lines: [{ role: 'path', of: (run) => run.V }] },

@@ -112,9 +112,9 @@ function render({ model, el }) {
     Object.assign(slider, { max: end || 1, value: t });
     slider.setAttribute('aria-valuetext', `${written(t, 's')} of ${written(end, 's')}`);
     find('.wmr-clock').textContent = `${t.toFixed(1)} of ${end.toFixed(1)} s`;
-    const { alpha, theta, ink } = state.colours;
+    const { rho, alpha, theta, ink } = state.colours;
     find('.wmr-polar').innerHTML = [
-      [ink, 'ρ', written(run.rho[cursor], 'm')], [alpha, 'α', hasSight(run, cursor) ? inDegrees(run.alpha[cursor]) : '–'], [theta, 'θ', hasSight(run, cursor) ? inDegrees(run.theta[cursor]) : '–'],
+      [rho, 'ρ', written(run.rho[cursor], 'm')], [alpha, 'α', hasSight(run, cursor) ? inDegrees(run.alpha[cursor]) : '–'], [theta, 'θ', hasSight(run, cursor) ? inDegrees(run.theta[cursor]) : '–'],
       [ink, 'v', written(run.v[cursor], 'm/s')], [ink, 'ω', written(run.omega[cursor], 'rad/s')],
     ].map(([colour, name, value]) => `<span style="color: ${colour}"><b>${name}</b> = ${value}</span>`).join('');
     scene.setAttribute('aria-label', `Path from start to goal. ${text}`);

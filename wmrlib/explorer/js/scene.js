@@ -143,9 +143,9 @@ function drawAngles(ctx, view, run, k, colours) {
   const robot = view.toScreen(run.x[k], run.y[k]), goal = view.toScreen(run.goalX[k], run.goalY[k]);
   const sight = run.heading[k] + run.alpha[k];
   const ahead = ([x, y], angle, length) => [x + length * Math.cos(angle), y - length * Math.sin(angle)];
-  line(ctx, [robot, goal], colours.ink, 1.5, [2, 5]);
+  line(ctx, [robot, goal], colours.rho, 1.5, [2, 5]);
   line(ctx, [robot, ahead(robot, run.heading[k], 58)], colours.alpha, 1.5, [6, 4]);
-  line(ctx, [goal, ahead(goal, sight, 58)], colours.ink, 1.5, [2, 5]);
+  line(ctx, [goal, ahead(goal, sight, 58)], colours.rho, 1.5, [2, 5]);
   line(ctx, [goal, ahead(goal, run.goalHeading[k], 58)], colours.theta, 1.5, [6, 4]);
   drawAngle(ctx, robot, run.heading[k], run.alpha[k], 36, 'α', colours.alpha, colours);
   drawAngle(ctx, goal, run.goalHeading[k], run.theta[k], 46, 'θ', colours.theta, colours);
@@ -153,7 +153,7 @@ function drawAngles(ctx, view, run, k, colours) {
   if (distance > 90) {
     const side = run.alpha[k] < 0 ? 12 : -12; // px; the other side of the line than alpha's arc
     const middle = [(robot[0] + goal[0]) / 2 + side * Math.sin(sight), (robot[1] + goal[1]) / 2 + side * Math.cos(sight)];
-    label(ctx, 'ρ', ...middle, colours, { size: 17, weight: 600, align: 'center' });
+    label(ctx, 'ρ', ...middle, colours, { colour: colours.rho, size: 17, weight: 600, align: 'center' });
   }
 }
 

@@ -1,6 +1,6 @@
 // Colours by role, the page's theme, and how numbers are written.
 
-const ROLES = ['paper', 'ink', 'soft', 'line', 'raised', 'focus', 'path', 'start', 'goal', 'alpha', 'theta', 'rising', 'ghost'];
+const ROLES = ['paper', 'ink', 'soft', 'line', 'raised', 'focus', 'path', 'start', 'goal', 'rho', 'alpha', 'theta', 'rising', 'ghost'];
 const FONT = 'system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
 const DEGREES = 180 / Math.PI;
 
