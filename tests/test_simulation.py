@@ -495,6 +495,25 @@ def test_lqr_on_the_error_in_the_robots_frame_leaves_no_residual():
     assert run.V[-1] < 1e-5 * run.V[0]
 
 
+@settings(max_examples=20)
+@given(st.sampled_from([0.0, -0.0, 1e-300, 1e-9]), st.sampled_from([0.0, 1e-300, 3.0]), headings)
+def test_tracking_may_begin_on_the_axes(x, y, heading):
+    """Shifted by a metre, the run is the same."""
+
+    def along(shift):
+        def line(t):
+            assert t.min() >= 0.0
+            assert t.max() <= 0.3  # the reference is not asked for more
+            return wmr.Reference(5.0 + 0.5 * t + shift, shift, 0.2, 0.5, 0.0)
+
+        start, how = wmr.Pose(x + shift, y + shift, heading), {"dt": 0.1, "duration": 0.3}
+        return wmr.track(line, start, CALM, method="continuous", **how)
+
+    here, there = along(0.0), along(1.0)
+    np.testing.assert_allclose([here.x, here.y], [there.x - 1.0, there.y - 1.0], atol=1e-9)
+    np.testing.assert_allclose([here.rho, here.omega], [there.rho, there.omega], atol=1e-9)
+
+
 def test_a_goal_that_stands_still_is_a_reference_too():
     def still(t):
         return wmr.Reference(PAPER.goal.x + 0 * t, PAPER.goal.y, PAPER.goal.heading, 0.0, 0.0)
@@ -540,6 +559,27 @@ def test_quick_wheels_are_wheels_without_a_lag():
     off = np.abs(np.array(errors[1:]) - errors[0])
     assert off[0] < math.radians(1.0)
     assert off[0] / off[1] == pytest.approx(2.0, rel=0.15)
+
+
+@settings(max_examples=30, deadline=None)
+@given(poses, st.floats(0.2, 0.6), st.floats(-6.0, -2.0))
+def test_lagging_wheels_that_graze_the_radius_have_arrived(start, lag, exponent):
+    """Where a run without a radius comes nearest, by its samples, one a hair wider is met."""
+    assume(math.hypot(start.x, start.y) > 1.0)
+    gains, how = wmr.Gains(0.5, 2.0, 2.0, 2.0), {"method": "continuous", "wheel_lag": lag}
+    free = wmr.simulate(start, ORIGIN, gains, dt=0.001, arrival_radius=1e-9, **how)
+    nearest = 1 + int(np.argmax(np.diff(free.rho) > 0.0))  # the first time that it goes away
+    assume(1e-6 < free.rho[nearest] < 0.5 * free.rho[0])
+    radius = float(free.rho[nearest]) * (1.0 + 10.0**exponent)
+    run = wmr.simulate(start, ORIGIN, gains, arrival_radius=radius, **how)
+    assert run.t[-1] <= free.t[nearest] + 1e-9
+
+
+def test_durations_of_all_sizes_begin_at_the_start():
+    for duration in (5e-324, 1e-9, 1e16, 1e300):
+        how = {"method": "continuous", "dt": duration, "duration": duration}
+        run = wmr.simulate(wmr.Pose(3.0, 4.0, 1.0), ORIGIN, wmr.GENTLE_GAINS, **how)
+        assert run.rho[0] == 5.0
 
 
 @pytest.mark.parametrize("ratio", [10.0, 20.0])

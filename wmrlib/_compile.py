@@ -104,6 +104,11 @@ def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:
     once rather than twice. ``NUMBA_DISABLE_JIT=1`` leaves plain Python. If it is kept in the
     `cache`, it may close over plain numbers and compiled functions only.
     """
+    if function.__closure__ and not numba.config.DISABLE_JIT:
+        # Binaries name what they call, and numba tells closures of one name apart by a counter that
+        # begins anew in each process.
+        own = sha256(repr(_identity(function)).encode()).hexdigest()[:16]
+        function.__qualname__ += f"_{own}"
     made = numba.njit(error_model="numpy", nogil=True, fastmath={"contract"}, **options)(function)
     if cache and made is not function:
         made._cache = _Cache(function)

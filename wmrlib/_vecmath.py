@@ -236,6 +236,7 @@ def rebuilt(function, others, finish=lambda made: made):
         made = FunctionType(
             plain.__code__, plain.__globals__ | used, plain.__name__, plain.__defaults__, cells
         )
+        made.__qualname__ = f"{plain.__qualname__}_rebuilt"  # see `compiled`
         others[function] = finish(made)
     return others[function]
 

@@ -26,14 +26,18 @@ _ROUNDS = 4  # steps between two looks at who has finished
 
 
 @compiled
-def sit_back(bench, log, t):
-    """Seat a run where it was at the beginnings of the steps that the times t lie in."""
-    step, seats = 0, bench.reshape(-1, steps.LANES)
+def sit_back(bench, log, t, step):
+    """Seat a run where it was at the beginnings of the steps that the times t lie in.
+
+    The first lies in a given step or a later one; returns the last one's.
+    """
+    seats = bench.reshape(-1, steps.LANES)
     for i in range(t.size):
         while step + 2 < log.shape[1] and log[_TIME, step + 1] <= t[i]:
             step += 1
         rows.sit(seats, i, log, step)
         bench[steps.DT + i] = t[i] - bench[steps.TIME + i]
+    return step
 
 
 @compiled
@@ -85,7 +89,7 @@ def loops_of(law, limited, lagging):
     def begin(bench, used, wheels, lag):
         for stage in (0, steps.BEFORE):
             slopes(bench, used, stage, wheels, lag)
-            steps.get_ready(bench, used, stage)
+            steps.get_ready(bench, used, stage, 1e-300)
 
     @compiled
     def trial(bench, used, radius, wheels, lag):
@@ -124,18 +128,17 @@ def loops_of(law, limited, lagging):
             if count == log.shape[1]:
                 log = steps.doubled(log)
             rows.sit(log, count, seats[: steps.KEPT], 0)
-            left = bench[steps.LEFT]
-            if not left > 0.0:
+            if not bench[steps.LEFT] > 0.0:
                 return log[:, : count + 1]
             trial(bench, 1, radius, wheels, lag)
-            count += bench[steps.LEFT] != left
+            count += int(bench[steps.TAKEN])
 
     @compiled
     def sample(log, t, wheels, lag, record, goal):
         """Record the run at the times t."""
-        bench = np.zeros(steps.ROOM)
+        bench, step = np.zeros(steps.ROOM), 0
         for first in range(0, t.size, steps.LANES):
-            sit_back(bench, log, t[first : first + steps.LANES])
+            step = sit_back(bench, log, t[first : first + steps.LANES], step)
             for stage in range(1, steps.LAST + 1):
                 steps.move(bench, steps.LANES, size, stage)
                 slopes(bench, steps.LANES, stage, wheels, lag)

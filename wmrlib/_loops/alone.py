@@ -50,7 +50,7 @@ def _see(bench, used, stage, goals, tuning, law, wheels):
 @compiled
 def _ready_after(bench, stage, goals, *loop):
     _see(bench, 1, stage, goals, *loop)
-    steps.get_ready(bench, 1, stage)
+    steps.get_ready(bench, 1, stage, 1.0)
 
 
 @compiled
@@ -62,14 +62,14 @@ def _trials_after(bench, path, log, *loop):
     """
     seats = bench.reshape(-1, steps.LANES)
     for k in range(path.shape[2]):
-        dt, left = bench[steps.DT], bench[steps.LEFT]
+        dt = bench[steps.DT]
         rows.sit(log, k, seats[: steps.KEPT], 0)
         for stage in range(1, steps.BEFORE + 1):
             steps.move(bench, 1, 4, stage)
             _see(bench, 1, stage, path[:, stage, k : k + 1], *loop)
         steps.judge(bench, 1, 4, 1.0, -np.inf, adaptive.TOLERANCE)
         steps.set_steps(bench, 1)
-        if bench[steps.LEFT] == left:
+        if bench[steps.TAKEN] == 0.0:
             return k
         if bench[steps.LEFT] < dt or not 0.8 * dt <= bench[steps.DT] <= 1.3 * dt:
             return k + 1
@@ -119,9 +119,10 @@ def after_reference(path_at, start, tuning, law, wheels, t):
     log = np.hstack([*taken, kept])
 
     def recorded(record, times):
+        step = 0
         for first in range(0, times.size, steps.LANES):
             some = times[first : first + steps.LANES]
-            adaptive.sit_back(bench, log, some)
+            step = adaptive.sit_back(bench, log, some, step)
             dt = bench[steps.DT : steps.DT + some.size]
             _sample_after(bench, path(some - dt, dt), record, first, *loop)
 
@@ -138,7 +139,7 @@ def _values(record, tuning, law):
 def _finished(t, log, radius, recorded, tuning, law):
     outcome, *_, peak, length, _ = adaptive.summed_up(log[:, -1:], t[-1], radius)[:, 0].tolist()
     if outcome == rows.UNFINISHED:
-        words = f", or other gains: the run would take more than {_MOST_TRIALS:,.0f} steps"
+        words = f", or slower gains and wheels: it would take more than {_MOST_TRIALS:,.0f} steps"
         raise refusal("method", "continuous", "'arc' or 'euler'", words)
     end = t[-1] if outcome == rows.TIMED_OUT else log[steps.TIME // steps.LANES, -1]
     t = np.append(t[t < end], end)

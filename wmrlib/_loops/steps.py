@@ -38,6 +38,7 @@ NEW, NEAR, _FINE, _COARSE, DT, ROOM = range(
     SLOPES + 14 * STAGE, SLOPES + 14 * STAGE + 36 * LANES, 6 * LANES
 )
 
+TAKEN = _FINE  # where `judge` says whether a step was taken, as 1 or 0
 _TO = (*STAGES, WEIGHTS, (*WEIGHTS, -_GLIMPSE))
 NODES = np.array([0.0, *map(sum, _TO)])  # when each stage is, as shares of the step
 
@@ -101,17 +102,17 @@ def source_of(stage):
 
 
 @compiled
-def get_ready(bench, used, stage):
+def get_ready(bench, used, stage, smallest):
     """After stage 0 the first length of a step, and where to see how omega changes, stage BEFORE.
 
-    After that, its rate.
+    After that, its rate. `smallest` is as in `judge`.
     """
     for i in range(used):
         if stage == BEFORE:
             near = bench[SLOPES + BEFORE * STAGE + TURNING + i]
             bench[SWING + i] = (near - bench[SLOPES + TURNING + i]) / bench[DT + i]
             continue
-        pace = abs(bench[SLOPES + i]) / larger(abs(bench[RHO + i]), 1e-300)
+        pace = abs(bench[SLOPES + i]) / larger(abs(bench[RHO + i]), smallest)
         pace += abs(bench[SLOPES + ALPHA + i]) + abs(bench[SLOPES + THETA + i])
         bench[STEP + i] = 0.1 / larger(pace, 1e-300)
         bench[PEAK + i] = abs(bench[SLOPES + TURNING + i])
@@ -131,6 +132,7 @@ def set_steps(bench, used):
 def judge(bench, used, size, smallest, radius, tolerance):
     """Take each step that is accurate and ends at its events, and say how long the next may be.
 
+    With wheels that lag, rho may also dip below the radius and out of it again in one step.
     Errors are judged as a share of the state's size, which counts as 1 if it is less, or that of
     the first row as `smallest`.
     """
@@ -162,6 +164,9 @@ def judge(bench, used, size, smallest, radius, tolerance):
         turn = _until_turn(*ends, dt, _SLACK * (1.0 + peak))
         highest = abs(bench[first + TURNING] + swing * turn) > peak + _SLACK
         wanted = turn if highest & (turn < wanted) else wanted
+        turn = _until_turn(rho, bench[first], new, bench[last], dt, _SLACK * abs(radius))
+        passing = (radius > 0.0) & (bench[first] < 0.0) & (new > radius)
+        wanted = turn if passing & (turn < wanted) else wanted
 
         fine, coarse = bench[_FINE + i], 0.1 * bench[_COARSE + i]
         error = fine * fine / np.sqrt(fine * fine + coarse * coarse + 1e-300) / tolerance
@@ -170,7 +175,7 @@ def judge(bench, used, size, smallest, radius, tolerance):
         total = new + bench[NEW + ALPHA + i] + bench[NEW + THETA + i] + turning
         going, accurate = left > 0.0, (error <= 1.0) & (total - total == 0.0)
         taken = going & accurate & (wanted >= dt)
-        bench[_FINE + i] = 1.0 if taken else 0.0
+        bench[TAKEN + i] = 1.0 if taken else 0.0
         bench[PEAK + i] = turning if taken & (turning > peak) else peak
         bench[LENGTH + i] += abs(rolled) if taken else 0.0
         bench[TIME + i] += dt if taken else 0.0
@@ -187,9 +192,9 @@ def judge(bench, used, size, smallest, radius, tolerance):
         for i in range(used):
             if row < size * LANES:
                 moved = bench[NEW + row + i] if row != ROLLED else 0.0
-                bench[row + i] = moved if bench[_FINE + i] > 0.0 else bench[row + i]
+                bench[row + i] = moved if bench[TAKEN + i] > 0.0 else bench[row + i]
             slope = bench[SLOPES + LAST * STAGE + row + i]
-            bench[SLOPES + row + i] = slope if bench[_FINE + i] > 0.0 else bench[SLOPES + row + i]
+            bench[SLOPES + row + i] = slope if bench[TAKEN + i] > 0.0 else bench[SLOPES + row + i]
 
 
 @compiled
