@@ -55,6 +55,7 @@ NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
 # The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
     ("_loops/polar.py", "inside[i] = -1", "any negative number says that a place is empty"),
+    ("_loops/adaptive.py", "'<' -> '<=' in while step + 2", "no step at all, from the end"),
     ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
     ("_vecmath.py", "'-' -> '+' in fine = ", "less than a rounding"),
     ("_vecmath.py", "in tiny = ", "both branches agree at the border"),
