@@ -22,7 +22,8 @@ from wmrbook.audit.row import (
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 
 _COSINE, _SINE, _STATE = sp.cos(alpha), sp.sin(alpha), (rho, alpha, theta)
-_CLOSED = -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * _COSINE**2 - k_alpha * alpha**2
+CLOSED = -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * _COSINE**2 - k_alpha * alpha**2
+"""The V' that the proof needs: never positive."""
 
 
 def steering() -> sp.Expr:
@@ -131,7 +132,7 @@ def _inequality_row() -> Row:
 def law_rows() -> list[Row]:
     """(24) to (26)."""
     law = steering()
-    needed = {"the proof": equivalent(slope(law), _CLOSED)}
+    needed = {"the proof": equivalent(slope(law), CLOSED)}
     text = "With it $\\dot V$ is never positive."
     return [equation_row(24, law, needed, text), _substitution_row(), _last_row()]
 
@@ -150,9 +151,9 @@ def _substitution_row() -> Row:
     ours, theirs = slope(steering()), slope(printed(24))
     if equivalent(printed(25), ours):
         return finding(25, Verdict.HOLDS, "(22) and (24) put into (21).", "the difference is 0")
-    text = f"With the factor of (24) removed it is ${latex(_CLOSED)}$, never positive."
+    text = f"With the factor of (24) removed it is ${latex(CLOSED)}$, never positive."
     text += _not_below(printed(25))
-    if equivalent(printed(25), theirs) and equivalent(ours, _CLOSED):
+    if equivalent(printed(25), theirs) and equivalent(ours, CLOSED):
         why = "it follows from (21), (22) and (24) as printed, and so repeats the typo of (24)"
         return finding(25, Verdict.TYPO, text, why)
     why = "it is what neither (24) as printed nor the derived law gives"
@@ -161,10 +162,10 @@ def _substitution_row() -> Row:
 
 def _last_row() -> Row:
     last = printed(26).subs(sp.Abs(rho), rho)  # rho is a distance
-    if equivalent(last, _CLOSED):
+    if equivalent(last, CLOSED):
         left = "What the derived law leaves of (25)."
         return finding(26, Verdict.HOLDS, left, "the difference is 0")
-    text = f"The derived law leaves ${latex(_CLOSED)}$.{_not_below(last)}"
+    text = f"The derived law leaves ${latex(CLOSED)}$.{_not_below(last)}"
     if equivalent(last, printed(25)):
         why = "it follows from (25), and so repeats the typo of (24)"
         return finding(26, Verdict.TYPO, text, why)

@@ -16,7 +16,7 @@ from wmrlib.kinematics import Pose
 from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.routes import Route
 
-_STOP, _PASS = COLOURS["goal"], COLOURS["omega"]
+_STOP, _PASS = COLOURS["goal"], COLOURS["ink"]
 
 
 def route(driven: Route) -> Picture:
