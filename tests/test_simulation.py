@@ -472,6 +472,18 @@ def test_sampled_tracking_converges_to_continuous():
         assert off[1] < 0.35 * off[0] < 0.05
 
 
+def test_samples_after_a_reference_lie_on_one_run_whatever_dt():
+    """And say what the law sees and commands there."""
+    fine, coarse = (circle(method="continuous", dt=dt, duration=20.0) for dt in (0.1, 1.0))
+    for name in ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V"):
+        every = getattr(fine, name)[::10]
+        np.testing.assert_allclose(every, getattr(coarse, name), rtol=1e-8, atol=1e-8)
+    seen = wmr.polar_error(wmr.Pose(fine.x, fine.y, fine.heading), fine.goal)
+    np.testing.assert_allclose([fine.rho, fine.alpha, fine.theta], seen, atol=1e-12)
+    commanded = wmr.control_law(*seen, wmr.paper.CIRCLE_GAINS)
+    np.testing.assert_allclose([fine.v, fine.omega], commanded, rtol=1e-7, atol=1e-7)
+
+
 def test_feed_forward_leaves_no_residual():
     gains = wmr.KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
     # What is left is the step: the reference turns while v is held.
