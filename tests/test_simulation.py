@@ -377,7 +377,7 @@ def test_backing_up_after_a_reference_counts_as_way():
     assert tracked.peak_omega == pytest.approx(driven.peak_omega, rel=1e-7)
     for name in ("x", "y", "heading", "rho", "v", "omega", "V"):
         ours, theirs = getattr(tracked, name), getattr(driven, name)
-        np.testing.assert_allclose(ours, theirs, rtol=1e-8, atol=1e-8)
+        np.testing.assert_allclose(ours, theirs, rtol=1e-10, atol=1e-10)
 
 
 def test_a_run_that_takes_too_long_is_refused():
