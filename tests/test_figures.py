@@ -305,7 +305,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "wheel_limited_paths": lambda: [
         "all of it: 4.0 m, as far as x = 1.0 m; part: 1.0 m, as far as x = 1.0 m, "
-        'at most 0.00 m beside the first. Not to be told from the first: "part".'
+        'at most 0.00 m beside the first. Indistinguishable from the first: "part".'
     ],
     "scatter": lambda: [
         "9 positions",
@@ -642,7 +642,7 @@ def test_wheel_limited_paths_say_how_far_one_strays_and_what_the_arrows_are():
     found = figures.wheel_limited_paths(paths, LIMITED[-1])
     strays = re.findall(r"at most ([\d.]+) m beside", found.alt)
     assert strays == ["1.00", "2.00", "0.01"]
-    assert found.alt.endswith('Not to be told from the first: "near".')
+    assert found.alt.endswith('Indistinguishable from the first: "near".')
     legend = [text.get_text() for text in found.figure.axes[0].get_legend().get_texts()]
     assert legend == [*paths, "start", "goal"]
 

@@ -29,7 +29,7 @@ def scatter(found: StationaryScatter) -> Picture:
     east, north = found.east, found.north
     axes.plot(east, north, "-", color=COLOURS["path"], lw=1.2)
     axes.plot(east, north, "o", color=COLOURS["path"], ms=6, label="positions, in order")
-    axes.plot(0.0, 0.0, "+", color=COLOURS["goal"], ms=16, mew=2.5, label="mean")
+    axes.plot(0.0, 0.0, "+", color=COLOURS["ink"], ms=16, mew=2.5, label="mean")
     axes.add_patch(Circle((0.0, 0.0), found.cep, fill=False, ls="--", ec=COLOURS["ink"]))
     half = f"half of them within {found.cep:.1f} m (CEP)"
     axes.plot([], [], "--", color=COLOURS["ink"], lw=1.0, label=half)

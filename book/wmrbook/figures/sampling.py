@@ -20,7 +20,7 @@ from wmrlib.tuning import longest_step
 _SERIES = (  # colour, line style and marker of each of up to five lines
     (COLOURS["path"], "-", "o"),
     (COLOURS["y_error"], "--", "s"),
-    (COLOURS["V_rising"], "-.", "^"),
+    (COLOURS["theta"], "-.", "^"),
     (COLOURS["omega"], ":", "D"),
     (COLOURS["ink"], "-", ""),
 )
@@ -111,7 +111,7 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
 def wheel_limited_paths(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Picture:
     """Up to five paths from one start to `goal` under different limits, in metres.
 
-    The text says how far each strays from the first, and which can't be told from it.
+    The text says how far each strays from the first, and which are indistinguishable from it.
     """
     check_count("paths", paths, 1, len(_SERIES))
     figure, axes = new_figure(5.0, 6.5)
@@ -140,7 +140,7 @@ def wheel_limited_paths(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Pict
         looks = {"ls": "none", "marker": ">", "ms": 10, "mew": 2.0, "mec": COLOURS[role]}
         axes.plot([], [], label=role, mfc=fill, **looks)
     axes.legend(**_BESIDE)
-    same = f". Not to be told from the first: {', '.join(alike)}" if alike else ""
+    same = f". Indistinguishable from the first: {', '.join(alike)}" if alike else ""
     what = "Paths to the same goal, the open arrow, from the same start"
     return Picture(figure, f"{what}: {'; '.join(texts)}{same}.")
 
