@@ -615,7 +615,7 @@ def test_a_dask_cluster_that_loses_a_worker(small_chunks, whole):
                 self.killed = True
                 os.kill(self.victim, signal.SIGTERM if os.name == "nt" else signal.SIGKILL)
 
-    options = {"threads_per_worker": 1, "processes": True, "dashboard_address": None}
+    options = {"threads_per_worker": 1, "processes": True, "dashboard_address": ":0"}
     with (
         distributed.LocalCluster(2, silence_logs=50, **options) as cluster,
         distributed.Client(cluster) as client,
