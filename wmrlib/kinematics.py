@@ -13,7 +13,7 @@ import numpy as np
 
 from wmrlib._checks import Real, checked, choice, instance, real, reals
 from wmrlib._compile import elementwise
-from wmrlib.motion import STEPS, polar_closing_rate, polar_from_pose, wrap
+from wmrlib.motion import STEPS, polar_closing_rate, polar_from_pose, pose_of_error, wrap
 
 
 @checked()
@@ -168,9 +168,7 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
 def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
     """The pose that sees `goal` as `polar`: the inverse of `polar_error`."""
     named = instance("polar", polar, PolarError)._asdict() | _fields(goal=goal)
-    rho, alpha, theta, *_ = reals(at_least_0=("rho",), **named)
-    psi = theta + goal.heading
-    return Pose(goal.x - rho * np.cos(psi), goal.y - rho * np.sin(psi), wrap_angle(psi - alpha))
+    return Pose(*elementwise(pose_of_error, 3, *reals(at_least_0=("rho",), **named)))
 
 
 def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:

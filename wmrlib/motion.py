@@ -13,6 +13,14 @@ def polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading):
     return distance(east, north), wrap(sight - heading), wrap(sight - goal_heading)
 
 
+@compiled
+def pose_of_error(rho, alpha, theta, goal_x, goal_y, goal_heading):
+    """The inverse: the pose that sees its goal so."""
+    sight = theta + goal_heading
+    sine, cosine = sincos(sight)
+    return goal_x - rho * cosine, goal_y - rho * sine, wrap(sight - alpha)
+
+
 @formula
 def polar_closing_rate(rho, alpha, v_over_rho, omega):
     """(7)-(9) with v/rho, so that nothing is divided by zero at the goal."""

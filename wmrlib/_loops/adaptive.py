@@ -14,9 +14,9 @@ import numpy as np
 from wmrlib._compile import compiled
 from wmrlib._loops import rows, steps
 from wmrlib._loops.polar import closed_loop, polar_closing_rate
-from wmrlib._vecmath import sincos, widest_vectors
+from wmrlib._vecmath import widest_vectors
 from wmrlib.gains import NO_LIMITS, GainsFields
-from wmrlib.kinematics import polar_from_pose, wrap
+from wmrlib.motion import polar_from_pose, pose_of_error, wrap
 
 MOST_TRIALS = 100_000.0
 TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
@@ -45,14 +45,10 @@ def put_down(bench, record, first, goal):
     """Record the ends of the steps; rounding can carry rho a hair past the goal."""
     end = steps.SLOPES + steps.LAST * steps.STAGE
     for i in range(min(steps.LANES, record.shape[1] - first)):
-        k, rho = first + i, max(bench[steps.NEW + i], 0.0)
-        alpha, theta = bench[steps.NEW + steps.ALPHA + i], bench[steps.NEW + steps.THETA + i]
-        sine, cosine = sincos(theta + goal[2])
-        record[rows.X, k], record[rows.Y, k] = goal[0] - rho * cosine, goal[1] - rho * sine
-        record[rows.HEADING, k], record[rows.RHO, k] = wrap(theta - alpha + goal[2]), rho
-        record[rows.ALPHA, k], record[rows.THETA, k] = alpha, theta
-        record[rows.V, k] = bench[end + steps.ROLLED + i]
-        record[rows.OMEGA, k] = bench[end + steps.TURNING + i]
+        rho, alpha = max(bench[steps.NEW + i], 0.0), bench[steps.NEW + steps.ALPHA + i]
+        seen = rho, alpha, bench[steps.NEW + steps.THETA + i]
+        v, omega = bench[end + steps.ROLLED + i], bench[end + steps.TURNING + i]
+        rows.write(record, first + i, pose_of_error(*seen, *goal), seen, v, omega)
 
 
 @lru_cache

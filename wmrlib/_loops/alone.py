@@ -13,8 +13,8 @@ from wmrlib._checks import refusal
 from wmrlib._compile import compiled
 from wmrlib._loops import adaptive, plane, rows, steps
 from wmrlib._vecmath import sincos
-from wmrlib.kinematics import polar_from_pose, wrap
 from wmrlib.laws import lyapunov_value_of
+from wmrlib.motion import polar_from_pose, wrap
 
 _MOST_TRIALS = 1_000_000.0
 
@@ -84,16 +84,12 @@ def _sample_after(bench, path, record, first, *loop):
         steps.move(bench, steps.LANES, 4, stage)
         _see(bench, path.shape[2], stage, path[:, stage], *loop)
     for i in range(path.shape[2]):
-        k, x, y = first + i, bench[steps.NEW + i], bench[steps.NEW + steps.ALPHA + i]
-        heading, goal = wrap(bench[steps.NEW + steps.THETA + i]), path[:3, steps.LAST, i]
-        seen = polar_from_pose(x, y, heading, goal[0], goal[1], goal[2])
-        record[rows.X, k], record[rows.Y, k], record[rows.HEADING, k] = x, y, heading
-        record[rows.RHO, k], record[rows.ALPHA, k], record[rows.THETA, k] = seen
+        x, y = bench[steps.NEW + i], bench[steps.NEW + steps.ALPHA + i]
+        pose, goal = (x, y, wrap(bench[steps.NEW + steps.THETA + i])), path[:3, steps.LAST, i]
+        seen = polar_from_pose(*pose, goal[0], goal[1], goal[2])
         end = steps.SLOPES + steps.LAST * steps.STAGE + i
-        record[rows.V, k], record[rows.OMEGA, k] = (
-            bench[end + steps.ROLLED],
-            bench[end + steps.TURNING],
-        )
+        v, omega = bench[end + steps.ROLLED], bench[end + steps.TURNING]
+        rows.write(record, first + i, pose, seen, v, omega)
 
 
 def after_reference(path_at, start, tuning, law, wheels, t):

@@ -13,9 +13,9 @@ import numpy as np
 from wmrlib._compile import compiled
 from wmrlib._loops import polar, rows
 from wmrlib._loops.polar import EULER, closed_loop, finite, last_step, one_step
-from wmrlib._vecmath import vector_sincos, widest_vectors
+from wmrlib._vecmath import widest_vectors
 from wmrlib.gains import NO_LIMITS
-from wmrlib.kinematics import polar_from_pose, wrap
+from wmrlib.motion import polar_from_pose, pose_of_error, wrap
 
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
 _VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
@@ -31,7 +31,8 @@ def begin(runs, law, wheels, whole, arrival_radius):
         start, goal, gains = rows.run_of(runs, i)
         at, loop = polar_from_pose(*start, *goal), (gains, law, wheels)
         left = whole if at[0] > arrival_radius else -whole
-        states[: polar.K_RHO, i] = (*at, left, abs(closed_loop(at, loop)[4]), 0.0)
+        for row, value in enumerate((*at, left, abs(closed_loop(at, loop)[4]), 0.0)):
+            states[row, i] = value
     return states
 
 
@@ -89,13 +90,11 @@ def note(records, k, runs, states, law, wheels):
     """Record sample k of each run."""
     for i in range(runs.shape[1]):
         _, goal, _ = rows.run_of(runs, i)
-        (rho, alpha, theta), left, _, _, gains = polar.read(states, i)
+        at, left, _, _, gains = polar.read(states, i)
         if left < 0.0 and k > 0:
             continue
-        _, _, _, v, omega = closed_loop((rho, alpha, theta), (gains, law, wheels))
-        sine, cosine = vector_sincos(theta + goal[2])
-        x, y = goal[0] - rho * cosine, goal[1] - rho * sine
-        records[:, i, k] = (x, y, wrap(theta - alpha + goal[2]), rho, alpha, theta, v, omega)
+        _, _, _, v, omega = closed_loop(at, (gains, law, wheels))
+        rows.write(records[:, i], k, pose_of_error(*at, *goal), at, v, omega)
 
 
 def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded):

@@ -52,10 +52,8 @@ def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radiu
         goal = reference[rows.X, now], reference[rows.Y, now], reference[rows.HEADING, now]
         goal_twist = reference[rows.GOAL_V, now], reference[rows.GOAL_OMEGA, now]
         rho, alpha, theta, v, omega = observe(pose, goal, goal_twist, tuning, law, wheels)
-        value = lyapunov_value_of(rho, alpha, theta, tuning, law)
-        record[k, rows.X], record[k, rows.Y], record[k, rows.HEADING] = pose
-        record[k, rows.RHO], record[k, rows.ALPHA], record[k, rows.THETA] = rho, alpha, theta
-        record[k, rows.V], record[k, rows.OMEGA], record[k, rows.LYAPUNOV] = v, omega, value
+        rows.write(record.T, k, pose, (rho, alpha, theta), v, omega)
+        record[k, rows.LYAPUNOV] = lyapunov_value_of(rho, alpha, theta, tuning, law)
         if not math.isfinite(rho + v + omega):
             return k, rows.DIVERGED
         if rho <= arrival_radius:

@@ -24,11 +24,19 @@ def run_of(runs, i):
 
 
 @formula
+def write(record, k, pose, seen, v, omega):
+    """Write down a sample, one number at a time: to set a column at once takes long to compile."""
+    record[X, k], record[Y, k], record[HEADING, k] = pose
+    record[RHO, k], record[ALPHA, k], record[THETA, k] = seen
+    record[V, k], record[OMEGA, k] = v, omega
+
+
+@formula
 def summarise(summary, i, outcome, time, heading_error, peak_omega, path_length, distance):
     """Write down what run i amounts to; who does not arrive takes forever."""
     time = time if outcome == ARRIVED else math.inf
     sums = float(outcome), time, heading_error, peak_omega, path_length, distance
-    for row, value in enumerate(sums):  # to set a column at once takes a second to compile
+    for row, value in enumerate(sums):
         summary[row, i] = value
 
 
