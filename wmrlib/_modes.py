@@ -5,7 +5,7 @@ equation is s^2 + k_alpha s + h rate^2 = 0. For symbols, replace this module's `
 by sympy's square root and a Piecewise.
 """
 
-from numpy import fmin, maximum, sqrt, where
+from numpy import sqrt, where
 
 
 def mode_frequency(rate, h):
@@ -24,14 +24,3 @@ def mode_settling(rate, k_alpha, h):
     gap = half * half - stiffness
     # The second form of half - sqrt(gap) does not cancel.
     return where(gap > 0, stiffness / (half + sqrt(gap)), half)
-
-
-def fastest_mode(rate, k_alpha, h):
-    """No pole is farther from 0 than this, 1/s."""
-    return maximum(maximum(rate, mode_frequency(rate, h)), k_alpha)
-
-
-def longest_euler_step(rate, k_alpha, h):
-    """The longest Euler step of the linear modes that settles, s: |1 + pole dt| < 1."""
-    quicker = k_alpha - mode_settling(rate, k_alpha, h)
-    return fmin(fmin(k_alpha / (h * rate * rate), 2 / quicker), 1 / rate)

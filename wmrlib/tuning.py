@@ -7,20 +7,19 @@ the angles, see `_modes`. The printed law has no such form: its heading never se
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 
 from wmrlib._checks import Real, choice, instance, plain, real, same_shape
-from wmrlib._modes import longest_euler_step, mode_damping, mode_frequency, mode_settling
+from wmrlib._modes import mode_damping, mode_frequency, mode_settling
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Arrival, Trajectories
 from wmrlib.sweeping import sweep
 
 _LAWS = ("corrected", "aicardi")
-_METHODS = ("continuous", "rk4", "polar_euler", "euler", "arc")
+_METHODS = ("continuous", "polar_euler", "euler", "arc")
 
 
 class Modes(NamedTuple):
@@ -77,14 +76,13 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
     """Return the longest time step with which the robot still settles in its goal's pose.
 
     For "euler" and "arc" by Jury's conditions, derived in chapter 8: beyond it oscillations no
-    longer fade, or the nose swings to and fro, or the robot drives past the goal. For "polar_euler"
-    and "rk4" a step multiplies each mode by 1 + z, or by 1 + z + z^2/2 + z^3/6 + z^4/24, with z =
-    pole dt, which must stay under 1; an accurate run needs shorter steps, see `sweep`.
+    longer fade, or the nose swings to and fro, or the robot drives past the goal. "polar_euler" is
+    Euler's method for (7)-(9); a step multiplies each mode by 1 + pole dt.
 
     Parameters
     ----------
     gains : Gains, of numbers or arrays; a gain of 0 can make the step 0 or infinite
-    method : any of `simulate` or `sweep`; infinite for "continuous"
+    method : any of `simulate`, or "polar_euler"; infinite for "continuous"
     law : "corrected" or "aicardi"
 
     Returns
@@ -100,10 +98,9 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
     with np.errstate(divide="ignore", invalid="ignore"):
         if choice("method", method, _METHODS) == "continuous":
             return plain(np.full(np.broadcast(rate, k_alpha, h).shape, np.inf))
-        if method == "rk4":
-            return plain(reduce(np.fmin, map(_rk4_reach, modes(gains, law).poles)))
         if method == "polar_euler":
-            return plain(longest_euler_step(rate, k_alpha, h))
+            quicker = k_alpha - mode_settling(rate, k_alpha, h)
+            return plain(np.fmin(np.fmin(k_alpha / (h * rate * rate), 2.0 / quicker), 1.0 / rate))
         fading = k_alpha / (rate * (turn + h * rate))
         flipping = _flipping(turn + rate, rate * (h * rate + 2.0 * turn))
         if method == "arc":
@@ -203,15 +200,3 @@ def _flipping(b: np.ndarray, a: np.ndarray) -> np.ndarray:
     """The smallest positive root of a dt^2 - 2 b dt + 4 = 0, where 1 + trace + determinant is 0."""
     gap = b**2 - 4.0 * a
     return np.where(gap >= 0.0, 4.0 / (b + np.sqrt(np.maximum(gap, 0.0))), np.inf)
-
-
-def _rk4_reach(pole: complex | np.ndarray) -> np.ndarray:
-    """The longest step that shrinks this mode, by bisection: shorter ones all do."""
-    size = np.maximum(np.abs(pole), 1e-300)  # what never moves is shrunk by no step
-    low, high = np.zeros(size.shape), np.full(size.shape, 4.0)
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        z = middle * pole / size
-        fades = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) < 1.0
-        low, high = np.where(fades, middle, low), np.where(fades, high, middle)
-    return low / size
