@@ -312,7 +312,7 @@ import wmrlib as w
 from wmrlib._loops import adaptive
 options = {"duration": 1.0, "arrival_radius": 2.9}
 run = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.Gains(0.4, 2.0, 0.6, 2.0), **options)
-stats = getattr(adaptive.loops_of(0, False, False)[0], "stats", None)
+stats = getattr(adaptive.drive, "stats", None)
 print(*map(float, run), sum(stats.cache_misses.values()) if stats else None)
 """
 
@@ -439,17 +439,30 @@ import multiprocessing as mp
 import numpy as np, wmrlib as w
 from wmrlib import sweeping
 
+class Pool(ProcessPoolExecutor):
+    seen = None
+
+    def submit(self, *task):
+        future = super().submit(*task)
+        if self.seen:
+            future.add_done_callback(self.seen)
+        return future
+
 if __name__ == "__main__":
     sweeping._REMOTE_CHUNK = 400_000
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    pool = ProcessPoolExecutor(2, mp_context=mp.get_context(sys.argv[1]))
+    pool = Pool(2, mp_context=mp.get_context(sys.argv[1]))
     arguments = w.Pose(np.linspace(-9, -1, 3_000_000), 1, 0), w.Pose(0, 0, 0), w.Gains(1, 2, 1)
     w.sweep(w.Pose(np.linspace(-9, -1, 600), 1, 0), *arguments[1:], executor=pool)
-    pressed = []
+    begun, pressed = [], []
     def press():
         pressed.append(time.monotonic())
         os.killpg(0, signal.SIGINT)
-    threading.Timer(1.0, press).start()
+    def seen(future):
+        if not begun:
+            begun.append(future)
+            threading.Timer(0.3, press).start()
+    pool.seen = seen
     with warnings.catch_warnings(record=True, action="always") as warned:
         runs = w.sweep(*arguments, executor=pool, progress=False)
     late = time.monotonic() - pressed[0]

@@ -11,7 +11,7 @@ from wmrlib._compile import compiled, formula
 from wmrlib._loops import rows
 from wmrlib._loops.polar import steered
 from wmrlib._vecmath import NEAREST, vectorised, widest_vectors
-from wmrlib.gains import NO_LIMITS, GainsFields
+from wmrlib.gains import GainsFields
 from wmrlib.kinematics import wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
 from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
@@ -97,7 +97,7 @@ def hold(block, used, step, law, wheels, dt, arrival_radius):
 
 
 @lru_cache
-def loop_of(step, law, limited):
+def loop_of(step, law):
     """The loop that takes every run to its end, or to its last step, for one method and law.
 
     Each is compiled by itself: asking for the law in every step would cost more than the step. A
@@ -106,7 +106,6 @@ def loop_of(step, law, limited):
 
     def loop(states, wheels, dt, arrival_radius):
         widest_vectors()
-        limits = wheels if limited else NO_LIMITS
         block, inside = np.zeros((states.shape[0], BLOCK)), np.zeros(BLOCK, np.int64)
         waiting = width = 0
         while True:
@@ -115,7 +114,7 @@ def loop_of(step, law, limited):
                 return
             used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
             for _ in range(_ROUNDS):
-                hold(block, used, step, law, limits, dt, arrival_radius)
+                hold(block, used, step, law, wheels, dt, arrival_radius)
 
     return compiled(loop)
 
@@ -153,7 +152,6 @@ def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded):
     states = np.zeros((ROWS, runs.shape[1]))
     states[: len(runs)], states[HEADING] = runs, wrap_angle(runs[HEADING])
     states[LEFT] = 0.0 if recorded else samples - 1.0
-    loop = loop_of(step, law, wheels.max_speed < math.inf)
-    loop(states, wheels, dt, max(arrival_radius, NEAREST))
+    loop_of(step, law)(states, wheels, dt, max(arrival_radius, NEAREST))
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
     return conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radius), records
