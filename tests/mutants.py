@@ -50,7 +50,7 @@ PLANS = {
     "sweeping": "jit sweeping",
     "tuning": "jit tuning",
 }
-NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
+NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer"}
 # The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
     ("_loops/adaptive.py", "'<' -> '<=' in while step + 2", "no step at all, from the end"),

@@ -427,7 +427,7 @@ points = wmr.read_track(sys.argv[1]).points
 said += [points.lat, points.lon]
 import matplotlib
 matplotlib.use("agg")
-import wmrlib.plots, wmrlib.symbolic, wmrlib.explorer
+import wmrlib.symbolic, wmrlib.explorer
 print([np.round(np.asarray(each, dtype=complex), 6).tolist() for each in said])
 """
 FULL = "import resource; resource.setrlimit(resource.RLIMIT_FSIZE, (0, 0))"

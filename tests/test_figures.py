@@ -15,10 +15,10 @@ from matplotlib.image import imread
 
 import wmrlib as wmr
 from wmrbook import challenge, figures
+from wmrbook.figures import COLOURS
 from wmrbook.pareto import pareto
 from wmrbook.scatter import stationary_scatter
 from wmrlib import paper
-from wmrlib.plots import COLOURS
 
 GAINS, CIRCLE_GAINS, GENTLE = paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.GENTLE_GAINS
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)

@@ -1,7 +1,6 @@
 # The public names and where they live, for lazy_loader, editors and type checkers.
 from . import metrics as metrics
 from . import paper as paper
-from . import plots as plots
 from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
