@@ -139,46 +139,37 @@ def _scaled(rho, v_over_rho, omega):
     return v_over_rho * rho, omega
 
 
-def _by_law(
-    name: str, arguments: str, laws: dict[str, int], call: Callable[[Law], str]
-) -> Callable:
-    """The function of (arguments, law) that returns what `call` says for the row of that law.
+def _command_of(row: Law) -> str:
+    if row.needs_reference:
+        return "{formula}(*body_error(rho, alpha, theta), v_ref, omega_ref, {gains})"
+    return "_scaled(rho, *{formula}(rho, alpha, theta, {gains}))"
+
+
+def _by_law(name: str, arguments: str, laws: dict[str, int], call_of) -> Callable:
+    """The function of (rho, alpha, theta, `arguments`, law) that makes the call of that law.
 
     In one expression, because numba takes a tenth of a second for each function, however short.
     """
-    cases = [f"{call(LAWS[each])} if law == {code}" for each, code in laws.items()]
+    cases, known = [], dict(globals())
+    for row, code in ((LAWS[each], code) for each, code in laws.items()):
+        used = {"formula": row.formula.__name__, "value": row.value.__name__}
+        known |= {used["formula"]: row.formula, used["value"]: row.value}
+        call = call_of(row).format(**used, gains=f"tuning[{_place_of(row.gains)}]")
+        cases.append(f"{call} if law == {code}")
     text = " else ".join(cases).rpartition(" if ")[0]  # the last law needs no condition
-    known = {each.__name__: each for row in LAWS.values() for each in (row.formula, row.value)}
-    function = eval(f"lambda {arguments}, law: {text}", globals() | known)
+    function = eval(f"lambda rho, alpha, theta, {arguments}, law: {text}", known)
     function.__name__ = function.__qualname__ = name
     return function
 
 
-def _commanding(row: Law) -> str:
-    call, gains = row.formula.__name__, f"tuning[{_place_of(row.gains)}]"
-    if row.needs_reference:
-        return f"{call}(*body_error(rho, alpha, theta), v_ref, omega_ref, {gains})"
-    return f"_scaled(rho, *{call}(rho, alpha, theta, {gains}))"
-
-
-def _steering(row: Law) -> str:
-    return f"{row.formula.__name__}(rho, alpha, theta, gains)"
-
-
-def _valuing(row: Law) -> str:
-    return f"{row.value.__name__}(rho, alpha, theta, tuning[{_place_of(row.gains)}])"
-
-
-_POLAR = "rho, alpha, theta"
-pose_law = formula(_by_law("pose_law", f"{_POLAR}, gains", POSE_LAWS, _steering))
+_rule = _by_law("pose_law", "gains", POSE_LAWS, lambda _: "{formula}(rho, alpha, theta, gains)")
+pose_law = formula(_rule)
 """(v/rho, omega) of a pose law: a function of (rho, alpha, theta, gains, law)."""
-command = compiled(
-    _by_law("command", f"{_POLAR}, v_ref, omega_ref, tuning", TRACKING_LAWS, _commanding)
-)
+_rule = _by_law("command", "v_ref, omega_ref, tuning", TRACKING_LAWS, _command_of)
+command = compiled(_rule)
 """(v, omega) of any of the laws: of (rho, alpha, theta, v_ref, omega_ref, tuning, law)."""
-lyapunov_value_of = formula(
-    _by_law("lyapunov_value_of", f"{_POLAR}, tuning", TRACKING_LAWS, _valuing)
-)
+_rule = _by_law("value", "tuning", TRACKING_LAWS, lambda _: "{value}(rho, alpha, theta, {gains})")
+lyapunov_value_of = formula(_rule)
 """Each law's own Lyapunov function with L = 1, of (rho, alpha, theta, tuning, law)."""
 
 

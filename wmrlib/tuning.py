@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, choice, instance, plain, real, same_shape
+from wmrlib._checks import Real, choice, instance, plain, real, reals
 from wmrlib._modes import mode_damping, mode_frequency, mode_settling
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
@@ -138,10 +138,7 @@ def gains_for(
         both = f"natural_frequency = {natural_frequency!r} and heading_rate = {heading_rate!r}"
         raise ValueError(f"{both} are not allowed together: one of the two is needed")
     wanted = {"distance_rate": distance_rate, **given, "damping": damping, "v_max": v_max}
-    distance_rate, frequency, damping, v_max = (
-        real(name, value, above=0.0) for name, value in wanted.items()
-    )
-    same_shape(**wanted)
+    distance_rate, frequency, damping, v_max = reals(above_0=wanted, **wanted)
     if natural_frequency is None:
         # Above 1 this is 1/(damping - sqrt(damping^2 - 1)) without the cancellation.
         root = np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0))

@@ -22,7 +22,8 @@ from wmrlib.motion import polar_from_pose, pose_of_error, wrap
 MOST_TRIALS = 100_000.0
 TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
 _BEYOND = 1e100  # m or rad: whoever gets so far in so many steps never ends
-_LEFT, _TIME = steps.LEFT // steps.LANES, steps.TIME // steps.LANES
+_KEPT = steps.ALPHA, steps.THETA, steps.LEFT, steps.TIME, steps.PEAK, steps.LENGTH, steps.TRIALS
+_ALPHA, _THETA, _LEFT, _TIME, _PEAK, _LENGTH, _TRIALS = (at // steps.LANES for at in _KEPT)
 _ROUNDS = 4  # steps between two looks at who has finished
 
 
@@ -163,9 +164,8 @@ def begun(runs, whole, radius, most):
     states = np.zeros((steps.KEPT, runs.shape[1]))
     for i in range(runs.shape[1]):
         start, goal, _ = rows.run_of(runs, i)
-        rho, alpha, theta = polar_from_pose(*start, *goal)
-        states[steps.RHO // steps.LANES, i], states[steps.ALPHA // steps.LANES, i] = rho, alpha
-        states[steps.THETA // steps.LANES, i], states[steps.TRIALS // steps.LANES, i] = theta, most
+        rho, states[_ALPHA, i], states[_THETA, i] = polar_from_pose(*start, *goal)
+        states[0, i], states[_TRIALS, i] = rho, most
         states[_LEFT, i] = whole if rho > radius else -whole
         for k in range(4):
             states[steps.K_RHO // steps.LANES + k, i] = runs[6 + k, i]
@@ -177,12 +177,13 @@ def summed_up(states, whole, radius):
     """What became of each run."""
     summary = np.empty((rows.DISTANCE + 1, states.shape[1]))
     for i in range(states.shape[1]):
-        rho, alpha, theta = (
+        rho, alpha, theta, left = (
             states[0, i],
-            states[steps.ALPHA // steps.LANES, i],
-            states[steps.THETA // steps.LANES, i],
+            states[_ALPHA, i],
+            states[_THETA, i],
+            states[_LEFT, i],
         )
-        left, total = states[_LEFT, i], rho + alpha + theta
+        total = rho + alpha + theta
         for row in range(steps.SLOPES // steps.LANES, steps.KEPT):
             total += states[row, i]
         outcome = rows.TIMED_OUT
@@ -193,8 +194,7 @@ def summed_up(states, whole, radius):
             outcome = rows.ARRIVED
         elif left < 0.0:
             outcome = rows.UNFINISHED
-        peak, length = states[steps.PEAK // steps.LANES, i], states[steps.LENGTH // steps.LANES, i]
-        sums = wrap(theta - alpha), peak, length, rho
+        sums = wrap(theta - alpha), states[_PEAK, i], states[_LENGTH, i], rho
         rows.summarise(summary, i, outcome, states[_TIME, i], *sums)
         if outcome == rows.UNFINISHED:
             summary[rows.TIME :, i] = math.nan

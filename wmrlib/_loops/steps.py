@@ -144,10 +144,8 @@ def judge(bench, used, size, smallest, radius, tolerance):
         least = 1.0 if row else smallest
         for i in range(used):
             scale = larger(abs(bench[NEW + row + i]), least)
-            fine, coarse = (
-                abs(bench[_FINE + row + i]) / scale,
-                abs(bench[_COARSE + row + i]) / scale,
-            )
+            fine = abs(bench[_FINE + row + i]) / scale
+            coarse = abs(bench[_COARSE + row + i]) / scale
             bench[_FINE + i] = larger(fine, bench[_FINE + i]) if row else fine
             bench[_COARSE + i] = larger(coarse, bench[_COARSE + i]) if row else coarse
     for i in range(used):
