@@ -37,7 +37,7 @@ class ReadOnly:
         for value in self._values():
             for array in value if isinstance(value, tuple) else (value,):
                 if isinstance(array, np.ndarray):
-                    array.flags.writeable = False
+                    array.setflags(write=False)
 
     def __reduce__(self) -> tuple:
         return type(self), self._values()

@@ -48,11 +48,12 @@ def move(pose, v, omega, dt, step):
 
 @compiled
 def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radius):
-    """Record one run after the goal in column k of `reference`, or its last: (samples, outcome).
+    """Record one run after the goal in column k of `reference`, or its last.
 
-    Stops on arrival; a negative radius never arrives, so a reference is followed to its end.
+    Returns (samples, outcome, largest |omega|, metres rolled). Stops on arrival; a negative radius
+    never arrives, so a reference is followed to its end.
     """
-    pose = start[0], start[1], wrap(start[2])
+    pose, peak, length, rolled = (start[0], start[1], wrap(start[2])), 0.0, 0.0, 0.0
     for k in range(record.shape[0]):
         now = min(k, reference.shape[1] - 1)
         goal = reference[rows.X, now], reference[rows.Y, now], reference[rows.HEADING, now]
@@ -61,11 +62,12 @@ def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radiu
         rows.write(record.T, k, pose, (rho, alpha, theta), v, omega)
         record[k, rows.LYAPUNOV] = lyapunov_value_of(rho, alpha, theta, tuning, law)
         if not math.isfinite(rho + v + omega):
-            return k, rows.DIVERGED
+            return k, rows.DIVERGED, peak, length
+        peak, length = max(peak, abs(omega)), length + rolled
         if rho <= arrival_radius:
-            return k + 1, rows.ARRIVED
-        pose = move(pose, v, omega, dt, step)
-    return record.shape[0], rows.TIMED_OUT
+            return k + 1, rows.ARRIVED, peak, length
+        pose, rolled = move(pose, v, omega, dt, step), dt * abs(v)
+    return record.shape[0], rows.TIMED_OUT, peak, length
 
 
 @formula
@@ -135,12 +137,11 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
         known = last > 0 and math.isfinite(rho + v + omega) and (arrived or left == 0.0)
         if records.shape[2] or not known:
             reference[rows.X, 0], reference[rows.Y, 0], reference[rows.HEADING, 0] = goal
-            count, outcome = drive(run, start, reference, *loop, step, dt, arrival_radius)
-            last, peak, length = max(count - 1, 0), 0.0, 0.0
-            for k in range(count):
-                peak = max(peak, abs(run[k, rows.OMEGA]))
-                length += abs(run[k, rows.V]) * dt if k < last else 0.0
-                for row in range(rows.LYAPUNOV if records.shape[2] else 0):
+            how = step, dt, arrival_radius
+            count, outcome, peak, length = drive(run, start, reference, *loop, *how)
+            last = max(count - 1, 0)
+            for k in range(min(count, records.shape[2])):
+                for row in range(rows.LYAPUNOV):
                     records[row, i, k] = run[k, row]
             rho, alpha, theta = run[last, rows.RHO : rows.V]
         rows.summarise(summary, i, outcome, last * dt, wrap(theta - alpha), peak, length, rho)
