@@ -57,7 +57,7 @@ def number_equations(app, doctree):
 def mark_captions(app, doctree):
     """Give each figure's caption a class, for its looks, and an anchor."""
     for paragraph in doctree.findall(nodes.paragraph):
-        label = paragraph.children[0]
+        label = next(iter(paragraph.children), None)
         if isinstance(label, nodes.strong) and (number := CAPTION.fullmatch(label.astext())):
             paragraph["classes"].append("figure-caption")
             paragraph["ids"].append(f"figure-{number[1]}-{number[2]}")
