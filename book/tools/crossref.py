@@ -57,7 +57,7 @@ def number_equations(app, doctree):
 def mark_captions(app, doctree):
     """Give each figure's caption a class, for its looks, and an anchor."""
     for paragraph in doctree.findall(nodes.paragraph):
-        label = next(iter(paragraph.children), None)
+        label = next((child for child in paragraph.children if child.astext()), None)
         if isinstance(label, nodes.strong) and (number := CAPTION.fullmatch(label.astext())):
             paragraph["classes"].append("figure-caption")
             paragraph["ids"].append(f"figure-{number[1]}-{number[2]}")
