@@ -158,7 +158,7 @@ def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None
     robot_looks = {"fill": "robot"}
     goal_looks = {"fill": "white", "edge": "goal", "lw": 2.5}
     for at, role, name, looks in (
-        (pose, "start", "robot", robot_looks),
+        (pose, "path", "robot", robot_looks),
         (goal, "goal", "goal", goal_looks),
     ):
         style = {"color": COLOURS[role], "lw": 2.0, "ls": "-"}
