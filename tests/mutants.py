@@ -32,7 +32,6 @@ PACKAGE = ROOT / "wmrlib"
 # runs test_NAME without compiling: quicker where a formula is called a few thousand times.
 PLANS = {
     "_vecmath": "jit vecmath",
-    "_modes": "plain tuning",
     "_loops": "jit simulation",
     "_loops/plane": "jit sweeping",
     "_loops/polar": "jit sweeping",

@@ -1,17 +1,14 @@
 """Modes against python-control's poles and simulated runs; gains against the modes asked for."""
 
 import math
-from types import FunctionType
 
 import numpy as np
 import pytest
-import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrbook.pareto import pareto
-from wmrlib import _modes
 
 PAPER = wmr.paper.OUTDOOR_GAINS
 GENTLE = wmr.GENTLE_GAINS
@@ -95,26 +92,16 @@ def test_simulated_runs_decay_as_the_modes_say():
         )
 
 
-def test_the_formulas_take_symbols_and_solve_the_characteristic_equation():
-    rate, k_alpha, h = sp.symbols("rate k_alpha h", positive=True)
-    sympys = {"sqrt": sp.sqrt, "where": lambda yes, a, b: sp.Piecewise((a, yes), (b, True))}
-
-    def of(formula, *symbols):
-        return FunctionType(formula.__code__, formula.__globals__ | sympys)(*symbols)
-
-    frequency, damping = (
-        of(_modes.mode_frequency, rate, h),
-        of(_modes.mode_damping, rate, k_alpha, h),
-    )
-    assert sp.simplify(frequency**2 - h * rate**2) == 0
-    assert sp.simplify(2 * damping * frequency - k_alpha) == 0
-    (slow, _), (half, _) = of(_modes.mode_settling, rate, k_alpha, h).args
-    assert sp.simplify(slow**2 - k_alpha * slow + h * rate**2) == 0
-    assert half == k_alpha / 2
-    for gains in GAINS:
-        values = {rate: gains.k_rho * gains.v_max, k_alpha: gains.k_alpha, h: gains.h}
-        settling = of(_modes.mode_settling, rate, k_alpha, h).subs(values)
-        assert wmr.modes(gains).heading_rate == pytest.approx(float(settling))
+@given(st.builds(wmr.Gains, *[st.floats(-2.0, 1.3).map(lambda x: 10.0**x)] * 4))
+def test_modes_solve_the_characteristic_equation(gains):
+    modes, rate = wmr.modes(gains), gains.k_rho * gains.v_max
+    distance, one, other = modes.poles
+    assert -distance == modes.distance_rate == pytest.approx(rate)
+    assert one + other == pytest.approx(-gains.k_alpha)
+    assert one * other == pytest.approx(gains.h * rate**2) == modes.natural_frequency**2
+    assert modes.heading_rate == pytest.approx(min(-one.real, -other.real))
+    assert 2.0 * modes.damping * modes.natural_frequency == pytest.approx(gains.k_alpha)
+    assert modes.slower == pytest.approx(rate / modes.heading_rate)
 
 
 def test_a_gain_of_zero_leaves_a_mode_that_does_not_settle():

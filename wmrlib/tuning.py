@@ -1,7 +1,7 @@
 """What the gains do near the goal, and gains from a specification: instead of "trial and error".
 
 Equations (7)-(9) linearised at the goal fall into two parts: the distance, rho' = -rate rho, and
-the angles, see `_modes`. The printed law has no such form: its heading never settles.
+the angles, s^2 + k_alpha s + h rate^2 = 0. The printed law's heading never settles.
 """
 
 from __future__ import annotations
@@ -12,7 +12,6 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib._checks import Real, choice, instance, plain, real, reals
-from wmrlib._modes import mode_damping, mode_frequency, mode_settling
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Arrival, Trajectories
@@ -59,14 +58,14 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
     """
     rate, k_alpha, h = _near_goal(gains, law)
     with np.errstate(divide="ignore", invalid="ignore"):
-        slow = mode_settling(rate, k_alpha, h)
+        slow, frequency = _settling(rate, k_alpha, h), rate * np.sqrt(h)
         swing = 1j * np.sqrt(np.maximum(h * rate * rate - (k_alpha / 2) ** 2, 0.0))
         poles = -rate + 0j, swing - slow, slow - k_alpha - swing
         return Modes(
             distance_rate=plain(rate),
             heading_rate=plain(slow),
-            natural_frequency=plain(mode_frequency(rate, h)),
-            damping=plain(mode_damping(rate, k_alpha, h)),
+            natural_frequency=plain(frequency),
+            damping=plain(k_alpha / (2.0 * frequency)),
             poles=tuple(plain(pole) for pole in poles),
             slower=plain(rate / slow),
         )
@@ -99,7 +98,7 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
         if choice("method", method, _METHODS) == "continuous":
             return plain(np.full(np.broadcast(rate, k_alpha, h).shape, np.inf))
         if method == "polar_euler":
-            quicker = k_alpha - mode_settling(rate, k_alpha, h)
+            quicker = k_alpha - _settling(rate, k_alpha, h)
             return plain(np.fmin(np.fmin(k_alpha / (h * rate * rate), 2.0 / quicker), 1.0 / rate))
         fading = k_alpha / (rate * (turn + h * rate))
         flipping = _flipping(turn + rate, rate * (h * rate + 2.0 * turn))
@@ -191,6 +190,13 @@ def _near_goal(gains: Gains, law: str) -> tuple[np.ndarray, np.ndarray, np.ndarr
     k_rho, k_alpha, h, v_max = instance("gains", gains, Gains)
     rate = k_rho * (v_max if choice("law", law, _LAWS) == "corrected" else 1.0)
     return np.asarray(rate), np.asarray(k_alpha), np.asarray(h)
+
+
+def _settling(rate: np.ndarray, k_alpha: np.ndarray, h: np.ndarray) -> np.ndarray:
+    """The rate at which the slower mode of the angles decays: of s^2 + k_alpha s + h rate^2 = 0."""
+    half, stiffness = k_alpha / 2.0, h * rate * rate
+    root = np.sqrt(np.maximum(half * half - stiffness, 0.0))
+    return np.where(root > 0.0, stiffness / (half + root), half)  # half - root does not cancel so
 
 
 def _flipping(b: np.ndarray, a: np.ndarray) -> np.ndarray:
