@@ -27,5 +27,5 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "trips",
         "verdicts",
     ],
-    submod_attrs={"_hints": ["Hint", "Passed"]},
+    submod_attrs={"_hints": ["Hint"]},
 )

@@ -28,19 +28,19 @@ class Hint(AssertionError):  # noqa: N818  (its name is what a student reads)
         return [f"Hint: {self}"]
 
 
-class Passed(str):
-    """What a check returns: a sentence that Jupyter shows without quotation marks."""
-
-    __slots__ = ()
-
-    def __repr__(self) -> str:
-        return str(self)
-
-
 def expect(holds: bool, hint: str) -> None:
     """Raise Hint with this sentence unless the condition holds."""
     if not holds:
         raise Hint(hint)
+
+
+def spread(low: float, high: float, count: int, seed: int = 0) -> list[float]:
+    """Numbers drawn log-uniformly, the largest first: a threshold of one's own meets some of them.
+
+    The first is large, so that a plain mistake shows before lost digits do.
+    """
+    bounds = np.log([low, high])
+    return sorted(np.exp(np.random.default_rng(seed).uniform(*bounds, count)).tolist())[::-1]
 
 
 def angle_equal(one: float, other: float) -> bool:
@@ -73,9 +73,9 @@ def ask(function: Callable, *arguments: Any) -> Any:
         raise Hint(f"a function is needed here, not {shown(function)}.")
     try:
         return function(*arguments)
-    except NotImplementedError:
-        raise Hint(f"`{_name(function)}` is not written yet.") from None
     except Exception as error:
+        if type(error) is NotImplementedError:  # as handed out; `input()` raises a child of it
+            raise Hint(f"`{_name(function)}` is not written yet.") from None
         call = f"`{_name(function)}({', '.join(map(shown, arguments))})`"
         what = f"{type(error).__name__}: {error}"
         raise Hint(f"{call} stops{_line(error)} with {what}.") from None
@@ -194,34 +194,38 @@ def gains_of(name: str, value: Any) -> Gains:
 
 
 def own_work(function: Callable, *allowed: str) -> None:
-    """Raise Hint if the student's function calls the libraries, but for the names `allowed`.
+    """Raise Hint if the student's function names a function of the libraries not in `allowed`.
 
-    It says what is asked for; it does not withstand someone who hides the call.
+    It reads the source, and that of the notebook's functions that are named there. Containers
+    such as Pose and Gains are free. It says what is asked for; it does not withstand someone who
+    hides a name.
     """
     asked = "this task asks for your own formula, with `math` or `numpy`."
     if allowed:
         asked = f"of it only {', '.join(f'`{each}`' for each in allowed)} may be used here."
-    waiting, seen = [function], []
+    waiting, seen, home = [function], [], None
     while waiting:
-        called = waiting.pop(0)
-        library = str(getattr(called, "__module__", "")).partition(".")[0]
+        called = inspect.unwrap(waiting.pop(0))
+        called = getattr(called, "pyfunc", getattr(called, "func", called))  # vectorize, partial
+        library, name = str(getattr(called, "__module__", "")).partition(".")[0], _name(called)
         if library in _LIBRARIES:
-            name = getattr(called, "__name__", "")
-            hint = f"`{_name(function)}` uses `{name}` of {library}; {asked}"
-            expect(name in allowed, hint)
+            free = isinstance(called, type) or name in allowed
+            expect(free, f"`{_name(function)}` uses `{name}` of {library}; {asked}")
         elif isinstance(called, types.FunctionType) and called not in seen:
             seen.append(called)
-            if called.__globals__ is function.__globals__:  # of the notebook
+            home = home or called.__module__
+            if called.__module__ == home or called is function:
                 waiting += [each for each in _named(called) if callable(each)]
 
 
 def _named(function: types.FunctionType) -> Iterator[Any]:
-    """What the global names, attributes and imports in the function's source stand for."""
+    """What the names, attributes and imports in the function's source stand for."""
     try:
         tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
     except (OSError, SyntaxError):
         return  # without its source, a function passes
-    names = function.__globals__ | dict.fromkeys(function.__code__.co_varnames)
+    own = dict.fromkeys(function.__code__.co_varnames)
+    names = function.__globals__ | own | inspect.getclosurevars(function).nonlocals
 
     def value(node: ast.AST) -> Any:
         if isinstance(node, ast.Attribute):

@@ -12,7 +12,6 @@ import sympy as sp
 from wmrbook.conventions import gains_near_goal
 from wmrbook.grading._expressions import expression
 from wmrbook.grading._hints import (
-    Passed,
     angle_equal,
     ask_numbers,
     close,
@@ -21,6 +20,7 @@ from wmrbook.grading._hints import (
     explain,
     own_work,
     rule_out,
+    spread,
 )
 from wmrlib.gains import Gains
 from wmrlib.kinematics import PolarError, Pose, advance, polar_error, pose_from_polar, wrap_angle
@@ -30,15 +30,15 @@ Polar = Callable[[float, float, float, float, float, float], tuple[float, float,
 _ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
-def polar_known(polar: Polar) -> Passed:
+def polar_known(polar: Polar) -> str:
     """polar(x, y, heading, x_goal, y_goal, goal_heading): (rho, alpha, theta), up to full turns."""
     own_work(polar)
     for pose, goal in _pairs(40):
         _explain_polar(ask_numbers(polar, 3, *pose, *goal), pose, goal)
-    return Passed("Distance and both angles are right, in every quadrant.")
+    return "Distance and both angles are right, in every quadrant."
 
 
-def polar_range(polar: Polar) -> Passed:
+def polar_range(polar: Polar) -> str:
     """Both angles are in [-pi, pi], with the goal straight behind and after full turns too."""
     own_work(polar)
     behind = (Pose(0.0, 0.0, 0.3), Pose(-5.0 * math.cos(0.3), -5.0 * math.sin(0.3), 0.3))
@@ -56,10 +56,10 @@ def polar_range(polar: Polar) -> Passed:
     hint = "some goals lie behind the robot, and no angle is larger than "
     expect(most > math.pi / 2.0, f"{hint}{math.degrees(most):.0f} deg.")
     straight = math.degrees(abs(_seen(polar, *behind)[1]))
-    return Passed(f"No angle is larger than half a turn; straight behind is at {straight:.0f} deg.")
+    return f"No angle is larger than half a turn; straight behind is at {straight:.0f} deg."
 
 
-def polar_properties(polar: Polar) -> Passed:
+def polar_properties(polar: Polar) -> str:
     """A mirrored start sees mirrored angles, and a map that is moved and turned changes nothing."""
     own_work(polar)
     for pose, goal in _pairs(20):
@@ -76,10 +76,10 @@ def polar_properties(polar: Polar) -> Passed:
         expect(close(there, distance, 1e-9) and _angles_equal(angles, both), hint)
         hint = "both angles are zero for a robot and a goal that don't face each other."
         expect(abs(both[0]) + abs(both[1]) > 0.0, hint)
-    return Passed("Left mirrors right, and where east is does not matter.")
+    return "Left mirrors right, and where east is does not matter."
 
 
-def tail_rows(tail_model: Any) -> Passed:
+def tail_rows(tail_model: Any) -> str:
     """The rows of rho' and of the tail camera's angle', against a robot that is moved a little."""
     rows = _rows(tail_model)
     if not _fits(rows[:2], slice(2)):
@@ -95,10 +95,10 @@ def tail_rows(tail_model: Any) -> Passed:
                 hint = f"the entry of {name} under {command} is not what a robot measures that "
                 hint += f"{does}: draw it, and look at the sign."
                 expect(_fits([[rows[row][column]]], slice(row, row + 1), column), hint)
-    return Passed("A robot that is moved by a hundredth of a millimetre measures these two rows.")
+    return "A robot that is moved by a hundredth of a millimetre measures these two rows."
 
 
-def tail_third(tail_model: Any) -> Passed:
+def tail_third(tail_model: Any) -> str:
     """The row of beta'."""
     rows = _rows(tail_model)
     hint = "the third row has the opposite sign: "
@@ -106,12 +106,12 @@ def tail_third(tail_model: Any) -> Passed:
     expect(not _fits([[-entry for entry in rows[2]]], slice(2, 3)), hint)
     hint = "the third row is not what a robot measures: "
     expect(_fits(rows[2:], slice(2, 3)), f"{hint}beta changes only as the line of sight swings.")
-    return Passed("And the third row too: the sign is found.")
+    return "And the third row too: the sign is found."
 
 
 def textbook_gains(
     our_gains: Callable[[float, float, float, float], tuple[float, float, float]],
-) -> Passed:
+) -> str:
     """our_gains(k_rho, k_alpha, k_beta, v_max): gains that do the same near the goal."""
     own_work(our_gains)
     for theirs in ((3.0, 8.0, -1.5), *_their_gains(12)):
@@ -139,7 +139,7 @@ def textbook_gains(
             )
             hint = f"near the goal, with alpha = 0, {turn} h, and at its unit."
             expect(close(back[2], theirs[2]), hint)
-    return Passed("Near the goal both laws command the same: (3, 8, -1.5) is stable in both books.")
+    return "Near the goal both laws command the same: (3, 8, -1.5) is stable in both books."
 
 
 def _seen(polar: Polar, pose: Pose, goal: Pose) -> tuple[float, ...]:
@@ -202,10 +202,12 @@ def _moved(pose: Pose) -> Pose:
 
 
 def _pairs(count: int) -> list[tuple[Pose, Pose]]:
-    """Random robots and goals; the first goals lie in the north-east."""
+    """Robots and goals: the first goals lie in the north-east, the last due east, north, ..."""
     random = np.random.default_rng(3)
     rows = random.uniform([-10.0, -10.0, -3.0] * 2, [10.0, 10.0, 3.0] * 2, (count, 6))
     rows[:4, :2], rows[:4, 3:5] = -np.abs(rows[:4, :2]), np.abs(rows[:4, 3:5])
+    for row, far in zip(rows[count // 2 :], spread(1e-3, 1e3, count - count // 2), strict=True):
+        row[3:5] = row[:2] + far * random.permutation([random.choice([-1.0, 1.0]), 0.0])
     return [(Pose(*row[:3]), Pose(*row[3:])) for row in rows.tolist()]
 
 

@@ -8,7 +8,6 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrbook.grading._hints import (
-    Passed,
     ask_number,
     ask_numbers,
     close,
@@ -16,6 +15,7 @@ from wmrbook.grading._hints import (
     explain,
     own_work,
     refuses,
+    spread,
 )
 from wmrlib import paper
 from wmrlib.kinematics import Pose, Reference, advance, polar_error, wrap_angle
@@ -26,7 +26,7 @@ Law = Callable[[float, float, float, float, float], tuple[float, float]]
 STEP, DURATION, LEFT = 0.1, 40.0, 1e-3  # s, s, m: how a law is tried, and what it may leave
 
 
-def residual_known(left_behind: Callable) -> Passed:
+def residual_known(left_behind: Callable) -> str:
     """left_behind(speed, share, k_rho, v_max): the distance, m, at which the law keeps up."""
     own_work(left_behind)
     for speed, share, k_rho, v_max in _goals(20):
@@ -63,13 +63,13 @@ def residual_known(left_behind: Callable) -> Passed:
     hint = f"on the paper's circle the simulation leaves {simulated:.4f} m, "
     expect(abs(told - simulated) < 2e-4, f"{hint}your formula {told:.4f} m.")
     circle = f"On the paper's circle {told:.4f} m ({simulated:.4f} m simulated)"
-    return Passed(f"{circle}; with half of the speed told, {half:.4f} m.")
+    return f"{circle}; with half of the speed told, {half:.4f} m."
 
 
-def residual_limits(left_behind: Callable) -> Passed:
+def residual_limits(left_behind: Callable) -> str:
     """Nothing is left if the whole speed is told; k_rho divides; too fast a goal is refused."""
     own_work(left_behind)
-    for speed, share, k_rho, v_max in _goals(10):
+    for (speed, share, k_rho, v_max), near in zip(_goals(10), spread(1e-3, 1.0, 10), strict=True):
         told = abs(ask_number(left_behind, speed, 1.0, k_rho, v_max))
         expect(told < 1e-12, "if the whole speed is told (share 1), nothing must be left.")
         value = ask_number(left_behind, speed, share, k_rho, v_max)
@@ -79,15 +79,17 @@ def residual_limits(left_behind: Callable) -> Passed:
         expect(faster > value, "a faster goal must be further ahead.")
         hint = "the share of the speed that is not told is more than the feedback can ever "
         hint += "command, so the goal runs away."
-        refuses(left_behind, hint, v_max / (1.0 - share) * 1.01, share, k_rho, v_max)
+        fastest = v_max / (1.0 - share)
+        refuses(left_behind, hint, fastest * (1.0 + near), share, k_rho, v_max)
+        ask_number(left_behind, fastest / (1.0 + near), share, k_rho, v_max)
         quick = ask_number(left_behind, 1.5 * v_max, 0.9, k_rho, v_max)
         hint = "a goal faster than v_max can be followed if enough of its speed is told."
         expect(quick > 0.0, hint)
     nothing = "Nothing left with the whole speed told, half as much with twice k_rho,"
-    return Passed(f"{nothing} and a goal that runs away is refused.")
+    return f"{nothing} and a goal that runs away is refused."
 
 
-def law_follows(steer: Law) -> Passed:
+def law_follows(steer: Law) -> str:
     """steer(rho, alpha, theta, v_ref, omega_ref) -> (v, omega) leaves nothing behind."""
     own_work(steer)
     _at_reference(steer)
@@ -104,10 +106,10 @@ def law_follows(steer: Law) -> Passed:
         _expect_near(steer, left < LEFT, left, DURATION)
         worst = max(worst, left)
     chases = "Six chases of 40 s, on circles and straight lines"
-    return Passed(f"{chases}: at most {1000.0 * worst:.2g} mm are left.")
+    return f"{chases}: at most {1000.0 * worst:.2g} mm are left."
 
 
-def law_mirrors(steer: Law) -> Passed:
+def law_mirrors(steer: Law) -> str:
     """It drives the reference's twist on it, mirrors a mirrored error, and catches up."""
     own_work(steer)
     _at_reference(steer)
@@ -124,10 +126,10 @@ def law_mirrors(steer: Law) -> Passed:
     hint = "with the reference 10 cm straight ahead the robot is no faster than the reference: "
     expect(v > 1.0, f"{hint}it never comes closer.")
     there = "On the reference it does what the reference does, left and right are treated alike,"
-    return Passed(f"{there} and from behind it catches up.")
+    return f"{there} and from behind it catches up."
 
 
-def twist_known(reference_twist: Callable) -> Passed:
+def twist_known(reference_twist: Callable) -> str:
     """reference_twist(x_dot, y_dot, x_ddot, y_ddot) -> (v, omega), against differences."""
     own_work(reference_twist)
     for x_dot, y_dot, x_ddot, y_ddot in _motions(20):
@@ -157,10 +159,10 @@ def twist_known(reference_twist: Callable) -> Passed:
         otherwise += "differentiate it by the chain rule."
         explain(omega, mistakes, otherwise, lambda one, other: close(one, other, 1e-5))
     twenty = "Twenty motions: v is the speed,"
-    return Passed(f"{twenty} and omega the rate at which its direction turns.")
+    return f"{twenty} and omega the rate at which its direction turns."
 
 
-def twist_properties(reference_twist: Callable) -> Passed:
+def twist_properties(reference_twist: Callable) -> str:
     """Right in a turned frame, driven faster, in a mirror, and on the paper's circle."""
     own_work(reference_twist)
     cos, sin = math.cos(2.0), math.sin(2.0)
@@ -198,7 +200,7 @@ def twist_properties(reference_twist: Callable) -> Passed:
     hint = "at t = 0 of (6.1) the twist is not the paper's circle's."
     expect(close(v, speed) and close(omega, turn), hint)
     circle = f"the paper's circle has {v:.3f} m/s and {omega:.3f} rad/s."
-    return Passed(f"Frames, speeds and mirrors agree; {circle}")
+    return f"Frames, speeds and mirrors agree; {circle}"
 
 
 def _goals(count: int) -> list[list[float]]:

@@ -11,7 +11,6 @@ import numpy as np
 
 from wmrbook.grading._hints import (
     Hint,
-    Passed,
     ask,
     ask_numbers,
     expect,
@@ -34,7 +33,7 @@ _GAINS = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
 _ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
-def drive_known(drive: Callable[..., Any]) -> Passed:
+def drive_known(drive: Callable[..., Any]) -> str:
     """drive(start, goal, law, dt, duration): Euler's steps under a law, as `simulate` does them."""
     own_work(drive, *_ALLOWED)
     case = outdoor()
@@ -56,10 +55,10 @@ def drive_known(drive: Callable[..., Any]) -> Passed:
         hint = "it goes on after it has come within 0.05 m of the goal; "
         expect(len(path) == len(right), hint + "that pose should be the last.")
     count = len(simulate(case.start, case.goal, _GAINS, method="euler"))
-    return Passed(f"The paper's trip in {count} poses, each as `simulate` has it.")
+    return f"The paper's trip in {count} poses, each as `simulate` has it."
 
 
-def drive_arrives(drive: Callable[..., Any]) -> Passed:
+def drive_arrives(drive: Callable[..., Any]) -> str:
     """From twelve starts round the goal, the robot ends within 0.05 m and 10 deg."""
     own_work(drive, *_ALLOWED)
     worst = 0.0
@@ -75,10 +74,10 @@ def drive_arrives(drive: Callable[..., Any]) -> Passed:
         hint = f"{from_where} well, but has turned by {turned:.0f} deg on its way: "
         expect(turned < 540.0, hint + "nobody has to. Wrap alpha and theta.")
         worst = max(worst, off)
-    return Passed(f"Twelve of twelve starts park; the worst is {worst:.1f} deg off.")
+    return f"Twelve of twelve starts park; the worst is {worst:.1f} deg off."
 
 
-def drive_obeys(drive: Callable[..., Any]) -> Passed:
+def drive_obeys(drive: Callable[..., Any]) -> str:
     """It does what the law says, whatever the law, and stops when the time is up."""
     own_work(drive, *_ALLOWED)
     commands = {
@@ -100,10 +99,10 @@ def drive_obeys(drive: Callable[..., Any]) -> Passed:
     there = _path(drive, Pose(0.01, 0.0, 0.5), _ORIGIN, _law, 0.1, 4.0)
     hint = "a robot that starts 1 cm from its goal has arrived, and needs no step; "
     expect(len(there) == 1, f"{hint}yours takes {len(there) - 1}.")
-    return Passed("The loop obeys any law, and ends when the time is up.")
+    return "The loop obeys any law, and ends when the time is up."
 
 
-def axes_known(with_x_north: Axes) -> Passed:
+def axes_known(with_x_north: Axes) -> str:
     """with_x_north(x, y, heading): the pose on the map with x north and y east."""
     own_work(with_x_north)
     for pose in _poses(20):
@@ -123,10 +122,10 @@ def axes_known(with_x_north: Axes) -> Passed:
         }
         otherwise = "the heading is wrong: try robots that look north, east and south-east."
         explain(value, mistakes, otherwise, _same_pose)
-    return Passed("A robot that looks north has the heading 90 deg on one map, and 0 on the other.")
+    return "A robot that looks north has the heading 90 deg on one map, and 0 on the other."
 
 
-def axes_properties(with_x_north: Axes) -> Passed:
+def axes_properties(with_x_north: Axes) -> str:
     """Twice leads back, and a left bend on one map is a right bend on the other."""
     own_work(with_x_north)
     for pose in _poses(20):
@@ -141,7 +140,7 @@ def axes_properties(with_x_north: Axes) -> Passed:
         hint = "a robot that drives where it looks on one map does not do so on the other."
         expect(_same_pose(after, advance(new, 1.5, -0.8, 0.5)), hint)
     left = "Twice leads back; left on one map is right on the other,"
-    return Passed(f"{left} so alpha, theta and omega change their signs.")
+    return f"{left} so alpha, theta and omega change their signs."
 
 
 def _explain_seen(seen: list[tuple[float, ...]], start: Pose, goal: Pose) -> None:

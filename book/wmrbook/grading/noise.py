@@ -8,7 +8,6 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrbook.grading._hints import (
-    Passed,
     ask_number,
     ask_numbers,
     close,
@@ -16,6 +15,7 @@ from wmrbook.grading._hints import (
     explain,
     own_work,
     rule_out,
+    spread,
 )
 from wmrbook.scatter import stationary_scatter
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
@@ -23,7 +23,7 @@ from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
 
 
-def scatter_known(scatter: Callable) -> Passed:
+def scatter_known(scatter: Callable) -> str:
     """scatter(lat, lon) -> (mean_lat, mean_lon, std_east, std_north): degrees and metres."""
     own_work(scatter)
     for lat, lon in _logs(12):
@@ -40,10 +40,10 @@ def scatter_known(scatter: Callable) -> Passed:
             expect(off < 2e-9, hint)
         if not _near(stds, (right.std_east, right.std_north)):
             _explain_scatter(stds, lat, lon, right)
-    return Passed("Twelve receivers from the equator to 70 deg: mean and scatter are right.")
+    return "Twelve receivers from the equator to 70 deg: mean and scatter are right."
 
 
-def scatter_properties(scatter: Callable) -> Passed:
+def scatter_properties(scatter: Callable) -> str:
     """The same elsewhere and in another order; twice the error is twice the scatter."""
     own_work(scatter)
     for lat, lon in _logs(5):
@@ -64,10 +64,10 @@ def scatter_properties(scatter: Callable) -> Passed:
     expect(close(2.0 * east, north, 1e-4), hint)
     step = 1e-5 * DEGREE
     north = f"At 60 deg, a step of 1e-5 deg is {step:.2f} m to the north"
-    return Passed(f"{north} and {0.5 * step:.2f} m to the east.")
+    return f"{north} and {0.5 * step:.2f} m to the east."
 
 
-def radius_share(arrival_radius: Callable) -> Passed:
+def radius_share(arrival_radius: Callable) -> str:
     """arrival_radius(share, looks, sigma): this share of simulated robots on the goal stops."""
     own_work(arrival_radius)
     random = np.random.default_rng(91)
@@ -81,10 +81,10 @@ def radius_share(arrival_radius: Callable) -> Passed:
             hint = f"with your radius {100 * stopped:.1f} % of 40 000 robots stop "
             hint += f"(looks: {looks}); {100 * share:.0f} % were wanted."
             _explain_radius(value, share, looks, sigma, hint)
-    return Passed("40 000 simulated robots, six times: the wanted share of them stops.")
+    return "40 000 simulated robots, six times: the wanted share of them stops."
 
 
-def radius_properties(arrival_radius: Callable) -> Passed:
+def radius_properties(arrival_radius: Callable) -> str:
     """Proportional to sigma; half of it with four times the looks; larger for a larger share."""
     own_work(arrival_radius)
     for share, looks, sigma in ((0.2, 2, 0.5), (0.5, 7, 1.5), (0.95, 12, 2.5)):
@@ -97,10 +97,10 @@ def radius_properties(arrival_radius: Callable) -> Passed:
         expect(larger > value, "a larger share needs a larger radius.")
     value = ask_number(arrival_radius, 0.9, 10, 0.5)
     noise = f"Half a metre of noise, ten looks: {value:.2f} m"
-    return Passed(f"{noise} stop 90 % of the robots on the goal.")
+    return f"{noise} stop 90 % of the robots on the goal."
 
 
-def mean_white(scatter_of_mean: Callable) -> Passed:
+def mean_white(scatter_of_mean: Callable) -> str:
     """scatter_of_mean(sigma, n, correlation) for independent looks."""
     own_work(scatter_of_mean)
     for sigma, n in ((0.5, 1), (0.5, 2), (1.5, 9), (3.0, 100)):
@@ -114,20 +114,22 @@ def mean_white(scatter_of_mean: Callable) -> Passed:
             }
             hint = f"{n} independent looks of {sigma:g} m: "
             explain(value, mistakes, f"{hint}the mean comes out with {value:.4g} m.")
-    return Passed("Nine independent looks: a third of the scatter of one.")
+    return "Nine independent looks: a third of the scatter of one."
 
 
-def mean_correlated(scatter_of_mean: Callable) -> Passed:
+def mean_correlated(scatter_of_mean: Callable) -> str:
     """The same for looks that are alike: against the sum over all pairs, and the limits."""
     own_work(scatter_of_mean)
     random, sizes = np.random.default_rng(93), (2, 3, 5, 9, 30, 200)
-    alike = random.uniform(0.2, 0.98, 6).tolist()
-    cases = [(random.uniform(0.3, 3.0), n, c) for n, c in zip(sizes, alike, strict=True)]
+    cases = [
+        (random.uniform(0.3, 3.0), sizes[k % 6], 1.0 - unlike)
+        for k, unlike in enumerate(spread(1e-4, 0.8, 24))
+    ]
     for sigma, n, c in [*cases, (1.0, 4, -0.5)]:
         value, apart = ask_number(scatter_of_mean, sigma, n, c), np.arange(n)
         right = sigma / n * math.sqrt((c ** np.abs(apart[:, None] - apart)).sum())
         if not close(value, right, 1e-6):
-            hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.2f}: "
+            hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.4g}: "
             hint += f"the mean comes out with {value:.4g} m. Write the variance of the sum as a "
             hint += "sum over all pairs of looks, and count how many pairs are k apart."
             _explain_mean(value, sigma, n, c, right, hint)
@@ -136,7 +138,7 @@ def mean_correlated(scatter_of_mean: Callable) -> Passed:
         expect(close(ask_number(scatter_of_mean, 0.8, n, 1.0), 0.8), hint)
     value = ask_number(scatter_of_mean, 1.0, 9, 0.9)
     kept = f"the mean keeps {100 * value:.0f} % of the scatter, where white noise keeps 33 %."
-    return Passed(f"Nine looks, neighbours alike by 0.9: {kept}")
+    return f"Nine looks, neighbours alike by 0.9: {kept}"
 
 
 def _near(stds, others) -> bool:

@@ -9,7 +9,6 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._hints import (
-    Passed,
     ask_number,
     ask_numbers,
     close,
@@ -32,17 +31,17 @@ LOOK, TIME, HEADING_DEG = 0.25, 42.0, 3.0  # s, s, deg: the specification of the
 TRACK_WIDTH, TOP_SPEED = 0.5, 2.0  # m, m/s at the rim
 
 
-def step_real(longest_euler_step: Callable) -> Passed:
+def step_real(longest_euler_step: Callable) -> str:
     """longest_euler_step(poles): seconds, for systems with real poles only."""
     own_work(longest_euler_step)
     random = np.random.default_rng(81)
     for count in (1, 1, 2, 3, 4):
         _check_step(longest_euler_step, random.uniform(-9.0, -0.2, count).tolist())
     fastest = "Right for real poles: the fastest mode alone sets the step,"
-    return Passed(f"{fastest} however little of it is left.")
+    return f"{fastest} however little of it is left."
 
 
-def step_complex(longest_euler_step: Callable) -> Passed:
+def step_complex(longest_euler_step: Callable) -> str:
     """Complex pairs, and systems with both; a pole that does not settle is refused."""
     own_work(longest_euler_step)
     random = np.random.default_rng(82)
@@ -60,10 +59,10 @@ def step_complex(longest_euler_step: Callable) -> Passed:
     same = close(value, longest_step(gains, "polar_euler"), 2e-3)
     expect(same, "the paper's gains come out differently from (8.2).")
     paper_s = f"With the paper's gains: {value:.4f} s in polar coordinates, as by (8.2)."
-    return Passed(f"Right for complex poles too. {paper_s}")
+    return f"Right for complex poles too. {paper_s}"
 
 
-def wheel_speed(wheel_gains: Callable) -> Passed:
+def wheel_speed(wheel_gains: Callable) -> str:
     """wheel_gains(a, g, times) -> (k_p, k_r): the wheel is `times` times as fast.
 
     speed' = -a speed + g u, with u = k_r command - k_p speed.
@@ -89,10 +88,10 @@ def wheel_speed(wheel_gains: Callable) -> Passed:
             otherwise += "what must u be when the speed is right and constant?"
             explain(k_r, {hint: k_p}, otherwise)
     fast = "Twenty motors: as much faster as was asked for,"
-    return Passed(f"{fast} and they settle at exactly what is commanded.")
+    return f"{fast} and they settle at exactly what is commanded."
 
 
-def wheel_units(wheel_gains: Callable) -> Passed:
+def wheel_units(wheel_gains: Callable) -> str:
     """Once as fast needs no feedback, and twice the motor half the gains."""
     own_work(wheel_gains)
     for a, g, times in _motors(5):
@@ -107,10 +106,10 @@ def wheel_units(wheel_gains: Callable) -> Passed:
         expect(np.allclose(gains, 2.0 * strong, rtol=1e-9), hint)
     k_p, _ = ask_numbers(wheel_gains, 2, 4.93, 8.0, 10)
     ten = "Chapter 8's motor, ten times faster:"
-    return Passed(f"{ten} {k_p:.2f} V for each rad/s that is missing.")
+    return f"{ten} {k_p:.2f} V for each rad/s that is missing."
 
 
-def slow_outdoor(gains: Any) -> Passed:
+def slow_outdoor(gains: Any) -> str:
     """The outdoor drive sampled every 0.25 s, with wheels of 2 m/s: in time, straight, feasible."""
     gains = gains_of("`gains`", gains)
     case = paper.outdoor()
@@ -140,10 +139,10 @@ def slow_outdoor(gains: Any) -> Passed:
         hint += f"and get one every {LOOK:g} s)"
     expect(not broken, f"{hint}.")
     parked = f"Parked after {end.time:.1f} s, {heading:.1f} deg off"
-    return Passed(f"{parked}, and no wheel was asked for more than {most:.2f} m/s.")
+    return f"{parked}, and no wheel was asked for more than {most:.2f} m/s."
 
 
-def slow_elsewhere(gains: Any) -> Passed:
+def slow_elsewhere(gains: Any) -> str:
     """The same from 40 other starts that look at most 60 deg beside the goal."""
     gains = gains_of("`gains`", gains)
     random, third = np.random.default_rng(8), math.pi / 3.0
@@ -163,7 +162,7 @@ def slow_elsewhere(gains: Any) -> Passed:
     hint = f"{others} {bad} end more than {2 * HEADING_DEG:g} deg off, "
     expect(bad == 0, f"{hint}the worst {off.max():.0f} deg.")
     starts = "40 other starts, 20 and their mirror images"
-    return Passed(f"{starts}: at most {rim.max():.2f} m/s at a wheel and {off.max():.1f} deg off.")
+    return f"{starts}: at most {rim.max():.2f} m/s at a wheel and {off.max():.1f} deg off."
 
 
 def _rim(v: np.ndarray, omega: np.ndarray) -> np.ndarray:
