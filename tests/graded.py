@@ -16,12 +16,17 @@ STUB = 'raise NotImplementedError("write your answer here")'
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 
 
+def notebook(chapter: str) -> Path:
+    """The lecturer's notebook, with the model answers."""
+    (path,) = (ROOT / "book/course/source" / chapter).glob("*.ipynb")
+    return path
+
+
 @cache
 def cells(chapter: str) -> dict[str, tuple[str, int]]:
     """{id: (source, points)} of the code cells; a cell that is not graded has 0 points."""
-    (path,) = (ROOT / "book/course/source" / chapter).glob("*.ipynb")
     found = {}
-    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+    for cell in json.loads(notebook(chapter).read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "code":
             settings = cell["metadata"]["nbgrader"]
             points = settings.get("points", 0) if settings["grade"] else 0
@@ -90,7 +95,7 @@ def released(source: str) -> str:
 
 
 @cache
-def _given(chapter: str) -> dict:
+def given(chapter: str) -> dict:
     """The names that the notebook's other cells make, with the model's answers."""
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
@@ -107,7 +112,7 @@ def _run(source: str, name: str, names: dict) -> None:
 
 def lost(chapter: str, key: str, source: str) -> dict[str, str]:
     """How those of the graded cells `key` that fail with this answer do so."""
-    names, found = dict(_given(chapter)), {}
+    names, found = dict(given(chapter)), {}
     with contextlib.suppress(Exception):  # then the graded cells fail
         _run(source, f"<{chapter} answer>", names)
     for name in graded(chapter, key):
