@@ -29,10 +29,17 @@ from graded import (
 )
 
 from wmrbook import grading
-from wmrbook.grading import Hint
+from wmrbook.grading import Hint, variants
 
 chapters = pytest.mark.parametrize("chapter", ASSIGNMENTS)
-MODULES = [name for name in dir(grading) if name.islower() and not name.startswith("_")]
+STUDENTS = "Ada", "Emmy", "Grace"
+VARIED = [chapter for chapter in ASSIGNMENTS if "mine" in cells(chapter)]
+for_students = pytest.mark.parametrize(
+    ("chapter", "student"),
+    [(each, name) for each in ASSIGNMENTS for name in (STUDENTS if each in VARIED else ("",))],
+)
+MODULES = [n for n in dir(grading) if n.islower() and n[0] != "_" and n != "variants"]
+MINE = {"trips": "home", "design": "tuned", "sampling": "slow", "lyapunov": "right"}
 
 
 def whole(chapter: str, key: str, answer: str) -> str:
@@ -49,23 +56,23 @@ def whole(chapter: str, key: str, answer: str) -> str:
     return data.get("setup", "") + answer
 
 
-@chapters
-def test_the_model_passes_and_the_release_does_not(chapter):
+@for_students
+def test_the_model_passes_and_the_release_does_not(chapter, student):
     assert 2 <= len(tasks(chapter)) <= 4
     for task in tasks(chapter):
         model, _ = cells(chapter)[task]
-        assert lost(chapter, task, model) == {}
-        empty = lost(chapter, task, released(model))
+        assert lost(chapter, task, model, student) == {}
+        empty = lost(chapter, task, released(model), student)
         assert list(empty) == tasks(chapter)[task]
         assert all(re.search("not written yet|no value yet", each) for each in empty.values())
 
 
-@chapters
-def test_usual_mistakes_lose_exactly_their_points_with_their_hint(chapter):
+@for_students
+def test_usual_mistakes_lose_exactly_their_points_with_their_hint(chapter, student):
     made, found = [], {}
     for wrong in wrong_answers(chapter):
         made.append(wrong["cell"])
-        hints = lost(chapter, wrong["cell"], wrong["source"])
+        hints = lost(chapter, wrong["cell"], wrong["source"], student)
         exactly = list(hints) == wrong["loses"] and any(wrong["hint"] in h for h in hints.values())
         if not exactly or not all(each.startswith("Hint: ") for each in hints.values()):
             found[wrong["name"]] = hints
@@ -73,20 +80,20 @@ def test_usual_mistakes_lose_exactly_their_points_with_their_hint(chapter):
     assert all(made.count(task) >= 2 for task in tasks(chapter))
 
 
-@chapters
-def test_right_answers_pass_in_whatever_form(chapter):
+@for_students
+def test_right_answers_pass_in_whatever_form(chapter, student):
     for key, right in answers(chapter)["right"].items():
         for answer in right:
-            assert lost(chapter, key, whole(chapter, key, answer)) == {}, answer
+            assert lost(chapter, key, whole(chapter, key, answer), student) == {}, answer
 
 
-@chapters
-def test_hints_name_what_is_wrong(chapter):
+@for_students
+def test_hints_name_what_is_wrong(chapter, student):
     found = {}
     for key, table in answers(chapter)["wrong"].items():
         for hint, wrong in table.items():
             for answer in [wrong] if isinstance(wrong, str) else wrong:
-                hints = lost(chapter, key, whole(chapter, key, answer)).values()
+                hints = lost(chapter, key, whole(chapter, key, answer), student).values()
                 if not any(hint in each for each in hints):
                     found[key, answer] = list(hints)
                 assert all(each.startswith("Hint: ") for each in hints), hints
@@ -113,6 +120,7 @@ NONSENSE = [
 
 @pytest.mark.parametrize("module", MODULES)
 def test_nonsense_is_answered_by_a_hint(module):
+    mine = getattr(variants, MINE.get(module, "left"))("Ada")
     module = getattr(grading, module)
     checks = [
         check
@@ -127,15 +135,53 @@ def test_nonsense_is_answered_by_a_hint(module):
             given = (value, lambda *_, v=value: v, lambda v=value: v, lambda *_, v=value: [v] * 2)
             for answer in given:
                 with pytest.raises(Hint) as found:
-                    check(answer)
+                    check(answer, *[mine] * ("mine" in check.__annotations__))
                 assert len(str(found.value)) < 400
 
 
 def test_every_graded_cell_calls_a_check_of_its_own():
     called = [
-        re.fullmatch(r"print\(grading\.(\w+\.\w+)\(\w+\)\)", cells(chapter)[name][0])[1]
+        re.fullmatch(r"print\(grading\.(\w+\.\w+)\(\w+(, mine)?\)\)", cells(chapter)[name][0])[1]
         for chapter in ASSIGNMENTS
         for names in tasks(chapter).values()
         for name in names
     ]
     assert len(called) == len(set(called)) > 70
+
+
+def handed_in_by(monkeypatch, student: str) -> None:
+    monkeypatch.setenv("WMR_STUDENT", student)
+    monkeypatch.setenv("WMR_CLASS", ",".join(STUDENTS))
+
+
+@pytest.mark.parametrize("chapter", VARIED)
+def test_a_classmates_answer_is_known(chapter, monkeypatch):
+    handed_in_by(monkeypatch, "Ada")
+    for task, checks in tasks(chapter).items():
+        if any("mine" in cells(chapter)[each][0] for each in checks):
+            model, _ = cells(chapter)[task]
+            copied = lost(chapter, task, model, "Ada", by="Emmy")
+            assert list(copied) == checks
+            assert all(
+                "right with the numbers of emmy, and not" in each for each in copied.values()
+            )
+
+
+def test_numbers_are_a_names_own(monkeypatch, tmp_path):
+    for make in (getattr(variants, each) for each in ("home", "tuned", "slow", "right", "left")):
+        assert make("Ada") == make(" ada ")
+        shown = {repr(make(f"student {k}")) for k in range(20)}
+        assert len(shown) > 15
+    handed_in_by(monkeypatch, "ada")
+    assert variants.home("") == variants.home("Ada")  # as the grader's folder says
+    with pytest.raises(Hint, match="'grace', but 'ada' handed this in"):
+        variants.expect_own(variants.home("Grace"), repr)
+    with pytest.raises(Hint, match="a text is needed"):
+        variants.home(1)
+    monkeypatch.undo()
+    with pytest.raises(Hint, match="your name is missing"):
+        variants.expect_own(variants.home(""), repr)
+    folder = tmp_path / "autograded" / "Emmy" / "ch00"
+    folder.mkdir(parents=True)
+    monkeypatch.chdir(folder)
+    assert variants.home("") == variants.home("Emmy")

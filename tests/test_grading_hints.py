@@ -16,7 +16,7 @@ import wmrbook.audit
 import wmrlib
 import wmrlib as wmr
 import wmrlib.kinematics
-from wmrbook.grading import Hint, _hints, lyapunov, routes, verdicts
+from wmrbook.grading import Hint, _hints, lyapunov, routes, variants, verdicts
 from wmrbook.published import Published
 from wmrlib import control_law, polar_error
 from wmrlib import control_law as polar_error_of_mine
@@ -215,13 +215,14 @@ def test_the_rule_is_the_audit_s():
 def test_counterexamples_are_those_of_the_paper_s_equations():
     """Written out by hand: the check takes a state if and only if it refutes the claim."""
     random, found = np.random.default_rng(1), []
+    anywhere = variants.Window("ada", variants.left, -math.pi, math.pi)
     for rho, alpha, theta, omega in random.uniform((0.01, -1, -3, -2), (1, 1.5, 3, 4), (60, 4)):
         v = 4 * (1 - np.exp(-2 * rho)) * np.cos(alpha)
         part = -alpha * omega + v * np.sin(alpha) / rho * (0.3 * theta + alpha)
         obeyed = omega > (alpha + 0.3 * theta) * np.cos(alpha) * np.sin(alpha)
         refutes = obeyed and part > 1e-3
         try:
-            verdicts.counterexample_23((rho, alpha, theta, omega))
+            verdicts.counterexample_23((rho, alpha, theta, omega), anywhere)
             found.append("accepted")
             assert refutes
             assert alpha > 0

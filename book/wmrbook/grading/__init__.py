@@ -25,6 +25,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "routes",
         "sampling",
         "trips",
+        "variants",
         "verdicts",
     ],
     submod_attrs={"_hints": ["Hint"]},

@@ -16,6 +16,7 @@ import numpy as np
 from wmrlib.gains import Gains
 
 _LIBRARIES = ("wmrlib", "wmrbook")
+_MOST = 1000.0  # of a gain: what is far beyond any use would take minutes to simulate
 
 
 class Hint(AssertionError):  # noqa: N818  (its name is what a student reads)
@@ -188,9 +189,13 @@ def gains_of(name: str, value: Any) -> Gains:
     try:
         single = all(np.ndim(field) == 0 for field in value)
         expect(single, f"{name} holds arrays; one number a gain is needed.")
-        return Gains(*map(float, value))  # `_replace` does not check what it is given
+        gains = Gains(*map(float, value))  # `_replace` does not check what it is given
     except (TypeError, ValueError, OverflowError) as error:
         raise Hint(f"{name}: {error}.") from None
+    for field, each in zip(Gains._fields, gains, strict=True):
+        hint = f"{name}: {field} = {each:g} is more than {_MOST:g}, which no robot can follow."
+        expect(each <= _MOST, hint)
+    return gains
 
 
 def own_work(function: Callable, *allowed: str) -> None:

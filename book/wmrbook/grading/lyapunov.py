@@ -22,6 +22,7 @@ from wmrbook.grading._hints import (
     ordered,
     rule_out,
 )
+from wmrbook.grading.variants import Window, expect_own
 from wmrlib.paper import OUTDOOR_GAINS
 from wmrlib.symbolic import (
     L,
@@ -142,22 +143,28 @@ def closed(V_rate_closed: Any) -> str:
     return f"V' has {len(terms)} terms, and each shows that it is never positive."
 
 
-def rising(state: Any) -> str:
+def rising(state: Any, mine: Window) -> str:
     """A state with the goal on the right, within 1 m, where (24) as printed makes V rise."""
-    slope = _printed_slope(state)
-    hint = f"V' is {float(slope):.3g} there: V falls. "
-    hint += "Which sign has the extra rate with the goal on the right?"
-    expect(slope > 0, hint)
-    rises = f"V rises there by {float(slope):.2f} a second"
-    return f"{rises}: one state is enough to refute the proof."
+    expect_own(mine, lambda numbers: _rising(state, numbers, 5.0))
+    slope = _rising(state, mine, 0.0)
+    return f"V rises there by {slope:.2f} a second: one state is enough to refute the proof."
 
 
-def rising_fast(state: Any) -> str:
+def rising_fast(state: Any, mine: Window) -> str:
     """The same, with V' more than 5 per second."""
-    slope = _printed_slope(state)
-    hint = f"V' is {float(slope):.3g} per second there; more than 5 is asked for: "
-    expect(slope > 5, f"{hint}what makes the extra rate large?")
-    return f'V rises by {float(slope):.2f} a second, although (25) says "< 0".'
+    expect_own(mine, lambda numbers: _rising(state, numbers, 5.0))
+    return f'V rises by {_rising(state, mine, 5.0):.2f} a second, although (25) says "< 0".'
+
+
+def _rising(state: Any, mine: Window, most: float) -> float:
+    slope = float(_printed_slope(state))
+    hint = f"V' is {slope:.3g} there: V falls. "
+    hint += "Which sign has the extra rate with the goal on the right?"
+    expect(slope > 0.0, hint)
+    hint = f"V' is {slope:.3g} per second there; more than 5 is asked for: "
+    expect(slope > most, f"{hint}what makes the extra rate large?")
+    mine.expect(float(state[1]))
+    return slope
 
 
 def _printed_slope(state: Any) -> sp.Expr:

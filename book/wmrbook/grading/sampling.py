@@ -19,16 +19,9 @@ from wmrbook.grading._hints import (
     refuses,
     rule_out,
 )
-from wmrbook.grading.design import _mirrored
+from wmrbook.grading.variants import Drive, expect_own
 from wmrlib import paper
-from wmrlib.kinematics import Pose
-from wmrlib.metrics import arrival
-from wmrlib.simulation import simulate
-from wmrlib.sweeping import sweep
 from wmrlib.tuning import longest_step, modes
-
-LOOK, TIME, HEADING_DEG = 0.25, 42.0, 3.0  # s, s, deg: the specification of the slow robot
-TRACK_WIDTH, TOP_SPEED = 0.5, 2.0  # m, m/s at the rim
 
 
 def step_real(longest_euler_step: Callable) -> str:
@@ -109,65 +102,64 @@ def wheel_units(wheel_gains: Callable) -> str:
     return f"{ten} {k_p:.2f} V for each rad/s that is missing."
 
 
-def slow_outdoor(gains: Any) -> str:
-    """The outdoor drive sampled every 0.25 s, with wheels of 2 m/s: in time, straight, feasible."""
+def slow_outdoor(gains: Any, mine: Drive) -> str:
+    """The drive with rare looks and slow wheels: in time, straight, feasible."""
+    expect_own(mine, lambda numbers: (_outdoor(gains, numbers), _elsewhere(gains, numbers)))
+    return _outdoor(gains, mine)
+
+
+def slow_elsewhere(gains: Any, mine: Drive) -> str:
+    """The same from 40 other starts that look at most 60 deg beside the goal."""
+    expect_own(mine, lambda numbers: (_outdoor(gains, numbers), _elsewhere(gains, numbers)))
+    return _elsewhere(gains, mine)
+
+
+def _outdoor(gains: Any, mine: Drive) -> str:
     gains = gains_of("`gains`", gains)
-    case = paper.outdoor()
-    run = simulate(case.start, case.goal, gains, dt=LOOK)
-    end, rim = arrival(run), _rim(run.v, run.omega)
+    run, end = mine.run(gains)
+    rim = mine.rim(run)
     most, heading = rim.max(), abs(math.degrees(run.heading_error[-1]))
     broken = []
-    if most > TOP_SPEED:
-        when = int((rim > TOP_SPEED).argmax())
-        turning = abs(run.omega[when]) * TRACK_WIDTH / 2.0
+    if most > mine.v_max:
+        when = int((rim > mine.v_max).argmax())
+        turning = abs(run.omega[when]) * mine.track_width / 2.0
         broken.append(
             f"{run.t[when]:.2f} s after the start a wheel is asked for {rim[when]:.2f} m/s "
             f"({turning:.2f} m/s of it for turning), and in all for up to {most:.2f} m/s, "
-            f"where it has {TOP_SPEED:g} m/s"
+            f"where it has {mine.v_max:.1f} m/s"
         )
     if not end.arrived:
         late = f"it has not arrived after {run.t[-1]:.0f} s"
         broken.append(f"{late}, and is {end.distance:.1f} m from the goal")
-    elif end.time > TIME:
-        broken.append(f"it takes {end.time:.1f} s, where {TIME:g} s are allowed")
-    if end.arrived and heading > HEADING_DEG:
+    elif end.time > mine.time:
+        broken.append(f"it takes {end.time:.1f} s, where {mine.time:.1f} s are allowed")
+    if end.arrived and heading > mine.heading_deg:
         off = f"the heading is {heading:.2f} deg off"
-        broken.append(f"{off}, where {HEADING_DEG:g} deg are allowed")
+        broken.append(f"{off}, where {mine.heading_deg:g} deg are allowed")
     hint, longest = "; and ".join(broken), longest_step(gains)
-    if longest < LOOK:
+    if longest < mine.dt:
         hint += f" (near the goal these gains want a look every {longest:.3f} s, "
-        hint += f"and get one every {LOOK:g} s)"
+        hint += f"and get one every {mine.dt:.3f} s)"
     expect(not broken, f"{hint}.")
     parked = f"Parked after {end.time:.1f} s, {heading:.1f} deg off"
     return f"{parked}, and no wheel was asked for more than {most:.2f} m/s."
 
 
-def slow_elsewhere(gains: Any) -> str:
-    """The same from 40 other starts that look at most 60 deg beside the goal."""
-    gains = gains_of("`gains`", gains)
-    random, third = np.random.default_rng(8), math.pi / 3.0
-    far, sight = random.uniform(20.0, 60.0, 20), random.uniform(-math.pi, math.pi, 20)
-    heading = sight + random.uniform(-third, third, 20)
-    starts = _mirrored(-far * np.cos(sight), -far * np.sin(sight), heading)
-    options = {"dt": LOOK, "duration": 80.0, "trajectories": True, "progress": False}
-    ends, runs = sweep(starts, Pose(0.0, 0.0, 0.0), gains, **options)
+def _elsewhere(gains: Any, mine: Drive) -> str:
+    gains, look = gains_of("`gains`", gains), {"method": "arc", "dt": mine.dt}
+    ends, runs = mine.elsewhere(gains, math.pi / 3.0, 80.0, trajectories=True, **look)
     others, late = "of 40 other starts,", np.sum(~ends.arrived)
-    expect(late == 0, f"{others} {late} have not arrived after 80 s.")
-    rim = np.nan_to_num(_rim(runs.v, runs.omega)).max(axis=1)
-    bad = np.sum(rim > TOP_SPEED)
-    hint = f"{others} {bad} ask a wheel for more than {TOP_SPEED:g} m/s, "
+    expect(late == 0, f"{others} {late} have not arrived after {80.0 * mine.second:.0f} s.")
+    rim = np.nan_to_num(mine.rim(runs)).max(axis=1)
+    bad = np.sum(rim > mine.v_max)
+    hint = f"{others} {bad} ask a wheel for more than {mine.v_max:.1f} m/s, "
     expect(bad == 0, f"{hint}the worst for {rim.max():.2f} m/s.")
     off = np.abs(np.degrees(ends.heading_error))
-    bad = np.sum(off > 2.0 * HEADING_DEG)
-    hint = f"{others} {bad} end more than {2 * HEADING_DEG:g} deg off, "
+    bad = np.sum(off > 2.0 * mine.heading_deg)
+    hint = f"{others} {bad} end more than {2 * mine.heading_deg:g} deg off, "
     expect(bad == 0, f"{hint}the worst {off.max():.0f} deg.")
     starts = "40 other starts, 20 and their mirror images"
     return f"{starts}: at most {rim.max():.2f} m/s at a wheel and {off.max():.1f} deg off."
-
-
-def _rim(v: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """The speed of the faster wheel."""
-    return np.abs(v) + 0.5 * TRACK_WIDTH * np.abs(omega)
 
 
 def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float:

@@ -14,23 +14,22 @@ from wmrbook.grading._hints import (
     ask,
     ask_truth,
     expect,
-    expect_value,
     explain,
+    gains_of,
     number,
     ordered,
     rule_out,
     spread,
 )
+from wmrbook.grading.variants import Drive, expect_own
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position, point_at
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
-from wmrlib.metrics import arrival
-from wmrlib.paper import GPS_POINT_1, GPS_POINT_2, OUTDOOR_GAINS, outdoor
+from wmrlib.paper import GPS_POINT_1, GPS_POINT_2, outdoor
 from wmrlib.runs import Arrival, Trajectory
 from wmrlib.simulation import simulate
 
 Poses = Callable[[GeoPoint, GeoPoint, float, float], tuple[Pose, Pose]]
-HOME_TIME, HOME_HEADING_DEG, HOME_OMEGA = 22.0, 5.0, 1.6  # s, deg, rad/s
 _FLAT = 1e-3  # rad: a flat map's direction against the great circle's, over 200 m
 _GAINS = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
 
@@ -109,29 +108,29 @@ def parked_wrapped(parked: Callable[[Trajectory], bool]) -> str:
     return f"{len(runs)} robots that look west have parked, on either side of 180 deg."
 
 
-def home_time(my_gains: Any) -> str:
-    """From GPS point 2 back to 1, with the headings exchanged, in less than 22 s."""
-    result = _home(my_gains)
-    hint = f"it takes {result.time:.1f} s. "
+def home_time(my_gains: Any, mine: Drive) -> str:
+    """Back again, with the headings exchanged, in time."""
+    end = _home(my_gains, mine)
+    hint = f"it takes {end.time:.1f} s. "
     hint += "Which gain decides how far from the goal the robot begins to slow down?"
-    expect(result.time < HOME_TIME, hint)
-    return f"Home after {result.time:.1f} s."
+    expect(end.time < mine.time, hint)
+    return f"Home after {end.time:.1f} s."
 
 
-def home_heading(my_gains: Any) -> str:
+def home_heading(my_gains: Any, mine: Drive) -> str:
     """It ends less than 5 deg off."""
-    off = abs(math.degrees(_home(my_gains).heading_error))
+    off = abs(math.degrees(_home(my_gains, mine).heading_error))
     hint = f"it arrives with {off:.1f} deg left over. The heading must settle before the distance: "
-    expect(off < HOME_HEADING_DEG, f"{hint}brake earlier, or give it more weight.")
+    expect(off < mine.heading_deg, f"{hint}brake earlier, or give it more weight.")
     return f"Parked, with {off:.1f} deg left over."
 
 
-def home_omega(my_gains: Any) -> str:
-    """It never turns faster than 1.6 rad/s."""
-    fastest = _home(my_gains).peak_omega
+def home_omega(my_gains: Any, mine: Drive) -> str:
+    """It never turns too fast."""
+    fastest = _home(my_gains, mine).peak_omega
     hint = f"it turns with up to {fastest:.2f} rad/s. "
     hint += "At the start, by k_alpha, or in the last bend? `wmrbook.figures.dashboard` shows it."
-    expect(fastest < HOME_OMEGA, hint)
+    expect(fastest < mine.omega, hint)
     return f"Never faster than {fastest:.2f} rad/s."
 
 
@@ -145,20 +144,19 @@ def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: f
     ]
 
 
-def _home(my_gains: Any) -> Arrival:
-    expect_value("`my_gains`", my_gains)
-    hint = "`my_gains` has to be a `wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=4.0)`."
-    expect(isinstance(my_gains, Gains), hint)
-    for name, each in zip(Gains._fields, my_gains, strict=True):
-        number(f"`my_gains.{name}`", each)
-    most = OUTDOOR_GAINS.v_max
-    hint = f"v_max = {my_gains.v_max:g} m/s: the robot can do no more than {most:g} m/s."
-    expect(my_gains.v_max <= most, hint)
-    case = outdoor()
-    run = simulate(case.goal, case.start, my_gains, method="continuous")
-    hint = f"it does not come home within a minute: after {run.t[-1]:.0f} s "
-    expect(arrival(run).arrived, f"{hint}it is {run.rho[-1]:.2f} m away.")
-    return arrival(run)
+def _home(my_gains: Any, mine: Drive) -> Arrival:
+    gains_of("`my_gains`", my_gains)
+
+    def right(numbers: Drive) -> None:
+        _, end = numbers.run(numbers.gains("`my_gains`", my_gains))
+        off = abs(math.degrees(end.heading_error)) < numbers.heading_deg
+        expect(end.time < numbers.time and off and end.peak_omega < numbers.omega, "no")
+
+    expect_own(mine, right)
+    run, end = mine.run(mine.gains("`my_gains`", my_gains))
+    hint = f"it does not come home: after {run.t[-1]:.0f} s "
+    expect(end.arrived, f"{hint}it is {run.rho[-1]:.2f} m away.")
+    return end
 
 
 @cache

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._hints import ask_number, ask_truth, expect, numbers, own_work, spread
+from wmrbook.grading.variants import Window, expect_own
 from wmrlib import paper
 from wmrlib.geodesy import EARTH_RADIUS_M
 
@@ -29,8 +30,19 @@ _ZEROS = (
 )
 
 
-def counterexample_23(state: Any) -> str:
+def counterexample_23(state: Any, mine: Window) -> str:
     """(rho, alpha, theta, omega) that obeys (23), and where (21)'s second part is positive."""
+    expect_own(mine, lambda numbers: _refuted_23(state, numbers))
+    return _refuted_23(state, mine)
+
+
+def counterexample_26(state: Any, mine: Window) -> str:
+    """(rho, alpha, theta) where the right side of (26) is positive, which the paper denies."""
+    expect_own(mine, lambda numbers: _refuted_26(state, numbers))
+    return _refuted_26(state, mine)
+
+
+def _refuted_23(state: Any, mine: Window) -> str:
     rho, alpha, theta, omega = numbers("`state_23`", state, 4)
     _expect_state(rho, alpha, theta)
     from wmrbook.equations import EQUATIONS
@@ -47,12 +59,12 @@ def counterexample_23(state: Any) -> str:
     question = "Which omega does (21) itself ask for, and where is that more than (23) asks for?"
     _expect_positive(part, "(23) is obeyed, but the second part of (21)", question)
     _expect_left(alpha)
+    mine.expect(alpha)
     obeyed = f"omega = {omega:.3g} rad/s obeys (23), and the second part of (21) is {part:+.3g} 1/s"
     return f"{obeyed}: (23) does not do what it is for."
 
 
-def counterexample_26(state: Any) -> str:
-    """(rho, alpha, theta) where the right side of (26) is positive, which the paper denies."""
+def _refuted_26(state: Any, mine: Window) -> str:
     rho, alpha, theta = numbers("`state_26`", state, 3)
     _expect_state(rho, alpha, theta)
     expect(abs(alpha) > 1e-6, "(26) divides by A: choose another alpha than 0.")
@@ -64,6 +76,7 @@ def counterexample_26(state: Any) -> str:
     terms += "and which of the others gets small near the goal?"
     _expect_positive(value, "here the right side of (26)", terms)
     _expect_left(alpha)
+    mine.expect(alpha)
     here = f"Here the right side of (26) is {value:+.3g} 1/s"
     return f"{here}: the last line of the paper's proof is no proof."
 
