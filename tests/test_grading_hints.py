@@ -16,7 +16,7 @@ import wmrbook.audit
 import wmrlib
 import wmrlib as wmr
 import wmrlib.kinematics
-from wmrbook.grading import Hint, _hints, lyapunov, routes, variants, verdicts
+from wmrbook.grading import Hint, _asking, _hints, lyapunov, routes, variants, verdicts
 from wmrbook.published import Published
 from wmrlib import control_law, polar_error
 from wmrlib import control_law as polar_error_of_mine
@@ -31,7 +31,7 @@ def test_a_number_may_have_many_forms():
     numpys = [np.float32(1.5), np.longdouble(1.5), np.array(1.5), np.array([1.5])]
     others = [np.array(1.5, dtype=object), sp.Rational(3, 2), fractions.Fraction(3, 2)]
     for value in [1.5, *numpys, *others, decimal.Decimal("1.5")]:
-        assert _hints.number("it", value) == 1.5
+        assert _asking.number("it", value) == 1.5
 
 
 def test_what_is_no_number():
@@ -47,16 +47,16 @@ def test_what_is_no_number():
     }.items():
         for value in values:
             with pytest.raises(Hint, match=hint):
-                _hints.number("it", value)
+                _asking.number("it", value)
 
 
 def test_numbers_need_an_order():
     for answer in [(1, 2), [1, 2], np.array([1, 2]), sp.Matrix([1, 2]), {"v": 1, "w": 2}.values()]:
-        assert _hints.ask_numbers(lambda a=answer: a, 2) == (1.0, 2.0)
+        assert _asking.ask_numbers(lambda a=answer: a, 2) == (1.0, 2.0)
     unordered = {1.0, 2.0}, frozenset({1.0, 2.0}), {1.0: 3.0, 2.0: 4.0}
     for answer in [*unordered, "12", 1.0, [1.0], (1.0, 2.0, 3.0), None]:
         with pytest.raises(Hint, match="2 numbers, separated by commas, are needed"):
-            _hints.ask_numbers(lambda a=answer: a, 2)
+            _asking.ask_numbers(lambda a=answer: a, 2)
 
 
 def by_name(*_):
@@ -183,7 +183,7 @@ def test_data_and_names_of_ones_own_are_no_call():
         _hints.own_work(eval("lambda x: wmr.wrap_angle(x)"), *allowed)  # without a source
     _hints.own_work(with_names_that_wmrlib_has_too, *ALLOWED)
     with pytest.raises(Hint, match=r"stops.* with ModuleNotFoundError"):
-        _hints.ask(with_a_module_that_does_not_exist, 1.0)
+        _asking.ask(with_a_module_that_does_not_exist, 1.0)
 
 
 def test_the_bowl_falls_along_wmrlib_s_robot():

@@ -1,4 +1,4 @@
-"""What a check says, and how it asks for an answer: whatever comes, a student reads a hint."""
+"""What a check says: why an answer does not pass, and whether it is the student's own."""
 
 from __future__ import annotations
 
@@ -7,16 +7,13 @@ import inspect
 import math
 import textwrap
 import types
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from typing import Any, NoReturn
 
 import numpy as np
 
-from wmrlib.gains import Gains
-
 _LIBRARIES = ("wmrlib", "wmrbook")
-_MOST = 1000.0  # of a gain: what is far beyond any use would take minutes to simulate
 
 
 class Hint(AssertionError):  # noqa: N818  (its name is what a student reads)
@@ -68,136 +65,6 @@ def explain(
     raise Hint(otherwise)
 
 
-def ask(function: Callable, *arguments: Any) -> Any:
-    """Return what the student's function returns; if it fails, raise a Hint that says how."""
-    if not callable(function):
-        raise Hint(f"a function is needed here, not {shown(function)}.")
-    try:
-        return function(*arguments)
-    except Exception as error:
-        if type(error) is NotImplementedError:  # as handed out; `input()` raises a child of it
-            raise Hint(f"`{_name(function)}` is not written yet.") from None
-        call = f"`{_name(function)}({', '.join(map(shown, arguments))})`"
-        what = f"{type(error).__name__}: {error}"
-        raise Hint(f"{call} stops{_line(error)} with {what}.") from None
-
-
-def ask_number(function: Callable, *arguments: Any) -> float:
-    """As `ask`, for a function that is to return one finite number."""
-    return number(f"`{_name(function)}`", ask(function, *arguments), returned=True)
-
-
-def ask_numbers(function: Callable, count: int, *arguments: Any) -> tuple[float, ...]:
-    """As `ask`, for a function that is to return `count` finite numbers."""
-    answer, name = ask(function, *arguments), f"`{_name(function)}`"
-    needed = f"{count} numbers, separated by commas, are needed."
-    expect(ordered(answer, count), f"{name} returns {shown(answer)}; {needed}")
-    return tuple(number(name, each, returned=True) for each in answer)
-
-
-def ask_truth(function: Callable, *arguments: Any) -> bool:
-    """As `ask`, for a function that is to return True or False."""
-    answer, name = ask(function, *arguments), _name(function)
-    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
-    truth = isinstance(answer, (bool, np.bool_))
-    expect(truth, f"`{name}` returns {shown(answer)}; True or False is needed.")
-    return bool(answer)
-
-
-def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np.ndarray:
-    """As `ask`, for a function that is to return finite numbers in this shape."""
-    name, answer = _name(function), ask(function, *arguments)
-    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
-    array = floats(answer)
-    needed = " x ".join(map(str, shape)) + (" number is" if shape == (1,) else " numbers are")
-    expect(array is not None, f"`{name}` returns {shown(answer)}; {needed} needed.")
-    got = " x ".join(map(str, array.shape)) + " numbers" if array.ndim else "one number"
-    expect(array.shape == shape, f"`{name}` returns {got}; {needed} needed.")
-    finite = bool(np.isfinite(array).all())
-    expect(finite, f"`{name}` returns a number that is not finite: {shown(array.tolist())}.")
-    return array
-
-
-def refuses(function: Callable, hint: str, *arguments: Any) -> None:
-    """Raise Hint unless the student's function raises ValueError for these arguments."""
-    try:
-        function(*arguments)
-    except ValueError:
-        return
-    except Exception:
-        ask(function, *arguments)  # which says what happened
-    call = f"`{_name(function)}({', '.join(map(shown, arguments))})`"
-    raise Hint(f"{call} must raise ValueError: {hint}")
-
-
-def expect_value(name: str, value: Any) -> None:
-    """Raise Hint if the value is still None or an ellipsis, as it was handed out."""
-    expect(value is not None and value is not ..., f"{name} has no value yet.")
-
-
-def ordered(answer: Any, count: int) -> bool:
-    """Whether it is `count` things in order, which a set or dict has not; a text is one thing."""
-    try:
-        return not isinstance(answer, (str, bytes, Set, Mapping)) and len(answer) == count
-    except TypeError:  # one number, an array without dimensions, a class
-        return False
-
-
-def number(name: str, value: Any, *, returned: bool = False) -> float:
-    """Return the value as a float if it is one finite real number, of any type; else raise Hint."""
-    verb = "returns" if returned else "is"
-    if value is None or value is ...:
-        nothing = f"{name} returns nothing: does it end in `return`?"
-        raise Hint(nothing if returned else f"{name} has no value yet.")
-    single = isinstance(value, (np.generic, np.ndarray)) and value.size == 1
-    plain = value.item() if single else value
-    if not isinstance(plain, (bool, str, bytes, np.ndarray)):
-        with suppress(TypeError, ValueError):
-            try:
-                converted = float(plain)
-            except OverflowError:
-                raise Hint(f"{name} {verb} a number that is far too large.") from None
-            finite = math.isfinite(converted)
-            expect(finite, f"{name} {verb} {converted}, which is not a finite number.")
-            return converted
-    raise Hint(f"{name} {verb} {shown(value)}; one number is needed.")
-
-
-def numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
-    """Return the value as `count` finite floats, or raise Hint."""
-    expect_value(name, value)
-    row = isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) == 1
-    needed = f"{count} numbers, separated by commas, are needed."
-    expect(row and len(value) == count, f"{name} is {shown(value)}; {needed}")
-    return tuple(number(name, each) for each in value)
-
-
-def floats(value: Any) -> np.ndarray | None:
-    """Return the real numbers of a list, matrix or array; None if anything else is in it."""
-    try:
-        given = np.asarray(value)
-        return given.astype(float) if given.dtype.kind in "iufO" else None
-    except (TypeError, ValueError, OverflowError):
-        return None
-
-
-def gains_of(name: str, value: Any) -> Gains:
-    """Return the value if it is Gains of single numbers, or raise Hint."""
-    expect_value(name, value)
-    needed = "`wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=...)` is needed."
-    expect(isinstance(value, Gains), f"{name} is {shown(value)}; {needed}")
-    try:
-        single = all(np.ndim(field) == 0 for field in value)
-        expect(single, f"{name} holds arrays; one number a gain is needed.")
-        gains = Gains(*map(float, value))  # `_replace` does not check what it is given
-    except (TypeError, ValueError, OverflowError) as error:
-        raise Hint(f"{name}: {error}.") from None
-    for field, each in zip(Gains._fields, gains, strict=True):
-        hint = f"{name}: {field} = {each:g} is more than {_MOST:g}, which no robot can follow."
-        expect(each <= _MOST, hint)
-    return gains
-
-
 def own_work(function: Callable, *allowed: str) -> None:
     """Raise Hint if the student's function names a function of the libraries not in `allowed`.
 
@@ -212,10 +79,10 @@ def own_work(function: Callable, *allowed: str) -> None:
     while waiting:
         called = inspect.unwrap(waiting.pop(0))
         called = getattr(called, "pyfunc", getattr(called, "func", called))  # vectorize, partial
-        library, name = str(getattr(called, "__module__", "")).partition(".")[0], _name(called)
+        library, name = str(getattr(called, "__module__", "")).partition(".")[0], name_of(called)
         if library in _LIBRARIES:
             free = isinstance(called, type) or name in allowed
-            expect(free, f"`{_name(function)}` uses `{name}` of {library}; {asked}")
+            expect(free, f"`{name_of(function)}` uses `{name}` of {library}; {asked}")
         elif isinstance(called, types.FunctionType) and called not in seen:
             seen.append(called)
             home = home or called.__module__
@@ -245,18 +112,7 @@ def _named(function: types.FunctionType) -> Iterator[Any]:
         yield value(node)
 
 
-def _line(error: BaseException) -> str:
-    """Return where in the student's code it happened: the last line of a cell that it passed."""
-    place, trace = "", error.__traceback__
-    while trace:
-        file = trace.tb_frame.f_code.co_filename
-        if "ipykernel" in file or "<ipython" in file:
-            place = f" in line {trace.tb_lineno} of its cell"
-        trace = trace.tb_next
-    return place
-
-
-def _name(function: Callable) -> str:
+def name_of(function: Callable) -> str:
     return getattr(function, "__name__", type(function).__name__)
 
 

@@ -10,18 +10,9 @@ import numpy as np
 import sympy as sp
 
 from wmrbook.conventions import gains_near_goal
+from wmrbook.grading._asking import ask_numbers, expect_value
 from wmrbook.grading._expressions import expression
-from wmrbook.grading._hints import (
-    angle_equal,
-    ask_numbers,
-    close,
-    expect,
-    expect_value,
-    explain,
-    own_work,
-    rule_out,
-    spread,
-)
+from wmrbook.grading._hints import angle_equal, close, expect, explain, own_work, rule_out, spread
 from wmrlib.gains import Gains
 from wmrlib.kinematics import PolarError, Pose, advance, polar_error, pose_from_polar, wrap_angle
 from wmrlib.symbolic import angle, rho

@@ -7,16 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    ask_number,
-    ask_numbers,
-    close,
-    expect,
-    explain,
-    own_work,
-    refuses,
-    spread,
-)
+from wmrbook.grading._asking import ask_number, ask_numbers, refuses
+from wmrbook.grading._hints import close, expect, explain, own_work, spread
 from wmrlib import paper
 from wmrlib.kinematics import Pose, Reference, advance, polar_error, wrap_angle
 from wmrlib.metrics import residual

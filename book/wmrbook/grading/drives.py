@@ -9,16 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Hint,
-    ask,
-    ask_numbers,
-    expect,
-    explain,
-    floats,
-    own_work,
-    rule_out,
-)
+from wmrbook.grading._asking import ask, ask_numbers, floats
+from wmrbook.grading._hints import Hint, expect, explain, own_work, rule_out
 from wmrlib.control import control_law
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, advance, polar_error, wrap_angle

@@ -7,16 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    ask_number,
-    ask_numbers,
-    close,
-    expect,
-    explain,
-    own_work,
-    rule_out,
-    spread,
-)
+from wmrbook.grading._asking import ask_number, ask_numbers
+from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
 from wmrlib.geodesy import (
     GeoPoint,
     haversine_distance,

@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import ask_numbers, close, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._asking import ask_numbers
+from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
 from wmrlib.control import control_law, lyapunov_rate
 from wmrlib.gains import Gains
 from wmrlib.kinematics import polar_rate

@@ -13,16 +13,10 @@ from typing import Any
 import sympy as sp
 
 from wmrbook.equations import EQUATIONS
+from wmrbook.grading._asking import expect_value, number, ordered
 from wmrbook.grading._expressions import equal_at, expression, points, values
-from wmrbook.grading._hints import (
-    Hint,
-    expect,
-    expect_value,
-    number,
-    ordered,
-    rule_out,
-)
-from wmrbook.grading.variants import Window, expect_own
+from wmrbook.grading._hints import Hint, expect, rule_out
+from wmrbook.grading.variants import Window, checked
 from wmrlib.paper import OUTDOOR_GAINS
 from wmrlib.symbolic import (
     L,
@@ -143,28 +137,26 @@ def closed(V_rate_closed: Any) -> str:
     return f"V' has {len(terms)} terms, and each shows that it is never positive."
 
 
-def rising(state: Any, mine: Window) -> str:
+def _rising(state: Any, mine: Window) -> str:
     """A state with the goal on the right, within 1 m, where (24) as printed makes V rise."""
-    expect_own(mine, lambda numbers: _rising(state, numbers, 5.0))
-    slope = _rising(state, mine, 0.0)
-    return f"V rises there by {slope:.2f} a second: one state is enough to refute the proof."
-
-
-def rising_fast(state: Any, mine: Window) -> str:
-    """The same, with V' more than 5 per second."""
-    expect_own(mine, lambda numbers: _rising(state, numbers, 5.0))
-    return f'V rises by {_rising(state, mine, 5.0):.2f} a second, although (25) says "< 0".'
-
-
-def _rising(state: Any, mine: Window, most: float) -> float:
     slope = float(_printed_slope(state))
     hint = f"V' is {slope:.3g} there: V falls. "
     hint += "Which sign has the extra rate with the goal on the right?"
     expect(slope > 0.0, hint)
-    hint = f"V' is {slope:.3g} per second there; more than 5 is asked for: "
-    expect(slope > most, f"{hint}what makes the extra rate large?")
     mine.expect(float(state[1]))
-    return slope
+    return f"V rises there by {slope:.2f} a second: one state is enough to refute the proof."
+
+
+def _rising_fast(state: Any, mine: Window) -> str:
+    """The same, with V' more than 5 per second."""
+    _rising(state, mine)
+    slope = float(_printed_slope(state))
+    hint = f"V' is {slope:.3g} per second there; more than 5 is asked for: "
+    expect(slope > 5.0, f"{hint}what makes the extra rate large?")
+    return f'V rises by {slope:.2f} a second, although (25) says "< 0".'
+
+
+rising, rising_fast = checked(_rising, _rising_fast)
 
 
 def _printed_slope(state: Any) -> sp.Expr:

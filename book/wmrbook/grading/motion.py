@@ -7,7 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import Hint, ask_numbers, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._asking import ask_numbers
+from wmrbook.grading._hints import Hint, expect, explain, own_work, rule_out, spread
 from wmrlib.kinematics import Pose, advance, twist_to_wheels, wheels_to_twist, wrap_angle
 
 Pair = tuple[float, float]

@@ -7,15 +7,12 @@ from collections.abc import Callable
 
 import numpy as np
 
+from wmrbook.grading._asking import ask, ask_number, ask_numbers, floats
 from wmrbook.grading._hints import (
     angle_equal,
-    ask,
-    ask_number,
-    ask_numbers,
     close,
     expect,
     explain,
-    floats,
     own_work,
     rule_out,
     shown,

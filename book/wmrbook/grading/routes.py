@@ -9,17 +9,8 @@ from operator import xor
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    ask_array,
-    ask_number,
-    ask_truth,
-    close,
-    expect,
-    explain,
-    own_work,
-    rule_out,
-    spread,
-)
+from wmrbook.grading._asking import ask_array, ask_number, ask_truth
+from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
 from wmrlib.geodesy import EARTH_RADIUS_M
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m

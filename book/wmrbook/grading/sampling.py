@@ -8,18 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    ask_number,
-    ask_numbers,
-    close,
-    expect,
-    explain,
-    gains_of,
-    own_work,
-    refuses,
-    rule_out,
-)
-from wmrbook.grading.variants import Drive, expect_own
+from wmrbook.grading._asking import ask_number, ask_numbers, gains_of, refuses
+from wmrbook.grading._hints import close, expect, explain, own_work, rule_out
+from wmrbook.grading.variants import Drive, checked
 from wmrlib import paper
 from wmrlib.tuning import longest_step, modes
 
@@ -102,25 +93,12 @@ def wheel_units(wheel_gains: Callable) -> str:
     return f"{ten} {k_p:.2f} V for each rad/s that is missing."
 
 
-def slow_outdoor(gains: Any, mine: Drive) -> str:
-    """The drive with rare looks and slow wheels: in time, straight, feasible."""
-    expect_own(mine, lambda numbers: (_outdoor(gains, numbers), _elsewhere(gains, numbers)))
-    return _outdoor(gains, mine)
-
-
-def slow_elsewhere(gains: Any, mine: Drive) -> str:
-    """The same from 40 other starts that look at most 60 deg beside the goal."""
-    expect_own(mine, lambda numbers: (_outdoor(gains, numbers), _elsewhere(gains, numbers)))
-    return _elsewhere(gains, mine)
-
-
 def _outdoor(gains: Any, mine: Drive) -> str:
+    """The drive with rare looks and slow wheels: in time, straight, feasible."""
     gains = gains_of("`gains`", gains)
     run, end = mine.run(gains)
-    rim = mine.rim(run)
-    most, heading = rim.max(), abs(math.degrees(run.heading_error[-1]))
-    broken = []
-    if most > mine.v_max:
+    rim, broken = mine.rim(run), []
+    if (most := rim.max()) > mine.v_max:
         when = int((rim > mine.v_max).argmax())
         turning = abs(run.omega[when]) * mine.track_width / 2.0
         broken.append(
@@ -128,38 +106,28 @@ def _outdoor(gains: Any, mine: Drive) -> str:
             f"({turning:.2f} m/s of it for turning), and in all for up to {most:.2f} m/s, "
             f"where it has {mine.v_max:.1f} m/s"
         )
-    if not end.arrived:
-        late = f"it has not arrived after {run.t[-1]:.0f} s"
-        broken.append(f"{late}, and is {end.distance:.1f} m from the goal")
-    elif end.time > mine.time:
-        broken.append(f"it takes {end.time:.1f} s, where {mine.time:.1f} s are allowed")
-    if end.arrived and heading > mine.heading_deg:
-        off = f"the heading is {heading:.2f} deg off"
-        broken.append(f"{off}, where {mine.heading_deg:g} deg are allowed")
-    hint, longest = "; and ".join(broken), longest_step(gains)
-    if longest < mine.dt:
+    late = f"it has not arrived after {run.t[-1]:.0f} s, and is {end.distance:.1f} m from the goal"
+    hint = "; and ".join(broken + (mine.broken(end) if end.arrived else [late]))
+    if (longest := longest_step(gains)) < mine.dt:
         hint += f" (near the goal these gains want a look every {longest:.3f} s, "
         hint += f"and get one every {mine.dt:.3f} s)"
-    expect(not broken, f"{hint}.")
-    parked = f"Parked after {end.time:.1f} s, {heading:.1f} deg off"
+    expect(bool(end.arrived and not mine.broken(end) and not broken), f"{hint}.")
+    parked = f"Parked after {end.time:.1f} s, {math.degrees(abs(end.heading_error)):.1f} deg off"
     return f"{parked}, and no wheel was asked for more than {most:.2f} m/s."
 
 
 def _elsewhere(gains: Any, mine: Drive) -> str:
+    """The same from 40 other starts that look at most 60 deg beside the goal."""
     gains, look = gains_of("`gains`", gains), {"method": "arc", "dt": mine.dt}
     ends, runs = mine.elsewhere(gains, math.pi / 3.0, 80.0, trajectories=True, **look)
-    others, late = "of 40 other starts,", np.sum(~ends.arrived)
-    expect(late == 0, f"{others} {late} have not arrived after {80.0 * mine.second:.0f} s.")
-    rim = np.nan_to_num(mine.rim(runs)).max(axis=1)
+    parked, rim = mine.parked(ends, 80.0), np.nan_to_num(mine.rim(runs)).max(axis=1)
     bad = np.sum(rim > mine.v_max)
-    hint = f"{others} {bad} ask a wheel for more than {mine.v_max:.1f} m/s, "
+    hint = f"of 40 other starts, {bad} ask a wheel for more than {mine.v_max:.1f} m/s, "
     expect(bad == 0, f"{hint}the worst for {rim.max():.2f} m/s.")
-    off = np.abs(np.degrees(ends.heading_error))
-    bad = np.sum(off > 2.0 * mine.heading_deg)
-    hint = f"{others} {bad} end more than {2 * mine.heading_deg:g} deg off, "
-    expect(bad == 0, f"{hint}the worst {off.max():.0f} deg.")
-    starts = "40 other starts, 20 and their mirror images"
-    return f"{starts}: at most {rim.max():.2f} m/s at a wheel and {off.max():.1f} deg off."
+    return f"{parked}, with at most {rim.max():.2f} m/s at a wheel."
+
+
+slow_outdoor, slow_elsewhere = checked(_outdoor, _elsewhere)
 
 
 def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float:

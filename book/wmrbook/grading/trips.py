@@ -10,18 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    ask,
-    ask_truth,
-    expect,
-    explain,
-    gains_of,
-    number,
-    ordered,
-    rule_out,
-    spread,
-)
-from wmrbook.grading.variants import Drive, expect_own
+from wmrbook.grading._asking import ask, ask_truth, number, ordered
+from wmrbook.grading._hints import expect, explain, rule_out, spread
+from wmrbook.grading.variants import Drive, checked
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position, point_at
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
@@ -108,7 +99,7 @@ def parked_wrapped(parked: Callable[[Trajectory], bool]) -> str:
     return f"{len(runs)} robots that look west have parked, on either side of 180 deg."
 
 
-def home_time(my_gains: Any, mine: Drive) -> str:
+def _time(my_gains: Any, mine: Drive) -> str:
     """Back again, with the headings exchanged, in time."""
     end = _home(my_gains, mine)
     hint = f"it takes {end.time:.1f} s. "
@@ -117,7 +108,7 @@ def home_time(my_gains: Any, mine: Drive) -> str:
     return f"Home after {end.time:.1f} s."
 
 
-def home_heading(my_gains: Any, mine: Drive) -> str:
+def _heading(my_gains: Any, mine: Drive) -> str:
     """It ends less than 5 deg off."""
     off = abs(math.degrees(_home(my_gains, mine).heading_error))
     hint = f"it arrives with {off:.1f} deg left over. The heading must settle before the distance: "
@@ -125,13 +116,16 @@ def home_heading(my_gains: Any, mine: Drive) -> str:
     return f"Parked, with {off:.1f} deg left over."
 
 
-def home_omega(my_gains: Any, mine: Drive) -> str:
+def _omega(my_gains: Any, mine: Drive) -> str:
     """It never turns too fast."""
     fastest = _home(my_gains, mine).peak_omega
     hint = f"it turns with up to {fastest:.2f} rad/s. "
     hint += "At the start, by k_alpha, or in the last bend? `wmrbook.figures.dashboard` shows it."
     expect(fastest < mine.omega, hint)
     return f"Never faster than {fastest:.2f} rad/s."
+
+
+home_time, home_heading, home_omega = checked(_time, _heading, _omega)
 
 
 def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: float) -> list[Pose]:
@@ -145,14 +139,6 @@ def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: f
 
 
 def _home(my_gains: Any, mine: Drive) -> Arrival:
-    gains_of("`my_gains`", my_gains)
-
-    def right(numbers: Drive) -> None:
-        _, end = numbers.run(numbers.gains("`my_gains`", my_gains))
-        off = abs(math.degrees(end.heading_error)) < numbers.heading_deg
-        expect(end.time < numbers.time and off and end.peak_omega < numbers.omega, "no")
-
-    expect_own(mine, right)
     run, end = mine.run(mine.gains("`my_gains`", my_gains))
     hint = f"it does not come home: after {run.t[-1]:.0f} s "
     expect(end.arrived, f"{hint}it is {run.rho[-1]:.2f} m away.")
@@ -175,59 +161,34 @@ def _runs() -> tuple[tuple[Trajectory, bool, str], ...]:
     counts, home = "counts as parked", drive(_GAINS, case.start, case.goal)
     backwards = ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
     away = replace(home, **{name: getattr(home, name)[::-1] for name in backwards})
+    right = {
+        "a run that ends 5 cm and less than 1 deg from its goal has parked, "
+        "and is said not to have.": home,
+        "a run that stands on its goal and looks the right way has parked, "
+        "though it went on until the time was up.": simulate(case.start, case.goal, _GAINS, **late),
+        "a robot 6 cm past its goal that looks exactly the goal's way has parked: "
+        "alpha and theta are 180 deg there, and neither is the error of the heading.": stop(
+            Pose(0.06, 0.0, 0.0), 0.1
+        ),
+    }
+    wrong = {
+        f"a run that ends 32 deg off to the left {counts}: "
+        "does it look at the heading, and in which unit?": drive(case.gains, case.goal, case.start),
+        f"a run that ends 27 deg off to the right {counts}: its heading error is negative.": drive(
+            case.gains, case.start, case.goal
+        ),
+        f"a run that is still far away when the time is up {counts}: "
+        "does it look at the distance?": stop(Pose(-50.0, 0.0, 0.0), 0.05, duration=5.0),
+        f"a run {counts} because it has arrived, but its arrival radius was 0.5 m: "
+        "look at the distance at the end.": stop(Pose(-50.0, 0.0, 0.0), 0.5),
+        f"a run that was on its goal, and drove away again, {counts}: "
+        "look at the last sample.": away,
+        f"a robot that looks 90 deg at a goal that looks -90 deg {counts}: "
+        "they are opposite directions.": stop(north._replace(x=-0.06), 0.1, south),
+    }
     return (
-        (
-            home,
-            True,
-            "a run that ends 5 cm and less than 1 deg from its goal has parked, "
-            "and is said not to have.",
-        ),
-        (
-            drive(case.gains, case.goal, case.start),
-            False,
-            f"a run that ends 32 deg off to the left {counts}: "
-            "does it look at the heading, and in which unit?",
-        ),
-        (
-            drive(case.gains, case.start, case.goal),
-            False,
-            f"a run that ends 27 deg off to the right {counts}: its heading error is negative.",
-        ),
-        (
-            stop(Pose(-50.0, 0.0, 0.0), 0.05, duration=5.0),
-            False,
-            f"a run that is still far away when the time is up {counts}: "
-            "does it look at the distance?",
-        ),
-        (
-            stop(Pose(-50.0, 0.0, 0.0), 0.5),
-            False,
-            f"a run {counts} because it has arrived, but its arrival radius was 0.5 m: "
-            "look at the distance at the end.",
-        ),
-        (
-            simulate(case.start, case.goal, _GAINS, **late),
-            True,
-            "a run that stands on its goal and looks the right way has parked, "
-            "though it went on until the time was up.",
-        ),
-        (
-            stop(Pose(0.06, 0.0, 0.0), 0.1),
-            True,
-            "a robot 6 cm past its goal that looks exactly the goal's way has parked: "
-            "alpha and theta are 180 deg there, and neither is the error of the heading.",
-        ),
-        (
-            away,
-            False,
-            f"a run that was on its goal, and drove away again, {counts}: look at the last sample.",
-        ),
-        (
-            stop(north._replace(x=-0.06), 0.1, south),
-            False,
-            f"a robot that looks 90 deg at a goal that looks -90 deg {counts}: "
-            "they are opposite directions.",
-        ),
+        *((run, False, hint) for hint, run in wrong.items()),
+        *((run, True, hint) for hint, run in right.items()),
         *_borders(stop),
     )
 

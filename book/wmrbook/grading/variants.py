@@ -15,13 +15,16 @@ import hashlib
 import math
 import os
 from collections.abc import Callable
+from contextlib import suppress
 from dataclasses import dataclass
+from functools import wraps
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import Hint, expect, gains_of
+from wmrbook.grading._asking import gains_of
+from wmrbook.grading._hints import Hint, expect
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.metrics import arrival
@@ -91,6 +94,18 @@ class Drive:
             robot += f"{self.v_max:.1f} m/s"
         return f"from {' to '.join(places)}: {limits}; {robot}"
 
+    def broken(self, end: Arrival) -> list[str]:
+        """Return the limits of time and heading that the drive does not keep."""
+        off = abs(math.degrees(end.heading_error))
+        return [
+            f"{what}, where {most:.3g} {unit} are allowed"
+            for value, most, unit, what in (
+                (end.time, self.time, "s", f"it takes {end.time:.1f} s"),
+                (off, self.heading_deg, "deg", f"the heading is {off:.2f} deg off"),
+            )
+            if value > most
+        ]
+
     def gains(self, name: str, value: Any) -> Gains:
         """Return the value if it is gains that this robot can have, or raise Hint."""
         gains = gains_of(name, value)
@@ -118,28 +133,50 @@ class Drive:
         options |= {"duration": seconds * self.second, "arrival_radius": self.arrival_radius}
         return sweep(starts, Pose(0.0, 0.0, 0.0), gains, progress=False, **options)
 
+    def parked(self, ends: Arrival, seconds: float) -> str:
+        """Say how the other starts have ended; raise Hint unless they have parked in time."""
+        late = np.sum(~ends.arrived)
+        hint = f"of 40 other starts, {late} have not arrived after {seconds * self.second:.0f} s."
+        expect(late == 0, hint)
+        off, most = np.abs(np.degrees(ends.heading_error)), 2.0 * self.heading_deg
+        hint = f"of 40 other starts, {np.sum(off > most)} end more than {most:g} deg off, "
+        expect(off.max() <= most, f"{hint}the worst {off.max():.0f} deg.")
+        starts = "40 other starts, 20 and their mirror images"
+        return f"{starts}: all arrive, the worst {off.max():.1f} deg off"
+
     def rim(self, run: Any) -> np.ndarray:
         """The speed of the faster wheel."""
         return np.abs(run.v) + 0.5 * self.track_width * np.abs(run.omega)
 
 
-def expect_own(mine: Window | Drive, right: Callable[[Any], Any]) -> None:
-    """Raise Hint if the name is missing or another's, or if a classmate's numbers fit, not these.
+def checked(*parts: Callable[[Any, Any], str]) -> list[Callable[[Any, Any], str]]:
+    """Return the checks of a task with numbers: its parts, which see first whose the answer is.
 
-    right(numbers) raises a Hint if the answer is not right with these numbers.
+    A part takes the answer and the numbers. Raises Hint if the name is missing or another's, or if
+    all parts hold with a classmate's numbers, and not with these.
     """
-    student, others = _class()
-    expect(bool(mine.name), "your name is missing at the top: your numbers are made from it.")
-    hint = f"`name` is '{mine.name}', but '{student}' handed this in, whose numbers are others."
-    expect(student in ("", mine.name), hint)
-    for numbers in (mine, *(mine.make(other) for other in others if other != mine.name)):
-        try:
-            right(numbers)
-        except Hint:
-            continue
-        fits = numbers.name == mine.name
-        expect(fits, f"this is right with the numbers of {numbers.name}, and not with yours.")
-        return
+
+    def right(answer: Any, numbers: Any) -> bool:
+        with suppress(Hint):
+            return all(part(answer, numbers) for part in parts)
+        return False
+
+    def check(part: Callable[[Any, Any], str]) -> Callable[[Any, Any], str]:
+        @wraps(part)
+        def whole(answer: Any, mine: Any) -> str:
+            student, others = _class()
+            expect(bool(mine.name), "your name is missing at the top: it makes your numbers.")
+            hint = f"`name` is '{mine.name}', but '{student}' handed this in, who has others."
+            expect(student in ("", mine.name), hint)
+            if not right(answer, mine):
+                for name in others:
+                    hint = f"this is right with the numbers of {name}, and not with yours."
+                    expect(not right(answer, mine.make(name)), hint)
+            return part(answer, mine)
+
+        return whole
+
+    return [check(part) for part in parts]
 
 
 def home(name: str) -> Drive:

@@ -9,8 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import ask_number, ask_truth, expect, numbers, own_work, spread
-from wmrbook.grading.variants import Window, expect_own
+from wmrbook.grading._asking import ask_number, ask_truth, numbers
+from wmrbook.grading._hints import expect, own_work, spread
+from wmrbook.grading.variants import Window, checked
 from wmrlib import paper
 from wmrlib.geodesy import EARTH_RADIUS_M
 
@@ -30,19 +31,8 @@ _ZEROS = (
 )
 
 
-def counterexample_23(state: Any, mine: Window) -> str:
-    """(rho, alpha, theta, omega) that obeys (23), and where (21)'s second part is positive."""
-    expect_own(mine, lambda numbers: _refuted_23(state, numbers))
-    return _refuted_23(state, mine)
-
-
-def counterexample_26(state: Any, mine: Window) -> str:
-    """(rho, alpha, theta) where the right side of (26) is positive, which the paper denies."""
-    expect_own(mine, lambda numbers: _refuted_26(state, numbers))
-    return _refuted_26(state, mine)
-
-
 def _refuted_23(state: Any, mine: Window) -> str:
+    """(rho, alpha, theta, omega) that obeys (23), and where (21)'s second part is positive."""
     rho, alpha, theta, omega = numbers("`state_23`", state, 4)
     _expect_state(rho, alpha, theta)
     from wmrbook.equations import EQUATIONS
@@ -65,6 +55,7 @@ def _refuted_23(state: Any, mine: Window) -> str:
 
 
 def _refuted_26(state: Any, mine: Window) -> str:
+    """(rho, alpha, theta) where the right side of (26) is positive, which the paper denies."""
     rho, alpha, theta = numbers("`state_26`", state, 3)
     _expect_state(rho, alpha, theta)
     expect(abs(alpha) > 1e-6, "(26) divides by A: choose another alpha than 0.")
@@ -79,6 +70,9 @@ def _refuted_26(state: Any, mine: Window) -> str:
     mine.expect(alpha)
     here = f"Here the right side of (26) is {value:+.3g} 1/s"
     return f"{here}: the last line of the paper's proof is no proof."
+
+
+counterexample_23, counterexample_26 = *checked(_refuted_23), *checked(_refuted_26)
 
 
 def rule_known(agrees: Callable) -> str:
