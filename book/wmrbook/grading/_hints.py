@@ -7,7 +7,7 @@ import inspect
 import math
 import textwrap
 import types
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from typing import Any, NoReturn
 
@@ -41,9 +41,21 @@ def spread(low: float, high: float, count: int, seed: int = 0) -> list[float]:
     return sorted(np.exp(np.random.default_rng(seed).uniform(*bounds, count)).tolist())[::-1]
 
 
+def drawn(seed: int, count: int, *bounds: tuple[float, float]) -> list[list[float]]:
+    """Rows of numbers drawn evenly, each column between its two bounds."""
+    low, high = zip(*bounds, strict=True)
+    return np.random.default_rng(seed).uniform(low, high, (count, len(bounds))).tolist()
+
+
 def angle_equal(one: float, other: float) -> bool:
     """Up to full turns."""
     return abs(math.remainder(one - other, 2.0 * math.pi)) < 1e-9
+
+
+def same_pose(value: Sequence[float], right: Sequence[float], tolerance: float = 1e-9) -> bool:
+    """Whether two poses are the same up to full turns; the place to 1e-7 m at least."""
+    near = math.dist(value[:2], right[:2]) < max(tolerance, 1e-7)
+    return near and abs(math.remainder(value[2] - right[2], 2.0 * math.pi)) < tolerance
 
 
 def close(value: float, right: float, relative: float = 1e-6, absolute: float = 1e-9) -> bool:

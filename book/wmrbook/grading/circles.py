@@ -8,20 +8,21 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers, refuses
-from wmrbook.grading._hints import close, expect, explain, own_work, spread
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, spread
 from wmrlib import paper
 from wmrlib.kinematics import Pose, Reference, advance, polar_error, wrap_angle
 from wmrlib.metrics import residual
 from wmrlib.simulation import track
 
 Law = Callable[[float, float, float, float, float], tuple[float, float]]
+_GOAL = (0.2, 1.2), (0.1, 0.8), (0.3, 4.0), (1.5, 5.0)  # speed, share, k_rho, v_max
 STEP, DURATION, LEFT = 0.1, 40.0, 1e-3  # s, s, m: how a law is tried, and what it may leave
 
 
 def residual_known(left_behind: Callable) -> str:
     """left_behind(speed, share, k_rho, v_max): the distance, m, at which the law keeps up."""
     own_work(left_behind)
-    for speed, share, k_rho, v_max in _goals(20):
+    for speed, share, k_rho, v_max in drawn(62, 20, *_GOAL):
         value = ask_number(left_behind, speed, share, k_rho, v_max)
         far = -v_max * math.expm1(-k_rho * value) if k_rho * value > -50.0 else -math.inf
         commanded = share * speed + far
@@ -32,16 +33,14 @@ def residual_known(left_behind: Callable) -> str:
             return -math.log1p(-untold / v_max) / k_rho
 
         rest = (1.0 - share) * speed
-        right = distance(rest)
+        right, slow = distance(rest), rest / v_max / k_rho
         mistakes = {
             "the distance comes out negative: the logarithm of a number below 1 is.": -right,
             "`log10` undoes 10^x; (22) has an exponential.": right / math.log(10.0),
             "this is (6.2), for a law that knows nothing of the goal's speed.": distance(speed),
             "which part of the speed must the error bring about: "
             "the part that is told, or the other one?": distance(share * speed),
-            "this holds for a slow goal only: (22) is not proportional to rho.": rest
-            / v_max
-            / k_rho,
+            "this holds for a slow goal only: (22) is not proportional to rho.": slow,
             "k_rho is missing: the result has no metres.": right * k_rho,
         }
         hint = f"at your distance, {value:.4g} m, the law commands {commanded:.4g} m/s, "
@@ -61,7 +60,9 @@ def residual_known(left_behind: Callable) -> str:
 def residual_limits(left_behind: Callable) -> str:
     """Nothing is left if the whole speed is told; k_rho divides; too fast a goal is refused."""
     own_work(left_behind)
-    for (speed, share, k_rho, v_max), near in zip(_goals(10), spread(1e-3, 1.0, 10), strict=True):
+    for (speed, share, k_rho, v_max), near in zip(
+        drawn(62, 10, *_GOAL), spread(1e-3, 1.0, 10), strict=True
+    ):
         told = abs(ask_number(left_behind, speed, 1.0, k_rho, v_max))
         expect(told < 1e-12, "if the whole speed is told (share 1), nothing must be left.")
         value = ask_number(left_behind, speed, share, k_rho, v_max)
@@ -105,9 +106,8 @@ def law_mirrors(steer: Law) -> str:
     """It drives the reference's twist on it, mirrors a mirrored error, and catches up."""
     own_work(steer)
     _at_reference(steer)
-    low, high = (0.1, -3.0, -3.0, 0.2, -1.0), (3.0, 3.0, 3.0, 2.0, 1.0)
-    rows = np.random.default_rng(61).uniform(low, high, (20, 5)).tolist()
-    for rho, alpha, theta, v_ref, omega_ref in rows:
+    errors = (0.1, 3.0), (-3.0, 3.0), (-3.0, 3.0)
+    for rho, alpha, theta, v_ref, omega_ref in drawn(61, 20, *errors, (0.2, 2.0), (-1.0, 1.0)):
         v, omega = ask_numbers(steer, 2, rho, alpha, theta, v_ref, omega_ref)
         v_there, omega_there = ask_numbers(steer, 2, rho, -alpha, -theta, v_ref, -omega_ref)
         mirror = "mirror the scene, left for right: "
@@ -136,15 +136,14 @@ def twist_known(reference_twist: Callable) -> str:
         expect(close(v, speed), "v is not the length of the velocity (x', y').")
         if close(omega, turning, 1e-5, 1e-6):
             continue
-        hint = "a path may turn to the right, too: omega has a sign."
+        aside, hint = turning * speed, "a path may turn to the right, too: omega has a sign."
         if turning > 0.0:
             hint = "omega has the wrong sign: "
             hint += "which way does a circle driven counter-clockwise turn?"
         mistakes = {
             hint: -turning,
             "this is the path's curvature in 1/m; omega is a rate in rad/s.": turning / speed,
-            "omega is in rad/s, and this is the acceleration to the side, in m/s^2.": turning
-            * speed,
+            "omega is in rad/s, and this is the acceleration to the side, in m/s^2.": aside,
             "what does the derivative of atan2(y', x') divide by?": turning * speed**2,
         }
         otherwise = "omega is not the rate of the heading atan2(y', x'): "
@@ -195,15 +194,9 @@ def twist_properties(reference_twist: Callable) -> str:
     return f"Frames, speeds and mirrors agree; {circle}"
 
 
-def _goals(count: int) -> list[list[float]]:
-    low, high = (0.2, 0.1, 0.3, 1.5), (1.2, 0.8, 4.0, 5.0)
-    return np.random.default_rng(62).uniform(low, high, (count, 4)).tolist()
-
-
 def _motions(count: int) -> list[list[float]]:
     """Velocities and accelerations; the first turns to the left."""
-    rows = np.random.default_rng(63).uniform(-2.0, 2.0, (count - 1, 4))
-    return [[1.0, 0.3, -0.2, 0.9], *rows.tolist()]
+    return [[1.0, 0.3, -0.2, 0.9], *drawn(63, count - 1, *[(-2.0, 2.0)] * 4)]
 
 
 def _chases() -> list[tuple[Callable[[float], Reference], Pose]]:

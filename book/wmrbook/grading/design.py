@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._asking import ask, ask_array, ask_numbers
-from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
 from wmrbook.grading.variants import Drive, checked
 from wmrlib import paper
 from wmrlib.control import control_law
@@ -114,9 +114,8 @@ tuned_outdoor, tuned_elsewhere = checked(_outdoor, _elsewhere)
 
 
 def _cases(count: int) -> list[tuple[float, Gains]]:
-    low, high = (0.3, 0.3, 0.5, 0.2, 1.5), (6.0, 1.5, 4.0, 3.0, 5.0)
-    rows = np.random.default_rng(71).uniform(low, high, (count, 5)).tolist()
-    return [(row[0], Gains(*row[1:])) for row in rows]
+    gains = (0.3, 1.5), (0.5, 4.0), (0.2, 3.0), (1.5, 5.0)
+    return [(rho, Gains(*row)) for rho, *row in drawn(71, count, (0.3, 6.0), *gains)]
 
 
 def _differences(rho: float, gains: Gains) -> np.ndarray:
@@ -177,10 +176,8 @@ def _angles(k_alpha: float, h: float, pull: float) -> np.ndarray:
 
 
 def _pole_cases(count: int) -> list[tuple[tuple, float]]:
-    low, high = (-2.0, -4.0, -4.0, 1.5), (-0.3, -0.5, -0.5, 5.0)
-    random, cases = np.random.default_rng(72), []
-    for n in range(count):
-        distance, first, second, v_max = random.uniform(low, high).tolist()
+    bounds, cases = ((-2.0, -0.3), (-4.0, -0.5), (-4.0, -0.5), (1.5, 5.0)), []
+    for n, (distance, first, second, v_max) in enumerate(drawn(72, count, *bounds)):
         pair = (first, second) if n % 2 else (complex(first, second), complex(first, -second))
         cases.append(((distance, *pair), v_max))
     return cases

@@ -5,10 +5,8 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 
-import numpy as np
-
 from wmrbook.grading._asking import ask_numbers
-from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
 from wmrlib.control import control_law, lyapunov_rate
 from wmrlib.gains import Gains
 from wmrlib.kinematics import polar_rate
@@ -23,18 +21,14 @@ def law_known(law: Callable[..., tuple[float, float]]) -> str:
         rho, alpha, theta = state
         (v, omega), right = ask_numbers(law, 2, *state, *gains), control_law(*state, gains)
         if not close(v, right[0]):
+            aicardi, far = control_law(*state, gains, "aicardi")[0], gains.v_max * math.cos(alpha)
+            degrees = control_law(rho, math.radians(alpha), theta, gains)[0]
+            away = "with the goal behind, the robot would drive away from it."
             mistakes = {
-                "v lacks its cosine: "
-                "with the goal behind, the robot would drive away from it.": right[0]
-                / math.cos(alpha),
-                "v grows with the distance without a limit: (22) has an exponential.": control_law(
-                    *state, gains, "aicardi"
-                )[0],
-                "v does not fall near the goal: (22) has an exponential.": gains.v_max
-                * math.cos(alpha),
-                "this cosine takes radians for degrees: alpha comes in radians.": control_law(
-                    rho, math.radians(alpha), theta, gains
-                )[0],
+                f"v lacks its cosine: {away}": right[0] / math.cos(alpha),
+                "v grows with the distance without a limit: (22) has an exponential.": aicardi,
+                "v does not fall near the goal: (22) has an exponential.": far,
+                "this cosine takes radians for degrees: alpha comes in radians.": degrees,
             }
             explain(v, mistakes, "v is not that of (22).")
         if not close(omega, right[1]):
@@ -86,21 +80,20 @@ def law_properties(law: Callable[..., tuple[float, float]]) -> str:
 def _explain_omega(omega: float, state: State, gains: Gains) -> None:
     rho, alpha, theta = state
     right = control_law(*state, gains._replace(k_alpha=0.0))[1]
+    away, blind = (
+        control_law(rho, alpha, -theta, gains)[1],
+        control_law(*state, gains._replace(h=0.0))[1],
+    )
     mistakes = {
         "omega is that of (24) as printed, with cos(alpha) sin(alpha) twice: "
         "V would rise in places.": control_law(*state, gains, "printed")[1],
-        "the term with h has the wrong sign: this robot turns away from the approach.": control_law(
-            rho, alpha, -theta, gains
-        )[1],
+        "the term with h has the wrong sign: this robot turns away from the approach.": away,
         "the term k_alpha alpha is missing.": right,
-        "theta plays no role in omega: it would park with any heading.": control_law(
-            *state, gains._replace(h=0.0)
-        )[1],
+        "theta plays no role in omega: it would park with any heading.": blind,
     }
     rule_out(omega, mistakes)
     mistakes = {
-        "the second term is not divided by rho: compare its unit with that of k_alpha alpha.": right
-        * rho,
+        "the second term is not divided by rho: compare its unit with the first's.": right * rho,
         "the second term is not divided by alpha: sin(alpha)/alpha, not sin(alpha).": right * alpha,
         "the second term has a cosine too many: v has one already.": right * math.cos(alpha),
         "the second term lacks a cosine: it is v/rho with the v of (22).": right / math.cos(alpha),
@@ -111,6 +104,6 @@ def _explain_omega(omega: float, state: State, gains: Gains) -> None:
 
 def _states(count: int) -> list[tuple[State, Gains]]:
     """States away from the goal, each with gains of its own."""
-    low, high = [0.1, -3.0, -3.0, 0.2, 0.5, 0.2, 0.5], [20.0, 3.0, 3.0, 2.0, 3.0, 3.0, 5.0]
-    rows = np.random.default_rng(12).uniform(low, high, (count, 7)).tolist()
+    gains = (0.2, 2.0), (0.5, 3.0), (0.2, 3.0), (0.5, 5.0)
+    rows = drawn(12, count, (0.1, 20.0), (-3.0, 3.0), (-3.0, 3.0), *gains)
     return [(tuple(row[:3]), Gains(*row[3:])) for row in rows if abs(row[1]) > 0.05]

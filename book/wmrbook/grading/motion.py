@@ -8,17 +8,29 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrbook.grading._asking import ask_numbers
-from wmrbook.grading._hints import Hint, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import (
+    Hint,
+    angle_equal,
+    drawn,
+    expect,
+    explain,
+    own_work,
+    rule_out,
+    same_pose,
+    spread,
+)
 from wmrlib.kinematics import Pose, advance, twist_to_wheels, wheels_to_twist, wrap_angle
 
 Pair = tuple[float, float]
 Arc = Callable[..., tuple[float, float, float]]
+# Two speeds, the track width in m and the wheels' radius in m.
+_ROBOT = (-2.0, 2.0), (-2.0, 2.0), (0.2, 0.9), (0.03, 0.3)
 
 
 def wheels_known(wheels: Callable[[float, float, float, float], Pair]) -> str:
     """wheels(v, omega, track_width, wheel_radius): the angular speeds (left, right) in rad/s."""
     own_work(wheels)
-    for v, omega, width, radius in _robots(20):
+    for v, omega, width, radius in drawn(2, 20, *_ROBOT):
         value = ask_numbers(wheels, 2, v, omega, width, radius)
         ground = np.array(twist_to_wheels(v, omega, width))
         right, doubled = ground / radius, np.array(twist_to_wheels(v, 2.0 * omega, width)) / radius
@@ -45,7 +57,7 @@ def wheels_known(wheels: Callable[[float, float, float, float], Pair]) -> str:
 def twist_known(twist: Callable[[float, float, float, float], Pair]) -> str:
     """twist(left, right, track_width, wheel_radius): (v, omega) from the wheels, (1) and (2)."""
     own_work(twist)
-    for left, right, width, radius in _robots(20):
+    for left, right, width, radius in drawn(2, 20, *_ROBOT):
         v, omega = value = ask_numbers(twist, 2, left, right, width, radius)
         v_right, omega_right = wheels_to_twist(left * radius, right * radius, width)
         slow, slow_turn = wheels_to_twist(left, right, width)
@@ -78,25 +90,24 @@ def arc_known(arc: Arc) -> str:
     for pose, v, omega, dt in _steps(30):
         value, right = ask_numbers(arc, 3, *pose, v, omega, dt), advance(pose, v, omega, dt)
         hint = "the heading is wrong: by how much does it turn in the time dt?"
-        expect(_same_angle(value[2], right.heading), hint)
-        if _same_place(value, right):
+        expect(angle_equal(value[2], right.heading), hint)
+        if same_pose(value, right):
             continue
         old, middle, new = (
-            advance(pose._replace(heading=pose.heading + turn), v, omega, dt, method="euler")
+            (*advance(pose._replace(heading=pose.heading + turn), v, 0.0, dt)[:2], right.heading)
             for turn in (0.0, omega * dt / 2.0, omega * dt)
         )
+        mirrored = (*advance(pose, v, -omega, dt)[:2], right.heading)
         mistakes = {
             "this is Euler's step, along the old heading; the robot turns on its way.": old,
             "this is a straight step along the *new* heading; the robot turns on its way.": new,
             "the direction is right, but this is as long as the arc: "
             "the chord of an arc is shorter.": middle,
-            "this arc bends to the other side: look at the signs in (2.9).": advance(
-                pose, v, -omega, dt
-            ),
+            "this arc bends to the other side: look at the signs in (2.9).": mirrored,
         }
         otherwise = "the place is not on the arc: "
         otherwise += "integrate cos and sin of the heading over the time, (2.9)."
-        explain(value, mistakes, otherwise, _same_place)
+        explain(value, mistakes, otherwise, same_pose)
     origin = Pose(0.0, 0.0, 0.0)
     ends = [advance(origin, 4.0, 1.0, 0.5, method=each)[:2] for each in ("arc", "euler")]
     far = f"{100.0 * math.dist(*ends):.0f} cm beside it after half a second."
@@ -143,13 +154,13 @@ def arc_properties(arc: Arc) -> str:
         halves = ask_numbers(arc, 3, *half, v, omega, dt / 2.0)
         hint = f"two half steps end {100.0 * math.dist(halves[:2], whole[:2]):.2g} cm "
         hint += f"from one of {dt:.2f} s: an exact step does not care."
-        expect(_same_pose(halves, whole), hint)
+        expect(same_pose(halves, whole), hint)
         home = ask_numbers(arc, 3, *whole, -v, -omega, dt)
         hint = "with v and omega reversed it must come back to its start."
-        expect(_same_pose(home, pose), hint)
+        expect(same_pose(home, pose), hint)
         x, y, heading = ask_numbers(arc, 3, pose.x, -pose.y, -pose.heading, v, -omega, dt)
         hint = "seen in a mirror along the x axis, a left turn must be a right turn."
-        expect(_same_pose((x, -y, -heading), whole), hint)
+        expect(same_pose((x, -y, -heading), whole), hint)
         expect(math.dist(whole[:2], pose[:2]) > 0.0, "the robot does not move.")
     return "Two half steps are one whole step, and the way back leads back."
 
@@ -204,32 +215,13 @@ def _equal(value, right) -> bool:
     return bool(np.allclose(value, right, rtol=1e-9, atol=1e-9))
 
 
-def _same_place(value, right) -> bool:
-    return math.dist(value[:2], right[:2]) < 1e-7
-
-
-def _same_angle(value: float, right: float) -> bool:
-    return abs(wrap_angle(value - right)) < 1e-9
-
-
-def _same_pose(value, right) -> bool:
-    return _same_place(value, right) and _same_angle(value[2], right[2])
-
-
-def _robots(count: int) -> list[list[float]]:
-    """Two speeds, a track width in m and a wheel radius in m."""
-    low, high = [-2.0, -2.0, 0.2, 0.03], [2.0, 2.0, 0.9, 0.3]
-    return np.random.default_rng(2).uniform(low, high, (count, 4)).tolist()
-
-
 def _steps(count: int) -> list[tuple[Pose, float, float, float]]:
-    low, high = [-5.0, -5.0, -3.0, -3.0, -2.0, 0.3], [5.0, 5.0, 3.0, 3.0, 2.0, 1.5]
-    rows = np.random.default_rng(8).uniform(low, high, (count, 6)).tolist()
+    twist = (-3.0, 3.0), (-2.0, 2.0), (0.3, 1.5)
+    rows = drawn(8, count, (-5.0, 5.0), (-5.0, 5.0), (-3.0, 3.0), *twist)
     return [(Pose(*row[:3]), *row[3:]) for row in rows]
 
 
 def _wheel_pairs(count: int) -> list[list[float]]:
     """Straight on, on the spot and about one wheel, then anyhow."""
     named = [[1.2, -1.2], [0.0, 1.0], [-1.0, 0.0], [-1.5, -1.5], [0.7, 0.7]]
-    rows = np.random.default_rng(9).uniform(-2.0, 2.0, (count - len(named), 2)).tolist()
-    return rows + named
+    return drawn(9, count - len(named), (-2.0, 2.0), (-2.0, 2.0)) + named

@@ -98,11 +98,10 @@ def mean_white(scatter_of_mean: Callable) -> str:
     for sigma, n in ((0.5, 1), (0.5, 2), (1.5, 9), (3.0, 100)):
         value, right = ask_number(scatter_of_mean, sigma, n, 0.0), sigma / math.sqrt(n)
         if not close(value, right):
+            alike = sigma / n if n > 1 else math.inf
             mistakes = {
                 "this is the variance, in m^2; its root is asked for.": right**2,
-                "independent errors do not add up like equal ones: their variances do.": sigma / n
-                if n > 1
-                else math.inf,
+                "independent errors do not add up like equal ones: their variances do.": alike,
             }
             hint = f"{n} independent looks of {sigma:g} m: "
             explain(value, mistakes, f"{hint}the mean comes out with {value:.4g} m.")
@@ -143,28 +142,21 @@ def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right)
     cos, fewer = math.cos(math.radians(middle)), math.sqrt((n - 1) / n)
     lat_std, lon_std, degree = lat.std(ddof=1), lon.std(ddof=1), math.degrees(1.0)
     in_degrees = "the scatter is in degrees; metres are asked for."
-    mistakes = [
+    steps = "an arc is the radius times an angle in radians, not in degrees."
+    narrow = "a degree of longitude is not as long as one of latitude: "
+    narrow += "where is the latitude in your std_east?"
+    wrong = "the cosine stands at the wrong one of the two: "
+    wrong += "which circles get smaller towards the poles?"
+    for mistaken, hint in (
         ((north, east), "east and north are swapped."),
         ((lon_std, lat_std), in_degrees),
         ((lon_std * cos, lat_std), in_degrees),
-        (
-            (east * degree, north * degree),
-            "an arc is the radius times an angle in radians, not in degrees.",
-        ),
-        (
-            (east / cos, north),
-            "a degree of longitude is not as long as one of latitude: "
-            "where is the latitude in your std_east?",
-        ),
-        (
-            (east / cos, north * cos),
-            "the cosine stands at the wrong one of the two: "
-            "which circles get smaller towards the poles?",
-        ),
+        ((east * degree, north * degree), steps),
+        ((east / cos, north), narrow),
+        ((east / cos, north * cos), wrong),
         ((east / cos * abs(math.cos(middle)), north), "a cosine was given degrees."),
         ((east**2, north**2), "these are variances, in m^2; their roots are asked for."),
-    ]
-    for mistaken, hint in mistakes:
+    ):
         for share in (1.0, fewer):
             expect(not _near(stds, np.multiply(mistaken, share)), hint)
     small = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small: "
@@ -179,17 +171,13 @@ def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right)
 
 def _explain_radius(value: float, share: float, looks: int, sigma: float, hint: str) -> None:
     missed = -2.0 * math.log1p(-share)  # (R/sigma)^2 for one look
-    right = sigma * math.sqrt(missed / looks)
+    right, several = sigma * math.sqrt(missed / looks), 1.0 if looks > 1 else math.inf
+    single = sigma * math.sqrt(missed) * several
+    stay = sigma * math.sqrt(-2.0 * math.log(share) / looks)
     mistakes = {
-        "the number of looks does not count in your radius: this is for one look.": sigma
-        * math.sqrt(missed)
-        if looks > 1
-        else math.inf,
-        "more looks need a smaller radius, not a larger one.": right * looks
-        if looks > 1
-        else math.inf,
-        "this is for the robots that do *not* stop: share or 1 - share?": sigma
-        * math.sqrt(-2.0 * math.log(share) / looks),
+        "the number of looks does not count in your radius: this is for one look.": single,
+        "more looks need a smaller radius, not a larger one.": right * looks * several,
+        "this is for the robots that do *not* stop: share or 1 - share?": stay,
         "look at the 2 in (9.1).": right / math.sqrt(2.0),
         "(9.1) holds R^2: is there a root missing?": sigma * missed / looks,
         "chances do not simply add up over the looks: what is the chance that *none* of them "
@@ -205,17 +193,15 @@ def _explain_mean(value: float, sigma: float, n: int, c: float, right: float, hi
         return white * math.sqrt(max(0.0, 1.0 + pairs))
 
     rule_out(value, {"this is the variance, in m^2; its root is asked for.": right**2})
+    many, near = white * math.sqrt((1.0 + c) / (1.0 - c)), mean(2.0 * c * (n - 1) / n)
     mistakes = {
         "the correlation does not count in your result: "
         "neighbours that are alike tell less than two strangers.": white,
         "each pair of looks stands in the square of the sum twice: "
         "once as (i, j), once as (j, i).": mean(float((c**k * (1.0 - k / n)).sum())),
         "there are n - k pairs that are k apart, not n.": mean(2.0 * float((c**k).sum())),
-        "this holds for very many looks; the first and the last have fewer neighbours.": white
-        * math.sqrt((1.0 + c) / (1.0 - c)),
-        "not only neighbours are alike: what about looks that are two or three apart?": mean(
-            2.0 * c * (n - 1) / n
-        ),
+        "this holds for very many looks; the first and the last have fewer neighbours.": many,
+        "not only neighbours are alike: what about looks that are two or three apart?": near,
     }
     explain(value, mistakes, hint)
 

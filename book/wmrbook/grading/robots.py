@@ -11,6 +11,7 @@ from wmrbook.grading._asking import ask, ask_number, ask_numbers, floats
 from wmrbook.grading._hints import (
     angle_equal,
     close,
+    drawn,
     expect,
     explain,
     own_work,
@@ -24,13 +25,14 @@ from wmrlib.kinematics import Pose, polar_error, twist_to_wheels, wrap_angle
 
 COUNTS = 65536  # of a counter of 16 bits
 STOP = (0.0, 0.0)
+_COMPASS = (0.0, 360.0), (-15.0, 15.0)  # what it shows, and the declination, deg
 _BY_HAND = "check north, east, south and west by hand."
 
 
 def compass_known(heading_of: Callable) -> str:
     """heading_of(compass_deg, declination_deg): radians, counter-clockwise from east."""
     own_work(heading_of)
-    for compass, declination in _compasses(20):
+    for compass, declination in drawn(110, 20, *_COMPASS):
         value, turn = ask_number(heading_of, compass, declination), math.radians(declination)
         right = math.pi / 2.0 - math.radians(compass) - turn
         if angle_equal(value, right):
@@ -60,7 +62,7 @@ def compass_range(heading_of: Callable) -> str:
     """The heading is in (-pi, pi], whatever the compass shows; a turn more changes nothing."""
     own_work(heading_of)
     edges = [(270.0, 0.0), (0.0, 0.0), (359.9, 4.0), (720.0, -3.0), (-350.0, 3.0)]
-    for compass, declination in [*_compasses(20), *edges]:
+    for compass, declination in [*drawn(110, 20, *_COMPASS), *edges]:
         value = ask_number(heading_of, compass, declination)
         hint = f"{compass:g} deg come out as {value:.4g} rad, which is not in (-pi, pi]."
         expect(abs(value) <= math.pi + 1e-12, hint)
@@ -77,17 +79,13 @@ def ticks_known(rolled: Callable) -> str:
     own_work(rolled)
     for before, ticks, per_turn, radius in _counters(30):
         after, metre = (before + ticks) % COUNTS, 2.0 * math.pi * radius / per_turn
-        value, right, counted = (
-            ask_number(rolled, before, after, per_turn, radius),
-            ticks * metre,
-            after - before,
-        )
+        value = ask_number(rolled, before, after, per_turn, radius)
+        right, counted = ticks * metre, after - before
         if _same_way(value, right):
             continue
-        short = (counted + COUNTS // 2) % (COUNTS - 1) - COUNTS // 2
+        leap, short = counted * metre, (counted + COUNTS // 2) % (COUNTS - 1) - COUNTS // 2
         mistakes = {
-            "where the counter passes its end, the robot leaps: 65535 is followed by 0.": counted
-            * metre,
+            "where the counter passes its end, the robot leaps: 65535 is followed by 0.": leap,
             "right for a robot that drives forwards; "
             "a wheel that rolls back a little seems to race ahead.": counted % COUNTS * metre,
             "how many different numbers can the counter show?": short * metre,
@@ -129,12 +127,8 @@ def step_stops(wheel_speeds: Callable) -> str:
     """wheel_speeds(x, y, heading, age, goal, gains, limits): (0, 0) if in doubt or arrived."""
     given = Pose(0.0, 0.0, 0.0), GENTLE_GAINS, WheelLimits(0.5, 2.0)
     fine = {"x": -5.0, "y": 1.0, "heading": 0.3, "age": 0.1}
-    pose, age = (
-        "a pose that is not finite is no pose.",
-        "an age that is not finite can't be trusted.",
-    )
     cases = [
-        (fine | {name: value}, f"{name} = {value}", age if name == "age" else pose)
+        (fine | {name: value}, f"{name} = {value}", f"without its {name} a fix can't be trusted.")
         for name in fine
         for value in (math.nan, math.inf, -math.inf)
     ]
@@ -150,7 +144,7 @@ def step_stops(wheel_speeds: Callable) -> str:
     ]
     for at, what, why in cases:
         _expect_stop(wheel_speeds, at, given, what, why)
-    angles = np.random.default_rng(111).uniform(-3.0, 3.0, (20, 3)).tolist()
+    angles = drawn(111, 20, *[(-3.0, 3.0)] * 3)
     for near, (sight, heading, look) in zip(spread(1e-3, 0.2, 20), angles, strict=True):
         far = 0.2 - near
         place = {"x": 7.0 - far * math.cos(sight), "y": -3.0 - far * math.sin(sight)}
@@ -194,10 +188,6 @@ def step_drives(wheel_speeds: Callable) -> str:
 
 def _same_way(one: float, other: float) -> bool:
     return close(one, other, 1e-9, 1e-12)
-
-
-def _compasses(count: int) -> list[list[float]]:
-    return np.random.default_rng(110).uniform((0.0, -15.0), (360.0, 15.0), (count, 2)).tolist()
 
 
 def _counters(count: int) -> list[tuple[int, int, int, float]]:

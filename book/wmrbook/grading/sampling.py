@@ -9,10 +9,12 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers, gains_of, refuses
-from wmrbook.grading._hints import close, expect, explain, own_work, rule_out
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out
 from wmrbook.grading.variants import Drive, checked
 from wmrlib import paper
 from wmrlib.tuning import longest_step, modes
+
+_MOTOR = (1.0, 9.0), (0.5, 12.0), (2.0, 20.0)  # a, g, times
 
 
 def step_real(longest_euler_step: Callable) -> str:
@@ -52,7 +54,7 @@ def wheel_speed(wheel_gains: Callable) -> str:
     speed' = -a speed + g u, with u = k_r command - k_p speed.
     """
     own_work(wheel_gains)
-    for a, g, times in _motors(20):
+    for a, g, times in drawn(83, 20, *_MOTOR):
         k_p, k_r = ask_numbers(wheel_gains, 2, a, g, times)
         rate = a + g * k_p
         hint = f"with your k_p the closed loop runs away: its pole is at {-rate:+.3g} 1/s."
@@ -78,7 +80,7 @@ def wheel_speed(wheel_gains: Callable) -> str:
 def wheel_units(wheel_gains: Callable) -> str:
     """Once as fast needs no feedback, and twice the motor half the gains."""
     own_work(wheel_gains)
-    for a, g, times in _motors(5):
+    for a, g, times in drawn(83, 5, *_MOTOR):
         k_p, k_r = ask_numbers(wheel_gains, 2, a, g, 1)
         hint = "a loop as fast as the motor itself needs no feedback: k_p must be 0 for times = 1."
         expect(abs(k_p) < 1e-9, hint)
@@ -162,8 +164,3 @@ def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float
     hint = "with a slightly longer step than yours all modes still fade: it is not the longest."
     expect(np.abs(1.0 + 1.001 * value * table).max() > 1.0, hint)
     return value
-
-
-def _motors(count: int) -> list[list[float]]:
-    low, high = (1.0, 0.5, 2.0), (9.0, 12.0, 20.0)
-    return np.random.default_rng(83).uniform(low, high, (count, 3)).tolist()

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._asking import ask, ask_truth, number, ordered
-from wmrbook.grading._hints import expect, explain, rule_out, spread
+from wmrbook.grading._hints import drawn, expect, explain, rule_out, spread
 from wmrbook.grading.variants import Drive, checked
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position, point_at
@@ -241,11 +241,9 @@ def _same_way(one: float, other: float) -> bool:
 
 def _trips(count: int) -> list[tuple[GeoPoint, GeoPoint, float, float]]:
     """The paper's points and others up to 200 m apart, with courses in degrees."""
-    low, high = (
-        (-60.0, -170.0, 20.0, -math.pi, 0.0, 0.0),
-        (60.0, 170.0, 200.0, math.pi, 360.0, 360.0),
-    )
-    rows = np.random.default_rng(10).uniform(low, high, (count - 1, 6)).tolist()
+    courses = (0.0, 360.0), (0.0, 360.0)
+    places = (-60.0, 60.0), (-170.0, 170.0), (20.0, 200.0), (-math.pi, math.pi)
+    rows = drawn(10, count - 1, *places, *courses)
     trips = [(GPS_POINT_1, GPS_POINT_2, 18.0, 150.0)]
     for lat, lon, length, angle, *courses in rows:
         origin = GeoPoint(lat=lat, lon=lon)
