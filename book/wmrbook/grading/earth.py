@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers
-from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
 from wmrlib.geodesy import (
     GeoPoint,
     haversine_distance,
@@ -120,7 +120,7 @@ def bearing_range(bearing: Function) -> str:
 def local_known(local: Local) -> str:
     """local(lat_0, lon_0, lat, lon): (east, north) in metres of points within 300 m, to 2 cm."""
     own_work(local)
-    for origin, point in [(GPS_POINT_1, GPS_POINT_2), *_walks(30)]:
+    for origin, point in [(GPS_POINT_1, GPS_POINT_2), *_walks(2, 30, 300.0)]:
         east, north = right = local_position(origin, point)
         value = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, point.lon)
         if _on_the_spot(value, right):
@@ -156,7 +156,7 @@ def local_known(local: Local) -> str:
 def local_properties(local: Local) -> str:
     """East mirrors west, the length is the distance, and nothing jumps at the date line."""
     own_work(local)
-    for origin, point in _walks(20):
+    for origin, point in _walks(2, 20, 300.0):
         offset = point.lon - origin.lon
         east, north = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, point.lon)
         west, level = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, origin.lon - offset)
@@ -234,19 +234,14 @@ def _flip(lat: float) -> float:
 
 def _places(count: int) -> list[Pair]:
     """Pairs of places, far enough from each other and from the poles for a mistake to show."""
-    random = np.random.default_rng(1)
-    lats, lons = random.uniform(-70.0, 70.0, (count, 2)), random.uniform(-150.0, 150.0, (count, 2))
-    return [
-        (GeoPoint(lat=lat[0], lon=lon[0]), GeoPoint(lat=lat[1], lon=lon[1]))
-        for lat, lon in zip(lats.tolist(), lons.tolist(), strict=True)
-    ]
+    rows = drawn(1, count, *[(-70.0, 70.0), (-150.0, 150.0)] * 2)
+    return [(GeoPoint(lat=row[0], lon=row[1]), GeoPoint(lat=row[2], lon=row[3])) for row in rows]
 
 
-def _walks(count: int) -> list[Pair]:
-    """Places up to 60 deg from the equator, and points 20 m to 300 m from them."""
-    low, high = (-60.0, -170.0, 20.0, -math.pi), (60.0, 170.0, 300.0, math.pi)
-    found = []
-    for lat, lon, length, angle in np.random.default_rng(2).uniform(low, high, (count, 4)).tolist():
+def _walks(seed: int, count: int, farthest: float) -> list[Pair]:
+    """Places up to 60 deg from the equator, and points 20 m to `farthest` from them."""
+    found, way = [], ((20.0, farthest), (-math.pi, math.pi))
+    for lat, lon, length, angle in drawn(seed, count, (-60.0, 60.0), (-170.0, 170.0), *way):
         origin = GeoPoint(lat=lat, lon=lon)
         point = point_at(origin, length * math.cos(angle), length * math.sin(angle))
         found.append((origin, point))

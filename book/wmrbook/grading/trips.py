@@ -12,9 +12,10 @@ import numpy as np
 
 from wmrbook.grading._asking import ask, ask_truth, number, ordered
 from wmrbook.grading._hints import drawn, expect, explain, rule_out, spread
+from wmrbook.grading.earth import _walks
 from wmrbook.grading.variants import Drive, checked
 from wmrlib.gains import Gains
-from wmrlib.geodesy import GeoPoint, initial_bearing, local_position, point_at
+from wmrlib.geodesy import GeoPoint, initial_bearing, local_position
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.paper import GPS_POINT_1, GPS_POINT_2, outdoor
 from wmrlib.runs import Arrival, Trajectory
@@ -22,6 +23,7 @@ from wmrlib.simulation import simulate
 
 Poses = Callable[[GeoPoint, GeoPoint, float, float], tuple[Pose, Pose]]
 _FLAT = 1e-3  # rad: a flat map's direction against the great circle's, over 200 m
+_HERE = Pose(0.0, 0.0, 0.0)
 _GAINS = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
 
 
@@ -88,15 +90,14 @@ def parked_runs(parked: Callable[[Trajectory], bool]) -> str:
 
 def parked_wrapped(parked: Callable[[Trajectory], bool]) -> str:
     """The same where headings jump from 180 to -180 deg."""
-    runs = _western_runs()
-    for run in runs:
-        looks, wanted = math.degrees(run.heading[-1]), math.degrees(run.goal.heading)
+    pairs = (179.9, -179.9), (-179.0, 178.0), (-177.0, 180.0), (178.5, -178.0)
+    for looks, wanted in pairs:
+        run = _stop(Pose(0.05, 0.0, math.radians(looks)), Pose(0.0, 0.0, math.radians(wanted)))
         hint = f"a robot that looks {looks:.1f} deg at a goal that looks {wanted:.1f} deg "
         expect(ask_truth(parked, run), f"{hint}has parked: how far apart are these directions?")
-    start, goal = Pose(30.0, 0.5, -0.1), Pose(0.0, 0.0, -0.1)
-    away = simulate(start, goal, _GAINS, method="continuous", arrival_radius=0.0, duration=6.0)
+    away = _stop(Pose(30.0, 0.5, -0.1), radius=0.05, duration=6.0)
     expect(not ask_truth(parked, away), "every run counts as parked.")
-    return f"{len(runs)} robots that look west have parked, on either side of 180 deg."
+    return f"{len(pairs)} robots that look west have parked, on either side of 180 deg."
 
 
 def _time(my_gains: Any, mine: Drive) -> str:
@@ -148,28 +149,24 @@ def _home(my_gains: Any, mine: Drive) -> Arrival:
 @cache
 def _runs() -> tuple[tuple[Trajectory, bool, str], ...]:
     """Runs, whether they have parked, and what to say if they are judged wrongly."""
-    case, here = outdoor(), Pose(0.0, 0.0, 0.0)
+    case = outdoor()
     north, south = (Pose(0.0, 0.0, side * math.pi / 2.0) for side in (1.0, -1.0))
     late = {"method": "continuous", "arrival_radius": 0.0, "duration": 40.0}
 
     def drive(gains: Gains, start: Pose, goal: Pose) -> Trajectory:
         return simulate(start, goal, gains, method="continuous")
 
-    def stop(start: Pose, radius: float, goal: Pose = here, **options) -> Trajectory:
-        return simulate(start, goal, _GAINS, arrival_radius=radius, **options)
-
     counts, home = "counts as parked", drive(_GAINS, case.start, case.goal)
     backwards = ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
     away = replace(home, **{name: getattr(home, name)[::-1] for name in backwards})
+    past = _stop(Pose(0.06, 0.0, 0.0))
     right = {
         "a run that ends 5 cm and less than 1 deg from its goal has parked, "
         "and is said not to have.": home,
         "a run that stands on its goal and looks the right way has parked, "
         "though it went on until the time was up.": simulate(case.start, case.goal, _GAINS, **late),
         "a robot 6 cm past its goal that looks exactly the goal's way has parked: "
-        "alpha and theta are 180 deg there, and neither is the error of the heading.": stop(
-            Pose(0.06, 0.0, 0.0), 0.1
-        ),
+        "alpha and theta are 180 deg there, and neither is the error of the heading.": past,
     }
     wrong = {
         f"a run that ends 32 deg off to the left {counts}: "
@@ -178,22 +175,26 @@ def _runs() -> tuple[tuple[Trajectory, bool, str], ...]:
             case.gains, case.start, case.goal
         ),
         f"a run that is still far away when the time is up {counts}: "
-        "does it look at the distance?": stop(Pose(-50.0, 0.0, 0.0), 0.05, duration=5.0),
+        "does it look at the distance?": _stop(Pose(-50.0, 0.0, 0.0), radius=0.05, duration=5.0),
         f"a run {counts} because it has arrived, but its arrival radius was 0.5 m: "
-        "look at the distance at the end.": stop(Pose(-50.0, 0.0, 0.0), 0.5),
+        "look at the distance at the end.": _stop(Pose(-50.0, 0.0, 0.0), radius=0.5),
         f"a run that was on its goal, and drove away again, {counts}: "
         "look at the last sample.": away,
         f"a robot that looks 90 deg at a goal that looks -90 deg {counts}: "
-        "they are opposite directions.": stop(north._replace(x=-0.06), 0.1, south),
+        "they are opposite directions.": _stop(north._replace(x=-0.06), south),
     }
     return (
         *((run, False, hint) for hint, run in wrong.items()),
         *((run, True, hint) for hint, run in right.items()),
-        *_borders(stop),
+        *_borders(),
     )
 
 
-def _borders(stop: Callable[..., Trajectory]) -> Iterator[tuple[Trajectory, bool, str]]:
+def _stop(start: Pose, goal: Pose = _HERE, radius: float = 1.0, **options) -> Trajectory:
+    return simulate(start, goal, _GAINS, arrival_radius=radius, **options)
+
+
+def _borders() -> Iterator[tuple[Trajectory, bool, str]]:
     """Runs that end just within the limits and just beyond, in any direction."""
     random = np.random.default_rng(11)
     for near in spread(0.01, 2.0, 24):
@@ -205,30 +206,7 @@ def _borders(stop: Callable[..., Trajectory]) -> Iterator[tuple[Trajectory, bool
             hint = f"a run that ends {100.0 * far:.1f} cm and {off:.1f} deg off "
             hint += "has parked, and is said not to have: " if parked else "counts as parked: "
             hint += "0.1 m are asked for, all round, " if far > 0.1 else "0.1 m and "
-            yield stop(end, 1.0), parked, hint + "5 deg are asked for, to both sides."
-
-
-@cache
-def _western_runs() -> tuple[Trajectory, ...]:
-    """Parked runs whose heading and goal's heading are on different sides of 180 deg."""
-    runs = [
-        simulate(
-            Pose(40.0, north, math.pi),
-            Pose(0.0, 0.0, side * (math.pi - 0.004)),
-            _GAINS,
-            method="arc",
-            dt=0.02,
-        )
-        for side in (-1.0, 1.0)
-        for north in (-9.0, -6.0, -3.0, 3.0, 6.0, 9.0)
-    ]
-    return tuple(
-        run
-        for run in runs
-        if abs(run.heading_error[-1]) < math.radians(4.0)
-        and run.rho[-1] < 0.09
-        and abs(run.heading[-1] - run.goal.heading) > math.pi
-    )
+            yield _stop(end), parked, hint + "5 deg are asked for, to both sides."
 
 
 def _near(place, other) -> bool:
@@ -241,12 +219,7 @@ def _same_way(one: float, other: float) -> bool:
 
 def _trips(count: int) -> list[tuple[GeoPoint, GeoPoint, float, float]]:
     """The paper's points and others up to 200 m apart, with courses in degrees."""
-    courses = (0.0, 360.0), (0.0, 360.0)
-    places = (-60.0, 60.0), (-170.0, 170.0), (20.0, 200.0), (-math.pi, math.pi)
-    rows = drawn(10, count - 1, *places, *courses)
-    trips = [(GPS_POINT_1, GPS_POINT_2, 18.0, 150.0)]
-    for lat, lon, length, angle, *courses in rows:
-        origin = GeoPoint(lat=lat, lon=lon)
-        goal = point_at(origin, length * math.cos(angle), length * math.sin(angle))
-        trips.append((origin, goal, *courses))
-    return trips
+    courses = drawn(10, count - 1, (0.0, 360.0), (0.0, 360.0))
+    pairs = _walks(10, count - 1, 200.0)
+    trips = [(*pair, *course) for pair, course in zip(pairs, courses, strict=True)]
+    return [(GPS_POINT_1, GPS_POINT_2, 18.0, 150.0), *trips]
