@@ -12,7 +12,16 @@ import sympy as sp
 from wmrbook.conventions import gains_near_goal
 from wmrbook.grading._asking import ask_numbers, expect_value
 from wmrbook.grading._expressions import expression
-from wmrbook.grading._hints import angle_equal, close, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import (
+    angle_equal,
+    close,
+    drawn,
+    expect,
+    explain,
+    own_work,
+    rule_out,
+    spread,
+)
 from wmrlib.gains import Gains
 from wmrlib.kinematics import PolarError, Pose, advance, polar_error, pose_from_polar, wrap_angle
 from wmrlib.symbolic import angle, rho
@@ -79,10 +88,8 @@ def tail_rows(tail_model: Any) -> str:
         hint += "what does half a turn do to a cosine and to a sine?"
         expect(not _fits(turned[:2], slice(2)), hint)
         for row, name in ((0, "rho'"), (1, "angle'")):
-            for column, command, does in (
-                (0, "v", "drives ahead"),
-                (1, "omega", "turns to the left"),
-            ):
+            commands = ("v", "drives ahead"), ("omega", "turns to the left")
+            for column, (command, does) in enumerate(commands):
                 hint = f"the entry of {name} under {command} is not what a robot measures that "
                 hint += f"{does}: draw it, and look at the sign."
                 expect(_fits([[rows[row][column]]], slice(row, row + 1), column), hint)
@@ -108,26 +115,20 @@ def textbook_gains(
     for theirs in ((3.0, 8.0, -1.5), *_their_gains(12)):
         for v_max in (0.5, 1.0, 4.0):
             k_rho, k_alpha, h = ask_numbers(our_gains, 3, *theirs, v_max)
-            hint = "h comes out negative: "
-            expect(
-                h >= 0.0,
-                f"{hint}how do theta and beta differ, and what does that do to their gains?",
-            )
+            hint = "h comes out negative: how do theta and beta differ, "
+            expect(h >= 0.0, f"{hint}and what does that do to their gains?")
             hint = "gains that park the robot there come out negative here: "
             expect(min(k_rho, k_alpha) >= 0.0, f"{hint}one of the differences is turned round.")
             back = gains_near_goal(Gains(k_rho, k_alpha, h, v_max), "siegwart")
-            hint = f"with v_max = {v_max:g} m/s the speeds near the goal are not the same: "
-            expect(
-                close(back[0], theirs[0]), f"{hint}what is (22) for small rho? Look at the units."
-            )
+            hint = f"with v_max = {v_max:g} m/s the speeds near the goal are not the same: what is "
+            expect(close(back[0], theirs[0]), f"{hint}(22) for small rho? Look at the units.")
             if not close(back[1], theirs[1]):
                 hint = "k_alpha is taken over as it is; "
                 hint += "but our omega has alpha in its other term too."
                 expect(not close(k_alpha, theirs[1]), hint)
             turn = "the two robots turn at different rates: look at"
-            expect(
-                close(back[1], theirs[1]), f"near the goal, with theta = 0, {turn} alpha's gain."
-            )
+            hint = f"near the goal, with theta = 0, {turn} alpha's gain."
+            expect(close(back[1], theirs[1]), hint)
             hint = f"near the goal, with alpha = 0, {turn} h, and at its unit."
             expect(close(back[2], theirs[2]), hint)
     return "Near the goal both laws command the same: (3, 8, -1.5) is stable in both books."
@@ -148,7 +149,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
         return
     in_degrees = _angles_equal([math.radians(each) for each in seen], right)
     expect(not in_degrees, "the angles are in degrees; radians are asked for.")
-    sight = alpha + pose.heading
+    sight, minus = alpha + pose.heading, (-alpha, -theta)
     from_north = math.pi / 2.0 - sight
     back = "the line of sight goes from the robot to the goal; yours goes back."
     if goal.x <= pose.x:
@@ -159,10 +160,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
         "the line of sight is counted from north, clockwise: which argument of atan2 "
         "comes first?": (from_north - pose.heading, from_north - goal.heading),
         "alpha and theta have changed places.": (theta, alpha),
-        "both angles have the wrong sign: from the heading *to* the line of sight.": (
-            -alpha,
-            -theta,
-        ),
+        "both angles have the wrong sign: from the heading *to* the line of sight.": minus,
     }
     rule_out(seen, mistakes, _angles_equal)
     if _angles_equal(seen[:1], right[:1]):
@@ -217,8 +215,7 @@ def _rows(model: Any) -> list[list[sp.Expr]]:
 def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
     """(rho, angle), and the 3 x 2 rates there by central differences of what the robot sees."""
     dt, found = 1e-5, []
-    states = np.random.default_rng(6).uniform([0.5, -3.0, -3.0], [5.0, 3.0, 3.0], (12, 3))
-    for distance, alpha, theta in states.tolist():
+    for distance, alpha, theta in drawn(6, 12, (0.5, 5.0), (-3.0, 3.0), (-3.0, 3.0)):
         pose = pose_from_polar(PolarError(distance, alpha, theta), _ORIGIN)
         columns = []
         for v, omega in ((1.0, 0.0), (0.0, 1.0)):
@@ -226,11 +223,8 @@ def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
                 polar_error(advance(pose, sign * v, sign * omega, dt), _ORIGIN)
                 for sign in (-1.0, 1.0)
             )
-            nose, line = (
-                wrap_angle(after.alpha - before.alpha),
-                wrap_angle(after.theta - before.theta),
-            )
-            columns.append([after.rho - before.rho, nose, -line])
+            rho, nose, line = np.subtract(after, before)
+            columns.append([rho, wrap_angle(nose), -wrap_angle(line)])
         rates = np.transpose(columns) / (2.0 * dt)
         found.append(((distance, wrap_angle(alpha - math.pi)), rates))
     return found
@@ -248,6 +242,5 @@ def _fits(rows: list[list[sp.Expr]], which: slice, column: int | None = None) ->
 
 
 def _their_gains(count: int) -> list[list[float]]:
-    random = np.random.default_rng(5)
-    k_rho, more, k_beta = random.uniform([0.5, 0.2, -3.0], [5.0, 5.0, -0.2], (count, 3)).T
-    return np.transpose([k_rho, k_rho + more, k_beta]).tolist()
+    rows = drawn(5, count, (0.5, 5.0), (0.2, 5.0), (-3.0, -0.2))
+    return [[k_rho, k_rho + more, k_beta] for k_rho, more, k_beta in rows]

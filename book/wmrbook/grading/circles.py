@@ -60,9 +60,8 @@ def residual_known(left_behind: Callable) -> str:
 def residual_limits(left_behind: Callable) -> str:
     """Nothing is left if the whole speed is told; k_rho divides; too fast a goal is refused."""
     own_work(left_behind)
-    for (speed, share, k_rho, v_max), near in zip(
-        drawn(62, 10, *_GOAL), spread(1e-3, 1.0, 10), strict=True
-    ):
+    goals = drawn(62, 10, *_GOAL)
+    for (speed, share, k_rho, v_max), near in zip(goals, spread(1e-3, 1.0, 10), strict=True):
         told = abs(ask_number(left_behind, speed, 1.0, k_rho, v_max))
         expect(told < 1e-12, "if the whole speed is told (share 1), nothing must be left.")
         value = ask_number(left_behind, speed, share, k_rho, v_max)
@@ -163,23 +162,14 @@ def twist_properties(reference_twist: Callable) -> str:
         turned = [
             (cos * x - sin * y, sin * x + cos * y) for x, y in ((x_dot, y_dot), (x_ddot, y_ddot))
         ]
+        axes = "turn the axes: speed and turning rate must not change."
+        clock = "the same path in half the time: twice the speeds, four times the accelerations, "
+        clock += "and v and omega both double."
+        left = "the mirrored path turns as fast the other way."
         for changed, right, hint in (
-            (
-                (*turned[0], *turned[1]),
-                (v, omega),
-                "turn the axes: speed and turning rate must not change.",
-            ),
-            (
-                (2.0 * x_dot, 2.0 * y_dot, 4.0 * x_ddot, 4.0 * y_ddot),
-                (2.0 * v, 2.0 * omega),
-                "the same path in half the time: twice the speeds, four times the accelerations, "
-                "and v and omega both double.",
-            ),
-            (
-                (x_dot, -y_dot, x_ddot, -y_ddot),
-                (v, -omega),
-                "the mirrored path turns as fast the other way.",
-            ),
+            ((*turned[0], *turned[1]), (v, omega), axes),
+            (np.multiply(motion, (2.0, 2.0, 4.0, 4.0)), (2.0 * v, 2.0 * omega), clock),
+            (np.multiply(motion, (1.0, -1.0, 1.0, -1.0)), (v, -omega), left),
         ):
             value = ask_numbers(reference_twist, 2, *changed)
             expect(np.allclose(value, right, rtol=1e-9, atol=1e-12), hint)

@@ -133,12 +133,10 @@ def _differences(rho: float, gains: Gains) -> np.ndarray:
 def _explain_matrix(value: np.ndarray, rho: float, gains: Gains) -> None:
     k_rho, k_alpha, h, v_max = gains
     pull = -v_max * math.expm1(-k_rho * rho) / rho
-    right = _angles(k_alpha, h, pull)
+    right, limit = _angles(k_alpha, h, pull), _angles(k_alpha, h, k_rho * v_max)
     (top, cross), (turning, corner) = value.tolist()
     mistakes = {
-        "this is the matrix at the goal. At a distance rho, v/rho is less.": _angles(
-            k_alpha, h, k_rho * v_max
-        ),
+        "this is the matrix at the goal. At a distance rho, v/rho is less.": limit,
         "rows and columns are swapped: row 1 is the rate of alpha.": right.T,
         "the state is (alpha, theta), in this order.": right[::-1, ::-1],
     }
@@ -192,11 +190,10 @@ def _sorted(poles: tuple) -> np.ndarray:
 
 
 def _explain_gains(values: tuple, poles: tuple, v_max: float) -> None:
-    k_rho, k_alpha, h = values
+    (k_rho, k_alpha, h), minus = values, poles[0] / v_max
     distance, total, product = poles[0], (poles[1] + poles[2]).real, (poles[1] * poles[2]).real
     mistakes = {
-        "k_rho is negative: the distance falls at a rate, its pole is minus that.": distance
-        / v_max,
+        "k_rho is negative: the distance falls at a rate, its pole is minus that.": minus,
         "k_rho is the rate itself; (7.1) has one more factor.": -distance,
     }
     rule_out(k_rho, mistakes)

@@ -126,7 +126,7 @@ def local_known(local: Local) -> str:
         if _on_the_spot(value, right):
             continue
         wide = east / math.cos(math.radians(origin.lat))
-        degree = math.degrees(1.0)
+        skew = wide * math.cos(origin.lat)
         mistakes = {
             "east and north have changed places: x is east and comes first.": (north, east),
             "both signs are wrong: is it the origin as seen from the point?": (-east, -north),
@@ -134,18 +134,13 @@ def local_known(local: Local) -> str:
             "the map is upside down: latitudes grow to the north, and so does y.": (east, -north),
             "north is right and east too long: "
             "a degree of longitude is shorter away from the equator.": (wide, north),
-            "north is right and east is not: a cosine of degrees?": (
-                wide * math.cos(origin.lat),
-                north,
-            ),
+            "north is right and east is not: a cosine of degrees?": (skew, north),
         }
         rule_out(value, mistakes, _on_the_spot)
-        factors = {
-            "the result is in kilometres; metres are asked for.": 1000.0,
-            "57 times too long: metres for each *radian*.": 1.0 / degree,
-        }
-        for hint, factor in factors.items():
-            expect(not _on_the_spot((value[0] * factor, value[1] * factor), right), hint)
+        far = not _on_the_spot([1000.0 * each for each in value], right)
+        expect(far, "the result is in kilometres; metres are asked for.")
+        far = not _on_the_spot([math.radians(each) for each in value], right)
+        expect(far, "57 times too long: metres for each *radian*.")
         expect(math.dist(value, right) > 0.01 * math.hypot(*right), _RADIUS)
         place = f"a point comes out at ({value[0]:.5g}, {value[1]:.5g}) m, and is not there: "
         expect(False, place + "try points due north, then due east.")

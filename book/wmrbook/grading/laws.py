@@ -80,10 +80,8 @@ def law_properties(law: Callable[..., tuple[float, float]]) -> str:
 def _explain_omega(omega: float, state: State, gains: Gains) -> None:
     rho, alpha, theta = state
     right = control_law(*state, gains._replace(k_alpha=0.0))[1]
-    away, blind = (
-        control_law(rho, alpha, -theta, gains)[1],
-        control_law(*state, gains._replace(h=0.0))[1],
-    )
+    away = control_law(rho, alpha, -theta, gains)[1]
+    blind = control_law(*state, gains._replace(h=0.0))[1]
     mistakes = {
         "omega is that of (24) as printed, with cos(alpha) sin(alpha) twice: "
         "V would rise in places.": control_law(*state, gains, "printed")[1],

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 
@@ -15,7 +16,6 @@ from wmrbook.grading._hints import (
     expect,
     explain,
     own_work,
-    rule_out,
     shown,
     spread,
 )
@@ -127,23 +127,15 @@ def step_stops(wheel_speeds: Callable) -> str:
     """wheel_speeds(x, y, heading, age, goal, gains, limits): (0, 0) if in doubt or arrived."""
     given = Pose(0.0, 0.0, 0.0), GENTLE_GAINS, WheelLimits(0.5, 2.0)
     fine = {"x": -5.0, "y": 1.0, "heading": 0.3, "age": 0.1}
-    cases = [
-        (fine | {name: value}, f"{name} = {value}", f"without its {name} a fix can't be trusted.")
-        for name in fine
-        for value in (math.nan, math.inf, -math.inf)
-    ]
-    silence = "silence for more than 0.5 s stops the robot."
-    cases += [
-        (fine | {"age": 0.5 + each}, f"a fix {0.5 + each:.4g} s old", silence)
-        for each in spread(1e-3, 3600.0, 20)
-    ]
-    clock = "a clock that runs backwards can't be trusted."
-    cases += [
-        (fine | {"age": -each}, f"a fix {each:.2g} s from now", clock)
-        for each in spread(1e-9, 10.0, 10)
-    ]
-    for at, what, why in cases:
-        _expect_stop(wheel_speeds, at, given, what, why)
+    for name, value in itertools.product(fine, (math.nan, math.inf, -math.inf)):
+        why = f"without its {name} a fix can't be trusted."
+        _expect_stop(wheel_speeds, fine | {name: value}, given, f"{name} = {value}", why)
+    for each in spread(1e-3, 3600.0, 20):
+        what, why = f"a fix {0.5 + each:.4g} s old", "silence for more than 0.5 s stops the robot."
+        _expect_stop(wheel_speeds, fine | {"age": 0.5 + each}, given, what, why)
+    for each in spread(1e-9, 10.0, 10):
+        what, why = f"a fix {each:.2g} s from now", "a clock that runs backwards can't be trusted."
+        _expect_stop(wheel_speeds, fine | {"age": -each}, given, what, why)
     angles = drawn(111, 20, *[(-3.0, 3.0)] * 3)
     for near, (sight, heading, look) in zip(spread(1e-3, 0.2, 20), angles, strict=True):
         far = 0.2 - near
@@ -167,22 +159,17 @@ def step_drives(wheel_speeds: Callable) -> str:
         place = f"at ({pose.x:.1f}, {pose.y:.1f}) with heading {pose.heading:.2f}, {age:.2f} s old,"
         expect(speeds != STOP, f"{place} the robot stops; it has no reason to.")
         free = twist_to_wheels(*twist, limits.track_width)
-        asked = f"a wheel is asked for {max(map(abs, speeds)):.3g} m/s"
-        a_twist = "this is a twist (v, omega); the wheels' speeds are asked for."
-        rule_out(
-            speeds,
-            {
-                "left and right are swapped.": wanted[::-1],
-                f"{asked} and has {limits.max_speed:.2f} m/s.": free,
-                "both wheels are clipped one by one, which bends the path: "
-                "chapter 8 has a better rule.": np.clip(free, -limits.max_speed, limits.max_speed),
-                a_twist: twist,
-            },
-            np.allclose,
-        )
+        asked, most = f"a wheel is asked for {max(map(abs, speeds)):.3g} m/s", limits.max_speed
+        mistakes = {
+            "left and right are swapped.": wanted[::-1],
+            f"{asked} and has {most:.2f} m/s.": free,
+            "both wheels are clipped one by one, which bends the path: "
+            "chapter 8 has a better rule.": np.clip(free, -most, most),
+            "this is a twist (v, omega); the wheels' speeds are asked for.": twist,
+            "this is a twist (v, omega), limited; the wheels' speeds are asked for.": limited,
+        }
         hint = f"{place} the wheels get ({left:.3g}, {right:.3g}) m/s, "
-        hint += "which is not the corrected law within their limits."
-        explain(speeds, {a_twist: limited}, hint, np.allclose)
+        explain(speeds, mistakes, f"{hint}which is not the law within their limits.", np.allclose)
     return "Sixty poses: the law's wheels, never beyond their limits."
 
 

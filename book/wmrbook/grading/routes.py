@@ -73,6 +73,7 @@ def degrees_known(degrees: Callable) -> str:
             continue
         number, (whole, minutes) = float(field), divmod(float(field), 100.0)
         two, three = (float(field[:n]) + float(field[n:]) / 60.0 for n in (2, 3))
+        cut = whole + math.floor(minutes) / 60.0
         signs, point = {1.0, math.copysign(1.0, right)}, "Count the minutes' from the point."
         seen = f"'{field}', '{hemisphere}':"
         mistakes = {
@@ -88,8 +89,7 @@ def degrees_known(degrees: Callable) -> str:
             f"{seen} a longitude has three digits of degrees. {point}": two,
             f"{seen} a latitude has two digits of degrees. {point}": three,
             f"{seen} the minutes are lost.": whole,
-            f"{seen} the decimals of the minutes are lost; they are metres.": whole
-            + math.floor(minutes) / 60.0,
+            f"{seen} the decimals of the minutes are lost; they are metres.": cut,
         }
         hint = f"{seen[:-1]} comes out {abs(value - right) * DEGREE:.3g} m beside the place."
         explain(
@@ -165,20 +165,14 @@ def headings_properties(headings: Callable) -> str:
     own_work(headings)
     for x, y in _routes(10):
         found, same = ask_array(headings, (x.size,), x.copy(), y.copy()), "the same headings."
+        quarter = "turn the route by a quarter, and every heading must turn by as much."
+        back = "driven from its end to its start, every heading must be the opposite one."
         for changed, right, hint in [
             ((x, -y), -found, "the mirrored route must have the mirrored headings."),
             ((x + 1000.0, y - 500.0), found, f"somewhere else the same route must have {same}"),
             ((3.0 * x, 3.0 * y), found, f"a route three times as large must have {same}"),
-            (
-                (-y, x),
-                found + math.pi / 2.0,
-                "turn the route by a quarter, and every heading must turn by as much.",
-            ),
-            (
-                (x[::-1], y[::-1]),
-                found[::-1] + math.pi,
-                "driven from its end to its start, every heading must be the opposite one.",
-            ),
+            ((-y, x), found + math.pi / 2.0, quarter),
+            ((x[::-1], y[::-1]), found[::-1] + math.pi, back),
         ]:
             value = ask_array(headings, (x.size,), *map(np.array, changed))
             expect(_same_ways(value, right), hint)

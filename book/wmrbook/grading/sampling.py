@@ -157,10 +157,8 @@ def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float
         growth = np.abs(1.0 + 0.999 * value * table)
     worst = int(growth.argmax())
     swing = f"{table[worst].imag:+.3g}i" if table[worst].imag else ""
-    hint = (
-        f"with a slightly shorter step than yours the mode at {table[worst].real:.3g}{swing} 1/s "
-    )
-    expect(growth[worst] < 1.0, f"{hint}grows by {growth[worst]:.5g} in each step.")
+    mode = f"the mode at {table[worst].real:.3g}{swing} 1/s grows by {growth[worst]:.5g}"
+    expect(growth[worst] < 1.0, f"with a slightly shorter step than yours {mode} in each step.")
     hint = "with a slightly longer step than yours all modes still fade: it is not the longest."
     expect(np.abs(1.0 + 1.001 * value * table).max() > 1.0, hint)
     return value

@@ -11,12 +11,12 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._asking import ask, ask_truth, number, ordered
-from wmrbook.grading._hints import drawn, expect, explain, rule_out, spread
+from wmrbook.grading._hints import angle_equal, drawn, expect, explain, rule_out, spread
 from wmrbook.grading.earth import _walks
 from wmrbook.grading.variants import Drive, checked
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position
-from wmrlib.kinematics import Pose, polar_error, wrap_angle
+from wmrlib.kinematics import Pose, polar_error
 from wmrlib.paper import GPS_POINT_1, GPS_POINT_2, outdoor
 from wmrlib.runs import Arrival, Trajectory
 from wmrlib.simulation import simulate
@@ -47,9 +47,9 @@ def poses_known(poses: Poses) -> str:
         expect(_near(goal[:2], (east, north)), hint)
         for name, pose, degrees in (("start", start, course), ("goal", goal, goal_course)):
             right = math.radians(90.0 - degrees)
-            if _same_way(pose.heading, right):
+            if angle_equal(pose.heading, right):
                 continue
-            in_degrees = _same_way(math.radians(pose.heading), right)
+            in_degrees = angle_equal(math.radians(pose.heading), right)
             expect(not in_degrees, f"the {name}'s heading is in degrees; a Pose has radians.")
             courses = "try a course of 0, north, and one of 90, east."
             mistakes = {
@@ -58,7 +58,9 @@ def poses_known(poses: Poses) -> str:
                 f"the {name}'s heading is the course as it stands on the compass.": degrees,
                 f"the {name} looks backwards: {courses}": right + math.pi,
             }
-            explain(pose.heading, mistakes, f"the {name}'s heading is wrong: {courses}", _same_way)
+            explain(
+                pose.heading, mistakes, f"the {name}'s heading is wrong: {courses}", angle_equal
+            )
     return "Twenty trips start and end where they should, and look the right way."
 
 
@@ -211,10 +213,6 @@ def _borders() -> Iterator[tuple[Trajectory, bool, str]]:
 
 def _near(place, other) -> bool:
     return math.dist(place, other) < 0.02
-
-
-def _same_way(one: float, other: float) -> bool:
-    return abs(wrap_angle(one - other)) < 1e-6
 
 
 def _trips(count: int) -> list[tuple[GeoPoint, GeoPoint, float, float]]:
