@@ -38,7 +38,7 @@ def cells(chapter: str) -> dict[str, tuple[str, int]]:
 
 @cache
 def tasks(chapter: str) -> dict[str, list[str]]:
-    """{id of the cell with the answer: ids of the cells that grade it}."""
+    """{id of the cell with the answer: ids of the cells that grade it}; none grades the name."""
     found: dict[str, list[str]] = {}
     for name, (source, points) in cells(chapter).items():
         if BEGIN in source:
@@ -105,7 +105,11 @@ def given(chapter: str, student: str = "Ada") -> dict:
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
         if not points:
-            _run(source.replace('name = ""', f"name = {student!r}"), f"<{chapter} {name}>", names)
+            _run(
+                source.replace('name = "model"', f"name = {student!r}"),
+                f"<{chapter} {name}>",
+                names,
+            )
     if hasattr(names.get("mine"), "metre"):
         metre, second = names["mine"].metre, names["mine"].second
         names["scaled"] = lambda k_rho, k_alpha, h, v_max=4.0: Gains(

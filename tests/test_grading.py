@@ -42,6 +42,11 @@ MODULES = [n for n in dir(grading) if n.islower() and n[0] != "_" and n != "vari
 MINE = {"trips": "home", "design": "tuned", "sampling": "slow", "lyapunov": "right"}
 
 
+def asked(chapter: str) -> dict[str, list[str]]:
+    """The chapter's tasks: cells with answers that are graded."""
+    return {task: checks for task, checks in tasks(chapter).items() if checks}
+
+
 def whole(chapter: str, key: str, answer: str) -> str:
     """The cell that an answer in the table stands for."""
     task, data = task_of(chapter, key), answers(chapter)
@@ -58,12 +63,12 @@ def whole(chapter: str, key: str, answer: str) -> str:
 
 @for_students
 def test_the_model_passes_and_the_release_does_not(chapter, student):
-    assert 2 <= len(tasks(chapter)) <= 4
-    for task in tasks(chapter):
+    assert 2 <= len(asked(chapter)) <= 4
+    for task in asked(chapter):
         model, _ = cells(chapter)[task]
         assert lost(chapter, task, model, student) == {}
         empty = lost(chapter, task, released(model), student)
-        assert list(empty) == tasks(chapter)[task]
+        assert list(empty) == asked(chapter)[task]
         assert all(re.search("not written yet|no value yet", each) for each in empty.values())
 
 
@@ -77,7 +82,7 @@ def test_usual_mistakes_lose_exactly_their_points_with_their_hint(chapter, stude
         if not exactly or not all(each.startswith("Hint: ") for each in hints.values()):
             found[wrong["name"]] = hints
     assert found == {}
-    assert all(made.count(task) >= 2 for task in tasks(chapter))
+    assert all(made.count(task) >= 2 for task in asked(chapter))
 
 
 @for_students
@@ -102,7 +107,7 @@ def test_hints_name_what_is_wrong(chapter, student):
 
 @chapters
 def test_every_task_has_other_answers(chapter):
-    found = {task: {"right": 0, "wrong": 0} for task in tasks(chapter)}
+    found = {task: {"right": 0, "wrong": 0} for task in asked(chapter)}
     for key, right in answers(chapter)["right"].items():
         found[task_of(chapter, key)]["right"] += len(right)
     for key, table in answers(chapter)["wrong"].items():
@@ -143,7 +148,7 @@ def test_every_graded_cell_calls_a_check_of_its_own():
     called = [
         re.fullmatch(r"print\(grading\.(\w+\.\w+)\(\w+(, mine)?\)\)", cells(chapter)[name][0])[1]
         for chapter in ASSIGNMENTS
-        for names in tasks(chapter).values()
+        for names in asked(chapter).values()
         for name in names
     ]
     assert len(called) == len(set(called)) > 70
@@ -157,7 +162,7 @@ def handed_in_by(monkeypatch, student: str) -> None:
 @pytest.mark.parametrize("chapter", VARIED)
 def test_a_classmates_answer_is_known(chapter, monkeypatch):
     handed_in_by(monkeypatch, "Ada")
-    for task, checks in tasks(chapter).items():
+    for task, checks in asked(chapter).items():
         if any("mine" in cells(chapter)[each][0] for each in checks):
             model, _ = cells(chapter)[task]
             copied = lost(chapter, task, model, "Ada", by="Emmy")

@@ -170,9 +170,7 @@ def _printed_slope(state: Any) -> sp.Expr:
     expect(max(map(abs, angles)) <= math.pi, hint)
     hint = "the goal is asked to be on the right: on which side is it with this alpha?"
     expect(angles[0] < 0.0, hint)
-    exact = [
-        sp.nsimplify(each, rational=True) if isinstance(each, float) else each for each in state
-    ]
+    exact = [sp.nsimplify(x, rational=True) if isinstance(x, float) else x for x in state]
     gains = [sp.Rational(str(each)) for each in OUTDOOR_GAINS]
     given = dict(zip((k_rho, k_alpha, h, v_max), gains, strict=True)) | {L: 1}
     slope = textbook(lyapunov_rate("printed")).subs(given)

@@ -58,9 +58,8 @@ def poses_known(poses: Poses) -> str:
                 f"the {name}'s heading is the course as it stands on the compass.": degrees,
                 f"the {name} looks backwards: {courses}": right + math.pi,
             }
-            explain(
-                pose.heading, mistakes, f"the {name}'s heading is wrong: {courses}", angle_equal
-            )
+            hint = f"the {name}'s heading is wrong: {courses}"
+            explain(pose.heading, mistakes, hint, angle_equal)
     return "Twenty trips start and end where they should, and look the right way."
 
 
