@@ -28,6 +28,7 @@ from graded import (
     wrong_answers,
 )
 
+import wmrlib as wmr
 from wmrbook import grading
 from wmrbook.grading import Hint, variants
 
@@ -170,6 +171,20 @@ def test_a_classmates_answer_is_known(chapter, monkeypatch):
             assert all(
                 "right with the numbers of emmy, and not" in each for each in copied.values()
             )
+
+
+@pytest.mark.parametrize("make", [variants.home, variants.tuned, variants.slow])
+def test_everybodys_drive_is_as_hard(make):
+    """The same gains, told in each student's units, leave as much, to either side."""
+    errors, limits = [], []
+    for mine in map(make, "abcdefgh"):
+        gains = wmr.Gains(0.3 / mine.metre, 1 / mine.second, 0.8, 4 * mine.metre / mine.second)
+        _, end = mine.run(gains)
+        errors.append(end.heading_error)
+        limits.append(mine.time / mine.second)
+    assert np.abs(errors) == pytest.approx(abs(errors[0]), rel=1e-3)
+    assert min(errors) < 0 < max(errors)
+    assert max(limits) - min(limits) < 0.2  # s, of the paper's drive; each is rounded up
 
 
 def test_numbers_are_a_names_own(monkeypatch, tmp_path):

@@ -50,6 +50,22 @@ def test_what_is_no_number():
                 _asking.number("it", value)
 
 
+def test_what_calls_input_is_not_said_to_be_unwritten():
+    class StdinNotImplementedError(NotImplementedError):  # as a notebook without a user raises
+        pass
+
+    def asks():
+        raise StdinNotImplementedError("raw_input was called")
+
+    def unwritten():
+        raise NotImplementedError("write your answer here")
+
+    with pytest.raises(Hint, match=r"`asks.*` stops with StdinNotImplementedError: raw_input"):
+        _asking.ask(asks)
+    with pytest.raises(Hint, match="`unwritten` is not written yet"):
+        _asking.ask(unwritten)
+
+
 def test_numbers_need_an_order():
     for answer in [(1, 2), [1, 2], np.array([1, 2]), sp.Matrix([1, 2]), {"v": 1, "w": 2}.values()]:
         assert _asking.ask_numbers(lambda a=answer: a, 2) == (1.0, 2.0)
