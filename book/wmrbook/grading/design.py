@@ -10,7 +10,7 @@ import numpy as np
 
 from wmrbook.grading._asking import ask, ask_array, ask_numbers
 from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
-from wmrbook.grading.variants import Drive, checked
+from wmrbook.grading.variants import Drive, checked, tuned
 from wmrlib import paper
 from wmrlib.control import control_law
 from wmrlib.gains import Gains
@@ -110,7 +110,7 @@ def _elsewhere(gains: Any, mine: Drive) -> str:
     return f"{mine.parked(ends, 60.0)}."
 
 
-tuned_outdoor, tuned_elsewhere = checked(_outdoor, _elsewhere)
+tuned_outdoor, tuned_elsewhere = checked(tuned, _outdoor, _elsewhere)
 
 
 def _cases(count: int) -> list[tuple[float, Gains]]:

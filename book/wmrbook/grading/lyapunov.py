@@ -13,10 +13,10 @@ from typing import Any
 import sympy as sp
 
 from wmrbook.equations import EQUATIONS
+from wmrbook.grading import variants
 from wmrbook.grading._asking import expect_value, number, ordered
 from wmrbook.grading._expressions import equal_at, expression, points, values
 from wmrbook.grading._hints import Hint, expect, rule_out
-from wmrbook.grading.variants import Window, checked
 from wmrlib.paper import OUTDOOR_GAINS
 from wmrlib.symbolic import (
     L,
@@ -137,7 +137,7 @@ def closed(V_rate_closed: Any) -> str:
     return f"V' has {len(terms)} terms, and each shows that it is never positive."
 
 
-def _rising(state: Any, mine: Window) -> str:
+def _rising(state: Any, mine: variants.Window) -> str:
     """A state with the goal on the right, within 1 m, where (24) as printed makes V rise."""
     slope = float(_printed_slope(state))
     hint = f"V' is {slope:.3g} there: V falls. "
@@ -147,7 +147,7 @@ def _rising(state: Any, mine: Window) -> str:
     return f"V rises there by {slope:.2f} a second: one state is enough to refute the proof."
 
 
-def _rising_fast(state: Any, mine: Window) -> str:
+def _rising_fast(state: Any, mine: variants.Window) -> str:
     """The same, with V' more than 5 per second."""
     _rising(state, mine)
     slope = float(_printed_slope(state))
@@ -156,7 +156,7 @@ def _rising_fast(state: Any, mine: Window) -> str:
     return f'V rises by {slope:.2f} a second, although (25) says "< 0".'
 
 
-rising, rising_fast = checked(_rising, _rising_fast)
+rising, rising_fast = variants.checked(variants.right, _rising, _rising_fast)
 
 
 def _printed_slope(state: Any) -> sp.Expr:

@@ -10,7 +10,7 @@ import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers, gains_of, refuses
 from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out
-from wmrbook.grading.variants import Drive, checked
+from wmrbook.grading.variants import Drive, checked, slow
 from wmrlib import paper
 from wmrlib.tuning import longest_step, modes
 
@@ -129,7 +129,7 @@ def _elsewhere(gains: Any, mine: Drive) -> str:
     return f"{parked}, with at most {rim.max():.2f} m/s at a wheel."
 
 
-slow_outdoor, slow_elsewhere = checked(_outdoor, _elsewhere)
+slow_outdoor, slow_elsewhere = checked(slow, _outdoor, _elsewhere)
 
 
 def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float:

@@ -10,10 +10,10 @@ from typing import Any
 
 import numpy as np
 
+from wmrbook.grading import variants
 from wmrbook.grading._asking import ask, ask_truth, number, ordered
 from wmrbook.grading._hints import angle_equal, drawn, expect, explain, rule_out, spread
 from wmrbook.grading.earth import _walks
-from wmrbook.grading.variants import Drive, checked
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position
 from wmrlib.kinematics import Pose, polar_error
@@ -101,7 +101,7 @@ def parked_wrapped(parked: Callable[[Trajectory], bool]) -> str:
     return f"{len(pairs)} robots that look west have parked, on either side of 180 deg."
 
 
-def _time(my_gains: Any, mine: Drive) -> str:
+def _time(my_gains: Any, mine: variants.Drive) -> str:
     """Back again, with the headings exchanged, in time."""
     end = _home(my_gains, mine)
     hint = f"it takes {end.time:.1f} s. "
@@ -110,7 +110,7 @@ def _time(my_gains: Any, mine: Drive) -> str:
     return f"Home after {end.time:.1f} s."
 
 
-def _heading(my_gains: Any, mine: Drive) -> str:
+def _heading(my_gains: Any, mine: variants.Drive) -> str:
     """It ends less than 5 deg off."""
     off = abs(math.degrees(_home(my_gains, mine).heading_error))
     hint = f"it arrives with {off:.1f} deg left over. The heading must settle before the distance: "
@@ -118,7 +118,7 @@ def _heading(my_gains: Any, mine: Drive) -> str:
     return f"Parked, with {off:.1f} deg left over."
 
 
-def _omega(my_gains: Any, mine: Drive) -> str:
+def _omega(my_gains: Any, mine: variants.Drive) -> str:
     """It never turns too fast."""
     fastest = _home(my_gains, mine).peak_omega
     hint = f"it turns with up to {fastest:.2f} rad/s. "
@@ -127,7 +127,7 @@ def _omega(my_gains: Any, mine: Drive) -> str:
     return f"Never faster than {fastest:.2f} rad/s."
 
 
-home_time, home_heading, home_omega = checked(_time, _heading, _omega)
+home_time, home_heading, home_omega = variants.checked(variants.home, _time, _heading, _omega)
 
 
 def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: float) -> list[Pose]:
@@ -140,7 +140,7 @@ def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: f
     ]
 
 
-def _home(my_gains: Any, mine: Drive) -> Arrival:
+def _home(my_gains: Any, mine: variants.Drive) -> Arrival:
     run, end = mine.run(mine.gains("`my_gains`", my_gains))
     hint = f"it does not come home: after {run.t[-1]:.0f} s "
     expect(end.arrived, f"{hint}it is {run.rho[-1]:.2f} m away.")

@@ -39,7 +39,6 @@ class Window:
     """Where a student's own alpha has to lie, rad."""
 
     name: str
-    make: Callable[[str], Window]
     low: float
     high: float
 
@@ -61,7 +60,6 @@ class Drive:
     """
 
     name: str
-    make: Callable[[str], Drive]
     start: Pose
     goal: Pose
     metre: float
@@ -149,11 +147,14 @@ class Drive:
         return np.abs(run.v) + 0.5 * self.track_width * np.abs(run.omega)
 
 
-def checked(*parts: Callable[[Any, Any], str]) -> list[Callable[[Any, Any], str]]:
+def checked(
+    make: Callable[[str], Any], *parts: Callable[[Any, Any], str]
+) -> list[Callable[[Any, Any], str]]:
     """Return the checks of a task with numbers: its parts, which see first whose the answer is.
 
-    A part takes the answer and the numbers. Raises Hint if the name is missing or another's, or if
-    all parts hold with a classmate's numbers, and not with these.
+    A part takes the answer and the numbers that `make` makes of a name; of what a notebook hands
+    over only the name counts. Raises Hint if the name is missing or another's, or if all parts
+    hold with a classmate's numbers, and not with these.
     """
 
     def right(answer: Any, numbers: Any) -> bool:
@@ -164,14 +165,14 @@ def checked(*parts: Callable[[Any, Any], str]) -> list[Callable[[Any, Any], str]
     def check(part: Callable[[Any, Any], str]) -> Callable[[Any, Any], str]:
         @wraps(part)
         def whole(answer: Any, mine: Any) -> str:
-            student, others = _class()
+            (student, others), mine = _class(), make(getattr(mine, "name", ""))
             expect(bool(mine.name), "your name is missing at the top: it makes your numbers.")
             hint = f"`name` is '{mine.name}', but '{student}' handed this in, who has others."
             expect(student in ("", mine.name), hint)
             if not right(answer, mine):
                 for name in others:
                     hint = f"this is right with the numbers of {name}, and not with yours."
-                    expect(not right(answer, mine.make(name)), hint)
+                    expect(not right(answer, make(name)), hint)
             return part(answer, mine)
 
         return whole
@@ -207,7 +208,7 @@ def left(name: str) -> Window:
 def _window(make: Callable[[str], Window], name: str, low: float, high: float) -> Window:
     name, random = _drawn(make, name)
     start = round(random.uniform(low, high - 0.01), 3)
-    return Window(name, make, start, round(start + 0.01, 3))
+    return Window(name, start, round(start + 0.01, 3))
 
 
 def _drive(make: Callable, name: str, *, back: bool = False, dt: float = 0.0, **paper) -> Drive:
@@ -225,7 +226,7 @@ def _drive(make: Callable, name: str, *, back: bool = False, dt: float = 0.0, **
     time, omega = math.ceil(10.0 * paper["time"] * second) / 10.0, paper["omega"] / second
     omega = math.ceil(100.0 * omega) / 100.0 if omega < math.inf else omega
     limits = (v_max, time, paper["heading_deg"], omega, dt * second or None)
-    return Drive(name, make, *poses, metre, second, *limits)
+    return Drive(name, *poses, metre, second, *limits)
 
 
 def _drawn(make: Callable, name: str) -> tuple[str, np.random.Generator]:

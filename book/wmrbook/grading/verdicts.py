@@ -11,7 +11,7 @@ import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_truth, numbers
 from wmrbook.grading._hints import expect, own_work, spread
-from wmrbook.grading.variants import Window, checked
+from wmrbook.grading.variants import Window, checked, left
 from wmrlib import paper
 from wmrlib.geodesy import EARTH_RADIUS_M
 
@@ -72,7 +72,7 @@ def _refuted_26(state: Any, mine: Window) -> str:
     return f"{here}: the last line of the paper's proof is no proof."
 
 
-counterexample_23, counterexample_26 = *checked(_refuted_23), *checked(_refuted_26)
+counterexample_23, counterexample_26 = *checked(left, _refuted_23), *checked(left, _refuted_26)
 
 
 def rule_known(agrees: Callable) -> str:
