@@ -32,7 +32,6 @@ PACKAGE = ROOT / "wmrlib"
 # runs test_NAME without compiling: quicker where a formula is called a few thousand times.
 PLANS = {
     "_vecmath": "jit vecmath",
-    "_modes": "plain tuning",
     "_loops": "jit simulation",
     "_loops/plane": "jit sweeping",
     "_loops/polar": "jit sweeping",
@@ -40,7 +39,6 @@ PLANS = {
     "_loops/alone": "jit simulation",
     "_loops/steps": "jit simulation; jit sweeping",
     "_loops/tableau": "jit sweeping",
-    "_loops/blocks": "jit sweeping",
     "_chunks": "jit sweeping",
     "control": "plain control arguments",
     "gains": "plain gains control",
@@ -51,10 +49,9 @@ PLANS = {
     "sweeping": "jit sweeping",
     "tuning": "jit tuning",
 }
-NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer", "plots"}
+NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer"}
 # The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
-    ("_loops/polar.py", "inside[i] = -1", "any negative number says that a place is empty"),
     ("_loops/adaptive.py", "'<' -> '<=' in while step + 2", "no step at all, from the end"),
     ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
     ("_vecmath.py", "'-' -> '+' in fine = ", "less than a rounding"),

@@ -57,7 +57,6 @@ VALID = {
     | DRIVE
     | {"executor": None},
     wmr.arrival: {"trajectory": RUN},
-    wmr.path_length: {"trajectory": RUN},
     wmr.residual: {"trajectory": RUN, "last": 1.0},
     wmr.headings_along: {"x": [0.0, 1.0], "y": [0.0, 1.0]},
     wmr.route_poses: {

@@ -11,6 +11,7 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 
 ROOT = Path(__file__).parent.parent
+CHAPTERS = sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 FLIPS = {  # the formula: the chapter that derives it, its text, and what to make of it
     "the theta row (8)": (
         "03_polar_coordinates",
@@ -28,6 +29,24 @@ FLIPS = {  # the formula: the chapter that derives it, its text, and what to mak
         r"arctan2(\2, \1)",
     ),
 }
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_figures_have_captions_in_order_and_exercises_are_of_three_kinds(path):
+    cells, number = nbformat.read(path, as_version=4).cells, int(path.stem[:2])
+    prose = [cell.source if cell.cell_type == "markdown" else "" for cell in cells]
+    shown = [
+        count
+        for count, cell in enumerate(cells)
+        if any("image/png" in output.get("data", {}) for output in cell.get("outputs", ()))
+    ]
+    labels = [f"**Figure {number}.{count}.** " for count in range(1, len(shown) + 1)]
+    captions = [(count, re.match(r"\*\*Figure .*?\*\* ", text)) for count, text in enumerate(prose)]
+    found = [(count, label[0]) for count, label in captions if label]
+    assert found == [(count + 1, label) for count, label in zip(shown, labels, strict=True)]
+    assert all(cells[count].metadata.slideshow.slide_type == "-" for count, _ in found)
+    kinds = re.findall(r"^### Exercise .*\n\n\*(\w+)\.\* ", "\n".join(prose), re.MULTILINE)
+    assert sorted(kinds) == ["Design", "Programming", "Proof"]
 
 
 @pytest.mark.parametrize("formula", FLIPS)

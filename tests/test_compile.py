@@ -16,7 +16,7 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib import _compile, motion
-from wmrlib._loops import blocks, plane
+from wmrlib._loops import plane
 
 PACKAGE = Path(wmr.__file__).parent
 TERM = "alpha + gains.h * theta"  # of the laws
@@ -189,8 +189,8 @@ def test_what_is_compiled_for_something_else_is_kept_in_another_file(monkeypatch
         paths = _compile._Cache(loop.py_func).files(signature, loop.targetctx.codegen())
         return {path.name for path in paths}
 
-    chosen = [(0, 0, True), (1, 0, True), (0, 1, True), (0, 0, False)]
-    loops = plane.conclude, blocks.note, *(blocks.survey_of(*each) for each in chosen)
+    chosen = [(0, 0), (1, 0), (0, 1)]
+    loops = plane.conclude, plane.drive, *(plane.loop_of(*each) for each in chosen)
     found = [names(loop) for loop in loops] + [names(plane.conclude, numba.float64)]
     assert len(set.union(*found)) == len(found)
     before = _compile._folders()

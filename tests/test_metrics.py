@@ -36,7 +36,7 @@ def test_path_length_is_that_of_the_polyline_and_counts_backing_up():
         for start, goal in ((PAPER.start, PAPER.goal), (backwards, wmr.Pose(6.0, 1.0, 0.0))):
             run = wmr.simulate(start, goal, wmr.GENTLE_GAINS, method=method, dt=0.005)
             polyline = np.hypot(np.diff(run.x), np.diff(run.y)).sum()
-            assert wmr.path_length(run) == pytest.approx(polyline, rel=1e-4)
+            assert run.path_length == pytest.approx(polyline, rel=1e-4)
         assert run.v.min() < 0.0 < run.v.max()
 
 
@@ -97,7 +97,7 @@ def test_whatever_is_above_0_counts():
 def test_bad_input():
     empty = wmr.simulate(ORIGIN, wmr.Pose(5, 1, 0), wmr.Gains(1e308, 1e308, 1e308, 1e308))
     run = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains)
-    for function in (wmr.arrival, wmr.path_length, wmr.residual):
+    for function in (wmr.arrival, wmr.residual):
         with pytest.raises(ValueError, match="trajectory has no sample"):
             function(empty)
         with pytest.raises(ValueError, match="a Trajectory is needed, not a list"):

@@ -15,7 +15,6 @@ from matplotlib.image import imread
 import wmrlib as wmr
 from wmrbook import figures
 from wmrbook.figures._drawing import SERIES
-from wmrlib import plots
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -26,8 +25,8 @@ CIRCLE = wmr.track(
 PARKED = wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
 PICTURES = {
     "local_map": lambda: figures.local_map(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2),
-    "path": lambda: plots.path(RUN),
-    "paths": lambda: plots.path([RUN, PARKED], ["one", "two"]),
+    "path": lambda: figures.path(RUN),
+    "paths": lambda: figures.path([RUN, PARKED], ["one", "two"]),
     "dashboard": lambda: figures.dashboard(RUN),
     "dashboard of a circle": lambda: figures.dashboard(CIRCLE),
     "dashboard of a single sample": lambda: figures.dashboard(PARKED),
@@ -92,7 +91,7 @@ def test_a_path_that_begins_backwards_says_so():
     assert alt.endswith("; the two paths are mirror images.")
     for others in ([runs[0], runs[0]], [RUN, PARKED]):
         assert "mirror" not in figures.mirrored_paths(others, []).alt
-    assert "backs up" not in plots.path(RUN).alt
+    assert "backs up" not in figures.path(RUN).alt
 
 
 def test_v_is_red_where_it_rises_and_only_there():
@@ -127,7 +126,7 @@ def test_path_has_equal_scales_and_the_robots_heading():
     # At its end it turns on the spot.
     turned = replace(RUN, **again, heading=np.append(RUN.heading, 1.0))
     for run, last in ((RUN, RUN.heading[-1]), (turned, 1.0)):
-        axes = plots.path(run).figure.axes[0]
+        axes = figures.path(run).figure.axes[0]
         assert axes.get_aspect() == 1.0
         assert len(axes.patches) == 12  # ten robots, goal and start
         seen = [tip_heading(dart) for dart in axes.patches[-3:]]
@@ -141,7 +140,7 @@ def test_path_has_equal_scales_and_the_robots_heading():
 
 def test_the_arrows_of_several_paths_have_one_size():
     runs = [wmr.simulate(wmr.Pose(x, 0.0, 0.5), ORIGIN, PAPER.gains) for x in (-5.0, -20.0)]
-    darts = [dart.get_xy() for dart in plots.path(runs).figure.axes[0].patches]
+    darts = [dart.get_xy() for dart in figures.path(runs).figure.axes[0].patches]
     lengths = [np.linalg.norm(dart[0] - dart[2]) for dart in darts]
     assert lengths == pytest.approx([lengths[0]] * 4)
 
@@ -149,9 +148,12 @@ def test_the_arrows_of_several_paths_have_one_size():
 @pytest.mark.parametrize(
     ("make", "message"),
     [
-        (lambda: plots.path([]), "runs has 0 entries, which is not allowed: 1 to 4 are needed"),
-        (lambda: plots.path([RUN] * 5), "runs has 5 entries"),
-        (lambda: plots.path([RUN, PARKED], ["one"]), "labels has 1 entries, .*: one for each of t"),
+        (lambda: figures.path([]), "runs has 0 entries, which is not allowed: 1 to 4 are needed"),
+        (lambda: figures.path([RUN] * 5), "runs has 5 entries"),
+        (
+            lambda: figures.path([RUN, PARKED], ["one"]),
+            "labels has 1 entries, .*: one for each of t",
+        ),
         (lambda: figures.local_map((33, 44), wmr.paper.GPS_POINT_1), "a GeoPoint is needed, not a"),
     ],
 )
@@ -198,7 +200,7 @@ def brightness(colour):
 @pytest.mark.parametrize("role", SHARED)
 def test_a_thing_has_one_hue_in_the_figures_and_the_panel_and_is_legible_there(role, theme):
     colours = panel_colours()[theme]
-    drawn, shown = hue_deg(channels(plots.COLOURS[role])), hue_deg(colours[role])
+    drawn, shown = hue_deg(channels(figures.COLOURS[role])), hue_deg(colours[role])
     assert (drawn is None) == (shown is None)
     assert drawn is None or hues_apart(drawn, shown) < 10.0
     low, high = sorted(map(brightness, (colours[role], colours["paper"])))
@@ -206,9 +208,9 @@ def test_a_thing_has_one_hue_in_the_figures_and_the_panel_and_is_legible_there(r
 
 
 def test_different_things_have_different_hues_and_no_run_has_a_poses():
-    for colours in ({role: channels(plots.COLOURS[role]) for role in SHARED}, *panel_colours()):
+    for colours in ({role: channels(figures.COLOURS[role]) for role in SHARED}, *panel_colours()):
         hues = sorted(hue_deg(colours[role]) for role in SHARED if role != "rho")
         assert all(hues_apart(a, b) > 20.0 for a, b in zip(hues, hues[1:] + hues[:1], strict=True))
-    series = [plots.COLOURS[role] for role, _ in SERIES]
+    series = [figures.COLOURS[role] for role, _ in SERIES]
     assert len(set(series)) == len(series)
-    assert not set(series) & {plots.COLOURS["start"], plots.COLOURS["goal"]}
+    assert not set(series) & {figures.COLOURS["start"], figures.COLOURS["goal"]}

@@ -72,7 +72,6 @@ def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
     ("part", "package"),
     [
         ("wmrlib.explorer", "anywidget"),
-        ("wmrlib.plots", "matplotlib"),
         ("wmrlib.symbolic", "sympy"),
         ("wmrbook", "filelock"),
     ],

@@ -354,8 +354,8 @@ def test_out_to_gpx_and_back(tmp_path):
 
 
 def test_a_route_that_was_read_is_driven(tmp_path):
-    wmr.write_geojson(tmp_path / "way.geojson", CAMPUS)
-    points = wmr.read_track(tmp_path / "way.geojson").points
+    wmr.write_gpx(tmp_path / "way.gpx", CAMPUS)
+    points = wmr.read_track(tmp_path / "way.gpx").points
     route = wmr.drive_route(wmr.route_poses(points), GENTLE)
     assert route.outcome is wmr.Outcome.ARRIVED
 

@@ -9,10 +9,15 @@ import slides
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 CHAPTERS = sorted((Path(__file__).parent.parent / "notebooks").glob("[0-9][0-9]_*.ipynb"))
+SEEN = {"image/png", "text/markdown", "application/vnd.jupyter.widget-view+json"}
 
 
 def kind(cell):
     return cell.metadata.get("slideshow", {}).get("slide_type")
+
+
+def formats(cell):
+    return {name for output in cell.get("outputs", ()) for name in output.get("data", ())}
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
@@ -33,13 +38,13 @@ def test_a_chapters_cells_make_slides(path):
             assert "$$" not in prose, cell.source
         if "hide-cell" in cell.metadata.get("tags", ()):  # it computes a solution
             assert kind(cell) == "skip", cell.source
-    assert types.count("slide") + types.count("subslide") >= 12
     shown = [cell for cell in cells if kind(cell) not in ("notes", "skip")]
-    assert any(
-        "image/png" in output.get("data", {})
-        for cell in shown
-        for output in cell.get("outputs", ())
-    )
+    begins = [count for count, cell in enumerate(shown) if kind(cell) in ("slide", "subslide")]
+    assert len(begins) >= 12
+    for begin, end in zip(begins, [*begins[1:], None], strict=True):
+        slide = shown[begin:end]  # more than what a cell printed
+        assert any(cell.cell_type == "markdown" or SEEN & formats(cell) for cell in slide), slide
+    assert any("image/png" in formats(cell) for cell in shown)
 
 
 def test_a_deck_has_a_title_its_own_links_and_solutions_as_notes():

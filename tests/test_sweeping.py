@@ -7,13 +7,13 @@ import subprocess
 import sys
 import warnings
 from concurrent.futures import Executor, Future, ThreadPoolExecutor
-from itertools import pairwise, product
+from itertools import product
 
 import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
+from oracle import integrated
 from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
@@ -42,44 +42,6 @@ def same(one, other):
 
 
 # The polar closed loop ---------------------------------------------------------------------------
-
-
-def integrated(start, goal, gains, law, wheels, radius, duration=30.0):
-    """The run by scipy at a tolerance of 1e-12, with the laws written out once more."""
-    k_rho, k_alpha, h, v_max = gains
-
-    def twist(rho, alpha, theta):
-        v, omega = wmr.control_law(np.maximum(rho, 0.0), alpha, theta, gains, law=law)
-        return wmr.limit_wheels(v, omega, wheels) if wheels else (v, omega)
-
-    def rates(_, state):
-        rho, alpha, theta = max(state[0], 1e-300), state[1], state[2]
-        sine, cosine = math.sin(alpha), math.cos(alpha)
-        pull = k_rho if law == "aicardi" else -v_max * math.expm1(-k_rho * rho) / rho
-        needed = pull * cosine * (sine / alpha if alpha else 1.0) * (alpha + h * theta)
-        omega = k_alpha * alpha + needed * (cosine * sine if law == "printed" else 1.0)
-        v, share = pull * rho * cosine, 1.0
-        if wheels:
-            fastest = abs(v) + 0.5 * abs(omega) * wheels.track_width
-            share = min(1.0, wheels.max_speed / max(fastest, 1e-300))
-        turning = share * pull * cosine * sine
-        return [-share * v * cosine, turning - share * omega, turning, abs(share * v)]
-
-    def there(_, state):
-        return state[0] - radius
-
-    there.terminal = True
-    begin = [*wmr.polar_error(start, goal), 0.0]
-    how = {"events": there, "dense_output": True, "rtol": 1e-12, "atol": 1e-13}
-    run = solve_ivp(rates, (0.0, duration), begin, "DOP853", **how)
-    t = np.unique(np.concatenate([np.linspace(a, b, 200) for a, b in pairwise(run.t)]))
-    for _ in range(3):  # the largest |omega|, closer and closer
-        i = np.abs(twist(*run.sol(t)[:3])[1]).argmax()
-        peak = np.abs(twist(*run.sol(t)[:3])[1])[i]
-        t = np.linspace(t[max(i - 1, 0)], t[min(i + 1, t.size - 1)], 200)
-    rho, alpha, theta, length = run.y[:, -1]
-    time = run.t[-1] if run.status else math.inf
-    return bool(run.status), time, wmr.wrap_angle(theta - alpha), peak, length, rho
 
 
 def decades(low, high):
@@ -120,7 +82,7 @@ def test_the_default_is_as_right_as_promised(start, goal, gains, law, wheels, ra
     assume(math.hypot(start.x - goal.x, start.y - goal.y) > radius)
     options = {"law": law, "wheels": wheels, "arrival_radius": radius, "duration": 30.0}
     run = wmr.sweep(start, goal, gains, **options)
-    truth = integrated(start, goal, gains, law, wheels, radius)
+    truth = integrated(start, goal, gains, **options)
     assert run.arrived == truth[0]
     run = run._replace(heading_error=truth[2] + wmr.wrap_angle(run.heading_error - truth[2]))
     tolerance = 1e-4 if wheels else 1e-6
@@ -148,8 +110,9 @@ def test_the_length_counts_both_ways_and_the_peak_is_between_the_samples():
     """Backwards and forwards again; |omega| is largest within a step."""
     gains = wmr.Gains(0.4, 0.5, 2.0, 2.0)
     start, goal = wmr.Pose(-5.0, 0.0, 1.8), wmr.Pose(0.0, 0.0, 2.0)
-    truth = integrated(start, goal, gains, LAWS[0], None, 0.05)
-    assert wmr.sweep(start, goal, gains)[3:] == pytest.approx(truth[3:], abs=1e-7)
+    how = {"law": LAWS[0], "wheels": None, "arrival_radius": 0.05, "duration": 30.0}
+    truth = integrated(start, goal, gains, **how)
+    assert wmr.sweep(start, goal, gains, **how)[3:] == pytest.approx(truth[3:], abs=1e-7)
 
 
 @pytest.mark.parametrize("gains", [(0.5, 1e6, 1.0, 4.0), (2.0, 1e9, 1e9, 4)])
@@ -182,93 +145,6 @@ def test_whoever_says_that_it_arrived_is_there(far, heading, gains, v_max, radiu
         assert run.distance != 0.0 or far == 0.0 or radius == 0.0
 
 
-@settings(max_examples=40, deadline=None)
-@given(starts, wide_gains, st.floats(0.005, 0.5))
-def test_runge_kutta_without_a_warning_is_right_to_a_hundredth(start, gains, dt):
-    options = {"dt": dt, "duration": 30.0}
-    with warnings.catch_warnings(record=True, action="always") as warned:
-        run = wmr.sweep(start, ORIGIN, gains, method="rk4", **options)
-    fastest = max(
-        gains.k_alpha, gains.k_rho * gains.v_max, gains.k_rho * gains.v_max * math.sqrt(gains.h)
-    )
-    assert bool(warned) == (dt * fastest > 0.5)
-    truth = wmr.sweep(start, ORIGIN, gains, **options)
-    if not warned and run.arrived and truth.arrived:
-        assert abs(wmr.wrap_angle(run.heading_error - truth.heading_error)) < 0.02
-        assert run.time == pytest.approx(truth.time, abs=0.02)
-
-
-def test_a_warning_of_long_steps_counts_the_runs_and_names_the_worst():
-    gains = wmr.Gains([0.1, 2.0, 4.0], 1.0, 0.3)
-    message = r"dt = 0\.1 s is too long for method = 'rk4' in 2 of 3 runs, .* at most 0\.0312 s"
-    with pytest.warns(RuntimeWarning, match=message) as warned:
-        wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, gains, method="rk4")
-    assert len(warned) == 1
-    own = wmr.longest_step(wmr.Gains(4.0, 1.0, 0.3), "polar_euler")
-    with pytest.warns(RuntimeWarning, match=f"'polar_euler' in 2 of 3 .* at most {own:.3g} s"):
-        wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, gains, method="polar_euler")
-
-
-@pytest.mark.parametrize(("method", "factor"), [("rk4", 16.0), ("polar_euler", 2.0)])
-def test_order_of_the_methods_up_to_the_moment_of_arrival(method, factor):
-    start = wmr.Pose(-3, 1, 0.5)
-    truth = wmr.arrival(wmr.simulate(start, ORIGIN, CALM, method="continuous"))
-    runs = wmr.sweep(start, ORIGIN, CALM, method=method, dt=0.1)
-    finer = wmr.sweep(start, ORIGIN, CALM, method=method, dt=0.05)
-    for field in ("time", "heading_error"):
-        errors = [getattr(run, field) - getattr(truth, field) for run in (runs, finer)]
-        assert errors[0] / errors[1] == pytest.approx(factor, rel=0.25)
-
-
-@pytest.mark.parametrize("method", ["rk4", "polar_euler"])
-@pytest.mark.parametrize("law", LAWS)
-@pytest.mark.parametrize("wheels", [None, LIMITS])
-def test_every_step_once_more_with_the_public_functions(method, law, wheels):
-    start, goal, dt = wmr.Pose(-3.0, 1.0, 2.5), wmr.Pose(2.0, 0.5, -1.0), 0.1
-
-    def twist(state):
-        v, omega = wmr.control_law(*state[:3], CALM, law)
-        return wmr.limit_wheels(v, omega, wheels) if wheels else (v, omega)
-
-    def rates(state):
-        v, omega = twist(state)
-        return np.array([*wmr.polar_rate(state[0], state[1], v, omega), abs(v)])
-
-    def stepped(state, dt):
-        """The state is (rho, alpha, theta, metres rolled)."""
-        first = rates(state)
-        if method == "polar_euler":
-            return state + dt * first
-        second = rates(state + 0.5 * dt * first)
-        third = rates(state + 0.5 * dt * second)
-        return state + dt / 6 * (first + 2 * second + 2 * third + rates(state + dt * third))
-
-    states = [np.array([*wmr.polar_error(start, goal), 0.0])]
-    while (new := stepped(states[-1], dt))[0] > 0.05:
-        states.append(new)
-    low, high = 0.0, dt
-    for _ in range(60):
-        middle = 0.5 * (low + high)
-        arrived = stepped(states[-1], middle)[0] <= 0.05
-        low, high = (low, middle) if arrived else (middle, high)
-    end, time = stepped(states[-1], high), dt * (len(states) - 1) + high
-    v, omega = np.array([twist(state) for state in states]).T
-    peak = max(*np.abs(omega), abs(twist(end)[1]))
-    rho, alpha, theta, _ = np.array(states).T
-
-    options = {"law": law, "method": method, "dt": dt, "wheels": wheels, "trajectories": True}
-    run, paths = wmr.sweep(start, goal, CALM, **options)
-    expected = (True, time, wmr.wrap_angle(end[2] - end[1]), peak, end[3], 0.05)
-    assert run == pytest.approx(expected, abs=1e-10)
-    n = len(states)
-    seen = np.array([row[:n] for row in paths[1:]])
-    np.testing.assert_allclose(seen[3:], [rho, alpha, theta, v, omega], atol=1e-10)
-    pose = wmr.pose_from_polar(wmr.PolarError(rho, alpha, theta), goal)
-    np.testing.assert_allclose(seen[:2], pose[:2], atol=1e-10)
-    assert np.abs(wmr.wrap_angle(seen[2] - pose.heading)).max() < 1e-10
-    assert all(np.isnan(row[n:]).all() for row in paths[1:])
-
-
 def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices():
     starts, goal, gains = scattered(1500)
     runs = wmr.sweep(starts, goal, gains, duration=30.0)
@@ -284,7 +160,7 @@ def test_edges(method):
     """On the goal already, too far, out of the range of numbers."""
     gains = wmr.Gains([0.4, 0.4, 1e308], [2.0, 2.0, 1e308], 0.6, [2.0, 2.0, 1e308])
     options = {"method": method, "duration": 2.0, "arrival_radius": 0.0}
-    with warnings.catch_warnings(action="ignore"):  # no step is short enough for the last
+    with warnings.catch_warnings(action="ignore"):  # the last is given up
         runs = wmr.sweep(wmr.Pose([0.0, 1e3, 5.0], 0.0, 1.0), ORIGIN, gains, **options)
     assert runs.arrived.tolist() == [True, False, False]
     assert runs.time.tolist() == [0.0, math.inf, math.inf]
@@ -416,7 +292,7 @@ def test_bad_input_names_argument_value_and_range():
     many, samples = {"trajectories": True, "dt": 0.01, "duration": 1000.0}, "100,001 samples"
     for options, message in [
         ({"starts": (0, 0, 0)}, r"starts = \(0, 0, 0\) .* a Pose is needed"),
-        ({"method": "heun"}, "'continuous', 'rk4', 'polar_euler', 'arc', 'euler' is needed"),
+        ({"method": "heun"}, "'continuous', 'arc', 'euler' is needed"),
         ({"law": ["corrected", "kanayama"]}, "law = 'kanayama' .* one of 'corrected', 'printed'"),
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
@@ -436,7 +312,7 @@ import wmrlib as w
 from wmrlib._loops import adaptive
 options = {"duration": 1.0, "arrival_radius": 2.9}
 run = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.Gains(0.4, 2.0, 0.6, 2.0), **options)
-stats = getattr(adaptive.loops_of(0, False, False)[0], "stats", None)
+stats = getattr(adaptive.drive, "stats", None)
 print(*map(float, run), sum(stats.cache_misses.values()) if stats else None)
 """
 
@@ -563,17 +439,30 @@ import multiprocessing as mp
 import numpy as np, wmrlib as w
 from wmrlib import sweeping
 
+class Pool(ProcessPoolExecutor):
+    seen = None
+
+    def submit(self, *task):
+        future = super().submit(*task)
+        if self.seen:
+            future.add_done_callback(self.seen)
+        return future
+
 if __name__ == "__main__":
     sweeping._REMOTE_CHUNK = 400_000
     signal.signal(signal.SIGINT, signal.default_int_handler)
-    pool = ProcessPoolExecutor(2, mp_context=mp.get_context(sys.argv[1]))
+    pool = Pool(2, mp_context=mp.get_context(sys.argv[1]))
     arguments = w.Pose(np.linspace(-9, -1, 3_000_000), 1, 0), w.Pose(0, 0, 0), w.Gains(1, 2, 1)
     w.sweep(w.Pose(np.linspace(-9, -1, 600), 1, 0), *arguments[1:], executor=pool)
-    pressed = []
+    begun, pressed = [], []
     def press():
         pressed.append(time.monotonic())
         os.killpg(0, signal.SIGINT)
-    threading.Timer(1.0, press).start()
+    def seen(future):
+        if not begun:
+            begun.append(future)
+            threading.Timer(0.3, press).start()
+    pool.seen = seen
     with warnings.catch_warnings(record=True, action="always") as warned:
         runs = w.sweep(*arguments, executor=pool, progress=False)
     late = time.monotonic() - pressed[0]

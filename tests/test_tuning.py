@@ -1,17 +1,14 @@
 """Modes against python-control's poles and simulated runs; gains against the modes asked for."""
 
 import math
-from types import FunctionType
 
 import numpy as np
 import pytest
-import sympy as sp
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrbook.pareto import pareto
-from wmrlib import _modes
 
 PAPER = wmr.paper.OUTDOOR_GAINS
 GENTLE = wmr.GENTLE_GAINS
@@ -95,26 +92,16 @@ def test_simulated_runs_decay_as_the_modes_say():
         )
 
 
-def test_the_formulas_take_symbols_and_solve_the_characteristic_equation():
-    rate, k_alpha, h = sp.symbols("rate k_alpha h", positive=True)
-    sympys = {"sqrt": sp.sqrt, "where": lambda yes, a, b: sp.Piecewise((a, yes), (b, True))}
-
-    def of(formula, *symbols):
-        return FunctionType(formula.__code__, formula.__globals__ | sympys)(*symbols)
-
-    frequency, damping = (
-        of(_modes.mode_frequency, rate, h),
-        of(_modes.mode_damping, rate, k_alpha, h),
-    )
-    assert sp.simplify(frequency**2 - h * rate**2) == 0
-    assert sp.simplify(2 * damping * frequency - k_alpha) == 0
-    (slow, _), (half, _) = of(_modes.mode_settling, rate, k_alpha, h).args
-    assert sp.simplify(slow**2 - k_alpha * slow + h * rate**2) == 0
-    assert half == k_alpha / 2
-    for gains in GAINS:
-        values = {rate: gains.k_rho * gains.v_max, k_alpha: gains.k_alpha, h: gains.h}
-        settling = of(_modes.mode_settling, rate, k_alpha, h).subs(values)
-        assert wmr.modes(gains).heading_rate == pytest.approx(float(settling))
+@given(st.builds(wmr.Gains, *[st.floats(-2.0, 1.3).map(lambda x: 10.0**x)] * 4))
+def test_modes_solve_the_characteristic_equation(gains):
+    modes, rate = wmr.modes(gains), gains.k_rho * gains.v_max
+    distance, one, other = modes.poles
+    assert -distance == modes.distance_rate == pytest.approx(rate)
+    assert one + other == pytest.approx(-gains.k_alpha)
+    assert one * other == pytest.approx(gains.h * rate**2) == modes.natural_frequency**2
+    assert modes.heading_rate == pytest.approx(min(-one.real, -other.real))
+    assert 2.0 * modes.damping * modes.natural_frequency == pytest.approx(gains.k_alpha)
+    assert modes.slower == pytest.approx(rate / modes.heading_rate)
 
 
 def test_a_gain_of_zero_leaves_a_mode_that_does_not_settle():
@@ -231,32 +218,6 @@ def test_eigenvalues_of_a_step_leave_the_unit_circle_at_the_longest_step():
 wide = st.floats(-2.0, 1.3).map(lambda x: 10.0**x)
 
 
-@given(st.builds(wmr.Gains, wide, wide, wide, wide), st.floats(0.01, 0.999))
-def test_a_runge_kutta_step_shrinks_every_mode_up_to_the_longest_and_no_further(gains, share):
-    longest = wmr.longest_step(gains, "rk4")
-    poles = np.array(wmr.modes(gains).poles)
-
-    def growth(dt):
-        z = dt * poles
-        return np.abs(1 + z + z**2 / 2 + z**3 / 6 + z**4 / 24).max()
-
-    assert growth(share * longest) < 1.0 < growth(1.001 * longest)
-    assert wmr.longest_step(gains, "continuous") == math.inf
-
-
-def test_runs_by_runge_kutta_settle_up_to_the_longest_step_and_no_further():
-    start, goal = wmr.Pose(-1e-3, -1e-6, 2e-3), wmr.Pose(0.0, 0.0, 0.0)
-    for gains in (PAPER, GENTLE, STIFF):
-        for share, settles in ((0.95, True), (1.05, False)):
-            dt = share * wmr.longest_step(gains, "rk4")
-            options = {"dt": dt, "duration": 60 * dt, "arrival_radius": 0.0, "trajectories": True}
-            with pytest.warns(RuntimeWarning, match="too long for method = 'rk4'"):
-                _, run = wmr.sweep(start, goal, gains, method="rk4", **options)
-            size = np.hypot(run.rho / 1e-3, np.hypot(run.alpha, run.theta) / 2e-3)
-            size = size[np.isfinite(size)]
-            assert size[-1] < 0.9 * size[0] if settles else size[-1] > 1.1 * size[0]
-
-
 @given(st.integers(5, 40).map(float), st.floats(0.01, 0.999))
 def test_every_step_shorter_than_the_longest_settles(k_alpha, share):
     """Also where an eigenvalue only touches -1, which these gains do: a double root."""
@@ -282,6 +243,7 @@ def test_longest_steps_by_hand():
     flipping = 4.0 / (9.0 + math.sqrt(81.0 - 4.0 * 0.5 * 0.64))
     assert wmr.longest_step(STIFF, "polar_euler") == pytest.approx(flipping)
     assert wmr.longest_step(wmr.Gains(2.0, 0.0, 0.3), "euler") == 0.0
+    assert wmr.longest_step(PAPER, "continuous") == math.inf
     only_turns = wmr.Gains(0.0, 4.0, 0.3)  # 2/k_alpha
     assert [wmr.longest_step(only_turns, method) for method in SAMPLED] == [0.5] * 3
 
@@ -344,9 +306,7 @@ def test_bad_input():
         ([("h", [1.0])], "over = .* a Mapping is needed, not a list"),
     ]
     refuses(maps, lambda over: wmr.gain_map(start, goal, PAPER, over))
-    method = (
-        "method = 'heun' .*: one of 'continuous', 'rk4', 'polar_euler', 'euler', 'arc' is needed"
-    )
+    method = "method = 'heun' .*: one of 'continuous', 'polar_euler', 'euler', 'arc' is needed"
     law = "law = 'printed' is not allowed: one of 'corrected', 'aicardi' is needed"
     steps = [((PAPER, "heun"), method), ((PAPER, "arc", "printed"), law)]
     refuses([*steps, (((1.0,) * 4,), "a Gains is needed")], lambda each: wmr.longest_step(*each))

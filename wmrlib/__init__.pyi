@@ -1,7 +1,6 @@
 # The public names and where they live, for lazy_loader, editors and type checkers.
 from . import metrics as metrics
 from . import paper as paper
-from . import plots as plots
 from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
@@ -32,7 +31,6 @@ from .kinematics import twist_to_wheels as twist_to_wheels
 from .kinematics import wheels_to_twist as wheels_to_twist
 from .kinematics import wrap_angle as wrap_angle
 from .metrics import arrival as arrival
-from .metrics import path_length as path_length
 from .metrics import residual as residual
 from .routes import Route as Route
 from .routes import drive_route as drive_route

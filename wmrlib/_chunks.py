@@ -39,10 +39,7 @@ def spread(job, chunks: Iterable, arguments, go_on, executor, lost: list) -> Gen
                     with _deaf_children() if executor else nullcontext():
                         future = pool.submit(_deaf, job, *arguments(chunk))
                     waiting[future] = chunk
-                except (
-                    RuntimeError,
-                    OSError,
-                ) as error:  # the executor is broken, closed or out of means
+                except (RuntimeError, OSError) as error:  # it is broken, closed or out of means
                     lost.append(error)
                     yield chunk, job(*arguments(chunk))
                 if not go_on(0):

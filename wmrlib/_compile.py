@@ -110,8 +110,11 @@ def compiled(function: Callable, *, cache: bool = True, **options) -> Callable:
         own = sha256(repr(_identity(function)).encode()).hexdigest()[:16]
         function.__qualname__ += f"_{own}"
     made = numba.njit(error_model="numpy", nogil=True, fastmath={"contract"}, **options)(function)
-    if cache and made is not function:
-        made._cache = _Cache(function)
+    if made is not function:
+        # numba would compile it anew for each constant that a caller passes.
+        one, plain = made.get_call_template, numba.types.unliteral
+        made.get_call_template = lambda types, named: one(tuple(map(plain, types)), named)
+        made._cache = _Cache(function) if cache else made._cache
     return made
 
 

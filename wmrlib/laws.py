@@ -129,56 +129,48 @@ TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
 POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name].needs_reference}
 
 
-def _choose(functions: dict[int, Callable]) -> Callable:
-    """One compiled function of (*arguments, law) that calls the function of that law."""
-    (code, chosen), *rest = functions.items()
-    if not rest:
-        return formula(lambda *arguments: chosen(*arguments[:-1]), cache=False)
-    others = _choose(dict(rest))
-
-    def choose(*arguments):
-        if arguments[-1] == code:
-            return chosen(*arguments[:-1])
-        return others(*arguments)
-
-    return formula(choose, cache=False)
-
-
 def _place_of(gains: type) -> int:
     """Where a Tuning holds gains of this type."""
     return next(place for place, each in enumerate(NO_TUNING) if isinstance(each, gains))
 
 
-def _commanding(row: Law) -> Callable:
-    steer, place = row.formula, _place_of(row.gains)
-
-    def to_goal(rho, alpha, theta, v_ref, omega_ref, tuning):
-        v_over_rho, omega = steer(rho, alpha, theta, tuning[place])
-        return v_over_rho * rho, omega
-
-    def after_reference(rho, alpha, theta, v_ref, omega_ref, tuning):
-        ahead, left, turn = body_error(rho, alpha, theta)
-        return steer(ahead, left, turn, v_ref, omega_ref, tuning[place])
-
-    return formula(after_reference if row.needs_reference else to_goal, cache=False)
+@formula
+def _scaled(rho, v_over_rho, omega):
+    return v_over_rho * rho, omega
 
 
-def _valuing(row: Law) -> Callable:
-    value, place = row.value, _place_of(row.gains)
-    return formula(lambda r, a, t, tuning: value(r, a, t, tuning[place]), cache=False)
+def _command_of(row: Law) -> str:
+    if row.needs_reference:
+        return "{formula}(*body_error(rho, alpha, theta), v_ref, omega_ref, {gains})"
+    return "_scaled(rho, *{formula}(rho, alpha, theta, {gains}))"
 
 
-pose_law = _choose({code: LAWS[name].formula for name, code in POSE_LAWS.items()})
+def _by_law(name: str, arguments: str, laws: dict[str, int], call_of) -> Callable:
+    """The function of (rho, alpha, theta, `arguments`, law) that makes the call of that law.
+
+    In one expression, because numba takes a tenth of a second for each function, however short.
+    """
+    cases, known = [], dict(globals())
+    for row, code in ((LAWS[each], code) for each, code in laws.items()):
+        used = {"formula": row.formula.__name__, "value": row.value.__name__}
+        known |= {used["formula"]: row.formula, used["value"]: row.value}
+        call = call_of(row).format(**used, gains=f"tuning[{_place_of(row.gains)}]")
+        cases.append(f"{call} if law == {code}")
+    text = " else ".join(cases).rpartition(" if ")[0]  # the last law needs no condition
+    function = eval(f"lambda rho, alpha, theta, {arguments}, law: {text}", known)
+    function.__name__ = function.__qualname__ = name
+    return function
+
+
+_rule = _by_law("pose_law", "gains", POSE_LAWS, lambda _: "{formula}(rho, alpha, theta, gains)")
+pose_law = formula(_rule)
 """(v/rho, omega) of a pose law: a function of (rho, alpha, theta, gains, law)."""
-_command = _choose({code: _commanding(LAWS[name]) for name, code in TRACKING_LAWS.items()})
-lyapunov_value_of = _choose({code: _valuing(LAWS[name]) for name, code in TRACKING_LAWS.items()})
+_rule = _by_law("command", "v_ref, omega_ref, tuning", TRACKING_LAWS, _command_of)
+command = compiled(_rule)
+"""(v, omega) of any of the laws: of (rho, alpha, theta, v_ref, omega_ref, tuning, law)."""
+_rule = _by_law("value", "tuning", TRACKING_LAWS, lambda _: "{value}(rho, alpha, theta, {gains})")
+lyapunov_value_of = formula(_rule)
 """Each law's own Lyapunov function with L = 1, of (rho, alpha, theta, tuning, law)."""
-
-
-@compiled
-def command(rho, alpha, theta, v_ref, omega_ref, tuning, law):
-    """(v, omega) of any of the laws."""
-    return _command(rho, alpha, theta, v_ref, omega_ref, tuning, law)
 
 
 @compiled

@@ -35,24 +35,6 @@ def arrival(trajectory: Trajectory) -> Arrival:
     )
 
 
-def path_length(trajectory: Trajectory) -> float:
-    """Return how far the robot rolled, forwards and backwards: the integral of |v|.
-
-    Parameters
-    ----------
-    trajectory : Trajectory
-
-    Returns
-    -------
-    float, m
-
-    Raises
-    ------
-    ValueError : a trajectory without a sample
-    """
-    return _with_samples(trajectory).path_length
-
-
 def residual(trajectory: Trajectory, last: float = 5.0) -> float:
     """Return the mean distance to the reference at the end of a run.
 

@@ -12,7 +12,7 @@ from wmrlib._checks import Real, as_array, instance, real, refusal, same_shape, 
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at, position_list
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.metrics import arrival, path_length
+from wmrlib.metrics import arrival
 from wmrlib.runs import Arrival, Outcome, ReadOnly, Trajectory
 from wmrlib.simulation import simulate
 
@@ -72,7 +72,7 @@ class Route(ReadOnly):
     @property
     def length(self) -> float:
         """How far the robot rolled on all legs, forwards and backwards, m."""
-        return math.fsum(path_length(leg) for leg in self.legs if len(leg))
+        return math.fsum(leg.path_length for leg in self.legs)
 
     @property
     def time(self) -> float:

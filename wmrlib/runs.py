@@ -37,7 +37,7 @@ class ReadOnly:
         for value in self._values():
             for array in value if isinstance(value, tuple) else (value,):
                 if isinstance(array, np.ndarray):
-                    array.flags.writeable = False
+                    array.setflags(write=False)
 
     def __reduce__(self) -> tuple:
         return type(self), self._values()
@@ -132,8 +132,8 @@ class Arrival(NamedTuple):
 class Trajectories(NamedTuple):
     """Many runs sample by sample, NaN after each run's end.
 
-    With "continuous", "rk4" and "polar_euler", which arrive between two samples, the last one is
-    the one before arrival, and alpha and theta never jump.
+    With "continuous", which arrives between two samples, the last one is the one before arrival,
+    and alpha and theta never jump.
 
     Attributes
     ----------

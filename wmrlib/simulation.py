@@ -138,10 +138,8 @@ def _held(t, method, dt, radius, start, path, *loop) -> tuple:
     """(t, record, outcome, peak omega, path length) of a run whose twist is held for dt."""
     record = np.empty((rows.LYAPUNOV + 1, t.size))
     steps = _STEPS[method], dt, radius
-    count, outcome = plane.drive(record.T, tuple(start), path, *loop, *steps)
-    record = record[:, :count]
-    v, omega = np.abs(record[rows.V : rows.LYAPUNOV])
-    return t[:count], record, outcome, omega.max(initial=0.0), dt * v[:-1].sum()
+    count, *sums = plane.drive(record.T, tuple(start), path, *loop, *steps)
+    return t[:count], record[:, :count], *sums
 
 
 def _trajectory(t, record, outcome, peak, length, *setting) -> Trajectory:

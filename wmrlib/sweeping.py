@@ -13,22 +13,18 @@ import numpy as np
 
 from wmrlib import _chunks
 from wmrlib._checks import as_array, choice, instance, refusal, same_shape, scalar
-from wmrlib._loops import adaptive, blocks, plane, polar, rows
-from wmrlib._modes import fastest_mode, longest_euler_step
+from wmrlib._loops import adaptive, plane, rows
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
-from wmrlib.laws import LAWS, POSE_LAWS
+from wmrlib.laws import POSE_LAWS
 from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
 _METHODS = {
     "continuous": (adaptive, None),
-    "rk4": (blocks, polar.RK4),
-    "polar_euler": (blocks, polar.EULER),
     "arc": (plane, plane.ARC),
     "euler": (plane, plane.EULER),
 }
-_RK4_REACH = 0.5  # rad or nepers of the fastest mode in a step, for errors about a hundredth of one
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 20_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
@@ -49,7 +45,7 @@ class _Task(NamedTuple):
         """Evaluations of the law in one run, about."""
         if self.method == "continuous":
             return 700 + 14 * self.samples * self.recorded
-        return self.samples * (4 if self.method == "rk4" else 1)
+        return self.samples
 
 
 def sweep(
@@ -73,19 +69,15 @@ def sweep(
     with wheel limits, at whose edge the motion has a corner. The promise is for a law that settles:
     small errors grow where "printed" drives away from its goal's direction, and no step decides how
     such a run ends. A run of more than 100,000 steps is given up with a warning, as is what Ctrl-C
-    (the square button in Jupyter) leaves undone: arrived = False and NaN in every other field. A
-    fixed step that is too long for the gains is a warning too, once a sweep.
+    (the square button in Jupyter) leaves undone: arrived = False and NaN in every other field.
 
     Parameters
     ----------
     starts, goals : Pose, m and rad, whose fields broadcast with those of gains and law
     gains : Gains
     law : str or array of str, as in `simulate`
-    method : "continuous": the law acts all the time, as in that of `simulate`; (7)-(9) are
-        integrated with error control. "rk4" and "polar_euler": the same by Runge-Kutta steps of
-        order 4, or by Euler's, of length dt; the last is shortened to end on the arrival radius.
-        "arc" and "euler": each entry is `arrival(simulate(...))` of that run, to 1e-9 unless the
-        run magnifies rounding.
+    method : as in `simulate`; with "arc" and "euler" each entry is `arrival(simulate(...))` of that
+        run, to 1e-9 unless the run magnifies rounding
     dt, duration, arrival_radius, wheels : as in `simulate`; with "continuous", dt only says where
         the samples lie; the last one within the duration ends the run
     trajectories : bool, whether to return the samples too, at most fifty million in all
@@ -127,7 +119,6 @@ def sweep(
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
     source = [np.broadcast_to(field, shape) for field in fields.values()]
-    warned = _too_long(gains, fields["law"], shape, task)
     lost: list[BaseException] = []
     long = progress and total * task.cost >= _LONG_WORK
     with (
@@ -137,7 +128,7 @@ def sweep(
         for (first, last), (metrics, paths) in results:
             summary[:, first:last], record[:, first:last] = metrics, paths
             go_on(last - first)
-    for message in (*warned, *_shortcomings(summary, lost)):
+    for message in _shortcomings(summary, lost):
         warnings.warn(message, RuntimeWarning, stacklevel=2)
     outcome, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
     metrics = Arrival(outcome == rows.ARRIVED, *rest)
@@ -171,22 +162,6 @@ def _results(source, total: int, task: _Task, executor, go_on, lost: list) -> Ge
     return _chunks.spread(run_chunk, chunks, arguments, go_on, executor, lost)
 
 
-def _too_long(gains: Gains, law: np.ndarray, shape: tuple[int, ...], task: _Task) -> list[str]:
-    """What there is to say on a fixed step in polar coordinates."""
-    if task.method not in ("rk4", "polar_euler"):
-        return []
-    k_rho, k_alpha, h, v_max = gains
-    free = np.array(["v_max" in row.ignores for row in LAWS.values()])
-    with np.errstate(all="ignore"):
-        mode = k_rho * np.where(free[law.astype(int)], 1.0, v_max), k_alpha, h
-        euler = task.method == "polar_euler"
-        longest = longest_euler_step(*mode) if euler else _RK4_REACH / fastest_mode(*mode)
-    runs = np.broadcast_to(task.dt > longest, shape).sum()
-    said = f"dt = {task.dt:g} s is too long for method = {task.method!r} in {runs:,} of "
-    said += f"{math.prod(shape):,} runs, the worst of which needs at most {{:.3g}} s"
-    return [said.format(longest.min())] if runs else []
-
-
 def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[str]:
     outcome = summary[rows.OUTCOME]
     done, given_up = (~np.isnan(outcome)).sum(), (outcome == rows.UNFINISHED).sum()
@@ -205,7 +180,7 @@ def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
     size = min(work // task.cost, math.ceil(total / parts))
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)
-    return blocks.BLOCK * max(1, math.ceil(size / blocks.BLOCK))
+    return plane.BLOCK * max(1, math.ceil(size / plane.BLOCK))
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:

@@ -1,26 +1,24 @@
 """What the gains do near the goal, and gains from a specification: instead of "trial and error".
 
 Equations (7)-(9) linearised at the goal fall into two parts: the distance, rho' = -rate rho, and
-the angles, see `_modes`. The printed law has no such form: its heading never settles.
+the angles, s^2 + k_alpha s + h rate^2 = 0. The printed law's heading never settles.
 """
 
 from __future__ import annotations
 
 from collections.abc import Mapping
-from functools import reduce
 from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, choice, instance, plain, real, same_shape
-from wmrlib._modes import longest_euler_step, mode_damping, mode_frequency, mode_settling
+from wmrlib._checks import Real, choice, instance, plain, real, reals
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Arrival, Trajectories
 from wmrlib.sweeping import sweep
 
 _LAWS = ("corrected", "aicardi")
-_METHODS = ("continuous", "rk4", "polar_euler", "euler", "arc")
+_METHODS = ("continuous", "polar_euler", "euler", "arc")
 
 
 class Modes(NamedTuple):
@@ -60,14 +58,14 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
     """
     rate, k_alpha, h = _near_goal(gains, law)
     with np.errstate(divide="ignore", invalid="ignore"):
-        slow = mode_settling(rate, k_alpha, h)
+        slow, frequency = _settling(rate, k_alpha, h), rate * np.sqrt(h)
         swing = 1j * np.sqrt(np.maximum(h * rate * rate - (k_alpha / 2) ** 2, 0.0))
         poles = -rate + 0j, swing - slow, slow - k_alpha - swing
         return Modes(
             distance_rate=plain(rate),
             heading_rate=plain(slow),
-            natural_frequency=plain(mode_frequency(rate, h)),
-            damping=plain(mode_damping(rate, k_alpha, h)),
+            natural_frequency=plain(frequency),
+            damping=plain(k_alpha / (2.0 * frequency)),
             poles=tuple(plain(pole) for pole in poles),
             slower=plain(rate / slow),
         )
@@ -77,14 +75,13 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
     """Return the longest time step with which the robot still settles in its goal's pose.
 
     For "euler" and "arc" by Jury's conditions, derived in chapter 8: beyond it oscillations no
-    longer fade, or the nose swings to and fro, or the robot drives past the goal. For "polar_euler"
-    and "rk4" a step multiplies each mode by 1 + z, or by 1 + z + z^2/2 + z^3/6 + z^4/24, with z =
-    pole dt, which must stay under 1; an accurate run needs shorter steps, see `sweep`.
+    longer fade, or the nose swings to and fro, or the robot drives past the goal. "polar_euler" is
+    Euler's method for (7)-(9); a step multiplies each mode by 1 + pole dt.
 
     Parameters
     ----------
     gains : Gains, of numbers or arrays; a gain of 0 can make the step 0 or infinite
-    method : any of `simulate` or `sweep`; infinite for "continuous"
+    method : any of `simulate`, or "polar_euler"; infinite for "continuous"
     law : "corrected" or "aicardi"
 
     Returns
@@ -100,10 +97,9 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
     with np.errstate(divide="ignore", invalid="ignore"):
         if choice("method", method, _METHODS) == "continuous":
             return plain(np.full(np.broadcast(rate, k_alpha, h).shape, np.inf))
-        if method == "rk4":
-            return plain(reduce(np.fmin, map(_rk4_reach, modes(gains, law).poles)))
         if method == "polar_euler":
-            return plain(longest_euler_step(rate, k_alpha, h))
+            quicker = k_alpha - _settling(rate, k_alpha, h)
+            return plain(np.fmin(np.fmin(k_alpha / (h * rate * rate), 2.0 / quicker), 1.0 / rate))
         fading = k_alpha / (rate * (turn + h * rate))
         flipping = _flipping(turn + rate, rate * (h * rate + 2.0 * turn))
         if method == "arc":
@@ -141,10 +137,7 @@ def gains_for(
         both = f"natural_frequency = {natural_frequency!r} and heading_rate = {heading_rate!r}"
         raise ValueError(f"{both} are not allowed together: one of the two is needed")
     wanted = {"distance_rate": distance_rate, **given, "damping": damping, "v_max": v_max}
-    distance_rate, frequency, damping, v_max = (
-        real(name, value, above=0.0) for name, value in wanted.items()
-    )
-    same_shape(**wanted)
+    distance_rate, frequency, damping, v_max = reals(above_0=wanted, **wanted)
     if natural_frequency is None:
         # Above 1 this is 1/(damping - sqrt(damping^2 - 1)) without the cancellation.
         root = np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0))
@@ -199,19 +192,14 @@ def _near_goal(gains: Gains, law: str) -> tuple[np.ndarray, np.ndarray, np.ndarr
     return np.asarray(rate), np.asarray(k_alpha), np.asarray(h)
 
 
+def _settling(rate: np.ndarray, k_alpha: np.ndarray, h: np.ndarray) -> np.ndarray:
+    """The rate at which the slower mode of the angles decays: of s^2 + k_alpha s + h rate^2 = 0."""
+    half, stiffness = k_alpha / 2.0, h * rate * rate
+    root = np.sqrt(np.maximum(half * half - stiffness, 0.0))
+    return np.where(root > 0.0, stiffness / (half + root), half)  # half - root does not cancel so
+
+
 def _flipping(b: np.ndarray, a: np.ndarray) -> np.ndarray:
     """The smallest positive root of a dt^2 - 2 b dt + 4 = 0, where 1 + trace + determinant is 0."""
     gap = b**2 - 4.0 * a
     return np.where(gap >= 0.0, 4.0 / (b + np.sqrt(np.maximum(gap, 0.0))), np.inf)
-
-
-def _rk4_reach(pole: complex | np.ndarray) -> np.ndarray:
-    """The longest step that shrinks this mode, by bisection: shorter ones all do."""
-    size = np.maximum(np.abs(pole), 1e-300)  # what never moves is shrunk by no step
-    low, high = np.zeros(size.shape), np.full(size.shape, 4.0)
-    for _ in range(50):
-        middle = 0.5 * (low + high)
-        z = middle * pole / size
-        fades = np.abs(1.0 + z * (1.0 + z / 2.0 * (1.0 + z / 3.0 * (1.0 + z / 4.0)))) < 1.0
-        low, high = np.where(fades, middle, low), np.where(fades, high, middle)
-    return low / size

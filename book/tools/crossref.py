@@ -6,6 +6,7 @@ JupyterLab shows the notebooks too, so they can't hold Sphinx's own syntax.
   the paper's (24).
 - A bare ``(24)`` or ``(4.2)`` in a sentence becomes a link to that equation; an unknown number is a
   warning, and so an error.
+- A paragraph that begins with a bold ``Figure 4.2.`` is the caption of the figure above it.
 - A link to the DOI or the address of a work in references.bib becomes a link to its entry in the
   bibliography.
 """
@@ -22,6 +23,7 @@ from sphinx.util import logging
 TAG = re.compile(r"\\tag\{(?P<number>\d+\.\d+)(?:, (?P<relation>paper|corrects) (?P<paper>\d+))?\}")
 # Not after a letter, as in f(2), nor a bracket that closes.
 MENTION = re.compile(r"(?<![\w)\]])\((\d{1,2}|\d{1,2}\.\d{1,2})\)(?!\w)")
+CAPTION = re.compile(r"Figure (\d+)\.(\d+)\.")
 CITED = "bibliography"
 
 log = logging.getLogger(__name__)
@@ -50,6 +52,15 @@ def number_equations(app, doctree):
         # Sphinx would put several lines into `split`, where no tag may stand.
         block["no-wrap"] = block["nowrap"] = True
         block.children = [nodes.Text(f"\\begin{{equation}}\n{formula}\n\\end{{equation}}")]
+
+
+def mark_captions(app, doctree):
+    """Give each figure's caption a class, for its looks, and an anchor."""
+    for paragraph in doctree.findall(nodes.paragraph):
+        label = next((child for child in paragraph.children if child.astext()), None)
+        if isinstance(label, nodes.strong) and (number := CAPTION.fullmatch(label.astext())):
+            paragraph["classes"].append("figure-caption")
+            paragraph["ids"].append(f"figure-{number[1]}-{number[2]}")
 
 
 def link_mentions(app, doctree, docname):
@@ -141,8 +152,9 @@ def _in_a_sentence(text: nodes.Text) -> bool:
 
 def setup(app):
     app.connect("doctree-read", number_equations)
+    app.connect("doctree-read", mark_captions)
     app.connect("doctree-resolved", link_mentions)
     app.connect("doctree-resolved", link_citations)
     app.connect("env-purge-doc", forget)
     app.connect("env-merge-info", merge)
-    return {"parallel_read_safe": True, "parallel_write_safe": True, "env_version": 1}
+    return {"parallel_read_safe": True, "parallel_write_safe": True, "env_version": 2}

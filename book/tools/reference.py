@@ -26,7 +26,7 @@ NAME = re.compile(r"(?:wmr\.|wmrlib\.)?([A-Za-z_][\w.]*)(?:\(.*\))?", re.DOTALL)
 MODULE = re.compile(r'<span class="nn">wmrlib(?:\.\w+)*</span>')
 DOT = r'<span class="o">\.</span>'
 MEMBER = re.compile(
-    rf'<span class="n">(wmr|paper|plots|symbolic)</span>{DOT}<span class="n">(\w+)</span>'
+    rf'<span class="n">(wmr|paper|symbolic)</span>{DOT}<span class="n">(\w+)</span>'
     rf'(?:{DOT}<span class="n">(\w+)</span>)?'
 )
 

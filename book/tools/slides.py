@@ -70,6 +70,8 @@ def prepared(notebook: NotebookNode) -> NotebookNode:
     for cell in notebook.cells:
         if cell.cell_type == "markdown":
             cell.source = LINK.sub(_deck_link, cell.source)
+            if cell.source.startswith("**Figure "):
+                cell.source = f'<div class="caption">\n\n{cell.source}\n\n</div>'
         for output in cell.get("outputs", ()):
             if "text/markdown" in output.get("data", {}):
                 output.data["text/markdown"] = LINK.sub(_deck_link, output.data["text/markdown"])

@@ -84,7 +84,13 @@ def main(fast: bool, keep: bool) -> None:
     failures: list[str] = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        rows = [*one_run.rows(), *sweeps.against_the_limit(folder), *sweeps.growth(), *starting()]
+        rows = [
+            *one_run.rows(),
+            *sweeps.against_the_limit(folder),
+            *sweeps.with_error_control(),
+            *sweeps.growth(),
+            *starting(),
+        ]
         if not fast:
             rows += [*building(folder, failures), *explorer(failures)]
     show(rows)

@@ -1,4 +1,4 @@
-"""Sweeps of 300 steps, in nanoseconds a step, against C, numpy and JAX, and how the cost grows."""
+"""Sweeps against C, numpy, JAX and heyoka, and how the cost grows."""
 
 from __future__ import annotations
 
@@ -19,12 +19,8 @@ os.environ.setdefault(
 )  # JAX on one core
 GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
 RUNS, STEPS, DT = 10_000, 300, 0.02
-METHODS = (  # of a sweep, the functions in C, and titles
-    ("polar_euler", "euler", "Euler"),
-    ("rk4", "rk4", "Runge-Kutta"),
-    ("euler", "tangent", "sampled, Euler"),
-    ("arc", "arc", "sampled, arc"),
-)
+METHODS = {"euler": "tangent", "arc": "arc"}  # of a sweep, and the functions in C
+ENSEMBLE = 4_000
 # GCC joins sin(a) and cos(a) into one call that has no vector form, unless that pass is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
 BUILDS = {
@@ -41,16 +37,7 @@ def gains(runs: int) -> wmr.Gains:
 
 
 def states(runs: int) -> list[np.ndarray]:
-    """rho, alpha, theta and the gains, as arrays of one entry a run."""
-    polar = wmr.polar_error(wmr.paper.outdoor().start, GOAL)
-    return [
-        np.full(runs, value) if np.ndim(value) == 0 else value.copy()
-        for value in (*polar, *gains(runs))
-    ]
-
-
-def plane_states(runs: int) -> list[np.ndarray]:
-    """The start, the goal and the gains."""
+    """The start, the goal and the gains, as arrays of one entry a run."""
     row = (*wmr.paper.outdoor().start, *GOAL, *gains(runs))
     return [np.array(np.broadcast_to(value, runs), dtype=float) for value in row]
 
@@ -91,25 +78,30 @@ def in_c(folder: Path) -> dict[str, ctypes.CDLL]:
 
 def c_case(library: ctypes.CDLL, name: str):
     function, pointer = getattr(library, name), np.ctypeslib.ndpointer(np.float64, flags="C")
-    begin = plane_states if name in ("tangent", "arc") else states
-    function.argtypes = [pointer] * len(begin(1)) + [ctypes.c_long] * 2 + [ctypes.c_double]
-    return lambda: function(*begin(RUNS), RUNS, STEPS, DT)
+    function.argtypes = [pointer] * len(states(1)) + [ctypes.c_long] * 2 + [ctypes.c_double]
+    return lambda: function(*states(RUNS), RUNS, STEPS, DT)
+
+
+def euler_step(np, x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max):
+    """A step with numpy's functions, or JAX's."""
+
+    def wrap(angle):
+        return angle - 2.0 * np.pi * np.rint(angle / (2.0 * np.pi))
+
+    rho, sight = np.hypot(goal_x - x, goal_y - y), np.arctan2(goal_y - y, goal_x - x)
+    alpha, theta = wrap(sight - heading), wrap(sight - goal_heading)
+    v = v_max * (1 - np.exp(-k_rho * rho)) * np.cos(alpha)
+    omega = k_alpha * alpha + v / rho * (np.sin(alpha) / alpha) * (alpha + h * theta)
+    moved = x + DT * v * np.cos(heading), y + DT * v * np.sin(heading)
+    return *moved, wrap(heading + DT * omega)
 
 
 def numpy_case():
     def run():
-        rho, alpha, theta, k_rho, k_alpha, h, v_max = states(RUNS)
+        *pose, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max = states(RUNS)
         for _ in range(STEPS):
-            sine, cosine = np.sin(alpha), np.cos(alpha)
-            v = v_max * (1 - np.exp(-k_rho * rho)) * cosine
-            turning = v / rho * sine
-            omega = k_alpha * alpha + v / rho * (sine / alpha) * (alpha + h * theta)
-            rho, alpha, theta = (
-                rho - DT * v * cosine,
-                alpha + DT * (turning - omega),
-                theta + DT * turning,
-            )
-        return rho
+            pose = euler_step(np, *pose, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max)
+        return pose
 
     return run
 
@@ -121,16 +113,10 @@ def jax_case():
     jax.config.update("jax_enable_x64", True)
 
     @jax.jit
-    def run(rho, alpha, theta, k_rho, k_alpha, h, v_max):
-        def step(_, state):
-            rho, alpha, theta = state
-            sine, cosine = jnp.sin(alpha), jnp.cos(alpha)
-            v = v_max * (1 - jnp.exp(-k_rho * rho)) * cosine
-            turning = v / rho * sine
-            omega = k_alpha * alpha + v / rho * (sine / alpha) * (alpha + h * theta)
-            return rho - DT * v * cosine, alpha + DT * (turning - omega), theta + DT * turning
-
-        return jax.lax.fori_loop(0, STEPS, step, (rho, alpha, theta))
+    def run(*row):
+        return jax.lax.fori_loop(
+            0, STEPS, lambda _, pose: euler_step(jnp, *pose, *row[3:]), row[:3]
+        )
 
     return lambda: run(*states(RUNS))[0].block_until_ready()
 
@@ -140,10 +126,10 @@ def against_the_limit(folder: Path) -> list[Row]:
     if not libraries:
         print("gcc was not found: no limit to compare with")
     with ThreadPoolExecutor(1) as one:
-        for method, function, title in METHODS:
+        for method, function in METHODS.items():
             cases = {name: c_case(library, function) for name, library in libraries.items()}
             cases["wmrlib.sweep, metrics included"] = sweep(method, RUNS, STEPS, one)
-            if method == "polar_euler":
+            if method == "euler":
                 cases["numpy"] = numpy_case()
                 try:
                     cases["JAX"] = jax_case()
@@ -151,7 +137,9 @@ def against_the_limit(folder: Path) -> list[Row]:
                     print("JAX is not installed: left out")
             seconds = in_turn(cases)
             limit = min((seconds[name] for name in libraries), default=None)
-            section = f"10,000 gains by 300 steps on one core, {title}, against the fastest C"
+            section = (
+                f"10,000 gains by 300 steps on one core, sampled, {method}, against the fastest C"
+            )
             for name, value in seconds.items():
                 rows.append(
                     Row(
@@ -165,28 +153,95 @@ def against_the_limit(folder: Path) -> list[Row]:
     return rows
 
 
+def some_runs() -> tuple[wmr.Pose, wmr.Gains]:
+    """Starts round the origin and gains, neither stiff nor alike."""
+    draw = np.random.default_rng(1).uniform
+    far, sight = draw(5.0, 60.0, ENSEMBLE), draw(-np.pi, np.pi, ENSEMBLE)
+    starts = wmr.Pose(far * np.cos(sight), far * np.sin(sight), draw(-2.0, 2.0, ENSEMBLE))
+    rate, damping = draw(0.3, 1.0, ENSEMBLE), draw(0.7, 1.5, ENSEMBLE)
+    return starts, wmr.gains_for(
+        rate, natural_frequency=draw(0.7, 1.4, ENSEMBLE) * rate, damping=damping, v_max=4.0
+    )
+
+
+def heyoka_case(starts: wmr.Pose, gains: wmr.Gains, seconds: float):
+    """Taylor series, a batch of runs at a time, until the last of it is within 5 cm."""
+    import heyoka as hy
+
+    rho, alpha, theta = hy.make_vars("rho", "alpha", "theta")
+    k_rho, k_alpha, h, v_max = (hy.par[i] for i in range(4))
+    v = v_max * (1.0 - hy.exp(-k_rho * rho)) * hy.cos(alpha)
+    turning = v / rho * hy.sin(alpha)
+    omega = k_alpha * alpha + v / rho * (hy.sin(alpha) / alpha) * (alpha + h * theta)
+    system = [(rho, -v * hy.cos(alpha)), (alpha, turning - omega), (theta, turning)]
+    width, arrived = hy.recommended_simd_size(), {}
+    end = hy.nt_event_batch(rho - 0.05, lambda _, time, sign, lane: arrived.setdefault(lane, time))
+    robots = hy.taylor_adaptive_batch(
+        system, np.ones((3, width)), tol=1e-10, nt_events=[end], pars=np.ones((4, width))
+    )
+    begin = np.array(wmr.polar_error(starts, wmr.Pose(0.0, 0.0, 0.0)))
+    pars = np.array(np.broadcast_arrays(*gains))
+
+    def run():
+        times = np.empty(ENSEMBLE)
+        for first in range(0, ENSEMBLE, width):
+            some = slice(first, first + width)
+            arrived.clear()
+            robots.set_time(0.0)
+            robots.state[:], robots.pars[:] = begin[:, some], pars[:, some]
+            robots.propagate_until(seconds, callback=lambda _: len(arrived) < width)
+            times[some] = [arrived.get(lane, np.inf) for lane in range(width)]
+        return times
+
+    return run
+
+
+def with_error_control() -> list[Row]:
+    """To arrival within 5 cm or for a minute, at a tolerance of 1e-10."""
+    (starts, gains), goal = some_runs(), wmr.Pose(0.0, 0.0, 0.0)
+    with ThreadPoolExecutor(1) as one:
+        ours = "wmrlib.sweep, peaks and lengths too"
+        cases = {ours: lambda: wmr.sweep(starts, goal, gains, executor=one, progress=False)}
+        try:
+            cases["heyoka, batches"] = heyoka_case(starts, gains, 60.0)
+        except ImportError:
+            print("heyoka is not installed: left out")
+        else:
+            mine, theirs = cases[ours]().time, cases["heyoka, batches"]()
+            np.testing.assert_allclose(mine, theirs, atol=1e-6)
+        seconds = in_turn(cases)
+    section = f"{ENSEMBLE:,} runs in continuous time on one core, against sweep"
+    return [
+        Row(section, name, 1e6 * s / ENSEMBLE, "us a run", s / seconds[ours])
+        for name, s in seconds.items()
+    ]
+
+
 def growth() -> list[Row]:
     with ThreadPoolExecutor(1) as one:
         sizes = [(n, 300) for n in (1000, 10_000, 100_000, 1_000_000)] + [
             (1000, n) for n in (3000, 30_000)
         ]
-        seconds = in_turn({size: sweep("polar_euler", *size, one) for size in sizes}, repeat=3)
+        seconds = in_turn({size: sweep("euler", *size, one) for size in sizes}, repeat=3)
     each = {size: 1e9 * value / size[0] / size[1] for size, value in seconds.items()}
-    section, base = "Growth, Euler on one core, against 10,000 runs of 300 steps", each[10_000, 300]
+    section, base = (
+        "Growth, sampled Euler on one core, against 10,000 runs of 300 steps",
+        each[10_000, 300],
+    )
     rows = [
         Row(section, f"{n:,} runs of {k:,} steps", value, "ns a step", value / base)
         for (n, k), value in each.items()
     ]
     pools = {n: ThreadPoolExecutor(n) for n in (1, *((2,) if (os.cpu_count() or 1) > 1 else ()))}
     cores = in_turn(
-        {f"{n} core{'s' * (n > 1)}": sweep("rk4", 100_000, 300, pool) for n, pool in pools.items()},
+        {f"{n} core{'s' * (n > 1)}": sweep("arc", 100_000, 300, pool) for n, pool in pools.items()},
         repeat=7,
     )
     for pool in pools.values():
         pool.shutdown()
     return rows + [
         Row(
-            "100,000 runs of 300 steps, Runge-Kutta, against one core",
+            "100,000 runs of 300 steps, arc, against one core",
             name,
             s,
             "s",

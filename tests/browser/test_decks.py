@@ -127,6 +127,7 @@ def test_formulas_are_drawn_and_figures_say_what_they_show(decks, opened):
         texts = page.eval_on_selector_all(".slides img", "them => them.map(it => it.alt)")
         assert texts
         assert all(len(text.split()) > 3 for text in texts)
+        assert page.locator(".page .caption").count() == len(texts)
 
 
 def test_the_notebooks_sections_are_the_decks_slides(decks, opened):

@@ -136,10 +136,13 @@ def test_no_link_of_the_site_is_broken(site):
             ), f"{path.name}: {target}"
 
 
-def test_every_image_says_what_it_shows(site):
+def test_every_image_says_what_it_shows_and_those_of_chapters_have_captions(site):
     for path in pages(site):
-        for text in _Parts(path).texts:
+        page = _Parts(path)
+        for text in page.texts:
             assert len(text.split()) > 3, f"{path.name}: {text!r} is no alternative text"
+        captions = [anchor for anchor in page.anchors if anchor.startswith("figure-")]
+        assert len(captions) == len(page.texts) * (path.parent.name == "notebooks"), path.name
 
 
 def test_each_chapter_can_be_downloaded_as_a_notebook(site):

@@ -7,21 +7,23 @@ of its own, from the beginning of the step that it lies in.
 from __future__ import annotations
 
 import math
-from functools import lru_cache
+from typing import Any
 
 import numpy as np
 
-from wmrlib._compile import compiled
+from wmrlib._compile import compiled, formula
 from wmrlib._loops import rows, steps
 from wmrlib._loops.polar import closed_loop, polar_closing_rate
 from wmrlib._vecmath import widest_vectors
-from wmrlib.gains import NO_LIMITS, GainsFields
+from wmrlib.gains import GainsFields
+from wmrlib.laws import POSE_LAWS
 from wmrlib.motion import polar_from_pose, pose_of_error, wrap
 
 MOST_TRIALS = 100_000.0
 TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
 _BEYOND = 1e100  # m or rad: whoever gets so far in so many steps never ends
-_LEFT, _TIME = steps.LEFT // steps.LANES, steps.TIME // steps.LANES
+_KEPT = steps.ALPHA, steps.THETA, steps.LEFT, steps.TIME, steps.PEAK, steps.LENGTH, steps.TRIALS
+_ALPHA, _THETA, _LEFT, _TIME, _PEAK, _LENGTH, _TRIALS = (at // steps.LANES for at in _KEPT)
 _ROUNDS = 4  # steps between two looks at who has finished
 
 
@@ -51,96 +53,109 @@ def put_down(bench, record, first, goal):
         rows.write(record, first + i, pose_of_error(*seen, *goal), seen, v, omega)
 
 
-@lru_cache
-def loops_of(law, limited, lagging):
-    """The loops for one law, compiled by themselves: asking for it would cost more than a step."""
-    size = 6 if lagging else 4
-
-    @compiled
-    def slopes(bench, used, stage, wheels, lag):
-        widest_vectors()
-        limits = wheels if limited else NO_LIMITS
-        at, out = bench[steps.source_of(stage) :], bench[steps.SLOPES + stage * steps.STAGE :]
+@formula
+def _slopes(bench, used, stage, law, wheels, lag):
+    """The rates of a stage: of the polar error, and with a lag of the wheels' twist too."""
+    widest_vectors()
+    at, out = bench[steps.source_of(stage) :], bench[steps.SLOPES + stage * steps.STAGE :]
+    for i in range(used):
+        gains = GainsFields(
+            bench[steps.K_RHO + i],
+            bench[steps.K_ALPHA + i],
+            bench[steps.H + i],
+            bench[steps.V_MAX + i],
+        )
+        polar = at[i], at[steps.ALPHA + i], at[steps.THETA + i]
+        rates = closed_loop(polar, (gains, law, wheels))
+        out[i], out[steps.ALPHA + i], out[steps.THETA + i] = rates[0], rates[1], rates[2]
+        out[steps.ROLLED + i], out[steps.TURNING + i] = rates[3], rates[4]
+    if lag > 0.0:
         for i in range(used):
-            gains = GainsFields(
-                bench[steps.K_RHO + i],
-                bench[steps.K_ALPHA + i],
-                bench[steps.H + i],
-                bench[steps.V_MAX + i],
-            )
-            loop = gains, law, limits
-            r, a, t, v, omega = closed_loop((at[i], at[steps.ALPHA + i], at[steps.THETA + i]), loop)
-            if lagging:
-                out[steps.V + i], out[steps.OMEGA + i] = (
-                    (v - at[steps.V + i]) / lag,
-                    (omega - at[steps.OMEGA + i]) / lag,
-                )
-                v, omega = at[steps.V + i], at[steps.OMEGA + i]
-                rho = at[i] if at[i] != 0.0 else 1.0  # on the goal v is 0
-                r, a, t = polar_closing_rate(rho, at[steps.ALPHA + i], v / rho, omega)
-            out[i], out[steps.ALPHA + i], out[steps.THETA + i] = r, a, t
+            v, omega = at[steps.V + i], at[steps.OMEGA + i]
+            out[steps.V + i] = (out[steps.ROLLED + i] - v) / lag
+            out[steps.OMEGA + i] = (out[steps.TURNING + i] - omega) / lag
             out[steps.ROLLED + i], out[steps.TURNING + i] = v, omega
+            rho = at[i] if at[i] != 0.0 else 1.0  # on the goal v is 0
+            rates = polar_closing_rate(rho, at[steps.ALPHA + i], v / rho, omega)
+            out[i], out[steps.ALPHA + i], out[steps.THETA + i] = rates
 
-    @compiled
-    def begin(bench, used, wheels, lag):
-        for stage in (0, steps.BEFORE):
-            slopes(bench, used, stage, wheels, lag)
-            steps.get_ready(bench, used, stage, 1e-300)
 
-    @compiled
-    def trial(bench, used, radius, wheels, lag):
-        steps.set_steps(bench, used)
-        for stage in range(1, steps.BEFORE + 1):
-            steps.move(bench, used, size, stage)
-            slopes(bench, used, stage, wheels, lag)
-        steps.judge(bench, used, size, 1e-150, radius, TOLERANCE)
+def _written_out():
+    """`slopes`, a loop for each law: asking for it in every step would cost more than the step."""
+    yield "def slopes(bench, used, stage, law, wheels, lag):"
+    for code in POSE_LAWS.values():
+        yield f" if law == {code}: _slopes(bench, used, stage, {code}, wheels, lag)"
 
-    @compiled
-    def drive(states, radius, wheels, lag):
-        bench, inside = np.zeros(steps.ROOM), np.zeros(steps.LANES, np.int64)
-        seats, width, waiting = bench.reshape(-1, steps.LANES), 0, 0
-        for first in range(0, states.shape[1], steps.LANES):
-            used = min(steps.LANES, states.shape[1] - first)
-            for i in range(used):
-                rows.sit(seats, i, states, first + i)
-            begin(bench, steps.LANES, wheels, lag)
-            for i in range(used):
-                rows.sit(states, first + i, seats[: steps.KEPT], i)
-        while True:
-            width, waiting = rows.exchange(states, seats, inside, width, waiting, _LEFT)
-            if width == 0:
-                return
-            for _ in range(_ROUNDS):
-                trial(bench, steps.LANES, radius, wheels, lag)
 
-    @compiled
-    def trace(state, radius, wheels, lag):
-        """What is kept of one run at the beginning of each step, and at its end, in columns."""
-        bench, log, count = np.zeros(steps.ROOM), np.empty((steps.KEPT, 64)), 0
-        seats = bench.reshape(-1, steps.LANES)
-        rows.sit(seats, 0, state, 0)
-        begin(bench, 1, wheels, lag)
-        while True:
-            if count == log.shape[1]:
-                log = steps.doubled(log)
-            rows.sit(log, count, seats[: steps.KEPT], 0)
-            if not bench[steps.LEFT] > 0.0:
-                return log[:, : count + 1]
-            trial(bench, 1, radius, wheels, lag)
-            count += int(bench[steps.TAKEN])
+_space: dict[str, Any] = {"__name__": __name__, "_slopes": _slopes}
+exec("\n".join(_written_out()), _space)
+slopes = compiled(_space["slopes"])
 
-    @compiled
-    def sample(log, t, wheels, lag, record, goal):
-        """Record the run at the times t."""
-        bench, step = np.zeros(steps.ROOM), 0
-        for first in range(0, t.size, steps.LANES):
-            step = sit_back(bench, log, t[first : first + steps.LANES], step)
-            for stage in range(1, steps.LAST + 1):
-                steps.move(bench, steps.LANES, size, stage)
-                slopes(bench, steps.LANES, stage, wheels, lag)
-            put_down(bench, record, first, goal)
 
-    return drive, trace, sample
+@compiled
+def begin(bench, used, law, wheels, lag):
+    for stage in (0, steps.BEFORE):
+        slopes(bench, used, stage, law, wheels, lag)
+        steps.get_ready(bench, used, stage, 1e-300)
+
+
+@compiled
+def trial(bench, used, radius, law, wheels, lag):
+    size = 6 if lag > 0.0 else 4
+    steps.set_steps(bench, used)
+    for stage in range(1, steps.BEFORE + 1):
+        steps.move(bench, used, size, stage)
+        slopes(bench, used, stage, law, wheels, lag)
+    steps.judge(bench, used, size, 1e-150, radius, TOLERANCE)
+
+
+@compiled
+def drive(states, radius, law, wheels):
+    """Take every run to its end; a run that is over gives its place to the next."""
+    bench, inside = np.zeros(steps.ROOM), np.zeros(steps.LANES, np.int64)
+    seats, width, waiting = bench.reshape(-1, steps.LANES), 0, 0
+    for first in range(0, states.shape[1], steps.LANES):
+        used = min(steps.LANES, states.shape[1] - first)
+        for i in range(used):
+            rows.sit(seats, i, states, first + i)
+        begin(bench, steps.LANES, law, wheels, 0.0)
+        for i in range(used):
+            rows.sit(states, first + i, seats[: steps.KEPT], i)
+    while True:
+        width, waiting = rows.exchange(states, seats, inside, width, waiting, _LEFT)
+        if width == 0:
+            return
+        for _ in range(_ROUNDS):
+            trial(bench, steps.LANES, radius, law, wheels, 0.0)
+
+
+@compiled
+def trace(state, radius, law, wheels, lag):
+    """What is kept of one run at the beginning of each step, and at its end, in columns."""
+    bench, log, count = np.zeros(steps.ROOM), np.empty((steps.KEPT, 64)), 0
+    seats = bench.reshape(-1, steps.LANES)
+    rows.sit(seats, 0, state, 0)
+    begin(bench, 1, law, wheels, lag)
+    while True:
+        if count == log.shape[1]:
+            log = steps.doubled(log)
+        rows.sit(log, count, seats[: steps.KEPT], 0)
+        if not bench[steps.LEFT] > 0.0:
+            return log[:, : count + 1]
+        trial(bench, 1, radius, law, wheels, lag)
+        count += int(bench[steps.TAKEN])
+
+
+@compiled
+def sample(log, t, law, wheels, lag, record, goal):
+    """Record the run at the times t."""
+    bench, step, size = np.zeros(steps.ROOM), 0, 6 if lag > 0.0 else 4
+    for first in range(0, t.size, steps.LANES):
+        step = sit_back(bench, log, t[first : first + steps.LANES], step)
+        for stage in range(1, steps.LAST + 1):
+            steps.move(bench, steps.LANES, size, stage)
+            slopes(bench, steps.LANES, stage, law, wheels, lag)
+        put_down(bench, record, first, goal)
 
 
 @compiled
@@ -149,9 +164,8 @@ def begun(runs, whole, radius, most):
     states = np.zeros((steps.KEPT, runs.shape[1]))
     for i in range(runs.shape[1]):
         start, goal, _ = rows.run_of(runs, i)
-        rho, alpha, theta = polar_from_pose(*start, *goal)
-        states[steps.RHO // steps.LANES, i], states[steps.ALPHA // steps.LANES, i] = rho, alpha
-        states[steps.THETA // steps.LANES, i], states[steps.TRIALS // steps.LANES, i] = theta, most
+        rho, states[_ALPHA, i], states[_THETA, i] = polar_from_pose(*start, *goal)
+        states[0, i], states[_TRIALS, i] = rho, most
         states[_LEFT, i] = whole if rho > radius else -whole
         for k in range(4):
             states[steps.K_RHO // steps.LANES + k, i] = runs[6 + k, i]
@@ -163,12 +177,13 @@ def summed_up(states, whole, radius):
     """What became of each run."""
     summary = np.empty((rows.DISTANCE + 1, states.shape[1]))
     for i in range(states.shape[1]):
-        rho, alpha, theta = (
+        rho, alpha, theta, left = (
             states[0, i],
-            states[steps.ALPHA // steps.LANES, i],
-            states[steps.THETA // steps.LANES, i],
+            states[_ALPHA, i],
+            states[_THETA, i],
+            states[_LEFT, i],
         )
-        left, total = states[_LEFT, i], rho + alpha + theta
+        total = rho + alpha + theta
         for row in range(steps.SLOPES // steps.LANES, steps.KEPT):
             total += states[row, i]
         outcome = rows.TIMED_OUT
@@ -179,8 +194,7 @@ def summed_up(states, whole, radius):
             outcome = rows.ARRIVED
         elif left < 0.0:
             outcome = rows.UNFINISHED
-        peak, length = states[steps.PEAK // steps.LANES, i], states[steps.LENGTH // steps.LANES, i]
-        sums = wrap(theta - alpha), peak, length, rho
+        sums = wrap(theta - alpha), states[_PEAK, i], states[_LENGTH, i], rho
         rows.summarise(summary, i, outcome, states[_TIME, i], *sums)
         if outcome == rows.UNFINISHED:
             summary[rows.TIME :, i] = math.nan
@@ -189,18 +203,17 @@ def summed_up(states, whole, radius):
 
 def survey(runs, law, wheels, _, dt, samples, radius, recorded):
     """As `plane.survey`; the last sample is the one before arrival."""
-    drive, trace, sample = loops_of(law, wheels.max_speed < math.inf, False)
     whole = (samples - 1) * dt
-    begin, how = begun(runs, whole, radius, MOST_TRIALS), (radius, wheels, 0.0)
-    states = begin.copy()
-    drive(states, *how)
-    summary = summed_up(states, whole, radius)
+    states, how = begun(runs, whole, radius, MOST_TRIALS), (radius, law, wheels)
+    ends = states.copy()
+    drive(ends, *how)
+    summary = summed_up(ends, whole, radius)
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
     going = np.isin(summary[rows.OUTCOME], (rows.ARRIVED, rows.TIMED_OUT))
     t = dt * np.arange(samples)
     for i in np.flatnonzero(going) if recorded else ():
-        log = trace(begin[:, i : i + 1], *how)
+        log = trace(states[:, i : i + 1], *how, 0.0)
         arrived = summary[rows.OUTCOME, i] == rows.ARRIVED
         count = max(1, np.searchsorted(t, summary[rows.TIME, i])) if arrived else samples
-        sample(log, t[:count], wheels, 0.0, records[:, i, :count], tuple(runs[3:6, i]))
+        sample(log, t[:count], law, wheels, 0.0, records[:, i, :count], tuple(runs[3:6, i]))
     return summary, records

@@ -24,12 +24,12 @@ def to_goal(start, goal, tuning, law, wheels, t, radius, lag):
 
     With a lag the wheels begin at rest, and the record's v and omega are what they do.
     """
-    _, trace, sample = adaptive.loops_of(law, wheels.max_speed < math.inf, lag > 0.0)
     run = np.array([*start, *goal, *tuning.pose])[:, None]
-    log = trace(adaptive.begun(run, t[-1], radius, _MOST_TRIALS), radius, wheels, lag)
+    state = adaptive.begun(run, t[-1], radius, _MOST_TRIALS)
+    log = adaptive.trace(state, radius, law, wheels, lag)
 
     def recorded(record, times):
-        sample(log, times, wheels, lag, record, tuple(goal))
+        adaptive.sample(log, times, law, wheels, lag, record, tuple(goal))
 
     return _finished(t, log, radius, recorded, tuning, law)
 

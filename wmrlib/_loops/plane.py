@@ -3,21 +3,27 @@
 from __future__ import annotations
 
 import math
+from functools import lru_cache
 
 import numpy as np
 
 from wmrlib._compile import compiled, formula
-from wmrlib._loops import blocks, polar, rows
-from wmrlib._vecmath import NEAREST, vectorised
+from wmrlib._loops import rows
+from wmrlib._loops.polar import steered
+from wmrlib._vecmath import NEAREST, vectorised, widest_vectors
+from wmrlib.gains import GainsFields
 from wmrlib.kinematics import wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
 from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
 
-EULER, ARC = 3, 4  # beside the methods in polar coordinates
-# The rows of a block: the pose is where the polar coordinates are, and then as in `polar`. The last
+EULER, ARC = range(2)
+BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
+_VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
+_ROUNDS = 16  # steps between two looks at who has finished
+# The rows of a block. LEFT is the number of steps to go, and its sign turns on arrival; the last
 # three are what a step has seen, and what it then commands.
-X, Y, HEADING = polar.RHO, polar.ALPHA, polar.THETA
-GOAL_X, GOAL_Y, GOAL_HEADING, RHO, ALPHA, THETA = range(polar.ROWS, polar.ROWS + 6)
+X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(10)  # as in a sweep
+LEFT, PEAK, LENGTH, RHO, ALPHA, THETA, ROWS = range(10, 17)
 V, OMEGA = ALPHA, THETA
 
 _seen_from, _along_arc, _along_tangent = map(vectorised, (polar_from_pose, arc_step, euler_step))
@@ -42,11 +48,12 @@ def move(pose, v, omega, dt, step):
 
 @compiled
 def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radius):
-    """Record one run after the goal in column k of `reference`, or its last: (samples, outcome).
+    """Record one run after the goal in column k of `reference`, or its last.
 
-    Stops on arrival; a negative radius never arrives, so a reference is followed to its end.
+    Returns (samples, outcome, largest |omega|, metres rolled). Stops on arrival; a negative radius
+    never arrives, so a reference is followed to its end.
     """
-    pose = start[0], start[1], wrap(start[2])
+    pose, peak, length, rolled = (start[0], start[1], wrap(start[2])), 0.0, 0.0, 0.0
     for k in range(record.shape[0]):
         now = min(k, reference.shape[1] - 1)
         goal = reference[rows.X, now], reference[rows.Y, now], reference[rows.HEADING, now]
@@ -55,11 +62,12 @@ def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radiu
         rows.write(record.T, k, pose, (rho, alpha, theta), v, omega)
         record[k, rows.LYAPUNOV] = lyapunov_value_of(rho, alpha, theta, tuning, law)
         if not math.isfinite(rho + v + omega):
-            return k, rows.DIVERGED
+            return k, rows.DIVERGED, peak, length
+        peak, length = max(peak, abs(omega)), length + rolled
         if rho <= arrival_radius:
-            return k + 1, rows.ARRIVED
-        pose = move(pose, v, omega, dt, step)
-    return record.shape[0], rows.TIMED_OUT
+            return k + 1, rows.ARRIVED, peak, length
+        pose, rolled = move(pose, v, omega, dt, step), dt * abs(v)
+    return record.shape[0], rows.TIMED_OUT, peak, length
 
 
 @formula
@@ -70,24 +78,47 @@ def hold(block, used, step, law, wheels, dt, arrival_radius):
     too little foresight to begin the next runs before the end of a long step.
     """
     for i in range(used):
-        pose, _, _, _, _ = polar.read(block, i)
+        pose = block[X, i], block[Y, i], block[HEADING, i]
         seen = _seen_from(*pose, block[GOAL_X, i], block[GOAL_Y, i], block[GOAL_HEADING, i])
         block[RHO, i], block[ALPHA, i], block[THETA, i] = seen
     for i in range(used):
-        _, left, peak, length, gains = polar.read(block, i)
+        gains = GainsFields(block[K_RHO, i], block[K_ALPHA, i], block[H, i], block[V_MAX, i])
         seen = block[RHO, i], block[ALPHA, i], block[THETA, i]
-        _, _, _, v, omega = polar.closed_loop(seen, (gains, law, wheels))
+        v_over_rho, omega = steered(seen, (gains, law, wheels))
+        left, peak = block[LEFT, i], block[PEAK, i]
         taken = (left > 0.0) & (seen[0] > arrival_radius)
-        v, omega = (v if taken else 0.0), (omega if taken else 0.0)
+        v, omega = (v_over_rho * seen[0] if taken else 0.0), (omega if taken else 0.0)
         block[V, i], block[OMEGA, i] = v, omega
-        block[polar.LEFT, i] = left - 1.0 if taken else -abs(left)
-        block[polar.PEAK, i] = abs(omega) if abs(omega) > peak else peak
-        block[polar.LENGTH, i] = length + dt * abs(v)
+        block[LEFT, i] = left - 1.0 if taken else -abs(left)
+        block[PEAK, i] = abs(omega) if abs(omega) > peak else peak
+        block[LENGTH, i] += dt * abs(v)
     for i in range(used):
-        pose, _, _, _, _ = polar.read(block, i)
-        twist = block[V, i], block[OMEGA, i]
+        pose, twist = (block[X, i], block[Y, i], block[HEADING, i]), (block[V, i], block[OMEGA, i])
         new = _along_arc(*pose, *twist, dt) if step == ARC else _along_tangent(*pose, *twist, dt)
         block[X, i], block[Y, i], block[HEADING, i] = new
+
+
+@lru_cache
+def loop_of(step, law):
+    """The loop that takes every run to its end, or to its last step, for one method and law.
+
+    Each is compiled by itself: asking for the law in every step would cost more than the step. A
+    run that is over gives its place to the next.
+    """
+
+    def loop(states, wheels, dt, arrival_radius):
+        widest_vectors()
+        block, inside = np.zeros((states.shape[0], BLOCK)), np.zeros(BLOCK, np.int64)
+        waiting = width = 0
+        while True:
+            width, waiting = rows.exchange(states, block, inside, width, waiting, LEFT)
+            if width == 0:
+                return
+            used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
+            for _ in range(_ROUNDS):
+                hold(block, used, step, law, wheels, dt, arrival_radius)
+
+    return compiled(loop)
 
 
 @compiled
@@ -97,7 +128,8 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
     run, reference = np.empty((samples, rows.LYAPUNOV + 1)), np.zeros((rows.GOAL_OMEGA + 1, 1))
     for i in range(runs.shape[1]):
         start, goal, gains = rows.run_of(runs, i)
-        pose, left, peak, length, _ = polar.read(states, i)
+        pose = states[X, i], states[Y, i], states[HEADING, i]
+        left, peak, length = states[LEFT, i], states[PEAK, i], states[LENGTH, i]
         loop = pose_tuning(*gains), law, wheels
         rho, alpha, theta, v, omega = observe(pose, goal, (0.0, 0.0), *loop)
         last, arrived = samples - 1 - int(abs(left)), rho <= arrival_radius
@@ -105,12 +137,11 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
         known = last > 0 and math.isfinite(rho + v + omega) and (arrived or left == 0.0)
         if records.shape[2] or not known:
             reference[rows.X, 0], reference[rows.Y, 0], reference[rows.HEADING, 0] = goal
-            count, outcome = drive(run, start, reference, *loop, step, dt, arrival_radius)
-            last, peak, length = max(count - 1, 0), 0.0, 0.0
-            for k in range(count):
-                peak = max(peak, abs(run[k, rows.OMEGA]))
-                length += abs(run[k, rows.V]) * dt if k < last else 0.0
-                for row in range(rows.LYAPUNOV if records.shape[2] else 0):
+            how = step, dt, arrival_radius
+            count, outcome, peak, length = drive(run, start, reference, *loop, *how)
+            last = max(count - 1, 0)
+            for k in range(min(count, records.shape[2])):
+                for row in range(rows.LYAPUNOV):
                     records[row, i, k] = run[k, row]
             rho, alpha, theta = run[last, rows.RHO : rows.V]
         rows.summarise(summary, i, outcome, last * dt, wrap(theta - alpha), peak, length, rho)
@@ -119,11 +150,9 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
 
 def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded):
     """Sum up many runs to goals that stand still; their samples too, NaN after each one's end."""
-    states = np.zeros((THETA + 1, runs.shape[1]))
-    states[X], states[Y], states[HEADING] = runs[0], runs[1], wrap_angle(runs[2])
-    states[GOAL_X:RHO], states[polar.K_RHO : GOAL_X] = runs[3:6], runs[6:]
-    states[polar.LEFT] = 0.0 if recorded else samples - 1.0
-    all_steps = blocks.survey_of(step, law, wheels.max_speed < math.inf, hold)
-    all_steps(states, wheels, dt, max(arrival_radius, NEAREST))
+    states = np.zeros((ROWS, runs.shape[1]))
+    states[: len(runs)], states[HEADING] = runs, wrap_angle(runs[HEADING])
+    states[LEFT] = 0.0 if recorded else samples - 1.0
+    loop_of(step, law)(states, wheels, dt, max(arrival_radius, NEAREST))
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
     return conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radius), records

@@ -46,7 +46,7 @@ NODES = np.array([0.0, *map(sum, _TO)])  # when each stage is, as shares of the 
 def _written_out():
     """`move`, with each sum of slopes written out: LLVM vectorises no loop that holds another."""
     yield "def move(bench, used, size, stage):"
-    yield f" for row in range(0, size * {LANES}, {LANES}):"
+    yield f" for first in range(0, size * {LANES}, {LANES}):\n  row = first & 255"
     for stage, weights in enumerate((*_TO, FIFTH, THIRD), 1):
         slopes = ((SLOPES + j * STAGE, weight) for j, weight in enumerate(weights) if weight)
         total = " + ".join(f"{weight!r} * bench[{at} + row + i]" for at, weight in slopes)
@@ -139,14 +139,13 @@ def judge(bench, used, size, smallest, radius, tolerance):
     widest_vectors()
     move(bench, used, size, _FINE_MISS)
     move(bench, used, size, _COARSE_MISS)
-    for row in range(0, size * LANES, LANES):
+    for first in range(0, size * LANES, LANES):
+        row = first & 255
         least = 1.0 if row else smallest
         for i in range(used):
             scale = larger(abs(bench[NEW + row + i]), least)
-            fine, coarse = (
-                abs(bench[_FINE + row + i]) / scale,
-                abs(bench[_COARSE + row + i]) / scale,
-            )
+            fine = abs(bench[_FINE + row + i]) / scale
+            coarse = abs(bench[_COARSE + row + i]) / scale
             bench[_FINE + i] = larger(fine, bench[_FINE + i]) if row else fine
             bench[_COARSE + i] = larger(coarse, bench[_COARSE + i]) if row else coarse
     for i in range(used):

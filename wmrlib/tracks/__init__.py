@@ -1,4 +1,4 @@
-"""Positions in NMEA, GPX, CSV and GeoJSON files, with an account of what is not used."""
+"""Positions in NMEA, GPX and CSV files, with an account of what is not used."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from wmrlib._checks import refusal
 from wmrlib.geodesy import GeoPoint
-from wmrlib.tracks import geojson, gpx, nmea, tables
+from wmrlib.tracks import gpx, nmea, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
@@ -36,7 +36,7 @@ class Track:
 
     Parameters
     ----------
-    points, source, report : GeoPoint of arrays, "NMEA", "GPX", "CSV" or "GeoJSON", and Report
+    points, source, report : GeoPoint of arrays, "NMEA", "GPX" or "CSV", and Report
     t : array, s; since the first position that has a time, NaN where there is none; in order
         within a segment of GPX, and in the whole of another file
     """
@@ -71,17 +71,17 @@ class Track:
 
 
 def read_track(path: str | os.PathLike) -> Track:
-    """Read positions from NMEA sentences, GPX, GeoJSON or a CSV table; the content tells which.
+    """Read positions from NMEA sentences, GPX or a CSV table; the content tells which.
 
     NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once;
     not where the most trusted of these says that there is no fix; checksum needed.
     GPX: the track points, or else the route's, or else the waypoints, whose times tell when they
     were made and are not used; no document type or entity. Extensions are passed over.
-    GeoJSON: all points and lines, RFC 7946. Text is UTF-8, or UTF-16 with its byte order mark.
     CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees
     or e7; optionally N/S and E/W; time, timestamp, datetime or t, in seconds, ms or ISO 8601, or
     date (y/m/d or yymmdd) and time; valid, fix, quality or status. Cells are separated by a comma,
     semicolon, tab or |; decimal commas are read, in quotes where commas separate cells.
+    Text is UTF-8, or UTF-16 with its byte order mark.
     Where times run backwards, the longest run in order is used (in GPX, of each segment).
 
     Parameters
@@ -129,7 +129,7 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
             raise ValueError("the file is empty")
         text.seek(0)
         if begin in "{[":
-            return "GeoJSON", geojson.read(text.read())
+            raise ValueError("it is JSON, but NMEA, GPX or CSV is needed")
         try:
             return "CSV", tables.read_csv(text)
         except tables.NoHeaderError:

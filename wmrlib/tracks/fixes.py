@@ -38,13 +38,11 @@ class Report:
     used : int; number of positions
     skipped : mapping from the reason why a line gave no position to its Count
     noted : the same for positions that are used although something is amiss with them
-    unit : what `Count.first` counts: "line", or "position" for GeoJSON
     """
 
     used: int
     skipped: Mapping[str, Count]
     noted: Mapping[str, Count] = field(default_factory=dict)
-    unit: str = "line"
 
     def __post_init__(self) -> None:
         for name in ("skipped", "noted"):
@@ -52,7 +50,7 @@ class Report:
             object.__setattr__(self, name, MappingProxyType(dict(rows)))
 
     def __reduce__(self) -> tuple:  # a mapping proxy can't be pickled
-        return Report, (self.used, dict(self.skipped), dict(self.noted), self.unit)
+        return Report, (self.used, dict(self.skipped), dict(self.noted))
 
     def __repr__(self) -> str:
         rows = [f"{self.used} position{'' if self.used == 1 else 's'} used"]
@@ -62,18 +60,17 @@ class Report:
 
     def listed(self, reasons: Mapping[str, Count]) -> list[str]:
         rows = reasons.items()
-        return [f"{n} {reason} (first in {self.unit} {first})" for reason, (n, first) in rows]
+        return [f"{n} {reason} (first in line {first})" for reason, (n, first) in rows]
 
 
 class Fixes:
     """The positions of one file as they are found, and the reasons why others are not used."""
 
-    def __init__(self, unit: str = "line") -> None:
+    def __init__(self) -> None:
         self.lat, self.lon, self.time = array("d"), array("d"), array("d")
         self._lines, self._segments = array("q"), array("q")
         self.skipped: dict[str, Count] = {}
         self._noted: dict[str, Count] = {}
-        self._unit = unit
 
     def skip(self, reason: str, line: int, times: int = 1) -> None:
         count(self.skipped, reason, line, times)
@@ -116,7 +113,7 @@ class Fixes:
             if gone.size:
                 self.skip(reason, self._lines[gone[0]], gone.size)
         table = np.delete(table, np.concatenate([late, again]), axis=1)
-        return table, Report(table.shape[1], self.skipped, self._noted, self._unit)
+        return table, Report(table.shape[1], self.skipped, self._noted)
 
 
 def number(text: str | None) -> float:

@@ -104,7 +104,7 @@ def _header(line: str) -> _Columns:
             return _Columns(delimiter, len(cells), places, units, fixes)
     wanted = f"one of {sorted(LATITUDE)} and one of {sorted(LONGITUDE)}"
     first = f"as a table its first line {shown} does not name {wanted}"
-    raise NoHeaderError(f"it is no NMEA, GPX or GeoJSON, and {first}")
+    raise NoHeaderError(f"it is neither NMEA nor GPX, and {first}")
 
 
 def _use(fixes: Fixes, row: list[str], columns: _Columns, line: int, lines: int) -> None:

@@ -11,10 +11,10 @@ from matplotlib.lines import Line2D
 
 from wmrbook.conventions import CONVENTIONS, translate
 from wmrbook.figures._drawing import check_count, note, panels, run_list
+from wmrbook.figures.paths import path, pose_at
+from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
-from wmrlib.plots.runs import path, pose_at
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
 
@@ -158,7 +158,7 @@ def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None
     robot_looks = {"fill": "robot"}
     goal_looks = {"fill": "white", "edge": "goal", "lw": 2.5}
     for at, role, name, looks in (
-        (pose, "start", "robot", robot_looks),
+        (pose, "path", "robot", robot_looks),
         (goal, "goal", "goal", goal_looks),
     ):
         style = {"color": COLOURS[role], "lw": 2.0, "ls": "-"}

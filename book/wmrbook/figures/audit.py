@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from wmrbook.figures._drawing import check_count
-from wmrlib.plots.style import COLOURS, Picture, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure
 
 _LOOKS = (("#56B4E9", ""), ("#F0E442", "//"), ("#D55E00", "xx"), ("#BBBBBB", ".."))
 

@@ -10,10 +10,10 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
+from wmrbook.figures.paths import pose_at
+from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import real
 from wmrlib.kinematics import Pose
-from wmrlib.plots.runs import pose_at
-from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
 _MARKERS = ("o", "s", "^", "D", "v")

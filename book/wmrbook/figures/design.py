@@ -13,10 +13,10 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from wmrbook.figures._drawing import check_count, note, panels
+from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
 from wmrlib import symbolic
 from wmrlib._checks import choice, instance, real
 from wmrlib.gains import Gains
-from wmrlib.plots.style import COLOURS, LINES, Picture, new_figure
 from wmrlib.runs import Arrival, Trajectory
 from wmrlib.tuning import modes
 

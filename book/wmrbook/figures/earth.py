@@ -10,6 +10,7 @@ from matplotlib.patches import Circle
 
 from wmrbook.ellipsoid import sphere_error
 from wmrbook.figures._drawing import note
+from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure
 from wmrlib._checks import instance
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
@@ -19,7 +20,6 @@ from wmrlib.geodesy import (
     initial_bearing,
     local_position,
 )
-from wmrlib.plots.style import COLOURS, Picture, equal_scales, new_figure
 
 
 def local_map(origin: GeoPoint, point: GeoPoint) -> Picture:

@@ -10,9 +10,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
 from wmrbook.figures._drawing import check_count
+from wmrbook.figures.paths import draw_path, path_in_words, pose_at
+from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import instance
-from wmrlib.plots.runs import draw_path, path_in_words, pose_at
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
 _DISTANCES = 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0  # m, labelled on a logarithmic axis

@@ -10,9 +10,9 @@ from matplotlib.collections import LineCollection
 from matplotlib.lines import Line2D
 
 from wmrbook.figures._drawing import legend_above, panels, run_list
+from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
 from wmrlib.control import lyapunov
 from wmrlib.gains import Gains
-from wmrlib.plots.style import COLOURS, LINES, Picture, new_figure
 from wmrlib.runs import Trajectory
 
 _TINTS = tuple(COLOURS[role] for role in ("ink", "omega", "path", "y_error"))

@@ -10,10 +10,10 @@ from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
 from wmrbook.figures._drawing import check_count, figure_legend, legend_above, note
+from wmrbook.figures.style import COLOURS, LINES, Picture, dart, new_figure
 from wmrbook.scatter import StationaryScatter
 from wmrlib._checks import instance, real, same_shape
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, new_figure
 
 _MOST_DARTS = 150
 _COUNTS = {1: "last", 2: "last two", 3: "last three", 4: "last four"}

@@ -21,9 +21,9 @@ from wmrbook.figures._drawing import (
     panels,
     pointer,
 )
+from wmrbook.figures.paths import pose_at
+from wmrbook.figures.style import COLOURS, Picture, dart, new_figure
 from wmrlib._checks import choice, instance, real, scalar
-from wmrlib.plots.runs import pose_at
-from wmrlib.plots.style import COLOURS, Picture, dart, new_figure
 from wmrlib.runs import Trajectory
 
 _LEAST = 1e-6  # of a logarithmic scale

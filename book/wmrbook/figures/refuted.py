@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.patches import Patch
 
 from wmrbook.figures._drawing import legend_above
-from wmrlib.plots.style import COLOURS, Picture, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure
 
 _RISING = "#F7C9A8"
 

@@ -10,11 +10,11 @@ from matplotlib.axes import Axes
 from matplotlib.patches import Arc, FancyBboxPatch, Polygon
 
 from wmrbook.figures._drawing import check_count, note, pointer
+from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import instance, real, scalar
 from wmrlib.control import control_law
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, advance, polar_error, twist_to_wheels
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 
 _BODY = ((0.85, 0.0), (0.55, 0.4), (-0.55, 0.4), (-0.55, -0.4), (0.55, -0.4))  # in track widths
 _ORIGIN = Pose(0.0, 0.0, 0.0)

@@ -11,9 +11,9 @@ from matplotlib.lines import Line2D
 
 from wmrbook.challenge import Score, drive_cases
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
+from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose
-from wmrlib.plots.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.routes import Route
 
 _STOP, _PASS = COLOURS["goal"], COLOURS["ink"]

@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from wmrbook.figures._drawing import check_count
+from wmrbook.figures.style import COLOURS, Picture, dart, new_figure
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.metrics import arrival
-from wmrlib.plots.style import COLOURS, Picture, dart, new_figure
 from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate
 from wmrlib.tuning import longest_step

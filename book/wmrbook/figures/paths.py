@@ -9,8 +9,9 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
+from wmrbook.figures._drawing import run_list
+from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.plots.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib.runs import Trajectory
 
 
@@ -30,12 +31,8 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
     ------
     ValueError : another number of runs or labels
     """
-    runs = [runs] if isinstance(runs, Trajectory) else list(runs)
-    count = len(runs)
-    single = count == 1
-    if not 1 <= count <= len(LINES):
-        needed = f"1 to {len(LINES)} are needed"
-        raise ValueError(f"runs has {count} entries, which is not allowed: {needed}")
+    runs = run_list(runs)
+    count, single = len(runs), len(runs) == 1
     if len(labels) not in (0, count):
         needed = f"one for each of the {count} runs is needed"
         raise ValueError(f"labels has {len(labels)} entries, which is not allowed: {needed}")
