@@ -10,18 +10,25 @@ import tomllib
 from functools import cache
 from pathlib import Path
 
+from wmrlib import Gains
+
 ROOT = Path(__file__).parents[1]
 ASSIGNMENTS = sorted(path.name for path in (ROOT / "book/course/source").iterdir() if path.is_dir())
 STUB = 'raise NotImplementedError("write your answer here")'
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 
 
+def notebook(chapter: str) -> Path:
+    """The lecturer's notebook, with the model answers."""
+    (path,) = (ROOT / "book/course/source" / chapter).glob("*.ipynb")
+    return path
+
+
 @cache
 def cells(chapter: str) -> dict[str, tuple[str, int]]:
     """{id: (source, points)} of the code cells; a cell that is not graded has 0 points."""
-    (path,) = (ROOT / "book/course/source" / chapter).glob("*.ipynb")
     found = {}
-    for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
+    for cell in json.loads(notebook(chapter).read_text(encoding="utf-8"))["cells"]:
         if cell["cell_type"] == "code":
             settings = cell["metadata"]["nbgrader"]
             points = settings.get("points", 0) if settings["grade"] else 0
@@ -31,7 +38,7 @@ def cells(chapter: str) -> dict[str, tuple[str, int]]:
 
 @cache
 def tasks(chapter: str) -> dict[str, list[str]]:
-    """{id of the cell with the answer: ids of the cells that grade it}."""
+    """{id of the cell with the answer: ids of the cells that grade it}; none grades the name."""
     found: dict[str, list[str]] = {}
     for name, (source, points) in cells(chapter).items():
         if BEGIN in source:
@@ -90,12 +97,24 @@ def released(source: str) -> str:
 
 
 @cache
-def _given(chapter: str) -> dict:
-    """The names that the notebook's other cells make, with the model's answers."""
+def given(chapter: str, student: str = "Ada") -> dict:
+    """The names that the notebook's other cells make for a student, with the model's answers.
+
+    `scaled` makes gains of the paper's robot those of the student's.
+    """
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
         if not points:
-            _run(source, f"<{chapter} {name}>", names)
+            _run(
+                source.replace('name = "model"', f"name = {student!r}"),
+                f"<{chapter} {name}>",
+                names,
+            )
+    if hasattr(names.get("mine"), "metre"):
+        metre, second = names["mine"].metre, names["mine"].second
+        names["scaled"] = lambda k_rho, k_alpha, h, v_max=4.0: Gains(
+            k_rho / metre, k_alpha / second, h, v_max * metre / second
+        )
     return names
 
 
@@ -105,11 +124,16 @@ def _run(source: str, name: str, names: dict) -> None:
     exec(compile(source, name, "exec"), names)
 
 
-def lost(chapter: str, key: str, source: str) -> dict[str, str]:
-    """How those of the graded cells `key` that fail with this answer do so."""
-    names, found = dict(_given(chapter)), {}
+def lost(chapter: str, key: str, source: str, student="Ada", by="") -> dict[str, str]:
+    """How those of the graded cells `key` that fail with this answer do so.
+
+    The answer is made with the numbers of `by`, if another's.
+    """
+    names, found = dict(given(chapter, by or student)), {}
     with contextlib.suppress(Exception):  # then the graded cells fail
         _run(source, f"<{chapter} answer>", names)
+    if "mine" in names:
+        names["mine"] = given(chapter, student)["mine"]
     for name in graded(chapter, key):
         try:
             _run(cells(chapter)[name][0], f"<{chapter} {name}>", names)

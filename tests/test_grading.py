@@ -12,6 +12,7 @@ The answers stand in tests/data/course, a file a chapter:
 import inspect
 import math
 import re
+from dataclasses import replace
 
 import numpy as np
 import pytest
@@ -28,11 +29,24 @@ from graded import (
     wrong_answers,
 )
 
+import wmrlib as wmr
 from wmrbook import grading
-from wmrbook.grading import Hint, Passed
+from wmrbook.grading import Hint, variants
 
 chapters = pytest.mark.parametrize("chapter", ASSIGNMENTS)
-MODULES = [name for name in dir(grading) if name.islower() and not name.startswith("_")]
+STUDENTS = "Ada", "Emmy", "Grace"
+VARIED = [chapter for chapter in ASSIGNMENTS if "mine" in cells(chapter)]
+for_students = pytest.mark.parametrize(
+    ("chapter", "student"),
+    [(each, name) for each in ASSIGNMENTS for name in (STUDENTS if each in VARIED else ("",))],
+)
+MODULES = [n for n in dir(grading) if n.islower() and n[0] != "_" and n != "variants"]
+MINE = {"trips": "home", "design": "tuned", "sampling": "slow", "lyapunov": "right"}
+
+
+def asked(chapter: str) -> dict[str, list[str]]:
+    """The chapter's tasks: cells with answers that are graded."""
+    return {task: checks for task, checks in tasks(chapter).items() if checks}
 
 
 def whole(chapter: str, key: str, answer: str) -> str:
@@ -49,44 +63,44 @@ def whole(chapter: str, key: str, answer: str) -> str:
     return data.get("setup", "") + answer
 
 
-@chapters
-def test_the_model_passes_and_the_release_does_not(chapter):
-    assert 2 <= len(tasks(chapter)) <= 4
-    for task in tasks(chapter):
+@for_students
+def test_the_model_passes_and_the_release_does_not(chapter, student):
+    assert 2 <= len(asked(chapter)) <= 4
+    for task in asked(chapter):
         model, _ = cells(chapter)[task]
-        assert lost(chapter, task, model) == {}
-        empty = lost(chapter, task, released(model))
-        assert list(empty) == tasks(chapter)[task]
+        assert lost(chapter, task, model, student) == {}
+        empty = lost(chapter, task, released(model), student)
+        assert list(empty) == asked(chapter)[task]
         assert all(re.search("not written yet|no value yet", each) for each in empty.values())
 
 
-@chapters
-def test_usual_mistakes_lose_exactly_their_points_with_their_hint(chapter):
+@for_students
+def test_usual_mistakes_lose_exactly_their_points_with_their_hint(chapter, student):
     made, found = [], {}
     for wrong in wrong_answers(chapter):
         made.append(wrong["cell"])
-        hints = lost(chapter, wrong["cell"], wrong["source"])
+        hints = lost(chapter, wrong["cell"], wrong["source"], student)
         exactly = list(hints) == wrong["loses"] and any(wrong["hint"] in h for h in hints.values())
         if not exactly or not all(each.startswith("Hint: ") for each in hints.values()):
             found[wrong["name"]] = hints
     assert found == {}
-    assert all(made.count(task) >= 2 for task in tasks(chapter))
+    assert all(made.count(task) >= 2 for task in asked(chapter))
 
 
-@chapters
-def test_right_answers_pass_in_whatever_form(chapter):
+@for_students
+def test_right_answers_pass_in_whatever_form(chapter, student):
     for key, right in answers(chapter)["right"].items():
         for answer in right:
-            assert lost(chapter, key, whole(chapter, key, answer)) == {}, answer
+            assert lost(chapter, key, whole(chapter, key, answer), student) == {}, answer
 
 
-@chapters
-def test_hints_name_what_is_wrong(chapter):
+@for_students
+def test_hints_name_what_is_wrong(chapter, student):
     found = {}
     for key, table in answers(chapter)["wrong"].items():
         for hint, wrong in table.items():
             for answer in [wrong] if isinstance(wrong, str) else wrong:
-                hints = lost(chapter, key, whole(chapter, key, answer)).values()
+                hints = lost(chapter, key, whole(chapter, key, answer), student).values()
                 if not any(hint in each for each in hints):
                     found[key, answer] = list(hints)
                 assert all(each.startswith("Hint: ") for each in hints), hints
@@ -95,8 +109,13 @@ def test_hints_name_what_is_wrong(chapter):
 
 @chapters
 def test_every_task_has_other_answers(chapter):
-    for table in ("right", "wrong"):
-        assert {task_of(chapter, key) for key in answers(chapter)[table]} == set(tasks(chapter))
+    found = {task: {"right": 0, "wrong": 0} for task in asked(chapter)}
+    for key, right in answers(chapter)["right"].items():
+        found[task_of(chapter, key)]["right"] += len(right)
+    for key, table in answers(chapter)["wrong"].items():
+        wrong = [[each] if isinstance(each, str) else each for each in table.values()]
+        found[task_of(chapter, key)]["wrong"] += sum(map(len, wrong))
+    assert not [task for task, of in found.items() if of["right"] < 2 or of["wrong"] < 3], found
 
 
 NONSENSE = [
@@ -108,6 +127,7 @@ NONSENSE = [
 
 @pytest.mark.parametrize("module", MODULES)
 def test_nonsense_is_answered_by_a_hint(module):
+    mine = getattr(variants, MINE.get(module, "left"))("Ada")
     module = getattr(grading, module)
     checks = [
         check
@@ -117,21 +137,76 @@ def test_nonsense_is_answered_by_a_hint(module):
     assert len(checks) > 2
     for check in checks:
         assert inspect.getdoc(check)
-        assert check.__annotations__["return"] == "Passed"
+        assert check.__annotations__["return"] == "str"
         for value in NONSENSE:
             given = (value, lambda *_, v=value: v, lambda v=value: v, lambda *_, v=value: [v] * 2)
             for answer in given:
                 with pytest.raises(Hint) as found:
-                    check(answer)
+                    check(answer, *[mine] * ("mine" in check.__annotations__))
                 assert len(str(found.value)) < 400
 
 
 def test_every_graded_cell_calls_a_check_of_its_own():
     called = [
-        re.fullmatch(r"grading\.(\w+\.\w+)\(\w+\)", cells(chapter)[name][0])[1]
+        re.fullmatch(r"print\(grading\.(\w+\.\w+)\(\w+(, mine)?\)\)", cells(chapter)[name][0])[1]
         for chapter in ASSIGNMENTS
-        for names in tasks(chapter).values()
+        for names in asked(chapter).values()
         for name in names
     ]
     assert len(called) == len(set(called)) > 70
-    assert Passed("as it is").__repr__() == "as it is"
+
+
+def handed_in_by(monkeypatch, student: str) -> None:
+    monkeypatch.setenv("WMR_STUDENT", student)
+    monkeypatch.setenv("WMR_CLASS", ",".join(STUDENTS))
+
+
+@pytest.mark.parametrize("chapter", VARIED)
+def test_a_classmates_answer_is_known(chapter, monkeypatch):
+    handed_in_by(monkeypatch, "Ada")
+    for task, checks in asked(chapter).items():
+        if any("mine" in cells(chapter)[each][0] for each in checks):
+            model, _ = cells(chapter)[task]
+            copied = lost(chapter, task, model, "Ada", by="Emmy")
+            assert list(copied) == checks
+            assert all(
+                "right with the numbers of emmy, and not" in each for each in copied.values()
+            )
+
+
+@pytest.mark.parametrize("make", [variants.home, variants.tuned, variants.slow])
+def test_everybodys_drive_is_as_hard(make):
+    """The same gains, told in each student's units, leave as much, to either side."""
+    errors, limits = [], []
+    for mine in map(make, "abcdefgh"):
+        gains = wmr.Gains(0.3 / mine.metre, 1 / mine.second, 0.8, 4 * mine.metre / mine.second)
+        _, end = mine.run(gains)
+        errors.append(end.heading_error)
+        limits.append(mine.time / mine.second)
+    assert np.abs(errors) == pytest.approx(abs(errors[0]), rel=1e-3)
+    assert min(errors) < 0 < max(errors)
+    assert max(limits) - min(limits) < 0.2  # s, of the paper's drive; each is rounded up
+
+
+def test_numbers_are_a_names_own(monkeypatch, tmp_path):
+    for make in (getattr(variants, each) for each in ("home", "tuned", "slow", "right", "left")):
+        assert make("Ada") == make(" ada ")
+        shown = {repr(make(f"student {k}")) for k in range(20)}
+        assert len(shown) > 15
+    (own,) = variants.checked(variants.home, lambda *_: "right")
+    handed_in_by(monkeypatch, "ada")
+    assert variants.home("") == variants.home("Ada")  # as the grader's folder says
+    with pytest.raises(Hint, match="'grace', but 'ada' handed this in"):
+        own(None, variants.home("Grace"))
+    with pytest.raises(Hint, match="a text is needed"):
+        variants.home(1)
+    (seen,) = variants.checked(variants.home, lambda _, numbers: numbers)
+    lax = replace(variants.home("Ada"), time=1e9)
+    assert seen(None, lax) == variants.home("Ada")  # whatever a notebook makes of them
+    monkeypatch.undo()
+    with pytest.raises(Hint, match="your name is missing"):
+        own(None, variants.home(""))
+    folder = tmp_path / "autograded" / "Emmy" / "ch00"
+    folder.mkdir(parents=True)
+    monkeypatch.chdir(folder)
+    assert variants.home("") == variants.home("Emmy")

@@ -28,6 +28,16 @@ c.Voila.ip = "127.0.0.1"
 c.Voila.auto_token = True
 c.Voila.port_retries = 0  # a port in use is an error: the announced address must be the real one
 
+
+def give_cookie(handler, **_):
+    """Set the cookie with which a page, as it closes, may ask for the end of its kernel.
+
+    The login page sets it; whoever comes by the link with the token has not seen that page.
+    """
+    handler.xsrf_token  # noqa: B018  (to read it is to set it)
+
+
+c.VoilaConfiguration.prelaunch_hook = give_cookie
 # Each visitor has a kernel of their own, which ends with its page, or ten minutes after the
 # connection was lost.
 c.MappingKernelManager.cull_idle_timeout = 600

@@ -69,7 +69,7 @@ def free_port() -> int:
 
 @contextlib.contextmanager
 def serve(command: list, url: str, log: Path, **environment: str):
-    """Runs a server until the block ends, and enters the block once `url` answers."""
+    """Runs a server until the block ends, and enters the block with it once `url` answers."""
     paths = os.pathsep.join(filter(None, [str(ROOT), os.environ.get("PYTHONPATH")]))
     with log.open("w") as output:
         server = subprocess.Popen(
@@ -82,7 +82,7 @@ def serve(command: list, url: str, log: Path, **environment: str):
         )
         try:
             _wait_until_up(server, url, log)
-            yield
+            yield server
         finally:
             server.terminate()
             try:

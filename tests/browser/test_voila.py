@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import sys
+import time
+from types import SimpleNamespace
 
+import psutil
 import pytest
 from live import PATIENCE, assert_slider_matters, chapters, free_port, serve, sliders
 
@@ -21,12 +24,12 @@ def app(tmp_path_factory):
     ]
     command = [sys.executable, "-m", "voila", *options, "notebooks/" + chapters()[0].name]
     url = f"http://127.0.0.1:{port}/"
-    with serve(command, url, tmp_path_factory.mktemp("voila") / "log.txt"):
-        yield url
+    with serve(command, url, tmp_path_factory.mktemp("voila") / "log.txt") as server:
+        yield SimpleNamespace(url=url, link=f"{url}?token={TOKEN}", pid=server.pid)
 
 
 def test_a_slider_of_the_app_moves_the_picture_and_nothing_leaves(app, browser_page):
-    browser_page.goto(f"{app}?token={TOKEN}", timeout=PATIENCE)
+    browser_page.goto(app.link, timeout=PATIENCE)
     for slider in sliders(browser_page)[:3]:
         assert_slider_matters(browser_page, slider)
     assert browser_page.locator(".jp-InputArea-editor:visible").count() == 0  # an app shows no code
@@ -34,6 +37,28 @@ def test_a_slider_of_the_app_moves_the_picture_and_nothing_leaves(app, browser_p
 
 
 def test_the_app_wants_its_token(app, browser_page):
-    browser_page.goto(app, timeout=PATIENCE)
+    browser_page.goto(app.url, timeout=PATIENCE)
     assert "/login" in browser_page.url
     assert browser_page.locator(".jupyter-widgets").count() == 0
+
+
+def test_a_kernel_ends_with_its_page(app, browser_page):
+    def kernels() -> set[int]:
+        every = (each.info for each in psutil.process_iter(["pid", "ppid", "cmdline"]))
+        return {each["pid"] for each in every if each["ppid"] == app.pid and each["cmdline"]}
+
+    def come_to(count: int) -> None:
+        end = time.monotonic() + 20
+        while len(kernels() - others) != count and time.monotonic() < end:
+            time.sleep(0.1)
+        assert len(kernels() - others) == count
+
+    others = kernels()  # of the tests before
+    browser_page.goto(app.link, timeout=PATIENCE)
+    for _ in range(2):
+        sliders(browser_page)
+        come_to(1)
+        browser_page.reload(timeout=PATIENCE)
+    sliders(browser_page)
+    browser_page.goto("about:blank")
+    come_to(0)

@@ -9,7 +9,8 @@ import numpy as np
 import sympy as sp
 from sympy.core.function import AppliedUndef
 
-from wmrbook.grading._hints import expect, expect_value
+from wmrbook.grading._asking import expect_value
+from wmrbook.grading._hints import expect
 
 Point = dict[sp.Symbol, sp.Rational]
 _DIGITS = 30

@@ -1,4 +1,4 @@
-"""What a check says, and how it asks for an answer: whatever comes, a student reads a hint."""
+"""What a check says: why an answer does not pass, and whether it is the student's own."""
 
 from __future__ import annotations
 
@@ -7,13 +7,11 @@ import inspect
 import math
 import textwrap
 import types
-from collections.abc import Callable, Iterator, Mapping, Set
+from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
 from typing import Any, NoReturn
 
 import numpy as np
-
-from wmrlib.gains import Gains
 
 _LIBRARIES = ("wmrlib", "wmrbook")
 
@@ -28,24 +26,36 @@ class Hint(AssertionError):  # noqa: N818  (its name is what a student reads)
         return [f"Hint: {self}"]
 
 
-class Passed(str):
-    """What a check returns: a sentence that Jupyter shows without quotation marks."""
-
-    __slots__ = ()
-
-    def __repr__(self) -> str:
-        return str(self)
-
-
 def expect(holds: bool, hint: str) -> None:
     """Raise Hint with this sentence unless the condition holds."""
     if not holds:
         raise Hint(hint)
 
 
+def spread(low: float, high: float, count: int, seed: int = 0) -> list[float]:
+    """Numbers drawn log-uniformly, the largest first: a threshold of one's own meets some of them.
+
+    The first is large, so that a plain mistake shows before lost digits do.
+    """
+    bounds = np.log([low, high])
+    return sorted(np.exp(np.random.default_rng(seed).uniform(*bounds, count)).tolist())[::-1]
+
+
+def drawn(seed: int, count: int, *bounds: tuple[float, float]) -> list[list[float]]:
+    """Rows of numbers drawn evenly, each column between its two bounds."""
+    low, high = zip(*bounds, strict=True)
+    return np.random.default_rng(seed).uniform(low, high, (count, len(bounds))).tolist()
+
+
 def angle_equal(one: float, other: float) -> bool:
     """Up to full turns."""
     return abs(math.remainder(one - other, 2.0 * math.pi)) < 1e-9
+
+
+def same_pose(value: Sequence[float], right: Sequence[float], tolerance: float = 1e-9) -> bool:
+    """Whether two poses are the same up to full turns; the place to 1e-7 m at least."""
+    near = math.dist(value[:2], right[:2]) < max(tolerance, 1e-7)
+    return near and abs(math.remainder(value[2] - right[2], 2.0 * math.pi)) < tolerance
 
 
 def close(value: float, right: float, relative: float = 1e-6, absolute: float = 1e-9) -> bool:
@@ -67,161 +77,39 @@ def explain(
     raise Hint(otherwise)
 
 
-def ask(function: Callable, *arguments: Any) -> Any:
-    """Return what the student's function returns; if it fails, raise a Hint that says how."""
-    if not callable(function):
-        raise Hint(f"a function is needed here, not {shown(function)}.")
-    try:
-        return function(*arguments)
-    except NotImplementedError:
-        raise Hint(f"`{_name(function)}` is not written yet.") from None
-    except Exception as error:
-        call = f"`{_name(function)}({', '.join(map(shown, arguments))})`"
-        what = f"{type(error).__name__}: {error}"
-        raise Hint(f"{call} stops{_line(error)} with {what}.") from None
-
-
-def ask_number(function: Callable, *arguments: Any) -> float:
-    """As `ask`, for a function that is to return one finite number."""
-    return number(f"`{_name(function)}`", ask(function, *arguments), returned=True)
-
-
-def ask_numbers(function: Callable, count: int, *arguments: Any) -> tuple[float, ...]:
-    """As `ask`, for a function that is to return `count` finite numbers."""
-    answer, name = ask(function, *arguments), f"`{_name(function)}`"
-    needed = f"{count} numbers, separated by commas, are needed."
-    expect(ordered(answer, count), f"{name} returns {shown(answer)}; {needed}")
-    return tuple(number(name, each, returned=True) for each in answer)
-
-
-def ask_truth(function: Callable, *arguments: Any) -> bool:
-    """As `ask`, for a function that is to return True or False."""
-    answer, name = ask(function, *arguments), _name(function)
-    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
-    truth = isinstance(answer, (bool, np.bool_))
-    expect(truth, f"`{name}` returns {shown(answer)}; True or False is needed.")
-    return bool(answer)
-
-
-def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np.ndarray:
-    """As `ask`, for a function that is to return finite numbers in this shape."""
-    name, answer = _name(function), ask(function, *arguments)
-    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
-    array = floats(answer)
-    needed = " x ".join(map(str, shape)) + (" number is" if shape == (1,) else " numbers are")
-    expect(array is not None, f"`{name}` returns {shown(answer)}; {needed} needed.")
-    got = " x ".join(map(str, array.shape)) + " numbers" if array.ndim else "one number"
-    expect(array.shape == shape, f"`{name}` returns {got}; {needed} needed.")
-    finite = bool(np.isfinite(array).all())
-    expect(finite, f"`{name}` returns a number that is not finite: {shown(array.tolist())}.")
-    return array
-
-
-def refuses(function: Callable, hint: str, *arguments: Any) -> None:
-    """Raise Hint unless the student's function raises ValueError for these arguments."""
-    try:
-        function(*arguments)
-    except ValueError:
-        return
-    except Exception:
-        ask(function, *arguments)  # which says what happened
-    call = f"`{_name(function)}({', '.join(map(shown, arguments))})`"
-    raise Hint(f"{call} must raise ValueError: {hint}")
-
-
-def expect_value(name: str, value: Any) -> None:
-    """Raise Hint if the value is still None or an ellipsis, as it was handed out."""
-    expect(value is not None and value is not ..., f"{name} has no value yet.")
-
-
-def ordered(answer: Any, count: int) -> bool:
-    """Whether it is `count` things in order, which a set or dict has not; a text is one thing."""
-    try:
-        return not isinstance(answer, (str, bytes, Set, Mapping)) and len(answer) == count
-    except TypeError:  # one number, an array without dimensions, a class
-        return False
-
-
-def number(name: str, value: Any, *, returned: bool = False) -> float:
-    """Return the value as a float if it is one finite real number, of any type; else raise Hint."""
-    verb = "returns" if returned else "is"
-    if value is None or value is ...:
-        nothing = f"{name} returns nothing: does it end in `return`?"
-        raise Hint(nothing if returned else f"{name} has no value yet.")
-    single = isinstance(value, (np.generic, np.ndarray)) and value.size == 1
-    plain = value.item() if single else value
-    if not isinstance(plain, (bool, str, bytes, np.ndarray)):
-        with suppress(TypeError, ValueError):
-            try:
-                converted = float(plain)
-            except OverflowError:
-                raise Hint(f"{name} {verb} a number that is far too large.") from None
-            finite = math.isfinite(converted)
-            expect(finite, f"{name} {verb} {converted}, which is not a finite number.")
-            return converted
-    raise Hint(f"{name} {verb} {shown(value)}; one number is needed.")
-
-
-def numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
-    """Return the value as `count` finite floats, or raise Hint."""
-    expect_value(name, value)
-    row = isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) == 1
-    needed = f"{count} numbers, separated by commas, are needed."
-    expect(row and len(value) == count, f"{name} is {shown(value)}; {needed}")
-    return tuple(number(name, each) for each in value)
-
-
-def floats(value: Any) -> np.ndarray | None:
-    """Return the real numbers of a list, matrix or array; None if anything else is in it."""
-    try:
-        given = np.asarray(value)
-        return given.astype(float) if given.dtype.kind in "iufO" else None
-    except (TypeError, ValueError, OverflowError):
-        return None
-
-
-def gains_of(name: str, value: Any) -> Gains:
-    """Return the value if it is Gains of single numbers, or raise Hint."""
-    expect_value(name, value)
-    needed = "`wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=...)` is needed."
-    expect(isinstance(value, Gains), f"{name} is {shown(value)}; {needed}")
-    try:
-        single = all(np.ndim(field) == 0 for field in value)
-        expect(single, f"{name} holds arrays; one number a gain is needed.")
-        return Gains(*map(float, value))  # `_replace` does not check what it is given
-    except (TypeError, ValueError, OverflowError) as error:
-        raise Hint(f"{name}: {error}.") from None
-
-
 def own_work(function: Callable, *allowed: str) -> None:
-    """Raise Hint if the student's function calls the libraries, but for the names `allowed`.
+    """Raise Hint if the student's function names a function of the libraries not in `allowed`.
 
-    It says what is asked for; it does not withstand someone who hides the call.
+    It reads the source, and that of the notebook's functions that are named there. Containers
+    such as Pose and Gains are free. It says what is asked for; it does not withstand someone who
+    hides a name.
     """
     asked = "this task asks for your own formula, with `math` or `numpy`."
     if allowed:
         asked = f"of it only {', '.join(f'`{each}`' for each in allowed)} may be used here."
-    waiting, seen = [function], []
+    waiting, seen, home = [function], [], None
     while waiting:
-        called = waiting.pop(0)
-        library = str(getattr(called, "__module__", "")).partition(".")[0]
+        called = inspect.unwrap(waiting.pop(0))
+        called = getattr(called, "pyfunc", getattr(called, "func", called))  # vectorize, partial
+        library, name = str(getattr(called, "__module__", "")).partition(".")[0], name_of(called)
         if library in _LIBRARIES:
-            name = getattr(called, "__name__", "")
-            hint = f"`{_name(function)}` uses `{name}` of {library}; {asked}"
-            expect(name in allowed, hint)
+            free = isinstance(called, type) or name in allowed
+            expect(free, f"`{name_of(function)}` uses `{name}` of {library}; {asked}")
         elif isinstance(called, types.FunctionType) and called not in seen:
             seen.append(called)
-            if called.__globals__ is function.__globals__:  # of the notebook
+            home = home or called.__module__
+            if called.__module__ == home or called is function:
                 waiting += [each for each in _named(called) if callable(each)]
 
 
 def _named(function: types.FunctionType) -> Iterator[Any]:
-    """What the global names, attributes and imports in the function's source stand for."""
+    """What the names, attributes and imports in the function's source stand for."""
     try:
         tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
     except (OSError, SyntaxError):
         return  # without its source, a function passes
-    names = function.__globals__ | dict.fromkeys(function.__code__.co_varnames)
+    own = dict.fromkeys(function.__code__.co_varnames)
+    names = function.__globals__ | own | inspect.getclosurevars(function).nonlocals
 
     def value(node: ast.AST) -> Any:
         if isinstance(node, ast.Attribute):
@@ -236,18 +124,7 @@ def _named(function: types.FunctionType) -> Iterator[Any]:
         yield value(node)
 
 
-def _line(error: BaseException) -> str:
-    """Return where in the student's code it happened: the last line of a cell that it passed."""
-    place, trace = "", error.__traceback__
-    while trace:
-        file = trace.tb_frame.f_code.co_filename
-        if "ipykernel" in file or "<ipython" in file:
-            place = f" in line {trace.tb_lineno} of its cell"
-        trace = trace.tb_next
-    return place
-
-
-def _name(function: Callable) -> str:
+def name_of(function: Callable) -> str:
     return getattr(function, "__name__", type(function).__name__)
 
 

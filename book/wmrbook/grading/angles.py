@@ -10,17 +10,17 @@ import numpy as np
 import sympy as sp
 
 from wmrbook.conventions import gains_near_goal
+from wmrbook.grading._asking import ask_numbers, expect_value
 from wmrbook.grading._expressions import expression
 from wmrbook.grading._hints import (
-    Passed,
     angle_equal,
-    ask_numbers,
     close,
+    drawn,
     expect,
-    expect_value,
     explain,
     own_work,
     rule_out,
+    spread,
 )
 from wmrlib.gains import Gains
 from wmrlib.kinematics import PolarError, Pose, advance, polar_error, pose_from_polar, wrap_angle
@@ -30,15 +30,15 @@ Polar = Callable[[float, float, float, float, float, float], tuple[float, float,
 _ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
-def polar_known(polar: Polar) -> Passed:
+def polar_known(polar: Polar) -> str:
     """polar(x, y, heading, x_goal, y_goal, goal_heading): (rho, alpha, theta), up to full turns."""
     own_work(polar)
     for pose, goal in _pairs(40):
         _explain_polar(ask_numbers(polar, 3, *pose, *goal), pose, goal)
-    return Passed("Distance and both angles are right, in every quadrant.")
+    return "Distance and both angles are right, in every quadrant."
 
 
-def polar_range(polar: Polar) -> Passed:
+def polar_range(polar: Polar) -> str:
     """Both angles are in [-pi, pi], with the goal straight behind and after full turns too."""
     own_work(polar)
     behind = (Pose(0.0, 0.0, 0.3), Pose(-5.0 * math.cos(0.3), -5.0 * math.sin(0.3), 0.3))
@@ -56,10 +56,10 @@ def polar_range(polar: Polar) -> Passed:
     hint = "some goals lie behind the robot, and no angle is larger than "
     expect(most > math.pi / 2.0, f"{hint}{math.degrees(most):.0f} deg.")
     straight = math.degrees(abs(_seen(polar, *behind)[1]))
-    return Passed(f"No angle is larger than half a turn; straight behind is at {straight:.0f} deg.")
+    return f"No angle is larger than half a turn; straight behind is at {straight:.0f} deg."
 
 
-def polar_properties(polar: Polar) -> Passed:
+def polar_properties(polar: Polar) -> str:
     """A mirrored start sees mirrored angles, and a map that is moved and turned changes nothing."""
     own_work(polar)
     for pose, goal in _pairs(20):
@@ -76,10 +76,10 @@ def polar_properties(polar: Polar) -> Passed:
         expect(close(there, distance, 1e-9) and _angles_equal(angles, both), hint)
         hint = "both angles are zero for a robot and a goal that don't face each other."
         expect(abs(both[0]) + abs(both[1]) > 0.0, hint)
-    return Passed("Left mirrors right, and where east is does not matter.")
+    return "Left mirrors right, and where east is does not matter."
 
 
-def tail_rows(tail_model: Any) -> Passed:
+def tail_rows(tail_model: Any) -> str:
     """The rows of rho' and of the tail camera's angle', against a robot that is moved a little."""
     rows = _rows(tail_model)
     if not _fits(rows[:2], slice(2)):
@@ -88,17 +88,15 @@ def tail_rows(tail_model: Any) -> Passed:
         hint += "what does half a turn do to a cosine and to a sine?"
         expect(not _fits(turned[:2], slice(2)), hint)
         for row, name in ((0, "rho'"), (1, "angle'")):
-            for column, command, does in (
-                (0, "v", "drives ahead"),
-                (1, "omega", "turns to the left"),
-            ):
+            commands = ("v", "drives ahead"), ("omega", "turns to the left")
+            for column, (command, does) in enumerate(commands):
                 hint = f"the entry of {name} under {command} is not what a robot measures that "
                 hint += f"{does}: draw it, and look at the sign."
                 expect(_fits([[rows[row][column]]], slice(row, row + 1), column), hint)
-    return Passed("A robot that is moved by a hundredth of a millimetre measures these two rows.")
+    return "A robot that is moved by a hundredth of a millimetre measures these two rows."
 
 
-def tail_third(tail_model: Any) -> Passed:
+def tail_third(tail_model: Any) -> str:
     """The row of beta'."""
     rows = _rows(tail_model)
     hint = "the third row has the opposite sign: "
@@ -106,40 +104,34 @@ def tail_third(tail_model: Any) -> Passed:
     expect(not _fits([[-entry for entry in rows[2]]], slice(2, 3)), hint)
     hint = "the third row is not what a robot measures: "
     expect(_fits(rows[2:], slice(2, 3)), f"{hint}beta changes only as the line of sight swings.")
-    return Passed("And the third row too: the sign is found.")
+    return "And the third row too: the sign is found."
 
 
 def textbook_gains(
     our_gains: Callable[[float, float, float, float], tuple[float, float, float]],
-) -> Passed:
+) -> str:
     """our_gains(k_rho, k_alpha, k_beta, v_max): gains that do the same near the goal."""
     own_work(our_gains)
     for theirs in ((3.0, 8.0, -1.5), *_their_gains(12)):
         for v_max in (0.5, 1.0, 4.0):
             k_rho, k_alpha, h = ask_numbers(our_gains, 3, *theirs, v_max)
-            hint = "h comes out negative: "
-            expect(
-                h >= 0.0,
-                f"{hint}how do theta and beta differ, and what does that do to their gains?",
-            )
+            hint = "h comes out negative: how do theta and beta differ, "
+            expect(h >= 0.0, f"{hint}and what does that do to their gains?")
             hint = "gains that park the robot there come out negative here: "
             expect(min(k_rho, k_alpha) >= 0.0, f"{hint}one of the differences is turned round.")
             back = gains_near_goal(Gains(k_rho, k_alpha, h, v_max), "siegwart")
-            hint = f"with v_max = {v_max:g} m/s the speeds near the goal are not the same: "
-            expect(
-                close(back[0], theirs[0]), f"{hint}what is (22) for small rho? Look at the units."
-            )
+            hint = f"with v_max = {v_max:g} m/s the speeds near the goal are not the same: what is "
+            expect(close(back[0], theirs[0]), f"{hint}(22) for small rho? Look at the units.")
             if not close(back[1], theirs[1]):
                 hint = "k_alpha is taken over as it is; "
                 hint += "but our omega has alpha in its other term too."
                 expect(not close(k_alpha, theirs[1]), hint)
             turn = "the two robots turn at different rates: look at"
-            expect(
-                close(back[1], theirs[1]), f"near the goal, with theta = 0, {turn} alpha's gain."
-            )
+            hint = f"near the goal, with theta = 0, {turn} alpha's gain."
+            expect(close(back[1], theirs[1]), hint)
             hint = f"near the goal, with alpha = 0, {turn} h, and at its unit."
             expect(close(back[2], theirs[2]), hint)
-    return Passed("Near the goal both laws command the same: (3, 8, -1.5) is stable in both books.")
+    return "Near the goal both laws command the same: (3, 8, -1.5) is stable in both books."
 
 
 def _seen(polar: Polar, pose: Pose, goal: Pose) -> tuple[float, ...]:
@@ -157,7 +149,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
         return
     in_degrees = _angles_equal([math.radians(each) for each in seen], right)
     expect(not in_degrees, "the angles are in degrees; radians are asked for.")
-    sight = alpha + pose.heading
+    sight, minus = alpha + pose.heading, (-alpha, -theta)
     from_north = math.pi / 2.0 - sight
     back = "the line of sight goes from the robot to the goal; yours goes back."
     if goal.x <= pose.x:
@@ -168,10 +160,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
         "the line of sight is counted from north, clockwise: which argument of atan2 "
         "comes first?": (from_north - pose.heading, from_north - goal.heading),
         "alpha and theta have changed places.": (theta, alpha),
-        "both angles have the wrong sign: from the heading *to* the line of sight.": (
-            -alpha,
-            -theta,
-        ),
+        "both angles have the wrong sign: from the heading *to* the line of sight.": minus,
     }
     rule_out(seen, mistakes, _angles_equal)
     if _angles_equal(seen[:1], right[:1]):
@@ -202,10 +191,12 @@ def _moved(pose: Pose) -> Pose:
 
 
 def _pairs(count: int) -> list[tuple[Pose, Pose]]:
-    """Random robots and goals; the first goals lie in the north-east."""
+    """Robots and goals: the first goals lie in the north-east, the last due east, north, ..."""
     random = np.random.default_rng(3)
     rows = random.uniform([-10.0, -10.0, -3.0] * 2, [10.0, 10.0, 3.0] * 2, (count, 6))
     rows[:4, :2], rows[:4, 3:5] = -np.abs(rows[:4, :2]), np.abs(rows[:4, 3:5])
+    for row, far in zip(rows[count // 2 :], spread(1e-3, 1e3, count - count // 2), strict=True):
+        row[3:5] = row[:2] + far * random.permutation([random.choice([-1.0, 1.0]), 0.0])
     return [(Pose(*row[:3]), Pose(*row[3:])) for row in rows.tolist()]
 
 
@@ -224,8 +215,7 @@ def _rows(model: Any) -> list[list[sp.Expr]]:
 def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
     """(rho, angle), and the 3 x 2 rates there by central differences of what the robot sees."""
     dt, found = 1e-5, []
-    states = np.random.default_rng(6).uniform([0.5, -3.0, -3.0], [5.0, 3.0, 3.0], (12, 3))
-    for distance, alpha, theta in states.tolist():
+    for distance, alpha, theta in drawn(6, 12, (0.5, 5.0), (-3.0, 3.0), (-3.0, 3.0)):
         pose = pose_from_polar(PolarError(distance, alpha, theta), _ORIGIN)
         columns = []
         for v, omega in ((1.0, 0.0), (0.0, 1.0)):
@@ -233,11 +223,8 @@ def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
                 polar_error(advance(pose, sign * v, sign * omega, dt), _ORIGIN)
                 for sign in (-1.0, 1.0)
             )
-            nose, line = (
-                wrap_angle(after.alpha - before.alpha),
-                wrap_angle(after.theta - before.theta),
-            )
-            columns.append([after.rho - before.rho, nose, -line])
+            rho, nose, line = np.subtract(after, before)
+            columns.append([rho, wrap_angle(nose), -wrap_angle(line)])
         rates = np.transpose(columns) / (2.0 * dt)
         found.append(((distance, wrap_angle(alpha - math.pi)), rates))
     return found
@@ -255,6 +242,5 @@ def _fits(rows: list[list[sp.Expr]], which: slice, column: int | None = None) ->
 
 
 def _their_gains(count: int) -> list[list[float]]:
-    random = np.random.default_rng(5)
-    k_rho, more, k_beta = random.uniform([0.5, 0.2, -3.0], [5.0, 5.0, -0.2], (count, 3)).T
-    return np.transpose([k_rho, k_rho + more, k_beta]).tolist()
+    rows = drawn(5, count, (0.5, 5.0), (0.2, 5.0), (-3.0, -0.2))
+    return [[k_rho, k_rho + more, k_beta] for k_rho, more, k_beta in rows]

@@ -7,29 +7,22 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Passed,
-    ask_number,
-    ask_numbers,
-    close,
-    expect,
-    explain,
-    own_work,
-    refuses,
-)
+from wmrbook.grading._asking import ask_number, ask_numbers, refuses
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, spread
 from wmrlib import paper
 from wmrlib.kinematics import Pose, Reference, advance, polar_error, wrap_angle
 from wmrlib.metrics import residual
 from wmrlib.simulation import track
 
 Law = Callable[[float, float, float, float, float], tuple[float, float]]
+_GOAL = (0.2, 1.2), (0.1, 0.8), (0.3, 4.0), (1.5, 5.0)  # speed, share, k_rho, v_max
 STEP, DURATION, LEFT = 0.1, 40.0, 1e-3  # s, s, m: how a law is tried, and what it may leave
 
 
-def residual_known(left_behind: Callable) -> Passed:
+def residual_known(left_behind: Callable) -> str:
     """left_behind(speed, share, k_rho, v_max): the distance, m, at which the law keeps up."""
     own_work(left_behind)
-    for speed, share, k_rho, v_max in _goals(20):
+    for speed, share, k_rho, v_max in drawn(62, 20, *_GOAL):
         value = ask_number(left_behind, speed, share, k_rho, v_max)
         far = -v_max * math.expm1(-k_rho * value) if k_rho * value > -50.0 else -math.inf
         commanded = share * speed + far
@@ -40,16 +33,14 @@ def residual_known(left_behind: Callable) -> Passed:
             return -math.log1p(-untold / v_max) / k_rho
 
         rest = (1.0 - share) * speed
-        right = distance(rest)
+        right, slow = distance(rest), rest / v_max / k_rho
         mistakes = {
             "the distance comes out negative: the logarithm of a number below 1 is.": -right,
             "`log10` undoes 10^x; (22) has an exponential.": right / math.log(10.0),
             "this is (6.2), for a law that knows nothing of the goal's speed.": distance(speed),
             "which part of the speed must the error bring about: "
             "the part that is told, or the other one?": distance(share * speed),
-            "this holds for a slow goal only: (22) is not proportional to rho.": rest
-            / v_max
-            / k_rho,
+            "this holds for a slow goal only: (22) is not proportional to rho.": slow,
             "k_rho is missing: the result has no metres.": right * k_rho,
         }
         hint = f"at your distance, {value:.4g} m, the law commands {commanded:.4g} m/s, "
@@ -63,13 +54,14 @@ def residual_known(left_behind: Callable) -> Passed:
     hint = f"on the paper's circle the simulation leaves {simulated:.4f} m, "
     expect(abs(told - simulated) < 2e-4, f"{hint}your formula {told:.4f} m.")
     circle = f"On the paper's circle {told:.4f} m ({simulated:.4f} m simulated)"
-    return Passed(f"{circle}; with half of the speed told, {half:.4f} m.")
+    return f"{circle}; with half of the speed told, {half:.4f} m."
 
 
-def residual_limits(left_behind: Callable) -> Passed:
+def residual_limits(left_behind: Callable) -> str:
     """Nothing is left if the whole speed is told; k_rho divides; too fast a goal is refused."""
     own_work(left_behind)
-    for speed, share, k_rho, v_max in _goals(10):
+    goals = drawn(62, 10, *_GOAL)
+    for (speed, share, k_rho, v_max), near in zip(goals, spread(1e-3, 1.0, 10), strict=True):
         told = abs(ask_number(left_behind, speed, 1.0, k_rho, v_max))
         expect(told < 1e-12, "if the whole speed is told (share 1), nothing must be left.")
         value = ask_number(left_behind, speed, share, k_rho, v_max)
@@ -79,15 +71,17 @@ def residual_limits(left_behind: Callable) -> Passed:
         expect(faster > value, "a faster goal must be further ahead.")
         hint = "the share of the speed that is not told is more than the feedback can ever "
         hint += "command, so the goal runs away."
-        refuses(left_behind, hint, v_max / (1.0 - share) * 1.01, share, k_rho, v_max)
+        fastest = v_max / (1.0 - share)
+        refuses(left_behind, hint, fastest * (1.0 + near), share, k_rho, v_max)
+        ask_number(left_behind, fastest / (1.0 + near), share, k_rho, v_max)
         quick = ask_number(left_behind, 1.5 * v_max, 0.9, k_rho, v_max)
         hint = "a goal faster than v_max can be followed if enough of its speed is told."
         expect(quick > 0.0, hint)
     nothing = "Nothing left with the whole speed told, half as much with twice k_rho,"
-    return Passed(f"{nothing} and a goal that runs away is refused.")
+    return f"{nothing} and a goal that runs away is refused."
 
 
-def law_follows(steer: Law) -> Passed:
+def law_follows(steer: Law) -> str:
     """steer(rho, alpha, theta, v_ref, omega_ref) -> (v, omega) leaves nothing behind."""
     own_work(steer)
     _at_reference(steer)
@@ -104,16 +98,15 @@ def law_follows(steer: Law) -> Passed:
         _expect_near(steer, left < LEFT, left, DURATION)
         worst = max(worst, left)
     chases = "Six chases of 40 s, on circles and straight lines"
-    return Passed(f"{chases}: at most {1000.0 * worst:.2g} mm are left.")
+    return f"{chases}: at most {1000.0 * worst:.2g} mm are left."
 
 
-def law_mirrors(steer: Law) -> Passed:
+def law_mirrors(steer: Law) -> str:
     """It drives the reference's twist on it, mirrors a mirrored error, and catches up."""
     own_work(steer)
     _at_reference(steer)
-    low, high = (0.1, -3.0, -3.0, 0.2, -1.0), (3.0, 3.0, 3.0, 2.0, 1.0)
-    rows = np.random.default_rng(61).uniform(low, high, (20, 5)).tolist()
-    for rho, alpha, theta, v_ref, omega_ref in rows:
+    errors = (0.1, 3.0), (-3.0, 3.0), (-3.0, 3.0)
+    for rho, alpha, theta, v_ref, omega_ref in drawn(61, 20, *errors, (0.2, 2.0), (-1.0, 1.0)):
         v, omega = ask_numbers(steer, 2, rho, alpha, theta, v_ref, omega_ref)
         v_there, omega_there = ask_numbers(steer, 2, rho, -alpha, -theta, v_ref, -omega_ref)
         mirror = "mirror the scene, left for right: "
@@ -124,10 +117,10 @@ def law_mirrors(steer: Law) -> Passed:
     hint = "with the reference 10 cm straight ahead the robot is no faster than the reference: "
     expect(v > 1.0, f"{hint}it never comes closer.")
     there = "On the reference it does what the reference does, left and right are treated alike,"
-    return Passed(f"{there} and from behind it catches up.")
+    return f"{there} and from behind it catches up."
 
 
-def twist_known(reference_twist: Callable) -> Passed:
+def twist_known(reference_twist: Callable) -> str:
     """reference_twist(x_dot, y_dot, x_ddot, y_ddot) -> (v, omega), against differences."""
     own_work(reference_twist)
     for x_dot, y_dot, x_ddot, y_ddot in _motions(20):
@@ -142,25 +135,24 @@ def twist_known(reference_twist: Callable) -> Passed:
         expect(close(v, speed), "v is not the length of the velocity (x', y').")
         if close(omega, turning, 1e-5, 1e-6):
             continue
-        hint = "a path may turn to the right, too: omega has a sign."
+        aside, hint = turning * speed, "a path may turn to the right, too: omega has a sign."
         if turning > 0.0:
             hint = "omega has the wrong sign: "
             hint += "which way does a circle driven counter-clockwise turn?"
         mistakes = {
             hint: -turning,
             "this is the path's curvature in 1/m; omega is a rate in rad/s.": turning / speed,
-            "omega is in rad/s, and this is the acceleration to the side, in m/s^2.": turning
-            * speed,
+            "omega is in rad/s, and this is the acceleration to the side, in m/s^2.": aside,
             "what does the derivative of atan2(y', x') divide by?": turning * speed**2,
         }
         otherwise = "omega is not the rate of the heading atan2(y', x'): "
         otherwise += "differentiate it by the chain rule."
         explain(omega, mistakes, otherwise, lambda one, other: close(one, other, 1e-5))
     twenty = "Twenty motions: v is the speed,"
-    return Passed(f"{twenty} and omega the rate at which its direction turns.")
+    return f"{twenty} and omega the rate at which its direction turns."
 
 
-def twist_properties(reference_twist: Callable) -> Passed:
+def twist_properties(reference_twist: Callable) -> str:
     """Right in a turned frame, driven faster, in a mirror, and on the paper's circle."""
     own_work(reference_twist)
     cos, sin = math.cos(2.0), math.sin(2.0)
@@ -170,23 +162,14 @@ def twist_properties(reference_twist: Callable) -> Passed:
         turned = [
             (cos * x - sin * y, sin * x + cos * y) for x, y in ((x_dot, y_dot), (x_ddot, y_ddot))
         ]
+        axes = "turn the axes: speed and turning rate must not change."
+        clock = "the same path in half the time: twice the speeds, four times the accelerations, "
+        clock += "and v and omega both double."
+        left = "the mirrored path turns as fast the other way."
         for changed, right, hint in (
-            (
-                (*turned[0], *turned[1]),
-                (v, omega),
-                "turn the axes: speed and turning rate must not change.",
-            ),
-            (
-                (2.0 * x_dot, 2.0 * y_dot, 4.0 * x_ddot, 4.0 * y_ddot),
-                (2.0 * v, 2.0 * omega),
-                "the same path in half the time: twice the speeds, four times the accelerations, "
-                "and v and omega both double.",
-            ),
-            (
-                (x_dot, -y_dot, x_ddot, -y_ddot),
-                (v, -omega),
-                "the mirrored path turns as fast the other way.",
-            ),
+            ((*turned[0], *turned[1]), (v, omega), axes),
+            (np.multiply(motion, (2.0, 2.0, 4.0, 4.0)), (2.0 * v, 2.0 * omega), clock),
+            (np.multiply(motion, (1.0, -1.0, 1.0, -1.0)), (v, -omega), left),
         ):
             value = ask_numbers(reference_twist, 2, *changed)
             expect(np.allclose(value, right, rtol=1e-9, atol=1e-12), hint)
@@ -198,18 +181,12 @@ def twist_properties(reference_twist: Callable) -> Passed:
     hint = "at t = 0 of (6.1) the twist is not the paper's circle's."
     expect(close(v, speed) and close(omega, turn), hint)
     circle = f"the paper's circle has {v:.3f} m/s and {omega:.3f} rad/s."
-    return Passed(f"Frames, speeds and mirrors agree; {circle}")
-
-
-def _goals(count: int) -> list[list[float]]:
-    low, high = (0.2, 0.1, 0.3, 1.5), (1.2, 0.8, 4.0, 5.0)
-    return np.random.default_rng(62).uniform(low, high, (count, 4)).tolist()
+    return f"Frames, speeds and mirrors agree; {circle}"
 
 
 def _motions(count: int) -> list[list[float]]:
     """Velocities and accelerations; the first turns to the left."""
-    rows = np.random.default_rng(63).uniform(-2.0, 2.0, (count - 1, 4))
-    return [[1.0, 0.3, -0.2, 0.9], *rows.tolist()]
+    return [[1.0, 0.3, -0.2, 0.9], *drawn(63, count - 1, *[(-2.0, 2.0)] * 4)]
 
 
 def _chases() -> list[tuple[Callable[[float], Reference], Pose]]:

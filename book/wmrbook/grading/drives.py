@@ -9,17 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Hint,
-    Passed,
-    ask,
-    ask_numbers,
-    expect,
-    explain,
-    floats,
-    own_work,
-    rule_out,
-)
+from wmrbook.grading._asking import ask, ask_numbers, floats
+from wmrbook.grading._hints import Hint, drawn, expect, explain, own_work, rule_out, same_pose
 from wmrlib.control import control_law
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, advance, polar_error, wrap_angle
@@ -34,7 +25,7 @@ _GAINS = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
 _ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
-def drive_known(drive: Callable[..., Any]) -> Passed:
+def drive_known(drive: Callable[..., Any]) -> str:
     """drive(start, goal, law, dt, duration): Euler's steps under a law, as `simulate` does them."""
     own_work(drive, *_ALLOWED)
     case = outdoor()
@@ -56,10 +47,10 @@ def drive_known(drive: Callable[..., Any]) -> Passed:
         hint = "it goes on after it has come within 0.05 m of the goal; "
         expect(len(path) == len(right), hint + "that pose should be the last.")
     count = len(simulate(case.start, case.goal, _GAINS, method="euler"))
-    return Passed(f"The paper's trip in {count} poses, each as `simulate` has it.")
+    return f"The paper's trip in {count} poses, each as `simulate` has it."
 
 
-def drive_arrives(drive: Callable[..., Any]) -> Passed:
+def drive_arrives(drive: Callable[..., Any]) -> str:
     """From twelve starts round the goal, the robot ends within 0.05 m and 10 deg."""
     own_work(drive, *_ALLOWED)
     worst = 0.0
@@ -75,10 +66,10 @@ def drive_arrives(drive: Callable[..., Any]) -> Passed:
         hint = f"{from_where} well, but has turned by {turned:.0f} deg on its way: "
         expect(turned < 540.0, hint + "nobody has to. Wrap alpha and theta.")
         worst = max(worst, off)
-    return Passed(f"Twelve of twelve starts park; the worst is {worst:.1f} deg off.")
+    return f"Twelve of twelve starts park; the worst is {worst:.1f} deg off."
 
 
-def drive_obeys(drive: Callable[..., Any]) -> Passed:
+def drive_obeys(drive: Callable[..., Any]) -> str:
     """It does what the law says, whatever the law, and stops when the time is up."""
     own_work(drive, *_ALLOWED)
     commands = {
@@ -95,21 +86,21 @@ def drive_obeys(drive: Callable[..., Any]) -> Passed:
         hint = f"under a law that {does} it does not: "
         for row in path[1:]:
             pose = advance(pose, *command, 0.125, method="euler")
-            obeyed = _same_pose(row, pose, 1e-6)
+            obeyed = same_pose(row, pose, 1e-6)
             expect(obeyed, hint + "is the law that is passed in the one that is used?")
     there = _path(drive, Pose(0.01, 0.0, 0.5), _ORIGIN, _law, 0.1, 4.0)
     hint = "a robot that starts 1 cm from its goal has arrived, and needs no step; "
     expect(len(there) == 1, f"{hint}yours takes {len(there) - 1}.")
-    return Passed("The loop obeys any law, and ends when the time is up.")
+    return "The loop obeys any law, and ends when the time is up."
 
 
-def axes_known(with_x_north: Axes) -> Passed:
+def axes_known(with_x_north: Axes) -> str:
     """with_x_north(x, y, heading): the pose on the map with x north and y east."""
     own_work(with_x_north)
     for pose in _poses(20):
         value = ask_numbers(with_x_north, 3, *pose)
         x, y, heading = right = pose.y, pose.x, math.pi / 2.0 - pose.heading
-        if _same_pose(value, right):
+        if same_pose(value, right):
             continue
         hint = "x and y are as they were; which of the two is metres north on the new map?"
         expect(math.dist(value[:2], pose[:2]) > 1e-9, hint)
@@ -122,26 +113,26 @@ def axes_known(with_x_north: Axes) -> Passed:
             "where do you get from x towards y on the new map?": (x, y, -heading),
         }
         otherwise = "the heading is wrong: try robots that look north, east and south-east."
-        explain(value, mistakes, otherwise, _same_pose)
-    return Passed("A robot that looks north has the heading 90 deg on one map, and 0 on the other.")
+        explain(value, mistakes, otherwise, same_pose)
+    return "A robot that looks north has the heading 90 deg on one map, and 0 on the other."
 
 
-def axes_properties(with_x_north: Axes) -> Passed:
+def axes_properties(with_x_north: Axes) -> str:
     """Twice leads back, and a left bend on one map is a right bend on the other."""
     own_work(with_x_north)
     for pose in _poses(20):
         new = Pose(*ask_numbers(with_x_north, 3, *pose))
         twice = ask_numbers(with_x_north, 3, *new)
         hint = "done twice it must lead back: x east and y north are the first map again."
-        expect(_same_pose(twice, pose), hint)
+        expect(same_pose(twice, pose), hint)
         after = ask_numbers(with_x_north, 3, *advance(pose, 1.5, 0.8, 0.5))
         hint = "this map is turned, not flipped: on the new one a left bend must look like "
         hint += "a right bend."
-        expect(not _same_pose(after, advance(new, 1.5, 0.8, 0.5)), hint)
+        expect(not same_pose(after, advance(new, 1.5, 0.8, 0.5)), hint)
         hint = "a robot that drives where it looks on one map does not do so on the other."
-        expect(_same_pose(after, advance(new, 1.5, -0.8, 0.5)), hint)
+        expect(same_pose(after, advance(new, 1.5, -0.8, 0.5)), hint)
     left = "Twice leads back; left on one map is right on the other,"
-    return Passed(f"{left} so alpha, theta and omega change their signs.")
+    return f"{left} so alpha, theta and omega change their signs."
 
 
 def _explain_seen(seen: list[tuple[float, ...]], start: Pose, goal: Pose) -> None:
@@ -167,20 +158,20 @@ def _explain_step(value: np.ndarray, pose: Pose, command: tuple[float, float], d
     """Raise Hint unless the value is Euler's step from the pose."""
     v, omega = command
     right = advance(pose, v, omega, dt, method="euler")
-    if _same_pose(value, right):
+    if same_pose(value, right):
         return
+    arc, long, turned = (
+        advance(pose, v, side * omega, seconds, method=method)
+        for side, seconds, method in ((1, dt, "arc"), (1, 1.0, "euler"), (-1, dt, "euler"))
+    )
     late = advance(pose._replace(heading=pose.heading + omega * dt), v, 0.0, dt)
     mistakes = {
         "x and y move along the *new* heading: Euler's step takes all rates at the old pose.": late,
-        "this step is an arc; Euler's, along the old heading, is asked for.": advance(
-            pose, v, omega, dt
-        ),
-        "this step takes a second: a rate times dt is wanted.": advance(
-            pose, v, omega, 1.0, method="euler"
-        ),
-        "the heading turns the wrong way: (5).": advance(pose, v, -omega, dt, method="euler"),
+        "this step is an arc; Euler's, along the old heading, is asked for.": arc,
+        "this step takes a second: a rate times dt is wanted.": long,
+        "the heading turns the wrong way: (5).": turned,
     }
-    rule_out(value, mistakes, _same_pose)
+    rule_out(value, mistakes, same_pose)
     near = math.dist(value[:2], right[:2]) < 1e-9
     expect(near, "a step leads to the wrong place: (3) and (4), times dt.")
     expect(False, "a step ends with the wrong heading: (5), times dt.")
@@ -200,7 +191,7 @@ def _path(
     expect(x.ndim == 1 and x.shape == y.shape == heading.shape and len(x) > 0, three)
     path = np.column_stack([x, y, heading])
     expect(bool(np.isfinite(path).all()), "the run has numbers in it that are not finite.")
-    expect(_same_pose(path[0], start), "the first pose has to be the start.")
+    expect(same_pose(path[0], start), "the first pose has to be the start.")
     return path
 
 
@@ -213,12 +204,5 @@ def _law(rho: float, alpha: float, theta: float) -> tuple[float, float]:
     return control_law(float(rho), float(alpha), float(theta), _GAINS)
 
 
-def _same_pose(value, right, tolerance: float = 1e-9) -> bool:
-    off = abs(wrap_angle(float(value[2]) - right[2]))
-    return math.dist(value[:2], right[:2]) < tolerance and off < tolerance
-
-
 def _poses(count: int) -> list[Pose]:
-    low, high = [-50.0, -50.0, -3.0], [50.0, 50.0, 3.0]
-    rows = np.random.default_rng(13).uniform(low, high, (count, 3))
-    return [Pose(*row) for row in rows.tolist()]
+    return [Pose(*row) for row in drawn(13, count, (-50.0, 50.0), (-50.0, 50.0), (-3.0, 3.0))]

@@ -7,18 +7,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Passed,
-    ask_number,
-    ask_numbers,
-    close,
-    expect,
-    explain,
-    own_work,
-    rule_out,
-)
+from wmrbook.grading._asking import ask_number, ask_numbers
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
 from wmrlib.geodesy import (
-    EARTH_RADIUS_M,
     GeoPoint,
     haversine_distance,
     initial_bearing,
@@ -37,7 +28,7 @@ _RADIUS = "this is nearly right, less than 1 % off: is your Earth a sphere of 63
 _MAP_TOLERANCE_M = 0.02  # flat map against sphere, over 300 m and up to 60 deg of latitude
 
 
-def distance_known(distance: Function) -> Passed:
+def distance_known(distance: Function) -> str:
     """distance(lat_1, lon_1, lat_2, lon_2): degrees in, metres out, all over the Earth."""
     own_work(distance)
     for a, b in [(GPS_POINT_1, GPS_POINT_2), *_places(20)]:
@@ -57,10 +48,10 @@ def distance_known(distance: Function) -> Passed:
         hint = "the distance is nearly right: is the radius 6371 km, "
         expect(False, f"{hint}and is nothing rounded on the way?")
     metres = haversine_distance(GPS_POINT_1, GPS_POINT_2)
-    return Passed(f"{metres:.2f} m between the paper's two points, and right elsewhere.")
+    return f"{metres:.2f} m between the paper's two points, and right elsewhere."
 
 
-def distance_properties(distance: Function) -> Passed:
+def distance_properties(distance: Function) -> str:
     """The same there and back, 0 from a point to itself, unchanged when the Earth is turned."""
     own_work(distance)
     for a, b in _places(20):
@@ -73,23 +64,25 @@ def distance_properties(distance: Function) -> Passed:
         turned = ask_number(distance, a.lat, a.lon - 25.0, b.lat, b.lon - 25.0)
         hint = "turn the Earth: if both longitudes change by the same, the distance must stay."
         expect(close(there, turned, 1e-6), hint)
-    return Passed("There is as far as back, and only the difference of the longitudes counts.")
+    return "There is as far as back, and only the difference of the longitudes counts."
 
 
-def distance_close(distance: Function) -> Passed:
+def distance_close(distance: Function) -> str:
     """A centimetre is a centimetre: the haversine keeps the digits that an acos loses."""
     own_work(distance)
-    for metres in (1.0, 0.1, 0.01):
-        lat = GPS_POINT_1.lat + math.degrees(metres / EARTH_RADIUS_M)
-        value = ask_number(distance, GPS_POINT_1.lat, GPS_POINT_1.lon, lat, GPS_POINT_1.lon)
-        hint = f"two points 1 m apart come out {value:.4g} m apart: see to the checks above first."
-        expect(metres < 1.0 or 0.9 < value < 1.1, hint)
-        hint = f"two points {metres:g} m apart come out {value:.4f} m apart: "
-        expect(close(value, metres, 1e-3), hint + "which function loses its digits near 0 m?")
-    return Passed("One centimetre comes out as one centimetre.")
+    random = np.random.default_rng(3)
+    for metres in spread(0.01, 1e4, 60):
+        way = random.uniform(-math.pi, math.pi)
+        there = point_at(GPS_POINT_1, metres * math.cos(way), metres * math.sin(way))
+        value = _between(distance, GPS_POINT_1, there)
+        away = f"two points {metres:.3g} m apart come out {value:.4g} m apart: "
+        hint = f"{away}see to the checks above first."
+        expect(metres < 10.0 or close(value, metres, 0.1), hint)
+        expect(close(value, metres, 1e-3), f"{away}which function loses its digits near 0 m?")
+    return "One centimetre comes out as one centimetre."
 
 
-def bearing_known(bearing: Function) -> Passed:
+def bearing_known(bearing: Function) -> str:
     """bearing(lat_1, lon_1, lat_2, lon_2): degrees clockwise from north, up to full turns."""
     own_work(bearing)
     home = GeoPoint(lat=10.0, lon=20.0)
@@ -104,10 +97,10 @@ def bearing_known(bearing: Function) -> Passed:
         hint += "compare with (15) to (17), term by term."
         _explain_bearing(_between(bearing, a, b), a, b, hint)
     paper = math.degrees(initial_bearing(GPS_POINT_1, GPS_POINT_2))
-    return Passed(f"{paper:.2f} deg for the paper's two points, and right elsewhere.")
+    return f"{paper:.2f} deg for the paper's two points, and right elsewhere."
 
 
-def bearing_range(bearing: Function) -> Passed:
+def bearing_range(bearing: Function) -> str:
     """It is in [0, 360): just west of north is nearly 360, not a little less than 0."""
     own_work(bearing)
     west_of_north = (GPS_POINT_1, point_at(GPS_POINT_1, -0.1, 57.0))
@@ -121,19 +114,19 @@ def bearing_range(bearing: Function) -> Passed:
     hint = "over 57 m the way back must point the opposite way, to a thousandth of a degree."
     expect(_same_direction(there, home + 180.0, 1e-3), hint)
     where = f"A goal 10 cm west of north is at {there:.1f} deg"
-    return Passed(f"{where}, the way back at {home:.1f} deg.")
+    return f"{where}, the way back at {home:.1f} deg."
 
 
-def local_known(local: Local) -> Passed:
+def local_known(local: Local) -> str:
     """local(lat_0, lon_0, lat, lon): (east, north) in metres of points within 300 m, to 2 cm."""
     own_work(local)
-    for origin, point in [(GPS_POINT_1, GPS_POINT_2), *_walks(30)]:
+    for origin, point in [(GPS_POINT_1, GPS_POINT_2), *_walks(2, 30, 300.0)]:
         east, north = right = local_position(origin, point)
         value = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, point.lon)
         if _on_the_spot(value, right):
             continue
         wide = east / math.cos(math.radians(origin.lat))
-        degree = math.degrees(1.0)
+        skew = wide * math.cos(origin.lat)
         mistakes = {
             "east and north have changed places: x is east and comes first.": (north, east),
             "both signs are wrong: is it the origin as seen from the point?": (-east, -north),
@@ -141,29 +134,24 @@ def local_known(local: Local) -> Passed:
             "the map is upside down: latitudes grow to the north, and so does y.": (east, -north),
             "north is right and east too long: "
             "a degree of longitude is shorter away from the equator.": (wide, north),
-            "north is right and east is not: a cosine of degrees?": (
-                wide * math.cos(origin.lat),
-                north,
-            ),
+            "north is right and east is not: a cosine of degrees?": (skew, north),
         }
         rule_out(value, mistakes, _on_the_spot)
-        factors = {
-            "the result is in kilometres; metres are asked for.": 1000.0,
-            "57 times too long: metres for each *radian*.": 1.0 / degree,
-        }
-        for hint, factor in factors.items():
-            expect(not _on_the_spot((value[0] * factor, value[1] * factor), right), hint)
+        far = not _on_the_spot([1000.0 * each for each in value], right)
+        expect(far, "the result is in kilometres; metres are asked for.")
+        far = not _on_the_spot([math.radians(each) for each in value], right)
+        expect(far, "57 times too long: metres for each *radian*.")
         expect(math.dist(value, right) > 0.01 * math.hypot(*right), _RADIUS)
         place = f"a point comes out at ({value[0]:.5g}, {value[1]:.5g}) m, and is not there: "
         expect(False, place + "try points due north, then due east.")
     east, north = local_position(GPS_POINT_1, GPS_POINT_2)
-    return Passed(f"The paper's goal lies {east:.2f} m east and {north:.2f} m north of its start.")
+    return f"The paper's goal lies {east:.2f} m east and {north:.2f} m north of its start."
 
 
-def local_properties(local: Local) -> Passed:
+def local_properties(local: Local) -> str:
     """East mirrors west, the length is the distance, and nothing jumps at the date line."""
     own_work(local)
-    for origin, point in _walks(20):
+    for origin, point in _walks(2, 20, 300.0):
         offset = point.lon - origin.lon
         east, north = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, point.lon)
         west, level = ask_numbers(local, 2, origin.lat, origin.lon, point.lat, origin.lon - offset)
@@ -181,7 +169,7 @@ def local_properties(local: Local) -> Passed:
             far += f"not {abs(value[0]) / 1000.0:.0f} km: full turns of a longitude don't count."
             expect(_on_the_spot(value, right), far)
     east = "East mirrors west, the length is the distance, "
-    return Passed(f"{east}and the date line is a line like any other.")
+    return f"{east}and the date line is a line like any other."
 
 
 def _between(function: Function, a: GeoPoint, b: GeoPoint) -> float:
@@ -241,19 +229,14 @@ def _flip(lat: float) -> float:
 
 def _places(count: int) -> list[Pair]:
     """Pairs of places, far enough from each other and from the poles for a mistake to show."""
-    random = np.random.default_rng(1)
-    lats, lons = random.uniform(-70.0, 70.0, (count, 2)), random.uniform(-150.0, 150.0, (count, 2))
-    return [
-        (GeoPoint(lat=lat[0], lon=lon[0]), GeoPoint(lat=lat[1], lon=lon[1]))
-        for lat, lon in zip(lats.tolist(), lons.tolist(), strict=True)
-    ]
+    rows = drawn(1, count, *[(-70.0, 70.0), (-150.0, 150.0)] * 2)
+    return [(GeoPoint(lat=row[0], lon=row[1]), GeoPoint(lat=row[2], lon=row[3])) for row in rows]
 
 
-def _walks(count: int) -> list[Pair]:
-    """Places up to 60 deg from the equator, and points 20 m to 300 m from them."""
-    low, high = (-60.0, -170.0, 20.0, -math.pi), (60.0, 170.0, 300.0, math.pi)
-    found = []
-    for lat, lon, length, angle in np.random.default_rng(2).uniform(low, high, (count, 4)).tolist():
+def _walks(seed: int, count: int, farthest: float) -> list[Pair]:
+    """Places up to 60 deg from the equator, and points 20 m to `farthest` from them."""
+    found, way = [], ((20.0, farthest), (-math.pi, math.pi))
+    for lat, lon, length, angle in drawn(seed, count, (-60.0, 60.0), (-170.0, 170.0), *way):
         origin = GeoPoint(lat=lat, lon=lon)
         point = point_at(origin, length * math.cos(angle), length * math.sin(angle))
         found.append((origin, point))

@@ -13,16 +13,10 @@ from typing import Any
 import sympy as sp
 
 from wmrbook.equations import EQUATIONS
+from wmrbook.grading import variants
+from wmrbook.grading._asking import expect_value, number, ordered
 from wmrbook.grading._expressions import equal_at, expression, points, values
-from wmrbook.grading._hints import (
-    Hint,
-    Passed,
-    expect,
-    expect_value,
-    number,
-    ordered,
-    rule_out,
-)
+from wmrbook.grading._hints import Hint, expect, rule_out
 from wmrlib.paper import OUTDOOR_GAINS
 from wmrlib.symbolic import (
     L,
@@ -52,7 +46,7 @@ _POINTS = points(_SYMBOLS)
 _equal = partial(equal_at, _POINTS)
 
 
-def rate(V_rate: Any) -> Passed:
+def rate(V_rate: Any) -> str:
     """V' of the bowl along (7) to (9), in rho, alpha, theta, v, omega, h and L."""
     value = expression("V_rate", V_rate, (rho, alpha, theta, v, omega, h, L))
     if not _equal(value, _RATE):
@@ -70,10 +64,10 @@ def rate(V_rate: Any) -> Passed:
         expect(_equal(value.diff(h), _RATE.diff(h)), hint)
         hint = "the terms without h and L are wrong: "
         expect(False, f"{hint}differentiate 1 - cos(alpha), and put (9) in.")
-    return Passed("V' is right along the model, for whatever the wheels do.")
+    return "V' is right along the model, for whatever the wheels do."
 
 
-def steering(turning: Any) -> Passed:
+def steering(turning: Any) -> str:
     """The omega with which V' is -rho v cos(alpha)/L - k_alpha sin^2(alpha), whatever v is."""
     value = expression("turning", turning, (rho, alpha, theta, v, h, k_alpha))
     if not _equal(value, _TURNING):
@@ -97,10 +91,10 @@ def steering(turning: Any) -> Passed:
         expect(_equal(cancelling, right), hint)
         hint = "everything cancels but what the term with k_alpha leaves: "
         expect(False, f"{hint}which function of alpha, times the one in V', is wanted?")
-    return Passed("V' is what was asked for, at any speed.")
+    return "V' is what was asked for, at any speed."
 
 
-def steering_usable(turning: Any) -> Passed:
+def steering_usable(turning: Any) -> str:
     """It is finite with the goal straight ahead, and mirrored states turn the other way."""
     value = expression("turning", turning, _SYMBOLS)
     sees = value.has(alpha) and value.has(theta)
@@ -114,10 +108,10 @@ def steering_usable(turning: Any) -> Passed:
         hint = "with the goal straight ahead, alpha = 0, a computer gets 0/0 from this form "
         raise Hint(f"{hint}of omega: cancel first.") from None
     mirror = "Mirrored states turn the other way"
-    return Passed(f"{mirror}, and nothing is divided by zero at alpha = 0.")
+    return f"{mirror}, and nothing is divided by zero at alpha = 0."
 
 
-def closed(V_rate_closed: Any) -> Passed:
+def closed(V_rate_closed: Any) -> str:
     """V' with the steering and (22): right, and every one of its terms never positive."""
     held = getattr(V_rate_closed, "free_symbols", set())
     hint = "theta and h still stand there: with the right omega they cancel."
@@ -138,27 +132,31 @@ def closed(V_rate_closed: Any) -> Passed:
         falling = all(each <= 0 for each in values("V_rate_closed", term, _POINTS))
         hint = f"{unclear}one of the terms is positive by itself. "
         expect(falling, f"{hint}Factor it, so that each term shows its sign.")
-        sums = [each for each in sp.fraction(term)[0].atoms(sp.Add) if len(each.args) > 2]
-        expect(not sums, f"{unclear}write it as a sum of terms that each show their sign.")
-    return Passed(f"V' has {len(terms)} terms, and each shows that it is never positive.")
+        mixed = term.has(L) and term.has(k_alpha)
+        expect(not mixed, f"{unclear}write it as a sum, a term for each of the two brackets.")
+    return f"V' has {len(terms)} terms, and each shows that it is never positive."
 
 
-def rising(state: Any) -> Passed:
+def _rising(state: Any, mine: variants.Window) -> str:
     """A state with the goal on the right, within 1 m, where (24) as printed makes V rise."""
-    slope = _printed_slope(state)
-    hint = f"V' is {float(slope):.3g} there: V falls. "
+    slope = float(_printed_slope(state))
+    hint = f"V' is {slope:.3g} there: V falls. "
     hint += "Which sign has the extra rate with the goal on the right?"
-    expect(slope > 0, hint)
-    rises = f"V rises there by {float(slope):.2f} a second"
-    return Passed(f"{rises}: one state is enough to refute the proof.")
+    expect(slope > 0.0, hint)
+    mine.expect(float(state[1]))
+    return f"V rises there by {slope:.2f} a second: one state is enough to refute the proof."
 
 
-def rising_fast(state: Any) -> Passed:
+def _rising_fast(state: Any, mine: variants.Window) -> str:
     """The same, with V' more than 5 per second."""
-    slope = _printed_slope(state)
-    hint = f"V' is {float(slope):.3g} per second there; more than 5 is asked for: "
-    expect(slope > 5, f"{hint}what makes the extra rate large?")
-    return Passed(f'V rises by {float(slope):.2f} a second, although (25) says "< 0".')
+    _rising(state, mine)
+    slope = float(_printed_slope(state))
+    hint = f"V' is {slope:.3g} per second there; more than 5 is asked for: "
+    expect(slope > 5.0, f"{hint}what makes the extra rate large?")
+    return f'V rises by {slope:.2f} a second, although (25) says "< 0".'
+
+
+rising, rising_fast = variants.checked(variants.right, _rising, _rising_fast)
 
 
 def _printed_slope(state: Any) -> sp.Expr:
@@ -172,9 +170,7 @@ def _printed_slope(state: Any) -> sp.Expr:
     expect(max(map(abs, angles)) <= math.pi, hint)
     hint = "the goal is asked to be on the right: on which side is it with this alpha?"
     expect(angles[0] < 0.0, hint)
-    exact = [
-        sp.nsimplify(each, rational=True) if isinstance(each, float) else each for each in state
-    ]
+    exact = [sp.nsimplify(x, rational=True) if isinstance(x, float) else x for x in state]
     gains = [sp.Rational(str(each)) for each in OUTDOOR_GAINS]
     given = dict(zip((k_rho, k_alpha, h, v_max), gains, strict=True)) | {L: 1}
     slope = textbook(lyapunov_rate("printed")).subs(given)

@@ -7,23 +7,15 @@ from collections.abc import Callable
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Passed,
-    ask_number,
-    ask_numbers,
-    close,
-    expect,
-    explain,
-    own_work,
-    rule_out,
-)
+from wmrbook.grading._asking import ask_number, ask_numbers
+from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
 from wmrbook.scatter import stationary_scatter
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
 
 
-def scatter_known(scatter: Callable) -> Passed:
+def scatter_known(scatter: Callable) -> str:
     """scatter(lat, lon) -> (mean_lat, mean_lon, std_east, std_north): degrees and metres."""
     own_work(scatter)
     for lat, lon in _logs(12):
@@ -40,10 +32,10 @@ def scatter_known(scatter: Callable) -> Passed:
             expect(off < 2e-9, hint)
         if not _near(stds, (right.std_east, right.std_north)):
             _explain_scatter(stds, lat, lon, right)
-    return Passed("Twelve receivers from the equator to 70 deg: mean and scatter are right.")
+    return "Twelve receivers from the equator to 70 deg: mean and scatter are right."
 
 
-def scatter_properties(scatter: Callable) -> Passed:
+def scatter_properties(scatter: Callable) -> str:
     """The same elsewhere and in another order; twice the error is twice the scatter."""
     own_work(scatter)
     for lat, lon in _logs(5):
@@ -64,10 +56,10 @@ def scatter_properties(scatter: Callable) -> Passed:
     expect(close(2.0 * east, north, 1e-4), hint)
     step = 1e-5 * DEGREE
     north = f"At 60 deg, a step of 1e-5 deg is {step:.2f} m to the north"
-    return Passed(f"{north} and {0.5 * step:.2f} m to the east.")
+    return f"{north} and {0.5 * step:.2f} m to the east."
 
 
-def radius_share(arrival_radius: Callable) -> Passed:
+def radius_share(arrival_radius: Callable) -> str:
     """arrival_radius(share, looks, sigma): this share of simulated robots on the goal stops."""
     own_work(arrival_radius)
     random = np.random.default_rng(91)
@@ -81,10 +73,10 @@ def radius_share(arrival_radius: Callable) -> Passed:
             hint = f"with your radius {100 * stopped:.1f} % of 40 000 robots stop "
             hint += f"(looks: {looks}); {100 * share:.0f} % were wanted."
             _explain_radius(value, share, looks, sigma, hint)
-    return Passed("40 000 simulated robots, six times: the wanted share of them stops.")
+    return "40 000 simulated robots, six times: the wanted share of them stops."
 
 
-def radius_properties(arrival_radius: Callable) -> Passed:
+def radius_properties(arrival_radius: Callable) -> str:
     """Proportional to sigma; half of it with four times the looks; larger for a larger share."""
     own_work(arrival_radius)
     for share, looks, sigma in ((0.2, 2, 0.5), (0.5, 7, 1.5), (0.95, 12, 2.5)):
@@ -97,37 +89,38 @@ def radius_properties(arrival_radius: Callable) -> Passed:
         expect(larger > value, "a larger share needs a larger radius.")
     value = ask_number(arrival_radius, 0.9, 10, 0.5)
     noise = f"Half a metre of noise, ten looks: {value:.2f} m"
-    return Passed(f"{noise} stop 90 % of the robots on the goal.")
+    return f"{noise} stop 90 % of the robots on the goal."
 
 
-def mean_white(scatter_of_mean: Callable) -> Passed:
+def mean_white(scatter_of_mean: Callable) -> str:
     """scatter_of_mean(sigma, n, correlation) for independent looks."""
     own_work(scatter_of_mean)
     for sigma, n in ((0.5, 1), (0.5, 2), (1.5, 9), (3.0, 100)):
         value, right = ask_number(scatter_of_mean, sigma, n, 0.0), sigma / math.sqrt(n)
         if not close(value, right):
+            alike = sigma / n if n > 1 else math.inf
             mistakes = {
                 "this is the variance, in m^2; its root is asked for.": right**2,
-                "independent errors do not add up like equal ones: their variances do.": sigma / n
-                if n > 1
-                else math.inf,
+                "independent errors do not add up like equal ones: their variances do.": alike,
             }
             hint = f"{n} independent looks of {sigma:g} m: "
             explain(value, mistakes, f"{hint}the mean comes out with {value:.4g} m.")
-    return Passed("Nine independent looks: a third of the scatter of one.")
+    return "Nine independent looks: a third of the scatter of one."
 
 
-def mean_correlated(scatter_of_mean: Callable) -> Passed:
+def mean_correlated(scatter_of_mean: Callable) -> str:
     """The same for looks that are alike: against the sum over all pairs, and the limits."""
     own_work(scatter_of_mean)
     random, sizes = np.random.default_rng(93), (2, 3, 5, 9, 30, 200)
-    alike = random.uniform(0.2, 0.98, 6).tolist()
-    cases = [(random.uniform(0.3, 3.0), n, c) for n, c in zip(sizes, alike, strict=True)]
+    cases = [
+        (random.uniform(0.3, 3.0), sizes[k % 6], 1.0 - unlike)
+        for k, unlike in enumerate(spread(1e-4, 0.8, 24))
+    ]
     for sigma, n, c in [*cases, (1.0, 4, -0.5)]:
         value, apart = ask_number(scatter_of_mean, sigma, n, c), np.arange(n)
         right = sigma / n * math.sqrt((c ** np.abs(apart[:, None] - apart)).sum())
         if not close(value, right, 1e-6):
-            hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.2f}: "
+            hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.4g}: "
             hint += f"the mean comes out with {value:.4g} m. Write the variance of the sum as a "
             hint += "sum over all pairs of looks, and count how many pairs are k apart."
             _explain_mean(value, sigma, n, c, right, hint)
@@ -136,7 +129,7 @@ def mean_correlated(scatter_of_mean: Callable) -> Passed:
         expect(close(ask_number(scatter_of_mean, 0.8, n, 1.0), 0.8), hint)
     value = ask_number(scatter_of_mean, 1.0, 9, 0.9)
     kept = f"the mean keeps {100 * value:.0f} % of the scatter, where white noise keeps 33 %."
-    return Passed(f"Nine looks, neighbours alike by 0.9: {kept}")
+    return f"Nine looks, neighbours alike by 0.9: {kept}"
 
 
 def _near(stds, others) -> bool:
@@ -149,28 +142,21 @@ def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right)
     cos, fewer = math.cos(math.radians(middle)), math.sqrt((n - 1) / n)
     lat_std, lon_std, degree = lat.std(ddof=1), lon.std(ddof=1), math.degrees(1.0)
     in_degrees = "the scatter is in degrees; metres are asked for."
-    mistakes = [
+    steps = "an arc is the radius times an angle in radians, not in degrees."
+    narrow = "a degree of longitude is not as long as one of latitude: "
+    narrow += "where is the latitude in your std_east?"
+    wrong = "the cosine stands at the wrong one of the two: "
+    wrong += "which circles get smaller towards the poles?"
+    for mistaken, hint in (
         ((north, east), "east and north are swapped."),
         ((lon_std, lat_std), in_degrees),
         ((lon_std * cos, lat_std), in_degrees),
-        (
-            (east * degree, north * degree),
-            "an arc is the radius times an angle in radians, not in degrees.",
-        ),
-        (
-            (east / cos, north),
-            "a degree of longitude is not as long as one of latitude: "
-            "where is the latitude in your std_east?",
-        ),
-        (
-            (east / cos, north * cos),
-            "the cosine stands at the wrong one of the two: "
-            "which circles get smaller towards the poles?",
-        ),
+        ((east * degree, north * degree), steps),
+        ((east / cos, north), narrow),
+        ((east / cos, north * cos), wrong),
         ((east / cos * abs(math.cos(middle)), north), "a cosine was given degrees."),
         ((east**2, north**2), "these are variances, in m^2; their roots are asked for."),
-    ]
-    for mistaken, hint in mistakes:
+    ):
         for share in (1.0, fewer):
             expect(not _near(stds, np.multiply(mistaken, share)), hint)
     small = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small: "
@@ -185,17 +171,13 @@ def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right)
 
 def _explain_radius(value: float, share: float, looks: int, sigma: float, hint: str) -> None:
     missed = -2.0 * math.log1p(-share)  # (R/sigma)^2 for one look
-    right = sigma * math.sqrt(missed / looks)
+    right, several = sigma * math.sqrt(missed / looks), 1.0 if looks > 1 else math.inf
+    single = sigma * math.sqrt(missed) * several
+    stay = sigma * math.sqrt(-2.0 * math.log(share) / looks)
     mistakes = {
-        "the number of looks does not count in your radius: this is for one look.": sigma
-        * math.sqrt(missed)
-        if looks > 1
-        else math.inf,
-        "more looks need a smaller radius, not a larger one.": right * looks
-        if looks > 1
-        else math.inf,
-        "this is for the robots that do *not* stop: share or 1 - share?": sigma
-        * math.sqrt(-2.0 * math.log(share) / looks),
+        "the number of looks does not count in your radius: this is for one look.": single,
+        "more looks need a smaller radius, not a larger one.": right * looks * several,
+        "this is for the robots that do *not* stop: share or 1 - share?": stay,
         "look at the 2 in (9.1).": right / math.sqrt(2.0),
         "(9.1) holds R^2: is there a root missing?": sigma * missed / looks,
         "chances do not simply add up over the looks: what is the chance that *none* of them "
@@ -211,17 +193,15 @@ def _explain_mean(value: float, sigma: float, n: int, c: float, right: float, hi
         return white * math.sqrt(max(0.0, 1.0 + pairs))
 
     rule_out(value, {"this is the variance, in m^2; its root is asked for.": right**2})
+    many, near = white * math.sqrt((1.0 + c) / (1.0 - c)), mean(2.0 * c * (n - 1) / n)
     mistakes = {
         "the correlation does not count in your result: "
         "neighbours that are alike tell less than two strangers.": white,
         "each pair of looks stands in the square of the sum twice: "
         "once as (i, j), once as (j, i).": mean(float((c**k * (1.0 - k / n)).sum())),
         "there are n - k pairs that are k apart, not n.": mean(2.0 * float((c**k).sum())),
-        "this holds for very many looks; the first and the last have fewer neighbours.": white
-        * math.sqrt((1.0 + c) / (1.0 - c)),
-        "not only neighbours are alike: what about looks that are two or three apart?": mean(
-            2.0 * c * (n - 1) / n
-        ),
+        "this holds for very many looks; the first and the last have fewer neighbours.": many,
+        "not only neighbours are alike: what about looks that are two or three apart?": near,
     }
     explain(value, mistakes, hint)
 

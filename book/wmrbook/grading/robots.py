@@ -2,24 +2,22 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Callable
 
 import numpy as np
 
+from wmrbook.grading._asking import ask, ask_number, ask_numbers, floats
 from wmrbook.grading._hints import (
-    Passed,
     angle_equal,
-    ask,
-    ask_number,
-    ask_numbers,
     close,
+    drawn,
     expect,
     explain,
-    floats,
     own_work,
-    rule_out,
     shown,
+    spread,
 )
 from wmrlib.control import control_law, limit_wheels
 from wmrlib.gains import GENTLE_GAINS, Gains, WheelLimits
@@ -27,13 +25,14 @@ from wmrlib.kinematics import Pose, polar_error, twist_to_wheels, wrap_angle
 
 COUNTS = 65536  # of a counter of 16 bits
 STOP = (0.0, 0.0)
+_COMPASS = (0.0, 360.0), (-15.0, 15.0)  # what it shows, and the declination, deg
 _BY_HAND = "check north, east, south and west by hand."
 
 
-def compass_known(heading_of: Callable) -> Passed:
+def compass_known(heading_of: Callable) -> str:
     """heading_of(compass_deg, declination_deg): radians, counter-clockwise from east."""
     own_work(heading_of)
-    for compass, declination in _compasses(20):
+    for compass, declination in drawn(110, 20, *_COMPASS):
         value, turn = ask_number(heading_of, compass, declination), math.radians(declination)
         right = math.pi / 2.0 - math.radians(compass) - turn
         if angle_equal(value, right):
@@ -56,14 +55,14 @@ def compass_known(heading_of: Callable) -> Passed:
         }
         case = f"{compass:.0f} deg with a declination of {declination:.1f} deg"
         explain(value, mistakes, f"{case} come out as {value:.4g} rad: {_BY_HAND}", angle_equal)
-    return Passed("Twenty compasses, each read as the heading that the law wants.")
+    return "Twenty compasses, each read as the heading that the law wants."
 
 
-def compass_range(heading_of: Callable) -> Passed:
+def compass_range(heading_of: Callable) -> str:
     """The heading is in (-pi, pi], whatever the compass shows; a turn more changes nothing."""
     own_work(heading_of)
     edges = [(270.0, 0.0), (0.0, 0.0), (359.9, 4.0), (720.0, -3.0), (-350.0, 3.0)]
-    for compass, declination in [*_compasses(20), *edges]:
+    for compass, declination in [*drawn(110, 20, *_COMPASS), *edges]:
         value = ask_number(heading_of, compass, declination)
         hint = f"{compass:g} deg come out as {value:.4g} rad, which is not in (-pi, pi]."
         expect(abs(value) <= math.pi + 1e-12, hint)
@@ -72,25 +71,21 @@ def compass_range(heading_of: Callable) -> Passed:
     turned = wrap_angle(ask_number(heading_of, 50.0, 2.0) - ask_number(heading_of, 40.0, 2.0))
     hint = "when the robot turns to the right, "
     expect(turned < 0.0, f"{hint}the compass counts up and the heading must count down.")
-    return Passed("Always in (-pi, pi]; to the right, the compass counts up and the heading down.")
+    return "Always in (-pi, pi]; to the right, the compass counts up and the heading down."
 
 
-def ticks_known(rolled: Callable) -> Passed:
+def ticks_known(rolled: Callable) -> str:
     """rolled(before, after, ticks_per_turn, wheel_radius): metres, of a counter of 16 bits."""
     own_work(rolled)
     for before, ticks, per_turn, radius in _counters(30):
         after, metre = (before + ticks) % COUNTS, 2.0 * math.pi * radius / per_turn
-        value, right, counted = (
-            ask_number(rolled, before, after, per_turn, radius),
-            ticks * metre,
-            after - before,
-        )
+        value = ask_number(rolled, before, after, per_turn, radius)
+        right, counted = ticks * metre, after - before
         if _same_way(value, right):
             continue
-        short = (counted + COUNTS // 2) % (COUNTS - 1) - COUNTS // 2
+        leap, short = counted * metre, (counted + COUNTS // 2) % (COUNTS - 1) - COUNTS // 2
         mistakes = {
-            "where the counter passes its end, the robot leaps: 65535 is followed by 0.": counted
-            * metre,
+            "where the counter passes its end, the robot leaps: 65535 is followed by 0.": leap,
             "right for a robot that drives forwards; "
             "a wheel that rolls back a little seems to race ahead.": counted % COUNTS * metre,
             "how many different numbers can the counter show?": short * metre,
@@ -104,10 +99,10 @@ def ticks_known(rolled: Callable) -> Passed:
         case = f"from {before} to {after}, with {per_turn} ticks a turn "
         case += f"and a wheel of {radius:.3f} m, yours says {value:+.4g} m: count by hand."
         explain(value, mistakes, case, _same_way)
-    return Passed("Thirty pairs of readings, forwards, backwards and across the counter's end.")
+    return "Thirty pairs of readings, forwards, backwards and across the counter's end."
 
 
-def ticks_properties(rolled: Callable) -> Passed:
+def ticks_properties(rolled: Callable) -> str:
     """The way there and back is nothing, and two parts of a way add up to the whole."""
     own_work(rolled)
     for before, ticks, per_turn, radius in _counters(10):
@@ -125,43 +120,34 @@ def ticks_properties(rolled: Callable) -> Passed:
     hint = "from 65000 to 264 are 800 ticks: one turn of a wheel with 800 ticks; "
     expect(close(turn, 0.2 * math.pi), f"{hint}yours rolls {turn:.4g} m.")
     turn = f"{turn:.3f} m with a wheel of 0.1 m."
-    return Passed(f"From 65000 to 264 is one turn of 800 ticks: {turn}")
+    return f"From 65000 to 264 is one turn of 800 ticks: {turn}"
 
 
-def step_stops(wheel_speeds: Callable) -> Passed:
+def step_stops(wheel_speeds: Callable) -> str:
     """wheel_speeds(x, y, heading, age, goal, gains, limits): (0, 0) if in doubt or arrived."""
     given = Pose(0.0, 0.0, 0.0), GENTLE_GAINS, WheelLimits(0.5, 2.0)
     fine = {"x": -5.0, "y": 1.0, "heading": 0.3, "age": 0.1}
-    pose, age = (
-        "a pose that is not finite is no pose.",
-        "an age that is not finite can't be trusted.",
-    )
-    cases = [
-        (fine | {name: value}, f"{name} = {value}", age if name == "age" else pose)
-        for name in fine
-        for value in (math.nan, math.inf, -math.inf)
-    ]
-    silence = "silence for more than 0.5 s stops the robot."
-    cases += [
-        (fine | {"age": each}, f"a fix {each:g} s old", silence) for each in (0.51, 0.7, 3600.0)
-    ]
-    clock = "a clock that runs backwards can't be trusted."
-    cases.append((fine | {"age": -0.1}, "a fix 0.1 s from now", clock))
-    for at, what, why in cases:
-        _expect_stop(wheel_speeds, at, given, what, why)
-    low, high = (0.0, -3.0, -3.0, -3.0), (0.19, 3.0, 3.0, 3.0)
-    for far, sight, heading, look in (
-        np.random.default_rng(111).uniform(low, high, (20, 4)).tolist()
-    ):
+    for name, value in itertools.product(fine, (math.nan, math.inf, -math.inf)):
+        why = f"without its {name} a fix can't be trusted."
+        _expect_stop(wheel_speeds, fine | {name: value}, given, f"{name} = {value}", why)
+    for each in spread(1e-3, 3600.0, 20):
+        what, why = f"a fix {0.5 + each:.4g} s old", "silence for more than 0.5 s stops the robot."
+        _expect_stop(wheel_speeds, fine | {"age": 0.5 + each}, given, what, why)
+    for each in spread(1e-9, 10.0, 10):
+        what, why = f"a fix {each:.2g} s from now", "a clock that runs backwards can't be trusted."
+        _expect_stop(wheel_speeds, fine | {"age": -each}, given, what, why)
+    angles = drawn(111, 20, *[(-3.0, 3.0)] * 3)
+    for near, (sight, heading, look) in zip(spread(1e-3, 0.2, 20), angles, strict=True):
+        far = 0.2 - near
         place = {"x": 7.0 - far * math.cos(sight), "y": -3.0 - far * math.sin(sight)}
         at, there = place | {"heading": look, "age": 0.0}, Pose(7.0, -3.0, heading)
-        what, why = f"{far:.2f} m from the goal", "within 0.2 m it has arrived."
+        what, why = f"{far:.3f} m from the goal", "within 0.2 m it has arrived."
         _expect_stop(wheel_speeds, at, (there, *given[1:]), what, why)
     nonsense = "12 kinds of nonsense, old news, a clock that runs backwards, 20 arrivals"
-    return Passed(f"{nonsense}: the wheels get (0, 0).")
+    return f"{nonsense}: the wheels get (0, 0)."
 
 
-def step_drives(wheel_speeds: Callable) -> Passed:
+def step_drives(wheel_speeds: Callable) -> str:
     """Otherwise the wheels get the corrected law, scaled to their limits."""
     for pose, age, goal, gains, limits in _situations(60):
         left, right = speeds = ask_numbers(wheel_speeds, 2, *pose, age, goal, gains, limits)
@@ -173,31 +159,22 @@ def step_drives(wheel_speeds: Callable) -> Passed:
         place = f"at ({pose.x:.1f}, {pose.y:.1f}) with heading {pose.heading:.2f}, {age:.2f} s old,"
         expect(speeds != STOP, f"{place} the robot stops; it has no reason to.")
         free = twist_to_wheels(*twist, limits.track_width)
-        asked = f"a wheel is asked for {max(map(abs, speeds)):.3g} m/s"
-        a_twist = "this is a twist (v, omega); the wheels' speeds are asked for."
-        rule_out(
-            speeds,
-            {
-                "left and right are swapped.": wanted[::-1],
-                f"{asked} and has {limits.max_speed:.2f} m/s.": free,
-                "both wheels are clipped one by one, which bends the path: "
-                "chapter 8 has a better rule.": np.clip(free, -limits.max_speed, limits.max_speed),
-                a_twist: twist,
-            },
-            np.allclose,
-        )
+        asked, most = f"a wheel is asked for {max(map(abs, speeds)):.3g} m/s", limits.max_speed
+        mistakes = {
+            "left and right are swapped.": wanted[::-1],
+            f"{asked} and has {most:.2f} m/s.": free,
+            "both wheels are clipped one by one, which bends the path: "
+            "chapter 8 has a better rule.": np.clip(free, -most, most),
+            "this is a twist (v, omega); the wheels' speeds are asked for.": twist,
+            "this is a twist (v, omega), limited; the wheels' speeds are asked for.": limited,
+        }
         hint = f"{place} the wheels get ({left:.3g}, {right:.3g}) m/s, "
-        hint += "which is not the corrected law within their limits."
-        explain(speeds, {a_twist: limited}, hint, np.allclose)
-    return Passed("Sixty poses: the law's wheels, never beyond their limits.")
+        explain(speeds, mistakes, f"{hint}which is not the law within their limits.", np.allclose)
+    return "Sixty poses: the law's wheels, never beyond their limits."
 
 
 def _same_way(one: float, other: float) -> bool:
     return close(one, other, 1e-9, 1e-12)
-
-
-def _compasses(count: int) -> list[list[float]]:
-    return np.random.default_rng(110).uniform((0.0, -15.0), (360.0, 15.0), (count, 2)).tolist()
 
 
 def _counters(count: int) -> list[tuple[int, int, int, float]]:
@@ -221,11 +198,11 @@ def _expect_stop(wheel_speeds: Callable, at: dict, given: tuple, what: str, why:
 
 
 def _situations(count: int) -> list[tuple[Pose, float, Pose, Gains, WheelLimits]]:
-    """Fixes at most 0.5 s old, more than 0.2 m from the goal."""
+    """Fixes at most 0.5 s old, from a millimetre more than 0.2 m away to 20 m."""
     random, found = np.random.default_rng(113), []
-    for k in range(count):
+    for k, near in enumerate(spread(1e-3, 20.0, count)):
         goal = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
-        far, sight, look = random.uniform((0.25, -3.0, -3.0), (20.0, 3.0, 3.0)).tolist()
+        far, (sight, look) = 0.2 + near, random.uniform(-3.0, 3.0, 2).tolist()
         pose = Pose(goal.x - far * math.cos(sight), goal.y - far * math.sin(sight), look)
         gains = Gains(*random.uniform((0.1, 0.5, 0.2, 1.0), (1.0, 3.0, 3.0, 4.0)).tolist())
         age = 0.5 if k == 0 else random.uniform(0.0, 0.5)

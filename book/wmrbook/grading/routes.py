@@ -9,17 +9,8 @@ from operator import xor
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Passed,
-    ask_array,
-    ask_number,
-    ask_truth,
-    close,
-    expect,
-    explain,
-    own_work,
-    rule_out,
-)
+from wmrbook.grading._asking import ask_array, ask_number, ask_truth
+from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
 from wmrlib.geodesy import EARTH_RADIUS_M
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
@@ -32,7 +23,7 @@ BODIES = (  # of the log in notebooks/data; its receiver stood in northern Germa
 )
 
 
-def checksum_known(checksum_fits: Callable) -> Passed:
+def checksum_known(checksum_fits: Callable) -> str:
     """checksum_fits(sentence) -> bool: whether it ends in the checksum of what it says."""
     own_work(checksum_fits)
     for body in (*BODIES, "GPTXT,01,01,02,A", "GPTXT,01,01,02,HW  UBX-G5xxx  00040005 "):
@@ -46,12 +37,14 @@ def checksum_known(checksum_fits: Callable) -> Passed:
             sentence = f"${body}*{value ^ bit:02X}"
             hint = f"'{sentence}' has a wrong checksum, and you say that it fits."
             expect(not ask_truth(checksum_fits, sentence), hint)
-        hint = "a sentence without a `*` and two digits has no checksum that could fit."
-        expect(not ask_truth(checksum_fits, f"${body}"), hint)
-    return Passed("Real sentences pass, wrong and missing checksums do not.")
+        hint = "a sentence without a `*` and two hexadecimal digits has no checksum that fits; "
+        for end in ("", "*", f"*{value:X}"[:2], f"*0{value:02X}", f"*0x{value:02X}", "*ZZ"):
+            sentence = f"${body}{end}"
+            expect(not ask_truth(checksum_fits, sentence), f"{hint}'{sentence}' has none.")
+    return "Real sentences pass, wrong and missing checksums do not."
 
 
-def checksum_damage(checksum_fits: Callable) -> Passed:
+def checksum_damage(checksum_fits: Callable) -> str:
     """A single changed character is always found."""
     own_work(checksum_fits)
     random, damaged = np.random.default_rng(121), 0
@@ -68,10 +61,10 @@ def checksum_damage(checksum_fits: Callable) -> Passed:
     swapped = BODIES[2].replace("18", "81")
     fooled = ask_truth(checksum_fits, f"${swapped}*{_sum(BODIES[2]):02X}")
     but = " Two swapped characters, 81 for 18, fool every such checksum." if fooled else ""
-    return Passed(f"{damaged} damaged sentences found.{but}")
+    return f"{damaged} damaged sentences found.{but}"
 
 
-def degrees_known(degrees: Callable) -> Passed:
+def degrees_known(degrees: Callable) -> str:
     """degrees(field, hemisphere): "5405.6081", "N" -> degrees; south and west are negative."""
     own_work(degrees)
     for field, hemisphere, right in [("5405.6081", "N", 54.09346833333333), *_fields(30)]:
@@ -80,6 +73,7 @@ def degrees_known(degrees: Callable) -> Passed:
             continue
         number, (whole, minutes) = float(field), divmod(float(field), 100.0)
         two, three = (float(field[:n]) + float(field[n:]) / 60.0 for n in (2, 3))
+        cut = whole + math.floor(minutes) / 60.0
         signs, point = {1.0, math.copysign(1.0, right)}, "Count the minutes' from the point."
         seen = f"'{field}', '{hemisphere}':"
         mistakes = {
@@ -95,8 +89,7 @@ def degrees_known(degrees: Callable) -> Passed:
             f"{seen} a longitude has three digits of degrees. {point}": two,
             f"{seen} a latitude has two digits of degrees. {point}": three,
             f"{seen} the minutes are lost.": whole,
-            f"{seen} the decimals of the minutes are lost; they are metres.": whole
-            + math.floor(minutes) / 60.0,
+            f"{seen} the decimals of the minutes are lost; they are metres.": cut,
         }
         hint = f"{seen[:-1]} comes out {abs(value - right) * DEGREE:.3g} m beside the place."
         explain(
@@ -105,10 +98,10 @@ def degrees_known(degrees: Callable) -> Passed:
             hint,
             lambda a, b, signs=signs: any(close(a, s * b, 1e-9) for s in signs),
         )
-    return Passed("Thirty coordinates, in all four hemispheres, to the millimetre.")
+    return "Thirty coordinates, in all four hemispheres, to the millimetre."
 
 
-def degrees_steps(degrees: Callable) -> Passed:
+def degrees_steps(degrees: Callable) -> str:
     """A step of the last digit is equally long everywhere, across minutes and degrees too."""
     own_work(degrees)
     step = 1e-4 / 60.0
@@ -127,13 +120,13 @@ def degrees_steps(degrees: Callable) -> Passed:
         expect(zero, "the equator and the meridian of Greenwich are at 0 degrees.")
     west = ask_number(degrees, "18000.0", "W")
     expect(close(west, -180.0), "'18000.0', 'W' is the date line, at -180 degrees.")
-    return Passed(f"The last of four decimals is {step * DEGREE:.3f} m north, everywhere.")
+    return f"The last of four decimals is {step * DEGREE:.3f} m north, everywhere."
 
 
-def headings_known(headings: Callable) -> Passed:
+def headings_known(headings: Callable) -> str:
     """headings(x, y): the first leg's, half-way through each turn, the last leg's."""
     own_work(headings)
-    for x, y in _routes(20):
+    for k, (x, y) in enumerate(_routes(20)):
         value = ask_array(headings, (x.size,), x.copy(), y.copy())
         legs = np.arctan2(np.diff(y), np.diff(x))
         right = _bisecting(legs)
@@ -154,34 +147,32 @@ def headings_known(headings: Callable) -> Passed:
             "The legs' *directions* are to be bisected.": _ends(legs, chord),
         }
         rule_out(value, mistakes, _same_ways)
+        hint = "this route comes back to a point of an earlier leg. "
+        hint += "Only a point that equals the one *before it* makes no leg."
+        expect(k % 3 != 1, hint)
+        expect(k % 3 != 2, "a short leg is a leg: only a point that is *equal* makes none.")
         for end, which in (("first", slice(1)), ("last", slice(-1, None))):
             hint = f"at the {end} point the robot looks along the {end} leg."
             expect(_same_ways(value[which], legs[which]), hint)
         hint = "at a point in between, the robot does not look half-way between "
         expect(False, f"{hint}the two legs' directions.")
     along = "along the first leg, half-way through each turn, along the last leg."
-    return Passed(f"Twenty routes: {along}")
+    return f"Twenty routes: {along}"
 
 
-def headings_properties(headings: Callable) -> Passed:
+def headings_properties(headings: Callable) -> str:
     """Mirrored, moved, driven back, with points entered twice; straight lines stay straight."""
     own_work(headings)
     for x, y in _routes(10):
         found, same = ask_array(headings, (x.size,), x.copy(), y.copy()), "the same headings."
+        quarter = "turn the route by a quarter, and every heading must turn by as much."
+        back = "driven from its end to its start, every heading must be the opposite one."
         for changed, right, hint in [
             ((x, -y), -found, "the mirrored route must have the mirrored headings."),
             ((x + 1000.0, y - 500.0), found, f"somewhere else the same route must have {same}"),
             ((3.0 * x, 3.0 * y), found, f"a route three times as large must have {same}"),
-            (
-                (-y, x),
-                found + math.pi / 2.0,
-                "turn the route by a quarter, and every heading must turn by as much.",
-            ),
-            (
-                (x[::-1], y[::-1]),
-                found[::-1] + math.pi,
-                "driven from its end to its start, every heading must be the opposite one.",
-            ),
+            ((-y, x), found + math.pi / 2.0, quarter),
+            ((x[::-1], y[::-1]), found[::-1] + math.pi, back),
         ]:
             value = ask_array(headings, (x.size,), *map(np.array, changed))
             expect(_same_ways(value, right), hint)
@@ -199,7 +190,7 @@ def headings_properties(headings: Callable) -> Passed:
     hint = "a route of two points has one leg, and that one's direction twice."
     expect(_same_ways(two, np.full(2, math.pi / 2.0)), hint)
     changed = "Mirrored, shifted, enlarged, turned, driven back, with points entered twice"
-    return Passed(f"{changed}: the headings follow.")
+    return f"{changed}: the headings follow."
 
 
 def _sum(body: str) -> int:
@@ -232,24 +223,28 @@ def _fields(count: int) -> list[tuple[str, str, float]]:
     random, found = np.random.default_rng(122), []
     for k in range(count):
         most, width, sides = (89, 2, "NS") if k % 2 == 0 else (179, 3, "EW")
-        whole, digits = random.integers(0, (most + 1, 600_000)).tolist()
-        field = f"{whole:0{width}d}{digits // 10000:02d}.{digits % 10000:04d}"
-        side = k // 2 % 2
-        found.append((field, sides[side], (whole + digits / 600_000) * (1 - 2 * side)))
+        decimals = 4 if k < 8 else int(random.integers(1, 9))
+        whole, minutes = int(random.integers(0, most + 1)), random.uniform(0.0, 59.9)
+        size, side = f"{minutes:0{3 + decimals}.{decimals}f}", k // 2 % 2
+        right = (whole + float(size) / 60.0) * (1 - 2 * side)
+        found.append((f"{whole:0{width}d}{size}", sides[side], right))
     return found
 
 
 def _routes(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
-    """Routes of 4 to 9 points with turns of up to 140 deg; some turns pass the west."""
+    """Routes of 4 to 9 points with turns of up to 140 deg; some turns pass the west.
+
+    Every second of three comes back to its second point, every third has short legs too.
+    """
     random, found = np.random.default_rng(123), []
-    for _ in range(count):
+    for k in range(count):
         legs = int(random.integers(3, 9))
         direction = np.cumsum(random.uniform(-2.44, 2.44, legs)) + random.uniform(-3.0, 3.0)
         length, start = random.uniform(2.0, 40.0, legs), random.uniform(-50.0, 50.0, 2)
+        length = np.array(spread(1e-3, 40.0, legs, seed=k)) if k % 3 == 2 else length
         steps = length * np.cos(direction), length * np.sin(direction)
-        found.append(
-            tuple(np.cumsum(np.insert(s, 0, at)) for s, at in zip(steps, start, strict=True))
-        )
+        x, y = (np.cumsum(np.insert(s, 0, at)) for s, at in zip(steps, start, strict=True))
+        found.append((np.append(x, x[1]), np.append(y, y[1])) if k % 3 == 1 else (x, y))
     return found
 
 

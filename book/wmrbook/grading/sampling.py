@@ -8,41 +8,26 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Passed,
-    ask_number,
-    ask_numbers,
-    close,
-    expect,
-    explain,
-    gains_of,
-    own_work,
-    refuses,
-    rule_out,
-)
-from wmrbook.grading.design import _mirrored
+from wmrbook.grading._asking import ask_number, ask_numbers, gains_of, refuses
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out
+from wmrbook.grading.variants import Drive, checked, slow
 from wmrlib import paper
-from wmrlib.kinematics import Pose
-from wmrlib.metrics import arrival
-from wmrlib.simulation import simulate
-from wmrlib.sweeping import sweep
 from wmrlib.tuning import longest_step, modes
 
-LOOK, TIME, HEADING_DEG = 0.25, 42.0, 3.0  # s, s, deg: the specification of the slow robot
-TRACK_WIDTH, TOP_SPEED = 0.5, 2.0  # m, m/s at the rim
+_MOTOR = (1.0, 9.0), (0.5, 12.0), (2.0, 20.0)  # a, g, times
 
 
-def step_real(longest_euler_step: Callable) -> Passed:
+def step_real(longest_euler_step: Callable) -> str:
     """longest_euler_step(poles): seconds, for systems with real poles only."""
     own_work(longest_euler_step)
     random = np.random.default_rng(81)
     for count in (1, 1, 2, 3, 4):
         _check_step(longest_euler_step, random.uniform(-9.0, -0.2, count).tolist())
     fastest = "Right for real poles: the fastest mode alone sets the step,"
-    return Passed(f"{fastest} however little of it is left.")
+    return f"{fastest} however little of it is left."
 
 
-def step_complex(longest_euler_step: Callable) -> Passed:
+def step_complex(longest_euler_step: Callable) -> str:
     """Complex pairs, and systems with both; a pole that does not settle is refused."""
     own_work(longest_euler_step)
     random = np.random.default_rng(82)
@@ -60,16 +45,16 @@ def step_complex(longest_euler_step: Callable) -> Passed:
     same = close(value, longest_step(gains, "polar_euler"), 2e-3)
     expect(same, "the paper's gains come out differently from (8.2).")
     paper_s = f"With the paper's gains: {value:.4f} s in polar coordinates, as by (8.2)."
-    return Passed(f"Right for complex poles too. {paper_s}")
+    return f"Right for complex poles too. {paper_s}"
 
 
-def wheel_speed(wheel_gains: Callable) -> Passed:
+def wheel_speed(wheel_gains: Callable) -> str:
     """wheel_gains(a, g, times) -> (k_p, k_r): the wheel is `times` times as fast.
 
     speed' = -a speed + g u, with u = k_r command - k_p speed.
     """
     own_work(wheel_gains)
-    for a, g, times in _motors(20):
+    for a, g, times in drawn(83, 20, *_MOTOR):
         k_p, k_r = ask_numbers(wheel_gains, 2, a, g, times)
         rate = a + g * k_p
         hint = f"with your k_p the closed loop runs away: its pole is at {-rate:+.3g} 1/s."
@@ -89,13 +74,13 @@ def wheel_speed(wheel_gains: Callable) -> Passed:
             otherwise += "what must u be when the speed is right and constant?"
             explain(k_r, {hint: k_p}, otherwise)
     fast = "Twenty motors: as much faster as was asked for,"
-    return Passed(f"{fast} and they settle at exactly what is commanded.")
+    return f"{fast} and they settle at exactly what is commanded."
 
 
-def wheel_units(wheel_gains: Callable) -> Passed:
+def wheel_units(wheel_gains: Callable) -> str:
     """Once as fast needs no feedback, and twice the motor half the gains."""
     own_work(wheel_gains)
-    for a, g, times in _motors(5):
+    for a, g, times in drawn(83, 5, *_MOTOR):
         k_p, k_r = ask_numbers(wheel_gains, 2, a, g, 1)
         hint = "a loop as fast as the motor itself needs no feedback: k_p must be 0 for times = 1."
         expect(abs(k_p) < 1e-9, hint)
@@ -107,68 +92,44 @@ def wheel_units(wheel_gains: Callable) -> Passed:
         expect(np.allclose(gains, 2.0 * strong, rtol=1e-9), hint)
     k_p, _ = ask_numbers(wheel_gains, 2, 4.93, 8.0, 10)
     ten = "Chapter 8's motor, ten times faster:"
-    return Passed(f"{ten} {k_p:.2f} V for each rad/s that is missing.")
+    return f"{ten} {k_p:.2f} V for each rad/s that is missing."
 
 
-def slow_outdoor(gains: Any) -> Passed:
-    """The outdoor drive sampled every 0.25 s, with wheels of 2 m/s: in time, straight, feasible."""
+def _outdoor(gains: Any, mine: Drive) -> str:
+    """The drive with rare looks and slow wheels: in time, straight, feasible."""
     gains = gains_of("`gains`", gains)
-    case = paper.outdoor()
-    run = simulate(case.start, case.goal, gains, dt=LOOK)
-    end, rim = arrival(run), _rim(run.v, run.omega)
-    most, heading = rim.max(), abs(math.degrees(run.heading_error[-1]))
-    broken = []
-    if most > TOP_SPEED:
-        when = int((rim > TOP_SPEED).argmax())
-        turning = abs(run.omega[when]) * TRACK_WIDTH / 2.0
+    run, end = mine.run(gains)
+    rim, broken = mine.rim(run), []
+    if (most := rim.max()) > mine.v_max:
+        when = int((rim > mine.v_max).argmax())
+        turning = abs(run.omega[when]) * mine.track_width / 2.0
         broken.append(
             f"{run.t[when]:.2f} s after the start a wheel is asked for {rim[when]:.2f} m/s "
             f"({turning:.2f} m/s of it for turning), and in all for up to {most:.2f} m/s, "
-            f"where it has {TOP_SPEED:g} m/s"
+            f"where it has {mine.v_max:.1f} m/s"
         )
-    if not end.arrived:
-        late = f"it has not arrived after {run.t[-1]:.0f} s"
-        broken.append(f"{late}, and is {end.distance:.1f} m from the goal")
-    elif end.time > TIME:
-        broken.append(f"it takes {end.time:.1f} s, where {TIME:g} s are allowed")
-    if end.arrived and heading > HEADING_DEG:
-        off = f"the heading is {heading:.2f} deg off"
-        broken.append(f"{off}, where {HEADING_DEG:g} deg are allowed")
-    hint, longest = "; and ".join(broken), longest_step(gains)
-    if longest < LOOK:
+    late = f"it has not arrived after {run.t[-1]:.0f} s, and is {end.distance:.1f} m from the goal"
+    hint = "; and ".join(broken + (mine.broken(end) if end.arrived else [late]))
+    if (longest := longest_step(gains)) < mine.dt:
         hint += f" (near the goal these gains want a look every {longest:.3f} s, "
-        hint += f"and get one every {LOOK:g} s)"
-    expect(not broken, f"{hint}.")
-    parked = f"Parked after {end.time:.1f} s, {heading:.1f} deg off"
-    return Passed(f"{parked}, and no wheel was asked for more than {most:.2f} m/s.")
+        hint += f"and get one every {mine.dt:.3f} s)"
+    expect(bool(end.arrived and not mine.broken(end) and not broken), f"{hint}.")
+    parked = f"Parked after {end.time:.1f} s, {math.degrees(abs(end.heading_error)):.1f} deg off"
+    return f"{parked}, and no wheel was asked for more than {most:.2f} m/s."
 
 
-def slow_elsewhere(gains: Any) -> Passed:
+def _elsewhere(gains: Any, mine: Drive) -> str:
     """The same from 40 other starts that look at most 60 deg beside the goal."""
-    gains = gains_of("`gains`", gains)
-    random, third = np.random.default_rng(8), math.pi / 3.0
-    far, sight = random.uniform(20.0, 60.0, 20), random.uniform(-math.pi, math.pi, 20)
-    heading = sight + random.uniform(-third, third, 20)
-    starts = _mirrored(-far * np.cos(sight), -far * np.sin(sight), heading)
-    options = {"dt": LOOK, "duration": 80.0, "trajectories": True, "progress": False}
-    ends, runs = sweep(starts, Pose(0.0, 0.0, 0.0), gains, **options)
-    others, late = "of 40 other starts,", np.sum(~ends.arrived)
-    expect(late == 0, f"{others} {late} have not arrived after 80 s.")
-    rim = np.nan_to_num(_rim(runs.v, runs.omega)).max(axis=1)
-    bad = np.sum(rim > TOP_SPEED)
-    hint = f"{others} {bad} ask a wheel for more than {TOP_SPEED:g} m/s, "
+    gains, look = gains_of("`gains`", gains), {"method": "arc", "dt": mine.dt}
+    ends, runs = mine.elsewhere(gains, math.pi / 3.0, 80.0, trajectories=True, **look)
+    parked, rim = mine.parked(ends, 80.0), np.nan_to_num(mine.rim(runs)).max(axis=1)
+    bad = np.sum(rim > mine.v_max)
+    hint = f"of 40 other starts, {bad} ask a wheel for more than {mine.v_max:.1f} m/s, "
     expect(bad == 0, f"{hint}the worst for {rim.max():.2f} m/s.")
-    off = np.abs(np.degrees(ends.heading_error))
-    bad = np.sum(off > 2.0 * HEADING_DEG)
-    hint = f"{others} {bad} end more than {2 * HEADING_DEG:g} deg off, "
-    expect(bad == 0, f"{hint}the worst {off.max():.0f} deg.")
-    starts = "40 other starts, 20 and their mirror images"
-    return Passed(f"{starts}: at most {rim.max():.2f} m/s at a wheel and {off.max():.1f} deg off.")
+    return f"{parked}, with at most {rim.max():.2f} m/s at a wheel."
 
 
-def _rim(v: np.ndarray, omega: np.ndarray) -> np.ndarray:
-    """The speed of the faster wheel."""
-    return np.abs(v) + 0.5 * TRACK_WIDTH * np.abs(omega)
+slow_outdoor, slow_elsewhere = checked(slow, _outdoor, _elsewhere)
 
 
 def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float:
@@ -196,15 +157,8 @@ def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float
         growth = np.abs(1.0 + 0.999 * value * table)
     worst = int(growth.argmax())
     swing = f"{table[worst].imag:+.3g}i" if table[worst].imag else ""
-    hint = (
-        f"with a slightly shorter step than yours the mode at {table[worst].real:.3g}{swing} 1/s "
-    )
-    expect(growth[worst] < 1.0, f"{hint}grows by {growth[worst]:.5g} in each step.")
+    mode = f"the mode at {table[worst].real:.3g}{swing} 1/s grows by {growth[worst]:.5g}"
+    expect(growth[worst] < 1.0, f"with a slightly shorter step than yours {mode} in each step.")
     hint = "with a slightly longer step than yours all modes still fade: it is not the longest."
     expect(np.abs(1.0 + 1.001 * value * table).max() > 1.0, hint)
     return value
-
-
-def _motors(count: int) -> list[list[float]]:
-    low, high = (1.0, 0.5, 2.0), (9.0, 12.0, 20.0)
-    return np.random.default_rng(83).uniform(low, high, (count, 3)).tolist()

@@ -3,37 +3,31 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from dataclasses import replace
 from functools import cache
 from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import (
-    Passed,
-    ask,
-    ask_truth,
-    expect,
-    expect_value,
-    explain,
-    number,
-    ordered,
-    rule_out,
-)
+from wmrbook.grading import variants
+from wmrbook.grading._asking import ask, ask_truth, number, ordered
+from wmrbook.grading._hints import angle_equal, drawn, expect, explain, rule_out, spread
+from wmrbook.grading.earth import _walks
 from wmrlib.gains import Gains
-from wmrlib.geodesy import GeoPoint, initial_bearing, local_position, point_at
-from wmrlib.kinematics import Pose, polar_error, wrap_angle
-from wmrlib.metrics import arrival
-from wmrlib.paper import GPS_POINT_1, GPS_POINT_2, OUTDOOR_GAINS, outdoor
+from wmrlib.geodesy import GeoPoint, initial_bearing, local_position
+from wmrlib.kinematics import Pose, polar_error
+from wmrlib.paper import GPS_POINT_1, GPS_POINT_2, outdoor
 from wmrlib.runs import Arrival, Trajectory
 from wmrlib.simulation import simulate
 
 Poses = Callable[[GeoPoint, GeoPoint, float, float], tuple[Pose, Pose]]
-HOME_TIME, HOME_HEADING_DEG, HOME_OMEGA = 22.0, 5.0, 1.6  # s, deg, rad/s
+_FLAT = 1e-3  # rad: a flat map's direction against the great circle's, over 200 m
+_HERE = Pose(0.0, 0.0, 0.0)
 _GAINS = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
 
 
-def poses_known(poses: Poses) -> Passed:
+def poses_known(poses: Poses) -> str:
     """poses(start_point, goal_point, start_course, goal_course): on the map of the start."""
     for a, b, course, goal_course in _trips(20):
         start, goal = _asked(poses, a, b, course, goal_course)
@@ -53,9 +47,9 @@ def poses_known(poses: Poses) -> Passed:
         expect(_near(goal[:2], (east, north)), hint)
         for name, pose, degrees in (("start", start, course), ("goal", goal, goal_course)):
             right = math.radians(90.0 - degrees)
-            if _same_way(pose.heading, right):
+            if angle_equal(pose.heading, right):
                 continue
-            in_degrees = _same_way(math.radians(pose.heading), right)
+            in_degrees = angle_equal(math.radians(pose.heading), right)
             expect(not in_degrees, f"the {name}'s heading is in degrees; a Pose has radians.")
             courses = "try a course of 0, north, and one of 90, east."
             mistakes = {
@@ -64,220 +58,165 @@ def poses_known(poses: Poses) -> Passed:
                 f"the {name}'s heading is the course as it stands on the compass.": degrees,
                 f"the {name} looks backwards: {courses}": right + math.pi,
             }
-            explain(pose.heading, mistakes, f"the {name}'s heading is wrong: {courses}", _same_way)
-    return Passed("Twenty trips start and end where they should, and look the right way.")
+            hint = f"the {name}'s heading is wrong: {courses}"
+            explain(pose.heading, mistakes, hint, angle_equal)
+    return "Twenty trips start and end where they should, and look the right way."
 
 
-def poses_facing(poses: Poses) -> Passed:
+def poses_facing(poses: Poses) -> str:
     """A robot that steers by the bearing has the goal straight ahead."""
     for a, b, _, _ in _trips(20):
         bearing = math.degrees(initial_bearing(a, b))
         rho, alpha, theta = polar_error(*_asked(poses, a, b, bearing, bearing))
         expect(rho > 1.0, "start and goal are at the same place.")
         hint = "a robot whose compass shows the bearing of its goal must see it straight ahead, "
-        expect(abs(alpha) < 1e-6, f"{hint}not {math.degrees(alpha):.0f} deg off.")
+        expect(abs(alpha) < _FLAT, f"{hint}not {math.degrees(alpha):.2g} deg off.")
         hint = "with the bearing as the goal's course too theta must be 0, "
-        expect(abs(theta) < 1e-6, f"{hint}not {math.degrees(theta):.0f} deg.")
+        expect(abs(theta) < _FLAT, f"{hint}not {math.degrees(theta):.2g} deg.")
         right = polar_error(*_asked(poses, a, b, bearing - 30.0, bearing)).alpha
         hint = "a course of 30 deg less is further left on a compass, "
         expect(right < 0.0, f"{hint}so the goal must be on the right: alpha < 0.")
     bearing = "With the goal's bearing as both courses"
-    return Passed(f"{bearing} the goal is straight ahead: alpha = theta = 0.")
+    return f"{bearing} the goal is straight ahead: alpha = theta = 0."
 
 
-def parked_runs(parked: Callable[[Trajectory], bool]) -> Passed:
+def parked_runs(parked: Callable[[Trajectory], bool]) -> str:
     """parked(run): whether it ends within 0.1 m of the goal and 5 deg of its heading."""
     cases = _runs()
     for run, right, hint in cases:
         expect(ask_truth(parked, run) is right, hint)
     well = sum(right for _, right, _ in cases)
-    return Passed(
-        f"All {len(cases)} runs are judged as they should be; {well} of them have parked."
-    )
+    return f"All {len(cases)} runs are judged as they should be; {well} of them have parked."
 
 
-def parked_wrapped(parked: Callable[[Trajectory], bool]) -> Passed:
+def parked_wrapped(parked: Callable[[Trajectory], bool]) -> str:
     """The same where headings jump from 180 to -180 deg."""
-    runs = _western_runs()
-    for run in runs:
-        looks, wanted = math.degrees(run.heading[-1]), math.degrees(run.goal.heading)
+    pairs = (179.9, -179.9), (-179.0, 178.0), (-177.0, 180.0), (178.5, -178.0)
+    for looks, wanted in pairs:
+        run = _stop(Pose(0.05, 0.0, math.radians(looks)), Pose(0.0, 0.0, math.radians(wanted)))
         hint = f"a robot that looks {looks:.1f} deg at a goal that looks {wanted:.1f} deg "
         expect(ask_truth(parked, run), f"{hint}has parked: how far apart are these directions?")
-    start, goal = Pose(30.0, 0.5, -0.1), Pose(0.0, 0.0, -0.1)
-    away = simulate(start, goal, _GAINS, method="continuous", arrival_radius=0.0, duration=6.0)
+    away = _stop(Pose(30.0, 0.5, -0.1), radius=0.05, duration=6.0)
     expect(not ask_truth(parked, away), "every run counts as parked.")
-    return Passed(f"{len(runs)} robots that look west have parked, on either side of 180 deg.")
+    return f"{len(pairs)} robots that look west have parked, on either side of 180 deg."
 
 
-def home_time(my_gains: Any) -> Passed:
-    """From GPS point 2 back to 1, with the headings exchanged, in less than 22 s."""
-    result = _home(my_gains)
-    hint = f"it takes {result.time:.1f} s. "
+def _time(my_gains: Any, mine: variants.Drive) -> str:
+    """Back again, with the headings exchanged, in time."""
+    end = _home(my_gains, mine)
+    hint = f"it takes {end.time:.1f} s. "
     hint += "Which gain decides how far from the goal the robot begins to slow down?"
-    expect(result.time < HOME_TIME, hint)
-    return Passed(f"Home after {result.time:.1f} s.")
+    expect(end.time < mine.time, hint)
+    return f"Home after {end.time:.1f} s."
 
 
-def home_heading(my_gains: Any) -> Passed:
+def _heading(my_gains: Any, mine: variants.Drive) -> str:
     """It ends less than 5 deg off."""
-    off = abs(math.degrees(_home(my_gains).heading_error))
+    off = abs(math.degrees(_home(my_gains, mine).heading_error))
     hint = f"it arrives with {off:.1f} deg left over. The heading must settle before the distance: "
-    expect(off < HOME_HEADING_DEG, f"{hint}brake earlier, or give it more weight.")
-    return Passed(f"Parked, with {off:.1f} deg left over.")
+    expect(off < mine.heading_deg, f"{hint}brake earlier, or give it more weight.")
+    return f"Parked, with {off:.1f} deg left over."
 
 
-def home_omega(my_gains: Any) -> Passed:
-    """It never turns faster than 1.6 rad/s."""
-    fastest = _home(my_gains).peak_omega
+def _omega(my_gains: Any, mine: variants.Drive) -> str:
+    """It never turns too fast."""
+    fastest = _home(my_gains, mine).peak_omega
     hint = f"it turns with up to {fastest:.2f} rad/s. "
     hint += "At the start, by k_alpha, or in the last bend? `wmrbook.figures.dashboard` shows it."
-    expect(fastest < HOME_OMEGA, hint)
-    return Passed(f"Never faster than {fastest:.2f} rad/s.")
+    expect(fastest < mine.omega, hint)
+    return f"Never faster than {fastest:.2f} rad/s."
+
+
+home_time, home_heading, home_omega = variants.checked(variants.home, _time, _heading, _omega)
 
 
 def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: float) -> list[Pose]:
     answer = ask(poses, a, b, course, goal_course)
-    two = ordered(answer, 2) and all(ordered(each, 3) for each in answer)
-    expect(two, "two poses are needed: `return start, goal`.")
+    two = ordered(answer, 2) and all(isinstance(each, Pose) for each in answer)
+    expect(two, "two poses are needed: `return start, goal`, each a `wmr.Pose(x, y, heading)`.")
     return [
         Pose(*(number(f"the {name}'s {field}", pose[k]) for k, field in enumerate(Pose._fields)))
         for name, pose in zip(("start", "goal"), answer, strict=True)
     ]
 
 
-def _home(my_gains: Any) -> Arrival:
-    expect_value("`my_gains`", my_gains)
-    hint = "`my_gains` has to be a `wmr.Gains(k_rho=..., k_alpha=..., h=..., v_max=4.0)`."
-    expect(isinstance(my_gains, Gains), hint)
-    for name, each in zip(Gains._fields, my_gains, strict=True):
-        number(f"`my_gains.{name}`", each)
-    most = OUTDOOR_GAINS.v_max
-    hint = f"v_max = {my_gains.v_max:g} m/s: the robot can do no more than {most:g} m/s."
-    expect(my_gains.v_max <= most, hint)
-    case = outdoor()
-    run = simulate(case.goal, case.start, my_gains, method="continuous")
-    hint = f"it does not come home within a minute: after {run.t[-1]:.0f} s "
-    expect(arrival(run).arrived, f"{hint}it is {run.rho[-1]:.2f} m away.")
-    return arrival(run)
+def _home(my_gains: Any, mine: variants.Drive) -> Arrival:
+    run, end = mine.run(mine.gains("`my_gains`", my_gains))
+    hint = f"it does not come home: after {run.t[-1]:.0f} s "
+    expect(end.arrived, f"{hint}it is {run.rho[-1]:.2f} m away.")
+    return end
 
 
 @cache
 def _runs() -> tuple[tuple[Trajectory, bool, str], ...]:
     """Runs, whether they have parked, and what to say if they are judged wrongly."""
-    case, here = outdoor(), Pose(0.0, 0.0, 0.0)
+    case = outdoor()
     north, south = (Pose(0.0, 0.0, side * math.pi / 2.0) for side in (1.0, -1.0))
-    askew = Pose(-0.06, 0.0, math.radians(8.0))
     late = {"method": "continuous", "arrival_radius": 0.0, "duration": 40.0}
 
     def drive(gains: Gains, start: Pose, goal: Pose) -> Trajectory:
         return simulate(start, goal, gains, method="continuous")
 
-    def stop(start: Pose, radius: float, goal: Pose = here, **options) -> Trajectory:
-        return simulate(start, goal, _GAINS, arrival_radius=radius, **options)
-
-    counts = "counts as parked"
+    counts, home = "counts as parked", drive(_GAINS, case.start, case.goal)
+    backwards = ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
+    away = replace(home, **{name: getattr(home, name)[::-1] for name in backwards})
+    past = _stop(Pose(0.06, 0.0, 0.0))
+    right = {
+        "a run that ends 5 cm and less than 1 deg from its goal has parked, "
+        "and is said not to have.": home,
+        "a run that stands on its goal and looks the right way has parked, "
+        "though it went on until the time was up.": simulate(case.start, case.goal, _GAINS, **late),
+        "a robot 6 cm past its goal that looks exactly the goal's way has parked: "
+        "alpha and theta are 180 deg there, and neither is the error of the heading.": past,
+    }
+    wrong = {
+        f"a run that ends 32 deg off to the left {counts}: "
+        "does it look at the heading, and in which unit?": drive(case.gains, case.goal, case.start),
+        f"a run that ends 27 deg off to the right {counts}: its heading error is negative.": drive(
+            case.gains, case.start, case.goal
+        ),
+        f"a run that is still far away when the time is up {counts}: "
+        "does it look at the distance?": _stop(Pose(-50.0, 0.0, 0.0), radius=0.05, duration=5.0),
+        f"a run {counts} because it has arrived, but its arrival radius was 0.5 m: "
+        "look at the distance at the end.": _stop(Pose(-50.0, 0.0, 0.0), radius=0.5),
+        f"a run that was on its goal, and drove away again, {counts}: "
+        "look at the last sample.": away,
+        f"a robot that looks 90 deg at a goal that looks -90 deg {counts}: "
+        "they are opposite directions.": _stop(north._replace(x=-0.06), south),
+    }
     return (
-        (
-            drive(_GAINS, case.start, case.goal),
-            True,
-            "a run that ends 5 cm and less than 1 deg from its goal has parked, "
-            "and is said not to have.",
-        ),
-        (
-            drive(case.gains, case.goal, case.start),
-            False,
-            f"a run that ends 32 deg off to the left {counts}: "
-            "does it look at the heading, and in which unit?",
-        ),
-        (
-            drive(case.gains, case.start, case.goal),
-            False,
-            f"a run that ends 27 deg off to the right {counts}: its heading error is negative.",
-        ),
-        (
-            stop(Pose(-50.0, 0.0, 0.0), 0.05, duration=5.0),
-            False,
-            f"a run that is still far away when the time is up {counts}: "
-            "does it look at the distance?",
-        ),
-        (
-            stop(Pose(-50.0, 0.0, 0.0), 0.5),
-            False,
-            f"a run {counts} because it has arrived, but its arrival radius was 0.5 m: "
-            "look at the distance at the end.",
-        ),
-        (
-            simulate(case.start, case.goal, _GAINS, **late),
-            True,
-            "a run that stands on its goal and looks the right way has parked, "
-            "though it went on until the time was up.",
-        ),
-        (
-            stop(Pose(0.06, 0.0, 0.0), 0.1),
-            True,
-            "a robot 6 cm past its goal that looks exactly the goal's way has parked: "
-            "alpha and theta are 180 deg there, and neither is the error of the heading.",
-        ),
-        (
-            stop(askew, 0.1),
-            False,
-            f"a run that ends 8 deg off {counts}: 5 deg are asked for.",
-        ),
-        (
-            stop(Pose(-0.15, 0.0, 0.0), 0.2),
-            False,
-            f"a run that ends 15 cm from its goal {counts}: 0.1 m are asked for.",
-        ),
-        (
-            stop(north._replace(x=-0.06), 0.1, south),
-            False,
-            f"a robot that looks 90 deg at a goal that looks -90 deg {counts}: "
-            "they are opposite directions.",
-        ),
+        *((run, False, hint) for hint, run in wrong.items()),
+        *((run, True, hint) for hint, run in right.items()),
+        *_borders(),
     )
 
 
-@cache
-def _western_runs() -> tuple[Trajectory, ...]:
-    """Parked runs whose heading and goal's heading are on different sides of 180 deg."""
-    runs = [
-        simulate(
-            Pose(40.0, north, math.pi),
-            Pose(0.0, 0.0, side * (math.pi - 0.004)),
-            _GAINS,
-            method="arc",
-            dt=0.02,
-        )
-        for side in (-1.0, 1.0)
-        for north in (-9.0, -6.0, -3.0, 3.0, 6.0, 9.0)
-    ]
-    return tuple(
-        run
-        for run in runs
-        if abs(run.heading_error[-1]) < math.radians(4.0)
-        and run.rho[-1] < 0.09
-        and abs(run.heading[-1] - run.goal.heading) > math.pi
-    )
+def _stop(start: Pose, goal: Pose = _HERE, radius: float = 1.0, **options) -> Trajectory:
+    return simulate(start, goal, _GAINS, arrival_radius=radius, **options)
+
+
+def _borders() -> Iterator[tuple[Trajectory, bool, str]]:
+    """Runs that end just within the limits and just beyond, in any direction."""
+    random = np.random.default_rng(11)
+    for near in spread(0.01, 2.0, 24):
+        for share in (1.0 + near, 1.0 / (1.0 + near)):
+            way, side = random.uniform(-math.pi, math.pi), random.choice([-1.0, 1.0])
+            far, off = random.permutation([share, random.uniform(0.0, 0.9)]) * (0.1, 5.0)
+            end = Pose(far * math.cos(way), far * math.sin(way), side * math.radians(off))
+            parked = bool(far < 0.1 and off < 5.0)
+            hint = f"a run that ends {100.0 * far:.1f} cm and {off:.1f} deg off "
+            hint += "has parked, and is said not to have: " if parked else "counts as parked: "
+            hint += "0.1 m are asked for, all round, " if far > 0.1 else "0.1 m and "
+            yield _stop(end), parked, hint + "5 deg are asked for, to both sides."
 
 
 def _near(place, other) -> bool:
     return math.dist(place, other) < 0.02
 
 
-def _same_way(one: float, other: float) -> bool:
-    return abs(wrap_angle(one - other)) < 1e-6
-
-
 def _trips(count: int) -> list[tuple[GeoPoint, GeoPoint, float, float]]:
     """The paper's points and others up to 200 m apart, with courses in degrees."""
-    low, high = (
-        (-60.0, -170.0, 20.0, -math.pi, 0.0, 0.0),
-        (60.0, 170.0, 200.0, math.pi, 360.0, 360.0),
-    )
-    rows = np.random.default_rng(10).uniform(low, high, (count - 1, 6)).tolist()
-    trips = [(GPS_POINT_1, GPS_POINT_2, 18.0, 150.0)]
-    for lat, lon, length, angle, *courses in rows:
-        origin = GeoPoint(lat=lat, lon=lon)
-        goal = point_at(origin, length * math.cos(angle), length * math.sin(angle))
-        trips.append((origin, goal, *courses))
-    return trips
+    courses = drawn(10, count - 1, (0.0, 360.0), (0.0, 360.0))
+    pairs = _walks(10, count - 1, 200.0)
+    trips = [(*pair, *course) for pair, course in zip(pairs, courses, strict=True)]
+    return [(GPS_POINT_1, GPS_POINT_2, 18.0, 150.0), *trips]

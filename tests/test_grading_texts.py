@@ -1,0 +1,93 @@
+"""Code that stands in a text runs; a notebook without answers runs to its end."""
+
+import ast
+import json
+import re
+
+import nbformat
+import pytest
+from graded import ASSIGNMENTS, ROOT, given, notebook, released, tasks
+from nbclient import NotebookClient
+
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "book").glob("*.md"))]
+CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
+TASKS = [notebook(chapter) for chapter in ASSIGNMENTS]
+NAMES = """
+from types import SimpleNamespace
+from scipy.special import exprel
+from decimal import Decimal
+import numpy as np, sympy as sp
+import wmrlib, wmrlib as wmr
+from wmrbook.challenge import scoreboard
+starts, goals, gains = wmr.Pose([5.0, 6.0], 1.0, 0.0), wmr.Pose(0.0, 0.0, 0.0), wmr.GENTLE_GAINS
+explorer, x, y, heading, goal = wmr.Explorer(), 1.0, 2.0, 0.3, goals
+c = SimpleNamespace(Spawner=SimpleNamespace())
+"""
+STANDS_FOR = {'"tcp://scheduler:8786"': "processes=False, dashboard_address=None"}
+
+
+def text(path) -> str:
+    """What is read, without the cells of a page that is itself run."""
+    words = path.read_text(encoding="utf-8")
+    if path.suffix == ".ipynb":
+        found = json.loads(words)["cells"]
+        words = "\n\n".join("".join(c["source"]) for c in found if c["cell_type"] == "markdown")
+    return re.sub(r"```\{.*?```", "", words, flags=re.DOTALL)
+
+
+def calls(words: str) -> list[str]:
+    """The expressions between backticks that call something, with no part left open as `...`."""
+    found = []
+    for each in re.findall(r"`([^`]+)`", re.sub(r"```.*?```", "", words, flags=re.DOTALL)):
+        try:
+            nodes = list(ast.walk(ast.parse(" ".join(each.split()))))
+        except SyntaxError:
+            continue
+        is_open = any(isinstance(node, ast.Constant) and node.value is ... for node in nodes)
+        if any(isinstance(node, ast.Call) for node in nodes) and not is_open:
+            found.append(" ".join(each.split()))
+    return found
+
+
+@pytest.mark.parametrize("path", [*PAGES, *CHAPTERS, *TASKS], ids=lambda path: path.stem)
+def test_code_in_a_text_runs(path, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    names = {}
+    exec(NAMES, names)
+    if path in TASKS:
+        names |= given(path.parent.name)
+    for code in re.findall(r"```python\n(.*?)```", text(path), flags=re.DOTALL) + calls(text(path)):
+        for place, stand_in in STANDS_FOR.items():
+            code = code.replace(place, stand_in)
+        exec(code, names)
+
+
+def test_calls_are_found():
+    assert calls("`f(x)`, `f`, `f(...)`, `not code`, ```python\n`g(x)`\n```, `a.b(\n1)`") == [
+        "f(x)",
+        "a.b( 1)",
+    ]
+    assert sum(len(calls(text(path))) for path in [*CHAPTERS, *TASKS]) > 5
+
+
+@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+def test_cells_that_fail_without_an_answer_do_not_stop_the_others(chapter):
+    """Jupyter goes on after a cell with this tag; nbgrader sees its error all the same."""
+    names, failed = {"__name__": "__main__"}, 0
+    for cell in nbformat.read(notebook(chapter), as_version=4).cells:
+        if cell.cell_type == "code":
+            try:
+                exec(released(cell.source), names)
+            except Exception:
+                assert "raises-exception" in cell.metadata.tags
+                failed += 1
+    assert failed >= sum(map(len, tasks(chapter).values()))
+
+
+def test_a_notebook_without_answers_runs_to_its_end():
+    handed_out = nbformat.read(notebook("ch12"), as_version=4)
+    for cell in handed_out.cells:
+        cell.source = released(cell.source)
+    done = NotebookClient(handed_out).execute()
+    (last,) = done.cells[-1].outputs
+    assert (last.output_type, last.ename) == ("error", "Hint")
