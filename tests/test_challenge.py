@@ -301,7 +301,7 @@ def test_bad_input():
         *((lambda seed=seed: from_seed(seed), "seed = .* a whole number") for seed in seeds),
         *((lambda seed=seed: replace(game, seed=seed), "seed = .* a whole") for seed in seeds),
         (lambda: score((1, 2, 3, 4)), "a Gains is needed, not a tuple"),
-        (lambda: score(PAPER, 2026), "a Challenge is needed, not a int"),
+        (lambda: score(PAPER, 2026), "a Challenge is needed, not an int"),
         (lambda: score(wmr.Gains(np.ones(2), 1.0, 1.0)), "k_rho = .* one number is needed"),
         (lambda: score(wmr.Gains(1.0, 1.0, 1.0, 1e-4)), r"v_max = 0\.0 is not allowed"),
         (lambda: drive_cases(PAPER, "x"), "a Challenge is needed"),

@@ -297,7 +297,7 @@ def test_bad_input_names_argument_value_and_range():
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
         ({"wheels": 2.0}, "a WheelLimits is needed"),
-        ({"executor": 4}, "executor = 4 is not allowed: a Executor is needed, not a int"),
+        ({"executor": 4}, "executor = 4 is not allowed: an Executor is needed, not an int"),
         ({"arrival_radius": -1.0}, r"arrival_radius = -1\.0"),
         ({"trajectories": "no"}, "trajectories = 'no' is not allowed: True or False is needed"),
         ({"progress": 1}, "progress = 1 is not allowed: True or False is needed"),

@@ -92,7 +92,9 @@ def instance(name: str, value: Any, kind: type) -> Any:
     """Return `value` if it is a `kind`; otherwise raise ValueError."""
     if isinstance(value, kind):
         return value
-    raise refusal(name, value, f"a {kind.__name__}", f", not a {type(value).__name__}")
+    names = kind.__name__, type(value).__name__
+    wanted, found = (f"a{'n' * (each[0] in 'AEIOUaeio')} {each}" for each in names)
+    raise refusal(name, value, wanted, f", not {found}")
 
 
 def same_shape(**arguments: Any) -> tuple[int, ...]:

@@ -98,7 +98,7 @@ def read_track(path: str | os.PathLike) -> Track:
     OSError : a file that can't be opened
     """
     if not isinstance(path, str | os.PathLike):
-        raise refusal("path", path, "a str or PathLike", f", not a {type(path).__name__}")
+        raise refusal("path", path, "a str or PathLike", f", not of type {type(path).__name__}")
     try:
         with open(path, "rb") as file:
             source, fixes = _read(file)
