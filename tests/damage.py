@@ -29,7 +29,8 @@ DEADLY = {  # what an answer's cell does before anything else, and what the tabl
     "segfault": ("import ctypes; ctypes.string_at(0)", "it ended Python"),
     "killed": ("import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "it ended Python"),
     "flood": ("print('x' * 200_000_000)", "it printed more than 10 MB"),
-    "endless": ("while True: pass", "it took over"),
+    "memory": ("x = bytearray(10**11)", ""),
+    "endless": ("import time; time.sleep(1000)", "it took over"),
 }
 LEFT = """import subprocess, sys, threading, time
 subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # left"],
@@ -138,7 +139,7 @@ def hand_in_all(folder: Path, assignment: str, solved: NotebookNode, other: Note
     expected = {}
 
     def put(student: str, notebook: NotebookNode | str | bytes, points: str, said: str, name=name):
-        text = nbformat.writes(notebook) if isinstance(notebook, NotebookNode) else notebook
+        text = json.dumps(notebook) if isinstance(notebook, NotebookNode) else notebook
         hand_in(folder, student, assignment, name, text)
         expected[student] = points, said
 

@@ -79,9 +79,8 @@ def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Ro
 
 def _listed(course: Course, wanted: list[str]) -> tuple[list[Row], list[tuple]]:
     """What is refused by its name, and what is to be graded: assignment, student, folder."""
+    wanted = course.checked(wanted) or list(course.sources)
     known = ", ".join(course.sources)
-    if unknown := set(wanted) - set(course.sources):
-        raise SystemExit(f"no assignment {', '.join(sorted(unknown))}: there are {known}")
     rows, todo = [], []
     for home in sorted((course.folder / "submitted").glob("[!.]*")):
         if not home.is_dir() or home.is_symlink():
@@ -94,7 +93,7 @@ def _listed(course: Course, wanted: list[str]) -> tuple[list[Row], list[tuple]]:
                 if place.name not in course.sources:
                     said = f"refused: no assignment {place.name}: there are {known}"
                     rows.append(Row("", home.name, "", said))
-                elif not wanted or place.name in wanted:
+                elif place.name in wanted:
                     todo.append((place.name, home.name, place))
     return rows, todo
 

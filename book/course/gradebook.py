@@ -51,6 +51,12 @@ class Course:
     def __exit__(self, *_: object) -> None:
         shutil.rmtree(self.ran)
 
+    def checked(self, wanted: list[str]) -> list[str]:
+        """The assignments that were asked for, if there are such."""
+        if unknown := ", ".join(sorted(set(wanted) - set(self.sources))):
+            raise SystemExit(f"no assignment {unknown}: there are {', '.join(self.sources)}")
+        return wanted
+
     def release(self, assignment: str) -> NotebookNode:
         """What students get, made anew if it is older than its source or not in the gradebook."""
         source = self.sources[assignment]

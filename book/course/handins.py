@@ -3,14 +3,18 @@
 from __future__ import annotations
 
 import re
+import warnings
 from collections import defaultdict
 from pathlib import Path
 
 import nbformat
 from IPython.core.inputtransformer2 import TransformerManager
 from nbformat import NotebookNode
+from nbformat.warnings import DuplicateCellId, MissingIDFieldWarning
 
 MOST_BYTES = 50_000_000
+for harmless in DuplicateCellId, MissingIDFieldWarning:  # a copied cell, an older notebook
+    warnings.simplefilter("ignore", harmless)
 
 
 class Refused(Exception):  # noqa: N818  (it is an answer, not a fault)
@@ -60,7 +64,7 @@ def repaired(handed_in: NotebookNode, release: NotebookNode) -> tuple[NotebookNo
     Cells of the student's own stay where they were. Raises Refused if nothing is of this release.
     """
     ids = [_grade_id(cell) for cell in release.cells]
-    asked = {name: cell for name, cell in zip(ids, release.cells, strict=True)}
+    asked = dict(zip(ids, release.cells, strict=True))
     answers = {name: [] for name, cell in asked.items() if _nbgrader(cell).get("solution")}
     checks = {name for name, cell in asked.items() if _nbgrader(cell).get("grade")}
     places = list(_places(handed_in.cells, asked, answers))

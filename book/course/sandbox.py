@@ -33,7 +33,8 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat import NotebookNode
 
-DRIVER = str(Path(__file__).resolve())
+# The grammar of addresses is compiled at each start, for over a second, and no notebook needs it.
+DRIVER = "import sys; sys.modules['rfc3987_syntax'] = None; import sandbox; sandbox.drive()"
 MOST_OUTPUT = 10_000_000  # bytes of a hand-in
 UNSHARE = ["unshare", "--user", "--map-root-user", "--mount", "--pid", "--net", "--ipc"]
 UNSHARE += ["--fork", "--kill-child", "--mount-proc"]
@@ -52,7 +53,7 @@ setpriv --bounding-set=-all --inh-caps=-all --no-new-privs "$@"
 """
 KERNEL = """
 import os, sys
-os.environ.pop("JPY_PARENT_PID", None)  # where processes have numbers of their own, no parent has it
+os.environ.pop("JPY_PARENT_PID", None)  # there, no parent has its number
 try:
     import resource
     for name, most in ("AS", int(sys.argv.pop(1))), ("FSIZE", 10**8), ("CORE", 0):
@@ -117,10 +118,14 @@ class Sandbox:
         job = Path(tempfile.mkdtemp(dir=self.stage))
         result = job / "notebook.json"
         nbformat.write(notebook, result)
-        command = [sys.executable, DRIVER, str(job), self.hidden, json.dumps(self.limits)]
-        quiet = dict.fromkeys(("stdin", "stdout", "stderr"), subprocess.DEVNULL)
+        settings = str(job), self.hidden, json.dumps(self.limits)
         with suppress(subprocess.TimeoutExpired):
-            subprocess.run(command, timeout=self.limits.whole + 120, **quiet)
+            subprocess.run(
+                [sys.executable, "-c", DRIVER, *settings],
+                cwd=Path(__file__).parent,
+                capture_output=True,
+                timeout=self.limits.whole + 120,
+            )
         for compiled in job.glob("kernel-*/lib/wmrlib/__pycache__") if trusted else ():
             shutil.copytree(compiled, self.compiled, dirs_exist_ok=True)
         done = nbformat.read(result, as_version=4)
@@ -155,8 +160,13 @@ class _Client(NotebookClient):
         return super().process_message(message, cell, index)
 
 
-def _drive(job: Path, hidden: list[str], limits: Limits) -> None:
-    """Run the notebook of a job and store it after each cell."""
+def drive() -> None:
+    """Run the notebook of a job and store it after each cell; the process has no other task."""
+    job, limits = Path(sys.argv[1]), Limits(*json.loads(sys.argv[3]))
+    hidden = json.loads(sys.argv[2])
+    logging.disable()
+    if sys.platform == "linux":  # what a kernel leaves behind becomes a child of this process
+        ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER
     result, began = job / "notebook.json", time.monotonic()
     notebook = nbformat.read(result, as_version=4)
     cells, deadly, place, kernels = notebook.cells, set(), 0, 0
@@ -181,9 +191,7 @@ def _drive(job: Path, hidden: list[str], limits: Limits) -> None:
         at = None
         quiet = dict.fromkeys(("stdout", "stderr"), subprocess.DEVNULL)
         try:
-            with client.setup_kernel(
-                cleanup_kc=True, cwd=own, env=_environment(own), **quiet
-            ):
+            with client.setup_kernel(cleanup_kc=True, cwd=own, env=_environment(own), **quiet):
                 again = [k for k in range(place) if k not in deadly and not _graded(cells[k])]
                 for at in [*again, *range(place, len(cells))]:
                     client.execute_cell(cells[at], at)
@@ -260,11 +268,3 @@ def _store(notebook: NotebookNode, path: Path) -> None:
     whole = path.with_suffix(".new")
     nbformat.write(notebook, whole)
     whole.replace(path)
-
-
-if __name__ == "__main__":
-    logging.disable()
-    if sys.platform == "linux":  # what a kernel leaves behind becomes a child of this process
-        ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER
-    job, hidden, limits = sys.argv[1:]
-    _drive(Path(job), json.loads(hidden), Limits(*json.loads(limits)))
