@@ -183,16 +183,20 @@ def main(folder: Path, wanted: list[str]) -> int:
     command = [sys.executable, str(ROOT / "book/course/grade.py"), "--course", str(folder)]
     run = subprocess.run([*command, "--seconds", "30"], capture_output=True, text=True, check=True)
     print(run.stdout, run.stderr, sep="\n")
-    wrong = faults(run.stdout, expected)
+    wrong = faults(rows(run.stdout), expected)
     print("\n".join(wrong) or "each is worth what it should be")
     return len(wrong)
 
 
-def faults(text: str, expected: dict[tuple[str, str], tuple[str, str]]) -> list[str]:
-    """What the table of grade.py says otherwise than expected."""
+def rows(text: str) -> dict[tuple[str, str], str]:
+    """The table of grade.py as {(assignment, student): points and what is said}."""
     header, *lines, _ = text.splitlines()
     student, points = header.index("student"), header.index("points")
-    rows = {(r[:student].strip(), r[student:points].strip()): r[points:] for r in lines}
+    return {(r[:student].strip(), r[student:points].strip()): r[points:] for r in lines}
+
+
+def faults(rows: dict, expected: dict[tuple[str, str], tuple[str, str]]) -> list[str]:
+    """What a table says otherwise than expected."""
     less = {a: rows[a, s][:6].strip() for a, s in expected if s == "answer deleted"}
     most = {a: "/".join(2 * [points.partition("/")[2]]) for a, points in less.items()}
     wrong = []

@@ -21,6 +21,7 @@ import sys
 import tempfile
 import time
 from collections import defaultdict
+from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
 from typing import NamedTuple
@@ -47,7 +48,7 @@ while [ "$1" != -- ]; do mount -t tmpfs none "$1"; shift; done
 shift
 mkdir "$aside/own"; mount --bind "$own" "$aside/own"
 mount -t tmpfs none "$stage"; mkdir -p "$own"
-mount --move "$aside/own" "$own"; rmdir "$aside/own"
+mount --bind "$aside/own" "$own"; umount "$aside/own"; rmdir "$aside/own"
 cd "$own"
 setpriv --bounding-set=-all --inh-caps=-all --no-new-privs "$@"
 """
@@ -75,22 +76,36 @@ class Limits(NamedTuple):
 
 @functools.cache
 def hides() -> bool:
-    """Whether this system can hide folders from a process."""
-    try:
-        return not subprocess.run([*UNSHARE, "setpriv", "true"], capture_output=True).returncode
-    except OSError:
-        return False
+    """Whether this system can hide folders from a process: whether `confined` works."""
+    with tempfile.TemporaryDirectory() as name:
+        stage, aside = Path(name, "stage"), Path(name, "aside")
+        aside.mkdir()
+        (stage / "own").mkdir(parents=True)
+        try:
+            command = confined(["true"], stage, [aside])
+            return not subprocess.run(command, cwd=stage / "own", capture_output=True).returncode
+        except OSError:
+            return False
+
+
+def confined(
+    command: list[str], stage: Path, hidden: Iterable[Path], network: bool = False
+) -> list[str]:
+    """Return a command that sees no hidden folder, and of the stage only its own, the current."""
+    there = [str(each) for each in hidden if each.is_dir()]
+    options = [each for each in UNSHARE if not (network and each == "--net")]
+    return [*options, "sh", "-c", HIDE, "hide", str(stage), *there, "--", *command]
 
 
 class Sandbox:
     """Runs notebooks, each in a process of its own; use it in a `with` statement.
 
-    hidden: folders that a notebook must not see; those that don't exist don't matter. What others
+    hidden: folders that a notebook must not see, the first of which exists. What others
     run at the same time is hidden too. A notebook imports a copy of wmrlib and wmrbook.
     """
 
     def __init__(self, hidden: list[Path], limits: Limits) -> None:
-        self.hidden = json.dumps([str(each) for each in hidden if each.is_dir()])
+        self.hidden = json.dumps(list(map(str, hidden)))
         self.limits = limits
 
     def __enter__(self) -> Sandbox:
@@ -155,7 +170,8 @@ class _Client(NotebookClient):
         if self.printed > MOST_OUTPUT:
             self.why = f"it printed more than {MOST_OUTPUT // 10**6} MB"
             self.km.provisioner.process.kill()
-        elif message["msg_type"] == "execute_result" and _graded(cell):
+            return None
+        if message["msg_type"] == "execute_result" and _graded(cell):
             message["msg_type"] = message["header"]["msg_type"] = "display_data"  # no points
         return super().process_message(message, cell, index)
 
@@ -183,7 +199,6 @@ def drive() -> None:
             _manager(own, job.parent, hidden, limits),
             timeout_func=left,
             allow_errors=True,
-            coalesce_streams=True,
             record_timing=False,
             shutdown_kernel="immediate",
             on_cell_executed=_failed,
@@ -195,6 +210,8 @@ def drive() -> None:
                 again = [k for k in range(place) if k not in deadly and not _graded(cells[k])]
                 for at in [*again, *range(place, len(cells))]:
                     client.execute_cell(cells[at], at)
+                    if client.why:
+                        raise DeadKernelError(client.why)
                     if at >= place:
                         place = at + 1
                         _store(notebook, result)
@@ -215,7 +232,7 @@ def _manager(own: Path, stage: Path, hidden: list[str], limits: Limits) -> Async
     """What starts a kernel that sees little, in its folder."""
     command = [sys.executable, "-c", KERNEL, str(limits.memory), "-f", "{connection_file}"]
     if hides():
-        command = [*UNSHARE, "sh", "-c", HIDE, "hide", str(stage), *hidden, "--", *command]
+        command = confined(command, stage, map(Path, hidden))
     spec = own / "kernels" / "hand-in"
     spec.mkdir(parents=True)
     settings = {"argv": command, "display_name": "hand-in", "language": "python"}
