@@ -42,20 +42,21 @@ def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Ro
     """Grade the hand-ins of these assignments, or of all; return the table."""
     with Course(folder) as course, Sandbox([folder, *SECRETS], limits) as sandbox:
         rows, todo = _listed(course, wanted)
+        names = sorted({student for _, student, _ in todo})
         assignments = sorted({assignment for assignment, _, _ in todo})
         releases = {each: course.release(each) for each in assignments}
         unfit = {}
 
         def run_model(assignment: str) -> list[str]:
-            return lost(sandbox.run(course.solved(assignment), trusted=True))
+            return lost(sandbox.run(course.solved(assignment), "model", [], trusted=True))
 
         def run(hand_in: tuple[str, str, Path]) -> tuple:
-            assignment, _, place = hand_in
+            assignment, student, place = hand_in
             if assignment in unfit:
                 raise Refused(f"on this machine the model fails: {unfit[assignment]}")
             path, odd = handins.find(place, course.sources[assignment].name)
             notebook, how = handins.repaired(handins.read(path), releases[assignment])
-            return sandbox.run(notebook), odd + how
+            return sandbox.run(notebook, student, names), odd + how
 
         bar = tqdm(total=len(assignments) + len(todo), unit="run", disable=None)
         with bar, ThreadPoolExecutor(jobs) as pool:
