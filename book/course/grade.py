@@ -44,8 +44,12 @@ def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Ro
         rows, todo = _listed(course, wanted)
         names = sorted({student for _, student, _ in todo})
         assignments = sorted({assignment for assignment, _, _ in todo})
-        releases = {each: course.release(each) for each in assignments}
-        unfit = {}
+        releases, unfit = {}, {}
+        for each in assignments:
+            try:
+                releases[each] = course.release(each)
+            except Refused as error:  # a task was changed that has been handed in
+                unfit[each] = str(error)
 
         def run_model(assignment: str) -> list[str]:
             return lost(sandbox.run(course.solved(assignment), "model", [], trusted=True))
@@ -53,14 +57,16 @@ def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Ro
         def run(hand_in: tuple[str, str, Path]) -> tuple:
             assignment, student, place = hand_in
             if assignment in unfit:
-                raise Refused(f"on this machine the model fails: {unfit[assignment]}")
+                raise Refused(unfit[assignment])
             path, odd = handins.find(place, course.sources[assignment].name)
             notebook, how = handins.repaired(handins.read(path), releases[assignment])
             return sandbox.run(notebook, student, names), odd + how
 
-        bar = tqdm(total=len(assignments) + len(todo), unit="run", disable=None)
+        bar = tqdm(total=len(releases) + len(todo), unit="run", disable=None)
         with bar, ThreadPoolExecutor(jobs) as pool:
-            unfit = {each: why for each, why in _each(pool, bar, run_model, assignments) if why}
+            for each, why in _each(pool, bar, run_model, releases):
+                if why:
+                    unfit[each] = f"on this machine the model fails: {why}"
             for (assignment, student, place), result in _each(pool, bar, run, todo):
                 try:
                     if isinstance(result, Exception):
@@ -141,5 +147,7 @@ if __name__ == "__main__":
             parser.error(f"--{name} {getattr(given, name)} is not allowed: more than 0 is needed")
     if not hides():
         print("Hand-ins can read what you can read here: the lecturer's guide says more.")
+    if not (COURSE.parent / "node_modules" / "mathjax").exists():
+        print("Feedback shows formulas as TeX: book/tools/build.py fetches what draws them.")
     most = Limits(given.seconds, 5 * given.seconds, int(given.memory * 1e9))
     print(table(grade(given.course.resolve(), given.assignments, most, given.jobs)))

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import logging
 import os
+import re
 import shutil
 import sys
 import tempfile
@@ -100,7 +101,8 @@ def lost(ran: NotebookNode) -> list[str]:
 
 
 def _checked(reply: dict) -> None:
-    """Raise Refused with the last line of what nbgrader says, if it did not succeed."""
+    """Raise Refused with the error that nbgrader logs, if it did not succeed."""
     if not reply["success"]:
-        lines = (reply.get("log") or reply["error"]).strip().splitlines()
-        raise Refused(f"nbgrader: {lines[-1]}")
+        said = reply.get("log") or reply["error"]
+        errors = re.findall(r"^\w*(?:Error|Exception): .*", said, re.MULTILINE)
+        raise Refused(f"nbgrader: {[*said.strip().splitlines(), *errors][-1]}")
