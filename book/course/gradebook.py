@@ -104,5 +104,5 @@ def _checked(reply: dict) -> None:
     """Raise Refused with the error that nbgrader logs, if it did not succeed."""
     if not reply["success"]:
         said = reply.get("log") or reply["error"]
-        errors = re.findall(r"^\w*(?:Error|Exception): .*", said, re.MULTILINE)
+        errors = re.findall(r"^ *(\w*(?:Error|Exception): .*)", said, re.MULTILINE)
         raise Refused(f"nbgrader: {[*said.strip().splitlines(), *errors][-1]}")
