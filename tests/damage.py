@@ -120,7 +120,7 @@ EDITS: dict[str, tuple[Callable[[NotebookNode], object], str]] = {  # graded in 
     "answer copied": (lambda n: copied(n, answers(n)), "copies dropped"),
     "all copied": (lambda n: copied(n, [*range(len(n.cells))]), "copies dropped"),
     "split": (lambda n: split(n, True), "parts joined"),
-    "split and stripped": (lambda n: split(n, False), "parts joined"),
+    "split and stripped": (lambda n: split(n, False), ""),
     "checks deleted": (lambda n: without(n, checks(n)), "put back"),
     "stripped": (stripped, "found without"),
     "not code": (other_kind, "was not a code cell"),
