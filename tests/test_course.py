@@ -1,20 +1,34 @@
-"""The course through nbgrader: what students get, what they score, and what they read.
+"""The course as a lecturer runs it: what students get, what they score, and what they read.
 
-Every assignment is released, and graded as it was handed out and with the model's answers. One of
-them is also handed in with usual mistakes and with graded cells that a student has changed; what
-the mistakes of the others cost is checked in test_grading.py, without nbgrader.
+Every assignment is released and graded, as it was handed out and with the model's answers. One of
+them is also handed in damaged in every way that damage.py knows, with usual mistakes, and with
+graded cells that a student has changed; what the mistakes of the others cost is checked in
+test_grading.py, without nbgrader.
 """
 
+import csv
+import json
 import os
 import re
 import shutil
+import subprocess
+import sys
+import zipfile
 
+import damage
 import nbformat
+import psutil
 import pytest
-from graded import ASSIGNMENTS, BEGIN, END, ROOT, cells, nbgrader, tasks, wrong_answers
+import sandbox
+from graded import ASSIGNMENTS, BEGIN, END, ROOT, cells, tasks, wrong_answers
 from nbgrader.api import Gradebook
 
 CHAPTER = "ch12"  # with every kind of student; its cells run fast
+COURSE = ROOT / "book" / "course"
+SPY = """import math, os
+import numpy as np
+from wmrbook import grading
+print([*map(os.listdir, {}), len(os.listdir("../.."))])"""
 
 
 def mistakes() -> dict[str, list[dict]]:
@@ -28,47 +42,70 @@ def notebook(course, stage: str, chapter: str = CHAPTER):
     return nbformat.read(path, as_version=4)
 
 
-def hand_in(course, student: str, chapter: str, answers: dict[str, str]) -> None:
-    """The release with `answers` in its cells; "cheat" overwrites those that grade."""
+def answered(course, chapter: str, answers: dict[str, str]):
+    """The release with these answers in its cells."""
     handed_in = notebook(course, "release", chapter)
     for cell in handed_in.cells:
-        settings = cell.metadata.get("nbgrader", {})
-        cell.source = answers.get(settings.get("grade_id"), cell.source)
-        if student == "cheat" and settings.get("grade"):
-            cell.source = "'all is well'"
-    folder = course / "submitted" / student / chapter
-    folder.mkdir(parents=True)
+        cell.source = answers.get(cell.metadata.nbgrader.grade_id, cell.source)
+    return handed_in
+
+
+def model(chapter: str) -> dict[str, str]:
+    """The model's answers."""
+    return {name: source for name, (source, _) in cells(chapter).items() if BEGIN in source}
+
+
+def hand_in(course, student: str, chapter: str, handed_in) -> None:
     (name,) = (path.name for path in (course / "release" / chapter).glob("*.ipynb"))
-    nbformat.write(handed_in, folder / name)
+    damage.hand_in(course, student, chapter, name, handed_in and json.dumps(handed_in))
+
+
+def command(name: str, course, *arguments: str) -> str:
+    """Run a command of the course; return what it prints."""
+    line = [sys.executable, COURSE / name, "--course", course, *arguments]
+    done = subprocess.run(line, capture_output=True, text=True, timeout=900)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
+
+
+def empty_course(folder):
+    ours = shutil.ignore_patterns("release", "submitted", "autograded", "feedback", "*.db")
+    return shutil.copytree(COURSE, folder / "course", ignore=ours)
 
 
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
-    """The folder of the course, with everything handed in, graded and given back."""
-    course = tmp_path_factory.mktemp("c") / "course"
-    shutil.copytree(
-        ROOT / "book" / "course",
-        course,
-        ignore=shutil.ignore_patterns("release", "submitted", "autograded", "feedback", "*.db"),
-    )
-    if os.name != "nt":  # other kernels that start now can't take its ports
-        with (course / "nbgrader_config.py").open("a", encoding="utf-8") as config:
-            config.write(
-                f"\nc.KernelManager.transport = 'ipc'\nc.KernelManager.ip = '{course}/k'\n"
-            )
-    nbgrader(course, "generate_assignment", "*")
+    """The folder of a course with what students get; of each assignment something comes in."""
+    course = empty_course(tmp_path_factory.mktemp("c"))
+    command("package.py", course)
     for chapter in ASSIGNMENTS:
-        model = {name: source for name, (source, _) in cells(chapter).items() if BEGIN in source}
-        hand_in(course, "model", chapter, model)
-        hand_in(course, "empty", chapter, {})
-        if chapter == CHAPTER:
-            hand_in(course, "cheat", chapter, {})
-            for student, wrongs in mistakes().items():
-                changed = {wrong["cell"]: wrong["source"] for wrong in wrongs}
-                hand_in(course, student, chapter, model | changed)
-    nbgrader(course, "autograde", "*")
-    nbgrader(course, "generate_feedback", CHAPTER, "--student=mistaken-1")
+        hand_in(course, "late", chapter, "")  # refused, after the model's answers have run
+    hand_in(course, "nothing", CHAPTER, notebook(course, "release"))
     return course
+
+
+@pytest.fixture(scope="module")
+def graded(course):
+    """The table of grade.py, and what it should say of the hand-ins that are damaged."""
+    solved = answered(course, CHAPTER, model(CHAPTER))
+    other = answered(course, "ch11", model("ch11"))
+    expected = damage.hand_in_all(course, CHAPTER, solved, other)
+    for student, wrongs in mistakes().items():
+        changed = {wrong["cell"]: wrong["source"] for wrong in wrongs}
+        hand_in(course, student, CHAPTER, answered(course, CHAPTER, model(CHAPTER) | changed))
+    checks = {name: "'all is well'" for name, (_, points) in cells(CHAPTER).items() if points}
+    hand_in(course, "cheat", CHAPTER, answered(course, CHAPTER, checks))
+    secrets = [str(each) for each in (course, COURSE, ROOT / "tests")]
+    hand_in(course, "spy", CHAPTER, answered(course, CHAPTER, {"given-01": SPY.format(secrets)}))
+    (course / "submitted" / "a[b]").mkdir()
+    (course / "submitted" / "bob" / "chapter 1").mkdir(parents=True)
+    expected = {(CHAPTER, student): each for student, each in expected.items()}
+    broken = course / "source" / "broken"
+    shutil.copytree(course / "source" / CHAPTER, broken)
+    for path in broken.iterdir():
+        path.write_text(path.read_text("utf-8").replace("float(", "str("), "utf-8")
+        damage.hand_in(course, "ada", "broken", path.name, path.read_bytes())
+    return damage.rows(command("grade.py", course, "--seconds", "40")), expected
 
 
 def scores(course, student: str, chapter: str) -> dict[str, tuple[float, float]]:
@@ -79,7 +116,7 @@ def scores(course, student: str, chapter: str) -> dict[str, tuple[float, float]]
 
 
 @pytest.mark.parametrize("chapter", ASSIGNMENTS)
-def test_the_release_has_no_answer_and_scores_nothing_and_the_model_all(course, chapter):
+def test_the_release_has_no_answer_and_the_model_has_all_points(course, graded, chapter):
     release = notebook(course, "release", chapter)
     given = {line.strip() for cell in release.cells for line in cell.source.splitlines()}
     for source, _ in cells(chapter).values():
@@ -91,18 +128,20 @@ def test_the_release_has_no_answer_and_scores_nothing_and_the_model_all(course, 
     assert not any(cell.get("outputs") for cell in release.cells)
     stubs = sum("raise NotImplementedError" in cell.source for cell in release.cells)
     assert stubs == len(tasks(chapter))
-    wanted = {name: points for name, (_, points) in cells(chapter).items() if points}
-    assert 8 <= sum(wanted.values()) <= 12
-    for student, share in (("model", 1), ("empty", 0)):
-        points = {name: (share * most, most) for name, most in wanted.items()}
-        assert scores(course, student, chapter) == points
+    assert 8 <= sum(points for _, points in cells(chapter).values()) <= 12
+    assert graded[0][chapter, "late"].endswith("is empty")  # and not: the model fails
 
 
-def test_what_a_student_writes_into_a_graded_cell_does_not_count(course):
+def test_nothing_is_worth_nothing(course, graded):
+    wanted = {name: (0, points) for name, (_, points) in cells(CHAPTER).items() if points}
+    assert scores(course, "nothing", CHAPTER) == wanted
+
+
+def test_what_a_student_writes_into_a_graded_cell_does_not_count(course, graded):
     assert {points for points, _ in scores(course, "cheat", CHAPTER).values()} == {0}
 
 
-def test_mistakes_lose_their_points_with_their_hints(course):
+def test_mistakes_lose_their_points_with_their_hints(course, graded):
     for student, wrongs in mistakes().items():
         points = scores(course, student, CHAPTER)
         lost = {name for name, (reached, most) in points.items() if reached < most}
@@ -120,10 +159,65 @@ def test_mistakes_lose_their_points_with_their_hints(course):
             assert "wmrbook/grading" not in hints  # no traceback, which would show the check
 
 
-def test_feedback_has_hints_and_points_and_asks_no_network(course):
+def test_a_damaged_hand_in_is_graded_or_refused_by_name_and_stops_nobody(graded):
+    table, expected = graded
+    assert not damage.faults(table, expected)
+    assert "the name may have" in table["", "a[b]"]
+    assert "no assignment chapter 1" in table["", "bob"]
+    commands = [each.info["cmdline"] or [] for each in psutil.process_iter(["cmdline"])]
+    assert not any("# left" in line for each in commands for line in each)
+
+
+@pytest.mark.skipif(not sandbox.hides(), reason="this system hides no folders from a process")
+def test_a_hand_in_sees_neither_answers_nor_points_nor_other_hand_ins(course, graded):
+    (cell,) = (c for c in notebook(course, "autograded/spy").cells if "listdir" in c.source)
+    assert cell.outputs[0].text == "[[], [], [], 1]\n"
+
+
+def test_a_model_that_fails_on_a_machine_costs_nobody_points(graded):
+    assert "refused: on this machine the model fails" in graded[0]["broken", "ada"]
+
+
+def test_feedback_has_hints_points_and_formulas_and_asks_no_network(course, graded):
     (path,) = (course / "feedback" / "mistaken-1" / CHAPTER).glob("*.html")
-    page = path.read_text(encoding="utf-8")
+    page, count = re.subn("<script>.*?</script>", "", path.read_text("utf-8"), flags=re.DOTALL)
+    mathjax = ROOT / "book" / "node_modules" / "mathjax" / "es5" / "tex-svg-full.js"
+    if mathjax.exists():  # else the page says what it says in TeX
+        assert mathjax.read_text("utf-8") in path.read_text("utf-8")
     assert "Hint: " in page
     assert re.search(r"Score: [\d.]+ / [\d.]+", page)
+    assert count >= 2  # MathJax, and how it is set
     assert not re.search(r"""(src|srcset|action)\s*=\s*["']?(https?:)?//|<link[^>]*//""", page)
     assert not re.search(r"""@import|url\(["']?(https?:)?//""", page)
+
+
+@pytest.mark.parametrize(("kind", "name"), [("moodle", "Username"), ("canvas", "SIS Login ID")])
+def test_marks_have_a_column_an_assignment_and_are_empty_where_nothing_came(
+    course, graded, kind, name
+):
+    with (course / f"marks-{kind}.csv").open(encoding="utf-8", newline="") as file:
+        rows = {row[name]: row for row in csv.DictReader(file)}
+    most = {each: sum(points for _, points in cells(each).values()) for each in ASSIGNMENTS}
+    assert [name for name in next(iter(rows.values())) if name.startswith("ch")] == ASSIGNMENTS
+    assert rows["sound"]["ch00"] == ""
+    assert rows["nothing"][CHAPTER] == "0"
+    assert rows["sound"][CHAPTER] == f"{most[CHAPTER]}"
+    if kind == "canvas":
+        assert rows[""]["ch00"] == f"{most['ch00']}"
+
+
+def test_the_package_has_what_a_student_needs_and_no_answers(course, tmp_path):
+    with zipfile.ZipFile(course / "students.zip") as package:
+        package.extractall(tmp_path)
+    texts = [path.read_text("utf-8") for path in tmp_path.rglob("*.ipynb")]
+    assert len(texts) == len(ASSIGNMENTS) + 13
+    assert not any("SOLUTION" in text or "<summary>Solution" in text for text in texts)
+    assert not [*tmp_path.rglob("source"), *tmp_path.rglob("tests"), *tmp_path.rglob("*.toml.*")]
+    robot = tmp_path / "robot"
+    readme = (robot / "README.md").read_text("utf-8")
+    assert readme.count("-r environment.txt -e .") == 2
+    code = "import wmrbook.figures, wmrbook.grading.earth, wmrlib; print(wmrlib.__file__)"
+    path = {"PYTHONPATH": f"{robot}{os.pathsep}{robot / 'book'}"}
+    line = [sys.executable, "-c", code]
+    done = subprocess.run(line, cwd=robot, env=os.environ | path, capture_output=True, text=True)
+    assert done.stdout.startswith(str(robot)), done.stderr

@@ -47,6 +47,10 @@ def ranked(board):
     return [(each.rank, each.entry.name, each.tries) for each in board.ranking().entries]
 
 
+def ranked_names(ranking):
+    return [(each.rank, each.entry.name) for each in ranking.entries]
+
+
 # The line to hand in ----------------------------------------------------------------------------
 
 
@@ -140,6 +144,24 @@ def test_the_best_of_each_name_is_ranked_and_ties_share_a_rank(board):
     other = board.ranking(7)
     assert other.entries[0].entry.points == challenge.score(GENTLE, challenge.from_seed(7)).total
     assert (len(other.entries), other.others) == (1, 7)
+
+
+def test_other_drives_decide_a_tie_and_nothing_else(board):
+    """A class with an optimiser: all but Bob have the best score that is known."""
+    best = {"Ada": (1.088, 1.338), "Cy": (1.088, 1.339), "Dee": (1.088, 1.339)}
+    for name, (k_alpha, h) in best.items():
+        board.add(name, wmr.Gains(0.114, k_alpha, h, 8.903))
+    board.add("Bob", wmr.Gains(0.128, 1.089, 1.42, 7.528))
+    assert [(each.rank, each.entry.points) for each in board.ranking().entries] == [
+        *[(1, 21.74)] * 3,
+        (4, 21.81),
+    ]
+    decided = board.ranking(decider=100)
+    assert ranked_names(decided) == [(1, "Cy"), (1, "Dee"), (3, "Ada"), (4, "Bob")]
+    assert ranked_names(board.ranking(decider=7)) == [(1, "Ada"), (2, "Cy"), (2, "Dee"), (4, "Bob")]
+    assert "; ties decided by seed 100>" in repr(decided)
+    with pytest.raises(ValueError, match="seed = -1 is not allowed"):
+        board.ranking(decider=-1)
 
 
 def test_names_with_joiners_are_written_with_them_and_ranked_as_without(board):

@@ -101,6 +101,8 @@
   }
 
   Promise.all([started, drawn]).then(async () => {
+    // The speaker's window has not the style that hides a formula's second copy, which is for screen readers.
+    for (const copy of document.querySelectorAll('aside.notes mjx-assistive-mml')) copy.remove();
     deck.on('slidechanged', arrived);
     addEventListener('resize', () => pages.forEach(fit));
     // Widgets come when they come, and change their size when they are used.

@@ -179,8 +179,10 @@ def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
             )  # it stays under the pointer
 
 
-def test_the_speakers_view_shows_the_notes_from_the_disk(decks, opened):
+def test_the_speakers_view_shows_the_notes_from_the_disk_and_each_formula_once(decks, opened):
     page = opened(with_panel(decks))
+    assert page.locator("aside.notes svg").count()
+    assert not page.locator("aside.notes math").count()
     page.evaluate(SHOW, "aside.notes")
     note = page.locator(
         "section.present section.present aside.notes p, section.present > .page aside.notes p"

@@ -9,6 +9,7 @@ can't be made up is the score, which is computed again from the gains wherever i
 from __future__ import annotations
 
 import datetime
+import math
 import os
 from collections.abc import Iterator
 from dataclasses import dataclass
@@ -17,7 +18,7 @@ from typing import NamedTuple
 
 from filelock import FileLock
 
-from wmrbook.challenge import SEED, from_seed
+from wmrbook.challenge import SEED, from_seed, score
 from wmrbook.challenge.certificate import JOINERS, Entry, Verdict, certificate, verify
 from wmrlib.gains import Gains
 
@@ -32,6 +33,7 @@ __all__ = [
     "verify",
 ]
 
+_DECIDING = 20  # sets of drives: near the best score, gains that differ in a digit tie in one
 _JOINERS = dict.fromkeys(map(ord, JOINERS))
 _UTF_16 = b"\xff\xfe", b"\xfe\xff"  # some editors, and PowerShell's >, begin a file so
 
@@ -39,7 +41,7 @@ _UTF_16 = b"\xff\xfe", b"\xfe\xff"  # some editors, and PowerShell's >, begin a 
 class Ranked(NamedTuple):
     """A place in the ranking: the best entry of a name, and how many lines that name has.
 
-    rank counts from 1 and is shared by equal points.
+    rank counts from 1 and is shared by equal points, unless a decider tells them apart.
     """
 
     rank: int
@@ -57,17 +59,22 @@ class Refused(NamedTuple):
 
 @dataclass(frozen=True, slots=True, repr=False)
 class Ranking:
-    """A scoreboard as it was read, the best first; others: how many lines have another seed."""
+    """A scoreboard as it was read, the best first; others: how many lines have another seed.
+
+    decider: the first seed of the drives by which equal points were ranked, or None.
+    """
 
     entries: tuple[Ranked, ...]
     refused: tuple[Refused, ...]
     others: int
     seed: int
+    decider: int | None = None
 
     def __repr__(self) -> str:
         names, lines = _counted(self.entries, "name"), _counted(self.refused, "line")
         told = f"{names} ranked, {lines} refused, {self.others} of other seeds"
-        rows = [f"<Ranking: seed {self.seed}; {told}>"]
+        decided = "" if self.decider is None else f"; ties decided by seed {self.decider}"
+        rows = [f"<Ranking: seed {self.seed}; {told}{decided}>"]
         columns = "{:>4}{:>9}{:>7}   {:<30}{}"
         if self.entries:
             rows.append(
@@ -114,15 +121,23 @@ class Scoreboard:
             self._append(line.strip())
         return verdict
 
-    def ranking(self, seed: int = SEED) -> Ranking:
+    def ranking(self, seed: int = SEED, decider: int | None = None) -> Ranking:
         """Read the file and compute all scores again: the best try of each name, by points.
 
-        A file that is not there has no lines. Names that differ only in upper and lower case, or in
-        joiners, which are not seen, are one. Raises ValueError as `challenge.from_seed`, and
-        OSError if the file can't be read.
+        decider: a seed; of equal points those rank first whose gains have fewer points in the
+        drives of this seed and the 19 after it. A file that is not there has no lines. Names that
+        differ only in upper and lower case, or in joiners, which are not seen, are one. Raises
+        ValueError as `challenge.from_seed`, and OSError if the file can't be read.
         """
         seed = from_seed(seed).seed
+        first = None if decider is None else from_seed(decider).seed
+        more = [] if first is None else [from_seed(first + k) for k in range(_DECIDING)]
         best, tries, refused, others = {}, {}, [], 0
+
+        def order(entry: Entry) -> tuple[float, float]:
+            totals = math.fsum(score(entry.gains, game).total for game in more)
+            return entry.points, round(totals, 2)
+
         for number, text in self._lines():
             verdict = verify(text)
             if not verdict:
@@ -132,14 +147,15 @@ class Scoreboard:
             else:
                 key = verdict.entry.name.casefold().translate(_JOINERS)
                 tries[key] = tries.get(key, 0) + 1
-                if key not in best or verdict.entry.points < best[key].points:
-                    best[key] = verdict.entry
-        ordered = sorted(best, key=lambda key: (best[key].points, key))
-        points = [best[key].points for key in ordered]
+                found = order(verdict.entry), verdict.entry
+                if key not in best or found[0] < best[key][0]:
+                    best[key] = found
+        ordered = sorted(best, key=lambda key: (best[key][0], key))
+        points = [best[key][0] for key in ordered]
         entries = tuple(
-            Ranked(1 + points.index(best[key].points), best[key], tries[key]) for key in ordered
+            Ranked(1 + points.index(best[key][0]), best[key][1], tries[key]) for key in ordered
         )
-        return Ranking(entries, tuple(refused), others, seed)
+        return Ranking(entries, tuple(refused), others, seed, first)
 
     def _content(self) -> bytes:
         return self.path.read_bytes() if self.path.exists() else b""

@@ -1,0 +1,76 @@
+"""Make what students get: python book/course/package.py [ASSIGNMENT ...]
+
+It writes students.zip: the released assignments, the chapters without the solutions of their
+exercises, the packages that both import, and how to install them and hand in.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile
+
+import nbformat
+from gradebook import Course
+
+COURSE = Path(__file__).resolve().parent
+ROOT = COURSE.parents[1]
+FOLDERS = "wmrlib", "book/wmrbook", "book/lab", "notebooks/data"
+FILES = "LICENSE", "environment.txt", "pyproject.toml"
+SOLUTION = re.compile(r"\n*<details><summary>Solution</summary>.*?</details>", re.DOTALL)
+LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the package
+START = """# From two GPS points to a parked robot
+
+With Python 3.11 to 3.14, in this folder, on Linux or macOS, and on Windows:
+
+{commands}
+
+JupyterLab opens on the first chapter; the others are beside it in `notebooks`, and the exercises
+to hand in are in `assignments`: write your answers where the cells say so. The checks below an
+answer say whether it is right, and give a hint if not. Hand in the notebook under its own name.
+"""
+
+
+def main(folder: Path, wanted: list[str], output: Path) -> None:
+    """Write the package with these assignments, or all."""
+    with Course(folder) as course, ZipFile(output, "w", ZIP_DEFLATED) as package:
+        for assignment in course.checked(wanted) or course.sources:
+            name = f"assignments/{assignment}/{course.sources[assignment].name}"
+            package.writestr(f"robot/{name}", nbformat.writes(course.release(assignment)))
+        for name, text in _book():
+            package.writestr(f"robot/{name}", text)
+    print(output)
+
+
+def _book() -> Iterator[tuple[str, str | bytes]]:
+    """The name and the content of each file but the assignments."""
+    readme = (ROOT / "README.md").read_text(encoding="utf-8")
+    commands = re.findall(r"^    .*jupyter lab .*$", readme, re.MULTILINE)
+    yield "README.md", START.format(commands="\n\n".join(commands))
+    for path in sorted(each for folder in FOLDERS for each in (ROOT / folder).rglob("*")):
+        parts = path.relative_to(ROOT).parts
+        if path.is_file() and not any(part.startswith((".", "__pycache__")) for part in parts):
+            yield "/".join(parts), path.read_bytes()
+    for name in FILES:
+        yield name, (ROOT / name).read_bytes()
+    for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
+        chapter = nbformat.read(path, as_version=4)
+        chapter.cells = [c for c in chapter.cells if "hide-cell" not in c.metadata.get("tags", ())]
+        for cell in chapter.cells:
+            cell.source = LINK.sub(r"\1", SOLUTION.sub("", cell.source))
+        yield f"notebooks/{path.name}", nbformat.writes(chapter)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("assignments", nargs="*", metavar="ASSIGNMENT", help="ch01, or all")
+    parser.add_argument("--course", type=Path, default=COURSE, help="the folder of the course")
+    said = "the file; students.zip in the folder of the course by default"
+    parser.add_argument("--output", type=Path, help=said)
+    given = parser.parse_args()
+    folder = given.course.resolve()
+    main(folder, given.assignments, given.output or folder / "students.zip")

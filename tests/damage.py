@@ -1,0 +1,236 @@
+"""Ways in which a hand-in is damaged, and what it is then worth.
+
+    python tests/damage.py FOLDER [ASSIGNMENT ...]
+
+copies the course into a folder that is not there yet, hands in each assignment with each damage,
+grades all, and says which are not worth what they should be. It takes an hour for all assignments;
+test_course.py does it for one.
+"""
+
+from __future__ import annotations
+
+import argparse
+import copy
+import json
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable
+from itertools import pairwise
+from pathlib import Path
+
+import nbformat
+from nbformat import NotebookNode
+
+ROOT = Path(__file__).parents[1]
+CELL = nbformat.v4.new_code_cell
+DEADLY = {  # what an answer's cell does before anything else, and what the table then says of it
+    "exit": ("import os; os._exit(0)", "it ended Python"),
+    "quits": ("exit()", "it ended Python"),
+    "segfault": ("import ctypes; ctypes.string_at(0)", "it ended Python"),
+    "killed": ("import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "it ended Python"),
+    "flood": ("print('x' * 200_000_000)", "it printed more than 10 MB"),
+    "memory": ("x = bytearray(10**11)", ""),
+    "endless": ("import time; time.sleep(1000)", "it took over"),
+}
+LEFT = """import subprocess, sys, threading, time
+subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # left"],
+                 start_new_session=True)
+threading.Thread(target=time.sleep, args=(1000,)).start()"""
+
+
+def answers(notebook: NotebookNode) -> list[int]:
+    """Where the answers are."""
+    return [k for k, cell in enumerate(notebook.cells) if _nbgrader(cell).get("solution")]
+
+
+def graded_answers(notebook: NotebookNode) -> list[int]:
+    """Where the answers are that a check follows: a name is an answer too."""
+    graded, ours = checks(notebook), sorted([*answers(notebook), *checks(notebook)])
+    return [k for k, after in pairwise(ours) if k not in graded and after in graded]
+
+
+def checks(notebook: NotebookNode) -> list[int]:
+    """Where the checks are."""
+    return [k for k, cell in enumerate(notebook.cells) if _nbgrader(cell).get("grade")]
+
+
+def _nbgrader(cell: NotebookNode) -> dict:
+    return cell.metadata.get("nbgrader", {})
+
+
+def copied(notebook: NotebookNode, places: list[int]) -> None:
+    """Copy cells as `c` and `v` do in JupyterLab."""
+    for place in reversed(places):
+        notebook.cells.insert(place + 1, copy.deepcopy(notebook.cells[place]))
+
+
+def split(notebook: NotebookNode, keep: bool) -> None:
+    """Split each answer after its first line."""
+    for place in reversed(answers(notebook)):
+        first = notebook.cells[place]
+        head, _, tail = first.source.partition("\n")
+        second = copy.deepcopy(first) if keep else CELL()
+        first.source, second.source = head, tail
+        notebook.cells[place + 1 : place + 1] = [second] * bool(tail)
+
+
+def stripped(notebook: NotebookNode) -> None:
+    """Take away all metadata, and the cells' ids."""
+    for k, cell in enumerate(notebook.cells):
+        cell.metadata, cell.id = {}, f"new-{k}"
+
+
+def first_answer(notebook: NotebookNode, change: Callable[[str], str]) -> None:
+    """Change the text of the first answer."""
+    cell = notebook.cells[graded_answers(notebook)[0]]
+    cell.source = change(cell.source)
+
+
+def without(notebook: NotebookNode, places: list[int]) -> None:
+    """Delete cells."""
+    notebook.cells = [cell for k, cell in enumerate(notebook.cells) if k not in places]
+
+
+def other_kind(notebook: NotebookNode) -> None:
+    """Turn each answer into text."""
+    for place in answers(notebook):
+        cell = notebook.cells[place]
+        notebook.cells[place] = nbformat.v4.new_markdown_cell(cell.source, metadata=cell.metadata)
+
+
+def merged(notebook: NotebookNode) -> None:
+    """Merge each answer into the check below it."""
+    for place in reversed(graded_answers(notebook)):
+        check = next(k for k in checks(notebook) if k > place)
+        notebook.cells[check].source = f"{notebook.cells[place].source}\n"
+        del notebook.cells[place]
+
+
+def imports_moved(notebook: NotebookNode) -> None:
+    """Write an import that the first answer needs into the given cell above it."""
+    given = next(cell for cell in notebook.cells if cell.cell_type == "code")
+    given.source += "\nimport base64 as of_mine"
+    first_answer(notebook, lambda answer: f"of_mine.b64encode\n{answer}")
+
+
+EDITS: dict[str, tuple[Callable[[NotebookNode], object], str]] = {  # graded in full
+    "sound": (lambda n: None, ""),
+    "check copied": (lambda n: copied(n, checks(n)), "copies dropped"),
+    "answer copied": (lambda n: copied(n, answers(n)), "copies dropped"),
+    "all copied": (lambda n: copied(n, [*range(len(n.cells))]), "copies dropped"),
+    "split": (lambda n: split(n, True), "parts joined"),
+    "split and stripped": (lambda n: split(n, False), ""),
+    "checks deleted": (lambda n: without(n, checks(n)), "put back"),
+    "stripped": (stripped, "found without"),
+    "not code": (other_kind, "was not a code cell"),
+    "merged": (merged, "found without"),
+    "given cell changed": (imports_moved, ""),
+    "left running": (lambda n: first_answer(n, lambda a: f"{LEFT}\n{a}"), ""),
+}
+
+
+def hand_in(folder: Path, student: str, assignment: str, name: str, text: str | bytes) -> None:
+    """Write a file into the folder submitted/ of a course."""
+    path = folder / "submitted" / student / assignment / name
+    path.parent.mkdir(parents=True, exist_ok=True)
+    path.write_bytes(text if isinstance(text, bytes) else text.encode())
+
+
+def hand_in_all(folder: Path, assignment: str, solved: NotebookNode, other: NotebookNode) -> dict:
+    """Hand in each damage; return {student: what the table must say}, as (points, text).
+
+    points: "all", "less" by the first task's, or "" for what is refused.
+    """
+    (name,) = (path.name for path in (folder / "source" / assignment).glob("*.ipynb"))
+    expected = {}
+
+    def put(student: str, notebook: NotebookNode | str | bytes, points: str, said: str, name=name):
+        text = json.dumps(notebook) if isinstance(notebook, NotebookNode) else notebook
+        hand_in(folder, student, assignment, name, text)
+        expected[student] = points, said
+
+    def by(student: str) -> NotebookNode:
+        notebook = copy.deepcopy(solved)
+        for cell in notebook.cells:  # some tasks have numbers of the student's own
+            if cell.source.startswith('name = "'):
+                cell.source = f'name = "{student}"'
+        return notebook
+
+    for student, (edit, said) in EDITS.items():
+        damaged = by(student)
+        edit(damaged)
+        put(student, damaged, "all", said)
+    for student, (line, said) in DEADLY.items():
+        damaged = by(student)
+        first_answer(damaged, lambda answer, line=line: f"{line}\n{answer}")
+        put(student, damaged, "less", said)
+    damaged = by("answer deleted")
+    without(damaged, graded_answers(damaged)[:1])
+    put("answer deleted", damaged, "less", "is missing")
+    whole = nbformat.writes(solved)
+    put("renamed", by("renamed"), "all", "was named", name.replace(".", " (1)."))
+    marked = b"\xef\xbb\xbf" + json.dumps(by("with a mark")).encode()
+    put("with a mark", marked, "all", "")
+    put("empty", "", "", "is empty")
+    put("cut", whole[: len(whole) // 2], "", "is no notebook")
+    put("no json", "<!DOCTYPE html>", "", "is no notebook")
+    put("no cells", json.dumps({"nbformat": 4, "nbformat_minor": 5, "metadata": {}}), "", "is no")
+    put("of another", other, "", "not of this assignment")
+    put("no file", "print()", "", "no notebook in its folder", "answers.py")
+    return expected
+
+
+def main(folder: Path, wanted: list[str]) -> int:
+    """Try every damage; return how many hand-ins are not worth what they should be."""
+    sys.path.insert(0, str(ROOT / "book" / "course"))
+    from gradebook import Course
+
+    shutil.copytree(ROOT / "book" / "course", folder)
+    with Course(folder) as course:
+        every = {each: course.solved(each) for each in course.sources}
+    names = list(every)
+    expected = {}
+    for k, assignment in enumerate(names):
+        if not wanted or assignment in wanted:
+            found = hand_in_all(folder, assignment, every[assignment], every[names[k - 1]])
+            expected |= {(assignment, student): each for student, each in found.items()}
+    command = [sys.executable, str(ROOT / "book/course/grade.py"), "--course", str(folder)]
+    run = subprocess.run([*command, "--seconds", "30"], capture_output=True, text=True, check=True)
+    print(run.stdout, run.stderr, sep="\n")
+    wrong = faults(rows(run.stdout), expected)
+    print("\n".join(wrong) or "each is worth what it should be")
+    return len(wrong)
+
+
+def rows(text: str) -> dict[tuple[str, str], str]:
+    """The table of grade.py as {(assignment, student): points and what is said}."""
+    lines = text.splitlines()[:-1]
+    while lines[0].split() != ["student", "points"]:
+        del lines[0]  # what this machine can't do
+    header = lines.pop(0)
+    student, points = header.index("student"), header.index("points")
+    return {(r[:student].strip(), r[student:points].strip()): r[points:] for r in lines}
+
+
+def faults(rows: dict, expected: dict[tuple[str, str], tuple[str, str]]) -> list[str]:
+    """What a table says otherwise than expected."""
+    less = {a: rows[a, s][:6].strip() for a, s in expected if s == "answer deleted"}
+    most = {a: "/".join(2 * [points.partition("/")[2]]) for a, points in less.items()}
+    wrong = []
+    for (assignment, who), (worth, said) in expected.items():
+        row = rows.get((assignment, who), "no row")
+        wanted = {"all": most, "less": less, "": {}}[worth].get(assignment, "")
+        if row[:6].strip() != wanted or said not in row or less[assignment] == most[assignment]:
+            wrong.append(f"{assignment}, {who}: {row!r} where {wanted!r} and {said!r} are wanted")
+    return wrong
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("folder", type=Path, help="to be made")
+    parser.add_argument("assignments", nargs="*", metavar="ASSIGNMENT", help="ch01, or all")
+    given = parser.parse_args()
+    sys.exit(main(given.folder, given.assignments))
