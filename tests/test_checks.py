@@ -69,7 +69,7 @@ def test_what_is_masked_or_beyond_a_float_is_no_number(hidden):
         (lambda: _checks.scalar("dt", 0.0, above=0.0), "above 0 is needed"),
         (lambda: _checks.choice("law", ["a"], "ab"), r"law = \['a'\] .* one of 'a', 'b' is needed"),
         (lambda: _checks.choice("law", "c", ("a", "b")), "law = 'c' is not allowed: one of 'a'"),
-        (lambda: _checks.instance("n", 1.0, int), "n = 1.0 .*: a int is needed, not a float$"),
+        (lambda: _checks.instance("n", 1.0, int), "n = 1.0 .*: an int is needed, not a float$"),
         (
             lambda: _checks.same_shape(a=1.0, b=np.ones(2), c=np.ones(3)),
             r"^mismatched lengths: b has shape \(2,\), c has shape \(3,\); shapes that broadcast",

@@ -129,7 +129,7 @@ def test_a_route_is_its_legs_one_after_the_other():
             assert mine.rho[-1] <= radii[k] + 1e-9
             assert route.arrivals[k] == wmr.arrival(theirs)
         assert route.time == pytest.approx(time)
-        assert route.length == pytest.approx(sum(map(wmr.path_length, legs)))
+        assert route.length == pytest.approx(sum(leg.path_length for leg in legs))
         time, length = f"{route.time:.4g} s", f"{route.length:.4g} m"
         assert repr(route) == f"<Route: 3 of 3 waypoints reached in {time}, {length} long>"
         with pytest.raises(ValueError, match="read-only"):
