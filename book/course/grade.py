@@ -16,6 +16,7 @@ from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
 from pathlib import Path
 from typing import Any, NamedTuple
+from unicodedata import normalize
 
 import handins
 import marks
@@ -26,7 +27,7 @@ from tqdm import tqdm
 
 COURSE = Path(__file__).resolve().parent
 SECRETS = COURSE, COURSE.parents[1] / "tests", COURSE.parents[1] / ".git"
-NAME = re.compile(r"\w[\w.@ -]*")  # what paths, nbgrader and tables bear
+NAME = re.compile(r"\w([\w.@ -]*[\w.@-])?")  # what paths, nbgrader and tables bear
 
 
 class Row(NamedTuple):
@@ -92,7 +93,7 @@ def _listed(course: Course, wanted: list[str]) -> tuple[list[Row], list[tuple]]:
     for home in sorted((course.folder / "submitted").glob("[!.]*")):
         if not home.is_dir() or home.is_symlink():
             rows.append(Row("", home.name, "", "refused: not a folder of a student"))
-        elif not NAME.fullmatch(home.name):
+        elif not NAME.fullmatch(normalize("NFC", home.name)):
             said = "refused: the name may have letters, digits, blanks and _.@- only"
             rows.append(Row("", home.name, "", said))
         else:

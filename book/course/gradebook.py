@@ -18,7 +18,7 @@ from nbformat import NotebookNode
 from nbgrader.apps import NbGraderAPI
 from nbgrader.converters import Autograde, GenerateFeedback
 from nbgrader.preprocessors import CheckCellMetadata, Execute, OverwriteCells
-from nbgrader.utils import capture_log, determine_grade, is_grade
+from nbgrader.utils import capture_log, determine_grade, is_grade, parse_utc
 from sqlalchemy.exc import SAWarning
 from traitlets.config.loader import PyFileConfigLoader
 
@@ -77,8 +77,9 @@ class Course:
         """Store a hand-in that has run; return its points, such as "7/9"."""
         folder = self.ran / student / assignment
         folder.mkdir(parents=True)
-        with suppress(FileNotFoundError):
-            shutil.copy(handed_in / "timestamp.txt", folder)  # for penalties
+        with suppress(OSError, ValueError):  # for penalties
+            parse_utc(stamp := (handed_in / "timestamp.txt").read_text(encoding="utf-8").strip())
+            (folder / "timestamp.txt").write_text(stamp, encoding="utf-8")
         nbformat.write(ran, folder / self.sources[assignment].name)
         _checked(self.api.autograde(assignment, student))
         with self.api.gradebook as book:

@@ -68,13 +68,17 @@ def repaired(handed_in: NotebookNode, release: NotebookNode) -> tuple[NotebookNo
     answers = {name: [] for name, cell in asked.items() if _nbgrader(cell).get("solution")}
     checks = {name for name, cell in asked.items() if _nbgrader(cell).get("grade")}
     places = list(_places(handed_in.cells, asked, answers))
-    own, how, last = defaultdict(list), defaultdict(list), None
+    own, how, last, done = defaultdict(list), defaultdict(list), None, set()
+    due = {name: next((c for c in ids[k:] if c in checks), None) for k, name in enumerate(ids)}
     seen = [name for name, _ in places if name]
     foreign = {_grade_id(cell) for cell in handed_in.cells} - {None, *ids}
     if len(foreign) >= len({*answers, *checks} & set(seen)):
         raise Refused("its cells are not of this assignment")
     for (name, by), cell in zip(places, handed_in.cells, strict=True):
-        if name in answers:
+        done |= checks & {name}
+        if name in answers and due[name] in done and {*answers[name]} - {asked[name].source}:
+            how["copies dropped:"].append(name)  # it came too late for the check
+        elif name in answers:
             answers[name].append(cell.source)
             if by != "grade_id":
                 how["found without its metadata:"].append(name)

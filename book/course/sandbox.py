@@ -224,9 +224,12 @@ def drive() -> None:
                     if at >= place:
                         place = at + 1
                         _store(notebook, result)
-        except (DeadKernelError, CellTimeoutError) as error:
+        except Exception as error:  # what a cell shows may be no output at all
             slow = f"it took over {limits.cell:g} s, or the whole over {limits.whole:g} s"
-            why = slow if isinstance(error, CellTimeoutError) else "it ended Python"
+            known = {CellTimeoutError: slow, DeadKernelError: "it ended Python"}
+            why = known.get(type(error), "what it shows is no output that a notebook can hold")
+            if at is None:
+                raise
             deadly.add(at)
             cells[at].outputs = [_stopped(client.why or why)]
             place = max(place, at + 1)

@@ -135,8 +135,8 @@ class Scoreboard:
         best, tries, refused, others = {}, {}, [], 0
 
         def order(entry: Entry) -> tuple[float, float]:
-            totals = math.fsum(score(entry.gains, game).total for game in more)
-            return entry.points, round(totals, 2)
+            cases = (case for game in more for case in score(entry.gains, game).cases)
+            return entry.points, round(math.fsum(case.points for case in cases), 6)
 
         for number, text in self._lines():
             verdict = verify(text)

@@ -116,7 +116,7 @@ def mean_correlated(scatter_of_mean: Callable) -> str:
         (random.uniform(0.3, 3.0), sizes[k % 6], 1.0 - unlike)
         for k, unlike in enumerate(spread(1e-4, 0.8, 24))
     ]
-    for sigma, n, c in [*cases, (1.0, 4, -0.5)]:
+    for sigma, n, c in [*cases, *((1.0, n, c) for n in (3, 4, 9) for c in (-0.5, -0.9, 0.0))]:
         value, apart = ask_number(scatter_of_mean, sigma, n, c), np.arange(n)
         right = sigma / n * math.sqrt((c ** np.abs(apart[:, None] - apart)).sum())
         if not close(value, right, 1e-6):

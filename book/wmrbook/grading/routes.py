@@ -38,7 +38,10 @@ def checksum_known(checksum_fits: Callable) -> str:
             hint = f"'{sentence}' has a wrong checksum, and you say that it fits."
             expect(not ask_truth(checksum_fits, sentence), hint)
         hint = "a sentence without a `*` and two hexadecimal digits has no checksum that fits; "
-        for end in ("", "*", f"*{value:X}"[:2], f"*0{value:02X}", f"*0x{value:02X}", "*ZZ"):
+        digits = f"{value:02X}"
+        longer = (f"*{digits}{more}" for more in ("0", " A", "junk", f"*{digits}"))
+        odd = (f"*0{digits}", f"*0x{digits}", f"* {value:X}", f"*+{value:X}", "*ZZ")
+        for end in ("", "*", f"*{value:X}"[:2], *odd, *longer):
             sentence = f"${body}{end}"
             expect(not ask_truth(checksum_fits, sentence), f"{hint}'{sentence}' has none.")
     return "Real sentences pass, wrong and missing checksums do not."
@@ -241,7 +244,7 @@ def _routes(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
         legs = int(random.integers(3, 9))
         direction = np.cumsum(random.uniform(-2.44, 2.44, legs)) + random.uniform(-3.0, 3.0)
         length, start = random.uniform(2.0, 40.0, legs), random.uniform(-50.0, 50.0, 2)
-        length = np.array(spread(1e-3, 40.0, legs, seed=k)) if k % 3 == 2 else length
+        length = np.array(spread(1e-6, 40.0, legs, seed=k)) if k % 3 == 2 else length
         steps = length * np.cos(direction), length * np.sin(direction)
         x, y = (np.cumsum(np.insert(s, 0, at)) for s, at in zip(steps, start, strict=True))
         found.append((np.append(x, x[1]), np.append(y, y[1])) if k % 3 == 1 else (x, y))

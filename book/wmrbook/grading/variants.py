@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
 from typing import Any
+from unicodedata import normalize
 
 import numpy as np
 
@@ -250,4 +251,4 @@ def _class() -> tuple[str, list[str]]:
 
 
 def _plain(name: str) -> str:
-    return name.strip().casefold()
+    return normalize("NFC", name).strip().casefold()

@@ -23,7 +23,7 @@ _PRINTED = (  # numbers that were computed, and how they are printed: rounded, c
     *((9.5831, "9.4"), (0.0900, "0.1"), (58.0758, "58.07"), (9.5831, "9.5"), (0.193, "0.1")),
     *((119.7, "119"), (4.9, "4"), (-27.17, "-27.1"), (-0.193, "-0.1"), (9.47, "9.4")),
     *((9.49, "9.5"), (101.4, "101"), (101.4, "102"), (99.2, "100"), (-9.6, "9.6")),
-    (0.0004, "0.000"),
+    *((0.0004, "0.000"), (4.1e-05, "0.00004"), (4.1e-05, "0.00007")),
 )
 _ZEROS = (
     *((0.0900, "0.10"), (2.04, "2.00"), (5.96, "6.00"), (0.1042, "0.10"), (2.004, "2.00")),
@@ -80,7 +80,7 @@ def rule_known(agrees: Callable) -> str:
     own_work(agrees)
     for computed, printed in (*_PRINTED, *_printed(60)):
         _expect_verdict(agrees, computed, printed)
-    numbers = "81 numbers, printed, rounded, cut off and wrong"
+    numbers = f"{len(_PRINTED) + 60} numbers, printed, rounded, cut off and wrong"
     return f"{numbers}: 58.07 m holds, and 9.4 deg does not."
 
 
@@ -102,7 +102,8 @@ def digits_needed(decimals_needed: Callable) -> str:
     """decimals_needed(metres): against rounding latitudes to so many decimals, and one fewer."""
     own_work(decimals_needed)
     lats = np.random.default_rng(101).uniform(-80.0, 80.0, 20_000)
-    for metres in (0.01, 5.0, 6.0, 2e6, *spread(1e-3, 1e5, 30)):
+    edges = [0.5 * DEGREE * 10.0**-n * side for n in range(6) for side in (0.9995, 1.0005)]
+    for metres in (0.01, 5.0, 6.0, 2e6, *edges, *spread(1e-3, 1e5, 30)):
         count = ask_number(decimals_needed, metres)
         expect(count == round(count), f"{count:.3f} decimals: a whole number is needed.")
         hint = f"for {metres:.4g} m you want {count:.3g} decimals"
