@@ -20,9 +20,19 @@ def rational_law(rho, alpha, theta, gains):
     return v_over_rho, gains.k_alpha * alpha + v_over_rho * sinc(alpha) * (alpha + gains.h * theta)
 
 
+def scaled(share):
+    def scaled_law(rho, alpha, theta, gains):
+        v_over_rho, omega = corrected_law(rho, alpha, theta, gains)
+        return share * v_over_rho, omega
+
+    return formula(scaled_law)
+
+
 class Law(NamedTuple):"""
 ROW = """LAWS = {
     "rational": Law(rational_law, Gains, "rational", "v that falls as k_rho rho/(1 + k_rho rho)"),
+    "half": Law(scaled(0.5), Gains, "half", "half as fast"),
+    "twice": Law(scaled(2.0), Gains, "twice", "twice as fast"),
 """
 PYTHON = """
 import json, sys
@@ -39,6 +49,8 @@ swept = wmr.sweep(start, goal, wmr.Gains(0.5, 2.0, [1.0, 1.0], 2.0), method="arc
 smooth = wmr.sweep(start, goal, wmr.Gains(0.5, 2.0, [1.0, 1.0], 2.0), **how)
 explorer = Explorer(start, goal, wmr.Gains(0.5, 2.0, 1.0, 2.0), law="rational")
 json.dump({
+    "twins": [wmr.control_law(9.0, 0.5, 0.2, wmr.Gains(0.5, 2.0, 1.0, 2.0), law=each)[0]
+              for each in ("half", "twice")],
     "control": np.transpose(wmr.control_law(*states[:3], gains, law="rational")).tolist(),
     "rate": wmr.lyapunov_rate(*states[:3], gains, law="rational").tolist(),
     "sympy": np.transpose(sp.lambdify(symbols, symbolic.law("rational"))(*states)).tolist(),
@@ -125,6 +137,7 @@ def test_python_sympy_and_the_loops_agree(ours, states):
     np.testing.assert_allclose(ours["rate"], slope, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(ours["swept"], ours["run"], rtol=1e-9)
     np.testing.assert_allclose(ours["smooth"], ours["run"][0], rtol=0.05)
+    assert ours["twins"][1] == pytest.approx(4.0 * ours["twins"][0])  # made by one function
     assert ours["panel"] == ["rational", ours["run"][0]]
 
 

@@ -104,7 +104,7 @@ class Law(NamedTuple):
     """
 
     formula: Callable
-    gains: Any  # the type of its gains
+    gains: Any  # the type of its gains; Gains if the goal stands still
     title: str
     says: str
     value: Callable = pose_value
@@ -127,6 +127,7 @@ LAWS = {
 """Every law, by name. The compiled loops know a law by its place in this table."""
 TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
 POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name].needs_reference}
+_OTHERS = NO_TUNING[1:]  # the gains that a pose law has no use for
 
 
 def _place_of(gains: type) -> int:
@@ -152,7 +153,7 @@ def _by_law(name: str, arguments: str, laws: dict[str, int], call_of) -> Callabl
     """
     cases, known = [], dict(globals())
     for row, code in ((LAWS[each], code) for each, code in laws.items()):
-        used = {"formula": row.formula.__name__, "value": row.value.__name__}
+        used = {"formula": f"formula_{code}", "value": f"value_{code}"}
         known |= {used["formula"]: row.formula, used["value"]: row.value}
         call = call_of(row).format(**used, gains=f"tuning[{_place_of(row.gains)}]")
         cases.append(f"{call} if law == {code}")
@@ -165,8 +166,7 @@ def _by_law(name: str, arguments: str, laws: dict[str, int], call_of) -> Callabl
 _rule = _by_law("pose_law", "gains", POSE_LAWS, lambda _: "{formula}(rho, alpha, theta, gains)")
 pose_law = formula(_rule)
 """(v/rho, omega) of a pose law: a function of (rho, alpha, theta, gains, law)."""
-_rule = _by_law("command", "v_ref, omega_ref, tuning", TRACKING_LAWS, _command_of)
-command = compiled(_rule)
+command = compiled(_by_law("command", "v_ref, omega_ref, tuning", TRACKING_LAWS, _command_of))
 """(v, omega) of any of the laws: of (rho, alpha, theta, v_ref, omega_ref, tuning, law)."""
 _rule = _by_law("value", "tuning", TRACKING_LAWS, lambda _: "{value}(rho, alpha, theta, {gains})")
 lyapunov_value_of = formula(_rule)
@@ -176,7 +176,7 @@ lyapunov_value_of = formula(_rule)
 @compiled
 def pose_tuning(k_rho, k_alpha, h, v_max):
     """A Tuning for one of the pose laws, made inside a compiled loop."""
-    return Tuning(GainsFields(k_rho, k_alpha, h, v_max), NO_TUNING.kanayama, NO_TUNING.linear)
+    return Tuning(GainsFields(k_rho, k_alpha, h, v_max), *_OTHERS)
 
 
 def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:

@@ -137,8 +137,8 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
         known = last > 0 and math.isfinite(rho + v + omega) and (arrived or left == 0.0)
         if records.shape[2] or not known:
             reference[rows.X, 0], reference[rows.Y, 0], reference[rows.HEADING, 0] = goal
-            how = step, dt, arrival_radius
-            count, outcome, peak, length = drive(run, start, reference, *loop, *how)
+            how = *loop, step, dt, arrival_radius
+            count, outcome, peak, length = drive(run, start, reference, *how)
             last = max(count - 1, 0)
             for k in range(min(count, records.shape[2])):
                 for row in range(rows.LYAPUNOV):

@@ -82,7 +82,7 @@ _GUARDS = {
 }
 FORMULAS = {
     **_GUARDS,
-    **{row.formula.__name__: _law(name) for name, row in laws.LAWS.items()},
+    **{f"{name}_law": _law(name) for name in laws.LAWS},
     **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
     **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
     **{
