@@ -28,7 +28,13 @@ COURSE = ROOT / "book" / "course"
 SPY = """import math, os
 import numpy as np
 from wmrbook import grading
-print([*map(os.listdir, {}), len(os.listdir("../.."))])"""
+print([*map(os.listdir, {}), len(os.listdir("../.."))])
+for place in grading.__file__, "{}", "mine":
+    try:
+        open(place, "a").close()
+        print("written")
+    except OSError:
+        print("refused")"""
 
 
 def mistakes() -> dict[str, list[dict]]:
@@ -96,7 +102,12 @@ def graded(course):
     checks = {name: "'all is well'" for name, (_, points) in cells(CHAPTER).items() if points}
     hand_in(course, "cheat", CHAPTER, answered(course, CHAPTER, checks))
     secrets = [str(each) for each in (course, COURSE, ROOT / "tests")]
-    hand_in(course, "spy", CHAPTER, answered(course, CHAPTER, {"given-01": SPY.format(secrets)}))
+    hand_in(
+        course,
+        "spy",
+        CHAPTER,
+        answered(course, CHAPTER, {"given-01": SPY.format(secrets, ROOT / "README.md")}),
+    )
     (course / "submitted" / "a[b]").mkdir()
     (course / "submitted" / "bob" / "chapter 1").mkdir(parents=True)
     expected = {(CHAPTER, student): each for student, each in expected.items()}
@@ -171,7 +182,9 @@ def test_a_damaged_hand_in_is_graded_or_refused_by_name_and_stops_nobody(graded)
 @pytest.mark.skipif(not sandbox.hides(), reason="this system hides no folders from a process")
 def test_a_hand_in_sees_neither_answers_nor_points_nor_other_hand_ins(course, graded):
     (cell,) = (c for c in notebook(course, "autograded/spy").cells if "listdir" in c.source)
-    assert cell.outputs[0].text == "[[], [], [], 1]\n"
+    seen, *written = cell.outputs[0].text.splitlines()
+    assert seen == "[[], [], [], 1]"
+    assert written == ["written", "refused", "written"]  # its own copy of the library
 
 
 def test_a_model_that_fails_on_a_machine_costs_nobody_points(graded):

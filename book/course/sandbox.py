@@ -28,6 +28,7 @@ from typing import NamedTuple
 
 import nbformat
 import psutil
+from handins import Refused
 from jupyter_client.kernelspec import KernelSpecManager
 from jupyter_client.manager import AsyncKernelManager
 from nbclient import NotebookClient
@@ -39,16 +40,31 @@ DRIVER = "import sys; sys.modules['rfc3987_syntax'] = None; import sandbox; sand
 MOST_OUTPUT = 10_000_000  # bytes of a hand-in
 UNSHARE = ["unshare", "--user", "--map-root-user", "--mount", "--pid", "--net", "--ipc"]
 UNSHARE += ["--fork", "--kill-child", "--mount-proc"]
-# Of the first folder only the current one inside is left, of the others nothing. The shell stays:
-# as the first process of its namespace, a kernel could not be killed by a signal of its own.
+# Of the first folder only the current one inside is left, of the others nothing, and nothing but
+# that one can be written to. The shell stays: as the first process of its namespace, a kernel could
+# not be killed by a signal of its own.
 HIDE = """
 set -e
 stage=$1; own=$PWD; shift; aside=$1
 while [ "$1" != -- ]; do mount -t tmpfs none "$1"; shift; done
 shift
 mkdir "$aside/own"; mount --bind "$own" "$aside/own"
+mounts=$(cat /proc/mounts)
+echo "$mounts" | while read -r _ at _ options _; do
+  at=$(printf %b "$at") flags=ro
+  for each in nosuid nodev noexec noatime nodiratime relatime; do
+    case ,$options, in *,$each,*) flags=$flags,$each ;; esac
+  done
+  case $at in
+    "$aside" | "$aside/own" | /proc*) ;;
+    *) mount -o "remount,bind,$flags" "$at" || true ;;
+  esac
+done 2>/dev/null
+if [ -w / ] || [ -w "$stage" ]; then exit 1; fi
+mount -t tmpfs -o size=64m none /dev/shm || true
 mount -t tmpfs none "$stage"; mkdir -p "$own"
 mount --bind "$aside/own" "$own"; umount "$aside/own"; rmdir "$aside/own"
+mount -o remount,bind,ro "$stage"; mount -o remount,bind,ro "$aside"
 cd "$own"
 setpriv --bounding-set=-all --inh-caps=-all --no-new-privs "$@"
 """
@@ -142,12 +158,17 @@ class Sandbox:
         told = {"WMR_STUDENT": student, "WMR_CLASS": ",".join(others)}
         settings = str(job), self.hidden, json.dumps(self.limits), json.dumps(told)
         with suppress(subprocess.TimeoutExpired):
-            subprocess.run(
+            driver = subprocess.run(
                 [sys.executable, "-c", DRIVER, *settings],
                 cwd=Path(__file__).parent,
                 capture_output=True,
+                text=True,
                 timeout=self.limits.whole + 120,
             )
+            if driver.returncode:  # no fault of the notebook's, such as a full disk
+                shutil.rmtree(job, ignore_errors=True)
+                reason = driver.stderr.strip().rpartition("\n")[2]
+                raise Refused(f"it could not be run, try again: {reason}")
         for compiled in job.glob("kernel-*/lib/wmrlib/__pycache__") if trusted else ():
             shutil.copytree(compiled, self.compiled, dirs_exist_ok=True)
         done = nbformat.read(result, as_version=4)
