@@ -104,7 +104,7 @@ def bearing_range(bearing: Function) -> str:
     """It is in [0, 360): just west of north is nearly 360, not a little less than 0."""
     own_work(bearing)
     west_of_north = (GPS_POINT_1, point_at(GPS_POINT_1, -0.1, 57.0))
-    north = GPS_POINT_1._replace(lat=GPS_POINT_1.lat + 0.001)
+    north = GeoPoint(lat=GPS_POINT_1.lat + 0.001, lon=GPS_POINT_1.lon)
     for a, b in [west_of_north, *_places(40), (GPS_POINT_1, north)]:
         value = _between(bearing, a, b)
         hint = f"the bearing comes out as {value:.4g} deg"
