@@ -24,6 +24,7 @@ from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v
 _COSINE, _SINE, _STATE = sp.cos(alpha), sp.sin(alpha), (rho, alpha, theta)
 CLOSED = -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * _COSINE**2 - k_alpha * alpha**2
 """The V' that the proof needs: never positive."""
+_WISH = 'Judged as an equality: its "< 0" is a wish, for $v$ and $\\omega$ are not chosen yet.'
 
 
 def steering() -> sp.Expr:
@@ -72,9 +73,9 @@ def energy_rows() -> list[Row]:
     sign = "(7) to (9) put into (19). It has the sign of (8), not that of (10)."
     return [
         _bowl_row(),
-        equation_row(19, chain, {"(20)": in_20}, "The chain rule on (18)."),
-        equation_row(20, along, {"(21)": in_21}, sign),
-        equation_row(21, along, {"(20)": in_20}, "(20) with its terms collected."),
+        equation_row(19, chain, {"(20)": in_20}, f"The chain rule on (18). {_WISH}"),
+        equation_row(20, along, {"(21)": in_21}, f"{sign} {_WISH}"),
+        equation_row(21, along, {"(20)": in_20}, f"(20) with its terms collected. {_WISH}"),
         _speed_row(),
         _inequality_row(),
     ]
