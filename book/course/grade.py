@@ -140,7 +140,7 @@ if __name__ == "__main__":
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help=said)
     said = "most seconds of a cell, 60 by default; five times that for a hand-in"
     parser.add_argument("--seconds", type=float, default=60.0, help=said)
-    said = "most gigabytes of memory of a hand-in, 4 by default"
+    said = "most gigabytes of memory of a process, 4 by default"
     parser.add_argument("--memory", type=float, default=4.0, help=said)
     given = parser.parse_args()
     for name in "jobs", "seconds", "memory":

@@ -138,7 +138,7 @@ def against_the_limit(folder: Path) -> list[Row]:
             seconds = in_turn(cases)
             limit = min((seconds[name] for name in libraries), default=None)
             section = (
-                f"10,000 gains by 300 steps on one core, sampled, {method}, against the fastest C"
+                f"10,000 gains by 300 steps on one core, {method.title()}, against the fastest C"
             )
             for name, value in seconds.items():
                 rows.append(

@@ -30,7 +30,7 @@ _ROBOT = (-2.0, 2.0), (-2.0, 2.0), (0.2, 0.9), (0.03, 0.3)
 def wheels_known(wheels: Callable[[float, float, float, float], Pair]) -> str:
     """wheels(v, omega, track_width, wheel_radius): the angular speeds (left, right) in rad/s."""
     own_work(wheels)
-    for v, omega, width, radius in drawn(2, 20, *_ROBOT):
+    for v, omega, width, radius in _robots():
         value = ask_numbers(wheels, 2, v, omega, width, radius)
         ground = np.array(twist_to_wheels(v, omega, width))
         right, doubled = ground / radius, np.array(twist_to_wheels(v, 2.0 * omega, width)) / radius
@@ -57,7 +57,7 @@ def wheels_known(wheels: Callable[[float, float, float, float], Pair]) -> str:
 def twist_known(twist: Callable[[float, float, float, float], Pair]) -> str:
     """twist(left, right, track_width, wheel_radius): (v, omega) from the wheels, (1) and (2)."""
     own_work(twist)
-    for left, right, width, radius in drawn(2, 20, *_ROBOT):
+    for left, right, width, radius in _robots():
         v, omega = value = ask_numbers(twist, 2, left, right, width, radius)
         v_right, omega_right = wheels_to_twist(left * radius, right * radius, width)
         slow, slow_turn = wheels_to_twist(left, right, width)
@@ -190,8 +190,8 @@ def limited_curvature(limited: Callable[[float, float, float], Pair]) -> str:
     """The robot keeps its path: the turning centre of the limited wheels is where it was."""
     own_work(limited)
     bend = []
-    for left, right in _wheel_pairs(40):
-        most = 0.6 * max(abs(left), abs(right))
+    for (left, right), share in zip(_wheel_pairs(40), spread(0.005, 0.95, 40), strict=True):
+        most = share * max(abs(left), abs(right))
         slower = ask_numbers(limited, 2, left, right, most)
         v, omega = wheels_to_twist(left, right, 0.5)
         v_slower, omega_slower = wheels_to_twist(*slower, 0.5)
@@ -213,6 +213,13 @@ def limited_curvature(limited: Callable[[float, float, float], Pair]) -> str:
 
 def _equal(value, right) -> bool:
     return bool(np.allclose(value, right, rtol=1e-9, atol=1e-9))
+
+
+def _robots() -> list[list[float]]:
+    """Rows of _ROBOT, from slow ones to such as no motor drives."""
+    sizes = spread(0.1, 50.0, 20)
+    rows = zip(sizes, drawn(2, 20, *_ROBOT), strict=True)
+    return [[size * one, size * other, *robot] for size, (one, other, *robot) in rows]
 
 
 def _steps(count: int) -> list[tuple[Pose, float, float, float]]:
