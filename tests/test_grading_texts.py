@@ -23,7 +23,7 @@ starts, goals, gains = wmr.Pose([5.0, 6.0], 1.0, 0.0), wmr.Pose(0.0, 0.0, 0.0), 
 explorer, x, y, heading, goal = wmr.Explorer(), 1.0, 2.0, 0.3, goals
 c = SimpleNamespace(Spawner=SimpleNamespace())
 """
-STANDS_FOR = {'"tcp://scheduler:8786"': "processes=False, dashboard_address=None"}
+STANDS_FOR = {'"tcp://scheduler:8786"': "processes=False, dashboard_address=':0'"}
 
 
 def text(path) -> str:
