@@ -22,8 +22,8 @@ from wmrlib.motion import polar_from_pose, pose_of_error, wrap
 MOST_TRIALS = 100_000.0
 TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
 _BEYOND = 1e100  # m or rad: whoever gets so far in so many steps never ends
-_KEPT = steps.ALPHA, steps.THETA, steps.LEFT, steps.TIME, steps.PEAK, steps.LENGTH, steps.TRIALS
-_ALPHA, _THETA, _LEFT, _TIME, _PEAK, _LENGTH, _TRIALS = (at // steps.LANES for at in _KEPT)
+_PLACES = steps.ALPHA, steps.THETA, steps.LEFT, steps.TIME, steps.PEAK, steps.LENGTH, steps.TRIALS
+_ALPHA, _THETA, _LEFT, _TIME, _PEAK, _LENGTH, _TRIALS = (at // steps.LANES for at in _PLACES)
 _ROUNDS = 4  # steps between two looks at who has finished
 
 
@@ -56,7 +56,6 @@ def put_down(bench, record, first, goal):
 @formula
 def _slopes(bench, used, stage, law, wheels, lag):
     """The rates of a stage: of the polar error, and with a lag of the wheels' twist too."""
-    widest_vectors()
     at, out = bench[steps.source_of(stage) :], bench[steps.SLOPES + stage * steps.STAGE :]
     for i in range(used):
         gains = GainsFields(
@@ -82,12 +81,12 @@ def _slopes(bench, used, stage, law, wheels, lag):
 
 def _written_out():
     """`slopes`, a loop for each law: asking for it in every step would cost more than the step."""
-    yield "def slopes(bench, used, stage, law, wheels, lag):"
+    yield "def slopes(bench, used, stage, law, wheels, lag):\n widest_vectors()"
     for code in POSE_LAWS.values():
         yield f" if law == {code}: _slopes(bench, used, stage, {code}, wheels, lag)"
 
 
-_space: dict[str, Any] = {"__name__": __name__, "_slopes": _slopes}
+_space: dict[str, Any] = dict(globals())
 exec("\n".join(_written_out()), _space)
 slopes = compiled(_space["slopes"])
 

@@ -46,7 +46,7 @@ NODES = np.array([0.0, *map(sum, _TO)])  # when each stage is, as shares of the 
 def _written_out():
     """`move`, with each sum of slopes written out: LLVM vectorises no loop that holds another."""
     yield "def move(bench, used, size, stage):"
-    yield f" for first in range(0, size * {LANES}, {LANES}):\n  row = first & 255"
+    yield f" for first in range(0, size * {LANES}, {LANES}):\n  row = first & 255"  # see `judge`
     for stage, weights in enumerate((*_TO, FIFTH, THIRD), 1):
         slopes = ((SLOPES + j * STAGE, weight) for j, weight in enumerate(weights) if weight)
         total = " + ".join(f"{weight!r} * bench[{at} + row + i]" for at, weight in slopes)
@@ -140,7 +140,7 @@ def judge(bench, used, size, smallest, radius, tolerance):
     move(bench, used, size, _FINE_MISS)
     move(bench, used, size, _COARSE_MISS)
     for first in range(0, size * LANES, LANES):
-        row = first & 255
+        row = first & 255  # so that LLVM knows that no index is negative, and vectorises
         least = 1.0 if row else smallest
         for i in range(used):
             scale = larger(abs(bench[NEW + row + i]), least)
