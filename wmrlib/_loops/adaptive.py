@@ -14,7 +14,7 @@ import numpy as np
 from wmrlib._compile import compiled, formula
 from wmrlib._loops import rows, steps
 from wmrlib._loops.polar import closed_loop, polar_closing_rate
-from wmrlib._vecmath import widest_vectors
+from wmrlib._vecmath import widest_vectors  # noqa: F401 (in `slopes`)
 from wmrlib.gains import GainsFields
 from wmrlib.laws import POSE_LAWS
 from wmrlib.motion import polar_from_pose, pose_of_error, wrap
