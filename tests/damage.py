@@ -31,6 +31,15 @@ DEADLY = {  # what an answer's cell does before anything else, and what the tabl
     "killed": ("import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "it ended Python"),
     "flood": ("print('x' * 200_000_000)", "it printed more than 10 MB"),
     "memory": ("x = bytearray(10**11)", ""),
+    "shared memory": (
+        "import os, time\nfor _ in range(5):\n    if not os.fork():\n"
+        "        x = b'x' * 10**9\n        time.sleep(1000)\ntime.sleep(1000)",
+        "it took more than 4 GB",
+    ),
+    "odd output": (
+        "from IPython.display import display; display({'text/plain': {1, 2}}, raw=True)",
+        "it shows is no output",
+    ),
     "endless": ("import time; time.sleep(1000)", "it took over"),
 }
 LEFT = """import subprocess, sys, threading, time

@@ -26,6 +26,7 @@ from graded import ASSIGNMENTS, BEGIN, END, ROOT, cells, tasks, wrong_answers
 from nbgrader.api import Gradebook
 
 REPAIRED = {*damage.EDITS} - {"given cell changed", "left running"}  # in these, text is new
+NOBODY = "Zoe\u0308"
 CHAPTER = "ch12"  # with every kind of student; its cells run fast
 COURSE = ROOT / "book" / "course"
 SPY = """import math, os
@@ -95,7 +96,8 @@ def course(tmp_path_factory):
     command("package.py", course)
     for chapter in ASSIGNMENTS:
         hand_in(course, "late", chapter, "")  # refused, after the model's answers have run
-    hand_in(course, "nothing", CHAPTER, notebook(course, "release"))
+    hand_in(course, NOBODY, CHAPTER, notebook(course, "release"))
+    (course / "submitted" / NOBODY / CHAPTER / "timestamp.txt").write_bytes(b"\xff")
     return course
 
 
@@ -104,7 +106,7 @@ def graded(course):
     """The table of grade.py, and what it should say of the hand-ins that are damaged."""
     solved = answered(course, CHAPTER, model(CHAPTER))
     other = answered(course, "ch11", model("ch11"))
-    alike = {"segfault", "killed", "with a mark"}
+    alike = {"segfault", "killed", "shared memory", "with a mark"}
     but = REPAIRED - {"all copied"} | alike
     expected = damage.hand_in_all(course, CHAPTER, solved, other, but)
     for student, wrongs in mistakes().items():
@@ -169,9 +171,27 @@ def test_a_damaged_notebook_becomes_the_program_that_it_was(course, chapter):
         assert [found.cells[k].source for k in damage.checks(found)] == checks, name
 
 
+def test_an_answer_below_its_check_comes_too_late(course):
+    tried = answered(course, CHAPTER, dict.fromkeys(model(CHAPTER), "tried = 1"))
+    late = copy.deepcopy(tried)
+    late.cells += answered(course, CHAPTER, model(CHAPTER)).cells
+    found, how = handins.repaired(late, notebook(course, "release"))
+    assert program(found) == program(tried)
+    assert "copies dropped" in "; ".join(how)
+
+
+def test_a_run_that_fails_for_another_reason_is_refused_and_not_worth_nothing(course, monkeypatch):
+    monkeypatch.setattr(sandbox, "DRIVER", "raise OSError(28, 'No space left on device')")
+    with sandbox.Sandbox([course], sandbox.Limits()) as runner:
+        with pytest.raises(handins.Refused, match=r"try again: OSError: .* No space left"):
+            runner.run(notebook(course, "release"), "ada", [])
+        assert not any(runner.stage.glob("*/notebook.json"))
+
+
 def test_nothing_is_worth_nothing(course, graded):
+    """Under a name as macOS writes it, and with a time that nobody can read."""
     wanted = {name: (0, points) for name, (_, points) in cells(CHAPTER).items() if points}
-    assert scores(course, "nothing", CHAPTER) == wanted
+    assert scores(course, NOBODY, CHAPTER) == wanted
 
 
 def test_what_a_student_writes_into_a_graded_cell_does_not_count(course, graded):
@@ -239,7 +259,7 @@ def test_marks_have_a_column_an_assignment_and_are_empty_where_nothing_came(
     most = {each: sum(points for _, points in cells(each).values()) for each in ASSIGNMENTS}
     assert [name for name in next(iter(rows.values())) if name.startswith("ch")] == ASSIGNMENTS
     assert rows["renamed"]["ch00"] == ""
-    assert rows["nothing"][CHAPTER] == "0"
+    assert rows[NOBODY][CHAPTER] == "0"
     assert rows["renamed"][CHAPTER] == f"{most[CHAPTER]}"
     if kind == "canvas":
         assert rows[""]["ch00"] == f"{most['ch00']}"

@@ -24,6 +24,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
+from threading import Event, Thread
 from typing import NamedTuple
 
 import nbformat
@@ -193,10 +194,24 @@ def stops(notebook: NotebookNode) -> list[str]:
 
 
 class _Client(NotebookClient):
-    """One kernel, which is killed when it has printed too much."""
+    """One kernel, which is killed when it has printed too much.
+
+    Also when it and what it started take too much memory: systems limit each process alone.
+    """
 
     printed = 0
     why = ""
+
+    def watch(self, memory: int, ended: Event) -> None:
+        """Kill it when it takes too much, until that event."""
+        while not (self.why or ended.wait(0.5)):
+            taken = 0
+            for child in psutil.Process().children(recursive=True):
+                with suppress(psutil.Error):
+                    taken += child.memory_info().rss
+            if taken > memory:
+                self.why = f"it took more than {memory / 1e9:g} GB"
+                self.km.provisioner.process.kill()
 
     def process_message(self, message, cell, index):
         self.printed += len(str(message["content"])) + sum(map(len, message["buffers"]))
@@ -236,12 +251,13 @@ def drive() -> None:
             shutdown_kernel="immediate",
             on_cell_executed=_failed,
         )
-        at = None
+        at, ended = None, Event()
         quiet = dict.fromkeys(("stdout", "stderr"), subprocess.DEVNULL)
         try:
             with client.setup_kernel(
                 cleanup_kc=True, cwd=own, env=_environment(own) | told, **quiet
             ):
+                Thread(target=client.watch, args=(limits.memory, ended)).start()
                 again = [k for k in range(place) if k not in deadly and not _graded(cells[k])]
                 for at in [*again, *range(place, len(cells))]:
                     client.execute_cell(cells[at], at)
@@ -261,6 +277,7 @@ def drive() -> None:
             place = max(place, at + 1)
             _store(notebook, result)
         finally:
+            ended.set()
             for child in psutil.Process().children(recursive=True):
                 with suppress(psutil.Error):
                     child.kill()
