@@ -113,7 +113,6 @@ CASES = {
         {"one": drive(arrival_radius=0.01), "two": drive(gains=GENTLE)}
     ),
     "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
-    "position_errors": lambda: figures.position_errors(drive()),
     "twist": lambda: figures.twist(drive()),
     "spherical_triangle": lambda: figures.spherical_triangle(
         wmr.GeoPoint(lat=5.0, lon=0.0), wmr.GeoPoint(lat=35.0, lon=70.0)

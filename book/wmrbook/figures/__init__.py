@@ -12,7 +12,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "dashboard",
             "heading_to_go",
             "lyapunov_over_time",
-            "position_errors",
             "twist",
         ],
         "earth": ["local_map", "sphere_error_map", "spherical_triangle"],
