@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
-
-import wmrlib
 
 FLAGS = [
     "--headless=new",
@@ -90,12 +86,9 @@ def browser_page(browser):
 @pytest.fixture
 def panel_core(browser_page):
     """A `browser_page` with the panel's model and simulation, loaded as one ES module."""
-    from wmrlib import symbolic
+    from wmrlib import explorer, symbolic
 
-    panel = Path(wmrlib.__file__).parent / "explorer" / "js"
-    text = "".join(
-        (panel / name).read_text(encoding="utf-8") for name in ("model.js", "simulate.js")
-    )
+    text = explorer.javascript(explorer.MODEL)
     printed = map(symbolic.javascript_name, symbolic.FORMULAS)
     names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", *printed))
     browser_page.goto("about:blank")
