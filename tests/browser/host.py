@@ -35,11 +35,17 @@ FIGURES = """() => Object.fromEntries([...document.querySelectorAll('[data-figur
 TRAITS = ("state", "setup", "_esm", "_css")
 
 
-def mounted(page, explorer, width=1280, height=720):
-    """Show the explorer in the page and return the Panel that drives it, once it is drawn."""
+def mounted(page, explorer, width=1280, height=720, url=None):
+    """Show the explorer in the page and return the Panel that drives it, once it is drawn.
+
+    In an empty page, or in the one at `url`.
+    """
     page.set_viewport_size({"width": width, "height": height})
     page.goto("about:blank")  # forgets what was mounted before
-    page.set_content(PAGE)
+    if url:
+        page.goto(url)
+    else:
+        page.set_content(PAGE)
     page.add_script_tag(content=HOST)
     page.evaluate("traits => mount(traits)", explorer.get_state(TRAITS))
     return Panel(page).settled()

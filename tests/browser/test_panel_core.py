@@ -68,7 +68,7 @@ def test_wrap_is_exact(panel_core):
     ]
 
 
-@pytest.mark.parametrize("method", ["arc", "euler"])
+@pytest.mark.parametrize("method", ["arc", "euler", "continuous"])
 @pytest.mark.parametrize("law", ["corrected", "printed", "aicardi"])
 def test_maps_equal_a_sweep(panel_core, law, method):
     low_high = {"k_rho": (0.005, 0.5), "k_alpha": (0.3, 4.0), "h": (0.1, 3.0), "v_max": (0.5, 4.0)}
@@ -191,7 +191,7 @@ BAD_INPUT = [
     ),
     ({"law": "kanayama"}, "law = kanayama is not allowed: one of corrected, printed, aicardi"),
     ({"law": "toString"}, "law = toString is not allowed"),
-    ({"method": "rk4"}, "method = rk4 is not allowed: one of euler, arc"),
+    ({"method": "rk4"}, "method = rk4 is not allowed: one of euler, arc, continuous"),
     ({"reference": "square"}, "reference = square is not allowed: null or 'circle'"),
     ({"arrivalRadius": -0.1}, "arrivalRadius = -0.1 is not allowed"),
     (

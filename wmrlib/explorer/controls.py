@@ -35,7 +35,11 @@ PRESETS = "your own", "the paper, outdoors", "the paper, circle", "gentle gains"
 MENUS = {
     "preset": ("Preset", "gains and scenes to start from", dict(enumerate(PRESETS))),
     "law": ("Law", "what turns the error into speed and turning rate", {}),
-    "method": ("Motion", "what happens between two commands, or that the law acts all the time", METHODS),
+    "method": (
+        "Motion",
+        "what happens between two commands, or that the law acts all the time",
+        METHODS,
+    ),
     "view": ("View", "what stands beside the path", VIEWS),
     "metric": ("Map shows", "what the colours mean", _METRICS),
     "axes": (

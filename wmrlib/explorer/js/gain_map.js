@@ -20,8 +20,8 @@ if (typeof document === 'undefined') onmessage = ({ data }) => postMessage({ ...
 function buildGainMap(module, onDone) {
   let key = '', job = null, busy = false, done = null, worker = null;
   function begin() {
-    const url = URL.createObjectURL(new Blob([module], { type: 'text/javascript' }));
-    worker = new Worker(url, { type: 'module' });
+    const script = module.replace(/^export .*/m, ''); // a plain one, for a page from the disk lets no worker be a module
+    worker = new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
     worker.onmessage = ({ data }) => take(data);
     worker.onerror = () => { worker = { postMessage: (data) => setTimeout(() => take({ ...data, values: mapOf(data) })), terminate() {} }; next(); }; // a page that forbids workers
   }

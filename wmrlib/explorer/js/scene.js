@@ -45,10 +45,10 @@ const viewAt = (box, zoom, scale, middle, centre) => ({
 // What `zoomed` would be for a view as it is.
 const zoomOf = ({ box, scale, toWorld }) => [...toWorld(box.left + box.width / 2, box.top + box.height / 2), Math.min(box.width, box.height) / 2 / scale];
 
-// px between the content and the frame, so that an arrow on the rim still shows its tip.
+// px between the content and the frame, so that an arrow on the rim still shows its tip, and its name beside it.
 function roomFor(arrows) {
-  const most = (share) => Math.max(30, ...Object.entries(arrows).map(([name, pose]) => (pose ? 14 + ARROW[name] * share(pose[2]) : 0)));
-  return { left: most((a) => -Math.cos(a)), right: most(Math.cos), top: most(Math.sin), bottom: most((a) => -Math.sin(a)) };
+  const most = (least, share) => Math.max(least, ...Object.entries(arrows).map(([name, pose]) => (pose ? 14 + ARROW[name] * share(pose[2]) : 0)));
+  return { left: most(54, (a) => -Math.cos(a)), right: most(54, Math.cos), top: most(30, Math.sin), bottom: most(30, (a) => -Math.sin(a)) };
 }
 
 // What must be seen: start and goal, or start and the goal's whole way.
