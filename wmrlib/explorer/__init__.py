@@ -98,7 +98,7 @@ class Explorer(anywidget.AnyWidget):
         start = (paper.CIRCLE_START if moving else outdoor.start) if start is None else start
         gains = (paper.CIRCLE_GAINS if moving else outdoor.gains) if gains is None else gains
         duration = scalar("duration", duration, above=0.0)
-        home = {
+        home: dict[str, Any] = {
             "moving": moving,
             "start": _three("start", start),
             "goal": _three("goal", outdoor.goal if goal is None else goal),

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 from wmrlib.laws import LAWS
 
 # name: (label, tip, lowest, highest, step); without a step, the round numbers of each decade
@@ -16,7 +18,7 @@ SLIDERS = {
     "dt": ("dt [s]", "time from one command, or sample, to the next", 0.01, 1.0, None),
     "arrival_radius": ("arrival [m]", "how near the goal the robot stops", 0.01, 1.0, None),
 }
-PANEL_LAWS = [
+PANEL_LAWS: list[dict[str, Any]] = [
     {
         "name": name,
         "title": law.title,
@@ -37,7 +39,7 @@ MENUS = {
     "law": ("Law", "what turns the error into speed and turning rate", {}),
     "method": (
         "Motion",
-        "what happens between two commands, or that the law acts all the time",
+        "how the robot moves between two commands, or none is held",
         METHODS,
     ),
     "view": ("View", "what stands beside the path", VIEWS),

@@ -23,7 +23,11 @@ function buildGainMap(module, onDone) {
     const script = module.replace(/^export .*/m, ''); // a plain one, for a page from the disk lets no worker be a module
     worker = new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
     worker.onmessage = ({ data }) => take(data);
-    worker.onerror = () => { worker = { postMessage: (data) => setTimeout(() => take({ ...data, values: mapOf(data) })), terminate() {} }; next(); }; // a page that forbids workers
+    worker.onerror = (event) => { // this page forbids workers
+      event.preventDefault();
+      worker = { postMessage: (data) => setTimeout(() => take({ ...data, values: mapOf(data) })), terminate() {} };
+      next();
+    };
   }
   function next() {
     if (!worker) begin();
