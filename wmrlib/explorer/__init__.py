@@ -118,8 +118,11 @@ class Explorer(anywidget.AnyWidget):
         if zoom is not None:
             middle = paper.circle(at or 0.0)[:2] if moving else home["goal"][:2]
             home["zoom"] = [*map(float, middle), scalar("zoom", zoom, low=0.005, high=1e6)]
+        # Lists, for a stored notebook keeps the order of no mapping.
+        menus = [(name, *row, [*choices.items()]) for name, (*row, choices) in MENUS.items()]
+        sliders = [(name, *row) for name, row in SLIDERS.items()]
         setup = {"home": home, "presets": _presets(), "laws": PANEL_LAWS}
-        super().__init__(state=home, setup=setup | {"sliders": SLIDERS, "menus": MENUS})
+        super().__init__(state=home, setup=setup | {"sliders": sliders, "menus": menus})
         self.add_class("jupyter-widgets")
 
     def __repr__(self) -> str:

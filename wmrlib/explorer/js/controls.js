@@ -4,7 +4,7 @@ const ROUND = [1, 1.1, 1.2, 1.3, 1.5, 1.7, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 
 const STEP_KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
 // What a slider can be set to: even steps, or, without a step, the round numbers of each decade.
-function stopsOf([, , low, high, step]) {
+function stopsOf(low, high, step) {
   if (step) return Array.from({ length: Math.round((high - low) / step) + 1 }, (_, i) => Number((low + i * step).toPrecision(12)));
   const stops = [];
   for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += 1) {
@@ -33,13 +33,13 @@ function buildControls(root, setup, { change, refuse }) {
     make(it, 'span', { textContent: text });
     return it;
   };
-  const menus = Object.entries(setup.menus).map(([name, [text, tip, choices]]) => {
+  const menus = setup.menus.map(([name, text, tip, choices]) => {
     const it = row(name, text, tip), select = make(it, 'select', {}, { 'aria-label': `${text}: ${tip}` });
     select.addEventListener('change', () => change(name === 'preset' ? { preset: select.selectedIndex } : { [name]: select.value }));
     return { name, it, select, choices };
   });
-  const sliders = Object.entries(setup.sliders).map(([name, row_]) => {
-    const [text, tip] = row_, stops = stopsOf(row_), [symbol, unit] = text.match(/^(\S+) \[(.*)\]$/).slice(1), it = row(name, text, tip);
+  const sliders = setup.sliders.map(([name, text, tip, ...ends]) => {
+    const stops = stopsOf(...ends), [symbol, unit] = text.match(/^(\S+) \[(.*)\]$/).slice(1), it = row(name, text, tip);
     const slider = make(it, 'input', { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' }, { 'aria-label': `${symbol}, ${tip}` });
     const typed = make(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' }, { 'aria-label': `${text}, typed` });
     slider.addEventListener('input', () => change({ [name]: stops[Math.round(slider.value)] }));
@@ -64,11 +64,11 @@ function buildControls(root, setup, { change, refuse }) {
   return (state) => {
     for (const { name, it, select, choices } of menus) {
       it.hidden = !applies(name, state, setup);
-      const options = name === 'law' ? Object.fromEntries(lawsFor(setup, state.moving).map((law) => [law.name, law.title])) : choices;
+      const options = name === 'law' ? lawsFor(setup, state.moving).map((law) => [law.name, law.title]) : choices;
       const key = JSON.stringify(options), value = name === 'preset' ? String(presetOf(state, setup)) : state[name];
       if (select.dataset.key !== key) {
         select.dataset.key = key;
-        select.replaceChildren(...Object.entries(options).map(([each, title]) => new Option(title, each)));
+        select.replaceChildren(...options.map(([each, title]) => new Option(title, each)));
       }
       if (select.value !== value) select.value = value;
     }

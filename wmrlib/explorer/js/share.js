@@ -45,7 +45,7 @@ const canLink = () => document.getElementById('jupyter-config-data') === null;
 // What a panel is called in a link: a page may have several, which differ in the state that they were made with.
 function nameOf(home) {
   let hash = 7;
-  for (const each of JSON.stringify(home)) hash = (31 * hash + each.codePointAt(0)) % 2 ** 32;
+  for (const each of JSON.stringify(Object.entries(home).sort())) hash = (31 * hash + each.codePointAt(0)) % 2 ** 32;
   return hash.toString(36);
 }
 
