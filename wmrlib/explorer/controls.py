@@ -32,7 +32,7 @@ PANEL_LAWS: list[dict[str, Any]] = [
 METHODS = {"arc": "arcs, exact", "euler": "straight steps (Euler)", "continuous": "continuous"}
 VIEWS = {"time": "time charts", "gains": "gain landscape"}
 _METRICS = {"headingError": "heading error", "time": "arrival time", "peakOmega": "peak |omega|"}
-PRESETS = "your own", "the paper, outdoors", "the paper, circle", "gentle gains"
+PRESETS = "your own", "paper, outdoors", "paper, circle", "gentle gains"
 # name: (label, tip, choices)
 MENUS = {
     "preset": ("Preset", "gains and scenes to start from", dict(enumerate(PRESETS))),

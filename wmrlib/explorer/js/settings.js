@@ -38,7 +38,8 @@ function applies(name, state, setup) {
   return !['metric', 'axes'].includes(name) || state.view === 'gains';
 }
 
-const same = (a, b) => (Array.isArray(a) ? Array.isArray(b) && a.every((each, i) => same(each, b[i])) : a === b || Math.abs(a - b) < 1e-9);
+const numbers = (...them) => them.every((each) => typeof each === 'number');
+const same = (a, b) => (Array.isArray(a) ? Array.isArray(b) && a.every((each, i) => same(each, b[i])) : a === b || (numbers(a, b) && Math.abs(a - b) < 1e-9));
 const differences = (state, other) => Object.fromEntries(Object.entries(state).filter(([name, value]) => !same(value, other[name])));
 
 // The number in the menu of the preset that is in force, 0 for none.
