@@ -85,12 +85,12 @@ def browser_page(browser):
 
 @pytest.fixture
 def panel_core(browser_page):
-    """A `browser_page` with the panel's model and simulation, loaded as one ES module."""
+    """A `browser_page` with the panel's model, simulation and axes, loaded as one ES module."""
     from wmrlib import explorer, symbolic
 
-    text = explorer.javascript(explorer.MODEL)
+    text = explorer.javascript((*explorer.MODEL, "surface"))
     printed = map(symbolic.javascript_name, symbolic.FORMULAS)
-    names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", *printed))
+    names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", "ticksOf", *printed))
     browser_page.goto("about:blank")
     browser_page.add_script_tag(
         type="module", content=f"{text}\nObject.assign(window, {{ {names}, loaded: true }});"

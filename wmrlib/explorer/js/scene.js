@@ -83,7 +83,7 @@ function drawGrid(ctx, view, colours) {
   const { box } = view;
   const [left, bottom] = view.toWorld(box.left, box.top + box.height);
   const [right, top] = view.toWorld(box.left + box.width, box.top);
-  const narrow = Math.min(right - left, top - bottom), step = stepFor(0, narrow, Math.max(2, narrow * view.scale / 55)); // the same both ways
+  const finest = (low, high) => stepFor(low, high, (high - low) * view.scale / 55), step = Math.min(finest(left, right), finest(bottom, top)); // the same both ways
   for (const value of multiples(step, left, right)) {
     const [x] = view.toScreen(value, 0);
     line(ctx, [[x, box.top], [x, box.top + box.height]], colours.line, value === 0 ? 1.5 : 0.6);
