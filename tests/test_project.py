@@ -11,7 +11,7 @@ import pytest
 from packaging.requirements import Requirement
 from pybtex.database import parse_file
 
-from wmrlib.explorer import panel
+from wmrlib.explorer import Explorer
 
 ROOT = Path(__file__).parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -184,7 +184,7 @@ def test_every_picture_has_its_text():
 
 def test_the_stored_panels_are_those_of_now():
     """Else run book/tools/run.py: without their state a reader sees no panel before it is run."""
-    now = panel.Panel()
+    now = Explorer()
     for name, notebook in CHAPTERS.items():
         state = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
         shown = {output.data[VIEW]["model_id"] for output in outputs(name, VIEW)}
@@ -192,5 +192,5 @@ def test_the_stored_panels_are_those_of_now():
         drawn = [it["state"] for it in state.values() if it["model_name"] == "AnyModel"]
         assert len(drawn) == len(shown)
         for each in drawn:
-            assert each["_esm"] == panel.javascript(), name
+            assert each["_esm"] == now._esm, name
             assert each["_css"] == now._css, name

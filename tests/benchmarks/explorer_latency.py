@@ -1,6 +1,6 @@
 """From a slider's event to the finished picture: python tests/benchmarks/explorer_latency.py
 
-The static page is of the book's kind: ipywidgets, jslink and the panel, opened from the disk, with
+The static page is of the book's kind: the panel alone, opened from the disk, with
 the JavaScript that book/tools/build.py fetched. In JupyterLab the same panel stands above
 `ipywidgets.interactive` with a matplotlib figure of the same run, and each is dragged by its
 slider's handle. The clock starts when the page hears of the pointer's step, and stops when the
@@ -26,7 +26,7 @@ from wmrlib.explorer import Explorer
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book" / "tools")]
 from conftest import FLAGS  # noqa: E402
-from live import PATIENCE, free_port, serve  # noqa: E402
+from live import PATIENCE, free_port, serve, thumb  # noqa: E402
 
 STEPS = 40
 PANEL_CELL = "from wmrlib.explorer import Explorer\nexplorer = Explorer()\nexplorer"
@@ -77,8 +77,9 @@ MAP_STOPWATCH = """() => {
 def drag(page, handle, wait: float) -> list[float]:
     """Drag a slider's handle to the right step by step; return what each picture took, in ms."""
     page.evaluate(STOPWATCH)
+    ours = handle.get_attribute("type") == "range"
     box = handle.bounding_box()
-    x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    x, y = thumb(handle) if ours else (box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
     page.mouse.move(x, y)
     page.mouse.down()
     for step in range(1, STEPS + 1):
@@ -124,9 +125,9 @@ def in_page(browser, folder: Path) -> tuple[list[float], list[float]]:
     page = browser.new_page(viewport={"width": 1280, "height": 800})
     page.goto(static_page(folder).as_uri())
     page.locator(".wmr-status:not(:empty)").wait_for(timeout=PATIENCE)
-    dragged = drag(page, page.locator(".noUi-handle").nth(1), wait=40)
-    page.locator("select:visible").last.select_option(index=1)
-    handle = page.locator(".noUi-handle").first
+    dragged = drag(page, page.locator(".wmr-slider").nth(1), wait=40)
+    page.locator("[data-control=view] select").select_option("gains")
+    handle = page.locator(".wmr-slider").first
     handle.focus()
     page.evaluate(MAP_STOPWATCH)
     for _ in range(20):  # of k_rho, which the map does not span, so that each step is another map
@@ -173,7 +174,7 @@ def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
         page.locator(".jp-OutputArea img[src^='data:image/png']").wait_for(timeout=PATIENCE)
         page.locator(".wmr-status:not(:empty)").wait_for(timeout=PATIENCE)
         page.wait_for_timeout(2000)
-        panel = drag(page, page.locator(".wmr-explorer .noUi-handle").nth(1), wait=100)
+        panel = drag(page, page.locator(".wmr-slider").nth(1), wait=100)
         interactive = drag(page, page.locator(".widget-interact .noUi-handle").nth(1), wait=900)
         page.close()
     return panel, interactive

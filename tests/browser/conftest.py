@@ -2,11 +2,7 @@
 
 from __future__ import annotations
 
-from pathlib import Path
-
 import pytest
-
-import wmrlib
 
 FLAGS = [
     "--headless=new",
@@ -89,15 +85,12 @@ def browser_page(browser):
 
 @pytest.fixture
 def panel_core(browser_page):
-    """A `browser_page` with the panel's model and simulation, loaded as one ES module."""
-    from wmrlib import symbolic
+    """A `browser_page` with the panel's model, simulation and axes, loaded as one ES module."""
+    from wmrlib import explorer, symbolic
 
-    panel = Path(wmrlib.__file__).parent / "explorer" / "js"
-    text = "".join(
-        (panel / name).read_text(encoding="utf-8") for name in ("model.js", "simulate.js")
-    )
+    text = explorer.javascript((*explorer.MODEL, "surface"))
     printed = map(symbolic.javascript_name, symbolic.FORMULAS)
-    names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", *printed))
+    names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", "ticksOf", *printed))
     browser_page.goto("about:blank")
     browser_page.add_script_tag(
         type="module", content=f"{text}\nObject.assign(window, {{ {names}, loaded: true }});"

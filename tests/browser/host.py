@@ -1,4 +1,4 @@
-"""A page with an Explorer's panel, and plain inputs in place of its sliders and menus."""
+"""A page with an Explorer's panel and nothing else."""
 
 from __future__ import annotations
 
@@ -10,18 +10,19 @@ HOST = Path(__file__).with_name("host.js").read_text(encoding="utf-8")
 PAGE = "<!doctype html><meta charset='utf-8'><title>panel</title><body style='margin: 0'>"
 FRAMES = """() => new Promise(done =>
     requestAnimationFrame(() => requestAnimationFrame(() => done())))"""
-MAP_IS_DONE = """() => panel.get('view') === 0
+MAP_IS_DONE = """() => panel.get('state').view === 'time'
     || document.querySelector('.wmr-map').dataset.finished === 'true'"""
 PUT = """([name, value]) => {
-    const input = document.querySelector(`[data-control=${name}]`);
-    const shown = input.closest('label').style.display !== 'none';
-    if (!shown) throw new Error(`${name} is hidden`);
+    const row = document.querySelector(`[data-control=${name}]`);
+    if (row.hidden) throw new Error(`${name} is hidden`);
+    const input = row.querySelector('select, .wmr-typed');
     input.value = value;
-    input.dispatchEvent(new Event('input'));
+    if (input.value !== String(value)) throw new Error(`${name} does not offer ${value}`);
+    input.dispatchEvent(new Event('change'));
 }"""
-ENDS = """name => {
-    const it = document.querySelector(`[data-control=${name}]`);
-    return [it.min, it.max];
+SET = """changes => {
+    const values = Object.entries(changes).map(([name, value]) => [name, eval(`(${value})`)]);
+    panel.set('state', {...panel.get('state'), ...Object.fromEntries(values)});
 }"""
 PIXELS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')]
     .map(each => each.toDataURL())"""
@@ -31,54 +32,23 @@ COLOURS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].m
 })"""
 FIGURES = """() => Object.fromEntries([...document.querySelectorAll('[data-figure]')]
     .map(it => [it.dataset.figure, it.children[1].textContent]))"""
-HIDDEN = ("_", "layout", "tabbable", "tooltip", "comm", "keys", "log")
+TRAITS = ("state", "setup", "_esm", "_css")
 
 
-def mounted(page, explorer, width=1280, height=720):
-    """Show the explorer in the page and return the Panel that drives it, once it is drawn."""
+def mounted(page, explorer, width=1280, height=720, url=None):
+    """Show the explorer in the page and return the Panel that drives it, once it is drawn.
+
+    In an empty page, or in the one at `url`.
+    """
     page.set_viewport_size({"width": width, "height": height})
     page.goto("about:blank")  # forgets what was mounted before
-    page.set_content(PAGE)
+    if url:
+        page.goto(url)
+    else:
+        page.set_content(PAGE)
     page.add_script_tag(content=HOST)
-    panel = explorer.panel
-    traits = {
-        name: value for name, value in panel.get_state().items() if not name.startswith(HIDDEN)
-    }
-    page.evaluate(
-        "setup => mount(setup)",
-        {
-            "traits": traits,
-            "controls": _controls(explorer),
-            "module": panel._esm,
-            "css": panel._css,
-        },
-    )
+    page.evaluate("traits => mount(traits)", explorer.get_state(TRAITS))
     return Panel(page).settled()
-
-
-def _controls(explorer) -> list[dict]:
-    ends = [(link.source, link.target) for link in explorer.links]
-    found = []
-    for control in (*explorer.sliders.values(), *explorer.menus.values()):
-        trait = next(target[1] for source, target in ends if source[0] is control)
-        entry = {
-            "name": trait,
-            "text": control.description,
-            "value": getattr(explorer.panel, trait),
-        }
-        entry["display"] = next(
-            (source[1] for source, target in ends if target[0] is control.layout), None
-        )
-        if hasattr(control, "options"):
-            entry["options"] = list(control.options)
-        else:
-            entry |= {
-                "low": control.min,
-                "high": control.max,
-                "log": "Log" in type(control).__name__,
-            }
-        found.append(json.loads(json.dumps(entry)))
-    return found
 
 
 class Panel:
@@ -99,17 +69,23 @@ class Panel:
         self.page.evaluate(PUT, [name, value])
         return self.settled()
 
-    def set(self, **traits):
-        self.page.evaluate(
-            "traits => { for (const name in traits) panel.set(name, traits[name]); }", traits
-        )
+    def set(self, **values):
+        """Change the state, as Python does; a string stands for JavaScript, so that NaN can be."""
+        texts = {
+            name: value if isinstance(value, str) else json.dumps(value)
+            for name, value in values.items()
+        }
+        self.page.evaluate(SET, texts)
         return self.settled()
 
     def get(self, name):
-        return self.page.evaluate("name => panel.get(name)", name)
+        return self.page.evaluate("name => panel.get('state')[name]", name)
 
-    def ends(self, name):
-        return self.page.evaluate(ENDS, name)
+    def control(self, name):
+        return self.page.locator(f"[data-control={name}]")
+
+    def slider(self, name):
+        return self.control(name).locator(".wmr-slider")
 
     def picture(self) -> str:
         """A fingerprint of the pixels of the canvases that are shown."""

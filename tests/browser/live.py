@@ -27,9 +27,15 @@ def chapters() -> list[Path]:
 
 
 def sliders(page) -> list:
-    """The sliders to be seen, once there is one."""
-    page.locator(".noUi-handle:visible").first.wait_for(timeout=PATIENCE)
-    return page.locator(".noUi-handle:visible").all()
+    """The panels' sliders to be seen, once there is one."""
+    page.locator(".wmr-slider:visible").first.wait_for(timeout=PATIENCE)
+    return page.locator(".wmr-slider:visible").all()
+
+
+def thumb(slider) -> tuple[float, float]:
+    """Where the handle of a slider is, which is 24 px wide."""
+    share, box = slider.evaluate("it => it.value / it.max"), slider.bounding_box()
+    return box["x"] + 12 + share * (box["width"] - 24), box["y"] + box["height"] / 2
 
 
 def settled_picture(page) -> str:
@@ -51,9 +57,7 @@ def assert_slider_matters(page, slider) -> None:
     slider.scroll_into_view_if_needed(timeout=PATIENCE)
     before, value = settled_picture(page), slider.get_attribute("aria-valuetext")
     slider.focus()
-    at_the_end = float(slider.get_attribute("aria-valuenow")) >= float(
-        slider.get_attribute("aria-valuemax")
-    )
+    at_the_end = slider.evaluate("it => it.value === it.max")
     page.keyboard.press("ArrowLeft" if at_the_end else "ArrowRight")
     page.wait_for_function(
         f"before => ({PICTURE})() !== before", arg=before, timeout=PATIENCE, polling=100

@@ -10,7 +10,7 @@ from pathlib import Path
 import nbformat
 import pypdfium2
 import pytest
-from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture
+from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders, thumb
 
 READY = os.environ.get("SLIDES")
 pytestmark = [] if READY else pytest.mark.needs("npm")
@@ -147,7 +147,7 @@ def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
     page = opened(with_panel(decks))
     go_to_panel(page)
     where = page.evaluate("deck.getIndices()")
-    assert_slider_matters(page, page.locator(".panel .noUi-handle:visible").first)
+    assert_slider_matters(page, sliders(page)[0])
     assert page.evaluate("deck.getIndices()") == where
     page.keyboard.press("Escape")
     page.keyboard.press("ArrowRight")
@@ -161,22 +161,21 @@ def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
 def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
     page = opened(with_panel(decks), size)
     go_to_panel(page)
-    slider = page.locator(".panel .noUi-handle:visible").first
-    for handle, (right, up) in (
-        (slider, (60, 0)),
-        (page.locator(".wmr-handle:visible").first, (40, 20)),
-    ):
-        before, box = settled_picture(page), handle.bounding_box()
-        x, y = box["x"] + box["width"] / 2, box["y"] + box["height"] / 2
+    slider, goal = sliders(page)[0], page.locator(".wmr-handle:visible").first
+
+    def drag(x, y, right, up):
+        before = settled_picture(page)
         page.mouse.move(x, y)
         page.mouse.down()
         page.mouse.move(x + right, y - up, steps=5)
         page.mouse.up()
         assert settled_picture(page) != before
-        if handle is slider:
-            assert handle.bounding_box()["x"] - box["x"] == pytest.approx(
-                right, abs=6
-            )  # it stays under the pointer
+
+    x, y = thumb(slider)
+    drag(x, y, 25, 0)
+    assert thumb(slider)[0] - x == pytest.approx(25, abs=3)  # it stays under the pointer
+    box = goal.bounding_box()
+    drag(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 40, 20)
 
 
 def test_the_speakers_view_shows_the_notes_from_the_disk_and_each_formula_once(decks, opened):

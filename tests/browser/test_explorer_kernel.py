@@ -79,6 +79,20 @@ def assert_python_sees(page, *words: str) -> None:
     raise AssertionError(f"{words} were not seen, but {said}")
 
 
+def assert_all_in_view(page) -> None:
+    """In a window of 1440 by 900 the panel needs no scrolling, once its cell is at the top."""
+    page.set_viewport_size({"width": 1440, "height": 900})
+    root = page.locator(".wmr")
+    root.scroll_into_view_if_needed()
+    page.wait_for_timeout(300)
+    box = root.bounding_box()
+    room = page.locator(".jp-WindowedPanel-outer, .jp-Notebook").first.bounding_box()
+    assert box["height"] <= room["height"]
+    assert box["width"] <= room["width"]
+    scrolls = "it => it.scrollHeight > it.clientHeight + 1 || it.scrollWidth > it.clientWidth + 1"
+    assert not page.locator(".jp-OutputArea-output:has(.wmr)").evaluate(scrolls)
+
+
 def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page):
     page = browser_page
     page.goto(f"{lab}lab/tree/panel.ipynb?token={TOKEN}", timeout=PATIENCE)
@@ -88,68 +102,39 @@ def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page
     status.wait_for(timeout=PATIENCE)
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
 
-    assert page.locator(".noUi-handle").count() == 8
-    assert (
-        page.locator(
-            ".noUi-handle:not([aria-label]), .wmr-controls select:not([aria-label])"
-        ).count()
-        == 0
-    )
+    assert page.locator(".wmr-slider:not([aria-label]), .wmr select:not([aria-label])").count() == 0
+    assert_all_in_view(page)
 
-    before = status.inner_text()
-    page.locator(".noUi-handle").nth(1).focus()
-    for _ in range(3):
-        page.keyboard.press("ArrowRight")
-    page.wait_for_function(
-        "before => document.querySelector('.wmr-status').textContent !== before",
-        arg=before,
-        timeout=PATIENCE,
-    )
-    assert_python_sees(page, "k_rho=2.0, k_alpha=1.03, h=0.3")
+    def assert_said_anew(act) -> None:
+        before = status.inner_text()
+        act()
+        said = "before => document.querySelector('.wmr-status').textContent !== before"
+        page.wait_for_function(said, arg=before, timeout=PATIENCE)
 
-    before = status.inner_text()
-    page.locator(".wmr-map[data-finished=true]").click(
-        position={"x": 250, "y": 100}, timeout=PATIENCE
-    )
-    page.wait_for_function(
-        "before => document.querySelector('.wmr-status').textContent !== before",
-        arg=before,
-        timeout=PATIENCE,
-    )
-    clicked = float(page.locator(".wmr-explorer .widget-readout").nth(1).inner_text())
-    assert clicked != 1.03
+    page.locator("[data-control=k_alpha] .wmr-slider").focus()
+    assert_said_anew(lambda: [page.keyboard.press("ArrowRight") for _ in range(3)])
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.15, h=0.3")
+
+    chart = page.locator(".wmr-map[data-finished=true]")
+    assert_said_anew(lambda: chart.click(position={"x": 250, "y": 100}, timeout=PATIENCE))
+    clicked = float(page.locator("[data-control=k_alpha] .wmr-typed").input_value())
+    assert clicked != 1.15
     assert_python_sees(page, f"k_alpha={clicked},")
 
+    typed = page.locator("[data-control=h] .wmr-typed")
     run(page, 2)
     page.wait_for_function(
-        "() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '2.5'",
+        "() => document.querySelector('[data-control=h] .wmr-typed').value === '2.5'",
         timeout=PATIENCE,
     )
-    assert [
-        handle.get_attribute("aria-valuenow") for handle in page.locator(".noUi-handle").all()[:3]
-    ] == ["1.5", "4.0", "2.5"]
     assert_python_sees(page, "k_rho=1.5, k_alpha=4.0, h=2.5", "aicardi")
 
-    for typed, taken in [("3.21", "3.21"), ("nan", "3.21"), ("-7", "0.00"), ("1e9", "10.00")]:
-        readout = page.locator(".wmr-explorer .widget-readout").nth(1)
-        readout.click()
-        page.keyboard.press("ControlOrMeta+a")
-        page.keyboard.type(typed)
-        page.keyboard.press("Enter")
-        assert readout.inner_text() == taken
-        status = page.locator(".wmr-status")
-        if typed == "nan":
-            status.filter(
-                has_text="k_alpha [1/s] = nan is not allowed: a number is needed"
-            ).wait_for(timeout=PATIENCE)
-        else:
-            status.filter(has_not_text="not allowed").wait_for(timeout=PATIENCE)
-    assert_python_sees(page, "k_alpha=10.0,")
+    typed.click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.type("3.21")
+    page.keyboard.press("Enter")
+    assert_python_sees(page, "h=3.21")
 
     page.locator("[data-do=reset]").click()
-    page.wait_for_function(
-        "() => document.querySelectorAll('.noUi-handle')[2].ariaValueNow === '0.3'",
-        timeout=PATIENCE,
-    )
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
     page.assert_quiet()

@@ -2,31 +2,86 @@
 
 from __future__ import annotations
 
+import csv
 import math
+import re
 
+import numpy as np
 import pytest
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
-from host import mounted
+from host import PAGE, mounted
 
 import wmrlib as wmr
 from wmrlib.explorer import Explorer
-from wmrlib.explorer.controls import laws_for
+from wmrlib.explorer.controls import MENUS, METHODS, SLIDERS, laws_for
 
-POSE_SLIDERS = ("k_rho", "k_alpha", "h", "v_max", "dt")
+POSE_SLIDERS = ("k_rho", "k_alpha", "h", "v_max", "dt", "arrival_radius")
 CIRCLE_SLIDERS = ("k_x", "k_y", "k_heading")
 HANDLES = [(pose, part) for pose in ("start", "goal") for part in ("move", "turn")]
+SIZES = [(320, 700), (390, 844), (688, 672), (936, 672), (1000, 760), (1260, 700), (1890, 1040)]
 
 
 BOXES = """() => {
-    const parts = '.wmr-bar, .wmr-status, .wmr-figures > div, .wmr-stage > div';
-    return [...document.querySelectorAll(parts)].map((each) => {
+    const parts = '.wmr-bar, .wmr-status, .wmr-figures > div, .wmr-control, .wmr-stage canvas';
+    return [...document.querySelectorAll(parts)].filter((each) => each.checkVisibility()
+        && !each.matches('.wmr-zoom')).map((each) => {
         const box = each.getBoundingClientRect();
         return [box.left, box.top, box.right, box.bottom];
     });
 }"""
-CLIPPED = """() => [...document.querySelectorAll('.wmr-figures .wmr-value')]
-    .filter((it) => it.scrollWidth > it.clientWidth).length"""
+CLIPPED = """() => [...document.querySelectorAll('.wmr-value, .wmr-control span, .wmr-bar button')]
+    .filter((it) => it.scrollWidth > it.clientWidth && it.checkVisibility()
+        && getComputedStyle(it).display !== 'inline').length"""
+SMALL = """() => [...document.querySelectorAll('.wmr button, .wmr input, .wmr select')]
+    .filter((it) => it.checkVisibility()).map((it) => [it, it.getBoundingClientRect()])
+    .filter(([, box]) => box.width < 24 || box.height < 24).map(([it]) => it.outerHTML)"""
+CONTRASTS = """() => {
+    const root = document.querySelector('.wmr'), style = getComputedStyle(root);
+    const light = (name) => {
+        const rgb = style.getPropertyValue(name).trim().match(/[0-9a-f]{2}/g);
+        const [r, g, b] = rgb.map((each) => parseInt(each, 16) / 255)
+            .map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
+        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
+    };
+    const paper = light('--paper'), against = (name) => {
+        const [low, high] = [light(name), paper].sort((a, b) => a - b);
+        return (high + 0.05) / (low + 0.05);
+    };
+    return ['--soft', '--focus', '--start', '--goal', '--path', '--alpha', '--theta', '--rising']
+        .map(against);
+}"""
+# Presses an arrow key until the slider is at its end.
+WALK = """name => {
+    const slider = document.querySelector(`[data-control=${name}] .wmr-slider`), stops = [];
+    while (slider.value !== slider.max && stops.length < 1000) {
+        slider.dispatchEvent(new KeyboardEvent('keydown', { key: 'ArrowRight' }));
+        stops.push(panel.get('state')[name]);
+    }
+    return stops;
+}"""
+# The text beside the axes, read from what is drawn: each canvas is drawn anew with a pen that keeps
+# the words and where they stand.
+WORDS = """async () => {
+    const words = [], pen = CanvasRenderingContext2D.prototype, plain = pen.fillText;
+    pen.fillText = function (text, ...at) {
+        words.push([this.canvas.className, this.textAlign, text]);
+        plain.call(this, text, ...at);
+    };
+    document.querySelector('.wmr-time').dispatchEvent(new Event('input'));
+    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    pen.fillText = plain;
+    return words;
+}"""
+# The strips above the charts, where their titles stand, as pixels.
+TITLES = """() => {
+    const canvas = document.querySelector('.wmr-charts'), ratio = canvas.width / canvas.clientWidth;
+    const ctx = canvas.getContext('2d'), each = (canvas.clientHeight - 22 - 42 - 72) / 4;
+    return [0, 1, 2, 3].map((i) => {
+        const top = (22 + i * (each + 24) - 18) * ratio;
+        return ctx.getImageData(0, top, canvas.width, 14 * ratio).data.join();
+    });
+}"""
 
 
 def assert_sound(panel):
@@ -39,71 +94,85 @@ def assert_sound(panel):
     assert all(panel.figures().values())
 
 
+def ends(name):
+    return SLIDERS[name][2:4]
+
+
 def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_sound(browser_page):
     for explorer, names in (
         (Explorer(), POSE_SLIDERS),
         (Explorer.circle(law="kanayama"), CIRCLE_SLIDERS),
     ):
         panel = mounted(browser_page, explorer)
-        home = explorer.panel.home
         for name in names:
             picture, figures = panel.picture(), panel.figures()
-            for end in panel.ends(name):
-                panel.put(name, end)
+            for end, key in zip(ends(name), ("Home", "End"), strict=True):
+                panel.slider(name).press(key)
+                panel.settled()
+                assert panel.get(name) == end
                 assert panel.picture() != picture, name
                 assert panel.figures() != figures, name
                 assert not panel.troubled()
                 assert_sound(panel)
                 picture, figures = panel.picture(), panel.figures()
-            panel.set(**{name: home[name]})
+            panel.set(**{name: explorer.state[name]})
 
 
 def test_every_slider_at_both_ends_on_the_circle_is_sound(browser_page):
     for law in laws_for(moving=True):
-        panel = mounted(browser_page, Explorer.circle(law=law["name"]))
-        for name in (*law["gains"], "dt"):
-            for end in panel.ends(name):
-                assert_sound(panel.put(name, end))
+        panel = mounted(browser_page, Explorer.circle(law=law))
+        for name in SLIDERS:
+            if panel.control(name).is_visible():
+                for end in ends(name):
+                    assert_sound(panel.put(name, end))
 
 
 def test_every_choice_of_every_menu_changes_the_picture_and_the_figures(browser_page):
     still, circle = Explorer(gains=wmr.Gains(1.0, 3.0, 1.0)), Explorer.circle()
-    menus = ("pose_law", still), ("circle_law", circle), ("method", still), ("preset", still)
-    for name, explorer in menus:
+    menus = ("law", still, laws_for(False)), ("law", circle, laws_for(True))
+    menus += ("method", still, METHODS), ("preset", still, MENUS["preset"][2])
+    for name, explorer, choices in menus:
         panel = mounted(browser_page, explorer)
-        choices = browser_page.locator(f"[data-control={name}] option").count()
-        assert choices == len(explorer.menus[name].options)
-        first, seen = panel.get(name), {panel.picture(): str(panel.figures())}
-        for choice in set(range(choices)) - {first}:
+        select = panel.control(name).locator("select")
+        offered = select.locator("option").evaluate_all("them => them.map(it => it.value)")
+        assert offered == [*map(str, choices)]
+        first, seen = select.input_value(), {panel.picture(): str(panel.figures())}
+        for choice in set(offered) - {first}:
             panel.put(name, choice)
             assert_sound(panel)
             seen[panel.picture()] = str(panel.figures())
-        assert len(seen) == len(set(seen.values())) == choices, name
+        assert len(seen) == len(set(seen.values())) == len(offered), name
 
 
-def test_every_map_is_another_picture(browser_page):
+def test_every_map_is_another_picture_and_shows_what_it_does_not_span(browser_page):
     panel = mounted(browser_page, Explorer())
     seen = {panel.picture()}
-    panel.put("view", 1)
-    for axes in (0, 1):
-        for metric in (0, 1, 2):
+    panel.put("view", "gains")
+    for axes in MENUS["axes"][2]:
+        for metric in MENUS["metric"][2]:
             panel.put("axes", axes).put("metric", metric)
             assert_sound(panel)
             seen.add(panel.picture())
     assert len(seen) == 7
-
-
-def test_a_slider_that_the_map_does_not_span_changes_the_map(browser_page):
-    panel = mounted(browser_page, Explorer(view="gains"))
-    before = panel.picture()
-    assert panel.put("k_rho", 0.5).picture() != before
-
-
-def test_the_map_of_the_circle_and_of_the_law_with_feed_forward(browser_page):
+    assert panel.put("v_max", 1.0).picture() not in seen
     panel = mounted(browser_page, Explorer.circle(view="gains", dt=0.5))
     assert_sound(panel)
-    panel.put("circle_law", 3)
-    assert_sound(panel)
+    assert_sound(panel.put("law", "kanayama"))
+
+
+def test_a_map_is_computed_beside_the_page_and_in_it_only_where_that_is_forbidden(browser_page):
+    browser_page.add_init_script("Worker.prototype.postMessage = () => { window.asked = true; };")
+    panel = mounted(browser_page, Explorer())
+    panel.control("view").locator("select").select_option("gains")
+    browser_page.wait_for_function("window.asked")
+    figures = panel.figures()
+    panel.control("k_rho").locator(".wmr-slider").press("ArrowLeft")
+    browser_page.wait_for_timeout(200)
+    assert browser_page.locator(".wmr-map").get_attribute("data-finished") == "false"
+    assert panel.figures() != figures
+    explorer = Explorer(view="gains")
+    explorer._esm = explorer._esm.replace("new Blob([script]", "new Blob(['throw 1']")
+    assert_sound(mounted(browser_page, explorer))
 
 
 def test_every_handle_can_be_dragged_and_obeys_the_keyboard(browser_page):
@@ -148,10 +217,10 @@ def test_a_drag_of_sixty_events_leaves_no_backlog(browser_page):
     panel = mounted(browser_page, Explorer())
     drawings = browser_page.evaluate(
         """async () => {
-            const input = document.querySelector('[data-control=k_alpha]');
+            const input = document.querySelector('[data-control=k_alpha] .wmr-slider');
             drawings = 0;
             for (let i = 1; i <= 60; i += 1) {
-                input.value = i / 10;
+                input.value = 2 * i;
                 input.dispatchEvent(new Event('input'));
             }
             await new Promise(done => setTimeout(done, 300));
@@ -159,6 +228,7 @@ def test_a_drag_of_sixty_events_leaves_no_backlog(browser_page):
         }"""
     )
     assert drawings == 1
+    assert panel.get("k_alpha") == 6.0
     dragged, figures = panel.picture(), panel.figures()
     panel.put("k_alpha", 1.0)
     assert panel.put("k_alpha", 6.0).picture() == dragged
@@ -168,22 +238,17 @@ def test_a_drag_of_sixty_events_leaves_no_backlog(browser_page):
 def test_an_absurd_value_is_answered_in_the_panel(browser_page):
     panel = mounted(browser_page, Explorer())
     good = panel.picture()
-    for trait in (*POSE_SLIDERS, "start", "goal", "duration", "arrival_radius"):
-        before = panel.get(trait)
+    for name in (*POSE_SLIDERS, "start", "goal", "duration"):
+        before = panel.get(name)
         for value in ("NaN", "null", "Infinity", "-1e300", "'text'", "undefined"):
-            absurd = f"[0, {value}, 0]" if trait in ("start", "goal") else value
-            browser_page.evaluate(f"trait => panel.set(trait, {absurd})", trait)
-            panel.settled()
-            assert panel.troubled(), (trait, value)
+            panel.set(**{name: f"[0, {value}, 0]" if name in ("start", "goal") else value})
+            assert panel.troubled(), (name, value)
             assert min(panel.colours()) > 10
-            panel.set(**{trait: before})
+            panel.set(**{name: before})
             assert not panel.troubled()
         assert panel.picture() == good
-
-
-def test_a_panel_that_begins_with_an_absurd_value_is_not_blank(browser_page):
     explorer = Explorer()
-    explorer.panel.k_rho = -1.0
+    explorer.state = explorer.state | {"k_rho": -1.0}  # and one that it begins with
     panel = mounted(browser_page, explorer)
     assert panel.troubled()
     assert min(panel.colours()) > 10
@@ -195,7 +260,8 @@ def test_a_start_on_the_goal_and_one_far_from_it(browser_page):
         panel = mounted(browser_page, Explorer(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(*goal)))
         assert not panel.troubled()
         assert_sound(panel)
-        assert_sound(panel.put("view", 1))
+        assert_sound(panel.put("method", "continuous"))
+        assert_sound(panel.put("view", "gains"))
         assert panel.drag(panel.handle("start", "turn"), 10, 30).get("start")[2] != 0.0
 
 
@@ -243,21 +309,27 @@ def test_the_cursor_follows_the_pointer_on_the_charts_and_the_keyboard(browser_p
     assert browser_page.locator(".wmr-polar").inner_text() != polar
 
 
-def test_a_pinned_run_stays_as_a_ghost_until_it_is_unpinned_and_reset_returns_home(browser_page):
+def test_a_pinned_run_stays_as_a_ghost_until_it_is_unpinned(browser_page):
     panel = mounted(browser_page, Explorer())
-    home, figures = panel.picture(), panel.figures()
+    figures = panel.figures()
     panel.click("pin").put("k_alpha", 4.0)
-    assert (
-        figures["arrival"] in browser_page.locator("[data-figure=arrival] .wmr-pinned").inner_text()
-    )
+    old = browser_page.locator("[data-figure=arrival] .wmr-pinned").inner_text()
+    assert figures["arrival"] in old
     with_ghost = panel.picture()
     assert panel.click("unpin").picture() != with_ghost
-    panel.drag(panel.handle("start", "move"), 30, 0)
-    panel.put("preset", 2)
-    panel.click("reset")
-    assert panel.picture() == home
-    assert panel.figures() == figures
-    assert panel.get("preset") == 1
+
+
+def test_reset_is_the_loaded_state_whatever_was_done(browser_page):
+    for options in ({"at": 3.0, "zoom": 5.0, "law": "printed", "view": "gains"}, {}):
+        panel = mounted(browser_page, Explorer(**options))
+        home, state = panel.picture(), browser_page.evaluate("panel.get('state')")
+        panel.click("pin").click("in").drag(panel.handle("start", "move"), 30, 0)
+        panel.put("view", "gains").put("metric", "time").put("axes", "k_rho").put("view", "time")
+        panel.put("method", "euler").put("preset", 2)
+        panel.drag(browser_page.locator(".wmr-charts"), 60, 0)
+        panel.drag(browser_page.locator(".wmr-scene"), 40, 10)
+        assert panel.click("reset").picture() == home
+        assert browser_page.evaluate("panel.get('state')") == state
 
 
 def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(browser_page):
@@ -267,9 +339,8 @@ def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(browser_page):
     panel.settled()
     assert panel.get("k_alpha") != 1.0
     assert panel.get("h") != 0.3
-    assert float(browser_page.locator("[data-control=k_alpha]").input_value()) == pytest.approx(
-        panel.get("k_alpha")
-    )
+    typed = panel.control("k_alpha").locator(".wmr-typed").input_value()
+    assert float(typed) == pytest.approx(panel.get("k_alpha"))
     assert panel.picture() != picture
     assert panel.figures() != figures
     h = panel.get("h")
@@ -277,16 +348,20 @@ def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(browser_page):
     assert panel.settled().get("h") == pytest.approx(h - 0.05)
 
 
-def test_presets_show_which_one_is_in_force(browser_page):
+def test_presets_show_which_one_is_in_force_and_bring_their_scene(browser_page):
     panel = mounted(browser_page, Explorer())
-    assert panel.get("preset") == 1
-    assert panel.put("h", 1.0).get("preset") == 0
-    panel.put("preset", 3)
+    chosen = panel.control("preset").locator("select")
+    assert chosen.input_value() == "1"
+    panel.put("h", 1.0)
+    assert chosen.input_value() == "0"
+    start = panel.put("preset", 3).get("start")
     assert [panel.get(name) for name in ("k_rho", "k_alpha", "h")] == [0.2, 2.0, 2.0]
-    assert panel.get("preset") == 3
+    assert chosen.input_value() == "3"
     panel.put("preset", 2)
-    assert panel.get("scenario") == 1
+    assert panel.get("moving")
     assert panel.figures()["arrival"] == "0.090 m"  # the paper's "converges to 0.1 m"
+    panel.put("law", "kanayama").put("preset", 3)
+    assert (panel.get("start"), panel.get("law")) == (start, "corrected")
 
 
 def test_light_and_dark_follow_the_page_and_the_system(browser_page):
@@ -320,10 +395,13 @@ def test_a_page_that_hides_the_panel_while_it_changes_its_theme_finds_it_whole_a
     assert panel.settled().picture() == picture
 
 
-def test_nothing_is_cut_off_or_overlaps_at_any_width(browser_page):
-    for width in (320, 400, 760, 1280, 1920):
-        panel = mounted(browser_page, Explorer(), width=width)
+@pytest.mark.parametrize("view", ["time", "gains"])
+def test_all_is_in_view_and_nothing_is_cut_off_overlaps_or_is_small(browser_page, view):
+    for width, height in SIZES:
+        panel = mounted(browser_page, Explorer(view=view), width, height)
         assert browser_page.evaluate("() => document.documentElement.scrollWidth") <= width
+        if width >= 600:
+            assert browser_page.evaluate("() => document.body.scrollHeight") <= height
         boxes = browser_page.evaluate(BOXES)
         for i, (left, top, right, bottom) in enumerate(boxes):
             assert left >= 0
@@ -332,19 +410,180 @@ def test_nothing_is_cut_off_or_overlaps_at_any_width(browser_page):
                 beside = right <= other[0] + 0.5 or other[2] <= left + 0.5
                 assert beside or bottom <= other[1] + 0.5 or other[3] <= top + 0.5, width
         assert browser_page.evaluate(CLIPPED) == 0
+        assert browser_page.evaluate(SMALL) == []
         assert_sound(panel)
 
 
-def test_a_screen_reader_finds_names_and_a_summary(browser_page):
-    panel = mounted(browser_page, Explorer())
+@pytest.mark.parametrize("height", [844, 600])
+def test_on_a_phone_the_picture_stays_in_view_while_any_slider_moves(browser_page, height):
+    panel = mounted(browser_page, Explorer(), 390, height)
+    for name in POSE_SLIDERS:
+        slider, scene = panel.slider(name), browser_page.locator(".wmr-scene")
+        slider.evaluate("it => it.scrollIntoView({ block: 'end' })")
+        box, seen = slider.bounding_box(), scene.bounding_box()
+        assert seen["y"] >= 0
+        assert seen["y"] + seen["height"] <= box["y"]
+        assert box["y"] + box["height"] <= height
+
+
+def test_colours_can_be_told_from_their_ground(browser_page):
+    for scheme in ("light", "dark"):
+        browser_page.emulate_media(color_scheme=scheme)
+        mounted(browser_page, Explorer())
+        assert min(browser_page.evaluate(CONTRASTS)) >= 3.0, scheme
+
+
+def test_names_and_values_of_all_controls_are_spoken(browser_page):
+    panel = mounted(browser_page, Explorer(view="gains"))
     assert "Arrives after" in browser_page.locator(".wmr-scene").get_attribute("aria-label")
     assert browser_page.locator(".wmr canvas[role=img][aria-label]").count() == 3
     assert browser_page.locator(".wmr-handle[aria-label*='arrow keys']").count() == 4
+    for name, (text, tip, *_) in {**MENUS, **SLIDERS}.items():
+        control = panel.control(name).locator("select, .wmr-slider")
+        label = control.get_attribute("aria-label")
+        assert text.split(" [")[0] in label
+        assert tip in label
+    spoken = {"k_alpha": "1 per s", "h": "0.3", "v_max": "4 m/s", "dt": "0.1 s"}
+    for name, said in spoken.items():
+        assert panel.slider(name).get_attribute("aria-valuetext") == said
     panel.put("k_alpha", 3.0)
     browser_page.wait_for_function("""() => {
         const text = (it) => document.querySelector(it).textContent;
         return text('[aria-live]') === text('.wmr-status');
     }""")
+
+
+def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(browser_page):
+    panel = mounted(browser_page, Explorer())
+    for name, value in (("dt", 0.5), ("dt", 0.037), ("k_alpha", 1.037), ("arrival_radius", 0.0)):
+        panel.put(name, value)
+        assert panel.get(name) == value
+        assert panel.slider(name).get_attribute("aria-valuetext").split()[0] == f"{value:g}"
+        assert float(panel.control(name).locator(".wmr-typed").input_value()) == value
+    for name in POSE_SLIDERS:
+        low, high = ends(name)
+        panel.put(name, low)
+        stops = browser_page.evaluate(WALK, name)
+        assert stops == sorted(set(stops))
+        assert stops[-1] == high
+        assert len(stops) <= 200
+        if SLIDERS[name][4] is None:
+            assert {0.02, 0.05, 0.1, 0.2, 0.5, 1.0} <= set(stops)
+        else:
+            assert sum(1.0 < each <= 2.0 for each in stops) <= 20
+    typed = panel.control("h").locator(".wmr-typed")
+    for text, taken in (("nan", 5.0), ("", 5.0), ("1,5", 1.5), ("7", 7.0)):
+        typed.fill(text)
+        typed.press("Enter")
+        assert panel.settled().get("h") == taken
+        assert panel.troubled() == (text in ("nan", ""))
+        assert typed.input_value() == f"{taken:g}"
+
+
+def test_axes_have_two_numbers_at_least_and_the_cursor_leaves_the_titles_alone(browser_page):
+    for gains in (
+        wmr.Gains(2.0, 1.0, 0.3),
+        wmr.Gains(0.1, 3.0, 0.1, 0.9),
+        wmr.Gains(4.0, 9.0, 5.0),
+    ):
+        for width in (320, 936):
+            panel = mounted(browser_page, Explorer(gains=gains), width)
+            for act in ("out", "near", "in"):
+                panel.click(act)
+                words = browser_page.evaluate(WORDS)
+                for side in ("center", "right"):
+                    numbers = {
+                        text
+                        for canvas, align, text in words
+                        if "scene" in canvas and align == side and re.fullmatch(r"[\d.\We]+", text)
+                    }
+                    assert len(numbers) >= 2, (gains, width, act, words)
+            assert sum(align == "right" for canvas, align, _ in words if "charts" in canvas) >= 8
+    strips = []
+    for place in (66, 72, 90):  # within the words of the titles
+        browser_page.locator(".wmr-charts").click(position={"x": place, "y": 60})
+        panel.settled()
+        strips.append(browser_page.evaluate(TITLES))
+    assert strips[0] == strips[1] == strips[2]
+
+
+def test_the_picture_zooms_by_buttons_and_wheel_and_leaves_the_page_its_scrolling(browser_page):
+    panel = mounted(browser_page, Explorer(method="continuous"), 936, 400)
+    whole, scene = panel.picture(), browser_page.locator(".wmr-scene")
+    assert panel.click("near").picture() != whole
+    near = panel.page.locator(".wmr-handle[data-pose=goal][data-part=move]").bounding_box()
+    box = scene.bounding_box()
+    across = (near["x"] + 15 - box["x"]) / box["width"]
+    assert 0.4 < across < 0.7  # the goal is in the middle
+    assert panel.click("near").picture() == whole
+    zoomed = panel.click("in").picture()
+    assert panel.click("out").page.evaluate("scrollY") == 0
+    scene.hover(position={"x": 100, "y": 100})
+    browser_page.mouse.wheel(0, 60)
+    browser_page.wait_for_function("scrollY > 0")
+    picture = panel.settled().picture()
+    browser_page.keyboard.down("Control")
+    before = browser_page.evaluate("scrollY")
+    browser_page.mouse.wheel(0, -120)
+    browser_page.keyboard.up("Control")
+    browser_page.wait_for_timeout(100)
+    assert browser_page.evaluate("scrollY") == before
+    assert panel.settled().picture() not in (picture, zoomed)
+    picture = panel.picture()
+    assert panel.drag(scene, 30, 10).picture() != picture
+
+
+RUNS = [
+    Explorer(method="continuous", gains=wmr.Gains(0.7, 3.0, 1.5, 2.0), arrival_radius=0.2),
+    Explorer(wmr.Pose(1.0, -2.0, 3.0), law="printed", method="euler", duration=7.5),
+    Explorer.circle(law="aicardi"),
+    Explorer.circle(law="kanayama", dt=0.05),
+]
+
+
+def test_a_run_can_be_taken_along_as_python_table_and_picture(browser_page, tmp_path):
+    for explorer in RUNS:
+        panel = mounted(browser_page, explorer)
+        panel.put("dt", 0.05)
+        explorer.dt = 0.05
+        panel.click("python")
+        text = browser_page.locator(".wmr-text").input_value()
+        space = {}
+        exec(text.replace("print(", "("), space)
+        ours, theirs = explorer.trajectory(), space["run"]
+        assert (theirs.law, theirs.method) == (ours.law, ours.method)
+        np.testing.assert_array_equal([theirs.x, theirs.omega], [ours.x, ours.omega])
+        with browser_page.expect_download() as saved:
+            browser_page.locator("[data-do=csv]").click()
+        rows = list(csv.DictReader(saved.value.path().read_text(encoding="utf-8").splitlines()))
+        assert len(rows) == len(ours)
+        for name in ("t", "x", "y", "rho", "v", "omega", "V"):
+            column = [float(row[name]) for row in rows]
+            np.testing.assert_allclose(column, getattr(ours, name), rtol=1e-6, atol=1e-6)
+    with browser_page.expect_download() as saved:
+        browser_page.locator("[data-do=png]").click()
+    assert saved.value.path().read_bytes().startswith(b"\x89PNG")
+    assert saved.value.suggested_filename == "run.png"
+
+
+def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page, tmp_path):
+    page = tmp_path / "page.html"
+    page.write_text(PAGE, encoding="utf-8")
+    ours, other = Explorer(), Explorer(method="continuous")
+    panel = mounted(browser_page, ours, url=page.as_uri())
+    untouched = panel.figures()
+    panel.put("k_alpha", 2.5).put("law", "printed").drag(panel.handle("start", "turn"), 9, 9)
+    panel.click("near").drag(browser_page.locator(".wmr-charts"), 60, 0)
+    picture, figures = panel.picture(), panel.figures()
+    link = panel.click("link").page.evaluate("location.href")
+    assert link.startswith(f"{page.as_uri()}#")
+    again = mounted(browser_page, ours, url=link)
+    assert (again.picture(), again.figures()) == (picture, figures)
+    assert again.click("reset").figures() == untouched
+    away = mounted(browser_page, other, url=page.as_uri()).picture()
+    assert mounted(browser_page, other, url=link).picture() == away
+    nonsense = link.replace("law=%22printed%22", "law=5&k_rho=x&unknown=1")
+    assert mounted(browser_page, ours, url=nonsense).troubled()
 
 
 def test_a_view_that_is_closed_answers_no_more(browser_page):
@@ -353,7 +592,7 @@ def test_a_view_that_is_closed_answers_no_more(browser_page):
         """() => {
             unmount();
             drawings = 0;
-            panel.set('k_rho', 1);
+            panel.set('state', {...panel.get('state'), k_rho: 1});
             document.documentElement.dataset.theme = 'dark';
         }"""
     )

@@ -68,7 +68,7 @@ def test_wrap_is_exact(panel_core):
     ]
 
 
-@pytest.mark.parametrize("method", ["arc", "euler"])
+@pytest.mark.parametrize("method", ["arc", "euler", "continuous"])
 @pytest.mark.parametrize("law", ["corrected", "printed", "aicardi"])
 def test_maps_equal_a_sweep(panel_core, law, method):
     low_high = {"k_rho": (0.005, 0.5), "k_alpha": (0.3, 4.0), "h": (0.1, 3.0), "v_max": (0.5, 4.0)}
@@ -146,6 +146,19 @@ def test_modes_equal_wmrlib(panel_core):
     )
 
 
+def test_an_axis_has_two_round_numbers_at_least(panel_core):
+    random = np.random.default_rng(3)
+    ends = np.sort(random.normal(size=(500, 2)) * 10.0 ** random.uniform(-4, 5, (500, 1)))
+    asked = [[*row, most] for row in ends.tolist() for most in (0.5, 2, 3, 5)]
+    call = "(asked) => asked.map((each) => ticksOf(...each).ticks)"
+    for (low, high, _), ticks in zip(asked, panel_core.evaluate(call, asked), strict=True):
+        assert len(ticks) >= 2, (low, high)
+        slack = 1e-6 * (high - low)
+        assert low - slack <= min(ticks) < max(ticks) <= high + slack
+        step = ticks[1] - ticks[0]
+        assert round(step / 10.0 ** math.floor(math.log10(step) + 1e-9), 6) in (1, 2, 5)
+
+
 def test_lent_memory_does_not_change_a_run(panel_core):
     shown = "JSON.stringify(run, (_, value) => (ArrayBuffer.isView(value) ? [...value] : value))"
     text = f"(options) => {{ const run = simulate(options); return {shown}; }}"
@@ -191,7 +204,7 @@ BAD_INPUT = [
     ),
     ({"law": "kanayama"}, "law = kanayama is not allowed: one of corrected, printed, aicardi"),
     ({"law": "toString"}, "law = toString is not allowed"),
-    ({"method": "rk4"}, "method = rk4 is not allowed: one of euler, arc"),
+    ({"method": "rk4"}, "method = rk4 is not allowed: one of euler, arc, continuous"),
     ({"reference": "square"}, "reference = square is not allowed: null or 'circle'"),
     ({"arrivalRadius": -0.1}, "arrivalRadius = -0.1 is not allowed"),
     (

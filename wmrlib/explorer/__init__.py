@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from pathlib import Path
 from typing import Any
 
 from wmrlib import paper
@@ -14,20 +14,28 @@ from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate, track
 
 with book_extra("wmrlib.explorer"):
-    import ipywidgets as widgets
+    import anywidget
+    import traitlets
 
-    from wmrlib.explorer import controls
-    from wmrlib.explorer.controls import METHODS, SLIDERS, laws_for, widen
-    from wmrlib.explorer.panel import Panel
+from wmrlib.explorer.controls import MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS, laws_for
 
-VIEWS = ("time", "gains")
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
+_PARTS = Path(__file__).parent / "js"
+# One module out of several files: a page without a kernel can load no second one.
+MODEL = "model", "continuous", "simulate"
+_PICTURE = "style", "surface", "settings", "controls", "figures", "scene", "handles", "charts"
+_ORDER = *MODEL, *_PICTURE, "gain_map", "share", "explorer"
+
+
+def javascript(parts: tuple[str, ...] = _ORDER) -> str:
+    """The panel's ES module, put together from the files in wmrlib/explorer/js."""
+    return "\n".join((_PARTS / f"{name}.js").read_text(encoding="utf-8") for name in parts)
 
 
 def _tuned(name: str, kind: Any, says: str) -> property:
     return property(
-        lambda self: kind(*(self.sliders[field].value for field in kind._fields)),
+        lambda self: kind(*(self.state[field] for field in kind._fields)),
         lambda self, gains: self._set(_numbers(name, gains, kind)),
         doc=says,
     )
@@ -35,13 +43,13 @@ def _tuned(name: str, kind: Any, says: str) -> property:
 
 def _placed(name: str, says: str) -> property:
     return property(
-        lambda self: Pose(*getattr(self.panel, name)),
-        lambda self, pose: setattr(self.panel, name, _three(name, pose)),
+        lambda self: Pose(*self.state[name]),
+        lambda self, pose: self._set({name: _three(name, pose)}),
         doc=says,
     )
 
 
-class Explorer(widgets.VBox):
+class Explorer(anywidget.AnyWidget):
     """The robot on its way from `start` to `goal`, or after the paper's circle, under sliders.
 
     Everything but `trajectory` works without a kernel too.
@@ -50,16 +58,23 @@ class Explorer(widgets.VBox):
     ----------
     start, goal, gains : Pose, Pose, Gains; by default the paper's.
     law : "corrected", "printed", "aicardi" or, if the goal moves, "kanayama".
-    method : "arc" or "euler", see `simulate`.
+    method : "arc", "euler" or "continuous", see `simulate`.
     dt, duration, arrival_radius : float; s, s, m
     reference : None for a goal that stands still, "circle" (or `paper.circle`) for the moving one.
     feedback : KanayamaGains
     view : "time" or "gains", the gain landscape.
+    at : float or None, s: where on the run the panel opens; by default at 30 % of it.
+    zoom : float or None, m round the goal that the picture opens on; by default the whole path.
 
     Raises
     ------
     ValueError : for anything else.
     """
+
+    _esm = traitlets.Unicode(javascript()).tag(sync=True)
+    _css = traitlets.Unicode((_PARTS / "panel.css").read_text(encoding="utf-8")).tag(sync=True)
+    state = traitlets.Dict().tag(sync=True)
+    setup = traitlets.Dict().tag(sync=True)
 
     def __init__(
         self,
@@ -75,39 +90,43 @@ class Explorer(widgets.VBox):
         reference=None,
         feedback: KanayamaGains = FEEDBACK,
         view: str = "time",
+        at: float | None = None,
+        zoom: float | None = None,
     ):
         moving = _moves(reference)
         outdoor = paper.outdoor()
         start = (paper.CIRCLE_START if moving else outdoor.start) if start is None else start
         gains = (paper.CIRCLE_GAINS if moving else outdoor.gains) if gains is None else gains
-        place, duration = _place(law, moving), scalar("duration", duration, above=0.0)
-        home = {
-            "scenario": int(moving),
+        duration = scalar("duration", duration, above=0.0)
+        home: dict[str, Any] = {
+            "moving": moving,
             "start": _three("start", start),
             "goal": _three("goal", outdoor.goal if goal is None else goal),
             **_numbers("gains", gains, Gains),
             **_numbers("feedback", feedback, KanayamaGains),
             "dt": _step(dt, duration),
-            "pose_law": 0 if moving else place,
-            "circle_law": place if moving else 0,
-            "method": list(METHODS).index(choice("method", method, METHODS)),
+            "duration": duration,
+            "arrival_radius": scalar("arrival_radius", arrival_radius, low=0.0),
+            "law": choice("law", law, laws_for(moving)),
+            "method": choice("method", method, METHODS),
+            "view": choice("view", view, VIEWS),
+            "metric": "headingError",
+            "axes": "k_alpha",
+            "time": None if at is None else scalar("at", at, low=0.0),
+            "zoom": None,
         }
-        self.panel = Panel(
-            **home,
-            **_displays(moving, place, choice("view", view, VIEWS) == "gains"),
-            view=VIEWS.index(view),
-            duration=duration,
-            arrival_radius=scalar("arrival_radius", arrival_radius, low=0.0),
-            home=home,
-            presets=_presets(),
-        )
-        self.links: list = []
-        self.sliders = {name: self._tied(name, controls.slider, "value") for name in SLIDERS}
-        self.menus = {name: self._tied(name, controls.menu, "index") for name in controls.MENUS}
-        box = widgets.Box([*self.sliders.values(), *self.menus.values()])
-        box.add_class("wmr-controls")
-        super().__init__([box, self.panel])
-        self.add_class("wmr-explorer")
+        if zoom is not None:
+            middle = paper.circle(at or 0.0)[:2] if moving else home["goal"][:2]
+            home["zoom"] = [*map(float, middle), scalar("zoom", zoom, low=0.005, high=1e6)]
+        # Lists, for a stored notebook keeps the order of no mapping.
+        menus = [(name, *row, [*choices.items()]) for name, (*row, choices) in MENUS.items()]
+        sliders = [(name, *row) for name, row in SLIDERS.items()]
+        setup = {"home": home, "presets": _presets(), "laws": PANEL_LAWS}
+        super().__init__(state=home, setup=setup | {"sliders": sliders, "menus": menus})
+        self.add_class("jupyter-widgets")
+
+    def __repr__(self) -> str:
+        return f"Explorer(law={self.law!r}, method={self.state['method']!r})"
 
     @classmethod
     def circle(cls, **options) -> Explorer:
@@ -120,53 +139,28 @@ class Explorer(widgets.VBox):
     goal = _placed("goal", "The goal that stands still; setting it moves its handle.")
 
     dt = property(
-        lambda self: self.sliders["dt"].value,
-        lambda self, dt: self._set({"dt": _step(dt, self.panel.duration)}),
+        lambda self: self.state["dt"],
+        lambda self, dt: self._set({"dt": _step(dt, self.state["duration"])}),
         doc="The time step, s, at most the duration; setting it moves the slider.",
     )
-
-    @property
-    def moving(self) -> bool:
-        """Whether the goal is the paper's moving one."""
-        return self.panel.scenario == 1
-
-    @property
-    def law(self) -> str:
-        """The law in force, one that this goal allows; setting it moves the menu."""
-        menu = self.menus["circle_law" if self.moving else "pose_law"]
-        return laws_for(self.moving)[menu.index]["name"]
-
-    @law.setter
-    def law(self, law: str) -> None:
-        place = _place(law, self.moving)
-        trait = "circle_law" if self.moving else "pose_law"
-        self.menus[trait].index = place
-        setattr(self.panel, trait, place)
+    law = property(
+        lambda self: self.state["law"],
+        lambda self, law: self._set({"law": choice("law", law, laws_for(self.moving))}),
+        doc="The law in force, one that this goal allows; setting it moves the menu.",
+    )
+    moving = property(lambda self: self.state["moving"], doc="Whether the goal is the circle's.")
 
     def trajectory(self) -> Trajectory:
         """The run that the panel shows, by `wmrlib.simulate` or `wmrlib.track`."""
-        method = list(METHODS)[self.menus["method"].index]
-        how = {"law": self.law, "method": method, "dt": self.dt, "duration": self.panel.duration}
+        how = {name: self.state[name] for name in ("law", "method", "dt", "duration")}
         if self.moving:
             gains = self.gains if LAWS[self.law].gains is Gains else self.feedback
             return track(paper.circle, self.start, gains, **how)
-        radius = self.panel.arrival_radius
+        radius = self.state["arrival_radius"]
         return simulate(self.start, self.goal, self.gains, arrival_radius=radius, **how)
 
-    def _set(self, values: dict[str, float]) -> None:
-        # Both ends of the browser's link: there may be no browser yet, and neither may lag behind.
-        for name, value in values.items():
-            widen(self.sliders[name], value)
-            self.sliders[name].value = value
-            setattr(self.panel, name, value)
-
-    def _tied(self, name: str, make: Callable, trait: str):
-        control = make(name, getattr(self.panel, name))
-        self.links.append(widgets.jslink((control, trait), (self.panel, name)))
-        if display := controls.DISPLAYS.get(name):
-            control.layout.display = getattr(self.panel, display)
-            self.links.append(widgets.jslink((self.panel, display), (control.layout, "display")))
-        return control
+    def _set(self, values: dict[str, Any]) -> None:
+        self.state = self.state | values
 
 
 def _moves(reference) -> bool:
@@ -174,11 +168,6 @@ def _moves(reference) -> bool:
     if moving or reference is None:
         return moving
     raise refusal("reference", reference, "None, 'circle' or wmrlib.paper.circle")
-
-
-def _place(law: str, moving: bool) -> int:
-    names = [each["name"] for each in laws_for(moving)]
-    return names.index(choice("law", law, names))
 
 
 def _step(dt: float, duration: float) -> float:
@@ -196,7 +185,7 @@ def _numbers(name: str, value, kind: type) -> dict[str, float]:
 
 def _presets() -> list[dict]:
     outdoor = paper.outdoor()
-    still, moving = {"scenario": 0, "pose_law": 0}, {"scenario": 1, "circle_law": 0}
+    still, moving = ({"moving": each, "law": "corrected"} for each in (False, True))
     poses = {"start": _three("start", outdoor.start), "goal": _three("goal", outdoor.goal)}
     circle = {"start": _three("start", paper.CIRCLE_START), "dt": paper.TIME_STEP}
     return [
@@ -204,11 +193,3 @@ def _presets() -> list[dict]:
         moving | circle | paper.CIRCLE_GAINS._asdict(),
         still | GENTLE_GAINS._asdict() | {"dt": paper.TIME_STEP},
     ]
-
-
-def _displays(moving: bool, place: int, mapped: bool) -> dict[str, str]:
-    # As displaysOf in settings.js, for the moment before it runs.
-    gains = laws_for(moving)[place]["gains"]
-    shown = {"gains": "k_rho" in gains, "limit": "v_max" in gains, "feedback": "k_x" in gains}
-    shown |= {"pose_law": not moving, "circle_law": moving, "map": mapped}
-    return {f"{name}_display": "flex" if on else "none" for name, on in shown.items()}

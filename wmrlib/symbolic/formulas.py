@@ -72,6 +72,7 @@ def _modes(name: str) -> Formula:
 
 _POSE, _GOAL = (s.x, s.y, s.heading), (s.goal_x, s.goal_y, s.goal_heading)
 _TWIST = s.v, s.omega, s.dt
+_CLOSING = s.rho, s.alpha, s.v_over_rho, s.omega
 _WRAP = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
 _DECAY = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
 _GUARDS = {
@@ -90,6 +91,8 @@ FORMULAS = {
         for name, step in motion.STEPS.items()
     },
     "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
+    "pose_of_error": _read(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
+    "polar_closing_rate": _read(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
     "circle": _read(paper.circle, (s.t,), "x, y, heading, v, omega of the goal"),
 }
 """What is printed for the panel, by name."""

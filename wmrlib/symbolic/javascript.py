@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import re
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from sympy.printing.jscode import JavascriptCodePrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from wmrlib import laws, motion
+from wmrlib._loops import tableau
 from wmrlib.symbolic.formulas import FORMULAS, Formula
 
 MODEL_JS = Path(__file__).parents[1] / "explorer" / "js" / "model.js"
@@ -68,7 +70,11 @@ def javascript() -> str:
     functions = "".join(_function(name, formula) for name, formula in FORMULAS.items())
     table = "".join(_law(name, row) for name, row in laws.LAWS.items())
     steps = ", ".join(f"{name}: {javascript_name(f.__name__)}" for name, f in motion.STEPS.items())
-    return f"{_HEADER}{functions}\nconst LAWS = {{\n{table}}};\nconst STEPS = {{ {steps} }};\n"
+    rows = {"stages": tableau.STAGES, "weights": tableau.WEIGHTS}
+    rows |= {"fifth": tableau.FIFTH, "third": tableau.THIRD}
+    rule = json.dumps(rows).replace('"', "")
+    tables = f"const STEPS = {{ {steps} }};\nconst RULE = {rule};\n"
+    return f"{_HEADER}{functions}\nconst LAWS = {{\n{table}}};\n{tables}"
 
 
 __all__ = ["MODEL_JS", "javascript", "javascript_name"]

@@ -30,18 +30,18 @@ function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
   const time = timeAxis(width, run, ghost);
   const each = (height - AXIS.top - AXIS.bottom - AXIS.gap * (CHARTS.length - 1)) / CHARTS.length;
   const foot = height - AXIS.bottom;
+  const boxOf = (i) => ({ left: AXIS.left, top: AXIS.top + i * (each + AXIS.gap), width: width - AXIS.left - AXIS.right, height: each });
   const { ticks, write } = ticksOf(0, time.span, Math.max(2, Math.floor(width / 80)));
   for (const t of ticks) {
-    line(ctx, [[time.toX(t), AXIS.top], [time.toX(t), foot]], colours.line, 0.6);
+    CHARTS.forEach((_, i) => { const { top, height: high } = boxOf(i); line(ctx, [[time.toX(t), top], [time.toX(t), top + high]], colours.line, 0.6); });
     tickLabel(ctx, write(t), time.toX(t), foot + 12, colours, 'center');
   }
   label(ctx, 'time [s]', (AXIS.left + width - AXIS.right) / 2, foot + 32, colours, { align: 'center' });
   ctx.globalAlpha = faded ? 0.35 : 1;
-  const boxOf = (i) => ({ left: AXIS.left, top: AXIS.top + i * (each + AXIS.gap), width: width - AXIS.left - AXIS.right, height: each });
   CHARTS.forEach((chart, i) => drawChart(ctx, chart, boxOf(i), time, colours, run, ghost));
   if (run) {
     const x = time.toX(run.t[cursor]);
-    line(ctx, [[x, AXIS.top], [x, foot]], colours.ink, 2);
+    CHARTS.forEach((_, i) => { const { top, height: high } = boxOf(i); line(ctx, [[x, top], [x, top + high]], colours.ink, 2); });
     ctx.fillStyle = colours.ink;
     ctx.beginPath();
     ctx.arc(x, foot, 6, 0, 2 * Math.PI);
@@ -72,11 +72,11 @@ function drawTitle(ctx, chart, box, colours) {
   const y = box.top - 11;
   label(ctx, chart.title, box.left, y, colours, { weight: 600, size: 14 });
   ctx.font = `600 14px ${FONT}`;
-  let x = box.left + ctx.measureText(chart.title).width + 20;
+  let x = box.left + ctx.measureText(chart.title).width + 12;
   for (const { tag, role, dash = [] } of chart.lines.filter((each) => each.tag)) {
-    line(ctx, [[x, y], [x + 26, y]], colours[role], 2.5, dash);
-    label(ctx, tag, x + 33, y, colours, { colour: colours[role], weight: 600, size: 14 });
-    x += 64;
+    line(ctx, [[x, y], [x + 22, y]], colours[role], 2.5, dash);
+    label(ctx, tag, x + 27, y, colours, { colour: colours[role], weight: 600, size: 14 });
+    x += 48;
   }
 }
 

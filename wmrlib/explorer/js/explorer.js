@@ -4,55 +4,66 @@ const LASTS = 8; // s that playing a run takes at most
 const RESTING = 0.3; // where on the run the cursor stands until somebody moves it
 
 function scaffold(el) {
-  const root = el.appendChild(document.createElement('div'));
+  const root = el.appendChild(document.createElement('div')), button = (act, text, title) => `<button type="button" data-do="${act}" title="${title}">${text}</button>`;
   root.className = 'wmr';
   root.innerHTML = `
-    <div class="wmr-bar">
-      <button type="button" data-do="play">Play</button>
-      <input type="range" class="wmr-time" min="0" max="1" step="any" aria-label="time cursor">
-      <output class="wmr-clock"></output>
-      <button type="button" data-do="pin">Pin this run</button>
-      <button type="button" data-do="unpin" hidden>Unpin</button>
-      <button type="button" data-do="reset">Reset</button>
-    </div>
-    <div class="wmr-status"></div>
-    <div class="wmr-aside" role="status" aria-live="polite"></div>
-    <div class="wmr-figures" role="list"></div>
     <div class="wmr-stage">
-      <div><div class="wmr-polar"></div><div class="wmr-plane" style="position: relative"><canvas class="wmr-scene" role="img"></canvas></div></div>
-      <div><div class="wmr-key"></div>
+      <div class="wmr-status"></div>
+      <div class="wmr-figures" role="list"></div>
+      <div class="wmr-controls"><div class="wmr-rows" role="group" aria-label="settings"></div>
+        <div class="wmr-bar">
+          ${button('pin', 'Pin', 'keep this run on the picture, to compare the next with')}${button('unpin', 'Unpin', 'forget the pinned run')}${button('reset', 'Reset', 'back to how it was opened')}
+          ${button('link', 'Link', 'copy a link to this page with the panel as it is now')}${button('python', 'Python', 'copy this run as Python')}${button('csv', 'CSV', 'save this run as a table')}${button('png', 'PNG', 'save the picture')}</div></div>
+      <div class="wmr-view">
+        <div class="wmr-bar"><div class="wmr-polar"></div></div>
+        <div class="wmr-plane"><canvas class="wmr-scene" role="img"></canvas>
+          <div class="wmr-bar wmr-zoom">${button('out', '−', 'zoom out (Ctrl and the wheel)')}${button('in', '+', 'zoom in on the robot (Ctrl and the wheel)')}${button('near', 'last 2 m', 'the last two metres before the goal, or all of the path')}</div></div>
+        <div class="wmr-bar">${button('play', 'Play', 'drive along the path')}
+          <input type="range" class="wmr-time" min="0" max="1" step="any" aria-label="time cursor"><output class="wmr-clock"></output></div>
+      </div>
+      <div class="wmr-side">
+        <div class="wmr-bar"><div class="wmr-key"></div></div>
         <canvas class="wmr-charts" role="img"></canvas>
-        <canvas class="wmr-map" role="img" tabindex="0" hidden></canvas></div>
-    </div>`;
+        <canvas class="wmr-map" role="img" tabindex="0" hidden></canvas>
+      </div>
+    </div>
+    <textarea class="wmr-text" readonly hidden aria-label="to copy"></textarea>
+    <div class="wmr-aside" role="status" aria-live="polite"></div>`;
   return root;
 }
 
 function render({ model, el }) {
-  const root = scaffold(el), find = (selector) => root.querySelector(selector);
+  const root = scaffold(el), find = (selector) => root.querySelector(selector), setup = model.get('setup');
   const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
-  const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap();
-  const state = { run: null, settings: null, figures: null, trouble: '', refused: '', ghost: null, time: null, playing: null, colours: null, view: null, held: false };
-  let frame = 0, pressed = false, stale = true, writing = false, spoken = 0, shownKey = '';
+  const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap(model.get('_esm'), () => schedule());
+  const state = { run: null, settings: null, figures: null, trouble: '', said: '', ghost: null, playing: null, colours: null, view: null, held: false };
+  let frame = 0, stale = true, spoken = 0, shownKey = '';
 
-  // Many traits at once count as one change: half a preset is no preset.
-  function write(values) {
-    writing = true;
-    for (const [name, value] of Object.entries(values)) model.set(name, value);
-    writing = false;
-    follow();
+  const values = () => model.get('state');
+  // The cursor and the zoom are the view's own: a kernel need not hear of each frame.
+  const look = (from) => Object.assign(state, { time: from.time, zoom: from.zoom, playing: null });
+  function write(changed) {
+    model.set('state', { ...values(), ...changed });
     model.save_changes();
   }
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
-  const refresh = () => { stale = true; schedule(); };
-  const poses = () => ({ start: model.get('start'), goal: model.get('scenario') === 1 ? null : model.get('goal') });
+  const poses = () => ({ start: values().start, goal: values().moving ? null : values().goal });
+  const showControls = buildControls(find('.wmr-rows'), setup, {
+    change({ preset, ...changed }) {
+      if (preset > 0) write(presetValues(setup.presets[preset - 1], values(), setup));
+      else write(changed);
+      showControls(values()); // the handle goes to the stop that was taken
+    },
+    refuse(sentence) { state.said = sentence; schedule(); },
+  });
   const placeHandles = buildHandles(find('.wmr-plane'), {
-    get: (name) => model.get(name), set: (name, pose) => write({ [name]: pose }), view: () => state.view,
+    get: (name) => values()[name], set: (name, pose) => write({ [name]: pose }), view: () => state.view,
     hold: (held) => { state.held = held; schedule(); },
   });
 
   function compute() {
     stale = false;
-    const settings = settingsOf(model);
+    const settings = settingsOf(values());
     let run;
     try { run = runOf(settings); } catch (error) { state.trouble = error.message; return; }
     const summary = summarise(run);
@@ -73,11 +84,11 @@ function render({ model, el }) {
     const safe = run ? at : { start: [0, 0, 0], goal: [1, 0, 0] };
     const drawn = faded && state.settings ? { start: state.settings.start, goal: state.settings.reference ? null : state.settings.goal } : safe;
     if (!state.held || !state.view) {
-      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, sizeOf(scene));
+      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, sizeOf(scene), state.zoom);
     }
     drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded });
     placeHandles(drawn);
-    if (model.get('view') === 1) drawLandscape(); else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
+    if (mapShown()) drawLandscape(); else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
     describe(run, cursor);
     root.dispatchEvent(new CustomEvent('drawn', { bubbles: true })); // for whoever measures
     if (state.playing) schedule();
@@ -91,22 +102,25 @@ function render({ model, el }) {
     if (state.time >= end) state.playing = null;
   }
 
+  const mapShown = () => values().view === 'gains';
+
   function drawLandscape() {
     const note = !state.settings ? 'no run yet' : mapped(state.settings) ? '' : 'This law does not use these gains.';
-    if (!note) gainMap.update(state.settings, model.get('axes'), model.get('metric'));
-    if (!note && gainMap.step(pressed)) schedule();
+    if (!note) gainMap.update(state.settings, values().axes, values().metric);
     drawMap(mapCanvas, state.colours, { map: gainMap.map, gains: state.settings && state.settings.gains, note });
-    mapCanvas.dataset.finished = String(gainMap.finished);
+    mapCanvas.dataset.finished = String(note !== '' || gainMap.finished);
   }
 
   function describe(run, cursor) {
-    const status = find('.wmr-status'), text = state.trouble || state.refused || state.sentence || '';
-    status.classList.toggle('wmr-trouble', state.trouble !== '' || state.refused !== '');
+    const status = find('.wmr-status'), text = state.trouble || state.said || state.sentence || '';
+    status.classList.toggle('wmr-trouble', state.trouble !== '' || state.said.includes('not allowed'));
     if (status.textContent !== text) { status.textContent = text; announce(text); }
     showKey();
     showFigures(state.trouble ? null : state.figures, state.ghost && state.ghost.figures);
     find('[data-do=play]').textContent = state.playing ? 'Pause' : 'Play';
     find('[data-do=unpin]').hidden = !state.ghost;
+    find('[data-do=link]').hidden = !canLink();
+    find('[data-do=near]').textContent = state.zoom ? 'whole path' : 'last 2 m';
     if (!run) return;
     const t = run.t[cursor], end = endOf(run), slider = find('.wmr-time');
     Object.assign(slider, { max: end || 1, value: t });
@@ -126,29 +140,47 @@ function render({ model, el }) {
   // A screen reader hears where a drag ends, not each step of it.
   function announce(text) {
     clearTimeout(spoken);
-    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; nameControls(root); }, 700);
+    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; }, 700);
   }
 
   function showKey() {
     const mark = (name, text) => `<span><i data-mark="${name}"></i>${text}</span>`;
     const pinned = state.ghost ? mark('pinned', 'pinned run') : '';
-    const text = model.get('view') === 1
-      ? `<span>click on the map to set the gains</span>${mark('never', state.settings && state.settings.reference ? 'no value' : 'does not arrive')}`
+    const text = mapShown()
+      ? `<span>click the map to set the gains</span>${mark('never', state.settings && state.settings.reference ? 'no value' : 'does not arrive')}`
       : `${mark('run', 'run')}${pinned}${mark('rising', 'V rises')}`;
     if (text !== shownKey) find('.wmr-key').innerHTML = shownKey = text;
   }
 
   function follow() {
-    if (writing) return;
-    const mapped = model.get('view') === 1;
-    charts.hidden = mapped;
-    mapCanvas.hidden = !mapped;
-    const changed = Object.fromEntries(displaysOf(model).filter(([name, value]) => model.get(name) !== value));
-    const preset = presetOf(model);
-    if (preset !== model.get('preset')) changed.preset = preset;
-    if (Object.keys(changed).length) { write(changed); return; }
-    refresh();
+    charts.hidden = mapShown();
+    mapCanvas.hidden = !mapShown();
+    Object.assign(state, { said: '' });
+    stale = true;
+    showControls(values());
+    schedule();
   }
+
+  // Zooms by a factor about a place that stays where it is.
+  function zoomBy(factor, [x, y]) {
+    const [cx, cy, reach] = state.zoom || zoomOf(state.view), next = Math.min(Math.max(reach * factor, 0.005), 1e6), share = next / reach;
+    state.zoom = [x + (cx - x) * share, y + (cy - y) * share, next];
+    schedule();
+  }
+  const robot = () => { const k = cursorOf(state.run); return [state.run.x[k], state.run.y[k]]; };
+  const goalNow = () => { const k = cursorOf(state.run); return [state.run.goalX[k], state.run.goalY[k]]; };
+
+  // Into the clipboard, the old way, which needs no permission and works in a page from the disk too.
+  function copy(text, what) {
+    const box = find('.wmr-text'), before = document.activeElement;
+    Object.assign(box, { value: text, hidden: false });
+    box.select();
+    box.hidden = document.execCommand('copy');
+    state.said = box.hidden ? `Copied: ${what}.` : 'Press Ctrl+C to copy it.';
+    if (box.hidden) before.focus();
+  }
+  const now = () => ({ ...values(), time: state.time, zoom: state.zoom });
+  const shownCanvases = () => [scene, mapShown() ? mapCanvas : charts];
 
   const acts = {
     play() {
@@ -158,7 +190,18 @@ function render({ model, el }) {
     },
     pin() { if (state.run && !state.trouble) state.ghost = { run: state.run, figures: state.figures }; },
     unpin() { state.ghost = null; },
-    reset() { Object.assign(state, { ghost: null, time: null, playing: null }); write(model.get('home')); },
+    reset() { state.ghost = null; look(setup.home); write(setup.home); },
+    in() { if (state.run) zoomBy(1 / 1.5, robot()); },
+    out() { if (state.run) zoomBy(1.5, robot()); },
+    near() { state.zoom = state.zoom || !state.run ? null : [...goalNow(), 2]; },
+    link() {
+      const link = linkOf(setup.home, now());
+      history.replaceState(history.state, '', link);
+      copy(link, 'a link to this page with the panel as it is now');
+    },
+    python() { if (state.settings) copy(pythonOf(state.settings), 'this run as Python'); },
+    csv() { if (state.run) download('run.csv', new Blob([csvOf(state.run)], { type: 'text/csv' })); },
+    png() { pictureOf(shownCanvases(), find('.wmr-status').textContent, state.colours).then((blob) => download('run.png', blob)); },
   };
   root.addEventListener('click', (event) => {
     const act = event.target.closest('[data-do]');
@@ -167,68 +210,61 @@ function render({ model, el }) {
   find('.wmr-time').addEventListener('input', (event) => { Object.assign(state, { time: Number(event.target.value), playing: null }); schedule(); });
 
   dragOver(charts, (x) => { Object.assign(state, { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x), playing: null }); schedule(); });
+  scene.addEventListener('wheel', (event) => {
+    if (!state.run || !(event.ctrlKey || event.metaKey)) return; // without, the wheel is the page's
+    event.preventDefault();
+    const box = scene.getBoundingClientRect(), { zoom } = sizeOf(scene);
+    zoomBy(1.2 ** Math.sign(event.deltaY), state.view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom));
+  }, { passive: false });
+  let grip = null; // the place in the plane that a mouse holds
+  dragOver(scene, (x, y, event, first) => {
+    if (event.pointerType !== 'mouse' || !state.view) return; // a finger moves the page
+    const [wx, wy] = state.view.toWorld(x, y);
+    if (first) { grip = [wx, wy]; return; }
+    const [cx, cy, reach] = state.zoom || zoomOf(state.view);
+    state.zoom = [cx + grip[0] - wx, cy + grip[1] - wy, reach];
+    state.view = viewOf([], [], {}, sizeOf(scene), state.zoom);
+    schedule();
+  });
   dragOver(mapCanvas, (x, y) => { if (gainMap.map && mapped(state.settings)) write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y)); });
   mapCanvas.addEventListener('keydown', (event) => {
     const move = MOVES[event.key], { map } = gainMap;
     if (!move || !map) return;
     event.preventDefault();
     event.stopPropagation();
-    const nudge = (name, by) => Math.min(Math.max(Math.round(model.get(name) * 20 + by) / 20, 0), RANGES[name]);
+    const nudge = (name, by) => Math.min(Math.max(Math.round(values()[name] * 20 + by) / 20, 0), RANGES[name]);
     write({ [map.kx]: nudge(map.kx, move[0]), [map.ky]: nudge(map.ky, move[1]) });
   });
 
-  const choose = () => { const chosen = model.get('presets')[model.get('preset') - 1]; if (chosen && !writing) write(chosen); };
-  model.on('change:preset', choose);
-  model.on('change', follow);
-  const forget = () => { state.refused = ''; };
-  model.on('change', forget);
-  const unwatch = watchTyping(root, (refused) => { state.refused = refused; schedule(); });
   const repaint = () => {
-    nameControls(root);
     [scene, charts, mapCanvas].forEach(measure);
     state.colours = readColours(root);
     schedule();
   };
-  const press = (event) => { pressed = event.type === 'pointerdown'; };
-  const grips = ['pointerdown', 'pointerup', 'pointercancel'];
-  grips.forEach((each) => window.addEventListener(each, press, true));
+  function visit() {
+    const linked = stateInLink(setup.home);
+    if (!Object.keys(linked).length) return;
+    look({ ...setup.home, ...linked });
+    write({ ...setup.home, ...linked });
+    root.scrollIntoView({ block: 'nearest' });
+  }
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
   [root, scene, charts, mapCanvas].forEach((each) => resized.observe(each));
+  model.on('change:state', follow);
+  addEventListener('hashchange', visit);
+  look(values());
   repaint();
   follow();
+  visit();
   return () => {
-    grips.forEach((each) => window.removeEventListener(each, press, true));
+    removeEventListener('hashchange', visit);
     unfollow();
-    unwatch();
     resized.disconnect();
+    gainMap.close();
     cancelAnimationFrame(frame);
     clearTimeout(spoken);
-    model.off('change', follow);
-    model.off('change', forget);
-    model.off('change:preset', choose);
+    model.off('change:state', follow);
   };
-}
-
-// The notebook's sliders and menus show their names, but don't tell them to screen readers.
-function nameControls(root) {
-  const card = root.closest('.wmr-explorer');
-  for (const each of card ? card.querySelectorAll('.noUi-handle:not([aria-label]), .widget-dropdown select:not([aria-label])') : []) {
-    const name = each.closest('.jupyter-widgets').querySelector('.widget-label');
-    if (name) each.setAttribute('aria-label', [name.textContent, name.title].filter(Boolean).join(', '));
-  }
-}
-
-// A slider puts its old value back when what is typed beside it is no number. Calls back with a sentence that says so.
-function watchTyping(root, onTyped) {
-  const look = (event) => {
-    const typed = event.target, card = root.closest('.wmr-explorer');
-    if (!card || !card.contains(typed) || !typed.matches('.widget-readout') || (event.type === 'keydown' && event.key !== 'Enter')) return;
-    const name = typed.closest('.jupyter-widgets').querySelector('.widget-label').textContent, text = typed.textContent.trim();
-    if (!Number.isFinite(parseFloat(text))) onTyped(`${name} = ${text} is not allowed: a number is needed. The value stays as it was.`);
-  };
-  const events = ['keydown', 'focusout']; // heard on their way down, before the slider mends its text
-  events.forEach((each) => window.addEventListener(each, look, true));
-  return () => events.forEach((each) => window.removeEventListener(each, look, true));
 }
 
 // Calls back with the place in the canvas's own units while a pointer is held down on the canvas.
@@ -236,7 +272,7 @@ function dragOver(canvas, onPlace) {
   let down = false;
   const tell = (event) => {
     const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas);
-    onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom);
+    onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom, event, event.type === 'pointerdown');
   };
   canvas.addEventListener('pointerdown', (event) => { down = true; canvas.setPointerCapture(event.pointerId); tell(event); });
   canvas.addEventListener('pointermove', (event) => { if (down) tell(event); });

@@ -1,48 +1,58 @@
-// The second view: what a run amounts to over two of the gains, as a heat map that refines itself between frames.
+// The second view: what a run amounts to over two of the gains, as a heat map that a worker computes.
 
-const MEASURES = [
-  { key: 'headingError', title: 'heading error on arrival [deg]', lasting: 'heading error at the end [deg]', scale: DEGREES, most: 180 },
-  { key: 'time', title: 'arrival time [s]', lasting: 'distance left [m]', scale: 1, most: Infinity },
-  { key: 'peakOmega', title: 'peak |ω| [rad/s]', lasting: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
-];
-const AXES = [['k_alpha', 'h'], ['k_rho', 'h']];
+const MEASURES = {
+  headingError: { title: 'heading error on arrival [deg]', lasting: 'heading error at the end [deg]', scale: DEGREES, most: 180 },
+  time: { title: 'arrival time [s]', lasting: 'distance left [m]', scale: 1, most: Infinity },
+  peakOmega: { title: 'peak |ω| [rad/s]', lasting: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
+};
 const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
 const UNITS = { k_alpha: 'k_alpha [1/s]', h: 'h [1]', k_rho: 'k_rho [1/m]' };
-const LEVELS = [10, 40]; // cells a side: a first impression, then the whole
-const BUDGETS = { moving: 7, resting: 60 }; // ms of a frame, which a moving hand needs for itself
-const REST = 20; // ms without a change after which a hand is taken to rest, unless it still holds a pointer down
+const LEVELS = [10, 50]; // cells a side: a first impression, then the whole
 
-const mapped = (settings) => AXES.flat().every((name) => LAWS[settings.law].gains.includes(name));
+const mapped = (settings) => Object.keys(RANGES).every((name) => LAWS[settings.law].gains.includes(name));
 const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
+const mapOf = ({ settings, kx, ky, n, metric }) => landscape({ ...settings, kx, xs: centres(kx, n), ky, ys: centres(ky, n), metric });
 
-// Computes maps in slices. `update(settings, axes, metric)` starts anew if anything the map shows has changed; `step(held)` works for one
-// budget and says whether there is more to do.
-function buildGainMap() {
-  let key = '', job = null, done = null, changed = 0;
-  const begin = (level) => ({ level, n: LEVELS[level], row: 0, values: new Float64Array(LEVELS[level] ** 2) });
+// This module is the worker's too: there it finds no page, and computes what it is sent.
+if (typeof document === 'undefined') onmessage = ({ data }) => postMessage({ ...data, values: mapOf(data) });
+
+// `module` is this module's text. `update` begins a map if anything that it shows has changed; `onDone` is called for each that is there.
+function buildGainMap(module, onDone) {
+  let key = '', job = null, busy = false, done = null, worker = null;
+  function begin() {
+    const script = module.replace(/^export .*/m, ''); // a plain one, for a page from the disk lets no worker be a module
+    worker = new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
+    worker.onmessage = ({ data }) => take(data);
+    worker.onerror = (event) => { // this page forbids workers
+      event.preventDefault();
+      worker = { postMessage: (data) => setTimeout(() => take({ ...data, values: mapOf(data) })), terminate() {} };
+      next();
+    };
+  }
+  function next() {
+    if (!worker) begin();
+    busy = job !== null;
+    if (busy) worker.postMessage(job);
+  }
+  // A map that is no longer wanted is shown all the same: under a moving hand any is better than none.
+  function take(map) {
+    done = { ...map, measure: MEASURES[map.metric] };
+    if (map.key === key) job = map.level + 1 < LEVELS.length ? jobOf(map, map.level + 1) : null;
+    next();
+    onDone();
+  }
+  const jobOf = ({ values, ...rest }, level) => ({ ...rest, level, n: LEVELS[level] });
   return {
-    update(settings, axes, metric) {
-      const [kx, ky] = AXES[axes] || AXES[0], measure = MEASURES[metric] || MEASURES[0];
-      const { [kx]: _x, [ky]: _y, ...others } = settings.gains;
-      const next = JSON.stringify([{ ...settings, gains: others }, kx, ky, measure.key]);
-      if (next !== key) { key = next; changed = performance.now(); job = { ...begin(0), settings, kx, ky, measure }; }
-    },
-    step(held) {
-      const now = performance.now(), stop = now + (held || now - changed < REST ? BUDGETS.moving : BUDGETS.resting);
-      while (job && performance.now() < stop) {
-        const { settings, kx, ky, measure, n, row } = job;
-        const xs = centres(kx, n), ys = centres(ky, n).subarray(row, row + 1);
-        job.values.set(landscape({ ...settings, kx, xs, ky, ys, metric: measure.key }), row * n);
-        job.row += 1;
-        if (job.row === n) {
-          done = job;
-          job = job.level + 1 < LEVELS.length ? { ...job, ...begin(job.level + 1) } : null;
-        }
-      }
-      return job !== null;
+    update(settings, kx, metric) {
+      const { [kx]: _x, h: _h, ...others } = settings.gains, wanted = JSON.stringify([{ ...settings, gains: others }, kx, metric]);
+      if (wanted === key) return;
+      key = wanted;
+      job = jobOf({ key, settings, kx, ky: 'h', metric }, 0);
+      if (!busy) next();
     },
     get map() { return done; },
     get finished() { return job === null; },
+    close() { if (worker) worker.terminate(); },
   };
 }
 

@@ -50,8 +50,8 @@ function buildHandles(host, { get, set, view, hold }) {
       if (!pose) continue;
       const [x, y] = part === 'move' ? view().toScreen(pose[0], pose[1]) : knobOf(view(), pose, name);
       const { box, zoom } = view();
-      button.style.left = `${zoom * Math.min(Math.max(x, box.left), box.left + box.width)}px`;
-      button.style.top = `${zoom * Math.min(Math.max(y, box.top), box.top + box.height)}px`;
+      const [left, top] = [Math.min(Math.max(x, box.left), box.left + box.width), Math.min(Math.max(y, box.top), box.top + box.height)];
+      Object.assign(button.style, { left: `${zoom * left}px`, top: `${zoom * top}px`, pointerEvents: left === x && top === y ? '' : 'none' }); // out of view, for keys only
       const place = `x ${written(pose[0], 'm')}, y ${written(pose[1], 'm')}, heading ${inDegrees(pose[2])}`;
       const keys = part === 'move' ? 'arrow keys move it, Shift and the arrow keys turn it' : 'arrow keys turn it';
       button.setAttribute('aria-label', `${part} the ${name}: ${place}; ${keys}`);

@@ -4,8 +4,14 @@ const ARROW = { start: 52, goal: 68 }; // px from a pose to the handle that turn
 const SPANS = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10];
 
 // Where the picture looks. It moves in steps, so that it doesn't swim while a slider is dragged, and depends on nothing but its arguments.
-// `marks` are points that must be seen; the runs are followed as far as three times the marks' distance from the first.
-function viewOf(runs, marks, arrows, { zoom, width, height }) {
+// `marks` are points that must be seen; the runs are followed as far as three times the marks' distance from the first. `zoomed` is null or
+// [x, y, metres from there to the nearer edge].
+function viewOf(runs, marks, arrows, { zoom, width, height }, zoomed) {
+  const box = { left: 54, top: 10, width: Math.max(width - 66, 40), height: Math.max(height - 56, 40) };
+  if (zoomed) {
+    const centre = [box.left + box.width / 2, box.top + box.height / 2];
+    return viewAt(box, zoom, Math.min(box.width, box.height) / 2 / zoomed[2], zoomed, centre);
+  }
   const reach = 2 + 3 * Math.max(...marks.map(([x, y]) => Math.hypot(x - marks[0][0], y - marks[0][1])));
   const bounds = [Infinity, Infinity, -Infinity, -Infinity];
   const include = (x, y) => {
@@ -17,7 +23,6 @@ function viewOf(runs, marks, arrows, { zoom, width, height }) {
   for (const run of runs) {
     for (let k = 0; k < run.n; k += 1) include(clip(run.x[k], marks[0][0]), clip(run.y[k], marks[0][1]));
   }
-  const box = { left: 54, top: 10, width: Math.max(width - 66, 40), height: Math.max(height - 56, 40) };
   const room = roomFor(arrows);
   const needed = Math.max(
     (bounds[2] - bounds[0]) / Math.max(box.width - room.left - room.right, 20), (bounds[3] - bounds[1]) / Math.max(box.height - room.top - room.bottom, 20), 0.004,
@@ -27,17 +32,23 @@ function viewOf(runs, marks, arrows, { zoom, width, height }) {
   const snap = (value) => Math.round(value * scale / 20) * 20 / scale;
   const middle = [snap((bounds[0] + bounds[2]) / 2), snap((bounds[1] + bounds[3]) / 2)];
   const centre = [box.left + (box.width + room.left - room.right) / 2, box.top + (box.height + room.top - room.bottom) / 2];
-  return {
-    box, scale, zoom,
-    toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
-    toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
-  };
+  return viewAt(box, zoom, scale, middle, centre);
 }
 
-// px between the content and the frame, so that an arrow on the rim still shows its tip.
+// The view that shows the place `middle` at `centre`, with `scale` px a metre.
+const viewAt = (box, zoom, scale, middle, centre) => ({
+  box, scale, zoom,
+  toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
+  toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
+});
+
+// What `zoomed` would be for a view as it is.
+const zoomOf = ({ box, scale, toWorld }) => [...toWorld(box.left + box.width / 2, box.top + box.height / 2), Math.min(box.width, box.height) / 2 / scale];
+
+// px between the content and the frame, so that an arrow on the rim still shows its tip, and its name beside it.
 function roomFor(arrows) {
-  const most = (share) => Math.max(30, ...Object.entries(arrows).map(([name, pose]) => (pose ? 14 + ARROW[name] * share(pose[2]) : 0)));
-  return { left: most((a) => -Math.cos(a)), right: most(Math.cos), top: most(Math.sin), bottom: most((a) => -Math.sin(a)) };
+  const most = (least, share) => Math.max(least, ...Object.entries(arrows).map(([name, pose]) => (pose ? 14 + ARROW[name] * share(pose[2]) : 0)));
+  return { left: most(54, (a) => -Math.cos(a)), right: most(54, Math.cos), top: most(30, Math.sin), bottom: most(30, (a) => -Math.sin(a)) };
 }
 
 // What must be seen: start and goal, or start and the goal's whole way.
@@ -72,16 +83,16 @@ function drawGrid(ctx, view, colours) {
   const { box } = view;
   const [left, bottom] = view.toWorld(box.left, box.top + box.height);
   const [right, top] = view.toWorld(box.left + box.width, box.top);
-  const step = roundStep(55 / view.scale, 1); // the same step both ways
-  for (let k = Math.ceil(left / step); k * step <= right; k += 1) {
-    const [x] = view.toScreen(k * step, 0);
-    line(ctx, [[x, box.top], [x, box.top + box.height]], colours.line, k === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, tickText(k * step, step), x, box.top + box.height + 12, colours, 'center');
+  const finest = (low, high) => stepFor(low, high, (high - low) * view.scale / 55), step = Math.min(finest(left, right), finest(bottom, top)); // the same both ways
+  for (const value of multiples(step, left, right)) {
+    const [x] = view.toScreen(value, 0);
+    line(ctx, [[x, box.top], [x, box.top + box.height]], colours.line, value === 0 ? 1.5 : 0.6);
+    tickLabel(ctx, tickText(value, step), x, box.top + box.height + 12, colours, 'center');
   }
-  for (let k = Math.ceil(bottom / step); k * step <= top; k += 1) {
-    const [, y] = view.toScreen(0, k * step);
-    line(ctx, [[box.left, y], [box.left + box.width, y]], colours.line, k === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, tickText(k * step, step), box.left - 6, y, colours, 'right');
+  for (const value of multiples(step, bottom, top)) {
+    const [, y] = view.toScreen(0, value);
+    line(ctx, [[box.left, y], [box.left + box.width, y]], colours.line, value === 0 ? 1.5 : 0.6);
+    tickLabel(ctx, tickText(value, step), box.left - 6, y, colours, 'right');
   }
   label(ctx, 'x [m]', box.left + box.width / 2, box.top + box.height + 32, colours, { align: 'center' });
   label(ctx, 'y [m]', 10, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });

@@ -1,32 +1,22 @@
-// From the widget's traits to what `simulate` takes, and what is wrong with them, in words.
+// From the panel's state to what `simulate` takes, and what is wrong with it, in words. The state is a flat object, named as in Python.
 
 const GAINS = ['k_rho', 'k_alpha', 'h', 'v_max'], FEEDBACK = ['k_x', 'k_y', 'k_heading'];
-// One gain out of each group of sliders that appear together.
-const GROUPS = { gains: 'k_rho', limit: 'v_max', feedback: 'k_x' };
-const LONGEST = 100_000; // steps: what a frame still has time for
+const LONGEST = { held: 100_000, continuous: 10_000 }; // steps: what a frame still has time for
 const FARTHEST = 1e6; // m: beyond, the plane is no longer a map
 
-const pick = (model, names) => Object.fromEntries(names.map((name) => [name, model.get(name)]));
+const pick = (values, names) => Object.fromEntries(names.map((name) => [name, values[name]]));
 
-// The row of the law in force in the table of laws that the panel is given.
-function lawOf(model) {
-  const moving = model.get('scenario') === 1, laws = model.get('laws').filter((law) => moving || !law.needs_reference);
-  return laws[model.get(moving ? 'circle_law' : 'pose_law')];
-}
-
-function settingsOf(model) {
+function settingsOf(state) {
   return {
-    start: model.get('start'), goal: model.get('goal'), reference: model.get('scenario') === 1 ? 'circle' : null,
-    law: lawOf(model).name, method: model.get('methods')[model.get('method')],
-    gains: pick(model, GAINS), feedback: pick(model, FEEDBACK),
-    dt: model.get('dt'), duration: model.get('duration'), arrivalRadius: model.get('arrival_radius'),
+    start: state.start, goal: state.goal, reference: state.moving ? 'circle' : null, law: state.law, method: state.method,
+    gains: pick(state, GAINS), feedback: pick(state, FEEDBACK), dt: state.dt, duration: state.duration, arrivalRadius: state.arrival_radius,
   };
 }
 
 // One run, with the goal's columns also where it stands still. Throws RangeError, which names what is not allowed.
 function runOf(settings) {
-  const { dt, duration, goal } = settings;
-  if (duration / dt > LONGEST) throw notAllowed('dt', dt, `at least ${duration / LONGEST} s`);
+  const { dt, duration, goal, method } = settings, longest = LONGEST[method] || LONGEST.held;
+  if (duration / dt > longest) throw notAllowed('dt', dt, `at least ${duration / longest} s`);
   for (const [name, pose] of Object.entries({ start: settings.start, goal })) {
     if (pose && pose.some((value) => Math.abs(value) > FARTHEST)) throw notAllowed(name, pose, `at most ${FARTHEST} m from the origin`);
   }
@@ -38,17 +28,25 @@ function runOf(settings) {
   return run;
 }
 
-// Which of the sliders and menus apply: traits that are tied to the display of their layouts.
-function displaysOf(model) {
-  const moving = model.get('scenario') === 1, { gains } = lawOf(model);
-  const shown = { pose_law: !moving, circle_law: moving, map: model.get('view') === 1 };
-  for (const [group, gain] of Object.entries(GROUPS)) shown[group] = gains.includes(gain);
-  return Object.entries(shown).map(([name, on]) => [`${name}_display`, on ? 'flex' : 'none']);
+const lawsFor = (setup, moving) => setup.laws.filter((law) => moving || !law.needs_reference);
+
+// Whether a slider or a menu has any effect as things stand.
+function applies(name, state, setup) {
+  const law = setup.laws.find((each) => each.name === state.law);
+  if ([...GAINS, ...FEEDBACK].includes(name)) return !law || law.gains.includes(name);
+  if (name === 'arrival_radius') return !state.moving;
+  return !['metric', 'axes'].includes(name) || state.view === 'gains';
 }
 
-const same = (a, b) => (Array.isArray(a) ? Array.isArray(b) && a.every((each, i) => same(each, b[i])) : a === b || Math.abs(a - b) < 1e-9);
+const numbers = (...them) => them.every((each) => typeof each === 'number');
+const same = (a, b) => (Array.isArray(a) ? Array.isArray(b) && a.every((each, i) => same(each, b[i])) : a === b || (numbers(a, b) && Math.abs(a - b) < 1e-9));
+const differences = (state, other) => Object.fromEntries(Object.entries(state).filter(([name, value]) => !same(value, other[name])));
 
 // The number in the menu of the preset that is in force, 0 for none.
-function presetOf(model) {
-  return 1 + model.get('presets').findIndex((preset) => Object.entries(preset).every(([name, value]) => same(value, model.get(name))));
+const presetOf = (state, setup) => 1 + setup.presets.findIndex((preset) => same(Object.values(preset), Object.keys(preset).map((name) => state[name])));
+
+// What a preset changes. One for a goal that stands still needs a scene of its own if the goal was moving.
+function presetValues(preset, state, setup) {
+  const [outdoor] = setup.presets, scene = setup.home.moving ? outdoor : setup.home;
+  return { ...(state.moving && !preset.moving ? pick(scene, ['start', 'goal']) : {}), ...preset };
 }

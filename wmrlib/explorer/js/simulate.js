@@ -7,32 +7,18 @@ const CIRCLE_COLUMNS = ['goalX', 'goalY', 'goalHeading'];
 const POSITIVE = ['v_max', 'k_y']; // the gains that may not be 0
 const MOST_SAMPLES = 1000000;
 
-// One run, sample by sample, into `columns`; gives [samples, outcome].
-function drive(setup, columns) {
-  const { step, gains, dt, samples, arrivalRadius, moving } = setup, { command, value } = setup.law;
-  let [x, y, heading] = setup.start, goal = [...setup.goal, 0, 0];
+// One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. Gives [samples, outcome].
+function drive(setup, record) {
+  const { step, gains, dt, samples, arrivalRadius, moving } = setup, { command } = setup.law;
+  let pose = setup.start, goal = [...setup.goal, 0, 0];
   for (let k = 0; k < samples; k++) {
     if (moving) goal = circle(dt * k);
-    const [rho, alpha, theta] = polarFromPose(x, y, heading, goal[0], goal[1], goal[2]);
-    const [v, omega] = command(rho, alpha, theta, gains, goal[3], goal[4]);
-    if (!Number.isFinite(rho + v + omega)) return [k, DIVERGED];
-    columns[0][k] = dt * k;
-    columns[1][k] = x;
-    columns[2][k] = y;
-    columns[3][k] = heading;
-    columns[4][k] = rho;
-    columns[5][k] = alpha;
-    columns[6][k] = theta;
-    columns[7][k] = v;
-    columns[8][k] = omega;
-    columns[9][k] = value(rho, alpha, theta, gains);
-    if (moving) {
-      columns[10][k] = goal[0];
-      columns[11][k] = goal[1];
-      columns[12][k] = goal[2];
-    }
+    const seen = polarFromPose(pose[0], pose[1], pose[2], goal[0], goal[1], goal[2]), rho = seen[0];
+    const twist = command(rho, seen[1], seen[2], gains, goal[3], goal[4]);
+    if (!Number.isFinite(rho + twist[0] + twist[1])) return [k, DIVERGED];
+    record(k, dt * k, pose, seen, twist, goal);
     if (rho <= arrivalRadius) return [k + 1, ARRIVED];
-    [x, y, heading] = step(x, y, heading, v, omega, dt);
+    pose = step(pose[0], pose[1], pose[2], twist[0], twist[1], dt);
   }
   return [samples, moving ? COMPLETED : TIMED_OUT];
 }
@@ -47,7 +33,15 @@ function simulate(options, into = null) {
   const needed = names.length * setup.samples;
   const memory = into !== null && into.t.buffer.byteLength >= 8 * needed ? into.t.buffer : new ArrayBuffer(8 * needed);
   const columns = names.map((_, i) => new Float64Array(memory, 8 * i * setup.samples, setup.samples));
-  const [n, outcome] = drive(setup, columns), run = { n, outcome: OUTCOMES[outcome] };
+  const { value } = setup.law, [t, x, y, heading, rho, alpha, theta, v, omega, V, ...goals] = columns;
+  const record = (k, time, pose, seen, twist, goal) => {
+    t[k] = time; x[k] = pose[0]; y[k] = pose[1]; heading[k] = pose[2];
+    rho[k] = seen[0]; alpha[k] = seen[1]; theta[k] = seen[2]; v[k] = twist[0]; omega[k] = twist[1];
+    V[k] = value(seen[0], seen[1], seen[2], setup.gains);
+    for (let i = 0; i < goals.length; i++) goals[i][k] = goal[i];
+  };
+  const [n, outcome, peakOmega, pathLength] = (setup.step ? drive : driveContinuously)(setup, record);
+  const run = { n, outcome: OUTCOMES[outcome], peakOmega, pathLength };
   names.forEach((name, i) => { run[name] = columns[i].subarray(0, n); });
   return run;
 }
@@ -56,16 +50,17 @@ function simulate(options, into = null) {
 // rad/s, pathLength in m, and residual, the mean distance over the last 5 s, in m. All NaN but time for a run without a sample.
 function summarise(run) {
   const last = run.n - 1, arrived = run.outcome === 'ARRIVED';
-  let peakOmega = last < 0 ? NaN : 0, pathLength = peakOmega, sum = 0, late = 0;
+  let peak = last < 0 ? NaN : 0, length = peak, sum = 0, late = 0;
   for (let k = 0; k <= last; k++) {
-    peakOmega = Math.max(peakOmega, Math.abs(run.omega[k]));
-    if (k < last) pathLength += Math.abs(run.v[k]) * (run.t[k + 1] - run.t[k]);
+    peak = Math.max(peak, Math.abs(run.omega[k]));
+    if (k < last) length += Math.abs(run.v[k]) * (run.t[k + 1] - run.t[k]);
     if (run.t[k] >= run.t[last] - 5) {
       sum += run.rho[k];
       late += 1;
     }
   }
   const headingError = last < 0 ? NaN : wrap(run.theta[last] - run.alpha[last]), distance = last < 0 ? NaN : run.rho[last];
+  const { peakOmega = peak, pathLength = length } = run; // of the motion, where it is known between the samples
   return { arrived, time: arrived ? run.t[last] : Infinity, headingError, peakOmega, pathLength, distance, residual: sum / late };
 }
 
@@ -75,12 +70,13 @@ let scratch = null; // the memory of the last run of a map, lent to the next
 // 'pathLength' or 'distance'. Entry j*xs.length + i of the Float64Array is of xs[i] and ys[j]; NaN where the robot does not arrive. Behind a
 // moving goal nothing arrives: there it is what the end of the run amounts to, and 'residual' in the place of 'time'.
 function landscape(options) {
-  const { kx, xs, ky, ys, metric } = options, map = new Float64Array(xs.length * ys.length), gains = { ...options.gains };
+  const { kx, xs, ky, ys, metric } = options, map = new Float64Array(xs.length * ys.length).fill(NaN), gains = { ...options.gains };
   const still = options.reference === null, lasting = !still && metric === 'time' ? 'residual' : metric;
+  const dt = options.method !== 'continuous' ? options.dt : still ? options.duration : Math.max(options.dt, 0.25); // no more samples than needed
   ys.forEach((y, j) => xs.forEach((x, i) => {
     gains[kx] = x;
     gains[ky] = y;
-    scratch = simulate({ ...options, gains }, scratch);
+    try { scratch = simulate({ ...options, dt, gains }, scratch); } catch (error) { if (error instanceof Unsettled) return; throw error; }
     const summary = summarise(scratch);
     map[j * xs.length + i] = still && !summary.arrived ? NaN : Math.abs(summary[lasting]);
   }));
@@ -94,6 +90,8 @@ function modes(gains, law = 'corrected') {
   const settling = gap > 0 ? b / (half + Math.sqrt(gap)) : half;
   return { rate, naturalFrequency: Math.sqrt(b), damping: half / Math.sqrt(b), slower: b === 0 ? Infinity : rate / settling };
 }
+
+class Unsettled extends RangeError {} // a run that a method can't finish
 
 function notAllowed(name, value, needed) {
   return new RangeError(`${name} = ${value} is not allowed: ${needed} is needed`);
@@ -113,7 +111,8 @@ function checkedSetup(options) {
   const moving = options.reference === 'circle', laws = Object.keys(LAWS).filter((name) => moving || !LAWS[name].needsReference);
   if (!moving && options.reference != null) throw notAllowed('reference', options.reference, "null or 'circle'");
   if (!laws.includes(options.law)) throw notAllowed('law', options.law, `one of ${laws.join(', ')}`);
-  if (!Object.hasOwn(STEPS, options.method)) throw notAllowed('method', options.method, `one of ${Object.keys(STEPS).join(', ')}`);
+  const methods = [...Object.keys(STEPS), 'continuous'];
+  if (!methods.includes(options.method)) throw notAllowed('method', options.method, `one of ${methods.join(', ')}`);
   const law = LAWS[options.law], given = { ...options.gains, ...options.feedback }, gains = {};
   for (const name of law.gains) gains[name] = checkedNumber(name, given[name], POSITIVE.includes(name));
   const dt = checkedNumber('dt', options.dt, true), duration = checkedNumber('duration', options.duration, true);

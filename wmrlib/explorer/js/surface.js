@@ -31,10 +31,22 @@ function roundStep(span, most) {
   return [1, 2, 5, 10].find((each) => each * power >= rough * (1 - 1e-9)) * power;
 }
 
+function multiples(step, low, high) {
+  const found = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(k * step);
+  return found;
+}
+
+// Such a step with two numbers between the ends at least, for one alone is no scale.
+function stepFor(low, high, most) {
+  let step = roundStep(high - low, most);
+  while (multiples(step, low, high).length < 2) step = roundStep(step, 2.5); // 5, 2, 1, 0.5
+  return step;
+}
+
 function ticksOf(low, high, most) {
-  const step = roundStep(high - low, most), ticks = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) ticks.push(k * step);
-  return { ticks, write: (value) => tickText(value, step) };
+  const step = stepFor(low, high, most);
+  return { ticks: multiples(step, low, high), write: (value) => tickText(value, step) };
 }
 
 function tickText(value, step) {

@@ -1,0 +1,111 @@
+// The law acting all the time: Dormand and Prince's method of order 8 with Hairer's two estimates of its error, as in wmrlib. A sample ends a
+// step, and so does arrival.
+
+const STAGES = [...RULE.stages, RULE.weights], NODES = STAGES.map((row) => row.reduce((sum, each) => sum + each, 0));
+const TOLERANCE = 1e-10; // of a step: m, rad, and behind a goal that stands still a share of the distance
+const SHARP = 1e-12; // so close to the arrival radius a run ends, as a share of it
+const PATIENCE = 20_000; // steps refused or cut before a run counts as beyond this method
+
+// `rates(t, state, out)` writes the rates of a state of four numbers, `least` is what the first counts as if it is less. After `attempt` the new
+// state is in `ahead` and its rates are in `slopes[12]`; it returns the error, in tolerances.
+function stepper(rates, least) {
+  const slopes = Array.from({ length: 13 }, () => new Float64Array(4)), ahead = new Float64Array(4);
+  const sum = (row, i) => { let total = 0; for (let j = 0; j < row.length; j += 1) total += row[j] * slopes[j][i]; return total; };
+  function attempt(t, state, dt) {
+    for (let stage = 0; stage < STAGES.length; stage += 1) {
+      for (let i = 0; i < 4; i += 1) ahead[i] = state[i] + dt * sum(STAGES[stage], i);
+      rates(t + NODES[stage] * dt, ahead, slopes[stage + 1]);
+    }
+    let fine = 0, coarse = 0;
+    for (let i = 0; i < 4; i += 1) {
+      const scale = Math.max(Math.abs(ahead[i]), i ? 1 : least);
+      fine = Math.max(fine, Math.abs(dt * sum(RULE.fifth, i)) / scale);
+      coarse = Math.max(coarse, 0.1 * Math.abs(dt * sum(RULE.third, i)) / scale);
+    }
+    return fine === 0 ? 0 : fine * fine / Math.hypot(fine, coarse) / TOLERANCE;
+  }
+  return { attempt, slopes, ahead };
+}
+
+// One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. Gives [samples, outcome, peak omega, path length].
+function driveContinuously(setup, record) {
+  const { gains, dt, samples, start, arrivalRadius, moving } = setup, { command } = setup.law, still = [...setup.goal, 0, 0];
+  const poseOf = (y) => (moving ? [y[0], y[1], wrap(y[2])] : poseOfError(y[0], y[1], y[2], ...setup.goal));
+  const seenFrom = (y, goal) => (moving ? polarFromPose(y[0], y[1], y[2], goal[0], goal[1], goal[2]) : y);
+  const goalAt = (t) => (moving ? circle(t) : still);
+  const twistOf = (y, goal) => { const [rho, alpha, theta] = seenFrom(y, goal); return command(rho, alpha, theta, gains, goal[3], goal[4]); };
+  function rates(t, y, out) {
+    const [v, omega] = twistOf(y, goalAt(t));
+    if (moving) { out[0] = v * Math.cos(y[2]); out[1] = v * Math.sin(y[2]); out[2] = omega; }
+    else [out[0], out[1], out[2]] = polarClosingRate(y[0], y[1], v / (y[0] || 1), omega); // on the goal v is 0
+    out[3] = Math.abs(v);
+  }
+  const { attempt, slopes, ahead } = stepper(rates, moving ? 1 : 1e-150), ends = [], patience = PATIENCE + samples;
+  let t = 0, trials = 0, next = 0.01, y = Float64Array.from([...(moving ? start : polarFromPose(...start, ...setup.goal)), 0]);
+  const turning = (at, time) => Math.abs(twistOf(at, goalAt(time))[1]);
+  const put = (k, time, at) => { const goal = goalAt(time); record(k, time, poseOf(at), seenFrom(at, goal), twistOf(at, goal), goal); };
+  const keep = () => ends.push({ t, y, omega: turning(y, t) });
+  const turningAfter = (end, time) => {
+    rates(end.t, end.y, slopes[0]);
+    attempt(end.t, end.y, time - end.t);
+    return turning(ahead, time);
+  };
+  const over = (n, outcome) => [n, outcome, peakOf(ends, turningAfter), y[3]];
+
+  put(0, 0, y);
+  rates(0, y, slopes[0]);
+  keep();
+  if (y[0] <= arrivalRadius && !moving) return over(1, ARRIVED);
+  for (let k = 1; k < samples; k += 1) {
+    const until = dt * k;
+    while (t < until) {
+      const cut = next >= until - t, step = cut ? until - t : next, error = attempt(t, y, step);
+      trials += 1;
+      if (trials > patience) throw new Unsettled(notAllowed('method', 'continuous', "'arc' or 'euler', or slower gains,").message);
+      const growth = error > 0 ? Math.min(Math.max(0.9 / error ** 0.125, 0.2), 5) : error === 0 ? 5 : 0.2; // 0.2 for NaN too
+      if (!(error <= 1)) {
+        next = growth * step;
+        if (next < 1e-14 * Math.max(t, 1e-3)) return over(k, DIVERGED);
+        continue;
+      }
+      const arrived = !moving && arrivalRadius > 0 && ahead[0] <= arrivalRadius * (1 + SHARP);
+      const taken = arrived ? arrivalIn(attempt, ahead, slopes, t, y, step, arrivalRadius) : step;
+      next = cut ? Math.max(next, growth * step) : growth * step;
+      t = cut && !arrived ? until : t + taken;
+      y = ahead.slice();
+      slopes[0].set(slopes[12]);
+      keep();
+      if (arrived) { put(k, t, y); return over(k + 1, ARRIVED); }
+    }
+    if (!Number.isFinite(y[0] + y[1] + y[2])) return over(k, DIVERGED);
+    put(k, t, y);
+  }
+  return over(samples, moving ? COMPLETED : TIMED_OUT);
+}
+
+// How long a step may be to end on the radius that it passes; rho falls all the way. By Newton's method, and by halving where that leaves.
+function arrivalIn(attempt, ahead, slopes, t, y, step, radius) {
+  let low = 0, high = step, at = step;
+  for (let k = 0; k < 60 && Math.abs(ahead[0] - radius) > SHARP * radius; k += 1) {
+    if (ahead[0] > radius) low = at; else high = at;
+    const guess = at - (ahead[0] - radius) / slopes[12][0];
+    at = guess > low && guess < high ? guess : (low + high) / 2;
+    attempt(t, y, at);
+  }
+  return at;
+}
+
+// The largest |omega|, also between the ends of the steps: by golden section round the largest of these.
+function peakOf(ends, turningAfter) {
+  let top = 0;
+  ends.forEach((end, i) => { if (end.omega > ends[top].omega) top = i; });
+  const first = Math.max(top - 1, 0), last = Math.min(top + 1, ends.length - 1), share = (Math.sqrt(5) - 1) / 2;
+  const at = (time) => turningAfter(ends[time < ends[top].t ? first : top], time);
+  let [low, high] = [ends[first].t, ends[last].t], best = ends[top].omega;
+  for (let k = 0; k < 25 && high > low; k += 1) {
+    const left = high - share * (high - low), right = low + share * (high - low), [one, two] = [at(left), at(right)];
+    best = Math.max(best, one, two);
+    if (one > two) high = right; else low = left;
+  }
+  return best;
+}
