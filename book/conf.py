@@ -30,6 +30,7 @@ nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_kernel_rgx_aliases = {".*": "python3"}
 nb_merge_streams = True
+nb_code_prompt_show, nb_code_prompt_hide = "Show the code", "Hide the code"
 # A table that a cell prints may have formulas and links to chapters.
 nb_render_markdown_format = "myst"
 nb_output_stderr = "remove-warn"  # and a warning fails the build

@@ -20,6 +20,7 @@ from urllib.parse import unquote
 from docutils import nodes
 from pygments.formatters import HtmlFormatter
 from sphinx.highlighting import PygmentsBridge
+
 from wmrbook.figures.style import SVG_URL, darkened
 
 CHAPTER = re.compile(r"notebooks/(\d\d)_")
@@ -40,8 +41,9 @@ MENDED = (  # what the theme writes, and what axe-core finds nothing in
 # From a page's HTML to the words to be found, with the sections that results lead to.
 ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
 UNSAID = re.compile(
-    r'<(script|style|svg|summary)\b.*?</\1>|<a class="headerlink".*?</a>|<div class="math.*?</div>'
-    r"|\\[()]|<(?!/?section\b)[^>]+>",
+    r'<(script|style|svg|summary)\b.*?</\1>|<a class="headerlink".*?</a>'
+    r'|<div class="[^"]*\bmath\b.*?</div>'
+    r"|\\(?:[()]|(?=[a-z]))|<(?!/?section\b)[^>]+>",
     re.DOTALL,
 )
 
@@ -73,7 +75,8 @@ def show_figures(app, doctree):
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")
             image = nodes.image(uri=f"/_figures/{path.name}", alt=html.unescape(found["alt"]))
-            image["width"], image["classes"] = f"{found['width']}px", [f"only-{theme}"]
+            image["width"] = f"{found['width']}px"
+            image["classes"] = [f"only-{theme}", "no-scaled-link"]
             images.append(image)
         output.replace_self(images)
 

@@ -19,7 +19,7 @@ window.paper = (() => {
     document.querySelectorAll('img').forEach((it) => { it.loading = 'eager'; });
     mend_links();
     begins()[0].before(contents());
-    for (const link of document.querySelectorAll('article a[href^="#"]')) {
+    for (const link of [...document.querySelectorAll('article a[href^="#"]')]) {
       const number = document.createElement('span');
       number.className = 'page-number';
       number.dataset.of = link.getAttribute('href').slice(1);
@@ -33,18 +33,21 @@ window.paper = (() => {
 
   // Sphinx writes #document-notebooks/04_lyapunov#paper-24, and several chapters have a section of the same name.
   function mend_links() {
-    const seen = new Set();
+    const links = Map.groupBy(document.querySelectorAll('article a[href^="#"]'), (it) => it.getAttribute('href'));
+    const lead = (found, target) => found?.forEach((link) => { link.href = `#${target.id}`; });
+    const seen = new Set([document.querySelector('article section').id]);
     for (const begin of begins()) {
-      const name = begin.id.replace('document-', '').split('/').at(-1);
-      const section = begin.nextElementSibling;
-      for (const it of [section, ...section.querySelectorAll('[id]')]) {
+      const chapter = begin.nextElementSibling;
+      for (const it of [chapter, ...chapter.querySelectorAll('section[id], span[id], div[id], dt[id], p[id]')]) {
         const id = it.id;
-        if (seen.has(id)) it.id = `${name}-${id}`;
+        if (seen.has(id)) {
+          it.id = `${begin.id.replace('document-', '')}-${id}`;
+          lead(links.get(`#${id}`)?.filter((link) => chapter.contains(link)), it);
+        }
         seen.add(id);
-        document.querySelectorAll(`a[href="#${CSS.escape(begin.id)}#${CSS.escape(id)}"]`).forEach((link) => { link.href = `#${it.id}`; });
-        if (it.id !== id) section.querySelectorAll(`a[href="#${CSS.escape(id)}"]`).forEach((link) => { link.href = `#${it.id}`; });
+        lead(links.get(`#${begin.id}#${id}`), it);
       }
-      document.querySelectorAll(`a[href="#${CSS.escape(begin.id)}"]`).forEach((link) => { link.href = `#${section.id}`; });
+      lead(links.get(`#${begin.id}`), chapter);
     }
   }
 
@@ -69,9 +72,9 @@ window.paper = (() => {
 
   // From one document into another: there a reader on paper has to turn pages.
   function leads_elsewhere(link) {
-    const chapter = (it) => begins().map((begin) => begin.nextElementSibling).find((section) => section.contains(it));
     const target = document.getElementById(link.getAttribute('href').slice(1));
-    return target && chapter(link) && chapter(target) !== chapter(link) && !link.closest('pre, .headerlink, table');
+    const chapter = (it) => it?.closest('span[id^="document-"] + section');
+    return chapter(target) && chapter(link) && chapter(target) !== chapter(link) && !link.closest('pre, table, .headerlink');
   }
 
   // `pages` tells where an anchor was printed; "000" keeps its place before anything is.

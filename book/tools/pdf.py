@@ -18,16 +18,24 @@ PATIENCE = 300_000  # ms: a whole book
 PAPER = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
 SHARP = 2  # dots a pixel
-# Nothing but its panels has to be drawn of a page that is opened for their pictures.
-BARE = """addEventListener('DOMContentLoaded', () => {
-    document.querySelectorAll('article :is(.math, pre, img)').forEach(it => it.remove());
-})"""
-PANEL = 'script[type="application/vnd.jupyter.widget-view+json"]'
-ALIVE = f"""async () => {{
-    await MathJax.startup.promise;
-    const panels = [...document.querySelectorAll('{PANEL}')].map(it => it.parentElement);
-    return panels.every(it => it.querySelector('.jupyter-widgets canvas')?.width);
-}}"""
+# What takes long to print, and changes no place of a page.
+PLACES_ONLY = "img, svg { visibility: hidden !important; }"
+# Show the panels of another page of the site in this one: for each a page of its own takes seconds.
+SHOW = """async (html) => {
+    const there = new DOMParser().parseFromString(html, 'text/html');
+    const place = document.createElement('div');
+    place.append(...there.querySelectorAll('script[type^="application/vnd.jupyter.widget"]'));
+    document.querySelector('article').replaceChildren(place);
+    const manager = '@jupyter-widgets/html-manager/dist/libembed-amd';
+    const widgets = await new Promise((done, failed) => require([manager], done, failed));
+    await widgets.renderWidgets(place);
+}"""
+DRAWN = """async () => {
+    const panels = [...document.querySelectorAll('script[type$="widget-view+json"]')];
+    const canvases = [...document.querySelectorAll('article canvas')];
+    return canvases.length && canvases.every(it => it.width) && panels.every(
+        it => it.parentElement.querySelector('.jupyter-widgets'));
+}"""
 FRAMES = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -56,37 +64,44 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         book.goto(page.as_uri(), wait_until="load")
         book.add_script_tag(content=PAPER)
         places = book.evaluate("paper.places()")
-        stills = {place: picture_panels(chromium, site, place) for place in dict.fromkeys(places)}
-        book.evaluate("stills => paper.prepare(stills)", sum(stills.values(), []))
-        pages: dict[str, int] = {}
-        for _ in range(4):  # a number that turns out shorter may move what comes after it
-            book.evaluate("pages => paper.number_pages(pages)", pages)
-            book.pdf(
-                path=pdf,
-                format="A4",
-                margin=MARGIN,
-                scale=0.8,
-                display_header_footer=True,
-                header_template="<span></span>",
-                footer_template=FOOTER,
-                outline=True,
-                tagged=True,
-            )
-            before, pages = pages, find_pages(pdf, book.evaluate("paper.anchors()"))
-            if pages == before:
-                break
+        stills = picture_panels(chromium, site, list(dict.fromkeys(places)))
+        book.evaluate("stills => paper.prepare(stills)", stills)
+        drawn = book.add_style_tag(content=PLACES_ONLY)
+        pages = find_pages(print_page(book, pdf), book.evaluate("paper.anchors()"))
+        drawn.evaluate("it => it.remove()")
+        book.evaluate("pages => paper.number_pages(pages)", pages)
+        if find_pages(print_page(book, pdf), list(pages)) != pages:
+            sys.exit("The PDF's pages moved when their numbers were filled in.")
         chromium.close()
 
 
-def picture_panels(chromium, site: Path, place: str) -> list[str]:
-    """Open a document of the site and return its panels' pictures as addresses of images."""
+def print_page(page, pdf: Path) -> Path:
+    page.pdf(
+        path=pdf,
+        format="A4",
+        margin=MARGIN,
+        scale=0.8,
+        display_header_footer=True,
+        header_template="<span></span>",
+        footer_template=FOOTER,
+        outline=True,
+        tagged=True,
+    )
+    return pdf
+
+
+def picture_panels(chromium, site: Path, places: list[str]) -> list[str]:
+    """Return pictures of the panels in these documents of the site, as addresses of images."""
     page = chromium.new_page(color_scheme="light", viewport=STILL, device_scale_factor=SHARP)
     page.set_default_timeout(PATIENCE)
-    page.add_init_script(BARE)
-    page.goto((site / f"{place}.html").as_uri(), wait_until="load")
-    page.wait_for_function(ALIVE)
-    page.evaluate(FRAMES)
-    shots = [it.screenshot() for it in page.locator(".widget-subarea > .jupyter-widgets").all()]
+    page.goto((site / "explorer.html").as_uri(), wait_until="load")
+    page.wait_for_function(DRAWN)
+    shots = []
+    for place in places:
+        page.evaluate(SHOW, (site / f"{place}.html").read_text(encoding="utf-8"))
+        page.wait_for_function(DRAWN)
+        page.evaluate(FRAMES)
+        shots += [it.screenshot() for it in page.locator(".widget-subarea").all()]
     page.close()
     return [f"data:image/png;base64,{base64.b64encode(shot).decode()}" for shot in shots]
 

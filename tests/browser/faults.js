@@ -5,7 +5,7 @@
   const article = document.querySelector('article') ?? document.body;
   const seen = (it) => it.checkVisibility() && it.getClientRects().length > 0;
   const scrolls = (it) => /auto|scroll/.test(getComputedStyle(it).overflowX);
-  const clips = (it) => getComputedStyle(it).overflowX !== 'visible';
+  const clips = (it) => getComputedStyle(it).overflowX !== 'visible' && getComputedStyle(it).display !== 'inline';
 
   // From left to right what those around an element leave to be seen of it, at once or by scrolling.
   function window_of(element, scrolling = true) {

@@ -9,9 +9,13 @@ dark, requests that leave the site, and panels that the PDF lacks. Needs `npm ci
 from __future__ import annotations
 
 import argparse
+import re
 import sys
+import zlib
 from collections import Counter
 from pathlib import Path
+
+import numpy as np
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZES = ((390, 844), (1366, 768), (1920, 1080))
@@ -23,6 +27,7 @@ UNFOLD = """() => {
     document.head.append(Object.assign(document.createElement('style'),
         {textContent: '* { transition: none !important; animation: none !important; }'}));
 }"""
+PANEL = '<script type="application/vnd.jupyter.widget-view+json">'
 DRAWN = """async () => {
     await window.MathJax?.startup.promise;
     await document.fonts.ready;
@@ -30,9 +35,13 @@ DRAWN = """async () => {
     const panels = [...document.querySelectorAll(`script[type="${type}"]`)];
     return panels.every(it => it.parentElement.querySelector('.jupyter-widgets'));
 }"""
+IMAGE = re.compile(  # in a PDF by Chromium
+    rb"/Subtype /Image\s+/Width (\d+)\s+/Height (\d+)\s+/ColorSpace \[/ICCBased[^>]*?"
+    rb"/Filter /FlateDecode\s+/Length (\d+)>> stream\r?\n"
+)
 FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
-# What is drawn twice is looked at once, or this takes minutes: of code tokens of a kind the first, and
-# of a formula not its glyphs, since its words stand beside them.
+# What is drawn twice is looked at once, or this takes minutes: of code tokens of a kind the first,
+# and of a formula not its glyphs, since its words stand beside them.
 THIN = """() => {
     const seen = new Set();
     for (const token of document.querySelectorAll('pre span[class]:not(.line, a span)')) {
@@ -48,7 +57,7 @@ ASK = """only => axe.run(document, {resultTypes: ['violations'], ...only}).then(
 
 
 def of_page(page) -> list[tuple[str, str]]:
-    """The faults of a page that is drawn, as pairs of the kind and the place; it is spoiled then."""
+    """The faults of a page that is drawn, as pairs of kind and place; it is spoiled then."""
     faults = []
     page.evaluate(UNFOLD)
     for width, height in SIZES:
@@ -63,6 +72,20 @@ def of_page(page) -> list[tuple[str, str]]:
         page.evaluate(FRAME)
         faults += [(f"axe, {theme}: {rule}", place) for rule, place in page.evaluate(ASK, only)]
     return faults
+
+
+def stills(pdf: Path) -> int:
+    """Count the panels' pictures in the PDF, if all of them show more than a ground."""
+    file = pdf.read_bytes()
+    for image in IMAGE.finditer(file):  # those that are equal are stored once
+        width, height, length = map(int, image.groups())
+        if width > 1400 and height > 700:  # no figure has as many pixels
+            text = zlib.decompress(file[image.end() : image.end() + length])
+            pixels = np.frombuffer(text, np.uint8).reshape(height, width, 3)[height // 2 :: 4]
+            codes = pixels @ np.array([65536, 256, 1])
+            if min(len(np.unique(half)) for half in np.array_split(codes, 2, axis=1)) < 50:
+                return 0
+    return file.count(b"/Alt (The live panel,")
 
 
 def main(site: Path, only: list[str]) -> int:
@@ -94,6 +117,9 @@ def main(site: Path, only: list[str]) -> int:
             faults += here
             page.close()
         chromium.close()
+    if (pdf := site.parent / "book.pdf").is_file() and not only:
+        panels = sum(path.read_text(encoding="utf-8").count(PANEL) for path in site.rglob("*.html"))
+        faults += [("panels that the PDF lacks", "")] * (panels - stills(pdf))
     for kind, count in sorted(Counter(kind for kind, _ in faults).items()):
         print(f"{count:5} {kind}")
     print(f"{len(faults):5} in all")

@@ -46,8 +46,8 @@ STYLE: dict[Any, float] = {
     "axes.spines.right": False,
     "lines.linewidth": 2.0,
 }
-# On dark paper: ink is white, white is the paper, and what is drawn has the hue that it has on white
-# and in the panel, lighter. An area with hatches in ink, and the robot in front of its path, is dark.
+# On dark paper: ink is white, white is the paper, and what is drawn has the hue that it has on
+# white and in the panel, lighter. An area with hatches in ink, and the robot on its path, is dark.
 DARK = {
     "#000000": "#f0f3f6",
     "#222222": "#f0f3f6",
@@ -110,7 +110,8 @@ class Picture:
 
 def darkened(svg: str) -> str:
     """Return an SVG text of a Picture in the colours of dark paper."""
-    return re.sub(r"#[0-9a-f]{6}", lambda colour: DARK.get(colour[0], colour[0]), svg)
+    text = re.sub(r"#[0-9a-f]{6}", lambda colour: DARK.get(colour[0], colour[0]), svg)
+    return text.replace("<svg", f"<svg fill='{DARK['#000000']}'", 1)  # black is not written
 
 
 def _rounded(number: re.Match) -> str:
