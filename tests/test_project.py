@@ -176,10 +176,11 @@ def test_a_chapters_equations_are_numbered_in_order():
 
 def test_every_picture_has_its_text():
     for name in CHAPTERS:
-        assert outputs(name, "image/png"), name
-        for picture in outputs(name, "image/png"):
-            assert len(picture.metadata["image/png"]["alt"]) > 60
-            assert picture.data["text/html"].startswith('<img alt="')
+        shown = [it.data["text/html"] for it in outputs(name, "text/html")]
+        pictures = [text for text in shown if "<img" in text]
+        assert pictures, name
+        for picture in pictures:
+            assert re.match(r'<img alt="[^"]{60,}" width="\d+" src="data:', picture), picture[:200]
 
 
 def test_the_stored_panels_are_those_of_now():
