@@ -4,7 +4,6 @@ from pathlib import Path
 
 import kernels
 from docutils import nodes
-from PIL import Image
 from sphinx.util import logging
 
 import wmrlib
@@ -17,7 +16,7 @@ language = "en"
 
 exclude_patterns = ["course"]  # the graded exercises: only a table of them is shown
 extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
-extensions += ["reference"]
+extensions += ["pages", "reference"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 bibtex_bibfiles = [str(Path(__file__).parent / "references.bib")]
@@ -31,6 +30,7 @@ nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_kernel_rgx_aliases = {".*": "python3"}
 nb_merge_streams = True
+nb_code_prompt_show, nb_code_prompt_hide = "Show the code", "Hide the code"
 # A table that a cell prints may have formulas and links to chapters.
 nb_render_markdown_format = "myst"
 nb_output_stderr = "remove-warn"  # and a warning fails the build
@@ -41,8 +41,6 @@ html_static_path = ["_static"]
 html_css_files = ["book.css"]
 html_show_sphinx = False
 html_domain_indices = False
-# A summary would be made by fetching the page found, which a browser forbids for file://.
-html_show_search_summary = False
 # Light or dark as the reader's system is; the button overrides it.
 html_context = {"default_mode": "auto"}
 html_theme_options = {
@@ -76,13 +74,9 @@ nb_ipywidgets_js = {
 }
 
 
-def describe_figures(app, doctree):
-    """Give each figure the alternative text in its PNG file; a figure without one is an error."""
+def look_for_words(app, doctree):
+    """An image without alternative text is an error."""
     for image in doctree.findall(nodes.image):
-        path = app.srcdir / image["uri"].lstrip("/")
-        if "alt" not in image and path.suffix == ".png":
-            with Image.open(path) as figure:
-                image["alt"] = figure.info.get("Description", "")
         if not image.get("alt"):
             logging.getLogger(__name__).warning(
                 "no alternative text for %s", image["uri"], location=image
@@ -90,4 +84,4 @@ def describe_figures(app, doctree):
 
 
 def setup(app):
-    app.connect("doctree-read", describe_figures)
+    app.connect("doctree-read", look_for_words)

@@ -4,6 +4,11 @@
   let start;
   const started = new Promise((resolve) => { start = resolve; });
   const Hub = { Queue: ([, , element]) => started.then(() => MathJax.typesetPromise([element])) };
+  // A formula that is wider than its box is scrolled by the keyboard too.
+  const reach = () => document.querySelectorAll('mjx-container[display]').forEach((it) => {
+    it.scrollWidth > it.clientWidth ? it.setAttribute('tabindex', 0) : it.removeAttribute('tabindex');
+  });
+  window.addEventListener('resize', reach);
   window.MathJax = {
     Hub,
     tex: { inlineMath: [['\\(', '\\)'], ['$', '$']] },  // widget labels are written with dollars
@@ -16,7 +21,7 @@
       ready() {
         MathJax.startup.defaultReady();
         MathJax.Hub = Hub;
-        MathJax.startup.promise.then(start);
+        MathJax.startup.promise.then(start).then(reach);
       },
     },
   };

@@ -38,7 +38,7 @@ def test_figures_have_captions_in_order_and_exercises_are_of_three_kinds(path):
     shown = [
         count
         for count, cell in enumerate(cells)
-        if any("image/png" in output.get("data", {}) for output in cell.get("outputs", ()))
+        if any("<img" in it.get("data", {}).get("text/html", "") for it in cell.get("outputs", ()))
     ]
     labels = [f"**Figure {number}.{count}.** " for count in range(1, len(shown) + 1)]
     captions = [(count, re.match(r"\*\*Figure .*?\*\* ", text)) for count, text in enumerate(prose)]

@@ -5,6 +5,7 @@ import shutil
 import struct
 import subprocess
 import sys
+import time
 from hashlib import sha256
 from pathlib import Path
 
@@ -161,6 +162,17 @@ def scaled(number):
 def compiled_again():
     made = _compile.compiled(scaled)
     return made(3.0), sum(made.stats.cache_misses.values())
+
+
+def test_what_older_versions_compiled_is_forgotten_after_a_month(tmp_path, monkeypatch):
+    monkeypatch.setattr(_compile, "_FOLDERS", [tmp_path / "compiled-new"])
+    days = {"compiled-recent": 29, "compiled-old": 31, "another's": 400}
+    for name, age in days.items():
+        (tmp_path / name).mkdir()
+        os.utime(tmp_path / name, 2 * (time.time() - 86400 * age,))
+    assert compiled_again() == (3.0 * FACTOR, 1)
+    left = {path.name for path in tmp_path.iterdir()}
+    assert left == {"compiled-new", "compiled-recent", "another's"}
 
 
 @st.composite

@@ -10,7 +10,9 @@ from __future__ import annotations
 
 import os
 import pickle
+import shutil
 import sys
+import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
@@ -26,6 +28,7 @@ from numba.core.compiler import CompileResult
 from numba.core.serialize import dumps
 
 _PACKAGE = Path(__file__).parent
+_MONTH = 30 * 24 * 3600.0  # s
 _SOURCES = sorted((*_PACKAGE.glob("*.py"), *_PACKAGE.glob("_loops/*.py")))
 
 
@@ -82,12 +85,21 @@ class _Cache(NullCache):
 def _kept(file: Path, content: bytes) -> bool:
     part = file.with_name(uuid4().hex)  # other processes see the whole file or none
     with suppress(OSError):
-        file.parent.mkdir(parents=True, exist_ok=True)
+        if not file.parent.exists():
+            _forget_old(file.parent.parent)
+            file.parent.mkdir(parents=True, exist_ok=True)
         part.write_bytes(content)
         part.replace(file)
     with suppress(OSError):  # what did not become the file
         part.unlink()
     return os.path.exists(file)  # Windows replaces no file that another process is reading
+
+
+def _forget_old(place: Path) -> None:
+    """Remove what other versions compiled, where nothing was added for a month."""
+    for folder in place.glob("compiled-*"):
+        if folder.stat().st_mtime < time.time() - _MONTH:
+            shutil.rmtree(folder, ignore_errors=True)
 
 
 @lru_cache

@@ -9,7 +9,6 @@ first: an assignment in which they lose points on this machine is not graded.
 
 from __future__ import annotations
 
-import argparse
 import os
 import re
 from collections.abc import Callable, Iterable, Iterator
@@ -20,12 +19,11 @@ from unicodedata import normalize
 
 import handins
 import marks
-from gradebook import Course, lost
+from gradebook import COURSE, Course, lost, options
 from handins import Refused
 from sandbox import Limits, Sandbox, hides, stops
 from tqdm import tqdm
 
-COURSE = Path(__file__).resolve().parent
 SECRETS = COURSE, COURSE.parents[1] / "tests", COURSE.parents[1] / ".git"
 NAME = re.compile(r"\w([\w.@ -]*[\w.@-])?")  # what paths, nbgrader and tables bear
 
@@ -131,16 +129,12 @@ def table(rows: list[Row]) -> str:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("assignments", nargs="*", metavar="ASSIGNMENT", help="ch01, or all")
-    parser.add_argument("--course", type=Path, default=COURSE, help="the folder of the course")
+    parser = options(__doc__)
     said = "at once; as many as there are processors by default"
     parser.add_argument("--jobs", type=int, default=os.cpu_count() or 1, help=said)
     said = "most seconds of a cell, 60 by default; five times that for a hand-in"
     parser.add_argument("--seconds", type=float, default=60.0, help=said)
-    said = "most gigabytes of memory of a process, 4 by default"
+    said = "most gigabytes of memory of a hand-in, 4 by default"
     parser.add_argument("--memory", type=float, default=4.0, help=said)
     given = parser.parse_args()
     for name in "jobs", "seconds", "memory":

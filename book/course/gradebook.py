@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import logging
 import os
 import re
@@ -21,6 +22,17 @@ from nbgrader.preprocessors import CheckCellMetadata, Execute, OverwriteCells
 from nbgrader.utils import capture_log, determine_grade, is_grade, parse_utc
 from sqlalchemy.exc import SAWarning
 from traitlets.config.loader import PyFileConfigLoader
+
+COURSE = Path(__file__).resolve().parent
+
+
+def options(description: str) -> argparse.ArgumentParser:
+    """What the commands of the course have in common."""
+    how = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=description, formatter_class=how)
+    parser.add_argument("assignments", nargs="*", metavar="ASSIGNMENT", help="ch01, or all")
+    parser.add_argument("--course", type=Path, default=COURSE, help="the folder of the course")
+    return parser
 
 
 class Course:

@@ -6,16 +6,14 @@ exercises, the packages that both import, and how to install them and hand in.
 
 from __future__ import annotations
 
-import argparse
 import re
 from collections.abc import Iterator
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import nbformat
-from gradebook import Course
+from gradebook import COURSE, Course, options
 
-COURSE = Path(__file__).resolve().parent
 ROOT = COURSE.parents[1]
 FOLDERS = "wmrlib", "book/wmrbook", "book/lab", "notebooks/data"
 FILES = "LICENSE", "environment.txt", "pyproject.toml"
@@ -64,11 +62,7 @@ def _book() -> Iterator[tuple[str, str | bytes]]:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("assignments", nargs="*", metavar="ASSIGNMENT", help="ch01, or all")
-    parser.add_argument("--course", type=Path, default=COURSE, help="the folder of the course")
+    parser = options(__doc__)
     said = "the file; students.zip in the folder of the course by default"
     parser.add_argument("--output", type=Path, help=said)
     given = parser.parse_args()

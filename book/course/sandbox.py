@@ -24,6 +24,7 @@ from collections import defaultdict
 from collections.abc import Iterable
 from contextlib import suppress
 from pathlib import Path
+from threading import Event, Thread
 from typing import NamedTuple
 
 import nbformat
@@ -133,7 +134,8 @@ class Sandbox:
         self.stage = Path(tempfile.mkdtemp(prefix="wmr-"))
         for package in wmrlib, wmrbook:
             source = Path(package.__file__).parent
-            shutil.copytree(source, self.stage / "lib" / source.name)
+            copy = self.stage / "lib" / source.name  # without what older versions compiled
+            shutil.copytree(source, copy, ignore=shutil.ignore_patterns("compiled-*"))
         self.compiled = self.stage / "lib" / "wmrlib" / "__pycache__"
         for folder in filter(Path.exists, _FOLDERS):
             shutil.copytree(folder, self.compiled / folder.name, dirs_exist_ok=True)
@@ -147,8 +149,12 @@ class Sandbox:
     ) -> NotebookNode:
         """Return the notebook with its outputs; what a trusted one compiled, all need not.
 
-        The checks are told who handed in and who else is in the class.
+        Because it compiles, it has five times as long. The checks are told who handed in and who
+        else is in the class.
         """
+        cell, whole, memory = self.limits
+        more = 5 if trusted else 1
+        limits = Limits(more * cell, more * whole, memory)
         for cell in notebook.cells:
             if _graded(cell):  # nbgrader gives all points to a check without an output
                 cell.outputs = [_stopped("it did not run")]
@@ -156,14 +162,14 @@ class Sandbox:
         result = job / "notebook.json"
         nbformat.write(notebook, result)
         told = {"WMR_STUDENT": student, "WMR_CLASS": ",".join(others)}
-        settings = str(job), self.hidden, json.dumps(self.limits), json.dumps(told)
+        settings = str(job), self.hidden, json.dumps(limits), json.dumps(told)
         with suppress(subprocess.TimeoutExpired):
             driver = subprocess.run(
                 [sys.executable, "-c", DRIVER, *settings],
                 cwd=Path(__file__).parent,
                 capture_output=True,
                 text=True,
-                timeout=self.limits.whole + 120,
+                timeout=limits.whole + 120,
             )
             if driver.returncode:  # no fault of the notebook's, such as a full disk
                 shutil.rmtree(job, ignore_errors=True)
@@ -188,10 +194,24 @@ def stops(notebook: NotebookNode) -> list[str]:
 
 
 class _Client(NotebookClient):
-    """One kernel, which is killed when it has printed too much."""
+    """One kernel, which is killed when it has printed too much.
+
+    Also when it and what it started take too much memory: systems limit each process alone.
+    """
 
     printed = 0
     why = ""
+
+    def watch(self, memory: int, ended: Event) -> None:
+        """Kill it when it takes too much, until that event."""
+        while not (self.why or ended.wait(0.5)):
+            taken = 0
+            for child in psutil.Process().children(recursive=True):
+                with suppress(psutil.Error):
+                    taken += child.memory_info().rss
+            if taken > memory:
+                self.why = f"it took more than {memory / 1e9:g} GB"
+                self.km.provisioner.process.kill()
 
     def process_message(self, message, cell, index):
         self.printed += len(str(message["content"])) + sum(map(len, message["buffers"]))
@@ -231,12 +251,13 @@ def drive() -> None:
             shutdown_kernel="immediate",
             on_cell_executed=_failed,
         )
-        at = None
+        at, ended = None, Event()
         quiet = dict.fromkeys(("stdout", "stderr"), subprocess.DEVNULL)
         try:
             with client.setup_kernel(
                 cleanup_kc=True, cwd=own, env=_environment(own) | told, **quiet
             ):
+                Thread(target=client.watch, args=(limits.memory, ended)).start()
                 again = [k for k in range(place) if k not in deadly and not _graded(cells[k])]
                 for at in [*again, *range(place, len(cells))]:
                     client.execute_cell(cells[at], at)
@@ -256,6 +277,7 @@ def drive() -> None:
             place = max(place, at + 1)
             _store(notebook, result)
         finally:
+            ended.set()
             for child in psutil.Process().children(recursive=True):
                 with suppress(psutil.Error):
                     child.kill()

@@ -16,7 +16,8 @@ import tempfile
 import time
 from pathlib import Path
 
-from pdf import find_browser, print_page
+import nbformat
+from pdf import find_browser, print_book
 
 BOOK = Path(__file__).resolve().parents[1]
 ROOT = BOOK.parent
@@ -32,6 +33,7 @@ NPM_FILES = {
         "@jupyter-widgets/html-manager/dist/*.woff2",
     ),
 }
+LONG = 12  # lines of code; a page folds a cell that has more
 SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
 NO_NPM = (
     "The book needs npm for its JavaScript: install Node.js (Debian: apt install npm), "
@@ -54,7 +56,7 @@ def main(output: Path, pdf: bool = False) -> None:
     if pdf:
         say("the PDF, about a minute")
         sphinx("singlehtml", output)  # from the same doctrees: nothing is executed twice
-        print_page(output / "singlehtml" / "index.html", output / "book.pdf")
+        print_book(output / "html", output / "singlehtml" / "index.html", output / "book.pdf")
         print(output / "book.pdf")
 
 
@@ -130,7 +132,11 @@ def copy_sources(source: Path) -> None:
     for chapter in (source / "notebooks").glob("*.ipynb"):
         # In the repository the book's pages are in ../book, seen from a notebook.
         text = chapter.read_text(encoding="utf-8").replace("](../book/", "](../")
-        chapter.write_text(text, encoding="utf-8")
+        notebook = nbformat.reads(text, as_version=4)
+        for cell in notebook.cells:
+            if cell.cell_type == "code" and cell.source.count("\n") >= LONG:
+                cell.metadata.setdefault("tags", []).append("hide-input")
+        nbformat.write(notebook, chapter)
 
 
 def environment() -> dict[str, str]:

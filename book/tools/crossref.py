@@ -6,7 +6,8 @@ JupyterLab shows the notebooks too, so they can't hold Sphinx's own syntax.
   the paper's (24).
 - A bare ``(24)`` or ``(4.2)`` in a sentence becomes a link to that equation; an unknown number is a
   warning, and so an error.
-- A paragraph that begins with a bold ``Figure 4.2.`` is the caption of the figure above it.
+- A paragraph that begins with a bold ``Figure 4.2.`` is the caption of the figure above it; on the
+  book's own pages it is ``Figure 2.``
 - A link to the DOI or the address of a work in references.bib becomes a link to its entry in the
   bibliography.
 """
@@ -23,7 +24,7 @@ from sphinx.util import logging
 TAG = re.compile(r"\\tag\{(?P<number>\d+\.\d+)(?:, (?P<relation>paper|corrects) (?P<paper>\d+))?\}")
 # Not after a letter, as in f(2), nor a bracket that closes.
 MENTION = re.compile(r"(?<![\w)\]])\((\d{1,2}|\d{1,2}\.\d{1,2})\)(?!\w)")
-CAPTION = re.compile(r"Figure (\d+)\.(\d+)\.")
+CAPTION = re.compile(r"Figure (\d+(?:\.\d+)?)\.")
 CITED = "bibliography"
 
 log = logging.getLogger(__name__)
@@ -60,7 +61,7 @@ def mark_captions(app, doctree):
         label = next((child for child in paragraph.children if child.astext()), None)
         if isinstance(label, nodes.strong) and (number := CAPTION.fullmatch(label.astext())):
             paragraph["classes"].append("figure-caption")
-            paragraph["ids"].append(f"figure-{number[1]}-{number[2]}")
+            paragraph["ids"].append(f"figure-{number[1].replace('.', '-')}")
 
 
 def link_mentions(app, doctree, docname):

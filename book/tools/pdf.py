@@ -1,7 +1,8 @@
-"""Print a page of the book, with its formulas drawn and its solutions unfolded, into a PDF file."""
+"""Print the book into a PDF file: panels pictured, solutions unfolded, pages referred to."""
 
 from __future__ import annotations
 
+import base64
 import shutil
 import sys
 from importlib.util import find_spec
@@ -12,53 +13,106 @@ FOOTER = (
     '<p style="width: 100%; text-align: center; font-size: 9px">'
     '<span class="pageNumber"></span></p>'
 )
+MARGIN = {"top": "18mm", "bottom": "18mm", "left": "16mm", "right": "16mm"}
 PATIENCE = 300_000  # ms: a whole book
-# Sphinx leaves the state of panels out of a single page, so a sentence stands in for each.
-PREPARE = """async () => {
-    const panel = 'script[type="application/vnd.jupyter.widget-view+json"]';
-    const said = '<p><em>The pages and the notebook have a live panel here.</em></p>';
-    document.querySelectorAll(panel).forEach(it => it.insertAdjacentHTML('afterend', said));
-    document.querySelectorAll('details').forEach(it => { it.open = true; });
-    document.querySelectorAll('img').forEach(it => { it.loading = 'eager'; });
-    await MathJax.startup.promise;
-    await Promise.all([...document.images].map(it => it.decode()));
+PAPER = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
+SHARP = 2  # dots a pixel
+# What takes long to print, and changes no place of a page.
+PLACES_ONLY = "img, svg { visibility: hidden !important; }"
+# Show the panels of another page of the site in this one: for each a page of its own takes seconds.
+SHOW = """async (html) => {
+    const there = new DOMParser().parseFromString(html, 'text/html');
+    const place = document.createElement('div');
+    place.append(...there.querySelectorAll('script[type^="application/vnd.jupyter.widget"]'));
+    document.querySelector('article').replaceChildren(place);
+    const manager = '@jupyter-widgets/html-manager/dist/libembed-amd';
+    const widgets = await new Promise((done, failed) => require([manager], done, failed));
+    await widgets.renderWidgets(place);
 }"""
+DRAWN = """async () => {
+    const panels = [...document.querySelectorAll('script[type$="widget-view+json"]')];
+    const canvases = [...document.querySelectorAll('article canvas')];
+    return canvases.length && canvases.every(it => it.width) && panels.every(
+        it => it.parentElement.querySelector('.jupyter-widgets'));
+}"""
+FRAMES = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
 def find_browser() -> str:
     """Return the path of Chromium or Chrome, or say that the PDF needs one."""
     browser = next(filter(None, map(shutil.which, BROWSERS)), None)
-    if browser is None or not find_spec("playwright"):
+    if browser is None or not all(map(find_spec, ("playwright", "pypdfium2"))):
         sys.exit(
-            "The PDF needs the Python package playwright, and Chromium or Chrome: "
+            "The PDF needs the Python packages playwright and pypdfium2, and Chromium or Chrome: "
             "install them, or build without --pdf."
         )
     return browser
 
 
-def print_page(page: Path, pdf: Path) -> None:
-    """Print the file `page` into `pdf`, A4, with page numbers and an outline of the headings."""
+def print_book(site: Path, page: Path, pdf: Path) -> None:
+    """Print the file `page` into `pdf`, A4, with pictures of the panels in the folder `site`."""
     from playwright.sync_api import sync_playwright
 
-    browser = find_browser()
     with sync_playwright() as playwright:
         # The files are our own; without a sandbox because a container often runs as root.
         chromium = playwright.chromium.launch(
-            executable_path=browser, args=["--no-sandbox", "--disable-gpu"]
+            executable_path=find_browser(), args=["--no-sandbox", "--disable-gpu"]
         )
-        opened = chromium.new_page(color_scheme="light")
-        opened.goto(page.as_uri(), wait_until="load", timeout=PATIENCE)
-        opened.evaluate(PREPARE)
-        margin = {"top": "18mm", "bottom": "18mm", "left": "16mm", "right": "16mm"}
-        opened.pdf(
-            path=pdf,
-            format="A4",
-            margin=margin,
-            scale=0.8,
-            display_header_footer=True,
-            header_template="<span></span>",
-            footer_template=FOOTER,
-            outline=True,
-            tagged=True,
-        )
+        book = chromium.new_page(color_scheme="light")
+        book.set_default_timeout(PATIENCE)
+        book.goto(page.as_uri(), wait_until="load")
+        book.add_script_tag(content=PAPER)
+        places = book.evaluate("paper.places()")
+        stills = picture_panels(chromium, site, list(dict.fromkeys(places)))
+        book.evaluate("stills => paper.prepare(stills)", stills)
+        drawn = book.add_style_tag(content=PLACES_ONLY)
+        pages = find_pages(print_page(book, pdf), book.evaluate("paper.anchors()"))
+        drawn.evaluate("it => it.remove()")
+        book.evaluate("pages => paper.number_pages(pages)", pages)
+        if find_pages(print_page(book, pdf), list(pages)) != pages:
+            sys.exit("The PDF's pages moved when their numbers were filled in.")
         chromium.close()
+
+
+def print_page(page, pdf: Path) -> Path:
+    page.pdf(
+        path=pdf,
+        format="A4",
+        margin=MARGIN,
+        scale=0.8,
+        display_header_footer=True,
+        header_template="<span></span>",
+        footer_template=FOOTER,
+        outline=True,
+        tagged=True,
+    )
+    return pdf
+
+
+def picture_panels(chromium, site: Path, places: list[str]) -> list[str]:
+    """Return pictures of the panels in these documents of the site, as addresses of images."""
+    page = chromium.new_page(color_scheme="light", viewport=STILL, device_scale_factor=SHARP)
+    page.set_default_timeout(PATIENCE)
+    page.goto((site / "explorer.html").as_uri(), wait_until="load")
+    page.wait_for_function(DRAWN)
+    shots = []
+    for place in places:
+        page.evaluate(SHOW, (site / f"{place}.html").read_text(encoding="utf-8"))
+        page.wait_for_function(DRAWN)
+        page.evaluate(FRAMES)
+        shots += [it.screenshot() for it in page.locator(".widget-subarea").all()]
+    page.close()
+    return [f"data:image/png;base64,{base64.b64encode(shot).decode()}" for shot in shots]
+
+
+def find_pages(pdf: Path, anchors: list[str]) -> dict[str, int]:
+    """On which page each anchor was printed."""
+    import pypdfium2
+    from pypdfium2.raw import FPDF_GetNamedDestByName, FPDFDest_GetDestPageIndex
+
+    printed = pypdfium2.PdfDocument(pdf)
+    places = {it: FPDF_GetNamedDestByName(printed, it.encode()) for it in anchors}
+    if lost := [it for it, place in places.items() if not place]:
+        sys.exit(f"The PDF has no place for the links to {', '.join(lost)}.")
+    return {it: FPDFDest_GetDestPageIndex(printed, place) + 1 for it, place in places.items()}

@@ -34,7 +34,7 @@ VIEWS = {"time": "time charts", "gains": "gain landscape"}
 _METRICS = {"headingError": "heading error", "time": "arrival time", "peakOmega": "peak |omega|"}
 PRESETS = "your own", "paper, outdoors", "paper, circle", "gentle gains"
 # name: (label, tip, choices)
-MENUS = {
+MENUS: dict[str, tuple[str, str, dict[Any, str]]] = {
     "preset": ("Preset", "gains and scenes to start from", dict(enumerate(PRESETS))),
     "law": ("Law", "what turns the error into speed and turning rate", {}),
     "method": (

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Mapping
 
 import numpy as np
 import sympy as sp
@@ -13,14 +13,13 @@ from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
 from wmrbook.figures._drawing import check_count, note, panels
-from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure
 from wmrlib import symbolic
 from wmrlib._checks import choice, instance, real
 from wmrlib.gains import Gains
-from wmrlib.runs import Arrival, Trajectory
+from wmrlib.runs import Arrival
 from wmrlib.tuning import modes
 
-_ROLES = "path", "y_error", "omega", "ink"
 _MARKS = ("X", "D", "P", "s")
 _LEAST_DEG = 1e-2  # heading left over
 
@@ -94,35 +93,6 @@ def phase_portrait(choices: Mapping[str, Gains], limit: float) -> Picture:
         f"Flow of alpha and theta near the goal, up to {math.degrees(limit):.0f} deg around the "
         f"star; from the upper edge to a twentieth of it, {'; '.join(words)}.",
     )
-
-
-def last_metre(runs: Mapping[str, Trajectory], radii: Sequence[float]) -> Picture:
-    """The heading error against the distance left [m], from 1 m on, of up to four runs.
-
-    Each run is one of "continuous", whose angles never jump. radii: arrival radii to mark, m.
-    """
-    check_count("runs", instance("runs", runs, Mapping), 1, len(LINES))
-    figure, axes = new_figure(7.5, 4.2)
-    texts, drawn = [], []
-    for (name, run), style, role in zip(runs.items(), LINES, _ROLES, strict=False):
-        error = np.degrees(run.theta - run.alpha)
-        axes.plot(run.rho, error, style, color=COLOURS[role], label=name)
-        there = np.interp(-np.asarray(radii), -run.rho, error)
-        left = ", ".join(f"{round(e)} deg at {r:g} m" for e, r in zip(there, radii, strict=True))
-        least, most = error[run.rho <= 1.0].min(), error[run.rho <= 1.0].max()
-        drawn += [1.1 * least, 1.1 * most]
-        texts.append(f"{name} between {round(least)} and {round(most)} deg, {left}")
-    for radius in radii:
-        axes.axvline(radius, color=COLOURS["ink"], ls=":", lw=1.2)
-    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-    least = min(float(run.rho[-1]) for run in runs.values())
-    axes.set(xscale="log", xlim=(1.0, least), ylabel="heading error [deg]")
-    axes.set_ylim(min(drawn), max(drawn))
-    axes.set_xlabel("distance left to the goal [m], the goal to the right")
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.legend(fontsize=10)
-    what = f"Heading error against the distance left, from 1 m to {least:.3g} m"
-    return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
 def pareto_front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]) -> Picture:

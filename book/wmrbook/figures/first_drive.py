@@ -96,15 +96,6 @@ def twist(run: Trajectory) -> Picture:
     return Picture(figure, f"Over time: {words}.")
 
 
-def position_errors(run: Trajectory) -> Picture:
-    """x_error and y_error [m] over time, as in the paper's figures 11 and 12."""
-    figure, axes = new_figure(7.0, 3.2)
-    draw_series(axes, run, "error [m]", x_error="-", y_error="--")
-    axes.set_xlabel("time [s]")
-    x, y = (f"{each[0]:.1f} m to {each[-1]:z.1f} m" for each in (run.x_error, run.y_error))
-    return Picture(figure, f"Over time: the x error goes from {x}, the y error from {y}.")
-
-
 def lyapunov_over_time(run: Trajectory) -> Picture:
     """V over time on a logarithmic scale; thick and red wherever it rises."""
     figure, axes = new_figure(7.0, 3.2)

@@ -2,11 +2,9 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.collections import LineCollection
 from matplotlib.patches import Circle
 
 from wmrbook.figures._drawing import check_count, figure_legend, legend_above, note
@@ -133,34 +131,6 @@ def memories(memory: np.ndarray, series: Mapping[str, tuple[np.ndarray, np.ndarr
     what = "Distance and heading error at the end over the memory, from"
     span = f"{_named(memory[0])} to {_named(memory[-1])}"
     return Picture(figure, f"{what} {span}: {'; '.join(told)}.")
-
-
-def rising(runs: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
-    """V over time of several runs, one below the other, thick and red wherever it rises.
-
-    runs: from a name to (t in s, V), one-dimensional and of equal length.
-    """
-    height = 1.75 * len(instance("runs", runs, Mapping)) + 0.5
-    figure, rows = new_figure(8.0, height, rows=len(runs))
-    told = []
-    for axes, (name, (t, V)) in zip(np.ravel(rows), runs.items(), strict=True):
-        up = np.diff(V) > 1e-9 * V[0]
-        points = np.column_stack([t, np.maximum(V, 1e-12)])
-        pieces = np.stack([points[:-1], points[1:]], axis=1)
-        axes.add_collection(LineCollection(pieces[~up], color=COLOURS["V"], lw=2.0))
-        axes.add_collection(LineCollection(pieces[up], color=COLOURS["V_rising"], lw=4.5))
-        low = math.floor(math.log10(points[:, 1].min()))
-        high = math.ceil(math.log10(points[:, 1].max()))
-        axes.set(ylabel="V [1]", yscale="log", xlim=(0.0, t[-1]))
-        axes.set_ylim(10.0 ** (low - 0.2), 10.0 ** (high + 0.2))
-        axes.set_yticks(10.0 ** np.arange(low, high + 1, max(1, (high - low) // 3)))
-        axes.minorticks_off()
-        share = 100.0 * np.mean(up)
-        axes.set_title(f"{name}: V rises in {share:.0f} % of the steps", fontsize=11, loc="left")
-        told.append(f"{name}, {_fives(share)} %")
-    axes.set_xlabel("time [s]")
-    what = "V over time, on a logarithmic scale, and about how many of its steps rise"
-    return Picture(figure, f"{what}: {'; '.join(told)}.")
 
 
 def _named(memory: float) -> str:

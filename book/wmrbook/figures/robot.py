@@ -3,18 +3,15 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, FancyBboxPatch, Polygon
 
-from wmrbook.figures._drawing import check_count, note, pointer
-from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
-from wmrlib._checks import instance, real, scalar
-from wmrlib.control import control_law
-from wmrlib.gains import Gains
-from wmrlib.kinematics import Pose, advance, polar_error, twist_to_wheels
+from wmrbook.figures._drawing import note, pointer
+from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
+from wmrlib._checks import instance, scalar
+from wmrlib.kinematics import Pose, advance, twist_to_wheels
 
 _BODY = ((0.85, 0.0), (0.55, 0.4), (-0.55, 0.4), (-0.55, -0.4), (0.55, -0.4))  # in track widths
 _ORIGIN = Pose(0.0, 0.0, 0.0)
@@ -129,32 +126,6 @@ def commutator(step: float, turn: float, times: int = 1) -> Picture:
         "to the left on the spot, as far back, and the turn undone. The robot starts at the origin "
         "(filled arrow) and ends, looking the same way, "
         f"at x = {x[-1]:.3f} m and y = {y[-1]:.3f} m (last open arrow).",
-    )
-
-
-def approach(gains: Gains, distances: Sequence[float] = (10.0, 1.0, 0.001)) -> Picture:
-    """The corrected law's omega over the direction of the goal, at up to four distances [m].
-
-    The robot's heading is the goal's.
-    """
-    distances = np.atleast_1d(real("distances", distances, above=0.0))
-    check_count("distances", distances, 1, len(LINES))
-    sight = np.linspace(-math.pi, math.pi, 721)[1:-1]
-    figure, axes = new_figure(7.0, 3.8)
-    roles = "path", "y_error", "ink", "omega"
-    spans = []
-    for distance, style, role in zip(distances, LINES, roles, strict=False):
-        pose = Pose(-distance * np.cos(sight), -distance * np.sin(sight), 0.0)
-        omega = control_law(*polar_error(pose, _ORIGIN), gains)[1]
-        label = f"{distance:g} m away"
-        axes.plot(np.degrees(sight), omega, style, color=COLOURS[role], label=label)
-        spans.append(f"{omega.min():.2f} to {omega.max():.2f} rad/s at {distance:g} m")
-    axes.legend(loc="upper left", fontsize=11)
-    axes.set(xlabel="direction of the goal, from its heading [deg]", ylabel="omega [rad/s]")
-    axes.set(xticks=range(-180, 181, 60))
-    return Picture(
-        figure,
-        f"Commanded omega over the direction in which the goal lies: it spans {', '.join(spans)}.",
     )
 
 

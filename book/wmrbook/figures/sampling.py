@@ -64,25 +64,6 @@ def time_steps(
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
-def responses(
-    t: Sequence[float],
-    series: Mapping[str, Sequence[float]],
-    what: str = "wheel speed / commanded [1]",
-) -> Picture:
-    """Up to five answers to a unit step over time [s], with a line at 1."""
-    check_count("series", series, 1, len(_SERIES))
-    figure, axes = new_figure(7.0, 3.8)
-    axes.axhline(1.0, color=COLOURS["ink"], lw=0.8)
-    texts = []
-    for (name, values), (colour, style, _) in zip(series.items(), _SERIES, strict=False):
-        axes.plot(t, values, style, color=colour, label=name)
-        late = float(np.interp(0.632, np.maximum.accumulate(values), t))
-        texts.append(f"{name} reaches 63 % after {late:.3f} s")
-    axes.set(xlabel="time [s]", ylabel=what, ylim=(0.0, 1.15))
-    axes.legend(loc="lower right", fontsize=10)
-    return Picture(figure, f"Answers to a unit step, all rising to 1: {'; '.join(texts)}.")
-
-
 def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
     """The heading error against the distance left to the goal, one panel for each of two cases.
 

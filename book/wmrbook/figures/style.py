@@ -7,19 +7,18 @@ panel shows as well has the same hue there, in explorer/js/panel.css.
 
 from __future__ import annotations
 
-import base64
 import html
 import io
 import math
+import re
 from typing import Any
+from urllib.parse import quote
 
 import matplotlib as mpl
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
-from PIL import Image
-from PIL.PngImagePlugin import PngInfo
 
 from wmrlib.kinematics import Pose
 
@@ -47,11 +46,34 @@ STYLE: dict[Any, float] = {
     "axes.spines.right": False,
     "lines.linewidth": 2.0,
 }
+# On dark paper: ink is white, white is the paper, and what is drawn has the hue that it has on
+# white and in the panel, lighter. An area with hatches in ink, and the robot on its path, is dark.
+DARK = {
+    "#000000": "#f0f3f6",
+    "#222222": "#f0f3f6",
+    "#ffffff": "#121212",
+    "#0072b2": "#56b4e9",
+    "#009e73": "#2fc796",
+    "#d55e00": "#f58d3d",
+    "#a8447f": "#e59cc4",
+    "#7d7000": "#f0e442",
+    "#56b4e9": "#0072b2",
+    "#d40000": "#ff7b72",
+    "#f0e442": "#857c00",
+    "#bbbbbb": "#5c646d",
+    "#bfbfbf": "#4a5159",
+    "#f7c9a8": "#7a3f12",
+}
 LINES = ("-", "--", ":", "-.")
+CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
+SVG_URL = "data:image/svg+xml,"
+_UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
+_POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
+_NUMBER = re.compile(r"-?\d+\.\d{3,}(?:e-?\d+)?")  # with more decimals than one can see
 
 
 class Picture:
-    """A figure and its alternative text, which Jupyter shows as a PNG image with that text.
+    """A figure and its alternative text, which Jupyter shows as an SVG image with that text.
 
     Parameters
     ----------
@@ -66,22 +88,34 @@ class Picture:
     def __repr__(self) -> str:
         return f"<Picture: {self.alt}>"
 
-    def png(self, dots_per_inch: float = 108.0) -> bytes:
-        """Return a PNG file of 256 colours, a third of the full size, with the text inside."""
-        buffer, file, text = io.BytesIO(), io.BytesIO(), PngInfo()
-        self.figure.savefig(buffer, format="png", dpi=dots_per_inch)
-        text.add_itxt("Description", self.alt)
-        few = Image.open(buffer).convert("RGB").quantize(256, dither=Image.Dither.NONE)
-        few.save(file, "PNG", optimize=True, pnginfo=text)
-        return file.getvalue()
+    def svg(self) -> str:
+        """Return the figure as SVG: letters as outlines, the same text for the same figure."""
+        for axes in self.figure.axes:
+            for one in axes.patches if len(axes.patches) > CROWD else ():
+                one.set_rasterized(True)
+        buffer, nothing = io.StringIO(), dict.fromkeys(("Creator", "Date", "Format", "Type"))
+        with mpl.rc_context({"svg.hashsalt": "wmrbook", "svg.fonttype": "path"}):
+            self.figure.savefig(buffer, format="svg", dpi=144, metadata=nothing)
+        text = " ".join(buffer.getvalue().split())
+        text = _UNUSED.sub("", text[text.index("<svg") :])
+        return _POINTS.sub(lambda path: _NUMBER.sub(_rounded, path[0]), text)
 
     def _repr_mimebundle_(self, include=None, exclude=None):
-        """As HTML first: JupyterLab gives a bare image/png no text. As PNG for a printed book."""
-        png, width = self.png(), round(self.figure.get_figwidth() * 72)
-        source = f"data:image/png;base64,{base64.b64encode(png).decode()}"
-        image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{source}">'
-        bundle = {"text/html": image, "image/png": png, "text/plain": repr(self)}
-        return bundle, {"image/png": {"alt": self.alt, "width": width}}
+        """As HTML: JupyterLab gives a bare image no alternative text."""
+        width = round(self.figure.get_figwidth() * 72)
+        source = quote(self.svg().replace('"', "'"), safe=" ='/:;,()")
+        image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{SVG_URL}{source}">'
+        return {"text/html": image, "text/plain": repr(self)}
+
+
+def darkened(svg: str) -> str:
+    """Return an SVG text of a Picture in the colours of dark paper."""
+    text = re.sub(r"#[0-9a-f]{6}", lambda colour: DARK.get(colour[0], colour[0]), svg)
+    return text.replace("<svg", f"<svg fill='{DARK['#000000']}'", 1)  # black is not written
+
+
+def _rounded(number: re.Match) -> str:
+    return f"{float(number[0]):.2f}".rstrip("0").rstrip(".")
 
 
 def new_figure(width: float, height: float, rows: int = 1, mosaic=None) -> tuple:

@@ -20,13 +20,15 @@ def ask(function: Callable, *arguments: Any) -> Any:
     if not callable(function):
         raise Hint(f"a function is needed here, not {shown(function)}.")
     try:
-        return function(*arguments)
+        answer = function(*arguments)
     except Exception as error:
         if type(error) is NotImplementedError:  # as handed out; `input()` raises a child of it
             raise Hint(f"`{name_of(function)}` is not written yet.") from None
         call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
         what = f"{type(error).__name__}: {error}"
         raise Hint(f"{call} stops{_line(error)} with {what}.") from None
+    expect(answer is not None, f"`{name_of(function)}` returns nothing: does it end in `return`?")
+    return answer
 
 
 def ask_number(function: Callable, *arguments: Any) -> float:
@@ -36,16 +38,12 @@ def ask_number(function: Callable, *arguments: Any) -> float:
 
 def ask_numbers(function: Callable, count: int, *arguments: Any) -> tuple[float, ...]:
     """As `ask`, for a function that is to return `count` finite numbers."""
-    answer, name = ask(function, *arguments), f"`{name_of(function)}`"
-    needed = f"{count} numbers, separated by commas, are needed."
-    expect(ordered(answer, count), f"{name} returns {shown(answer)}; {needed}")
-    return tuple(number(name, each, returned=True) for each in answer)
+    return numbers(f"`{name_of(function)}`", ask(function, *arguments), count, returned=True)
 
 
 def ask_truth(function: Callable, *arguments: Any) -> bool:
     """As `ask`, for a function that is to return True or False."""
-    answer, name = ask(function, *arguments), name_of(function)
-    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
+    name, answer = name_of(function), ask(function, *arguments)
     truth = isinstance(answer, (bool, np.bool_))
     expect(truth, f"`{name}` returns {shown(answer)}; True or False is needed.")
     return bool(answer)
@@ -54,7 +52,6 @@ def ask_truth(function: Callable, *arguments: Any) -> bool:
 def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np.ndarray:
     """As `ask`, for a function that is to return finite numbers in this shape."""
     name, answer = name_of(function), ask(function, *arguments)
-    expect(answer is not None, f"`{name}` returns nothing: does it end in `return`?")
     array = floats(answer)
     needed = " x ".join(map(str, shape)) + (" number is" if shape == (1,) else " numbers are")
     expect(array is not None, f"`{name}` returns {shown(answer)}; {needed} needed.")
@@ -93,9 +90,8 @@ def ordered(answer: Any, count: int) -> bool:
 def number(name: str, value: Any, *, returned: bool = False) -> float:
     """Return the value as a float if it is one finite real number, of any type; else raise Hint."""
     verb = "returns" if returned else "is"
-    if value is None or value is ...:
-        nothing = f"{name} returns nothing: does it end in `return`?"
-        raise Hint(nothing if returned else f"{name} has no value yet.")
+    if not returned:
+        expect_value(name, value)
     single = isinstance(value, (np.generic, np.ndarray)) and value.size == 1
     plain = value.item() if single else value
     if not isinstance(plain, (bool, str, bytes, np.ndarray)):
@@ -110,13 +106,13 @@ def number(name: str, value: Any, *, returned: bool = False) -> float:
     raise Hint(f"{name} {verb} {shown(value)}; one number is needed.")
 
 
-def numbers(name: str, value: Any, count: int) -> tuple[float, ...]:
+def numbers(name: str, value: Any, count: int, *, returned: bool = False) -> tuple[float, ...]:
     """Return the value as `count` finite floats, or raise Hint."""
-    expect_value(name, value)
-    row = isinstance(value, (tuple, list, np.ndarray)) and np.ndim(value) == 1
-    needed = f"{count} numbers, separated by commas, are needed."
-    expect(row and len(value) == count, f"{name} is {shown(value)}; {needed}")
-    return tuple(number(name, each) for each in value)
+    if not returned:
+        expect_value(name, value)
+    given = f"{name} {'returns' if returned else 'is'} {shown(value)}"
+    expect(ordered(value, count), f"{given}; {count} numbers, separated by commas, are needed.")
+    return tuple(number(name, each, returned=returned) for each in value)
 
 
 def floats(value: Any) -> np.ndarray | None:

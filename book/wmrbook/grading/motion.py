@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -25,6 +26,7 @@ Pair = tuple[float, float]
 Arc = Callable[..., tuple[float, float, float]]
 # Two speeds, the track width in m and the wheels' radius in m.
 _ROBOT = (-2.0, 2.0), (-2.0, 2.0), (0.2, 0.9), (0.03, 0.3)
+_equal = partial(np.allclose, rtol=1e-9, atol=1e-9)
 
 
 def wheels_known(wheels: Callable[[float, float, float, float], Pair]) -> str:
@@ -209,10 +211,6 @@ def limited_curvature(limited: Callable[[float, float, float], Pair]) -> str:
         expect(False, hint + "the path must stay, only slower.")
     curves = f"curves of up to {max(bend):.0f} m of radius, keep their centre."
     return f"Turns nearly on the spot, and {curves}"
-
-
-def _equal(value, right) -> bool:
-    return bool(np.allclose(value, right, rtol=1e-9, atol=1e-9))
 
 
 def _robots() -> list[list[float]]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -13,6 +14,7 @@ from wmrbook.scatter import stationary_scatter
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
+_near = partial(np.allclose, rtol=1e-4)
 
 
 def scatter_known(scatter: Callable) -> str:
@@ -130,10 +132,6 @@ def mean_correlated(scatter_of_mean: Callable) -> str:
     value = ask_number(scatter_of_mean, 1.0, 9, 0.9)
     kept = f"the mean keeps {100 * value:.0f} % of the scatter, where white noise keeps 33 %."
     return f"Nine looks, neighbours alike by 0.9: {kept}"
-
-
-def _near(stds, others) -> bool:
-    return np.allclose(stds, others, rtol=1e-4)
 
 
 def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right) -> None:

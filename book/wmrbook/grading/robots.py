@@ -5,6 +5,7 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
+from functools import partial
 
 import numpy as np
 
@@ -27,6 +28,7 @@ COUNTS = 65536  # of a counter of 16 bits
 STOP = (0.0, 0.0)
 _COMPASS = (0.0, 360.0), (-15.0, 15.0)  # what it shows, and the declination, deg
 _BY_HAND = "check north, east, south and west by hand."
+_same_way = partial(close, relative=1e-9, absolute=1e-12)
 
 
 def compass_known(heading_of: Callable) -> str:
@@ -171,10 +173,6 @@ def step_drives(wheel_speeds: Callable) -> str:
         hint = f"{place} the wheels get ({left:.3g}, {right:.3g}) m/s, "
         explain(speeds, mistakes, f"{hint}which is not the law within their limits.", np.allclose)
     return "Sixty poses: the law's wheels, never beyond their limits."
-
-
-def _same_way(one: float, other: float) -> bool:
-    return close(one, other, 1e-9, 1e-12)
 
 
 def _counters(count: int) -> list[tuple[int, int, int, float]]:

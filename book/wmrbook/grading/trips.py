@@ -35,10 +35,7 @@ def poses_known(poses: Poses) -> str:
         expect(at_origin, "the start is not at (0, 0): the map has its origin there.")
         east, north = local_position(a, b)
         mistakes = {
-            "the goal lies on the opposite side: it is the start as seen from the goal.": (
-                -east,
-                -north,
-            ),
+            "the goal is on the opposite side, as the start is seen from it.": (-east, -north),
             "x is north on your map; it is asked for with x east and y north.": (north, east),
         }
         rule_out(goal[:2], mistakes, _near)

@@ -1,0 +1,134 @@
+r"""A Sphinx extension: what readers of the pages need and the theme leaves out.
+
+- A line of code that is too long for its window goes on below, marked; see book.css.
+- A figure is a file of its own, and a second one in the colours of the dark theme.
+- A chapter's title has its number, and below it stands how to run the chapter.
+- The search shows what stands around the words found, from a file beside it: a page that is opened
+  from the disk may not fetch another.
+- What a screen reader would stumble over in the theme's own HTML is mended.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import html
+import json
+import re
+from pathlib import Path
+from urllib.parse import unquote
+
+from docutils import nodes
+from pygments.formatters import HtmlFormatter
+from sphinx.highlighting import PygmentsBridge
+
+from wmrbook.figures.style import SVG_URL, darkened
+
+CHAPTER = re.compile(r"notebooks/(\d\d)_")
+FIGURE = re.compile(
+    rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)">'
+)
+TAG = re.compile(r"<[^>]+>")
+EMPTY = r"<th\b[^>]*>\s*(?:<p></p>)?\s*</th>"
+MENDED = (  # what the theme writes, and what axe-core finds nothing in
+    # Its name is what it shows, with the keys.
+    (r'(<button class="btn search-button-field[^>]*) aria-label="Search"', r"\1"),
+    (r'<summary aria-label="Toggle hidden content">', "<summary>"),
+    (r'<div id="pst-primary-sidebar"', r'\g<0> role="region" aria-label="The book"'),
+    (r'role="doc-biblioentry"', 'role="listitem"'),
+    (rf"<thead>\s*<tr[^>]*>(?:\s*{EMPTY})+\s*</tr>\s*</thead>", ""),
+    (EMPTY, "<td></td>"),
+)
+# From a page's HTML to the words to be found, with the sections that results lead to.
+ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
+UNSAID = re.compile(
+    r'<(script|style|svg|summary)\b.*?</\1>|<a class="headerlink".*?</a>'
+    r'|<div class="[^"]*\bmath\b.*?</div>'
+    r"|\\(?:[()]|(?=[a-z]))|<(?!/?section\b)[^>]+>",
+    re.DOTALL,
+)
+
+
+class Lines(HtmlFormatter):
+    """Each line of code is an element of its own that knows its indentation."""
+
+    def wrap(self, source):
+        return super().wrap((is_code, _line(text) if is_code else text) for is_code, text in source)
+
+
+def _line(text: str) -> str:
+    plain = TAG.sub("", text)
+    indent = len(plain) - len(plain.lstrip(" "))
+    style = f' style="--indent: {indent}"' if indent else ""
+    return f'<span class="line"{style}>{text}</span>'
+
+
+def show_figures(app, doctree):
+    """Give each figure of a cell two files, of which the theme shows one, and its words."""
+    for output in list(doctree.findall(nodes.raw)):
+        if not (found := FIGURE.fullmatch(output.astext().strip())):
+            continue
+        svg = unquote(found["svg"])
+        name = hashlib.sha256(svg.encode()).hexdigest()[:12]
+        images = []
+        for theme, text in (("light", svg), ("dark", darkened(svg))):
+            path = Path(app.srcdir, "_figures", f"{name}-{theme}.svg")
+            path.parent.mkdir(exist_ok=True)
+            path.write_text(text, encoding="utf-8")
+            image = nodes.image(uri=f"/_figures/{path.name}", alt=html.unescape(found["alt"]))
+            image["width"] = f"{found['width']}px"
+            image["classes"] = [f"only-{theme}", "no-scaled-link"]
+            images.append(image)
+        output.replace_self(images)
+
+
+def begin_chapter(app, doctree):
+    """Number a chapter's title, and say below it how the chapter is run."""
+    chapter = CHAPTER.match(app.env.docname)
+    title = doctree.next_node(nodes.title)
+    if not chapter or title is None:
+        return
+    title.insert(0, nodes.Text(f"{int(chapter[1])}. "))
+    name = f"{app.env.docname}.ipynb"
+    title.parent.insert(
+        title.parent.index(title) + 1,
+        nodes.raw(
+            "",
+            f'<p class="run-it">Run it yourself: <a href="../_sources/{name}" download>download '
+            f'this chapter</a>, or <a href="../use.html#as-notebooks">open them all</a> with '
+            f"<code>jupyter lab {name}</code>.</p>",
+            format="html",
+        ),
+    )
+
+
+def mend(app, exception):
+    """Mend the pages that are written, and keep their words for the search."""
+    if exception or app.builder.name != "html":
+        return
+    words = {}
+    for name in (*app.env.found_docs, "genindex", "search"):
+        path = Path(app.outdir, f"{name}.html")
+        text = path.read_text(encoding="utf-8")
+        for theirs, ours in MENDED:
+            text = re.sub(theirs, ours, text)
+        path.write_text(text, encoding="utf-8")
+        if name in app.env.found_docs:
+            words[name] = re.sub(r"\s+", " ", UNSAID.sub("", ARTICLE.search(text)[1]))
+    script = f"const PAGES = {json.dumps(words, ensure_ascii=False)};\n"
+    Path(app.outdir, "_static", "words.js").write_text(script, encoding="utf-8")
+
+
+def add_words(app, docname, template, context, doctree):
+    """Load the words of all pages where they are searched."""
+    if docname == "search":
+        app.add_js_file("words.js")
+        app.add_js_file("search.js")
+
+
+def setup(app):
+    PygmentsBridge.html_formatter = Lines
+    for told in (show_figures, begin_chapter):
+        app.connect("doctree-read", told, priority=400)  # before Sphinx collects images, titles
+    app.connect("html-page-context", add_words)
+    app.connect("build-finished", mend)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -1,0 +1,136 @@
+"""Count what a reader of the built book can't see or use, page by page, in three windows.
+
+    python tests/browser/faults.py book/_build/html
+
+Code lines, formulas, tables and figures that are cut, what axe-core finds in the light and in the
+dark, requests that leave the site, and panels that the PDF lacks. Needs `npm ci` in book/.
+"""
+
+from __future__ import annotations
+
+import argparse
+import re
+import sys
+import zlib
+from collections import Counter
+from pathlib import Path
+
+import numpy as np
+
+ROOT = Path(__file__).resolve().parents[2]
+SIZES = ((390, 844), (1366, 768), (1920, 1080))
+MEASURE = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
+AXE = ROOT / "book" / "node_modules" / "axe-core" / "axe.min.js"
+# Nothing may be seen halfway, such as a colour on its way from light to dark.
+UNFOLD = """() => {
+    document.querySelectorAll('article details').forEach(it => { it.open = true; });
+    document.head.append(Object.assign(document.createElement('style'),
+        {textContent: '* { transition: none !important; animation: none !important; }'}));
+}"""
+PANEL = '<script type="application/vnd.jupyter.widget-view+json">'
+DRAWN = """async () => {
+    await window.MathJax?.startup.promise;
+    await document.fonts.ready;
+    const type = 'application/vnd.jupyter.widget-view+json';
+    const panels = [...document.querySelectorAll(`script[type="${type}"]`)];
+    return panels.every(it => it.parentElement.querySelector('.jupyter-widgets'));
+}"""
+IMAGE = re.compile(  # in a PDF by Chromium
+    rb"/Subtype /Image\s+/Width (\d+)\s+/Height (\d+)\s+/ColorSpace \[/ICCBased[^>]*?"
+    rb"/Filter /FlateDecode\s+/Length (\d+)>> stream\r?\n"
+)
+FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+# What is drawn twice is looked at once, or this takes minutes: of code tokens of a kind the first,
+# and of a formula not its glyphs, since its words stand beside them.
+THIN = """() => {
+    const seen = new Set();
+    for (const token of document.querySelectorAll('pre span[class]:not(.line, a span)')) {
+        if (seen.has(token.className)) token.replaceWith(...token.childNodes);
+        seen.add(token.className);
+    }
+    document.querySelectorAll('pre').forEach(it => it.normalize());
+    document.querySelectorAll('mjx-container > svg').forEach(it => it.remove());
+}"""
+ASK = """only => axe.run(document, {resultTypes: ['violations'], ...only}).then(
+    it => it.violations.flatMap(rule => rule.nodes.map(
+        node => [rule.id, node.target.join(' ')])))"""
+
+
+def of_page(page) -> list[tuple[str, str]]:
+    """The faults of a page that is drawn, as pairs of kind and place; it is spoiled then."""
+    faults = []
+    page.evaluate(UNFOLD)
+    for width, height in SIZES:
+        page.set_viewport_size({"width": width, "height": height})
+        page.evaluate(FRAME)
+        for kind, places in page.evaluate(MEASURE).items():
+            faults += [(f"{kind}, {width}x{height}", place) for place in places]
+    page.evaluate(THIN)
+    page.add_script_tag(path=AXE)
+    for theme, only in (("light", {}), ("dark", {"runOnly": ["color-contrast"]})):
+        page.emulate_media(color_scheme=theme)
+        page.evaluate(FRAME)
+        faults += [(f"axe, {theme}: {rule}", place) for rule, place in page.evaluate(ASK, only)]
+    return faults
+
+
+def stills(pdf: Path) -> int:
+    """Count the panels' pictures in the PDF, if all of them show more than a ground."""
+    file = pdf.read_bytes()
+    for image in IMAGE.finditer(file):  # those that are equal are stored once
+        width, height, length = map(int, image.groups())
+        if width > 1400 and height > 700:  # no figure has as many pixels
+            text = zlib.decompress(file[image.end() : image.end() + length])
+            pixels = np.frombuffer(text, np.uint8).reshape(height, width, 3)[height // 2 :: 4]
+            codes = pixels @ np.array([65536, 256, 1])
+            if min(len(np.unique(half)) for half in np.array_split(codes, 2, axis=1)) < 50:
+                return 0
+    return file.count(b"/Alt (The live panel,")
+
+
+def main(site: Path, only: list[str]) -> int:
+    """Print the faults of each page and of the PDF, and their sums; return how many there are."""
+    from playwright.sync_api import sync_playwright
+
+    sys.path.insert(0, str(ROOT / "book" / "tools"))
+    from pdf import find_browser
+
+    faults = []
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(
+            executable_path=find_browser(), args=["--no-sandbox", "--disable-gpu"]
+        )
+        for path in sorted(site.rglob("*.html")):
+            name = path.relative_to(site).as_posix()
+            if name.startswith("_static") or not any(each in name for each in only or [""]):
+                continue
+            page = chromium.new_page()
+            asked: list[str] = []
+            page.on("request", lambda request, asked=asked: asked.append(request.url))
+            page.goto(path.as_uri(), wait_until="load")
+            page.wait_for_function(DRAWN)
+            here = of_page(page)
+            left = [url for url in asked if not url.startswith((site.as_uri(), "data:", "blob:"))]
+            here += [("requests that leave the site", url) for url in left]
+            for kind, place in here:
+                print(f"{name}: {kind}: {place}")
+            faults += here
+            page.close()
+        chromium.close()
+    if (pdf := site.parent / "book.pdf").is_file() and not only:
+        panels = sum(path.read_text(encoding="utf-8").count(PANEL) for path in site.rglob("*.html"))
+        faults += [("panels that the PDF lacks", "")] * (panels - stills(pdf))
+    for kind, count in sorted(Counter(kind for kind, _ in faults).items()):
+        print(f"{count:5} {kind}")
+    print(f"{len(faults):5} in all")
+    return len(faults)
+
+
+if __name__ == "__main__":
+    parser = argparse.ArgumentParser(
+        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
+    )
+    parser.add_argument("site", type=Path, help="the folder with index.html")
+    parser.add_argument("pages", nargs="*", help="only pages whose names have one of these in them")
+    given = parser.parse_args()
+    sys.exit(min(1, main(given.site.resolve(), given.pages)))

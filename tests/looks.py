@@ -1,0 +1,13 @@
+"""What a figure looks like."""
+
+from __future__ import annotations
+
+import numpy as np
+from matplotlib.backends.backend_agg import FigureCanvasAgg
+
+
+def pixels_of(picture) -> np.ndarray:
+    """The red, green and blue of a Picture's pixels, from 0 to 1."""
+    canvas = FigureCanvasAgg(picture.figure)
+    canvas.draw()
+    return np.asarray(canvas.buffer_rgba())[..., :3] / 255.0
