@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 
 import numpy as np
@@ -9,7 +10,7 @@ import pytest
 import sympy as sp
 
 import wmrlib as wmr
-from wmrlib import paper, symbolic
+from wmrlib import explorer, laws, paper, symbolic
 
 OUTDOOR = {
     "start": [0.0, 0.0, paper.START_HEADING],
@@ -68,47 +69,40 @@ def test_wrap_is_exact(panel_core):
     ]
 
 
-@pytest.mark.parametrize("method", ["arc", "euler", "continuous"])
-@pytest.mark.parametrize("law", ["corrected", "printed", "aicardi"])
-def test_maps_equal_a_sweep(panel_core, law, method):
+def test_maps_equal_a_sweep(panel_core):
     low_high = {"k_rho": (0.005, 0.5), "k_alpha": (0.3, 4.0), "h": (0.1, 3.0), "v_max": (0.5, 4.0)}
     gains = OUTDOOR["gains"] | {"k_rho": 0.1, "k_alpha": 3.0}
-    options = OUTDOOR | {"law": law, "method": method, "gains": gains, "duration": 80.0}
-    start, goal = wmr.Pose(*options["start"]), wmr.Pose(*options["goal"])
-    for kx, ky in (("k_alpha", "h"), ("k_rho", "h"), ("v_max", "k_rho")):
+    start, goal = wmr.Pose(*OUTDOOR["start"]), wmr.Pose(*OUTDOOR["goal"])
+    axes = itertools.cycle((("k_alpha", "h"), ("k_rho", "h"), ("v_max", "k_rho"), ("h", "k_rho")))
+    names = {
+        "headingError": "heading_error",
+        "time": "time",
+        "peakOmega": "peak_omega",
+        "pathLength": "path_length",
+        "distance": "distance",
+    }
+    call = """([options, metrics]) =>
+        metrics.map((metric) => Array.from(landscape({...options, metric})))"""
+    for law, method in itertools.product(laws.POSE_LAWS, explorer.METHODS):
+        kx, ky = next(axes)
         xs, ys = np.linspace(*low_high[kx], 12), np.linspace(*low_high[ky], 10)
         grid = dict(zip((kx, ky), np.meshgrid(xs, ys), strict=True))
-        swept = wmr.sweep(
-            start, goal, wmr.Gains(**(gains | grid)), law=law, method=method, duration=80.0
-        )
+        how = {"law": law, "method": method, "duration": 80.0}
+        swept = wmr.sweep(start, goal, wmr.Gains(**(gains | grid)), **how)
         assert swept.arrived.any()
-        expected = [
-            np.abs(swept.heading_error),
-            swept.time,
-            swept.peak_omega,
-            swept.path_length,
-            swept.distance,
-        ]
-        for metric, values in zip(
-            ("headingError", "time", "peakOmega", "pathLength", "distance"), expected, strict=True
+        options = OUTDOOR | how | {"gains": gains, "kx": kx, "ky": ky}
+        options |= {"xs": xs.tolist(), "ys": ys.tolist()}
+        for (metric, name), shown in zip(
+            names.items(), panel_core.evaluate(call, [options, [*names]]), strict=True
         ):
-            request = options | {
-                "kx": kx,
-                "ky": ky,
-                "xs": xs.tolist(),
-                "ys": ys.tolist(),
-                "metric": metric,
-            }
-            shown = np.array(
-                panel_core.evaluate("(options) => Array.from(landscape(options))", request)
-            ).reshape(10, 12)
-            np.testing.assert_array_equal(np.isnan(shown), ~swept.arrived)
+            expected = np.abs(getattr(swept, name))
+            expected[~swept.arrived] = np.nan
             np.testing.assert_allclose(
-                shown[swept.arrived],
-                values[swept.arrived],
+                np.reshape(shown, (10, 12)),
+                expected,
                 rtol=1e-8,
                 atol=1e-8,
-                err_msg=f"{kx}, {ky}, {metric}",
+                err_msg=f"{law}, {method}, {kx}, {ky}, {metric}",
             )
 
 

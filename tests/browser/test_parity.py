@@ -14,8 +14,8 @@ from wmrlib import paper
 
 COLUMNS = ("t", "x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
 ANGLES = ("heading", "alpha", "theta")
-POSE_RUNS, CIRCLE_RUNS, SEED = 1100, 150, 20_240_601
-CONTINUOUS, CLOSE = 60, 1e-7  # runs; m and rad
+POSE_RUNS, CIRCLE_RUNS, SEED = 700, 100, 20_240_601
+CONTINUOUS, CLOSE = 40, 1e-7  # runs; m and rad
 AGREES = 1e-9  # m and rad
 BELOW = 1e-11  # AGREES is demanded where the rounding that a run carries is predicted below this
 ROUNDING_M, ROUNDING_RAD = 1e-14, 1e-15  # of one step of a run of some 50 m
@@ -217,8 +217,8 @@ def test_every_step_and_whole_trajectories_equal_those_of_wmrlib(runs):
         f"{whole} of {POSE_RUNS} runs and {whole_circle} of {CIRCLE_RUNS} on the circle compared "
         f"to their end; worst deviation {worst:.1e}"
     )
-    assert whole >= 1000
-    assert whole_circle >= 100
+    assert whole >= 600
+    assert whole_circle >= 65
 
 
 def test_continuous_runs_equal_those_of_wmrlib(panel_core):
