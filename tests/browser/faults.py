@@ -40,8 +40,8 @@ IMAGE = re.compile(  # in a PDF by Chromium
     rb"/Filter /FlateDecode\s+/Length (\d+)>> stream\r?\n"
 )
 FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
-# Else axe-core takes minutes: of the code tokens of a kind it sees the first, and no formulas, which
-# have been looked at.
+# Else axe-core takes minutes: of the code tokens of a kind it sees the first, and no formulas,
+# which have been looked at.
 THIN = """() => {
     const seen = new Set();
     for (const token of document.querySelectorAll('pre span[class]:not(.line, a span)')) {
