@@ -18,8 +18,6 @@ PATIENCE = 300_000  # ms: a whole book
 PAPER = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
 SHARP = 2  # dots a pixel
-# What takes long to print, and changes no place of a page.
-PLACES_ONLY = "img, svg { visibility: hidden !important; }"
 # Show the panels of another page of the site in this one: for each a page of its own takes seconds.
 SHOW = """async (html) => {
     const there = new DOMParser().parseFromString(html, 'text/html');
@@ -66,16 +64,15 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         places = book.evaluate("paper.places()")
         stills = picture_panels(chromium, site, list(dict.fromkeys(places)))
         book.evaluate("stills => paper.prepare(stills)", stills)
-        drawn = book.add_style_tag(content=PLACES_ONLY)
+        # Once for the places of the pages, without what takes long; then whole.
         pages = find_pages(print_page(book, pdf), book.evaluate("paper.anchors()"))
-        drawn.evaluate("it => it.remove()")
         book.evaluate("pages => paper.number_pages(pages)", pages)
-        if find_pages(print_page(book, pdf), list(pages)) != pages:
+        if find_pages(print_page(book, pdf, outline=True, tagged=True), list(pages)) != pages:
             sys.exit("The PDF's pages moved when their numbers were filled in.")
         chromium.close()
 
 
-def print_page(page, pdf: Path) -> Path:
+def print_page(page, pdf: Path, **more: bool) -> Path:
     page.pdf(
         path=pdf,
         format="A4",
@@ -84,8 +81,7 @@ def print_page(page, pdf: Path) -> Path:
         display_header_footer=True,
         header_template="<span></span>",
         footer_template=FOOTER,
-        outline=True,
-        tagged=True,
+        **more,
     )
     return pdf
 

@@ -40,8 +40,8 @@ IMAGE = re.compile(  # in a PDF by Chromium
     rb"/Filter /FlateDecode\s+/Length (\d+)>> stream\r?\n"
 )
 FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
-# What is drawn twice is looked at once, or this takes minutes: of code tokens of a kind the first,
-# and of a formula not its glyphs, since its words stand beside them.
+# Else axe-core takes minutes: of the code tokens of a kind it sees the first, and no formulas,
+# which have been looked at.
 THIN = """() => {
     const seen = new Set();
     for (const token of document.querySelectorAll('pre span[class]:not(.line, a span)')) {
@@ -49,25 +49,27 @@ THIN = """() => {
         seen.add(token.className);
     }
     document.querySelectorAll('pre').forEach(it => it.normalize());
-    document.querySelectorAll('mjx-container > svg').forEach(it => it.remove());
+    document.querySelectorAll('mjx-container').forEach(it => it.remove());
 }"""
-ASK = """only => axe.run(document, {resultTypes: ['violations'], ...only}).then(
+ASK = """only => axe.run(document,
+    {resultTypes: ['violations'], preload: false, ...only}).then(
     it => it.violations.flatMap(rule => rule.nodes.map(
         node => [rule.id, node.target.join(' ')])))"""
 
 
-def of_page(page) -> list[tuple[str, str]]:
+def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]]:
     """The faults of a page that is drawn, as pairs of kind and place; it is spoiled then."""
     faults = []
     page.evaluate(UNFOLD)
-    for width, height in SIZES:
+    for width, height in sizes:
         page.set_viewport_size({"width": width, "height": height})
         page.evaluate(FRAME)
         for kind, places in page.evaluate(MEASURE).items():
             faults += [(f"{kind}, {width}x{height}", place) for place in places]
     page.evaluate(THIN)
     page.add_script_tag(path=AXE)
-    for theme, only in (("light", {}), ("dark", {"runOnly": ["color-contrast"]})):
+    for theme in themes:
+        only = {} if theme == themes[0] else {"runOnly": ["color-contrast"]}
         page.emulate_media(color_scheme=theme)
         page.evaluate(FRAME)
         faults += [(f"axe, {theme}: {rule}", place) for rule, place in page.evaluate(ASK, only)]
