@@ -78,7 +78,7 @@
 
   /** Sets the largest scale of the words at which all can be seen, and returns it: next to nothing if not all of them can be read then. */
   function scaled(page, largest) {
-    const formulas = [...page.querySelectorAll('.words mjx-container[display="true"]')], texts = [...page.querySelectorAll('.output pre')];
+    const formulas = [...page.querySelectorAll('.words mjx-container[display="true"], .output_latex mjx-container')], texts = [...page.querySelectorAll('.output pre')];
     const wide = [...formulas, ...texts];
     for (let scale = largest; ; ) {
       set(page, '--scale', scale);
