@@ -86,7 +86,7 @@
       const sizes = wide.map((it) => [it, parseFloat(getComputedStyle(it).fontSize), widest(it)]);
       for (const it of sizes) {
         if (it[2] <= 1) continue;
-        it[1] /= it[2] + 0.005;
+        it[1] /= it[2] + 0.02;
         if (it[0].tagName === 'PRE' && it[1] < smallest()) {  // rather on two lines
           it[1] = smallest() + 0.1;
           it[0].style.whiteSpace = 'pre-wrap';

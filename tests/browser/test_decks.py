@@ -15,7 +15,7 @@ from live import PATIENCE, ROOT, assert_slider_matters, settled_picture
 READY = os.environ.get("SLIDES")
 pytestmark = [] if READY else pytest.mark.needs("npm")
 CHAPTER = "00"  # with a panel
-SIZES = [(1366, 768), (1024, 768)]
+SIZES = [(1366, 768), (1024, 768), (1280, 720), (1920, 1080)] if READY else [(1366, 768)]
 TROUBLES = (Path(__file__).parent / "slides.js").read_text(encoding="utf-8")
 DRAWN = """() => {
     const type = 'application/vnd.jupyter.widget-view+json';
