@@ -1,6 +1,7 @@
 """Each cell of a chapter says which part it plays on the slides, and a deck is made by that."""
 
 import re
+from collections import Counter
 from pathlib import Path
 
 import nbformat
@@ -9,15 +10,10 @@ import slides
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
 CHAPTERS = sorted((Path(__file__).parent.parent / "notebooks").glob("[0-9][0-9]_*.ipynb"))
-SEEN = {"text/html", "text/markdown", "application/vnd.jupyter.widget-view+json"}
 
 
 def kind(cell):
     return cell.metadata.get("slideshow", {}).get("slide_type")
-
-
-def formats(cell):
-    return {name for output in cell.get("outputs", ()) for name in output.get("data", ())}
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
@@ -38,31 +34,80 @@ def test_a_chapters_cells_make_slides(path):
             assert "$$" not in prose, cell.source
         if "hide-cell" in cell.metadata.get("tags", ()):  # it computes a solution
             assert kind(cell) == "skip", cell.source
-    shown = [cell for cell in cells if kind(cell) not in ("notes", "skip")]
-    begins = [count for count, cell in enumerate(shown) if kind(cell) in ("slide", "subslide")]
-    assert len(begins) >= 12
+
+
+@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
+def test_a_deck_shows_all_that_a_chapter_shows_and_each_slide_begins_with_a_title(path):
+    chapter = nbformat.read(path, as_version=4)
+    asked = [cell for cell in chapter.cells if kind(cell) != "skip"]
+    words, results = said(asked), [output for cell in asked for output in cell.get("outputs", ())]
+    cells = slides.prepared(chapter).cells
+    words -= Counter(("Exercises", "details", "details", "summary", "summary") * len(asked))
+    assert not words - said(cells), "words that no slide shows"
+    assert [output for cell in cells for output in cell.get("outputs", ())] == results
+    begins = [count for count, cell in enumerate(cells) if kind(cell) in ("slide", "subslide")]
+    assert len({cell.id for cell in cells}) == len(cells)
+    assert begins[0] == 0
     for begin, end in zip(begins, [*begins[1:], None], strict=True):
-        slide = shown[begin:end]  # more than what a cell printed
-        assert any(cell.cell_type == "markdown" or SEEN & formats(cell) for cell in slide), slide
-    assert any("text/html" in formats(cell) for cell in shown)
+        heading, *shown = cells[begin:end]
+        outputs = [output for cell in shown for output in cell.get("outputs", ())]
+        assert re.fullmatch(r"#{1,3} \S.*", heading.source)
+        assert sum(slides.shape(it) is not None for it in outputs) <= 1, heading.source
+        for cell in shown:
+            assert cell.cell_type == "code" or cell.source.strip(), heading.source
+
+
+def said(cells):
+    """How often the cells say each word."""
+    text = " ".join(cell.source for cell in cells if cell.cell_type == "markdown")
+    return Counter(re.findall(r"\w+", slides.LINK.sub(r"\1", text)))
 
 
 def test_a_deck_has_a_title_its_own_links_and_solutions_as_notes():
     prose = "See [this](04_lyapunov.ipynb#x), [that](../book/use.md), [there](https://a.org)."
+    begins = {"slideshow": {"slide_type": "slide"}}
     solution = "\n\n<details><summary>Solution</summary>\n\nTwo.\n\n</details>"
     table = new_output("display_data", data={"text/markdown": prose})
     cells = [
-        new_markdown_cell(f"# A title\n\n{prose}"),
-        new_markdown_cell(f"### Exercise{solution}"),
+        new_markdown_cell(f"# A title\n\n{prose}", metadata=begins),
+        new_markdown_cell(f"### Exercise 1\n\nOne and one?{solution}", metadata=begins),
         new_code_cell("1", outputs=[table]),
     ]
     deck = slides.prepared(new_notebook(cells=cells))
     linked = "See [this](04_lyapunov.slides.html), that, [there](https://a.org)."
     assert deck.metadata["title"] == "A title"
-    assert deck.cells[0].source == f"# A title\n\n{linked}"
-    assert deck.cells[3].outputs[0].data["text/markdown"] == linked
-    assert [cell.source for cell in deck.cells[1:3]] == ["### Exercise", "**Solution.** Two."]
-    assert kind(deck.cells[2]) == "notes"
+    assert [cell.source for cell in deck.cells] == [
+        "# A title",
+        linked,
+        "### Exercise 1",
+        "One and one?",
+        "**Solution.** Two.",
+        "1",
+    ]
+    assert deck.cells[-1].outputs[0].data["text/markdown"] == linked
+    assert [kind(cell) for cell in deck.cells[:-1]] == ["slide", "-", "slide", "-", "notes"]
+
+
+def test_a_full_slide_goes_on_under_its_title_and_a_heading_alone_is_no_slide():
+    sentence = f"$x$ is so {'very ' * 24}long. "  # 28 words
+    why = f"**Why so.** {sentence * 2}"
+    sources = ("# A", f"## B\n\n{sentence * 3}", why, "## C", "### D\n\nE.")
+    kinds = ("slide", "slide", "fragment", "slide", "subslide")
+    cells = [
+        new_markdown_cell(source, metadata={"slideshow": {"slide_type": name}})
+        for source, name in zip(sources, kinds, strict=True)
+    ]
+    titles = [
+        (cell.source, kind(cell))
+        for cell in slides.prepared(new_notebook(cells=cells)).cells
+        if cell.source.startswith("#")
+    ]
+    assert titles == [
+        ("## B", "slide"),
+        ("## B", "subslide"),
+        ("## B: Why so", "subslide"),
+        ("### D", "slide"),
+    ]
 
 
 def test_a_chapter_that_is_not_there_is_told_before_anything_is_made(tmp_path):

@@ -1,53 +1,117 @@
 // Starts a deck: draws the formulas, makes each slide fit its window, and lets the widgets have the keys that they need.
 (() => {
   const pages = [...document.querySelectorAll('.page')];
-  // Notes of a slide stand together: reveal.js would show only those of the fragment that came last.
-  for (const page of pages) page.append(...page.querySelectorAll('aside.notes'));
   for (const table of document.querySelectorAll('.output_markdown')) table.tabIndex = 0;  // so that it scrolls by keyboard
-  for (const fold of document.querySelectorAll('details.code')) {
-    fold.addEventListener('toggle', () => {
-      const { top } = fold.getBoundingClientRect();
-      fold.classList.toggle('upwards', top > innerHeight / 2);
-    });
+  pages.forEach(arrange);
+
+  /** Puts a slide's figure or panel beside its words, all of its code behind one button, and its notes together. */
+  function arrange(page) {
+    page.querySelectorAll('.fragment').forEach((it, count) => { it.dataset.fragmentIndex = count; });
+    const notes = [...page.querySelectorAll('aside.notes')];  // reveal.js would show only those of the fragment that came last
+    const [fold, ...folds] = page.querySelectorAll('details.code');
+    for (const other of folds) {
+      fold.querySelector('.lines').append(...other.querySelectorAll('.highlight'));
+      other.remove();
+    }
+    const [title, ...rest] = page.children;
+    const body = box('body'), words = body.appendChild(box('words')), picture = page.querySelector('.output img, .panel');
+    words.append(...rest.filter((it) => it !== fold));
+    if (picture) {
+      const figure = body.appendChild(document.createElement('figure')), caption = words.querySelector('.caption');
+      const step = picture.closest('.fragment');
+      if (step && !step.querySelector('pre, p:not(.caption *)')) {
+        figure.className = 'fragment';
+        figure.dataset.fragmentIndex = step.dataset.fragmentIndex;
+      }
+      figure.append(picture, ...(caption ? [caption] : []));
+    }
+    title.className = 'title';
+    for (const it of [...words.querySelectorAll('.cell, .fragment')].reverse()) if (!it.textContent.trim() && !it.querySelector('svg, table')) it.remove();
+    words.hidden = !words.childElementCount;
+    page.replaceChildren(title, body, ...notes, ...(fold ? [fold] : []));
+  }
+
+  function box(name) {
+    const made = document.createElement('div');
+    made.className = name;
+    return made;
   }
 
   const set = (page, name, value) => (value === null ? page.style.removeProperty(name) : page.style.setProperty(name, value));
 
-  /** Whether something of a page lies outside its margins. */
-  function overflows(page) {
-    const box = page.getBoundingClientRect(), style = getComputedStyle(page);
-    const low = box.bottom - parseFloat(style.paddingBottom) + 1;
-    return [...page.children].some((it) => it.getBoundingClientRect().bottom > low) || page.scrollHeight > page.clientHeight + 1 || page.scrollWidth > page.clientWidth + 1;
-  }
+  /** What a page holds, as a multiple of the place for it: more than 1 overflows. */
+  const excess = (page) => Math.max(...[page, ...page.querySelectorAll('.body, .words')].flatMap((it) => [(it.scrollHeight - 1) / it.clientHeight, (it.scrollWidth - 1) / it.clientWidth]));
 
-  /** Makes figures and then text smaller until all of a page can be seen; a panel's picture takes what its sliders leave. */
+  const smallest = () => Math.min(innerHeight, innerWidth * 9 / 16) / 40;  // what the last row can read
+  // A figure stands beside the words, which have this share of the width, or below them.
+  const PLACES = [0.36, 0.46, 0.56, 'below'];
+
+  /** Makes the words of a slide as large as fit, and its figure; a panel's picture takes what its sliders leave. */
   function fit(page) {
-    for (const name of ['--scale', '--figure', '--canvas', '--table']) set(page, name, null);
-    for (const formula of page.querySelectorAll('mjx-container[display="true"]')) narrow(formula);
-    for (const text of page.querySelectorAll('.output pre')) narrowText(text);
-    if (page.querySelector('.panel canvas')) {
-      for (let height = innerHeight; height > 180 && (height === innerHeight || overflows(page)); height -= 10) set(page, '--canvas', `${height}px`);
-      return;
+    const image = page.querySelector('figure img');
+    if (page.querySelector('.panel')) {
+      set(page, '--canvas', '0px');
+      const figure = page.querySelector('figure');
+      set(page, '--canvas', `${Math.max(180, figure.clientHeight - figure.firstElementChild.offsetHeight - 4)}px`);
+    } else if (!image) {
+      scaled(page, 1.3);
+    } else {
+      const places = page.querySelector('.words[hidden]') ? ['below'] : PLACES;
+      const seen = places.map((where) => place(page, image, where));
+      const best = places[seen.indexOf(Math.max(...seen))];
+      if (best !== places.at(-1)) place(page, image, best);
     }
-    if (page.querySelector('.output img')) {
-      for (let height = 20; overflows(page) && height >= 11; height -= 0.5) set(page, '--figure', `${height}em`);
-    }
-    if (page.querySelector('.output_markdown')) {
-      for (let height = 23; overflows(page) && height >= 12; height -= 0.5) set(page, '--table', `${height}rem`);
-    }
-    for (let scale = 0.97; overflows(page) && scale >= 0.6; scale -= 0.03) set(page, '--scale', scale.toFixed(2));
   }
 
-  function narrow(formula) {
-    const widest = () => Math.max(...[...formula.querySelectorAll('svg')].map((it) => it.getBoundingClientRect().width));
-    formula.style.fontSize = '';
-    for (let size = 98; widest() > formula.parentElement.clientWidth + 0.5 && size >= 46; size -= 2) formula.style.fontSize = `${size}%`;
+  /** Lays a figure out in one of the places, and says how well one sees it. */
+  function place(page, image, where) {
+    page.classList.toggle('below', where === 'below');
+    set(page, '--share', where === 'below' ? 1 : where);
+    image.style.height = image.style.width = '0';
+    const scale = scaled(page, 1.1);
+    const figure = image.parentElement, caption = figure.querySelector('.caption')?.offsetHeight ?? 0;
+    const height = Math.max(0, Math.min(figure.clientHeight - caption, figure.clientWidth * image.naturalHeight / image.naturalWidth));
+    image.style.height = `${height}px`;
+    image.style.width = `${height * image.naturalWidth / image.naturalHeight}px`;
+    return scale * height;
   }
 
-  function narrowText(text) {
-    text.style.fontSize = text.style.whiteSpace = '';
-    for (let size = 0.8; text.scrollWidth > text.clientWidth && size >= 0.6; size -= 0.02) text.style.fontSize = `${size}em`;
-    if (text.scrollWidth > text.clientWidth) text.style.whiteSpace = 'pre-wrap';
+  /** Sets the largest scale of the words at which all can be seen, and returns it: next to nothing if not all of them can be read then. */
+  function scaled(page, largest) {
+    const formulas = [...page.querySelectorAll('.words mjx-container[display="true"], .output_latex mjx-container')], texts = [...page.querySelectorAll('.output pre')];
+    const wide = [...formulas, ...texts];
+    for (let scale = largest; ; ) {
+      set(page, '--scale', scale);
+      for (const it of wide) it.style.fontSize = it.style.whiteSpace = '';
+      const sizes = wide.map((it) => [it, parseFloat(getComputedStyle(it).fontSize), widest(it)]);
+      for (const it of sizes) {
+        if (it[2] <= 1) continue;
+        it[1] /= it[2] + 0.02;
+        if (it[0].tagName === 'PRE' && it[1] < smallest()) {  // rather on two lines
+          it[1] = smallest() + 0.1;
+          it[0].style.whiteSpace = 'pre-wrap';
+        }
+        it[0].style.fontSize = `${it[1]}px`;
+      }
+      const over = excess(page);
+      if (over <= 1) return Math.min(scale * rem(), ...sizes.map((it) => it[1])) < smallest() ? scale / 100 : scale;
+      if (scale <= 0.65) return scale / 1000;
+      scale = Math.max(0.65, Math.min(scale - 0.03, scale / Math.sqrt(over)));
+    }
+  }
+
+  const rem = () => parseFloat(getComputedStyle(document.documentElement).fontSize);
+  /** A formula's or a print's width, as a multiple of the place for it. */
+  const widest = (it) => (it.tagName === 'PRE' ? it.scrollWidth / it.clientWidth : Math.max(...[it, ...it.querySelectorAll('svg')].map((part) => part.getBoundingClientRect().width)) / it.parentElement.clientWidth);
+
+  /** Keeps the mark behind a formula on its line. */
+  function tie(formula) {
+    const mark = formula.nextSibling?.nodeType === Node.TEXT_NODE && formula.nextSibling.data.match(/^[.,:;?!)]+/);
+    if (!mark) return;
+    formula.nextSibling.data = formula.nextSibling.data.slice(mark[0].length);
+    const line = box('line');
+    formula.replaceWith(line);
+    line.append(formula, mark[0]);
   }
 
   const inWidget = () => document.activeElement?.closest('.panel, .output_markdown');
@@ -75,11 +139,8 @@
     }
   }, true);
 
-  const where = document.querySelector('.where'), title = document.title;
   function arrived() {
     const slide = deck.getCurrentSlide();
-    const heading = slide.closest('.slides > section').querySelector('h2');
-    where.textContent = heading ? `${title}: ${heading.textContent.replace('¶', '')}` : title;
     for (const fold of document.querySelectorAll('details.code[open]')) fold.open = false;
     document.activeElement?.blur();
     fit(slide.querySelector('.page'));
@@ -103,12 +164,17 @@
   Promise.all([started, drawn]).then(async () => {
     // The speaker's window has not the style that hides a formula's second copy, which is for screen readers.
     for (const copy of document.querySelectorAll('aside.notes mjx-assistive-mml')) copy.remove();
+    document.querySelectorAll('.words mjx-container:not([display])').forEach(tie);
     deck.on('slidechanged', arrived);
-    addEventListener('resize', () => pages.forEach(fit));
+    const fitAll = () => {
+      pages.forEach(fit);
+      deck.fitted = `${innerWidth} ${innerHeight}`;
+    };
+    addEventListener('resize', fitAll);
     // Widgets come when they come, and change their size when they are used.
     const watch = new ResizeObserver(() => pages.filter((page) => page.querySelector('.panel')).forEach(fit));
     document.querySelectorAll('.panel').forEach((panel) => watch.observe(panel));
-    pages.forEach(fit);
+    fitAll();
     arrived();
     if (printing) await printable;
     startWidgets();
