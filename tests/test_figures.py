@@ -319,7 +319,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "challenge_paths": lambda: [
         "12 of them reached, with 21.81 points in the mean; "
-        "the dearest is case 12, far behind, with 42.7"
+        "the costliest is case 12, far behind, with 42.7"
     ],
 }
 

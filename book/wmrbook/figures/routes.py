@@ -121,13 +121,13 @@ def challenge_paths(score: Score) -> Picture:
     handles.append(_marker("goal", COLOURS["goal"], ">"))
     looks = {"ncols": len(handles), "frameon": False, "fontsize": 11}
     figure.legend(handles=handles, loc="outside upper center", **looks)
-    dearest = max(range(len(runs)), key=lambda k: score.cases[k].points)
-    worst = score.cases[dearest]
+    costliest = max(range(len(runs)), key=lambda k: score.cases[k].points)
+    worst = score.cases[costliest]
     return Picture(
         figure,
         f"The paths of {len(runs)} cases, the start a filled arrow and the goal an outlined one; "
-        f"{score.reached} of them reached, with {score.total:.2f} points in the mean; the dearest "
-        f"is case {dearest + 1}, {worst.kind}, with {worst.points:.1f} points.",
+        f"{score.reached} of them reached, with {score.total:.2f} points in the mean; the costliest "
+        f"is case {costliest + 1}, {worst.kind}, with {worst.points:.1f} points.",
     )
 
 
