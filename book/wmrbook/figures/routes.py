@@ -126,8 +126,8 @@ def challenge_paths(score: Score) -> Picture:
     return Picture(
         figure,
         f"The paths of {len(runs)} cases, the start a filled arrow and the goal an outlined one; "
-        f"{score.reached} of them reached, with {score.total:.2f} points in the mean; the costliest "
-        f"is case {costliest + 1}, {worst.kind}, with {worst.points:.1f} points.",
+        f"{score.reached} of them reached, with {score.total:.2f} points in the mean; the "
+        f"costliest is case {costliest + 1}, {worst.kind}, with {worst.points:.1f} points.",
     )
 
 
