@@ -50,6 +50,7 @@ def test_a_deck_shows_all_that_a_chapter_shows_and_each_slide_begins_with_a_titl
     assert begins[0] == 0
     for begin, end in zip(begins, [*begins[1:], None], strict=True):
         heading, *shown = cells[begin:end]
+        assert not any(cell.source.count("$$") % 2 for cell in shown), heading.source
         outputs = [output for cell in shown for output in cell.get("outputs", ())]
         assert re.fullmatch(r"#{1,3} \S.*", heading.source)
         assert sum(slides.shape(it) is not None for it in outputs) <= 1, heading.source

@@ -29,6 +29,10 @@ window.paper = (() => {
     number_pages({});
     await MathJax.startup.promise;
     await Promise.all([...document.images].map((it) => it.decode()));
+    for (const number of document.querySelectorAll('.page-number')) {
+      const width = number.getBoundingClientRect().width / parseFloat(getComputedStyle(number).fontSize);
+      Object.assign(number.style, { display: 'inline-block', width: `${width}em`, whiteSpace: 'pre' });
+    }
   }
 
   // Sphinx writes #document-notebooks/04_lyapunov#paper-24, and several chapters have a section of the same name.

@@ -57,19 +57,28 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         chromium = playwright.chromium.launch(
             executable_path=find_browser(), args=["--no-sandbox", "--disable-gpu"]
         )
-        book = chromium.new_page(color_scheme="light")
-        book.set_default_timeout(PATIENCE)
-        book.goto(page.as_uri(), wait_until="load")
-        book.add_script_tag(content=PAPER)
-        places = book.evaluate("paper.places()")
+        blank = open_book(chromium, page)
+        places = blank.evaluate("paper.places()")
         stills = picture_panels(chromium, site, list(dict.fromkeys(places)))
+        blank.evaluate("stills => paper.prepare(stills)", stills)
+        # Once for the places of the pages, without what takes long; then whole, in a page of its
+        # own: what has been printed once may break its pages otherwise the next time.
+        pages = find_pages(print_page(blank, pdf), blank.evaluate("paper.anchors()"))
+        blank.close()
+        book = open_book(chromium, page)
         book.evaluate("stills => paper.prepare(stills)", stills)
-        # Once for the places of the pages, without what takes long; then whole.
-        pages = find_pages(print_page(book, pdf), book.evaluate("paper.anchors()"))
         book.evaluate("pages => paper.number_pages(pages)", pages)
         if find_pages(print_page(book, pdf, outline=True, tagged=True), list(pages)) != pages:
             sys.exit("The PDF's pages moved when their numbers were filled in.")
         chromium.close()
+
+
+def open_book(chromium, page: Path):
+    book = chromium.new_page(color_scheme="light")
+    book.set_default_timeout(PATIENCE)
+    book.goto(page.as_uri(), wait_until="load")
+    book.add_script_tag(content=PAPER)
+    return book
 
 
 def print_page(page, pdf: Path, **more: bool) -> Path:

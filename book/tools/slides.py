@@ -241,7 +241,9 @@ def _pieces(text: str) -> list[tuple[str, float]]:
 
 
 def _split(text: str, where: re.Pattern) -> list[str]:
-    cuts = [0, *(found.end() for found in where.finditer(text)), len(text)]
+    whole = [formula.span() for formula in FORMULA.finditer(text)]
+    found = (each.end() for each in where.finditer(text))
+    cuts = [0, *(at for at in found if not any(a < at < b for a, b in whole)), len(text)]
     return [text[begin:end] for begin, end in itertools.pairwise(cuts)]
 
 
