@@ -170,6 +170,13 @@ def test_what_older_versions_compiled_is_forgotten_after_a_month(tmp_path, monke
     for name, age in days.items():
         (tmp_path / name).mkdir()
         os.utime(tmp_path / name, 2 * (time.time() - 86400 * age,))
+    remove = shutil.rmtree
+
+    def removed_twice(folder):  # by another process at the same time
+        remove(folder)
+        raise FileNotFoundError(folder)
+
+    monkeypatch.setattr(shutil, "rmtree", removed_twice)
     assert compiled_again() == (3.0 * FACTOR, 1)
     left = {path.name for path in tmp_path.iterdir()}
     assert left == {"compiled-new", "compiled-recent", "another's"}

@@ -171,6 +171,13 @@ def test_a_damaged_notebook_becomes_the_program_that_it_was(course, chapter):
         assert [found.cells[k].source for k in damage.checks(found)] == checks, name
 
 
+def test_a_byte_order_mark_does_not_matter(course, tmp_path):
+    plain = json.dumps(notebook(course, "release"))
+    for encoding in "utf-8", "utf-8-sig":
+        (tmp_path / encoding).write_text(plain, encoding=encoding)
+    assert handins.read(tmp_path / "utf-8-sig") == handins.read(tmp_path / "utf-8")
+
+
 def test_an_answer_below_its_check_comes_too_late(course):
     tried = answered(course, CHAPTER, dict.fromkeys(model(CHAPTER), "tried = 1"))
     late = copy.deepcopy(tried)

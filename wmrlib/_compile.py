@@ -98,8 +98,9 @@ def _kept(file: Path, content: bytes) -> bool:
 def _forget_old(place: Path) -> None:
     """Remove what other versions compiled, where nothing was added for a month."""
     for folder in place.glob("compiled-*"):
-        if folder.stat().st_mtime < time.time() - _MONTH:
-            shutil.rmtree(folder, ignore_errors=True)
+        with suppress(OSError):  # another process forgets it at the same time
+            if folder.stat().st_mtime < time.time() - _MONTH:
+                shutil.rmtree(folder)
 
 
 @lru_cache
