@@ -127,19 +127,22 @@ def how_far_behind() -> tuple[str, list[Option], str]:
 
 @question(6, "What it says nothing about", "Which gain brings it nearer?")
 def nearer() -> tuple[str, list[Option], str]:
-    gains, left = wmr.paper.CIRCLE_GAINS, {}
+    gains = wmr.paper.CIRCLE_GAINS
     changes = {
+        "none": {},
         "k_rho": {"k_rho": 2.0 * gains.k_rho},
         "k_alpha": {"k_alpha": 2.0 * gains.k_alpha},
         "h": {"h": 2.0 * gains.h},
         "v_max": {"v_max": 0.5 * gains.v_max},
         "all": {"k_alpha": 2.0 * gains.k_alpha, "h": 4.0 * gains.h},
     }
-    for name, change in changes.items():
-        tuned = gains._replace(**change)
-        run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, tuned, dt=0.02)
-        left[name] = wmr.residual(run)
-    near = [name for name in left if left[name] < 1.2 * min(left.values())]
+    left = {
+        name: wmr.residual(
+            wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, gains._replace(**change), dt=0.02)
+        )
+        for name, change in changes.items()
+    }
+    near = [name for name in left if abs(left[name] / left["none"] - 0.5) < 0.05]
     ask = "On the paper's circle, $v_{\\max}$ 4 m/s, the corrected law follows 9 cm behind its goal. "
     ask += "Which change halves this distance?"
     options = {
