@@ -22,7 +22,7 @@ import hashlib
 import os
 import re
 import unicodedata
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import quote, unquote
@@ -85,16 +85,21 @@ def read(text: str) -> Line:
     return Line(found["kind"], found["id"], clean_name(name), _clean_value(value))
 
 
-def read_all(path: str | os.PathLike) -> tuple[list[Line], list[Refused]]:
+def read_all(
+    path: str | os.PathLike, check: Callable[[Line], object] | None = None
+) -> tuple[list[Line], list[Refused]]:
     """Return a file's lines, of each name the last for each kind and id, and the refused ones.
 
     Names that differ only in upper and lower case, or in joiners, which are not seen, are one.
-    Raises OSError if the file can't be read.
+    check: raises ValueError for a line that is to be refused. Raises OSError if the file can't be
+    read.
     """
     last, refused = {}, []
     for number, text in numbered(Path(path).read_bytes()):
         try:
             line = read(text)
+            if check:
+                check(line)
         except ValueError as error:  # of bytes that are no UTF-8, too
             refused.append(Refused(number, text, str(error)))
         else:

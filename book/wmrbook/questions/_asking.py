@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import itertools
 from collections.abc import Callable, Hashable
 from typing import NamedTuple
 
@@ -74,10 +75,12 @@ def numbers(right: float, mistaken: dict[str, float], form: str) -> list[Option]
     """
     values = {"": right, **mistaken}
     ordered = sorted(values, key=values.get)
-    for low, high in zip(ordered, ordered[1:], strict=False):
+    for low, high in itertools.pairwise(ordered):
         gap = values[high] - values[low]
         if not gap > _APART * max(abs(values[low]), abs(values[high])):
-            pair = f"{values[low]:.4g} ({low or 'right'}) and {values[high]:.4g} ({high or 'right'})"
+            pair = (
+                f"{values[low]:.4g} ({low or 'right'}) and {values[high]:.4g} ({high or 'right'})"
+            )
             raise Refusal(f"two options are nearly equal: {pair}")
     return [Option(form.format(values[each] + 0.0), each) for each in ordered]
 

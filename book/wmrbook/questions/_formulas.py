@@ -5,17 +5,13 @@ from __future__ import annotations
 import html
 import re
 
-_WORDS = {
-    r"\alpha": "α",
-    r"\beta": "β",
-    r"\theta": "θ",
-    r"\rho": "ρ",
-    r"\omega": "ω",
-    r"\cos": "cos ",
-    r"\ln": "ln ",
-    r"\to": " → ",
-    r"\approx": " ≈ ",
-    r"\infty": "∞",
+_GREEK = "alpha", "beta", "theta", "rho", "omega"
+_WORDS = {rf"\{name}": f"&{name};" for name in _GREEK} | {
+    r"\cos": "cos&nbsp;",
+    r"\ln": "ln",
+    r"\cdot": "&middot;",
+    r"\to": "&rarr;",
+    r"\approx": "&asymp;",
 }
 _FORMULA = re.compile(r"\$([^$]+)\$")
 
@@ -26,15 +22,15 @@ def as_html(text: str) -> str:
 
 
 def _written(formula: str) -> str:
-    text = re.sub(r"\\dot\s*(\\?[A-Za-z]+)", r"\1′", formula)
-    text = re.sub(r"\\sqrt\s*(\w)", r"√\1", text)
+    text = re.sub(r"\\dot\s*(\\?[A-Za-z]+)", r"\1&prime;", formula)
+    text = re.sub(r"\\sqrt\s*(\w)", r"&radic;\1", text)
     text = text.replace(r"_{\max}", "<sub>max</sub>")
-    text = re.sub(r"\\[a-z]+\s*", lambda it: _known(it[0].strip(), formula), text)
-    text = re.sub(r"_(\w)", r"<sub>\1</sub>", text)
+    text = re.sub(r"\\[a-z]+", lambda it: _known(it[0], formula), text)
+    text = re.sub(r"_(&\w+;|\w)", r"<sub>\1</sub>", text)
     text = re.sub(r"\^\{([^}]*)\}", r"<sup>\1</sup>", text)
     if set(text) & set("\\{}^_"):
         raise ValueError(f"${formula}$ is not allowed: a form can't write it")
-    return f"<i>{text.replace('-', '−')}</i>"
+    return f"<i>{text.replace('-', '&minus;')}</i>"
 
 
 def _known(word: str, formula: str) -> str:

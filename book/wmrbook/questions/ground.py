@@ -13,9 +13,7 @@ _East = wmr.Pose(0.0, 0.0, 0.0)
 @question(0, "It has arrived. Has it parked?", "Where does it face its goal's heading best?")
 def arrived_parked() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
-    run = wmr.simulate(
-        case.start, case.goal, case.gains, method="continuous", arrival_radius=0.009
-    )
+    run = wmr.simulate(case.start, case.goal, case.gains, method="continuous", arrival_radius=0.009)
     radii = 0.3, 0.1, 0.05, 0.01
     errors = [abs(math.degrees(run.heading_error[(run.rho <= each).argmax()])) for each in radii]
     best = radii[errors.index(min(errors))]
@@ -29,9 +27,13 @@ def arrived_parked() -> tuple[str, list[Option], str]:
         0.01: ("at 1 cm", "the closer, the better"),
         "even": ("equally well at all four", "on the spot is parked"),
     }
-    return ask, cases("even" if even else best, options), (
-        "The heading swings by 50 deg to either side over the last 30 cm, and passes zero near "
-        "10 cm by luck."
+    return (
+        ask,
+        cases("even" if even else best, options),
+        (
+            "The heading swings by 50 deg to either side over the last 30 cm, and passes zero near "
+            "10 cm by luck."
+        ),
     )
 
 
@@ -79,12 +81,14 @@ def turning_centre() -> tuple[str, list[Option], str]:
     left, right, width = 0.6, 0.2, 0.5
     v, omega = wmr.wheels_to_twist(left, right, width)
     mistaken = {
-        "omega counted clockwise": (left + right) / 2.0 / ((left - right) / width),
+        "$\\omega$ counted clockwise": (left + right) / 2.0 / ((left - right) / width),
         "the slower wheel taken for the centre": -width / 2.0,
         "the middle of the axle taken for the centre": 0.0,
         "the sum of the wheels' speeds, not the mean": -width * (left + right) / (left - right),
     }
-    ask = "Two wheels, 0.5 m apart, roll at 0.6 m/s (left) and 0.2 m/s (right). How far to the left "
+    ask = (
+        "Two wheels, 0.5 m apart, roll at 0.6 m/s (left) and 0.2 m/s (right). How far to the left "
+    )
     ask += "of the axle's middle is the point about which the robot turns?"
     why = "It lies $v/\\omega$ to the left: 0.4 m/s over -0.8 rad/s is half a metre to the right."
     return ask, numbers(v / omega, mistaken, "{:.2f} m"), why
@@ -96,7 +100,9 @@ def four_moves() -> tuple[str, list[Option], str]:
     for v, omega in ((drive, 0.0), (0.0, turn), (-drive, 0.0), (0.0, -turn)):
         pose = wmr.advance(pose, v, omega, 1.0)
     ahead, left = (sign(value, 0.1) for value in pose[:2])
-    ask = "A robot drives 0.5 m ahead, turns 30 deg left, drives 0.5 m back, and turns 30 deg right. "
+    ask = (
+        "A robot drives 0.5 m ahead, turns 30 deg left, drives 0.5 m back, and turns 30 deg right. "
+    )
     ask += "Where is it then, mainly, seen from where it began?"
     options = {
         (0, -1): ("to the right", ""),
@@ -129,7 +135,7 @@ def two_angles() -> tuple[str, list[Option], str]:
         (a, -b): (pair(a, -b), "$\\beta$ taken for $\\theta$"),
         (b, a): (pair(b, a), "$\\alpha$ and $\\theta$ in each other's place"),
     }
-    ask = "The robot faces north-west. Its goal is due west, and is to be left facing south. "
+    ask = "The robot faces north-west. Its goal lies due west and looks south. "
     ask += "Which angles does the law get?"
     why = "Each turns from a heading to the line of sight, positive to the left, and is wrapped."
     return ask, cases((alpha, theta), options), why
@@ -149,8 +155,12 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
         if rho < 0.01:
             break
     there, parked = rho < 0.01, abs(rows[-1]) < 0.1
-    ask = "Siegwart's law is $v = k_\\rho\\rho$, $\\omega = k_\\alpha\\alpha + k_\\beta\\beta$ with "
-    ask += "(3, 8, -1.5). A program puts our $\\theta$ where $\\beta$ belongs. What does the robot do?"
+    ask = (
+        "Siegwart's law is $v = k_\\rho\\rho$, $\\omega = k_\\alpha\\alpha + k_\\beta\\beta$ with "
+    )
+    ask += (
+        "(3, 8, -1.5). A program puts our $\\theta$ where $\\beta$ belongs. What does the robot do?"
+    )
     options = {
         (True, False): ("reaches the place, looks another way", ""),
         (True, True): ("parks as before", "only the angle's name has changed"),
@@ -158,6 +168,6 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
         "mirror": ("parks on the mirrored path", "both angles taken for mirrored"),
         "spin": ("spins on the spot", "the sign of $\\alpha$ taken for wrong"),
     }
-    why = "The distance falls whatever the third angle is; with the wrong sign its own pole is "
+    why = "The distance falls whatever the third angle is; with the wrong sign one pole is "
     why += "positive, and the heading error grows."
     return ask, cases((there, parked), options), why

@@ -42,7 +42,9 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
     )
     most = math.degrees(np.abs(run.heading_error).max())
     found = next(limit for limit in (1.0, 10.0, 45.0, 90.0, math.inf) if most <= limit)
-    ask = "A robot stands 1 mm beside its goal with exactly the right heading. How far off does its "
+    ask = (
+        "A robot stands 1 mm beside its goal with exactly the right heading. How far off does its "
+    )
     ask += "heading get on the way (corrected law, gentle gains)?"
     options = {
         math.inf: ("more than 90 deg", ""),
@@ -51,7 +53,9 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
         10.0: ("1 to 10 deg", "small start, small swing"),
         1.0: ("less than 1 deg", "stable in polar coordinates, so stable in the plane"),
     }
-    why = "However near, it sees both angles at 90 deg; while $\\alpha$ falls to 0, $\\theta$ rises "
+    why = (
+        "However near, it sees both angles at 90 deg; while $\\alpha$ falls to 0, $\\theta$ rises "
+    )
     why += "further. Attractive, not stable."
     return ask, cases(found, options), why
 
@@ -99,7 +103,9 @@ def mirror() -> tuple[str, list[Option], str]:
         (-1, 1): ("$v$ changes its sign, $\\omega$ stays", "a mirror taken for a reverse gear"),
         (1, 0): ("$v$ stays, $\\omega$ changes its size", "the sum of two angles taken for uneven"),
     }
-    why = "Both angles change their signs. $v$ is even in them, $\\omega$ odd: the drive is mirrored."
+    why = (
+        "Both angles change their signs. $v$ is even in them, $\\omega$ odd: the drive is mirrored."
+    )
     return ask, cases((change(v, seen_v), change(omega, seen_omega)), options), why
 
 
@@ -143,7 +149,9 @@ def nearer() -> tuple[str, list[Option], str]:
         for name, change in changes.items()
     }
     near = [name for name in left if abs(left[name] / left["none"] - 0.5) < 0.05]
-    ask = "On the paper's circle, $v_{\\max}$ 4 m/s, the corrected law follows 9 cm behind its goal. "
+    ask = (
+        "On the paper's circle, $v_{\\max}$ 4 m/s, the corrected law follows 9 cm behind its goal. "
+    )
     ask += "Which change halves this distance?"
     options = {
         "k_rho": ("$k_\\rho$ doubled", ""),
@@ -152,7 +160,7 @@ def nearer() -> tuple[str, list[Option], str]:
         "v_max": ("$v_{\\max}$ halved", "a calmer robot taken for a closer one"),
         "all": ("$k_\\alpha$ doubled and $h$ fourfold", "stiffer steering taken to catch up"),
     }
-    why = "The robot keeps the distance at which its law commands the goal's speed: only $k_\\rho$ and "
+    why = "It keeps the distance at which its law commands the goal's speed: only $k_\\rho$ and "
     why += "$v_{\\max}$ matter, and less $v_{\\max}$ lengthens it."
     return ask, cases(near[0] if len(near) == 1 else None, options), why
 
@@ -174,7 +182,9 @@ def damping() -> tuple[str, list[Option], str]:
     best = max(ratios, key=lambda change: ratios[change].damping)
     ask = "With the paper's gains the heading swings near the goal, at a damping ratio of 0.11. "
     ask += "Which one of these changes raises the ratio most?"
-    why = "The ratio is $k_\\alpha/(2 v_{\\max} k_\\rho\\sqrt h)$: doubling $k_\\alpha$ doubles it, "
+    why = (
+        "The ratio is $k_\\alpha/(2 v_{\\max} k_\\rho\\sqrt h)$: doubling $k_\\alpha$ doubles it, "
+    )
     why += "halving $h$ raises it by 41 %, less $v_{\\max}$ by 33 %."
     return ask, cases(best, changes), why
 

@@ -23,7 +23,9 @@ def twice_as_fast() -> tuple[str, list[Option], str]:
         "the step taken to go with the root of the rate": step / math.sqrt(2.0),
         "quicker poles taken to forgive more": 2.0 * step,
     }
-    ask = f"The gentle gains settle with steps up to {step:.2f} s. Now $k_\\rho$ and $k_\\alpha$ are "
+    ask = (
+        f"The gentle gains settle with steps up to {step:.2f} s. Now $k_\\rho$ and $k_\\alpha$ are "
+    )
     ask += "doubled, so that all poles near the goal are twice as fast. What is the longest step?"
     why = "Only step times rate counts: the same loop on a clock that runs twice as fast."
     return ask, numbers(shorter, mistaken, "{:.2f} s"), why
@@ -48,7 +50,9 @@ def one_factor() -> tuple[str, list[Option], str]:
     }
     ask = "The law asks for 2 m/s and 4 rad/s. The wheels, 0.5 m apart, reach 1.5 m/s. Both are "
     ask += "slowed by one factor. What does the robot do?"
-    why = "The faster wheel should do 3 m/s, twice its limit. Half of both keeps the curvature, and "
+    why = (
+        "The faster wheel should do 3 m/s, twice its limit. Half of both keeps the curvature, and "
+    )
     why += "with it the path."
     return ask, cases(twist(*limited), {each: (each, why) for each, why in told.items()}), why
 
@@ -69,7 +73,9 @@ def constant_offset() -> tuple[str, list[Option], str]:
     end = _park(_GOAL, 2.0)
     east, north = (sign(value, 0.5) for value in end[:2])
     found = east, north, abs(end.heading) < math.radians(10.0)
-    ask = "During the whole drive the receiver shows each position 2 m too far east; the compass is "
+    ask = (
+        "During the whole drive the receiver shows each position 2 m too far east; the compass is "
+    )
     ask += "exact (gentle gains). Where does the robot park?"
     options = {
         (-1, 0, True): ("2 m west of the goal, heading right", ""),
@@ -96,10 +102,14 @@ def crooked_compass() -> tuple[str, list[Option], str]:
         "the turning line of sight forgotten": delta_deg * gains.k_alpha / (gains.h * lam),
     }
     ask = "The compass reads 4 deg too much, the position is exact. With the gentle gains "
-    ask += "($v_{\\max} k_\\rho$ 0.8, $k_\\alpha$ 2 per s, $h$ 2) the robot finds the place. How far "
+    ask += (
+        "($v_{\\max} k_\\rho$ 0.8, $k_\\alpha$ 2 per s, $h$ 2) the robot finds the place. How far "
+    )
     ask += "off is its heading?"
-    why = "Driving straight in, it believes $\\alpha$ is -4 deg. Only a $\\theta$ that cancels this "
-    why += "in $\\omega$ lets it rest: 4 (2 + 0.8)/(2 0.8) deg."
+    why = (
+        "Driving straight in, it believes $\\alpha$ is -4 deg. Only a $\\theta$ that cancels this "
+    )
+    why += "in $\\omega$ lets it rest: $4(2 + 0.8)/(2 \\cdot 0.8)$ deg."
     return ask, numbers(rest, mistaken, "{:.1f} deg"), why
 
 
@@ -144,7 +154,9 @@ def is_it_parked() -> tuple[str, list[Option], str]:
             found = verdict
     if len(east) == len(north) == 1 and east != north:
         found = "axis"
-    ask = "Parked: within 5 cm and 5 deg. An audit halves and doubles both thresholds, and tries $x$ "
+    ask = (
+        "Parked: within 5 cm and 5 deg. An audit halves and doubles both thresholds, and tries $x$ "
+    )
     ask += "east and north, with the paper's gains in continuous time. What does it report?"
     options = {
         "open": ("not decided", ""),
@@ -233,5 +245,7 @@ def along_a_route() -> tuple[str, list[Option], str]:
         (False, -1): ("falls on each leg, jumps down between", "a goal passed taken for a gain"),
         (True, 0): ("rises on each leg", "a longer way taken for a larger $V$"),
     }
-    why = "The law makes $V$ fall to the goal of the moment. A new goal is a new error, further off."
+    why = (
+        "The law makes $V$ fall to the goal of the moment. A new goal is a new error, further off."
+    )
     return ask, cases(found, options), why
