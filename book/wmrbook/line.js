@@ -10,8 +10,8 @@ const wmrLine = (() => {
   function sha256(text) {
     const bytes = [...text].map((it) => it.charCodeAt(0)), bits = 8 * bytes.length;
     bytes.push(0x80);
-    while (bytes.length % 64 !== 60) bytes.push(0);  // a line has far less than 2^32 bits
-    for (const by of [24, 16, 8, 0]) bytes.push((bits >>> by) & 255);
+    while (bytes.length % 64 !== 56) bytes.push(0);
+    bytes.push(0, 0, 0, 0, ...[24, 16, 8, 0].map((by) => (bits >>> by) & 255));  // a line has far less than 2^32 bits
     const sum = primes.slice(0, 8).map((p) => fraction(Math.sqrt(p)));
     for (let at = 0; at < bytes.length; at += 64) {
       const w = [];

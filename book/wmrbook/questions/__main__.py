@@ -46,7 +46,7 @@ def main(arguments: list[str] | None = None) -> None:
         if given.command == "histogram":
             groups = found.histograms(questions)
             _tell(found, "\n\n".join(it.told() for group in groups.values() for it in group))
-            beside = given.file.with_suffix(".html")
+            beside = given.file.with_name(f"{given.file.name}.html")
             beside.write_text(page(groups), encoding="utf-8")
             print(beside)
         else:

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrbook.lines import Line, Refused, read_all
+from wmrbook.lines import Line, Refused, read_all, same_name
 from wmrbook.questions._asking import LETTERS, Question
 
 TESTS = "pre", "post"
@@ -74,10 +74,11 @@ def read_class(path: str | os.PathLike, questions: tuple[Question, ...], mark: s
     Raises OSError if the file can't be read.
     """
     lines, refused = read_all(path, lambda line: _sheet(line, len(questions), mark))
-    sheets, votes = {test: {} for test in TESTS}, defaultdict(list)
+    sheets, votes, spelled = {test: {} for test in TESTS}, defaultdict(list), {}
     for line in lines:
         if line.kind == "test":
-            sheets[_sheet(line, len(questions), mark)][line.name] = line.value
+            name = spelled.setdefault(same_name(line.name), line.name)
+            sheets[_sheet(line, len(questions), mark)][name] = line.value
         else:
             votes[line.kind, line.id].append(line.value)
     return Class(sheets, dict(votes), refused)

@@ -78,11 +78,11 @@ def constant_offset() -> tuple[str, list[Option], str]:
     )
     ask += "exact (gentle gains). Where does the robot park?"
     options = {
-        (-1, 0, True): ("2 m west of the goal, heading right", ""),
-        (1, 0, True): ("2 m east of the goal, heading right", "the error's sign taken over"),
+        (-1, 0, True): ("2 m west, heading right", ""),
+        (1, 0, True): ("2 m east, heading right", "the error's sign taken over"),
         (0, 0, True): ("on the goal, heading right", "feedback taken to remove every error"),
         (0, 0, False): ("on the goal, heading wrong", "the place taken for what feedback sees"),
-        (-1, 0, False): ("2 m west of the goal, heading wrong", "an offset taken for noise"),
+        (-1, 0, False): ("2 m west, heading wrong", "an offset taken for noise"),
     }
     why = "It parks where it believes the goal to be. Nothing in the loop sees a constant error, "
     why += "and no gain removes it."
@@ -236,13 +236,13 @@ def along_a_route() -> tuple[str, list[Option], str]:
     )
     steps, change = np.diff(route.V), np.diff(route.leg) != 0
     found = bool((steps[~change] > 1e-9).any()), sign(steps[change].min(), 1e-6)
-    ask = "A route of three goals, the first two only passed, is driven by the corrected law with "
-    ask += "gentle gains. What does $V$, counted to the goal of the moment, do?"
+    ask = "A route of three goals, the first two only passed, is driven by the corrected law "
+    ask += "(gentle gains). What does $V$, counted to the present goal, do?"
     options = {
-        (False, 1): ("falls on each leg, jumps up between", ""),
+        (False, 1): ("falls, but jumps up between legs", ""),
         (False, 0): ("falls from first to last", "one proof taken for the whole route"),
         (True, 1): ("rises before each corner too", "braking taken for a rise of $V$"),
-        (False, -1): ("falls on each leg, jumps down between", "a goal passed taken for a gain"),
+        (False, -1): ("falls, and jumps down between legs", "a goal passed taken for a gain"),
         (True, 0): ("rises on each leg", "a longer way taken for a larger $V$"),
     }
     why = (
