@@ -11,16 +11,16 @@ from __future__ import annotations
 
 import hashlib
 
-from wmrbook.questions import ground, laws, practice
+from wmrbook.questions import field, ground, laws, practice
 from wmrbook.questions._asking import LETTERS, MAKERS, Option, Question, Refusal
 
 __all__ = ["LETTERS", "MAKERS", "Option", "Question", "Refusal", "fingerprint", "made"]
-_CHAPTERS = ground, laws, practice  # which fill MAKERS
+_CHAPTERS = ground, laws, practice, field  # which fill MAKERS
 
 
 def made() -> tuple[Question, ...]:
     """Return all questions, made now; raises Refusal for one that can't be asked."""
-    return tuple(make() for make in MAKERS.values())
+    return tuple(sorted((make() for make in MAKERS.values()), key=lambda it: it.chapter))
 
 
 def fingerprint(questions: tuple[Question, ...]) -> str:

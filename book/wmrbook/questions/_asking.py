@@ -44,7 +44,7 @@ class Refusal(ValueError):  # noqa: N818  (it is no fault of the program)
 
 
 MAKERS: dict[str, Callable[[], Question]] = {}
-"""From a question's id to the function that makes it, in the order of the chapters."""
+"""From a question's id to the function that makes it."""
 
 
 def question(chapter: int, section: str, title: str) -> Callable:

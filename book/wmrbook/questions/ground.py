@@ -18,8 +18,11 @@ def arrived_parked() -> tuple[str, list[Option], str]:
     errors = [abs(math.degrees(run.heading_error[(run.rho <= each).argmax()])) for each in radii]
     best = radii[errors.index(min(errors))]
     even = max(errors) - min(errors) < 5.0
-    ask = "The paper's drive ($x$ east, its gains, continuous time) is stopped 30, 10, 5 or 1 cm "
-    ask += "before the goal. Where does the robot look most nearly the right way?"
+    ask = (
+        "The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4, "
+        "continuous time) is stopped 30, 10, 5 or 1 cm before its goal. Where does the robot look "
+        "most nearly the right way?"
+    )
     options = {
         0.3: ("at 30 cm", "the heading only gets worse"),
         0.1: ("at 10 cm", ""),
@@ -50,10 +53,14 @@ def swapped_points() -> tuple[str, list[Option], str]:
         "a sine in place of the cosine": apart / math.sin(slope),
         "a tangent in place of the cosine": apart * math.tan(slope),
     }
-    ask = "Two points near Oslo (60 deg north, 11 deg east) are 100 m apart, one due east of the "
-    ask += "other. A program swaps latitude and longitude. What distance does it report?"
-    why = "The points differ in longitude only, and a degree of it is half as long at 60 deg as a "
-    why += "degree of latitude."
+    ask = (
+        "Two points near Oslo (60 deg north, 11 deg east) are 100 m apart, one due east of the "
+        "other. A program swaps latitude and longitude. What distance does it report?"
+    )
+    why = (
+        "The points differ in longitude only, and a degree of it is half as long at 60 deg as a "
+        "degree of latitude."
+    )
     return ask, numbers(wmr.haversine_distance(*swapped), mistaken, "{:.0f} m"), why
 
 
@@ -70,8 +77,10 @@ def bearing_and_heading() -> tuple[str, list[Option], str]:
         "counter-clockwise, but still from north": -bearing_deg,
         "east and north both taken the other way": 60.0 - 90.0 - bearing_deg,
     }
-    ask = "The goal's bearing is 120 deg, clockwise from north. Which heading, counter-clockwise "
-    ask += "from east, looks at it?"
+    ask = (
+        "The goal's bearing is 120 deg, clockwise from north. Which heading, counter-clockwise "
+        "from east, looks at it?"
+    )
     why = "The heading is 90 deg minus the bearing: it starts in the east and turns the other way."
     return ask, numbers(right, mistaken, "{:.0f} deg"), why
 
@@ -88,8 +97,8 @@ def turning_centre() -> tuple[str, list[Option], str]:
     }
     ask = (
         "Two wheels, 0.5 m apart, roll at 0.6 m/s (left) and 0.2 m/s (right). How far to the left "
+        "of the axle's middle is the point about which the robot turns?"
     )
-    ask += "of the axle's middle is the point about which the robot turns?"
     why = "It lies $v/\\omega$ to the left: 0.4 m/s over -0.8 rad/s is half a metre to the right."
     return ask, numbers(v / omega, mistaken, "{:.2f} m"), why
 
@@ -101,9 +110,9 @@ def four_moves() -> tuple[str, list[Option], str]:
         pose = wmr.advance(pose, v, omega, 1.0)
     ahead, left = (sign(value, 0.1) for value in pose[:2])
     ask = (
-        "A robot drives 0.5 m ahead, turns 30 deg left, drives 0.5 m back, and turns 30 deg right. "
+        "A robot drives 0.5 m ahead, turns 30 deg left, drives 0.5 m back, and turns 30 deg "
+        "right. Where is it then, mainly, seen from where it began?"
     )
-    ask += "Where is it then, mainly, seen from where it began?"
     options = {
         (0, -1): ("to the right", ""),
         (0, 1): ("to the left", "as the nose turned first"),
@@ -111,8 +120,10 @@ def four_moves() -> tuple[str, list[Option], str]:
         (1, 0): ("ahead", "wheels can't move it sideways"),
         (-1, 0): ("behind", "wheels can't move it sideways, and it backed last"),
     }
-    why = "It backs along a line that is turned left, so to the right. The wheels forbid a "
-    why += "velocity, not a place."
+    why = (
+        "It backs along a line that is turned left, so to the right. The wheels forbid a "
+        "velocity, not a place."
+    )
     return ask, cases((ahead, left), options), why
 
 
@@ -135,8 +146,10 @@ def two_angles() -> tuple[str, list[Option], str]:
         (a, -b): (pair(a, -b), "$\\beta$ taken for $\\theta$"),
         (b, a): (pair(b, a), "$\\alpha$ and $\\theta$ in each other's place"),
     }
-    ask = "The robot faces north-west. Its goal lies due west and looks south. "
-    ask += "Which angles does the law get?"
+    ask = (
+        "The robot faces north-west. Its goal lies due west and looks south. Which angles does "
+        "the law get?"
+    )
     why = "Each turns from a heading to the line of sight, positive to the left, and is wrapped."
     return ask, cases((alpha, theta), options), why
 
@@ -157,9 +170,8 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
     there, parked = rho < 0.01, abs(rows[-1]) < 0.1
     ask = (
         "Siegwart's law is $v = k_\\rho\\rho$, $\\omega = k_\\alpha\\alpha + k_\\beta\\beta$ with "
-    )
-    ask += (
-        "(3, 8, -1.5). A program puts our $\\theta$ where $\\beta$ belongs. What does the robot do?"
+        "(3, 8, -1.5). A program puts our $\\theta$ where $\\beta$ belongs. What does the robot "
+        "do?"
     )
     options = {
         (True, False): ("reaches the place, looks another way", ""),
@@ -168,6 +180,8 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
         "mirror": ("parks on the mirrored path", "both angles taken for mirrored"),
         "spin": ("spins on the spot", "the sign of $\\alpha$ taken for wrong"),
     }
-    why = "The distance falls whatever the third angle is; with the wrong sign one pole is "
-    why += "positive, and the heading error grows."
+    why = (
+        "The distance falls whatever the third angle is; with the wrong sign one pole is "
+        "positive, and the heading error grows."
+    )
     return ask, cases((there, parked), options), why

@@ -17,8 +17,10 @@ def level_spot() -> tuple[str, list[Option], str]:
     alpha = 1e-3 * here[1]  # a millisecond later
     later = wmr.lyapunov_rate(rho, alpha, theta, gains)
     found = sign(here[1], 0.1), sign(here[2], 1e-6), sign(later, 1e-9)
-    ask = "At $\\rho \\to 0$, $\\alpha = 0$, $\\theta$ = 60 deg the corrected law ($h > 0$) gives "
-    ask += "$\\dot V = 0$. What happens next?"
+    ask = (
+        "At $\\rho \\to 0$, $\\alpha = 0$, $\\theta$ = 60 deg the corrected law ($h > 0$) gives "
+        "$\\dot V = 0$. What happens next?"
+    )
     options = {
         (-1, 0, -1): ("$\\alpha$ changes, then $V$ falls again", ""),
         (0, 0, 0): ("nothing: the robot stays so", "$\\dot V = 0$ taken for rest"),
@@ -26,26 +28,25 @@ def level_spot() -> tuple[str, list[Option], str]:
         (1, 0, 1): ("$\\alpha$ changes, and $V$ rises", "$\\dot V$ taken to change its sign at 0"),
         (0, 1, 1): ("$\\theta$ grows, and $V$ with it", "the goal taken for unstable"),
     }
-    why = "The state can't stay where $\\dot V = 0$: $\\dot\\alpha$ is not zero there while "
-    why += "$\\theta$ is not. This is LaSalle's step."
+    why = (
+        "The state can't stay where $\\dot V = 0$: $\\dot\\alpha$ is not zero there while "
+        "$\\theta$ is not. This is LaSalle's step."
+    )
     return ask, cases(found, options), why
 
 
 @question(4, "In the plane: attractive, not stable", "A millimetre beside the goal")
 def millimetre_beside() -> tuple[str, list[Option], str]:
-    run = wmr.simulate(
-        wmr.Pose(0.0, -1e-3, 0.0),
-        wmr.Pose(0.0, 0.0, 0.0),
-        wmr.GENTLE_GAINS,
-        method="continuous",
-        arrival_radius=1e-8,
-    )
-    most = math.degrees(np.abs(run.heading_error).max())
+    place, runs = {"method": "continuous", "arrival_radius": 1e-8}, []
+    for gains in (wmr.GENTLE_GAINS, wmr.paper.OUTDOOR_GAINS, wmr.paper.CIRCLE_GAINS):
+        beside = wmr.Pose(0.0, -1e-3, 0.0)
+        runs.append(wmr.simulate(beside, wmr.Pose(0.0, 0.0, 0.0), gains, **place))
+    most = math.degrees(min(np.abs(run.heading_error).max() for run in runs))
     found = next(limit for limit in (1.0, 10.0, 45.0, 90.0, math.inf) if most <= limit)
     ask = (
-        "A robot stands 1 mm beside its goal with exactly the right heading. How far off does its "
+        "A robot stands 1 mm beside its goal, abreast of it, with exactly the right heading. How "
+        "far off does its heading get on the way (corrected law, any gains)?"
     )
-    ask += "heading get on the way (corrected law, gentle gains)?"
     options = {
         math.inf: ("more than 90 deg", ""),
         90.0: ("45 to 90 deg", "a turn to the line of sight, no further"),
@@ -55,8 +56,8 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
     }
     why = (
         "However near, it sees both angles at 90 deg; while $\\alpha$ falls to 0, $\\theta$ rises "
+        "further. Attractive, not stable."
     )
-    why += "further. Attractive, not stable."
     return ask, cases(found, options), why
 
 
@@ -71,8 +72,11 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
     smooth, sampled = off_deg(method="continuous"), off_deg(method="arc", dt=0.1)
     ratio = sampled / smooth
     found = next(limit for limit in (0.5, 0.9, 1.1, 2.0, math.inf) if ratio <= limit)
-    ask = f"With the paper's gains ($x$ east) continuous control is {smooth:.0f} deg off at 5 cm. "
-    ask += "Now the law is sampled every 0.1 s, moves exact between samples. How far off is it?"
+    ask = (
+        "The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4) is "
+        f"{smooth:.0f} deg off at 5 cm in continuous time. How far off with commands held "
+        "for 0.1 s?"
+    )
     options = {
         math.inf: ("more than twice as far", ""),
         2.0: ("a little further", "a longer step is only a little less accurate"),
@@ -80,8 +84,10 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
         0.9: ("a little less", "holding a command taken to smooth it"),
         0.5: ("less than half as far", "holding a command taken for damping"),
     }
-    why = "Near the goal this step is not inaccurate but unstable: 4.6 times longer than these "
-    why += "gains allow."
+    why = (
+        "Near the goal this step is not inaccurate but unstable: 4.6 times longer than these "
+        "gains allow."
+    )
     return ask, cases(found, options), why
 
 
@@ -94,8 +100,10 @@ def mirror() -> tuple[str, list[Option], str]:
     def change(now: float, then: float) -> int:
         return 1 if math.isclose(now, then) else -1 if math.isclose(now, -then) else 0
 
-    ask = "Start and goal are reflected in the $x$ axis. What do $v$ and $\\omega$ become, under "
-    ask += "the corrected law?"
+    ask = (
+        "Start and goal are reflected in the $x$ axis. What do $v$ and $\\omega$ become, under "
+        "the corrected law?"
+    )
     options = {
         (1, -1): ("$v$ stays, $\\omega$ changes its sign", ""),
         (1, 1): ("both stay", "the law taken not to know left from right"),
@@ -123,11 +131,15 @@ def how_far_behind() -> tuple[str, list[Option], str]:
         "$v_{\\max}$ taken for no part of the gain": speed / k_rho,
         "log10 taken for the natural logarithm": -math.log10(1.0 - speed / v_max) / k_rho,
     }
-    ask = "A goal drives straight on at 1 m/s. A robot follows it with "
-    ask += "$v = v_{\\max}(1 - e^{-k_\\rho\\rho})\\cos\\alpha$, $v_{\\max}$ 2 m/s, $k_\\rho$ 1 per "
-    ask += "metre. How far behind does it stay?"
-    why = "To keep up it must stay where the law commands 1 m/s: $e^{-k_\\rho\\rho}$ is one half, "
-    why += "$\\rho = \\ln 2$."
+    ask = (
+        "A goal drives straight on at 1 m/s. A robot follows it with $v = v_{\\max}(1 - "
+        "e^{-k_\\rho\\rho})\\cos\\alpha$, $v_{\\max}$ 2 m/s, $k_\\rho$ 1 per metre. How far "
+        "behind does it stay?"
+    )
+    why = (
+        "To keep up it must stay where the law commands 1 m/s: $e^{-k_\\rho\\rho}$ is one half, "
+        "$\\rho = \\ln 2$."
+    )
     return ask, numbers(low, mistaken, "{:.2f} m"), why
 
 
@@ -150,9 +162,9 @@ def nearer() -> tuple[str, list[Option], str]:
     }
     near = [name for name in left if abs(left[name] / left["none"] - 0.5) < 0.05]
     ask = (
-        "On the paper's circle, $v_{\\max}$ 4 m/s, the corrected law follows 9 cm behind its goal. "
+        "On the paper's circle, at 0.63 m/s, the corrected law with $v_{\\max}$ 4 m/s follows 9 "
+        "cm behind its goal. Which change halves this distance?"
     )
-    ask += "Which change halves this distance?"
     options = {
         "k_rho": ("$k_\\rho$ doubled", ""),
         "k_alpha": ("$k_\\alpha$ doubled", "quicker steering taken to catch up"),
@@ -160,8 +172,10 @@ def nearer() -> tuple[str, list[Option], str]:
         "v_max": ("$v_{\\max}$ halved", "a calmer robot taken for a closer one"),
         "all": ("$k_\\alpha$ doubled and $h$ fourfold", "stiffer steering taken to catch up"),
     }
-    why = "It keeps the distance at which its law commands the goal's speed: only $k_\\rho$ and "
-    why += "$v_{\\max}$ matter, and less $v_{\\max}$ lengthens it."
+    why = (
+        "It keeps the distance at which its law commands the goal's speed: only $k_\\rho$ and "
+        "$v_{\\max}$ matter, and less $v_{\\max}$ lengthens it."
+    )
     return ask, cases(near[0] if len(near) == 1 else None, options), why
 
 
@@ -180,12 +194,14 @@ def damping() -> tuple[str, list[Option], str]:
         for change in changes
     }
     best = max(ratios, key=lambda change: ratios[change].damping)
-    ask = "With the paper's gains the heading swings near the goal, at a damping ratio of 0.11. "
-    ask += "Which one of these changes raises the ratio most?"
+    ask = (
+        "With the paper's gains the heading swings near the goal, at a damping ratio of 0.11. "
+        "Which one of these changes raises the ratio most?"
+    )
     why = (
         "The ratio is $k_\\alpha/(2 v_{\\max} k_\\rho\\sqrt h)$: doubling $k_\\alpha$ doubles it, "
+        "halving $h$ raises it by 41 %, less $v_{\\max}$ by 33 %."
     )
-    why += "halving $h$ raises it by 41 %, less $v_{\\max}$ by 33 %."
     return ask, cases(best, changes), why
 
 
@@ -200,8 +216,12 @@ def more_steering() -> tuple[str, list[Option], str]:
         "only $h$ taken to count": 1.0,
         "the damping ratio taken for a time": 0.25,
     }
-    ask = "Near the goal the heading is critically damped. Now $k_\\alpha$ is made four times as "
-    ask += "large, nothing else. How many times as fast does the heading settle?"
-    why = "Beyond critical damping one pole comes back towards zero: the robot aims at the goal so "
-    why += "hard that its heading waits."
+    ask = (
+        "Near the goal the heading is critically damped. Now $k_\\alpha$ is made four times as "
+        "large, nothing else. How many times as fast does the heading settle?"
+    )
+    why = (
+        "Beyond critical damping one pole comes back towards zero: the robot aims at the goal so "
+        "hard that its heading waits."
+    )
     return ask, numbers(after / before, mistaken, "{:.2f}"), why

@@ -1,10 +1,8 @@
-"""Concept questions on chapters 8 to 12: sampling, sensors, the audit, a real robot, routes."""
+"""Concept questions on chapters 8 to 10: sampling, sensors, the audit."""
 
 from __future__ import annotations
 
 import math
-
-import numpy as np
 
 import wmrlib as wmr
 from wmrbook.questions._asking import Option, cases, numbers, question, sign
@@ -24,9 +22,10 @@ def twice_as_fast() -> tuple[str, list[Option], str]:
         "quicker poles taken to forgive more": 2.0 * step,
     }
     ask = (
-        f"The gentle gains settle with steps up to {step:.2f} s. Now $k_\\rho$ and $k_\\alpha$ are "
+        f"The gains 0.2, 2, 2, 4 settle with steps up to {step:.2f} s. Now $k_\\rho$ and "
+        "$k_\\alpha$ are doubled, so that all poles near the goal are twice as fast. What is the "
+        "longest step?"
     )
-    ask += "doubled, so that all poles near the goal are twice as fast. What is the longest step?"
     why = "Only step times rate counts: the same loop on a clock that runs twice as fast."
     return ask, numbers(shorter, mistaken, "{:.2f} s"), why
 
@@ -48,12 +47,14 @@ def one_factor() -> tuple[str, list[Option], str]:
         twist(most, omega * most / v): "scaled by $v$ alone",
         twist(most - omega * width / 2.0, omega): "$\\omega$ kept, $v$ from what is left",
     }
-    ask = "The law asks for 2 m/s and 4 rad/s. The wheels, 0.5 m apart, reach 1.5 m/s. Both are "
-    ask += "slowed by one factor. What does the robot do?"
+    ask = (
+        "The law asks for 2 m/s and 4 rad/s. The wheels, 0.5 m apart, reach 1.5 m/s. Both are "
+        "slowed by one factor. What does the robot do?"
+    )
     why = (
         "The faster wheel should do 3 m/s, twice its limit. Half of both keeps the curvature, and "
+        "with it the path."
     )
-    why += "with it the path."
     return ask, cases(twist(*limited), {each: (each, why) for each, why in told.items()}), why
 
 
@@ -75,8 +76,8 @@ def constant_offset() -> tuple[str, list[Option], str]:
     found = east, north, abs(end.heading) < math.radians(10.0)
     ask = (
         "During the whole drive the receiver shows each position 2 m too far east; the compass is "
+        "exact. Where does the robot park, with gains that park it otherwise?"
     )
-    ask += "exact (gentle gains). Where does the robot park?"
     options = {
         (-1, 0, True): ("2 m west, heading right", ""),
         (1, 0, True): ("2 m east, heading right", "the error's sign taken over"),
@@ -84,8 +85,10 @@ def constant_offset() -> tuple[str, list[Option], str]:
         (0, 0, False): ("on the goal, heading wrong", "the place taken for what feedback sees"),
         (-1, 0, False): ("2 m west, heading wrong", "an offset taken for noise"),
     }
-    why = "It parks where it believes the goal to be. Nothing in the loop sees a constant error, "
-    why += "and no gain removes it."
+    why = (
+        "It parks where it believes the goal to be. Nothing in the loop sees a constant error, "
+        "and no gain removes it."
+    )
     return ask, cases(found, options), why
 
 
@@ -101,15 +104,15 @@ def crooked_compass() -> tuple[str, list[Option], str]:
         "$h$ taken to divide it, nothing else": delta_deg / gains.h,
         "the turning line of sight forgotten": delta_deg * gains.k_alpha / (gains.h * lam),
     }
-    ask = "The compass reads 4 deg too much, the position is exact. With the gentle gains "
-    ask += (
+    ask = (
+        "The compass reads 4 deg too much, the position is exact. With the gentle gains "
         "($v_{\\max} k_\\rho$ 0.8, $k_\\alpha$ 2 per s, $h$ 2) the robot finds the place. How far "
+        "off is its heading?"
     )
-    ask += "off is its heading?"
     why = (
         "Driving straight in, it believes $\\alpha$ is -4 deg. Only a $\\theta$ that cancels this "
+        "in $\\omega$ lets it rest: $4(2 + 0.8)/(2 \\cdot 0.8)$ deg."
     )
-    why += "in $\\omega$ lets it rest: $4(2 + 0.8)/(2 \\cdot 0.8)$ deg."
     return ask, numbers(rest, mistaken, "{:.1f} deg"), why
 
 
@@ -125,11 +128,15 @@ def as_printed() -> tuple[str, list[Option], str]:
         "the steering forgotten": lam,
         "a sign lost": gains.k_alpha - lam,
     }
-    ask = "Near the goal, with (24) as printed, $\\omega \\approx k_\\alpha\\alpha$ for a small "
-    ask += "$\\alpha$. With $k_\\alpha$ 1 and $v_{\\max} k_\\rho$ 8 per s, $\\theta = 0$: what is "
-    ask += "$\\dot\\alpha/\\alpha$?"
-    why = "The line of sight runs away at 8 per s, and the steering takes back 1: $\\alpha$ grows. "
-    why += "The factor too many switches the rest off."
+    ask = (
+        "Near the goal, with (24) as printed, $\\omega \\approx k_\\alpha\\alpha$ for a small "
+        "$\\alpha$. With $k_\\alpha$ 1 and $v_{\\max} k_\\rho$ 8 per s, $\\theta = 0$: what is "
+        "$\\dot\\alpha/\\alpha$?"
+    )
+    why = (
+        "The line of sight runs away at 8 per s, and the steering takes back 1: $\\alpha$ grows. "
+        "The factor too many switches the rest off."
+    )
     return ask, numbers(rate, mistaken, "{:.0f} per s"), why
 
 
@@ -155,9 +162,9 @@ def is_it_parked() -> tuple[str, list[Option], str]:
     if len(east) == len(north) == 1 and east != north:
         found = "axis"
     ask = (
-        "Parked: within 5 cm and 5 deg. An audit halves and doubles both thresholds, and tries $x$ "
+        "Parked: within 5 cm and 5 deg. An audit halves and doubles both thresholds, and tries "
+        "$x$ east and north, with the gains 2, 1, 0.3, 4 in continuous time. What does it report?"
     )
-    ask += "east and north, with the paper's gains in continuous time. What does it report?"
     options = {
         "open": ("not decided", ""),
         "wrong": ("wrong", "one radius taken for a verdict"),
@@ -165,87 +172,8 @@ def is_it_parked() -> tuple[str, list[Option], str]:
         "axis": ("it holds for one of the axes", "one drive taken for the law"),
         "typo": ("a typo in the gains", "a bad result taken for a misprint"),
     }
-    why = "The heading swings through zero near 10 cm, so the verdict flips with our thresholds. "
-    why += "The damping of 0.11 does not."
-    return ask, cases(found, options), why
-
-
-@question(11, "On the bench", "Swapped motor cables")
-def swapped_cables() -> tuple[str, list[Option], str]:
-    seen = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(10.0, 6.0, 0.0))
-    wheels = wmr.twist_to_wheels(*wmr.control_law(*seen, wmr.GENTLE_GAINS), 0.5)
-    v, omega = wmr.wheels_to_twist(wheels[1], wheels[0], 0.5)
-    ask = "The left motor's cable is in the right motor's plug; all else is right. The goal lies "
-    ask += "ahead, to the left. What does the robot do (gentle gains)?"
-    options = {
-        (1, -1): ("drives ahead, turns right", ""),
-        (1, 1): ("drives ahead, turns left", "the swap taken to change nothing"),
-        (-1, 1): ("backs up, turns left", "swapped taken for reversed"),
-        (-1, -1): ("backs up, turns right", "a swap taken to turn everything round"),
-        (0, -1): ("turns right on the spot", "the mean taken to vanish"),
-    }
-    why = "The swap keeps the wheels' mean, $v$, and changes the sign of their difference, and so "
-    why += "of $\\omega$."
-    return ask, cases((sign(v, 0.05), sign(omega, 0.05)), options), why
-
-
-@question(11, "On the bench", "A bearing for a heading")
-def bearing_for_heading() -> tuple[str, list[Option], str]:
-    bearing = math.radians(90.0)  # of a robot that looks east, at a goal in the east
-    seen = wmr.polar_error(wmr.Pose(0.0, 0.0, bearing), wmr.Pose(10.0, 0.0, 0.0))
-    v, omega = wmr.control_law(*seen, wmr.GENTLE_GAINS)
-    ask = "Robot and goal look east, and the goal lies 10 m ahead. The program takes the compass's "
-    ask += "bearing, 90 deg, for the heading. What does the robot do at once?"
-    options = {
-        (0, -1): ("turns right on the spot", ""),
-        (0, 1): ("turns left on the spot", "$\\alpha$ from the line of sight to the heading"),
-        (1, 0): ("drives straight ahead", "90 deg taken for east"),
-        (-1, 0): ("backs straight up", "90 deg taken for half a turn"),
-        (1, -1): ("drives a right bend", "the cosine of 90 deg overlooked"),
-    }
-    why = "It believes it looks north, with the goal abeam on its right: $\\cos\\alpha = 0$ leaves "
-    why += "no speed, $k_\\alpha\\alpha$ turns it right."
-    return ask, cases((sign(v, 0.05), sign(omega, 0.05)), options), why
-
-
-@question(12, "A route is a chain of goals", "Which way at the corner?")
-def at_the_corner() -> tuple[str, list[Option], str]:
-    come, leave = 160.0, -100.0
-    legs = np.radians([[come], [leave]])
-    x, y = np.cumsum([[[0.0], [0.0]], *([np.cos(leg), np.sin(leg)] for leg in legs)], axis=0).T[0]
-    heading = math.degrees(wmr.headings_along(x, y)[1])
-    bend = (leave - come + 180.0) % 360.0 - 180.0
-    mistaken = {
-        "the plain mean of 160 and -100": (come + leave) / 2.0,
-        "the heading in which it arrives": come,
-        "the heading in which it sets off": leave,
-        "the bend taken to the other side": come - bend / 2.0,
-    }
-    ask = "A leg leads at 160 deg to a waypoint, the next one at -100 deg away from it. Which "
-    ask += "heading shares the bend between the two legs?"
-    why = "The bend, wrapped, is 100 deg to the left; half of it from 160 deg is 210, that is -150."
-    return ask, numbers(heading, mistaken, "{:.0f} deg"), why
-
-
-@question(12, "Stop, or pass?", "V along a route")
-def along_a_route() -> tuple[str, list[Option], str]:
-    x, y = np.array([20.0, 40.0, 60.0]), np.array([0.0, 15.0, 0.0])
-    poses = wmr.Pose(x, y, wmr.headings_along(x, y))
-    route = wmr.drive_route(
-        poses, wmr.GENTLE_GAINS, start=_GOAL, stop=[False, False, True], dt=0.02
-    )
-    steps, change = np.diff(route.V), np.diff(route.leg) != 0
-    found = bool((steps[~change] > 1e-9).any()), sign(steps[change].min(), 1e-6)
-    ask = "A route of three goals, the first two only passed, is driven by the corrected law "
-    ask += "(gentle gains). What does $V$, counted to the present goal, do?"
-    options = {
-        (False, 1): ("falls, but jumps up between legs", ""),
-        (False, 0): ("falls from first to last", "one proof taken for the whole route"),
-        (True, 1): ("rises before each corner too", "braking taken for a rise of $V$"),
-        (False, -1): ("falls, and jumps down between legs", "a goal passed taken for a gain"),
-        (True, 0): ("rises on each leg", "a longer way taken for a larger $V$"),
-    }
     why = (
-        "The law makes $V$ fall to the goal of the moment. A new goal is a new error, further off."
+        "The heading swings through zero near 10 cm, so the verdict flips with our thresholds. "
+        "The damping of 0.11 does not."
     )
     return ask, cases(found, options), why
