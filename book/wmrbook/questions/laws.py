@@ -42,7 +42,10 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
         beside = wmr.Pose(0.0, -1e-3, 0.0)
         runs.append(wmr.simulate(beside, wmr.Pose(0.0, 0.0, 0.0), gains, **place))
     most = math.degrees(min(np.abs(run.heading_error).max() for run in runs))
-    found = next(limit for limit in (1.0, 10.0, 45.0, 90.0, math.inf) if most <= limit)
+    limits = (
+        (1.0, 10.0, 45.0, 90.0, math.inf) if all(wmr.arrival(run).arrived for run in runs) else ()
+    )
+    found = next((limit for limit in limits if most <= limit), None)
     ask = (
         "A robot stands 1 mm beside its goal, abreast of it, with exactly the right heading. How "
         "far off does its heading get on the way (corrected law, any gains)?"
@@ -67,11 +70,13 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
 
     def off_deg(**how: object) -> float:
         run = wmr.simulate(case.start, case.goal, case.gains, **how)
-        return abs(math.degrees(wmr.arrival(run).heading_error))
+        end = wmr.arrival(run)
+        return abs(math.degrees(end.heading_error)) if end.arrived else math.nan
 
     smooth, sampled = off_deg(method="continuous"), off_deg(method="arc", dt=0.1)
     ratio = sampled / smooth
-    found = next(limit for limit in (0.5, 0.9, 1.1, 2.0, math.inf) if ratio <= limit)
+    found = next((limit for limit in (0.5, 0.9, 1.1, 2.0, math.inf) if ratio <= limit), None)
+    too_long = 0.1 / wmr.longest_step(case.gains, "arc")
     ask = (
         "The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4) is "
         f"{smooth:.0f} deg off at 5 cm in continuous time. How far off with commands held "
@@ -85,8 +90,8 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
         0.5: ("less than half as far", "holding a command taken for damping"),
     }
     why = (
-        "Near the goal this step is not inaccurate but unstable: 4.6 times longer than these "
-        "gains allow."
+        "Near the goal this step is not inaccurate but unstable: "
+        f"{too_long:.1f} times longer than these gains allow."
     )
     return ask, cases(found, options), why
 

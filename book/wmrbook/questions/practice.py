@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 import wmrlib as wmr
-from wmrbook.questions._asking import Option, cases, numbers, question, sign
+from wmrbook.questions._asking import Option, cases, numbers, question
 
 _GOAL = wmr.Pose(0.0, 0.0, 0.0)
 
@@ -72,18 +72,17 @@ def _park(goal: wmr.Pose, off_m: float) -> wmr.Pose:
 @question(9, "The memory decides what is lost", "Two metres off, all the way")
 def constant_offset() -> tuple[str, list[Option], str]:
     end = _park(_GOAL, 2.0)
-    east, north = (sign(value, 0.5) for value in end[:2])
-    found = east, north, abs(end.heading) < math.radians(10.0)
+    found = round(end.x), round(end.y), abs(end.heading) < math.radians(10.0)
     ask = (
         "During the whole drive the receiver shows each position 2 m too far east; the compass is "
         "exact. Where does the robot park, with gains that park it otherwise?"
     )
     options = {
-        (-1, 0, True): ("2 m west, heading right", ""),
-        (1, 0, True): ("2 m east, heading right", "the error's sign taken over"),
+        (-2, 0, True): ("2 m west, heading right", ""),
+        (2, 0, True): ("2 m east, heading right", "the error's sign taken over"),
         (0, 0, True): ("on the goal, heading right", "feedback taken to remove every error"),
         (0, 0, False): ("on the goal, heading wrong", "the place taken for what feedback sees"),
-        (-1, 0, False): ("2 m west, heading wrong", "an offset taken for noise"),
+        (-2, 0, False): ("2 m west, heading wrong", "an offset taken for noise"),
     }
     why = (
         "It parks where it believes the goal to be. Nothing in the loop sees a constant error, "
@@ -145,9 +144,8 @@ def is_it_parked() -> tuple[str, list[Option], str]:
     seen = {}
     for axis in ("east", "north"):
         case = wmr.paper.outdoor(axis)
-        run = wmr.simulate(
-            case.start, case.goal, case.gains, method="continuous", arrival_radius=0.02
-        )
+        fine = {"method": "continuous", "dt": 0.005, "arrival_radius": 0.02}
+        run = wmr.simulate(case.start, case.goal, case.gains, **fine)
         for radius in (0.025, 0.05, 0.1):
             error = abs(math.degrees(run.heading_error[(run.rho <= radius).argmax()]))
             for most in (2.5, 5.0, 10.0):
