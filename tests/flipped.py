@@ -1,8 +1,8 @@
 """Flip a sign in a formula behind each concept question, and tell what becomes of its key.
 
 Run without compiling (NUMBA_DISABLE_JIT=1), where a formula is a plain function whose code can be
-changed in place, wherever it is used. Prints {question: [its key, its key with the sign flipped]}
-as JSON; a question that refuses to be asked has the key null.
+changed in place, wherever it is used. Prints {question: the text of its right option, with the sign
+flipped} as JSON; a question that refuses to be asked has null.
 """
 
 from __future__ import annotations
@@ -11,7 +11,6 @@ import gc
 import inspect
 import json
 import re
-import sys
 import textwrap
 from types import FunctionType
 
@@ -70,9 +69,8 @@ def flipped(function, right: str, wrong: str):
 
 def main() -> None:
     told = {}
-    for name in sys.argv[1:] or MAKERS:
-        function, right, wrong = FLIPS[name]
-        before, code = key(name), function.__code__
+    for name, (function, right, wrong) in FLIPS.items():
+        code = function.__code__
         # what `wmrlib` has rebuilt of it, to be vectorised, too
         every = [
             it for it in gc.get_objects() if isinstance(it, FunctionType) and it.__code__ is code
@@ -80,7 +78,7 @@ def main() -> None:
         new = flipped(function, right, wrong)
         for each in every:
             each.__code__ = new
-        told[name] = [before, key(name)]
+        told[name] = key(name)
         for each in every:
             each.__code__ = code
     print(json.dumps(told))

@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 import wmrlib as wmr
 from wmrbook.questions._asking import Option, cases, numbers, question, sign
 
@@ -13,10 +15,10 @@ _East = wmr.Pose(0.0, 0.0, 0.0)
 @question(0, "It has arrived. Has it parked?", "Where does it face its goal's heading best?")
 def arrived_parked() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
-    fine = {"method": "continuous", "dt": 0.005, "arrival_radius": 0.009}
+    fine = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.009}
     run = wmr.simulate(case.start, case.goal, case.gains, **fine)
     radii = 0.3, 0.1, 0.05, 0.01
-    errors = [math.degrees(run.heading_error[(run.rho <= each).argmax()]) for each in radii]
+    errors = np.degrees(np.interp(radii, run.rho[::-1], run.heading_error[::-1])).tolist()
     sizes = [abs(error) for error in errors]
     best, even = radii[sizes.index(min(sizes))], max(sizes) - min(sizes) < 5.0
     through = errors[0] > 50.0 > -50.0 > errors[-1]

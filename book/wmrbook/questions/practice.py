@@ -4,6 +4,8 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
+
 import wmrlib as wmr
 from wmrbook.questions._asking import Option, cases, numbers, question
 
@@ -144,10 +146,10 @@ def is_it_parked() -> tuple[str, list[Option], str]:
     seen = {}
     for axis in ("east", "north"):
         case = wmr.paper.outdoor(axis)
-        fine = {"method": "continuous", "dt": 0.005, "arrival_radius": 0.02}
+        fine = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.02}
         run = wmr.simulate(case.start, case.goal, case.gains, **fine)
         for radius in (0.025, 0.05, 0.1):
-            error = abs(math.degrees(run.heading_error[(run.rho <= radius).argmax()]))
+            error = abs(math.degrees(np.interp(radius, run.rho[::-1], run.heading_error[::-1])))
             for most in (2.5, 5.0, 10.0):
                 seen[axis, radius, most] = error <= most
     east, north = (
