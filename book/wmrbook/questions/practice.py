@@ -146,7 +146,7 @@ def is_it_parked() -> tuple[str, list[Option], str]:
     seen = {}
     for axis in ("east", "north"):
         case = wmr.paper.outdoor(axis)
-        fine = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.02}
+        fine = {"method": "continuous", "dt": 0.05, "arrival_radius": 0.02}
         run = wmr.simulate(case.start, case.goal, case.gains, **fine)
         for radius in (0.025, 0.05, 0.1):
             error = abs(math.degrees(np.interp(radius, run.rho[::-1], run.heading_error[::-1])))
