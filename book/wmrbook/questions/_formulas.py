@@ -8,6 +8,7 @@ import re
 _GREEK = "alpha", "beta", "theta", "rho", "omega"
 _WORDS = {rf"\{name}": f"&{name};" for name in _GREEK} | {
     r"\cos": "cos&nbsp;",
+    r"\sin": "sin&nbsp;",
     r"\ln": "ln",
     r"\cdot": "&middot;",
     r"\to": "&rarr;",

@@ -30,7 +30,7 @@ def arrived_parked() -> tuple[str, list[Option], str]:
     options = {
         0.3: ("at 30 cm", "the heading only gets worse"),
         0.1: ("at 10 cm", ""),
-        0.05: ("at 5 cm", "the book's radius must be the best"),
+        0.05: ("at 5 cm", "a usual tolerance taken for the best"),
         0.01: ("at 1 cm", "the closer, the better"),
         "even": ("equally well at all four", "on the spot is parked"),
     }
@@ -76,7 +76,7 @@ def bearing_and_heading() -> tuple[str, list[Option], str]:
         "the bearing taken for a heading": bearing_deg,
         "from east, but still clockwise": bearing_deg - 90.0,
         "counter-clockwise, but still from north": -bearing_deg,
-        "east and north both taken the other way": 60.0 - 90.0 - bearing_deg,
+        "the line of sight taken from the goal back": 270.0 - bearing_deg,
     }
     ask = (
         "The goal's bearing is 120 deg, clockwise from north. Which heading, counter-clockwise "
@@ -119,7 +119,7 @@ def four_moves() -> tuple[str, list[Option], str]:
         (0, 1): ("to the left", "as the nose turned first"),
         (0, 0): ("where it began", "each move was undone"),
         (1, 0): ("ahead", "wheels can't move it sideways"),
-        (-1, 0): ("behind", "wheels can't move it sideways, and it backed last"),
+        (-1, 0): ("behind", "the drive back taken for the longer one"),
     }
     why = (
         "It backs along a line that is turned left, so to the right. The wheels forbid a "

@@ -24,9 +24,8 @@ def twice_as_fast() -> tuple[str, list[Option], str]:
         "quicker poles taken to forgive more": 2.0 * step,
     }
     ask = (
-        f"The gains 0.2, 2, 2, 4 settle with steps up to {step:.2f} s. Now $k_\\rho$ and "
-        "$k_\\alpha$ are doubled, so that all poles near the goal are twice as fast. What is the "
-        "longest step?"
+        f"A robot settles with steps up to {step:.2f} s. Now $k_\\rho$ and $k_\\alpha$ are "
+        "doubled, so that all poles near the goal are twice as fast. What is the longest step?"
     )
     why = "Only step times rate counts: the same loop on a clock that runs twice as fast."
     return ask, numbers(shorter, mistaken, "{:.2f} s"), why
