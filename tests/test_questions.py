@@ -170,6 +170,8 @@ def test_a_class_file_becomes_histograms_of_choices_and_of_numbers(sent):
         picture = bars(histograms, title)
         drawn = [[bar.get_height() for bar in axes.patches] for axes in picture.figure.axes]
         assert drawn == [list(each.counts) for each in histograms]
+        marked = [[bool(bar.get_hatch()) for bar in axes.patches] for axes in picture.figure.axes]
+        assert marked == [[label == it.right for label in it.labels] for it in histograms]
         assert all(each.title in picture.alt for each in histograms)
     assert "A 2 (right)" in bars(groups["test post"], "x").alt
 

@@ -103,9 +103,7 @@ def read_all(
         except ValueError as error:  # of bytes that are no UTF-8, too
             refused.append(Refused(number, text, str(error)))
         else:
-            key = line.kind, line.id, same_name(line.name)
-            last.pop(key, None)
-            last[key] = line
+            last[line.kind, line.id, same_name(line.name)] = line
     return list(last.values()), refused
 
 
