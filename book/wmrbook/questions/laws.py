@@ -167,8 +167,9 @@ def nearer() -> tuple[str, list[Option], str]:
     }
     near = [name for name in left if abs(left[name] / left["none"] - 0.5) < 0.05]
     ask = (
-        "On the paper's circle, at 0.63 m/s, the corrected law with $v_{\\max}$ 4 m/s follows 9 "
-        "cm behind its goal. Which change halves this distance?"
+        f"On the paper's circle, at {wmr.paper.CIRCLE_SPEED:.2f} m/s, the corrected law with "
+        f"$v_{{\\max}}$ 4 m/s follows {100.0 * left['none']:.0f} cm behind its goal. Which change "
+        "halves this distance?"
     )
     options = {
         "k_rho": ("$k_\\rho$ doubled", ""),
@@ -194,18 +195,20 @@ def damping() -> tuple[str, list[Option], str]:
         ("h", 0.5): ("$h$ halved", "the root over $h$ overlooked"),
         ("v_max", 0.75): ("$v_{\\max}$ a quarter less", "the driver's remedy: slow down a little"),
     }
+    before = wmr.modes(gains).damping
     ratios = {
-        change: wmr.modes(gains._replace(**{change[0]: getattr(gains, change[0]) * change[1]}))
-        for change in changes
+        (name, factor): wmr.modes(gains._replace(**{name: factor * getattr(gains, name)})).damping
+        for name, factor in changes
     }
-    best = max(ratios, key=lambda change: ratios[change].damping)
+    best = max(ratios, key=ratios.get)
+    softer, slower = (100.0 * (ratios[it] / before - 1.0) for it in (("h", 0.5), ("v_max", 0.75)))
     ask = (
-        "With the paper's gains the heading swings near the goal, at a damping ratio of 0.11. "
-        "Which one of these changes raises the ratio most?"
+        "With the paper's gains the heading swings near the goal, at a damping ratio of "
+        f"{before:.2f}. Which one of these changes raises the ratio most?"
     )
     why = (
         "The ratio is $k_\\alpha/(2 v_{\\max} k_\\rho\\sqrt h)$: doubling $k_\\alpha$ doubles it, "
-        "halving $h$ raises it by 41 %, less $v_{\\max}$ by 33 %."
+        f"halving $h$ raises it by {softer:.0f} %, less $v_{{\\max}}$ by {slower:.0f} %."
     )
     return ask, cases(best, changes), why
 
