@@ -70,7 +70,8 @@ class Live(anywidget.AnyWidget):
     Parameters
     ----------
     name : the drawing's file, and of the prediction in a line of answers
-    sentence : str with {knob} or {result} where a number goes, and *symbol* for a coloured symbol
+    sentence : str with {knob} or {result} where a number goes ({knob!} in a formula: without its
+        symbol and unit), and *symbol* for a coloured symbol
     knobs : Knob or Choice, by name
     data : what the drawing needs that does not move: numbers, lists and texts
     ask : Ask or None

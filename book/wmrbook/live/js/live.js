@@ -83,7 +83,7 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
   };
   const put = (name) => (value) => set({ [name]: value });
   for (const piece of setup.sentence.split(/(\{[^}]+\}|\*[a-z_]+\*)/)) {
-    const name = piece.slice(1, -1), knob = piece[0] === '{' && parts[name];
+    const bare = piece.endsWith('!}'), name = piece.slice(1, bare ? -2 : -1), knob = piece[0] === '{' && parts[name]; // {name!}: without its symbol and unit, as in a formula
     if (piece[0] === '*') putSymbol(sentence, name);
     else if (knob && knob.choices) {
       const select = made(sentence, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
@@ -93,9 +93,9 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
       shows.push((values) => { select.value = values[name]; });
     } else if (knob) {
       const whole = made(sentence, 'span', { className: 'live-whole' });
-      if (knob.symbol) { putSymbol(whole, knob.symbol); whole.append(' = '); }
+      if (knob.symbol && !bare) { putSymbol(whole, knob.symbol); whole.append(' = '); }
       const show = putNumber(whole, knob, { get: () => get()[name], step: stepFrom(knob), set: put(name), refuse });
-      if (knob.unit) whole.append(knob.unit === '°' ? knob.unit : ` ${knob.unit}`);
+      if (knob.unit && !bare) whole.append(knob.unit === '°' ? knob.unit : ` ${knob.unit}`);
       shows.push((values) => show(values[name]));
     } else if (piece[0] === '{') (results[name] ||= []).push(made(sentence, 'b', { className: 'live-result' }));
     else sentence.append(piece);
