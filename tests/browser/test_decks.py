@@ -73,9 +73,9 @@ def with_panel(decks: Path) -> str:
 
 
 def go_to_panel(page):
-    """Opens the slide with the first panel, by its address."""
-    page.evaluate(SHOW, ".panel")
-    page.locator(".panel canvas:visible").first.wait_for(timeout=PATIENCE)
+    """Opens the slide with the Explorer, by its address."""
+    page.evaluate(SHOW, ".panel .wmr-stage")
+    page.locator(".wmr-stage canvas:visible").first.wait_for(timeout=PATIENCE)
 
 
 def test_each_slide_has_a_title_and_a_sentence_that_can_be_read_and_all_of_it_fits(decks, opened):

@@ -38,6 +38,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
     canvas.addEventListener('lostpointercapture', () => { down = false; show(); });
   }
   function show() {
+    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft)} from x`);
     const guess = get().guess, done = committed(), key = JSON.stringify([guess, done, ready()]);
     if (key === shown) return;
     shown = key;
