@@ -66,7 +66,7 @@ def main() -> None:
     )
     with sync_playwright() as playwright:
         chromium = playwright.chromium.launch(executable_path=find_browser(), args=FLAGS)
-        for name in sorted(set(live.__all__) - {"Ask", "Choice", "Knob", "Live"}):
+        for name in sorted(set(live.__all__) - live.PARTS):
             thing = getattr(live, name)()
             traits = thing.get_state(TRAITS)
             traits["state"] = traits["state"] | {"guess": 0}  # open

@@ -13,7 +13,7 @@ from host import mounted
 
 from wmrbook import live
 
-NAMES = sorted(set(live.__all__) - {"Ask", "Choice", "Knob", "Live"})
+NAMES = sorted(set(live.__all__) - live.PARTS)
 PICTURE = "() => [...document.querySelectorAll('canvas')].map(it => it.toDataURL()).join()"
 TEXT = "() => document.querySelector('.live').innerText"
 UNSOUND = re.compile(r"NaN|undefined|Infinity|\[object")

@@ -6,10 +6,13 @@ ask for a prediction first. They live in a page without a kernel, as the Explore
 
 import lazy_loader
 
+PARTS = {"Ask", "Choice", "Knob", "Live"}
+"""What the rest is made of."""
+
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "parts": ["Ask", "Choice", "Knob", "Live"],
+        "parts": sorted(PARTS),
         "first_drive": ["last_metres"],
         "earth": [],
         "robot": ["turning_centre"],
