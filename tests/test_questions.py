@@ -146,16 +146,18 @@ def sent(tmp_path):
         Line("test", f"pre-{MARK}", "Dee", right[1:]),
     ]
     path = tmp_path / "class.txt"
-    path.write_text("\n".join(map(written, lines)), encoding="utf-8")
+    guesses = ["12.3. - Ada: predict turning_centre 2", *["predict turning_centre 0"] * 2]
+    told = [*map(written, lines), *guesses, "predict path [[0,1]]"]
+    path.write_text("\n".join(told), encoding="utf-8")
     return path
 
 
 def test_a_class_file_becomes_histograms_of_choices_and_of_numbers(sent):
     found = read_class(sent, QUESTIONS, MARK)
     told = [(it.line, it.reason) for it in found.refused]
-    assert [line for line, _ in told] == [29, 30, 31]
-    for (_, reason), part in zip(told, ("no test", "another form", "25 letters"), strict=True):
-        assert part in reason
+    assert [line for line, _ in told] == [29, 30, 31, 35]
+    parts = "no test", "another form", "25 letters", "no line"
+    assert all(part in reason for (_, reason), part in zip(told, parts, strict=True))
     groups = found.histograms(QUESTIONS)
     first = groups["test pre"][0]
     chosen = dict(zip(first.labels, first.counts, strict=True))
@@ -164,6 +166,7 @@ def test_a_class_file_becomes_histograms_of_choices_and_of_numbers(sent):
     assert groups["test pre"][24].counts[-1] == 2
     assert groups["gate ch04-sign"][0][1:3] == (("L", "R"), (2, 1))
     assert groups["gate ch07-gain"][0][1:3] == (("9", "10"), (2, 1))
+    assert groups["predict turning_centre"][0][1:3] == (("0", "2"), (2, 1))
     (steps,) = groups["gate ch08-step"]
     assert (sum(steps.counts), steps.labels[0][:4]) == (17, "0 to")
     for title, histograms in groups.items():
@@ -182,7 +185,7 @@ def test_the_commands_write_what_they_say_and_name_what_does_not_count(sent, cap
     assert f"1. {QUESTIONS[0].id}: 3 answers" in told
     assert "line 30 does not count: it was made with another form (0000" in told
     shown = Path(f"{sent}.html").read_text(encoding="utf-8")
-    assert shown.count("<img alt=") == 5
+    assert shown.count("<img alt=") == 6
     main(["gain", str(sent)])
     told = capsys.readouterr().out
     assert "2 students sat both tests: 26 % right before, 100 % after." in told

@@ -2,8 +2,8 @@
 
     wmr-KIND id=ID name=NAME value=VALUE check=CHECK
 
-KIND is one word of small letters: "gate", a prediction before a live figure; "test", a sheet of
-answers to the concept questions. ID says which gate or which test: small letters, digits and
+KIND is one word of small letters: "gate", a prediction with a name; "test", a sheet of answers to
+the concept questions. ID says which gate or which test: small letters, digits and
 hyphens. NAME, a name or a pseudonym, and VALUE, a choice or a number, are written as in an address
 (%20 for a space), so that a line has no other blanks and survives mails and chats. The challenge's
 lines have fields of their own between KIND and NAME.
@@ -11,6 +11,9 @@ lines have fields of their own between KIND and NAME.
 CHECK is the first ten hexadecimal digits of the SHA-256 of what stands before " check=". It finds a
 character that was lost or mistyped. It is no signature: whoever can run this module can make a line
 in any name. `line.js` beside it makes the same lines in a page.
+
+A live figure copies `predict ID VALUE`, with the number of an option, from 0, or an angle in
+degrees. It has neither name nor checksum, so each counts. A sketched path is not counted.
 
 A class's file holds a line each. Empty lines and those that begin with # are let alone, and what
 stands around a line, such as a chat's date and sender, does not matter.
@@ -42,11 +45,12 @@ _LINE = re.compile(
     r" value=(?P<value>[\w.~%-]{1,800}) check=(?P<check>[0-9a-f]{10})(?![0-9a-f])",
     re.ASCII,
 )
+_BARE = re.compile(r"\bpredict (?P<id>[a-z]\w{0,59}) (?P<value>-?\d{1,6})$", re.ASCII)
 _WANTED = "wmr-... id=... name=... value=... check=... is needed"
 
 
 class Line(NamedTuple):
-    """What a line says: its kind, which one, who, and the choice or number, each a text."""
+    """What a line says: its kind, which one, who ("" if nobody), and the value, each a text."""
 
     kind: str
     id: str
@@ -77,6 +81,8 @@ def written(line: Line) -> str:
 def read(text: str) -> Line:
     """Return what the line in a text says, or raise ValueError with the reason."""
     found = _LINE.search(instance("text", text, str))
+    if bare := None if found else _BARE.search(text.strip()):
+        return Line("predict", bare["id"], "", bare["value"])
     if not found:
         raise ValueError(f"there is no line: {_WANTED}")
     if checked(found[0].rpartition(" check=")[0]) != found[0]:
@@ -103,7 +109,7 @@ def read_all(
         except ValueError as error:  # of bytes that are no UTF-8, too
             refused.append(Refused(number, text, str(error)))
         else:
-            last[line.kind, line.id, same_name(line.name)] = line
+            last[line.kind, line.id, same_name(line.name) or number] = line
     return list(last.values()), refused
 
 
