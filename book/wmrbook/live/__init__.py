@@ -20,8 +20,8 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "design": ["poles"],
         "sampling": ["unit_circle", "wheel_limit"],
         "noise": ["bench", "late"],
-        "audit": [],
-        "real_robot": [],
-        "routes": [],
+        "audit": ["rising", "threshold"],
+        "real_robot": ["compass", "silence"],
+        "routes": ["corners", "passing"],
     },
 )
