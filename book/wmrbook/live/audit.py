@@ -94,7 +94,7 @@ def rising() -> Live:
     }
     return Live(
         "rising",
-        "At {rho} from the goal, {alpha} and {theta}, with {L}, *V* changes at {rate} under (24) "
+        "At {rho} from the goal, {alpha} and {theta}, with {L}, V changes at {rate} under (24) "
         "as printed: it {fate}. It rises in {share} of the angles at this distance.",
         {
             "alpha": Knob(alpha, -180.0, 180.0, 5.0, "alpha, degrees", "°", "alpha"),

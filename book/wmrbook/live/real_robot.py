@@ -81,9 +81,9 @@ def silence() -> Live:
         "A robot at {speed} hears nothing for {timeout}, then brakes at {brake}. It rolls "
         "{faith} in good faith and {braking} braking, {far} in all.",
         {
-            "speed": Knob(1.0, 0.1, 4.0, 0.1, "the speed, v", "m/s", "v"),
+            "speed": Knob(2.0, 0.1, 4.0, 0.1, "the speed, v", "m/s", "v"),
             "timeout": Knob(timeout, 0.0, 2.0, 0.05, "the timeout, T", "s", "T"),
-            "brake": Knob(brake, 0.5, 5.0, 0.1, "the braking, a", "m/s²", "a"),
+            "brake": Knob(brake, 1.0, 5.0, 0.1, "the braking, a", "m/s²", "a"),
         },
         ask=Ask(
             "choose",

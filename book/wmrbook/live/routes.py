@@ -60,7 +60,7 @@ def passing() -> Live:
     return Live(
         "passing",
         "Each point but the door is passed within {radius}. The walk takes {seconds}, the fastest "
-        "turn is {omega}. Here *V* is {V}, the speed {v}.",
+        "turn is {omega}. Here V is {V}, the speed {v}.",
         {
             "radius": Knob(5.0, 0.5, 12.0, 0.5, "how near a point is passed", "m", "R"),
             "time": Knob(

@@ -15,7 +15,7 @@ const explorable = {
   panes: (values, { read, worst, at }) => ({
     above: { x: [-2, 2, ''], y: [-1.6, 1.6, ''], equal: true, bare: true, given: 'A robot from above that looks east, and an arrow to the north.', alt: `The robot from above: it looks to ${values.heading} degrees and believes to look to ${(read * DEGREES).toFixed(0)} degrees.` },
     field: { x: [-60, 60, 'field ahead [µT]'], y: [-60, 60, 'field to the left [µT]'], equal: true, given: 'The plane of the readings: nothing yet.', alt: `The readings of a full turn as a ring, this one ${at.map((each) => each.toFixed(0)).join(' and ')} microtesla.` },
-    error: { x: [-180, 180, 'heading [°]'], y: [-90, 90, 'error [°]'], given: 'The error over the heading: nothing yet.', alt: `The heading's error in a full turn, up to ${worst.toFixed(0)} degrees.`, scrub: (x) => ({ heading: Math.min(Math.max(2 * Math.round(x / 2), -180), 180) }) },
+    error: { x: [-180, 180, 'heading [°]'], y: [-90, 90, 'error [°]'], tall: true, given: 'The error over the heading: nothing yet.', alt: `The heading's error in a full turn, up to ${worst.toFixed(0)} degrees.`, scrub: (x) => ({ heading: Math.min(Math.max(2 * Math.round(x / 2), -180), 180) }) },
   }),
   draw({ above, field, error }, { heading: degrees, iron }, { turn, errors, circle, at, read, true: heading }, hidden) {
     above.arrow(-1.5, 0.4, -1.5, 1.3, 'ghost');

@@ -21,10 +21,14 @@ const explorable = {
   draw({ plane }, { x, y }, { come, heading, leave, run }, hidden, { data: { first, last }, ask }) {
     const corner = hidden ? ask.at : [x, y];
     plane.line([first, corner, last], 'ghost', { width: 1.5, dash: [4, 5] });
-    plane.text('start', ...first, { role: 'start', dy: -18, align: 'center' });
-    plane.text('door', ...last, { role: 'goal', dy: 18, align: 'center' });
-    for (const [at, role] of [[first, 'start'], [corner, 'ink'], [last, 'goal']]) plane.dot(...at, role, { hollow: true });
-    if (hidden) return;
+    plane.dot(...corner, 'ink', { hollow: true });
+    if (hidden) {
+      plane.text('start', ...first, { role: 'start', dy: -18, align: 'center' });
+      plane.text('door', ...last, { role: 'goal', dy: 18, align: 'center' });
+      plane.dot(...first, 'start', { hollow: true });
+      plane.dot(...last, 'goal', { hollow: true });
+      return;
+    }
     plane.path(run.x, run.y);
     plane.pose([...first, come], 'start');
     plane.pose([...last, leave], 'goal');

@@ -37,7 +37,7 @@ const explorable = {
   }),
   draw({ plane, time }, { alpha, theta }, { rows, t, V, rate }, hidden) {
     if (hidden) return;
-    const edge = (k) => k / CELLS * 360 - 180, half = 180 / CELLS + 0.3;
+    const edge = (k) => k / CELLS * 360 - 180, half = 180 / CELLS;
     for (const [middle, from, to] of rows) plane.area([[edge(from), middle - half], [edge(to), middle - half], [edge(to), middle + half], [edge(from), middle + half]], 'rising', 0.3);
     plane.dot(alpha, theta, rate > 0 ? 'rising' : 'path', { hollow: true });
     time.line([[0, 1], [4, 1]], 'ghost', { width: 1.5, dash: [4, 4] });

@@ -5,18 +5,18 @@ const explorable = {
     return { faith, braking, far: faith + braking, stands: timeout + speed / brake };
   },
   panes: ({ speed }, { far, stands }) => ({
-    road: { x: [-1, 14, 'way after the last fix [m]'], y: [-1.5, 1.5, ''], given: 'The robot where it has its last fix.', alt: `The robot rolls ${written(far, 'm')} after its last fix.` },
-    speed: { x: [0, 6, 'time after the last fix [s]'], y: [0, 4.3, 'speed [m/s]'], given: 'The speed over time: nothing yet.', alt: `The speed over time: ${written(speed, 'm/s')} at first, 0 after ${written(stands, 's')}.` },
+    road: { x: [-1, 17, 'way after the last fix [m]'], y: [-1.5, 1.5, ''], given: 'The robot where it has its last fix.', alt: `The robot rolls ${written(far, 'm')} after its last fix.` },
+    speed: { x: [0, 6.2, 'time after the last fix [s]'], y: [0, 4.3, 'speed [m/s]'], given: 'The speed over time: nothing yet.', alt: `The speed over time: ${written(speed, 'm/s')} at first, 0 after ${written(stands, 's')}.` },
   }),
   draw({ road, speed: pane }, { speed, timeout }, { faith, far, stands }, hidden) {
-    road.line([[-1, 0], [14, 0]], 'ghost', { width: 1.5 });
+    road.line([[-1, 0], [17, 0]], 'ghost', { width: 1.5 });
     road.text('last fix', 0, 0, { role: 'start', dy: 30, align: 'center' });
     road.robot([0, 0, 0], hidden ? 1 : 0.3);
     if (hidden) return;
     road.area([[0, -0.25], [faith, -0.25], [faith, 0.25], [0, 0.25]], 'start', 0.5);
     road.area([[faith, -0.25], [far, -0.25], [far, 0.25], [faith, 0.25]], 'rising', 0.5);
-    road.text('in good faith', faith / 2, -0.25, { role: 'start', dy: -14, align: 'center' });
-    road.text('braking', (faith + far) / 2, -0.25, { role: 'rising', dy: -32, align: 'center' });
+    road.text('in good faith', 0, -0.25, { role: 'start', dy: -14 });
+    road.text('braking', faith, -0.25, { role: 'rising', dy: -32 });
     road.robot([far, 0, 0]);
     pane.area([[0, 0], [0, speed], [timeout, speed], [timeout, 0]], 'start', 0.5);
     pane.area([[timeout, 0], [timeout, speed], [stands, 0]], 'rising', 0.5);

@@ -31,7 +31,7 @@ const explorable = {
   },
   panes: ({ limit }, { run, strays }) => ({
     plane: { x: [-5, 8, 'x [m]'], y: [-1.5, 14, 'y [m]'], equal: true, given: 'The robot and its goal, 10 m to its left; both look the same way.', alt: `The path strays ${written(strays, 'm')} from the one without a limit.`,
-      scrub: (x, y) => ({ time: run.x.reduce((best, each, k) => { const far = Math.hypot(each - x, run.y[k] - y); return far < best[0] ? [far, k] : best; }, [Infinity, 0])[1] / (run.n - 1) }) },
+      scrub: (x, y) => timeNear(run.x, run.y, x, y, 1.5) },
     speeds: { x: [0, 20, 'time [s]'], y: [-4.4, 4.4, 'wheels [m/s]'], given: 'The speeds of the wheels over time: nothing yet.', alt: `The speeds of the two wheels over time, never beyond ${written(limit, 'm/s')}.`,
       scrub: (x) => ({ time: Math.min(Math.max(x / run.t[run.n - 1], 0), 1) }) },
   }),
