@@ -30,7 +30,9 @@ FAULTS = "async () => (await axe.run('.live')).violations.map(it => [it.id, it.n
 
 def quoted(values: dict) -> dict:
     """For `Panel.set`, to which a string is JavaScript."""
-    return {name: json.dumps(each) if isinstance(each, str) else each for name, each in values.items()}
+    return {
+        name: json.dumps(each) if isinstance(each, str) else each for name, each in values.items()
+    }
 
 
 def opened(page, name: str, width: int = 900):
@@ -111,7 +113,8 @@ def test_all_that_moves_matters_and_says_something_sound(browser_page, name):
         for k in thing.setup["knobs"]
     ]
     for corner in itertools.islice(itertools.product(*ends), 16):
-        panel.set(**quoted(dict(zip((k["name"] for k in thing.setup["knobs"]), corner, strict=True))))
+        names = (knob["name"] for knob in thing.setup["knobs"])
+        panel.set(**quoted(dict(zip(names, corner, strict=True))))
         assert not UNSOUND.search(page.evaluate(TEXT)), (corner, page.evaluate(TEXT))
         for canvas in page.locator(".live canvas").all():
             assert not UNSOUND.search(canvas.get_attribute("aria-label")), corner
@@ -140,6 +143,7 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
         assert panel.get(knob["name"]) == pytest.approx((knob["low"] + knob["high"]) / 2)
         assert page.locator(".live-trouble").inner_text() == ""
         now = panel.get(knob["name"])
+        number.scroll_into_view_if_needed()
         panel.drag(number, 40, 0)
         assert panel.get(knob["name"]) > now
     panel.set(**quoted(home))

@@ -14,7 +14,7 @@ from wmrlib.gains import GENTLE_GAINS
 DT, RADIUS = 0.1, 0.2  # s, m
 ROBOTS, STEPS, SEED = 32, 400, 9
 WHITE = 0.01  # s: a memory so short that each fix errs anew
-LOST = 120.0  # s
+LOST = 60.0  # s
 
 
 @cache
@@ -38,7 +38,7 @@ def seeing(
 
     Returns
     -------
-    Pose of arrays, (steps + 1, robots), and array of how many steps each robot drove
+    Pose of arrays, (samples, robots), up to where all stand, and array of the steps of each robot
     """
     steps, _, robots = error.shape
     back, back_heading = round(late / DT), round(late_heading / DT)
@@ -51,6 +51,9 @@ def seeing(
         polar = polar_error(Pose(x, y, truth[max(n - back_heading, 0), 2]), goal)
         going &= polar.rho > RADIUS
         driven += going
+        if not going.any():
+            truth = truth[: n + 1]
+            break
         v, omega = control_law(*polar, GENTLE_GAINS)
         truth[n + 1] = advance(Pose(*truth[n]), going * v, going * omega, DT)
     return Pose(*truth.transpose(1, 0, 2)), driven
@@ -129,7 +132,7 @@ def late_drive(position: float, heading: float) -> tuple[Pose, float]:
     """The outdoor drive with both readings late [s]: its poses, and its time, infinite if lost."""
     start, goal, *_ = paper.outdoor()
     path, (driven,) = seeing(start, goal, np.zeros((round(LOST / DT), 2, 1)), position, heading)
-    time = driven * DT if driven < len(path.x) - 1 else math.inf
+    time = driven * DT if driven * DT < LOST else math.inf
     return Pose(*(field[: driven + 1, 0] for field in path)), time
 
 

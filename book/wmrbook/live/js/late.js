@@ -26,5 +26,5 @@ const explorable = {
     if (hidden) return;
     for (const pane of [whole, near]) { pane.path(run.x, run.y, 'path', { width: 2 }); pane.robot(run.end); }
   },
-  say: (values, { run, off }) => ({ end: Number.isFinite(run.time) ? `stops after ${written(run.time, 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off` : 'does not arrive within two minutes' }),
+  say: (values, { run, off }) => ({ end: Number.isFinite(run.time) ? `stops after ${written(run.time, 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off` : 'does not arrive within a minute' }),
 };
