@@ -8,6 +8,7 @@ pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from wmrbook import live
 from wmrbook.live import audit, noise, real_robot, routes, sampling
 
+
 def _backwards(gains):
     return gains._replace(k_alpha=-gains.k_alpha)
 
@@ -22,7 +23,12 @@ FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
     ("compass", real_robot, "wrap_angle", lambda f: lambda angle: -f(angle)),
     ("silence", real_robot, "rolled", lambda f: lambda v, timeout, brake: f(v, timeout, -brake)),
     ("corners", routes, "headings_along", lambda f: lambda x, y: -f(x, y)),
-    ("passing", routes, "drive_route", lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9}))),
+    (
+        "passing",
+        routes,
+        "drive_route",
+        lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
+    ),
 ]
 
 

@@ -89,7 +89,8 @@ def wheel_limit(values, found, data) -> None:
         return wmr.wheels_to_twist(*wheels, track)
 
     def apart(v, omega):
-        return np.clip(v, -0.75 * most, 0.75 * most), np.clip(omega, -most / 2 / track, most / 2 / track)
+        turning = 0.5 * most / track
+        return np.clip(v, -0.75 * most, 0.75 * most), np.clip(omega, -turning, turning)
 
     def both(v, omega):
         return wmr.limit_wheels(v, omega, wmr.WheelLimits(track, most))
@@ -106,7 +107,9 @@ def wheel_limit(values, found, data) -> None:
         robot = wmr.advance(robot, *twist, data["dt"])
     assert (seen.rho <= 0.05) == run["arrived"]
     free = wmr.simulate(pose(data["start"]), goal, gains, method="continuous", dt=0.02)
-    far = max(np.hypot(free.x - x, free.y - y).min() for x, y in zip(run["x"], run["y"], strict=True))
+    far = max(
+        np.hypot(free.x - x, free.y - y).min() for x, y in zip(run["x"], run["y"], strict=True)
+    )
     assert found["strays"] == pytest.approx(far, abs=1e-6)
 
 

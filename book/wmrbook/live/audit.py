@@ -21,7 +21,7 @@ VERDICTS = {
 
 
 def heading_left(gains: Gains, axis: str) -> tuple[np.ndarray, np.ndarray]:
-    """Distances from the outdoor goal [m], and the heading errors [deg] of a robot stopped there."""
+    """Distances from the outdoor goal [m], and the errors [deg] of a heading that stops there."""
     start, goal, *_ = paper.outdoor(axis)
     run = simulate(start, goal, gains, method="continuous", dt=0.002, arrival_radius=_STEP)
     rho = np.arange(1, round(_FAR / _STEP) + 1) * _STEP
@@ -42,7 +42,7 @@ def parked(curves: list[np.ndarray], radius: float, most: float) -> str:
 
 
 def threshold() -> Live:
-    """Is it parked? The heading left over where one stops, and both thresholds halved and doubled."""
+    """Is it parked? The heading left where one stops, and both thresholds halved and doubled."""
     tunings = {"paper": paper.OUTDOOR_GAINS, "gentle": GENTLE_GAINS}
     curves = {
         name: [heading_left(gains, axis)[1] for axis in ("east", "north")]
@@ -105,11 +105,11 @@ def rising() -> Live:
         data={"gains": gains._asdict()},
         ask=Ask(
             "choose",
-            "With L = 1 m², V rises under (24) as printed 0.35 m before the goal, at α = 45° and "
-            "θ = 0. Now let the distance count a thousand times as much in V: L = 0.001 m². What "
-            "does V do?",
+            "With L = 1 m², V rises under (24) as printed where the goal is 0.35 m away and 45° to "
+            "the left, with theta = 0. Now let the distance count a thousand times as much in V: "
+            "L = 0.001 m². What does V do?",
             "The distance's part of V' fades with the square of the distance, whatever its weight. "
-            "So with every L there is a ring about the goal within which the angles decide.",
+            "So with every L the angles decide, near enough to the goal.",
             key=[*answers.values()].index(True),
             options=(*answers,),
         )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from itertools import pairwise
 
 import numpy as np
 
@@ -50,7 +51,7 @@ def passing() -> Live:
     poses = Pose(*WALK, headings)
     how = {"stop": False, "pass_radius": 5.0, "method": "continuous"}
     legs = drive_route(poses, GAINS, **how).legs
-    jumps = [float(b.V[0] - a.V[-1]) for a, b in zip(legs, legs[1:], strict=False)]
+    jumps = [float(b.V[0] - a.V[-1]) for a, b in pairwise(legs)]
     answers = {
         "It falls on, without a break.": max(map(abs, jumps)) < 1e-6,
         "It jumps up.": min(jumps) > 1e-6,
@@ -63,9 +64,7 @@ def passing() -> Live:
         "turn is {omega}. Here V is {V}, the speed {v}.",
         {
             "radius": Knob(5.0, 0.5, 12.0, 0.5, "how near a point is passed", "m", "R"),
-            "time": Knob(
-                1.0, 0.0, 1.0, 0.005, "how far on its way", label="on its way", plays=8.0
-            ),
+            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far on its way", label="on its way", plays=8.0),
         },
         data={"poses": np.transpose(poses).tolist(), "gains": GAINS._asdict()},
         ask=Ask(

@@ -7,8 +7,18 @@ import math
 import numpy as np
 
 from wmrbook.live.parts import Ask, Choice, Knob, Live
-from wmrlib import Pose, advance, arrival, control_law, paper, polar_error, simulate
-from wmrlib import longest_step, twist_to_wheels, wheels_to_twist
+from wmrlib import (
+    Pose,
+    advance,
+    arrival,
+    control_law,
+    longest_step,
+    paper,
+    polar_error,
+    simulate,
+    twist_to_wheels,
+    wheels_to_twist,
+)
 from wmrlib.gains import GENTLE_GAINS
 
 LATE = 1.1  # times the longest step, in the question
@@ -93,9 +103,7 @@ def wheel_limit() -> Live:
                 },
                 "the rule",
             ),
-            "time": Knob(
-                1.0, 0.0, 1.0, 0.01, "how far on its way", label="on its way", plays=5.0
-            ),
+            "time": Knob(1.0, 0.0, 1.0, 0.01, "how far on its way", label="on its way", plays=5.0),
         },
         data={
             "start": list(START),
