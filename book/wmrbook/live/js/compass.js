@@ -8,30 +8,29 @@ function felt(heading, { iron, soft }, field) {
 
 const explorable = {
   find(values, { data: { field } }) {
-    const turn = Array.from({ length: 181 }, (_, k) => 2 * k - 180), all = turn.map((each) => felt(each / DEGREES, values, field));
-    const errors = all.map(({ read }, k) => wrap(read - turn[k] / DEGREES) * DEGREES), heading = values.heading / DEGREES;
-    return { turn, errors, circle: all.map(({ at }) => at), worst: Math.max(...errors.map(Math.abs)), ...felt(heading, values, field), true: heading };
+    const turn = Array.from({ length: 181 }, (_, k) => 2 * k - 180), errors = turn.map((each) => wrap(felt(each / DEGREES, values, field).read - each / DEGREES) * DEGREES);
+    const heading = values.heading / DEGREES, { at: [ahead, left], read } = felt(heading, values, field), [cos, sin] = [Math.cos(heading), Math.sin(heading)];
+    return { turn, errors, worst: Math.max(...errors.map(Math.abs)), read, cos, sin, sum: [ahead * cos - left * sin, ahead * sin + left * cos] };
   },
-  panes: (values, { read, worst, at }) => ({
-    above: { x: [-2, 2, ''], y: [-1.6, 1.6, ''], equal: true, bare: true, given: 'A robot from above that looks east, and an arrow to the north.', alt: `The robot from above: it looks to ${values.heading} degrees and believes to look to ${(read * DEGREES).toFixed(0)} degrees.` },
-    field: { x: [-60, 60, 'field ahead [µT]'], y: [-60, 60, 'field to the left [µT]'], equal: true, given: 'The plane of the readings: nothing yet.', alt: `The readings of a full turn as a ring, this one ${at.map((each) => each.toFixed(0)).join(' and ')} microtesla.` },
-    error: { x: [-180, 180, 'heading [°]'], y: [-90, 90, 'error [°]'], tall: true, given: 'The error over the heading: nothing yet.', alt: `The heading's error in a full turn, up to ${worst.toFixed(0)} degrees.`, scrub: (x) => ({ heading: Math.min(Math.max(2 * Math.round(x / 2), -180), 180) }) },
+  panes: (values, { read, worst }) => ({
+    above: { x: [-60, 60, ''], y: [-48, 48, ''], equal: true, bare: true, given: 'A robot from above that looks east, and the field that points north.', alt: `The robot from above and the fields that it feels: it looks to ${values.heading} degrees and believes to look to ${(read * DEGREES).toFixed(0)} degrees.` },
+    error: { x: [-180, 180, 'heading [°]'], y: [-90, 90, 'error [°]'], given: 'The error over the heading: nothing yet.', alt: `The heading's error in a full turn, up to ${worst.toFixed(0)} degrees.`, scrub: (x) => ({ heading: Math.min(Math.max(2 * Math.round(x / 2), -180), 180) }) },
   }),
-  draw({ above, field, error }, { heading: degrees, iron }, { turn, errors, circle, at, read, true: heading }, hidden) {
-    above.arrow(-1.5, 0.4, -1.5, 1.3, 'ghost');
-    above.text('north', -1.5, 0.4, { role: 'ghost', dy: -12, align: 'center' });
-    above.robot([0, 0, hidden ? 0 : heading]);
+  draw({ above, error }, { heading }, { turn, errors, read, cos, sin, sum: [east, north] }, hidden, { data: { field } }) {
+    above.arrow(0, 0, 0, field, 'ghost');
+    above.text('north', 0, field, { role: 'ghost', dy: 12, align: 'center' });
+    above.robot([0, 0, hidden ? 0 : Math.atan2(sin, cos)]);
     if (hidden) return;
-    above.arrow(0, 0, 1.2 * Math.cos(heading), 1.2 * Math.sin(heading), 'path');
-    above.arrow(0, 0, 1.2 * Math.cos(read), 1.2 * Math.sin(read), 'rising', { dash: [6, 4] });
-    above.text('believed', 1.35 * Math.cos(read), 1.35 * Math.sin(read), { role: 'rising', align: Math.cos(read) < 0 ? 'right' : 'left' });
-    field.line(circle, 'path', { width: 2 });
-    field.cross(iron, 0, 'goal');
-    field.arrow(0, 0, ...at, 'rising', { dash: [6, 4] });
+    above.line([[0, field], [east, north]], 'goal', { width: 2 });
+    above.arrow(0, 0, east, north, 'rising', { dash: [6, 4] });
+    above.text('felt', east, north, { role: 'rising', dx: 10 });
+    above.arrow(0, 0, 40 * cos, 40 * sin, 'path');
+    above.arrow(0, 0, 40 * Math.cos(read), 40 * Math.sin(read), 'theta', { dash: [6, 4] });
+    above.text('believed', 43 * Math.cos(read), 43 * Math.sin(read), { role: 'theta', align: Math.cos(read) < 0 ? 'right' : 'left' });
+    const off = wrap(read - heading / DEGREES) * DEGREES;
     error.path(turn, errors, 'rising');
-    const off = wrap(read - heading) * DEGREES;
-    error.line([[degrees, 0], [degrees, off]], 'ghost', { width: 1.5 });
-    error.dot(degrees, off, 'rising', { hollow: true });
+    error.line([[heading, 0], [heading, off]], 'ghost', { width: 1.5 });
+    error.dot(heading, off, 'rising', { hollow: true });
   },
   say: (values, { read, worst }) => ({ read: inDegrees(read), worst: `${worst.toFixed(0)}°` }),
 };
