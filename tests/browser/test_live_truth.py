@@ -158,7 +158,7 @@ def rising(values, found, data) -> None:
     assert found["share"] == pytest.approx(up.mean(), abs=1e-3)
     origin = wmr.Pose(0.0, 0.0, 0.0)
     start = wmr.pose_from_polar(wmr.PolarError(rho, *map(float, here)), origin)
-    how = {"method": "continuous", "dt": 0.04, "duration": 4.0, "arrival_radius": 0.0}
+    how = {"method": "continuous", "dt": 0.06, "duration": 3.0, "arrival_radius": 0.0}
     for law, V in zip(("printed", "corrected"), found["V"], strict=True):
         run = wmr.simulate(start, origin, gains, law=law, **how)
         ours = run.rho**2 / 2 / L + run.alpha**2 / 2 + gains.h * run.theta**2 / 2

@@ -119,9 +119,9 @@ def bench() -> Live:
             "Some robots see through receivers whose error of 0.5 m is new in each fix, ten times "
             "a second. The error of the others is as large and lasts five minutes. Both stop when "
             f"they believe to be within {RADIUS:g} m of the goal.",
-            "The slow robot averages what changes quickly, so only an error that lasts moves the "
-            "place. In the last metres an error that changes swings the line of sight, and with "
-            "it the heading.",
+            "While the radius is well below the error, a slow robot averages what changes quickly, "
+            "and what lasts moves the place. In the last metres what changes swings the line of "
+            "sight, and with it the heading.",
             key=[*options.values()].index((far[0] < far[1], turned[0] < turned[1])),
             options=(*options,),
         ),

@@ -64,8 +64,8 @@ def unit_circle() -> Live:
             "choose",
             "Gentle gains, and a time step a tenth longer than the longest with which the angles "
             "near the goal settle. Where does the drive end?",
-            "The distance has its own, longer limit, so the robot still comes to the goal. The "
-            "angles grow from step to step, and it stops with what they happen to be.",
+            "The distance has a limit of its own, here a longer one, so the robot comes to the "
+            "goal. The angles grow from step to step, and it stops with what they happen to be.",
             key=[*ends.values()].index(True),
             options=(*ends,),
         ),

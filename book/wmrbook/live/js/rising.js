@@ -23,7 +23,7 @@ const map = remembered(({ rho, L, gains }) => {
   return { rows, share: count / CELLS ** 2 };
 });
 
-const runs = remembered(({ rho, alpha, theta, gains }) => ['printed', 'corrected'].map((law) => simulate({ start: poseOfError(rho, alpha / DEGREES, theta / DEGREES, 0, 0, 0), goal: [0, 0, 0], gains, reference: null, law, method: 'continuous', dt: 0.04, duration: 4, arrivalRadius: 0 })));
+const runs = remembered(({ rho, alpha, theta, gains }) => ['printed', 'corrected'].map((law) => simulate({ start: poseOfError(rho, alpha / DEGREES, theta / DEGREES, 0, 0, 0), goal: [0, 0, 0], gains, reference: null, law, method: 'continuous', dt: 0.06, duration: 3, arrivalRadius: 0 })));
 
 const explorable = {
   find({ alpha, theta, rho, L }, { data: { gains } }) {
@@ -33,17 +33,17 @@ const explorable = {
   },
   panes: (values, { share, V }) => ({
     plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true, given: 'The plane of the two angles: nothing yet.', alt: `The plane of alpha and theta: V rises in ${(100 * share).toFixed(0)} percent of it.` },
-    time: { x: [0, 4, 'time [s]'], y: [0, 3, 'V / V at first'], given: 'V over time: nothing yet.', alt: `V over four seconds: times ${written(V[0][V[0].length - 1] / V[0][0])} with the printed law, times ${written(V[1][V[1].length - 1] / V[1][0])} with the corrected one.` },
+    time: { x: [0, 3, 'time [s]'], y: [0, 3, 'V / V at first'], given: 'V over time: nothing yet.', alt: `V over three seconds: times ${written(V[0][V[0].length - 1] / V[0][0])} with the printed law, times ${written(V[1][V[1].length - 1] / V[1][0])} with the corrected one.` },
   }),
   draw({ plane, time }, { alpha, theta }, { rows, t, V, rate }, hidden) {
     if (hidden) return;
     const edge = (k) => k / CELLS * 360 - 180, half = 180 / CELLS;
     for (const [middle, from, to] of rows) plane.area([[edge(from), middle - half], [edge(to), middle - half], [edge(to), middle + half], [edge(from), middle + half]], 'rising', 0.3);
     plane.dot(alpha, theta, rate > 0 ? 'rising' : 'path', { hollow: true });
-    time.line([[0, 1], [4, 1]], 'ghost', { width: 1.5, dash: [4, 4] });
+    time.line([[0, 1], [3, 1]], 'ghost', { width: 1.5, dash: [4, 4] });
     V.forEach((each, k) => time.path(t, each.map((it) => it / each[0]), k ? 'path' : 'rising', { dash: k ? [] : [8, 5] }));
-    time.text('(24) as printed', 2.2, 2.75, { role: 'rising' });
-    time.text('corrected', 2.2, 2.5, { role: 'path' });
+    time.text('(24) as printed', 1.7, 2.75, { role: 'rising' });
+    time.text('corrected', 1.7, 2.5, { role: 'path' });
   },
   handles: ({ alpha, theta }) => [{
     id: 'state', pane: 'plane', at: [alpha, theta], says: `the state, alpha ${alpha} and theta ${theta} degrees`,
