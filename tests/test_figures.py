@@ -14,7 +14,6 @@ from matplotlib.colors import same_color
 
 import wmrlib as wmr
 from wmrbook import challenge, figures
-from wmrbook.figures import COLOURS
 from wmrbook.pareto import pareto
 from wmrbook.scatter import stationary_scatter
 from wmrlib import paper
@@ -136,7 +135,6 @@ CASES = {
     "angles_over_time": lambda: figures.angles_over_time(drive()),
     "angles_over_time of two": lambda: figures.angles_over_time([drive(), drive("aicardi")]),
     "bowl": lambda: figures.bowl(GAINS, near_goal_runs()),
-    "lyapunov_runs": lambda: figures.lyapunov_runs(near_goal_runs()),
     "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
     "compare_runs": lambda: figures.compare_runs(
         {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
@@ -162,11 +160,7 @@ CASES = {
     "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
-    "wheel_limited_paths": lambda: figures.wheel_limited_paths(
-        {"all of it": LIMITED, "part": LIMITED[:2]}, LIMITED[-1]
-    ),
     "scatter": lambda: figures.scatter(stationary_scatter(wmr.read_track(TRACK))),
-    "end_poses": lambda: figures.end_poses(ENDS, PARK, 0.05),
     "memories": lambda: figures.memories(MEMORY, FOUND),
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
@@ -174,10 +168,6 @@ CASES = {
     "route": lambda: figures.route(route("mixed")),
     "route, stuck": lambda: figures.route(route("stuck")),
     "route, one pose": lambda: figures.route(route("point")),
-    "route_signals": lambda: figures.route_signals(route("mixed")),
-    "route_signals, one pose": lambda: figures.route_signals(route("point")),
-    "sign_of_rate": lambda: figures.sign_of_rate(lambda alpha, theta: alpha + np.pi / 2),
-    "sign_of_rate, falls": lambda: figures.sign_of_rate(lambda alpha, theta: -(alpha**2)),
     "challenge_paths": lambda: figures.challenge_paths(score(0.128, 1.089, 1.42, 7.528)),
     "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
     "challenge_paths, five": lambda: figures.challenge_paths(score(2.0, 1.0, 0.3, cases=5)),
@@ -242,10 +232,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "path_choices": lambda: ["one: ends 0.10 m from the goal, its heading 11 deg off"],
     "bowl": lambda: ["bottom at (0, 0) deg", "falling all the way; a run", "rising at times"],
-    "lyapunov_runs": lambda: [
-        "corrected: from 0.37 to",
-        "it never rises; printed: from 0.37 to 3.3, it rises, to 3.3 at most",
-    ],
     "compare_runs": lambda: [
         "one goes from 3.96 to 0.36 m/s",
         "a dotted line marks the limit, 4 m/s",
@@ -283,26 +269,16 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "inner_loops": lambda: [
         f"one, slow: {degrees_left(drive(wheel_lag=0.1))}; one, at once: {degrees_left(drive())}"
     ],
-    "wheel_limited_paths": lambda: [
-        "all of it: 4.0 m, as far as x = 1.0 m; part: 1.0 m, as far as x = 1.0 m, "
-        'at most 0.00 m beside the first. Indistinguishable from the first: "part".'
-    ],
     "scatter": lambda: [
         "9 positions",
         "from 7.5 m west and 0.5 m south to 2.7 m east and 0.6 m north, where the last two are one",
         "a dashed circle of 2.1 m holds half of them",
-    ],
-    "end_poses": lambda: [
-        "Left, 150 of 300 robots",
-        "about 15 % within 30 deg, about 50 % more than 90 deg off",
     ],
     "memories": lambda: [
         "from white to constant: 10 Hz, from 0.2 m and about 80 deg to 1.4 m and 10 deg, "
         "the heading worst, about 90 deg, at 3 s; 1 Hz, "
     ],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
-    "sign_of_rate": lambda: ["V rises in the hatched 75 % and falls elsewhere"],
-    "sign_of_rate, falls": lambda: ["hatched 0 %"],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
         "3 of 3 waypoints reached, 2 to stop at and 1 to pass "
@@ -312,10 +288,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "route, stuck": lambda: [
         "1 of 3 waypoints reached, 3 to stop at and 0 to pass; ",
         "s without reaching the rest.",
-    ],
-    "route_signals": lambda: [
-        f"Over {route('mixed').time:.1f} s and 3 legs: v between",
-        "jumping up at 2 of 2 changes of the goal",
     ],
     "challenge_paths": lambda: [
         "12 of them reached, with 21.81 points in the mean; "
@@ -448,11 +420,8 @@ def test_the_runs_lie_on_the_bowl():
         np.testing.assert_allclose(height, 0.5 * (run.alpha**2 + GAINS.h * run.theta**2))
 
 
-def test_v_is_thick_where_it_rises_and_headings_are_not_wrapped():
+def test_headings_are_not_wrapped():
     _, wild = near_goal_runs()
-    calm, red = axes_of("lyapunov_runs")[0].collections
-    assert len(calm.get_segments()) == 0
-    assert len(red.get_segments()) == np.sum(np.diff(wild.V) > 1e-9 * wild.V[0]) > 50
     drawn = axes_of("heading_errors")[0].lines[2].get_ydata()
     np.testing.assert_allclose(drawn, np.degrees(wild.theta - wild.alpha))
     assert drawn.max() > 180
@@ -606,19 +575,6 @@ def test_time_steps_draw_each_run_and_each_limit():
         assert any(set(line.get_xdata()) == limit for line in axes.lines)
 
 
-def test_wheel_limited_paths_say_how_far_one_strays_and_what_the_arrows_are():
-    away = [LIMITED[0], wmr.Pose(2.0, 1.5, 0.5), LIMITED[-1]]
-    near = [each._replace(x=each.x + 0.01) for each in LIMITED]
-    beyond = [*LIMITED, wmr.Pose(1.0, 5.0, 0.5)]  # on the line, but not on the path
-    paths = {"all of it": LIMITED, "aside": away, "beyond": beyond, "near": near}
-    found = figures.wheel_limited_paths(paths, LIMITED[-1])
-    strays = re.findall(r"at most ([\d.]+) m beside", found.alt)
-    assert strays == ["1.00", "2.00", "0.01"]
-    assert found.alt.endswith('Indistinguishable from the first: "near".')
-    legend = [text.get_text() for text in found.figure.axes[0].get_legend().get_texts()]
-    assert legend == [*paths, "start", "goal"]
-
-
 def test_scatter_says_how_many_positions_are_the_last_dot():
     east, north = np.array([0.0, 3.0, 5.0, 5.0, 5.0]), np.array([0.0, -1.0, 1.0, 1.0, 1.0])
     place = wmr.point_at(paper.GPS_POINT_1, east, north)
@@ -627,15 +583,6 @@ def test_scatter_says_how_many_positions_are_the_last_dot():
         shown = figures.scatter(found)
         assert [text.get_text() for text in shown.figure.axes[0].texts] == ["first", word]
         assert (f"the {word} are one dot" in shown.alt) == (count > 3)
-
-
-def test_robots_stand_where_they_ended():
-    place, heading = axes_of("end_poses")
-    assert place.get_title().startswith("150 of 300 robots")
-    assert len(place.patches) == 150 + 4  # goal and circle, each with its rim
-    assert heading.get_title() == "all 300"
-    few = wmr.Pose(*(field[:20] for field in ENDS))
-    assert figures.end_poses(few, PARK, 0.05).alt.startswith("Left, all 20 robots")
 
 
 def test_the_verdicts_bars_differ_in_hatching_too():
@@ -661,29 +608,6 @@ def test_a_route_is_drawn_as_it_was_driven():
         assert "".join(each for each in markers if each in "sox" and len(each) == 1) == wanted
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert legend == ["path", "start", "stop", "passed"]
-
-
-def test_signals_are_cut_where_the_goal_changes():
-    mixed = route("mixed")
-    upper, lower = axes_of("route_signals")
-    parts = [line for line in lower.lines if same_color(line.get_color(), COLOURS["V"])]
-    changes = [line.get_xdata()[0] for line in upper.lines if line.get_linestyle() == "--"]
-    assert changes == pytest.approx(np.cumsum([leg.t[-1] for leg in mixed.legs])[:-1])
-    # down to the arrival itself
-    for part, leg, end in zip(parts, mixed.legs, [*changes, mixed.time], strict=True):
-        np.testing.assert_array_equal(part.get_ydata(), np.maximum(leg.V, 1e-12))
-        assert part.get_xdata()[-1] == pytest.approx(end)
-
-
-def test_a_jump_is_counted_from_the_arrival():
-    """One sample before the arrival V is still above that of the next leg."""
-    for last, dt, jumps in ((12.0, 1.0, 1), (9.0, 0.1, 0)):  # 9 m is nearer than the one passed
-        poses = wmr.Pose(np.array([0.0, 10.0, last]), np.zeros(3), np.zeros(3))
-        driven = wmr.drive_route(poses, wmr.Gains(0.3, 1.0, 1.5), stop=[False, True], dt=dt)
-        change = int(np.flatnonzero(np.diff(driven.leg))[0])
-        assert (driven.legs[0].V[-1] < driven.V[change + 1]) == jumps
-        assert driven.V[change + 1] < driven.V[change]
-        assert f"jumping up at {jumps} of 1 changes" in figures.route_signals(driven).alt
 
 
 def test_each_case_of_the_challenge_has_its_panel():
@@ -729,7 +653,6 @@ BAD = [
     ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
     ("runs has 0 entries", "angles_over_time", ([],)),
     ("a Pose is needed, not a tuple", "polar_angles", ((0, 0, 0), GOAL)),
-    ("runs has 0 entries, .* 1 to 4 are needed", "lyapunov_runs", ([],)),
     ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
     ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),
     ("runs has 6 entries", "compare_runs", (FIVE, "v")),
@@ -745,7 +668,6 @@ BAD = [
     ("mismatched lengths", "memories", (MEMORY, {"one": (np.ones(3), np.ones(2))})),
     ("counts has 0 entries", "verdicts", ({},)),
     ("a Route is needed, not a Pose", "route", (WAY,)),
-    ("a Route is needed", "route_signals", (3,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
 ]
 

@@ -11,10 +11,11 @@ import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
-from test_live import NAMES
+from test_live import NAMES, quoted
 
 import wmrlib as wmr
 from wmrbook import live
+from wmrbook.live import audit, noise, real_robot
 
 FOUND = """() => JSON.stringify(document.querySelector('.live').found,
     (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
@@ -60,6 +61,154 @@ def poles(values, found, data) -> None:
     same_run(found["run"], data["start"], data["goal"], gains, dt=0.02, duration=30.0)
 
 
+def unit_circle(values, found, data) -> None:
+    gains = wmr.Gains(**data["gains"][values["gains"]])
+    how = {"method": values["method"], "dt": found["dt"]}
+    longest = wmr.longest_step(gains, values["method"])
+    assert found["dt"] == pytest.approx(values["times"] * longest, rel=1e-12)
+    # one step of simulate, from three places near the goal: the poles are of what it does to them
+    rho, size, origin = 1e-3, 1e-5, wmr.Pose(0.0, 0.0, 0.0)
+    columns = []
+    for angles in ((size, 0.0), (0.0, size)):
+        start = wmr.pose_from_polar(wmr.PolarError(rho, *angles), origin)
+        run = wmr.simulate(start, origin, gains, arrival_radius=0.0, duration=how["dt"], **how)
+        columns.append([run.alpha[-1] / size, run.theta[-1] / size])
+        assert run.rho[-1] / rho == pytest.approx(found["kept"], rel=1e-2)
+    theirs = np.sort_complex(np.linalg.eigvals(np.transpose(columns)))
+    ours = np.sort_complex([complex(*each) for each in found["poles"]])
+    np.testing.assert_allclose(ours, theirs, atol=1e-2)
+    assert (found["size"] < 1) == (values["times"] < 1) or values["times"] == 1
+    same_run(found["run"], data["start"], data["goal"], gains, **how)
+
+
+def wheel_limit(values, found, data) -> None:
+    most, track = values["limit"], data["track"]
+
+    def clipped(v, omega):
+        wheels = np.clip(wmr.twist_to_wheels(v, omega, track), -most, most)
+        return wmr.wheels_to_twist(*wheels, track)
+
+    def apart(v, omega):
+        turning = 0.5 * most / track
+        return np.clip(v, -0.75 * most, 0.75 * most), np.clip(omega, -turning, turning)
+
+    def both(v, omega):
+        return wmr.limit_wheels(v, omega, wmr.WheelLimits(track, most))
+
+    limit = {"wheels": clipped, "apart": apart, "both": both}[values["rule"]]
+    gains, goal = wmr.Gains(**data["gains"]), pose(data["goal"])
+    robot, run = pose(data["start"]), found["run"]
+    for k, here in enumerate(zip(run["x"], run["y"], run["heading"], strict=True)):
+        assert here == pytest.approx(robot, abs=AGREES), k
+        seen = wmr.polar_error(robot, goal)
+        twist = limit(*wmr.control_law(*seen, gains))
+        wheels = run["left"][k], run["right"][k]
+        assert wheels == pytest.approx(wmr.twist_to_wheels(*twist, track), abs=AGREES)
+        robot = wmr.advance(robot, *twist, data["dt"])
+    assert (seen.rho <= 0.05) == run["arrived"]
+    free = wmr.simulate(pose(data["start"]), goal, gains, method="continuous", dt=0.02)
+    far = max(
+        np.hypot(free.x - x, free.y - y).min() for x, y in zip(run["x"], run["y"], strict=True)
+    )
+    assert found["strays"] == pytest.approx(far, abs=1e-6)
+
+
+def bench(values, found, data) -> None:
+    start, goal = pose(data["start"]), pose(data["goal"])
+    path, driven = noise.seeing(start, goal, noise.receiver(values["sigma"], values["memory"]))
+    ends = np.array([each["pose"] for each in found["ends"]]).T
+    for ours, theirs in zip(path, ends, strict=True):
+        np.testing.assert_allclose(np.cos(ours[-1]), np.cos(theirs), atol=1e-6)
+    assert [each["n"] for each in found["ends"]] == driven.tolist()
+    assert (found["far"], found["turned"]) == pytest.approx(
+        noise.left_over(values["sigma"], values["memory"]), abs=1e-6
+    )
+
+
+def late(values, found, data) -> None:
+    delays = (values["delay"] * (values["which"] != each) for each in ("heading", "position"))
+    path, time = noise.late_drive(*delays)
+    assert found["run"]["time"] == (pytest.approx(time) if time < math.inf else None)
+    shown = min(len(path.x), 300)  # later a robot that swings for ever magnifies what is rounded
+    np.testing.assert_allclose(found["run"]["x"][:shown], path.x[:shown], atol=AGREES)
+    np.testing.assert_allclose(found["run"]["y"][:shown], path.y[:shown], atol=AGREES)
+
+
+def threshold(values, found, data) -> None:
+    tunings = {"paper": wmr.paper.OUTDOOR_GAINS, "gentle": wmr.GENTLE_GAINS}
+    curves = []
+    for axis, stops in zip(("east", "north"), found["stops"], strict=True):
+        case = wmr.paper.outdoor(axis)
+        how = {"method": "continuous", "arrival_radius": stops[1][0] / 100}
+        run = wmr.simulate(case.start, case.goal, tunings[values["gains"]], **how)
+        off = abs(math.degrees(wmr.arrival(run).heading_error))
+        assert stops[1] == pytest.approx([values["radius"], off], abs=0.05)
+        curves.append(audit.heading_left(tunings[values["gains"]], axis)[1])
+    verdict = audit.parked(curves, values["radius"] / 100, values["most"])
+    assert found["verdict"] == verdict
+
+
+def rising(values, found, data) -> None:
+    gains, (rho, L) = wmr.Gains(**data["gains"]), (values["rho"], values["L"])
+    here = np.radians([values["alpha"], values["theta"]])
+    rate = wmr.lyapunov_rate(rho, *here, gains, law="printed", L=L)
+    assert found["rate"] == pytest.approx(rate, rel=1e-9, abs=1e-12)
+    angles = np.radians((np.arange(73) + 0.5) / 73 * 360 - 180)
+    up = wmr.lyapunov_rate(rho, *np.meshgrid(angles, angles), gains, law="printed", L=L) > 0
+    assert found["share"] == pytest.approx(up.mean(), abs=1e-3)
+    origin = wmr.Pose(0.0, 0.0, 0.0)
+    start = wmr.pose_from_polar(wmr.PolarError(rho, *map(float, here)), origin)
+    how = {"method": "continuous", "dt": 0.06, "duration": 3.0, "arrival_radius": 0.0}
+    for law, V in zip(("printed", "corrected"), found["V"], strict=True):
+        run = wmr.simulate(start, origin, gains, law=law, **how)
+        ours = run.rho**2 / 2 / L + run.alpha**2 / 2 + gains.h * run.theta**2 / 2
+        np.testing.assert_allclose(V, ours, rtol=1e-6, atol=1e-7)
+
+
+def compass(values, found, data) -> None:
+    iron, soft = values["iron"], values["soft"] / 100
+    for degrees, error in zip(found["turn"], found["errors"], strict=True):
+        read = real_robot.compass_heading(math.radians(degrees), iron, soft)
+        off = wmr.wrap_angle(read - math.radians(degrees) - math.radians(error))
+        assert off == pytest.approx(0.0, abs=1e-9)
+    read = real_robot.compass_heading(math.radians(values["heading"]), iron, soft)
+    assert wmr.wrap_angle(found["read"] - read) == pytest.approx(0.0, abs=1e-9)
+    if soft == 0.0:  # the most that chapter 11 says
+        assert found["worst"] == pytest.approx(
+            math.degrees(math.asin(abs(iron) / data["field"])), abs=0.5
+        )
+
+
+def silence(values, found, data) -> None:
+    far = real_robot.rolled(values["speed"], values["timeout"], values["brake"])
+    assert found["far"] == pytest.approx(far, rel=1e-9)
+    assert found["faith"] == pytest.approx(values["speed"] * values["timeout"])
+
+
+def same_route(found, poses, radii, gains, stop) -> None:
+    how = {"stop": stop, "arrival_radius": radii[-1], "pass_radius": radii[0]}
+    ours = wmr.drive_route(wmr.Pose(*np.transpose(poses)), gains, **how)
+    assert found["arrived"] == (ours.outcome is wmr.Outcome.ARRIVED)
+    assert found["leg"] == ours.leg.tolist()
+    for name in ("t", "x", "y", "v", "V"):
+        np.testing.assert_allclose(found[name], getattr(ours, name), rtol=1e-6, atol=1e-6)
+    assert found["peakOmega"] == pytest.approx(max(it.peak_omega for it in ours.arrivals))
+
+
+def corners(values, found, data) -> None:
+    points = [data["first"], (values["x"], values["y"]), data["last"]]
+    headings = wmr.headings_along(*np.transpose(points))
+    assert [found[key] for key in ("come", "heading", "leave")] == pytest.approx(headings)
+    poses = [(*at, heading) for at, heading in zip(points, headings, strict=True)]
+    radii = data[values["stop"]], data["stop"]
+    same_route(found["run"], poses, radii, wmr.Gains(**data["gains"]), values["stop"] == "stop")
+
+
+def passing(values, found, data) -> None:
+    gains = wmr.Gains(**data["gains"])
+    same_route(found["run"], data["poses"], (values["radius"], 0.05), gains, False)
+
+
 TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the same name
 
 
@@ -74,7 +223,7 @@ def test_what_is_shown_is_true(browser_page, name):
                 values[knob["name"]] = str(random.choice([each for each, _ in knob["choices"]]))
             else:
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
-        panel.set(**values)
+        panel.set(**quoted(values))
         state = browser_page.evaluate("panel.get('state')")
         found = json.loads(browser_page.evaluate(FOUND))
         TRUTH[name](state, found, thing.setup["data"])

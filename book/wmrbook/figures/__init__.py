@@ -29,7 +29,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "polar_angles",
             "third_angle",
         ],
-        "lyapunov": ["bowl", "heading_errors", "lyapunov_runs"],
+        "lyapunov": ["bowl", "heading_errors"],
         "pose_to_pose": [
             "block_diagram",
             "compare_runs",
@@ -40,10 +40,9 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         ],
         "circle": ["chase", "residual_curve", "tradeoff"],
         "design": ["pareto_front", "phase_portrait", "root_locus"],
-        "sampling": ["inner_loops", "time_steps", "wheel_limited_paths"],
-        "noise": ["end_poses", "memories", "scatter"],
+        "sampling": ["inner_loops", "time_steps"],
+        "noise": ["memories", "scatter"],
         "audit": ["verdicts"],
-        "routes": ["challenge_paths", "route", "route_signals"],
-        "refuted": ["sign_of_rate"],
+        "routes": ["challenge_paths", "route"],
     },
 )
