@@ -32,6 +32,14 @@ const driven = remembered((options) => simulate({ reference: null, law: 'correct
 const sampleAt = (run, t) => Math.min(Math.max(Math.floor(t / run.t[1] + 1e-9), 0), run.n - 1);
 const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
 
+// The time, as a share, at which a path comes nearest to a point, or nothing if that is farther than `reach`: for `scrub`.
+function timeNear(xs, ys, x, y, reach) {
+  let best = 0;
+  const far = (k) => Math.hypot(xs[k] - x, ys[k] - y);
+  for (let k = 1; k < xs.length; k += 1) if (far(k) < far(best)) best = k;
+  return far(best) < reach ? { time: best / (xs.length - 1) } : null;
+}
+
 // A symbol such as k_alpha, as in the formulas: Greek, with its index, and in its colour.
 function putSymbol(parent, name) {
   const [stem, ...index] = name.split('_'), role = ROLES.includes(stem) ? stem : ROLES.includes(index[0]) ? index[0] : '';
