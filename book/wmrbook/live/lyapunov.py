@@ -103,7 +103,7 @@ def two_bars() -> Live:
             "choose",
             "A robot with this law looks straight at its goal, 0.5 m ahead, but should be turned "
             "by 60° there: alpha is 0 and theta is 60°. Which part of V is falling?",
-            "The part of the angles falls by what alpha is, whatever theta is: it can't see that the "
+            "The angles' part falls by what alpha is, whatever theta is: it can't see that the "
             "heading is wrong. That V never rises is not enough; it must not stay level either.",
             key=[*parts.values()].index(True),
             options=(*parts,),

@@ -12,7 +12,7 @@ const explorable = {
   panes({ radius }, { left }, { data: { goal } }) {
     const within = (distance) => ({ radius: Math.min(Math.max(distance, 0.005), 0.6) });
     return {
-      error: { x: [0, 0.6, 'distance left [m]'], y: [-80, 80, 'heading error [deg]'], given: 'Room for the heading error over the distance left.', alt: `The heading error over the distance left: ${inDegrees(left)} at ${written(radius, 'm')}.`, scrub: within },
+      error: { x: [0, 0.6, 'distance left [m]'], y: [-90, 90, 'heading error [deg]'], given: 'Room for the heading error over the distance left.', alt: `The heading error over the distance left: ${inDegrees(left)} at ${written(radius, 'm')}.`, scrub: within },
       near: { x: [goal[0] - 0.7, goal[0] + 0.7, 'x [m]'], y: [goal[1] - 0.9, goal[1] + 0.5, 'y [m]'], equal: true, given: 'The goal, with a circle of 5 cm and one of 10 cm.', alt: `The last metre: the robot stops on a circle round the goal, ${inDegrees(left)} off.`, scrub: (x, y) => within(Math.hypot(x - goal[0], y - goal[1])) },
     };
   },
@@ -24,7 +24,7 @@ const explorable = {
     const curve = (from, to) => Array.from({ length: Math.max(to - from, 0) }, (_, i) => [run.rho[from + i], error(from + i) * DEGREES]);
     chart.line([...curve(first, k), [radius, left * DEGREES]], 'path');
     chart.line([[radius, left * DEGREES], ...curve(k, run.n)], 'ghost', { width: 1.5, dash: [2, 5] });
-    chart.line([[radius, -80], [radius, 80]], 'rho', { width: 1.5, dash: [3, 4] });
+    chart.line([[radius, -90], [radius, 90]], 'rho', { width: 1.5, dash: [3, 4] });
     chart.dot(radius, left * DEGREES);
     near.path(run.x, run.y, 'path', { from: first, to: k });
     near.path(run.x, run.y, 'ghost', { width: 1.5, dash: [2, 5], from: k });

@@ -6,7 +6,7 @@ const explorable = {
   },
   panes: (values, { run, k, residual }) => ({
     circle: { x: [-8.6, 2.6, 'x [m]'], y: [-4.8, 4.8, 'y [m]'], equal: true, given: 'The circle of the goal and the robot where it starts.', alt: `The robot ${written(run.rho[k], 'm')} behind the goal, which drives round a circle.`, scrub: (x, y) => timeNear(run.x, run.y, x, y, 0.5) },
-    distance: { x: [0, 40, 'time [s]'], y: [0, 0.6, 'distance to the goal [m]'], given: 'Room for the distance over time.', alt: `The distance over time levels out at ${written(residual, 'm')}.`, scrub: (x) => ({ time: Math.min(Math.max(x / 40, 0), 1) }) },
+    distance: { x: [0, 40, 'time [s]'], y: [0, 0.4, 'distance to the goal [m]'], given: 'Room for the distance over time.', alt: `The distance over time levels out at ${written(residual, 'm')}.`, scrub: (x) => ({ time: Math.min(Math.max(x / 40, 0), 1) }) },
   }),
   draw({ circle: picture, distance }, values, { run, k, predicted }, hidden, { data: { start } }) {
     picture.path(run.goalX, run.goalY, 'goal', { width: 1.2, dash: [3, 4] });

@@ -41,7 +41,7 @@ const explorable = {
     for (const [name, column, role, dash] of [['α', run.across, 'alpha', []], ['θ', run.up, 'theta', [7, 4]]]) {
       angles.path(run.t, column, role, { dash });
       angles.dot(run.t[k], column[k], role);
-      angles.text(name, run.t[30], column[30], { role, dx: 4, dy: 12, size: 16 });
+      angles.text(name, run.t[30], column[30], { role, dx: 6, dy: column[30] < 0 ? -14 : 14, size: 16 });
     }
   },
   handles: ({ alpha, theta }) => [{
