@@ -6,14 +6,35 @@ import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from wmrbook import live
-from wmrbook.live import audit, noise, real_robot, routes, sampling
+from wmrbook.live import (
+    audit,
+    circle,
+    design,
+    lyapunov,
+    noise,
+    pose_to_pose,
+    real_robot,
+    routes,
+    sampling,
+)
 
 
 def _backwards(gains):
     return gains._replace(k_alpha=-gains.k_alpha)
 
 
+def _uphill(f):
+    return lambda a, b, gains, **how: f(a, b, gains, **(how | {"law": "printed"}))
+
+
 FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
+    ("bowl", lyapunov, "simulate", _uphill),
+    ("two_bars", lyapunov, "control_law", lambda f: lambda *a: (f(*a)[0], 1 - f(*a)[1])),
+    ("x_axis", pose_to_pose, "polar_error", lambda f: lambda a, b: f(b, a)),
+    ("heading_left", pose_to_pose, "simulate", _uphill),
+    ("lag", circle, "track", lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o)),
+    ("phase", design, "modes", lambda f: lambda k: f(k._replace(k_alpha=2 * k.k_alpha))),
+    ("poles", design, "modes", lambda f: lambda k: f(k._replace(h=1 / k.h))),
     ("unit_circle", sampling, "longest_step", lambda f: lambda *a: 0.5 * f(*a)),
     ("wheel_limit", sampling, "wheels_to_twist", lambda f: lambda a, b, c: f(b, a, c)),
     ("bench", noise, "advance", lambda f: lambda pose, v, omega, dt: f(pose, v, -omega, dt)),
@@ -43,3 +64,10 @@ def test_a_flipped_sign_changes_what_is_right_or_is_refused(monkeypatch, name, m
         return
     shown = "why" if before["kind"] == "sketch" else "key"
     assert after is None or after[shown] != before[shown]
+
+
+def test_what_is_aside_is_no_faster_only_because_the_wheels_cannot_push_there(monkeypatch):
+    key = live.lqr().setup["ask"]["key"]
+    monkeypatch.setattr(circle, "B", -circle.np.eye(3)[:, :2])  # a robot that moves sideways
+    monkeypatch.setattr(circle, "A", 0 * circle.A + circle.np.diag([0.0, 0.0, -50.0]))
+    assert live.lqr().setup["ask"]["key"] != key

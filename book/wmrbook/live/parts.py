@@ -52,7 +52,7 @@ class Ask(NamedTuple):
     """A prediction that is asked for before anything is shown.
 
     By its kind: "choose" one of `options`, whose `key` is a number; "turn" an arrow that stands
-    `at` a point of a `pane` (the `key` is its angle, rad); "sketch" a path `start`ing there.
+    `at` a point of a `pane` (the `key` is its angle, rad); "sketch" a path that starts there.
     """
 
     kind: str
