@@ -35,6 +35,7 @@ const explorable = {
     map.text('east', 0.95, 0, { dy: 12, align: 'center' });
     map.dot(0, 0, 'start');
     size.line([[1, -2], [6, -2]], 'ghost', { width: 1.5, dash: [2, 4] });
+    size.text('1 cm', 6, -2, { role: 'ghost', dx: -6, dy: 9, align: 'right' });
     if (hidden) return;
     map.line([[0, 0], true_], 'rho');
     map.line(Array.from({ length: 41 }, (_, k) => bothMaps(rho * (k || 1e-3) / 40, lat, radius)[1].map((one) => one / rho)), 'ghost', { dash: [5, 5] });

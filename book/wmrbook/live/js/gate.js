@@ -1,7 +1,7 @@
 // A prediction before the result: one chooses, turns an arrow or sketches a path, and commits; then the picture opens, with what was said in it.
 
-// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane` and `at`, where an arrow turns or a path
-// begins; `key` is the number of the option or the arrow's angle in radians; of a path there is none, the eye compares.
+// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane` and `at` of an arrow to turn; `pane` and `at`, the start, of a path
+// to sketch. `key` is the number of the option or the arrow's angle in radians; of a path there is none, the eye compares.
 function buildGate(root, ask, { get, set, panes, host }) {
   const still = document.documentElement.dataset.still !== undefined; // on paper the picture stands beside the question
   const committed = () => get().guess !== null && get().guess !== undefined, open = () => still || committed();
