@@ -104,11 +104,7 @@ def time_steps():
 
 CASES = {
     "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
-    "arrival": lambda: figures.arrival(drive()),
     "dashboard": lambda: figures.dashboard(drive()),
-    "heading_to_go": lambda: figures.heading_to_go(
-        {"one": drive(arrival_radius=0.01), "two": drive(gains=GENTLE)}
-    ),
     "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
     "twist": lambda: figures.twist(drive()),
     "spherical_triangle": lambda: figures.spherical_triangle(
@@ -118,17 +114,8 @@ CASES = {
     "coordinate_system": lambda: figures.coordinate_system(
         wmr.Pose(2.0, 1.5, math.radians(35.0)), 1.0, 0.25
     ),
-    "turning_centre": lambda: figures.turning_centre(1.0, 0.8, 0.6),
-    "turning_centre, right": lambda: figures.turning_centre(1.0, -2.5, 0.6),
-    "commutator": lambda: figures.commutator(1.0, 0.5, 3),
     "robot_loops": lambda: figures.robot_loops(0.2, 4.0),
-    "steps": lambda: figures.steps(4.0, 1.0, 0.5),
-    "polar_angles": lambda: figures.polar_angles(ROBOT, GOAL),
-    "polar_angles, clockwise": lambda: figures.polar_angles(
-        wmr.Pose(5.0, 0.0, 2.0), wmr.Pose(0.0, -4.0, 3.0)
-    ),
     "third_angle": lambda: figures.third_angle(ROBOT, GOAL),
-    "mirrored_paths": lambda: figures.mirrored_paths([drive(), drive("aicardi")], ["one", "two"]),
     "path_choices": lambda: figures.path_choices(
         {"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN
     ),
@@ -183,19 +170,6 @@ def degrees_left(run):
     return f"{math.degrees(wmr.arrival(run).heading_error):.0f} deg"
 
 
-def of_twist(v, omega, width):
-    """The wheels' speeds by the paper's (1) and (2), solved by numpy."""
-    right, left = np.linalg.solve([[0.5, 0.5], [1 / width, -1 / width]], [v, omega])
-    wheels = f"left wheel, {left:.2f} m/s, of its middle, {v:.2f} m/s"
-    return f"{wheels}, and of its right wheel, {right:.2f} m/s"
-
-
-def moved(step, turn, times):
-    """Where `times` commutators lead: back is along the turned heading."""
-    x, y = times * step * (1 - math.cos(turn)), -times * step * math.sin(turn)
-    return f"at x = {x:.3f} m and y = {y:.3f} m"
-
-
 def beside(driven):
     """How far the route passes its first waypoint."""
     way = driven.waypoints
@@ -204,11 +178,6 @@ def beside(driven):
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
     "local_map": lambda: ["58.08 m long, at a bearing of 9.58 deg"],
-    "heading_to_go": lambda: [  # the swing of the paper's gains; the gentle ones stop at 5 cm
-        "deg at 2 m, then between -59 and",
-        "deg, -59 deg at 0.01 m; two,",
-        "2 deg at 0.05 m",
-    ],
     "spherical_triangle": lambda: [
         "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
     ],
@@ -217,14 +186,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "coordinate_system": lambda: ["35 deg from east"],
     "robot_loops": lambda: ["the polar error every 0.2 s; the wheel", "loops every 0.05 s"],
-    "turning_centre": lambda: [of_twist(1.0, 0.8, 0.6), "1.25 m to the left"],
-    "turning_centre, right": lambda: [of_twist(1.0, -2.5, 0.6), "0.40 m to the right"],
-    "commutator": lambda: [moved(1.0, 0.5, 3)],
-    "steps": lambda: ["a circle of 4.0 m radius"],
-    "polar_angles": lambda: [
-        *("sight is at 55 deg", "heads 15 deg", "the goal -25 deg", "black arc from east"),
-        *("sight, is 40 deg", "sight, is 80 deg", "robot's, is 40 deg"),
-    ],
     "third_angle": lambda: [
         "theta = 80 deg, turned from the goal's heading to the line of sight",
         "beta = -80 deg, turned back from the line of sight to the goal's heading, "
@@ -351,26 +312,6 @@ def test_the_maps_star_is_the_line_asked_for():
     assert any("+0.244 %" in text.get_text() for text in axes.texts)
 
 
-def test_the_commutator_leads_sideways():
-    axes = figures.commutator(0.2, 0.1).figure.axes[0]
-    # the dart's corners lie a quarter of its size behind
-    end = axes.patches[2].get_xy()[:4].mean(axis=0) + 0.2 * 0.07 * np.array([0.25, 0.0])
-    assert end == pytest.approx([0.2 * (1 - math.cos(0.1)), -0.2 * math.sin(0.1)], abs=1e-9)
-
-
-def test_eulers_steps_are_a_polygon_and_the_arcs_lie_on_the_circle():
-    exact, arc, euler, _ = axes_of("steps")[0].lines
-    for line in (exact, arc):
-        np.testing.assert_allclose(np.hypot(line.get_xdata(), line.get_ydata() - 4.0), 4.0)
-    sides = np.hypot(*np.diff(euler.get_xydata(), axis=0).T)
-    np.testing.assert_allclose(sides, 2.0, rtol=1e-12)
-    assert euler.get_ydata()[1] == 0.0  # the first step goes along the tangent
-    for parts in (6, 12, 49):  # steps that divide the turn close the polygon and go no further
-        closed = figures.steps(4.0, 1.0, 2 * math.pi / parts).figure.axes[0].lines[2].get_xydata()
-        assert len(closed) == parts + 1
-        assert np.hypot(*closed[-1]) < 1e-12
-
-
 def test_arcs_begin_and_end_on_their_sides():
     """Theta's arc runs from the goal's heading to the line of sight, beta's the other way."""
     figure = picture("third_angle").figure
@@ -388,17 +329,16 @@ def test_arcs_begin_and_end_on_their_sides():
 
 
 def test_no_name_lies_on_the_line_of_sight():
-    for name in ("polar_angles", "polar_angles, clockwise", "third_angle"):
-        figure = picture(name).figure
-        figure.canvas.draw()
-        for axes in figure.axes:
-            dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
-            ends = axes.transData.transform(dashed.get_xydata())
-            points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
-            names = [text for text in axes.texts if text.get_text() in ("robot", "goal")]
-            assert len(names) == 2
-            boxes = [text.get_window_extent() for text in names]
-            assert not any(box.contains(*point) for box in boxes for point in points), name
+    figure = picture("third_angle").figure
+    figure.canvas.draw()
+    for axes in figure.axes:
+        dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
+        ends = axes.transData.transform(dashed.get_xydata())
+        points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
+        names = [text for text in axes.texts if text.get_text() in ("robot", "goal")]
+        assert len(names) == 2
+        boxes = [text.get_window_extent() for text in names]
+        assert not any(box.contains(*point) for box in boxes for point in points)
 
 
 def test_paths_and_angles_are_those_of_the_runs():
@@ -646,13 +586,9 @@ BAD = [
     ("a GeoPoint is needed, not a tuple", "sphere_error_map", ((5, 0), 0.0)),
     (r"track_width = 0\.0 .* above 0", "coordinate_system", (ORIGIN, 0.0, 0.1)),
     (r"wheel_radius = -0\.1 .* above 0", "coordinate_system", (ORIGIN, 1.0, -0.1)),
-    (r"omega = 0\.0 .* another number is needed", "turning_centre", (1.0, 0.0, 0.6)),
-    (r"step = 0\.0 .* above 0", "commutator", (0.0, 0.5)),
-    (r"omega = 0\.0 is not allowed", "steps", (1.0, 0.0, 0.1)),
     ("tracks has 0 entries, .* 1 to 4 are needed", "path_choices", ({}, ORIGIN)),
     ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
     ("runs has 0 entries", "angles_over_time", ([],)),
-    ("a Pose is needed, not a tuple", "polar_angles", ((0, 0, 0), GOAL)),
     ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
     ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),
     ("runs has 6 entries", "compare_runs", (FIVE, "v")),

@@ -50,6 +50,46 @@ FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
         "drive_route",
         lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
     ),
+@@@
+from wmrbook.live import angles, earth, first_drive, robot
+
+
+def _turned(goal):
+    return goal._replace(heading=-goal.heading)
+
+
+def _to_the_right(f, *methods):
+    """Turn right where `advance` turns left, with all methods or with some."""
+    return lambda pose, v, omega, dt, method="arc": f(
+        pose, v, -omega if method in methods or not methods else omega, dt, method=method
+    )
+
+
+FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
+    (
+        "last_metres",
+        first_drive,
+        "simulate",
+        lambda f: lambda a, b, k, **o: f(a, _turned(b), k, **o),
+    ),
+    (
+        "stopping",
+        first_drive,
+        "simulate",
+        lambda f: lambda a, b, k, **o: f(a, b, k, law="printed", **o),
+    ),
+    ("bearing", earth, "local_position", lambda f: lambda *to: (f(*to)[0], -f(*to)[1])),
+    ("flat_map", earth, "local_position", lambda f: lambda *to: (f(*to)[0], -f(*to)[1])),
+    ("turning_centre", robot, "wheels_to_twist", lambda f: lambda a, b, c: f(b, a, c)),
+    ("commutator", robot, "advance", _to_the_right),
+    ("one_step", robot, "advance", lambda f: _to_the_right(f, "euler")),
+    (
+        "polar_angles",
+        angles,
+        "polar_error",
+        lambda f: lambda *a: f(*a)._replace(alpha=-f(*a).alpha),
+    ),
+    ("half_turn", angles, "simulate", lambda f: lambda a, b, k, **o: f(_turned(a), b, k, **o)),
 ]
 
 
@@ -71,3 +111,4 @@ def test_what_is_aside_is_no_faster_only_because_the_wheels_cannot_push_there(mo
     monkeypatch.setattr(circle, "B", -circle.np.eye(3)[:, :2])  # a robot that moves sideways
     monkeypatch.setattr(circle, "A", 0 * circle.A + circle.np.diag([0.0, 0.0, -50.0]))
     assert live.lqr().setup["ask"]["key"] != key
+@@@

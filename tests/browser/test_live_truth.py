@@ -46,6 +46,77 @@ def last_metres(values, found, data) -> None:
     same_run(found["run"], data["start"], data["goal"], wmr.Gains(*between))
 
 
+def stopping(values, found, data) -> None:
+    gains, ends = wmr.Gains(**data[values["gains"]]), (pose(data["start"]), pose(data["goal"]))
+    same_run(found["run"], *ends, gains, dt=0.005, arrival_radius=0.01)
+    stopped = wmr.simulate(*ends, gains, method="continuous", arrival_radius=values["stop"])
+    assert found["off"] == pytest.approx(stopped.heading_error[-1], abs=1e-3)
+    assert found["t"] == pytest.approx(stopped.t[-1], abs=1e-3)
+
+
+def bearing(values, found, data) -> None:
+    here = wmr.paper.GPS_POINT_1
+    there = wmr.point_at(here, values["east"], values["north"])
+    off = found["bearing"] - wmr.initial_bearing(here, there)
+    assert wmr.wrap_angle(off) == pytest.approx(0.0, abs=1e-7)
+    assert found["rho"] == pytest.approx(wmr.haversine_distance(here, there), abs=1e-6)
+    pair = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(values["east"], values["north"], 0.0)
+    assert found["sight"] == pytest.approx(wmr.polar_error(*pair).alpha)
+
+
+def flat_map(values, found, data) -> None:
+    origin = wmr.GeoPoint(lat=values["lat"], lon=0.0)
+    point = wmr.destination_point(origin, 1000 * values["km"], math.pi / 4)
+    on_sphere, flat = found["maps"]
+    assert on_sphere == pytest.approx(wmr.local_position(origin, point), rel=1e-9, abs=1e-7)
+    lat, lon = np.radians([point.lat - origin.lat, point.lon])
+    there = data["radius"] * np.array([lon * math.cos(math.radians(origin.lat)), lat])
+    assert flat == pytest.approx(there, rel=1e-9, abs=1e-7)
+
+
+def commutator(values, found, data) -> None:
+    step, turn = values["step"], math.radians(values["turn"])
+    at = wmr.Pose(0.0, 0.0, 0.0)
+    for k in range(12):
+        share = min(max(values["moves"] - k, 0.0), 1.0)
+        v, omega = ((step, 0.0), (0.0, turn), (-step, 0.0), (0.0, -turn))[k % 4]
+        at = wmr.advance(at, v, omega, share) if share else at
+    assert found["now"] == pytest.approx(at, abs=1e-12)
+
+
+def one_step(values, found, data) -> None:
+    whole, left = divmod(math.pi / data["omega"], values["dt"])
+    for method in ("arc", "euler"):
+        at = wmr.Pose(0.0, 0.0, 0.0)
+        for dt in [values["dt"]] * int(whole) + [left]:
+            at = wmr.advance(at, data["v"], data["omega"], dt, method=method)
+        assert found[method][-1][:2] == pytest.approx(at[:2], abs=1e-9)
+
+
+def polar_angles(values, found, data) -> None:
+    angles = np.radians([values["heading"], values["goal_heading"]])
+    robot = wmr.Pose(values["x"], values["y"], angles[0])
+    goal = wmr.Pose(*data["goal"][:2], angles[1])
+    theirs = wmr.polar_error(robot, goal)
+    assert [found[name] for name in theirs._fields] == pytest.approx(theirs, abs=1e-12)
+    turned = wmr.wrap_angle(found["gamma"] - (theirs.theta - theirs.alpha))
+    assert turned == pytest.approx(0.0, abs=1e-12)
+
+
+def half_turn(values, found, data) -> None:
+    heading = data["start"][2] - math.radians(values["off"])
+    start = [*data["start"][:2], heading]
+    same_run(found["run"], start, data["goal"], wmr.Gains(**data["gains"]))
+    mirrored = wmr.simulate(
+        pose([*start[:2], -heading]),
+        pose(data["goal"]),
+        wmr.Gains(**data["gains"]),
+        method="continuous",
+        dt=0.05,
+    )
+    np.testing.assert_allclose(found["run"]["y"], -mirrored.y, atol=AGREES)
+
+
 def turning_centre(values, found, data) -> None:
     v, omega = wmr.wheels_to_twist(values["left"], values["right"], data["track"])
     assert (found["v"], found["omega"]) == pytest.approx((v, omega), abs=1e-12)
