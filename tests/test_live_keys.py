@@ -7,51 +7,20 @@ import pytest
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from wmrbook import live
 from wmrbook.live import (
+    angles,
     audit,
     circle,
     design,
+    earth,
+    first_drive,
     lyapunov,
     noise,
     pose_to_pose,
     real_robot,
+    robot,
     routes,
     sampling,
 )
-
-
-def _backwards(gains):
-    return gains._replace(k_alpha=-gains.k_alpha)
-
-
-def _uphill(f):
-    return lambda a, b, gains, **how: f(a, b, gains, **(how | {"law": "printed"}))
-
-
-FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
-    ("bowl", lyapunov, "simulate", _uphill),
-    ("two_bars", lyapunov, "control_law", lambda f: lambda *a: (f(*a)[0], 1 - f(*a)[1])),
-    ("x_axis", pose_to_pose, "polar_error", lambda f: lambda a, b: f(b, a)),
-    ("heading_left", pose_to_pose, "simulate", _uphill),
-    ("lag", circle, "track", lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o)),
-    ("phase", design, "modes", lambda f: lambda k: f(k._replace(k_alpha=2 * k.k_alpha))),
-    ("poles", design, "modes", lambda f: lambda k: f(k._replace(h=1 / k.h))),
-    ("unit_circle", sampling, "longest_step", lambda f: lambda *a: 0.5 * f(*a)),
-    ("wheel_limit", sampling, "wheels_to_twist", lambda f: lambda a, b, c: f(b, a, c)),
-    ("bench", noise, "advance", lambda f: lambda pose, v, omega, dt: f(pose, v, -omega, dt)),
-    ("late", noise, "control_law", lambda f: lambda *a: (-f(*a)[0], f(*a)[1])),
-    ("threshold", audit, "simulate", lambda f: lambda a, b, k, **o: f(a, b, _backwards(k), **o)),
-    ("rising", audit, "lyapunov_rate", lambda f: lambda *a, **o: -f(*a, **o)),
-    ("compass", real_robot, "wrap_angle", lambda f: lambda angle: -f(angle)),
-    ("silence", real_robot, "rolled", lambda f: lambda v, timeout, brake: f(v, timeout, -brake)),
-    ("corners", routes, "headings_along", lambda f: lambda x, y: -f(x, y)),
-    (
-        "passing",
-        routes,
-        "drive_route",
-        lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
-    ),
-@@@
-from wmrbook.live import angles, earth, first_drive, robot
 
 
 def _turned(goal):
@@ -63,6 +32,14 @@ def _to_the_right(f, *methods):
     return lambda pose, v, omega, dt, method="arc": f(
         pose, v, -omega if method in methods or not methods else omega, dt, method=method
     )
+
+
+def _uphill(f):
+    return lambda a, b, gains, **how: f(a, b, gains, **(how | {"law": "printed"}))
+
+
+def _backwards(gains):
+    return gains._replace(k_alpha=-gains.k_alpha)
 
 
 FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
@@ -90,6 +67,28 @@ FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
         lambda f: lambda *a: f(*a)._replace(alpha=-f(*a).alpha),
     ),
     ("half_turn", angles, "simulate", lambda f: lambda a, b, k, **o: f(_turned(a), b, k, **o)),
+    ("bowl", lyapunov, "simulate", _uphill),
+    ("two_bars", lyapunov, "control_law", lambda f: lambda *a: (f(*a)[0], 1 - f(*a)[1])),
+    ("x_axis", pose_to_pose, "polar_error", lambda f: lambda a, b: f(b, a)),
+    ("heading_left", pose_to_pose, "simulate", _uphill),
+    ("lag", circle, "track", lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o)),
+    ("phase", design, "modes", lambda f: lambda k: f(k._replace(k_alpha=2 * k.k_alpha))),
+    ("poles", design, "modes", lambda f: lambda k: f(k._replace(h=1 / k.h))),
+    ("unit_circle", sampling, "longest_step", lambda f: lambda *a: 0.5 * f(*a)),
+    ("wheel_limit", sampling, "wheels_to_twist", lambda f: lambda a, b, c: f(b, a, c)),
+    ("bench", noise, "advance", lambda f: lambda pose, v, omega, dt: f(pose, v, -omega, dt)),
+    ("late", noise, "control_law", lambda f: lambda *a: (-f(*a)[0], f(*a)[1])),
+    ("threshold", audit, "simulate", lambda f: lambda a, b, k, **o: f(a, b, _backwards(k), **o)),
+    ("rising", audit, "lyapunov_rate", lambda f: lambda *a, **o: -f(*a, **o)),
+    ("compass", real_robot, "wrap_angle", lambda f: lambda angle: -f(angle)),
+    ("silence", real_robot, "rolled", lambda f: lambda v, timeout, brake: f(v, timeout, -brake)),
+    ("corners", routes, "headings_along", lambda f: lambda x, y: -f(x, y)),
+    (
+        "passing",
+        routes,
+        "drive_route",
+        lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
+    ),
 ]
 
 
@@ -111,4 +110,3 @@ def test_what_is_aside_is_no_faster_only_because_the_wheels_cannot_push_there(mo
     monkeypatch.setattr(circle, "B", -circle.np.eye(3)[:, :2])  # a robot that moves sideways
     monkeypatch.setattr(circle, "A", 0 * circle.A + circle.np.diag([0.0, 0.0, -50.0]))
     assert live.lqr().setup["ask"]["key"] != key
-@@@
