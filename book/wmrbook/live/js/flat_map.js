@@ -20,7 +20,7 @@ const explorable = {
     return { maps, off: between(maps) };
   },
   panes: ({ km, lat }, { off }) => ({
-    map: { x: [-0.12, 1.05], y: [-0.12, 1], equal: true, bare: true, given: 'A map, and a point to the north-east of where it begins.', alt: `At latitude ${written(lat)} degrees a point ${written(km, 'km')} to the north-east, and where the flat map puts it: ${lengthText(off)} away.` },
+    map: { x: [-0.12, 1.25], y: [-0.12, 1], equal: true, bare: true, given: 'A map, and a point to the north-east of where it begins.', alt: `At latitude ${written(lat)} degrees a point ${written(km, 'km')} to the north-east, and where the flat map puts it: ${lengthText(off)} away.` },
     size: {
       x: [1, 6, 'distance [m]', power], y: [-6, 6, 'error of the flat map [m]', power], given: 'Axes: distance from 10 m to 1000 km, error from a micrometre to 1000 km.',
       alt: `The flat map's error over the distance, a straight line on logarithmic scales: ${lengthText(off)} at ${lengthText(1000 * km)}.`,
