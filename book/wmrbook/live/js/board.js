@@ -55,7 +55,11 @@ function paneOf(canvas, colours, spec) {
       label(ctx, said, px + dx, py - dy, colours, { colour: ink(role), size, align, weight });
     },
     angle(x, y, from, by, name, role, radius = 34) { drawAngle(ctx, at(x, y), from, by, radius, name, ink(role), colours); },
-    robot([x, y, heading], share = 1) { ctx.globalAlpha = share; drawRobot(ctx, at(x, y), heading, colours); ctx.globalAlpha = 1; },
+    robot([x, y, heading], share = 1) {
+      const [px, py] = at(x, y);
+      if (px < box.left - 20 || px > box.left + box.width + 20 || py < box.top - 20 || py > box.top + box.height + 20) return; // out of sight
+      ctx.globalAlpha = share; drawRobot(ctx, [px, py], heading, colours); ctx.globalAlpha = 1;
+    },
     pose(pose, name, share = 1) { ctx.globalAlpha = share; drawPose(ctx, view, pose, name, colours); ctx.globalAlpha = 1; },
     bar(x, from, to, role, half = 0.3) { pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85); },
   };

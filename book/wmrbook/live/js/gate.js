@@ -44,7 +44,8 @@ function buildGate(root, ask, { get, set, panes, host }) {
     shown = key;
     commit.disabled = !ready();
     commit.hidden = done || still;
-    again.hidden = !done;
+    again.hidden = !done || ask.kind === 'sketch'; // a path is no line
+    options.hidden = done && ask.kind !== 'choose';
     form.querySelectorAll('input').forEach((each) => { each.disabled = done; if (ask.kind === 'choose') each.checked = Number(each.value) === (done ? guess : draft); });
     form.classList.toggle('live-answered', done);
     if (ask.kind === 'choose') options.querySelectorAll('label').forEach((each, k) => { each.classList.toggle('live-key', done && k === ask.key); each.hidden = done && k !== ask.key && k !== guess; });
