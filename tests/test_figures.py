@@ -121,13 +121,11 @@ CASES = {
     ),
     "angles_over_time": lambda: figures.angles_over_time(drive()),
     "angles_over_time of two": lambda: figures.angles_over_time([drive(), drive("aicardi")]),
-    "bowl": lambda: figures.bowl(GAINS, near_goal_runs()),
     "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
     "compare_runs": lambda: figures.compare_runs(
         {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
     ),
     "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True),
-    "heading_over_distance": lambda: figures.heading_over_distance({"one": drive()}),
     "last_seconds": lambda: figures.last_seconds(
         {"one": drive(), "two": wmr.simulate(CASE.start, CASE.goal, GAINS)}
     ),
@@ -143,7 +141,6 @@ CASES = {
         GROUPS, (1.5, 0.3, "ours"), xlabel="peak speed [m/s]", ylabel="rms distance [m]"
     ),
     "root_locus": lambda: figures.root_locus(GAINS, "k_alpha", np.linspace(0.1, 20.0, 100)),
-    "phase_portrait": lambda: figures.phase_portrait({"the paper's": GAINS, "gentle": GENTLE}, 0.5),
     "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
@@ -192,12 +189,10 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "as in Corke, Siegwart, PythonRobotics",
     ],
     "path_choices": lambda: ["one: ends 0.10 m from the goal, its heading 11 deg off"],
-    "bowl": lambda: ["bottom at (0, 0) deg", "falling all the way; a run", "rising at times"],
     "compare_runs": lambda: [
         "one goes from 3.96 to 0.36 m/s",
         "a dotted line marks the limit, 4 m/s",
     ],
-    "heading_over_distance": lambda: ["27 deg at 0.05 m", " deg at 0.1 m"],
     "last_seconds": lambda: [
         "one ends at 15.5 s, |omega| at most 4.3 rad/s; two ends at 15.6 s, |omega| at most 6.3"
     ],
@@ -221,7 +216,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "for k_alpha from 0.1 to 20. "
         f"The pair runs on a circle of {8.0 * math.sqrt(0.3):.2f} rad/s to the real axis and parts"
     ],
-    "phase_portrait": lambda: ["with gentle gains (damping 0.884) one sweep, 0."],
     "time_steps": lambda: [
         "the paper's gains, euler: 46 deg at 0.02 s, longest step 0.011 s, 2 of 4 runs lost",
         "gentle gains, arc: 2 deg at 0.02 s, ",
@@ -351,15 +345,6 @@ def test_paths_and_angles_are_those_of_the_runs():
     assert found == pytest.approx([1.0, 0.2, 0.0])
 
 
-def test_the_runs_lie_on_the_bowl():
-    (axes,) = axes_of("bowl")
-    runs = [line for line in axes.lines if len(line.get_data_3d()[0]) == len(near_goal_runs()[0])]
-    for line, run in zip(runs, near_goal_runs(), strict=True):
-        alpha, theta, height = line.get_data_3d()
-        np.testing.assert_allclose([alpha, theta], np.degrees([run.alpha, run.theta]))
-        np.testing.assert_allclose(height, 0.5 * (run.alpha**2 + GAINS.h * run.theta**2))
-
-
 def test_headings_are_not_wrapped():
     _, wild = near_goal_runs()
     drawn = axes_of("heading_errors")[0].lines[2].get_ydata()
@@ -479,17 +464,6 @@ def test_a_locus_says_its_course_and_no_label_lies_across_the_left_axis():
             assert box.x0 > axes.bbox.x0 or box.x1 < axes.bbox.x0, course
 
 
-def test_a_portrait_counts_the_turns_of_the_tangent():
-    """The amplitude of s^2 + k_alpha s + h lam^2 falls to a twentieth in ln(20)/sigma seconds."""
-    text = figures.phase_portrait({"the paper's": GAINS}, 0.05).alt
-    swing = np.sqrt(0.3 * 8.0**2 - 0.25)
-    turns = float(re.search(r"a spiral of ([\d.]+) turns", text)[1])
-    assert turns == pytest.approx(np.log(20.0) / 0.5 * swing / (2.0 * np.pi), abs=0.2)
-    assert "horizontal" not in text
-    wide = figures.phase_portrait({"gentle": GENTLE}, 2.0).alt
-    assert "at alpha = +-90 deg the flow is horizontal" in wide
-
-
 def test_the_front_shows_what_is_below_its_border():
     runs, best, marked = tried()
     error = np.array(runs.heading_error)
@@ -597,7 +571,6 @@ BAD = [
     ("a Trajectory is needed", "snapshots", (3, [0.0, 1.0])),
     ("one = .* is not allowed", "heading_shares", ({"one": np.array([math.nan])},)),
     (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
-    ("choices has 0 entries, .* 1 to 2 are needed", "phase_portrait", ({}, 1.0)),
     ("gains has 1 .* 2 are needed", "time_steps", (ROBOT, GOAL, {"one": GAINS}, STEPS)),
     ("cases has 0 entries", "inner_loops", ({},)),
     ("series has 0 entries, .* 1 to 4 are needed", "memories", (MEMORY, {})),

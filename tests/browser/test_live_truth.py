@@ -20,7 +20,7 @@ from wmrbook.live import audit, noise, real_robot
 
 FOUND = """() => JSON.stringify(document.querySelector('.live').found,
     (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
-ROLLING = {"dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
+ROLLING = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
 TRIALS = 4  # places of the knobs, besides where they stand at first
 AGREES = 1e-7  # m and rad, of a run
 

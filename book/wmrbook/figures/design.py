@@ -6,15 +6,12 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-import sympy as sp
 from matplotlib.axes import Axes
 from matplotlib.colors import Normalize
-from scipy.integrate import solve_ivp
 from scipy.optimize import brentq
 
-from wmrbook.figures._drawing import check_count, note, panels
+from wmrbook.figures._drawing import note
 from wmrbook.figures.style import COLOURS, Picture, new_figure
-from wmrlib import symbolic
 from wmrlib._checks import choice, instance, real
 from wmrlib.gains import Gains
 from wmrlib.runs import Arrival
@@ -56,42 +53,6 @@ def root_locus(gains: Gains, over: str, values: np.ndarray) -> Picture:
         f"Root locus of the angles for {over} from {values[0]:g} to {values[-1]:g}. "
         f"{_course(poles)} At {value} the damping is {here.damping:.3f} and the natural frequency "
         f"{here.natural_frequency:.2f} rad/s; the distance's pole is at {distance_pole:.2f}.",
-    )
-
-
-def phase_portrait(choices: Mapping[str, Gains], limit: float) -> Picture:
-    """The flow of (alpha, theta) under the corrected law for rho = 0, up to `limit` rad.
-
-    One panel for each of one or two named gains. The text counts the turns from (0, limit) to a
-    twentieth of it.
-    """
-    check_count("choices", choices, 1, 2)
-    rates = [rate.subs(symbolic.rho, 0) for rate in symbolic.closed_loop()[1:]]
-    gain_symbols = symbolic.k_rho, symbolic.k_alpha, symbolic.h, symbolic.v_max
-    flow = sp.lambdify((symbolic.alpha, symbolic.theta, *gain_symbols), rates)
-    side = np.linspace(-limit, limit, 60)  # an even number: no sample at alpha = 0
-    alpha, theta = np.meshgrid(side, side)
-    width = 10.0 if len(choices) == 2 else 5.2
-    ratios = [1.0, 1.1][: len(choices)]
-    figure, row = panels(1, len(choices), width, 5.0, squeeze=False, width_ratios=ratios)
-    degrees = np.degrees(side)
-    look = {"color": COLOURS["path"], "linewidth": 1.1, "density": 1.0}
-    words = []
-    for axes, (name, gains) in zip(row[0], choices.items(), strict=True):
-        axes.streamplot(degrees, degrees, *flow(alpha, theta, *gains), **look)
-        axes.plot(0.0, 0.0, "*", ms=14, color=COLOURS["goal"])
-        axes.set(xlabel="alpha [deg]", xlim=degrees[[0, -1]])
-        axes.set(ylabel="theta [deg]", ylim=degrees[[0, -1]])
-        axes.set_title(f"{name}: damping {modes(gains).damping:.2f}", fontsize=12)
-        turns = _turns(lambda t, state, gains=gains: flow(*state, *gains), gains.h, limit)
-        shape = f"one sweep, {turns:.1f} turns" if turns < 1.0 else f"a spiral of {turns:.1f} turns"
-        words.append(f"with {name} gains (damping {modes(gains).damping:.3f}) {shape}")
-    if limit > 0.5 * math.pi:
-        words[-1] += "; at alpha = +-90 deg the flow is horizontal: there only alpha changes"
-    return Picture(
-        figure,
-        f"Flow of alpha and theta near the goal, up to {math.degrees(limit):.0f} deg around the "
-        f"star; from the upper edge to a twentieth of it, {'; '.join(words)}.",
     )
 
 
@@ -164,18 +125,6 @@ def _course(poles: np.ndarray) -> str:
             return f"The pair runs straight up and down at {place}."
         return f"The two poles meet at {place}, and the pair then runs straight up and down."
     return f"The pair runs from {size[0]:.2f} to {size[-1]:.2f} rad/s."
-
-
-def _turns(flow, h: float, limit: float) -> float:
-    """Turns about the origin from (0, limit) until sqrt(alpha^2/h + theta^2) is a twentieth."""
-
-    def near(t, state):
-        return math.hypot(state[0] / math.sqrt(h), state[1]) - limit / 20.0
-
-    near.terminal = True
-    how = {"events": near, "rtol": 1e-6, "atol": 1e-9, "max_step": 0.05}
-    alpha, theta = solve_ivp(flow, (0.0, 1000.0), [0.0, limit], **how).y
-    return float(np.ptp(np.unwrap(np.arctan2(theta, alpha)))) / (2.0 * math.pi)
 
 
 def _with_meeting(gains: Gains, over: str, values: np.ndarray) -> np.ndarray:

@@ -83,38 +83,6 @@ def compare_runs(
     return Picture(figure, f"The {name} over time{scale}: {'; '.join(parts)}{said}.")
 
 
-def heading_over_distance(
-    runs: Mapping[str, Trajectory], *, radii: Sequence[float] = (0.05, 0.1), start: float = 1.0
-) -> Picture:
-    """The heading error theta - alpha [deg] of several runs over the distance to the goal.
-
-    From `start` [m] on; dotted lines mark arrival `radii` [m] at which a run might be stopped.
-    """
-    check_series(runs, Trajectory)
-    radii = real("radii", list(radii), above=0.0)
-    figure, axes = new_figure(7.5, 3.8)
-    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-    said = []
-    for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
-        near = run.rho <= start
-        distance, error = run.rho[near], np.degrees(run.theta - run.alpha)[near]
-        axes.plot(distance, error, color=COLOURS[role], ls=style, label=title)
-        at = (f"{np.interp(-each, -distance, error):z.0f} deg at {each:g} m" for each in radii)
-        said.append(
-            f"{title} between {error.min():z.0f} and {error.max():z.0f} deg, {', '.join(at)}"
-        )
-    for radius in radii:
-        axes.axvline(radius, color=COLOURS["ink"], ls=":", lw=1.2)
-    last = min(run.rho.min() for run in runs.values())
-    axes.set(xscale="log", xlim=(start, max(last, 1e-4)))
-    axes.xaxis.set_major_formatter("{x:g}")
-    axes.set(xlabel="distance to the goal [m]", ylabel="heading error [deg]")
-    figure_legend(figure)
-    marks = " and ".join(f"{radius:g}" for radius in radii)
-    what = f"The heading error over the distance from {start:g} m on, dotted lines at {marks} m"
-    return Picture(figure, f"{what}: {'; '.join(said)}.")
-
-
 def last_seconds(runs: Mapping[str, Trajectory], seconds: float = 1.5) -> Picture:
     """Alpha [deg] and omega of several runs from `seconds` before the first of them ends.
 
