@@ -399,10 +399,11 @@ def test_what_is_shown_is_true(browser_page, name):
     thing = getattr(live, name)()
     panel, random = mounted(browser_page, thing), np.random.default_rng(NAMES.index(name))
     for trial in range(TRIALS + 1):
-        values = {}
+        values, chosen = {}, 0
         for knob in thing.setup["knobs"] if trial else ():
             if "choices" in knob:
-                values[knob["name"]] = str(random.choice([each for each, _ in knob["choices"]]))
+                turn = trial // 2**chosen % len(knob["choices"])  # so that each has its turn
+                values[knob["name"]], chosen = knob["choices"][turn][0], chosen + 1
             else:
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
         panel.set(**quoted(values))

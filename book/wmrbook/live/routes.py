@@ -71,8 +71,8 @@ def passing() -> Live:
             "choose",
             "On each leg the law makes V fall. The robot comes within 5 m of a point, passes it, "
             "and the next point becomes its goal. What does V do there?",
-            "A new goal is a new error, and so a new V: mostly a larger one, because the next "
-            "point is farther away. Between the changes only the law moves V, and there it falls.",
+            "A new goal is a new error, and so a new V: mostly a larger one, for the next point is "
+            "farther away. Between the changes only the law moves V, and there it falls.",
             key=[*answers.values()].index(True),
             options=(*answers,),
         ),
