@@ -17,11 +17,11 @@ const explorable = {
   },
   panes: ({ yaw }, { run, k, height }) => ({
     bowl: {
-      x: [-1.25, 1.25], y: [-0.75, 1.35], equal: true, bare: true, given: 'The bowl over the two angles, with a ball on its rim.', alt: `The bowl, turned by ${written(yaw)} degrees; the ball is ${written(height)} high.`,
+      x: [-1.25, 1.25], y: [-0.85, 1.75], equal: true, bare: true, given: 'The bowl over the two angles, with a ball on its rim.', alt: `The bowl, turned by ${written(yaw)} degrees; the ball is ${written(height)} high.`,
       scrub: (x, y, moved, now) => moved && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES, tilt: Math.min(Math.max(now.tilt + moved[1] / 2, 5), 85) },
     },
     levels: {
-      x: [-180, 180, 'alpha [deg]'], y: [-130, 130, 'theta [deg]'], equal: true, given: 'The level sets from above, with the state at the start.',
+      x: [-180, 180, 'alpha [deg]'], y: [-160, 160, 'theta [deg]'], equal: true, given: 'The level sets from above, with the state at the start.',
       alt: `The level sets from above, and the state's way over them; it is at alpha ${inDegrees(run.alpha[k])} and theta ${inDegrees(run.theta[k])}.`,
       scrub: (x, y) => timeNear(run.alpha, run.theta, x / DEGREES, y / DEGREES, 0.2),
     },
