@@ -1,0 +1,207 @@
+// Cells that run in the page. Python itself, 16 MB beside this file, is loaded when the first one is run, into a worker that can be
+// stopped. Before a cell the ones above it run, as far as they have not, or were changed since.
+(function () {
+  const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
+  const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
+  const ZIPPED = new Set(['worker', 'asm', 'wasm']);
+  const cells = [];
+  let parts, worker, busy = false, count = 0;
+
+  const make = (tag, properties = {}, ...children) => {
+    const element = Object.assign(document.createElement(tag), properties);
+    element.append(...children);
+    return element;
+  };
+
+  // Python and its worker
+
+  function load(name) {
+    return new Promise((resolve, reject) => {
+      const onerror = () => reject(Error(`${name}.js is not beside this page`));
+      document.head.append(make('script', { src: `${FOLDER}${name}.js`, onload: resolve, onerror }));
+    });
+  }
+
+  async function unpacked(name) {
+    const bytes = Uint8Array.from(atob(window.PYTHON_PARTS[name]), (it) => it.charCodeAt(0));
+    delete window.PYTHON_PARTS[name];
+    if (!ZIPPED.has(name)) return bytes.buffer;
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  }
+
+  async function allParts() {
+    await Promise.all(PARTS.map(load));
+    const found = await Promise.all(PARTS.map(unpacked));
+    return Object.fromEntries(PARTS.map((name, i) => [name, found[i]]));
+  }
+
+  function started() {
+    parts ??= allParts();
+    parts.catch(() => { parts = undefined; });
+    return parts.then(({ worker: script, ...rest }) => new Promise((resolve, reject) => {
+      const python = new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
+      const waiting = new Map();
+      python.onerror = (event) => reject(Error(event.message));
+      python.onmessage = ({ data }) => {
+        if (data.failed) reject(Error(data.failed));
+        else if (data.ready) resolve({ run, stop });
+        else waiting.get(data.id)(data);
+      };
+      const run = (cell) => new Promise((done) => {
+        const { space, number, before, checks } = cell;
+        waiting.set(++count, done);
+        python.postMessage({ id: count, space, number, before, checks, source: source(cell) });
+      });
+      const stop = () => {
+        python.terminate();
+        waiting.forEach((done) => done({ stopped: true }));
+      };
+      python.postMessage(rest);
+    }));
+  }
+
+  // Cells
+
+  const source = (cell) => cell.editor?.value ?? cell.source;
+  const say = (cell, text) => { cell.status.textContent = text; };
+
+  async function run(cell) {
+    if (busy) return;
+    busy = true;
+    document.documentElement.classList.add('python-busy');
+    cell.stop.hidden = false;
+    try {
+      if (!worker) say(cell, 'Loading Python …');
+      const python = await (worker ??= started());
+      for (const each of cells.slice(0, cell.place + 1)) {
+        if (each.space !== cell.space || (each !== cell && each.ran === source(each))) continue;
+        say(cell, each === cell ? 'Running …' : `Running cell ${each.number} …`);
+        const start = performance.now();
+        const ran = source(each);
+        const { shown, error, stopped } = await python.run(each);
+        if (stopped) return say(cell, 'Stopped. Its variables are gone.');
+        each.ran = error ? undefined : ran;
+        await show(each, shown, error);
+        if (error) return say(cell, each === cell ? 'An error.' : `An error in cell ${each.number}, above.`);
+        say(each, `Done in ${((performance.now() - start) / 1000).toFixed(1)} s.`);
+      }
+    } catch (error) {
+      worker = undefined;
+      say(cell, `Python does not start here: ${error.message}`);
+    } finally {
+      busy = false;
+      document.documentElement.classList.remove('python-busy');
+      if (document.activeElement === cell.stop) cell.run.focus();
+      cell.stop.hidden = true;
+    }
+  }
+
+  function stop() {
+    worker?.then((python) => python.stop());
+    worker = undefined;
+    cells.forEach((each) => { each.ran = undefined; });
+  }
+
+  async function show(cell, shown, error) {
+    const parts = shown.map(([kind, text]) => (kind === 'latex'
+      ? make('div', { className: 'output text_latex math notranslate nohighlight', textContent: `\\[${text.replace(/^\$+|\$+$/g, '')}\\]` })
+      : make('div', { className: 'output stream' }, make('pre', { textContent: text }))));
+    if (error) parts.push(make('div', { className: 'output python-error' }, make('pre', { textContent: error })));
+    cell.stored.forEach((it) => { it.hidden = true; });
+    cell.output.replaceChildren(...parts);
+    await MathJax.startup.promise;
+    MathJax.typesetClear([cell.output]);
+    await MathJax.typesetPromise([cell.output]);
+    window.dispatchEvent(new Event('resize'));  // a formula that is too wide is reached by the keyboard, see mathjax.js
+  }
+
+  function edit(cell) {
+    const { element, number } = cell;
+    const name = cell.checks.length ? 'Your answer' : `Code of cell ${number}`;
+    cell.editor = make('textarea', { value: cell.source, spellcheck: false, autocapitalize: 'off' });
+    cell.editor.setAttribute('aria-label', name);
+    cell.editor.setAttribute('aria-describedby', 'python-keys');
+    const fit = () => {
+      cell.editor.style.height = 'auto';
+      cell.editor.style.height = `${cell.editor.scrollHeight + 2}px`;
+    };
+    cell.editor.addEventListener('input', fit);
+    cell.editor.addEventListener('keydown', keys(cell));
+    window.addEventListener('resize', fit);
+    cell.code.hidden = true;
+    cell.tools.before(cell.editor);
+    cell.edit.hidden = true;
+    cell.reset.hidden = false;
+    fit();
+    return element;
+  }
+
+  function reset(cell) {
+    cell.output.replaceChildren();
+    cell.stored.forEach((it) => { it.hidden = false; });
+    say(cell, '');
+    if (cell.checks.length) {
+      cell.editor.value = cell.source;
+      cell.editor.dispatchEvent(new Event('input'));
+      cell.editor.focus();
+    } else {
+      cell.editor.remove();
+      cell.editor = undefined;
+      cell.code.hidden = false;
+      cell.reset.hidden = true;
+      cell.edit.hidden = false;
+      cell.edit.focus();
+    }
+  }
+
+  // Tab indents, but after Esc it leaves.
+  const keys = (cell) => {
+    let leaving = false;
+    return (event) => {
+      if (event.key === 'Enter' && (event.ctrlKey || event.shiftKey || event.metaKey)) {
+        event.preventDefault();
+        run(cell);
+      } else if (event.key === 'Tab' && !event.shiftKey && !leaving) {
+        event.preventDefault();
+        document.execCommand('insertText', false, '    ');  // so that it can be undone
+      }
+      leaving = event.key === 'Escape';
+    };
+  };
+
+  function enliven(script) {
+    const cell = JSON.parse(script.textContent);
+    cell.element = script.closest('.cell');
+    cell.place = cells.length;
+    cell.number = 1 + cells.filter((it) => it.space === cell.space).length;
+    const button = (text, does, hidden) => {
+      const made = make('button', { type: 'button', textContent: text, hidden, onclick: () => does(cell) });
+      made.setAttribute('aria-label', `${text}, ${cell.checks.length ? 'task' : 'cell'} ${cell.number}`);
+      return made;
+    };
+    cell.run = button(cell.checks.length ? 'Check' : 'Run', run, false);
+    cell.edit = button('Edit', (it) => { edit(it); it.editor.focus(); }, false);
+    cell.reset = button('Reset', reset, true);
+    cell.stop = button('Stop', stop, true);
+    cell.status = make('span', { className: 'python-status' });
+    cell.status.setAttribute('role', 'status');
+    cell.tools = make('div', { className: 'python-tools' }, cell.run, cell.edit, cell.reset, cell.stop, cell.status);
+    if (cell.left_out) {
+      const lines = cell.left_out === 1 ? 'One line needs' : `${cell.left_out} lines need`;
+      cell.tools.append(make('span', { className: 'python-left-out', textContent: `${lines} numpy: in the notebook.` }));
+    }
+    cell.stored = [...cell.element.querySelectorAll('.cell_output')];
+    cell.output = make('div', { className: 'cell_output python-output' });
+    cell.code = cell.element.querySelector('.cell_input');
+    const folded = cell.code.closest('details') ?? cell.code;
+    (cell.element.contains(folded) ? folded : cell.code).after(cell.tools, cell.output);
+    cells.push(cell);
+    if (cell.checks.length) edit(cell);
+  }
+
+  document.addEventListener('DOMContentLoaded', () => {
+    document.querySelectorAll('script.python-cell').forEach(enliven);
+    const keys = 'Ctrl+Enter runs it. Tab indents; Esc and then Tab leaves.';
+    document.body.append(make('p', { id: 'python-keys', hidden: true, textContent: keys }));
+  });
+})();
