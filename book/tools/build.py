@@ -48,7 +48,8 @@ def main(output: Path, pdf: bool = False) -> None:
         find_browser()  # before minutes of work
     install_javascript()
     copy_javascript(VENDOR)
-    write_scripts(VENDOR / "python", MODULES / "pyodide")
+    say("the Python for the pages")
+    write_scripts(VENDOR / "python", MODULES)
     for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages
         shutil.rmtree(output / stale, ignore_errors=True)
     copy_sources(output / "source")
