@@ -63,6 +63,7 @@
   // Cells
 
   const source = (cell) => cell.editor?.value ?? cell.source;
+  const kind = (cell) => (cell.checks.length ? 'task' : 'cell');
   const say = (cell, text) => { cell.status.textContent = text; };
 
   async function run(cell) {
@@ -74,16 +75,19 @@
       if (!worker) say(cell, 'Loading Python …');
       const python = await (worker ??= started());
       for (const each of cells.slice(0, cell.place + 1)) {
-        if (each.space !== cell.space || (each !== cell && each.ran === source(each))) continue;
-        say(cell, each === cell ? 'Running …' : `Running cell ${each.number} …`);
+        const needed = each.space === 'chapter' && each.space === cell.space && each.ran !== source(each);
+        if (each !== cell && !needed) continue;
+        say(cell, each === cell ? 'Running …' : `Running ${kind(each)} ${each.number} …`);
         const start = performance.now();
         const ran = source(each);
-        const { shown, error, stopped } = await python.run(each);
-        if (stopped) return say(cell, 'Stopped. Its variables are gone.');
+        const { shown, error, hint, stopped } = await python.run(each);
+        if (stopped) return say(cell, 'Stopped. All variables are gone.');
         each.ran = error ? undefined : ran;
         await show(each, shown, error);
-        if (error) return say(cell, each === cell ? 'An error.' : `An error in cell ${each.number}, above.`);
-        say(each, `Done in ${((performance.now() - start) / 1000).toFixed(1)} s.`);
+        const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
+        if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
+        const time = `${((performance.now() - start) / 1000).toFixed(1)} s`;
+        say(each, each.checks.length ? 'Right.' : `Done in ${time}.`);
       }
     } catch (error) {
       worker = undefined;
@@ -115,25 +119,24 @@
     window.dispatchEvent(new Event('resize'));  // a formula that is too wide is reached by the keyboard, see mathjax.js
   }
 
+  function fit({ editor }) {
+    editor.style.height = 'auto';
+    editor.style.height = `${editor.scrollHeight + 2}px`;
+  }
+
   function edit(cell) {
-    const { element, number } = cell;
-    const name = cell.checks.length ? 'Your answer' : `Code of cell ${number}`;
-    cell.editor = make('textarea', { value: cell.source, spellcheck: false, autocapitalize: 'off' });
-    cell.editor.setAttribute('aria-label', name);
+    cell.editor = make('textarea', { className: 'python-editor', value: cell.source, spellcheck: false, autocapitalize: 'off' });
+    cell.editor.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
     cell.editor.setAttribute('aria-describedby', 'python-keys');
-    const fit = () => {
-      cell.editor.style.height = 'auto';
-      cell.editor.style.height = `${cell.editor.scrollHeight + 2}px`;
-    };
-    cell.editor.addEventListener('input', fit);
+    cell.editor.addEventListener('input', () => fit(cell));
     cell.editor.addEventListener('keydown', keys(cell));
-    window.addEventListener('resize', fit);
     cell.code.hidden = true;
-    cell.tools.before(cell.editor);
+    cell.code.after(cell.editor);
+    const folded = cell.editor.closest('details');
+    if (folded) folded.open = true;
     cell.edit.hidden = true;
     cell.reset.hidden = false;
-    fit();
-    return element;
+    fit(cell);
   }
 
   function reset(cell) {
@@ -176,7 +179,7 @@
     cell.number = 1 + cells.filter((it) => it.space === cell.space).length;
     const button = (text, does, hidden) => {
       const made = make('button', { type: 'button', textContent: text, hidden, onclick: () => does(cell) });
-      made.setAttribute('aria-label', `${text}, ${cell.checks.length ? 'task' : 'cell'} ${cell.number}`);
+      made.setAttribute('aria-label', `${text}, ${kind(cell)} ${cell.number}`);
       return made;
     };
     cell.run = button(cell.checks.length ? 'Check' : 'Run', run, false);
@@ -192,15 +195,19 @@
     }
     cell.stored = [...cell.element.querySelectorAll('.cell_output')];
     cell.output = make('div', { className: 'cell_output python-output' });
-    cell.code = cell.element.querySelector('.cell_input');
-    const folded = cell.code.closest('details') ?? cell.code;
-    (cell.element.contains(folded) ? folded : cell.code).after(cell.tools, cell.output);
+    const input = cell.element.querySelector('.cell_input');
+    cell.code = input.firstElementChild;
+    const folded = input.closest('details');
+    (folded && cell.element.contains(folded) ? folded : input).after(cell.tools, cell.output);
     cells.push(cell);
     if (cell.checks.length) edit(cell);
   }
 
+  window.addEventListener('resize', () => cells.filter((it) => it.editor).forEach(fit));
   document.addEventListener('DOMContentLoaded', () => {
     document.querySelectorAll('script.python-cell').forEach(enliven);
+    const about = ' Cells with a Run button run in this page too; the others need numpy or compiled code.';
+    if (cells.some((it) => it.space === 'chapter')) document.querySelector('.run-it')?.append(about);
     const keys = 'Ctrl+Enter runs it. Tab indents; Esc and then Tab leaves.';
     document.body.append(make('p', { id: 'python-keys', hidden: true, textContent: keys }));
   });

@@ -12,7 +12,7 @@ _spaces = {}
 
 
 def run(space: str, number: int, before: str, source: str, checks: list[str]) -> str:
-    """Return what the cell shows, {"shown": [[kind, text], ...], "error": a line or None}.
+    """Return as JSON what the cell shows: pairs of kind and text; and what went wrong, if it did.
 
     Cells of one `space` share their variables. `before` is code that the page does not show.
     """
@@ -25,7 +25,8 @@ def run(space: str, number: int, before: str, source: str, checks: list[str]) ->
         for check in checks:
             _execute(check, "<check>", names, shown)
     except BaseException as error:
-        return json.dumps({"shown": shown, "error": _said(error, file, source)})
+        hint = hasattr(error, "_render_traceback_")
+        return json.dumps({"shown": shown, "error": _said(error, file, source), "hint": hint})
     return json.dumps({"shown": shown, "error": None})
 
 

@@ -28,8 +28,13 @@ THERE = {
 }  # fmt: skip
 # The graded tasks that are right in the page too, by the id of the cell to fill in.
 TASKS = {
+    "01": ("distance", "bearing", "local"),
+    "03": ("our-gains",),
     "04": ("V-rate", "turning", "V-rate-closed"),
     "05": ("law", "axes"),
+    "06": ("law",),
+    "11": ("compass",),
+    "12": ("degrees",),
 }
 SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
 STUB = 'raise NotImplementedError("write your answer here")\n'
