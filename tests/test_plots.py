@@ -186,6 +186,20 @@ def brightness(colour):
     return float(np.dot([0.2126, 0.7152, 0.0722], linear))
 
 
+def test_formulas_have_the_panels_colours():
+    book = Path(__file__).parents[1] / "book"
+    for sheet, themes in (("_static/book.css", 2), ("deck/deck.css", 1)):
+        css = (book / sheet).read_text(encoding="utf-8")
+        for role, letter in (
+            ("alpha", "\N{MATHEMATICAL ITALIC SMALL ALPHA}"),
+            ("theta", "\N{MATHEMATICAL ITALIC SMALL THETA}"),
+        ):
+            theirs = [colours[role] for colours in panel_colours()[:themes]]
+            (fill,) = re.findall(rf'\[data-c="{ord(letter):X}"\] {{ fill: (.*?);', css)
+            own = re.findall(rf"--{role}: (#\w+);", css) if "var" in fill else [fill]
+            assert [channels(code) for code in own] == theirs, (sheet, role)
+
+
 @pytest.mark.parametrize("theme", [0, 1], ids=["light", "dark"])
 @pytest.mark.parametrize("role", SHARED)
 def test_a_thing_has_one_hue_in_the_figures_and_the_panel_and_is_legible_there(role, theme):

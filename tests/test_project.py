@@ -11,6 +11,7 @@ import pytest
 from packaging.requirements import Requirement
 from pybtex.database import parse_file
 
+from wmrbook import live
 from wmrlib.explorer import Explorer
 
 ROOT = Path(__file__).parent.parent
@@ -185,7 +186,8 @@ def test_every_picture_has_its_text():
 
 def test_the_stored_panels_are_those_of_now():
     """Else run book/tools/run.py: without their state a reader sees no panel before it is run."""
-    now = Explorer()
+    things = [getattr(live, name)() for name in set(live.__all__) - live.PARTS]
+    now = {each._esm: each._css for each in (Explorer(), *things)}
     for name, notebook in CHAPTERS.items():
         state = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
         shown = {output.data[VIEW]["model_id"] for output in outputs(name, VIEW)}
@@ -193,5 +195,20 @@ def test_the_stored_panels_are_those_of_now():
         drawn = [it["state"] for it in state.values() if it["model_name"] == "AnyModel"]
         assert len(drawn) == len(shown)
         for each in drawn:
-            assert each["_esm"] == now._esm, name
-            assert each["_css"] == now._css, name
+            fresh = now.get(each["_esm"]) == each["_css"]
+            assert fresh, name  # their texts would fill the screen
+
+
+def test_each_chapter_has_something_to_move_and_asks_for_predictions_before_they_are_answered():
+    placed = []
+    for name, notebook in CHAPTERS.items():
+        here = re.findall(r"\blive\.(\w+)\(", "\n".join(it.source for it in notebook.cells))
+        placed += here
+        widgets = notebook.metadata.widgets[STATE]["state"].values()
+        states = [it["state"] for it in widgets if "ask" in it["state"].get("setup", ())]
+        asked = [it["setup"]["ask"] for it in states if it["setup"]["ask"]]
+        assert len(states) == len(here) >= 2, name
+        assert 2 <= len(asked) <= 3, name
+        assert all(it["state"]["guess"] is None for it in states), name
+    assert len(set(placed)) == len(placed)  # each once
+    assert set(placed) == set(live.__all__) - live.PARTS

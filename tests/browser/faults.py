@@ -81,7 +81,7 @@ def stills(pdf: Path) -> int:
     file = pdf.read_bytes()
     for image in IMAGE.finditer(file):  # those that are equal are stored once
         width, height, length = map(int, image.groups())
-        if width > 1400 and height > 700:  # no figure has as many pixels
+        if width > 1400 and height > 400:  # no figure has as many pixels
             text = zlib.decompress(file[image.end() : image.end() + length])
             pixels = np.frombuffer(text, np.uint8).reshape(height, width, 3)[height // 2 :: 4]
             codes = pixels @ np.array([65536, 256, 1])

@@ -10,7 +10,7 @@ HOST = Path(__file__).with_name("host.js").read_text(encoding="utf-8")
 PAGE = "<!doctype html><meta charset='utf-8'><title>panel</title><body style='margin: 0'>"
 FRAMES = """() => new Promise(done =>
     requestAnimationFrame(() => requestAnimationFrame(() => done())))"""
-MAP_IS_DONE = """() => panel.get('state').view === 'time'
+MAP_IS_DONE = """() => panel.get('state').view !== 'gains'
     || document.querySelector('.wmr-map').dataset.finished === 'true'"""
 PUT = """([name, value]) => {
     const row = document.querySelector(`[data-control=${name}]`);

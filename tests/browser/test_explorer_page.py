@@ -51,6 +51,19 @@ CONTRASTS = """() => {
     return ['--soft', '--focus', '--start', '--goal', '--path', '--alpha', '--theta', '--rising']
         .map(against);
 }"""
+SCENE = """() => {
+    const canvas = document.querySelector('.wmr-scene');
+    return Array.from(canvas.getContext('2d').getImageData(0, 0, canvas.width, canvas.height).data);
+}"""
+FINGER = """() => {
+    const scene = document.querySelector('.wmr-scene'), box = scene.getBoundingClientRect();
+    scene.setPointerCapture = () => {};
+    const touch = (type, x) => scene.dispatchEvent(new PointerEvent(type, { pointerType: 'touch',
+        pointerId: 7, clientX: box.left + x, clientY: box.top + 60 }));
+    touch('pointerdown', 100);
+    touch('pointermove', 160);
+    touch('lostpointercapture', 160);
+}"""
 MAP = "() => document.querySelector('.wmr-map').toDataURL()"
 # Presses an arrow key until the slider is at its end.
 WALK = """name => {
@@ -540,6 +553,38 @@ RUNS = [
     Explorer.circle(law="aicardi"),
     Explorer.circle(law="kanayama", dt=0.05),
 ]
+
+
+def test_a_tap_on_the_path_takes_the_robot_there_and_a_finger_moves_what_is_zoomed(browser_page):
+    explorer = Explorer(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(8.0, 0.0, 0.0))
+    panel = mounted(browser_page, explorer)
+    scene = browser_page.locator(".wmr-scene")
+    box, clock = scene.bounding_box(), browser_page.locator(".wmr-clock")
+    start, goal = (panel.handle(each, "move").bounding_box() for each in ("start", "goal"))
+    across = (start["x"] + goal["x"]) / 2 + start["width"] / 2 - box["x"]
+    scene.click(position={"x": across, "y": start["y"] + start["height"] / 2 - box["y"]})
+    passed = float(panel.settled().page.locator(".wmr-time").input_value())
+    run = explorer.trajectory()
+    assert np.interp(passed, run.t, run.x) == pytest.approx(4.0, abs=0.2)
+    said = clock.inner_text()
+    scene.click(position={"x": across, "y": 40.0})  # beside the path: as it was
+    assert panel.settled().page.locator(".wmr-clock").inner_text() == said
+    assert scene.evaluate("it => getComputedStyle(it).touchAction") == "pan-y pinch-zoom"
+    panel.click("in")
+    assert scene.evaluate("it => getComputedStyle(it).touchAction") == "none"
+    zoomed = panel.picture()
+    browser_page.evaluate(FINGER)
+    assert panel.settled().picture() != zoomed
+
+
+def test_a_picture_of_the_whole_way_shows_how_it_ends(browser_page):
+    panel = mounted(browser_page, Explorer(at=0.0))
+    ends = []
+    for radius in (0.05, 0.3):  # which no pixel of the whole way tells apart
+        panel.set(arrival_radius=radius)
+        ends.append(browser_page.evaluate(SCENE))
+    changed = np.reshape(ends[0], (-1, 4)) != np.reshape(ends[1], (-1, 4))
+    assert np.any(changed, axis=1).sum() > 100
 
 
 def test_a_run_can_be_taken_along_as_python_table_and_picture(browser_page, tmp_path):

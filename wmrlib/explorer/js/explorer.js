@@ -86,7 +86,8 @@ function render({ model, el }) {
     if (!state.held || !state.view) {
       state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, sizeOf(scene), state.zoom);
     }
-    drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded });
+    drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded, zoomed: state.zoom });
+    scene.style.touchAction = state.zoom ? 'none' : ''; // a finger moves the page, or the picture when it is zoomed
     placeHandles(drawn);
     if (mapShown()) drawLandscape(); else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
     describe(run, cursor);
@@ -216,11 +217,18 @@ function render({ model, el }) {
     const box = scene.getBoundingClientRect(), { zoom } = sizeOf(scene);
     zoomBy(1.2 ** Math.sign(event.deltaY), state.view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom));
   }, { passive: false });
-  let grip = null; // the place in the plane that a mouse holds
+  let grip = null; // the place in the plane that is held
   dragOver(scene, (x, y, event, first) => {
-    if (event.pointerType !== 'mouse' || !state.view) return; // a finger moves the page
+    if (!state.view) return;
     const [wx, wy] = state.view.toWorld(x, y);
-    if (first) { grip = [wx, wy]; return; }
+    if (first) {
+      grip = [wx, wy];
+      const k = nearestOf(state.run, state.view, x, y); // a tap on the path takes the robot there
+      if (k !== null) Object.assign(state, { time: state.run.t[k], playing: null });
+      schedule();
+      return;
+    }
+    if (event.pointerType !== 'mouse' && !state.zoom) return;
     const [cx, cy, reach] = state.zoom || zoomOf(state.view);
     state.zoom = [cx + grip[0] - wx, cy + grip[1] - wy, reach];
     state.view = viewOf([], [], {}, sizeOf(scene), state.zoom);

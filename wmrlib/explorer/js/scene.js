@@ -63,7 +63,7 @@ const knobOf = (view, pose, name) => {
   return [x + ARROW[name] * Math.cos(pose[2]), y - ARROW[name] * Math.sin(pose[2])];
 };
 
-function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded }) {
+function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded, zoomed }) {
   const { ctx } = surfaceOf(canvas, colours);
   drawGrid(ctx, view, colours);
   ctx.globalAlpha = faded ? 0.35 : 1;
@@ -76,7 +76,36 @@ function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded }) 
     drawPose(ctx, view, poses.start, 'start', colours);
     if (run) drawRobot(ctx, view.toScreen(run.x[cursor], run.y[cursor]), run.heading[cursor], colours);
   });
+  if (run && poses.goal && !zoomed && view.scale * LAST < 40) drawLast(ctx, view, run, poses, colours);
   ctx.globalAlpha = 1;
+}
+
+const LAST = 1.5; // m round the goal: what a picture of the whole way is too small for
+
+// How the run ends, in the corner where least is in its way, over a ghost of the robot that has parked as it should.
+function drawLast(ctx, view, run, poses, colours) {
+  const { box } = view, size = Math.min(0.38 * Math.min(box.width, box.height), 190), gap = 8;
+  const right = box.left + box.width - size - gap, bottom = box.top + box.height - size - gap;
+  const frames = [[right, bottom], [box.left + gap, bottom], [box.left + gap, box.top + gap]].map(([left, top]) => ({ left, top, width: size, height: size }));
+  const points = [poses.start, poses.goal].flatMap((pose, k) => [0, -45, 45].map((dx) => view.toScreen(pose[0] + dx / view.scale, pose[1])).concat([knobOf(view, pose, k ? 'goal' : 'start')])); // with their names
+  for (let k = 0; k < run.n; k += Math.ceil(run.n / 200)) points.push(view.toScreen(run.x[k], run.y[k]));
+  const crowd = ({ left, top }) => points.filter(([x, y]) => x > left - 20 && x < left + size + 20 && y > top - 20 && y < top + size + 20).length;
+  const frame = frames.reduce((best, each) => (crowd(each) < crowd(best) ? each : best));
+  const near = viewAt(frame, view.zoom, size / 2 / LAST, poses.goal, [frame.left + size / 2, frame.top + size / 2]), last = run.n - 1, alpha = ctx.globalAlpha;
+  inside(ctx, frame, () => {
+    ctx.fillStyle = colours.paper;
+    ctx.fillRect(frame.left, frame.top, size, size);
+    drawPath(ctx, near, run.x, run.y, run.n, colours.path, 3, []);
+    ctx.globalAlpha = 0.3 * alpha;
+    drawRobot(ctx, near.toScreen(poses.goal[0], poses.goal[1]), poses.goal[2], colours);
+    ctx.globalAlpha = alpha;
+    line(ctx, [near.toScreen(poses.goal[0], poses.goal[1]), knobOf(near, poses.goal, 'start')], colours.goal, 3, [2, 5]);
+    if (run.outcome === 'ARRIVED') drawRobot(ctx, near.toScreen(run.x[last], run.y[last]), run.heading[last], colours);
+    label(ctx, `within ${LAST} m`, frame.left + 6, frame.top + 12, colours, { colour: colours.soft });
+  });
+  ctx.lineWidth = 1.5;
+  ctx.strokeStyle = colours.soft;
+  ctx.strokeRect(frame.left, frame.top, size, size);
 }
 
 function drawGrid(ctx, view, colours) {
@@ -144,6 +173,16 @@ function drawRobot(ctx, [x, y], heading, colours) {
   ctx.strokeStyle = colours.paper;
   ctx.stroke();
   ctx.restore();
+}
+
+// The sample of a run that is drawn nearest to a place on the screen, or null if none is near.
+function nearestOf(run, view, x, y) {
+  let best = null, least = 20 ** 2; // px
+  for (let k = 0; run && k < run.n; k += 1) {
+    const [px, py] = view.toScreen(run.x[k], run.y[k]), far = (px - x) ** 2 + (py - y) ** 2;
+    if (far < least) [best, least] = [k, far];
+  }
+  return best;
 }
 
 // On the goal itself the line of sight has no direction, and the angles mean nothing.

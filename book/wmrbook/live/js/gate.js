@@ -1,0 +1,69 @@
+// A prediction before the result: one chooses, turns an arrow or sketches a path, and commits; then the picture opens, with what was said in it.
+
+// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane` and `at` of an arrow to turn; `pane` and `from` of a path
+// to sketch. `key` is the number of the option or the arrow's angle in radians; of a path there is none, the eye compares.
+function buildGate(root, ask, { get, set, panes, host }) {
+  const still = document.documentElement.dataset.still !== undefined; // on paper the picture stands beside the question
+  const committed = () => get().guess !== null && get().guess !== undefined, open = () => still || committed();
+  let draft = ask.kind === 'turn' ? 0 : ask.kind === 'sketch' ? [] : null, listening = false, shown = null;
+  const form = made(root, 'form', { className: 'live-gate' }), question = made(form, 'p', { className: 'live-question', textContent: ask.question });
+  const options = made(form, 'div', { className: 'live-options' }, { role: 'radiogroup', 'aria-label': ask.question });
+  (ask.options || []).forEach((text, k) => {
+    const row = made(options, 'label');
+    made(row, 'input', { type: 'radio', name: `gate-${ask.name}`, value: k, onchange: () => { draft = k; show(); } });
+    made(row, 'span', { textContent: text });
+  });
+  const turn = ask.kind === 'turn' ? made(options, 'input', { type: 'range', className: 'wmr-slider', min: -180, max: 180, step: 5, value: 0, oninput: () => { draft = Number(turn.value) / DEGREES; set(); } }, { 'aria-label': 'the angle of the arrow, degrees counter-clockwise from x' }) : null;
+  form.addEventListener('keydown', (event) => event.stopPropagation());
+  const bar = made(form, 'div', { className: 'wmr-bar' }), commit = made(bar, 'button', { className: 'live-commit', textContent: 'Commit' });
+  const again = made(bar, 'button', { type: 'button', textContent: 'Copy as a line', hidden: true }), verdict = made(form, 'p', { className: 'live-verdict' }, { role: 'status' });
+  form.addEventListener('submit', (event) => { event.preventDefault(); if (ready()) set({ guess: draft }); });
+  again.addEventListener('click', () => copyLine(root, `predict ${ask.name} ${JSON.stringify(ask.kind === 'turn' ? Math.round(get().guess * DEGREES) : get().guess)}`));
+  const ready = () => (ask.kind === 'sketch' ? draft.length > 3 : draft !== null);
+  const right = (guess) => (ask.kind === 'choose' ? guess === ask.key : Math.abs(turned(guess - ask.key)) < Math.PI / 9);
+
+  function listen() { // to a hand that turns the arrow or draws the path
+    if (listening || !ask.pane || !panes()[ask.pane]) return;
+    listening = true;
+    const canvas = host(ask.pane).querySelector('canvas');
+    let down = false;
+    const place = (event) => {
+      const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas), [x, y] = panes()[ask.pane].view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom);
+      if (ask.kind === 'turn') { draft = Math.round(Math.atan2(y - ask.at[1], x - ask.at[0]) * DEGREES / 5) * 5 / DEGREES; turn.value = draft * DEGREES; } else draft.push([x, y]);
+      set();
+    };
+    canvas.style.touchAction = 'none';
+    canvas.addEventListener('pointerdown', (event) => { if (open()) return; down = true; if (ask.kind === 'sketch') draft = [ask.from]; canvas.setPointerCapture(event.pointerId); place(event); });
+    canvas.addEventListener('pointermove', (event) => { if (down) place(event); });
+    canvas.addEventListener('lostpointercapture', () => { down = false; show(); });
+  }
+  function show() {
+    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft)} from x`);
+    const guess = get().guess, done = committed(), key = JSON.stringify([guess, done, ready()]);
+    if (key === shown) return;
+    shown = key;
+    commit.disabled = !ready();
+    commit.hidden = done || still;
+    again.hidden = !done;
+    form.querySelectorAll('input').forEach((each) => { each.disabled = done; if (ask.kind === 'choose') each.checked = Number(each.value) === (done ? guess : draft); });
+    form.classList.toggle('live-answered', done);
+    if (ask.kind === 'choose') options.querySelectorAll('label').forEach((each, k) => { each.classList.toggle('live-key', done && k === ask.key); each.hidden = done && k !== ask.key && k !== guess; });
+    verdict.textContent = !done ? '' : `${ask.kind === 'sketch' ? '' : right(guess) ? 'As you said. ' : 'Not so. '}${ask.why}`;
+    root.closest('.live').dataset.open = String(open());
+  }
+  function draw() {
+    show();
+    listen();
+    const pane = panes()[ask.pane], said = committed() ? get().guess : draft;
+    if (still || !pane || said === null) return;
+    if (ask.kind === 'turn') { const [x, y] = pane.at(...ask.at); pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * Math.cos(said), y - 62 * Math.sin(said)), 'ghost', { dash: [5, 5] }); pane.text('your guess', ...pane.view.toWorld(x + 72 * Math.cos(said), y - 72 * Math.sin(said)), { role: 'ghost', align: Math.cos(said) < 0 ? 'right' : 'left' }); }
+    if (ask.kind === 'sketch' && said.length) pane.line(said, 'ghost', { width: 3, dash: [3, 6] });
+  }
+  return { open, draw };
+}
+
+function copyLine(root, text) {
+  const box = made(root, 'textarea', { className: 'wmr-text', value: text, readOnly: true }, { 'aria-label': 'to copy' });
+  box.select();
+  if (document.execCommand('copy')) box.remove();
+}

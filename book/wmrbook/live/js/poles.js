@@ -1,0 +1,48 @@
+// The poles of the angles near the goal and the gains that put them there, each from the other; and the robot that has them.
+const CLEAR = 0.12; // 1/s: nearer the axis than this a hand means the axis
+
+// s^2 + a s + b = 0
+function polesOf(a, b) {
+  const half = a / 2, gap = half * half - b;
+  if (gap < 0) return [[-half, Math.sqrt(-gap)], [-half, -Math.sqrt(-gap)]];
+  const fast = -half - Math.sqrt(gap);
+  return [[fast ? b / fast : 0, 0], [fast, 0]]; // so the slow one keeps its digits
+}
+
+function gainsOf([first, second], pace) {
+  const a = -(first[0] + second[0]), b = first[0] * second[0] - first[1] * second[1];
+  if (a < 0) throw new RangeError(`k_alpha would be ${written(a, '1/s')}: it is minus the sum of the poles, and no robot needs one below 0.`);
+  if (b < 0) throw new RangeError(`h would be ${written(b / pace ** 2)}: it is the product of the poles over (k_rho v_max)², and V needs it above 0.`);
+  return { k_alpha: a, h: b / pace ** 2 };
+}
+
+const explorable = {
+  find({ k_alpha, h }, { data: { k_rho, v_max, start, goal } }) {
+    const gains = { k_rho, k_alpha, h, v_max }, [pace, a, b] = LAWS.corrected.modes(gains), run = driven({ start, goal, gains, duration: 30, dt: 0.02 });
+    return { poles: polesOf(a, b), pace, run, off: wrap(run.heading[run.n - 1] - goal[2]), ...modes(gains) };
+  },
+  panes: (values, { poles, pace, off }) => ({
+    plane: { x: [-9, 1, 'real part [1/s]'], y: [-5, 5, 'imaginary part [1/s]'], equal: true, alt: `The poles at ${poles.map(([re, im]) => `${written(re)} ${im < 0 ? 'minus' : 'plus'} ${written(Math.abs(im))} i`).join(' and ')} per second; the distance's at ${written(-pace)}.` },
+    robot: { x: [-2.2, 0.6, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true, alt: `The robot's last two metres: it stops ${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
+  }),
+  draw({ plane, robot }, values, { poles, pace, run }, hidden, { data: { goal } }) {
+    plane.area([[0, -99], [0, 99], [99, 99], [99, -99]], 'rising', 0.12);
+    plane.dot(-pace, 0, 'rho', { hollow: true });
+    plane.text('distance', -pace, 0, { role: 'rho', dy: 18, align: 'center' });
+    for (const [re, im] of poles) plane.cross(re, im, 'alpha', 8);
+    robot.pose(goal, 'goal');
+    robot.path(run.x, run.y);
+    robot.robot(poseAt(run, run.n - 1));
+  },
+  handles: (values, { poles, pace }) => poles.map((pole, k) => ({
+    id: `pole-${k}`, pane: 'plane', at: pole, says: `a pole at ${written(pole[0])} and ${written(pole[1])} i per second`,
+    move(x, y) {
+      if (Math.abs(y) > CLEAR) return gainsOf([[x, y], [x, -y]], pace);
+      const other = poles[1 - k][1] ? [x, 0] : poles[1 - k]; // a pair that meets the axis is a double pole, whose parts then go their own ways
+      return gainsOf([[k ? Math.min(x, other[0]) : Math.max(x, other[0]), 0], other], pace);
+    },
+  })),
+  say: (values, { damping, naturalFrequency, run, off }) => ({
+    damping: written(damping), frequency: written(naturalFrequency, 'rad/s'), end: run.outcome === 'ARRIVED' ? `stops after ${written(run.t[run.n - 1], 's')}, ${Math.abs(off * DEGREES).toFixed(1)}° off` : 'is still on its way after 30 s',
+  }),
+};

@@ -1,0 +1,138 @@
+"""What all small things to move are made of: knobs, a sentence, a prediction, and a drawing."""
+
+from __future__ import annotations
+
+import functools
+from pathlib import Path
+from typing import Any, NamedTuple
+
+import anywidget
+import traitlets
+
+from wmrlib._checks import choice, refusal, scalar
+from wmrlib.explorer import MODEL, javascript
+
+_JS = Path(__file__).parent / "js"
+_DRAWING = "style", "surface", "scene", "handles", "controls"
+_OWN = "board", "live", "gate"
+
+
+class Knob(NamedTuple):
+    """A number that a reader moves: in steps, or, without a step, by the round numbers."""
+
+    value: float
+    low: float
+    high: float
+    step: float | None
+    says: str  # to those who can't see it, and on the slider where there is no symbol
+    unit: str = ""
+    symbol: str = ""  # as in a formula, k_alpha
+    label: str = ""  # on the slider in place of a symbol
+    plays: float = 0.0  # s from low to high, for a knob with a button that moves it
+    auto: bool = False  # and it moves when it is first seen
+
+    def allowed(self, name: str, value: Any) -> float:
+        """Return the value, or refuse it by name."""
+        return scalar(name, value, low=self.low, high=self.high)
+
+
+class Choice(NamedTuple):
+    """A choice among a few, by name, with the words that stand for it in the sentence."""
+
+    value: str
+    choices: dict[str, str]
+    says: str
+
+    def allowed(self, name: str, value: Any) -> str:
+        """Return the value, or refuse it by name."""
+        return choice(name, value, self.choices)
+
+
+class Ask(NamedTuple):
+    """A prediction that is asked for before anything is shown.
+
+    By its kind: "choose" one of `options`, whose `key` is a number; "turn" an arrow that stands
+    `at` a point of a `pane` (the `key` is its angle, rad); "sketch" a path `start`ing there.
+    """
+
+    kind: str
+    question: str
+    why: str
+    key: float | None = None
+    options: tuple[str, ...] = ()
+    pane: str = ""
+    at: tuple[float, float] | None = None
+
+
+class Live(anywidget.AnyWidget):
+    """A small thing to move; `book/wmrbook/live/js/NAME.js` says what is drawn.
+
+    Parameters
+    ----------
+    name : the drawing's file, and of the prediction in a line of answers
+    sentence : str with {knob} or {result} where a number goes ({knob!} in a formula: without its
+        symbol and unit), and *symbol* for a coloured symbol
+    knobs : Knob or Choice, by name
+    data : what the drawing needs that does not move: numbers, lists and texts
+    ask : Ask or None
+    """
+
+    _esm = traitlets.Unicode().tag(sync=True)
+    _css = traitlets.Unicode().tag(sync=True)
+    state = traitlets.Dict().tag(sync=True)
+    setup = traitlets.Dict().tag(sync=True)
+
+    def __init__(
+        self,
+        name: str,
+        sentence: str,
+        knobs: dict[str, Knob | Choice],
+        *,
+        data: dict[str, Any] | None = None,
+        ask: Ask | None = None,
+    ):
+        self._knobs = knobs
+        listed = []
+        for knob_name, knob in knobs.items():
+            row: dict[str, Any] = {"name": knob_name, **knob._asdict()}
+            if isinstance(knob, Choice):
+                row["choices"] = [*map(list, knob.choices.items())]
+            listed.append(row)
+        setup = {
+            "sentence": sentence,
+            "knobs": listed,
+            "data": data or {},
+            "ask": ask and {"name": name, **ask._asdict()},
+        }
+        state = {each: knob.allowed(each, knob.value) for each, knob in knobs.items()}
+        super().__init__(_esm=module(name), _css=_css(), state=state | {"guess": None}, setup=setup)
+        self.add_class("jupyter-widgets")
+
+    def __repr__(self) -> str:
+        return f"<live: {self.setup['sentence']}>"
+
+    def __getitem__(self, name: str) -> float | str:
+        return self.state[self._named(name)]
+
+    def __setitem__(self, name: str, value: float | str) -> None:
+        value = self._knobs[self._named(name)].allowed(name, value)
+        self.state = self.state | {name: value}
+
+    def _named(self, name: str) -> str:
+        if name not in self._knobs:
+            raise refusal("knob", name, f"one of {', '.join(self._knobs)}")
+        return name
+
+
+@functools.cache
+def module(name: str) -> str:
+    """The ES module of a drawing: the panel's parts that it needs, the kit's, and its own."""
+    own = (_JS / f"{part}.js" for part in (*_OWN, name))
+    texts = [javascript((*MODEL, *_DRAWING)), *(path.read_text(encoding="utf-8") for path in own)]
+    return "\n".join([*texts, "export default live(explorable);\n"])
+
+
+@functools.cache
+def _css() -> str:
+    panel = Path(javascript.__code__.co_filename).parent / "js" / "panel.css"
+    return "\n".join(path.read_text(encoding="utf-8") for path in (panel, _JS / "live.css"))

@@ -1,0 +1,97 @@
+"""What moves in which chapter, and what each costs a frame: python tests/benchmarks/live_frames.py
+
+A frame's own work is the time that the page's script takes to compute and to draw it, without the
+browser's; the median and the worst of a walk of each control from end to end. `ready` is the time
+from the module's text to the first picture.
+"""
+
+from __future__ import annotations
+
+import re
+import statistics
+import sys
+
+from playwright.sync_api import sync_playwright
+from timing import ROOT
+
+from wmrbook import live
+
+sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book" / "tools")]
+from conftest import FLAGS  # noqa: E402
+from host import HOST, PAGE, TRAITS  # noqa: E402
+from pdf import find_browser  # noqa: E402
+
+STEPS = 40
+# Counts what callbacks of frames take, from before the widget is there.
+STOPWATCH = """() => {
+    const next = window.requestAnimationFrame.bind(window);
+    window.took = [];
+    window.requestAnimationFrame = callback => next(now => {
+        const begin = performance.now();
+        callback(now);
+        took.push(performance.now() - begin);
+    });
+}"""
+MOUNT = """async traits => {
+    const begin = performance.now();
+    await mount(traits);
+    while (!took.length) await new Promise(done => setTimeout(done));
+    return performance.now() - begin;
+}"""
+WALK = """async ([knob, values]) => {
+    const settled = () => new Promise(done => setTimeout(() => requestAnimationFrame(done), 20));
+    await settled();
+    took.length = 0;
+    for (const value of values) {
+        panel.set('state', { ...panel.get('state'), [knob]: value });
+        await settled();
+    }
+    return took.filter(it => it > 0.02);
+}"""
+
+
+def places() -> dict[str, list[str]]:
+    """The chapters and pages that show each."""
+    found: dict[str, list[str]] = {}
+    for path in (*sorted(ROOT.glob("notebooks/*.ipynb")), *sorted(ROOT.glob("book/*.md"))):
+        for name in re.findall(r"\blive\.([a-z_]+)\(", path.read_text(encoding="utf-8")):
+            found.setdefault(name, []).append(path.name[:2] if path.name[0] in "01" else path.stem)
+    return found
+
+
+def main() -> None:
+    where = places()
+    print(
+        f"{'':16}{'in':9}{'predict':9}{'median':>8}{'worst':>7} ms{'ready':>7} ms{'KB':>6}  moves"
+    )
+    with sync_playwright() as playwright:
+        chromium = playwright.chromium.launch(executable_path=find_browser(), args=FLAGS)
+        for name in sorted(set(live.__all__) - live.PARTS):
+            thing = getattr(live, name)()
+            traits = thing.get_state(TRAITS)
+            traits["state"] = traits["state"] | {"guess": 0}  # open
+            page = chromium.new_page(viewport={"width": 1366, "height": 768})
+            page.set_content(PAGE)
+            page.add_script_tag(content=HOST)
+            page.evaluate(STOPWATCH)
+            ready, took = page.evaluate(MOUNT, traits), []
+            for knob in thing.setup["knobs"]:
+                if "choices" in knob:
+                    values = [value for value, _ in knob["choices"]]
+                else:
+                    span = knob["high"] - knob["low"]
+                    values = [knob["low"] + span * k / STEPS for k in range(STEPS + 1)]
+                took += page.evaluate(WALK, [knob["name"], values])
+            asked = thing.setup["ask"]
+            print(
+                f"{name:16}{' '.join(where.get(name, '-')):9}{asked['kind'] if asked else '-':9}"
+                f"{statistics.median(took):8.2f}{max(took):7.2f}   {ready:7.0f}   "
+                f"{len(traits['_esm'] + traits['_css']) / 1000:6.0f}  "
+                f"{', '.join(knob['name'] for knob in thing.setup['knobs'])}"
+            )
+            page.close()
+        chromium.close()
+
+
+if __name__ == "__main__":
+    main()

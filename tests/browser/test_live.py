@@ -1,0 +1,173 @@
+"""The small things to move, each in a page of its own: all that moves matters, and all is sound."""
+
+from __future__ import annotations
+
+import itertools
+import re
+
+import pytest
+
+pytest.importorskip("anywidget", reason="what moves needs anywidget")
+from faults import AXE
+from host import mounted
+
+from wmrbook import live
+
+NAMES = sorted(set(live.__all__) - live.PARTS)
+PICTURE = "() => [...document.querySelectorAll('canvas')].map(it => it.toDataURL()).join()"
+TEXT = "() => document.querySelector('.live').innerText"
+UNSOUND = re.compile(r"NaN|undefined|Infinity|\[object")
+SMALL = """() => [...document.querySelectorAll('.live button, .live input, .live select')]
+    .filter(it => it.checkVisibility()).map(it => [it, it.getBoundingClientRect()])
+    .filter(([, box]) => box.width < 20 || box.height < 20).map(([it]) => it.outerHTML)"""
+WIDE = """() => [...document.querySelectorAll('.live, .live *')].filter(it => it.checkVisibility())
+    .filter(it => it.getBoundingClientRect().right > innerWidth + 1
+        || it.getBoundingClientRect().left < -1)
+    .filter(it => !it.closest('.wmr-aside')).map(it => it.outerHTML.slice(0, 90))"""
+FAULTS = "async () => (await axe.run('.live')).violations.map(it => [it.id, it.nodes[0].html])"
+
+
+def opened(page, name: str, width: int = 900):
+    """Show one and commit to a prediction, if it asks for one; return it and its panel."""
+    thing = getattr(live, name)()
+    panel = mounted(page, thing, width=width)
+    if ask := thing.setup["ask"]:
+        commit(panel, ask)
+    return thing, panel
+
+
+def commit(panel, ask) -> None:
+    page = panel.page
+    if ask["kind"] == "choose":
+        page.get_by_role("radio").nth(ask["key"]).check()
+    elif ask["kind"] == "turn":
+        page.get_by_role("slider").first.press("ArrowRight")
+    else:
+        box = page.locator("canvas").first.bounding_box()
+        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
+        page.mouse.down()
+        page.mouse.move(box["x"] + box["width"] / 3, box["y"] + box["height"] / 3, steps=8)
+        page.mouse.up()
+    page.get_by_role("button", name="Commit").click()
+    panel.settled()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_nothing_is_shown_before_the_prediction_is_made(browser_page, name):
+    thing = getattr(live, name)()
+    if not (ask := thing.setup["ask"]):
+        return
+    panel = mounted(browser_page, thing)
+    page = panel.page
+    given = page.evaluate(PICTURE)
+    for knob in thing.setup["knobs"]:
+        for value in [knob["low"], knob["high"]] if "low" in knob else dict(knob["choices"]):
+            panel.set(**{knob["name"]: value})
+            assert page.evaluate(PICTURE) == given, knob["name"]
+    panel.set(**thing.state)
+    assert (
+        page.locator(".live-sentence, .live-rows, .wmr-handle").locator("visible=true").count() == 0
+    )
+    assert ask["why"] not in page.evaluate(TEXT)
+    assert page.get_by_role("button", name="Commit").is_disabled() == (ask["kind"] != "turn")
+    commit(panel, ask)
+    assert ask["why"] in page.evaluate(TEXT)
+    assert page.locator(".live-sentence").is_visible()
+    assert page.evaluate(PICTURE) != given
+    assert page.locator(".live-gate input:enabled").count() == 0
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_all_that_moves_matters_and_says_something_sound(browser_page, name):
+    thing, panel = opened(browser_page, name)
+    page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
+    moved = page.evaluate(PICTURE)
+    for knob in thing.setup["knobs"]:
+        panel.set(**home)
+        before = page.evaluate(PICTURE)
+        if "choices" in knob:
+            for value, _ in knob["choices"]:
+                page.get_by_label(knob["says"], exact=True).select_option(value)
+                panel.settled()
+                assert panel.get(knob["name"]) == value
+                moved = moved if page.evaluate(PICTURE) == before else ""
+            assert not moved, f"{knob['name']} changes nothing"
+            continue
+        slider = panel.slider(knob["name"])
+        said = slider.get_attribute("aria-valuetext")
+        slider.press("ArrowLeft" if home[knob["name"]] >= knob["high"] else "ArrowRight")
+        panel.settled()
+        assert slider.get_attribute("aria-valuetext") != said
+        assert page.evaluate(PICTURE) != before, f"{knob['name']} changes nothing"
+        assert slider.get_attribute("aria-label") == knob["says"]
+    ends = [
+        (k["low"], k["high"]) if "low" in k else [v for v, _ in k["choices"]]
+        for k in thing.setup["knobs"]
+    ]
+    for corner in itertools.islice(itertools.product(*ends), 16):
+        panel.set(**dict(zip((k["name"] for k in thing.setup["knobs"]), corner, strict=True)))
+        assert not UNSOUND.search(page.evaluate(TEXT)), (corner, page.evaluate(TEXT))
+        for canvas in page.locator(".live canvas").all():
+            assert not UNSOUND.search(canvas.get_attribute("aria-label")), corner
+            assert len(canvas.get_attribute("aria-label").split()) > 3
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_moves(
+    browser_page, name
+):
+    thing, panel = opened(browser_page, name)
+    page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
+    for knob in thing.setup["knobs"]:
+        number = page.get_by_role("spinbutton", name=knob["says"], exact=True)
+        if "choices" in knob or not number.count():  # its slider alone moves it
+            continue
+        before = panel.get(knob["name"])
+        number.fill(str(knob["high"] + 1))
+        number.press("Tab")
+        panel.settled()
+        assert panel.get(knob["name"]) == before
+        assert "is not allowed" in page.locator(".live-trouble").inner_text()
+        number.fill(str((knob["low"] + knob["high"]) / 2).replace(".", ","))
+        number.press("Tab")
+        panel.settled()
+        assert panel.get(knob["name"]) == pytest.approx((knob["low"] + knob["high"]) / 2)
+        assert page.locator(".live-trouble").inner_text() == ""
+        now = panel.get(knob["name"])
+        panel.drag(number, 40, 0)
+        assert panel.get(knob["name"]) > now
+    panel.set(**home)
+    for handle in page.locator(".wmr-handle").all():
+        before = page.evaluate("JSON.stringify(panel.get('state'))")
+        for key in ("ArrowLeft", "ArrowUp"):
+            handle.press(key)
+        panel.settled()
+        moved = page.evaluate("JSON.stringify(panel.get('state'))") != before
+        assert moved or page.locator(".live-trouble").inner_text()
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_it_fits_a_phone_and_everybody_can_use_it(browser_page, name):
+    thing = getattr(live, name)()
+    for width, scheme in ((390, "light"), (900, "dark")):
+        browser_page.emulate_media(color_scheme=scheme)
+        panel = mounted(browser_page, thing, width=width, height=844)
+        for step in ("closed", "open") if thing.setup["ask"] else ("open",):
+            if step == "open" and thing.setup["ask"]:
+                commit(panel, thing.setup["ask"])
+            assert not browser_page.evaluate(WIDE), (width, step)
+            assert not browser_page.evaluate(SMALL), (width, step)
+            browser_page.add_script_tag(path=AXE)
+            found = browser_page.evaluate(FAULTS)
+            assert not found, (width, step, found)
+
+
+def test_python_moves_it_and_refuses_what_is_not_allowed():
+    thing = live.turning_centre()
+    thing["left"] = 1.25
+    assert thing["left"] == thing.state["left"] == 1.25
+    for name, value in (("left", 9.0), ("left", float("nan")), ("middle", 1.0)):
+        with pytest.raises(
+            ValueError, match=f"{name if name != 'middle' else 'knob'} = .* is not allowed"
+        ):
+            thing[name] = value
