@@ -72,10 +72,10 @@
     document.documentElement.classList.add('python-busy');
     cell.stop.hidden = false;
     try {
-      if (!worker) say(cell, 'Loading Python …');
+      say(cell, worker ? 'Running …' : 'Loading Python …');
       const python = await (worker ??= started());
       for (const each of cells.slice(0, cell.place + 1)) {
-        const needed = each.space === 'chapter' && each.space === cell.space && each.ran !== source(each);
+        const needed = each.space === cell.space && !each.checks.length && each.ran !== source(each);
         if (each !== cell && !needed) continue;
         say(cell, each === cell ? 'Running …' : `Running ${kind(each)} ${each.number} …`);
         const start = performance.now();

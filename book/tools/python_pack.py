@@ -33,7 +33,7 @@ LEFT_OUT = re.compile(
     r".*\b(tests|benchmarks|__pycache__)/|sympy/(physics/(?!units)\w+/|parsing/\w+/|stats/)"
     r"|wmrlib/(explorer|tracks)/|wmrbook/(figures|audit|challenge|live)/"
 )
-KINDS = {".py", ".pyi", ".h"}
+KINDS = {".py", ".pyi", ".c", ".h"}
 FIXED = (1980, 1, 1, 0, 0, 0)  # the same files make the same zip
 
 
