@@ -107,10 +107,10 @@
   }
 
   async function show(cell, shown, error) {
-    const parts = shown.map(([kind, text]) => (kind === 'latex'
-      ? make('div', { className: 'output text_latex math notranslate nohighlight', textContent: `\\[${text.replace(/^\$+|\$+$/g, '')}\\]` })
-      : make('div', { className: 'output stream' }, make('pre', { textContent: text }))));
-    if (error) parts.push(make('div', { className: 'output python-error' }, make('pre', { textContent: error })));
+    const lines = (text, kind) => make('div', { className: `output highlight ${kind}` }, make('pre', { textContent: text }));
+    const formula = (text) => make('div', { className: 'output text_latex math notranslate nohighlight', textContent: `\\[${text}\\]` });
+    const parts = shown.map(([kind, text]) => (kind === 'latex' ? formula(text.replace(/^\$+|\$+$/g, '')) : lines(text, 'stream')));
+    if (error) parts.push(lines(error, 'python-error'));
     cell.stored.forEach((it) => { it.hidden = true; });
     cell.output.replaceChildren(...parts);
     await MathJax.startup.promise;
