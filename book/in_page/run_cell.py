@@ -49,7 +49,9 @@ def _execute(source, file, names, shown):
 
 
 def _short(text):
-    return text if len(text) <= LONGEST else f"{text[:LONGEST]}\n... and {len(text)} characters in all"
+    return (
+        text if len(text) <= LONGEST else f"{text[:LONGEST]}\n... and {len(text)} characters in all"
+    )
 
 
 def _said(error, file, source):

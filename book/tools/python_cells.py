@@ -1,8 +1,8 @@
 """A Sphinx extension: cells that run in the page, and tasks that are checked there.
 
-The page has Python and sympy, but no numpy, no matplotlib and no compiled code. So a statement of a
-chapter runs there if nothing that it names comes from one that can't, and a cell can be run if all
-that it *shows* can; what else it holds is left out, and the page says so. Nothing is marked by hand.
+The page has Python and sympy, but no numpy, no matplotlib and no compiled code. A statement of a
+chapter runs there if nothing that it names comes from one that can't, and a cell if all that it
+*shows* can; what else it holds is left out, and the page says so. Nothing is marked by hand.
 
 Below a chapter's exercises stand graded tasks that can be checked in the page, out of book/course:
 their text, the cell to fill in, and the checks with their hints. Paper shows none of this.
@@ -23,9 +23,7 @@ from docutils import nodes
 SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
 CHAPTER = re.compile(r"notebooks/(\d\d)_")
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
-THERE = {
-    "collections", "functools", "itertools", "math", "sympy", "wmrbook.equations", "wmrlib.symbolic",
-}  # fmt: skip
+THERE = {"collections", "functools", "math", "sympy", "wmrbook.equations", "wmrlib.symbolic"}
 # The graded tasks that are right in the page too, by the id of the cell to fill in.
 TASKS = {
     "01": ("distance", "bearing", "local"),
@@ -38,7 +36,9 @@ TASKS = {
 }
 SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
 STUB = 'raise NotImplementedError("write your answer here")\n'
-ABOUT = "Graded tasks of [the course](../lecturers.md#graded-exercises), checked here with its hints."
+ABOUT = (
+    "Graded tasks of [the course](../lecturers.md#graded-exercises), checked here with its hints."
+)
 
 
 class Cell(NamedTuple):

@@ -45,7 +45,7 @@ def write_scripts(folder: Path, modules: Path) -> None:
     pyodide = modules / "pyodide"
     lock = json.loads((pyodide / "pyodide-lock.json").read_text(encoding="utf-8"))
     lock["packages"] = {}  # each would be a request
-    # A blob of a page from the disk may be a classic worker only, which Pyodide refuses by this sign.
+    # From the disk only a classic worker starts, which Pyodide knows by this name and refuses.
     worker = f"self.importScripts = undefined;\nconst LOCK = {json.dumps(lock)};\n"
     worker += (pyodide / "pyodide.js").read_text(encoding="utf-8").rpartition("//#")[0]
     worker += (IN_PAGE / "worker.js").read_text(encoding="utf-8")

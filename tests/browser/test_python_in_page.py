@@ -201,19 +201,32 @@ print(json.dumps(found))
 """
 
 
+NUMPY = "import numpy as np\n"
+
+
 @pytest.mark.parametrize(
-    ("code", "kept", "before"),
+    ("code", "kept"),
     [
-        ("import sympy as sp\nx = sp.Symbol('x')\nx", "import sympy as sp\nx = sp.Symbol('x')\nx", ""),
-        ("import numpy as np\nx = 1\nassert np.ones(x)\nx", "x = 1\nx", ""),
-        ("import numpy as np\nx = np.ones(3)\nx", None, ""),
-        ("import wmrlib as wmr\nx = []\nfor y in wmr.f():\n    x.append(y)\nprint(x)", None, ""),
-        ("import numpy as np\nassert np.ones(3)\nprint('as it should be')", None, ""),
-        ("import numpy as np\nfor rho in np.ones(3):\n    pass\n[rho for rho in range(3)]", "[rho for rho in range(3)]", ""),
+        ("import sympy as sp\nsp.Symbol('x')", "import sympy as sp\nsp.Symbol('x')"),
+        (NUMPY + "x = 1\nassert np.ones(x)\nx", "x = 1\nx"),
+        (NUMPY + "x = np.ones(3)\nx", None),
+        (NUMPY + "x = 1\nx += np.ones(3)\nx", None),
+        (NUMPY + "x = []\nfor y in np.ones(3):\n    x.append(y)\nprint(x)", None),
+        (NUMPY + "assert np.ones(3)\nprint('as it should be')", None),
+        (NUMPY + "def f(x):\n    return np.ones(x)\n\n\nf(3)", None),
+        (NUMPY + "x = np.ones(3)\n[x for x in range(3)]", "[x for x in range(3)]"),
     ],
 )
-def test_a_cell_runs_in_the_page_if_all_that_it_shows_can(code, kept, before):
+def test_a_cell_runs_in_the_page_if_all_that_it_shows_can(code, kept):
     shows = nbformat.v4.new_output("execute_result", {"text/plain": "what it shows"})
-    cells = [nbformat.v4.new_code_cell(each, outputs=[shows]) for each in (code,)]
-    found = runnable(nbformat.v4.new_notebook(cells=cells))
+    cell = nbformat.v4.new_code_cell(code, outputs=[shows])
+    found = runnable(nbformat.v4.new_notebook(cells=[cell]))
     assert [each.source for each in found] == ([] if kept is None else [kept])
+
+
+def test_what_a_cell_needs_of_cells_that_are_not_run_comes_before_it():
+    shows = nbformat.v4.new_output("stream", text="what it shows")
+    sources = NUMPY + "import math\nn = np.e\nturn = 2 * math.pi\nmore = 3", "print(turn / 2)"
+    cells = [nbformat.v4.new_code_cell(each, outputs=[shows]) for each in sources]
+    (cell,) = runnable(nbformat.v4.new_notebook(cells=cells))
+    assert (cell.before, cell.left_out) == ("import math\nturn = 2 * math.pi", 0)

@@ -7,11 +7,11 @@ else numpy has is refused by name.
 import math
 import operator
 import random as _random
-from math import fmod, hypot, inf, nan, pi  # noqa: F401
-from operator import mod, sub as subtract  # noqa
 from types import SimpleNamespace
 
 _KINDS = {bool: "b", int: "i", float: "f"}
+_NEEDED = "needs numpy, which this page has not: open the notebook for it"
+inf, nan, pi = math.inf, math.nan, math.pi
 float64, int64 = float, int
 
 
@@ -27,32 +27,26 @@ class bool_(generic):  # noqa: N801
     pass
 
 
-class Generator:
-    """Other numbers than numpy's, and the same ones each time."""
+def _compared(operation):
+    def compare(self, other):
+        others = asarray(other)
+        right = others.flat if others.shape else others.flat * self.size
+        pairs = zip(self.flat, right, strict=True)
+        return ndarray([operation(*pair) for pair in pairs], self.shape)
 
-    def __init__(self, seed):
-        self._random = _random.Random(seed)
+    return compare
 
-    def uniform(self, low, high, size=None):
-        lows, highs = asarray(low), asarray(high)
-        if size is None:
-            return self._random.uniform(low, high)
-        shape = size if isinstance(size, tuple) else (size,)
-        count, width = math.prod(shape), max(lows.size, highs.size)
-        pairs = list(zip(lows.flat * (width // lows.size), highs.flat * (width // highs.size)))
-        return ndarray([self._random.uniform(*pairs[i % width]) for i in range(count)], shape)
 
-    def integers(self, low, high):
-        return self._random.randrange(low, high)
+def _refuse(*operands):
+    raise ModuleNotFoundError(f"To calculate with arrays {_NEEDED}")
 
 
 class ndarray:  # noqa: N801
     def __init__(self, flat, shape):
         self.flat, self.shape, self.ndim, self.size = flat, shape, len(shape), len(flat)
         kinds = {_KINDS.get(type(each), "O") for each in flat}
-        if kinds == {"i", "f"}:
-            kinds = {"f"}
-        self.dtype = SimpleNamespace(kind=kinds.pop() if len(kinds) == 1 else "O")
+        kind = "f" if kinds == {"i", "f"} else "O" if len(kinds) > 1 else "".join(kinds)
+        self.dtype = SimpleNamespace(kind=kind)
 
     def astype(self, kind):
         return ndarray([kind(each) for each in self.flat], self.shape)
@@ -77,39 +71,58 @@ class ndarray:  # noqa: N801
     def __float__(self):
         return float(self.item())
 
+    def __bool__(self):
+        return bool(self.item())
+
     def __repr__(self):
         return f"array({self.tolist()})"
 
-    def __array_is_missing(self, *others):
-        raise ModuleNotFoundError("to calculate with arrays needs numpy: open the notebook for it")
-
-    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __array_is_missing
-    __rtruediv__ = __pow__ = __matmul__ = __neg__ = __getitem__ = __array_is_missing
-
-    def _with(operation):
-        def apply(self, other):
-            others = asarray(other).flat
-            pairs = zip(self.flat, others * (self.size // len(others)), strict=True)
-            return ndarray([operation(*pair) for pair in pairs], self.shape)
-
-        return apply
-
-    __ge__, __gt__, __le__, __lt__ = map(
-        _with, (operator.ge, operator.gt, operator.le, operator.lt)
+    __ge__, __gt__ = _compared(operator.ge), _compared(operator.gt)
+    __le__, __lt__ = _compared(operator.le), _compared(operator.lt)
+    __and__, __or__ = _compared(operator.and_), _compared(operator.or_)
+    __add__ = __radd__ = __sub__ = __rsub__ = __mul__ = __rmul__ = __truediv__ = __rtruediv__ = (
+        _refuse
     )
-    __and__, __or__ = _with(operator.and_), _with(operator.or_)
+    __pow__ = __matmul__ = __neg__ = __abs__ = __getitem__ = _refuse
 
 
 def asarray(value):
     if isinstance(value, ndarray):
         return value
-    if not isinstance(value, (list, tuple)):
+    if not isinstance(value, list | tuple):
         return ndarray([value], ())
     rows = [asarray(each) for each in value]
     if len({row.shape for row in rows}) > 1:
         raise ValueError("ragged rows")
     flat = [each for row in rows for each in row.flat]
     return ndarray(flat, (len(rows), *(rows[0].shape if rows else ())))
+
+
+class Generator:
+    """Not numpy's random numbers, but the same ones each time."""
+
+    def __init__(self, seed):
+        self._random = _random.Random(seed)
+
+    def uniform(self, low, high, size=None):
+        if size is None:
+            return self._random.uniform(low, high)
+        shape = size if isinstance(size, tuple) else (size,)
+        width = max(asarray(low).size, asarray(high).size)
+        lows, highs = (_repeated(asarray(each).flat, width) for each in (low, high))
+        draws = (self._random.uniform(lows[i % width], highs[i % width]) for i in _places(shape))
+        return ndarray(list(draws), shape)
+
+    def integers(self, low, high):
+        return self._random.randrange(low, high)
+
+
+def _repeated(flat, width):
+    return flat * (width // len(flat))
+
+
+def _places(shape):
+    return range(math.prod(shape))
 
 
 array = asarray
@@ -144,29 +157,30 @@ def vectorize(function, **options):
     return function
 
 
-def clip(value, low, high):
-    return min(max(value, low), high)
-
-
 def where(test, one, other):
     return one if test else other
 
 
+def clip(value, low, high):
+    return min(max(value, low), high)
+
+
 def _of_each(function):
     def apply(value):
-        if not isinstance(value, (list, tuple, ndarray)):
+        if not isinstance(value, list | tuple | ndarray):
             return function(value)
         return ndarray([function(each) for each in asarray(value).flat], shape(value))
 
     return apply
 
 
-_SAME_NAME = "cos degrees exp floor isfinite isnan log radians sin sqrt tan"
-vars().update({name: _of_each(getattr(math, name)) for name in _SAME_NAME.split()})
-arctan2 = math.atan2
+_ONE = "cos degrees exp floor isfinite isnan log radians sin sqrt tan"
+vars().update({name: _of_each(getattr(math, name)) for name in _ONE.split()})
+arctan2, fmod, hypot = math.atan2, math.fmod, math.hypot
+mod, subtract = operator.mod, operator.sub
 
 
 def __getattr__(name):
     if name.startswith("__"):
         raise AttributeError(name)
-    raise ModuleNotFoundError(f"numpy.{name} is not in this page: open the notebook for it")
+    raise ModuleNotFoundError(f"numpy.{name} {_NEEDED}")

@@ -11,6 +11,6 @@ formula = compiled
 def elementwise(one, outputs, *arguments, options=()):
     for each in arguments:
         if not isinstance(each, float):
-            raise ModuleNotFoundError("arrays need numpy, which the notebook has and this page not")
+            raise ModuleNotFoundError("Arrays need numpy: open the notebook for them")
     results = one(*arguments, *options)
     return results if outputs > 1 else (results,)
