@@ -14,7 +14,6 @@ from matplotlib.colors import same_color
 
 import wmrlib as wmr
 from wmrbook import challenge, figures
-from wmrbook.figures import COLOURS
 from wmrbook.pareto import pareto
 from wmrbook.scatter import stationary_scatter
 from wmrlib import paper
@@ -105,11 +104,7 @@ def time_steps():
 
 CASES = {
     "local_map": lambda: figures.local_map(paper.GPS_POINT_1, paper.GPS_POINT_2),
-    "arrival": lambda: figures.arrival(drive()),
     "dashboard": lambda: figures.dashboard(drive()),
-    "heading_to_go": lambda: figures.heading_to_go(
-        {"one": drive(arrival_radius=0.01), "two": drive(gains=GENTLE)}
-    ),
     "lyapunov_over_time": lambda: figures.lyapunov_over_time(drive()),
     "twist": lambda: figures.twist(drive()),
     "spherical_triangle": lambda: figures.spherical_triangle(
@@ -119,24 +114,14 @@ CASES = {
     "coordinate_system": lambda: figures.coordinate_system(
         wmr.Pose(2.0, 1.5, math.radians(35.0)), 1.0, 0.25
     ),
-    "turning_centre": lambda: figures.turning_centre(1.0, 0.8, 0.6),
-    "turning_centre, right": lambda: figures.turning_centre(1.0, -2.5, 0.6),
-    "commutator": lambda: figures.commutator(1.0, 0.5, 3),
     "robot_loops": lambda: figures.robot_loops(0.2, 4.0),
-    "steps": lambda: figures.steps(4.0, 1.0, 0.5),
-    "polar_angles": lambda: figures.polar_angles(ROBOT, GOAL),
-    "polar_angles, clockwise": lambda: figures.polar_angles(
-        wmr.Pose(5.0, 0.0, 2.0), wmr.Pose(0.0, -4.0, 3.0)
-    ),
     "third_angle": lambda: figures.third_angle(ROBOT, GOAL),
-    "mirrored_paths": lambda: figures.mirrored_paths([drive(), drive("aicardi")], ["one", "two"]),
     "path_choices": lambda: figures.path_choices(
         {"one": WAY, "two": wmr.Pose(WAY.x, 0.5 * WAY.y, 0.0)}, ORIGIN
     ),
     "angles_over_time": lambda: figures.angles_over_time(drive()),
     "angles_over_time of two": lambda: figures.angles_over_time([drive(), drive("aicardi")]),
     "bowl": lambda: figures.bowl(GAINS, near_goal_runs()),
-    "lyapunov_runs": lambda: figures.lyapunov_runs(near_goal_runs()),
     "heading_errors": lambda: figures.heading_errors(near_goal_runs(), ["one", "two"]),
     "compare_runs": lambda: figures.compare_runs(
         {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
@@ -162,11 +147,7 @@ CASES = {
     "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
-    "wheel_limited_paths": lambda: figures.wheel_limited_paths(
-        {"all of it": LIMITED, "part": LIMITED[:2]}, LIMITED[-1]
-    ),
     "scatter": lambda: figures.scatter(stationary_scatter(wmr.read_track(TRACK))),
-    "end_poses": lambda: figures.end_poses(ENDS, PARK, 0.05),
     "memories": lambda: figures.memories(MEMORY, FOUND),
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
@@ -174,10 +155,6 @@ CASES = {
     "route": lambda: figures.route(route("mixed")),
     "route, stuck": lambda: figures.route(route("stuck")),
     "route, one pose": lambda: figures.route(route("point")),
-    "route_signals": lambda: figures.route_signals(route("mixed")),
-    "route_signals, one pose": lambda: figures.route_signals(route("point")),
-    "sign_of_rate": lambda: figures.sign_of_rate(lambda alpha, theta: alpha + np.pi / 2),
-    "sign_of_rate, falls": lambda: figures.sign_of_rate(lambda alpha, theta: -(alpha**2)),
     "challenge_paths": lambda: figures.challenge_paths(score(0.128, 1.089, 1.42, 7.528)),
     "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
     "challenge_paths, five": lambda: figures.challenge_paths(score(2.0, 1.0, 0.3, cases=5)),
@@ -193,19 +170,6 @@ def degrees_left(run):
     return f"{math.degrees(wmr.arrival(run).heading_error):.0f} deg"
 
 
-def of_twist(v, omega, width):
-    """The wheels' speeds by the paper's (1) and (2), solved by numpy."""
-    right, left = np.linalg.solve([[0.5, 0.5], [1 / width, -1 / width]], [v, omega])
-    wheels = f"left wheel, {left:.2f} m/s, of its middle, {v:.2f} m/s"
-    return f"{wheels}, and of its right wheel, {right:.2f} m/s"
-
-
-def moved(step, turn, times):
-    """Where `times` commutators lead: back is along the turned heading."""
-    x, y = times * step * (1 - math.cos(turn)), -times * step * math.sin(turn)
-    return f"at x = {x:.3f} m and y = {y:.3f} m"
-
-
 def beside(driven):
     """How far the route passes its first waypoint."""
     way = driven.waypoints
@@ -214,11 +178,6 @@ def beside(driven):
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
     "local_map": lambda: ["58.08 m long, at a bearing of 9.58 deg"],
-    "heading_to_go": lambda: [  # the swing of the paper's gains; the gentle ones stop at 5 cm
-        "deg at 2 m, then between -59 and",
-        "deg, -59 deg at 0.01 m; two,",
-        "2 deg at 0.05 m",
-    ],
     "spherical_triangle": lambda: [
         "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
     ],
@@ -227,14 +186,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "coordinate_system": lambda: ["35 deg from east"],
     "robot_loops": lambda: ["the polar error every 0.2 s; the wheel", "loops every 0.05 s"],
-    "turning_centre": lambda: [of_twist(1.0, 0.8, 0.6), "1.25 m to the left"],
-    "turning_centre, right": lambda: [of_twist(1.0, -2.5, 0.6), "0.40 m to the right"],
-    "commutator": lambda: [moved(1.0, 0.5, 3)],
-    "steps": lambda: ["a circle of 4.0 m radius"],
-    "polar_angles": lambda: [
-        *("sight is at 55 deg", "heads 15 deg", "the goal -25 deg", "black arc from east"),
-        *("sight, is 40 deg", "sight, is 80 deg", "robot's, is 40 deg"),
-    ],
     "third_angle": lambda: [
         "theta = 80 deg, turned from the goal's heading to the line of sight",
         "beta = -80 deg, turned back from the line of sight to the goal's heading, "
@@ -242,10 +193,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "path_choices": lambda: ["one: ends 0.10 m from the goal, its heading 11 deg off"],
     "bowl": lambda: ["bottom at (0, 0) deg", "falling all the way; a run", "rising at times"],
-    "lyapunov_runs": lambda: [
-        "corrected: from 0.37 to",
-        "it never rises; printed: from 0.37 to 3.3, it rises, to 3.3 at most",
-    ],
     "compare_runs": lambda: [
         "one goes from 3.96 to 0.36 m/s",
         "a dotted line marks the limit, 4 m/s",
@@ -283,26 +230,16 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "inner_loops": lambda: [
         f"one, slow: {degrees_left(drive(wheel_lag=0.1))}; one, at once: {degrees_left(drive())}"
     ],
-    "wheel_limited_paths": lambda: [
-        "all of it: 4.0 m, as far as x = 1.0 m; part: 1.0 m, as far as x = 1.0 m, "
-        'at most 0.00 m beside the first. Indistinguishable from the first: "part".'
-    ],
     "scatter": lambda: [
         "9 positions",
         "from 7.5 m west and 0.5 m south to 2.7 m east and 0.6 m north, where the last two are one",
         "a dashed circle of 2.1 m holds half of them",
-    ],
-    "end_poses": lambda: [
-        "Left, 150 of 300 robots",
-        "about 15 % within 30 deg, about 50 % more than 90 deg off",
     ],
     "memories": lambda: [
         "from white to constant: 10 Hz, from 0.2 m and about 80 deg to 1.4 m and 10 deg, "
         "the heading worst, about 90 deg, at 3 s; 1 Hz, "
     ],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
-    "sign_of_rate": lambda: ["V rises in the hatched 75 % and falls elsewhere"],
-    "sign_of_rate, falls": lambda: ["hatched 0 %"],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
         "3 of 3 waypoints reached, 2 to stop at and 1 to pass "
@@ -312,10 +249,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "route, stuck": lambda: [
         "1 of 3 waypoints reached, 3 to stop at and 0 to pass; ",
         "s without reaching the rest.",
-    ],
-    "route_signals": lambda: [
-        f"Over {route('mixed').time:.1f} s and 3 legs: v between",
-        "jumping up at 2 of 2 changes of the goal",
     ],
     "challenge_paths": lambda: [
         "12 of them reached, with 21.81 points in the mean; "
@@ -379,26 +312,6 @@ def test_the_maps_star_is_the_line_asked_for():
     assert any("+0.244 %" in text.get_text() for text in axes.texts)
 
 
-def test_the_commutator_leads_sideways():
-    axes = figures.commutator(0.2, 0.1).figure.axes[0]
-    # the dart's corners lie a quarter of its size behind
-    end = axes.patches[2].get_xy()[:4].mean(axis=0) + 0.2 * 0.07 * np.array([0.25, 0.0])
-    assert end == pytest.approx([0.2 * (1 - math.cos(0.1)), -0.2 * math.sin(0.1)], abs=1e-9)
-
-
-def test_eulers_steps_are_a_polygon_and_the_arcs_lie_on_the_circle():
-    exact, arc, euler, _ = axes_of("steps")[0].lines
-    for line in (exact, arc):
-        np.testing.assert_allclose(np.hypot(line.get_xdata(), line.get_ydata() - 4.0), 4.0)
-    sides = np.hypot(*np.diff(euler.get_xydata(), axis=0).T)
-    np.testing.assert_allclose(sides, 2.0, rtol=1e-12)
-    assert euler.get_ydata()[1] == 0.0  # the first step goes along the tangent
-    for parts in (6, 12, 49):  # steps that divide the turn close the polygon and go no further
-        closed = figures.steps(4.0, 1.0, 2 * math.pi / parts).figure.axes[0].lines[2].get_xydata()
-        assert len(closed) == parts + 1
-        assert np.hypot(*closed[-1]) < 1e-12
-
-
 def test_arcs_begin_and_end_on_their_sides():
     """Theta's arc runs from the goal's heading to the line of sight, beta's the other way."""
     figure = picture("third_angle").figure
@@ -416,17 +329,16 @@ def test_arcs_begin_and_end_on_their_sides():
 
 
 def test_no_name_lies_on_the_line_of_sight():
-    for name in ("polar_angles", "polar_angles, clockwise", "third_angle"):
-        figure = picture(name).figure
-        figure.canvas.draw()
-        for axes in figure.axes:
-            dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
-            ends = axes.transData.transform(dashed.get_xydata())
-            points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
-            names = [text for text in axes.texts if text.get_text() in ("robot", "goal")]
-            assert len(names) == 2
-            boxes = [text.get_window_extent() for text in names]
-            assert not any(box.contains(*point) for box in boxes for point in points), name
+    figure = picture("third_angle").figure
+    figure.canvas.draw()
+    for axes in figure.axes:
+        dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
+        ends = axes.transData.transform(dashed.get_xydata())
+        points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
+        names = [text for text in axes.texts if text.get_text() in ("robot", "goal")]
+        assert len(names) == 2
+        boxes = [text.get_window_extent() for text in names]
+        assert not any(box.contains(*point) for box in boxes for point in points)
 
 
 def test_paths_and_angles_are_those_of_the_runs():
@@ -448,11 +360,8 @@ def test_the_runs_lie_on_the_bowl():
         np.testing.assert_allclose(height, 0.5 * (run.alpha**2 + GAINS.h * run.theta**2))
 
 
-def test_v_is_thick_where_it_rises_and_headings_are_not_wrapped():
+def test_headings_are_not_wrapped():
     _, wild = near_goal_runs()
-    calm, red = axes_of("lyapunov_runs")[0].collections
-    assert len(calm.get_segments()) == 0
-    assert len(red.get_segments()) == np.sum(np.diff(wild.V) > 1e-9 * wild.V[0]) > 50
     drawn = axes_of("heading_errors")[0].lines[2].get_ydata()
     np.testing.assert_allclose(drawn, np.degrees(wild.theta - wild.alpha))
     assert drawn.max() > 180
@@ -606,19 +515,6 @@ def test_time_steps_draw_each_run_and_each_limit():
         assert any(set(line.get_xdata()) == limit for line in axes.lines)
 
 
-def test_wheel_limited_paths_say_how_far_one_strays_and_what_the_arrows_are():
-    away = [LIMITED[0], wmr.Pose(2.0, 1.5, 0.5), LIMITED[-1]]
-    near = [each._replace(x=each.x + 0.01) for each in LIMITED]
-    beyond = [*LIMITED, wmr.Pose(1.0, 5.0, 0.5)]  # on the line, but not on the path
-    paths = {"all of it": LIMITED, "aside": away, "beyond": beyond, "near": near}
-    found = figures.wheel_limited_paths(paths, LIMITED[-1])
-    strays = re.findall(r"at most ([\d.]+) m beside", found.alt)
-    assert strays == ["1.00", "2.00", "0.01"]
-    assert found.alt.endswith('Indistinguishable from the first: "near".')
-    legend = [text.get_text() for text in found.figure.axes[0].get_legend().get_texts()]
-    assert legend == [*paths, "start", "goal"]
-
-
 def test_scatter_says_how_many_positions_are_the_last_dot():
     east, north = np.array([0.0, 3.0, 5.0, 5.0, 5.0]), np.array([0.0, -1.0, 1.0, 1.0, 1.0])
     place = wmr.point_at(paper.GPS_POINT_1, east, north)
@@ -627,15 +523,6 @@ def test_scatter_says_how_many_positions_are_the_last_dot():
         shown = figures.scatter(found)
         assert [text.get_text() for text in shown.figure.axes[0].texts] == ["first", word]
         assert (f"the {word} are one dot" in shown.alt) == (count > 3)
-
-
-def test_robots_stand_where_they_ended():
-    place, heading = axes_of("end_poses")
-    assert place.get_title().startswith("150 of 300 robots")
-    assert len(place.patches) == 150 + 4  # goal and circle, each with its rim
-    assert heading.get_title() == "all 300"
-    few = wmr.Pose(*(field[:20] for field in ENDS))
-    assert figures.end_poses(few, PARK, 0.05).alt.startswith("Left, all 20 robots")
 
 
 def test_the_verdicts_bars_differ_in_hatching_too():
@@ -661,29 +548,6 @@ def test_a_route_is_drawn_as_it_was_driven():
         assert "".join(each for each in markers if each in "sox" and len(each) == 1) == wanted
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert legend == ["path", "start", "stop", "passed"]
-
-
-def test_signals_are_cut_where_the_goal_changes():
-    mixed = route("mixed")
-    upper, lower = axes_of("route_signals")
-    parts = [line for line in lower.lines if same_color(line.get_color(), COLOURS["V"])]
-    changes = [line.get_xdata()[0] for line in upper.lines if line.get_linestyle() == "--"]
-    assert changes == pytest.approx(np.cumsum([leg.t[-1] for leg in mixed.legs])[:-1])
-    # down to the arrival itself
-    for part, leg, end in zip(parts, mixed.legs, [*changes, mixed.time], strict=True):
-        np.testing.assert_array_equal(part.get_ydata(), np.maximum(leg.V, 1e-12))
-        assert part.get_xdata()[-1] == pytest.approx(end)
-
-
-def test_a_jump_is_counted_from_the_arrival():
-    """One sample before the arrival V is still above that of the next leg."""
-    for last, dt, jumps in ((12.0, 1.0, 1), (9.0, 0.1, 0)):  # 9 m is nearer than the one passed
-        poses = wmr.Pose(np.array([0.0, 10.0, last]), np.zeros(3), np.zeros(3))
-        driven = wmr.drive_route(poses, wmr.Gains(0.3, 1.0, 1.5), stop=[False, True], dt=dt)
-        change = int(np.flatnonzero(np.diff(driven.leg))[0])
-        assert (driven.legs[0].V[-1] < driven.V[change + 1]) == jumps
-        assert driven.V[change + 1] < driven.V[change]
-        assert f"jumping up at {jumps} of 1 changes" in figures.route_signals(driven).alt
 
 
 def test_each_case_of_the_challenge_has_its_panel():
@@ -722,14 +586,9 @@ BAD = [
     ("a GeoPoint is needed, not a tuple", "sphere_error_map", ((5, 0), 0.0)),
     (r"track_width = 0\.0 .* above 0", "coordinate_system", (ORIGIN, 0.0, 0.1)),
     (r"wheel_radius = -0\.1 .* above 0", "coordinate_system", (ORIGIN, 1.0, -0.1)),
-    (r"omega = 0\.0 .* another number is needed", "turning_centre", (1.0, 0.0, 0.6)),
-    (r"step = 0\.0 .* above 0", "commutator", (0.0, 0.5)),
-    (r"omega = 0\.0 is not allowed", "steps", (1.0, 0.0, 0.1)),
     ("tracks has 0 entries, .* 1 to 4 are needed", "path_choices", ({}, ORIGIN)),
     ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
     ("runs has 0 entries", "angles_over_time", ([],)),
-    ("a Pose is needed, not a tuple", "polar_angles", ((0, 0, 0), GOAL)),
-    ("runs has 0 entries, .* 1 to 4 are needed", "lyapunov_runs", ([],)),
     ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
     ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),
     ("runs has 6 entries", "compare_runs", (FIVE, "v")),
@@ -745,7 +604,6 @@ BAD = [
     ("mismatched lengths", "memories", (MEMORY, {"one": (np.ones(3), np.ones(2))})),
     ("counts has 0 entries", "verdicts", ({},)),
     ("a Route is needed, not a Pose", "route", (WAY,)),
-    ("a Route is needed", "route_signals", (3,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
 ]
 

@@ -16,6 +16,7 @@ from gradebook import COURSE, Course, options
 
 ROOT = COURSE.parents[1]
 FOLDERS = "wmrlib", "book/wmrbook", "book/lab", "notebooks/data"
+CLOSED = ROOT / "book" / "wmrbook" / "questions"  # it computes the keys of the pre- and post-test
 FILES = "LICENSE", "environment.txt", "pyproject.toml"
 SOLUTION = re.compile(r"\n*<details><summary>Solution</summary>.*?</details>", re.DOTALL)
 LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the package
@@ -49,7 +50,8 @@ def _book() -> Iterator[tuple[str, str | bytes]]:
     yield "README.md", START.format(commands="\n\n".join(commands))
     for path in sorted(each for folder in FOLDERS for each in (ROOT / folder).rglob("*")):
         parts = path.relative_to(ROOT).parts
-        if path.is_file() and not any(part.startswith((".", "__pycache__")) for part in parts):
+        hidden = any(part.startswith((".", "__pycache__")) for part in parts)
+        if path.is_file() and not hidden and CLOSED not in path.parents:
             yield "/".join(parts), path.read_bytes()
     for name in FILES:
         yield name, (ROOT / name).read_bytes()

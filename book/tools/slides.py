@@ -1,5 +1,8 @@
 """Make a reveal.js deck of each chapter, from its stored outputs and panels.
 
+With --questions make one deck of the concept questions instead, with their answers, for the
+lecturer alone; in a folder of its own, since the other decks are for everybody.
+
 OUTPUT/index.html lists the decks, and all open from the disk with no network. Each cell's metadata
 slideshow.slide_type, as Jupyter's editors show it, says which part it plays. Every slide gets a
 title, and one with too many words or two figures goes on as the next.
@@ -36,8 +39,6 @@ FIGURE = re.compile(r"<img [^>]*viewBox='0 0 ([\d.]+) ([\d.]+)'")
 LIVE = "application/vnd.jupyter.widget-view+json"
 WORDS = 60  # of prose on a slide, as many as a class reads while somebody talks
 ROWS = 13  # of text below a title
-# Where prose may go on on the next slide: at a paragraph, an item of a list, a sentence.
-ROWS = 13  # of text below a title
 # Where prose may go on on the next slide: at a paragraph, at an item; in long ones at a sentence.
 BLOCK = re.compile(r"(?<![,:])\n\n(?!- |1\. )(?=[^a-z$ ])|(?<!\n)\n(?=- |\d+\. )")
 SENTENCE = re.compile(r"(?<!\d)[.?!]\)?\s+(?=[A-Z*\"$])")
@@ -72,12 +73,45 @@ def main(output: Path, chapters: list[str]) -> None:
             f"no chapter {', '.join(missing)}: two digits each, such as 00 04, are needed, "
             "and OUTPUT before --chapters"
         )
+    lay_out(output)
+    for stale in output.glob("*.slides.html") if not chapters else ():
+        stale.unlink()
+    for path in paths:
+        if not chapters or path.name[:2] in chapters:
+            write(output / f"{path.stem}.slides.html", nbformat.read(path, as_version=4))
+    decks = sorted(output.glob("*.slides.html"))
+    (output / "index.html").write_text(contents(decks), encoding="utf-8")
+    print(output / "index.html")
+
+
+def vote(output: Path) -> None:
+    """Write the deck of the concept questions."""
+    lay_out(output)
+    write(output / "questions.html", questions())
+
+
+def questions() -> NotebookNode:
+    """Return the concept questions, made now, as a notebook."""
+    from wmrbook.questions import deck, made
+
+    return nbformat.v4.new_notebook(
+        cells=[
+            nbformat.v4.new_markdown_cell(text, metadata={"slideshow": {"slide_type": kind}})
+            for kind, text in deck.slides(made())
+        ]
+    )
+
+
+def lay_out(output: Path) -> None:
+    """Put what every deck loads into the folder."""
     install_javascript()
     copy_javascript(output / "vendor", NPM_FILES | {"reveal": REVEAL_FILES})
     for path in BESIDE:
         shutil.copy(path, output)
-    for stale in output.glob("*.slides.html") if not chapters else ():
-        stale.unlink()
+
+
+def write(deck: Path, notebook: NotebookNode) -> None:
+    """Write one deck."""
     exporter = SlidesExporter(
         extra_template_basedirs=[str(BOOK)],
         template_name="deck",
@@ -85,15 +119,8 @@ def main(output: Path, chapters: list[str]) -> None:
         exclude_output_prompt=True,
         exclude_anchor_links=True,
     )
-    for path in paths:
-        if not chapters or path.name[:2] in chapters:
-            deck = output / f"{path.stem}.slides.html"
-            notebook = prepared(nbformat.read(path, as_version=4))
-            deck.write_text(exporter.from_notebook_node(notebook)[0], encoding="utf-8")
-            print(deck, flush=True)
-    decks = sorted(output.glob("*.slides.html"))
-    (output / "index.html").write_text(contents(decks), encoding="utf-8")
-    print(output / "index.html")
+    deck.write_text(exporter.from_notebook_node(prepared(notebook))[0], encoding="utf-8")
+    print(deck, flush=True)
 
 
 def prepared(notebook: NotebookNode) -> NotebookNode:
@@ -310,5 +337,11 @@ if __name__ == "__main__":
     parser = arguments(__doc__, BOOK / "_build" / "slides")
     said = "only these, such as 00 04"
     parser.add_argument("--chapters", nargs="+", default=[], metavar="NN", help=said)
+    said = "the concept questions, into book/_build/votes by default"
+    parser.add_argument("--questions", action="store_true", help=said)
     given = parser.parse_args()
-    main(given.output.resolve(), given.chapters)
+    if given.questions:
+        chosen = given.output != parser.get_default("output")
+        vote((given.output if chosen else BOOK / "_build" / "votes").resolve())
+    else:
+        main(given.output.resolve(), given.chapters)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import itertools
+import json
 import re
 
 import pytest
@@ -25,6 +26,13 @@ WIDE = """() => [...document.querySelectorAll('.live, .live *')].filter(it => it
         || it.getBoundingClientRect().left < -1)
     .filter(it => !it.closest('.wmr-aside')).map(it => it.outerHTML.slice(0, 90))"""
 FAULTS = "async () => (await axe.run('.live')).violations.map(it => [it.id, it.nodes[0].html])"
+
+
+def quoted(values: dict) -> dict:
+    """For `Panel.set`, to which a string is JavaScript."""
+    return {
+        name: json.dumps(each) if isinstance(each, str) else each for name, each in values.items()
+    }
 
 
 def opened(page, name: str, width: int = 900):
@@ -62,9 +70,9 @@ def test_nothing_is_shown_before_the_prediction_is_made(browser_page, name):
     given = page.evaluate(PICTURE)
     for knob in thing.setup["knobs"]:
         for value in [knob["low"], knob["high"]] if "low" in knob else dict(knob["choices"]):
-            panel.set(**{knob["name"]: value})
+            panel.set(**quoted({knob["name"]: value}))
             assert page.evaluate(PICTURE) == given, knob["name"]
-    panel.set(**thing.state)
+    panel.set(**quoted(thing.state))
     assert (
         page.locator(".live-sentence, .live-rows, .wmr-handle").locator("visible=true").count() == 0
     )
@@ -83,7 +91,7 @@ def test_all_that_moves_matters_and_says_something_sound(browser_page, name):
     page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
     moved = page.evaluate(PICTURE)
     for knob in thing.setup["knobs"]:
-        panel.set(**home)
+        panel.set(**quoted(home))
         before = page.evaluate(PICTURE)
         if "choices" in knob:
             for value, _ in knob["choices"]:
@@ -105,7 +113,8 @@ def test_all_that_moves_matters_and_says_something_sound(browser_page, name):
         for k in thing.setup["knobs"]
     ]
     for corner in itertools.islice(itertools.product(*ends), 16):
-        panel.set(**dict(zip((k["name"] for k in thing.setup["knobs"]), corner, strict=True)))
+        names = (knob["name"] for knob in thing.setup["knobs"])
+        panel.set(**quoted(dict(zip(names, corner, strict=True))))
         assert not UNSOUND.search(page.evaluate(TEXT)), (corner, page.evaluate(TEXT))
         for canvas in page.locator(".live canvas").all():
             assert not UNSOUND.search(canvas.get_attribute("aria-label")), corner
@@ -134,9 +143,10 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
         assert panel.get(knob["name"]) == pytest.approx((knob["low"] + knob["high"]) / 2)
         assert page.locator(".live-trouble").inner_text() == ""
         now = panel.get(knob["name"])
+        number.scroll_into_view_if_needed()
         panel.drag(number, 40, 0)
         assert panel.get(knob["name"]) > now
-    panel.set(**home)
+    panel.set(**quoted(home))
     for handle in page.locator(".wmr-handle").all():
         before = page.evaluate("JSON.stringify(panel.get('state'))")
         for key in ("ArrowLeft", "ArrowUp"):

@@ -8,16 +8,19 @@ import math
 import control
 import numpy as np
 import pytest
+from scipy.integrate import solve_ivp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
-from test_live import NAMES
+from test_live import NAMES, commit, quoted
 
 import wmrlib as wmr
 from wmrbook import live
+from wmrbook.live import audit, noise, real_robot
 
 FOUND = """() => JSON.stringify(document.querySelector('.live').found,
     (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
+ROLLING = {"dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
 TRIALS = 4  # places of the knobs, besides where they stand at first
 AGREES = 1e-7  # m and rad, of a run
 
@@ -43,6 +46,77 @@ def last_metres(values, found, data) -> None:
     same_run(found["run"], data["start"], data["goal"], wmr.Gains(*between))
 
 
+def stopping(values, found, data) -> None:
+    gains, ends = wmr.Gains(**data[values["gains"]]), (pose(data["start"]), pose(data["goal"]))
+    same_run(found["run"], *ends, gains, dt=0.005, arrival_radius=0.01)
+    stopped = wmr.simulate(*ends, gains, method="continuous", arrival_radius=values["stop"])
+    assert found["off"] == pytest.approx(stopped.heading_error[-1], abs=1e-3)
+    assert found["t"] == pytest.approx(stopped.t[-1], abs=1e-3)
+
+
+def bearing(values, found, data) -> None:
+    here = wmr.paper.GPS_POINT_1
+    there = wmr.point_at(here, values["east"], values["north"])
+    off = found["bearing"] - wmr.initial_bearing(here, there)
+    assert wmr.wrap_angle(off) == pytest.approx(0.0, abs=1e-7)
+    assert found["rho"] == pytest.approx(wmr.haversine_distance(here, there), abs=1e-6)
+    pair = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(values["east"], values["north"], 0.0)
+    assert found["sight"] == pytest.approx(wmr.polar_error(*pair).alpha)
+
+
+def flat_map(values, found, data) -> None:
+    origin = wmr.GeoPoint(lat=values["lat"], lon=0.0)
+    point = wmr.destination_point(origin, 1000 * values["km"], math.pi / 4)
+    on_sphere, flat = found["maps"]
+    assert on_sphere == pytest.approx(wmr.local_position(origin, point), rel=1e-9, abs=1e-7)
+    lat, lon = np.radians([point.lat - origin.lat, point.lon])
+    there = data["radius"] * np.array([lon * math.cos(math.radians(origin.lat)), lat])
+    assert flat == pytest.approx(there, rel=1e-9, abs=1e-7)
+
+
+def commutator(values, found, data) -> None:
+    step, turn = values["step"], math.radians(values["turn"])
+    at = wmr.Pose(0.0, 0.0, 0.0)
+    for k in range(12):
+        share = min(max(values["moves"] - k, 0.0), 1.0)
+        v, omega = ((step, 0.0), (0.0, turn), (-step, 0.0), (0.0, -turn))[k % 4]
+        at = wmr.advance(at, v, omega, share) if share else at
+    assert found["now"] == pytest.approx(at, abs=1e-12)
+
+
+def one_step(values, found, data) -> None:
+    whole, left = divmod(math.pi / data["omega"], values["dt"])
+    for method in ("arc", "euler"):
+        at = wmr.Pose(0.0, 0.0, 0.0)
+        for dt in [values["dt"]] * int(whole) + [left]:
+            at = wmr.advance(at, data["v"], data["omega"], dt, method=method)
+        assert found[method][-1][:2] == pytest.approx(at[:2], abs=1e-9)
+
+
+def polar_angles(values, found, data) -> None:
+    angles = np.radians([values["heading"], values["goal_heading"]])
+    robot = wmr.Pose(values["x"], values["y"], angles[0])
+    goal = wmr.Pose(*data["goal"][:2], angles[1])
+    theirs = wmr.polar_error(robot, goal)
+    assert [found[name] for name in theirs._fields] == pytest.approx(theirs, abs=1e-12)
+    turned = wmr.wrap_angle(found["gamma"] - (theirs.theta - theirs.alpha))
+    assert turned == pytest.approx(0.0, abs=1e-12)
+
+
+def half_turn(values, found, data) -> None:
+    heading = data["start"][2] - math.radians(values["off"])
+    start = [*data["start"][:2], heading]
+    same_run(found["run"], start, data["goal"], wmr.Gains(**data["gains"]))
+    mirrored = wmr.simulate(
+        pose([*start[:2], -heading]),
+        pose(data["goal"]),
+        wmr.Gains(**data["gains"]),
+        method="continuous",
+        dt=0.05,
+    )
+    np.testing.assert_allclose(found["run"]["y"], -mirrored.y, atol=AGREES)
+
+
 def turning_centre(values, found, data) -> None:
     v, omega = wmr.wheels_to_twist(values["left"], values["right"], data["track"])
     assert (found["v"], found["omega"]) == pytest.approx((v, omega), abs=1e-12)
@@ -60,6 +134,263 @@ def poles(values, found, data) -> None:
     same_run(found["run"], data["start"], data["goal"], gains, dt=0.02, duration=30.0)
 
 
+def unit_circle(values, found, data) -> None:
+    gains = wmr.Gains(**data["gains"][values["gains"]])
+    how = {"method": values["method"], "dt": found["dt"]}
+    longest = wmr.longest_step(gains, values["method"])
+    assert found["dt"] == pytest.approx(values["times"] * longest, rel=1e-12)
+    # one step of simulate, from three places near the goal: the poles are of what it does to them
+    rho, size, origin = 1e-3, 1e-5, wmr.Pose(0.0, 0.0, 0.0)
+    columns = []
+    for angles in ((size, 0.0), (0.0, size)):
+        start = wmr.pose_from_polar(wmr.PolarError(rho, *angles), origin)
+        run = wmr.simulate(start, origin, gains, arrival_radius=0.0, duration=how["dt"], **how)
+        columns.append([run.alpha[-1] / size, run.theta[-1] / size])
+        assert run.rho[-1] / rho == pytest.approx(found["kept"], rel=1e-2)
+    theirs = np.sort_complex(np.linalg.eigvals(np.transpose(columns)))
+    ours = np.sort_complex([complex(*each) for each in found["poles"]])
+    np.testing.assert_allclose(ours, theirs, atol=1e-2)
+    assert (found["size"] < 1) == (values["times"] < 1) or values["times"] == 1
+    same_run(found["run"], data["start"], data["goal"], gains, **how)
+
+
+def wheel_limit(values, found, data) -> None:
+    most, track = values["limit"], data["track"]
+
+    def clipped(v, omega):
+        wheels = np.clip(wmr.twist_to_wheels(v, omega, track), -most, most)
+        return wmr.wheels_to_twist(*wheels, track)
+
+    def apart(v, omega):
+        turning = 0.5 * most / track
+        return np.clip(v, -0.75 * most, 0.75 * most), np.clip(omega, -turning, turning)
+
+    def both(v, omega):
+        return wmr.limit_wheels(v, omega, wmr.WheelLimits(track, most))
+
+    limit = {"wheels": clipped, "apart": apart, "both": both}[values["rule"]]
+    gains, goal = wmr.Gains(**data["gains"]), pose(data["goal"])
+    robot, run = pose(data["start"]), found["run"]
+    for k, here in enumerate(zip(run["x"], run["y"], run["heading"], strict=True)):
+        assert here == pytest.approx(robot, abs=AGREES), k
+        seen = wmr.polar_error(robot, goal)
+        twist = limit(*wmr.control_law(*seen, gains))
+        wheels = run["left"][k], run["right"][k]
+        assert wheels == pytest.approx(wmr.twist_to_wheels(*twist, track), abs=AGREES)
+        robot = wmr.advance(robot, *twist, data["dt"])
+    assert (seen.rho <= 0.05) == run["arrived"]
+    free = wmr.simulate(pose(data["start"]), goal, gains, method="continuous", dt=0.02)
+    far = max(
+        np.hypot(free.x - x, free.y - y).min() for x, y in zip(run["x"], run["y"], strict=True)
+    )
+    assert found["strays"] == pytest.approx(far, abs=1e-6)
+
+
+def bench(values, found, data) -> None:
+    start, goal = pose(data["start"]), pose(data["goal"])
+    path, driven = noise.seeing(start, goal, noise.receiver(values["sigma"], values["memory"]))
+    ends = np.array([each["pose"] for each in found["ends"]]).T
+    for ours, theirs in zip(path, ends, strict=True):
+        np.testing.assert_allclose(np.cos(ours[-1]), np.cos(theirs), atol=1e-6)
+    assert [each["n"] for each in found["ends"]] == driven.tolist()
+    assert (found["far"], found["turned"]) == pytest.approx(
+        noise.left_over(values["sigma"], values["memory"]), abs=1e-6
+    )
+
+
+def late(values, found, data) -> None:
+    delays = (values["delay"] * (values["which"] != each) for each in ("heading", "position"))
+    path, time = noise.late_drive(*delays)
+    assert found["run"]["time"] == (pytest.approx(time) if time < math.inf else None)
+    shown = min(len(path.x), 300)  # later a robot that swings for ever magnifies what is rounded
+    np.testing.assert_allclose(found["run"]["x"][:shown], path.x[:shown], atol=AGREES)
+    np.testing.assert_allclose(found["run"]["y"][:shown], path.y[:shown], atol=AGREES)
+
+
+def threshold(values, found, data) -> None:
+    tunings = {"paper": wmr.paper.OUTDOOR_GAINS, "gentle": wmr.GENTLE_GAINS}
+    curves = []
+    for axis, stops in zip(("east", "north"), found["stops"], strict=True):
+        case = wmr.paper.outdoor(axis)
+        how = {"method": "continuous", "arrival_radius": stops[1][0] / 100}
+        run = wmr.simulate(case.start, case.goal, tunings[values["gains"]], **how)
+        off = abs(math.degrees(wmr.arrival(run).heading_error))
+        assert stops[1] == pytest.approx([values["radius"], off], abs=0.05)
+        curves.append(audit.heading_left(tunings[values["gains"]], axis)[1])
+    verdict = audit.parked(curves, values["radius"] / 100, values["most"])
+    assert found["verdict"] == verdict
+
+
+def rising(values, found, data) -> None:
+    gains, (rho, L) = wmr.Gains(**data["gains"]), (values["rho"], values["L"])
+    here = np.radians([values["alpha"], values["theta"]])
+    rate = wmr.lyapunov_rate(rho, *here, gains, law="printed", L=L)
+    assert found["rate"] == pytest.approx(rate, rel=1e-9, abs=1e-12)
+    angles = np.radians((np.arange(73) + 0.5) / 73 * 360 - 180)
+    up = wmr.lyapunov_rate(rho, *np.meshgrid(angles, angles), gains, law="printed", L=L) > 0
+    assert found["share"] == pytest.approx(up.mean(), abs=1e-3)
+    origin = wmr.Pose(0.0, 0.0, 0.0)
+    start = wmr.pose_from_polar(wmr.PolarError(rho, *map(float, here)), origin)
+    how = {"method": "continuous", "dt": 0.06, "duration": 3.0, "arrival_radius": 0.0}
+    for law, V in zip(("printed", "corrected"), found["V"], strict=True):
+        run = wmr.simulate(start, origin, gains, law=law, **how)
+        ours = run.rho**2 / 2 / L + run.alpha**2 / 2 + gains.h * run.theta**2 / 2
+        np.testing.assert_allclose(V, ours, rtol=1e-6, atol=1e-7)
+
+
+def compass(values, found, data) -> None:
+    iron, soft = values["iron"], values["soft"] / 100
+    for degrees, error in zip(found["turn"], found["errors"], strict=True):
+        read = real_robot.compass_heading(math.radians(degrees), iron, soft)
+        off = wmr.wrap_angle(read - math.radians(degrees) - math.radians(error))
+        assert off == pytest.approx(0.0, abs=1e-9)
+    read = real_robot.compass_heading(math.radians(values["heading"]), iron, soft)
+    assert wmr.wrap_angle(found["read"] - read) == pytest.approx(0.0, abs=1e-9)
+    if soft == 0.0:  # the most that chapter 11 says
+        assert found["worst"] == pytest.approx(
+            math.degrees(math.asin(abs(iron) / data["field"])), abs=0.5
+        )
+
+
+def silence(values, found, data) -> None:
+    far = real_robot.rolled(values["speed"], values["timeout"], values["brake"])
+    assert found["far"] == pytest.approx(far, rel=1e-9)
+    assert found["faith"] == pytest.approx(values["speed"] * values["timeout"])
+
+
+def same_route(found, poses, radii, gains, stop) -> None:
+    how = {"stop": stop, "arrival_radius": radii[-1], "pass_radius": radii[0]}
+    ours = wmr.drive_route(wmr.Pose(*np.transpose(poses)), gains, **how)
+    assert found["arrived"] == (ours.outcome is wmr.Outcome.ARRIVED)
+    assert found["leg"] == ours.leg.tolist()
+    for name in ("t", "x", "y", "v", "V"):
+        np.testing.assert_allclose(found[name], getattr(ours, name), rtol=1e-6, atol=1e-6)
+    assert found["peakOmega"] == pytest.approx(max(it.peak_omega for it in ours.arrivals))
+
+
+def corners(values, found, data) -> None:
+    points = [data["first"], (values["x"], values["y"]), data["last"]]
+    headings = wmr.headings_along(*np.transpose(points))
+    assert [found[key] for key in ("come", "heading", "leave")] == pytest.approx(headings)
+    poses = [(*at, heading) for at, heading in zip(points, headings, strict=True)]
+    radii = data[values["stop"]], data["stop"]
+    same_route(found["run"], poses, radii, wmr.Gains(**data["gains"]), values["stop"] == "stop")
+
+
+def passing(values, found, data) -> None:
+    gains = wmr.Gains(**data["gains"])
+    same_route(found["run"], data["poses"], (values["radius"], 0.05), gains, False)
+
+
+def bowl(values, found, data) -> None:
+    gains = wmr.Gains(**data["gains"][values["choice"]])
+    same_run(found["run"], data["start"], data["goal"], gains, **ROLLING)
+    ours = wmr.simulate(pose(data["start"]), pose(data["goal"]), gains, **ROLLING)
+    height = wmr.lyapunov(0.0, ours.alpha, ours.theta, gains.h)
+    assert found["height"] == pytest.approx(height[found["k"]], abs=AGREES)
+
+
+def two_bars(values, found, data) -> None:
+    def parts(alpha, theta):
+        twist = {
+            "nothing": lambda: (1.0, 0.0),
+            "speed": lambda: (wmr.control_law(rho, alpha, theta, gains)[0], 0.0),
+            "corrected": lambda: wmr.control_law(rho, alpha, theta, gains),
+            "printed": lambda: wmr.control_law(rho, alpha, theta, gains, law="printed"),
+        }[values["law"]]()
+        rates = wmr.polar_rate(rho, alpha, *twist)
+        return rho * rates[0], alpha * rates[1] + gains.h * theta * rates[2]
+
+    rho, gains = data["rho"], wmr.Gains(**data["gains"])
+    ours = parts(math.radians(values["alpha"]), math.radians(values["theta"]))
+    np.testing.assert_allclose(found["bars"], ours, atol=1e-12)
+    side = (2 * (np.arange(19) + 0.5) / 19 - 1) * np.pi
+    states = np.array([(alpha, theta) for alpha in side for theta in side])
+    rises = np.sum(parts(*states.T), axis=0) > 0
+    np.testing.assert_allclose(np.reshape(found["marks"], (-1, 2)), states[rises], atol=1e-12)
+    assert rises.any() == (values["law"] != "corrected")
+
+
+def x_axis(values, found, data) -> None:
+    case = wmr.paper.outdoor(values["axis"])
+    same_run(found["run"], case.start, case.goal, case.gains)
+    assert found["alpha"] == pytest.approx(wmr.polar_error(case.start, case.goal).alpha)
+    east = wmr.paper.outdoor("east")  # the map is the same, however x points
+    np.testing.assert_allclose(found["goal"][:2], east.goal[:2], atol=1e-9)
+    bearing = math.pi / 2 - case.start.heading
+    seen = bearing if values["axis"] == "north" else case.start.heading
+    assert wmr.wrap_angle(found["start"][2] - seen) == pytest.approx(0.0, abs=1e-12)
+
+
+def heading_left(values, found, data) -> None:
+    ends, gains = (pose(data["start"]), pose(data["goal"])), data["gains"][values["choice"]]
+    ours = wmr.simulate(
+        *ends,
+        wmr.Gains(**gains),
+        method="continuous",
+        dt=0.01,
+        duration=120.0,
+        arrival_radius=values["radius"],
+    )
+    assert found["left"] == pytest.approx(ours.heading_error[-1], abs=1e-6)
+    assert found["time"] == pytest.approx(ours.t[-1], abs=1e-6)
+    run = found["run"]
+    late = np.array(run["rho"]) <= values["radius"]
+    error = np.abs(wmr.wrap_angle(np.array(run["theta"]) - run["alpha"]))[late].max()
+    assert found["largest"] == pytest.approx(max(error, abs(found["left"])), abs=1e-12)
+
+
+def lag(values, found, data) -> None:
+    gains = wmr.paper.CIRCLE_GAINS._replace(k_rho=values["k_rho"], v_max=values["v_max"])
+    ours = wmr.track(
+        wmr.paper.circle,
+        wmr.paper.CIRCLE_START,
+        gains,
+        duration=40.0,
+        dt=0.1,
+        method="continuous",
+    )
+    np.testing.assert_allclose(found["run"]["rho"], ours.rho, atol=AGREES)
+    assert found["residual"] == pytest.approx(wmr.residual(ours), abs=AGREES)
+    kept = wmr.control_law(found["predicted"], 0.0, 0.0, gains)[0]  # there it keeps up
+    assert kept == pytest.approx(wmr.paper.CIRCLE_SPEED, rel=1e-12)
+
+
+def lqr(values, found, data) -> None:
+    A, B = np.array(data["A"]), np.array(data["B"])
+    K, _, poles = control.lqr(A, B, values["q"] * np.eye(3), np.eye(2))
+    np.testing.assert_allclose(found["K"], K, atol=1e-9)
+    theirs = np.array([complex(*each) for each in found["poles"]])
+    assert np.abs(np.sort_complex(theirs) - np.sort_complex(poles)).max() < 1e-6
+    ours = wmr.track(
+        wmr.paper.circle,
+        wmr.paper.CIRCLE_START,
+        wmr.LinearGains(-K),
+        law="linear",
+        duration=40.0,
+        dt=0.1,
+        method="continuous",
+    )
+    np.testing.assert_allclose(found["run"]["x"], ours.x, atol=AGREES)
+    np.testing.assert_allclose(found["run"]["omega"], ours.omega, atol=1e-6)
+
+
+def phase(values, found, data) -> None:
+    gains = wmr.Gains(**data["gains"])
+    gains = gains._replace(k_alpha=2 * values["damping"] * wmr.modes(gains).natural_frequency)
+
+    def rates(t, state):
+        near = 1e-9  # m: the goal itself has no direction
+        twist = wmr.control_law(near, *state, gains)
+        return wmr.polar_rate(near, state[0], *twist)[1:]
+
+    start = np.radians([values["alpha"], values["theta"]])
+    ours = solve_ivp(rates, (0, 8), start, t_eval=[1.0, 4.0, 8.0], rtol=1e-9, atol=1e-11)
+    run = found["run"]
+    theirs = [[run[name][k] for k in (100, 400, 800)] for name in ("alpha", "theta")]
+    np.testing.assert_allclose(theirs, ours.y, atol=1e-6)
+
+
 TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the same name
 
 
@@ -74,7 +405,7 @@ def test_what_is_shown_is_true(browser_page, name):
                 values[knob["name"]] = str(random.choice([each for each, _ in knob["choices"]]))
             else:
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
-        panel.set(**values)
+        panel.set(**quoted(values))
         state = browser_page.evaluate("panel.get('state')")
         found = json.loads(browser_page.evaluate(FOUND))
         TRUTH[name](state, found, thing.setup["data"])
@@ -82,6 +413,7 @@ def test_what_is_shown_is_true(browser_page, name):
 
 def test_the_poles_follow_the_hand_and_the_gains_follow_the_poles(browser_page):
     panel = mounted(browser_page, live.poles())
+    commit(panel, live.poles().setup["ask"])
     scale = browser_page.locator("canvas").first.bounding_box()["width"]
     before = json.loads(browser_page.evaluate(FOUND))["poles"]
     panel.drag(browser_page.locator("[data-handle=pole-0]"), -0.05 * scale, -0.1 * scale)

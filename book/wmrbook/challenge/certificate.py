@@ -3,15 +3,14 @@
 from __future__ import annotations
 
 import datetime
-import hashlib
 import re
-import unicodedata
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import NamedTuple
 from urllib.parse import quote, unquote
 
 from wmrbook.challenge import SEED, from_seed, rounded, score
+from wmrbook.lines import checked, clean_name
 from wmrlib._checks import instance
 from wmrlib.gains import Gains
 
@@ -24,10 +23,6 @@ _FORM = re.compile(
     re.ASCII,
 )
 _WANTED = f"{_MARK} seed=... gains=... score=... name=... check=... is needed"
-_LONGEST_NAME = 60
-JOINERS = "\u200c\u200d"
-"""Characters of format that names need, in Persian and in Indian scripts."""
-_FILLERS = "\u034f\u115f\u1160\u17b4\u17b5\u2800\u3164\uffa0"  # unseen letters and marks
 
 
 class Entry(NamedTuple):
@@ -73,10 +68,10 @@ def certificate(
     points = _points(gains, game.seed)
     numbers = ",".join(f"{gain:.3f}" for gain in gains)
     text = f"{_MARK} seed={game.seed} gains={numbers} score={points:.2f}"
-    text += f" name={quote(_clean(name), safe='')}"
+    text += f" name={quote(clean_name(name), safe='')}"
     if date is not None:
         text += f" date={instance('date', date, datetime.date).isoformat()[:10]}"
-    return f"{text} check={_checksum(text)}"
+    return checked(text)
 
 
 def verify(line: str) -> Verdict:
@@ -88,7 +83,7 @@ def verify(line: str) -> Verdict:
     found = _FORM.fullmatch(text)
     if not found:
         return Verdict(False, f"this is no line of the challenge: {_WANTED}")
-    if _checksum(text.rpartition(" check=")[0]) != found["check"]:
+    if checked(text.rpartition(" check=")[0]) != text:
         return Verdict(False, "the checksum does not fit: a character was changed, lost or added")
     try:
         entry = _entry(found)
@@ -108,26 +103,6 @@ def _points(gains: Gains, seed: int) -> float:
 
 def _entry(found: re.Match) -> Entry:
     gains = Gains(*map(float, found["gains"].split(",")))
-    name = _clean(unquote(found["name"], errors="strict"))
+    name = clean_name(unquote(found["name"], errors="strict"))
     day = None if found["date"] is None else datetime.date.fromisoformat(found["date"])
     return Entry(name, gains, int(found["seed"]), float(found["score"]), day)
-
-
-def _clean(name: str) -> str:
-    """The same name for the same person: composed characters, single blanks."""
-    clean = " ".join(unicodedata.normalize("NFC", instance("name", name, str)).split())
-    named = len(clean) <= _LONGEST_NAME and any(map(str.isalnum, clean))
-    if not named or not all(map(_readable, clean)):
-        wanted = f"1 to {_LONGEST_NAME} readable characters, one a letter or digit, are needed"
-        raise ValueError(f"name = {name!r} is not allowed: {wanted}")
-    return clean
-
-
-def _readable(character: str) -> bool:
-    """Whether it is seen, and leaves the direction of the writing alone."""
-    control = unicodedata.category(character)[0] == "C"
-    return character in JOINERS or not (control or character in _FILLERS)
-
-
-def _checksum(text: str) -> str:
-    return hashlib.sha256(text.encode("ascii", "backslashreplace")).hexdigest()[:10]

@@ -11,7 +11,6 @@ from __future__ import annotations
 import datetime
 import math
 import os
-from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NamedTuple
@@ -19,7 +18,8 @@ from typing import NamedTuple
 from filelock import FileLock
 
 from wmrbook.challenge import SEED, from_seed, score
-from wmrbook.challenge.certificate import JOINERS, Entry, Verdict, certificate, verify
+from wmrbook.challenge.certificate import Entry, Verdict, certificate, verify
+from wmrbook.lines import UTF_16, Refused, numbered, same_name
 from wmrlib.gains import Gains
 
 __all__ = [
@@ -34,8 +34,6 @@ __all__ = [
 ]
 
 _DECIDING = 20  # sets of drives: near the best score, gains that differ in a digit tie in one
-_JOINERS = dict.fromkeys(map(ord, JOINERS))
-_UTF_16 = b"\xff\xfe", b"\xfe\xff"  # some editors, and PowerShell's >, begin a file so
 
 
 class Ranked(NamedTuple):
@@ -47,14 +45,6 @@ class Ranked(NamedTuple):
     rank: int
     entry: Entry
     tries: int
-
-
-class Refused(NamedTuple):
-    """A line that is not ranked: its number in the file, from 1, its text, and why."""
-
-    line: int
-    text: str
-    reason: str
 
 
 @dataclass(frozen=True, slots=True, repr=False)
@@ -138,14 +128,14 @@ class Scoreboard:
             cases = (case for game in more for case in score(entry.gains, game).cases)
             return entry.points, round(math.fsum(case.points for case in cases), 6)
 
-        for number, text in self._lines():
+        for number, text in numbered(self._content()):
             verdict = verify(text)
             if not verdict:
                 refused.append(Refused(number, text, verdict.reason))
             elif verdict.entry.seed != seed:
                 others += 1
             else:
-                key = verdict.entry.name.casefold().translate(_JOINERS)
+                key = same_name(verdict.entry.name)
                 tries[key] = tries.get(key, 0) + 1
                 found = order(verdict.entry), verdict.entry
                 if key not in best or found[0] < best[key][0]:
@@ -160,19 +150,10 @@ class Scoreboard:
     def _content(self) -> bytes:
         return self.path.read_bytes() if self.path.exists() else b""
 
-    def _lines(self) -> Iterator[tuple[int, str]]:
-        content = self._content()
-        encoding = "utf-16" if content.startswith(_UTF_16) else "utf-8"
-        lines = content.decode(encoding, "backslashreplace").split("\n")
-        for number, line in enumerate(lines, start=1):
-            stripped = line.strip().strip("\ufeff")  # the mark of UTF-8, where files were joined
-            if stripped and not stripped.startswith("#"):
-                yield number, stripped
-
     def _append(self, line: str) -> None:
         with FileLock(f"{self.path}.lock", poll_interval=0.005):
             content = self._content()
-            if content.startswith(_UTF_16):
+            if content.startswith(UTF_16):
                 remedy = "to which no line is added: save it as UTF-8 or ASCII"
                 raise ValueError(f"{str(self.path)!r} is in UTF-16, {remedy}")
             unfinished = content and not content.endswith(b"\n")  # edited by hand, or cut off

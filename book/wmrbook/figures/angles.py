@@ -11,46 +11,11 @@ from matplotlib.lines import Line2D
 
 from wmrbook.conventions import CONVENTIONS, translate
 from wmrbook.figures._drawing import check_count, note, panels, run_list
-from wmrbook.figures.paths import path, pose_at
+from wmrbook.figures.paths import pose_at
 from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.runs import Trajectory
-
-
-def polar_angles(pose: Pose, goal: Pose) -> Picture:
-    """rho, alpha, theta, the headings and gamma = heading - goal.heading of one robot and one goal.
-
-    Dotted lines point east, the dashed line is the line of sight, the thin orange line through the
-    robot is parallel to the goal's heading; black arcs turn from east to the headings.
-    """
-    rho, alpha, theta = polar_error(pose, goal)
-    sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
-    gamma = wrap_angle(pose.heading - goal.heading)
-    figure, axes = new_figure(7.5, 7.0)
-    _scene(axes, pose, goal, rho, sight)
-    east = {"color": COLOURS["ink"], "lw": 1.0, "ls": ":"}
-    moved = {"color": COLOURS["goal"], "lw": 1.2, "ls": "-"}
-    _ray(axes, pose, 0.0, 0.62 * rho, "east", **east)
-    _ray(axes, goal, 0.0, 0.62 * rho, "east", **east)
-    _ray(axes, pose, goal.heading, 0.62 * rho, "goal's heading, moved", **moved)
-    _arc(axes, pose, 0.0, pose.heading, 0.28 * rho, _degrees(pose.heading), "ink", 11)
-    _arc(axes, pose, pose.heading, alpha, 0.38 * rho, r"$\alpha$", "alpha")
-    _arc(axes, pose, goal.heading, gamma, 0.50 * rho, r"$\gamma$", "ink")
-    _arc(axes, goal, 0.0, goal.heading, 0.28 * rho, _degrees(goal.heading), "ink", 11)
-    _arc(axes, goal, goal.heading, theta, 0.48 * rho, r"$\theta$", "theta")
-    middle = 0.5 * (pose.x + goal.x), 0.5 * (pose.y + goal.y)
-    note(axes, r"$\rho$", middle, (-16, 8), fontsize=16, color=COLOURS["rho"])
-    _room(axes, pose, goal, rho * np.array([-0.25, 0.98]), rho * np.array([-0.35, 0.62]))
-    return Picture(
-        figure,
-        f"Robot and goal, {rho:.1f} m apart: the line of sight is at {_degrees(sight)} from east, "
-        f"the robot heads {_degrees(pose.heading)}, the goal {_degrees(goal.heading)}, "
-        "each marked by a black arc from east; "
-        f"so alpha, from heading to sight, is {_degrees(alpha)}, theta, from the goal's heading "
-        f"to sight, is {_degrees(theta)}, and gamma, from the goal's heading to the robot's, "
-        f"is {_degrees(gamma)}.",
-    )
 
 
 def third_angle(pose: Pose, goal: Pose) -> Picture:
@@ -113,17 +78,6 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     axes.set(xlabel="x [m]", ylabel="y [m]")
     said = "Ways in metres, green arrow the start, open arrow the goal. "
     return Picture(figure, f"{said}{'; '.join(words)}.")
-
-
-def mirrored_paths(runs: Sequence[Trajectory], labels: Sequence[str]) -> Picture:
-    """Two paths; the text says whether one is the other's mirror image."""
-    check_count("runs", runs, 2, 2)
-    picture = path(runs, labels)
-    if len(runs[0]) == len(runs[1]):
-        left, right = map(_along_the_line, runs)
-        if np.allclose(left, right.conj(), atol=1e-3) and np.abs(left.imag).max() > 1e-2:
-            picture.alt = picture.alt.removesuffix(".") + "; the two paths are mirror images."
-    return picture
 
 
 def angles_over_time(
@@ -220,10 +174,3 @@ def _degrees(angle: float) -> str:
 def _span(angle: np.ndarray) -> str:
     low, high = math.degrees(angle.min()), math.degrees(angle.max())
     return f"between {low:z.0f} and {high:z.0f} deg"
-
-
-def _along_the_line(run: Trajectory) -> np.ndarray:
-    """The path as complex numbers, 0 at the start and 1 at the goal; a mirror image conjugates."""
-    goal = pose_at(run.goal, -1)
-    line = complex(goal.x - run.x[0], goal.y - run.y[0])
-    return (run.x - run.x[0] + 1j * (run.y - run.y[0])) / line if line else np.zeros(len(run))

@@ -1,21 +1,14 @@
-"""The front page and chapter 0: path, speeds, position errors and V of a drive, and its end."""
+"""The front page and chapter 0: path, speeds, position errors and V of a drive."""
 
 from __future__ import annotations
-
-import math
-from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 
-from wmrbook.figures._drawing import check_count
-from wmrbook.figures.paths import draw_path, path_in_words, pose_at
-from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
-from wmrlib._checks import instance
+from wmrbook.figures.paths import draw_path, path_in_words
+from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure
 from wmrlib.runs import Trajectory
-
-_DISTANCES = 0.01, 0.02, 0.05, 0.1, 0.2, 0.5, 1.0, 2.0, 5.0  # m, labelled on a logarithmic axis
 
 
 def dashboard(run: Trajectory) -> Picture:
@@ -35,54 +28,6 @@ def dashboard(run: Trajectory) -> Picture:
     figure.align_ylabels()
     v, omega = f"v {range_in_words(run.v, 'm/s')}", f"omega {range_in_words(run.omega, 'rad/s')}"
     return Picture(figure, f"{path_in_words(run)}; {v}; {omega}; {rises_in_words(run)}.")
-
-
-def arrival(run: Trajectory, radius: float = 2.0) -> Picture:
-    """Where the robot stops (filled arrow) and how it should stand there (open arrow).
-
-    radius: how far around the goal to show, m.
-    """
-    figure, axes = new_figure(5.0, 5.0)
-    goal, size = pose_at(run.goal, -1), 0.3 * radius
-    axes.plot(run.x, run.y, color=COLOURS["path"])
-    dart(axes, pose_at(run, -1), size, "robot", zorder=3)
-    dart(axes, goal, size, "none", "goal", lw=2.5, zorder=4)
-    xlim, ylim = (goal.x - radius, goal.x + radius), (goal.y - radius, goal.y + radius)
-    axes.set(xlim=xlim, ylim=ylim, aspect="equal", xlabel="x [m]", ylabel="y [m]")
-    error = math.degrees(run.heading_error[-1])
-    axes.set_title(f"heading left over: {error:.0f} deg", fontsize=12)
-    return Picture(
-        figure,
-        f"The last {radius:.0f} m before the goal: the robot stops {run.rho[-1]:.2f} m from it, "
-        f"its heading {abs(error):.0f} deg {'clockwise' if error < 0.0 else 'counter-clockwise'} "
-        "of the open arrow that marks the wanted one.",
-    )
-
-
-def heading_to_go(runs: Mapping[str, Trajectory], far: float = 2.0) -> Picture:
-    """The heading error [deg] of one to four runs over the distance still to go, from `far` m on.
-
-    An arrival radius is a vertical line here: where it crosses a curve, that is what is left over.
-    """
-    check_count("runs", instance("runs", runs, Mapping), 1, len(LINES))
-    figure, axes = new_figure(7.0, 3.8)
-    axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-    told, roles = [], ("path", "y_error", "omega", "ink")
-    for (name, run), style, role in zip(runs.items(), LINES, roles, strict=False):
-        near = run.rho <= far
-        error = np.degrees(np.unwrap(run.heading_error[near]))
-        axes.plot(run.rho[near], error, style, color=COLOURS[role], label=name)
-        told.append(
-            f"{name}, {error[0]:z.0f} deg at {far:g} m, then between {error.min():z.0f} and "
-            f"{error.max():z.0f} deg, {error[-1]:z.0f} deg at {run.rho[-1]:.2g} m"
-        )
-    axes.set(xscale="log", xlabel="distance to go [m]", ylabel="heading error [deg]")
-    axes.invert_xaxis()
-    ticks = [each for each in _DISTANCES if each <= far]
-    axes.set_xticks(ticks, [f"{each:g}" for each in ticks])
-    axes.minorticks_off()
-    axes.legend(loc="upper right", fontsize=11)
-    return Picture(figure, f"The heading error over the distance to go: {'; '.join(told)}.")
 
 
 def twist(run: Trajectory) -> Picture:

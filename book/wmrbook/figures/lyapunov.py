@@ -6,8 +6,6 @@ import math
 from collections.abc import Sequence
 
 import numpy as np
-from matplotlib.collections import LineCollection
-from matplotlib.lines import Line2D
 
 from wmrbook.figures._drawing import legend_above, panels, run_list
 from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
@@ -49,30 +47,6 @@ def bowl(gains: Gains, runs: Trajectory | Sequence[Trajectory]) -> Picture:
         f"V of the angles as a bowl over alpha and theta, with its bottom at (0, 0) deg and its "
         f"rim at {rim:.1f}: {'; '.join(words)}.",
     )
-
-
-def lyapunov_runs(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) -> Picture:
-    """V over time of one to four runs on a logarithmic scale, thick and red wherever V rises."""
-    runs = run_list(runs)
-    names = _names(runs, labels)
-    figure, axes = new_figure(7.5, 4.2)
-    red = {"color": COLOURS["V_rising"], "lw": 6.0, "alpha": 0.55}
-    words, handles = [], []
-    for run, name, style, colour in zip(runs, names, LINES, _TINTS, strict=False):
-        values = np.maximum(run.V, 1e-12)
-        axes.plot(run.t, values, style, color=colour)
-        rising = np.diff(run.V) > 1e-9 * run.V[0]
-        points = np.column_stack([run.t, values])
-        pieces = np.stack([points[:-1], points[1:]], axis=1)[rising]
-        axes.add_collection(LineCollection(pieces, **red))
-        handles.append(Line2D([], [], color=colour, ls=style, label=name))
-        ups = f"it rises, to {run.V.max():.2g} at most" if rising.any() else "it never rises"
-        words.append(f"{name}: from {run.V[0]:.2g} to {run.V[-1]:.2g}, {ups}")
-    handles.append(Line2D([], [], label="rising", **red))
-    legend_above(axes, len(handles), handles)
-    axes.set(xlabel="time [s]", ylabel="V [1]", yscale="log")
-    axes.margins(x=0.01)
-    return Picture(figure, f"V over time on a logarithmic scale. {'; '.join(words)}.")
 
 
 def heading_errors(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) -> Picture:

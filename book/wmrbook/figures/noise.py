@@ -8,12 +8,10 @@ import numpy as np
 from matplotlib.patches import Circle
 
 from wmrbook.figures._drawing import check_count, figure_legend, legend_above, note
-from wmrbook.figures.style import COLOURS, LINES, Picture, dart, new_figure
+from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
 from wmrbook.scatter import StationaryScatter
 from wmrlib._checks import instance, real, same_shape
-from wmrlib.kinematics import Pose, wrap_angle
 
-_MOST_DARTS = 150
 _COUNTS = {1: "last", 2: "last two", 3: "last three", 4: "last four"}
 
 
@@ -49,52 +47,6 @@ def scatter(found: StationaryScatter) -> Picture:
         f"{_compass(*places[0])} to {_compass(*places[-1])}{dot}; "
         f"a dashed circle of {found.cep:.1f} m holds half of them; the standard deviation is "
         f"{found.std_east:.1f} m east and {found.std_north:.1f} m north.",
-    )
-
-
-def end_poses(ends: Pose, goal: Pose, radius: float) -> Picture:
-    """Where many robots end about the goal, and how their heading errors are spread.
-
-    ends: a Pose of arrays, of which 150 are drawn; radius: of the dashed circle in which the robots
-    believed themselves, m.
-    """
-    instance("ends", ends, Pose)
-    x, y, heading = (np.ravel(field) for field in np.broadcast_arrays(*ends))
-    instance("goal", goal, Pose)
-    radius = real("radius", radius, low=0.0)
-    figure, axes = new_figure(9.0, 4.2, mosaic=[["place", "heading"]])
-    place, spread = axes["place"], axes["heading"]
-    distance = np.hypot(x - goal.x, y - goal.y)
-    reach = 1.15 * max(np.quantile(distance, 0.97), radius)
-    for k in range(min(x.size, _MOST_DARTS)):
-        seen = Pose(float(x[k] - goal.x), float(y[k] - goal.y), float(heading[k]))
-        dart(place, seen, 0.045 * reach, "robot", lw=0.5)
-    wanted = Pose(0.0, 0.0, goal.heading)
-    white = "white", "white", "-", 3.0  # a rim, to stand out from the darts
-    for edge, rim, style, more in (white, ("goal", "k", "--", 0.0)):
-        dart(place, wanted, 0.16 * reach, "none", edge, lw=2.5 + more, zorder=4)
-        looks = {"fill": False, "ls": style, "lw": 2.0 + more, "ec": rim, "zorder": 4}
-        place.add_patch(Circle((0.0, 0.0), radius, **looks))
-    place.set(xlim=(-reach, reach), ylim=(-reach, reach), aspect="equal")
-    place.set(xlabel="east of the goal [m]", ylabel="north of the goal [m]")
-    drawn = f"{_MOST_DARTS} of {x.size}" if x.size > _MOST_DARTS else f"all {x.size}"
-    title = f"{drawn} robots; dashed: arrival\nradius; open arrow: the goal"
-    place.set_title(title, fontsize=11)
-    error = np.degrees(wrap_angle(heading - goal.heading))
-    percent = {"weights": np.full(error.size, 100.0 / error.size)}
-    bins = np.arange(-180, 181, 30)
-    spread.hist(error, bins=bins, color=COLOURS["path"], ec="white", **percent)
-    spread.set_title(f"all {x.size}", fontsize=11)
-    spread.set(xlabel="heading error [deg]", ylabel="robots [%]")
-    spread.set(xlim=(-180, 180), xticks=range(-180, 181, 90))
-    near = 5 * round(20 * np.mean(np.abs(error) < 30))
-    far = 5 * round(20 * np.mean(np.abs(error) > 90))
-    return Picture(
-        figure,
-        f"Left, {drawn} robots where they stand, about a dashed circle of {radius:.2f} m and the "
-        f"open arrow of the goal: half of all are within {np.median(distance):.1f} m of it. Right, "
-        f"the heading errors of all: about {near} % within 30 deg, about {far} % more than "
-        "90 deg off.",
     )
 
 

@@ -1,20 +1,18 @@
-"""Chapter 2: the robot's frame and wheels, how it turns, and what its moves add up to."""
+"""Chapter 2, the robot's frame and wheels; and chapter 11, a real robot's loops."""
 
 from __future__ import annotations
 
 import math
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.patches import Arc, FancyBboxPatch, Polygon
 
 from wmrbook.figures._drawing import note, pointer
-from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure
 from wmrlib._checks import instance, scalar
-from wmrlib.kinematics import Pose, advance, twist_to_wheels
+from wmrlib.kinematics import Pose
 
 _BODY = ((0.85, 0.0), (0.55, 0.4), (-0.55, 0.4), (-0.55, -0.4), (0.55, -0.4))  # in track widths
-_ORIGIN = Pose(0.0, 0.0, 0.0)
 
 
 def coordinate_system(pose: Pose, track_width: float, wheel_radius: float) -> Picture:
@@ -55,77 +53,6 @@ def coordinate_system(pose: Pose, track_width: float, wheel_radius: float) -> Pi
         "which is theta; Y_r points to its left. Point a lies midway between two wheels "
         f"of radius r = {r:.2f} m, b = {b:.2f} m apart; "
         "arrows V_l and V_r on the left and the right wheel point ahead.",
-    )
-
-
-def turning_centre(v: float, omega: float, track_width: float) -> Picture:
-    """The robot from above, its wheels' speeds, and the point about which it turns.
-
-    v in m/s, omega in rad/s and not 0, track_width in metres.
-    """
-    v = scalar("v", v)
-    omega = _turning(omega, "turns about no point")
-    b = scalar("track_width", track_width, above=0.0)
-    left, right = twist_to_wheels(v, omega, b)
-    centre = -v / omega
-    figure, axes = new_figure(7.0, 4.6)
-    _draw_robot(axes, Pose(0.0, 0.0, math.pi / 2), b, 0.25 * b)
-    tips = sorted([(centre, 0.0), (-0.5 * b, left), (0.5 * b, right)])
-    ends, heights = (tips[0][0], tips[-1][0]), (tips[0][1], tips[-1][1])
-    axes.plot(ends, [0, 0], ":", color=COLOURS["ink"], lw=1.5)
-    axes.plot(ends, heights, "--", color=COLOURS["ink"], lw=1.2)
-    for x, speed, role, name in (
-        (-b / 2, left, "y_error", "V_l"),
-        (0.0, v, "path", "v"),
-        (b / 2, right, "y_error", "V_r"),
-    ):
-        pointer(axes, (x, 0.0), (x, speed), COLOURS[role], lw=2.2, zorder=5)
-        label = f"${name}$ = {speed:.2f} m/s"
-        note(axes, label, (x, speed), (-8, 6), ha="right", fontsize=12)
-    axes.plot(centre, 0, "o", ms=11, color=COLOURS["ink"], zorder=5)
-    note(axes, "turning centre", (centre, 0), (0, -26), ha="center", fontsize=12)
-    low, high = min(0.0, left, v, right), max(0.0, left, v, right)
-    axes.set(xlim=(ends[0] - 0.6 * b, ends[1] + 1.6 * b), aspect="equal")
-    axes.set(ylim=(low - 0.8 * b, high + 0.6 * b))
-    axes.set(xlabel="across the robot [m]", ylabel="ahead [m], speeds [m/s]")
-    return Picture(
-        figure,
-        "The robot from above, driving upwards. Arrows show the speeds of its left wheel, "
-        f"{left:.2f} m/s, of its middle, {v:.2f} m/s, and of its right wheel, {right:.2f} m/s. "
-        "Their tips lie on a straight dashed line that meets the axle's line at the turning centre,"
-        f" {abs(centre):.2f} m to the {'left' if centre < 0 else 'right'}.",
-    )
-
-
-def commutator(step: float, turn: float, times: int = 1) -> Picture:
-    """Forward `step` metres, left by `turn` radians, back, right: where that leads, repeated."""
-    step, turn = scalar("step", step, above=0.0), scalar("turn", turn, above=0.0)
-    poses = [_ORIGIN]
-    for v, omega in ((step, 0.0), (0.0, turn), (-step, 0.0), (0.0, -turn)) * times:
-        poses.append(advance(poses[-1], v, omega, 1.0))
-    figure, axes = new_figure(7.0, 4.8)
-    x, y = np.array([(pose.x, pose.y) for pose in poses]).T
-    size = 0.07 * step
-    for first in range(0, 4 * times, 4):
-        for name, begin, style, role in (
-            ("forward", first, "-", "path"),
-            ("back", first + 2, "--", "y_error"),
-        ):
-            move, label = slice(begin, begin + 2), None if first else name
-            axes.plot(x[move], y[move], style, color=COLOURS[role], label=label)
-        dart(axes, poses[first + 1], size, "none", "robot", lw=1.5, zorder=3)
-        dart(axes, poses[first + 2], size, "robot", zorder=3)
-        dart(axes, poses[first + 4], size, "none", lw=2.0, zorder=4)
-    dart(axes, poses[0], size, "start", "start", zorder=5)
-    axes.set(xlim=(x.min() - 0.2 * step, x.max() + 0.5 * step), aspect="equal")
-    axes.set(ylim=(y.min() - 0.2 * step, y.max() + 0.2 * step), xlabel="x [m]", ylabel="y [m]")
-    axes.legend(loc="center right", fontsize=11)
-    return Picture(
-        figure,
-        f"Path of {times} times four moves: {step:.2f} m forward, a turn of {turn:.2f} rad "
-        "to the left on the spot, as far back, and the turn undone. The robot starts at the origin "
-        "(filled arrow) and ends, looking the same way, "
-        f"at x = {x[-1]:.3f} m and y = {y[-1]:.3f} m (last open arrow).",
     )
 
 
@@ -182,50 +109,6 @@ def robot_loops(time_step: float, times_faster: float) -> Picture:
         f"wheels' odometry, and from there to the polar error every {time_step:g} s; the wheel "
         f"speeds are fed back to the wheel loops every {inner:g} s.",
     )
-
-
-def steps(v: float, omega: float, dt: float) -> Picture:
-    """One full turn at a constant twist: the exact arc, and Euler's steps of `dt` seconds.
-
-    v in m/s, omega in rad/s and not 0.
-    """
-    v, dt = scalar("v", v), scalar("dt", dt, above=0.0)
-    omega = _turning(omega, "makes no turn")
-    turn = 2 * math.pi / (abs(omega) * dt)
-    count = math.ceil(turn - 1e-9)  # a step that divides the turn is not counted once more
-    paths = {}
-    for method in ("arc", "euler"):
-        poses = [_ORIGIN]
-        for _ in range(count):
-            poses.append(advance(poses[-1], v, omega, dt, method=method))
-        paths[method] = np.array([(pose.x, pose.y) for pose in poses])
-    times = np.linspace(0.0, count * dt, 361)
-    exact = advance(_ORIGIN, v * times, omega * times, 1.0)
-    figure, axes = new_figure(5.6, 5.6)
-    axes.plot(exact.x, exact.y, "-", color=COLOURS["path"], label="exact")
-    axes.plot(*paths["arc"].T, "o", ms=6, mfc="none", color=COLOURS["path"], label='"arc"')
-    axes.plot(*paths["euler"].T, "s--", ms=5, lw=1.2, color=COLOURS["y_error"], label='"euler"')
-    axes.plot(0, 0, "*", ms=15, color=COLOURS["start"])
-    equal_scales(axes, *np.concatenate([*paths.values(), np.column_stack([exact.x, exact.y])]).T)
-    axes.legend(loc="center", fontsize=11)
-    axes.set(xlabel="x [m]", ylabel="y [m]")
-    apart = np.hypot(*(paths["arc"] - paths["euler"]).T)
-    return Picture(
-        figure,
-        f"A full turn at {v:.1f} m/s and {omega:.1f} rad/s, from the star at the origin: "
-        f"a circle of {abs(v / omega):.1f} m radius, on which the arc steps of {dt:.2f} s lie, "
-        f"and Euler's {count} straight steps, which end up to {apart.max():.2f} m from the arcs'.",
-    )
-
-
-def _turning(omega: float, straight: str) -> float:
-    omega = scalar("omega", omega)
-    if omega == 0:
-        raise ValueError(
-            "omega = 0.0 is not allowed: another number is needed, "
-            f"for a robot that drives straight {straight}"
-        )
-    return omega
 
 
 def _placed(pose: Pose, point) -> tuple[float, float]:

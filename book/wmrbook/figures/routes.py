@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -47,44 +46,6 @@ def route(driven: Route) -> Picture:
     legend_above(axes, len(handles), handles)
     axes.set(xlabel="x, east [m]", ylabel="y, north [m]")
     return Picture(figure, f"{_in_words(driven)}.")
-
-
-def route_signals(driven: Route) -> Picture:
-    """The speed v [m/s] and V [1] of the legs over time; dashed lines mark a change of the goal.
-
-    Each leg's V is drawn up to its arrival, where the joined arrays already have the next leg's.
-    """
-    _with_samples(driven)
-    figure, (upper, lower) = new_figure(8.0, 5.0, rows=2)
-    changes = driven.t[1:][np.diff(driven.leg) > 0]
-    shown = np.unique(driven.leg)
-    values = [np.maximum(driven.legs[k].V, 1e-12) for k in shown]
-    upper.axhline(0.0, color=COLOURS["ink"], lw=0.8)
-    for k, V in zip(shown, values, strict=True):
-        own = driven.leg == k
-        times = driven.t[own][0] + driven.legs[k].t
-        upper.plot(driven.t[own], driven.v[own], color=COLOURS["v"])
-        lower.plot(times, V, color=COLOURS["V"], marker="o" if V.size == 1 else "")
-    dashed = {"color": COLOURS["goal"], "ls": "--", "lw": 1.2}
-    for axes in (upper, lower):
-        for time in changes:
-            axes.axvline(time, **dashed)
-    every = np.concatenate(values)
-    upper.set(ylabel="v [m/s]")
-    lower.set(ylabel="V [1]", xlabel="time [s]", yscale="log")
-    lower.set_ylim(0.5 * every.min(), 2.0 * every.max())
-    lower.minorticks_off()
-    above = {"loc": "lower right", "bbox_to_anchor": (1.0, 1.0), "frameon": False, "fontsize": 11}
-    upper.legend(handles=[Line2D([], [], label="the goal changes", **dashed)], **above)
-    figure.align_ylabels()
-    jumps = sum(driven.legs[b].V[0] > driven.legs[a].V[-1] for a, b in pairwise(shown))
-    low, high = driven.v.min(), driven.v.max()
-    return Picture(
-        figure,
-        f"Over {driven.t[-1]:.1f} s and {len(driven.legs)} legs: v between {low:z.1f} and "
-        f"{high:z.1f} m/s; V from {driven.V[0]:.3g} to {driven.V[-1]:.3g} on a logarithmic scale, "
-        f"jumping up at {jumps} of {len(changes)} changes of the goal.",
-    )
 
 
 def challenge_paths(score: Score) -> Picture:

@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.axes import Axes
 
 from wmrbook.figures._drawing import check_count
-from wmrbook.figures.style import COLOURS, Picture, dart, new_figure
+from wmrbook.figures.style import COLOURS, Picture, new_figure
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.metrics import arrival
@@ -89,43 +89,6 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
-def wheel_limited_paths(paths: Mapping[str, Sequence[Pose]], goal: Pose) -> Picture:
-    """Up to five paths from one start to `goal` under different limits, in metres.
-
-    The text says how far each strays from the first, and which are indistinguishable from it.
-    """
-    check_count("paths", paths, 1, len(_SERIES))
-    figure, axes = new_figure(5.0, 6.5)
-    drawn = {label: np.array([pose[:2] for pose in poses]).T for label, poses in paths.items()}
-    first, texts, alike = None, [], []
-    for (label, (x, y)), (colour, style, _) in zip(drawn.items(), _SERIES, strict=False):
-        looks = {"lw": 4.0, "alpha": 0.5} if first is None else {"lw": 2.0, "alpha": 1.0}
-        axes.plot(x, y, style, color=colour, label=label, **looks)
-        length = np.hypot(np.diff(x), np.diff(y)).sum()
-        said = f"{label}: {length:.1f} m, as far as x = {x.max():.1f} m"
-        if first is None:
-            first = x, y
-        else:
-            strays = _strays(x, y, *first)
-            said += f", at most {strays:.2f} m beside the first"
-            if strays < 0.01 * max(np.ptp(each) for each in first):
-                alike.append(f'"{label}"')  # quoted: a label may have a comma of its own
-        texts.append(said)
-    x, y = np.concatenate(list(drawn.values()), axis=1)
-    size = 0.035 * max(np.ptp(x), np.ptp(y), 1.0)
-    dart(axes, next(iter(paths.values()))[0], size, "start", "start", zorder=4)
-    dart(axes, goal, size, "none", "goal", lw=2.0, zorder=4)
-    axes.margins(0.1)
-    axes.set(xlabel="x [m]", ylabel="y [m]", aspect="equal")
-    for role, fill in (("start", COLOURS["start"]), ("goal", "none")):
-        looks = {"ls": "none", "marker": ">", "ms": 10, "mew": 2.0, "mec": COLOURS[role]}
-        axes.plot([], [], label=role, mfc=fill, **looks)
-    axes.legend(**_BESIDE)
-    same = f". Indistinguishable from the first: {', '.join(alike)}" if alike else ""
-    what = "Paths to the same goal, the open arrow, from the same start"
-    return Picture(figure, f"{what}: {'; '.join(texts)}{same}.")
-
-
 def _heading_left(run) -> float:
     return abs(math.degrees(run.heading_error))
 
@@ -142,12 +105,3 @@ def _draw_steps(axes: Axes, steps, runs, limit: float, top: float, colour: str, 
         known = f", {error[below[-1]]:.0f} deg at {steps[below[-1]]:.2g} s"
     first = f"{error[0]:.0f} deg at {steps[0]:g} s{known}"
     return f"{first}, longest step {limit:.3f} s, {lost.sum()} of {len(runs)} runs lost"
-
-
-def _strays(x: np.ndarray, y: np.ndarray, along_x: np.ndarray, along_y: np.ndarray) -> float:
-    """The greatest distance of the points from a polyline, m."""
-    points, line = x + 1j * y, along_x + 1j * along_y
-    pieces = np.diff(line)
-    length = np.maximum(np.abs(pieces), 1e-12)
-    ahead = (points[:, None] - line[:-1]) * (pieces / length).conj()
-    return float(np.abs(ahead - np.clip(ahead.real, 0.0, length)).min(axis=1).max())

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Knob, Live
-from wmrlib import paper, simulate
+from wmrbook.live.parts import Ask, Choice, Knob, Live, nearest
+from wmrlib import Gains, Pose, paper, simulate
 from wmrlib.gains import GENTLE_GAINS
 
 
@@ -57,3 +57,49 @@ def last_metres(ask: bool = True) -> Live:
         if ask
         else None,
     )
+
+
+def stopping() -> Live:
+    """The heading error over the distance to go, for a robot that stops where one wants."""
+    start, goal, gains, _ = paper.outdoor()
+    radii = 0.05, 0.01  # m
+    here, nearer = (abs(_left_over(start, goal, gains, radius)) for radius in radii)
+    shares = {
+        "a fifth of that": 0.2,
+        "about the same": 1.0,
+        "twice as much": 2.0,
+    }
+    return Live(
+        "stopping",
+        "With {gains} a robot that stops {stop} before the goal is there after {seconds} and looks "
+        "{off}.",
+        {
+            "stop": Knob(radii[0], 0.01, 2.0, None, "where it stops", "m", label="stops at"),
+            "gains": Choice(
+                "paper",
+                {"paper": "the paper's gains", "gentle": "gentle gains"},
+                "which gains",
+            ),
+        },
+        data={
+            "start": list(start),
+            "goal": list(goal),
+            "paper": gains._asdict(),
+            "gentle": GENTLE_GAINS._asdict(),
+        },
+        ask=Ask(
+            "choose",
+            f"Stopped {100 * radii[0]:.0f} cm before the goal, the robot looks {here:.0f} deg past "
+            f"the way it should. How much if it stops at {100 * radii[1]:.0f} cm?",
+            f"It is {nearer:.0f} deg: the heading swings to and fro while the last metre is "
+            "driven, so where one stops decides what is left. Nearer is not better.",
+            key=nearest(nearer / here, shares.values()),
+            options=(*shares,),
+        ),
+    )
+
+
+def _left_over(start: Pose, goal: Pose, gains: Gains, radius: float) -> float:
+    """The heading error where a robot stops `radius` before the goal, deg."""
+    run = simulate(start, goal, gains, method="continuous", arrival_radius=radius)
+    return math.degrees(run.heading_error[-1])

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import functools
+from collections.abc import Iterable
 from pathlib import Path
 from typing import Any, NamedTuple
 
@@ -52,7 +53,7 @@ class Ask(NamedTuple):
     """A prediction that is asked for before anything is shown.
 
     By its kind: "choose" one of `options`, whose `key` is a number; "turn" an arrow that stands
-    `at` a point of a `pane` (the `key` is its angle, rad); "sketch" a path `start`ing there.
+    `at` a point of a `pane` (the `key` is its angle, rad); "sketch" a path that starts there.
     """
 
     kind: str
@@ -62,6 +63,12 @@ class Ask(NamedTuple):
     options: tuple[str, ...] = ()
     pane: str = ""
     at: tuple[float, float] | None = None
+
+
+def nearest(value: float, choices: Iterable[float]) -> int:
+    """Return which of the choices a number is: the key of the answers that stand for them."""
+    near = [abs(each - value) for each in choices]
+    return near.index(min(near))
 
 
 class Live(anywidget.AnyWidget):

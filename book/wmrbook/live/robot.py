@@ -2,10 +2,15 @@
 
 from __future__ import annotations
 
-from wmrbook.live.parts import Ask, Knob, Live
-from wmrlib import wheels_to_twist
+import math
+
+from wmrbook.live.parts import Ask, Knob, Live, nearest
+from wmrlib import Pose, advance, wheels_to_twist
 
 TRACK = 0.6  # m
+ORIGIN = Pose(0.0, 0.0, 0.0)
+STEP, TURN = 0.4, 40.0  # m and deg, of the four moves
+V, OMEGA, DT = 4.0, 1.0, 0.4  # m/s, rad/s and s, of Euler's steps
 
 
 def turning_centre() -> Live:
@@ -37,3 +42,66 @@ def turning_centre() -> Live:
             options=(*places,),
         ),
     )
+
+
+def commutator() -> Live:
+    """Forward, left, back, right, three times over: moves that cancel, and still lead somewhere."""
+    eta, end = math.radians(TURN), ORIGIN
+    for v, omega in ((STEP, 0.0), (0.0, eta), (-STEP, 0.0), (0.0, -eta)):
+        end = advance(end, v, omega, 1.0)
+    places = {
+        "where it began": math.hypot(end.x, end.y),
+        "ahead of where it began": math.hypot(end.x - STEP, end.y),
+        "to the left of where it began": math.hypot(end.x, end.y - STEP * math.sin(eta)),
+        "to the right of where it began": math.hypot(end.x, end.y + STEP * math.sin(eta)),
+    }
+    return Live(
+        "commutator",
+        "Forward {step}, left {turn}, back, right: that leads {right} to the right and {ahead} "
+        "ahead. After {number} moves of twelve the robot is {where}.",
+        {
+            "step": Knob(STEP, 0.05, 0.5, 0.05, "how far forward and back", "m", label="forward"),
+            "turn": Knob(TURN, 5.0, 45.0, 1.0, "how far left and right", "°", label="left"),
+            "moves": Knob(12.0, 0.0, 12.0, 0.05, "moves made", label="moves", plays=8.0),
+        },
+        ask=Ask(
+            "choose",
+            f"Drive forward {STEP} m, turn left by {TURN:.0f} deg, drive back as far, turn right "
+            "as far. Where is the robot then?",
+            "It drove out along one heading and back along another, and the way back leads to the "
+            "right of the way out. Moves undo each other only if their order does not matter.",
+            key=nearest(0.0, places.values()),
+            options=(*places,),
+        ),
+    )
+
+
+def one_step() -> Live:
+    """Exact arcs and Euler's straight steps, over a half turn."""
+    halved = _miss(DT / 2) / _miss(DT)
+    shares = {"as far": 1.0, "half as far": 0.5, "a quarter as far": 0.25}
+    return Live(
+        "one_step",
+        f"A half turn at {V:.0f} m/s and {OMEGA:.0f} rad/s takes {{count}} of {{dt}}. Euler's "
+        "first misses the arc by {miss}; after the last it is {off} away.",
+        {"dt": Knob(DT, 0.02, 1.5, None, "time step", "s", label="time step")},
+        data={"v": V, "omega": OMEGA},
+        ask=Ask(
+            "choose",
+            f"In steps of {DT} s, each straight on along the old heading, the robot ends "
+            f"{_miss(DT):.1f} m from the half circle's end. How far with steps half as long?",
+            "A step half as long misses a quarter as much, but there are twice as many, and the "
+            "misses add up. So it is for every Euler step that is short enough.",
+            key=nearest(halved, shares.values()),
+            options=(*shares,),
+        ),
+    )
+
+
+def _miss(dt: float) -> float:
+    """How far Euler's steps end from the arc's, after a half turn, m."""
+    whole, left = divmod(math.pi / OMEGA, dt)
+    pose = ORIGIN
+    for time in [dt] * int(whole) + [left]:
+        pose = advance(pose, V, OMEGA, time, method="euler")
+    return math.dist(pose[:2], advance(ORIGIN, V, OMEGA, math.pi / OMEGA)[:2])

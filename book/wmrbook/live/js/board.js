@@ -1,6 +1,7 @@
 // What is drawn on: panes with axes in the world's units. A colour is a role of the panel's (alpha, goal, path ...), the same as in formulas and figures.
 
-// A pane is { x: [from, to, title], y: [from, to, title], equal, bare, tall }: `equal` scales keep circles round, and a `bare` one has no axes.
+// A pane is { x: [from, to, title, write], y: [from, to, title, write], equal, bare, tall }: `equal` scales keep circles round, a `bare` one has no axes, and
+// `write`, if given, says what a tick's value is called.
 function paneOf(canvas, colours, spec) {
   const { ctx, width, height } = surfaceOf(canvas, colours), { zoom } = sizeOf(canvas), room = spec.bare ? [4, 4, 4, 4] : [10, spec.x[2] ? 40 : 24, spec.y[2] ? 56 : 34, 12];
   const box = { left: room[2], top: room[0], width: Math.max(width - room[2] - room[3], 20), height: Math.max(height - room[0] - room[1], 20) };
@@ -67,12 +68,12 @@ function drawAxes({ ctx, box, at }, { x, y, equal }, colours, [x0, x1, y0, y1]) 
   for (const value of along.ticks) {
     const [px] = at(value, y0);
     line(ctx, [[px, box.top], [px, box.top + box.height]], colours.line, value === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, along.write(value), px, box.top + box.height + 11, colours, 'center');
+    tickLabel(ctx, (x[3] || along.write)(value), px, box.top + box.height + 11, colours, 'center');
   }
   for (const value of up.ticks) {
     const [, py] = at(x0, value);
     line(ctx, [[box.left, py], [box.left + box.width, py]], colours.line, value === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, up.write(value), box.left - 6, py, colours, 'right');
+    tickLabel(ctx, (y[3] || up.write)(value), box.left - 6, py, colours, 'right');
   }
   if (x[2]) label(ctx, x[2], box.left + box.width / 2, box.top + box.height + 29, colours, { align: 'center' });
   if (y[2]) label(ctx, y[2], 9, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });

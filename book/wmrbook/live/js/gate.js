@@ -1,6 +1,6 @@
 // A prediction before the result: one chooses, turns an arrow or sketches a path, and commits; then the picture opens, with what was said in it.
 
-// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane` and `at` of an arrow to turn; `pane` and `from` of a path
+// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane` and `at` of an arrow to turn; `pane` and `at`, the start, of a path
 // to sketch. `key` is the number of the option or the arrow's angle in radians; of a path there is none, the eye compares.
 function buildGate(root, ask, { get, set, panes, host }) {
   const still = document.documentElement.dataset.still !== undefined; // on paper the picture stands beside the question
@@ -33,7 +33,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
       set();
     };
     canvas.style.touchAction = 'none';
-    canvas.addEventListener('pointerdown', (event) => { if (open()) return; down = true; if (ask.kind === 'sketch') draft = [ask.from]; canvas.setPointerCapture(event.pointerId); place(event); });
+    canvas.addEventListener('pointerdown', (event) => { if (open()) return; down = true; if (ask.kind === 'sketch') draft = [ask.at]; canvas.setPointerCapture(event.pointerId); place(event); });
     canvas.addEventListener('pointermove', (event) => { if (down) place(event); });
     canvas.addEventListener('lostpointercapture', () => { down = false; show(); });
   }

@@ -22,15 +22,16 @@ const explorable = {
     return { poles: polesOf(a, b), pace, run, off: wrap(run.heading[run.n - 1] - goal[2]), ...modes(gains) };
   },
   panes: (values, { poles, pace, off }) => ({
-    plane: { x: [-9, 1, 'real part [1/s]'], y: [-5, 5, 'imaginary part [1/s]'], equal: true, alt: `The poles at ${poles.map(([re, im]) => `${written(re)} ${im < 0 ? 'minus' : 'plus'} ${written(Math.abs(im))} i`).join(' and ')} per second; the distance's at ${written(-pace)}.` },
-    robot: { x: [-2.2, 0.6, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true, alt: `The robot's last two metres: it stops ${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
+    plane: { x: [-9, 1, 'real part [1/s]'], y: [-5, 5, 'imaginary part [1/s]'], equal: true, given: 'The plane of the poles.', alt: `The poles at ${poles.map(([re, im]) => `${written(re)} ${im < 0 ? 'minus' : 'plus'} ${written(Math.abs(im))} i`).join(' and ')} per second; the distance's at ${written(-pace)}.` },
+    robot: { x: [-2.2, 0.6, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true, given: 'The robot, two metres from its goal.', alt: `The robot's last two metres: it stops ${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
   }),
-  draw({ plane, robot }, values, { poles, pace, run }, hidden, { data: { goal } }) {
+  draw({ plane, robot }, values, { poles, pace, run }, hidden, { data: { start, goal } }) {
     plane.area([[0, -99], [0, 99], [99, 99], [99, -99]], 'rising', 0.12);
+    robot.pose(goal, 'goal');
+    if (hidden) { robot.robot(start); return; }
     plane.dot(-pace, 0, 'rho', { hollow: true });
     plane.text('distance', -pace, 0, { role: 'rho', dy: 18, align: 'center' });
     for (const [re, im] of poles) plane.cross(re, im, 'alpha', 8);
-    robot.pose(goal, 'goal');
     robot.path(run.x, run.y);
     robot.robot(poseAt(run, run.n - 1));
   },

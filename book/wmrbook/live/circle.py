@@ -1,0 +1,84 @@
+"""Chapter 6: behind a goal that drives round a circle."""
+
+from __future__ import annotations
+
+import math
+
+import control
+import numpy as np
+
+from wmrbook.live.parts import Ask, Knob, Live
+from wmrlib import paper, residual, track
+
+WEIGHTS = 1.0, 100.0  # q, between which the prediction compares
+TURNING = 2 * math.pi / paper.CIRCLE_PERIOD  # rad/s, of the goal
+A = np.array([[0.0, TURNING, 0.0], [-TURNING, 0.0, paper.CIRCLE_SPEED], [0.0, 0.0, 0.0]])
+B = np.array([[-1.0, 0.0], [0.0, 0.0], [0.0, -1.0]])
+
+
+def lag() -> Live:
+    """The distance that is left behind a moving goal, in the picture and over time."""
+    gains = paper.CIRCLE_GAINS
+    once, twice = (
+        residual(track(paper.circle, paper.CIRCLE_START, each, duration=40.0))
+        for each in (gains, gains._replace(k_rho=2 * gains.k_rho))
+    )
+    left = {
+        "It vanishes": twice < once / 10,
+        "It is halved": 0.4 < twice / once < 0.6,
+        "It stays: the gain only decides how soon the robot is there": 0.9 < twice / once < 1.1,
+        "It grows": twice > 1.1 * once,
+    }
+    return Live(
+        "lag",
+        "With {k_rho} and {v_max} the robot stays {residual} behind; (6.2) below says {predicted}.",
+        {
+            "k_rho": Knob(gains.k_rho, 1.0, 8.0, 0.1, "pull of the goal, k_rho", "1/m", "k_rho"),
+            "v_max": Knob(gains.v_max, 1.0, 8.0, 0.1, "top speed, v_max", "m/s", "v_max"),
+            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far round", label="driven", plays=8.0),
+        },
+        data={
+            "start": list(paper.CIRCLE_START),
+            "gains": gains._asdict(),
+            "speed": paper.CIRCLE_SPEED,
+        },
+        ask=Ask(
+            "choose",
+            f"Once round the circle the robot is {once:.2f} m behind its goal, and stays there. "
+            "What becomes of this distance if k_rho is doubled?",
+            "At the goal the law commands no speed, so the robot keeps the distance at which it "
+            "commands the goal's. It goes as 1/k_rho for any goal that moves: none removes it.",
+            key=[*left.values()].index(True),
+            options=(*left,),
+        ),
+    )
+
+
+def lqr() -> Live:
+    """The weight of the error in an LQR: its poles, and the drive behind the goal."""
+    slowest = [-max(control.lqr(A, B, q * np.eye(3), np.eye(2))[2].real) for q in WEIGHTS]
+    ratio, heavier = slowest[1] / slowest[0], WEIGHTS[1] / WEIGHTS[0]
+    faster = {
+        f"{heavier:.0f} times faster": ratio > heavier / 2,
+        f"{math.sqrt(heavier):.0f} times faster": heavier / 20 < ratio < heavier / 5,
+        "No faster": ratio < 1.1,
+    }
+    return Live(
+        "lqr",
+        "With the error weighted by {q} its slowest part fades at {slowest}. The robot turns at "
+        "{peak} at most, and keeps within 10 cm of its goal from {seconds} on.",
+        {
+            "q": Knob(1.0, 0.01, 100.0, None, "weight of the error, q", "", "q"),
+            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far round", label="driven", plays=8.0),
+        },
+        data={"A": A.tolist(), "B": B.tolist(), "start": list(paper.CIRCLE_START)},
+        ask=Ask(
+            "choose",
+            f"All three errors are weighted {heavier:.0f} times as heavily, and speed and turning "
+            "cost what they did. How much faster does the slowest part of the error fade?",
+            "The wheels push ahead, never sideways: what is aside goes only as fast as the goal's "
+            "speed carries it across. Gains buy speed where there is an actuator.",
+            key=[*faster.values()].index(True),
+            options=(*faster,),
+        ),
+    )

@@ -1,0 +1,111 @@
+"""Chapter 4: a number that never rises, and the law that sees to it."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrlib import GENTLE_GAINS, PolarError, Pose, polar_rate, pose_from_polar, simulate
+from wmrlib.control import control_law
+from wmrlib.paper import OUTDOOR_GAINS
+
+GOAL = Pose(0.0, 0.0, 0.0)
+NEAR = 0.5  # m from the goal
+LOOK = (-30.0, 35.0)  # deg, yaw and tilt of the bowl at first
+ASKED = (0.0, 60.0)  # deg, alpha and theta
+
+
+def bowl() -> Live:
+    """The angles' part of V as a bowl to turn, its level sets, and a state that rolls over both."""
+    start = pose_from_polar(PolarError(NEAR, math.radians(110.0), math.radians(90.0)), GOAL)
+    run = simulate(
+        start, GOAL, GENTLE_GAINS, method="continuous", dt=0.02, duration=12.0, arrival_radius=0.0
+    )
+    h = GENTLE_GAINS.h
+    heights = (run.alpha**2 + h * run.theta**2) / 2
+    steepest = np.arctan2(-h * run.theta, -run.alpha)
+    moves = np.arctan2(np.diff(run.theta), np.diff(run.alpha))
+    early = heights[:-1] > heights[0] / 100
+    aside = np.abs(np.angle(np.exp(1j * (moves - steepest[:-1]))))[early].max()
+    rises = np.diff(heights).max() > 1e-9
+    ways = {
+        "Down all the way, by the steepest way": not rises and aside < math.radians(20.0),
+        "Down all the way, but not by the steepest way": not rises and aside > math.radians(20.0),
+        "Up at times, and down in the end": rises,
+    }
+    return Live(
+        "bowl",
+        "With {choice} the ball is {height} high after {seconds}, and was {top} high at first.",
+        {
+            "choice": Choice(
+                "gentle",
+                {"gentle": "gentle gains", "paper": "the paper's gains"},
+                "the gains of the run",
+            ),
+            "time": Knob(
+                1.0, 0.0, 1.0, 0.005, "how far the ball has rolled", label="rolled", plays=8.0
+            ),
+            "yaw": Knob(LOOK[0], -180.0, 180.0, 1.0, "the bowl, turned round", "°", label="turned"),
+            "tilt": Knob(LOOK[1], 5.0, 85.0, 1.0, "the bowl, tilted", "°", label="tilted"),
+        },
+        data={
+            "start": list(start),
+            "goal": list(GOAL),
+            "look": LOOK,
+            "gains": {"gentle": GENTLE_GAINS._asdict(), "paper": OUTDOOR_GAINS._asdict()},
+        },
+        ask=Ask(
+            "choose",
+            "This chapter designs a law for this bowl. How will the ball get to the bottom?",
+            "Along a motion V must not rise; nothing is asked of the direction. A robot can't turn "
+            "its two angles as it likes, so its way down is its own.",
+            key=[*ways.values()].index(True),
+            options=(*ways,),
+        ),
+    )
+
+
+def two_bars() -> Live:
+    """V' as the sum of a bar for the distance and one for the angles, while the law is built."""
+    alpha, theta = map(math.radians, ASKED)
+    twist = control_law(NEAR, alpha, theta, OUTDOOR_GAINS)
+    rates = polar_rate(NEAR, alpha, *twist)
+    distance = NEAR * rates[0] < -1e-9
+    angles = alpha * rates[1] + OUTDOOR_GAINS.h * theta * rates[2] < -1e-9
+    parts = {
+        "Both parts": distance and angles,
+        "Only that of the distance": distance and not angles,
+        "Only that of the angles": angles and not distance,
+        "Neither": not distance and not angles,
+    }
+    return Live(
+        "two_bars",
+        "With {law}, 0.5 m from the goal, at {alpha} and {theta}, the part of "
+        "the distance {distance} and that of the angles {angles}. V {share}.",
+        {
+            "law": Choice(
+                "corrected",
+                {
+                    "nothing": "v = 1 m/s and ω = 0",
+                    "speed": "v of (22) and ω = 0",
+                    "corrected": "v of (22) and ω of (4.6)",
+                    "printed": "v and ω as printed",
+                },
+                "the law so far",
+            ),
+            "alpha": Knob(ASKED[0], -180.0, 180.0, 1.0, "alpha", "°", "alpha"),
+            "theta": Knob(ASKED[1], -180.0, 180.0, 1.0, "theta", "°", "theta"),
+        },
+        data={"rho": NEAR, "gains": OUTDOOR_GAINS._asdict(), "asked": ASKED},
+        ask=Ask(
+            "choose",
+            "A robot with this law looks straight at its goal, 0.5 m ahead, but should be turned "
+            "by 60° there: alpha is 0 and theta is 60°. Which part of V is falling?",
+            "The angles' part falls by what alpha is, whatever theta is: it can't see that the "
+            "heading is wrong. That V never rises is not enough; it must not stay level either.",
+            key=[*parts.values()].index(True),
+            options=(*parts,),
+        ),
+    )

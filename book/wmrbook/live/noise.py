@@ -1,0 +1,179 @@
+"""Chapter 9: a robot that steers by what it sees, and what it sees is wrong or late."""
+
+from __future__ import annotations
+
+import math
+from functools import cache
+
+import numpy as np
+
+from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrlib import Pose, advance, control_law, paper, polar_error, simulate, wrap_angle
+from wmrlib.gains import GENTLE_GAINS
+
+DT, RADIUS = 0.1, 0.2  # s, m
+ROBOTS, STEPS, SEED = 32, 400, 9
+WHITE = 0.01  # s: a memory so short that each fix errs anew
+LOST = 60.0  # s
+
+
+@cache
+def normals(count: int, seed: int = SEED) -> np.ndarray:
+    """Normal random numbers that any language can draw: mulberry32 and the rule of Box and Muller.
+
+    NumPy's generators would have to be written anew in JavaScript; this one is five lines.
+    """
+    state = (seed + np.arange(1, 2 * count + 1, dtype=np.uint64) * 0x6D2B79F5) % 2**32
+    state = state.astype(np.uint32)
+    mixed = (state ^ (state >> 15)) * (state | 1)
+    mixed = mixed ^ (mixed + (mixed ^ (mixed >> 7)) * (mixed | 61))
+    size, turn = ((mixed ^ (mixed >> 14)) + 0.5).reshape(count, 2).T / 2**32
+    return np.sqrt(-2.0 * np.log(size)) * np.cos(2.0 * math.pi * turn)
+
+
+def seeing(
+    start: Pose, goal: Pose, error: np.ndarray, late: float = 0.0, late_heading: float = 0.0
+) -> tuple[Pose, np.ndarray]:
+    """Drive robots by positions with an error, (steps, 2, robots) in m, and by readings that late.
+
+    Returns
+    -------
+    Pose of arrays, (samples, robots), up to where all stand, and array of the steps of each robot
+    """
+    steps, _, robots = error.shape
+    back, back_heading = round(late / DT), round(late_heading / DT)
+    truth = np.empty((steps + 1, 3, robots))
+    truth[0] = np.array(start)[:, None]
+    driven, going = np.zeros(robots, int), np.ones(robots, bool)
+    for n in range(steps):
+        then = max(n - back, 0)
+        x, y = truth[then, :2] + error[then]
+        polar = polar_error(Pose(x, y, truth[max(n - back_heading, 0), 2]), goal)
+        going &= polar.rho > RADIUS
+        driven += going
+        if not going.any():
+            truth = truth[: n + 1]
+            break
+        v, omega = control_law(*polar, GENTLE_GAINS)
+        truth[n + 1] = advance(Pose(*truth[n]), going * v, going * omega, DT)
+    return Pose(*truth.transpose(1, 0, 2)), driven
+
+
+def receiver(sigma: float, memory: float) -> np.ndarray:
+    """The errors of the bench's receivers: a Gauss-Markov process each, (steps, 2, robots), m."""
+    fresh, keep = normals(2 * ROBOTS * STEPS).reshape(STEPS, 2, ROBOTS), math.exp(-DT / memory)
+    error = [fresh[0]]
+    for noise in fresh[1:]:
+        error.append(keep * error[-1] + math.sqrt(1.0 - keep**2) * noise)
+    return sigma * np.array(error)
+
+
+@cache
+def last_ten_metres() -> tuple[Pose, Pose]:
+    """The outdoor drive where 10 m are left, seen from its goal, and the goal."""
+    start, goal, *_ = paper.outdoor()
+    run = simulate(start, goal, GENTLE_GAINS, method="continuous", arrival_radius=10.0)
+    x, y, heading = (float(field[-1]) for field in (run.x, run.y, run.heading))
+    return Pose(x - goal.x, y - goal.y, heading), Pose(0.0, 0.0, goal.heading)
+
+
+def left_over(sigma: float, memory: float) -> tuple[float, float]:
+    """Medians of the distance [m] and of the heading error [rad] of the robots where they stand."""
+    start, goal = last_ten_metres()
+    path, _ = seeing(start, goal, receiver(sigma, memory))
+    far, turned = np.hypot(path.x[-1], path.y[-1]), wrap_angle(path.heading[-1] - goal.heading)
+    return float(np.median(far)), float(np.median(np.abs(turned)))
+
+
+def bench() -> Live:
+    """Where robots stand in the end that see through a receiver with an error and a memory."""
+    start, goal = last_ten_metres()
+    far, turned = zip(*(left_over(0.5, memory) for memory in (WHITE, 300.0)), strict=True)
+    options = {
+        "Those with the new errors stand nearer and look straighter.": (True, True),
+        "Those with the new errors stand nearer; the others look straighter.": (True, False),
+        "Those with the lasting error stand nearer and look straighter.": (False, False),
+        "Those with the lasting error stand nearer; the others look straighter.": (False, True),
+    }
+    return Live(
+        "bench",
+        f"{ROBOTS} robots, each with a receiver that errs by {{sigma}} and remembers it for "
+        "{memory}. Half of them stand within {far} of the goal, and half within {turned} of its "
+        "heading{driving}.",
+        {
+            "sigma": Knob(0.5, 0.0, 2.0, 0.05, "the receiver's error, sigma", "m", "sigma"),
+            "memory": Knob(WHITE, WHITE, 1000.0, None, "the memory of the error", "s", "T"),
+        },
+        data={
+            "start": list(start),
+            "goal": list(goal),
+            "gains": GENTLE_GAINS._asdict(),
+            "dt": DT,
+            "radius": RADIUS,
+            "robots": ROBOTS,
+            "steps": STEPS,
+            "seed": SEED,
+        },
+        ask=Ask(
+            "choose",
+            "Some robots see through receivers whose error of 0.5 m is new in each fix, ten times "
+            "a second. The error of the others is as large and lasts five minutes. Both stop when "
+            f"they believe to be within {RADIUS:g} m of the goal.",
+            "While the radius is well below the error, a slow robot averages what changes quickly, "
+            "and what lasts moves the place. In the last metres what changes swings the line of "
+            "sight, and with it the heading.",
+            key=[*options.values()].index((far[0] < far[1], turned[0] < turned[1])),
+            options=(*options,),
+        ),
+    )
+
+
+def late_drive(position: float, heading: float) -> tuple[Pose, float]:
+    """The outdoor drive with both readings late [s]: its poses, and its time, infinite if lost."""
+    start, goal, *_ = paper.outdoor()
+    path, (driven,) = seeing(start, goal, np.zeros((round(LOST / DT), 2, 1)), position, heading)
+    time = driven * DT if driven * DT < LOST else math.inf
+    return Pose(*(field[: driven + 1, 0] for field in path)), time
+
+
+def late() -> Live:
+    """A position that comes late, or a heading: one of them the robot bears."""
+    start, goal, *_ = paper.outdoor()
+    delay = 0.6
+    position, heading = (math.isfinite(late_drive(*each)[1]) for each in ((delay, 0), (0, delay)))
+    options = {
+        "It arrives in both cases.": (True, True),
+        "It arrives if only its position is late.": (True, False),
+        "It arrives if only its heading is late.": (False, True),
+        "It arrives in neither case.": (False, False),
+    }
+    return Live(
+        "late",
+        "The {which} comes {delay} late. The robot {end}.",
+        {
+            "delay": Knob(delay, 0.0, 1.5, 0.1, "how late it comes", "s", "tau"),
+            "which": Choice(
+                "heading",
+                {"position": "position", "heading": "heading", "both": "pose"},
+                "what is late",
+            ),
+        },
+        data={
+            "start": list(start),
+            "goal": list(goal),
+            "gains": GENTLE_GAINS._asdict(),
+            "dt": DT,
+            "radius": RADIUS,
+            "lost": LOST,
+        },
+        ask=Ask(
+            "choose",
+            "A robot with gentle gains, at up to 4 m/s. Its position is 0.6 s late, or else its "
+            "heading is. Does it come to its goal, 58 m away?",
+            "The heading turns as fast as the law steers, so an old one makes it steer too far, "
+            "and back. Far away the line of sight hardly turns, so an old position "
+            "does harm only near the goal.",
+            key=[*options.values()].index((position, heading)),
+            options=(*options,),
+        ),
+    )

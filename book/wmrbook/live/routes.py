@@ -1,0 +1,79 @@
+"""Chapter 12: a corner of a route, and V at each change of goal."""
+
+from __future__ import annotations
+
+import math
+from itertools import pairwise
+
+import numpy as np
+
+from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrlib import Gains, Pose, drive_route, headings_along
+
+GAINS = Gains(k_rho=0.4, k_alpha=2.0, h=1.0, v_max=4.0)
+WALK = np.array([[0.0, 25.0, 45.0, 40.0, 5.0], [0.0, 5.0, 20.0, 45.0, 40.0]])  # m east, m north
+DOOR = math.radians(-90.0)
+
+
+def corners() -> Live:
+    """A route with one corner to drag, and the heading that is chosen there."""
+    first, corner, last = (0.0, 0.0), (22.0, 2.0), (8.0, 24.0)
+    heading = float(headings_along(*np.transpose([first, corner, last]))[1])
+    return Live(
+        "corners",
+        "At the corner, {x} and {y} from the start, the robot is to look to {heading}, and {stop}. "
+        "It turns at up to {omega} and takes {seconds}.",
+        {
+            "x": Knob(corner[0], -30.0, 30.0, 0.5, "the corner, east", "m", "x"),
+            "y": Knob(corner[1], -30.0, 30.0, 0.5, "the corner, north", "m", "y"),
+            "stop": Choice(
+                "pass", {"pass": "it is passed within 5 m", "stop": "the robot stops there"}, "how"
+            ),
+        },
+        data={"first": first, "last": last, "gains": GAINS._asdict(), "pass": 5.0, "stop": 0.05},
+        ask=Ask(
+            "turn",
+            "A robot comes from the start and goes on to the door. Which heading at the corner "
+            "leaves it the same turn before the corner and after it? Turn the arrow.",
+            "The heading lies halfway between the two legs' directions, counted along the shorter "
+            "turn. It is no average of two numbers of degrees, and does not point into the corner.",
+            key=heading,
+            pane="plane",
+            at=corner,
+        ),
+    )
+
+
+def passing() -> Live:
+    """The walk round the lawn, its points passed, and V over time."""
+    headings = headings_along(*WALK)
+    headings[-1] = DOOR
+    poses = Pose(*WALK, headings)
+    how = {"stop": False, "pass_radius": 5.0, "method": "continuous"}
+    legs = drive_route(poses, GAINS, **how).legs
+    jumps = [float(b.V[0] - a.V[-1]) for a, b in pairwise(legs)]
+    answers = {
+        "It falls on, without a break.": max(map(abs, jumps)) < 1e-6,
+        "It jumps up.": min(jumps) > 1e-6,
+        "It jumps down.": max(jumps) < -1e-6,
+        "It jumps up at some, down at others.": min(jumps) < -1e-6 and max(jumps) > 1e-6,
+    }
+    return Live(
+        "passing",
+        "Each point but the door is passed within {radius}. The walk takes {seconds}, the fastest "
+        "turn is {omega}. Here V is {V}, the speed {v}.",
+        {
+            "radius": Knob(5.0, 0.5, 12.0, 0.5, "how near a point is passed", "m", "R"),
+            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far on its way", label="on its way", plays=8.0),
+        },
+        data={"poses": np.transpose(poses).tolist(), "gains": GAINS._asdict()},
+        ask=Ask(
+            "choose",
+            "On each leg the law makes V fall. The robot comes within 5 m of a point, passes it, "
+            "and the next point becomes its goal. What does V do there?",
+            "A new goal is a new error, and so a new V: mostly a larger one, because the next point "
+            "is farther away. Between the changes only the law moves V, and there it falls.",
+            key=[*answers.values()].index(True),
+            options=(*answers,),
+        ),
+    )

@@ -1,0 +1,29 @@
+"""Twenty-five concept questions on chapters 0 to 12, for votes in class and as a test.
+
+One source makes three things: slides to vote by (`book/tools/slides.py --questions`), a form that
+works from the disk on a telephone (`python -m wmrbook.questions form`), and, of the lines that come
+back, histograms and the gain from a test before to one after. Every key is computed by wmrlib when
+a question is made, and so is every number among the wrong options, from the mistake behind it. A
+question whose texts explain another answer than the computed one is refused.
+"""
+
+from __future__ import annotations
+
+import hashlib
+
+from wmrbook.questions import field, ground, laws, practice
+from wmrbook.questions._asking import LETTERS, MAKERS, Option, Question, Refusal
+
+__all__ = ["LETTERS", "MAKERS", "Option", "Question", "Refusal", "fingerprint", "made"]
+_CHAPTERS = ground, laws, practice, field  # which fill MAKERS
+
+
+def made() -> tuple[Question, ...]:
+    """Return all questions, made now; raises Refusal for one that can't be asked."""
+    return tuple(sorted((make() for make in MAKERS.values()), key=lambda it: it.chapter))
+
+
+def fingerprint(questions: tuple[Question, ...]) -> str:
+    """Return four digits that change with any text or order, so that a letter keeps its meaning."""
+    told = [(each.ask, *(option.text for option in each.options)) for each in questions]
+    return hashlib.sha256(repr(told).encode()).hexdigest()[:4]

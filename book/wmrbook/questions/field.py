@@ -1,0 +1,104 @@
+"""Concept questions on chapters 11 and 12: a real robot on the bench, routes."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+import wmrlib as wmr
+from wmrbook.questions._asking import Option, cases, numbers, question, sign
+
+
+@question(11, "On the bench", "Swapped motor cables")
+def swapped_cables() -> tuple[str, list[Option], str]:
+    seen = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(10.0, 6.0, 0.0))
+    wheels = wmr.twist_to_wheels(*wmr.control_law(*seen, wmr.GENTLE_GAINS), 0.5)
+    v, omega = wmr.wheels_to_twist(wheels[1], wheels[0], 0.5)
+    ask = (
+        "The left motor's cable is in the right motor's plug; all else is right. The goal lies "
+        "ahead, to the left. What does the robot do at once?"
+    )
+    options = {
+        (1, -1): ("drives ahead, turns right", ""),
+        (1, 1): ("drives ahead, turns left", "the swap taken to change nothing"),
+        (-1, 1): ("backs up, turns left", "swapped taken for reversed"),
+        (-1, -1): ("backs up, turns right", "a swap taken to turn everything round"),
+        (0, -1): ("turns right on the spot", "the mean taken to vanish"),
+    }
+    why = (
+        "The swap keeps the wheels' mean, $v$, and changes the sign of their difference, and so "
+        "of $\\omega$."
+    )
+    return ask, cases((sign(v, 0.05), sign(omega, 0.05)), options), why
+
+
+@question(11, "On the bench", "A bearing for a heading")
+def bearing_for_heading() -> tuple[str, list[Option], str]:
+    bearing = math.radians(90.0)  # of a robot that looks east, at a goal in the east
+    seen = wmr.polar_error(wmr.Pose(0.0, 0.0, bearing), wmr.Pose(10.0, 0.0, 0.0))
+    v, omega = wmr.control_law(*seen, wmr.GENTLE_GAINS)
+    ask = (
+        "Robot and goal look east, and the goal lies 10 m ahead. The program takes the compass's "
+        "bearing, 90 deg, for the heading. What does the robot do at once?"
+    )
+    options = {
+        (0, -1): ("turns right on the spot", ""),
+        (0, 1): ("turns left on the spot", "$\\alpha$ from the line of sight to the heading"),
+        (1, 0): ("drives straight ahead", "90 deg taken for east"),
+        (-1, 0): ("backs straight up", "90 deg taken for half a turn"),
+        (1, -1): ("drives a right bend", "the cosine of 90 deg overlooked"),
+    }
+    why = (
+        "It believes it looks north, with the goal abeam on its right: $\\cos\\alpha = 0$ leaves "
+        "no speed, $k_\\alpha\\alpha$ turns it right."
+    )
+    return ask, cases((sign(v, 0.05), sign(omega, 0.05)), options), why
+
+
+@question(12, "A route is a chain of goals", "Which way at the corner?")
+def at_the_corner() -> tuple[str, list[Option], str]:
+    come, leave = 160.0, -100.0
+    legs = np.radians([[come], [leave]])
+    x, y = np.cumsum([[[0.0], [0.0]], *([np.cos(leg), np.sin(leg)] for leg in legs)], axis=0).T[0]
+    heading = math.degrees(wmr.headings_along(x, y)[1])
+    bend = (leave - come + 180.0) % 360.0 - 180.0
+    mistaken = {
+        "the plain mean of 160 and -100": (come + leave) / 2.0,
+        "the heading in which it arrives": come,
+        "the heading in which it sets off": leave,
+        "the bend taken to the other side": come - bend / 2.0,
+    }
+    ask = (
+        "A leg leads at 160 deg to a waypoint, the next one at -100 deg away from it. Which "
+        "heading shares the bend between the two legs?"
+    )
+    why = "The bend, wrapped, is 100 deg to the left; half of it from 160 deg is 210, that is -150."
+    return ask, numbers(heading, mistaken, "{:.0f} deg"), why
+
+
+@question(12, "Stop, or pass?", "V along a route")
+def along_a_route() -> tuple[str, list[Option], str]:
+    x, y = np.array([20.0, 40.0, 60.0]), np.array([0.0, 15.0, 0.0])
+    poses = wmr.Pose(x, y, wmr.headings_along(x, y))
+    stops = [False, False, True]
+    route = wmr.drive_route(
+        poses, wmr.GENTLE_GAINS, start=wmr.Pose(0.0, 0.0, 0.0), stop=stops, method="continuous"
+    )
+    steps, change = np.diff(route.V), np.diff(route.leg) != 0
+    found = bool((steps[~change] > 1e-9).any()), sign(steps[change].min(), 1e-6)
+    ask = (
+        "A route of three goals, the first two only passed, is driven by the corrected law in "
+        "continuous time. What does $V$, counted to the present goal, do?"
+    )
+    options = {
+        (False, 1): ("falls, but jumps up between legs", ""),
+        (False, 0): ("falls from first to last", "one proof taken for the whole route"),
+        (True, 1): ("rises before each corner too", "braking taken for a rise of $V$"),
+        (False, -1): ("falls, and jumps down between legs", "a goal passed taken for a gain"),
+        (True, 0): ("rises on each leg", "a longer way taken for a larger $V$"),
+    }
+    why = (
+        "The law makes $V$ fall to the goal of the moment. A new goal is a new error, further off."
+    )
+    return ask, cases(found, options), why

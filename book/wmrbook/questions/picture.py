@@ -1,0 +1,69 @@
+"""A class's histograms as a picture, and as a page for the projector."""
+
+from __future__ import annotations
+
+import html
+import math
+
+import matplotlib as mpl
+from matplotlib.figure import Figure
+
+from wmrbook.figures.style import COLOURS, STYLE, Picture
+from wmrbook.questions.classes import Histogram
+
+_COLUMNS = 5
+
+
+def bars(histograms: list[Histogram], title: str) -> Picture:
+    """Return one graph for each histogram; the right option is dark, and has hatches."""
+    columns = min(_COLUMNS, len(histograms))
+    rows = math.ceil(len(histograms) / columns)
+    size = (6.5, 3.6) if columns == 1 else (2.4 * columns, 1.75 * rows)
+    with mpl.rc_context(STYLE):
+        figure = Figure(figsize=size, layout="constrained")
+        grid = figure.subplots(rows, columns, squeeze=False).ravel()
+    highest = max(max(each.counts, default=0) for each in histograms)
+    for axes, each in zip(grid, histograms, strict=False):
+        drawn = axes.bar(range(len(each.labels)), each.counts, color=COLOURS["robot"], ec="none")
+        for bar, label in zip(drawn, each.labels, strict=True):
+            if label == each.right:
+                bar.set(facecolor=COLOURS["start"], hatch="//", edgecolor=COLOURS["ink"])
+        turned = (
+            {"rotation": 30, "ha": "right", "rotation_mode": "anchor"}
+            if max(map(len, each.labels)) > 8
+            else {}
+        )
+        axes.set_xticks(range(len(each.labels)), each.labels, **turned)
+        axes.set_title(each.title, fontsize=9 if columns > 1 else 12)
+        axes.set_ylim(0.0, 1.1 * max(highest, 1))
+        axes.grid(visible=False, axis="x")
+        axes.yaxis.get_major_locator().set_params(integer=True)
+    for axes in grid[len(histograms) :]:
+        axes.remove()
+    told = "; ".join(_told(each) for each in histograms)
+    return Picture(figure, f"Histogram of a class's answers, {title}. {told}.")
+
+
+def page(groups: dict[str, list[Histogram]]) -> str:
+    """Return a page of all pictures, which opens from the disk."""
+    parts = [
+        f"<h2>{html.escape(title)}</h2>\n{bars(histograms, title)._repr_mimebundle_()['text/html']}"
+        for title, histograms in groups.items()
+    ]
+    return (
+        '<!DOCTYPE html>\n<html lang="en">\n<head>\n<meta charset="utf-8">\n'
+        '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+        "<title>A class's answers</title>\n<style>body { font-family: system-ui, sans-serif; "
+        "margin: 1em; } img { width: min(100%, 95vw); height: auto; max-height: 90vh; }</style>\n"
+        "</head>\n<body>\n<main>\n<h1>A class's answers</h1>\n"
+        + "\n".join(parts)
+        + "\n</main>\n</body>\n</html>\n"
+    )
+
+
+def _told(each: Histogram) -> str:
+    counts = ", ".join(
+        f"{label} {count}{' (right)' * (label == each.right)}"
+        for label, count in zip(each.labels, each.counts, strict=True)
+    )
+    return f"{each.title}: {counts}"

@@ -1,0 +1,54 @@
+"""The concept questions in a browser: the slides to vote by, and the form on a telephone."""
+
+from __future__ import annotations
+
+import pytest
+import slides
+from faults import of_page
+from test_decks import TROUBLES
+
+from wmrbook import questions
+from wmrbook.lines import Line, read, written
+from wmrbook.questions.form import form
+
+
+@pytest.mark.needs("npm")
+def test_each_slide_to_vote_by_has_a_title_and_can_be_read_and_all_of_it_fits(
+    tmp_path, browser_page
+):
+    slides.vote(tmp_path)
+    browser_page.set_viewport_size({"width": 1366, "height": 768})
+    browser_page.goto((tmp_path / "questions.html").as_uri())
+    browser_page.wait_for_function("document.documentElement.dataset.deck === 'ready'")
+    assert browser_page.evaluate("deck.getTotalSlides()") == 51
+    assert browser_page.evaluate(TROUBLES) == []
+    listed = "it => getComputedStyle(it).listStyleType"
+    assert browser_page.locator("ol li").first.evaluate(listed) == "upper-alpha"
+    assert "$" not in browser_page.locator(".slides").inner_text()
+
+
+@pytest.mark.needs("npm")
+def test_the_form_on_a_telephone_makes_a_line_that_counts(tmp_path, browser_page):
+    made = questions.made()
+    path = tmp_path / "questions.html"
+    path.write_text(form(made), encoding="utf-8")
+    browser_page.set_viewport_size({"width": 390, "height": 844})
+    browser_page.goto(path.as_uri())
+    line = browser_page.locator("#line")
+    assert line.input_value() == ""  # nobody's
+    name = "  Zoë O'Neil (4)\u00a0! "
+    browser_page.fill("#who", name)
+    browser_page.get_by_label("after it").check()
+    answers = [*"ABCDE", *["-"] * 19, "E"]
+    for at, letter in enumerate(answers, start=1):
+        if letter != "-" or at % 2:  # every second open one is not touched at all
+            browser_page.locator(f"input[name=q{at}][value='{letter}']").check()
+    assert browser_page.locator("#state").text_content().startswith("6 of 25 answered")
+    told = line.input_value()
+    which = f"post-{questions.fingerprint(made)}"
+    assert read(told) == Line("test", which, "Zoë O'Neil (4) !", "".join(answers))
+    for size in range(1, 61):  # of every length that a block of the checksum can end in
+        one = Line("gate", "ch04-level", "ñ" * size, "left of it")
+        assert browser_page.evaluate("it => wmrLine(...it)", list(one)) == written(one)
+    faults = of_page(browser_page, sizes=((390, 844),))
+    assert faults == []

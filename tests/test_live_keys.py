@@ -1,0 +1,114 @@
+"""What a prediction is compared with follows from wmrlib: with a flipped sign it is another."""
+
+from __future__ import annotations
+
+import pytest
+
+pytest.importorskip("anywidget", reason="what moves needs anywidget")
+from wmrbook import live
+from wmrbook.live import (
+    audit,
+    circle,
+    design,
+    lyapunov,
+    noise,
+    pose_to_pose,
+    real_robot,
+    routes,
+    sampling,
+)
+
+
+def _backwards(gains):
+    return gains._replace(k_alpha=-gains.k_alpha)
+
+
+def _uphill(f):
+    return lambda a, b, gains, **how: f(a, b, gains, **(how | {"law": "printed"}))
+
+
+FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
+    ("bowl", lyapunov, "simulate", _uphill),
+    ("two_bars", lyapunov, "control_law", lambda f: lambda *a: (f(*a)[0], 1 - f(*a)[1])),
+    ("x_axis", pose_to_pose, "polar_error", lambda f: lambda a, b: f(b, a)),
+    ("heading_left", pose_to_pose, "simulate", _uphill),
+    ("lag", circle, "track", lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o)),
+    ("phase", design, "modes", lambda f: lambda k: f(k._replace(k_alpha=2 * k.k_alpha))),
+    ("poles", design, "modes", lambda f: lambda k: f(k._replace(h=1 / k.h))),
+    ("unit_circle", sampling, "longest_step", lambda f: lambda *a: 0.5 * f(*a)),
+    ("wheel_limit", sampling, "wheels_to_twist", lambda f: lambda a, b, c: f(b, a, c)),
+    ("bench", noise, "advance", lambda f: lambda pose, v, omega, dt: f(pose, v, -omega, dt)),
+    ("late", noise, "control_law", lambda f: lambda *a: (-f(*a)[0], f(*a)[1])),
+    ("threshold", audit, "simulate", lambda f: lambda a, b, k, **o: f(a, b, _backwards(k), **o)),
+    ("rising", audit, "lyapunov_rate", lambda f: lambda *a, **o: -f(*a, **o)),
+    ("compass", real_robot, "wrap_angle", lambda f: lambda angle: -f(angle)),
+    ("silence", real_robot, "rolled", lambda f: lambda v, timeout, brake: f(v, timeout, -brake)),
+    ("corners", routes, "headings_along", lambda f: lambda x, y: -f(x, y)),
+    (
+        "passing",
+        routes,
+        "drive_route",
+        lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
+    ),
+@@@
+from wmrbook.live import angles, earth, first_drive, robot
+
+
+def _turned(goal):
+    return goal._replace(heading=-goal.heading)
+
+
+def _to_the_right(f, *methods):
+    """Turn right where `advance` turns left, with all methods or with some."""
+    return lambda pose, v, omega, dt, method="arc": f(
+        pose, v, -omega if method in methods or not methods else omega, dt, method=method
+    )
+
+
+FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
+    (
+        "last_metres",
+        first_drive,
+        "simulate",
+        lambda f: lambda a, b, k, **o: f(a, _turned(b), k, **o),
+    ),
+    (
+        "stopping",
+        first_drive,
+        "simulate",
+        lambda f: lambda a, b, k, **o: f(a, b, k, law="printed", **o),
+    ),
+    ("bearing", earth, "local_position", lambda f: lambda *to: (f(*to)[0], -f(*to)[1])),
+    ("flat_map", earth, "local_position", lambda f: lambda *to: (f(*to)[0], -f(*to)[1])),
+    ("turning_centre", robot, "wheels_to_twist", lambda f: lambda a, b, c: f(b, a, c)),
+    ("commutator", robot, "advance", _to_the_right),
+    ("one_step", robot, "advance", lambda f: _to_the_right(f, "euler")),
+    (
+        "polar_angles",
+        angles,
+        "polar_error",
+        lambda f: lambda *a: f(*a)._replace(alpha=-f(*a).alpha),
+    ),
+    ("half_turn", angles, "simulate", lambda f: lambda a, b, k, **o: f(_turned(a), b, k, **o)),
+]
+
+
+@pytest.mark.parametrize(("name", "module", "of", "flip"), FLIPS, ids=[row[0] for row in FLIPS])
+def test_a_flipped_sign_changes_what_is_right_or_is_refused(monkeypatch, name, module, of, flip):
+    before = getattr(live, name)().setup["ask"]
+    assert before["key"] is not None or before["kind"] == "sketch"
+    monkeypatch.setattr(module, of, flip(getattr(module, of)))
+    try:
+        after = getattr(live, name)().setup["ask"]
+    except (ValueError, ArithmeticError):
+        return
+    shown = "why" if before["kind"] == "sketch" else "key"
+    assert after is None or after[shown] != before[shown]
+
+
+def test_what_is_aside_is_no_faster_only_because_the_wheels_cannot_push_there(monkeypatch):
+    key = live.lqr().setup["ask"]["key"]
+    monkeypatch.setattr(circle, "B", -circle.np.eye(3)[:, :2])  # a robot that moves sideways
+    monkeypatch.setattr(circle, "A", 0 * circle.A + circle.np.diag([0.0, 0.0, -50.0]))
+    assert live.lqr().setup["ask"]["key"] != key
+@@@
