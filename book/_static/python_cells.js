@@ -1,11 +1,11 @@
 // Cells that run in the page. Python itself, 16 MB beside this file, is loaded when the first one is run, into a worker that can be
-// stopped. Before a cell the ones above it run, as far as they have not, or were changed since.
+// stopped. Before a cell the ones above it run, as far as they have not, or not since something above them changed.
 (function () {
   const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
   const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
   const ZIPPED = new Set(['worker', 'asm', 'wasm']);
   const cells = [];
-  let parts, worker, busy = false, count = 0;
+  let parts, worker, running;
 
   const make = (tag, properties = {}, ...children) => {
     const element = Object.assign(document.createElement(tag), properties);
@@ -40,21 +40,22 @@
     parts.catch(() => { parts = undefined; });
     return parts.then(({ worker: script, ...rest }) => new Promise((resolve, reject) => {
       const python = new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
-      const waiting = new Map();
-      python.onerror = (event) => reject(Error(event.message));
+      let finish, stopped = false;
       python.onmessage = ({ data }) => {
         if (data.failed) reject(Error(data.failed));
         else if (data.ready) resolve({ run, stop });
-        else waiting.get(data.id)(data);
+        else finish(data);
       };
       const run = (cell) => new Promise((done) => {
         const { space, number, before, checks } = cell;
-        waiting.set(++count, done);
-        python.postMessage({ id: count, space, number, before, checks, source: source(cell) });
+        finish = done;
+        if (stopped) done({ stopped });
+        else python.postMessage({ space, number, before, checks, source: source(cell) });
       });
       const stop = () => {
+        stopped = true;
         python.terminate();
-        waiting.forEach((done) => done({ stopped: true }));
+        finish?.({ stopped });
       };
       python.postMessage(rest);
     }));
@@ -67,8 +68,8 @@
   const say = (cell, text) => { cell.status.textContent = text; };
 
   async function run(cell) {
-    if (busy) return;
-    busy = true;
+    if (running) return running === cell || say(cell, 'Another cell is running.');
+    running = cell;
     document.documentElement.classList.add('python-busy');
     cell.stop.hidden = false;
     try {
@@ -80,9 +81,11 @@
         say(cell, each === cell ? 'Running …' : `Running ${kind(each)} ${each.number} …`);
         const start = performance.now();
         const ran = source(each);
-        const { shown, error, hint, stopped } = await python.run(each);
+        const { shown, error, hint, died, stopped } = await python.run(each);
         if (stopped) return say(cell, 'Stopped. All variables are gone.');
+        if (ran !== each.ran) forget(cells.slice(each.place).filter((it) => it.space === each.space));
         each.ran = error ? undefined : ran;
+        if (died) stop();
         await show(each, shown, error);
         const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
         if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
@@ -93,17 +96,19 @@
       worker = undefined;
       say(cell, `Python does not start here: ${error.message}`);
     } finally {
-      busy = false;
+      running = undefined;
       document.documentElement.classList.remove('python-busy');
       if (document.activeElement === cell.stop) cell.run.focus();
       cell.stop.hidden = true;
     }
   }
 
+  const forget = (some) => some.forEach((each) => { each.ran = undefined; });
+
   function stop() {
     worker?.then((python) => python.stop());
     worker = undefined;
-    cells.forEach((each) => { each.ran = undefined; });
+    forget(cells);
   }
 
   async function show(cell, shown, error) {

@@ -19,7 +19,11 @@ async function start({ asm, wasm, stdlib, packages }) {
   });
   pyodide.unpackArchive(packages, 'zip', { extractDir: '/packages' });
   const run = pyodide.runPython('import sys; sys.path.insert(0, "/packages"); from run_cell import run; run');
-  return ({ id, space, number, before, source, checks }) => ({
-    id, ...JSON.parse(run(space, number, before, source, pyodide.toPy(checks))),
-  });
+  return ({ space, number, before, source, checks }) => {
+    try {
+      return JSON.parse(run(space, number, before, source, pyodide.toPy(checks)));
+    } catch (error) {  // Python itself broke, as by too deep a recursion
+      return { shown: [], error: String(error), died: true };
+    }
+  };
 }

@@ -84,6 +84,9 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     page.keyboard.press("Control+Enter")
     assert told(page, model).startswith("Done")
     assert shown(page, model).strip() == "2*rho*v*cos(alpha)/L"
+    press(page, last, "Run")  # what was right above is computed again, from the wrong sign
+    proof = next(i for i, cell in enumerate(cells) if "exact_rate =" in cell["source"])
+    assert told(page, last) == f"An error, in cell {proof + 1} above."
 
     # An endless loop: the page stays alive, and what was computed is computed again.
     write(page, model, "while True:\n    pass")
