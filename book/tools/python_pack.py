@@ -17,6 +17,7 @@ import shutil
 import subprocess
 import sys
 import tempfile
+import time
 import zipfile
 from collections.abc import Iterator
 from contextlib import suppress
@@ -34,6 +35,7 @@ LEFT_OUT = re.compile(
     r"|wmrlib/(explorer|tracks)/|wmrbook/(figures|audit|challenge|live)/"
 )
 KINDS = {".py", ".pyi", ".c", ".h"}
+DAY = 24 * 3600.0  # s
 FIXED = (1980, 1, 1, 0, 0, 0)  # the same files make the same zip
 
 
@@ -72,16 +74,19 @@ def compiled(modules: Path, zips: dict[str, bytes]) -> list[bytes]:
     kept = modules / ".python" / digest.hexdigest()[:16]
     if not kept.is_dir():
         kept.parent.mkdir(exist_ok=True)
+        for old in kept.parent.iterdir():
+            if old.stat().st_mtime < time.time() - DAY:
+                shutil.rmtree(old, ignore_errors=True)
         node = shutil.which("node") or shutil.which("node", path=Path(sys.executable).parent)
-        with tempfile.TemporaryDirectory(dir=kept.parent) as folder:  # two builds may run at once
-            command = [node or "node", script, pyodide]
+        with tempfile.TemporaryDirectory() as given:
+            made = Path(tempfile.mkdtemp(dir=kept.parent))  # two builds may run at once
+            command = [node or "node", script, pyodide.as_uri()]
             for name, content in zips.items():
-                command += [Path(folder, f"{name}.in"), Path(folder, name)]
-                Path(folder, f"{name}.in").write_bytes(content)
+                Path(given, name).write_bytes(content)
+                command += [Path(given, name), made / name]
             subprocess.run(command, check=True)
-            with suppress(OSError):  # another build was first
-                Path(folder).rename(kept)
-                Path(folder).mkdir()
+        with suppress(OSError):  # another build was first
+            made.rename(kept)
     return [(kept / name).read_bytes() for name in zips]
 
 
