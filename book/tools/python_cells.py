@@ -245,7 +245,7 @@ def leave_out_of_print(app, doctree, docname):
 
 def add_scripts(app, docname, template, context, doctree):
     """Load what runs cells where there are any."""
-    if doctree and "python-cell" in context.get("body", ""):
+    if app.builder.name == "html" and "python-cell" in context.get("body", ""):
         app.add_js_file("python_cells.js")
         app.add_css_file("python_cells.css")
 
