@@ -196,7 +196,9 @@
     cell.tools = make('div', { className: 'python-tools' }, cell.run, cell.edit, cell.reset, cell.stop, cell.status);
     if (cell.left_out) {
       const lines = cell.left_out === 1 ? 'One line needs' : `${cell.left_out} lines need`;
-      cell.tools.append(make('span', { className: 'python-left-out', textContent: `${lines} numpy: in the notebook.` }));
+      const notebook = document.querySelector('.run-it a')?.cloneNode() ?? make('span');
+      notebook.textContent = 'the notebook';
+      cell.tools.append(make('span', { className: 'python-left-out' }, `${lines} numpy: in `, notebook, '.'));
     }
     cell.stored = [...cell.element.querySelectorAll('.cell_output')];
     cell.output = make('div', { className: 'cell_output python-output' });
