@@ -16,7 +16,7 @@ language = "en"
 
 exclude_patterns = ["course"]  # the graded exercises: only a table of them is shown
 extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
-extensions += ["pages", "reference"]
+extensions += ["pages", "python_cells", "reference"]
 myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
 myst_heading_anchors = 3
 bibtex_bibfiles = [str(Path(__file__).parent / "references.bib")]

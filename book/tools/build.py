@@ -18,6 +18,7 @@ from pathlib import Path
 
 import nbformat
 from pdf import find_browser, print_book
+from python_pack import write_scripts
 
 BOOK = Path(__file__).resolve().parents[1]
 ROOT = BOOK.parent
@@ -47,6 +48,8 @@ def main(output: Path, pdf: bool = False) -> None:
         find_browser()  # before minutes of work
     install_javascript()
     copy_javascript(VENDOR)
+    say("the Python for the pages")
+    write_scripts(VENDOR / "python", MODULES)
     for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages
         shutil.rmtree(output / stale, ignore_errors=True)
     copy_sources(output / "source")

@@ -6,7 +6,7 @@ window.paper = (() => {
 
   // The document that each panel is in, such as notebooks/04_lyapunov.
   const places = () => panels().map((panel) => begins()
-    .filter((it) => it.compareDocumentPosition(panel) & Node.DOCUMENT_POSITION_FOLLOWING).at(-1).id.replace('document-', ''));
+    .filter((it) => it.compareDocumentPosition(panel) & Node.DOCUMENT_POSITION_FOLLOWING).at(-1)?.id.replace('document-', '') ?? 'index');  // the front page has none
 
   // Pictures in place of the panels, links that lead within the page, contents, and room for page numbers.
   async function prepare(stills) {

@@ -2,7 +2,15 @@
 
 from __future__ import annotations
 
+import os
+import subprocess
+import sys
+from pathlib import Path
+
 import pytest
+from faults import DRAWN
+from filelock import FileLock
+from live import PATIENCE, ROOT
 
 FLAGS = [
     "--headless=new",
@@ -97,3 +105,43 @@ def panel_core(browser_page):
     )
     browser_page.wait_for_function("window.loaded")
     return browser_page
+
+
+@pytest.fixture(scope="session")
+def site(tmp_path_factory, find_tool) -> Path:
+    """The folder of the site, built once for all processes, with the PDF where there is a browser.
+
+    The environment variable BOOK_HTML can name one that is built already.
+    """
+    if ready := os.environ.get("BOOK_HTML"):
+        return Path(ready).resolve()
+    folder = tmp_path_factory.getbasetemp()
+    output = (folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) / "book"
+    built = output / "built"
+    with FileLock(f"{output}.lock"):
+        if not built.exists():
+            options = ["--pdf"] if find_tool("browser") else []
+            command = [sys.executable, ROOT / "book" / "tools" / "build.py", output, *options]
+            done = subprocess.run(command, capture_output=True, text=True)
+            assert done.returncode == 0, done.stdout + done.stderr
+            built.touch()
+    return output / "html"
+
+
+@pytest.fixture
+def opened(site, browser_page):
+    """Opens a page and waits until it is drawn; a request that leaves the site is a trouble."""
+    ours = (f"{site.as_uri()}/", "data:", "blob:")
+
+    def asked(request):
+        if not request.url.startswith(ours):
+            browser_page.troubles.append(f"left the site: {request.url}")
+
+    browser_page.on("request", asked)
+
+    def open_page(name: str):
+        browser_page.goto(f"{site.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
+        browser_page.wait_for_function(DRAWN, timeout=PATIENCE)
+        return browser_page
+
+    return open_page

@@ -5,8 +5,6 @@ from __future__ import annotations
 import itertools
 import os
 import re
-import subprocess
-import sys
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -14,54 +12,15 @@ from urllib.parse import unquote, urlsplit
 import nbformat
 import pypdfium2
 import pytest
-from faults import DRAWN, PANEL, SIZES, of_page, stills
-from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders
+from faults import PANEL, SIZES, of_page, stills
+from live import PATIENCE, assert_slider_matters, chapters, settled_picture, sliders
 
-READY = os.environ.get("BOOK_HTML")
-pytestmark = [] if READY else pytest.mark.needs("npm")
-
-
-@pytest.fixture(scope="module")
-def site(tmp_path_factory, find_tool) -> Path:
-    """The folder of the site, built now, with the PDF where there is a browser.
-
-    The environment variable BOOK_HTML can name one that is built already.
-    """
-    if READY:
-        return Path(READY).resolve()
-    output = tmp_path_factory.mktemp("book")
-    options = ["--pdf"] if find_tool("browser") else []
-    built = subprocess.run(
-        [sys.executable, ROOT / "book" / "tools" / "build.py", output, *options],
-        capture_output=True,
-        text=True,
-    )
-    assert built.returncode == 0, built.stdout + built.stderr
-    return output / "html"
+pytestmark = [] if os.environ.get("BOOK_HTML") else pytest.mark.needs("npm")
 
 
 def pages(site: Path) -> list[Path]:
     """The pages of the site, without the theme's own files."""
     return sorted(path for path in site.rglob("*.html") if "_static" not in path.parts)
-
-
-@pytest.fixture
-def opened(site, browser_page):
-    """Opens a page and waits until it is drawn; a request that leaves the site is a trouble."""
-    ours = (f"{site.as_uri()}/", "data:", "blob:")
-
-    def asked(request):
-        if not request.url.startswith(ours):
-            browser_page.troubles.append(f"left the site: {request.url}")
-
-    browser_page.on("request", asked)
-
-    def open_page(name: str):
-        browser_page.goto(f"{site.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)
-        browser_page.wait_for_function(DRAWN, timeout=PATIENCE)
-        return browser_page
-
-    return open_page
 
 
 def test_every_page_opens_without_trouble_and_without_faults(site, opened, browser_page):

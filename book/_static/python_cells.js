@@ -1,0 +1,221 @@
+// Cells that run in the page. Python itself, 16 MB beside this file, is loaded when the first one is run, into a worker that can be
+// stopped. Before a cell the ones above it run, as far as they have not, or not since something above them changed.
+(function () {
+  const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
+  const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
+  const ZIPPED = new Set(['worker', 'asm', 'wasm']);
+  const cells = [];
+  let parts, worker, running;
+
+  const make = (tag, properties = {}, ...children) => {
+    const element = Object.assign(document.createElement(tag), properties);
+    element.append(...children);
+    return element;
+  };
+
+  // Python and its worker
+
+  function load(name) {
+    return new Promise((resolve, reject) => {
+      const onerror = () => reject(Error(`${name}.js is not beside this page`));
+      document.head.append(make('script', { src: `${FOLDER}${name}.js`, onload: resolve, onerror }));
+    });
+  }
+
+  async function unpacked(name) {
+    const bytes = Uint8Array.from(atob(window.PYTHON_PARTS[name]), (it) => it.charCodeAt(0));
+    delete window.PYTHON_PARTS[name];
+    if (!ZIPPED.has(name)) return bytes.buffer;
+    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+  }
+
+  async function allParts() {
+    await Promise.all(PARTS.map(load));
+    const found = await Promise.all(PARTS.map(unpacked));
+    return Object.fromEntries(PARTS.map((name, i) => [name, found[i]]));
+  }
+
+  function started() {
+    parts ??= allParts();
+    parts.catch(() => { parts = undefined; });
+    return parts.then(({ worker: script, ...rest }) => new Promise((resolve, reject) => {
+      const python = new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
+      let finish, stopped = false;
+      python.onmessage = ({ data }) => {
+        if (data.failed) reject(Error(data.failed));
+        else if (data.ready) resolve({ run, stop });
+        else finish(data);
+      };
+      const run = (cell) => new Promise((done) => {
+        const { space, number, before, checks } = cell;
+        finish = done;
+        if (stopped) done({ stopped });
+        else python.postMessage({ space, number, before, checks, source: source(cell) });
+      });
+      const stop = () => {
+        stopped = true;
+        python.terminate();
+        finish?.({ stopped });
+      };
+      python.postMessage(rest);
+    }));
+  }
+
+  // Cells
+
+  const source = (cell) => cell.editor?.value ?? cell.source;
+  const kind = (cell) => (cell.checks.length ? 'task' : 'cell');
+  const say = (cell, text) => { cell.status.textContent = text; };
+
+  async function run(cell) {
+    if (running) return running === cell || say(cell, 'Another cell is running.');
+    running = cell;
+    document.documentElement.classList.add('python-busy');
+    cell.stop.hidden = false;
+    try {
+      say(cell, worker ? 'Running …' : 'Loading Python …');
+      const python = await (worker ??= started());
+      for (const each of cells.slice(0, cell.place + 1)) {
+        const needed = each.space === cell.space && !each.checks.length && each.ran !== source(each);
+        if (each !== cell && !needed) continue;
+        say(cell, each === cell ? 'Running …' : `Running ${kind(each)} ${each.number} …`);
+        const start = performance.now();
+        const ran = source(each);
+        const { shown, error, hint, died, stopped } = await python.run(each);
+        if (stopped) return say(cell, 'Stopped. All variables are gone.');
+        if (ran !== each.ran) forget(cells.slice(each.place).filter((it) => it.space === each.space));
+        each.ran = error ? undefined : ran;
+        if (died) stop();
+        await show(each, shown, error);
+        const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
+        if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
+        const time = `${((performance.now() - start) / 1000).toFixed(1)} s`;
+        say(each, each.checks.length ? 'Right.' : `Done in ${time}.`);
+      }
+    } catch (error) {
+      worker = undefined;
+      say(cell, `Python does not start here: ${error.message}`);
+    } finally {
+      running = undefined;
+      document.documentElement.classList.remove('python-busy');
+      if (document.activeElement === cell.stop) cell.run.focus();
+      cell.stop.hidden = true;
+    }
+  }
+
+  const forget = (some) => some.forEach((each) => { each.ran = undefined; });
+
+  function stop() {
+    worker?.then((python) => python.stop());
+    worker = undefined;
+    forget(cells);
+  }
+
+  async function show(cell, shown, error) {
+    const lines = (text, kind) => make('div', { className: `output highlight ${kind}` }, make('pre', { textContent: text }));
+    const formula = (text) => make('div', { className: 'output text_latex math notranslate nohighlight', textContent: `\\[${text}\\]` });
+    const parts = shown.map(([kind, text]) => (kind === 'latex' ? formula(text.replace(/^\$+|\$+$/g, '')) : lines(text, 'stream')));
+    if (error) parts.push(lines(error, 'python-error'));
+    cell.stored.forEach((it) => { it.hidden = true; });
+    cell.output.replaceChildren(...parts);
+    await MathJax.startup.promise;
+    MathJax.typesetClear([cell.output]);
+    await MathJax.typesetPromise([cell.output]);
+    window.dispatchEvent(new Event('resize'));  // a formula that is too wide is reached by the keyboard, see mathjax.js
+  }
+
+  function fit({ editor }) {
+    editor.style.height = 'auto';
+    editor.style.height = `${editor.scrollHeight + 2}px`;
+  }
+
+  function edit(cell) {
+    cell.editor = make('textarea', { className: 'python-editor', value: cell.source, spellcheck: false, autocapitalize: 'off' });
+    cell.editor.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
+    cell.editor.setAttribute('aria-describedby', 'python-keys');
+    cell.editor.addEventListener('input', () => fit(cell));
+    cell.editor.addEventListener('keydown', keys(cell));
+    cell.code.hidden = true;
+    cell.code.after(cell.editor);
+    const folded = cell.editor.closest('details');
+    if (folded) folded.open = true;
+    cell.edit.hidden = true;
+    cell.reset.hidden = false;
+    fit(cell);
+  }
+
+  function reset(cell) {
+    cell.output.replaceChildren();
+    cell.stored.forEach((it) => { it.hidden = false; });
+    say(cell, '');
+    if (cell.checks.length) {
+      cell.editor.value = cell.source;
+      cell.editor.dispatchEvent(new Event('input'));
+      cell.editor.focus();
+    } else {
+      cell.editor.remove();
+      cell.editor = undefined;
+      cell.code.hidden = false;
+      cell.reset.hidden = true;
+      cell.edit.hidden = false;
+      cell.edit.focus();
+    }
+  }
+
+  // Tab indents, but after Esc it leaves.
+  const keys = (cell) => {
+    let leaving = false;
+    return (event) => {
+      if (event.key === 'Enter' && (event.ctrlKey || event.shiftKey || event.metaKey)) {
+        event.preventDefault();
+        run(cell);
+      } else if (event.key === 'Tab' && !event.shiftKey && !leaving) {
+        event.preventDefault();
+        document.execCommand('insertText', false, '    ');  // so that it can be undone
+      }
+      leaving = event.key === 'Escape';
+    };
+  };
+
+  function enliven(script) {
+    const cell = JSON.parse(script.textContent);
+    cell.element = script.closest('.cell');
+    cell.place = cells.length;
+    cell.number = 1 + cells.filter((it) => it.space === cell.space).length;
+    const button = (text, does, hidden) => {
+      const made = make('button', { type: 'button', textContent: text, hidden, onclick: () => does(cell) });
+      made.setAttribute('aria-label', `${text}, ${kind(cell)} ${cell.number}`);
+      return made;
+    };
+    cell.run = button(cell.checks.length ? 'Check' : 'Run', run, false);
+    cell.edit = button('Edit', (it) => { edit(it); it.editor.focus(); }, false);
+    cell.reset = button('Reset', reset, true);
+    cell.stop = button('Stop', stop, true);
+    cell.status = make('span', { className: 'python-status' });
+    cell.status.setAttribute('role', 'status');
+    cell.tools = make('div', { className: 'python-tools' }, cell.run, cell.edit, cell.reset, cell.stop, cell.status);
+    if (cell.left_out) {
+      const lines = cell.left_out === 1 ? 'One line needs' : `${cell.left_out} lines need`;
+      const notebook = document.querySelector('.run-it a')?.cloneNode() ?? make('span');
+      notebook.textContent = 'the notebook';
+      cell.tools.append(make('span', { className: 'python-left-out' }, `${lines} numpy: in `, notebook, '.'));
+    }
+    cell.stored = [...cell.element.querySelectorAll('.cell_output')];
+    cell.output = make('div', { className: 'cell_output python-output' });
+    const input = cell.element.querySelector('.cell_input');
+    cell.code = input.firstElementChild;
+    const folded = input.closest('details');
+    (folded && cell.element.contains(folded) ? folded : input).after(cell.tools, cell.output);
+    cells.push(cell);
+    if (cell.checks.length) edit(cell);
+  }
+
+  window.addEventListener('resize', () => cells.filter((it) => it.editor).forEach(fit));
+  document.addEventListener('DOMContentLoaded', () => {
+    document.querySelectorAll('script.python-cell').forEach(enliven);
+    const about = ' Cells with a Run button run in this page too; the others need numpy or compiled code.';
+    if (cells.some((it) => it.space === 'chapter')) document.querySelector('.run-it')?.append(about);
+    const keys = 'Ctrl+Enter runs it. Tab indents; Esc and then Tab leaves.';
+    document.body.append(make('p', { id: 'python-keys', hidden: true, textContent: keys }));
+  });
+})();

@@ -1,0 +1,258 @@
+"""A Sphinx extension: cells that run in the page, and tasks that are checked there.
+
+The page has Python and sympy, but no numpy, no matplotlib and no compiled code. A statement of a
+chapter runs there if nothing that it names comes from one that can't, and a cell if all that it
+*shows* can; what else it holds is left out, and the page says so. Nothing is marked by hand.
+
+Below a chapter's exercises stand graded tasks that can be checked in the page, out of book/course:
+their text, the cell to fill in, and the checks with their hints. Paper shows none of this.
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+import re
+from collections.abc import Iterator
+from pathlib import Path
+from typing import NamedTuple
+
+import nbformat
+from docutils import nodes
+
+SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
+CHAPTER = re.compile(r"notebooks/(\d\d)_")
+# What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
+THERE = {"collections", "functools", "math", "sympy", "wmrbook.equations", "wmrlib.symbolic"}
+# The graded tasks that are right in the page too, by the id of the cell to fill in.
+TASKS = {
+    "01": ("distance", "bearing", "local"),
+    "03": ("our-gains",),
+    "04": ("V-rate", "turning", "V-rate-closed"),
+    "05": ("law", "axes"),
+    "06": ("law",),
+    "11": ("compass",),
+    "12": ("degrees",),
+}
+SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
+STUB = 'raise NotImplementedError("write your answer here")\n'
+ABOUT = (
+    "Graded tasks of [the course](../lecturers.md#graded-exercises), checked here with its hints."
+)
+
+
+class Cell(NamedTuple):
+    """A cell as the page gets it; `place` is its index in the notebook."""
+
+    place: int
+    source: str
+    before: str = ""  # code that must have run and is not shown
+    left_out: int = 0  # lines
+    checks: tuple[str, ...] = ()
+    space: str = "chapter"  # cells of one space share their variables
+
+
+def runnable(notebook) -> list[Cell]:
+    """Return the cells of a chapter that the page can run."""
+    found, missing, hidden = [], set(), []
+    for place, cell in enumerate(notebook.cells):
+        if cell.cell_type != "code" or "task" in cell.metadata:
+            continue
+        runs, left = [], []
+        for statement in _statements(cell.source):
+            able = _can_run(statement, missing)
+            (runs if able else left).append(statement)
+            missing = missing - _binds(statement) if able else missing | _touches(statement)
+        shows = [each for each in runs if _shows(each)]
+        if cell.outputs and shows and not any(map(_shows, left)) and _tells(shows, left):
+            lines = cell.source.splitlines()
+            cut = {i for each in left for i in range(each.lineno - 1, each.end_lineno)}
+            kept = "\n".join(line for i, line in enumerate(lines) if i not in cut).strip("\n")
+            found.append((Cell(place, kept, left_out=len(cut)), runs, hidden))
+            hidden = []
+        else:
+            hidden = hidden + runs
+    return _with_what_they_need(found)
+
+
+def _with_what_they_need(found) -> list[Cell]:
+    """Put before each cell what it needs of the cells that are not run."""
+    cells, needed = [], set()
+    for cell, runs, hidden in reversed(found):
+        for statement in reversed(runs):
+            needed |= _reads(statement)
+        before = []
+        for statement in reversed(hidden):
+            if _binds(statement) & needed:
+                before.insert(0, ast.unparse(statement))
+                needed |= _reads(statement)
+        cells.insert(0, cell._replace(before="\n".join(before)))
+    return cells
+
+
+def _statements(source: str) -> Iterator[ast.stmt]:
+    """The statements of a cell; of an import from a package, one for each name."""
+    for statement in ast.parse(source).body:
+        if isinstance(statement, ast.ImportFrom):
+            for name in statement.names:
+                yield ast.copy_location(ast.ImportFrom(statement.module, [name], 0), statement)
+        else:
+            yield statement
+
+
+def _can_run(statement: ast.stmt, missing: set[str]) -> bool:
+    if isinstance(statement, ast.Import):
+        return {each.name for each in statement.names} <= THERE
+    if isinstance(statement, ast.ImportFrom):
+        return not THERE.isdisjoint({statement.module, f"{statement.module}.{_only(statement)}"})
+    return not _reads(statement) & missing
+
+
+def _only(statement: ast.ImportFrom) -> str:
+    return statement.names[0].name
+
+
+def _reads(statement: ast.stmt) -> set[str]:
+    """The names that it takes from outside; those of its loops and parameters are its own."""
+    names, own = set(), set()
+    for each in ast.walk(statement):
+        if isinstance(each, ast.Name):
+            names.add(each.id)
+        elif isinstance(each, ast.arg):
+            own.add(each.arg)
+        if isinstance(each, ast.For | ast.comprehension):
+            own |= {it.id for it in ast.walk(each.target) if isinstance(it, ast.Name)}
+    return names - own
+
+
+def _binds(statement: ast.stmt) -> set[str]:
+    """The names that a statement gives a value, or a part of one; not those inside functions."""
+    names, waiting = set(), [statement]
+    while waiting:
+        each = waiting.pop()
+        if isinstance(each, ast.FunctionDef | ast.ClassDef):
+            names.add(each.name)
+        elif isinstance(each, ast.Import | ast.ImportFrom):
+            names |= {(it.asname or it.name).partition(".")[0] for it in each.names}
+        else:
+            if isinstance(getattr(each, "ctx", None), ast.Store):
+                names |= _root(each)
+            waiting += ast.iter_child_nodes(each)
+    return names
+
+
+def _touches(statement: ast.stmt) -> set[str]:
+    """These, and those that it may change by a method, such as a list by `append`."""
+    alone = (each.value for each in ast.walk(statement) if isinstance(each, ast.Expr))
+    calls = (each.func for each in alone if isinstance(each, ast.Call))
+    methods = (_root(each) for each in calls if isinstance(each, ast.Attribute))
+    return _binds(statement).union(*methods)
+
+
+def _root(node: ast.AST) -> set[str]:
+    while isinstance(node, ast.Attribute | ast.Subscript | ast.Starred):
+        node = node.value
+    return {node.id} if isinstance(node, ast.Name) else set()
+
+
+def _shows(statement: ast.stmt) -> bool:
+    prints = any(isinstance(each, ast.Name) and each.id == "print" for each in ast.walk(statement))
+    return isinstance(statement, ast.Expr) or prints
+
+
+def _tells(shows: list[ast.stmt], left: list[ast.stmt]) -> bool:
+    """Whether it shows more than words, which may stand for what is left out."""
+    return not left or any(_reads(each) - {"print"} for each in shows)
+
+
+def add_tasks(app, docname, source):
+    """Put a chapter's tasks below its exercises."""
+    chapter = CHAPTER.match(docname)
+    if chapter and (found := tasks(chapter[1])):
+        notebook = nbformat.reads(source[0], as_version=4)
+        headings = [i for i, each in enumerate(notebook.cells) if each.source.startswith("## ")]
+        exercises = next(i for i in headings if notebook.cells[i].source.startswith("## Exercises"))
+        end = next((i for i in headings if i > exercises), len(notebook.cells))
+        notebook.cells[end:end] = found
+        source[0] = nbformat.writes(notebook)
+
+
+def tasks(chapter: str) -> list:
+    """Return the chapter's tasks as cells of a notebook, without their solutions."""
+    wanted = TASKS.get(chapter)
+    if not wanted:
+        return []
+    (path,) = (SOURCE / f"ch{chapter}").glob("*.ipynb")
+    told, imports, cells = "", "", {}
+    for cell in nbformat.read(path, 4).cells:
+        name = cell.metadata["nbgrader"]["grade_id"]
+        if cell.cell_type == "markdown" and cell.source.startswith("## Task"):
+            told = cell.source
+        elif cell.cell_type == "markdown" or not told:
+            imports = imports or (cell.source if cell.cell_type == "code" else "")
+        elif SOLUTION.search(cell.source):
+            cells[name] = (told, cell.source, checks := [])
+        elif cell.metadata["nbgrader"]["grade"]:
+            checks.append(cell.source)
+    made = []
+    for name in wanted:
+        told, answer, checks = cells[name]
+        text = f"#{told}" + f"\n\n{ABOUT}" * (not made)
+        code = nbformat.v4.new_code_cell(SOLUTION.sub(_stub, answer).strip("\n"))
+        code.metadata["task"] = {"before": imports, "checks": checks}
+        made += [nbformat.v4.new_markdown_cell(text), code]
+    return made
+
+
+def _stub(solution: re.Match) -> str:
+    return solution[1] and solution[1] + STUB  # in a function something must stand
+
+
+def give_cells(app, doctree):
+    """Tell the page which of its cells run, and what they need."""
+    if not CHAPTER.match(app.env.docname):
+        return
+    text = [Path(app.env.doc2path(app.env.docname)).read_text(encoding="utf-8")]
+    add_tasks(app, app.env.docname, text)
+    notebook = nbformat.reads(text[0], as_version=4)
+    cells = {each.place: each for each in runnable(notebook)}
+    for place, cell in enumerate(notebook.cells):
+        if told := cell.metadata.get("task"):
+            before, checks = told["before"], tuple(told["checks"])
+            cells[place] = Cell(place, cell.source, before, checks=checks, space="tasks")
+    for container in list(doctree.findall(nodes.container)):
+        if cell := cells.get(container.get("cell_index")):
+            given = json.dumps(cell._asdict(), ensure_ascii=False).replace("</", "<\\/")
+            script = f'<script type="application/json" class="python-cell">{given}</script>'
+            container += nodes.raw("", script, format="html")
+            if cell.checks:
+                _section_of(container)["classes"].append("python-task")
+
+
+def _section_of(node: nodes.Node) -> nodes.section:
+    while not isinstance(node, nodes.section):
+        node = node.parent
+    return node
+
+
+def leave_out_of_print(app, doctree, docname):
+    """On paper nothing can be checked."""
+    if app.builder.name != "html":
+        for section in list(doctree.findall(nodes.section)):
+            if "python-task" in section["classes"]:
+                section.parent.remove(section)
+
+
+def add_scripts(app, docname, template, context, doctree):
+    """Load what runs cells where there are any."""
+    if app.builder.name == "html" and "python-cell" in context.get("body", ""):
+        app.add_js_file("python_cells.js")
+        app.add_css_file("python_cells.css")
+
+
+def setup(app):
+    app.connect("source-read", add_tasks)
+    app.connect("doctree-read", give_cells, priority=400)
+    app.connect("doctree-resolved", leave_out_of_print)
+    app.connect("html-page-context", add_scripts)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}

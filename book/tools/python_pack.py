@@ -1,0 +1,123 @@
+"""The Python that a page carries: Pyodide, sympy and the parts of wmrlib that need no more.
+
+A page from the disk may not fetch, but it may load scripts: each part is one, in base64. Pyodide
+(MPL-2.0) comes unchanged from npm, sympy, mpmath and lazy_loader with their licences out of this
+environment, wmrlib and wmrbook out of this repository. Where those need numpy, numba or a part that
+is not here, book/in_page/stand_ins has a module in its place.
+"""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import io
+import json
+import re
+import shutil
+import subprocess
+import sys
+import tempfile
+import time
+import zipfile
+from collections.abc import Iterator
+from contextlib import suppress
+from hashlib import sha256
+from importlib.metadata import distribution
+from pathlib import Path
+
+BOOK = Path(__file__).resolve().parents[1]
+IN_PAGE = BOOK / "in_page"
+STAND_INS = IN_PAGE / "stand_ins"
+INSTALLED = ("sympy", "mpmath", "lazy_loader")
+# What no cell needs; a folder of its own would be too large for a page.
+LEFT_OUT = re.compile(
+    r".*\b(tests|benchmarks|__pycache__)/|sympy/(physics/(?!units)\w+/|parsing/\w+/|stats/)"
+    r"|wmrlib/(explorer|tracks)/|wmrbook/(figures|audit|challenge|live)/"
+)
+KINDS = {".py", ".pyi", ".c", ".h"}
+DAY = 24 * 3600.0  # s
+FIXED = (1980, 1, 1, 0, 0, 0)  # the same files make the same zip
+
+
+def write_scripts(folder: Path, modules: Path) -> None:
+    """Write what python_cells.js loads: `PYTHON_PARTS.wasm`, say, is base64 of gzip or of a zip.
+
+    `modules` is the folder where npm keeps what is installed.
+    """
+    pyodide = modules / "pyodide"
+    lock = json.loads((pyodide / "pyodide-lock.json").read_text(encoding="utf-8"))
+    lock["packages"] = {}  # each would be a request
+    # From the disk only a classic worker starts, which Pyodide knows by this name and refuses.
+    worker = f"self.importScripts = undefined;\nconst LOCK = {json.dumps(lock)};\n"
+    worker += (pyodide / "pyodide.js").read_text(encoding="utf-8").rpartition("//#")[0]
+    worker += (IN_PAGE / "worker.js").read_text(encoding="utf-8")
+    stdlib = (pyodide / "python_stdlib.zip").read_bytes()
+    stdlib, own = compiled(modules, {"stdlib": stdlib, "packages": packages()})
+    parts = {
+        "worker": gzip.compress(worker.encode(), mtime=0),
+        "asm": gzip.compress((pyodide / "pyodide.asm.mjs").read_bytes(), mtime=0),
+        "wasm": gzip.compress((pyodide / "pyodide.asm.wasm").read_bytes(), mtime=0),
+        "stdlib": stdlib,
+        "packages": own,
+    }
+    folder.mkdir(parents=True, exist_ok=True)
+    for name, content in parts.items():
+        text = base64.b64encode(content).decode()
+        script = f'(window.PYTHON_PARTS ??= {{}}).{name} = "{text}";\n'
+        (folder / f"{name}.js").write_text(script, encoding="utf-8")
+
+
+def compiled(modules: Path, zips: dict[str, bytes]) -> list[bytes]:
+    """Return the zips with their modules compiled, which is done once for the same files."""
+    pyodide, script = modules / "pyodide" / "pyodide.mjs", IN_PAGE / "compile.mjs"
+    digest = sha256(b"".join([pyodide.read_bytes(), script.read_bytes(), *zips.values()]))
+    kept = modules / ".python" / digest.hexdigest()[:16]
+    if not kept.is_dir():
+        kept.parent.mkdir(exist_ok=True)
+        for old in kept.parent.iterdir():
+            if old.stat().st_mtime < time.time() - DAY:
+                shutil.rmtree(old, ignore_errors=True)
+        node = shutil.which("node") or shutil.which("node", path=Path(sys.executable).parent)
+        with tempfile.TemporaryDirectory() as given:
+            made = Path(tempfile.mkdtemp(dir=kept.parent))  # two builds may run at once
+            command = [node or "node", script, pyodide.as_uri()]
+            for name, content in zips.items():
+                Path(given, name).write_bytes(content)
+                command += [Path(given, name), made / name]
+            subprocess.run(command, check=True)
+        with suppress(OSError):  # another build was first
+            made.rename(kept)
+    return [(kept / name).read_bytes() for name in zips]
+
+
+def packages() -> bytes:
+    """Return a zip of all packages, as they lie in a folder of Python's path."""
+    files = dict(_own_files())
+    for name in INSTALLED:
+        files |= _installed_files(name)
+    files |= {each.relative_to(STAND_INS).as_posix(): each for each in STAND_INS.rglob("*.py")}
+    files["run_cell.py"] = IN_PAGE / "run_cell.py"
+    content = io.BytesIO()
+    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+        archive.comment = b"packages"
+        for name, path in sorted(files.items()):
+            archive.writestr(zipfile.ZipInfo(name, FIXED), path.read_bytes(), zipfile.ZIP_DEFLATED)
+    return content.getvalue()
+
+
+def _own_files() -> Iterator[tuple[str, Path]]:
+    for package in (BOOK.parent / "wmrlib", BOOK / "wmrbook"):
+        for path in package.rglob("*"):
+            name = path.relative_to(package.parent).as_posix()
+            if path.suffix in KINDS and not LEFT_OUT.match(name):
+                yield name, path
+
+
+def _installed_files(package: str) -> dict[str, Path]:
+    found = {}
+    for file in distribution(package).files or ():
+        name = file.as_posix()
+        code = file.parts[0] == package and file.suffix in KINDS and not LEFT_OUT.match(name)
+        if code or "LICENSE" in file.name:
+            found[name] = Path(str(file.locate()))
+    return found

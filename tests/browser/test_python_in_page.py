@@ -1,0 +1,235 @@
+"""Python in the pages, from the disk: cells give what the notebooks store, tasks their hints."""
+
+import io
+import json
+import os
+import re
+import subprocess
+import sys
+import zipfile
+from pathlib import Path
+
+import graded
+import nbformat
+import pytest
+from faults import SIZES, of_page
+from live import PATIENCE, ROOT, chapters
+from python_cells import TASKS, runnable
+from python_pack import packages
+
+if not os.environ.get("BOOK_HTML"):
+    pytestmark = pytest.mark.needs("npm")
+CELL = re.compile(r'<script type="application/json" class="python-cell">(.*?)</script>', re.DOTALL)
+DRAWN_TEXTS = """() => [...document.querySelectorAll('.python-output')].map(all =>
+    [...all.children].map(it => it.querySelector('pre')?.textContent
+        ?? MathJax.startup.document.getMathItemsWithin(it)[0].math))"""
+LYAPUNOV = "notebooks/04_lyapunov.html"
+
+
+def given(page: Path) -> list[dict]:
+    """What a page says of its cells."""
+    return [json.loads(each) for each in CELL.findall(page.read_text(encoding="utf-8"))]
+
+
+def told(page, number: int) -> str:
+    """What the status of a cell says once it has run."""
+    page.wait_for_function(
+        """number => /^(?!Loading|Running)./.test(
+            document.querySelectorAll('.python-status')[number].textContent)""",
+        arg=number,
+        timeout=PATIENCE,
+    )
+    return page.locator(".python-status").nth(number).text_content()
+
+
+def press(page, number: int, name: str) -> None:
+    tools = page.locator(".python-tools").nth(number)
+    tools.get_by_role("button", name=name).click(timeout=PATIENCE)
+
+
+def write(page, number: int, code: str) -> None:
+    """Put the code into the editor of a cell."""
+    editor = page.locator(".cell:has(script.python-cell)").nth(number).locator(".python-editor")
+    if not editor.count():
+        press(page, number, "Edit")
+    editor.fill(code, timeout=PATIENCE)
+
+
+def shown(page, number: int) -> str:
+    return page.locator(".python-output").nth(number).text_content()
+
+
+def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
+    """Chapter 4: nothing is loaded before it is asked for, and a cell brings those above it."""
+    page = opened(LYAPUNOV)
+    asked = []
+    page.on("request", lambda request: asked.append(request.url))
+    cells = given(site / LYAPUNOV)
+    last = max(i for i, cell in enumerate(cells) if not cell["checks"])
+    model = next(i for i, cell in enumerate(cells) if "rates =" in cell["source"])
+    assert not page.evaluate("Object.keys(window.PYTHON_PARTS ?? {}).length")
+    press(page, last, "Run")
+    assert re.fullmatch(r"Done in [\d.]+ s\.", told(page, last))
+    assert page.locator(".python-output mjx-container").count() >= last
+
+    # A sign turned round: the check in the cell fails, and says where; without it a rest remains.
+    wrong = cells[model]["source"].replace("rho: -v *", "rho: v *")
+    write(page, model, wrong)
+    press(page, last, "Run")
+    assert told(page, last) == f"An error, in cell {model + 1} above."
+    assert re.match(r"Line \d+: AssertionError: assert", shown(page, model))
+    rest = re.sub(r"(?m)^ *assert.*$|^for number.*$", "", wrong)
+    rest = rest.rstrip().rpartition("\n")[0] + "\nprint(sp.expand(slope - EQUATIONS[20].rhs))"
+    write(page, model, rest)
+    page.keyboard.press("Control+Enter")
+    assert told(page, model).startswith("Done")
+    assert shown(page, model).strip() == "2*rho*v*cos(alpha)/L"
+    press(page, last, "Run")  # what was right above is computed again, from the wrong sign
+    proof = next(i for i, cell in enumerate(cells) if "exact_rate =" in cell["source"])
+    assert told(page, last) == f"An error, in cell {proof + 1} above."
+
+    # An endless loop: the page stays alive, and what was computed is computed again.
+    write(page, model, "while True:\n    pass")
+    page.keyboard.press("Control+Enter")
+    page.wait_for_timeout(300)
+    press(page, model, "Stop")
+    assert told(page, model) == "Stopped. All variables are gone."
+    press(page, model, "Reset")
+    press(page, last, "Run")
+    assert told(page, last).startswith("Done")
+
+    # By keyboard: Tab indents, and leaves after Esc.
+    write(page, model, "")
+    page.keyboard.press("Tab")
+    assert page.locator(":focus").input_value() == "    "
+    page.keyboard.press("Escape")
+    page.keyboard.press("Tab")
+    assert page.locator(":focus").text_content() == "Run"
+    assert sum("vendor/python" in url for url in asked) == 5
+    page.evaluate("scrollTo(0, 0)")  # the theme's way back to the top is too pale
+    page.locator("#pst-back-to-top").wait_for(state="hidden", timeout=PATIENCE)
+    assert not of_page(page, SIZES[:1])
+    sizes = [each.stat().st_size for each in (site / "_static/vendor/python").iterdir()]
+    assert sum(sizes) < 20e6
+
+
+def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_path, browser_page):
+    """All of the book's cells in one page, so that Python starts once."""
+    cells, wanted = [], []
+    for chapter in chapters():
+        number, stored = chapter.name[:2], nbformat.read(chapter, as_version=4).cells
+        names = iter(TASKS.get(number, ()))
+        for cell in given(site / f"notebooks/{chapter.stem}.html"):
+            if cell["checks"]:
+                cell["source"] = graded.cells(f"ch{number}")[next(names)][0]
+                wanted.append(None)
+            else:
+                wanted.append([texts(output) for output in stored[cell["place"]].outputs])
+            cells.append(cell | {"space": f"{cell['space']} {number}"})
+        assert not next(names, None), chapter
+    assert len(cells) > 40
+    path = tmp_path / "all.html"
+    path.write_text(page_of(cells, (site / "_static").as_uri()), encoding="utf-8")
+    browser_page.goto(path.as_uri())
+    found = {}
+    for i, cell in enumerate(cells):
+        press(browser_page, i, "Check" if cell["checks"] else "Run")
+        said = told(browser_page, i)
+        if not (said == "Right." if cell["checks"] else said.startswith("Done")):
+            found[i] = said, shown(browser_page, i), cell
+    assert not found
+    drawn = [[plain(text) for text in each] for each in browser_page.evaluate(DRAWN_TEXTS)]
+    pairs = zip(wanted, drawn, strict=True)
+    assert not [pair for pair in pairs if pair[0] is not None and pair[0] != pair[1]]
+
+
+def page_of(cells: list[dict], static: str) -> str:
+    """A page that holds these cells and nothing else."""
+    names = ("vendor/mathjax/tex-svg-full.js", "python_cells.js")
+    head = f"<script>{(ROOT / 'book' / 'mathjax.js').read_text(encoding='utf-8')}</script>"
+    head += "".join(f'<script src="{static}/{name}"></script>' for name in names)
+    holder = '<div class="cell"><div class="cell_input"><pre></pre></div>{}</div>'
+    script = '<script type="application/json" class="python-cell">{}</script>'
+    told = (json.dumps(cell).replace("</", "<\\/") for cell in cells)
+    body = "".join(holder.format(script.format(each)) for each in told)
+    return f"<!doctype html><meta charset=utf-8><title>Cells</title>{head}{body}"
+
+
+def texts(output) -> str:
+    """What an output says, in a notebook or in a page."""
+    data = output.get("data", {})
+    return plain(output.get("text") or data.get("text/latex") or data.get("text/plain"))
+
+
+def plain(text: str) -> str:
+    return " ".join(text.strip("$").split())
+
+
+def test_tasks_of_the_page_have_the_hints_of_the_course(tmp_path):
+    """With the stand-ins for numpy and numba, mistakes lose what they lose, for the same reason."""
+    with zipfile.ZipFile(io.BytesIO(packages())) as archive:
+        archive.extractall(tmp_path)
+    paths = [str(tmp_path), str(ROOT / "tests")]
+    run = subprocess.run(
+        [sys.executable, "-c", HINTS, json.dumps(TASKS)],
+        capture_output=True,
+        text=True,
+        cwd=tmp_path,  # else the library itself is found first
+        env=os.environ | {"PYTHONPATH": os.pathsep.join(paths)},
+    )
+    assert run.returncode == 0, run.stderr
+    assert json.loads(run.stdout.splitlines()[-1]) == []
+
+
+# Each line of what it finds: a task, a mistake, what the page says of it.
+HINTS = """
+import json, re, sys
+import graded, numpy
+assert "Stands in" in numpy.__doc__
+found = []
+for chapter, tasks in json.loads(sys.argv[1]).items():
+    for task in tasks:
+        chapter = chapter if chapter.startswith("ch") else "ch" + chapter
+        model, _ = graded.cells(chapter)[task]
+        wrong = [each for each in graded.wrong_answers(chapter) if each["cell"] == task]
+        wrong.append({"name": "empty", "source": graded.released(model), "hint": "",
+                      "loses": graded.tasks(chapter)[task]})
+        assert len(wrong) > 2
+        for each in wrong:
+            hints = graded.lost(chapter, task, each["source"])
+            if list(hints) != each["loses"] or not any(each["hint"] in it for it in hints.values()):
+                found.append([chapter, task, each["name"], hints])
+print()
+print(json.dumps(found))
+"""
+
+
+NUMPY = "import numpy as np\n"
+
+
+@pytest.mark.parametrize(
+    ("code", "kept"),
+    [
+        ("import sympy as sp\nsp.Symbol('x')", "import sympy as sp\nsp.Symbol('x')"),
+        (NUMPY + "x = 1\nassert np.ones(x)\nx", "x = 1\nx"),
+        (NUMPY + "x = np.ones(3)\nx", None),
+        (NUMPY + "x = 1\nx += np.ones(3)\nx", None),
+        (NUMPY + "x = []\nfor y in np.ones(3):\n    x.append(y)\nprint(x)", None),
+        (NUMPY + "assert np.ones(3)\nprint('as it should be')", None),
+        (NUMPY + "def f(x):\n    return np.ones(x)\n\n\nf(3)", None),
+        (NUMPY + "x = np.ones(3)\n[x for x in range(3)]", "[x for x in range(3)]"),
+    ],
+)
+def test_a_cell_runs_in_the_page_if_all_that_it_shows_can(code, kept):
+    shows = nbformat.v4.new_output("execute_result", {"text/plain": "what it shows"})
+    cell = nbformat.v4.new_code_cell(code, outputs=[shows])
+    found = runnable(nbformat.v4.new_notebook(cells=[cell]))
+    assert [each.source for each in found] == ([] if kept is None else [kept])
+
+
+def test_what_a_cell_needs_of_cells_that_are_not_run_comes_before_it():
+    shows = nbformat.v4.new_output("stream", text="what it shows")
+    sources = NUMPY + "import math\nn = np.e\nturn = 2 * math.pi\nmore = 3", "print(turn / 2)"
+    cells = [nbformat.v4.new_code_cell(each, outputs=[shows]) for each in sources]
+    (cell,) = runnable(nbformat.v4.new_notebook(cells=cells))
+    assert (cell.before, cell.left_out) == ("import math\nturn = 2 * math.pi", 0)
