@@ -16,7 +16,7 @@
 
     if (!all('h1, h2, h3').some((it) => it.textContent.trim())) tell('no title');
     const prose = all('p, li').filter((it) => !it.closest('.output, .panel') && !it.querySelector('p, li'));
-    if (!prose.some((it) => words(it) > 3) && !all('table').length) tell('no sentence', all('.output, .panel, figure').length ? 'only output or code' : 'only a title');
+    if (!prose.some((it) => words(it) > 3) && !all('table, .live').length) tell('no sentence', all('.output, .panel, figure').length ? 'only output or code' : 'only a title');
     const total = prose.filter((it) => !it.closest('.caption')).map(words).reduce((a, b) => a + b, 0);
     if (total > 60) tell('many words', total);
 

@@ -11,7 +11,7 @@ from pathlib import Path
 import pypdfium2
 import pytest
 from faults import ASK, AXE
-from live import PATIENCE, ROOT, assert_slider_matters, settled_picture, sliders, thumb
+from live import PATIENCE, ROOT, assert_slider_matters, settled_picture, thumb
 
 READY = os.environ.get("SLIDES")
 pytestmark = [] if READY else pytest.mark.needs("npm")
@@ -78,6 +78,10 @@ def go_to_panel(page):
     page.locator(".wmr-stage canvas:visible").first.wait_for(timeout=PATIENCE)
 
 
+def first_slider(page):
+    return page.locator(".wmr-stage .wmr-slider:visible").first
+
+
 def test_each_slide_has_a_title_and_a_sentence_that_can_be_read_and_all_of_it_fits(decks, opened):
     found = []
     for path in made(decks):
@@ -124,7 +128,7 @@ def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
     page = opened(with_panel(decks))
     go_to_panel(page)
     where = page.evaluate("deck.getIndices()")
-    assert_slider_matters(page, sliders(page)[0])
+    assert_slider_matters(page, first_slider(page))
     assert page.evaluate("deck.getIndices()") == where
     page.keyboard.press("Escape")
     page.keyboard.press("ArrowRight")
@@ -138,7 +142,7 @@ def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
 def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
     page = opened(with_panel(decks), size)
     go_to_panel(page)
-    slider, goal = sliders(page)[0], page.locator(".wmr-handle:visible").first
+    slider, goal = first_slider(page), page.locator(".wmr-stage .wmr-handle:visible").first
 
     def drag(x, y, right, up):
         before = settled_picture(page)

@@ -51,11 +51,8 @@ def commit(panel, ask) -> None:
     elif ask["kind"] == "turn":
         page.get_by_role("slider").first.press("ArrowRight")
     else:
-        box = page.locator("canvas").first.bounding_box()
-        page.mouse.move(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2)
-        page.mouse.down()
-        page.mouse.move(box["x"] + box["width"] / 3, box["y"] + box["height"] / 3, steps=8)
-        page.mouse.up()
+        for key in ("ArrowRight", "ArrowUp", "ArrowUp", "Backspace", "ArrowLeft"):
+            page.locator("canvas").first.press(key)
     page.get_by_role("button", name="Commit").click()
     panel.settled()
 
@@ -181,3 +178,19 @@ def test_python_moves_it_and_refuses_what_is_not_allowed():
             ValueError, match=f"{name if name != 'middle' else 'knob'} = .* is not allowed"
         ):
             thing[name] = value
+
+
+def test_a_path_is_sketched_by_hand_too(browser_page):
+    panel = mounted(browser_page, live.half_turn())
+    box = browser_page.locator("canvas").first.bounding_box()
+    places = [[box["x"] + share * box["width"], box["y"] + 60] for share in (0.3, 0.4, 0.5, 0.6)]
+    browser_page.mouse.move(*places[0])
+    browser_page.mouse.down()
+    for place in places[1:]:
+        browser_page.mouse.move(*place)
+    browser_page.mouse.up()
+    browser_page.get_by_role("button", name="Commit").click()
+    guess = panel.settled().get("guess")
+    steps = [after[0] - before[0] for before, after in itertools.pairwise(guess[1:])]
+    assert len(steps) == 3
+    assert steps == pytest.approx([steps[0]] * 3)

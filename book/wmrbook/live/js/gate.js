@@ -33,6 +33,16 @@ function buildGate(root, ask, { get, set, panes, host }) {
       set();
     };
     canvas.style.touchAction = 'none';
+    if (ask.kind === 'sketch') canvas.tabIndex = 0; // the arrow keys sketch too
+    canvas.addEventListener('keydown', (event) => {
+      const move = MOVES[event.key], { range: [x0, x1] } = panes()[ask.pane], step = (x1 - x0) / 40;
+      if (open() || ask.kind !== 'sketch' || !(move || (event.key === 'Backspace' && draft.length))) return;
+      event.preventDefault();
+      event.stopPropagation();
+      const [x, y] = draft.length ? draft.at(-1) : ask.at;
+      draft = move ? [...(draft.length ? draft : [ask.at]), [x + move[0] * step, y + move[1] * step]] : draft.slice(0, -1);
+      set();
+    });
     canvas.addEventListener('pointerdown', (event) => { if (open()) return; down = true; if (ask.kind === 'sketch') draft = [ask.at]; canvas.setPointerCapture(event.pointerId); place(event); });
     canvas.addEventListener('pointermove', (event) => { if (down) place(event); });
     canvas.addEventListener('lostpointercapture', () => { down = false; show(); });
@@ -46,11 +56,17 @@ function buildGate(root, ask, { get, set, panes, host }) {
     commit.hidden = done || still;
     again.hidden = !done || ask.kind === 'sketch'; // a path is no line
     options.hidden = done && ask.kind !== 'choose';
+    if (done && listening) host(ask.pane).querySelector('canvas').removeAttribute('tabindex');
     form.querySelectorAll('input').forEach((each) => { each.disabled = done; if (ask.kind === 'choose') each.checked = Number(each.value) === (done ? guess : draft); });
     form.classList.toggle('live-answered', done);
     if (ask.kind === 'choose') options.querySelectorAll('label').forEach((each, k) => { each.classList.toggle('live-key', done && k === ask.key); each.hidden = done && k !== ask.key && k !== guess; });
     verdict.textContent = !done ? '' : `${ask.kind === 'sketch' ? '' : right(guess) ? 'As you said. ' : 'Not so. '}${ask.why}`;
     root.closest('.live').dataset.open = String(open());
+    const cell = root.closest('.cell'), below = cell && cell.nextElementSibling; // on a page the sentence below it often says what comes out
+    if (below && below.matches('p')) {
+      below.inert = !open();
+      below.classList.toggle('live-later', !open());
+    }
   }
   function draw() {
     show();
