@@ -65,10 +65,16 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         # own: what has been printed once may break its pages otherwise the next time.
         pages = find_pages(print_page(blank, pdf), blank.evaluate("paper.anchors()"))
         blank.close()
-        book = open_book(chromium, page)
-        book.evaluate("stills => paper.prepare(stills)", stills)
-        book.evaluate("pages => paper.number_pages(pages)", pages)
-        if find_pages(print_page(book, pdf, outline=True, tagged=True), list(pages)) != pages:
+        for _ in range(3):  # a picture that just fits a page may move those after it
+            before = pages
+            book = open_book(chromium, page)
+            book.evaluate("stills => paper.prepare(stills)", stills)
+            book.evaluate("pages => paper.number_pages(pages)", pages)
+            pages = find_pages(print_page(book, pdf, outline=True, tagged=True), list(pages))
+            book.close()
+            if pages == before:
+                break
+        else:
             sys.exit("The PDF's pages moved when their numbers were filled in.")
         chromium.close()
 
