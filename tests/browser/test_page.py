@@ -45,18 +45,6 @@ def test_every_slider_moves_by_keyboard_and_changes_the_picture(opened):
         assert_slider_matters(page, slider)
 
 
-def test_what_stands_below_a_prediction_can_be_read_once_it_is_made(opened):
-    page = opened("notebooks/10_the_audit.html")
-    below = page.locator(".live-later", has_text="rises near the goal")
-    below.wait_for(timeout=PATIENCE)
-    assert below.evaluate("it => it.inert")
-    thing = page.locator(".live", has=page.locator(".live-gate")).first
-    thing.get_by_role("radio").first.check()
-    thing.get_by_role("button", name="Commit").click()
-    below.wait_for(state="detached", timeout=PATIENCE)
-    assert thing.locator(".live-verdict").inner_text()
-
-
 def test_the_panel_follows_the_colour_menu(opened):
     page = opened("explorer.html")
     before = settled_picture(page)

@@ -24,19 +24,19 @@ def poles() -> Live:
     }
     return Live(
         "poles",
-        "With {k_alpha} and {h}, at *k_rho* *v_max* = 2 per second, the angles swing at "
-        "{frequency} with damping {damping}. From two metres the robot {end}.",
+        "With {k_alpha} and {h}, at *k_rho* *v_max* = 2 per second, the angles have the natural "
+        "frequency {frequency} and the damping ratio {damping}. From two metres the robot {end}.",
         {
             "k_alpha": Knob(
                 GAINS.k_alpha,
                 0.0,
-                16.0,
+                9.0,
                 0.1,
                 "steering towards the goal, k_alpha",
                 "1/s",
                 "k_alpha",
             ),
-            "h": Knob(GAINS.h, 0.0, 12.0, 0.05, "weight of the final heading, h", "", "h"),
+            "h": Knob(GAINS.h, 0.0, 5.0, 0.05, "weight of the final heading, h", "", "h"),
         },
         data={"k_rho": GAINS.k_rho, "v_max": GAINS.v_max, "start": list(START), "goal": list(GOAL)},
         ask=Ask(

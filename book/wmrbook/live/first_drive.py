@@ -22,7 +22,7 @@ def last_metres(ask: bool = True) -> Live:
     return Live(
         "last_metres",
         "With *k_rho* = {k_rho}, *k_alpha* = {k_alpha} and *h* = {h} the robot arrives after "
-        "{seconds} and looks {off} past the way it should.",
+        "{seconds} and stops {off} off its heading.",
         {
             "share": Knob(
                 0.0, 0.0, 1.0, 0.02, "from the paper's gains to gentle ones", label="gentler"

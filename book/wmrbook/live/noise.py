@@ -169,10 +169,10 @@ def late() -> Live:
         ask=Ask(
             "choose",
             "A robot with gentle gains, at up to 4 m/s. Its position is 0.6 s late, or else its "
-            "heading is. Does it come to its goal, 58 m away?",
+            "heading is. Does it come to its goal, 58 m away, within a minute?",
             "The heading turns as fast as the law steers, so an old one makes it steer too far, "
-            "and back. Far away the line of sight hardly turns, so an old position "
-            "does harm only near the goal.",
+            "and back: it comes in on a long spiral, or never. Far away the line of sight hardly "
+            "turns, so an old position does harm only near the goal.",
             key=[*options.values()].index((position, heading)),
             options=(*options,),
         ),

@@ -49,11 +49,11 @@ def commutator() -> Live:
     eta, end = math.radians(TURN), ORIGIN
     for v, omega in ((STEP, 0.0), (0.0, eta), (-STEP, 0.0), (0.0, -eta)):
         end = advance(end, v, omega, 1.0)
+    aside = STEP * math.sin(eta)
     places = {
-        "where it began": math.hypot(end.x, end.y),
-        "ahead of where it began": math.hypot(end.x - STEP, end.y),
-        "to the left of where it began": math.hypot(end.x, end.y - STEP * math.sin(eta)),
-        "to the right of where it began": math.hypot(end.x, end.y + STEP * math.sin(eta)),
+        "on neither side of where it began": 0.0,
+        "on the left": aside,
+        "on the right": -aside,
     }
     return Live(
         "commutator",
@@ -67,10 +67,10 @@ def commutator() -> Live:
         ask=Ask(
             "choose",
             f"Drive forward {STEP} m, turn left by {TURN:.0f} deg, drive back as far, turn right "
-            "as far. Where is the robot then?",
+            "as far. On which side of where it began is the robot then?",
             "It drove out along one heading and back along another, and the way back leads to the "
-            "right of the way out. Moves undo each other only if their order does not matter.",
-            key=nearest(0.0, places.values()),
+            "right of the way out. Moves are undone in reverse order; in another they need not be.",
+            key=nearest(end.y, places.values()),
             options=(*places,),
         ),
     )

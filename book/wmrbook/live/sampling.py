@@ -62,10 +62,10 @@ def unit_circle() -> Live:
         },
         ask=Ask(
             "choose",
-            "Gentle gains, and a time step a tenth longer than the longest with which the angles "
-            "near the goal settle. Where does the drive end?",
-            "The distance has a limit of its own, here a longer one, so the robot comes to the "
-            "goal. The angles grow from step to step, and it stops with what they happen to be.",
+            "The outdoor drive, x east, in arcs: gentle gains, and a time step a tenth longer than "
+            "the longest with which the angles near the goal settle. Where does it end?",
+            "Here the distance still comes down, so the robot reaches the goal. The angles grow "
+            "from step to step, and it stops with what they happen to be; elsewhere, with little.",
             key=[*ends.values()].index(True),
             options=(*ends,),
         ),
@@ -93,7 +93,7 @@ def wheel_limit() -> Live:
         "No wheel can go faster than {limit}, and {rule}. The robot parks after {seconds} and "
         "strays {strays} from the path of a robot without a limit.",
         {
-            "limit": Knob(limit, 0.3, 4.0, 0.1, "the fastest that a wheel goes", "m/s", "v_w"),
+            "limit": Knob(limit, 1.2, 4.0, 0.1, "the fastest that a wheel goes", "m/s", "v_w"),
             "rule": Choice(
                 "wheels",
                 {

@@ -5,7 +5,7 @@
 function buildGate(root, ask, { get, set, panes, host }) {
   const still = document.documentElement.dataset.still !== undefined; // on paper the picture stands beside the question
   const committed = () => get().guess !== null && get().guess !== undefined, open = () => still || committed();
-  let draft = ask.kind === 'turn' ? 0 : ask.kind === 'sketch' ? [] : null, listening = false, shown = null;
+  let draft = ask.kind === 'sketch' ? [] : null, listening = false, shown = null, answered = false;
   const form = made(root, 'form', { className: 'live-gate' }), question = made(form, 'p', { className: 'live-question', textContent: ask.question });
   const options = made(form, 'div', { className: 'live-options' }, { role: 'radiogroup', 'aria-label': ask.question });
   (ask.options || []).forEach((text, k) => {
@@ -16,8 +16,8 @@ function buildGate(root, ask, { get, set, panes, host }) {
   const turn = ask.kind === 'turn' ? made(options, 'input', { type: 'range', className: 'wmr-slider', min: -180, max: 180, step: 5, value: 0, oninput: () => { draft = Number(turn.value) / DEGREES; set(); } }, { 'aria-label': 'the angle of the arrow, degrees counter-clockwise from x' }) : null;
   form.addEventListener('keydown', (event) => event.stopPropagation());
   const bar = made(form, 'div', { className: 'wmr-bar' }), commit = made(bar, 'button', { className: 'live-commit', textContent: 'Commit' });
-  const again = made(bar, 'button', { type: 'button', textContent: 'Copy as a line', hidden: true }), verdict = made(form, 'p', { className: 'live-verdict' }, { role: 'status' });
-  form.addEventListener('submit', (event) => { event.preventDefault(); if (ready()) set({ guess: draft }); });
+  const again = made(bar, 'button', { type: 'button', textContent: 'Copy as a line', hidden: true }), verdict = made(form, 'p', { className: 'live-verdict', tabIndex: -1 }, { role: 'status' });
+  form.addEventListener('submit', (event) => { event.preventDefault(); if (ready()) { set({ guess: draft }); answered = true; } });
   again.addEventListener('click', () => copyLine(root, `predict ${ask.name} ${JSON.stringify(ask.kind === 'turn' ? Math.round(get().guess * DEGREES) : get().guess)}`));
   const ready = () => (ask.kind === 'sketch' ? draft.length > 3 : draft !== null);
   const right = (guess) => (ask.kind === 'choose' ? guess === ask.key : Math.abs(turned(guess - ask.key)) < Math.PI / 9);
@@ -32,23 +32,28 @@ function buildGate(root, ask, { get, set, panes, host }) {
       if (ask.kind === 'turn') { draft = Math.round(Math.atan2(y - ask.at[1], x - ask.at[0]) * DEGREES / 5) * 5 / DEGREES; turn.value = draft * DEGREES; } else draft.push([x, y]);
       set();
     };
-    canvas.style.touchAction = 'none';
-    if (ask.kind === 'sketch') canvas.tabIndex = 0; // the arrow keys sketch too
     canvas.addEventListener('keydown', (event) => {
       const move = MOVES[event.key], { range: [x0, x1] } = panes()[ask.pane], step = (x1 - x0) / 40;
       if (open() || ask.kind !== 'sketch' || !(move || (event.key === 'Backspace' && draft.length))) return;
       event.preventDefault();
       event.stopPropagation();
-      const [x, y] = draft.length ? draft.at(-1) : ask.at;
-      draft = move ? [...(draft.length ? draft : [ask.at]), [x + move[0] * step, y + move[1] * step]] : draft.slice(0, -1);
+      const [x, y] = draft.length ? draft.at(-1) : ask.at, [, , y0, y1] = panes()[ask.pane].range, within = (value, low, high) => Math.min(Math.max(value, low), high);
+      draft = move ? [...(draft.length ? draft : [ask.at]), [within(x + move[0] * step, x0, x1), within(y + move[1] * step, y0, y1)]] : draft.slice(0, -1);
       set();
     });
     canvas.addEventListener('pointerdown', (event) => { if (open()) return; down = true; if (ask.kind === 'sketch') draft = [ask.at]; canvas.setPointerCapture(event.pointerId); place(event); });
     canvas.addEventListener('pointermove', (event) => { if (down) place(event); });
     canvas.addEventListener('lostpointercapture', () => { down = false; show(); });
   }
+  function teach(canvas) { // the picture takes fingers and keys for as long as it asks
+    const asks = !open(), sketches = asks && ask.kind === 'sketch';
+    canvas.style.touchAction = asks ? 'none' : '';
+    canvas.tabIndex = sketches ? 0 : -1;
+    canvas.setAttribute('role', sketches ? 'application' : 'img');
+    if (sketches) canvas.setAttribute('aria-label', `${canvas.getAttribute('aria-label')} The arrow keys sketch, Backspace takes back: ${Math.max(draft.length - 1, 0)} strokes.`);
+  }
   function show() {
-    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft)} from x`);
+    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft || 0)} from x`);
     const guess = get().guess, done = committed(), key = JSON.stringify([guess, done, ready()]);
     if (key === shown) return;
     shown = key;
@@ -56,22 +61,18 @@ function buildGate(root, ask, { get, set, panes, host }) {
     commit.hidden = done || still;
     again.hidden = !done || ask.kind === 'sketch'; // a path is no line
     options.hidden = done && ask.kind !== 'choose';
-    if (done && listening) host(ask.pane).querySelector('canvas').removeAttribute('tabindex');
     form.querySelectorAll('input').forEach((each) => { each.disabled = done; if (ask.kind === 'choose') each.checked = Number(each.value) === (done ? guess : draft); });
     form.classList.toggle('live-answered', done);
     if (ask.kind === 'choose') options.querySelectorAll('label').forEach((each, k) => { each.classList.toggle('live-key', done && k === ask.key); each.hidden = done && k !== ask.key && k !== guess; });
     verdict.textContent = !done ? '' : `${ask.kind === 'sketch' ? '' : right(guess) ? 'As you said. ' : 'Not so. '}${ask.why}`;
     root.closest('.live').dataset.open = String(open());
-    const cell = root.closest('.cell'), below = cell && cell.nextElementSibling; // on a page the sentence below it often says what comes out
-    if (below && below.matches('p')) {
-      below.inert = !open();
-      below.classList.toggle('live-later', !open());
-    }
+    if (answered) { answered = false; verdict.focus(); } // where a keyboard and a voice go on
   }
   function draw() {
     show();
     listen();
-    const pane = panes()[ask.pane], said = committed() ? get().guess : draft;
+    if (listening) teach(host(ask.pane).querySelector('canvas'));
+    const pane = panes()[ask.pane], said = committed() ? get().guess : ask.kind === 'turn' ? draft || 0 : draft;
     if (still || !pane || said === null) return;
     if (ask.kind === 'turn') { const [x, y] = pane.at(...ask.at); pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * Math.cos(said), y - 62 * Math.sin(said)), 'ghost', { dash: [5, 5] }); pane.text('your guess', ...pane.view.toWorld(x + 72 * Math.cos(said), y - 72 * Math.sin(said)), { role: 'ghost', align: Math.cos(said) < 0 ? 'right' : 'left' }); }
     if (ask.kind === 'sketch' && said.length) pane.line(said, 'ghost', { width: 3, dash: [3, 6] });

@@ -15,7 +15,8 @@ const made = (parent, tag, properties = {}, attributes = {}) => {
   return it;
 };
 const inWords = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−') : String(value));
-const fromWords = (text) => (text.trim() ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
+// A comma is a decimal one: 1,000 could be either, and is neither.
+const fromWords = (text) => (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim()) ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
 
 // A function of what JSON can say that keeps its last answer: a run need not be driven anew while only the time moves.
 function remembered(f) {
@@ -123,16 +124,23 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
       put(name)(stepFrom(knob)(get()[name], by));
     });
     let playing = 0;
-    const stop = () => { cancelAnimationFrame(playing); playing = 0; if (button) button.textContent = 'Play'; };
+    const call = (text) => { button.textContent = text; button.setAttribute('aria-label', `${text}: ${knob.says}`); };
+    const stop = () => {
+      if (!playing) return;
+      cancelAnimationFrame(playing);
+      playing = 0;
+      call('Play');
+      set({});
+    };
     const play = () => {
       if (playing) { stop(); return; }
       const from = get()[name] >= knob.high ? knob.low : get()[name], begin = performance.now();
       const go = (now) => {
         const value = Math.min(from + (knob.high - knob.low) * (now - begin) / 1000 / knob.plays, knob.high);
-        put(name)(value);
+        set({ [name]: Number(value.toPrecision(3)) }, true);
         if (value < knob.high) playing = requestAnimationFrame(go); else stop();
       };
-      button.textContent = 'Stop';
+      call('Stop');
       playing = requestAnimationFrame(go);
     };
     const button = knob.plays ? made(row, 'button', { type: 'button', className: 'live-play', textContent: 'Play', onclick: play }, { 'aria-label': `play: ${knob.says}` }) : null;
@@ -146,7 +154,8 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
   const show = (values) => shows.forEach((each) => each(values));
   const showResults = (said) => {
     for (const [name, places] of Object.entries(results)) {
-      for (const place of places) if (place.textContent !== String(said[name])) { place.textContent = said[name]; changed(); }
+      const text = said ? String(said[name]) : '–'; // nothing follows from what is refused
+      for (const place of places) if (place.textContent !== text) { place.textContent = text; changed(); }
     }
   };
   return { show, showResults, stop: () => timers.forEach((each) => each()) };
@@ -219,14 +228,22 @@ const live = (explorable) => ({ render({ model, el }) {
   const find = (selector) => root.querySelector(selector), canvases = {}, values = () => model.get('state');
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', panes = {}, specs = {};
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
-  const set = (changes) => {
+  const set = (changes, playing = false) => { // a hand stops what plays; a kernel hears where it ends
     refused = '';
-    if (changes) { model.set('state', { ...values(), ...changes }); model.save_changes(); }
+    if (!playing) knobs.stop();
+    if (changes) model.set('state', { ...values(), ...changes });
+    if (changes && !playing) model.save_changes();
     schedule();
   };
   const refuse = (sentence) => { refused = sentence; schedule(); };
   const give = (change) => {
-    try { set(change()); } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }
+    try {
+      const changes = change() || {};
+      for (const { name, low, high, says } of setup.knobs) {
+        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${inWords(changes[name])} is not allowed as ${says}: ${inWords(low)} to ${inWords(high)} is.`);
+      }
+      set(changes);
+    } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }
   };
   const say = () => {
     clearTimeout(spoken);
@@ -244,7 +261,7 @@ const live = (explorable) => ({ render({ model, el }) {
       const [x, y] = panes[name].view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom), moved = last && [event.clientX - last[0], event.clientY - last[1]];
       if (last) last = [event.clientX, event.clientY];
       const changes = scrub(x, y, moved, values(), found);
-      if (changes) set(changes);
+      if (changes && (last || Object.keys(changes).every((each) => each === 'time'))) set(changes); // what passes over a picture only moves the robot
     };
     canvas.addEventListener('pointerdown', (event) => { last = [event.clientX, event.clientY]; if (specs[name].scrub) canvas.setPointerCapture(event.pointerId); place(event); });
     canvas.addEventListener('pointermove', place);
@@ -255,9 +272,9 @@ const live = (explorable) => ({ render({ model, el }) {
     frame = 0;
     if (!colours) return;
     const now = values(), hidden = Boolean(gate && !gate.open());
-    let trouble = refused;
-    try { found = explorable.find(now, setup); } catch (error) { if (!(error instanceof RangeError)) throw error; trouble = error.message; }
-    find('.live-trouble').textContent = trouble;
+    let trouble = refused, sound = true;
+    try { found = explorable.find(now, setup); } catch (error) { if (!(error instanceof RangeError)) throw error; [trouble, sound] = [error.message, false]; }
+    find('.live-trouble').textContent = hidden ? '' : trouble;
     knobs.show(now);
     for (const part of ['.live-sentence', '.live-rows']) find(part).hidden = hidden;
     if (!found) return;
@@ -273,7 +290,7 @@ const live = (explorable) => ({ render({ model, el }) {
     else root.dataset.open = 'true';
     const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
     for (const name of Object.keys(specs)) showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name), panes[name], give);
-    if (!hidden) knobs.showResults(explorable.say(now, found, setup));
+    if (!hidden) knobs.showResults(sound ? explorable.say(now, found, setup) : null);
   }
   const repaint = () => { Object.values(canvases).forEach(measure); colours = readColours(root); schedule(); };
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);

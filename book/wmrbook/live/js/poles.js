@@ -44,6 +44,6 @@ const explorable = {
     },
   })),
   say: (values, { damping, naturalFrequency, run, off }) => ({
-    damping: written(damping), frequency: written(naturalFrequency, 'rad/s'), end: run.outcome === 'ARRIVED' ? `stops after ${written(run.t[run.n - 1], 's')}, ${Math.abs(off * DEGREES).toFixed(1)}° off` : 'is still on its way after 30 s',
+    damping: Number.isFinite(damping) ? written(damping) : 'none', frequency: written(naturalFrequency, 'rad/s'), end: run.outcome === 'ARRIVED' ? `stops after ${written(run.t[run.n - 1], 's')}, ${Math.abs(off * DEGREES).toFixed(1)}° off` : 'is still on its way after 30 s',
   }),
 };

@@ -18,7 +18,7 @@ const rising = remembered(([law, rho, gains]) => {
   const side = Array.from({ length: MARKS }, (_, i) => (2 * (i + 0.5) / MARKS - 1) * Math.PI);
   return side.flatMap((alpha) => side.map((theta) => [alpha, theta])).filter((state) => falls(law, rho, ...state, gains).reduce((sum, each) => sum + each) > 0);
 });
-const way = (rate) => (Math.abs(rate) < 5e-4 ? 'level' : rate < 0 ? 'falls' : 'rises');
+const way = (rate) => (Math.abs(rate) < 1e-9 ? 'stays level' : rate < 0 ? 'falls' : 'rises');
 
 const explorable = {
   find: ({ law, alpha, theta }, { data: { rho, gains } }) => ({ bars: falls(law, rho, alpha / DEGREES, theta / DEGREES, gains), marks: rising([law, rho, gains]) }),
