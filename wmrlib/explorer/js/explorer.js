@@ -6,6 +6,7 @@ const RESTING = 0.3; // where on the run the cursor stands until somebody moves 
 function scaffold(el) {
   const root = el.appendChild(document.createElement('div')), button = (act, text, title) => `<button type="button" data-do="${act}" title="${title}">${text}</button>`;
   root.className = 'wmr';
+  root.dataset.lmSuppressShortcuts = 'true'; // keys are the panel's, not JupyterLab's
   root.innerHTML = `
     <div class="wmr-stage">
       <div class="wmr-status"></div>

@@ -13,7 +13,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
     made(row, 'input', { type: 'radio', name: `gate-${ask.name}`, value: k, onchange: () => { draft = k; show(); } });
     made(row, 'span', { textContent: text });
   });
-  const turn = ask.kind === 'turn' ? made(options, 'input', { type: 'range', className: 'wmr-slider', min: -180, max: 180, step: 5, value: 0, oninput: () => { draft = Number(turn.value) / DEGREES; set(); } }, { 'aria-label': 'the angle of the arrow, degrees counter-clockwise from x' }) : null;
+  const turn = ask.kind === 'turn' ? made(options, 'input', { type: 'range', className: 'wmr-slider', min: -180, max: 180, step: 5, value: 0, oninput: () => { draft = Number(turn.value) / DEGREES; set(); } }, { 'aria-label': 'the angle of the arrow, degrees counter-clockwise from the right' }) : null;
   form.addEventListener('keydown', (event) => event.stopPropagation());
   const bar = made(form, 'div', { className: 'wmr-bar' }), commit = made(bar, 'button', { className: 'live-commit', textContent: 'Commit' });
   const again = made(bar, 'button', { type: 'button', textContent: 'Copy as a line', hidden: true }), verdict = made(form, 'p', { className: 'live-verdict', tabIndex: -1 }, { role: 'status' });
@@ -53,7 +53,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
     if (sketches) canvas.setAttribute('aria-label', `${canvas.getAttribute('aria-label')} The arrow keys sketch, Backspace takes back: ${Math.max(draft.length - 1, 0)} strokes.`);
   }
   function show() {
-    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft || 0)} from x`);
+    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft || 0)} from the right`);
     const guess = get().guess, done = committed(), key = JSON.stringify([guess, done, ready()]);
     if (key === shown) return;
     shown = key;
@@ -81,6 +81,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
 }
 
 function copyLine(root, text) {
+  root.querySelectorAll('.wmr-text').forEach((each) => each.remove());
   const box = made(root, 'textarea', { className: 'wmr-text', value: text, readOnly: true }, { 'aria-label': 'to copy' });
   box.select();
   if (document.execCommand('copy')) box.remove();

@@ -202,7 +202,7 @@ function showHandles(host, handles, pane, give) {
         event.preventDefault();
         event.stopPropagation();
         const { range: [x0, x1, y0, y1] } = button.pane, step = event.shiftKey ? 200 : 40;
-        give(() => button.handle.move(button.handle.at[0] + move[0] * (x1 - x0) / step, button.handle.at[1] + move[1] * (y1 - y0) / step));
+        give(() => button.handle.move(button.handle.at[0] + move[0] * (x1 - x0) / step, button.handle.at[1] + move[1] * (y1 - y0) / step), true);
       });
     }
     known.delete(handle.id);
@@ -222,7 +222,7 @@ function whenSeen(element, act) {
 }
 
 const live = (explorable) => ({ render({ model, el }) {
-  const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' });
+  const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' }, { 'data-lm-suppress-shortcuts': 'true' }); // keys are ours, not JupyterLab's
   root.innerHTML = '<div class="live-ask"></div><p class="live-sentence"></p><div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
     + '<p class="live-trouble" role="alert"></p><div class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {}, values = () => model.get('state');
@@ -236,7 +236,7 @@ const live = (explorable) => ({ render({ model, el }) {
     schedule();
   };
   const refuse = (sentence) => { refused = sentence; schedule(); };
-  const give = (change) => {
+  const give = (change, atOnce = false) => {
     try {
       const changes = change() || {};
       for (const { name, low, high, says } of setup.knobs) {
@@ -244,6 +244,7 @@ const live = (explorable) => ({ render({ model, el }) {
       }
       set(changes);
     } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }
+    if (atOnce) { cancelAnimationFrame(frame); draw(); } // the next key goes on from here
   };
   const say = () => {
     clearTimeout(spoken);
