@@ -25,6 +25,18 @@ WIDE = """() => [...document.querySelectorAll('.live, .live *')].filter(it => it
     .filter(it => it.getBoundingClientRect().right > innerWidth + 1
         || it.getBoundingClientRect().left < -1)
     .filter(it => !it.closest('.wmr-aside')).map(it => it.outerHTML.slice(0, 90))"""
+TOUCH = """() => [...new Set([...document.querySelectorAll('.live canvas')]
+    .map(it => getComputedStyle(it).touchAction))]"""
+# A mouse passes over each picture from its left to its right, and holds nothing.
+PASS = """() => document.querySelectorAll('.live canvas').forEach(canvas => {
+    const box = canvas.getBoundingClientRect();
+    for (let share = 0.05; share < 1; share += 0.1) {
+        canvas.dispatchEvent(new PointerEvent('pointermove', {
+            clientX: box.left + share * box.width, clientY: box.top + share * box.height }));
+    }
+})"""
+KEYS = """keys => keys.forEach(key => document.activeElement.dispatchEvent(
+    new KeyboardEvent('keydown', { key, bubbles: true })))"""
 FAULTS = "async () => (await axe.run('.live')).violations.map(it => [it.id, it.nodes[0].html])"
 
 
@@ -73,6 +85,7 @@ def test_nothing_is_shown_before_the_prediction_is_made(browser_page, name):
     assert (
         page.locator(".live-sentence, .live-rows, .wmr-handle").locator("visible=true").count() == 0
     )
+    assert re.search(r"\?|Sketch", ask["question"])
     assert ask["why"] not in page.evaluate(TEXT)
     assert page.get_by_role("button", name="Commit").is_disabled()
     commit(panel, ask)
@@ -80,6 +93,8 @@ def test_nothing_is_shown_before_the_prediction_is_made(browser_page, name):
     assert page.locator(".live-sentence").is_visible()
     assert page.evaluate(PICTURE) != given
     assert page.locator(".live-gate input:enabled").count() == 0
+    assert page.evaluate("document.activeElement.matches('.live-verdict')")  # keys go on from there
+    assert page.evaluate(TOUCH) == ["pan-y pinch-zoom"]  # and fingers scroll the page again
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -151,6 +166,14 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
         panel.settled()
         moved = page.evaluate("JSON.stringify(panel.get('state'))") != before
         assert moved or page.locator(".live-trouble").inner_text()
+        panel.drag(handle, 2000, -2000)  # off the picture
+        for knob in thing.setup["knobs"]:
+            if "low" in knob:
+                assert knob["low"] <= panel.get(knob["name"]) <= knob["high"], knob["name"]
+    panel.set(**quoted(home))
+    page.evaluate(PASS)
+    held = [name for name in home if name != "time" and panel.get(name) != home[name]]
+    assert not held, f"a mouse that passes over a picture moves {held}"
 
 
 @pytest.mark.parametrize("name", NAMES)
@@ -196,3 +219,49 @@ def test_a_path_is_sketched_by_hand_too(browser_page):
     steps = [after[0] - before[0] for before, after in itertools.pairwise(guess[1:])]
     assert len(steps) == 3
     assert steps == pytest.approx([steps[0]] * 3)
+
+
+def test_a_hand_stops_what_plays_and_a_second_key_goes_on_from_the_first(browser_page):
+    _, panel = opened(browser_page, "commutator")
+    play = browser_page.get_by_role("button", name="Play: moves made")
+    play.click()
+    stop = browser_page.get_by_role("button", name="Stop: moves made")
+    stop.wait_for()
+    number = browser_page.get_by_role("spinbutton", name="how far forward and back")
+    number.press("ArrowDown")
+    play.wait_for()
+    rests = panel.settled().get("moves")
+    browser_page.wait_for_timeout(200)
+    assert panel.get("moves") == rests < 12
+
+    _, panel = opened(browser_page, "turning_centre")
+    browser_page.locator("[data-handle=left]").focus()
+    browser_page.evaluate(KEYS, ["ArrowLeft", "ArrowLeft"])
+    twice = panel.settled().get("left")
+    browser_page.evaluate(KEYS, ["ArrowRight"])
+    once = panel.settled().get("left")
+    browser_page.evaluate(KEYS, ["ArrowRight"])
+    assert panel.settled().get("left") > once > twice
+
+
+def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(browser_page):
+    _, panel = opened(browser_page, "bearing")
+    number = browser_page.get_by_role("spinbutton").first
+    (name,) = [it for it in ("east", "north") if it in number.get_attribute("aria-label")]
+    before = panel.get(name)
+    for text, value in (("1,5", 1.5), ("1.5e1", 15), ("\N{MINUS SIGN}2", -2), ("0,125", 0.125)):
+        number.fill(text)
+        number.press("Tab")
+        assert panel.settled().get(name) == value
+    for text in ("1,000", "0x10", "", "one"):
+        number.fill(text)
+        number.press("Tab")
+        assert panel.settled().get(name) == 0.125 != before
+        assert "is not allowed" in browser_page.locator(".live-trouble").inner_text()
+
+
+def test_nothing_is_said_to_follow_from_what_is_refused(browser_page):
+    _, panel = opened(browser_page, "bearing")
+    panel.set(east=0, north=0)
+    assert browser_page.locator(".live-trouble").inner_text()
+    assert set(browser_page.locator(".live-result").all_inner_texts()) == {"\N{EN DASH}"}

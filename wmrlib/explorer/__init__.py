@@ -22,6 +22,7 @@ from wmrlib.explorer.controls import MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS,
 FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
 """Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
 _PARTS = Path(__file__).parent / "js"
+CSS = (_PARTS / "panel.css").read_text(encoding="utf-8")
 # One module out of several files: a page without a kernel can load no second one.
 MODEL = "model", "continuous", "simulate"
 _PICTURE = "style", "surface", "settings", "controls", "figures", "scene", "handles", "charts"
@@ -72,7 +73,7 @@ class Explorer(anywidget.AnyWidget):
     """
 
     _esm = traitlets.Unicode(javascript()).tag(sync=True)
-    _css = traitlets.Unicode((_PARTS / "panel.css").read_text(encoding="utf-8")).tag(sync=True)
+    _css = traitlets.Unicode(CSS).tag(sync=True)
     state = traitlets.Dict().tag(sync=True)
     setup = traitlets.Dict().tag(sync=True)
 

@@ -11,11 +11,11 @@ import anywidget
 import traitlets
 
 from wmrlib._checks import choice, refusal, scalar
-from wmrlib.explorer import MODEL, javascript
+from wmrlib.explorer import CSS, MODEL, javascript
 
 _JS = Path(__file__).parent / "js"
 _DRAWING = "style", "surface", "scene", "handles", "controls"
-_OWN = "board", "live", "gate"
+_OWN = "board", "runs", "knobs", "grips", "gate", "live"
 
 
 class Knob(NamedTuple):
@@ -82,6 +82,12 @@ class Live(anywidget.AnyWidget):
     knobs : Knob or Choice, by name
     data : what the drawing needs that does not move: numbers, lists and texts
     ask : Ask or None
+
+    `thing["k_alpha"]` is where a knob stands, and can be set.
+
+    Raises
+    ------
+    ValueError : a knob that it does not have, or a value that the knob does not allow
     """
 
     _esm = traitlets.Unicode().tag(sync=True)
@@ -141,5 +147,4 @@ def module(name: str) -> str:
 
 @functools.cache
 def _css() -> str:
-    panel = Path(javascript.__code__.co_filename).parent / "js" / "panel.css"
-    return "\n".join(path.read_text(encoding="utf-8") for path in (panel, _JS / "live.css"))
+    return f"{CSS}\n{(_JS / 'live.css').read_text(encoding='utf-8')}"
