@@ -65,13 +65,9 @@ mathjax_path = "vendor/mathjax/tex-svg-full.js"
 mathjax_config_path = "mathjax.js"
 myst_update_mathjax = False
 
-# The live widgets: widgets.js tells require.js where they are. A widget that we lack is an error
-# here, not a request to a CDN.
-html_js_files = [("widgets.js", {"priority": 10})]
-nb_ipywidgets_js = {
-    "vendor/requirejs/require.js": {},
-    "vendor/widgets/embed-amd.js": {"data-jupyter-widgets-cdn": "vendor/"},
-}
+# The live widgets: anywidgets all of them, which a page needs no widget manager of 4 MB for.
+html_js_files = [("widgets.js", {"data-start": "whole page"})]
+nb_ipywidgets_js = {}
 
 
 def look_for_words(app, doctree):

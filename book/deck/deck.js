@@ -153,14 +153,6 @@
   const drawn = Promise.all([MathJax.startup.promise, ...[...document.images].map((image) => image.decode().catch(() => {}))]);
   const started = printing ? drawn.then(() => deck.initialize()) : deck.initialize();
 
-  function startWidgets() {
-    const waiting = document.querySelector('script[type="text/widgets"]');
-    if (!waiting) return;
-    const script = document.createElement('script');
-    for (const { name, value } of waiting.attributes) if (name !== 'type') script.setAttribute(name, value);
-    waiting.replaceWith(script);
-  }
-
   Promise.all([started, drawn]).then(async () => {
     // The speaker's window has not the style that hides a formula's second copy, which is for screen readers.
     for (const copy of document.querySelectorAll('aside.notes mjx-assistive-mml')) copy.remove();
@@ -177,7 +169,7 @@
     fitAll();
     arrived();
     if (printing) await printable;
-    startWidgets();
+    widgets.showAll();
     document.documentElement.dataset.deck = 'ready';
   });
   window.deck = deck;

@@ -26,14 +26,7 @@ MODULES = BOOK / "node_modules"
 VENDOR = BOOK / "_static" / "vendor"
 # What the pages carry, by folder. MathJax draws in SVG: one file with every extension in it, and no
 # font files, which some browsers refuse to load from file://.
-NPM_FILES = {
-    "mathjax": ("mathjax/es5/tex-svg-full.js", "mathjax/LICENSE"),
-    "requirejs": ("requirejs/require.js",),
-    "widgets": (
-        "@jupyter-widgets/html-manager/dist/embed-amd.js",
-        "@jupyter-widgets/html-manager/dist/*.woff2",
-    ),
-}
+NPM_FILES = {"mathjax": ("mathjax/es5/tex-svg-full.js", "mathjax/LICENSE")}
 LONG = 12  # lines of code; a page folds a cell that has more
 SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
 NO_NPM = (
@@ -102,19 +95,11 @@ def _javascript_is_there() -> bool:
 
 def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES) -> None:
     """Put the few files that the pages load into the folder `vendor`."""
-    import anywidget
-
     shutil.rmtree(vendor, ignore_errors=True)
-    files = [
-        (folder, path)
-        for folder, patterns in wanted.items()
-        for name in patterns
-        for path in npm_files(name)
-    ]
-    files.append(("anywidget", Path(anywidget.__file__).parent / "nbextension" / "index.js"))
-    for folder, path in files:
-        (vendor / folder).mkdir(parents=True, exist_ok=True)
-        shutil.copy(path, vendor / folder)
+    for folder, patterns in wanted.items():
+        (vendor / folder).mkdir(parents=True)
+        for path in (path for pattern in patterns for path in npm_files(pattern)):
+            shutil.copy(path, vendor / folder)
 
 
 def npm_files(pattern: str) -> list[Path]:

@@ -19,14 +19,12 @@ PAPER = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
 SHARP = 2  # dots a pixel
 # Show the panels of another page of the site in this one: for each a page of its own takes seconds.
-SHOW = """async (html) => {
+SHOW = """(html) => {
     const there = new DOMParser().parseFromString(html, 'text/html');
     const place = document.createElement('div');
     place.append(...there.querySelectorAll('script[type^="application/vnd.jupyter.widget"]'));
     document.querySelector('article').replaceChildren(place);
-    const manager = '@jupyter-widgets/html-manager/dist/libembed-amd';
-    const widgets = await new Promise((done, failed) => require([manager], done, failed));
-    await widgets.renderWidgets(place);
+    return widgets.showAll(place);
 }"""
 DRAWN = """async () => {
     const panels = [...document.querySelectorAll('script[type$="widget-view+json"]')];
@@ -113,7 +111,7 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[str]:
         page.evaluate(SHOW, (site / f"{place}.html").read_text(encoding="utf-8"))
         page.wait_for_function(DRAWN)
         page.evaluate(FRAMES)
-        shots += [it.screenshot() for it in page.locator(".widget-subarea").all()]
+        shots += [it.screenshot() for it in page.locator(".jupyter-widgets").all()]
     page.close()
     return [f"data:image/png;base64,{base64.b64encode(shot).decode()}" for shot in shots]
 

@@ -1,11 +1,10 @@
 """From a slider's event to the finished picture: python tests/benchmarks/explorer_latency.py
 
-The static page is of the book's kind: the panel alone, opened from the disk, with
-the JavaScript that book/tools/build.py fetched. In JupyterLab the same panel stands above
-`ipywidgets.interactive` with a matplotlib figure of the same run, and each is dragged by its
-slider's handle. The clock starts when the page hears of the pointer's step, and stops when the
-canvas is drawn or the new image is loaded. Machines differ and are noisy: quote medians, and the
-ratios rather than the milliseconds.
+The static page is of the book's kind: the panel alone, opened from the disk. In JupyterLab the same
+panel stands above `ipywidgets.interactive` with a matplotlib figure of the same run. Each is
+dragged by its slider's handle. The clock starts when the page hears of the pointer's step, and
+stops when the canvas is drawn or the new image is loaded. Machines differ and are noisy: quote
+medians, and the ratios rather than the milliseconds.
 """
 
 from __future__ import annotations
@@ -91,10 +90,6 @@ def drag(page, handle, wait: float) -> list[float]:
 
 def static_page(folder: Path) -> Path:
     """The panel as a page without a kernel, with its JavaScript beside it."""
-    import build
-
-    build.install_javascript()
-    build.copy_javascript(folder / "vendor")
     explorer = Explorer()
     data = embed_data(
         [explorer], drop_defaults=False, state=dependency_state([explorer], drop_defaults=False)
@@ -102,17 +97,11 @@ def static_page(folder: Path) -> Path:
     state, view = (
         json.dumps(data[name]).replace("</", "<\\/") for name in ("manager_state", "view_specs")
     )
-    widgets = {
-        "@jupyter-widgets": "vendor/widgets",
-        "@jupyter-widgets/html-manager/dist": "vendor/widgets",
-    }
-    paths = {**widgets, "anywidget": "vendor/anywidget/index"}
+    shutil.copy(ROOT / "book" / "_static" / "widgets.js", folder)
     page = folder / "index.html"
     page.write_text(
         f"""<!doctype html><html><head><meta charset="utf-8">
-        <script>window.require = {{ paths: {json.dumps(paths)} }};</script>
-        <script src="vendor/requirejs/require.js"></script>
-        <script src="vendor/widgets/embed-amd.js"></script></head><body>
+        <script src="widgets.js" data-start="whole page"></script></head><body>
         <script type="application/vnd.jupyter.widget-state+json">{state}</script>
         <script type="application/vnd.jupyter.widget-view+json">{view[1:-1]}</script>
         </body></html>""",

@@ -6,7 +6,8 @@ import hashlib
 import json
 from pathlib import Path
 
-HOST = Path(__file__).with_name("host.js").read_text(encoding="utf-8")
+PARTS = (Path(__file__).parents[2] / "book/_static/widgets.js", Path(__file__).with_name("host.js"))
+HOST = "\n".join(part.read_text(encoding="utf-8") for part in PARTS)
 PAGE = "<!doctype html><meta charset='utf-8'><title>panel</title><body style='margin: 0'>"
 FRAMES = """() => new Promise(done =>
     requestAnimationFrame(() => requestAnimationFrame(() => done())))"""

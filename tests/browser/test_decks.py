@@ -96,9 +96,7 @@ def test_each_slide_has_a_title_and_a_sentence_that_can_be_read_and_all_of_it_fi
                 page.wait_for_timeout(300)
             found += [(path.name[:2], height, *it) for it in troubles]
         assert page.locator("section mjx-container svg").count() > 10
-        assert (
-            page.locator("mjx-merror, [data-mjx-error], .jupyter-widgets-error-widget").count() == 0
-        )
+        assert page.locator("mjx-merror, [data-mjx-error], .widget-error").count() == 0
         assert "$" not in page.locator(".slides").inner_text()
         texts = page.eval_on_selector_all(".slides img", "them => them.map(it => it.alt)")
         assert all(len(text.split()) > 3 for text in texts)

@@ -26,12 +26,16 @@ def pages(site: Path) -> list[Path]:
 def test_every_page_opens_without_trouble_and_without_faults(site, opened, browser_page):
     names = [path.relative_to(site).as_posix() for path in pages(site)]
     assert {"index.html", "explorer.html"} < set(names)
+    loaded = set()
+    browser_page.on("request", lambda request: loaded.add(unquote(urlsplit(request.url).path)))
     for name, scheme in zip(names, itertools.cycle(["light", "dark"]), strict=False):
         browser_page.emulate_media(color_scheme=scheme)
+        loaded.clear()
         page = opened(name)
+        assert sum(path.stat().st_size for path in map(Path, loaded) if path.is_file()) < 4e6, name
         assert page.locator("html").get_attribute("data-theme") == scheme
         assert page.locator("h1:visible").count() == 1, name
-        assert page.locator("mjx-merror, .jupyter-widgets-error-widget").count() == 0, name
+        assert page.locator("mjx-merror, .widget-error").count() == 0, name
         page.assert_quiet()
         faults = of_page(page, SIZES[:1], (scheme,))  # faults.py itself looks at all of both
         assert not faults, f"{name}: {faults}"
