@@ -50,14 +50,39 @@ def browser(find_tool):
 
 @pytest.fixture
 def browser_page(browser):
-    """A fresh playwright page that fails the test on any trouble.
+    """A fresh playwright page that fails the test on any trouble, see `watched`."""
+    page = watched(browser)
+    yield page
+    page.context.close()
+    page.assert_quiet()
+
+
+@pytest.fixture(scope="module")
+def module_page(browser):
+    page = watched(browser)
+    yield page
+    page.context.close()
+
+
+@pytest.fixture
+def emptied_page(module_page):
+    """The same for what leaves nothing behind but its document: emptied, not made, for each."""
+    module_page.goto("about:blank")
+    module_page.mouse.move(0, 0)
+    module_page.emulate_media(color_scheme="light", reduced_motion="no-preference")
+    module_page.troubles.clear()
+    yield module_page
+    module_page.assert_quiet()
+
+
+def watched(browser):
+    """Return a page of its own context.
 
     `page.troubles` lists, as sentences, requests to the outside, failed loads, console errors and
     uncaught exceptions. `page.assert_quiet()` fails if there are any, and is called at the end. A
     test that provokes a trouble on purpose looks at `page.troubles` and clears it.
     """
-    context = browser.new_context(viewport={"width": 1300, "height": 900})
-    page = context.new_page()
+    page = browser.new_context(viewport={"width": 1300, "height": 900}).new_page()
     troubles = page.troubles = []
 
     def assert_quiet():
@@ -88,9 +113,7 @@ def browser_page(browser):
     page.on("response", answered)
     page.on("console", said)
     page.on("pageerror", lambda error: note("uncaught exception", str(error)))
-    yield page
-    context.close()
-    assert_quiet()
+    return page
 
 
 @pytest.fixture

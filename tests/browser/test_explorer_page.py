@@ -115,12 +115,12 @@ def ends(name):
     return SLIDERS[name][2:4]
 
 
-def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_sound(browser_page):
+def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_sound(emptied_page):
     for explorer, names in (
         (Explorer(), POSE_SLIDERS),
         (Explorer.circle(law="kanayama"), CIRCLE_SLIDERS),
     ):
-        panel = mounted(browser_page, explorer)
+        panel = mounted(emptied_page, explorer)
         for name in names:
             picture, figures = panel.picture(), panel.figures()
             for end, key in zip(ends(name), ("Home", "End"), strict=True):
@@ -135,21 +135,21 @@ def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_soun
             panel.set(**{name: explorer.state[name]})
 
 
-def test_every_slider_at_both_ends_on_the_circle_is_sound(browser_page):
+def test_every_slider_at_both_ends_on_the_circle_is_sound(emptied_page):
     for law in laws_for(moving=True):
-        panel = mounted(browser_page, Explorer.circle(law=law))
+        panel = mounted(emptied_page, Explorer.circle(law=law))
         for name in SLIDERS:
             if panel.control(name).is_visible():
                 for end in ends(name):
                     assert_sound(panel.put(name, end))
 
 
-def test_every_choice_of_every_menu_changes_the_picture_and_the_figures(browser_page):
+def test_every_choice_of_every_menu_changes_the_picture_and_the_figures(emptied_page):
     still, circle = Explorer(gains=wmr.Gains(1.0, 3.0, 1.0)), Explorer.circle()
     menus = ("law", still, laws_for(False)), ("law", circle, laws_for(True))
     menus += ("method", still, METHODS), ("preset", still, MENUS["preset"][2])
     for name, explorer, choices in menus:
-        panel = mounted(browser_page, explorer)
+        panel = mounted(emptied_page, explorer)
         select = panel.control(name).locator("select")
         offered = select.locator("option").evaluate_all("them => them.map(it => it.value)")
         assert offered == [*map(str, choices)]
@@ -161,8 +161,8 @@ def test_every_choice_of_every_menu_changes_the_picture_and_the_figures(browser_
         assert len(seen) == len(set(seen.values())) == len(offered), name
 
 
-def test_every_map_is_another_picture_and_shows_what_it_does_not_span(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_every_map_is_another_picture_and_shows_what_it_does_not_span(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     seen = {panel.picture()}
     panel.put("view", "gains")
     for axes in MENUS["axes"][2]:
@@ -171,13 +171,13 @@ def test_every_map_is_another_picture_and_shows_what_it_does_not_span(browser_pa
             assert_sound(panel)
             seen.add(panel.picture())
     assert len(seen) == 7
-    maps = [browser_page.evaluate(MAP)]
+    maps = [emptied_page.evaluate(MAP)]
     for name, value in (("v_max", 1.0), ("v_max", 4.0), ("law", "printed")):
         panel.put(name, value)
-        maps.append(browser_page.evaluate(MAP))
+        maps.append(emptied_page.evaluate(MAP))
     assert maps[0] == maps[2]
     assert len(set(maps)) == 3
-    panel = mounted(browser_page, Explorer.circle(view="gains", dt=0.5))
+    panel = mounted(emptied_page, Explorer.circle(view="gains", dt=0.5))
     assert_sound(panel)
     assert_sound(panel.put("law", "kanayama"))
 
@@ -197,8 +197,8 @@ def test_a_map_is_computed_beside_the_page_and_in_it_only_where_that_is_forbidde
     assert_sound(mounted(browser_page, explorer))
 
 
-def test_every_handle_can_be_dragged_and_obeys_the_keyboard(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_every_handle_can_be_dragged_and_obeys_the_keyboard(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     for pose, part in HANDLES:
         handle = panel.handle(pose, part)
         for move in ("drag", "ArrowLeft", "Shift+ArrowUp"):
@@ -221,23 +221,23 @@ def test_every_handle_can_be_dragged_and_obeys_the_keyboard(browser_page):
                 assert after[1:] == pytest.approx(before[1:], abs=1e-4)
 
 
-def test_a_dragged_handle_stays_under_the_pointer(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_a_dragged_handle_stays_under_the_pointer(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     handle = panel.handle("goal", "move")
     box = handle.bounding_box()
     x, y = box["x"] + 15, box["y"] + 15
-    browser_page.mouse.move(x, y)
-    browser_page.mouse.down()
-    browser_page.mouse.move(x + 60, y + 30, steps=10)
+    emptied_page.mouse.move(x, y)
+    emptied_page.mouse.down()
+    emptied_page.mouse.move(x + 60, y + 30, steps=10)
     panel.settled()
     now = handle.bounding_box()
     assert (now["x"] + 15, now["y"] + 15) == pytest.approx((x + 60, y + 30), abs=1.5)
-    browser_page.mouse.up()
+    emptied_page.mouse.up()
 
 
-def test_a_drag_of_sixty_events_leaves_no_backlog(browser_page):
-    panel = mounted(browser_page, Explorer())
-    drawings = browser_page.evaluate(
+def test_a_drag_of_sixty_events_leaves_no_backlog(emptied_page):
+    panel = mounted(emptied_page, Explorer())
+    drawings = emptied_page.evaluate(
         """async () => {
             const input = document.querySelector('[data-control=k_alpha] .wmr-slider');
             drawings = 0;
@@ -257,8 +257,8 @@ def test_a_drag_of_sixty_events_leaves_no_backlog(browser_page):
     assert panel.figures() == figures
 
 
-def test_an_absurd_value_is_answered_in_the_panel(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_an_absurd_value_is_answered_in_the_panel(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     good = panel.picture()
     for name in (*POSE_SLIDERS, "start", "goal", "duration"):
         before = panel.get(name)
@@ -271,15 +271,15 @@ def test_an_absurd_value_is_answered_in_the_panel(browser_page):
         assert panel.picture() == good
     explorer = Explorer()
     explorer.state = explorer.state | {"k_rho": -1.0}  # and one that it begins with
-    panel = mounted(browser_page, explorer)
+    panel = mounted(emptied_page, explorer)
     assert panel.troubled()
     assert min(panel.colours()) > 10
     assert not panel.set(k_rho=1.0).troubled()
 
 
-def test_a_start_on_the_goal_and_one_far_from_it(browser_page):
+def test_a_start_on_the_goal_and_one_far_from_it(emptied_page):
     for goal in ((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), (1e-9, 0.0, 0.0), (1e5, -1e5, 1.0)):
-        panel = mounted(browser_page, Explorer(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(*goal)))
+        panel = mounted(emptied_page, Explorer(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(*goal)))
         assert not panel.troubled()
         assert_sound(panel)
         assert_sound(panel.put("view", "gains"))
@@ -287,29 +287,29 @@ def test_a_start_on_the_goal_and_one_far_from_it(browser_page):
         assert panel.drag(panel.handle("start", "turn"), 10, 30).get("start")[2] != 0.0
 
 
-def test_play_moves_the_cursor_to_the_end_and_pause_stops_it(browser_page):
-    panel = mounted(browser_page, Explorer())
-    cursor = browser_page.locator(".wmr-time")
+def test_play_moves_the_cursor_to_the_end_and_pause_stops_it(emptied_page):
+    panel = mounted(emptied_page, Explorer())
+    cursor = emptied_page.locator(".wmr-time")
     before = panel.picture()
-    browser_page.locator("[data-do=play]").click()
-    browser_page.wait_for_timeout(250)
-    browser_page.locator("[data-do=play]").click()
+    emptied_page.locator("[data-do=play]").click()
+    emptied_page.wait_for_timeout(250)
+    emptied_page.locator("[data-do=play]").click()
     panel.settled()
     stopped = float(cursor.input_value())
     assert stopped > 0
     assert panel.picture() != before
-    browser_page.wait_for_timeout(150)
+    emptied_page.wait_for_timeout(150)
     assert float(cursor.input_value()) == stopped
-    browser_page.evaluate(
+    emptied_page.evaluate(
         """() => {
             const it = document.querySelector('.wmr-time');
             it.value = 0.95 * it.max;
             it.dispatchEvent(new Event('input'));
         }"""
     )
-    browser_page.locator("[data-do=play]").click()
+    emptied_page.locator("[data-do=play]").click()
     # "Play" alone would not do: that is what the button says until the first frame is drawn
-    browser_page.wait_for_function(
+    emptied_page.wait_for_function(
         """() => {
             const { value, max } = document.querySelector('.wmr-time');
             const said = document.querySelector('[data-do=play]').textContent;
@@ -318,46 +318,46 @@ def test_play_moves_the_cursor_to_the_end_and_pause_stops_it(browser_page):
     )
 
 
-def test_the_cursor_follows_the_pointer_on_the_charts_and_the_keyboard(browser_page):
-    panel = mounted(browser_page, Explorer())
-    before, polar = panel.picture(), browser_page.locator(".wmr-polar").inner_text()
-    panel.drag(browser_page.locator(".wmr-charts"), 60, 0)
+def test_the_cursor_follows_the_pointer_on_the_charts_and_the_keyboard(emptied_page):
+    panel = mounted(emptied_page, Explorer())
+    before, polar = panel.picture(), emptied_page.locator(".wmr-polar").inner_text()
+    panel.drag(emptied_page.locator(".wmr-charts"), 60, 0)
     assert panel.picture() != before
-    assert browser_page.locator(".wmr-polar").inner_text() != polar
-    polar = browser_page.locator(".wmr-polar").inner_text()
-    browser_page.locator(".wmr-time").press("Home")
+    assert emptied_page.locator(".wmr-polar").inner_text() != polar
+    polar = emptied_page.locator(".wmr-polar").inner_text()
+    emptied_page.locator(".wmr-time").press("Home")
     panel.settled()
-    assert float(browser_page.locator(".wmr-time").input_value()) == 0.0
-    assert browser_page.locator(".wmr-polar").inner_text() != polar
+    assert float(emptied_page.locator(".wmr-time").input_value()) == 0.0
+    assert emptied_page.locator(".wmr-polar").inner_text() != polar
 
 
-def test_a_pinned_run_stays_as_a_ghost_until_it_is_unpinned(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_a_pinned_run_stays_as_a_ghost_until_it_is_unpinned(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     figures = panel.figures()
     panel.click("pin").put("k_alpha", 4.0)
-    old = browser_page.locator("[data-figure=arrival] .wmr-pinned").inner_text()
+    old = emptied_page.locator("[data-figure=arrival] .wmr-pinned").inner_text()
     assert figures["arrival"] in old
     with_ghost = panel.picture()
     assert panel.click("unpin").picture() != with_ghost
 
 
-def test_reset_is_the_loaded_state_whatever_was_done(browser_page):
+def test_reset_is_the_loaded_state_whatever_was_done(emptied_page):
     for options in ({"at": 3.0, "zoom": 5.0, "law": "printed", "view": "gains"}, {}):
-        panel = mounted(browser_page, Explorer(**options))
-        home, state = panel.picture(), browser_page.evaluate("panel.get('state')")
+        panel = mounted(emptied_page, Explorer(**options))
+        home, state = panel.picture(), emptied_page.evaluate("panel.get('state')")
         panel.click("pin").click("in").drag(panel.handle("start", "move"), 30, 0)
         panel.put("view", "gains").put("metric", "time").put("axes", "k_rho").put("view", "time")
         panel.put("method", "euler").put("preset", 2)
-        panel.drag(browser_page.locator(".wmr-charts"), 60, 0)
-        panel.drag(browser_page.locator(".wmr-scene"), 40, 10)
+        panel.drag(emptied_page.locator(".wmr-charts"), 60, 0)
+        panel.drag(emptied_page.locator(".wmr-scene"), 40, 10)
         assert panel.click("reset").picture() == home
-        assert browser_page.evaluate("panel.get('state')") == state
+        assert emptied_page.evaluate("panel.get('state')") == state
 
 
-def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(browser_page):
-    panel = mounted(browser_page, Explorer(view="gains"))
+def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(emptied_page):
+    panel = mounted(emptied_page, Explorer(view="gains"))
     picture, figures = panel.picture(), panel.figures()
-    browser_page.locator(".wmr-map").click(position={"x": 300, "y": 120})
+    emptied_page.locator(".wmr-map").click(position={"x": 300, "y": 120})
     panel.settled()
     assert panel.get("k_alpha") != 1.0
     assert panel.get("h") != 0.3
@@ -366,12 +366,12 @@ def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(browser_page):
     assert panel.picture() != picture
     assert panel.figures() != figures
     h = panel.get("h")
-    browser_page.locator(".wmr-map").press("ArrowDown")
+    emptied_page.locator(".wmr-map").press("ArrowDown")
     assert panel.settled().get("h") == pytest.approx(h - 0.05)
 
 
-def test_presets_show_which_one_is_in_force_and_bring_their_scene(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_presets_show_which_one_is_in_force_and_bring_their_scene(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     chosen = panel.control("preset").locator("select")
     assert chosen.input_value() == "1"
     panel.put("h", 1.0)
@@ -386,27 +386,27 @@ def test_presets_show_which_one_is_in_force_and_bring_their_scene(browser_page):
     assert (panel.get("start"), panel.get("law")) == (start, "corrected")
 
 
-def test_light_and_dark_follow_the_page_and_the_system(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_light_and_dark_follow_the_page_and_the_system(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     background = "() => getComputedStyle(document.querySelector('.wmr')).backgroundColor"
-    light, picture = browser_page.evaluate(background), panel.picture()
-    browser_page.evaluate("() => { document.documentElement.dataset.theme = 'dark'; }")
+    light, picture = emptied_page.evaluate(background), panel.picture()
+    emptied_page.evaluate("() => { document.documentElement.dataset.theme = 'dark'; }")
     panel.settled()
-    assert browser_page.evaluate(background) != light
+    assert emptied_page.evaluate(background) != light
     dark = panel.picture()
     assert dark != picture
-    browser_page.evaluate("() => { delete document.documentElement.dataset.theme; }")
+    emptied_page.evaluate("() => { delete document.documentElement.dataset.theme; }")
     assert panel.settled().picture() == picture
-    browser_page.emulate_media(color_scheme="dark")
+    emptied_page.emulate_media(color_scheme="dark")
     assert panel.settled().picture() == dark
-    browser_page.evaluate("() => { document.body.dataset.jpThemeLight = 'true'; }")
+    emptied_page.evaluate("() => { document.body.dataset.jpThemeLight = 'true'; }")
     assert panel.settled().picture() == picture
 
 
-def test_a_page_that_hides_the_panel_while_it_changes_its_theme_finds_it_whole_again(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_a_page_that_hides_the_panel_while_it_changes_its_theme_finds_it_whole_again(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     picture = panel.picture()
-    browser_page.evaluate(
+    emptied_page.evaluate(
         """async () => {
             document.body.style.display = 'none';
             document.body.dataset.jpThemeLight = 'true';
@@ -418,29 +418,29 @@ def test_a_page_that_hides_the_panel_while_it_changes_its_theme_finds_it_whole_a
 
 
 @pytest.mark.parametrize("view", ["time", "gains"])
-def test_all_is_in_view_and_nothing_is_cut_off_overlaps_or_is_small(browser_page, view):
+def test_all_is_in_view_and_nothing_is_cut_off_overlaps_or_is_small(emptied_page, view):
     for width, height in SIZES:
-        panel = mounted(browser_page, Explorer(view=view), width, height)
-        assert browser_page.evaluate("() => document.documentElement.scrollWidth") <= width
+        panel = mounted(emptied_page, Explorer(view=view), width, height)
+        assert emptied_page.evaluate("() => document.documentElement.scrollWidth") <= width
         if width >= 600:
-            assert browser_page.evaluate("() => document.body.scrollHeight") <= height
-        boxes = browser_page.evaluate(BOXES)
+            assert emptied_page.evaluate("() => document.body.scrollHeight") <= height
+        boxes = emptied_page.evaluate(BOXES)
         for i, (left, top, right, bottom) in enumerate(boxes):
             assert left >= 0
             assert right <= width
             for other in boxes[i + 1 :]:
                 beside = right <= other[0] + 0.5 or other[2] <= left + 0.5
                 assert beside or bottom <= other[1] + 0.5 or other[3] <= top + 0.5, width
-        assert browser_page.evaluate(CLIPPED) == 0
-        assert browser_page.evaluate(SMALL) == []
+        assert emptied_page.evaluate(CLIPPED) == 0
+        assert emptied_page.evaluate(SMALL) == []
         assert_sound(panel)
 
 
 @pytest.mark.parametrize("height", [844, 480])
-def test_on_a_phone_the_picture_stays_in_view_while_any_slider_moves(browser_page, height):
-    panel = mounted(browser_page, Explorer(), 390, height)
+def test_on_a_phone_the_picture_stays_in_view_while_any_slider_moves(emptied_page, height):
+    panel = mounted(emptied_page, Explorer(), 390, height)
     for name in POSE_SLIDERS:
-        slider, scene = panel.slider(name), browser_page.locator(".wmr-scene")
+        slider, scene = panel.slider(name), emptied_page.locator(".wmr-scene")
         slider.evaluate("it => it.scrollIntoView({ block: 'end' })")
         box, seen = slider.bounding_box(), scene.bounding_box()
         assert seen["y"] >= 0
@@ -448,18 +448,18 @@ def test_on_a_phone_the_picture_stays_in_view_while_any_slider_moves(browser_pag
         assert box["y"] + box["height"] <= height + 1
 
 
-def test_colours_can_be_told_from_their_ground(browser_page):
+def test_colours_can_be_told_from_their_ground(emptied_page):
     for scheme in ("light", "dark"):
-        browser_page.emulate_media(color_scheme=scheme)
-        mounted(browser_page, Explorer())
-        assert min(browser_page.evaluate(CONTRASTS)) >= 3.0, scheme
+        emptied_page.emulate_media(color_scheme=scheme)
+        mounted(emptied_page, Explorer())
+        assert min(emptied_page.evaluate(CONTRASTS)) >= 3.0, scheme
 
 
-def test_names_and_values_of_all_controls_are_spoken(browser_page):
-    panel = mounted(browser_page, Explorer(view="gains"))
-    assert "Arrives after" in browser_page.locator(".wmr-scene").get_attribute("aria-label")
-    assert browser_page.locator(".wmr canvas[role=img][aria-label]").count() == 3
-    assert browser_page.locator(".wmr-handle[aria-label*='arrow keys']").count() == 4
+def test_names_and_values_of_all_controls_are_spoken(emptied_page):
+    panel = mounted(emptied_page, Explorer(view="gains"))
+    assert "Arrives after" in emptied_page.locator(".wmr-scene").get_attribute("aria-label")
+    assert emptied_page.locator(".wmr canvas[role=img][aria-label]").count() == 3
+    assert emptied_page.locator(".wmr-handle[aria-label*='arrow keys']").count() == 4
     for name, (text, tip, *_) in {**MENUS, **SLIDERS}.items():
         control = panel.control(name).locator("select, .wmr-slider")
         label = control.get_attribute("aria-label")
@@ -469,14 +469,14 @@ def test_names_and_values_of_all_controls_are_spoken(browser_page):
     for name, said in spoken.items():
         assert panel.slider(name).get_attribute("aria-valuetext") == said
     panel.put("k_alpha", 3.0)
-    browser_page.wait_for_function("""() => {
+    emptied_page.wait_for_function("""() => {
         const text = (it) => document.querySelector(it).textContent;
         return text('[aria-live]') === text('.wmr-status');
     }""")
 
 
-def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     for name, value in (("dt", 0.5), ("dt", 0.037), ("k_alpha", 1.037), ("arrival_radius", 0.0)):
         panel.put(name, value)
         assert panel.get(name) == value
@@ -485,7 +485,7 @@ def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(browser_page):
     for name in POSE_SLIDERS:
         low, high = ends(name)
         panel.put(name, low)
-        stops = browser_page.evaluate(WALK, name)
+        stops = emptied_page.evaluate(WALK, name)
         assert stops == sorted(set(stops))
         assert stops[-1] == high
         assert len(stops) <= 200
@@ -502,12 +502,12 @@ def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(browser_page):
         assert typed.input_value() == f"{taken:g}"
 
 
-def test_axes_have_two_numbers_at_least_and_the_cursor_leaves_the_titles_alone(browser_page):
+def test_axes_have_two_numbers_at_least_and_the_cursor_leaves_the_titles_alone(emptied_page):
     for width in (320, 936):
-        panel = mounted(browser_page, Explorer(gains=wmr.Gains(0.1, 3.0, 0.1, 0.9)), width)
+        panel = mounted(emptied_page, Explorer(gains=wmr.Gains(0.1, 3.0, 0.1, 0.9)), width)
         for act in ("out", "near", "in"):
             panel.click(act)
-            words = browser_page.evaluate(WORDS)
+            words = emptied_page.evaluate(WORDS)
             for side in ("center", "right"):
                 numbers = {
                     text
@@ -518,15 +518,15 @@ def test_axes_have_two_numbers_at_least_and_the_cursor_leaves_the_titles_alone(b
         assert sum(align == "right" for canvas, align, _ in words if "charts" in canvas) >= 8
     strips = []
     for place in (66, 72, 90):  # within the words of the titles
-        browser_page.locator(".wmr-charts").click(position={"x": place, "y": 60})
+        emptied_page.locator(".wmr-charts").click(position={"x": place, "y": 60})
         panel.settled()
-        strips.append(browser_page.evaluate(TITLES))
+        strips.append(emptied_page.evaluate(TITLES))
     assert strips[0] == strips[1] == strips[2]
 
 
-def test_the_picture_zooms_by_buttons_and_wheel_and_leaves_the_page_its_scrolling(browser_page):
-    panel = mounted(browser_page, Explorer(method="continuous"), 936, 400)
-    whole, scene = panel.picture(), browser_page.locator(".wmr-scene")
+def test_the_picture_zooms_by_buttons_and_wheel_and_leaves_the_page_its_scrolling(emptied_page):
+    panel = mounted(emptied_page, Explorer(method="continuous"), 936, 400)
+    whole, scene = panel.picture(), emptied_page.locator(".wmr-scene")
     assert panel.click("near").picture() != whole
     near = panel.page.locator(".wmr-handle[data-pose=goal][data-part=move]").bounding_box()
     box = scene.bounding_box()
@@ -536,15 +536,15 @@ def test_the_picture_zooms_by_buttons_and_wheel_and_leaves_the_page_its_scrollin
     zoomed = panel.click("in").picture()
     assert panel.click("out").page.evaluate("scrollY") == 0
     scene.hover(position={"x": 100, "y": 100})
-    browser_page.mouse.wheel(0, 60)
-    browser_page.wait_for_function("scrollY > 0")
+    emptied_page.mouse.wheel(0, 60)
+    emptied_page.wait_for_function("scrollY > 0")
     picture = panel.settled().picture()
-    browser_page.keyboard.down("Control")
-    before = browser_page.evaluate("scrollY")
-    browser_page.mouse.wheel(0, -120)
-    browser_page.keyboard.up("Control")
-    browser_page.wait_for_timeout(100)
-    assert browser_page.evaluate("scrollY") == before
+    emptied_page.keyboard.down("Control")
+    before = emptied_page.evaluate("scrollY")
+    emptied_page.mouse.wheel(0, -120)
+    emptied_page.keyboard.up("Control")
+    emptied_page.wait_for_timeout(100)
+    assert emptied_page.evaluate("scrollY") == before
     assert panel.settled().picture() not in (picture, zoomed)
     picture = panel.picture()
     assert panel.drag(scene, 30, 10).picture() != picture
@@ -558,11 +558,11 @@ RUNS = [
 ]
 
 
-def test_a_tap_on_the_path_takes_the_robot_there_and_a_finger_moves_what_is_zoomed(browser_page):
+def test_a_tap_on_the_path_takes_the_robot_there_and_a_finger_moves_what_is_zoomed(emptied_page):
     explorer = Explorer(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(8.0, 0.0, 0.0))
-    panel = mounted(browser_page, explorer)
-    scene = browser_page.locator(".wmr-scene")
-    box, clock = scene.bounding_box(), browser_page.locator(".wmr-clock")
+    panel = mounted(emptied_page, explorer)
+    scene = emptied_page.locator(".wmr-scene")
+    box, clock = scene.bounding_box(), emptied_page.locator(".wmr-clock")
     start, goal = (panel.handle(each, "move").bounding_box() for each in ("start", "goal"))
     across = (start["x"] + goal["x"]) / 2 + start["width"] / 2 - box["x"]
     scene.click(position={"x": across, "y": start["y"] + start["height"] / 2 - box["y"]})
@@ -576,38 +576,38 @@ def test_a_tap_on_the_path_takes_the_robot_there_and_a_finger_moves_what_is_zoom
     panel.click("in")
     assert scene.evaluate("it => getComputedStyle(it).touchAction") == "none"
     zoomed = panel.picture()
-    browser_page.evaluate(FINGER)
+    emptied_page.evaluate(FINGER)
     assert panel.settled().picture() != zoomed
 
 
-def test_a_picture_of_the_whole_way_shows_how_it_ends(browser_page):
-    panel = mounted(browser_page, Explorer(at=0.0))
-    assert browser_page.evaluate(CHANGED) == 0
+def test_a_picture_of_the_whole_way_shows_how_it_ends(emptied_page):
+    panel = mounted(emptied_page, Explorer(at=0.0))
+    assert emptied_page.evaluate(CHANGED) == 0
     panel.set(arrival_radius=0.3)  # which no pixel of the whole way tells from 5 cm
-    assert browser_page.evaluate(CHANGED) > 100
+    assert emptied_page.evaluate(CHANGED) > 100
 
 
-def test_a_run_can_be_taken_along_as_python_table_and_picture(browser_page, tmp_path):
+def test_a_run_can_be_taken_along_as_python_table_and_picture(emptied_page, tmp_path):
     for explorer in RUNS:
-        panel = mounted(browser_page, explorer)
+        panel = mounted(emptied_page, explorer)
         panel.put("dt", 0.05)
         explorer.dt = 0.05
         panel.click("python")
-        text = browser_page.locator(".wmr-text").input_value()
+        text = emptied_page.locator(".wmr-text").input_value()
         space = {}
         exec(text.replace("print(", "("), space)
         ours, theirs = explorer.trajectory(), space["run"]
         assert (theirs.law, theirs.method) == (ours.law, ours.method)
         np.testing.assert_array_equal([theirs.x, theirs.omega], [ours.x, ours.omega])
-        with browser_page.expect_download() as saved:
-            browser_page.locator("[data-do=csv]").click()
+        with emptied_page.expect_download() as saved:
+            emptied_page.locator("[data-do=csv]").click()
         rows = list(csv.DictReader(saved.value.path().read_text(encoding="utf-8").splitlines()))
         assert len(rows) == len(ours)
         for name in ("t", "x", "y", "rho", "v", "omega", "V"):
             column = [float(row[name]) for row in rows]
             np.testing.assert_allclose(column, getattr(ours, name), rtol=1e-6, atol=1e-6)
-    with browser_page.expect_download() as saved:
-        browser_page.locator("[data-do=png]").click()
+    with emptied_page.expect_download() as saved:
+        emptied_page.locator("[data-do=png]").click()
     assert saved.value.path().read_bytes().startswith(b"\x89PNG")
     assert saved.value.suggested_filename == "run.png"
 
@@ -632,8 +632,8 @@ def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page
     assert mounted(browser_page, ours, url=nonsense).troubled()
 
 
-def test_a_view_that_is_closed_answers_no_more(browser_page):
-    panel = mounted(browser_page, Explorer())
+def test_a_view_that_is_closed_answers_no_more(emptied_page):
+    panel = mounted(emptied_page, Explorer())
     panel.page.evaluate(
         """() => {
             unmount();
@@ -642,5 +642,5 @@ def test_a_view_that_is_closed_answers_no_more(browser_page):
             document.documentElement.dataset.theme = 'dark';
         }"""
     )
-    browser_page.wait_for_timeout(100)
-    assert browser_page.evaluate("() => drawings") == 0
+    emptied_page.wait_for_timeout(100)
+    assert emptied_page.evaluate("() => drawings") == 0

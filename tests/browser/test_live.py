@@ -70,11 +70,11 @@ def commit(panel, ask) -> None:
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_nothing_is_shown_before_the_prediction_is_made(browser_page, name):
+def test_nothing_is_shown_before_the_prediction_is_made(emptied_page, name):
     thing = getattr(live, name)()
     if not (ask := thing.setup["ask"]):
         return
-    panel = mounted(browser_page, thing)
+    panel = mounted(emptied_page, thing)
     page = panel.page
     given = page.evaluate(PICTURE)
     for knob in thing.setup["knobs"]:
@@ -98,8 +98,8 @@ def test_nothing_is_shown_before_the_prediction_is_made(browser_page, name):
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_all_that_moves_matters_and_says_something_sound(browser_page, name):
-    thing, panel = opened(browser_page, name)
+def test_all_that_moves_matters_and_says_something_sound(emptied_page, name):
+    thing, panel = opened(emptied_page, name)
     page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
     moved = page.evaluate(PICTURE)
     for knob in thing.setup["knobs"]:
@@ -135,9 +135,9 @@ def test_all_that_moves_matters_and_says_something_sound(browser_page, name):
 
 @pytest.mark.parametrize("name", NAMES)
 def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_moves(
-    browser_page, name
+    emptied_page, name
 ):
-    thing, panel = opened(browser_page, name)
+    thing, panel = opened(emptied_page, name)
     page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
     for knob in thing.setup["knobs"]:
         number = page.get_by_role("spinbutton", name=knob["says"], exact=True)
@@ -177,20 +177,20 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_it_fits_a_phone_and_everybody_can_use_it(browser_page, name):
+def test_it_fits_a_phone_and_everybody_can_use_it(emptied_page, name):
     thing = getattr(live, name)()
     for width, scheme in ((390, "light"), (900, "dark")):
-        browser_page.emulate_media(color_scheme=scheme)
-        panel = mounted(browser_page, thing, width=width, height=844)
+        emptied_page.emulate_media(color_scheme=scheme)
+        panel = mounted(emptied_page, thing, width=width, height=844)
         for step in ("closed", "open") if thing.setup["ask"] else ("open",):
             if step == "open" and thing.setup["ask"]:
                 commit(panel, thing.setup["ask"])
-            assert not browser_page.evaluate(WIDE), (width, step)
-            assert not browser_page.evaluate(SMALL), (width, step)
+            assert not emptied_page.evaluate(WIDE), (width, step)
+            assert not emptied_page.evaluate(SMALL), (width, step)
             if (width, step) == (900, "closed"):  # it is the phone's, in other colours
                 continue
-            browser_page.add_script_tag(path=AXE)
-            found = browser_page.evaluate(FAULTS)
+            emptied_page.add_script_tag(path=AXE)
+            found = emptied_page.evaluate(FAULTS)
             assert not found, (width, step, found)
 
 
@@ -205,48 +205,48 @@ def test_python_moves_it_and_refuses_what_is_not_allowed():
             thing[name] = value
 
 
-def test_a_path_is_sketched_by_hand_too(browser_page):
-    panel = mounted(browser_page, live.half_turn())
-    box = browser_page.locator("canvas").first.bounding_box()
+def test_a_path_is_sketched_by_hand_too(emptied_page):
+    panel = mounted(emptied_page, live.half_turn())
+    box = emptied_page.locator("canvas").first.bounding_box()
     places = [[box["x"] + share * box["width"], box["y"] + 60] for share in (0.3, 0.4, 0.5, 0.6)]
-    browser_page.mouse.move(*places[0])
-    browser_page.mouse.down()
+    emptied_page.mouse.move(*places[0])
+    emptied_page.mouse.down()
     for place in places[1:]:
-        browser_page.mouse.move(*place)
-    browser_page.mouse.up()
-    browser_page.get_by_role("button", name="Commit").click()
+        emptied_page.mouse.move(*place)
+    emptied_page.mouse.up()
+    emptied_page.get_by_role("button", name="Commit").click()
     guess = panel.settled().get("guess")
     steps = [after[0] - before[0] for before, after in itertools.pairwise(guess[1:])]
     assert len(steps) == 3
     assert steps == pytest.approx([steps[0]] * 3)
 
 
-def test_a_hand_stops_what_plays_and_a_second_key_goes_on_from_the_first(browser_page):
-    _, panel = opened(browser_page, "commutator")
-    play = browser_page.get_by_role("button", name="Play: moves made")
+def test_a_hand_stops_what_plays_and_a_second_key_goes_on_from_the_first(emptied_page):
+    _, panel = opened(emptied_page, "commutator")
+    play = emptied_page.get_by_role("button", name="Play: moves made")
     play.click()
-    stop = browser_page.get_by_role("button", name="Stop: moves made")
+    stop = emptied_page.get_by_role("button", name="Stop: moves made")
     stop.wait_for()
-    number = browser_page.get_by_role("spinbutton", name="how far forward and back")
+    number = emptied_page.get_by_role("spinbutton", name="how far forward and back")
     number.press("ArrowDown")
     play.wait_for()
     rests = panel.settled().get("moves")
-    browser_page.wait_for_timeout(200)
+    emptied_page.wait_for_timeout(200)
     assert panel.get("moves") == rests < 12
 
-    _, panel = opened(browser_page, "turning_centre")
-    browser_page.locator("[data-handle=left]").focus()
-    browser_page.evaluate(KEYS, ["ArrowLeft", "ArrowLeft"])
+    _, panel = opened(emptied_page, "turning_centre")
+    emptied_page.locator("[data-handle=left]").focus()
+    emptied_page.evaluate(KEYS, ["ArrowLeft", "ArrowLeft"])
     twice = panel.settled().get("left")
-    browser_page.evaluate(KEYS, ["ArrowRight"])
+    emptied_page.evaluate(KEYS, ["ArrowRight"])
     once = panel.settled().get("left")
-    browser_page.evaluate(KEYS, ["ArrowRight"])
+    emptied_page.evaluate(KEYS, ["ArrowRight"])
     assert panel.settled().get("left") > once > twice
 
 
-def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(browser_page):
-    _, panel = opened(browser_page, "bearing")
-    number = browser_page.get_by_role("spinbutton").first
+def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(emptied_page):
+    _, panel = opened(emptied_page, "bearing")
+    number = emptied_page.get_by_role("spinbutton").first
     (name,) = [it for it in ("east", "north") if it in number.get_attribute("aria-label")]
     before = panel.get(name)
     for text, value in (("1,5", 1.5), ("1.5e1", 15), ("\N{MINUS SIGN}2", -2), ("0,125", 0.125)):
@@ -257,11 +257,11 @@ def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(browse
         number.fill(text)
         number.press("Tab")
         assert panel.settled().get(name) == 0.125 != before
-        assert "is not allowed" in browser_page.locator(".live-trouble").inner_text()
+        assert "is not allowed" in emptied_page.locator(".live-trouble").inner_text()
 
 
-def test_nothing_is_said_to_follow_from_what_is_refused(browser_page):
-    _, panel = opened(browser_page, "bearing")
+def test_nothing_is_said_to_follow_from_what_is_refused(emptied_page):
+    _, panel = opened(emptied_page, "bearing")
     panel.set(east=0, north=0)
-    assert browser_page.locator(".live-trouble").inner_text()
-    assert set(browser_page.locator(".live-result").all_inner_texts()) == {"\N{EN DASH}"}
+    assert emptied_page.locator(".live-trouble").inner_text()
+    assert set(emptied_page.locator(".live-result").all_inner_texts()) == {"\N{EN DASH}"}

@@ -395,9 +395,9 @@ TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the sa
 
 
 @pytest.mark.parametrize("name", NAMES)
-def test_what_is_shown_is_true(browser_page, name):
+def test_what_is_shown_is_true(emptied_page, name):
     thing = getattr(live, name)()
-    panel, random = mounted(browser_page, thing), np.random.default_rng(NAMES.index(name))
+    panel, random = mounted(emptied_page, thing), np.random.default_rng(NAMES.index(name))
     for trial in range(TRIALS + 1):
         values, chosen = {}, 0
         for knob in thing.setup["knobs"] if trial else ():
@@ -407,24 +407,24 @@ def test_what_is_shown_is_true(browser_page, name):
             else:
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
         panel.set(**quoted(values))
-        state = browser_page.evaluate("panel.get('state')")
-        found = json.loads(browser_page.evaluate(FOUND))
+        state = emptied_page.evaluate("panel.get('state')")
+        found = json.loads(emptied_page.evaluate(FOUND))
         TRUTH[name](state, found, thing.setup["data"])
 
 
-def test_the_poles_follow_the_hand_and_the_gains_follow_the_poles(browser_page):
-    panel = mounted(browser_page, live.poles())
+def test_the_poles_follow_the_hand_and_the_gains_follow_the_poles(emptied_page):
+    panel = mounted(emptied_page, live.poles())
     commit(panel, live.poles().setup["ask"])
-    scale = browser_page.locator("canvas").first.bounding_box()["width"]
-    before = json.loads(browser_page.evaluate(FOUND))["poles"]
-    panel.drag(browser_page.locator("[data-handle=pole-0]"), -0.05 * scale, -0.1 * scale)
-    found = json.loads(browser_page.evaluate(FOUND))
+    scale = emptied_page.locator("canvas").first.bounding_box()["width"]
+    before = json.loads(emptied_page.evaluate(FOUND))["poles"]
+    panel.drag(emptied_page.locator("[data-handle=pole-0]"), -0.05 * scale, -0.1 * scale)
+    found = json.loads(emptied_page.evaluate(FOUND))
     assert found["poles"][0][0] < before[0][0]
     assert found["poles"][0][1] > before[0][1]
     assert panel.get("k_alpha") == pytest.approx(-2 * found["poles"][0][0], rel=1e-12)
     size = math.hypot(*found["poles"][0])
     assert panel.get("h") * found["pace"] ** 2 == pytest.approx(size**2, rel=1e-12)
     held = panel.get("k_alpha")
-    panel.drag(browser_page.locator("[data-handle=pole-0]"), 0.6 * scale, 0)
-    assert "k_alpha would be" in browser_page.locator(".live-trouble").inner_text()
+    panel.drag(emptied_page.locator("[data-handle=pole-0]"), 0.6 * scale, 0)
+    assert "k_alpha would be" in emptied_page.locator(".live-trouble").inner_text()
     assert 0 <= panel.get("k_alpha") <= held
