@@ -83,13 +83,15 @@ def test_a_path_that_begins_backwards_says_so():
 
 
 def test_v_is_red_where_it_rises_and_only_there():
-    falling, rising = figures.lyapunov_over_time(CIRCLE).figure.axes[0].collections
-    rises = np.diff(CIRCLE.V) > 1e-9 * CIRCLE.V[0]
-    assert 0 < rises.sum() < rises.size
-    assert len(rising.get_segments()) == rises.sum()
-    assert len(falling.get_segments()) == (~rises).sum()
-    assert rising.get_linewidth()[0] > 2 * falling.get_linewidth()[0]  # a shape beside the colour
-    assert len(figures.lyapunov_over_time(RUN).figure.axes[0].collections) == 1
+    whole, rising = figures.lyapunov_over_time(CIRCLE).figure.axes[0].lines
+    rises = np.flatnonzero(np.diff(CIRCLE.V) > 1e-9 * CIRCLE.V[0])
+    assert 0 < rises.size < len(CIRCLE) - 1
+    np.testing.assert_array_equal(whole.get_xydata(), np.transpose([CIRCLE.t, CIRCLE.V]))
+    begin, end, gap = rising.get_xydata().reshape(-1, 3, 2).swapaxes(0, 1)
+    np.testing.assert_array_equal([begin, end], whole.get_xydata()[[rises, rises + 1]])
+    assert np.isnan(gap[:, 1]).all()
+    assert rising.get_linewidth() > 2 * whole.get_linewidth()  # a shape beside the colour
+    assert len(figures.lyapunov_over_time(RUN).figure.axes[0].lines) == 1
 
 
 def test_lines_are_the_runs_fields():

@@ -55,10 +55,10 @@ def test_a_kernel_ends_with_its_page(app, browser_page):
 
     others = kernels()  # of the tests before
     browser_page.goto(app.link, timeout=PATIENCE)
-    for _ in range(2):
-        sliders(browser_page)
-        come_to(1)
-        browser_page.reload(timeout=PATIENCE)
     sliders(browser_page)
+    come_to(1)
+    browser_page.reload(timeout=PATIENCE)
+    sliders(browser_page)
+    come_to(1)
     browser_page.goto("about:blank")
     come_to(0)

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.collections import LineCollection
 
 from wmrbook.figures.paths import draw_path, path_in_words
 from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure
@@ -81,13 +80,11 @@ def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:
 
 def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
     values, rising = np.maximum(run.V, 1e-12), _rising(run)  # V = 0 on the goal has no logarithm
-    points = np.column_stack([run.t, values])
-    pieces = np.stack([points[:-1], points[1:]], axis=1)
-    falling = LineCollection(pieces[~rising], color=COLOURS["V"], lw=2.0, label="falling")
-    axes.add_collection(falling)
-    if rising.any():
-        thick = LineCollection(pieces[rising], color=COLOURS["V_rising"], lw=5.0, label="rising")
-        axes.add_collection(thick)
+    axes.plot(run.t, values, color=COLOURS["V"], lw=2.0, label="falling")
+    if rising.any():  # over it, step by step, with gaps
+        gaps = np.full(len(rising), np.nan)
+        t, V = (np.column_stack([each[:-1], each[1:], gaps])[rising] for each in (run.t, values))
+        axes.plot(t.ravel(), V.ravel(), color=COLOURS["V_rising"], lw=5.0, label="rising")
     xlim, ylim = (0.0, max(run.t[-1], 1e-9)), (values.min() / 2, values.max() * 2)
     axes.set(ylabel="V [1]", yscale="log", xlim=xlim, ylim=ylim)
     axes.legend(loc="upper right", fontsize=10)
