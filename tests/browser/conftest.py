@@ -21,9 +21,8 @@ FLAGS = [
     "--disable-background-networking",
     "--disable-component-update",
     "--disable-sync",
-    "--disable-frame-rate-limit",
-    "--disable-gpu-vsync",
 ]
+NO_WAIT = ["--disable-frame-rate-limit", "--disable-gpu-vsync"]  # tests wait for frames only
 LOCAL = (
     "file:",
     "data:",
@@ -43,7 +42,9 @@ def browser(find_tool):
 
     path = find_tool("browser")
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
+        chromium = playwright.chromium.launch(
+            executable_path=path, headless=True, args=[*FLAGS, *NO_WAIT]
+        )
         yield chromium
         chromium.close()
 
