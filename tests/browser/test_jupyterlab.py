@@ -19,6 +19,7 @@ KERNEL = f"{CONTEXT}?.sessionContext?.session?.kernel"
 CELLS = "window.jupyterapp.shell.currentWidget.content.widgets"
 RUN_ALL = "() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)"
 SAVE = "() => window.jupyterapp.commands.execute('docmanager:save').then(() => true)"
+CHANGED = "() => window.jupyterapp.shell.currentWidget.context.model.dirty"
 # A cell that is out of sight would not be drawn.
 SETTINGS = "settings/@jupyterlab/notebook-extension/tracker.jupyterlab-settings"
 
@@ -91,12 +92,15 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     page = browser_page
     open_notebook(page, link(lab), CHAPTER)
     assert not page.get_by_text("Formgrader").count()
-    for slider in sliders(page)[:2]:
+    found = sliders(page)
+    page.wait_for_function(f"() => !({CHANGED})()", timeout=PATIENCE)  # once the last is drawn
+    for slider in found[:2]:
         assert_slider_matters(page, slider)
     assert solutions_in_sight(page) == []
 
     assert page.evaluate(RUN_ALL)
     page.wait_for_function(f"() => {KERNEL}.status === 'idle'", timeout=PATIENCE)
+    assert page.evaluate(CHANGED)
     trouble = '[data-mime-type$="jupyter.stderr"], [data-mime-type$="jupyter.error"]'
     assert page.locator(trouble).count() == 0
     assert_slider_matters(page, sliders(page)[0])
