@@ -30,20 +30,22 @@ function stepper(rates, least) {
 // One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. Gives [samples, outcome, peak omega, path length].
 function driveContinuously(setup, record) {
   const { gains, dt, samples, start, arrivalRadius, moving } = setup, { command } = setup.law, still = [...setup.goal, 0, 0];
-  const poseOf = (y) => (moving ? [y[0], y[1], wrap(y[2])] : poseOfError(y[0], y[1], y[2], ...setup.goal));
-  const seenFrom = (y, goal) => (moving ? polarFromPose(y[0], y[1], y[2], goal[0], goal[1], goal[2]) : y);
+  // The state is the polar error; behind a goal that moves, how far that is ahead and to the left, and turned to the left: there a robot that
+  // follows is at rest, and its steps are long.
   const goalAt = (t) => (moving ? circle(t) : still);
-  const twistOf = (y, goal) => { const [rho, alpha, theta] = seenFrom(y, goal); return command(rho, alpha, theta, gains, goal[3], goal[4]); };
+  const seenFrom = (y) => { if (!moving) return y; const alpha = Math.atan2(y[1], y[0]); return [Math.sqrt(y[0] * y[0] + y[1] * y[1]), alpha, wrap(alpha - y[2])]; };
+  const twistOf = (y, goal) => { const [rho, alpha, theta] = seenFrom(y); return command(rho, alpha, theta, gains, goal[3], goal[4]); };
   function rates(t, y, out) {
-    const [v, omega] = twistOf(y, goalAt(t));
-    if (moving) { out[0] = v * Math.cos(y[2]); out[1] = v * Math.sin(y[2]); out[2] = omega; }
+    const goal = goalAt(t), [v, omega] = twistOf(y, goal);
+    if (moving) { out[0] = omega * y[1] - v + goal[3] * Math.cos(y[2]); out[1] = goal[3] * Math.sin(y[2]) - omega * y[0]; out[2] = goal[4] - omega; }
     else [out[0], out[1], out[2]] = polarClosingRate(y[0], y[1], v / (y[0] || 1), omega); // on the goal v is 0
     out[3] = Math.abs(v);
   }
+  const [rho, alpha, theta] = polarFromPose(...start, ...goalAt(0)), begin = moving ? [rho * Math.cos(alpha), rho * Math.sin(alpha), alpha - theta] : [rho, alpha, theta];
   const { attempt, slopes, ahead } = stepper(rates, moving ? 1 : 1e-150), ends = [], patience = PATIENCE + samples;
-  let t = 0, trials = 0, next = 0.01, y = Float64Array.from([...(moving ? start : polarFromPose(...start, ...setup.goal)), 0]);
+  let t = 0, trials = 0, next = 0.01, y = Float64Array.from([...begin, 0]);
   const turning = (at, time) => Math.abs(twistOf(at, goalAt(time))[1]);
-  const put = (k, time, at) => { const goal = goalAt(time); record(k, time, poseOf(at), seenFrom(at, goal), twistOf(at, goal), goal); };
+  const put = (k, time, at) => { const goal = goalAt(time), seen = seenFrom(at); record(k, time, poseOfError(seen[0], seen[1], seen[2], goal[0], goal[1], goal[2]), seen, twistOf(at, goal), goal); };
   const keep = () => ends.push({ t, y, omega: turning(y, t) });
   const turningAfter = (end, time) => {
     rates(end.t, end.y, slopes[0]);
