@@ -9,18 +9,29 @@ const PATIENCE = 20_000; // steps refused or cut before a run counts as beyond t
 // `rates(t, state, out)` writes the rates of a state of four numbers, `least` is what the first counts as if it is less. After `attempt` the new
 // state is in `ahead` and its rates are in `slopes[12]`; it returns the error, in tolerances.
 function stepper(rates, least) {
-  const slopes = Array.from({ length: 13 }, () => new Float64Array(4)), ahead = new Float64Array(4);
-  const sum = (row, i) => { let total = 0; for (let j = 0; j < row.length; j += 1) total += row[j] * slopes[j][i]; return total; };
+  const slopes = Array.from({ length: 13 }, () => new Float64Array(4)), ahead = new Float64Array(4), sums = [0, 1].map(() => new Float64Array(4));
+  function add(row, out) {
+    let a = 0, b = 0, c = 0, d = 0; // all four in one go: a run does little else
+    for (let j = 0; j < row.length; j += 1) {
+      const weight = row[j], slope = slopes[j];
+      if (weight !== 0) { a += weight * slope[0]; b += weight * slope[1]; c += weight * slope[2]; d += weight * slope[3]; }
+    }
+    out[0] = a; out[1] = b; out[2] = c; out[3] = d;
+  }
   function attempt(t, state, dt) {
     for (let stage = 0; stage < STAGES.length; stage += 1) {
-      for (let i = 0; i < 4; i += 1) ahead[i] = state[i] + dt * sum(STAGES[stage], i);
+      add(STAGES[stage], ahead);
+      for (let i = 0; i < 4; i += 1) ahead[i] = state[i] + dt * ahead[i];
       rates(t + NODES[stage] * dt, ahead, slopes[stage + 1]);
     }
+    const [fifth, third] = sums;
     let fine = 0, coarse = 0;
+    add(RULE.fifth, fifth);
+    add(RULE.third, third);
     for (let i = 0; i < 4; i += 1) {
       const scale = Math.max(Math.abs(ahead[i]), i ? 1 : least);
-      fine = Math.max(fine, Math.abs(dt * sum(RULE.fifth, i)) / scale);
-      coarse = Math.max(coarse, 0.1 * Math.abs(dt * sum(RULE.third, i)) / scale);
+      fine = Math.max(fine, Math.abs(dt * fifth[i]) / scale);
+      coarse = Math.max(coarse, 0.1 * Math.abs(dt * third[i]) / scale);
     }
     return fine === 0 ? 0 : fine * fine / Math.hypot(fine, coarse) / TOLERANCE;
   }
