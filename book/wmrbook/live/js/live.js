@@ -8,7 +8,8 @@
 //   say(values, found, setup): the results in the sentence, by name;
 //   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws RangeError, in words, where nothing can }].
 const live = (explorable) => ({ render({ model, el }) {
-  const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' }, { 'data-lm-suppress-shortcuts': 'true' }); // keys are ours, not JupyterLab's
+  const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' });
+  keepKeys(root);
   root.innerHTML = '<div class="live-ask"></div><p class="live-sentence"></p><div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
     + '<p class="live-trouble" role="alert"></p><div class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {}, values = () => model.get('state');
