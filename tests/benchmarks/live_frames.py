@@ -89,9 +89,10 @@ def main() -> None:
                 walks.append(page.evaluate(WALK, [knob["name"], values, ROUNDS]))
                 page.evaluate("state => panel.set('state', state)", traits["state"])
             asked = thing.setup["ask"]
+            dearest, worst = max(map(statistics.median, walks)), max(map(max, walks))
             print(
                 f"{name:16}{' '.join(where.get(name, '-')):9}{asked['kind'] if asked else '-':9}"
-                f"{max(map(statistics.median, walks)):8.2f}{max(map(max, walks)):7.2f}   {ready:7.0f}   "
+                f"{dearest:8.2f}{worst:7.2f}   {ready:7.0f}   "
                 f"{len(traits['_esm'] + traits['_css']) / 1000:6.0f}  "
                 f"{', '.join(knob['name'] for knob in thing.setup['knobs'])}"
             )
