@@ -109,7 +109,7 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
       if (playing) { stop(); return; }
       const from = get()[name] >= knob.high ? knob.low : get()[name], begin = performance.now();
       const go = (now) => {
-        const value = Math.min(from + (knob.high - knob.low) * (now - begin) / 1000 / knob.plays, knob.high);
+        const value = Math.min(from + (knob.high - knob.low) * Math.max(now - begin, 0) / 1000 / knob.plays, knob.high);
         set({ [name]: Number(value.toPrecision(3)) }, true);
         if (value < knob.high) playing = requestAnimationFrame(go); else stop();
       };
