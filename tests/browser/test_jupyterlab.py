@@ -97,6 +97,12 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     for slider in found[:2]:
         assert_slider_matters(page, slider)
     assert solutions_in_sight(page) == []
+    count = page.evaluate(f"() => {CELLS}.length")
+    page.locator(".live [type=radio]").first.check()
+    page.get_by_role("button", name="Commit").last.click()
+    for place in ("[aria-label^=controls] .wmr-slider", ".wmr:not(.live) button"):
+        page.locator(place).locator("visible=true").first.press("b")  # in a cell it adds one
+    assert page.evaluate(f"() => {CELLS}.length") == count
 
     assert page.evaluate(RUN_ALL)
     page.wait_for_function(f"() => {KERNEL}.status === 'idle'", timeout=PATIENCE)

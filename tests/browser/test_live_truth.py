@@ -188,13 +188,15 @@ def wheel_limit(values, found, data) -> None:
 
 def bench(values, found, data) -> None:
     start, goal = pose(data["start"]), pose(data["goal"])
-    path, driven = noise.seeing(start, goal, noise.receiver(values["sigma"], values["memory"]))
+    receiver = values["sigma"], values["memory"]
+    faults = {"late": values["late"], "slip": values["slip"] / 100}
+    path, driven = noise.seeing(start, goal, noise.receiver(*receiver), **faults)
     ends = np.array([each["pose"] for each in found["ends"]]).T
     for ours, theirs in zip(path, ends, strict=True):
         np.testing.assert_allclose(np.cos(ours[-1]), np.cos(theirs), atol=1e-6)
     assert [each["n"] for each in found["ends"]] == driven.tolist()
     assert (found["far"], found["turned"]) == pytest.approx(
-        noise.left_over(values["sigma"], values["memory"]), abs=1e-6
+        noise.left_over(*receiver, **faults), abs=1e-6
     )
 
 

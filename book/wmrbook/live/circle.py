@@ -10,7 +10,7 @@ import numpy as np
 from wmrbook.live.parts import Ask, Knob, Live
 from wmrlib import paper, residual, track
 
-WEIGHTS = 1.0, 100.0  # q, between which the prediction compares
+WEIGHTS = 1.0, 100.0  # q, between which the prediction compares; the commands' is 1
 TURNING = 2 * math.pi / paper.CIRCLE_PERIOD  # rad/s, of the goal
 A = np.array([[0.0, TURNING, 0.0], [-TURNING, 0.0, paper.CIRCLE_SPEED], [0.0, 0.0, 0.0]])
 B = np.array([[-1.0, 0.0], [0.0, 0.0], [0.0, -1.0]])
@@ -31,7 +31,8 @@ def lag() -> Live:
     }
     return Live(
         "lag",
-        "With {k_rho} and {v_max} the robot stays {residual} behind; (6.2) below says {predicted}.",
+        f"For *k_rho* and *v_max* (6.2) below says [-ln(1 - {paper.CIRCLE_SPEED:.3f} / {{v_max!}}) "
+        "/ {k_rho!} = {predicted}]; the robot stays {residual} behind.",
         {
             "k_rho": Knob(gains.k_rho, 1.0, 8.0, 0.1, "pull of the goal, k_rho", "1/m", "k_rho"),
             "v_max": Knob(gains.v_max, 2.0, 8.0, 0.1, "top speed, v_max", "m/s", "v_max"),
@@ -56,8 +57,9 @@ def lag() -> Live:
 
 def lqr() -> Live:
     """The weight of the error in an LQR: its poles, and the drive behind the goal."""
-    slowest = [-max(control.lqr(A, B, q * np.eye(3), np.eye(2))[2].real) for q in WEIGHTS]
-    ratio, heavier = slowest[1] / slowest[0], WEIGHTS[1] / WEIGHTS[0]
+    tried = np.geomspace(0.01, WEIGHTS[1], 41)
+    fades = [-max(control.lqr(A, B, q * np.eye(3), np.eye(2))[2].real) for q in (*WEIGHTS, *tried)]
+    ratio, heavier, fastest = fades[1] / fades[0], WEIGHTS[1], tried[np.argmax(fades[2:])]
     faster = {
         f"{heavier:.0f} times faster": ratio > heavier / 2,
         f"{math.sqrt(heavier):.0f} times faster": heavier / 20 < ratio < heavier / 5,
@@ -74,10 +76,11 @@ def lqr() -> Live:
         data={"A": A.tolist(), "B": B.tolist(), "start": list(paper.CIRCLE_START)},
         ask=Ask(
             "choose",
-            f"All three errors are weighted {heavier:.0f} times as heavily, and speed and turning "
-            "cost what they did. How much faster does the slowest part of the error fade?",
-            "The wheels push ahead, never sideways: what is aside goes only as fast as the goal's "
-            "speed carries it across. Gains buy speed where there is an actuator.",
+            "At q = 1 errors and commands weigh the same. Now all three errors are weighted "
+            f"{heavier:.0f} times as heavily. How much faster does the slowest part of the error "
+            "fade?",
+            f"More weight helps up to q = {fastest:.0f}. From there on the limit is what is aside: "
+            "the wheels push ahead, never sideways, and only the goal's speed carries it across.",
             key=[*faster.values()].index(True),
             options=(*faster,),
         ),

@@ -15,6 +15,7 @@ START, GOAL = Pose(-2.0, -0.8, 0.6), Pose(0.0, 0.0, 0.0)
 
 def poles() -> Live:
     """The poles of the angles near the goal: drag them, and the gains follow; and back."""
+    pace = GAINS.k_rho * GAINS.v_max
     ratio = modes(GAINS._replace(h=HEAVIER * GAINS.h)).damping / modes(GAINS).damping
     becomes = {
         "It is halved": 0.4 < ratio < 0.6,
@@ -24,8 +25,9 @@ def poles() -> Live:
     }
     return Live(
         "poles",
-        "With {k_alpha} and {h}, at *k_rho* *v_max* = 2 per second, the angles have the natural "
-        "frequency {frequency} and the damping ratio {damping}. From two metres the robot {end}.",
+        f"With [*k_rho* *v_max* = {pace:g}] per second the poles of the angles solve "
+        f"[*s*² + {{k_alpha!}} *s* + {pace**2:g} · {{h!}} = 0]: a natural frequency of "
+        "{frequency}, a damping ratio of {damping}. From two metres the robot {end}.",
         {
             "k_alpha": Knob(
                 GAINS.k_alpha,

@@ -67,7 +67,7 @@ def stopping() -> Live:
     shares = {
         "a fifth of that": 0.2,
         "about the same": 1.0,
-        "twice as much": 2.0,
+        "twice as far": 2.0,
     }
     return Live(
         "stopping",
@@ -89,10 +89,10 @@ def stopping() -> Live:
         },
         ask=Ask(
             "choose",
-            f"Stopped {100 * radii[0]:.0f} cm before the goal, the robot looks {here:.0f} deg past "
-            f"the way it should. How much if it stops at {100 * radii[1]:.0f} cm?",
-            f"It is {nearer:.0f} deg: the heading swings to and fro while the last metre is "
-            "driven, so where one stops decides what is left. Nearer is not better.",
+            f"Stopped {100 * radii[0]:.0f} cm before the goal, the robot does not look the way it "
+            f"should. How far off is it if it stops at {100 * radii[1]:.0f} cm?",
+            f"{nearer:.0f} deg, and {here:.0f} before: the heading swings to and fro while the "
+            "last metre is driven, so where one stops decides what is left. Nearer is not better.",
             key=nearest(nearer / here, shares.values()),
             options=(*shares,),
         ),

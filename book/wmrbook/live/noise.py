@@ -1,4 +1,4 @@
-"""Chapter 9: a robot that steers by what it sees, and what it sees is wrong or late."""
+"""Chapter 9: a robot that sees what is wrong or late, and whose wheel slips."""
 
 from __future__ import annotations
 
@@ -8,10 +8,20 @@ from functools import cache
 import numpy as np
 
 from wmrbook.live.parts import Ask, Choice, Knob, Live
-from wmrlib import Pose, advance, control_law, paper, polar_error, simulate, wrap_angle
+from wmrlib import (
+    Pose,
+    advance,
+    control_law,
+    paper,
+    polar_error,
+    simulate,
+    twist_to_wheels,
+    wheels_to_twist,
+    wrap_angle,
+)
 from wmrlib.gains import GENTLE_GAINS
 
-DT, RADIUS = 0.1, 0.2  # s, m
+DT, RADIUS, TRACK = 0.1, 0.2, 0.5  # s, m, m
 ROBOTS, STEPS, SEED = 32, 400, 9
 WHITE = 0.01  # s: a memory so short that each fix errs anew
 LOST = 60.0  # s
@@ -32,9 +42,16 @@ def normals(count: int, seed: int = SEED) -> np.ndarray:
 
 
 def seeing(
-    start: Pose, goal: Pose, error: np.ndarray, late: float = 0.0, late_heading: float = 0.0
+    start: Pose,
+    goal: Pose,
+    error: np.ndarray,
+    late: float = 0.0,
+    late_heading: float = 0.0,
+    slip: float = 0.0,
 ) -> tuple[Pose, np.ndarray]:
     """Drive robots by positions with an error, (steps, 2, robots) in m, and by readings that late.
+
+    The right wheel loses the share `slip` of its motion.
 
     Returns
     -------
@@ -54,8 +71,9 @@ def seeing(
         if not going.any():
             truth = truth[: n + 1]
             break
-        v, omega = control_law(*polar, GENTLE_GAINS)
-        truth[n + 1] = advance(Pose(*truth[n]), going * v, going * omega, DT)
+        left, right = twist_to_wheels(*control_law(*polar, GENTLE_GAINS), TRACK)
+        v, omega = wheels_to_twist(going * left, going * (1.0 - slip) * right, TRACK)
+        truth[n + 1] = advance(Pose(*truth[n]), v, omega, DT)
     return Pose(*truth.transpose(1, 0, 2)), driven
 
 
@@ -77,16 +95,16 @@ def last_ten_metres() -> tuple[Pose, Pose]:
     return Pose(x - goal.x, y - goal.y, heading), Pose(0.0, 0.0, goal.heading)
 
 
-def left_over(sigma: float, memory: float) -> tuple[float, float]:
+def left_over(sigma: float, memory: float, **faults: float) -> tuple[float, float]:
     """Medians of the distance [m] and of the heading error [rad] of the robots where they stand."""
     start, goal = last_ten_metres()
-    path, _ = seeing(start, goal, receiver(sigma, memory))
+    path, _ = seeing(start, goal, receiver(sigma, memory), **faults)
     far, turned = np.hypot(path.x[-1], path.y[-1]), wrap_angle(path.heading[-1] - goal.heading)
     return float(np.median(far)), float(np.median(np.abs(turned)))
 
 
 def bench() -> Live:
-    """Where robots stand in the end that see through a receiver with an error and a memory."""
+    """Where robots stand in the end whose receiver errs and is late, and whose wheel slips."""
     start, goal = last_ten_metres()
     far, turned = zip(*(left_over(0.5, memory) for memory in (WHITE, 300.0)), strict=True)
     options = {
@@ -97,12 +115,14 @@ def bench() -> Live:
     }
     return Live(
         "bench",
-        f"{ROBOTS} robots, each with a receiver that errs by {{sigma}} and remembers it for "
-        "{memory}. Half of them stand within {far} of the goal, and half within {turned} of its "
-        "heading{driving}.",
+        f"{ROBOTS} robots, each with a receiver that errs by {{sigma}}, remembers it for "
+        "{memory} and is {late} late; the right wheel loses {slip} of its motion. Half of them "
+        "stand within {far} of the goal, and half within {turned} of its heading{driving}.",
         {
             "sigma": Knob(0.5, 0.0, 2.0, 0.05, "the receiver's error, sigma", "m", "sigma"),
             "memory": Knob(WHITE, WHITE, 1000.0, None, "the memory of the error", "s", "T"),
+            "late": Knob(0.0, 0.0, 1.0, 0.1, "how late the position comes", "s", "tau"),
+            "slip": Knob(0.0, 0.0, 20.0, 1.0, "what the right wheel loses", "%", label="slip"),
         },
         data={
             "start": list(start),
@@ -110,6 +130,7 @@ def bench() -> Live:
             "gains": GENTLE_GAINS._asdict(),
             "dt": DT,
             "radius": RADIUS,
+            "track": TRACK,
             "robots": ROBOTS,
             "steps": STEPS,
             "seed": SEED,

@@ -78,7 +78,7 @@ class Live(anywidget.AnyWidget):
     ----------
     name : the drawing's file, and of the prediction in a line of answers
     sentence : str with {knob} or {result} where a number goes ({knob!} in a formula: without its
-        symbol and unit), and *symbol* for a coloured symbol
+        symbol and unit), *symbol* for a coloured symbol, and [formula] for what stays in one line
     knobs : Knob or Choice, by name
     data : what the drawing needs that does not move: numbers, lists and texts
     ask : Ask or None

@@ -44,9 +44,10 @@ def unit_circle() -> Live:
     }
     return Live(
         "unit_circle",
-        "A robot with {gains} drives in {method} and is sampled every {dt}, {times} times its "
-        "longest step. The farthest pole of the angles is {size} from the middle: near the goal "
-        "they {fate}. The drive {end}.",
+        "A robot with {gains} drives in {method}; {longest} is its longest step. Sampled every "
+        "[{times!} · {longest} = {dt}], it keeps [1 - {rate} · {step} = {kept}] of the distance. "
+        "The farthest pole of the angles is {size} from the middle: near the goal they {fate}. "
+        "The drive {end}.",
         {
             "times": Knob(LATE, 0.2, 1.7, 0.05, "the time step over the longest", label="dt"),
             "gains": Choice(

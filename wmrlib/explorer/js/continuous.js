@@ -1,26 +1,37 @@
 // The law acting all the time: Dormand and Prince's method of order 8 with Hairer's two estimates of its error, as in wmrlib. A sample ends a
 // step, and so does arrival.
 
-const STAGES = [...RULE.stages, RULE.weights], NODES = STAGES.map((row) => row.reduce((sum, each) => sum + each, 0));
+const STAGES = [...RULE.stages, RULE.weights];
 const TOLERANCE = 1e-10; // of a step: m, rad, and behind a goal that stands still a share of the distance
 const SHARP = 1e-12; // so close to the arrival radius a run ends, as a share of it
 const PATIENCE = 20_000; // steps refused or cut before a run counts as beyond this method
 
-// `rates(t, state, out)` writes the rates of a state of four numbers, `least` is what the first counts as if it is less. After `attempt` the new
+// `rates(state, out)` writes the rates of a state of four numbers, `least` is what the first counts as if it is less. After `attempt` the new
 // state is in `ahead` and its rates are in `slopes[12]`; it returns the error, in tolerances.
 function stepper(rates, least) {
-  const slopes = Array.from({ length: 13 }, () => new Float64Array(4)), ahead = new Float64Array(4);
-  const sum = (row, i) => { let total = 0; for (let j = 0; j < row.length; j += 1) total += row[j] * slopes[j][i]; return total; };
-  function attempt(t, state, dt) {
-    for (let stage = 0; stage < STAGES.length; stage += 1) {
-      for (let i = 0; i < 4; i += 1) ahead[i] = state[i] + dt * sum(STAGES[stage], i);
-      rates(t + NODES[stage] * dt, ahead, slopes[stage + 1]);
+  const slopes = Array.from({ length: 13 }, () => new Float64Array(4)), ahead = new Float64Array(4), sums = [0, 1].map(() => new Float64Array(4));
+  function add(row, out) {
+    let a = 0, b = 0, c = 0, d = 0; // all four in one go: a run does little else
+    for (let j = 0; j < row.length; j += 1) {
+      const weight = row[j], slope = slopes[j];
+      if (weight !== 0) { a += weight * slope[0]; b += weight * slope[1]; c += weight * slope[2]; d += weight * slope[3]; }
     }
+    out[0] = a; out[1] = b; out[2] = c; out[3] = d;
+  }
+  function attempt(state, dt) {
+    for (let stage = 0; stage < STAGES.length; stage += 1) {
+      add(STAGES[stage], ahead);
+      for (let i = 0; i < 4; i += 1) ahead[i] = state[i] + dt * ahead[i];
+      rates(ahead, slopes[stage + 1]);
+    }
+    const [fifth, third] = sums;
     let fine = 0, coarse = 0;
+    add(RULE.fifth, fifth);
+    add(RULE.third, third);
     for (let i = 0; i < 4; i += 1) {
       const scale = Math.max(Math.abs(ahead[i]), i ? 1 : least);
-      fine = Math.max(fine, Math.abs(dt * sum(RULE.fifth, i)) / scale);
-      coarse = Math.max(coarse, 0.1 * Math.abs(dt * sum(RULE.third, i)) / scale);
+      fine = Math.max(fine, Math.abs(dt * fifth[i]) / scale);
+      coarse = Math.max(coarse, 0.1 * Math.abs(dt * third[i]) / scale);
     }
     return fine === 0 ? 0 : fine * fine / Math.hypot(fine, coarse) / TOLERANCE;
   }
@@ -29,37 +40,39 @@ function stepper(rates, least) {
 
 // One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. Gives [samples, outcome, peak omega, path length].
 function driveContinuously(setup, record) {
-  const { gains, dt, samples, start, arrivalRadius, moving } = setup, { command } = setup.law, still = [...setup.goal, 0, 0];
-  const poseOf = (y) => (moving ? [y[0], y[1], wrap(y[2])] : poseOfError(y[0], y[1], y[2], ...setup.goal));
-  const seenFrom = (y, goal) => (moving ? polarFromPose(y[0], y[1], y[2], goal[0], goal[1], goal[2]) : y);
-  const goalAt = (t) => (moving ? circle(t) : still);
-  const twistOf = (y, goal) => { const [rho, alpha, theta] = seenFrom(y, goal); return command(rho, alpha, theta, gains, goal[3], goal[4]); };
-  function rates(t, y, out) {
-    const [v, omega] = twistOf(y, goalAt(t));
-    if (moving) { out[0] = v * Math.cos(y[2]); out[1] = v * Math.sin(y[2]); out[2] = omega; }
+  const { gains, dt, samples, start, arrivalRadius, moving } = setup, { command } = setup.law;
+  // The state is the polar error; behind a goal that moves, how far that is ahead and to the left, and turned to the left: there a robot that
+  // follows is at rest, and its steps are long.
+  const goalAt = (t) => (moving ? circle(t) : setup.goal), [vGoal, omegaGoal] = moving ? circle(0).slice(3) : [0, 0]; // which a circle keeps
+  const seenFrom = (y) => { if (!moving) return y; const alpha = Math.atan2(y[1], y[0]); return [Math.sqrt(y[0] * y[0] + y[1] * y[1]), alpha, wrap(alpha - y[2])]; };
+  const twistOf = (y) => { const [rho, alpha, theta] = seenFrom(y); return command(rho, alpha, theta, gains, vGoal, omegaGoal); };
+  function rates(y, out) {
+    const [v, omega] = twistOf(y);
+    if (moving) { out[0] = omega * y[1] - v + vGoal * Math.cos(y[2]); out[1] = vGoal * Math.sin(y[2]) - omega * y[0]; out[2] = omegaGoal - omega; }
     else [out[0], out[1], out[2]] = polarClosingRate(y[0], y[1], v / (y[0] || 1), omega); // on the goal v is 0
     out[3] = Math.abs(v);
   }
+  const [rho, alpha, theta] = polarFromPose(...start, ...goalAt(0)), begin = moving ? [rho * Math.cos(alpha), rho * Math.sin(alpha), alpha - theta] : [rho, alpha, theta];
   const { attempt, slopes, ahead } = stepper(rates, moving ? 1 : 1e-150), ends = [], patience = PATIENCE + samples;
-  let t = 0, trials = 0, next = 0.01, y = Float64Array.from([...(moving ? start : polarFromPose(...start, ...setup.goal)), 0]);
-  const turning = (at, time) => Math.abs(twistOf(at, goalAt(time))[1]);
-  const put = (k, time, at) => { const goal = goalAt(time); record(k, time, poseOf(at), seenFrom(at, goal), twistOf(at, goal), goal); };
-  const keep = () => ends.push({ t, y, omega: turning(y, t) });
+  let t = 0, trials = 0, next = 0.01, y = Float64Array.from([...begin, 0]);
+  const turning = (at) => Math.abs(twistOf(at)[1]);
+  const put = (k, time, at) => { const goal = goalAt(time), seen = seenFrom(at); record(k, time, poseOfError(seen[0], seen[1], seen[2], goal[0], goal[1], goal[2]), seen, twistOf(at), goal); };
+  const keep = () => ends.push({ t, y, omega: turning(y) });
   const turningAfter = (end, time) => {
-    rates(end.t, end.y, slopes[0]);
-    attempt(end.t, end.y, time - end.t);
-    return turning(ahead, time);
+    rates(end.y, slopes[0]);
+    attempt(end.y, time - end.t);
+    return turning(ahead);
   };
   const over = (n, outcome) => [n, outcome, peakOf(ends, turningAfter), y[3]];
 
   put(0, 0, y);
-  rates(0, y, slopes[0]);
+  rates(y, slopes[0]);
   keep();
   if (y[0] <= arrivalRadius && !moving) return over(1, ARRIVED);
   for (let k = 1; k < samples; k += 1) {
     const until = dt * k;
     while (t < until) {
-      const cut = next >= until - t, step = cut ? until - t : next, error = attempt(t, y, step);
+      const cut = next >= until - t, step = cut ? until - t : next, error = attempt(y, step);
       trials += 1;
       if (trials > patience) throw new Unsettled(notAllowed('method', 'continuous', "'arc' or 'euler', or slower gains,").message);
       const growth = error > 0 ? Math.min(Math.max(0.9 / error ** 0.125, 0.2), 5) : error === 0 ? 5 : 0.2; // 0.2 for NaN too
@@ -69,7 +82,7 @@ function driveContinuously(setup, record) {
         continue;
       }
       const arrived = !moving && arrivalRadius > 0 && ahead[0] <= arrivalRadius * (1 + SHARP);
-      const taken = arrived ? arrivalIn(attempt, ahead, slopes, t, y, step, arrivalRadius) : step;
+      const taken = arrived ? arrivalIn(attempt, ahead, slopes, y, step, arrivalRadius) : step;
       next = cut ? Math.max(next, growth * step) : growth * step;
       t = cut && !arrived ? until : t + taken;
       y = ahead.slice();
@@ -84,13 +97,13 @@ function driveContinuously(setup, record) {
 }
 
 // How long a step may be to end on the radius that it passes; rho falls all the way. By Newton's method, and by halving where that leaves.
-function arrivalIn(attempt, ahead, slopes, t, y, step, radius) {
+function arrivalIn(attempt, ahead, slopes, y, step, radius) {
   let low = 0, high = step, at = step;
   for (let k = 0; k < 60 && Math.abs(ahead[0] - radius) > SHARP * radius; k += 1) {
     if (ahead[0] > radius) low = at; else high = at;
     const guess = at - (ahead[0] - radius) / slopes[12][0];
     at = guess > low && guess < high ? guess : (low + high) / 2;
-    attempt(t, y, at);
+    attempt(y, at);
   }
   return at;
 }

@@ -3,6 +3,11 @@
 const ROUND = [1, 1.1, 1.2, 1.3, 1.5, 1.7, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9]; // of each decade
 const STEP_KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
+// A key that is pressed here is no command of a notebook's, where b adds a cell. (JupyterLab heeds data-lm-suppress-shortcuts only on what has the focus itself.)
+function keepKeys(root) {
+  root.addEventListener('keydown', (event) => { if (!event.ctrlKey && !event.metaKey && !event.altKey && root.closest('.jp-Notebook')) event.stopPropagation(); });
+}
+
 // What a slider can be set to: even steps, or, without a step, the round numbers of each decade.
 function stopsOf(low, high, step) {
   if (step) return Array.from({ length: Math.round((high - low) / step) + 1 }, (_, i) => Number((low + i * step).toPrecision(12)));

@@ -35,6 +35,7 @@ function scaffold(el) {
 
 function render({ model, el }) {
   const root = scaffold(el), find = (selector) => root.querySelector(selector), setup = model.get('setup');
+  keepKeys(root);
   const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
   const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap(model.get('_esm'), () => schedule());
   const state = { run: null, settings: null, figures: null, trouble: '', said: '', ghost: null, playing: null, colours: null, view: null, held: false };

@@ -1,4 +1,4 @@
-// Robots that see through receivers: an error with a memory, other for each, and where they stand in the end.
+// Robots that see through receivers, with an error that has a memory, other for each, and late, and whose right wheel slips: where they stand in the end.
 
 // mulberry32, and the rule of Box and Muller: wmrbook.live.noise draws the same numbers.
 const normals = remembered(({ count, seed }) => {
@@ -14,16 +14,18 @@ const normals = remembered(({ count, seed }) => {
 
 const median = (sorted) => (sorted[Math.floor((sorted.length - 1) / 2)] + sorted[Math.floor(sorted.length / 2)]) / 2;
 
-const cloud = remembered(({ start, goal, gains, dt, radius, robots, steps, seed, sigma, memory }) => {
-  const fresh = normals({ count: 2 * robots * steps, seed }), keep = Math.exp(-dt / memory), share = Math.sqrt(1 - keep * keep), ends = [];
+const cloud = remembered(({ start, goal, gains, dt, radius, robots, track, steps, seed, sigma, memory, late, slip }) => {
+  const fresh = normals({ count: 2 * robots * steps, seed }), keep = Math.exp(-dt / memory), share = Math.sqrt(1 - keep * keep), back = Math.round(late / dt), ends = [];
   for (let robot = 0; robot < robots; robot += 1) {
+    const fixes = [];
     let pose = start, n = 0, [east, north] = [fresh[robot], fresh[robots + robot]];
     for (; n < steps; n += 1) {
       if (n) { east = keep * east + share * fresh[2 * n * robots + robot]; north = keep * north + share * fresh[(2 * n + 1) * robots + robot]; }
-      const [rho, alpha, theta] = polarFromPose(pose[0] + sigma * east, pose[1] + sigma * north, pose[2], goal[0], goal[1], goal[2]);
+      fixes.push([pose[0] + sigma * east, pose[1] + sigma * north]);
+      const [x, y] = fixes[Math.max(n - back, 0)], [rho, alpha, theta] = polarFromPose(x, y, pose[2], goal[0], goal[1], goal[2]);
       if (rho <= radius) break;
-      const [v, omega] = correctedLaw(rho, alpha, theta, gains);
-      pose = arcStep(pose[0], pose[1], pose[2], v, omega, dt);
+      const [v, omega] = correctedLaw(rho, alpha, theta, gains), lost = slip * (v + omega * track / 2); // m/s at the wheel
+      pose = arcStep(pose[0], pose[1], pose[2], v - lost / 2, omega - lost / track, dt);
     }
     ends.push({ pose, n });
   }
@@ -31,8 +33,8 @@ const cloud = remembered(({ start, goal, gains, dt, radius, robots, steps, seed,
 });
 
 const explorable = {
-  find({ sigma, memory }, { data }) {
-    const ends = cloud({ ...data, sigma, memory }), off = ends.map(({ pose }) => wrap(pose[2] - data.goal[2]));
+  find({ sigma, memory, late, slip }, { data }) {
+    const ends = cloud({ ...data, sigma, memory, late, slip: slip / 100 }), off = ends.map(({ pose }) => wrap(pose[2] - data.goal[2]));
     const middle = (values) => median([...values].sort((a, b) => a - b));
     return { ends, off, far: middle(ends.map(({ pose }) => Math.hypot(pose[0], pose[1]))), turned: middle(off.map(Math.abs)), driving: ends.filter(({ n }) => n === data.steps).length };
   },

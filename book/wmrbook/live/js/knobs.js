@@ -61,23 +61,26 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
     return by ? stops[Math.min(Math.max(next, 0), stops.length - 1)] : value;
   };
   const put = (name) => (value) => set({ [name]: value });
-  for (const piece of setup.sentence.split(/(\{[^}]+\}|\*[a-z_]+\*)/)) {
+  let into = sentence;
+  for (const piece of setup.sentence.split(/(\{[^}]+\}|\*[a-z_]+\*|[[\]])/)) {
     const bare = piece.endsWith('!}'), name = piece.slice(1, bare ? -2 : -1), knob = piece[0] === '{' && parts[name]; // {name!}: without its symbol and unit, as in a formula
-    if (piece[0] === '*') putSymbol(sentence, name);
+    if (piece === '[') into = made(sentence, 'span', { className: 'live-whole' });
+    else if (piece === ']') into = sentence;
+    else if (piece[0] === '*') putSymbol(into, name);
     else if (knob && knob.choices) {
-      const select = made(sentence, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
+      const select = made(into, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
       select.replaceChildren(...knob.choices.map(([value, text]) => new Option(text, value)));
       select.addEventListener('change', () => put(name)(select.value));
       select.addEventListener('keydown', (event) => event.stopPropagation());
       shows.push((values) => { select.value = values[name]; });
     } else if (knob) {
-      const whole = made(sentence, 'span', { className: 'live-whole' });
+      const whole = made(into, 'span', { className: 'live-whole' });
       if (knob.symbol && !bare) { putSymbol(whole, knob.symbol); whole.append(' = '); }
       const show = putNumber(whole, knob, { get: () => get()[name], step: stepFrom(knob), set: put(name), refuse });
       if (knob.unit && !bare) whole.append(knob.unit === '°' ? knob.unit : ` ${knob.unit}`);
       shows.push((values) => show(values[name]));
-    } else if (piece[0] === '{') (results[name] ||= []).push(made(sentence, 'b', { className: 'live-result' }));
-    else sentence.append(piece);
+    } else if (piece[0] === '{') (results[name] ||= []).push(made(into, 'b', { className: 'live-result' }));
+    else into.append(into === sentence ? piece : piece.replaceAll('-', '−'));
   }
   for (const knob of setup.knobs.filter((each) => each.stops)) {
     const row = made(rows, knob.plays ? 'div' : 'label', { className: 'wmr-control live-row' }), { stops, name } = knob, own = made(row, 'span');
@@ -106,7 +109,7 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
       if (playing) { stop(); return; }
       const from = get()[name] >= knob.high ? knob.low : get()[name], begin = performance.now();
       const go = (now) => {
-        const value = Math.min(from + (knob.high - knob.low) * (now - begin) / 1000 / knob.plays, knob.high);
+        const value = Math.min(from + (knob.high - knob.low) * Math.max(now - begin, 0) / 1000 / knob.plays, knob.high);
         set({ [name]: Number(value.toPrecision(3)) }, true);
         if (value < knob.high) playing = requestAnimationFrame(go); else stop();
       };

@@ -8,7 +8,8 @@
 //   say(values, found, setup): the results in the sentence, by name;
 //   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws RangeError, in words, where nothing can }].
 const live = (explorable) => ({ render({ model, el }) {
-  const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' }, { 'data-lm-suppress-shortcuts': 'true' }); // keys are ours, not JupyterLab's
+  const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' });
+  keepKeys(root);
   root.innerHTML = '<div class="live-ask"></div><p class="live-sentence"></p><div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
     + '<p class="live-trouble" role="alert"></p><div class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {}, values = () => model.get('state');
@@ -61,10 +62,16 @@ const live = (explorable) => ({ render({ model, el }) {
     const now = values(), hidden = Boolean(gate && !gate.open());
     let trouble = refused, sound = true;
     try { found = explorable.find(now, setup); } catch (error) { if (!(error instanceof RangeError)) throw error; [trouble, sound] = [error.message, false]; }
-    find('.live-trouble').textContent = hidden && found ? '' : trouble;
+    if (found) paint(now, hidden);
+    find('.live-trouble').textContent = hidden && found ? '' : trouble; // words after pictures: a font on a canvas waits for the styles of all that has changed
     knobs.show(now);
     for (const part of ['.live-sentence', '.live-rows']) find(part).hidden = hidden;
     if (!found) return;
+    const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
+    for (const name of Object.keys(specs)) showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name), panes[name], give);
+    if (!hidden) knobs.showResults(sound ? explorable.say(now, found, setup) : null);
+  }
+  function paint(now, hidden) {
     root.found = found; // for tests
     specs = explorable.panes(now, found, setup);
     for (const [name, spec] of Object.entries(specs)) {
@@ -75,9 +82,6 @@ const live = (explorable) => ({ render({ model, el }) {
     explorable.draw(panes, now, found, hidden, setup);
     if (gate) gate.draw();
     else root.dataset.open = 'true';
-    const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
-    for (const name of Object.keys(specs)) showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name), panes[name], give);
-    if (!hidden) knobs.showResults(sound ? explorable.say(now, found, setup) : null);
   }
   const repaint = () => { Object.values(canvases).forEach(measure); colours = readColours(root); schedule(); };
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);

@@ -18,7 +18,11 @@ function inverse(matrix) {
 const regulator = remembered(({ A, B, q }) => {
   const across = B.map((row) => B.map((other) => row.reduce((sum, each, k) => sum + each * other[k], 0)));
   let sign = [...A.map((row, i) => [...row, ...across[i].map((each) => -each)]), ...A.map((row, i) => [...row.map((_, j) => -q * Number(i === j)), ...A.map((other) => -other[i])])];
-  for (let k = 0; k < 60; k += 1) { const back = inverse(sign); sign = sign.map((row, i) => row.map((each, j) => (each + back[i][j]) / 2)); }
+  for (let k = 0, moved = 1; k < 60 && moved > 1e-14; k += 1) {
+    const back = inverse(sign);
+    moved = Math.max(...back.flatMap((row, i) => row.map((each, j) => Math.abs(each - sign[i][j])))) / Math.max(...sign.flat().map(Math.abs));
+    sign = sign.map((row, i) => row.map((each, j) => (each + back[i][j]) / 2));
+  }
   const half = sign.map((row, i) => row.slice(0, 3).map((each, j) => Number(i === j) - each)), P = product(half.slice(3), inverse(half.slice(0, 3)));
   return product(B[0].map((_, j) => B.map((row) => row[j])), P);
 });

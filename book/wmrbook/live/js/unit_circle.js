@@ -16,9 +16,9 @@ const sampled = remembered((options) => simulate(options)), WIDE = 1.6;
 
 const explorable = {
   find({ times, gains: name, method }, { data: { gains, longest, start, goal } }) {
-    const dt = times * longest[name][method], poles = eigenvalues(stepMatrix(gains[name], method, dt));
+    const dt = times * longest[name][method], [rate] = LAWS.corrected.modes(gains[name]), poles = eigenvalues(stepMatrix(gains[name], method, dt));
     const run = sampled({ start, goal, gains: gains[name], reference: null, law: 'corrected', method, dt, duration: 60, arrivalRadius: 0.05 });
-    return { dt, poles, size: Math.max(...poles.map((each) => Math.hypot(...each))), run, off: wrap(run.heading[run.n - 1] - goal[2]), kept: 1 - dt * LAWS.corrected.modes(gains[name])[0] };
+    return { dt, poles, size: Math.max(...poles.map((each) => Math.hypot(...each))), run, off: wrap(run.heading[run.n - 1] - goal[2]), longest: longest[name][method], rate, kept: 1 - dt * rate };
   },
   panes: (values, { poles, run, off }, { data: { goal: [x, y] } }) => ({
     plane: { x: [-WIDE, WIDE, 'real part'], y: [-WIDE, WIDE, 'imaginary part'], equal: true, given: 'The unit circle.', alt: `The unit circle, and the poles at ${poles.map(([re, im]) => `${written(re)} ${im < 0 ? 'minus' : 'plus'} ${written(Math.abs(im))} i`).join(' and ')}.` },
@@ -41,8 +41,8 @@ const explorable = {
     for (let k = 0; k < run.n; k += Math.max(1, Math.round(run.n / 400))) near.dot(run.x[k], run.y[k], 'path', { size: 1.5 });
     near.robot(poseAt(run, run.n - 1));
   },
-  say: (values, { dt, size, run, off }) => ({
-    dt: dt < 0.1 ? `${(1000 * dt).toFixed(1)} ms` : written(dt, 's'), size: written(size), fate: size < 1 ? 'shrink' : size > 1 + 1e-9 ? 'grow from step to step' : 'neither shrink nor grow',
+  say: (values, { dt, longest, rate, kept, size, run, off }) => ({
+    dt: written(dt, 's'), longest: written(longest, 's'), rate: written(rate), step: written(dt), kept: written(kept), size: written(size), fate: size < 1 ? 'shrink' : size > 1 + 1e-9 ? 'grow from step to step' : 'neither shrink nor grow',
     end: run.outcome === 'ARRIVED' ? `ends after ${written(run.t[run.n - 1], 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off` : 'does not end within a minute',
   }),
 };
