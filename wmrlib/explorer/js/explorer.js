@@ -289,4 +289,4 @@ function dragOver(canvas, onPlace) {
   canvas.addEventListener('lostpointercapture', () => { down = false; });
 }
 
-export default { render };
+export default { initialize: opensUnchanged, render };

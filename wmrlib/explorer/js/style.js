@@ -30,6 +30,15 @@ function readColours(root) {
   return Object.fromEntries(ROLES.map((role) => [role, style.getPropertyValue(`--${role}`).trim()]));
 }
 
+// JupyterLab counts a notebook as changed as soon as it finds the widgets that are stored in it. Before somebody edits or runs it, it is not.
+function opensUnchanged({ model }) {
+  const notebook = model.widget_manager?.context?.model, kind = 'application/vnd.jupyter.widget';
+  if (!notebook || notebook.sharedModel.canUndo()) return;
+  const stored = notebook.getMetadata('widgets')?.[`${kind}-state+json`]?.state || {};
+  const outputs = [...notebook.cells].flatMap((cell) => cell.sharedModel.toJSON().outputs || []);
+  if (outputs.every(({ data }) => !data?.[`${kind}-view+json`] || data[`${kind}-view+json`].model_id in stored)) notebook.dirty = false;
+}
+
 // viridis at 17 even steps (matplotlib, CC0); between them, straight lines in sRGB are within two levels of the full table.
 const VIRIDIS = [
   [68, 1, 84], [72, 24, 106], [71, 45, 123], [66, 64, 134], [59, 82, 139], [51, 99, 141], [44, 114, 142], [38, 130, 142], [33, 145, 140],

@@ -7,7 +7,7 @@
 //   draw(panes, values, found, hidden, setup): `hidden` before the prediction, when only what is given may be drawn;
 //   say(values, found, setup): the results in the sentence, by name;
 //   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws RangeError, in words, where nothing can }].
-const live = (explorable) => ({ render({ model, el }) {
+const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }) {
   const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' });
   keepKeys(root);
   root.innerHTML = '<div class="live-ask"></div><p class="live-sentence"></p><div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
