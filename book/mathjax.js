@@ -7,6 +7,8 @@
   window.addEventListener('resize', reach);
   window.MathJax = {
     tex: { inlineMath: [['\\(', '\\)'], ['$', '$']] },
+    // Centred, a formula would need as much room on its left as its number has on its right.
+    svg: document.querySelector('.reveal') ? {} : { displayAlign: 'left', displayIndent: '1em' },
     options: {
       enableMenu: false,  // it would load more files when it is opened
       ignoreHtmlClass: 'tex2jax_ignore|mathjax_ignore|document',

@@ -141,7 +141,7 @@ def test_bad_settings_are_refused_by_name():
 def test_the_module_asks_for_nothing_from_outside():
     source = javascript()
     assert not re.search(r"https?:|\bimport\b[^/\n]*from\s*['\"]|\brequire\(|\bfetch\(", source)
-    assert source.rstrip().endswith("export default { render };")
+    assert source.rstrip().endswith("export default { initialize: opensUnchanged, render };")
 
 
 def test_no_law_is_typed_by_hand_in_the_drawing():

@@ -46,9 +46,10 @@
   // Shows the widgets that are below `root`, with the states that stand there too.
   function showAll(root = document) {
     const parts = (kind) => [...root.querySelectorAll(`script[type="${TYPE}-${kind}+json"]`)];
-    const states = Object.assign({}, ...parts('state').map((it) => JSON.parse(it.text).state)); // no states on the page to print: it has pictures
+    const states = Object.assign({}, ...parts('state').map((it) => JSON.parse(it.text).state)); 
     const models = once((id) => modelOf(states[id].state)); // one that is shown twice moves in both places
-    return Promise.all(parts('view').map((place) => show(place, models(JSON.parse(place.text).model_id))));
+    const shown = parts('view').map((place) => [place, JSON.parse(place.text).model_id]).filter(([, id]) => id in states); // on paper stand pictures
+    return Promise.all(shown.map(([place, id]) => show(place, models(id))));
   }
   window.widgets = { modelOf, show, showAll };
   // In a deck, on paper and in tests somebody else says when.

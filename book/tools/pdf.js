@@ -30,8 +30,9 @@ window.paper = (() => {
     await MathJax.startup.promise;
     await Promise.all([...document.images].map((it) => it.decode()));
     for (const number of document.querySelectorAll('.page-number')) {
+      Object.assign(number.style, { display: 'inline-block', whiteSpace: 'pre' });
       const width = number.getBoundingClientRect().width / parseFloat(getComputedStyle(number).fontSize);
-      Object.assign(number.style, { display: 'inline-block', width: `${width}em`, whiteSpace: 'pre' });
+      number.style.width = `${width}em`;
     }
   }
 

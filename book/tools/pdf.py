@@ -32,6 +32,9 @@ DRAWN = """async () => {
     return canvases.length && canvases.every(it => it.width) && panels.every(
         it => it.parentElement.querySelector('.jupyter-widgets'));
 }"""
+# Pictures stand for the panels, so none may live: before the page looks for their states.
+DEAD = """addEventListener('DOMContentLoaded', () => document
+    .querySelectorAll('script[type$="widget-state+json"]').forEach(it => it.remove()))"""
 FRAMES = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 
 
@@ -80,6 +83,7 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
 def open_book(chromium, page: Path):
     book = chromium.new_page(color_scheme="light")
     book.set_default_timeout(PATIENCE)
+    book.add_init_script(DEAD)
     book.goto(page.as_uri(), wait_until="load")
     book.add_script_tag(content=PAPER)
     return book

@@ -21,6 +21,8 @@ from wmrlib.geodesy import (
     local_position,
 )
 
+DARK_INK = "#0a0a0a"  # on a map that stays light in the dark theme
+
 
 def local_map(origin: GeoPoint, point: GeoPoint) -> Picture:
     """Two GPS points in the local frame of the first, east to the right and north up, in metres."""
@@ -109,7 +111,7 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
     levels = np.arange(-0.6, 0.61, 0.1)
     axes.contourf(*grid, levels=levels, cmap="PuOr_r", vmin=-1.0, vmax=1.0)
     levels = np.arange(-0.4, 0.51, 0.1)
-    lines = axes.contour(*grid, levels=levels, colors=COLOURS["ink"], linewidths=0.8)
+    lines = axes.contour(*grid, levels=levels, colors=DARK_INK, linewidths=0.8)
     low = [(each, -1) for each in (81, 66, 56, 47, 38, 28.5, 15.5)]
     axes.clabel(
         lines,
@@ -120,7 +122,7 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
     here = 100.0 * sphere_error(point.lat, bearing)
     at = math.degrees(bearing), point.lat
     axes.plot(*at, "*", ms=16, color=COLOURS["path"], mec="white")
-    note(axes, f"{here:+.3f} %", at, (12, -4), fontsize=12, weight="bold")
+    note(axes, f"{here:+.3f} %", at, (12, -4), fontsize=12, weight="bold", color=DARK_INK)
     axes.set(xlabel="bearing [deg]", ylabel="latitude [deg]")
     axes.set(xticks=range(0, 181, 30), yticks=range(-90, 91, 30))
     return Picture(

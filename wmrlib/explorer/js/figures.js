@@ -20,7 +20,7 @@ function figuresOf(settings, run, summary) {
     arrival: moving
       ? { name: 'Distance left', text: written(summary.residual, 'm'), note: 'mean distance to the moving goal over the last 5 s' }
       : { name: 'Arrives after', text: summary.arrived ? written(summary.time, 's') : 'never', note: 'time until the arrival radius' },
-    heading: { name: moving ? 'Heading error, end' : 'Heading error', text: inDegrees(summary.headingError), note: 'heading minus goal heading at the last sample' },
+    heading: { name: moving ? 'Heading, end' : 'Heading error', text: inDegrees(summary.headingError), note: 'heading minus goal heading at the last sample' },
     peak: { name: 'Peak |ω|', text: written(summary.peakOmega, 'rad/s'), note: 'largest turning rate' },
     length: { name: 'Path length', text: written(summary.pathLength, 'm'), note: 'backward motion included' },
     damping: { name: 'Damping', text: known ? written(near.damping) : '–', note: known ? 'of the heading near a goal that stands still; 1 is critical' : none },

@@ -74,7 +74,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
     if (listening) teach(host(ask.pane).querySelector('canvas'));
     const pane = panes()[ask.pane], said = committed() ? get().guess : ask.kind === 'turn' ? draft || 0 : draft;
     if (still || !pane || said === null) return;
-    if (ask.kind === 'turn') { const [x, y] = pane.at(...ask.at); pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * Math.cos(said), y - 62 * Math.sin(said)), 'ghost', { dash: [5, 5] }); pane.text('your guess', ...pane.view.toWorld(x + 72 * Math.cos(said), y - 72 * Math.sin(said)), { role: 'ghost', align: Math.cos(said) < 0 ? 'right' : 'left' }); }
+    if (ask.kind === 'turn') { const [x, y] = pane.at(...ask.at); pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * Math.cos(said), y - 62 * Math.sin(said)), 'ghost', { dash: [5, 5] }); pane.text('your guess', ...pane.view.toWorld(x + 72 * Math.cos(said), y - 72 * Math.sin(said)), { dy: Math.sin(said) < 0 ? -14 : 14, role: 'ghost', align: Math.cos(said) < 0 ? 'right' : 'left' }); }
     if (ask.kind === 'sketch' && said.length) pane.line(said, 'ghost', { width: 3, dash: [3, 6] });
   }
   return { open, draw };

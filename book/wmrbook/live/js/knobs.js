@@ -118,7 +118,7 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
     };
     const button = knob.plays ? made(row, 'button', { type: 'button', className: 'live-play', textContent: 'Play', onclick: play }, { 'aria-label': `play: ${knob.says}` }) : null;
     timers.push(stop);
-    if (knob.auto && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => { if (!playing) play(); });
+    if (knob.auto && document.documentElement.dataset.still === undefined && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => { if (!playing) play(); });
     shows.push((values) => {
       slider.value = placeOf(stops, values[name]);
       slider.setAttribute('aria-valuetext', `${inWords(values[name])} ${knob.unit}`.trim());
