@@ -18,6 +18,10 @@ from live import PATIENCE, assert_slider_matters, chapters, settled_picture, sli
 pytestmark = [] if os.environ.get("BOOK_HTML") else pytest.mark.needs("npm")
 
 
+WIDE = """() => [...document.querySelectorAll('mjx-container[display]')]
+    .filter(it => it.scrollWidth > it.clientWidth + 1).map(it => it.innerText)"""
+
+
 def pages(site: Path) -> list[Path]:
     """The pages of the site, without the theme's own files."""
     return sorted(path for path in site.rglob("*.html") if "_static" not in path.parts)
@@ -39,6 +43,12 @@ def test_every_page_opens_without_trouble_and_without_faults(site, opened, brows
         page.assert_quiet()
         faults = of_page(page, SIZES[:1], (scheme,))  # faults.py itself looks at all of both
         assert not faults, f"{name}: {faults}"
+
+
+def test_a_formula_of_a_chapter_has_room_for_its_number(opened, browser_page):
+    browser_page.set_viewport_size({"width": 1366, "height": 768})
+    for chapter in ("04_lyapunov", "10_the_audit"):  # whose formulas and numbers are the longest
+        assert opened(f"notebooks/{chapter}.html").evaluate(WIDE) == []
 
 
 def test_every_slider_moves_by_keyboard_and_changes_the_picture(opened):
