@@ -8,7 +8,8 @@
   window.MathJax = {
     tex: { inlineMath: [['\\(', '\\)'], ['$', '$']] },
     // Centred, a formula would need as much room on its left as its number has on its right.
-    svg: document.querySelector('.reveal') ? {} : { displayAlign: 'left', displayIndent: '1em' },
+    svg: document.querySelector('.reveal') ? {}
+      : { displayAlign: 'left', displayIndent: window.innerWidth > 600 ? '1em' : '0' },
     options: {
       enableMenu: false,  // it would load more files when it is opened
       ignoreHtmlClass: 'tex2jax_ignore|mathjax_ignore|document',

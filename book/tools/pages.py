@@ -83,7 +83,8 @@ def show_figures(app, doctree):
             if theme == "dark":  # not loaded where the theme hides it
                 image["loading"] = "lazy"
             images.append(image)
-        output.replace_self(images)
+        # In a box of its own, since it scrolls in a narrow window.
+        output.replace_self(nodes.container("", *images, classes=["figure-box"]))
 
 
 def begin_chapter(app, doctree):

@@ -3,16 +3,18 @@
 from __future__ import annotations
 
 import hashlib
-import json
 from pathlib import Path
 
 PARTS = (Path(__file__).parents[2] / "book/_static/widgets.js", Path(__file__).with_name("host.js"))
 HOST = "\n".join(part.read_text(encoding="utf-8") for part in PARTS)
 PAGE = "<!doctype html><meta charset='utf-8'><title>panel</title><body style='margin: 0'>"
-FRAMES = """() => new Promise(done =>
-    requestAnimationFrame(() => requestAnimationFrame(() => done())))"""
-MAP_IS_DONE = """() => panel.get('state').view !== 'gains'
-    || document.querySelector('.wmr-map').dataset.finished === 'true'"""
+SETTLED = """async () => {
+    const frames = () => new Promise(done =>
+        requestAnimationFrame(() => requestAnimationFrame(done)));
+    await frames();
+    while (panel.get('state').view === 'gains'
+        && document.querySelector('.wmr-map').dataset.finished !== 'true') await frames();
+}"""
 PUT = """([name, value]) => {
     const row = document.querySelector(`[data-control=${name}]`);
     if (row.hidden) throw new Error(`${name} is hidden`);
@@ -21,10 +23,7 @@ PUT = """([name, value]) => {
     if (input.value !== String(value)) throw new Error(`${name} does not offer ${value}`);
     input.dispatchEvent(new Event('change'));
 }"""
-SET = """changes => {
-    const values = Object.entries(changes).map(([name, value]) => [name, eval(`(${value})`)]);
-    panel.set('state', {...panel.get('state'), ...Object.fromEntries(values)});
-}"""
+SET = "changes => panel.set('state', { ...panel.get('state'), ...changes })"
 PIXELS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')]
     .map(each => each.toDataURL())"""
 COLOURS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].map(each => {
@@ -60,9 +59,7 @@ class Panel:
 
     def settled(self):
         """Wait until everything is drawn, the map included."""
-        self.page.evaluate(FRAMES)
-        self.page.wait_for_function(MAP_IS_DONE)
-        self.page.evaluate(FRAMES)
+        self.page.evaluate(SETTLED)
         return self
 
     def put(self, name, value):
@@ -71,12 +68,8 @@ class Panel:
         return self.settled()
 
     def set(self, **values):
-        """Change the state, as Python does; a string stands for JavaScript, so that NaN can be."""
-        texts = {
-            name: value if isinstance(value, str) else json.dumps(value)
-            for name, value in values.items()
-        }
-        self.page.evaluate(SET, texts)
+        """Change the state, as Python does."""
+        self.page.evaluate(SET, values)
         return self.settled()
 
     def get(self, name):

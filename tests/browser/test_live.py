@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 import re
 
 import pytest
@@ -37,20 +36,24 @@ PASS = """() => document.querySelectorAll('.live canvas').forEach(canvas => {
 })"""
 KEYS = """keys => keys.forEach(key => document.activeElement.dispatchEvent(
     new KeyboardEvent('keydown', { key, bubbles: true })))"""
+# What is read, and spoken, at each of these states: [text, [names of pictures]].
+SAID_AT = """async states => {
+    const said = [];
+    for (const state of states) {
+        panel.set('state', { ...panel.get('state'), ...state });
+        await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+        said.push([document.querySelector('.live').innerText,
+            [...document.querySelectorAll('.live canvas')].map(it => it.ariaLabel)]);
+    }
+    return said;
+}"""
 FAULTS = "async () => (await axe.run('.live')).violations.map(it => [it.id, it.nodes[0].html])"
 
 
-def quoted(values: dict) -> dict:
-    """For `Panel.set`, to which a string is JavaScript."""
-    return {
-        name: json.dumps(each) if isinstance(each, str) else each for name, each in values.items()
-    }
-
-
-def opened(page, name: str, width: int = 900):
+def opened(page, name: str):
     """Show one and commit to a prediction, if it asks for one; return it and its panel."""
     thing = getattr(live, name)()
-    panel = mounted(page, thing, width=width)
+    panel = mounted(page, thing, width=900)
     if ask := thing.setup["ask"]:
         commit(panel, ask)
     return thing, panel
@@ -69,49 +72,42 @@ def commit(panel, ask) -> None:
     panel.settled()
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_nothing_is_shown_before_the_prediction_is_made(emptied_page, name):
-    thing = getattr(live, name)()
-    if not (ask := thing.setup["ask"]):
-        return
-    panel = mounted(emptied_page, thing)
-    page = panel.page
-    given = page.evaluate(PICTURE)
-    for knob in thing.setup["knobs"]:
-        for value in [knob["low"], knob["high"]] if "low" in knob else dict(knob["choices"]):
-            panel.set(**quoted({knob["name"]: value}))
-            assert page.evaluate(PICTURE) == given, knob["name"]
-    panel.set(**quoted(thing.state))
-    assert (
-        page.locator(".live-sentence, .live-rows, .wmr-handle").locator("visible=true").count() == 0
-    )
-    assert re.search(r"\?|Sketch", ask["question"])
-    assert ask["why"] not in page.evaluate(TEXT)
-    assert page.get_by_role("button", name="Commit").is_disabled()
-    commit(panel, ask)
-    assert ask["why"] in page.evaluate(TEXT)
-    assert page.locator(".live-sentence").is_visible()
-    assert page.evaluate(PICTURE) != given
-    assert page.locator(".live-gate input:enabled").count() == 0
-    assert page.evaluate("document.activeElement.matches('.live-verdict')")  # keys go on from there
-    assert page.evaluate(TOUCH) == ["pan-y pinch-zoom"]  # and fingers scroll the page again
+@pytest.fixture(scope="module", params=NAMES)
+def in_the_dark(module_page, request):
+    """One of them in a dark page, for all tests that put it back where it was."""
+    module_page.emulate_media(color_scheme="dark")
+    thing, panel = opened(module_page, request.param)
+    return thing, panel, dict(module_page.evaluate("panel.get('state')"))
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_all_that_moves_matters_and_says_something_sound(emptied_page, name):
-    thing, panel = opened(emptied_page, name)
-    page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
-    moved = page.evaluate(PICTURE)
-    for knob in thing.setup["knobs"]:
-        panel.set(**quoted(home))
-        before = page.evaluate(PICTURE)
+@pytest.fixture
+def moved(in_the_dark):
+    """It, its panel, and the state where it is at home."""
+    _, panel, home = in_the_dark
+    panel.page.troubles.clear()
+    panel.page.mouse.move(0, 0)
+    panel.set(**home)
+    yield in_the_dark
+    panel.page.assert_quiet()
+
+
+def ends(knob: dict) -> list:
+    return [knob["low"], knob["high"]] if "low" in knob else [value for value, _ in knob["choices"]]
+
+
+def test_each_end_and_each_choice_changes_the_picture_and_all_is_sound(moved):
+    thing, panel, home = moved
+    page, knobs = panel.page, thing.setup["knobs"]
+    for knob in knobs:
+        panel.set(**home)
+        before, pictures = page.evaluate(PICTURE), set()
         if "choices" in knob:
-            for value, _ in knob["choices"]:
+            for value in ends(knob):
                 page.get_by_label(knob["says"], exact=True).select_option(value)
                 panel.settled()
                 assert panel.get(knob["name"]) == value
-                moved = moved if page.evaluate(PICTURE) == before else ""
-            assert not moved, f"{knob['name']} changes nothing"
+                pictures.add(page.evaluate(PICTURE))
+            assert len(pictures | {before}) > 1, f"{knob['name']} changes nothing"
             continue
         slider = panel.slider(knob["name"])
         said = slider.get_attribute("aria-valuetext")
@@ -120,25 +116,18 @@ def test_all_that_moves_matters_and_says_something_sound(emptied_page, name):
         assert slider.get_attribute("aria-valuetext") != said
         assert page.evaluate(PICTURE) != before, f"{knob['name']} changes nothing"
         assert slider.get_attribute("aria-label") == knob["says"]
-    ends = [
-        (k["low"], k["high"]) if "low" in k else [v for v, _ in k["choices"]]
-        for k in thing.setup["knobs"]
-    ]
-    for corner in itertools.islice(itertools.product(*ends), 16):
-        names = (knob["name"] for knob in thing.setup["knobs"])
-        panel.set(**quoted(dict(zip(names, corner, strict=True))))
-        assert not UNSOUND.search(page.evaluate(TEXT)), (corner, page.evaluate(TEXT))
-        for canvas in page.locator(".live canvas").all():
-            assert not UNSOUND.search(canvas.get_attribute("aria-label")), corner
-            assert len(canvas.get_attribute("aria-label").split()) > 3
+    names = [knob["name"] for knob in knobs]
+    corners = list(itertools.islice(itertools.product(*map(ends, knobs)), 16))
+    states = [dict(zip(names, corner, strict=True)) for corner in corners]
+    for corner, (text, labels) in zip(corners, page.evaluate(SAID_AT, states), strict=True):
+        for said in (text, *labels):
+            assert not UNSOUND.search(said), (corner, said)
+        assert all(len(label.split()) > 3 for label in labels)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_moves(
-    emptied_page, name
-):
-    thing, panel = opened(emptied_page, name)
-    page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
+def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_moves(moved):
+    thing, panel, home = moved
+    page = panel.page
     for knob in thing.setup["knobs"]:
         number = page.get_by_role("spinbutton", name=knob["says"], exact=True)
         if "choices" in knob or not number.count():  # its slider alone moves it
@@ -158,7 +147,7 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
         number.scroll_into_view_if_needed()
         panel.drag(number, 40, 0)
         assert panel.get(knob["name"]) > now
-    panel.set(**quoted(home))
+    panel.set(**home)
     for handle in page.locator(".wmr-handle").all():
         before = page.evaluate("JSON.stringify(panel.get('state'))")
         for key in ("ArrowLeft", "ArrowUp"):
@@ -170,28 +159,52 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
         for knob in thing.setup["knobs"]:
             if "low" in knob:
                 assert knob["low"] <= panel.get(knob["name"]) <= knob["high"], knob["name"]
-    panel.set(**quoted(home))
+    panel.set(**home)
     page.evaluate(PASS)
     held = [name for name in home if name != "time" and panel.get(name) != home[name]]
     assert not held, f"a mouse that passes over a picture moves {held}"
 
 
+def test_everybody_can_use_it_in_the_dark(moved):
+    _, panel, _ = moved
+    assert not panel.page.evaluate(WIDE)
+    assert not panel.page.evaluate(SMALL)
+    panel.page.add_script_tag(path=AXE)
+    assert not panel.page.evaluate(FAULTS)
+
+
 @pytest.mark.parametrize("name", NAMES)
-def test_it_fits_a_phone_and_everybody_can_use_it(emptied_page, name):
-    thing = getattr(live, name)()
-    for width, scheme in ((390, "light"), (900, "dark")):
-        emptied_page.emulate_media(color_scheme=scheme)
-        panel = mounted(emptied_page, thing, width=width, height=844)
-        for step in ("closed", "open") if thing.setup["ask"] else ("open",):
-            if step == "open" and thing.setup["ask"]:
-                commit(panel, thing.setup["ask"])
-            assert not emptied_page.evaluate(WIDE), (width, step)
-            assert not emptied_page.evaluate(SMALL), (width, step)
-            if (width, step) == (900, "closed"):  # it is the phone's, in other colours
-                continue
-            emptied_page.add_script_tag(path=AXE)
-            found = emptied_page.evaluate(FAULTS)
-            assert not found, (width, step, found)
+def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use_it(
+    emptied_page, name
+):
+    page, thing = emptied_page, getattr(live, name)()
+    panel = mounted(page, thing, width=390, height=844)
+    page.add_script_tag(path=AXE)
+    if ask := thing.setup["ask"]:
+        given = page.evaluate(PICTURE)
+        for knob in thing.setup["knobs"]:
+            for value in ends(knob):
+                panel.set(**{knob["name"]: value})
+                assert page.evaluate(PICTURE) == given, knob["name"]
+        panel.set(**thing.state)
+        answers = page.locator(".live-sentence, .live-rows, .wmr-handle")
+        assert answers.locator("visible=true").count() == 0
+        assert re.search(r"\?|Sketch", ask["question"])
+        assert ask["why"] not in page.evaluate(TEXT)
+        assert page.get_by_role("button", name="Commit").is_disabled()
+        assert not page.evaluate(WIDE)
+        assert not page.evaluate(SMALL)
+        assert not page.evaluate(FAULTS)
+        commit(panel, ask)
+        assert ask["why"] in page.evaluate(TEXT)
+        assert page.locator(".live-sentence").is_visible()
+        assert page.evaluate(PICTURE) != given
+        assert page.locator(".live-gate input:enabled").count() == 0
+        assert page.evaluate("document.activeElement.matches('.live-verdict')")  # keys go on there
+        assert page.evaluate(TOUCH) == ["pan-y pinch-zoom"]  # and fingers scroll the page again
+    assert not page.evaluate(WIDE)
+    assert not page.evaluate(SMALL)
+    assert not page.evaluate(FAULTS)
 
 
 def test_python_moves_it_and_refuses_what_is_not_allowed():

@@ -12,7 +12,7 @@ from scipy.integrate import solve_ivp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
-from test_live import NAMES, commit, quoted
+from test_live import NAMES, commit
 
 import wmrlib as wmr
 from wmrbook import live
@@ -408,7 +408,7 @@ def test_what_is_shown_is_true(emptied_page, name):
                 values[knob["name"]], chosen = knob["choices"][turn][0], chosen + 1
             else:
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
-        panel.set(**quoted(values))
+        panel.set(**values)
         state = emptied_page.evaluate("panel.get('state')")
         found = json.loads(emptied_page.evaluate(FOUND))
         TRUTH[name](state, found, thing.setup["data"])
