@@ -86,7 +86,7 @@ window.paper = (() => {
   function number_pages(pages) {
     for (const number of document.querySelectorAll('.page-number')) {
       const page = pages[number.dataset.of] ?? '000';
-      number.textContent = number.closest('.contents-on-paper') ? page : `[p. ${page}]`;
+      number.textContent = number.closest('.contents-on-paper') ? ` ${page}` : `[p. ${page}]`;
     }
   }
 
