@@ -17,6 +17,10 @@ window.paper = (() => {
     });
     document.querySelectorAll('details').forEach((it) => { it.open = true; });
     document.querySelectorAll('img').forEach((it) => { it.loading = 'eager'; });
+    for (const it of document.querySelectorAll('article p')) {  // a line in bold type, or one that announces what follows
+      const bold = it.querySelector(':scope > strong');
+      it.classList.toggle('leads-on', /:\s*$/.test(it.textContent) || bold?.textContent === it.textContent);
+    }
     mend_links();
     begins()[0].before(contents());
     for (const link of [...document.querySelectorAll('article a[href^="#"]')]) {
@@ -24,22 +28,18 @@ window.paper = (() => {
       number.className = 'page-number';
       number.dataset.of = link.getAttribute('href').slice(1);
       if (link.closest('.contents-on-paper')) link.append(number);
-      else if (leads_elsewhere(link)) link.after(number);
+      else if (leads_elsewhere(link)) link.after(' ', number);
     }
     number_pages({});
     await MathJax.startup.promise;
     await Promise.all([...document.images].map((it) => it.decode()));
-    for (const number of document.querySelectorAll('.page-number')) {
-      Object.assign(number.style, { display: 'inline-block', whiteSpace: 'pre' });
-      const width = number.getBoundingClientRect().width / parseFloat(getComputedStyle(number).fontSize);
-      number.style.width = `${width}em`;
-    }
   }
 
   // Sphinx writes #document-notebooks/04_lyapunov#paper-24, and several chapters have a section of the same name.
   function mend_links() {
     const links = Map.groupBy(document.querySelectorAll('article a[href^="#"]'), (it) => it.getAttribute('href'));
-    const lead = (found, target) => found?.forEach((link) => { link.href = `#${target.id}`; });
+    const whole = (it) => it.matches('.math > span') ? it.parentElement : it;  // what is empty has no place on paper
+    const lead = (found, target) => found?.forEach((link) => { link.href = `#${whole(target).id}`; });
     const seen = new Set([document.querySelector('article section').id]);
     for (const begin of begins()) {
       const chapter = begin.nextElementSibling;
@@ -86,7 +86,7 @@ window.paper = (() => {
   function number_pages(pages) {
     for (const number of document.querySelectorAll('.page-number')) {
       const page = pages[number.dataset.of] ?? '000';
-      number.textContent = number.closest('.contents-on-paper') ? page : ` [p. ${page}]`;
+      number.textContent = number.closest('.contents-on-paper') ? ` ${page}` : `[p. ${page}]`;
     }
   }
 

@@ -66,7 +66,7 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         # own: what has been printed once may break its pages otherwise the next time.
         pages = find_pages(print_page(blank, pdf), blank.evaluate("paper.anchors()"))
         blank.close()
-        for _ in range(3):  # a picture that just fits a page may move those after it
+        for _ in range(5):  # a number of fewer digits may move what follows
             before = pages
             book = open_book(chromium, page)
             book.evaluate("stills => paper.prepare(stills)", stills)
@@ -94,7 +94,7 @@ def print_page(page, pdf: Path, **more: bool) -> Path:
         path=pdf,
         format="A4",
         margin=MARGIN,
-        scale=0.8,
+        scale=0.84,
         display_header_footer=True,
         header_template="<span></span>",
         footer_template=FOOTER,

@@ -3,7 +3,8 @@
     python tests/browser/faults.py book/_build/html
 
 Code lines, formulas, tables and figures that are cut, what axe-core finds in the light and in the
-dark, requests that leave the site, and panels that the PDF lacks. Needs `npm ci` in book/.
+dark, requests that leave the site, and of the PDF lost panels and pages that look torn. Needs
+`npm ci` in book/.
 """
 
 from __future__ import annotations
@@ -16,6 +17,8 @@ from collections import Counter
 from pathlib import Path
 
 import numpy as np
+import pypdfium2
+from pypdfium2.raw import FS_MATRIX, FPDFText_GetFontSize, FPDFText_GetMatrix
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZES = ((390, 844), (1366, 768), (1920, 1080))
@@ -27,6 +30,7 @@ UNFOLD = """() => {
     document.head.append(Object.assign(document.createElement('style'),
         {textContent: '* { transition: none !important; animation: none !important; }'}));
 }"""
+FOOT = 51  # points from the edge; below stands a page's number
 PANEL = '<script type="application/vnd.jupyter.widget-view+json">'
 DRAWN = """async () => {
     await window.MathJax?.startup.promise;
@@ -90,6 +94,36 @@ def stills(pdf: Path) -> int:
     return file.count(b"/Alt (The live panel,")
 
 
+def of_paper(pdf: Path) -> list[tuple[str, str]]:
+    """The faults of the printed book, as pairs of kind and place."""
+    book, faults, matrix = pypdfium2.PdfDocument(pdf), [], FS_MATRIX()
+    begins = {it.get_dest().get_index() for it in book.get_toc() if it.level <= 2} | {len(book)}
+    # The order of the text is that of painting, not of reading: places tell what is on top.
+    for index, page in enumerate(book):
+        inside = page.get_textpage()
+        text, letters = inside.get_text_range(), []  # these as height of the line, size, letter
+        for place, letter in enumerate(text):
+            if not letter.isspace() and FPDFText_GetMatrix(inside, place, matrix):
+                size = FPDFText_GetFontSize(inside, place) * matrix.d
+                letters += [(round(matrix.f), size, letter)] if matrix.f > FOOT else []
+        highest = max(letters, default=(0,))[0]
+        top = "".join(letter for height, _, letter in letters if height == highest)
+        rows = (page.render(scale=0.3, grayscale=True).to_numpy() < 200).any(axis=1)
+        ink = np.flatnonzero(rows[: -int(FOOT * 0.3)]) / len(rows)
+        found = {
+            "blank pages": not len(ink),
+            "pages more than half empty in a chapter": (
+                len(ink) and ink[-1] < 0.45 and index + 1 not in begins
+            ),
+            "headings at the foot of a page": letters and min(letters)[1] > 11,  # points
+            "figures parted from their code": re.match(r"Figure\d+\.\d+\.", top),
+            "text under 8 points": any(size < 8 for _, size, _ in letters),
+            "gaps after the number of a page": re.search(r"\[p\.\s\d+\]\s+[.,;:)]", text),
+        }
+        faults += [(kind, f"page {index + 1}") for kind, is_so in found.items() if is_so]
+    return faults
+
+
 def main(site: Path, only: list[str]) -> int:
     """Print the faults of each page and of the PDF, and their sums; return how many there are."""
     from playwright.sync_api import sync_playwright
@@ -121,7 +155,7 @@ def main(site: Path, only: list[str]) -> int:
         chromium.close()
     if (pdf := site.parent / "book.pdf").is_file() and not only:
         panels = sum(path.read_text(encoding="utf-8").count(PANEL) for path in site.rglob("*.html"))
-        faults += [("panels that the PDF lacks", "")] * (panels - stills(pdf))
+        faults += [("panels that the PDF lacks", "")] * (panels - stills(pdf)) + of_paper(pdf)
     for kind, count in sorted(Counter(kind for kind, _ in faults).items()):
         print(f"{count:5} {kind}")
     print(f"{len(faults):5} in all")

@@ -12,7 +12,7 @@ from urllib.parse import unquote, urlsplit
 import nbformat
 import pypdfium2
 import pytest
-from faults import PANEL, SIZES, of_page, stills
+from faults import PANEL, SIZES, of_page, of_paper, stills
 from live import PATIENCE, assert_slider_matters, chapters, settled_picture, sliders
 
 pytestmark = [] if os.environ.get("BOOK_HTML") else pytest.mark.needs("npm")
@@ -154,3 +154,4 @@ def test_the_printed_book_holds_every_chapter(site):
     assert len(begins) > 5 * len(chapters())
     panels = [path.read_text(encoding="utf-8").count(PANEL) for path in pages(site)]
     assert stills(book) == sum(panels) > 5
+    assert of_paper(book) == []
