@@ -23,7 +23,10 @@ from docutils import nodes
 SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
 CHAPTER = re.compile(r"notebooks/(\d\d)_")
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
-THERE = {"collections", "functools", "math", "sympy", "wmrbook.equations", "wmrlib.symbolic"}
+THERE = {
+    *("collections", "functools", "math", "sympy"),
+    *("wmrbook.equations", "wmrbook.grading", "wmrlib.symbolic"),
+}
 # The graded tasks that are right in the page too, by the id of the cell to fill in.
 TASKS = {
     "01": ("distance", "bearing", "local"),
