@@ -26,7 +26,7 @@ from wmrlib.symbolic import L, alpha, k_alpha, k_rho, lyapunov_rate, rho
 _SQUARED = "look at v_max: by how much is the braking larger at twice the speed?"
 
 
-def exercise(check: Callable[[Any], str]) -> Callable[[Any], str]:
+def _exercise(check: Callable[[Any], str]) -> Callable[[Any], str]:
     """Return the check that returns its hints."""
 
     @wraps(check)
@@ -39,7 +39,7 @@ def exercise(check: Callable[[Any], str]) -> Callable[[Any], str]:
     return told
 
 
-@exercise
+@_exercise
 def third_formula(distance: Callable) -> str:
     """1.2: distance(lat_1, lon_1, lat_2, lon_2), degrees in, metres out."""
     for a, b in earth._places(20):
@@ -60,7 +60,7 @@ def third_formula(distance: Callable) -> str:
     return "Right all over the Earth, and for a centimetre."
 
 
-@exercise
+@_exercise
 def odometry(path: Callable) -> str:
     """2.2: path(log, width, dt), a log of (left, right) in m/s, returns (x, y, heading)."""
     own_work(path)
@@ -84,7 +84,7 @@ def odometry(path: Callable) -> str:
     return "Right for six logs, turning both ways. Euler ends elsewhere."
 
 
-@exercise
+@_exercise
 def back_to_the_pose(pose: Callable) -> str:
     """3.2: pose(rho, alpha, theta, goal) returns (x, y, heading)."""
     own_work(pose)
@@ -118,7 +118,7 @@ def _inverse(goal: Pose, far: float, ahead: float, beside: float) -> tuple[float
     return goal.x - far * math.cos(sight), goal.y - far * math.sin(sight), sight - ahead
 
 
-@exercise
+@_exercise
 def brake(limits: Any) -> str:
     """4.1: the largest k_rho with the exponential and with tanh."""
     grid = [x / 1000 for x in range(5000)]
@@ -137,7 +137,7 @@ def brake(limits: Any) -> str:
     return "Right: tanh brakes harder, and asks for the smaller gain."
 
 
-@exercise
+@_exercise
 def aicardi(V_rate: Any) -> str:
     """4.2: V' of (19) with Aicardi's law."""
     symbols = (rho, alpha, L, k_rho, k_alpha)
@@ -157,7 +157,7 @@ def aicardi(V_rate: Any) -> str:
     return "Right: each term shows that it is never positive."
 
 
-@exercise
+@_exercise
 def braking(answer: Any) -> str:
     """5.2: the hardest braking, k_rho for 0.5 m/s^2, and where 5 % of the speed is gone."""
     hardest, gentle, far = numbers("`answer`", answer, 3)
@@ -173,7 +173,7 @@ def braking(answer: Any) -> str:
     return "Right: braking begins early enough for a robot with a load."
 
 
-@exercise
+@_exercise
 def one_centimetre(answer: Any) -> str:
     """6.1: k_rho that leaves 1 cm, and the step that a sampled robot must stay below."""
     gain, step = numbers("`answer`", answer, 2)
@@ -190,7 +190,7 @@ def one_centimetre(answer: Any) -> str:
     return "Right: below this step the distance settles, and 1 cm is left."
 
 
-@exercise
+@_exercise
 def longest_step(seconds: Any) -> str:
     """8.2: the longest polar Euler step with which the circle's gains still settle."""
     value, gains = number("`seconds`", seconds), paper.CIRCLE_GAINS
@@ -207,7 +207,7 @@ def longest_step(seconds: Any) -> str:
     return "Right: the distance sets this limit, not the angles."
 
 
-@exercise
+@_exercise
 def three_readings(centre: Callable) -> str:
     """11.2: centre(a, b, c), readings (x, y) on a circle, returns its centre."""
     for *middle, radius, turn in drawn(5, 20, (-40, 40), (-40, 40), (20, 50), (-3, 3)):
@@ -224,7 +224,7 @@ def _on_circle(middle: Sequence[float], radius: float, turn: float) -> tuple[flo
     return middle[0] + radius * math.cos(turn), middle[1] + radius * math.sin(turn)
 
 
-@exercise
+@_exercise
 def short_fence(answer: Any) -> str:
     """11.3: the timeout and the top speed."""
     timeout, speed = numbers("`answer`", answer, 2)
@@ -237,7 +237,7 @@ def short_fence(answer: Any) -> str:
     return f"Right: it stops {far:.2f} m after its last fix, and bears one that is lost."
 
 
-@exercise
+@_exercise
 def walk(keep: Callable) -> str:
     """12.2: keep(fixes), of (seconds, east, north), those that can be walked to."""
     for seed in range(4):
