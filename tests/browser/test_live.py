@@ -136,13 +136,11 @@ def test_all_that_moves_matters_and_says_something_sound(emptied_page, name):
         for canvas in page.locator(".live canvas").all():
             assert not UNSOUND.search(canvas.get_attribute("aria-label")), corner
             assert len(canvas.get_attribute("aria-label").split()) > 3
+    panel.set(**quoted(home))
+    numbers_are_typed_dragged_and_refused_and_handles_move(thing, panel)
 
 
-@pytest.mark.parametrize("name", NAMES)
-def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_moves(
-    emptied_page, name
-):
-    thing, panel = opened(emptied_page, name)
+def numbers_are_typed_dragged_and_refused_and_handles_move(thing, panel) -> None:
     page, home = panel.page, dict(panel.page.evaluate("panel.get('state')"))
     for knob in thing.setup["knobs"]:
         number = page.get_by_role("spinbutton", name=knob["says"], exact=True)
