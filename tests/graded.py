@@ -142,6 +142,28 @@ def lost(chapter: str, key: str, source: str, student="Ada", by="") -> dict[str,
     return found
 
 
+@cache
+def exercises() -> dict[str, dict[str, str]]:
+    """Of the chapters' own exercises that have a check: the answer, and an edit for each hint."""
+    return tomllib.loads((ROOT / "tests/data/exercises.toml").read_text(encoding="utf-8"))
+
+
+def mistold(name: str) -> list[tuple[str, str]]:
+    """Words that the check of an exercise should say, and what it says instead."""
+    from wmrbook.grading import exercises as checks
+
+    given, found = dict(exercises()[name]), []
+    right = given.pop("answer")
+    sources = {words: edited(right, edit.split(" || ")) for words, edit in given.items()}
+    for words, source in {"Right": right, **sources}.items():
+        names = {}
+        _run(source, f"<{name}>", names)
+        told = getattr(checks, name)(names["answer"])
+        if words not in told or told.startswith("Hint: ") == (words == "Right"):
+            found.append((words, told))
+    return found
+
+
 def nbgrader(folder: Path, *arguments: str) -> None:
     """Run one of its commands in the folder of a course."""
     paths = [str(ROOT), str(ROOT / "book"), os.environ.get("PYTHONPATH", "")]

@@ -134,6 +134,8 @@ def test_nonsense_is_answered_by_a_hint(module):
         for name, check in inspect.getmembers(module, inspect.isfunction)
         if check.__module__ == module.__name__ and not name.startswith("_")
     ]
+    if module is grading.exercises:  # which say their hints instead
+        checks = [check.__wrapped__ for check in checks]
     assert len(checks) > 2
     for check in checks:
         assert inspect.getdoc(check)

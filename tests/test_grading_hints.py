@@ -7,6 +7,7 @@ import math
 import re
 from pathlib import Path
 
+import graded
 import numba
 import numpy as np
 import pytest
@@ -25,6 +26,7 @@ from wmrlib import polar_error as seen_from
 GAINS = wmr.Gains(1.0, 2.0, 3.0)
 START, GOAL = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(1.0, 0.0, 0.0)
 ALLOWED = ("Pose", "polar_error")
+CHAPTERS = "".join(it.read_text(encoding="utf-8") for it in graded.ROOT.glob("notebooks/*.ipynb"))
 
 
 def test_a_number_may_have_many_forms():
@@ -248,3 +250,9 @@ def test_counterexamples_are_those_of_the_paper_s_equations():
             assert side == bool(refutes)
             assert not (refutes and alpha > 0)
     assert min(map(found.count, ("accepted", "side", "claim holds"))) > 5
+
+
+@pytest.mark.parametrize("name", graded.exercises())
+def test_a_chapters_exercise_takes_its_answer_and_says_what_is_wrong_with_others(name):
+    assert graded.mistold(name) == []
+    assert f"grading.exercises.{name}(" in CHAPTERS

@@ -68,6 +68,7 @@ FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
     ),
     ("half_turn", angles, "simulate", lambda f: lambda a, b, k, **o: f(_turned(a), b, k, **o)),
     ("bowl", lyapunov, "simulate", _uphill),
+    ("small_angle", lyapunov, "control_law", lambda f: lambda *a: (f(*a)[0], -f(*a)[1])),
     ("two_bars", lyapunov, "control_law", lambda f: lambda *a: (-f(*a)[0], f(*a)[1])),
     ("x_axis", pose_to_pose, "polar_error", lambda f: lambda a, b: f(b, a)),
     ("heading_left", pose_to_pose, "simulate", _uphill),

@@ -64,7 +64,7 @@
   // Cells
 
   const source = (cell) => cell.editor?.value ?? cell.source;
-  const kind = (cell) => (cell.checks.length ? 'task' : 'cell');
+  const kind = (cell) => (cell.space === 'tasks' ? 'task' : 'cell');
   const say = (cell, text) => { cell.status.textContent = text; };
 
   async function run(cell) {
@@ -207,7 +207,7 @@
     const folded = input.closest('details');
     (folded && cell.element.contains(folded) ? folded : input).after(cell.tools, cell.output);
     cells.push(cell);
-    if (cell.checks.length) edit(cell);
+    if (cell.asks) edit(cell);
   }
 
   window.addEventListener('resize', () => cells.filter((it) => it.editor).forEach(fit));

@@ -23,21 +23,31 @@ from docutils import nodes
 SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
 CHAPTER = re.compile(r"notebooks/(\d\d)_")
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
-THERE = {"collections", "functools", "math", "sympy", "wmrbook.equations", "wmrlib.symbolic"}
+THERE = {
+    *("collections", "functools", "math", "sympy"),
+    *("wmrbook.equations", "wmrbook.grading", "wmrlib.symbolic"),
+}
 # The graded tasks that are right in the page too, by the id of the cell to fill in.
 TASKS = {
     "01": ("distance", "bearing", "local"),
     "03": ("our-gains",),
-    "04": ("V-rate", "turning", "V-rate-closed"),
+    "04": ("V-rate", "turning", "V-rate-closed", "rising"),
     "05": ("law", "axes"),
     "06": ("law",),
+    "10": ("claim23", "claim26"),
     "11": ("compass",),
     "12": ("degrees",),
 }
+# Those whose checks drive, which is too much for the page: it makes a student's numbers alone.
+DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
 SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
 STUB = 'raise NotImplementedError("write your answer here")\n'
 ABOUT = (
     "Graded tasks of [the course](../lecturers.md#graded-exercises), checked here with its hints."
+)
+DRIVEN = (
+    "A graded task of [the course](../lecturers.md#graded-exercises). With your name, the cell "
+    "shows your numbers; the course's notebook drives with them."
 )
 
 
@@ -50,6 +60,7 @@ class Cell(NamedTuple):
     left_out: int = 0  # lines
     checks: tuple[str, ...] = ()
     space: str = "chapter"  # cells of one space share their variables
+    asks: bool = False  # it waits for an answer
 
 
 def runnable(notebook) -> list[Cell]:
@@ -68,7 +79,8 @@ def runnable(notebook) -> list[Cell]:
             lines = cell.source.splitlines()
             cut = {i for each in left for i in range(each.lineno - 1, each.end_lineno)}
             kept = "\n".join(line for i, line in enumerate(lines) if i not in cut).strip("\n")
-            found.append((Cell(place, kept, left_out=len(cut)), runs, hidden))
+            asks = "grading.exercises." in kept
+            found.append((Cell(place, kept, left_out=len(cut), asks=asks), runs, hidden))
             hidden = []
         else:
             hidden = hidden + runs
@@ -179,28 +191,35 @@ def add_tasks(app, docname, source):
 
 def tasks(chapter: str) -> list:
     """Return the chapter's tasks as cells of a notebook, without their solutions."""
-    wanted = TASKS.get(chapter)
-    if not wanted:
+    wanted, driven = TASKS.get(chapter, ()), DRIVES.get(chapter, ())
+    if not (wanted or driven):
         return []
     (path,) = (SOURCE / f"ch{chapter}").glob("*.ipynb")
-    told, imports, cells = "", "", {}
+    text, mine, setup, cells = "", "", [], {}
     for cell in nbformat.read(path, 4).cells:
-        name = cell.metadata["nbgrader"]["grade_id"]
-        if cell.cell_type == "markdown" and cell.source.startswith("## Task"):
-            told = cell.source
-        elif cell.cell_type == "markdown" or not told:
-            imports = imports or (cell.source if cell.cell_type == "code" else "")
+        settings = cell.metadata["nbgrader"]
+        if cell.cell_type == "markdown":
+            text = cell.source.replace("## Task", "### Task")
+        elif "### Task" not in text and not cells:
+            setup.append(SOLUTION.sub("", cell.source))  # the imports, and the student's name
+        elif settings["grade_id"] == "mine":
+            mine = setup[1] + cell.source
         elif SOLUTION.search(cell.source):
-            cells[name] = (told, cell.source, checks := [])
-        elif cell.metadata["nbgrader"]["grade"]:
+            code = mine, SOLUTION.sub(_stub, cell.source)
+            cells[settings["grade_id"]], mine = (text, code, checks := []), ""
+        elif settings["grade"]:
             checks.append(cell.source)
     made = []
-    for name in wanted:
-        told, answer, checks = cells[name]
-        text = f"#{told}" + f"\n\n{ABOUT}" * (not made)
-        code = nbformat.v4.new_code_cell(SOLUTION.sub(_stub, answer).strip("\n"))
-        code.metadata["task"] = {"before": imports, "checks": checks}
-        made += [nbformat.v4.new_markdown_cell(text), code]
+    for name in (*wanted, *driven):
+        text, (mine, answer), checks = cells[name]
+        about = f"\n\n{DRIVEN if name in driven else ABOUT}" * (not made)
+        made.append(nbformat.v4.new_markdown_cell(text + about))
+        parts = (mine, "from wmrbook import grading", []), (answer, setup[0], checks)
+        for source, before, graded in parts:
+            if source and not (graded and name in driven):
+                code = nbformat.v4.new_code_cell(source.strip("\n"))
+                code.metadata["task"] = {"before": before, "checks": graded}
+                made.append(code)
     return made
 
 
@@ -219,13 +238,13 @@ def give_cells(app, doctree):
     for place, cell in enumerate(notebook.cells):
         if told := cell.metadata.get("task"):
             before, checks = told["before"], tuple(told["checks"])
-            cells[place] = Cell(place, cell.source, before, checks=checks, space="tasks")
+            cells[place] = Cell(place, cell.source, before, 0, checks, "tasks", asks=True)
     for container in list(doctree.findall(nodes.container)):
         if cell := cells.get(container.get("cell_index")):
             given = json.dumps(cell._asdict(), ensure_ascii=False).replace("</", "<\\/")
             script = f'<script type="application/json" class="python-cell">{given}</script>'
             container += nodes.raw("", script, format="html")
-            if cell.checks:
+            if cell.space == "tasks":
                 _section_of(container)["classes"].append("python-task")
 
 

@@ -19,6 +19,7 @@ from contextlib import suppress
 from dataclasses import dataclass
 from functools import wraps
 from pathlib import Path
+from random import Random
 from typing import Any
 from unicodedata import normalize
 
@@ -217,7 +218,7 @@ def _drive(make: Callable, name: str, *, back: bool = False, dt: float = 0.0, **
     metre = round(math.exp(random.uniform(-0.5, 0.5)), 2)
     v_max = round(paper["v_max"] * metre * math.exp(random.uniform(-0.5, 0.5)), 1)
     second = paper["v_max"] * metre / v_max
-    side, turn = random.choice([-1.0, 1.0]), random.uniform(-math.pi, math.pi)
+    side, turn = math.copysign(1.0, random.random() - 0.5), random.uniform(-math.pi, math.pi)
     case, poses = outdoor(), []
     for pose in (case.goal, case.start) if back else (case.start, case.goal):
         place = metre * complex(pose.x, side * pose.y) * cmath.exp(1j * turn)
@@ -230,12 +231,15 @@ def _drive(make: Callable, name: str, *, back: bool = False, dt: float = 0.0, **
     return Drive(name, *poses, metre, second, *limits)
 
 
-def _drawn(make: Callable, name: str) -> tuple[str, np.random.Generator]:
-    """The name that counts, and what is drawn from it, for each task other numbers."""
+def _drawn(make: Callable, name: str) -> tuple[str, Random]:
+    """The name that counts, and what is drawn from it, for each task other numbers.
+
+    By Python's own generator, which the book's pages have too.
+    """
     expect(isinstance(name, str), f"`name` is {name!r}; a text is needed, in quotation marks.")
     name = _plain(name) or _class()[0]
     seed = hashlib.sha256(f"{make.__name__} {name}".encode()).digest()
-    return name, np.random.default_rng(int.from_bytes(seed, "big"))
+    return name, Random(int.from_bytes(seed, "big"))
 
 
 def _class() -> tuple[str, list[str]]:
