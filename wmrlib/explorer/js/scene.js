@@ -65,6 +65,7 @@ const knobOf = (view, pose, name) => {
 
 function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded, zoomed }) {
   const { ctx } = surfaceOf(canvas, colours);
+  const goal = poses.goal || [run.goalX[cursor], run.goalY[cursor], run.goalHeading[cursor]];
   drawGrid(ctx, view, colours);
   ctx.globalAlpha = faded ? 0.35 : 1;
   inside(ctx, view.box, () => {
@@ -72,11 +73,15 @@ function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded, zo
     if (poses.goal === null && run) drawPath(ctx, view, run.goalX, run.goalY, run.n, colours.goal, 1.5, [8, 5]);
     if (run) drawPath(ctx, view, run.x, run.y, run.n, colours.path, 3, []);
     if (run && hasSight(run, cursor)) drawAngles(ctx, view, run, cursor, colours);
-    drawPose(ctx, view, poses.goal || [run.goalX[cursor], run.goalY[cursor], run.goalHeading[cursor]], 'goal', colours);
+    drawPose(ctx, view, goal, 'goal', colours);
     drawPose(ctx, view, poses.start, 'start', colours);
     if (run) drawRobot(ctx, view.toScreen(run.x[cursor], run.y[cursor]), run.heading[cursor], colours);
   });
   if (run && poses.goal && !zoomed && view.scale * LAST < 40) drawLast(ctx, view, run, poses, colours);
+  inside(ctx, view.box, () => { // over the robot and the corner, where they are in the way
+    drawName(ctx, view, goal, 'goal', colours);
+    drawName(ctx, view, poses.start, 'start', colours);
+  });
   ctx.globalAlpha = 1;
 }
 
@@ -154,6 +159,10 @@ function drawPose(ctx, view, pose, name, colours) {
   ctx.lineWidth = 3;
   ctx.strokeStyle = colour;
   ctx.stroke();
+}
+
+function drawName(ctx, view, pose, name, colours) {
+  const [x, y] = view.toScreen(pose[0], pose[1]);
   const side = Math.cos(pose[2]) > 0 ? -1 : 1; // behind the arrow, out of its way
   label(ctx, name, x + side * 16, y + (Math.sin(pose[2]) > 0 ? 16 : -16), colours, { colour, weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
 }

@@ -60,7 +60,7 @@ function paneOf(canvas, colours, spec) {
       if (px < box.left - 20 || px > box.left + box.width + 20 || py < box.top - 20 || py > box.top + box.height + 20) return; // out of sight
       ctx.globalAlpha = share; drawRobot(ctx, [px, py], heading, colours); ctx.globalAlpha = 1;
     },
-    pose(pose, name, share = 1) { ctx.globalAlpha = share; drawPose(ctx, view, pose, name, colours); ctx.globalAlpha = 1; },
+    pose(pose, name, share = 1) { ctx.globalAlpha = share; drawPose(ctx, view, pose, name, colours); drawName(ctx, view, pose, name, colours); ctx.globalAlpha = 1; },
     bar(x, from, to, role, half = 0.3) { pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85); },
   };
   if (!spec.bare) drawAxes(pane, spec, colours, [x0, x1, y0, y1]);
