@@ -46,7 +46,12 @@
   // Shows the widgets that are below `root`, with the states that stand there too.
   function showAll(root = document) {
     const parts = (kind) => [...root.querySelectorAll(`script[type="${TYPE}-${kind}+json"]`)];
-    const states = Object.assign({}, ...parts('state').map((it) => JSON.parse(it.text).state)); 
+    const states = Object.assign({}, ...parts('state').map((it) => JSON.parse(it.text).state));
+    for (const { state } of Object.values(states)) {
+      for (const trait of ['_esm', '_css']) { // of a text that begins like another one's a page holds the rest, see pages.py
+        if (Array.isArray(state[trait])) { const [home, shared, rest] = state[trait]; state[trait] = states[home].state[trait].slice(0, shared) + rest; }
+      }
+    }
     const models = once((id) => modelOf(states[id].state)); // one that is shown twice moves in both places
     const shown = parts('view').map((place) => [place, JSON.parse(place.text).model_id]).filter(([, id]) => id in states); // on paper stand pictures
     return Promise.all(shown.map(([place, id]) => show(place, models(id))));

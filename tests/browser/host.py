@@ -11,9 +11,13 @@ PAGE = "<!doctype html><meta charset='utf-8'><title>panel</title><body style='ma
 SETTLED = """async () => {
     const frames = () => new Promise(done =>
         requestAnimationFrame(() => requestAnimationFrame(done)));
+    const begin = performance.now();
     await frames();
     while (panel.get('state').view === 'gains'
-        && document.querySelector('.wmr-map').dataset.finished !== 'true') await frames();
+        && document.querySelector('.wmr-map').dataset.finished !== 'true') {
+        if (performance.now() > begin + 30e3) throw new Error('the map is not done');
+        await frames();
+    }
 }"""
 PUT = """([name, value]) => {
     const row = document.querySelector(`[data-control=${name}]`);

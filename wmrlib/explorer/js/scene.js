@@ -164,7 +164,7 @@ function drawPose(ctx, view, pose, name, colours) {
 function drawName(ctx, view, pose, name, colours) {
   const [x, y] = view.toScreen(pose[0], pose[1]);
   const side = Math.cos(pose[2]) > 0 ? -1 : 1; // behind the arrow, out of its way
-  label(ctx, name, x + side * 16, y + (Math.sin(pose[2]) > 0 ? 16 : -16), colours, { colour, weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
+  label(ctx, name, x + side * 16, y + (Math.sin(pose[2]) > 0 ? 16 : -16), colours, { colour: colours[name], weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
 }
 
 function drawRobot(ctx, [x, y], heading, colours) {
