@@ -1,7 +1,7 @@
 // Settings of MathJax 3.
 (function () {
-  // A formula that is wider than its box is scrolled by the keyboard too.
-  const reach = () => document.querySelectorAll('mjx-container[display]').forEach((it) => {
+  // What is wider than its box, a formula, a figure or an output, is scrolled by the keyboard too.
+  const reach = () => document.querySelectorAll('mjx-container[display], .figure-box, .cell_output pre').forEach((it) => {
     it.scrollWidth > it.clientWidth ? it.setAttribute('tabindex', 0) : it.removeAttribute('tabindex');
   });
   window.addEventListener('resize', reach);

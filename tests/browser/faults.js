@@ -41,8 +41,8 @@
 
   for (const block of article.querySelectorAll('pre')) {
     if (!seen(block)) continue;
-    const printed = block.closest('.cell_output') && scrolls(block); // what is typed has to be seen at once
-    const right = Math.min(window_of(block, false)[1], printed ? Infinity : block.getBoundingClientRect().right);
+    if (block.closest('.cell_output') && scrolls(block)) continue; // what is typed has to be seen at once, what is printed need not
+    const right = Math.min(window_of(block, false)[1], block.getBoundingClientRect().right);
     const cut = new Set();
     for (const word of words(block, /\S+/g)) {
       for (const box of word.boxes) if (box.right > right + 1) cut.add(Math.round(box.top));

@@ -79,8 +79,9 @@ function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded, zo
   });
   if (run && poses.goal && !zoomed && view.scale * LAST < 40) drawLast(ctx, view, run, poses, colours);
   inside(ctx, view.box, () => { // over the robot and the corner, where they are in the way
-    drawName(ctx, view, goal, 'goal', colours);
-    drawName(ctx, view, poses.start, 'start', colours);
+    const robot = run && view.toScreen(run.x[cursor], run.y[cursor]);
+    drawName(ctx, view, goal, 'goal', colours, robot);
+    drawName(ctx, view, poses.start, 'start', colours, robot);
   });
   ctx.globalAlpha = 1;
 }
@@ -161,10 +162,12 @@ function drawPose(ctx, view, pose, name, colours) {
   ctx.stroke();
 }
 
-function drawName(ctx, view, pose, name, colours) {
-  const [x, y] = view.toScreen(pose[0], pose[1]);
-  const side = Math.cos(pose[2]) > 0 ? -1 : 1; // behind the arrow, out of its way
-  label(ctx, name, x + side * 16, y + (Math.sin(pose[2]) > 0 ? 16 : -16), colours, { colour: colours[name], weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
+// Behind a pose's arrow, out of its way, and on the side where the robot isn't.
+function drawName(ctx, view, pose, name, colours, robot = null) {
+  const [x, y] = view.toScreen(pose[0], pose[1]), side = Math.cos(pose[2]) > 0 ? -1 : 1;
+  let down = Math.sin(pose[2]) > 0 ? 16 : -16; // px
+  if (robot && Math.hypot(x + side * 36 - robot[0], y + down - robot[1]) < 34) down = -down;
+  label(ctx, name, x + side * 16, y + down, colours, { colour: colours[name], weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
 }
 
 function drawRobot(ctx, [x, y], heading, colours) {
