@@ -230,7 +230,7 @@ def short_fence(answer: Any) -> str:
     timeout, speed = numbers("`answer`", answer, 2)
     hint = f"after {timeout:g} s the robot brakes: with one fix lost, the next comes after 0.4 s."
     expect(timeout > 0.4, hint)
-    far = speed * timeout + speed**2 / 2.0
+    far = speed * timeout + speed * speed / 2.0
     expect(speed > 0.0, "the robot should drive.")
     expect(far <= 1.001, f"it stops {far:.2f} m after its last fix.")
     expect(far >= 0.95, f"it stops after {far:.2f} m already: it may be faster.")
