@@ -121,7 +121,7 @@ def test_every_task_has_other_answers(chapter):
 NONSENSE = [
     *(None, ..., 1.5, math.nan, math.inf, 1e308, 1e-308, 10**400, 1j, np.complex128(1 + 2j)),
     *("1.5", True, np.array(True), dict, sp.Symbol("x"), {1.0}, {1.0, 2.0}, {1.0: 1.0, 2.0: 2.0}),
-    *((1.0, 2.0, 3.0, 4.0), [0.0, 0.0, 0.0], (-1e300, -1e300), (1.0, 1e300)),
+    *((1.0, 2.0, 3.0, 4.0), [0.0, 0.0, 0.0], (-1e300, -1e300), (1.0, 1e300), (8, 0.125, -24)),
     *(np.ones((2, 2)), np.array([1.0, 0])),
 ]
 

@@ -65,7 +65,12 @@ def odometry(path: Callable) -> str:
     """2.2: path(log, width, dt), a log of (left, right) in m/s, returns (x, y, heading)."""
     own_work(path)
     for seed in range(6):
-        log, (width, dt) = drawn(seed, 12, (-1.0, 1.0), (-1.0, 1.0)), (0.3 + 0.1 * seed, 0.5)
+        log, width, dt = (
+            drawn(seed, 12, (-1.0, 1.0), (-1.0, 1.0)),
+            0.3 + 0.1 * seed,
+            0.7 - 0.1 * seed,
+        )
+        log = [*log, (0.4, 0.4), (0.3, -0.3), (0.0, 0.0)]  # straight on, on the spot, at rest
         value = ask_numbers(path, 3, [tuple(each) for each in log], width, dt)
         mistakes = {
             "these are Euler's straight steps; on an arc the chord is shorter.": (1, "euler"),
@@ -81,7 +86,7 @@ def odometry(path: Callable) -> str:
                 expect(not same_pose(value, at, 1e-6), hint)
         wrong = "the path ends elsewhere: try one step straight on, then one on the spot."
         expect(same_pose(value, at, 1e-6), wrong)
-    return "Right for six logs, turning both ways. Euler ends elsewhere."
+    return "Right for six logs, turning both ways and not at all. Euler ends elsewhere."
 
 
 @_exercise
@@ -167,6 +172,7 @@ def braking(answer: Any) -> str:
         explain(hardest, {_SQUARED: right / gains.v_max}, "what is x (1 - x) at most?", _about)
     if not _about(gentle, gains.k_rho * 0.5 / right):
         raise Hint("the hardest braking goes as k_rho: what makes it 0.5 m/s^2?")
+    expect(far > 0.0, "a distance to the goal is wanted, and that is positive.")
     left = control_law(far, 0.0, 0.0, gains._replace(k_rho=gentle))[0] / gains.v_max
     hint = f"at {far:.3g} m {100 * (1 - left):.1f} % of the speed is gone: with which k_rho?"
     expect(close(left, 0.95, 1e-3), hint)
