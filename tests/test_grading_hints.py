@@ -17,7 +17,7 @@ import wmrbook.audit
 import wmrlib
 import wmrlib as wmr
 import wmrlib.kinematics
-from wmrbook.grading import Hint, _asking, _hints, lyapunov, routes, variants, verdicts
+from wmrbook.grading import Hint, _asking, _hints, exercises, lyapunov, routes, variants, verdicts
 from wmrbook.published import Published
 from wmrlib import control_law, polar_error
 from wmrlib import control_law as polar_error_of_mine
@@ -200,6 +200,9 @@ def test_data_and_names_of_ones_own_are_no_call():
         _hints.own_work(with_a_module_that_does_not_exist, *allowed)
         _hints.own_work(eval("lambda x: wmr.wrap_angle(x)"), *allowed)  # without a source
     _hints.own_work(with_names_that_wmrlib_has_too, *ALLOWED)
+    _hints.own_work(lambda x: x + 1.0)  # the call around it is not the student's
+    with pytest.raises(Hint, match="`wrap_angle` of wmrlib"):
+        _hints.own_work(lambda x: wmr.wrap_angle(x))
     with pytest.raises(Hint, match=r"stops.* with ModuleNotFoundError"):
         _asking.ask(with_a_module_that_does_not_exist, 1.0)
 
@@ -256,3 +259,7 @@ def test_counterexamples_are_those_of_the_paper_s_equations():
 def test_a_chapters_exercise_takes_its_answer_and_says_what_is_wrong_with_others(name):
     assert graded.mistold(name) == []
     assert f"grading.exercises.{name}(" in CHAPTERS
+
+
+def test_a_rate_by_the_chain_rule_is_right_before_it_is_simplified():
+    assert exercises.aicardi(wmr.symbolic.lyapunov_rate("aicardi")).startswith("Right")

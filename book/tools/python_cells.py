@@ -89,8 +89,12 @@ def runnable(notebook) -> list[Cell]:
 
 def _with_what_they_need(found) -> list[Cell]:
     """Put before each cell what it needs of the cells that are not run."""
-    cells, needed = [], set()
+    cells, needed, imported = [], set(), set()
+    for _, runs, hidden in found:
+        imports = (it for it in (*hidden, *runs) if isinstance(it, ast.Import | ast.ImportFrom))
+        imported = imported.union(*map(_binds, imports))
     for cell, runs, hidden in reversed(found):
+        needed |= imported if cell.asks else set()  # an answer may name any of them
         for statement in reversed(runs):
             needed |= _reads(statement)
         before = []

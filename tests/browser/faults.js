@@ -41,8 +41,13 @@
 
   for (const block of article.querySelectorAll('pre')) {
     if (!seen(block)) continue;
-    if (block.closest('.cell_output') && scrolls(block)) continue; // what is typed has to be seen at once, what is printed need not
-    const right = Math.min(window_of(block, false)[1], block.getBoundingClientRect().right);
+    // What is printed may scroll in its box, which is to be seen then; what is typed has to be seen at once.
+    const edge = window_of(block, false)[1], box = block.getBoundingClientRect();
+    if (block.closest('.cell_output') && scrolls(block)) {
+      if (box.right > edge + 1) note('outputs cut', block.textContent);
+      continue;
+    }
+    const right = Math.min(edge, box.right);
     const cut = new Set();
     for (const word of words(block, /\S+/g)) {
       for (const box of word.boxes) if (box.right > right + 1) cut.add(Math.round(box.top));

@@ -60,6 +60,8 @@ def opened(page, name: str):
     thing = getattr(live, name)()
     panel = mounted(page, thing, width=900)
     if ask := thing.setup["ask"]:
+        assert not page.evaluate(WIDE)
+        assert not page.evaluate(SMALL)
         commit(panel, ask)
     return thing, panel
 

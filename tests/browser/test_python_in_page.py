@@ -128,6 +128,8 @@ def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_
                 exec(f"{cell['before']}\n{cell['source']}", own := {})
                 wanted.append([plain(repr(own["mine"]))])
             else:
+                if "grading.exercises." in cell["source"]:  # an answer may name what is imported
+                    cell["source"] = f"math\n{cell['source']}"
                 wanted.append([texts(output) for output in stored[cell["place"]].outputs])
             cells.append(cell | {"space": f"{cell['space']} {number}"})
         assert not next(names, None), chapter

@@ -52,6 +52,7 @@ def third_formula(distance: Callable) -> str:
             "an angle is wanted, and this is its sine: where is the dot product?": across,
             "this is the angle: times the Earth's radius it is the distance.": right
             / EARTH_RADIUS_M,
+            "metres are wanted, and these are kilometres.": right / 1000.0,
         }
         hint = "the distance of two known places is wrong: is each vector of length 1?"
         if not close(value, right, 1e-6, 1e-6):
@@ -146,6 +147,8 @@ def brake(limits: Any) -> str:
 def aicardi(V_rate: Any) -> str:
     """4.2: V' of (19) with Aicardi's law."""
     symbols = (rho, alpha, L, k_rho, k_alpha)
+    if isinstance(V_rate, sp.Expr):  # by the chain rule it holds h theta, which goes out
+        V_rate = sp.expand(V_rate.replace(sp.sinc, lambda each: sp.sin(each) / each))
     value, right = expression("V_rate", V_rate, symbols), lyapunov_rate("aicardi")
     where = points(sorted(right.free_symbols | set(symbols), key=str))
 
@@ -236,6 +239,8 @@ def short_fence(answer: Any) -> str:
     timeout, speed = numbers("`answer`", answer, 2)
     hint = f"after {timeout:g} s the robot brakes: with one fix lost, the next comes after 0.4 s."
     expect(timeout > 0.4, hint)
+    hint = f"in {timeout:g} s two fixes may be lost: a shorter timeout lets the robot drive faster."
+    expect(timeout <= 0.6, hint)
     far = speed * timeout + speed * speed / 2.0
     expect(speed > 0.0, "the robot should drive.")
     expect(far <= 1.001, f"it stops {far:.2f} m after its last fix.")

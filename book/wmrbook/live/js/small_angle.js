@@ -7,8 +7,8 @@ const explorable = {
     return { factor: sinc(bend), rod: Array.from({ length: 81 }, (_, k) => onRod(bend, k / 40 - 1)) };
   },
   panes: ({ alpha }, { factor }) => ({
-    rod: { x: [-1.4, 1.4], y: [-1, 1], equal: true, bare: true, given: 'A bent rod.', alt: `A rod bent by ${written(alpha)} degrees to either side, its ends ${written(factor)} of its length apart.` },
-    factor: { x: [-180, 180, 'α [°]'], y: [-1.2, 1.2, 'sin α / α'], given: 'Room for the factor over alpha.', alt: `The factor over alpha, a smooth hill of height 1 at 0: ${written(factor)} at ${written(alpha)} degrees.`, scrub: (x) => ({ alpha: Math.round(Math.min(Math.max(x, -180), 180)) }) },
+    rod: { x: [-1.4, 1.4], y: [-1.2, 1.2], equal: true, bare: true, given: 'A bent rod.', alt: `A rod bent by ${written(alpha)} degrees to either side, its ends ${written(factor)} of its length apart.` },
+    factor: { x: [-190, 190, 'α [°]'], y: [-1.2, 1.2, 'sin α / α'], given: 'Room for the factor over alpha.', alt: `The factor over alpha, a smooth hill of height 1 at 0: ${written(factor)} at ${written(alpha)} degrees.`, scrub: (x) => ({ alpha: Math.round(Math.min(Math.max(x, -180), 180)) }) },
   }),
   draw({ rod: picture, factor: chart }, { alpha }, { rod, factor }, hidden, { data: { bent } }) {
     const shown = hidden ? Array.from(rod, (_, k) => onRod(bent / DEGREES, k / 40 - 1)) : rod, end = shown.at(-1);
