@@ -33,39 +33,27 @@ def test_real_keeps_numbers_and_shapes_and_copies_arrays():
         assert _checks.real("x", 1.0, **bounds) == _checks.real("x", [1], **bounds) == 1.0
 
 
-@pytest.mark.parametrize(("bounds", "value", "needed"), REFUSED)
-def test_real_names_the_argument_its_value_and_what_is_needed(bounds, value, needed):
-    words = re.escape(f"x = {value!r} is not allowed: {needed} is needed")
-    with pytest.raises(ValueError, match=f"^{words}$"):
-        _checks.real("x", value, **bounds)
+def test_real_names_the_argument_its_value_and_what_is_needed():
+    for bounds, value, needed in REFUSED:
+        words = re.escape(f"x = {value!r} is not allowed: {needed} is needed")
+        with pytest.raises(ValueError, match=f"^{words}$"):
+            _checks.real("x", value, **bounds)
 
 
-@pytest.mark.parametrize(
-    "hidden",
-    [
-        np.ma.masked,
-        np.ma.array([1.0, 2.0], mask=[False, True]),
-        [np.ma.array([1.0, 2.0], mask=[False, True])],
-        ([[1.0, np.ma.masked]],),
-        [1.0, 10**400],
-        10**5000,
-    ],
-    ids=range(6),  # str(10**5000) is an error
-)
-def test_what_is_masked_or_beyond_a_float_is_no_number(hidden):
-    for name, check in (("x", _checks.real), ("dt", _checks.scalar)):
-        with pytest.raises(ValueError, match=rf"(?s)^{name} = .* is not allowed: {FINITE}"):
-            check(name, hidden, **({"nan": True} if name == "x" else {}))
+def test_what_is_masked_or_beyond_a_float_is_no_number():
+    masked = np.ma.array([1.0, 2.0], mask=[False, True])
+    one = ([[1.0, np.ma.masked]],)
+    for hidden in (np.ma.masked, masked, [masked], one, [1.0, 10**400], 10**5000):
+        for name, check in (("x", _checks.real), ("dt", _checks.scalar)):
+            with pytest.raises(ValueError, match=rf"(?s)^{name} = .* is not allowed: {FINITE}"):
+                check(name, hidden, **({"nan": True} if name == "x" else {}))
 
 
-@pytest.mark.parametrize(
-    ("check", "message"),
-    [
+def test_the_other_checks_say_what_is_wrong():
+    ragged = [[1], [2, 3]]
+    for check, message in (
         (lambda: _checks.real("x", [math.nan] * 1000), r"^x = .{77}\.\.\. is not allowed"),
-        (
-            lambda: _checks.scalar("dt", [0.1]),
-            r"one number is needed, not an array of shape \(1,\)",
-        ),
+        (lambda: _checks.scalar("dt", [0.1]), r"one number .*, not an array of shape \(1,\)"),
         (lambda: _checks.scalar("dt", 0.0, above=0.0), "above 0 is needed"),
         (lambda: _checks.choice("law", ["a"], "ab"), r"law = \['a'\] .* one of 'a', 'b' is needed"),
         (lambda: _checks.choice("law", "c", ("a", "b")), "law = 'c' is not allowed: one of 'a'"),
@@ -75,14 +63,12 @@ def test_what_is_masked_or_beyond_a_float_is_no_number(hidden):
             r"^mismatched lengths: b has shape \(2,\), c has shape \(3,\); shapes that broadcast",
         ),
         (
-            lambda: _checks.same_shape(a=1.0, b=[[1], [2, 3]]),
+            lambda: _checks.same_shape(a=1.0, b=ragged),
             r"^b = \[\[1\], \[2, 3\]\] .* an array with rows of one length, is needed$",
         ),
-    ],
-)
-def test_the_other_checks_say_what_is_wrong(check, message):
-    with pytest.raises(ValueError, match=message):
-        check()
+    ):
+        with pytest.raises(ValueError, match=message):
+            check()
 
 
 def test_what_is_right_comes_back():

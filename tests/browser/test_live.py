@@ -108,9 +108,13 @@ def ends(knob: dict) -> list:
     return [knob["low"], knob["high"]] if "low" in knob else [value for value, _ in knob["choices"]]
 
 
-def test_each_end_and_each_choice_changes_the_picture_and_all_is_sound(moved):
+def test_each_end_and_each_choice_changes_the_picture_and_everybody_can_use_it_in_the_dark(moved):
     thing, panel, home = moved
     page, knobs = panel.page, thing.setup["knobs"]
+    assert not page.evaluate(WIDE)
+    assert not page.evaluate(SMALL)
+    page.add_script_tag(path=AXE)
+    assert not page.evaluate(FAULTS)
     for knob in knobs:
         panel.set(**home)
         before, pictures = page.evaluate(PICTURE), set()
@@ -176,14 +180,6 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
     page.evaluate(PASS)
     held = [name for name in home if name != "time" and panel.get(name) != home[name]]
     assert not held, f"a mouse that passes over a picture moves {held}"
-
-
-def test_everybody_can_use_it_in_the_dark(moved):
-    _, panel, _ = moved
-    assert not panel.page.evaluate(WIDE)
-    assert not panel.page.evaluate(SMALL)
-    panel.page.add_script_tag(path=AXE)
-    assert not panel.page.evaluate(FAULTS)
 
 
 @pytest.mark.parametrize("name", NAMES)
