@@ -29,25 +29,22 @@ from typing import NamedTuple
 ROOT = Path(__file__).resolve().parents[1]
 PACKAGE = ROOT / "wmrlib"
 # The tests of a file or a folder, in this order until one fails; by default "plain NAME", which
-# runs test_NAME without compiling: quicker where a formula is called a few thousand times.
+# runs test_NAME without compiling: quicker where a formula is called a few thousand times. "quick"
+# does so too, without what then takes long or fails: most mutants die before anything is compiled.
 PLANS = {
-    "_vecmath": "jit vecmath",
-    "_loops": "jit simulation",
-    "_loops/plane": "jit sweeping",
-    "_loops/polar": "jit sweeping",
-    "_loops/adaptive": "jit simulation; jit sweeping",
-    "_loops/alone": "jit simulation",
-    "_loops/steps": "jit simulation; jit sweeping",
-    "_loops/tableau": "jit sweeping",
+    "_vecmath": "quick vecmath; jit vecmath",
+    "_loops": "quick simulation; jit sweeping; jit simulation",
     "_chunks": "jit sweeping",
     "control": "plain control arguments",
     "gains": "plain gains control",
     "kinematics": "plain kinematics arguments",
-    "laws": "plain control; jit simulation",
-    "motion": "plain kinematics; jit simulation",
-    "runs": "plain metrics; jit simulation",
+    "geodesy": "plain geodesy routes",
+    "laws": "plain control; quick simulation; jit simulation",
+    "motion": "plain kinematics; quick simulation; jit simulation",
+    "runs": "plain metrics; quick simulation; jit simulation",
+    "simulation": "quick simulation; jit simulation",
     "sweeping": "jit sweeping",
-    "tuning": "jit tuning",
+    "tuning": "quick tuning; jit tuning",
 }
 NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer"}
 # The file, what the line or the change reads, and why no test can tell the mutant.
@@ -81,25 +78,43 @@ OPERATOR = re.compile(rb"(?:[\s)\\]|#.*\n)*(is not|not in|[a-z]+|[-+*/%&|<>=!@^]
 SWAPPED = {"sin": "cos", "cos": "sin", "max": "min", "min": "max", "radians": "degrees"}
 DROPPED = {"wrap", "wrap_angle", "abs", "max", "min", "maximum", "minimum", "clip", "sqrt"}
 NOT_COMPUTED = {"annotation", "returns", "decorator_list", "bases"}
+_QUICK = 4.0  # s, for a test that is quick
 # In the copies hypothesis does not shrink what fails, the tests that are soon done run first, and
 # what is compiled is kept for the next mutant if that leaves the kernels alone.
 CONFTEST = """
 import json
+import signal
 from hypothesis import Phase
 settings.load_profile("repeatable")
 settings.register_profile("mutants", phases=(Phase.explicit, Phase.generate))
 settings.load_profile("mutants")
 _TOOK = Path(os.environ["MUTANTS_TOOK"])
 _took = json.loads(_TOOK.read_text()) if _TOOK.exists() else {}
+_QUICK = 0.0 if _took else float(os.environ["MUTANTS_QUICK"])  # without a mutant, to find them
 
-def pytest_collection_modifyitems(items):
+def pytest_collection_modifyitems(config, items):
+    config.option.maxfail = 0 if _QUICK else 1
+    items[:] = [item for item in items if _took.get(item.nodeid) != "left out"]
     items.sort(key=lambda item: _took.get(item.nodeid, 0.0))
 
+@pytest.hookimpl(hookwrapper=True)
+def pytest_runtest_protocol(item):
+    if _QUICK:
+        signal.signal(signal.SIGALRM, lambda *_: pytest.skip("takes long"))
+        signal.setitimer(signal.ITIMER_REAL, _QUICK)
+    yield
+    if _QUICK:
+        signal.setitimer(signal.ITIMER_REAL, 0.0)
+
 def pytest_runtest_logreport(report):
-    _took[report.nodeid] = max(report.duration, _took.get(report.nodeid, 0.0))
+    took = _took.get(report.nodeid, 0.0)
+    if _QUICK and not report.passed or took == "left out":
+        _took[report.nodeid] = "left out"
+    else:
+        _took[report.nodeid] = max(report.duration, took)
 
 def pytest_sessionfinish(exitstatus):
-    if exitstatus == 0:
+    if exitstatus == 0 or _QUICK:
         _TOOK.write_text(json.dumps(_took))
 """
 COMPILE = """
@@ -203,6 +218,8 @@ class Copy:
         plans = mutant.plan.split("; ")
         for plan in plans:
             if plan not in self.limits:
+                if plan.startswith("quick"):
+                    self.tests(plan, "kept", 1200.0)  # finds what to leave out
                 begin = time.perf_counter()
                 if self.tests(plan, "kept", 1200.0):
                     sys.exit(f"The tests of {mutant.path}, {plan}, fail without a mutant.")
@@ -229,7 +246,8 @@ class Copy:
         settings = os.environ | {
             "PYTHONPATH": os.pathsep.join([str(self.folder), str(self.folder / "book")]),
             "PYTHONDONTWRITEBYTECODE": "1",  # it would outlive a mutant of the same size
-            "NUMBA_DISABLE_JIT": str(int(how == "plain")),
+            "NUMBA_DISABLE_JIT": str(int(how != "jit")),
+            "MUTANTS_QUICK": str(_QUICK if how == "quick" else 0.0),
             "MUTANTS_CACHE": str(self.folder / cache),
             "MUTANTS_TOOK": str(self.folder / f"{plan}.json"),
         }

@@ -11,9 +11,11 @@ import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import solve_ivp
+from scipy.integrate import DOP853, solve_ivp
 
 import wmrlib as wmr
+from wmrlib._loops import adaptive, steps
+from wmrlib.gains import checked_wheels
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -203,6 +205,13 @@ def test_outcomes(method):
     assert run.outcome is wmr.Outcome.TIMED_OUT
     assert run.outcome.message == "did not arrive within the duration"
     assert run.t[-1] == pytest.approx(2.0)
+    start = wmr.Pose(-3.0, 0.0, 0.0)  # who is just on the radius has arrived
+    free = wmr.simulate(start, ORIGIN, CALM, method=method, arrival_radius=0.0)
+    for k in (0,) if method == "continuous" else (0, 1, 20):
+        options = {"method": method, "arrival_radius": float(free.rho[k])}
+        run = wmr.simulate(start, ORIGIN, CALM, **options)
+        assert (len(run), run.outcome) == (k + 1, wmr.Outcome.ARRIVED)
+        assert k or wmr.sweep(start, ORIGIN, CALM, **options)[:2] == (True, 0.0)
     for law in LAWS:  # without a radius it drives on, and stays finite
         options = {"law": law, "method": method, "arrival_radius": 0.0}
         run = wmr.simulate(wmr.Pose(-3, 1, 0.5), ORIGIN, CALM, **options)
@@ -333,6 +342,40 @@ def test_continuous_against_taylor_series_at_thirty_digits(start, gains, law):
     end = [run.rho[-1], run.alpha[-1], run.theta[-1]]
     assert end == pytest.approx(truth, rel=1e-10, abs=1e-10)
     assert run.rho[-1] == pytest.approx(truth[0], rel=1e-10)
+
+
+def trace(start, gains, most):
+    """The log of a run to the origin: a step a column, and how many trials there were before it."""
+    run = np.array([*start, *ORIGIN, *gains])[:, None]
+    state = adaptive.begun(run, 60.0, 0.05, float(most))
+    log = adaptive.trace(state, 0.05, 0, checked_wheels(None), 0.0)
+    return log, most - log[steps.TRIALS // steps.LANES]
+
+
+def test_steps_are_counted_and_as_many_as_another_program_takes():
+    """By the same method to the same tolerance; to end on events takes some more."""
+    draw, ours, theirs = np.random.default_rng(0).uniform, 0, 0
+    for _ in range(20):
+        start = wmr.Pose(draw(-20.0, 20.0), draw(-20.0, 20.0), draw(-3.0, 3.0))
+        gains = wmr.Gains(draw(0.05, 1.0), draw(0.5, 3.0), draw(0.05, 2.0), draw(0.5, 4.0))
+
+        def rate(_, state, gains=gains):
+            rho, alpha, theta = state
+            return wmr.polar_rate(rho, alpha, *wmr.control_law(rho, alpha, theta, gains))
+
+        log, trials = trace(start, gains, 10_000)
+        end, begin = log[steps.TIME // steps.LANES, -1], wmr.polar_error(start, ORIGIN)
+        other = DOP853(rate, 0.0, begin, end, rtol=adaptive.TOLERANCE, atol=adaptive.TOLERANCE)
+        while other.status == "running":
+            other.step()
+        ours, theirs = ours + trials[-1], theirs + other.nfev / 12
+        most = 1 + int(trials[-1]) // 2
+        given_up, used = trace(start, gains, most)
+        taken = 1 + int((trials[:-1] < most).sum())
+        assert (given_up.shape[1], used[-1]) == (taken, most)
+        np.testing.assert_array_equal(given_up[:4], log[:4, :taken])
+        assert np.diff(trials).min() == 1
+    assert 0.95 < ours / theirs < 1.25
 
 
 FAST = st.floats(0.0, 6.0).map(lambda power: 10.0**power)
@@ -496,7 +539,10 @@ def test_feed_forward_leaves_no_residual():
         ({"method": "continuous"}, 1e-3),
         ({"dt": 0.01}, 1e-3),
     ):
-        assert wmr.residual(circle("kanayama", gains, duration=80.0, **options)) < left
+        run = circle("kanayama", gains, duration=80.0, **options)
+        assert wmr.residual(run) < left
+        turned = (1.0 - np.cos(run.heading_error)) / gains.k_y
+        np.testing.assert_allclose(run.V, 0.5 * run.rho**2 + turned, atol=1e-12)
 
 
 def test_lqr_on_the_error_in_the_robots_frame_leaves_no_residual():
@@ -508,6 +554,7 @@ def test_lqr_on_the_error_in_the_robots_frame_leaves_no_residual():
     run = circle("linear", wmr.LinearGains(-matrix), dt=0.01, duration=80.0)
     assert wmr.residual(run) < 1e-3
     assert run.V[-1] < 1e-5 * run.V[0]
+    np.testing.assert_allclose(run.V, 0.5 * (run.rho**2 + run.heading_error**2), atol=1e-12)
 
 
 @settings(max_examples=20)
@@ -590,7 +637,11 @@ def test_lagging_wheels_that_graze_the_radius_have_arrived(start, lag, exponent)
     assert run.t[-1] <= free.t[nearest] + 1e-9
 
 
-def test_durations_of_all_sizes_begin_at_the_start():
+def test_durations_of_all_sizes_begin_at_the_start_and_end_before_the_goal():
+    """Rounding carries rho past 0, by less than can be seen."""
+    how = {"method": "continuous", "dt": 0.5, "duration": 2000.0, "arrival_radius": 0.0}
+    gains = CALM._replace(k_rho=0.4 * math.sqrt(10.0))
+    assert wmr.simulate(wmr.Pose(-3.0, 1.0, 0.5), ORIGIN, gains, **how).rho.min() == 0.0
     for duration in (5e-324, 1e-9, 1e16, 1e300):
         how = {"method": "continuous", "dt": duration, "duration": duration}
         run = wmr.simulate(wmr.Pose(3.0, 4.0, 1.0), ORIGIN, wmr.GENTLE_GAINS, **how)

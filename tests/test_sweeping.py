@@ -18,7 +18,8 @@ from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
 from wmrlib import _chunks, sweeping
-from wmrlib._loops import steps, tableau
+from wmrlib._loops import plane, steps, tableau
+from wmrlib.gains import checked_wheels
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -79,7 +80,6 @@ def test_the_steps_have_the_coefficients_of_their_authors():
        st.sampled_from(LAWS), limits, decades(1e-3, 0.3))  # fmt: skip
 def test_the_default_is_as_right_as_promised(start, goal, gains, law, wheels, radius):
     assume(law != "printed" or gains.k_alpha > 1.5 * gains.k_rho * gains.v_max)  # which settles
-    assume(math.hypot(start.x - goal.x, start.y - goal.y) > radius)
     options = {"law": law, "wheels": wheels, "arrival_radius": radius, "duration": 30.0}
     run = wmr.sweep(start, goal, gains, **options)
     truth = integrated(start, goal, gains, **options)
@@ -235,6 +235,12 @@ def test_in_the_plane_too_whoever_arrives_gives_its_place_to_the_next(method, wh
     moved = wmr.Pose(*(row[order] for row in starts))
     again = wmr.sweep(moved, goal, wmr.Gains(*(row[order] for row in gains)), **options)
     assert same(again, [field[order] for field in runs])
+    runs_of = np.array([*np.broadcast_arrays(*starts, *goal, *gains)])
+    states = np.zeros((plane.ROWS, 1500))  # all are driven side by side, and nobody once more
+    states[:10], states[plane.LEFT] = runs_of, 300.0
+    kernel = plane.loop_of(plane.ARC if method == "arc" else plane.EULER, 0)
+    kernel(states, checked_wheels(wheels), 0.1, 0.05)
+    assert (states[plane.LEFT] <= 0.0).all()
     for i in order[:200]:
         start, tuned = (type(row)(*(float(each[i]) for each in row)) for row in (starts, gains))
         single = alone(start, goal, tuned, **options)
@@ -288,7 +294,7 @@ def test_in_the_plane_hard_runs_too_are_those_of_simulate(method, law, radius):
         assert mine[4:] == pytest.approx(single[4:], **metres), name
 
 
-def test_bad_input_names_argument_value_and_range():
+def test_bad_input_names_argument_value_and_range(monkeypatch):
     many, samples = {"trajectories": True, "dt": 0.01, "duration": 1000.0}, "100,001 samples"
     for options, message in [
         ({"starts": (0, 0, 0)}, r"starts = \(0, 0, 0\) .* a Pose is needed"),
@@ -305,6 +311,12 @@ def test_bad_input_names_argument_value_and_range():
         valid = {"starts": ORIGIN, "goals": wmr.Pose(np.ones(1000), 0.0, 0.0), "gains": CALM}
         with pytest.raises(ValueError, match=message):
             wmr.sweep(**valid | options)
+    few = {"trajectories": True, "duration": 1.0}
+    monkeypatch.setattr(sweeping, "MOST_RECORDED", 11_000)
+    assert wmr.sweep(**valid, **few)[1].x.shape == (1000, 11)
+    monkeypatch.setattr(sweeping, "MOST_RECORDED", 10_999)
+    with pytest.raises(ValueError, match="1,000 runs of 11 samples: at most 10,999 "):
+        wmr.sweep(**valid, **few)
 
 
 FRESH = """

@@ -21,7 +21,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
-from hypothesis import given
+from hypothesis import example, given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
@@ -101,15 +101,23 @@ seconds = st.lists(
 )
 
 
-@given(st.lists(seconds, max_size=4))
-def test_a_time_out_of_order_costs_its_own_position_only(segments):
+def settled(*segments):
     fixes, line = Fixes(), 0
     for segment in segments:
         fixes.begin_segment()
         for second in segment:
             fixes.add(line % 90, len(segment), math.nan if second is None else second, line)
             line += 1
-    (lat, _, time), report = fixes.settle()
+    return fixes.settle()
+
+
+@given(st.lists(seconds, max_size=4))
+@example([[5, 7, 6], [1, 9, 2, 3]])  # 1 or 9: as long a run goes on from either
+def test_a_time_out_of_order_costs_its_own_position_only(segments):
+    (lat, _, time), report = settled(*segments)
+    alone = [settled(segment)[0][2] for segment in segments]
+    np.testing.assert_array_equal(time, np.concatenate([[], *alone]))
+    line = sum(map(len, segments))
     kept = [[s for s in segment if s is not None] for segment in segments]
     untimed = sum(len(segment) for segment in segments) - sum(map(len, kept))
     assert report.used == lat.size == untimed + sum(map(in_order, kept))

@@ -158,7 +158,13 @@ def backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
     judged = timed[np.isin(segment[timed], segment[back])]
     if not judged.size:
         return judged
-    _, rank = np.unique(segment[judged] + 1j * time[judged], return_inverse=True)
+    parts = np.split(judged, np.flatnonzero(np.diff(segment[judged])) + 1)
+    return np.concatenate([part[_left_over(time[part])] for part in parts])
+
+
+def _left_over(time: np.ndarray) -> np.ndarray:
+    """Which times the longest run in order leaves over."""
+    _, rank = np.unique(time, return_inverse=True)
     # Patience sorting, from the last to the first.
     falling, ends = array("q", -rank), array("q")
     lengths = array("q", falling)  # in epochs, of the longest run that begins there, less one
@@ -172,4 +178,4 @@ def backwards(time: np.ndarray, segment: np.ndarray) -> np.ndarray:
         same = (falling[i], lengths[i]) == (falling[kept], lengths[kept])
         if i > kept and (same or falling[i] < falling[kept]):
             left[i], kept = False, i
-    return judged[left]
+    return left
