@@ -206,7 +206,8 @@
     const input = cell.element.querySelector('.cell_input');
     cell.code = input.firstElementChild;
     const folded = input.closest('details');
-    (folded && cell.element.contains(folded) ? folded : input).after(cell.tools, cell.output);
+    input.after(cell.tools);  // which fold with it
+    (folded && cell.element.contains(folded) ? folded : cell.tools).after(cell.output);
     cells.push(cell);
     if (cell.asks) edit(cell);
   }
