@@ -158,7 +158,7 @@ def mistold(name: str) -> list[tuple[str, str]]:
     for words, source in {"Right": right, **sources}.items():
         names = {}
         _run(source, f"<{name}>", names)
-        told = getattr(checks, name)(names["answer"])
+        told = getattr(checks, name)(*(names[it] for it in ("answer", "more") if it in names))
         if words not in told or told.startswith("Hint: ") == (words == "Right"):
             found.append((words, told))
     return found

@@ -528,7 +528,7 @@ def test_each_case_of_the_challenge_has_its_panel():
     wild = score(5.0, 0.1, 5.0, 20.0)
     panels = axes_of("challenge_paths, wild")
     for k, (axes, row) in enumerate(zip(panels, wild.cases, strict=True), start=1):
-        assert axes.get_title().startswith(f"{k} {row.kind}: {row.points:.1f} points\n")
+        assert axes.get_title().startswith(f"{k} {row.kind}\n{row.points:.1f} points\n")
         assert axes.lines[0].get_linestyle() == ("--" if row.note else "-")
         assert row.note in axes.get_title()
     assert sum(axes.axison for axes in axes_of("challenge_paths, five")) == 5

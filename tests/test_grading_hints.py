@@ -5,6 +5,8 @@ import fractions
 import functools
 import math
 import re
+import subprocess
+import sys
 from pathlib import Path
 
 import graded
@@ -66,6 +68,16 @@ def test_what_calls_input_is_not_said_to_be_unwritten():
         _asking.ask(asks)
     with pytest.raises(Hint, match="`unwritten` is not written yet"):
         _asking.ask(unwritten)
+
+
+@pytest.mark.parametrize("error", [SystemExit, KeyboardInterrupt, GeneratorExit, MemoryError])
+def test_what_ends_a_program_does_not_end_a_check(error):
+    def ends(*_):
+        raise error("enough")
+
+    for ask in (_asking.ask, lambda given: _asking.refuses(given, "a reason")):
+        with pytest.raises(Hint, match=rf"`ends\(\)` stops with {error.__name__}: enough"):
+            ask(ends)
 
 
 def test_numbers_need_an_order():
@@ -259,6 +271,43 @@ def test_counterexamples_are_those_of_the_paper_s_equations():
 def test_a_chapters_exercise_takes_its_answer_and_says_what_is_wrong_with_others(name):
     assert graded.mistold(name) == []
     assert f"grading.exercises.{name}(" in CHAPTERS
+
+
+ENDLESS = """
+import sympy as sp
+from wmrlib.symbolic import L, alpha, k_alpha, k_rho, rho
+from wmrbook.grading import Hint, exercises, lyapunov
+
+shared, long = alpha, alpha
+for _ in range(60):
+    shared = sp.Add(shared, sp.sin(shared), evaluate=False)
+for _ in range(2000):
+    long = sp.sin(long, evaluate=False)
+found = [
+    *(shared, long, (1 + rho) ** 10**9, (rho + alpha + L + k_rho + k_alpha) ** 300, rho**10**8),
+    *(sp.Sum(1 / (alpha**2 + rho), (rho, 1, sp.oo)), sp.factorial(rho * 10**9)),
+    *(sp.sin(sp.exp(sp.exp(20 * rho))), sp.Integral(sp.exp(sp.sin(rho**rho)), (rho, 0, alpha))),
+]
+for each in found:
+    assert exercises.aicardi(each).startswith("Hint: ")
+    for check in (lyapunov.rate, lyapunov.steering, lyapunov.steering_usable, lyapunov.closed):
+        try:
+            check(each)
+        except Hint:
+            continue
+        raise AssertionError(each)
+"""
+
+
+def test_an_expression_that_sympy_never_finishes_gets_a_hint():
+    subprocess.run([sys.executable, "-c", ENDLESS], check=True, timeout=120)
+
+
+@pytest.mark.parametrize("form", [sp.expand, sp.factor, lambda it: it.rewrite(sp.exp)])
+def test_a_rate_is_right_in_any_form(form):
+    rate = wmr.symbolic.textbook(wmr.symbolic.lyapunov_rate("aicardi"))
+    assert exercises.aicardi(form(rate)).startswith("Right")
+    assert exercises.aicardi(form(rate) + sp.Rational(1, 10**6)).startswith("Hint")
 
 
 def test_a_rate_by_the_chain_rule_is_right_before_it_is_simplified():

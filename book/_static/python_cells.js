@@ -90,7 +90,8 @@
         const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
         if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
         const time = `${((performance.now() - start) / 1000).toFixed(1)} s`;
-        say(each, each.checks.length ? 'Right.' : `Done in ${time}.`);
+        const answered = each.asks && /^(Hint|Right)/m.exec(shown.at(-1)?.[1])?.[0];  // of a chapter's own exercise
+        say(each, answered === 'Hint' ? 'Not yet.' : answered || each.checks.length ? 'Right.' : `Done in ${time}.`);
       }
     } catch (error) {
       worker = undefined;
@@ -205,7 +206,8 @@
     const input = cell.element.querySelector('.cell_input');
     cell.code = input.firstElementChild;
     const folded = input.closest('details');
-    (folded && cell.element.contains(folded) ? folded : input).after(cell.tools, cell.output);
+    input.after(cell.tools);  // which fold with it
+    (folded && cell.element.contains(folded) ? folded : cell.tools).after(cell.output);
     cells.push(cell);
     if (cell.asks) edit(cell);
   }

@@ -27,7 +27,7 @@
     }
     title.className = 'title';
     for (const it of [...words.querySelectorAll('.cell, .fragment')].reverse()) if (!it.textContent.trim() && !it.querySelector('svg, table')) it.remove();
-    words.hidden = !words.childElementCount;
+    words.hidden = !words.textContent.trim() && !words.querySelector('svg, table');
     page.replaceChildren(title, body, ...notes, ...(fold ? [fold] : []));
   }
 

@@ -17,7 +17,7 @@ window.paper = (() => {
     });
     document.querySelectorAll('details').forEach((it) => { it.open = true; });
     document.querySelectorAll('img').forEach((it) => { it.loading = 'eager'; });
-    for (const it of document.querySelectorAll('article p')) {  // a line in bold type, or one that announces what follows
+    for (const it of document.querySelectorAll('article p:not(td p)')) {  // a line in bold type, or one that announces what follows
       const bold = it.querySelector(':scope > strong');
       it.classList.toggle('leads-on', /:\s*$/.test(it.textContent) || bold?.textContent === it.textContent);
     }

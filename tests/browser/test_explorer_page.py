@@ -532,7 +532,10 @@ def test_the_picture_zooms_by_buttons_and_wheel_and_leaves_the_page_its_scrollin
     box = scene.bounding_box()
     across = (near["x"] + 15 - box["x"]) / box["width"]
     assert 0.4 < across < 0.7  # the goal is in the middle
+    start = panel.handle("start", "move")
+    assert start.evaluate("it => it.tabIndex") == -1  # and the start out of the picture
     assert panel.click("near").picture() == whole
+    assert start.evaluate("it => it.tabIndex") == 0
     zoomed = panel.click("in").picture()
     assert panel.click("out").page.evaluate("scrollY") == 0
     scene.hover(position={"x": 100, "y": 100})

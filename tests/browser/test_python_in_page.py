@@ -141,7 +141,8 @@ def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_
     for i, cell in enumerate(cells):
         press(browser_page, i, "Check" if cell["checks"] else "Run")
         said = told(browser_page, i)
-        if not (said == "Right." if cell["checks"] else said.startswith("Done")):
+        own = cell["asks"] and cell["space"].startswith("chapter")  # an answer is still missing
+        if not re.match("Right" if cell["checks"] else "Not yet" if own else "Done", said):
             found[i] = said, shown(browser_page, i), cell
     assert not found
     drawn = [[plain(text) for text in each] for each in browser_page.evaluate(DRAWN_TEXTS)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import re
+import textwrap
 from pathlib import Path
 
 import sympy as sp
@@ -14,6 +15,7 @@ from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, Formula
 
 C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
 _FRAME = C_HEADER.with_name("frame.h")
+_COLUMNS = 88
 _FUNCTIONS = ("sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "fmod")
 _OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap", "turned_back", "expm1")}
 
@@ -37,7 +39,7 @@ class _Printer(C99CodePrinter):
         return own.get(expr.exp) or f"WMR_F(pow)({base}, {self._print(expr.exp)})"
 
     def line(self, expression: sp.Expr) -> str:
-        text = re.sub(r"\s+", " ", self.doprint(expression))
+        text = re.sub(r"\s+", " ", self.doprint(expression)).replace("*", " * ")
         return re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", text)  # brackets of its own
 
 
@@ -56,7 +58,7 @@ def c_function(name: str, formula: Formula) -> str:
     -------
     str
     """
-    arguments, kind = [f"WMR_REAL {each}" for each in formula.arguments], "WMR_REAL"
+    arguments, kind = [f"WMR_REAL\xa0{each}" for each in formula.arguments], "WMR_REAL"
     lines = [f"const WMR_REAL {each} = {_PRINTER.line(value)};" for each, value in formula.locals_]
     values = [_PRINTER.line(value) for value in formula.values]
     if formula.gains:
@@ -67,9 +69,15 @@ def c_function(name: str, formula: Formula) -> str:
         lines.append(f"const WMR_REAL omega = {values[1]};")
         arguments, kind = ["wmr_polar error", "wmr_gains gains"], "wmr_twist"
         values = [f"wmr_checked(error, gains, {values[0]}, omega)"]
-    body = "".join(f"  {line}\n" for line in [*lines, f"return {values[0]};"])
-    head = f"static inline {kind} wmr_{name}({', '.join(arguments)}) {{"
-    return f"/* {formula.says} */\n{head}\n{body}}}\n"
+    body = [_wrapped(f"  {line}") for line in [*lines, f"return {values[0]};"]]
+    head = _wrapped(f"static inline {kind} wmr_{name}({', '.join(arguments)}) {{")
+    return "\n".join([_wrapped(f"/* {formula.says} */", "   "), head, *body, "}\n"])
+
+
+def _wrapped(line: str, indent: str = "      ") -> str:
+    """The line in as many as fit on a page of the book."""
+    filled = textwrap.fill(line, _COLUMNS, subsequent_indent=indent, break_long_words=False)
+    return filled.replace("\xa0", " ")
 
 
 def c_header() -> str:

@@ -69,18 +69,17 @@ def challenge_paths(score: Score) -> Picture:
         dart(axes, case.goal, size, "none", "goal", lw=1.6, zorder=4)
         dart(axes, case.start, size, "start", lw=0.8, zorder=3)
         end = row.note or f"{row.time:.1f} s, {row.heading_error_deg:.0f} deg off"
-        axes.set_title(f"{k} {row.kind}: {row.points:.1f} points\n{end}", fontsize=10)
+        axes.set_title(f"{k} {row.kind}\n{row.points:.1f} points\n{end}", fontsize=13)
         axes.locator_params(nbins=4)
-        axes.tick_params(labelsize=10)
-    figure.supxlabel("x [m]", fontsize=12)
-    figure.supylabel("y [m]", fontsize=12)
+    figure.supxlabel("x [m]")
+    figure.supylabel("y [m]")
     handles = [Line2D([], [], color=COLOURS["path"], label="path")]
     if score.reached < len(runs):
         dashed = {"color": COLOURS["path"], "ls": "--", "label": "path that got the penalty"}
         handles.append(Line2D([], [], **dashed))
     handles.append(_marker("start", COLOURS["ink"], ">", COLOURS["start"]))
     handles.append(_marker("goal", COLOURS["goal"], ">"))
-    looks = {"ncols": len(handles), "frameon": False, "fontsize": 11}
+    looks = {"ncols": len(handles), "frameon": False, "fontsize": 14}
     figure.legend(handles=handles, loc="outside upper center", **looks)
     costliest = max(range(len(runs)), key=lambda k: score.cases[k].points)
     worst = score.cases[costliest]

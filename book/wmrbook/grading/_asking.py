@@ -21,11 +21,11 @@ def ask(function: Callable, *arguments: Any) -> Any:
         raise Hint(f"a function is needed here, not {shown(function)}.")
     try:
         answer = function(*arguments)
-    except Exception as error:
+    except BaseException as error:  # of `exit()`, and of a reader who stops it, too
         if type(error) is NotImplementedError:  # as handed out; `input()` raises a child of it
             raise Hint(f"`{name_of(function)}` is not written yet.") from None
         call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
-        what = f"{type(error).__name__}: {error}"
+        what = f"{type(error).__name__}: {error}".rstrip(": ")
         raise Hint(f"{call} stops{_line(error)} with {what}.") from None
     expect(answer is not None, f"`{name_of(function)}` returns nothing: does it end in `return`?")
     return answer
@@ -68,7 +68,7 @@ def refuses(function: Callable, hint: str, *arguments: Any) -> None:
         function(*arguments)
     except ValueError:
         return
-    except Exception:
+    except BaseException:
         ask(function, *arguments)  # which says what happened
     call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
     raise Hint(f"{call} must raise ValueError: {hint}")

@@ -52,9 +52,9 @@ def rate(V_rate: Any) -> str:
     if not _equal(value, _RATE):
         hint = "this is (20), of the paper's V; here the angles stand in cosines."
         rule_out(value, {hint: EQUATIONS[20].rhs}, _equal)
-        angles, right_angles = (sp.expand(each).subs(L, sp.oo) for each in (value, _RATE))
+        far = partial(equal_at, [point | {L: sp.Integer(10) ** 30} for point in _POINTS])
         hint = "the angles' terms have the wrong sign: what is the derivative of 1 - cos?"
-        rule_out(angles, {hint: -right_angles}, _equal)
+        rule_out(value, {hint: -_RATE}, far)
         hint = "the term with h has the wrong sign: "
         hint += "(8) and the third row of (10) contradict each other."
         rule_out(value.diff(h), {hint: -_RATE.diff(h)}, _equal)
@@ -113,7 +113,7 @@ def steering_usable(turning: Any) -> str:
 
 def closed(V_rate_closed: Any) -> str:
     """V' with the steering and (22): right, and every one of its terms never positive."""
-    held = getattr(V_rate_closed, "free_symbols", set())
+    held = expression("V_rate_closed", V_rate_closed, _SYMBOLS).free_symbols
     hint = "theta and h still stand there: with the right omega they cancel."
     expect(theta not in held and h not in held, hint)
     value = expression("V_rate_closed", V_rate_closed, (rho, alpha, L, k_alpha, k_rho, v_max))

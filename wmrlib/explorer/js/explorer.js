@@ -91,6 +91,8 @@ function render({ model, el }) {
     drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded, zoomed: state.zoom });
     scene.style.touchAction = state.zoom ? 'none' : ''; // a finger moves the page, or the picture when it is zoomed
     placeHandles(drawn);
+    // Out of the picture nobody would see what has the focus.
+    find('.wmr-plane').querySelectorAll('.wmr-handle').forEach((it) => { it.tabIndex = it.style.pointerEvents ? -1 : 0; });
     if (mapShown()) drawLandscape(); else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
     describe(run, cursor);
     root.dispatchEvent(new CustomEvent('drawn', { bubbles: true })); // for whoever measures

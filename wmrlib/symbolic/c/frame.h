@@ -1,18 +1,20 @@
-/* The frame of wmr_law.h: wmrlib.symbolic puts the printed functions where the @ signs are. */
+/* The frame of wmr_law.h: wmrlib.symbolic puts the printed functions where the @ signs
+   are. */
 /* wmr_law.h: from a pose to the speeds of two wheels.
    Printed by python -m wmrlib.symbolic from the formulas of wmrlib: change those.
 
-   C99 or C++11; needs only <float.h>, <math.h> and <stdint.h>; no state, no memory, no loop.
-   Metres, seconds, radians. x is east, y is north, and headings and turns are counter-clockwise, a
-   heading from east.
+   C99 or C++11; needs only <float.h>, <math.h> and <stdint.h>; no state, no memory, no
+   loop. Metres, seconds, radians. x is east, y is north, and headings and turns are
+   counter-clockwise, a heading from east.
 
-   #define WMR_REAL float before the #include for a processor without doubles. GPS points come as
-   doubles (wmr_local_position) or as integers of 1e-7 degrees (wmr_local_position_e7), as receivers
-   send them; where a double has 4 bytes, as on AVR, only as integers.
+   #define WMR_REAL float before the #include for a processor without doubles. GPS
+   points come as doubles (wmr_local_position) or as integers of 1e-7 degrees
+   (wmr_local_position_e7), as receivers send them; where a double has 4 bytes, as on
+   AVR, only as integers.
 
-   An argument that is NaN, infinite or out of range, or a result that is not finite, gives
-   v = omega = 0 and status WMR_STOP; only a max_speed may be infinite. Compile without -ffast-math
-   or -ffinite-math-only, which remove such checks.
+   An argument that is NaN, infinite or out of range, or a result that is not finite,
+   gives v = omega = 0 and status WMR_STOP; only a max_speed may be infinite. Compile
+   without -ffast-math or -ffinite-math-only, which remove such checks.
 
    SPDX-License-Identifier: BSD-3-Clause */
 #ifndef WMR_LAW_H
@@ -53,8 +55,8 @@ typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
 
-/* exp(x) - 1 by Kahan's formula, since not every library has expm1: the rounding of u is in the
-   numerator and in the denominator. */
+/* exp(x) - 1 by Kahan's formula, since not every library has expm1: the rounding of u
+   is in the numerator and in the denominator. */
 static inline WMR_REAL wmr_expm1(WMR_REAL x) {
   const WMR_REAL u = WMR_F(exp)(x), above_1 = u - WMR_C(1.0);
   if (above_1 == WMR_C(0.0)) return x;
@@ -63,14 +65,16 @@ static inline WMR_REAL wmr_expm1(WMR_REAL x) {
 
 /* @FORMULAS@ */
 
-static inline int wmr_is_finite(WMR_REAL number) { return number - number == WMR_C(0.0); }
+static inline int wmr_is_finite(WMR_REAL number) {
+  return number - number == WMR_C(0.0);
+}
 
 static inline int wmr_is_size(WMR_REAL number) {
   return number >= WMR_C(0.0) && wmr_is_finite(number);
 }
 
-/* The goal as seen from the robot: rho, and the line of sight from the robot's heading, alpha, and
-   from the goal's, theta. */
+/* The goal as seen from the robot: rho, and the line of sight from the robot's heading,
+   alpha, and from the goal's, theta. */
 static inline wmr_polar wmr_polar_error(wmr_pose pose, wmr_pose goal) {
   const WMR_REAL east = goal.x - pose.x, north = goal.y - pose.y;
   const WMR_REAL sight = wmr_sight(east, north);
@@ -84,19 +88,21 @@ static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v
                                     WMR_REAL omega) {
   const wmr_twist stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
   const wmr_twist twist = {v, omega, WMR_OK};
-  const int known =
-      wmr_is_size(error.rho) && wmr_is_finite(error.alpha) && wmr_is_finite(error.theta);
+  const int known = wmr_is_size(error.rho) && wmr_is_finite(error.alpha) &&
+                    wmr_is_finite(error.theta);
   const int tuned =
       wmr_is_size(gains.k_rho) && wmr_is_size(gains.k_alpha) && wmr_is_size(gains.h);
   const int fast = wmr_is_size(gains.v_max) && gains.v_max > WMR_C(0.0);
-  return known && tuned && fast && wmr_is_finite(v) && wmr_is_finite(omega) ? twist : stop;
+  const int finite = wmr_is_finite(v) && wmr_is_finite(omega);
+  return known && tuned && fast && finite ? twist : stop;
 }
 
 /* @LAWS@ */
 
-/* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or both scaled by
-   one factor so that neither is faster than max_speed and the path keeps its curvature. track_width
-   and max_speed are above 0; a max_speed of INFINITY is no limit. */
+/* The ground speeds of the wheels, track_width apart: as fast as the twist asks, or
+   both scaled by one factor so that neither is faster than max_speed and the path keeps
+   its curvature. track_width and max_speed are above 0; a max_speed of INFINITY is no
+   limit. */
 static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_width,
                                             WMR_REAL max_speed) {
   const wmr_wheels stop = {WMR_C(0.0), WMR_C(0.0), WMR_STOP};
@@ -107,13 +113,14 @@ static inline wmr_wheels wmr_limited_wheels(wmr_twist twist, WMR_REAL track_widt
                              wmr_right_wheel(v, omega, track_width), WMR_OK};
   const int allowed =
       twist.status == WMR_OK && track_width > WMR_C(0.0) && max_speed > WMR_C(0.0);
-  return allowed && wmr_is_finite(wheels.left) && wmr_is_finite(wheels.right) ? wheels : stop;
+  const int finite = wmr_is_finite(wheels.left) && wmr_is_finite(wheels.right);
+  return allowed && finite ? wheels : stop;
 }
 
-/* A point in metres east and north of an origin on a sphere, by their latitudes and the differences
-   of latitude and of longitude, all in degrees. */
-static inline void wmr_offset(WMR_REAL lat_0, WMR_REAL lat, WMR_REAL dlat, WMR_REAL dlon,
-                              WMR_REAL *east, WMR_REAL *north) {
+/* A point in metres east and north of an origin on a sphere, by their latitudes and the
+   differences of latitude and of longitude, all in degrees. */
+static inline void wmr_offset(WMR_REAL lat_0, WMR_REAL lat, WMR_REAL dlat,
+                              WMR_REAL dlon, WMR_REAL *east, WMR_REAL *north) {
   const WMR_REAL degree = WMR_C(0.01745329251994329577);
   const WMR_REAL lat1 = lat_0 * degree, lat2 = lat * degree, dlong = dlon * degree;
   const WMR_REAL bearing = wmr_bearing(lat1, lat2, dlat * degree, dlong);
@@ -123,12 +130,14 @@ static inline void wmr_offset(WMR_REAL lat_0, WMR_REAL lat, WMR_REAL dlat, WMR_R
   *north = rho * WMR_F(cos)(bearing);
 }
 
-/* A point in metres east and north of an origin, for example of the start; both in 1e-7 degrees
-   (11 mm). The integers are subtracted exactly, and then floats will do: a float alone holds a
-   latitude of 44 degrees to 4e-6 degrees, which is 0.4 m. Both are NaN, which stops the law, if a
-   point is not on the Earth: no fix yet, or latitude and longitude mixed up. */
-static inline void wmr_local_position_e7(int32_t lat_0, int32_t lon_0, int32_t lat, int32_t lon,
-                                         WMR_REAL *east, WMR_REAL *north) {
+/* A point in metres east and north of an origin, for example of the start; both in 1e-7
+   degrees (11 mm). The integers are subtracted exactly, and then floats will do: a
+   float alone holds a latitude of 44 degrees to 4e-6 degrees, which is 0.4 m. Both are
+   NaN, which stops the law, if a point is not on the Earth: no fix yet, or latitude and
+   longitude mixed up. */
+static inline void wmr_local_position_e7(int32_t lat_0, int32_t lon_0, int32_t lat,
+                                         int32_t lon, WMR_REAL *east,
+                                         WMR_REAL *north) {
   const int32_t pole = 900000000, date_line = 1800000000;
   const int known = -pole <= lat_0 && lat_0 <= pole && -pole <= lat && lat <= pole &&
                     -date_line <= lon_0 && lon_0 <= date_line && -date_line <= lon &&
@@ -139,8 +148,8 @@ static inline void wmr_local_position_e7(int32_t lat_0, int32_t lon_0, int32_t l
                                                : eastward;
   const WMR_REAL unit = WMR_C(1e-7);
   wmr_offset((WMR_REAL)lat_0 * unit, (WMR_REAL)lat * unit,
-             known ? (WMR_REAL)(lat - lat_0) * unit : (WMR_REAL)NAN, (WMR_REAL)dlon * unit, east,
-             north);
+             known ? (WMR_REAL)(lat - lat_0) * unit : (WMR_REAL)NAN,
+             (WMR_REAL)dlon * unit, east, north);
 }
 
 #if DBL_MANT_DIG < 53
@@ -152,13 +161,15 @@ static inline int wmr_on_earth(double lat, double lon) {
 }
 
 /* The same for degrees. */
-static inline void wmr_local_position(double lat_0, double lon_0, double lat, double lon,
-                                      WMR_REAL *east, WMR_REAL *north) {
+static inline void wmr_local_position(double lat_0, double lon_0, double lat,
+                                      double lon, WMR_REAL *east, WMR_REAL *north) {
   const int known = wmr_on_earth(lat_0, lon_0) && wmr_on_earth(lat, lon);
   const double eastward = lon - lon_0;
-  const double dlon = fabs(eastward) > 180.0 ? eastward - copysign(360.0, eastward) : eastward;
-  wmr_offset((WMR_REAL)lat_0, (WMR_REAL)lat, known ? (WMR_REAL)(lat - lat_0) : (WMR_REAL)NAN,
-             (WMR_REAL)dlon, east, north);
+  const double dlon =
+      fabs(eastward) > 180.0 ? eastward - copysign(360.0, eastward) : eastward;
+  wmr_offset((WMR_REAL)lat_0, (WMR_REAL)lat,
+             known ? (WMR_REAL)(lat - lat_0) : (WMR_REAL)NAN, (WMR_REAL)dlon, east,
+             north);
 }
 #endif
 
