@@ -37,6 +37,7 @@ PLANS = {
     "_loops/polar": "jit sweeping",
     "_loops/adaptive": "jit simulation; jit sweeping",
     "_loops/alone": "jit simulation",
+    "_loops/sight": "jit receiver",
     "_loops/steps": "jit simulation; jit sweeping",
     "_loops/tableau": "jit sweeping",
     "_chunks": "jit sweeping",
@@ -46,7 +47,8 @@ PLANS = {
     "laws": "plain control; jit simulation",
     "motion": "plain kinematics; jit simulation",
     "runs": "plain metrics; jit simulation",
-    "sweeping": "jit sweeping",
+    "receiver": "jit receiver",
+    "sweeping": "jit sweeping; jit receiver",
     "tuning": "jit tuning",
 }
 NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer"}
