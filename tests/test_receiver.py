@@ -155,6 +155,17 @@ def test_a_fix_is_held_and_shown_late():
     assert alike == pytest.approx(math.exp(-5.0 / 20.0), abs=0.06)
 
 
+@pytest.mark.parametrize("field", ["period", "delay", "heading_delay"])
+def test_what_never_comes_is_as_late_as_the_run_is_long(field):
+    ends = wmr.sweep(START, GOAL, GAINS, receiver=wmr.Receiver(0.2, **{field: [13.0, 1e308]}),
+                     seed=np.arange(3)[2], **SHORT)  # fmt: skip
+    alone = driven(wmr.Receiver(0.2, **{field: 13.0}), 2, 0)[0]
+    assert ends.distance[0] == pytest.approx(math.hypot(*alone[-1][:2]))
+    receiver = wmr.Receiver(1e-300, **{field: [13.0, 1e308]})  # whose runs have different numbers
+    one, other = zip(*wmr.sweep(START, GOAL, GAINS, receiver=receiver, **SHORT), strict=True)
+    assert one == other
+
+
 # What follows from it -----------------------------------------------------------------------------
 
 
