@@ -206,6 +206,7 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     options = SHORT | {"receiver": receiver, "seed": 7}
     whole = wmr.sweep(many, GOAL, GAINS, **options)
     assert np.ptp(whole.distance) > 1.0
+    assert 3.0 < np.abs(whole.heading_error).max() <= math.pi
     with ThreadPoolExecutor(2) as executor:
         assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, executor=executor,
                                                         **options)))  # fmt: skip

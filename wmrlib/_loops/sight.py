@@ -65,7 +65,7 @@ def drive(summary, records, runs, members, law, wheels, step, dt, samples, arriv
     for i in members:
         start, goal, gains = rows.run_of(runs[:SIGMA], i)
         sigma, memory, held, late, heading_late, number = runs[SIGMA:, i]
-        tuning, outcome, last = pose_tuning(*gains), rows.TIMED_OUT, 0
+        tuning, outcome = pose_tuning(*gains), rows.TIMED_OUT
         pose = new = (start[0], start[1], wrap(start[2]))
         east = north = shown_x = shown_y = peak = length = rolled = 0.0
         fixed = -1  # the sample of the fix before
@@ -75,9 +75,9 @@ def drive(summary, records, runs, members, law, wheels, step, dt, samples, arriv
             if k % (int(held) + 1) == 0:
                 fix = max(k - int(late), 0)
                 if sigma > 0.0 and fix > fixed:
-                    passed = (fix - fixed) * dt / memory if memory > 0.0 else math.inf
-                    passed = math.inf if fixed < 0 else passed
-                    keep, share = math.exp(-passed), math.sqrt(-math.expm1(-2.0 * passed))
+                    known = fixed >= 0 and memory > 0.0
+                    age = (fix - fixed) * dt / memory if known else math.inf
+                    keep, share = math.exp(-age), math.sqrt(-math.expm1(-2.0 * age))
                     one, other = normals(int(number), fix, key)
                     east, north = keep * east + share * one, keep * north + share * other
                     fixed = fix
@@ -88,8 +88,7 @@ def drive(summary, records, runs, members, law, wheels, step, dt, samples, arriv
             if not math.isfinite(new[0] + new[1] + rho + v + omega):
                 outcome = rows.DIVERGED
                 break
-            pose, last = new, k
-            peak, length = max(peak, abs(omega)), length + rolled
+            pose, peak, length = new, max(peak, abs(omega)), length + rolled
             if recorded:
                 rows.write(records[:, i], k, pose, polar_from_pose(*pose, *goal), v, omega)
             if rho <= arrival_radius:
@@ -98,7 +97,7 @@ def drive(summary, records, runs, members, law, wheels, step, dt, samples, arriv
             new, rolled = plane.move(pose, v, omega, dt, step), dt * abs(v)
         rho, alpha, theta = polar_from_pose(*pose, *goal)
         turned = wrap(theta - alpha)
-        rows.summarise(summary, i, outcome, last * dt, turned, peak, length, rho)
+        rows.summarise(summary, i, outcome, k * dt, turned, peak, length, rho)
 
 
 def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded, *key):
@@ -108,7 +107,6 @@ def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded, *key)
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
     wrong = runs[[SIGMA, HELD, LATE, HEADING_LATE]].any(axis=0)
     clear, members = np.flatnonzero(~wrong), np.flatnonzero(wrong)
-    known = plane.survey(runs[:SIGMA, clear], *common, recorded)
-    summary[:, clear], records[:, clear] = known
+    summary[:, clear], records[:, clear] = plane.survey(runs[:SIGMA, clear], *common, recorded)
     drive(summary, records, runs, members, *common, key)
     return summary, records
