@@ -34,6 +34,7 @@ PACKAGE = ROOT / "wmrlib"
 PLANS = {
     "_vecmath": "quick vecmath; jit vecmath",
     "_loops": "quick simulation; jit sweeping; jit simulation",
+    "_loops/sight": "jit receiver",
     "_chunks": "jit sweeping",
     "control": "plain control arguments",
     "gains": "plain gains control",
@@ -41,9 +42,10 @@ PLANS = {
     "geodesy": "plain geodesy routes",
     "laws": "plain control; quick simulation; jit simulation",
     "motion": "plain kinematics; quick simulation; jit simulation",
+    "receiver": "jit receiver",
     "runs": "plain metrics; quick simulation; jit simulation",
     "simulation": "quick simulation; jit simulation",
-    "sweeping": "jit sweeping",
+    "sweeping": "jit sweeping; jit receiver",
     "tuning": "quick tuning; jit tuning",
 }
 NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer"}

@@ -78,7 +78,12 @@ FLIPS = [  # the thing, the module that makes it, and what it takes from wmrlib
     ("unit_circle", sampling, "longest_step", lambda f: lambda *a: 0.5 * f(*a)),
     ("wheel_limit", sampling, "wheels_to_twist", lambda f: lambda a, b, c: f(b, a, c)),
     ("bench", noise, "advance", lambda f: lambda pose, v, omega, dt: f(pose, v, -omega, dt)),
-    ("late", noise, "control_law", lambda f: lambda *a: (-f(*a)[0], f(*a)[1])),
+    (
+        "late",
+        noise,
+        "Receiver",
+        lambda f: lambda delay, heading_delay: f(0, 0, 0, heading_delay, delay),
+    ),
     ("threshold", audit, "simulate", lambda f: lambda a, b, k, **o: f(a, b, _backwards(k), **o)),
     ("rising", audit, "lyapunov_rate", lambda f: lambda *a, **o: -f(*a, **o)),
     ("compass", real_robot, "wrap_angle", lambda f: lambda angle: -f(angle)),

@@ -32,6 +32,7 @@ from .kinematics import wheels_to_twist as wheels_to_twist
 from .kinematics import wrap_angle as wrap_angle
 from .metrics import arrival as arrival
 from .metrics import residual as residual
+from .receiver import Receiver as Receiver
 from .routes import Route as Route
 from .routes import drive_route as drive_route
 from .routes import headings_along as headings_along

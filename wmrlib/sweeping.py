@@ -13,10 +13,11 @@ import numpy as np
 
 from wmrlib import _chunks
 from wmrlib._checks import as_array, choice, instance, refusal, same_shape, scalar
-from wmrlib._loops import adaptive, plane, rows
+from wmrlib._loops import adaptive, plane, rows, sight
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
 from wmrlib.laws import POSE_LAWS
+from wmrlib.receiver import Receiver, in_samples
 from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
@@ -28,6 +29,7 @@ _METHODS = {
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 20_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
+_SIGHT_COST = 12  # evaluations of the law that take as long as one step by what a receiver shows
 
 
 class _Task(NamedTuple):
@@ -39,13 +41,14 @@ class _Task(NamedTuple):
     samples: int
     arrival_radius: float
     recorded: bool
+    key: tuple[int, ...]  # to the random numbers of receivers, if there are any
 
     @property
     def cost(self) -> int:
-        """Evaluations of the law in one run, about."""
+        """Evaluations of the law in one run, about, or what takes as long."""
         if self.method == "continuous":
             return 700 + 14 * self.samples * self.recorded
-        return self.samples
+        return self.samples * (_SIGHT_COST if self.key else 1)
 
 
 def sweep(
@@ -59,6 +62,8 @@ def sweep(
     duration: float = 60.0,
     arrival_radius: float = 0.05,
     wheels: WheelLimits | None = None,
+    receiver: Receiver | None = None,
+    seed: int = 0,
     trajectories: bool = False,
     executor: Executor | None = None,
     progress: bool = True,
@@ -80,6 +85,11 @@ def sweep(
         run, to 1e-9 unless the run magnifies rounding
     dt, duration, arrival_radius, wheels : as in `simulate`; with "continuous", dt only says where
         the samples lie; the last one within the duration ends the run
+    receiver : Receiver, with "arc" and "euler" only, by what each run steers; its fields broadcast
+        too. A run stops, and has arrived, where it believes to be within the radius; all that is
+        returned is where it really is. None: it knows.
+    seed : int from 0 to 2^64 - 1. The errors of a run follow from it and from the run's place among
+        all alone, on however many cores.
     trajectories : bool, whether to return the samples too, at most fifty million in all
     executor : Executor to which chunks of runs are sent, for example dask's
         `Client.get_executor()`; a chunk that is lost with its worker is run here, with a warning.
@@ -94,7 +104,8 @@ def sweep(
     ------
     ValueError : as `simulate`, and for shapes that don't broadcast
     """
-    given = (("starts", starts, Pose), ("goals", goals, Pose), ("gains", gains, Gains))
+    given: list[tuple] = [("starts", starts, Pose), ("goals", goals, Pose), ("gains", gains, Gains)]
+    given += [] if receiver is None else [("receiver", receiver, Receiver)]
     fields = {
         f"{name}.{field}": values
         for name, value, kind in given
@@ -104,7 +115,11 @@ def sweep(
     shape = same_shape(**fields)
     choice("method", method, _METHODS)
     samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
-    task = _Task(method, checked_wheels(wheels), float(dt), samples, radius, bool(trajectories))
+    limits, key = checked_wheels(wheels), _key(seed)
+    if receiver and method == "continuous":
+        raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
+    key = key if receiver else ()
+    task = _Task(method, limits, float(dt), samples, radius, bool(trajectories), key)
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
             raise refusal(name, value, "True or False")
@@ -118,7 +133,11 @@ def sweep(
         )
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
-    source = [np.broadcast_to(field, shape) for field in fields.values()]
+    columns: list = [*fields.values()]
+    if receiver:
+        numbers = np.arange(total).reshape(shape)
+        columns[sight.SIGMA : -1] = *in_samples(receiver, dt, samples), numbers
+    source = [np.broadcast_to(column, shape) for column in columns]
     lost: list[BaseException] = []
     long = progress and total * task.cost >= _LONG_WORK
     with (
@@ -141,11 +160,12 @@ def sweep(
 def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
     (module, step), count = _METHODS[task.method], runs.shape[1]
+    module = sight if task.key else module
     summary = np.empty((len(Arrival._fields), count))
     record = np.empty((rows.LYAPUNOV, count, task.samples if task.recorded else 0))
     for law in np.unique(runs[-1]):
         members = np.flatnonzero(runs[-1] == law)
-        common = int(law), task.limits, step, *task[2:]
+        common = int(law), task.limits, step, *task[2:-1], *task.key
         summary[:, members], record[:, members] = module.survey(runs[:-1, members], *common)
     return summary, record
 
@@ -187,3 +207,11 @@ def _law_codes(law: str | np.ndarray) -> np.ndarray:
     names = as_array(law)
     codes = [POSE_LAWS[choice("law", name, POSE_LAWS)] for name in names.ravel().tolist()]
     return np.array(codes, dtype=float).reshape(names.shape)
+
+
+def _key(seed: int) -> tuple[int, ...]:
+    """The seed's two words of 32 bits."""
+    whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
+    if not (whole and 0 <= seed < 2**64):
+        raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
+    return int(seed) & 0xFFFFFFFF, int(seed) >> 32

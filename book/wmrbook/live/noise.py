@@ -10,11 +10,13 @@ import numpy as np
 from wmrbook.live.parts import Ask, Choice, Knob, Live
 from wmrlib import (
     Pose,
+    Receiver,
     advance,
     control_law,
     paper,
     polar_error,
     simulate,
+    sweep,
     twist_to_wheels,
     wheels_to_twist,
     wrap_angle,
@@ -46,10 +48,9 @@ def seeing(
     goal: Pose,
     error: np.ndarray,
     late: float = 0.0,
-    late_heading: float = 0.0,
     slip: float = 0.0,
 ) -> tuple[Pose, np.ndarray]:
-    """Drive robots by positions with an error, (steps, 2, robots) in m, and by readings that late.
+    """Drive robots by positions with an error, (steps, 2, robots) in m, and that late.
 
     The right wheel loses the share `slip` of its motion.
 
@@ -58,14 +59,14 @@ def seeing(
     Pose of arrays, (samples, robots), up to where all stand, and array of the steps of each robot
     """
     steps, _, robots = error.shape
-    back, back_heading = round(late / DT), round(late_heading / DT)
+    back = round(late / DT)
     truth = np.empty((steps + 1, 3, robots))
     truth[0] = np.array(start)[:, None]
     driven, going = np.zeros(robots, int), np.ones(robots, bool)
     for n in range(steps):
         then = max(n - back, 0)
         x, y = truth[then, :2] + error[then]
-        polar = polar_error(Pose(x, y, truth[max(n - back_heading, 0), 2]), goal)
+        polar = polar_error(Pose(x, y, truth[n, 2]), goal)
         going &= polar.rho > RADIUS
         driven += going
         if not going.any():
@@ -152,9 +153,11 @@ def bench() -> Live:
 def late_drive(position: float, heading: float) -> tuple[Pose, float]:
     """The outdoor drive with both readings late [s]: its poses, and its time, infinite if lost."""
     start, goal, *_ = paper.outdoor()
-    path, (driven,) = seeing(start, goal, np.zeros((round(LOST / DT), 2, 1)), position, heading)
-    time = driven * DT if driven * DT < LOST else math.inf
-    return Pose(*(field[: driven + 1, 0] for field in path)), time
+    late = Receiver(delay=position, heading_delay=heading)
+    how = {"method": "arc", "dt": DT, "duration": LOST, "arrival_radius": RADIUS}
+    end, path = sweep(start, goal, GENTLE_GAINS, receiver=late, trajectories=True, **how)
+    driven = np.isfinite(path.x)
+    return Pose(path.x[driven], path.y[driven], path.heading[driven]), end.time
 
 
 def late() -> Live:

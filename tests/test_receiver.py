@@ -1,0 +1,260 @@
+"""Receivers against a plain loop with its own random numbers, against theory, and by property."""
+
+import math
+from concurrent.futures import ThreadPoolExecutor
+
+import numpy as np
+import pytest
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+from wmrlib import _chunks
+from wmrlib._loops import sight
+
+DT, GAINS = 0.1, wmr.GENTLE_GAINS
+START, GOAL = wmr.Pose(-6.0, 2.0, 0.5), wmr.Pose(0.0, 0.0, -1.0)
+LIMITS = wmr.WheelLimits(track_width=0.5, max_speed=1.0)
+SHORT = {"method": "arc", "dt": DT, "duration": 12.0, "arrival_radius": 0.3}
+FULL = 0xFFFFFFFF
+
+
+@pytest.mark.parametrize(
+    ("counter", "key", "words"),
+    [  # Random123's kat_vectors; the last are digits of pi
+        ((0,) * 4, (0, 0), "6627e8d5 e169c58d bc57ac4c 9b00dbd8"),
+        ((FULL,) * 4, (FULL, FULL), "408f276d 41c83b0e a20bc7c6 6d5451fd"),
+        (
+            (0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344),
+            (0xA4093822, 0x299F31D0),
+            "d16cfe09 94fdcceb 5001e420 24126ea1",
+        ),
+    ],
+)
+def test_random_words_are_those_that_are_known(counter, key, words):
+    assert [f"{word:08x}" for word in sight.philox(counter, key)] == words.split()
+
+
+# A second way, sample by sample, with whole numbers that don't overflow ---------------------------
+
+
+def two_normals(run, sample, seed):
+    a, b, c, d = run % 2**32, run // 2**32, sample, 0
+    for n in range(10):
+        key = (seed + n * 0x9E3779B9) % 2**32, (seed // 2**32 + n * 0xBB67AE85) % 2**32
+        (two, b_next), (one, d_next) = divmod(0xCD9E8D57 * c, 2**32), divmod(0xD2511F53 * a, 2**32)
+        a, b, c, d = two ^ b ^ key[0], b_next, one ^ d ^ key[1], d_next
+    size, turn = ((2**21 * high + low // 2**11 + 0.5) / 2**53 for high, low in ((a, b), (c, d)))
+    return np.sqrt(-2.0 * np.log(size)) * np.exp(2j * np.pi * turn)
+
+
+def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
+    """The poses and twists at each sample, and whether it believes to have arrived."""
+    truth, twists, errors, fixes = [START], [], {}, {}
+    late, heading_late = (round(age / DT) for age in receiver[3:])
+    every = max(round(receiver.period / DT), 1)
+    for k in range(round(SHORT["duration"] / DT) + 1):
+        fix = max(k - k % every - late, 0)
+        if fix not in fixes:
+            error = two_normals(run, fix, seed)
+            if errors and receiver.memory:
+                last = max(errors)
+                keep = math.exp(-(fix - last) * DT / receiver.memory)
+                error = keep * errors[last] + math.sqrt(1.0 - keep**2) * error
+            errors[fix] = error
+            fixes[fix] = complex(truth[fix].x, truth[fix].y) + receiver.sigma * error
+        seen = wmr.Pose(fixes[fix].real, fixes[fix].imag, truth[max(k - heading_late, 0)].heading)
+        polar = wmr.polar_error(seen, GOAL)
+        v, omega = wmr.control_law(*polar, gains)
+        v, omega = wmr.limit_wheels(v, omega, wheels) if wheels else (v, omega)
+        twists.append((v, omega))
+        if polar.rho <= SHORT["arrival_radius"]:
+            return truth, twists, True
+        truth.append(wmr.advance(truth[-1], v, omega, DT, method))
+    return truth[:-1], twists, False
+
+
+times = st.sampled_from([0.0, 0.1, 0.3, 1.0])
+receivers = st.builds(
+    wmr.Receiver, st.sampled_from([0.0, 0.2, 0.5]), st.sampled_from([0.0, 0.4, 30.0]), times, times,
+    times,
+)  # fmt: skip
+
+
+@settings(max_examples=25, deadline=None)
+@example(wmr.Receiver(0.5, 3.0, 1.0, 0.3, 0.1), 2**64 - 1, 1, "euler", LIMITS)
+@given(receivers, st.integers(0, 2**64 - 1), st.integers(0, 1), st.sampled_from(["arc", "euler"]),
+       st.none() | st.just(LIMITS))  # fmt: skip
+def test_a_sweep_is_the_plain_loop_with_the_same_numbers(receiver, seed, run, method, wheels):
+    options = SHORT | {"method": method, "wheels": wheels}
+    starts = START._replace(x=np.full(2, START.x))
+    ends, paths = wmr.sweep(
+        starts, GOAL, GAINS, receiver=receiver, seed=seed, trajectories=True, **options
+    )
+    truth, twists, arrived = driven(receiver, seed, run, method, wheels)
+    count = len(truth)
+    assert np.isfinite(paths.x[run]).sum() == count
+    poses, twists = np.array(truth), np.array(twists)
+    mine = np.array([getattr(paths, name)[run, :count] for name in ("x", "y", "v", "omega")])
+    np.testing.assert_allclose(mine.T, np.hstack([poses[:, :2], twists]), rtol=0, atol=1e-8)
+    end = truth[-1]
+    assert ends.arrived[run] == arrived
+    assert ends.time[run] == (pytest.approx((count - 1) * DT) if arrived else math.inf)
+    off = wmr.wrap_angle(ends.heading_error[run] - (end.heading - GOAL.heading))
+    assert abs(off) < 1e-8
+    assert ends.distance[run] == pytest.approx(math.hypot(end.x, end.y), abs=1e-8)
+    assert ends.peak_omega[run] == pytest.approx(np.abs(twists[:, 1]).max(), abs=1e-8)
+    length = DT * np.abs(twists[: count - 1, 0]).sum()
+    assert ends.path_length[run] == pytest.approx(length, abs=1e-8)
+    polar = wmr.polar_error(wmr.Pose(*poses.T), GOAL)
+    assert paths.rho[run, :count] == pytest.approx(polar.rho, abs=1e-8)
+
+
+# The error itself: a robot that hardly moves steers by it -----------------------------------------
+
+
+def errors(receiver, runs, samples, seed=5):
+    """What the receiver adds, (axis, run, sample) in m, out of how the robot turns to a far goal.
+
+    Its omega is k_alpha times the goal's bearing, which an error to the left turns to the right.
+    """
+    still, far, found = wmr.Gains(0.0, 1e-12, 0.0, 1e-12), 1e6, []
+    options = {"dt": 1.0, "duration": samples - 1.0, "seed": seed, "trajectories": True}
+    for heading, goal in ((-math.pi / 2, (0.0, -far)), (0.0, (far, 0.0))):
+        start, goal = wmr.Pose(np.zeros(runs), 0.0, heading), wmr.Pose(*goal, heading)
+        _, paths = wmr.sweep(start, goal, still, receiver=receiver, method="arc", **options)
+        found.append(-far * np.tan(paths.omega / 1e-12))
+    return np.array(found)
+
+
+@pytest.mark.parametrize("memory", [0.0, 1.0, 8.0])
+def test_the_error_keeps_its_size_and_forgets_as_fast_as_it_should(memory):
+    found = errors(wmr.Receiver(sigma=0.5, memory=memory), 4000, 40) / 0.5
+    few = 5.0 / math.sqrt(4000.0)  # five standard deviations of a mean; a scatter has less
+    assert np.abs(found.mean(axis=1)).max() < few
+    assert np.abs((found**2).mean(axis=1) - 1.0).max() < math.sqrt(2.0) * few
+    for lag in (1, 2, 5, 20):
+        kept = math.exp(-lag / memory) if memory else 0.0
+        for first in (0, 15):
+            alike = (found[:, :, first] * found[:, :, first + lag]).mean(axis=1)
+            assert np.abs(alike - kept).max() < math.sqrt(1.0 + kept**2) * few
+    assert abs((found[0] * found[1]).mean()) < 5.0 / math.sqrt(4000.0 * 40.0 / (1.0 + 2.0 * memory))
+    assert abs((found[:, 1:] * found[:, :-1]).mean()) < 5.0 / math.sqrt(8000.0)
+    assert (np.abs(found) < 3.0).mean() == pytest.approx(math.erf(3.0 / math.sqrt(2.0)), abs=2e-3)
+
+
+def test_a_fix_is_held_and_shown_late():
+    white = errors(wmr.Receiver(0.5), 3, 30)
+    late = errors(wmr.Receiver(0.5, delay=4.0), 3, 30)
+    assert np.allclose(late[..., 4:], white[..., :-4], rtol=0.0, atol=1e-7)
+    assert np.allclose(late[..., :4], white[..., :1], rtol=0.0, atol=1e-7)
+    held = errors(wmr.Receiver(0.5, period=5.0), 3, 30)
+    assert np.allclose(held, np.repeat(white[..., ::5], 5, axis=-1), rtol=0.0, atol=1e-7)
+    slow = errors(wmr.Receiver(0.5, memory=20.0, period=5.0), 4000, 11)
+    alike = (slow[..., 0] * slow[..., 5]).mean() / 0.25
+    assert alike == pytest.approx(math.exp(-5.0 / 20.0), abs=0.06)
+
+
+@pytest.mark.parametrize("field", ["period", "delay", "heading_delay"])
+def test_what_never_comes_is_as_late_as_the_run_is_long(field):
+    ends = wmr.sweep(START, GOAL, GAINS, receiver=wmr.Receiver(0.2, **{field: [13.0, 1e308]}),
+                     seed=np.arange(3)[2], **SHORT)  # fmt: skip
+    alone = driven(wmr.Receiver(0.2, **{field: 13.0}), 2, 0)[0]
+    assert ends.distance[0] == pytest.approx(math.hypot(*alone[-1][:2]))
+    receiver = wmr.Receiver(1e-300, **{field: [13.0, 1e308]})  # whose runs have different numbers
+    one, other = zip(*wmr.sweep(START, GOAL, GAINS, receiver=receiver, **SHORT), strict=True)
+    assert one == other
+
+
+# What follows from it -----------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("method", ["arc", "euler"])
+def test_a_receiver_that_shows_the_truth_changes_nothing(method):
+    options = SHORT | {"method": method, "trajectories": True}
+    starts = START._replace(y=np.array([2.0, -3.0]))
+    none, path = wmr.sweep(starts, GOAL, GAINS, **options)
+    for receiver in (wmr.Receiver(), wmr.Receiver(0.0, 9.0, DT, 0.04, 0.04)):
+        ends, paths = wmr.sweep(starts, GOAL, GAINS, receiver=receiver, **options)
+        assert all(map(np.array_equal, ends, none))
+        assert all(np.array_equal(*pair, equal_nan=True) for pair in zip(paths, path, strict=True))
+    mixed = wmr.sweep(starts, GOAL, GAINS, receiver=wmr.Receiver([0.0, 1e-300]), **SHORT)
+    assert [field[0] for field in mixed] == [field[0] for field in wmr.sweep(
+        starts, GOAL, GAINS, **SHORT)]  # fmt: skip
+    for one, other in zip(mixed, wmr.sweep(starts, GOAL, GAINS, **SHORT), strict=True):
+        assert one[1] == pytest.approx(other[1], rel=1e-12)
+
+
+def test_an_error_that_stays_shifts_the_place_and_nothing_else():
+    receiver, seed, run = wmr.Receiver(0.7, memory=1e12), 3, 4
+    options = SHORT | {"trajectories": True}
+    starts = START._replace(x=np.full(5, START.x))
+    ends, paths = wmr.sweep(starts, GOAL, GAINS, receiver=receiver, seed=seed, **options)
+    error = 0.7 * two_normals(run, 0, seed)
+    shifted = wmr.Pose(-error.real, -error.imag, GOAL.heading)
+    exact, path = wmr.sweep(START, shifted, GAINS, **options)
+    assert exact.arrived
+    assert ends.time[run] == exact.time
+    for name in ("x", "y", "heading"):
+        mine, right = getattr(paths, name)[run], getattr(path, name)
+        np.testing.assert_allclose(mine, right, rtol=0.0, atol=1e-4)
+
+
+def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
+    many = START._replace(x=np.linspace(-8.0, -4.0, 3000).reshape(2, 1500))
+    receiver = wmr.Receiver(np.linspace(0.1, 1.0, 1500), [[0.0], [10.0]], 0.3)
+    options = SHORT | {"receiver": receiver, "seed": 7}
+    whole = wmr.sweep(many, GOAL, GAINS, **options)
+    assert np.ptp(whole.distance) > 1.0
+    assert 3.0 < np.abs(whole.heading_error).max() <= math.pi
+    with ThreadPoolExecutor(2) as executor:
+        assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, executor=executor,
+                                                        **options)))  # fmt: skip
+    monkeypatch.setattr(_chunks, "cores", lambda: 1)
+    monkeypatch.setattr(wmr.sweeping, "_LOCAL_CHUNK", 1)
+    assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, **options)))
+    first = many._replace(x=many.x[0, :100])
+    few = options | {"receiver": receiver._replace(sigma=receiver.sigma[:100], memory=0.0)}
+    alone = wmr.sweep(first, GOAL, GAINS, **few)
+    assert all(
+        np.array_equal(field[0, :100], each) for field, each in zip(whole, alone, strict=True)
+    )
+    other = wmr.sweep(many, GOAL, GAINS, **options | {"seed": 7 + 2**32})
+    assert (other.distance != whole.distance).mean() > 0.99
+
+
+def test_a_place_out_of_the_range_of_numbers_ends_the_run():
+    options = SHORT | {"trajectories": True}
+    ends, paths = wmr.sweep(START, GOAL, GAINS, receiver=wmr.Receiver([1e308, 1e-3]), **options)
+    assert (ends.arrived.tolist(), ends.time[0]) == ([False, True], math.inf)
+    count = np.isfinite(paths.rho[0]).sum()
+    assert 1 < count < 50
+    assert ends.distance[0] == paths.rho[0, count - 1] > 1.0
+    assert ends.path_length[0] == pytest.approx(DT * np.abs(paths.v[0, : count - 1]).sum())
+
+
+@pytest.mark.parametrize(
+    ("options", "message"),
+    [
+        ({"receiver": 0.5}, r"receiver = 0\.5 .* a Receiver is needed, not a float"),
+        ({"method": "continuous"}, "method = 'continuous' .* 'arc' or 'euler' is needed: a rec"),
+        ({"receiver": wmr.Receiver([0.1] * 3)}, r"receiver\.sigma has shape \(3,\)"),
+        *(
+            ({"seed": seed}, f"seed = {seed!r} is not allowed: a whole number from 0 to 2")
+            for seed in (-1, 2**64, True, 1.0, None)
+        ),
+    ],
+)  # fmt: skip
+def test_bad_input_names_argument_value_and_range(options, message):
+    options = SHORT | {"receiver": wmr.Receiver(0.5)} | options
+    with pytest.raises(ValueError, match=message.replace("**", r"\*\*")):
+        wmr.sweep(START._replace(x=[-6.0, -5.0]), GOAL, GAINS, **options)
+
+
+@pytest.mark.parametrize("field", wmr.Receiver._fields)
+@pytest.mark.parametrize("value", [-0.1, math.nan, math.inf, [1.0, -1.0], "1"])
+def test_fields_that_are_no_lengths_or_times_are_refused(field, value):
+    with pytest.raises(
+        ValueError, match=f"{field} = .* is not allowed: a finite number at least 0"
+    ):
+        wmr.Receiver(**{field: value})

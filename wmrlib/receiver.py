@@ -1,0 +1,46 @@
+"""What a positioning receiver does to the positions that a controller steers by."""
+
+from __future__ import annotations
+
+from typing import NamedTuple
+
+import numpy as np
+
+from wmrlib._checks import Real, checked
+
+_FIELDS = ("sigma", "memory", "period", "delay", "heading_delay")
+
+
+@checked(at_least_0=_FIELDS)
+class Receiver(NamedTuple):
+    """A receiver that errs, shows its fixes one at a time, and late; or many of them.
+
+    The error is a Gauss-Markov process on each axis, in its stationary state from the first fix on:
+    tau seconds later it keeps the share c = exp(-tau/memory), and sqrt(1 - c^2) sigma is new. Times
+    are rounded to whole samples. Until there is another, the fix of the first sample is shown.
+
+    Parameters
+    ----------
+    sigma : float or array, m. Standard deviation of the error, to the east and to the north.
+    memory : float or array, s. Correlation time of the error; with 0 that of each fix is new.
+    period : float or array, s. From one fix, which is held, to the next; 0: a fix at each sample.
+    delay : float or array, s. Age of a fix when it is first shown.
+    heading_delay : float or array, s. Age of the heading, which is exact.
+
+    Raises
+    ------
+    ValueError : for a negative field, NaN or mismatched lengths.
+    """
+
+    sigma: Real = 0.0
+    memory: Real = 0.0
+    period: Real = 0.0
+    delay: Real = 0.0
+    heading_delay: Real = 0.0
+
+
+def in_samples(receiver: Receiver, dt: float, samples: int) -> list[Real]:
+    """Its fields with the times in samples, and 0 in all but the memory if it shows the truth."""
+    sigma, memory, *times = receiver
+    period, *delays = (np.rint(np.minimum(time, samples * dt) / dt) for time in times)
+    return [sigma, memory, np.maximum(period - 1.0, 0.0), *delays]
