@@ -33,7 +33,7 @@ PACKAGE = ROOT / "wmrlib"
 PLANS = {
     "_vecmath": "jit vecmath",
     "_loops": "jit simulation",
-    "_loops/plane": "jit sweeping",
+    "_loops/plane": "jit sweeping; jit receiver",
     "_loops/polar": "jit sweeping",
     "_loops/adaptive": "jit simulation; jit sweeping",
     "_loops/alone": "jit simulation",
