@@ -34,6 +34,7 @@ PACKAGE = ROOT / "wmrlib"
 PLANS = {
     "_vecmath": "quick vecmath; jit vecmath",
     "_loops": "quick simulation; jit sweeping; jit simulation",
+    "_loops/plane": "quick simulation; jit receiver; jit sweeping; jit simulation",
     "_loops/sight": "jit receiver",
     "_chunks": "jit sweeping",
     "control": "plain control arguments",

@@ -203,7 +203,7 @@ def test_outcomes(method):
     assert (len(run), run.outcome, run.t[0], run.rho[0]) == (1, wmr.Outcome.ARRIVED, 0.0, 0.0)
     run = wmr.simulate(ORIGIN, FAR, CALM, method=method, duration=2.0)
     assert run.outcome is wmr.Outcome.TIMED_OUT
-    assert run.outcome.message == "did not arrive within the duration"
+    assert run.outcome.value == "did not arrive within the duration"
     assert run.t[-1] == pytest.approx(2.0)
     start = wmr.Pose(-3.0, 0.0, 0.0)  # who is just on the radius has arrived
     free = wmr.simulate(start, ORIGIN, CALM, method=method, arrival_radius=0.0)

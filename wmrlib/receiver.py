@@ -4,14 +4,10 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numpy as np
-
 from wmrlib._checks import Real, checked
 
-_FIELDS = ("sigma", "memory", "period", "delay", "heading_delay")
 
-
-@checked(at_least_0=_FIELDS)
+@checked(at_least_0=("sigma", "memory", "period", "delay", "heading_delay"))
 class Receiver(NamedTuple):
     """A receiver that errs, shows its fixes one at a time, and late; or many of them.
 
@@ -37,10 +33,3 @@ class Receiver(NamedTuple):
     period: Real = 0.0
     delay: Real = 0.0
     heading_delay: Real = 0.0
-
-
-def in_samples(receiver: Receiver, dt: float, samples: int) -> list[Real]:
-    """Its fields with the times in samples, and 0 in all but the memory if it shows the truth."""
-    sigma, memory, *times = receiver
-    period, *delays = (np.rint(np.minimum(time, samples * dt) / dt) for time in times)
-    return [sigma, memory, np.maximum(period - 1.0, 0.0), *delays]

@@ -60,7 +60,7 @@ class Route(ReadOnly):
         text = f"<Route: {self.reached} of {len(self.stops)} waypoints reached"
         if self.outcome is Outcome.ARRIVED:
             return f"{text} in {self.time:.4g} s, {self.length:.4g} m long>"
-        text += f"; leg {len(self.legs)} {self.outcome.message}"
+        text += f"; leg {len(self.legs)} {self.outcome.value}"
         distance = self.arrivals[-1].distance  # NaN without a sample
         return text + (">" if math.isnan(distance) else f", {distance:.4g} m from its waypoint>")
 

@@ -23,10 +23,6 @@ class Outcome(Enum):
     DIVERGED = "left the range of numbers"
     COMPLETED = "followed the reference to the end"
 
-    @property
-    def message(self) -> str:
-        return self.value
-
 
 class ReadOnly:
     """A frozen dataclass whose arrays can't be written to, in copies and pickles too."""
@@ -90,7 +86,7 @@ class Trajectory(ReadOnly):
         if len(self):
             end = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s"
         what = f"{self.law} law, {self.method}, {len(self)} samples"
-        return f"<Trajectory: {what}, {end}: {self.outcome.message}>"
+        return f"<Trajectory: {what}, {end}: {self.outcome.value}>"
 
     @property
     def x_error(self) -> np.ndarray:

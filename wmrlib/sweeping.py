@@ -13,11 +13,11 @@ import numpy as np
 
 from wmrlib import _chunks
 from wmrlib._checks import as_array, choice, instance, refusal, same_shape, scalar
-from wmrlib._loops import adaptive, plane, rows, sight
+from wmrlib._loops import adaptive, plane, rows
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose
 from wmrlib.laws import POSE_LAWS
-from wmrlib.receiver import Receiver, in_samples
+from wmrlib.receiver import Receiver
 from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
@@ -29,7 +29,7 @@ _METHODS = {
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 20_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
-_SIGHT_COST = 12  # evaluations of the law that take as long as one step by what a receiver shows
+_SIGHT_COST = 17  # evaluations of the law that take as long as one step by what a receiver shows
 
 
 class _Task(NamedTuple):
@@ -115,10 +115,11 @@ def sweep(
     shape = same_shape(**fields)
     choice("method", method, _METHODS)
     samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
-    limits, key = checked_wheels(wheels), _key(seed)
     if receiver and method == "continuous":
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
-    key = key if receiver else ()
+    if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**64:
+        raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
+    limits, key = checked_wheels(wheels), divmod(int(seed), 2**32)[::-1] if receiver else ()
     task = _Task(method, limits, float(dt), samples, radius, bool(trajectories), key)
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
@@ -133,11 +134,9 @@ def sweep(
         )
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
-    columns: list = [*fields.values()]
+    source = [np.broadcast_to(field, shape) for field in fields.values()]
     if receiver:
-        numbers = np.arange(total).reshape(shape)
-        columns[sight.SIGMA : -1] = *in_samples(receiver, dt, samples), numbers
-    source = [np.broadcast_to(column, shape) for column in columns]
+        source.insert(-1, np.arange(total).reshape(shape))  # before the law: the run's number
     lost: list[BaseException] = []
     long = progress and total * task.cost >= _LONG_WORK
     with (
@@ -160,7 +159,6 @@ def sweep(
 def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
     (module, step), count = _METHODS[task.method], runs.shape[1]
-    module = sight if task.key else module
     summary = np.empty((len(Arrival._fields), count))
     record = np.empty((rows.LYAPUNOV, count, task.samples if task.recorded else 0))
     for law in np.unique(runs[-1]):
@@ -207,11 +205,3 @@ def _law_codes(law: str | np.ndarray) -> np.ndarray:
     names = as_array(law)
     codes = [POSE_LAWS[choice("law", name, POSE_LAWS)] for name in names.ravel().tolist()]
     return np.array(codes, dtype=float).reshape(names.shape)
-
-
-def _key(seed: int) -> tuple[int, ...]:
-    """The seed's two words of 32 bits."""
-    whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
-    if not (whole and 0 <= seed < 2**64):
-        raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
-    return int(seed) & 0xFFFFFFFF, int(seed) >> 32

@@ -8,7 +8,7 @@ from functools import lru_cache
 import numpy as np
 
 from wmrlib._compile import compiled, formula
-from wmrlib._loops import rows
+from wmrlib._loops import rows, sight
 from wmrlib._loops.polar import steered
 from wmrlib._vecmath import NEAREST, vectorised, widest_vectors
 from wmrlib.gains import GainsFields
@@ -47,11 +47,12 @@ def move(pose, v, omega, dt, step):
 
 
 @compiled
-def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radius):
+def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radius, eyes=None):
     """Record one run after the goal in column k of `reference`, or its last.
 
     Returns (samples, outcome, largest |omega|, metres rolled). Stops on arrival; a negative radius
-    never arrives, so a reference is followed to its end.
+    never arrives, so a reference is followed to its end. With `eyes` (a receiver, and the key to
+    its random numbers) the robot steers by what is shown, and stops where that is near enough.
     """
     pose, peak, length, rolled = (start[0], start[1], wrap(start[2])), 0.0, 0.0, 0.0
     for k in range(record.shape[0]):
@@ -59,12 +60,17 @@ def drive(record, start, reference, tuning, law, wheels, step, dt, arrival_radiu
         goal = reference[rows.X, now], reference[rows.Y, now], reference[rows.HEADING, now]
         goal_twist = reference[rows.GOAL_V, now], reference[rows.GOAL_OMEGA, now]
         rho, alpha, theta, v, omega = observe(pose, goal, goal_twist, tuning, law, wheels)
+        seen = rho
+        if eyes is not None:
+            record[k, rows.X], record[k, rows.Y], record[k, rows.HEADING] = pose
+            place = sight.shown(record, k, *eyes)
+            seen, _, _, v, omega = observe(place, goal, goal_twist, tuning, law, wheels)
         rows.write(record.T, k, pose, (rho, alpha, theta), v, omega)
         record[k, rows.LYAPUNOV] = lyapunov_value_of(rho, alpha, theta, tuning, law)
         if not math.isfinite(rho + v + omega):
             return k, rows.DIVERGED, peak, length
         peak, length = max(peak, abs(omega)), length + rolled
-        if rho <= arrival_radius:
+        if seen <= arrival_radius:
             return k + 1, rows.ARRIVED, peak, length
         pose, rolled = move(pose, v, omega, dt, step), dt * abs(v)
     return record.shape[0], rows.TIMED_OUT, peak, length
@@ -122,8 +128,8 @@ def loop_of(step, law):
 
 
 @compiled
-def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radius):
-    """Sum up each run. Those to record, and those that ended without a number, are driven alone."""
+def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radius, receivers, key):
+    """Sum up each run; those that were left out, or ended without a number, are driven alone."""
     summary = np.empty((rows.DISTANCE + 1, runs.shape[1]))
     run, reference = np.empty((samples, rows.LYAPUNOV + 1)), np.zeros((rows.GOAL_OMEGA + 1, 1))
     for i in range(runs.shape[1]):
@@ -135,10 +141,11 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
         last, arrived = samples - 1 - int(abs(left)), rho <= arrival_radius
         outcome, peak = rows.ARRIVED if arrived else rows.TIMED_OUT, max(peak, abs(omega))
         known = last > 0 and math.isfinite(rho + v + omega) and (arrived or left == 0.0)
-        if records.shape[2] or not known:
+        if not known:
             reference[rows.X, 0], reference[rows.Y, 0], reference[rows.HEADING, 0] = goal
             how = *loop, step, dt, arrival_radius
-            count, outcome, peak, length = drive(run, start, reference, *how)
+            eyes = None if key is None else (receivers[:, i], key)
+            count, outcome, peak, length = drive(run, start, reference, *how, eyes)
             last = max(count - 1, 0)
             for k in range(min(count, records.shape[2])):
                 for row in range(rows.LYAPUNOV):
@@ -148,11 +155,17 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
     return summary
 
 
-def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded):
-    """Sum up many runs to goals that stand still; their samples too, NaN after each one's end."""
+def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded, *key):
+    """Sum up many runs to goals that stand still; their samples too, NaN after each one's end.
+
+    With a key to random numbers, a receiver and the run's number are below each run.
+    """
+    runs, receivers = runs[:LEFT], runs[LEFT:]
+    receivers, wrong = sight.in_samples(receivers, dt, samples)
     states = np.zeros((ROWS, runs.shape[1]))
-    states[: len(runs)], states[HEADING] = runs, wrap_angle(runs[HEADING])
-    states[LEFT] = 0.0 if recorded else samples - 1.0
+    states[:LEFT], states[HEADING] = runs, wrap_angle(runs[HEADING])
+    states[LEFT] = np.where(recorded | wrong, -samples, samples - 1.0)  # negative: left out
     loop_of(step, law)(states, wheels, dt, max(arrival_radius, NEAREST))
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
-    return conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radius), records
+    how = law, wheels, step, dt, samples, arrival_radius, receivers, key or None
+    return conclude(states, runs, records, *how), records
