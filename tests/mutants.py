@@ -66,7 +66,6 @@ EQUIVALENT = [
     ("runs.py", "if steps > MOST_SAMPLES", "one step in ten million"),
     ("simulation.py", "np.zeros((5, samples))", "rows that are not used"),
     ("sweeping.py", "_CHUNK", "how runs are cut into chunks does not show"),
-    ("sweeping.py", "cores = ", "how many threads there are does not show"),
     ("sweeping.py", "in bar = tqdm", "how the bar looks"),
     ("symbolic/formulas.py", "motion.polar_from_pose, 0, 0, 0", "what the result does not read"),
 ]

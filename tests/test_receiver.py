@@ -210,7 +210,7 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     with ThreadPoolExecutor(2) as executor:
         assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, executor=executor,
                                                         **options)))  # fmt: skip
-    monkeypatch.setattr(_chunks, "cores", lambda: 1)
+    monkeypatch.setattr(_chunks, "CORES", 1)
     monkeypatch.setattr(wmr.sweeping, "_LOCAL_CHUNK", 1)
     assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, **options)))
     first = many._replace(x=many.x[0, :100])

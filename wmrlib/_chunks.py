@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import multiprocessing
-import os
 import signal
 import threading
 from collections.abc import Callable, Generator, Iterable, Iterator
@@ -12,15 +11,13 @@ from contextlib import contextmanager, nullcontext
 from itertools import islice
 from typing import Any
 
+import numba
+
+CORES = numba.config.NUMBA_NUM_THREADS  # that this process may use
 _BAR_AFTER = 1.0  # s
 _HEARD_AFTER = 0.5  # s; so late a wait may hear Ctrl-C
 _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
 _LOST = futures.BrokenExecutor, futures.CancelledError, ConnectionError, KeyboardInterrupt
-
-
-def cores() -> int:
-    allowed = getattr(os, "sched_getaffinity", None)  # not on every system
-    return len(allowed(0)) if allowed else os.cpu_count() or 1
 
 
 def spread(job, chunks: Iterable, arguments, go_on, executor, lost: list) -> Generator:
@@ -29,7 +26,7 @@ def spread(job, chunks: Iterable, arguments, go_on, executor, lost: list) -> Gen
     What is lost with its worker is done here, and why is added to `lost`. An error of the job
     itself is raised.
     """
-    pool, chunks = executor or futures.ThreadPoolExecutor(cores()), iter(chunks)
+    pool, chunks = executor or futures.ThreadPoolExecutor(CORES), iter(chunks)
     waiting: dict[futures.Future, Any] = {}
     going = True
     try:
@@ -53,7 +50,7 @@ def spread(job, chunks: Iterable, arguments, go_on, executor, lost: list) -> Gen
                 why = futures.CancelledError() if future.cancelled() else future.exception()
                 if why is None:
                     yield chunk, future.result()
-                elif not _is_lost(why):
+                elif not isinstance(why, _LOST) and "distributed." not in type(why).__module__:
                     raise why
                 elif going:
                     lost.append(why)
@@ -63,10 +60,6 @@ def spread(job, chunks: Iterable, arguments, go_on, executor, lost: list) -> Gen
             future.cancel()
         if executor is None:
             pool.shutdown(cancel_futures=True)
-
-
-def _is_lost(error: BaseException) -> bool:
-    return isinstance(error, _LOST) or type(error).__module__.startswith("distributed.")
 
 
 def _deaf(job: Callable, *arguments: Any) -> Any:

@@ -194,7 +194,7 @@ def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[st
 
 def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
     """Whole blocks of runs, at least four chunks for each core that is known of."""
-    work, parts = (_LOCAL_CHUNK, 4 * _chunks.cores()) if executor is None else (_REMOTE_CHUNK, 16)
+    work, parts = (_LOCAL_CHUNK, 4 * _chunks.CORES) if executor is None else (_REMOTE_CHUNK, 16)
     size = min(work // task.cost, math.ceil(total / parts))
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)

@@ -160,12 +160,11 @@ def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded, *key)
 
     With a key to random numbers, a receiver and the run's number are below each run.
     """
-    runs, receivers = runs[:LEFT], runs[LEFT:]
-    receivers, wrong = sight.in_samples(receivers, dt, samples)
+    receivers, wrong = sight.in_samples(runs[LEFT:], dt, samples)
     states = np.zeros((ROWS, runs.shape[1]))
-    states[:LEFT], states[HEADING] = runs, wrap_angle(runs[HEADING])
+    states[:LEFT], states[HEADING] = runs[:LEFT], wrap_angle(runs[HEADING])
     states[LEFT] = np.where(recorded | wrong, -samples, samples - 1.0)  # negative: left out
     loop_of(step, law)(states, wheels, dt, max(arrival_radius, NEAREST))
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
     how = law, wheels, step, dt, samples, arrival_radius, receivers, key or None
-    return conclude(states, runs, records, *how), records
+    return conclude(states, runs[:LEFT], records, *how), records

@@ -3,7 +3,7 @@
 import sys
 from types import SimpleNamespace
 
-config = SimpleNamespace(DISABLE_JIT=True)
+config = SimpleNamespace(DISABLE_JIT=True, NUMBA_NUM_THREADS=1)
 types = None
 
 
