@@ -83,6 +83,8 @@ receivers = st.builds(
 
 @settings(max_examples=25, deadline=None)
 @example(wmr.Receiver(0.5, 3.0, 1.0, 0.3, 0.1), 2**64 - 1, 1, "euler", LIMITS)
+@example(wmr.Receiver(period=1.0), 0, 0, "arc", None)
+@example(wmr.Receiver(heading_delay=0.3), 0, 0, "arc", None)
 @given(receivers, st.integers(0, 2**64 - 1), st.integers(0, 1), st.sampled_from(["arc", "euler"]),
        st.none() | st.just(LIMITS))  # fmt: skip
 def test_a_sweep_is_the_plain_loop_with_the_same_numbers(receiver, seed, run, method, wheels):
