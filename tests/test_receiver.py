@@ -93,6 +93,8 @@ def test_a_sweep_is_the_plain_loop_with_the_same_numbers(receiver, seed, run, me
     ends, paths = wmr.sweep(
         starts, GOAL, GAINS, receiver=receiver, seed=seed, trajectories=True, **options
     )
+    short = wmr.sweep(starts, GOAL, GAINS, receiver=receiver, seed=seed, **options)
+    np.testing.assert_allclose(short, ends, rtol=0.0, atol=1e-8)
     truth, twists, arrived = driven(receiver, seed, run, method, wheels)
     count = len(truth)
     assert np.isfinite(paths.x[run]).sum() == count
