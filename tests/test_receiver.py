@@ -83,6 +83,8 @@ receivers = st.builds(
 
 @settings(max_examples=25, deadline=None)
 @example(wmr.Receiver(0.5, 3.0, 1.0, 0.3, 0.1), 2**64 - 1, 1, "euler", LIMITS)
+@example(wmr.Receiver(period=1.0), 0, 0, "arc", None)
+@example(wmr.Receiver(heading_delay=0.3), 0, 0, "arc", None)
 @given(receivers, st.integers(0, 2**64 - 1), st.integers(0, 1), st.sampled_from(["arc", "euler"]),
        st.none() | st.just(LIMITS))  # fmt: skip
 def test_a_sweep_is_the_plain_loop_with_the_same_numbers(receiver, seed, run, method, wheels):
@@ -91,6 +93,8 @@ def test_a_sweep_is_the_plain_loop_with_the_same_numbers(receiver, seed, run, me
     ends, paths = wmr.sweep(
         starts, GOAL, GAINS, receiver=receiver, seed=seed, trajectories=True, **options
     )
+    short = wmr.sweep(starts, GOAL, GAINS, receiver=receiver, seed=seed, **options)
+    np.testing.assert_allclose(short, ends, rtol=0.0, atol=1e-8)
     truth, twists, arrived = driven(receiver, seed, run, method, wheels)
     count = len(truth)
     assert np.isfinite(paths.x[run]).sum() == count
