@@ -66,6 +66,7 @@ EQUIVALENT = [
     ("_loops/alone.py", "'1' -> '2' in many = min(", "how many steps are tried then does not show"),
     ("_loops/alone.py", "'16' -> '32' in many = min(", "how many steps are tried at most"),
     ("_loops/plane.py", "'+' -> '-' in known = ", "whatever is lost is lost in the difference too"),
+    ("_loops/steps.py", "'&' -> '|' in passing = ", "a step may end at any turn of rho"),
     ("_loops/steps.py", "'2' -> '4' in longer = ", "how much room there is does not show"),
     ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
     ("_vecmath.py", "'-' -> '+' in fine = ", "less than a rounding"),

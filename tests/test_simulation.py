@@ -13,6 +13,7 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import DOP853, simpson, solve_ivp
+from scipy.interpolate import CubicHermiteSpline
 
 import wmrlib as wmr
 from wmrlib._loops import adaptive, steps
@@ -400,6 +401,38 @@ def test_steps_are_as_many_as_another_program_takes_and_sum_up_to_the_same():
         np.testing.assert_array_equal(given_up[:4], log[:4, :taken])
         assert np.diff(trials).min() == 1
     assert 0.95 < ours / theirs < 1.25
+
+
+SHARES = st.floats(0.05, 0.95)
+SLOPES = st.floats(0.1, 6.0)  # as a share of the mean slope: over 3 a cubic may turn round
+
+
+@given(st.floats(0.01, 0.9), st.floats(0.01, 10.0), SLOPES, SLOPES, SHARES)
+def test_arrival_is_found_where_a_cubic_arrives(rho, dt, slope0, slope1, share):
+    """The time as a cubic of the distance, from 1 m on, by scipy; or on the straight line."""
+    radius, mean = rho + share * (1.0 - rho), dt / (rho - 1.0)
+    time = CubicHermiteSpline([rho, 1.0], [dt, 0.0], [slope1 * mean, slope0 * mean])
+    step = 1.0, 1.0 / (slope0 * mean), rho, 1.0 / (slope1 * mean), dt
+    found = float(time(radius)) if 0.0 < time(radius) < dt else (1.0 - share) * dt
+    assert steps._until_arrival(*step, radius) == pytest.approx(found, rel=1e-9)
+    assert steps._until_arrival(*step, rho) == dt
+
+
+RATES = st.floats(0.1, 10.0)
+
+
+@given(st.floats(-9.0, 9.0), st.floats(-9.0, 9.0), RATES, RATES, st.floats(0.1, 9.0), st.booleans())
+def test_a_turn_is_found_where_a_cubic_turns(f0, f1, rate0, rate1, dt, up):
+    """If more than the slack is missed on the shorter side of it."""
+    rates = (rate0, -rate1) if up else (-rate0, rate1)
+    bends = CubicHermiteSpline([0.0, dt], [f0, f1], rates).derivative()
+    (turn,) = (t for t in bends.roots(extrapolate=False) if 0.0 < t < dt)
+    step = f0, rates[0], f1, rates[1], dt
+    assert steps._until_turn(*step, 0.0) == pytest.approx(turn, rel=1e-6)
+    missed = min(rate0 * turn, rate1 * (dt - turn))
+    assert steps._until_turn(*step, 0.99 * missed) < dt
+    assert steps._until_turn(*step, 1.01 * missed) == dt
+    assert steps._until_turn(f0, rate0, f1, rate1, dt, 0.0) == dt
 
 
 FAST = st.floats(0.0, 6.0).map(lambda power: 10.0**power)
