@@ -42,7 +42,10 @@ LAWS = ("corrected", "printed", "aicardi")
 RUNS, FILES = 20_000, 250  # in one chunk
 REFEREED = 5  # runs of a chunk for which the slow oracle is asked anyhow
 ALIKE = {False: 2e-6, True: 2e-4}  # without and with wheel limits, as `sweep` promises, and double
-NUDGE, CHAOTIC = 1e-12, 1e-8  # rad; who ends so far from a start so near magnifies any rounding
+NUDGE, CHAOTIC = (
+    1e-12,
+    1e-8,
+)  # m and rad; who ends so far from a start so near magnifies any rounding
 LOST = 1e4  # m or rad: steps too long for the law have gone astray
 ROUGHLY = 0.01  # so far apart are fine Runge-Kutta steps, which know nothing of corners
 SLOW = 5.0  # s, for a file of a few kilobytes
@@ -222,7 +225,7 @@ def rows_of_samples(runs: Runs, rate: float, rng) -> Iterator[Row]:
     short = {"duration": 4.0 / rate, "arrival_radius": 0.0, "dt": 0.04 / rate}
     truth, paths = some.sweep(**short, trajectories=True)
     turns = np.max(np.abs([paths.alpha, paths.theta]), axis=(0, 2)) > 3.1  # sampled laws wrap these
-    nudged = some._replace(starts=some.starts._replace(heading=some.starts.heading + NUDGE))
+    nudged = some._replace(starts=wmr.Pose(*(each + NUDGE for each in some.starts)))
     for method in ("arc", "euler"):
         options = {"dt": 0.2 / rate, "method": method}
         ends = some.sweep(**options)

@@ -80,6 +80,7 @@ def test_a_peak_that_the_samples_miss():
 def test_residual_is_the_mean_of_the_end():
     run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, duration=40.0)
     assert wmr.residual(run, last=2.0) == pytest.approx(run.rho[380:].mean())
+    assert wmr.residual(run) == pytest.approx(run.rho[350:].mean())
     assert wmr.residual(run, last=1e9) == pytest.approx(run.rho.mean())
 
 

@@ -225,6 +225,7 @@ def test_a_leg_that_fails_is_the_last():
         "<Route: 1 of 3 waypoints reached; leg 2 did not arrive within the duration, "
     )
     assert "m from its waypoint>" in repr(route)
+    assert wmr.drive_route(far, GENTLE).legs[1].t[-1] == pytest.approx(120.0)
 
 
 def test_a_leg_that_leaves_the_range_of_numbers():

@@ -1,6 +1,7 @@
 """Runs against the continuous oracle, by property, from all sides, and at the edges."""
 
 import copy
+import inspect
 import math
 import pickle
 import time
@@ -11,7 +12,8 @@ import numpy as np
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
-from scipy.integrate import DOP853, solve_ivp
+from scipy.integrate import DOP853, simpson, solve_ivp
+from scipy.interpolate import CubicHermiteSpline
 
 import wmrlib as wmr
 from wmrlib._loops import adaptive, steps
@@ -261,6 +263,21 @@ def test_a_sweep_knows_the_distance_where_there_is_no_sample():
     assert far.distance == 1e200
 
 
+def test_runs_side_by_side_are_those_driven_alone():
+    """More than sit side by side, some of which arrive."""
+    draw = np.random.default_rng(1).uniform
+    starts = draw(-4.0, 4.0, 36), draw(-4.0, 4.0, 36), draw(-3.0, 3.0, 36)
+    gains = draw(0.2, 1.0, 36), draw(0.5, 3.0, 36), draw(0.1, 2.0, 36), draw(0.5, 2.0, 36)
+    for method in METHODS:
+        how = {"method": method, "dt": 0.25, "duration": 6.0, "arrival_radius": 0.5}
+        runs = wmr.sweep(wmr.Pose(*starts), ORIGIN, wmr.Gains(*gains), **how)
+        assert 0.2 < runs.arrived.mean() < 0.8
+        for i, run in enumerate(np.array([*starts, *gains]).T.tolist()):
+            alone = wmr.simulate(wmr.Pose(*run[:3]), ORIGIN, wmr.Gains(*run[3:]), **how)
+            mine = [field[i] for field in runs]
+            assert mine == pytest.approx(list(wmr.arrival(alone)), rel=1e-8, abs=1e-8), (method, i)
+
+
 TURNS = st.integers(-50, 50)
 
 
@@ -352,7 +369,7 @@ def trace(start, gains, most):
     return log, most - log[steps.TRIALS // steps.LANES]
 
 
-def test_steps_are_counted_and_as_many_as_another_program_takes():
+def test_steps_are_as_many_as_another_program_takes_and_sum_up_to_the_same():
     """By the same method to the same tolerance; to end on events takes some more."""
     draw, ours, theirs = np.random.default_rng(0).uniform, 0, 0
     for _ in range(20):
@@ -364,10 +381,18 @@ def test_steps_are_counted_and_as_many_as_another_program_takes():
             return wmr.polar_rate(rho, alpha, *wmr.control_law(rho, alpha, theta, gains))
 
         log, trials = trace(start, gains, 10_000)
-        end, begin = log[steps.TIME // steps.LANES, -1], wmr.polar_error(start, ORIGIN)
+        rows = (place // steps.LANES for place in (steps.TIME, steps.PEAK, steps.LENGTH))
+        (end, peak, length), begin = log[[*rows], -1], wmr.polar_error(start, ORIGIN)
         other = DOP853(rate, 0.0, begin, end, rtol=adaptive.TOLERANCE, atol=adaptive.TOLERANCE)
+        seen = rolled = 0.0
         while other.status == "running":
             other.step()
+            theirs -= 3 / 12  # of what is evaluated for the points between
+            t = np.linspace(other.t_old, other.t, 9)
+            v, omega = np.abs(wmr.control_law(*other.dense_output()(t), gains))
+            seen, rolled = max(seen, omega.max()), rolled + simpson(v, t)
+        assert seen - 1e-7 < peak < 1.002 * seen
+        assert length == pytest.approx(rolled, abs=2e-3)
         ours, theirs = ours + trials[-1], theirs + other.nfev / 12
         most = 1 + int(trials[-1]) // 2
         given_up, used = trace(start, gains, most)
@@ -376,6 +401,38 @@ def test_steps_are_counted_and_as_many_as_another_program_takes():
         np.testing.assert_array_equal(given_up[:4], log[:4, :taken])
         assert np.diff(trials).min() == 1
     assert 0.95 < ours / theirs < 1.25
+
+
+SHARES = st.floats(0.05, 0.95)
+SLOPES = st.floats(0.1, 6.0)  # as a share of the mean slope: over 3 a cubic may turn round
+
+
+@given(st.floats(0.01, 0.9), st.floats(0.01, 10.0), SLOPES, SLOPES, SHARES)
+def test_arrival_is_found_where_a_cubic_arrives(rho, dt, slope0, slope1, share):
+    """The time as a cubic of the distance, from 1 m on, by scipy; or on the straight line."""
+    radius, mean = rho + share * (1.0 - rho), dt / (rho - 1.0)
+    time = CubicHermiteSpline([rho, 1.0], [dt, 0.0], [slope1 * mean, slope0 * mean])
+    step = 1.0, 1.0 / (slope0 * mean), rho, 1.0 / (slope1 * mean), dt
+    found = float(time(radius)) if 0.0 < time(radius) < dt else (1.0 - share) * dt
+    assert steps._until_arrival(*step, radius) == pytest.approx(found, rel=1e-9)
+    assert steps._until_arrival(*step, rho) == dt
+
+
+RATES = st.floats(0.1, 10.0)
+
+
+@given(st.floats(-9.0, 9.0), st.floats(-9.0, 9.0), RATES, RATES, st.floats(0.1, 9.0), st.booleans())
+def test_a_turn_is_found_where_a_cubic_turns(f0, f1, rate0, rate1, dt, up):
+    """If more than the slack is missed on the shorter side of it."""
+    rates = (rate0, -rate1) if up else (-rate0, rate1)
+    bends = CubicHermiteSpline([0.0, dt], [f0, f1], rates).derivative()
+    (turn,) = (t for t in bends.roots(extrapolate=False) if 0.0 < t < dt)
+    step = f0, rates[0], f1, rates[1], dt
+    assert steps._until_turn(*step, 0.0) == pytest.approx(turn, rel=1e-6)
+    missed = min(rate0 * turn, rate1 * (dt - turn))
+    assert steps._until_turn(*step, 0.99 * missed) < dt
+    assert steps._until_turn(*step, 1.01 * missed) == dt
+    assert steps._until_turn(f0, rate0, f1, rate1, dt, 0.0) == dt
 
 
 FAST = st.floats(0.0, 6.0).map(lambda power: 10.0**power)
@@ -505,6 +562,16 @@ def test_bad_input_names_argument_value_and_range():
             wmr.track(**valid | options)
 
 
+def test_what_runs_have_in_common_has_one_default():
+    drivers = wmr.simulate, wmr.track, wmr.sweep, wmr.drive_route
+    simulate, *others = (inspect.signature(each).parameters for each in drivers)
+    for name in ("law", "dt", "duration", "arrival_radius", "wheels"):
+        known = [each[name].default for each in others if name in each]
+        if name == "duration":
+            assert known.pop() == 2 * simulate[name].default  # of each leg
+        assert known == [simulate[name].default] * len(known)
+
+
 # Moving references -------------------------------------------------------------------------------
 
 
@@ -519,15 +586,39 @@ def test_sampled_tracking_converges_to_continuous():
 
 
 def test_samples_after_a_reference_lie_on_one_run_whatever_dt():
-    """And say what the law sees and commands there."""
-    fine, coarse = (circle(method="continuous", dt=dt, duration=20.0) for dt in (0.1, 1.0))
+    """The run that scipy finds; and they say what the law sees and commands there."""
+
+    def rate(t, pose):
+        goal = wmr.paper.circle(np.array([t]))
+        seen = wmr.polar_error(wmr.Pose(*pose), wmr.Pose(*(float(each[0]) for each in goal[:3])))
+        return wmr.pose_rate(pose[2], *wmr.control_law(*seen, wmr.paper.CIRCLE_GAINS))
+
+    fine, coarse = (circle(method="continuous", dt=dt) for dt in (0.1, 1.0))
     for name in ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V"):
         every = getattr(fine, name)[::10]
         np.testing.assert_allclose(every, getattr(coarse, name), rtol=1e-8, atol=1e-8)
+    how = {"t_eval": fine.t, "rtol": 1e-11, "atol": 1e-12}
+    x, y, heading = solve_ivp(rate, (0.0, 40.0), wmr.paper.CIRCLE_START, "DOP853", **how).y
+    np.testing.assert_allclose([fine.x, fine.y], [x, y], atol=2e-9)
+    assert np.abs(wmr.wrap_angle(fine.heading - heading)).max() < 2e-9
     seen = wmr.polar_error(wmr.Pose(fine.x, fine.y, fine.heading), fine.goal)
     np.testing.assert_allclose([fine.rho, fine.alpha, fine.theta], seen, atol=1e-12)
     commanded = wmr.control_law(*seen, wmr.paper.CIRCLE_GAINS)
     np.testing.assert_allclose([fine.v, fine.omega], commanded, rtol=1e-7, atol=1e-7)
+
+
+def test_a_reference_is_asked_for_many_steps_at_once():
+    """When they have one length: here some twenty a second, and it is asked once or twice."""
+    asked = []
+
+    def counted(t):
+        assert t.size < 500
+        asked.append(t[0])
+        return wmr.paper.circle(t)
+
+    options = {"method": "continuous", "dt": 10.0, "duration": 80.0}
+    wmr.track(counted, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, **options)
+    assert sum(t > 40.0 for t in asked) < 80
 
 
 def test_feed_forward_leaves_no_residual():

@@ -272,26 +272,25 @@ HARD = {
 }
 
 
-@pytest.mark.parametrize("law", LAWS)
 @pytest.mark.parametrize("method", ["arc", "euler"])
-@pytest.mark.parametrize("radius", [0.0, 1e-160, 0.05])
-def test_in_the_plane_hard_runs_too_are_those_of_simulate(method, law, radius):
+def test_in_the_plane_hard_runs_too_are_those_of_simulate(method):
     """Side by side, as one may hurt its neighbours, and driven for five steps."""
     starts, goals, gains = (np.array(each, float).T for each in zip(*HARD.values(), strict=True))
     runs = wmr.Pose(*starts), wmr.Pose(*goals), wmr.Gains(*gains)
-    options = {"method": method, "law": law, "arrival_radius": radius, "duration": 0.5}
-    swept = wmr.sweep(*runs, **options)
-    for i, name in enumerate(HARD):
-        single = alone(*(type(row)(*(float(each[i]) for each in row)) for row in runs), **options)
-        mine = [field[i] for field in swept]
-        if np.isnan(single.distance):
-            assert not mine[0], name
-            continue
-        assert mine[:2] == list(single[:2]), name
-        assert abs(wmr.wrap_angle(mine[2] - single[2])) < 1e-9, name
-        assert mine[3] == pytest.approx(single[3], rel=1e-9, abs=1e-14), name
-        metres = {"rel": 1e-9, "abs": 1e-14 * np.abs(starts[:2, i]).max()}
-        assert mine[4:] == pytest.approx(single[4:], **metres), name
+    for law, radius in product(LAWS, (0.0, 1e-160, 0.05)):
+        options = {"method": method, "law": law, "arrival_radius": radius, "duration": 0.5}
+        swept = wmr.sweep(*runs, **options)
+        for i, name in enumerate(HARD):
+            ends = (type(row)(*(float(each[i]) for each in row)) for row in runs)
+            single, mine, what = alone(*ends, **options), [field[i] for field in swept], (name, law)
+            if np.isnan(single.distance):
+                assert not mine[0], what
+                continue
+            assert mine[:2] == list(single[:2]), what
+            assert abs(wmr.wrap_angle(mine[2] - single[2])) < 1e-9, what
+            assert mine[3] == pytest.approx(single[3], rel=1e-9, abs=1e-14), what
+            metres = {"rel": 1e-9, "abs": 1e-14 * np.abs(starts[:2, i]).max()}
+            assert mine[4:] == pytest.approx(single[4:], **metres), what
 
 
 def test_bad_input_names_argument_value_and_range(monkeypatch):
