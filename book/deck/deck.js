@@ -13,9 +13,10 @@
       fold.querySelector('.lines').append(...other.querySelectorAll('.highlight'));
       other.remove();
     }
+    fold?.remove();  // it stands below, and what held nothing else goes
     const [title, ...rest] = page.children;
     const body = box('body'), words = body.appendChild(box('words')), picture = page.querySelector('.output img, .panel');
-    words.append(...rest.filter((it) => it !== fold));
+    words.append(...rest);
     if (picture) {
       const figure = body.appendChild(document.createElement('figure')), caption = words.querySelector('.caption');
       const step = picture.closest('.fragment');

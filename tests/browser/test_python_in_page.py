@@ -134,6 +134,8 @@ def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_
             cells.append(cell | {"space": f"{cell['space']} {number}"})
         assert not next(names, None), chapter
     assert len(cells) > 40
+    asked = "".join(cell["source"] for cell in cells)
+    assert not [it for it in graded.exercises() if f"grading.exercises.{it}(" not in asked]
     path = tmp_path / "all.html"
     path.write_text(page_of(cells, (site / "_static").as_uri()), encoding="utf-8")
     browser_page.goto(path.as_uri())

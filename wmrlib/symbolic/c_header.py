@@ -63,8 +63,8 @@ def c_function(name: str, formula: Formula) -> str:
     values = [_PRINTER.line(value) for value in formula.values]
     if formula.gains:
         used = sp.Tuple(*formula.expanded()).free_symbols
-        state = [f"{each} = error.{each}" for each in formula.arguments if each in used]
-        gains = [f"{each} = gains.{each}" for each in formula.gains]
+        state = [f"{each}\xa0=\xa0error.{each}" for each in formula.arguments if each in used]
+        gains = [f"{each}\xa0=\xa0gains.{each}" for each in formula.gains]
         lines = [f"const WMR_REAL {', '.join(each)};" for each in (state, gains)] + lines
         lines.append(f"const WMR_REAL omega = {values[1]};")
         arguments, kind = ["wmr_polar error", "wmr_gains gains"], "wmr_twist"

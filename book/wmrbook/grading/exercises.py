@@ -371,9 +371,9 @@ def kanayama(V_rate: Any) -> str:
 
 
 @_exercise
-def told_too_little(lag: Any) -> str:
+def told_too_little(answer: Any) -> str:
     """6.3: how far ahead a goal stays whose speed is announced 10 % too low."""
-    value, speed = number("`lag`", lag), paper.CIRCLE_SPEED
+    value, speed = number("`answer`", answer), paper.CIRCLE_SPEED
     turning = 2.0 * math.pi / paper.CIRCLE_PERIOD
     right = 0.1 * speed / (1.0 + turning**2 / speed)
     if not close(value, right, 0.01):

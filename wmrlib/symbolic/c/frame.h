@@ -3,8 +3,8 @@
 /* wmr_law.h: from a pose to the speeds of two wheels.
    Printed by python -m wmrlib.symbolic from the formulas of wmrlib: change those.
 
-   C99 or C++11; needs only <float.h>, <math.h> and <stdint.h>; no state, no memory, no
-   loop. Metres, seconds, radians. x is east, y is north, and headings and turns are
+   C99 or C++11; needs <float.h>, <math.h> and <stdint.h>; no state, no memory, no loop.
+   Metres, seconds, radians. x is east, y is north, and headings and turns are
    counter-clockwise, a heading from east.
 
    #define WMR_REAL float before the #include for a processor without doubles. GPS

@@ -1,8 +1,8 @@
 /* wmr_law.h: from a pose to the speeds of two wheels.
    Printed by python -m wmrlib.symbolic from the formulas of wmrlib: change those.
 
-   C99 or C++11; needs only <float.h>, <math.h> and <stdint.h>; no state, no memory, no
-   loop. Metres, seconds, radians. x is east, y is north, and headings and turns are
+   C99 or C++11; needs <float.h>, <math.h> and <stdint.h>; no state, no memory, no loop.
+   Metres, seconds, radians. x is east, y is north, and headings and turns are
    counter-clockwise, a heading from east.
 
    #define WMR_REAL float before the #include for a processor without doubles. GPS
@@ -180,8 +180,8 @@ static inline wmr_twist wmr_checked(wmr_polar error, wmr_gains gains, WMR_REAL v
 /* (22), and the omega that the proof needs */
 static inline wmr_twist wmr_law(wmr_polar error, wmr_gains gains) {
   const WMR_REAL rho = error.rho, alpha = error.alpha, theta = error.theta;
-  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h, v_max =
-      gains.v_max;
+  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h,
+      v_max = gains.v_max;
   const WMR_REAL v_over_rho = v_max * WMR_F(cos)(alpha) * wmr_decay(rho, k_rho);
   const WMR_REAL omega = alpha * k_alpha + v_over_rho * (alpha + h * theta) *
       wmr_sinc(alpha);
@@ -191,8 +191,8 @@ static inline wmr_twist wmr_law(wmr_polar error, wmr_gains gains) {
 /* (22) and (24) as the paper prints them */
 static inline wmr_twist wmr_law_printed(wmr_polar error, wmr_gains gains) {
   const WMR_REAL rho = error.rho, alpha = error.alpha, theta = error.theta;
-  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h, v_max =
-      gains.v_max;
+  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h,
+      v_max = gains.v_max;
   const WMR_REAL v_over_rho = v_max * WMR_F(cos)(alpha) * wmr_decay(rho, k_rho);
   const WMR_REAL omega = alpha * k_alpha + v_over_rho * (alpha + h * theta) *
       WMR_F(sin)(alpha) * WMR_F(cos)(alpha) * wmr_sinc(alpha);

@@ -17,7 +17,7 @@ const explorable = {
     map.arrow(0, 0, 0, 62, 'ink', { width: 1.5 });
     map.text('north', 0, 62, { dx: 8 });
     map.arrow(0, 0, 62, 0, 'ink', { width: 1.5 });
-    map.text('east', 62, 0, { dy: 12, align: 'center' });
+    map.text('east', 62, 0, { dy: -12, align: 'center' });  // the guess begins above it
     map.dot(0, 0, 'start');
     map.text('point 1', 0, 0, { role: 'start', dx: -10, dy: -14, align: 'right' });
     if (hidden) return;
