@@ -276,6 +276,11 @@ def test_time_goes_on_from_day_to_day(read):
     for words in ("R080000/240709 R090000/230709", "R080000/240709 R090000/240708"):
         backwards = read(log(words)).report.skipped
         assert dict(backwards) == {"time runs backwards": (1, 2)}
+    day = " ".join(f"R08000{k}/240709" for k in range(9))
+    for count, longer in ((4, [*range(9)]), (6, [k / 2 for k in range(12)])):
+        # of a log that was appended, all is of the day before, and the shorter of the two is left
+        before = (f"R09000{k}/230709 G09000{k}.5" for k in range(count))
+        assert read(log(f"{day} {' '.join(before)}")).t.tolist() == longer
     no_fix = rmc("080001", day="060180", status="V")  # its date does not count
     sentences = [rmc("080000", day="290224"), no_fix, rmc("080002", day="290224")]
     assert read(sentences).t.tolist() == [0, 2]
@@ -840,6 +845,8 @@ def test_tables_of_data_loggers(read):
     for day, clock in [("yesterday", "00:00:01"), ("2013/05/13", "250001"), ("", "000001")]:
         track = second(day, clock)
         assert dict(track.report.noted) == {"with an unreadable time": (1, 3)}, (day, clock)
+    track = second("2013/05/13", "000001", "33.8568", "South", "151.2153", "w")
+    assert places(track) == ([1, -33.8568], [-2, -151.2153])
     for side in ("", "E", "X", "+"):
         track = second("2013/05/13", "000001", "33.8568", side, "151.2153", "E")
         assert dict(track.report.skipped) == {"row without a readable hemisphere": (1, 3)}
