@@ -67,6 +67,12 @@ def pytest_configure(config):
 
 
 @pytest.hookimpl(tryfirst=True)
+def pytest_xdist_auto_num_workers(config):
+    """One worker more than cores: half of a browser's or a kernel's time is waiting."""
+    return (os.cpu_count() or 1) + 1
+
+
+@pytest.hookimpl(tryfirst=True)
 def pytest_collection(session):
     """Show the header before the tests are collected, in a pipe too."""
     if reporter := session.config.pluginmanager.get_plugin("terminalreporter"):
