@@ -66,7 +66,7 @@ def pytest_configure(config):
     os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")
 
 
-@pytest.hookimpl(tryfirst=True)
+@pytest.hookimpl(tryfirst=True, optionalhook=True)
 def pytest_xdist_auto_num_workers(config):
     """One worker more than cores: half of a browser's or a kernel's time is waiting."""
     return (os.cpu_count() or 1) + 1
