@@ -66,6 +66,7 @@ EQUIVALENT = [
     ("_loops/alone.py", "'1' -> '2' in many = min(", "how many steps are tried then does not show"),
     ("_loops/alone.py", "'16' -> '32' in many = min(", "how many steps are tried at most"),
     ("_loops/plane.py", "'+' -> '-' in known = ", "whatever is lost is lost in the difference too"),
+    ("_loops/plane.py", "'+' -> '-' in if not math.isfinite", "as above"),
     ("_loops/steps.py", "'&' -> '|' in passing = ", "a step may end at any turn of rho"),
     ("_loops/steps.py", "'2' -> '4' in longer = ", "how much room there is does not show"),
     ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
@@ -89,6 +90,8 @@ EQUIVALENT = [
     ("sweeping.py", "in size = min(", "how runs are cut into chunks does not show"),
     ("sweeping.py", "cores = ", "how many threads there are does not show"),
     ("sweeping.py", "in bar = tqdm", "how the bar looks"),
+    ("symbolic/symbols.py", "'1' -> '2' in def fdiff(", "sympy passes it"),
+    ("tracks/nmea.py", "'13' -> '26' in fields +=", "fields that are not read"),
     ("symbolic/formulas.py", "motion.polar_from_pose, 0, 0, 0", "what the result does not read"),
 ]
 
