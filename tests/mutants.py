@@ -69,6 +69,7 @@ EQUIVALENT = [
     ("_loops/alone.py", "'1' -> '2' in many = min(", "how many steps are tried then does not show"),
     ("_loops/alone.py", "'16' -> '32' in many = min(", "how many steps are tried at most"),
     ("_loops/plane.py", "'+' -> '-' in known = ", "whatever is lost is lost in the difference too"),
+    ("_loops/plane.py", "'+' -> '-' in if not math.isfinite", "as above"),
     ("_loops/steps.py", "'&' -> '|' in passing = ", "a step may end at any turn of rho"),
     ("_loops/steps.py", "'2' -> '4' in longer = ", "how much room there is does not show"),
     ("_vecmath.py", "for n in range(14)", "terms that are too many are not used"),
@@ -79,6 +80,8 @@ EQUIVALENT = [
     ("_vecmath.py", "> _HIGHEST else x", "both branches agree at the border"),
     ("control.py", "'1' -> '2' in return elementwise(lyapunov_value", "a column that is not read"),
     ("control.py", "'1' -> '2' in scale = elementwise(", "a column that is not read"),
+    ("gains.py", "'1.0' -> '2.0' in NO_LIMITS = ", "limits that never bind"),
+    ("gains.py", "'0.0' -> '1' in NO_TUNING = ", "gains that are not used"),
     ("gains.py", "KanayamaGains(0.0, 1.0, 0.0)", "fills the place of gains that are not used"),
     ("geodesy.py", "in lon2 = np.where", "half a turn more or less, in mod 360, which keeps -180"),
     ("kinematics.py", "'1' -> '2' in return elementwise(wrap", "a column that is not read"),
@@ -92,6 +95,9 @@ EQUIVALENT = [
     ("sweeping.py", "in size = min(", "how runs are cut into chunks does not show"),
     ("sweeping.py", "_SIGHT_COST", "how runs are cut into chunks does not show"),
     ("sweeping.py", "in bar = tqdm", "how the bar looks"),
+    ("symbolic/symbols.py", "'1' -> '2' in def fdiff(", "sympy passes it"),
+    ("tracks/tables.py", "in _MOST_SECONDS = ", "a tolerance"),
+    ("tracks/nmea.py", "'13' -> '26' in fields +=", "fields that are not read"),
     ("symbolic/formulas.py", "motion.polar_from_pose, 0, 0, 0", "what the result does not read"),
 ]
 

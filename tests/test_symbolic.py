@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import runpy
+import sys
 
 import numpy as np
 import pytest
@@ -207,11 +209,22 @@ def test_an_unknown_law_is_a_value_error():
 # Printing
 
 
-@pytest.mark.parametrize("name", ["javascript", "c_header"])
-def test_the_committed_file_is_what_is_printed(name):
-    path = {"javascript": symbolic.MODEL_JS, "c_header": symbolic.C_HEADER}[name]
-    printed = getattr(symbolic, name)()
-    assert path.read_text(encoding="utf-8") == printed, "run python -m wmrlib.symbolic"
+def test_the_committed_files_are_what_is_printed(tmp_path, monkeypatch, capsys):
+    header, script = symbolic.c_header(), symbolic.javascript()
+    for path, printed in ((symbolic.MODEL_JS, script), (symbolic.C_HEADER, header)):
+        assert path.read_text(encoding="utf-8") == printed, "run python -m wmrlib.symbolic"
+
+    def command(*words):
+        monkeypatch.setattr(sys, "argv", ["symbolic", *words])
+        runpy.run_module("wmrlib.symbolic", run_name="__main__")
+        files = {file.name: file.read_text(encoding="utf-8") for file in tmp_path.iterdir()}
+        return files, capsys.readouterr().out
+
+    monkeypatch.setattr(symbolic, "MODEL_JS", tmp_path / "model.js")
+    monkeypatch.setattr(symbolic, "C_HEADER", tmp_path / "law.h")
+    assert command("--c", "-") == ({}, header)
+    assert command("--c", str(tmp_path / "own.h")) == ({"own.h": header}, "")
+    assert command() == ({"own.h": header, "law.h": header, "model.js": script}, "")
 
 
 def test_the_printed_motion_and_circle_are_those_of_wmrlib():

@@ -117,7 +117,7 @@ def destination_point(
     lat2 = np.arctan2(np.sin(lat1) * np.cos(delta) + np.cos(lat1) * north, np.hypot(up, east))
     lon2 = np.degrees(lon1 + np.arctan2(east, up))
     lon2 = np.where((lon2 >= -180.0) & (lon2 < 180.0), lon2, np.mod(lon2 + 180.0, 360.0) - 180.0)
-    return GeoPoint(lat=plain(np.clip(np.degrees(lat2), -90.0, 90.0)), lon=plain(lon2))
+    return GeoPoint(lat=plain(np.degrees(lat2)), lon=plain(lon2))
 
 
 def local_position(
