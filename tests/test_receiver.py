@@ -83,6 +83,7 @@ receivers = st.builds(
 
 @settings(max_examples=25, deadline=None)
 @example(wmr.Receiver(0.5, 3.0, 1.0, 0.3, 0.1), 2**64 - 1, 1, "euler", LIMITS)
+@example(wmr.Receiver(0.5, -0.0), 0, 0, "arc", None)
 @example(wmr.Receiver(period=1.0), 0, 0, "arc", None)
 @example(wmr.Receiver(heading_delay=0.3), 0, 0, "arc", None)
 @given(receivers, st.integers(0, 2**64 - 1), st.integers(0, 1), st.sampled_from(["arc", "euler"]),
@@ -216,7 +217,15 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
                                                         **options)))  # fmt: skip
     monkeypatch.setattr(_chunks, "CORES", 1)
     monkeypatch.setattr(wmr.sweeping, "_LOCAL_CHUNK", 1)
+    sizes, run_chunk = [], wmr.sweeping.run_chunk
+
+    def counted(runs, task):
+        sizes.append(runs.shape[1])
+        return run_chunk(runs, task)
+
+    monkeypatch.setattr(wmr.sweeping, "run_chunk", counted)
     assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, **options)))
+    assert set(sizes) == {1}  # Ctrl-C is heard between chunks: the longest run is the longest wait
     first = many._replace(x=many.x[0, :100])
     few = options | {"receiver": receiver._replace(sigma=receiver.sigma[:100], memory=0.0)}
     alone = wmr.sweep(first, GOAL, GAINS, **few)

@@ -12,20 +12,20 @@ class Receiver(NamedTuple):
     """A receiver that errs, shows its fixes one at a time, and late; or many of them.
 
     The error is a Gauss-Markov process on each axis, in its stationary state from the first fix on:
-    tau seconds later it keeps the share c = exp(-tau/memory), and sqrt(1 - c^2) sigma is new. Times
-    are rounded to whole samples. Until there is another, the fix of the first sample is shown.
+    tau seconds later it keeps the share c = exp(-tau/memory), and sqrt(1 - c^2) sigma is new.
+    Other times are rounded to whole samples. The first sample's fix is shown until another is.
 
     Parameters
     ----------
     sigma : float or array, m. Standard deviation of the error, to the east and to the north.
     memory : float or array, s. Correlation time of the error; with 0 that of each fix is new.
-    period : float or array, s. From one fix, which is held, to the next; 0: a fix at each sample.
+    period : float or array, s. A fix is shown for so long, until the next; 0: for one sample.
     delay : float or array, s. Age of a fix when it is first shown.
     heading_delay : float or array, s. Age of the heading, which is exact.
 
     Raises
     ------
-    ValueError : for a negative field, NaN or mismatched lengths.
+    ValueError : for a field that is negative, infinite or NaN, or mismatched lengths.
     """
 
     sigma: Real = 0.0

@@ -88,8 +88,8 @@ def sweep(
     receiver : Receiver, with "arc" and "euler" only, by what each run steers; its fields broadcast
         too. A run stops, and has arrived, where it believes to be within the radius; all that is
         returned is where it really is. None: it knows.
-    seed : int from 0 to 2^64 - 1. The errors of a run follow from it and from the run's place among
-        all alone, on however many cores.
+    seed : int from 0 to 2^64 - 1. A run's random numbers, two a sample, follow from it and from the
+        run's place among all alone, on however many cores.
     trajectories : bool, whether to return the samples too, at most fifty million in all
     executor : Executor to which chunks of runs are sent, for example dask's
         `Client.get_executor()`; a chunk that is lost with its worker is run here, with a warning.
@@ -175,8 +175,7 @@ def _results(source, total: int, task: _Task, executor, go_on, lost: list) -> Ge
     size = _chunk_size(total, task, executor)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
     if executor is None and len(chunks) > 1:  # compile here, and not in several threads
-        laws = np.unique(source[-1])
-        run_chunk(np.tile(laws, (len(source), 1)), task._replace(samples=2))
+        run_chunk(np.tile(np.unique(source[-1]), (len(source), 1)), task._replace(samples=2))
     return _chunks.spread(run_chunk, chunks, arguments, go_on, executor, lost)
 
 
@@ -193,12 +192,13 @@ def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[st
 
 
 def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
-    """Whole blocks of runs, at least four chunks for each core that is known of."""
+    """Whole blocks of runs, if they run in blocks; at least four chunks for each known core."""
     work, parts = (_LOCAL_CHUNK, 4 * _chunks.CORES) if executor is None else (_REMOTE_CHUNK, 16)
     size = min(work // task.cost, math.ceil(total / parts))
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)
-    return plane.BLOCK * max(1, math.ceil(size / plane.BLOCK))
+    block = 1 if task.key else plane.BLOCK  # those with a receiver are driven one by one
+    return block * max(1, math.ceil(size / block))
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:

@@ -62,7 +62,7 @@ def in_samples(receivers, dt, samples):
     found = np.zeros((FIX + 1, receivers.shape[1]))
     found[: len(receivers)], found[FIX] = receivers, -1.0
     with np.errstate(divide="ignore", over="ignore"):
-        found[FADING] = dt / found[FADING]
+        found[FADING] = dt / np.abs(found[FADING])  # -0.0 is 0 as well
     found[PERIOD:RUN] = np.rint(np.minimum(found[PERIOD:RUN], samples * dt) / dt)
     found[PERIOD] = np.maximum(found[PERIOD], 1.0)
     return found, (found[SIGMA] > 0.0) | (found[PERIOD] > 1.0) | found[DELAY:RUN].any(axis=0)
