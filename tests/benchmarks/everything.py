@@ -1,8 +1,8 @@
 """All benchmarks in one run and one table: python tests/benchmarks/everything.py [--fast | --keep]
 
---fast leaves out the chapters, the book and the explorer, which take minutes. --keep writes the
-table and its machine to book/speed.json, which the book's page on speed shows, if all of it could
-be measured. Machines differ and are noisy: quote the ratios.
+--fast leaves out the study, the chapters, the book and the explorer, which take minutes. --keep
+writes the table and its machine to book/speed.json, which the book's page on speed shows, if all of
+it could be measured. Machines differ and are noisy: quote the ratios.
 """
 
 from __future__ import annotations
@@ -10,12 +10,12 @@ from __future__ import annotations
 import json
 import sys
 import tempfile
-from itertools import groupby
 from pathlib import Path
 
 import one_run
+import study
 import sweeps
-from timing import ROOT, Row, command, machine, process
+from timing import ROOT, Row, command, machine, process, show
 
 FIRST_RUN = "import wmrlib as w; w.simulate(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.Gains(2, 1, 0.3))"
 FIRST_SWEEP = "import wmrlib as w; w.sweep(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.Gains(2, 1, 0.3))"
@@ -71,14 +71,6 @@ def explorer(failures: list[str]) -> list[Row]:
     ]
 
 
-def show(rows: list[Row]) -> None:
-    for section, members in groupby(rows, key=lambda row: row.section):
-        print(f"\n{section}")
-        for row in members:
-            ratio = "" if row.ratio is None else f"{row.ratio:10.2f}"
-            print(f"  {row.what:46}{row.value:12.4g} {row.unit:10}{ratio}")
-
-
 def main(fast: bool, keep: bool) -> None:
     print(machine())
     failures: list[str] = []
@@ -92,7 +84,7 @@ def main(fast: bool, keep: bool) -> None:
             *starting(),
         ]
         if not fast:
-            rows += [*building(folder, failures), *explorer(failures)]
+            rows += [*study.rows(), *building(folder, failures), *explorer(failures)]
     show(rows)
     if failures:
         sys.exit("\n".join(["", "Nothing is kept, because not all could be measured.", *failures]))

@@ -8,6 +8,7 @@ import subprocess
 import sys
 import time
 from collections.abc import Callable
+from itertools import groupby
 from pathlib import Path
 from typing import NamedTuple
 
@@ -70,6 +71,14 @@ def command(*arguments: str | Path) -> tuple[float, subprocess.CompletedProcess]
         check=False,
     )
     return time.perf_counter() - begin, done
+
+
+def show(rows: list[Row]) -> None:
+    for section, members in groupby(rows, key=lambda row: row.section):
+        print(f"\n{section}")
+        for row in members:
+            ratio = "" if row.ratio is None else f"{row.ratio:10.2f}"
+            print(f"  {row.what:46}{row.value:12.4g} {row.unit:10}{ratio}")
 
 
 def machine() -> str:
