@@ -55,9 +55,9 @@ def planned(starts: wmr.Pose, gains: wmr.Gains) -> tuple[float, float]:
             some_starts = draw(starts.x.size, size=SAMPLE // 10)
             pairs = (wmr.Pose(*(each[some_starts] for each in starts)),)
             pairs += (some(gains, (draw(GAINS, size=SAMPLE // 10), 0)),)
-            begin = time.perf_counter()
+            begin = time.process_time()
             drive(*pairs, one)
-            seconds.append(time.perf_counter() - begin)
+            seconds.append(time.process_time() - begin)
     each = np.array(seconds[1:]) / (SAMPLE // 10)  # the first may have compiled
     return each.mean(), each.std(ddof=1) / np.sqrt(each.size)
 
