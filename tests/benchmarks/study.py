@@ -62,8 +62,8 @@ def planned(starts: wmr.Pose, gains: wmr.Gains) -> tuple[float, float]:
     return each.mean(), each.std(ddof=1) / np.sqrt(each.size)
 
 
-def kill_one_soon() -> None:
-    threading.Timer(1.0, lambda: os.kill(active_children()[0].pid, signal.SIGKILL)).start()
+def kill_one_in(seconds: float) -> None:
+    threading.Timer(seconds, lambda: os.kill(active_children()[0].pid, signal.SIGKILL)).start()
 
 
 def peak_memory() -> float:
@@ -72,7 +72,7 @@ def peak_memory() -> float:
     return sum(many * resource.getrusage(kind).ru_maxrss for kind, many in kinds) / 1024
 
 
-def driven(starts: wmr.Pose, gains: wmr.Gains) -> tuple[np.ndarray, int, float]:
+def driven(starts: wmr.Pose, gains: wmr.Gains, each: float) -> tuple[np.ndarray, int, float]:
     """How soon each gain parks from 95 % of the starts, chunks lost and done again, megabytes."""
     soon, lost, parts = np.empty(GAINS), 0, GAINS // SLAB
     for begun in (range(parts // 2 + 1), range(parts // 2 + 1, parts)):
@@ -80,7 +80,7 @@ def driven(starts: wmr.Pose, gains: wmr.Gains) -> tuple[np.ndarray, int, float]:
             for part in begun:
                 slab = slice(part * SLAB, (part + 1) * SLAB)
                 if part == parts // 2:
-                    kill_one_soon()
+                    kill_one_in(0.5 * each * SLAB * starts.x.size / CORES)
                 with warnings.catch_warnings(record=True) as said:
                     warnings.simplefilter("always")
                     done = drive(starts, some(gains, slab), pool)
@@ -99,7 +99,7 @@ def rows(runs: int = 10**8) -> list[Row]:
     hours = runs * each / 3600
     print(f"Planned: {hours:.3g} core hours, {100 * error / each:.1g} % more or less", flush=True)
     begin, before = time.perf_counter(), os.times()
-    soon, lost, megabytes = driven(starts, gains)
+    soon, lost, megabytes = driven(starts, gains, each)
     took, after = time.perf_counter() - begin, os.times()
     assert lost, "no chunk was lost with its worker"
     spent = (sum(after[:4]) - sum(before[:4])) / 3600
