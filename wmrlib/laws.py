@@ -128,11 +128,7 @@ LAWS = {
 TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
 POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name].needs_reference}
 _OTHERS = NO_TUNING[1:]  # the gains that a pose law has no use for
-
-
-def _place_of(gains: type) -> int:
-    """Where a Tuning holds gains of this type."""
-    return next(place for place, each in enumerate(NO_TUNING) if isinstance(each, gains))
+_FIELDS = {type(gains): field for field, gains in NO_TUNING._asdict().items()}  # of a Tuning
 
 
 @formula
@@ -155,7 +151,7 @@ def _by_law(name: str, arguments: str, laws: dict[str, int], call_of) -> Callabl
     for row, code in ((LAWS[each], code) for each, code in laws.items()):
         used = {"formula": f"formula_{code}", "value": f"value_{code}"}
         known |= {used["formula"]: row.formula, used["value"]: row.value}
-        call = call_of(row).format(**used, gains=f"tuning[{_place_of(row.gains)}]")
+        call = call_of(row).format(**used, gains=f"tuning.{_FIELDS[row.gains]}")
         cases.append(f"{call} if law == {code}")
     text = " else ".join(cases).rpartition(" if ")[0]  # the last law needs no condition
     function = eval(f"lambda rho, alpha, theta, {arguments}, law: {text}", known)
@@ -185,5 +181,4 @@ def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:
     instance("gains", gains, LAWS[law].gains)
     if not all(type(field) is float for field in gains):
         raise refusal("gains", gains, "one number a gain", "; sweep takes arrays of gains")
-    place = _place_of(LAWS[law].gains)
-    return NO_TUNING._replace(**{NO_TUNING._fields[place]: gains}), code
+    return NO_TUNING._replace(**{_FIELDS[LAWS[law].gains]: gains}), code

@@ -39,7 +39,7 @@ class ReadOnly:
         return type(self), self._values()
 
     def _values(self) -> tuple:
-        return tuple(getattr(self, name) for name in self.__slots__)
+        return tuple(map(self.__getattribute__, self.__slots__))
 
 
 @dataclass(frozen=True, eq=False, slots=True)
