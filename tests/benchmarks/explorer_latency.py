@@ -25,7 +25,7 @@ from wmrlib.explorer import Explorer
 ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book" / "tools")]
 from conftest import FLAGS  # noqa: E402
-from live import PATIENCE, free_port, serve, thumb  # noqa: E402
+from live import PATIENCE, jupyterlab, thumb  # noqa: E402
 
 STEPS = 40
 PANEL_CELL = "from wmrlib.explorer import Explorer\nexplorer = Explorer()\nexplorer"
@@ -132,27 +132,7 @@ def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
     )
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
     nbformat.write(notebook, folder / "latency.ipynb")
-    port = free_port()
-    url = f"http://127.0.0.1:{port}/"
-    command = [
-        sys.executable,
-        "-m",
-        "jupyterlab",
-        "--no-browser",
-        "--allow-root",
-        "--ip=127.0.0.1",
-        f"--port={port}",
-    ]
-    command += [
-        "--IdentityProvider.token=measure",
-        f"--notebook-dir={folder}",
-        "--LabApp.expose_app_in_browser=True",
-    ]
-    places = {
-        f"JUPYTER{name}_DIR": str(folder / name)
-        for name in ("LAB_SETTINGS", "LAB_WORKSPACES", "_CONFIG")
-    }
-    with serve(command, f"{url}api", folder / "log.txt", **places):
+    with jupyterlab(folder, "--IdentityProvider.token=measure") as url:
         page = browser.new_page(viewport={"width": 1280, "height": 1800})
         page.goto(f"{url}lab/tree/latency.ipynb?token=measure", timeout=PATIENCE)
         kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"

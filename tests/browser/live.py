@@ -6,6 +6,7 @@ import contextlib
 import os
 import socket
 import subprocess
+import sys
 import time
 import urllib.error
 import urllib.request
@@ -94,6 +95,24 @@ def serve(command: list, url: str, log: Path, **environment: str):
             except subprocess.TimeoutExpired:
                 server.kill()
                 server.wait()
+
+
+@contextlib.contextmanager
+def jupyterlab(home: Path, *options: str):
+    """Runs JupyterLab on a folder; the reader's settings stay as they are. Enters with its URL."""
+    port = free_port()
+    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root"]
+    command += [f"--ServerApp.root_dir={home}", f"--ServerApp.port={port}"]
+    command += ["--ServerApp.port_retries=0", "--LabApp.expose_app_in_browser=True", *options]
+    folders = {
+        "JUPYTERLAB_SETTINGS_DIR": str(home / "settings"),
+        "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
+        "JUPYTER_CONFIG_DIR": str(home / "config"),
+        "JUPYTER_DATA_DIR": str(home / "data"),  # where the trust in a notebook is kept
+    }
+    url = f"http://127.0.0.1:{port}/"
+    with serve(command, f"{url}api", home / "log.txt", **folders):
+        yield url
 
 
 def _wait_until_up(server: subprocess.Popen, url: str, log: Path) -> None:

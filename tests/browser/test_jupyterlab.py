@@ -1,22 +1,28 @@
-"""In JupyterLab, started as README does: the first chapter lives before it is run, and after."""
+"""JupyterLab, started as README does: the first chapter, an exercise, the panel with a kernel."""
 
 from __future__ import annotations
 
 import json
 import re
 import shutil
-import sys
 
 import nbformat
 import pytest
 from graded import nbgrader, wrong_answers
-from live import PATIENCE, ROOT, assert_slider_matters, chapters, free_port, serve, sliders
+from live import PATIENCE, ROOT, assert_slider_matters, chapters, jupyterlab, sliders
 
 CHAPTER = f"notebooks/{chapters()[0].name}"
 ASSIGNMENT, MISTAKE = "ch01", "swapped"
+PANEL = "notebooks/panel.ipynb"
+CELLS = [
+    "from wmrlib.explorer import Explorer\nimport wmrlib as wmr\n"
+    "explorer = Explorer(view='gains')\nexplorer",
+    "print('seen', explorer.gains, len(explorer.trajectory()), explorer.law, explorer.moving)",
+    "explorer.gains, explorer.law = wmr.Gains(1.5, 4.0, 2.5), 'aicardi'",
+]
 CONTEXT = "window.jupyterapp?.shell.currentWidget?.context"
 KERNEL = f"{CONTEXT}?.sessionContext?.session?.kernel"
-CELLS = "window.jupyterapp.shell.currentWidget.content.widgets"
+WIDGETS = "window.jupyterapp.shell.currentWidget.content.widgets"
 RUN_ALL = "() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)"
 SAVE = "() => window.jupyterapp.commands.execute('docmanager:save').then(() => true)"
 CHANGED = "() => window.jupyterapp.shell.currentWidget.context.model.dirty"
@@ -32,23 +38,10 @@ def lab(tmp_path_factory):
     release_with_a_mistake(home / "course", home / "notebooks")
     (home / SETTINGS).parent.mkdir(parents=True)
     (home / SETTINGS).write_text(json.dumps({"windowingMode": "none"}))
-    port = free_port()
-    options = {
-        "--config": "book/lab/jupyter_lab_config.py",
-        "--ServerApp.root_dir": home,
-        "--ServerApp.port": port,
-        "--ServerApp.port_retries": 0,
-        "--LabApp.expose_app_in_browser": True,
-    }
-    command = [sys.executable, "-m", "jupyterlab", "--no-browser", "--allow-root"]
-    command += [f"{name}={value}" for name, value in options.items()]
-    folders = {
-        "JUPYTERLAB_SETTINGS_DIR": str(home / "settings"),
-        "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
-        "JUPYTER_CONFIG_DIR": str(home / "config"),
-        "JUPYTER_DATA_DIR": str(home / "data"),  # where the trust in a notebook is kept
-    }
-    with serve(command, f"http://127.0.0.1:{port}/api", home / "log.txt", **folders):
+    panel = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in CELLS])
+    panel.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
+    nbformat.write(panel, home / PANEL)
+    with jupyterlab(home, "--config=book/lab/jupyter_lab_config.py"):
         yield home
 
 
@@ -84,7 +77,7 @@ def open_notebook(page, url: str, name: str) -> None:
 def solutions_in_sight(page) -> list:
     folded = "it.model.getMetadata('tags')?.includes('hide-cell')"
     return page.evaluate(
-        f"() => {CELLS}.filter(it => it.isVisible && {folded}).map(it => it.model.id)"
+        f"() => {WIDGETS}.filter(it => it.isVisible && {folded}).map(it => it.model.id)"
     )
 
 
@@ -97,12 +90,12 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     for slider in found[:2]:
         assert_slider_matters(page, slider)
     assert solutions_in_sight(page) == []
-    count = page.evaluate(f"() => {CELLS}.length")
+    count = page.evaluate(f"() => {WIDGETS}.length")
     page.locator(".live [type=radio]").first.check()
     page.get_by_role("button", name="Commit").last.click()
     for place in ("[aria-label^=controls] .wmr-slider", ".wmr:not(.live) button"):
         page.locator(place).locator("visible=true").first.press("b")  # in a cell it adds one
-    assert page.evaluate(f"() => {CELLS}.length") == count
+    assert page.evaluate(f"() => {WIDGETS}.length") == count
 
     assert page.evaluate(RUN_ALL)
     page.wait_for_function(f"() => {KERNEL}.status === 'idle'", timeout=PATIENCE)
@@ -129,4 +122,85 @@ def test_a_graded_exercise_shows_its_hint_and_nothing_leaves(lab, browser_page):
     hint.wait_for(timeout=PATIENCE)
     assert MISTAKE in hint.inner_text()
     assert "book/wmrbook/grading" not in hint.inner_text()
+    page.assert_quiet()
+
+
+def run(page, cell: int) -> None:
+    page.evaluate(
+        """cell => {
+            window.jupyterapp.shell.currentWidget.content.activeCellIndex = cell;
+            return window.jupyterapp.commands.execute('notebook:run-cell').then(() => true);
+        }""",
+        cell,
+    )
+
+
+def assert_python_sees(page, *words: str) -> None:
+    """Python says so at once or soon: a busy kernel hears of the end of a drag when it can."""
+    for _ in range(20):
+        run(page, 1)
+        said = page.locator(".jp-OutputArea-output:has-text('seen ')").inner_text(timeout=PATIENCE)
+        if all(word in said for word in words):
+            return
+        page.wait_for_timeout(250)
+    raise AssertionError(f"{words} were not seen, but {said}")
+
+
+def assert_all_in_view(page) -> None:
+    """In a window of 1440 by 900 the panel needs no scrolling, once its cell is at the top."""
+    page.set_viewport_size({"width": 1440, "height": 900})
+    root = page.locator(".wmr")
+    root.scroll_into_view_if_needed()
+    page.wait_for_timeout(300)
+    box = root.bounding_box()
+    room = page.locator(".jp-WindowedPanel-outer, .jp-Notebook").first.bounding_box()
+    assert box["height"] <= room["height"]
+    assert box["width"] <= room["width"]
+    scrolls = "it => it.scrollHeight > it.clientHeight + 1 || it.scrollWidth > it.clientWidth + 1"
+    assert not page.locator(".jp-OutputArea-output:has(.wmr)").evaluate(scrolls)
+
+
+def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page):
+    page = browser_page
+    open_notebook(page, link(lab).replace(CHAPTER, PANEL), PANEL)
+    run(page, 0)
+    status = page.locator(".wmr-status:not(:empty)")
+    status.wait_for(timeout=PATIENCE)
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
+
+    assert page.locator(".wmr-slider:not([aria-label]), .wmr select:not([aria-label])").count() == 0
+    assert_all_in_view(page)
+
+    def assert_said_anew(act) -> None:
+        before = status.inner_text()
+        act()
+        said = "before => document.querySelector('.wmr-status').textContent !== before"
+        page.wait_for_function(said, arg=before, timeout=PATIENCE)
+
+    page.locator("[data-control=k_alpha] .wmr-slider").focus()
+    assert_said_anew(lambda: [page.keyboard.press("ArrowRight") for _ in range(3)])
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.15, h=0.3")
+
+    chart = page.locator(".wmr-map[data-finished=true]")
+    assert_said_anew(lambda: chart.click(position={"x": 250, "y": 100}, timeout=PATIENCE))
+    clicked = float(page.locator("[data-control=k_alpha] .wmr-typed").input_value())
+    assert clicked != 1.15
+    assert_python_sees(page, f"k_alpha={clicked},")
+
+    typed = page.locator("[data-control=h] .wmr-typed")
+    run(page, 2)
+    page.wait_for_function(
+        "() => document.querySelector('[data-control=h] .wmr-typed').value === '2.5'",
+        timeout=PATIENCE,
+    )
+    assert_python_sees(page, "k_rho=1.5, k_alpha=4.0, h=2.5", "aicardi")
+
+    typed.click()
+    page.keyboard.press("ControlOrMeta+a")
+    page.keyboard.type("3.21")
+    page.keyboard.press("Enter")
+    assert_python_sees(page, "h=3.21")
+
+    page.locator("[data-do=reset]").click()
+    assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
     page.assert_quiet()
