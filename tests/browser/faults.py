@@ -70,6 +70,7 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
         page.evaluate(FRAME)
         for kind, places in page.evaluate(MEASURE).items():
             faults += [(f"{kind}, {width}x{height}", place) for place in places]
+    page.wait_for_timeout(400)  # so late the theme gives a key to what scrolls in the new size
     page.evaluate(THIN)
     page.add_script_tag(path=AXE)
     for theme in themes:
