@@ -57,6 +57,7 @@ EQUIVALENT = [
     ("_loops", "in _ROUNDS = ", "how often is looked at who has finished does not show"),
     ("_loops/adaptive.py", "'<' -> '<=' in while step + 2", "no step at all, from the end"),
     ("_loops/adaptive.py", "'>' -> '>=' in size = 6 if", "rows that stay 0 without a lag"),
+    ("_loops/adaptive.py", "'>' -> '>=' in far = ", "nobody stops at the border"),
     ("_loops/adaptive.py", "'4' -> '8' in bench, step, size", "rows that are not used"),
     ("_loops/adaptive.py", "'6' -> '12' in bench, step, size", "rows that are not used"),
     ("_loops/adaptive.py", "'>' -> '>=' in bench, step, size", "rows that are not used"),
