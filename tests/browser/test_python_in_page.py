@@ -98,6 +98,13 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     press(page, last, "Run")
     assert told(page, last).startswith("Done")
 
+    # Below a megabyte that is printed stands what the check says.
+    asks = next(i for i, cell in enumerate(cells) if "exercises.aicardi(" in cell["source"])
+    write(page, asks, f"print('Right\\n' * 200_000)\n{cells[asks]['source']}")
+    press(page, asks, "Run")
+    assert told(page, asks) == "Not yet."
+    assert len(shown(page, asks)) < 30_000
+
     # By keyboard: Tab indents, and leaves after Esc.
     write(page, model, "")
     page.keyboard.press("Tab")
