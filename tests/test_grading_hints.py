@@ -10,10 +10,12 @@ import sys
 from pathlib import Path
 
 import graded
+import nbformat
 import numba
 import numpy as np
 import pytest
 import sympy as sp
+from nbclient import NotebookClient
 
 import wmrbook.audit
 import wmrlib
@@ -78,6 +80,32 @@ def test_what_ends_a_program_does_not_end_a_check(error):
     for ask in (_asking.ask, lambda given: _asking.refuses(given, "a reason")):
         with pytest.raises(Hint, match=rf"`ends\(\)` stops with {error.__name__}: enough"):
             ask(ends)
+
+
+ENDINGS = {
+    "return exit()": "stops in line 2 of its cell with SystemExit.",
+    "quit(True)": "stops in line 2 of its cell with SystemExit.",
+    "return float(input('x? ')), 0": "line 2 of its cell with EOFError: nobody answers `input()`",
+    "raise type('Odd', (Exception,), {'__str__': None})": "stops in line 2 of its cell with Odd.",
+    "return type('Odd', (), {'__len__': lambda _: 1 / 0})()": "check stops with ZeroDivisionError",
+    "print('x' * 10**6); return a": "xxx...\nHint: the centre is not as far",
+}
+
+
+def test_what_ends_a_notebook_does_not_end_a_check():
+    """In a kernel, which `exit()` asks to stop, and which may ask a reader."""
+    cell = "def centre(a, b, c):\n    {}\n\n\nprint(exercises.three_readings(centre))"
+    sources = ["from wmrbook.grading import exercises", *map(cell.format, ENDINGS)]
+    sources.append("assert not get_ipython().exit_now\ninput()")
+    book = nbformat.v4.new_notebook(cells=[*map(nbformat.v4.new_code_cell, sources)])
+    client = NotebookClient(book, timeout=120, allow_errors=True)
+    client.execute()
+    *told, after = (cell.outputs for cell in book.cells[1:])
+    for wanted, outputs in zip(ENDINGS.values(), told, strict=True):
+        text = "".join(each.text for each in outputs)
+        assert wanted in text
+        assert len(text) < 2500
+    assert after[0].ename == "StdinNotImplementedError"  # a reader is asked again
 
 
 def test_numbers_need_an_order():

@@ -90,7 +90,7 @@
         const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
         if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
         const time = `${((performance.now() - start) / 1000).toFixed(1)} s`;
-        const answered = each.asks && /^(Hint|Right)/m.exec(shown.at(-1)?.[1])?.[0];  // of a chapter's own exercise
+        const answered = each.asks && [...(shown.at(-1)?.[1] ?? '').matchAll(/^(Hint|Right)/gm)].at(-1)?.[0];  // of a chapter's own exercise
         say(each, answered === 'Hint' ? 'Not yet.' : answered || each.checks.length ? 'Right.' : `Done in ${time}.`);
       }
     } catch (error) {

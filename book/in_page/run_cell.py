@@ -49,9 +49,10 @@ def _execute(source, file, names, shown):
 
 
 def _short(text):
-    return (
-        text if len(text) <= LONGEST else f"{text[:LONGEST]}\n... and {len(text)} characters in all"
-    )
+    if len(text) <= LONGEST:
+        return text
+    half, left_out = LONGEST // 2, len(text) - LONGEST
+    return f"{text[:half]}\n... {left_out} characters left out ...\n{text[-half:]}"
 
 
 def _said(error, file, source):

@@ -11,10 +11,12 @@ their text, the cell to fill in, and the checks with their hints. Paper shows no
 from __future__ import annotations
 
 import ast
+import dis
 import json
 import re
 from collections.abc import Iterator
 from pathlib import Path
+from types import CodeType
 from typing import NamedTuple
 
 import nbformat
@@ -99,7 +101,7 @@ def _with_what_they_need(found) -> list[Cell]:
             needed |= _reads(statement)
         before = []
         for statement in reversed(hidden):
-            if _binds(statement) & needed:
+            if _touches(statement) & needed:
                 before.insert(0, ast.unparse(statement))
                 needed |= _reads(statement)
         cells.insert(0, cell._replace(before="\n".join(before)))
@@ -117,28 +119,36 @@ def _statements(source: str) -> Iterator[ast.stmt]:
 
 
 def _can_run(statement: ast.stmt, missing: set[str]) -> bool:
-    if isinstance(statement, ast.Import):
-        return {each.name for each in statement.names} <= THERE
-    if isinstance(statement, ast.ImportFrom):
-        return not THERE.isdisjoint({statement.module, f"{statement.module}.{_only(statement)}"})
-    return not _reads(statement) & missing
+    return not _reads(statement) & missing and all(map(_is_there, ast.walk(statement)))
 
 
-def _only(statement: ast.ImportFrom) -> str:
-    return statement.names[0].name
+def _is_there(node: ast.AST) -> bool:
+    if isinstance(node, ast.Import):
+        return {each.name for each in node.names} <= THERE
+    if isinstance(node, ast.ImportFrom):
+        return all(
+            not THERE.isdisjoint({node.module, f"{node.module}.{it.name}"}) for it in node.names
+        )
+    return True
 
 
 def _reads(statement: ast.stmt) -> set[str]:
-    """The names that it takes from outside; those of its loops and parameters are its own."""
-    names, own = set(), set()
-    for each in ast.walk(statement):
-        if isinstance(each, ast.Name):
-            names.add(each.id)
-        elif isinstance(each, ast.arg):
-            own.add(each.arg)
-        if isinstance(each, ast.For | ast.comprehension):
-            own |= {it.id for it in ast.walk(each.target) if isinstance(it, ast.Name)}
-    return names - own
+    """The names that it takes from outside, and not those that it has given a value itself."""
+    own = {statement.name} if isinstance(statement, ast.FunctionDef) else set()
+    return _loads(compile(ast.Module([statement], []), "cell", "exec")) - own
+
+
+def _loads(code: CodeType) -> set[str]:
+    """The global names that it loads before it stores them; the compiler knows the local ones."""
+    loads, own = set(), set()
+    for step in dis.get_instructions(code):
+        if isinstance(step.argval, CodeType):  # a function
+            loads |= _loads(step.argval) - own
+        elif step.opname in ("STORE_NAME", "STORE_GLOBAL"):
+            own.add(step.argval)
+        elif step.opname in ("LOAD_NAME", "LOAD_GLOBAL", "DELETE_NAME"):
+            loads |= {step.argval} - own
+    return loads
 
 
 def _binds(statement: ast.stmt) -> set[str]:

@@ -2,14 +2,16 @@
 
 from __future__ import annotations
 
+import builtins
 import math
-from collections.abc import Callable, Mapping, Set
-from contextlib import suppress
+import sys
+from collections.abc import Callable, Iterator, Mapping, Set
+from contextlib import contextmanager, suppress
 from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import Hint, expect, name_of, shown
+from wmrbook.grading._hints import Hint, expect, name_of, named, shown
 from wmrlib.gains import Gains
 
 _MOST = 1000.0  # of a gain: what is far beyond any use would take minutes to simulate
@@ -20,13 +22,13 @@ def ask(function: Callable, *arguments: Any) -> Any:
     if not callable(function):
         raise Hint(f"a function is needed here, not {shown(function)}.")
     try:
-        answer = function(*arguments)
+        with _alone():
+            answer = function(*arguments)
     except BaseException as error:  # of `exit()`, and of a reader who stops it, too
         if type(error) is NotImplementedError:  # as handed out; `input()` raises a child of it
             raise Hint(f"`{name_of(function)}` is not written yet.") from None
         call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
-        what = f"{type(error).__name__}: {error}".rstrip(": ")
-        raise Hint(f"{call} stops{_line(error)} with {what}.") from None
+        raise Hint(f"{call} stops{_line(error)} with {named(error)}.") from None
     expect(answer is not None, f"`{name_of(function)}` returns nothing: does it end in `return`?")
     return answer
 
@@ -65,13 +67,36 @@ def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np
 def refuses(function: Callable, hint: str, *arguments: Any) -> None:
     """Raise Hint unless the student's function raises ValueError for these arguments."""
     try:
-        function(*arguments)
+        with _alone():
+            function(*arguments)
     except ValueError:
         return
     except BaseException:
         ask(function, *arguments)  # which says what happened
     call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
     raise Hint(f"{call} must raise ValueError: {hint}")
+
+
+@contextmanager
+def _alone() -> Iterator[None]:
+    """Let an answer end by `exit()`, which in a notebook ends the kernel, and by `input()`."""
+
+    def leave(*_: Any, **__: Any) -> None:
+        raise SystemExit
+
+    def refuse(*_: Any, **__: Any) -> None:
+        raise EOFError("nobody answers `input()` in a check")
+
+    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
+    asks, builtins.input = builtins.input, refuse
+    if shell:
+        shell.ask_exit = leave
+    try:
+        yield
+    finally:
+        builtins.input = asks
+        if shell:
+            del shell.ask_exit
 
 
 def expect_value(name: str, value: Any) -> None:
@@ -146,7 +171,7 @@ def _line(error: BaseException) -> str:
     place, trace = "", error.__traceback__
     while trace:
         file = trace.tb_frame.f_code.co_filename
-        if "ipykernel" in file or "<ipython" in file:
+        if "ipykernel_" in file or "<ipython" in file:
             place = f" in line {trace.tb_lineno} of its cell"
         trace = trace.tb_next
     return place

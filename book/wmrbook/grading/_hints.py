@@ -131,10 +131,18 @@ def name_of(function: Callable) -> str:
     return getattr(function, "__name__", type(function).__name__)
 
 
+def named(error: BaseException) -> str:
+    """Return its name and what it says."""
+    try:
+        return f"{type(error).__name__}: {error}".rstrip(": ")
+    except BaseException:  # of a student's class
+        return type(error).__name__
+
+
 def shown(value: Any) -> str:
     """Return the value as text of at most 60 characters."""
     try:
         text = f"{value:.6g}" if isinstance(value, float) else repr(value)
-    except Exception:  # of a student's class, or of an integer with more than 4300 digits
+    except BaseException:  # of a student's class, or of an integer with more than 4300 digits
         text = f"something of the type {type(value).__name__}"
     return text if len(text) <= 60 else f"{text[:57]}..."

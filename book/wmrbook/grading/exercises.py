@@ -1,14 +1,16 @@
 """Checks of the exercises at the chapters' ends, of those that a few numbers or lines answer.
 
 They print what the checks of the course raise: a sentence if an answer is right, else a hint. So a
-chapter runs while they wait for an answer.
+chapter runs while they wait for an answer. What an answer prints comes before, shortened.
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
+from contextlib import redirect_stdout
 from functools import partial, wraps
+from io import StringIO
 from itertools import islice
 from typing import Any
 
@@ -23,6 +25,7 @@ from wmrbook.grading._hints import (
     drawn,
     expect,
     explain,
+    named,
     own_work,
     rule_out,
     same_pose,
@@ -33,19 +36,26 @@ from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
 from wmrlib.kinematics import PolarError, Pose, advance, pose_from_polar, wheels_to_twist
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, lyapunov_rate, omega_ref, rho, theta, v_ref
 
+_PRINTED = 2000  # characters; more would push the hint out of sight
 _ROUNDED = 1.00003  # of what was computed with steps of one's own
 _SQUARED = "look at v_max: by how much is the braking larger at twice the speed?"
 
 
 def _exercise(check: Callable[..., str]) -> Callable[..., str]:
-    """Return the check that returns its hints."""
+    """Return the check that returns its hints, whatever an answer does."""
 
     @wraps(check)
     def told(*answers: Any) -> str:
         try:
-            return check(*answers)
+            with redirect_stdout(StringIO()) as printed:
+                said = check(*answers)
         except Hint as hint:
-            return f"Hint: {hint}"
+            said = f"Hint: {hint}"
+        except BaseException as error:  # of a value of a student's own class
+            said = f"Hint: the check stops with {named(error)}."
+        if text := printed.getvalue().rstrip():
+            print(text if len(text) <= _PRINTED else f"{text[:_PRINTED]}...")
+        return said
 
     return told
 

@@ -48,7 +48,8 @@ def lag() -> Live:
             f"Once round the circle the robot is {once:.2f} m behind its goal, and stays there. "
             "What becomes of this distance if k_rho is doubled?",
             "At the goal the law commands no speed, so the robot keeps the distance at which it "
-            "commands the goal's. It goes as 1/k_rho for any goal that moves: none removes it.",
+            "commands the goal's. That goes as 1/k_rho, and so no gain removes it. (With samples "
+            "too far apart for the gain, more is left.)",
             key=[*left.values()].index(True),
             options=(*left,),
         ),
@@ -79,8 +80,9 @@ def lqr() -> Live:
             "At q = 1 errors and commands weigh the same. Now all three errors are weighted "
             f"{heavier:.0f} times as heavily. How much faster does the slowest part of the error "
             "fade?",
-            f"More weight helps up to q = {fastest:.0f}. From there on the limit is what is aside: "
-            "the wheels push ahead, never sideways, and only the goal's speed carries it across.",
+            f"On this circle more weight helps up to q = {fastest:.0f}. Beyond, the limit is what "
+            "is aside: the wheels push ahead, never sideways, and only the goal's speed carries it "
+            "across.",
             key=[*faster.values()].index(True),
             options=(*faster,),
         ),

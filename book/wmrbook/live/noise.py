@@ -140,7 +140,8 @@ def bench() -> Live:
             "choose",
             "Some robots see through receivers whose error of 0.5 m is new in each fix, ten times "
             "a second. The error of the others is as large and lasts five minutes. Both stop when "
-            f"they believe to be within {RADIUS:g} m of the goal. Which stand and look better?",
+            f"they believe they are within {RADIUS:g} m of the goal. Which stop nearer to it, and "
+            "whose heading is better?",
             "While the radius is well below the error, a slow robot averages what changes quickly, "
             "and what lasts moves the place. In the last metres what changes swings the line of "
             "sight, and with it the heading.",

@@ -32,7 +32,7 @@ def compass() -> Live:
         "compass",
         "The magnets on the robot add {iron} ahead to the Earth's 30 µT, and its steel makes the "
         "field ahead {soft} stronger and the field across as much weaker. Looking to {heading}, "
-        "the robot believes to look to {read}; in a full turn the error reaches {worst}.",
+        "the robot believes it looks to {read}; in a full turn the error reaches {worst}.",
         {
             "iron": Knob(iron, -25.0, 25.0, 1.0, "hard iron, ahead", "µT", "m"),
             "soft": Knob(0.0, 0.0, 30.0, 1.0, "soft iron", "%", label="soft iron"),
@@ -45,10 +45,10 @@ def compass() -> Live:
             "turn",
             "A robot looks east. The Earth's field of 30 µT points north, to its left; magnets on "
             "the robot add 20 µT ahead. The program takes the sum for north. Where does it believe "
-            "to look? Turn the arrow.",
+            "it looks? Turn the arrow.",
             "The sum points between left and ahead, and the robot believes north to be there: so "
-            "it believes to look more to the north. Hard iron turns with the robot, so the error "
-            "changes with the heading, and no single offset corrects it.",
+            "it believes it looks further north. Hard iron turns with the robot, so the error "
+            "changes with the heading, and no single angle corrects it.",
             key=compass_heading(0.0, iron, 0.0),
             pane="above",
             at=(0.0, 0.0),

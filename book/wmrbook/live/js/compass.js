@@ -13,7 +13,7 @@ const explorable = {
     return { turn, errors, worst: Math.max(...errors.map(Math.abs)), read, cos, sin, sum: [ahead * cos - left * sin, ahead * sin + left * cos] };
   },
   panes: (values, { read, worst }) => ({
-    above: { x: [-60, 60, ''], y: [-48, 48, ''], equal: true, bare: true, given: 'A robot from above that looks east, and the field that points north.', alt: `The robot from above and the fields that it feels: it looks to ${values.heading} degrees and believes to look to ${(read * DEGREES).toFixed(0)} degrees.` },
+    above: { x: [-60, 60, ''], y: [-48, 48, ''], equal: true, bare: true, given: 'A robot from above that looks east, and the field that points north.', alt: `The robot from above and the fields that it feels: it looks to ${values.heading} degrees and believes it looks to ${(read * DEGREES).toFixed(0)} degrees.` },
     error: { x: [-180, 180, 'heading [°]'], y: [-90, 90, 'error [°]'], given: 'The error over the heading: nothing yet.', alt: `The heading's error in a full turn, up to ${worst.toFixed(0)} degrees.`, scrub: (x) => ({ heading: Math.min(Math.max(2 * Math.round(x / 2), -180), 180) }) },
   }),
   draw({ above, error }, { heading }, { turn, errors, read, cos, sin, sum: [east, north] }, hidden, { data: { field } }) {

@@ -20,6 +20,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
   form.addEventListener('submit', (event) => { event.preventDefault(); if (ready()) { set({ guess: draft }); answered = true; } });
   again.addEventListener('click', () => copyLine(root, `predict ${ask.name} ${JSON.stringify(ask.kind === 'turn' ? Math.round(get().guess * DEGREES) : get().guess)}`));
   const ready = () => (ask.kind === 'sketch' ? draft.length > 3 : draft !== null);
+  const within = (value, low, high) => Math.min(Math.max(value, low), high);
   const right = (guess) => (ask.kind === 'choose' ? guess === ask.key : Math.abs(turned(guess - ask.key)) < Math.PI / 9);
 
   function listen() { // to a hand that turns the arrow or draws the path
@@ -37,7 +38,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
       if (open() || ask.kind !== 'sketch' || !(move || (event.key === 'Backspace' && draft.length))) return;
       event.preventDefault();
       event.stopPropagation();
-      const [x, y] = draft.length ? draft.at(-1) : ask.at, [, , y0, y1] = panes()[ask.pane].range, within = (value, low, high) => Math.min(Math.max(value, low), high);
+      const [x, y] = draft.length ? draft.at(-1) : ask.at, [, , y0, y1] = panes()[ask.pane].range;
       draft = move ? [...(draft.length ? draft : [ask.at]), [within(x + move[0] * step, x0, x1), within(y + move[1] * step, y0, y1)]] : draft.slice(0, -1);
       set();
     });
@@ -74,7 +75,12 @@ function buildGate(root, ask, { get, set, panes, host }) {
     if (listening) teach(host(ask.pane).querySelector('canvas'));
     const pane = panes()[ask.pane], said = committed() ? get().guess : ask.kind === 'turn' ? draft || 0 : draft;
     if (still || !pane || said === null) return;
-    if (ask.kind === 'turn') { const [x, y] = pane.at(...ask.at); pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * Math.cos(said), y - 62 * Math.sin(said)), 'ghost', { dash: [5, 5] }); pane.text('your guess', ...pane.view.toWorld(x + 72 * Math.cos(said), y - 72 * Math.sin(said)), { dy: Math.sin(said) < 0 ? -14 : 14, role: 'ghost', align: Math.cos(said) < 0 ? 'right' : 'left' }); }
+    if (ask.kind === 'turn') {
+      const [x, y] = pane.at(...ask.at), along = Math.cos(said), up = Math.sin(said), side = along < 0 ? -1 : 1, { left, top, width, height } = pane.box;
+      const words = x + side * Math.max(72 * Math.abs(along), 14), row = within(y - 72 * up, top + 22, top + height - 22); // beside the shaft, and in the picture
+      pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * along, y - 62 * up), 'ghost', { dash: [5, 5] });
+      pane.text('your guess', ...pane.view.toWorld(side < 0 ? Math.max(words, left + 76) : Math.min(words, left + width - 76), row), { dy: up < 0 ? -14 : 14, role: 'ghost', align: side < 0 ? 'right' : 'left' });
+    }
     if (ask.kind === 'sketch' && said.length) pane.line(said, 'ghost', { width: 3, dash: [3, 6] });
   }
   return { open, draw };
