@@ -19,6 +19,7 @@ FOLDERS = "wmrlib", "book/wmrbook", "book/lab", "notebooks/data"
 CLOSED = ROOT / "book" / "wmrbook" / "questions"  # it computes the keys of the pre- and post-test
 FILES = "LICENSE", "environment.txt", "pyproject.toml"
 SOLUTION = re.compile(r"\n*<details><summary>Solution</summary>.*?</details>", re.DOTALL)
+SOLVES = {"hide-cell", "remove-cell"}  # its code, and the heading that JupyterLab folds above it
 LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the package
 START = """# From two GPS points to a parked robot
 
@@ -57,7 +58,7 @@ def _book() -> Iterator[tuple[str, str | bytes]]:
         yield name, (ROOT / name).read_bytes()
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
         chapter = nbformat.read(path, as_version=4)
-        chapter.cells = [c for c in chapter.cells if "hide-cell" not in c.metadata.get("tags", ())]
+        chapter.cells = [c for c in chapter.cells if not SOLVES & {*c.metadata.get("tags", ())}]
         for cell in chapter.cells:
             cell.source = LINK.sub(r"\1", SOLUTION.sub("", cell.source))
         yield f"notebooks/{path.name}", nbformat.writes(chapter)

@@ -92,6 +92,7 @@ def fold(notebook: NotebookNode) -> None:
     for cell in notebook.cells:
         if cell.cell_type == "markdown" and cell.source.startswith("#"):
             heading = cell
+            heading.metadata.pop("jp-MarkdownHeadingCollapsed", None)
         elif "hide-cell" in cell.metadata.get("tags", ()):
             cell.metadata["jupyter"] = {"source_hidden": True, "outputs_hidden": True}
             heading.metadata["jp-MarkdownHeadingCollapsed"] = True
