@@ -69,6 +69,12 @@ EQUIVALENT = [
     ),
     ("_loops/alone.py", "'1' -> '2' in many = min(", "how many steps are tried then does not show"),
     ("_loops/alone.py", "'16' -> '32' in many = min(", "how many steps are tried at most"),
+    (
+        "_loops/alone.py",
+        "'1.0' -> '2.0' in steps.get_ready(",
+        "a length that is judged all the same",
+    ),
+    ("_loops/alone.py", "'1' -> '2' in steps.judge(", "a place that is not used"),
     ("_loops/plane.py", "'+' -> '-' in known = ", "whatever is lost is lost in the difference too"),
     ("_loops/plane.py", "'+' -> '-' in if not math.isfinite", "as above"),
     ("_loops/steps.py", "'&' -> '|' in passing = ", "a step may end at any turn of rho"),
