@@ -72,7 +72,7 @@ EQUIVALENT = [
     (
         "_loops/alone.py",
         "'1.0' -> '2.0' in steps.get_ready(",
-        "a length that is judged all the same",
+        "a length that is judged",
     ),
     ("_loops/alone.py", "'1' -> '2' in steps.judge(", "a place that is not used"),
     ("_loops/plane.py", "'+' -> '-' in known = ", "whatever is lost is lost in the difference too"),
