@@ -75,6 +75,12 @@ EQUIVALENT = [
         "a length that is judged",
     ),
     ("_loops/alone.py", "'1' -> '2' in steps.judge(", "a place that is not used"),
+    (
+        "_loops/alone.py",
+        "'<=' -> '<' in if bench[steps.LEFT] < dt",
+        "how steps are bundled does not show",
+    ),
+    ("_loops/alone.py", "'3' -> '6' in pose, goal = ", "numbers that are not read"),
     ("_loops/plane.py", "'+' -> '-' in known = ", "whatever is lost is lost in the difference too"),
     ("_loops/plane.py", "'+' -> '-' in if not math.isfinite", "as above"),
     ("_loops/steps.py", "'&' -> '|' in passing = ", "a step may end at any turn of rho"),
