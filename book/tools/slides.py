@@ -318,7 +318,7 @@ def _cost(chunk: list[Part]) -> float:
         full = min(full * 3.4, max(narrow, (rows + words / 6) / ROWS))
     over = max(1, full, words / WORDS, len(pictures)) - 1
     silent = 2 if words < 5 else 0
-    over = over and 1 + 20 * over
+    over = over and 1 + 20 * over + (words > WORDS)
     return 1 + over + chunk[0].price + silent + 0.3 * (words / WORDS) ** 2
 
 
