@@ -56,7 +56,7 @@ copybutton_exclude = ".linenos, .gp"
 # The API reference. A parameter's type is text, such as "float or array, m".
 autodoc_typehints = "none"
 napoleon_google_docstring = False
-napoleon_use_param = napoleon_use_rtype = False
+napoleon_use_param = napoleon_use_rtype = napoleon_attr_annotations = False
 napoleon_custom_sections = [("Attributes", "params_style")]
 add_module_names = toc_object_entries = False
 

@@ -51,6 +51,7 @@
   function fit(page) {
     const image = page.querySelector('figure img');
     if (page.querySelector('.panel')) {
+      set(page, '--zoom', rem() / 22);  // letters of 13 pixels grow as those of the words do
       set(page, '--canvas', '0px');
       const figure = page.querySelector('figure');
       set(page, '--canvas', `${Math.max(180, figure.clientHeight - figure.firstElementChild.offsetHeight - 4)}px`);

@@ -110,6 +110,7 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[str]:
     page.goto((site / "explorer.html").as_uri(), wait_until="load")
     page.wait_for_function(DRAWN)
     page.evaluate("document.documentElement.dataset.still = ''")  # what asks first is open
+    page.add_style_tag(content=".live-gate .wmr-bar, .live-verdict { display: none }")  # empty
     shots = []
     for place in places:
         page.evaluate(SHOW, (site / f"{place}.html").read_text(encoding="utf-8"))

@@ -9,6 +9,7 @@
 from __future__ import annotations
 
 import inspect
+import itertools
 import re
 from functools import cache
 from importlib import import_module
@@ -21,6 +22,7 @@ from sphinx.util.docutils import SphinxDirective
 import wmrlib
 
 PAGE = "api"
+FIELDS = ("Parameters", "Attributes", "Raises")
 NAME = re.compile(r"(?:wmr\.|wmrlib\.)?([A-Za-z_][\w.]*)(?:\(.*\))?", re.DOTALL)
 # Code as Pygments marks it up: the module in an import, and wmr.simulate or paper.outdoor.
 MODULE = re.compile(r'<span class="nn">wmrlib(?:\.\w+)*</span>')
@@ -86,15 +88,15 @@ def link_names(app, doctree, docname):
             )
 
 
-def split_errors(app, what, name, obj, options, lines):
-    """Give an error of a Raises section, "ValueError : why", the two lines that napoleon reads."""
-    if "Raises" not in lines:
-        return
-    first = lines.index("Raises") + 2
-    for k in range(len(lines) - 1, first - 1, -1):
-        error, colon, why = lines[k].partition(" : ")
-        if colon and error.isidentifier():
-            lines[k : k + 1] = [error, f"    {why}"]
+def split_fields(app, what, name, obj, options, lines):
+    """Give "dt : float, s" two lines, name and text: napoleon would take one line for a type."""
+    split, section = [], ""
+    for line, below in itertools.zip_longest(lines, lines[1:], fillvalue=""):
+        section = line if below.startswith("---") else section
+        field, colon, text = line.partition(" : ")
+        cut = colon and not line.startswith(" ") and section in FIELDS
+        split += [field, f"    {text}"] if cut else [line]
+    lines[:] = split
 
 
 def link_code(app, docname, template, context, doctree):
@@ -135,7 +137,7 @@ def setup(app):
     app.add_directive("library", Library)
     app.connect("autodoc-skip-member", skip_fields)
     app.connect("autodoc-process-docstring", keep_bars)
-    app.connect("autodoc-process-docstring", split_errors, priority=400)  # before napoleon
+    app.connect("autodoc-process-docstring", split_fields, priority=400)  # before napoleon
     app.connect("doctree-resolved", link_names)
     app.connect("html-page-context", link_code)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -201,11 +201,15 @@ def _slides(cells: list[NotebookNode]) -> list[NotebookNode]:
 
 def _heading(heading: str, kind: str, first: NotebookNode) -> NotebookNode:
     """The cell of a title, which takes a few bold words that the slide begins with."""
-    lead = LEAD.match(first.source) if first.cell_type == "markdown" else None
+    lead = _lead(first)
     if lead and lead[1].lower() not in heading.lower():
         first.source = first.source[lead.end() :]
         heading += f": {lead[1]}"
     return nbformat.v4.new_markdown_cell(heading, metadata={"slideshow": {"slide_type": kind}})
+
+
+def _lead(first: NotebookNode) -> re.Match | None:
+    return LEAD.match(first.source) if first.cell_type == "markdown" else None
 
 
 def _parts(cell: NotebookNode) -> list[Part]:
@@ -303,6 +307,7 @@ def _cut(parts: list[Part]) -> list[list[Part]]:
 def _cost(chunk: list[Part]) -> float:
     """What a slide costs: one, more where it begins badly, is full, or says nothing."""
     words, pictures = sum(part.words for part in chunk), [it for it in chunk if it.shape or it.live]
+    words -= _count(lead[1]) if (lead := _lead(chunk[0].cell)) else 0  # they go into the title
     rows, columns = sum(part.rows for part in chunk), max(part.columns for part in chunk)
     full = (rows + words / 11) / ROWS
     if pictures and pictures[0].live:
@@ -313,7 +318,7 @@ def _cost(chunk: list[Part]) -> float:
         full = min(full * 3.4, max(narrow, (rows + words / 6) / ROWS))
     over = max(1, full, words / WORDS, len(pictures)) - 1
     silent = 2 if words < 5 else 0
-    over = over and 1 + 20 * over
+    over = over and 1 + 20 * over + (words > WORDS)
     return 1 + over + chunk[0].price + silent + 0.3 * (words / WORDS) ** 2
 
 

@@ -2,9 +2,9 @@
 
     python tests/browser/faults.py book/_build/html
 
-Code lines, formulas, tables and figures that are cut, what axe-core finds in the light and in the
-dark, requests that leave the site, and of the PDF lost panels and pages that look torn. Needs
-`npm ci` in book/.
+Code lines, formulas, tables and figures that are cut, figures with small letters, what axe-core
+finds in the light and in the dark, requests that leave the site, and of the PDF lost panels and
+pages that look torn. Needs `npm ci` in book/.
 """
 
 from __future__ import annotations
@@ -15,6 +15,8 @@ import sys
 import zlib
 from collections import Counter
 from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import numpy as np
 import pypdfium2
@@ -43,6 +45,10 @@ IMAGE = re.compile(  # in a PDF by Chromium
     rb"/Subtype /Image\s+/Width (\d+)\s+/Height (\d+)\s+/ColorSpace \[/ICCBased[^>]*?"
     rb"/Filter /FlateDecode\s+/Length (\d+)>> stream\r?\n"
 )
+FIGURES = """() => [...document.querySelectorAll('article img[src$=".svg"]')]
+    .filter(it => it.checkVisibility() && it.clientWidth)
+    .map(it => [it.src, it.clientWidth / it.naturalWidth, it.alt.slice(0, 60)])"""
+LETTERS = re.compile(r"scale\(([\d.]+) -")  # of a text in an SVG by matplotlib: hundreds of points
 FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 # Else axe-core takes minutes: of the code tokens of a kind it sees the first, and no formulas,
 # which have been looked at.
@@ -70,6 +76,10 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
         page.evaluate(FRAME)
         for kind, places in page.evaluate(MEASURE).items():
             faults += [(f"{kind}, {width}x{height}", place) for place in places]
+        for source, scale, said in page.evaluate(FIGURES):
+            svg = Path(url2pathname(urlsplit(source).path)).read_text(encoding="utf-8")
+            if min(map(float, LETTERS.findall(svg)), default=1) * scale * 400 / 3 < 9:
+                faults.append((f"figures with letters under 9 pixels, {width}x{height}", said))
     page.wait_for_timeout(400)  # so late the theme gives a key to what scrolls in the new size
     page.evaluate(THIN)
     page.add_script_tag(path=AXE)

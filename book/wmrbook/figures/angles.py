@@ -24,7 +24,7 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
     rho, theta = polar.rho, polar.theta
     beta = translate(polar, "aicardi", "corke")[2]
     sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
-    figure, (left, right) = panels(1, 2, 10.5, 5.6)
+    figure, (left, right) = panels(1, 2, 9.2, 5.0)
     users = {
         sign: ", ".join(_people(name) for name, how in CONVENTIONS.items() if how.third == sign)
         for sign in (1, -1)
@@ -137,7 +137,7 @@ def _ray(axes: Axes, at: Pose, heading: float, length: float, label: str, **look
     """A line that begins at `at`, with its name at its end."""
     end = at.x + length * math.cos(heading), at.y + length * math.sin(heading)
     axes.plot([at.x, end[0]], [at.y, end[1]], **looks)
-    note(axes, label, end, (4, 0), va="center", fontsize=10, color=looks["color"])
+    note(axes, label, end, (4, 0), va="center", fontsize=11, color=looks["color"])
 
 
 def _arc(

@@ -83,7 +83,7 @@ def robot_loops(time_step: float, times_faster: float) -> Picture:
         looks = {"boxstyle": "round,pad=0.06", "fc": "white", "ec": COLOURS[role], "lw": 2.5}
         axes.add_patch(FancyBboxPatch((x - half, y - 0.6), 2 * half, 1.2, **looks))
         axes.text(x, y + 0.33, name, weight="bold", **middle)
-        axes.text(x, y - 0.2, does, **middle | {"fontsize": 10})
+        axes.text(x, y - 0.2, does, **middle | {"fontsize": 10.5})
     ink, wheels = {"colour": COLOURS["ink"], "lw": 2.0}, {"color": COLOURS["y_error"], "lw": 2.0}
     for x0, x1, y in ((2.2, 2.8, 3.9), (4.8, 5.4, 3.9), (7.4, 8.0, 3.9), (5.4, 3.9, 1.1)):
         pointer(axes, (x0, y), (x1, y), **ink)

@@ -57,7 +57,7 @@ def challenge_paths(score: Score) -> Picture:
     runs = drive_cases(instance("score", score, Score).gains, score.game)
     columns = min(4, len(runs))
     rows = math.ceil(len(runs) / columns)
-    figure, grid = panels(rows, columns, 2.9 * columns, 3.2 * rows, squeeze=False)
+    figure, grid = panels(rows, columns, 2.4 * columns, 2.6 * rows, squeeze=False)
     for axes in grid.flat[len(runs) :]:
         axes.set_axis_off()
     everything = zip(grid.flat, runs, score.cases, score.game.cases, strict=False)
@@ -70,7 +70,8 @@ def challenge_paths(score: Score) -> Picture:
         dart(axes, case.start, size, "start", lw=0.8, zorder=3)
         end = row.note or f"{row.time:.1f} s, {row.heading_error_deg:.0f} deg off"
         axes.set_title(f"{k} {row.kind}\n{row.points:.1f} points\n{end}", fontsize=13)
-        axes.locator_params(nbins=4)
+        axes.locator_params(nbins=3)
+        axes.tick_params(labelsize=11)
     figure.supxlabel("x [m]")
     figure.supylabel("y [m]")
     handles = [Line2D([], [], color=COLOURS["path"], label="path")]

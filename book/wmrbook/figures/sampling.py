@@ -24,7 +24,7 @@ _SERIES = (  # colour, line style and marker of each of up to five lines
     (COLOURS["omega"], ":", "D"),
     (COLOURS["ink"], "-", ""),
 )
-_BESIDE = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "fontsize": 10}
+_BESIDE = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "fontsize": 10.5}
 
 
 def time_steps(
@@ -82,7 +82,7 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
         least = min(float(run.rho[-1]) for runs in cases.values() for run in runs.values())
         axes.set(xscale="log", xlim=(5.0, least), ylabel="heading error [deg]")
         axes.set_title(title, fontsize=12)
-        axes.legend(title="inner loop", title_fontsize=10, **_BESIDE)
+        axes.legend(title="inner loop", title_fontsize=10.5, **_BESIDE)
     rows[-1].set_xlabel("distance left to the goal [m], the goal to the right")
     rows[-1].xaxis.set_major_formatter("{x:g}")
     what = "Heading error against the distance left to the goal; where it ends"

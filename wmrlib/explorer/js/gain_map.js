@@ -1,7 +1,7 @@
 // The second view: what a run amounts to over two of the gains, as a heat map that a worker computes.
 
 const MEASURES = {
-  headingError: { title: 'heading error on arrival [deg]', lasting: 'heading error at the end [deg]', scale: DEGREES, most: 180 },
+  headingError: { title: 'heading error on arrival [°]', lasting: 'heading error at the end [°]', scale: DEGREES, most: 180 },
   time: { title: 'arrival time [s]', lasting: 'distance left [m]', scale: 1, most: Infinity },
   peakOmega: { title: 'peak |ω| [rad/s]', lasting: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
 };

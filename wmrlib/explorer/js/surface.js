@@ -5,7 +5,8 @@ const sizes = new WeakMap(); // asking an element for its size in the middle of 
 // Width and height in units of `zoom` CSS pixels: a large canvas is meant for an audience at a distance, and everything on it grows.
 function measure(canvas) {
   if (canvas.clientWidth === 0 || canvas.clientHeight === 0) return; // hidden for a while, as everything is while JupyterLab changes its theme
-  const zoom = Math.min(Math.max(canvas.clientWidth / 660, 1), 1.4);
+  const least = Number(getComputedStyle(canvas).getPropertyValue('--zoom')) || 1; // a deck's, for the last row
+  const zoom = Math.max(Math.min(canvas.clientWidth / 660, 1.4), least);
   sizes.set(canvas, { zoom, width: canvas.clientWidth / zoom, height: canvas.clientHeight / zoom });
 }
 

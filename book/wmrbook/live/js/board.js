@@ -14,7 +14,7 @@ function paneOf(canvas, colours, spec) {
   const FAR = 1e5; // canvases lose their way with coordinates beyond the range of 32-bit pixels
   const at = (x, y) => [box.left + (x - x0) * across, box.top + box.height - (y - y0) * up].map((each) => Math.min(Math.max(each, -FAR), FAR));
   const ink = (role) => colours[role] || role, view = { box, zoom, scale: across, toScreen: at, toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
-  const cut = (draw) => inside(ctx, box, draw);
+  const cut = (draw) => inside(ctx, box, draw), names = [];
   const pane = {
     ctx, box, view, at, ink, range: [x0, x1, y0, y1], pixel: 1 / across,
     line(points, role = 'path', { width: w = 2.5, dash = [] } = {}) { cut(() => line(ctx, points.map(([x, y]) => at(x, y)), ink(role), w, dash)); },
@@ -60,7 +60,8 @@ function paneOf(canvas, colours, spec) {
       if (px < box.left - 20 || px > box.left + box.width + 20 || py < box.top - 20 || py > box.top + box.height + 20) return; // out of sight
       ctx.globalAlpha = share; drawRobot(ctx, [px, py], heading, colours); ctx.globalAlpha = 1;
     },
-    pose(pose, name, share = 1) { ctx.globalAlpha = share; drawPose(ctx, view, pose, name, colours); drawName(ctx, view, pose, name, colours); ctx.globalAlpha = 1; },
+    pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
+    name() { names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours)); }, // at last, for no path may strike one out
     bar(x, from, to, role, half = 0.3) { pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85); },
   };
   if (!spec.bare) drawAxes(pane, spec, colours, [x0, x1, y0, y1]);

@@ -21,7 +21,7 @@ const explorable = {
       scrub: (x, y, moved, now) => moved && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES, tilt: Math.min(Math.max(now.tilt + moved[1] / 2, 5), 85) },
     },
     levels: {
-      x: [-180, 180, 'alpha [deg]'], y: [-160, 160, 'theta [deg]'], equal: true, given: 'The level sets from above, with the state at the start.',
+      x: [-180, 180, 'α [°]'], y: [-160, 160, 'θ [°]'], equal: true, given: 'The level sets from above, with the state at the start.',
       alt: `The level sets from above, and the state's way over them; it is at alpha ${inDegrees(run.alpha[k])} and theta ${inDegrees(run.theta[k])}.`,
       scrub: (x, y) => timeNear(run.alpha, run.theta, x / DEGREES, y / DEGREES, 0.2),
     },

@@ -13,7 +13,7 @@ const explorable = {
   panes({ radius }, { left }, { data: { goal } }) {
     const within = (distance) => ({ radius: Math.min(Math.max(distance, 0.005), 0.6) });
     return {
-      error: { x: [0, 0.6, 'distance left [m]'], y: [-90, 90, 'heading error [deg]'], given: 'Room for the heading error over the distance left.', alt: `The heading error over the distance left: ${inDegrees(left)} at ${written(radius, 'm')}.`, scrub: within },
+      error: { x: [0, 0.6, 'distance left [m]'], y: [-90, 90, 'heading error [°]'], given: 'Room for the heading error over the distance left.', alt: `The heading error over the distance left: ${inDegrees(left)} at ${written(radius, 'm')}.`, scrub: within },
       near: { x: [goal[0] - 0.7, goal[0] + 0.7, 'x [m]'], y: [goal[1] - 0.9, goal[1] + 0.5, 'y [m]'], equal: true, given: 'The goal, with a circle of 5 cm and one of 10 cm.', alt: `The last metre: the robot stops on a circle round the goal, ${inDegrees(left)} off.`, scrub: (x, y) => within(Math.hypot(x - goal[0], y - goal[1])) },
     };
   },

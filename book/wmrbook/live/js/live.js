@@ -80,6 +80,7 @@ const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }
       panes[name] = paneOf(canvases[name], colours, spec);
     }
     explorable.draw(panes, now, found, hidden, setup);
+    Object.values(panes).forEach((pane) => pane.name());
     if (gate) gate.draw();
     else root.dataset.open = 'true';
   }

@@ -25,11 +25,11 @@ const explorable = {
     const limit = [-60, 60];
     return {
       plane: {
-        x: [...limit, 'alpha [deg]'], y: [...limit, 'theta [deg]'], equal: true, given: 'The plane of the angles, with the state at alpha 0 and theta 40 degrees, and the goal in its middle.',
+        x: [...limit, 'α [°]'], y: [...limit, 'θ [°]'], equal: true, given: 'The plane of the angles, with the state at alpha 0 and theta 40 degrees, and the goal in its middle.',
         alt: `The plane of the angles: the state is at alpha ${inDegrees(run.alpha[k])} and theta ${inDegrees(run.theta[k])}, and theta changes its sign ${turns} times.`,
         scrub: (x, y) => timeNear(run.across, run.up, x, y, 4),
       },
-      angles: { x: [0, LENGTH, 'time [s]'], y: [...limit, 'alpha, theta [deg]'], given: 'Room for both angles over time.', alt: `Both angles over time; theta changes its sign ${turns} times.`, scrub: (x) => ({ time: Math.min(Math.max(x / LENGTH, 0), 1) }) },
+      angles: { x: [0, LENGTH, 'time [s]'], y: [...limit, 'α, θ [°]'], given: 'Room for both angles over time.', alt: `Both angles over time; theta changes its sign ${turns} times.`, scrub: (x) => ({ time: Math.min(Math.max(x / LENGTH, 0), 1) }) },
     };
   },
   draw({ plane, angles }, values, { run, k }, hidden, { data: { asked } }) {

@@ -23,7 +23,7 @@ const explorable = {
       },
     },
     errors: {
-      x: [-0.35, 2.1, 'distance to go', toGo], y: [-90, 180, 'heading error [deg]'], given: 'Axes: the heading error over the distance to go, from 2 m to 1 cm.',
+      x: [-0.35, 2.1, 'distance to go', toGo], y: [-90, 180, 'heading error [°]'], given: 'Axes: the heading error over the distance to go, from 2 m to 1 cm.',
       alt: `The heading error over the distance to go, from 2 m to 1 cm: ${(off * DEGREES).toFixed(0)} degrees at ${written(stop, 'm')}.`,
       scrub: (x) => ({ stop: Math.min(Math.max(Number((10 ** -x).toPrecision(2)), 0.01), 2) }),
     },

@@ -23,7 +23,7 @@ const way = (rate) => (Math.abs(rate) < 1e-9 ? 'stays level' : rate < 0 ? 'falls
 const explorable = {
   find: ({ law, alpha, theta }, { data: { rho, gains } }) => ({ bars: falls(law, rho, alpha / DEGREES, theta / DEGREES, gains), marks: rising([law, rho, gains]) }),
   panes: ({ alpha, theta }, { bars, marks }) => ({
-    plane: { x: [-180, 180, 'alpha [deg]'], y: [-180, 180, 'theta [deg]'], equal: true, given: 'The plane of the two angles, with the state.', alt: `The plane of the angles, the state at ${written(alpha)} and ${written(theta)} degrees; V rises at ${marks.length} of ${MARKS ** 2} states, each with a cross.` },
+    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true, given: 'The plane of the two angles, with the state.', alt: `The plane of the angles, the state at ${written(alpha)} and ${written(theta)} degrees; V rises at ${marks.length} of ${MARKS ** 2} states, each with a cross.` },
     bars: { x: [0.4, 3.6, '', () => ''], y: [-11, 7, 'rate of V [1/s]'], given: 'Room for two bars and their sum.', alt: `Two bars, ${written(bars[0])} for the distance and ${written(bars[1])} for the angles, and their sum, ${written(bars[0] + bars[1])}.` },
   }),
   draw({ plane, bars: chart }, { alpha, theta }, { bars, marks }, hidden, { data: { asked } }) {
