@@ -288,6 +288,11 @@ def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(emptie
         number.press("Tab")
         assert panel.settled().get(name) == 0.125 != before
         assert "is not allowed" in emptied_page.locator(".live-trouble").inner_text()
+    number.select_text()
+    emptied_page.keyboard.type(number.input_value())  # nothing has changed since it was shown
+    number.press("Tab")
+    panel.settled()
+    assert emptied_page.locator(".live-trouble").inner_text() == ""
 
 
 def test_nothing_is_said_to_follow_from_what_is_refused(emptied_page):

@@ -61,6 +61,11 @@ class ndarray:  # noqa: N801
     def tolist(self):
         return [each.tolist() for each in self] if self.ndim > 1 else list(self.flat)
 
+    def __len__(self):
+        if not self.ndim:
+            raise TypeError("len() of unsized object")
+        return self.shape[0]
+
     def __iter__(self):
         if self.ndim < 2:
             return iter(self.flat)

@@ -11,7 +11,7 @@ from collections.abc import Callable, Sequence
 from contextlib import redirect_stdout
 from functools import partial, wraps
 from io import StringIO
-from itertools import islice
+from itertools import islice, permutations
 from typing import Any
 
 import sympy as sp
@@ -147,27 +147,42 @@ def odometry(path: Callable, ends: Any = None) -> str:
         log = [*log, (0.4, 0.4), (0.3, -0.3), (0.0, 0.0)]  # straight on, on the spot, at rest
         value = ask_numbers(path, 3, [tuple(each) for each in log], width, dt)
         mistakes = {
-            "these are Euler's straight steps; on an arc the chord is shorter.": (1, "euler"),
-            "this robot turns right where it should turn left.": (-1, "arc"),
+            "these are Euler's straight steps: on an arc the robot turns on its way.": (1, 0.0),
+            "the direction is right, and the step too long: the chord is shorter than its arc.": (
+                1,
+                0.5,
+            ),
+            "this robot turns first and then drives: on an arc it does both at once.": (1, 1.0),
+            "this robot turns right where it should turn left.": (-1,),
         }
         found = {hint: _driven(log, width, dt, *how) for hint, how in mistakes.items()}
-        if not same_pose(value, _driven(log, width, dt), 1e-6):
+        right = _driven(log, width, dt)
+        if not same_pose(value, right, 1e-6):
+            in_degrees = same_pose((*value[:2], math.radians(value[2])), right, 1e-6)
+            expect(not in_degrees, "the heading is wanted in radians.")
             wrong = "the path ends elsewhere: try one step straight on, then one on the spot."
             explain(value, found, wrong, lambda one, other: same_pose(one, other, 1e-6))
     x, y, *by_euler = numbers("The function is right. `ends`", ends, 4)
     log = [(0.8, 1.2)] * 10 + [(1.2, 0.8)] * 10
-    for place, method, who in (((x, y), "arc", "the robot ends"), (by_euler, "euler", "Euler's")):
-        right = _driven(log, 0.6, 0.5, method=method)[:2]
+    for place, turned, who in (((x, y), None, "the robot ends"), (by_euler, 0.0, "Euler's")):
+        right = _driven(log, 0.6, 0.5, turned=turned)[:2]
         hint = f"the function is right, but {who} elsewhere: 10 pairs (0.8, 1.2), then 10 of them "
         expect(math.dist(place, right) < 0.011, f"{hint}turned round, 0.6 m wide, each for 0.5 s.")
     return "Right for six logs, turning both ways and not at all. Euler ends elsewhere."
 
 
-def _driven(log: Sequence, width: float, dt: float, side: int = 1, method: str = "arc") -> Pose:
+def _driven(
+    log: Sequence, width: float, dt: float, side: int = 1, turned: float | None = None
+) -> Pose:
+    """Where a log leads: by arcs, or by straight steps after that share of each turn."""
     at = Pose(0.0, 0.0, 0.0)
     for left, right in log:
         v, omega = wheels_to_twist(left, right, width)
-        at = advance(at, v, side * omega, dt, method=method)
+        after = advance(at, v, side * omega, dt)
+        if turned is not None:
+            begin = at._replace(heading=at.heading + turned * omega * dt)
+            after = advance(begin, v, 0.0, dt)._replace(heading=after.heading)
+        at = after
     return at
 
 
@@ -239,6 +254,7 @@ def brake(limits: Any) -> str:
         "they are the other way round.": right[::-1],
         _SQUARED: [4.0 * each for each in right],
     }
+    expect(min(value) > 0.0, "a negative gain drives away from the goal.")
     if not _near(value, right):
         hint = "differentiate v along the way, dv/dt = dv/drho (-v): where is that steepest?"
         explain(value, mistakes, hint, _near)
@@ -250,10 +266,12 @@ def brake(limits: Any) -> str:
 @_exercise
 def aicardi(V_rate: Any) -> str:
     """4.2: V' of (19) with Aicardi's law."""
-    right = lyapunov_rate("aicardi")
+    right, steering = lyapunov_rate("aicardi"), -k_alpha * alpha**2
     slower = right + (1 - 1 / (k_rho * rho)) * k_rho / L * (rho * sp.cos(alpha)) ** 2
     mistakes = {
         "the signs are turned round: this V would rise.": -right,
+        "a sign is turned round: look at the steering's term.": right - 2 * steering,
+        "a sign is turned round: look at the speed's term.": 2 * steering - right,
         "the speed brings a factor k_rho rho.": slower,
     }
     symbols = (rho, alpha, L, k_rho, k_alpha, h, theta)  # the last two go out
@@ -291,6 +309,8 @@ def pendulum(swing: Callable, share: Any = None) -> str:
             hint = f"from q = {q:g}, p = {p:g} it is elsewhere after {seconds:g} s: q' is p, "
             explain(value, found, f"{hint}and p' is -sin(q) - c p.", _beside)
     part = number("The function is right. `share`", share)
+    hint = "the function is right; a share is between 0 and 1: those at q = 0 over all 400."
+    expect(0.0 <= part <= 1.0, hint)
     hint = "the function is right; of the 400, how many have turned round by no full turn?"
     expect(abs(part - 0.52) < 0.1, hint)  # 208 of the solution's, plus or minus four sigma
     return "Right. The energy never rises, which an assert can show, and none ends upright."
@@ -331,6 +351,8 @@ def braking(answer: Any) -> str:
     hardest, gentle, far = numbers("`answer`", answer, 3)
     gains = paper.OUTDOOR_GAINS
     right = gains.v_max**2 * gains.k_rho / 4
+    expect(hardest > 0.0, "how hard it brakes is asked, and that has no sign.")
+    expect(gentle > 0.0, "a negative gain drives away from the goal.")
     if not _about(hardest, right):
         explain(hardest, {_SQUARED: right / gains.v_max}, "what is x (1 - x) at most?", _about)
     if not _about(gentle, gains.k_rho * 0.5 / right):
@@ -369,6 +391,8 @@ def kanayama(V_rate: Any) -> str:
     along, across = -k_x * e_x**2, -k_h / k_y * v_ref * sp.sin(e_h) ** 2
     mistakes = {
         "the signs are turned round: this V would rise.": -along - across,
+        "a sign is turned round: look at the term of e_x.": across - along,
+        "a sign is turned round: look at the term of e_h.": along - across,
         "V has 1 - cos(e_h) over k_y.": along + k_y * across,
         "the angle need not be small: where is its sine?": along
         + across * (e_h / sp.sin(e_h)) ** 2,
@@ -389,6 +413,7 @@ def told_too_little(answer: Any) -> str:
     if not close(value, right, 0.01):
         mistakes = {
             "the goal is ahead, and so e_x is positive.": -right,
+            "the answer is wanted in metres.": 100.0 * right,
             "told the truth, the robot would not lag at all; it is told 10 % less.": 0.0,
             "that is for a straight line. On a circle it turns as well: set the second and third "
             "rate to zero too.": 0.1 * speed,
@@ -418,14 +443,21 @@ def longest_step(seconds: Any) -> str:
 @_exercise
 def three_readings(centre: Callable) -> str:
     """11.2: centre(a, b, c), readings (x, y) on a circle, returns its centre."""
-    for *middle, radius, turn in drawn(5, 20, (-40, 40), (-40, 40), (20, 50), (-3, 3)):
-        on = [_on_circle(middle, radius, turn + each) for each in (0.0, 0.7, 2.0)]
+    bounds = (-40, 40), (-40, 40), (20, 50), (-3, 3), (0.2, 2.9), (0.2, 2.9)
+    circles = [
+        (middle, [_on_circle(middle, radius, turn + each) for each in (0.0, one, one + two)][::way])
+        for way in (1, -1)  # a robot may turn either way
+        for *middle, radius, turn, one, two in drawn(5, 10, *bounds)
+    ]
+    corners = (1.0, 1.0), (3.0, 1.0), (3.0, 5.0)  # lines along the axes have no slope
+    circles += [((2.0, 3.0), on) for on in permutations(corners)]
+    for middle, on in circles:
         value, mean = ask_numbers(centre, 2, *on), [sum(each) / 3 for each in zip(*on, strict=True)]
         if math.dist(value, middle) > 1e-6:
             hint = "this is the mean of the readings, which lie on one side of the circle."
             other = "the centre is not as far from each of the readings: test it with a circle."
             explain(value, {hint: mean}, other, _near)
-    return "Right for twenty compasses."
+    return "Right for twenty compasses, and for readings in line with the axes."
 
 
 def _on_circle(middle: Sequence[float], radius: float, turn: float) -> tuple[float, float]:
@@ -451,8 +483,10 @@ def short_fence(answer: Any) -> str:
 def walk(keep: Callable) -> str:
     """12.2: keep(fixes), of (seconds, east, north), those that can be walked to."""
     for seed in range(4):
-        steps = enumerate(drawn(seed, 60, (-1.0, 1.0), (0.0, 1.0)))
-        fixes = [(float(t), 1.2 * t + a, 50.0 if t and b > 0.8 else a) for t, (a, b) in steps]
+        t, fixes = 0.0, []
+        for a, b, seconds in drawn(seed, 60, (-1.0, 1.0), (0.0, 1.0), (0.4, 2.0)):
+            fixes.append((t, 1.2 * t + a, 50.0 if fixes and b > 0.8 else a))
+            t += seconds
         answer = ask(keep, list(fixes))
         try:
             kept = [tuple(map(float, each)) for each in islice(answer, 99)]  # it may never end

@@ -38,7 +38,7 @@ def poles() -> Live:
                 "1/s",
                 "k_alpha",
             ),
-            "h": Knob(GAINS.h, 0.0, 5.0, 0.05, "weight of the final heading, h", "", "h"),
+            "h": Knob(GAINS.h, 0.05, 5.0, 0.05, "weight of the final heading, h", "", "h"),
         },
         data={"k_rho": GAINS.k_rho, "v_max": GAINS.v_max, "start": list(START), "goal": list(GOAL)},
         ask=Ask(
@@ -61,7 +61,7 @@ def phase() -> Live:
     return Live(
         "phase",
         "With a damping of {damping}, from {alpha} and {theta}, *theta* "
-        "changes its sign {turns} and the state {home}.",
+        "{turned} and the state {home}.",
         {
             "damping": Knob(round(damping, 3), 0.05, 2.0, 0.01, "damping ratio", "", "zeta"),
             "alpha": Knob(ASKED[0], -60.0, 60.0, 1.0, "alpha at first", "°", "alpha"),
@@ -74,7 +74,7 @@ def phase() -> Live:
             f"With the paper's gains the damping is {damping:.3f}. Near the goal the state starts "
             "at alpha = 0 and theta = 40°. Sketch its way to the middle.",
             f"Each half swing keeps {kept:.0%} of the one before, on the other side of the middle. "
-            "How much is kept follows from the damping ratio alone.",
+            "For small angles how much is kept follows from the damping ratio alone.",
             pane="plane",
             at=ASKED,
         ),

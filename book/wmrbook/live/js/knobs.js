@@ -37,6 +37,7 @@ function putNumber(parent, knob, { get, step, set, refuse }) {
     event.preventDefault();
     set(step(get(), by));
   });
+  it.addEventListener('input', () => refuse('')); // what was refused is no longer there
   it.addEventListener('change', () => {
     const value = fromWords(it.value);
     if (value >= knob.low && value <= knob.high) set(value);
@@ -114,7 +115,7 @@ function putKnobs(root, setup, { get, set, refuse, changed }) {
         if (value < knob.high) playing = requestAnimationFrame(go); else stop();
       };
       call('Stop');
-      playing = requestAnimationFrame(go);
+      go(begin); // where it begins is shown at once: a hand may stop it before the next frame
     };
     const button = knob.plays ? made(row, 'button', { type: 'button', className: 'live-play', textContent: 'Play', onclick: play }, { 'aria-label': `play: ${knob.says}` }) : null;
     timers.push(stop);

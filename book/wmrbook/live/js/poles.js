@@ -12,7 +12,7 @@ function polesOf(a, b) {
 function gainsOf([first, second], pace) {
   const a = -(first[0] + second[0]), b = first[0] * second[0] - first[1] * second[1];
   if (a < 0) throw new RangeError(`k_alpha would be ${written(a, '1/s')}: it is minus the sum of the poles, and no robot needs one below 0.`);
-  if (b < 0) throw new RangeError(`h would be ${written(b / pace ** 2)}: it is the product of the poles over (k_rho v_max)², and V needs it above 0.`);
+  if (b <= 0) throw new RangeError(`h would be ${written(b / pace ** 2)}: it is the product of the poles over (k_rho v_max)², and V needs it above 0.`);
   return { k_alpha: a, h: b / pace ** 2 };
 }
 
@@ -44,6 +44,6 @@ const explorable = {
     },
   })),
   say: (values, { damping, naturalFrequency, run, off }) => ({
-    damping: Number.isFinite(damping) ? written(damping) : 'none', frequency: written(naturalFrequency, 'rad/s'), end: run.outcome === 'ARRIVED' ? `stops after ${written(run.t[run.n - 1], 's')}, ${Math.abs(off * DEGREES).toFixed(1)}° off` : 'is still on its way after 30 s',
+    damping: written(damping), frequency: written(naturalFrequency, 'rad/s'), end: run.outcome === 'ARRIVED' ? `stops after ${written(run.t[run.n - 1], 's')}, ${Math.abs(off * DEGREES).toFixed(1)}° off` : 'is still on its way after 30 s',
   }),
 };
