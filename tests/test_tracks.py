@@ -1006,7 +1006,7 @@ def test_a_file_without_a_position_says_why(read, tmp_path):
         ("lat,y\n1,2\n", r"does not name .*'long'"),
         ("lat,latitude,lon\n1,1,2\n", r"more than one column of \['lat', 'latitude'\]"),
         ("lat,lon\n", "it is CSV, but holds no position"),
-        ("lat,lon\n95,2\n", r"1 latitude not in -90 to 90 \(first in line 2\)"),
+        ("lat,lon\n-95,2\n", r"1 latitude not in -90 to 90 \(first in line 2\)"),
         ("lat,lon\n1," + "2" * 200_000, "its table is broken"),
         ('lat,lon\n1,2\n"3,4\n', "its table is broken"),
         ('{"type": "Point", "coordinates": [1, 2]}', "it is JSON, but NMEA, GPX or CSV is needed"),
@@ -1126,6 +1126,9 @@ def test_geojson_is_longitude_first_and_cut_at_the_date_line(tmp_path):
     wmr.write_geojson(file, wmr.GeoPoint(lat=33.5, lon=44.25))
     point = {"type": "Point", "coordinates": [44.25, 33.5]}
     assert json.loads(file.read_text())["geometry"] == point
+    wmr.write_geojson(file, wmr.GeoPoint(lat=[10.0, 11.0], lon=[1.0, 2.0]))
+    line = {"type": "LineString", "coordinates": [[1.0, 10.0], [2.0, 11.0]]}
+    assert json.loads(file.read_text())["geometry"] == line
     for write in (wmr.write_gpx, wmr.write_geojson):
         write(file, wmr.GeoPoint(lat=[-1e-9, 1.0], lon=[-1e-9, 1.0]))
         assert "-0" not in file.read_text()

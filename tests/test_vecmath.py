@@ -131,6 +131,7 @@ def test_direction_has_the_signs_of_atan2_on_every_axis(form):
 @example(np.nextafter(math.pi, 4.0))
 @example(np.nextafter(-math.pi, -4.0))
 @example(1e6)
+@example(3.0 * math.pi)  # of which a full turn leaves half a turn, to the last digit
 def test_wrap_is_exact(angle):
     turns = mpmath.ceil((mpmath.mpf(angle) - math.pi) / mpmath.mpf(2.0 * math.pi))
     truth = float(mpmath.mpf(angle) - turns * mpmath.mpf(2.0 * math.pi))
