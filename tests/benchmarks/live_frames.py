@@ -86,7 +86,8 @@ def main() -> None:
                 else:
                     span = knob["high"] - knob["low"]
                     values = [knob["low"] + span * k / STEPS for k in range(STEPS + 1)]
-                walks.append(page.evaluate(WALK, [knob["name"], values, ROUNDS]))
+                rounds = ROUNDS * max(STEPS // len(values), 1)  # else a choice of two stays cold
+                walks.append(page.evaluate(WALK, [knob["name"], values, rounds]))
                 page.evaluate("state => panel.set('state', state)", traits["state"])
             asked = thing.setup["ask"]
             dearest, worst = max(map(statistics.median, walks)), max(map(max, walks))

@@ -22,7 +22,7 @@ from timing import Row, show
 
 import wmrlib as wmr
 
-GAINS, SLAB, SAMPLE = 10_000, 100, 40_000
+GAINS, SLAB, SAMPLE = 10_000, 100, 400
 CORES = os.cpu_count() or 1
 GOAL = wmr.Pose(0.0, 0.0, 0.0)
 
@@ -48,17 +48,17 @@ def drive(starts: wmr.Pose, gains: wmr.Gains, executor) -> wmr.Arrival:
 
 
 def planned(starts: wmr.Pose, gains: wmr.Gains) -> tuple[float, float]:
-    """Seconds of one core for a run, and the standard error: a sample of pairs, in ten parts."""
+    """Seconds of one core for a run, and the standard error: ten slabs, a few starts of each."""
     draw, seconds = np.random.default_rng(2).integers, []
     with ThreadPoolExecutor(1) as one:
         for _ in range(11):
-            some_starts = draw(starts.x.size, size=SAMPLE // 10)
+            some_starts = draw(starts.x.size, size=SAMPLE)
             pairs = (wmr.Pose(*(each[some_starts] for each in starts)),)
-            pairs += (some(gains, (draw(GAINS, size=SAMPLE // 10), 0)),)
+            pairs += (some(gains, draw(GAINS, size=SLAB)),)
             begin = time.process_time()
             drive(*pairs, one)
             seconds.append(time.process_time() - begin)
-    each = np.array(seconds[1:]) / (SAMPLE // 10)  # the first may have compiled
+    each = np.array(seconds[1:]) / (SLAB * SAMPLE)  # the first may have compiled
     return each.mean(), each.std(ddof=1) / np.sqrt(each.size)
 
 
