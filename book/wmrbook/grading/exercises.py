@@ -38,6 +38,7 @@ from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, lyapunov_rate, omega_re
 
 _PRINTED = 2000  # characters; more would push the hint out of sight
 _ROUNDED = 1.00003  # of what was computed with steps of one's own
+_POSITIVE = "gains are positive: a negative one drives the robot away from its goal."
 _SQUARED = "look at v_max: by how much is the braking larger at twice the speed?"
 
 
@@ -78,7 +79,7 @@ def third_formula(distance: Callable) -> str:
     if not close(scales[0], 1.0):
         angle = "this is the angle: times the Earth's radius it is the distance."
         expect(not all(close(each, 1.0 / EARTH_RADIUS_M) for each in scales), angle)
-        hint = f"each distance is {scales[0]:.4g} times the right one: metres, on a sphere with "
+        hint = f"each distance is {scales[0]:.7g} times the right one: metres, on a sphere with "
         alike = all(close(each, scales[0]) for each in scales)
         expect(not alike, f"{hint}a radius of {EARTH_RADIUS_M:.0f} m, are wanted.")
     hint = (
@@ -160,11 +161,16 @@ def odometry(path: Callable, ends: Any = None) -> str:
         if not same_pose(value, right, 1e-6):
             in_degrees = same_pose((*value[:2], math.radians(value[2])), right, 1e-6)
             expect(not in_degrees, "the heading is wanted in radians.")
-            wrong = "the path ends elsewhere: try one step straight on, then one on the spot."
+            wrong = (
+                "the path ends elsewhere: try one step straight on, one on the spot, one on an arc."
+            )
             explain(value, found, wrong, lambda one, other: same_pose(one, other, 1e-6))
     x, y, *by_euler = numbers("The function is right. `ends`", ends, 4)
     log = [(0.8, 1.2)] * 10 + [(1.2, 0.8)] * 10
-    for place, turned, who in (((x, y), None, "the robot ends"), (by_euler, 0.0, "Euler's")):
+    for place, turned, who in (
+        ((x, y), None, "the robot ends"),
+        (by_euler, 0.0, "Euler's path ends"),
+    ):
         right = _driven(log, 0.6, 0.5, turned=turned)[:2]
         hint = f"the function is right, but {who} elsewhere: 10 pairs (0.8, 1.2), then 10 of them "
         expect(math.dist(place, right) < 0.011, f"{hint}turned round, 0.6 m wide, each for 0.5 s.")
@@ -211,7 +217,15 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
         found = {hint: _inverse(goal, *each) for hint, each in mistakes.items()}
         right = pose_from_polar(PolarError(far, ahead, beside), goal)
         if not same_pose(value, right):
-            explain(value, found, "the way back misses: draw the line of sight first.", same_pose)
+            rule_out(value, found, same_pose)
+            in_degrees = same_pose((*value[:2], math.radians(value[2])), right)
+            expect(not in_degrees, "the heading is wanted in radians.")
+            placed = math.dist(value[:2], right[:2]) < 1e-7
+            expect(
+                not placed,
+                "the place is right, the heading is not: the line of sight's less alpha.",
+            )
+            raise Hint("the way back misses: draw the line of sight first.")
     *place, degrees = numbers("The function is right. `there`", there, 3)
     north, log = Pose(0.0, 0.0, math.pi / 2), (5.0, math.radians(-20.0))
     mistakes = {
@@ -226,7 +240,9 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
         for hint, (beside, heading) in mistakes.items():
             found = _inverse(north, *log, beside)
             expect(not _seen_there((*place, heading), found), f"the function is right; {hint}")
-        raise Hint("the function is right; the colleague's robot is elsewhere.")
+        raise Hint(
+            "the function is right; the colleague's robot is elsewhere, or a digit is missing."
+        )
     return "Right: twenty poses come back, and the colleague's robot is found."
 
 
@@ -254,12 +270,14 @@ def brake(limits: Any) -> str:
         "they are the other way round.": right[::-1],
         _SQUARED: [4.0 * each for each in right],
     }
-    expect(min(value) > 0.0, "a negative gain drives away from the goal.")
+    expect(min(value) > 0.0, _POSITIVE)
     if not _near(value, right):
         hint = "differentiate v along the way, dv/dt = dv/drho (-v): where is that steepest?"
         explain(value, mistakes, hint, _near)
     for name, each, most in zip(("the exponential", "tanh"), value, right, strict=True):
-        _expect_below(each, most, f"with {name} and k_rho = {each:g} 1/m it brakes harder")
+        _expect_below(
+            each, most, f"with {name} and k_rho = {each:g} 1/m it brakes harder than 1 m/s^2"
+        )
     return "Right: tanh brakes harder, and asks for the smaller gain."
 
 
@@ -304,15 +322,23 @@ def pendulum(swing: Callable, share: Any = None) -> str:
                 },
                 "it goes on for one step too many: count the steps, for sums of 0.01 are "
                 "rounded.": {"more": 1},
+                "it stops one step too soon: round the number of steps.": {"more": -1},
             }
             found = {hint: _swung(q, p, seconds, **how) for hint, how in mistakes.items()}
-            hint = f"from q = {q:g}, p = {p:g} it is elsewhere after {seconds:g} s: q' is p, "
-            explain(value, found, f"{hint}and p' is -sin(q) - c p.", _beside)
+            rule_out(value, found, _beside)
+            turns = round((value[0] - _swung(q, p, seconds)[0]) / (2.0 * math.pi))
+            unwrapped = value[0] - 2.0 * math.pi * turns, value[1]
+            hint = "full turns of q count: do not wrap it."
+            expect(not _beside(unwrapped, _swung(q, p, seconds)), hint)
+            hint = (
+                f"from q = {q:g}, p = {p:g} it is elsewhere after {seconds:g} s: is q' p, and p' "
+            )
+            raise Hint(f"{hint}-sin(q) - c p, and are the steps Runge's and Kutta's?")
     part = number("The function is right. `share`", share)
     hint = "the function is right; a share is between 0 and 1: those at q = 0 over all 400."
     expect(0.0 <= part <= 1.0, hint)
     hint = "the function is right; of the 400, how many have turned round by no full turn?"
-    expect(abs(part - 0.52) < 0.1, hint)  # 208 of the solution's, plus or minus four sigma
+    expect(abs(part - 0.5) < 0.1, hint)  # 0.499 of very many, plus or minus four sigma
     return "Right. The energy never rises, which an assert can show, and none ends upright."
 
 
@@ -351,16 +377,18 @@ def braking(answer: Any) -> str:
     hardest, gentle, far = numbers("`answer`", answer, 3)
     gains = paper.OUTDOOR_GAINS
     right = gains.v_max**2 * gains.k_rho / 4
-    expect(hardest > 0.0, "how hard it brakes is asked, and that has no sign.")
-    expect(gentle > 0.0, "a negative gain drives away from the goal.")
+    expect(hardest > 0.0, "how hard it brakes is asked, and that is a number above 0.")
+    expect(gentle > 0.0, _POSITIVE)
     if not _about(hardest, right):
         explain(hardest, {_SQUARED: right / gains.v_max}, "what is x (1 - x) at most?", _about)
     if not _about(gentle, gains.k_rho * 0.5 / right):
         raise Hint("the hardest braking goes as k_rho: what makes it 0.5 m/s^2?")
     expect(far > 0.0, "a distance to the goal is wanted, and that is positive.")
     left = control_law(far, 0.0, 0.0, gains._replace(k_rho=gentle))[0] / gains.v_max
-    hint = f"at {far:.3g} m {100 * (1 - left):.1f} % of the speed is gone: with which k_rho?"
-    expect(close(left, 0.95, 1e-3), hint)
+    hint = f"at {far:.3g} m {100 * (1 - left):.1f} % of the speed is gone"
+    paced = control_law(far, 0.0, 0.0, gains)[0] / gains.v_max
+    expect(not close(paced, 0.95, 1e-2), f"{hint}: with which k_rho?")
+    expect(close(left, 0.95, 1e-3), f"{hint}, and 5 % are wanted.")
     return "Right: braking begins early enough for a robot with a load."
 
 
@@ -368,7 +396,7 @@ def braking(answer: Any) -> str:
 def one_centimetre(answer: Any) -> str:
     """6.1: k_rho that leaves 1 cm, and the step that a sampled robot must stay below."""
     gain, step = numbers("`answer`", answer, 2)
-    expect(gain > 0.0, "a negative gain drives away from the goal.")
+    expect(gain > 0.0, _POSITIVE)
     v = control_law(0.01, 0.0, 0.0, paper.CIRCLE_GAINS._replace(k_rho=gain, v_max=4.0))[0]
     hint = f"1 cm from the goal the law commands {v:.3f} m/s; the goal does "
     expect(close(v, paper.CIRCLE_SPEED, 0.01), f"{hint}{paper.CIRCLE_SPEED:.3f} m/s.")
@@ -414,11 +442,17 @@ def told_too_little(answer: Any) -> str:
         mistakes = {
             "the goal is ahead, and so e_x is positive.": -right,
             "the answer is wanted in metres.": 100.0 * right,
+        }
+        rule_out(value, mistakes, _about)
+        mistakes = {
+            "how far ahead is asked, e_x; this distance has e_y in it.": right
+            * math.hypot(1.0, turning / speed),
             "told the truth, the robot would not lag at all; it is told 10 % less.": 0.0,
             "that is for a straight line. On a circle it turns as well: set the second and third "
             "rate to zero too.": 0.1 * speed,
         }
-        explain(value, mistakes, "where are all three rates of (6.3) zero?", _about)
+        near = partial(close, relative=0.006)  # the first and the last are that close
+        explain(value, mistakes, "where are all three rates of (6.3) zero?", near)
     return "Right: feed-forward is as good as what it is told."
 
 
@@ -488,10 +522,12 @@ def walk(keep: Callable) -> str:
             fixes.append((t, 1.2 * t + a, 50.0 if fixes and b > 0.8 else a))
             t += seconds
         answer = ask(keep, list(fixes))
+        hint = "a list of fixes is wanted, (seconds, east, north) each."
         try:
             kept = [tuple(map(float, each)) for each in islice(answer, 99)]  # it may never end
         except (TypeError, ValueError):
-            raise Hint("a list of fixes is wanted, (seconds, east, north) each.") from None
+            raise Hint(hint) from None
+        expect({len(each) for each in kept} <= {3}, hint)
         expect(kept[:1] == fixes[:1], "the first fix is to be kept.")
         hint = "each fix is compared with the one before it: compare with the last one *kept*."
         expect(kept != _walked(fixes, of_all=True), hint)

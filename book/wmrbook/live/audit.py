@@ -51,7 +51,8 @@ def threshold() -> Live:
     return Live(
         "threshold",
         "With {gains} the robot stops at {radius}, or at half or twice that, and counts as parked "
-        "if it is less than {most} off, or half or twice that. Parked: {yes}. So the verdict "
+        "if it is less than {most} off, or half or twice that; with x east, and with x north. "
+        "Parked: {yes}. So the verdict "
         "{verdict}.",
         {
             "radius": Knob(100 * RADIUS, 1.0, 20.0, 0.5, "the arrival radius", "cm", "R"),

@@ -27,7 +27,7 @@ def poles() -> Live:
         "poles",
         f"With [*k_rho* *v_max* = {pace:g}] per second the poles of the angles solve "
         f"[*s*² + {{k_alpha!}} *s* + {pace**2:g} · {{h!}} = 0]: a natural frequency of "
-        "{frequency}, a damping ratio of {damping}. From two metres the robot {end}.",
+        "{frequency}, a damping ratio of {damping}. From about two metres the robot {end}.",
         {
             "k_alpha": Knob(
                 GAINS.k_alpha,
@@ -60,8 +60,8 @@ def phase() -> Live:
     kept = math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2))
     return Live(
         "phase",
-        "With a damping of {damping}, from {alpha} and {theta}, *theta* "
-        "{turned} and the state {home}.",
+        "With a damping of {damping}, from {alpha} and {theta}, the state "
+        "{home}. Until then *theta* {turned}.",
         {
             "damping": Knob(round(damping, 3), 0.05, 2.0, 0.01, "damping ratio", "", "zeta"),
             "alpha": Knob(ASKED[0], -60.0, 60.0, 1.0, "alpha at first", "°", "alpha"),

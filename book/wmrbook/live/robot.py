@@ -58,7 +58,7 @@ def commutator() -> Live:
     return Live(
         "commutator",
         "Forward {step}, left {turn}, back, right: that leads {right} to the right and {ahead} "
-        "ahead. After {number} moves of twelve the robot is {where}.",
+        "ahead. After {number} of twelve the robot is {where}.",
         {
             "step": Knob(STEP, 0.05, 0.5, 0.05, "how far forward and back", "m", label="forward"),
             "turn": Knob(TURN, 5.0, 45.0, 1.0, "how far left and right", "°", label="left"),

@@ -26,7 +26,7 @@ const explorable = {
     plane.robot(hidden ? [0, 0, 0] : now);
   },
   say: ({ moves }, { poses, now }) => ({
-    right: written(-poses[4][1], 'm'), ahead: written(poses[4][0], 'm'), number: String(Math.round(10 * moves) / 10),
+    right: written(-poses[4][1], 'm'), ahead: written(poses[4][0], 'm'), number: `${Math.round(100 * moves) / 100} ${moves === 1 ? 'move' : 'moves'}`,
     where: `${written(-now[1], 'm')} to the right and ${written(now[0], 'm')} ahead`,
   }),
 };

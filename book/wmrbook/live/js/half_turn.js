@@ -19,7 +19,7 @@ const explorable = {
     plane.robot(poseAt(run, k));
   },
   say: (values, { run, turns }) => ({
-    alpha: inDegrees(run.alpha[0]), omega: written(run.omega[0], 'rad/s'), sets: run.v[0] < 0 ? 'backwards' : 'forwards', turns,
+    alpha: inDegrees(run.alpha[0]), omega: written(Math.abs(run.omega[0]), 'rad/s'), sets: run.v[0] < 0 ? 'backwards' : 'forwards', turns,
     end: run.outcome === 'ARRIVED' ? `is there after ${written(run.t[run.n - 1], 's')}` : 'is still on its way after a minute',
   }),
 };

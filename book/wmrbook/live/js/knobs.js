@@ -33,6 +33,7 @@ function putNumber(parent, knob, { get, step, set, refuse }) {
   it.addEventListener('keydown', (event) => {
     event.stopPropagation(); // a notebook would take the keys to change cells
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (event.key === 'Escape') it.value = it.dataset.shown;
     if (!by) return;
     event.preventDefault();
     set(step(get(), by));
@@ -41,7 +42,7 @@ function putNumber(parent, knob, { get, step, set, refuse }) {
   it.addEventListener('change', () => {
     const value = fromWords(it.value);
     if (value >= knob.low && value <= knob.high) set(value);
-    else refuse(`${it.value || 'Nothing'} is not allowed: a number from ${inWords(knob.low)} to ${inWords(knob.high)} is needed.`);
+    else refuse(`${it.value ? `${it.value} is not allowed: a` : 'A'} number from ${inWords(knob.low)} to ${inWords(knob.high)} is needed.`);
     it.value = it.dataset.shown;
   });
   return (value) => {

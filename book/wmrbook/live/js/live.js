@@ -22,7 +22,7 @@ const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }
     if (changes && !playing) model.save_changes();
     schedule();
   };
-  const refuse = (sentence) => { refused = sentence; schedule(); };
+  const refuse = (sentence) => { knobs.stop(); refused = sentence; schedule(); };
   const give = (change, atOnce = false) => {
     try {
       const changes = change() || {};

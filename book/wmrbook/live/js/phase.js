@@ -19,17 +19,17 @@ const explorable = {
     const { naturalFrequency } = modes(gains), run = homeward({ gains: { ...gains, k_alpha: 2 * damping * naturalFrequency }, state: [alpha / DEGREES, theta / DEGREES] }), last = run.t.length - 1;
     const size = run.theta.map((each, k) => Math.hypot(each, run.alpha[k])), late = size.findLastIndex((each) => each > 0.05 * size[0]) + 1;
     const turns = run.theta.slice(1).filter((each, k) => each * run.theta[k] < 0 && k < late).length;
-    return { run, late, turned: turns === 1 ? 'changes its sign once' : turns ? `changes its sign ${turns} times` : 'keeps its sign', k: Math.round(time * last) };
+    return { run, late, turned: !size[0] ? 'does not move' : turns ? `changes its sign ${['', 'once', 'twice'][turns] || `${turns} times`}` : 'keeps its sign', k: Math.round(time * last) };
   },
   panes(values, { run, k, turned }) {
     const limit = [-60, 60];
     return {
       plane: {
         x: [...limit, 'α [°]'], y: [...limit, 'θ [°]'], equal: true, given: 'The plane of the angles, with the state at alpha 0 and theta 40 degrees, and the goal in its middle.',
-        alt: `The plane of the angles: the state is at alpha ${inDegrees(run.alpha[k])} and theta ${inDegrees(run.theta[k])}, and theta ${turned}.`,
+        alt: `The plane of the angles: the state is at alpha ${inDegrees(run.alpha[k])} and theta ${inDegrees(run.theta[k])}. Until it is down to a twentieth, theta ${turned}.`,
         scrub: (x, y) => timeNear(run.across, run.up, x, y, 4),
       },
-      angles: { x: [0, LENGTH, 'time [s]'], y: [...limit, 'α, θ [°]'], given: 'Room for both angles over time.', alt: `Both angles over time; theta ${turned}.`, scrub: (x) => ({ time: Math.min(Math.max(x / LENGTH, 0), 1) }) },
+      angles: { x: [0, LENGTH, 'time [s]'], y: [...limit, 'α, θ [°]'], given: 'Room for both angles over time.', alt: `Both angles over time. Until they are down to a twentieth, theta ${turned}.`, scrub: (x) => ({ time: Math.min(Math.max(x / LENGTH, 0), 1) }) },
     };
   },
   draw({ plane, angles }, values, { run, k }, hidden, { data: { asked } }) {
@@ -48,5 +48,5 @@ const explorable = {
     id: 'state', pane: 'plane', at: [alpha, theta], says: `the state at first, alpha ${written(alpha)} and theta ${written(theta)} degrees`,
     move: (x, y) => ({ alpha: Math.round(Math.min(Math.max(x, -60), 60)), theta: Math.round(Math.min(Math.max(y, -60), 60)) }),
   }],
-  say: (values, { run, late, turned }) => ({ turned, home: late < run.t.length ? `is down to a twentieth after ${written(run.t[late], 's')}` : `is not down to a twentieth after ${LENGTH} s` }),
+  say: (values, { run, late, turned }) => ({ turned, home: !late ? 'is in the middle already' : late < run.t.length ? `is down to a twentieth after ${written(run.t[late], 's')}` : `is not down to a twentieth after ${LENGTH} s` }),
 };

@@ -23,7 +23,7 @@ const explorable = {
   },
   panes: (values, { poles, pace, off }) => ({
     plane: { x: [-9, 1, 'real part [1/s]'], y: [-5, 5, 'imaginary part [1/s]'], equal: true, given: 'The plane of the poles.', alt: `The poles at ${poles.map(([re, im]) => `${written(re)} ${im < 0 ? 'minus' : 'plus'} ${written(Math.abs(im))} i`).join(' and ')} per second; the distance's at ${written(-pace)}.` },
-    robot: { x: [-2.2, 0.6, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true, given: 'The robot, two metres from its goal.', alt: `The robot's last two metres: it stops ${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
+    robot: { x: [-2.2, 0.6, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true, given: 'The robot, about two metres from its goal.', alt: `The robot's last two metres: it stops ${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
   }),
   draw({ plane, robot }, values, { poles, pace, run }, hidden, { data: { start, goal } }) {
     plane.area([[0, -99], [0, 99], [99, 99], [99, -99]], 'rising', 0.12);

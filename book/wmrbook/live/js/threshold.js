@@ -10,7 +10,7 @@ const explorable = {
   },
   panes: (values, { stops, verdict }) => ({ plane: {
     x: [0, 42, 'where the robot stops, before the goal [cm]'], y: [0, 65, 'heading error [°]'], tall: true, given: 'The heading error over the place where the robot stops: nothing yet.',
-    alt: `The heading error over the place where the robot stops, for both readings of the axes. At the three radii: ${stops.flat().map(([, off]) => off.toFixed(0)).join(', ')} degrees. Parked: ${verdict}.`,
+    alt: `The heading error over the place where the robot stops, for both readings of the axes. At the three radii: ${stops.flat().map(([, off]) => off.toFixed(1)).join(', ')} degrees. Parked: ${verdict}.`,
   } }),
   draw({ plane }, { radius, most, gains }, { stops }, hidden, { data: { step, curves } }) {
     if (hidden) return;
