@@ -39,6 +39,7 @@ FIGURE = re.compile(r"<img [^>]*viewBox='0 0 ([\d.]+) ([\d.]+)'")
 LIVE = "application/vnd.jupyter.widget-view+json"
 WORDS = 60  # of prose on a slide, as many as a class reads while somebody talks
 ROWS = 13  # of text below a title
+LETTERS = 1700  # of a table's source, as many as stand on a slide
 # Where prose may go on on the next slide: at a paragraph, at an item; in long ones at a sentence.
 BLOCK = re.compile(r"(?<![,:])\n\n(?!- |1\. )(?=[^a-z$ ])|(?<!\n)\n(?=- |\d+\. )")
 SENTENCE = re.compile(r"(?<!\d)[.?!]\)?\s+(?=[A-Z*\"$])")
@@ -217,6 +218,10 @@ def _parts(cell: NotebookNode) -> list[Part]:
         seen = [it for it in cell.outputs if shape(it) is not None]
         told = [it for it in cell.outputs if it not in seen]
         parts = [_printed(cell, told)] if told or not seen else []
+        if len(told) == 1 and told[0].get("data", {}).get("text/markdown", "").startswith("|"):
+            first, *rest = (_part(cell, outputs=[it]) for it in _tables(told[0]))
+            parts = [_printed(first, first.outputs)]
+            parts += [Part(_part(it, source=""), rows=ROWS) for it in rest]
         for it in seen:  # the code stands with what it printed
             figure = _part(cell, outputs=[it], source="" if parts else cell.source)
             parts.append(Part(figure, shape=shape(it), live=LIVE in it.data))
@@ -240,6 +245,18 @@ def shape(output: NotebookNode) -> float | None:
     data = output.get("data", {})
     figure = FIGURE.match(data.get("text/html", ""))
     return float(figure[1]) / float(figure[2]) if figure else 0.0 if LIVE in data else None
+
+
+def _tables(output: NotebookNode) -> list[NotebookNode]:
+    """A table as several, each with its head, that have room on a slide."""
+    head, line, *rows = output.data["text/markdown"].splitlines(keepends=True)
+    pieces: list[list[str]] = [[]]
+    for row in rows:
+        if pieces[-1] and sum(map(len, pieces[-1])) + len(row) > LETTERS:
+            pieces.append([])
+        pieces[-1].append(row)
+    tables = ("".join([head, line, *piece]) for piece in pieces)
+    return [NotebookNode({**output, "data": NotebookNode({"text/markdown": it})}) for it in tables]
 
 
 def _printed(cell: NotebookNode, outputs: list[NotebookNode]) -> Part:
