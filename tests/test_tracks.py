@@ -1110,6 +1110,13 @@ def test_gpx_1_1_as_its_schema_asks(tmp_path):
     assert times == [f"{day}0Z", f"{day}0.250000Z", None, f"{day}2Z"]
 
 
+def test_a_log_goes_on_into_the_year_2000(tmp_path):
+    path = tmp_path / "log.nmea"
+    days = ("235959.00", "311299"), ("000000.00", "010100"), ("000001.00", "010100")
+    path.write_text("\n".join(rmc(clock, day=day) for clock, day in days))
+    assert wmr.read_track(path).t.tolist() == [0.0, 1.0, 2.0]
+
+
 def test_geojson_is_longitude_first_and_cut_at_the_date_line(tmp_path):
     file = tmp_path / "a.json"
     crossing = wmr.GeoPoint(lat=[10.0, 11.0, 12.0], lon=[179.0, -179.0, -178.0])
