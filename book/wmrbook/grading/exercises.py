@@ -159,8 +159,7 @@ def odometry(path: Callable, ends: Any = None) -> str:
         found = {hint: _driven(log, width, dt, *how) for hint, how in mistakes.items()}
         right = _driven(log, width, dt)
         if not same_pose(value, right, 1e-6):
-            in_degrees = same_pose((*value[:2], math.radians(value[2])), right, 1e-6)
-            expect(not in_degrees, "the heading is wanted in radians.")
+            _expect_radians(value, right)
             wrong = (
                 "the path ends elsewhere: try one step straight on, one on the spot, one on an arc."
             )
@@ -218,8 +217,7 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
         right = pose_from_polar(PolarError(far, ahead, beside), goal)
         if not same_pose(value, right):
             rule_out(value, found, same_pose)
-            in_degrees = same_pose((*value[:2], math.radians(value[2])), right)
-            expect(not in_degrees, "the heading is wanted in radians.")
+            _expect_radians(value, right)
             placed = math.dist(value[:2], right[:2]) < 1e-7
             expect(
                 not placed,
@@ -244,6 +242,12 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
             "the function is right; the colleague's robot is elsewhere, or a digit is missing."
         )
     return "Right: twenty poses come back, and the colleague's robot is found."
+
+
+def _expect_radians(value: Sequence[float], right: Pose) -> None:
+    """Raise Hint if all that is wrong with a pose is that its heading is in degrees."""
+    in_degrees = same_pose((*value[:2], math.radians(value[2])), right, 1e-6)
+    expect(not in_degrees, "the heading is wanted in radians.")
 
 
 def _seen_there(one: Sequence[float], other: Sequence[float]) -> bool:
