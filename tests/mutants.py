@@ -61,6 +61,7 @@ EQUIVALENT = [
     ("_loops/adaptive.py", "'4' -> '8' in bench, step, size", "rows that are not used"),
     ("_loops/adaptive.py", "'6' -> '12' in bench, step, size", "rows that are not used"),
     ("_loops/adaptive.py", "'>' -> '>=' in bench, step, size", "rows that are not used"),
+    ("_loops/adaptive.py", "'64' -> '128' in bench, log", "how much room there is at first"),
     ("_loops/alone.py", "'1.3' -> '2.6'", "steps that are as right, and shorter than need be"),
     (
         "_loops/alone.py",

@@ -531,7 +531,7 @@ BAD = [
     ({"arrival_radius": -0.1}, r"arrival_radius = -0\.1"),
     ({"arrival_radius": [0.1, 0.2]}, r"arrival_radius = \[0\.1, 0\.2\] .* one number is needed"),
     ({"law": "kanayama"}, "law = 'kanayama' .*: one of 'corrected', 'printed', 'aicardi'"),
-    ({"method": "rk4"}, "method = 'rk4' .*: one of 'euler', 'arc', 'continuous'"),
+    ({"method": "rk4"}, "method = 'rk4' .*: one of 'arc', 'euler', 'continuous'"),
     ({"start": (0, 0, 0)}, r"start = \(0, 0, 0\) .* a Pose is needed"),
     ({"goal": wmr.Pose([1.0], 0, 0)}, r"goal\.x = array.* one number is needed; sweep takes arr"),
     ({"gains": wmr.Gains([1.0], 1, 1)}, "one number a gain is needed; sweep takes arrays of gains"),
@@ -547,7 +547,7 @@ BAD_TRACKS = [
     ({"law": "kanayama"}, "a KanayamaGains is needed, not a Gains"),
     ({"law": "lqr"}, "law = 'lqr' .* 'aicardi', 'kanayama', 'linear' is needed"),
     ({"start": wmr.Pose([1.0], 0, 0)}, r"start\.x = "),
-    ({"method": "rk4"}, "method = 'rk4' .*: one of 'euler', 'arc', 'continuous'"),
+    ({"method": "rk4"}, "method = 'rk4' .*: one of 'arc', 'euler', 'continuous'"),
 ]
 
 

@@ -181,19 +181,16 @@ def test_times_as_iso_8601_has_them():
         assert timestamp(text) == seconds, text
 
 
-def test_a_copy_of_a_track_is_equal_and_read_only(read):
+def test_a_copy_of_a_track_holds_the_same_and_is_read_only(read):
     track = read(gpx(trk(GOOD, '<trkpt lat="91" lon="0"/>', '<trkpt lat="34" lon="45"/>')))
     for same in (copy.copy(track), copy.deepcopy(track), pickle.loads(pickle.dumps(track))):
-        assert same == track
-        assert (same.report, repr(same)) == (track.report, repr(track))
+        assert (places(same), same.t.tobytes()) == (places(track), track.t.tobytes())
+        assert (same.source, same.report, repr(same)) == (track.source, track.report, repr(track))
         for values in (same.points.lat, same.points.lon, same.t):
             with pytest.raises(ValueError, match="read-only"):
                 values[0] = 0.0
         with pytest.raises(TypeError):
             same.report.skipped["comment"] = Count(0, 0)
-    assert track != read(gpx(trk(GOOD, '<trkpt lat="34" lon="45"/>')))
-    assert track != read(gpx(trk(GOOD, '<trkpt lat="91" lon="0"/>', '<trkpt lat="34" lon="46"/>')))
-    assert track != 3
 
 
 # NMEA

@@ -58,9 +58,8 @@ def outdoor(x_axis: str = "east") -> Scenario:
     """
     east, north = local_position(GPS_POINT_1, GPS_POINT_2)
     x, y = (east, north) if choice("x_axis", x_axis, ("east", "north")) == "east" else (north, east)
-    return Scenario(
-        Pose(0.0, 0.0, START_HEADING), Pose(x, y, GOAL_HEADING), OUTDOOR_GAINS, TIME_STEP
-    )
+    start, goal = Pose(0.0, 0.0, START_HEADING), Pose(x, y, GOAL_HEADING)
+    return Scenario(start, goal, OUTDOOR_GAINS, TIME_STEP)
 
 
 def circle(t: Real) -> Reference:

@@ -13,8 +13,7 @@ from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
 from wmrlib.runs import Outcome, Trajectory, sample_count, single_pose
 
-_STEPS = {"euler": plane.EULER, "arc": plane.ARC}
-_METHODS = (*_STEPS, "continuous")
+_METHODS = (*plane.STEPS, "continuous")
 _OUTCOMES = tuple(Outcome)  # in the order of the loops' codes
 
 
@@ -137,7 +136,7 @@ def track(
 def _held(t, method, dt, radius, start, path, *loop) -> tuple:
     """(t, record, outcome, peak omega, path length) of a run whose twist is held for dt."""
     record = np.empty((rows.LYAPUNOV + 1, t.size))
-    steps = _STEPS[method], dt, radius
+    steps = plane.STEPS[method], dt, radius
     count, *sums = plane.drive(record.T, tuple(start), path, *loop, *steps)
     return t[:count], record[:, :count], *sums
 

@@ -21,11 +21,7 @@ from wmrlib.receiver import Receiver
 from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
-_METHODS = {
-    "continuous": (adaptive, None),
-    "arc": (plane, plane.ARC),
-    "euler": (plane, plane.EULER),
-}
+_METHODS = {"continuous": (adaptive, None)} | {k: (plane, code) for k, code in plane.STEPS.items()}
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 20_000_000, 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples

@@ -174,9 +174,7 @@ def gain_map(
     fields = instance("gains", gains, Gains)._asdict()
     if not instance("over", over, Mapping):
         raise ValueError("over = {} is not allowed: at least one gain and its values are needed")
-    axes = {
-        choice("over", name, Gains._fields): real(name, values) for name, values in over.items()
-    }
+    axes = {choice("over", name, Gains._fields): real(name, each) for name, each in over.items()}
     for name, values in axes.items():
         if np.ndim(values) != 1:
             given = f"{name} has shape {np.shape(values)}"

@@ -1,1 +1,1 @@
-"""The compiled loops over time: sampled in the plane, in fixed polar steps, and continuous."""
+"""The compiled loops over time: sampled in the plane, and continuous."""

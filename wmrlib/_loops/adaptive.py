@@ -14,6 +14,7 @@ import numpy as np
 from wmrlib._compile import compiled, formula
 from wmrlib._loops import rows, steps
 from wmrlib._loops.polar import closed_loop, polar_closing_rate
+from wmrlib._loops.steps import K_ALPHA, K_RHO, V_MAX, H
 from wmrlib._vecmath import widest_vectors  # noqa: F401 (in `slopes`)
 from wmrlib.gains import GainsFields
 from wmrlib.laws import POSE_LAWS
@@ -58,12 +59,7 @@ def _slopes(bench, used, stage, law, wheels, lag):
     """The rates of a stage: of the polar error, and with a lag of the wheels' twist too."""
     at, out = bench[steps.source_of(stage) :], bench[steps.SLOPES + stage * steps.STAGE :]
     for i in range(used):
-        gains = GainsFields(
-            bench[steps.K_RHO + i],
-            bench[steps.K_ALPHA + i],
-            bench[steps.H + i],
-            bench[steps.V_MAX + i],
-        )
+        gains = GainsFields(bench[K_RHO + i], bench[K_ALPHA + i], bench[H + i], bench[V_MAX + i])
         polar = at[i], at[steps.ALPHA + i], at[steps.THETA + i]
         rates = closed_loop(polar, (gains, law, wheels))
         out[i], out[steps.ALPHA + i], out[steps.THETA + i] = rates[0], rates[1], rates[2]
@@ -167,7 +163,7 @@ def begun(runs, whole, radius, most):
         states[0, i], states[_TRIALS, i] = rho, most
         states[_LEFT, i] = whole if rho > radius else -whole
         for k in range(4):
-            states[steps.K_RHO // steps.LANES + k, i] = runs[6 + k, i]
+            states[K_RHO // steps.LANES + k, i] = runs[6 + k, i]
     return states
 
 
@@ -176,13 +172,8 @@ def summed_up(states, whole, radius):
     """What became of each run."""
     summary = np.empty((rows.DISTANCE + 1, states.shape[1]))
     for i in range(states.shape[1]):
-        rho, alpha, theta, left = (
-            states[0, i],
-            states[_ALPHA, i],
-            states[_THETA, i],
-            states[_LEFT, i],
-        )
-        total = rho + alpha + theta
+        rho, alpha, theta = states[0, i], states[_ALPHA, i], states[_THETA, i]
+        left, total = states[_LEFT, i], rho + alpha + theta
         for row in range(steps.SLOPES // steps.LANES, steps.KEPT):
             total += states[row, i]
         outcome = rows.TIMED_OUT

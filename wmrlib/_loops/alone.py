@@ -143,9 +143,8 @@ def _finished(t, log, radius, recorded, tuning, law):
     recorded(record, t)
     _values(record, tuning, law)
     if outcome == rows.DIVERGED:
-        known = int(
-            np.logical_and.accumulate(np.isfinite(record[: rows.LYAPUNOV]).all(axis=0)).sum()
-        )
+        finite = np.isfinite(record[: rows.LYAPUNOV]).all(axis=0)
+        known = int(np.logical_and.accumulate(finite).sum())
         t, record = t[:known], record[:, :known]
         peak, length = (peak, length) if known else (0.0, 0.0)
     return t, record, int(outcome), peak, length

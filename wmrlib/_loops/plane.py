@@ -17,6 +17,7 @@ from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scal
 from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
 
 EULER, ARC = range(2)
+STEPS = {"arc": ARC, "euler": EULER}
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
 _VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
 _ROUNDS = 16  # steps between two looks at who has finished

@@ -37,11 +37,7 @@ PRESETS = "your own", "paper, outdoors", "paper, circle", "gentle gains"
 MENUS: dict[str, tuple[str, str, dict[Any, str]]] = {
     "preset": ("Preset", "gains and scenes to start from", dict(enumerate(PRESETS))),
     "law": ("Law", "what turns the error into speed and turning rate", {}),
-    "method": (
-        "Motion",
-        "how the robot moves between two commands, or none is held",
-        METHODS,
-    ),
+    "method": ("Motion", "how the robot moves between two commands, or none is held", METHODS),
     "view": ("View", "what stands beside the path", VIEWS),
     "metric": ("Map shows", "what the colours mean", _METRICS),
     "axes": (

@@ -10,8 +10,8 @@ from wmrlib._checks import book_extra
 with book_extra("wmrlib.symbolic"):
     import sympy  # noqa: F401
 
-from wmrlib.symbolic.c_header import *  # noqa: F403
-from wmrlib.symbolic.formulas import *  # noqa: F403
-from wmrlib.symbolic.javascript import *  # noqa: F403
-from wmrlib.symbolic.model import *  # noqa: F403
+from wmrlib.symbolic.c_header import C_HEADER, c_function, c_header  # noqa: F401
+from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, FORMULAS, Formula  # noqa: F401
+from wmrlib.symbolic.javascript import MODEL_JS, javascript, javascript_name  # noqa: F401
+from wmrlib.symbolic.model import LAWS, closed_loop, law, lyapunov, lyapunov_rate  # noqa: F401
 from wmrlib.symbolic.symbols import *  # noqa: F403

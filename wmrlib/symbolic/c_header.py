@@ -91,6 +91,3 @@ def c_header() -> str:
         assert text.count(place) == 1, place
         text = text.replace(place, printed)
     return text
-
-
-__all__ = ["C_HEADER", "c_function", "c_header"]

@@ -86,10 +86,7 @@ FORMULAS = {
     **{f"{name}_law": _law(name) for name in laws.LAWS},
     **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
     **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
-    **{
-        step.__name__: _read(step, _POSE + _TWIST, f"method {name}")
-        for name, step in motion.STEPS.items()
-    },
+    **{f.__name__: _read(f, _POSE + _TWIST, f"method {name}") for name, f in motion.STEPS.items()},
     "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
     "pose_of_error": _read(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
     "polar_closing_rate": _read(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
@@ -124,5 +121,3 @@ C_FORMULAS = {
     "bearing": _shared(_START + _END, _BEARING, "(15) to (17)"),
 }
 """What a robot needs around the law, each a function of numbers."""
-
-__all__ = ["C_FORMULAS", "C_LAWS", "FORMULAS", "Formula"]

@@ -75,6 +75,3 @@ def javascript() -> str:
     rule = json.dumps(rows).replace('"', "")
     tables = f"const STEPS = {{ {steps} }};\nconst RULE = {rule};\n"
     return f"{_HEADER}{functions}\nconst LAWS = {{\n{table}}};\n{tables}"
-
-
-__all__ = ["MODEL_JS", "javascript", "javascript_name"]

@@ -159,6 +159,3 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     body = {s.ahead: ahead, s.left: left, s.turn: turn}
     energy = energy.subs({s.rho: sp.sqrt(s.ahead**2 + s.left**2), s.alpha: s.theta + s.turn})
     return sum(energy.diff(each).subs(body) * rate for each, rate in body_rates.items())
-
-
-__all__ = ["LAWS", "closed_loop", "law", "lyapunov", "lyapunov_rate"]

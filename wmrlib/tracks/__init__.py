@@ -14,14 +14,7 @@ from wmrlib.tracks import gpx, nmea, tables
 from wmrlib.tracks.fixes import Count, Fixes, Report
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
-__all__ = [
-    "Count",
-    "Report",
-    "Track",
-    "read_track",
-    "write_geojson",
-    "write_gpx",
-]
+__all__ = ["Count", "Report", "Track", "read_track", "write_geojson", "write_gpx"]
 
 _BINARY = (
     (b"\x1f\x8b", 0, "compressed by gzip; unpack it"),
@@ -52,13 +45,6 @@ class Track:
 
     def __reduce__(self) -> tuple:  # a copy's arrays would be writeable
         return Track, (self.points, self.t, self.source, self.report)
-
-    def __eq__(self, other: object) -> bool:
-        return isinstance(other, Track) and self._content() == other._content()
-
-    def _content(self) -> tuple:
-        rows = self.points.lat, self.points.lon, self.t
-        return *(np.asarray(row).tobytes() for row in rows), self.source, self.report
 
     def __len__(self) -> int:
         return self.t.size
