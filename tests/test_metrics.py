@@ -4,7 +4,7 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import assume, given, settings
+from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
@@ -67,6 +67,23 @@ def test_peak_and_path_between_the_samples(start, gains, wheels, lag):
     trapezoids = 0.5 * (speed[1:] + speed[:-1]) @ np.diff(fine.t)
     assert coarse.path_length == pytest.approx(trapezoids, abs=1e-3)
     assert coarse.path_length == pytest.approx(fine.path_length, abs=1e-8)
+
+
+@example(wmr.Pose(-0.75, 1.24, -0.95), (0.667, 1.721, 1.356, 1.823))
+@example(wmr.Pose(2.476, 2.708, 1.698), (1.925, -0.251, 1.694, 1.519))
+@settings(max_examples=10)
+@given(
+    st.builds(wmr.Pose, st.floats(-3, 3), st.floats(-3, 3), st.floats(-3, 3)),
+    st.tuples(*[st.floats(-1.0, 2.0)] * 4),
+)
+def test_a_peak_in_the_first_step_of_stiff_gains(start, decades):
+    assume(math.hypot(start.x, start.y) > 0.2)
+    gains = wmr.Gains(*(10.0**each for each in decades))
+    moment = 8.0 / max(gains.k_alpha, gains.v_max, gains.k_rho * gains.v_max)
+    options = {"method": "continuous", "duration": moment, "arrival_radius": 0.001}
+    run = wmr.simulate(start, ORIGIN, gains, dt=moment / 4000, **options)
+    peak = np.abs(run.omega).max()
+    assert run.peak_omega > peak - 1e-7 * (1.0 + peak)
 
 
 def test_a_peak_that_the_samples_miss():

@@ -233,6 +233,7 @@ def test_a_leg_that_leaves_the_range_of_numbers():
     poses = wmr.Pose(np.array([0.0, 0.0, 9.0]), np.array([0.0, 0.0, 9.0]), 0.0)
     route = wmr.drive_route(poses, wild)
     assert (route.outcome, len(route), route.length) == (wmr.Outcome.DIVERGED, 0, 0.0)
+    assert not route.arrivals[-1].arrived
     route = wmr.drive_route(poses, wild, start=wmr.Pose(0.0, 0.0, 0.0), arrival_radius=20.0)
     assert route.outcome is wmr.Outcome.DIVERGED
     assert "left the range of numbers>" in repr(route)

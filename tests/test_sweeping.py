@@ -115,11 +115,13 @@ def test_the_length_counts_both_ways_and_the_peak_is_between_the_samples():
     assert wmr.sweep(start, goal, gains, **how)[3:] == pytest.approx(truth[3:], abs=1e-7)
 
 
+@pytest.mark.parametrize("duration", [60.0, 0.9])
 @pytest.mark.parametrize("gains", [(0.5, 1e6, 1.0, 4.0), (2.0, 1e9, 1e9, 4)])
-def test_hopeless_gains_are_given_up_with_a_warning(gains):
+def test_hopeless_gains_are_given_up_with_a_warning(gains, duration):
     stiff = wmr.Gains(*([0.5, one] for one in gains))
+    options = {"duration": duration, "trajectories": True}
     with pytest.warns(RuntimeWarning, match=r"1 of 2 runs are NaN: .* more than 100,000 steps"):
-        run, paths = wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, stiff, trajectories=True)
+        run, paths = wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, stiff, **options)
     assert np.isnan([field[1] for field in run[1:]]).all()
     assert not run.arrived[1]
     assert np.isnan(paths.x[1]).all()

@@ -445,7 +445,9 @@ def test_the_most_trusted_sentence_of_an_epoch_decides(read):
             assert dict(track.report.skipped) == (again if best < 3 else {})
             without = [none if each == good else each for each in order]
             if best < 3:
-                with pytest.raises(ValueError, match=f"{3 - best} {denied}"):
+                first = 1 if without[0] != none else 2
+                told = rf"{3 - best} {denied} \(first in line {first}\)"
+                with pytest.raises(ValueError, match=told):
                     read(without)
         others = [fix for fix, _ in kinds[:best]]
         assert len(read([none, *others, gga("104707.00")])) == 2 - (best == 0)

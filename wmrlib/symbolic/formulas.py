@@ -102,7 +102,7 @@ C_LAWS = {
 """The laws that the C header has, by their names there."""
 
 _DISTANCE, _SIGHT, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
-_WHEELS = read(kinematics.twist_to_wheels, s.v, s.omega, s.b)
+_LEFT, _RIGHT = read(kinematics.twist_to_wheels, s.v, s.omega, s.b)
 _TWIST_AND_WIDTH = s.v, s.omega, s.b
 _SCALE = "the factor on the twist for a max_speed"
 _START, _END = (s.lat1,), (s.lat2, s.dlat, s.dlong)
@@ -113,8 +113,8 @@ C_FORMULAS = {
     "lyapunov_value": _read(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
     "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
     "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
-    "left_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[:1], "ground speed, from (1) and (2)"),
-    "right_wheel": Formula(_TWIST_AND_WIDTH, _WHEELS[1:], "ground speed, from (1) and (2)"),
+    "left_wheel": Formula(_TWIST_AND_WIDTH, (_LEFT,), "ground speed, from (1) and (2)"),
+    "right_wheel": Formula(_TWIST_AND_WIDTH, (_RIGHT,), "ground speed, from (1) and (2)"),
     "fastest_wheel": _read(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
     "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
     "sphere_distance": _shared((*_START, *_END, s.R), _LENGTH, "(11) to (13)"),
