@@ -8,7 +8,15 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
-BROWSERS = ("chromium", "chromium-browser", "google-chrome", "google-chrome-stable", "chrome")
+# The first is the same without windows, and takes three quarters of the time.
+BROWSERS = (
+    "chromium-headless-shell",
+    "chromium",
+    "chromium-browser",
+    "google-chrome",
+    "google-chrome-stable",
+    "chrome",
+)
 FOOTER = (
     '<p style="width: 100%; text-align: center; font-size: 9px">'
     '<span class="pageNumber"></span></p>'

@@ -573,7 +573,10 @@ def test_a_tap_on_the_path_takes_the_robot_there_and_a_finger_moves_what_is_zoom
     run = explorer.trajectory()
     assert np.interp(passed, run.t, run.x) == pytest.approx(4.0, abs=0.2)
     said = clock.inner_text()
-    scene.click(position={"x": across, "y": 40.0})  # beside the path: as it was
+    emptied_page.mouse.move(box["x"] + across, box["y"] + 40.0)  # beside the path: as it was
+    emptied_page.mouse.down()
+    emptied_page.mouse.move(box["x"] + across + 2, box["y"] + 41.0)
+    emptied_page.mouse.up()
     assert panel.settled().page.locator(".wmr-clock").inner_text() == said
     assert scene.evaluate("it => getComputedStyle(it).touchAction") == "pan-y pinch-zoom"
     panel.click("in")

@@ -221,20 +221,22 @@ function render({ model, el }) {
     const box = scene.getBoundingClientRect(), { zoom } = sizeOf(scene);
     zoomBy(1.2 ** Math.sign(event.deltaY), state.view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom));
   }, { passive: false });
-  let grip = null; // the place in the plane that is held
+  let grip = null; // the place in the plane that is held, where it was taken, and whether that was a tap
   dragOver(scene, (x, y, event, first) => {
     if (!state.view) return;
     const [wx, wy] = state.view.toWorld(x, y);
     if (first) {
-      grip = [wx, wy];
+      grip = { wx, wy, x, y, tap: true };
       const k = nearestOf(state.run, state.view, x, y); // a tap on the path takes the robot there
       if (k !== null) Object.assign(state, { time: state.run.t[k], playing: null });
       schedule();
       return;
     }
     if (event.pointerType !== 'mouse' && !state.zoom) return;
+    grip.tap &&= Math.hypot(x - grip.x, y - grip.y) < 4; // a hand trembles
+    if (grip.tap) return;
     const [cx, cy, reach] = state.zoom || zoomOf(state.view);
-    state.zoom = [cx + grip[0] - wx, cy + grip[1] - wy, reach];
+    state.zoom = [cx + grip.wx - wx, cy + grip.wy - wy, reach];
     state.view = viewOf([], [], {}, sizeOf(scene), state.zoom);
     schedule();
   });
@@ -288,7 +290,7 @@ function dragOver(canvas, onPlace) {
   };
   canvas.addEventListener('pointerdown', (event) => { down = true; canvas.setPointerCapture(event.pointerId); tell(event); });
   canvas.addEventListener('pointermove', (event) => { if (down) tell(event); });
-  canvas.addEventListener('lostpointercapture', () => { down = false; });
+  ['pointerup', 'lostpointercapture'].forEach((over) => canvas.addEventListener(over, () => { down = false; }));
 }
 
 export default { initialize: opensUnchanged, render };

@@ -44,7 +44,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
     });
     canvas.addEventListener('pointerdown', (event) => { if (open()) return; down = true; if (ask.kind === 'sketch') draft = [ask.at]; canvas.setPointerCapture(event.pointerId); place(event); });
     canvas.addEventListener('pointermove', (event) => { if (down) place(event); });
-    canvas.addEventListener('lostpointercapture', () => { down = false; show(); });
+    for (const end of ['pointerup', 'lostpointercapture']) canvas.addEventListener(end, () => { down = false; show(); });
   }
   function teach(canvas) { // the picture takes fingers and keys for as long as it asks
     const asks = !open(), sketches = asks && ask.kind === 'sketch';
