@@ -66,7 +66,7 @@ mathjax_config_path = "mathjax.js"
 myst_update_mathjax = False
 
 # The live widgets: anywidgets all of them, which a page needs no widget manager of 4 MB for.
-html_js_files = [("widgets.js", {"data-start": "whole page"})]
+html_js_files = [("widgets.js", {"data-start": "whole page"}), "figures.js"]
 nb_ipywidgets_js = {}
 
 

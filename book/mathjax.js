@@ -1,7 +1,7 @@
 // Settings of MathJax 3.
 (function () {
-  // What is wider than its box, a formula, a figure or an output, is scrolled by the keyboard too.
-  const reach = () => document.querySelectorAll('mjx-container[display], .figure-box, .cell_output pre').forEach((it) => {
+  // What is wider than its box, a formula or an output, is scrolled by the keyboard too.
+  const reach = () => document.querySelectorAll('mjx-container[display], .cell_output pre').forEach((it) => {
     it.scrollWidth > it.clientWidth ? it.setAttribute('tabindex', 0) : it.removeAttribute('tabindex');
   });
   window.addEventListener('resize', reach);

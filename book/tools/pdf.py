@@ -26,6 +26,10 @@ PATIENCE = 300_000  # ms: a whole book
 PAPER = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
 SHARP = 2  # dots a pixel
+# Without what is empty, and with low pictures: letters are the larger for it on paper.
+LOW = """.live-gate .wmr-bar, .live-verdict { display: none }
+    .live-pane canvas { height: 280px !important }
+    .live-tall canvas { height: 320px !important }"""
 # Show the panels of another page of the site in this one: for each a page of its own takes seconds.
 SHOW = """(html) => {
     const there = new DOMParser().parseFromString(html, 'text/html');
@@ -118,7 +122,7 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[str]:
     page.goto((site / "explorer.html").as_uri(), wait_until="load")
     page.wait_for_function(DRAWN)
     page.evaluate("document.documentElement.dataset.still = ''")  # what asks first is open
-    page.add_style_tag(content=".live-gate .wmr-bar, .live-verdict { display: none }")  # empty
+    page.add_style_tag(content=LOW)
     shots = []
     for place in places:
         page.evaluate(SHOW, (site / f"{place}.html").read_text(encoding="utf-8"))

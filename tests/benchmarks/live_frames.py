@@ -76,7 +76,7 @@ def main() -> None:
             traits = thing.get_state(TRAITS)
             traits["state"] = traits["state"] | {"guess": 0}  # open
             page = chromium.new_page(viewport={"width": 1366, "height": 768})
-            page.set_content(PAGE)
+            page.goto(PAGE.as_uri())
             page.add_script_tag(content=HOST)
             page.evaluate(STOPWATCH)
             ready, walks = page.evaluate(MOUNT, traits), []

@@ -45,6 +45,12 @@ IMAGE = re.compile(  # in a PDF by Chromium
     rb"/Subtype /Image\s+/Width (\d+)\s+/Height (\d+)\s+/ColorSpace \[/ICCBased[^>]*?"
     rb"/Filter /FlateDecode\s+/Length (\d+)>> stream\r?\n"
 )
+WIDER = """() => [...document.querySelectorAll('.figure-box')]
+    .filter(it => it.scrollWidth > it.clientWidth + 1)
+    .map(it => it.querySelector('img').alt.slice(0, 60))"""
+LARGER = (
+    "() => document.querySelectorAll('.figure-size').forEach(it => it.offsetParent && it.click())"
+)
 FIGURES = """() => [...document.querySelectorAll('article img[src$=".svg"]')]
     .filter(it => it.checkVisibility() && it.clientWidth)
     .map(it => [it.src, it.clientWidth / it.naturalWidth, it.alt.slice(0, 60)])"""
@@ -76,6 +82,9 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
         page.evaluate(FRAME)
         for kind, places in page.evaluate(MEASURE).items():
             faults += [(f"{kind}, {width}x{height}", place) for place in places]
+        cut = f"figures that are not seen whole, {width}x{height}"
+        faults += [(cut, place) for place in page.evaluate(WIDER)]
+        page.evaluate(LARGER)
         for source, scale, said in page.evaluate(FIGURES):
             svg = Path(url2pathname(urlsplit(source).path)).read_text(encoding="utf-8")
             if min(map(float, LETTERS.findall(svg)), default=1) * scale * 400 / 3 < 9:

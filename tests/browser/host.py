@@ -7,7 +7,7 @@ from pathlib import Path
 
 PARTS = (Path(__file__).parents[2] / "book/_static/widgets.js", Path(__file__).with_name("host.js"))
 HOST = "\n".join(part.read_text(encoding="utf-8") for part in PARTS)
-PAGE = "<!doctype html><meta charset='utf-8'><title>panel</title><body style='margin: 0'>"
+PAGE = Path(__file__).with_suffix(".html")
 SETTLED = """async () => {
     const frames = () => new Promise(done =>
         requestAnimationFrame(() => requestAnimationFrame(done)));
@@ -46,10 +46,7 @@ def mounted(page, explorer, width=1280, height=720, url=None):
     """
     page.set_viewport_size({"width": width, "height": height})
     page.goto("about:blank")  # forgets what was mounted before
-    if url:
-        page.goto(url)
-    else:
-        page.set_content(PAGE)
+    page.goto(url or PAGE.as_uri())
     page.add_script_tag(content=HOST)
     page.evaluate("traits => mount(traits)", explorer.get_state(TRAITS))
     return Panel(page).settled()

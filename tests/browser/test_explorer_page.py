@@ -618,21 +618,19 @@ def test_a_run_can_be_taken_along_as_python_table_and_picture(emptied_page, tmp_
     assert saved.value.suggested_filename == "run.png"
 
 
-def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page, tmp_path):
-    page = tmp_path / "page.html"
-    page.write_text(PAGE, encoding="utf-8")
+def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page):
     ours, other = Explorer(), Explorer(method="continuous")
-    panel = mounted(browser_page, ours, url=page.as_uri())
+    panel = mounted(browser_page, ours)
     untouched = panel.figures()
     panel.put("k_alpha", 2.5).put("law", "printed").drag(panel.handle("start", "turn"), 9, 9)
     panel.click("near").drag(browser_page.locator(".wmr-charts"), 60, 0)
     picture, figures = panel.picture(), panel.figures()
     link = panel.click("link").page.evaluate("location.href")
-    assert link.startswith(f"{page.as_uri()}#")
+    assert link.startswith(f"{PAGE.as_uri()}#")
     again = mounted(browser_page, ours, url=link)
     assert (again.picture(), again.figures()) == (picture, figures)
     assert again.click("reset").figures() == untouched
-    away = mounted(browser_page, other, url=page.as_uri()).picture()
+    away = mounted(browser_page, other).picture()
     assert mounted(browser_page, other, url=link).picture() == away
     nonsense = link.replace("law=%22printed%22", "law=5&k_rho=x&unknown=1")
     assert mounted(browser_page, ours, url=nonsense).troubled()

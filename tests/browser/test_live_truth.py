@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
-from host import mounted
+from host import TRAITS, mounted
 from test_live import NAMES, commit
 
 import wmrlib as wmr
@@ -442,3 +442,27 @@ def test_the_poles_follow_the_hand_and_the_gains_follow_the_poles(emptied_page):
     panel.drag(emptied_page.locator("[data-handle=pole-0]"), 0.6 * scale, 0)
     assert "k_alpha would be" in emptied_page.locator(".live-trouble").inner_text()
     assert 0 <= panel.get("k_alpha") <= held
+
+
+def test_a_double_pole_goes_both_ways_and_a_hand_means_four_digits(emptied_page):
+    panel = mounted(emptied_page, live.poles())
+    commit(panel, live.poles().setup["ask"])
+    for handle in ("pole-0", "pole-1"):
+        for key, sign in (("ArrowLeft", 1), ("ArrowRight", -1)):
+            panel.set(k_alpha=4.0, h=1.0)
+            emptied_page.locator(f"[data-handle={handle}]").press(key)
+            damped = panel.settled().get("k_alpha")
+            assert sign * (damped - 4.0) > 0.1, (handle, key)
+            for value in (damped, panel.get("h")):
+                assert value == float(f"{value:.4g}")
+
+
+def test_on_paper_the_right_option_is_marked(emptied_page):
+    for thing in (getattr(live, name)() for name in NAMES):
+        if (ask := thing.setup["ask"]) and ask["kind"] == "choose":
+            mounted(emptied_page, thing)
+            assert not emptied_page.locator(".live-key").count()
+            emptied_page.evaluate("document.documentElement.dataset.still = ''")
+            emptied_page.evaluate("traits => mount(traits)", thing.get_state(TRAITS))
+            marked = emptied_page.locator(".live-key")
+            assert marked.all_inner_texts() == [ask["options"][ask["key"]]], ask["name"]

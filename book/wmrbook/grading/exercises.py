@@ -29,6 +29,7 @@ from wmrbook.grading._hints import (
     own_work,
     rule_out,
     same_pose,
+    shown,
 )
 from wmrlib import paper
 from wmrlib.control import control_law
@@ -372,7 +373,7 @@ def _swung(
 
 
 def _beside(one: Sequence[float], other: Sequence[float]) -> bool:
-    return math.dist(one, other) < 1e-3
+    return math.dist(one, other) < 1e-5
 
 
 @_exercise
@@ -383,8 +384,10 @@ def braking(answer: Any) -> str:
     right = gains.v_max**2 * gains.k_rho / 4
     expect(hardest > 0.0, "how hard it brakes is asked, and that is a number above 0.")
     expect(gentle > 0.0, _POSITIVE)
+    _expect_unit(hardest, right, "m/s^2")
     if not _about(hardest, right):
         explain(hardest, {_SQUARED: right / gains.v_max}, "what is x (1 - x) at most?", _about)
+    _expect_unit(gentle, gains.k_rho * 0.5 / right, "1/m")
     if not _about(gentle, gains.k_rho * 0.5 / right):
         raise Hint("the hardest braking goes as k_rho: what makes it 0.5 m/s^2?")
     expect(far > 0.0, "a distance to the goal is wanted, and that is positive.")
@@ -401,10 +404,13 @@ def one_centimetre(answer: Any) -> str:
     """6.1: k_rho that leaves 1 cm, and the step that a sampled robot must stay below."""
     gain, step = numbers("`answer`", answer, 2)
     expect(gain > 0.0, _POSITIVE)
+    wanted = -math.log(1.0 - paper.CIRCLE_SPEED / 4.0) / 0.01
+    _expect_unit(gain, wanted, "1/m")
     v = control_law(0.01, 0.0, 0.0, paper.CIRCLE_GAINS._replace(k_rho=gain, v_max=4.0))[0]
     hint = f"1 cm from the goal the law commands {v:.3f} m/s; the goal does "
     expect(close(v, paper.CIRCLE_SPEED, 0.01), f"{hint}{paper.CIRCLE_SPEED:.3f} m/s.")
     constant = 1.0 / (4.0 * gain)
+    _expect_unit(step, 2.0 * constant, "s")
     if not _about(step, 2.0 * constant):
         once = "with this step the distance is gone at once; a longer one still lets it shrink."
         explain(
@@ -466,6 +472,7 @@ def longest_step(seconds: Any) -> str:
     value, gains = number("`seconds`", seconds), paper.CIRCLE_GAINS
     pace = gains.k_rho * gains.v_max
     angles, distance = gains.k_alpha / (gains.h * pace**2), 2.0 / pace
+    _expect_unit(value, min(angles, distance), "s")
     if not _about(value, min(angles, distance)):
         mistakes = {
             "this is how long the angles allow, (8.2): and the distance?": angles,
@@ -552,6 +559,11 @@ def _walked(fixes: list, of_all: bool = False) -> list:
 def _expect_below(value: float, limit: float, hint: str) -> None:
     """Raise Hint unless it is at most the limit, up to the fifth digit."""
     expect(value <= _ROUNDED * limit, f"{hint}: a limit is rounded down.")
+
+
+def _expect_unit(value: float, right: float, unit: str) -> None:
+    thousands = any(_about(value, factor * right) for factor in (1e-3, 1e3))
+    expect(not thousands, f"{shown(value)} is a thousand times off: {unit} are wanted.")
 
 
 def _about(value: float, right: float) -> bool:

@@ -51,8 +51,8 @@ def half_turn() -> Live:
     turns = "left" if run.omega[0] > 0 else "right"
     return Live(
         "half_turn",
-        "The goal lies {off} from straight behind, to the right if positive, so "
-        "*alpha* = {alpha}. The robot sets off {sets} and turns {turns} at {omega}; it {end}.",
+        "The goal lies {off} to the right of straight behind, so *alpha* = {alpha}. "
+        "The robot sets off {sets} and turns {turns} at {omega}; it {end}.",
         {
             "off": Knob(
                 OFF,

@@ -64,7 +64,7 @@ function buildGate(root, ask, { get, set, panes, host }) {
     options.hidden = done && ask.kind !== 'choose';
     form.querySelectorAll('input').forEach((each) => { each.disabled = done; if (ask.kind === 'choose') each.checked = Number(each.value) === (done ? guess : draft); });
     form.classList.toggle('live-answered', done);
-    if (ask.kind === 'choose') options.querySelectorAll('label').forEach((each, k) => { each.classList.toggle('live-key', done && k === ask.key); each.hidden = done && k !== ask.key && k !== guess; });
+    if (ask.kind === 'choose') options.querySelectorAll('label').forEach((each, k) => { each.classList.toggle('live-key', open() && k === ask.key); each.hidden = done && k !== ask.key && k !== guess; });
     verdict.textContent = !done ? '' : `${ask.kind === 'sketch' ? '' : right(guess) ? 'As you said. ' : 'Not so. '}${ask.why}`;
     root.closest('.live').dataset.open = String(open());
     if (answered) { answered = false; verdict.focus(); } // where a keyboard and a voice go on

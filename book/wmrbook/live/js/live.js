@@ -26,8 +26,8 @@ const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }
   const give = (change, atOnce = false) => {
     try {
       const changes = change() || {};
-      for (const { name, low, high, says } of setup.knobs) {
-        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${inWords(changes[name])} is not allowed as ${says}: ${inWords(low)} to ${inWords(high)} is.`);
+      for (const { name, low, high, says, symbol, unit } of setup.knobs) {
+        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${symbol || says} would be ${written(changes[name], unit)}; ${inWords(low)} to ${inWords(high)} is allowed.`);
       }
       set(changes);
     } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }

@@ -5,7 +5,7 @@ const explorable = {
     return { run, k: Math.round(time * (run.n - 1)) };
   },
   panes: ({ radius }, { run }) => ({
-    plane: { x: [-8, 54, 'east [m]'], y: [-6, 54, 'north [m]'], equal: true, given: 'Five points of a walk, each with its heading.', alt: `The walk, its points passed within ${written(radius, 'm')}: ${written(run.t[run.n - 1], 's')} long.`,
+    plane: { x: [-8, 54, 'east [m]'], y: [-6, 60, 'north [m]'], equal: true, given: 'Five points of a walk, each with its heading.', alt: `The walk, its points passed within ${written(radius, 'm')}: ${written(run.t[run.n - 1], 's')} long.`,
       scrub: (x, y) => timeNear(run.x, run.y, x, y, 6) },
     value: { x: [0, 60, 'time [s]'], y: [0, 800, 'V'], given: 'V over time: nothing yet.', alt: `V over time: ${run.leg[run.n - 1]} jumps between falling legs.`, scrub: (x) => ({ time: Math.min(Math.max(x / run.t[run.n - 1], 0), 1) }) },
   }),

@@ -16,6 +16,9 @@ function gainsOf([first, second], pace) {
   return { k_alpha: a, h: b / pace ** 2 };
 }
 
+// A hand means no more than four digits.
+const rounded = ({ k_alpha, h }) => ({ k_alpha: Number(k_alpha.toPrecision(4)), h: Number(h.toPrecision(4)) });
+
 const explorable = {
   find({ k_alpha, h }, { data: { k_rho, v_max, start, goal } }) {
     const gains = { k_rho, k_alpha, h, v_max }, [pace, a, b] = LAWS.corrected.modes(gains), run = driven({ start, goal, gains, duration: 30, dt: 0.02 });
@@ -38,9 +41,9 @@ const explorable = {
   handles: (values, { poles, pace }) => poles.map((pole, k) => ({
     id: `pole-${k}`, pane: 'plane', at: pole, says: `a pole at ${written(pole[0])} and ${written(pole[1])} i per second`,
     move(x, y) {
-      if (Math.abs(y) > CLEAR) return gainsOf([[x, y], [x, -y]], pace);
-      const other = poles[1 - k][1] ? [x, 0] : poles[1 - k]; // a pair that meets the axis is a double pole, whose parts then go their own ways
-      return gainsOf([[k ? Math.min(x, other[0]) : Math.max(x, other[0]), 0], other], pace);
+      if (Math.abs(y) > CLEAR) return rounded(gainsOf([[x, y], [x, -y]], pace));
+      const [re, im] = poles[1 - k]; // of a pair that meets the axis both go on together, and one that meets the other takes it along
+      return rounded(gainsOf([[x, 0], [Math.abs(im) > CLEAR || (k ? x > re : x < re) ? x : re, 0]], pace));
     },
   })),
   say: (values, { damping, naturalFrequency, run, off }) => ({

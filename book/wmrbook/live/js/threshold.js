@@ -27,7 +27,7 @@ const explorable = {
     });
   },
   handles: ({ radius, most }) => [{
-    id: 'line', pane: 'plane', at: [radius, most], says: `the lines, ${written(radius, 'cm')} and ${written(most, '°')}`,
+    id: 'line', pane: 'plane', at: [radius, most], says: `where the lines cross, ${written(radius, 'cm')} and ${written(most, '°')}`,
     move: (x, y) => ({ radius: Math.min(Math.max(Math.round(2 * x) / 2, 1), 20), most: Math.min(Math.max(Math.round(2 * y) / 2, 0.5), 25) }),
   }],
   say: (values, { yes, verdict }) => ({ yes: `in ${yes} of 18`, verdict: { always: 'is "holds"', never: 'is "wrong"', depends: 'depends on the line, and nothing is decided' }[verdict] }),
