@@ -5,11 +5,23 @@
     it.scrollWidth > it.clientWidth ? it.setAttribute('tabindex', 0) : it.removeAttribute('tabindex');
   });
   window.addEventListener('resize', reach);
+  /** Keeps the bracket before a formula and the mark behind it on its line. */
+  window.tieFormula = (formula) => {
+    const { previousSibling: before, nextSibling: after } = formula;
+    const part = (node, shape) => (node?.nodeType === Node.TEXT_NODE && node.data.match(shape)?.[0]) || '';
+    const bracket = part(before, /[([]+$/), mark = part(after, /^[.,:;?!)\]]+/);
+    if (!bracket && !mark) return;
+    const line = document.createElement('span');
+    line.className = 'tied';
+    formula.replaceWith(line);
+    if (bracket) before.data = before.data.slice(0, -bracket.length);
+    if (mark) after.data = after.data.slice(mark.length);
+    line.append(bracket, formula, mark);
+  };
   window.MathJax = {
     tex: { inlineMath: [['\\(', '\\)'], ['$', '$']] },
     // Centred, a formula would need as much room on its left as its number has on its right.
-    svg: document.querySelector('.reveal') ? {}
-      : { displayAlign: 'left', displayIndent: window.innerWidth > 600 ? '1em' : '0' },
+    svg: { displayAlign: 'left', displayIndent: window.innerWidth > 600 && !document.querySelector('.reveal') ? '1em' : '0' },
     options: {
       enableMenu: false,  // it would load more files when it is opened
       ignoreHtmlClass: 'tex2jax_ignore|mathjax_ignore|document',
@@ -18,7 +30,10 @@
     startup: {
       ready() {
         MathJax.startup.defaultReady();
-        MathJax.startup.promise.then(reach);
+        MathJax.startup.promise.then(() => {
+          document.querySelectorAll('span.math').forEach(tieFormula);
+          reach();
+        });
       },
     },
   };

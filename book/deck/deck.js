@@ -106,16 +106,6 @@
   /** A formula's or a print's width, as a multiple of the place for it. */
   const widest = (it) => (it.tagName === 'PRE' ? it.scrollWidth / it.clientWidth : Math.max(...[it, ...it.querySelectorAll('svg')].map((part) => part.getBoundingClientRect().width)) / it.parentElement.clientWidth);
 
-  /** Keeps the mark behind a formula on its line. */
-  function tie(formula) {
-    const mark = formula.nextSibling?.nodeType === Node.TEXT_NODE && formula.nextSibling.data.match(/^[.,:;?!)]+/);
-    if (!mark) return;
-    formula.nextSibling.data = formula.nextSibling.data.slice(mark[0].length);
-    const line = box('line');
-    formula.replaceWith(line);
-    line.append(formula, mark[0]);
-  }
-
   const inWidget = () => document.activeElement?.closest('.panel, .output_markdown');
   const deck = new Reveal(document.querySelector('.reveal'), {
     plugins: [RevealNotes],
@@ -158,7 +148,7 @@
   Promise.all([started, drawn]).then(async () => {
     // The speaker's window has not the style that hides a formula's second copy, which is for screen readers.
     for (const copy of document.querySelectorAll('aside.notes mjx-assistive-mml')) copy.remove();
-    document.querySelectorAll('.words mjx-container:not([display])').forEach(tie);
+    document.querySelectorAll('.words mjx-container:not([display])').forEach(tieFormula);
     deck.on('slidechanged', arrived);
     const fitAll = () => {
       pages.forEach(fit);

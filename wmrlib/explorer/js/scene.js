@@ -210,8 +210,8 @@ function drawAngles(ctx, view, run, k, colours) {
   line(ctx, [goal, ahead(goal, sight, 58)], colours.rho, 1.5, [2, 5]);
   line(ctx, [goal, ahead(goal, run.goalHeading[k], 58)], colours.theta, 1.5, [6, 4]);
   drawAngle(ctx, robot, run.heading[k], run.alpha[k], 36, 'α', colours.alpha, colours);
-  drawAngle(ctx, goal, run.goalHeading[k], run.theta[k], 46, 'θ', colours.theta, colours);
   const distance = Math.hypot(goal[0] - robot[0], goal[1] - robot[1]);
+  drawAngle(ctx, goal, run.goalHeading[k], run.theta[k], distance < 40 ? 72 : 46, 'θ', colours.theta, colours); // beyond the name of alpha
   if (distance > 90) {
     const side = run.alpha[k] < 0 ? 12 : -12; // px; the other side of the line than alpha's arc
     const middle = [(robot[0] + goal[0]) / 2 + side * Math.sin(sight), (robot[1] + goal[1]) / 2 + side * Math.cos(sight)];
