@@ -49,6 +49,7 @@ def test_figures_have_captions_in_order_and_exercises_are_of_three_kinds(path):
     assert sorted(kinds) == ["Design", "Programming", "Proof"]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("formula", FLIPS)
 def test_a_chapter_fails_when_a_sign_flips(tmp_path, monkeypatch, formula):
     chapter, right, wrong = FLIPS[formula]

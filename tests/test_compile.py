@@ -19,6 +19,8 @@ import wmrlib as wmr
 from wmrlib import _compile, motion
 from wmrlib._loops import plane
 
+pytestmark = pytest.mark.slow
+
 PACKAGE = Path(wmr.__file__).parent
 TERM = "alpha + gains.h * theta"  # of the laws
 FACTOR = 1.7

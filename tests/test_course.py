@@ -25,6 +25,8 @@ import sandbox
 from graded import ASSIGNMENTS, BEGIN, END, ROOT, cells, tasks, wrong_answers
 from nbgrader.api import Gradebook
 
+pytestmark = pytest.mark.slow
+
 REPAIRED = {*damage.EDITS} - {"given cell changed", "left running"}  # in these, text is new
 NOBODY = "Zoe\u0308"
 CHAPTER = "ch12"  # with every kind of student; its cells run fast

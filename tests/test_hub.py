@@ -22,6 +22,8 @@ from jupyter_client.session import Session
 from tornado.httpclient import HTTPRequest
 from tornado.websocket import websocket_connect
 
+pytestmark = pytest.mark.slow
+
 COURSE = ROOT / "book" / "course"
 CHAPTER = "ch01"
 CONFIG = """

@@ -10,6 +10,8 @@ from pathlib import Path
 import numpy as np
 import pytest
 
+pytestmark = pytest.mark.slow
+
 ROOT = Path(__file__).parents[1]
 CC = shutil.which("cc") or shutil.which("gcc")
 NODE = shutil.which("node")
