@@ -4,12 +4,14 @@
   const reach = () => document.querySelectorAll('mjx-container[display], .cell_output pre').forEach((it) => {
     it.scrollWidth > it.clientWidth ? it.setAttribute('tabindex', 0) : it.removeAttribute('tabindex');
   });
-  window.addEventListener('resize', reach);
+  // One in a sentence scrolls only if it has to: what scrolls is a stop of the keyboard.
+  const widen = () => document.querySelectorAll('span.math mjx-container').forEach((it) => it.classList.toggle('wide', it.firstElementChild.getBoundingClientRect().width > it.clientWidth + 1));
+  window.addEventListener('resize', () => { widen(); reach(); });
   /** Keeps the bracket before a formula and the mark behind it on its line. */
   window.tieFormula = (formula) => {
     const { previousSibling: before, nextSibling: after } = formula;
     const part = (node, shape) => (node?.nodeType === Node.TEXT_NODE && node.data.match(shape)?.[0]) || '';
-    const bracket = part(before, /[([]+$/), mark = part(after, /^[.,:;?!)\]]+/);
+    const bracket = part(before, /[([“‘]+$/), mark = part(after, /^[.,:;?!)\]”’]+/);
     if (!bracket && !mark) return;
     const line = document.createElement('span');
     line.className = 'tied';
@@ -32,6 +34,7 @@
         MathJax.startup.defaultReady();
         MathJax.startup.promise.then(() => {
           document.querySelectorAll('span.math').forEach(tieFormula);
+          widen();
           reach();
         });
       },

@@ -62,7 +62,7 @@ FINGER = """() => {
     const scene = document.querySelector('.wmr-scene'), box = scene.getBoundingClientRect();
     scene.setPointerCapture = () => {};
     const touch = (type, x) => scene.dispatchEvent(new PointerEvent(type, { pointerType: 'touch',
-        pointerId: 7, clientX: box.left + x, clientY: box.top + 60 }));
+        pointerId: 7, isPrimary: true, clientX: box.left + x, clientY: box.top + 60 }));
     touch('pointerdown', 100);
     touch('pointermove', 160);
     touch('lostpointercapture', 160);
@@ -634,6 +634,15 @@ def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page
     assert mounted(browser_page, other, url=link).picture() == away
     nonsense = link.replace("law=%22printed%22", "law=5&k_rho=x&unknown=1")
     assert mounted(browser_page, ours, url=nonsense).troubled()
+
+
+def test_another_scene_is_seen_whole(emptied_page):
+    panel = mounted(emptied_page, Explorer(zoom=2.0))
+    zoomed = emptied_page.locator(".wmr-scene")
+    assert zoomed.evaluate("it => it.style.touchAction") == "none"
+    panel.put("preset", 2)
+    assert panel.get("moving")
+    assert zoomed.evaluate("it => it.style.touchAction") == ""
 
 
 def test_a_view_that_is_closed_answers_no_more(emptied_page):

@@ -444,17 +444,42 @@ def test_the_poles_follow_the_hand_and_the_gains_follow_the_poles(emptied_page):
     assert 0 <= panel.get("k_alpha") <= held
 
 
-def test_a_double_pole_goes_both_ways_and_a_hand_means_four_digits(emptied_page):
-    panel = mounted(emptied_page, live.poles())
+def test_poles_go_where_the_hand_goes_and_take_each_other_along(emptied_page):
+    panel = mounted(emptied_page, live.poles(), width=390)
     commit(panel, live.poles().setup["ask"])
-    for handle in ("pole-0", "pole-1"):
+    poles = [emptied_page.locator(f"[data-handle=pole-{k}]") for k in (0, 1)]
+
+    def at(k_alpha, h):
+        panel.set(k_alpha=k_alpha, h=h)
+
+    def found():
+        return json.loads(emptied_page.evaluate(FOUND))["poles"]
+
+    for k, handle in enumerate(poles):  # a double pole goes both ways, and up and down by its own
         for key, sign in (("ArrowLeft", 1), ("ArrowRight", -1)):
-            panel.set(k_alpha=4.0, h=1.0)
-            emptied_page.locator(f"[data-handle={handle}]").press(key)
-            damped = panel.settled().get("k_alpha")
-            assert sign * (damped - 4.0) > 0.1, (handle, key)
-            for value in (damped, panel.get("h")):
-                assert value == float(f"{value:.4g}")
+            at(4.0, 1.0)
+            handle.press(key)
+            assert sign * (panel.settled().get("k_alpha") - 4.0) > 0.04, (k, key)
+        at(4.0, 1.0)
+        handle.press("Shift+ArrowDown" if k else "Shift+ArrowUp")
+        assert panel.settled().get("h") > 1.0
+        at(4.0, 1.0)
+        handle.press("ArrowUp" if k else "ArrowDown")
+        assert "mirror image" in emptied_page.locator(".live-trouble").inner_text()
+    at(5.0, 1.0)  # -1 and -4
+    scale = abs(poles[0].bounding_box()["x"] - poles[1].bounding_box()["x"]) / 3.0
+    panel.drag(poles[0], -scale, 0)
+    (slow, level), (fast, _) = found()
+    assert (slow, fast) == pytest.approx((-2.0, -4.0), abs=0.1)
+    assert (level, fast) == (0.0, pytest.approx(-4.0, abs=1e-9))
+    panel.drag(poles[0], -3.0 * scale, 0)
+    (slow, _), (fast, _) = found()
+    assert slow == pytest.approx(fast, abs=1e-3)
+    assert slow < -4.05  # as far as k_alpha = 9
+    at(5.0, 1.0)
+    panel.drag(poles[0], 1.5 * scale, 0)
+    assert "h would be" in emptied_page.locator(".live-trouble").inner_text()
+    assert found()[0][0] < 0.0
 
 
 def test_on_paper_the_right_option_is_marked(emptied_page):

@@ -63,6 +63,9 @@ def test_the_panel_follows_the_colour_menu(opened):
     page.locator('.theme-change-button[data-mode="dark"]:visible').click(timeout=PATIENCE)
     assert page.locator("html").get_attribute("data-theme") == "dark"
     assert settled_picture(page) != before
+    for event, theme in (("beforeprint", "light"), ("afterprint", "dark")):  # paper is white
+        page.evaluate("name => dispatchEvent(new Event(name))", event)
+        assert page.locator("html").get_attribute("data-theme") == theme
 
 
 def test_the_search_says_the_chapter_and_what_stands_around_the_words(opened):

@@ -35,7 +35,7 @@ class _Printer(C99CodePrinter):
 
     def _print_Pow(self, expr):  # noqa: N802
         factor, base = self.parenthesize(expr.base, PRECEDENCE["Mul"]), self._print(expr.base)
-        own = {2: f"({factor}*{factor})", sp.S.Half: f"WMR_F(sqrt)({base})"}
+        own = {2: f"({factor}*{factor})", sp.S.Half: f"WMR_F(sqrt)({base})", -1: f"1/{factor}"}
         return own.get(expr.exp) or f"WMR_F(pow)({base}, {self._print(expr.exp)})"
 
     def line(self, expression: sp.Expr) -> str:

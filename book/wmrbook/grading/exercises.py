@@ -338,7 +338,7 @@ def pendulum(swing: Callable, share: Any = None) -> str:
             hint = (
                 f"from q = {q:g}, p = {p:g} it is elsewhere after {seconds:g} s: is q' p, and p' "
             )
-            raise Hint(f"{hint}-sin(q) - c p, and are the steps Runge's and Kutta's?")
+            raise Hint(f"{hint}-sin(q) - c p, and are the steps Runge's and Kutta's, of 0.01 s?")
     part = number("The function is right. `share`", share)
     hint = "the function is right; a share is between 0 and 1: those at q = 0 over all 400."
     expect(0.0 <= part <= 1.0, hint)
@@ -473,6 +473,7 @@ def longest_step(seconds: Any) -> str:
     pace = gains.k_rho * gains.v_max
     angles, distance = gains.k_alpha / (gains.h * pace**2), 2.0 / pace
     _expect_unit(value, min(angles, distance), "s")
+    expect(value > 0.0, "a time step is positive.")
     if not _about(value, min(angles, distance)):
         mistakes = {
             "this is how long the angles allow, (8.2): and the distance?": angles,

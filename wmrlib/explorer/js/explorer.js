@@ -52,7 +52,11 @@ function render({ model, el }) {
   const poses = () => ({ start: values().start, goal: values().moving ? null : values().goal });
   const showControls = buildControls(find('.wmr-rows'), setup, {
     change({ preset, ...changed }) {
-      if (preset > 0) write(presetValues(setup.presets[preset - 1], values(), setup));
+      if (preset > 0) {
+        const before = values().moving;
+        write(presetValues(setup.presets[preset - 1], values(), setup));
+        if (values().moving !== before) state.zoom = null; // of another scene
+      }
       else write(changed);
       showControls(values()); // the handle goes to the stop that was taken
     },
@@ -288,8 +292,8 @@ function dragOver(canvas, onPlace) {
     const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas);
     onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom, event, event.type === 'pointerdown');
   };
-  canvas.addEventListener('pointerdown', (event) => { down = true; canvas.setPointerCapture(event.pointerId); tell(event); });
-  canvas.addEventListener('pointermove', (event) => { if (down) tell(event); });
+  canvas.addEventListener('pointerdown', (event) => { if (event.button || !event.isPrimary) return; down = true; canvas.setPointerCapture(event.pointerId); tell(event); });
+  canvas.addEventListener('pointermove', (event) => { if (down && event.isPrimary) tell(event); });
   ['pointerup', 'lostpointercapture'].forEach((over) => canvas.addEventListener(over, () => { down = false; }));
 }
 

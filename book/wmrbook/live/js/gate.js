@@ -42,8 +42,8 @@ function buildGate(root, ask, { get, set, panes, host }) {
       draft = move ? [...(draft.length ? draft : [ask.at]), [within(x + move[0] * step, x0, x1), within(y + move[1] * step, y0, y1)]] : draft.slice(0, -1);
       set();
     });
-    canvas.addEventListener('pointerdown', (event) => { if (open()) return; down = true; if (ask.kind === 'sketch') draft = [ask.at]; canvas.setPointerCapture(event.pointerId); place(event); });
-    canvas.addEventListener('pointermove', (event) => { if (down) place(event); });
+    canvas.addEventListener('pointerdown', (event) => { if (open() || event.button || !event.isPrimary) return; down = true; if (ask.kind === 'sketch') draft = [ask.at]; canvas.setPointerCapture(event.pointerId); place(event); });
+    canvas.addEventListener('pointermove', (event) => { if (down && event.isPrimary) place(event); });
     for (const end of ['pointerup', 'lostpointercapture']) canvas.addEventListener(end, () => { down = false; show(); });
   }
   function teach(canvas) { // the picture takes fingers and keys for as long as it asks

@@ -10,14 +10,14 @@ function showHandles(host, handles, pane, give) {
       button.dataset.handle = handle.id;
       let grip = null;
       button.addEventListener('pointerdown', (event) => {
-        const box = button.getBoundingClientRect();
-        grip = [event.clientX - box.left - box.width / 2, event.clientY - box.top - box.height / 2];
+        const box = button.getBoundingClientRect(), whole = host.getBoundingClientRect(); // as it lies now: a longer sentence moves it under the hand
+        grip = [event.clientX - box.left - box.width / 2 + whole.left, event.clientY - box.top - box.height / 2 + whole.top];
         button.setPointerCapture(event.pointerId);
       });
       button.addEventListener('pointermove', (event) => {
         if (!grip) return;
-        const box = host.getBoundingClientRect(), { view } = button.pane;
-        give(() => button.handle.move(...view.toWorld((event.clientX - grip[0] - box.left) / view.zoom, (event.clientY - grip[1] - box.top) / view.zoom)));
+        const { view } = button.pane;
+        give(() => button.handle.move(...view.toWorld((event.clientX - grip[0]) / view.zoom, (event.clientY - grip[1]) / view.zoom)));
       });
       for (const end of ['pointerup', 'lostpointercapture']) button.addEventListener(end, () => { grip = null; });
       button.addEventListener('keydown', (event) => {
@@ -26,7 +26,7 @@ function showHandles(host, handles, pane, give) {
         event.preventDefault();
         event.stopPropagation();
         const { range: [x0, x1, y0, y1] } = button.pane, step = event.shiftKey ? 200 : 40;
-        give(() => button.handle.move(button.handle.at[0] + move[0] * (x1 - x0) / step, button.handle.at[1] + move[1] * (y1 - y0) / step), true);
+        give(() => button.handle.move(button.handle.at[0] + move[0] * (x1 - x0) / step, button.handle.at[1] + move[1] * (y1 - y0) / step, true), true);
       });
     }
     known.delete(handle.id);

@@ -27,7 +27,7 @@ const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }
     try {
       const changes = change() || {};
       for (const { name, low, high, says, symbol, unit } of setup.knobs) {
-        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${symbol || says} would be ${written(changes[name], unit)}; ${inWords(low)} to ${inWords(high)} is allowed.`);
+        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${symbol || says} would be ${`${inWords(changes[name])} ${unit}`.trim()}; ${inWords(low)} to ${inWords(high)} is allowed.`);
       }
       set(changes);
     } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }

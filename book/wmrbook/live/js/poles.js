@@ -16,9 +16,6 @@ function gainsOf([first, second], pace) {
   return { k_alpha: a, h: b / pace ** 2 };
 }
 
-// A hand means no more than four digits.
-const rounded = ({ k_alpha, h }) => ({ k_alpha: Number(k_alpha.toPrecision(4)), h: Number(h.toPrecision(4)) });
-
 const explorable = {
   find({ k_alpha, h }, { data: { k_rho, v_max, start, goal } }) {
     const gains = { k_rho, k_alpha, h, v_max }, [pace, a, b] = LAWS.corrected.modes(gains), run = driven({ start, goal, gains, duration: 30, dt: 0.02 });
@@ -40,10 +37,12 @@ const explorable = {
   },
   handles: (values, { poles, pace }) => poles.map((pole, k) => ({
     id: `pole-${k}`, pane: 'plane', at: pole, says: `a pole at ${written(pole[0])} and ${written(pole[1])} i per second`,
-    move(x, y) {
-      if (Math.abs(y) > CLEAR) return rounded(gainsOf([[x, y], [x, -y]], pace));
+    move(x, y, exact) {
+      const clear = exact ? 0.01 : CLEAR, up = k ? -y : y;
+      if (up > clear) return gainsOf([[x, y], [x, -y]], pace);
+      if (up < -clear && exact) throw new RangeError(`Of a pair each pole is the other's mirror image: this one stays ${k ? 'below' : 'above'} the axis.`);
       const [re, im] = poles[1 - k]; // of a pair that meets the axis both go on together, and one that meets the other takes it along
-      return rounded(gainsOf([[x, 0], [Math.abs(im) > CLEAR || (k ? x > re : x < re) ? x : re, 0]], pace));
+      return gainsOf([[x, 0], [Math.abs(im) > clear || (k ? x > re : x < re) ? x : re, 0]], pace);
     },
   })),
   say: (values, { damping, naturalFrequency, run, off }) => ({
