@@ -243,3 +243,11 @@ def test_the_printed_motion_and_circle_are_those_of_wmrlib():
     for time in (0.0, 3.7, 41.0):
         expected = list(wmr.paper.circle(time))
         assert number("circle", time) == pytest.approx(expected, rel=1e-12, abs=1e-12)
+
+
+def test_a_reciprocal_is_a_division_in_c():
+    """A new law may have one, and a power takes long on a small board."""
+    angle = symbolic.angle
+    for value in (1 / angle, 1 + 1 / angle, sp.sin(1 / angle), angle / (1 + angle)):
+        printed = symbolic.c_function("f", symbolic.Formula((angle,), (value,), "says"))
+        assert "pow" not in printed, value
