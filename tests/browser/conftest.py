@@ -22,7 +22,6 @@ FLAGS = [
     "--disable-component-update",
     "--disable-sync",
 ]
-NO_WAIT = ["--disable-frame-rate-limit", "--disable-gpu-vsync"]  # tests wait for frames only
 LOCAL = (
     "file:",
     "data:",
@@ -42,9 +41,7 @@ def browser(find_tool):
 
     path = find_tool("browser")
     with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(
-            executable_path=path, headless=True, args=[*FLAGS, *NO_WAIT]
-        )
+        chromium = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
         yield chromium
         chromium.close()
 

@@ -11,7 +11,7 @@ import pytest
 from scipy.integrate import solve_ivp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
-from host import TRAITS, mounted
+from host import SETTLED, TRAITS, mounted
 from test_live import NAMES, commit
 
 import wmrlib as wmr
@@ -489,5 +489,6 @@ def test_on_paper_the_right_option_is_marked(emptied_page):
             assert not emptied_page.locator(".live-key").count()
             emptied_page.evaluate("document.documentElement.dataset.still = ''")
             emptied_page.evaluate("traits => mount(traits)", thing.get_state(TRAITS))
+            emptied_page.evaluate(SETTLED)
             marked = emptied_page.locator(".live-key")
             assert marked.all_inner_texts() == [ask["options"][ask["key"]]], ask["name"]
