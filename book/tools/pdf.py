@@ -74,8 +74,9 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         places = blank.evaluate("paper.places()")
         stills = picture_panels(chromium, site, list(dict.fromkeys(places)))
         blank.evaluate("stills => paper.prepare(stills)", stills)
-        # Once for the places of the pages, without what takes long; then whole, in a page of its
+        # Once for the places of the pages, with nothing to be seen; then whole, in a page of its
         # own: what has been printed once may break its pages otherwise the next time.
+        blank.add_style_tag(content="* { visibility: hidden !important }")
         pages = find_pages(print_page(blank, pdf), blank.evaluate("paper.anchors()"))
         blank.close()
         for _ in range(5):  # a number of fewer digits may move what follows
