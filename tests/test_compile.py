@@ -210,7 +210,7 @@ def test_what_is_compiled_for_something_else_is_kept_in_another_file(monkeypatch
         paths = _compile._Cache(loop.py_func).files(signature, loop.targetctx.codegen())
         return {path.name for path in paths}
 
-    chosen = [(0, 0), (1, 0), (0, 1)]
+    chosen = [(0, 0, True), (1, 0, True), (0, 1, True), (0, 0, False)]
     loops = plane.conclude, plane.drive, *(plane.loop_of(*each) for each in chosen)
     found = [names(loop) for loop in loops] + [names(plane.conclude, numba.float64)]
     assert len(set.union(*found)) == len(found)

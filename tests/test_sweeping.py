@@ -240,7 +240,7 @@ def test_in_the_plane_too_whoever_arrives_gives_its_place_to_the_next(method, wh
     runs_of = np.array([*np.broadcast_arrays(*starts, *goal, *gains)])
     states = np.zeros((plane.ROWS, 1500))  # all are driven side by side, and nobody once more
     states[:10], states[plane.LEFT] = runs_of, 300.0
-    kernel = plane.loop_of(plane.ARC if method == "arc" else plane.EULER, 0)
+    kernel = plane.loop_of(plane.STEPS[method], 0, wheels is not None)
     kernel(states, checked_wheels(wheels), 0.1, 0.05)
     assert (states[plane.LEFT] <= 0.0).all()
     for i in order[:200]:

@@ -136,6 +136,8 @@ def test_wrap_is_exact(angle):
     turns = mpmath.ceil((mpmath.mpf(angle) - math.pi) / mpmath.mpf(2.0 * math.pi))
     truth = float(mpmath.mpf(angle) - turns * mpmath.mpf(2.0 * math.pi))
     assert _vecmath.wrap(angle) == _vecmath.vector_wrap(angle) == truth
+    if abs(angle) <= 2.0 * math.pi:
+        assert _vecmath.vector_wrap_once(angle) == truth
 
 
 @both
@@ -144,7 +146,8 @@ def test_not_a_number_stays_one(form):
         for place in range(count):
             numbers = [math.nan if k == place else 1.0 for k in range(count)]
             assert math.isnan(form(getattr(_vecmath, function))(*numbers)), function
-    assert np.isnan([_vecmath.vector_wrap(1.1e6), _vecmath.vector_wrap(math.inf)]).all()
+    lost = [_vecmath.vector_wrap(1.1e6), _vecmath.vector_wrap(math.inf)]
+    assert np.isnan([*lost, _vecmath.vector_wrap_once(math.nan)]).all()
 
 
 def test_a_loop_over_many_gives_the_same_to_the_last_digits():

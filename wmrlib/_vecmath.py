@@ -184,6 +184,13 @@ def vector_wrap(angle):
     return angle - _TURN if angle > math.pi else angle
 
 
+@formula
+def vector_wrap_once(angle):
+    """The same for what is between two directions in (-pi, pi]: the multiple is -1, 0 or 1."""
+    angle = angle - _TURN if angle > math.pi else angle
+    return angle + _TURN if angle <= -math.pi else angle
+
+
 def _ask_for_512_bits(function) -> None:
     with suppress(AttributeError, TypeError):  # without it, loops are vectorised less widely
         # llvmlite's own `add` refuses an attribute with a value.
@@ -211,11 +218,12 @@ _VECTORISED = {
     direction: vector_atan2,
     wrap: vector_wrap,
 }
+BETWEEN_DIRECTIONS = _VECTORISED | {wrap: vector_wrap_once}
 
 
-def vectorised(function):
+def vectorised(function, forms=_VECTORISED):
     """The same formula with `vector_sincos` for `sincos`, and so on."""
-    return rebuilt(function, _VECTORISED, partial(formula, cache=False))
+    return rebuilt(function, forms, partial(formula, cache=False))
 
 
 def rebuilt(function, others, finish=lambda made: made):

@@ -11,6 +11,7 @@ from wmrlib._loops import alone, plane, rows
 from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
+from wmrlib.motion import wrap
 from wmrlib.runs import Outcome, Trajectory, sample_count, single_pose
 
 _METHODS = (*plane.STEPS, "continuous")
@@ -71,7 +72,7 @@ def simulate(
     if continuously:
         run = alone.to_goal(begin, end, tuning, code, limits, t, radius, lag)
     else:
-        path = np.array([*end, 0.0, 0.0])[:, None]
+        path = np.array([end.x, end.y, wrap(end.heading), 0.0, 0.0])[:, None]
         run = _held(t, method, dt, radius, begin, path, tuning, code, limits)
     return _trajectory(*run, end, gains, law, method)
 

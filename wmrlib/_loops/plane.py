@@ -10,8 +10,8 @@ import numpy as np
 from wmrlib._compile import compiled, formula
 from wmrlib._loops import rows, sight
 from wmrlib._loops.polar import steered
-from wmrlib._vecmath import NEAREST, vectorised, widest_vectors
-from wmrlib.gains import GainsFields
+from wmrlib._vecmath import BETWEEN_DIRECTIONS, NEAREST, vectorised, widest_vectors
+from wmrlib.gains import NO_LIMITS, GainsFields
 from wmrlib.kinematics import wrap_angle
 from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
 from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
@@ -27,7 +27,8 @@ X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(10
 LEFT, PEAK, LENGTH, RHO, ALPHA, THETA, ROWS = range(10, 17)
 V, OMEGA = ALPHA, THETA
 
-_seen_from, _along_arc, _along_tangent = map(vectorised, (polar_from_pose, arc_step, euler_step))
+_seen_from = vectorised(polar_from_pose, BETWEEN_DIRECTIONS)
+_along_arc, _along_tangent = map(vectorised, (arc_step, euler_step))
 
 
 @compiled
@@ -106,16 +107,17 @@ def hold(block, used, step, law, wheels, dt, arrival_radius):
 
 
 @lru_cache
-def loop_of(step, law):
+def loop_of(step, law, limited):
     """The loop that takes every run to its end, or to its last step, for one method and law.
 
-    Each is compiled by itself: asking for the law in every step would cost more than the step. A
-    run that is over gives its place to the next.
+    Each is compiled by itself: asking for the law in every step would cost more than the step, and
+    wheels without a limit a division. A run that is over gives its place to the next.
     """
 
     def loop(states, wheels, dt, arrival_radius):
         widest_vectors()
         block, inside = np.zeros((states.shape[0], BLOCK)), np.zeros(BLOCK, np.int64)
+        limits = wheels if limited else NO_LIMITS
         waiting = width = 0
         while True:
             width, waiting = rows.exchange(states, block, inside, width, waiting, LEFT)
@@ -123,7 +125,7 @@ def loop_of(step, law):
                 return
             used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
             for _ in range(_ROUNDS):
-                hold(block, used, step, law, wheels, dt, arrival_radius)
+                hold(block, used, step, law, limits, dt, arrival_radius)
 
     return compiled(loop)
 
@@ -159,13 +161,16 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
 def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded, *key):
     """Sum up many runs to goals that stand still; their samples too, NaN after each one's end.
 
-    With a key to random numbers, a receiver and the run's number are below each run.
+    Headings are wrapped where they stand. With a key to random numbers, a receiver and the run's
+    number are below each run.
     """
     receivers, wrong = sight.in_samples(runs[LEFT:], dt, samples)
+    runs[[HEADING, GOAL_HEADING]] = wrap_angle(runs[[HEADING, GOAL_HEADING]])
     states = np.zeros((ROWS, runs.shape[1]))
-    states[:LEFT], states[HEADING] = runs[:LEFT], wrap_angle(runs[HEADING])
+    states[:LEFT] = runs[:LEFT]
     states[LEFT] = np.where(recorded | wrong, -samples, samples - 1.0)  # negative: left out
-    loop_of(step, law)(states, wheels, dt, max(arrival_radius, NEAREST))
+    loop = loop_of(step, law, math.isfinite(wheels.max_speed))
+    loop(states, wheels, dt, max(arrival_radius, NEAREST))
     records = np.full((rows.LYAPUNOV, runs.shape[1], samples if recorded else 0), np.nan)
     how = law, wheels, step, dt, samples, arrival_radius, receivers, key or None
     return conclude(states, runs[:LEFT], records, *how), records
