@@ -36,8 +36,7 @@ from nbclient import NotebookClient
 from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat import NotebookNode
 
-# The grammar of addresses is compiled at each start, for over a second, and no notebook needs it.
-DRIVER = "import sys; sys.modules['rfc3987_syntax'] = None; import sandbox; sandbox.drive()"
+DRIVER = "import sandbox; sandbox.drive()"
 MOST_OUTPUT = 10_000_000  # bytes of a hand-in
 UNSHARE = ["unshare", "--user", "--map-root-user", "--mount", "--pid", "--net", "--ipc"]
 UNSHARE += ["--fork", "--kill-child", "--mount-proc"]
