@@ -50,10 +50,15 @@ def main(output: Path, pdf: bool = False) -> None:
     sphinx("html", output)
     print(output / "html" / "index.html")
     if pdf:
-        say("the PDF, about a minute")
-        sphinx("singlehtml", output)  # from the same doctrees: nothing is executed twice
-        print_book(output / "html", output / "singlehtml" / "index.html", output / "book.pdf")
-        print(output / "book.pdf")
+        make_pdf(output)
+
+
+def make_pdf(output: Path) -> None:
+    """Print the pages that `main` has built."""
+    say("the PDF, about a minute")
+    sphinx("singlehtml", output)  # from the same doctrees: nothing is executed twice
+    print_book(output / "html", output / "singlehtml" / "index.html", output / "book.pdf")
+    print(output / "book.pdf")
 
 
 def say(step: str) -> None:

@@ -131,8 +131,8 @@ def panel_core(browser_page):
 
 
 @pytest.fixture(scope="session")
-def site(tmp_path_factory, find_tool) -> Path:
-    """The folder of the site, built once for all processes, with the PDF where there is a browser.
+def site(tmp_path_factory) -> Path:
+    """The folder of the site, built once for all processes.
 
     The environment variable BOOK_HTML can name one that is built already.
     """
@@ -143,8 +143,7 @@ def site(tmp_path_factory, find_tool) -> Path:
     built = output / "built"
     with FileLock(f"{output}.lock"):
         if not built.exists():
-            options = ["--pdf"] if find_tool("browser") else []
-            command = [sys.executable, ROOT / "book" / "tools" / "build.py", output, *options]
+            command = [sys.executable, ROOT / "book" / "tools" / "build.py", output]
             done = subprocess.run(command, capture_output=True, text=True)
             assert done.returncode == 0, done.stdout + done.stderr
             built.touch()

@@ -5,6 +5,8 @@ from __future__ import annotations
 import itertools
 import os
 import re
+import subprocess
+import sys
 from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
@@ -14,7 +16,7 @@ import nbformat
 import pypdfium2
 import pytest
 from faults import PANEL, SIZES, of_page, of_paper, stills
-from live import PATIENCE, assert_slider_matters, chapters, settled_picture, sliders
+from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders
 
 pytestmark = [] if os.environ.get("BOOK_HTML") else pytest.mark.needs("npm")
 
@@ -133,9 +135,22 @@ def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened
     assert "paper 24" in page.locator("div.math:has(#paper-24)").text_content()
 
 
+@pytest.fixture
+def book(site) -> Path:
+    """The PDF, printed from the site unless that is one that is built already."""
+    if not os.environ.get("BOOK_HTML"):
+        command = "import sys, pathlib, build; build.make_pdf(pathlib.Path(sys.argv[1]))"
+        tools = ROOT / "book" / "tools"
+        done = subprocess.run(
+            [sys.executable, "-c", command, site.parent], cwd=tools, capture_output=True, text=True
+        )
+        assert done.returncode == 0, done.stdout + done.stderr
+    return site.parent / "book.pdf"
+
+
+@pytest.mark.slow
 @pytest.mark.needs("browser")
-def test_the_printed_book_holds_every_chapter(site):
-    book = site.parent / "book.pdf"
+def test_the_printed_book_holds_every_chapter(site, book):
     assert book.is_file(), "build the book with --pdf"
     printed = pypdfium2.PdfDocument(book)
     text = "\n".join(page.get_textpage().get_text_bounded() for page in printed)
