@@ -11,8 +11,6 @@ import pytest
 from graded import nbgrader, wrong_answers
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, jupyterlab, sliders
 
-pytestmark = pytest.mark.slow
-
 CHAPTER = f"notebooks/{chapters()[0].name}"
 ASSIGNMENT, MISTAKE = "ch01", "swapped"
 PANEL = "notebooks/panel.ipynb"

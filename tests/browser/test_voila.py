@@ -10,8 +10,6 @@ import psutil
 import pytest
 from live import PATIENCE, assert_slider_matters, chapters, free_port, serve, sliders
 
-pytestmark = pytest.mark.slow
-
 TOKEN = "only-for-this-test"
 
 
