@@ -222,7 +222,7 @@ BETWEEN_DIRECTIONS = _VECTORISED | {wrap: vector_wrap_once}
 
 
 def vectorised(function, forms=_VECTORISED):
-    """The same formula with `vector_sincos` for `sincos`, and so on."""
+    """The same formula with `vector_sincos` for `sincos`, and so on, by the table `forms`."""
     return rebuilt(function, forms, partial(formula, cache=False))
 
 

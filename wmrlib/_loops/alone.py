@@ -48,12 +48,6 @@ def _see(bench, used, stage, goals, tuning, law, wheels):
 
 
 @compiled
-def _ready_after(bench, stage, goals, *loop):
-    _see(bench, 1, stage, goals, *loop)
-    steps.get_ready(bench, 1, stage, 1.0)
-
-
-@compiled
 def _trials_after(bench, path, log, *loop):
     """Try steps of one length: how many are taken, as the columns of `log` before each.
 
@@ -103,7 +97,8 @@ def after_reference(path_at, start, tuning, law, wheels, t):
 
     kept[:3, 0], bench[steps.LEFT], bench[steps.TRIALS] = start, whole, _MOST_TRIALS
     for stage in (0, steps.BEFORE):
-        _ready_after(bench, stage, path_at(bench[steps.DT : steps.DT + 1]), *loop)
+        _see(bench, 1, stage, path_at(bench[steps.DT : steps.DT + 1]), *loop)
+        steps.get_ready(bench, 1, stage, 1.0)
     bench[steps.DT] = min(bench[steps.STEP], whole)
     many = 1
     while bench[steps.LEFT] > 0.0:

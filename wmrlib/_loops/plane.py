@@ -27,9 +27,6 @@ X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(10
 LEFT, PEAK, LENGTH, RHO, ALPHA, THETA, ROWS = range(10, 17)
 V, OMEGA = ALPHA, THETA
 
-_seen_from = vectorised(polar_from_pose, BETWEEN_DIRECTIONS)
-_along_arc, _along_tangent = map(vectorised, (arc_step, euler_step))
-
 
 @compiled
 def observe(pose, goal, goal_twist, tuning, law, wheels):
@@ -46,6 +43,9 @@ def move(pose, v, omega, dt, step):
     if step == ARC:
         return arc_step(*pose, v, omega, dt)
     return euler_step(*pose, v, omega, dt)
+
+
+_seen_from, _moved = vectorised(polar_from_pose, BETWEEN_DIRECTIONS), vectorised(move)
 
 
 @compiled
@@ -101,8 +101,8 @@ def hold(block, used, step, law, wheels, dt, arrival_radius):
         block[PEAK, i] = abs(omega) if abs(omega) > peak else peak
         block[LENGTH, i] += dt * abs(v)
     for i in range(used):
-        pose, twist = (block[X, i], block[Y, i], block[HEADING, i]), (block[V, i], block[OMEGA, i])
-        new = _along_arc(*pose, *twist, dt) if step == ARC else _along_tangent(*pose, *twist, dt)
+        pose = block[X, i], block[Y, i], block[HEADING, i]
+        new = _moved(pose, block[V, i], block[OMEGA, i], dt, step)
         block[X, i], block[Y, i], block[HEADING, i] = new
 
 
