@@ -23,7 +23,8 @@ from wmrlib.runs import Arrival, Trajectories, sample_count
 MOST_RECORDED = 50_000_000
 _METHODS = {"continuous": (adaptive, None)} | {k: (plane, code) for k, code in plane.STEPS.items()}
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
-_LOCAL_CHUNK, _REMOTE_CHUNK, _LONG_WORK = 4_000_000, 20_000_000, 40_000_000
+_LOCAL_LEAST, _LOCAL_CHUNK, _REMOTE_LEAST, _REMOTE_CHUNK = 250_000, 4_000_000, 1_000_000, 20_000_000
+_LONG_WORK = 40_000_000
 _RECORDED_CHUNK = 1_000_000  # samples
 _SIGHT_COST = 17  # evaluations of the law that take as long as one step by what a receiver shows
 
@@ -130,9 +131,9 @@ def sweep(
         )
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
-    source = [np.broadcast_to(field, shape) for field in fields.values()]
+    source = [np.broadcast_to(field, shape).reshape(-1) for field in fields.values()]
     if receiver:
-        source.insert(-1, np.arange(total).reshape(shape))  # before the law: the run's number
+        source.insert(-1, np.arange(total))  # before the law: the run's number
     lost: list[BaseException] = []
     long = progress and total * task.cost >= _LONG_WORK
     with (
@@ -157,8 +158,9 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     (module, step), count = _METHODS[task.method], runs.shape[1]
     summary = np.empty((len(Arrival._fields), count))
     record = np.empty((rows.LYAPUNOV, count, task.samples if task.recorded else 0))
-    for law in np.unique(runs[-1]):
-        members = np.flatnonzero(runs[-1] == law)
+    laws = np.unique(runs[-1])
+    for law in laws:
+        members = slice(None) if laws.size == 1 else np.flatnonzero(runs[-1] == law)
         common = int(law), task.limits, step, *task[2:-1], *task.key
         summary[:, members], record[:, members] = module.survey(runs[:-1, members], *common)
     return summary, record
@@ -166,7 +168,7 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
 
 def _results(source, total: int, task: _Task, executor, go_on, lost: list) -> Generator:
     def arguments(chunk: tuple[int, int]) -> tuple[np.ndarray, _Task]:
-        return np.array([field.flat[slice(*chunk)] for field in source], dtype=float), task
+        return np.array([field[slice(*chunk)] for field in source], dtype=float), task
 
     size = _chunk_size(total, task, executor)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
@@ -188,9 +190,11 @@ def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[st
 
 
 def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
-    """Whole blocks of runs, if they run in blocks; at least four chunks for each known core."""
-    work, parts = (_LOCAL_CHUNK, 4 * _chunks.CORES) if executor is None else (_REMOTE_CHUNK, 16)
-    size = min(work // task.cost, math.ceil(total / parts))
+    """Whole blocks of runs, if they run in blocks; if worth it, four chunks for each known core."""
+    least, most, parts = _REMOTE_LEAST, _REMOTE_CHUNK, 16
+    if executor is None:
+        least, most, parts = _LOCAL_LEAST, _LOCAL_CHUNK, 4 * _chunks.CORES
+    size = math.ceil(min(most, max(least, total * task.cost / parts)) / task.cost)
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)
     block = 1 if task.key else plane.BLOCK  # those with a receiver are driven one by one
