@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import namedtuple
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -59,10 +59,11 @@ class KanayamaGains(NamedTuple):
     k_heading: Real
 
 
-_LinearFields = namedtuple("_LinearFields", "v_x v_y v_heading omega_x omega_y omega_heading")
+KanayamaFields = namedtuple("KanayamaFields", "k_x k_y k_heading")
+LinearFields = namedtuple("LinearFields", "v_x v_y v_heading omega_x omega_y omega_heading")
 
 
-class LinearGains(_LinearFields):
+class LinearGains(LinearFields):
     """The gains of the law "linear", such as K = control.lqr(A, B, Q, R)[0].
 
     Parameters
@@ -104,16 +105,9 @@ class WheelLimits(NamedTuple):
     max_speed: float = math.inf
 
 
-class Tuning(NamedTuple):
-    """The gains of every law side by side, as the compiled loops take them."""
-
-    pose: Gains | GainsFields
-    kanayama: KanayamaGains = KanayamaGains(0.0, 1.0, 0.0)
-    linear: LinearGains = LinearGains(np.zeros((2, 3)))
-
-
+FIELDS: Any = {Gains: GainsFields, KanayamaGains: KanayamaFields, LinearGains: LinearFields}
+"""What compiled loops make of each kind of gains."""
 NO_LIMITS = WheelLimits(1.0, math.inf)
-NO_TUNING = Tuning(Gains(0.0, 0.0, 0.0))
 
 
 def checked_wheels(limits: WheelLimits | None, name: str = "wheels") -> WheelLimits:

@@ -12,7 +12,7 @@ from typing import Any, NamedTuple
 from wmrlib._checks import choice, instance, refusal
 from wmrlib._compile import compiled, formula
 from wmrlib._vecmath import decay, sinc, sincos
-from wmrlib.gains import NO_TUNING, Gains, GainsFields, KanayamaGains, LinearGains, Tuning
+from wmrlib.gains import FIELDS, Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import wrap
 
 # The formulas, one number at a time. A pose law gives v/rho, which is finite at the goal, where the
@@ -127,8 +127,11 @@ LAWS = {
 """Every law, by name. The compiled loops know a law by its place in this table."""
 TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
 POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name].needs_reference}
-_OTHERS = NO_TUNING[1:]  # the gains that a pose law has no use for
-_FIELDS = {type(gains): field for field, gains in NO_TUNING._asdict().items()}  # of a Tuning
+# Loops take a "tuning": gains of each kind side by side, all 0 but those of the law, and in plain
+# tuples, which numba unpacks sooner than named ones.
+_KINDS = [*FIELDS]
+_UNUSED = tuple((0.0,) * len(fields._fields) for fields in FIELDS.values())
+OTHERS = _UNUSED[1:]  # the gains that a pose law has no use for
 
 
 @formula
@@ -147,11 +150,12 @@ def _by_law(name: str, arguments: str, laws: dict[str, int], call_of) -> Callabl
 
     In one expression, because numba takes a tenth of a second for each function, however short.
     """
-    cases, known = [], dict(globals())
+    cases, known = [], globals() | {fields.__name__: fields for fields in FIELDS.values()}
     for row, code in ((LAWS[each], code) for each, code in laws.items()):
         used = {"formula": f"formula_{code}", "value": f"value_{code}"}
         known |= {used["formula"]: row.formula, used["value"]: row.value}
-        call = call_of(row).format(**used, gains=f"tuning.{_FIELDS[row.gains]}")
+        gains = f"{FIELDS[row.gains].__name__}(*tuning[{_KINDS.index(row.gains)}])"
+        call = call_of(row).format(**used, gains=gains)
         cases.append(f"{call} if law == {code}")
     text = " else ".join(cases).rpartition(" if ")[0]  # the last law needs no condition
     function = eval(f"lambda rho, alpha, theta, {arguments}, law: {text}", known)
@@ -169,16 +173,11 @@ lyapunov_value_of = formula(_rule)
 """Each law's own Lyapunov function with L = 1, of (rho, alpha, theta, tuning, law)."""
 
 
-@compiled
-def pose_tuning(k_rho, k_alpha, h, v_max):
-    """A Tuning for one of the pose laws, made inside a compiled loop."""
-    return Tuning(GainsFields(k_rho, k_alpha, h, v_max), *_OTHERS)
-
-
-def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[Tuning, int]:
+def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[tuple, int]:
     """The gains and the law as the compiled loops take them; ValueError if they don't match."""
     code = laws[choice("law", law, laws)]
     instance("gains", gains, LAWS[law].gains)
-    if not all(type(field) is float for field in gains):
+    if {*map(type, gains)} != {float}:
         raise refusal("gains", gains, "one number a gain", "; sweep takes arrays of gains")
-    return NO_TUNING._replace(**{_FIELDS[LAWS[law].gains]: gains}), code
+    place = _KINDS.index(LAWS[law].gains)
+    return (*_UNUSED[:place], tuple(gains), *_UNUSED[place + 1 :]), code

@@ -30,16 +30,21 @@ class ReadOnly:
     __slots__: tuple[str, ...] = ()
 
     def __post_init__(self) -> None:
-        for value in self._values():
-            for array in value if isinstance(value, tuple) else (value,):
-                if isinstance(array, np.ndarray):
-                    array.setflags(write=False)
+        _protect(self._values())
 
     def __reduce__(self) -> tuple:
         return type(self), self._values()
 
     def _values(self) -> tuple:
-        return tuple(map(self.__getattribute__, self.__slots__))
+        return tuple([getattr(self, name) for name in self.__slots__])
+
+
+def _protect(values: tuple) -> None:
+    for value in values:
+        if isinstance(value, np.ndarray):
+            value.setflags(write=False)
+        elif isinstance(value, tuple):
+            _protect(value)
 
 
 @dataclass(frozen=True, eq=False, slots=True)

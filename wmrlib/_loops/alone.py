@@ -24,7 +24,7 @@ def to_goal(start, goal, tuning, law, wheels, t, radius, lag):
 
     With a lag the wheels begin at rest, and the record's v and omega are what they do.
     """
-    run = np.array([*start, *goal, *tuning.pose])[:, None]
+    run = np.array([*start, *goal, *tuning[0]])[:, None]
     state = adaptive.begun(run, t[-1], radius, _MOST_TRIALS)
     log = adaptive.trace(state, radius, law, wheels, lag)
 

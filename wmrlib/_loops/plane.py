@@ -13,7 +13,7 @@ from wmrlib._loops.polar import steered
 from wmrlib._vecmath import BETWEEN_DIRECTIONS, NEAREST, vectorised, widest_vectors
 from wmrlib.gains import NO_LIMITS, GainsFields
 from wmrlib.kinematics import wrap_angle
-from wmrlib.laws import command, lyapunov_value_of, pose_tuning, saturation_scale
+from wmrlib.laws import OTHERS, command, lyapunov_value_of, saturation_scale
 from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
 
 EULER, ARC = range(2)
@@ -139,7 +139,7 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
         start, goal, gains = rows.run_of(runs, i)
         pose = states[X, i], states[Y, i], states[HEADING, i]
         left, peak, length = states[LEFT, i], states[PEAK, i], states[LENGTH, i]
-        loop = pose_tuning(*gains), law, wheels
+        loop = (gains, *OTHERS), law, wheels
         rho, alpha, theta, v, omega = observe(pose, goal, (0.0, 0.0), *loop)
         last, arrived = samples - 1 - int(abs(left)), rho <= arrival_radius
         outcome, peak = rows.ARRIVED if arrived else rows.TIMED_OUT, max(peak, abs(omega))

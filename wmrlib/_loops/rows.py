@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 from wmrlib._compile import compiled, formula
-from wmrlib.gains import GainsFields
 
 # How a run ends, in the order of `Outcome`; the last is a sweep's that ran out of steps.
 ARRIVED, TIMED_OUT, DIVERGED, COMPLETED, UNFINISHED = range(5)
@@ -19,8 +18,7 @@ OUTCOME, TIME, HEADING_ERROR, PEAK_OMEGA, PATH_LENGTH, DISTANCE = range(6)
 def run_of(runs, i):
     """The start, the goal and the gains of the run in column i."""
     x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max = runs[:, i]
-    gains = GainsFields(k_rho, k_alpha, h, v_max)
-    return (x, y, heading), (goal_x, goal_y, goal_heading), gains
+    return (x, y, heading), (goal_x, goal_y, goal_heading), (k_rho, k_alpha, h, v_max)
 
 
 @formula
