@@ -23,10 +23,12 @@ METHODS = {"euler": "tangent", "arc": "arc"}  # of a sweep, and the functions in
 ENSEMBLE = 4_000
 # GCC joins sin(a) and cos(a) into one call that has no vector form, unless that pass is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
+WIDEST = (*FAST, "-mprefer-vector-width=512")
 BUILDS = {
     "C, scalar (-O3 -march=native)": ("-O3", "-march=native"),
     "C, libmvec (-ffast-math)": FAST,
-    "C, libmvec, widest vectors": (*FAST, "-mprefer-vector-width=512"),
+    "C, libmvec, widest vectors": WIDEST,
+    "C, the same, with a sweep's arrivals and sums": (*WIDEST, "-DSUMS"),
 }
 
 
@@ -78,8 +80,13 @@ def in_c(folder: Path) -> dict[str, ctypes.CDLL]:
 
 def c_case(library: ctypes.CDLL, name: str):
     function, pointer = getattr(library, name), np.ctypeslib.ndpointer(np.float64, flags="C")
-    function.argtypes = [pointer] * len(states(1)) + [ctypes.c_long] * 2 + [ctypes.c_double]
-    return lambda: function(*states(RUNS), RUNS, STEPS, DT)
+    function.argtypes = [pointer] * 13 + [ctypes.c_long] * 2 + [ctypes.c_double] * 2
+
+    def run():
+        left, peak, length = np.full(RUNS, float(STEPS)), np.zeros(RUNS), np.zeros(RUNS)
+        function(*states(RUNS), left, peak, length, RUNS, STEPS, DT, 0.05)
+
+    return run
 
 
 def euler_step(np, x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max):
