@@ -15,7 +15,7 @@ from wmrlib import _chunks
 from wmrlib._checks import as_array, choice, instance, refusal, same_shape, scalar
 from wmrlib._loops import adaptive, plane, rows
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
-from wmrlib.kinematics import Pose
+from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import POSE_LAWS
 from wmrlib.receiver import Receiver
 from wmrlib.runs import Arrival, Trajectories, sample_count
@@ -108,6 +108,8 @@ def sweep(
         for name, value, kind in given
         for field, values in instance(name, value, kind)._asdict().items()
     }
+    for name in ("starts.heading", "goals.heading"):
+        fields[name] = wrap_angle(fields[name])  # loops take directions
     fields["law"] = _law_codes(law)
     shape = same_shape(**fields)
     choice("method", method, _METHODS)
@@ -155,14 +157,15 @@ def sweep(
 
 def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
-    (module, step), count = _METHODS[task.method], runs.shape[1]
-    summary = np.empty((len(Arrival._fields), count))
-    record = np.empty((rows.LYAPUNOV, count, task.samples if task.recorded else 0))
     laws = np.unique(runs[-1])
+    if laws.size == 1:
+        module, step = _METHODS[task.method]
+        return module.survey(runs[:-1], int(laws[0]), task.limits, step, *task[2:-1], *task.key)
+    summary = np.empty((len(Arrival._fields), runs.shape[1]))
+    record = np.empty((rows.LYAPUNOV, runs.shape[1], task.samples if task.recorded else 0))
     for law in laws:
-        members = slice(None) if laws.size == 1 else np.flatnonzero(runs[-1] == law)
-        common = int(law), task.limits, step, *task[2:-1], *task.key
-        summary[:, members], record[:, members] = module.survey(runs[:-1, members], *common)
+        members = np.flatnonzero(runs[-1] == law)
+        summary[:, members], record[:, members] = run_chunk(runs.take(members, axis=1), task)
     return summary, record
 
 

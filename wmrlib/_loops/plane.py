@@ -12,7 +12,6 @@ from wmrlib._loops import rows, sight
 from wmrlib._loops.polar import steered
 from wmrlib._vecmath import BETWEEN_DIRECTIONS, NEAREST, vectorised, widest_vectors
 from wmrlib.gains import NO_LIMITS, GainsFields
-from wmrlib.kinematics import wrap_angle
 from wmrlib.laws import OTHERS, command, lyapunov_value_of, saturation_scale
 from wmrlib.motion import arc_step, euler_step, polar_from_pose, wrap
 
@@ -161,11 +160,9 @@ def conclude(states, runs, records, law, wheels, step, dt, samples, arrival_radi
 def survey(runs, law, wheels, step, dt, samples, arrival_radius, recorded, *key):
     """Sum up many runs to goals that stand still; their samples too, NaN after each one's end.
 
-    Headings are wrapped where they stand. With a key to random numbers, a receiver and the run's
-    number are below each run.
+    With a key to random numbers, a receiver and the run's number are below each run.
     """
-    receivers, wrong = sight.in_samples(runs[LEFT:], dt, samples)
-    runs[[HEADING, GOAL_HEADING]] = wrap_angle(runs[[HEADING, GOAL_HEADING]])
+    receivers, wrong = sight.in_samples(runs[LEFT:], dt, samples) if key else (runs[LEFT:], False)
     states = np.zeros((ROWS, runs.shape[1]))
     states[:LEFT] = runs[:LEFT]
     states[LEFT] = np.where(recorded | wrong, -samples, samples - 1.0)  # negative: left out
