@@ -216,7 +216,7 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
         assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, executor=executor,
                                                         **options)))  # fmt: skip
     monkeypatch.setattr(_chunks, "CORES", 1)
-    monkeypatch.setattr(wmr.sweeping, "_LOCAL_CHUNK", 1)
+    monkeypatch.setattr(wmr.sweeping, "_LOCAL_CHUNK", (1, 1))
     sizes, run_chunk = [], wmr.sweeping.run_chunk
 
     def counted(runs, task):

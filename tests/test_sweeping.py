@@ -350,8 +350,8 @@ def test_a_fresh_process_compiles_nothing_and_plain_python_gives_the_same():
 @pytest.fixture
 def small_chunks(monkeypatch):
     """Chunks of one block, so that a small sweep has many."""
-    monkeypatch.setattr(sweeping, "_LOCAL_CHUNK", 1)
-    monkeypatch.setattr(sweeping, "_REMOTE_CHUNK", 1)
+    monkeypatch.setattr(sweeping, "_LOCAL_CHUNK", (1, 1))
+    monkeypatch.setattr(sweeping, "_REMOTE_CHUNK", (1, 1))
 
 
 CASE = scattered(5000, seed=2)
@@ -462,7 +462,7 @@ class Pool(ProcessPoolExecutor):
         return future
 
 if __name__ == "__main__":
-    sweeping._REMOTE_CHUNK = 400_000
+    sweeping._REMOTE_CHUNK = 1, 400_000
     signal.signal(signal.SIGINT, signal.default_int_handler)
     pool = Pool(2, mp_context=mp.get_context(sys.argv[1]))
     arguments = w.Pose(np.linspace(-9, -1, 3_000_000), 1, 0), w.Pose(0, 0, 0), w.Gains(1, 2, 1)

@@ -23,9 +23,8 @@ from wmrlib.runs import Arrival, Trajectories, sample_count
 MOST_RECORDED = 50_000_000
 _METHODS = {"continuous": (adaptive, None)} | {k: (plane, code) for k, code in plane.STEPS.items()}
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
-_LOCAL_LEAST, _LOCAL_CHUNK, _REMOTE_LEAST, _REMOTE_CHUNK = 250_000, 4_000_000, 1_000_000, 20_000_000
-_LONG_WORK = 40_000_000
-_RECORDED_CHUNK = 1_000_000  # samples
+_LOCAL_CHUNK, _REMOTE_CHUNK = (250_000, 4_000_000), (1_000_000, 20_000_000)  # least, most
+_RECORDED_CHUNK, _LONG_WORK = 1_000_000, 40_000_000  # samples, evaluations
 _SIGHT_COST = 17  # evaluations of the law that take as long as one step by what a receiver shows
 
 
@@ -194,9 +193,8 @@ def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[st
 
 def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
     """Whole blocks of runs, if they run in blocks; if worth it, four chunks for each known core."""
-    least, most, parts = _REMOTE_LEAST, _REMOTE_CHUNK, 16
-    if executor is None:
-        least, most, parts = _LOCAL_LEAST, _LOCAL_CHUNK, 4 * _chunks.CORES
+    least, most = _LOCAL_CHUNK if executor is None else _REMOTE_CHUNK
+    parts = 4 * _chunks.CORES if executor is None else 16
     size = math.ceil(min(most, max(least, total * task.cost / parts)) / task.cost)
     if task.recorded:
         size = min(size, _RECORDED_CHUNK // task.samples)
