@@ -194,8 +194,18 @@ def test_laws_broadcast_too():
         runs, alone = wmr.sweep(PAPER.start, goal, gains, law=law, **options)
         assert same(runs, [field[:, j, None] for field in mixed])
         assert same(alone[1:], [row[:, j, None] for row in paths[1:]])
+    pair, *_ = wmr.sweep(PAPER.start, goal, gains, law=np.array(LAWS[1:]), **options)
+    assert same(pair, [field[:, 1:] for field in mixed])
     empty = wmr.sweep(wmr.Pose(np.zeros((0, 2)), 0, 0), goal, CALM)
     assert empty.time.shape == (0, 2)
+
+
+def test_how_fields_lie_in_memory_does_not_show():
+    x = np.arange(1.0, 7.0).reshape(2, 3)
+    ways = x, np.asfortranarray(x), np.repeat(x, 2, axis=0)[::2], x.astype(int)
+    first, *others = (wmr.sweep(wmr.Pose(way, 1.0, 0.5), ORIGIN, CALM) for way in ways)
+    assert len(set(first.time.flat)) == 6
+    assert all(same(other, first) for other in others)
 
 
 @pytest.mark.parametrize("method", ["arc", "euler"])
@@ -301,6 +311,7 @@ def test_bad_input_names_argument_value_and_range(monkeypatch):
         ({"starts": (0, 0, 0)}, r"starts = \(0, 0, 0\) .* a Pose is needed"),
         ({"method": "heun"}, "'continuous', 'arc', 'euler' is needed"),
         ({"law": ["corrected", "kanayama"]}, "law = 'kanayama' .* one of 'corrected', 'printed'"),
+        ({"law": ["corrected", ["printed"]]}, r"law = \['corrected', \['printed'\]\] is not"),
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
         ({"wheels": 2.0}, "a WheelLimits is needed"),

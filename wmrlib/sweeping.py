@@ -12,7 +12,7 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib import _chunks
-from wmrlib._checks import as_array, choice, instance, refusal, same_shape, scalar
+from wmrlib._checks import as_array, choice, instance, real, refusal, same_shape, scalar
 from wmrlib._loops import adaptive, plane, rows
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, wrap_angle
@@ -24,8 +24,8 @@ MOST_RECORDED = 50_000_000
 _METHODS = {"continuous": (adaptive, None)} | {k: (plane, code) for k, code in plane.STEPS.items()}
 # A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
 _LOCAL_CHUNK, _REMOTE_CHUNK = (250_000, 4_000_000), (1_000_000, 20_000_000)  # least, most
-_RECORDED_CHUNK, _LONG_WORK = 1_000_000, 40_000_000  # samples, evaluations
-_SIGHT_COST = 17  # evaluations of the law that take as long as one step by what a receiver shows
+_LONG_WORK = 40_000_000
+_ALONE_COST = 17  # evaluations of the law that take as long as one step of a run driven by itself
 
 
 class _Task(NamedTuple):
@@ -44,7 +44,7 @@ class _Task(NamedTuple):
         """Evaluations of the law in one run, about, or what takes as long."""
         if self.method == "continuous":
             return 700 + 14 * self.samples * self.recorded
-        return self.samples * (_SIGHT_COST if self.key else 1)
+        return self.samples * (_ALONE_COST if self.key or self.recorded else 1)
 
 
 def sweep(
@@ -108,7 +108,7 @@ def sweep(
         for field, values in instance(name, value, kind)._asdict().items()
     }
     for name in ("starts.heading", "goals.heading"):
-        fields[name] = wrap_angle(fields[name])  # loops take directions
+        fields[name] = wrap_angle(real(name, fields[name]))  # loops take directions
     fields["law"] = _law_codes(law)
     shape = same_shape(**fields)
     choice("method", method, _METHODS)
@@ -196,13 +196,12 @@ def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
     least, most = _LOCAL_CHUNK if executor is None else _REMOTE_CHUNK
     parts = 4 * _chunks.CORES if executor is None else 16
     size = math.ceil(min(most, max(least, total * task.cost / parts)) / task.cost)
-    if task.recorded:
-        size = min(size, _RECORDED_CHUNK // task.samples)
-    block = 1 if task.key else plane.BLOCK  # those with a receiver are driven one by one
-    return block * max(1, math.ceil(size / block))
+    block = 1 if task.key or task.recorded else plane.BLOCK  # those are driven one by one
+    return block * math.ceil(size / block)
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:
     names = as_array(law)
-    codes = [POSE_LAWS[choice("law", name, POSE_LAWS)] for name in names.ravel().tolist()]
+    each = [law if name is ... else name for name in names.ravel().tolist()]  # ... if it is ragged
+    codes = [POSE_LAWS[choice("law", name, POSE_LAWS)] for name in each]
     return np.array(codes, dtype=float).reshape(names.shape)
