@@ -82,7 +82,10 @@
         const start = performance.now();
         const ran = source(each);
         const { shown, error, hint, died, stopped } = await python.run(each);
-        if (stopped) return say(cell, 'Stopped. All variables are gone.');
+        if (stopped) {
+          each.output.replaceChildren();  // of an earlier run
+          return say(cell, 'Stopped. All variables are gone.');
+        }
         if (ran !== each.ran) forget(cells.slice(each.place).filter((it) => it.space === each.space));
         each.ran = error ? undefined : ran;
         if (died) stop();
@@ -113,7 +116,7 @@
   }
 
   async function show(cell, shown, error) {
-    const lines = (text, kind) => make('div', { className: `output highlight ${kind}` }, make('pre', { textContent: text }));
+    const lines = (text, kind) => make('div', { className: `output highlight ${kind}` }, make('pre', { textContent: text, tabIndex: text.length > 2000 ? 0 : -1 }));  // so that what is long scrolls by keyboard
     const formula = (text) => make('div', { className: 'output text_latex math notranslate nohighlight', textContent: `\\[${text}\\]` });
     const parts = shown.map(([kind, text]) => (kind === 'latex' ? formula(text.replace(/^\$+|\$+$/g, '')) : lines(text, 'stream')));
     if (error) parts.push(lines(error, 'python-error'));

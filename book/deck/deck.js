@@ -136,6 +136,12 @@
     for (const fold of document.querySelectorAll('details.code[open]')) fold.open = false;
     document.activeElement?.blur();
     fit(slide.querySelector('.page'));
+    hold(deck.isOverview() ? null : slide);
+  }
+
+  /** Keeps Tab out of the slides that can't be seen. */
+  function hold(slide) {
+    for (const each of deck.getSlides()) each.inert = !printing && slide !== null && each !== slide;
   }
 
   // To print, reveal.js takes the slides out of the page for a moment and puts each on a sheet. They are fitted before that, while they
@@ -150,6 +156,8 @@
     for (const copy of document.querySelectorAll('aside.notes mjx-assistive-mml')) copy.remove();
     document.querySelectorAll('.words mjx-container:not([display])').forEach(tieFormula);
     deck.on('slidechanged', arrived);
+    deck.on('overviewshown', () => hold(null));
+    deck.on('overviewhidden', arrived);
     const fitAll = () => {
       pages.forEach(fit);
       deck.fitted = `${innerWidth} ${innerHeight}`;

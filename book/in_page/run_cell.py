@@ -8,16 +8,19 @@ import linecache
 import traceback
 
 LONGEST = 20_000  # characters that a page shows
-_spaces = {}
+_spaces, _made = {}, {}  # variables by space, and the names that each cell's last run brought
 
 
 def run(space: str, number: int, before: str, source: str, checks: list[str]) -> str:
     """Return as JSON what the cell shows: pairs of kind and text; and what went wrong, if it did.
 
-    Cells of one `space` share their variables. `before` is code that the page does not show.
+    Cells of one `space` share their variables. `before` is code that the page does not show. What a
+    cell itself made is gone before it runs again: an answer that is renamed is no answer.
     """
-    names = _spaces.setdefault(space, {"__name__": "__main__"})
-    shown = []
+    names = _spaces.setdefault(space, {"__name__": "__main__", "input": _nobody_answers})
+    for name in _made.get((space, number), ()):
+        names.pop(name, None)
+    shown, known = [], set(names)
     file = f"<ipython-input-{number}>"  # by which the checks know a reader's own code
     try:
         _execute(before, "<before>", names, [])
@@ -27,7 +30,13 @@ def run(space: str, number: int, before: str, source: str, checks: list[str]) ->
     except BaseException as error:
         hint = hasattr(error, "_render_traceback_")
         return json.dumps({"shown": shown, "error": _said(error, file, source), "hint": hint})
+    finally:
+        _made[space, number] = names.keys() - known
     return json.dumps({"shown": shown, "error": None})
+
+
+def _nobody_answers(prompt=""):
+    raise RuntimeError("nobody answers here: write the value into the code")
 
 
 def _execute(source, file, names, shown):

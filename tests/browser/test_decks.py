@@ -125,6 +125,10 @@ def test_the_arrow_the_space_bar_and_a_remote_control_walk_through_a_deck(decks,
 def test_a_slider_moves_by_keyboard_and_the_slide_stays(decks, opened):
     page = opened(with_panel(decks))
     go_to_panel(page)
+    for _ in range(30):  # Tab goes round in what can be seen
+        page.keyboard.press("Tab")
+        assert page.evaluate("""() => !document.activeElement.closest('section')
+            || deck.getCurrentSlide().contains(document.activeElement)""")
     where = page.evaluate("deck.getIndices()")
     assert_slider_matters(page, first_slider(page))
     assert page.evaluate("deck.getIndices()") == where

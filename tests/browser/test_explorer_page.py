@@ -269,6 +269,14 @@ def test_an_absurd_value_is_answered_in_the_panel(emptied_page):
             panel.set(**{name: before})
             assert not panel.troubled()
         assert panel.picture() == good
+    typed, before = emptied_page.get_by_label("k_alpha [1/s], typed"), panel.get("k_alpha")
+    typed.fill("1,000")  # could be either
+    typed.press("Tab")
+    assert panel.settled().troubled()
+    assert panel.get("k_alpha") == before
+    typed.fill("1,5")
+    typed.press("Tab")
+    assert panel.settled().get("k_alpha") == 1.5
     explorer = Explorer()
     explorer.state = explorer.state | {"k_rho": -1.0}  # and one that it begins with
     panel = mounted(emptied_page, explorer)

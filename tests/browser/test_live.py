@@ -47,6 +47,18 @@ SAID_AT = """async states => {
     }
     return said;
 }"""
+# Where the pictures are, below the top, with each knob at each of its ends.
+PLACES = """async knobs => {
+    const home = panel.get('state'), places = new Set();
+    for (const [name, ends] of knobs) for (const value of ends) {
+        panel.set('state', { ...home, [name]: value });
+        await new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)));
+        const [above, below] = ['.live', '.live-panes'].map(it => document.querySelector(it));
+        places.add(below.getBoundingClientRect().top - above.getBoundingClientRect().top);
+    }
+    panel.set('state', home);
+    return [...places];
+}"""
 # Frames that began a minute before: as the first after a button is pressed, if by less.
 EARLIER = """() => {
     const next = window.requestAnimationFrame.bind(window);
@@ -214,6 +226,16 @@ def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use
     assert not page.evaluate(WIDE)
     assert not page.evaluate(SMALL)
     assert not page.evaluate(FAULTS)
+    page.wait_for_function("document.querySelector('.live-sentence').style.minHeight")
+    knobs = [(knob["name"], ends(knob)) for knob in thing.setup["knobs"]]
+    assert len(page.evaluate(PLACES, knobs)) == 1  # a longer sentence moves nothing
+    state = "JSON.stringify(panel.get('state'))"
+    for handle in panel.settled().page.locator(".wmr-handle").all():
+        before, after = page.evaluate(state), []
+        for key in ("Right", "Up"):
+            handle.press(f"Shift+Arrow{key}")
+            after.append(page.evaluate(state))
+        assert {*after} != {before}, handle.get_attribute("data-handle")
 
 
 def test_python_moves_it_and_refuses_what_is_not_allowed():
@@ -278,6 +300,19 @@ def test_a_hand_stops_what_plays_and_a_second_key_goes_on_from_the_first(emptied
     play.click()
     stop.wait_for()
     assert panel.settled().get("moves") >= 0
+
+
+def test_digits_that_are_selected_are_dragged_all_the_same(emptied_page):
+    _, panel = opened(emptied_page, "poles")
+    number = emptied_page.get_by_role("spinbutton").first
+    number.select_text()
+    box, before = number.bounding_box(), panel.get("k_alpha")
+    emptied_page.mouse.move(box["x"] + 10, box["y"] + 10)
+    emptied_page.mouse.down()
+    for far in range(10, 61, 10):
+        emptied_page.mouse.move(box["x"] + 10 + far, box["y"] + 10)
+    emptied_page.mouse.up()
+    assert panel.settled().get("k_alpha") == pytest.approx(before + 1.2)
 
 
 def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(emptied_page):

@@ -250,6 +250,21 @@ def test_a_cell_runs_in_the_page_if_all_that_it_shows_can(code, kept):
     assert [each.source for each in found] == ([] if kept is None else [kept])
 
 
+def test_what_a_cell_made_is_gone_before_it_runs_again_and_nobody_is_asked(monkeypatch):
+    monkeypatch.syspath_prepend(ROOT / "book" / "in_page")
+    from run_cell import run
+
+    def ends(source, number=2, space="tasks"):
+        return json.loads(run(space, number, "", source, ["found = answer"]))["error"]
+
+    assert run("tasks", 1, "", "given = 1", [])
+    assert ends("answer = given") is None
+    assert "answer" in ends("renamed = 2")
+    assert ends("answer = given", space="chapter").startswith("Line 1: NameError")
+    assert ends("answer = given") is None  # what other cells made stays
+    assert "write the value into the code" in ends("answer = input('how far? ')")
+
+
 def test_what_a_cell_needs_of_cells_that_are_not_run_comes_before_it():
     shows = nbformat.v4.new_output("stream", text="what it shows")
     needed = "import math\nturns = []\nfor i in range(3):\n    turns.append(2 * math.pi * i)"

@@ -25,6 +25,9 @@ function placeOf(stops, value) {
   return after - (stops[after] - value) / (stops[after] - stops[after - 1]);
 }
 
+// A comma is a decimal one: 1,000 could be either, and is neither.
+const fromWords = (text) => (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim()) ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
+
 // `change(values)` is told what a hand does, `refuse(sentence)` what is typed that is no number. Returns what shows a state.
 function buildControls(root, setup, { change, refuse }) {
   const make = (parent, tag, properties, attributes = {}) => {
@@ -57,8 +60,8 @@ function buildControls(root, setup, { change, refuse }) {
       change({ [name]: stops[Math.min(Math.max(next, 0), stops.length - 1)] });
     });
     const take = () => {
-      const value = Number(typed.value.trim().replace(',', '.').replace('−', '-'));
-      if (typed.value.trim() === '' || !Number.isFinite(value)) refuse(`${text} = ${typed.value} is not allowed: a number is needed. The value stays as it was.`);
+      const value = fromWords(typed.value);
+      if (!Number.isFinite(value)) refuse(`${text} = ${typed.value} is not allowed: a number is needed. The value stays as it was.`);
       else change({ [name]: value });
       typed.value = typed.dataset.shown;
     };

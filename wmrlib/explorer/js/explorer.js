@@ -198,7 +198,7 @@ function render({ model, el }) {
       state.playing = { from: time, since: performance.now() };
     },
     pin() { if (state.run && !state.trouble) state.ghost = { run: state.run, figures: state.figures }; },
-    unpin() { state.ghost = null; },
+    unpin() { state.ghost = null; find('[data-do=pin]').focus(); }, // its own button goes
     reset() { state.ghost = null; look(setup.home); write(setup.home); },
     in() { if (state.run) zoomBy(1 / 1.5, robot()); },
     out() { if (state.run) zoomBy(1.5, robot()); },

@@ -26,7 +26,10 @@ function showHandles(host, handles, pane, give) {
         event.preventDefault();
         event.stopPropagation();
         const { range: [x0, x1, y0, y1] } = button.pane, step = event.shiftKey ? 200 : 40;
-        give(() => button.handle.move(button.handle.at[0] + move[0] * (x1 - x0) / step, button.handle.at[1] + move[1] * (y1 - y0) / step, true), true);
+        const [x, y] = button.handle.at, by = [move[0] * (x1 - x0) / step, move[1] * (y1 - y0) / step];
+        for (let far = 1; far <= 64 && String(button.handle.at) === String([x, y]); far *= 2) { // as far as it takes, where places are rounded
+          if (!give(() => button.handle.move(x + far * by[0], y + far * by[1], true), true)) return;
+        }
       });
     }
     known.delete(handle.id);

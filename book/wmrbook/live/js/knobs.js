@@ -8,8 +8,6 @@ const made = (parent, tag, properties = {}, attributes = {}) => {
   return it;
 };
 const inWords = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−') : String(value));
-// A comma is a decimal one: 1,000 could be either, and is neither.
-const fromWords = (text) => (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim()) ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
 
 // A symbol such as k_alpha, as in the formulas: Greek, with its index, and in its colour.
 function putSymbol(parent, name) {
@@ -23,6 +21,7 @@ function putSymbol(parent, name) {
 function putNumber(parent, knob, { get, step, set, refuse }) {
   const it = made(parent, 'input', { className: 'live-number', inputMode: 'decimal', autocomplete: 'off' }, { 'aria-label': knob.says, role: 'spinbutton', 'aria-valuemin': knob.low, 'aria-valuemax': knob.high });
   let grip = null;
+  it.addEventListener('dragstart', (event) => event.preventDefault()); // of digits that are selected: the browser would take the pointer away
   it.addEventListener('pointerdown', (event) => { grip = { x: event.clientX, from: get(), moved: false }; });
   it.addEventListener('pointermove', (event) => {
     if (!grip || (!grip.moved && Math.abs(event.clientX - grip.x) < DRAG)) return;

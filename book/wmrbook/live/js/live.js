@@ -27,11 +27,12 @@ const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }
     try {
       const changes = change() || {};
       for (const { name, low, high, says, symbol, unit } of setup.knobs) {
-        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${symbol || says} would be ${`${inWords(changes[name])} ${unit}`.trim()}; ${inWords(low)} to ${inWords(high)} is allowed.`);
+        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${symbol || says} would be ${written(changes[name], unit)}; ${inWords(low)} to ${inWords(high)} is allowed.`);
       }
       set(changes);
     } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }
     if (atOnce) { cancelAnimationFrame(frame); draw(); } // the next key goes on from here
+    return !refused;
   };
   const say = () => {
     clearTimeout(spoken);
@@ -84,10 +85,35 @@ const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }
     if (gate) gate.draw();
     else root.dataset.open = 'true';
   }
+  // What is below the sentence stays under the hand: it keeps the room that it takes anywhere on a knob's way, and that it once took.
+  const sentence = find('.live-sentence'), SHARES = [0, 0.11, 0.23, 0.37, 0.5, 0.63, 0.77, 0.89, 1];
+  let wide = 0, trying = 0;
+  const high = () => sentence.getBoundingClientRect().height;
+  const tryAll = () => {
+    const heights = [high()];
+    for (const { name, choices, stops } of setup.knobs) {
+      for (const value of choices ? choices.map(([each]) => each) : SHARES.map((share) => stops[Math.round(share * (stops.length - 1))])) {
+        const then = { ...values(), [name]: value };
+        try { knobs.showResults(explorable.say(then, explorable.find(then, setup), setup)); } catch (error) { if (!(error instanceof RangeError)) throw error; }
+        knobs.show(then);
+        heights.push(high());
+      }
+    }
+    sentence.style.minHeight = `${Math.max(...heights)}px`;
+    draw();
+  };
+  const room = new ResizeObserver(([{ contentRect: { width } }]) => {
+    sentence.style.minHeight = width === wide ? `${high()}px` : '';
+    if (width === wide) return;
+    wide = width;
+    clearTimeout(trying);
+    if (width) trying = setTimeout(tryAll, 300);
+  });
+  room.observe(sentence);
   const repaint = () => { Object.values(canvases).forEach(measure); colours = readColours(root); schedule(); };
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
   resized.observe(root);
   model.on('change:state', schedule);
   repaint();
-  return () => { knobs.stop(); unfollow(); resized.disconnect(); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change:state', schedule); };
+  return () => { knobs.stop(); unfollow(); resized.disconnect(); room.disconnect(); clearTimeout(trying); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change:state', schedule); };
 } });

@@ -13,7 +13,7 @@ function gainsOf([first, second], pace) {
   const a = -(first[0] + second[0]), b = first[0] * second[0] - first[1] * second[1];
   if (a < 0) throw new RangeError(`k_alpha would be ${written(a, '1/s')}: it is minus the sum of the poles, and no robot needs one below 0.`);
   if (b <= 0) throw new RangeError(`h would be ${written(b / pace ** 2)}: it is the product of the poles over (k_rho v_max)², and V needs it above 0.`);
-  return { k_alpha: a, h: b / pace ** 2 };
+  return { k_alpha: Number(a.toPrecision(3)), h: Number((b / pace ** 2).toPrecision(3)) };
 }
 
 const explorable = {
