@@ -16,7 +16,7 @@ const explorable = {
   draw({ plane }, values, { robot, goal, alpha, theta, sight }, hidden, { data }) {
     const [from, to] = hidden ? [data.start, data.goal] : [robot, goal];
     plane.line([from, to], 'rho', { dash: [4, 4] });
-    plane.text('ρ', 0.6 * from[0] + 0.4 * to[0], 0.6 * from[1] + 0.4 * to[1], { role: 'rho', dy: -16, dx: 8, size: 17 });
+    plane.text('ρ', 0.6 * from[0] + 0.4 * to[0], 0.6 * from[1] + 0.4 * to[1], { role: 'rho', dy: 16, dx: -12, size: 17 });
     plane.pose(to, 'goal');
     if (hidden) { plane.dot(from[0], from[1], 'path'); return; }
     plane.line([robot, clear(robot, LONG)], 'alpha', { width: 1.5, dash: [6, 4] });
