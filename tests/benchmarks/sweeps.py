@@ -28,7 +28,7 @@ BUILDS = {
     "C, scalar (-O3 -march=native)": ("-O3", "-march=native"),
     "C, libmvec (-ffast-math)": FAST,
     "C, libmvec, widest vectors": WIDEST,
-    "C, the same, with a sweep's arrivals and sums": (*WIDEST, "-DSUMS"),
+    "C, widest vectors, with arrivals and sums": (*WIDEST, "-DSUMS"),
 }
 
 
