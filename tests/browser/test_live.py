@@ -320,6 +320,11 @@ def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(emptie
     number = emptied_page.get_by_role("spinbutton").first
     (name,) = [it for it in ("east", "north") if it in number.get_attribute("aria-label")]
     before = panel.get(name)
+    emptied_page.set_viewport_size({"width": 500, "height": 720})  # the sentence is laid out anew
+    number.fill("7")
+    emptied_page.wait_for_timeout(500)
+    number.press("Tab")  # and what was being typed is still there
+    assert panel.settled().get(name) == 7
     for text, value in (("1,5", 1.5), ("1.5e1", 15), ("\N{MINUS SIGN}2", -2), ("0,125", 0.125)):
         number.fill(text)
         number.press("Tab")

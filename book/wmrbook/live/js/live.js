@@ -90,6 +90,7 @@ const live = (explorable) => ({ initialize: opensUnchanged, render({ model, el }
   let wide = 0, trying = 0;
   const high = () => sentence.getBoundingClientRect().height;
   const tryAll = () => {
+    if (root.querySelector('.live-number:focus')) { trying = setTimeout(tryAll, 1000); return; } // what is being typed would be lost
     const heights = [high()];
     for (const { name, choices, stops } of setup.knobs) {
       for (const value of choices ? choices.map(([each]) => each) : SHARES.map((share) => stops[Math.round(share * (stops.length - 1))])) {
