@@ -1,0 +1,1 @@
+"""Headlines of chapters 4 and 5: the theorem, the paper's drive."""
