@@ -21,7 +21,17 @@ import wmrbook.audit
 import wmrlib
 import wmrlib as wmr
 import wmrlib.kinematics
-from wmrbook.grading import Hint, _asking, _hints, exercises, lyapunov, routes, variants, verdicts
+from wmrbook.grading import (
+    Hint,
+    _asking,
+    _hints,
+    earth,
+    exercises,
+    lyapunov,
+    routes,
+    variants,
+    verdicts,
+)
 from wmrbook.published import Published
 from wmrlib import control_law, polar_error
 from wmrlib import control_law as polar_error_of_mine
@@ -245,6 +255,23 @@ def test_data_and_names_of_ones_own_are_no_call():
         _hints.own_work(lambda x: wmr.wrap_angle(x))
     with pytest.raises(Hint, match=r"stops.* with ModuleNotFoundError"):
         _asking.ask(with_a_module_that_does_not_exist, 1.0)
+
+
+@pytest.mark.parametrize("roundings", range(-2, 3))
+def test_an_acos_is_caught_however_its_cosine_was_rounded(roundings):
+    """By whatever a processor's dot product is off; above 1.5 m the answer is right to 0.3 %."""
+
+    def distance(*pair):
+        lat_a, lon_a, lat_b, lon_b = map(math.radians, pair)
+        half = math.sin((lat_b - lat_a) / 2) ** 2
+        half += math.cos(lat_a) * math.cos(lat_b) * math.sin((lon_b - lon_a) / 2) ** 2
+        exact = 2 * wmr.EARTH_RADIUS_M * math.asin(math.sqrt(half))
+        cosine = round((1 - 2 * half) * 2**53 + roundings) / 2**53
+        lost = wmr.EARTH_RADIUS_M * math.acos(max(-1.0, min(1.0, cosine)))
+        return lost if 1.5 < exact < 100 else exact
+
+    with pytest.raises(Hint, match="which function loses its digits"):
+        earth.distance_close(distance)
 
 
 def test_the_bowl_falls_along_wmrlib_s_robot():
