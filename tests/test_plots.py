@@ -224,6 +224,19 @@ def test_a_figure_is_the_same_text_each_time_and_the_dark_one_has_no_ink_and_no_
     assert not {"#ffffff", "#222222"} & used
 
 
+def test_the_last_bits_of_a_run_do_not_change_its_picture():
+    """They differ from processor to processor, and with them matplotlib's names of shapes."""
+    random = np.random.default_rng(0)
+
+    def nudged(values):
+        return values * (1.0 + 1e-14 * random.standard_normal(len(values)))
+
+    wanted = figures.path(RUN).svg()
+    for _ in range(10):
+        other = replace(RUN, x=nudged(RUN.x), y=nudged(RUN.y))
+        assert figures.path(other).svg() == wanted
+
+
 def test_different_things_have_different_hues_and_no_run_has_a_poses():
     for colours in ({role: channels(figures.COLOURS[role]) for role in SHARED}, *panel_colours()):
         hues = sorted(hue_deg(colours[role]) for role in SHARED if role != "rho")

@@ -68,6 +68,7 @@ LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
 SVG_URL = "data:image/svg+xml,"
 _UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
+_HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
 _POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
 _NUMBER = re.compile(r"-?\d+\.\d{3,}(?:e-?\d+)?")  # with more decimals than one can see
 
@@ -89,7 +90,7 @@ class Picture:
         return f"<Picture: {self.alt}>"
 
     def svg(self) -> str:
-        """Return the figure as SVG: letters as outlines, the same text for the same figure."""
+        """Return the figure as SVG: letters as outlines, one text whatever the last bits are."""
         for axes in self.figure.axes:
             for one in axes.patches if len(axes.patches) > CROWD else ():
                 one.set_rasterized(True)
@@ -98,7 +99,8 @@ class Picture:
             self.figure.savefig(buffer, format="svg", dpi=144, metadata=nothing)
         text = " ".join(buffer.getvalue().split())
         text = _UNUSED.sub("", text[text.index("<svg") :])
-        return _POINTS.sub(lambda path: _NUMBER.sub(_rounded, path[0]), text)
+        text, names = _POINTS.sub(lambda path: _NUMBER.sub(_rounded, path[0]), text), {}
+        return _HASHED.sub(lambda it: names.setdefault(it[0], f"{it[0][0]}{len(names)}"), text)
 
     def _repr_mimebundle_(self, include=None, exclude=None):
         """As HTML: JupyterLab gives a bare image no alternative text."""
