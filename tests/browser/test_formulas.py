@@ -16,7 +16,9 @@ from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
 # Of each cell, in order: its formulas as the symbols in them, and the text around them.
-RENDERED = r"""() => [...document.querySelectorAll('.jp-MarkdownCell .jp-RenderedMarkdown')].map(cell => ({
+RENDERED = r"""() => [
+    ...document.querySelectorAll('.jp-MarkdownCell .jp-RenderedMarkdown')
+].map(cell => ({
     formulas: [...cell.querySelectorAll('mjx-container')].map(it =>
         [...it.querySelectorAll('mjx-assistive-mml :is(mi, mo, mn, mtext, merror)')]
             .map(leaf => leaf.localName + leaf.textContent).join(' ')),

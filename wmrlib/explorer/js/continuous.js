@@ -4,6 +4,7 @@
 const STAGES = [...RULE.stages, RULE.weights];
 const TOLERANCE = 1e-10; // of a step: m, rad, and behind a goal that stands still a share of the distance
 const SHARP = 1e-12; // so close to the arrival radius a run ends, as a share of it
+const GLIMPSE = 1e-6; // s after the end of a step, at which omega is looked at again
 const PATIENCE = 20_000; // steps refused or cut before a run counts as beyond this method
 
 // `rates(state, out)` writes the rates of a state of four numbers, `least` is what the first counts as if it is less. After `attempt` the new
@@ -55,15 +56,18 @@ function driveContinuously(setup, record) {
   const [rho, alpha, theta] = polarFromPose(...start, ...goalAt(0)), begin = moving ? [rho * Math.cos(alpha), rho * Math.sin(alpha), alpha - theta] : [rho, alpha, theta];
   const { attempt, slopes, ahead } = stepper(rates, moving ? 1 : 1e-150), ends = [], patience = PATIENCE + samples;
   let t = 0, trials = 0, next = 0.01, y = Float64Array.from([...begin, 0]);
-  const turning = (at) => Math.abs(twistOf(at)[1]);
   const put = (k, time, at) => { const goal = goalAt(time), seen = seenFrom(at); record(k, time, poseOfError(seen[0], seen[1], seen[2], goal[0], goal[1], goal[2]), seen, twistOf(at), goal); };
-  const keep = () => ends.push({ t, y, omega: turning(y) });
-  const turningAfter = (end, time) => {
+  // With the rate of omega, seen a little later; `rates(y, slopes[0])` has been called.
+  const keep = () => {
+    const omega = twistOf(y)[1], later = y.map((it, i) => it + GLIMPSE * slopes[0][i]);
+    ends.push({ t, y, omega, swing: (twistOf(later)[1] - omega) / GLIMPSE });
+  };
+  const omegaAfter = (end, time) => {
     rates(end.y, slopes[0]);
     attempt(end.y, time - end.t);
-    return turning(ahead);
+    return twistOf(ahead)[1];
   };
-  const over = (n, outcome) => [n, outcome, peakOf(ends, turningAfter), y[3]];
+  const over = (n, outcome) => [n, outcome, peakOf(ends, omegaAfter), y[3]];
 
   put(0, 0, y);
   rates(y, slopes[0]);
@@ -108,17 +112,36 @@ function arrivalIn(attempt, ahead, slopes, y, step, radius) {
   return at;
 }
 
-// The largest |omega|, also between the ends of the steps: by golden section round the largest of these.
-function peakOf(ends, turningAfter) {
-  let top = 0;
-  ends.forEach((end, i) => { if (end.omega > ends[top].omega) top = i; });
-  const first = Math.max(top - 1, 0), last = Math.min(top + 1, ends.length - 1), share = (Math.sqrt(5) - 1) / 2;
-  const at = (time) => turningAfter(ends[time < ends[top].t ? first : top], time);
-  let [low, high] = [ends[first].t, ends[last].t], best = ends[top].omega;
-  for (let k = 0; k < 25 && high > low; k += 1) {
-    const left = high - share * (high - low), right = low + share * (high - low), [one, two] = [at(left), at(right)];
-    best = Math.max(best, one, two);
-    if (one > two) high = right; else low = left;
+// The largest |omega|, also between the ends of the steps: by golden section in every step within
+// which omega turns round, by its cubic, near the largest.
+function peakOf(ends, omegaAfter) {
+  const share = (Math.sqrt(5) - 1) / 2;
+  let best = ends.reduce((top, end) => Math.max(top, Math.abs(end.omega)), 0);
+  const steps = ends.slice(1).map((to, i) => ({ from: ends[i], to, top: topOf(ends[i], to, best) }));
+  for (const { from, to, top } of steps.sort((one, other) => other.top - one.top)) {
+    if (top < 0.99 * best) break;
+    const at = (time) => Math.abs(omegaAfter(from, time)), part = (to.t - from.t) / 8;
+    const looks = [1, 2, 3, 4, 5, 6, 7].map((i) => at(from.t + i * part)); // it may turn twice
+    const middle = from.t + part * (1 + looks.indexOf(Math.max(...looks)));
+    let [low, high] = [middle - part, middle + part];
+    for (let k = 0; k < 25 && high > low; k += 1) {
+      const left = high - share * (high - low), right = low + share * (high - low);
+      const [one, two] = [at(left), at(right)];
+      best = Math.max(best, one, two);
+      if (one > two) high = right; else low = left;
+    }
   }
   return best;
+}
+
+// About how large |omega| gets in a step, by the cubic with its values and rates at both ends; 0 if
+// it is largest at an end, or larger by rounding only.
+function topOf(from, to, best) {
+  const dt = to.t - from.t, rise = to.omega - from.omega, m0 = from.swing * dt, m1 = to.swing * dt;
+  const cubic = (s) => from.omega
+    + s * (m0 + s * (3 * rise - 2 * m0 - m1 + s * (m0 + m1 - 2 * rise)));
+  const within = Array.from({ length: 15 }, (_, i) => Math.abs(cubic((i + 1) / 16)));
+  const top = Math.max(...within), outer = Math.max(Math.abs(from.omega), Math.abs(to.omega));
+  const turns = m0 * m1 < 0 || top > outer;
+  return turns && Math.max(Math.abs(m0), Math.abs(m1)) > 1e-8 * (1 + best) ? Math.max(top, outer) : 0;
 }
