@@ -55,7 +55,7 @@ VALID = {
     | {"method": "arc", "dt": 0.1, "duration": 1.0, "wheels": LIMITS},
     wmr.sweep: {"starts": ORIGIN, "goals": GOAL, "gains": GAINS, "law": "corrected"}
     | DRIVE
-    | {"executor": None, "receiver": wmr.Receiver(0.5, 1.0), "seed": 1},
+    | {"receiver": wmr.Receiver(0.5, 1.0), "seed": 1},
     wmr.Receiver: {"sigma": 0.5, "memory": 1.0, "period": 0.2, "delay": 0.1, "heading_delay": 0.0},
     wmr.arrival: {"trajectory": RUN},
     wmr.residual: {"trajectory": RUN, "last": 1.0},

@@ -14,8 +14,6 @@ HEAVY = {
     "scipy.integrate",
     "numba",
     "tqdm",
-    "dask",
-    "distributed",
 }
 
 
