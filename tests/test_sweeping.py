@@ -106,6 +106,24 @@ def test_the_samples_lie_on_the_same_run_and_dt_changes_nothing_else(start, gain
         assert np.all(np.abs(off) <= 1e-6 * (1.0 + np.abs(theirs))), name
 
 
+@settings(max_examples=10)
+@given(st.integers(0, 2**32), st.floats(0.01, 1.0))
+def test_runs_keep_to_what_geometry_and_the_proof_allow(seed, radius):
+    """No path is shorter than the straight line, no speed above v_max, no error above V's bound."""
+    starts, goal, gains = scattered(500, seed)
+    begin = wmr.polar_error(starts, goal)
+    runs = wmr.sweep(starts, goal, gains, arrival_radius=radius, duration=30.0)
+    there = np.abs(runs.distance - np.minimum(begin.rho, radius)) < 1e-6
+    out = (runs.distance >= radius) & np.isinf(runs.time)
+    assert np.where(runs.arrived, there & (runs.time <= 30.0), out).all()
+    slack = 1.0 - 1e-6
+    assert (runs.path_length >= slack * (begin.rho - runs.distance)).all()
+    assert (runs.time * gains.v_max >= slack * (begin.rho - radius)).all()
+    angles = begin.alpha**2 + gains.h * begin.theta**2  # the part of V that falls by itself
+    bound = np.sqrt(angles * (1.0 + 1.0 / gains.h))
+    assert (slack * np.abs(runs.heading_error) <= bound + 1e-6).all()
+
+
 def test_the_length_counts_both_ways_and_the_peak_is_between_the_samples():
     """Backwards and forwards again; |omega| is largest within a step."""
     gains = wmr.Gains(0.4, 0.5, 2.0, 2.0)
