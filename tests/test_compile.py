@@ -191,6 +191,7 @@ def test_what_is_compiled_for_something_else_is_kept_in_another_file(monkeypatch
 
     chosen = [(0, 0, True), (1, 0, True), (0, 1, True), (0, 0, False)]
     loops = plane.conclude, plane.drive, *(plane.loop_of(*each) for each in chosen)
+    loops += tuple(map(_compile.loop_over, motion.STEPS.values()))
     found = [names(loop) for loop in loops] + [names(plane.conclude, numba.float64)]
     assert len(set.union(*found)) == len(found)
     before = _compile._folders()
@@ -224,11 +225,3 @@ def test_one_entry_beside_a_number_and_read_only_arrays_bring_no_warning():
     assert wmr.polar_error(wmr.Pose(one, one, one), goal).rho.tolist() == [1.0]
     assert wmr.polar_error(wmr.Pose(fixed, 0.0, 0.0), goal).rho.tolist() == [1.0] * 3
     assert wmr.wrap_angle(np.zeros((2, 3)).T).shape == (3, 2)
-
-
-def test_the_loops_over_two_formulas_are_kept_in_two_files():
-    loops = [_compile.loop_over(step) for step in motion.STEPS.values()]
-    euler, arc = (
-        _compile._Cache(loop.py_func).files((), loop.targetctx.codegen()) for loop in loops
-    )
-    assert not set(euler) & set(arc)

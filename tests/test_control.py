@@ -42,19 +42,6 @@ def test_laws_are_the_formulas_and_finite(law, rho, alpha, theta, gains):
     assert omega == pytest.approx(float(omega_true), rel=1e-13, abs=10 * scale)
 
 
-def test_singularities_have_their_limits():
-    gains = wmr.Gains(k_rho=2.0, k_alpha=1.0, h=0.3, v_max=4.0)
-    for law, limit in (("corrected", 4.0 * 2.0 * 0.3 * 0.5), ("printed", 0.0), ("aicardi", 0.3)):
-        expected = 0.0, pytest.approx(limit)
-        assert wmr.control_law(0.0, 0.0, 0.5, gains, law) == expected
-
-
-def test_straight_behind_the_robot_backs_up_and_turns():
-    v, omega = wmr.control_law(10.0, math.pi, 0.0, wmr.Gains(1.0, 1.0, 0.3), "corrected")
-    assert v == pytest.approx(-4.0, abs=1e-3)
-    assert omega == pytest.approx(math.pi)
-
-
 # Lyapunov
 
 

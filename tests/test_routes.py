@@ -347,7 +347,8 @@ def test_out_to_gpx_and_back(tmp_path):
     )
     track = wmr.read_track(tmp_path / "route.gpx")
     assert len(track) == len(route)
-    np.testing.assert_allclose(track.t, route.t, atol=1e-3)
+    np.testing.assert_allclose(track.t, route.t, rtol=0.0, atol=1e-6)
+    assert not track.report.skipped
     x, y = wmr.local_position(wmr.GeoPoint(lat=CAMPUS.lat[0], lon=CAMPUS.lon[0]), track.points)
     assert np.hypot(x - route.x, y - route.y).max() < 0.01  # 7 decimals of a degree
     goal = wmr.GeoPoint(lat=CAMPUS.lat[-1], lon=CAMPUS.lon[-1])

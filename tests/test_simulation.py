@@ -684,16 +684,6 @@ def test_lagging_wheels_are_the_motion_of_the_pose_and_of_each_wheel():
     assert (len(parked), parked.v[0], parked.omega[0]) == (1, 0.0, 0.0)
 
 
-def test_quick_wheels_are_wheels_without_a_lag():
-    errors = []
-    for lag in (0.0, 0.02, 0.01):
-        run = wmr.simulate(PAPER.start, PAPER.goal, CALM, method="continuous", wheel_lag=lag)
-        errors.append(wmr.arrival(run).heading_error)
-    off = np.abs(np.array(errors[1:]) - errors[0])
-    assert off[0] < math.radians(1.0)
-    assert off[0] / off[1] == pytest.approx(2.0, rel=0.15)
-
-
 @settings(max_examples=30, deadline=None)
 @given(poses, st.floats(0.2, 0.6), st.floats(-6.0, -2.0))
 def test_lagging_wheels_that_graze_the_radius_have_arrived(start, lag, exponent):

@@ -1058,20 +1058,6 @@ def test_a_path_comes_back(tmp_path_factory, lat, lon, n, seed):
     assert found >= set(zip(points.lon, points.lat, strict=True))
 
 
-def test_a_driven_run_comes_back_with_its_times(tmp_path):
-    case = wmr.paper.outdoor()
-    run = wmr.simulate(case.start, case.goal, case.gains, method="continuous")
-    points = wmr.point_at(wmr.paper.GPS_POINT_1, run.x, run.y)
-    wmr.write_gpx(tmp_path / "run.gpx", points, t=run.t, begin=BEGIN)
-    back = wmr.read_track(tmp_path / "run.gpx")
-    assert np.abs(back.t - run.t).max() < 1e-6
-    last = wmr.GeoPoint(lat=back.points.lat[-1], lon=back.points.lon[-1])
-    assert wmr.haversine_distance(last, wmr.paper.GPS_POINT_2) < 0.07
-    east, north = wmr.local_position(wmr.paper.GPS_POINT_1, back.points)
-    assert np.hypot(east - run.x, north - run.y).max() < 0.01
-    assert not back.report.skipped
-
-
 def test_gpx_1_1_as_its_schema_asks(tmp_path):
     """Names, order, attributes and ranges of http://www.topografix.com/GPX/1/1/gpx.xsd."""
     points = wmr.GeoPoint(lat=[0.0, 1e-7, -1e-7, 5.0], lon=[179.9999999, 180.0, -180.0, -1e-7])
