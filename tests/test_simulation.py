@@ -172,8 +172,6 @@ def test_columns_agree_with_the_public_functions(method):
         assert run.y_error == pytest.approx(goal.y - run.y)
         error = wmr.wrap_angle(run.heading - goal.heading)
         assert run.heading_error == pytest.approx(error, abs=1e-9)
-        with pytest.raises(ValueError, match="read-only"):
-            run.t[0] = run.V[0] = 1.0
 
 
 @pytest.mark.parametrize("method", ["euler", "arc"])
@@ -293,7 +291,8 @@ def test_copies_of_a_run_are_the_run_and_stay_read_only():
     runs = [circle(duration=1.0), wmr.simulate(ORIGIN, FAR, CALM, duration=1.0)]
     route = wmr.drive_route(wmr.Pose([0.0, 5.0], [0.0, 0.0], 0.0), CALM)
     for run in (*runs, route):
-        for again in (copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))):
+        copies = copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))
+        for again in (run, *copies):
             for name in type(run).__slots__:
                 value, other = getattr(run, name), getattr(again, name)
                 if isinstance(value, np.ndarray) or name in ("goal", "waypoints"):

@@ -177,7 +177,8 @@ def test_times_as_iso_8601_has_them():
 
 def test_a_copy_of_a_track_holds_the_same_and_is_read_only(read):
     track = read(gpx(trk(GOOD, '<trkpt lat="91" lon="0"/>', '<trkpt lat="34" lon="45"/>')))
-    for same in (copy.copy(track), copy.deepcopy(track), pickle.loads(pickle.dumps(track))):
+    copies = copy.copy(track), copy.deepcopy(track), pickle.loads(pickle.dumps(track))
+    for same in (track, *copies):
         assert (places(same), same.t.tobytes()) == (places(track), track.t.tobytes())
         assert (same.source, same.report, repr(same)) == (track.source, track.report, repr(track))
         for values in (same.points.lat, same.points.lon, same.t):
@@ -205,11 +206,6 @@ def test_the_real_log(read):
     assert not track.report.noted
     assert repr(track) == "<Track: 9 positions from NMEA, over 8 s; 77 not used>"
     assert repr(Report(1, {})) == "1 position used"
-    for values in (track.points.lat, track.points.lon, track.t):
-        with pytest.raises(ValueError, match="read-only"):
-            values[0] = 0.0
-    with pytest.raises(TypeError):
-        track.report.skipped["comment"] = Count(0, 0)
     # RMC alone tells the same
     assert places(read([line for line in lines if "GGA" not in line])) == places(track)
 
@@ -706,7 +702,7 @@ ENTITIES = "".join(
 )
 LAUGHS = f'<!DOCTYPE gpx [<!ENTITY a "ha">{ENTITIES}]>'
 EXTERNAL = '<!DOCTYPE gpx [<!ENTITY e SYSTEM "file:///etc/passwd">]>'
-REFUSED = [
+NO_GPX = [
     (gpx(trk(GOOD) + "<x>&i;</x>", head=LAUGHS), "document type or an entity"),
     (gpx(trk(GOOD) + "<x>&e;</x>", head=EXTERNAL), "document type"),
     (gpx(trk(GOOD), head='<!DOCTYPE gpx SYSTEM "http://localhost:9/x.dtd">'), "document type"),
@@ -734,12 +730,6 @@ REFUSED = [
     (gpx(""), "it is GPX, but holds no position"),
     (gpx(trk('<trkpt lat="91" lon="0"/>')), r"1 latitude not in -90 to 90 \(first in line 4\)"),
 ]
-
-
-def test_gpx_that_is_refused_says_why(read):
-    for content, message in REFUSED:
-        with pytest.raises(ValueError, match=message):
-            read(content)
 
 
 def test_what_is_not_read_of_gpx_may_hold_anything(read):
@@ -982,6 +972,7 @@ NO_KIND = "it is neither NMEA nor GPX, and as a table"
 
 def test_a_file_without_a_position_says_why(read, tmp_path):
     for content, message in [
+        *NO_GPX,
         ("", "the file is empty"),
         (" \n\r\n", "the file is empty"),
         (b"\xff\xfe", "the file is empty"),

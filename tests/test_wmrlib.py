@@ -6,15 +6,7 @@ import sys
 
 import wmrlib as wmr
 
-HEAVY = {
-    "sympy",
-    "matplotlib",
-    "ipywidgets",
-    "control",
-    "scipy.integrate",
-    "numba",
-    "tqdm",
-}
+HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba", "tqdm"}
 
 
 def modules_after(statement):
