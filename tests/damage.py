@@ -1,20 +1,9 @@
-"""Ways in which a hand-in is damaged, and what it is then worth.
-
-    python tests/damage.py FOLDER [ASSIGNMENT ...]
-
-copies the course into a folder that is not there yet, hands in each assignment with each damage,
-grades all, and says which are not worth what they should be. It takes half an hour for all;
-test_course.py repairs all, but runs few.
-"""
+"""Ways in which a hand-in is damaged, and what it is then worth."""
 
 from __future__ import annotations
 
-import argparse
 import copy
 import json
-import shutil
-import subprocess
-import sys
 from collections.abc import Callable, Container
 from itertools import pairwise
 from pathlib import Path
@@ -22,7 +11,6 @@ from pathlib import Path
 import nbformat
 from nbformat import NotebookNode
 
-ROOT = Path(__file__).parents[1]
 CELL = nbformat.v4.new_code_cell
 DEADLY = {  # what an answer's cell does before anything else, and what the table then says of it
     "exit": ("import os; os._exit(0)", "it ended Python"),
@@ -194,28 +182,6 @@ def hand_in_all(
     return expected
 
 
-def main(folder: Path, wanted: list[str]) -> int:
-    """Try every damage; return how many hand-ins are not worth what they should be."""
-    sys.path.insert(0, str(ROOT / "book" / "course"))
-    from gradebook import Course
-
-    shutil.copytree(ROOT / "book" / "course", folder)
-    with Course(folder) as course:
-        every = {each: course.solved(each) for each in course.sources}
-    names = list(every)
-    expected = {}
-    for k, assignment in enumerate(names):
-        if not wanted or assignment in wanted:
-            found = hand_in_all(folder, assignment, every[assignment], every[names[k - 1]])
-            expected |= {(assignment, student): each for student, each in found.items()}
-    command = [sys.executable, str(ROOT / "book/course/grade.py"), "--course", str(folder)]
-    run = subprocess.run([*command, "--seconds", "30"], capture_output=True, text=True, check=True)
-    print(run.stdout, run.stderr, sep="\n")
-    wrong = faults(rows(run.stdout), expected)
-    print("\n".join(wrong) or "each is worth what it should be")
-    return len(wrong)
-
-
 def rows(text: str) -> dict[tuple[str, str], str]:
     """The table of grade.py as {(assignment, student): points and what is said}."""
     lines = text.splitlines()[:-1]
@@ -237,13 +203,3 @@ def faults(rows: dict, expected: dict[tuple[str, str], tuple[str, str]]) -> list
         if row[:6].strip() != wanted or said not in row or less[assignment] == most[assignment]:
             wrong.append(f"{assignment}, {who}: {row!r} where {wanted!r} and {said!r} are wanted")
     return wrong
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("folder", type=Path, help="to be made")
-    parser.add_argument("assignments", nargs="*", metavar="ASSIGNMENT", help="ch01, or all")
-    given = parser.parse_args()
-    sys.exit(main(given.folder, given.assignments))

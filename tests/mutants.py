@@ -116,7 +116,7 @@ EQUIVALENT = [
     ("sweeping.py", "in size = ", "how runs are cut into chunks does not show"),
     ("sweeping.py", "_ALONE_COST", "how runs are cut into chunks does not show"),
     ("sweeping.py", "in bar = tqdm", "how the bar looks"),
-    ("sweeping.py", "in if executor is None and len(", "where is compiled does not show"),
+    ("sweeping.py", "in if len(chunks)", "where is compiled does not show"),
     ("symbolic/symbols.py", "'1' -> '2' in def fdiff(", "sympy passes it"),
     ("tracks/fixes.py", "'0.0' -> '1' in back = ", "what is in order loses nothing"),
     ("tracks/tables.py", "in _MOST_SECONDS = ", "a tolerance"),

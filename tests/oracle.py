@@ -1,4 +1,4 @@
-"""One run in continuous time by a method of others."""
+"""One run in continuous time by a method of others, and what a law commands for a moving goal."""
 
 from __future__ import annotations
 
@@ -9,6 +9,14 @@ import numpy as np
 from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
+from wmrlib import laws
+from wmrlib._compile import elementwise
+
+
+def commanded(rho, alpha, theta, v_ref, omega_ref, gains, law):
+    """The twist (v, omega) that any of the laws commands, as the compiled loops ask for it."""
+    tuned = laws.tuning_of(gains, law, laws.TRACKING_LAWS)
+    return elementwise(laws.command, 2, rho, alpha, theta, v_ref, omega_ref, options=tuned)
 
 
 def integrated(start, goal, gains, *, law, wheels, arrival_radius, duration, dt=0.1):

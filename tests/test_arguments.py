@@ -39,7 +39,6 @@ VALID = {
     wmr.pose_from_polar: {"polar": wmr.PolarError(1.0, 0.5, 0.2), "goal": GOAL},
     wmr.polar_rate: {"rho": 1.0, "alpha": 0.5, "v": 1.0, "omega": 1.0},
     wmr.control_law: POLAR | {"gains": GAINS, "law": "corrected"},
-    wmr.tracking_law: POLAR | {"v_ref": 1.0, "omega_ref": 0.1, "gains": GAINS, "law": "corrected"},
     wmr.lyapunov: POLAR | {"h": 1.0, "L": 1.0},
     wmr.lyapunov_rate: POLAR | {"gains": GAINS, "law": "corrected", "L": 1.0},
     wmr.limit_wheels: {"v": 1.0, "omega": 1.0, "limits": LIMITS},
@@ -55,7 +54,7 @@ VALID = {
     | {"method": "arc", "dt": 0.1, "duration": 1.0, "wheels": LIMITS},
     wmr.sweep: {"starts": ORIGIN, "goals": GOAL, "gains": GAINS, "law": "corrected"}
     | DRIVE
-    | {"executor": None, "receiver": wmr.Receiver(0.5, 1.0), "seed": 1},
+    | {"receiver": wmr.Receiver(0.5, 1.0), "seed": 1},
     wmr.Receiver: {"sigma": 0.5, "memory": 1.0, "period": 0.2, "delay": 0.1, "heading_delay": 0.0},
     wmr.arrival: {"trajectory": RUN},
     wmr.residual: {"trajectory": RUN, "last": 1.0},

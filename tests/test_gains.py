@@ -23,15 +23,6 @@ def test_zero_shows_what_a_gain_does():
     assert wmr.Gains(0, 0, 0).h == 0.0
 
 
-def test_the_gentle_gains_park_the_papers_robot_well_damped_and_slowly():
-    case = wmr.paper.outdoor()
-    run = wmr.simulate(case.start, case.goal, wmr.GENTLE_GAINS, method="continuous")
-    parked = wmr.arrival(run)
-    assert parked.time == pytest.approx(23.1, abs=0.05)
-    assert math.degrees(parked.heading_error) == pytest.approx(2.1, abs=0.05)
-    assert parked.peak_omega == pytest.approx(0.64, abs=0.005)
-
-
 def test_linear_gains_from_a_matrix():
     gains = wmr.LinearGains([[1, 2, 3], [4, 5, 6]])
     assert (gains.v_x, gains.v_heading, gains.omega_x, gains.omega_heading) == (1.0, 3.0, 4.0, 6.0)

@@ -23,7 +23,6 @@ starts, goals, gains = wmr.Pose([5.0, 6.0], 1.0, 0.0), wmr.Pose(0.0, 0.0, 0.0), 
 explorer, x, y, heading, goal = wmr.Explorer(), 1.0, 2.0, 0.3, goals
 c = SimpleNamespace(Spawner=SimpleNamespace())
 """
-STANDS_FOR = {'"tcp://scheduler:8786"': "processes=False, dashboard_address=':0'"}
 
 
 def text(path) -> str:
@@ -57,8 +56,6 @@ def test_code_in_a_text_runs(path, tmp_path, monkeypatch):
     if path in TASKS:
         names |= given(path.parent.name)
     for code in re.findall(r"```python\n(.*?)```", text(path), flags=re.DOTALL) + calls(text(path)):
-        for place, stand_in in STANDS_FOR.items():
-            code = code.replace(place, stand_in)
         exec(code, names)
 
 

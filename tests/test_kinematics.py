@@ -65,16 +65,6 @@ def test_polar_error_against_its_definition(pose, goal):
         assert rho * math.sin(angle) == pytest.approx(turned.imag, abs=1e-9)
 
 
-def test_polar_error_by_hand():
-    """Looking east, the goal 45 deg to the left, looking north: alpha 45 deg, theta 45 - 90 deg."""
-    rho, alpha, theta = wmr.polar_error(wmr.Pose(0, 0, 0), wmr.Pose(1, 1, math.pi / 2))
-    assert (rho, alpha, theta) == (
-        pytest.approx(math.sqrt(2)),
-        pytest.approx(math.pi / 4),
-        pytest.approx(-math.pi / 4),
-    )
-
-
 def test_polar_error_behind_and_on_the_goal():
     assert wmr.polar_error(wmr.Pose(0, 0, 0), wmr.Pose(-1, 0, 0)).alpha == math.pi
     assert wmr.polar_error(wmr.Pose(1, 2, 0.5), wmr.Pose(1, 2, 0.25)) == (0.0, -0.5, -0.25)

@@ -48,7 +48,7 @@ def test_arrival_with_the_papers_gains_leaves_27_degrees():
 
 
 def test_gains_that_settle_the_heading():
-    designed = run("east", wmr.Gains(k_rho=0.2, k_alpha=2.0, h=2.0))
+    designed = run("east", wmr.GENTLE_GAINS)
     assert designed.time == pytest.approx(23.1, abs=0.05)
     assert abs(math.degrees(designed.heading_error)) == pytest.approx(2.1, abs=0.05)
     assert designed.peak_omega == pytest.approx(0.64, abs=0.005)

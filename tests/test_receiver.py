@@ -1,7 +1,6 @@
 """Receivers against a plain loop with its own random numbers, against theory, and by property."""
 
 import math
-from concurrent.futures import ThreadPoolExecutor
 
 import numpy as np
 import pytest
@@ -212,11 +211,8 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     whole = wmr.sweep(many, GOAL, GAINS, **options)
     assert np.ptp(whole.distance) > 1.0
     assert 3.0 < np.abs(whole.heading_error).max() <= math.pi
-    with ThreadPoolExecutor(2) as executor:
-        assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, executor=executor,
-                                                        **options)))  # fmt: skip
     monkeypatch.setattr(_chunks, "CORES", 1)
-    monkeypatch.setattr(wmr.sweeping, "_LOCAL_CHUNK", (1, 1))
+    monkeypatch.setattr(wmr.sweeping, "_CHUNK", (1, 1))
     sizes, run_chunk = [], wmr.sweeping.run_chunk
 
     def counted(runs, task):

@@ -172,8 +172,6 @@ def test_columns_agree_with_the_public_functions(method):
         assert run.y_error == pytest.approx(goal.y - run.y)
         error = wmr.wrap_angle(run.heading - goal.heading)
         assert run.heading_error == pytest.approx(error, abs=1e-9)
-        with pytest.raises(ValueError, match="read-only"):
-            run.t[0] = run.V[0] = 1.0
 
 
 @pytest.mark.parametrize("method", ["euler", "arc"])
@@ -263,21 +261,6 @@ def test_a_sweep_knows_the_distance_where_there_is_no_sample():
     assert far.distance == 1e200
 
 
-def test_runs_side_by_side_are_those_driven_alone():
-    """More than sit side by side, some of which arrive."""
-    draw = np.random.default_rng(1).uniform
-    starts = draw(-4.0, 4.0, 36), draw(-4.0, 4.0, 36), draw(-3.0, 3.0, 36)
-    gains = draw(0.2, 1.0, 36), draw(0.5, 3.0, 36), draw(0.1, 2.0, 36), draw(0.5, 2.0, 36)
-    for method in METHODS:
-        how = {"method": method, "dt": 0.25, "duration": 6.0, "arrival_radius": 0.5}
-        runs = wmr.sweep(wmr.Pose(*starts), ORIGIN, wmr.Gains(*gains), **how)
-        assert 0.2 < runs.arrived.mean() < 0.8
-        for i, run in enumerate(np.array([*starts, *gains]).T.tolist()):
-            alone = wmr.simulate(wmr.Pose(*run[:3]), ORIGIN, wmr.Gains(*run[3:]), **how)
-            mine = [field[i] for field in runs]
-            assert mine == pytest.approx(list(wmr.arrival(alone)), rel=1e-8, abs=1e-8), (method, i)
-
-
 TURNS = st.integers(-50, 50)
 
 
@@ -308,7 +291,8 @@ def test_copies_of_a_run_are_the_run_and_stay_read_only():
     runs = [circle(duration=1.0), wmr.simulate(ORIGIN, FAR, CALM, duration=1.0)]
     route = wmr.drive_route(wmr.Pose([0.0, 5.0], [0.0, 0.0], 0.0), CALM)
     for run in (*runs, route):
-        for again in (copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))):
+        copies = copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))
+        for again in (run, *copies):
             for name in type(run).__slots__:
                 value, other = getattr(run, name), getattr(again, name)
                 if isinstance(value, np.ndarray) or name in ("goal", "waypoints"):
@@ -463,21 +447,6 @@ def test_stiff_gains_arrive_although_a_trial_step_passes_the_goal():
     options = {"method": "continuous", "arrival_radius": 1e-3}
     run = wmr.simulate(*ends, wmr.Gains(1e6, 1e6, 1e6), **options)
     assert run.outcome is wmr.Outcome.ARRIVED
-
-
-def test_backing_up_after_a_reference_counts_as_way():
-    def still(t):
-        return wmr.Reference(0.0 * t, 0.0, 0.0, 0.0, 0.0)
-
-    options = {"method": "continuous", "duration": 2.0}
-    tracked = wmr.track(still, wmr.Pose(-5.0, 1.0, 3.0), CALM, **options)
-    driven = wmr.simulate(wmr.Pose(-5.0, 1.0, 3.0), ORIGIN, CALM, **options)
-    assert tracked.v.min() < 0.0
-    assert tracked.path_length == pytest.approx(driven.path_length, abs=1e-7)
-    assert tracked.peak_omega == pytest.approx(driven.peak_omega, rel=1e-7)
-    for name in ("x", "y", "heading", "rho", "v", "omega", "V"):
-        ours, theirs = getattr(tracked, name), getattr(driven, name)
-        np.testing.assert_allclose(ours, theirs, rtol=1e-10, atol=1e-10)
 
 
 def test_a_run_that_takes_too_long_is_refused():
@@ -667,13 +636,23 @@ def test_tracking_may_begin_on_the_axes(x, y, heading):
     np.testing.assert_allclose([here.rho, here.omega], [there.rho, there.omega], atol=1e-9)
 
 
-def test_a_goal_that_stands_still_is_a_reference_too():
-    def still(t):
-        return wmr.Reference(PAPER.goal.x + 0 * t, PAPER.goal.y, PAPER.goal.heading, 0.0, 0.0)
+@pytest.mark.parametrize("method", METHODS)
+def test_a_goal_that_stands_still_is_a_reference_too(method):
+    """Backing up after it counts as way."""
+    start, goal = wmr.Pose(-5.0, 1.0, 3.0), wmr.Pose(0.5, -0.2, 0.3)
 
-    tracked = wmr.track(still, PAPER.start, PAPER.gains, duration=10.0)
-    driven = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, duration=10.0)
-    assert np.array_equal([tracked.x, tracked.V], [driven.x, driven.V])
+    def still(t):
+        return wmr.Reference(goal.x + 0.0 * t, goal.y, goal.heading, 0.0, 0.0)
+
+    options = {"method": method, "duration": 2.0}
+    tracked = wmr.track(still, start, CALM, **options)
+    driven = wmr.simulate(start, goal, CALM, **options)
+    assert tracked.v.min() < 0.0
+    assert tracked.path_length == pytest.approx(driven.path_length, abs=1e-7)
+    assert tracked.peak_omega == pytest.approx(driven.peak_omega, rel=1e-7)
+    for name in ("x", "y", "heading", "rho", "v", "omega", "V"):
+        ours, theirs = getattr(tracked, name), getattr(driven, name)
+        np.testing.assert_allclose(ours, theirs, rtol=1e-10, atol=1e-10)
 
 
 # Wheels that lag ---------------------------------------------------------------------------------
@@ -702,16 +681,6 @@ def test_lagging_wheels_are_the_motion_of_the_pose_and_of_each_wheel():
         assert (run.v[0], run.omega[0]) == (0.0, 0.0)
     parked = wmr.simulate(ORIGIN, ORIGIN, CALM, **LAGGING)
     assert (len(parked), parked.v[0], parked.omega[0]) == (1, 0.0, 0.0)
-
-
-def test_quick_wheels_are_wheels_without_a_lag():
-    errors = []
-    for lag in (0.0, 0.02, 0.01):
-        run = wmr.simulate(PAPER.start, PAPER.goal, CALM, method="continuous", wheel_lag=lag)
-        errors.append(wmr.arrival(run).heading_error)
-    off = np.abs(np.array(errors[1:]) - errors[0])
-    assert off[0] < math.radians(1.0)
-    assert off[0] / off[1] == pytest.approx(2.0, rel=0.15)
 
 
 @settings(max_examples=30, deadline=None)

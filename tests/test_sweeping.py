@@ -1,4 +1,4 @@
-"""Sweeps against the continuous oracle, against the public functions, and on failing executors."""
+"""Sweeps against the continuous oracle, against the public functions, and interrupted."""
 
 import math
 import os
@@ -6,7 +6,7 @@ import signal
 import subprocess
 import sys
 import warnings
-from concurrent.futures import Executor, Future, ThreadPoolExecutor
+from concurrent.futures import ThreadPoolExecutor
 from itertools import product
 
 import numpy as np
@@ -106,6 +106,24 @@ def test_the_samples_lie_on_the_same_run_and_dt_changes_nothing_else(start, gain
         assert np.all(np.abs(off) <= 1e-6 * (1.0 + np.abs(theirs))), name
 
 
+@settings(max_examples=10)
+@given(st.integers(0, 2**32), st.floats(0.01, 1.0))
+def test_runs_keep_to_what_geometry_and_the_proof_allow(seed, radius):
+    """No path is shorter than the straight line, no speed above v_max, no error above V's bound."""
+    starts, goal, gains = scattered(500, seed)
+    begin = wmr.polar_error(starts, goal)
+    runs = wmr.sweep(starts, goal, gains, arrival_radius=radius, duration=30.0)
+    there = np.abs(runs.distance - np.minimum(begin.rho, radius)) < 1e-6
+    out = (runs.distance >= radius) & np.isinf(runs.time)
+    assert np.where(runs.arrived, there & (runs.time <= 30.0), out).all()
+    slack = 1.0 - 1e-6
+    assert (runs.path_length >= slack * (begin.rho - runs.distance)).all()
+    assert (runs.time * gains.v_max >= slack * (begin.rho - radius)).all()
+    angles = begin.alpha**2 + gains.h * begin.theta**2  # the part of V that falls by itself
+    bound = np.sqrt(angles * (1.0 + 1.0 / gains.h))
+    assert (slack * np.abs(runs.heading_error) <= bound + 1e-6).all()
+
+
 def test_the_length_counts_both_ways_and_the_peak_is_between_the_samples():
     """Backwards and forwards again; |omega| is largest within a step."""
     gains = wmr.Gains(0.4, 0.5, 2.0, 2.0)
@@ -145,16 +163,6 @@ def test_whoever_says_that_it_arrived_is_there(far, heading, gains, v_max, radiu
     else:
         assert run.time == math.inf or math.isnan(run.time)
         assert run.distance != 0.0 or far == 0.0 or radius == 0.0
-
-
-def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices():
-    starts, goal, gains = scattered(1500)
-    runs = wmr.sweep(starts, goal, gains, duration=30.0)
-    assert 0.2 < runs.arrived.mean() < 0.9
-    for order in (np.random.default_rng(1).permutation(1500), np.array([7])):
-        moved = wmr.Pose(*(row[order] for row in starts))
-        some = wmr.sweep(moved, goal, wmr.Gains(*(row[order] for row in gains)), duration=30.0)
-        assert same(some, [field[order] for field in runs])
 
 
 @pytest.mark.parametrize("method", METHODS)
@@ -237,16 +245,18 @@ def alone(start, goal, gains, **options):
 
 
 @pytest.mark.parametrize("wheels", [None, LIMITS])
-@pytest.mark.parametrize("method", ["arc", "euler"])
-def test_in_the_plane_too_whoever_arrives_gives_its_place_to_the_next(method, wheels):
+@pytest.mark.parametrize("method", METHODS)
+def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices(method, wheels):
     starts, goal, gains = scattered(1500)
     options = {"method": method, "wheels": wheels, "duration": 30.0}
     runs = wmr.sweep(starts, goal, gains, **options)
     assert 0.1 < runs.arrived.mean() < 0.9
     order = np.random.default_rng(1).permutation(1500)
-    moved = wmr.Pose(*(row[order] for row in starts))
-    again = wmr.sweep(moved, goal, wmr.Gains(*(row[order] for row in gains)), **options)
-    assert same(again, [field[order] for field in runs])
+    for some in (order, np.array([7])):
+        moved, tuned = (type(each)(*(row[some] for row in each)) for each in (starts, gains))
+        assert same(wmr.sweep(moved, goal, tuned, **options), [field[some] for field in runs])
+    if method == "continuous":
+        return
     runs_of = np.array([*np.broadcast_arrays(*starts, *goal, *gains)])
     states = np.zeros((plane.ROWS, 1500))  # all are driven side by side, and nobody once more
     states[:10], states[plane.LEFT] = runs_of, 300.0
@@ -315,7 +325,6 @@ def test_bad_input_names_argument_value_and_range(monkeypatch):
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
         ({"wheels": 2.0}, "a WheelLimits is needed"),
-        ({"executor": 4}, "executor = 4 is not allowed: an Executor is needed, not an int"),
         ({"arrival_radius": -1.0}, r"arrival_radius = -1\.0"),
         ({"trajectories": "no"}, "trajectories = 'no' is not allowed: True or False is needed"),
         ({"progress": 1}, "progress = 1 is not allowed: True or False is needed"),
@@ -355,14 +364,13 @@ def test_a_fresh_process_compiles_nothing_and_plain_python_gives_the_same():
     assert 0.1 < compiled[1] < 1.0
 
 
-# Chunks, bars, interruptions, executors ----------------------------------------------------------
+# Chunks, bars, interruptions ---------------------------------------------------------------------
 
 
 @pytest.fixture
 def small_chunks(monkeypatch):
     """Chunks of one block, so that a small sweep has many."""
-    monkeypatch.setattr(sweeping, "_LOCAL_CHUNK", (1, 1))
-    monkeypatch.setattr(sweeping, "_REMOTE_CHUNK", (1, 1))
+    monkeypatch.setattr(sweeping, "_CHUNK", (1, 1))
 
 
 CASE = scattered(5000, seed=2)
@@ -371,8 +379,9 @@ WHOLE = {"dt": 0.05, "duration": 30.0}
 
 @pytest.fixture(scope="module")
 def whole():
-    with ThreadPoolExecutor(1) as one:
-        return wmr.sweep(*CASE, **WHOLE, executor=one)
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(sweeping, "_CHUNK", (10**9, 10**9))
+        return wmr.sweep(*CASE, **WHOLE)
 
 
 def test_chunks_do_not_show(small_chunks, whole):
@@ -425,119 +434,6 @@ def test_ctrl_c_keeps_what_is_done(monkeypatch, ctrl_c, small_chunks, whole):
     assert all(np.isnan(field[~done]).all() for field in runs[1:])
 
 
-class Losing(Executor):
-    """Loses every third chunk, as if its worker had died, and after twelve takes no more."""
-
-    taken = 0
-
-    def submit(self, function, *arguments):
-        self.taken += 1
-        if self.taken > 12:
-            raise RuntimeError("cannot schedule new futures after shutdown")
-        future = Future()
-        if self.taken % 3 == 0:
-            future.set_exception(ConnectionError("the worker is gone"))
-        else:
-            future.set_result(function(*arguments))
-        return future
-
-
-def test_lost_chunks_are_run_here_with_a_warning(small_chunks, whole):
-    with pytest.warns(RuntimeWarning, match="12 chunks were lost .* run here: ConnectionError"):
-        assert same(wmr.sweep(*CASE, **WHOLE, executor=Losing()), whole)
-
-
-def test_an_error_of_the_job_itself_is_raised(small_chunks):
-    class Failing(ThreadPoolExecutor):
-        def submit(self, *_):
-            return super().submit(int, "no number")
-
+def test_an_error_of_the_job_itself_is_raised():
     with pytest.raises(ValueError, match="invalid literal"):
-        wmr.sweep(*CASE, **WHOLE, executor=Failing(1))
-
-
-POOL = """
-import os, signal, sys, threading, time, warnings
-from concurrent.futures import ProcessPoolExecutor
-import multiprocessing as mp
-import numpy as np, wmrlib as w
-from wmrlib import sweeping
-
-class Pool(ProcessPoolExecutor):
-    seen = None
-
-    def submit(self, *task):
-        future = super().submit(*task)
-        if self.seen:
-            future.add_done_callback(self.seen)
-        return future
-
-if __name__ == "__main__":
-    sweeping._REMOTE_CHUNK = 1, 400_000
-    signal.signal(signal.SIGINT, signal.default_int_handler)
-    pool = Pool(2, mp_context=mp.get_context(sys.argv[1]))
-    arguments = w.Pose(np.linspace(-9, -1, 3_000_000), 1, 0), w.Pose(0, 0, 0), w.Gains(1, 2, 1)
-    w.sweep(w.Pose(np.linspace(-9, -1, 600), 1, 0), *arguments[1:], executor=pool)
-    begun, pressed = [], []
-    def press():
-        pressed.append(time.monotonic())
-        os.killpg(0, signal.SIGINT)
-    def seen(future):
-        if not begun:
-            begun.append(future)
-            threading.Timer(0.3, press).start()
-    pool.seen = seen
-    with warnings.catch_warnings(record=True, action="always") as warned:
-        runs = w.sweep(*arguments, executor=pool, progress=False)
-    late = time.monotonic() - pressed[0]
-    pool.shutdown(cancel_futures=True)
-    print(late, np.isfinite(runs.heading_error).sum(), len(warned))
-"""
-
-
-@pytest.mark.skipif(os.name == "nt", reason="this test needs process groups")
-@pytest.mark.parametrize("method", ["fork", "spawn"])
-def test_ctrl_c_over_a_process_pool_keeps_what_is_done_and_prints_nothing(method, tmp_path):
-    (tmp_path / "pool.py").write_text(POOL, encoding="utf-8")
-    command = [sys.executable, str(tmp_path / "pool.py"), method]
-    options = {"capture_output": True, "text": True, "start_new_session": True, "timeout": 300}
-    done = subprocess.run(command, check=True, **options)
-    late, finished, warned = map(float, done.stdout.split())
-    assert done.stderr == ""
-    assert late < 2.0  # a second on a machine with nothing else to do
-    assert 0 < finished < 3_000_000
-    assert warned == 1
-
-
-def test_a_dask_cluster_that_loses_a_worker(small_chunks, whole):
-    distributed = pytest.importorskip("distributed")
-
-    class Killing(Executor):
-        """Kills one of the cluster's processes when the first chunk comes back."""
-
-        def __init__(self, executor, victim):
-            self.executor, self.victim, self.killed = executor, victim, False
-
-        def submit(self, function, *arguments):
-            future = self.executor.submit(function, *arguments)
-            future.add_done_callback(self.kill)
-            return future
-
-        def kill(self, _):
-            if not self.killed:
-                self.killed = True
-                os.kill(self.victim, signal.SIGTERM if os.name == "nt" else signal.SIGKILL)
-
-    options = {"threads_per_worker": 1, "processes": True, "dashboard_address": ":0"}
-    with (
-        distributed.LocalCluster(2, silence_logs=50, **options) as cluster,
-        distributed.Client(cluster) as client,
-    ):
-        workers = client.run(os.getpid)
-        assert len(workers) == 2
-        with client.get_executor(pure=False) as executor:
-            killing = Killing(executor, next(iter(workers.values())))
-            with warnings.catch_warnings(action="ignore"):  # whether a chunk is lost, dask decides
-                runs = wmr.sweep(*CASE, **WHOLE, executor=killing)
-        assert killing.killed
-    assert same(runs, whole)
+        list(_chunks.spread(int, ["no number"], lambda text: (text,), lambda _: True))

@@ -6,17 +6,7 @@ import sys
 
 import wmrlib as wmr
 
-HEAVY = {
-    "sympy",
-    "matplotlib",
-    "ipywidgets",
-    "control",
-    "scipy.integrate",
-    "numba",
-    "tqdm",
-    "dask",
-    "distributed",
-}
+HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba", "tqdm"}
 
 
 def modules_after(statement):

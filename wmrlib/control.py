@@ -7,16 +7,8 @@ from __future__ import annotations
 
 from wmrlib._checks import Real, choice, instance, reals
 from wmrlib._compile import elementwise, formula
-from wmrlib.gains import Gains, GainsFields, KanayamaGains, LinearGains, WheelLimits, checked_wheels
-from wmrlib.laws import (
-    POSE_LAWS,
-    TRACKING_LAWS,
-    command,
-    lyapunov_value,
-    pose_law,
-    saturation_scale,
-    tuning_of,
-)
+from wmrlib.gains import Gains, GainsFields, WheelLimits, checked_wheels
+from wmrlib.laws import POSE_LAWS, lyapunov_value, pose_law, saturation_scale
 from wmrlib.motion import polar_closing_rate
 
 
@@ -45,39 +37,6 @@ def control_law(
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned)
     v_over_rho, omega = elementwise(_numbers_to_law, 2, *state, options=(_code(law),))
     return v_over_rho * state[0], omega
-
-
-def tracking_law(
-    rho: Real,
-    alpha: Real,
-    theta: Real,
-    v_ref: Real,
-    omega_ref: Real,
-    gains: Gains | KanayamaGains | LinearGains,
-    law: str = "kanayama",
-) -> tuple[Real, Real]:
-    """The twist for a goal that itself moves, by any of the laws.
-
-    Parameters
-    ----------
-    rho, alpha, theta : float or array; m, rad, rad. The polar error.
-    v_ref, omega_ref : float or array; m/s, rad/s. The goal's twist, which pose laws ignore.
-    gains : KanayamaGains, LinearGains or Gains, as the law needs; one number a gain.
-    law : with the error e_x = rho cos(alpha), e_y = rho sin(alpha), e_h = wrap(alpha - theta),
-        "kanayama": v = v_ref cos(e_h) + k_x e_x and
-        omega = omega_ref + v_ref (k_y e_y + k_heading sin(e_h));
-        "linear": v = v_ref cos(e_h) + K_1 e and omega = omega_ref + K_2 e; or a pose law.
-
-    Returns
-    -------
-    v, omega : float or array; m/s, rad/s
-
-    Raises
-    ------
-    ValueError : for rho < 0, NaN, an unknown law, gains of another law or mismatched lengths.
-    """
-    state = _checked(rho=rho, alpha=alpha, theta=theta, v_ref=v_ref, omega_ref=omega_ref)
-    return elementwise(command, 2, *state, options=tuning_of(gains, law, TRACKING_LAWS))
 
 
 def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Real:

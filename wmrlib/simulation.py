@@ -95,8 +95,12 @@ def track(
     reference : function of an array of times [s] that returns a Reference of arrays, for example
         `paper.circle`
     start : Pose of numbers, m and rad
-    gains : of the law, see `tracking_law`
-    law : as in `simulate`, or "kanayama" or "linear", which use the reference's twist
+    gains : Gains, KanayamaGains or LinearGains, as the law needs; one number a gain
+    law : as in `simulate`, or one that uses the reference's twist, v_ref and omega_ref; with the
+        error e_x = rho cos(alpha), e_y = rho sin(alpha), e_h = wrap(alpha - theta),
+        "kanayama": v = v_ref cos(e_h) + k_x e_x and
+        omega = omega_ref + v_ref (k_y e_y + k_heading sin(e_h));
+        "linear": v = v_ref cos(e_h) + K_1 e and omega = omega_ref + K_2 e
     method, dt, duration, wheels : as in `simulate`, but "continuous" integrates the pose
 
     Returns

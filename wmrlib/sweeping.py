@@ -1,11 +1,10 @@
-"""Many runs at once, on every core of this machine or on any `concurrent.futures.Executor`."""
+"""Many runs at once, on every core of this machine."""
 
 from __future__ import annotations
 
 import math
 import warnings
 from collections.abc import Generator, Iterator
-from concurrent.futures import Executor
 from contextlib import closing
 from typing import NamedTuple
 
@@ -22,8 +21,8 @@ from wmrlib.runs import Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
 _METHODS = {"continuous": (adaptive, None)} | {k: (plane, code) for k, code in plane.STEPS.items()}
-# A chunk is worth sending, and soon done when the sweep is stopped: evaluations of the law.
-_LOCAL_CHUNK, _REMOTE_CHUNK = (250_000, 4_000_000), (1_000_000, 20_000_000)  # least, most
+# A chunk is worth a thread, and soon done when the sweep is stopped: evaluations of the law.
+_CHUNK = 250_000, 4_000_000  # least, most
 _LONG_WORK = 40_000_000
 _ALONE_COST = 17  # evaluations of the law that take as long as one step of a run driven by itself
 
@@ -61,7 +60,6 @@ def sweep(
     receiver: Receiver | None = None,
     seed: int = 0,
     trajectories: bool = False,
-    executor: Executor | None = None,
     progress: bool = True,
 ) -> Arrival | tuple[Arrival, Trajectories]:
     """Drive many runs at once and sum each one up.
@@ -87,9 +85,6 @@ def sweep(
     seed : int from 0 to 2^64 - 1. A run's random numbers, two a sample, follow from it and from the
         run's place among all alone, on however many cores.
     trajectories : bool, whether to return the samples too, at most fifty million in all
-    executor : Executor to which chunks of runs are sent, for example dask's
-        `Client.get_executor()`; a chunk that is lost with its worker is run here, with a warning.
-        None: threads on all cores.
     progress : bool, whether to show a bar when the work takes longer than about a second
 
     Returns
@@ -122,8 +117,6 @@ def sweep(
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
             raise refusal(name, value, "True or False")
-    if executor is not None:
-        instance("executor", executor, Executor)
     total = math.prod(shape)
     if trajectories and total * samples > MOST_RECORDED:
         raise ValueError(
@@ -135,16 +128,15 @@ def sweep(
     source = [np.broadcast_to(field, shape).reshape(-1) for field in fields.values()]
     if receiver:
         source.insert(-1, np.arange(total))  # before the law: the run's number
-    lost: list[BaseException] = []
     long = progress and total * task.cost >= _LONG_WORK
     with (
         _chunks.watched(total, long) as go_on,
-        closing(_results(source, total, task, executor, go_on, lost)) as results,
+        closing(_results(source, total, task, go_on)) as results,
     ):
         for (first, last), (metrics, paths) in results:
             summary[:, first:last], record[:, first:last] = metrics, paths
             go_on(last - first)
-    for message in _shortcomings(summary, lost):
+    for message in _shortcomings(summary):
         warnings.warn(message, RuntimeWarning, stacklevel=2)
     outcome, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
     metrics = Arrival(outcome == rows.ARRIVED, *rest)
@@ -168,18 +160,18 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     return summary, record
 
 
-def _results(source, total: int, task: _Task, executor, go_on, lost: list) -> Generator:
+def _results(source, total: int, task: _Task, go_on) -> Generator:
     def arguments(chunk: tuple[int, int]) -> tuple[np.ndarray, _Task]:
         return np.array([field[slice(*chunk)] for field in source], dtype=float), task
 
-    size = _chunk_size(total, task, executor)
+    size = _chunk_size(total, task)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
-    if executor is None and len(chunks) > 1:  # compile here, and not in several threads
+    if len(chunks) > 1:  # compile here, and not in several threads
         run_chunk(np.tile(np.unique(source[-1]), (len(source), 1)), task._replace(samples=2))
-    return _chunks.spread(run_chunk, chunks, arguments, go_on, executor, lost)
+    return _chunks.spread(run_chunk, chunks, arguments, go_on)
 
 
-def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[str]:
+def _shortcomings(summary: np.ndarray) -> Iterator[str]:
     outcome = summary[rows.OUTCOME]
     done, given_up = (~np.isnan(outcome)).sum(), (outcome == rows.UNFINISHED).sum()
     if done < outcome.size:
@@ -187,15 +179,12 @@ def _shortcomings(summary: np.ndarray, lost: list[BaseException]) -> Iterator[st
     if given_up:
         most = f"{adaptive.MOST_TRIALS:,.0f} steps"
         yield f"{given_up:,} of {outcome.size:,} runs are NaN: their gains need more than {most}"
-    if lost:
-        yield f"{len(lost):,} chunks were lost with their worker and run here: {lost[-1]!r}"
 
 
-def _chunk_size(total: int, task: _Task, executor: Executor | None) -> int:
-    """Whole blocks of runs, if they run in blocks; if worth it, four chunks for each known core."""
-    least, most = _LOCAL_CHUNK if executor is None else _REMOTE_CHUNK
-    parts = 4 * _chunks.CORES if executor is None else 16
-    size = math.ceil(min(most, max(least, total * task.cost / parts)) / task.cost)
+def _chunk_size(total: int, task: _Task) -> int:
+    """Whole blocks of runs, if they run in blocks; if worth it, four chunks for each core."""
+    least, most = _CHUNK
+    size = math.ceil(min(most, max(least, total * task.cost / (4 * _chunks.CORES))) / task.cost)
     block = 1 if task.key or task.recorded else plane.BLOCK  # those are driven one by one
     return block * math.ceil(size / block)
 

@@ -1,6 +1,6 @@
 """All benchmarks in one run and one table: python tests/benchmarks/everything.py [--fast | --keep]
 
---fast leaves out the study, the chapters, the book and the explorer, which take minutes. --keep
+--fast leaves out the chapters, the book and the explorer, which take minutes. --keep
 writes the table and its machine to book/speed.json, which the book's page on speed shows, if all of
 it could be measured. Machines differ and are noisy: quote the ratios.
 """
@@ -13,7 +13,6 @@ import tempfile
 from pathlib import Path
 
 import one_run
-import study
 import sweeps
 from timing import ROOT, Row, command, machine, process, show
 
@@ -84,7 +83,7 @@ def main(fast: bool, keep: bool) -> None:
             *starting(),
         ]
         if not fast:
-            rows += [*study.rows(), *building(folder, failures), *explorer(failures)]
+            rows += [*building(folder, failures), *explorer(failures)]
     show(rows)
     if failures:
         sys.exit("\n".join(["", "Nothing is kept, because not all could be measured.", *failures]))

@@ -14,31 +14,26 @@ from wmrlib.kinematics import polar_closing_rate
 from wmrlib.laws import POSE_LAWS, pose_law
 
 STEPS, DT = 300, 0.1
+TIMES = DT * np.arange(STEPS + 1)
 START, GOAL, GAINS, _ = wmr.paper.outdoor()
 NEVER = {"duration": STEPS * DT, "arrival_radius": 0.0}  # all steps are taken
 
 
+def rate(t, state, *_):
+    """The closed loop with wmrlib's formula, so that only the tool differs."""
+    v_over_rho, omega = pose_law(state[0], state[1], state[2], GAINS, POSE_LAWS["corrected"])
+    return polar_closing_rate(state[0], state[1], v_over_rho, omega)
+
+
 def python_control():
-    """The same law as a NonlinearIOSystem, with wmrlib's formula, so that only the tool differs."""
-
-    def update(t, state, inputs, params):
-        v_over_rho, omega = pose_law(state[0], state[1], state[2], GAINS, POSE_LAWS["corrected"])
-        return polar_closing_rate(state[0], state[1], v_over_rho, omega)
-
-    robot = control.nlsys(update, None, inputs=0, states=3, outputs=3)
-    t = DT * np.arange(STEPS + 1)
+    robot = control.nlsys(rate, None, inputs=0, states=3, outputs=3)
     first = list(wmr.polar_error(START, GOAL))
-    return lambda: control.input_output_response(robot, t, 0, first)
+    return lambda: control.input_output_response(robot, TIMES, 0, first)
 
 
 def scipy_alone():
-    def rate(t, state):
-        v_over_rho, omega = pose_law(state[0], state[1], state[2], GAINS, POSE_LAWS["corrected"])
-        return polar_closing_rate(state[0], state[1], v_over_rho, omega)
-
-    t = DT * np.arange(STEPS + 1)
     first = list(wmr.polar_error(START, GOAL))
-    return lambda: solve_ivp(rate, (0.0, t[-1]), first, t_eval=t)
+    return lambda: solve_ivp(rate, (0.0, TIMES[-1]), first, t_eval=TIMES)
 
 
 def loop_of(functions):

@@ -6,13 +6,14 @@ import ctypes
 import os
 import shutil
 import subprocess
-from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
+from unittest import mock
 
 import numpy as np
 from timing import Row, in_turn
 
 import wmrlib as wmr
+from wmrlib import _chunks
 
 os.environ.setdefault(
     "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
@@ -44,18 +45,20 @@ def states(runs: int) -> list[np.ndarray]:
     return [np.array(np.broadcast_to(value, runs), dtype=float) for value in row]
 
 
-def sweep(method: str, runs: int, steps: int, executor):
+def on(cores: int):
+    """A context in which sweeps have so many cores."""
+    return mock.patch.object(_chunks, "CORES", cores)
+
+
+def sweep(method: str, runs: int, steps: int, cores: int = 1):
     start, of = wmr.paper.outdoor().start, gains(runs)
-    return lambda: wmr.sweep(
-        start,
-        GOAL,
-        of,
-        method=method,
-        dt=DT,
-        duration=steps * DT,
-        executor=executor,
-        progress=False,
-    )
+    how = {"method": method, "dt": DT, "duration": steps * DT, "progress": False}
+
+    def run():
+        with on(cores):
+            return wmr.sweep(start, GOAL, of, **how)
+
+    return run
 
 
 def in_c(folder: Path) -> dict[str, ctypes.CDLL]:
@@ -132,31 +135,21 @@ def against_the_limit(folder: Path) -> list[Row]:
     libraries, rows = in_c(folder), []
     if not libraries:
         print("gcc was not found: no limit to compare with")
-    with ThreadPoolExecutor(1) as one:
-        for method, function in METHODS.items():
-            cases = {name: c_case(library, function) for name, library in libraries.items()}
-            cases["wmrlib.sweep, metrics included"] = sweep(method, RUNS, STEPS, one)
-            if method == "euler":
-                cases["numpy"] = numpy_case()
-                try:
-                    cases["JAX"] = jax_case()
-                except ImportError:
-                    print("JAX is not installed: left out")
-            seconds = in_turn(cases)
-            limit = min((seconds[name] for name in libraries), default=None)
-            section = (
-                f"10,000 gains by 300 steps on one core, {method.title()}, against the fastest C"
-            )
-            for name, value in seconds.items():
-                rows.append(
-                    Row(
-                        section,
-                        name,
-                        1e9 * value / RUNS / STEPS,
-                        "ns a step",
-                        value / limit if limit else None,
-                    )
-                )
+    for method, function in METHODS.items():
+        cases = {name: c_case(library, function) for name, library in libraries.items()}
+        cases["wmrlib.sweep, metrics included"] = sweep(method, RUNS, STEPS)
+        if method == "euler":
+            cases["numpy"] = numpy_case()
+            try:
+                cases["JAX"] = jax_case()
+            except ImportError:
+                print("JAX is not installed: left out")
+        seconds = in_turn(cases)
+        limit = min((seconds[name] for name in libraries), default=None)
+        section = f"10,000 gains by 300 steps on one core, {method.title()}, against the fastest C"
+        for name, value in seconds.items():
+            step, ratio = 1e9 * value / RUNS / STEPS, value / limit if limit else None
+            rows.append(Row(section, name, step, "ns a step", ratio))
     return rows
 
 
@@ -206,9 +199,9 @@ def heyoka_case(starts: wmr.Pose, gains: wmr.Gains, seconds: float):
 def with_error_control() -> list[Row]:
     """To arrival within 5 cm or for a minute, at a tolerance of 1e-10."""
     (starts, gains), goal = some_runs(), wmr.Pose(0.0, 0.0, 0.0)
-    with ThreadPoolExecutor(1) as one:
+    with on(1):
         ours = "wmrlib.sweep, peaks and lengths too"
-        cases = {ours: lambda: wmr.sweep(starts, goal, gains, executor=one, progress=False)}
+        cases = {ours: lambda: wmr.sweep(starts, goal, gains, progress=False)}
         try:
             cases["heyoka, batches"] = heyoka_case(starts, gains, 60.0)
         except ImportError:
@@ -225,34 +218,17 @@ def with_error_control() -> list[Row]:
 
 
 def growth() -> list[Row]:
-    with ThreadPoolExecutor(1) as one:
-        sizes = [(n, 300) for n in (1000, 10_000, 100_000, 1_000_000)] + [
-            (1000, n) for n in (3000, 30_000)
-        ]
-        seconds = in_turn({size: sweep("euler", *size, one) for size in sizes}, repeat=3)
+    sizes = [(n, 300) for n in (1000, 10_000, 100_000, 1_000_000)]
+    sizes += [(1000, n) for n in (3000, 30_000)]
+    seconds = in_turn({size: sweep("euler", *size) for size in sizes}, repeat=3)
     each = {size: 1e9 * value / size[0] / size[1] for size, value in seconds.items()}
-    section, base = (
-        "Growth, sampled Euler on one core, against 10,000 runs of 300 steps",
-        each[10_000, 300],
-    )
+    section = "Growth, sampled Euler on one core, against 10,000 runs of 300 steps"
     rows = [
-        Row(section, f"{n:,} runs of {k:,} steps", value, "ns a step", value / base)
+        Row(section, f"{n:,} runs of {k:,} steps", value, "ns a step", value / each[10_000, 300])
         for (n, k), value in each.items()
     ]
-    pools = {n: ThreadPoolExecutor(n) for n in (1, *((2,) if (os.cpu_count() or 1) > 1 else ()))}
-    cores = in_turn(
-        {f"{n} core{'s' * (n > 1)}": sweep("arc", 100_000, 300, pool) for n, pool in pools.items()},
-        repeat=7,
-    )
-    for pool in pools.values():
-        pool.shutdown()
-    return rows + [
-        Row(
-            "100,000 runs of 300 steps, arc, against one core",
-            name,
-            s,
-            "s",
-            s / cores["1 core"],
-        )
-        for name, s in cores.items()
-    ]
+    many = (1, 2) if (os.cpu_count() or 1) > 1 else (1,)
+    cores = in_turn({n: sweep("arc", 100_000, 300, n) for n in many})
+    section = "100,000 runs of 300 steps, arc, against one core"
+    names = {1: "1 core", 2: "2 cores"}
+    return rows + [Row(section, names[n], s, "s", s / cores[1]) for n, s in cores.items()]

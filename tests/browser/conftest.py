@@ -8,9 +8,8 @@ import sys
 from pathlib import Path
 
 import pytest
-from faults import DRAWN
 from filelock import FileLock
-from live import PATIENCE, ROOT
+from live import PATIENCE, ROOT, confine
 
 FLAGS = [
     "--headless=new",
@@ -32,6 +31,13 @@ LOCAL = (
     "ws://127.0.0.1",
     "ws://localhost",
 )
+DRAWN = """async () => {
+    await window.MathJax?.startup.promise;
+    await document.fonts.ready;
+    const type = 'application/vnd.jupyter.widget-view+json';
+    const panels = [...document.querySelectorAll(`script[type="${type}"]`)];
+    return panels.every(it => it.parentElement.querySelector('.jupyter-widgets'));
+}"""
 
 
 @pytest.fixture(scope="session")
@@ -153,13 +159,7 @@ def site(tmp_path_factory) -> Path:
 @pytest.fixture
 def opened(site, browser_page):
     """Opens a page and waits until it is drawn; a request that leaves the site is a trouble."""
-    ours = (f"{site.as_uri()}/", "data:", "blob:")
-
-    def asked(request):
-        if not request.url.startswith(ours):
-            browser_page.troubles.append(f"left the site: {request.url}")
-
-    browser_page.on("request", asked)
+    confine(browser_page, site)
 
     def open_page(name: str):
         browser_page.goto(f"{site.as_uri()}/{name}", wait_until="load", timeout=PATIENCE)

@@ -1,19 +1,13 @@
-"""Count what a reader of the built book can't see or use, page by page, in three windows.
-
-    python tests/browser/faults.py book/_build/html
+"""What a reader of the built book can't see or use, on a page and in the PDF.
 
 Code lines, formulas, tables and figures that are cut, figures with small letters, what axe-core
-finds in the light and in the dark, requests that leave the site, and of the PDF lost panels and
-pages that look torn. Needs `npm ci` in book/.
+finds in the light and in the dark, and of the PDF lost panels and pages that look torn.
 """
 
 from __future__ import annotations
 
-import argparse
 import re
-import sys
 import zlib
-from collections import Counter
 from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
@@ -34,13 +28,6 @@ UNFOLD = """() => {
 }"""
 FOOT = 51  # points from the edge; below stands a page's number
 PANEL = '<script type="application/vnd.jupyter.widget-view+json">'
-DRAWN = """async () => {
-    await window.MathJax?.startup.promise;
-    await document.fonts.ready;
-    const type = 'application/vnd.jupyter.widget-view+json';
-    const panels = [...document.querySelectorAll(`script[type="${type}"]`)];
-    return panels.every(it => it.parentElement.querySelector('.jupyter-widgets'));
-}"""
 IMAGE = re.compile(  # in a PDF by Chromium
     rb"/Subtype /Image\s+/Width (\d+)\s+/Height (\d+)\s+/ColorSpace \[/ICCBased[^>]*?"
     rb"/Filter /FlateDecode\s+/Length (\d+)>> stream\r?\n"
@@ -142,51 +129,3 @@ def of_paper(pdf: Path) -> list[tuple[str, str]]:
         }
         faults += [(kind, f"page {index + 1}") for kind, is_so in found.items() if is_so]
     return faults
-
-
-def main(site: Path, only: list[str]) -> int:
-    """Print the faults of each page and of the PDF, and their sums; return how many there are."""
-    from playwright.sync_api import sync_playwright
-
-    sys.path.insert(0, str(ROOT / "book" / "tools"))
-    from pdf import find_browser
-
-    faults = []
-    with sync_playwright() as playwright:
-        chromium = playwright.chromium.launch(
-            executable_path=find_browser(), args=["--no-sandbox", "--disable-gpu"]
-        )
-        for path in sorted(site.rglob("*.html")):
-            name = path.relative_to(site).as_posix()
-            if name.startswith("_static") or not any(each in name for each in only or [""]):
-                continue
-            page = chromium.new_page()
-            asked: list[str] = []
-            page.on("request", lambda request, asked=asked: asked.append(request.url))
-            page.goto(path.as_uri(), wait_until="load")
-            page.wait_for_function(DRAWN)
-            here = of_page(page)
-            left = [url for url in asked if not url.startswith((site.as_uri(), "data:", "blob:"))]
-            here += [("requests that leave the site", url) for url in left]
-            for kind, place in here:
-                print(f"{name}: {kind}: {place}")
-            faults += here
-            page.close()
-        chromium.close()
-    if (pdf := site.parent / "book.pdf").is_file() and not only:
-        panels = sum(path.read_text(encoding="utf-8").count(PANEL) for path in site.rglob("*.html"))
-        faults += [("panels that the PDF lacks", "")] * (panels - stills(pdf)) + of_paper(pdf)
-    for kind, count in sorted(Counter(kind for kind, _ in faults).items()):
-        print(f"{count:5} {kind}")
-    print(f"{len(faults):5} in all")
-    return len(faults)
-
-
-if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
-    parser.add_argument("site", type=Path, help="the folder with index.html")
-    parser.add_argument("pages", nargs="*", help="only pages whose names have one of these in them")
-    given = parser.parse_args()
-    sys.exit(min(1, main(given.site.resolve(), given.pages)))

@@ -27,6 +27,17 @@ def chapters() -> list[Path]:
     return sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 
 
+def confine(page, folder: Path) -> None:
+    """Let a request of the page that leaves the folder be a trouble."""
+    ours = (f"{folder.as_uri()}/", "data:", "blob:", "about:")
+
+    def asked(request):
+        if not request.url.startswith(ours):
+            page.troubles.append(f"left {folder.name}: {request.url}")
+
+    page.on("request", asked)
+
+
 def sliders(page) -> list:
     """The panels' sliders to be seen, once there is one."""
     page.locator(".wmr-slider:visible").first.wait_for(timeout=PATIENCE)

@@ -11,7 +11,7 @@ from pathlib import Path
 import pypdfium2
 import pytest
 from faults import ASK, AXE
-from live import PATIENCE, ROOT, assert_slider_matters, settled_picture, thumb
+from live import PATIENCE, ROOT, assert_slider_matters, confine, settled_picture, thumb
 
 READY = os.environ.get("SLIDES")
 pytestmark = [] if READY else pytest.mark.needs("npm")
@@ -44,13 +44,7 @@ def decks(tmp_path_factory) -> Path:
 @pytest.fixture
 def opened(decks, browser_page):
     """Opens a deck and waits until it is drawn; a request that leaves its folder is a trouble."""
-    ours = (f"{decks.as_uri()}/", "data:", "blob:", "about:")
-
-    def asked(request):
-        if not request.url.startswith(ours):
-            browser_page.troubles.append(f"left the folder: {request.url}")
-
-    browser_page.on("request", asked)
+    confine(browser_page, decks)
 
     def open_deck(name: str, size=SIZES[0]):
         browser_page.set_viewport_size({"width": size[0], "height": size[1]})

@@ -8,6 +8,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 import pytest
+from oracle import commanded
 
 import wmrlib as wmr
 from wmrlib import paper
@@ -129,9 +130,8 @@ def _difference(column: str, a, b):
 
 
 def _step(run: Run, pose: wmr.Pose, goal: wmr.Pose, v_ref, omega_ref) -> wmr.Pose:
-    twist = wmr.tracking_law(
-        *wmr.polar_error(pose, goal), v_ref, omega_ref, run.gains, law=run.options["law"]
-    )
+    seen = wmr.polar_error(pose, goal)
+    twist = commanded(*seen, v_ref, omega_ref, run.gains, run.options["law"])
     return wmr.advance(pose, *twist, run.options["dt"], run.options["method"])
 
 
@@ -281,13 +281,8 @@ def _assert_steps(run: Run) -> None:
     pose = wmr.Pose(*(theirs[c] for c in ("x", "y", "heading")))
     seen = dict(zip(("rho", "alpha", "theta"), wmr.polar_error(pose, goal), strict=True))
     state = [theirs[c] for c in seen]
-    expected = seen | dict(
-        zip(
-            ("v", "omega"),
-            wmr.tracking_law(*state, v_ref, omega_ref, run.gains, law=options["law"]),
-            strict=True,
-        )
-    )
+    twist = commanded(*state, v_ref, omega_ref, run.gains, options["law"])
+    expected = seen | dict(zip(("v", "omega"), twist, strict=True))
     rho, alpha, theta = state
     if options["law"] == "kanayama":
         expected["V"] = rho**2 / 2.0 + (1.0 - np.cos(alpha - theta)) / run.gains.k_y

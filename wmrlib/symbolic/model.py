@@ -77,8 +77,7 @@ def law(name: str = "corrected") -> tuple[sp.Expr, sp.Expr]:
 
     Returns
     -------
-    v, omega : expressions, m/s, rad/s; by ``sympy.lambdify`` they equal `wmrlib.control_law` and
-        `wmrlib.tracking_law`
+    v, omega : expressions, m/s, rad/s; by ``sympy.lambdify`` they equal `wmrlib.control_law`
 
     Raises
     ------
