@@ -38,7 +38,7 @@ CONVENTIONS = MappingProxyType(
         ),
         "corke": Convention(_BETA, -1, 1, "Corke (2023), doi:10.1007/978-3-031-06469-2"),
         "siegwart": Convention(_BETA, -1, 1, "Siegwart et al. (2011), section 3.6.2"),
-        "pythonrobotics": Convention(_BETA, -1, -1, "PythonRobotics, move_to_pose.py"),
+        "pythonrobotics": Convention(_BETA, -1, -1, "PythonRobotics since 2021, move_to_pose.py"),
     }
 )
 """From the name of a convention to what it is."""
