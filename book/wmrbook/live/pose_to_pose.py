@@ -91,7 +91,7 @@ def heading_left() -> Live:
             f"{math.degrees(first):.0f}° off. How much is left if it stops "
             f"{100 * RADII[1]:.0f} cm before it?",
             "The heading swings all along the last metre, and there it happens to pass zero. What "
-            "is left of a swing with little damping tells where it was stopped, no more.",
+            "is left of a swing that outlasts the distance tells where it was stopped, no more.",
             key=[*left.values()].index(True),
             options=(*left,),
         ),
