@@ -33,7 +33,7 @@ def x_axis() -> Live:
         ask=Ask(
             "turn",
             f"The robot starts with a heading of {math.degrees(north.start.heading):.0f}°, and x "
-            "is north, y east. Which way does it look on a map with north up? Turn the arrow.",
+            "is north, y east. Which way does it face on a map with north up? Turn the arrow.",
             "A heading is counted from x towards y, so from north it goes clockwise, like a "
             "bearing. The same number, counted from east, goes the other way round.",
             key=key,
