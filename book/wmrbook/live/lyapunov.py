@@ -102,7 +102,7 @@ def two_bars() -> Live:
         data={"rho": NEAR, "gains": OUTDOOR_GAINS._asdict(), "asked": ASKED},
         ask=Ask(
             "choose",
-            "A robot with this law looks straight at its goal, 0.5 m ahead, but should be turned "
+            "A robot with this law faces its goal squarely, 0.5 m ahead, but should be turned "
             "by 60° there: alpha is 0 and theta is 60°. Which part of V is falling?",
             "The angles' part falls by what alpha is, whatever theta is: it can't see that the "
             "heading is wrong. That V never rises is not enough; it must not stay level either.",

@@ -33,7 +33,7 @@ def x_axis() -> Live:
         ask=Ask(
             "turn",
             f"The robot starts with a heading of {math.degrees(north.start.heading):.0f}°, and x "
-            "is north, y east. Which way does it look on a map with north up? Turn the arrow.",
+            "is north, y east. Which way does it face on a map with north up? Turn the arrow.",
             "A heading is counted from x towards y, so from north it goes clockwise, like a "
             "bearing. The same number, counted from east, goes the other way round.",
             key=key,
@@ -91,7 +91,7 @@ def heading_left() -> Live:
             f"{math.degrees(first):.0f}° off. How much is left if it stops "
             f"{100 * RADII[1]:.0f} cm before it?",
             "The heading swings all along the last metre, and there it happens to pass zero. What "
-            "is left of a swing with little damping tells where it was stopped, no more.",
+            "is left of a swing that outlasts the distance tells where it was stopped, no more.",
             key=[*left.values()].index(True),
             options=(*left,),
         ),

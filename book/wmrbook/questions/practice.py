@@ -173,6 +173,6 @@ def is_it_parked() -> tuple[str, list[Option], str]:
     }
     why = (
         "The heading swings through zero near 10 cm, so the verdict flips with our thresholds. "
-        "The damping of 0.11 does not."
+        "The heading still settles 16 times slower than the distance."
     )
     return ask, cases(found, options), why
