@@ -180,9 +180,9 @@ POSITIVE = {"k_rho": (0.05, 5.0), "k_alpha": (0.05, 20.0), "h": (0.01, 20.0), "v
 
 
 @headline("07", r"it does exactly when $2 < k_\alpha/\lambda < 1 + h$", **POSITIVE)
-def heading_first(**gains):
-    kappa = gains["k_alpha"] / (gains["v_max"] * gains["k_rho"])
-    return (2 < kappa < 1 + gains["h"]) == (wmr.modes(wmr.Gains(**gains)).slower < 1)
+def heading_first(k_rho, k_alpha, h, v_max):
+    slower = wmr.modes(wmr.Gains(k_rho, k_alpha, h, v_max)).slower
+    return (2 < k_alpha / (v_max * k_rho) < 1 + h) == (slower < 1)
 
 
 @headline(
@@ -192,8 +192,8 @@ def heading_first(**gains):
     unit="1/s",
     **(POSITIVE | {"k_alpha": [1.0]}),
 )
-def no_h_is_faster(**gains):
-    return wmr.modes(wmr.Gains(**gains)).heading_rate
+def no_h_is_faster(k_rho, k_alpha, h, v_max):
+    return wmr.modes(wmr.Gains(k_rho, k_alpha, h, v_max)).heading_rate
 
 
 def settled_deg(gains, radius, case=None, **how):

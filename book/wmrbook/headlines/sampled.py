@@ -28,13 +28,13 @@ SMALL = {"rho": (1e-5, 1e-2), "alpha": (-1e-3, 1e-3), "theta": (1e-4, 1e-3)}
 
 
 @headline("08", "must be sampled every 0.022 s with the paper's gains", **SMALL)
-def paper_step(**angles):
-    return settles(GAINS, 0.0215, **angles) and not settles(GAINS, 0.0225, **angles)
+def paper_step(rho, alpha, theta):
+    return settles(GAINS, 0.0215, rho, alpha, theta) > settles(GAINS, 0.0225, rho, alpha, theta)
 
 
 @headline("08", "every 0.71 s with the gentle ones", **SMALL)
-def gentle_step(**angles):
-    return settles(GENTLE, 0.70, **angles) and not settles(GENTLE, 0.73, **angles)
+def gentle_step(rho, alpha, theta):
+    return settles(GENTLE, 0.70, rho, alpha, theta) > settles(GENTLE, 0.73, rho, alpha, theta)
 
 
 @headline(
@@ -46,8 +46,8 @@ def gentle_step(**angles):
     dt=(0.002, 0.01),
     arrival_radius=(5e-4, 5e-3),
 )
-def ten_times_faster(**how):
-    off = partial(settled_deg, GAINS, 0.05, **how)
+def ten_times_faster(dt, arrival_radius):
+    off = partial(settled_deg, GAINS, 0.05, dt=dt, arrival_radius=arrival_radius)
     return off(wheel_lag=1 / 80) - off()
 
 
@@ -86,8 +86,8 @@ DRIVES = {"way": ROUND, "far": (3.0, 12.0), "theta": (-3.0, 3.0), "limit": (1.5,
         at_most=0.15,
     ),
 )
-def path_kept(most, **drive):
-    return stray(most=most, **drive)
+def path_kept(way, far, theta, most, limit):
+    return stray(way, far, theta, most, limit)
 
 
 def parks(gains, axis, heading, receiver, **how):
@@ -143,8 +143,8 @@ def two_designs(seed, axis, memory, sigma=0.5, period=0.1):
 @headline(
     "09", "With each memory and both rates the matched gains leave less heading error", **RECEIVERS
 )
-def matched_turn_less(**receiver):
-    gentle, matched = two_designs(**receiver)
+def matched_turn_less(seed, axis, memory, period):
+    gentle, matched = two_designs(seed, axis, memory, period=period)
     return matched[1] < gentle[1] and matched[0] > gentle[0]
 
 
@@ -159,8 +159,8 @@ def matched_turn_less(**receiver):
     memory=(300.0, 1e4),
     sigma=(0.5, 1.0),
 )
-def root_two(sigma, **receiver):
-    return next(two_designs(sigma=sigma, **receiver))[0] / sigma
+def root_two(seed, axis, memory, sigma):
+    return next(two_designs(seed, axis, memory, sigma))[0] / sigma
 
 
 @headline(
