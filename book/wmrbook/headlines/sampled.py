@@ -98,7 +98,7 @@ def path_kept(way, far, theta, most, limit):
     at_most=1.1,
     unit="m",
     beside=[True, False],
-    dt=(0.01, 0.05),
+    dt=(0.02, 0.05),
 )
 def accelerating(beside, dt):
     case = paper.outdoor()
