@@ -401,7 +401,7 @@ def braking(answer: Any) -> str:
 
 @_exercise
 def one_centimetre(answer: Any) -> str:
-    """6.1: k_rho that leaves 1 cm, and the step that a sampled robot must stay below."""
+    """6.1: k_rho that leaves 1 cm, and the step below which a robot exactly behind settles."""
     gain, step = numbers("`answer`", answer, 2)
     expect(gain > 0.0, _POSITIVE)
     wanted = -math.log(1.0 - paper.CIRCLE_SPEED / 4.0) / 0.01
@@ -409,16 +409,20 @@ def one_centimetre(answer: Any) -> str:
     v = control_law(0.01, 0.0, 0.0, paper.CIRCLE_GAINS._replace(k_rho=gain, v_max=4.0))[0]
     hint = f"1 cm from the goal the law commands {v:.3f} m/s; the goal does "
     expect(close(v, paper.CIRCLE_SPEED, 0.01), f"{hint}{paper.CIRCLE_SPEED:.3f} m/s.")
-    constant = 1.0 / (4.0 * gain)
-    _expect_unit(step, 2.0 * constant, "s")
-    if not _about(step, 2.0 * constant):
-        once = "with this step the distance is gone at once; a longer one still lets it shrink."
-        explain(
-            step, {once: constant}, "a step multiplies the distance by 1 - v_max k_rho dt.", _about
-        )
+    slope = gain * (4.0 - paper.CIRCLE_SPEED)  # of v over the distance, where the robot stays
+    _expect_unit(step, 2.0 / slope, "s")
+    if not _about(step, 2.0 / slope):
+        once = "with this step the error is gone at once; a longer one still lets it shrink."
+        mistakes = {
+            once: 1.0 / slope,
+            "v_max k_rho is the slope of v at the goal itself: how steep is it 1 cm away?": 0.5
+            / gain,
+        }
+        hint = "a step multiplies the error by 1 - s dt: what is the slope s of v 1 cm away?"
+        explain(step, mistakes, hint, _about)
     # The gain is rounded too.
-    _expect_below(step, 2.002 * constant, f"at {step:g} s the distance does not shrink")
-    return "Right: below this step the distance settles, and 1 cm is left."
+    _expect_below(step, 2.002 / slope, f"at {step:g} s the error does not shrink")
+    return "Right for a robot exactly behind its goal; with angles the steering fails earlier."
 
 
 @_exercise

@@ -1,0 +1,202 @@
+"""Headlines of chapters 8 and 9: sampling, wheels, receivers, delays."""
+
+from __future__ import annotations
+
+import math
+from functools import partial
+
+import numpy as np
+
+import wmrlib as wmr
+from wmrbook.headlines import ROUND, SEEDS, Before, headline
+from wmrbook.headlines.field import AXES, GAINS, GENTLE, settled_deg
+from wmrlib import paper
+
+MATCHED = wmr.gains_for(0.2, natural_frequency=0.6, damping=0.5 / 0.6, v_max=4.0)
+
+
+def settles(gains, dt, rho, alpha, theta):
+    """Whether angles near the goal fade, sampled every dt [s], on arcs."""
+    start, goal = wmr.Pose(-rho, 0.0, -alpha), wmr.Pose(0.0, 0.0, -theta)
+    run = wmr.simulate(start, goal, gains, dt=dt, arrival_radius=0.0, duration=600 * dt)
+    size = np.hypot(run.alpha, run.theta)[run.rho > 1e-290]
+    part = size.size // 4
+    return size.max() < 0.05 and size[-part:].max() < size[:part].max()
+
+
+SMALL = {"rho": (1e-5, 1e-2), "alpha": (-1e-3, 1e-3), "theta": (1e-4, 1e-3)}
+
+
+@headline("08", "must be sampled every 0.022 s with the paper's gains", **SMALL)
+def paper_step(rho, alpha, theta):
+    return settles(GAINS, 0.0215, rho, alpha, theta) > settles(GAINS, 0.0225, rho, alpha, theta)
+
+
+@headline("08", "every 0.71 s with the gentle ones", **SMALL)
+def gentle_step(rho, alpha, theta):
+    return settles(GENTLE, 0.70, rho, alpha, theta) > settles(GENTLE, 0.73, rho, alpha, theta)
+
+
+@headline(
+    "08",
+    "With the paper's, ten times faster still costs 12 deg",
+    at_least=11.5,
+    at_most=12.5,
+    unit="deg",
+    dt=(0.002, 0.01),
+    arrival_radius=(5e-4, 5e-3),
+)
+def ten_times_faster(dt, arrival_radius):
+    off = partial(settled_deg, GAINS, 0.05, dt=dt, arrival_radius=arrival_radius)
+    return off(wheel_lag=1 / 80) - off()
+
+
+def stray(way, far, theta, most, limit, dt=0.02):
+    """How far a scaled drive with gentle gains strays [m]; a wheel's acceleration [m/s^2]."""
+    start, goal = (
+        wmr.Pose(0.0, 0.0, 0.0),
+        wmr.Pose(far * math.cos(way), far * math.sin(way), way - theta),
+    )
+    free = wmr.simulate(start, goal, GENTLE, method="continuous", dt=0.005)
+    pose, wheels, off, limits = start, np.zeros(2), 0.0, wmr.WheelLimits(0.5, limit)
+    for step in range(int(60.0 / dt)):
+        if (seen := wmr.polar_error(pose, goal)).rho < 0.05:
+            break
+        twist = wmr.limit_wheels(*wmr.control_law(*seen, GENTLE), limits)
+        wheels += np.clip(wmr.twist_to_wheels(*twist, 0.5) - wheels, -most * dt, most * dt)
+        pose = wmr.advance(pose, *wmr.wheels_to_twist(*wheels, 0.5), dt)
+        if step % 5 == 0:
+            off = max(off, np.hypot(free.x - pose.x, free.y - pose.y).min())
+    return off
+
+
+DRIVES = {"way": ROUND, "far": (3.0, 12.0), "theta": (-3.0, 3.0), "limit": (1.5, 4.0)}
+# At theta = pi, the seam, a rounding decides on which side the goal is passed.
+
+
+@headline(
+    "08",
+    "If the wheels accelerate at once, scaling keeps the path and only takes longer",
+    at_most=0.15,
+    unit="m",
+    most=[math.inf],
+    **DRIVES,
+    before=Before(
+        "Scaling keeps the path and only takes longer: the law looks only at the pose",
+        DRIVES | {"most": (0.5, 2.0)},
+        at_most=0.15,
+    ),
+)
+def path_kept(way, far, theta, most, limit):
+    return stray(way, far, theta, most, limit)
+
+
+@headline(
+    "08",
+    "with 1 m/s² a wheel the scaled drives stray about 0.9 and 0.5 m",
+    at_least=0.45,
+    at_most=1.1,
+    unit="m",
+    beside=[True, False],
+    dt=(0.02, 0.05),
+)
+def accelerating(beside, dt):
+    case = paper.outdoor()
+    ten_metres = wmr.PolarError(10.0, math.pi / 2, math.pi / 2)
+    far, way, theta = ten_metres if beside else wmr.polar_error(case.start, case.goal)
+    return stray(way, far, theta, 1.0, 2.0, dt)
+
+
+def parks(gains, axis, heading, receiver, **how):
+    """A robot's, or many robots', end of the outdoor drive, sampled every 0.1 s."""
+    case = paper.outdoor(x_axis=axis)
+    how = {"method": "arc", "dt": 0.1, "duration": 120.0, "progress": False} | how
+    return wmr.sweep(
+        case.start._replace(heading=heading), case.goal, gains, receiver=receiver, **how
+    )
+
+
+@headline(
+    "09",
+    "the gentle gains, in steps of 0.1 s, already spiral for minutes at 0.6 s",
+    at_most=0,
+    axis=AXES,
+    heading=ROUND,
+    delay=(0.6, 1.5),
+)
+def arrives_late(axis, heading, delay, gains=GENTLE):
+    receiver = wmr.Receiver(heading_delay=delay)
+    return parks(gains, axis, heading, receiver, arrival_radius=0.2).arrived
+
+
+@headline(
+    "09",
+    "position 0 s, heading 0.9 s late: never / 0 deg off",
+    at_most=0,
+    axis=["east"],
+    heading=(1.4, 1.75),
+    before=Before(
+        "matched position 0 s, heading 0.9 s late: never in 120 s",
+        {"axis": AXES, "heading": (1.4, 1.75)},
+        at_most=0,
+    ),
+)
+def matched_late(axis, heading):
+    return arrives_late(axis, heading, 0.9, gains=MATCHED)
+
+
+RECEIVERS = {"seed": SEEDS, "axis": AXES, "memory": (0.1, 1e4), "period": [0.1, 1.0]}
+
+
+def two_designs(seed, axis, memory, sigma=0.5, period=0.1):
+    """Rms place [m] and heading error [rad] of 200 robots: gentle gains, then the matched ones."""
+    receiver = wmr.Receiver(np.full(200, sigma), memory, period)
+    for gains, radius in ((GENTLE, 0.2), (MATCHED, 2 * sigma)):
+        heading = paper.outdoor(x_axis=axis).start.heading
+        end = parks(gains, axis, heading, receiver, arrival_radius=radius, seed=seed)
+        yield np.sqrt(np.mean(np.square([end.distance, end.heading_error]), axis=-1))
+
+
+@headline(
+    "09", "With each memory and both rates the matched gains leave less heading error", **RECEIVERS
+)
+def matched_turn_less(seed, axis, memory, period):
+    gentle, matched = two_designs(seed, axis, memory, period=period)
+    return matched[1] < gentle[1] and matched[0] > gentle[0]
+
+
+@headline(
+    "09",
+    r"the gentle gains park about $\sqrt2\,\sigma$ off (rms)",
+    at_least=1.2,
+    at_most=1.65,
+    unit="sigma",
+    seed=SEEDS,
+    axis=AXES,
+    memory=(300.0, 1e4),
+    sigma=(0.5, 1.0),
+)
+def root_two(seed, axis, memory, sigma):
+    return next(two_designs(seed, axis, memory, sigma))[0] / sigma
+
+
+@headline(
+    "09",
+    "memory 300 s, goal recorded 60 s before: 0.85 sigma off",
+    at_least=0.83,
+    at_most=0.87,
+    unit="sigma",
+    seed=SEEDS,
+    dt=[1.0, 10.0, 60.0],
+    before=Before(
+        "Only a second receiver at rest nearby (differential GPS) or a mark at the goal can",
+        {"seed": SEEDS, "dt": [1.0]},
+        at_least=math.sqrt(2),
+    ),
+)
+def recorded_goal(seed, dt):
+    normal, kept = np.random.default_rng(seed).standard_normal, math.exp(-dt / 300.0)
+    now = then = normal((2, 10_000))
+    for _ in range(round(60.0 / dt)):
+        now = kept * now + math.sqrt(1 - kept**2) * normal(now.shape)
+    return math.sqrt(np.mean(np.sum((now - then) ** 2, axis=0)))
