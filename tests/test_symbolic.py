@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 import runpy
 import sys
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -16,7 +18,7 @@ from oracle import commanded
 import wmrlib as wmr
 from wmrbook import equations
 from wmrbook.equations import EQUATIONS
-from wmrlib import laws, symbolic
+from wmrlib import laws, motion, paper, symbolic
 from wmrlib.symbolic import (
     L,
     alpha,
@@ -228,22 +230,23 @@ def test_the_committed_files_are_what_is_printed(tmp_path, monkeypatch, capsys):
     assert command() == ({"own.h": header, "law.h": header, "model.js": script}, "")
 
 
-def test_the_printed_motion_and_circle_are_those_of_wmrlib():
-    """The panel's steps, polar error and reference, by their expressions."""
-
-    def number(name, *values):
-        formula = symbolic.FORMULAS[name]
-        return sp.lambdify(formula.arguments, formula.expanded(), "numpy")(*values)
-
-    pose, goal, twist = (0.3, -1.2, 2.0), (4.0, 5.0, -1.0), (1.5, -0.8, 0.3)
-    for method in ("euler", "arc"):
-        expected = wmr.advance(wmr.Pose(*pose), *twist, method)
-        assert number(f"{method}_step", *pose, *twist) == pytest.approx(list(expected), rel=1e-12)
-    expected = wmr.polar_error(wmr.Pose(*pose), wmr.Pose(*goal))
-    assert number("polar_from_pose", *pose, *goal) == pytest.approx(list(expected), rel=1e-12)
-    for time in (0.0, 3.7, 41.0):
-        expected = list(wmr.paper.circle(time))
-        assert number("circle", time) == pytest.approx(expected, rel=1e-12, abs=1e-12)
+def test_a_printed_function_does_what_the_one_of_that_name_does_in_python():
+    """Where (v, omega) is printed for the (v/rho, omega) of a law, the name is another."""
+    random, compared = np.random.default_rng(3), 0
+    within = [{"turned_back": lambda angle: math.remainder(angle, 2.0 * math.pi)}, "numpy"]
+    for name, formula in symbolic.FORMULAS.items():
+        ours = next((getattr(it, name) for it in (paper, motion, laws) if hasattr(it, name)), None)
+        if ours is None:
+            continue
+        ours, size = getattr(ours, "py_func", ours), len(formula.arguments)
+        names = (*formula.arguments, *formula.gains)
+        given = dict(zip(map(str, names), random.uniform(-3.0, 3.0, len(names)), strict=True))
+        gains = [SimpleNamespace(**given)] * ("gains" in inspect.signature(ours).parameters)
+        expected = np.ravel(ours(*list(given.values())[:size], *gains))
+        printed = sp.lambdify(names, formula.expanded(), within)(**given)
+        np.testing.assert_allclose(printed, expected, **EXACT, err_msg=name)
+        compared += 1
+    assert compared >= 11
 
 
 def test_a_reciprocal_is_a_division_in_c():

@@ -83,7 +83,7 @@ _GUARDS = {
 }
 FORMULAS = {
     **_GUARDS,
-    **{f"{name}_law": _law(name) for name in laws.LAWS},
+    **{f"{name}_command": _law(name) for name in laws.LAWS},
     **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
     **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
     **{f.__name__: _read(f, _POSE + _TWIST, f"method {name}") for name, f in motion.STEPS.items()},

@@ -56,7 +56,7 @@ def _function(name: str, formula: Formula) -> str:
 
 def _law(name: str, row: laws.Law) -> str:
     parts = {
-        "command": javascript_name(f"{name}_law"),
+        "command": javascript_name(f"{name}_command"),
         "value": javascript_name(row.value.__name__),
         "modes": "null" if row.needs_reference else javascript_name(f"{name}_modes"),
         "gains": str(list(row.gains._fields)),

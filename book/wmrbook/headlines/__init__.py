@@ -103,4 +103,5 @@ def _within(interval: tuple[float, float], turn: int, random: np.random.Generato
     return random.uniform(low, high)
 
 
-from wmrbook.headlines import field, ground, laws, practice, sampled  # noqa: E402, F401 (they fill it)
+# They fill it:
+from wmrbook.headlines import field, ground, laws, practice, sampled  # noqa: E402, F401

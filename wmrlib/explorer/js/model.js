@@ -21,31 +21,31 @@ function wrap(angle) {
 }
 
 // (22), and the omega that the proof needs
-function correctedLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+function correctedCommand(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
   const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);
   return [rho*v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*sinc(alpha)];
 }
 
 // (22) and (24) as the paper prints them
-function printedLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+function printedCommand(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
   const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);
   return [rho*v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*Math.sin(alpha)*Math.cos(alpha)*sinc(alpha)];
 }
 
 // Aicardi et al. (1995), without a speed limit
-function aicardiLaw(rho, alpha, theta, { k_rho, k_alpha, h }) {
+function aicardiCommand(rho, alpha, theta, { k_rho, k_alpha, h }) {
   const v_over_rho = k_rho*Math.cos(alpha);
   return [rho*v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*sinc(alpha)];
 }
 
 // Kanayama et al. (1990), feed-forward and feedback
-function kanayamaLaw(rho, alpha, theta, { k_x, k_y, k_heading }, v_ref, omega_ref) {
+function kanayamaCommand(rho, alpha, theta, { k_x, k_y, k_heading }, v_ref, omega_ref) {
   const part0 = alpha - theta;
   return [k_x*rho*Math.cos(alpha) + v_ref*Math.cos(part0), omega_ref + v_ref*(k_heading*Math.sin(part0) + k_y*rho*Math.sin(alpha))];
 }
 
 // feed-forward and a constant matrix, such as `control.lqr` computes
-function linearLaw(rho, alpha, theta, { v_x, v_y, v_heading, omega_x, omega_y, omega_heading }, v_ref, omega_ref) {
+function linearCommand(rho, alpha, theta, { v_x, v_y, v_heading, omega_x, omega_y, omega_heading }, v_ref, omega_ref) {
   const part0 = rho*Math.cos(alpha);
   const part1 = rho*Math.sin(alpha);
   const part2 = alpha - theta;
@@ -127,11 +127,11 @@ function circle(t) {
 }
 
 const LAWS = {
-  corrected: { command: correctedLaw, value: poseValue, modes: correctedModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
-  printed: { command: printedLaw, value: poseValue, modes: printedModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
-  aicardi: { command: aicardiLaw, value: poseValue, modes: aicardiModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
-  kanayama: { command: kanayamaLaw, value: kanayamaValue, modes: null, gains: ['k_x', 'k_y', 'k_heading'], needsReference: true },
-  linear: { command: linearLaw, value: linearValue, modes: null, gains: ['v_x', 'v_y', 'v_heading', 'omega_x', 'omega_y', 'omega_heading'], needsReference: true },
+  corrected: { command: correctedCommand, value: poseValue, modes: correctedModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
+  printed: { command: printedCommand, value: poseValue, modes: printedModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
+  aicardi: { command: aicardiCommand, value: poseValue, modes: aicardiModes, gains: ['k_rho', 'k_alpha', 'h', 'v_max'], needsReference: false },
+  kanayama: { command: kanayamaCommand, value: kanayamaValue, modes: null, gains: ['k_x', 'k_y', 'k_heading'], needsReference: true },
+  linear: { command: linearCommand, value: linearValue, modes: null, gains: ['v_x', 'v_y', 'v_heading', 'omega_x', 'omega_y', 'omega_heading'], needsReference: true },
 };
 const STEPS = { euler: eulerStep, arc: arcStep };
 const RULE = {stages: [[0.05260015195876773], [0.0197250569845379, 0.0591751709536137], [0.02958758547680685, 0, 0.08876275643042054], [0.2413651341592667, 0, -0.8845494793282861, 0.924834003261792], [0.037037037037037035, 0, 0, 0.17082860872947386, 0.12546768756682242], [0.037109375, 0, 0, 0.17025221101954405, 0.06021653898045596, -0.017578125], [0.03709200011850479, 0, 0, 0.17038392571223998, 0.10726203044637328, -0.015319437748624402, 0.008273789163814023], [0.6241109587160757, 0, 0, -3.3608926294469414, -0.868219346841726, 27.59209969944671, 20.154067550477894, -43.48988418106996], [0.47766253643826434, 0, 0, -2.4881146199716677, -0.590290826836843, 21.230051448181193, 15.279233632882423, -33.28821096898486, -0.020331201708508627], [-0.9371424300859873, 0, 0, 5.186372428844064, 1.0914373489967295, -8.149787010746927, -18.52006565999696, 22.739487099350505, 2.4936055526796523, -3.0467644718982196], [2.273310147516538, 0, 0, -10.53449546673725, -2.0008720582248625, -17.9589318631188, 27.94888452941996, -2.8589982771350235, -8.87285693353063, 12.360567175794303, 0.6433927460157636]], weights: [0.054293734116568765, 0, 0, 0, 0, 4.450312892752409, 1.8915178993145003, -5.801203960010585, 0.3111643669578199, -0.1521609496625161, 0.20136540080403034, 0.04471061572777259], fifth: [0.01312004499419488, 0, 0, 0, 0, -1.2251564463762044, -0.4957589496572502, 1.6643771824549864, -0.35032884874997366, 0.3341791187130175, 0.08192320648511571, -0.022355307863886294], third: [-0.18980075407240762, 0.0, 0.0, 0.0, 0.0, 4.450312892752409, 1.8915178993145003, -5.801203960010585, -0.422682321323792, -0.1521609496625161, 0.20136540080403034, 0.02265179219836082]};

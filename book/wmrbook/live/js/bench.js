@@ -24,7 +24,7 @@ const cloud = remembered(({ start, goal, gains, dt, radius, robots, track, steps
       fixes.push([pose[0] + sigma * east, pose[1] + sigma * north]);
       const [x, y] = fixes[Math.max(n - back, 0)], [rho, alpha, theta] = polarFromPose(x, y, pose[2], goal[0], goal[1], goal[2]);
       if (rho <= radius) break;
-      const [v, omega] = correctedLaw(rho, alpha, theta, gains), lost = slip * (v + omega * track / 2); // m/s at the wheel
+      const [v, omega] = correctedCommand(rho, alpha, theta, gains), lost = slip * (v + omega * track / 2); // m/s at the wheel
       pose = arcStep(pose[0], pose[1], pose[2], v - lost / 2, omega - lost / track, dt);
     }
     ends.push({ pose, n });

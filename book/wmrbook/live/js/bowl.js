@@ -1,5 +1,5 @@
 // The angles' part of V as a bowl to be turned by hand, and its level sets; in both the state rolls along one run.
-const REACH = 3, LEVELS = 8, AROUND = 64; // rad that are one unit of the picture; rings; points of a ring
+const REACH = 3, RINGS = 8, AROUND = 64; // rad that are one unit of the picture; rings; points of a ring
 
 const ring = (level, h) => Array.from({ length: AROUND + 1 }, (_, k) => 2 * Math.PI * k / AROUND).map((turn) => [Math.sqrt(2 * level) * Math.cos(turn), Math.sqrt(2 * level / h) * Math.sin(turn)]);
 
@@ -29,7 +29,7 @@ const explorable = {
   draw({ bowl, levels }, { yaw, tilt }, { run, k, h, top, value }, hidden, { data: { look, gains } }) {
     const at = hidden ? projected(...look) : projected(yaw, tilt), weight = hidden ? gains.gentle.h : h, now = hidden ? 0 : k;
     const rim = hidden ? LAWS.corrected.value(0, run.alpha[0], run.theta[0], gains.gentle) : top, high = (alpha, theta) => LAWS.corrected.value(0, alpha, theta, { h: weight }) / rim;
-    const rings = Array.from({ length: LEVELS }, (_, i) => ring(rim * ((i + 1) / LEVELS) ** 2, weight));
+    const rings = Array.from({ length: RINGS }, (_, i) => ring(rim * ((i + 1) / RINGS) ** 2, weight));
     for (const each of rings) {
       bowl.line(each.map((point) => at(...point, high(...point))), 'ghost', { width: 1 });
       levels.line(each.map(([alpha, theta]) => [alpha * DEGREES, theta * DEGREES]), 'ghost', { width: 1 });

@@ -4,7 +4,7 @@ const held = remembered(({ start, goal, gains, dt, radius, lost, position, headi
   for (let n = 0; n < steps; n += 1) {
     const [x, y] = poses[Math.max(n - back, 0)], [rho, alpha, theta] = polarFromPose(x, y, poses[Math.max(n - turnedBy, 0)][2], ...goal);
     if (rho <= radius) break;
-    const [v, omega] = correctedLaw(rho, alpha, theta, gains);
+    const [v, omega] = correctedCommand(rho, alpha, theta, gains);
     poses.push(arcStep(...poses[n], v, omega, dt));
   }
   return { x: poses.map((each) => each[0]), y: poses.map((each) => each[1]), end: poses[poses.length - 1], time: poses.length <= steps ? dt * (poses.length - 1) : Infinity };

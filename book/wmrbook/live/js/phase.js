@@ -3,7 +3,7 @@ const DT = 0.01, LENGTH = 8; // s
 
 const homeward = remembered(({ gains, state }) => {
   const pull = gains.v_max * decay(0, gains.k_rho), run = { t: [0], alpha: [state[0]], theta: [state[1]] };
-  const rates = ([alpha, theta]) => polarClosingRate(0, alpha, pull * Math.cos(alpha), correctedLaw(0, alpha, theta, gains)[1]).slice(1);
+  const rates = ([alpha, theta]) => polarClosingRate(0, alpha, pull * Math.cos(alpha), correctedCommand(0, alpha, theta, gains)[1]).slice(1);
   const ahead = (at, rate, dt) => at.map((each, i) => each + dt * rate[i]);
   for (let k = 1, at = state; k <= LENGTH / DT; k += 1) { // Runge-Kutta
     const one = rates(at), two = rates(ahead(at, one, DT / 2)), three = rates(ahead(at, two, DT / 2)), four = rates(ahead(at, three, DT));

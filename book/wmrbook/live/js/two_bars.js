@@ -3,8 +3,8 @@ const MARKS = 19; // marks a side of the plane
 
 const LAWS_SO_FAR = {
   nothing: () => [1, 0], // m/s and rad/s
-  speed: (...state) => [correctedLaw(...state)[0], 0],
-  corrected: correctedLaw,
+  speed: (...state) => [correctedCommand(...state)[0], 0],
+  corrected: correctedCommand,
   printed: printedLaw,
 };
 

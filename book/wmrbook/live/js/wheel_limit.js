@@ -9,7 +9,7 @@ const RULES = {
 const limited = remembered(({ start, goal, gains, track, dt, limit, rule }) => {
   const run = { x: [], y: [], heading: [], left: [], right: [], t: [] };
   for (let pose = start, k = 0; ; k += 1) {
-    const [rho, alpha, theta] = polarFromPose(...pose, ...goal), [v, omega] = correctedLaw(rho, alpha, theta, gains), [ahead, turn] = RULES[rule](v, omega * track / 2, limit);
+    const [rho, alpha, theta] = polarFromPose(...pose, ...goal), [v, omega] = correctedCommand(rho, alpha, theta, gains), [ahead, turn] = RULES[rule](v, omega * track / 2, limit);
     [run.x[k], run.y[k], run.heading[k]] = pose;
     [run.t[k], run.left[k], run.right[k]] = [dt * k, ahead - turn, ahead + turn];
     if (rho <= 0.05 || k >= 1499) return { ...run, n: k + 1, arrived: rho <= 0.05 };
