@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 from oracle import commanded
 
 import wmrlib as wmr
+from wmrlib.laws import POSE_LAWS
 
 mpmath.mp.dps = 40
 angles = st.floats(-math.pi, math.pi, exclude_min=True) | st.just(0.0) | st.floats(-1e-9, 1e-9)
@@ -209,7 +210,7 @@ BAD = [
     (lambda g: wmr.control_law(1.0, math.nan, 0, g), r"alpha = nan"),
     (
         lambda g: wmr.control_law(1.0, 0, 0, g, "Corrected"),
-        r"law = 'Corrected' .* one of 'corrected', 'printed', 'aicardi' is needed",
+        rf"law = 'Corrected' .* one of {str(tuple(POSE_LAWS))[1:-1]} is needed",
     ),
     (
         lambda g: wmr.control_law(1.0, 0, 0, (2, 1, 0.3)),

@@ -13,6 +13,7 @@ pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidget
 import wmrlib as wmr
 from wmrlib import paper
 from wmrlib.explorer import Explorer, javascript
+from wmrlib.laws import POSE_LAWS
 
 GAINS = wmr.Gains(0.7, 3.0, 1.5, 2.0)
 PAGE = Path(__file__).parents[1] / "book" / "explorer.md"
@@ -94,7 +95,7 @@ BAD = [
     ({"feedback": GAINS}, "is not allowed: a KanayamaGains is needed"),
     (
         {"law": "kanayama"},
-        "law = 'kanayama' is not allowed: one of 'corrected', 'printed', 'aicardi' is needed",
+        f"law = 'kanayama' is not allowed: one of {str(tuple(POSE_LAWS))[1:-1]} is needed",
     ),
     (
         {"method": "rk4"},

@@ -18,6 +18,7 @@ from scipy.interpolate import CubicHermiteSpline
 import wmrlib as wmr
 from wmrlib._loops import adaptive, steps
 from wmrlib.gains import checked_wheels
+from wmrlib.laws import LAWS, POSE_LAWS
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -499,7 +500,7 @@ BAD = [
     ({"dt": 1e-9}, r"duration = 60\.0 .*: at most 10,000,000 steps of dt = 1e-09 is needed"),
     ({"arrival_radius": -0.1}, r"arrival_radius = -0\.1"),
     ({"arrival_radius": [0.1, 0.2]}, r"arrival_radius = \[0\.1, 0\.2\] .* one number is needed"),
-    ({"law": "kanayama"}, "law = 'kanayama' .*: one of 'corrected', 'printed', 'aicardi'"),
+    ({"law": "kanayama"}, f"law = 'kanayama' .*: one of {str(tuple(POSE_LAWS))[1:-1]}"),
     ({"method": "rk4"}, "method = 'rk4' .*: one of 'arc', 'euler', 'continuous'"),
     ({"start": (0, 0, 0)}, r"start = \(0, 0, 0\) .* a Pose is needed"),
     ({"goal": wmr.Pose([1.0], 0, 0)}, r"goal\.x = array.* one number is needed; sweep takes arr"),
@@ -514,7 +515,7 @@ BAD_TRACKS = [
     ({"reference": lambda t: (t, t)}, "a Reference is needed, not a tuple"),
     ({"reference": lambda t: wmr.Reference(t, t, t, math.nan * t, t)}, r"reference\(t\)\.v = "),
     ({"law": "kanayama"}, "a KanayamaGains is needed, not a Gains"),
-    ({"law": "lqr"}, "law = 'lqr' .* 'aicardi', 'kanayama', 'linear' is needed"),
+    ({"law": "lqr"}, f"law = 'lqr' .*: one of {str(tuple(LAWS))[1:-1]} is needed"),
     ({"start": wmr.Pose([1.0], 0, 0)}, r"start\.x = "),
     ({"method": "rk4"}, "method = 'rk4' .*: one of 'arc', 'euler', 'continuous'"),
 ]

@@ -14,12 +14,12 @@ from urllib.request import url2pathname
 
 import numpy as np
 import pypdfium2
+from build import MODULES, install_javascript
 from pypdfium2.raw import FS_MATRIX, FPDFText_GetFontSize, FPDFText_GetMatrix
 
 ROOT = Path(__file__).resolve().parents[2]
 SIZES = ((390, 844), (1366, 768), (1920, 1080))
 MEASURE = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
-AXE = ROOT / "book" / "node_modules" / "axe-core" / "axe.min.js"
 # Nothing may be seen halfway, such as a colour on its way from light to dark.
 UNFOLD = """() => {
     document.querySelectorAll('article details').forEach(it => { it.open = true; });
@@ -60,6 +60,12 @@ ASK = """only => axe.run(document,
         node => [rule.id, node.target.join(' ')])))"""
 
 
+def axe() -> Path:
+    """The script of axe-core, which npm fetches in a fresh clone."""
+    install_javascript()
+    return MODULES / "axe-core" / "axe.min.js"
+
+
 def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]]:
     """The faults of a page that is drawn, as pairs of kind and place; it is spoiled then."""
     faults = []
@@ -78,7 +84,7 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
                 faults.append((f"figures with letters under 9 pixels, {width}x{height}", said))
     page.wait_for_timeout(400)  # so late the theme gives a key to what scrolls in the new size
     page.evaluate(THIN)
-    page.add_script_tag(path=AXE)
+    page.add_script_tag(path=axe())
     for theme in themes:
         only = {} if theme == themes[0] else {"runOnly": ["color-contrast"]}
         page.emulate_media(color_scheme=theme)

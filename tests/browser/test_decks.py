@@ -10,7 +10,7 @@ from pathlib import Path
 
 import pypdfium2
 import pytest
-from faults import ASK, AXE
+from faults import ASK, axe
 from live import PATIENCE, ROOT, assert_slider_matters, confine, settled_picture, thumb
 
 READY = os.environ.get("SLIDES")
@@ -101,7 +101,7 @@ def test_each_slide_has_a_title_and_a_sentence_that_can_be_read_and_all_of_it_fi
 def test_the_arrow_the_space_bar_and_a_remote_control_walk_through_a_deck(decks, opened):
     page = opened(with_panel(decks))
     page.add_style_tag(content="* { transition: none !important; }")  # no colour halfway
-    page.add_script_tag(path=AXE)
+    page.add_script_tag(path=axe())
     where, seen = "JSON.stringify(deck.getState())", set()
     for key in itertools.cycle(("ArrowRight", "Space", "PageDown")):
         seen.add(page.evaluate("JSON.stringify(deck.getIndices().h * 100 + deck.getIndices().v)"))

@@ -8,7 +8,7 @@ import re
 import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
-from faults import AXE
+from faults import axe
 from host import mounted
 
 from wmrbook import live
@@ -120,12 +120,13 @@ def ends(knob: dict) -> list:
     return [knob["low"], knob["high"]] if "low" in knob else [value for value, _ in knob["choices"]]
 
 
+@pytest.mark.needs("npm")
 def test_each_end_and_each_choice_changes_the_picture_and_everybody_can_use_it_in_the_dark(moved):
     thing, panel, home = moved
     page, knobs = panel.page, thing.setup["knobs"]
     assert not page.evaluate(WIDE)
     assert not page.evaluate(SMALL)
-    page.add_script_tag(path=AXE)
+    page.add_script_tag(path=axe())
     assert not page.evaluate(FAULTS)
     for knob in knobs:
         panel.set(**home)
@@ -194,13 +195,14 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
     assert not held, f"a mouse that passes over a picture moves {held}"
 
 
+@pytest.mark.needs("npm")
 @pytest.mark.parametrize("name", NAMES)
 def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use_it(
     emptied_page, name
 ):
     page, thing = emptied_page, getattr(live, name)()
     panel = mounted(page, thing, width=390, height=844)
-    page.add_script_tag(path=AXE)
+    page.add_script_tag(path=axe())
     if ask := thing.setup["ask"]:
         given = page.evaluate(PICTURE)
         for knob in thing.setup["knobs"]:

@@ -117,7 +117,7 @@ function arrivalIn(attempt, ahead, slopes, y, step, radius) {
 function peakOf(ends, omegaAfter) {
   const share = (Math.sqrt(5) - 1) / 2;
   let best = ends.reduce((top, end) => Math.max(top, Math.abs(end.omega)), 0);
-  const steps = ends.slice(1).map((to, i) => ({ from: ends[i], to, top: topOf(ends[i], to, best) }));
+  const steps = ends.slice(1).map((to, i) => ({ from: ends[i], to, top: crestOf(ends[i], to, best) }));
   for (const { from, to, top } of steps.sort((one, other) => other.top - one.top)) {
     if (top < 0.99 * best) break;
     const at = (time) => Math.abs(omegaAfter(from, time)), part = (to.t - from.t) / 8;
@@ -136,7 +136,7 @@ function peakOf(ends, omegaAfter) {
 
 // About how large |omega| gets in a step, by the cubic with its values and rates at both ends; 0 if
 // it is largest at an end, or larger by rounding only.
-function topOf(from, to, best) {
+function crestOf(from, to, best) {
   const dt = to.t - from.t, rise = to.omega - from.omega, m0 = from.swing * dt, m1 = to.swing * dt;
   const cubic = (s) => from.omega
     + s * (m0 + s * (3 * rise - 2 * m0 - m1 + s * (m0 + m1 - 2 * rise)));
