@@ -27,7 +27,6 @@ FAR = wmr.Pose(1e3, 0.0, 0.0)
 CALM = wmr.Gains(k_rho=0.4, k_alpha=2.0, h=0.6, v_max=2.0)
 SETTLING = wmr.Gains(k_rho=0.1, k_alpha=2.0, h=6.0, v_max=4.0)
 METHODS = ("euler", "arc", "continuous")
-LAWS = ("corrected", "printed", "aicardi")
 metres = st.floats(-20.0, 20.0)
 headings = st.floats(-math.pi, math.pi)
 poses = st.builds(wmr.Pose, metres, metres, headings)
@@ -100,7 +99,7 @@ def test_continuous_is_the_motion_of_the_pose(start, goal, gains):
 
 @pytest.mark.parametrize("method", ["euler", "arc"])
 @settings(max_examples=40)
-@given(law=st.sampled_from(LAWS), start=poses, heading=headings)
+@given(law=st.sampled_from(tuple(POSE_LAWS)), start=poses, heading=headings)
 def test_sampled_methods_converge_to_continuous(method, law, start, heading):
     """Halving dt twice divides the largest deviation by about four, up to 0.5 m from the goal."""
     goal, options = wmr.Pose(0.0, 0.0, heading), {"law": law, "duration": 8.0}
@@ -160,7 +159,7 @@ def test_turning_and_shifting_the_map_changes_nothing_else(start, goal, turn, ea
 @pytest.mark.parametrize("method", METHODS)
 def test_columns_agree_with_the_public_functions(method):
     goal = PAPER.goal._replace(heading=1.0)
-    for law in LAWS:
+    for law in POSE_LAWS:
         run = wmr.simulate(PAPER.start, goal, CALM, law=law, method=method, duration=3.0)
         assert run.t == pytest.approx(np.arange(31) * 0.1, abs=1e-12)
         polar = wmr.polar_error(wmr.Pose(run.x, run.y, run.heading), goal)
@@ -213,7 +212,7 @@ def test_outcomes(method):
         run = wmr.simulate(start, ORIGIN, CALM, **options)
         assert (len(run), run.outcome) == (k + 1, wmr.Outcome.ARRIVED)
         assert k or wmr.sweep(start, ORIGIN, CALM, **options)[:2] == (True, 0.0)
-    for law in LAWS:  # without a radius it drives on, and stays finite
+    for law in POSE_LAWS:  # without a radius it drives on, and stays finite
         options = {"law": law, "method": method, "arrival_radius": 0.0}
         run = wmr.simulate(wmr.Pose(-3, 1, 0.5), ORIGIN, CALM, **options)
         assert run.outcome is wmr.Outcome.TIMED_OUT
@@ -546,7 +545,7 @@ def test_what_runs_have_in_common_has_one_default():
 
 
 def test_sampled_tracking_converges_to_continuous():
-    for law in LAWS:
+    for law in POSE_LAWS:
         oracle = circle(law, method="continuous", duration=10.0)
         off = []
         for every in (10, 40):

@@ -5,7 +5,7 @@ const LAWS_SO_FAR = {
   nothing: () => [1, 0], // m/s and rad/s
   speed: (...state) => [correctedCommand(...state)[0], 0],
   corrected: correctedCommand,
-  printed: printedLaw,
+  printed: printedCommand,
 };
 
 // (7) to (9) and the chain rule, with L = 1 m^2
