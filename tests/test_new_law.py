@@ -97,8 +97,11 @@ def states():
 def package(tmp_path_factory):
     """A copy of wmrlib with the law: its formula, its row, printed again."""
     folder = tmp_path_factory.mktemp("copy")
-    cached = shutil.ignore_patterns("__pycache__")
-    copy = shutil.copytree(ROOT / "wmrlib", folder / "wmrlib", ignore=cached)
+    left_out = shutil.ignore_patterns(".*", "__pycache__", "_build", "node_modules", "vendor")
+    for part in ("wmrlib", "book", "tests"):
+        shutil.copytree(ROOT / part, folder / part, ignore=left_out)
+    shutil.copy(ROOT / "pyproject.toml", folder)
+    copy = folder / "wmrlib"
     text = (copy / "laws.py").read_text(encoding="utf-8")
     for place, new in (("\nclass Law(NamedTuple):", FORMULA), ("LAWS = {\n", ROW)):
         assert text.count(place) == 1
@@ -117,7 +120,8 @@ def ours(package, states):
 
 
 def run(folder, *command, given=""):
-    environment = os.environ | {"PYTHONPATH": str(folder)}
+    places = os.pathsep.join([str(folder), str(folder / "book")])
+    environment = os.environ | {"PYTHONPATH": places, "PYTEST_ADDOPTS": ""}
     done = subprocess.run(
         list(map(str, command)),
         cwd=folder,
@@ -126,7 +130,7 @@ def run(folder, *command, given=""):
         capture_output=True,
         text=True,
     )
-    assert done.returncode == 0, done.stderr
+    assert done.returncode == 0, done.stderr + done.stdout
     return done.stdout
 
 
@@ -160,3 +164,19 @@ def test_c_agrees(package, ours, states):
     printed = run(package.parent, package.parent / "law", given=rows)
     numbers = [list(map(float, line.split())) for line in printed.splitlines()]
     np.testing.assert_allclose(numbers, ours["control"], rtol=1e-12, atol=1e-12)
+
+
+def test_no_other_test_turns_red(package):
+    """Those that go through the laws or name them; stored panels are the steps' last point."""
+    files = [f"tests/test_{name}.py" for name in ("control", "simulation", "explorer", "symbolic")]
+    words = "law or named or refused or committed or printed"
+    options = ["-q", "-p", "no:cacheprovider", "-p", "no:nbval", "--override-ini=addopts="]
+    run(package.parent, sys.executable, "-m", "pytest", *options, *files, "-k", words)
+
+
+def test_maps_of_the_panel_equal_a_sweep_by_it(package, find_tool):
+    if not find_tool("browser"):
+        pytest.skip("this test needs Chromium or Chrome")
+    options = ["-q", "-p", "no:cacheprovider", "-p", "no:nbval", "--override-ini=addopts="]
+    maps = "tests/browser/test_panel_core.py::test_maps_equal_a_sweep"
+    run(package.parent, sys.executable, "-m", "pytest", *options, maps)

@@ -201,7 +201,9 @@ def test_the_stored_panels_are_those_of_now():
         assert len(drawn) == len(shown)
         for each in drawn:
             fresh = now.get(each["_esm"]) == each["_css"]
-            assert fresh, name  # their texts would fill the screen
+            assert fresh, (
+                f"{name}: book/tools/run.py stores them"
+            )  # their texts would fill the screen
 
 
 def test_each_chapter_has_something_to_move_and_asks_for_predictions_before_they_are_answered():

@@ -205,7 +205,7 @@ def test_geodesy_and_wheels_are_equations_11_to_17_and_1_to_2():
 
 def test_an_unknown_law_is_a_value_error():
     for name in ("law", "closed_loop", "lyapunov", "lyapunov_rate"):
-        with pytest.raises(ValueError, match=r"name = 'lqr' is not allowed: one of 'corrected', "):
+        with pytest.raises(ValueError, match=r"name = 'lqr' is not allowed: one of '"):
             getattr(symbolic, name)("lqr")
 
 
