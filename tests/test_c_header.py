@@ -298,7 +298,7 @@ CHECKS = {  # what the receiver does, what is to happen in which turns, a check,
         "drives",
         range(29),
         "fix.time != last_time",
-        "(last_time | 1u) != 0u",
+        "fix.time + last_time != 7",
     ),
     "x NaN": ("if (turn >= 20) seen.pose.x = (WMR_REAL)NAN;", "drives", range(20), *UNCHECKED),
     "no heading": (
