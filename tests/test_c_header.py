@@ -261,6 +261,80 @@ def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
     assert reached == pytest.approx(list(pose), abs=tolerance)
 
 
+# The example's own precautions: a scripted receiver, and the example without each check.
+
+BOARD = """#include <stdlib.h>
+static uint32_t turn = 0, late = 0;
+static uint32_t clock_ms(void) {{ return turn * PERIOD_MS + late; }}
+static void wait_for_timer(void) {{ late = 0; if (++turn == 60) exit(0); }}
+static void feed_watchdog(void) {{ printf("fed %d\\n", (int)turn); }}
+static int read_fix(robot_fix *fix) {{
+  robot_fix seen = {{{{0, 0, 1}}, 1000 + PERIOD_MS * turn, 20, 1}};
+  {receiver}
+  *fix = seen;
+  return 1;
+}}
+static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds) {{
+  late = turn < 20 ? PERIOD_MS : PERIOD_MS + 1; /* how long the turn takes */
+  if (wheels.left + wheels.right > 0) printf("drives %d\\n", (int)turn);
+  (void)track_width, (void)seconds;
+}}
+"""
+UNCHECKED = "gains);", "gains), twist.v = 1, twist.status = WMR_OK;"
+CHECKS = {  # what the receiver does, what is to happen in which turns, a check, and none
+    "starts silent": ("return 0;", "drives", [], "silent = patience;", "silent = 0;"),
+    "falls silent": ("if (turn >= 20) return 0;", "drives", range(29), "++silent;", ";"),
+    "no fix": ("if (turn >= 20) seen.quality = 0;", "drives", range(29), "fix.quality >= 1 &&", ""),
+    "a guess": (
+        "if (turn >= 20) seen.quality = 6;",
+        "drives",
+        range(29),
+        "fix.quality <= 5 &&",
+        "",
+    ),
+    "old": ("if (turn >= 20) seen.age = 301;", "drives", range(29), "fix.age <= OLDEST_MS &&", ""),
+    "frozen": (
+        "if (turn >= 20) seen.time = 1950;",
+        "drives",
+        range(29),
+        "fix.time != last_time",
+        "fix.time + last_time != 7",
+    ),
+    "x NaN": ("if (turn >= 20) seen.pose.x = (WMR_REAL)NAN;", "drives", range(20), *UNCHECKED),
+    "no heading": (
+        "if (turn >= 20) seen.pose.heading = (WMR_REAL)NAN;",
+        "drives",
+        range(20),
+        *UNCHECKED,
+    ),
+    "late turns": ("", "fed", range(20), "if (clock_ms() - begin <= PERIOD_MS) ", "(void)begin, "),
+    "back again": (
+        *("if (turn >= 20 && turn < 40) return 0;", "drives", [*range(29), *range(40, 60)]),
+        *("last_time = fix.time, silent = 0", "last_time = fix.time"),
+    ),
+}
+
+
+@compiler
+@pytest.mark.parametrize(
+    ("receiver", "what", "turns", "check", "none"), CHECKS.values(), ids=CHECKS
+)
+def test_the_example_drives_by_good_fixes_alone(tmp_path, receiver, what, turns, check, none):
+    (tmp_path / "board.h").write_text(BOARD.format(receiver=receiver))
+    source = (FOLDER / "example.c").read_text(encoding="utf-8")
+    assert source.count(check) == 1
+
+    def seen(text):
+        (tmp_path / "example.c").write_text(text)
+        options = f"-I{tmp_path}", '-DHARDWARE="board.h"'
+        program = build(tmp_path / "example.c", tmp_path, *options)
+        ran = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+        return [int(turn) for turn in re.findall(rf"{what} (\d+)", ran)]
+
+    assert seen(source) == list(turns)
+    assert seen(source.replace(check, none)) != list(turns)  # so the check is needed
+
+
 @compiler
 @pytest.mark.skipif(not CXX, reason="this test needs a C++ compiler (Debian: apt install g++)")
 @pytest.mark.parametrize("real", REALS)
@@ -316,6 +390,13 @@ def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float(
         twist = wmr.control_law(*error, wmr.Gains(*gains))
         limited = wmr.limit_wheels(*twist, wmr.WheelLimits(0.5, 2.0))
         assert wheels == pytest.approx(wmr.twist_to_wheels(*limited, 0.5), abs=2e-5)
+
+
+@pytest.mark.needs("avr")
+def test_the_example_is_a_program_there_too(avr_gcc):
+    source = (FOLDER / "example.c").read_text(encoding="utf-8")
+    done = avr_gcc(f"#define WMR_REAL float\n{source}")
+    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.needs("avr")

@@ -104,3 +104,9 @@ They are sympy relations; A is alpha, 90 degrees are pi/2, and (6) and (10) are 
 (10) contradicts (8), (23) does not follow from (21), (24) has cos A sin A twice, and (26) does not
 follow from (25).
 """
+
+SECOND_PART = alpha / L * (-omega) + v * _SINE / (rho * L) * (h * theta + alpha)
+"""The bracket that the paper prints without a number between (22) and (23), to be negative.
+
+The second part of (21) has no L.
+"""

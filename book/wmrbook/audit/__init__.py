@@ -4,21 +4,24 @@
 >>> [row.verdict.value for row in audit.rows("equations")[:2]]
 ['✓ holds', '✓ holds']
 
-Every verdict follows from a computation made when `rows` is called; the rules are `equation_row`
-(equations), `fits` (numbers) and `decide`: what rests on a threshold of ours, or on what nobody
-published, is computed with several of them, and is not decided if they disagree.
+What is judged is a converted text of the paper, without its figures. Every verdict follows from a
+computation made when `rows` is called; the rules are `judge` (equations), `fits` (numbers) and
+`decide`: what rests on a threshold of ours, or on what nobody published, is computed with several
+of them, and is not decided if they disagree.
 """
 
 from __future__ import annotations
 
 from wmrbook.audit import claims, equations, proof
 from wmrbook.audit.proof import near_goal, slope, steering
-from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equation_row, equivalent, fits
-from wmrbook.audit.table import Place, Table, missing, places, tally
+from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits
+from wmrbook.audit.slips import equation_row, judge, one_slip
+from wmrbook.audit.table import SOURCE, Place, Table, missing, places, tally
 from wmrlib._checks import choice
 
 __all__ = [
     "GROUPS",
+    "SOURCE",
     "THRESHOLDS",
     "Place",
     "Row",
@@ -28,8 +31,10 @@ __all__ = [
     "equation_row",
     "equivalent",
     "fits",
+    "judge",
     "missing",
     "near_goal",
+    "one_slip",
     "places",
     "rows",
     "slope",
@@ -49,7 +54,8 @@ GROUPS = tuple(_PARTS)
 def rows(group: str | None = None) -> list[Row]:
     """The rows of one group of GROUPS, or of all, computed in some seconds.
 
-    Equations (1) to (26), the numbers of `PUBLISHED` that can be checked, and statements.
+    Equations (1) to (26) and a bracket without a number, the numbers of `PUBLISHED` that can be
+    checked, and statements.
     Raises ValueError for an unknown group.
     """
     if group is not None:

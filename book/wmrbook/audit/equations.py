@@ -7,7 +7,8 @@ from functools import cache
 import sympy as sp
 
 from wmrbook import equations as symbols
-from wmrbook.audit.row import Row, Verdict, equation_row, equivalent, finding, fits, printed
+from wmrbook.audit.row import Row, Verdict, equivalent, finding, fits, printed
+from wmrbook.audit.slips import equation_row
 from wmrbook.published import PUBLISHED
 from wmrlib import paper, symbolic
 from wmrlib.geodesy import haversine_distance, local_position
@@ -151,7 +152,8 @@ def earth_rows() -> list[Row]:
     far_north = {"the error of 57 m at the start": start_error}
     half_chord = "Half the chord is $\\sin(c/2) = \\sqrt\\epsilon$."
     chord = "A quarter of the squared chord between two unit vectors."
-    compass = "From east, counter-clockwise, against from north, clockwise."
+    compass = "With the 90 in degrees and the rest in radians: "
+    compass += "from east, counter-clockwise, against from north, clockwise."
     ratio = "Its sine goes with east and its cosine with north."
     along_east = "The part of the goal's unit vector along east."
     along_north = "The part of the goal's unit vector along north."

@@ -13,17 +13,18 @@ from wmrbook.audit.row import (
     Row,
     Verdict,
     equation,
-    equation_row,
     equivalent,
     finding,
     latex,
     printed,
 )
+from wmrbook.audit.slips import equation_row, judge
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 
 _COSINE, _SINE, _STATE = sp.cos(alpha), sp.sin(alpha), (rho, alpha, theta)
 CLOSED = -rho / L * v_max * (1 - sp.exp(-k_rho * rho)) * _COSINE**2 - k_alpha * alpha**2
-"""The V' that the proof needs: never positive."""
+"""The V' that the proof needs, never positive: what (26) prints, less its last two terms."""
+_SLIPS = {Verdict.TYPO: "the typo", Verdict.WRONG: "the error"}
 _WISH = 'Judged as an equality: its "< 0" is a wish, for $v$ and $\\omega$ are not chosen yet.'
 
 
@@ -65,7 +66,7 @@ def rising(rate: sp.Expr) -> sp.Expr | None:
 
 
 def energy_rows() -> list[Row]:
-    """(18) to (23)."""
+    """(18) to (23), and the bracket below (22)."""
     dots = equations.rho_rate, equations.alpha_rate, equations.theta_rate
     chain = sum(printed(18).diff(each) * dot for each, dot in zip(_STATE, dots, strict=True))
     along = chain.subs(dict(zip(dots, polar_rates(), strict=True)))
@@ -77,6 +78,7 @@ def energy_rows() -> list[Row]:
         equation_row(20, along, {"(21)": in_21}, f"{sign} {_WISH}"),
         equation_row(21, along, {"(20)": in_20}, f"(20) with its terms collected. {_WISH}"),
         _speed_row(),
+        _second_part_row(),
         _inequality_row(),
     ]
 
@@ -113,6 +115,23 @@ def _speed_row() -> Row:
     return finding(22, Verdict.WRONG, "The first bracket of (21) can be positive.", why)
 
 
+def _second_part_row() -> Row:
+    """The second part of V' as it is printed once more, without a number, below (22)."""
+    _, turning, sweeping = polar_rates()
+    part = alpha * turning + h * theta * sweeping
+    substituted = part.subs({omega: printed(24), v: printed(22)}, simultaneous=True)
+    needed = {
+        "(21)": equivalent(printed(21).coeff(L, 0), part),
+        "(25)": equivalent(printed(25).coeff(L, 0), substituted),
+    }
+    verdict, why = judge(equations.SECOND_PART, part, needed)
+    says = f"The second part, to be negative: ${latex(equations.SECOND_PART)}$"
+    holds = f"By (8), (9) and (18) it is ${latex(sp.factor_terms(part))}$."
+    if equivalent(equations.SECOND_PART * L, part):
+        holds += " As $L > 0$, its sign is the same."
+    return Row("second-part", "Below (22)", says, holds, verdict, why)
+
+
 def _inequality_row() -> Row:
     """(23) is to make the second bracket of (21), b - alpha omega, negative."""
     wanted, given = equation(23).gts, equation(23).lts
@@ -132,10 +151,21 @@ def _inequality_row() -> Row:
 
 def law_rows() -> list[Row]:
     """(24) to (26)."""
-    law = steering()
-    needed = {"the proof": equivalent(slope(law), CLOSED)}
-    text = "With it $\\dot V$ is never positive."
-    return [equation_row(24, law, needed, text), _substitution_row(), _last_row()]
+    law = law_row()
+    return [law, _substitution_row(law.verdict), _last_row()]
+
+
+def law_row() -> Row:
+    """(24). What needs its derived form is (26): it prints the two terms which that form leaves."""
+    law, terms = steering(), (set(sp.expand(each).args) for each in (CLOSED, _last()))
+    left, there = terms
+    needed = {'"$\\le 0$" and $-k_\\alpha\\alpha^2$ in (26)': left <= there}
+    needed = {name: so and equivalent(slope(law), CLOSED) for name, so in needed.items()}
+    return equation_row(24, law, needed, "With it $\\dot V$ is never positive.")
+
+
+def _last() -> sp.Expr:
+    return printed(26).subs(sp.Abs(rho), rho)  # rho is a distance
 
 
 def _not_below(rate: sp.Expr) -> str:
@@ -148,21 +178,21 @@ def _not_below(rate: sp.Expr) -> str:
     )
 
 
-def _substitution_row() -> Row:
+def _substitution_row(law: Verdict) -> Row:
     ours, theirs = slope(steering()), slope(printed(24))
     if equivalent(printed(25), ours):
         return finding(25, Verdict.HOLDS, "(22) and (24) put into (21).", "the difference is 0")
     text = f"With the factor of (24) removed it is ${latex(CLOSED)}$, never positive."
     text += _not_below(printed(25))
     if equivalent(printed(25), theirs) and equivalent(ours, CLOSED):
-        why = "it follows from (21), (22) and (24) as printed, and so repeats the typo of (24)"
-        return finding(25, Verdict.TYPO, text, why)
+        why = f"it follows from (21), (22) and (24) as printed, and repeats {_SLIPS[law]} of (24)"
+        return finding(25, law, text, why)
     why = "it is what neither (24) as printed nor the derived law gives"
     return finding(25, Verdict.WRONG, text, why)
 
 
 def _last_row() -> Row:
-    last = printed(26).subs(sp.Abs(rho), rho)  # rho is a distance
+    last = _last()
     if equivalent(last, CLOSED):
         left = "What the derived law leaves of (25)."
         return finding(26, Verdict.HOLDS, left, "the difference is 0")
@@ -175,5 +205,5 @@ def _last_row() -> Row:
 
 
 def rows() -> list[Row]:
-    """The nine rows, in order."""
+    """The ten rows, in order."""
     return [*energy_rows(), *law_rows()]

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from decimal import Decimal
 from enum import Enum
 from functools import cache
@@ -131,28 +131,6 @@ def equation(number: int) -> sp.Basic:
 def printed(number: int) -> sp.Basic:
     """The right side of an equation as the paper prints it."""
     return equation(number).rhs
-
-
-def equation_row(
-    number: int, derived: sp.Basic, wanted_by: Mapping[str, bool], note: str = ""
-) -> Row:
-    """The row of an equation whose right side is compared with a derivation.
-
-    It holds if the two are equivalent. If not, it is a typo if something else in the paper (a name
-    and whether it is so) needs the derived form, and wrong if nothing does.
-    """
-    left = equation(number).lhs
-    if equivalent(printed(number), derived):
-        note = note or "The derivation gives the same."
-        return finding(number, Verdict.HOLDS, note, "the difference is 0")
-    right = f"It should be {formula(sp.Eq(left, derived))}. {note}".strip()
-    needed = [name for name, so in wanted_by.items() if so]
-    if needed:
-        listed = " and ".join(filter(None, (", ".join(needed[:-1]), needed[-1])))
-        why = f"the difference is not 0, and the derived form is needed by {listed}"
-        return finding(number, Verdict.TYPO, right, why)
-    why = "the difference is not 0, and nothing in the paper has the derived form"
-    return finding(number, Verdict.WRONG, right, why)
 
 
 def finding(number: int, verdict: Verdict, holds: str, why: str) -> Row:

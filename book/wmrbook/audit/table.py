@@ -10,6 +10,8 @@ from typing import NamedTuple
 
 from wmrbook.audit.row import Row, Verdict
 
+SOURCE = "Judged from a converted text of the paper: a slip may be the conversion's."
+SOURCE += " Its figures are not known."
 _TAG = "audit:"
 _HEAD = ("What", "Verdict", "The paper says", "What is found", "Shown in")
 
@@ -76,19 +78,19 @@ class Table:
         return {"text/markdown": self.markdown(), "text/plain": repr(self)}
 
     def markdown(self) -> str:
-        """A pipe table, one line for each row."""
+        """The source, and a pipe table with a line for each row."""
         lines = [_HEAD, ("---",) * len(_HEAD)]
         for row in self.rows:
             verdict = f"**{row.verdict.value}**: {row.why}"
             shown = _linked(self.where.get(row.item, ()))
             lines.append((f"**{row.title}**", verdict, row.says, row.holds, shown))
         escaped = ((cell.replace("|", r"\|") for cell in line) for line in lines)
-        return "\n".join(f"| {' | '.join(line)} |" for line in escaped)
+        return "\n".join([f"*{SOURCE}*\n", *(f"| {' | '.join(line)} |" for line in escaped)])
 
     def __repr__(self) -> str:
         width = max((len(row.title) for row in self.rows), default=0)
         lines = (f"{row.title:{width}}  {row.verdict.value}: {row.why}" for row in self.rows)
-        return "\n".join(lines)
+        return "\n".join([SOURCE, *lines])
 
 
 def _linked(cells: Sequence[Place]) -> str:

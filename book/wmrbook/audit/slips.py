@@ -1,0 +1,119 @@
+"""Typo or error: whether one wrong sign, symbol or factor explains a misprint.
+
+The search starts from the printed expression. A misprint of two slips is no typo.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from functools import cache
+
+import numpy as np
+import sympy as sp
+
+from wmrbook.audit.row import (
+    Row,
+    Verdict,
+    equation,
+    equivalent,
+    finding,
+    formula,
+    latex,
+    printed,
+)
+
+
+def equation_row(
+    number: int, derived: sp.Basic, wanted_by: Mapping[str, bool], note: str = ""
+) -> Row:
+    """The row of an equation whose right side is compared with a derivation."""
+    verdict, why = judge(printed(number), derived, wanted_by)
+    if verdict is Verdict.HOLDS:
+        note = note or "The derivation gives the same."
+    else:
+        note = f"It should be {formula(sp.Eq(equation(number).lhs, derived))}. {note}".strip()
+    return finding(number, verdict, note, why)
+
+
+def judge(right: sp.Basic, derived: sp.Basic, wanted_by: Mapping[str, bool]) -> tuple[Verdict, str]:
+    """The verdict on a printed expression, and why.
+
+    It holds if it is equivalent to the derived one. If not, it is a typo if one slip explains the
+    difference and something else that the paper prints (a name and whether it is so) needs the
+    derived form, and wrong otherwise.
+    """
+    if equivalent(right, derived):
+        return Verdict.HOLDS, "the difference is 0"
+    needed = [name for name, so in wanted_by.items() if so]
+    if not needed:
+        return Verdict.WRONG, "the difference is not 0, and nothing printed needs the derived form"
+    slip = one_slip(sp.ImmutableMatrix([right]), sp.ImmutableMatrix([derived]))
+    if slip is None:
+        return Verdict.WRONG, "the difference is not 0, and more than one slip"
+    listed = " and ".join(filter(None, (", ".join(needed[:-1]), needed[-1])))
+    return Verdict.TYPO, f"one slip, {slip}; the derived form is needed by {listed}"
+
+
+def mended(expression: sp.Expr, alphabet: set[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]:
+    """Every expression that is one slip away, each with the slip's name.
+
+    A slip is a wrong sign, a term or factor too many, factors that are printed twice, or a symbol
+    that stands for another of the alphabet or for 1, once or throughout.
+    """
+    for symbol in sorted(expression.free_symbols, key=str):
+        yield f"${latex(symbol)}$ too many", expression.subs(symbol, 1)
+        for other in sorted(alphabet - {symbol}, key=str):
+            yield _stands_for(symbol, other), expression.subs(symbol, other)
+    for part, put in _parts(expression):
+        if not part.is_Add:  # the signs of all its terms are several
+            yield f"the sign of ${latex(part)}$", put(-part)
+        if isinstance(part, (sp.Add, sp.Mul)):
+            for k, extra in enumerate(part.args):
+                others = part.func(*part.args[:k], *part.args[k + 1 :])
+                yield f"${latex(extra)}$ too many", put(others)
+        powers = part.as_powers_dict() if isinstance(part, (sp.Mul, sp.Pow)) else {}
+        twice = sp.Mul(*(base for base, power in powers.items() if power.is_Integer and power > 1))
+        if twice != 1:
+            yield f"${latex(twice)}$ printed twice", put(part / twice)
+        if part.is_Symbol:
+            for other in sorted(alphabet - {part}, key=str):
+                yield _stands_for(part, other), put(other)
+
+
+def _stands_for(printed: sp.Symbol, meant: sp.Symbol) -> str:
+    return f"${latex(printed)}$ for ${latex(meant)}$"
+
+
+def _parts(expression: sp.Expr, put=lambda part: part) -> Iterator[tuple]:
+    """Each part of an expression, and a function that puts another one into its place."""
+    yield expression, put
+    for k, part in enumerate(expression.args):
+
+        def replace(new, k=k):
+            return put(expression.func(*expression.args[:k], new, *expression.args[k + 1 :]))
+
+        yield from _parts(part, replace)
+
+
+@cache
+def one_slip(right: sp.ImmutableMatrix, derived: sp.ImmutableMatrix) -> str | None:
+    """Return the name of the one slip, in one entry, that explains the difference, if any."""
+    wrong = [pair for pair in zip(right, derived, strict=True) if not equivalent(*pair)]
+    if len(wrong) != 1:
+        return None
+    ((given, meant),) = wrong
+    alphabet = given.free_symbols | meant.free_symbols
+    names, forms = zip(*mended(given, alphabet), strict=True)
+    near = zip(names, forms, _agree(meant, forms, sorted(alphabet, key=str)), strict=True)
+    return next((name for name, form, so in near if so and equivalent(form, meant)), None)
+
+
+def _agree(meant: sp.Expr, forms: tuple[sp.Expr, ...], symbols: list[sp.Symbol]) -> np.ndarray:
+    """Which forms equal the one that is meant at two random points: quick, before any proof."""
+    values = sp.lambdify(symbols, [meant, *forms], "numpy")
+    agree = np.full(len(forms), True)
+    with np.errstate(all="ignore"):
+        for point in np.random.default_rng(24).uniform(0.1, 0.9, (2, len(symbols))):
+            first, *others = values(*point)
+            agree &= np.isclose(np.array(others, dtype=complex), first, rtol=0.0, atol=1e-9)
+    return agree
