@@ -121,6 +121,18 @@ def test_every_work_that_is_cited_is_in_the_bibliography_and_every_work_there_is
         assert addresses[key] in cited if addresses[key] else by_name, f"{key} is cited nowhere"
 
 
+def test_what_to_run_is_said_where_pages_and_apps_leave_it_out():
+    asked = re.compile(r"Run All|Shift\+Enter|run again|next cell|[Rr]un the cell")
+    hidden = [
+        (asked.search(cell.source), "remove-cell" in cell.metadata.get("tags", ()))
+        for notebook in CHAPTERS.values()
+        for cell in notebook.cells
+        if cell.cell_type == "markdown"
+    ]
+    assert sum(bool(said) for said, _ in hidden) >= 4
+    assert not [said.string for said, gone in hidden if said and not gone]
+
+
 def test_a_chapters_cells_are_small_and_were_run_in_order():
     for name in CHAPTERS:
         for count, cell in enumerate(code(name), start=1):
@@ -203,8 +215,8 @@ def test_the_stored_panels_are_those_of_now():
 def test_each_chapter_has_something_to_move_and_asks_for_predictions_before_they_are_answered():
     placed = []
     for name, notebook in CHAPTERS.items():
-        here = re.findall(r"\blive\.(\w+)\(", "\n".join(it.source for it in notebook.cells))
-        placed += here
+        here = re.findall(r"\blive\.(\w+)\((.*)\)", "\n".join(it.source for it in code(name)))
+        placed += [thing for thing, how in here if how != "ask=False"]
         widgets = notebook.metadata.widgets[STATE]["state"].values()
         states = [it["state"] for it in widgets if "ask" in it["state"].get("setup", ())]
         asked = [it["setup"]["ask"] for it in states if it["setup"]["ask"]]

@@ -59,7 +59,7 @@ def places() -> dict[str, list[str]]:
     """The chapters and pages that show each."""
     found: dict[str, list[str]] = {}
     for path in (*sorted(ROOT.glob("notebooks/*.ipynb")), *sorted(ROOT.glob("book/*.md"))):
-        for name in re.findall(r"\blive\.([a-z_]+)\(", path.read_text(encoding="utf-8")):
+        for name in {*re.findall(r"\blive\.([a-z_]+)\(", path.read_text(encoding="utf-8"))}:
             found.setdefault(name, []).append(path.name[:2] if path.name[0] in "01" else path.stem)
     return found
 
