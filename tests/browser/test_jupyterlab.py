@@ -99,6 +99,8 @@ def test_the_first_screen_has_a_robot_that_drives_before_anything_is_run(lab, br
     moved = "([it, before]) => it.value !== before"
     page.wait_for_function(moved, arg=[on_its_way.element_handle(), before], timeout=PATIENCE)
     assert set(page.evaluate(BROKEN_LINKS)) == {"none"}
+    settings = json.loads(page.locator("#jupyter-config-data").text_content())
+    assert settings["buildCheck"] is False  # where there is no Node.js it would warn
     assert panel.locator(".live-result").last.inner_text() == "2°"  # this one parks
     assert page.locator(".live-gate").count() == 2  # no answer before they are asked
 
