@@ -15,6 +15,7 @@ import shutil
 import subprocess
 import sys
 import zipfile
+from pathlib import Path
 
 import damage
 import handins
@@ -195,6 +196,18 @@ def test_a_run_that_fails_for_another_reason_is_refused_and_not_worth_nothing(co
         with pytest.raises(handins.Refused, match=r"try again: OSError: .* No space left"):
             runner.run(notebook(course, "release"), "ada", [])
         assert not any(runner.stage.glob("*/notebook.json"))
+
+
+def test_without_hand_ins_it_says_where_they_go(tmp_path):
+    folder = empty_course(tmp_path)
+    *_, said = command("grade.py", folder).splitlines()
+    assert said.startswith("No hand-ins. ")
+    *_, said = command("grade.py", folder, CHAPTER).splitlines()
+    assert said.startswith(f"No hand-ins of {CHAPTER}. ")
+    place = Path(said.split(" goes to ")[1].replace("NAME", "ada"))
+    place.parent.mkdir(parents=True)
+    place.write_text("no notebook")
+    assert re.search("ada .* refused", command("grade.py", folder, CHAPTER))
 
 
 def test_nothing_is_worth_nothing(course, graded):

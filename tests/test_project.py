@@ -1,6 +1,7 @@
 """What the repository promises of itself: the locks, the README's commands, the chapters' form."""
 
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -23,6 +24,7 @@ CHAPTERS = {
 }
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATE = "application/vnd.jupyter.widget-state+json"
+CHECK = "book/lab/check_python.py"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
@@ -52,12 +54,39 @@ def test_the_readmes_commands_name_files_that_exist():
     commands = [line.strip() for line in README.splitlines() if "-m venv" in line]
     kinds = [("jupyter lab" in line, "pytest" in line) for line in commands if "&&" in line]
     assert kinds == [(True, False)] * 2 + [(False, True)] * 2
+    for command in commands[:2]:  # it needs no network
+        assert f"\n\n    {command.split(' && ')[-1]}\n" in README
+    checks = {command.split(" && ")[0] for command in commands}
+    assert checks == {f"python3 {CHECK}", "py " + CHECK.replace("/", "\\")}
     shell = "\n".join(line for line in README.splitlines() if line.startswith("    "))
     named = re.findall(r"(?:-r |python |config=|paths=)(\w[\w.\\/-]+)", shell)
     named = [name.replace("\\", "/") for name in named]
     assert {"environment.txt", "book/lab/jupyter_lab_config.py"} < set(named)
     for name in [*named, *re.findall(r"\]\((?!http)([^)]+)\)", README)]:
         assert (ROOT / name).exists(), name
+
+
+def test_a_python_is_refused_unless_pyproject_allows_it():
+    sys.path.insert(0, str(BOOK / "lab"))
+    import check_python
+
+    allowed = Requirement(f"python{PROJECT['requires-python']}").specifier
+    for minor in range(6, 20):
+        said = check_python.refusal((3, minor, 0), "HERE")
+        assert (said is None) == (f"3.{minor}" in allowed)
+        assert not said or "Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said
+
+
+def test_the_readmes_commands_refuse_an_old_python_before_anything_is_installed():
+    pyenv = sorted(Path.home().glob(".pyenv/versions/3.10.*/bin/python3"))
+    old = shutil.which("python3.10") or next(iter(pyenv), None)
+    if old is None:
+        pytest.skip("this test needs Python 3.10")
+    line = f"{old} {CHECK} && echo installed"
+    done = subprocess.run(line, shell=True, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.startswith("This book needs Python 3.11 to 3.14")
+    assert not done.stdout
 
 
 def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
@@ -80,7 +109,7 @@ def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
 def test_a_part_without_its_package_says_what_to_install(part, package):
     code = f"import sys; sys.modules['{package}'] = None; import {part}"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
-    wanted = f'{part} needs {package}: pip install "wmrlib[book]"'
+    wanted = f'{part} needs {package}: pip install ".[book]" in the repository'
     assert done.stderr.splitlines()[-1] == f"ImportError: {wanted}"
 
 
@@ -119,6 +148,18 @@ def test_every_work_that_is_cited_is_in_the_bibliography_and_every_work_there_is
     for key, work in works.items():
         by_name = f"{work.persons['author'][0].last_names[0]}" in text
         assert addresses[key] in cited if addresses[key] else by_name, f"{key} is cited nowhere"
+
+
+def test_what_to_run_is_said_where_pages_and_apps_leave_it_out():
+    asked = re.compile(r"Run All|Shift\+Enter|run again|next cell|[Rr]un the cell")
+    hidden = [
+        (asked.search(cell.source), "remove-cell" in cell.metadata.get("tags", ()))
+        for notebook in CHAPTERS.values()
+        for cell in notebook.cells
+        if cell.cell_type == "markdown"
+    ]
+    assert sum(bool(said) for said, _ in hidden) >= 4
+    assert not [said.string for said, gone in hidden if said and not gone]
 
 
 def test_a_chapters_cells_are_small_and_were_run_in_order():
@@ -209,8 +250,8 @@ def test_the_stored_panels_are_those_of_now():
 def test_each_chapter_has_something_to_move_and_asks_for_predictions_before_they_are_answered():
     placed = []
     for name, notebook in CHAPTERS.items():
-        here = re.findall(r"\blive\.(\w+)\(", "\n".join(it.source for it in notebook.cells))
-        placed += here
+        here = re.findall(r"\blive\.(\w+)\((.*)\)", "\n".join(it.source for it in code(name)))
+        placed += [thing for thing, how in here if how != "ask=False"]
         widgets = notebook.metadata.widgets[STATE]["state"].values()
         states = [it["state"] for it in widgets if "ask" in it["state"].get("setup", ())]
         asked = [it["setup"]["ask"] for it in states if it["setup"]["ask"]]

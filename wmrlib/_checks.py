@@ -31,7 +31,7 @@ def book_extra(part: str) -> Iterator[None]:
         yield
     except ModuleNotFoundError as error:
         raise ImportError(
-            f'{part} needs {error.name}: pip install "wmrlib[book]"', name=error.name
+            f'{part} needs {error.name}: pip install ".[book]" in the repository', name=error.name
         ) from error
 
 

@@ -114,6 +114,13 @@ def _each(
         bar.update()
 
 
+def nothing(folder: Path, wanted: list[str]) -> str:
+    """Say where the hand-ins of these assignments, or of all, are looked for."""
+    first, *_ = sorted((folder / "source").glob(f"{wanted[0] if wanted else '*'}/*.ipynb"))
+    place = folder / "submitted" / "NAME" / first.relative_to(folder / "source")
+    return f"No hand-ins{' of ' * bool(wanted)}{', '.join(wanted)}. A student's goes to {place}"
+
+
 def table(rows: list[Row]) -> str:
     """One line a hand-in, and a count."""
     graded = [row for row in rows if row.points]
@@ -145,4 +152,6 @@ if __name__ == "__main__":
     if not (COURSE.parent / "node_modules" / "mathjax").exists():
         print("Feedback shows formulas as TeX: book/tools/build.py fetches what draws them.")
     most = Limits(given.seconds, 5 * given.seconds, int(given.memory * 1e9))
-    print(table(grade(given.course.resolve(), given.assignments, most, given.jobs)))
+    folder = given.course.resolve()
+    rows = grade(folder, given.assignments, most, given.jobs)
+    print(table(rows) if rows else nothing(folder, given.assignments))

@@ -27,6 +27,7 @@ With Python 3.11 to 3.14, in this folder, on Linux or macOS, and on Windows:
 
 {commands}
 
+From its last `&&` on a command brings you back, without a network.
 JupyterLab opens on the first chapter; the others are beside it in `notebooks`, and the exercises
 to hand in are in `assignments`: write your answers where the cells say so. The checks below an
 answer say whether it is right, and give a hint if not. Hand in the notebook under its own name.
@@ -47,7 +48,7 @@ def main(folder: Path, wanted: list[str], output: Path) -> None:
 def _book() -> Iterator[tuple[str, str | bytes]]:
     """The name and the content of each file but the assignments."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
-    commands = re.findall(r"^    .*jupyter lab .*$", readme, re.MULTILINE)
+    commands = re.findall(r"^    py.*jupyter lab .*$", readme, re.MULTILINE)
     yield "README.md", START.format(commands="\n\n".join(commands))
     for path in sorted(each for folder in FOLDERS for each in (ROOT / folder).rglob("*")):
         parts = path.relative_to(ROOT).parts

@@ -5,14 +5,19 @@ from importlib.util import find_spec
 from pathlib import Path
 
 import nbformat
+import zmq
 from nbformat.sign import NotebookNotary
 
 ROOT = Path(__file__).resolve().parents[2]
 c = get_config()  # noqa: F821  (JupyterLab provides it)
 
-# The link that is printed leads to the chapter; below it stands nothing but warnings.
+# The link that is printed leads to the chapter, and is the last line unless something goes wrong.
 c.LabApp.default_url = "/lab/tree/notebooks/00_from_gps_to_a_parked_robot.ipynb"
 c.ServerApp.log_level = c.LabApp.log_level = "WARN"
+# Kernels warn of plain TCP: encrypt it, which works on Windows too.
+c.KernelManager.transport_encryption = "auto" if zmq.has("curve") else "disabled"
+# Jupyter gives tornado milliseconds for seconds; on one machine no ping is needed.
+c.ServerApp.tornado_settings = {"ws_ping_interval": 0}
 # This machine only, and nothing is asked of any other: no news, no updates, no list of extensions.
 c.ServerApp.ip = "127.0.0.1"
 c.LabApp.news_url = None

@@ -120,6 +120,7 @@ def jupyterlab(home: Path, *options: str):
         "JUPYTERLAB_WORKSPACES_DIR": str(home / "workspaces"),
         "JUPYTER_CONFIG_DIR": str(home / "config"),
         "JUPYTER_DATA_DIR": str(home / "data"),  # where the trust in a notebook is kept
+        "JUPYTER_CONFIG_PATH": "",  # a reader's kernels do not talk through files
     }
     url = f"http://127.0.0.1:{port}/"
     with serve(command, f"{url}api", home / "log.txt", **folders):

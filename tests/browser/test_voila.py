@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
 from types import SimpleNamespace
@@ -49,6 +50,9 @@ def test_a_slider_moves_the_picture_and_the_kernel_ends_with_its_page(app, brows
     for slider in sliders(browser_page)[:3]:
         assert_slider_matters(browser_page, slider)
     assert browser_page.locator(".jp-InputArea-editor:visible").count() == 0  # an app shows no code
+    words = browser_page.locator("#rendered_cells").inner_text()
+    assert "You need trigonometry" in words
+    assert not re.search("Run All|next cell|Shift", words)  # nobody runs a cell here
     browser_page.assert_quiet()
     come_to(1)
     browser_page.reload(timeout=PATIENCE)
