@@ -1,5 +1,6 @@
 """Refuse a Python that the book does not run on, before anything is installed; README's commands
-begin with it. The versions are those of requires-python in pyproject.toml."""
+begin with it. The versions are those of requires-python in pyproject.toml.
+"""
 
 import re
 import sys

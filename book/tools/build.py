@@ -1,9 +1,9 @@
 """Build the book: OUTPUT/html/index.html, which opens from the disk with no network.
 
-With --pdf also OUTPUT/book.pdf, to print; with --zip also OUTPUT/robot-book.zip, the one file to hand
-out: the site, the slides and the PDF, and a page that leads to them. The chapters appear with the outputs and panels that they
-store; the book's own pages are executed. npm fetches once the JavaScript that package-lock.json
-names. The PDF needs Playwright, and Chromium or Chrome.
+With --pdf also OUTPUT/book.pdf, to print; with --zip also OUTPUT/robot-book.zip, the one file to
+hand out: the site, the slides and the PDF, and a page that leads to them. The chapters appear with
+the outputs and panels that they store; the book's own pages are executed. npm fetches once the
+JavaScript that package-lock.json names. The PDF needs Playwright, and Chromium or Chrome.
 """
 
 from __future__ import annotations
