@@ -79,7 +79,7 @@ def test_a_python_is_refused_unless_pyproject_allows_it():
 
 def test_the_readmes_commands_refuse_an_old_python_before_anything_is_installed():
     pyenv = sorted(Path.home().glob(".pyenv/versions/3.10.*/bin/python3"))
-    old = shutil.which("python3.10") or next(iter(pyenv), None)
+    old = next(iter(pyenv), None) or shutil.which("python3.10")
     if old is None:
         pytest.skip("this test needs Python 3.10")
     line = f"{old} {CHECK} && echo installed"
