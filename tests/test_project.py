@@ -7,6 +7,7 @@ import sys
 import tomllib
 from pathlib import Path
 
+import build
 import nbformat
 import pytest
 from packaging.requirements import Requirement
@@ -24,6 +25,7 @@ CHAPTERS = {
 }
 VIEW = "application/vnd.jupyter.widget-view+json"
 STATE = "application/vnd.jupyter.widget-state+json"
+RELEASE = (ROOT / ".github" / "workflows" / "release.yml").read_text(encoding="utf-8")
 CHECK = "book/lab/check_python.py"
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
@@ -51,7 +53,7 @@ def test_a_lock_pins_every_direct_dependency_within_its_range(lock, extras):
 
 
 def test_the_readmes_commands_name_files_that_exist():
-    commands = [line.strip() for line in README.splitlines() if " && " in line]
+    commands = [line.strip() for line in README.splitlines() if "-m venv .venv && " in line]
     kinds = [("jupyter lab" in line, "pytest" in line) for line in commands]
     assert kinds == [(True, False)] * 2 + [(False, True)] * 2
     for command in commands[:2]:  # it needs no network
@@ -59,11 +61,19 @@ def test_the_readmes_commands_name_files_that_exist():
     checks = {command.split(" && ")[0] for command in commands}
     assert checks == {f"python3 {CHECK}", "py " + CHECK.replace("/", "\\")}
     shell = "\n".join(line for line in README.splitlines() if line.startswith("    "))
-    named = re.findall(r"(?:-r |python |config=|paths=)(\w[\w.\\/-]+)", shell)
+    named = re.findall(r"(?:-r |python3? |py |config=|paths=)(\w[\w.\\/-]+)", shell)
     named = [name.replace("\\", "/") for name in named]
     assert {"environment.txt", "book/lab/jupyter_lab_config.py"} < set(named)
     for name in [*named, *re.findall(r"\]\((?!http|#)([^)]+)\)", README)]:
         assert (ROOT / name).exists(), name
+
+
+def test_a_release_has_the_zip_that_the_readmes_command_makes():
+    (command,) = re.findall(r"run: python (.*--zip)$", RELEASE, re.MULTILINE)
+    assert f"`{command}`" in README
+    assert f'upload "$GITHUB_REF_NAME" book/_build/{build.ZIP} ' in RELEASE
+    assert f"`book/_build/{build.ZIP}`" in README
+    assert '\n    tags: ["v*"]\n' in RELEASE
 
 
 def test_a_python_is_refused_unless_pyproject_allows_it():

@@ -1,9 +1,9 @@
 """Build the book: OUTPUT/html/index.html, which opens from the disk with no network.
 
-With --pdf also OUTPUT/book.pdf, to print; with --zip also OUTPUT/robot-book.zip, the one file to
-hand out: the site, the slides and the PDF, and a page that leads to them. The chapters appear with
-the outputs and panels that they store; the book's own pages are executed. npm fetches once the
-JavaScript that package-lock.json names. The PDF needs Playwright, and Chromium or Chrome.
+With --pdf also OUTPUT/book.pdf, to print; with --zip also OUTPUT/robot-book.zip, which has all that
+a lecturer hands out: the pages, the slides and the PDF. The chapters appear with the outputs and
+panels that they store; the book's own pages are executed. npm fetches once the JavaScript that
+package-lock.json names. PDF and zip need Playwright, and Chromium or Chrome.
 """
 
 from __future__ import annotations
@@ -15,8 +15,8 @@ import subprocess
 import sys
 import tempfile
 import time
-import zipfile
 from pathlib import Path
+from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import nbformat
 from pdf import find_browser, print_book
@@ -29,6 +29,8 @@ VENDOR = BOOK / "_static" / "vendor"
 # What the pages carry, by folder. MathJax draws in SVG: one file with every extension in it, and no
 # font files, which some browsers refuse to load from file://.
 NPM_FILES = {"mathjax": ("mathjax/es5/tex-svg-full.js", "mathjax/LICENSE")}
+ZIP = "robot-book.zip"
+START = Path(__file__).with_name("start.html")  # the zip's first page
 LONG = 12  # lines of code; a page folds a cell that has more
 SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
 NO_NPM = (
@@ -37,26 +39,9 @@ NO_NPM = (
 )
 
 
-ALL_OF_IT = """<!doctype html>
-<html lang="en">
-<meta charset="utf-8">
-<meta name="viewport" content="width=device-width">
-<title>From two GPS points to a parked robot</title>
-<style>body { font: 1.2rem/1.6 system-ui, sans-serif; max-width: 30em; margin: 4em auto; }</style>
-<h1>From two GPS points to a parked robot</h1>
-<p>Everything works from the disk, without a network.</p>
-<ul>
-<li><a href="html/index.html">Read the book</a>, as pages with live figures</li>
-<li><a href="slides/index.html">Teach with it</a>: a deck of slides for each chapter</li>
-<li><a href="book.pdf">Print it</a>: the whole book as a PDF</li>
-</ul>
-</html>
-"""
-
-
-def main(output: Path, pdf: bool = False) -> None:
+def main(output: Path, pdf: bool = False, whole: bool = False) -> None:
     """Fetch the JavaScript, lay out the sources and run Sphinx; any warning is an error."""
-    if pdf:
+    if pdf or whole:
         find_browser()  # before minutes of work
     install_javascript()
     copy_javascript(VENDOR)
@@ -68,8 +53,10 @@ def main(output: Path, pdf: bool = False) -> None:
     say("the pages, about half a minute")
     sphinx("html", output)
     print(output / "html" / "index.html")
-    if pdf:
+    if pdf or whole:
         make_pdf(output)
+    if whole:
+        make_zip(output)
 
 
 def make_pdf(output: Path) -> None:
@@ -81,22 +68,23 @@ def make_pdf(output: Path) -> None:
 
 
 def make_zip(output: Path) -> None:
-    """Put the site, the decks, the PDF and a first page into one file, the same for the same."""
+    """Make the slides, and put them, the pages and the PDF into one file.
+
+    Its bytes are the same whenever it is made: files have no dates and stand in order.
+    """
     import slides  # which imports this module
 
     say("the slides")
     slides.main(output / "slides", [])
-    (output / "index.html").write_text(ALL_OF_IT, encoding="utf-8")
-    parts = [output / "index.html", output / "book.pdf"]
-    for folder in ("html", "slides"):
-        parts += sorted(path for path in (output / folder).rglob("*") if path.is_file())
-    with zipfile.ZipFile(output / "robot-book.zip", "w", zipfile.ZIP_DEFLATED) as whole:
-        for path in parts:
-            name = Path("two-gps-points", path.relative_to(output)).as_posix()
-            entry = zipfile.ZipInfo(name)  # of 1980: no time of this build
-            entry.external_attr = 0o644 << 16
-            whole.writestr(entry, path.read_bytes(), zipfile.ZIP_DEFLATED)
-    print(output / "robot-book.zip")
+    found = (path for part in ("html", "slides") for path in (output / part).rglob("[!.]*"))
+    files = {path.relative_to(output).as_posix(): path for path in found if path.is_file()}
+    files |= {"index.html": START, "book.pdf": output / "book.pdf", "LICENSE": ROOT / "LICENSE"}
+    with ZipFile(output / ZIP, "w") as package:
+        for name, path in sorted(files.items()):
+            row = ZipInfo(f"{Path(ZIP).stem}/{name}")
+            row.create_system, row.external_attr = 3, 0o644 << 16  # on Windows too
+            package.writestr(row, path.read_bytes(), ZIP_DEFLATED)
+    print(output / ZIP)
 
 
 def say(step: str) -> None:
@@ -191,8 +179,7 @@ def arguments(description: str, default: Path) -> argparse.ArgumentParser:
 if __name__ == "__main__":
     parser = arguments(__doc__, BOOK / "_build")
     parser.add_argument("--pdf", action="store_true", help="the whole book as one PDF too")
-    parser.add_argument("--zip", action="store_true", help="site, slides and PDF in one file too")
+    said = "pages, slides and PDF in one file too"
+    parser.add_argument("--zip", action="store_true", help=said)
     given = parser.parse_args()
-    main(given.output.resolve(), given.pdf or given.zip)
-    if given.zip:
-        make_zip(given.output.resolve())
+    main(given.output.resolve(), given.pdf, given.zip)

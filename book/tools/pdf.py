@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import base64
+import re
 import shutil
 import sys
 from importlib.util import find_spec
@@ -22,6 +23,7 @@ FOOTER = (
     '<span class="pageNumber"></span></p>'
 )
 MARGIN = {"top": "18mm", "bottom": "18mm", "left": "16mm", "right": "16mm"}
+DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:[^)]*\)")
 PATIENCE = 300_000  # ms: a whole book
 PAPER = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
@@ -91,6 +93,8 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         else:
             sys.exit("The PDF's pages moved when their numbers were filled in.")
         chromium.close()
+    undated = DATE.sub(lambda date: b" " * len(date[0]), pdf.read_bytes())
+    pdf.write_bytes(undated)  # the same file from the same sources
 
 
 def open_book(chromium, page: Path):

@@ -7,12 +7,13 @@ import os
 import re
 import subprocess
 import sys
-import zipfile
 from collections import Counter
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
+from zipfile import ZipFile
 
+import build
 import nbformat
 import pypdfium2
 import pytest
@@ -137,11 +138,12 @@ def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened
     assert "paper 24" in page.locator("div.math:has(#paper-24)").text_content()
 
 
-@pytest.fixture
+@pytest.fixture(scope="module")
 def book(site) -> Path:
-    """The PDF, printed from the site unless that is one that is built already."""
+    """The PDF, beside the zip, made from the site unless that is one that is built already."""
     if not os.environ.get("BOOK_HTML"):
-        command = "import sys, pathlib, build; build.make_pdf(pathlib.Path(sys.argv[1]))"
+        command = "import sys, pathlib, build; output = pathlib.Path(sys.argv[1]); "
+        command += "build.make_pdf(output); build.make_zip(output)"
         tools = ROOT / "book" / "tools"
         done = subprocess.run(
             [sys.executable, "-c", command, site.parent], cwd=tools, capture_output=True, text=True
@@ -178,21 +180,33 @@ def test_the_printed_book_holds_every_chapter(site, book):
 
 
 @pytest.mark.slow
-def test_one_file_holds_site_slides_and_pdf_and_opens_from_the_disk(book, tmp_path, browser_page):
-    command = "import sys, pathlib, build; build.make_zip(pathlib.Path(sys.argv[1]))"
-    tools = ROOT / "book" / "tools"
-    subprocess.run([sys.executable, "-c", command, book.parent], cwd=tools, check=True)
-    with zipfile.ZipFile(book.parent / "robot-book.zip") as whole:
-        assert {entry.date_time for entry in whole.infolist()} == {(1980, 1, 1, 0, 0, 0)}
-        whole.extractall(tmp_path)
-    (folder,) = tmp_path.iterdir()
-    browser_page.goto((folder / "index.html").as_uri())
-    doors = browser_page.locator("a").evaluate_all("all => all.map(it => it.getAttribute('href'))")
-    assert doors == ["html/index.html", "slides/index.html", "book.pdf"]
-    assert (folder / doors[-1]).stat().st_size > 1e6
-    for place in (*doors[:-1], *("html/notebooks/" + it.stem + ".html" for it in chapters()[:1])):
-        browser_page.goto((folder / place).as_uri(), wait_until="load")
-        assert browser_page.locator("h1").count()
-    release = (ROOT / ".github/workflows/release.yml").read_text(encoding="utf-8")
-    assert "python book/tools/build.py --zip" in release
-    assert "book/_build/robot-book.zip" in release
+@pytest.mark.needs("browser")
+def test_the_zip_has_all_that_is_handed_out_and_opens_from_the_disk(book, tmp_path, browser_page):
+    assert book.with_name(build.ZIP).is_file(), "build the book with --zip"
+    with ZipFile(book.with_name(build.ZIP)) as package:
+        rows = package.infolist()
+        package.extractall(tmp_path)
+    assert {row.date_time for row in rows} == {(1980, 1, 1, 0, 0, 0)}  # the same on another day
+    names = [row.filename for row in rows]
+    assert names == sorted(names)
+    assert not [name for name in names if "/." in name]
+    home = tmp_path / "robot-book"
+    parts = {"LICENSE", "book.pdf", "html", "index.html", "slides"}
+    assert {path.name for path in home.iterdir()} == parts
+    assert (home / "book.pdf").read_bytes() == book.read_bytes()
+    assert b"CreationDate" not in book.read_bytes()
+    assert len(list(home.glob("slides/*.slides.html"))) == len(chapters())
+
+    asked = []
+    browser_page.on("request", lambda request: asked.append(request.url))
+    browser_page.goto((home / "index.html").as_uri())
+    links = browser_page.locator("a").evaluate_all("them => them.map(it => it.href)")
+    assert {urlsplit(link).path.removeprefix(f"{home}/") for link in links} == {
+        *("html/index.html", "slides/index.html", "book.pdf", "LICENSE")
+    }
+    deck = f"{chapters()[0].stem}.slides.html"
+    for page in "html/index.html", "slides/index.html", f"slides/{deck}":
+        browser_page.goto((home / page).as_uri(), wait_until="load", timeout=PATIENCE)
+    browser_page.goto((home / "html" / "explorer.html").as_uri(), timeout=PATIENCE)
+    assert_slider_matters(browser_page, sliders(browser_page)[0])
+    assert all(url.startswith((home.as_uri(), "data:", "blob:")) for url in asked)
