@@ -20,7 +20,8 @@ import numpy as np, sympy as sp
 import wmrlib, wmrlib as wmr
 from wmrbook.challenge import scoreboard
 starts, goals, gains = wmr.Pose([5.0, 6.0], 1.0, 0.0), wmr.Pose(0.0, 0.0, 0.0), wmr.GENTLE_GAINS
-explorer, x, y, heading, goal = wmr.Explorer(), 1.0, 2.0, 0.3, goals
+Explorer, paper = wmr.Explorer, wmr.paper
+explorer, x, y, heading, goal = Explorer(), 1.0, 2.0, 0.3, goals
 c = SimpleNamespace(Spawner=SimpleNamespace())
 """
 
