@@ -139,40 +139,6 @@ def test_a_route_is_its_legs_one_after_the_other():
     assert route.stops == (True,)
 
 
-def test_the_joined_path_is_driven_by_the_joined_twist():
-    """Each sample's command, held for 0.1 s, leads to the next sample: at a change of goal too."""
-    route = wmr.drive_route(SQUARE, GENTLE, stop=False)
-    there = wmr.advance(
-        wmr.Pose(route.x[:-1], route.y[:-1], route.heading[:-1]),
-        route.v[:-1],
-        route.omega[:-1],
-        0.1,
-    )
-    np.testing.assert_allclose(
-        np.array(there), np.array([route.x, route.y, route.heading])[:, 1:], atol=1e-12
-    )
-    np.testing.assert_allclose(np.diff(route.t), 0.1)
-
-
-@settings(max_examples=25)
-@given(lines, angles, st.booleans())
-def test_v_falls_in_each_leg_and_time_goes_on(points, heading, stop):
-    x, y = far_apart(points)
-    start = wmr.Pose(0.0, 0.0, heading)
-    route = wmr.drive_route(
-        wmr.Pose(x, y, wmr.headings_along(x, y)),
-        GENTLE,
-        start=start,
-        stop=stop,
-        method="continuous",
-    )
-    assert (np.diff(route.t) > 0).all()
-    assert (np.diff(route.leg) >= 0).all()
-    for k, leg in enumerate(route.legs):
-        assert (np.diff(leg.V) <= 1e-9 * leg.V[0]).all()
-        assert (np.diff(route.V[route.leg == k]) <= 1e-9 * leg.V[0]).all()
-
-
 @settings(max_examples=60)
 @given(lines, angles, angles, metres, metres, st.booleans(), st.sampled_from([1.0, -1.0]))
 def test_a_route_turned_moved_or_mirrored_is_driven_the_same(
@@ -201,14 +167,6 @@ def test_a_route_turned_moved_or_mirrored_is_driven_the_same(
     np.testing.assert_allclose(turn, 0.0, atol=1e-5)
     np.testing.assert_allclose(other.omega, side * one.omega, atol=1e-5)
     np.testing.assert_allclose(other.V, one.V, atol=1e-5)
-
-
-def test_on_a_straight_line_passing_is_faster_and_as_long():
-    line = wmr.Pose(np.array([0.0, 15.0, 30.0, 45.0]), 0.0, 0.0)
-    stops, passes = wmr.drive_route(line, GENTLE), wmr.drive_route(line, GENTLE, stop=False)
-    assert passes.time < stops.time - 5.0
-    assert passes.length == pytest.approx(stops.length, abs=0.1)
-    assert stops.v[stops.leg == 0].min() < 0.1 < 1.0 < passes.v[passes.leg == 0].min()
 
 
 def test_a_leg_that_fails_is_the_last():
@@ -352,13 +310,6 @@ def test_out_to_gpx_and_back(tmp_path):
     goal = wmr.GeoPoint(lat=CAMPUS.lat[-1], lon=CAMPUS.lon[-1])
     last = wmr.GeoPoint(lat=track.points.lat[-1], lon=track.points.lon[-1])
     assert wmr.haversine_distance(last, goal) < 0.06
-
-
-def test_a_route_that_was_read_is_driven(tmp_path):
-    wmr.write_gpx(tmp_path / "way.gpx", CAMPUS)
-    points = wmr.read_track(tmp_path / "way.gpx").points
-    route = wmr.drive_route(wmr.route_poses(points), GENTLE)
-    assert route.outcome is wmr.Outcome.ARRIVED
 
 
 def test_bad_input():
