@@ -147,18 +147,6 @@ def test_the_error_keeps_its_size_and_forgets_as_fast_as_it_should(memory):
     assert (np.abs(found) < 3.0).mean() == pytest.approx(math.erf(3.0 / math.sqrt(2.0)), abs=2e-3)
 
 
-def test_a_fix_is_held_and_shown_late():
-    white = errors(wmr.Receiver(0.5), 3, 30)
-    late = errors(wmr.Receiver(0.5, delay=4.0), 3, 30)
-    assert np.allclose(late[..., 4:], white[..., :-4], rtol=0.0, atol=1e-7)
-    assert np.allclose(late[..., :4], white[..., :1], rtol=0.0, atol=1e-7)
-    held = errors(wmr.Receiver(0.5, period=5.0), 3, 30)
-    assert np.allclose(held, np.repeat(white[..., ::5], 5, axis=-1), rtol=0.0, atol=1e-7)
-    slow = errors(wmr.Receiver(0.5, memory=20.0, period=5.0), 4000, 11)
-    alike = (slow[..., 0] * slow[..., 5]).mean() / 0.25
-    assert alike == pytest.approx(math.exp(-5.0 / 20.0), abs=0.06)
-
-
 @pytest.mark.parametrize("field", ["period", "delay", "heading_delay"])
 def test_what_never_comes_is_as_late_as_the_run_is_long(field):
     ends = wmr.sweep(START, GOAL, GAINS, receiver=wmr.Receiver(0.2, **{field: [13.0, 1e308]}),
@@ -187,21 +175,6 @@ def test_a_receiver_that_shows_the_truth_changes_nothing(method):
         starts, GOAL, GAINS, **SHORT)]  # fmt: skip
     for one, other in zip(mixed, wmr.sweep(starts, GOAL, GAINS, **SHORT), strict=True):
         assert one[1] == pytest.approx(other[1], rel=1e-12)
-
-
-def test_an_error_that_stays_shifts_the_place_and_nothing_else():
-    receiver, seed, run = wmr.Receiver(0.7, memory=1e12), 3, 4
-    options = SHORT | {"trajectories": True}
-    starts = START._replace(x=np.full(5, START.x))
-    ends, paths = wmr.sweep(starts, GOAL, GAINS, receiver=receiver, seed=seed, **options)
-    error = 0.7 * two_normals(run, 0, seed)
-    shifted = wmr.Pose(-error.real, -error.imag, GOAL.heading)
-    exact, path = wmr.sweep(START, shifted, GAINS, **options)
-    assert exact.arrived
-    assert ends.time[run] == exact.time
-    for name in ("x", "y", "heading"):
-        mine, right = getattr(paths, name)[run], getattr(path, name)
-        np.testing.assert_allclose(mine, right, rtol=0.0, atol=1e-4)
 
 
 def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):

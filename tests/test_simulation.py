@@ -120,39 +120,6 @@ def test_sampled_methods_converge_to_continuous(method, law, start, heading):
     assert fine < 0.35 * coarse + 1e-9
 
 
-@settings(max_examples=40)
-@given(
-    poses,
-    poses,
-    gains_drawn,
-    st.sampled_from(["corrected", "aicardi"]),
-    st.sampled_from(["euler", "arc"]),
-)
-def test_mirrored_starts_give_mirrored_paths(start, goal, gains, law, method):
-    assume(math.hypot(start.y - goal.y, start.x - goal.x) > 1e-3)
-    options = {"law": law, "method": method, "duration": 5.0, "arrival_radius": 0.3}
-    mirrored = [wmr.Pose(pose.x, -pose.y, -pose.heading) for pose in (start, goal)]
-    run, image = (wmr.simulate(*ends, gains, **options) for ends in ((start, goal), mirrored))
-    assume(clear_of_pi(run))
-    assert len(run) == len(image)
-    for sign, name in ((1, "x"), (-1, "y"), (-1, "omega")):
-        assert getattr(image, name) == pytest.approx(sign * getattr(run, name), abs=1e-6)
-
-
-@settings(max_examples=30)
-@given(poses, poses, headings, metres, metres)
-def test_turning_and_shifting_the_map_changes_nothing_else(start, goal, turn, east, north):
-    def moved(pose):
-        place = complex(pose.x, pose.y) * complex(math.cos(turn), math.sin(turn))
-        return wmr.Pose(place.real + east, place.imag + north, pose.heading + turn)
-
-    options = {"duration": 5.0, "arrival_radius": 0.3}
-    run = wmr.simulate(start, goal, CALM, **options)
-    assume(len(run) > 1 and clear_of_pi(run))
-    again = wmr.simulate(moved(start), moved(goal), CALM, **options)
-    assert again.rho == pytest.approx(run.rho, abs=1e-6)
-
-
 # What a Trajectory holds -------------------------------------------------------------------------
 
 

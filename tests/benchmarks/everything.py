@@ -22,20 +22,14 @@ FIRST_SWEEP = "import wmrlib as w; w.sweep(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.G
 
 def starting() -> list[Row]:
     section, times = "A fresh process", {}
-    for name, statement in (
-        ("import wmrlib", "import wmrlib"),
-        ("import numba, to compare", "import numba"),
-    ):
+    imports = {"import wmrlib": "import wmrlib", "import numba, to compare": "import numba"}
+    for name, statement in imports.items():
         times[name] = min(process(statement) for _ in range(5))
-    for name, statement in (
-        ("import and first simulate", FIRST_RUN),
-        ("import and first sweep", FIRST_SWEEP),
-    ):
+    for name, statement in {"simulate": FIRST_RUN, "sweep": FIRST_SWEEP}.items():
         with tempfile.TemporaryDirectory() as cache:
-            times[f"{name}, compiled anew"] = process(statement, NUMBA_CACHE_DIR=cache)
-            times[f"{name}, cached"] = min(
-                process(statement, NUMBA_CACHE_DIR=cache) for _ in range(3)
-            )
+            anew, *again = (process(statement, NUMBA_CACHE_DIR=cache) for _ in range(4))
+        times[f"import and first {name}, compiled anew"] = anew
+        times[f"import and first {name}, cached"] = min(again)
     return [Row(section, name, value, "s") for name, value in times.items()]
 
 
@@ -58,16 +52,9 @@ def explorer(failures: list[str]) -> list[Row]:
     if done.returncode:
         failures.append(f"The explorer was not measured: {done.stderr.strip().splitlines()[-1]}")
         return []
-    lines = done.stdout.splitlines()[1:]
-    return [
-        Row(
-            "The explorer, slider event to finished picture, median",
-            line[:40].strip(),
-            float(line[40:48]),
-            "ms",
-        )
-        for line in lines
-    ]
+    section, lines = "The explorer, slider event to finished picture, median", done.stdout
+    rows = ((line[:40].strip(), float(line[40:48])) for line in lines.splitlines()[1:])
+    return [Row(section, *row, "ms") for row in rows]
 
 
 def main(fast: bool, keep: bool) -> None:

@@ -54,24 +54,10 @@ def loop_of(functions):
             shape = sin(alpha) / alpha if alpha else 1.0
             v_over_rho = v / rho if rho else v_max * k_rho * cos(alpha)
             omega = k_alpha * alpha + v_over_rho * shape * (alpha + h * theta)
-            path.append(
-                (
-                    x,
-                    y,
-                    heading,
-                    rho,
-                    alpha,
-                    theta,
-                    v,
-                    omega,
-                    0.5 * (rho * rho + alpha * alpha + h * theta * theta),
-                )
-            )
-            x, y, heading = (
-                x + v * cos(heading) * DT,
-                y + v * sin(heading) * DT,
-                wrap(heading + omega * DT),
-            )
+            value = 0.5 * (rho * rho + alpha * alpha + h * theta * theta)
+            path.append((x, y, heading, rho, alpha, theta, v, omega, value))
+            x, y = x + v * cos(heading) * DT, y + v * sin(heading) * DT
+            heading = wrap(heading + omega * DT)
         return np.array(path)
 
     return run
@@ -93,13 +79,5 @@ def rows() -> list[Row]:
             START, GOAL, GAINS, method="continuous", **end
         )
     seconds = in_turn(cases)
-    return [
-        Row(
-            "One run of 300 steps, against simulate",
-            name,
-            1e3 * s,
-            "ms",
-            s / seconds["simulate, arc"],
-        )
-        for name, s in seconds.items()
-    ]
+    section, one = "One run of 300 steps, against simulate", seconds["simulate, arc"]
+    return [Row(section, name, 1e3 * s, "ms", s / one) for name, s in seconds.items()]

@@ -50,26 +50,15 @@ def process(statement: str, **environment: str) -> float:
     code = (
         f"import time; begin = time.perf_counter(); {statement}; print(time.perf_counter() - begin)"
     )
-    run = subprocess.run(
-        [sys.executable, "-c", code],
-        capture_output=True,
-        text=True,
-        check=True,
-        env=os.environ | environment,
-    )
-    return float(run.stdout)
+    line, variables = [sys.executable, "-c", code], os.environ | environment
+    return float(subprocess.check_output(line, text=True, env=variables))
 
 
 def command(*arguments: str | Path) -> tuple[float, subprocess.CompletedProcess]:
     """Seconds that a Python process takes, and what it said."""
     begin = time.perf_counter()
-    done = subprocess.run(
-        [sys.executable, *map(str, arguments)],
-        capture_output=True,
-        text=True,
-        cwd=ROOT,
-        check=False,
-    )
+    line = [sys.executable, *map(str, arguments)]
+    done = subprocess.run(line, capture_output=True, text=True, cwd=ROOT, check=False)
     return time.perf_counter() - begin, done
 
 
@@ -91,14 +80,8 @@ def machine() -> str:
             (line.split(":")[1].strip() for line in lines if line.startswith("model name")), name
         )
         flags = next((line for line in lines if line.startswith("flags")), "")
-        name += next(
-            (
-                f", {title}"
-                for flag, title in (("avx512f", "AVX-512"), ("avx2", "AVX2"))
-                if flag in flags
-            ),
-            "",
-        )
+        vectors = {"avx512f": ", AVX-512", "avx2": ", AVX2"}
+        name += next((title for flag, title in vectors.items() if flag in flags), "")
     return (
         f"{name}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
     )
