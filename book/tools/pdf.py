@@ -46,6 +46,8 @@ DRAWN = """async () => {
     return canvases.length && canvases.every(it => it.width) && panels.every(
         it => it.parentElement.querySelector('.jupyter-widgets'));
 }"""
+# A sentence soon takes the room that it may need, and its panel grows: not while it is pictured.
+GROWN = "() => [...document.querySelectorAll('.live-sentence')].every(it => it.style.minHeight)"
 # Pictures stand for the panels, so none may live: before the page looks for their states.
 DEAD = """addEventListener('DOMContentLoaded', () => document
     .querySelectorAll('script[type$="widget-state+json"]').forEach(it => it.remove()))"""
@@ -132,6 +134,7 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[str]:
     for place in places:
         page.evaluate(SHOW, (site / f"{place}.html").read_text(encoding="utf-8"))
         page.wait_for_function(DRAWN)
+        page.wait_for_function(GROWN)
         page.evaluate(FRAMES)
         shots += [it.screenshot() for it in page.locator(".jupyter-widgets").all()]
     page.close()
