@@ -289,6 +289,7 @@ def test_a_goal_exactly_behind_or_underfoot_hangs_on_rounding():
 
 def test_bad_input():
     game, one = from_seed(), from_seed().cases[0]
+    many, wide = wmr.Pose([1.0, 2.0], 0, 0), wmr.WheelLimits(np.ones(2), 2.0)
     seeds = (-1, 2.0, True, "1", None, 2**63, [1])
     for make, message in (
         *((lambda seed=seed: from_seed(seed), "seed = .* a whole number") for seed in seeds),
@@ -304,14 +305,11 @@ def test_bad_input():
         (lambda: Challenge(0, (Case("x", None, None),)), r"cases\[0\]\.start = None .* a Pose"),
         (lambda: Challenge(0, (one._replace(goal=(1, 2, 0)),)), r"cases\[0\]\.goal = .* a Pose"),
         (
-            lambda: Challenge(0, (one._replace(start=wmr.Pose([1.0, 2.0], 0, 0)),)),
-            r"cases\[0\]\.start\.x = .* one number is needed",
+            lambda: Challenge(0, (one._replace(start=many),)),
+            r"cases\[0\]\.start\.x = .* one number",
         ),
         (lambda: replace(game, wheels=None), "wheels = None .* a WheelLimits is needed"),
-        (
-            lambda: replace(game, wheels=wmr.WheelLimits(np.ones(2), 2.0)),
-            r"wheels\.track_width = .* one number is needed",
-        ),
+        (lambda: replace(game, wheels=wide), r"wheels\.track_width = .* one number is needed"),
         (lambda: replace(game, wheels=wmr.WheelLimits(0.5)), r"wheels\.max_speed = inf is not"),
         (lambda: replace(game, dt=0.0), r"dt = 0\.0 is not allowed"),
         (lambda: replace(game, arrival_radius=-1.0), r"arrival_radius = -1\.0 is not allowed"),

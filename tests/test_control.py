@@ -183,18 +183,14 @@ def test_arrays_and_arrays_of_gains_broadcast():
         assert rate[1, 3, 1] == wmr.lyapunov_rate(*one, law)
 
 
+LAW, SHAPES = wmr.control_law, r"mismatched lengths: rho has shape \(2,\), alpha has shape \(3,\)"
+NO_LAW = rf"law = 'Corrected' .* one of {str(tuple(POSE_LAWS))[1:-1]} is needed"
 BAD = [
-    (lambda g: wmr.control_law(-1.0, 0, 0, g), r"rho = -1\.0 is not allowed: a finite number at "),
-    (lambda g: wmr.control_law(1.0, math.nan, 0, g), r"alpha = nan"),
-    (
-        lambda g: wmr.control_law(1.0, 0, 0, g, "Corrected"),
-        rf"law = 'Corrected' .* one of {str(tuple(POSE_LAWS))[1:-1]} is needed",
-    ),
-    (lambda g: wmr.control_law(1.0, 0, 0, (2, 1)), r"gains = \(2, 1\) .* a Gains is needed, not a"),
-    (
-        lambda g: wmr.control_law(np.ones(2), np.ones(3), 0, g),
-        r"mismatched lengths: rho has shape \(2,\), alpha has shape \(3,\)",
-    ),
+    (lambda g: LAW(-1.0, 0, 0, g), r"rho = -1\.0 is not allowed: a finite number at least 0"),
+    (lambda g: LAW(1.0, math.nan, 0, g), r"alpha = nan"),
+    (lambda g: LAW(1.0, 0, 0, g, "Corrected"), NO_LAW),
+    (lambda g: LAW(1.0, 0, 0, (2, 1)), r"gains = \(2, 1\) .* a Gains is needed, not a tuple"),
+    (lambda g: LAW(np.ones(2), np.ones(3), 0, g), SHAPES),
     (lambda g: wmr.lyapunov(1.0, 0, 0, -0.3), r"h = -0\.3"),
     (lambda g: wmr.lyapunov_rate(1.0, 0, 0, g, L=0.0), r"L = 0\.0 is not allowed: .* above 0"),
     (lambda g: wmr.limit_wheels(math.inf, 0, wmr.WheelLimits(0.5, 1.0)), r"v = inf"),

@@ -11,12 +11,8 @@ from wmrbook.published import PUBLISHED
 
 
 def run(x_axis, gains=None, **options):
-    case = wmr.paper.outdoor(x_axis)
-    return wmr.arrival(
-        wmr.simulate(
-            case.start, case.goal, gains or case.gains, **{"method": "continuous"} | options
-        )
-    )
+    case, how = wmr.paper.outdoor(x_axis), {"method": "continuous"} | options
+    return wmr.arrival(wmr.simulate(case.start, case.goal, gains or case.gains, **how))
 
 
 def test_outdoor_in_both_readings_of_the_axes():

@@ -208,17 +208,6 @@ def test_a_start_on_the_first_waypoint_reaches_it_at_once():
     np.testing.assert_array_equal(on_it.t, without.t)
 
 
-def test_a_start_that_has_turned_more_than_once_has_a_heading_as_all_others():
-    for method in ("arc", "continuous"):
-        turned, plain = (
-            wmr.drive_route(ONE, GENTLE, start=wmr.Pose(0.0, 0.0, heading), method=method)
-            for heading in (7.0, 7.0 - 2 * math.pi)
-        )
-        assert turned.start.heading == 7.0
-        assert turned.heading[0] == pytest.approx(7.0 - 2 * math.pi, abs=1e-12)
-        np.testing.assert_allclose(turned.heading, plain.heading, atol=1e-6)
-
-
 def test_legs_of_one_sample():
     equal = wmr.Pose(np.array([0.0, -10.0, -10.0, 6.0]), 0.0, np.array([0.0, 0.5, 0.5, 0.0]))
     route = wmr.drive_route(equal, GENTLE)

@@ -675,27 +675,6 @@ def test_durations_of_all_sizes_begin_at_the_start_and_end_before_the_goal():
         assert run.rho[0] == 5.0
 
 
-@pytest.mark.parametrize("ratio", [10.0, 20.0])
-def test_lagging_wheels_settle_or_not_as_their_poles_say(ratio):
-    """The paper's gains do not settle with wheels ten times faster than the distance settles."""
-    k_rho, k_alpha, h, v_max = PAPER.gains
-    rate = k_rho * v_max
-    band = ratio * rate
-    # The distance closes at the slow root of rho'' + band rho' + band rate rho = 0.
-    closing = 0.5 * band * (1.0 - math.sqrt(1.0 - 4.0 / ratio))
-    steering = [band * (k_alpha + rate), band * rate * h, -band]
-    angles = np.array([[closing, 0.0, -1.0], [closing, 0.0, 0.0], steering])
-    growth = np.linalg.eigvals(angles).real.max()
-    dt, start = 0.02, wmr.Pose(-1e-3, 0.0, 1e-3)
-    options = {"method": "continuous", "wheel_lag": 1.0 / band, "dt": dt, "arrival_radius": 1e-8}
-    # Once the fast poles have died out, theta[k+2] = (z1 + z2) theta[k+1] - z1 z2 theta[k].
-    theta = wmr.simulate(start, ORIGIN, PAPER.gains, **options).theta[10:-1]
-    before = np.column_stack([theta[1:-1], theta[:-2]])
-    _, minus_product = np.linalg.lstsq(before, theta[2:], rcond=None)[0]
-    assert 0.5 * math.log(-minus_product) / dt == pytest.approx(growth, abs=0.02)
-    assert (growth > 0.0) == (ratio == 10.0)
-
-
 @given(exponent=st.integers(-12, 0))
 @settings(max_examples=13)
 def test_continuous_is_as_right_however_small_the_radius(exponent):

@@ -68,12 +68,8 @@ def in_c(folder: Path) -> dict[str, ctypes.CDLL]:
     for name, options in BUILDS.items() if compiler else ():
         library = folder / f"limit{len(libraries)}.so"
         source = Path(__file__).with_name("limit.c")
-        done = subprocess.run(
-            [compiler, *options, "-shared", "-fPIC", source, "-o", library, "-lm"],
-            capture_output=True,
-            text=True,
-            check=False,
-        )
+        command = [compiler, *options, "-shared", "-fPIC", source, "-o", library, "-lm"]
+        done = subprocess.run(command, capture_output=True, text=True, check=False)
         if done.returncode:
             print(f"{name} was not compiled: {done.stderr}")
         else:

@@ -592,6 +592,8 @@ def test_a_tap_on_the_path_takes_the_robot_there_and_a_finger_moves_what_is_zoom
     zoomed = panel.picture()
     emptied_page.evaluate(FINGER)
     assert panel.settled().picture() != zoomed
+    panel.put("preset", 2)  # another scene is seen whole
+    assert scene.evaluate("it => getComputedStyle(it).touchAction") == "pan-y pinch-zoom"
 
 
 def test_a_picture_of_the_whole_way_shows_how_it_ends(emptied_page):
@@ -642,15 +644,6 @@ def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page
     assert mounted(browser_page, other, url=link).picture() == away
     nonsense = link.replace("law=%22printed%22", "law=5&k_rho=x&unknown=1")
     assert mounted(browser_page, ours, url=nonsense).troubled()
-
-
-def test_another_scene_is_seen_whole(emptied_page):
-    panel = mounted(emptied_page, Explorer(zoom=2.0))
-    zoomed = emptied_page.locator(".wmr-scene")
-    assert zoomed.evaluate("it => it.style.touchAction") == "none"
-    panel.put("preset", 2)
-    assert panel.get("moving")
-    assert zoomed.evaluate("it => it.style.touchAction") == ""
 
 
 def test_a_view_that_is_closed_answers_no_more(emptied_page):

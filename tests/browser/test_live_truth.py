@@ -107,13 +107,8 @@ def half_turn(values, found, data) -> None:
     heading = data["start"][2] - math.radians(values["off"])
     start = [*data["start"][:2], heading]
     same_run(found["run"], start, data["goal"], wmr.Gains(**data["gains"]))
-    mirrored = wmr.simulate(
-        pose([*start[:2], -heading]),
-        pose(data["goal"]),
-        wmr.Gains(**data["gains"]),
-        method="continuous",
-        dt=0.05,
-    )
+    ends, how = (pose([*start[:2], -heading]), pose(data["goal"])), {"method": "continuous"}
+    mirrored = wmr.simulate(*ends, wmr.Gains(**data["gains"]), dt=0.05, **how)
     np.testing.assert_allclose(found["run"]["y"], -mirrored.y, atol=AGREES)
 
 
@@ -338,14 +333,8 @@ def x_axis(values, found, data) -> None:
 
 def heading_left(values, found, data) -> None:
     ends, gains = (pose(data["start"]), pose(data["goal"])), data["gains"][values["choice"]]
-    ours = wmr.simulate(
-        *ends,
-        wmr.Gains(**gains),
-        method="continuous",
-        dt=0.01,
-        duration=120.0,
-        arrival_radius=values["radius"],
-    )
+    how = {"dt": 0.01, "duration": 120.0, "arrival_radius": values["radius"]}
+    ours = wmr.simulate(*ends, wmr.Gains(**gains), method="continuous", **how)
     assert found["left"] == pytest.approx(ours.heading_error[-1], abs=1e-6)
     assert found["time"] == pytest.approx(ours.t[-1], abs=1e-6)
     run = found["run"]
@@ -354,16 +343,14 @@ def heading_left(values, found, data) -> None:
     assert found["largest"] == pytest.approx(max(error, abs(found["left"])), abs=1e-12)
 
 
+def round_the_circle(gains, law="corrected") -> wmr.Trajectory:
+    circle, how = (wmr.paper.circle, wmr.paper.CIRCLE_START), {"duration": 40.0, "dt": 0.1}
+    return wmr.track(*circle, gains, law=law, method="continuous", **how)
+
+
 def lag(values, found, data) -> None:
     gains = wmr.paper.CIRCLE_GAINS._replace(k_rho=values["k_rho"], v_max=values["v_max"])
-    ours = wmr.track(
-        wmr.paper.circle,
-        wmr.paper.CIRCLE_START,
-        gains,
-        duration=40.0,
-        dt=0.1,
-        method="continuous",
-    )
+    ours = round_the_circle(gains)
     np.testing.assert_allclose(found["run"]["rho"], ours.rho, atol=AGREES)
     assert found["residual"] == pytest.approx(wmr.residual(ours), abs=AGREES)
     kept = wmr.control_law(found["predicted"], 0.0, 0.0, gains)[0]  # there it keeps up
@@ -376,15 +363,7 @@ def lqr(values, found, data) -> None:
     np.testing.assert_allclose(found["K"], K, atol=1e-9)
     theirs = np.array([complex(*each) for each in found["poles"]])
     assert np.abs(np.sort_complex(theirs) - np.sort_complex(poles)).max() < 1e-6
-    ours = wmr.track(
-        wmr.paper.circle,
-        wmr.paper.CIRCLE_START,
-        wmr.LinearGains(-K),
-        law="linear",
-        duration=40.0,
-        dt=0.1,
-        method="continuous",
-    )
+    ours = round_the_circle(wmr.LinearGains(-K), "linear")
     np.testing.assert_allclose(found["run"]["x"], ours.x, atol=AGREES)
     np.testing.assert_allclose(found["run"]["omega"], ours.omega, atol=1e-6)
 

@@ -94,11 +94,8 @@ def _draw(random: np.random.Generator, circle: bool, methods=("arc", "euler")) -
 
 def _ours(options: dict[str, Any]):
     start, law = wmr.Pose(*options["start"]), options["law"]
-    gains = (
-        wmr.KanayamaGains(**options["feedback"])
-        if law == "kanayama"
-        else wmr.Gains(**options["gains"])
-    )
+    kind, of = (wmr.KanayamaGains, "feedback") if law == "kanayama" else (wmr.Gains, "gains")
+    gains = kind(**options[of])
     shared = {key: options[key] for key in ("law", "method", "dt", "duration")}
     if options["reference"]:
         return wmr.track(paper.circle, start, gains, **shared), gains
@@ -117,11 +114,8 @@ def _runs(page, drawn: list[dict[str, Any]]) -> list[Run]:
             columns = data[at : at + n * len(COLUMNS)].reshape(len(COLUMNS), n)
             at += columns.size
             ours, gains = _ours(options)
-            runs.append(
-                Run(
-                    options, ours, dict(zip(COLUMNS, columns, strict=True)), outcome, summary, gains
-                )
-            )
+            theirs = dict(zip(COLUMNS, columns, strict=True))
+            runs.append(Run(options, ours, theirs, outcome, summary, gains))
     return runs
 
 
@@ -160,10 +154,8 @@ def _carried_rounding(run: Run) -> tuple[np.ndarray, np.ndarray]:
     fresh = np.diag([ROUNDING_M**2, ROUNDING_M**2, ROUNDING_RAD**2])
     position, heading, covariance = np.full(len(ours), np.inf), np.full(len(ours), np.inf), fresh
     for k, slope in enumerate(jacobian):
-        position[k], heading[k] = (
-            math.sqrt(covariance[0, 0] + covariance[1, 1]),
-            math.sqrt(covariance[2, 2]),
-        )
+        position[k] = math.sqrt(covariance[0, 0] + covariance[1, 1])
+        heading[k] = math.sqrt(covariance[2, 2])
         if position[k] + heading[k] > 1.0:  # lost for good
             break
         covariance = slope @ covariance @ slope.T + fresh
@@ -209,10 +201,8 @@ def test_every_step_and_whole_trajectories_equal_those_of_wmrlib(runs):
                 compared = min(compared, until)
         if compared == len(ours):
             assert (theirs["t"].size, run.outcome) == (len(ours), ours.outcome.name), run.options
-            whole, whole_circle = (
-                whole + (not run.options["reference"]),
-                whole_circle + bool(run.options["reference"]),
-            )
+            whole += not run.options["reference"]
+            whole_circle += bool(run.options["reference"])
             _assert_summary(run)
     print(
         f"{whole} of {POSE_RUNS} runs and {whole_circle} of {CIRCLE_RUNS} on the circle compared "
@@ -291,11 +281,9 @@ def _assert_steps(run: Run) -> None:
     for column, values in expected.items():
         error = np.abs(_difference(column, theirs[column], values))
         slack = 1e-12 * (1.0 + np.abs(values))
-        if column in (
-            "alpha",
-            "theta",
-        ):  # the circle's goal is computed anew, to the last bits of some metres
-            slack = slack + (1e-14 / np.maximum(rho, 1e-300) if options["reference"] else 0.0)
+        if column in ("alpha", "theta") and options["reference"]:
+            # the circle's goal is computed anew, to the last bits of some metres
+            slack = slack + 1e-14 / np.maximum(rho, 1e-300)
         assert (error <= slack).all(), (column, error.max(), options)
     moved = wmr.advance(pose, theirs["v"], theirs["omega"], options["dt"], options["method"])
     for column in ("x", "y", "heading"):
