@@ -70,8 +70,8 @@ def rises_near_the_goal(k_rho, k_alpha, h, v_max, L, theta):
 
 @headline(
     "10",
-    "With 4 m/s, which the paper uses outdoors, only the corrected law fits; with 8 m/s only the "
-    "printed one",
+    "From the paper's start, with 4 m/s, which it uses outdoors, only the corrected law fits; with "
+    "8 m/s only the printed one",
     v_max=[4.0, 8.0],
     dt=(0.01, 0.1),
     duration=[40.0, 60.0, 80.0],
@@ -88,7 +88,7 @@ def law_of_the_circle(v_max, dt, duration):
 
 @headline(
     "11",
-    "More than half the robots are further away",
+    '"Arrived within 5 cm" is what the robot believes. More than half the robots are further',
     at_least=0.05,
     unit="m",
     seed=SEEDS,
