@@ -16,9 +16,7 @@ from wmrbook.published import PUBLISHED, Published
 from wmrlib import paper, symbolic
 
 FOUND = {
-    Verdict.WRONG: {
-        *("eq-23", "eq-26", "bearing", "y_error_at_start"),
-    },
+    Verdict.WRONG: {*("eq-23", "eq-26", "bearing", "y_error_at_start")},
     Verdict.TYPO: {
         *("eq-10", "eq-24", "eq-25", "second-part"),
         *("claim-captions", "claim-stable", "claim-limit"),

@@ -23,8 +23,7 @@ def test_a_missing_tool(monkeypatch, request, ci, outcome, marks, fixtures, inst
     monkeypatch.setattr(conftest, "command", lambda tool: None)
     monkeypatch.setenv("CI", ci)
     item = SimpleNamespace(
-        fixturenames=fixtures,
-        iter_markers=lambda name: [pytest.mark.needs(*marks).mark],
+        fixturenames=fixtures, iter_markers=lambda name: [pytest.mark.needs(*marks).mark]
     )
     with pytest.raises(outcome, match=f"needs .*{install}"):
         conftest.pytest_runtest_setup(item)

@@ -110,11 +110,7 @@ def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
 
 @pytest.mark.parametrize(
     ("part", "package"),
-    [
-        ("wmrlib.explorer", "anywidget"),
-        ("wmrlib.symbolic", "sympy"),
-        ("wmrbook", "filelock"),
-    ],
+    [("wmrlib.explorer", "anywidget"), ("wmrlib.symbolic", "sympy"), ("wmrbook", "filelock")],
 )
 def test_a_part_without_its_package_says_what_to_install(part, package):
     code = f"import sys; sys.modules['{package}'] = None; import {part}"

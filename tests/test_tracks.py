@@ -219,10 +219,7 @@ def test_talkers_hemispheres_and_epochs(read):
     assert track.points.lat.tolist() == pytest.approx([LAT] * 2)
     assert dict(track.report.skipped) == {"same epoch again": (2, 2)}
     south_west = places(read(gga(lat="3351.5000,S", lon="15112.3000,W")))
-    assert south_west == (
-        pytest.approx([-(33 + 51.5 / 60)]),
-        pytest.approx([-(151 + 12.3 / 60)]),
-    )
+    assert south_west == (pytest.approx([-(33 + 51.5 / 60)]), pytest.approx([-(151 + 12.3 / 60)]))
     assert len(read(b"\x00\x00" + gga().encode())) == 1  # a receiver's zero bytes before the first
     # makers' own sentences, cut short
     bodies = ("PUBX,00", "PGRME", "PASHR,", "GPXXX,1", "PSRF", "PUBX,03,1", "PTNL,PJK", "CCGPQ,GGA")
@@ -959,11 +956,7 @@ def test_a_file_without_a_position_says_why(read, tmp_path):
 def test_whatever_a_file_holds_it_is_read_or_refused(read):
     """Damaged files raise ValueError and nothing else, and never bring a position that is none."""
     for seed, content in enumerate(
-        [
-            LOG.read_bytes()[:3000],
-            gpx(trk(GOOD, GOOD)).encode(),
-            b"lat,lon,t\n1,2,3\n4,5,6\n",
-        ]
+        [LOG.read_bytes()[:3000], gpx(trk(GOOD, GOOD)).encode(), b"lat,lon,t\n1,2,3\n4,5,6\n"]
     ):
         draw, refused = random.Random(seed), 0
         for _ in range(300):

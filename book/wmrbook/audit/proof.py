@@ -9,15 +9,7 @@ import sympy as sp
 
 from wmrbook import equations
 from wmrbook.audit.equations import polar_rates
-from wmrbook.audit.row import (
-    Row,
-    Verdict,
-    equation,
-    equivalent,
-    finding,
-    latex,
-    printed,
-)
+from wmrbook.audit.row import Row, Verdict, equation, equivalent, finding, latex, printed
 from wmrbook.audit.slips import equation_row, judge
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 

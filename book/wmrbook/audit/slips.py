@@ -11,16 +11,7 @@ from functools import cache
 import numpy as np
 import sympy as sp
 
-from wmrbook.audit.row import (
-    Row,
-    Verdict,
-    equation,
-    equivalent,
-    finding,
-    formula,
-    latex,
-    printed,
-)
+from wmrbook.audit.row import Row, Verdict, equation, equivalent, finding, formula, latex, printed
 
 
 def equation_row(

@@ -7,21 +7,10 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "style": ["COLOURS", "LINES", "Picture"],
         "paths": ["path"],
-        "first_drive": [
-            "dashboard",
-            "lyapunov_over_time",
-            "twist",
-        ],
+        "first_drive": ["dashboard", "lyapunov_over_time", "twist"],
         "earth": ["local_map", "sphere_error_map", "spherical_triangle"],
-        "robot": [
-            "coordinate_system",
-            "robot_loops",
-        ],
-        "angles": [
-            "angles_over_time",
-            "path_choices",
-            "third_angle",
-        ],
+        "robot": ["coordinate_system", "robot_loops"],
+        "angles": ["angles_over_time", "path_choices", "third_angle"],
         "lyapunov": ["heading_errors"],
         "pose_to_pose": [
             "block_diagram",

@@ -141,10 +141,7 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
 
 
 def heading_shares(
-    errors: Mapping[str, np.ndarray],
-    *,
-    allowed: float = 5.0,
-    of: str = "heading error at arrival",
+    errors: Mapping[str, np.ndarray], *, allowed: float = 5.0, of: str = "heading error at arrival"
 ) -> Picture:
     """The cumulative share of runs over their heading error [deg], one line for each label.
 

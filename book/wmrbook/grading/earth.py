@@ -9,13 +9,7 @@ import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers
 from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
-from wmrlib.geodesy import (
-    GeoPoint,
-    haversine_distance,
-    initial_bearing,
-    local_position,
-    point_at,
-)
+from wmrlib.geodesy import GeoPoint, haversine_distance, initial_bearing, local_position, point_at
 from wmrlib.paper import GPS_POINT_1, GPS_POINT_2
 
 Function = Callable[[float, float, float, float], float]

@@ -30,13 +30,7 @@ def poles() -> Live:
         "{frequency}, a damping ratio of {damping}. From about two metres the robot {end}.",
         {
             "k_alpha": Knob(
-                GAINS.k_alpha,
-                0.0,
-                9.0,
-                0.1,
-                "steering towards the goal, k_alpha",
-                "1/s",
-                "k_alpha",
+                GAINS.k_alpha, 0.0, 9.0, 0.1, "steering towards the goal, k_alpha", "1/s", "k_alpha"
             ),
             "h": Knob(GAINS.h, 0.05, 5.0, 0.05, "weight of the final heading, h", "", "h"),
         },

@@ -64,11 +64,7 @@ def stopping() -> Live:
     start, goal, gains, _ = paper.outdoor()
     radii = 0.05, 0.01  # m
     here, nearer = (abs(_left_over(start, goal, gains, radius)) for radius in radii)
-    shares = {
-        "a fifth of that": 0.2,
-        "about the same": 1.0,
-        "twice as far": 2.0,
-    }
+    shares = {"a fifth of that": 0.2, "about the same": 1.0, "twice as far": 2.0}
     return Live(
         "stopping",
         "With {gains} a robot that stops {stop} before the goal is there after {seconds} and looks "
@@ -76,9 +72,7 @@ def stopping() -> Live:
         {
             "stop": Knob(radii[0], 0.01, 2.0, None, "where it stops", "m", label="stops at"),
             "gains": Choice(
-                "paper",
-                {"paper": "the paper's gains", "gentle": "gentle gains"},
-                "which gains",
+                "paper", {"paper": "the paper's gains", "gentle": "gentle gains"}, "which gains"
             ),
         },
         data={

@@ -44,11 +44,7 @@ def normals(count: int, seed: int = SEED) -> np.ndarray:
 
 
 def seeing(
-    start: Pose,
-    goal: Pose,
-    error: np.ndarray,
-    late: float = 0.0,
-    slip: float = 0.0,
+    start: Pose, goal: Pose, error: np.ndarray, late: float = 0.0, slip: float = 0.0
 ) -> tuple[Pose, np.ndarray]:
     """Drive robots by positions with an error, (steps, 2, robots) in m, and that late.
 
