@@ -43,10 +43,6 @@ class Headline:
     unit: str
     before: Before | None
 
-    def allows(self, value: float) -> bool:
-        """Return whether the sentence holds for a value of its number; NaN never does."""
-        return self.at_least <= value <= self.at_most
-
 
 HEADLINES: list[Headline] = []
 
