@@ -174,6 +174,13 @@ def test_neither_extreme_wins():
     assert 0 < int(np.argmin(along_v_max)) < 6
 
 
+def test_worse_gains_score_worse():
+    worse = {"k_rho": (0.02, 3.0), "k_alpha": (0.1, 10.0), "h": (0.0, 30.0), "v_max": (0.5,)}
+    for gain, values in worse.items():
+        for value in values:
+            assert score(GOOD._replace(**{gain: value})).total > score(GOOD).total + 1.0, gain
+
+
 @settings(max_examples=60)
 @given(all_gains)
 def test_a_score_is_finite_and_a_case_never_costs_more_than_not_arriving(gains):
@@ -306,7 +313,7 @@ def test_bad_input():
         (lambda: Challenge(0, (one._replace(goal=(1, 2, 0)),)), r"cases\[0\]\.goal = .* a Pose"),
         (
             lambda: Challenge(0, (one._replace(start=many),)),
-            r"cases\[0\]\.start\.x = .* one number",
+            r"cases\[0\]\.start\.x = .* one number is needed",
         ),
         (lambda: replace(game, wheels=None), "wheels = None .* a WheelLimits is needed"),
         (lambda: replace(game, wheels=wide), r"wheels\.track_width = .* one number is needed"),
