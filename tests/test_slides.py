@@ -40,7 +40,8 @@ def printed(cells):
     """The outputs, and the rows of those that are tables, which may go on on the next slide."""
     for output in (output for cell in cells for output in cell.get("outputs", ())):
         table = output.get("data", {}).get("text/markdown", "")
-        yield from table.splitlines()[2:] if table.startswith("|") else [output]
+        rows = [line for line in table.splitlines() if line.startswith("|")]
+        yield from rows[2:] or [output]
 
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)

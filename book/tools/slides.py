@@ -39,6 +39,7 @@ FIGURE = re.compile(r"<img [^>]*viewBox='0 0 ([\d.]+) ([\d.]+)'")
 LIVE = "application/vnd.jupyter.widget-view+json"
 WORDS = 60  # of prose on a slide, as many as a class reads while somebody talks
 ROWS = 13  # of text below a title
+TABLE = re.compile(r"^\|", re.MULTILINE)
 LETTERS = 1700  # of a table's source, as many as stand on a slide
 # Where prose may go on on the next slide: at a paragraph, at an item; in long ones at a sentence.
 BLOCK = re.compile(r"(?<![,:])\n\n(?!- |1\. )(?=[^a-z$ ])|(?<!\n)\n(?=- |\d+\. )")
@@ -218,7 +219,7 @@ def _parts(cell: NotebookNode) -> list[Part]:
         seen = [it for it in cell.outputs if shape(it) is not None]
         told = [it for it in cell.outputs if it not in seen]
         parts = [_printed(cell, told)] if told or not seen else []
-        if len(told) == 1 and told[0].get("data", {}).get("text/markdown", "").startswith("|"):
+        if len(told) == 1 and TABLE.search(told[0].get("data", {}).get("text/markdown", "")):
             first, *rest = (_part(cell, outputs=[it]) for it in _tables(told[0]))
             parts = [_printed(first, first.outputs)]
             parts += [Part(_part(it, source=""), rows=ROWS) for it in rest]
@@ -248,8 +249,11 @@ def shape(output: NotebookNode) -> float | None:
 
 
 def _tables(output: NotebookNode) -> list[NotebookNode]:
-    """A table as several, each with its head, that have room on a slide."""
-    head, line, *rows = output.data["text/markdown"].splitlines(keepends=True)
+    """A table as several, each with its head, that have room on a slide; text above it on each."""
+    text = output.data["text/markdown"]
+    begin = TABLE.search(text).start()
+    line, *rows = text[begin:].splitlines(keepends=True)[1:]
+    head = text[:begin] + text[begin:].splitlines(keepends=True)[0]
     pieces: list[list[str]] = [[]]
     for row in rows:
         if pieces[-1] and sum(map(len, pieces[-1])) + len(row) > LETTERS:
