@@ -9,7 +9,7 @@ import sympy as sp
 
 from wmrbook import equations
 from wmrbook.audit.equations import polar_rates
-from wmrbook.audit.row import Row, Verdict, equation, equivalent, finding, latex, printed
+from wmrbook.audit.row import Row, Verdict, equation, equivalent, finding, formula, latex, printed
 from wmrbook.audit.slips import equation_row, judge
 from wmrlib.symbolic import L, alpha, h, k_alpha, k_rho, omega, rho, theta, v, v_max
 
@@ -117,8 +117,8 @@ def _second_part_row() -> Row:
         "(25)": equivalent(printed(25).coeff(L, 0), substituted),
     }
     verdict, why = judge(equations.SECOND_PART, part, needed)
-    says = f"The second part, to be negative: ${latex(equations.SECOND_PART)}$"
-    holds = f"By (8), (9) and (18) it is ${latex(sp.factor_terms(part))}$."
+    says = f"The second part, to be negative: {formula(equations.SECOND_PART)}"
+    holds = f"By (8), (9) and (18) it is {formula(sp.expand(part))}."
     if equivalent(equations.SECOND_PART * L, part):
         holds += " As $L > 0$, its sign is the same."
     return Row("second-part", "Below (22)", says, holds, verdict, why)

@@ -162,9 +162,11 @@ def latex(expression: sp.Basic) -> str:
 
 
 def formula(relation: sp.Basic) -> str:
-    """An equation in $...$, one part for each term, so that a narrow cell can break the line."""
-    if not (isinstance(relation, sp.Eq) and isinstance(relation.rhs, sp.Add)):
+    """An equation or sum in $...$, a part for each term, so that a narrow cell can break it."""
+    total = relation.rhs if isinstance(relation, sp.Eq) else relation
+    if not isinstance(total, sp.Add):
         return f"${latex(relation)}$"
-    first, *others = (latex(term) for term in relation.rhs.as_ordered_terms())
+    first, *others = (latex(term) for term in total.as_ordered_terms())
+    first = f"{latex(relation.lhs)} = {first}" if total is not relation else first
     signed = (term if term.startswith("-") else f"+ {term}" for term in others)
-    return " ".join(f"${part}$" for part in (f"{latex(relation.lhs)} = {first}", *signed))
+    return " ".join(f"${part}$" for part in (first, *signed))
