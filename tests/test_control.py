@@ -66,13 +66,7 @@ def test_rate_of_the_corrected_law_is_its_closed_form(rho, alpha, theta, gains, 
     assert closed <= 0.0
 
 
-@given(
-    law=st.sampled_from(LAWS),
-    rho=st.floats(0.1, 50.0),
-    alpha=angles,
-    theta=angles,
-    gains=gains_drawn,
-)
+@given(st.sampled_from(LAWS), st.floats(0.1, 50.0), angles, angles, gains_drawn)
 def test_rate_is_the_slope_of_v_along_the_motion(law, rho, alpha, theta, gains):
     """Second method: V at two poses a moment apart, on the exact arc."""
     goal, dt = wmr.Pose(0.0, 0.0, 0.0), 1e-6
@@ -125,16 +119,7 @@ def test_left_and_right_are_alike_but_for_the_printed_law(rho, alpha, theta, gai
 # Moving references
 
 
-@given(
-    distances,
-    angles,
-    angles,
-    st.floats(0.0, 2.0),
-    st.floats(-2.0, 2.0),
-    positive,
-    positive,
-    positive,
-)
+@given(distances, angles, angles, st.floats(0.0, 2.0), st.floats(-2.0, 2.0), *[positive] * 3)
 def test_kanayamas_own_lyapunov_function_never_rises(
     rho, alpha, theta, v_ref, omega_ref, k_x, k_y, k_heading
 ):

@@ -118,12 +118,8 @@ def graded(course):
     checks = {name: "'all is well'" for name, (_, points) in cells(CHAPTER).items() if points}
     hand_in(course, "cheat", CHAPTER, answered(course, CHAPTER, checks))
     secrets = [str(each) for each in (course, COURSE, ROOT / "tests")]
-    hand_in(
-        course,
-        "spy",
-        CHAPTER,
-        answered(course, CHAPTER, {"given-01": SPY.format(secrets, ROOT / "README.md")}),
-    )
+    spy = {"given-01": SPY.format(secrets, ROOT / "README.md")}
+    hand_in(course, "spy", CHAPTER, answered(course, CHAPTER, spy))
     (course / "submitted" / "a[b]").mkdir()
     (course / "submitted" / "bob" / "chapter 1").mkdir(parents=True)
     expected = {(CHAPTER, student): each for student, each in expected.items()}

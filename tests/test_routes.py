@@ -267,14 +267,8 @@ def test_a_point_that_repeats_under_another_longitude_is_one():
 
 def test_a_square_anywhere_on_earth_is_driven_as_in_the_plane():
     plane = wmr.drive_route(SQUARE, GENTLE, stop=False)
-    for lat, lon in [
-        (33.27, 44.37),
-        (-17.0, 179.9999),
-        (89.9999, 10.0),
-        (90.0, 0.0),
-        (-90.0, 0.0),
-        (0.0, -180.0),
-    ]:
+    poles = (89.9999, 10.0), (90.0, 0.0), (-90.0, 0.0)
+    for lat, lon in [(33.27, 44.37), (-17.0, 179.9999), (0.0, -180.0), *poles]:
         home = wmr.GeoPoint(lat=lat, lon=lon)
         poses = wmr.route_poses(wmr.point_at(home, SQUARE.x, SQUARE.y), SQUARE.heading, origin=home)
         route = wmr.drive_route(poses, GENTLE, stop=False)
@@ -284,13 +278,9 @@ def test_a_square_anywhere_on_earth_is_driven_as_in_the_plane():
 
 def test_out_to_gpx_and_back(tmp_path):
     route = wmr.drive_route(wmr.route_poses(CAMPUS), GENTLE, stop=False)
-    wmr.write_gpx(
-        tmp_path / "route.gpx",
-        wmr.route_points(route, CAMPUS),
-        t=route.t,
-        begin=datetime(2026, 3, 1, tzinfo=UTC),
-    )
-    track = wmr.read_track(tmp_path / "route.gpx")
+    file, begin = tmp_path / "route.gpx", datetime(2026, 3, 1, tzinfo=UTC)
+    wmr.write_gpx(file, wmr.route_points(route, CAMPUS), t=route.t, begin=begin)
+    track = wmr.read_track(file)
     assert len(track) == len(route)
     np.testing.assert_allclose(track.t, route.t, rtol=0.0, atol=1e-6)
     assert not track.report.skipped

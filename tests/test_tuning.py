@@ -12,13 +12,8 @@ from wmrbook.pareto import pareto
 
 PAPER = wmr.paper.OUTDOOR_GAINS
 GENTLE = wmr.GENTLE_GAINS
-GAINS = [
-    PAPER,
-    wmr.paper.CIRCLE_GAINS,
-    GENTLE,
-    wmr.Gains(0.2, 3.0, 0.5),
-    wmr.Gains(0.5, 2.0, 0.9, 2.0),
-]
+GAINS = [PAPER, wmr.paper.CIRCLE_GAINS, GENTLE]
+GAINS += [wmr.Gains(0.2, 3.0, 0.5), wmr.Gains(0.5, 2.0, 0.9, 2.0)]
 STIFF = wmr.Gains(0.2, 9.0, 0.5)  # turns fast: an eigenvalue reaches -1 first
 CROWDED = wmr.Gains(0.2, 0.9, 0.3)  # in polar coordinates the robot drives past the goal first
 LAWS = ["corrected", "aicardi"]

@@ -81,38 +81,18 @@ def readers() -> list[Row]:
             with ThreadPoolExecutor(count) as pool:
                 pages = list(pool.map(read, [address("")] * count))
             assert all("wmr" in page for page in pages)
-            rows.append(
-                Row(
-                    "An app's readers",
-                    f"{count} come at once: the last page is complete",
-                    time.perf_counter() - begin,
-                    "s",
-                )
-            )
-        rows.append(
-            Row(
-                "An app's readers",
-                "each reader's kernel",
-                (own_memory(process) - empty) / sum(READERS),
-                "MB",
-            )
-        )
-        return rows
+            what, took = "come at once: the last page is complete", time.perf_counter() - begin
+            rows.append(Row("An app's readers", f"{count} {what}", took, "s"))
+        each = (own_memory(process) - empty) / sum(READERS)
+        return [*rows, Row("An app's readers", "each reader's kernel", each, "MB")]
 
 
 @contextmanager
 def serve(module: str, *options) -> Iterator[tuple]:
     """A running server: its process, its addresses by path, and the seconds it took to start."""
     port, token, begin = free_port(), secrets.token_hex(8), time.perf_counter()
-    command = [
-        sys.executable,
-        "-m",
-        module,
-        "--no-browser",
-        f"--port={port}",
-        f"--{TOKENS[module]}={token}",
-        *options,
-    ]
+    command = [sys.executable, "-m", module, "--no-browser", f"--port={port}"]
+    command += [f"--{TOKENS[module]}={token}", *options]
     server = subprocess.Popen(
         command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
     )

@@ -87,13 +87,8 @@ def test_maps_equal_a_sweep(panel_core):
         ):
             expected = np.abs(getattr(swept, name))
             expected[~swept.arrived] = np.nan
-            np.testing.assert_allclose(
-                np.reshape(shown, (10, 12)),
-                expected,
-                rtol=1e-8,
-                atol=1e-8,
-                err_msg=f"{law}, {method}, {kx}, {ky}, {metric}",
-            )
+            ours, where = np.reshape(shown, (10, 12)), f"{law}, {method}, {kx}, {ky}, {metric}"
+            np.testing.assert_allclose(ours, expected, rtol=1e-8, atol=1e-8, err_msg=where)
 
 
 def test_a_map_without_hope_is_empty_and_start_on_goal_is_there_at_once(panel_core):
@@ -108,10 +103,8 @@ def test_a_map_without_hope_is_empty_and_start_on_goal_is_there_at_once(panel_co
 
 def test_modes_equal_wmrlib(panel_core):
     others = wmr.Gains(0.2, 2.0, 2.0), wmr.Gains(0.2, 4.0, 0.1, 2.0)
-    call, names = (
-        "(options) => modes(...options)",
-        ("rate", "naturalFrequency", "damping", "slower"),
-    )
+    names = "rate", "naturalFrequency", "damping", "slower"
+    call = "(options) => modes(...options)"
     for gains in (paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, *others):
         for law in ("corrected", "aicardi"):
             ours, shown = wmr.modes(gains, law), panel_core.evaluate(call, [gains._asdict(), law])
@@ -146,22 +139,16 @@ def test_lent_memory_does_not_change_a_run(panel_core):
 
 
 def test_a_run_that_leaves_the_range_of_numbers_says_so(panel_core):
-    options = OUTDOOR | {
-        "law": "aicardi",
-        "method": "euler",
-        "dt": 5.0,
-        "duration": 20_000.0,
-        "gains": OUTDOOR["gains"] | {"k_rho": 90.0},
-    }
-    poses, gains = (
-        (wmr.Pose(*options["start"]), wmr.Pose(*options["goal"])),
-        wmr.Gains(**options["gains"]),
-    )
-    ours = wmr.simulate(*poses, gains, law="aicardi", method="euler", dt=5.0, duration=20_000.0)
+    how = {"law": "aicardi", "method": "euler", "dt": 5.0, "duration": 20_000.0}
+    options = OUTDOOR | how | {"gains": OUTDOOR["gains"] | {"k_rho": 90.0}}
+    poses = (wmr.Pose(*options[end]) for end in ("start", "goal"))
+    ours = wmr.simulate(*poses, wmr.Gains(**options["gains"]), **how)
     outcome = panel_core.evaluate("(options) => simulate(options).outcome", options)
     assert outcome == ours.outcome.name == "DIVERGED"
 
 
+WEIGHTLESS, STILL = (OUTDOOR["gains"] | {name: size} for name, size in (("h", -1), ("v_max", 0)))
+NO_K_Y = {"k_x": 1.0, "k_y": 0.0, "k_heading": 1.0}
 BAD_INPUT = [
     ({"dt": 0.0}, "dt = 0 is not allowed: a finite number above 0"),
     ({"dt": math.nan}, "dt = NaN is not allowed"),
@@ -169,27 +156,14 @@ BAD_INPUT = [
     ({"duration": 1e9}, "duration = 1000000000 is not allowed: at most 1000000 steps"),
     ({"start": [0.0, math.nan, 0.0]}, "start = 0,NaN,0 is not allowed"),
     ({"goal": [0.0, math.inf, 0.0]}, "goal = 0,Infinity,0 is not allowed"),
-    (
-        {"gains": OUTDOOR["gains"] | {"h": -1.0}},
-        "h = -1 is not allowed: a finite number at least 0",
-    ),
-    (
-        {"gains": OUTDOOR["gains"] | {"v_max": 0.0}},
-        "v_max = 0 is not allowed: a finite number above 0",
-    ),
+    ({"gains": WEIGHTLESS}, "h = -1 is not allowed: a finite number at least 0"),
+    ({"gains": STILL}, "v_max = 0 is not allowed: a finite number above 0"),
     ({"law": "kanayama"}, "law = kanayama is not allowed: one of corrected, printed, aicardi"),
     ({"law": "toString"}, "law = toString is not allowed"),
     ({"method": "rk4"}, "method = rk4 is not allowed: one of euler, arc, continuous"),
     ({"reference": "square"}, "reference = square is not allowed: null or 'circle'"),
     ({"arrivalRadius": -0.1}, "arrivalRadius = -0.1 is not allowed"),
-    (
-        {
-            "reference": "circle",
-            "law": "kanayama",
-            "feedback": {"k_x": 1.0, "k_y": 0.0, "k_heading": 1.0},
-        },
-        "k_y = 0 is not allowed",
-    ),
+    ({"reference": "circle", "law": "kanayama", "feedback": NO_K_Y}, "k_y = 0 is not allowed"),
 ]
 
 

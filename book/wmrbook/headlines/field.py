@@ -22,18 +22,15 @@ def off_goal(far: float, aim: float, turned: float) -> wmr.Pose:
     return wmr.Pose(far * math.cos(aim), far * math.sin(aim), heading)
 
 
-@headline(
-    "06",
-    r"whatever $h$, $k_\alpha$ and the start, as long as the steering brings $\alpha$ near zero",
-    at_most=0.004,
-    unit="m",
-    far=(0.1, 5.0),
-    aim=ROUND,
-    turned=(-180.0, 180.0),
-    h=(0.005, 0.5),
-    k_alpha=(1.0, 5.0),
-    v_max=(1.5, 8.0),
+WHATEVER = (
+    r"whatever $h$, $k_\alpha$ and the start, as long as the steering brings $\alpha$ near zero"
 )
+SETS = {"turned": (-180.0, 180.0), "h": (0.005, 0.5), "k_alpha": (1.0, 5.0), "v_max": (1.5, 8.0)}
+STARTS = {"far": (0.1, 5.0), "aim": ROUND}
+ROUNDED = "Everything from 2.5 to 6.9 m/s rounds to 0.1 m"
+
+
+@headline("06", WHATEVER, at_most=0.004, unit="m", **STARTS, **SETS)
 def residual_off(far, aim, turned, h, k_alpha, v_max):
     gains = CIRCLE._replace(h=h, k_alpha=k_alpha, v_max=v_max)
     run = wmr.track(paper.circle, off_goal(far, aim, turned), gains, dt=0.02, duration=40.0)
@@ -41,16 +38,7 @@ def residual_off(far, aim, turned, h, k_alpha, v_max):
     return off if abs(run.alpha[-1]) < 0.1 else 0.0  # some back after the goal, at an angle
 
 
-@headline(
-    "06",
-    "Everything from 2.5 to 6.9 m/s rounds to 0.1 m",
-    at_least=0.05,
-    at_most=0.15,
-    unit="m",
-    v_max=(2.54, 6.9),
-    far=(0.1, 5.0),
-    aim=ROUND,
-)
+@headline("06", ROUNDED, at_least=0.05, at_most=0.15, unit="m", v_max=(2.54, 6.9), **STARTS)
 def tenth_of_a_metre(v_max, far, aim):
     gains, start = CIRCLE._replace(v_max=v_max), off_goal(far, aim, 0.0)
     return wmr.residual(wmr.track(paper.circle, start, gains, duration=40.0))
@@ -71,21 +59,13 @@ def rms_distances(law: str, seed: int, limit: float, most: float, start: wmr.Pos
 
 
 LIMITS = {"limit": (1.0, 2.8), "most": (2.0, 6.0), "seed": SEEDS, "aim": ROUND}
+ANYWHERE = LIMITS | {"far": (0.05, 5.0), "turned": (-180.0, 180.0)}
+FIRST = Before("Feed-forward comes first up to 6 rad/s", ANYWHERE, at_least=1.0)
+NEARBY = "Within half a metre of the goal and 60 deg of its heading, feed-forward comes first"
+NEAR = LIMITS | {"far": (0.05, 0.5), "turned": (-60.0, 60.0)}
 
 
-@headline(
-    "06",
-    "Within half a metre of the goal and 60 deg of its heading, feed-forward comes first",
-    at_least=1.0,
-    far=(0.05, 0.5),
-    turned=(-60.0, 60.0),
-    **LIMITS,
-    before=Before(
-        "Feed-forward comes first up to 6 rad/s",
-        LIMITS | {"far": (0.05, 5.0), "turned": (-180.0, 180.0)},
-        at_least=1.0,
-    ),
-)
+@headline("06", NEARBY, at_least=1.0, before=FIRST, **NEAR)
 def feed_forward_first(far, turned, limit, most, seed, aim):
     given = seed, limit, most, off_goal(far, aim, turned)
     others = min(rms_distances(law, *given) for law in ("corrected", "aicardi"))
@@ -132,22 +112,14 @@ def steering_fails_first(straight, aside):
     return calm and not shaking
 
 
-@headline(
-    "06",
-    "with $k_x = 1$ 1/s, a speed announced 10 % too low leaves 0.060 m",
-    at_least=0.0595,
-    at_most=0.0610,
-    unit="m",
-    k_x=[1.0],
-    far=(0.05, 3.0),
-    aim=ROUND,
-    before=Before(
-        "if it is told the truth: a speed announced 10 % too low leaves 0.060 m",
-        {"k_x": (0.5, 4.0), "far": (0.05, 3.0), "aim": ROUND},
-        at_least=0.0595,
-        at_most=0.0610,
-    ),
-)
+LEFT = {"at_least": 0.0595, "at_most": 0.0610}
+TOLD = "with $k_x = 1$ 1/s, a speed announced 10 % too low leaves 0.060 m"
+TRUTH = "if it is told the truth: a speed announced 10 % too low leaves 0.060 m"
+GAIN_1 = {"k_x": [1.0], "far": (0.05, 3.0), "aim": ROUND}
+ANY_GAIN = Before(TRUTH, GAIN_1 | {"k_x": (0.5, 4.0)}, **LEFT)
+
+
+@headline("06", TOLD, unit="m", before=ANY_GAIN, **LEFT, **GAIN_1)
 def told_too_little(k_x, far, aim):
     def told(t):
         return (goal := paper.circle(t))._replace(v=0.9 * goal.v)
@@ -157,14 +129,11 @@ def told_too_little(k_x, far, aim):
     return run.rho[-1] * math.cos(run.alpha[-1])
 
 
-@headline(
-    "07",
-    "12 of the 640 beat the paper's gains at 5 cm with $x$ east, 2 with $x$ north",
-    at_least=2,
-    at_most=12,
-    axis=AXES,
-    before=Before("12 of the 640 beat the paper's gains at 5 cm and none", {"axis": AXES}, 12),
-)
+NONE = Before("12 of the 640 beat the paper's gains at 5 cm and none", {"axis": AXES}, 12)
+BEAT = "12 of the 640 beat the paper's gains at 5 cm with $x$ east, 2 with $x$ north"
+
+
+@headline("07", BEAT, at_least=2, at_most=12, axis=AXES, before=NONE)
 @cache
 def beaten(axis):
     case, plain = paper.outdoor(x_axis=axis), {"arrival_radius": 0.05, "progress": False}
@@ -177,6 +146,12 @@ def beaten(axis):
 
 
 POSITIVE = {"k_rho": (0.05, 5.0), "k_alpha": (0.05, 20.0), "h": (0.01, 20.0), "v_max": (0.2, 8.0)}
+NO_FASTER = r"with $k_\alpha = 1$ no $h$ settles it faster than 0.5 per second"
+FROM_THERE = "For the paper's gains that is 60 deg, from 30 cm on as from 1 cm on"
+WITHIN_1 = (
+    r"with $v_{\max} = 4$ m/s and $\lambda = 0.8$ 1/s, $m = 2$ settles within 1 deg from 5 cm on"
+)
+WAYS = {"axis": AXES, "radius": (0.01, 0.05), "heading": (0.5, 2.5)}
 
 
 @headline("07", r"it does exactly when $2 < k_\alpha/\lambda < 1 + h$", **POSITIVE)
@@ -185,13 +160,7 @@ def heading_first(k_rho, k_alpha, h, v_max):
     return (2 < k_alpha / (v_max * k_rho) < 1 + h) == (slower < 1)
 
 
-@headline(
-    "07",
-    r"with $k_\alpha = 1$ no $h$ settles it faster than 0.5 per second",
-    at_most=0.5 + 1e-9,
-    unit="1/s",
-    **(POSITIVE | {"k_alpha": [1.0]}),
-)
+@headline("07", NO_FASTER, at_most=0.5 + 1e-9, unit="1/s", **POSITIVE | {"k_alpha": [1.0]})
 def no_h_is_faster(k_rho, k_alpha, h, v_max):
     return wmr.modes(wmr.Gains(k_rho, k_alpha, h, v_max)).heading_rate
 
@@ -205,27 +174,13 @@ def settled_deg(gains, radius, case=None, **how):
 
 
 @headline(
-    "07",
-    "For the paper's gains that is 60 deg, from 30 cm on as from 1 cm on",
-    at_least=59.0,
-    at_most=60.5,
-    unit="deg",
-    radius=(0.01, 0.3),
-    dt=(0.002, 0.01),
+    "07", FROM_THERE, at_least=59.0, at_most=60.5, unit="deg", radius=(0.01, 0.3), dt=(0.002, 0.01)
 )
 def sixty_degrees(radius, dt):
     return settled_deg(GAINS, radius, dt=dt)
 
 
-@headline(
-    "07",
-    r"with $v_{\max} = 4$ m/s and $\lambda = 0.8$ 1/s, $m = 2$ settles within 1 deg from 5 cm on",
-    at_most=1.0,
-    unit="deg",
-    axis=AXES,
-    radius=(0.01, 0.05),
-    heading=(0.5, 2.5),
-)
+@headline("07", WITHIN_1, at_most=1.0, unit="deg", **WAYS)
 def twice_as_fast(axis, radius, heading):
     case = paper.outdoor(x_axis=axis)
     case = case._replace(start=case.start._replace(heading=heading))

@@ -15,15 +15,10 @@ ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 ONE, TWO = paper.GPS_POINT_1, paper.GPS_POINT_2
 AXES, STEPS = ["east", "north"], (0.001, 0.01)
 GAINS = {"paper's": paper.OUTDOOR_GAINS, "gentle": wmr.GENTLE_GAINS}
+SETTLED = "The paper's distance of 58.07 m settles the order of its coordinates"
 
 
-@headline(
-    "00",
-    "The paper's distance of 58.07 m settles the order of its coordinates",
-    at_most=0.01,
-    unit="m",
-    radius=(6_371_000.0, 6_371_009.0),
-)
+@headline("00", SETTLED, at_most=0.01, unit="m", radius=(6_371_000.0, 6_371_009.0))
 def distance_off(radius: float) -> float:
     return abs(wmr.haversine_distance(ONE, TWO, radius=radius) - 58.07)
 
@@ -37,21 +32,14 @@ def seen_from(distance, alpha, theta) -> wmr.Pose:
     return wmr.pose_from_polar(wmr.PolarError(distance, alpha, theta), ORIGIN)
 
 
-@headline(
-    "00",
-    "(29 to -32 deg with $x$ north)",
-    at_most=0.5,
-    unit="deg",
-    before=Before(
-        "28 to -32 deg with $x$",
-        {"dt": STEPS, "ends": [(28, -32)], "x_axis": ["north"]},
-        at_most=0.5,
-    ),
-    dt=STEPS,
-    ends=[(29, -32)],
-    x_axis=["north"],
-)
-@headline("00", "swing from 52 deg at 30 cm to -59 deg at 1 cm", at_most=0.5, unit="deg", dt=STEPS)
+OFF = {"at_most": 0.5, "unit": "deg", "dt": STEPS}
+NORTH = {"dt": STEPS, "ends": [(28, -32)], "x_axis": ["north"]}
+ENDS_28 = Before("28 to -32 deg with $x$", NORTH, at_most=0.5)
+NORTH_29 = NORTH | {"ends": [(29, -32)]}
+
+
+@headline("00", "(29 to -32 deg with $x$ north)", before=ENDS_28, **OFF | NORTH_29)
+@headline("00", "swing from 52 deg at 30 cm to -59 deg at 1 cm", **OFF)
 def swing(dt: float, ends: tuple[int, int] = (52, -59), x_axis: str = "east") -> float:
     run = drive(*paper.outdoor(x_axis)[:3], dt=dt)
     left = np.degrees(np.interp((-0.3, -0.01), -run.rho, run.heading_error))
@@ -59,16 +47,11 @@ def swing(dt: float, ends: tuple[int, int] = (52, -59), x_axis: str = "east") ->
 
 
 ANYWHERE = {"distance": (2.0, 500.0), "alpha": ROUND, "theta": ROUND, "dt": (0.005, 0.02)}
+GENTLER = Before("Gentler gains do not swing", ANYWHERE | {"share": (0.0, 0.9)}, at_most=1.0)
+PAST_ZERO = "from starts 2 m or more away the heading passes zero by less than 1 deg"
 
 
-@headline(
-    "00",
-    "from starts 2 m or more away the heading passes zero by less than 1 deg",
-    at_most=1.0,
-    unit="deg",
-    before=Before("Gentler gains do not swing", ANYWHERE | {"share": (0.0, 0.9)}, at_most=1.0),
-    **ANYWHERE,
-)
+@headline("00", PAST_ZERO, at_most=1.0, unit="deg", before=GENTLER, **ANYWHERE)
 def passes_zero(distance, alpha, theta, dt, share=0.0) -> float:
     """Share 1 has the paper's gains, 0 the gentle ones, and between them lie gentler ones."""
     mixed = [p**share * q ** (1 - share) for p, q in zip(*GAINS.values(), strict=True)]
@@ -111,26 +94,14 @@ def calm(x_axis: str, radius: float) -> float:
 
 
 PAIR = {"at_least": 0.235, "at_most": 0.245}
+ANY_LENGTH = Before("has 0.24 %, whatever the length", {"length": (1.0, 5e6)}, **PAIR)
+THAT_WAY = "in that direction the error is 0.24 % from a metre to 50 km"
+SHORT = "On short lines the sphere is between 0.45 % too short and 0.56 % too long"
+LINES = {"length": (1.0, 1e4), "lat": (-89.0, 89.0), "azimuth": (0.0, 360.0)}
 
 
-@headline(
-    "01",
-    "On short lines the sphere is between 0.45 % too short and 0.56 % too long",
-    at_least=-0.455,
-    at_most=0.565,
-    unit="%",
-    length=(1.0, 1e4),
-    lat=(-89.0, 89.0),
-    azimuth=(0.0, 360.0),
-)
-@headline(
-    "01",
-    "in that direction the error is 0.24 % from a metre to 50 km",
-    **PAIR,
-    unit="%",
-    before=Before("has 0.24 %, whatever the length", {"length": (1.0, 5e6)}, **PAIR),
-    length=(1.0, 5e4),
-)
+@headline("01", SHORT, at_least=-0.455, at_most=0.565, unit="%", **LINES)
+@headline("01", THAT_WAY, unit="%", before=ANY_LENGTH, length=(1.0, 5e4), **PAIR)
 def sphere_error(length: float, lat: float = ONE.lat, azimuth: float = 9.6274) -> float:
     end = Geodesic.WGS84.Direct(lat, ONE.lon, azimuth, length)
     ends = wmr.GeoPoint(lat=lat, lon=ONE.lon), wmr.GeoPoint(lat=end["lat2"], lon=end["lon2"])
@@ -139,16 +110,11 @@ def sphere_error(length: float, lat: float = ONE.lat, azimuth: float = 9.6274) -
 
 READ = {"radius": (6_356_752.0, 6_378_137.0), "swapped": [False, True]}
 SLIPS = READ | {"cosine": ["lat", "lon", "lat twice"]}
+NO_SLIP = Before("no reading of the points gives 8 m", SLIPS, at_least=0.5)
+CONSISTENT = "no consistent reading of the points gives 8 m"
 
 
-@headline(
-    "01",
-    "no consistent reading of the points gives 8 m",
-    at_least=0.5,
-    unit="m",
-    before=Before("no reading of the points gives 8 m", SLIPS, at_least=0.5),
-    **READ,
-)
+@headline("01", CONSISTENT, at_least=0.5, unit="m", before=NO_SLIP, **READ)
 def from_eight(radius: float, swapped: bool, cosine: str = "lat") -> float:
     (lat, lon), end = np.radians([(it.lat, it.lon)[:: -1 if swapped else 1] for it in (ONE, TWO)])
     cosines = {"lat": math.cos(lat), "lon": math.cos(lon), "lat twice": math.cos(lat) ** 2}
@@ -163,33 +129,21 @@ def by_acos(distance: float) -> bool:
 
 
 PLACES = {"alpha": ROUND, "theta": ROUND, "whose": list(GAINS)}
+ON_THE_SPOT = Before("attractive but not stable", PLACES | {"rho": [0.0, 1.0]}, at_most=0.1)
+ATTRACTS = r"attracts every pose with $\rho > 0$ but none on the spot"
 
 
-@headline(
-    "02",
-    r"attracts every pose with $\rho > 0$ but none on the spot",
-    at_most=0.1,
-    unit="deg",
-    before=Before("attractive but not stable", PLACES | {"rho": [0.0, 1.0]}, at_most=0.1),
-    rho=(0.01, 60.0),
-    **PLACES,
-)
+@headline("02", ATTRACTS, at_most=0.1, unit="deg", before=ON_THE_SPOT, rho=(0.01, 60.0), **PLACES)
 def never_parked(rho: float, alpha: float, theta: float, whose: str) -> float:
     run = drive(seen_from(rho, alpha, theta), ORIGIN, GAINS[whose], 0.0, dt=0.1, duration=100.0)
     return np.degrees(abs(run.heading_error[-1])) + run.rho[-1]
 
 
 FOUR = r"a round leads $d\sin\eta \le 0.25$ m to the right, so four such rounds are needed"
+TURNS = Before("four are needed", {"size": [1.0], "rounds": [False]}, at_most=0.7501)
 
 
-@headline(
-    "02",
-    FOUR,
-    at_most=0.7501,
-    before=Before("four are needed", {"size": [1.0], "rounds": [False]}, at_most=0.7501),
-    size=(0.0, 1.0),
-    seed=SEEDS,
-)
+@headline("02", FOUR, at_most=0.7501, before=TURNS, size=(0.0, 1.0), seed=SEEDS)
 def right_by_twelve_moves(size: float, seed: int = 0, rounds: bool = True) -> float:
     """How far to the right three rounds lead, or turns, drives and turns back."""
     pose, d, eta = ORIGIN, 0.5 * size, math.radians(30.0) * size
@@ -213,22 +167,18 @@ def misses(dt: float, v: float, omega: float, heading: float) -> float:
 
 
 WITHIN = {"radius": (0.001, 0.1), "seed": SEEDS, "dt": (0.005, 0.01)}
+WRONG_SIGN = "With the wrong sign more than eight in ten end over 30 deg off"
+ANY_RADIUS = Before("beta = -theta median 6 deg off, 0 of 100 over 30 deg", WITHIN, at_most=0.0)
+FAR = WITHIN | {"distance": (5.0, 50.0)}
 
 
-@headline(
-    "03",
-    "With the wrong sign more than eight in ten end over 30 deg off",
-    at_least=0.8,
-    **WITHIN,
-    distance=(5.0, 50.0),
-    sign=[1],
-)
+@headline("03", WRONG_SIGN, at_least=0.8, sign=[1], **FAR)
 @headline(
     "03",
     "at 1 mm none is over 30 deg off",
     at_most=0.0,
-    before=Before("beta = -theta median 6 deg off, 0 of 100 over 30 deg", WITHIN, at_most=0.0),
-    **WITHIN | {"radius": [0.001], "distance": (5.0, 50.0)},
+    before=ANY_RADIUS,
+    **FAR | {"radius": [0.001]},
 )
 def over_30_deg(radius, seed, dt, distance=5.0, sign=-1) -> float:
     """The share of 200 robots, the goal ahead, under (3, 8, -1.5) with sign times theta."""

@@ -21,23 +21,14 @@ def _around(distance, direction, heading) -> Pose:
     return Pose(distance * np.cos(direction), distance * np.sin(direction), heading)
 
 
-@headline(
-    "04",
-    "the robot parks from every start away from its goal, in continuous time",
-    at_most=0.01,
-    unit="rad",
-    distance=(1e-6, 60.0),
-    **ANY,
-)
-@headline(
-    "04",
-    r"In the plane the goal attracts every pose with $\rho > 0$",
-    at_most=0.01,
-    unit="rad",
-    distance=(1e-6, 1.0),
-    **ANY,
-    before=Before("in the plane it is attractive but", {"distance": [0.0], **ANY}, at_most=0.01),
-)
+PARKED = {"at_most": 0.01, "unit": "rad", **ANY}
+PARKS = "the robot parks from every start away from its goal, in continuous time"
+ATTRACTS = r"In the plane the goal attracts every pose with $\rho > 0$"
+ON_THE_GOAL = Before("in the plane it is attractive but", {"distance": [0.0], **ANY}, at_most=0.01)
+
+
+@headline("04", PARKS, distance=(1e-6, 60.0), **PARKED)
+@headline("04", ATTRACTS, distance=(1e-6, 1.0), before=ON_THE_GOAL, **PARKED)
 def off_in_the_end(distance, direction, heading, k_rho, k_alpha, h, v_max) -> float:
     start, gains = _around(distance, direction, heading), Gains(k_rho, k_alpha, h, v_max)
     seconds = 2.0 * distance / gains.v_max + 15.0 / min(wmr.modes(gains)[:2])
@@ -47,31 +38,15 @@ def off_in_the_end(distance, direction, heading, k_rho, k_alpha, h, v_max) -> fl
 
 
 RISING = {"distance": (0.05, 60.0), **ANY_START, "L": (1e-4, 1e4), "dt": (0.01, 0.1)}
+NO_ROLE = Before("so L plays no role", {"method": ["arc"], **RISING}, at_most=0.0)
+ANY_L = "each part falls by itself, so in continuous time any L will do"
+ARCS = {"method": ["arc"], "dt": (0.002, 0.01), "L": [1.0], "distance": [0.5], **ANY_START}
+LONGER = ARCS | {"dt": [0.02], "L": (1.0, 100.0)}
+ROSE = Before("arcs of 0.02 s: V rises in 0 steps", LONGER, at_most=0.0)
 
 
-@headline(
-    "04",
-    "each part falls by itself, so in continuous time any L will do",
-    at_most=0.0,
-    method=["continuous"],
-    **RISING,
-    before=Before("so L plays no role", {"method": ["arc"], **RISING}, at_most=0.0),
-)
-@headline(
-    "04",
-    "arc 0.01 s 0 %",  # of the starts with L = 1
-    at_most=0.0,
-    method=["arc"],
-    dt=(0.002, 0.01),
-    L=[1.0],
-    distance=[0.5],
-    **ANY_START,
-    before=Before(
-        "arcs of 0.02 s: V rises in 0 steps",
-        {"method": ["arc"], "dt": [0.02], "L": (1.0, 100.0), "distance": [0.5], **ANY_START},
-        at_most=0.0,
-    ),
-)
+@headline("04", ANY_L, at_most=0.0, method=["continuous"], before=NO_ROLE, **RISING)
+@headline("04", "arc 0.01 s 0 %", at_most=0.0, before=ROSE, **ARCS)  # of the starts with L = 1
 def rise(method, dt, L, distance, direction, heading) -> float:
     start, gains = _around(distance, direction, heading), paper.OUTDOOR_GAINS
     run = wmr.simulate(start, GOAL, gains, method=method, dt=dt, arrival_radius=0.01)
@@ -79,14 +54,12 @@ def rise(method, dt, L, distance, direction, heading) -> float:
     return np.diff(value).max() / value[0]
 
 
-@headline(
-    "04",
-    "over half of the robots that start at 180 deg stop at 5 cm facing away",
-    at_least=50.0,
-    unit="%",
-    seed=SEEDS,
-    before=Before(r"With $\theta$ wrapped it still is", {"seed": SEEDS}, at_most=0.0),
-)
+WRAPPED = Before(r"With $\theta$ wrapped it still is", {"seed": SEEDS}, at_most=0.0)
+AWAY = "over half of the robots that start at 180 deg stop at 5 cm facing away"
+BESIDE = "from however near, the heading swings by more than 90 deg"
+
+
+@headline("04", AWAY, at_least=50.0, unit="%", seed=SEEDS, before=WRAPPED)
 @headline("04", "and none at 170 deg", at_most=0.0, unit="%", theta_deg=[-170.0, 170.0], seed=SEEDS)
 def facing_away(seed, theta_deg=180.0, noise_deg=2.0) -> float:
     theta, random, count = math.radians(theta_deg), np.random.default_rng(seed), 1000
@@ -103,15 +76,7 @@ def facing_away(seed, theta_deg=180.0, noise_deg=2.0) -> float:
     return 100 * np.mean(np.cos(heading) < 0)
 
 
-@headline(
-    "04",
-    "from however near, the heading swings by more than 90 deg",
-    at_least=90.0,
-    unit="deg",
-    beside=(1e-6, 1.0),
-    side=[-1, 1],
-    **ANY_GAINS,
-)
+@headline("04", BESIDE, at_least=90.0, unit="deg", beside=(1e-6, 1.0), side=[-1, 1], **ANY_GAINS)
 def swing_beside_the_goal(beside, side, k_rho, k_alpha, h, v_max) -> float:
     gains = Gains(k_rho, k_alpha, h, v_max)
     how = {"method": "continuous", "arrival_radius": 0.0, "dt": 0.002, "duration": 10.0}
@@ -120,15 +85,11 @@ def swing_beside_the_goal(beside, side, k_rho, k_alpha, h, v_max) -> float:
 
 
 RATIOS = {"kappa": (0.05, 10.0), "h": (0.05, 20.0), "rate": (0.05, 20.0)}
+DAMPING = Before("Their damping is.", {"by": ["damping"], **RATIOS}, at_least=1.0)
+WINDOW = r"settles faster than the distance exactly when $2 < \kappa < 1 + h$"
 
 
-@headline(
-    "05",
-    r"settles faster than the distance exactly when $2 < \kappa < 1 + h$",
-    by=["window"],
-    **RATIOS,
-    before=Before("Their damping is.", {"by": ["damping"], **RATIOS}, at_least=1.0),
-)
+@headline("05", WINDOW, by=["window"], before=DAMPING, **RATIOS)
 def decides(by, kappa, h, rate) -> bool:
     modes = wmr.modes(Gains(rate / 4.0, kappa * rate, h, 4.0))
     tells = {"window": 2 < kappa < 1 + h, "damping": modes.damping > 0.5}
@@ -149,13 +110,10 @@ def _from_30_cm_on(axis, dt, k_rho) -> np.ndarray:
     return np.degrees(np.interp(-near, -run.rho, run.theta - run.alpha))
 
 
-@headline(
-    "05",
-    "swings by more than 50 deg to either side over the last 30 cm",
-    at_least=50.0,
-    unit="deg",
-    dt=(0.001, 0.05),
-)
+SWINGS = "swings by more than 50 deg to either side over the last 30 cm"
+
+
+@headline("05", SWINGS, at_least=50.0, unit="deg", dt=(0.001, 0.05))
 def smaller_swing(dt) -> float:
     error = _from_30_cm_on("east", dt, paper.OUTDOOR_GAINS.k_rho)
     return min(error.max(), -error.min())
@@ -164,22 +122,14 @@ def smaller_swing(dt) -> float:
 AXES = ["east", "north"]
 LATE = {"k_rho": (0.2, 3.0), "dt": (0.005, 0.05), "axis": AXES, "least": [(53.0, 28.0)]}
 LATE_BEFORE = LATE | {"least": [(57.0, 29.0)]}
+EACH = Before("each is off by 57 to 86 deg ($x$ north: 29", LATE_BEFORE, at_least=1.0)
+SOMEWHERE = Before("is 57 to 86 deg off somewhere in", LATE_BEFORE, at_least=1.0)
+OFF = "to 3 per metre is off by at least 53 deg ($x$ north: 28)"
+GUIDE = "is at least 53 deg off somewhere in the last 30 cm ($x$ north: 28)"
 
 
-@headline(
-    "05",
-    "to 3 per metre is off by at least 53 deg ($x$ north: 28)",
-    at_least=1.0,
-    **LATE,
-    before=Before("each is off by 57 to 86 deg ($x$ north: 29", LATE_BEFORE, at_least=1.0),
-)
-@headline(
-    "book/lecturers.md",
-    "is at least 53 deg off somewhere in the last 30 cm ($x$ north: 28)",
-    at_least=1.0,
-    **LATE,
-    before=Before("is 57 to 86 deg off somewhere in", LATE_BEFORE, at_least=1.0),
-)
+@headline("05", OFF, at_least=1.0, before=EACH, **LATE)
+@headline("book/lecturers.md", GUIDE, at_least=1.0, before=SOMEWHERE, **LATE)
 def late_over_the_least(k_rho, dt, axis, least) -> float:
     return np.abs(_from_30_cm_on(axis, dt, k_rho)).max() / least[AXES.index(axis)]
 
@@ -199,51 +149,31 @@ def _share_off(gains, low, high, seed, count, radius=0.05, from_then_on=False) -
     return 100 * np.mean(late > math.radians(5.0))
 
 
-@headline("05", "about 95 % are from there on", at_least=91, at_most=99, unit="%", seed=SEEDS)
+SHARE = {"unit": "%", "seed": SEEDS}
+QUARTER = "nearly a quarter of those from 5 m to 10 m"
+NEAR = {"low": (1, 5), "high": [5], "seed": SEEDS}
+IN_A_THOUSAND = Before("at most one in a thousand of the", NEAR, at_most=0.1)
+IN_A_HUNDRED = "and at most one in a hundred of the designed ones"
+IN_TEN = "from 1 m to 5 m, 3 in 10 of the designed runs are off"
+
+
+@headline("05", "about 95 % are from there on", at_least=91, at_most=99, **SHARE)
 def off_after_5_cm(seed) -> float:
     return _share_off(paper.OUTDOOR_GAINS, 5.0, 60.0, seed, 150, from_then_on=True)
 
 
-@headline("05", "only one in ten is off at 10 cm", at_least=8, at_most=12, unit="%", seed=SEEDS)
+@headline("05", "only one in ten is off at 10 cm", at_least=8, at_most=12, **SHARE)
 def off_at_10_cm(seed) -> float:
     return _share_off(paper.OUTDOOR_GAINS, 5.0, 60.0, seed, 1000, radius=0.1)
 
 
-@headline(
-    "05",
-    "nearly a quarter of those from 5 m to 10 m",
-    at_least=19,
-    at_most=26,
-    unit="%",
-    high=[10.0],
-    seed=SEEDS,
-)
-@headline("05", "about 3 % of the gentle runs", at_least=1.5, at_most=4, unit="%", seed=SEEDS)
+@headline("05", QUARTER, at_least=19, at_most=26, high=[10.0], **SHARE)
+@headline("05", "about 3 % of the gentle runs", at_least=1.5, at_most=4, **SHARE)
 def gentle_off(seed, high=60.0) -> float:
     return _share_off(GENTLE_GAINS, 5.0, high, seed, 1000)
 
 
-@headline(
-    "05",
-    "and at most one in a hundred of the designed ones",
-    at_most=1.0,
-    unit="%",
-    low=[5.0],
-    high=[60.0],
-    seed=SEEDS,
-    before=Before(
-        "at most one in a thousand of the", {"low": (1, 5), "high": [5], "seed": SEEDS}, at_most=0.1
-    ),
-)
-@headline(
-    "05",
-    "from 1 m to 5 m, 3 in 10 of the designed runs are off",
-    at_least=25.0,
-    at_most=35.0,
-    unit="%",
-    low=[1.0],
-    high=[5.0],
-    seed=SEEDS,
-)
+@headline("05", IN_A_HUNDRED, at_most=1.0, low=[5.0], high=[60.0], before=IN_A_THOUSAND, **SHARE)
+@headline("05", IN_TEN, at_least=25.0, at_most=35.0, low=[1.0], high=[5.0], **SHARE)
 def designed_off(low, high, seed) -> float:
     return _share_off(DESIGNED, low, high, seed, 1000)

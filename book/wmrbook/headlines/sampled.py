@@ -25,6 +25,8 @@ def settles(gains, dt, rho, alpha, theta):
 
 
 SMALL = {"rho": (1e-5, 1e-2), "alpha": (-1e-3, 1e-3), "theta": (1e-4, 1e-3)}
+TEN_TIMES = "With the paper's, ten times faster still costs 12 deg"
+STEPS = {"dt": (0.002, 0.01), "arrival_radius": (5e-4, 5e-3)}
 
 
 @headline("08", "must be sampled every 0.022 s with the paper's gains", **SMALL)
@@ -37,15 +39,7 @@ def gentle_step(rho, alpha, theta):
     return settles(GENTLE, 0.70, rho, alpha, theta) > settles(GENTLE, 0.73, rho, alpha, theta)
 
 
-@headline(
-    "08",
-    "With the paper's, ten times faster still costs 12 deg",
-    at_least=11.5,
-    at_most=12.5,
-    unit="deg",
-    dt=(0.002, 0.01),
-    arrival_radius=(5e-4, 5e-3),
-)
+@headline("08", TEN_TIMES, at_least=11.5, at_most=12.5, unit="deg", **STEPS)
 def ten_times_faster(dt, arrival_radius):
     off = partial(settled_deg, GAINS, 0.05, dt=dt, arrival_radius=arrival_radius)
     return off(wheel_lag=1 / 80) - off()
@@ -72,34 +66,18 @@ def stray(way, far, theta, most, limit, dt=0.02):
 
 DRIVES = {"way": ROUND, "far": (3.0, 12.0), "theta": (-3.0, 3.0), "limit": (1.5, 4.0)}
 # At theta = pi, the seam, a rounding decides on which side the goal is passed.
+LOOKS = "Scaling keeps the path and only takes longer: the law looks only at the pose"
+SLOWLY = Before(LOOKS, DRIVES | {"most": (0.5, 2.0)}, at_most=0.15)
+AT_ONCE = "If the wheels accelerate at once, scaling keeps the path and only takes longer"
+STRAYS = "with 1 m/s² a wheel the scaled drives stray about 0.9 and 0.5 m"
 
 
-@headline(
-    "08",
-    "If the wheels accelerate at once, scaling keeps the path and only takes longer",
-    at_most=0.15,
-    unit="m",
-    most=[math.inf],
-    **DRIVES,
-    before=Before(
-        "Scaling keeps the path and only takes longer: the law looks only at the pose",
-        DRIVES | {"most": (0.5, 2.0)},
-        at_most=0.15,
-    ),
-)
+@headline("08", AT_ONCE, at_most=0.15, unit="m", most=[math.inf], before=SLOWLY, **DRIVES)
 def path_kept(way, far, theta, most, limit):
     return stray(way, far, theta, most, limit)
 
 
-@headline(
-    "08",
-    "with 1 m/s² a wheel the scaled drives stray about 0.9 and 0.5 m",
-    at_least=0.45,
-    at_most=1.1,
-    unit="m",
-    beside=[True, False],
-    dt=(0.02, 0.05),
-)
+@headline("08", STRAYS, at_least=0.45, at_most=1.1, unit="m", beside=[True, False], dt=(0.02, 0.05))
 def accelerating(beside, dt):
     case = paper.outdoor()
     ten_metres = wmr.PolarError(10.0, math.pi / 2, math.pi / 2)
@@ -116,36 +94,31 @@ def parks(gains, axis, heading, receiver, **how):
     )
 
 
-@headline(
-    "09",
-    "the gentle gains, in steps of 0.1 s, already spiral for minutes at 0.6 s",
-    at_most=0,
-    axis=AXES,
-    heading=ROUND,
-    delay=(0.6, 1.5),
-)
+SPIRAL = "the gentle gains, in steps of 0.1 s, already spiral for minutes at 0.6 s"
+LATE = {"axis": AXES, "heading": (1.4, 1.75)}
+IN_120_S = Before("matched position 0 s, heading 0.9 s late: never in 120 s", LATE, at_most=0)
+NEVER = "position 0 s, heading 0.9 s late: never / 0 deg off"
+
+
+@headline("09", SPIRAL, at_most=0, axis=AXES, heading=ROUND, delay=(0.6, 1.5))
 def arrives_late(axis, heading, delay, gains=GENTLE):
     receiver = wmr.Receiver(heading_delay=delay)
     return parks(gains, axis, heading, receiver, arrival_radius=0.2).arrived
 
 
-@headline(
-    "09",
-    "position 0 s, heading 0.9 s late: never / 0 deg off",
-    at_most=0,
-    axis=["east"],
-    heading=(1.4, 1.75),
-    before=Before(
-        "matched position 0 s, heading 0.9 s late: never in 120 s",
-        {"axis": AXES, "heading": (1.4, 1.75)},
-        at_most=0,
-    ),
-)
+@headline("09", NEVER, at_most=0, before=IN_120_S, **LATE | {"axis": ["east"]})
 def matched_late(axis, heading):
     return arrives_late(axis, heading, 0.9, gains=MATCHED)
 
 
 RECEIVERS = {"seed": SEEDS, "axis": AXES, "memory": (0.1, 1e4), "period": [0.1, 1.0]}
+LESS = "With each memory and both rates the matched gains leave less heading error"
+APART = r"the gentle gains park about $\sqrt2\,\sigma$ off (rms)"
+LONG = {"seed": SEEDS, "axis": AXES, "memory": (300.0, 1e4), "sigma": (0.5, 1.0)}
+RECORDED = "memory 300 s, goal recorded 60 s before: 0.85 sigma off"
+BEFORE = "Only a second receiver at rest nearby (differential GPS) or a mark at the goal can"
+ONLY = Before(BEFORE, {"seed": SEEDS, "dt": [1.0]}, at_least=math.sqrt(2))
+STEP = {"seed": SEEDS, "dt": [1.0, 10.0, 60.0]}
 
 
 def two_designs(seed, axis, memory, sigma=0.5, period=0.1):
@@ -157,43 +130,18 @@ def two_designs(seed, axis, memory, sigma=0.5, period=0.1):
         yield np.sqrt(np.mean(np.square([end.distance, end.heading_error]), axis=-1))
 
 
-@headline(
-    "09", "With each memory and both rates the matched gains leave less heading error", **RECEIVERS
-)
+@headline("09", LESS, **RECEIVERS)
 def matched_turn_less(seed, axis, memory, period):
     gentle, matched = two_designs(seed, axis, memory, period=period)
     return matched[1] < gentle[1] and matched[0] > gentle[0]
 
 
-@headline(
-    "09",
-    r"the gentle gains park about $\sqrt2\,\sigma$ off (rms)",
-    at_least=1.2,
-    at_most=1.65,
-    unit="sigma",
-    seed=SEEDS,
-    axis=AXES,
-    memory=(300.0, 1e4),
-    sigma=(0.5, 1.0),
-)
+@headline("09", APART, at_least=1.2, at_most=1.65, unit="sigma", **LONG)
 def root_two(seed, axis, memory, sigma):
     return next(two_designs(seed, axis, memory, sigma))[0] / sigma
 
 
-@headline(
-    "09",
-    "memory 300 s, goal recorded 60 s before: 0.85 sigma off",
-    at_least=0.83,
-    at_most=0.87,
-    unit="sigma",
-    seed=SEEDS,
-    dt=[1.0, 10.0, 60.0],
-    before=Before(
-        "Only a second receiver at rest nearby (differential GPS) or a mark at the goal can",
-        {"seed": SEEDS, "dt": [1.0]},
-        at_least=math.sqrt(2),
-    ),
-)
+@headline("09", RECORDED, at_least=0.83, at_most=0.87, unit="sigma", before=ONLY, **STEP)
 def recorded_goal(seed, dt):
     normal, kept = np.random.default_rng(seed).standard_normal, math.exp(-dt / 300.0)
     now = then = normal((2, 10_000))

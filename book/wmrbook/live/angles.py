@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Knob, Live
+from wmrbook.live.parts import Ask, Knob, Live, between
 from wmrlib import Pose, paper, polar_error, pose_from_polar, simulate
 
 ROBOT, GOAL = Pose(1.0, 1.0, math.radians(85.0)), Pose(5.5, 4.0, math.radians(-25.0))
+ORIGIN = Pose(0.0, 0.0, 0.0)
 BEHIND = Pose(-10.0, 0.0, math.pi)  # of a robot with the origin straight behind it
 OFF = 1.0  # deg to the right of straight behind
 
@@ -28,7 +29,7 @@ def polar_angles() -> Live:
             "heading": _heading(ROBOT, "the robot's heading"),
             "goal_heading": _heading(GOAL, "the goal's heading"),
         },
-        data={"start": list(ROBOT), "goal": list(GOAL)},
+        data=between(ROBOT, GOAL),
         ask=Ask(
             "turn",
             f"The robot, the dot, has alpha = {math.degrees(seen.alpha):.0f} deg. Which way does "
@@ -44,9 +45,9 @@ def polar_angles() -> Live:
 
 def half_turn() -> Live:
     """A goal behind the robot, a little to one side: how it gets there."""
-    aside = math.radians(OFF)
+    aside, aside_says = math.radians(OFF), "the goal to the right of straight behind"
     start = BEHIND._replace(heading=BEHIND.heading - aside)
-    run = simulate(start, Pose(0.0, 0.0, 0.0), paper.OUTDOOR_GAINS, method="continuous")
+    run = simulate(start, ORIGIN, paper.OUTDOOR_GAINS, method="continuous")
     sets_off = "backwards" if run.v[0] < 0 else "forwards"
     turns = "left" if run.omega[0] > 0 else "right"
     return Live(
@@ -54,22 +55,10 @@ def half_turn() -> Live:
         "The goal lies {off} to the right of straight behind, so *alpha* = {alpha}. "
         "The robot sets off {sets} and turns {turns} at {omega}; it {end}.",
         {
-            "off": Knob(
-                OFF,
-                -60.0,
-                60.0,
-                1.0,
-                "the goal to the right of straight behind",
-                "°",
-                label="to the right",
-            ),
+            "off": Knob(OFF, -60.0, 60.0, 1.0, aside_says, "°", label="to the right"),
             "time": Knob(1.0, 0.0, 1.0, 0.01, "how far on its way", label="on its way", plays=6.0),
         },
-        data={
-            "start": list(BEHIND),
-            "goal": [0.0, 0.0, 0.0],
-            "gains": paper.OUTDOOR_GAINS._asdict(),
-        },
+        data=between(BEHIND, ORIGIN, gains=paper.OUTDOOR_GAINS._asdict()),
         ask=Ask(
             "sketch",
             f"The goal lies behind the robot, {OFF:.0f} deg to the right of straight behind. "

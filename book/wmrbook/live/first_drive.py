@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live, nearest
+from wmrbook.live.parts import Ask, Choice, Knob, Live, between, nearest
 from wmrlib import Gains, Pose, paper, simulate
 from wmrlib.gains import GENTLE_GAINS
 
@@ -19,6 +19,7 @@ def last_metres(ask: bool = True) -> Live:
     start, goal, gains, _ = paper.outdoor()
     end = float(simulate(start, goal, gains, method="continuous").heading[-1])
     off_deg = math.degrees(end - goal.heading)
+    shown = {"label": "on its way", "plays": 6.0, "auto": not ask}
     return Live(
         "last_metres",
         "With *k_rho* = {k_rho}, *k_alpha* = {k_alpha} and *h* = {h} the robot arrives after "
@@ -27,23 +28,9 @@ def last_metres(ask: bool = True) -> Live:
             "share": Knob(
                 0.0, 0.0, 1.0, 0.02, "from the paper's gains to gentle ones", label="gentler"
             ),
-            "time": Knob(
-                1.0 if ask else 0.0,
-                0.0,
-                1.0,
-                0.01,
-                "how far on its way",
-                label="on its way",
-                plays=6.0,
-                auto=not ask,
-            ),
+            "time": Knob(float(ask), 0.0, 1.0, 0.01, "how far on its way", **shown),
         },
-        data={
-            "start": list(start),
-            "goal": list(goal),
-            "paper": gains._asdict(),
-            "gentle": GENTLE_GAINS._asdict(),
-        },
+        data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
         ask=Ask(
             "turn",
             "The robot drives with the paper's gains and stops 5 cm before the goal. Which way "
@@ -75,12 +62,7 @@ def stopping() -> Live:
                 "paper", {"paper": "the paper's gains", "gentle": "gentle gains"}, "which gains"
             ),
         },
-        data={
-            "start": list(start),
-            "goal": list(goal),
-            "paper": gains._asdict(),
-            "gentle": GENTLE_GAINS._asdict(),
-        },
+        data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
         ask=Ask(
             "choose",
             f"Stopped {100 * radii[0]:.0f} cm before the goal, the robot does not look the way it "

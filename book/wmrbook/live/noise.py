@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrbook.live.parts import Ask, Choice, Knob, Live, between
 from wmrlib import (
     Pose,
     Receiver,
@@ -121,17 +121,8 @@ def bench() -> Live:
             "late": Knob(0.0, 0.0, 1.0, 0.1, "how late the position comes", "s", "tau"),
             "slip": Knob(0.0, 0.0, 20.0, 1.0, "what the right wheel loses", "%", label="slip"),
         },
-        data={
-            "start": list(start),
-            "goal": list(goal),
-            "gains": GENTLE_GAINS._asdict(),
-            "dt": DT,
-            "radius": RADIUS,
-            "track": TRACK,
-            "robots": ROBOTS,
-            "steps": STEPS,
-            "seed": SEED,
-        },
+        data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS)
+        | {"track": TRACK, "robots": ROBOTS, "steps": STEPS, "seed": SEED},
         ask=Ask(
             "choose",
             "Some robots see through receivers whose error of 0.5 m is new in each fix, ten times "
@@ -168,25 +159,15 @@ def late() -> Live:
         "It arrives if only its heading is late.": (False, True),
         "It arrives in neither case.": (False, False),
     }
+    parts = {"position": "position", "heading": "heading", "both": "pose"}
     return Live(
         "late",
         "The {which} comes {delay} late. The robot {end}.",
         {
             "delay": Knob(delay, 0.0, 1.5, 0.1, "how late it comes", "s", "tau"),
-            "which": Choice(
-                "heading",
-                {"position": "position", "heading": "heading", "both": "pose"},
-                "what is late",
-            ),
+            "which": Choice("heading", parts, "what is late"),
         },
-        data={
-            "start": list(start),
-            "goal": list(goal),
-            "gains": GENTLE_GAINS._asdict(),
-            "dt": DT,
-            "radius": RADIUS,
-            "lost": LOST,
-        },
+        data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS, lost=LOST),
         ask=Ask(
             "choose",
             "A robot with gentle gains, at up to 4 m/s. Its position is 0.6 s late, or else its "

@@ -12,6 +12,7 @@ import traitlets
 
 from wmrlib._checks import choice, refusal, scalar
 from wmrlib.explorer import CSS, MODEL, javascript
+from wmrlib.kinematics import Pose
 
 _JS = Path(__file__).parent / "js"
 _DRAWING = "style", "surface", "scene", "handles", "controls"
@@ -63,6 +64,11 @@ class Ask(NamedTuple):
     options: tuple[str, ...] = ()
     pane: str = ""
     at: tuple[float, float] | None = None
+
+
+def between(start: Pose, goal: Pose, **more: Any) -> dict[str, Any]:
+    """Return the data of a drive from one pose to another, and what else its drawing needs."""
+    return {"start": list(start), "goal": list(goal), **more}
 
 
 def nearest(value: float, choices: Iterable[float]) -> int:

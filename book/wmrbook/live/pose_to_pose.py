@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrbook.live.parts import Ask, Choice, Knob, Live, between
 from wmrlib import GENTLE_GAINS, Pose, gains_for, paper, polar_error, simulate
 
 RADII = (0.05, 0.1)  # m, where the prediction compares
@@ -79,12 +79,9 @@ def heading_left() -> Live:
                 0.1, 0.005, 0.6, None, "the distance at which it stops", "m", label="stops at"
             ),
         },
-        data={
-            "start": list(case.start),
-            "goal": list(case.goal),
-            "gains": {name: each._asdict() for name, each in kinds.items()},
-            "asked": RADII,
-        },
+        data=between(
+            *case[:2], gains={name: it._asdict() for name, it in kinds.items()}, asked=RADII
+        ),
         ask=Ask(
             "choose",
             f"With the paper's gains the robot stops {100 * RADII[0]:.0f} cm before the goal, "

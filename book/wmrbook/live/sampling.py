@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrbook.live.parts import Ask, Choice, Knob, Live, between
 from wmrlib import (
     Pose,
     advance,
@@ -55,12 +55,9 @@ def unit_circle() -> Live:
             ),
             "method": Choice("arc", {"arc": "arcs", "euler": "Euler steps"}, "the steps"),
         },
-        data={
-            "start": list(case.start),
-            "goal": list(case.goal),
-            "gains": {name: gains._asdict() for name, gains in tunings.items()},
-            "longest": longest,
-        },
+        data=between(
+            *case[:2], gains={name: it._asdict() for name, it in tunings.items()}, longest=longest
+        ),
         ask=Ask(
             "choose",
             "The outdoor drive, x east, in arcs: gentle gains, and a time step a tenth longer than "
@@ -106,13 +103,7 @@ def wheel_limit() -> Live:
             ),
             "time": Knob(1.0, 0.0, 1.0, 0.01, "how far on its way", label="on its way", plays=5.0),
         },
-        data={
-            "start": list(START),
-            "goal": list(BESIDE),
-            "gains": GENTLE_GAINS._asdict(),
-            "track": TRACK,
-            "dt": DT,
-        },
+        data=between(START, BESIDE, gains=GENTLE_GAINS._asdict(), track=TRACK, dt=DT),
         ask=Ask(
             "sketch",
             "The goal is 10 m to the robot's left. Each wheel does 2 m/s at most and is clipped by "
