@@ -7,7 +7,7 @@
 
    #define WMR_REAL float before the #include for a processor without doubles. GPS
    points come as doubles (wmr_local_position) or as integers of 1e-7 degrees
-   (wmr_local_position_e7), as receivers send them; where a double has 4 bytes, as on
+   (wmr_local_position_e7), as UBX sends them; where a double has 4 bytes, as on
    AVR, only as integers.
 
    An argument that is NaN, infinite or out of range, or a result that is not finite,
