@@ -201,6 +201,9 @@ def test_a_law_that_no_slip_mends_is_wrong_and_stabilises_nothing(monkeypatch):
         equation(24, -_TURN)(patched)
         follows = equation(25, audit.slope(-_TURN))
         assert verdict_with(patched, "eq-25", follows) is Verdict.WRONG
+        follows(patched)  # and (26) from (25): it repeats an error then, not a typo
+        end = equation(26, audit.slope(-_TURN))
+        assert verdict_with(patched, "eq-26", end) is Verdict.WRONG
     slipped = audit.steering() - 2 * _TURN  # one sign
     for item in ("eq-24", "claim-stable"):
         assert verdict_with(monkeypatch, item, equation(24, slipped)) is Verdict.TYPO
@@ -225,6 +228,13 @@ def test_slips():
     assert slip(a * b + a / c, a * b + b / c) == "$a$ for $b$"
     assert slip(a**2 + b, a + b) == "$a$ printed twice"
     assert slip(a + b + c, a + b) == "$c$ too many"
+    assert slip(a + b, a + b * c) == "$c$ missing"
+    assert slip(a * sp.cos(b), a * sp.sin(b)).endswith("for $\\sin{\\left(b \\right)}$")
+    law = audit.steering()
+    for factor in (_ALPHA, symbolic.h, symbolic.k_alpha, symbolic.v_max, sp.sin(_ALPHA)):
+        for term in sp.expand(law).args:
+            less = law - term + term / factor
+            assert slip(less, law) or not term.has(factor), (factor, term)
     assert slip(-a - b * c, a + b * c) is None
     assert slip(-a + b * a, a + c * b) is None
 

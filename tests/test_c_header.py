@@ -264,8 +264,8 @@ def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
 # The example's own precautions: a scripted receiver, and the example without each check.
 
 BOARD = """#include <stdlib.h>
-static uint32_t turn = 0, late = 0;
-static uint32_t clock_ms(void) {{ return turn * PERIOD_MS + late; }}
+static uint32_t turn = 0, late = 0, held = 0;
+static uint32_t clock_ms(void) {{ return turn * PERIOD_MS + late + held; }}
 static void wait_for_timer(void) {{ late = 0; if (++turn == 60) exit(0); }}
 static void feed_watchdog(void) {{ printf("fed %d\\n", (int)turn); }}
 static int read_fix(robot_fix *fix) {{
@@ -281,9 +281,11 @@ static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds
 }}
 """
 UNCHECKED = "gains);", "gains), twist.v = 1, twist.status = WMR_OK;"
+PATIENT = "clock_ms() - seen < PATIENCE_MS", "(seen || 1)"
 CHECKS = {  # what the receiver does, what is to happen in which turns, a check, and none
-    "starts silent": ("return 0;", "drives", [], "silent = patience;", "silent = 0;"),
-    "falls silent": ("if (turn >= 20) return 0;", "drives", range(29), "++silent;", ";"),
+    "starts silent": ("return 0;", "drives", [], "has_fix = 0;", "has_fix = 1;"),
+    "falls silent": (*("if (turn >= 20) return 0;", "drives", range(29)), *PATIENT),
+    "long turns": ("if (turn >= 20) { held += 1000; return 0; }", "drives", range(20), *PATIENT),
     "no fix": ("if (turn >= 20) seen.quality = 0;", "drives", range(29), "fix.quality >= 1 &&", ""),
     "a guess": (
         "if (turn >= 20) seen.quality = 6;",
@@ -292,13 +294,18 @@ CHECKS = {  # what the receiver does, what is to happen in which turns, a check,
         "fix.quality <= 5 &&",
         "",
     ),
-    "old": ("if (turn >= 20) seen.age = 301;", "drives", range(29), "fix.age <= OLDEST_MS &&", ""),
+    "old": ("if (turn >= 20) seen.age = 301;", "drives", range(29), " && fix.age <= OLDEST_MS", ""),
     "frozen": (
-        "if (turn >= 20) seen.time = 1950;",
-        "drives",
-        range(29),
-        "fix.time != last_time",
-        "fix.time + last_time != 7",
+        *("if (turn >= 20) seen.time = 1950;", "drives", range(29)),
+        *("(int32_t)(time - last_time) > 0", "(int32_t)(time - last_time) >= 0"),
+    ),
+    "old times again": (
+        *("if (turn >= 20) seen.time = 1900 + 50 * (turn % 2);", "drives", range(29)),
+        *("(int32_t)(time - last_time) > 0", "time != last_time"),
+    ),
+    "backwards": (
+        *("if (turn >= 20) seen.time = 2900 - 50 * turn;", "drives", range(29)),
+        *("(int32_t)(time - last_time) > 0", "time != last_time"),
     ),
     "x NaN": ("if (turn >= 20) seen.pose.x = (WMR_REAL)NAN;", "drives", range(20), *UNCHECKED),
     "no heading": (
@@ -310,7 +317,7 @@ CHECKS = {  # what the receiver does, what is to happen in which turns, a check,
     "late turns": ("", "fed", range(20), "if (clock_ms() - begin <= PERIOD_MS) ", "(void)begin, "),
     "back again": (
         *("if (turn >= 20 && turn < 40) return 0;", "drives", [*range(29), *range(40, 60)]),
-        *("last_time = fix.time, silent = 0", "last_time = fix.time"),
+        *("seen = clock_ms() - fix.age, ", ""),
     ),
 }
 

@@ -144,7 +144,8 @@ def _inequality_row() -> Row:
 def law_rows() -> list[Row]:
     """(24) to (26)."""
     law = law_row()
-    return [law, _substitution_row(law.verdict), _last_row()]
+    substituted = _substitution_row(law.verdict)
+    return [law, substituted, _last_row(substituted.verdict)]
 
 
 def law_row() -> Row:
@@ -183,15 +184,14 @@ def _substitution_row(law: Verdict) -> Row:
     return finding(25, Verdict.WRONG, text, why)
 
 
-def _last_row() -> Row:
+def _last_row(before: Verdict) -> Row:
     last = _last()
     if equivalent(last, CLOSED):
         left = "What the derived law leaves of (25)."
         return finding(26, Verdict.HOLDS, left, "the difference is 0")
     text = f"The derived law leaves ${latex(CLOSED)}$.{_not_below(last)}"
     if equivalent(last, printed(25)):
-        why = "it follows from (25), and so repeats the typo of (24)"
-        return finding(26, Verdict.TYPO, text, why)
+        return finding(26, before, text, f"it follows from (25), and repeats {_SLIPS[before]}")
     why = "the difference from (25) is not 0, with (24) as printed and with the derived law"
     return finding(26, Verdict.WRONG, text, why)
 

@@ -40,17 +40,20 @@ def judge(right: sp.Basic, derived: sp.Basic, wanted_by: Mapping[str, bool]) -> 
         return Verdict.WRONG, "the difference is not 0, and nothing printed needs the derived form"
     slip = one_slip(sp.ImmutableMatrix([right]), sp.ImmutableMatrix([derived]))
     if slip is None:
-        return Verdict.WRONG, "the difference is not 0, and more than one slip"
+        return Verdict.WRONG, "the difference is not 0, and no single slip explains it"
     listed = " and ".join(filter(None, (", ".join(needed[:-1]), needed[-1])))
     return Verdict.TYPO, f"one slip, {slip}; the derived form is needed by {listed}"
 
 
-def mended(expression: sp.Expr, alphabet: set[sp.Symbol]) -> Iterator[tuple[str, sp.Expr]]:
+def mended(expression: sp.Expr, meant: sp.Expr) -> Iterator[tuple[str, sp.Expr]]:
     """Every expression that is one slip away, each with the slip's name.
 
-    A slip is a wrong sign, a term or factor too many, factors that are printed twice, or a symbol
-    that stands for another of the alphabet or for 1, once or throughout.
+    A slip is a wrong sign, a term or factor too many, factors that are printed twice, a factor that
+    is missing, a sine for a cosine, or a symbol that stands for another or for 1, once or
+    throughout.
     """
+    alphabet = expression.free_symbols | meant.free_symbols
+    factors = sorted(alphabet | meant.atoms(sp.sin, sp.cos), key=str)
     for symbol in sorted(expression.free_symbols, key=str):
         yield f"${latex(symbol)}$ too many", expression.subs(symbol, 1)
         for other in sorted(alphabet - {symbol}, key=str):
@@ -66,12 +69,16 @@ def mended(expression: sp.Expr, alphabet: set[sp.Symbol]) -> Iterator[tuple[str,
         twice = sp.Mul(*(base for base, power in powers.items() if power.is_Integer and power > 1))
         if twice != 1:
             yield f"${latex(twice)}$ printed twice", put(part / twice)
+        yield from ((f"${latex(each)}$ missing", put(part * each)) for each in factors)
+        if isinstance(part, (sp.sin, sp.cos)):
+            other = (sp.cos if isinstance(part, sp.sin) else sp.sin)(*part.args)
+            yield _stands_for(part, other), put(other)
         if part.is_Symbol:
             for other in sorted(alphabet - {part}, key=str):
                 yield _stands_for(part, other), put(other)
 
 
-def _stands_for(printed: sp.Symbol, meant: sp.Symbol) -> str:
+def _stands_for(printed: sp.Expr, meant: sp.Expr) -> str:
     return f"${latex(printed)}$ for ${latex(meant)}$"
 
 
@@ -93,9 +100,9 @@ def one_slip(right: sp.ImmutableMatrix, derived: sp.ImmutableMatrix) -> str | No
     if len(wrong) != 1:
         return None
     ((given, meant),) = wrong
-    alphabet = given.free_symbols | meant.free_symbols
-    names, forms = zip(*mended(given, alphabet), strict=True)
-    near = zip(names, forms, _agree(meant, forms, sorted(alphabet, key=str)), strict=True)
+    names, forms = zip(*mended(given, meant), strict=True)
+    alphabet = sorted(given.free_symbols | meant.free_symbols, key=str)
+    near = zip(names, forms, _agree(meant, forms, alphabet), strict=True)
     return next((name for name, form, so in near if so and equivalent(form, meant)), None)
 
 

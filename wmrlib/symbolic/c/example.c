@@ -7,12 +7,13 @@
 #include "wmr_law.h"
 
 #define PERIOD_MS 50u
-#define OLDEST_MS 300u
+#define OLDEST_MS 300u   /* a fix that is older is not used */
+#define PATIENCE_MS 500u /* since the last usable fix, then stop */
 
 typedef struct {
   wmr_pose pose;      /* from receiver and compass */
-  uint32_t time, age; /* ms: the receiver's time of the fix, and how long ago that was */
-  int quality;        /* NMEA's: 0 none, 1 GPS, 2 differential, 4 and 5 RTK, others no fix */
+  uint32_t time, age; /* ms: of the fix, counted on over midnight, and how long ago that was */
+  int quality;        /* NMEA's: 1 to 5 are GPS, differential, PPS and RTK, others no fix */
 } robot_fix;
 
 #ifdef HARDWARE
@@ -43,18 +44,22 @@ static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds
 }
 #endif
 
-/* a frozen receiver repeats the time of its last fix; numbers that are NaN stop wmr_law */
-static int is_usable(robot_fix fix, uint32_t last_time) {
-  return fix.quality >= 1 && fix.quality <= 5 && fix.age <= OLDEST_MS && fix.time != last_time;
+/* numbers that are NaN stop wmr_law */
+static int is_usable(robot_fix fix) {
+  return fix.quality >= 1 && fix.quality <= 5 && fix.age <= OLDEST_MS;
+}
+
+/* a frozen receiver repeats the time of its last fix, a confused one goes back */
+static int is_later(uint32_t time, uint32_t last_time) {
+  return (int32_t)(time - last_time) > 0;
 }
 
 int main(void) {
   const wmr_gains gains = {WMR_C(0.2), WMR_C(2.0), WMR_C(2.0), WMR_C(4.0)};
   const WMR_REAL track_width = WMR_C(0.5), max_speed = WMR_C(2.0);
   const WMR_REAL arrived = WMR_C(0.05), period = WMR_C(0.001) * PERIOD_MS;
-  const int patience = 10;      /* periods without a usable fix, then stop */
-  int count, silent = patience; /* so the wheels wait for the first one */
-  uint32_t last_time = UINT32_MAX;
+  int count, has_fix = 0; /* so the wheels wait for the first one */
+  uint32_t last_time = 0, seen = 0;
   robot_fix fix;
   wmr_pose goal = {0, 0, WMR_C(-1.0471975511965976)}, pose = {0, 0, 0};
   const wmr_wheels stopped = {0, 0, WMR_STOP};
@@ -64,12 +69,10 @@ int main(void) {
   for (count = 0; count < 2000; ++count) { /* each turn one period of the timer */
     const uint32_t begin = clock_ms();
     wmr_twist twist = {0, 0, WMR_STOP};
-    if (read_fix(&fix) && is_usable(fix, last_time)) {
-      pose = fix.pose, last_time = fix.time, silent = 0;
-    } else if (silent < patience) {
-      ++silent;
+    if (read_fix(&fix) && is_usable(fix) && (!has_fix || is_later(fix.time, last_time))) {
+      pose = fix.pose, last_time = fix.time, seen = clock_ms() - fix.age, has_fix = 1;
     }
-    if (silent < patience) {
+    if (has_fix && clock_ms() - seen < PATIENCE_MS) {
       const wmr_polar error = wmr_polar_error(pose, goal);
       if (error.rho <= arrived) break;
       twist = wmr_law(error, gains);
