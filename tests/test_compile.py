@@ -147,7 +147,7 @@ def compiled_again():
 
 
 HEX = st.text("0123456789abcdef", min_size=16, max_size=16)
-OURS = st.builds("{}-{}".format, st.sampled_from(["drive", "law_1"]), HEX) | HEX.map(lambda h: h + h)
+OURS = HEX.map("drive-{}".format) | HEX.map("law_1-{}".format) | HEX.map("{0}{0}".format)
 FOLDERS = HEX.map("compiled-{}".format)
 ANY = st.sampled_from(["thesis", "compiled-thesis", "compiled-" + 17 * "0", "compiled-" + 15 * "f"])
 

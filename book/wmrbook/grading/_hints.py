@@ -70,11 +70,44 @@ def rule_out(value: Any, mistakes: dict[str, Any], equal: Callable[..., bool] = 
 
 
 def explain(
-    value: Any, mistakes: dict[str, Any], otherwise: str, equal: Callable[..., bool] = close
+    value: Any,
+    mistakes: dict[str, Any],
+    otherwise: str,
+    equal: Callable[..., bool] = close,
+    right: Any = None,
 ) -> NoReturn:
-    """As `rule_out`, for a wrong value: if no usual mistake gives it, the hint is `otherwise`."""
+    """As `rule_out`, for a wrong value: if no usual mistake gives it, the hint is `otherwise`.
+
+    With the `right` value, a mere `slip` is told before that.
+    """
     rule_out(value, mistakes, equal)
+    if right is not None:
+        slip(value, right)
     raise Hint(otherwise)
+
+
+def slip(value: Any, right: Any, order: str = "", within: float = 1e-3) -> None:
+    """Raise Hint if only the last digits or the order of numbers is wrong: no formula is to blame.
+
+    `order` names the numbers as they are asked for; of digits, a share `within` may be wrong.
+    """
+    given, wanted = (np.ravel(np.asarray(each, float)) for each in (value, right))
+    if np.allclose(given, wanted, rtol=1e-9, atol=1e-9):
+        return
+    size, off = np.abs(wanted), np.abs(given - wanted)
+    exact = range(2 - math.ceil(math.log10(size.max() or 1.0)), 12)  # two digits at the least
+    hint = "right, but rounded: return all digits, and round only what you print."
+    expect(not any(np.array_equal(given, wanted.round(n)) for n in exact), hint)
+    with np.errstate(over="ignore"):
+        worst = 100.0 * float(np.divide(off, size, where=size > 0.0, out=off.copy()).max())
+    hint = f"right but for {worst:.1g} %: is a number rounded on the way, such as pi?"
+    expect(worst > 100.0 * within, hint)
+    changed = order and _alike(np.sort(given), np.sort(wanted)) and not _alike(given, wanted)
+    expect(not changed, f"the numbers have changed places: {order} is asked for.")
+
+
+def _alike(some: np.ndarray, others: np.ndarray) -> bool:
+    return np.allclose(some, others, rtol=1e-6, atol=0.0)
 
 
 def own_work(function: Callable, *allowed: str) -> None:

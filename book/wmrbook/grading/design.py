@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._asking import ask, ask_array, ask_numbers
-from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, slip, spread
 from wmrbook.grading.variants import Drive, checked, tuned
 from wmrlib import paper
 from wmrlib.control import control_law
@@ -141,6 +141,7 @@ def _explain_matrix(value: np.ndarray, rho: float, gains: Gains) -> None:
         "the state is (alpha, theta), in this order.": right[::-1, ::-1],
     }
     rule_out(value, mistakes, np.allclose)
+    slip(value, right, "row 1 for alpha, row 2 for theta; column 1 for alpha, column 2 for theta")
 
     def near(one: float, other: float) -> bool:
         return close(one, other, 1e-5)
@@ -197,6 +198,8 @@ def _explain_gains(values: tuple, poles: tuple, v_max: float) -> None:
         "k_rho is the rate itself; (7.1) has one more factor.": -distance,
     }
     rule_out(k_rho, mistakes)
+    right = minus * -1.0, -total, product / distance**2
+    slip(values, right, "(k_rho, k_alpha, h)")
     hint = "k_rho does not put the distance's pole where it is asked for: see (7.1)."
     expect(close(k_rho, -distance / v_max), hint)
     multiply = "multiply (s - p_1)(s - p_2) out, and compare"

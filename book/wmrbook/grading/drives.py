@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._asking import ask, ask_numbers, floats
-from wmrbook.grading._hints import Hint, drawn, expect, explain, own_work, rule_out, same_pose
+from wmrbook.grading._hints import Hint, drawn, expect, explain, own_work, rule_out, same_pose, slip
 from wmrlib.control import control_law
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, advance, polar_error, wrap_angle
@@ -104,6 +104,7 @@ def axes_known(with_x_north: Axes) -> str:
             continue
         hint = "x and y are as they were; which of the two is metres north on the new map?"
         expect(math.dist(value[:2], pose[:2]) > 1e-9, hint)
+        slip(value, right, "(x, y, heading)")
         hint = "the place is wrong: one number is metres north, the other metres east, "
         expect(math.dist(value[:2], right[:2]) < 1e-9, hint + "and the new x is north.")
         mistakes = {
@@ -191,6 +192,7 @@ def _path(
     expect(x.ndim == 1 and x.shape == y.shape == heading.shape and len(x) > 0, three)
     path = np.column_stack([x, y, heading])
     expect(bool(np.isfinite(path).all()), "the run has numbers in it that are not finite.")
+    slip(path[0], start, "(x, y, heading)")
     expect(same_pose(path[0], start), "the first pose has to be the start.")
     return path
 
