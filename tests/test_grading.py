@@ -131,6 +131,67 @@ def test_no_formula_is_blamed_for_a_slip(chapter):
     assert found == {}
 
 
+# Ways to write a right answer: every number, whatever holds several, every expression.
+NUMBERS = ["Fraction(it)", "Decimal(it)", "np.float64(it)", "mpmath.mpf(it)", "sp.Float(it, 30)"]
+NUMBERS += ["int(it) if it == int(it) else it", "np.array(it)", "sp.Rational(it)"]
+SEVERAL = ["tuple(it)", "list(it)", "np.array(it)", "sp.Matrix(it)", "mpmath.matrix(it)"]
+EXPRESSIONS = [
+    "sp.factor",
+    "sp.expand",
+    "sp.together",
+    "sp.trigsimp",
+    "sp.factor_terms",
+    "sp.powsimp",
+]
+EXPRESSIONS += ["sp.nsimplify", "sp.simplify", "sp.signsimp", "sp.UnevaluatedExpr", "sp.cancel"]
+EXPRESSIONS += [
+    *("lambda it: sp.collect(it, rho)", "lambda it: it.rewrite(sp.exp)"),
+    *("lambda it: sp.Mul(-1, -it, evaluate=False)", "lambda it: sp.Add(it, 0, evaluate=False)"),
+    "lambda it: it.xreplace({each: sp.Symbol(each.name) for each in it.free_symbols})",
+    "lambda it: (lambda parts, ends: ends[0].subs(parts[::-1]))(*sp.cse(it))",
+]
+WRITTEN = """
+from decimal import Decimal
+from fractions import Fraction
+import mpmath, numpy as np, sympy as sp
+from wmrlib.symbolic import rho
+def _several(it, way):
+    named = hasattr(it, "_fields") or isinstance(it, tuple) and hasattr(it[0], "_fields")
+    return it if named or not isinstance(it, (tuple, list, np.ndarray)) else way(it)
+def _each(it, way):
+    it = it.tolist() if isinstance(it, np.ndarray) else it
+    if isinstance(it, (tuple, list)):
+        made = [_each(one, way) for one in it]
+        return tuple.__new__(type(it), made) if isinstance(it, tuple) else made
+    return way(it) if isinstance(it, (int, float)) and not isinstance(it, bool) else it
+def _formula(it, way):
+    if isinstance(it, sp.MatrixBase):
+        return it.applyfunc(way)
+    return way(it) if isinstance(it, sp.Expr) else it
+_model = {0}
+"""
+
+
+@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+def test_a_right_answer_may_be_written_in_any_way(chapter):
+    ways = [f"_each(it, lambda it: {way})" for way in NUMBERS]
+    ways += [f"_several(it, lambda it: {way})" for way in SEVERAL]
+    formulas = [f"_formula(it, {way})" for way in EXPRESSIONS]
+    found = {}
+    for task, checks in asked(chapter).items():
+        model, _ = cells(chapter)[task]
+        kind, name = re.match(r"(def )?(\w+)", model).groups()
+        form = f"def {name}(*given):\n    it = _model(*given)\n    return " if kind else ""
+        form = form or f"it = _model\n{name} = "
+        for way in ways if kind else ways + formulas:
+            answer = model + "\n" + WRITTEN.format(name) + form + way
+            for check in checks[:1] if kind else checks:
+                hints = lost(chapter, check, answer)
+                if hints and "right, but the sign can't be read off" not in hints[check]:
+                    found[task, way] = hints
+    assert found == {}
+
+
 NONSENSE = [
     *(None, ..., 1.5, math.nan, math.inf, 1e308, 1e-308, 10**400, 1j, np.complex128(1 + 2j)),
     *("1.5", True, np.array(True), dict, sp.Symbol("x"), {1.0}, {1.0, 2.0}, {1.0: 1.0, 2.0: 2.0}),

@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 
 from wmrbook.conventions import gains_near_goal
-from wmrbook.grading._asking import ask_numbers, expect_value
+from wmrbook.grading._asking import ask_numbers, expect_value, ordered
 from wmrbook.grading._expressions import expression
 from wmrbook.grading._hints import (
     angle_equal,
@@ -207,14 +207,11 @@ def _pairs(count: int) -> list[tuple[Pose, Pose]]:
 
 def _rows(model: Any) -> list[list[sp.Expr]]:
     expect_value("`tail_model`", model)
-    hint = "`tail_model` has to be a matrix: `sp.Matrix([[..., ...], [..., ...], [..., ...]])`."
-    expect(isinstance(model, sp.MatrixBase), hint)
-    hint = f"`tail_model` has the shape {model.shape}; "
-    hint += "three rows (rho', angle', beta') by two columns (v, omega) are needed."
-    expect(model.shape == (3, 2), hint)
-    return [
-        [expression("tail_model", entry, (rho, angle)) for entry in model.row(k)] for k in range(3)
-    ]
+    rows = model.tolist() if hasattr(model, "tolist") else model
+    hint = "`tail_model` has to be a matrix, `sp.Matrix([[..., ...], [..., ...], [..., ...]])`: "
+    hint += "three rows (rho', angle', beta') by two columns (v, omega)."
+    expect(ordered(rows, 3) and all(ordered(row, 2) for row in rows), hint)
+    return [[expression("tail_model", entry, (rho, angle)) for entry in row] for row in rows]
 
 
 def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:

@@ -185,7 +185,7 @@ def _path(
     answer = ask(drive, start, goal, law, dt, duration)
     three = "`drive` has to return x, y and heading, as three lists or arrays of the same length."
     try:
-        x, y, heading = map(floats, answer)
+        x, y, heading = map(floats, answer.tolist() if hasattr(answer, "tolist") else answer)
     except (TypeError, ValueError):
         raise Hint(three) from None
     expect(not any(each is None for each in (x, y, heading)), three)
