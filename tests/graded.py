@@ -11,6 +11,7 @@ from functools import cache, wraps
 from pathlib import Path
 from typing import Any
 
+import nbformat
 import numpy as np
 
 from wmrlib import Gains
@@ -37,6 +38,12 @@ def cells(chapter: str) -> dict[str, tuple[str, int]]:
             points = settings.get("points", 0) if settings["grade"] else 0
             found[settings["grade_id"]] = "".join(cell["source"]), points
     return found
+
+
+def most(chapter: str) -> float:
+    """The points of the whole assignment, those that an assistant gives among them."""
+    every = nbformat.read(notebook(chapter), as_version=4).cells
+    return sum(cell.metadata.nbgrader.get("points", 0) for cell in every)
 
 
 @cache
