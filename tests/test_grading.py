@@ -223,6 +223,20 @@ def test_nonsense_is_answered_by_a_hint(module):
                 assert len(str(found.value)) < 400
 
 
+@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+def test_a_check_hands_over_nothing_but_what_another_process_can_be_sent(chapter):
+    """The judge asks; the answer is called where the student's code runs."""
+    for task, checks in asked(chapter).items():
+        model, _ = cells(chapter)[task]
+        if name := re.match(r"def (\w+)", model):
+            sent = "_model(*pickle.loads(pickle.dumps(given)))"
+            model += (
+                f"\nimport pickle\n_model = {name[1]}\ndef {name[1]}(*given):\n    return {sent}"
+            )
+            for check in checks:
+                assert lost(chapter, check, model) == {}
+
+
 def test_every_graded_cell_calls_a_check_of_its_own():
     called = [
         re.fullmatch(r"print\(grading\.(\w+\.\w+)\(\w+(, mine)?\)\)", cells(chapter)[name][0])[1]

@@ -91,23 +91,30 @@ def slip(value: Any, right: Any, order: str = "", within: float = 1e-3) -> None:
 
     `order` names the numbers as they are asked for; of digits, a share `within` may be wrong.
     """
-    given, wanted = (np.ravel(np.asarray(each, float)) for each in (value, right))
-    if np.allclose(given, wanted, rtol=1e-9, atol=1e-9):
+    given, wanted = _flat(value), _flat(right)
+    pairs = [*zip(given, wanted, strict=True)]
+    if all(close(*pair, 1e-9) for pair in pairs):
         return
-    size, off = np.abs(wanted), np.abs(given - wanted)
-    exact = range(2 - math.ceil(math.log10(size.max() or 1.0)), 12)  # two digits at the least
-    hint = "right, but rounded: return all digits, and round only what you print."
-    expect(not any(np.array_equal(given, wanted.round(n)) for n in exact), hint)
-    with np.errstate(over="ignore"):
-        worst = 100.0 * float(np.divide(off, size, where=size > 0.0, out=off.copy()).max())
-    hint = f"right but for {worst:.1g} %: is a number rounded on the way, such as pi?"
-    expect(worst > 100.0 * within, hint)
-    changed = order and _alike(np.sort(given), np.sort(wanted)) and not _alike(given, wanted)
+    exact = range(
+        2 - math.ceil(math.log10(max(map(abs, wanted)) or 1.0)), 12
+    )  # two digits at least
+    rounded = any(
+        all(close(a, round(b, n), 1e-12, 0.0) for a, b in pairs) for n in range(first, 12)
+    )
+    expect(not rounded, "right, but rounded: return all digits, and round only what you print.")
+    worst = max(abs(a - b) / (abs(b) or 1.0) for a, b in pairs)
+    hint = f"right but for {100.0 * worst:.1g} %: is a number rounded on the way, such as pi?"
+    expect(worst > within, hint)
+    alike = not all(map(close, given, wanted)) and all(map(close, sorted(given), sorted(wanted)))
+    changed = order and alike
     expect(not changed, f"the numbers have changed places: {order} is asked for.")
 
 
-def _alike(some: np.ndarray, others: np.ndarray) -> bool:
-    return np.allclose(some, others, rtol=1e-6, atol=0.0)
+def _flat(values: Any) -> list[float]:
+    """The numbers of a nest of them; without numpy, which the book's pages lack."""
+    if hasattr(values, "__iter__"):
+        return [number for each in values for number in _flat(each)]
+    return [float(values)]
 
 
 def own_work(function: Callable, *allowed: str) -> None:

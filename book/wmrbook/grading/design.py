@@ -8,13 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._asking import ask, ask_array, numbers
+from wmrbook.grading._asking import ask, ask_array, ask_numbers, numbers
 from wmrbook.grading._hints import (
     close,
     drawn,
     expect,
     explain,
-    name_of,
     own_work,
     rule_out,
     slip,
@@ -194,12 +193,13 @@ def _poles(k_rho: float, k_alpha: float, h: float, v_max: float) -> np.ndarray:
 def _three_gains(gains_from_poles: Callable, *given: complex) -> tuple[float, ...]:
     """The answer's (k_rho, k_alpha, h), whether alone or as a whole `Gains`."""
     answer = ask(gains_from_poles, *given)
-    answer = answer[:3] if isinstance(answer, Gains) else answer
+    if isinstance(answer, Gains):
+        return numbers("the gains", answer[:3], 3, returned=True)
     several = isinstance(answer, (tuple, list))
     hint = "a gain is complex. The sum and the product of a conjugate pair are real: "
     hint += "take their `.real`."
     expect(not (several and any(isinstance(each, complex) for each in answer)), hint)
-    return numbers(f"`{name_of(gains_from_poles)}`", answer, 3, returned=True)
+    return ask_numbers(gains_from_poles, 3, *given)
 
 
 def _sorted(poles: tuple) -> np.ndarray:
