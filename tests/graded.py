@@ -109,11 +109,12 @@ def released(source: str) -> str:
 def given(chapter: str, student: str = "Ada") -> dict:
     """The names that the notebook's other cells make for a student, with the model's answers.
 
+    What an assistant alone looks at is left out.
     `scaled` makes gains of the paper's robot those of the student's.
     """
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
-        if not points:
+        if not points and (name == "name" or tasks(chapter).get(name) != []):
             _run(
                 source.replace('name = "model"', f"name = {student!r}"),
                 f"<{chapter} {name}>",

@@ -95,11 +95,10 @@ def slip(value: Any, right: Any, order: str = "", within: float = 1e-3) -> None:
     pairs = [*zip(given, wanted, strict=True)]
     if all(close(*pair, 1e-9) for pair in pairs):
         return
-    exact = range(
-        2 - math.ceil(math.log10(max(map(abs, wanted)) or 1.0)), 12
-    )  # two digits at least
+    first = 2 - math.ceil(math.log10(max(map(abs, wanted)) or 1.0))  # two digits at the least
     rounded = any(
-        all(close(a, round(b, n), 1e-12, 0.0) for a, b in pairs) for n in range(first, 12)
+        all(close(one, round(other, n), 1e-12, 0.0) for one, other in pairs)
+        for n in range(first, 12)
     )
     expect(not rounded, "right, but rounded: return all digits, and round only what you print.")
     worst = max(abs(a - b) / (abs(b) or 1.0) for a, b in pairs)
