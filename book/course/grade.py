@@ -17,11 +17,12 @@ from pathlib import Path
 from typing import Any, NamedTuple
 from unicodedata import normalize
 
-import handins
 import marks
+from cage import holds
 from gradebook import COURSE, Course, lost, options
 from handins import Refused
-from sandbox import Limits, Sandbox, hides, stops
+from kernel import Limits
+from sandbox import Sandbox, stops
 from tqdm import tqdm
 
 SECRETS = COURSE, COURSE.parents[1] / "tests", COURSE.parents[1] / ".git"
@@ -57,9 +58,9 @@ def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Ro
             assignment, student, place = hand_in
             if assignment in unfit:
                 raise Refused(unfit[assignment])
-            path, odd = handins.find(place, course.sources[assignment].name)
-            notebook, how = handins.repaired(handins.read(path), releases[assignment])
-            return sandbox.run(notebook, student, names), odd + how
+            name = course.sources[assignment].name
+            notebook, how = sandbox.repaired(place, name, releases[assignment])
+            return sandbox.run(notebook, student, names), how
 
         bar = tqdm(total=len(releases) + len(todo), unit="run", disable=None)
         with bar, ThreadPoolExecutor(jobs) as pool:
@@ -147,7 +148,7 @@ if __name__ == "__main__":
     for name in "jobs", "seconds", "memory":
         if not getattr(given, name) > 0:
             parser.error(f"--{name} {getattr(given, name)} is not allowed: more than 0 is needed")
-    if not hides():
+    if not holds():
         print("Hand-ins can read what you can read here: the lecturer's guide says more.")
     if not (COURSE.parent / "node_modules" / "mathjax").exists():
         print("Feedback shows formulas as TeX: book/tools/build.py fetches what draws them.")
