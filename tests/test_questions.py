@@ -15,6 +15,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from wmrbook import questions
+from wmrbook.figures import scenes
 from wmrbook.lines import Line, read, read_all, written
 from wmrbook.questions import Option, Refusal
 from wmrbook.questions.__main__ import main
@@ -239,8 +240,17 @@ def test_students_do_not_get_what_computes_the_keys():
 def test_the_deck_has_a_slide_a_question_and_one_for_its_answer():
     cells = slides.prepared(slides.questions()).cells
     heads = [cell.source for cell in cells if cell.source.startswith("#")]
-    assert len(heads) == 1 + 2 * 25
-    assert [head[:8] for head in heads[2:5:2]] == [f"## {k}. {KEYS[k - 1]}:"[:8] for k in (1, 2)]
+    assert len(heads) == 3 + 2 * 25
+    answers = [f"## {number}. {it.key}:" for number, it in enumerate(QUESTIONS, start=1)]
+    assert [head.rpartition(":")[0] + ":" for head in heads[4::2]] == answers
+
+
+def test_a_picture_has_no_number_that_its_question_has_not():
+    asked = {it.id: it.ask for it in QUESTIONS}
+    assert asked.keys() >= scenes.QUESTIONS
+    for name in scenes.QUESTIONS:
+        told = re.findall(r"\d+(?:\.\d+)?", scenes.scene_of(name).alt)
+        assert set(told) <= set(re.findall(r"\d+(?:\.\d+)?", asked[name])), name
 
 
 def a_class(rng, known, planted, guess=0.2, students=30, count=COUNT):

@@ -172,7 +172,7 @@ def nearer() -> tuple[str, list[Option], str]:
     }
     near = [name for name in left if abs(left[name] / left["none"] - 0.5) < 0.05]
     ask = (
-        f"A robot follows a goal round a circle at {wmr.paper.CIRCLE_SPEED:.2f} m/s and stays "
+        f"A robot follows a goal round a circle at {wmr.paper.CIRCLE_SPEED:.2f} m/s, "
         f"{100.0 * left['none']:.0f} cm behind. The further off its goal, the faster it drives. "
         "Which change halves the distance?"
     )
@@ -185,7 +185,7 @@ def nearer() -> tuple[str, list[Option], str]:
         ),
         "v_max": ("half the top speed", "a calmer robot taken for a closer one"),
         "all": (
-            "twice the steering, four times that weight",
+            "twice the steering, that weight fourfold",
             "stiffer steering taken to catch up",
         ),
     }
