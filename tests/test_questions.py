@@ -251,8 +251,8 @@ def test_the_deck_has_a_slide_a_question_and_one_for_its_answer():
 
 def test_a_picture_has_no_number_that_its_question_has_not():
     asked = {it.id: it.ask for it in QUESTIONS}
-    assert asked.keys() >= scenes.QUESTIONS
-    for name in scenes.QUESTIONS:
+    assert asked.keys() >= scenes.SCENES.keys()
+    for name in scenes.SCENES:
         told = re.findall(r"\d+(?:\.\d+)?", scenes.scene_of(name).alt)
         assert set(told) <= set(re.findall(r"\d+(?:\.\d+)?", asked[name])), name
 

@@ -16,7 +16,7 @@ _East = wmr.Pose(0.0, 0.0, 0.0)
     0,
     "It has arrived. Has it parked?",
     "Where does it face its goal's heading best?",
-    untested="it passes zero there by luck, which nobody can predict",
+    "it passes zero there by luck, which nobody can predict",
 )
 def arrived_parked() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()

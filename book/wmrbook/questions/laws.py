@@ -64,12 +64,7 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
     return ask, cases(found, options), why
 
 
-@question(
-    5,
-    "A tenth of a second",
-    "Sampled ten times a second",
-    untested="a limit of these very gains, which nobody can know beforehand",
-)
+@question(5, "A tenth of a second", "Sampled ten times a second", "a limit of these gains alone")
 def tenth_of_a_second() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
 
@@ -196,12 +191,7 @@ def nearer() -> tuple[str, list[Option], str]:
     return ask, cases(near[0] if len(near) == 1 else None, options), why
 
 
-@question(
-    7,
-    "The loop near the goal",
-    "One gain against the swing",
-    untested="its formula and its words are what the course teaches",
-)
+@question(7, "The loop near the goal", "One gain against the swing", "a formula of the course")
 def damping() -> tuple[str, list[Option], str]:
     gains = wmr.paper.OUTDOOR_GAINS
     changes = {
