@@ -3,6 +3,8 @@
 from pathlib import Path
 
 import nbgrader
+from nbgrader.converters import GenerateFeedback
+from nbgrader.preprocessors import ClearMarkScheme
 
 import wmrbook
 
@@ -11,6 +13,10 @@ c = get_config()  # noqa: F821  (nbgrader provides it)
 c.CourseDirectory.course_id = "wmr"
 # What students get in the place of an answer; an untouched cell fails by it.
 c.ClearSolutions.code_stub = {"python": 'raise NotImplementedError("write your answer here")'}
+# What an assistant marks by stands in the locked cell before an explanation. Students get that cell
+# without it; the formgrader shows it whole, as it restores locked cells.
+c.ClearMarkScheme.enforce_metadata = False  # such a cell needs no points of its own
+c.GenerateFeedback.preprocessors = [ClearMarkScheme, *GenerateFeedback.preprocessors.default()]
 c.ExecutePreprocessor.timeout = 120  # s for a cell: an endless loop ends
 
 

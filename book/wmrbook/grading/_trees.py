@@ -18,7 +18,6 @@ _HEADS |= {name: getattr(sp, name) for name in FUNCTIONS if hasattr(sp, name)}
 _UNEVALUATED = {each.__name__: each for each in (ExprCondPair, sp.Tuple, sp.Derivative)}
 _CONSTANTS = (sp.pi, sp.E, sp.I, sp.oo, -sp.oo, sp.zoo, sp.nan, sp.true, sp.false, sp.EulerGamma)
 _CONSTANTS_BY_NAME = {type(each).__name__: each for each in _CONSTANTS}
-_OURS = [each for each in vars(symbolic).values() if isinstance(each, sp.Symbol)]
 
 
 def tree(value: sp.Basic) -> list:
@@ -31,7 +30,7 @@ def tree(value: sp.Basic) -> list:
 def _tree(value: sp.Basic) -> list:
     name = type(value).__name__
     if isinstance(value, sp.Symbol):
-        return ["symbol", value.name, isinstance(value, sp.Dummy), value.assumptions0]
+        return ["symbol", value.name]  # `expression` knows what a name stands for
     if isinstance(value, sp.Rational):
         return ["rational", str(value.p), str(value.q)]
     if isinstance(value, sp.Float):
@@ -49,7 +48,7 @@ def grown(data: Any) -> sp.Basic:
     if head == "too long":
         return sp.Add(*sp.symbols(f"x:{MOST_PARTS}"), evaluate=False)
     if head == "symbol":
-        return _symbol(*arguments)
+        return sp.Symbol(str(*arguments))
     if head == "rational":
         return sp.Rational(*(int(each[:1000]) for each in arguments))
     if head == "float":
@@ -63,14 +62,6 @@ def grown(data: Any) -> sp.Basic:
     if head in _UNEVALUATED:
         return sp.Basic.__new__(_UNEVALUATED[head], *parts)
     return _HEADS[head](*parts, evaluate=False) if head in _HEADS else _foreign(head)(*parts)
-
-
-def _symbol(name: str, dummy: bool, assumptions: dict) -> sp.Symbol:
-    for each in _OURS:
-        if each.name == name and each.assumptions0 == assumptions and not dummy:
-            return each
-    known = {key: value for key, value in assumptions.items() if isinstance(value, bool)}
-    return (sp.Dummy if dummy else sp.Symbol)(str(name), **known)
 
 
 def _foreign(head: str) -> type:

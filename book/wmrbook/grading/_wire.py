@@ -133,6 +133,8 @@ class Line:
             return {order: [self._plain(each) for each in value]}
         if callable(getattr(value, "tolist", None)):  # an array, a matrix of sympy or mpmath
             array = value if isinstance(value, np.ndarray) else np.array(value.tolist(), object)
+            if array is not value and 1 in array.shape:
+                array = array.ravel()  # a column, as `floats` takes it
             kept = array.dtype.str if array.dtype.kind in "biufc" else "O"
             return {"array": [kept, [*array.shape], [self._plain(it) for it in array.ravel()]]}
         if hasattr(value, "free_symbols"):
