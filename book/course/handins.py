@@ -14,7 +14,7 @@ from IPython.core.inputtransformer2 import TransformerManager
 from nbformat import NotebookNode
 from nbformat.warnings import DuplicateCellId, MissingIDFieldWarning
 
-MOST_BYTES = 10_000_000  # a release has 20 kB; a hundred figures fit, what nests deep stays readable
+MOST_BYTES = 10_000_000  # a release has 20 kB; a hundred figures fit, and nesting stays readable
 MOST_CODE = 100_000  # letters of a cell that may be a program
 MOST_MAGIC = 50  # lines of IPython's own in it: it tokenises the whole cell once for each
 MAGIC = re.compile(r"^[ \t]*[%!?,;/]|=[ \t]*[%!]|\?[ \t]*$", re.MULTILINE)
