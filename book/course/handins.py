@@ -2,22 +2,16 @@
 
 from __future__ import annotations
 
-import re
-import symtable
 import warnings
 from collections import defaultdict
-from functools import lru_cache
 from pathlib import Path
 
 import nbformat
-from IPython.core.inputtransformer2 import TransformerManager
+from cells import compiles, defined, grade_id, nbgrader
 from nbformat import NotebookNode
 from nbformat.warnings import DuplicateCellId, MissingIDFieldWarning
 
 MOST_BYTES = 10_000_000  # a release has 20 kB; a hundred figures fit, and nesting stays readable
-MOST_CODE = 100_000  # letters of a cell that may be a program
-MOST_MAGIC = 50  # lines of IPython's own in it: it tokenises the whole cell once for each
-MAGIC = re.compile(r"^[ \t]*[%!?,;/]|=[ \t]*[%!]|\?[ \t]*$", re.MULTILINE)
 for harmless in DuplicateCellId, MissingIDFieldWarning:  # a copied cell, an older notebook
     warnings.simplefilter("ignore", harmless)
 
@@ -70,16 +64,16 @@ def repaired(handed_in: NotebookNode, release: NotebookNode) -> tuple[NotebookNo
     it is a text, by its place. Cells of the student's own stay where they were, and no stub is put
     back that would undo what they define. Raises Refused if nothing is of this release.
     """
-    ids = [_grade_id(cell) for cell in release.cells]
+    ids = [grade_id(cell) for cell in release.cells]
     asked = dict(zip(ids, release.cells, strict=True))
-    answers = {name: [] for name, cell in asked.items() if _nbgrader(cell).get("solution")}
-    checks = {name for name, cell in asked.items() if _nbgrader(cell).get("grade")} - {*answers}
+    answers = {name: [] for name, cell in asked.items() if nbgrader(cell).get("solution")}
+    checks = {name for name, cell in asked.items() if nbgrader(cell).get("grade")} - {*answers}
     places = list(_places(handed_in.cells, asked, answers, checks))
     own, how, last, done = defaultdict(list), defaultdict(list), None, set()
     due = {name: next((c for c in ids[k:] if c in checks), None) for k, name in enumerate(ids)}
     seen = [name for name, _ in places if name]
     order, after = {name: k for k, name in enumerate(ids)}, _following([n for n, _ in places])
-    foreign = {_grade_id(cell) for cell in handed_in.cells} - {None, *ids}
+    foreign = {grade_id(cell) for cell in handed_in.cells} - {None, *ids}
     if len(foreign) >= len({*answers, *checks} & set(seen)):
         raise Refused("its cells are not of this assignment")
     for (name, by), cell, ahead in zip(places, handed_in.cells, after, strict=True):
@@ -100,18 +94,18 @@ def repaired(handed_in: NotebookNode, release: NotebookNode) -> tuple[NotebookNo
             own[last].append(_own(cell))
         elif name not in checks and _changed(asked[name], cell):
             own[name].append(_own(cell))
-        elif _changed(asked[name], cell) and _defined(rest := _added(asked[name], cell)):
+        elif _changed(asked[name], cell) and defined(rest := _added(asked[name], cell)):
             own[last].append(nbformat.v4.new_code_cell(rest))  # before the check
         last = name or last
     result = nbformat.from_dict(release)
     result.cells = own[None]
     whole = {name: _joined(parts, asked[name]) for name, parts in answers.items()}
-    made = [_defined(source) for name, (source, _) in whole.items() if answers[name]]
-    made += [_defined(c.source) for cells in own.values() for c in cells if c.cell_type == "code"]
+    made = [defined(source) for name, (source, _) in whole.items() if answers[name]]
+    made += [defined(c.source) for cells in own.values() for c in cells if c.cell_type == "code"]
     for name, cell in asked.items():
         cell = nbformat.from_dict(cell)
         if name in answers:
-            stub, (cell.source, said) = _defined(cell.source), whole[name]
+            stub, (cell.source, said) = defined(cell.source), whole[name]
             if said == "is missing:" and stub and stub <= set().union(*made):
                 cell.source, said = "# another cell has it", "is in another cell:"
             if said:
@@ -132,9 +126,9 @@ def _places(cells, asked, answers, checks):
     at = {name: k for k, name in enumerate(asked)}
     by_cell_id = {cell.id: name for name, cell in asked.items()}
     by_text = {cell.source.strip(): name for name, cell in asked.items() if name not in answers}
-    by_name = {each: name for name in answers for each in _defined(asked[name].source)}
+    by_name = {each: name for name in answers for each in defined(asked[name].source)}
     texts = [name for name in answers if asked[name].cell_type == "markdown"]
-    ids = [name if (name := _grade_id(cell)) in asked else None for cell in cells]
+    ids = [name if (name := grade_id(cell)) in asked else None for cell in cells]
     here, known, last = {*ids}, [], None
     for name, cell in zip(ids, cells, strict=True):
         alike = by_text.get(cell.source.strip())
@@ -156,7 +150,7 @@ def _places(cells, asked, answers, checks):
     for name, sure, cell, after in zip(ids, known, cells, _following(runs), strict=True):
         guesses = [] if name else [by_cell_id.get(str(cell.get("id")))]
         if cell.cell_type == "code" and name not in answers:
-            guesses += map(by_name.get, _defined(cell.source))
+            guesses += map(by_name.get, defined(cell.source))
         found = between(guesses, last, sure or after) or sure
         last = found if found and asked[found].cell_type == "code" else last
         yield found, "" if not found else "grade_id" if found == name else "guess"
@@ -191,51 +185,15 @@ def _joined(parts: list[str], given: NotebookNode) -> tuple[str, str]:
     if given.cell_type != "code":
         return "\n\n".join(tried), "its parts joined:"
     whole = "\n".join(tried)
-    if not _compiles(whole):  # of a copy that is broken, the other one counts
-        whole = "\n".join(filter(_compiles, tried)) or tried[-1]
+    if not compiles(whole):  # of a copy that is broken, the other one counts
+        whole = "\n".join(filter(compiles, tried)) or tried[-1]
     return whole, "its parts joined:"
 
 
 def _continues(parts: list[str], cell: NotebookNode) -> bool:
     """Whether a cell is the second half of one that was split: alone it is no program."""
     whole = "\n".join([*parts, cell.source])
-    return cell.cell_type == "code" and not _compiles(cell.source) and _compiles(whole)
-
-
-@lru_cache(maxsize=1000)
-def _program(source: str) -> str | None:
-    """A cell as Python, or None if it is no program."""
-    if len(source) > MOST_CODE or len(MAGIC.findall(source)) > MOST_MAGIC:
-        return None
-    try:
-        code = TransformerManager().transform_cell(source)
-        compile(code, "<cell>", "exec")
-    except (SyntaxError, ValueError, RuntimeError, MemoryError):  # deep nesting is the last two
-        return None
-    return code
-
-
-def _compiles(source: str) -> bool:
-    return _program(source) is not None
-
-
-def _defined(source: str) -> set[str]:
-    """The names that a cell defines; of one that is no program, those that begin a line."""
-    if (code := _program(source)) is None:
-        found = re.findall(r"^(?:def\s+(\w+)\s*\(|(\w+)\s*=[^=])", source, re.MULTILINE)
-        return {function or value for function, value in found}
-    symbols = symtable.symtable(code, "<cell>", "exec").get_symbols()
-    return {each.get_name() for each in symbols if each.is_assigned() or each.is_imported()}
-
-
-def _nbgrader(cell: NotebookNode) -> dict:
-    found = cell.metadata.get("nbgrader")
-    return found if isinstance(found, dict) else {}
-
-
-def _grade_id(cell: NotebookNode) -> str | None:
-    found = _nbgrader(cell).get("grade_id")
-    return found if isinstance(found, str) else None
+    return cell.cell_type == "code" and not compiles(cell.source) and compiles(whole)
 
 
 def _own(cell: NotebookNode) -> NotebookNode:
