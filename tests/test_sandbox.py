@@ -280,6 +280,6 @@ def test_a_notebook_that_is_hard_to_read_is_read_or_refused_in_time(
         release = notebook()
         for cell in release.cells:
             cell.source = released(cell.source)
-        found, _ = runner.repaired(tmp_path, "it.ipynb", release)
+        found, _ = runner.repaired(tmp_path / "it.ipynb", release)
         assert [*passed(found)] == [*passed(notebook())]
     assert time.monotonic() - began < 30 * sandbox.READING

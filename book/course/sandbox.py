@@ -65,15 +65,13 @@ class Sandbox:
     def __exit__(self, *_: object) -> None:
         shutil.rmtree(self.stage, ignore_errors=True)
 
-    def repaired(
-        self, folder: Path, name: str, release: NotebookNode
-    ) -> tuple[NotebookNode, list[str]]:
-        """Find, read and repair a hand-in as handins.py does, within limits; raises Refused."""
+    def repaired(self, path: Path, release: NotebookNode) -> tuple[NotebookNode, list[str]]:
+        """Read and repair a hand-in as handins.py does, within limits; raises Refused."""
         with _folder(self.stage) as job:
             most = READING, self.limits.memory // 4
-            self._apart(_repair, 20 * READING, job, folder, name, release, *most)
+            self._apart(_repair, 20 * READING, job, path, release, *most)
             if not (job / "notebook.json").exists():
-                raise Refused(f"{name} takes too long to read, or too much memory")
+                raise Refused(f"{path.name} takes too long to read, or too much memory")
             done = nbformat.read(job / "notebook.json", as_version=4)
         return done, done.metadata.pop("how")
 
@@ -155,13 +153,10 @@ def _noted(function: Callable, job: Path, *given: Any) -> None:
         (job / "fault").write_text(f"{why}{fault}", encoding="utf-8")
 
 
-def _repair(
-    job: Path, folder: Path, name: str, release: NotebookNode, seconds: int, memory: int
-) -> None:
+def _repair(job: Path, path: Path, release: NotebookNode, seconds: int, memory: int) -> None:
     limit(memory, seconds)
-    path, odd = handins.find(folder, name)
     notebook, how = handins.repaired(handins.read(path), release)
-    notebook.metadata["how"] = odd + how
+    notebook.metadata["how"] = how
     _store(notebook, job / "notebook.json")
 
 

@@ -49,7 +49,7 @@ class Foreign:
 class Line:
     """One end of a line; `names` is what the other end may ask for by name.
 
-    Of the two ends, that of the hand-in trusts the other, and gets whatever a check gives an answer.
+    Of the two, that of the hand-in trusts the other, and gets whatever a check gives an answer.
     """
 
     def __init__(self, link: Connection, names: Mapping[str, Any], trusts: bool = False) -> None:
