@@ -19,6 +19,7 @@ from unicodedata import normalize
 
 import handins
 import marks
+import policy
 from gradebook import COURSE, Course, lost, options
 from handins import Refused
 from sandbox import Limits, Sandbox, hides, stops
@@ -73,12 +74,14 @@ def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Ro
                     ran, how = result
                     points = course.score(assignment, student, ran, place)
                     course.give_back(assignment, student)
-                    said = "; ".join([f"repaired: {', '.join(how)}"] * bool(how) + stops(ran))
+                    repairs = [f"repaired: {', '.join(how)}"] * bool(how)
+                    said = "; ".join(repairs + handins.misnamed(ran, student) + stops(ran))
                 except Exception as error:  # whatever it is, it stops nobody else
                     kind = "" if isinstance(error, Refused) else f"{type(error).__name__}: "
                     points, said = "", f"refused: {kind}{error}"
                 rows.append(Row(assignment, student, points, " ".join(said.split())))
         with course.api.gradebook as book:
+            policy.settle(book, folder)
             marks.write(book, folder)
     return sorted(rows)
 

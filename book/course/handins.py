@@ -6,12 +6,14 @@ import re
 import warnings
 from collections import defaultdict
 from pathlib import Path
+from unicodedata import normalize
 
 import nbformat
 from IPython.core.inputtransformer2 import TransformerManager
 from nbformat import NotebookNode
 from nbformat.warnings import DuplicateCellId, MissingIDFieldWarning
 
+NAME = re.compile(r"""^name *= *["'](.*)["']""", re.MULTILINE)
 MOST_BYTES = 50_000_000
 for harmless in DuplicateCellId, MissingIDFieldWarning:  # a copied cell, an older notebook
     warnings.simplefilter("ignore", harmless)
@@ -103,6 +105,15 @@ def repaired(handed_in: NotebookNode, release: NotebookNode) -> tuple[NotebookNo
             how["copies dropped:"].append(name)
         result.cells += [cell, *map(_own, own[name])]
     return result, [f"{what} {', '.join(dict.fromkeys(names))}" for what, names in how.items()]
+
+
+def misnamed(notebook: NotebookNode, student: str) -> list[str]:
+    """Say so if the name in a notebook, which its numbers are made from, is not the student's."""
+    for cell in notebook.cells:
+        given = NAME.search(cell.source) if _grade_id(cell) == "name" else None
+        if given and normalize("NFC", given[1]).strip().casefold() != student.casefold():
+            return [f'its name is "{given[1]}": points may be lost by it']
+    return []
 
 
 def _places(cells, asked, answers):

@@ -1,5 +1,6 @@
 """The course's settings: run nbgrader in this folder."""
 
+import sys
 from pathlib import Path
 
 import nbgrader
@@ -11,6 +12,10 @@ c = get_config()  # noqa: F821  (nbgrader provides it)
 c.CourseDirectory.course_id = "wmr"
 # What students get in the place of an answer; an untouched cell fails by it.
 c.ClearSolutions.code_stub = {"python": 'raise NotImplementedError("write your answer here")'}
+sys.path.append(str(Path(__file__).parent))
+from policy import Late  # noqa: E402  (it reads term.toml)
+
+c.AssignLatePenalties.plugin_class = Late
 c.ExecutePreprocessor.timeout = 120  # s for a cell: an endless loop ends
 
 

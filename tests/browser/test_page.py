@@ -18,6 +18,7 @@ import nbformat
 import pypdfium2
 import pytest
 from faults import PANEL, SIZES, of_page, of_paper, stills
+from graded import closed
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders
 
 pytestmark = [] if os.environ.get("BOOK_HTML") else pytest.mark.needs("npm")
@@ -109,6 +110,19 @@ def test_no_link_of_the_site_is_broken(site):
                 or there not in parts
                 or unquote(url.fragment) in parts[there].anchors
             ), f"{path.name}: {target}"
+
+
+def leaks(folder: Path) -> list[str]:
+    """What is the lecturer's alone, and stands in a file of the folder."""
+    kinds = {".html", ".js", ".ipynb", ".md", ".txt"}
+    paths = [it for it in folder.rglob("*") if it.suffix in kinds and "vendor" not in it.parts]
+    texts = [" ".join(it.read_text(encoding="utf-8").split()) for it in paths]
+    return [each for each in closed() if any(each in text for text in texts)]
+
+
+def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
+    assert not (site / "lecturers.html").exists()
+    assert not leaks(site)
 
 
 def test_every_image_says_what_it_shows_and_has_a_caption(site):
