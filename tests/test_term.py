@@ -1,8 +1,11 @@
-"""A term: dates and rules, what an assistant is told, and three weeks by the guide's commands."""
+"""A term's dates and rules, names in released copies, and answers that are alike."""
 
 import re
 from datetime import UTC, datetime, timedelta
 
+import exchange
+import handins
+import nbformat
 import policy
 import pytest
 import roster
@@ -10,40 +13,7 @@ from alike import alike
 from graded import ROOT
 from hypothesis import given
 from hypothesis import strategies as st
-
-GUIDE = (ROOT / "book" / "lecturers.md").read_text(encoding="utf-8")
-PYTHON = ".venv/bin/python "
-SHELL = re.findall(r"^    (\S.*)$", GUIDE, re.MULTILINE)
-COMMANDS = SHELL + re.findall(rf"`({re.escape(PYTHON)}[^`]+)`", GUIDE)
-ELSEWHERE = {  # commands of the guide that another test runs
-    "build.py --lecturer": "tests/browser/test_page.py",
-    "slides.py --questions": "tests/browser/test_votes.py",
-    "python3 -m venv": "tests/test_hub.py",
-    "chmod -R": "tests/test_hub.py",
-    "jupyterhub --config": "tests/test_hub.py",
-}
-TERM = """zone = "Europe/Berlin"
-[due]
-ch12 = 2026-10-12
-ch01 = 2026-10-19T18:00:00
-ch00 = 2026-10-26
-[late]
-per_day = 0.1
-most_days = 7
-[extensions]
-thursday = 1
-s05 = { ch01 = 2026-10-23 }
-"""
-
-
-def block(kind: str, begins: str) -> str:
-    """The block of the guide that is of this kind and begins so."""
-    (found,) = (
-        text
-        for text in re.findall(rf"^```{kind}\n(.*?)^```", GUIDE, re.MULTILINE | re.DOTALL)
-        if text.startswith(begins)
-    )
-    return found
+from test_guide import block
 
 
 @pytest.fixture
@@ -133,8 +103,24 @@ def test_what_only_two_have_in_the_same_program_is_told(edits, shared):
     for student in "s3", "s4":
         for edit in edits:
             answers[student] = answers[student].replace(*edit.split(" => "))
-    answers["s4"] = (
-        answers["s4"].replace('    """How far it is."""\n', "").replace("distance", "far")
-    )
+    own = answers["s4"].replace('    """How far it is."""\n', "")
+    answers["s4"] = own.replace("distance", "far")
     found = list(alike(answers, "The radius is 6371.0088 km. def distance(a, b): east north math"))
     assert found == ([(["s3", "s4"], shared)] if shared else [])
+
+
+def test_a_released_copy_bears_its_students_name_and_another_is_remarked(folder):
+    named = 0
+    for path in (ROOT / "book" / "course" / "source").glob("*/*.ipynb"):
+        released = nbformat.read(path, as_version=4)
+        for cell in released.cells:
+            cell.source = re.sub("### BEGIN.*?### END SOLUTION", "", cell.source, flags=re.DOTALL)
+        own = exchange.named(nbformat.writes(released).encode(), "Zo\u00eb.b-2")
+        pairs = zip(nbformat.reads(own.decode(), as_version=4).cells, released.cells, strict=True)
+        changed = [each for each, before in pairs if each.source != before.source]
+        assert all(cell.source.startswith('name = "Zo\u00eb.b-2"') for cell in changed)
+        named += len(changed)
+        copy = nbformat.reads(own.decode(), as_version=4)
+        assert not handins.misnamed(copy, "Zoe\u0308.b-2")
+        assert len(handins.misnamed(copy, "zoe")) == len(handins.misnamed(released, "x")) <= 1
+    assert named == 5

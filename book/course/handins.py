@@ -111,9 +111,13 @@ def misnamed(notebook: NotebookNode, student: str) -> list[str]:
     """Say so if the name in a notebook, which its numbers are made from, is not the student's."""
     for cell in notebook.cells:
         given = NAME.search(cell.source) if _grade_id(cell) == "name" else None
-        if given and normalize("NFC", given[1]).strip().casefold() != student.casefold():
+        if given and _plain(given[1]) != _plain(student):
             return [f'its name is "{given[1]}": points may be lost by it']
     return []
+
+
+def _plain(name: str) -> str:
+    return normalize("NFC", name).strip().casefold()
 
 
 def _places(cells, asked, answers):
