@@ -19,7 +19,6 @@ from unicodedata import normalize
 
 import handins
 import marks
-import policy
 from gradebook import COURSE, Course, lost, options
 from handins import Refused
 from sandbox import Limits, Sandbox, hides, stops
@@ -81,7 +80,6 @@ def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Ro
                     points, said = "", f"refused: {kind}{error}"
                 rows.append(Row(assignment, student, points, " ".join(said.split())))
         with course.api.gradebook as book:
-            policy.settle(book, folder)
             marks.write(book, folder)
     return sorted(rows)
 

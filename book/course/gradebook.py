@@ -14,7 +14,6 @@ from contextlib import suppress
 from pathlib import Path
 
 import nbformat
-import policy
 from handins import Refused, repaired
 from nbformat import NotebookNode
 from nbgrader.apps import NbGraderAPI
@@ -79,8 +78,6 @@ class Course:
             known = assignment in [each.name for each in book.assignments]
         if not known or not path.exists() or path.stat().st_mtime < source.stat().st_mtime:
             _checked(self.api.generate_assignment(assignment))
-            with self.api.gradebook as book:
-                policy.settle(book, self.folder)  # its due date, for penalties
         return nbformat.read(path, as_version=4)
 
     def solved(self, assignment: str) -> NotebookNode:

@@ -15,7 +15,7 @@ c.ClearSolutions.code_stub = {"python": 'raise NotImplementedError("write your a
 sys.path.append(str(Path(__file__).parent))
 from policy import Late  # noqa: E402  (it reads term.toml)
 
-c.AssignLatePenalties.plugin_class = Late
+c.AssignLatePenalties.plugin_class, c.Late.folder = Late, str(Path(__file__).parent)
 c.ExecutePreprocessor.timeout = 120  # s for a cell: an endless loop ends
 
 

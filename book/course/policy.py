@@ -28,8 +28,9 @@ from typing import Any, NamedTuple
 from zoneinfo import ZoneInfo
 
 import roster
-from nbgrader.api import Gradebook
+from nbgrader.api import SubmittedAssignment
 from nbgrader.plugins import LateSubmissionPlugin
+from traitlets import Unicode
 
 TABLES = {"zone", "due", "late", "extensions", "lessons"}
 RULES = {"per_day": 0.0, "most_days": math.inf}
@@ -58,8 +59,7 @@ class Term(NamedTuple):
     def days_late(self, assignment: str, student: str, handed_in: datetime | None) -> int:
         """How many days have begun since it was due; 0 where it was in time, or nobody knows."""
         due = self.due_for(assignment, student)
-        late = (handed_in - due) / timedelta(days=1) if due and handed_in else 0.0
-        return max(0, math.ceil(late))
+        return begun(handed_in - due) if due and handed_in else 0
 
     def penalty(self, days: int, points: float) -> float:
         """The points that so many days cost."""
@@ -67,15 +67,14 @@ class Term(NamedTuple):
 
 
 class Late(LateSubmissionPlugin):
-    """nbgrader's penalty by term.toml, in whose folder the gradebook is."""
+    """nbgrader's penalty for a hand-in by the rules of term.toml."""
+
+    folder = Unicode(help="where term.toml is").tag(config=True)
 
     def late_submission_penalty(self, student_id, score, total_seconds_late):
-        """Return the points that it costs this student to be late."""
-        term = read(Path(self.parent.db_url.removeprefix("sqlite:///")).parent)
-        if not term or not (due := term.due.get(assignment := self.parent.assignment_id)):
-            return None
-        handed_in = due.astimezone(UTC) + timedelta(seconds=total_seconds_late)
-        return term.penalty(term.days_late(assignment, student_id, handed_in), score)
+        """Return the points that it costs; nbgrader knows the extension."""
+        term = read(Path(self.folder))
+        return term and term.penalty(begun(timedelta(seconds=total_seconds_late)), score)
 
 
 def read(folder: Path) -> Term | None:
@@ -130,22 +129,18 @@ def read(folder: Path) -> Term | None:
     return Term(due, lessons, extensions, groups, **(RULES | late))
 
 
-def settle(book: Gradebook, folder: Path) -> None:
-    """Write the due dates and what lateness costs into the gradebook, as the rules are now.
+def settle(submission: SubmittedAssignment, term: Term) -> None:
+    """Tell nbgrader when an assignment is due, and what this student is granted."""
+    name = submission.assignment.name
+    if due := term.due.get(name):
+        own = term.due_for(name, submission.student.id)
+        submission.assignment.duedate = due.astimezone(UTC).replace(tzinfo=None)
+        submission.extension = own.astimezone(UTC) - due.astimezone(UTC)
 
-    nbgrader does so when a hand-in is graded; what is granted, or marked by hand, comes later.
-    """
-    if not (term := read(folder)):
-        return
-    for assignment in book.assignments:
-        if assignment.name not in term.due:
-            continue
-        book.update_or_create_assignment(assignment.name, duedate=term.due[assignment.name])
-        for each in book.assignment_submissions(assignment.name):
-            days = term.days_late(assignment.name, each.student.id, aware(each.timestamp))
-            for notebook in each.notebooks:
-                notebook.late_submission_penalty = term.penalty(days, notebook.score) or None
-    book.db.commit()
+
+def begun(late: timedelta) -> int:
+    """How many days have begun."""
+    return max(0, math.ceil(late / timedelta(days=1)))
 
 
 def aware(stamp: datetime | None) -> datetime | None:
