@@ -18,8 +18,9 @@ from test_course import answered, command, empty_course, model
 
 GUIDE = (ROOT / "book" / "lecturers.md").read_text(encoding="utf-8")
 PYTHON = ".venv/bin/python "
-SHELL = re.findall(r"^    (\S.*)$", GUIDE, re.MULTILINE)
-COMMANDS = SHELL + re.findall(rf"`({re.escape(PYTHON)}[^`]+)`", GUIDE)
+PROSE = re.sub(r"^```.*?^```$", "", GUIDE, flags=re.MULTILINE | re.DOTALL)
+SHELL = re.findall(r"^    (\S.*)$", PROSE, re.MULTILINE)
+COMMANDS = SHELL + re.findall(r"`((?:cd \S+ && )?[./]*\.venv/bin/\w+ [^`]+)`", GUIDE)
 ELSEWHERE = {  # commands of the guide that another test runs
     "build.py --lecturer": "tests/browser/test_page.py",
     "slides.py --questions": "tests/browser/test_votes.py",
@@ -72,10 +73,11 @@ class Played:
         self.run.add(line)
         for old, new in (names | {"/home": str(self.homes)}).items():
             line = line.replace(old, new)
-        line = line.replace(PYTHON, "")
-        if line.startswith("cd book/course && "):
-            shell = line.replace("cd book/course", f"cd {shlex.quote(str(self.course))}")
-            return subprocess.run(shell, shell=True, check=True, capture_output=True).stdout
+        if not line.startswith(PYTHON):
+            shell = line.replace("book/course", shlex.quote(str(self.course)))
+            subprocess.run(shell, shell=True, check=True, cwd=self.folder)
+            return ""
+        line = line.removeprefix(PYTHON)
         if line.startswith("-m"):
             words = [sys.executable, *line.split()]
             done = subprocess.run(words, cwd=self.folder, capture_output=True, text=True)

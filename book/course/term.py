@@ -36,15 +36,18 @@ AWAITED = "was not answered"
 
 
 class Week:
-    """A course at a time; each method that yields lines is a part of the report."""
+    """A course, or a group of it, at a time; a method that yields lines is a part of the report."""
 
-    def __init__(self, folder: Path, now: datetime) -> None:
+    def __init__(self, folder: Path, now: datetime, group: str = "") -> None:
         self.folder, self.now = folder, now
         if not (folder / "students.csv").exists() or not (term := policy.read(folder)):
             needed = "term.toml, and students.csv with a column username, are needed"
             raise ValueError(f"{folder}: {needed}; the lecturer's guide shows both")
-        self.term, self.students = term, roster.read(folder / "students.csv")
-        self.names = [each.username for each in self.students]
+        self.term, students = term, roster.read(folder / "students.csv")
+        if group and group not in (groups := {each.group for each in students}):
+            raise ValueError(f"no group {group}: there are {', '.join(sorted(groups))}")
+        self.names = [each.username for each in students if group in ("", each.group)]
+        self.others = {each.username for each in students} - {*self.names}
         self.due = [name for name, when in sorted(term.due.items()) if when <= now]
         recent = [name for name in self.due if now - term.due[name] < WEEK]
         self.current = recent or self.due[-1:]
@@ -84,7 +87,7 @@ class Week:
         """Who is in submitted and not in the class, and the other way round."""
         homes = [path for path in (self.folder / "submitted").glob("[!.]*") if path.is_dir()]
         there = {normalize("NFC", path.name) for path in homes}
-        if unknown := sorted(there - {*self.names}):
+        if unknown := sorted(there - {*self.names} - self.others):
             yield f"in submitted and not in students.csv: {listed(unknown)}"
         if self.due and (silent := [each for each in self.names if each not in there]):
             yield f"nothing yet of: {listed(silent)}"
@@ -101,7 +104,7 @@ class Week:
 
     def to_look_at(self, rows: list[grade.Row]) -> Iterator[str]:
         """What the table says of hand-ins, what is marked by hand, and what looks copied."""
-        for row in rows:
+        for row in (row for row in rows if row.student not in self.others):
             said = [it for it in row.said.split("; ") if it and not it.startswith("repaired:")]
             if said:
                 yield f"{row.assignment} {row.student}: {'; '.join(said)}".strip()
@@ -164,7 +167,8 @@ class Week:
     def ran(self, assignment: str) -> Iterator[tuple[str, NotebookNode]]:
         """The graded notebooks of an assignment, with their students."""
         for path in sorted(self.folder.glob(f"autograded/*/{assignment}/*.ipynb")):
-            yield path.parts[-3], nbformat.read(path, as_version=4)
+            if path.parts[-3] not in self.others:
+                yield path.parts[-3], nbformat.read(path, as_version=4)
 
 
 def stamp(folder: Path) -> datetime | None:
@@ -225,9 +229,9 @@ def report(week: Week, rows: list[grade.Row]) -> str:
     return "\n".join(text)
 
 
-def main(folder: Path, now: datetime, look: bool = False) -> str:
+def main(folder: Path, now: datetime, look: bool = False, group: str = "") -> str:
     """Grade what is due, unless it is only to be looked at, and return the report."""
-    week = Week(folder, now)
+    week = Week(folder, now, group)
     rows = (
         [] if look or not week.due else grade.grade(folder, week.due, Limits(), os.cpu_count() or 1)
     )
@@ -239,10 +243,11 @@ if __name__ == "__main__":
     parser = argparse.ArgumentParser(description=__doc__, formatter_class=form)
     parser.add_argument("--course", type=Path, default=COURSE, help="the folder of the course")
     parser.add_argument("--look", action="store_true", help="grade nothing")
+    parser.add_argument("--group", default="", help="report of this group of students.csv alone")
     said = "another time than now, such as 2026-10-20T08:00+02:00"
     parser.add_argument("--now", type=datetime.fromisoformat, default=datetime.now(UTC), help=said)
     given = parser.parse_args()
     try:
-        print(main(given.course.resolve(), given.now.astimezone(), given.look))
+        print(main(given.course.resolve(), given.now.astimezone(), given.look, given.group))
     except ValueError as error:
         raise SystemExit(str(error)) from None
