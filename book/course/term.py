@@ -23,16 +23,19 @@ import nbformat
 import policy
 import roster
 from alike import alike
-from gradebook import COURSE, Course
+from gradebook import COURSE
 from nbformat import NotebookNode
+from nbgrader.api import Gradebook
 from nbgrader.utils import determine_grade, is_grade, parse_utc
 from sandbox import Limits
 
 WEEK = timedelta(days=7)
 MOST = 4  # of the mistakes in an assignment
+SCREEN = 15  # lines of a part
 TASK = re.compile(r"^## Task ([\d.]+): (.+)$", re.MULTILINE)
 NUMBER = re.compile(r"[-+]?\d[\d.]*(?:e[-+]?\d+)?")
 AWAITED = "was not answered"
+USUAL = re.compile(r"^$|^repaired:|^\+ |for lateness$|^not in students.csv")  # and no trouble
 
 
 class Week:
@@ -51,8 +54,7 @@ class Week:
         self.due = [name for name, when in sorted(term.due.items()) if when <= now]
         recent = [name for name in self.due if now - term.due[name] < WEEK]
         self.current = recent or self.due[-1:]
-        with Course(folder) as course:
-            self.sources = course.sources
+        self.sources = {path.parent.name: path for path in folder.glob("source/*/*.ipynb")}
 
     def handed_in(self, assignment: str) -> dict[str, datetime | None]:
         """Whose notebook is there, and when it came."""
@@ -94,41 +96,34 @@ class Week:
 
     def graded(self, rows: list[grade.Row]) -> Iterator[str]:
         """What was graded anew."""
-        for each, count in sorted(Counter(row.assignment for row in rows if row.points).items()):
-            points = [
-                float(row.points.split("/")[0])
-                for row in rows
-                if row.assignment == each and row.points
-            ]
-            yield f"{each}: {count}, {sum(points) / count:.1f} points on average"
+        new = [row for row in rows if row.points and row.anew]
+        for each, count in sorted(Counter(row.assignment for row in new).items()):
+            points = sum(float(it.points.split("/")[0]) for it in new if it.assignment == each)
+            yield f"{each}: {count}, {points / count:.1f} points on average"
 
     def to_look_at(self, rows: list[grade.Row]) -> Iterator[str]:
         """What the table says of hand-ins, what is marked by hand, and what looks copied."""
         for row in (row for row in rows if row.student not in self.others):
-            said = [it for it in row.said.split("; ") if it and not it.startswith("repaired:")]
-            if said:
+            if said := [it for it in row.said.split("; ") if not USUAL.search(it)]:
                 yield f"{row.assignment} {row.student}: {'; '.join(said)}".strip()
-        with Course(self.folder) as course, course.api.gradebook as book:
+        with Gradebook(f"sqlite:///{self.folder / 'gradebook.db'}") as book:
             for each in book.assignments:
-                waiting = [
-                    it.student.id
-                    for it in book.assignment_submissions(each.name)
-                    if it.needs_manual_grade
-                ]
-                if waiting:
+                those = (it for it in each.submissions if it.needs_manual_grade)
+                if waiting := sorted({it.student.id for it in those} - self.others):
                     yield f"{each.name}: {len(waiting)} to mark by hand: {listed(waiting)}"
         for each in self.current:
             task_of, known = self.tasks(each)
             answers = defaultdict(dict)
             for student, notebook in self.ran(each):
-                for name, source in answered(notebook).items():
-                    answers[name][student] = source
+                for cell in notebook.cells:
+                    ours = cell.metadata.get("nbgrader", {})
+                    if cell.cell_type == "code" and ours.get("solution"):
+                        answers[ours.grade_id][student] = cell.source
             for name, sources in answers.items():
                 for students, shared in alike(sources, known):
-                    yield (
-                        f"{each} {', '.join(students)}: alike in {task_of[name]}, with "
-                        f"{', '.join(shared[:3])}, which nobody else has"
-                    )
+                    if {*students} - self.others:
+                        who, what = ", ".join(students), ", ".join(shared[:3])
+                        yield f"{each} {who}: alike in {task_of[name]}, and only there: {what}"
 
     def mistakes(self) -> Iterator[str]:
         """What most got wrong, in what is due now."""
@@ -167,8 +162,7 @@ class Week:
     def ran(self, assignment: str) -> Iterator[tuple[str, NotebookNode]]:
         """The graded notebooks of an assignment, with their students."""
         for path in sorted(self.folder.glob(f"autograded/*/{assignment}/*.ipynb")):
-            if path.parts[-3] not in self.others:
-                yield path.parts[-3], nbformat.read(path, as_version=4)
+            yield path.parts[-3], nbformat.read(path, as_version=4)
 
 
 def stamp(folder: Path) -> datetime | None:
@@ -177,14 +171,6 @@ def stamp(folder: Path) -> datetime | None:
         return policy.aware(parse_utc((folder / "timestamp.txt").read_text("utf-8").strip()))
     except (OSError, ValueError):
         return None
-
-
-def answered(notebook: NotebookNode) -> dict[str, str]:
-    """The answers that are code, by their cells."""
-    cells = [it for it in notebook.cells if it.cell_type == "code" and "nbgrader" in it.metadata]
-    return {
-        it.metadata.nbgrader.grade_id: it.source for it in cells if it.metadata.nbgrader.solution
-    }
 
 
 def failed(notebook: NotebookNode, task_of: dict[str, str]) -> dict[str, str]:
@@ -223,7 +209,9 @@ def report(week: Week, rows: list[grade.Row]) -> str:
         ("wrong", week.mistakes()),
         ("vote on", week.votes()),
     ):
-        for count, line in enumerate(lines):
+        lines = [*lines]
+        more = [f"and {len(lines) - SCREEN} more, in the table of grade.py"]
+        for count, line in enumerate(lines[:SCREEN] + more * (len(lines) > SCREEN)):
             begin = f"{'' if count else title:<9}"
             text += textwrap.wrap(line, wide, initial_indent=begin, subsequent_indent=" " * 11)
     return "\n".join(text)
