@@ -36,7 +36,7 @@ ch01 = 2026-10-19T18:00:00
 ch00 = 2026-10-26
 [late]
 per_day = 0.1
-most_days = 7
+most_days = 2
 [extensions]
 thursday = 1
 s05 = { ch01 = 2026-10-23 }
@@ -118,7 +118,7 @@ class Played:
         path = self.homes / name / "robot" / "assignments" / chapter / source.name
         path.parent.mkdir(parents=True, exist_ok=True)
         path.write_bytes(text)
-        os.utime(path, [datetime.fromisoformat(when).timestamp()] * 2)
+        os.utime(path, (datetime.fromisoformat(when).timestamp(),) * 2)
 
     def marks(self) -> dict[str, dict[str, str]]:
         with (self.course / "marks-moodle.csv").open(encoding="utf-8", newline="") as file:
@@ -159,13 +159,13 @@ def test_a_term_of_three_weeks_is_played_by_the_guides_commands_alone(tmp_path, 
         "s01": "2026-10-19T17:00+02:00",
         "s02": "2026-10-20T17:00+02:00",  # of thursday's group
         "s03": "2026-10-20T19:00+02:00",  # in the second day
-        "s04": "2026-10-30T08:00+02:00",  # later than anything counts
+        "s04": "2026-10-23T08:00+02:00",  # of thursday's; later than anything counts
         "s05": "2026-10-23T12:00+02:00",
     }.items():
         term.at_home("ch01", name, term.solved("ch01"), when)
     term.say("collect")
-    said = term.week("2026-10-22T08:00+02:00")
-    assert "late: s03 by 2 days, s04 by 10 days;" in said["came in"]
+    said = term.week("2026-10-24T08:00+02:00")
+    assert "late: s03 by 2 days, s04 by 3 days;" in said["came in"]
     assert said["graded"].startswith("ch01: 5")
     most = sum(points for _, points in cells("ch01").values())
     wanted = {"s01": most, "s02": most, "s03": 0.8 * most, "s04": 0, "s05": most, "s06": ""}
@@ -178,7 +178,7 @@ def test_a_term_of_three_weeks_is_played_by_the_guides_commands_alone(tmp_path, 
     # An extension that is granted now counts, and nothing runs again.
     text = (term.course / "term.toml").read_text("utf-8")
     (term.course / "term.toml").write_text(f"{text}s03 = 2\n", encoding="utf-8")
-    assert "graded" not in term.week("2026-10-22T08:00+02:00")
+    assert "graded" not in term.week("2026-10-24T08:00+02:00")
     assert term.marks()["s03"]["ch01"] == f"{most}"
 
     # Third week: the hub hands out named copies. One student types another name.
