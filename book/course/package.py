@@ -47,10 +47,9 @@ def main(folder: Path, wanted: list[str], output: Path) -> None:
             for each in course.checked(wanted) or course.sources
         }
     _write(output, {**released, **dict(_book())})
-    if (folder / "students.csv").exists():
-        for student in roster.read(folder / "students.csv"):
-            own = {k: named(it.encode(), student.username) for k, it in released.items()}
-            _write(folder / "students" / f"{student.username}.zip", own)
+    for student in roster.of(folder):
+        own = {k: named(it.encode(), student.username) for k, it in released.items()}
+        _write(folder / "students" / f"{student.username}.zip", own)
     print(output)
 
 

@@ -79,7 +79,7 @@ class Late(LateSubmissionPlugin):
 
 def read(folder: Path) -> Term | None:
     """The rules in a course's folder, or None without term.toml; ValueError says what is wrong."""
-    path, class_of = folder / "term.toml", folder / "students.csv"
+    path = folder / "term.toml"
     if not path.exists():
         return None
     try:
@@ -87,7 +87,7 @@ def read(folder: Path) -> Term | None:
         zone = ZoneInfo(told.get("zone", "UTC"))
     except (ValueError, OSError, KeyError) as error:
         raise ValueError(f"{path}: {error}") from None
-    students = roster.read(class_of) if class_of.exists() else []
+    students = roster.of(folder)
     groups = {each.username: each.group for each in students if each.group}
     known = {each.username for each in students} | {*groups.values()}
     assignments = {each.name for each in folder.glob("source/*/")}
@@ -129,10 +129,10 @@ def read(folder: Path) -> Term | None:
     return Term(due, lessons, extensions, groups, **(RULES | late))
 
 
-def settle(submission: SubmittedAssignment, term: Term) -> None:
+def settle(submission: SubmittedAssignment, term: Term | None) -> None:
     """Tell nbgrader when an assignment is due, and what this student is granted."""
     name = submission.assignment.name
-    if due := term.due.get(name):
+    if term and (due := term.due.get(name)):
         own = term.due_for(name, submission.student.id)
         submission.assignment.duedate = due.astimezone(UTC).replace(tzinfo=None)
         submission.extension = own.astimezone(UTC) - due.astimezone(UTC)

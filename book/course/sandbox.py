@@ -316,7 +316,7 @@ def _environment(own: Path) -> dict[str, str]:
 
 
 def _graded(cell: NotebookNode) -> bool:
-    return bool(cell.metadata.get("nbgrader", {}).get("grade"))
+    return cell.cell_type == "code" and bool(cell.metadata.get("nbgrader", {}).get("grade"))
 
 
 def _stopped(why: str) -> NotebookNode:

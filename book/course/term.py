@@ -23,11 +23,13 @@ import nbformat
 import policy
 import roster
 from alike import alike
+from cells import visible
 from gradebook import COURSE
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook
 from nbgrader.utils import determine_grade, is_grade, parse_utc
 from sandbox import Limits
+from table import Row
 
 WEEK = timedelta(days=7)
 MOST = 4  # of the mistakes in an assignment
@@ -43,10 +45,11 @@ class Week:
 
     def __init__(self, folder: Path, now: datetime, group: str = "") -> None:
         self.folder, self.now = folder, now
-        if not (folder / "students.csv").exists() or not (term := policy.read(folder)):
+        students, term = roster.of(folder), policy.read(folder)
+        if not students or not term:
             needed = "term.toml, and students.csv with a column username, are needed"
             raise ValueError(f"{folder}: {needed}; the lecturer's guide shows both")
-        self.term, students = term, roster.read(folder / "students.csv")
+        self.term = term
         if group and group not in (groups := {each.group for each in students}):
             raise ValueError(f"no group {group}: there are {', '.join(sorted(groups))}")
         self.names = [each.username for each in students if group in ("", each.group)]
@@ -94,14 +97,14 @@ class Week:
         if self.due and (silent := [each for each in self.names if each not in there]):
             yield f"nothing yet of: {listed(silent)}"
 
-    def graded(self, rows: list[grade.Row]) -> Iterator[str]:
+    def graded(self, rows: list[Row]) -> Iterator[str]:
         """What was graded anew."""
         new = [row for row in rows if row.points and row.anew]
         for each, count in sorted(Counter(row.assignment for row in new).items()):
             points = sum(float(it.points.split("/")[0]) for it in new if it.assignment == each)
             yield f"{each}: {count}, {points / count:.1f} points on average"
 
-    def to_look_at(self, rows: list[grade.Row]) -> Iterator[str]:
+    def to_look_at(self, rows: list[Row]) -> Iterator[str]:
         """What the table says of hand-ins, what is marked by hand, and what looks copied."""
         for row in (row for row in rows if row.student not in self.others):
             if said := [it for it in row.said.split("; ") if not USUAL.search(it)]:
@@ -194,7 +197,7 @@ def listed(names: list[str], most: int = 8) -> str:
     return ", ".join(names[:most]) + more
 
 
-def report(week: Week, rows: list[grade.Row]) -> str:
+def report(week: Week, rows: list[Row]) -> str:
     """The report as text, as wide as the window."""
     when = week.now.astimezone(next(iter(week.term.due.values())).tzinfo)
     later = sorted((at, each) for each, at in week.term.due.items() if at > week.now)
@@ -214,7 +217,7 @@ def report(week: Week, rows: list[grade.Row]) -> str:
         for count, line in enumerate(lines[:SCREEN] + more * (len(lines) > SCREEN)):
             begin = f"{'' if count else title:<9}"
             text += textwrap.wrap(line, wide, initial_indent=begin, subsequent_indent=" " * 11)
-    return "\n".join(text)
+    return visible("\n".join(text))
 
 
 def main(folder: Path, now: datetime, look: bool = False, group: str = "") -> str:
