@@ -105,8 +105,13 @@ def test_what_only_two_have_in_the_same_program_is_told(edits, shared):
             answers[student] = answers[student].replace(*edit.split(" => "))
     own = answers["s4"].replace('    """How far it is."""\n', "")
     answers["s4"] = own.replace("distance", "far")
-    found = list(alike(answers, "The radius is 6371.0088 km. def distance(a, b): east north math"))
+    known = "The radius is 6371.0088 km. def distance(a, b): east north math"
+    found = list(alike(answers, known))
     assert found == ([(["s3", "s4"], shared)] if shared else [])
+    few = {each: answers[each] for each in ("s1", "s2", "s3", "s4")}
+    other = answers | {"s4": answers["s4"] + "far(1, 2)\n"}
+    short = {each: "\n".join(text.splitlines()[-1:]).strip() for each, text in answers.items()}
+    assert not [*alike(few, known), *alike(other, known), *alike(short, known)]
 
 
 def test_a_released_copy_bears_its_students_name_and_another_is_remarked(folder):
