@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import ast
 import io
-import re
 import tokenize
 from collections import defaultdict
 from collections.abc import Iterator
@@ -34,9 +33,8 @@ def alike(answers: dict[str, str], known: str) -> Iterator[tuple[list[str], list
         told[student] = _marks(tree, source)
         if sum(1 for _ in ast.walk(tree)) >= LEAST:
             forms[student] = _form(tree)
-    words = {*re.findall(r"[\w.]+", known)}
     for mark in set().union(*told.values()):
-        if mark not in words and mark.strip("# '\"") not in known:
+        if mark.strip("# '\"") not in known:
             owners[tuple(each for each in told if mark in told[each])].append(mark)
     for students, shared in sorted(owners.items()) if len(told) >= CLASS else ():
         same = {forms.get(each, each) for each in students}
