@@ -107,12 +107,15 @@ def questions() -> NotebookNode:
     """Return the concept questions, made now, as a notebook."""
     from wmrbook.questions import deck, made
 
-    return nbformat.v4.new_notebook(
-        cells=[
-            nbformat.v4.new_markdown_cell(text, metadata={"slideshow": {"slide_type": kind}})
-            for kind, text in deck.slides(made())
-        ]
-    )
+    cells = []
+    for kind, content in deck.slides(made()):
+        told = {"metadata": {"slideshow": {"slide_type": kind}}}
+        if isinstance(content, str):
+            cells.append(nbformat.v4.new_markdown_cell(content, **told))
+        else:
+            shown = nbformat.v4.new_output("display_data", content._repr_mimebundle_())
+            cells.append(nbformat.v4.new_code_cell("", outputs=[shown], **told))
+    return nbformat.v4.new_notebook(cells=cells)
 
 
 def lay_out(output: Path) -> None:
