@@ -41,6 +41,12 @@ def cells(chapter: str) -> dict[str, tuple[str, int]]:
     return found
 
 
+def most(chapter: str) -> float:
+    """The points of the whole assignment, those that an assistant gives among them."""
+    every = json.loads(notebook(chapter).read_text(encoding="utf-8"))["cells"]
+    return sum(cell["metadata"]["nbgrader"].get("points", 0) for cell in every)
+
+
 @cache
 def tasks(chapter: str) -> dict[str, list[str]]:
     """{id of the cell with the answer: ids of the cells that grade it}; none grades the name."""
@@ -105,11 +111,12 @@ def released(source: str) -> str:
 def given(chapter: str, student: str = "Ada") -> dict:
     """The names that the notebook's other cells make for a student, with the model's answers.
 
+    What an assistant alone looks at is left out.
     `scaled` makes gains of the paper's robot those of the student's.
     """
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
-        if not points:
+        if not points and (name == "name" or tasks(chapter).get(name) != []):
             _run(
                 source.replace('name = "model"', f"name = {student!r}"),
                 f"<{chapter} {name}>",

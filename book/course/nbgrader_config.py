@@ -3,7 +3,7 @@
 import sys
 from pathlib import Path
 
-from nbgrader.preprocessors import GetGrades
+from nbgrader.preprocessors import ClearMarkScheme, GetGrades
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import feedback
@@ -17,8 +17,11 @@ c.ClearSolutions.code_stub = {"python": 'raise NotImplementedError("write your a
 # Due dates, extensions and what it costs to be late: term.toml.
 c.AssignLatePenalties.plugin_class = policy.Late
 c.Late.folder = str(Path(__file__).resolve().parent)
+# What an assistant marks by stands in the locked cell before an explanation. Students get that cell
+# without it; the formgrader shows it whole, as it restores locked cells.
+c.ClearMarkScheme.enforce_metadata = False  # such a cell needs no points of its own
 c.ExecutePreprocessor.timeout = 120  # s for a cell: an endless loop ends
 
 # Its own commands write the pages that grade.py writes: nothing in them acts.
 c.GenerateFeedback.exporter_class = feedback.Page
-c.GenerateFeedback.preprocessors = [GetGrades]
+c.GenerateFeedback.preprocessors = [ClearMarkScheme, GetGrades]

@@ -143,7 +143,13 @@ def numbers(name: str, value: Any, count: int, *, returned: bool = False) -> tup
 def floats(value: Any) -> np.ndarray | None:
     """Return the real numbers of a list, matrix or array; None if anything else is in it."""
     try:
-        given = np.asarray(value)
+        given = np.asarray(value.tolist() if hasattr(value, "tolist") else value)
+        if (
+            given.ndim == 2
+            and 1 in given.shape
+            and not isinstance(value, np.ndarray | list | tuple)
+        ):
+            given = given.ravel()  # a column of sympy's or mpmath's
         return given.astype(float) if given.dtype.kind in "iufO" else None
     except (TypeError, ValueError, OverflowError):
         return None
