@@ -18,6 +18,9 @@ from graded import ROOT, cells, wrong_answers
 from test_course import answered, command, empty_course, model
 from test_hub import ask, ports, until
 
+from wmrbook import questions
+from wmrbook.lines import Line, written
+
 GUIDE = (ROOT / "book" / "lecturers.md").read_text(encoding="utf-8")
 PYTHON = ".venv/bin/python "
 PROSE = re.sub(r"^```.*?^```$", "", GUIDE, flags=re.MULTILINE | re.DOTALL)
@@ -234,8 +237,11 @@ def test_a_term_of_three_weeks_is_played_by_the_guides_commands_alone(tmp_path, 
     assert " s01 " in (again := term.say("--student", NAME="s01"))
     assert " s02 " not in again
     assert term.say("--all").count(f"{most}/{most}") == 3
-    line = next(it for it in GUIDE.splitlines() if '"wmr-challenge' in it).strip().strip('"')
-    (tmp_path / "class.txt").write_text(f"{line}\n", encoding="utf-8")
+    asked = questions.tested()
+    keys, mark = "".join(each.key for each in asked), questions.fingerprint(asked)
+    sheets = ("pre", "-" * len(keys)), ("post", keys)
+    sent = [written(Line("test", f"{when}-{mark}", "Ada", told)) for when, told in sheets]
+    (tmp_path / "class.txt").write_text("\n".join(sent), encoding="utf-8")
     for part in "questions form", "questions histogram", "questions gain":
         term.say(part)
     term.say("tar -czf")

@@ -143,15 +143,13 @@ class Week:
 
     def votes(self) -> Iterator[str]:
         """What the deck of questions has for the next lesson."""
-        from wmrbook.questions import made
+        from wmrbook.questions import of_chapter
 
         lessons = self.term.due | self.term.lessons
         later = sorted((when, each) for each, when in lessons.items() if when > self.now)
         for when, each in later[:1]:
-            for number, question in enumerate(made(), start=1):
-                if f"ch{question.chapter:02}" == each:
-                    chapter = f"chapter {question.chapter}, by {when:%d %b}"
-                    yield f"{number}. {question.title} ({chapter})"
+            for title in of_chapter(chapter := int(each.removeprefix("ch"))):
+                yield f"{title} (chapter {chapter}, by {when:%d %b})"
 
     def tasks(self, assignment: str) -> tuple[dict[str, str], str]:
         """The task that each cell belongs to, and all that the lecturer has written."""
