@@ -122,7 +122,8 @@ def _graded(
                     if isinstance(result, Exception):
                         raise result
                     ran, how = result
-                    said = [f"repaired: {', '.join(how)}"] * bool(how) + stops(ran)
+                    said = [f"repaired: {', '.join(how)}"] * bool(how)
+                    said += handins.misnamed(ran, it.student) + stops(ran)
                     known = it.known | {"said": "; ".join(said)}
                     course.score(it.assignment, it.student, ran, it.stamp, known)
                     yield _row(course, it.assignment, it.student, known["said"])
