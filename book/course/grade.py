@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 from unicodedata import normalize
 
+import handins
 import marks
 import nbformat
 import psutil
