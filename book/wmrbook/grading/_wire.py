@@ -11,10 +11,11 @@ import json
 import math
 import pickle
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping, Set
 from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
+from itertools import islice
 from multiprocessing.connection import Client, Connection
 from typing import Any
 
@@ -26,7 +27,8 @@ from wmrbook.grading._hints import Hint, name_of, named, own_work, shown
 
 _MOST = 5_000_000  # bytes of a message
 _LARGEST = 2**1000
-_FIELDS = {"Gains": 4, "GeoPoint": 2, "PolarError": 3, "Pose": 3}  # wmrlib's, imported when needed
+# wmrlib's, imported when needed.
+_FIELDS = {"Gains": 4, "GeoPoint": 2, "PolarError": 3, "Pose": 3, "WheelLimits": 2}
 _TEXTS = {"Fraction": Fraction, "Decimal": Decimal}
 _ORDERS: dict[str, Callable] = {"tuple": tuple, "list": list, "set": list}
 
@@ -128,6 +130,8 @@ class Line:
             return {"named": [kind, *(self._plain(getattr(value, each)) for each in fields)]}
         if isinstance(value, (Set, Mapping)):
             return {"unordered": shown(value)}
+        if isinstance(value, Iterator):  # `zip(*poses)`
+            value = tuple(islice(value, 100_000))
         if isinstance(value, (tuple, list)):
             order = "list" if isinstance(value, list) else "tuple"
             return {order: [self._plain(each) for each in value]}
