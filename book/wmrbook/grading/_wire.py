@@ -128,7 +128,7 @@ class Line:
             return {"named": [kind, *(self._plain(getattr(value, each)) for each in fields)]}
         if isinstance(value, (Set, Mapping)):
             return {"unordered": shown(value)}
-        if isinstance(value, (tuple, list)):
+        if isinstance(value, (tuple, list)) and (self.trusts or type(value) in (tuple, list)):
             order = "list" if isinstance(value, list) else "tuple"
             return {order: [self._plain(each) for each in value]}
         if callable(getattr(value, "tolist", None)):  # an array, a matrix of sympy or mpmath
