@@ -31,16 +31,15 @@ def models(chapter: str) -> dict[str, str]:
     return {name: graded.cells(chapter)[name][0] + LINE for name in TASKS[chapter[2:]]}
 
 
-def box(site: Path, page: Page, chapter: str, name: str):
-    """Where a page's answer of this name is written."""
+def cell_of(site: Path, page: Page, chapter: str, name: str):
+    """The cell of a page that waits for the answer of this name."""
     names = [cell["name"] for cell in given(site / f"notebooks/{CHAPTERS[chapter]}.html")]
-    cell = page.locator(".cell:has(script.python-cell)").nth(names.index(name))
-    return cell.locator(".python-editor")
+    return page.locator(".cell:has(script.python-cell)").nth(names.index(name))
 
 
 def written(site: Path, page: Page, chapter: str, answers: dict[str, str]) -> None:
     for name, text in answers.items():
-        box(site, page, chapter, name).fill(text)
+        cell_of(site, page, chapter, name).locator(".python-editor").fill(text)
 
 
 def saved(page: Page) -> tuple[str, nbformat.NotebookNode]:
@@ -66,7 +65,8 @@ def test_answers_outlive_a_reload_and_stand_in_the_notebook_that_is_given_out(si
     page.get_by_role("button", name=SAVE).click()
     assert 'The cell above says name = "Adá"' in page.locator(".python-hand-in").last.inner_text()
     page.reload()
-    assert box(site, page, "ch04", exercise).input_value() == LINE
+    asked = cell_of(site, page, "ch04", exercise)
+    assert asked.locator(".python-editor").input_value() == LINE
     assert page.get_by_label("User name").input_value() == "bob"
     page.get_by_label("User name").fill("adÁ ")
     file, notebook = saved(page)
@@ -74,13 +74,15 @@ def test_answers_outlive_a_reload_and_stand_in_the_notebook_that_is_given_out(si
     graded_ids = {name: text for name, text in answers.items() if name != "mine"}
     assert by_id(notebook) == release | graded_ids | {"name": 'name = "adÁ"'}
     assert file == f"{CHAPTERS['ch04']}.ipynb"
+    assert not [it for it in TASKS if "SOLUTION" in nbformat.writes(handed_in(it)["notebook"])]
     # Another page does not have them, and what is reset is gone.
     page.goto(page.url.replace(CHAPTERS["ch04"], CHAPTERS["ch01"]))
     assert by_id(saved(page)[1]) == by_id(handed_in("01")["notebook"])
     page.go_back()
-    tools = page.locator(".python-tools:has(button:text-is('Check'))")
-    tools.first.get_by_role("button", name="Reset").click()
+    for cell in cell_of(site, page, "ch04", "V-rate"), asked:
+        cell.get_by_role("button", name="Reset").click()
     page.reload()
+    assert asked.locator(".python-editor").input_value() != LINE
     assert by_id(saved(page)[1])["V-rate"] == release["V-rate"]
 
 
