@@ -1,81 +1,151 @@
-"""Collect from the students' homes on a server, and give back:
+"""Collect what students have written, and give back:
 
+    python book/course/exchange.py unzip submissions.zip
     python book/course/exchange.py collect /home
     python book/course/exchange.py return /home
 
-The notebooks of /home/NAME/robot/assignments go to submitted/NAME; the pages of feedback/NAME go
-to /home/NAME/robot/feedback. jupyterhub_config.py hands out, into /home/NAME/robot.
+unzip takes what Moodle or Canvas downloads for an assignment, and students.csv in the folder of
+the course to know who is who. collect takes from /home/NAME/robot/assignments, on a server. Both
+put notebooks into submitted/NAME, with a timestamp.txt where the time is known. return puts the
+pages of feedback/NAME into /home/NAME/robot/feedback. jupyterhub_config.py hands out, into
+/home/NAME/robot. What is wrong with one student's files is said in a line and stops nobody else.
 """
 
 from __future__ import annotations
 
 import argparse
-import os
-import shutil
+import json
+import sys
+from datetime import UTC, datetime
 from pathlib import Path
 from zipfile import ZipFile
 
+import homes
+import incoming
+from cells import visible
+from handins import MOST_BYTES
+from homes import Unfit
+
 COURSE = Path(__file__).resolve().parent
+SLACK = 60  # s that a file may be younger than the time it bears
 
 
-def hand_out(home: Path, package: Path) -> None:
-    """Unpack what students get; what is there stays, so that no answer is lost."""
+def hand_out(home: Path, package: Path) -> list[str]:
+    """Unpack what students get; what is there stays, so that no answer is lost. Return troubles."""
+    said = []
     with ZipFile(package) as files:
         for name in files.namelist():
-            if _inside(home, home / name) and not (home / name).exists():
-                _own(home, Path(files.extract(name, home)))
+            *parts, last = name.split("/")
+            try:
+                if {"", ".", ".."} & {*parts, last}:
+                    raise Unfit("its name is none")
+                with homes.folder(home, *parts, make=True) as place:
+                    content = files.read(name)
+                    if last.endswith(".ipynb") and "assignments" in parts:
+                        content = named(content, home.name)
+                    homes.write(place, last, content, replace=False)
+            except (OSError, Unfit) as error:
+                said.append(f"{name}: {error}")
+    return said
 
 
-def collect(homes: Path, submitted: Path) -> list[Path]:
-    """Copy what students have written; return the copies."""
-    copies = []
-    for path in sorted(homes.glob("*/robot/assignments/*/*.ipynb")):
-        name, _, _, assignment, _ = path.relative_to(homes).parts
-        if _inside(homes / name, path):
-            copies.append(submitted / name / assignment / path.name)
-            copies[-1].parent.mkdir(parents=True, exist_ok=True)
-            shutil.copyfile(path, copies[-1])
-    return copies
+def named(notebook: bytes, student: str) -> bytes:
+    """Write the user name into a released notebook whose numbers are made from it."""
+    return notebook.replace(b'name = \\"\\"', f'name = \\"{student}\\"'.encode())
 
 
-def give_back(homes: Path, feedback: Path) -> list[Path]:
-    """Copy the pages to the students; return the copies."""
-    copies = []
+def collect(students: Path, course: Path) -> tuple[list[Path], list[str]]:
+    """Copy the newest notebook of each assignment; return the copies and what there is to say."""
+    copies, said = [], []
+    sources = incoming.sources(course)
+    for home in sorted(students.iterdir()):
+        for assignment, release in sources.items():
+            try:
+                with homes.folder(home, "robot", "assignments", assignment) as place:
+                    content, when, remarks = _newest(place, release)
+                said += [f"{home.name}, {assignment}: {each}" for each in remarks]
+                if content is not None and _begun(content, course, assignment, home.name):
+                    to = course / "submitted" / home.name / assignment
+                    copies.append(incoming.store(to, release, content, when))
+            except FileNotFoundError:
+                continue  # not begun
+            except NotADirectoryError:
+                break  # a file beside the homes
+            except (OSError, Unfit) as error:
+                said.append(f"{home.name}: not collected: {error}")
+    return copies, list(dict.fromkeys(said))
+
+
+def _begun(content: bytes, course: Path, assignment: str, student: str) -> bool:
+    """Whether a notebook has a cell with anything that the student was not given."""
+    try:
+        (release,) = (course / "release" / assignment).glob("*.ipynb")
+        given, now = (
+            {"".join(cell["source"]) for cell in json.loads(text)["cells"]}
+            for text in (named(release.read_bytes(), student), content)
+        )
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):  # it is for the table
+        return True
+    return not now <= given | {""}
+
+
+def _newest(place: homes.Place, release: str) -> tuple[bytes | None, datetime, list[str]]:
+    """The notebook of a folder that was written last, its time, and what is odd about it."""
+    said, best = [], None
+    names = sorted(each for each in place.names() if each.endswith(".ipynb") and each[0] != ".")
+    for name in names:
+        try:
+            with homes.opened(place, name) as (fd, about):
+                rank = about.st_mtime_ns, name == release
+                if best is None or rank > best[0]:
+                    best = rank, name, homes.read(fd, name, MOST_BYTES), about
+        except Unfit as error:
+            said.append(f"not collected: {error}")
+    if best is None:
+        return None, datetime.now(UTC), said
+    _, name, content, about = best
+    if len(names) > 1:
+        said.append(f"{len(names)} notebooks, {', '.join(names)}; {name} was taken")
+    if about.st_ctime - about.st_mtime > SLACK and sys.platform != "win32":
+        changed = datetime.fromtimestamp(about.st_ctime, UTC)
+        said.append(f"{name} was changed or moved at {changed:%Y-%m-%d %H:%M} UTC, after its time")
+    return content, datetime.fromtimestamp(about.st_mtime, UTC), said
+
+
+def give_back(students: Path, feedback: Path) -> tuple[list[Path], list[str]]:
+    """Copy the pages to the students; return the copies and what there is to say."""
+    copies, said = [], []
     for path in sorted(feedback.glob("*/*/*.html")):
         name, assignment, _ = path.relative_to(feedback).parts
-        copy = homes / name / "robot" / "feedback" / assignment / path.name
-        if (homes / name).is_dir() and _inside(homes / name, copy):
-            copy.parent.mkdir(parents=True, exist_ok=True)
-            _own(homes / name, Path(shutil.copyfile(path, copy)))
-            copies.append(copy)
-    return copies
-
-
-def _inside(home: Path, path: Path) -> bool:
-    """Whether a path in a home does not lead out of it, by a link."""
-    return path.resolve().is_relative_to(home.resolve())
-
-
-def _own(home: Path, path: Path) -> None:
-    """Give a file, and the folders that it is in, to the owner of the home."""
-    if os.name == "posix" and os.geteuid() == 0:
-        owner = home.stat()
-        for each in (path, *path.parents):
-            if each == home:
-                break
-            os.chown(each, owner.st_uid, owner.st_gid, follow_symlinks=False)
+        try:
+            with homes.folder(students / name, "robot", "feedback", assignment, make=True) as place:
+                homes.write(place, path.name, path.read_bytes())
+            copies.append(students / name / "robot" / "feedback" / assignment / path.name)
+        except FileNotFoundError:
+            said.append(f"{name}, {assignment}: not returned: {students / name} is no home")
+        except (OSError, Unfit) as error:
+            said.append(f"{name}, {assignment}: not returned: {error}")
+    return copies, said
 
 
 if __name__ == "__main__":
     parser = argparse.ArgumentParser(
         description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    parser.add_argument("what", choices=("collect", "return"))
-    parser.add_argument("homes", type=Path, help="the folder with a home for each student")
+    parser.add_argument("what", choices=("unzip", "collect", "return"))
+    said = "the zip, or the folder with a home for each student"
+    parser.add_argument("place", type=Path, help=said)
     parser.add_argument("--course", type=Path, default=COURSE, help="the folder of the course")
+    said = "the assignment that is in the zip; by default each notebook says which it is"
+    parser.add_argument("--assignment", help=said)
     given = parser.parse_args()
-    if given.what == "collect":
-        done = collect(given.homes, given.course / "submitted")
-    else:
-        done = give_back(given.homes, given.course / "feedback")
-    print(f"{len(done)} files")
+    try:
+        if given.what == "unzip":
+            done, said = incoming.unzip(given.place, given.course, given.assignment)
+        elif given.what == "collect":
+            done, said = collect(given.place, given.course)
+        else:
+            done, said = give_back(given.place, given.course / "feedback")
+    except (OSError, ValueError) as error:
+        sys.exit(visible(str(error)))
+    print(*(visible(" ".join(each.split())) for each in said), f"{len(done)} files", sep="\n")

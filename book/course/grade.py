@@ -3,88 +3,163 @@
 It reads submitted/NAME/ASSIGNMENT/NOTEBOOK, repairs what can be repaired, runs each hand-in in
 a process of its own, and ends with a table: graded, repaired and how, refused and why. Points
 are then in gradebook.db, for nbgrader's other commands, and in marks-moodle.csv and
-marks-canvas.csv; what students read is in feedback/NAME/ASSIGNMENT. The model's answers run
-first: an assignment in which they lose points on this machine is not graded.
+marks-canvas.csv; what students read is in feedback/NAME/ASSIGNMENT. What has not changed since
+it was graded is not run again. The model's answers run first: an assignment in which they lose
+points on this machine is not graded. Ctrl-C keeps what is graded so far.
 """
 
 from __future__ import annotations
 
 import os
-import re
-from collections.abc import Callable, Iterable, Iterator
+import sys
+from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
+from contextlib import suppress
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Any
 from unicodedata import normalize
 
 import handins
 import marks
+import nbformat
+import psutil
+import roster
+from cage import holds
+from changes import HandIn, hash_of, look, sources
 from gradebook import COURSE, Course, lost, options
 from handins import Refused
-from sandbox import Limits, Sandbox, hides, stops
+from kernel import Limits
+from nbgrader.api import MissingEntry
+from roster import NAME
+from sandbox import Sandbox, stops
+from table import Row, nothing, table
 from tqdm import tqdm
 
 SECRETS = COURSE, COURSE.parents[1] / "tests", COURSE.parents[1] / ".git"
-NAME = re.compile(r"\w([\w.@ -]*[\w.@-])?")  # what paths, nbgrader and tables bear
 
 
-class Row(NamedTuple):
-    """A line of the table; points is empty where nothing was graded."""
+def grade(
+    folder: Path,
+    wanted: list[str],
+    limits: Limits,
+    jobs: int,
+    students: Collection[str] = (),
+    every: bool = False,
+) -> list[Row]:
+    """Grade the hand-ins of these assignments and students, or of all; return the table.
 
-    assignment: str
-    student: str
-    points: str
-    said: str
-
-
-def grade(folder: Path, wanted: list[str], limits: Limits, jobs: int) -> list[Row]:
-    """Grade the hand-ins of these assignments, or of all; return the table."""
-    with Course(folder) as course, Sandbox([folder, *SECRETS], limits) as sandbox:
-        rows, todo = _listed(course, wanted)
-        names = sorted({student for _, student, _ in todo})
-        assignments = sorted({assignment for assignment, _, _ in todo})
+    every: also what has not changed since it was graded. Raises KeyboardInterrupt with a sentence
+    when it is stopped, after it has written the marks.
+    """
+    people = roster.of(folder)
+    with Course(folder) as course:
+        rows, todo, names = _listed(course, wanted, students)
         releases, unfit = {}, {}
-        for each in assignments:
+        for each in sorted({assignment for assignment, _, _ in todo}):
             try:
                 releases[each] = course.release(each)
             except Refused as error:  # a task was changed that has been handed in
                 unfit[each] = str(error)
+        hashes = {each: hash_of(nbformat.writes(it), sources()) for each, it in releases.items()}
+        fresh = []
+        for assignment, student, place in todo:
+            try:
+                if assignment in unfit:
+                    raise Refused(unfit[assignment])
+                hand_in = look(course, assignment, student, place, hashes[assignment])
+            except Exception as error:  # whatever it is, it stops nobody else
+                rows.append(_refused(course, assignment, student, error))
+                continue
+            earlier = course.earlier(assignment, student)
+            if every or earlier.get("key") != hand_in.known["key"]:
+                fresh.append(hand_in)
+            else:
+                rows.append(_row(course, assignment, student, earlier.get("said", ""), False))
+        try:
+            if fresh:
+                with Sandbox([folder, *SECRETS], limits) as sandbox:
+                    rows.extend(_graded(course, sandbox, releases, fresh, names, jobs))
+        except KeyboardInterrupt:
+            course.book.db.rollback()
+            done = sum(row.anew and bool(row.points) for row in rows)
+            said = f"Stopped: {done} of {len(fresh)} hand-ins are graded and in the marks;"
+            raise KeyboardInterrupt(f"{said} the same command goes on with the others.") from None
+        finally:
+            marks.write(course.book, folder)
+    known = {each.username for each in people} or {row.student for row in rows}
+    said = "not in students.csv and not in the marks; "
+    return sorted(r if r.student in known else r._replace(said=said + r.said) for r in rows)
 
-        def run_model(assignment: str) -> list[str]:
-            return lost(sandbox.run(course.solved(assignment), "model", [], trusted=True))
 
-        def run(hand_in: tuple[str, str, Path]) -> tuple:
-            assignment, student, place = hand_in
-            if assignment in unfit:
-                raise Refused(unfit[assignment])
-            path, odd = handins.find(place, course.sources[assignment].name)
-            notebook, how = handins.repaired(handins.read(path), releases[assignment])
-            return sandbox.run(notebook, student, names), odd + how
+def _graded(
+    course: Course,
+    sandbox: Sandbox,
+    releases: dict[str, nbformat.NotebookNode],
+    fresh: list[HandIn],
+    names: list[str],
+    jobs: int,
+) -> Iterator[Row]:
+    """Run the model of each assignment, then the hand-ins; a row for each that is done."""
+    unfit = {}
+    needed = sorted({each.assignment for each in fresh})
 
-        bar = tqdm(total=len(releases) + len(todo), unit="run", disable=None)
-        with bar, ThreadPoolExecutor(jobs) as pool:
-            for each, why in _each(pool, bar, run_model, releases):
+    def run_model(assignment: str) -> list[str]:
+        return lost(sandbox.run(course.solved(assignment), "model", [], trusted=True))
+
+    def run(it: HandIn) -> tuple:
+        if it.assignment in unfit:
+            raise Refused(unfit[it.assignment])
+        notebook, how = sandbox.repaired(it.path, releases[it.assignment])
+        return sandbox.run(notebook, it.student, names), it.odd + how
+
+    bar = tqdm(total=len(needed) + len(fresh), unit="run", disable=None)
+    with bar, ThreadPoolExecutor(jobs) as pool:
+        try:
+            for each, why in _each(pool, bar, run_model, needed):
                 if why:
                     unfit[each] = f"on this machine the model fails: {why}"
-            for (assignment, student, place), result in _each(pool, bar, run, todo):
+            for it, result in _each(pool, bar, run, fresh):
                 try:
                     if isinstance(result, Exception):
                         raise result
                     ran, how = result
-                    points = course.score(assignment, student, ran, place)
-                    course.give_back(assignment, student)
-                    said = "; ".join([f"repaired: {', '.join(how)}"] * bool(how) + stops(ran))
+                    said = [f"repaired: {', '.join(how)}"] * bool(how)
+                    said += handins.misnamed(ran, it.student) + stops(ran)
+                    known = it.known | {"said": "; ".join(said)}
+                    course.score(it.assignment, it.student, ran, it.stamp, known)
+                    yield _row(course, it.assignment, it.student, known["said"])
                 except Exception as error:  # whatever it is, it stops nobody else
-                    kind = "" if isinstance(error, Refused) else f"{type(error).__name__}: "
-                    points, said = "", f"refused: {kind}{error}"
-                rows.append(Row(assignment, student, points, " ".join(said.split())))
-        with course.api.gradebook as book:
-            marks.write(book, folder)
-    return sorted(rows)
+                    yield _refused(course, it.assignment, it.student, error)
+        except (KeyboardInterrupt, GeneratorExit):
+            pool.shutdown(wait=False, cancel_futures=True)
+            for child in psutil.Process().children(recursive=True):
+                with suppress(psutil.Error):
+                    child.kill()
+            raise
 
 
-def _listed(course: Course, wanted: list[str]) -> tuple[list[Row], list[tuple]]:
-    """What is refused by its name, and what is to be graded: assignment, student, folder."""
+def _row(course: Course, assignment: str, student: str, said: str, anew: bool = True) -> Row:
+    """The line of what is graded, and the page that belongs to it."""
+    points = course.points(assignment, student)
+    course.give_back(assignment, student)
+    told = "; ".join(filter(None, [*points.said, said]))
+    return Row(assignment, student, f"{points.reached:g}/{points.most:g}", told, anew)
+
+
+def _refused(course: Course, assignment: str, student: str, error: Exception) -> Row:
+    """The line of what can't be graded."""
+    kind = "" if isinstance(error, Refused) else f"{type(error).__name__}: "
+    said = f"refused: {kind}{error}"
+    with suppress(MissingEntry):
+        course.book.find_submission(assignment, student)
+        said += "; the points of an earlier hand-in stand"
+    return Row(assignment, student, "", said)
+
+
+def _listed(
+    course: Course, wanted: list[str], students: Collection[str]
+) -> tuple[list[Row], list[tuple[str, str, Path]], list[str]]:
+    """What is refused by its name; what is to be graded: assignment, student, folder; the class."""
     wanted = course.checked(wanted) or list(course.sources)
     known = ", ".join(course.sources)
     rows, todo = [], []
@@ -101,7 +176,13 @@ def _listed(course: Course, wanted: list[str]) -> tuple[list[Row], list[tuple]]:
                     rows.append(Row("", home.name, "", said))
                 elif place.name in wanted:
                     todo.append((place.name, home.name, place))
-    return rows, todo
+    names = sorted({student for _, student, _ in todo})
+    if unknown := ", ".join(sorted(set(students) - {*names, *(row.student for row in rows)})):
+        raise SystemExit(f"no hand-in of {unknown}: there are those of {', '.join(names)}")
+    if students:
+        rows = [row for row in rows if row.student in students]
+        todo = [each for each in todo if each[1] in students]
+    return rows, todo, names
 
 
 def _each(
@@ -114,27 +195,6 @@ def _each(
         bar.update()
 
 
-def nothing(folder: Path, wanted: list[str]) -> str:
-    """Say where the hand-ins of these assignments, or of all, are looked for."""
-    first, *_ = sorted((folder / "source").glob(f"{wanted[0] if wanted else '*'}/*.ipynb"))
-    place = folder / "submitted" / "NAME" / first.relative_to(folder / "source")
-    return f"No hand-ins{' of ' * bool(wanted)}{', '.join(wanted)}. A student's goes to {place}"
-
-
-def table(rows: list[Row]) -> str:
-    """One line a hand-in, and a count."""
-    graded = [row for row in rows if row.points]
-    repairs = sum("repaired:" in row.said for row in graded)
-    lines = [Row("", "student", "points", ""), *rows]
-    wide = [max(len(row[k]) for row in lines) for k in range(3)]
-    text = [
-        f"{a:<{wide[0]}}  {s:<{wide[1]}}  {p:>{wide[2]}}  {said}".rstrip()
-        for a, s, p, said in lines
-    ]
-    count = f"{len(graded)} graded, {repairs} of them repaired; {len(rows) - len(graded)} refused"
-    return "\n".join([*text, count])
-
-
 if __name__ == "__main__":
     parser = options(__doc__)
     said = "at once; as many as there are processors by default"
@@ -143,15 +203,23 @@ if __name__ == "__main__":
     parser.add_argument("--seconds", type=float, default=60.0, help=said)
     said = "most gigabytes of memory of a hand-in, 4 by default"
     parser.add_argument("--memory", type=float, default=4.0, help=said)
+    said = "only this student, by the name of the folder; can be given several times"
+    parser.add_argument("--student", action="append", metavar="NAME", help=said)
+    said = "also what has not changed since it was graded"
+    parser.add_argument("--all", action="store_true", help=said)
     given = parser.parse_args()
     for name in "jobs", "seconds", "memory":
         if not getattr(given, name) > 0:
             parser.error(f"--{name} {getattr(given, name)} is not allowed: more than 0 is needed")
-    if not hides():
+    if not holds():
         print("Hand-ins can read what you can read here: the lecturer's guide says more.")
-    if not (COURSE.parent / "node_modules" / "mathjax").exists():
-        print("Feedback shows formulas as TeX: book/tools/build.py fetches what draws them.")
     most = Limits(given.seconds, 5 * given.seconds, int(given.memory * 1e9))
     folder = given.course.resolve()
-    rows = grade(folder, given.assignments, most, given.jobs)
+    try:
+        rows = grade(folder, given.assignments, most, given.jobs, given.student or (), given.all)
+    except ValueError as error:
+        sys.exit(str(error))
+    except KeyboardInterrupt as stop:
+        print(stop or "Stopped: nothing is graded.")
+        sys.exit(130)
     print(table(rows) if rows else nothing(folder, given.assignments))

@@ -1,29 +1,27 @@
 """The course's settings: run nbgrader in this folder."""
 
+import sys
 from pathlib import Path
 
-import nbgrader
+from nbgrader.preprocessors import ClearMarkScheme, GetGrades
 
-import wmrbook
+sys.path.insert(0, str(Path(__file__).resolve().parent))
+import feedback
+import policy
 
 c = get_config()  # noqa: F821  (nbgrader provides it)
 
 c.CourseDirectory.course_id = "wmr"
 # What students get in the place of an answer; an untouched cell fails by it.
 c.ClearSolutions.code_stub = {"python": 'raise NotImplementedError("write your answer here")'}
+# Due dates, extensions and what it costs to be late: term.toml.
+c.AssignLatePenalties.plugin_class = policy.Late
+c.Late.folder = str(Path(__file__).resolve().parent)
+# What an assistant marks by stands in the locked cell before an explanation. Students get that cell
+# without it; the formgrader shows it whole, as it restores locked cells.
+c.ClearMarkScheme.enforce_metadata = False  # such a cell needs no points of its own
 c.ExecutePreprocessor.timeout = 120  # s for a cell: an endless loop ends
 
-
-def javascript(name):
-    """Return a file of the book's JavaScript as it stands in a page, or nothing without npm's."""
-    path = Path(wmrbook.__file__).parents[1] / name
-    return path.read_text(encoding="utf-8") if path.exists() else ""
-
-
-# The feedback opens without a network: the template beside this file comes first.
-c.HTMLExporter.filters = {"javascript": javascript}
-c.HTMLExporter.template_name = "offline"
-c.HTMLExporter.extra_template_basedirs = [
-    str(Path(__file__).parent / "templates"),
-    str(Path(nbgrader.__file__).parent / "server_extensions" / "formgrader" / "templates"),
-]
+# Its own commands write the pages that grade.py writes: nothing in them acts.
+c.GenerateFeedback.exporter_class = feedback.Page
+c.GenerateFeedback.preprocessors = [ClearMarkScheme, GetGrades]

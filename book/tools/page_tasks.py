@@ -29,11 +29,11 @@ DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
 SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
 STUB = 'raise NotImplementedError("write your answer here")\n'
 ABOUT = (
-    "Graded tasks of [the course](../lecturers.md#graded-exercises), checked here with its hints. "
+    "Graded tasks of the course, checked here with its hints. "
     "This page has `math`, `sympy` and `numpy` for single numbers; arrays need the notebook."
 )
 DRIVEN = (
-    "A graded task of [the course](../lecturers.md#graded-exercises). With your name, the cell "
+    "A graded task of the course. With your name, the cell "
     "shows your numbers; the course's notebook drives with them."
 )
 
