@@ -28,6 +28,7 @@ TASKS = {
 DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
 SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
 STUB = 'raise NotImplementedError("write your answer here")\n'
+EXPLAIN = "YOUR ANSWER HERE\n"  # nbgrader's own, where a text is asked for
 ABOUT = (
     "Graded tasks of the course, checked here with its hints. "
     "This page has `math`, `sympy` and `numpy` for single numbers; arrays need the notebook."
@@ -102,11 +103,12 @@ def handed_in(chapter: str) -> dict | None:
     notebook = nbformat.read(path, 4)
     for cell in notebook.cells:
         name = cell.metadata["nbgrader"]["grade_id"]
-        if cell.cell_type == "markdown":
-            title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
-        elif SOLUTION.search(cell.source):
-            cell.source = SOLUTION.sub(lambda it: it[1] + STUB, cell.source).rstrip("\n")
+        title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
+        if cell.metadata["nbgrader"]["solution"]:
+            stub = STUB if cell.cell_type == "code" else EXPLAIN
+            cell.source = SOLUTION.sub(lambda it, to=stub: it[1] + to, cell.source).rstrip("\n")
             elsewhere += [title] * (name not in (*TASKS[chapter], "name"))
+    elsewhere = list(dict.fromkeys(elsewhere))
     return {"file": path.name, "notebook": notebook, "elsewhere": elsewhere}
 
 
