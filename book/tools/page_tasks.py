@@ -10,6 +10,8 @@ import re
 from pathlib import Path
 
 import nbformat
+from nbgrader.preprocessors import ClearHiddenTests, ClearMarkScheme, ClearSolutions
+from traitlets.config.loader import PyFileConfigLoader
 
 SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
 CHAPTER = re.compile(r"notebooks/(\d\d)_")
@@ -28,7 +30,6 @@ TASKS = {
 DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
 SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
 STUB = 'raise NotImplementedError("write your answer here")\n'
-EXPLAIN = "YOUR ANSWER HERE\n"  # nbgrader's own, where a text is asked for
 ABOUT = (
     "Graded tasks of the course, checked here with its hints. "
     "This page has `math`, `sympy` and `numpy` for single numbers; arrays need the notebook."
@@ -104,10 +105,11 @@ def handed_in(chapter: str) -> dict | None:
     for cell in notebook.cells:
         name = cell.metadata["nbgrader"]["grade_id"]
         title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
-        if cell.metadata["nbgrader"]["solution"]:
-            stub = STUB if cell.cell_type == "code" else EXPLAIN
-            cell.source = SOLUTION.sub(lambda it, to=stub: it[1] + to, cell.source).rstrip("\n")
-            elsewhere += [title] * (name not in (*TASKS[chapter], "name"))
+        if cell.metadata["nbgrader"]["solution"] and name not in (*TASKS[chapter], "name"):
+            elsewhere.append(title)
+    settings = PyFileConfigLoader("nbgrader_config.py", str(SOURCE.parent)).load_config()
+    for step in ClearSolutions, ClearMarkScheme, ClearHiddenTests:
+        notebook, _ = step(config=settings).preprocess(notebook, {})
     elsewhere = list(dict.fromkeys(elsewhere))
     return {"file": path.name, "notebook": notebook, "elsewhere": elsewhere}
 
