@@ -26,7 +26,7 @@ FLIPS = {  # the question: a formula behind it, what stands there, and what to m
     "turning-centre": (kinematics.wheels_to_twist, "right - left", "left - right"),
     "four-moves": (motion.arc_step, "y + chord", "y - chord"),
     "two-angles": (motion.polar_from_pose, "sight - heading", "sight + heading"),
-    "beta-or-theta": (motion.polar_closing_rate, "omega, turning", "omega, -turning"),
+    "beta-or-theta": (motion.polar_from_pose, "sight - goal_heading", "goal_heading - sight"),
     "level-spot": HEADING,
     "millimetre-beside": SPEED,
     "tenth-of-a-second": SPEED,

@@ -4,6 +4,7 @@ import contextlib
 import json
 import linecache
 import os
+import re
 import subprocess
 import sys
 import tomllib
@@ -18,6 +19,7 @@ from wmrlib import Gains
 ROOT = Path(__file__).parents[1]
 ASSIGNMENTS = sorted(path.name for path in (ROOT / "book/course/source").iterdir() if path.is_dir())
 STUB = 'raise NotImplementedError("write your answer here")'
+SOLUTION = re.compile("<summary>Solution.*?</details>", re.DOTALL)
 BEGIN, END = "### BEGIN SOLUTION", "### END SOLUTION"
 
 
@@ -37,6 +39,12 @@ def cells(chapter: str) -> dict[str, tuple[str, int]]:
             points = settings.get("points", 0) if settings["grade"] else 0
             found[settings["grade_id"]] = "".join(cell["source"]), points
     return found
+
+
+def most(chapter: str) -> float:
+    """The points of the whole assignment, those that an assistant gives among them."""
+    every = json.loads(notebook(chapter).read_text(encoding="utf-8"))["cells"]
+    return sum(cell["metadata"]["nbgrader"].get("points", 0) for cell in every)
 
 
 @cache
@@ -103,11 +111,12 @@ def released(source: str) -> str:
 def given(chapter: str, student: str = "Ada") -> dict:
     """The names that the notebook's other cells make for a student, with the model's answers.
 
+    What an assistant alone looks at is left out.
     `scaled` makes gains of the paper's robot those of the student's.
     """
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
-        if not points:
+        if not points and (name == "name" or tasks(chapter).get(name) != []):
             _run(
                 source.replace('name = "model"', f"name = {student!r}"),
                 f"<{chapter} {name}>",
@@ -143,6 +152,21 @@ def lost(chapter: str, key: str, source: str, student="Ada", by="") -> dict[str,
         except Exception as error:
             found[name] = f"{type(error).__name__}: {error}"
     return found
+
+
+@cache
+def closed() -> list[str]:
+    """Plain words of each solution of an exercise, and of each paragraph of the lecturer's guide.
+
+    They are the lecturer's alone.
+    """
+    chapters = (path.read_text(encoding="utf-8") for path in (ROOT / "notebooks").glob("*.ipynb"))
+    cells = ("".join(cell["source"]) for text in chapters for cell in json.loads(text)["cells"])
+    texts = [each for cell in cells for each in SOLUTION.findall(cell)]
+    guide = (ROOT / "book/lecturers.md").read_text(encoding="utf-8")
+    texts += re.sub("^```.*?^```", "", guide, flags=re.MULTILINE | re.DOTALL).split("\n\n")[1:]
+    runs = (run.strip() for each in texts for run in re.findall("[A-Za-z, ]{31,}", each))
+    return sorted({run for run in runs if len(run) > 30})
 
 
 @cache

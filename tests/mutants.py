@@ -103,7 +103,7 @@ EQUIVALENT = [
     ("sweeping.py", "in if len(chunks)", "where is compiled does not show"),
     ("symbolic/symbols.py", "'1' -> '2' in def fdiff(", "sympy passes it"),
     ("tracks/fixes.py", "'0.0' -> '1' in back = ", "what is in order loses nothing"),
-    ("tracks/tables.py", "in _MOST_SECONDS = ", "a tolerance"),
+    ("tracks/moments.py", "in _MOST_SECONDS = ", "a tolerance"),
     ("tracks/nmea.py", "'13' -> '26' in fields +=", "fields that are not read"),
     ("symbolic/formulas.py", "motion.polar_from_pose, 0, 0, 0", "what the result does not read"),
 ]

@@ -1,6 +1,7 @@
 """The cache: nothing is compiled twice, and an edited formula is never run from an old binary."""
 
 import os
+import re
 import shutil
 import struct
 import subprocess
@@ -145,22 +146,50 @@ def compiled_again():
     return made(3.0), sum(made.stats.cache_misses.values())
 
 
-def test_what_older_versions_compiled_is_forgotten_after_a_month(tmp_path, monkeypatch):
+HEX = st.text("0123456789abcdef", min_size=16, max_size=16)
+OURS = HEX.map("drive-{}".format) | HEX.map("law_1-{}".format) | HEX.map("{0}{0}".format)
+FOLDERS = HEX.map("compiled-{}".format)
+ANY = st.sampled_from(["thesis", "compiled-thesis", "compiled-" + 17 * "0", "compiled-" + 15 * "f"])
+
+
+@settings(max_examples=60, deadline=None)
+@given(
+    name=FOLDERS | FOLDERS.map(str.upper) | ANY,
+    files=st.sets(OURS, max_size=3),
+    others=st.sets(ANY | OURS.map("{}.txt".format), max_size=1),
+    days=st.sampled_from([29, 31, 400]),
+    kind=st.sampled_from(["folder", "folder", "link", "file"]),
+)
+def test_only_what_older_versions_compiled_is_forgotten_and_after_a_month(
+    tmp_path_factory, name, files, others, days, kind
+):
+    place, target = tmp_path_factory.mktemp("cache"), tmp_path_factory.mktemp("other")
+    path, then = place / name, time.time() - 86400 * days
+    inside = target if kind == "link" else path
+    if kind == "file":
+        path.write_text("a file")
+    else:
+        inside.mkdir(exist_ok=True)
+        for each in files | others:
+            (inside / each).write_text("compiled")
+    if kind == "link":
+        path.symlink_to(target)
+    os.utime(path, (then, then))
+    _compile._forget_old(place)
+    made = kind == "folder" and re.fullmatch("compiled-[0-9a-f]{16}", name) and days > 30
+    assert path.exists() == (not made or bool(others))
+    if kind != "file" and path.exists():
+        assert {each.name for each in inside.iterdir()} == (others if made else files | others)
+
+
+def test_two_processes_may_forget_at_the_same_time(tmp_path, monkeypatch):
+    old, unlink = tmp_path / "compiled-0123456789abcdef", Path.unlink
+    old.mkdir()
+    (old / f"drive-{16 * 'a'}").touch()
+    os.utime(old, (0, 0))
+    monkeypatch.setattr(Path, "unlink", lambda path: [unlink(path) for _ in range(2)])
     monkeypatch.setattr(_compile, "_FOLDERS", [tmp_path / "compiled-new"])
-    days = {"compiled-recent": 29, "compiled-old": 31, "another's": 400}
-    for name, age in days.items():
-        (tmp_path / name).mkdir()
-        os.utime(tmp_path / name, 2 * (time.time() - 86400 * age,))
-    remove = shutil.rmtree
-
-    def removed_twice(folder):  # by another process at the same time
-        remove(folder)
-        raise FileNotFoundError(folder)
-
-    monkeypatch.setattr(shutil, "rmtree", removed_twice)
     assert compiled_again() == (3.0 * FACTOR, 1)
-    left = {path.name for path in tmp_path.iterdir()}
-    assert left == {"compiled-new", "compiled-recent", "another's"}
 
 
 @st.composite

@@ -102,6 +102,96 @@ def test_who_is_wrong_reads_why_and_loses_exactly_what_is_wrong(chapter, student
     assert min(others.values()) >= 3, others
 
 
+# What a slip makes of the numbers that a model returns, and what the student reads at once.
+SLIPS = {
+    "but rounded": "np.round(it, 3)",
+    "such as pi|`math.pi`|is needed|beside the place|plain mean": "np.multiply(it, 1 + 1e-4)",
+    "swapped|changed places": "it[::-1] if np.ndim(it) == 1 else it",
+}
+RETURNS = """
+import numpy as np
+_model = {0}
+def {0}(*given):
+    it = _model(*given)
+    return it if isinstance(it, bool) else {1}
+"""
+
+
+@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+def test_no_formula_is_blamed_for_a_slip(chapter):
+    """A last digit, or the order of right numbers: the first hint says so."""
+    found = {}
+    for task, (first, *_) in asked(chapter).items():
+        model, _ = cells(chapter)[task]
+        name = re.match(r"def (\w+)", model)
+        for words, slip in SLIPS.items() if name and "Pose(" not in model else ():
+            hints = lost(chapter, first, model + "\n" + RETURNS.format(name[1], slip))
+            if not all(re.search(words, each) for each in hints.values()):
+                found[task, slip] = hints
+    assert found == {}
+
+
+# Ways to write a right answer: every number, whatever holds several, every expression.
+NUMBERS = ["Fraction(it)", "Decimal(it)", "np.float64(it)", "mpmath.mpf(it)", "sp.Float(it, 30)"]
+NUMBERS += ["int(it) if it == int(it) else it", "np.array(it)", "sp.Rational(it)"]
+SEVERAL = ["tuple(it)", "list(it)", "np.array(it)", "sp.Matrix(it)", "mpmath.matrix(it)"]
+EXPRESSIONS = [
+    "sp.factor",
+    "sp.expand",
+    "sp.together",
+    "sp.trigsimp",
+    "sp.factor_terms",
+    "sp.powsimp",
+]
+EXPRESSIONS += ["sp.nsimplify", "sp.simplify", "sp.signsimp", "sp.UnevaluatedExpr", "sp.cancel"]
+EXPRESSIONS += [
+    *("lambda it: sp.collect(it, rho)", "lambda it: it.rewrite(sp.exp)"),
+    *("lambda it: sp.Mul(-1, -it, evaluate=False)", "lambda it: sp.Add(it, 0, evaluate=False)"),
+    "lambda it: it.xreplace({each: sp.Symbol(each.name) for each in it.free_symbols})",
+    "lambda it: (lambda parts, ends: ends[0].subs(parts[::-1]))(*sp.cse(it))",
+]
+WRITTEN = """
+from decimal import Decimal
+from fractions import Fraction
+import mpmath, numpy as np, sympy as sp
+from wmrlib.symbolic import rho
+def _several(it, way):
+    named = hasattr(it, "_fields") or isinstance(it, tuple) and hasattr(it[0], "_fields")
+    return it if named or not isinstance(it, (tuple, list, np.ndarray)) else way(it)
+def _each(it, way):
+    it = it.tolist() if isinstance(it, np.ndarray) else it
+    if isinstance(it, (tuple, list)):
+        made = [_each(one, way) for one in it]
+        return tuple.__new__(type(it), made) if isinstance(it, tuple) else made
+    return way(it) if isinstance(it, (int, float)) and not isinstance(it, bool) else it
+def _formula(it, way):
+    if isinstance(it, sp.MatrixBase):
+        return it.applyfunc(way)
+    return way(it) if isinstance(it, sp.Expr) else it
+_model = {0}
+"""
+
+
+@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+def test_a_right_answer_may_be_written_in_any_way(chapter):
+    ways = [f"_each(it, lambda it: {way})" for way in NUMBERS]
+    ways += [f"_several(it, lambda it: {way})" for way in SEVERAL]
+    formulas = [f"_formula(it, {way})" for way in EXPRESSIONS]
+    found = {}
+    for task, checks in asked(chapter).items():
+        model, _ = cells(chapter)[task]
+        kind, name = re.match(r"(def )?(\w+)", model).groups()
+        form = f"def {name}(*given):\n    it = _model(*given)\n    return " if kind else ""
+        form = form or f"it = _model\n{name} = "
+        for way in ways if kind else ways + formulas:
+            answer = model + "\n" + WRITTEN.format(name) + form + way
+            for check in checks[:1] if kind else checks:
+                hints = lost(chapter, check, answer)
+                if hints and "right, but the sign can't be read off" not in hints[check]:
+                    found[task, way] = hints
+    assert found == {}
+
+
 NONSENSE = [
     *(None, ..., 1.5, math.nan, math.inf, 1e308, 1e-308, 10**400, 1j, np.complex128(1 + 2j)),
     *("1.5", True, np.array(True), dict, sp.Symbol("x"), {1.0}, {1.0, 2.0}, {1.0: 1.0, 2.0: 2.0}),
@@ -131,6 +221,20 @@ def test_nonsense_is_answered_by_a_hint(module):
                 with pytest.raises(Hint) as found:
                     check(answer, *[mine] * ("mine" in check.__annotations__))
                 assert len(str(found.value)) < 400
+
+
+@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+def test_a_check_hands_over_nothing_but_what_another_process_can_be_sent(chapter):
+    """The judge asks; the answer is called where the student's code runs."""
+    for task, checks in asked(chapter).items():
+        model, _ = cells(chapter)[task]
+        if name := re.match(r"def (\w+)", model):
+            sent = "_model(*pickle.loads(pickle.dumps(given)))"
+            model += (
+                f"\nimport pickle\n_model = {name[1]}\ndef {name[1]}(*given):\n    return {sent}"
+            )
+            for check in checks:
+                assert lost(chapter, check, model) == {}
 
 
 def test_every_graded_cell_calls_a_check_of_its_own():

@@ -10,6 +10,7 @@ from pathlib import Path
 import build
 import nbformat
 import pytest
+from graded import closed
 from packaging.requirements import Requirement
 from pybtex.database import parse_file
 
@@ -74,6 +75,16 @@ def test_a_release_has_the_zip_that_the_readmes_command_makes():
     assert f'upload "$GITHUB_REF_NAME" book/_build/{build.ZIP} ' in RELEASE
     assert f"`book/_build/{build.ZIP}`" in README
     assert '\n    tags: ["v*"]\n' in RELEASE
+
+
+def test_the_guide_and_the_solutions_are_not_in_what_is_handed_out(tmp_path):
+    build.copy_sources(tmp_path)
+    paths = [*tmp_path.glob("*.md"), *tmp_path.glob("notebooks/*.ipynb")]
+    text = "\n".join(path.read_text(encoding="utf-8") for path in paths).replace("\\n", "\n")
+    text = " ".join(text.split())
+    assert "## Exercises" in text
+    for leak in "](lecturers.md", "hide-cell", "<summary>Solution", "### BEGIN", *closed():
+        assert leak not in text, leak
 
 
 def test_a_python_is_refused_unless_pyproject_allows_it():

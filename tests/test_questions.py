@@ -5,16 +5,20 @@ import os
 import re
 import subprocess
 import sys
+from io import BytesIO
 from pathlib import Path
+from zipfile import ZipFile
 
 import numpy as np
 import package
 import pytest
+import python_pack
 import slides
 from hypothesis import given
 from hypothesis import strategies as st
 
 from wmrbook import questions
+from wmrbook.figures import scenes
 from wmrbook.lines import Line, read, read_all, written
 from wmrbook.questions import Option, Refusal
 from wmrbook.questions.__main__ import main
@@ -28,14 +32,31 @@ from wmrbook.questions.picture import bars
 TESTS = Path(__file__).parent
 CHAPTERS = sorted((TESTS.parent / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 QUESTIONS = questions.made()
-MARK = questions.fingerprint(QUESTIONS)
-KEYS = "".join(question.key for question in QUESTIONS)
+TESTED = tuple(question for question in QUESTIONS if not question.untested)
+MARK = questions.fingerprint(TESTED)
+KEYS = "".join(question.key for question in TESTED)
+COUNT = len(KEYS)
+# What a student has before the course: the form's words say what the symbols mean.
+NOT_YET = r"[Pp]aper|gentle|[Aa]udit|\(\d+\)|\bpoles?\b|damping ratio|Siegwart|Lyapunov"
 
 
-def test_there_are_25_over_all_chapters_and_no_letter_is_favoured():
-    assert len(QUESTIONS) == 25
+def test_there_are_25_over_all_chapters_and_no_letter_of_the_test_is_favoured():
+    assert (len(QUESTIONS), COUNT) == (25, 21)
     assert {question.chapter for question in QUESTIONS} == set(range(13))
     assert {letter: KEYS.count(letter) >= 3 for letter in "ABCDE"} == dict.fromkeys("ABCDE", True)
+
+
+def test_the_test_has_no_words_that_the_course_brings():
+    asked = {it.id: f"{it.ask} {[option.text for option in it.options]}" for it in QUESTIONS}
+    spoken = {name for name, text in asked.items() if re.search(NOT_YET, text)}
+    assert spoken <= {it.id for it in QUESTIONS if it.untested}
+    assert len(spoken) > 2
+
+
+def test_a_lesson_is_reminded_of_its_slides_by_number_and_title():
+    told = [line for chapter in range(13) for line in questions.of_chapter(chapter)]
+    assert told == [f"{number}. {it.title}" for number, it in enumerate(QUESTIONS, start=1)]
+    assert questions.of_chapter(13) == []
 
 
 @pytest.mark.parametrize("question", QUESTIONS, ids=lambda it: it.id)
@@ -128,12 +149,12 @@ def test_a_name_counts_once_by_its_last_line_and_what_does_not_count_is_listed(t
 @pytest.fixture
 def sent(tmp_path):
     """A file of a class: three sheets, a choice, two sorts of numbers, and lines that are wrong."""
-    right, blank = KEYS, "-" * 25
+    right, blank = KEYS, "-" * COUNT
     lines = [
         Line("test", f"pre-{MARK}", "Ada", blank),
         Line("test", f"pre-{MARK}", "Bob", right),
         Line("test", f"post-{MARK}", "ADA", right),
-        Line("test", f"pre-{MARK}", "Cy", right[:13] + blank[13:]),
+        Line("test", f"pre-{MARK}", "Cy", right[:11] + blank[11:]),
         Line("test", f"post-{MARK}", "cy", right),
         *(Line("gate", "ch04-sign", name, value) for name, value in ("AL", "BR", "CL")),
         *(
@@ -153,17 +174,17 @@ def sent(tmp_path):
 
 
 def test_a_class_file_becomes_histograms_of_choices_and_of_numbers(sent):
-    found = read_class(sent, QUESTIONS, MARK)
+    found = read_class(sent, TESTED, MARK)
     told = [(it.line, it.reason) for it in found.refused]
     assert [line for line, _ in told] == [29, 30, 31, 35]
-    parts = "no test", "another form", "25 letters", "no line"
+    parts = "no test", "another form", f"{COUNT} letters", "no line"
     assert all(part in reason for (_, reason), part in zip(told, parts, strict=True))
-    groups = found.histograms(QUESTIONS)
+    groups = found.histograms(TESTED)
     first = groups["test pre"][0]
     chosen = dict(zip(first.labels, first.counts, strict=True))
     assert chosen == dict.fromkeys("ABCDE", 0) | {KEYS[0]: 2, "-": 1}
     assert groups["test pre"][0].right == KEYS[0]
-    assert groups["test pre"][24].counts[-1] == 2
+    assert groups["test pre"][-1].counts[-1] == 2
     assert groups["gate ch04-sign"][0][1:3] == (("L", "R"), (2, 1))
     assert groups["gate ch07-gain"][0][1:3] == (("9", "10"), (2, 1))
     assert groups["predict turning_centre"][0][1:3] == (("0", "2"), (2, 1))
@@ -182,7 +203,7 @@ def test_a_class_file_becomes_histograms_of_choices_and_of_numbers(sent):
 def test_the_commands_write_what_they_say_and_name_what_does_not_count(sent, capsys):
     main(["histogram", str(sent)])
     told = capsys.readouterr().out
-    assert f"1. {QUESTIONS[0].id}: 3 answers" in told
+    assert f"1. {TESTED[0].id}: 3 answers" in told
     assert "line 30 does not count: it was made with another form (0000" in told
     shown = Path(f"{sent}.html").read_text(encoding="utf-8")
     assert shown.count("<img alt=") == 6
@@ -205,28 +226,38 @@ def test_the_form_holds_no_key():
         wrong[at - 1] = wrong[at - 1]._replace(mistake="")
         return question._replace(options=tuple(wrong), why="", section="", title="")
 
-    assert form(QUESTIONS) == form(tuple(map(other, QUESTIONS)))
-    assert form(QUESTIONS).count("<fieldset>") == 26
-    changed = QUESTIONS[0]._replace(ask=QUESTIONS[0].ask + " ")
-    assert questions.fingerprint((changed, *QUESTIONS[1:])) != MARK
+    assert form(TESTED) == form(tuple(map(other, TESTED)))
+    assert form(TESTED).count("<fieldset>") == COUNT + 1
+    changed = TESTED[0]._replace(ask=TESTED[0].ask + " ")
+    assert questions.fingerprint((changed, *TESTED[1:])) != MARK
     with pytest.raises(ValueError, match=r"a form can't write \\gamma"):
         as_html(r"$\gamma$")
 
 
 def test_students_do_not_get_what_computes_the_keys():
     names = {name for name, _ in package._book()}
-    assert "book/wmrbook/lines.py" in names
+    names |= set(ZipFile(BytesIO(python_pack.packages())).namelist())  # of the pages
+    assert {"book/wmrbook/lines.py", "wmrbook/lines.py"} <= names
     assert not [name for name in names if "wmrbook/questions" in name]
 
 
 def test_the_deck_has_a_slide_a_question_and_one_for_its_answer():
     cells = slides.prepared(slides.questions()).cells
     heads = [cell.source for cell in cells if cell.source.startswith("#")]
-    assert len(heads) == 1 + 2 * 25
-    assert [head[:8] for head in heads[2:5:2]] == [f"## {k}. {KEYS[k - 1]}:"[:8] for k in (1, 2)]
+    assert len(heads) == 3 + 2 * 25
+    answers = [f"## {number}. {it.key}:" for number, it in enumerate(QUESTIONS, start=1)]
+    assert [head.rpartition(":")[0] + ":" for head in heads[4::2]] == answers
 
 
-def a_class(rng, known, planted, guess=0.2, students=30, count=25):
+def test_a_picture_has_no_number_that_its_question_has_not():
+    asked = {it.id: it.ask for it in QUESTIONS}
+    assert asked.keys() >= scenes.SCENES.keys()
+    for name in scenes.SCENES:
+        told = re.findall(r"\d+(?:\.\d+)?", scenes.scene_of(name).alt)
+        assert set(told) <= set(re.findall(r"\d+(?:\.\d+)?", asked[name])), name
+
+
+def a_class(rng, known, planted, guess=0.2, students=30, count=COUNT):
     """Answers before and after of a class that gains exactly what is planted, up to one question.
 
     Whether a student knows a question follows from ability and difficulty (a logistic curve, both

@@ -215,6 +215,15 @@ def test_places_beyond_the_squares_of_numbers(method):
     wild = wmr.simulate(ORIGIN, ORIGIN, wmr.Gains(1e300, 1e300, 1e300, 1e300), method=method)
     for lost in (beyond, wild):
         assert (lost.outcome, len(lost)) == (wmr.Outcome.DIVERGED, 0)
+        assert (lost.peak_omega, lost.path_length) == (0.0, 0.0)
+
+
+def test_a_run_that_is_lost_on_its_way_keeps_what_it_did_before():
+    stiff = wmr.Gains(1.0, 1.0, 1e200, 4.0)
+    run = wmr.simulate(wmr.Pose(1e150, 0.0, 0.0), ORIGIN, stiff, method="continuous")
+    assert (run.outcome, len(run)) == (wmr.Outcome.DIVERGED, 2)
+    assert run.peak_omega >= np.abs(run.omega).max() > 0.0
+    assert run.path_length > 0.0
 
 
 def test_a_sweep_knows_the_distance_where_there_is_no_sample():
@@ -318,6 +327,26 @@ def trace(start, gains, most):
     state = adaptive.begun(run, 60.0, 0.05, float(most))
     log = adaptive.trace(state, 0.05, 0, checked_wheels(None), 0.0)
     return log, most - log[steps.TRIALS // steps.LANES]
+
+
+def test_a_run_takes_the_same_steps_in_every_seat_as_alone():
+    draw, count, how = np.random.default_rng(1).uniform, steps.LANES, (0, checked_wheels(None), 0.0)
+    runs = [
+        [*draw(-9.0, 9.0, 2), draw(-3.0, 3.0), *ORIGIN, *draw(0.1, 2.0, 4)] for _ in range(count)
+    ]
+    states = adaptive.begun(np.array(runs).T.copy(), 60.0, 0.05, 10_000.0)
+
+    def after_10_trials(some):
+        bench, used = np.zeros(steps.ROOM), some.shape[1]
+        seats = bench.reshape(-1, count)[: steps.KEPT, :used]
+        seats[:] = some
+        adaptive.begin(bench, used, *how)
+        for _ in range(10):
+            adaptive.trial(bench, used, 0.05, *how)
+        return seats
+
+    alone = np.hstack([after_10_trials(states[:, i : i + 1]) for i in range(count)])
+    assert after_10_trials(states) == pytest.approx(alone, rel=1e-12, abs=0.0)
 
 
 def test_steps_are_as_many_as_another_program_takes_and_sum_up_to_the_same():

@@ -915,8 +915,143 @@ def test_hemispheres_and_fixes_are_known_by_many_names(read):
         assert places(track) == ([33.5], [44.0]), name
         assert dict(track.report.skipped) == {"row without a fix": Count(1, 2)}
     for name, units in (("time_us", 1e6), ("gps time", 1.0), ("Date Time", 1.0), ("timeMs", 1e3)):
-        track = read(f"{name},lat,lon\n1000000,0,0\n4000000,33.5,44\n")
-        assert track.t.tolist() == [0.0, 3e6 / units], name
+        track = read(f"{name},lat,lon\n{units:.0f},0,0\n{4 * units:.0f},33.5,44\n")
+        assert track.t.tolist() == [0.0, 3.0], name
+
+
+@given(
+    st.integers(-89 * 3600 * 10**4, 89 * 3600 * 10**4),
+    st.sampled_from([("lat_deg", "lat_min", "lat_sec"), ("Lat (D)", "Lat (M)", "Lat (S)")]),
+    st.sampled_from(["sign", "N/S", "latHemi"]),
+    st.booleans(),
+    st.sampled_from(["33.5", "0.1"]),
+    st.sampled_from(["60", "-1", "x", ""]),
+)
+def test_columns_of_minutes_are_read_or_the_row_is_refused(
+    tmp_path_factory, size, names, side, seconds, broken, wrong
+):
+    """Ten-thousandths of a second of an arc; -0 deg is south, too."""
+    whole, rest = divmod(abs(size), 3600 * 10**4)
+    minutes, rest = divmod(rest, 60 * 10**4) if seconds else (rest / 60 / 10**4, 0)
+    cells = [f"{whole}", f"{minutes!r}", f"{rest / 10**4!r}"][: 2 + seconds]
+    names, letter = [*names[: 2 + seconds]], "S" if size < 0 else "N"
+    if side == "sign":
+        cells[0] = "-" * (size < 0) + cells[0]
+    else:
+        names, cells = [*names, side], [*cells, letter]
+    path = tmp_path_factory.getbasetemp() / "minutes.csv"
+    bad = [*cells]
+    bad[seconds], bad[1 + seconds] = broken, wrong  # only the last part has decimals
+    rows = [*names, "lon"], *([*row, "2.5"] for row in (cells, bad, cells))
+    path.write_text("".join(",".join(row) + "\n" for row in rows))
+    track = wmr.read_track(path)
+    assert track.points.lat.tolist() == pytest.approx([size / 3600 / 10**4] * 2, abs=1e-12)
+    assert dict(track.report.skipped) == {"row without readable minutes or seconds": (1, 3)}
+
+
+def test_minutes_beside_another_latitude_are_refused(read):
+    for header in (
+        "lat_deg,lat_min,lat,lon",
+        "lat_deg,lat_sec,lon",
+        "lat,latitude_min,latitude,lon",
+    ):
+        with pytest.raises(ValueError, match="more than one column"):
+            read(f"{header}\n1,2,3,4\n")
+
+
+DATES = ["%Y/%m/%d", "%d.%m.%Y", "%m/%d/%Y", "%y%m%d", "%d%m%y", "%m%d%y"]
+
+
+@given(
+    st.integers(0, 29_000),
+    st.lists(st.integers(0, 3), min_size=1, max_size=6),
+    st.sampled_from(DATES),
+)
+def test_the_order_of_a_date_is_that_of_the_whole_file(tmp_path_factory, begin, days, how):
+    """Whatever is read is right; where two orders bring the dates as near, none is."""
+    first = BEGIN.replace(year=1990, month=1, day=1) + timedelta(days=begin)
+    dates = [first + timedelta(days=sum(days[:k])) for k in range(len(days) + 1)]
+    path = tmp_path_factory.getbasetemp() / "dates.csv"
+    rows = (f"{date.strftime(how)},12:00:{k:02d},{k},2\n" for k, date in enumerate(dates))
+    path.write_text("date,time,lat,lon\n" + "".join(rows))
+    track = wmr.read_track(path)
+    right = [(date - first).total_seconds() + k for k, date in enumerate(dates)]
+    if track.report.noted:
+        assert dict(track.report.noted) == {"with an unreadable time": (len(dates), 2)}
+        assert how[1] != "Y"
+    else:
+        assert track.t.tolist() == right
+
+
+def test_numbers_that_are_no_seconds_are_days_or_refused(read):
+    """Excel counts days, a board milliseconds since it was switched on."""
+    days = [45292.5 + k / 86400 for k in range(5)]
+    track = read("time,lat,lon\n" + "".join(f"{day:.9f},{k},2\n" for k, day in enumerate(days)))
+    assert track.t == pytest.approx(range(5), abs=1e-4)
+    assert dict(track.report.noted) == {"with a time in days, as spreadsheets count them": (5, 2)}
+    board = "".join(f"{12345 + 200 * k},{k},2\n" for k in range(5))
+    track = read("time,lat,lon\n" + board)
+    assert np.isnan(track.t).all()
+    (noted,) = track.report.noted
+    assert "seconds or milliseconds" in noted
+    for name, unit in (("time_ms", 1e3), ("time_s", 1.0)):
+        track = read(f"{name},lat,lon\n{board}")
+        assert track.t == pytest.approx([200 * k / unit for k in range(5)])
+        assert not track.report.noted
+    for times in (
+        [45292 + k for k in range(5)],
+        [0, 60, 120],
+        [1.7e9, 1.7e9 + 300],
+        [0, 99.5, 300],
+    ):
+        track = read("t,lat,lon\n" + "".join(f"{t!r},{k},2\n" for k, t in enumerate(times)))
+        assert track.t == pytest.approx([t - times[0] for t in times])
+        assert not track.report.noted
+
+
+def test_what_spreadsheets_write_around_a_table_is_read(read):
+    degree = "33,5\N{DEGREE SIGN}S;44,25\N{DEGREE SIGN}E"
+    for head, code in (
+        (head, code)
+        for head in ("", "sep=;\n", "My drive; 2026\n\nby me\n")
+        for code in ("utf-8", "latin-1", "utf-16")
+    ):
+        track = read(f"{head}lat;lon\n{degree}\n".encode(code))
+        assert places(track) == ([-33.5], [44.25])
+        titles = len([line for line in head.split("\n") if line])
+        wanted = {"line above the names of the columns": (titles, 1)} if titles else {}
+        assert dict(track.report.skipped) == wanted
+    assert places(read("lat,lon\n\u22121.5,\u22122\n")) == ([-1.5], [-2.0])
+    assert places(read("lat;lon\n\u22121,5;2\n")) == ([-1.5], [2.0])
+    with pytest.raises(ValueError, match=r"first line 'one' does not name"):
+        read("one\n" * 10 + "lat,lon\n1,2\n")
+
+
+ENDLESS = {
+    "gpx": gpx(f'<metadata name="{"x" * 8_000_000}"/>{trk(GOOD)}'),
+    "comment": gpx(f"<!--{'x' * 8_000_000}-->{trk(GOOD)}"),
+    "nmea": "$GPGGA," * 300_000,
+    "one line": gga() * 20_000,
+    "row": "lat,lon\n1,2\n" + "1," * 4_000_000,
+    "header": "lat,lon," * 2_000_000,
+}
+
+
+@pytest.mark.parametrize("kind", ENDLESS)
+def test_a_line_without_an_end_takes_little_time_and_memory(read, tmp_path, kind):
+    path = tmp_path / "endless"
+    path.write_text(ENDLESS[kind])
+    tracemalloc.start()
+    begin = process_time()
+    if kind == "one line":
+        assert len(wmr.read_track(path)) == 1
+    else:
+        with pytest.raises(ValueError, match=r"more than|without a checksum|neither NMEA"):
+            wmr.read_track(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert peak < 12_000_000
+    assert process_time() - begin < 30  # traced; the attribute alone took 140 s
 
 
 # Whatever a file holds

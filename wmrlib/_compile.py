@@ -10,7 +10,6 @@ from __future__ import annotations
 
 import os
 import pickle
-import shutil
 import sys
 import time
 import warnings
@@ -29,6 +28,7 @@ from numba.core.serialize import dumps
 
 _PACKAGE = Path(__file__).parent
 _MONTH = 30 * 24 * 3600.0  # s
+_DIGEST = 16 * "[0-9a-f]"  # how the names of folders and files end; twice for an unfinished file
 _SOURCES = sorted((*_PACKAGE.glob("*.py"), *_PACKAGE.glob("_loops/*.py")))
 
 
@@ -97,10 +97,12 @@ def _kept(file: Path, content: bytes) -> bool:
 
 def _forget_old(place: Path) -> None:
     """Remove what other versions compiled, where nothing was added for a month."""
-    for folder in place.glob("compiled-*"):
-        with suppress(OSError):  # another process forgets it at the same time
-            if folder.stat().st_mtime < time.time() - _MONTH:
-                shutil.rmtree(folder)
+    for folder in place.glob(f"compiled-{_DIGEST}"):
+        with suppress(OSError):  # it holds something else, or another process forgets it too
+            if not folder.is_symlink() and folder.stat().st_mtime < time.time() - _MONTH:
+                for file in (*folder.glob(f"*-{_DIGEST}"), *folder.glob(2 * _DIGEST)):
+                    file.unlink()
+                folder.rmdir()
 
 
 @lru_cache

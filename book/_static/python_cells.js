@@ -67,6 +67,26 @@
   const kind = (cell) => (cell.space === 'tasks' ? 'task' : 'cell');
   const say = (cell, text) => { cell.status.textContent = text; };
 
+  // What is written into a cell that waits for an answer outlives a reload; not where a browser keeps nothing, as some do for files.
+  const place = (name) => `wmr-answer ${location.pathname} ${name}`;
+
+  function kept(name) {
+    try {
+      return localStorage.getItem(place(name));
+    } catch {
+      return null;
+    }
+  }
+
+  function keep(name, text) {
+    try {
+      if (text === null) localStorage.removeItem(place(name));
+      else localStorage.setItem(place(name), text);
+    } catch { /* then the page itself is all that holds it */ }
+  }
+
+  const keepAnswer = (cell) => cell.name && keep(cell.name, source(cell) === cell.source ? null : source(cell));
+
   async function run(cell) {
     if (running) return running === cell || say(cell, 'Another cell is running.');
     running = cell;
@@ -93,7 +113,7 @@
         const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
         if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
         const time = `${((performance.now() - start) / 1000).toFixed(1)} s`;
-        const answered = each.asks && [...(shown.at(-1)?.[1] ?? '').matchAll(/^(Hint|Right)/gm)].at(-1)?.[0];  // of a chapter's own exercise
+        const answered = each.name && [...(shown.at(-1)?.[1] ?? '').matchAll(/^(Hint|Right)/gm)].at(-1)?.[0];  // of a chapter's own exercise
         say(each, answered === 'Hint' ? 'Not yet.' : answered || each.checks.length ? 'Right.' : `Done in ${time}.`);
       }
     } catch (error) {
@@ -134,10 +154,10 @@
   }
 
   function edit(cell) {
-    cell.editor = make('textarea', { className: 'python-editor', value: cell.source, spellcheck: false, autocapitalize: 'off' });
+    cell.editor = make('textarea', { className: 'python-editor', value: (cell.name && kept(cell.name)) ?? cell.source, spellcheck: false, autocapitalize: 'off' });
     cell.editor.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
     cell.editor.setAttribute('aria-describedby', 'python-keys');
-    cell.editor.addEventListener('input', () => fit(cell));
+    cell.editor.addEventListener('input', () => { fit(cell); keepAnswer(cell); });
     cell.editor.addEventListener('keydown', keys(cell));
     cell.code.hidden = true;
     cell.code.after(cell.editor);
@@ -159,6 +179,7 @@
     } else {
       cell.editor.remove();
       cell.editor = undefined;
+      keepAnswer(cell);
       cell.code.hidden = false;
       cell.reset.hidden = true;
       cell.edit.hidden = false;
@@ -212,7 +233,7 @@
     input.after(cell.tools);  // which fold with it
     (folded && cell.element.contains(folded) ? folded : cell.tools).after(cell.output);
     cells.push(cell);
-    if (cell.asks) edit(cell);
+    if (cell.name) edit(cell);
   }
 
   window.addEventListener('resize', () => cells.filter((it) => it.editor).forEach(fit));

@@ -14,6 +14,7 @@ pages of feedback/NAME into /home/NAME/robot/feedback. jupyterhub_config.py hand
 from __future__ import annotations
 
 import argparse
+import json
 import sys
 from datetime import UTC, datetime
 from pathlib import Path
@@ -39,10 +40,18 @@ def hand_out(home: Path, package: Path) -> list[str]:
                 if {"", ".", ".."} & {*parts, last}:
                     raise Unfit("its name is none")
                 with homes.folder(home, *parts, make=True) as place:
-                    homes.write(place, last, files.read(name), replace=False)
+                    content = files.read(name)
+                    if last.endswith(".ipynb") and "assignments" in parts:
+                        content = named(content, home.name)
+                    homes.write(place, last, content, replace=False)
             except (OSError, Unfit) as error:
                 said.append(f"{name}: {error}")
     return said
+
+
+def named(notebook: bytes, student: str) -> bytes:
+    """Write the user name into a released notebook whose numbers are made from it."""
+    return notebook.replace(b'name = \\"\\"', f'name = \\"{student}\\"'.encode())
 
 
 def collect(students: Path, course: Path) -> tuple[list[Path], list[str]]:
@@ -55,7 +64,7 @@ def collect(students: Path, course: Path) -> tuple[list[Path], list[str]]:
                 with homes.folder(home, "robot", "assignments", assignment) as place:
                     content, when, remarks = _newest(place, release)
                 said += [f"{home.name}, {assignment}: {each}" for each in remarks]
-                if content is not None:
+                if content is not None and _begun(content, course, assignment, home.name):
                     to = course / "submitted" / home.name / assignment
                     copies.append(incoming.store(to, release, content, when))
             except FileNotFoundError:
@@ -65,6 +74,19 @@ def collect(students: Path, course: Path) -> tuple[list[Path], list[str]]:
             except (OSError, Unfit) as error:
                 said.append(f"{home.name}: not collected: {error}")
     return copies, list(dict.fromkeys(said))
+
+
+def _begun(content: bytes, course: Path, assignment: str, student: str) -> bool:
+    """Whether a notebook has a cell with anything that the student was not given."""
+    try:
+        (release,) = (course / "release" / assignment).glob("*.ipynb")
+        given, now = (
+            {"".join(cell["source"]) for cell in json.loads(text)["cells"]}
+            for text in (named(release.read_bytes(), student), content)
+        )
+    except (OSError, ValueError, LookupError, TypeError, RecursionError):  # it is for the table
+        return True
+    return not now <= given | {""}
 
 
 def _newest(place: homes.Place, release: str) -> tuple[bytes | None, datetime, list[str]]:

@@ -26,12 +26,14 @@ import marks
 import nbformat
 import psutil
 import roster
+from cage import holds
 from changes import HandIn, hash_of, look, sources
 from gradebook import COURSE, Course, lost, options
 from handins import Refused
+from kernel import Limits
 from nbgrader.api import MissingEntry
 from roster import NAME
-from sandbox import Limits, Sandbox, hides, stops
+from sandbox import Sandbox, stops
 from table import Row, nothing, table
 from tqdm import tqdm
 
@@ -110,7 +112,7 @@ def _graded(
     def run(it: HandIn) -> tuple:
         if it.assignment in unfit:
             raise Refused(unfit[it.assignment])
-        notebook, how = handins.repaired(handins.read(it.path), releases[it.assignment])
+        notebook, how = sandbox.repaired(it.path, releases[it.assignment])
         return sandbox.run(notebook, it.student, names), it.odd + how
 
     bar = tqdm(total=len(needed) + len(fresh), unit="run", disable=None)
@@ -123,7 +125,8 @@ def _graded(
                 if isinstance(result, Exception):
                     raise result
                 ran, how = result
-                said = [f"repaired: {', '.join(how)}"] * bool(how) + stops(ran)
+                said = [f"repaired: {', '.join(how)}"] * bool(how)
+                said += handins.misnamed(ran, it.student) + stops(ran)
                 known = it.known | {"said": "; ".join(said)}
                 course.score(it.assignment, it.student, ran, it.stamp, known)
                 yield _row(course, it.assignment, it.student, known["said"])
@@ -229,7 +232,7 @@ if __name__ == "__main__":
     for name in "jobs", "seconds", "memory":
         if not getattr(given, name) > 0:
             parser.error(f"--{name} {getattr(given, name)} is not allowed: more than 0 is needed")
-    if not hides():
+    if not holds():
         print("Hand-ins can read what you can read here: the lecturer's guide says more.")
     most = Limits(given.seconds, 5 * given.seconds, int(given.memory * 1e9))
     folder = given.course.resolve()

@@ -17,6 +17,7 @@ from typing import NamedTuple
 
 import feedback
 import nbformat
+import policy
 from handins import Refused, repaired
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook, MissingEntry, SubmittedAssignment
@@ -148,10 +149,11 @@ class Course:
         submission = self.book.find_submission(assignment, student)
         (notebook,) = submission.notebooks
         notebook.late_submission_penalty = None
+        policy.settle(submission, policy.read(self.folder))
         if submission.total_seconds_late > 0:
-            policy = AssignLatePenalties(parent=self.api)
-            policy.init_plugin()
-            late = policy.plugin_inst.late_submission_penalty(
+            penalties = AssignLatePenalties(parent=self.api)
+            penalties.init_plugin()
+            late = penalties.plugin_inst.late_submission_penalty(
                 student, notebook.score, submission.total_seconds_late
             )
             notebook.late_submission_penalty = min(max(late or 0, 0), notebook.score) or None

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import re
 import warnings
 from collections import defaultdict
 from pathlib import Path
+from unicodedata import normalize
 
 import nbformat
 from cells import compiles, defined, grade_id, nbgrader
 from nbformat import NotebookNode
 from nbformat.warnings import DuplicateCellId, MissingIDFieldWarning
 
+NAME = re.compile(r"""^name *= *["'](.*)["']""", re.MULTILINE)
 MOST_BYTES = 10_000_000  # a release has 20 kB; a hundred figures fit, and nesting stays readable
 for harmless in DuplicateCellId, MissingIDFieldWarning:  # a copied cell, an older notebook
     warnings.simplefilter("ignore", harmless)
@@ -116,6 +119,19 @@ def repaired(handed_in: NotebookNode, release: NotebookNode) -> tuple[NotebookNo
             how["copies dropped:"].append(name)
         result.cells += [cell, *own[name]]
     return result, [f"{what} {', '.join(dict.fromkeys(names))}" for what, names in how.items()]
+
+
+def misnamed(notebook: NotebookNode, student: str) -> list[str]:
+    """Say so if the name in a notebook, which its numbers are made from, is not the student's."""
+    for cell in notebook.cells:
+        given = NAME.search(cell.source) if grade_id(cell) == "name" else None
+        if given and _plain(given[1]) != _plain(student):
+            return [f'its name is "{given[1]}": points may be lost by it']
+    return []
+
+
+def _plain(name: str) -> str:
+    return normalize("NFC", name).strip().casefold()
 
 
 def _places(cells, asked, answers, checks):

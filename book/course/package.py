@@ -1,25 +1,30 @@
 """Make what students get: python book/course/package.py [ASSIGNMENT ...]
 
 It writes students.zip: the released assignments, the chapters without the solutions of their
-exercises, the packages that both import, and how to install them and hand in.
+exercises, the packages that both import, and how to install them and hand in. Where students.csv
+has the class, students/NAME.zip has each student's assignments, with the user name in them.
 """
 
 from __future__ import annotations
 
 import re
+import sys
 from collections.abc import Iterator
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import nbformat
+import roster
+from exchange import named
 from gradebook import COURSE, Course, options
 
 ROOT = COURSE.parents[1]
+sys.path.append(str(ROOT / "book" / "tools"))
+from build import without_solutions  # noqa: E402
+
 FOLDERS = "wmrlib", "book/wmrbook", "book/lab", "notebooks/data"
 CLOSED = ROOT / "book" / "wmrbook" / "questions"  # it computes the keys of the pre- and post-test
 FILES = "LICENSE", "environment.txt", "pyproject.toml"
-SOLUTION = re.compile(r"\n*<details><summary>Solution</summary>.*?</details>", re.DOTALL)
-SOLVES = {"hide-cell", "remove-cell"}  # its code, and the heading that JupyterLab folds above it
 LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the package
 START = """# From two GPS points to a parked robot
 
@@ -35,14 +40,24 @@ answer say whether it is right, and give a hint if not. Hand in the notebook und
 
 
 def main(folder: Path, wanted: list[str], output: Path) -> None:
-    """Write the package with these assignments, or all."""
-    with Course(folder) as course, ZipFile(output, "w", ZIP_DEFLATED) as package:
-        for assignment in course.checked(wanted) or course.sources:
-            name = f"assignments/{assignment}/{course.sources[assignment].name}"
-            package.writestr(f"robot/{name}", nbformat.writes(course.release(assignment)))
-        for name, text in _book():
-            package.writestr(f"robot/{name}", text)
+    """Write the package with these assignments, or all, and a small one for each student."""
+    with Course(folder) as course:
+        released = {
+            f"assignments/{each}/{course.sources[each].name}": nbformat.writes(course.release(each))
+            for each in course.checked(wanted) or course.sources
+        }
+    _write(output, {**released, **dict(_book())})
+    for student in roster.of(folder):
+        own = {k: named(it.encode(), student.username) for k, it in released.items()}
+        _write(folder / "students" / f"{student.username}.zip", own)
     print(output)
+
+
+def _write(path: Path, files: dict[str, str | bytes]) -> None:
+    path.parent.mkdir(exist_ok=True)
+    with ZipFile(path, "w", ZIP_DEFLATED) as package:
+        for name, text in files.items():
+            package.writestr(f"robot/{name}", text)
 
 
 def _book() -> Iterator[tuple[str, str | bytes]]:
@@ -58,10 +73,9 @@ def _book() -> Iterator[tuple[str, str | bytes]]:
     for name in FILES:
         yield name, (ROOT / name).read_bytes()
     for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        chapter = nbformat.read(path, as_version=4)
-        chapter.cells = [c for c in chapter.cells if not SOLVES & {*c.metadata.get("tags", ())}]
+        chapter = without_solutions(nbformat.read(path, as_version=4))
         for cell in chapter.cells:
-            cell.source = LINK.sub(r"\1", SOLUTION.sub("", cell.source))
+            cell.source = LINK.sub(r"\1", cell.source)
         yield f"notebooks/{path.name}", nbformat.writes(chapter)
 
 

@@ -1,15 +1,18 @@
 """Build the book: OUTPUT/html/index.html, which opens from the disk with no network.
 
 With --pdf also OUTPUT/book.pdf, to print; with --zip also OUTPUT/robot-book.zip, which has all that
-a lecturer hands out: the pages, the slides and the PDF. The chapters appear with the outputs and
-panels that they store; the book's own pages are executed. npm fetches once the JavaScript that
-package-lock.json names. PDF and zip need Playwright, and Chromium or Chrome.
+a lecturer hands out: the pages, the slides and the PDF. With --lecturer the same in
+OUTPUT/lecturer, with the lecturer's guide and the solutions of the exercises, which are in nothing
+that is handed out. The chapters appear with the outputs and panels that they store; the book's own
+pages are executed. npm fetches once the JavaScript that package-lock.json names. PDF and zip need
+Playwright, and Chromium or Chrome.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import re
 import shutil
 import subprocess
 import sys
@@ -19,6 +22,7 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import nbformat
+from nbformat import NotebookNode
 from pdf import find_browser, print_book
 from python_pack import write_scripts
 
@@ -32,6 +36,12 @@ NPM_FILES = {"mathjax": ("mathjax/es5/tex-svg-full.js", "mathjax/LICENSE")}
 ZIP = "robot-book.zip"
 START = Path(__file__).with_name("start.html")  # the zip's first page
 LONG = 12  # lines of code; a page folds a cell that has more
+GUIDE = "lecturers.md"
+TO_GUIDE = re.compile(rf"\[([^\]]+)\]\({re.escape(GUIDE)}[^)]*\)|^lecturers\n", re.MULTILINE)
+SOLUTION = re.compile(
+    r"\n*<details><summary>Solution</summary>.*?</details>| Click \*\*1 cell hidden.*?solution\.",
+    re.DOTALL,
+)
 SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
 NO_NPM = (
     "The book needs npm for its JavaScript: install Node.js (Debian: apt install npm), "
@@ -39,7 +49,7 @@ NO_NPM = (
 )
 
 
-def main(output: Path, pdf: bool = False, whole: bool = False) -> None:
+def main(output: Path, pdf: bool = False, whole: bool = False, lecturer: bool = False) -> None:
     """Fetch the JavaScript, lay out the sources and run Sphinx; any warning is an error."""
     if pdf or whole:
         find_browser()  # before minutes of work
@@ -49,14 +59,14 @@ def main(output: Path, pdf: bool = False, whole: bool = False) -> None:
     write_scripts(VENDOR / "python", MODULES)
     for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages
         shutil.rmtree(output / stale, ignore_errors=True)
-    copy_sources(output / "source")
+    copy_sources(output / "source", lecturer)
     say("the pages, about half a minute")
     sphinx("html", output)
     print(output / "html" / "index.html")
     if pdf or whole:
         make_pdf(output)
     if whole:
-        make_zip(output)
+        make_zip(output, lecturer)
 
 
 def make_pdf(output: Path) -> None:
@@ -67,7 +77,7 @@ def make_pdf(output: Path) -> None:
     print(output / "book.pdf")
 
 
-def make_zip(output: Path) -> None:
+def make_zip(output: Path, lecturer: bool = False) -> None:
     """Make the slides, and put them, the pages and the PDF into one file.
 
     Its bytes are the same whenever it is made: files have no dates and stand in order.
@@ -75,7 +85,7 @@ def make_zip(output: Path) -> None:
     import slides  # which imports this module
 
     say("the slides")
-    slides.main(output / "slides", [])
+    slides.main(output / "slides", [], lecturer)
     found = (path for part in ("html", "slides") for path in (output / part).rglob("[!.]*"))
     files = {path.relative_to(output).as_posix(): path for path in found if path.is_file()}
     files |= {"index.html": START, "book.pdf": output / "book.pdf", "LICENSE": ROOT / "LICENSE"}
@@ -141,21 +151,38 @@ def npm_files(pattern: str) -> list[Path]:
     return found
 
 
-def copy_sources(source: Path) -> None:
+def copy_sources(source: Path, lecturer: bool = False) -> None:
     """Put the book's pages and the chapters into one tree, as Sphinx wants them."""
-    shutil.copytree(BOOK / "course" / "source", source / "course" / "source")  # for their table
     hidden = shutil.ignore_patterns(".*", "__pycache__")
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=hidden)
     for page in (*BOOK.glob("*.md"), BOOK / "speed.json", BOOK / "classroom.json"):
         shutil.copy(page, source)
+    if lecturer:
+        shutil.copytree(BOOK / "course" / "source", source / "course" / "source")  # for its table
+    else:
+        (source / GUIDE).unlink()
+        for page in source.glob("*.md"):
+            text = TO_GUIDE.sub(r"\1", page.read_text(encoding="utf-8"))
+            page.write_text(text, encoding="utf-8")
     for chapter in (source / "notebooks").glob("*.ipynb"):
         # In the repository the book's pages are in ../book, seen from a notebook.
         text = chapter.read_text(encoding="utf-8").replace("](../book/", "](../")
         notebook = nbformat.reads(text, as_version=4)
+        if not lecturer:
+            without_solutions(notebook)
         for cell in notebook.cells:
             if cell.cell_type == "code" and cell.source.count("\n") >= LONG:
                 cell.metadata.setdefault("tags", []).append("hide-input")
         nbformat.write(notebook, chapter)
+
+
+def without_solutions(chapter: NotebookNode) -> NotebookNode:
+    """Take the solutions of its exercises, and the code behind them, out of a chapter."""
+    kept = (it for it in chapter.cells if "hide-cell" not in it.metadata.get("tags", ()))
+    chapter.cells = [cell for cell in kept if cell.source != "#### Solution"]
+    for cell in chapter.cells:
+        cell.source = SOLUTION.sub("", cell.source)
+    return chapter
 
 
 def environment() -> dict[str, str]:
@@ -173,6 +200,8 @@ def arguments(description: str, default: Path) -> argparse.ArgumentParser:
     parser.add_argument(
         "output", nargs="?", type=Path, default=default, metavar="OUTPUT", help=said
     )
+    said = "for yourself: with solutions, and the lecturer's guide among the pages"
+    parser.add_argument("--lecturer", action="store_true", help=said)
     return parser
 
 
@@ -182,4 +211,5 @@ if __name__ == "__main__":
     said = "pages, slides and PDF in one file too"
     parser.add_argument("--zip", action="store_true", help=said)
     given = parser.parse_args()
-    main(given.output.resolve(), given.pdf, given.zip)
+    output = given.output.resolve() / ("lecturer" if given.lecturer else "")
+    main(output, given.pdf, given.zip, given.lecturer)

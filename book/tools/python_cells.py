@@ -4,8 +4,8 @@ The page has Python and sympy, but no numpy, no matplotlib and no compiled code.
 chapter runs there if nothing that it names comes from one that can't, and a cell if all that it
 *shows* can; what else it holds is left out, and the page says so. Nothing is marked by hand.
 
-Below a chapter's exercises stand graded tasks that can be checked in the page, out of book/course:
-their text, the cell to fill in, and the checks with their hints. Paper shows none of this.
+Below a chapter's exercises stand graded tasks that can be checked in the page, see page_tasks.py.
+Paper shows none of this.
 """
 
 from __future__ import annotations
@@ -21,36 +21,13 @@ from typing import NamedTuple
 
 import nbformat
 from docutils import nodes
+from page_tasks import CHAPTER, add_tasks, handed_in
 
-SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
-CHAPTER = re.compile(r"notebooks/(\d\d)_")
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
 THERE = {
     *("collections", "functools", "math", "sympy"),
     *("wmrbook.equations", "wmrbook.grading", "wmrlib.symbolic"),
 }
-# The graded tasks that are right in the page too, by the id of the cell to fill in.
-TASKS = {
-    "01": ("distance", "bearing", "local"),
-    "03": ("our-gains",),
-    "04": ("V-rate", "turning", "V-rate-closed", "rising"),
-    "05": ("law", "axes"),
-    "06": ("law",),
-    "10": ("claim23", "claim26"),
-    "11": ("compass",),
-    "12": ("degrees",),
-}
-# Those whose checks drive, which is too much for the page: it makes a student's numbers alone.
-DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
-SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
-STUB = 'raise NotImplementedError("write your answer here")\n'
-ABOUT = (
-    "Graded tasks of [the course](../lecturers.md#graded-exercises), checked here with its hints."
-)
-DRIVEN = (
-    "A graded task of [the course](../lecturers.md#graded-exercises). With your name, the cell "
-    "shows your numbers; the course's notebook drives with them."
-)
 
 
 class Cell(NamedTuple):
@@ -62,7 +39,7 @@ class Cell(NamedTuple):
     left_out: int = 0  # lines
     checks: tuple[str, ...] = ()
     space: str = "chapter"  # cells of one space share their variables
-    asks: bool = False  # it waits for an answer
+    name: str = ""  # of an answer that it waits for, by which the page keeps it
 
 
 def runnable(notebook) -> list[Cell]:
@@ -81,8 +58,9 @@ def runnable(notebook) -> list[Cell]:
             lines = cell.source.splitlines()
             cut = {i for each in left for i in range(each.lineno - 1, each.end_lineno)}
             kept = "\n".join(line for i, line in enumerate(lines) if i not in cut).strip("\n")
-            asks = "grading.exercises." in kept
-            found.append((Cell(place, kept, left_out=len(cut), asks=asks), runs, hidden))
+            asked = re.search(r"grading\.(exercises\.\w+)", kept)
+            name = asked[1] if asked else ""
+            found.append((Cell(place, kept, left_out=len(cut), name=name), runs, hidden))
             hidden = []
         else:
             hidden = hidden + runs
@@ -96,7 +74,7 @@ def _with_what_they_need(found) -> list[Cell]:
         imports = (it for it in (*hidden, *runs) if isinstance(it, ast.Import | ast.ImportFrom))
         imported = imported.union(*map(_binds, imports))
     for cell, runs, hidden in reversed(found):
-        needed |= imported if cell.asks else set()  # an answer may name any of them
+        needed |= imported if cell.name else set()  # an answer may name any of them
         for statement in reversed(runs):
             needed |= _reads(statement)
         before = []
@@ -191,56 +169,6 @@ def _tells(shows: list[ast.stmt], left: list[ast.stmt]) -> bool:
     return not left or any(_reads(each) - {"print"} for each in shows)
 
 
-def add_tasks(app, docname, source):
-    """Put a chapter's tasks below its exercises."""
-    chapter = CHAPTER.match(docname)
-    if chapter and (found := tasks(chapter[1])):
-        notebook = nbformat.reads(source[0], as_version=4)
-        headings = [i for i, each in enumerate(notebook.cells) if each.source.startswith("## ")]
-        exercises = next(i for i in headings if notebook.cells[i].source.startswith("## Exercises"))
-        end = next((i for i in headings if i > exercises), len(notebook.cells))
-        notebook.cells[end:end] = found
-        source[0] = nbformat.writes(notebook)
-
-
-def tasks(chapter: str) -> list:
-    """Return the chapter's tasks as cells of a notebook, without their solutions."""
-    wanted, driven = TASKS.get(chapter, ()), DRIVES.get(chapter, ())
-    if not (wanted or driven):
-        return []
-    (path,) = (SOURCE / f"ch{chapter}").glob("*.ipynb")
-    text, mine, setup, cells = "", "", [], {}
-    for cell in nbformat.read(path, 4).cells:
-        settings = cell.metadata["nbgrader"]
-        if cell.cell_type == "markdown":
-            text = cell.source.replace("## Task", "### Task")
-        elif "### Task" not in text and not cells:
-            setup.append(SOLUTION.sub("", cell.source))  # the imports, and the student's name
-        elif settings["grade_id"] == "mine":
-            mine = setup[1] + cell.source
-        elif SOLUTION.search(cell.source):
-            code = mine, SOLUTION.sub(_stub, cell.source)
-            cells[settings["grade_id"]], mine = (text, code, checks := []), ""
-        elif settings["grade"]:
-            checks.append(cell.source)
-    made = []
-    for name in (*wanted, *driven):
-        text, (mine, answer), checks = cells[name]
-        about = f"\n\n{DRIVEN if name in driven else ABOUT}" * (not made)
-        made.append(nbformat.v4.new_markdown_cell(text + about))
-        parts = (mine, "from wmrbook import grading", []), (answer, setup[0], checks)
-        for source, before, graded in parts:
-            if source and not (graded and name in driven):
-                code = nbformat.v4.new_code_cell(source.strip("\n"))
-                code.metadata["task"] = {"before": before, "checks": graded}
-                made.append(code)
-    return made
-
-
-def _stub(solution: re.Match) -> str:
-    return solution[1] and solution[1] + STUB  # in a function something must stand
-
-
 def give_cells(app, doctree):
     """Tell the page which of its cells run, and what they need."""
     if not CHAPTER.match(app.env.docname):
@@ -252,14 +180,22 @@ def give_cells(app, doctree):
     for place, cell in enumerate(notebook.cells):
         if told := cell.metadata.get("task"):
             before, checks = told["before"], tuple(told["checks"])
-            cells[place] = Cell(place, cell.source, before, 0, checks, "tasks", asks=True)
+            cells[place] = Cell(place, cell.source, before, 0, checks, "tasks", told["name"])
+    section = None
     for container in list(doctree.findall(nodes.container)):
         if cell := cells.get(container.get("cell_index")):
-            given = json.dumps(cell._asdict(), ensure_ascii=False).replace("</", "<\\/")
-            script = f'<script type="application/json" class="python-cell">{given}</script>'
-            container += nodes.raw("", script, format="html")
+            container += _data("python-cell", cell._asdict())
             if cell.space == "tasks":
-                _section_of(container)["classes"].append("python-task")
+                section = _section_of(container)
+                section["classes"].append("python-task")
+    if section and (given := handed_in(CHAPTER.match(app.env.docname)[1])):
+        section += _data("python-hand-in", given)
+
+
+def _data(kind: str, given: dict) -> nodes.raw:
+    text = json.dumps(given, ensure_ascii=False).replace("</", "<\\/")
+    script = f'<script type="application/json" class="{kind}">{text}</script>'
+    return nodes.raw("", script, format="html")
 
 
 def _section_of(node: nodes.Node) -> nodes.section:
@@ -280,6 +216,7 @@ def add_scripts(app, docname, template, context, doctree):
     """Load what runs cells where there are any."""
     if app.builder.name == "html" and "python-cell" in context.get("body", ""):
         app.add_js_file("python_cells.js")
+        app.add_js_file("hand_in.js")
         app.add_css_file("python_cells.css")
 
 

@@ -1,7 +1,8 @@
 """Make a reveal.js deck of each chapter, from its stored outputs and panels.
 
-With --questions make one deck of the concept questions instead, with their answers, for the
-lecturer alone; in a folder of its own, since the other decks are for everybody.
+With --lecturer the speaker's notes have the solutions of the exercises. With --questions make one
+deck of the concept questions instead, with their answers. Both are for the lecturer alone, in
+folders of their own, since the other decks are for everybody.
 
 OUTPUT/index.html lists the decks, and all open from the disk with no network. Each cell's metadata
 slideshow.slide_type, as Jupyter's editors show it, says which part it plays. Every slide gets a
@@ -17,7 +18,15 @@ from dataclasses import dataclass
 from pathlib import Path
 
 import nbformat
-from build import BOOK, NPM_FILES, ROOT, arguments, copy_javascript, install_javascript
+from build import (
+    BOOK,
+    NPM_FILES,
+    ROOT,
+    arguments,
+    copy_javascript,
+    install_javascript,
+    without_solutions,
+)
 from nbconvert.exporters import SlidesExporter
 from nbformat import NotebookNode
 
@@ -67,7 +76,7 @@ class Part:
     live: bool = False  # a panel
 
 
-def main(output: Path, chapters: list[str]) -> None:
+def main(output: Path, chapters: list[str], lecturer: bool = False) -> None:
     """Write the decks of the chapters given by number, or of all, what they load, and a list."""
     paths = sorted(NOTEBOOKS.glob("[0-9][0-9]_*.ipynb"))
     if missing := sorted(set(chapters) - {path.name[:2] for path in paths}):
@@ -80,7 +89,9 @@ def main(output: Path, chapters: list[str]) -> None:
         stale.unlink()
     for path in paths:
         if not chapters or path.name[:2] in chapters:
-            write(output / f"{path.stem}.slides.html", nbformat.read(path, as_version=4))
+            chapter = nbformat.read(path, as_version=4)
+            chapter = chapter if lecturer else without_solutions(chapter)
+            write(output / f"{path.stem}.slides.html", chapter)
     decks = sorted(output.glob("*.slides.html"))
     (output / "index.html").write_text(contents(decks), encoding="utf-8")
     print(output / "index.html")
@@ -96,12 +107,15 @@ def questions() -> NotebookNode:
     """Return the concept questions, made now, as a notebook."""
     from wmrbook.questions import deck, made
 
-    return nbformat.v4.new_notebook(
-        cells=[
-            nbformat.v4.new_markdown_cell(text, metadata={"slideshow": {"slide_type": kind}})
-            for kind, text in deck.slides(made())
-        ]
-    )
+    cells = []
+    for kind, content in deck.slides(made()):
+        told = {"metadata": {"slideshow": {"slide_type": kind}}}
+        if isinstance(content, str):
+            cells.append(nbformat.v4.new_markdown_cell(content, **told))
+        else:
+            shown = nbformat.v4.new_output("display_data", content._repr_mimebundle_())
+            cells.append(nbformat.v4.new_code_cell("", outputs=[shown], **told))
+    return nbformat.v4.new_notebook(cells=cells)
 
 
 def lay_out(output: Path) -> None:
@@ -366,8 +380,10 @@ if __name__ == "__main__":
     said = "the concept questions, into book/_build/votes by default"
     parser.add_argument("--questions", action="store_true", help=said)
     given = parser.parse_args()
+    place, own = given.output, "votes" if given.questions else "lecturer/slides"
+    if place == parser.get_default("output") and (given.questions or given.lecturer):
+        place = BOOK / "_build" / own
     if given.questions:
-        chosen = given.output != parser.get_default("output")
-        vote((given.output if chosen else BOOK / "_build" / "votes").resolve())
+        vote(place.resolve())
     else:
-        main(given.output.resolve(), given.chapters)
+        main(place.resolve(), given.chapters, given.lecturer)

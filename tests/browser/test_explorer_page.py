@@ -642,8 +642,11 @@ def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page
     assert again.click("reset").figures() == untouched
     away = mounted(browser_page, other).picture()
     assert mounted(browser_page, other, url=link).picture() == away
-    nonsense = link.replace("law=%22printed%22", "law=5&k_rho=x&unknown=1")
-    assert mounted(browser_page, ours, url=nonsense).troubled()
+    for wrong in ("law=5&k_rho=x&unknown=1", "start=1", "start={}", "goal=%22east%22"):
+        bad = mounted(browser_page, ours, url=link.replace("law=%22printed%22", wrong))
+        assert bad.troubled()
+        assert f"{wrong.partition('=')[0]} = " in bad.status()
+        assert "is not allowed: " in bad.status()
 
 
 def test_a_view_that_is_closed_answers_no_more(emptied_page):

@@ -18,6 +18,7 @@ import nbformat
 import pypdfium2
 import pytest
 from faults import PANEL, SIZES, of_page, of_paper, stills
+from graded import closed
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, settled_picture, sliders
 
 pytestmark = [] if os.environ.get("BOOK_HTML") else pytest.mark.needs("npm")
@@ -111,6 +112,19 @@ def test_no_link_of_the_site_is_broken(site):
             ), f"{path.name}: {target}"
 
 
+def leaks(folder: Path) -> list[str]:
+    """What is the lecturer's alone, and stands in a file of the folder."""
+    kinds = {".html", ".js", ".ipynb", ".md", ".txt"}
+    paths = [it for it in folder.rglob("*") if it.suffix in kinds and "vendor" not in it.parts]
+    texts = [" ".join(it.read_text(encoding="utf-8").split()) for it in paths]
+    return [each for each in closed() if any(each in text for text in texts)]
+
+
+def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
+    assert not (site / "lecturers.html").exists()
+    assert not leaks(site)
+
+
 def test_every_image_says_what_it_shows_and_has_a_caption(site):
     for path in pages(site):
         page = _Parts(path)
@@ -136,6 +150,19 @@ def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened
     page.wait_for_url("**/10_the_audit.html#paper-24", timeout=PATIENCE)
     page.locator("div.math:has(#paper-24) svg").first.wait_for(timeout=PATIENCE)
     assert "paper 24" in page.locator("div.math:has(#paper-24)").text_content()
+
+
+@pytest.mark.slow
+def test_the_lecturers_build_has_the_guide_and_the_solutions(tmp_path, browser_page):
+    command = [sys.executable, ROOT / "book" / "tools" / "build.py", tmp_path, "--lecturer"]
+    done = subprocess.run(command, capture_output=True, text=True)
+    assert done.returncode == 0, done.stdout + done.stderr
+    site = tmp_path / "lecturer" / "html"
+    assert leaks(site) == closed()
+    for name in "lecturers.html", "notebooks/04_lyapunov.html", "exercises.html":
+        browser_page.goto((site / name).as_uri(), timeout=PATIENCE)
+        faults = of_page(browser_page, SIZES[:1], ("light",))
+        assert not faults, f"{name}: {faults}"
 
 
 @pytest.fixture(scope="module")
@@ -167,6 +194,7 @@ def test_the_printed_book_holds_every_chapter(site, book):
         assert f"{title} {begins[title]} " in contents
         assert f"Exercise {number}.1" in text
     assert "Bibliography" in text
+    assert not [each for each in closed() if each in " ".join(text.split())]
     assert re.search(r"\(24\)\s+\[p\.\s+\d+\]", text)  # a reader on paper turns pages
     assert "000" not in re.findall(r"\[p\. (\d+)\]", text)
     assert len(printed) > 10 * len(chapters())
@@ -193,6 +221,7 @@ def test_the_zip_has_all_that_is_handed_out_and_opens_from_the_disk(book, tmp_pa
     home = tmp_path / "robot-book"
     parts = {"LICENSE", "book.pdf", "html", "index.html", "slides"}
     assert {path.name for path in home.iterdir()} == parts
+    assert not leaks(home)
     assert (home / "book.pdf").read_bytes() == book.read_bytes()
     assert b"CreationDate" not in book.read_bytes()
     assert len(list(home.glob("slides/*.slides.html"))) == len(chapters())

@@ -11,7 +11,7 @@ import numpy as np
 from wmrlib._checks import refusal
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks import gpx, nmea, tables
-from wmrlib.tracks.fixes import Count, Fixes, Report
+from wmrlib.tracks.fixes import LONGEST, Count, Fixes, Report
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
 __all__ = ["Count", "Report", "Track", "read_track", "write_geojson", "write_gpx"]
@@ -63,10 +63,12 @@ def read_track(path: str | os.PathLike) -> Track:
     not where the most trusted of these says that there is no fix; checksum needed.
     GPX: the track points, or else the route's, or else the waypoints, whose times tell when they
     were made and are not used; no document type or entity. Extensions are passed over.
-    CSV: the first line names the columns: lat or latitude; lon, lng, long or longitude, in degrees
-    or e7; optionally N/S and E/W; time, timestamp, datetime or t, in seconds, ms or ISO 8601, or
-    date (y/m/d or yymmdd) and time; valid, fix, quality or status. Cells are separated by a comma,
-    semicolon, tab or |; decimal commas are read, in quotes where commas separate cells.
+    CSV: a line, with at most nine above it, names the columns: lat or latitude; lon, lng, long or
+    longitude, in degrees or e7; optionally lat_deg, lat_min and lat_sec, N/S and E/W; time,
+    timestamp, datetime or t, in seconds, ms, a spreadsheet's days or ISO 8601, or date and time;
+    valid, fix, quality or status. Cells are separated by a comma, semicolon, tab or |; decimal
+    commas are read, in quotes where commas separate cells. Of y/m/d, d/m/y and m/d/y, with or
+    without separators, a file's dates are in the order that brings them nearest each other.
     Text is UTF-8, or UTF-16 with its byte order mark.
     Where times run backwards, the longest run in order is used (in GPX, of each segment).
 
@@ -110,7 +112,8 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
     if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
         return "GPX", gpx.read(file)  # XML itself says how it is encoded
     with TextIOWrapper(file, coding, errors, newline="") as text:
-        begin = next((line.lstrip()[0] for line in text if line.strip()), None)
+        parts = iter(lambda: text.readline(LONGEST), "")
+        begin = next((part.lstrip()[0] for part in parts if part.strip()), None)
         if begin is None:
             raise ValueError("the file is empty")
         text.seek(0)

@@ -15,6 +15,7 @@ from typing import NamedTuple
 import numpy as np
 
 NO_TIME = math.nan
+LONGEST = 1 << 16  # characters of a line that are read at once
 # What ISO 8601 allows and datetime does not: what to read instead, and the seconds to add.
 _BEYOND = (
     (re.compile(r"(?<=[T ])24(?=:00(?::00(?:[.,]0+)?)?(?:Z|[+-]|$))"), "00", 86400.0),
@@ -68,7 +69,7 @@ class Fixes:
 
     def __init__(self) -> None:
         self.lat, self.lon, self.time = array("d"), array("d"), array("d")
-        self._lines, self._segments = array("q"), array("q")
+        self.lines, self._segments = array("q"), array("q")
         self.skipped: dict[str, Count] = {}
         self._noted: dict[str, Count] = {}
 
@@ -93,12 +94,12 @@ class Fixes:
         self.lat.append(lat)
         self.lon.append(lon)
         self.time.append(NO_TIME if time is None else time)
-        self._lines.append(line)
+        self.lines.append(line)
         return True
 
     def extend(self, *columns: np.ndarray) -> None:
         """Use many positions at once: lat, lon and time as for `add`, in range, and lines."""
-        rows: list[array] = [self.lat, self.lon, self.time, self._lines]
+        rows: list[array] = [self.lat, self.lon, self.time, self.lines]
         for ours, values in zip(rows, columns, strict=True):
             ours.frombytes(np.asarray(values, ours.typecode).tobytes())
 
@@ -111,7 +112,7 @@ class Fixes:
         again = kept[1:][(np.diff(table[:, kept]) == 0.0).all(axis=0)]
         for reason, gone in (("time runs backwards", late), ("same epoch again", again)):
             if gone.size:
-                self.skip(reason, self._lines[gone[0]], gone.size)
+                self.skip(reason, self.lines[gone[0]], gone.size)
         table = np.delete(table, np.concatenate([late, again]), axis=1)
         return table, Report(table.shape[1], self.skipped, self._noted)
 

@@ -19,6 +19,7 @@ _OTHERS = {
     "html": "it is a web page, not a GPX file",
     "trainingcenterdatabase": "it is a TCX file, not a GPX file; export it as GPX",
 }
+_BLOCK = 1 << 18  # bytes
 _WEB_PAGE = re.compile(rb"<(!doctype\s+)?html\b", re.IGNORECASE)
 
 
@@ -89,7 +90,14 @@ def read(file: BufferedReader) -> Fixes:
     encoding = "utf-16" if head.startswith((b"\xff\xfe", b"\xfe\xff")) else None
     outline = _Outline(expat.ParserCreate(encoding, " "))
     try:
-        outline.parser.ParseFile(file)
+        read = 0
+        while block := file.read(_BLOCK):
+            outline.parser.Parse(block)
+            read += len(block)
+            # What is not complete, expat reads again with each block.
+            if read - max(0, outline.parser.CurrentByteIndex) > 8 * _BLOCK:
+                raise ValueError("its XML holds a tag of more than 2 MB")
+        outline.parser.Parse(b"", True)
     except (expat.ExpatError, LookupError) as error:
         page = not outline.spaces and _WEB_PAGE.search(head.replace(b"\0", b""))
         raise ValueError(_OTHERS["html"] if page else f"its XML is broken: {error}") from None

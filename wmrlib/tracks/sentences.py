@@ -8,7 +8,7 @@ from typing import TextIO
 
 import numpy as np
 
-from wmrlib.tracks.fixes import Fixes
+from wmrlib.tracks.fixes import LONGEST, Fixes
 
 COMMENT, NO_SENTENCE = "comment", "line that is no sentence"
 _BLOCK = 1 << 16  # characters
@@ -25,11 +25,8 @@ def sentences(
     text: TextIO, kinds: Collection[str], fixes: Fixes
 ) -> Iterator[tuple[int, list[str]]]:
     """The line and the fields of each sound sentence of these kinds; `fixes` counts all else."""
-    last = 0
-    while lines := text.readlines(_BLOCK):
-        numbered = enumerate(lines, last + 1)
-        rows = [(n, *each) for n, words in numbered for each in _in(words, n, fixes)]
-        last += len(lines)
+    for lines in _blocks(text):
+        rows = [(n, *each) for n, words in lines for each in _in(words, n, fixes)]
         bodies = [body.encode("utf-8", "surrogateescape") for _, body, _ in rows]
         begins = np.cumsum([0, *map(len, bodies)])[: len(rows)]
         codes = np.frombuffer(b"".join(bodies), np.uint8)
@@ -43,6 +40,21 @@ def sentences(
                 fixes.skip("other sentence", line)
             else:
                 yield line, body.split(",")
+
+
+def _blocks(text: TextIO) -> Iterator[list[tuple[int, str]]]:
+    """Lines with their numbers, some at a time; a very long line in parts that begin with a $."""
+    line, rest, block, size = 1, "", list[tuple[int, str]](), 0
+    while words := rest + text.readline(LONGEST):
+        ends, rest = words.endswith(("\n", "\r")), ""
+        if len(words) >= LONGEST and not ends and (cut := words.rfind("$")) > 0:
+            words, rest = words[:cut], "#" if words[0] == "#" else words[cut:]
+        block.append((line, words))
+        line, size = line + ends, size + len(words)
+        if size >= _BLOCK:
+            yield block
+            block, size = [], 0
+    yield block
 
 
 def _in(words: str, line: int, fixes: Fixes) -> list[tuple[str, str]]:

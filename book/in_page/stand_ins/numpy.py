@@ -179,10 +179,16 @@ def _of_each(function):
     return apply
 
 
-_ONE = "cos degrees exp floor isfinite isnan log radians sin sqrt tan"
-vars().update({name: _of_each(getattr(math, name)) for name in _ONE.split()})
+_ONE = (
+    "ceil cos cosh degrees exp expm1 floor isfinite isnan log log1p radians sin sinh sqrt tan tanh"
+)
+_OTHERWISE = {"abs": abs, "arccos": math.acos, "arcsin": math.asin, "arctan": math.atan}
+_OTHERWISE |= {"deg2rad": math.radians, "rad2deg": math.degrees, "square": lambda x: x * x}
+_NAMED = {name: getattr(math, name) for name in _ONE.split()} | _OTHERWISE
+vars().update({name: _of_each(function) for name, function in _NAMED.items()})
 arctan2, fmod, hypot = math.atan2, math.fmod, math.hypot
-mod, subtract = operator.mod, operator.sub
+mod = remainder = operator.mod
+subtract, e = operator.sub, math.e
 
 
 def __getattr__(name):

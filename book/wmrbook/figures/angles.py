@@ -47,6 +47,18 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
     )
 
 
+def draw_angles(axes: Axes, pose: Pose, goal: Pose) -> None:
+    """Draw robot, goal and line of sight, and name rho, alpha and theta."""
+    rho, alpha, theta = polar_error(pose, goal)
+    sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
+    _scene(axes, pose, goal, rho, sight)
+    for at, turn, role in ((pose, alpha, "alpha"), (goal, theta, "theta")):
+        _arc(axes, at, at.heading, turn, 0.4 * rho, rf"$\{role}$", role, fontsize=20)
+    middle = 0.5 * (pose.x + goal.x), 0.5 * (pose.y + goal.y)
+    note(axes, r"$\rho$", middle, (12, -14), fontsize=20, ha="center", va="center")
+    _room(axes, pose, goal, rho * np.array([-0.32, 0.98]), rho * np.array([-0.25, 0.62]))
+
+
 def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     """The paths of one to four robots to one goal, each a Pose of arrays [m, rad] by its label.
 

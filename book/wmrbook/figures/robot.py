@@ -21,7 +21,7 @@ def coordinate_system(pose: Pose, track_width: float, wheel_radius: float) -> Pi
     b = scalar("track_width", track_width, above=0.0)
     r = scalar("wheel_radius", wheel_radius, above=0.0)
     figure, axes = new_figure(6.2, 5.6)
-    _draw_robot(axes, pose, b, r)
+    draw_robot(axes, pose, b, r)
     for side, tip, role, name, offset in (
         (0.0, (1.9 * b, 0.0), "path", "$X_r$", (4, 4)),
         (0.0, (0.0, 1.4 * b), "path", "$Y_r$", (-22, 0)),
@@ -117,7 +117,8 @@ def _placed(pose: Pose, point) -> tuple[float, float]:
     return pose.x + cos * point[0] - sin * point[1], pose.y + sin * point[0] + cos * point[1]
 
 
-def _draw_robot(axes: Axes, pose: Pose, b: float, r: float) -> None:
+def draw_robot(axes: Axes, pose: Pose, b: float, r: float) -> None:
+    """Draw the robot from above; b between its wheels, whose radius is r, in metres."""
     body = [_placed(pose, (b * ahead, b * left)) for ahead, left in _BODY]
     axes.add_patch(Polygon(body, fc=COLOURS["robot"], ec=COLOURS["ink"], alpha=0.45))
     corners = (r, 0.06 * b), (-r, 0.06 * b), (-r, -0.06 * b), (r, -0.06 * b)

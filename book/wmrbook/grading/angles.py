@@ -10,7 +10,7 @@ import numpy as np
 import sympy as sp
 
 from wmrbook.conventions import gains_near_goal
-from wmrbook.grading._asking import ask_numbers, expect_value
+from wmrbook.grading._asking import ask_numbers, expect_value, ordered
 from wmrbook.grading._expressions import expression
 from wmrbook.grading._hints import (
     angle_equal,
@@ -20,6 +20,7 @@ from wmrbook.grading._hints import (
     explain,
     own_work,
     rule_out,
+    slip,
     spread,
 )
 from wmrlib.gains import Gains
@@ -50,7 +51,7 @@ def polar_range(polar: Polar) -> str:
     for pose, goal in [behind, *_pairs(40), *turned]:
         for name, value in zip(("alpha", "theta"), _seen(polar, pose, goal)[1:], strict=True):
             most = max(most, abs(value))
-            hint = f"{name} comes out as {math.degrees(value):.0f} deg: "
+            hint = f"{name} comes out as {math.degrees(value):.6g} deg: "
             hint += "nobody turns further than half a turn. Bring it into (-pi, pi]."
             expect(abs(value) <= math.pi + 1e-9, hint)
     hint = "some goals lie behind the robot, and no angle is larger than "
@@ -114,7 +115,9 @@ def textbook_gains(
     own_work(our_gains)
     for theirs in ((3.0, 8.0, -1.5), *_their_gains(12)):
         for v_max in (0.5, 1.0, 4.0):
-            k_rho, k_alpha, h = ask_numbers(our_gains, 3, *theirs, v_max)
+            k_rho, k_alpha, h = given = ask_numbers(our_gains, 3, *theirs, v_max)
+            right = theirs[0] / v_max, theirs[1] - theirs[0], -theirs[2] / theirs[0]
+            slip(given, right, "(k_rho, k_alpha, h)")
             hint = "h comes out negative: how do theta and beta differ, "
             expect(h >= 0.0, f"{hint}and what does that do to their gains?")
             hint = "gains that park the robot there come out negative here: "
@@ -140,8 +143,9 @@ def _seen(polar: Polar, pose: Pose, goal: Pose) -> tuple[float, ...]:
 
 def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
     """Raise Hint unless the value is the polar error, up to full turns."""
-    distance, alpha, theta = polar_error(pose, goal)
+    distance, alpha, theta = error = polar_error(pose, goal)
     if not close(value[0], distance):
+        slip(value, error, "(rho, alpha, theta)")
         mistakes = {"rho comes out squared: metres, not square metres.": distance**2}
         explain(value[0], mistakes, "rho is not the distance between robot and goal.")
     seen, right = value[1:], (alpha, theta)
@@ -163,6 +167,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
         "both angles have the wrong sign: from the heading *to* the line of sight.": minus,
     }
     rule_out(seen, mistakes, _angles_equal)
+    slip(value, error)
     if _angles_equal(seen[:1], right[:1]):
         error = pose.heading - goal.heading
         third = any(angle_equal(seen[1], each) for each in (error, -error))
@@ -202,14 +207,11 @@ def _pairs(count: int) -> list[tuple[Pose, Pose]]:
 
 def _rows(model: Any) -> list[list[sp.Expr]]:
     expect_value("`tail_model`", model)
-    hint = "`tail_model` has to be a matrix: `sp.Matrix([[..., ...], [..., ...], [..., ...]])`."
-    expect(isinstance(model, sp.MatrixBase), hint)
-    hint = f"`tail_model` has the shape {model.shape}; "
-    hint += "three rows (rho', angle', beta') by two columns (v, omega) are needed."
-    expect(model.shape == (3, 2), hint)
-    return [
-        [expression("tail_model", entry, (rho, angle)) for entry in model.row(k)] for k in range(3)
-    ]
+    rows = model.tolist() if hasattr(model, "tolist") else model
+    hint = "`tail_model` has to be a matrix, `sp.Matrix([[..., ...], [..., ...], [..., ...]])`: "
+    hint += "three rows (rho', angle', beta') by two columns (v, omega)."
+    expect(ordered(rows, 3) and all(ordered(row, 2) for row in rows), hint)
+    return [[expression("tail_model", entry, (rho, angle)) for entry in row] for row in rows]
 
 
 def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:

@@ -8,7 +8,7 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers, refuses
-from wmrbook.grading._hints import close, drawn, expect, explain, own_work, spread
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, slip, spread
 from wmrlib import paper
 from wmrlib.kinematics import Pose, Reference, advance, polar_error, wrap_angle
 from wmrlib.metrics import residual
@@ -44,7 +44,8 @@ def residual_known(left_behind: Callable) -> str:
             "k_rho is missing: the result has no metres.": right * k_rho,
         }
         hint = f"at your distance, {value:.4g} m, the law commands {commanded:.4g} m/s, "
-        explain(value, mistakes, f"{hint}but the goal drives {speed:.4g} m/s.")
+        hint += f"but the goal drives {speed:.4g} m/s."
+        explain(value, mistakes, hint, right=right)
     gains = paper.CIRCLE_GAINS
     told, half = (
         ask_number(left_behind, paper.CIRCLE_SPEED, share, gains.k_rho, gains.v_max)
@@ -132,6 +133,7 @@ def twist_known(reference_twist: Callable) -> str:
         )
         turning = wrap_angle(after - before) / (2.0 * step)
         expect(not close(v, speed**2), "v is the square of the speed.")
+        slip((v, omega), (speed, turning), "(v, omega)", 1e-3 * (not close(v, speed)))
         expect(close(v, speed), "v is not the length of the velocity (x', y').")
         if close(omega, turning, 1e-5, 1e-6):
             continue
@@ -211,6 +213,7 @@ def _at_reference(steer: Law) -> None:
     for v_ref, omega_ref in ((1.0, 0.0), (0.6, 0.3), (0.6, -0.3)):
         v, omega = ask_numbers(steer, 2, 0.0, 0.0, 0.0, v_ref, omega_ref)
         there, here = f"({v_ref:g} m/s, {omega_ref:g} rad/s)", f"({v:.3g} m/s, {omega:.3g} rad/s)"
+        slip((v, omega), (v_ref, omega_ref), "(v, omega)")
         hint = f"on the reference itself, which drives {there}, your law commands {here}."
         expect(close(v, v_ref) and close(omega, omega_ref), hint)
 

@@ -8,8 +8,17 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._asking import ask, ask_array, ask_numbers
-from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._asking import ask, ask_array, ask_numbers, numbers
+from wmrbook.grading._hints import (
+    close,
+    drawn,
+    expect,
+    explain,
+    own_work,
+    rule_out,
+    slip,
+    spread,
+)
 from wmrbook.grading.variants import Drive, checked, tuned
 from wmrlib import paper
 from wmrlib.control import control_law
@@ -56,12 +65,7 @@ def poles_placed(gains_from_poles: Callable) -> str:
     """gains_from_poles(distance_pole, pole_1, pole_2, v_max) -> (k_rho, k_alpha, h)."""
     own_work(gains_from_poles)
     for poles, v_max in _pole_cases(20):
-        answer = ask(gains_from_poles, *poles, v_max)
-        several = isinstance(answer, (tuple, list))
-        hint = "a gain is complex. The sum and the product of a conjugate pair are real: "
-        hint += "take their `.real`."
-        expect(not (several and any(isinstance(each, complex) for each in answer)), hint)
-        values = ask_numbers(gains_from_poles, 3, *poles, v_max)
+        values = _three_gains(gains_from_poles, *poles, v_max)
         if not np.allclose(_poles(*values, v_max), _sorted(poles), rtol=1e-6, atol=1e-6):
             _explain_gains(values, poles, v_max)
     return "Twenty loops have the poles that were asked for, real and complex."
@@ -71,17 +75,17 @@ def poles_properties(gains_from_poles: Callable) -> str:
     """Swapped poles, a faster clock and another v_max change the gains as their units say."""
     own_work(gains_from_poles)
     for poles, v_max in _pole_cases(10):
-        gains = np.array(ask_numbers(gains_from_poles, 3, *poles, v_max))
+        gains = np.array(_three_gains(gains_from_poles, *poles, v_max))
         hint = f"poles that settle need positive gains; yours are {gains.round(4).tolist()}."
         expect(bool((gains > 0.0).all()), hint)
-        swapped = ask_numbers(gains_from_poles, 3, poles[0], poles[2], poles[1], v_max)
+        swapped = _three_gains(gains_from_poles, poles[0], poles[2], poles[1], v_max)
         hint = "the order of the two poles of the angles must not count."
         expect(np.allclose(swapped, gains, rtol=1e-9), hint)
-        fast = ask_numbers(gains_from_poles, 3, *(3.0 * each for each in poles), v_max)
+        fast = _three_gains(gains_from_poles, *(3.0 * each for each in poles), v_max)
         hint = "three times faster poles: look at the units of k_rho (1/m), k_alpha (1/s) "
         hint += "and h (none). Which can change, and by what factor?"
         expect(np.allclose(fast, gains * (3.0, 3.0, 1.0), rtol=1e-9), hint)
-        other = ask_numbers(gains_from_poles, 3, *poles, 2.0 * v_max)
+        other = _three_gains(gains_from_poles, *poles, 2.0 * v_max)
         hint = "with the poles given, k_alpha and h must not depend on v_max."
         expect(np.allclose(other[1:], gains[1:], rtol=1e-9), hint)
         hint = "twice v_max and the same poles: look at (7.1) for what k_rho must do."
@@ -141,6 +145,7 @@ def _explain_matrix(value: np.ndarray, rho: float, gains: Gains) -> None:
         "the state is (alpha, theta), in this order.": right[::-1, ::-1],
     }
     rule_out(value, mistakes, np.allclose)
+    slip(value, right, "row 1 for alpha, row 2 for theta; column 1 for alpha, column 2 for theta")
 
     def near(one: float, other: float) -> bool:
         return close(one, other, 1e-5)
@@ -185,6 +190,18 @@ def _poles(k_rho: float, k_alpha: float, h: float, v_max: float) -> np.ndarray:
     return _sorted((-v_max * k_rho, *np.roots([1.0, k_alpha, h * (v_max * k_rho) ** 2])))
 
 
+def _three_gains(gains_from_poles: Callable, *given: complex) -> tuple[float, ...]:
+    """The answer's (k_rho, k_alpha, h), whether alone or as a whole `Gains`."""
+    answer = ask(gains_from_poles, *given)
+    if isinstance(answer, Gains):
+        return numbers("the gains", answer[:3], 3, returned=True)
+    several = isinstance(answer, (tuple, list))
+    hint = "a gain is complex. The sum and the product of a conjugate pair are real: "
+    hint += "take their `.real`."
+    expect(not (several and any(isinstance(each, complex) for each in answer)), hint)
+    return ask_numbers(gains_from_poles, 3, *given)
+
+
 def _sorted(poles: tuple) -> np.ndarray:
     return np.sort_complex(np.round(np.asarray(poles, dtype=complex), 7))
 
@@ -197,6 +214,8 @@ def _explain_gains(values: tuple, poles: tuple, v_max: float) -> None:
         "k_rho is the rate itself; (7.1) has one more factor.": -distance,
     }
     rule_out(k_rho, mistakes)
+    right = minus * -1.0, -total, product / distance**2
+    slip(values, right, "(k_rho, k_alpha, h)")
     hint = "k_rho does not put the distance's pole where it is asked for: see (7.1)."
     expect(close(k_rho, -distance / v_max), hint)
     multiply = "multiply (s - p_1)(s - p_2) out, and compare"

@@ -5,12 +5,13 @@ from __future__ import annotations
 import itertools
 import math
 from collections.abc import Callable
+from functools import partial
 from typing import Any
 
 import numpy as np
 
 from wmrbook.grading._asking import ask, ask_numbers, floats
-from wmrbook.grading._hints import Hint, drawn, expect, explain, own_work, rule_out, same_pose
+from wmrbook.grading._hints import Hint, drawn, expect, explain, own_work, rule_out, same_pose, slip
 from wmrlib.control import control_law
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, advance, polar_error, wrap_angle
@@ -34,12 +35,11 @@ def drive_known(drive: Callable[..., Any]) -> str:
         (Pose(8.0, 3.0, 3.0), Pose(-2.0, 1.0, -2.5), 0.05),
         (Pose(-6.0, 0.5, 2.0), _ORIGIN, 0.02),
     ):
-        seen: list[tuple[float, ...]] = []
-        path = _path(drive, start, goal, lambda *polar, seen=seen: _spied(polar, seen), dt, 60.0)
-        _explain_seen(seen, start, goal)
+        path = _path(drive, start, goal, _law, dt, 60.0)
+        _explain_law(drive, path, start, goal, dt)
         for row, following in itertools.pairwise(path):
             pose = Pose(*row)
-            _explain_step(following, pose, control_law(*polar_error(pose, goal), _GAINS), dt)
+            _explain_step(following, pose, _law(*polar_error(pose, goal)), dt)
         right = simulate(start, goal, _GAINS, method="euler", dt=dt)
         left = polar_error(Pose(*path[-1]), goal).rho
         hint = f"it stops {left:.2f} m before the goal; 0.05 m are asked for."
@@ -80,7 +80,7 @@ def drive_obeys(drive: Callable[..., Any]) -> str:
     }
     for does, command in commands.items():
         pose = Pose(3.0, 4.0, 0.5)
-        path = _path(drive, pose, _ORIGIN, lambda *_, command=command: command, 0.125, 4.0)
+        path = _path(drive, pose, _ORIGIN, partial(_commanded, command), 0.125, 4.0)
         hint = "in 4 s with dt = 0.125 s there are 33 poses, the start and one after each step; "
         expect(len(path) == 33, f"{hint}a robot that {does} has {len(path)}.")
         hint = f"under a law that {does} it does not: "
@@ -104,6 +104,7 @@ def axes_known(with_x_north: Axes) -> str:
             continue
         hint = "x and y are as they were; which of the two is metres north on the new map?"
         expect(math.dist(value[:2], pose[:2]) > 1e-9, hint)
+        slip(value, right, "(x, y, heading)")
         hint = "the place is wrong: one number is metres north, the other metres east, "
         expect(math.dist(value[:2], right[:2]) < 1e-9, hint + "and the new x is north.")
         mistakes = {
@@ -135,23 +136,34 @@ def axes_properties(with_x_north: Axes) -> str:
     return f"{left} so alpha, theta and omega change their signs."
 
 
-def _explain_seen(seen: list[tuple[float, ...]], start: Pose, goal: Pose) -> None:
-    """Raise Hint if the law is given something other than the polar error."""
-    expect(bool(seen), "the law that is passed in is never asked.")
-    half = math.pi + 1e-9
-    wrapped = all(abs(alpha) <= half and abs(theta) <= half for _, alpha, theta in seen)
-    hint = "the law is given angles of more than half a turn: wrap alpha and theta."
-    expect(wrapped, hint)
-    right = polar_error(start, goal)
-    if np.allclose(seen[0], right, atol=1e-9):
-        return
-    swapped = (right.rho, right.theta, right.alpha)
-    hint = "the law is given theta and alpha in the wrong order."
-    expect(not np.allclose(seen[0], swapped, atol=1e-9), hint)
-    sight = wrap_angle(right.alpha + start.heading)
-    hint = "the law is given a theta that is counted from east, not from the goal's heading."
-    expect(not math.isclose(seen[0][2], sight, abs_tol=1e-9), hint)
-    expect(False, "at the start the law is given something other than (rho, alpha, theta).")
+def _explain_law(
+    drive: Callable[..., Any], path: np.ndarray, start: Pose, goal: Pose, dt: float
+) -> None:
+    """Raise Hint if a step is one for something other than the polar error."""
+    still = _path(drive, start, goal, partial(_commanded, (0.0, 0.0)), dt, 4.0 * dt)
+    moved = len(path) < 2 or not same_pose(still[-1], start)
+    expect(not moved, "the law that is passed in is never asked.")
+    for row, following in itertools.pairwise(path):
+        pose = Pose(*row)
+        rho, alpha, theta = polar_error(pose, goal)
+        sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
+        mistakes = {
+            "the law is given theta and alpha in the wrong order.": (rho, theta, alpha),
+            "the law is given a theta that is counted from east, not from the goal's heading.": (
+                *(rho, alpha, sight),
+            ),
+            "the law is given angles of more than half a turn: wrap alpha and theta.": (
+                *(rho, sight - pose.heading, sight - goal.heading),
+            ),
+            "the law is given something other than (rho, alpha, theta): a sign?": (
+                *(rho, alpha, -theta),
+            ),
+        }
+        steps = {
+            hint: advance(pose, *_law(*seen), dt, method="euler") for hint, seen in mistakes.items()
+        }
+        if not same_pose(following, advance(pose, *_law(rho, alpha, theta), dt, method="euler")):
+            rule_out(following, steps, same_pose)
 
 
 def _explain_step(value: np.ndarray, pose: Pose, command: tuple[float, float], dt: float) -> None:
@@ -184,20 +196,20 @@ def _path(
     answer = ask(drive, start, goal, law, dt, duration)
     three = "`drive` has to return x, y and heading, as three lists or arrays of the same length."
     try:
-        x, y, heading = map(floats, answer)
+        x, y, heading = map(floats, answer.tolist() if hasattr(answer, "tolist") else answer)
     except (TypeError, ValueError):
         raise Hint(three) from None
     expect(not any(each is None for each in (x, y, heading)), three)
     expect(x.ndim == 1 and x.shape == y.shape == heading.shape and len(x) > 0, three)
     path = np.column_stack([x, y, heading])
     expect(bool(np.isfinite(path).all()), "the run has numbers in it that are not finite.")
+    slip(path[0], start, "(x, y, heading)")
     expect(same_pose(path[0], start), "the first pose has to be the start.")
     return path
 
 
-def _spied(polar: tuple[float, ...], seen: list[tuple[float, ...]]) -> tuple[float, float]:
-    seen.append(tuple(float(each) for each in polar))
-    return _law(*polar)
+def _commanded(command: tuple[float, float], *_: float) -> tuple[float, float]:
+    return command
 
 
 def _law(rho: float, alpha: float, theta: float) -> tuple[float, float]:

@@ -8,39 +8,39 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers
-from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
-from wmrlib.geodesy import GeoPoint, haversine_distance, initial_bearing, local_position, point_at
+from wmrbook.grading._earth import (
+    CONSTANT,
+    Function,
+    Pair,
+    between,
+    distance_right,
+    explain_bearing,
+    explain_distance,
+    places,
+    same_direction,
+)
+from wmrbook.grading._hints import close, drawn, expect, own_work, rule_out, slip, spread
+from wmrlib.geodesy import (
+    GeoPoint,
+    haversine_distance,
+    initial_bearing,
+    local_position,
+    point_at,
+)
 from wmrlib.paper import GPS_POINT_1, GPS_POINT_2
 
-Function = Callable[[float, float, float, float], float]
 Local = Callable[[float, float, float, float], tuple[float, float]]
-Pair = tuple[GeoPoint, GeoPoint]
 
-_SWAPPED = "this is what comes out with latitude and longitude swapped: which one has the cosine?"
-_DEGREES = "this is what comes out when degrees go into a sine: `math.radians` first."
-_RADIUS = "this is nearly right, less than 1 % off: is your Earth a sphere of 6371 km?"
+_RADIUS = "this is less than 1 % off: is your Earth a sphere of 6371 km, and pi `math.pi`?"
 _MAP_TOLERANCE_M = 0.02  # flat map against sphere, over 300 m and up to 60 deg of latitude
 
 
 def distance_known(distance: Function) -> str:
     """distance(lat_1, lon_1, lat_2, lon_2): degrees in, metres out, all over the Earth."""
     own_work(distance)
-    for a, b in [(GPS_POINT_1, GPS_POINT_2), *_places(20)]:
-        right, value = haversine_distance(a, b), _between(distance, a, b)
-        if close(value, right, 1e-6, 1e-3):  # over 58 m an acos may lose 0.3 mm
-            continue
-        swapped, in_degrees = _swapped(a, b), _in_degrees(a, b)
-        mistakes = {_SWAPPED: swapped, _DEGREES: in_degrees}
-        rule_out(value, {hint: haversine_distance(*pair) for hint, pair in mistakes.items()})
-        mistakes = {
-            "the result is in kilometres; metres are asked for.": right / 1000.0,
-            "the result is half as long as it should be: look at the factor in (12).": right / 2.0,
-        }
-        rule_out(value, mistakes, lambda one, other: close(one, other, 1e-3))
-        hint = "the distance between two known places is wrong: compare your haversine with "
-        expect(close(value, right, 0.02), f"{hint}(11) to (13), term by term.")
-        hint = "the distance is nearly right: is the radius 6371 km, "
-        expect(False, f"{hint}and is nothing rounded on the way?")
+    for a, b in [(GPS_POINT_1, GPS_POINT_2), *places(20)]:
+        if not distance_right(distance, a, b):
+            explain_distance(distance, a, b)
     metres = haversine_distance(GPS_POINT_1, GPS_POINT_2)
     return f"{metres:.2f} m between the paper's two points, and right elsewhere."
 
@@ -48,12 +48,12 @@ def distance_known(distance: Function) -> str:
 def distance_properties(distance: Function) -> str:
     """The same there and back, 0 from a point to itself, unchanged when the Earth is turned."""
     own_work(distance)
-    for a, b in _places(20):
-        there = _between(distance, a, b)
+    for a, b in places(20):
+        there = between(distance, a, b)
         expect(there > 1e-3, "the distance between two different places must be positive.")
-        back = _between(distance, b, a)
+        back = between(distance, b, a)
         expect(close(there, back), "the way back is not as long as the way there.")
-        still = abs(_between(distance, a, a))
+        still = abs(between(distance, a, a))
         expect(still < 1e-6, "from a point to itself it must be 0 m.")
         turned = ask_number(distance, a.lat, a.lon - 25.0, b.lat, b.lon - 25.0)
         hint = "turn the Earth: if both longitudes change by the same, the distance must stay."
@@ -68,10 +68,11 @@ def distance_close(distance: Function) -> str:
     for metres in spread(0.01, 1e4, 60):
         way = random.uniform(-math.pi, math.pi)
         there = point_at(GPS_POINT_1, metres * math.cos(way), metres * math.sin(way))
-        value = _between(distance, GPS_POINT_1, there)
-        away = f"two points {metres:.6g} m apart come out {value:.6g} m apart: "
+        value = between(distance, GPS_POINT_1, there)
+        slip(value, metres, within=0.0)
+        away = f"two points {metres:.8g} m apart come out {value:.8g} m apart: "
         hint = f"{away}see to the checks above first."
-        expect(metres < 10.0 or close(value, metres, 0.1), hint)
+        expect(metres < 100.0 or close(value, metres, 1e-5), hint)
         lost = f"{away}which function loses its digits near 0 m?"
         expect(close(value, metres, 1e-5, 1e-6), lost)  # an acos is 20 times worse at 5 m
     return "One centimetre comes out as one centimetre."
@@ -84,13 +85,12 @@ def bearing_known(bearing: Function) -> str:
     compass = {"north": (0.0, 1.0), "south": (0.0, -1.0), "east": (1.0, 0.0), "west": (-1.0, 0.0)}
     for name, (east, north) in compass.items():
         there = point_at(home, 1000.0 * east, 1000.0 * north)
-        value = _between(bearing, home, there)
-        hint = f"to a point 1 km {name} of you the bearing comes out as {value:.4g}: "
-        _explain_bearing(value, home, there, hint + "where does it count from?")
-    for a, b in [(GPS_POINT_1, GPS_POINT_2), *_places(20)]:
+        hint = f"to a point 1 km {name} of you the bearing comes out as {{:.4g}}: "
+        explain_bearing(bearing, home, there, hint + "where does it count from?")
+    for a, b in [(GPS_POINT_1, GPS_POINT_2), *places(20)]:
         hint = "the bearing between two known places is wrong: "
         hint += "compare with (15) to (17), term by term."
-        _explain_bearing(_between(bearing, a, b), a, b, hint)
+        explain_bearing(bearing, a, b, hint)
     paper = math.degrees(initial_bearing(GPS_POINT_1, GPS_POINT_2))
     return f"{paper:.2f} deg for the paper's two points, and right elsewhere."
 
@@ -100,15 +100,15 @@ def bearing_range(bearing: Function) -> str:
     own_work(bearing)
     west_of_north = (GPS_POINT_1, point_at(GPS_POINT_1, -0.1, 57.0))
     north = GeoPoint(lat=GPS_POINT_1.lat + 0.001, lon=GPS_POINT_1.lon)
-    for a, b in [west_of_north, *_places(40), (GPS_POINT_1, north)]:
-        value = _between(bearing, a, b)
+    for a, b in [west_of_north, *places(40), (GPS_POINT_1, north)]:
+        value = between(bearing, a, b)
         hint = f"the bearing comes out as {value:.4g} deg"
         west = f"{hint} for a goal in the west; the compass goes on from 270 to 360."
         expect(value >= 0.0, west)
         expect(value < 360.0, f"{hint}: a full turn is 0 again.")
-    there, home = _between(bearing, *west_of_north), _between(bearing, *west_of_north[::-1])
+    there, home = between(bearing, *west_of_north), between(bearing, *west_of_north[::-1])
     hint = "over 57 m the way back must point the opposite way, to a thousandth of a degree."
-    expect(_same_direction(there, home + 180.0, 1e-3), hint)
+    expect(same_direction(there, home + 180.0, 1e-3), hint)
     where = f"A goal 10 cm west of north is at {there:.1f} deg"
     return f"{where}, the way back at {home:.1f} deg."
 
@@ -133,11 +133,16 @@ def local_known(local: Local) -> str:
             "north is right and east is not: a cosine of degrees?": (skew, north),
         }
         rule_out(value, mistakes, _on_the_spot)
+        slip(value, right, within=0.0)
+        there = ask_numbers(local, 2, 10.0, 20.0, 10.001, 20.002)
+        expect(not all(map(close, value, there)), CONSTANT)
         far = not _on_the_spot([1000.0 * each for each in value], right)
         expect(far, "the result is in kilometres; metres are asked for.")
         far = not _on_the_spot([math.radians(each) for each in value], right)
         expect(far, "57 times too long: metres for each *radian*.")
         expect(math.dist(value, right) > 0.01 * math.hypot(*right), _RADIUS)
+        hint = "north is right and east is not: which angle's cosine does it take?"
+        expect(abs(value[1] - north) > _MAP_TOLERANCE_M, hint)
         place = f"a point comes out at ({value[0]:.5g}, {value[1]:.5g}) m, and is not there: "
         expect(False, place + "try points due north, then due east.")
     east, north = local_position(GPS_POINT_1, GPS_POINT_2)
@@ -168,65 +173,8 @@ def local_properties(local: Local) -> str:
     return f"{east}and the date line is a line like any other."
 
 
-def _between(function: Function, a: GeoPoint, b: GeoPoint) -> float:
-    return ask_number(function, a.lat, a.lon, b.lat, b.lon)
-
-
-def _explain_bearing(value: float, a: GeoPoint, b: GeoPoint, otherwise: str) -> None:
-    """Raise Hint unless the value is the bearing from a to b, up to full turns."""
-    right = math.degrees(initial_bearing(a, b))
-    if _same_direction(value, right):
-        return
-    radians = "the result is in radians; degrees are asked for."
-    expect(not _same_direction(math.degrees(value), right), radians)
-    swapped = math.degrees(initial_bearing(*_swapped(a, b))) + _flip(a.lon)
-    in_degrees = math.degrees(initial_bearing(*_in_degrees(a, b))) + _flip(math.degrees(a.lat))
-    mistakes = {
-        "this counts from east, as mathematicians do: "
-        "which argument of atan2 comes first in (15)?": 90.0 - right,
-        "east and west are mirrored: longitudes grow to the east.": -right,
-        "this points the opposite way: "
-        "is it the way back, or an atan, which can't tell the two?": right + 180.0,
-        _SWAPPED: swapped,
-        _DEGREES: in_degrees,
-    }
-    explain(value, mistakes, otherwise, _same_direction)
-
-
-def _same_direction(value: float, right: float, tolerance: float = 1e-6) -> bool:
-    """In degrees, up to full turns."""
-    return math.isfinite(value) and abs(math.remainder(value - right, 360.0)) < tolerance
-
-
 def _on_the_spot(value: tuple[float, float], right: tuple[float, float]) -> bool:
     return math.dist(value, right) < _MAP_TOLERANCE_M
-
-
-def _swapped(*points: GeoPoint) -> list[GeoPoint]:
-    """Where someone ends who takes the latitude for the longitude and the other way round."""
-    return [_anywhere(each.lon, each.lat) for each in points]
-
-
-def _in_degrees(*points: GeoPoint) -> list[GeoPoint]:
-    """Where someone ends who takes the degrees for radians."""
-    return [_anywhere(math.degrees(each.lat), math.degrees(each.lon)) for each in points]
-
-
-def _anywhere(lat: float, lon: float) -> GeoPoint:
-    """The place at any two angles in degrees; past a pole, (13) to (17) still hold."""
-    lat_within = math.degrees(math.asin(math.sin(math.radians(lat))))
-    return GeoPoint(lat=lat_within, lon=math.remainder(lon + _flip(lat), 360.0))
-
-
-def _flip(lat: float) -> float:
-    """Past a pole, the formulas' north (in degrees) points back."""
-    return 180.0 if math.cos(math.radians(lat)) < 0.0 else 0.0
-
-
-def _places(count: int) -> list[Pair]:
-    """Pairs of places, far enough from each other and from the poles for a mistake to show."""
-    rows = drawn(1, count, *[(-70.0, 70.0), (-150.0, 150.0)] * 2)
-    return [(GeoPoint(lat=row[0], lon=row[1]), GeoPoint(lat=row[2], lon=row[3])) for row in rows]
 
 
 def _walks(seed: int, count: int, farthest: float) -> list[Pair]:

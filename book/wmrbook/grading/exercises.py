@@ -16,7 +16,7 @@ from typing import Any
 
 import sympy as sp
 
-from wmrbook.grading import earth
+from wmrbook.grading import _earth, earth
 from wmrbook.grading._asking import ask, ask_numbers, number, numbers
 from wmrbook.grading._expressions import equal_at, expression, points
 from wmrbook.grading._hints import (
@@ -65,14 +65,14 @@ def _exercise(check: Callable[..., str]) -> Callable[..., str]:
 @_exercise
 def third_formula(distance: Callable) -> str:
     """1.2: distance(lat_1, lon_1, lat_2, lon_2), degrees in, metres out."""
-    places, scales = earth._places(20), []
+    places, scales = _earth.places(20), []
     for a, b in places:
-        value, right = earth._between(distance, a, b), earth.haversine_distance(a, b)
+        value, right = _earth.between(distance, a, b), earth.haversine_distance(a, b)
         scales.append(value / right)
         across = EARTH_RADIUS_M * math.sin(right / EARTH_RADIUS_M)
         mistakes = {
             "degrees go into a sine: `math.radians` first.": earth.haversine_distance(
-                *earth._in_degrees(a, b)
+                *_earth.in_degrees(a, b)
             ),
             "an angle is wanted, and this is its sine: where is the dot product?": across,
         }
@@ -93,7 +93,7 @@ def third_formula(distance: Callable) -> str:
     for lat, lon, *offset in drawn(6, 20, *bounds):  # to less than a metre from the far side
         a, near = GeoPoint(lat=lat, lon=lon), point_at(GeoPoint(lat=lat, lon=lon), *offset)
         far = GeoPoint(lat=-near.lat, lon=near.lon - math.copysign(180.0, near.lon))
-        half, value = math.pi * EARTH_RADIUS_M, earth._between(distance, a, far)
+        half, value = math.pi * EARTH_RADIUS_M, _earth.between(distance, a, far)
         hint = f"half way round the Earth less {math.hypot(*offset):.4f} m comes out as less "
         hint += f"{half - value:.4f} m: there (12) loses its digits, and is not asked for."
         expect(close(half - value, math.hypot(*offset), 0.0, 1e-6), hint)

@@ -6,7 +6,7 @@ import math
 from collections.abc import Callable
 
 from wmrbook.grading._asking import ask_numbers
-from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, slip, spread
 from wmrlib.control import control_law, lyapunov_rate
 from wmrlib.gains import Gains
 from wmrlib.kinematics import polar_rate
@@ -30,7 +30,9 @@ def law_known(law: Callable[..., tuple[float, float]]) -> str:
                 "v does not fall near the goal: (22) has an exponential.": far,
                 "this cosine takes radians for degrees: alpha comes in radians.": degrees,
             }
-            explain(v, mistakes, "v is not that of (22).")
+            rule_out(v, mistakes)
+            slip((v, omega), right, "(v, omega)")
+            expect(False, "v is not that of (22).")
         if not close(omega, right[1]):
             _explain_omega(omega, state, gains)
     return "The law commands what it should, ahead and back, left and right."
@@ -90,6 +92,7 @@ def _explain_omega(omega: float, state: State, gains: Gains) -> None:
         "theta plays no role in omega: it would park with any heading.": blind,
     }
     rule_out(omega, mistakes)
+    slip(omega, control_law(*state, gains)[1])
     mistakes = {
         "the second term is not divided by rho: compare its unit with the first's.": right * rho,
         "the second term is not divided by alpha: sin(alpha)/alpha, not sin(alpha).": right * alpha,

@@ -127,7 +127,7 @@ def closed(V_rate_closed: Any) -> str:
         expect(_equal(first, right), hint)
         hint = "the second bracket is wrong: what is left of it is what you asked for in 4.2."
         expect(False, hint)
-    terms, unclear = sp.Add.make_args(value), "right, but the sign can't be read off: "
+    terms, unclear = _terms(value), "right, but the sign can't be read off: "
     for term in terms:
         falling = all(each <= 0 for each in values("V_rate_closed", term, _POINTS))
         hint = f"{unclear}one of the terms is positive by itself. "
@@ -157,6 +157,14 @@ def _rising_fast(state: Any, mine: variants.Window) -> str:
 
 
 rising, rising_fast = variants.checked(variants.right, _rising, _rising_fast)
+
+
+def _terms(value: sp.Expr) -> list[sp.Expr]:
+    """The terms of a sum, also of one that something is factored out of."""
+    factors = sp.Mul.make_args(value)
+    (inner, *_) = *(each for each in factors if each.is_Add and each.has(k_alpha)), value
+    others = sp.Mul(*(each for each in factors if each is not inner))
+    return [others * each for each in sp.Add.make_args(inner)]
 
 
 def _printed_slope(state: Any) -> sp.Expr:

@@ -18,6 +18,7 @@ from wmrbook.grading._hints import (
     own_work,
     rule_out,
     same_pose,
+    slip,
     spread,
 )
 from wmrlib.kinematics import Pose, advance, twist_to_wheels, wheels_to_twist, wrap_angle
@@ -49,6 +50,7 @@ def wheels_known(wheels: Callable[[float, float, float, float], Pair]) -> str:
             "how far is a wheel from the middle of the axle?": doubled,
         }
         rule_out(value, mistakes, _equal)
+        slip(value, right)
         hint = "the robot would not drive at v: "
         hint += "the mean of the wheels' speeds over the ground must be v, (1)."
         expect(_equal(sum(value), sum(right)), hint)
@@ -81,6 +83,7 @@ def twist_known(twist: Callable[[float, float, float, float], Pair]) -> str:
             "by what is the difference of the wheels' speeds divided?": 2.0 * omega_right,
         }
         rule_out(omega, mistakes, _equal)
+        slip(value, (v_right, omega_right), "(v, omega)")
         expect(_equal(v, v_right), "v is not the mean of the two speeds over the ground.")
         expect(_equal(omega, omega_right), "omega is not what (2) says.")
     return "Wheels to twist is right; the robot can count its own turns."
@@ -91,10 +94,11 @@ def arc_known(arc: Arc) -> str:
     own_work(arc)
     for pose, v, omega, dt in _steps(30):
         value, right = ask_numbers(arc, 3, *pose, v, omega, dt), advance(pose, v, omega, dt)
-        hint = "the heading is wrong: by how much does it turn in the time dt?"
-        expect(angle_equal(value[2], right.heading), hint)
         if same_pose(value, right):
             continue
+        if not angle_equal(value[2], right.heading):
+            slip(value, right, "(x, y, heading)")
+            raise Hint("the heading is wrong: by how much does it turn in the time dt?")
         old, middle, new = (
             (*advance(pose._replace(heading=pose.heading + turn), v, 0.0, dt)[:2], right.heading)
             for turn in (0.0, omega * dt / 2.0, omega * dt)
@@ -109,7 +113,7 @@ def arc_known(arc: Arc) -> str:
         }
         otherwise = "the place is not on the arc: "
         otherwise += "integrate cos and sin of the heading over the time, (2.9)."
-        explain(value, mistakes, otherwise, same_pose)
+        explain(value, mistakes, otherwise, same_pose, right)
     origin = Pose(0.0, 0.0, 0.0)
     ends = [advance(origin, 4.0, 1.0, 0.5, method=each)[:2] for each in ("arc", "euler")]
     far = f"{100.0 * math.dist(*ends):.0f} cm beside it after half a second."
@@ -177,6 +181,7 @@ def limited_speed(limited: Callable[[float, float, float], Pair]) -> str:
         expect(not _equal(kept, np.multiply(1.0 + near, (left, right))), hint)
         both = "; wheels may turn backwards, too" if min(left, right) < 0.0 else ""
         hint = f"wheels that are below the limit must be left alone{both}."
+        slip(kept, (left, right), "(left, right)")
         expect(_equal(kept, (left, right)), hint)
         most = fastest / (1.0 + near)
         share = max(map(abs, ask_numbers(limited, 2, left, right, most))) / most

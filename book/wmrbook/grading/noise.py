@@ -9,7 +9,7 @@ from functools import partial
 import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers
-from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, slip, spread
 from wmrbook.scatter import stationary_scatter
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, point_at
 
@@ -22,9 +22,11 @@ def scatter_known(scatter: Callable) -> str:
     own_work(scatter)
     for lat, lon in _logs(12):
         right = stationary_scatter(GeoPoint(lat=lat, lon=lon))
-        mean_lat, mean_lon, *stds = ask_numbers(scatter, 4, lat.copy(), lon.copy())
+        mean_lat, mean_lon, *stds = value = ask_numbers(scatter, 4, lat.copy(), lon.copy())
         hint = "the mean longitude comes first; the latitude is asked for first."
         expect(not close(mean_lat, right.mean.lon, 1e-9), hint)
+        order = "(mean_lat, mean_lon, std_east, std_north)" * (abs(mean_lat - right.mean.lat) > 1.0)
+        slip(value, (right.mean.lat, right.mean.lon, right.std_east, right.std_north), order, 0.0)
         for name, value, wanted in (
             ("latitude", mean_lat, right.mean.lat),
             ("longitude", mean_lon, right.mean.lon),
@@ -106,7 +108,8 @@ def mean_white(scatter_of_mean: Callable) -> str:
                 "independent errors do not add up like equal ones: their variances do.": alike,
             }
             hint = f"{n} independent looks of {sigma:g} m: "
-            explain(value, mistakes, f"{hint}the mean comes out with {value:.4g} m.")
+            hint += f"the mean comes out with {value:.4g} m."
+            explain(value, mistakes, hint, right=right)
     return "Nine independent looks: a third of the scatter of one."
 
 
@@ -201,7 +204,7 @@ def _explain_mean(value: float, sigma: float, n: int, c: float, right: float, hi
         "this holds for very many looks; the first and the last have fewer neighbours.": many,
         "not only neighbours are alike: what about looks that are two or three apart?": near,
     }
-    explain(value, mistakes, hint)
+    explain(value, mistakes, hint, right=right)
 
 
 def _logs(count: int) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -18,6 +18,7 @@ from wmrbook.grading._hints import (
     explain,
     own_work,
     shown,
+    slip,
     spread,
 )
 from wmrlib.control import control_law, limit_wheels
@@ -56,7 +57,9 @@ def compass_known(heading_of: Callable) -> str:
             f"your robot looks the other way round: {_BY_HAND}": right + math.pi,
         }
         case = f"{compass:.0f} deg with a declination of {declination:.1f} deg"
-        explain(value, mistakes, f"{case} come out as {value:.4g} rad: {_BY_HAND}", angle_equal)
+        right += math.tau * round((value - right) / math.tau)
+        hint = f"{case} come out as {value:.4g} rad: {_BY_HAND}"
+        explain(value, mistakes, hint, angle_equal, right)
     return "Twenty compasses, each read as the heading that the law wants."
 
 
@@ -66,7 +69,7 @@ def compass_range(heading_of: Callable) -> str:
     edges = [(270.0, 0.0), (0.0, 0.0), (359.9, 4.0), (720.0, -3.0), (-350.0, 3.0)]
     for compass, declination in [*drawn(110, 20, *_COMPASS), *edges]:
         value = ask_number(heading_of, compass, declination)
-        hint = f"{compass:g} deg come out as {value:.4g} rad, which is not in (-pi, pi]."
+        hint = f"{compass:g} deg come out as {value:.7g} rad, which is not in (-pi, pi]."
         expect(abs(value) <= math.pi + 1e-12, hint)
         more = ask_number(heading_of, compass + 360.0, declination)
         expect(angle_equal(value, more), "a whole turn more must be the same heading.")
@@ -100,7 +103,7 @@ def ticks_known(rolled: Callable) -> str:
         }
         case = f"from {before} to {after}, with {per_turn} ticks a turn "
         case += f"and a wheel of {radius:.3f} m, yours says {value:+.4g} m: count by hand."
-        explain(value, mistakes, case, _same_way)
+        explain(value, mistakes, case, _same_way, right)
     return "Thirty pairs of readings, forwards, backwards and across the counter's end."
 
 
@@ -156,14 +159,18 @@ def step_drives(wheel_speeds: Callable) -> str:
         twist = control_law(*polar_error(pose, goal), gains)
         limited = limit_wheels(*twist, limits)
         wanted = twist_to_wheels(*limited, limits.track_width)
+        uncorrected = control_law(*polar_error(pose, goal), gains, "printed")
+        printed = twist_to_wheels(*limit_wheels(*uncorrected, limits), limits.track_width)
         if np.allclose(speeds, wanted, rtol=1e-6, atol=1e-9):
             continue
         place = f"at ({pose.x:.1f}, {pose.y:.1f}) with heading {pose.heading:.2f}, {age:.2f} s old,"
         expect(speeds != STOP, f"{place} the robot stops; it has no reason to.")
         free = twist_to_wheels(*twist, limits.track_width)
         asked, most = f"a wheel is asked for {max(map(abs, speeds)):.3g} m/s", limits.max_speed
+        slip(speeds, wanted)
         mistakes = {
             "left and right are swapped.": wanted[::-1],
+            "this is the law as the paper prints it, (24); the corrected one is (4.6).": printed,
             f"{asked} and has {most:.2f} m/s.": free,
             "both wheels are clipped one by one, which bends the path: "
             "chapter 8 has a better rule.": np.clip(free, -most, most),

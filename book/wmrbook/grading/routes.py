@@ -10,7 +10,7 @@ from operator import xor
 import numpy as np
 
 from wmrbook.grading._asking import ask_array, ask_number, ask_truth
-from wmrbook.grading._hints import close, expect, explain, own_work, rule_out, spread
+from wmrbook.grading._hints import Hint, close, expect, own_work, rule_out, slip, spread
 from wmrlib.geodesy import EARTH_RADIUS_M
 
 DEGREE = math.radians(1.0) * EARTH_RADIUS_M  # of latitude, m
@@ -95,12 +95,13 @@ def degrees_known(degrees: Callable) -> str:
             f"{seen} the decimals of the minutes are lost; they are metres.": cut,
         }
         hint = f"{seen[:-1]} comes out {abs(value - right) * DEGREE:.3g} m beside the place."
-        explain(
+        rule_out(
             value,
             mistakes,
-            hint,
             lambda a, b, signs=signs: any(close(a, s * b, 1e-9) for s in signs),
         )
+        slip(value, right, within=0.0)
+        raise Hint(hint)
     return "Thirty coordinates, in all four hemispheres, to the millimetre."
 
 
@@ -150,6 +151,7 @@ def headings_known(headings: Callable) -> str:
             "The legs' *directions* are to be bisected.": _ends(legs, chord),
         }
         rule_out(value, mistakes, _same_ways)
+        slip(value, right, "the first point's heading first")
         hint = "this route comes back to a point of an earlier leg. "
         hint += "Only a point that equals the one *before it* makes no leg."
         expect(k % 3 != 1, hint)

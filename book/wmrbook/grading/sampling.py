@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers, gains_of, refuses
-from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out
+from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, slip
 from wmrbook.grading.variants import Drive, checked, slow
 from wmrlib import paper
 from wmrlib.tuning import longest_step, modes
@@ -57,6 +57,7 @@ def wheel_speed(wheel_gains: Callable) -> str:
     for a, g, times in drawn(83, 20, *_MOTOR):
         k_p, k_r = ask_numbers(wheel_gains, 2, a, g, times)
         rate = a + g * k_p
+        slip((k_p, k_r), ((times - 1.0) * a / g, times * a / g), "(k_p, k_r)")
         hint = f"with your k_p the closed loop runs away: its pole is at {-rate:+.3g} 1/s."
         expect(rate > 0.0, hint)
         if not close(rate, times * a):
@@ -153,6 +154,7 @@ def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float
         }
         rule_out(value, mistakes)
         rule_out(value, {real: 2.0 / np.abs(table.real).max()})
+        slip(value, each.min(), within=0.0)
     with np.errstate(over="ignore"):
         growth = np.abs(1.0 + 0.999 * value * table)
     worst = int(growth.argmax())

@@ -13,7 +13,7 @@ from __future__ import annotations
 import argparse
 from pathlib import Path
 
-from wmrbook.questions import fingerprint, made
+from wmrbook.questions import fingerprint, tested
 from wmrbook.questions.classes import Class, read_class
 from wmrbook.questions.form import form
 from wmrbook.questions.gain import gain
@@ -36,7 +36,7 @@ def main(arguments: list[str] | None = None) -> None:
     told = "the probability of a right guess, if it is known and nothing is forgotten"
     one.add_argument("--guess", type=float, metavar="C", help=told)
     given = parser.parse_args(arguments)
-    questions = made()
+    questions = tested()
     if given.command == "form":
         given.file.write_text(form(questions), encoding="utf-8")
         print(given.file)

@@ -12,7 +12,7 @@ _WORDS = {rf"\{name}": f"&{name};" for name in _GREEK} | {
     r"\ln": "ln",
     r"\cdot": "&middot;",
     r"\to": "&rarr;",
-    r"\approx": "&asymp;",
+    r"\pm": "&plusmn;",
 }
 _FORMULA = re.compile(r"\$([^$]+)\$")
 

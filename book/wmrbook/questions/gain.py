@@ -15,9 +15,9 @@ variance c/((1 - c) n), after it c/((1 - c)(1 - g) n), so the standard error is
 
     (1 - g) sqrt(c/((1 - c) n) (1 + 1/(1 - g))).
 
-With 30 students, 25 questions of five options (c = 1/5), a third of them known before (n = 500) and
-g = 0.4 this is 0.022: 98 in 100 classes are within 0.05. With g = 0.2 and half known before it is
-0.031, and only 89 in 100 are.
+With 30 students, 21 questions of five options (c = 1/5), a third of them known before (n = 420) and
+g = 0.4 this is 0.024: 96 in 100 classes are within 0.05. With g = 0.2 and half known before it is
+0.034, and only 86 in 100 are.
 
 There c helps where it is known. If nothing is forgotten, what is answered wrongly after was never
 known, so its answers before are guesses: how many of them were right says nothing about learning.
@@ -29,12 +29,12 @@ and Blackwell's step: the estimate's mean over what is pure chance), leaves
 with `gained` right after and wrong before. It needs c, and students who guess evenly; options that
 attract them make c smaller than one in five. `Gain.remark` says when the answers contradict it.
 
-What no estimate from 750 answers can do: if each answer is drawn anew, from a student's probability
+What no estimate from 630 answers can do: if each answer is drawn anew, from a student's probability
 of being right, instead of following from what the student knows, the answers after alone leave a
-standard error of 0.02 to 0.03, and 0.05 holds in 70 to 97 of 100 classes (15 to 45 % known before,
+standard error of 0.02 to 0.03, and 0.05 holds in 66 to 92 of 100 classes (15 to 45 % known before,
 g 0.2 to 0.6). The interval, a bootstrap over students, is for classes of such students. Of a class
 that knows or guesses it holds the gain in 98 of 100, which is more than it says; of one whose
-answers are drawn anew in 92 to 99.
+answers are drawn anew in 92 to 97.
 """
 
 from __future__ import annotations

@@ -12,7 +12,12 @@ from wmrbook.questions._asking import Option, cases, numbers, question, sign
 _East = wmr.Pose(0.0, 0.0, 0.0)
 
 
-@question(0, "It has arrived. Has it parked?", "Where does it face its goal's heading best?")
+@question(
+    0,
+    "It has arrived. Has it parked?",
+    "Where does it face its goal's heading best?",
+    "it passes zero there by luck, which nobody can predict",
+)
 def arrived_parked() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
     fine = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.009}
@@ -157,22 +162,18 @@ def two_angles() -> tuple[str, list[Option], str]:
 
 @question(3, "Whose theta? Whose beta?", "The wrong sign of the third angle")
 def beta_or_theta() -> tuple[str, list[Option], str]:
-    k_rho, k_alpha, k_beta, dt = 3.0, 8.0, -1.5, 0.005
-    rho, alpha, theta, rows = 3.0, 0.3, 0.4, []
+    k_rho, k_alpha, k_beta, pose = 3.0, 8.0, -1.5, wmr.Pose(-3.0, 0.5, -0.3)
     for _ in range(1200):
-        v, omega = k_rho * rho, k_alpha * alpha + k_beta * theta
-        rates = wmr.polar_rate(rho, alpha, v, omega)
-        rho, alpha, theta = (
-            old + dt * rate for old, rate in zip((rho, alpha, theta), rates, strict=True)
-        )
-        rows.append(theta - alpha)
-        if rho < 0.01:
+        seen = wmr.polar_error(pose, _East)
+        if seen.rho < 0.01:
             break
-    there, parked = rho < 0.01, abs(rows[-1]) < 0.1
+        omega = k_alpha * seen.alpha + k_beta * seen.theta
+        pose = wmr.advance(pose, k_rho * seen.rho, omega, 0.005)
+    there, parked = seen.rho < 0.01, abs(pose.heading) < 0.1
     ask = (
-        "Siegwart's law is $v = k_\\rho\\rho$, $\\omega = k_\\alpha\\alpha + k_\\beta\\beta$ with "
-        "(3, 8, -1.5). A program puts our $\\theta$ where $\\beta$ belongs. What does the robot "
-        "do?"
+        "A law from a book is $v = 3\\rho$, $\\omega = 8\\alpha - 1.5\\beta$, with $\\beta = "
+        "-\\theta$ and all angles wrapped to $\\pm$180 deg. A program puts $\\theta$ where "
+        "$\\beta$ belongs. What does the robot do?"
     )
     options = {
         (True, False): ("reaches the place, looks another way", ""),
@@ -182,7 +183,7 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
         "spin": ("spins on the spot", "the sign of $\\alpha$ taken for wrong"),
     }
     why = (
-        "The distance falls whatever the third angle is; with the wrong sign one pole is "
-        "positive, and the heading error grows."
+        "The distance falls whatever the third angle is; with the wrong sign the heading error "
+        "grows, wrapped or not, until the robot is there. Siegwart counts $\\beta$, we $\\theta$."
     )
     return ask, cases((there, parked), options), why

@@ -64,7 +64,7 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
     return ask, cases(found, options), why
 
 
-@question(5, "A tenth of a second", "Sampled ten times a second")
+@question(5, "A tenth of a second", "Sampled ten times a second", "a limit of these gains alone")
 def tenth_of_a_second() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
 
@@ -167,25 +167,31 @@ def nearer() -> tuple[str, list[Option], str]:
     }
     near = [name for name in left if abs(left[name] / left["none"] - 0.5) < 0.05]
     ask = (
-        f"On the paper's circle, at {wmr.paper.CIRCLE_SPEED:.2f} m/s, the corrected law with "
-        f"$v_{{\\max}}$ 4 m/s follows {100.0 * left['none']:.0f} cm behind its goal. Which change "
-        "halves this distance?"
+        f"A robot follows a goal round a circle at {wmr.paper.CIRCLE_SPEED:.2f} m/s, "
+        f"{100.0 * left['none']:.0f} cm behind. The further off its goal, the faster it drives. "
+        "Which change halves the distance?"
     )
     options = {
-        "k_rho": ("$k_\\rho$ doubled", ""),
-        "k_alpha": ("$k_\\alpha$ doubled", "quicker steering taken to catch up"),
-        "h": ("$h$ doubled", "weight on the heading taken for weight on the place"),
-        "v_max": ("$v_{\\max}$ halved", "a calmer robot taken for a closer one"),
-        "all": ("$k_\\alpha$ doubled and $h$ fourfold", "stiffer steering taken to catch up"),
+        "k_rho": ("the same speed at half the distance", ""),
+        "k_alpha": ("twice the steering", "$k_\\alpha$: quicker steering taken to catch up"),
+        "h": (
+            "twice the weight of the goal's heading",
+            "$h$: weight on the heading taken for weight on the place",
+        ),
+        "v_max": ("half the top speed", "a calmer robot taken for a closer one"),
+        "all": (
+            "twice the steering, that weight fourfold",
+            "stiffer steering taken to catch up",
+        ),
     }
     why = (
-        "It keeps the distance at which its law commands the goal's speed: only $k_\\rho$ and "
-        "$v_{\\max}$ matter, and less $v_{\\max}$ lengthens it."
+        "It keeps the distance at which its law commands the goal's speed: only $k_\\rho$, here "
+        "doubled, and $v_{\\max}$ matter, and less $v_{\\max}$ lengthens it."
     )
     return ask, cases(near[0] if len(near) == 1 else None, options), why
 
 
-@question(7, "The loop near the goal", "One gain against the swing")
+@question(7, "The loop near the goal", "One gain against the swing", "a formula of the course")
 def damping() -> tuple[str, list[Option], str]:
     gains = wmr.paper.OUTDOOR_GAINS
     changes = {
@@ -225,8 +231,8 @@ def more_steering() -> tuple[str, list[Option], str]:
         "the damping ratio taken for a time": 0.25,
     }
     ask = (
-        "Near the goal the heading is critically damped. Now $k_\\alpha$ is made four times as "
-        "large, nothing else. How many times as fast does the heading settle?"
+        "Near the goal the heading is critically damped: it just does not swing. Now $k_\\alpha$ "
+        "is made four times as large, nothing else. How many times as fast does it settle?"
     )
     why = (
         "Beyond critical damping one pole comes back towards zero: the robot aims at the goal so "

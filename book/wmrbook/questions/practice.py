@@ -25,7 +25,7 @@ def twice_as_fast() -> tuple[str, list[Option], str]:
     }
     ask = (
         f"A robot settles with steps up to {step:.2f} s. Now $k_\\rho$ and $k_\\alpha$ are "
-        "doubled, so that all poles near the goal are twice as fast. What is the longest step?"
+        "doubled, so that all goes twice as fast near the goal. What is the longest step?"
     )
     why = "Only step times rate counts: the same loop on a clock that runs twice as fast."
     return ask, numbers(shorter, mistaken, "{:.2f} s"), why
@@ -49,12 +49,12 @@ def one_factor() -> tuple[str, list[Option], str]:
         twist(most - omega * width / 2.0, omega): "$\\omega$ kept, $v$ from what is left",
     }
     ask = (
-        "The law asks for 2 m/s and 4 rad/s. The wheels, 0.5 m apart, reach 1.5 m/s. Both are "
-        "slowed by one factor. What does the robot do?"
+        "The law asks for 2 m/s and 4 rad/s. The wheels, 0.5 m apart, change speed at once, and "
+        "reach 1.5 m/s. $v$ and $\\omega$ are scaled by one factor. What does the robot do?"
     )
     why = (
         "The faster wheel should do 3 m/s, twice its limit. Half of both keeps the curvature, and "
-        "with it the path."
+        "with it the path; but not of wheels that take time to change speed."
     )
     return ask, cases(twist(*limited), {each: (each, why) for each, why in told.items()}), why
 
@@ -105,9 +105,8 @@ def crooked_compass() -> tuple[str, list[Option], str]:
         "the turning line of sight forgotten": delta_deg * gains.k_alpha / (gains.h * lam),
     }
     ask = (
-        "The compass reads 4 deg too much, the position is exact. With the gentle gains "
-        "($v_{\\max} k_\\rho$ 0.8, $k_\\alpha$ 2 per s, $h$ 2) the robot finds the place. How far "
-        "off is its heading?"
+        "The compass reads 4 deg too much, the position is exact. With $v_{\\max} k_\\rho$ 0.8 and "
+        "$k_\\alpha$ 2 per s, $h$ 2, the robot finds the place. How far off is its heading?"
     )
     why = (
         "Driving straight in, it believes $\\alpha$ is -4 deg. Only a $\\theta$ that cancels this "
@@ -129,18 +128,18 @@ def as_printed() -> tuple[str, list[Option], str]:
         "a sign lost": gains.k_alpha - lam,
     }
     ask = (
-        "Near the goal, with (24) as printed, $\\omega \\approx k_\\alpha\\alpha$ for a small "
-        "$\\alpha$. With $k_\\alpha$ 1 and $v_{\\max} k_\\rho$ 8 per s, $\\theta = 0$: what is "
+        f"Near its goal a robot drives at {lam:.0f} times its distance a second, and turns at "
+        f"{gains.k_alpha:.0f} rad/s for each rad of $\\alpha$, which is small. What is "
         "$\\dot\\alpha/\\alpha$?"
     )
     why = (
         "The line of sight runs away at 8 per s, and the steering takes back 1: $\\alpha$ grows. "
-        "The factor too many switches the rest off."
+        "So does (24) as printed: the factor too many switches the rest off."
     )
     return ask, numbers(rate, mistaken, "{:.0f} per s"), why
 
 
-@question(10, "Parked, or not?", "Is it parked?")
+@question(10, "Parked, or not?", "Is it parked?", "a report that nobody can predict")
 def is_it_parked() -> tuple[str, list[Option], str]:
     seen = {}
     for axis in ("east", "north"):

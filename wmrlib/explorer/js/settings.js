@@ -18,7 +18,7 @@ function runOf(settings) {
   const { dt, duration, goal, method } = settings, longest = LONGEST[method] || LONGEST.held;
   if (duration / dt > longest) throw notAllowed('dt', dt, `at least ${duration / longest} s`);
   for (const [name, pose] of Object.entries({ start: settings.start, goal })) {
-    if (pose && pose.some((value) => Math.abs(value) > FARTHEST)) throw notAllowed(name, pose, `at most ${FARTHEST} m from the origin`);
+    if (pose != null && checkedPose(name, pose).some((value) => Math.abs(value) > FARTHEST)) throw notAllowed(name, pose, `at most ${FARTHEST} m from the origin`);
   }
   const run = simulate(settings);
   if (run.n === 0) throw new RangeError('the run leaves the range of numbers at its start');

@@ -1,0 +1,115 @@
+"""The graded tasks of book/course that a page checks, and the notebook that hands them in.
+
+A task is its text, the cell to fill in, and the checks with their hints. The notebook that a page
+makes is what students are given, with the answers of the page in its cells.
+"""
+
+from __future__ import annotations
+
+import re
+from pathlib import Path
+
+import nbformat
+
+SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
+CHAPTER = re.compile(r"notebooks/(\d\d)_")
+# The graded tasks that are right in the page too, by the id of the cell to fill in.
+TASKS = {
+    "01": ("distance", "bearing", "local"),
+    "03": ("our-gains",),
+    "04": ("V-rate", "turning", "V-rate-closed", "rising"),
+    "05": ("law", "axes"),
+    "06": ("law",),
+    "10": ("claim23", "claim26"),
+    "11": ("compass",),
+    "12": ("degrees",),
+}
+# Those whose checks drive, which is too much for the page: it makes a student's numbers alone.
+DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
+SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
+STUB = 'raise NotImplementedError("write your answer here")\n'
+ABOUT = (
+    "Graded tasks of the course, checked here with its hints. "
+    "This page has `math`, `sympy` and `numpy` for single numbers; arrays need the notebook."
+)
+DRIVEN = (
+    "A graded task of the course. With your name, the cell "
+    "shows your numbers; the course's notebook drives with them."
+)
+
+
+def add_tasks(app, docname, source):
+    """Put a chapter's tasks below its exercises."""
+    chapter = CHAPTER.match(docname)
+    if chapter and (found := tasks(chapter[1])):
+        notebook = nbformat.reads(source[0], as_version=4)
+        headings = [i for i, each in enumerate(notebook.cells) if each.source.startswith("## ")]
+        exercises = next(i for i in headings if notebook.cells[i].source.startswith("## Exercises"))
+        end = next((i for i in headings if i > exercises), len(notebook.cells))
+        notebook.cells[end:end] = found
+        source[0] = nbformat.writes(notebook)
+
+
+def tasks(chapter: str) -> list:
+    """Return the chapter's tasks as cells of a notebook, without their solutions."""
+    wanted, driven = TASKS.get(chapter, ()), DRIVES.get(chapter, ())
+    if not (wanted or driven):
+        return []
+    text, mine, setup, cells = "", "", [], {}
+    for cell in nbformat.read(_path(chapter), 4).cells:
+        settings = cell.metadata["nbgrader"]
+        if cell.cell_type == "markdown":
+            text = cell.source.replace("## Task", "### Task")
+        elif "### Task" not in text and not cells:
+            setup.append(SOLUTION.sub("", cell.source))  # the imports, and the student's name
+        elif settings["grade_id"] == "mine":
+            mine = setup[1] + cell.source
+        elif SOLUTION.search(cell.source):
+            code = mine, SOLUTION.sub(_stub, cell.source)
+            cells[settings["grade_id"]], mine = (text, code, checks := []), ""
+        elif settings["grade"]:
+            checks.append(cell.source)
+    made = []
+    for name in (*wanted, *driven):
+        text, (mine, answer), checks = cells[name]
+        about = f"\n\n{DRIVEN if name in driven else ABOUT}" * (not made)
+        made.append(nbformat.v4.new_markdown_cell(text + about))
+        parts = (
+            ("mine", mine, "from wmrbook import grading", []),
+            (name, answer, setup[0], checks),
+        )
+        for key, source, before, graded in parts:
+            if source and not (graded and name in driven):
+                code = nbformat.v4.new_code_cell(source.strip("\n"))
+                code.metadata["task"] = {"before": before, "checks": graded, "name": key}
+                made.append(code)
+    return made
+
+
+def _stub(solution: re.Match) -> str:
+    return solution[1] and solution[1] + STUB  # in a function something must stand
+
+
+def handed_in(chapter: str) -> dict | None:
+    """Return the notebook in which a page hands its answers in, as students are given it.
+
+    With the name of its file, and the titles of the tasks that the page has not. None where the
+    page takes no answers.
+    """
+    if chapter not in TASKS:
+        return None
+    path, title, elsewhere = _path(chapter), "", []
+    notebook = nbformat.read(path, 4)
+    for cell in notebook.cells:
+        name = cell.metadata["nbgrader"]["grade_id"]
+        if cell.cell_type == "markdown":
+            title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
+        elif SOLUTION.search(cell.source):
+            cell.source = SOLUTION.sub(lambda it: it[1] + STUB, cell.source).rstrip("\n")
+            elsewhere += [title] * (name not in (*TASKS[chapter], "name"))
+    return {"file": path.name, "notebook": notebook, "elsewhere": elsewhere}
+
+
+def _path(chapter: str) -> Path:
+    (path,) = (SOURCE / f"ch{chapter}").glob("*.ipynb")
+    return path

@@ -1,0 +1,119 @@
+"""Answers in the page's tasks: a reload keeps them, and the page hands them in like a notebook."""
+
+import os
+from pathlib import Path
+
+import damage
+import graded
+import nbformat
+import pytest
+from page_tasks import TASKS, handed_in
+from playwright.sync_api import Page
+from test_course import command, empty_course
+from test_python_in_page import given
+
+if not os.environ.get("BOOK_HTML"):
+    pytestmark = pytest.mark.needs("npm")
+SAVE = "Save the notebook to hand in"
+CHAPTERS = {"ch01": "01_gps_to_metres", "ch03": "03_polar_coordinates", "ch04": "04_lyapunov"}
+BLOCKED = """for (const name of ['getItem', 'setItem', 'removeItem']) {
+    const kept = Storage.prototype[name];
+    Storage.prototype[name] = function (key, ...rest) {
+        if (key.startsWith('wmr-')) throw new DOMException('no', 'SecurityError');
+        return kept.call(this, key, ...rest);
+    };
+}"""
+LINE = "\n# ü ↦ \\ \" ' </script>"
+
+
+def models(chapter: str) -> dict[str, str]:
+    """The model's answers to the tasks that a page has."""
+    return {name: graded.cells(chapter)[name][0] + LINE for name in TASKS[chapter[2:]]}
+
+
+def box(site: Path, page: Page, chapter: str, name: str):
+    """Where a page's answer of this name is written."""
+    names = [cell["name"] for cell in given(site / f"notebooks/{CHAPTERS[chapter]}.html")]
+    cell = page.locator(".cell:has(script.python-cell)").nth(names.index(name))
+    return cell.locator(".python-editor")
+
+
+def written(site: Path, page: Page, chapter: str, answers: dict[str, str]) -> None:
+    for name, text in answers.items():
+        box(site, page, chapter, name).fill(text)
+
+
+def saved(page: Page) -> tuple[str, nbformat.NotebookNode]:
+    """What the button saves, and under which name."""
+    with page.expect_download() as download:
+        page.get_by_role("button", name=SAVE).click()
+    notebook = nbformat.reads(download.value.path().read_text(encoding="utf-8"), as_version=4)
+    nbformat.validate(notebook)
+    return download.value.suggested_filename, notebook
+
+
+def by_id(notebook) -> dict[str, str]:
+    return {cell.metadata.nbgrader.grade_id: cell.source for cell in notebook.cells}
+
+
+def test_answers_outlive_a_reload_and_stand_in_the_notebook_that_is_given_out(site, opened):
+    page = opened(f"notebooks/{CHAPTERS['ch04']}.html")
+    answers = models("ch04") | {"mine": 'name = "Adá"  # I\nmine = grading.variants.right(name)'}
+    del answers["turning"]
+    exercise = "exercises.aicardi"  # of the chapter itself: nobody hands it in
+    written(site, page, "ch04", answers | {exercise: LINE})
+    page.get_by_label("User name").fill("bob")
+    page.get_by_role("button", name=SAVE).click()
+    assert 'The cell above says name = "Adá"' in page.locator(".python-hand-in").last.inner_text()
+    page.reload()
+    assert box(site, page, "ch04", exercise).input_value() == LINE
+    assert page.get_by_label("User name").input_value() == "bob"
+    page.get_by_label("User name").fill("adÁ ")
+    file, notebook = saved(page)
+    release = by_id(handed_in("04")["notebook"])
+    graded_ids = {name: text for name, text in answers.items() if name != "mine"}
+    assert by_id(notebook) == release | graded_ids | {"name": 'name = "adÁ"'}
+    assert file == f"{CHAPTERS['ch04']}.ipynb"
+    # Another page does not have them, and what is reset is gone.
+    page.goto(page.url.replace(CHAPTERS["ch04"], CHAPTERS["ch01"]))
+    assert by_id(saved(page)[1]) == by_id(handed_in("01")["notebook"])
+    page.go_back()
+    tools = page.locator(".python-tools:has(button:text-is('Check'))")
+    tools.first.get_by_role("button", name="Reset").click()
+    page.reload()
+    assert by_id(saved(page)[1])["V-rate"] == release["V-rate"]
+
+
+def test_where_a_browser_keeps_nothing_answers_are_handed_in_all_the_same(
+    site, browser_page, opened
+):
+    browser_page.add_init_script(BLOCKED)
+    page = opened(f"notebooks/{CHAPTERS['ch03']}.html")
+    written(site, page, "ch03", models("ch03"))
+    assert by_id(saved(page)[1])["our-gains"] == models("ch03")["our-gains"]
+    told = page.locator(".python-hand-in").last.inner_text()
+    assert "Task 3.1: What the robot sees; Task 3.2: Find the signs." in told
+
+
+@pytest.mark.slow
+def test_what_a_page_hands_in_is_graded_like_any_other(site, opened, tmp_path):
+    course = empty_course(tmp_path)
+    command("package.py", course, *CHAPTERS)
+    most = {}
+    for chapter, name in CHAPTERS.items():
+        page = opened(f"notebooks/{name}.html")
+        written(site, page, chapter, models(chapter))
+        if chapter == "ch04":
+            page.get_by_label("User name").fill("model")
+        file, notebook = saved(page)
+        release = nbformat.read(course / "release" / chapter / file, as_version=4)
+        assert by_id(handed_in(chapter[2:])["notebook"]) == by_id(release)
+        damage.hand_in(course, "model", chapter, file, nbformat.writes(notebook))
+        checks = graded.tasks(chapter), graded.cells(chapter)
+        most[chapter] = sum(
+            checks[1][it][1] for task in TASKS[chapter[2:]] for it in checks[0][task]
+        )
+    rows = damage.rows(command("grade.py", course, *CHAPTERS))
+    for chapter, points in most.items():
+        whole = sum(worth for _, worth in graded.cells(chapter).values())
+        assert rows[chapter, "model"].strip() == f"{points}/{whole}"

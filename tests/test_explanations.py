@@ -1,0 +1,84 @@
+"""Tasks that ask for an explanation: students never get what an assistant marks them by."""
+
+import re
+import shutil
+from itertools import pairwise
+
+import nbformat
+import pytest
+from graded import ASSIGNMENTS, BEGIN, END, ROOT, nbgrader, notebook
+from nbgrader.api import Gradebook
+
+COURSE = ROOT / "book" / "course"
+SCHEME = re.compile(r"=== BEGIN MARK SCHEME ===\n(.*)\n=== END MARK SCHEME ===", re.DOTALL)
+
+
+def explained(chapter):
+    """The cells of a chapter that are marked by hand, each after the cell with its question."""
+    cells = nbformat.read(notebook(chapter), as_version=4).cells
+    pairs = pairwise(cells)
+    return [(q, a) for q, a in pairs if a.cell_type == "markdown" and a.metadata.nbgrader.grade]
+
+
+EXPLAINED = [chapter for chapter in ASSIGNMENTS if explained(chapter)]
+
+
+@pytest.mark.parametrize("chapter", EXPLAINED)
+def test_a_question_says_what_earns_its_points(chapter):
+    for question, answer in explained(chapter):
+        most, settings = answer.metadata.nbgrader.points, answer.metadata.nbgrader
+        scheme = SCHEME.search(question.source)[1]
+        levels = [float(each) for each in re.findall(r"^\| ([\d.]+) \|", scheme, re.MULTILINE)]
+        assert 3 <= len(levels) <= 5
+        assert levels == sorted(levels, reverse=True)
+        assert (levels[0], levels[-1]) == (most, 0)
+        assert f"up to {most} points" in question.source
+        assert "misunderstandings" in scheme
+        assert settings.solution
+        assert question.metadata.nbgrader.locked > settings.locked
+        limit = int(re.search(r"at most (\d+) words", question.source)[1])
+        words = re.sub(r"\$[^$]*\$|#.*", "", answer.source).split()
+        assert len(words) <= 1.1 * limit
+
+
+@pytest.mark.slow
+def test_an_explanation_is_marked_by_hand_by_a_scheme_that_no_student_gets(tmp_path):
+    assert len(EXPLAINED) == 2
+    for part in ("nbgrader_config.py", "templates", *(f"source/{each}" for each in EXPLAINED)):
+        (tmp_path / part).parent.mkdir(exist_ok=True)
+        copy = shutil.copytree if (COURSE / part).is_dir() else shutil.copy
+        copy(COURSE / part, tmp_path / part)
+    for chapter in EXPLAINED:
+        name = notebook(chapter).name
+        scheme = SCHEME.search(explained(chapter)[0][0].source)[1]
+        nbgrader(tmp_path, "generate_assignment", chapter)
+        given = nbformat.read(tmp_path / "release" / chapter / name, as_version=4)
+        model = nbformat.read(notebook(chapter), as_version=4)
+        assert not any(line in nbformat.writes(given) for line in (*scheme.split("\n\n"), "SCHEME"))
+        for student in ("explains", "silent"):
+            path = tmp_path / "submitted" / student / chapter / name
+            path.parent.mkdir(parents=True)
+            for cell, solved in zip(given.cells, model.cells, strict=True):
+                written = student == "explains" or cell.cell_type == "code"
+                if solved.metadata.nbgrader.solution and written:
+                    source = solved.source.replace('"model"', f'"{student}"')
+                    cell.source = source.replace(BEGIN, "").replace(END, "")
+            nbformat.write(given, path)
+            given = nbformat.read(tmp_path / "release" / chapter / name, as_version=4)
+        nbgrader(tmp_path, "autograde", chapter, "--create")
+        nbgrader(tmp_path, "generate_feedback", chapter)
+        pages = {}
+        for folder, end in ("autograded", ".ipynb"), ("feedback", ".html"):
+            path = (tmp_path / folder / "explains" / chapter / name).with_suffix(end)
+            pages[folder] = path.read_text(encoding="utf-8")
+        assert "misunderstandings" in pages["autograded"]  # which the formgrader shows
+        assert "misunderstandings" not in pages["feedback"]
+    with Gradebook(f"sqlite:///{tmp_path / 'gradebook.db'}") as book:
+        for chapter in EXPLAINED:
+            ((_, answer),) = explained(chapter)
+            most, name = answer.metadata.nbgrader.points, answer.metadata.nbgrader.grade_id
+            for student, waits in ("explains", True), ("silent", False):
+                found = book.find_submission(chapter, student)
+                assert (found.score, found.needs_manual_grade) == (found.max_score - most, waits)
+                (by_hand,) = (each for each in found.notebooks[0].grades if each.name == name)
+                assert (by_hand.score, by_hand.needs_manual_grade) == (0, waits)
