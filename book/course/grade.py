@@ -24,12 +24,14 @@ import marks
 import nbformat
 import psutil
 import roster
+from cage import holds
 from changes import HandIn, hash_of, look, sources
 from gradebook import COURSE, Course, lost, options
 from handins import Refused
+from kernel import Limits
 from nbgrader.api import MissingEntry
 from roster import NAME
-from sandbox import Limits, Sandbox, hides, stops
+from sandbox import Sandbox, stops
 from table import Row, nothing, table
 from tqdm import tqdm
 
@@ -107,7 +109,7 @@ def _graded(
     def run(it: HandIn) -> tuple:
         if it.assignment in unfit:
             raise Refused(unfit[it.assignment])
-        notebook, how = handins.repaired(handins.read(it.path), releases[it.assignment])
+        notebook, how = sandbox.repaired(it.path, releases[it.assignment])
         return sandbox.run(notebook, it.student, names), it.odd + how
 
     bar = tqdm(total=len(needed) + len(fresh), unit="run", disable=None)
@@ -209,7 +211,7 @@ if __name__ == "__main__":
     for name in "jobs", "seconds", "memory":
         if not getattr(given, name) > 0:
             parser.error(f"--{name} {getattr(given, name)} is not allowed: more than 0 is needed")
-    if not hides():
+    if not holds():
         print("Hand-ins can read what you can read here: the lecturer's guide says more.")
     most = Limits(given.seconds, 5 * given.seconds, int(given.memory * 1e9))
     folder = given.course.resolve()

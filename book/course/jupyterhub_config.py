@@ -1,7 +1,7 @@
 """JupyterHub for a class: jupyterhub --config=book/course/jupyterhub_config.py
 
-Each student gets students.zip, which package.py makes, into ~/robot. Where the system can hide
-folders, their servers see neither the course nor the homes of others.
+Each student gets students.zip, which package.py makes, into ~/robot. Where the system can cage
+processes, their servers see neither the course nor the homes of others.
 """
 
 import sys
@@ -9,8 +9,8 @@ from pathlib import Path
 
 COURSE = Path(__file__).resolve().parent
 sys.path.insert(0, str(COURSE))
+import cage  # noqa: E402
 import exchange  # noqa: E402
-import sandbox  # noqa: E402
 
 c = get_config()  # noqa: F821  (JupyterHub provides it)
 
@@ -21,11 +21,11 @@ def hand_out(spawner):
     home = Path(getattr(spawner, "home_dir", "") or f"~{name}").expanduser()
     (home / "robot").mkdir(parents=True, exist_ok=True)
     exchange.hand_out(home, COURSE / "students.zip")
-    if sandbox.hides():
-        hidden = [COURSE, *map(COURSE.parents[1].joinpath, ("tests", ".git"))]
-        # Inside, each user is called root, without any right of root's.
+    if cage.holds():
+        ours = (COURSE.parents[1].joinpath(each) for each in ("wmrlib", "book/wmrbook"))
+        # Inside, where the hub runs as root, each user is called so, without any right of root's.
         server = [*SERVER, "--allow-root"]
-        spawner.cmd = sandbox.confined(server, home.parent, hidden, network=True)
+        spawner.cmd = cage.caged(server, reads=[Path("/etc"), *ours], writes=[home], network=True)
 
 
 SERVER = [str(Path(sys.executable).parent / "jupyterhub-singleuser")]

@@ -17,18 +17,37 @@ from wmrlib.gains import Gains
 _MOST = 1000.0  # of a gain: what is far beyond any use would take minutes to simulate
 
 
+class Failed(Exception):  # noqa: N818  (it is an answer's fault, not the check's)
+    """How a student's function stopped: what is told of it; if it refused, or is as handed out."""
+
+    def __init__(self, told: str, refused: bool = False, unwritten: bool = False) -> None:
+        self.told, self.refused, self.unwritten = told, refused, unwritten
+
+
+def called(function: Callable, *arguments: Any) -> Any:
+    """Return what the student's function returns; raise Failed if it stops, whatever it does."""
+    try:
+        with _alone():
+            return function(*arguments)
+    except Failed:  # in another process, which told it
+        raise
+    except BaseException as error:  # of `exit()`, and of a reader who stops it, too
+        unwritten = type(error) is NotImplementedError  # `input()` raises a child of it
+        told = f"{_line(error)} with {named(error)}"
+        raise Failed(told, isinstance(error, ValueError), unwritten) from None
+
+
 def ask(function: Callable, *arguments: Any) -> Any:
     """Return what the student's function returns; if it fails, raise a Hint that says how."""
     if not callable(function):
         raise Hint(f"a function is needed here, not {shown(function)}.")
     try:
-        with _alone():
-            answer = function(*arguments)
-    except BaseException as error:  # of `exit()`, and of a reader who stops it, too
-        if type(error) is NotImplementedError:  # as handed out; `input()` raises a child of it
+        answer = called(function, *arguments)
+    except Failed as failed:
+        if failed.unwritten:
             raise Hint(f"`{name_of(function)}` is not written yet.") from None
         call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
-        raise Hint(f"{call} stops{_line(error)} with {named(error)}.") from None
+        raise Hint(f"{call} stops{failed.told}.") from None
     expect(answer is not None, f"`{name_of(function)}` returns nothing: does it end in `return`?")
     return answer
 
@@ -67,11 +86,10 @@ def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np
 def refuses(function: Callable, hint: str, *arguments: Any) -> None:
     """Raise Hint unless the student's function raises ValueError for these arguments."""
     try:
-        with _alone():
-            function(*arguments)
-    except ValueError:
-        return
-    except BaseException:
+        called(function, *arguments)
+    except Failed as failed:
+        if failed.refused:
+            return
         ask(function, *arguments)  # which says what happened
     call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
     raise Hint(f"{call} must raise ValueError: {hint}")

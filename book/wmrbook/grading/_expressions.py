@@ -24,9 +24,9 @@ from wmrbook.grading._hints import Hint, expect
 Point = dict[sp.Symbol, sp.Rational]
 _DIGITS = 50
 _TOLERANCE = 1e-12  # of equality: a student may write 0.3 for 3/10
-_MOST_PARTS = 3000
+MOST_PARTS = 3000
 _LARGEST, _FARTHEST = 1e6, 1e100  # of a number that stands there, of one that comes out
-_FUNCTIONS = {
+FUNCTIONS = {
     **{"Add": lambda *terms: mpmath.fsum(terms), "Mul": lambda *terms: mpmath.fprod(terms)},
     **{"Pow": mpmath.power, "Abs": mpmath.fabs, "sign": mpmath.sign, "sinc": mpmath.sinc},
     **{"sin": mpmath.sin, "cos": mpmath.cos, "tan": mpmath.tan, "cot": mpmath.cot},
@@ -66,7 +66,7 @@ def expression(name: str, value: Any, symbols: Iterable[sp.Symbol]) -> sp.Expr:
         expect(not large, f"{name} holds a number that is far too large.")
         kind = each.func.__name__
         hint = f"{name} holds `{kind}`: write it with sums, products, sin, cos and exp."
-        expect(not each.args or kind in _FUNCTIONS or isinstance(each, _CASES), hint)
+        expect(not each.args or kind in FUNCTIONS or isinstance(each, _CASES), hint)
     # A symbol of the student's own may have other assumptions: its name tells what it means.
     names = {each: allowed[each.name] for each in parts if isinstance(each, sp.Symbol)}
     return value.replace(sp.UnevaluatedExpr, lambda inner: inner).xreplace(names)
@@ -75,8 +75,8 @@ def expression(name: str, value: Any, symbols: Iterable[sp.Symbol]) -> sp.Expr:
 def _parts(name: str, value: sp.Basic) -> list[sp.Basic]:
     """Return all that it is made of; raise Hint if that is too much."""
     with suppress(RecursionError):
-        parts = list(islice(sp.preorder_traversal(value), _MOST_PARTS + 1))
-        if len(parts) <= _MOST_PARTS:
+        parts = list(islice(sp.preorder_traversal(value), MOST_PARTS + 1))
+        if len(parts) <= MOST_PARTS:
             return parts
     raise Hint(f"{name} is far too long: simplify it.")
 
@@ -129,7 +129,7 @@ def _value(part: sp.Basic, point: Point) -> Any:
         held = (case for case, when in part.args if _holds(when, point))
         return _value(next(held, sp.nan), point)
     if part.args:
-        value = _FUNCTIONS[part.func.__name__](*(_value(each, point) for each in part.args))
+        value = FUNCTIONS[part.func.__name__](*(_value(each, point) for each in part.args))
     else:
         value = mpmath.mpmathify(point.get(part, part).evalf(_DIGITS))
     if not abs(value) < _FARTHEST:  # of a sine of more, mpmath would need pi to as many digits

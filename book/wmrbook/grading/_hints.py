@@ -126,6 +126,8 @@ def own_work(function: Callable, *allowed: str) -> None:
     asked = "this task asks for your own formula, with `math` or `numpy`."
     if allowed:
         asked = f"of it only {', '.join(f'`{each}`' for each in allowed)} may be used here."
+    if expect_own := getattr(function, "expect_own", None):  # in another process
+        return expect_own(*allowed)
     waiting, seen, home = [function], [], None
     while waiting:
         called = inspect.unwrap(waiting.pop(0))
