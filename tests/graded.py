@@ -119,7 +119,7 @@ def given(chapter: str, student: str = "Ada") -> dict:
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
         if not points and (name == "name" or tasks(chapter).get(name) != []):
-            _run(
+            run_cell(
                 source.replace('name = "model"', f"name = {student!r}"),
                 f"<{chapter} {name}>",
                 names,
@@ -132,7 +132,7 @@ def given(chapter: str, student: str = "Ada") -> dict:
     return names
 
 
-def _run(source: str, name: str, names: dict) -> None:
+def run_cell(source: str, name: str, names: dict) -> None:
     """Run a cell; as in Jupyter, `inspect` finds its source."""
     linecache.cache[name] = len(source), None, source.splitlines(keepends=True), name
     exec(compile(source, name, "exec"), names)
@@ -145,12 +145,12 @@ def lost(chapter: str, key: str, source: str, student="Ada", by="") -> dict[str,
     """
     names, found = dict(given(chapter, by or student)), {}
     with contextlib.suppress(Exception):  # then the graded cells fail
-        _run(source, f"<{chapter} answer>", names)
+        run_cell(source, f"<{chapter} answer>", names)
     if "mine" in names:
         names["mine"] = given(chapter, student)["mine"]
     for name in graded(chapter, key):
         try:
-            _run(cells(chapter)[name][0], f"<{chapter} {name}>", names)
+            run_cell(cells(chapter)[name][0], f"<{chapter} {name}>", names)
         except Exception as error:
             found[name] = f"{type(error).__name__}: {error}"
     return found
@@ -207,7 +207,7 @@ def mistold(name: str) -> list[tuple[str, str]]:
     sources = {words: edited(right, edit.split(" || ")) for words, edit in given.items()}
     for words, source in {"Right": right, "": right, **sources}.items():
         names = {}
-        _run(source, f"<{name}>", names)
+        run_cell(source, f"<{name}>", names)
         answers = [names[it] for it in ("answer", "more") if it in names]
         told = getattr(checks, name)(*(answers if words else map(in_arrays, answers)))
         words = words or "Right"

@@ -11,11 +11,13 @@ points on this machine is not graded. Ctrl-C keeps what is graded so far.
 from __future__ import annotations
 
 import os
+import signal
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator
 from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
+from threading import Event, current_thread, main_thread
 from typing import Any
 from unicodedata import normalize
 
@@ -52,7 +54,7 @@ def grade(
     when it is stopped, after it has written the marks.
     """
     people = roster.of(folder)
-    with Course(folder) as course:
+    with Course(folder) as course, _stoppable() as stopped:
         rows, todo, names = _listed(course, wanted, students)
         releases, unfit = {}, {}
         for each in sorted({assignment for assignment, _, _ in todo}):
@@ -78,9 +80,9 @@ def grade(
         try:
             if fresh:
                 with Sandbox([folder, *SECRETS], limits) as sandbox:
-                    rows.extend(_graded(course, sandbox, releases, fresh, names, jobs))
+                    what = sandbox, releases, fresh, names, jobs, stopped
+                    rows.extend(_graded(course, *what))
         except KeyboardInterrupt:
-            course.book.db.rollback()
             done = sum(row.anew and bool(row.points) for row in rows)
             said = f"Stopped: {done} of {len(fresh)} hand-ins are graded and in the marks;"
             raise KeyboardInterrupt(f"{said} the same command goes on with the others.") from None
@@ -98,6 +100,7 @@ def _graded(
     fresh: list[HandIn],
     names: list[str],
     jobs: int,
+    stopped: Event,
 ) -> Iterator[Row]:
     """Run the model of each assignment, then the hand-ins; a row for each that is done."""
     unfit = {}
@@ -114,28 +117,21 @@ def _graded(
 
     bar = tqdm(total=len(needed) + len(fresh), unit="run", disable=None)
     with bar, ThreadPoolExecutor(jobs) as pool:
-        try:
-            for each, why in _each(pool, bar, run_model, needed):
-                if why:
-                    unfit[each] = f"on this machine the model fails: {why}"
-            for it, result in _each(pool, bar, run, fresh):
-                try:
-                    if isinstance(result, Exception):
-                        raise result
-                    ran, how = result
-                    said = [f"repaired: {', '.join(how)}"] * bool(how)
-                    said += handins.misnamed(ran, it.student) + stops(ran)
-                    known = it.known | {"said": "; ".join(said)}
-                    course.score(it.assignment, it.student, ran, it.stamp, known)
-                    yield _row(course, it.assignment, it.student, known["said"])
-                except Exception as error:  # whatever it is, it stops nobody else
-                    yield _refused(course, it.assignment, it.student, error)
-        except (KeyboardInterrupt, GeneratorExit):
-            pool.shutdown(wait=False, cancel_futures=True)
-            for child in psutil.Process().children(recursive=True):
-                with suppress(psutil.Error):
-                    child.kill()
-            raise
+        for each, why in _each(pool, bar, stopped, run_model, needed):
+            if why:
+                unfit[each] = f"on this machine the model fails: {why}"
+        for it, result in _each(pool, bar, stopped, run, fresh):
+            try:
+                if isinstance(result, Exception):
+                    raise result
+                ran, how = result
+                said = [f"repaired: {', '.join(how)}"] * bool(how)
+                said += handins.misnamed(ran, it.student) + stops(ran)
+                known = it.known | {"said": "; ".join(said)}
+                course.score(it.assignment, it.student, ran, it.stamp, known)
+                yield _row(course, it.assignment, it.student, known["said"])
+            except Exception as error:  # whatever it is, it stops nobody else
+                yield _refused(course, it.assignment, it.student, error)
 
 
 def _row(course: Course, assignment: str, student: str, said: str, anew: bool = True) -> Row:
@@ -150,6 +146,7 @@ def _refused(course: Course, assignment: str, student: str, error: Exception) ->
     """The line of what can't be graded."""
     kind = "" if isinstance(error, Refused) else f"{type(error).__name__}: "
     said = f"refused: {kind}{error}"
+    course.book.db.rollback()  # of what was begun
     with suppress(MissingEntry):
         course.book.find_submission(assignment, student)
         said += "; the points of an earlier hand-in stand"
@@ -185,12 +182,36 @@ def _listed(
     return rows, todo, names
 
 
+@contextmanager
+def _stoppable() -> Iterator[Event]:
+    """Let Ctrl-C end what runs, and set the event, but interrupt nothing that is being written."""
+    stopped = Event()
+
+    def stop(*_: object) -> None:
+        stopped.set()
+        for child in psutil.Process().children(recursive=True):
+            with suppress(psutil.Error):
+                child.kill()
+
+    if current_thread() is not main_thread():
+        yield stopped
+        return
+    before = signal.signal(signal.SIGINT, stop)
+    try:
+        yield stopped
+    finally:
+        signal.signal(signal.SIGINT, before)
+
+
 def _each(
-    pool: Executor, bar: tqdm, function: Callable, items: Iterable
+    pool: Executor, bar: tqdm, stopped: Event, function: Callable, items: Iterable
 ) -> Iterator[tuple[Any, Any]]:
     """Each item as it is done, with what the function returned or the exception it raised."""
     waiting = {pool.submit(function, item): item for item in items}
     for done in as_completed(waiting):
+        if stopped.is_set():
+            pool.shutdown(wait=False, cancel_futures=True)
+            raise KeyboardInterrupt
         yield waiting[done], done.exception() or done.result()
         bar.update()
 

@@ -27,8 +27,7 @@ from wmrbook.grading._hints import Hint, name_of, named, own_work, shown
 
 _MOST = 5_000_000  # bytes of a message
 _LARGEST = 2**1000
-# wmrlib's, imported when needed.
-_FIELDS = {"Gains": 4, "GeoPoint": 2, "PolarError": 3, "Pose": 3, "WheelLimits": 2}
+_FIELDS = {"Gains": 4, "GeoPoint": 2, "PolarError": 3, "Pose": 3}  # wmrlib's, imported when needed
 _TEXTS = {"Fraction": Fraction, "Decimal": Decimal}
 _ORDERS: dict[str, Callable] = {"tuple": tuple, "list": list, "set": list}
 
@@ -132,7 +131,7 @@ class Line:
             return {"unordered": shown(value)}
         if isinstance(value, Iterator):  # `zip(*poses)`
             value = tuple(islice(value, 100_000))
-        if isinstance(value, (tuple, list)):
+        if isinstance(value, (tuple, list)) and (self.trusts or type(value) in (tuple, list)):
             order = "list" if isinstance(value, list) else "tuple"
             return {order: [self._plain(each) for each in value]}
         if callable(getattr(value, "tolist", None)):  # an array, a matrix of sympy or mpmath
