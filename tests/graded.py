@@ -176,7 +176,7 @@ def lost_over_a_line(chapter: str, key: str, source: str, student: str = "Ada") 
     from wmrbook.grading._wire import Line
 
     names, found = dict(given(chapter, student)), {}
-    _run(source, f"<{chapter} answer>", names)
+    run_cell(source, f"<{chapter} answer>", names)
     here, there = Pipe()
     Thread(target=Line(there, names, trusts=True).serve, daemon=True).start()
     line = Line(here, {})
@@ -185,7 +185,7 @@ def lost_over_a_line(chapter: str, key: str, source: str, student: str = "Ada") 
         answer = re.search(r"grading\.\w+\.\w+\((\w+)", check)[1]
         try:
             judge[answer] = line.value(answer)
-            _run(check, f"<{chapter} {name}>", judge)
+            run_cell(check, f"<{chapter} {name}>", judge)
         except Exception as error:
             found[name] = f"{type(error).__name__}: {error}"
     here.close()
