@@ -48,8 +48,9 @@ def graded_answers(notebook: NotebookNode) -> list[int]:
 
 
 def checks(notebook: NotebookNode) -> list[int]:
-    """Where the checks are."""
-    return [k for k, cell in enumerate(notebook.cells) if _nbgrader(cell).get("grade")]
+    """Where the checks are; an answer that an assistant marks is none."""
+    graded = [k for k, cell in enumerate(notebook.cells) if _nbgrader(cell).get("grade")]
+    return [k for k in graded if not _nbgrader(notebook.cells[k])["solution"]]
 
 
 def _nbgrader(cell: NotebookNode) -> dict:

@@ -9,7 +9,9 @@ import subprocess
 import sys
 import tomllib
 from functools import cache, wraps
+from multiprocessing import Pipe
 from pathlib import Path
+from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -117,7 +119,7 @@ def given(chapter: str, student: str = "Ada") -> dict:
     names = {"__name__": "__main__"}
     for name, (source, points) in cells(chapter).items():
         if not points and (name == "name" or tasks(chapter).get(name) != []):
-            _run(
+            run_cell(
                 source.replace('name = "model"', f"name = {student!r}"),
                 f"<{chapter} {name}>",
                 names,
@@ -130,7 +132,7 @@ def given(chapter: str, student: str = "Ada") -> dict:
     return names
 
 
-def _run(source: str, name: str, names: dict) -> None:
+def run_cell(source: str, name: str, names: dict) -> None:
     """Run a cell; as in Jupyter, `inspect` finds its source."""
     linecache.cache[name] = len(source), None, source.splitlines(keepends=True), name
     exec(compile(source, name, "exec"), names)
@@ -143,12 +145,12 @@ def lost(chapter: str, key: str, source: str, student="Ada", by="") -> dict[str,
     """
     names, found = dict(given(chapter, by or student)), {}
     with contextlib.suppress(Exception):  # then the graded cells fail
-        _run(source, f"<{chapter} answer>", names)
+        run_cell(source, f"<{chapter} answer>", names)
     if "mine" in names:
         names["mine"] = given(chapter, student)["mine"]
     for name in graded(chapter, key):
         try:
-            _run(cells(chapter)[name][0], f"<{chapter} {name}>", names)
+            run_cell(cells(chapter)[name][0], f"<{chapter} {name}>", names)
         except Exception as error:
             found[name] = f"{type(error).__name__}: {error}"
     return found
@@ -169,6 +171,27 @@ def closed() -> list[str]:
     return sorted({run for run in runs if len(run) > 30})
 
 
+def lost_over_a_line(chapter: str, key: str, source: str, student: str = "Ada") -> dict[str, str]:
+    """As `lost`, with the answer at the other end of a line, as a class is graded."""
+    from wmrbook.grading._wire import Line
+
+    names, found = dict(given(chapter, student)), {}
+    run_cell(source, f"<{chapter} answer>", names)
+    here, there = Pipe()
+    Thread(target=Line(there, names, trusts=True).serve, daemon=True).start()
+    line = Line(here, {})
+    for name in graded(chapter, key):
+        check, judge = cells(chapter)[name][0], dict(given(chapter, student))
+        answer = re.search(r"grading\.\w+\.\w+\((\w+)", check)[1]
+        try:
+            judge[answer] = line.value(answer)
+            run_cell(check, f"<{chapter} {name}>", judge)
+        except Exception as error:
+            found[name] = f"{type(error).__name__}: {error}"
+    here.close()
+    return found
+
+
 @cache
 def exercises() -> dict[str, dict[str, str]]:
     """Of the chapters' own exercises that have a check: the answer, and an edit for each hint."""
@@ -184,7 +207,7 @@ def mistold(name: str) -> list[tuple[str, str]]:
     sources = {words: edited(right, edit.split(" || ")) for words, edit in given.items()}
     for words, source in {"Right": right, "": right, **sources}.items():
         names = {}
-        _run(source, f"<{name}>", names)
+        run_cell(source, f"<{name}>", names)
         answers = [names[it] for it in ("answer", "more") if it in names]
         told = getattr(checks, name)(*(answers if words else map(in_arrays, answers)))
         words = words or "Right"

@@ -6,6 +6,7 @@ from itertools import pairwise
 
 import nbformat
 import pytest
+from gradebook import Course
 from graded import ASSIGNMENTS, BEGIN, END, ROOT, nbgrader, notebook
 from nbgrader.api import Gradebook
 
@@ -44,10 +45,10 @@ def test_a_question_says_what_earns_its_points(chapter):
 @pytest.mark.slow
 def test_an_explanation_is_marked_by_hand_by_a_scheme_that_no_student_gets(tmp_path):
     assert len(EXPLAINED) == 2
-    for part in ("nbgrader_config.py", "templates", *(f"source/{each}" for each in EXPLAINED)):
-        (tmp_path / part).parent.mkdir(exist_ok=True)
-        copy = shutil.copytree if (COURSE / part).is_dir() else shutil.copy
-        copy(COURSE / part, tmp_path / part)
+    others = [each for each in ASSIGNMENTS if each not in EXPLAINED]
+    shutil.copytree(
+        COURSE, tmp_path, ignore=shutil.ignore_patterns(*others, "*.db"), dirs_exist_ok=True
+    )
     for chapter in EXPLAINED:
         name = notebook(chapter).name
         scheme = SCHEME.search(explained(chapter)[0][0].source)[1]
@@ -82,3 +83,19 @@ def test_an_explanation_is_marked_by_hand_by_a_scheme_that_no_student_gets(tmp_p
                 assert (found.score, found.needs_manual_grade) == (found.max_score - most, waits)
                 (by_hand,) = (each for each in found.notebooks[0].grades if each.name == name)
                 assert (by_hand.score, by_hand.needs_manual_grade) == (0, waits)
+
+
+def test_grading_shows_an_assistant_the_scheme_and_keeps_it_from_the_page(tmp_path):
+    chapter = EXPLAINED[0]
+    ours = shutil.ignore_patterns("*.db", "release", "submitted", "autograded", "feedback")
+    folder = shutil.copytree(COURSE, tmp_path / "course", ignore=ours)
+    with Course(folder) as course:
+        ran = course.release(chapter)
+        assert "misunderstandings" not in nbformat.writes(ran)
+        course.score(chapter, "ada", ran, "", dict.fromkeys(("answers", "key", "said"), ""))
+        course.give_back(chapter, "ada")
+    (stored,) = folder.glob(f"autograded/ada/{chapter}/*.ipynb")
+    (page,) = folder.glob(f"feedback/ada/{chapter}/*.html")
+    assert "misunderstandings" in stored.read_text(encoding="utf-8")
+    assert "misunderstandings" not in page.read_text(encoding="utf-8")
+    assert "MARK SCHEME" not in page.read_text(encoding="utf-8")

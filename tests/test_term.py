@@ -106,6 +106,7 @@ def test_what_only_two_have_in_the_same_program_is_told(edits, shared):
             answers[student] = answers[student].replace(*edit.split(" => "))
     own = answers["s4"].replace('    """How far it is."""\n', "")
     answers["s4"] = own.replace("distance", "far")
+    answers |= {"deep": "(" * 10**5, "long": "+".join("1" * 9999), "null": "\0", "open": "x = ("}
     known = "The radius is 6371.0088 km. def distance(a, b): east north math"
     found = list(alike(answers, known))
     assert found == ([(["s3", "s4"], shared)] if shared else [])

@@ -983,6 +983,15 @@ def test_the_order_of_a_date_is_that_of_the_whole_file(tmp_path_factory, begin, 
         assert track.t.tolist() == right
 
 
+@pytest.mark.parametrize("how", DATES)
+def test_days_that_follow_each_other_tell_their_order(read, how):
+    for first in (datetime(2026, 5, 9), datetime(2009, 12, 30), datetime(2011, 10, 12)):
+        days = [first + timedelta(days=k) for k in range(4)]
+        rows = (f"{day.strftime(how)},12:00:00,{k},2\n" for k, day in enumerate(days))
+        track = read("date,time,lat,lon\n" + "".join(rows))
+        assert track.t.tolist() == [k * 86400 for k in range(4)], first
+
+
 def test_numbers_that_are_no_seconds_are_days_or_refused(read):
     """Excel counts days, a board milliseconds since it was switched on."""
     days = [45292.5 + k / 86400 for k in range(5)]

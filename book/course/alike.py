@@ -14,6 +14,8 @@ import tokenize
 from collections import defaultdict
 from collections.abc import Iterator
 
+from cells import MOST_CODE
+
 LEAST = 25  # nodes of a program's tree: shorter ones are alike by chance
 MOST = 3  # students; what more have, they may have from a lesson
 CLASS = 5  # students: in a smaller class nothing is rare
@@ -27,12 +29,13 @@ def alike(answers: dict[str, str], known: str) -> Iterator[tuple[list[str], list
     told, forms, owners = {}, {}, defaultdict(list)
     for student, source in answers.items():
         try:
-            tree = ast.parse(source)
-        except (SyntaxError, ValueError):  # of a null byte
-            continue
-        told[student] = _marks(tree, source)
-        if sum(1 for _ in ast.walk(tree)) >= LEAST:
-            forms[student] = _form(tree)
+            tree = ast.parse(source[:MOST_CODE])
+            marks = _marks(tree, source)
+            if sum(1 for _ in ast.walk(tree)) >= LEAST:
+                forms[student] = _form(tree)
+        except (SyntaxError, ValueError, RecursionError, MemoryError, tokenize.TokenError):
+            continue  # no program, or one that nobody wrote by hand
+        told[student] = marks
     for mark in set().union(*told.values()):
         if mark.strip("# '\"") not in known:
             owners[tuple(each for each in told if mark in told[each])].append(mark)

@@ -18,6 +18,7 @@ from typing import NamedTuple
 import feedback
 import nbformat
 import policy
+from cells import grade_id
 from handins import Refused, repaired
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook, MissingEntry, SubmittedAssignment
@@ -28,6 +29,7 @@ from sqlalchemy.exc import SAWarning
 from traitlets.config.loader import PyFileConfigLoader
 
 COURSE = Path(__file__).resolve().parent
+SCHEME = re.compile("=== BEGIN MARK SCHEME ===.*?=== END MARK SCHEME ===", re.DOTALL)
 KNOWN = "graded.json"  # beside the notebook that has run
 
 
@@ -139,8 +141,13 @@ class Course:
             comments[about.grade_id].auto_comment = "No response." if untouched else None
         given = {cell.source for cell in self.release(assignment).cells}
         path = self._ran(assignment, student)
+        ran = feedback.harmless(ran, given)
+        source = nbformat.read(self.sources[assignment], as_version=4).cells
+        whole = {grade_id(it): it.source for it in source if SCHEME.search(it.source)}
+        for cell in ran.cells:  # the formgrader shows what an assistant marks by
+            cell.source = whole.get(grade_id(cell), cell.source)
         _write(path.parent / KNOWN, "{}")  # until the points are in, too
-        _write(path, nbformat.writes(feedback.harmless(ran, given)))
+        _write(path, nbformat.writes(ran))
         self.book.db.commit()
         _write(path.parent / KNOWN, json.dumps(known))
 
@@ -186,6 +193,7 @@ class Course:
             return
         ran = nbformat.read(path, as_version=4)
         for cell in ran.cells:
+            cell.source = SCHEME.sub("", cell.source)
             about = cell.metadata.get("nbgrader", {})
             if is_grade(cell):
                 about["score"], about["points"] = grades[about["grade_id"]]

@@ -170,7 +170,7 @@ def stamp(folder: Path) -> datetime | None:
     """When a hand-in came, as the file timestamp.txt says."""
     try:
         return policy.aware(parse_utc((folder / "timestamp.txt").read_text("utf-8").strip()))
-    except (OSError, ValueError):
+    except (OSError, ValueError, OverflowError):
         return None
 
 

@@ -10,6 +10,8 @@ import re
 from pathlib import Path
 
 import nbformat
+from nbgrader.preprocessors import ClearHiddenTests, ClearMarkScheme, ClearSolutions
+from traitlets.config.loader import PyFileConfigLoader
 
 SOURCE = Path(__file__).resolve().parents[1] / "course" / "source"
 CHAPTER = re.compile(r"notebooks/(\d\d)_")
@@ -102,11 +104,13 @@ def handed_in(chapter: str) -> dict | None:
     notebook = nbformat.read(path, 4)
     for cell in notebook.cells:
         name = cell.metadata["nbgrader"]["grade_id"]
-        if cell.cell_type == "markdown":
-            title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
-        elif SOLUTION.search(cell.source):
-            cell.source = SOLUTION.sub(lambda it: it[1] + STUB, cell.source).rstrip("\n")
-            elsewhere += [title] * (name not in (*TASKS[chapter], "name"))
+        title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
+        if cell.metadata["nbgrader"]["solution"] and name not in (*TASKS[chapter], "name"):
+            elsewhere.append(title)
+    settings = PyFileConfigLoader("nbgrader_config.py", str(SOURCE.parent)).load_config()
+    for step in ClearSolutions, ClearMarkScheme, ClearHiddenTests:
+        notebook, _ = step(config=settings).preprocess(notebook, {})
+    elsewhere = list(dict.fromkeys(elsewhere))
     return {"file": path.name, "notebook": notebook, "elsewhere": elsewhere}
 
 

@@ -11,10 +11,11 @@ import json
 import math
 import pickle
 from base64 import b64decode, b64encode
-from collections.abc import Callable, Mapping, Set
+from collections.abc import Callable, Iterator, Mapping, Set
 from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
+from itertools import islice
 from multiprocessing.connection import Client, Connection
 from typing import Any
 
@@ -128,7 +129,9 @@ class Line:
             return {"named": [kind, *(self._plain(getattr(value, each)) for each in fields)]}
         if isinstance(value, (Set, Mapping)):
             return {"unordered": shown(value)}
-        if isinstance(value, (tuple, list)):
+        if isinstance(value, Iterator):  # `zip(*poses)`
+            value = tuple(islice(value, 100_000))
+        if isinstance(value, (tuple, list)) and (self.trusts or type(value) in (tuple, list)):
             order = "list" if isinstance(value, list) else "tuple"
             return {order: [self._plain(each) for each in value]}
         if callable(getattr(value, "tolist", None)):  # an array, a matrix of sympy or mpmath
