@@ -72,7 +72,7 @@ class Client(NotebookClient):
 
     def watch(self, memory: int, spared: int, ended: Event) -> None:
         """Kill it when it takes too much, until that event."""
-        while not (self.why or ended.wait(0.2)):
+        while not (self.why or ended.wait(0.4)):
             taken = 0
             for process in started(spared):
                 with suppress(psutil.Error):
@@ -167,12 +167,11 @@ def _in_cage(command: list[str], link: Path, place: Place, rules: int) -> list[s
 
 
 def started(spared: int) -> Iterator[psutil.Process]:
-    """What this process has started, and what that has, but for one and its own."""
-    for child in psutil.Process().children():
-        if child.pid != spared:
-            yield child
-            with suppress(psutil.Error):
-                yield from child.children(recursive=True)
+    """What this process has started, and what that has, but for one and what it forks."""
+    for child in psutil.Process().children(recursive=True):
+        with suppress(psutil.Error):
+            if spared not in (child.pid, child.ppid()):
+                yield child
 
 
 def _listening(path: str) -> socket.socket:
