@@ -138,7 +138,7 @@ def _processes() -> Any:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     checks = [f"wmrbook.grading.{name}" for name in grading.__all__ if name.islower()]
-    context.set_forkserver_preload(["__main__", "sandbox", "warm", *checks])
+    context.set_forkserver_preload(["grade", "warm", *checks])
     path = os.pathsep.join(filter(None, sys.path))
     with patch.dict(os.environ, {"PYTHONPATH": path}), _deaf():
         forkserver.ensure_running()
