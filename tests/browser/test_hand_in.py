@@ -4,13 +4,12 @@ import os
 import re
 from pathlib import Path
 
-import damage
 import graded
 import nbformat
 import pytest
+from damage import command, empty_course, hand_in, rows
 from page_tasks import TASKS, handed_in
 from playwright.sync_api import Page
-from test_course import command, empty_course
 from test_python_in_page import given
 
 if not os.environ.get("BOOK_HTML"):
@@ -101,7 +100,7 @@ def test_where_a_browser_keeps_nothing_answers_are_handed_in_all_the_same(
 
 @pytest.mark.slow
 def test_what_a_page_hands_in_is_graded_like_any_other(site, opened, tmp_path):
-    course = empty_course(tmp_path)
+    course = empty_course(tmp_path, *CHAPTERS)
     command("package.py", course, *CHAPTERS)
     most = {}
     for chapter, name in CHAPTERS.items():
@@ -112,14 +111,14 @@ def test_what_a_page_hands_in_is_graded_like_any_other(site, opened, tmp_path):
         file, notebook = saved(page)
         release = nbformat.read(course / "release" / chapter / file, as_version=4)
         assert by_id(handed_in(chapter[2:])["notebook"]) == by_id(release)
-        damage.hand_in(course, "model", chapter, file, nbformat.writes(notebook))
+        hand_in(course, "model", chapter, notebook)
         checks = graded.tasks(chapter), graded.cells(chapter)
         most[chapter] = sum(
             checks[1][it][1] for task in TASKS[chapter[2:]] for it in checks[0][task]
         )
-    rows = damage.rows(command("grade.py", course, *CHAPTERS))
+    table = rows(command("grade.py", course, *CHAPTERS))
     for chapter, points in most.items():
         # nothing was repaired: all that is said is who marks the explanation
-        worth, *said = rows[chapter, "model"].split(maxsplit=1)
+        worth, *said = table[chapter, "model"].split(maxsplit=1)
         assert worth == f"{points}/{graded.most(chapter):g}"
         assert not re.search("missing|put back|found|joined|dropped", "".join(said)), said
