@@ -23,7 +23,7 @@ from zipfile import ZipFile
 import homes
 import incoming
 from cells import visible
-from handins import MOST_BYTES
+from handins import MOST_BYTES, assignments
 from homes import Unfit
 
 COURSE = Path(__file__).resolve().parent
@@ -58,16 +58,16 @@ def named(notebook: bytes, student: str) -> bytes:
 def collect(students: Path, course: Path) -> tuple[list[Path], list[str]]:
     """Copy the newest notebook of each assignment; return the copies and what there is to say."""
     copies, said = [], []
-    sources = incoming.sources(course)
+    sources = assignments(course)
     for home in sorted(students.iterdir()):
-        for assignment, release in sources.items():
+        for assignment, source in sources.items():
             try:
                 with homes.folder(home, "robot", "assignments", assignment) as place:
-                    content, when, remarks = _newest(place, release)
+                    content, when, remarks = _newest(place, source.name)
                 said += [f"{home.name}, {assignment}: {each}" for each in remarks]
                 if content is not None and _begun(content, course, assignment, home.name):
                     to = course / "submitted" / home.name / assignment
-                    copies.append(incoming.store(to, release, content, when))
+                    copies.append(incoming.store(to, source.name, content, when))
             except FileNotFoundError:
                 continue  # not begun
             except NotADirectoryError:

@@ -19,11 +19,10 @@ import feedback
 import nbformat
 import policy
 from cells import grade_id
-from handins import Refused, repaired
+from handins import Refused, assignments, repaired
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook, MissingEntry, SubmittedAssignment
 from nbgrader.apps import NbGraderAPI
-from nbgrader.preprocessors import AssignLatePenalties
 from nbgrader.utils import compute_checksum, determine_grade, is_grade, is_solution, parse_utc
 from sqlalchemy.exc import SAWarning
 from traitlets.config.loader import PyFileConfigLoader
@@ -67,7 +66,7 @@ class Course:
         config.CourseDirectory.root = str(folder)
         self.api = NbGraderAPI(config=config)
         self.releases: dict[str, NotebookNode] = {}
-        self.sources = {path.parent.name: path for path in sorted(folder.glob("source/*/*.ipynb"))}
+        self.sources = assignments(folder)
 
     def __enter__(self) -> Course:
         return self
@@ -156,14 +155,10 @@ class Course:
         submission = self.book.find_submission(assignment, student)
         (notebook,) = submission.notebooks
         notebook.late_submission_penalty = None
-        policy.settle(submission, policy.read(self.folder))
-        if submission.total_seconds_late > 0:
-            penalties = AssignLatePenalties(parent=self.api)
-            penalties.init_plugin()
-            late = penalties.plugin_inst.late_submission_penalty(
-                student, notebook.score, submission.total_seconds_late
-            )
-            notebook.late_submission_penalty = min(max(late or 0, 0), notebook.score) or None
+        if term := policy.read(self.folder):
+            policy.settle(submission, term)
+            days = term.days_late(assignment, student, policy.aware(submission.timestamp))
+            notebook.late_submission_penalty = term.penalty(days, notebook.score) or None
         self.book.db.commit()
         pending = [each for each in notebook.grades if each.auto_score is each.manual_score is None]
         left = sum(each.max_score for each in pending)

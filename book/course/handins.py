@@ -23,6 +23,11 @@ class Refused(Exception):  # noqa: N818  (it is an answer, not a fault)
     """Why a hand-in can't be graded; the lecturer reads the sentence."""
 
 
+def assignments(course: Path) -> dict[str, Path]:
+    """The assignments of a course, and the lecturer's notebook of each."""
+    return {path.parent.name: path for path in sorted(course.glob("source/*/*.ipynb"))}
+
+
 def find(folder: Path, name: str) -> tuple[Path, list[str]]:
     """Return the notebook of a folder, and what is odd about its name; raises Refused."""
     if not folder.is_dir() or folder.is_symlink():

@@ -25,6 +25,7 @@ import roster
 from alike import alike
 from cells import visible
 from gradebook import COURSE
+from handins import assignments
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook
 from nbgrader.utils import determine_grade, is_grade, parse_utc
@@ -57,7 +58,7 @@ class Week:
         self.due = [name for name, when in sorted(term.due.items()) if when <= now]
         recent = [name for name in self.due if now - term.due[name] < WEEK]
         self.current = recent or self.due[-1:]
-        self.sources = {path.parent.name: path for path in folder.glob("source/*/*.ipynb")}
+        self.sources = assignments(folder)
 
     def handed_in(self, assignment: str) -> dict[str, datetime | None]:
         """Whose notebook is there, and when it came."""
