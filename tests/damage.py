@@ -24,7 +24,6 @@ subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # left"]
 threading.Thread(target=time.sleep, args=(1000,)).start()"""
 DEADLY = {  # what cells of a student's own do, and what the table then says, in this order
     "import os; os._exit(0)": "it ended Python",
-    "exit()": "",
     "print('x' * 200_000_000)": "it printed more than 10 MB",
     "x = bytearray(10**11)": "",
     "from IPython.display import display; display({'text/plain': {1, 2}}, raw=True)": "no output",
@@ -162,7 +161,7 @@ def damaged(solved: NotebookNode, other: NotebookNode) -> Iterator[tuple[str, ob
     (notebook := by("deadly")).cells[:0] = map(CELL, DEADLY)
     yield "deadly", notebook, "all", ".*".join(filter(None, DEADLY.values()))
     first = (notebook := by("exit")).cells[graded_answers(notebook)[0]]
-    first.source = f"import os; os._exit(0)\n{first.source}"
+    first.source = f"exit()\n{first.source}"
     yield "exit", notebook, "less", "it ended Python"
     without(notebook := by("answer deleted"), graded_answers(notebook)[:1])
     yield "answer deleted", notebook, "less", "is missing"
