@@ -9,9 +9,7 @@ import subprocess
 import sys
 import tomllib
 from functools import cache, wraps
-from multiprocessing import Pipe
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -169,27 +167,6 @@ def closed() -> list[str]:
     texts += re.sub("^```.*?^```", "", guide, flags=re.MULTILINE | re.DOTALL).split("\n\n")[1:]
     runs = (run.strip() for each in texts for run in re.findall("[A-Za-z, ]{31,}", each))
     return sorted({run for run in runs if len(run) > 30})
-
-
-def lost_over_a_line(chapter: str, key: str, source: str, student: str = "Ada") -> dict[str, str]:
-    """As `lost`, with the answer at the other end of a line, as a class is graded."""
-    from wmrbook.grading._wire import Line
-
-    names, found = dict(given(chapter, student)), {}
-    run_cell(source, f"<{chapter} answer>", names)
-    here, there = Pipe()
-    Thread(target=Line(there, names, trusts=True).serve, daemon=True).start()
-    line = Line(here, {})
-    for name in graded(chapter, key):
-        check, judge = cells(chapter)[name][0], dict(given(chapter, student))
-        answer = re.search(r"grading\.\w+\.\w+\((\w+)", check)[1]
-        try:
-            judge[answer] = line.value(answer)
-            run_cell(check, f"<{chapter} {name}>", judge)
-        except Exception as error:
-            found[name] = f"{type(error).__name__}: {error}"
-    here.close()
-    return found
 
 
 @cache

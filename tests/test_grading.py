@@ -23,7 +23,6 @@ from graded import (
     cells,
     edited,
     lost,
-    lost_over_a_line,
     released,
     task_of,
     tasks,
@@ -78,15 +77,6 @@ def test_who_is_right_passes_in_whatever_form_and_the_release_does_not(chapter, 
         for answer in right:
             assert lost(chapter, key, whole(chapter, key, answer), student) == {}, answer
     assert min(others.values()) >= 2, others
-
-
-@pytest.mark.parametrize("chapter", ASSIGNMENTS)
-def test_who_is_right_passes_where_another_process_judges(chapter):
-    for task in asked(chapter):
-        assert lost_over_a_line(chapter, task, cells(chapter)[task][0]) == {}
-    for key, right in answers(chapter)["right"].items():
-        for answer in right:
-            assert lost_over_a_line(chapter, key, whole(chapter, key, answer)) == {}, answer
 
 
 @for_students

@@ -57,9 +57,6 @@ def fork_all():
 
 tries = {
     "socket with a path": lambda: connect(PATHS["socket"]),
-    "a tmux server": lambda: connect("/tmp/tmux-0/default"),
-    "the session bus": lambda: connect("/run/user/0/bus"),
-    "docker": lambda: connect("/var/run/docker.sock"),
     "a home": lambda: os.listdir(PATHS["home"]),
     "passwords": lambda: open("/etc/shadow"),
     "core_pattern": lambda: open("/proc/sys/kernel/core_pattern", "w"),
@@ -125,10 +122,9 @@ def test_nothing_leads_out_of_a_cage(outside, launcher):
     paths = [str(COURSE), sysconfig.get_path("purelib")]
     if launcher[0] == "setpriv":  # who may not see into this user's folders
         copies = Path(outside["read"]).parent / "lib"
-        shutil.copytree(
-            COURSE, copies, ignore=lambda _, names: [n for n in names if n != "cage.py"]
-        )
-        shutil.copy(Path(paths[1], "pyseccomp.py"), copies)
+        copies.mkdir()
+        for source in COURSE / "cage.py", Path(paths[1], "pyseccomp.py"):
+            shutil.copy(source, copies)
         paths = [str(copies)]
     code = LAUNCH.format(paths=paths, read=outside["read"])
     code, tries = [*launcher, "-c", code], f"PATHS = {outside}\n{TRIES}"
@@ -145,8 +141,7 @@ def test_nothing_leads_out_of_a_cage(outside, launcher):
 TAKES = {  # what a cell takes, and what is told of it; each is ten times what it may
     "files": (
         "import os\ntry:\n    for k in range(20):\n        open(f'/tmp/{k}', 'wb').write("
-        "bytes(95_000_000))\nfinally:\n    [os.remove(f'/tmp/{k}') for k in range(20)"
-        " if os.path.exists(f'/tmp/{k}')]",
+        "bytes(95_000_000))\nfinally:\n    for j in range(k + 1):\n        os.remove(f'/tmp/{j}')",
         "No space left on device",
     ),
     "shared": (
@@ -154,9 +149,8 @@ TAKES = {  # what a cell takes, and what is told of it; each is ten times what i
         "No space left on device",
     ),
     "processes": (
-        "import subprocess\nmade = []\ntry:\n    for _ in range(1300):\n"
-        "        made.append(subprocess.Popen(['sleep', '99']))\n"
-        "finally:\n    [(each.kill(), each.wait()) for each in made]",
+        "import subprocess\nmade = []\ntry:\n    for _ in range(1300):\n        made.append("
+        "subprocess.Popen(['sleep', '99']))\nfinally:\n    [(it.kill(), it.wait()) for it in made]",
         "Resource temporarily unavailable",
     ),
     "a large file": ("open('/tmp/file', 'wb').truncate(10**9)", "File too large"),
