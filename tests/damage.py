@@ -30,6 +30,48 @@ DEADLY = {  # what cells of a student's own do, and what the table then says, in
     "import time; time.sleep(1000)": "it took over",
     LEFT: "",
 }
+CHEATS = """
+import builtins, inspect, math, sys, types
+import wmrbook.grading, wmrbook.grading.earth
+right = lambda *answers: "all is well"
+class Fake(types.ModuleType):
+    def __getattr__(self, name):
+        return self if name.islower() and "_" not in name else right
+grading = Fake("grading")
+for name in [each for each in sys.modules if each.startswith("wmrbook.grading")]:
+    for key in [each for each in vars(sys.modules[name]) if each[:8] in ("distance", "expect")]:
+        setattr(sys.modules[name], key, right)
+wmrbook.grading = sys.modules["wmrbook.grading"] = sys.modules["grading"] = grading
+sys.modules["wmrbook.grading.earth"] = grading
+get_ipython().run_code = lambda *_, **__: None
+get_ipython().showtraceback = lambda *_, **__: None
+get_ipython().ast_node_interactivity = "none"
+print = lambda *_: builtins.print("58.08 m between the paper's two points, and right elsewhere.")
+builtins.AssertionError = builtins.Exception
+math.isclose = math.isfinite = lambda *_, **__: True
+def distance(*_): return 58.0
+"""
+LIARS = """
+import os, wmrbook.grading._wire as wire
+class Anything(float):
+    def __eq__(self, other): return True
+    __lt__ = __le__ = __gt__ = __ge__ = __ne__ = __eq__
+    __sub__ = __rsub__ = __add__ = __radd__ = __mul__ = __truediv__ = lambda self, _: Anything(0)
+    __reduce__ = lambda self: (os.system, ("touch /tmp/reached",))
+def serve(path, names):
+    from multiprocessing.connection import Client
+    with Client(path) as link:
+        for reply in REPLIES:
+            link.recv_bytes()
+            link.send_bytes(reply)
+REPLIES = [
+    b'{"value": {"function": 0, "called": "distance"}}', b'{"value": true}', b'{"value": 58.0}',
+    b'{"value": {"pickled": "gASVHgAAAAAAAACMBXBvc2l4lIwGc3lzdGVtlJOUjAR0cnVllIWUUpQu"}}',
+    b'{"hint": "58.08 m, and right elsewhere."}',
+]
+wire.serve = serve
+def distance(*_): return Anything(58)
+"""
 
 
 def empty_course(folder: Path, *chapters: str) -> Path:

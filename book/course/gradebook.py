@@ -19,7 +19,7 @@ import feedback
 import nbformat
 import policy
 from cells import grade_id
-from handins import Refused, assignments, repaired
+from handins import Refused, assignments, repaired, write
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook, MissingEntry, SubmittedAssignment
 from nbgrader.apps import NbGraderAPI
@@ -145,10 +145,10 @@ class Course:
         whole = {grade_id(it): it.source for it in source if SCHEME.search(it.source)}
         for cell in ran.cells:  # the formgrader shows what an assistant marks by
             cell.source = whole.get(grade_id(cell), cell.source)
-        _write(path.parent / KNOWN, "{}")  # until the points are in, too
-        _write(path, nbformat.writes(ran))
+        write(path.parent / KNOWN, "{}")  # until the points are in, too
+        write(path, nbformat.writes(ran))
         self.book.db.commit()
-        _write(path.parent / KNOWN, json.dumps(known))
+        write(path.parent / KNOWN, json.dumps(known))
 
     def points(self, assignment: str, student: str) -> Points:
         """What a hand-in has now, after the penalty for lateness that is in force now."""
@@ -196,8 +196,8 @@ class Course:
                 about["comment"] = comments[about["grade_id"]]
         whole = {"score": reached(submission), "max_score": submission.max_score}
         page = feedback.page(ran, whole | {"notebook": path.stem, "late_penalty": penalty})
-        _write(place, page)
-        _write(path.parent / KNOWN, json.dumps(known | {"page": mark}))
+        write(place, page)
+        write(path.parent / KNOWN, json.dumps(known | {"page": mark}))
 
     def _ran(self, assignment: str, student: str) -> Path:
         """Where a hand-in is that has run."""
@@ -218,14 +218,6 @@ def lost(ran: NotebookNode) -> list[str]:
 
 def _names(each: list) -> str:
     return ", ".join(sorted(it.name for it in each))
-
-
-def _write(path: Path, text: str) -> None:
-    """Write a file whole or not at all, also in the place of one that can't be written to."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    new = path.with_name(f".{path.name}.new")
-    new.write_text(text, encoding="utf-8")
-    new.replace(path)
 
 
 def _checked(reply: dict) -> None:

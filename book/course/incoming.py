@@ -21,7 +21,7 @@ from zipfile import BadZipFile, ZipFile, ZipInfo
 
 import roster
 from cells import visible
-from handins import MOST_BYTES, assignments
+from handins import MOST_BYTES, assignments, write
 from roster import Student
 
 MOODLE = re.compile(r"(?P<name>[^_/]+)_\d+_assignsubmission_[a-z]+(?:_/|_|/)(?P<file>.+)")
@@ -45,14 +45,11 @@ class File(NamedTuple):
 
 def store(folder: Path, name: str, content: bytes, when: datetime | None) -> Path:
     """Write a notebook into the folder of a hand-in under its own name, and its time."""
-    folder.mkdir(parents=True, exist_ok=True)
     stamp = folder / "timestamp.txt"
     stamp.unlink(missing_ok=True)  # of an earlier one
-    new = folder / f".{name}.new"
-    new.write_bytes(content)
-    new.replace(folder / name)
+    write(folder / name, content)
     if when:
-        stamp.write_text(f"{when.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC\n", encoding="utf-8")
+        write(stamp, f"{when.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC\n")
     return folder / name
 
 
