@@ -1,4 +1,4 @@
-"""A class on a real JupyterHub, with its simple local spawner: hand out, hand in, grade, return."""
+"""A class on a real JupyterHub, with its simple local spawner: hand out, collect, return."""
 
 import asyncio
 import json
@@ -15,7 +15,7 @@ from pathlib import Path
 import cage
 import nbformat
 import pytest
-from damage import command, empty_course, rows
+from damage import command, empty_course
 from graded import BEGIN, ROOT, cells
 from jupyter_client.session import Session
 from tornado.httpclient import HTTPRequest
@@ -132,6 +132,7 @@ def test_a_class_works_side_by_side_and_sees_neither_answers_nor_each_other(hub)
     course, homes, servers, tokens = hub
     place = next((course / "release" / CHAPTER).glob("*.ipynb")).name
     place = f"api/contents/assignments/{CHAPTER}/{place}"
+    answers = {}
     for name, share in ("ada", 2), ("bob", 1):
         _, file = ask(servers[name] + place, tokens[name])
         notebook = nbformat.from_dict(file["content"])
@@ -139,6 +140,7 @@ def test_a_class_works_side_by_side_and_sees_neither_answers_nor_each_other(hub)
         for cell in notebook.cells:
             if cell.metadata.nbgrader.grade_id in model:
                 cell.source = cells(CHAPTER)[cell.metadata.nbgrader.grade_id][0]
+        answers[name] = {cells(CHAPTER)[each][0] for each in model}
         saved = {"type": "notebook", "format": "json", "content": notebook}
         assert ask(servers[name] + place, tokens[name], "PUT", saved)[0] == 200
     assert ask(servers["ada"] + place, tokens["bob"])[0] in (403, 404)
@@ -149,7 +151,12 @@ def test_a_class_works_side_by_side_and_sees_neither_answers_nor_each_other(hub)
         with ThreadPoolExecutor(1) as aside:  # the browser's tests leave a loop in this thread
             assert aside.submit(asyncio.run, spoken).result() == "['ada'] False\n"
     assert command("exchange.py", course, "collect", homes) == "2 files\n"
-    table = rows(command("grade.py", course))
-    assert {name: row.strip() for (_, name), row in table.items()} == {"ada": "8/11", "bob": "5/11"}
+    for name, model in answers.items():
+        (path,) = (course / "submitted" / name / CHAPTER).glob("*.ipynb")
+        written = {cell.source for cell in nbformat.read(path, as_version=4).cells}
+        assert model <= written
+        (pages := course / "feedback" / name / CHAPTER).mkdir(parents=True)
+        (pages / "page.html").write_text(name)
     assert command("exchange.py", course, "return", homes) == "2 files\n"
-    assert ask(f"{servers['bob']}api/contents/feedback/{CHAPTER}", tokens["bob"])[0] == 200
+    url = f"{servers['bob']}api/contents/feedback/{CHAPTER}/page.html"
+    assert ask(url, tokens["bob"])[1]["content"] == "bob"

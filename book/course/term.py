@@ -65,7 +65,8 @@ class Week:
         came = {}
         for path in sorted(self.folder.glob(f"submitted/*/{assignment}")):
             if any(path.glob("*.ipynb")):
-                came[normalize("NFC", path.parent.name)] = stamp(path)
+                who, when = normalize("NFC", path.parent.name), policy.stamp(path)
+                came[who] = policy.aware(parse_utc(when)) if when else None
         return came
 
     def came_in(self) -> Iterator[str]:
@@ -165,14 +166,6 @@ class Week:
         """The graded notebooks of an assignment, with their students."""
         for path in sorted(self.folder.glob(f"autograded/*/{assignment}/*.ipynb")):
             yield path.parts[-3], nbformat.read(path, as_version=4)
-
-
-def stamp(folder: Path) -> datetime | None:
-    """When a hand-in came, as the file timestamp.txt says."""
-    try:
-        return policy.aware(parse_utc((folder / "timestamp.txt").read_text("utf-8").strip()))
-    except (OSError, ValueError, OverflowError):
-        return None
 
 
 def failed(notebook: NotebookNode, task_of: dict[str, str]) -> dict[str, str]:
