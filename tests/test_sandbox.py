@@ -30,7 +30,6 @@ LAUNCH = """
 import json, subprocess, sys, tempfile
 sys.path[:0] = {paths}
 import cage
-import damage
 from pathlib import Path
 with tempfile.TemporaryFile() as rules:
     cage.write_filter(rules)
