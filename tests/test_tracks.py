@@ -68,6 +68,10 @@ def trk(*points):
     return "<trk><trkseg>\n" + "\n".join(points) + "\n</trkseg></trk>"
 
 
+def at(lat, time="", kind="trkpt"):
+    return f'<{kind} lat="{lat}" lon="44.5">{time and f"<time>{time}</time>"}</{kind}>'
+
+
 GOOD = '<trkpt lat="33.27" lon="44.37"/>'
 LAT, LON = 54 + 5.6081 / 60, 10 + 49.4791 / 60  # of gga() and rmc()
 
@@ -127,13 +131,6 @@ def test_a_time_out_of_order_costs_its_own_position_only(segments):
         assert report.skipped["time runs backwards"].first == first_lost[0]
 
 
-def test_a_track_is_read_only(read):
-    track = read(gpx(trk(GOOD, '<trkpt lat="91" lon="0"/>', '<trkpt lat="34" lon="45"/>')))
-    for values in (track.points.lat, track.points.lon, track.t):
-        with pytest.raises(ValueError, match="read-only"):
-            values[0] = 0.0
-
-
 # NMEA
 
 
@@ -151,6 +148,9 @@ def test_the_real_log(read):
     assert not counts
     assert not track.report.noted
     assert repr(track) == "<Track: 9 positions from NMEA, over 8 s; 77 not used>"
+    for values in (track.points.lat, track.points.lon, track.t):
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 0.0
     # RMC alone tells the same
     assert places(read([line for line in lines if "GGA" not in line])) == places(track)
 
@@ -165,10 +165,6 @@ def test_talkers_hemispheres_and_epochs(read):
     assert dict(track.report.skipped) == {"same epoch again": (2, 2)}
     south_west = places(read(gga(lat="3351.5000,S", lon="15112.3000,W")))
     assert south_west == (pytest.approx([-(33 + 51.5 / 60)]), pytest.approx([-(151 + 12.3 / 60)]))
-    assert len(read(b"\x00\x00" + gga().encode())) == 1  # a receiver's zero bytes before the first
-    # makers' own sentences, cut short
-    bodies = ("PUBX,00", "PGRME", "PASHR,", "GPXXX,1", "PSRF", "PUBX,03,1", "PTNL,PJK", "CCGPQ,GGA")
-    assert len(read([gga(), *map(nmea, bodies)])) == 1
 
 
 def log(words):
@@ -299,21 +295,16 @@ def test_a_sentence_is_found_whatever_stands_beside_it(read):
     sentence = gga()
     body, checksum = sentence[1:].split("*")
     for content, left in [
-        ("$" + sentence, {}),
         ("\\s:station$1,c:1241544035*4A\\".replace("$1", "") + sentence, {}),
-        (f"2026-03-01 10:47:06.2 {sentence} ok", {}),
         (f"${body}*{checksum.lower()}", {}),
         (f"\0\0{sentence}\0", {}),
         (f"{AIS}\r{sentence}\r{PUBX}\r", {NO_SENTENCE: (1, 1), "other sentence": (1, 3)}),
         (f"{AIS}{sentence}{PUBX}\r\n", {"other sentence": (1, 1)}),
         (f"\n\n$GPGGA,1047{sentence}", {"sentence without a checksum": (1, 3)}),
         (f"{sentence[30:]}{sentence}", {}),
-        (f"{sentence[30:]}\n{sentence}", {NO_SENTENCE: (1, 1)}),
         (nmea("GPTXT,01,01,02,Hello!") + sentence, {"other sentence": (1, 1)}),
         (f"# {sentence}\n{sentence}", {"comment": (1, 1)}),
-        (f"{sentence[:-1]}\n{sentence}", {"wrong checksum": (1, 1)}),
         (f"${body}*\n{sentence}", {"wrong checksum": (1, 1)}),
-        (f"$GP\n{sentence}", {NO_SENTENCE: (1, 1)}),
     ]:
         for written in (content, content.encode("utf-16")):
             track = read(written)
@@ -374,11 +365,12 @@ def test_every_sentence_is_used_or_counted_with_its_reason(tmp_path_factory, epo
         assert all(f"{count} {reason}" in str(error.value) for reason, count in (+expected).items())
 
 
-def test_large_logs_and_tables_are_streams(tmp_path):
+def test_large_files_are_streams(tmp_path):
     """At the peak a position takes 200 bytes, and a block at a time whatever it takes."""
     log = "\n".join(gga(f"{k // 3600:02d}{k // 60 % 60:02d}{k % 60:02d}") for k in range(20_000))
     table = "lat,lon,t,note\n" + "".join(f"1,2,{k},{'x' * 300}\n" for k in range(20_000))
-    for text in (log, table):
+    points = gpx(trk(*(at(f"3{k}e-9", "2026-03-01T12:00:00Z") for k in range(20_000))))
+    for text in (log, table, points):
         path = tmp_path / "large"
         path.write_text(text)
         tracemalloc.start()
@@ -402,20 +394,6 @@ def test_routes_and_waypoints_are_read_where_there_is_no_track(read):
         assert np.isnan(track.t).all()
 
 
-def at(lat, time="", kind="trkpt"):
-    return f'<{kind} lat="{lat}" lon="44.5">{time and f"<time>{time}</time>"}</{kind}>'
-
-
-def test_an_unreadable_time_of_gpx_is_told_where_its_position_is_used(read):
-    bad = '<trkpt lat="34" lon="200"><time>yesterday</time></trkpt>'
-    assert not read(gpx(trk(GOOD, bad))).report.noted
-    track = read(gpx(trk(GOOD, '<trkpt lat="34" lon="45"><time>yesterday</time></trkpt>')))
-    assert len(track) == 2
-    assert np.isnan(track.t).all()
-    assert dict(track.report.noted) == {"with an unreadable time": (1, 5)}
-    assert "used, but: 1 with an unreadable time" in repr(track.report)
-
-
 def test_order_is_judged_within_a_segment(read):
     def segment(hour):
         times = [f"2026-03-01T{hour:02d}:{k:02d}:00Z" for k in range(50)]
@@ -433,7 +411,9 @@ SCHEMA = "http://www.topografix.com/GPX/"
 SPACES = {"gpx": "", "g:gpx": f' xmlns:g="{SCHEMA}1/1"', "gpx ": f' xmlns="{SCHEMA}1/0"'}
 FATES = {
     "kept": '<{n}trkpt lat="{k}" lon="-180"/>',
-    "timed": '<{n}trkpt lon="180.0" lat="{k}"><{n}time>2026-03-01T12:00:{k}Z</{n}time></{n}trkpt>',
+    "timed": '<{n}trkpt lon="180.0" lat="{k}"><{n}ele>x</{n}ele><{n}time>{day}{k}Z </{n}time>'
+    "<{n}extensions><{n}time>now</{n}time></{n}extensions></{n}trkpt>",
+    "unread": '<{n}trkpt lon="180" lat="{k}"><{n}time>yesterday</{n}time></{n}trkpt>',
     "latitude not in -90 to 90": '<{n}trkpt lat="{k}1" lon="4"/>',
     "longitude not in -180 to 180": '<{n}trkpt lat="{k}" lon="180.0000001"/>',
     NAN: '<{n}trkpt lat="{k}" lon="{odd}"/>',
@@ -454,7 +434,7 @@ FATES = {
 def test_every_position_of_gpx_is_kept_or_counted(
     tmp_path_factory, tracks, others, root, code, odd, side
 ):
-    n, k, wanted = root[: root.index("g", -4)], 10, {}
+    n, k, wanted, times = root[: root.index("g", -4)], 10, {}, []
     lines, lats = [f"<{root.strip()}{SPACES[root]}>"], []
     for other in others:
         place = f'<{n}{other} lat="1" lon="2"/>'
@@ -462,9 +442,10 @@ def test_every_position_of_gpx_is_kept_or_counted(
     for fates in tracks:
         lines.append(f"<{n}trk><{n}trkseg/><{n}trkseg>")
         for fate in fates:
-            lines.append(FATES[fate].format(n=n, k=k, odd=odd, side=side))
-            lats += [k] * (fate in ("kept", "timed", "holds"))
-            if fate not in ("kept", "timed"):
+            lines.append(FATES[fate].format(n=n, k=k, odd=odd, side=side, day="2026-03-01T12:00:"))
+            lats += [k] * (fate in ("kept", "timed", "unread", "holds"))
+            times += [k] * (fate == "timed")
+            if fate not in ("kept", "timed", "unread"):
                 why = {"half": NAN, "holds": "track point outside <trkseg>"}.get(fate, fate)
                 wanted[why] = wanted.get(why, 0) + 1
             k += 1
@@ -480,38 +461,17 @@ def test_every_position_of_gpx_is_kept_or_counted(
         track = wmr.read_track(file)
         assert (track.source, track.points.lat.tolist()) == ("GPX", lats)
         assert set(track.points.lon.tolist()) <= {-180.0, 180.0}
+        assert track.t[~np.isnan(track.t)].tolist() == [each - times[0] for each in times]
+        noted = sum(count for count, _ in track.report.noted.values())
+        assert noted == sum(fates.count("unread") for fates in tracks)
         assert {reason: count for reason, (count, _) in track.report.skipped.items()} == wanted
-        for reason, (_, first) in track.report.skipped.items():
-            about = {"latitude not in -90 to 90": '1" lon'}.get(reason, "pt")
-            assert about in lines[first - 1]
+        assert all("pt" in lines[first - 1] for _, first in track.report.skipped.values())
     elif wanted:
         with pytest.raises(ValueError, match="it is GPX, but") as error:
             wmr.read_track(file)
         assert all(
             f"{count} {reason} (first" in str(error.value) for reason, count in wanted.items()
         )
-
-
-def test_gpx_takes_little_time_and_memory(tmp_path):
-    file, n = tmp_path / "long.gpx", 40_000
-    times = np.datetime_as_string(np.datetime64("2026-03-01T12:00:00") + np.arange(n))
-    rows = (f"<ele>3</ele><time>{time}Z</time>" for time in times)
-    file.write_text(
-        gpx(trk(*(f'<trkpt lat="3{k}e-9" lon="4">{row}</trkpt>' for k, row in enumerate(rows))))
-    )
-    began = process_time()
-    for _, element in ElementTree.iterparse(file):
-        element.clear()
-    bare, began = process_time() - began, process_time()
-    assert len(wmr.read_track(file)) == n
-    assert process_time() - began < 10 * bare
-    tracemalloc.start()
-    track = wmr.read_track(file)
-    kept, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert len(track) == n
-    assert kept / n < 40
-    assert peak / n < 200
 
 
 ENTITIES = "".join(
@@ -522,45 +482,19 @@ EXTERNAL = '<!DOCTYPE gpx [<!ENTITY e SYSTEM "file:///etc/passwd">]>'
 NO_GPX = [
     (gpx(trk(GOOD) + "<x>&i;</x>", head=LAUGHS), "document type or an entity"),
     (gpx(trk(GOOD) + "<x>&e;</x>", head=EXTERNAL), "document type"),
-    (gpx(trk(GOOD), head='<!DOCTYPE gpx SYSTEM "http://localhost:9/x.dtd">'), "document type"),
     (gpx(trk(GOOD), head="<!DOCTYPE gpx>"), "document type"),
-    ("<kml><Placemark/></kml>", "it is a KML file, not a GPX file; export it as GPX$"),
     ("<kml><Placemark>", "it is a KML file, not a GPX file; export it as GPX$"),  # cut off
-    ("<TrainingCenterDatabase/>", "it is a TRAININGCENTERDATABASE file"),
     ("<!DOCTYPE html>\n<html><br></html>", "document type"),
-    ("<HTML><br></HTML>", "it is a HTML file, not a GPX file"),
     (gpx("<desc><![CDATA[<html>]]></desc><trk>")[:-9], "its XML is broken"),
     ('<?xml version="1.0" encoding="none"?><gpx/>', "its XML is broken: unknown encoding: none"),
-    ('<?xml version="1.0" encoding="gb2312"?><gpx/>', "multi-byte encodings are not supported"),
     (gzip.compress(gpx(trk(GOOD)).encode()), "it is compressed, a KMZ or a FIT file; unpack it"),
     (b"PK\x03\x04" + bytes(40), "it is compressed"),
     (b"\x0e\x20\x54\x08\x10\x00\x00\x00.FIT" + bytes(40), "or a FIT file; unpack it, or export"),
     (gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000), "but 1 track point outside <trkseg>"),
     (gpx("<rte>" + GOOD + "</rte>"), r"1 track point outside <trkseg> \(first in line 3\)$"),
-    (gpx(trk(GOOD))[:-20], "its XML is broken"),
     (gpx(""), "it is GPX, but holds no position"),
     (gpx(trk('<trkpt lat="91" lon="0"/>')), r"1 latitude not in -90 to 90 \(first in line 4\)"),
 ]
-
-
-def test_what_is_not_read_of_gpx_may_hold_anything(read):
-    for inner, outer, space in [
-        ("<ele>abc</ele>", "", ""),
-        ("<sat>8.0</sat><fix>5d</fix>", "", ""),
-        ("", "<rte><number>a</number></rte>", ""),
-        ("", '<bounds minlat="x"/>', ""),  # where GPX 1.0 has them
-        ("<extensions>" + "<a>" * 3000 + "</a>" * 3000 + "</extensions>", "", ""),
-        ("<extensions><time>later</time></extensions>", "<time>now</time>", ""),
-        ("", "", "\n "),
-    ]:
-        first, second = (
-            f'<trkpt lat="{lat}" lon="44.37">{inner}<time>{space}{time}{space}</time></trkpt>'
-            for lat, time in ((33.27, "2026-03-01T12:00:00Z"), (34, "2026-03-01T13:00:05+01:00"))
-        )
-        for root in ("gpx", 'gpx version="1.1"'):
-            track = read(gpx(outer + trk(first, second), root=root))
-            assert (track.points.lat.tolist(), track.t.tolist()) == ([33.27, 34.0], [0.0, 5.0])
-            assert repr(track.report) == "2 positions used"
 
 
 # CSV
@@ -570,13 +504,10 @@ def test_tables_of_every_kind(read):
     utc = "2026-03-01T12:00:00Z\n33,44.5,2026-03-01T13:00:01.5+01:00"
     for content, lat, lon, t in [
         ("\ufeff# a comment\nlat,lon\n33.25,44.5\n", [33.25], [44.5], [math.nan]),
-        ("Latitude,Longitude\n33.25,44.5\n", [33.25], [44.5], [math.nan]),
         (" LAT , lng\n33.25,44.5\n", [33.25], [44.5], [math.nan]),
         ("latitude;long\n33.25;44.5\n", [33.25], [44.5], [math.nan]),
-        ("lat\tlongitude\n33.25\t44.5\n", [33.25], [44.5], [math.nan]),
         ("n|lat|lon\n7|33.25|44.5\n", [33.25], [44.5], [math.nan]),
         ("lon,lat\n44.5,33.25\n", [33.25], [44.5], [math.nan]),
-        ("t,lat,lon\n5,33,44.5\n6.5,33,44.5\n", [33, 33], [44.5] * 2, [0, 1.5]),
         (f"lat,lon,time\n33,44.5,{utc}\n", [33, 33], [44.5] * 2, [0, 1.5]),
         (f"lat,lon,datetime\n33,44.5,{utc.replace('T', ' ')}\n", [33] * 2, [44.5] * 2, [0, 1.5]),
         ("lat;lon;t\n33,5;44,25;0,5\n-1,5;2;1,75\n", [33.5, -1.5], [44.25, 2], [0, 1.25]),
@@ -656,24 +587,6 @@ def test_every_row_is_kept_or_counted_with_its_line(tmp_path_factory, rows):
     assert {first for _, first in report.skipped.values()} <= ends
 
 
-def test_names_of_columns_with_their_units(read):
-    for header, row in {
-        "LATITUDE N/S,LONGITUDE E/W,T": "33.5N,44.25E,5",
-        "Latitude (deg),Longitude (deg),t [s]": "33.5,44.25,5",
-        "lat_deg;lon_deg;time_s": "33.5;44.25;5",
-        "latitudeE7,longitudeE7,time (ms)": "335000000,442500000,5000",
-        "t_ms\tlat_e7\tlon_e7": "5000\t335000000\t442500000",
-        "lat,ns,lon,ew,t": "33.5,N,44.25,E,5",
-    }.items():
-        assert places(read(f"{header}\n{row}\n")) == ([33.5], [44.25]), header
-    assert read("t_ms,lat,lon\n5000,1,2\n6500,3,4\n").t.tolist() == [0, 1.5]
-    for header in ("lat (rad),lon (rad)", "position_lat,position_long"):
-        with pytest.raises(ValueError, match="does not name"):
-            read(f"{header}\n1,2\n")
-    with pytest.raises(ValueError, match="more than one column of lat"):
-        read("lat (deg),lat_e7,lon\n1,2,3\n")
-
-
 def test_text_as_windows_writes_it(read):
     for source, text in {
         "NMEA": gga(lat="3330.0000,N", lon="04415.0000,E") + "\r\n",
@@ -687,52 +600,32 @@ def test_text_as_windows_writes_it(read):
             assert repr(track.report) == "1 position used"
 
 
-def test_bad_rows_are_counted_with_their_line(read):
-    width = "row with more or fewer cells than the header"
-    no_number = NAN
-    cells = ["33 27 N", "nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '"1.2,3"', '","']
-    for reason, row in [
-        ("latitude not in -90 to 90", "1,91,44"),
-        ("longitude not in -180 to 180", "1,33,200"),
-        *((no_number, f"1,{cell},44") for cell in cells),
-        (no_number, "yesterday,x,44"),
-        (width, "1,33,27,44,37"),  # decimal commas
-        (width, "1,33"),
-        ("same epoch again", "0,33.0,44.0"),
-        ("time runs backwards", "-1,33.0,44.0"),
-        ("comment", "# 1,33,44"),
-    ]:
+CELLS = ["33 27 N", "nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '"1.2,3"', '","']
+BAD_ROWS = {
+    "latitude not in -90 to 90": ["1,91,44"],
+    "longitude not in -180 to 180": ["1,33,200"],
+    NAN: ["yesterday,x,44", *(f"1,{cell},44" for cell in CELLS)],
+    "row with more or fewer cells than the header": ["1,33,27,44,37", "1,33"],  # decimal commas
+    "same epoch again": ["0,33.0,44.0"],
+    "time runs backwards": ["-1,33.0,44.0"],
+    "comment": ["# 1,33,44"],
+}
+
+
+@pytest.mark.parametrize("reason", BAD_ROWS)
+def test_bad_rows_are_counted_with_their_line(read, reason):
+    for row in BAD_ROWS[reason]:
         track = read(f"t,lat,lon\n\n0,33.0,44.0\n{row}\n2,34.0,45.0\n")
         assert track.points.lat.tolist() == [33.0, 34.0], row
         assert (dict(track.report.skipped), track.report.noted) == ({reason: (1, 4)}, {})
-    # milliseconds are no seconds, and a last line that may be cut is told
-    track = read("lat,lon,t\n1,2,1767225600000\n3,4,5")
-    assert dict(track.report.noted) == {
-        "with an unreadable time": (1, 2),
-        "in a last line without an end, which may be cut off": (1, 3),
-    }
-    assert np.isnan(track.t[0])
-    begin = process_time()
-    assert len(read("lat,lon\n1,2\n" + "\n" * 50_000)) == 1
-    assert process_time() - begin < 1.5  # with a pattern that runs on over lines 5 s and more
 
 
 SIDES = ["Dir", "Direction", "Ref", "Hemi", "Hemisphere", "Indicator"]
-PAIRS = [
-    ("N/S", "E/W"),
-    ("n_s", "e_w"),
-    ("NS Indicator", "EW Indicator"),
-    ("North/South", "East/West"),
-]
-PAIRS += [
-    (f"{lat}{gap}{side}", f"{lon}{gap}{side}")
-    for lat, lon in (("Lat", "Lon"), ("Latitude", "Longitude"))
-    for gap in ("", " ", "_")
-    for side in SIDES
-]
+PAIRS = [("N/S", "E/W"), ("n_s", "e_w"), ("NS Indicator", "EW Indicator"), ("North/South", "ew")]
+PAIRS += [(f"Lat{gap}{side}", f"Longitude{gap}{side}") for gap in ("", " ", "_") for side in SIDES]
 
 
-def test_hemispheres_and_fixes_are_known_by_many_names(read):
+def test_columns_are_known_by_many_names_and_units(read):
     for north, east in PAIRS:
         track = read(f"Latitude,{north},Longitude,{east}\n33.5,S,70.6,W\n1.0,N,2.0,E\n")
         assert places(track) == ([-33.5, 1.0], [-70.6, 2.0]), north
@@ -740,9 +633,14 @@ def test_hemispheres_and_fixes_are_known_by_many_names(read):
         track = read(f"lat,lon,{name}\n0,0,0\n33.5,44,3\n")
         assert places(track) == ([33.5], [44.0]), name
         assert dict(track.report.skipped) == {"row without a measured fix": Count(1, 2)}
-    for name, units in (("time_us", 1e6), ("gps time s", 1.0), ("timeMs", 1e3)):
-        track = read(f"{name},lat,lon\n{units:.0f},0,0\n{4 * units:.0f},33.5,44\n")
+    for name, units in (("time_us", 1e6), ("gps time s", 1.0), ("timeMs", 1e3), ("t [s]", 1.0)):
+        track = read(f"{name},lat (deg),lon_deg\n{units:.0f},0,0\n{4 * units:.0f},33.5,44\n")
         assert track.t.tolist() == [0.0, 3.0], name
+    for header in ("latitudeE7,longitudeE7", "lat_e7,lon_e7"):
+        assert places(read(f"{header}\n335000000,442500000\n")) == ([33.5], [44.25])
+    for header in ("lat (rad),lon (rad)", "position_lat,position_long"):
+        with pytest.raises(ValueError, match="does not name"):
+            read(f"{header}\n1,2\n")
 
 
 MINUTES = ["lat_min", "Lat (M)", "latMinutes", "latmin", "latitude_sec", "lon_min", "Long. seconds"]
@@ -762,6 +660,9 @@ def test_what_would_have_to_be_guessed_is_not_read(read):
             assert np.isnan(track.t).all()
     for number in ("45292.5", "12345", "1767225600"):  # Excel's days, ms since it was switched on
         assert dict(read(f"time,lat,lon\n{number},1,2\n").report.noted) == unreadable
+    cut = {"in a last line without an end, which may be cut off": (1, 2)}
+    track = read("t_ms,lat,lon\n1767225600000000,1,2")  # rather microseconds
+    assert dict(track.report.noted) == unreadable | cut
 
 
 def test_what_spreadsheets_write_around_a_table_is_read(read):
@@ -821,11 +722,8 @@ def test_a_file_without_a_position_says_why(read, tmp_path):
         (b"\xff\xfe", NO_KIND),
         (b"\x00" * 200_000, NO_KIND),
         (b"x" * 200_000, NO_KIND + " its first line 'x{80}' does not name"),
-        ("var data=" + "1," * 100_000, NO_KIND),
-        (b"\x89PNG\r\n\x1a\n\x00\x00", "does not name"),
-        ("# lat,lon\n", "does not name"),
         ("x,y\n1,2\n", "first line 'x,y' does not name lat and lon"),
-        ("lat,latitude,lon\n1,1,2\n", "more than one column of lat"),
+        ("lat,latitude,lon\n1,1,2\n", "has a column twice"),
         ("lat,lon\n", "it is CSV, but holds no position"),
         ("lat,lon\n-95,2\n", r"1 latitude not in -90 to 90 \(first in line 2\)"),
         ("lat,lon\n1," + "2" * 200_000, "its table is broken"),
@@ -953,27 +851,17 @@ def test_bad_input_to_the_writers(tmp_path):
             (None, BEGIN, "t = None and begin = .* are not allowed together"),
             ([0, 1, 2], BEGIN, r"t has shape \(3,\), points have shape \(2,\)"),
             ([0, math.inf], BEGIN, "a finite number or NaN is needed"),
-            (["a", "b"], BEGIN, r"^t = \['a', 'b'\] is not allowed"),
-            ({}, BEGIN, r"^t = {} is not allowed"),
-            ([True, False], BEGIN, r"^t = \[True, False\] is not allowed"),
             ([0, 1e18], BEGIN, r"^t = .*e\+18.* is not allowed: begin \+ t in the years"),
             ([0, 1], late, r"^t = .* is not allowed: begin \+ t"),
             ([0, 1], local, "begin with its time zone"),
         ]
     ]
-    cases.append(
-        (
-            wmr.write_gpx,
-            PAIR,
-            {"name": "a\x00b"},
-            r"^name = 'a\\x00b' is not allowed: printable text",
-        )
-    )
     for write in (wmr.write_gpx, wmr.write_geojson):
         cases += [
             (write, wmr.GeoPoint(lat=[], lon=[]), {}, "at least one position is needed"),
             (write, [1, 2], {}, "a GeoPoint is needed"),
             (write, PAIR, {"name": "\ud800"}, r"^name = '\\ud800' is not allowed: printable"),
+            (write, PAIR, {"name": "a\x00b"}, r"^name = 'a\\x00b' is not allowed: printable"),
             (write, PAIR, {"name": 3}, "a str is needed"),
         ]
     (tmp_path / "old").write_text("as it was")

@@ -23,9 +23,9 @@ _DAY = 86400.0  # s
 def read(text: TextIO) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
     fixes, last, zero = Fixes(), 0.0, 0
-    said = filter(None, (_said(line, fields, fixes) for line, fields in _sentences(text, fixes)))
-    for second, epoch in groupby(said, lambda each: each[3]):
-        (_, denied, line, _, lat, lon, _), *others = told = sorted(epoch)
+    for second, epoch in groupby(_sentences(text, fixes), lambda each: each[2]):
+        told = sorted(epoch)
+        _, denied, _, line, lat, lon, _ = told[0]
         if not denied:
             days = math.ceil((last - 60.0 - second) / _DAY)  # without a date, time goes on
             if day := max(each[-1] for each in told):
@@ -33,52 +33,55 @@ def read(text: TextIO) -> Fixes | None:
                 days = day - zero
             last = second + _DAY * days
             fixes.add(lat, lon, last, line)
-        again = "sentence of an epoch that a more trusted one says has no fix"
-        for _, denies, line, *_ in others:
-            if not denies:
-                fixes.skip(again if denied else "same epoch again", line)
+        doubt = "sentence of an epoch that a more trusted one says has no fix"
+        for _, denies, _, line, *_ in told if denied else told[1:]:
+            others = doubt if denied else "same epoch again"
+            fixes.skip("sentence without a fix" if denies else others, line)
     known = fixes.skipped.keys() - {"comment", "line that is no sentence"}
     return fixes if fixes.table or known else None
 
 
-def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple[int, list[str]]]:
-    """The line and the fields of each sound sentence of a known kind; `fixes` counts all else."""
+def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple]:
+    """What each sound sentence of a known kind says; `fixes` counts all else."""
     line = 1
     while words := text.readline(LONGEST):
         found = [] if words.startswith("#") else _SENTENCE.findall(words)
         if not found and (rest := words.strip(" \t\r\n\0")):
             fixes.skip("comment" if rest.startswith("#") else "line that is no sentence", line)
         for body, stated in found:
-            if not stated:
-                fixes.skip("sentence without a checksum", line)
-            elif stated.upper() != f"*{reduce(xor, body.encode('utf-8', 'surrogateescape')):02X}":
-                fixes.skip("wrong checksum", line)
-            elif body[2:5].upper() not in _KINDS or body[5:6] != ",":
-                fixes.skip("other sentence", line)
-            else:
-                yield line, body.split(",") + [""] * 13
+            try:
+                yield _said(body, stated.upper(), line)
+            except ValueError as error:
+                fixes.skip(str(error), line)
         line += words.endswith(("\n", "\r"))
 
 
-def _said(line: int, fields: list[str], fixes: Fixes) -> tuple | None:
-    """Rank, whether it denies a fix, line, second, lat, lon and day; None if it says nothing."""
-    rank, at_time, at_place, at_mode = _KINDS[fields[0][2:].upper()]
+def _said(body: str, stated: str, line: int) -> tuple:
+    """Rank, whether it denies a fix, second, line, lat, lon, day; ValueError if it says nothing."""
+    checksum = f"*{reduce(xor, body.encode('utf-8', 'surrogateescape')):02X}"
+    fields = [*body.split(","), *[""] * 13]
+    if stated != checksum:
+        raise ValueError("wrong checksum" if stated else "sentence without a checksum")
+    if (kind := fields[0][2:].upper()) not in _KINDS:
+        raise ValueError("other sentence")
+    rank, at_time, at_place, at_mode = _KINDS[kind]
     clock, modes = _CLOCK.fullmatch(fields[at_time]), fields[at_mode]
     second = int(clock[1]) * 3600 + int(clock[2]) * 60 + float(clock[3]) if clock else 0.0
     if rank > 1:  # RMC and GLL have a status too, and before 2000 had no mode
         modes = (modes or "A") if fields[2 if rank == 2 else 6] == "A" else "N"
     elif fields[7] in ("0", "00") or (rank == 0 and modes not in {*"123459"}):  # 0 satellites
         modes = "N"
-    if not {*modes} & {*("ADPRF" if rank else "123459")}:  # estimated or put in by hand, perhaps
-        fixes.skip("sentence without a fix", line)
-        return (rank, True, line, second, 0.0, 0.0, 0) if clock else None
+    fixed = bool({*modes} & {*("ADPRF" if rank else "123459")})  # not estimated or put in by hand
     place = _PLACE.fullmatch(",".join(fields[at_place : at_place + 4]))
-    if not clock or not place:
-        fixes.skip("unreadable position" if clock else "fix without a readable time", line)
-        return None
+    if not clock:
+        raise ValueError("fix without a readable time" if fixed else "sentence without a fix")
+    if not fixed:
+        return rank, True, second, line, 0.0, 0.0, 0
+    if not place:
+        raise ValueError("unreadable position")
     lat, lon = (int(place[i]) + float(place[i + 1]) / 60.0 for i in (1, 4))
     lat, lon = -lat if place[3] == "S" else lat, -lon if place[6] == "W" else lon
-    return rank, False, line, second, lat, lon, _day(fields[9]) if rank == 2 else 0
+    return rank, False, second, line, lat, lon, _day(fields[9]) if rank == 2 else 0
 
 
 def _day(text: str) -> int:

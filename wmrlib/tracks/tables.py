@@ -38,8 +38,11 @@ def read(text: TextIO) -> Fixes:
         header, reader = line, csv.reader(lines, delimiter=delimiter, strict=True)
         for row in reader:
             line = header + reader.line_num
-            if "".join(row).strip() and (trouble := _trouble(fixes, columns, row, line)):
-                fixes.skip(trouble, line)
+            try:
+                if "".join(row).strip():
+                    fixes.add(*_position(columns, row), line)
+            except ValueError as error:
+                fixes.skip(str(error), line)
     except csv.Error as error:
         raise ValueError(f"its table is broken: {error}") from None
     if fixes.table and last[0].strip() and not last[0].endswith(("\n", "\r")):
@@ -65,10 +68,9 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
             columns = [_column(cell) for cell in next(csv.reader([line], delimiter=delimiter))]
             roles = [role for role, _ in columns]
             if {"lat", "lon"} <= {*roles}:
-                twice = ", ".join(role for role in [*_ROLES][:6] if roles.count(role) > 1)
-                if twice or "minutes" in roles:
-                    wrong = f"more than one column of {twice}" if twice else "minutes of a degree"
-                    raise ValueError(f"its header {shown} has {wrong}, which is not read")
+                if "minutes" in roles or any(roles.count(each) > 1 for each in [*_ROLES][:6]):
+                    wrong = "has a column twice, or minutes of a degree, which is not read"
+                    raise ValueError(f"its header {shown} {wrong}")
                 return row, delimiter, columns
         if line.strip():
             fixes.skip("comment" if comment else "line above the names of the columns", row)
@@ -86,34 +88,30 @@ def _column(name: str) -> tuple[str, float]:
     return "", 0.0
 
 
-def _trouble(fixes: Fixes, columns: _Columns, row: list[str], line: int) -> str | None:
-    """Use a row's position, or return why not."""
+def _position(columns: _Columns, row: list[str]) -> tuple[float, float, float | None]:
+    """Latitude, longitude and time of a row; ValueError says why it has none."""
     if row[0].startswith("#"):
-        return "comment"
+        raise ValueError("comment")
     if len(row) < len(columns) or any(map(str.strip, row[len(columns) :])):  # decimal commas
-        return "row with more or fewer cells than the header"
+        raise ValueError("row with more or fewer cells than the header")
+    if "\n" in "".join(row) or "\r" in "".join(row):
+        raise ValueError("row with a cell over several lines")
     per, cells = dict(columns), {"time": ""}
     for (role, _), cell in zip(columns, row, strict=False):
         cells[role] = cell.strip()
         said = re.findall("[a-z]+|-?[0-9]+", cell.casefold()) or [""]
         if said[0] not in _GOOD.get(role, said):
-            return "row without a measured fix"
-        if "\n" in cell or "\r" in cell:
-            return "row with a cell over several lines"
-    try:
-        lat = _degrees(cells["lat"], "NS", cells.get("N/S")) / per["lat"]
-        lon = _degrees(cells["lon"], "EW", cells.get("E/W")) / per["lon"]
-    except ValueError as error:
-        return str(error)
+            raise ValueError("row without a measured fix")
+    lat = _degrees(cells["lat"], "NS", cells.get("N/S")) / per["lat"]
+    lon = _degrees(cells["lon"], "EW", cells.get("E/W")) / per["lon"]
     clock, seconds = cells["time"], _number(cells["time"])
-    time: float | None = math.nan
-    if clock and ("date" in per or math.isnan(seconds)):
+    if not clock:
+        return lat, lon, math.nan
+    if "date" in per or math.isnan(seconds):
         day = cells.get("date", "").replace("/", "-")
-        time = timestamp(f"{day}T{clock}" if "date" in per else clock)
-    elif clock:  # without its unit none is guessed; since 1970 ms are more than 1e11
-        time = seconds / per["time"] if 0.0 < per["time"] * 1e11 > abs(seconds) else None
-    fixes.add(lat, lon, time, line)
-    return None
+        return lat, lon, timestamp(f"{day}T{clock}" if "date" in per else clock)
+    # Without its unit none is guessed; since 1970 ms are more than 1e11.
+    return lat, lon, seconds / per["time"] if per["time"] * 1e11 > abs(seconds) else None
 
 
 def _degrees(cell: str, sides: str, side: str | None) -> float:
