@@ -52,29 +52,22 @@ class Fixes:
 
     def add(self, lat: float, lon: float, time: float | None, line: int) -> None:
         """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
-        if not math.isfinite(lat + lon):
-            self.skip("latitude or longitude not a number", line)
-        elif abs(lat) > 90.0 or abs(lon) > 180.0:
-            which = (
-                "latitude not in -90 to 90" if abs(lat) > 90.0 else "longitude not in -180 to 180"
-            )
-            self.skip(which, line)
-        else:
-            if time is None:
-                count(self.noted, "with an unreadable time", line)
-            self.table.extend((lat, lon, math.nan if time is None else time, line, self.segment))
+        if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):
+            wrong = "latitude not in -90 to 90", "longitude not in -180 to 180"
+            nan = "latitude or longitude not a number"
+            return self.skip(wrong[abs(lat) <= 90.0] if math.isfinite(lat + lon) else nan, line)
+        if time is None:
+            count(self.noted, "with an unreadable time", line)
+        self.table.extend((lat, lon, math.nan if time is None else time, line, self.segment))
 
     def settle(self) -> tuple[np.ndarray, Report]:
-        """The rows lat, lon and time of the positions in order, each epoch once, and the report."""
+        """The rows lat, lon and time of the positions in order of time, and the report."""
         table = np.array(self.table).reshape(-1, 5)
         parts = np.split(table, np.flatnonzero(np.diff(table[:, 4])) + 1)
         late = np.concatenate([_late(part[:, 2]) for part in parts])
-        again = np.zeros(late.size, bool)
-        again[np.flatnonzero(~late)[1:]] = ~np.diff(table[~late, :3], axis=0).any(axis=1)
-        for reason, gone in (("time runs backwards", late), ("same epoch again", again)):
-            if gone.any():
-                self.skip(reason, int(table[gone, 3][0]), int(gone.sum()))
-        table = table[~(late | again), :3].T
+        if late.any():
+            self.skip("time runs backwards", int(table[late, 3][0]), int(late.sum()))
+        table = table[~late, :3].T
         return table, Report(table.shape[1], self.skipped, self.noted)
 
 

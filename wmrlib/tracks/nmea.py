@@ -3,13 +3,12 @@
 import math
 import re
 from collections.abc import Iterator
-from datetime import datetime
 from functools import reduce
 from itertools import groupby
 from operator import xor
 from typing import TextIO
 
-from wmrlib.tracks.fixes import LONGEST, Fixes
+from wmrlib.tracks.fixes import LONGEST, Fixes, timestamp
 
 # A body, whatever stands around it, and what is stated as its checksum.
 _SENTENCE = re.compile(r"\$([A-Za-z]{2}[^$*\r\n]{3}[^$*\r\n]*)(\*[0-9A-Fa-f]{0,2})?")
@@ -22,16 +21,16 @@ _DAY = 86400.0  # s
 
 def read(text: TextIO) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
-    fixes, last, zero = Fixes(), 0.0, 0
+    fixes, last, zero = Fixes(), 0.0, 0.0
     for second, epoch in groupby(_sentences(text, fixes), lambda each: each[2]):
         told = sorted(epoch)
         _, denied, _, line, lat, lon, _ = told[0]
         if not denied:
-            days = math.ceil((last - 60.0 - second) / _DAY)  # without a date, time goes on
-            if day := max(each[-1] for each in told):
-                zero = zero or day - days
-                days = day - zero
-            last = second + _DAY * days
+            day = _DAY * math.ceil((last - 60.0 - second) / _DAY)  # undated, time goes on
+            if dated := max(each[-1] for each in told):
+                zero = zero or dated - day
+                day = dated - zero
+            last = second + day
             fixes.add(lat, lon, last, line)
         doubt = "sentence of an epoch that a more trusted one says has no fix"
         for _, denies, _, line, *_ in told if denied else told[1:]:
@@ -57,7 +56,7 @@ def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple]:
 
 
 def _said(body: str, stated: str, line: int) -> tuple:
-    """Rank, whether it denies a fix, second, line, lat, lon, day; ValueError if it says nothing."""
+    """Rank, whether it denies a fix, second, line, lat, lon, date; or ValueError."""
     checksum = f"*{reduce(xor, body.encode('utf-8', 'surrogateescape')):02X}"
     fields = [*body.split(","), *[""] * 13]
     if stated != checksum:
@@ -76,17 +75,10 @@ def _said(body: str, stated: str, line: int) -> tuple:
     if not clock:
         raise ValueError("fix without a readable time" if fixed else "sentence without a fix")
     if not fixed:
-        return rank, True, second, line, 0.0, 0.0, 0
+        return rank, True, second, line, 0.0, 0.0, 0.0
     if not place:
         raise ValueError("unreadable position")
     lat, lon = (int(place[i]) + float(place[i + 1]) / 60.0 for i in (1, 4))
     lat, lon = -lat if place[3] == "S" else lat, -lon if place[6] == "W" else lon
-    return rank, False, second, line, lat, lon, _day(fields[9]) if rank == 2 else 0
-
-
-def _day(text: str) -> int:
-    """The number of the day ddmmyy, 0 if it is none."""
-    try:  # 69 to 99 are of the last century
-        return datetime.strptime(text, "%d%m%y").toordinal()
-    except ValueError:
-        return 0
+    day = timestamp(f"20{fields[9][4:]}-{fields[9][2:4]}-{fields[9][:2]}") if rank == 2 else 0.0
+    return rank, False, second, line, lat, lon, day or 0.0
