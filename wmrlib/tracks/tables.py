@@ -8,7 +8,7 @@ from typing import TextIO
 
 from wmrlib.tracks.fixes import LONGEST, Fixes, count, number, timestamp
 
-_LAT, _LON = "lat(itude)?", "(lng|long?|longitude)"
+_LAT, _LON = "(gps )?lat(itude)?", "(gps )?(lng|long?|longitude)"
 _SIDE = "(dir|direction|ref|reference|hemi|hemisphere|indicator)"
 _ROLES = {  # of a column, by the words of its name; the first six once in a header
     "lat": f"{_LAT}( deg| degrees)?( n s)?( e7)?",
