@@ -137,7 +137,8 @@ def running(
                 write_filter(rules)
                 fds.append(rules.fileno())
                 command = _in_cage(command, link, place, rules.fileno())
-                together = grouped(command, limits.memory + SCRATCH, 2 * MOST_PROCESSES)
+                most = limits.memory * 5 // 4 + SCRATCH  # the watch, which says why, comes first
+                together = grouped(command, most, 2 * MOST_PROCESSES)
                 command = groups.enter_context(together)
             client = Client(
                 notebook,
