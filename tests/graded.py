@@ -84,19 +84,26 @@ def answers(chapter: str) -> dict:
 
 @cache
 def wrong_answers(chapter: str) -> list[dict]:
-    """The usual mistakes: name, cell, source, hint, and the graded cells that it loses."""
+    """The usual mistakes: cell, source, hint, and exactly the graded cells that it loses."""
     found = []
-    for name, wrong in answers(chapter)["mistake"].items():
-        loses = wrong["loses"].split()
-        cell = task_of(chapter, loses[0])
-        source = wrong.get("source") or edited(cells(chapter)[cell][0], wrong["edit"])
-        found.append({**wrong, "name": name, "loses": loses, "cell": cell, "source": source})
+    for loses, table in answers(chapter)["mistake"].items():
+        cell = task_of(chapter, loses.split()[0])
+        model, _ = cells(chapter)[cell]
+        for hint, wrong in table.items():
+            source = edited(model, wrong) if " => " in wrong else f"{asked(model)} = {wrong}"
+            row = {"name": hint, "hint": hint, "loses": loses.split()}
+            found.append({**row, "cell": cell, "source": source})
     return found
 
 
-def edited(source: str, edits: str | list[str]) -> str:
-    """The source after one or several edits, `old => new`."""
-    for edit in [edits] if isinstance(edits, str) else edits:
+def asked(model: str) -> str:
+    """The name that a cell with an answer makes."""
+    return re.match(r"(?:def )?(\w+)", model)[1]
+
+
+def edited(source: str, edits: str) -> str:
+    """The source after one or several edits, `old => new || old => new`."""
+    for edit in edits.split(" || "):
         old, new = edit.split(" => ")
         assert old in source, edit
         source = source.replace(old, new)
@@ -204,7 +211,7 @@ def mistold(name: str) -> list[tuple[str, str]]:
 
     given, found = dict(exercises()[name]), []
     right = given.pop("answer")
-    sources = {words: edited(right, edit.split(" || ")) for words, edit in given.items()}
+    sources = {words: edited(right, edit) for words, edit in given.items()}
     for words, source in {"Right": right, "": right, **sources}.items():
         names = {}
         run_cell(source, f"<{name}>", names)
