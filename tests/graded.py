@@ -9,9 +9,7 @@ import subprocess
 import sys
 import tomllib
 from functools import cache, wraps
-from multiprocessing import Pipe
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -90,15 +88,28 @@ def wrong_answers(chapter: str) -> list[dict]:
         cell = task_of(chapter, loses.split()[0])
         model, _ = cells(chapter)[cell]
         for hint, wrong in table.items():
-            source = edited(model, wrong) if " => " in wrong else f"{asked(model)} = {wrong}"
+            source = edited(model, wrong) if " => " in wrong else f"{target(model)} = {wrong}"
             row = {"name": hint, "hint": hint, "loses": loses.split()}
             found.append({**row, "cell": cell, "source": source})
     return found
 
 
-def asked(model: str) -> str:
+def target(model: str) -> str:
     """The name that a cell with an answer makes."""
     return re.match(r"(?:def )?(\w+)", model)[1]
+
+
+def whole(chapter: str, key: str, answer: str) -> str:
+    """The cell that a right or another wrong answer in the file of data stands for."""
+    task, data = task_of(chapter, key), answers(chapter)
+    model, frames = cells(chapter)[task][0], data.get("frame", {})
+    name = target(model)
+    if " => " in answer:
+        answer = edited(model, answer)
+    elif not re.search(rf"^(def )?{name}\b *[(=]", answer, re.M):
+        frame = frames.get(key) or frames.get(task) or name + " = {}"
+        answer = frame.replace("{}", answer)
+    return data.get("setup", "") + answer
 
 
 def edited(source: str, edits: str) -> str:
@@ -176,27 +187,6 @@ def closed() -> list[str]:
     texts += re.sub("^```.*?^```", "", guide, flags=re.MULTILINE | re.DOTALL).split("\n\n")[1:]
     runs = (run.strip() for each in texts for run in re.findall("[A-Za-z, ]{31,}", each))
     return sorted({run for run in runs if len(run) > 30})
-
-
-def lost_over_a_line(chapter: str, key: str, source: str, student: str = "Ada") -> dict[str, str]:
-    """As `lost`, with the answer at the other end of a line, as a class is graded."""
-    from wmrbook.grading._wire import Line
-
-    names, found = dict(given(chapter, student)), {}
-    run_cell(source, f"<{chapter} answer>", names)
-    here, there = Pipe()
-    Thread(target=Line(there, names, trusts=True).serve, daemon=True).start()
-    line = Line(here, {})
-    for name in graded(chapter, key):
-        check, judge = cells(chapter)[name][0], dict(given(chapter, student))
-        answer = re.search(r"grading\.\w+\.\w+\((\w+)", check)[1]
-        try:
-            judge[answer] = line.value(answer)
-            run_cell(check, f"<{chapter} {name}>", judge)
-        except Exception as error:
-            found[name] = f"{type(error).__name__}: {error}"
-    here.close()
-    return found
 
 
 @cache
