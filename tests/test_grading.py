@@ -142,15 +142,8 @@ NUMBERS = ["Fraction(it)", "Decimal(it)", "np.float64(it)", "mpmath.mpf(it)", "s
 NUMBERS += ["int(it) if it == int(it) else it", "np.array(it)", "sp.Rational(it)"]
 SEVERAL = ["tuple(it)", "list(it)", "np.array(it)", "sp.Matrix(it)", "mpmath.matrix(it)"]
 EXPRESSIONS = [
-    "sp.factor",
-    "sp.expand",
-    "sp.together",
-    "sp.trigsimp",
-    "sp.factor_terms",
-    "sp.powsimp",
-]
-EXPRESSIONS += ["sp.nsimplify", "sp.simplify", "sp.signsimp", "sp.UnevaluatedExpr", "sp.cancel"]
-EXPRESSIONS += [
+    *(f"sp.{it}" for it in ["factor", "expand", "together", "trigsimp", "factor_terms", "powsimp"]),
+    *(f"sp.{it}" for it in ["nsimplify", "simplify", "signsimp", "UnevaluatedExpr", "cancel"]),
     *("lambda it: sp.collect(it, rho)", "lambda it: it.rewrite(sp.exp)"),
     *("lambda it: sp.Mul(-1, -it, evaluate=False)", "lambda it: sp.Add(it, 0, evaluate=False)"),
     "lambda it: it.xreplace({each: sp.Symbol(each.name) for each in it.free_symbols})",
@@ -236,9 +229,7 @@ def test_a_check_hands_over_nothing_but_what_another_process_can_be_sent(chapter
         model, _ = cells(chapter)[task]
         if name := re.match(r"def (\w+)", model):
             sent = "_model(*pickle.loads(pickle.dumps(given)))"
-            model += (
-                f"\nimport pickle\n_model = {name[1]}\ndef {name[1]}(*given):\n    return {sent}"
-            )
+            model += f"\nimport pickle\n_model = {name[1]}\ndef {name[1]}(*given): return {sent}"
             for check in checks:
                 assert lost(chapter, check, model) == {}
 
