@@ -191,7 +191,7 @@ def closed() -> list[str]:
 
 @cache
 def exercises() -> dict[str, dict[str, str]]:
-    """Of the chapters' own exercises that have a check: the answer, and an edit for each hint."""
+    """Of each check of wmrbook.grading.exercises: `answer` and `more`, and an edit a hint."""
     return tomllib.loads((ROOT / "tests/data/exercises.toml").read_text(encoding="utf-8"))
 
 

@@ -257,9 +257,8 @@ def test_a_classmates_answer_is_known(chapter, monkeypatch):
             model, _ = cells(chapter)[task]
             copied = lost(chapter, task, model, "Ada", by="Emmy")
             assert list(copied) == checks
-            assert all(
-                "right with the numbers of emmy, and not" in each for each in copied.values()
-            )
+            words = "right with the numbers of emmy, and not"
+            assert all(words in each for each in copied.values())
 
 
 @pytest.mark.parametrize("make", [variants.home, variants.tuned, variants.slow])
