@@ -105,6 +105,15 @@ def merged(notebook: NotebookNode) -> None:
         del notebook.cells[place]
 
 
+def gathered(notebook: NotebookNode, keep: int) -> None:
+    """Move the answers into the first of them, but as many as are kept, and delete their cells."""
+    first, *others = graded_answers(notebook)
+    moved = others[: len(others) - keep]
+    texts = [notebook.cells[place].source for place in (first, *moved)]
+    notebook.cells[first].source = "\n\n\n".join(texts)
+    without(notebook, moved)
+
+
 def imports_moved(notebook: NotebookNode) -> None:
     """Write an import that the first answer needs into the given cell above it."""
     given = next(cell for cell in notebook.cells if cell.cell_type == "code")
@@ -123,6 +132,8 @@ EDITS: dict[str, tuple[Callable[[NotebookNode], object], str]] = {  # graded in 
     "stripped": (stripped, "found without"),
     "not code": (other_kind, "was not a code cell"),
     "merged": (merged, "found without"),
+    "all in one": (lambda n: gathered(n, 0), "is in another cell"),
+    "one moved": (lambda n: gathered(n, 1), "is in another cell"),
     "given cell changed": (imports_moved, ""),
     "left running": (lambda n: first_answer(n, lambda a: f"{LEFT}\n{a}"), ""),
 }

@@ -236,7 +236,8 @@ def test_a_term_of_three_weeks_is_played_by_the_guides_commands_alone(tmp_path, 
     asked = questions.tested()
     keys, mark = "".join(each.key for each in asked), questions.fingerprint(asked)
     sheets = ("pre", "-" * len(keys)), ("post", keys)
-    sent = [written(Line("test", f"{when}-{mark}", "Ada", told)) for when, told in sheets]
+    both = [("test", f"{when}-{mark}", who, told) for when, told in sheets for who in ("Ada", "Bo")]
+    sent = [written(Line(*each)) for each in both]
     (tmp_path / "class.txt").write_text("\n".join(sent), encoding="utf-8")
     for part in "questions form", "questions histogram", "questions gain":
         term.say(part)

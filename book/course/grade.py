@@ -11,22 +11,20 @@ points on this machine is not graded. Ctrl-C keeps what is graded so far.
 from __future__ import annotations
 
 import os
-import signal
 import sys
 from collections.abc import Callable, Collection, Iterable, Iterator
-from concurrent.futures import Executor, ThreadPoolExecutor, as_completed
-from contextlib import contextmanager, suppress
+from concurrent.futures import FIRST_COMPLETED, Executor, ThreadPoolExecutor, wait
+from contextlib import suppress
 from pathlib import Path
-from threading import Event, current_thread, main_thread
+from threading import Event
 from typing import Any
 from unicodedata import normalize
 
 import handins
 import marks
 import nbformat
-import psutil
 import roster
-from cage import holds
+from cage import holds, next_user
 from changes import HandIn, hash_of, look, sources
 from gradebook import COURSE, Course, lost, options
 from handins import Refused
@@ -34,6 +32,7 @@ from kernel import Limits
 from nbgrader.api import MissingEntry
 from roster import NAME
 from sandbox import Sandbox, stops
+from stopping import end, stoppable
 from table import Row, nothing, table
 from tqdm import tqdm
 
@@ -54,7 +53,7 @@ def grade(
     when it is stopped, after it has written the marks.
     """
     people = roster.of(folder)
-    with Course(folder) as course, _stoppable() as stopped:
+    with Course(folder) as course:
         rows, todo, names = _listed(course, wanted, students)
         releases, unfit = {}, {}
         for each in sorted({assignment for assignment, _, _ in todo}):
@@ -77,17 +76,19 @@ def grade(
                 fresh.append(hand_in)
             else:
                 rows.append(_row(course, assignment, student, earlier.get("said", ""), False))
-        try:
-            if fresh:
-                with Sandbox([folder, *SECRETS], limits) as sandbox:
-                    what = sandbox, releases, fresh, names, jobs, stopped
-                    rows.extend(_graded(course, *what))
-        except KeyboardInterrupt:
-            done = sum(row.anew and bool(row.points) for row in rows)
-            said = f"Stopped: {done} of {len(fresh)} hand-ins are graded and in the marks;"
-            raise KeyboardInterrupt(f"{said} the same command goes on with the others.") from None
-        finally:
-            marks.write(course.book, folder)
+        with stoppable() as stopped:
+            try:
+                if fresh:
+                    with Sandbox([folder, *SECRETS], limits) as sandbox:
+                        what = sandbox, releases, fresh, names, jobs, stopped
+                        rows.extend(_graded(course, *what))
+            except KeyboardInterrupt:
+                done = sum(row.anew and bool(row.points) for row in rows)
+                said = f"Stopped: {done} of {len(fresh)} hand-ins are graded and in the marks;"
+                said += " the same command goes on with the others."
+                raise KeyboardInterrupt(said) from None
+            finally:
+                marks.write(course.book, folder)
     known = {each.username for each in people} or {row.student for row in rows}
     said = "not in students.csv and not in the marks; "
     return sorted(r if r.student in known else r._replace(said=said + r.said) for r in rows)
@@ -110,8 +111,8 @@ def _graded(
         return lost(sandbox.run(course.solved(assignment), "model", [], trusted=True))
 
     def run(it: HandIn) -> tuple:
-        if it.assignment in unfit:
-            raise Refused(unfit[it.assignment])
+        if it.assignment in unfit or stopped.is_set():
+            raise Refused(unfit.get(it.assignment, "stopped"))
         notebook, how = sandbox.repaired(it.path, releases[it.assignment])
         return sandbox.run(notebook, it.student, names), it.odd + how
 
@@ -182,38 +183,21 @@ def _listed(
     return rows, todo, names
 
 
-@contextmanager
-def _stoppable() -> Iterator[Event]:
-    """Let Ctrl-C end what runs, and set the event, but interrupt nothing that is being written."""
-    stopped = Event()
-
-    def stop(*_: object) -> None:
-        stopped.set()
-        for child in psutil.Process().children(recursive=True):
-            with suppress(psutil.Error):
-                child.kill()
-
-    if current_thread() is not main_thread():
-        yield stopped
-        return
-    before = signal.signal(signal.SIGINT, stop)
-    try:
-        yield stopped
-    finally:
-        signal.signal(signal.SIGINT, before)
-
-
 def _each(
     pool: Executor, bar: tqdm, stopped: Event, function: Callable, items: Iterable
 ) -> Iterator[tuple[Any, Any]]:
     """Each item as it is done, with what the function returned or the exception it raised."""
     waiting = {pool.submit(function, item): item for item in items}
-    for done in as_completed(waiting):
+    while waiting:
+        done, left = wait(waiting, timeout=0.5, return_when=FIRST_COMPLETED)
         if stopped.is_set():
             pool.shutdown(wait=False, cancel_futures=True)
+            while wait(left, timeout=0.5).not_done:
+                end()
             raise KeyboardInterrupt
-        yield waiting[done], done.exception() or done.result()
-        bar.update()
+        for each in done:
+            yield waiting.pop(each), each.exception() or each.result()
+            bar.update()
 
 
 if __name__ == "__main__":
@@ -233,6 +217,8 @@ if __name__ == "__main__":
         if not getattr(given, name) > 0:
             parser.error(f"--{name} {getattr(given, name)} is not allowed: more than 0 is needed")
     if not holds():
+        if next_user() is not None:
+            parser.error("here hand-ins would run as root: install bubblewrap, or be another user")
         print("Hand-ins can read what you can read here: the lecturer's guide says more.")
     most = Limits(given.seconds, 5 * given.seconds, int(given.memory * 1e9))
     folder = given.course.resolve()

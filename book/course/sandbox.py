@@ -12,6 +12,7 @@ import logging
 import multiprocessing
 import os
 import shutil
+import signal
 import sys
 import tempfile
 import time
@@ -20,6 +21,7 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import forkserver
 from pathlib import Path
+from threading import current_thread, main_thread
 from typing import Any
 from unittest.mock import patch
 
@@ -136,11 +138,24 @@ def _processes() -> Any:
         return multiprocessing.get_context("spawn")
     context = multiprocessing.get_context("forkserver")
     checks = [f"wmrbook.grading.{name}" for name in grading.__all__ if name.islower()]
-    context.set_forkserver_preload(["__main__", "sandbox", "warm", *checks])
+    context.set_forkserver_preload(["grade", "warm", *checks])
     path = os.pathsep.join(filter(None, sys.path))
-    with patch.dict(os.environ, {"PYTHONPATH": path}):
+    with patch.dict(os.environ, {"PYTHONPATH": path}), _deaf():
         forkserver.ensure_running()
     return context
+
+
+@contextmanager
+def _deaf() -> Iterator[None]:
+    """Let what is started hear no Ctrl-C, which is for who started it."""
+    if current_thread() is not main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 def _noted(function: Callable, job: Path, *given: Any) -> None:
