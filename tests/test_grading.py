@@ -1,11 +1,11 @@
 """The checks of the assignments: who is right passes, who is wrong reads a hint that says why.
 
 The answers stand in tests/data/course, a file a chapter:
-- `mistake`: usual mistakes, for exactly the graded cells that each loses: {part of the hint: what
-  the task's name gets, or edits `old => new || old => new` of the model's};
+- `mistake`: usual mistakes, for exactly the graded cells that each loses: {part of the hint: answer};
 - `right`: other right answers, `wrong`: other wrong ones, {part of the hint: answer or answers},
-  each for a task or for one graded cell. An answer is a cell, or stands at the {} of its `frame`
-  (without one: it is what the task's name gets), or is an edit of the first right one;
+  each for a task or for one graded cell.
+An answer is one or several edits of the model's, `old => new || old => new`, or what the task's name
+gets; in the last two it may be a whole cell, or stand at the {} of a `frame`;
 - `setup`: what these two may use.
 """
 
