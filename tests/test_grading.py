@@ -1,10 +1,10 @@
 """The checks of the assignments: who is right passes, who is wrong reads a hint that says why.
 
 The answers stand in tests/data/course, a file a chapter:
-- `mistake`: usual mistakes, for exactly the graded cells that each loses: {part of the hint: answer};
+- `mistake`: usual mistakes, for exactly the graded cells that each loses: {part of the hint: it};
 - `right`: other right answers, `wrong`: other wrong ones, {part of the hint: answer or answers},
   each for a task or for one graded cell.
-An answer is one or several edits of the model's, `old => new || old => new`, or what the task's name
+An answer is one or several edits of the model, `old => new || old => new`, or what the task's name
 gets; in the last two it may be a whole cell, or stand at the {} of a `frame`;
 - `setup`: what these two may use.
 """
