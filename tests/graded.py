@@ -9,9 +9,7 @@ import subprocess
 import sys
 import tomllib
 from functools import cache, wraps
-from multiprocessing import Pipe
 from pathlib import Path
-from threading import Thread
 from typing import Any
 
 import numpy as np
@@ -84,19 +82,39 @@ def answers(chapter: str) -> dict:
 
 @cache
 def wrong_answers(chapter: str) -> list[dict]:
-    """The usual mistakes: name, cell, source, hint, and the graded cells that it loses."""
+    """The usual mistakes: cell, source, hint, and exactly the graded cells that it loses."""
     found = []
-    for name, wrong in answers(chapter)["mistake"].items():
-        loses = wrong["loses"].split()
-        cell = task_of(chapter, loses[0])
-        source = wrong.get("source") or edited(cells(chapter)[cell][0], wrong["edit"])
-        found.append({**wrong, "name": name, "loses": loses, "cell": cell, "source": source})
+    for loses, table in answers(chapter)["mistake"].items():
+        cell = task_of(chapter, loses.split()[0])
+        model, _ = cells(chapter)[cell]
+        for hint, wrong in table.items():
+            source = edited(model, wrong) if " => " in wrong else f"{target(model)} = {wrong}"
+            row = {"name": hint, "hint": hint, "loses": loses.split()}
+            found.append({**row, "cell": cell, "source": source})
     return found
 
 
-def edited(source: str, edits: str | list[str]) -> str:
-    """The source after one or several edits, `old => new`."""
-    for edit in [edits] if isinstance(edits, str) else edits:
+def target(model: str) -> str:
+    """The name that a cell with an answer makes."""
+    return re.match(r"(?:def )?(\w+)", model)[1]
+
+
+def whole(chapter: str, key: str, answer: str) -> str:
+    """The cell that a right or another wrong answer in the file of data stands for."""
+    task, data = task_of(chapter, key), answers(chapter)
+    model, frames = cells(chapter)[task][0], data.get("frame", {})
+    name = target(model)
+    if " => " in answer:
+        answer = edited(model, answer)
+    elif not re.search(rf"^(def )?{name}\b *[(=]", answer, re.M):
+        frame = frames.get(key) or frames.get(task) or name + " = {}"
+        answer = frame.replace("{}", answer)
+    return data.get("setup", "") + answer
+
+
+def edited(source: str, edits: str) -> str:
+    """The source after one or several edits, `old => new || old => new`."""
+    for edit in edits.split(" || "):
         old, new = edit.split(" => ")
         assert old in source, edit
         source = source.replace(old, new)
@@ -171,30 +189,9 @@ def closed() -> list[str]:
     return sorted({run for run in runs if len(run) > 30})
 
 
-def lost_over_a_line(chapter: str, key: str, source: str, student: str = "Ada") -> dict[str, str]:
-    """As `lost`, with the answer at the other end of a line, as a class is graded."""
-    from wmrbook.grading._wire import Line
-
-    names, found = dict(given(chapter, student)), {}
-    run_cell(source, f"<{chapter} answer>", names)
-    here, there = Pipe()
-    Thread(target=Line(there, names, trusts=True).serve, daemon=True).start()
-    line = Line(here, {})
-    for name in graded(chapter, key):
-        check, judge = cells(chapter)[name][0], dict(given(chapter, student))
-        answer = re.search(r"grading\.\w+\.\w+\((\w+)", check)[1]
-        try:
-            judge[answer] = line.value(answer)
-            run_cell(check, f"<{chapter} {name}>", judge)
-        except Exception as error:
-            found[name] = f"{type(error).__name__}: {error}"
-    here.close()
-    return found
-
-
 @cache
 def exercises() -> dict[str, dict[str, str]]:
-    """Of the chapters' own exercises that have a check: the answer, and an edit for each hint."""
+    """Of each check of wmrbook.grading.exercises: `answer` and `more`, and an edit a hint."""
     return tomllib.loads((ROOT / "tests/data/exercises.toml").read_text(encoding="utf-8"))
 
 
@@ -204,7 +201,7 @@ def mistold(name: str) -> list[tuple[str, str]]:
 
     given, found = dict(exercises()[name]), []
     right = given.pop("answer")
-    sources = {words: edited(right, edit.split(" || ")) for words, edit in given.items()}
+    sources = {words: edited(right, edit) for words, edit in given.items()}
     for words, source in {"Right": right, "": right, **sources}.items():
         names = {}
         run_cell(source, f"<{name}>", names)

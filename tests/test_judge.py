@@ -11,7 +11,20 @@ import judge
 import numpy as np
 import pytest
 import sympy as sp
-from graded import ASSIGNMENTS, BEGIN, cells, given, graded, lost, run_cell, tasks, wrong_answers
+from graded import (
+    ASSIGNMENTS,
+    BEGIN,
+    answers,
+    cells,
+    given,
+    graded,
+    lost,
+    run_cell,
+    task_of,
+    tasks,
+    whole,
+    wrong_answers,
+)
 from hypothesis import given as for_all
 from hypothesis import strategies as st
 
@@ -60,6 +73,8 @@ def judged(chapter: str, name: str, names: dict) -> str:
 def test_what_a_check_says_does_not_depend_on_where_the_answer_is(chapter):
     tried = [(wrong["cell"], wrong["source"]) for wrong in wrong_answers(chapter)]
     tried += [(task, cells(chapter)[task][0]) for task, checks in tasks(chapter).items() if checks]
+    for key, right in answers(chapter)["right"].items():
+        tried += [(task_of(chapter, key), whole(chapter, key, answer)) for answer in right]
     for task, source in tried:
         names = dict(given(chapter)) | {"name": "Ada"}
         with contextlib.suppress(Exception):  # then the checks fail
