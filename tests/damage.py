@@ -1,44 +1,100 @@
-"""Ways in which a hand-in is damaged, and what it is then worth."""
+"""A course of one's own, and ways in which a hand-in is damaged and what it is then worth."""
 
 from __future__ import annotations
 
 import copy
 import json
-from collections.abc import Callable, Container
+import re
+import shutil
+import subprocess
+import sys
+from collections.abc import Callable, Iterator
 from itertools import pairwise
 from pathlib import Path
 
 import nbformat
+from cells import nbgrader
 from nbformat import NotebookNode
 
+COURSE = Path(__file__).parents[1] / "book" / "course"
 CELL = nbformat.v4.new_code_cell
-DEADLY = {  # what an answer's cell does before anything else, and what the table then says of it
-    "exit": ("import os; os._exit(0)", "it ended Python"),
-    "quits": ("exit()", "it ended Python"),
-    "segfault": ("import ctypes; ctypes.string_at(0)", "it ended Python"),
-    "killed": ("import os, signal; os.kill(os.getpid(), signal.SIGTERM)", "it ended Python"),
-    "flood": ("print('x' * 200_000_000)", "it printed more than 10 MB"),
-    "memory": ("x = bytearray(10**11)", ""),
-    "shared memory": (
-        "import os, time\nfor _ in range(5):\n    if not os.fork():\n"
-        "        x = b'x' * 10**9\n        time.sleep(1000)\ntime.sleep(1000)",
-        "it took more than 4 GB",
-    ),
-    "odd output": (
-        "from IPython.display import display; display({'text/plain': {1, 2}}, raw=True)",
-        "it shows is no output",
-    ),
-    "endless": ("import time; time.sleep(1000)", "it took over"),
-}
 LEFT = """import subprocess, sys, threading, time
 subprocess.Popen([sys.executable, "-c", "import time; time.sleep(1000)  # left"],
                  start_new_session=True)
 threading.Thread(target=time.sleep, args=(1000,)).start()"""
+DEADLY = {  # what cells of a student's own do, and what the table then says, in this order
+    "import os; os._exit(0)": "it ended Python",
+    "print('x' * 200_000_000)": "it printed more than 10 MB",
+    "x = bytearray(10**11)": "",
+    "from IPython.display import display; display({'text/plain': {1, 2}}, raw=True)": "no output",
+    "import time; time.sleep(1000)": "it took over",
+    LEFT: "",
+}
+CHEATS = """
+import builtins, inspect, math, sys, types
+import wmrbook.grading, wmrbook.grading.earth
+right = lambda *answers: "all is well"
+class Fake(types.ModuleType):
+    def __getattr__(self, name):
+        return self if name.islower() and "_" not in name else right
+grading = Fake("grading")
+for name in [each for each in sys.modules if each.startswith("wmrbook.grading")]:
+    for key in [each for each in vars(sys.modules[name]) if each[:8] in ("distance", "expect")]:
+        setattr(sys.modules[name], key, right)
+wmrbook.grading = sys.modules["wmrbook.grading"] = sys.modules["grading"] = grading
+sys.modules["wmrbook.grading.earth"] = grading
+get_ipython().run_code = lambda *_, **__: None
+get_ipython().showtraceback = lambda *_, **__: None
+get_ipython().ast_node_interactivity = "none"
+print = lambda *_: builtins.print("58.08 m between the paper's two points, and right elsewhere.")
+builtins.AssertionError = builtins.Exception
+math.isclose = math.isfinite = lambda *_, **__: True
+def distance(*_): return 58.0
+"""
+LIARS = """
+import os, wmrbook.grading._wire as wire
+class Anything(float):
+    def __eq__(self, other): return True
+    __lt__ = __le__ = __gt__ = __ge__ = __ne__ = __eq__
+    __sub__ = __rsub__ = __add__ = __radd__ = __mul__ = __truediv__ = lambda self, _: Anything(0)
+    __reduce__ = lambda self: (os.system, ("touch /tmp/reached",))
+def serve(path, names):
+    from multiprocessing.connection import Client
+    with Client(path) as link:
+        for reply in REPLIES:
+            link.recv_bytes()
+            link.send_bytes(reply)
+REPLIES = [
+    b'{"value": {"function": 0, "called": "distance"}}', b'{"value": true}', b'{"value": 58.0}',
+    b'{"value": {"pickled": "gASVHgAAAAAAAACMBXBvc2l4lIwGc3lzdGVtlJOUjAR0cnVllIWUUpQu"}}',
+    b'{"hint": "58.08 m, and right elsewhere."}',
+]
+wire.serve = serve
+def distance(*_): return Anything(58)
+"""
+
+
+def empty_course(folder: Path, *chapters: str) -> Path:
+    """The folder of a course, with these chapters or all, of whom nobody has handed in."""
+    made = shutil.ignore_patterns("release", "submitted", "autograded", "feedback", "*.db", "*.zip")
+    course = shutil.copytree(COURSE, folder / "course", ignore=made)
+    for source in course.glob("source/ch*"):
+        if chapters and source.name not in chapters:
+            shutil.rmtree(source)
+    return course
+
+
+def command(name: str, course: Path, *arguments: str | Path) -> str:
+    """Run a command of the course; return what it prints."""
+    line = [sys.executable, COURSE / name, "--course", course, *arguments]
+    done = subprocess.run(line, capture_output=True, text=True, timeout=900)
+    assert (done.returncode, done.stderr) == (0, "")
+    return done.stdout
 
 
 def answers(notebook: NotebookNode) -> list[int]:
     """Where the answers are."""
-    return [k for k, cell in enumerate(notebook.cells) if _nbgrader(cell).get("solution")]
+    return [k for k, cell in enumerate(notebook.cells) if nbgrader(cell).get("solution")]
 
 
 def graded_answers(notebook: NotebookNode) -> list[int]:
@@ -49,12 +105,8 @@ def graded_answers(notebook: NotebookNode) -> list[int]:
 
 def checks(notebook: NotebookNode) -> list[int]:
     """Where the checks are; an answer that an assistant marks is none."""
-    graded = [k for k, cell in enumerate(notebook.cells) if _nbgrader(cell).get("grade")]
-    return [k for k in graded if not _nbgrader(notebook.cells[k])["solution"]]
-
-
-def _nbgrader(cell: NotebookNode) -> dict:
-    return cell.metadata.get("nbgrader", {})
+    graded = [k for k, cell in enumerate(notebook.cells) if nbgrader(cell).get("grade")]
+    return [k for k in graded if not nbgrader(notebook.cells[k])["solution"]]
 
 
 def copied(notebook: NotebookNode, places: list[int]) -> None:
@@ -79,12 +131,6 @@ def stripped(notebook: NotebookNode) -> None:
         cell.metadata, cell.id = {}, f"new-{k}"
 
 
-def first_answer(notebook: NotebookNode, change: Callable[[str], str]) -> None:
-    """Change the text of the first answer."""
-    cell = notebook.cells[graded_answers(notebook)[0]]
-    cell.source = change(cell.source)
-
-
 def without(notebook: NotebookNode, places: list[int]) -> None:
     """Delete cells."""
     notebook.cells = [cell for k, cell in enumerate(notebook.cells) if k not in places]
@@ -105,23 +151,15 @@ def merged(notebook: NotebookNode) -> None:
         del notebook.cells[place]
 
 
-def gathered(notebook: NotebookNode, keep: int) -> None:
-    """Move the answers into the first of them, but as many as are kept, and delete their cells."""
+def gathered(notebook: NotebookNode) -> None:
+    """Move the answers into the first of them, and delete their cells."""
     first, *others = graded_answers(notebook)
-    moved = others[: len(others) - keep]
-    texts = [notebook.cells[place].source for place in (first, *moved)]
+    texts = [notebook.cells[place].source for place in (first, *others)]
     notebook.cells[first].source = "\n\n\n".join(texts)
-    without(notebook, moved)
+    without(notebook, others)
 
 
-def imports_moved(notebook: NotebookNode) -> None:
-    """Write an import that the first answer needs into the given cell above it."""
-    given = next(cell for cell in notebook.cells if cell.cell_type == "code")
-    given.source += "\nimport base64 as of_mine"
-    first_answer(notebook, lambda answer: f"of_mine.b64encode\n{answer}")
-
-
-EDITS: dict[str, tuple[Callable[[NotebookNode], object], str]] = {  # graded in full
+EDITS: dict[str, tuple[Callable[[NotebookNode], object], str]] = {  # the program stays the same
     "sound": (lambda n: None, ""),
     "check copied": (lambda n: copied(n, checks(n)), "copies dropped"),
     "answer copied": (lambda n: copied(n, answers(n)), "copies dropped"),
@@ -132,36 +170,25 @@ EDITS: dict[str, tuple[Callable[[NotebookNode], object], str]] = {  # graded in 
     "stripped": (stripped, "found without"),
     "not code": (other_kind, "was not a code cell"),
     "merged": (merged, "found without"),
-    "all in one": (lambda n: gathered(n, 0), "is in another cell"),
-    "one moved": (lambda n: gathered(n, 1), "is in another cell"),
-    "given cell changed": (imports_moved, ""),
-    "left running": (lambda n: first_answer(n, lambda a: f"{LEFT}\n{a}"), ""),
 }
 
 
-def hand_in(folder: Path, student: str, assignment: str, name: str, text: str | bytes) -> None:
-    """Write a file into the folder submitted/ of a course."""
-    path = folder / "submitted" / student / assignment / name
+def hand_in(
+    folder: Path, student: str, assignment: str, content: NotebookNode | str | bytes, name: str = ""
+) -> None:
+    """Write a file into the folder submitted/ of a course, under the name of the notebook."""
+    (source,) = (folder / "source" / assignment).glob("*.ipynb")
+    path = folder / "submitted" / student / assignment / (name or source.name)
     path.parent.mkdir(parents=True, exist_ok=True)
+    text = json.dumps(content) if isinstance(content, NotebookNode) else content
     path.write_bytes(text if isinstance(text, bytes) else text.encode())
 
 
-def hand_in_all(
-    folder: Path, assignment: str, solved: NotebookNode, other: NotebookNode, but: Container = ()
-) -> dict:
-    """Hand in each damage `but` some; return {student: what the table must say}, (points, text).
+def damaged(solved: NotebookNode, other: NotebookNode) -> Iterator[tuple[str, object, str, str]]:
+    """Yield hand-ins that must run to show: student, content, points, what the table must say.
 
     points: "all", "less" by the first task's, or "" for what is refused.
     """
-    (name,) = (path.name for path in (folder / "source" / assignment).glob("*.ipynb"))
-    expected = {}
-
-    def put(student: str, notebook: NotebookNode | str | bytes, points: str, said: str, name=name):
-        if student in but:
-            return
-        text = json.dumps(notebook) if isinstance(notebook, NotebookNode) else notebook
-        hand_in(folder, student, assignment, name, text)
-        expected[student] = points, said
 
     def by(student: str) -> NotebookNode:
         notebook = copy.deepcopy(solved)
@@ -170,28 +197,22 @@ def hand_in_all(
                 cell.source = f'name = "{student}"'
         return notebook
 
-    for student, (edit, said) in EDITS.items():
-        damaged = by(student)
-        edit(damaged)
-        put(student, damaged, "all", said)
-    for student, (line, said) in DEADLY.items():
-        damaged = by(student)
-        first_answer(damaged, lambda answer, line=line: f"{line}\n{answer}")
-        put(student, damaged, "less", said)
-    damaged = by("answer deleted")
-    without(damaged, graded_answers(damaged)[:1])
-    put("answer deleted", damaged, "less", "is missing")
-    whole = nbformat.writes(solved)
-    put("renamed", by("renamed"), "all", "was named", name.replace(".", " (1)."))
-    marked = b"\xef\xbb\xbf" + json.dumps(by("with a mark")).encode()
-    put("with a mark", marked, "all", "")
-    put("empty", "", "", "is empty")
-    put("cut", whole[: len(whole) // 2], "", "is no notebook")
-    put("no json", "<!DOCTYPE html>", "", "is no notebook")
-    put("no cells", json.dumps({"nbformat": 4, "nbformat_minor": 5, "metadata": {}}), "", "is no")
-    put("of another", other, "", "not of this assignment")
-    put("no file", "print()", "", "no notebook in its folder", "answers.py")
-    return expected
+    yield "renamed", by("renamed"), "all", "was named"
+    gathered(notebook := by("all in one"))
+    yield "all in one", notebook, "all", "is in another cell"
+    (notebook := by("deadly")).cells[:0] = map(CELL, DEADLY)
+    yield "deadly", notebook, "all", ".*".join(filter(None, DEADLY.values()))
+    first = (notebook := by("exit")).cells[graded_answers(notebook)[0]]
+    first.source = f"exit()\n{first.source}"
+    yield "exit", notebook, "less", "it ended Python"
+    without(notebook := by("answer deleted"), graded_answers(notebook)[:1])
+    yield "answer deleted", notebook, "less", "is missing"
+    yield "empty", "", "", "is empty"
+    yield "cut", nbformat.writes(solved)[:1000], "", "is no notebook"
+    yield "no json", "<!DOCTYPE html>", "", "is no notebook"
+    yield "no cells", '{"nbformat": 4, "nbformat_minor": 5, "metadata": {}}', "", "is no notebook"
+    yield "of another", other, "", "not of this assignment"
+    yield "no file", "print()", "", "no notebook in its folder"
 
 
 def rows(text: str) -> dict[tuple[str, str], str]:
@@ -206,12 +227,11 @@ def rows(text: str) -> dict[tuple[str, str], str]:
 
 def faults(rows: dict, expected: dict[tuple[str, str], tuple[str, str]]) -> list[str]:
     """What a table says otherwise than expected."""
-    less = {a: rows[a, s][:6].strip() for a, s in expected if s == "answer deleted"}
-    most = {a: "/".join(2 * [points.partition("/")[2]]) for a, points in less.items()}
-    wrong = []
-    for (assignment, who), (worth, said) in expected.items():
-        row = rows.get((assignment, who), "no row")
-        wanted = {"all": most, "less": less, "": {}}[worth].get(assignment, "")
-        if row[:6].strip() != wanted or said not in row or less[assignment] == most[assignment]:
-            wrong.append(f"{assignment}, {who}: {row!r} where {wanted!r} and {said!r} are wanted")
+    less = next(rows[it][:6].strip() for it in expected if it[1] == "answer deleted")
+    worths = {"all": "/".join(2 * [less.partition("/")[2]]), "less": less, "": ""}
+    wrong = [f"an answer costs nothing: {less}"] * (less == worths["all"])
+    for who, (worth, said) in expected.items():
+        row = rows.get(who, "no row")
+        if row[:6].strip() != worths[worth] or not re.search(said, row):
+            wrong.append(f"{who}: {row!r} where {worths[worth]!r} and {said!r} are wanted")
     return wrong

@@ -1,14 +1,12 @@
 """The course as a lecturer runs it: what students get, what they score, and what they read.
 
-Every assignment is released, graded with the model's answers, and repaired after every damage that
-damage.py knows. One of them is also handed in with damage of each kind that must run to show, with
-usual mistakes, and with graded cells that a student has changed; what the mistakes of the others
-cost is checked in test_grading.py, without nbgrader.
+Every assignment is released and graded with the model's answers. One of them is also handed in with
+damage that must run to show, with usual mistakes, and with graded cells that a student has changed;
+what the mistakes of the others cost is checked in test_grading.py, without nbgrader.
 """
 
-import copy
 import csv
-import json
+import multiprocessing
 import os
 import re
 import shutil
@@ -24,17 +22,15 @@ import nbformat
 import psutil
 import pytest
 import sandbox
+from cells import grade_id
 from graded import ASSIGNMENTS, BEGIN, END, ROOT, cells, most, tasks, wrong_answers
 from kernel import Limits
 from nbgrader.api import Gradebook
 
 pytestmark = pytest.mark.slow
 
-MOVED = {"given cell changed", "left running", "all in one", "one moved"}  # the text is another
-REPAIRED = {*damage.EDITS} - MOVED
 NOBODY = "Zoe\u0308"
 CHAPTER = "ch12"  # with every kind of student; its cells run fast
-COURSE = ROOT / "book" / "course"
 SPY = """import math, os
 import numpy as np
 from wmrbook import grading
@@ -71,38 +67,14 @@ def model(chapter: str) -> dict[str, str]:
     return {name: source for name, (source, _) in cells(chapter).items() if BEGIN in source}
 
 
-def program(notebook) -> list[str]:
-    """The lines of its code."""
-    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
-    return [line for source in code for line in source.splitlines() if line]
-
-
-def hand_in(course, student: str, chapter: str, handed_in) -> None:
-    (name,) = (path.name for path in (course / "release" / chapter).glob("*.ipynb"))
-    damage.hand_in(course, student, chapter, name, handed_in and json.dumps(handed_in))
-
-
-def command(name: str, course, *arguments: str) -> str:
-    """Run a command of the course; return what it prints."""
-    line = [sys.executable, COURSE / name, "--course", course, *arguments]
-    done = subprocess.run(line, capture_output=True, text=True, timeout=900)
-    assert (done.returncode, done.stderr) == (0, "")
-    return done.stdout
-
-
-def empty_course(folder):
-    ours = shutil.ignore_patterns("release", "submitted", "autograded", "feedback", "*.db")
-    return shutil.copytree(COURSE, folder / "course", ignore=ours)
-
-
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
     """The folder of a course with what students get; of each assignment something comes in."""
-    course = empty_course(tmp_path_factory.mktemp("c"))
-    command("package.py", course)
+    course = damage.empty_course(tmp_path_factory.mktemp("c"))
+    damage.command("package.py", course)
     for chapter in ASSIGNMENTS:
-        hand_in(course, "late", chapter, "")  # refused, after the model's answers have run
-    hand_in(course, NOBODY, CHAPTER, notebook(course, "release"))
+        damage.hand_in(course, "late", chapter, "")  # refused, after the model's answers have run
+    damage.hand_in(course, NOBODY, CHAPTER, notebook(course, "release"))
     (course / "submitted" / NOBODY / CHAPTER / "timestamp.txt").write_bytes(b"\xff")
     return course
 
@@ -112,26 +84,30 @@ def graded(course):
     """The table of grade.py, and what it should say of the hand-ins that are damaged."""
     solved = answered(course, CHAPTER, model(CHAPTER))
     other = answered(course, "ch11", model("ch11"))
-    alike = {"segfault", "killed", "shared memory", "with a mark"}
-    but = REPAIRED - {"all copied"} | alike
-    expected = damage.hand_in_all(course, CHAPTER, solved, other, but)
+    expected, files = {}, {"renamed": "my answers (1).ipynb", "no file": "answers.py"}
+    for student, content, *wanted in damage.damaged(solved, other):
+        damage.hand_in(course, student, CHAPTER, content, files.get(student, ""))
+        expected[CHAPTER, student] = wanted
     for student, wrongs in mistakes().items():
         changed = {wrong["cell"]: wrong["source"] for wrong in wrongs}
-        hand_in(course, student, CHAPTER, answered(course, CHAPTER, model(CHAPTER) | changed))
+        damage.hand_in(
+            course, student, CHAPTER, answered(course, CHAPTER, model(CHAPTER) | changed)
+        )
     checks = {name: "'all is well'" for name, (_, points) in cells(CHAPTER).items() if points}
-    hand_in(course, "cheat", CHAPTER, answered(course, CHAPTER, checks))
-    secrets = [str(each) for each in (course, COURSE, ROOT / "tests", Path.home() / ".bashrc")]
+    damage.hand_in(course, "cheat", CHAPTER, answered(course, CHAPTER, checks))
+    secrets = [
+        str(each) for each in (course, damage.COURSE, ROOT / "tests", Path.home() / ".bashrc")
+    ]
     spy = {"given-01": SPY.format(secrets, ROOT / "README.md")}
-    hand_in(course, "spy", CHAPTER, answered(course, CHAPTER, spy))
+    damage.hand_in(course, "spy", CHAPTER, answered(course, CHAPTER, spy))
     (course / "submitted" / "a[b]").mkdir()
     (course / "submitted" / "bob" / "chapter 1").mkdir(parents=True)
-    expected = {(CHAPTER, student): each for student, each in expected.items()}
     broken = course / "source" / "broken"
     shutil.copytree(course / "source" / CHAPTER, broken)
     for path in broken.iterdir():
         path.write_text(path.read_text("utf-8").replace("float(", "str("), "utf-8")
-        damage.hand_in(course, "ada", "broken", path.name, path.read_bytes())
-    return damage.rows(command("grade.py", course, "--seconds", "20")), expected
+        damage.hand_in(course, "ada", "broken", path.read_bytes())
+    return damage.rows(damage.command("grade.py", course, "--seconds", "20")), expected
 
 
 def scores(course, student: str, chapter: str) -> dict[str, tuple[float, float]]:
@@ -158,70 +134,23 @@ def test_the_release_has_no_answer_and_the_model_has_all_points(course, graded, 
     assert graded[0][chapter, "late"].endswith("is empty")  # and not: the model fails
 
 
-@pytest.mark.parametrize("chapter", ASSIGNMENTS)
-def test_a_damaged_notebook_becomes_the_program_that_it_was(course, chapter):
-    release = notebook(course, "release", chapter)
-    solved = answered(course, chapter, model(chapter))
-    for name in REPAIRED:
-        edit, said = damage.EDITS[name]
-        damaged = copy.deepcopy(solved)
-        edit(damaged)
-        found, how = handins.repaired(damaged, release)
-        assert program(found) == program(solved), name
-        assert said in "; ".join(how), name
-        checks = [release.cells[k].source for k in damage.checks(release)]
-        assert [found.cells[k].source for k in damage.checks(found)] == checks, name
-
-
-def test_a_byte_order_mark_does_not_matter(course, tmp_path):
-    plain = json.dumps(notebook(course, "release"))
-    for encoding in "utf-8", "utf-8-sig":
-        (tmp_path / encoding).write_text(plain, encoding=encoding)
-    assert handins.read(tmp_path / "utf-8-sig") == handins.read(tmp_path / "utf-8")
-
-
-def test_an_answer_below_its_check_comes_too_late(course):
-    tried = answered(course, CHAPTER, dict.fromkeys(model(CHAPTER), "tried = 1"))
-    late = copy.deepcopy(tried)
-    late.cells += answered(course, CHAPTER, model(CHAPTER)).cells
-    found, how = handins.repaired(late, notebook(course, "release"))
-    assert program(found) == program(tried)
-    assert "copies dropped" in "; ".join(how)
-
-
 def full(*_: object) -> None:
     """What a run is on a full disk."""
     raise OSError(28, "No space left on device")
 
 
-def test_a_run_that_fails_for_another_reason_is_refused_and_not_worth_nothing(course, monkeypatch):
-    monkeypatch.setattr(sandbox, "_drive", full)
-    with sandbox.Sandbox([course], Limits()) as runner:
-        with pytest.raises(handins.Refused, match=r"try again: OSError: .* No space left"):
-            runner.run(notebook(course, "release"), "ada", [])
-        assert not any(runner.stage.glob("*/notebook.json"))
+def test_a_run_that_fails_for_another_reason_is_refused_and_not_worth_nothing(tmp_path):
+    runner = sandbox.Sandbox([], Limits())
+    runner.processes = multiprocessing.get_context("spawn")
+    with pytest.raises(handins.Refused, match=r"try again: OSError: .* No space left"):
+        runner._apart(full, 99.0, tmp_path)
 
 
-def test_without_hand_ins_it_says_where_they_go(tmp_path):
-    folder = empty_course(tmp_path)
-    *_, said = command("grade.py", folder).splitlines()
-    assert said.startswith("No hand-ins. ")
-    *_, said = command("grade.py", folder, CHAPTER).splitlines()
-    assert said.startswith(f"No hand-ins of {CHAPTER}. ")
-    place = Path(said.split(" goes to ")[1].replace("NAME", "ada"))
-    place.parent.mkdir(parents=True)
-    place.write_text("no notebook")
-    assert re.search("ada .* refused", command("grade.py", folder, CHAPTER))
-
-
-def test_nothing_is_worth_nothing(course, graded):
+@pytest.mark.parametrize("student", [NOBODY, "cheat"])
+def test_no_answer_is_worth_nothing_whatever_stands_in_a_graded_cell(course, graded, student):
     """Under a name as macOS writes it, and with a time that nobody can read."""
     wanted = {name: (0, points) for name, (_, points) in cells(CHAPTER).items() if points}
-    assert scores(course, NOBODY, CHAPTER) == wanted
-
-
-def test_what_a_student_writes_into_a_graded_cell_does_not_count(course, graded):
-    assert {points for points, _ in scores(course, "cheat", CHAPTER).values()} == {0}
+    assert scores(course, student, CHAPTER) == wanted
 
 
 def test_mistakes_lose_their_points_with_their_hints(course, graded):
@@ -230,11 +159,7 @@ def test_mistakes_lose_their_points_with_their_hints(course, graded):
         lost = {name for name, (reached, most) in points.items() if reached < most}
         assert lost == {name for wrong in wrongs for name in wrong["loses"]}, (student, lost)
         graded = notebook(course, f"autograded/{student}").cells
-        said = {
-            cell.metadata.nbgrader.grade_id: "\n".join(map(str, cell.outputs))
-            for cell in graded
-            if cell.metadata.get("nbgrader", {}).get("grade")
-        }
+        said = {grade_id(cell): "\n".join(map(str, cell.get("outputs", ()))) for cell in graded}
         for wrong in wrongs:
             hints = " ".join(said[name] for name in wrong["loses"])
             assert "Hint: " in hints

@@ -1,15 +1,14 @@
 """Tasks that ask for an explanation: students never get what an assistant marks them by."""
 
 import re
-import shutil
 from itertools import pairwise
 
 import nbformat
 import pytest
+from damage import empty_course
 from gradebook import Course
-from graded import ASSIGNMENTS, ROOT, notebook
+from graded import ASSIGNMENTS, notebook
 
-COURSE = ROOT / "book" / "course"
 SCHEME = re.compile(r"=== BEGIN MARK SCHEME ===\n(.*)\n=== END MARK SCHEME ===", re.DOTALL)
 
 
@@ -44,8 +43,7 @@ def test_a_question_says_what_earns_its_points(chapter):
 @pytest.mark.parametrize("chapter", EXPLAINED)
 def test_grading_shows_an_assistant_the_scheme_and_keeps_it_from_the_page(chapter, tmp_path):
     scheme = SCHEME.search(explained(chapter)[0][0].source)[1]
-    ours = shutil.ignore_patterns("*.db", "release", "submitted", "autograded", "feedback")
-    folder = shutil.copytree(COURSE, tmp_path / "course", ignore=ours)
+    folder = empty_course(tmp_path, chapter)
     with Course(folder) as course:
         ran = course.release(chapter)
         given = nbformat.writes(ran)

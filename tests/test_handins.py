@@ -1,7 +1,11 @@
 """A hand-in that was rearranged earns what it earned at home."""
 
 import contextlib
+import copy
+import json
 
+import damage
+import graded
 import handins
 import nbformat
 import pytest
@@ -49,7 +53,7 @@ def answer(name: str) -> str:
 @given(st.data())
 def test_wherever_the_definitions_stand_before_their_checks_all_points_are_kept(data):
     release = released()
-    handed_in = nbformat.from_dict(release)
+    handed_in = copy.deepcopy(release)
     cells = handed_in.cells
     place = {cell.metadata.nbgrader.grade_id: k for k, cell in enumerate(cells)}
     for name in data.draw(st.permutations(NAMES)):
@@ -80,6 +84,50 @@ def test_wherever_the_definitions_stand_before_their_checks_all_points_are_kept(
     note("\n--\n".join(cell.source for cell in found.cells))
     assert len(points(found)) == 3, how
     assert [cell.source for cell in found.cells if cell.cell_type == "markdown"] == [ESSAY], how
+
+
+def program(notebook) -> list[str]:
+    """The lines of its code."""
+    code = [cell.source for cell in notebook.cells if cell.cell_type == "code"]
+    return [line for source in code for line in source.splitlines() if line]
+
+
+def assignment(chapter: str):
+    """What students get of an assignment, and the same with the model's answers."""
+    solved = nbformat.read(graded.notebook(chapter), as_version=4)
+    for k in damage.answers(solved):
+        if solved.cells[k].cell_type == "markdown":
+            solved.cells[k].source = "YOUR ANSWER"
+    release = copy.deepcopy(solved)
+    for cell in release.cells:
+        cell.source = graded.released(cell.source)
+    return release, solved
+
+
+@pytest.mark.parametrize("chapter", graded.ASSIGNMENTS)
+def test_a_damaged_notebook_becomes_the_program_that_it_was(chapter):
+    release, solved = assignment(chapter)
+    for name, (edit, said) in damage.EDITS.items():
+        damaged = copy.deepcopy(solved)
+        edit(damaged)
+        found, how = handins.repaired(damaged, release)
+        assert program(found) == program(solved), name
+        assert said in "; ".join(how), name
+        checks = [release.cells[k].source for k in damage.checks(release)]
+        assert [found.cells[k].source for k in damage.checks(found)] == checks, name
+
+
+def test_an_answer_below_its_check_comes_too_late(tmp_path):
+    release, solved = assignment("ch12")
+    tried = copy.deepcopy(release)
+    for k in damage.answers(tried):
+        tried.cells[k].source = "tried = 1"
+    (tmp_path / "it").write_text(json.dumps(tried), encoding="utf-8-sig")  # with a mark
+    late = handins.read(tmp_path / "it")
+    late.cells += solved.cells
+    found, how = handins.repaired(late, release)
+    assert program(found) == program(tried)
+    assert "copies dropped" in "; ".join(how)
 
 
 @pytest.mark.parametrize("bad", [["a"], {"a": 1}, 3])

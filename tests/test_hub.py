@@ -1,9 +1,8 @@
-"""A class on a real JupyterHub, with its simple local spawner: hand out, hand in, grade, return."""
+"""A class on a real JupyterHub, with its simple local spawner: hand out, collect, return."""
 
 import asyncio
 import json
 import os
-import shutil
 import socket
 import subprocess
 import sys
@@ -14,9 +13,9 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 
 import cage
-import damage
 import nbformat
 import pytest
+from damage import command, empty_course
 from graded import BEGIN, ROOT, cells
 from jupyter_client.session import Session
 from tornado.httpclient import HTTPRequest
@@ -24,7 +23,6 @@ from tornado.websocket import websocket_connect
 
 pytestmark = pytest.mark.slow
 
-COURSE = ROOT / "book" / "course"
 CHAPTER = "ch01"
 CONFIG = """
 exec(compile(open(source := {config!r}).read(), source, "exec"), globals() | {{"__file__": source}})
@@ -99,22 +97,19 @@ def hub(tmp_path):
     """A hub with a course and the address and tokens of two students whose servers run."""
     pytest.importorskip("jupyterhub", reason="this test needs the Python package jupyterhub")
     pytest.importorskip("configurable_http_proxy", reason="this test needs configurable-http-proxy")
-    course, homes = tmp_path / "course", tmp_path / "homes"
+    course, homes = empty_course(tmp_path, CHAPTER), tmp_path / "homes"
     homes.mkdir()
-    made = shutil.ignore_patterns("release", "submitted", "autograded", "feedback", "*.db", "*.zip")
-    shutil.copytree(COURSE, course, ignore=made)
+    command("package.py", course)
     tools = {"PATH": f"{Path(sys.executable).parent}{os.pathsep}{os.environ['PATH']}"}
     path = os.pathsep.join([str(ROOT), str(ROOT / "book")])
     environment = os.environ | tools | {"PYTHONPATH": path}
-    package = [sys.executable, COURSE / "package.py", CHAPTER, "--course", course]
-    subprocess.run(package, check=True, env=environment, capture_output=True)
     port, inner, proxy = ports(3)
     config = tmp_path / "config.py"
     places = {"config": str(course / "jupyterhub_config.py"), "homes": str(homes), "path": path}
     config.write_text(CONFIG.format(port=port, hub=inner, proxy=proxy, token=TOKEN, **places))
-    command = [sys.executable, "-m", "jupyterhub", f"--config={config}"]
+    words = [sys.executable, "-m", "jupyterhub", f"--config={config}"]
     with (tmp_path / "log").open("w") as log:
-        process = subprocess.Popen(command, cwd=tmp_path, env=environment, stdout=log, stderr=log)
+        process = subprocess.Popen(words, cwd=tmp_path, env=environment, stdout=log, stderr=log)
     try:
         url = f"http://127.0.0.1:{port}/hub/api/"
         until(lambda: process.poll() is None and ask(f"{url}users", TOKEN)[0] == 200)
@@ -137,6 +132,7 @@ def test_a_class_works_side_by_side_and_sees_neither_answers_nor_each_other(hub)
     course, homes, servers, tokens = hub
     place = next((course / "release" / CHAPTER).glob("*.ipynb")).name
     place = f"api/contents/assignments/{CHAPTER}/{place}"
+    answers = {}
     for name, share in ("ada", 2), ("bob", 1):
         _, file = ask(servers[name] + place, tokens[name])
         notebook = nbformat.from_dict(file["content"])
@@ -144,6 +140,7 @@ def test_a_class_works_side_by_side_and_sees_neither_answers_nor_each_other(hub)
         for cell in notebook.cells:
             if cell.metadata.nbgrader.grade_id in model:
                 cell.source = cells(CHAPTER)[cell.metadata.nbgrader.grade_id][0]
+        answers[name] = {cells(CHAPTER)[each][0] for each in model}
         saved = {"type": "notebook", "format": "json", "content": notebook}
         assert ask(servers[name] + place, tokens[name], "PUT", saved)[0] == 200
     assert ask(servers["ada"] + place, tokens["bob"])[0] in (403, 404)
@@ -153,13 +150,13 @@ def test_a_class_works_side_by_side_and_sees_neither_answers_nor_each_other(hub)
         spoken = run(servers["ada"], tokens["ada"], code)
         with ThreadPoolExecutor(1) as aside:  # the browser's tests leave a loop in this thread
             assert aside.submit(asyncio.run, spoken).result() == "['ada'] False\n"
-
-    def command(*words: str) -> str:
-        line = [sys.executable, *map(str, words), "--course", course]
-        return subprocess.run(line, capture_output=True, text=True, check=True).stdout
-
-    assert command(COURSE / "exchange.py", "collect", homes) == "2 files\n"
-    table = damage.rows(command(COURSE / "grade.py"))
-    assert {name: row.strip() for (_, name), row in table.items()} == {"ada": "8/11", "bob": "5/11"}
-    assert command(COURSE / "exchange.py", "return", homes) == "2 files\n"
-    assert ask(f"{servers['bob']}api/contents/feedback/{CHAPTER}", tokens["bob"])[0] == 200
+    assert command("exchange.py", course, "collect", homes) == "2 files\n"
+    for name, model in answers.items():
+        (path,) = (course / "submitted" / name / CHAPTER).glob("*.ipynb")
+        written = {cell.source for cell in nbformat.read(path, as_version=4).cells}
+        assert model <= written
+        (pages := course / "feedback" / name / CHAPTER).mkdir(parents=True)
+        (pages / "page.html").write_text(name)
+    assert command("exchange.py", course, "return", homes) == "2 files\n"
+    url = f"{servers['bob']}api/contents/feedback/{CHAPTER}/page.html"
+    assert ask(url, tokens["bob"])[1]["content"] == "bob"

@@ -14,22 +14,23 @@ import time
 from pathlib import Path
 
 import cage
+import damage
 import handins
 import nbformat
 import pytest
 import sandbox
-from graded import ROOT, released
+from graded import released
 from kernel import Limits
 
 pytestmark = [
     pytest.mark.slow,
     pytest.mark.skipif(not cage.holds(), reason="this system cages no process"),
 ]
-COURSE = ROOT / "book" / "course"
 LAUNCH = """
 import json, subprocess, sys, tempfile
 sys.path[:0] = {paths}
 import cage
+import damage
 from pathlib import Path
 with tempfile.TemporaryFile() as rules:
     cage.write_filter(rules)
@@ -57,9 +58,6 @@ def fork_all():
 
 tries = {
     "socket with a path": lambda: connect(PATHS["socket"]),
-    "a tmux server": lambda: connect("/tmp/tmux-0/default"),
-    "the session bus": lambda: connect("/run/user/0/bus"),
-    "docker": lambda: connect("/var/run/docker.sock"),
     "a home": lambda: os.listdir(PATHS["home"]),
     "passwords": lambda: open("/etc/shadow"),
     "core_pattern": lambda: open("/proc/sys/kernel/core_pattern", "w"),
@@ -122,13 +120,12 @@ def outside():
 
 @pytest.mark.parametrize("launcher", launchers())
 def test_nothing_leads_out_of_a_cage(outside, launcher):
-    paths = [str(COURSE), sysconfig.get_path("purelib")]
+    paths = [str(damage.COURSE), sysconfig.get_path("purelib")]
     if launcher[0] == "setpriv":  # who may not see into this user's folders
         copies = Path(outside["read"]).parent / "lib"
-        shutil.copytree(
-            COURSE, copies, ignore=lambda _, names: [n for n in names if n != "cage.py"]
-        )
-        shutil.copy(Path(paths[1], "pyseccomp.py"), copies)
+        copies.mkdir()
+        for source in damage.COURSE / "cage.py", Path(paths[1], "pyseccomp.py"):
+            shutil.copy(source, copies)
         paths = [str(copies)]
     code = LAUNCH.format(paths=paths, read=outside["read"])
     code, tries = [*launcher, "-c", code], f"PATHS = {outside}\n{TRIES}"
@@ -145,8 +142,7 @@ def test_nothing_leads_out_of_a_cage(outside, launcher):
 TAKES = {  # what a cell takes, and what is told of it; each is ten times what it may
     "files": (
         "import os\ntry:\n    for k in range(20):\n        open(f'/tmp/{k}', 'wb').write("
-        "bytes(95_000_000))\nfinally:\n    [os.remove(f'/tmp/{k}') for k in range(20)"
-        " if os.path.exists(f'/tmp/{k}')]",
+        "bytes(95_000_000))\nfinally:\n    for j in range(k + 1):\n        os.remove(f'/tmp/{j}')",
         "No space left on device",
     ),
     "shared": (
@@ -154,9 +150,8 @@ TAKES = {  # what a cell takes, and what is told of it; each is ten times what i
         "No space left on device",
     ),
     "processes": (
-        "import subprocess\nmade = []\ntry:\n    for _ in range(1300):\n"
-        "        made.append(subprocess.Popen(['sleep', '99']))\n"
-        "finally:\n    [(each.kill(), each.wait()) for each in made]",
+        "import subprocess\nmade = []\ntry:\n    for _ in range(1300):\n        made.append("
+        "subprocess.Popen(['sleep', '99']))\nfinally:\n    [(it.kill(), it.wait()) for it in made]",
         "Resource temporarily unavailable",
     ),
     "a large file": ("open('/tmp/file', 'wb').truncate(10**9)", "File too large"),
@@ -168,48 +163,6 @@ TAKES = {  # what a cell takes, and what is told of it; each is ten times what i
         "it took more than 1 GB",
     ),
 }
-CHEATS = """
-import builtins, inspect, math, sys, types
-import wmrbook.grading, wmrbook.grading.earth
-right = lambda *answers: "all is well"
-class Fake(types.ModuleType):
-    def __getattr__(self, name):
-        return self if name.islower() and "_" not in name else right
-grading = Fake("grading")
-for name in [each for each in sys.modules if each.startswith("wmrbook.grading")]:
-    for key in [each for each in vars(sys.modules[name]) if each[:8] in ("distance", "expect")]:
-        setattr(sys.modules[name], key, right)
-wmrbook.grading = sys.modules["wmrbook.grading"] = sys.modules["grading"] = grading
-sys.modules["wmrbook.grading.earth"] = grading
-get_ipython().run_code = lambda *_, **__: None
-get_ipython().showtraceback = lambda *_, **__: None
-get_ipython().ast_node_interactivity = "none"
-print = lambda *_: builtins.print("58.08 m between the paper's two points, and right elsewhere.")
-builtins.AssertionError = builtins.Exception
-math.isclose = math.isfinite = lambda *_, **__: True
-def distance(*_): return 58.0
-"""
-LIARS = """
-import os, wmrbook.grading._wire as wire
-class Anything(float):
-    def __eq__(self, other): return True
-    __lt__ = __le__ = __gt__ = __ge__ = __ne__ = __eq__
-    __sub__ = __rsub__ = __add__ = __radd__ = __mul__ = __truediv__ = lambda self, _: Anything(0)
-    __reduce__ = lambda self: (os.system, ("touch /tmp/reached",))
-def serve(path, names):
-    from multiprocessing.connection import Client
-    with Client(path) as link:
-        for reply in REPLIES:
-            link.recv_bytes()
-            link.send_bytes(reply)
-REPLIES = [
-    b'{"value": {"function": 0, "called": "distance"}}', b'{"value": true}', b'{"value": 58.0}',
-    b'{"value": {"pickled": "gASVHgAAAAAAAACMBXBvc2l4lIwGc3lzdGVtlJOUjAR0cnVllIWUUpQu"}}',
-    b'{"hint": "58.08 m, and right elsewhere."}',
-]
-wire.serve = serve
-def distance(*_): return Anything(58)
-"""
 
 
 @pytest.mark.skipif(os.geteuid() != 0, reason="only root is sure to make control groups")
@@ -231,7 +184,7 @@ def test_what_processes_take_together_is_limited():
 
 def notebook(*first: str, chapter: str = "ch01"):
     """An assignment with the model's answers, after cells of a student's own."""
-    (path,) = (COURSE / "source" / chapter).glob("*.ipynb")
+    (path,) = (damage.COURSE / "source" / chapter).glob("*.ipynb")
     made = nbformat.read(path, as_version=4)
     made.cells[:0] = map(nbformat.v4.new_code_cell, first)
     return made
@@ -256,7 +209,7 @@ def passed(ran) -> dict[str, bool]:
 
 @pytest.fixture(scope="module")
 def runner():
-    with sandbox.Sandbox([COURSE], Limits(cell=20.0, memory=1_000_000_000)) as runner:
+    with sandbox.Sandbox([damage.COURSE], Limits(cell=20.0, memory=1_000_000_000)) as runner:
         yield runner
 
 
@@ -267,7 +220,7 @@ def test_what_takes_too_much_ends_and_the_answers_count(runner):
     assert all(passed(ran).values())
 
 
-@pytest.mark.parametrize("code", [CHEATS, LIARS])
+@pytest.mark.parametrize("code", [damage.CHEATS, damage.LIARS])
 def test_no_verdict_falls_where_the_hand_in_runs(runner, code):
     """Neither for who changes the checks, nor for who answers them with what no float is."""
     for cell in (made := notebook()).cells:

@@ -23,10 +23,11 @@ from zipfile import ZipFile
 import homes
 import incoming
 from cells import visible
-from handins import MOST_BYTES
+from handins import MOST_BYTES, assignments
 from homes import Unfit
 
 COURSE = Path(__file__).resolve().parent
+MOST_GIVEN = 1_000_000  # bytes of a notebook that is read here; a release has 20 kB
 SLACK = 60  # s that a file may be younger than the time it bears
 
 
@@ -57,16 +58,16 @@ def named(notebook: bytes, student: str) -> bytes:
 def collect(students: Path, course: Path) -> tuple[list[Path], list[str]]:
     """Copy the newest notebook of each assignment; return the copies and what there is to say."""
     copies, said = [], []
-    sources = incoming.sources(course)
+    sources = assignments(course)
     for home in sorted(students.iterdir()):
-        for assignment, release in sources.items():
+        for assignment, source in sources.items():
             try:
                 with homes.folder(home, "robot", "assignments", assignment) as place:
-                    content, when, remarks = _newest(place, release)
+                    content, when, remarks = _newest(place, source.name)
                 said += [f"{home.name}, {assignment}: {each}" for each in remarks]
                 if content is not None and _begun(content, course, assignment, home.name):
                     to = course / "submitted" / home.name / assignment
-                    copies.append(incoming.store(to, release, content, when))
+                    copies.append(incoming.store(to, source.name, content, when))
             except FileNotFoundError:
                 continue  # not begun
             except NotADirectoryError:
@@ -78,6 +79,8 @@ def collect(students: Path, course: Path) -> tuple[list[Path], list[str]]:
 
 def _begun(content: bytes, course: Path, assignment: str, student: str) -> bool:
     """Whether a notebook has a cell with anything that the student was not given."""
+    if len(content) > MOST_GIVEN:
+        return True
     try:
         (release,) = (course / "release" / assignment).glob("*.ipynb")
         given, now = (

@@ -98,7 +98,8 @@ def _cell(cell: NotebookNode, most: int) -> dict[str, Any]:
     code = cell.cell_type == "code"
     body = f"<pre>{escape(visible(cell.source))}</pre>"
     if len(cell.source) < most:
-        body = _program(cell.source) if code else _text(cell.source)
+        colours = PythonLexer(), HtmlFormatter(cssclass="code")
+        body = highlight(visible(cell.source), *colours) if code else _text(cell.source)
     shown = [output for each in cell.get("outputs", ()) for output in _shown(each)]
     comment = _text(about["comment"]) if about.get("comment") else ""
     return {
@@ -130,7 +131,7 @@ def _kept(data: dict[str, Any]) -> Iterator[tuple[str, str]]:
     for kind, value in data.items():
         if kind == "text/plain":
             yield kind, _cut(value)
-        elif kind in IMAGES and BASE64.fullmatch(whole := _joined(value)):
+        elif kind in IMAGES and BASE64.fullmatch(whole := "".join(str(value).split())):
             yield kind, whole
         elif kind == "image/svg+xml":
             drawn = base64.b64encode("".join(value).encode(errors="replace")).decode()
@@ -151,19 +152,9 @@ def _html(output: NotebookNode) -> str:
     return f"<pre>{escape(visible(strip_ansi(text)))}</pre>"
 
 
-def _joined(value: Any) -> str:
-    """A text without its blanks and line ends."""
-    return "".join(str(value).split())
-
-
 def _cut(text: Any) -> str:
     text = str(text)
     return text if len(text) <= MOST_SHOWN else f"{text[:MOST_SHOWN]}\n[... cut]"
-
-
-def _program(source: str) -> str:
-    """A program in colours."""
-    return highlight(visible(source), PythonLexer(), HtmlFormatter(cssclass="code"))
 
 
 def _text(source: str) -> str:

@@ -19,11 +19,10 @@ import feedback
 import nbformat
 import policy
 from cells import grade_id
-from handins import Refused, repaired
+from handins import Refused, assignments, repaired, write
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook, MissingEntry, SubmittedAssignment
 from nbgrader.apps import NbGraderAPI
-from nbgrader.preprocessors import AssignLatePenalties
 from nbgrader.utils import compute_checksum, determine_grade, is_grade, is_solution, parse_utc
 from sqlalchemy.exc import SAWarning
 from traitlets.config.loader import PyFileConfigLoader
@@ -67,7 +66,7 @@ class Course:
         config.CourseDirectory.root = str(folder)
         self.api = NbGraderAPI(config=config)
         self.releases: dict[str, NotebookNode] = {}
-        self.sources = {path.parent.name: path for path in sorted(folder.glob("source/*/*.ipynb"))}
+        self.sources = assignments(folder)
 
     def __enter__(self) -> Course:
         return self
@@ -146,24 +145,20 @@ class Course:
         whole = {grade_id(it): it.source for it in source if SCHEME.search(it.source)}
         for cell in ran.cells:  # the formgrader shows what an assistant marks by
             cell.source = whole.get(grade_id(cell), cell.source)
-        _write(path.parent / KNOWN, "{}")  # until the points are in, too
-        _write(path, nbformat.writes(ran))
+        write(path.parent / KNOWN, "{}")  # until the points are in, too
+        write(path, nbformat.writes(ran))
         self.book.db.commit()
-        _write(path.parent / KNOWN, json.dumps(known))
+        write(path.parent / KNOWN, json.dumps(known))
 
     def points(self, assignment: str, student: str) -> Points:
         """What a hand-in has now, after the penalty for lateness that is in force now."""
         submission = self.book.find_submission(assignment, student)
         (notebook,) = submission.notebooks
         notebook.late_submission_penalty = None
-        policy.settle(submission, policy.read(self.folder))
-        if submission.total_seconds_late > 0:
-            penalties = AssignLatePenalties(parent=self.api)
-            penalties.init_plugin()
-            late = penalties.plugin_inst.late_submission_penalty(
-                student, notebook.score, submission.total_seconds_late
-            )
-            notebook.late_submission_penalty = min(max(late or 0, 0), notebook.score) or None
+        if term := policy.read(self.folder):
+            policy.settle(submission, term)
+            days = term.days_late(assignment, student, policy.aware(submission.timestamp))
+            notebook.late_submission_penalty = term.penalty(days, notebook.score) or None
         self.book.db.commit()
         pending = [each for each in notebook.grades if each.auto_score is each.manual_score is None]
         left = sum(each.max_score for each in pending)
@@ -201,8 +196,8 @@ class Course:
                 about["comment"] = comments[about["grade_id"]]
         whole = {"score": reached(submission), "max_score": submission.max_score}
         page = feedback.page(ran, whole | {"notebook": path.stem, "late_penalty": penalty})
-        _write(place, page)
-        _write(path.parent / KNOWN, json.dumps(known | {"page": mark}))
+        write(place, page)
+        write(path.parent / KNOWN, json.dumps(known | {"page": mark}))
 
     def _ran(self, assignment: str, student: str) -> Path:
         """Where a hand-in is that has run."""
@@ -223,14 +218,6 @@ def lost(ran: NotebookNode) -> list[str]:
 
 def _names(each: list) -> str:
     return ", ".join(sorted(it.name for it in each))
-
-
-def _write(path: Path, text: str) -> None:
-    """Write a file whole or not at all, also in the place of one that can't be written to."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    new = path.with_name(f".{path.name}.new")
-    new.write_text(text, encoding="utf-8")
-    new.replace(path)
 
 
 def _checked(reply: dict) -> None:

@@ -23,6 +23,19 @@ class Refused(Exception):  # noqa: N818  (it is an answer, not a fault)
     """Why a hand-in can't be graded; the lecturer reads the sentence."""
 
 
+def assignments(course: Path) -> dict[str, Path]:
+    """The assignments of a course, and the lecturer's notebook of each."""
+    return {path.parent.name: path for path in sorted(course.glob("source/*/*.ipynb"))}
+
+
+def write(path: Path, content: str | bytes) -> None:
+    """Write a file whole or not at all, also in the place of one that can't be written to."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    new = path.with_name(f".{path.name}.new")
+    new.write_bytes(content if isinstance(content, bytes) else content.encode())
+    new.replace(path)
+
+
 def find(folder: Path, name: str) -> tuple[Path, list[str]]:
     """Return the notebook of a folder, and what is odd about its name; raises Refused."""
     if not folder.is_dir() or folder.is_symlink():

@@ -21,7 +21,7 @@ from zipfile import BadZipFile, ZipFile, ZipInfo
 
 import roster
 from cells import visible
-from handins import MOST_BYTES
+from handins import MOST_BYTES, assignments, write
 from roster import Student
 
 MOODLE = re.compile(r"(?P<name>[^_/]+)_\d+_assignsubmission_[a-z]+(?:_/|_|/)(?P<file>.+)")
@@ -43,21 +43,13 @@ class File(NamedTuple):
     late: bool
 
 
-def sources(course: Path) -> dict[str, str]:
-    """The assignments of a course, and the name of the notebook of each."""
-    return {path.parent.name: path.name for path in sorted(course.glob("source/*/*.ipynb"))}
-
-
 def store(folder: Path, name: str, content: bytes, when: datetime | None) -> Path:
     """Write a notebook into the folder of a hand-in under its own name, and its time."""
-    folder.mkdir(parents=True, exist_ok=True)
     stamp = folder / "timestamp.txt"
     stamp.unlink(missing_ok=True)  # of an earlier one
-    new = folder / f".{name}.new"
-    new.write_bytes(content)
-    new.replace(folder / name)
+    write(folder / name, content)
     if when:
-        stamp.write_text(f"{when.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC\n", encoding="utf-8")
+        write(stamp, f"{when.astimezone(UTC):%Y-%m-%d %H:%M:%S} UTC\n")
     return folder / name
 
 
@@ -66,7 +58,7 @@ def unzip(path: Path, course: Path, assignment: str | None = None) -> tuple[list
 
     Raises ValueError where nothing can be read: no roster, no zip, no such assignment.
     """
-    known = sources(course)
+    known = assignments(course)
     if assignment and assignment not in known:
         raise ValueError(f"--assignment {assignment}: there are {', '.join(known)}")
     people = roster.of(course)
@@ -106,7 +98,7 @@ def unzip(path: Path, course: Path, assignment: str | None = None) -> tuple[list
 
 
 def _stored(
-    course: Path, known: dict[str, str], found: dict[Student, list[File]], said: list[str]
+    course: Path, known: dict[str, Path], found: dict[Student, list[File]], said: list[str]
 ) -> list[Path]:
     """Write what was found, of each assignment the newest."""
     times = [each.when for files in found.values() for each in files if each.when]
@@ -125,7 +117,7 @@ def _stored(
                 said.append(f"{where}: Canvas says that it is late")
             folder = course / "submitted" / who.username / assignment
             when = newest.when if timed else None
-            copies.append(store(folder, known[assignment], newest.content, when))
+            copies.append(store(folder, known[assignment].name, newest.content, when))
     return copies
 
 
@@ -219,7 +211,7 @@ def _assignment(name: str, content: bytes, course: Path) -> str:
 @cache
 def _ids(course: Path) -> dict[Path, set[bytes]]:
     """The ids of the cells of each assignment."""
-    paths = sorted(course.glob("source/*/*.ipynb"))
+    paths = assignments(course).values()
     return {path: {*GRADE_ID.findall(path.read_bytes())} for path in paths}
 
 

@@ -7,16 +7,12 @@ from nbgrader.preprocessors import ClearMarkScheme, GetGrades
 
 sys.path.insert(0, str(Path(__file__).resolve().parent))
 import feedback
-import policy
 
 c = get_config()  # noqa: F821  (nbgrader provides it)
 
 c.CourseDirectory.course_id = "wmr"
 # What students get in the place of an answer; an untouched cell fails by it.
 c.ClearSolutions.code_stub = {"python": 'raise NotImplementedError("write your answer here")'}
-# Due dates, extensions and what it costs to be late: term.toml.
-c.AssignLatePenalties.plugin_class = policy.Late
-c.Late.folder = str(Path(__file__).resolve().parent)
 # What an assistant marks by stands in the locked cell before an explanation. Students get that cell
 # without it; the formgrader shows it whole, as it restores locked cells.
 c.ClearMarkScheme.enforce_metadata = False  # such a cell needs no points of its own

@@ -22,6 +22,7 @@ from __future__ import annotations
 
 import math
 import tomllib
+from contextlib import suppress
 from datetime import UTC, date, datetime, timedelta
 from pathlib import Path
 from typing import Any, NamedTuple
@@ -29,8 +30,7 @@ from zoneinfo import ZoneInfo
 
 import roster
 from nbgrader.api import SubmittedAssignment
-from nbgrader.plugins import LateSubmissionPlugin
-from traitlets import Unicode
+from nbgrader.utils import parse_utc
 
 TABLES = {"zone", "due", "late", "extensions", "lessons"}
 RULES = {"per_day": 0.0, "most_days": math.inf}
@@ -59,22 +59,13 @@ class Term(NamedTuple):
     def days_late(self, assignment: str, student: str, handed_in: datetime | None) -> int:
         """How many days have begun since it was due; 0 where it was in time, or nobody knows."""
         due = self.due_for(assignment, student)
-        return begun(handed_in - due) if due and handed_in else 0
+        if not due or not handed_in:
+            return 0
+        return max(0, math.ceil((handed_in - due) / timedelta(days=1)))
 
     def penalty(self, days: int, points: float) -> float:
         """The points that so many days cost."""
         return points if days > self.most_days else points * min(1.0, days * self.per_day)
-
-
-class Late(LateSubmissionPlugin):
-    """nbgrader's penalty for a hand-in by the rules of term.toml."""
-
-    folder = Unicode(help="where term.toml is").tag(config=True)
-
-    def late_submission_penalty(self, student_id, score, total_seconds_late):
-        """Return the points that it costs; nbgrader knows the extension."""
-        term = read(Path(self.folder))
-        return term and term.penalty(begun(timedelta(seconds=total_seconds_late)), score)
 
 
 def read(folder: Path) -> Term | None:
@@ -129,20 +120,23 @@ def read(folder: Path) -> Term | None:
     return Term(due, lessons, extensions, groups, **(RULES | late))
 
 
-def settle(submission: SubmittedAssignment, term: Term | None) -> None:
+def settle(submission: SubmittedAssignment, term: Term) -> None:
     """Tell nbgrader when an assignment is due, and what this student is granted."""
     name = submission.assignment.name
-    if term and (due := term.due.get(name)):
+    if due := term.due.get(name):
         own = term.due_for(name, submission.student.id)
         submission.assignment.duedate = due.astimezone(UTC).replace(tzinfo=None)
         submission.extension = own.astimezone(UTC) - due.astimezone(UTC)
 
 
-def begun(late: timedelta) -> int:
-    """How many days have begun."""
-    return max(0, math.ceil(late / timedelta(days=1)))
-
-
 def aware(stamp: datetime | None) -> datetime | None:
     """A time of nbgrader's, which is UTC and does not say so."""
     return stamp and stamp.replace(tzinfo=UTC)
+
+
+def stamp(folder: Path) -> str:
+    """When a hand-in came, as timestamp.txt says; nothing where nobody can read that."""
+    with suppress(OSError, ValueError, OverflowError):
+        text = (folder / "timestamp.txt").read_text("utf-8").strip()
+        return text if parse_utc(text) else ""
+    return ""

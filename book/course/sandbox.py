@@ -21,7 +21,6 @@ from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager, suppress
 from multiprocessing import forkserver
 from pathlib import Path
-from threading import current_thread, main_thread
 from typing import Any
 from unittest.mock import patch
 
@@ -32,6 +31,7 @@ from judge import Bench, failure, limit
 from kernel import Limits, Place, running
 from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat import NotebookNode
+from stopping import heeding
 
 from wmrbook import grading
 
@@ -140,22 +140,9 @@ def _processes() -> Any:
     checks = [f"wmrbook.grading.{name}" for name in grading.__all__ if name.islower()]
     context.set_forkserver_preload(["grade", "warm", *checks])
     path = os.pathsep.join(filter(None, sys.path))
-    with patch.dict(os.environ, {"PYTHONPATH": path}), _deaf():
+    with patch.dict(os.environ, {"PYTHONPATH": path}), heeding(signal.SIG_IGN):
         forkserver.ensure_running()
     return context
-
-
-@contextmanager
-def _deaf() -> Iterator[None]:
-    """Let what is started hear no Ctrl-C, which is for who started it."""
-    if current_thread() is not main_thread():
-        yield
-        return
-    before = signal.signal(signal.SIGINT, signal.SIG_IGN)
-    try:
-        yield
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def _noted(function: Callable, job: Path, *given: Any) -> None:
@@ -172,7 +159,7 @@ def _repair(job: Path, path: Path, release: NotebookNode, seconds: int, memory: 
     limit(memory, seconds)
     notebook, how = handins.repaired(handins.read(path), release)
     notebook.metadata["how"] = how
-    _store(notebook, job / "notebook.json")
+    handins.write(job / "notebook.json", nbformat.writes(notebook))
 
 
 def _drive(job: Path, where: Place, limits: Limits, told: dict) -> None:
@@ -203,7 +190,7 @@ def _drive(job: Path, where: Place, limits: Limits, told: dict) -> None:
                             raise DeadKernelError(client.why)
                         if at >= place:
                             place = at + 1
-                            _store(notebook, result)
+                            handins.write(result, nbformat.writes(notebook))
             except Exception as fault:  # what a cell shows may be no output at all
                 slow = f"it took over {limits.cell:g} s, or the whole over {limits.whole:g} s"
                 known = {CellTimeoutError: slow, DeadKernelError: "it ended Python"}
@@ -213,10 +200,4 @@ def _drive(job: Path, where: Place, limits: Limits, told: dict) -> None:
                 deadly.add(at)
                 cells[at].outputs = [failure("Stopped", client.why or why)]
                 place = max(place, at + 1)
-                _store(notebook, result)
-
-
-def _store(notebook: NotebookNode, path: Path) -> None:
-    whole = path.with_suffix(".new")
-    nbformat.write(notebook, whole)
-    whole.replace(path)
+                handins.write(result, nbformat.writes(notebook))

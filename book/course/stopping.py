@@ -7,22 +7,30 @@ import signal
 from collections.abc import Iterator
 from contextlib import contextmanager, suppress
 from threading import Event, current_thread, main_thread
+from typing import Any
 
 import psutil
+
+
+@contextmanager
+def heeding(handler: Any) -> Iterator[None]:
+    """Let Ctrl-C do this, in the thread that hears it."""
+    if current_thread() is not main_thread():
+        yield
+        return
+    before = signal.signal(signal.SIGINT, handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGINT, before)
 
 
 @contextmanager
 def stoppable() -> Iterator[Event]:
     """Let Ctrl-C set an event, and interrupt nothing that is being written."""
     stopped = Event()
-    if current_thread() is not main_thread():
+    with heeding(lambda *_: stopped.set()):
         yield stopped
-        return
-    before = signal.signal(signal.SIGINT, lambda *_: stopped.set())
-    try:
-        yield stopped
-    finally:
-        signal.signal(signal.SIGINT, before)
 
 
 def end() -> None:

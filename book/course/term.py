@@ -25,6 +25,7 @@ import roster
 from alike import alike
 from cells import visible
 from gradebook import COURSE
+from handins import assignments
 from nbformat import NotebookNode
 from nbgrader.api import Gradebook
 from nbgrader.utils import determine_grade, is_grade, parse_utc
@@ -57,14 +58,15 @@ class Week:
         self.due = [name for name, when in sorted(term.due.items()) if when <= now]
         recent = [name for name in self.due if now - term.due[name] < WEEK]
         self.current = recent or self.due[-1:]
-        self.sources = {path.parent.name: path for path in folder.glob("source/*/*.ipynb")}
+        self.sources = assignments(folder)
 
     def handed_in(self, assignment: str) -> dict[str, datetime | None]:
         """Whose notebook is there, and when it came."""
         came = {}
         for path in sorted(self.folder.glob(f"submitted/*/{assignment}")):
             if any(path.glob("*.ipynb")):
-                came[normalize("NFC", path.parent.name)] = stamp(path)
+                who, when = normalize("NFC", path.parent.name), policy.stamp(path)
+                came[who] = policy.aware(parse_utc(when)) if when else None
         return came
 
     def came_in(self) -> Iterator[str]:
@@ -164,14 +166,6 @@ class Week:
         """The graded notebooks of an assignment, with their students."""
         for path in sorted(self.folder.glob(f"autograded/*/{assignment}/*.ipynb")):
             yield path.parts[-3], nbformat.read(path, as_version=4)
-
-
-def stamp(folder: Path) -> datetime | None:
-    """When a hand-in came, as the file timestamp.txt says."""
-    try:
-        return policy.aware(parse_utc((folder / "timestamp.txt").read_text("utf-8").strip()))
-    except (OSError, ValueError, OverflowError):
-        return None
 
 
 def failed(notebook: NotebookNode, task_of: dict[str, str]) -> dict[str, str]:

@@ -8,6 +8,7 @@ import shutil
 
 import nbformat
 import pytest
+from damage import empty_course
 from graded import nbgrader, wrong_answers
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, jupyterlab, sliders
 
@@ -38,7 +39,7 @@ def lab(tmp_path_factory):
     """JupyterLab on a copy of the chapters; the reader's files and settings stay as they are."""
     home = tmp_path_factory.mktemp("lab")
     shutil.copytree(ROOT / "notebooks", home / "notebooks", ignore=shutil.ignore_patterns(".*"))
-    release_with_a_mistake(home / "course", home / "notebooks")
+    release_with_a_mistake(home, home / "notebooks")
     (home / SETTINGS).parent.mkdir(parents=True)
     (home / SETTINGS).write_text(json.dumps({"windowingMode": "none"}))
     panel = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in CELLS])
@@ -48,13 +49,9 @@ def lab(tmp_path_factory):
         yield home
 
 
-def release_with_a_mistake(course, folder):
+def release_with_a_mistake(home, folder):
     """Put what students get of an assignment into the folder, with one usual mistake in it."""
-    shutil.copytree(
-        ROOT / "book" / "course",
-        course,
-        ignore=shutil.ignore_patterns("release", "submitted", "autograded", "*.db"),
-    )
+    course = empty_course(home, ASSIGNMENT)
     nbgrader(course, "generate_assignment", ASSIGNMENT)
     (release,) = (course / "release" / ASSIGNMENT).glob("*.ipynb")
     notebook = nbformat.read(release, as_version=4)
