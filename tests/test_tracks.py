@@ -843,3 +843,18 @@ def test_bad_input_to_the_writers(tmp_path):
                 write(path, points, **options)
     assert (tmp_path / "old").read_text() == "as it was"
     assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize("write", [wmr.write_gpx, wmr.write_geojson])
+def test_a_full_disk_leaves_the_file_as_it_was(tmp_path, monkeypatch, write):
+    (file := tmp_path / "path").write_text("before")
+
+    def fills(place, text, encoding):
+        place.write_bytes(text.encode(encoding)[:10])
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_text", fills)
+    with pytest.raises(OSError, match="No space"):
+        write(file, wmr.GeoPoint(lat=1.0, lon=2.0))
+    assert file.read_text() == "before"
+    assert [*tmp_path.iterdir()] == [file]

@@ -46,7 +46,7 @@ def write_gpx(
     lon[lon == 180.0] = -180.0  # GPX 1.1: below 180
     rows = zip(lat, lon, _times(t, begin, lat.shape), strict=True)
     places = (f'<trkpt lat="{y:.7f}" lon="{x:.7f}">{time}</trkpt>' for y, x, time in rows)
-    Path(path).write_text(_GPX.format(escape(name), "\n".join(places)), "utf-8")
+    _replace(path, _GPX.format(escape(name), "\n".join(places)))
 
 
 def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmrlib") -> None:
@@ -59,7 +59,7 @@ def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmr
     kind, coordinates = ("LineString", places) if places[1:] else ("Point", places[0])
     geometry = {"type": kind, "coordinates": coordinates}
     feature = {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
-    Path(path).write_text(json.dumps(feature, ensure_ascii=False) + "\n", "utf-8")
+    _replace(path, json.dumps(feature, ensure_ascii=False) + "\n")
 
 
 def _rounded(points: GeoPoint, name: str) -> tuple[np.ndarray, np.ndarray]:
@@ -83,3 +83,14 @@ def _times(t: Any, begin: datetime | None, shape: tuple[int, ...]) -> list[str]:
     except OverflowError:
         raise refusal("t", t, "begin + t in the years 1 to 9999") from None
     return ["" if time is True else f"<time>{time.isoformat()[:-6]}Z</time>" for time in times]
+
+
+def _replace(path: str | os.PathLike, text: str) -> None:
+    """Write the file whole or leave it as it was: a disk may be full."""
+    place = Path(path)
+    new = place.with_name(f".{place.name}.new")
+    try:
+        new.write_text(text, "utf-8")
+        new.replace(place)
+    finally:
+        new.unlink(missing_ok=True)
