@@ -82,19 +82,39 @@ def answers(chapter: str) -> dict:
 
 @cache
 def wrong_answers(chapter: str) -> list[dict]:
-    """The usual mistakes: name, cell, source, hint, and the graded cells that it loses."""
+    """The usual mistakes: cell, source, hint, and exactly the graded cells that it loses."""
     found = []
-    for name, wrong in answers(chapter)["mistake"].items():
-        loses = wrong["loses"].split()
-        cell = task_of(chapter, loses[0])
-        source = wrong.get("source") or edited(cells(chapter)[cell][0], wrong["edit"])
-        found.append({**wrong, "name": name, "loses": loses, "cell": cell, "source": source})
+    for loses, table in answers(chapter)["mistake"].items():
+        cell = task_of(chapter, loses.split()[0])
+        model, _ = cells(chapter)[cell]
+        for hint, wrong in table.items():
+            source = edited(model, wrong) if " => " in wrong else f"{target(model)} = {wrong}"
+            row = {"name": hint, "hint": hint, "loses": loses.split()}
+            found.append({**row, "cell": cell, "source": source})
     return found
 
 
-def edited(source: str, edits: str | list[str]) -> str:
-    """The source after one or several edits, `old => new`."""
-    for edit in [edits] if isinstance(edits, str) else edits:
+def target(model: str) -> str:
+    """The name that a cell with an answer makes."""
+    return re.match(r"(?:def )?(\w+)", model)[1]
+
+
+def whole(chapter: str, key: str, answer: str) -> str:
+    """The cell that a right or another wrong answer in the file of data stands for."""
+    task, data = task_of(chapter, key), answers(chapter)
+    model, frames = cells(chapter)[task][0], data.get("frame", {})
+    name = target(model)
+    if " => " in answer:
+        answer = edited(model, answer)
+    elif not re.search(rf"^(def )?{name}\b *[(=]", answer, re.M):
+        frame = frames.get(key) or frames.get(task) or name + " = {}"
+        answer = frame.replace("{}", answer)
+    return data.get("setup", "") + answer
+
+
+def edited(source: str, edits: str) -> str:
+    """The source after one or several edits, `old => new || old => new`."""
+    for edit in edits.split(" || "):
         old, new = edit.split(" => ")
         assert old in source, edit
         source = source.replace(old, new)
@@ -171,7 +191,7 @@ def closed() -> list[str]:
 
 @cache
 def exercises() -> dict[str, dict[str, str]]:
-    """Of the chapters' own exercises that have a check: the answer, and an edit for each hint."""
+    """Of each check of wmrbook.grading.exercises: `answer` and `more`, and an edit a hint."""
     return tomllib.loads((ROOT / "tests/data/exercises.toml").read_text(encoding="utf-8"))
 
 
@@ -181,7 +201,7 @@ def mistold(name: str) -> list[tuple[str, str]]:
 
     given, found = dict(exercises()[name]), []
     right = given.pop("answer")
-    sources = {words: edited(right, edit.split(" || ")) for words, edit in given.items()}
+    sources = {words: edited(right, edit) for words, edit in given.items()}
     for words, source in {"Right": right, "": right, **sources}.items():
         names = {}
         run_cell(source, f"<{name}>", names)

@@ -102,9 +102,7 @@ EQUIVALENT = [
     ("sweeping.py", "_ALONE_COST", "how runs are cut into chunks does not show"),
     ("sweeping.py", "in if len(chunks)", "where is compiled does not show"),
     ("symbolic/symbols.py", "'1' -> '2' in def fdiff(", "sympy passes it"),
-    ("tracks/fixes.py", "'0.0' -> '1' in back = ", "what is in order loses nothing"),
-    ("tracks/moments.py", "in _MOST_SECONDS = ", "a tolerance"),
-    ("tracks/nmea.py", "'13' -> '26' in fields +=", "fields that are not read"),
+    ("tracks/nmea.py", "'13' -> '26' in fields = ", "fields that are not read"),
     ("symbolic/formulas.py", "motion.polar_from_pose, 0, 0, 0", "what the result does not read"),
 ]
 

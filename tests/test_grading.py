@@ -1,11 +1,11 @@
 """The checks of the assignments: who is right passes, who is wrong reads a hint that says why.
 
 The answers stand in tests/data/course, a file a chapter:
-- `mistake`: usual mistakes as whole cells or as edits `old => new` of the model's, with exactly
-  the graded cells that each loses;
+- `mistake`: usual mistakes, for exactly the graded cells that each loses: {part of the hint: it};
 - `right`: other right answers, `wrong`: other wrong ones, {part of the hint: answer or answers},
-  each for a task or for one graded cell. An answer is a cell, or stands at the {} of its `frame`
-  (without one: it is what the task's name gets), or is an edit of the first right one;
+  each for a task or for one graded cell.
+An answer is one or several edits of the model, `old => new || old => new`, or what the task's name
+gets; in the last two it may be a whole cell, or stand at the {} of a `frame`;
 - `setup`: what these two may use.
 """
 
@@ -21,11 +21,12 @@ from graded import (
     ASSIGNMENTS,
     answers,
     cells,
-    edited,
     lost,
     released,
+    target,
     task_of,
     tasks,
+    whole,
     wrong_answers,
 )
 
@@ -46,20 +47,6 @@ MINE = {"trips": "home", "design": "tuned", "sampling": "slow", "lyapunov": "rig
 def asked(chapter: str) -> dict[str, list[str]]:
     """The chapter's tasks: cells with answers that are graded."""
     return {task: checks for task, checks in tasks(chapter).items() if checks}
-
-
-def whole(chapter: str, key: str, answer: str) -> str:
-    """The cell that an answer in the table stands for."""
-    task, data = task_of(chapter, key), answers(chapter)
-    target = re.match(r"(?:def )?(\w+)", cells(chapter)[task][0])[1]
-    if not re.search(rf"^(def )?{target}\b *[(=]", answer, re.M):
-        frames = data.get("frame", {})
-        frame = frames.get(key) or frames.get(task) or target + " = {}"
-        if " => " in answer:
-            answer = edited(frame.replace("{}", data["right"][task][0]), answer)
-        else:
-            answer = frame.replace("{}", answer)
-    return data.get("setup", "") + answer
 
 
 @for_students
@@ -109,11 +96,11 @@ SLIPS = {
     "swapped|changed places": "it[::-1] if np.ndim(it) == 1 else it",
 }
 RETURNS = """
-import numpy as np
+import numpy as np, wmrlib
 _model = {0}
 def {0}(*given):
     it = _model(*given)
-    return it if isinstance(it, bool) else {1}
+    return {1}
 """
 
 
@@ -123,12 +110,31 @@ def test_no_formula_is_blamed_for_a_slip(chapter):
     found = {}
     for task, (first, *_) in asked(chapter).items():
         model, _ = cells(chapter)[task]
-        name = re.match(r"def (\w+)", model)
-        for words, slip in SLIPS.items() if name and "Pose(" not in model else ():
-            hints = lost(chapter, first, model + "\n" + RETURNS.format(name[1], slip))
+        is_function = model.startswith("def ") and "Pose(" not in model
+        for words, slip in SLIPS.items() if is_function else ():
+            slip = f"it if isinstance(it, bool) else {slip}"
+            hints = lost(chapter, first, model + "\n" + RETURNS.format(target(model), slip))
             if not all(re.search(words, each) for each in hints.values()):
                 found[task, slip] = hints
     assert found == {}
+
+
+NO_ANSWER = {
+    "returns nothing: does it end in `return`": "None",
+    "needed|has to return": "'A'",
+    "asks for your own formula|may be used here": "(wmrlib.haversine_distance, it)[1]",
+}
+
+
+@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+def test_nothing_no_number_and_a_call_of_the_library_get_a_hint_each(chapter):
+    for task, checks in asked(chapter).items():
+        model, _ = cells(chapter)[task]
+        free = task in ("poses", "parked", "safe")  # they may call the library
+        for words, it in [*NO_ANSWER.items()][: 3 - free] if model.startswith("def ") else ():
+            hints = lost(chapter, task, model + "\n" + RETURNS.format(target(model), it))
+            assert list(hints) == checks
+            assert all(re.search(words, each) for each in hints.values()), hints
 
 
 # Ways to write a right answer: every number, whatever holds several, every expression.
@@ -136,15 +142,8 @@ NUMBERS = ["Fraction(it)", "Decimal(it)", "np.float64(it)", "mpmath.mpf(it)", "s
 NUMBERS += ["int(it) if it == int(it) else it", "np.array(it)", "sp.Rational(it)"]
 SEVERAL = ["tuple(it)", "list(it)", "np.array(it)", "sp.Matrix(it)", "mpmath.matrix(it)"]
 EXPRESSIONS = [
-    "sp.factor",
-    "sp.expand",
-    "sp.together",
-    "sp.trigsimp",
-    "sp.factor_terms",
-    "sp.powsimp",
-]
-EXPRESSIONS += ["sp.nsimplify", "sp.simplify", "sp.signsimp", "sp.UnevaluatedExpr", "sp.cancel"]
-EXPRESSIONS += [
+    *(f"sp.{it}" for it in ["factor", "expand", "together", "trigsimp", "factor_terms", "powsimp"]),
+    *(f"sp.{it}" for it in ["nsimplify", "simplify", "signsimp", "UnevaluatedExpr", "cancel"]),
     *("lambda it: sp.collect(it, rho)", "lambda it: it.rewrite(sp.exp)"),
     *("lambda it: sp.Mul(-1, -it, evaluate=False)", "lambda it: sp.Add(it, 0, evaluate=False)"),
     "lambda it: it.xreplace({each: sp.Symbol(each.name) for each in it.free_symbols})",
@@ -230,9 +229,7 @@ def test_a_check_hands_over_nothing_but_what_another_process_can_be_sent(chapter
         model, _ = cells(chapter)[task]
         if name := re.match(r"def (\w+)", model):
             sent = "_model(*pickle.loads(pickle.dumps(given)))"
-            model += (
-                f"\nimport pickle\n_model = {name[1]}\ndef {name[1]}(*given):\n    return {sent}"
-            )
+            model += f"\nimport pickle\n_model = {name[1]}\ndef {name[1]}(*given): return {sent}"
             for check in checks:
                 assert lost(chapter, check, model) == {}
 
@@ -260,9 +257,8 @@ def test_a_classmates_answer_is_known(chapter, monkeypatch):
             model, _ = cells(chapter)[task]
             copied = lost(chapter, task, model, "Ada", by="Emmy")
             assert list(copied) == checks
-            assert all(
-                "right with the numbers of emmy, and not" in each for each in copied.values()
-            )
+            words = "right with the numbers of emmy, and not"
+            assert all(words in each for each in copied.values())
 
 
 @pytest.mark.parametrize("make", [variants.home, variants.tuned, variants.slow])

@@ -18,9 +18,7 @@ import sympy as sp
 from nbclient import NotebookClient
 
 import wmrbook.audit
-import wmrlib
 import wmrlib as wmr
-import wmrlib.kinematics
 from wmrbook.grading import (
     Hint,
     _asking,
@@ -33,12 +31,8 @@ from wmrbook.grading import (
     verdicts,
 )
 from wmrbook.published import Published
-from wmrlib import control_law, polar_error
-from wmrlib import control_law as polar_error_of_mine
-from wmrlib import polar_error as seen_from
+from wmrlib import control_law
 
-GAINS = wmr.Gains(1.0, 2.0, 3.0)
-START, GOAL = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(1.0, 0.0, 0.0)
 ALLOWED = ("Pose", "polar_error")
 CHAPTERS = "".join(it.read_text(encoding="utf-8") for it in graded.ROOT.glob("notebooks/*.ipynb"))
 
@@ -127,62 +121,37 @@ def test_numbers_need_an_order():
             _asking.ask_numbers(lambda a=answer: a, 2)
 
 
-def by_name(*_):
-    return polar_error(START, GOAL)
-
-
-def by_module(*_):
+CELL = """
+import wmrlib, wmrlib as wmr, wmrlib.kinematics
+from wmrlib import control_law as polar_error_of_mine, polar_error, polar_error as seen_from
+GAINS = wmr.Gains(1.0, 2.0, 3.0)
+START, GOAL = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(1.0, 0.0, 0.0)
+def control(x):
+    return x
+def helper():
     return wmr.polar_error(wmr.Pose(*START), GOAL)
+def it({}): {}
+"""
 
 
-def by_submodule(*_):
-    return wmrlib.kinematics.polar_error(START, GOAL)
+def of(given: str, body: str):
+    """A student's function."""
+    names = {"__name__": __name__}
+    graded.run_cell(CELL.format(given, body), f"<{body}>", names)
+    return names["it"]
 
 
-def by_another_name(*_):
-    return seen_from(START, GOAL)
-
-
-def by_an_import_inside(*_):
-    import wmrlib.kinematics as k
-    from wmrlib import Pose
-
-    return (lambda: k.polar_error(Pose(*START), GOAL))()
-
-
-def by_a_helper(*_):
-    return by_module()
-
-
-def law_by_module(*polar):
-    return wmr.control_law(*polar, GAINS)
-
-
-def law_by_another_name(*polar):
-    return polar_error_of_mine(*polar, GAINS)
-
-
-def law_by_an_import_inside(*polar):
-    import wmrlib.control as c
-
-    return c.control_law(*polar, GAINS)
-
-
-def law_by_a_name_imported_inside(*polar):
-    from wmrlib.control import control_law as mine
-
-    return (lambda: mine(*polar, GAINS))()
-
-
-def counted(function):
-    return lambda *each: function(*each)
-
-
-HIDDEN = (
-    *(functools.cache(law_by_module), functools.partial(law_by_module), counted(law_by_module)),
-    *(np.vectorize(law_by_module), numba.njit(law_by_module), functools.cache(control_law)),
-    functools.wraps(law_by_module)(counted(law_by_module)),
-)
+SEES = [
+    *("return polar_error(START, GOAL)", "return wmr.polar_error(wmr.Pose(*START), GOAL)"),
+    *("return wmrlib.kinematics.polar_error(START, GOAL)", "return seen_from(START, GOAL)"),
+    "import wmrlib.kinematics as k; return (lambda: k.polar_error(wmr.Pose(*START), GOAL))()",
+    *("from wmrlib import Pose; return polar_error(Pose(*START), GOAL)", "return helper()"),
+]
+LAWS = [
+    *("return wmr.control_law(*polar, GAINS)", "return polar_error_of_mine(*polar, GAINS)"),
+    "import wmrlib.control as c; return c.control_law(*polar, GAINS)",
+    "from wmrlib.control import control_law as mine; return (lambda: mine(*polar, GAINS))()",
+]
 
 
 def rule_of_the_book(computed, printed):
@@ -191,70 +160,47 @@ def rule_of_the_book(computed, printed):
 
 def test_a_call_of_the_libraries_is_found_in_any_way():
     own = "this task asks for your own formula, with `math` or `numpy`"
-    allowed = [function for name, function in globals().items() if name.startswith("by_")]
-    laws = [function for name, function in globals().items() if name.startswith("law_by_")]
-    assert (len(allowed), len(laws)) == (6, 4)
+    allowed, laws = [of("*_", each) for each in SEES], [of("*polar", each) for each in LAWS]
     for function in allowed:
         assert function() == (1.0, 0.0, 0.0)
         _hints.own_work(function, *ALLOWED)
     for function in laws:
-        assert function(1.0, 0.5, 0.2) == control_law(1.0, 0.5, 0.2, GAINS)
+        assert function(1.0, 0.5, 0.2) == control_law(1.0, 0.5, 0.2, wmr.Gains(1.0, 2.0, 3.0))
         hint = "uses `control_law` of wmrlib; of it only `Pose`, `polar_error` may be used here"
         with pytest.raises(Hint, match=hint):
             _hints.own_work(function, *ALLOWED)
-    for function in [*allowed, *laws, *HIDDEN, wmr.control_law]:
+    law, ways = laws[0], (functools.cache, functools.partial, np.vectorize, numba.njit)
+    hidden = [lambda *each: law(*each), functools.wraps(law)(lambda *each: law(*each))]
+    hidden += [*(way(law) for way in ways), functools.cache(control_law), control_law]
+    for function in [*allowed, *laws, *hidden]:
         with pytest.raises(Hint, match=f"of wmrlib; {own}"):
             _hints.own_work(function)
     with pytest.raises(Hint, match=f"`fits` of wmrbook; {own}"):
         _hints.own_work(rule_of_the_book)
 
 
-def control(x):
-    return x
-
-
-@functools.cache
-def containers(x):
-    return wmr.Gains(x, 1, 1)[:3] + wmr.Pose(x, *wmr.GeoPoint(lat=1, lon=2))
-
-
-def with_data(x):
-    return GAINS.k_rho * x + START.x
-
-
-def with_names_that_wmrlib_has_too(x):
-    return wmr.polar_error(START, START).rho + control(x)
-
-
-def with_a_parameter_of_that_name(polar_error):
-    return polar_error(1.0)
-
-
-def with_a_module_that_does_not_exist(x):
-    import wmrlib.nowhere as nowhere
-
-    return nowhere.law(x)
-
-
 def test_data_and_names_of_ones_own_are_no_call():
-    assert with_data(2.0) == 2.0
+    data, unknown = (
+        of("x", "return GAINS.k_rho * x + START.x"),
+        "import wmrlib.nowhere as n; n.law()",
+    )
+    assert data(2.0) == 2.0
+    containers = "return wmr.Gains(x, 1, 1)[:3] + wmr.Pose(x, *wmr.GeoPoint(lat=1, lon=2))"
+    containers = functools.cache(of("x", containers))
+    unknown = of("x", "import wmrlib.nowhere as nowhere; return nowhere.law(x)")
+    free = [data, containers, functools.partial(containers), np.vectorize(of("x", "return x"))]
+    free += [of("polar_error", "return polar_error(1.0)"), unknown]
+    free += [eval("lambda x: wmr.wrap_angle(x)")]  # without a source
     for allowed in ((), ALLOWED):
-        for function in (
-            with_data,
-            containers,
-            functools.partial(containers),
-            np.vectorize(control),
-        ):
+        for function in free:
             _hints.own_work(function, *allowed)
-        _hints.own_work(with_a_parameter_of_that_name, *allowed)
-        _hints.own_work(with_a_module_that_does_not_exist, *allowed)
-        _hints.own_work(eval("lambda x: wmr.wrap_angle(x)"), *allowed)  # without a source
-    _hints.own_work(with_names_that_wmrlib_has_too, *ALLOWED)
+    mixed = of("x", "return wmr.polar_error(START, START).rho + control(x)")
+    _hints.own_work(mixed, *ALLOWED)  # wmrlib has a module of that name too
     _hints.own_work(lambda x: x + 1.0)  # the call around it is not the student's
     with pytest.raises(Hint, match="`wrap_angle` of wmrlib"):
         _hints.own_work(lambda x: wmr.wrap_angle(x))
     with pytest.raises(Hint, match=r"stops.* with ModuleNotFoundError"):
-        _asking.ask(with_a_module_that_does_not_exist, 1.0)
+        _asking.ask(unknown, 1.0)
 
 
 @pytest.mark.parametrize("roundings", range(-2, 3))
@@ -359,12 +305,9 @@ def test_an_expression_that_sympy_never_finishes_gets_a_hint():
     subprocess.run([sys.executable, "-c", ENDLESS], check=True, timeout=120)
 
 
-@pytest.mark.parametrize("form", [sp.expand, sp.factor, lambda it: it.rewrite(sp.exp)])
-def test_a_rate_is_right_in_any_form(form):
-    rate = wmr.symbolic.textbook(wmr.symbolic.lyapunov_rate("aicardi"))
-    assert exercises.aicardi(form(rate)).startswith("Right")
-    assert exercises.aicardi(form(rate) + sp.Rational(1, 10**6)).startswith("Hint")
-
-
-def test_a_rate_by_the_chain_rule_is_right_before_it_is_simplified():
-    assert exercises.aicardi(wmr.symbolic.lyapunov_rate("aicardi")).startswith("Right")
+def test_a_rate_is_right_in_any_form():
+    chain = wmr.symbolic.lyapunov_rate("aicardi")  # by the chain rule, and not simplified
+    rate = wmr.symbolic.textbook(chain)
+    for form in chain, sp.expand(rate), sp.factor(rate), rate.rewrite(sp.exp):
+        assert exercises.aicardi(form).startswith("Right")
+        assert exercises.aicardi(form + sp.Rational(1, 10**6)).startswith("Hint")

@@ -22,11 +22,11 @@ from graded import (
     run_cell,
     task_of,
     tasks,
+    whole,
     wrong_answers,
 )
 from hypothesis import given as for_all
 from hypothesis import strategies as st
-from test_grading import whole
 
 import wmrlib as wmr
 from wmrbook.grading import _wire

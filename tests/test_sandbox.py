@@ -164,6 +164,23 @@ TAKES = {  # what a cell takes, and what is told of it; each is ten times what i
 }
 
 
+@pytest.mark.skipif(os.geteuid() != 0, reason="only root is sure to make control groups")
+def test_what_processes_take_together_is_limited():
+    """By the kernel itself, where it groups them: no process here takes much."""
+    hoard = "import os, time\nfor _ in range(8):\n    if not os.fork():\n"
+    hoard += "        x = b'x' * 10**8\n        time.sleep(0.3)\n        os._exit(0)\n"
+    hoard += "print([os.waitstatus_to_exitcode(os.wait()[1]) for _ in range(8)])"
+    ends = []
+    for memory in 2 * 10**8, 4 * 10**9:
+        with cage.grouped([sys.executable, "-c", hoard], memory, 50) as command:
+            done = subprocess.run(command, capture_output=True, text=True)
+            ends.append(-9 in json.loads(done.stdout or "[-9]"))
+            groups = [Path(each) for each in command[3].split()]
+        assert groups
+        assert not [each for each in groups if each.exists()]  # they go with it
+    assert ends == [True, False]
+
+
 def notebook(*first: str, chapter: str = "ch01"):
     """An assignment with the model's answers, after cells of a student's own."""
     (path,) = (damage.COURSE / "source" / chapter).glob("*.ipynb")

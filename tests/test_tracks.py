@@ -1,18 +1,13 @@
 """Positions in files, against the sentences themselves, the ellipsoid and by property."""
 
-import copy
 import gzip
 import json
 import math
-import os
-import pickle
 import random
 import re
-import subprocess
-import sys
 import tracemalloc
 from collections import Counter
-from datetime import UTC, datetime, timedelta, tzinfo
+from datetime import UTC, datetime, timedelta, timezone
 from functools import reduce
 from operator import xor
 from pathlib import Path
@@ -25,8 +20,8 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib.tracks import Count, Report
-from wmrlib.tracks.fixes import Fixes, timestamp
+from wmrlib.tracks import Count
+from wmrlib.tracks.fixes import Fixes
 
 LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"
 GPX_11 = "{http://www.topografix.com/GPX/1/1}"
@@ -73,6 +68,10 @@ def trk(*points):
     return "<trk><trkseg>\n" + "\n".join(points) + "\n</trkseg></trk>"
 
 
+def at(lat, time="", kind="trkpt"):
+    return f'<{kind} lat="{lat}" lon="44.5">{time and f"<time>{time}</time>"}</{kind}>'
+
+
 GOOD = '<trkpt lat="33.27" lon="44.37"/>'
 LAT, LON = 54 + 5.6081 / 60, 10 + 49.4791 / 60  # of gga() and rmc()
 
@@ -95,7 +94,7 @@ seconds = st.lists(
 def settled(*segments):
     fixes, line = Fixes(), 0
     for segment in segments:
-        fixes.begin_segment()
+        fixes.segment += 1
         for second in segment:
             fixes.add(line % 90, len(segment), math.nan if second is None else second, line)
             line += 1
@@ -132,62 +131,6 @@ def test_a_time_out_of_order_costs_its_own_position_only(segments):
         assert report.skipped["time runs backwards"].first == first_lost[0]
 
 
-def test_a_report_tells_the_first_line_however_late_it_is_found():
-    fixes = Fixes()
-    for line in (3, 5, 8):
-        fixes.add(1.0, 2.0, 0.0, line)
-    fixes.skip("same epoch again", 7, 2)
-    assert dict(fixes.settle()[1].skipped) == {"same epoch again": (4, 5)}
-
-
-def test_of_two_runs_as_long_the_nearest_times_stay():
-    for times, kept in [
-        ([5, 3], [5]),
-        ([1, 9, 2, 3], [1, 2, 3]),
-        ([1, 2, 9, 3], [1, 2, 3]),
-        ([4, 1, 5], [4, 5]),
-    ]:
-        assert settled(times)[0][2].tolist() == kept
-
-
-TIMES = {
-    "2016-12-31T23:59:59Z": 1483228799,
-    "2016-12-31T23:59:60Z": 1483228800,
-    "2016-12-31T23:59:60.5Z": 1483228800.5,
-    "2017-01-01T05:29:60+05:30": 1483228800,
-    "2016-12-31T24:00:00Z": 1483228800,
-    "2016-12-31T24:00": 1483228800,
-    "2016-12-31T24:00:00.000+01:00": 1483225200,
-    "2017-01-01T00:00:00": 1483228800,
-    "2017-01-01T00:00:00.1234567Z": 1483228800.123456,
-    "2017-01-01T01:00:00,5+01:00": 1483228800.5,
-    "2016-12-31T24:00:01Z": None,
-    "2016-12-31T24:30:00Z": None,
-    "2016-12-31T23:60:00Z": None,
-    "2016-12-31T23:59:61Z": None,
-    "2016-12-32T24:00:00Z": None,
-    "24:00:00": None,
-}
-
-
-def test_times_as_iso_8601_has_them():
-    for text, seconds in TIMES.items():
-        assert timestamp(text) == seconds, text
-
-
-def test_a_copy_of_a_track_holds_the_same_and_is_read_only(read):
-    track = read(gpx(trk(GOOD, '<trkpt lat="91" lon="0"/>', '<trkpt lat="34" lon="45"/>')))
-    copies = copy.copy(track), copy.deepcopy(track), pickle.loads(pickle.dumps(track))
-    for same in (track, *copies):
-        assert (places(same), same.t.tobytes()) == (places(track), track.t.tobytes())
-        assert (same.source, same.report, repr(same)) == (track.source, track.report, repr(track))
-        for values in (same.points.lat, same.points.lon, same.t):
-            with pytest.raises(ValueError, match="read-only"):
-                values[0] = 0.0
-        with pytest.raises(TypeError):
-            same.report.skipped["comment"] = Count(0, 0)
-
-
 # NMEA
 
 
@@ -205,7 +148,9 @@ def test_the_real_log(read):
     assert not counts
     assert not track.report.noted
     assert repr(track) == "<Track: 9 positions from NMEA, over 8 s; 77 not used>"
-    assert repr(Report(1, {})) == "1 position used"
+    for values in (track.points.lat, track.points.lon, track.t):
+        with pytest.raises(ValueError, match="read-only"):
+            values[0] = 0.0
     # RMC alone tells the same
     assert places(read([line for line in lines if "GGA" not in line])) == places(track)
 
@@ -220,10 +165,6 @@ def test_talkers_hemispheres_and_epochs(read):
     assert dict(track.report.skipped) == {"same epoch again": (2, 2)}
     south_west = places(read(gga(lat="3351.5000,S", lon="15112.3000,W")))
     assert south_west == (pytest.approx([-(33 + 51.5 / 60)]), pytest.approx([-(151 + 12.3 / 60)]))
-    assert len(read(b"\x00\x00" + gga().encode())) == 1  # a receiver's zero bytes before the first
-    # makers' own sentences, cut short
-    bodies = ("PUBX,00", "PGRME", "PASHR,", "GPXXX,1", "PSRF", "PUBX,03,1", "PTNL,PJK", "CCGPQ,GGA")
-    assert len(read([gga(), *map(nmea, bodies)])) == 1
 
 
 def log(words):
@@ -238,70 +179,40 @@ def log(words):
     return lines
 
 
-NIGHT = " ".join(f"N{hour % 24:02d}0000" for hour in range(20, 32))  # goes by the receiver's clock
+NIGHT = " ".join(f"N{hour % 24:02d}0000" for hour in range(20, 32))
 COLD = " ".join(f"N0000{second:02d}" for second in range(30))  # may count from midnight
 CLOCKS = {
     "G235959.00 G000000.50 G000001.00": [0, 1.5, 2],
     f"G190000 {NIGHT} G080000 G080001": [0, 13 * 3600, 13 * 3600 + 1],
     "R080000/290224 R090000/010324": [0, 90000],
-    "R100000/290224 R080000/010324 R080001/010324": [0, 79200, 79201],
-    "R080000/240709 R080001/240709 R210000/240709 R210001/240709": [0, 1, 46800, 46801],
-    "R080000/311223 R080000/010124": [0, 86400],
-    "R235959/311299 R000000/010100 R000001/010100": [0, 1, 2],
-    "G080000 R080000/290224 G070000 R070000/020324 G070001": [0, 169200, 169201],
-    "R080000/290224 G080000 R070000/020324 G070000 G070000.5": [0, 169200, 169200.5],
-    # a GGA between two RMC is of the nearer one's day
-    "R080000/290224 G080000.5 G070000.5 R070001/020324": [0, 0.5, 169200.5, 169201],
+    "R080000/290224 G080001 R070000/020324 G070000 G070000.5": [0, 1, 169200, 169200.5],
+    "R235959/311219 R000000/010120 R000001/010120": [0, 1, 2],
     "G235959 R000000/010324 G000001": [0, 1, 2],
-    "R235959/ R000001/990099": [0, 2],
-    **{f"G{h:02d}0000 {COLD} G{h:02d}0500 G{h:02d}0501": [0, 300, 301] for h in range(24)},
+    "R080000/240709 R080001/240709 R090000/230709": [0, 1],
+    "R080000/240709 R080001/010180 R080002/240709 R080003/240709": [0, 2, 3],
+    f"G010000 {COLD} G010500 G010501": [0, 300, 301],
+    f"G230000 {COLD} G230500 G230501": [0, 300, 301],
 }
 
 
-def test_time_goes_on_from_day_to_day(read):
-    for words, times in CLOCKS.items():
-        assert read(log(words)).t.tolist() == times, words
-    for words in ("R080000/240709 R090000/230709", "R080000/240709 R090000/240708"):
-        backwards = read(log(words)).report.skipped
-        assert dict(backwards) == {"time runs backwards": (1, 2)}
-    day = " ".join(f"R08000{k}/240709" for k in range(9))
-    for count, longer in ((4, [*range(9)]), (6, [k / 2 for k in range(12)])):
-        # of a log that was appended, all is of the day before, and the shorter of the two is left
-        before = (f"R09000{k}/230709 G09000{k}.5" for k in range(count))
-        assert read(log(f"{day} {' '.join(before)}")).t.tolist() == longer
+@pytest.mark.parametrize("words", CLOCKS)
+def test_time_goes_on_from_day_to_day(read, words):
+    assert read(log(words)).t.tolist() == CLOCKS[words]
     no_fix = rmc("080001", day="060180", status="V")  # its date does not count
     sentences = [rmc("080000", day="290224"), no_fix, rmc("080002", day="290224")]
     assert read(sentences).t.tolist() == [0, 2]
 
 
-@given(
-    kinds=st.text("GR", min_size=9, max_size=30),
-    wrong=st.integers(1, 28),
-    day=st.sampled_from(["010180", "230709", "250709", "010199", "010149"]),
-)
-def test_a_wrong_date_costs_its_own_epoch_only(tmp_path_factory, kinds, wrong, day):
-    words = [f"{kind}0800{second:02d}" for second, kind in enumerate(f"R{kinds}R")]
-    words = [word + "/240709" * (word[0] == "R") for word in words]
-    path, wrong = tmp_path_factory.mktemp("log") / "log.nmea", 1 + wrong % len(kinds)
-    path.write_text("\n".join(log(" ".join(words))))
-    assert wmr.read_track(path).t.tolist() == [*range(len(words))]
-    words[wrong] = f"R0800{wrong:02d}/{day}"
-    path.write_text("\n".join(log(" ".join(words))))
-    track = wmr.read_track(path)
-    assert track.t.tolist() == [second for second in range(len(words)) if second != wrong]
-    assert dict(track.report.skipped) == {"time runs backwards": (1, 1 + wrong)}
-
-
-NO_FIX, ESTIMATED = "sentence without a fix", "position estimated, put in by hand or simulated"
-UNREADABLE = "unreadable position"
+NO_FIX, UNREADABLE = "sentence without a fix", "unreadable position"
 BAD_SENTENCES = {
     "wrong checksum": [gga().replace("*", "0*")],
     "sentence without a checksum": [gga()[:-3]],
     NO_FIX: [
-        *(gga(quality=0), gga(quality=10), rmc(status="V"), rmc(mode="N")),
-        rmc(status="", mode=""),
+        *(gga(quality=k) for k in (0, 6, 8, 10, "")),
+        *(rmc(mode=mode) for mode in "NEMS"),
+        *(rmc(status="V"), rmc(status="", mode="")),
+        nmea(gga()[1:-3].replace(",08,", ",00,")),  # satellites
     ],
-    ESTIMATED: [*(gga(quality=k) for k in (6, 8)), *(rmc(mode=mode) for mode in "EMS")],
     UNREADABLE: [  # not zero, nor 55 degrees
         *(gga(lat=lat) for lat in ("5460.0000,N", "0,N", "5405.6081,", "5405.6081,X")),
         *(gga(lat=",N", lon=",E"), gga(lat="5405,N", lon="01049,E")),
@@ -318,11 +229,11 @@ BAD_SENTENCES = {
 @pytest.mark.parametrize("reason", BAD_SENTENCES)
 def test_a_sentence_that_gives_no_position_is_counted(read, reason):
     for bad in BAD_SENTENCES[reason]:
-        track = read("\r\n".join([gga("104705.00"), bad, bad, ""]))
-        assert places(track) == (pytest.approx([LAT]), pytest.approx([LON])), bad
+        track = read("\r\n".join([gga("104705.00"), bad, gga("104707.00"), bad, ""]))
+        assert places(track) == (pytest.approx([LAT] * 2), pytest.approx([LON] * 2)), bad
         assert dict(track.report.skipped) == {reason: Count(2, 2)}
         assert f"not used: 2 {reason} (first in line 2)" in repr(track.report)
-        if reason in (NO_FIX, ESTIMATED, UNREADABLE):
+        if reason in (NO_FIX, UNREADABLE):
             with pytest.raises(ValueError, match=f"it is NMEA, but 1 {reason}"):
                 read(bad)
 
@@ -366,30 +277,23 @@ AIS = "!AIVDM,1,1,,B,177KQJ5000G?tO`K>RA1wUbN0TKH,0*5C"
 PUBX = nmea("PUBX,00,104707.00,5405.6081,N,01049.4791,E,40.8,G3,2.1,2.0,0,0,0,1.1,1.2,0.9,8,0,0")
 
 
-@pytest.mark.parametrize("sentence", [gga(), gns(), rmc(), gll()])
-def test_a_sentence_is_found_whatever_stands_beside_it(read, sentence):
+NO_SENTENCE = "line that is no sentence"
+
+
+def test_a_sentence_is_found_whatever_stands_beside_it(read):
+    sentence = gga()
     body, checksum = sentence[1:].split("*")
     for content, left in [
-        ("$" + sentence, {}),
         ("\\s:station$1,c:1241544035*4A\\".replace("$1", "") + sentence, {}),
-        (f"2026-03-01 10:47:06.2 {sentence} ok", {}),
         (f"${body}*{checksum.lower()}", {}),
         (f"\0\0{sentence}\0", {}),
-        (f"{AIS}\r{sentence}\r{PUBX}\r", {"other sentence": (2, 1)}),
-        (f"{AIS}\r\n{AIS}{sentence}{PUBX}\r\n", {"other sentence": (3, 1)}),
-        (f"\\s:x*00\\{AIS}\n{sentence}", {"other sentence": (1, 1)}),
+        (f"{AIS}\r{sentence}\r{PUBX}\r", {NO_SENTENCE: (1, 1), "other sentence": (1, 3)}),
+        (f"{AIS}{sentence}{PUBX}\r\n", {"other sentence": (1, 1)}),
         (f"\n\n$GPGGA,1047{sentence}", {"sentence without a checksum": (1, 3)}),
-        (f"{sentence[30:]}{sentence}", {"unreadable sentence": (1, 1)}),
-        (f"{sentence[30:]}\n{sentence}", {"line that is no sentence": (1, 1)}),
-        (
-            f"{sentence[30:]}{AIS[:-1]}{sentence}{PUBX}",
-            {"unreadable sentence": (1, 1), "other sentence": (1, 1)},
-        ),
+        (f"{sentence[30:]}{sentence}", {}),
         (nmea("GPTXT,01,01,02,Hello!") + sentence, {"other sentence": (1, 1)}),
         (f"# {sentence}\n{sentence}", {"comment": (1, 1)}),
-        (f"{sentence[:-1]}\n{sentence}", {"wrong checksum": (1, 1)}),
         (f"${body}*\n{sentence}", {"wrong checksum": (1, 1)}),
-        (f"$GP\n{sentence}", {"line that is no sentence": (1, 1)}),
     ]:
         for written in (content, content.encode("utf-16")):
             track = read(written)
@@ -397,52 +301,7 @@ def test_a_sentence_is_found_whatever_stands_beside_it(read, sentence):
             assert dict(track.report.skipped) == left, content
 
 
-def test_the_most_trusted_sentence_of_an_epoch_decides(read):
-    denied = "sentence of an epoch that a more trusted one says has no fix"
-    kinds = [
-        (gga(lat="5400.0000,N"), gga(quality=0)),
-        (gns(lat="5401.0000,N"), gns(mode="NN")),
-        (rmc(lat="5402.0000,N"), rmc(status="V")),
-        (gll(lat="5403.0000,N"), gll(status="V")),
-    ]
-    for best, (good, none) in enumerate(kinds):
-        worse = [fix for fix, _ in kinds[best:]]
-        for order in (worse, worse[::-1]):
-            track = read(order)
-            assert track.points.lat.tolist() == pytest.approx([54 + best / 60])
-            again = {"same epoch again": (3 - best, 1 if best < 3 and order[0] != good else 2)}
-            assert dict(track.report.skipped) == (again if best < 3 else {})
-            without = [none if each == good else each for each in order]
-            if best < 3:
-                first = 1 if without[0] != none else 2
-                told = rf"{3 - best} {denied} \(first in line {first}\)"
-                with pytest.raises(ValueError, match=told):
-                    read(without)
-        others = [fix for fix, _ in kinds[:best]]
-        assert len(read([none, *others, gga("104707.00")])) == 2 - (best == 0)
-    # no satellites: of two it is the other, and alone it is told
-    track = read([gga().replace(",08,", ",00,"), gga()])
-    assert dict(track.report.skipped) == {"wrong checksum": (1, 1)}
-    satless = nmea(gga()[1:-3].replace(",08,", ",00,"))
-    track = read([gga("104705.00"), satless, rmc(lat="5402.0000,N")])
-    assert track.points.lat.tolist() == pytest.approx([LAT] * 2)
-    assert dict(track.report.noted) == {"by a sentence that counts 0 satellites": (1, 2)}
-    assert not read([satless, gga()]).report.noted
-    # a position that is out of range denies nothing
-    track = read([gga(lat="9005.6081,N"), rmc()])
-    assert dict(track.report.skipped) == {"latitude not in -90 to 90": (1, 1)}
-    # a fix that is said to be missing too early is none the less in its place
-    track = read([gga("104706.00"), gga("104709.00", quality=0), *map(gga, ("104708", "104709"))])
-    assert track.t.tolist() == [0, 2, 3]
-    track = read([rmc("104706"), rmc("104707"), gga("104706"), gga("104707")])
-    assert track.t.tolist() == [0, 1]
-    # sentences that come late belong to their epoch
-    late = [gga("235959.00"), gga("000000.00"), rmc("235959.00", day="310126"), gll("000000.00")]
-    track = read(late)
-    assert (len(track), track.t.tolist()) == (2, [0, 1])
-    assert dict(track.report.skipped) == {"same epoch again": (2, 3)}
-
-
+KINDS = ["GGA", "GNS", "RMC", "GLL"]  # the most trusted first
 CLAIMS = ("fix", "none", "estimated", "unreadable", "damaged")
 WRITTEN = {
     "GGA": lambda clock, claim: gga(clock, quality={"none": 0, "estimated": 6}.get(claim, 1)),
@@ -451,59 +310,56 @@ WRITTEN = {
     "GLL": lambda clock, claim: gll(clock, mode={"none": "N", "estimated": "E"}.get(claim, "A")),
 }
 REASONS = {
-    "none": "sentence without a fix",
-    "estimated": "position estimated, put in by hand or simulated",
-    "unreadable": "unreadable position",
+    **{"none": NO_FIX, "estimated": NO_FIX, "unreadable": UNREADABLE},
     "damaged": "wrong checksum",
 }
-HEARD = st.lists(st.tuples(st.sampled_from(list(WRITTEN)), st.sampled_from(CLAIMS)), max_size=6)
+HEARD = st.lists(st.tuples(st.sampled_from(KINDS), st.sampled_from(CLAIMS)), max_size=6)
 
 
-@given(st.lists(HEARD, min_size=1, max_size=6), st.integers(1, 400))
-def test_every_sentence_is_used_or_counted_with_its_reason(tmp_path_factory, epochs, block):
-    """Epoch by epoch, against the rule itself; wherever the blocks end that are read at a time."""
-    lines, expected, used = [], Counter(), 0
+@given(st.lists(HEARD, min_size=1, max_size=6))
+def test_every_sentence_is_used_or_counted_with_its_reason(tmp_path_factory, epochs):
+    """Epoch by epoch, against the rule itself."""
+    lines, expected, used = [], Counter(), []
     first = {}
     for second, heard in enumerate(epochs):
         ranks = {"fix": [], "none": [], "estimated": []}
         for kind, claim in heard:
             line = WRITTEN[kind](f"2359{54 + second:02d}.0", claim)
-            if claim == "unreadable":
-                line = nmea(line[1:-3].replace("5405.6081", "5460.0000"))
+            lat = "5460.0000" if claim == "unreadable" else f"{54 + KINDS.index(kind)}05.6081"
+            line = nmea(line[1:-3].replace("5405.6081", lat))
             lines.append(line.replace(",E", ",F", 1) if claim == "damaged" else line)
             if claim != "fix":
                 expected[REASONS[claim]] += 1
                 first.setdefault(REASONS[claim], len(lines))
-            ranks.setdefault(claim, []).append(list(WRITTEN).index(kind))
+            ranks.setdefault(claim, []).append(KINDS.index(kind))
         fixes, denied = ranks["fix"], ranks["none"] + ranks["estimated"]
         if fixes and min(fixes) <= min(denied, default=9):
-            used += 1
+            used.append(LAT + min(fixes))
             expected["same epoch again"] += len(fixes) - 1
         else:
             reason = "sentence of an epoch that a more trusted one says has no fix"
             expected[reason] += len(fixes)
     path = tmp_path_factory.getbasetemp() / "generated.nmea"
     path.write_text("\n".join([*lines, ""]), newline="\r\n")
-    with pytest.MonkeyPatch.context() as patch:
-        patch.setattr("wmrlib.tracks.sentences._BLOCK", block)
-        if used:
-            report = wmr.read_track(path).report
-            assert report.used == used
-            assert {why: count for why, (count, _) in report.skipped.items()} == +expected
-            assert all(report.skipped[why].first == line for why, line in first.items())
-            assert report.used + sum(count for count, _ in report.skipped.values()) == len(lines)
-        else:
-            with pytest.raises(ValueError, match="no position in") as error:
-                wmr.read_track(path)
-            for reason, count in (+expected).items():
-                assert f"{count} {reason}" in str(error.value)
+    if used:
+        track = wmr.read_track(path)
+        report = track.report
+        assert track.points.lat.tolist() == pytest.approx(used)
+        assert {why: count for why, (count, _) in report.skipped.items()} == +expected
+        assert all(report.skipped[why].first == line for why, line in first.items())
+        assert report.used + sum(count for count, _ in report.skipped.values()) == len(lines)
+    else:
+        with pytest.raises(ValueError, match="no position in") as error:
+            wmr.read_track(path)
+        assert all(f"{count} {reason}" in str(error.value) for reason, count in (+expected).items())
 
 
-def test_large_logs_and_tables_are_streams(tmp_path):
+def test_large_files_are_streams(tmp_path):
     """At the peak a position takes 200 bytes, and a block at a time whatever it takes."""
     log = "\n".join(gga(f"{k // 3600:02d}{k // 60 % 60:02d}{k % 60:02d}") for k in range(20_000))
     table = "lat,lon,t,note\n" + "".join(f"1,2,{k},{'x' * 300}\n" for k in range(20_000))
-    for text in (log, table):
+    points = gpx(trk(*(at(f"3{k}e-9", "2026-03-01T12:00:00Z") for k in range(20_000))))
+    for text in (log, table, points):
         path = tmp_path / "large"
         path.write_text(text)
         tracemalloc.start()
@@ -516,67 +372,40 @@ def test_large_logs_and_tables_are_streams(tmp_path):
 # GPX
 
 
-def test_gpx_in_utf_16_is_read_whatever_encoding_it_names(read):
-    for name in ("utf-16", "UTF-8"):
-        content = gpx(trk(GOOD), head=f'<?xml version="1.0" encoding="{name}"?>')
-        assert places(read(content.encode("utf-16"))) == ([33.27], [44.37])
-
-
 def test_routes_and_waypoints_are_read_where_there_is_no_track(read):
-    rte, wpt = '<rte><rtept lat="1" lon="2"/></rte>', '<wpt lat="3" lon="4"/>'
-    assert places(read(gpx(wpt + rte))) == ([1.0], [2.0])
-    assert places(read(gpx(wpt))) == ([3.0], [4.0])
-
-
-def test_an_unreadable_time_of_gpx_is_told_where_its_position_is_used(read):
-    bad = '<trkpt lat="34" lon="200"><time>yesterday</time></trkpt>'
-    assert not read(gpx(trk(GOOD, bad))).report.noted
-    track = read(gpx(trk(GOOD, '<trkpt lat="34" lon="45"><time>yesterday</time></trkpt>')))
-    assert len(track) == 2
-    assert np.isnan(track.t).all()
-    assert dict(track.report.noted) == {"with an unreadable time": (1, 5)}
-    assert "used, but: 1 with an unreadable time" in repr(track.report)
-
-
-def at(lat, time="", kind="trkpt"):
-    return f'<{kind} lat="{lat}" lon="44.5">{time and f"<time>{time}</time>"}</{kind}>'
-
-
-def test_the_time_of_a_place_tells_when_it_was_made(read):
-    made = "with a time, which tells when it was made, not passed"
-    days = random.Random(0).sample(range(10, 28), 9)
-    for kind, inner in (("wpt", "{}"), ("rtept", "<rte>{}</rte>")):
-        spots = [at(k, f"2026-03-{day}T12:00:00Z", kind) for k, day in enumerate(days)]
-        track = read(gpx(inner.format("\n".join([*spots, spots[-1]]))))
-        assert track.points.lat.tolist() == [*range(9), 8]
+    """The time of a place tells when it was made, not when it was passed."""
+    later, early = (f"2026-03-0{day}T12:00:00Z" for day in (2, 1))
+    rte = f"<rte>{at(1, later, 'rtept')}{at(2, early, 'rtept')}</rte>"
+    wpt = at(3, later, "wpt") + at(4, early, "wpt")
+    for content, lat in ((wpt + rte, [1.0, 2.0]), (wpt, [3.0, 4.0])):
+        track = read(gpx(content))
+        assert track.points.lat.tolist() == lat
         assert np.isnan(track.t).all()
-        assert (track.report.skipped, dict(track.report.noted)) == ({}, {made: (10, 3)})
 
 
 def test_order_is_judged_within_a_segment(read):
-    def segment(hour):
-        times = [f"2026-03-01T{hour:02d}:{k:02d}:00Z" for k in range(50)]
-        points = (at(f"{hour}.{k:02d}", time) for k, time in enumerate(times))
-        return "<trkseg>" + "\n".join(points) + "</trkseg>"
-
-    track = read(gpx("<trk>" + segment(9) + segment(8) + "</trk><trk>" + segment(7) + "</trk>"))
-    assert (len(track), track.report.skipped) == (150, {})
-    assert track.t.tolist() == [60 * k - hour for hour in (0, 3600, 7200) for k in range(50)]
-    assert repr(track) == "<Track: 150 positions from GPX, over 10140 s; 0 not used>"
+    segments = (
+        trk(*(at(k, f"2026-03-01T{hour:02d}:0{k}:00Z") for k in range(9))) for hour in (9, 8)
+    )
+    track = read(gpx("".join(segments)))
+    assert repr(track) == "<Track: 18 positions from GPX, over 4080 s; 0 not used>"
+    assert track.t.tolist() == [60 * k - hour for hour in (0, 3600) for k in range(9)]
 
 
+NAN = "latitude or longitude not a number"
 SCHEMA = "http://www.topografix.com/GPX/"
 SPACES = {"gpx": "", "g:gpx": f' xmlns:g="{SCHEMA}1/1"', "gpx ": f' xmlns="{SCHEMA}1/0"'}
 FATES = {
     "kept": '<{n}trkpt lat="{k}" lon="-180"/>',
-    "timed": '<{n}trkpt lon="180.0" lat="{k}"><{n}time>2026-03-01T12:00:{k}Z</{n}time></{n}trkpt>',
+    "timed": '<{n}trkpt lon="180.0" lat="{k}"><{n}ele>x</{n}ele><{n}time>{day}{k}Z </{n}time>'
+    "<{n}extensions><{n}time>now</{n}time></{n}extensions></{n}trkpt>",
+    "unread": '<{n}trkpt lon="180" lat="{k}"><{n}time>yesterday</{n}time></{n}trkpt>',
     "latitude not in -90 to 90": '<{n}trkpt lat="{k}1" lon="4"/>',
     "longitude not in -180 to 180": '<{n}trkpt lat="{k}" lon="180.0000001"/>',
-    "latitude or longitude not a number": '<{n}trkpt lat="{k}" lon="{odd}"/>',
-    "point without a latitude or longitude": '<{n}trkpt {side}="{k}"></{n}trkpt>',
+    NAN: '<{n}trkpt lat="{k}" lon="{odd}"/>',
+    "half": '<{n}trkpt {side}="{k}"></{n}trkpt>',
     "track point outside <trkseg>": '<{n}x><{n}trkpt lat="{k}" lon="4"/></{n}x>',
-    "foreign": '<o:trkpt xmlns:o="urn:o" lat="{k}" lon="4"><{n}trkpt lat="{k}" lon="4"/></o:trkpt>',
-    "extension": '<{n}extensions><{n}trkpt lat="{k}" lon="4"/></{n}extensions>',
+    "holds": '<{n}trkpt lat="{k}" lon="180"><{n}x><{n}trkpt lat="9" lon="9"/></{n}x></{n}trkpt>',
 }
 
 
@@ -591,7 +420,7 @@ FATES = {
 def test_every_position_of_gpx_is_kept_or_counted(
     tmp_path_factory, tracks, others, root, code, odd, side
 ):
-    n, k, wanted = root[: root.index("g", -4)], 10, {}
+    n, k, wanted, times = root[: root.index("g", -4)], 10, {}, []
     lines, lats = [f"<{root.strip()}{SPACES[root]}>"], []
     for other in others:
         place = f'<{n}{other} lat="1" lon="2"/>'
@@ -599,11 +428,12 @@ def test_every_position_of_gpx_is_kept_or_counted(
     for fates in tracks:
         lines.append(f"<{n}trk><{n}trkseg/><{n}trkseg>")
         for fate in fates:
-            lines.append(FATES[fate].format(n=n, k=k, odd=odd, side=side))
-            if fate in ("kept", "timed"):
-                lats.append(k)
-            elif fate not in ("foreign", "extension"):
-                wanted[fate] = wanted.get(fate, 0) + 1
+            lines.append(FATES[fate].format(n=n, k=k, odd=odd, side=side, day="2026-03-01T12:00:"))
+            lats += [k] * (fate in ("kept", "timed", "unread", "holds"))
+            times += [k] * (fate == "timed")
+            if fate not in ("kept", "timed", "unread"):
+                why = {"half": NAN, "holds": "track point outside <trkseg>"}.get(fate, fate)
+                wanted[why] = wanted.get(why, 0) + 1
             k += 1
         lines.append(f"</{n}trkseg></{n}trk>")
     if lats:
@@ -617,38 +447,17 @@ def test_every_position_of_gpx_is_kept_or_counted(
         track = wmr.read_track(file)
         assert (track.source, track.points.lat.tolist()) == ("GPX", lats)
         assert set(track.points.lon.tolist()) <= {-180.0, 180.0}
+        assert track.t[~np.isnan(track.t)].tolist() == [each - times[0] for each in times]
+        noted = sum(count for count, _ in track.report.noted.values())
+        assert noted == sum(fates.count("unread") for fates in tracks)
         assert {reason: count for reason, (count, _) in track.report.skipped.items()} == wanted
-        for reason, (_, first) in track.report.skipped.items():
-            about = {"latitude not in -90 to 90": '1" lon'}.get(reason, "pt")
-            assert about in lines[first - 1]
+        assert all("pt" in lines[first - 1] for _, first in track.report.skipped.values())
     elif wanted:
         with pytest.raises(ValueError, match="it is GPX, but") as error:
             wmr.read_track(file)
         assert all(
             f"{count} {reason} (first" in str(error.value) for reason, count in wanted.items()
         )
-
-
-def test_gpx_takes_little_time_and_memory(tmp_path):
-    file, n = tmp_path / "long.gpx", 40_000
-    times = np.datetime_as_string(np.datetime64("2026-03-01T12:00:00") + np.arange(n))
-    rows = (f"<ele>3</ele><time>{time}Z</time>" for time in times)
-    file.write_text(
-        gpx(trk(*(f'<trkpt lat="3{k}e-9" lon="4">{row}</trkpt>' for k, row in enumerate(rows))))
-    )
-    began = process_time()
-    for _, element in ElementTree.iterparse(file):
-        element.clear()
-    bare, began = process_time() - began, process_time()
-    assert len(wmr.read_track(file)) == n
-    assert process_time() - began < 10 * bare
-    tracemalloc.start()
-    track = wmr.read_track(file)
-    kept, peak = tracemalloc.get_traced_memory()
-    tracemalloc.stop()
-    assert len(track) == n
-    assert kept / n < 40
-    assert peak / n < 200
 
 
 ENTITIES = "".join(
@@ -659,51 +468,19 @@ EXTERNAL = '<!DOCTYPE gpx [<!ENTITY e SYSTEM "file:///etc/passwd">]>'
 NO_GPX = [
     (gpx(trk(GOOD) + "<x>&i;</x>", head=LAUGHS), "document type or an entity"),
     (gpx(trk(GOOD) + "<x>&e;</x>", head=EXTERNAL), "document type"),
-    (gpx(trk(GOOD), head='<!DOCTYPE gpx SYSTEM "http://localhost:9/x.dtd">'), "document type"),
     (gpx(trk(GOOD), head="<!DOCTYPE gpx>"), "document type"),
-    ("<kml><Placemark/></kml>", "it is a KML file, not a GPX file; export it as GPX$"),
     ("<kml><Placemark>", "it is a KML file, not a GPX file; export it as GPX$"),  # cut off
-    ("<TrainingCenterDatabase/>", "it is a TCX file, not a GPX file; export it as GPX$"),
-    ("<!DOCTYPE html>\n<html><br></html>", "it is a web page, not a GPX file$"),
-    ("<HTML><br></HTML>", "it is a web page, not a GPX file$"),
-    ("<!-- saved --><!doctype html>\n<p>404 <br>", "it is a web page, not a GPX file$"),
-    ("\n<!DOCTYPE HTML PUBLIC 'x' 'http://localhost:9/x'>", "it is a web page, not a GPX file$"),
-    ("<!doctype html>".encode("utf-16"), "it is a web page, not a GPX file$"),
-    ('<html xmlns="http://www.w3.org/1999/xhtml"><br>', "it is a web page, not a GPX file$"),
+    ("<!DOCTYPE html>\n<html><br></html>", "document type"),
     (gpx("<desc><![CDATA[<html>]]></desc><trk>")[:-9], "its XML is broken"),
     ('<?xml version="1.0" encoding="none"?><gpx/>', "its XML is broken: unknown encoding: none"),
-    ('<?xml version="1.0" encoding="gb2312"?><gpx/>', "multi-byte encodings are not supported"),
-    (gzip.compress(gpx(trk(GOOD)).encode()), "it is compressed by gzip; unpack it$"),
-    (b"PK\x03\x04" + bytes(40), "it is a zip archive, as a KMZ file is; unpack it"),
-    (b"\x0e\x20\x54\x08\x10\x00\x00\x00.FIT" + bytes(40), "it is a FIT file; export it as GPX$"),
-    ("<time>x</time>", "it is XML of the kind 'time', not a GPX file$"),
+    (gzip.compress(gpx(trk(GOOD)).encode()), "it is compressed, a KMZ or a FIT file; unpack it"),
+    (b"PK\x03\x04" + bytes(40), "it is compressed"),
+    (b"\x0e\x20\x54\x08\x10\x00\x00\x00.FIT" + bytes(40), "or a FIT file; unpack it, or export"),
     (gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000), "but 1 track point outside <trkseg>"),
     (gpx("<rte>" + GOOD + "</rte>"), r"1 track point outside <trkseg> \(first in line 3\)$"),
-    (gpx(trk(GOOD))[:-20], "its XML is broken"),
-    (gpx("<a:b/>"), "its XML is broken: .*unbound prefix"),
     (gpx(""), "it is GPX, but holds no position"),
     (gpx(trk('<trkpt lat="91" lon="0"/>')), r"1 latitude not in -90 to 90 \(first in line 4\)"),
 ]
-
-
-def test_what_is_not_read_of_gpx_may_hold_anything(read):
-    for inner, outer, space in [
-        ("<ele>abc</ele>", "", ""),
-        ("<sat>8.0</sat><fix>5d</fix>", "", ""),
-        ("", "<rte><number>a</number></rte>", ""),
-        ("", '<bounds minlat="x"/>', ""),  # where GPX 1.0 has them
-        ("<extensions>" + "<a>" * 3000 + "</a>" * 3000 + "</extensions>", "", ""),
-        ("<extensions><time>later</time></extensions>", "<time>now</time>", ""),
-        ("", "", "\n "),
-    ]:
-        first, second = (
-            f'<trkpt lat="{lat}" lon="44.37">{inner}<time>{space}{time}{space}</time></trkpt>'
-            for lat, time in ((33.27, "2026-03-01T12:00:00Z"), (34, "2026-03-01T13:00:05+01:00"))
-        )
-        for root in ("gpx", 'gpx version="1.1"'):
-            track = read(gpx(outer + trk(first, second), root=root))
-            assert (track.points.lat.tolist(), track.t.tolist()) == ([33.27, 34.0], [0.0, 5.0])
-            assert repr(track.report) == "2 positions used"
 
 
 # CSV
@@ -713,17 +490,13 @@ def test_tables_of_every_kind(read):
     utc = "2026-03-01T12:00:00Z\n33,44.5,2026-03-01T13:00:01.5+01:00"
     for content, lat, lon, t in [
         ("\ufeff# a comment\nlat,lon\n33.25,44.5\n", [33.25], [44.5], [math.nan]),
-        ("Latitude,Longitude\n33.25,44.5\n", [33.25], [44.5], [math.nan]),
         (" LAT , lng\n33.25,44.5\n", [33.25], [44.5], [math.nan]),
         ("latitude;long\n33.25;44.5\n", [33.25], [44.5], [math.nan]),
-        ("lat\tlongitude\n33.25\t44.5\n", [33.25], [44.5], [math.nan]),
         ("n|lat|lon\n7|33.25|44.5\n", [33.25], [44.5], [math.nan]),
         ("lon,lat\n44.5,33.25\n", [33.25], [44.5], [math.nan]),
-        ("t,lat,lon\n5,33,44.5\n6.5,33,44.5\n", [33, 33], [44.5] * 2, [0, 1.5]),
         (f"lat,lon,time\n33,44.5,{utc}\n", [33, 33], [44.5] * 2, [0, 1.5]),
         (f"lat,lon,datetime\n33,44.5,{utc.replace('T', ' ')}\n", [33] * 2, [44.5] * 2, [0, 1.5]),
         ("lat;lon;t\n33,5;44,25;0,5\n-1,5;2;1,75\n", [33.5, -1.5], [44.25, 2], [0, 1.25]),
-        ("lat\tlon\tt\n33,5\t44,25\t0\n-1,5\t2\t1,25\n", [33.5, -1.5], [44.25, 2], [0, 1.25]),
         ('lat,lon,t\n"33,5","44,25",0\n-1.5,2,1.25\n', [33.5, -1.5], [44.25, 2], [0, 1.25]),
         ("lat,lon,t\n1,2,2026-03-01 12:00\n1,3,2026-03-01T12:00:01Z\n", [1, 1], [2, 3], [0, 1]),
     ]:
@@ -732,60 +505,31 @@ def test_tables_of_every_kind(read):
         np.testing.assert_array_equal(track.t, t)
 
 
-V900 = "INDEX,TAG,DATE,TIME,LATITUDE N/S,LONGITUDE E/W,HEIGHT,SPEED,HEADING,FIX MODE,VALID,PDOP\n"
-V900_ROW = "{},T,090522,{},33.85{}S,151.21{}E,30,1,0,{},{},1.6\n"
-BT747 = "INDEX,RCR,DATE,TIME,VALID,LATITUDE,N/S,LONGITUDE,E/W,HEIGHT(m),SPEED(km/h),NSAT\n"
-BT747_ROW = "{},TD,{},{},{},{},{},{},{},30.5 M,1.25 km/h,9,\n"
+LOGGER = "INDEX,DATE,TIME,LATITUDE,N/S,LONGITUDE,E/W,{},NSAT\n"
+ROW = "{},{},{},{},{},{},{},{},9\n"
+FIX_COLUMNS = {  # the cells that say a measured fix, and those that don't
+    "VALID": (["SPS", "DGPS", "fixed", "1", ""], ["No fix", "0", "Estimated mode", "?x"]),
+    "FIX MODE": (["2D", "3D", ""], ["none", "0", "1"]),
+    "fix quality": (["1", "4", "9"], ["0", "6", "7", "8"]),
+    "status": (["0", "A"], ["-1", "V", "void"]),
+}
 
 
-def test_tables_of_data_loggers(read):
+@pytest.mark.parametrize("name", FIX_COLUMNS)
+def test_tables_of_data_loggers(read, name):
     """Hemispheres, dates and fixes in columns of their own."""
-    rows = [("235959", 1, 2, "3D", "SPS"), ("5", 3, 4, "", "DGPS"), ("6", 5, 6, "2D", "")]
-    begin, end, day = "090522", "090523", V900_ROW
-    lines = [
-        day.replace(begin, begin if k == 0 else end).format(k, *row) for k, row in enumerate(rows)
-    ]
-    track = read(V900 + "".join(lines))
-    assert places(track) == ([-33.851, -33.853, -33.855], [151.212, 151.214, 151.216])
-    assert track.t.tolist() == [0, 6, 7]
-    assert repr(track.report) == "3 positions used"
-    for bad in ("No fix", "no fix", "NO FIX", "V", "0", "invalid"):
-        track = read(V900 + lines[0] + V900_ROW.format(1, "5", 3, 4, "", bad))
-        assert dict(track.report.skipped) == {"row without a fix": (1, 3)}, bad
-    for mode in ("0", "1", "none"):
-        track = read(V900 + lines[0] + V900_ROW.format(1, "5", 3, 4, mode, "SPS"))
-        assert dict(track.report.skipped) == {"row without a fix": (1, 3)}, mode
-    track = read(V900 + lines[0] + V900_ROW.format(1, "235960", 3, 4, "", "Estimated mode"))
-    assert list(track.report.skipped) == ["position estimated, put in by hand or simulated"]
-    track = read(V900 + V900_ROW.format(1, "5", 3, 4, "", "banana"))
-    assert dict(track.report.noted) == {"with an unknown word on its fix": (1, 2)}
-
-    def second(day, clock, *place, valid="SPS"):
-        place = place or ("33.8568", "S", "151.2153", "E")
-        first = BT747_ROW.format(1, "2013/05/12", "23:59:59.500", "SPS", 1, "N", 2, "W")
-        return read(BT747 + first + BT747_ROW.format(2, day, clock, valid, *place))
-
-    track = second("2013/05/13", "00:00:01.250")
-    assert (places(track), track.t.tolist()) == (([1, -33.8568], [-2, 151.2153]), [0, 1.75])
-    for day, clock in [
-        ("2013-05-13", "000001.25"),
-        ("130513", "00:00:01,25".replace(",", ".")),
-        ("20130513", "1.25"),
-        ("2013/05/13", "2013-05-13T00:00:01.25Z"),
-    ]:
-        assert second(day, clock).t.tolist() == [0, 1.75], (day, clock)
-    for day, clock in [("yesterday", "00:00:01"), ("2013/05/13", "250001"), ("", "000001")]:
-        track = second(day, clock)
-        assert dict(track.report.noted) == {"with an unreadable time": (1, 3)}, (day, clock)
-    track = second("2013/05/13", "000001", "33.8568", "South", "151.2153", "w")
-    assert places(track) == ([1, -33.8568], [-2, -151.2153])
-    for side in ("", "E", "X", "+"):
-        track = second("2013/05/13", "000001", "33.8568", side, "151.2153", "E")
+    good, bad = FIX_COLUMNS[name]
+    first = ROW.format(1, "2013/05/12", "23:59:59.500", 1, "N", 2, "W", good[0])
+    for fix in good:
+        row = ROW.format(2, "2013-05-13", "000001.25", 33.8568, "South", 151.2153, "e", fix)
+        track = read(LOGGER.format(name) + first + row)
+        assert (places(track), track.t.tolist()) == (([1, -33.8568], [-2, 151.2153]), [0, 1.75])
+    for fix in bad:
+        track = read(LOGGER.format(name) + first + row.replace(f",{good[-1]},9", f",{fix},9"))
+        assert dict(track.report.skipped) == {"row without a measured fix": (1, 3)}, fix
+    for side in ("", "W", "X", "+"):
+        track = read(LOGGER.format(name) + first + row.replace("South", side))
         assert dict(track.report.skipped) == {"row without a readable hemisphere": (1, 3)}
-    for number, reason in {"0": "row without a fix", "6": "position estimated, put in"}.items():
-        table = f"lat,lon,fix quality\n1,2,{number}\n3,4,5\n"
-        assert next(iter(read(table).report.skipped)).startswith(reason)
-    assert len(read("lat,lon,status\n1,2,0\n3,4,A\n")) == 2
 
 
 def degrees_in_words(value, sides):
@@ -824,216 +568,92 @@ def test_every_row_is_kept_or_counted_with_its_line(tmp_path_factory, rows):
     report = wmr.read_track(path).report
     found = sum(row not in ("", ",,,") for row in rows) + 1
     assert report.used + sum(count for count, _ in report.skipped.values()) == found
-    begins = {1 + "\n".join(lines[:k]).count("\n") + (k > 0) for k in range(len(lines))}
-    assert {first for _, first in report.skipped.values()} <= begins
+    ends = {1 + "\n".join(lines[:k]).count("\n") for k in range(1, len(lines))}
+    assert {first for _, first in report.skipped.values()} <= ends
 
 
-def test_names_of_columns_with_their_units(read):
-    for header, row in {
-        "LATITUDE N/S,LONGITUDE E/W,TIME": "33.5N,44.25E,5",
-        "Latitude (deg),Longitude (deg),t [s]": "33.5,44.25,5",
-        "lat_deg;lon_deg;time_s": "33.5;44.25;5",
-        "latitudeE7,longitudeE7,time (ms)": "335000000,442500000,5000",
-        "t_ms\tlat_e7\tlon_e7": "5000\t335000000\t442500000",
-        "latitude (deg),lat,lon,t": "1,33.5,44.25,5",
-        "lat,ns,lon,ew,t": "33.5,N,44.25,E,5",
-    }.items():
-        assert places(read(f"{header}\n{row}\n")) == ([33.5], [44.25]), header
-    assert read("t_ms,lat,lon\n5000,1,2\n6500,3,4\n").t.tolist() == [0, 1.5]
-    for header in ("lat (rad),lon (rad)", "position_lat,position_long"):
-        with pytest.raises(ValueError, match="does not name"):
-            read(f"{header}\n1,2\n")
-    with pytest.raises(ValueError, match=r"more than one column of \['lat \(deg\)', 'lat_e7'\]"):
-        read("lat (deg),lat_e7,lon\n1,2,3\n")
+CELLS = ["33 27 N", "nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '"1.2,3"', '","']
+BAD_ROWS = {
+    "latitude not in -90 to 90": ["1,91,44"],
+    "longitude not in -180 to 180": ["1,33,200"],
+    NAN: ["yesterday,x,44", *(f"1,{cell},44" for cell in CELLS)],
+    "row with more or fewer cells than the header": ["1,33,27,44,37", "1,33"],  # decimal commas
+    "time runs backwards": ["-1,33.0,44.0"],
+    "comment": ["# 1,33,44"],
+}
 
 
-def test_text_as_windows_writes_it(read):
-    for source, text in {
-        "NMEA": gga(lat="3330.0000,N", lon="04415.0000,E") + "\r\n",
-        "CSV": "lat,lon\r\n33.5,44.25\r\n",
-        "GPX": '<gpx><wpt lat="33.5" lon="44.25"/></gpx>',
-    }.items():
-        big_endian = b"\xfe\xff" + text.encode("utf-16-be")
-        for data in (text.encode("utf-8-sig"), text.encode("utf-16"), big_endian):
-            track = read(data)
-            assert (track.source, *places(track)) == (source, [33.5], [44.25])
-            assert repr(track.report) == "1 position used"
-
-
-def test_bad_rows_are_counted_with_their_line(read):
-    width = "row with more or fewer cells than the header"
-    no_number = "latitude or longitude not a number"
-    cells = ["33 27 N", "nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '"1.2,3"', '","']
-    for reason, row in [
-        ("latitude not in -90 to 90", "1,91,44"),
-        ("longitude not in -180 to 180", "1,33,200"),
-        *((no_number, f"1,{cell},44") for cell in cells),
-        (no_number, "yesterday,x,44"),
-        (width, "1,33,27,44,37"),  # decimal commas
-        (width, "1,33"),
-        ("row with a cell over several lines", '"1\n2",33,44'),
-        ("same epoch again", "0,33.0,44.0"),
-        ("time runs backwards", "-1,33.0,44.0"),
-        ("comment", "# 1,33,44"),
-    ]:
-        track = read(f"time,lat,lon\n\n0,33.0,44.0\n{row}\n2,34.0,45.0\n")
+@pytest.mark.parametrize("reason", BAD_ROWS)
+def test_bad_rows_are_counted_with_their_line(read, reason):
+    for row in BAD_ROWS[reason]:
+        track = read(f"t,lat,lon\n\n0,33.0,44.0\n{row}\n2,34.0,45.0\n")
         assert track.points.lat.tolist() == [33.0, 34.0], row
         assert (dict(track.report.skipped), track.report.noted) == ({reason: (1, 4)}, {})
-    # milliseconds are no seconds, and a last line that may be cut is told
-    track = read("lat,lon,t\n1,2,1767225600000\n3,4,5")
-    assert dict(track.report.noted) == {
-        "with an unreadable time": (1, 2),
-        "in a last line without an end, which may be cut off": (1, 3),
-    }
-    assert np.isnan(track.t[0])
-    begin = process_time()
-    assert len(read("lat,lon\n1,2\n" + "\n" * 50_000)) == 1
-    assert process_time() - begin < 1.5  # with a pattern that runs on over lines 5 s and more
 
 
 SIDES = ["Dir", "Direction", "Ref", "Hemi", "Hemisphere", "Indicator"]
-PAIRS = [
-    ("N/S", "E/W"),
-    ("n_s", "e_w"),
-    ("NS Indicator", "EW Indicator"),
-    ("North/South", "East/West"),
-]
-PAIRS += [
-    (f"{lat}{gap}{side}", f"{lon}{gap}{side}")
-    for lat, lon in (("Lat", "Lon"), ("Latitude", "Longitude"))
-    for gap in ("", " ", "_")
-    for side in SIDES
-]
+PAIRS = [("N/S", "E/W"), ("n_s", "e_w"), ("NS Indicator", "EW Indicator"), ("North/South", "ew")]
+PAIRS += [(f"Lat{gap}{side}", f"Longitude{gap}{side}") for gap in ("", " ", "_") for side in SIDES]
 
 
-def test_hemispheres_and_fixes_are_known_by_many_names(read):
+def test_columns_are_known_by_many_names_and_units(read):
     for north, east in PAIRS:
         track = read(f"Latitude,{north},Longitude,{east}\n33.5,S,70.6,W\n1.0,N,2.0,E\n")
         assert places(track) == ([-33.5, 1.0], [-70.6, 2.0]), north
     for name in ("fix", "fixType", "Fix_Type", "FixQuality", "gps fix", "is_valid", "isValid"):
         track = read(f"lat,lon,{name}\n0,0,0\n33.5,44,3\n")
         assert places(track) == ([33.5], [44.0]), name
-        assert dict(track.report.skipped) == {"row without a fix": Count(1, 2)}
-    for name, units in (("time_us", 1e6), ("gps time", 1.0), ("Date Time", 1.0), ("timeMs", 1e3)):
-        track = read(f"{name},lat,lon\n{units:.0f},0,0\n{4 * units:.0f},33.5,44\n")
+        assert dict(track.report.skipped) == {"row without a measured fix": Count(1, 2)}
+    for name, units in (("time_us", 1e6), ("gps time s", 1.0), ("timeMs", 1e3), ("t [s]", 1.0)):
+        track = read(f"{name},lat (deg),lon_deg\n{units:.0f},0,0\n{4 * units:.0f},33.5,44\n")
         assert track.t.tolist() == [0.0, 3.0], name
+    for header in ("latitudeE7,longitudeE7", "lat_e7,lon_e7"):
+        assert places(read(f"{header}\n335000000,442500000\n")) == ([33.5], [44.25])
+    for header in ("lat (rad),lon (rad)", "position_lat,position_long"):
+        with pytest.raises(ValueError, match="does not name"):
+            read(f"{header}\n1,2\n")
 
 
-@given(
-    st.integers(-89 * 3600 * 10**4, 89 * 3600 * 10**4),
-    st.sampled_from([("lat_deg", "lat_min", "lat_sec"), ("Lat (D)", "Lat (M)", "Lat (S)")]),
-    st.sampled_from(["sign", "N/S", "latHemi"]),
-    st.booleans(),
-    st.sampled_from(["33.5", "0.1"]),
-    st.sampled_from(["60", "-1", "x", ""]),
-)
-def test_columns_of_minutes_are_read_or_the_row_is_refused(
-    tmp_path_factory, size, names, side, seconds, broken, wrong
-):
-    """Ten-thousandths of a second of an arc; -0 deg is south, too."""
-    whole, rest = divmod(abs(size), 3600 * 10**4)
-    minutes, rest = divmod(rest, 60 * 10**4) if seconds else (rest / 60 / 10**4, 0)
-    cells = [f"{whole}", f"{minutes!r}", f"{rest / 10**4!r}"][: 2 + seconds]
-    names, letter = [*names[: 2 + seconds]], "S" if size < 0 else "N"
-    if side == "sign":
-        cells[0] = "-" * (size < 0) + cells[0]
-    else:
-        names, cells = [*names, side], [*cells, letter]
-    path = tmp_path_factory.getbasetemp() / "minutes.csv"
-    bad = [*cells]
-    bad[seconds], bad[1 + seconds] = broken, wrong  # only the last part has decimals
-    rows = [*names, "lon"], *([*row, "2.5"] for row in (cells, bad, cells))
-    path.write_text("".join(",".join(row) + "\n" for row in rows))
-    track = wmr.read_track(path)
-    assert track.points.lat.tolist() == pytest.approx([size / 3600 / 10**4] * 2, abs=1e-12)
-    assert dict(track.report.skipped) == {"row without readable minutes or seconds": (1, 3)}
+MINUTES = ["lat_min", "Lat (M)", "latMinutes", "latmin", "latitude_sec", "lon_min", "Long. seconds"]
+DATES = ["%d.%m.%Y", "%m/%d/%Y", "%y%m%d", "%d%m%y", "%m%d%y", "%d-%m-%y"]
 
 
-def test_minutes_beside_another_latitude_are_refused(read):
-    for header in (
-        "lat_deg,lat_min,lat,lon",
-        "lat_deg,lat_sec,lon",
-        "lat,latitude_min,latitude,lon",
-    ):
-        with pytest.raises(ValueError, match="more than one column"):
-            read(f"{header}\n1,2,3,4\n")
+def test_what_would_have_to_be_guessed_is_not_read(read):
+    """Degrees beside a column of minutes, dates in any other order, numbers without a unit."""
+    for name in MINUTES:
+        with pytest.raises(ValueError, match="minutes of a degree, which is not read"):
+            read(f"lat_deg,{name},lon_deg\n33,16.2,44\n")
+    unreadable = {"with an unreadable time": (1, 2)}
+    for how in DATES:
+        for day in (datetime(2026, 5, 9), datetime(2009, 12, 30), datetime(2011, 10, 12)):
+            track = read(f"date,time,lat,lon\n{day.strftime(how)},12:00:00,1,2\n")
+            assert (places(track), dict(track.report.noted)) == (([1.0], [2.0]), unreadable)
+            assert np.isnan(track.t).all()
+    for number in ("45292.5", "12345", "1767225600"):  # Excel's days, ms since it was switched on
+        assert dict(read(f"time,lat,lon\n{number},1,2\n").report.noted) == unreadable
+    cut = {"in a last line without an end, which may be cut off": (1, 2)}
+    track = read("t_ms,lat,lon\n1767225600000000,1,2")  # rather microseconds
+    assert dict(track.report.noted) == unreadable | cut
 
 
-DATES = ["%Y/%m/%d", "%d.%m.%Y", "%m/%d/%Y", "%y%m%d", "%d%m%y", "%m%d%y"]
-
-
-@given(
-    st.integers(0, 29_000),
-    st.lists(st.integers(0, 3), min_size=1, max_size=6),
-    st.sampled_from(DATES),
-)
-def test_the_order_of_a_date_is_that_of_the_whole_file(tmp_path_factory, begin, days, how):
-    """Whatever is read is right; where two orders bring the dates as near, none is."""
-    first = BEGIN.replace(year=1990, month=1, day=1) + timedelta(days=begin)
-    dates = [first + timedelta(days=sum(days[:k])) for k in range(len(days) + 1)]
-    path = tmp_path_factory.getbasetemp() / "dates.csv"
-    rows = (f"{date.strftime(how)},12:00:{k:02d},{k},2\n" for k, date in enumerate(dates))
-    path.write_text("date,time,lat,lon\n" + "".join(rows))
-    track = wmr.read_track(path)
-    right = [(date - first).total_seconds() + k for k, date in enumerate(dates)]
-    if track.report.noted:
-        assert dict(track.report.noted) == {"with an unreadable time": (len(dates), 2)}
-        assert how[1] != "Y"
-    else:
-        assert track.t.tolist() == right
-
-
-@pytest.mark.parametrize("how", DATES)
-def test_days_that_follow_each_other_tell_their_order(read, how):
-    for first in (datetime(2026, 5, 9), datetime(2009, 12, 30), datetime(2011, 10, 12)):
-        days = [first + timedelta(days=k) for k in range(4)]
-        rows = (f"{day.strftime(how)},12:00:00,{k},2\n" for k, day in enumerate(days))
-        track = read("date,time,lat,lon\n" + "".join(rows))
-        assert track.t.tolist() == [k * 86400 for k in range(4)], first
-
-
-def test_numbers_that_are_no_seconds_are_days_or_refused(read):
-    """Excel counts days, a board milliseconds since it was switched on."""
-    days = [45292.5 + k / 86400 for k in range(5)]
-    track = read("time,lat,lon\n" + "".join(f"{day:.9f},{k},2\n" for k, day in enumerate(days)))
-    assert track.t == pytest.approx(range(5), abs=1e-4)
-    assert dict(track.report.noted) == {"with a time in days, as spreadsheets count them": (5, 2)}
-    board = "".join(f"{12345 + 200 * k},{k},2\n" for k in range(5))
-    track = read("time,lat,lon\n" + board)
-    assert np.isnan(track.t).all()
-    (noted,) = track.report.noted
-    assert "seconds or milliseconds" in noted
-    for name, unit in (("time_ms", 1e3), ("time_s", 1.0)):
-        track = read(f"{name},lat,lon\n{board}")
-        assert track.t == pytest.approx([200 * k / unit for k in range(5)])
-        assert not track.report.noted
-    for times in (
-        [45292 + k for k in range(5)],
-        [0, 60, 120],
-        [1.7e9, 1.7e9 + 300],
-        [0, 99.5, 300],
-    ):
-        track = read("t,lat,lon\n" + "".join(f"{t!r},{k},2\n" for k, t in enumerate(times)))
-        assert track.t == pytest.approx([t - times[0] for t in times])
-        assert not track.report.noted
-
-
-def test_what_spreadsheets_write_around_a_table_is_read(read):
-    degree = "33,5\N{DEGREE SIGN}S;44,25\N{DEGREE SIGN}E"
-    for head, code in (
-        (head, code)
-        for head in ("", "sep=;\n", "My drive; 2026\n\nby me\n")
-        for code in ("utf-8", "latin-1", "utf-16")
-    ):
-        track = read(f"{head}lat;lon\n{degree}\n".encode(code))
-        assert places(track) == ([-33.5], [44.25])
-        titles = len([line for line in head.split("\n") if line])
-        wanted = {"line above the names of the columns": (titles, 1)} if titles else {}
-        assert dict(track.report.skipped) == wanted
-    assert places(read("lat,lon\n\u22121.5,\u22122\n")) == ([-1.5], [-2.0])
-    assert places(read("lat;lon\n\u22121,5;2\n")) == ([-1.5], [2.0])
+def test_what_windows_and_spreadsheets_write_around_a_table_is_read(read):
+    row = "33,5\N{DEGREE SIGN}S;44,25\N{DEGREE SIGN}E\r\n\u22121,5;2\r\n"
+    for head, titles in (("", 0), ("sep=;\r\n", 1), ("My drive; 2026\r\n\r\nby me\r\n", 2)):
+        for code in ("utf-8", "utf-8-sig", "utf-16"):
+            track = read(f"{head}lat;lon\r\n{row}".encode(code))
+            assert places(track) == ([-33.5, -1.5], [44.25, 2.0])
+            above = {"line above the names of the columns": (titles, 1)} if titles else {}
+            assert dict(track.report.skipped) == above
+    assert places(read(f"lat;lon\n{row[:15]}\n".encode("latin-1"))) == ([-33.5], [44.25])
     with pytest.raises(ValueError, match=r"first line 'one' does not name"):
         read("one\n" * 10 + "lat,lon\n1,2\n")
+
+
+def test_utf_16_is_read_of_logs_and_gpx_too(read):
+    for source, text in {"NMEA": gga(), "GPX": f"<gpx>{at(LAT, kind='wpt')}</gpx>"}.items():
+        for data in (text.encode("utf-8-sig"), text.encode("utf-16")):
+            track = read(data)
+            assert (track.source, track.points.lat.tolist()) == (source, pytest.approx([LAT]))
 
 
 ENDLESS = {
@@ -1071,22 +691,16 @@ NO_KIND = "it is neither NMEA nor GPX, and as a table"
 def test_a_file_without_a_position_says_why(read, tmp_path):
     for content, message in [
         *NO_GPX,
-        ("", "the file is empty"),
-        (" \n\r\n", "the file is empty"),
-        (b"\xff\xfe", "the file is empty"),
+        ("", NO_KIND),
         (b"\x00" * 200_000, NO_KIND),
         (b"x" * 200_000, NO_KIND + " its first line 'x{80}' does not name"),
-        ("var data=" + "1," * 100_000, NO_KIND),
-        (b"\x89PNG\r\n\x1a\n\x00\x00", "does not name"),
-        ("# lat,lon\n", "no header"),
-        ("x,y\n1,2\n", r"'x,y' does not name one of \['lat', 'latitude'\]"),
-        ("lat,y\n1,2\n", r"does not name .*'long'"),
-        ("lat,latitude,lon\n1,1,2\n", r"more than one column of \['lat', 'latitude'\]"),
+        ("x,y\n1,2\n", "first line 'x,y' does not name lat and lon"),
+        ("lat,latitude,lon\n1,1,2\n", "has a column twice"),
         ("lat,lon\n", "it is CSV, but holds no position"),
         ("lat,lon\n-95,2\n", r"1 latitude not in -90 to 90 \(first in line 2\)"),
         ("lat,lon\n1," + "2" * 200_000, "its table is broken"),
         ('lat,lon\n1,2\n"3,4\n', "its table is broken"),
-        ('{"type": "Point", "coordinates": [1, 2]}', "it is JSON, but NMEA, GPX or CSV is needed"),
+        ('{"type": "Point", "coordinates": [1, 2]}', "does not name"),
     ]:
         with pytest.raises(ValueError, match=message) as error:
             read(content)
@@ -1137,16 +751,18 @@ def test_a_path_comes_back(tmp_path_factory, lat, lon, n, seed):
     assert np.abs(points.lat - there.lat).max() <= 0.5001e-7
     assert np.abs((points.lon - there.lon + 180) % 360 - 180).max() <= 0.5001e-7
     wmr.write_geojson(file, there)
-    text = file.read_text().split('"coordinates"')[1]
-    written = re.findall(r"\[(-?[\d.e-]+), ?(-?[\d.e-]+)\]", text)
-    found = {(float(lon), float(lat)) for lon, lat in written}
-    assert found >= set(zip(points.lon, points.lat, strict=True))
+    x, y = np.reshape(json.loads(file.read_text())["geometry"]["coordinates"], (n, 2)).T
+    assert np.abs(np.diff(x)).max(initial=0.0) < 1.0
+    assert (y.tolist(), np.abs((x - points.lon + 180) % 360 - 180).max() < 1e-9) == (
+        points.lat.tolist(),
+        True,
+    )
 
 
 def test_gpx_1_1_as_its_schema_asks(tmp_path):
     """Names, order, attributes and ranges of http://www.topografix.com/GPX/1/1/gpx.xsd."""
     points = wmr.GeoPoint(lat=[0.0, 1e-7, -1e-7, 5.0], lon=[179.9999999, 180.0, -180.0, -1e-7])
-    title, file = "<b> & \"c\" 'd' ]]> \r é بغداد", tmp_path / "a.gpx"
+    title, file = "<b> & \"c\" 'd' ]]> é بغداد", tmp_path / "a.gpx"
     wmr.write_gpx(file, points, t=[0, 0.25, math.nan, 2], begin=BEGIN, name=title)
     root = ElementTree.parse(file).getroot()
     assert root.tag == GPX_11 + "gpx"
@@ -1155,7 +771,7 @@ def test_gpx_1_1_as_its_schema_asks(tmp_path):
     name, *segments = track
     assert (track.tag, name.tag, name.text) == (GPX_11 + "trk", GPX_11 + "name", title)
     assert {segment.tag for segment in segments} == {GPX_11 + "trkseg"}
-    assert [len(segment) for segment in segments] == [1, 3]
+    assert [len(segment) for segment in segments] == [4]
     found = [point for segment in segments for point in segment]
     assert [tuple(point.attrib.items()) for point in found] == [
         (("lat", "0.0000000"), ("lon", "179.9999999")),
@@ -1169,115 +785,33 @@ def test_gpx_1_1_as_its_schema_asks(tmp_path):
     assert times == [f"{day}0Z", f"{day}0.250000Z", None, f"{day}2Z"]
 
 
-def test_geojson_is_longitude_first_and_cut_at_the_date_line(tmp_path):
+def test_geojson_is_longitude_first_and_goes_on_across_the_date_line(tmp_path):
     file = tmp_path / "a.json"
-    crossing = wmr.GeoPoint(lat=[10.0, 11.0, 12.0], lon=[179.0, -179.0, -178.0])
-    wmr.write_geojson(file, crossing, name='"q"')
-    feature = json.loads(file.read_text(encoding="utf-8"))
-    assert (feature["type"], feature["properties"]) == ("Feature", {"name": '"q"'})
-    assert feature["geometry"] == {
-        "type": "MultiLineString",
-        "coordinates": [
-            [[179.0, 10.0], [180.0, 10.5]],
-            [[-180.0, 10.5], [-179.0, 11.0], [-178.0, 12.0]],
-        ],
-    }
-    wmr.write_geojson(file, wmr.GeoPoint(lat=33.5, lon=44.25))
-    point = {"type": "Point", "coordinates": [44.25, 33.5]}
-    assert json.loads(file.read_text())["geometry"] == point
-    wmr.write_geojson(file, wmr.GeoPoint(lat=[10.0, 11.0], lon=[1.0, 2.0]))
-    line = {"type": "LineString", "coordinates": [[1.0, 10.0], [2.0, 11.0]]}
-    assert json.loads(file.read_text())["geometry"] == line
+    for lat, lon, kind, coordinates in [
+        ([10.0, 11.0], [179.0, -179.5], "LineString", [[179.0, 10.0], [180.5, 11.0]]),
+        (33.5, 44.25, "Point", [44.25, 33.5]),
+        ([10.0, 11.0], [1.0, 2.0], "LineString", [[1.0, 10.0], [2.0, 11.0]]),
+    ]:
+        wmr.write_geojson(file, wmr.GeoPoint(lat=lat, lon=lon), name='"q"')
+        feature = json.loads(file.read_text(encoding="utf-8"))
+        assert (feature["type"], feature["properties"]) == ("Feature", {"name": '"q"'})
+        assert feature["geometry"] == {"type": kind, "coordinates": coordinates}
     for write in (wmr.write_gpx, wmr.write_geojson):
         write(file, wmr.GeoPoint(lat=[-1e-9, 1.0], lon=[-1e-9, 1.0]))
         assert "-0" not in file.read_text()
-
-
-FULL_DISK = """
-import resource, signal, sys
-import wmrlib as wmr
-signal.signal(signal.SIGXFSZ, signal.SIG_IGN)
-resource.setrlimit(resource.RLIMIT_FSIZE, (500, 500))
-points = wmr.GeoPoint(lat=[k / 100 for k in range(200)], lon=0.0)
-for write in (wmr.write_gpx, wmr.write_geojson):
-    try:
-        write(sys.argv[1], points)
-    except OSError as error:
-        print(error.filename == sys.argv[1])
-"""
-
-
-def test_a_full_disk_leaves_the_file_that_was_there(tmp_path):
-    pytest.importorskip("resource")
-    for file, files in ((tmp_path / "new", []), (tmp_path / "old", ["old"])):
-        if files:
-            file.write_text("as it was")
-        command = [sys.executable, "-c", FULL_DISK, file]
-        done = subprocess.run(command, capture_output=True, text=True, check=True)
-        assert done.stdout.split() == ["True", "True"]
-        assert os.listdir(tmp_path) == files
-    assert (tmp_path / "old").read_text() == "as it was"
-
-
-@pytest.mark.skipif(os.name != "posix", reason="links and permissions are POSIX's")
-def test_a_file_is_replaced_where_it_is_and_as_it_was(tmp_path):
-    target, link, pipe = tmp_path / "deep" / "there", tmp_path / "link", tmp_path / "pipe"
-    target.parent.mkdir()
-    link.symlink_to(target)
-    mask = os.umask(0o027)
-    try:
-        wmr.write_geojson(link, PAIR)
-    finally:
-        os.umask(mask)
-    assert target.stat().st_mode & 0o777 == 0o640
-    target.chmod(0o604)
-    wmr.write_gpx(link, PAIR)
-    assert (link.is_symlink(), target.stat().st_mode & 0o777) == (True, 0o604)
-    assert wmr.read_track(target).source == "GPX"
-    os.mkfifo(pipe)
-    reader = subprocess.Popen(["cat", pipe], stdout=subprocess.PIPE)
-    wmr.write_geojson(pipe, PAIR)
-    assert json.loads(reader.communicate()[0])["type"] == "Feature"
-    assert pipe.is_fifo()
-    for path, kind in ((tmp_path, IsADirectoryError), (tmp_path / "no" / "x", FileNotFoundError)):
-        with pytest.raises(kind, match=re.escape(f"'{path}'") + "$"):
-            wmr.write_gpx(path, PAIR)
-    assert sorted(os.listdir(tmp_path)) == ["deep", "link", "pipe"]
-    assert os.listdir(target.parent) == ["there"]
-    if os.geteuid():  # who is root may write anywhere
-        target.chmod(0o400)
-        with pytest.raises(PermissionError):
-            wmr.write_gpx(target, PAIR)
-
-
-class SummerTime(tzinfo):
-    """Central Europe in March 2026, where 2:00 on the 29th is 3:00."""
-
-    def dst(self, time):
-        return timedelta(hours=1 if time.replace(tzinfo=None) >= datetime(2026, 3, 29, 2) else 0)
-
-    def utcoffset(self, time):
-        return timedelta(hours=1) + self.dst(time)
 
 
 PAIR = wmr.GeoPoint(lat=[1.0, 2.0], lon=[3.0, 4.0])
 
 
 def test_times_of_gpx_in_any_zone_and_of_a_single_position(tmp_path):
-    file = tmp_path / "a.gpx"
-    wmr.write_gpx(file, PAIR, t=[0, 3], begin=BEGIN.astimezone(None) + timedelta(seconds=1))
+    file, zone = tmp_path / "a.gpx", timezone(timedelta(hours=5, minutes=30))
+    wmr.write_gpx(file, PAIR, t=[0, 3], begin=BEGIN.astimezone(zone))
+    times = [time.text for time in ElementTree.parse(file).iter(GPX_11 + "time")]
+    assert times == ["2026-03-01T12:00:00Z", "2026-03-01T12:00:03Z"]
     assert wmr.read_track(file).t.tolist() == [0.0, 3.0]
-    for points, t, begin, times in [
-        (  # the clocks are put forward meanwhile
-            PAIR,
-            [0, 3600],
-            datetime(2026, 3, 29, 1, 30, tzinfo=SummerTime()),
-            ["2026-03-29T00:30:00Z", "2026-03-29T01:30:00Z"],
-        ),
-        (wmr.GeoPoint(lat=1.0, lon=2.0), 0.5, BEGIN, ["2026-03-01T12:00:00.500000Z"]),
-    ]:
-        wmr.write_gpx(file, points, t=t, begin=begin)
-        assert [time.text for time in ElementTree.parse(file).iter(GPX_11 + "time")] == times
+    wmr.write_gpx(file, wmr.GeoPoint(lat=1.0, lon=2.0), t=0.5, begin=BEGIN)
+    assert "<time>2026-03-01T12:00:00.500000Z</time>" in file.read_text()
 
 
 def test_bad_input_to_the_writers(tmp_path):
@@ -1289,27 +823,17 @@ def test_bad_input_to_the_writers(tmp_path):
             (None, BEGIN, "t = None and begin = .* are not allowed together"),
             ([0, 1, 2], BEGIN, r"t has shape \(3,\), points have shape \(2,\)"),
             ([0, math.inf], BEGIN, "a finite number or NaN is needed"),
-            (["a", "b"], BEGIN, r"^t = \['a', 'b'\] is not allowed"),
-            ({}, BEGIN, r"^t = {} is not allowed"),
-            ([True, False], BEGIN, r"^t = \[True, False\] is not allowed"),
             ([0, 1e18], BEGIN, r"^t = .*e\+18.* is not allowed: begin \+ t in the years"),
             ([0, 1], late, r"^t = .* is not allowed: begin \+ t"),
-            ([0, 1], local, "with its time zone is needed"),
+            ([0, 1], local, "begin with its time zone"),
         ]
     ]
-    cases.append(
-        (
-            wmr.write_gpx,
-            PAIR,
-            {"name": "a\x00b"},
-            r"^name = 'a\\x00b' is not allowed: one without '\\x00'",
-        )
-    )
     for write in (wmr.write_gpx, wmr.write_geojson):
         cases += [
             (write, wmr.GeoPoint(lat=[], lon=[]), {}, "at least one position is needed"),
             (write, [1, 2], {}, "a GeoPoint is needed"),
-            (write, PAIR, {"name": "\ud800"}, r"^name = '\\ud800' is not allowed: one without"),
+            (write, PAIR, {"name": "\ud800"}, r"^name = '\\ud800' is not allowed: printable"),
+            (write, PAIR, {"name": "a\x00b"}, r"^name = 'a\\x00b' is not allowed: printable"),
             (write, PAIR, {"name": 3}, "a str is needed"),
         ]
     (tmp_path / "old").write_text("as it was")
@@ -1319,3 +843,18 @@ def test_bad_input_to_the_writers(tmp_path):
                 write(path, points, **options)
     assert (tmp_path / "old").read_text() == "as it was"
     assert not (tmp_path / "new").exists()
+
+
+@pytest.mark.parametrize("write", [wmr.write_gpx, wmr.write_geojson])
+def test_a_full_disk_leaves_the_file_as_it_was(tmp_path, monkeypatch, write):
+    (file := tmp_path / "path").write_text("before")
+
+    def fills(place, text, encoding):
+        place.write_bytes(text.encode(encoding)[:10])
+        raise OSError(28, "No space left on device")
+
+    monkeypatch.setattr(Path, "write_text", fills)
+    with pytest.raises(OSError, match="No space"):
+        write(file, wmr.GeoPoint(lat=1.0, lon=2.0))
+    assert file.read_text() == "before"
+    assert [*tmp_path.iterdir()] == [file]

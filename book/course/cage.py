@@ -14,8 +14,9 @@ import os
 import subprocess
 import sys
 import tempfile
-from collections.abc import Iterable
-from contextlib import suppress
+import time
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager, suppress
 from itertools import count
 from pathlib import Path
 from typing import BinaryIO
@@ -127,3 +128,44 @@ def holds() -> bool:
             command, capture_output=True, pass_fds=[rules.fileno()]
         ).returncode
     return False
+
+
+def _groups() -> Iterator[Path]:
+    """The control groups in which a process of ours may be grouped, if the system lets us."""
+    with suppress(OSError):
+        for line in Path("/proc/self/cgroup").read_text().splitlines():
+            _, kinds, path = line.split(":", 2)
+            own = Path("/sys/fs/cgroup", kinds, path.lstrip("/"))
+            if not kinds:  # of the second version, which has processes in its leaves only
+                yield own.parent if path != "/" else own
+            elif kinds in ("memory", "pids"):
+                yield own
+
+
+@contextmanager
+def grouped(command: list[str], memory: int, processes: int) -> Iterator[list[str]]:
+    """Give the command that runs `command` with what all its processes may take together.
+
+    Where no control groups can be made, that is `command`.
+    """
+    limits = {"memory.max": memory, "memory.limit_in_bytes": memory, "pids.max": processes}
+    made = []
+    for above in _groups():
+        with suppress(OSError):
+            (above / "cgroup.procs").stat()  # else it is a folder like others
+            own = Path(tempfile.mkdtemp(prefix="wmr-", dir=above))
+            made.append(own)
+            for name, most in limits.items():
+                if (own / name).exists():
+                    (own / name).write_text(str(most))
+    joins = 'for each in $0; do echo 0 2>/dev/null >"$each/cgroup.procs"; done; exec "$@"'
+    try:
+        yield ["sh", "-c", joins, " ".join(map(str, made)), *command] if made else command
+    finally:
+        for own in made:
+            for _ in range(100):  # until the last process has gone
+                with suppress(OSError):
+                    own.rmdir()
+                if not own.exists():
+                    break
+                time.sleep(0.02)

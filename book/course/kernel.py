@@ -16,7 +16,7 @@ from threading import Event, Thread
 from typing import NamedTuple
 
 import psutil
-from cage import caged, holds, next_user, write_filter
+from cage import SCRATCH, caged, grouped, holds, next_user, write_filter
 from judge import failure
 from jupyter_client.kernelspec import KernelSpecManager
 from jupyter_client.manager import AsyncKernelManager
@@ -120,6 +120,7 @@ def running(
     """
     (link := own / "link").mkdir(parents=True)
     ended = Event()
+    groups = ExitStack()
     try:
         with ExitStack() as inherited:
             lib, home, fds = place.stage / "lib", Path("/tmp"), []
@@ -136,6 +137,9 @@ def running(
                 write_filter(rules)
                 fds.append(rules.fileno())
                 command = _in_cage(command, link, place, rules.fileno())
+                most = limits.memory * 5 // 4 + SCRATCH  # the watch, which says why, comes first
+                together = grouped(command, most, 2 * MOST_PROCESSES)
+                command = groups.enter_context(together)
             client = Client(
                 notebook,
                 _manager(own, link, command),
@@ -157,6 +161,7 @@ def running(
         for process in started(spared):
             with suppress(psutil.Error):
                 process.kill()
+        groups.close()
 
 
 def _in_cage(command: list[str], link: Path, place: Place, rules: int) -> list[str]:

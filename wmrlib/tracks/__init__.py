@@ -1,7 +1,5 @@
 """Positions in NMEA, GPX and CSV files, with an account of what is not used."""
 
-from __future__ import annotations
-
 import os
 from dataclasses import dataclass
 from io import BufferedReader, TextIOWrapper
@@ -11,27 +9,18 @@ import numpy as np
 from wmrlib._checks import refusal
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks import gpx, nmea, tables
-from wmrlib.tracks.fixes import LONGEST, Count, Fixes, Report
+from wmrlib.tracks.fixes import Count, Fixes, Report
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
 __all__ = ["Count", "Report", "Track", "read_track", "write_geojson", "write_gpx"]
-
-_BINARY = (
-    (b"\x1f\x8b", 0, "compressed by gzip; unpack it"),
-    (b"PK\x03\x04", 0, "a zip archive, as a KMZ file is; unpack it, and export KML as GPX"),
-    (b".FIT", 8, "a FIT file; export it as GPX"),
-)
 
 
 @dataclass(frozen=True, eq=False, slots=True)
 class Track:
     """The positions of a file, in its order, in arrays that can't be written to.
 
-    Parameters
-    ----------
-    points, source, report : GeoPoint of arrays, "NMEA", "GPX" or "CSV", and Report
-    t : array, s; since the first position that has a time, NaN where there is none; in order
-        within a segment of GPX, and in the whole of another file
+    `t` is in s since the first position that has a time, NaN where there is none, and in order
+    within a segment of GPX and in the whole of another file. `source` is "NMEA", "GPX" or "CSV".
     """
 
     points: GeoPoint
@@ -42,9 +31,6 @@ class Track:
     def __post_init__(self) -> None:
         for values in (self.points.lat, self.points.lon, self.t):
             np.asarray(values).flags.writeable = False
-
-    def __reduce__(self) -> tuple:  # a copy's arrays would be writeable
-        return Track, (self.points, self.t, self.source, self.report)
 
     def __len__(self) -> int:
         return self.t.size
@@ -61,20 +47,15 @@ def read_track(path: str | os.PathLike) -> Track:
 
     NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once;
     not where the most trusted of these says that there is no fix; checksum needed.
-    GPX: the track points, or else the route's, or else the waypoints, whose times tell when they
-    were made and are not used; no document type or entity. Extensions are passed over.
-    CSV: a line, with at most nine above it, names the columns: lat or latitude; lon, lng, long or
-    longitude, in degrees or e7; optionally lat_deg, lat_min and lat_sec, N/S and E/W; time,
-    timestamp, datetime or t, in seconds, ms, a spreadsheet's days or ISO 8601, or date and time;
-    valid, fix, quality or status. Cells are separated by a comma, semicolon, tab or |; decimal
-    commas are read, in quotes where commas separate cells. Of y/m/d, d/m/y and m/d/y, with or
-    without separators, a file's dates are in the order that brings them nearest each other.
-    Text is UTF-8, or UTF-16 with its byte order mark.
+    GPX: the track points, or else the route's, or else the waypoints (without their times).
+    CSV: one of the first ten lines names the columns: lat or latitude; lon, lng, long or longitude,
+    in degrees (33.27, 33.27 N or "33,27") or e7; optionally N/S and E/W; t, time_s or time_ms,
+    or time in ISO 8601, with a date (2026-03-01) beside it or not; valid, fix, quality or status.
     Where times run backwards, the longest run in order is used (in GPX, of each segment).
 
     Parameters
     ----------
-    path : str or PathLike
+    path : str or PathLike; text in UTF-8, or in UTF-16 with its byte order mark
 
     Returns
     -------
@@ -82,8 +63,7 @@ def read_track(path: str | os.PathLike) -> Track:
 
     Raises
     ------
-    ValueError : a file without a position; the message says why
-    OSError : a file that can't be opened
+    ValueError, OSError : a file without a position, with the reason; one that can't be opened
     """
     if not isinstance(path, str | os.PathLike):
         raise refusal("path", path, "a str or PathLike", f", not of type {type(path).__name__}")
@@ -92,37 +72,28 @@ def read_track(path: str | os.PathLike) -> Track:
             source, fixes = _read(file)
         (lat, lon, time), report = fixes.settle()
         if not report.used:
-            reasons = "; ".join(report.listed(report.skipped))
+            reasons = repr(report).partition("not used: ")[2].replace("\nnot used: ", "; ")
             raise ValueError(f"it is {source}, but {reasons or 'holds no position'}")
     except ValueError as error:
         raise ValueError(f"no position in {os.fspath(path)!r}: {error}") from None
-    timed = time[~np.isnan(time)]
-    t = time - timed[0] if timed.size else time
-    return Track(GeoPoint(lat=lat, lon=lon), t, source, report)
+    begin = time[~np.isnan(time)][:1].sum()
+    return Track(GeoPoint(lat=lat, lon=lon), time - begin, source, report)
 
 
 def _read(file: BufferedReader) -> tuple[str, Fixes]:
     head = file.peek()
-    for mark, place, kind in _BINARY:
-        if head.startswith(mark, place):
-            raise ValueError(f"it is {kind}")
+    if head.startswith((b"\x1f\x8b", b"PK\x03\x04")) or head[8:12] == b".FIT":
+        raise ValueError("it is compressed, a KMZ or a FIT file; unpack it, or export it as GPX")
     wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))  # as PowerShell's > writes
     # The checksums of NMEA are of bytes, which surrogates keep.
     coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
     if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
         return "GPX", gpx.read(file)  # XML itself says how it is encoded
     with TextIOWrapper(file, coding, errors, newline="") as text:
-        parts = iter(lambda: text.readline(LONGEST), "")
-        begin = next((part.lstrip()[0] for part in parts if part.strip()), None)
-        if begin is None:
-            raise ValueError("the file is empty")
-        text.seek(0)
-        if begin in "{[":
-            raise ValueError("it is JSON, but NMEA, GPX or CSV is needed")
         try:
-            return "CSV", tables.read_csv(text)
-        except tables.NoHeaderError:
+            return "CSV", tables.read(text)
+        except LookupError as error:  # no header
             text.seek(0)
             if (fixes := nmea.read(text)) is None:
-                raise
+                raise ValueError(f"it is neither NMEA nor GPX, and {error.args[0]}") from None
             return "NMEA", fixes

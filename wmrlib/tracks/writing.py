@@ -1,16 +1,9 @@
-"""A path written to GPX and GeoJSON, cut at the date line so that none is drawn round the Earth."""
-
-from __future__ import annotations
+"""A path written to GPX and GeoJSON."""
 
 import json
 import math
 import os
-import re
-import secrets
-import shutil
-from contextlib import suppress
 from datetime import UTC, datetime, timedelta
-from itertools import pairwise
 from pathlib import Path
 from typing import Any
 from xml.sax.saxutils import escape
@@ -20,12 +13,12 @@ import numpy as np
 from wmrlib._checks import Real, instance, real, refusal
 from wmrlib.geodesy import GeoPoint, position_list
 
-_DECIMALS = 7  # of a degree: a centimetre
-_GPX_11 = """<?xml version="1.0" encoding="UTF-8"?>
-<gpx xmlns="http://www.topografix.com/GPX/1/1" version="1.1" creator="wmrlib">"""
-_RETURN = {"\r": "&#13;"}  # a bare one is read as a line's end
-_NOT_IN_XML = re.compile("[^\t\n\r -\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
-_NOT_IN_UTF8 = re.compile("[\ud800-\udfff]")
+_GPX = """<?xml version="1.0" encoding="UTF-8"?>
+<gpx xmlns="http://www.topografix.com/GPX/1/1" version="1.1" creator="wmrlib">
+<trk><name>{}</name><trkseg>
+{}
+</trkseg></trk></gpx>
+"""
 
 
 def write_gpx(
@@ -40,111 +33,64 @@ def write_gpx(
 
     Parameters
     ----------
-    path, name : str or PathLike of the file, and str, the track's name
+    path, name : str or PathLike of the file, and printable str, the track's name
     points : GeoPoint of arrays; of a driven Trajectory, `point_at(origin, run.x, run.y)`
     t, begin : array, s after `begin` (one a position, NaN for none), and datetime with a time zone
 
     Raises
     ------
-    ValueError : no position, t or begin without the other, t of another length, a begin without a
-        time zone, times outside the years 1 to 9999, or a name that XML can't hold
-    OSError : a file that can't be written; one that was there stays as it was
+    ValueError : no position, a name that can't be printed, t without begin or of another length
+    OSError : a file that can't be written
     """
-    lat, lon = _rounded(points)
-    if (t is None) is not (begin is None):
-        both = f"t = {t!r} and begin = {begin!r}"
-        raise ValueError(f"{both} are not allowed together: both or none are needed")
-    times = [""] * lat.size if begin is None else _times(t, begin, lat.shape)
-    _check_name(name, _NOT_IN_XML)
-    lon = np.where(lon == 180.0, -180.0, lon)  # GPX 1.1: below 180
-    rows = [_GPX_11, f"<trk><name>{escape(name, _RETURN)}</name>"]
-    for piece in _pieces(lon):
-        places = (f'<trkpt lat="{lat[i]:.7f}" lon="{lon[i]:.7f}">{times[i]}</trkpt>' for i in piece)
-        rows += ["<trkseg>", *places, "</trkseg>"]
-    overwrite(path, "\n".join([*rows, "</trk>", "</gpx>", ""]).encode())
+    lat, lon = _rounded(points, name)
+    lon[lon == 180.0] = -180.0  # GPX 1.1: below 180
+    rows = zip(lat, lon, _times(t, begin, lat.shape), strict=True)
+    places = (f'<trkpt lat="{y:.7f}" lon="{x:.7f}">{time}</trkpt>' for y, x, time in rows)
+    _replace(path, _GPX.format(escape(name), "\n".join(places)))
 
 
 def write_geojson(path: str | os.PathLike, points: GeoPoint, *, name: str = "wmrlib") -> None:
-    """Write positions as a GeoJSON Feature (RFC 7946) with 7 decimals (a centimetre).
+    """Write positions as a GeoJSON Feature; parameters and errors as `write_gpx`.
 
-    Parameters
-    ----------
-    path, name : str or PathLike of the file, and str, the property "name"
-    points : GeoPoint of arrays; of a driven Trajectory, `point_at(origin, run.x, run.y)`
-
-    Raises
-    ------
-    ValueError : no position, or a name that is no text or that UTF-8 can't hold
-    OSError : as `write_gpx`
+    Across the date line longitudes go on beyond 180, so that no map draws a line round the Earth.
     """
-    lat, lon = _rounded(points)
-    _check_name(name, _NOT_IN_UTF8)
-    places = np.column_stack([lon, lat])
-    lines = [places[piece].tolist() for piece in _pieces(lon)]
-    for before, after in pairwise(lines):
-        (x, y), (next_x, next_y) = before[-1], after[0]
-        side, gap = math.copysign(180.0, x), 360.0 - abs(next_x - x)
-        share = abs(side - x) / gap if gap > 0.0 else 0.0
-        crossing = round(y + share * (next_y - y), _DECIMALS)
-        before.append([side, crossing])
-        after.insert(0, [-side, crossing])
-    kind, coordinates = "MultiLineString", lines
-    if len(lines) == 1:
-        kind, coordinates = ("LineString", lines[0]) if lat.size > 1 else ("Point", lines[0][0])
+    lat, lon = _rounded(points, name)
+    places = np.column_stack([np.round(np.unwrap(lon, period=360.0), 7), lat]).tolist()
+    kind, coordinates = ("LineString", places) if places[1:] else ("Point", places[0])
     geometry = {"type": kind, "coordinates": coordinates}
     feature = {"type": "Feature", "properties": {"name": name}, "geometry": geometry}
-    text = json.dumps(feature, ensure_ascii=False, allow_nan=False) + "\n"
-    overwrite(path, text.encode())
+    _replace(path, json.dumps(feature, ensure_ascii=False) + "\n")
 
 
-def overwrite(path: str | os.PathLike, data: bytes) -> None:
-    """Replace a file's content at once; what was there stays where that fails."""
-    if os.path.exists(path) or not os.path.basename(path):
-        with open(path, "ab") as file:  # refused here, if it is read-only or a folder
-            if not os.path.isfile(path):  # a pipe
-                file.write(data)
-                return
-    target = Path(os.path.realpath(path))  # a link stays a link
-    new = target.with_name(f".{secrets.token_hex(8)}.tmp")
-    try:
-        with new.open("xb") as file:
-            file.write(data)
-            file.flush()
-            os.fsync(file.fileno())
-        if target.exists():
-            shutil.copymode(target, new)
-        new.replace(target)
-    except OSError as error:  # it may name the new file
-        raise OSError(error.errno, error.strerror, os.fspath(path)) from None
-    finally:
-        with suppress(OSError):
-            new.unlink()
-
-
-def _rounded(points: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
+def _rounded(points: GeoPoint, name: str) -> tuple[np.ndarray, np.ndarray]:
+    if not instance("name", name, str).isprintable():
+        raise refusal("name", name, "printable text")
     lat, lon = position_list(points)
-    return np.round(lat, _DECIMALS) + 0.0, np.round(lon, _DECIMALS) + 0.0  # no -0.0
+    return np.round(lat, 7) + 0.0, np.round(lon, 7) + 0.0  # no -0.0
 
 
-def _pieces(lon: np.ndarray) -> list[np.ndarray]:
-    """The indices of the positions between one crossing of the date line and the next."""
-    return np.split(np.arange(lon.size), np.flatnonzero(np.abs(np.diff(lon)) > 180.0) + 1)
-
-
-def _times(t: Any, begin: datetime, shape: tuple[int, ...]) -> list[str]:
-    if instance("begin", begin, datetime).utcoffset() is None:
-        raise ValueError(f"begin = {begin!r} is not allowed: one with its time zone is needed")
+def _times(t: Any, begin: datetime | None, shape: tuple[int, ...]) -> list[str]:
+    if t is None and begin is None:
+        return [""] * shape[0]
+    if t is None or begin is None or instance("begin", begin, datetime).utcoffset() is None:
+        needed = "both are needed, begin with its time zone"
+        raise ValueError(f"t = {t!r} and begin = {begin!r} are not allowed together: {needed}")
     t = np.atleast_1d(real("t", t, nan=True))
     if t.shape != shape:
         raise ValueError(f"mismatched lengths: t has shape {t.shape}, points have shape {shape}")
     try:  # in UTC, so that a change to summer time loses no hour
-        begin = begin.astimezone(UTC)
-        times = [None if math.isnan(s) else begin + timedelta(seconds=s) for s in t.tolist()]
+        times = [math.isnan(s) or begin.astimezone(UTC) + timedelta(seconds=s) for s in t.tolist()]
     except OverflowError:
         raise refusal("t", t, "begin + t in the years 1 to 9999") from None
-    return [f"<time>{time.isoformat()[:-6]}Z</time>" if time else "" for time in times]
+    return ["" if time is True else f"<time>{time.isoformat()[:-6]}Z</time>" for time in times]
 
 
-def _check_name(name: str, forbidden: re.Pattern) -> None:
-    if found := forbidden.search(instance("name", name, str)):
-        raise ValueError(f"name = {name!r} is not allowed: one without {found[0]!r} is needed")
+def _replace(path: str | os.PathLike, text: str) -> None:
+    """Write the file whole or leave it as it was: a disk may be full."""
+    place = Path(path)
+    new = place.with_name(f".{place.name}.new")
+    try:
+        new.write_text(text, "utf-8")
+        new.replace(place)
+    finally:
+        new.unlink(missing_ok=True)

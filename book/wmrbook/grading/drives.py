@@ -147,22 +147,20 @@ def _explain_law(
         pose = Pose(*row)
         rho, alpha, theta = polar_error(pose, goal)
         sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
+        wide, sign = (rho, sight - pose.heading, sight - goal.heading), (rho, alpha, -theta)
         mistakes = {
             "the law is given theta and alpha in the wrong order.": (rho, theta, alpha),
             "the law is given a theta that is counted from east, not from the goal's heading.": (
-                *(rho, alpha, sight),
+                rho,
+                alpha,
+                sight,
             ),
-            "the law is given angles of more than half a turn: wrap alpha and theta.": (
-                *(rho, sight - pose.heading, sight - goal.heading),
-            ),
-            "the law is given something other than (rho, alpha, theta): a sign?": (
-                *(rho, alpha, -theta),
-            ),
+            "the law is given angles of more than half a turn: wrap alpha and theta.": wide,
+            "the law is given something other than (rho, alpha, theta): a sign?": sign,
         }
-        steps = {
-            hint: advance(pose, *_law(*seen), dt, method="euler") for hint, seen in mistakes.items()
-        }
-        if not same_pose(following, advance(pose, *_law(rho, alpha, theta), dt, method="euler")):
+        step = partial(advance, pose, dt=dt, method="euler")
+        if not same_pose(following, step(*_law(rho, alpha, theta))):
+            steps = {hint: step(*_law(*seen)) for hint, seen in mistakes.items()}
             rule_out(following, steps, same_pose)
 
 

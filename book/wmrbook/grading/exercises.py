@@ -65,29 +65,24 @@ def _exercise(check: Callable[..., str]) -> Callable[..., str]:
 @_exercise
 def third_formula(distance: Callable) -> str:
     """1.2: distance(lat_1, lon_1, lat_2, lon_2), degrees in, metres out."""
-    places, scales = _earth.places(20), []
-    for a, b in places:
+    scales = []
+    for a, b in _earth.places(20):
         value, right = _earth.between(distance, a, b), earth.haversine_distance(a, b)
         scales.append(value / right)
+        degrees = earth.haversine_distance(*_earth.in_degrees(a, b))
         across = EARTH_RADIUS_M * math.sin(right / EARTH_RADIUS_M)
         mistakes = {
-            "degrees go into a sine: `math.radians` first.": earth.haversine_distance(
-                *_earth.in_degrees(a, b)
-            ),
+            "degrees go into a sine: `math.radians` first.": degrees,
             "an angle is wanted, and this is its sine: where is the dot product?": across,
         }
         rule_out(value, mistakes)
-    if not close(scales[0], 1.0):
-        angle = "this is the angle: times the Earth's radius it is the distance."
-        expect(not all(close(each, 1.0 / EARTH_RADIUS_M) for each in scales), angle)
-        hint = f"each distance is {scales[0]:.7g} times the right one: metres, on a sphere with "
-        alike = all(close(each, scales[0]) for each in scales)
-        expect(not alike, f"{hint}a radius of {EARTH_RADIUS_M:.0f} m, are wanted.")
-    hint = (
-        "the distance of two known places is wrong: is each vector of length 1, and the angle an "
-    )
-    hint += "atan2 of cross and dot product?"
-    expect(all(close(each, 1.0) for each in scales), hint)
+    alike, first = all(close(each, scales[0]) for each in scales), scales[0]
+    angle = "this is the angle: times the Earth's radius it is the distance."
+    expect(not (alike and close(first, 1.0 / EARTH_RADIUS_M)), angle)
+    hint = f"each distance is {first:.7g} times the right one: metres, on a sphere with "
+    expect(not alike or close(first, 1.0), f"{hint}a radius of {EARTH_RADIUS_M:.0f} m, are wanted.")
+    hint = "the distance of two known places is wrong: is each vector of length 1, and the angle "
+    expect(alike, f"{hint}an atan2 of cross and dot product?")
     earth.distance_close(distance)
     bounds = (-60.0, 60.0), (-170.0, 170.0), (-0.7, 0.7), (-0.7, 0.7)
     for lat, lon, *offset in drawn(6, 20, *bounds):  # to less than a metre from the far side
@@ -141,12 +136,8 @@ def odometry(path: Callable, ends: Any = None) -> str:
     """
     own_work(path)
     for seed in range(6):
-        log, width, dt = (
-            drawn(seed, 12, (-1.0, 1.0), (-1.0, 1.0)),
-            0.3 + 0.1 * seed,
-            0.7 - 0.1 * seed,
-        )
-        log = [*log, (0.4, 0.4), (0.3, -0.3), (0.0, 0.0)]  # straight on, on the spot, at rest
+        log = [*drawn(seed, 12, *[(-1.0, 1.0)] * 2), (0.4, 0.4), (0.3, -0.3), (0.0, 0.0)]
+        width, dt = 0.3 + 0.1 * seed, 0.7 - 0.1 * seed
         value = ask_numbers(path, 3, [tuple(each) for each in log], width, dt)
         mistakes = {
             "these are Euler's straight steps: on an arc the robot turns on its way.": (1, 0.0),
@@ -158,28 +149,23 @@ def odometry(path: Callable, ends: Any = None) -> str:
             "this robot turns right where it should turn left.": (-1,),
         }
         found = {hint: _driven(log, width, dt, *how) for hint, how in mistakes.items()}
-        right = _driven(log, width, dt)
-        if not same_pose(value, right, 1e-6):
+        right, near = _driven(log, width, dt), partial(same_pose, tolerance=1e-6)
+        if not near(value, right):
             _expect_radians(value, right)
-            wrong = (
-                "the path ends elsewhere: try one step straight on, one on the spot, one on an arc."
-            )
-            explain(value, found, wrong, lambda one, other: same_pose(one, other, 1e-6))
+            wrong = "the path ends elsewhere: "
+            wrong += "try one step straight on, one on the spot, one on an arc."
+            explain(value, found, wrong, near)
     x, y, *by_euler = numbers("The function is right. `ends`", ends, 4)
     log = [(0.8, 1.2)] * 10 + [(1.2, 0.8)] * 10
-    for place, turned, who in (
-        ((x, y), None, "the robot ends"),
-        (by_euler, 0.0, "Euler's path ends"),
-    ):
+    euler = by_euler, 0.0, "Euler's path ends"
+    for place, turned, who in (((x, y), None, "the robot ends"), euler):
         right = _driven(log, 0.6, 0.5, turned=turned)[:2]
         hint = f"the function is right, but {who} elsewhere: 10 pairs (0.8, 1.2), then 10 of them "
         expect(math.dist(place, right) < 0.011, f"{hint}turned round, 0.6 m wide, each for 0.5 s.")
     return "Right for six logs, turning both ways and not at all. Euler ends elsewhere."
 
 
-def _driven(
-    log: Sequence, width: float, dt: float, side: int = 1, turned: float | None = None
-) -> Pose:
+def _driven(log, width: float, dt: float, side: int = 1, turned: float | None = None) -> Pose:
     """Where a log leads: by arcs, or by straight steps after that share of each turn."""
     at = Pose(0.0, 0.0, 0.0)
     for left, right in log:
@@ -200,19 +186,12 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
     for far, ahead, beside, *at in drawn(3, 20, *bounds):
         goal = Pose(*at)
         value = ask_numbers(pose, 3, far, ahead, beside, goal)
+        other, from_x = (far, -ahead, beside), (far, ahead, beside - goal.heading)
         mistakes = {
             "the robot is on the other side of the goal: rho leads back.": (-far, ahead, beside),
             "theta has the other sign here; is it Corke's beta?": (far, ahead, -beside),
-            "alpha is the line of sight less the heading, not the other way.": (
-                far,
-                -ahead,
-                beside,
-            ),
-            "the line of sight is theta from the goal's heading, not from x.": (
-                far,
-                ahead,
-                beside - goal.heading,
-            ),
+            "alpha is the line of sight less the heading, not the other way.": other,
+            "the line of sight is theta from the goal's heading, not from x.": from_x,
         }
         found = {hint: _inverse(goal, *each) for hint, each in mistakes.items()}
         right = pose_from_polar(PolarError(far, ahead, beside), goal)
@@ -220,28 +199,23 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
             rule_out(value, found, same_pose)
             _expect_radians(value, right)
             placed = math.dist(value[:2], right[:2]) < 1e-7
-            expect(
-                not placed,
-                "the place is right, the heading is not: the line of sight's less alpha.",
-            )
+            hint = "the place is right, the heading is not: the line of sight's less alpha."
+            expect(not placed, hint)
             raise Hint("the way back misses: draw the line of sight first.")
     *place, degrees = numbers("The function is right. `there`", there, 3)
     north, log = Pose(0.0, 0.0, math.pi / 2), (5.0, math.radians(-20.0))
+    turned = math.radians(degrees)
     mistakes = {
         "degrees are wanted for the heading.": (math.radians(-35.0), degrees),
-        "beta went in for theta, and they have opposite signs.": (
-            math.radians(35.0),
-            math.radians(degrees),
-        ),
+        "beta went in for theta, and they have opposite signs.": (math.radians(35.0), turned),
     }
     right = _inverse(north, *log, math.radians(-35.0))
-    if not _seen_there((*place, math.radians(degrees)), right):
+    if not _seen_there((*place, turned), right):
         for hint, (beside, heading) in mistakes.items():
             found = _inverse(north, *log, beside)
             expect(not _seen_there((*place, heading), found), f"the function is right; {hint}")
-        raise Hint(
-            "the function is right; the colleague's robot is elsewhere, or a digit is missing."
-        )
+        hint = "the colleague's robot is elsewhere, or a digit is missing."
+        raise Hint(f"the function is right; {hint}")
     return "Right: twenty poses come back, and the colleague's robot is found."
 
 
@@ -266,10 +240,8 @@ def _inverse(goal: Pose, far: float, ahead: float, beside: float) -> tuple[float
 def brake(limits: Any) -> str:
     """4.1: the largest k_rho with the exponential and with tanh."""
     grid = [x / 1000 for x in range(5000)]
-    steepest = (
-        max(math.exp(-x) * -math.expm1(-x) for x in grid),
-        max(math.tanh(x) / math.cosh(x) ** 2 for x in grid),
-    )
+    exponential = max(math.exp(-x) * -math.expm1(-x) for x in grid)
+    steepest = exponential, max(math.tanh(x) / math.cosh(x) ** 2 for x in grid)
     value, right = numbers("`limits`", limits, 2), [1.0 / (16.0 * each) for each in steepest]
     mistakes = {
         "they are the other way round.": right[::-1],
@@ -280,9 +252,8 @@ def brake(limits: Any) -> str:
         hint = "differentiate v along the way, dv/dt = dv/drho (-v): where is that steepest?"
         explain(value, mistakes, hint, _near)
     for name, each, most in zip(("the exponential", "tanh"), value, right, strict=True):
-        _expect_below(
-            each, most, f"with {name} and k_rho = {each:g} 1/m it brakes harder than 1 m/s^2"
-        )
+        hint = f"with {name} and k_rho = {each:g} 1/m it brakes harder than 1 m/s^2"
+        _expect_below(each, most, hint)
     return "Right: tanh brakes harder, and asks for the smaller gain."
 
 
@@ -335,10 +306,9 @@ def pendulum(swing: Callable, share: Any = None) -> str:
             unwrapped = value[0] - 2.0 * math.pi * turns, value[1]
             hint = "full turns of q count: do not wrap it."
             expect(not _beside(unwrapped, _swung(q, p, seconds)), hint)
-            hint = (
-                f"from q = {q:g}, p = {p:g} it is elsewhere after {seconds:g} s: is q' p, and p' "
-            )
-            raise Hint(f"{hint}-sin(q) - c p, and are the steps Runge's and Kutta's, of 0.01 s?")
+            hint = f"from q = {q:g}, p = {p:g} it is elsewhere after {seconds:g} s: is q' p, and "
+            hint += "p' -sin(q) - c p, and are the steps Runge's and Kutta's, of 0.01 s?"
+            raise Hint(hint)
     part = number("The function is right. `share`", share)
     hint = "the function is right; a share is between 0 and 1: those at q = 0 over all 400."
     expect(0.0 <= part <= 1.0, hint)
@@ -347,29 +317,20 @@ def pendulum(swing: Callable, share: Any = None) -> str:
     return "Right. The energy never rises, which an assert can show, and none ends upright."
 
 
-def _swung(
-    q: float,
-    p: float,
-    seconds: float,
-    gravity: float = 1.0,
-    friction: float = 0.3,
-    euler: bool = False,
-    more: int = 0,
-) -> tuple[float, float]:
-    def rates(q: float, p: float) -> tuple[float, float]:
-        return p, -gravity * math.sin(q) - friction * p
+def _swung(q, p, seconds, gravity=1.0, friction=0.3, euler=False, more=0) -> tuple[float, float]:
+    """Runge's and Kutta's steps, of q + i p."""
 
-    dt = 0.01
+    def rates(at: complex) -> complex:
+        return complex(at.imag, -gravity * math.sin(at.real) - friction * at.imag)
+
+    at, dt = complex(q, p), 0.01
     for _ in range(round(seconds / dt) + more):
-        first = rates(q, p)
-        half = rates(q + dt / 2 * first[0], p + dt / 2 * first[1])
-        then = rates(q + dt / 2 * half[0], p + dt / 2 * half[1])
-        last = rates(q + dt * then[0], p + dt * then[1])
-        mean = [
-            (a + 2 * b + 2 * c + d) / 6 for a, b, c, d in zip(first, half, then, last, strict=True)
-        ]
-        q, p = (x + dt * rate for x, rate in zip((q, p), first if euler else mean, strict=True))
-    return q, p
+        first = rates(at)
+        half = rates(at + dt / 2 * first)
+        then = rates(at + dt / 2 * half)
+        mean = (first + 2 * half + 2 * then + rates(at + dt * then)) / 6
+        at += dt * (first if euler else mean)
+    return at.real, at.imag
 
 
 def _beside(one: Sequence[float], other: Sequence[float]) -> bool:
@@ -412,12 +373,9 @@ def one_centimetre(answer: Any) -> str:
     slope = gain * (4.0 - paper.CIRCLE_SPEED)  # of v over the distance, where the robot stays
     _expect_unit(step, 2.0 / slope, "s")
     if not _about(step, 2.0 / slope):
+        there = "v_max k_rho is the slope of v at the goal itself: how steep is it 1 cm away?"
         once = "with this step the error is gone at once; a longer one still lets it shrink."
-        mistakes = {
-            once: 1.0 / slope,
-            "v_max k_rho is the slope of v at the goal itself: how steep is it 1 cm away?": 0.5
-            / gain,
-        }
+        mistakes = {once: 1.0 / slope, there: 0.5 / gain}
         hint = "a step multiplies the error by 1 - s dt: what is the slope s of v 1 cm away?"
         explain(step, mistakes, hint, _about)
     # The gain is rounded too.
@@ -453,14 +411,11 @@ def told_too_little(answer: Any) -> str:
     turning = 2.0 * math.pi / paper.CIRCLE_PERIOD
     right = 0.1 * speed / (1.0 + turning**2 / speed)
     if not close(value, right, 0.01):
+        there, cm = right * math.hypot(1.0, turning / speed), 100.0 * right
+        hint = "the goal is ahead, and so e_x is positive."
+        rule_out(value, {hint: -right, "the answer is wanted in metres.": cm}, _about)
         mistakes = {
-            "the goal is ahead, and so e_x is positive.": -right,
-            "the answer is wanted in metres.": 100.0 * right,
-        }
-        rule_out(value, mistakes, _about)
-        mistakes = {
-            "how far ahead is asked, e_x; this distance has e_y in it.": right
-            * math.hypot(1.0, turning / speed),
+            "how far ahead is asked, e_x; this distance has e_y in it.": there,
             "told the truth, the robot would not lag at all; it is told 10 % less.": 0.0,
             "that is for a straight line. On a circle it turns as well: set the second and third "
             "rate to zero too.": 0.1 * speed,
@@ -483,9 +438,8 @@ def longest_step(seconds: Any) -> str:
             "this is how long the angles allow, (8.2): and the distance?": angles,
             "rho changes its sign beyond this step, and still settles: go on.": 1.0 / pace,
         }
-        explain(
-            value, mistakes, "begin near the goal, and ask whether rho and alpha shrink.", _about
-        )
+        hint = "begin near the goal, and ask whether rho and alpha shrink."
+        explain(value, mistakes, hint, _about)
     _expect_below(value, distance, f"with {value:g} s the distance grows again")
     return "Right: the distance sets this limit, not the angles."
 

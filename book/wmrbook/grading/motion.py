@@ -64,16 +64,11 @@ def twist_known(twist: Callable[[float, float, float, float], Pair]) -> str:
     for left, right, width, radius in _robots():
         v, omega = value = ask_numbers(twist, 2, left, right, width, radius)
         v_right, omega_right = wheels_to_twist(left * radius, right * radius, width)
-        slow, slow_turn = wheels_to_twist(left, right, width)
+        slow = wheels_to_twist(left, right, width)
+        half = slow[0], omega_right
         mistakes = {
-            "(1) has speeds over the ground and (2) angular ones: v needs the radius too.": (
-                slow,
-                omega_right,
-            ),
-            "the wheels' speeds are in rad/s: over the ground they are radius times that.": (
-                slow,
-                slow_turn,
-            ),
+            "(1) has speeds over the ground and (2) angular ones: v needs the radius too.": half,
+            "the wheels' speeds are in rad/s: over the ground they are radius times that.": slow,
         }
         rule_out(value, mistakes, _equal)
         mistakes = {
@@ -123,12 +118,8 @@ def arc_known(arc: Arc) -> str:
 def arc_straight(arc: Arc) -> str:
     """It is finite for omega = 0 and keeps its digits when omega is tiny."""
     own_work(arc)
-    for omega in (
-        0.0,
-        -0.0,
-        *spread(1e-15, 1.0, 100),
-        *(-each for each in spread(1e-15, 1.0, 100)),
-    ):
+    sizes = spread(1e-15, 1.0, 100)
+    for omega in (0.0, -0.0, *sizes, *(-each for each in sizes)):
         value = ask_numbers(arc, 3, 1.0, 2.0, 0.5, 2.0, omega, 1.5)
         right, euler = (
             advance(Pose(1.0, 2.0, 0.5), 2.0, omega, 1.5, method=each) for each in ("arc", "euler")

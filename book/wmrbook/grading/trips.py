@@ -13,7 +13,7 @@ import numpy as np
 from wmrbook.grading import variants
 from wmrbook.grading._asking import ask, ask_truth, number, ordered
 from wmrbook.grading._hints import angle_equal, drawn, expect, explain, rule_out, spread
-from wmrbook.grading.earth import _walks
+from wmrbook.grading.earth import _on_the_spot, _walks
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position
 from wmrlib.kinematics import Pose, polar_error
@@ -40,10 +40,10 @@ def poses_known(poses: Poses) -> str:
             "the goal is on the opposite side, as the start is seen from it.": (-east, -north),
             "x is north on your map; it is asked for with x east and y north.": (north, east),
         }
-        rule_out(goal[:2], mistakes, _near)
+        rule_out(goal[:2], mistakes, _on_the_spot)
         hint = "the goal is not where it should be on the map: "
         hint += "`wmr.local_position` gives metres east and north."
-        expect(_near(goal[:2], (east, north)), hint)
+        expect(_on_the_spot(goal[:2], (east, north)), hint)
         for name, pose, degrees in (("start", start, course), ("goal", goal, goal_course)):
             right = math.radians(90.0 - degrees)
             if angle_equal(pose.heading, right):
@@ -208,10 +208,6 @@ def _borders() -> Iterator[tuple[Trajectory, bool, str]]:
             hint += "has parked, and is said not to have: " if parked else "counts as parked: "
             hint += "0.1 m are asked for, all round, " if far > 0.1 else "0.1 m and "
             yield _stop(end), parked, hint + "5 deg are asked for, to both sides."
-
-
-def _near(place, other) -> bool:
-    return math.dist(place, other) < 0.02
 
 
 def _trips(count: int) -> list[tuple[GeoPoint, GeoPoint, float, float]]:

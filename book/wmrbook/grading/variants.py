@@ -85,9 +85,8 @@ class Drive:
             f"({each.x:.1f}, {each.y:.1f}) m, looking {math.degrees(each.heading):.0f} deg"
             for each in (self.start, self.goal)
         )
-        limits = (
-            f"{100.0 * self.arrival_radius:.1f} cm, {self.heading_deg:g} deg, {self.time:.1f} s"
-        )
+        radius = 100.0 * self.arrival_radius
+        limits = f"{radius:.1f} cm, {self.heading_deg:g} deg, {self.time:.1f} s"
         robot = f"at most {self.v_max:.1f} m/s and {self.omega:.2f} rad/s"
         if self.dt:
             robot = f"a look every {self.dt:.3f} s, wheels {self.track_width:.2f} m apart that do "
