@@ -70,10 +70,12 @@ def test_times_are_kept_only_where_the_zip_has_those_of_the_files(tmp_path, cour
     assert parse_utc(stamp) == wanted
     _, said = unzipped(course, zipped(tmp_path, dict.fromkeys(names[:1], "")))
     assert "no times but that of its making" in said
+    assert (course / "submitted/ada3/ch01/timestamp.txt").exists()  # it is the same notebook
+    unzipped(course, zipped(tmp_path, {names[0]: f"{CELL} "}))
     assert not (course / "submitted/ada3/ch01/timestamp.txt").exists()
     _, said = unzipped(course, zipped(tmp_path, dict.fromkeys(CANVAS, "")))
     assert "times" not in said
-    assert not [*course.glob("submitted/*/*/timestamp.txt")]
+    assert [path.parts[-3] for path in course.glob("submitted/*/*/timestamp.txt")] == ["bob"]
 
 
 def test_the_newest_of_several_counts_and_cells_say_which_assignment(tmp_path, course):

@@ -5,6 +5,7 @@ import contextlib
 import json
 import pickle
 import threading
+from collections import deque
 from multiprocessing import Pipe
 
 import judge
@@ -114,6 +115,9 @@ def test_arrays_expressions_and_functions_arrive_as_what_they_are():
         (sp.sin(s.alpha) / s.rho + s.decay(s.rho, s.k_rho), s.rho > 0), (sp.pi, True)
     )
     names = {"flat": flat, "rate": rate, "twice": lambda ask, x: 2 * ask(x), "huge": 10**400}
+    names |= {"named": lambda ask: ask(x=7), "matrix": np.array([[1.0, 2.0]]).view(np.matrix)}
+    names |= {"deque": deque([1, 2]), "values": {"a": 1, "b": 2}.values(), "range": range(1, 3)}
+    names |= {"long": np.array([1, 2], np.longdouble), "point": sp.Point(1, 2)}
     names |= {"column": sp.Matrix([1, 2]), "words": {1, 2}, "own": object()}
 
     def asks(link):
@@ -125,6 +129,10 @@ def test_arrays_expressions_and_functions_arrive_as_what_they_are():
         assert [*line.value("column")] == [1, 2]
         assert isinstance(line.value("words"), dict)
         assert type(line.value("own")).__name__ == "object"
+        assert line.value("named")(lambda x: x + 1) == 8
+        assert line.value("matrix").tolist() == [[1.0, 2.0]]
+        rows = (line.value(key) for key in ("deque", "values", "range", "long", "point"))
+        assert [[float(each) for each in row] for row in rows] == [[1.0, 2.0]] * 5
         with pytest.raises(NameError, match="nothing"):
             line.value("nothing")
 

@@ -29,6 +29,8 @@ from traitlets.config.loader import PyFileConfigLoader
 
 COURSE = Path(__file__).resolve().parent
 SCHEME = re.compile("=== BEGIN MARK SCHEME ===.*?=== END MARK SCHEME ===", re.DOTALL)
+TOOLS = str(Path(sys.executable).parent)  # nbgrader calls alembic by name
+os.environ["PATH"] = os.pathsep.join([TOOLS, os.environ.get("PATH", "")])
 KNOWN = "graded.json"  # beside the notebook that has run
 
 
@@ -60,8 +62,6 @@ class Course:
         log = logging.getLogger("traitlets")  # what goes wrong is in the API's replies
         log.handlers, log.propagate = [logging.NullHandler()], False
         warnings.simplefilter("ignore", SAWarning)  # nbgrader adds a submission cell by cell
-        tools = str(Path(sys.executable).parent)  # nbgrader calls alembic by name
-        os.environ["PATH"] = os.pathsep.join([tools, os.environ.get("PATH", "")])
         config = PyFileConfigLoader("nbgrader_config.py", str(folder)).load_config()
         config.CourseDirectory.root = str(folder)
         self.api = NbGraderAPI(config=config)

@@ -14,6 +14,7 @@ from pathlib import Path
 from typing import Any
 
 import nbformat
+import psutil
 from nbformat import NotebookNode
 
 from wmrbook.grading._wire import Line
@@ -179,3 +180,12 @@ def limit(memory: int, seconds: int = 0) -> None:
         resource.setrlimit(resource.RLIMIT_AS, (memory + MORE_MEMORY,) * 2)
         if seconds:
             resource.setrlimit(resource.RLIMIT_CPU, (seconds,) * 2)
+
+
+def limit_more(memory: int) -> None:
+    """Limit what this process takes from now on; what it starts may take more."""
+    if sys.platform == "linux":
+        import resource
+
+        most = psutil.Process().memory_info().vms + memory
+        resource.setrlimit(resource.RLIMIT_AS, (most, resource.RLIM_INFINITY))

@@ -154,6 +154,7 @@ def running(
             quiet = dict.fromkeys(("stdout", "stderr"), subprocess.DEVNULL)
             with client.setup_kernel(cleanup_kc=True, **where, **quiet):
                 inherited.close()
+                client.kc.stdin_channel.stop()  # nobody reads what would come there
                 Thread(target=client.watch, args=(limits.memory, spared, ended)).start()
                 yield client
     finally:

@@ -33,6 +33,7 @@ from nbgrader.api import SubmittedAssignment
 from nbgrader.utils import parse_utc
 
 TABLES = {"zone", "due", "late", "extensions", "lessons"}
+MOST_DAYS = 10_000
 RULES = {"per_day": 0.0, "most_days": math.inf}
 
 
@@ -76,8 +77,13 @@ def read(folder: Path) -> Term | None:
     try:
         told = tomllib.loads(path.read_text(encoding="utf-8-sig"))
         zone = ZoneInfo(told.get("zone", "UTC"))
-    except (ValueError, OSError, KeyError) as error:
+    except (ValueError, OSError, KeyError, TypeError) as error:
         raise ValueError(f"{path}: {error}") from None
+    for table in sorted(TABLES - {"zone"}):
+        if not isinstance(told.get(table, {}), dict):
+            raise ValueError(f"{path}: {table} = {told[table]!r}: lines below [{table}] are needed")
+    if not told.get("due"):
+        raise ValueError(f"{path}: [due] with an assignment and its date is needed")
     students = roster.of(folder)
     groups = {each.username: each.group for each in students if each.group}
     known = {each.username for each in students} | {*groups.values()}
@@ -102,7 +108,8 @@ def read(folder: Path) -> Term | None:
             return value if value.tzinfo else value.replace(tzinfo=zone)
         if isinstance(value, date):  # to its last second
             return datetime(value.year, value.month, value.day, 23, 59, 59, tzinfo=zone)
-        if days and isinstance(value, int | float) and value >= 0:
+        number = isinstance(value, int | float) and not isinstance(value, bool)
+        if days and number and 0 <= value <= MOST_DAYS:
             return timedelta(days=value)
         needed = f"2026-10-19 or 2026-10-19T18:00:00{' or days' * days} is needed"
         raise ValueError(f"{path}: {name} = {value!r}: {needed}")

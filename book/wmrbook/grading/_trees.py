@@ -16,7 +16,8 @@ _RELATIONS = sp.Eq, sp.Ne, sp.Lt, sp.Le, sp.Gt, sp.Ge
 _HEADS = {each.__name__: each for each in (*_RELATIONS, sp.Piecewise, symbolic.decay)}
 _HEADS |= {name: getattr(sp, name) for name in FUNCTIONS if hasattr(sp, name)}
 _UNEVALUATED = {each.__name__: each for each in (ExprCondPair, sp.Tuple, sp.Derivative)}
-_CONSTANTS = (sp.pi, sp.E, sp.I, sp.oo, -sp.oo, sp.zoo, sp.nan, sp.true, sp.false, sp.EulerGamma)
+_CONSTANTS = (sp.pi, sp.E, sp.I, sp.oo, -sp.oo, sp.zoo, sp.nan, sp.true, sp.false)
+_CONSTANTS += (sp.EulerGamma, sp.GoldenRatio, sp.Catalan, sp.TribonacciConstant)
 _CONSTANTS_BY_NAME = {type(each).__name__: each for each in _CONSTANTS}
 
 

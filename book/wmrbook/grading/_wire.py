@@ -15,6 +15,7 @@ from collections.abc import Callable, Iterator, Mapping, Set
 from contextlib import suppress
 from decimal import Decimal
 from fractions import Fraction
+from functools import partial
 from itertools import islice
 from multiprocessing.connection import Client, Connection
 from typing import Any
@@ -92,8 +93,11 @@ class Line:
                 own_work(self.lent[request["function"]], *request["allowed"])
                 reply = {"value": None}
             else:
+                function = self.lent[request["function"]]
+                keys = {str(key): self._rebuilt(each) for key, each in request["named"].items()}
                 arguments = map(self._rebuilt, request["arguments"])
-                reply = {"value": self._plain(called(self.lent[request["function"]], *arguments))}
+                answer = called(partial(function, **keys) if keys else function, *arguments)
+                reply = {"value": self._plain(answer)}
         except Failed as failed:
             reply = {"failed": [failed.told, failed.refused, failed.unwritten]}
         except Hint as hint:
@@ -115,6 +119,8 @@ class Line:
         """Return it as JSON can say it; what has another kind is named."""
         if isinstance(value, np.generic):
             value = value.item()
+        if isinstance(value, np.floating):  # numpy's long double is its own item
+            value = float(value)
         if type(value) is int and abs(value) > _LARGEST:
             return {"foreign": ["int", shown(value), math.inf]}
         if value is None or type(value) in (bool, int, float, str):
@@ -134,9 +140,12 @@ class Line:
         if isinstance(value, (tuple, list)) and (self.trusts or type(value) in (tuple, list)):
             order = "list" if isinstance(value, list) else "tuple"
             return {order: [self._plain(each) for each in value]}
+        if self.trusts and not hasattr(value, "tolist") and _is_row(value):
+            return {"list": [self._plain(each) for each in value]}
         if callable(getattr(value, "tolist", None)):  # an array, a matrix of sympy or mpmath
-            array = value if isinstance(value, np.ndarray) else np.array(value.tolist(), object)
-            if array is not value and 1 in array.shape:
+            ours = isinstance(value, np.ndarray)
+            array = np.asarray(value) if ours else np.array(value.tolist(), object)
+            if not ours and 1 in array.shape:
                 array = array.ravel()  # a column, as `floats` takes it
             kept = array.dtype.str if array.dtype.kind in "biufc" else "O"
             return {"array": [kept, [*array.shape], [self._plain(it) for it in array.ravel()]]}
@@ -194,9 +203,10 @@ class Line:
         return type(known, (Foreign,), {})(str(text), number)
 
     def _function(self, place: int, name: str) -> Callable:
-        def function(*arguments: Any) -> Any:
+        def function(*arguments: Any, **named: Any) -> Any:
             sent = [self._plain(each) for each in arguments]
-            return self._ask(function=place, arguments=sent)
+            names = {key: self._plain(each) for key, each in named.items()}
+            return self._ask(function=place, arguments=sent, named=names)
 
         def expect_own(*allowed: str) -> None:
             self._ask(function=place, allowed=allowed)
@@ -204,6 +214,13 @@ class Line:
         function.__name__ = function.__qualname__ = name
         function.expect_own = expect_own
         return function
+
+
+def _is_row(value: Any) -> bool:
+    """Whether it has a length and an order, as `ordered` of _asking.py wants it."""
+    with suppress(Exception):
+        return not isinstance(value, (str, bytes, type)) and len(value) == len([*value])
+    return False
 
 
 def serve(path: str, names: Mapping[str, Any]) -> None:
