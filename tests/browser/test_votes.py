@@ -60,6 +60,7 @@ def test_the_form_on_a_telephone_makes_a_line_that_counts(tmp_path, browser_page
     assert faults == []
     for button, left in (("Copy the line", name.strip()), ("Clear all", "")):
         browser_page.get_by_role("button", name=button).click()
+        browser_page.wait_for_timeout(1000)  # ms: a clipboard may take its time
         browser_page.reload()
         assert browser_page.locator("#who").input_value().strip() == left
         assert browser_page.locator("#state").text_content().startswith("0 of")
