@@ -153,7 +153,7 @@ def test_whatever_a_hand_in_sends_is_data_or_refused(reply):
     with ours, theirs:
         theirs.send_bytes(json.dumps({"value": reply}).encode())
         line = _wire.Line(ours, {})
-        with contextlib.suppress(_wire.Failed):
+        with contextlib.suppress(_wire.Hint):
             line.value("it")
 
 
@@ -166,6 +166,6 @@ def test_a_judge_runs_nothing_that_is_sent(tmp_path):
     with ours, theirs:
         packed = base64.b64encode(pickle.dumps(Bomb())).decode()
         theirs.send_bytes(json.dumps({"value": {"pickled": packed}}).encode())
-        with pytest.raises(_wire.Failed):
+        with pytest.raises(_wire.Hint, match="`it` can't be judged"):
             _wire.Line(ours, {}).value("it")
     assert not any(tmp_path.iterdir())

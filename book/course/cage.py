@@ -23,9 +23,7 @@ from typing import BinaryIO
 
 SCRATCH = 200_000_000  # bytes of the files in /tmp, which count as memory
 _ROOT = "bin", "sbin", "lib", "lib32", "lib64", "libx32"  # links into /usr, or folders
-_NEW = (
-    "--unshare-pid --unshare-ipc --unshare-uts --unshare-cgroup-try --die-with-parent --new-session"
-)
+_NEW = "--unshare-pid --unshare-ipc --unshare-uts --unshare-cgroup-try"
 _FIRST_USER = 2_000_000_000  # beyond all that a system gives away
 _users = count(os.getpid() % 100_000 * 1000)
 # What leads out of a namespace, into another process or the system's own affairs, and what holds
@@ -79,7 +77,8 @@ def caged(
     reads, writes: the folders that it sees, and may write to; hidden: what it does not see of them.
     rules: the filter's file, open. user: whom root becomes.
     """
-    words = [*_NEW.split(), *([] if network else ["--unshare-net"])]
+    words = ["--die-with-parent", "--new-session", *_NEW.split()]
+    words += [] if network else ["--unshare-net"]
     words += [] if user is not None else ["--unshare-user"]
     for path in map(Path("/").joinpath, _ROOT):
         if path.is_symlink():

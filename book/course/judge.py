@@ -19,7 +19,6 @@ from nbformat import NotebookNode
 
 from wmrbook.grading._wire import Line
 
-MORE_MEMORY = 4_000_000_000  # bytes beyond a hand-in's: the libraries are loaded
 GIVEN = {"grade": False, "solution": False}
 ANSWER = "import wmrbook.grading._wire as wire; wire.serve({!r}, globals())"
 
@@ -173,19 +172,16 @@ def failure(name: str, text: str) -> NotebookNode:
 
 
 def limit(memory: int, seconds: int = 0) -> None:
-    """Limit what this process takes while it reads what somebody handed in."""
+    """Limit what this process takes from now on: bytes beyond what it has, seconds of a processor.
+
+    It reads what somebody handed in. What it starts may raise the limit for itself.
+    """
     if sys.platform == "linux":
         import resource
 
-        resource.setrlimit(resource.RLIMIT_AS, (memory + MORE_MEMORY,) * 2)
-        if seconds:
-            resource.setrlimit(resource.RLIMIT_CPU, (seconds,) * 2)
-
-
-def limit_more(memory: int) -> None:
-    """Limit what this process takes from now on; what it starts may take more."""
-    if sys.platform == "linux":
-        import resource
-
-        most = psutil.Process().memory_info().vms + memory
-        resource.setrlimit(resource.RLIMIT_AS, (most, resource.RLIM_INFINITY))
+        most = {resource.RLIMIT_AS: psutil.Process().memory_info().vms + memory}
+        most |= {resource.RLIMIT_CPU: seconds} if seconds else {}
+        for kind, value in most.items():
+            _, hard = resource.getrlimit(kind)  # of the system's, or of who started us
+            wanted = value if hard == resource.RLIM_INFINITY else min(value, hard)
+            resource.setrlimit(kind, (wanted, hard))

@@ -27,7 +27,7 @@ from unittest.mock import patch
 import handins
 import nbformat
 from handins import Refused
-from judge import Bench, failure, limit, limit_more
+from judge import Bench, failure, limit
 from kernel import Limits, Place, running
 from nbclient.exceptions import CellTimeoutError, DeadKernelError
 from nbformat import NotebookNode
@@ -166,7 +166,7 @@ def _repair(job: Path, path: Path, release: NotebookNode, seconds: int, memory: 
 def _drive(job: Path, where: Place, limits: Limits, told: dict) -> None:
     """Run the notebook of a job and store it after each cell; the process has no other task."""
     logging.disable()
-    limit_more(MESSAGES)
+    limit(MESSAGES)
     if sys.platform == "linux":  # what a kernel leaves behind becomes a child of this process
         ctypes.CDLL(None).prctl(36, 1, 0, 0, 0)  # PR_SET_CHILD_SUBREAPER
     result, began = job / "notebook.json", time.monotonic()

@@ -30,7 +30,7 @@ _MOST = 5_000_000  # bytes of a message
 _LARGEST = 2**1000
 _FIELDS = {"Gains": 4, "GeoPoint": 2, "PolarError": 3, "Pose": 3}  # wmrlib's, imported when needed
 _TEXTS = {"Fraction": Fraction, "Decimal": Decimal}
-_ORDERS: dict[str, Callable] = {"tuple": tuple, "list": list, "set": list}
+_ORDERS: dict[str, Callable] = {"tuple": tuple, "list": list}
 
 
 class Foreign:
@@ -59,8 +59,11 @@ class Line:
         self.lent: list[Callable] = []
 
     def value(self, name: str) -> Any:
-        """Return what has this name there; raises NameError if nothing has."""
-        return self._ask(name=name)
+        """Return what has this name there; raises NameError if nothing has, and Hint."""
+        try:
+            return self._ask(name=name)
+        except Failed as failed:
+            raise Hint(f"`{name}` can't be judged: it comes{failed.told}.") from None
 
     def serve(self) -> None:
         """Answer until the other end has heard enough."""
