@@ -197,3 +197,12 @@ def test_without_a_roster_or_a_zip_the_command_says_what_is_needed(tmp_path, cou
     done = subprocess.run(command, capture_output=True, text=True)
     assert "students.csv is needed to know who is who: a CSV, username," in done.stderr
     assert "Traceback" not in done.stderr
+
+
+@pytest.mark.parametrize("content", [" \n", "<!DOCTYPE html>", "\0\0"])
+def test_what_is_no_notebook_replaces_none(tmp_path, course, content):
+    name = next(iter(MOODLE))
+    (before,) = unzipped(course, zipped(tmp_path, {name: ""}))[0].items()
+    assert unzipped(course, zipped(tmp_path, {name: content}))[0] == {}
+    (kept,) = (course / "submitted" / before[0]).glob("*.ipynb")
+    assert kept.read_text("utf-8") == before[1]

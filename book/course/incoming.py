@@ -186,6 +186,8 @@ def _content(package: ZipFile, info: ZipInfo) -> bytes:
         content = file.read(MOST_BYTES + 1)
     if len(content) > MOST_BYTES:
         raise ValueError(f"refused: it has more than {MOST_BYTES // 10**6} MB")
+    if not content.lstrip(b"\xef\xbb\xbf \t\r\n").startswith(b"{"):
+        raise ValueError("refused: it is empty or no notebook, and would replace an earlier one")
     return content
 
 
