@@ -81,15 +81,15 @@ def test_times_are_kept_only_where_the_zip_has_those_of_the_files(tmp_path, cour
 def test_the_newest_of_several_counts_and_cells_say_which_assignment(tmp_path, course):
     other = CELL.replace("distance-known", "b")
     names = {
-        "lovelaceada_5_70_01_gps_to_metres-1.ipynb": "newer",
-        "lovelaceada_5_60_01_gps_to_metres.ipynb": "older",
+        "lovelaceada_5_70_01_gps_to_metres-1.ipynb": '{"newer": 1}',
+        "lovelaceada_5_60_01_gps_to_metres.ipynb": '{"older": 1}',
         "lovelaceada_5_61_01_gps_to_metres-7.ipynb": other,
         "vandambob_9_62_notes.pdf": "pdf",
         "vandambob_9_63_mine.ipynb": "{}",
     }
     path = zipped(tmp_path, names)
     found, said = unzipped(course, path)
-    assert found == {"ada3/ch01": "newer", "ada3/ch02": other}
+    assert found == {"ada3/ch01": '{"newer": 1}', "ada3/ch02": other}
     assert "2 notebooks, 01_gps_to_metres.ipynb, 01_gps_to_metres-1.ipynb; " in said
     assert "bob: mine.ipynb: not stored: of which assignment is it?" in said
     assert unzipped(course, path, assignment="ch01")[0]["bob/ch01"] == "{}"
