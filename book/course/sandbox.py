@@ -35,7 +35,7 @@ from stopping import heeding
 
 from wmrbook import grading
 
-MESSAGES = 1_000_000_000  # bytes of what a kernel sends before anybody counts it
+MESSAGES = 2_000_000_000  # bytes of what a kernel sends before anybody counts it
 READING = 10  # s of a processor to read and repair a hand-in
 
 
@@ -196,6 +196,7 @@ def _drive(job: Path, where: Place, limits: Limits, told: dict) -> None:
             except Exception as fault:  # what a cell shows may be no output at all
                 slow = f"it took over {limits.cell:g} s, or the whole over {limits.whole:g} s"
                 known = {CellTimeoutError: slow, DeadKernelError: "it ended Python"}
+                known[MemoryError] = "it sent more than can be read"
                 why = known.get(type(fault), "what it shows is no output that a notebook can hold")
                 if at is None:
                     raise

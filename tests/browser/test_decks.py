@@ -34,8 +34,12 @@ def decks(tmp_path_factory) -> Path:
     """The folder that the environment variable SLIDES names, or one with all decks, made now."""
     if READY:
         return Path(READY).resolve()
-    output = tmp_path_factory.mktemp("decks")
-    command = [sys.executable, ROOT / "book" / "tools" / "slides.py", output]
+    return make(tmp_path_factory.mktemp("decks"))
+
+
+def make(output: Path, *options: str) -> Path:
+    """Make decks in a folder."""
+    command = [sys.executable, ROOT / "book" / "tools" / "slides.py", output, *options]
     made = subprocess.run(command, capture_output=True, text=True)
     assert made.returncode == 0, made.stdout + made.stderr
     return output
@@ -156,7 +160,8 @@ def test_a_slider_and_the_goal_follow_the_pointer(decks, opened, size):
 
 
 def test_the_speakers_view_shows_the_notes_from_the_disk_and_each_formula_once(decks, opened):
-    page = opened(with_panel(decks))
+    ours = make(decks / "lecturer", "--lecturer", "--chapters", CHAPTER)  # its notes have formulas
+    page = opened(f"{ours.name}/{with_panel(ours)}")
     assert page.locator("aside.notes svg").count()
     assert not page.locator("aside.notes math").count()
     page.evaluate(SHOW, "aside.notes")
