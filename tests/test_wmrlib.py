@@ -7,6 +7,8 @@ import sys
 import wmrlib as wmr
 
 HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba", "tqdm"}
+NO_EXAMPLE = {"destination_point", "polar_rate", "pose_from_polar", "pose_rate", "route_points"}
+NO_EXAMPLE |= {"twist_to_wheels", "write_geojson", "write_gpx"}
 
 
 def modules_after(statement):
@@ -37,9 +39,10 @@ def test_every_public_name_is_there_and_says_what_it_is():
             assert inspect.getdoc(value) != inspect.getdoc(type(value)), name
 
 
-def test_functions_say_what_they_raise():
+def test_functions_say_what_they_raise_and_show_an_example():
     for name in wmr.__all__:
         value = getattr(wmr, name)
         if inspect.isfunction(value):
             text = inspect.getdoc(value)
             assert any(word in text for word in ("Raises", "errors", "inverse of")), name
+            assert "\n>>> " in text or name in NO_EXAMPLE, name

@@ -85,7 +85,7 @@ def choice(name: str, value: Any, allowed: Collection[str]) -> str:
     """Return `value` if it is one of `allowed`; otherwise raise ValueError, which lists them."""
     if isinstance(value, str) and value in allowed:
         return value
-    raise refusal(name, value, "one of " + ", ".join(repr(each) for each in allowed))
+    raise refusal(name, value, "one of " + ", ".join(repr(option) for option in allowed))
 
 
 def instance(name: str, value: Any, kind: type) -> Any:
@@ -93,8 +93,8 @@ def instance(name: str, value: Any, kind: type) -> Any:
     if isinstance(value, kind):
         return value
     names = kind.__name__, type(value).__name__
-    wanted, found = (f"a{'n' * (each[0] in 'AEIOUaeio')} {each}" for each in names)
-    raise refusal(name, value, wanted, f", not {found}")
+    wanted, given = (f"a{'n' * (word[0] in 'AEIOUaeio')} {word}" for word in names)
+    raise refusal(name, value, wanted, f", not {given}")
 
 
 def same_shape(**arguments: Any) -> tuple[int, ...]:

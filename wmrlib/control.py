@@ -32,6 +32,14 @@ def control_law(
     Raises
     ------
     ValueError : for rho < 0, NaN, an unknown law or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> gains = wmr.Gains(k_rho=2.0, k_alpha=1.0, h=0.3, v_max=4.0)
+    >>> v, omega = wmr.control_law(rho=2.0, alpha=0.0, theta=0.5, gains=gains)
+    >>> print(f"{v:.2f} m/s, {omega:.2f} rad/s")  # straight ahead, it turns for the heading
+    3.93 m/s, 0.29 rad/s
     """
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned)
@@ -53,6 +61,12 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
     Raises
     ------
     ValueError : for rho < 0, h < 0, L that is not positive, NaN or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> wmr.lyapunov(rho=2.0, alpha=1.0, theta=1.0, h=0.5)
+    2.75
     """
     state = _checked(rho=rho, alpha=alpha, theta=theta, h=h, L=L)
     return elementwise(lyapunov_value, 1, *state)[0]
@@ -77,6 +91,15 @@ def lyapunov_rate(
     Raises
     ------
     ValueError : as `control_law`, and for L that is not positive.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> for law in "corrected", "printed":
+    ...     rate = wmr.lyapunov_rate(0.1, 0.5, 2.0, wmr.paper.OUTDOOR_GAINS, law)
+    ...     print(f"{law}: {rate:.2f} 1/s")
+    corrected: -0.31 1/s
+    printed: 1.64 1/s
     """
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned, L=L)
@@ -100,6 +123,13 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
     Raises
     ------
     ValueError : for NaN, a width or speed that is not positive, or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> limits = wmr.WheelLimits(track_width=1.0, max_speed=2.0)
+    >>> wmr.limit_wheels(v=3.0, omega=2.0, limits=limits)  # the outer wheel would need 4 m/s
+    (1.5, 1.0)
     """
     v, omega = reals(v=v, omega=omega)
     limits = checked_wheels(limits, "limits")

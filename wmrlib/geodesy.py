@@ -52,6 +52,14 @@ def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M)
     Raises
     ------
     ValueError : mismatched lengths, or a radius that is not positive
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> a = wmr.GeoPoint(lat=33.273572, lon=44.373160)
+    >>> b = wmr.GeoPoint(lat=33.274087, lon=44.373264)
+    >>> print(f"{wmr.haversine_distance(a, b):.2f} m")  # the paper prints 58.07
+    58.08 m
     """
     lat1, lat2, delta_lat, delta_lon = _radians(a=a, b=b)
     metres = real("radius", radius, above=0.0)
@@ -76,6 +84,14 @@ def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
     Raises
     ------
     ValueError : mismatched lengths
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
+    >>> print(f"{math.degrees(wmr.initial_bearing(a, b)):.2f} deg")  # the paper prints 9.4
+    9.58 deg
     """
     lat1, lat2, delta_lat, delta_lon = _radians(a=a, b=b)
     zeta_x = np.cos(lat2) * np.sin(delta_lon)
@@ -137,6 +153,13 @@ def local_position(
     Raises
     ------
     ValueError : as `haversine_distance`
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> east, north = wmr.local_position(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2)
+    >>> print(f"{east:.2f} m east, {north:.2f} m north")
+    9.67 m east, 57.27 m north
     """
     _radians(origin=origin, point=point)  # its checks, by these names
     distance = haversine_distance(origin, point, radius)
@@ -160,6 +183,13 @@ def point_at(origin: GeoPoint, east: Real, north: Real, radius: float = EARTH_RA
     Raises
     ------
     ValueError : NaN, or mismatched lengths
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> point = wmr.point_at(wmr.paper.GPS_POINT_1, east=9.67, north=57.27)
+    >>> print(f"{point.lat:.6f}, {point.lon:.6f}")
+    33.274087, 44.373264
     """
     instance("origin", origin, GeoPoint)
     east, north = reals(east=east, north=north)

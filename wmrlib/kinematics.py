@@ -72,6 +72,12 @@ def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, 
     Raises
     ------
     ValueError : for NaN, a width that is not positive, or mismatched lengths.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> wmr.wheels_to_twist(left=1.0, right=2.0, track_width=0.5)  # a turn to the left
+    (1.5, 2.0)
     """
     wheels = {"left": left, "right": right, "track_width": track_width}
     left, right, width = reals(above_0=("track_width",), **wheels)
@@ -98,6 +104,13 @@ def wrap_angle(angle: Real) -> Real:
     Raises
     ------
     ValueError : if an angle is not finite.
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> wmr.wrap_angle(1.5 * math.pi) == -0.5 * math.pi  # three quarters left: one quarter right
+    True
     """
     return elementwise(wrap, 1, real("angle", angle))[0]
 
@@ -136,6 +149,14 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
     Raises
     ------
     ValueError : for NaN, a negative dt, an unknown method or mismatched lengths.
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> pose = wmr.advance(wmr.Pose(0.0, 0.0, 0.0), v=math.pi / 2, omega=math.pi / 2, dt=1.0)
+    >>> print(f"{pose.x:.2f}, {pose.y:.2f}")  # a quarter of a circle with radius 1 m
+    1.00, 1.00
     """
     instance("pose", pose, Pose)
     step = STEPS[choice("method", method, STEPS)]
@@ -160,6 +181,15 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
     Raises
     ------
     ValueError : for mismatched lengths.
+
+    Examples
+    --------
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> error = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), goal=wmr.Pose(3.0, 4.0, math.pi / 2))
+    >>> rho, alpha, theta = error.rho, math.degrees(error.alpha), math.degrees(error.theta)
+    >>> print(f"{rho:.1f} m away, alpha = {alpha:.1f} deg, theta = {theta:.1f} deg")
+    5.0 m away, alpha = 53.1 deg, theta = -36.9 deg
     """
     fields = reals(**_fields(pose=pose, goal=goal))
     return PolarError(*elementwise(polar_from_pose, 3, *fields))

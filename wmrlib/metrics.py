@@ -22,6 +22,14 @@ def arrival(trajectory: Trajectory) -> Arrival:
     Raises
     ------
     ValueError : a trajectory without a sample
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> start, goal, gains, _ = wmr.paper.outdoor()
+    >>> end = wmr.arrival(wmr.simulate(start, goal, wmr.GENTLE_GAINS, method="continuous"))
+    >>> print(f"{end.arrived}: {end.path_length:.1f} m in {end.time:.1f} s")
+    True: 61.8 m in 23.1 s
     """
     run = _with_samples(trajectory)
     arrived = run.outcome is Outcome.ARRIVED
@@ -50,6 +58,13 @@ def residual(trajectory: Trajectory, last: float = 5.0) -> float:
     Raises
     ------
     ValueError : a trajectory without a sample, or `last` not positive
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS)
+    >>> print(f"{wmr.residual(run):.3f} m")
+    0.090 m
     """
     run = _with_samples(trajectory)
     late = run.t >= run.t[-1] - scalar("last", last, above=0.0)

@@ -94,6 +94,13 @@ def headings_along(x: Real, y: Real) -> np.ndarray:
     Raises
     ------
     ValueError : NaN, no point, or different lengths
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import wmrlib as wmr
+    >>> print(np.degrees(wmr.headings_along([0.0, 10.0, 10.0], [0.0, 0.0, 10.0])).round(1))
+    [ 0. 45. 90.]
     """
     x, y = np.atleast_1d(real("x", x)), np.atleast_1d(real("y", y))
     if x.shape != y.shape or x.ndim != 1 or not x.size:
@@ -128,6 +135,13 @@ def route_poses(
     Raises
     ------
     ValueError : no point, headings of another length or not finite, or an origin of arrays
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> points = wmr.GeoPoint(lat=[33.2735, 33.2737, 33.2737], lon=[44.3731, 44.3731, 44.3734])
+    >>> print(wmr.route_poses(points).x.round(1))
+    [ 0.   0.  27.9]
     """
     lat, lon = position_list(points)
     if origin is None:
@@ -144,7 +158,7 @@ def route_poses(
     if headings is None:
         return Pose(east, north, chosen)
     if isinstance(headings, list | tuple):
-        headings = [math.nan if each is None else each for each in headings]
+        headings = [math.nan if heading is None else heading for heading in headings]
     given = np.atleast_1d(real("headings", headings, nan=True))
     if given.shape != lat.shape:
         shapes = f"headings have shape {given.shape}, points have shape {lat.shape}"
@@ -201,13 +215,20 @@ def drive_route(
     Raises
     ------
     ValueError : as `simulate`, no waypoint, or a `stop` of another length
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> corner = wmr.Pose([0.0, 20.0, 20.0], [0.0, 0.0, 20.0], [0.0, 0.8, 1.6])
+    >>> wmr.drive_route(corner, wmr.GENTLE_GAINS, stop=False, method="continuous")
+    <Route: 2 of 2 waypoints reached in 17.4 s, 39.81 m long>
     """
     listed = np.broadcast_arrays(*map(np.atleast_1d, instance("poses", poses, Pose)))
     shape = listed[0].shape
     if len(shape) != 1 or shape[0] <= (start is None):
         needed = "a list with at least one waypoint besides the start is needed"
         raise ValueError(f"poses have shape {shape}, which is not allowed: {needed}")
-    goals = [Pose(*map(float, each)) for each in zip(*listed, strict=True)]
+    goals = [Pose(*map(float, pose)) for pose in zip(*listed, strict=True)]
     start = goals.pop(0) if start is None else start
     stops = _stops(stop, len(goals))
     stop_radius = scalar("arrival_radius", arrival_radius, low=0.0)
@@ -226,11 +247,11 @@ def drive_route(
 
 
 def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
-    leg = np.repeat(np.arange(len(legs)), [len(each) for each in legs])
+    leg = np.repeat(np.arange(len(legs)), [len(driven) for driven in legs])
     # Where a leg ends stands the next one's first sample, whose command moves the robot on.
     kept = np.append(leg[1:] == leg[:-1], True)[: leg.size]
-    begins = np.cumsum([0.0, *(each.t[-1] if len(each) else 0.0 for each in legs)])
-    joined = {k: np.concatenate([getattr(each, k) for each in legs])[kept] for k in _JOINED}
+    begins = np.cumsum([0.0, *(driven.t[-1] if len(driven) else 0.0 for driven in legs)])
+    joined = {k: np.concatenate([getattr(driven, k) for driven in legs])[kept] for k in _JOINED}
     joined["t"] += begins[leg[kept]]
     return joined | {"leg": leg[kept]}
 

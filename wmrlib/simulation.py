@@ -59,6 +59,19 @@ def simulate(
     Raises
     ------
     ValueError : an argument is not as described; it is named with its value and what is allowed
+
+    Examples
+    --------
+    With its own gains the paper's robot arrives far from the goal's heading:
+
+    >>> import math
+    >>> import wmrlib as wmr
+    >>> start, goal, gains, _ = wmr.paper.outdoor()
+    >>> for chosen in gains, wmr.GENTLE_GAINS:
+    ...     run = wmr.simulate(start, goal, chosen, method="continuous")
+    ...     print(f"{run.t[-1]:.1f} s, {math.degrees(run.heading_error[-1]):.1f} deg off")
+    15.5 s, -27.2 deg off
+    23.1 s, 2.1 deg off
     """
     begin, end = single_pose("start", start), single_pose("goal", goal)
     tuning, code = tuning_of(gains, law, POSE_LAWS)
@@ -110,6 +123,13 @@ def track(
     Raises
     ------
     ValueError : as `simulate`
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS)
+    >>> print(f"{wmr.residual(run):.3f} m behind")  # the paper's error "converges to 0.1 m"
+    0.090 m behind
     """
     if not callable(reference):
         raise refusal("reference", reference, "a function of time")

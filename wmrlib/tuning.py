@@ -55,6 +55,13 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
     Raises
     ------
     ValueError : not Gains, or another law
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> settling = wmr.modes(wmr.paper.OUTDOOR_GAINS)
+    >>> print(f"damping {settling.damping:.2f}; the heading is {settling.slower:.0f} times slower")
+    damping 0.11; the heading is 16 times slower
     """
     rate, k_alpha, h = _near_goal(gains, law)
     with np.errstate(divide="ignore", invalid="ignore"):
@@ -91,6 +98,12 @@ def longest_step(gains: Gains, method: str = "arc", law: str = "corrected") -> R
     Raises
     ------
     ValueError : not Gains, another method or another law
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> print(f"{wmr.longest_step(wmr.paper.OUTDOOR_GAINS):.3f} s")  # the paper's step is 0.1 s
+    0.022 s
     """
     rate, k_alpha, h = _near_goal(gains, law)
     turn = k_alpha + rate
@@ -130,6 +143,12 @@ def gains_for(
     ------
     ValueError : not exactly one of natural_frequency and heading_rate, an argument that is not
         positive, mismatched lengths, or gains outside the range of numbers
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> wmr.gains_for(distance_rate=0.8, natural_frequency=1.0, damping=1.0)
+    Gains(k_rho=0.2, k_alpha=2.0, h=1.5625, v_max=4.0)
     """
     angles = {"natural_frequency": natural_frequency, "heading_rate": heading_rate}
     given = {name: value for name, value in angles.items() if value is not None}
@@ -170,11 +189,19 @@ def gain_map(
     Raises
     ------
     ValueError : a name that is no gain, values that are not a list of numbers, and as `sweep`
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> start, goal, gains, _ = wmr.paper.outdoor()
+    >>> runs = wmr.gain_map(start, goal, gains, {"k_alpha": [1.0, 2.0, 4.0], "h": [0.3, 2.0]})
+    >>> runs.heading_error.shape
+    (3, 2)
     """
     fields = instance("gains", gains, Gains)._asdict()
     if not instance("over", over, Mapping):
         raise ValueError("over = {} is not allowed: at least one gain and its values are needed")
-    axes = {choice("over", name, Gains._fields): real(name, each) for name, each in over.items()}
+    axes = {choice("over", key, Gains._fields): real(key, values) for key, values in over.items()}
     for name, values in axes.items():
         if np.ndim(values) != 1:
             given = f"{name} has shape {np.shape(values)}"

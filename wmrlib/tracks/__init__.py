@@ -64,6 +64,12 @@ def read_track(path: str | os.PathLike) -> Track:
     Raises
     ------
     ValueError, OSError : a file without a position, with the reason; one that can't be opened
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> wmr.read_track("notebooks/data/ublox5-standing.nmea")
+    <Track: 9 positions from NMEA, over 8 s; 77 not used>
     """
     if not isinstance(path, str | os.PathLike):
         raise refusal("path", path, "a str or PathLike", f", not of type {type(path).__name__}")
