@@ -330,7 +330,7 @@ def test_a_gain_is_of_those_who_sat_both_tests_and_says_what_is_in_doubt():
         ("cy",),
         ("dee",),
     )
-    np.testing.assert_allclose(result.each[:, 2], [np.nan, 1.0, 0.5, 0.5])
+    np.testing.assert_allclose(result.by_question[:, 2], [np.nan, 1.0, 0.5, 0.5])
     assert "fewer than 12 students" in result.remark
     some = {k: np.arange(20) % 2 == 0 for k in range(15)}  # half of it is forgotten
     other = {k: np.arange(20) % 4 < 2 for k in range(15)}

@@ -86,8 +86,8 @@ def make_zip(output: Path, lecturer: bool = False) -> None:
 
     say("the slides")
     slides.main(output / "slides", [], lecturer)
-    found = (path for part in ("html", "slides") for path in (output / part).rglob("[!.]*"))
-    files = {path.relative_to(output).as_posix(): path for path in found if path.is_file()}
+    paths = (path for part in ("html", "slides") for path in (output / part).rglob("[!.]*"))
+    files = {path.relative_to(output).as_posix(): path for path in paths if path.is_file()}
     files |= {"index.html": START, "book.pdf": output / "book.pdf", "LICENSE": ROOT / "LICENSE"}
     with ZipFile(output / ZIP, "w") as package:
         for name, path in sorted(files.items()):
@@ -145,10 +145,10 @@ def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES
 
 def npm_files(pattern: str) -> list[Path]:
     """Return the installed files that a pattern names: at least one."""
-    found = sorted(MODULES.glob(pattern))
-    if not found:
+    paths = sorted(MODULES.glob(pattern))
+    if not paths:
         sys.exit(f"No file {pattern} in {MODULES}: delete that folder and build again.")
-    return found
+    return paths
 
 
 def copy_sources(source: Path, lecturer: bool = False) -> None:
@@ -196,20 +196,20 @@ def arguments(description: str, default: Path) -> argparse.ArgumentParser:
     parser = argparse.ArgumentParser(
         description=description, formatter_class=argparse.RawDescriptionHelpFormatter
     )
-    said = f"a folder; {default.relative_to(ROOT)} by default"
+    text = f"a folder; {default.relative_to(ROOT)} by default"
     parser.add_argument(
-        "output", nargs="?", type=Path, default=default, metavar="OUTPUT", help=said
+        "output", nargs="?", type=Path, default=default, metavar="OUTPUT", help=text
     )
-    said = "for yourself: with solutions, and the lecturer's guide among the pages"
-    parser.add_argument("--lecturer", action="store_true", help=said)
+    text = "for yourself: with solutions, and the lecturer's guide among the pages"
+    parser.add_argument("--lecturer", action="store_true", help=text)
     return parser
 
 
 if __name__ == "__main__":
     parser = arguments(__doc__, BOOK / "_build")
     parser.add_argument("--pdf", action="store_true", help="the whole book as one PDF too")
-    said = "pages, slides and PDF in one file too"
-    parser.add_argument("--zip", action="store_true", help=said)
+    text = "pages, slides and PDF in one file too"
+    parser.add_argument("--zip", action="store_true", help=text)
     given = parser.parse_args()
     output = given.output.resolve() / ("lecturer" if given.lecturer else "")
     main(output, given.pdf, given.zip, given.lecturer)

@@ -43,12 +43,12 @@ DRIVEN = (
 def add_tasks(app, docname, source):
     """Put a chapter's tasks below its exercises."""
     chapter = CHAPTER.match(docname)
-    if chapter and (found := tasks(chapter[1])):
+    if chapter and (added := tasks(chapter[1])):
         notebook = nbformat.reads(source[0], as_version=4)
-        headings = [i for i, each in enumerate(notebook.cells) if each.source.startswith("## ")]
+        headings = [i for i, cell in enumerate(notebook.cells) if cell.source.startswith("## ")]
         exercises = next(i for i in headings if notebook.cells[i].source.startswith("## Exercises"))
         end = next((i for i in headings if i > exercises), len(notebook.cells))
-        notebook.cells[end:end] = found
+        notebook.cells[end:end] = added
         source[0] = nbformat.writes(notebook)
 
 

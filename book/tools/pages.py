@@ -73,17 +73,17 @@ def _line(text: str) -> str:
 def show_figures(app, doctree):
     """Give each figure of a cell two files, of which the theme shows one, and its words."""
     for output in list(doctree.findall(nodes.raw)):
-        if not (found := FIGURE.fullmatch(output.astext().strip())):
+        if not (figure := FIGURE.fullmatch(output.astext().strip())):
             continue
-        svg = unquote(found["svg"])
+        svg = unquote(figure["svg"])
         name = hashlib.sha256(svg.encode()).hexdigest()[:12]
         images = []
         for theme, text in (("light", svg), ("dark", darkened(svg))):
             path = Path(app.srcdir, "_figures", f"{name}-{theme}.svg")
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")
-            image = nodes.image(uri=f"/_figures/{path.name}", alt=html.unescape(found["alt"]))
-            image["width"] = f"{found['width']}px"
+            image = nodes.image(uri=f"/_figures/{path.name}", alt=html.unescape(figure["alt"]))
+            image["width"] = f"{figure['width']}px"
             image["classes"] = [f"only-{theme}", "no-scaled-link"]
             if theme == "dark":  # not loaded where the theme hides it
                 image["loading"] = "lazy"
@@ -171,8 +171,8 @@ def add_words(app, docname, template, context, doctree):
 
 def setup(app):
     PygmentsBridge.html_formatter = Lines
-    for told in (show_figures, begin_chapter):
-        app.connect("doctree-read", told, priority=400)  # before Sphinx collects images, titles
+    for change in (show_figures, begin_chapter):
+        app.connect("doctree-read", change, priority=400)  # before Sphinx collects images, titles
     app.connect("html-page-context", add_words)
     app.connect("build-finished", mend)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -44,7 +44,7 @@ class Cell(NamedTuple):
 
 def runnable(notebook) -> list[Cell]:
     """Return the cells of a chapter that the page can run."""
-    found, missing, hidden = [], set(), []
+    made, missing, hidden = [], set(), []
     for place, cell in enumerate(notebook.cells):
         if cell.cell_type != "code" or "task" in cell.metadata:
             continue
@@ -53,27 +53,27 @@ def runnable(notebook) -> list[Cell]:
             able = _can_run(statement, missing)
             (runs if able else left).append(statement)
             missing = missing - _binds(statement) if able else missing | _touches(statement)
-        shows = [each for each in runs if _shows(each)]
+        shows = [it for it in runs if _shows(it)]
         if cell.outputs and shows and not any(map(_shows, left)) and _tells(shows, left):
             lines = cell.source.splitlines()
-            cut = {i for each in left for i in range(each.lineno - 1, each.end_lineno)}
+            cut = {i for it in left for i in range(it.lineno - 1, it.end_lineno)}
             kept = "\n".join(line for i, line in enumerate(lines) if i not in cut).strip("\n")
             asked = re.search(r"grading\.(exercises\.\w+)", kept)
             name = asked[1] if asked else ""
-            found.append((Cell(place, kept, left_out=len(cut), name=name), runs, hidden))
+            made.append((Cell(place, kept, left_out=len(cut), name=name), runs, hidden))
             hidden = []
         else:
             hidden = hidden + runs
-    return _with_what_they_need(found)
+    return _with_what_they_need(made)
 
 
-def _with_what_they_need(found) -> list[Cell]:
+def _with_what_they_need(made) -> list[Cell]:
     """Put before each cell what it needs of the cells that are not run."""
     cells, needed, imported = [], set(), set()
-    for _, runs, hidden in found:
+    for _, runs, hidden in made:
         imports = (it for it in (*hidden, *runs) if isinstance(it, ast.Import | ast.ImportFrom))
         imported = imported.union(*map(_binds, imports))
-    for cell, runs, hidden in reversed(found):
+    for cell, runs, hidden in reversed(made):
         needed |= imported if cell.name else set()  # an answer may name any of them
         for statement in reversed(runs):
             needed |= _reads(statement)
@@ -102,7 +102,7 @@ def _can_run(statement: ast.stmt, missing: set[str]) -> bool:
 
 def _is_there(node: ast.AST) -> bool:
     if isinstance(node, ast.Import):
-        return {each.name for each in node.names} <= THERE
+        return {it.name for it in node.names} <= THERE
     if isinstance(node, ast.ImportFrom):
         return all(
             not THERE.isdisjoint({node.module, f"{node.module}.{it.name}"}) for it in node.names
@@ -133,23 +133,23 @@ def _binds(statement: ast.stmt) -> set[str]:
     """The names that a statement gives a value, or a part of one; not those inside functions."""
     names, waiting = set(), [statement]
     while waiting:
-        each = waiting.pop()
-        if isinstance(each, ast.FunctionDef | ast.ClassDef):
-            names.add(each.name)
-        elif isinstance(each, ast.Import | ast.ImportFrom):
-            names |= {(it.asname or it.name).partition(".")[0] for it in each.names}
+        node = waiting.pop()
+        if isinstance(node, ast.FunctionDef | ast.ClassDef):
+            names.add(node.name)
+        elif isinstance(node, ast.Import | ast.ImportFrom):
+            names |= {(it.asname or it.name).partition(".")[0] for it in node.names}
         else:
-            if isinstance(getattr(each, "ctx", None), ast.Store):
-                names |= _root(each)
-            waiting += ast.iter_child_nodes(each)
+            if isinstance(getattr(node, "ctx", None), ast.Store):
+                names |= _root(node)
+            waiting += ast.iter_child_nodes(node)
     return names
 
 
 def _touches(statement: ast.stmt) -> set[str]:
     """These, and those that it may change by a method, such as a list by `append`."""
-    alone = (each.value for each in ast.walk(statement) if isinstance(each, ast.Expr))
-    calls = (each.func for each in alone if isinstance(each, ast.Call))
-    methods = (_root(each) for each in calls if isinstance(each, ast.Attribute))
+    alone = (node.value for node in ast.walk(statement) if isinstance(node, ast.Expr))
+    calls = (node.func for node in alone if isinstance(node, ast.Call))
+    methods = (_root(call) for call in calls if isinstance(call, ast.Attribute))
     return _binds(statement).union(*methods)
 
 
@@ -160,13 +160,13 @@ def _root(node: ast.AST) -> set[str]:
 
 
 def _shows(statement: ast.stmt) -> bool:
-    prints = any(isinstance(each, ast.Name) and each.id == "print" for each in ast.walk(statement))
+    prints = any(isinstance(node, ast.Name) and node.id == "print" for node in ast.walk(statement))
     return isinstance(statement, ast.Expr) or prints
 
 
 def _tells(shows: list[ast.stmt], left: list[ast.stmt]) -> bool:
     """Whether it shows more than words, which may stand for what is left out."""
-    return not left or any(_reads(each) - {"print"} for each in shows)
+    return not left or any(_reads(it) - {"print"} for it in shows)
 
 
 def give_cells(app, doctree):
@@ -176,11 +176,11 @@ def give_cells(app, doctree):
     text = [Path(app.env.doc2path(app.env.docname)).read_text(encoding="utf-8")]
     add_tasks(app, app.env.docname, text)
     notebook = nbformat.reads(text[0], as_version=4)
-    cells = {each.place: each for each in runnable(notebook)}
+    cells = {cell.place: cell for cell in runnable(notebook)}
     for place, cell in enumerate(notebook.cells):
-        if told := cell.metadata.get("task"):
-            before, checks = told["before"], tuple(told["checks"])
-            cells[place] = Cell(place, cell.source, before, 0, checks, "tasks", told["name"])
+        if task := cell.metadata.get("task"):
+            before, checks = task["before"], tuple(task["checks"])
+            cells[place] = Cell(place, cell.source, before, 0, checks, "tasks", task["name"])
     section = None
     for container in list(doctree.findall(nodes.container)):
         if cell := cells.get(container.get("cell_index")):

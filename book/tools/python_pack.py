@@ -95,7 +95,7 @@ def packages() -> bytes:
     files = dict(_own_files())
     for name in INSTALLED:
         files |= _installed_files(name)
-    files |= {each.relative_to(STAND_INS).as_posix(): each for each in STAND_INS.rglob("*.py")}
+    files |= {path.relative_to(STAND_INS).as_posix(): path for path in STAND_INS.rglob("*.py")}
     files["run_cell.py"] = IN_PAGE / "run_cell.py"
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
@@ -114,10 +114,10 @@ def _own_files() -> Iterator[tuple[str, Path]]:
 
 
 def _installed_files(package: str) -> dict[str, Path]:
-    found = {}
+    places = {}
     for file in distribution(package).files or ():
         name = file.as_posix()
         code = file.parts[0] == package and file.suffix in KINDS and not LEFT_OUT.match(name)
         if code or "LICENSE" in file.name:
-            found[name] = Path(str(file.locate()))
-    return found
+            places[name] = Path(str(file.locate()))
+    return places

@@ -59,8 +59,8 @@ def entry(module, name: str) -> str:
         return f".. autoclass:: wmrlib.{name}\n   :members:"
     if callable(value):
         return f".. autofunction:: wmrlib.{name}"
-    said = ModuleAnalyzer.for_module(module.__name__).find_attr_docs()["", name]
-    return f".. py:data:: wmrlib.{name}\n   :value: {value!r}\n\n   " + "\n   ".join(said)
+    lines = ModuleAnalyzer.for_module(module.__name__).find_attr_docs()["", name]
+    return f".. py:data:: wmrlib.{name}\n   :value: {value!r}\n\n   " + "\n   ".join(lines)
 
 
 def skip_fields(app, kind, name, value, skip, options):
@@ -118,10 +118,10 @@ def link_code(app, docname, template, context, doctree):
 
 def address_of(app, docname: str, name: str) -> str:
     """Where a name has its entry, seen from a page, or an empty string."""
-    found = app.env.domains.python_domain.objects.get(name)
-    if not found:
+    target = app.env.domains.python_domain.objects.get(name)
+    if not target:
         return ""
-    address = f"{app.builder.get_relative_uri(docname, found.docname)}#{found.node_id}"
+    address = f"{app.builder.get_relative_uri(docname, target.docname)}#{target.node_id}"
     return address[address.rindex("#") :] if address.startswith("#") else address  # one page
 
 

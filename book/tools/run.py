@@ -82,7 +82,7 @@ def stored(notebook: NotebookNode) -> str:
     names = {random: f"widget-{place:03}" for place, random in enumerate(slim(notebook), 1)}
     text = nbformat.writes(notebook)
     if names:
-        text = re.sub("|".join(names), lambda found: names[found[0]], text)
+        text = re.sub("|".join(names), lambda match: names[match[0]], text)
     return nbformat.writes(nbformat.reads(text, as_version=4)) + "\n"  # sorted by the new names
 
 

@@ -109,12 +109,12 @@ def questions() -> NotebookNode:
 
     cells = []
     for kind, content in deck.slides(made()):
-        told = {"metadata": {"slideshow": {"slide_type": kind}}}
+        metadata = {"metadata": {"slideshow": {"slide_type": kind}}}
         if isinstance(content, str):
-            cells.append(nbformat.v4.new_markdown_cell(content, **told))
+            cells.append(nbformat.v4.new_markdown_cell(content, **metadata))
         else:
             shown = nbformat.v4.new_output("display_data", content._repr_mimebundle_())
-            cells.append(nbformat.v4.new_code_cell("", outputs=[shown], **told))
+            cells.append(nbformat.v4.new_code_cell("", outputs=[shown], **metadata))
     return nbformat.v4.new_notebook(cells=cells)
 
 
@@ -231,10 +231,10 @@ def _lead(first: NotebookNode) -> re.Match | None:
 def _parts(cell: NotebookNode) -> list[Part]:
     if cell.cell_type == "code":
         seen = [it for it in cell.outputs if shape(it) is not None]
-        told = [it for it in cell.outputs if it not in seen]
-        parts = [_printed(cell, told)] if told or not seen else []
-        if len(told) == 1 and TABLE.search(told[0].get("data", {}).get("text/markdown", "")):
-            first, *rest = (_part(cell, outputs=[it]) for it in _tables(told[0]))
+        texts = [it for it in cell.outputs if it not in seen]
+        parts = [_printed(cell, texts)] if texts or not seen else []
+        if len(texts) == 1 and TABLE.search(texts[0].get("data", {}).get("text/markdown", "")):
+            first, *rest = (_part(cell, outputs=[it]) for it in _tables(texts[0]))
             parts = [_printed(first, first.outputs)]
             parts += [Part(_part(it, source=""), rows=ROWS) for it in rest]
         for it in seen:  # the code stands with what it printed
@@ -308,8 +308,8 @@ def _pieces(text: str) -> list[tuple[str, float]]:
 
 def _split(text: str, where: re.Pattern) -> list[str]:
     whole = [formula.span() for formula in FORMULA.finditer(text)]
-    found = (each.end() for each in where.finditer(text))
-    cuts = [0, *(at for at in found if not any(a < at < b for a, b in whole)), len(text)]
+    ends = (match.end() for match in where.finditer(text))
+    cuts = [0, *(at for at in ends if not any(a < at < b for a, b in whole)), len(text)]
     return [text[begin:end] for begin, end in itertools.pairwise(cuts)]
 
 
@@ -375,10 +375,10 @@ def _joined(chunk: list[Part]) -> list[NotebookNode]:
 
 if __name__ == "__main__":
     parser = arguments(__doc__, BOOK / "_build" / "slides")
-    said = "only these, such as 00 04"
-    parser.add_argument("--chapters", nargs="+", default=[], metavar="NN", help=said)
-    said = "the concept questions, into book/_build/votes by default"
-    parser.add_argument("--questions", action="store_true", help=said)
+    text = "only these, such as 00 04"
+    parser.add_argument("--chapters", nargs="+", default=[], metavar="NN", help=text)
+    text = "the concept questions, into book/_build/votes by default"
+    parser.add_argument("--questions", action="store_true", help=text)
     given = parser.parse_args()
     place, own = given.output, "votes" if given.questions else "lecturer/slides"
     if place == parser.get_default("output") and (given.questions or given.lecturer):

@@ -80,15 +80,15 @@ def written(line: Line) -> str:
 
 def read(text: str) -> Line:
     """Return what the line in a text says, or raise ValueError with the reason."""
-    found = _LINE.search(instance("text", text, str))
-    if bare := None if found else _BARE.search(text.strip()):
+    match = _LINE.search(instance("text", text, str))
+    if bare := None if match else _BARE.search(text.strip()):
         return Line("predict", bare["id"], "", bare["value"])
-    if not found:
+    if not match:
         raise ValueError(f"there is no line: {_WANTED}")
-    if checked(found[0].rpartition(" check=")[0]) != found[0]:
+    if checked(match[0].rpartition(" check=")[0]) != match[0]:
         raise ValueError("the checksum does not fit: a character was changed, lost or added")
-    name, value = (unquote(found[field], errors="strict") for field in ("name", "value"))
-    return Line(found["kind"], found["id"], clean_name(name), _clean_value(value))
+    name, value = (unquote(match[field], errors="strict") for field in ("name", "value"))
+    return Line(match["kind"], match["id"], clean_name(name), _clean_value(value))
 
 
 def read_all(

@@ -13,10 +13,10 @@ def pareto(*costs: np.ndarray) -> np.ndarray:
     costs: arrays of one shape, of which less is better. Returns booleans in that shape, False where
     a cost is infinite or NaN.
     """
-    table = [as_array(each) for each in costs]
-    if any(each.dtype.kind not in "iuf" for each in table):
+    table = [as_array(cost) for cost in costs]
+    if any(cost.dtype.kind not in "iuf" for cost in table):
         raise refusal("costs", costs, "arrays of numbers")
-    shapes = [each.shape for each in table]
+    shapes = [cost.shape for cost in table]
     if len(set(shapes)) != 1:
         needed = "at least one, all of one shape, is needed"
         raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")

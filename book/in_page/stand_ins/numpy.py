@@ -44,12 +44,12 @@ def _refuse(*operands):
 class ndarray:  # noqa: N801
     def __init__(self, flat, shape):
         self.flat, self.shape, self.ndim, self.size = flat, shape, len(shape), len(flat)
-        kinds = {_KINDS.get(type(each), "O") for each in flat}
+        kinds = {_KINDS.get(type(entry), "O") for entry in flat}
         kind = "f" if kinds == {"i", "f"} else "O" if len(kinds) > 1 else "".join(kinds)
         self.dtype = SimpleNamespace(kind=kind)
 
     def astype(self, kind):
-        return ndarray([kind(each) for each in self.flat], self.shape)
+        return ndarray([kind(entry) for entry in self.flat], self.shape)
 
     def all(self):
         return all(self.flat)
@@ -59,7 +59,7 @@ class ndarray:  # noqa: N801
         return only
 
     def tolist(self):
-        return [each.tolist() for each in self] if self.ndim > 1 else list(self.flat)
+        return [row.tolist() for row in self] if self.ndim > 1 else list(self.flat)
 
     def __len__(self):
         if not self.ndim:
@@ -96,10 +96,10 @@ def asarray(value):
         return value
     if not isinstance(value, list | tuple):
         return ndarray([value], ())
-    rows = [asarray(each) for each in value]
+    rows = [asarray(row) for row in value]
     if len({row.shape for row in rows}) > 1:
         raise ValueError("ragged rows")
-    flat = [each for row in rows for each in row.flat]
+    flat = [entry for row in rows for entry in row.flat]
     return ndarray(flat, (len(rows), *(rows[0].shape if rows else ())))
 
 
@@ -114,7 +114,7 @@ class Generator:
             return self._random.uniform(low, high)
         shape = size if isinstance(size, tuple) else (size,)
         width = max(asarray(low).size, asarray(high).size)
-        lows, highs = (_repeated(asarray(each).flat, width) for each in (low, high))
+        lows, highs = (_repeated(asarray(bound).flat, width) for bound in (low, high))
         draws = (self._random.uniform(lows[i % width], highs[i % width]) for i in _places(shape))
         return ndarray(list(draws), shape)
 
@@ -153,7 +153,7 @@ def ravel(value):
 
 def broadcast_shapes(*shapes):
     longest = max(shapes, key=len)
-    if any(each not in ((), longest) for each in shapes):
+    if any(one not in ((), longest) for one in shapes):
         raise ValueError("shapes differ")
     return longest
 
@@ -174,7 +174,7 @@ def _of_each(function):
     def apply(value):
         if not isinstance(value, list | tuple | ndarray):
             return function(value)
-        return ndarray([function(each) for each in asarray(value).flat], shape(value))
+        return ndarray([function(entry) for entry in asarray(value).flat], shape(value))
 
     return apply
 

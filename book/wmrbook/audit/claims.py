@@ -61,8 +61,8 @@ def circle_run(law: str = "corrected", wheels=None, **changed: float) -> Traject
 
 def numbers() -> list[Row]:
     """A row for each number of `PUBLISHED` that is not an input or another work's, in its order."""
-    found = {row.item: row for row in [*_earth(), *_circle(), *_outdoor(), *_loops()]}
-    return [found[key] for key in PUBLISHED if key in found]
+    rows = {row.item: row for row in [*_earth(), *_circle(), *_outdoor(), *_loops()]}
+    return [rows[key] for key in PUBLISHED if key in rows]
 
 
 def _number(key: str, verdict: Verdict, holds: str, why: str) -> Row:
@@ -74,7 +74,7 @@ def _number(key: str, verdict: Verdict, holds: str, why: str) -> Row:
 def _computed(key: str, note: str, readings: dict[str, float]) -> Row:
     """Holds if one reading of the paper gives the printed number; `why` names that reading."""
     printed = PUBLISHED[key]
-    verdict = decide(lambda cut: any(fits(each, printed, cut) for each in readings.values()), "cut")
+    verdict = decide(lambda cut: any(fits(it, printed, cut) for it in readings.values()), "cut")
     if verdict is Verdict.OPEN:
         why = "it depends on how much a cut may lose"
     elif verdict is Verdict.HOLDS:
@@ -275,11 +275,11 @@ def _still() -> Row:
         run = outdoor_run(axis, radius, law)
         return abs(run.omega[run.rho < end]).max(), abs(run.omega[run.rho >= end]).max()
 
-    each = list(product(AXES, ("corrected", "printed")))
-    verdict = decide(lambda *case: bool(np.less(*turns(*case))), "arrival", "end", over=each)
+    cases = list(product(AXES, ("corrected", "printed")))
+    verdict = decide(lambda *case: bool(np.less(*turns(*case))), "arrival", "end", over=cases)
     limits = THRESHOLDS["arrival"], THRESHOLDS["end"]
     listed = "; ".join(
-        f"{law}, x {axis}: {turns(axis, law, *limits)[0]:.1f} rad/s" for axis, law in each
+        f"{law}, x {axis}: {turns(axis, law, *limits)[0]:.1f} rad/s" for axis, law in cases
     )
     whys = "less than before", "more than before", "it depends on the law that the authors ran"
     says = "It converges to zero because of the linear tracking path (Fig. 10)."
@@ -312,8 +312,8 @@ def _figure_5() -> Row:
     limit, shown = PUBLISHED["speed_limit"].value, [circle_run(), outdoor_run("east", 0.05)]
     circle, outdoor = (float(run.v.max()) for run in shown)
     reached = [
-        decide(lambda missing, fastest=each: fastest > (1.0 - missing) * limit, "reached")
-        for each in (circle, outdoor)
+        decide(lambda missing, fastest=speed: fastest > (1.0 - missing) * limit, "reached")
+        for speed in (circle, outdoor)
     ]
     verdict = Verdict.TYPO if reached == [Verdict.WRONG, Verdict.HOLDS] else reached[0]
     text = f"The run of Fig. 5 reaches {circle:.2f} m/s, that of Fig. 9 {outdoor:.2f} m/s."

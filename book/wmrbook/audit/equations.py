@@ -27,10 +27,10 @@ def wheels() -> tuple[sp.Expr, sp.Expr]:
         (v * _NOSE + side * b / 2 * (_RIGHT_TURN * _NOSE).diff(theta) * omega).dot(_NOSE)
         for side in (1, -1)
     )
-    found = sp.solve(
+    solution = sp.solve(
         [sp.trigsimp(right) - symbols.V_r, sp.trigsimp(left) - symbols.V_l], [v, omega]
     )
-    return found[v], found[omega]
+    return solution[v], solution[omega]
 
 
 def rolling() -> sp.Matrix:
@@ -38,9 +38,9 @@ def rolling() -> sp.Matrix:
     x, y = sp.symbols("x y")
     sideways = -_RIGHT_TURN * _NOSE
     velocity = sp.Matrix([x, y])
-    found = sp.solve([velocity.dot(_NOSE) - v, velocity.dot(sideways)], [x, y])
+    solution = sp.solve([velocity.dot(_NOSE) - v, velocity.dot(sideways)], [x, y])
     spin = omega / _NOSE.diff(theta).dot(sideways)  # nose' = spin times its own left
-    return sp.trigsimp(sp.Matrix([found[x], found[y], spin]))
+    return sp.trigsimp(sp.Matrix([solution[x], solution[y], spin]))
 
 
 def robot_rows() -> list[Row]:

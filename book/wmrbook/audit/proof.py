@@ -34,7 +34,7 @@ def steering() -> sp.Expr:
 def slope(turning: sp.Expr) -> sp.Expr:
     """V' = (18) differentiated along (7) to (9), with the speed of (22) and this omega."""
     V = rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2
-    along = sum(V.diff(each) * rate for each, rate in zip(_STATE, polar_rates(), strict=True))
+    along = sum(V.diff(symbol) * rate for symbol, rate in zip(_STATE, polar_rates(), strict=True))
     return along.subs({omega: turning, v: printed(22)}, simultaneous=True)
 
 
@@ -60,7 +60,7 @@ def rising(rate: sp.Expr) -> sp.Expr | None:
 def energy_rows() -> list[Row]:
     """(18) to (23), and the bracket below (22)."""
     dots = equations.rho_rate, equations.alpha_rate, equations.theta_rate
-    chain = sum(printed(18).diff(each) * dot for each, dot in zip(_STATE, dots, strict=True))
+    chain = sum(printed(18).diff(symbol) * dot for symbol, dot in zip(_STATE, dots, strict=True))
     along = chain.subs(dict(zip(dots, polar_rates(), strict=True)))
     in_20, in_21 = equivalent(printed(20), along), equivalent(printed(21), along)
     sign = "(7) to (9) put into (19). It has the sign of (8), not that of (10)."
@@ -150,7 +150,7 @@ def law_rows() -> list[Row]:
 
 def law_row() -> Row:
     """(24). What needs its derived form is (26): it prints the two terms which that form leaves."""
-    law, terms = steering(), (set(sp.expand(each).args) for each in (CLOSED, _last()))
+    law, terms = steering(), (set(sp.expand(side).args) for side in (CLOSED, _last()))
     left, there = terms
     needed = {'"$\\le 0$" and $-k_\\alpha\\alpha^2$ in (26)': left <= there}
     needed = {name: so and equivalent(slope(law), CLOSED) for name, so in needed.items()}

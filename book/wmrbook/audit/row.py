@@ -46,10 +46,10 @@ def decide(test: Callable[..., bool], *names: str, over: Iterable[tuple] = ((),)
     It holds if every outcome is true, is wrong if none is, and is not decided if they differ.
     """
     scaled = [[factor * THRESHOLDS[name] for factor in (0.5, 1.0, 2.0)] for name in names]
-    found = {bool(test(*known, *chosen)) for known in over for chosen in product(*scaled)}
-    if len(found) > 1:
+    outcomes = {bool(test(*known, *chosen)) for known in over for chosen in product(*scaled)}
+    if len(outcomes) > 1:
         return Verdict.OPEN
-    return Verdict.HOLDS if found == {True} else Verdict.WRONG
+    return Verdict.HOLDS if outcomes == {True} else Verdict.WRONG
 
 
 class Row(NamedTuple):
@@ -98,11 +98,11 @@ def equivalent(first: sp.Basic, second: sp.Basic) -> bool:
 
 def _vanishes(expression: sp.Expr) -> bool:
     """Whether sympy can prove it to be zero, first and quickly as a polynomial in sines."""
-    angles = {symbol for each in expression.atoms(sp.sin, sp.cos) for symbol in each.free_symbols}
-    doubled = {each: 2 * each for each in angles}  # halves are whole angles then
+    angles = {symbol for call in expression.atoms(sp.sin, sp.cos) for symbol in call.free_symbols}
+    doubled = {angle: 2 * angle for angle in angles}  # halves are whole angles then
     polynomial = sp.expand_trig(expression.subs(doubled, simultaneous=True))
     polynomial = sp.expand(sp.numer(sp.together(polynomial)))
-    for angle in {each.args[0] for each in polynomial.atoms(sp.sin)}:
+    for angle in {call.args[0] for call in polynomial.atoms(sp.sin)}:
         identity = sp.sin(angle) ** 2 + sp.cos(angle) ** 2 - 1
         polynomial = sp.expand(sp.rem(polynomial, identity, sp.sin(angle)))
     return polynomial == 0 or sp.simplify(expression) == 0

@@ -69,7 +69,7 @@ def mended(expression: sp.Expr, meant: sp.Expr) -> Iterator[tuple[str, sp.Expr]]
         twice = sp.Mul(*(base for base, power in powers.items() if power.is_Integer and power > 1))
         if twice != 1:
             yield f"${latex(twice)}$ printed twice", put(part / twice)
-        yield from ((f"${latex(each)}$ missing", put(part * each)) for each in factors)
+        yield from ((f"${latex(factor)}$ missing", put(part * factor)) for factor in factors)
         if isinstance(part, (sp.sin, sp.cos)):
             other = (sp.cos if isinstance(part, sp.sin) else sp.sin)(*part.args)
             yield _stands_for(part, other), put(other)

@@ -37,7 +37,7 @@ def places(folder: str | Path = ".") -> dict[str, list[Place]]:
     if not notebooks:
         wanted = "one with notebooks named like 04_lyapunov.ipynb is needed"
         raise ValueError(f"folder = {str(folder)!r} is not allowed: {wanted}")
-    found: dict[str, list[Place]] = {}
+    places: dict[str, list[Place]] = {}
     for path in notebooks:
         heading, number = path.stem, 0
         for cell in json.loads(path.read_text(encoding="utf-8"))["cells"]:
@@ -50,8 +50,8 @@ def places(folder: str | Path = ".") -> dict[str, list[Place]]:
                 place = Place(path.name, int(path.name[:2]), heading, number)
                 for tag in cell["metadata"].get("tags", ()):
                     if tag.startswith(_TAG):
-                        found.setdefault(tag.removeprefix(_TAG), []).append(place)
-    return found
+                        places.setdefault(tag.removeprefix(_TAG), []).append(place)
+    return places
 
 
 def missing(rows: Sequence[Row], where: Mapping[str, Sequence[Place]]) -> list[str]:

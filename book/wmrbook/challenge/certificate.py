@@ -80,18 +80,18 @@ def verify(line: str) -> Verdict:
     Blanks around the line do not matter. Never raises for a text.
     """
     text = instance("line", line, str).strip()
-    found = _FORM.fullmatch(text)
-    if not found:
+    match = _FORM.fullmatch(text)
+    if not match:
         return Verdict(False, f"this is no line of the challenge: {_WANTED}")
     if checked(text.rpartition(" check=")[0]) != text:
         return Verdict(False, "the checksum does not fit: a character was changed, lost or added")
     try:
-        entry = _entry(found)
+        entry = _entry(match)
         points = f"{_points(rounded(entry.gains), entry.seed):.2f}"
     except (ValueError, OverflowError) as error:  # honest checksum, impossible content
         return Verdict(False, f"the line can't be scored: {error}")
-    if points != found["score"]:
-        reason = f"{entry.name} states {found['score']} points, but the gains give {points}"
+    if points != match["score"]:
+        reason = f"{entry.name} states {match['score']} points, but the gains give {points}"
         return Verdict(False, reason, entry)
     return Verdict(True, f"{entry.name}'s {points} points are what the gains give", entry)
 
@@ -101,8 +101,8 @@ def _points(gains: Gains, seed: int) -> float:
     return score(gains, from_seed(seed)).total
 
 
-def _entry(found: re.Match) -> Entry:
-    gains = Gains(*map(float, found["gains"].split(",")))
-    name = clean_name(unquote(found["name"], errors="strict"))
-    day = None if found["date"] is None else datetime.date.fromisoformat(found["date"])
-    return Entry(name, gains, int(found["seed"]), float(found["score"]), day)
+def _entry(match: re.Match) -> Entry:
+    gains = Gains(*map(float, match["gains"].split(",")))
+    name = clean_name(unquote(match["name"], errors="strict"))
+    day = None if match["date"] is None else datetime.date.fromisoformat(match["date"])
+    return Entry(name, gains, int(match["seed"]), float(match["score"]), day)

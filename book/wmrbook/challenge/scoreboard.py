@@ -62,9 +62,9 @@ class Ranking:
 
     def __repr__(self) -> str:
         names, lines = _counted(self.entries, "name"), _counted(self.refused, "line")
-        told = f"{names} ranked, {lines} refused, {self.others} of other seeds"
+        counts = f"{names} ranked, {lines} refused, {self.others} of other seeds"
         decided = "" if self.decider is None else f"; ties decided by seed {self.decider}"
-        rows = [f"<Ranking: seed {self.seed}; {told}{decided}>"]
+        rows = [f"<Ranking: seed {self.seed}; {counts}{decided}>"]
         columns = "{:>4}{:>9}{:>7}   {:<30}{}"
         if self.entries:
             rows.append(
@@ -137,9 +137,9 @@ class Scoreboard:
             else:
                 key = same_name(verdict.entry.name)
                 tries[key] = tries.get(key, 0) + 1
-                found = order(verdict.entry), verdict.entry
-                if key not in best or found[0] < best[key][0]:
-                    best[key] = found
+                candidate = order(verdict.entry), verdict.entry
+                if key not in best or candidate[0] < best[key][0]:
+                    best[key] = candidate
         ordered = sorted(best, key=lambda key: (best[key][0], key))
         points = [best[key][0] for key in ordered]
         entries = tuple(

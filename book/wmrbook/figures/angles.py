@@ -85,11 +85,11 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
     dart(axes, goal, 1.3 * size, "none", "goal", lw=2.0, zorder=5)
     above = {"loc": "upper center", "bbox_to_anchor": (0.5, 1.0 + 0.09 * len(handles))}
     axes.legend(handles=handles, fontsize=11, frameon=False, **above)
-    x, y = (np.concatenate([getattr(track, each) for track in tracks.values()]) for each in "xy")
+    x, y = (np.concatenate([getattr(track, axis) for track in tracks.values()]) for axis in "xy")
     equal_scales(axes, x, y, 0.15)
     axes.set(xlabel="x [m]", ylabel="y [m]")
-    said = "Ways in metres, green arrow the start, open arrow the goal. "
-    return Picture(figure, f"{said}{'; '.join(words)}.")
+    alt = "Ways in metres, green arrow the start, open arrow the goal. "
+    return Picture(figure, f"{alt}{'; '.join(words)}.")
 
 
 def angles_over_time(
@@ -115,8 +115,8 @@ def angles_over_time(
         f"{label}: alpha {_span(run.alpha)}, theta {_span(run.theta)}"
         for run, label in zip(runs, names, strict=False)
     ]
-    said = "Angles over time, in degrees; dotted lines mark the half turns. "
-    return Picture(figure, f"{said}{'; '.join(words)}.")
+    alt = "Angles over time, in degrees; dotted lines mark the half turns. "
+    return Picture(figure, f"{alt}{'; '.join(words)}.")
 
 
 def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None:

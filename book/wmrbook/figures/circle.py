@@ -27,7 +27,7 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     check_series(runs, Trajectory)
     figure, axes = new_figure(6.4, 6.4)
     first = next(iter(runs.values()))
-    goal = Pose(*(np.broadcast_to(each, first.t.shape) for each in first.goal))
+    goal = Pose(*(np.broadcast_to(field, first.t.shape) for field in first.goal))
     wide = {"color": "0.75", "lw": 7.0, "solid_capstyle": "round"}
     axes.plot(goal.x, goal.y, label="reference", **wide)
     for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
@@ -93,11 +93,11 @@ def tradeoff(
     """
     check_series(groups)
     figure, axes = new_figure(7.0, 5.0)
-    said = []
+    texts = []
     for (title, (x, y)), (role, _), marker in zip(groups.items(), SERIES, _MARKERS, strict=False):
         x, y = real(f"{title} x", x, above=0.0), real(f"{title} y", y, above=0.0)
         axes.plot(x, y, marker, color=COLOURS[role], ms=5, mfc="none", mew=1.2, label=title)
-        said.append(f"{title} from {y.min():.2g} to {y.max():.2g}")
+        texts.append(f"{title} from {y.min():.2g} to {y.max():.2g}")
     star = {"ms": 20, "color": COLOURS["ink"], "mec": "white", "zorder": 5}
     axes.plot(*mark[:2], "*", label=mark[2], **star)
     axes.axvline(mark[0], color=COLOURS["ink"], lw=1.0, ls=":")
@@ -107,7 +107,7 @@ def tradeoff(
     figure_legend(figure)
     return Picture(
         figure,
-        f"{ylabel} against {xlabel}, a point for each run: {'; '.join(said)}; "
+        f"{ylabel} against {xlabel}, a point for each run: {'; '.join(texts)}; "
         f"{mark[2]} at ({mark[0]:.2f}, {mark[1]:.2f}).",
     )
 

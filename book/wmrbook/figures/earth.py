@@ -112,7 +112,7 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
     axes.contourf(*grid, levels=levels, cmap="PuOr_r", vmin=-1.0, vmax=1.0)
     levels = np.arange(-0.4, 0.51, 0.1)
     lines = axes.contour(*grid, levels=levels, colors=DARK_INK, linewidths=0.8)
-    low = [(each, -1) for each in (81, 66, 56, 47, 38, 28.5, 15.5)]
+    low = [(lat, -1) for lat in (81, 66, 56, 47, 38, 28.5, 15.5)]
     axes.clabel(
         lines,
         fmt=lambda level: "0" if abs(level) < 0.01 else f"{level:+.1f} %",
@@ -154,5 +154,5 @@ def _graticule(axes: Axes, view: GeoPoint) -> None:
     parallels = [GeoPoint(lat=float(lat), lon=180.0 * every) for lat in range(-60, 61, 30)]
     for line in meridians + parallels:
         hidden = haversine_distance(view, line, 1.0) > math.pi / 2  # behind the edge of the globe
-        x, y = (np.where(hidden, np.nan, each) for each in _seen(line, view))
+        x, y = (np.where(hidden, np.nan, values) for values in _seen(line, view))
         axes.plot(x, y, color="#999999", lw=0.6)

@@ -83,7 +83,7 @@ def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
     axes.plot(run.t, values, color=COLOURS["V"], lw=2.0, label="falling")
     if rising.any():  # over it, step by step, with gaps
         gaps = np.full(len(rising), np.nan)
-        t, V = (np.column_stack([each[:-1], each[1:], gaps])[rising] for each in (run.t, values))
+        t, V = (np.column_stack([line[:-1], line[1:], gaps])[rising] for line in (run.t, values))
         axes.plot(t.ravel(), V.ravel(), color=COLOURS["V_rising"], lw=5.0, label="rising")
     xlim, ylim = (0.0, max(run.t[-1], 1e-9)), (values.min() / 2, values.max() * 2)
     axes.set(ylabel="V [1]", yscale="log", xlim=xlim, ylim=ylim)

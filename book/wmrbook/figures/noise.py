@@ -15,19 +15,19 @@ from wmrlib._checks import instance, real, same_shape
 _COUNTS = {1: "last", 2: "last two", 3: "last three", 4: "last four"}
 
 
-def scatter(found: StationaryScatter) -> Picture:
+def scatter(spread: StationaryScatter) -> Picture:
     """The positions [m] of a receiver at rest about their mean; the circle holds half of them.
 
     They are joined in order; if the last ones are equal, the picture says how many they are.
     """
-    instance("found", found, StationaryScatter)
+    instance("spread", spread, StationaryScatter)
     figure, axes = new_figure(7.5, 3.9)
-    east, north = found.east, found.north
+    east, north = spread.east, spread.north
     axes.plot(east, north, "-", color=COLOURS["path"], lw=1.2)
     axes.plot(east, north, "o", color=COLOURS["path"], ms=6, label="positions, in order")
     axes.plot(0.0, 0.0, "+", color=COLOURS["ink"], ms=16, mew=2.5, label="mean")
-    axes.add_patch(Circle((0.0, 0.0), found.cep, fill=False, ls="--", ec=COLOURS["ink"]))
-    half = f"half of them within {found.cep:.1f} m (CEP)"
+    axes.add_patch(Circle((0.0, 0.0), spread.cep, fill=False, ls="--", ec=COLOURS["ink"]))
+    half = f"half of them within {spread.cep:.1f} m (CEP)"
     axes.plot([], [], "--", color=COLOURS["ink"], lw=1.0, label=half)
     places = np.column_stack([east, north])
     at_last = np.isclose(places, places[-1], rtol=0.0, atol=1e-3).all(axis=1)
@@ -35,18 +35,18 @@ def scatter(found: StationaryScatter) -> Picture:
     last = _COUNTS.get(count, f"last {count}")
     for k, name in ((0, "first"), (-1, last)):
         note(axes, name, places[k], (0, 9), ha="center", fontsize=11)
-    left, right = min(east.min(), -found.cep) - 1.0, max(east.max(), found.cep) + 1.0
-    height = 1.15 * max(np.abs(north).max(), found.cep)
+    left, right = min(east.min(), -spread.cep) - 1.0, max(east.max(), spread.cep) + 1.0
+    height = 1.15 * max(np.abs(north).max(), spread.cep)
     axes.set(xlim=(left, right), ylim=(-height, height), aspect="equal")
     axes.set(xlabel="east of the mean [m]", ylabel="north of the mean [m]")
     legend_above(axes, 3, fontsize=10)
     dot = "" if count == 1 else f", where the {last} are one dot"
     return Picture(
         figure,
-        f"{found.n} positions about their mean, joined in order: they walk from "
+        f"{spread.n} positions about their mean, joined in order: they walk from "
         f"{_compass(*places[0])} to {_compass(*places[-1])}{dot}; "
-        f"a dashed circle of {found.cep:.1f} m holds half of them; the standard deviation is "
-        f"{found.std_east:.1f} m east and {found.std_north:.1f} m north.",
+        f"a dashed circle of {spread.cep:.1f} m holds half of them; the standard deviation is "
+        f"{spread.std_east:.1f} m east and {spread.std_north:.1f} m north.",
     )
 
 
@@ -59,20 +59,20 @@ def memories(memory: np.ndarray, series: Mapping[str, tuple[np.ndarray, np.ndarr
     memory = real("memory", memory)
     check_count("series", instance("series", series, Mapping), 1, len(LINES))
     figure, rows = new_figure(7.5, 5.6, rows=2)
-    told, at = [], np.arange(memory.size)
+    texts, at = [], np.arange(memory.size)
     roles = "path", "y_error", "omega", "ink"
-    for (name, found), style, role, marker in zip(
+    for (name, left), style, role, marker in zip(
         series.items(), LINES, roles, "os^D", strict=False
     ):
-        for axes, values in zip(rows, found, strict=True):
+        for axes, values in zip(rows, left, strict=True):
             same_shape(memory=memory, **{f"series[{name!r}]": values})
             label = name if axes is rows[0] else None  # once in the legend
             axes.plot(at, values, style, marker=marker, color=COLOURS[role], label=label)
-        worst = int(np.argmax(found[1]))
-        told.append(
-            f"{name}, from {found[0][0]:.1f} m and about {_fives(found[1][0])} deg to "
-            f"{found[0][-1]:.1f} m and {_fives(found[1][-1])} deg, the heading worst, about "
-            f"{_fives(found[1][worst])} deg, at {_named(memory[worst])}"
+        worst = int(np.argmax(left[1]))
+        texts.append(
+            f"{name}, from {left[0][0]:.1f} m and about {_fives(left[1][0])} deg to "
+            f"{left[0][-1]:.1f} m and {_fives(left[1][-1])} deg, the heading worst, about "
+            f"{_fives(left[1][worst])} deg, at {_named(memory[worst])}"
         )
     rows[0].set(ylabel="distance, rms [m]", ylim=(0.0, None))
     rows[1].set(ylabel="heading error, rms [deg]", ylim=(0.0, None))
@@ -82,7 +82,7 @@ def memories(memory: np.ndarray, series: Mapping[str, tuple[np.ndarray, np.ndarr
     figure_legend(figure)
     what = "Distance and heading error at the end over the memory, from"
     span = f"{_named(memory[0])} to {_named(memory[-1])}"
-    return Picture(figure, f"{what} {span}: {'; '.join(told)}.")
+    return Picture(figure, f"{what} {span}: {'; '.join(texts)}.")
 
 
 def _named(memory: float) -> str:

@@ -65,7 +65,7 @@ def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, rob
 
 def pose_at(path: Pose | Trajectory, k: int) -> Pose:
     """Return the k-th pose of a path."""
-    return Pose(*(float(np.ravel(each)[k]) for each in (path.x, path.y, path.heading)))
+    return Pose(*(float(np.ravel(values)[k]) for values in (path.x, path.y, path.heading)))
 
 
 def path_in_words(run: Trajectory) -> str:

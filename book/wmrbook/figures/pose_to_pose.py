@@ -65,12 +65,12 @@ def compare_runs(
         values = fields[title]
         drawn = np.where(values < _LEAST, np.nan, values) if log else values
         axes.plot(run.t, drawn, color=COLOURS[role], ls=style, label=title)
-    said = ""
+    mark = ""
     if level is not None:
         value = real("level", level[0])
         axes.axhline(value, color=COLOURS["ink"], lw=1.2, ls=":", label=level[1])
         number = "" if f"{value:g} {unit}" in level[1] else f", {value:g} {unit}"
-        said = f"; a dotted line marks {level[1]}{number}"
+        mark = f"; a dotted line marks {level[1]}{number}"
     axes.set(xlabel="time [s]", ylabel=label)
     if log:
         axes.set_yscale("log")
@@ -80,7 +80,7 @@ def compare_runs(
         figure_legend(figure)
     parts = [_course_in_words(title, values, unit, log) for title, values in fields.items()]
     scale = ", on a logarithmic scale" if log else ""
-    return Picture(figure, f"The {name} over time{scale}: {'; '.join(parts)}{said}.")
+    return Picture(figure, f"The {name} over time{scale}: {'; '.join(parts)}{mark}.")
 
 
 def last_seconds(runs: Mapping[str, Trajectory], seconds: float = 1.5) -> Picture:
@@ -92,7 +92,7 @@ def last_seconds(runs: Mapping[str, Trajectory], seconds: float = 1.5) -> Pictur
     seconds = scalar("seconds", seconds, above=0.0)
     figure, (above, below) = new_figure(7.5, 5.2, rows=2)
     begin = min(run.t[-1] for run in runs.values()) - seconds
-    said = []
+    texts = []
     for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
         late = run.t >= begin - 1e-9
         looks = {"color": COLOURS[role], "ls": style}
@@ -103,12 +103,12 @@ def last_seconds(runs: Mapping[str, Trajectory], seconds: float = 1.5) -> Pictur
             turning = np.r_[turning[:-1], turning[-2:-1]]  # the robot stops before the last one
         below.plot(run.t[late], turning, **looks)
         peak = np.abs(run.omega[late]).max()
-        said.append(f"{title} ends at {run.t[-1]:.1f} s, |omega| at most {peak:.1f} rad/s")
+        texts.append(f"{title} ends at {run.t[-1]:.1f} s, |omega| at most {peak:.1f} rad/s")
     above.set(ylabel="alpha [deg]")
     below.set(xlabel="time [s]", ylabel="omega [rad/s]")
     figure_legend(figure)
     what = f"Alpha and omega over the last {seconds:g} s"
-    return Picture(figure, f"{what}: {'; '.join(said)}.")
+    return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
 def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
@@ -122,7 +122,7 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
         figure, row = panels(times.size, 1, 8.0, 1.75 * times.size + 0.6, sharex=True)
     size = 0.045 * max(np.ptp(run.x), np.ptp(run.y), 1.0)
     goal = pose_at(run.goal, -1)
-    said = []
+    texts = []
     for letter, axes, moment in zip("abcdef", row, times, strict=False):
         k = int(np.abs(run.t - moment).argmin())
         axes.plot(run.x, run.y, color=COLOURS["ink"], lw=0.8, ls=":")
@@ -135,9 +135,9 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
         axes.set(xlim=_room(run.x, 2.2 * size), ylim=_room(run.y, 2.2 * size))
         axes.label_outer()
         heading = f"heading {math.degrees(run.heading[k]):.0f} deg"
-        said.append(f"{letter} after {run.t[k]:.1f} s, {to_go} m to go, {heading}")
+        texts.append(f"{letter} after {run.t[k]:.1f} s, {to_go} m to go, {heading}")
     goal_said = f"the goal's heading is {math.degrees(goal.heading):.0f} deg"
-    return Picture(figure, f"Snapshots of one drive: {'; '.join(said)}; {goal_said}.")
+    return Picture(figure, f"Snapshots of one drive: {'; '.join(texts)}; {goal_said}.")
 
 
 def heading_shares(
@@ -151,12 +151,12 @@ def heading_shares(
     figure, axes = new_figure(7.0, 3.8)
     sizes = {title: np.sort(np.abs(real(title, values))) for title, values in errors.items()}
     widest = min(180.0, 1.1 * max(values[-1] for values in sizes.values()))
-    said = []
+    texts = []
     for (title, values), (role, style) in zip(sizes.items(), SERIES, strict=False):
         share = 100.0 * np.arange(1, values.size + 1) / values.size
         steps = np.r_[0.0, values, widest], np.r_[0.0, share, 100.0]
         axes.plot(*steps, drawstyle="steps-post", color=COLOURS[role], ls=style, label=title)
-        said.append(
+        texts.append(
             f"{title} {100.0 * np.mean(values > allowed):.1f} % are more than {allowed:g} deg off, "
             f"the worst {values[-1]:.1f} deg"
         )
@@ -165,7 +165,7 @@ def heading_shares(
     axes.set(xlim=(0, widest), ylim=(0, 102))
     figure_legend(figure)
     what = f"Share of many starts against the {of}"
-    return Picture(figure, f"{what}: {'; '.join(said)}.")
+    return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
 def block_diagram(time_step: float, times_faster: float) -> Picture:
@@ -211,14 +211,14 @@ def block_diagram(time_step: float, times_faster: float) -> Picture:
 def _course_in_words(title: str, values: np.ndarray, unit: str, log: bool) -> str:
     digits = 1 if np.abs(values).max() > 5 else 2
 
-    def said(value: float) -> str:
+    def rounded(value: float) -> str:
         if log:
             return f"{value:.2g}" if value >= _LEAST else "less than 1e-6"
         if abs(value) < 0.5 * 10**-digits:
             return "nearly 0" if values.min() < -1e-9 else f"less than {10**-digits:g}"
         return f"{value:.{digits}f}"
 
-    first, last, low, high = map(said, (values[0], values[-1], values.min(), values.max()))
+    first, last, low, high = map(rounded, (values[0], values[-1], values.min(), values.max()))
     between = "" if {low, high} == {first, last} else f", between {low} and {high} {unit}"
     return f"{title} goes from {first} to {last} {unit}{between}"
 

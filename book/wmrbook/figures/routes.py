@@ -29,7 +29,7 @@ def route(driven: Route) -> Picture:
     way = driven.waypoints
     start = _marker("start", COLOURS["start"], ">", COLOURS["start"])
     handles = [Line2D([], [], color=COLOURS["path"], label="path"), start]
-    x, y = (np.concatenate(each) for each in ([driven.x, way.x], [driven.y, way.y]))
+    x, y = (np.concatenate(parts) for parts in ([driven.x, way.x], [driven.y, way.y]))
     equal_scales(axes, x, y, room=0.14)
     axes.plot(driven.x, driven.y, color=COLOURS["path"], zorder=2)
     span = np.ptp(axes.get_xlim())
@@ -63,7 +63,7 @@ def challenge_paths(score: Score) -> Picture:
     everything = zip(grid.flat, runs, score.cases, score.game.cases, strict=False)
     for k, (axes, run, row, case) in enumerate(everything, start=1):
         axes.plot(run.x, run.y, "--" if row.note else "-", color=COLOURS["path"])
-        x, y = ([*getattr(run, each), *(getattr(pose, each) for pose in case[1:])] for each in "xy")
+        x, y = ([*getattr(run, axis), *(getattr(pose, axis) for pose in case[1:])] for axis in "xy")
         equal_scales(axes, np.array(x), np.array(y), room=0.15)
         size = 0.04 * np.ptp(axes.get_xlim())
         dart(axes, case.goal, size, "none", "goal", lw=1.6, zorder=4)

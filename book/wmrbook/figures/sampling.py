@@ -50,10 +50,10 @@ def time_steps(
             ]
             limit = longest_step(tried, method)
             line = {"ls": style, "marker": marker, "ms": 4, "label": method}
-            said = _draw_steps(axes, np.asarray(steps), runs, limit, top, colour, line)
+            text = _draw_steps(axes, np.asarray(steps), runs, limit, top, colour, line)
             label = f"its longest step:\n{limit:.3f} s"
             axes.axvline(limit, color=colour, ls=style, lw=1.0, label=label)
-            texts.append(f"{name}, {method}: {said}")
+            texts.append(f"{name}, {method}: {text}")
         axes.set(xscale="log", ylim=(-5.0, 200.0), yticks=range(0, 181, 45))
         axes.set_ylabel("|heading error| [deg]")
         axes.set_title(name, fontsize=12)

@@ -84,11 +84,11 @@ def scene_of(question: str) -> Picture | None:
     """Return the picture of a question's situation; None if it has none."""
     if question not in SCENES:
         return None
-    said, drawn = SCENES[question]
+    alt, drawn = SCENES[question]
     figure, axes = new_figure(5.0, 5.0)
     axes.set_axis_off()
     axes.set_aspect("equal")
-    for kind, *given in (each.split(" ") for each in drawn.split("; ")):
+    for kind, *given in (part.split(" ") for part in drawn.split("; ")):
         count = {"wheels": 0, "circle": 1, "name": 2, "arrow": 4, "span": 4}.get(kind, len(given))
         count = 3 if kind in _LOOKS else count
         _draw(axes, kind, [*map(float, given[:count])], given[count:])
@@ -97,7 +97,7 @@ def scene_of(question: str) -> Picture | None:
     axes.set(xlim=(left - 0.9, right + 0.9), ylim=(low - 1.0, high + 0.6))
     shape = (high - low + 1.6) / (right - left + 1.8)
     figure.set_size_inches(5.6, 5.6 * min(max(shape, 0.68), 1.0))
-    return Picture(figure, said)
+    return Picture(figure, alt)
 
 
 def names_of_angles() -> Picture:

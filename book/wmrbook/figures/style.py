@@ -134,7 +134,7 @@ def dart(axes: Axes, pose: Pose, size: float, fill: str, edge: str = "ink", **lo
     shape = np.array([[1.3, 0.0], [-0.9, 0.6], [-0.5, 0.0], [-0.9, -0.6]]) * size
     cos, sin = math.cos(pose.heading), math.sin(pose.heading)
     corners = shape @ np.array([[cos, sin], [-sin, cos]]) + np.array([pose.x, pose.y])
-    fill, edge = (COLOURS.get(each, each) for each in (fill, edge))
+    fill, edge = (COLOURS.get(role, role) for role in (fill, edge))
     axes.add_patch(Polygon(corners, closed=True, fc=fill, ec=edge, **looks))
 
 

@@ -121,11 +121,11 @@ ANY_GAIN = Before(TRUTH, GAIN_1 | {"k_x": (0.5, 4.0)}, **LEFT)
 
 @headline("06", TOLD, unit="m", before=ANY_GAIN, **LEFT, **GAIN_1)
 def told_too_little(k_x, far, aim):
-    def told(t):
+    def announced(t):
         return (goal := paper.circle(t))._replace(v=0.9 * goal.v)
 
     gains, how = wmr.KanayamaGains(k_x, 2.0, 2.0), {"law": "kanayama", "dt": 0.02, "duration": 60.0}
-    run = wmr.track(told, off_goal(far, aim, 0.0), gains, **how)
+    run = wmr.track(announced, off_goal(far, aim, 0.0), gains, **how)
     return run.rho[-1] * math.cos(run.alpha[-1])
 
 

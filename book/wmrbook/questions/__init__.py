@@ -47,5 +47,5 @@ def of_chapter(chapter: int) -> list[str]:
 
 def fingerprint(questions: tuple[Question, ...]) -> str:
     """Return four digits that change with any text or order, so that a letter keeps its meaning."""
-    told = [(each.ask, *(option.text for option in each.options)) for each in questions]
-    return hashlib.sha256(repr(told).encode()).hexdigest()[:4]
+    texts = [(one.ask, *(option.text for option in one.options)) for one in questions]
+    return hashlib.sha256(repr(texts).encode()).hexdigest()[:4]

@@ -30,11 +30,11 @@ def main(arguments: list[str] | None = None) -> None:
     commands = parser.add_subparsers(dest="command", required=True)
     one = commands.add_parser("form", help="write the test as one HTML file")
     one.add_argument("file", nargs="?", type=Path, default=Path("questions.html"), metavar="FILE")
-    for name, told in (("histogram", "what a class chose"), ("gain", "from pre to post")):
-        one = commands.add_parser(name, help=told)
+    for name, text in (("histogram", "what a class chose"), ("gain", "from pre to post")):
+        one = commands.add_parser(name, help=text)
         one.add_argument("file", type=Path, metavar="FILE")
-    told = "the probability of a right guess, if it is known and nothing is forgotten"
-    one.add_argument("--guess", type=float, metavar="C", help=told)
+    text = "the probability of a right guess, if it is known and nothing is forgotten"
+    one.add_argument("--guess", type=float, metavar="C", help=text)
     given = parser.parse_args(arguments)
     questions = tested()
     if given.command == "form":
@@ -42,31 +42,31 @@ def main(arguments: list[str] | None = None) -> None:
         print(given.file)
         return
     try:
-        found = read_class(given.file, questions, fingerprint(questions))
+        answers = read_class(given.file, questions, fingerprint(questions))
         if given.command == "histogram":
-            groups = found.histograms(questions)
-            _tell(found, "\n\n".join(it.told() for group in groups.values() for it in group))
+            groups = answers.histograms(questions)
+            _tell(answers, "\n\n".join(it.text() for group in groups.values() for it in group))
             beside = given.file.with_name(f"{given.file.name}.html")
             beside.write_text(page(groups), encoding="utf-8")
             print(beside)
         else:
-            sheets = (found.right(test, questions) for test in ("pre", "post"))
+            sheets = (answers.right(test, questions) for test in ("pre", "post"))
             result = gain(*sheets, guess=given.guess)
             rows = [
                 f"{at:2d} {it.id:<20} {before:6.0%} {after:6.0%} {share:6.2f}"
                 for at, (it, (before, after, share)) in enumerate(
-                    zip(questions, result.each, strict=True), start=1
+                    zip(questions, result.by_question, strict=True), start=1
                 )
             ]
             table = ["   question             before  after   gain", *rows]
-            _tell(found, "\n".join([result.told(), "", *table]))
+            _tell(answers, "\n".join([result.text(), "", *table]))
     except (OSError, ValueError) as error:
         raise SystemExit(f"{given.file}: {error}") from None
 
 
-def _tell(found: Class, text: str) -> None:
+def _tell(answers: Class, text: str) -> None:
     print(text or "There is no line that counts.")
-    for line, _, reason in found.refused:
+    for line, _, reason in answers.refused:
         print(f"line {line} does not count: {reason}")
 
 

@@ -84,20 +84,20 @@ def numbers(right: float, mistaken: dict[str, float], form: str) -> list[Option]
                 f"{values[low]:.4g} ({low or 'right'}) and {values[high]:.4g} ({high or 'right'})"
             )
             raise Refusal(f"two options are nearly equal: {pair}")
-    return [Option(form.format(values[each] + 0.0), each) for each in ordered]
+    return [Option(form.format(values[mistake] + 0.0), mistake) for mistake in ordered]
 
 
-def cases(found: Hashable, options: dict[Hashable, tuple[str, str]]) -> list[Option]:
-    """Options from texts: `found`, which was computed, names the right one.
+def cases(computed: Hashable, options: dict[Hashable, tuple[str, str]]) -> list[Option]:
+    """Options from texts: what was computed names the right one.
 
-    options: from what can be found to (text, mistake). The one without a mistake is the one that
-    the texts explain; if another is found they are wrong, and the question is refused.
+    options: from each outcome to (text, mistake). The one without a mistake is the one that the
+    texts explain; if another was computed they are wrong, and the question is refused.
     """
-    (explained,) = (each for each, (_, mistake) in options.items() if not mistake)
-    if found != explained:
-        raise Refusal(f"the texts explain {explained!r}, and {found!r} was computed")
+    (explained,) = (outcome for outcome, (_, mistake) in options.items() if not mistake)
+    if computed != explained:
+        raise Refusal(f"the texts explain {explained!r}, and {computed!r} was computed")
     mixed = sorted(options.values(), key=lambda it: hashlib.sha256(it[0].encode()).digest())
-    return [Option(*each) for each in mixed]
+    return [Option(*option) for option in mixed]
 
 
 def sign(value: float, least: float) -> int:

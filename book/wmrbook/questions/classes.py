@@ -27,7 +27,7 @@ class Histogram(NamedTuple):
     counts: tuple[int, ...]
     right: str = ""
 
-    def told(self) -> str:
+    def text(self) -> str:
         """Return the histogram as lines of text, a bar of at most 40 characters each."""
         total, most = sum(self.counts), max(self.counts, default=0)
         width = max((len(label) for label in self.labels), default=0)
@@ -55,17 +55,17 @@ class Class(NamedTuple):
 
     def histograms(self, questions: tuple[Question, ...]) -> dict[str, list[Histogram]]:
         """Return all histograms: of a test one for each question, of anything else one."""
-        found = {}
+        groups = {}
         labels = (*LETTERS, OPEN)
         for test, sheets in self.sheets.items():
             for at, question in enumerate(questions if sheets else ()):
                 chosen = Counter(sheet[at] for sheet in sheets.values())
                 title = f"{at + 1}. {question.id}"
                 one = Histogram(title, labels, tuple(chosen[it] for it in labels), question.key)
-                found.setdefault(f"test {test}", []).append(one)
+                groups.setdefault(f"test {test}", []).append(one)
         for (kind, which), values in self.votes.items():
-            found[f"{kind} {which}"] = [_counted(f"{kind} {which}", values)]
-        return found
+            groups[f"{kind} {which}"] = [_counted(f"{kind} {which}", values)]
+        return groups
 
 
 def read_class(path: str | os.PathLike, questions: tuple[Question, ...], mark: str) -> Class:

@@ -86,7 +86,7 @@ def along_a_route() -> tuple[str, list[Option], str]:
         poses, wmr.GENTLE_GAINS, start=wmr.Pose(0.0, 0.0, 0.0), stop=stops, method="continuous"
     )
     steps, change = np.diff(route.V), np.diff(route.leg) != 0
-    found = bool((steps[~change] > 1e-9).any()), sign(steps[change].min(), 1e-6)
+    computed = bool((steps[~change] > 1e-9).any()), sign(steps[change].min(), 1e-6)
     ask = (
         "A route of three goals, the first two only passed, is driven by the corrected law in "
         "continuous time. What does $V$, counted to the present goal, do?"
@@ -101,4 +101,4 @@ def along_a_route() -> tuple[str, list[Option], str]:
     why = (
         "The law makes $V$ fall to the goal of the moment. A new goal is a new error, further off."
     )
-    return ask, cases(found, options), why
+    return ask, cases(computed, options), why

@@ -55,7 +55,7 @@ class Gain(NamedTuple):
     """The gain of the students who sat both tests.
 
     gain, low, high: the estimate and its 95 % interval; before, after: shares of right answers;
-    each: a row (before, after, gain) of every question, its gain NaN if all were right before;
+    by_question: a row (before, after, gain) of each, its gain NaN if all were right before;
     names: who counts; only_before, only_after: who does not; remark: what is in doubt, or "".
     """
 
@@ -64,13 +64,13 @@ class Gain(NamedTuple):
     high: float
     before: float
     after: float
-    each: np.ndarray
+    by_question: np.ndarray
     names: tuple[str, ...]
     only_before: tuple[str, ...]
     only_after: tuple[str, ...]
     remark: str
 
-    def told(self) -> str:
+    def text(self) -> str:
         """Return the result in sentences."""
         shares = f"{100 * self.before:.0f} % right before, {100 * self.after:.0f} % after"
         rows = [f"{len(self.names)} students sat both tests: {shares}."]
@@ -117,14 +117,14 @@ def gain(
     low, high = np.nanquantile(ratios, (0.025, 0.975))
     shares = first.mean(axis=0), second.mean(axis=0)
     with np.errstate(divide="ignore", invalid="ignore"):
-        each = np.where(shares[0] < 1.0, (shares[1] - shares[0]) / (1.0 - shares[0]), np.nan)
+        gained = np.where(shares[0] < 1.0, (shares[1] - shares[0]) / (1.0 - shares[0]), np.nan)
     return Gain(
         float(_ratio(counts, guess)),
         float(low),
         float(high),
         float(first.mean()),
         float(second.mean()),
-        np.column_stack([*shares, each]),
+        np.column_stack([*shares, gained]),
         names,
         tuple(name for name in before if name not in after),
         tuple(name for name in after if name not in before),

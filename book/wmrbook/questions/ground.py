@@ -51,7 +51,7 @@ def swapped_points() -> tuple[str, list[Option], str]:
     lat, apart = 60.0, 100.0
     start = wmr.GeoPoint(lat=lat, lon=11.0)
     end = wmr.point_at(start, apart, 0.0)
-    swapped = [wmr.GeoPoint(lat=each.lon, lon=each.lat) for each in (start, end)]
+    swapped = [wmr.GeoPoint(lat=point.lon, lon=point.lat) for point in (start, end)]
     slope = math.radians(lat)
     mistaken = {
         "a distance does not care about names": apart,
@@ -138,7 +138,7 @@ def two_angles() -> tuple[str, list[Option], str]:
     goal = wmr.Pose(-10.0, 0.0, math.radians(-90.0))
     robot = wmr.Pose(0.0, 0.0, math.radians(135.0))
     seen = wmr.polar_error(robot, goal)
-    alpha, theta = (round(math.degrees(each)) for each in seen[1:])
+    alpha, theta = (round(math.degrees(angle)) for angle in seen[1:])
     right = {"alpha": 180 - 135, "theta": (180 + 90 + 180) % 360 - 180}
     a, b = right["alpha"], right["theta"]
 

@@ -16,7 +16,7 @@ def level_spot() -> tuple[str, list[Option], str]:
     here = wmr.polar_rate(rho, 0.0, *wmr.control_law(rho, 0.0, theta, gains))
     alpha = 1e-3 * here[1]  # a millisecond later
     later = wmr.lyapunov_rate(rho, alpha, theta, gains)
-    found = sign(here[1], 0.1), sign(here[2], 1e-6), sign(later, 1e-9)
+    computed = sign(here[1], 0.1), sign(here[2], 1e-6), sign(later, 1e-9)
     ask = (
         "At $\\rho \\to 0$, $\\alpha = 0$, $\\theta$ = 60 deg the corrected law ($h > 0$) gives "
         "$\\dot V = 0$. What happens next?"
@@ -32,7 +32,7 @@ def level_spot() -> tuple[str, list[Option], str]:
         "The state can't stay where $\\dot V = 0$: $\\dot\\alpha$ is not zero there while "
         "$\\theta$ is not. This is LaSalle's step."
     )
-    return ask, cases(found, options), why
+    return ask, cases(computed, options), why
 
 
 @question(4, "In the plane: attractive, not stable", "A millimetre beside the goal")
@@ -45,7 +45,7 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
     limits = (
         (1.0, 10.0, 45.0, 90.0, math.inf) if all(wmr.arrival(run).arrived for run in runs) else ()
     )
-    found = next((limit for limit in limits if most <= limit), None)
+    computed = next((limit for limit in limits if most <= limit), None)
     ask = (
         "A robot stands 1 mm beside its goal, abreast of it, with exactly the right heading. How "
         "far off does its heading get on the way (corrected law, any gains)?"
@@ -61,7 +61,7 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
         "However near, it sees both angles at 90 deg; while $\\alpha$ falls to 0, $\\theta$ rises "
         "further. Attractive, not stable."
     )
-    return ask, cases(found, options), why
+    return ask, cases(computed, options), why
 
 
 @question(5, "A tenth of a second", "Sampled ten times a second", "a limit of these gains alone")
@@ -75,7 +75,7 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
 
     smooth, sampled = off_deg(method="continuous"), off_deg(method="arc", dt=0.1)
     ratio = sampled / smooth
-    found = next((limit for limit in (0.5, 0.9, 1.1, 2.0, math.inf) if ratio <= limit), None)
+    computed = next((limit for limit in (0.5, 0.9, 1.1, 2.0, math.inf) if ratio <= limit), None)
     too_long = 0.1 / wmr.longest_step(case.gains, "arc")
     ask = (
         "The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4) is "
@@ -93,7 +93,7 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
         "Near the goal this step is not inaccurate but unstable: "
         f"{too_long:.1f} times longer than these gains allow."
     )
-    return ask, cases(found, options), why
+    return ask, cases(computed, options), why
 
 
 @question(5, "Exercise 5.1: Left is right", "In the mirror")
@@ -223,7 +223,7 @@ def damping() -> tuple[str, list[Option], str]:
 def more_steering() -> tuple[str, list[Option], str]:
     critical = wmr.gains_for(1.0, natural_frequency=1.0)
     strong = critical._replace(k_alpha=4.0 * critical.k_alpha)
-    before, after = (wmr.modes(each).heading_rate for each in (critical, strong))
+    before, after = (wmr.modes(gains).heading_rate for gains in (critical, strong))
     mistaken = {
         "more gain, more speed": 4.0,
         "a rate taken to grow with the root of the gain": 2.0,

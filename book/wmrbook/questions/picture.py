@@ -22,26 +22,27 @@ def bars(histograms: list[Histogram], title: str) -> Picture:
     with mpl.rc_context(STYLE):
         figure = Figure(figsize=size, layout="constrained")
         grid = figure.subplots(rows, columns, squeeze=False).ravel()
-    highest = max(max(each.counts, default=0) for each in histograms)
-    for axes, each in zip(grid, histograms, strict=False):
-        drawn = axes.bar(range(len(each.labels)), each.counts, color=COLOURS["robot"], ec="none")
-        for bar, label in zip(drawn, each.labels, strict=True):
-            if label == each.right:
+    highest = max(max(histogram.counts, default=0) for histogram in histograms)
+    for axes, histogram in zip(grid, histograms, strict=False):
+        places, look = range(len(histogram.labels)), {"color": COLOURS["robot"], "ec": "none"}
+        drawn = axes.bar(places, histogram.counts, **look)
+        for bar, label in zip(drawn, histogram.labels, strict=True):
+            if label == histogram.right:
                 bar.set(facecolor=COLOURS["start"], hatch="//", edgecolor=COLOURS["ink"])
         turned = (
             {"rotation": 30, "ha": "right", "rotation_mode": "anchor"}
-            if max(map(len, each.labels)) > 8
+            if max(map(len, histogram.labels)) > 8
             else {}
         )
-        axes.set_xticks(range(len(each.labels)), each.labels, **turned)
-        axes.set_title(each.title, fontsize=9 if columns > 1 else 12)
+        axes.set_xticks(places, histogram.labels, **turned)
+        axes.set_title(histogram.title, fontsize=9 if columns > 1 else 12)
         axes.set_ylim(0.0, 1.1 * max(highest, 1))
         axes.grid(visible=False, axis="x")
         axes.yaxis.get_major_locator().set_params(integer=True)
     for axes in grid[len(histograms) :]:
         axes.remove()
-    told = "; ".join(_told(each) for each in histograms)
-    return Picture(figure, f"Histogram of a class's answers, {title}. {told}.")
+    counts = "; ".join(_in_words(histogram) for histogram in histograms)
+    return Picture(figure, f"Histogram of a class's answers, {title}. {counts}.")
 
 
 def page(groups: dict[str, list[Histogram]]) -> str:
@@ -61,9 +62,9 @@ def page(groups: dict[str, list[Histogram]]) -> str:
     )
 
 
-def _told(each: Histogram) -> str:
+def _in_words(histogram: Histogram) -> str:
     counts = ", ".join(
-        f"{label} {count}{' (right)' * (label == each.right)}"
-        for label, count in zip(each.labels, each.counts, strict=True)
+        f"{label} {count}{' (right)' * (label == histogram.right)}"
+        for label, count in zip(histogram.labels, histogram.counts, strict=True)
     )
-    return f"{each.title}: {counts}"
+    return f"{histogram.title}: {counts}"

@@ -16,7 +16,7 @@ _GOAL = wmr.Pose(0.0, 0.0, 0.0)
 def twice_as_fast() -> tuple[str, list[Option], str]:
     gains = wmr.GENTLE_GAINS
     quick = gains._replace(k_rho=2.0 * gains.k_rho, k_alpha=2.0 * gains.k_alpha)
-    step, shorter = (wmr.longest_step(each, "arc") for each in (gains, quick))
+    step, shorter = (wmr.longest_step(tuned, "arc") for tuned in (gains, quick))
     mistaken = {
         "a limit of the clock, not of the gains": step,
         "the step taken to go with the square of the rate": step / 4.0,
@@ -35,13 +35,13 @@ def twice_as_fast() -> tuple[str, list[Option], str]:
 def one_factor() -> tuple[str, list[Option], str]:
     v, omega, width, most = 2.0, 4.0, 0.5, 1.5
     limited = wmr.limit_wheels(v, omega, wmr.WheelLimits(track_width=width, max_speed=most))
-    left, right = (min(each, most) for each in (v - omega * width / 2.0, v + omega * width / 2.0))
+    left, right = (min(speed, most) for speed in (v - omega * width / 2.0, v + omega * width / 2.0))
     half = most / (v + omega * width / 2.0)
 
     def twist(forward: float, turning: float) -> tuple[str, str]:
         return f"{forward:.4g} m/s, {turning:.4g} rad/s"
 
-    told = {
+    mistakes = {
         twist(half * v, half * omega): "",
         twist((left + right) / 2.0, (right - left) / width): "each wheel clipped by itself",
         twist(most, omega): "$v$ clipped, $\\omega$ kept",
@@ -56,7 +56,8 @@ def one_factor() -> tuple[str, list[Option], str]:
         "The faster wheel should do 3 m/s, twice its limit. Half of both keeps the curvature, and "
         "with it the path; but not of wheels that take time to change speed."
     )
-    return ask, cases(twist(*limited), {each: (each, why) for each, why in told.items()}), why
+    options = {answer: (answer, mistake) for answer, mistake in mistakes.items()}
+    return ask, cases(twist(*limited), options), why
 
 
 def _park(goal: wmr.Pose, off_m: float) -> wmr.Pose:
@@ -73,7 +74,7 @@ def _park(goal: wmr.Pose, off_m: float) -> wmr.Pose:
 @question(9, "The memory decides what is lost", "Two metres off, all the way")
 def constant_offset() -> tuple[str, list[Option], str]:
     end = _park(_GOAL, 2.0)
-    found = round(end.x), round(end.y), abs(end.heading) < math.radians(10.0)
+    computed = round(end.x), round(end.y), abs(end.heading) < math.radians(10.0)
     ask = (
         "During the whole drive the receiver shows each position 2 m too far east; the compass is "
         "exact. Where does the robot park, with gains that park it otherwise?"
@@ -89,7 +90,7 @@ def constant_offset() -> tuple[str, list[Option], str]:
         "It parks where it believes the goal to be. Nothing in the loop sees a constant error, "
         "and no gain removes it."
     )
-    return ask, cases(found, options), why
+    return ask, cases(computed, options), why
 
 
 @question(9, "Exercise 9.1: A compass that is off", "A compass that is off")
@@ -153,12 +154,12 @@ def is_it_parked() -> tuple[str, list[Option], str]:
     east, north = (
         {value for (axis, *_), value in seen.items() if axis == name} for name in ("east", "north")
     )
-    found = "open"
+    computed = "open"
     for verdict, holds in (("holds", True), ("wrong", False)):
         if east | north == {holds}:
-            found = verdict
+            computed = verdict
     if len(east) == len(north) == 1 and east != north:
-        found = "axis"
+        computed = "axis"
     ask = (
         "Parked: within 5 cm and 5 deg. An audit halves and doubles both thresholds, and tries "
         "$x$ east and north, with the gains 2, 1, 0.3, 4 in continuous time. What does it report?"
@@ -174,4 +175,4 @@ def is_it_parked() -> tuple[str, list[Option], str]:
         "The heading swings through zero near 10 cm, so the verdict flips with our thresholds. "
         "The heading still settles 16 times slower than the distance."
     )
-    return ask, cases(found, options), why
+    return ask, cases(computed, options), why

@@ -9,8 +9,8 @@ formula = compiled
 
 
 def elementwise(one, outputs, *arguments, options=()):
-    for each in arguments:
-        if not isinstance(each, float):
+    for value in arguments:
+        if not isinstance(value, float):
             raise ModuleNotFoundError("Arrays need numpy: open the notebook for them")
     results = one(*arguments, *options)
     return results if outputs > 1 else (results,)
