@@ -7,26 +7,26 @@ who all come at once. Memory is what a process has to itself (USS).
 
 from __future__ import annotations
 
-import json
 import secrets
-import subprocess
 import sys
+import tempfile
 import time
 import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import contextmanager
+from pathlib import Path
 
 import nbformat
 import psutil
 from nbclient import NotebookClient
-from timing import ROOT, Row, machine
+from timing import ROOT, Row, keep, machine, show
 
 MEGABYTE = 1e6
 READERS = (1, 2, 4, 8, 16)
 TOKENS = {"jupyterlab": "IdentityProvider.token", "voila": "token"}
 sys.path.insert(0, str(ROOT / "tests" / "browser"))
-from live import free_port  # noqa: E402  (it stands beside the browser tests)
+from live import chapters, free_port, serve  # noqa: E402  (it stands beside the browser tests)
 
 
 def own_memory(*processes: psutil.Process) -> float:
@@ -37,7 +37,7 @@ def own_memory(*processes: psutil.Process) -> float:
 
 def students() -> list[Row]:
     rows = []
-    for path in sorted((ROOT / "notebooks").glob("*.ipynb")):
+    for path in chapters():
         client = NotebookClient(
             nbformat.read(path, as_version=4), resources={"metadata": {"path": path.parent}}
         )
@@ -54,11 +54,8 @@ def students() -> list[Row]:
 
 
 def laboratory() -> list[Row]:
-    with serve("jupyterlab", "--allow-root", "--notebook-dir=notebooks") as (
-        process,
-        address,
-        seconds,
-    ):
+    options = "--allow-root", "--notebook-dir=notebooks"
+    with served("jupyterlab", *options) as (process, address, seconds):
         assert "jupyter" in read(address("lab"))
         return [
             Row("A student's JupyterLab, without its kernels", "it starts", seconds, "s"),
@@ -67,12 +64,8 @@ def laboratory() -> list[Row]:
 
 
 def readers() -> list[Row]:
-    chapter = sorted((ROOT / "notebooks").glob("*.ipynb"))[0]
-    with serve("voila", "--Voila.config_file_paths=book/voila", chapter) as (
-        process,
-        address,
-        seconds,
-    ):
+    options = "--Voila.config_file_paths=book/voila", chapters()[0]
+    with served("voila", *options) as (process, address, seconds):
         rows = [Row("An app's readers", "the server starts", seconds, "s")]
         empty = own_memory(process)
         rows.append(Row("An app's readers", "the server alone", empty, "MB"))
@@ -88,24 +81,18 @@ def readers() -> list[Row]:
 
 
 @contextmanager
-def serve(module: str, *options) -> Iterator[tuple]:
+def served(module: str, *options) -> Iterator[tuple]:
     """A running server: its process, its addresses by path, and the seconds it took to start."""
-    port, token, begin = free_port(), secrets.token_hex(8), time.perf_counter()
+    token, begin = secrets.token_hex(8), time.perf_counter()
+    url = f"http://127.0.0.1:{(port := free_port())}/"
     command = [sys.executable, "-m", module, "--no-browser", f"--port={port}"]
     command += [f"--{TOKENS[module]}={token}", *options]
-    server = subprocess.Popen(
-        command, cwd=ROOT, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL
-    )
-    try:
-        wait_for(port)
-        yield (
-            psutil.Process(server.pid),
-            lambda path: f"http://127.0.0.1:{port}/{path}?token={token}",
-            time.perf_counter() - begin,
-        )
-    finally:
-        server.terminate()
-        server.wait(60)
+    with (
+        tempfile.TemporaryDirectory() as folder,
+        serve(command, url, Path(folder, "log")) as server,
+    ):
+        seconds = time.perf_counter() - begin
+        yield psutil.Process(server.pid), lambda path: f"{url}{path}?token={token}", seconds
 
 
 def read(url: str) -> str:
@@ -114,29 +101,11 @@ def read(url: str) -> str:
         return answer.read().decode()
 
 
-def wait_for(port: int) -> None:
-    for _ in range(600):
-        try:
-            urllib.request.urlopen(f"http://127.0.0.1:{port}/", timeout=5).close()
-        except OSError:
-            time.sleep(0.1)
-        else:
-            return
-    raise TimeoutError("the server did not start")
-
-
 if __name__ == "__main__":
     if set(sys.argv[1:]) - {"--keep"}:
         sys.exit(__doc__)
     print(machine())
     table = [*laboratory(), *students(), *readers()]
-    for row in table:
-        print(f"{row.section:48}{row.what:48}{row.value:10.4g} {row.unit}")
+    show(table)
     if "--keep" in sys.argv:
-        kept = {
-            "machine": machine(),
-            "rows": [row._asdict() | {"value": float(f"{row.value:.3g}")} for row in table],
-        }
-        (ROOT / "book" / "classroom.json").write_text(
-            json.dumps(kept, indent=1) + "\n", encoding="utf-8"
-        )
+        keep("classroom.json", table)

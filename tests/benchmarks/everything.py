@@ -1,20 +1,21 @@
 """All benchmarks in one run and one table: python tests/benchmarks/everything.py [--fast | --keep]
 
---fast leaves out the chapters, the book and the explorer, which take minutes. --keep
-writes the table and its machine to book/speed.json, which the book's page on speed shows, if all of
-it could be measured. Machines differ and are noisy: quote the ratios.
+--fast leaves out the book and the explorer, which take minutes. --keep writes the table and its
+machine to book/speed.json, which the book's page on speed shows. Machines differ and are noisy:
+quote the ratios.
 """
 
 from __future__ import annotations
 
-import json
+import subprocess
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import one_run
 import sweeps
-from timing import ROOT, Row, command, machine, process, show
+from timing import ROOT, Row, keep, machine, process, show
 
 FIRST_RUN = "import wmrlib as w; w.simulate(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.Gains(2, 1, 0.3))"
 FIRST_SWEEP = "import wmrlib as w; w.sweep(w.Pose(0, 0, 0), w.Pose(9, 9, 1), w.Gains(2, 1, 0.3))"
@@ -33,33 +34,15 @@ def starting() -> list[Row]:
     return [Row(section, name, value, "s") for name, value in times.items()]
 
 
-def building(folder: Path, failures: list[str]) -> list[Row]:
-    rows = []
-    for chapter in sorted((ROOT / "notebooks").glob("*.ipynb")):
-        seconds, done = command(
-            "-m", "nbconvert", "--to", "notebook", "--execute", f"--output-dir={folder}", chapter
-        )
-        rows.append(Row("The book", f"run {chapter.stem}", seconds, "s"))
-        failures += [done.stderr[-500:]] if done.returncode else []
-    seconds, done = command(ROOT / "book" / "tools" / "build.py", folder / "book")
-    rows.append(Row("The book", "build all pages", seconds, "s"))
-    failures += [done.stderr[-500:]] if done.returncode else []
-    return rows
+def building(folder: Path) -> list[Row]:
+    begin = time.perf_counter()
+    command = [sys.executable, ROOT / "book" / "tools" / "build.py", folder / "book"]
+    subprocess.run(command, cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
+    return [Row("The book", "build all pages", time.perf_counter() - begin, "s")]
 
 
-def explorer(failures: list[str]) -> list[Row]:
-    _, done = command(Path(__file__).with_name("explorer_latency.py"))
-    if done.returncode:
-        failures.append(f"The explorer was not measured: {done.stderr.strip().splitlines()[-1]}")
-        return []
-    section, lines = "The explorer, slider event to finished picture, median", done.stdout
-    rows = ((line[:40].strip(), float(line[40:48])) for line in lines.splitlines()[1:])
-    return [Row(section, *row, "ms") for row in rows]
-
-
-def main(fast: bool, keep: bool) -> None:
+def main(*options: str) -> None:
     print(machine())
-    failures: list[str] = []
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         rows = [
@@ -69,22 +52,16 @@ def main(fast: bool, keep: bool) -> None:
             *sweeps.growth(),
             *starting(),
         ]
-        if not fast:
-            rows += [*building(folder, failures), *explorer(failures)]
+        if "--fast" not in options:
+            import explorer_latency
+
+            rows += [*building(folder), *explorer_latency.rows()]
     show(rows)
-    if failures:
-        sys.exit("\n".join(["", "Nothing is kept, because not all could be measured.", *failures]))
-    if keep:
-        table = {
-            "machine": machine(),
-            "rows": [row._asdict() | {"value": float(f"{row.value:.4g}")} for row in rows],
-        }
-        (ROOT / "book" / "speed.json").write_text(
-            json.dumps(table, indent=1) + "\n", encoding="utf-8"
-        )
+    if "--keep" in options:
+        keep("speed.json", rows)
 
 
 if __name__ == "__main__":
     if sys.argv[1:] not in ([], ["--fast"], ["--keep"]):  # half a table is not kept
         sys.exit(__doc__)
-    main("--fast" in sys.argv, "--keep" in sys.argv)
+    main(*sys.argv[1:])

@@ -19,13 +19,14 @@ from pathlib import Path
 import nbformat
 from ipywidgets.embed import dependency_state, embed_data
 from playwright.sync_api import sync_playwright
+from timing import ROOT, Row, show
 
 from wmrlib.explorer import Explorer
 
-ROOT = Path(__file__).resolve().parents[2]
 sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book" / "tools")]
 from conftest import FLAGS  # noqa: E402
 from live import PATIENCE, jupyterlab, thumb  # noqa: E402
+from pdf import BROWSERS  # noqa: E402
 
 STEPS = 40
 PANEL_CELL = "from wmrlib.explorer import Explorer\nexplorer = Explorer()\nexplorer"
@@ -149,25 +150,22 @@ def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
     return panel, interactive
 
 
-def main() -> None:
+def rows() -> list[Row]:
+    section = "The explorer, slider event to finished picture, median"
     with sync_playwright() as playwright, tempfile.TemporaryDirectory() as name:
-        browser = playwright.chromium.launch(
-            executable_path=shutil.which("chromium"), headless=True, args=FLAGS
-        )
+        path = next(filter(None, map(shutil.which, BROWSERS)))
+        browser = playwright.chromium.launch(executable_path=path, headless=True, args=FLAGS)
         static, lab = Path(name, "static"), Path(name, "lab")
         static.mkdir()
         lab.mkdir()
-        rows = {}
-        rows["panel, page without a kernel"], rows["its whole gain landscape"] = in_page(
-            browser, static
-        )
-        rows["panel, JupyterLab"], rows["interactive with PNG, JupyterLab"] = in_lab(browser, lab)
+        times = {}
+        page, maps = "panel, page without a kernel", "its whole gain landscape"
+        times[page], times[maps] = in_page(browser, static)
+        panel, png = "panel, JupyterLab", "interactive with PNG, JupyterLab"
+        times[panel], times[png] = in_lab(browser, lab)
         browser.close()
-    print(f"{'slider event to finished picture [ms]':40}{'median':>8}{'90 %':>8}{'steps':>8}")
-    for title, times in rows.items():
-        high = statistics.quantiles(times, n=10)[-1]
-        print(f"{title:40}{statistics.median(times):8.1f}{high:8.1f}{len(times):8}")
+    return [Row(section, what, statistics.median(taken), "ms") for what, taken in times.items()]
 
 
 if __name__ == "__main__":
-    main()
+    show(rows())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 import os
 import platform
 import subprocess
@@ -54,20 +55,19 @@ def process(statement: str, **environment: str) -> float:
     return float(subprocess.check_output(line, text=True, env=variables))
 
 
-def command(*arguments: str | Path) -> tuple[float, subprocess.CompletedProcess]:
-    """Seconds that a Python process takes, and what it said."""
-    begin = time.perf_counter()
-    line = [sys.executable, *map(str, arguments)]
-    done = subprocess.run(line, capture_output=True, text=True, cwd=ROOT, check=False)
-    return time.perf_counter() - begin, done
-
-
 def show(rows: list[Row]) -> None:
     for section, members in groupby(rows, key=lambda row: row.section):
         print(f"\n{section}")
         for row in members:
             ratio = "" if row.ratio is None else f"{row.ratio:10.2f}"
             print(f"  {row.what:46}{row.value:12.4g} {row.unit:10}{ratio}")
+
+
+def keep(name: str, rows: list[Row]) -> None:
+    """Write the table and its machine into the book."""
+    listed = [row._asdict() | {"value": float(f"{row.value:.4g}")} for row in rows]
+    text = json.dumps({"machine": machine(), "rows": listed}, indent=1)
+    (ROOT / "book" / name).write_text(text + "\n", encoding="utf-8")
 
 
 def machine() -> str:
