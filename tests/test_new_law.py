@@ -1,27 +1,21 @@
-"""A law added to a copy of wmrlib by the steps of CONTRIBUTING.md is everywhere, and the same."""
+"""A law added to a copy by the steps of CONTRIBUTING.md is everywhere, and the same.
+
+All but the last: storing the panels of all chapters would take minutes.
+"""
 
 import json
-import os
 import shutil
-import subprocess
 import sys
-from pathlib import Path
 
 import numpy as np
 import pytest
+from recipes import blocks, check, copied, put, run
 
 pytestmark = pytest.mark.slow
 
-ROOT = Path(__file__).parents[1]
 CC = shutil.which("cc") or shutil.which("gcc")
 NODE = shutil.which("node")
-FORMULA = """
-@formula
-def rational_law(rho, alpha, theta, gains):
-    v_over_rho = gains.v_max * gains.k_rho / (1.0 + gains.k_rho * rho) * sincos(alpha)[1]
-    return v_over_rho, gains.k_alpha * alpha + v_over_rho * sinc(alpha) * (alpha + gains.h * theta)
-
-
+TWINS = """
 def scaled(share):
     def scaled_law(rho, alpha, theta, gains):
         v_over_rho, omega = corrected_law(rho, alpha, theta, gains)
@@ -30,10 +24,8 @@ def scaled(share):
     return formula(scaled_law)
 
 
-class Law(NamedTuple):"""
-ROW = """LAWS = {
-    "rational": Law(rational_law, Gains, "rational", "v that falls as k_rho rho/(1 + k_rho rho)"),
-    "half": Law(scaled(0.5), Gains, "half", "half as fast"),
+"""
+ROWS = """    "half": Law(scaled(0.5), Gains, "half", "half as fast"),
     "twice": Law(scaled(2.0), Gains, "twice", "twice as fast"),
 """
 PYTHON = """
@@ -96,19 +88,12 @@ def states():
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
     """A copy of wmrlib with the law: its formula, its row, printed again."""
-    folder = tmp_path_factory.mktemp("copy")
-    left_out = shutil.ignore_patterns(".*", "__pycache__", "_build", "node_modules", "vendor")
-    for part in ("wmrlib", "book", "tests"):
-        shutil.copytree(ROOT / part, folder / part, ignore=left_out)
-    shutil.copy(ROOT / "pyproject.toml", folder)
-    copy = folder / "wmrlib"
-    text = (copy / "laws.py").read_text(encoding="utf-8")
-    for place, new in (("\nclass Law(NamedTuple):", FORMULA), ("LAWS = {\n", ROW)):
-        assert text.count(place) == 1
-        text = text.replace(place, new)
-    (copy / "laws.py").write_text(text, encoding="utf-8")
-    run(folder, sys.executable, "-m", "wmrlib.symbolic")
-    return copy
+    copy, (formula, row, *_) = copied(tmp_path_factory.mktemp("copy")), blocks("To add a law")
+    laws = copy / "wmrlib" / "laws.py"
+    put(laws, f"{formula}\n{TWINS}", "class Law(NamedTuple):")
+    put(laws, f"    {row}{ROWS}", '    "corrected": Law(')
+    run(copy, sys.executable, "-m", "wmrlib.symbolic")
+    return copy / "wmrlib"
 
 
 @pytest.fixture(scope="module")
@@ -117,21 +102,6 @@ def ours(package, states):
     return json.loads(
         run(package.parent, sys.executable, "-c", PYTHON, given=json.dumps(states.tolist()))
     )
-
-
-def run(folder, *command, given=""):
-    places = os.pathsep.join([str(folder), str(folder / "book")])
-    environment = os.environ | {"PYTHONPATH": places, "PYTEST_ADDOPTS": ""}
-    done = subprocess.run(
-        list(map(str, command)),
-        cwd=folder,
-        env=environment,
-        input=given,
-        capture_output=True,
-        text=True,
-    )
-    assert done.returncode == 0, done.stderr + done.stdout
-    return done.stdout
 
 
 def test_python_sympy_and_the_loops_agree(ours, states):
@@ -167,16 +137,14 @@ def test_c_agrees(package, ours, states):
 
 
 def test_no_other_test_turns_red(package):
-    """Those that go through the laws or name them; stored panels are the steps' last point."""
-    files = [f"tests/test_{name}.py" for name in ("control", "simulation", "explorer", "symbolic")]
+    """Those that go through the laws, name them, or compare what is printed."""
+    names = "control", "simulation", "sweeping", "explorer", "symbolic"
     words = "law or named or refused or committed or printed"
-    options = ["-q", "-p", "no:cacheprovider", "-p", "no:nbval", "--override-ini=addopts="]
-    run(package.parent, sys.executable, "-m", "pytest", *options, *files, "-k", words)
+    files = (f"tests/test_{name}.py" for name in names)
+    check(package.parent, sys.executable, *files, "-k", words)
 
 
-def test_maps_of_the_panel_equal_a_sweep_by_it(package, find_tool):
-    if not find_tool("browser"):
-        pytest.skip("this test needs Chromium or Chrome")
-    options = ["-q", "-p", "no:cacheprovider", "-p", "no:nbval", "--override-ini=addopts="]
-    maps = "tests/browser/test_panel_core.py::test_maps_equal_a_sweep"
-    run(package.parent, sys.executable, "-m", "pytest", *options, maps)
+@pytest.mark.needs("browser")
+def test_the_panel_has_it_too(package):
+    browser = ("tests/browser/test_panel_core.py", "tests/browser/test_parity.py")
+    check(package.parent, sys.executable, *browser)

@@ -325,7 +325,7 @@ def trace(start, gains, most):
     """The log of a run to the origin: a step a column, and how many trials there were before it."""
     run = np.array([*start, *ORIGIN, *gains])[:, None]
     state = adaptive.begun(run, 60.0, 0.05, float(most))
-    log = adaptive.trace(state, 0.05, 0, checked_wheels(None), 0.0)
+    log = adaptive.trace(state, 0.05, POSE_LAWS["corrected"], checked_wheels(None), 0.0)
     return log, most - log[steps.TRIALS // steps.LANES]
 
 

@@ -285,7 +285,7 @@ def test_bad_input_names_argument_value_and_range(monkeypatch):
     for options, message in [
         ({"starts": (0, 0, 0)}, r"starts = \(0, 0, 0\) .* a Pose is needed"),
         ({"method": "heun"}, "'continuous', 'arc', 'euler' is needed"),
-        ({"law": ["corrected", "kanayama"]}, "law = 'kanayama' .* one of 'corrected', 'printed'"),
+        ({"law": ["corrected", "kanayama"]}, "law = 'kanayama' .* one of .*'corrected', 'printed'"),
         ({"law": ["corrected", ["printed"]]}, r"law = \['corrected', \['printed'\]\] is not"),
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
