@@ -17,8 +17,7 @@ from pdf import BROWSERS
 settings.register_profile("repeatable", deadline=None, derandomize=True, print_blob=True)
 settings.register_profile("few", settings.get_profile("repeatable"), max_examples=20)
 settings.load_profile("repeatable")
-examples = int(os.environ.get("STRESS_EXAMPLES", "100"))
-settings.register_profile("stress", deadline=None, print_blob=True, max_examples=examples)
+settings.register_profile("stress", deadline=None, print_blob=True, max_examples=1000)
 
 TOOLS = {  # what a test may need, the commands that are it, and what to install
     "avr": (("avr-gcc",), "a compiler for AVR boards (Debian: apt install gcc-avr avr-libc)"),

@@ -5,7 +5,8 @@ works from the disk on a telephone (`python -m wmrbook.questions form`), and, of
 back, histograms and the gain from a test before to one after. The test asks those that a student
 can think about before the course; the others are for votes. Every key is computed by wmrlib when
 a question is made, and so is every number among the wrong options, from the mistake behind it. A
-question whose texts explain another answer than the computed one is refused.
+question whose texts explain another answer than the computed one is refused. To add one, write a
+function under `@question` in its chapters' module, and name a sign behind it in tests/flipped.py.
 """
 
 from __future__ import annotations
