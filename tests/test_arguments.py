@@ -5,6 +5,7 @@ import warnings
 from datetime import date
 from decimal import Decimal
 from fractions import Fraction
+from itertools import combinations, product
 from types import FunctionType
 
 import numpy as np
@@ -14,6 +15,7 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrbook.conventions import CONVENTIONS, gains_near_goal, translate
+from wmrbook.ellipsoid import sphere_error
 from wmrbook.pareto import pareto
 
 PAPER = wmr.paper.outdoor()
@@ -72,6 +74,7 @@ VALID = {
     wmr.paper.circle: {"t": 1.0},
     translate: {"polar": (1.0, 0.5, 0.2), "source": "aicardi", "target": "corke"},
     gains_near_goal: {"gains": GAINS, "convention": "corke"},
+    sphere_error: {"lat": 33.0, "bearing": 1.0, "radius": 10.0},
 }
 # Tested where their files are.
 ELSEWHERE = {"read_track", "write_geojson", "write_gpx"}
@@ -151,6 +154,46 @@ def test_odd_arguments_are_refused_by_name(function):
         no_numbers = (float("inf"), *([] if name == "headings" else [float("nan")]))
         for odd in (object(), 10**5000, LOOP, Unreadable(), np.ma.masked, *no_numbers):
             assert refused(function, valid | {name: odd}, name), (name, type(odd))
+
+
+BOUNDS = {  # a value just beyond what is allowed, what is needed, and the arguments that need it
+    ("Corrected", "one of '"): "law method x_axis source target convention",
+    (-1e-9, "a finite number at least 0"): "rho h k_rho k_alpha k_x k_heading distance sigma memory"
+    " period delay heading_delay arrival_radius pass_radius wheel_lag",
+    (0.0, "a finite number above 0"): "radius track_width L v_max k_y dt duration last",
+    (90.1, "a finite number at least -90 and at most 90"): "lat",
+    (-180.1, "a finite number at least -180 and at most 180"): "lon",
+}
+BEYOND = [
+    (function, name, odd, needed)
+    for (odd, needed), names in BOUNDS.items()
+    for function, name in product(VALID, names.split())
+    if name in VALID[function] and (function, name) != (wmr.polar_rate, "rho")
+]
+
+
+@pytest.mark.parametrize(("function", "name", "odd", "needed"), BEYOND)
+def test_what_is_just_beyond_a_bound_is_refused_with_what_is_needed(function, name, odd, needed):
+    odd = -1e-9 if (function, name) == (wmr.advance, "dt") else odd  # 0 s are allowed there
+    text = said(function, **(VALID[function] | {name: odd}))
+    assert text.startswith(f"{name} = {odd!r} is not allowed: {needed.split(' above')[0]}")
+    assert "at least 0" in text or needed in text
+
+
+@pytest.mark.parametrize("function", VALID, ids=lambda function: function.__name__)
+def test_arrays_of_other_lengths_are_refused_with_their_shapes(function):
+    valid = VALID[function]
+    numbers = {
+        name: value
+        for name, value in valid.items()
+        if type(value) is float and not said(function, **(valid | {name: np.full(2, value)}))
+    }
+    for (one, first), (other, second) in combinations(numbers.items(), 2):
+        shapes = {one: np.full(2, first), other: np.full(3, second)}
+        text = said(function, **(valid | shapes))
+        assert text.startswith("mismatched lengths: ")
+        assert f"{one} has shape (2,)" in text
+        assert f"{other} has shape (3,)" in text
 
 
 anything = st.deferred(

@@ -189,29 +189,9 @@ def test_arrays_broadcast():
 # Bad input
 
 
-def test_bad_input_names_argument_value_and_range():
-    a, b = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
-    geo = wmr.GeoPoint
-    latitude = r"lat = 91\.0 is not allowed: a finite number at least -90 and at most 90 is needed"
-    for make, message in [
-        (lambda: geo(lat=91.0, lon=0.0), latitude),
-        (lambda: geo(lat=0.0, lon=-181), "lon = -181 is not allowed: .* -180 and at most 180"),
-        (lambda: geo(lat=math.nan, lon=0.0), r"lat = nan is not allowed"),
-        (lambda: geo(lat=[0.0, math.inf], lon=0.0), r"lat = \[0\.0, inf\] is not allowed"),
-        (lambda: geo(lat="33.2", lon=0.0), r"lat = '33\.2' is not allowed"),
-        (lambda: geo(lat=True, lon=0.0), r"lat = True is not allowed"),
-        (lambda: geo(lat=[1.0] * 2, lon=[1.0] * 3), r"lat has shape \(2,\), lon has shape \(3,\)"),
-        (lambda: wmr.haversine_distance((33.0, 44.0), a), "a GeoPoint is needed, not a tuple"),
-        (lambda: wmr.haversine_distance(a, b, radius=0.0), r"radius = 0\.0 .* above 0"),
-        (lambda: wmr.destination_point(a, -1.0, 0.0), r"distance = -1\.0 .* at least 0"),
-        (lambda: wmr.destination_point(a, 1.0, math.nan), "bearing = nan"),
-        (lambda: wmr.point_at(a, [1.0] * 2, [1.0] * 3), "mismatched lengths: east has shape"),
-        (lambda: sphere_error(91.0, 0.0), latitude),
-        (lambda: sphere_error(0.0, math.inf), "bearing = inf"),
-        (lambda: sphere_error(0.0, 0.0, radius=0.0), r"radius = 0\.0 .* above 0"),
-        (lambda: sphere_error([0.0] * 2, [0.0] * 3), "mismatched lengths: lat has shape"),
-    ]:
-        with pytest.raises(ValueError, match=message):
-            make()
+def test_points_of_other_lengths_are_refused_and_their_order_cannot_be_mixed_up():
+    two, three = wmr.GeoPoint(lat=[1.0] * 2, lon=0.0), wmr.GeoPoint(lat=[1.0] * 3, lon=0.0)
+    with pytest.raises(ValueError, match=r"a\.lat has shape \(2,\), b\.lat has shape \(3,\)"):
+        wmr.haversine_distance(two, three)
     with pytest.raises(TypeError):
-        geo(44.37, 33.27)  # the order can't be mixed up
+        wmr.GeoPoint(44.37, 33.27)

@@ -137,31 +137,7 @@ def test_arrays_broadcast():
     assert wmr.advance(wmr.Pose(0, 0, 0), np.array([1.0, 2.0]), 0.0, 1.0).x.tolist() == [1.0, 2.0]
 
 
-ORIGIN, TWO, THREE = wmr.Pose(0.0, 0.0, 0.0), np.ones(2), np.ones(3)
-BAD = [
-    (lambda: wmr.Pose(math.nan, 0, 0), r"x = nan is not allowed: a finite number is needed"),
-    (lambda: wmr.Pose(0, 0, "north"), r"heading = 'north'"),
-    (lambda: wmr.Pose(TWO, THREE, 0), r"lengths: x has shape \(2,\), y has shape \(3,\)"),
-    (lambda: wmr.wrap_angle(math.inf), r"angle = inf"),
-    (
-        lambda: wmr.wheels_to_twist(1, 1, 0.0),
-        r"width = 0\.0 is not allowed: a finite number above 0 is",
-    ),
-    (lambda: wmr.polar_rate(0.0, 0, 1, 0), r"rho = 0\.0 is not allowed: a finite number above 0"),
-    (
-        lambda: wmr.polar_error(wmr.Pose(TWO, 0, 0), wmr.Pose(THREE, 0, 0)),
-        r"lengths: pose\.x .* goal\.x",
-    ),
-    (lambda: wmr.polar_error((0, 0, 0), ORIGIN), r"a Pose is needed, not a tuple"),
-    (
-        lambda: wmr.advance(ORIGIN, 1, 0, 0.1, "rk4"),
-        r"method = 'rk4' is not .*: one of 'euler', 'arc'",
-    ),
-    (lambda: wmr.advance(ORIGIN, 1, 0, -0.1), r"dt = -0\.1"),
-]
-
-
-def test_bad_input_names_argument_value_and_range():
-    for make, message in BAD:
-        with pytest.raises(ValueError, match=message):
-            make()
+def test_poses_of_other_lengths_are_refused_with_their_shapes():
+    two, three = wmr.Pose(np.ones(2), 0, 0), wmr.Pose(np.ones(3), 0, 0)
+    with pytest.raises(ValueError, match=r"lengths: pose\.x .* goal\.x"):
+        wmr.polar_error(two, three)

@@ -112,13 +112,8 @@ def test_whatever_is_above_0_counts():
     assert wmr.twist_to_wheels(*limited, 1e-3)[1] == pytest.approx(1e-3)
 
 
-def test_bad_input():
+def test_a_run_without_a_sample_is_refused():
     empty = wmr.simulate(ORIGIN, wmr.Pose(5, 1, 0), wmr.Gains(1e308, 1e308, 1e308, 1e308))
-    run = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains)
     for function in (wmr.arrival, wmr.residual):
         with pytest.raises(ValueError, match="trajectory has no sample"):
             function(empty)
-        with pytest.raises(ValueError, match="a Trajectory is needed, not a list"):
-            function([1, 2])
-    with pytest.raises(ValueError, match=r"last = 0\.0 is not allowed"):
-        wmr.residual(run, last=0.0)

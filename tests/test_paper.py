@@ -134,10 +134,3 @@ def test_scenarios_are_those_that_the_paper_prints():
     headings = case.start.heading, case.goal.heading
     assert (*headings, case.dt) == (said["start_heading"], said["goal_heading"], said["time_step"])
     assert 1000.0 * said["earth_radius"] == wmr.EARTH_RADIUS_M
-
-
-def test_unknown_axis():
-    with pytest.raises(
-        ValueError, match=r"x_axis = 'west' is not allowed: one of 'east', 'north' is needed"
-    ):
-        wmr.paper.outdoor("west")

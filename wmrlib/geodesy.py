@@ -9,7 +9,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, plain, real, reals, same_shape
+from wmrlib._checks import Real, instance, plain, real, reals, same_shape, scalar
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
@@ -62,7 +62,7 @@ def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M)
     58.08 m
     """
     lat1, lat2, delta_lat, delta_lon = _radians(a=a, b=b)
-    metres = real("radius", radius, above=0.0)
+    metres = scalar("radius", radius, above=0.0)
     across = np.cos(lat1) * np.cos(lat2)
     e = np.sin(delta_lat / 2) ** 2 + across * np.sin(delta_lon / 2) ** 2
     # 1 - e without the difference, which loses digits near the antipode: the haversine to it
@@ -126,7 +126,7 @@ def destination_point(
     named = {"lat": a.lat, "lon": a.lon, "distance": distance, "bearing": bearing}
     lat1, lon1, distance, bearing = reals(at_least_0=("distance",), **named)
     lat1, lon1 = np.radians(lat1), np.radians(lon1)
-    delta = distance / real("radius", radius, above=0.0)
+    delta = distance / scalar("radius", radius, above=0.0)
     north, east = np.sin(delta) * np.cos(bearing), np.sin(delta) * np.sin(bearing)
     # towards lon1 in the plane of the equator
     up = np.cos(lat1) * np.cos(delta) - np.sin(lat1) * north

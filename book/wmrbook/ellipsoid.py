@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wmrlib._checks import Real, real, same_shape
+from wmrlib._checks import Real, real, same_shape, scalar
 from wmrlib.geodesy import EARTH_RADIUS_M
 
 SEMI_MAJOR_M = 6_378_137.0
@@ -34,7 +34,7 @@ def sphere_error(lat: Real, bearing: Real, radius: float = EARTH_RADIUS_M) -> Re
     ValueError : a latitude out of range, NaN, a radius that is not positive, mismatched lengths
     """
     lat, bearing = np.radians(real("lat", lat, low=-90.0, high=90.0)), real("bearing", bearing)
-    radius = real("radius", radius, above=0.0)
+    radius = scalar("radius", radius, above=0.0)
     same_shape(lat=lat, bearing=bearing)
     eccentricity_squared = FLATTENING * (2.0 - FLATTENING)
     w = np.sqrt(1.0 - eccentricity_squared * np.sin(lat) ** 2)
