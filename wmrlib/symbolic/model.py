@@ -35,6 +35,7 @@ _SYMBOLIC = {
     _vecmath.decay: s.decay,
     motion.wrap: s.wrap,
     _checks.real: lambda name, value, **bounds: value,
+    _checks.scalar: lambda name, value, **bounds: value,
     _checks.reals: lambda above_0, **values: values.values(),
     geodesy._radians: lambda a, b: (a[0], b[0], b[1], b[2]),
     _checks.plain: lambda value: value,
