@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import math
+
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 
@@ -11,3 +13,9 @@ def pixels_of(picture) -> np.ndarray:
     canvas = FigureCanvasAgg(picture.figure)
     canvas.draw()
     return np.asarray(canvas.buffer_rgba())[..., :3] / 255.0
+
+
+def heading_of(dart) -> float:
+    """Where the arrowhead of a robot points, rad."""
+    tip, tail = dart.get_xy()[0], dart.get_xy()[2]
+    return math.atan2(tip[1] - tail[1], tip[0] - tail[0])

@@ -40,7 +40,7 @@ PLANS = {
     "_loops/sight": "jit receiver",
     "_chunks": "jit sweeping",
     "control": "plain control arguments",
-    "gains": "plain gains control",
+    "gains": "plain gains control; jit paper",
     "kinematics": "plain kinematics arguments",
     "geodesy": "plain geodesy routes",
     "laws": "plain control; quick simulation; jit simulation",

@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
-from looks import pixels_of
+from looks import heading_of, pixels_of
 from matplotlib.colors import same_color
 
 import wmrlib as wmr
@@ -183,6 +183,13 @@ def beside(driven):
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
     "local_map": lambda: ["58.08 m long, at a bearing of 9.58 deg"],
+    "dashboard": lambda: ["; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s;"],
+    "lyapunov_over_time": lambda: ["from 1690 to 0.132; V falls in every step"],
+    "twist": lambda: [
+        "Over time: v goes from 4.0 to 0.4 m/s, within 5 % of its peak, 4.0 m/s, from 0.0 to "
+        f"{drive().t[drive().v > 0.95 * GAINS.v_max][-1]:.1f} s; omega goes from 0.2 to -4.1 "
+        "rad/s, within 5 % of its peak, -4.3 rad/s, from 15.4 to 15.5 s."
+    ],
     "spherical_triangle": lambda: [
         "c = 70.8 deg long and leaves point 1 at the bearing br = 54.6 deg"
     ],
@@ -293,11 +300,6 @@ def test_every_figure_draws_and_says_what_it_shows(name):
 
 def axes_of(name):
     return picture(name).figure.axes
-
-
-def heading_of(dart):
-    tip, tail = dart.get_xy()[0], dart.get_xy()[2]
-    return math.atan2(tip[1] - tail[1], tip[0] - tail[0])
 
 
 def test_the_triangle_has_three_sides_on_the_globe():
@@ -572,6 +574,7 @@ BAD = [
     ("tracks has 0 entries, .* 1 to 4 are needed", "path_choices", ({}, ORIGIN)),
     ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
     ("runs has 0 entries", "angles_over_time", ([],)),
+    ("runs has 5 entries, .* 1 to 4 are needed", "path", ([0] * 5,)),
     ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
     ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),
     ("runs has 6 entries", "compare_runs", (FIVE, "v")),

@@ -9,6 +9,7 @@ from xml.etree import ElementTree
 
 import numpy as np
 import pytest
+from looks import heading_of
 
 import wmrlib as wmr
 from wmrbook import figures
@@ -24,21 +25,9 @@ CIRCLE = wmr.track(
 PARKED = wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
 
 
-def test_texts_carry_the_numbers():
-    until = RUN.t[RUN.v > 0.95 * PAPER.gains.v_max][-1]
-    wave = replace(RUN, omega=np.sin(RUN.t))  # up again and again: no one spell
-    for picture, words in (
-        (figures.lyapunov_over_time(RUN), "from 1690 to 0.132; V falls in every step"),
-        (figures.twist(RUN), "Over time: v goes from 4.0 to 0.4 m/s, within 5 % of its peak, 4.0"),
-        (figures.twist(RUN), f"peak, 4.0 m/s, from 0.0 to {until:.1f} s; omega goes from 0.2 to"),
-        (
-            figures.twist(RUN),
-            "to -4.1 rad/s, within 5 % of its peak, -4.3 rad/s, from 15.4 to 15.5 s.",
-        ),
-        (figures.twist(wave), "omega goes from 0.0 to 0.2 rad/s, between -1.0 and 1.0 rad/s."),
-        (figures.dashboard(RUN), "; v between 0.4 and 4.0 m/s; omega between -4.3 and 0.2 rad/s;"),
-    ):
-        assert words in picture.alt
+def test_a_peak_that_comes_again_and_again_has_no_one_spell():
+    wave = figures.twist(replace(RUN, omega=np.sin(RUN.t)))
+    assert "omega goes from 0.0 to 0.2 rad/s, between -1.0 and 1.0 rad/s." in wave.alt
 
 
 def test_a_path_that_begins_backwards_says_so():
@@ -73,11 +62,6 @@ def test_lines_are_the_runs_fields():
         np.testing.assert_array_equal(line.get_xydata().T, [RUN.t, values])
 
 
-def tip_heading(dart):
-    tip, tail = dart.get_xy()[0], dart.get_xy()[2]
-    return math.atan2(tip[1] - tail[1], tip[0] - tail[0])
-
-
 def test_path_has_equal_scales_and_the_robots_heading():
     again = {name: np.append(getattr(RUN, name), getattr(RUN, name)[-1]) for name in "xy"}
     # At its end it turns on the spot.
@@ -86,7 +70,7 @@ def test_path_has_equal_scales_and_the_robots_heading():
         axes = figures.path(run).figure.axes[0]
         assert axes.get_aspect() == 1.0
         assert len(axes.patches) == 12  # ten robots, goal and start
-        seen = [tip_heading(dart) for dart in axes.patches[-3:]]
+        seen = [heading_of(dart) for dart in axes.patches[-3:]]
         assert seen == pytest.approx([last, PAPER.goal.heading, PAPER.start.heading])
         top = axes.patches[-2].get_xy()[:, 1].max()
         assert top < axes.get_ylim()[1] - 0.01 * np.ptp(axes.get_ylim())  # clear of the frame
@@ -97,23 +81,6 @@ def test_the_arrows_of_several_paths_have_one_size():
     darts = [dart.get_xy() for dart in figures.path(runs).figure.axes[0].patches]
     lengths = [np.linalg.norm(dart[0] - dart[2]) for dart in darts]
     assert lengths == pytest.approx([lengths[0]] * 4)
-
-
-@pytest.mark.parametrize(
-    ("make", "message"),
-    [
-        (lambda: figures.path([]), "runs has 0 entries, which is not allowed: 1 to 4 are needed"),
-        (lambda: figures.path([RUN] * 5), "runs has 5 entries"),
-        (
-            lambda: figures.path([RUN, PARKED], ["one"]),
-            "labels has 1 entries, .*: one for each of t",
-        ),
-        (lambda: figures.local_map((33, 44), wmr.paper.GPS_POINT_1), "a GeoPoint is needed, not a"),
-    ],
-)
-def test_bad_input(make, message):
-    with pytest.raises(ValueError, match=message):
-        make()
 
 
 SHARED = "path", "start", "goal", "rho", "alpha", "theta"

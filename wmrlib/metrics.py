@@ -58,13 +58,6 @@ def residual(trajectory: Trajectory, last: float = 5.0) -> float:
     Raises
     ------
     ValueError : a trajectory without a sample, or `last` not positive
-
-    Examples
-    --------
-    >>> import wmrlib as wmr
-    >>> run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS)
-    >>> print(f"{wmr.residual(run):.3f} m")
-    0.090 m
     """
     run = _with_samples(trajectory)
     late = run.t >= run.t[-1] - scalar("last", last, above=0.0)
