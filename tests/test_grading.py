@@ -224,7 +224,7 @@ def test_nonsense_is_answered_by_a_hint(module):
     checks = [
         check
         for name, check in inspect.getmembers(module, inspect.isfunction)
-        if check.__module__ == module.__name__ and not name.startswith("_")
+        if check.__module__.startswith(module.__name__) and not name.startswith("_")
     ]
     if module is grading.exercises:  # which say their hints instead
         checks = [check.__wrapped__ for check in checks]
