@@ -7,7 +7,6 @@ of it, in one case, has to get the hint.
 
 import re
 from collections.abc import Callable, Iterator
-from functools import partial
 from itertools import product
 from typing import Any
 
@@ -26,27 +25,23 @@ _VARIES = r"'[^']*'|[-+.0-9]+"  # in a hint, from case to case
 class Changed:
     """An answer like the model's, with its numbers changed in one of the cases it is asked for."""
 
-    def __init__(self, model: Any, case: int, part: Any, change: Callable) -> None:
-        self.case, self.part, self.change, self.asked = case, part, change, list[str]()
-        self.numbers = np.array([])
-        self.answer = self.function(model) if callable(model) else self.changed(model)
+    def __init__(self, model: Any, case: int, part: Any, to: Any = None) -> None:
+        self.part, self.to, self.numbers = part, to, np.array([])
+        asked = list[str]()
 
-    def function(self, model: Callable) -> Callable:
         def answer(*given: Any) -> Any:
+            if repr(given) not in asked:
+                asked.append(repr(given))
             result = model(*given)
-            if repr(given) not in self.asked:
-                self.asked.append(repr(given))
-            changes = self.asked.index(repr(given)) == self.case
-            return self.changed(result) if changes else result
+            return self.changed(result) if asked.index(repr(given)) == case else result
 
-        return answer
+        self.answer = answer if callable(model) else self.changed(model)
 
     def changed(self, result: Any) -> Any:
-        numbers = np.array(result, None if isinstance(result, sp.Expr) else float)
-        self.numbers = numbers.ravel()
-        self.numbers[self.part] = self.change(self.numbers[self.part])
-        listed = self.numbers.reshape(numbers.shape).tolist()
-        return tuple(listed) if isinstance(listed, list) else listed
+        array = np.array(result, None if isinstance(result, sp.Expr) else float)
+        self.numbers = array.reshape(-1)
+        self.numbers[self.part] = 1.37 * self.numbers[self.part] + 1 if self.to is None else self.to
+        return array if array.ndim else array.item()
 
     def place(self, value: Any) -> slice | None:
         """Where in the answer this value stands."""
@@ -80,7 +75,7 @@ def _mistaken(monkeypatch, check: Callable, model: Any) -> Iterator[tuple[str, A
     for case, part in product(CASES, PARTS):
         tables.clear()
         try:
-            wrong = Changed(model, case, part, lambda it: 1.37 * it + 1)
+            wrong = Changed(model, case, part)
             check(wrong.answer)
         except (IndexError, TypeError, ValueError):  # fewer numbers, or none
             continue
@@ -88,9 +83,4 @@ def _mistaken(monkeypatch, check: Callable, model: Any) -> Iterator[tuple[str, A
             place = wrong.place(value)
             for hint, result in mistakes.items():
                 if place and np.size(result) == np.size(value):
-                    change = partial(_result, np.ravel(result))
-                    yield hint, Changed(model, case, place, change).answer
-
-
-def _result(result: np.ndarray, _: np.ndarray) -> np.ndarray:
-    return result
+                    yield hint, Changed(model, case, place, np.ravel(result)).answer
