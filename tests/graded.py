@@ -8,11 +8,9 @@ import re
 import subprocess
 import sys
 import tomllib
-from functools import cache, wraps
+from functools import cache
 from pathlib import Path
 from typing import Any
-
-import numpy as np
 
 from wmrlib import Gains
 
@@ -156,14 +154,17 @@ def run_cell(source: str, name: str, names: dict) -> None:
     exec(compile(source, name, "exec"), names)
 
 
-def lost(chapter: str, key: str, source: str, student="Ada", by="") -> dict[str, str]:
+def lost(chapter: str, key: str, answer: Any, student="Ada", by="") -> dict[str, str]:
     """How those of the graded cells `key` that fail with this answer do so.
 
-    The answer is made with the numbers of `by`, if another's.
+    The answer, a cell or what it makes, is made with the numbers of `by`, if another's.
     """
     names, found = dict(given(chapter, by or student)), {}
-    with contextlib.suppress(Exception):  # then the graded cells fail
-        run_cell(source, f"<{chapter} answer>", names)
+    if isinstance(answer, str):
+        with contextlib.suppress(Exception):  # then the graded cells fail
+            run_cell(answer, f"<{chapter} answer>", names)
+    else:
+        names[target(cells(chapter)[task_of(chapter, key)][0])] = answer
     if "mine" in names:
         names["mine"] = given(chapter, student)["mine"]
     for name in graded(chapter, key):
@@ -199,30 +200,24 @@ def mistold(name: str) -> list[tuple[str, str]]:
     """Words that the check of an exercise should say, and what it says instead."""
     from wmrbook.grading import exercises as checks
 
-    given, found = dict(exercises()[name]), []
-    right = given.pop("answer")
-    sources = {words: edited(right, edit) for words, edit in given.items()}
-    for words, source in {"Right": right, "": right, **sources}.items():
-        names = {}
-        run_cell(source, f"<{name}>", names)
-        answers = [names[it] for it in ("answer", "more") if it in names]
-        told = getattr(checks, name)(*(answers if words else map(in_arrays, answers)))
-        words = words or "Right"
+    (_, model), *edits = exercises()[name].items()
+    found, sources = [], {words: edited(model, edit) for words, edit in edits}
+    for words, source in {"Right": model, **sources}.items():
+        told = getattr(checks, name)(*_answers(name, source))
         if words not in told or told.startswith("Hint: ") == (words == "Right"):
             found.append((words, told))
     return found
 
 
-def in_arrays(answer: Any) -> Any:
-    """The numbers of an answer, or those that it returns, as an array of numpy."""
-    if not callable(answer):
-        return np.array(answer) if isinstance(answer, tuple) else answer
+def right(name: str) -> list:
+    """The right answers of an exercise: one, or two."""
+    return _answers(name, exercises()[name]["answer"])
 
-    @wraps(answer)
-    def in_array(*arguments: Any) -> Any:
-        return np.array(answer(*arguments))
 
-    return in_array
+def _answers(name: str, source: str) -> list:
+    names = {}
+    run_cell(source, f"<{name}>", names)
+    return [names[it] for it in ("answer", "more") if it in names]
 
 
 def nbgrader(folder: Path, *arguments: str) -> None:

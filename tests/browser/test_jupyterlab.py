@@ -13,7 +13,7 @@ from graded import nbgrader, wrong_answers
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, jupyterlab, sliders
 
 CHAPTER = f"notebooks/{chapters()[0].name}"
-ASSIGNMENT, MISTAKE = "ch01", "swapped"
+ASSIGNMENT, MISTAKE = "ch01", "in kilometres"
 PANEL = "notebooks/panel.ipynb"
 CELLS = [
     "from wmrlib.explorer import Explorer\nimport wmrlib as wmr\n"

@@ -54,7 +54,7 @@ def explain_distance(distance: Function, a: GeoPoint, b: GeoPoint) -> None:
     ):
         for each in products:
             half = min(1.0, north + max(0.0, each) * east)
-            expect(not close(value, 2.0 * EARTH_RADIUS_M * math.asin(math.sqrt(half))), hint)
+            rule_out(value, {hint: 2.0 * EARTH_RADIUS_M * math.asin(math.sqrt(half))})
     slip(value, right, within=0.0)
     share, there = value / right, places(1)[0]
     far = between(distance, *there)

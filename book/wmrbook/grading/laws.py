@@ -81,26 +81,28 @@ def law_properties(law: Callable[..., tuple[float, float]]) -> str:
 
 def _explain_omega(omega: float, state: State, gains: Gains) -> None:
     rho, alpha, theta = state
-    right = control_law(*state, gains._replace(k_alpha=0.0))[1]
+    first, second = gains.k_alpha * alpha, control_law(*state, gains._replace(k_alpha=0.0))[1]
     away = control_law(rho, alpha, -theta, gains)[1]
     blind = control_law(*state, gains._replace(h=0.0))[1]
     mistakes = {
         "omega is that of (24) as printed, with cos(alpha) sin(alpha) twice: "
         "V would rise in places.": control_law(*state, gains, "printed")[1],
         "the term with h has the wrong sign: this robot turns away from the approach.": away,
-        "the term k_alpha alpha is missing.": right,
+        "the term k_alpha alpha is missing.": second,
         "theta plays no role in omega: it would park with any heading.": blind,
     }
     rule_out(omega, mistakes)
     slip(omega, control_law(*state, gains)[1])
     mistakes = {
-        "the second term is not divided by rho: compare its unit with the first's.": right * rho,
-        "the second term is not divided by alpha: sin(alpha)/alpha, not sin(alpha).": right * alpha,
-        "the second term has a cosine too many: v has one already.": right * math.cos(alpha),
-        "the second term lacks a cosine: it is v/rho with the v of (22).": right / math.cos(alpha),
+        "the second term is not divided by rho: compare its unit with the first's.": rho,
+        "the second term is not divided by alpha: sin(alpha)/alpha, not sin(alpha).": alpha,
+        "the second term has a cosine too many: v has one already.": math.cos(alpha),
+        "the second term lacks a cosine: it is v/rho with the v of (22).": 1.0 / math.cos(alpha),
     }
-    otherwise = "v is right and omega is not: compare it with (4.6), factor by factor."
-    explain(omega - gains.k_alpha * alpha, mistakes, otherwise)
+    mistakes = {hint: first + second * factor for hint, factor in mistakes.items()}
+    explain(
+        omega, mistakes, "v is right and omega is not: compare it with (4.6), factor by factor."
+    )
 
 
 def _states(count: int) -> list[tuple[State, Gains]]:

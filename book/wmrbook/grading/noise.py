@@ -159,7 +159,7 @@ def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right)
         ((east**2, north**2), "these are variances, in m^2; their roots are asked for."),
     ):
         for share in (1.0, fewer):
-            expect(not _near(stds, np.multiply(mistaken, share)), hint)
+            rule_out(stds, {hint: np.multiply(mistaken, share)}, _near)
     small = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small: "
     hint = "the mean was computed from the same looks. How many are left?"
     expect(not _near(stds, np.multiply(wanted, fewer)), small + hint)

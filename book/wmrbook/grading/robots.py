@@ -46,7 +46,6 @@ def compass_known(heading_of: Callable) -> str:
         east = declination > 0.0
         needle = f"a needle that points {'east' if east else 'west'} of north"
         mistakes = {
-            "the numbers are degrees where radians are asked for.": 90.0 - compass - declination,
             f"{needle} shows too {'little' if east else 'much'}: "
             "which sign has the declination?": right + 2.0 * turn,
             "the declination does not count in your heading.": right + turn,

@@ -1,0 +1,17 @@
+"""The checks of the exercises at the chapters' ends, of those that a few numbers or lines answer.
+
+They print what the checks of the course raise: a sentence if an answer is right, else a hint. So a
+chapter runs while they wait for an answer. What an answer prints comes before, shortened.
+"""
+
+import lazy_loader
+
+_DESIGNS = "aicardi brake braking kanayama longest_step one_centimetre pendulum short_fence"
+_PLACES = "back_to_the_pose campus odometry third_formula three_readings walk"
+__getattr__, __dir__, __all__ = lazy_loader.attach(
+    __name__,
+    submod_attrs={
+        "_designs": [*_DESIGNS.split(), "told_too_little"],
+        "_places": _PLACES.split(),
+    },
+)
