@@ -40,7 +40,7 @@ PYTHON = """
 import json, sys
 import numpy as np, sympy as sp, wmrlib as wmr
 from wmrlib import symbolic
-from wmrlib.explorer import Explorer
+from wmrbook.panel import Explorer
 from wmrlib.symbolic import alpha, h, k_alpha, k_rho, rho, theta, v_max
 states = np.array(json.load(sys.stdin))
 gains, how = wmr.Gains(*states[3:]), {"law": "rational", "arrival_radius": 0.05}
@@ -63,9 +63,12 @@ json.dump({
 }, sys.stdout)
 """
 JAVASCRIPT = """
-const states = JSON.parse(require('fs').readFileSync(0)), names = LAWS.rational.gains;
-const call = (s) => LAWS.rational.command(...s.slice(0, 3),
-  Object.fromEntries(names.map((name, i) => [name, s[3 + i]])), 0, 0);
+import { readFileSync } from 'node:fs';
+import { controlLaw } from './book/wmrbook/panel/kit/law.js';
+import { LAWS } from './book/wmrbook/panel/kit/model.js';
+const states = JSON.parse(readFileSync(0)), names = LAWS.rational.gains;
+const call = (s) => controlLaw(...s.slice(0, 3),
+  Object.fromEntries(names.map((name, i) => [name, s[3 + i]])), 'rational');
 console.log(JSON.stringify(states[0].map((_, i) => call(states.map((row) => row[i])))));
 """
 C = r"""
@@ -108,6 +111,7 @@ def package(tmp_path_factory):
         text = text.replace(place, new)
     (copy / "laws.py").write_text(text, encoding="utf-8")
     run(folder, sys.executable, "-m", "wmrlib.symbolic")
+    run(folder, sys.executable, "book/tools/kit.py")
     return copy
 
 
@@ -149,9 +153,8 @@ def test_python_sympy_and_the_loops_agree(ours, states):
 
 @pytest.mark.skipif(not NODE, reason="this test needs Node.js (Debian: apt install nodejs)")
 def test_javascript_agrees(package, ours, states):
-    program = (package / "explorer" / "js" / "model.js").read_text(encoding="utf-8") + JAVASCRIPT
-    (package.parent / "law.js").write_text(program, encoding="utf-8")
-    printed = run(package.parent, NODE, "law.js", given=json.dumps(states.tolist()))
+    (package.parent / "law.mjs").write_text(JAVASCRIPT, encoding="utf-8")
+    printed = run(package.parent, NODE, "law.mjs", given=json.dumps(states.tolist()))
     np.testing.assert_allclose(json.loads(printed), ours["control"], rtol=1e-12, atol=1e-12)
 
 

@@ -16,7 +16,7 @@ CHAPTER = f"notebooks/{chapters()[0].name}"
 ASSIGNMENT, MISTAKE = "ch01", "swapped"
 PANEL = "notebooks/panel.ipynb"
 CELLS = [
-    "from wmrlib.explorer import Explorer\nimport wmrlib as wmr\n"
+    "from wmrbook.panel import Explorer\nimport wmrlib as wmr\n"
     "explorer = Explorer(view='gains')\nexplorer",
     "print('seen', explorer.gains, len(explorer.trajectory()), explorer.law, explorer.moving)",
     "explorer.gains, explorer.law = wmr.Gains(1.5, 4.0, 2.5), 'aicardi'",
