@@ -1,5 +1,6 @@
-// Brings the widgets of a page or a deck to life without a kernel. Each is an anywidget: an ES module that finds its program in the page, and the
-// values that they share, as notebooks store them.
+// Brings the widgets of a page or a deck to life without a kernel. Each is an anywidget: an ES
+// module that finds its program in the page, and the values that they share, as notebooks store
+// them.
 (function () {
   const TYPE = 'application/vnd.jupyter.widget';
   const once = (make) => { // for what many widgets have in common
@@ -11,7 +12,8 @@
     try { return (await import(address)).default; } finally { URL.revokeObjectURL(address); }
   });
 
-  // What a widget sees of itself, as under Backbone: whoever listens hears of a value only if it is another one.
+  // What a widget sees of itself, as under Backbone: whoever listens hears of a value only if it is
+  // another one.
   function modelOf(values) {
     const listeners = {}, heard = (event) => listeners[event] ||= new Set();
     return {
@@ -46,8 +48,11 @@
   function showAll(root = document) {
     const parts = (kind) => [...root.querySelectorAll(`script[type="${TYPE}-${kind}+json"]`)];
     const states = Object.assign({}, ...parts('state').map((it) => JSON.parse(it.text).state));
-    const models = once((id) => modelOf(states[id].state)); // one that is shown twice moves in both places
-    const shown = parts('view').map((place) => [place, JSON.parse(place.text).model_id]).filter(([, id]) => id in states); // on paper stand pictures
+    // one that is shown twice moves in both places
+    const models = once((id) => modelOf(states[id].state));
+    // on paper stand pictures
+    const shown = parts('view').map((place) => [place, JSON.parse(place.text).model_id])
+        .filter(([, id]) => id in states);
     return Promise.all(shown.map(([place, id]) => show(place, models(id))));
   }
   window.widgets = { modelOf, show, showAll };

@@ -1,18 +1,26 @@
-// Sliders, each with a number that can be typed over, and menus: the browser's own, named and spoken by labels.
+// Sliders, each with a number that can be typed over, and menus: the browser's own, named and
+// spoken by labels.
 
 import { applies, lawsFor, presetOf } from './settings.js';
 
-const ROUND = [1, 1.1, 1.2, 1.3, 1.5, 1.7, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9]; // of each decade
+// of each decade
+const ROUND = [1, 1.1, 1.2, 1.3, 1.5, 1.7, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9];
 export const STEP_KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
-// A key that is pressed here is no command of a notebook's, where b adds a cell. (JupyterLab heeds data-lm-suppress-shortcuts only on what has the focus itself.)
+// A key that is pressed here is no command of a notebook's, where b adds a cell. (JupyterLab heeds
+// data-lm-suppress-shortcuts only on what has the focus itself.)
 export function keepKeys(root) {
-  root.addEventListener('keydown', (event) => { if (!event.ctrlKey && !event.metaKey && !event.altKey && root.closest('.jp-Notebook')) event.stopPropagation(); });
+  root.addEventListener('keydown', (event) => {
+    if (!event.ctrlKey && !event.metaKey && !event.altKey && root.closest('.jp-Notebook'))
+      event.stopPropagation();
+  });
 }
 
 // What a slider can be set to: even steps, or, without a step, the round numbers of each decade.
 export function stopsOf(low, high, step) {
-  if (step) return Array.from({ length: Math.round((high - low) / step) + 1 }, (_, i) => Number((low + i * step).toPrecision(12)));
+  if (step)
+    return Array.from({ length: Math.round((high - low) / step) + 1 },
+        (_, i) => Number((low + i * step).toPrecision(12)));
   const stops = [];
   for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += 1) {
     for (const each of ROUND) stops.push(Number((each * 10 ** power).toPrecision(2)));
@@ -28,9 +36,12 @@ export function placeOf(stops, value) {
 }
 
 // A comma is a decimal one: 1,000 could be either, and is neither.
-export const fromWords = (text) => (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim()) ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
+export const fromWords = (text) =>
+    (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim())
+    ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
 
-// `change(values)` is told what a hand does, `refuse(sentence)` what is typed that is no number. Returns what shows a state.
+// `change(values)` is told what a hand does, `refuse(sentence)` what is typed that is no number.
+// Returns what shows a state.
 export function buildControls(root, setup, { change, refuse }) {
   const make = (parent, tag, properties, attributes = {}) => {
     const it = Object.assign(parent.appendChild(document.createElement(tag)), properties);
@@ -44,14 +55,21 @@ export function buildControls(root, setup, { change, refuse }) {
     return it;
   };
   const menus = setup.menus.map(([name, text, tip, choices]) => {
-    const it = row(name, text, tip), select = make(it, 'select', {}, { 'aria-label': `${text}: ${tip}` });
-    select.addEventListener('change', () => change(name === 'preset' ? { preset: select.selectedIndex } : { [name]: select.value }));
+    const it = row(name, text, tip),
+        select = make(it, 'select', {}, { 'aria-label': `${text}: ${tip}` });
+    select.addEventListener('change',
+        () => change(name === 'preset' ? { preset: select.selectedIndex }
+        : { [name]: select.value }));
     return { name, it, select, choices };
   });
   const sliders = setup.sliders.map(([name, text, tip, ...ends]) => {
-    const stops = stopsOf(...ends), [symbol, unit] = text.match(/^(\S+) \[(.*)\]$/).slice(1), it = row(name, text, tip);
-    const slider = make(it, 'input', { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' }, { 'aria-label': `${symbol}, ${tip}` });
-    const typed = make(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' }, { 'aria-label': `${text}, typed` });
+    const stops = stopsOf(...ends), [symbol, unit] = text.match(/^(\S+) \[(.*)\]$/).slice(1),
+        it = row(name, text, tip);
+    const slider = make(it, 'input',
+        { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' },
+        { 'aria-label': `${symbol}, ${tip}` });
+    const typed = make(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' },
+        { 'aria-label': `${text}, typed` });
     slider.addEventListener('input', () => change({ [name]: stops[Math.round(slider.value)] }));
     slider.addEventListener('keydown', (event) => {
       const by = STEP_KEYS[event.key], place = Number(slider.value);
@@ -63,7 +81,9 @@ export function buildControls(root, setup, { change, refuse }) {
     });
     const take = () => {
       const value = fromWords(typed.value);
-      if (!Number.isFinite(value)) refuse(`${text} = ${typed.value} is not allowed: a number is needed. The value stays as it was.`);
+      if (!Number.isFinite(value))
+        refuse(`${text} = ${typed.value} is not allowed: a number is needed. The value stays as ` +
+            `it was.`);
       else change({ [name]: value });
       typed.value = typed.dataset.shown;
     };
@@ -74,8 +94,10 @@ export function buildControls(root, setup, { change, refuse }) {
   return (state) => {
     for (const { name, it, select, choices } of menus) {
       it.hidden = !applies(name, state, setup);
-      const options = name === 'law' ? lawsFor(setup, state.moving).map((law) => [law.name, law.title]) : choices;
-      const key = JSON.stringify(options), value = name === 'preset' ? String(presetOf(state, setup)) : state[name];
+      const options = name === 'law'
+          ? lawsFor(setup, state.moving).map((law) => [law.name, law.title]) : choices;
+      const key = JSON.stringify(options),
+          value = name === 'preset' ? String(presetOf(state, setup)) : state[name];
       if (select.dataset.key !== key) {
         select.dataset.key = key;
         select.replaceChildren(...options.map(([each, title]) => new Option(title, each)));
@@ -83,10 +105,12 @@ export function buildControls(root, setup, { change, refuse }) {
       if (select.value !== value) select.value = value;
     }
     for (const { name, it, slider, typed, stops, unit } of sliders) {
-      const value = state[name], text = Number.isFinite(value) ? String(Number(value.toPrecision(6))) : String(value);
+      const value = state[name],
+          text = Number.isFinite(value) ? String(Number(value.toPrecision(6))) : String(value);
       it.hidden = !applies(name, state, setup);
       slider.value = Number.isFinite(value) ? placeOf(stops, value) : 0;
-      slider.setAttribute('aria-valuetext', `${text} ${unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '))}`.trim());
+      slider.setAttribute('aria-valuetext',
+          `${text} ${unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '))}`.trim());
       if (typed.dataset.shown !== text) typed.value = typed.dataset.shown = text;
     }
   };

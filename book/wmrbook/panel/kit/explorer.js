@@ -1,4 +1,5 @@
-// Puts the parts together: reads the widget's traits, simulates, draws once a frame, and answers hands and keys.
+// Puts the parts together: reads the widget's traits, simulates, draws once a frame, and answers
+// hands and keys.
 
 import { MOVES, buildHandles } from './handles.js';
 import { RANGES, buildGainMap, drawMap, gainsAt, mapped } from './gain_map.js';
@@ -16,8 +17,25 @@ import { widget } from './widget.js';
 const LASTS = 8; // s that playing a run takes at most
 const RESTING = 0.3; // where on the run the cursor stands until somebody moves it
 
+const RUN_BUTTONS = [ // what each does, is called, and says
+  ['pin', 'Pin', 'keep this run on the picture, to compare the next with'],
+  ['unpin', 'Unpin', 'forget the pinned run'],
+  ['reset', 'Reset', 'back to how it was opened'],
+  ['link', 'Link', 'copy a link to this page with the panel as it is now'],
+  ['python', 'Python', 'copy this run as Python'],
+  ['csv', 'CSV', 'save this run as a table'],
+  ['png', 'PNG', 'save the picture'],
+];
+const ZOOM_BUTTONS = [
+  ['out', '−', 'zoom out (Ctrl and the wheel)'],
+  ['in', '+', 'zoom in on the robot (Ctrl and the wheel)'],
+  ['near', 'last 2 m', 'the last two metres before the goal, or all of the path'],
+];
+const button = ([act, text, title]) =>
+    `<button type="button" data-do="${act}" title="${title}">${text}</button>`;
+
 function scaffold(el) {
-  const root = el.appendChild(document.createElement('div')), button = (act, text, title) => `<button type="button" data-do="${act}" title="${title}">${text}</button>`;
+  const root = el.appendChild(document.createElement('div'));
   root.className = 'wmr';
   root.dataset.lmSuppressShortcuts = 'true'; // keys are the panel's, not JupyterLab's
   root.innerHTML = `
@@ -26,14 +44,14 @@ function scaffold(el) {
       <div class="wmr-figures" role="list"></div>
       <div class="wmr-controls"><div class="wmr-rows" role="group" aria-label="settings"></div>
         <div class="wmr-bar">
-          ${button('pin', 'Pin', 'keep this run on the picture, to compare the next with')}${button('unpin', 'Unpin', 'forget the pinned run')}${button('reset', 'Reset', 'back to how it was opened')}
-          ${button('link', 'Link', 'copy a link to this page with the panel as it is now')}${button('python', 'Python', 'copy this run as Python')}${button('csv', 'CSV', 'save this run as a table')}${button('png', 'PNG', 'save the picture')}</div></div>
+          ${RUN_BUTTONS.map(button).join('')}</div></div>
       <div class="wmr-view">
         <div class="wmr-bar"><div class="wmr-polar"></div></div>
         <div class="wmr-plane"><canvas class="wmr-scene" role="img"></canvas>
-          <div class="wmr-bar wmr-zoom">${button('out', '−', 'zoom out (Ctrl and the wheel)')}${button('in', '+', 'zoom in on the robot (Ctrl and the wheel)')}${button('near', 'last 2 m', 'the last two metres before the goal, or all of the path')}</div></div>
-        <div class="wmr-bar">${button('play', 'Play', 'drive along the path')}
-          <input type="range" class="wmr-time" min="0" max="1" step="any" aria-label="time cursor"><output class="wmr-clock"></output></div>
+          <div class="wmr-bar wmr-zoom">${ZOOM_BUTTONS.map(button).join('')}</div></div>
+        <div class="wmr-bar">${button(['play', 'Play', 'drive along the path'])}
+          <input type="range" class="wmr-time" min="0" max="1" step="any"
+            aria-label="time cursor"><output class="wmr-clock"></output></div>
       </div>
       <div class="wmr-side">
         <div class="wmr-bar"><div class="wmr-key"></div></div>
@@ -47,11 +65,13 @@ function scaffold(el) {
 }
 
 function render({ model, el }) {
-  const root = scaffold(el), find = (selector) => root.querySelector(selector), setup = model.get('setup');
+  const root = scaffold(el), find = (selector) => root.querySelector(selector),
+      setup = model.get('setup');
   keepKeys(root);
   const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
   const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap(() => schedule());
-  const state = { run: null, settings: null, figures: null, trouble: '', said: '', ghost: null, playing: null, colours: null, view: null, held: false };
+  const state = { run: null, settings: null, figures: null, trouble: '', said: '', ghost: null,
+      playing: null, colours: null, view: null, held: false };
   let frame = 0, stale = true, spoken = 0, shownKey = '';
 
   const values = () => model.get('state');
@@ -76,7 +96,8 @@ function render({ model, el }) {
     refuse(sentence) { state.said = sentence; schedule(); },
   });
   const placeHandles = buildHandles(find('.wmr-plane'), {
-    get: (name) => values()[name], set: (name, pose) => write({ [name]: pose }), view: () => state.view,
+    get: (name) => values()[name], set: (name, pose) => write({ [name]: pose }),
+        view: () => state.view,
     hold: (held) => { state.held = held; schedule(); },
   });
 
@@ -86,11 +107,14 @@ function render({ model, el }) {
     let run;
     try { run = runOf(settings); } catch (error) { state.trouble = error.message; return; }
     const summary = summarise(run);
-    Object.assign(state, { run, trouble: '', settings, figures: figuresOf(settings, run, summary), sentence: sentenceOf(settings, run, summary) });
+    Object.assign(state,
+        { run, trouble: '', settings, figures: figuresOf(settings, run, summary),
+        sentence: sentenceOf(settings, run, summary) });
   }
 
   function cursorOf(run) {
-    const end = endOf(run), time = state.time === null ? RESTING * end : Math.min(Math.max(state.time, 0), end);
+    const end = endOf(run),
+        time = state.time === null ? RESTING * end : Math.min(Math.max(state.time, 0), end);
     return end > 0 ? Math.round(time / end * (run.n - 1)) : 0;
   }
 
@@ -101,16 +125,25 @@ function render({ model, el }) {
     const { run, ghost, colours, trouble } = state, faded = trouble !== '';
     const cursor = run ? cursorOf(run) : 0, at = poses(), ghostRun = ghost && ghost.run;
     const safe = run ? at : { start: [0, 0, 0], goal: [1, 0, 0] };
-    const drawn = faded && state.settings ? { start: state.settings.start, goal: state.settings.reference ? null : state.settings.goal } : safe;
+    const drawn = faded && state.settings
+        ? { start: state.settings.start,
+        goal: state.settings.reference ? null : state.settings.goal } : safe;
     if (!state.held || !state.view) {
-      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn, sizeOf(scene), state.zoom);
+      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn,
+          sizeOf(scene), state.zoom);
     }
-    drawScene(scene, colours, { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded, zoomed: state.zoom });
-    scene.style.touchAction = state.zoom ? 'none' : ''; // a finger moves the page, or the picture when it is zoomed
+    drawScene(scene, colours,
+        { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded,
+        zoomed: state.zoom });
+    // a finger moves the page, or the picture when it is zoomed
+    scene.style.touchAction = state.zoom ? 'none' : '';
     placeHandles(drawn);
     // Out of the picture nobody would see what has the focus.
-    find('.wmr-plane').querySelectorAll('.wmr-handle').forEach((it) => { it.tabIndex = it.style.pointerEvents ? -1 : 0; });
-    if (mapShown()) drawLandscape(); else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
+    find('.wmr-plane').querySelectorAll('.wmr-handle').forEach((it) => {
+      it.tabIndex = it.style.pointerEvents ? -1 : 0;
+    });
+    if (mapShown()) drawLandscape();
+    else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
     describe(run, cursor);
     root.dispatchEvent(new CustomEvent('drawn', { bubbles: true })); // for whoever measures
     if (state.playing) schedule();
@@ -119,7 +152,8 @@ function render({ model, el }) {
   function advance(now) {
     if (!state.playing || !state.run) return;
     const end = endOf(state.run), speed = Math.max(1, end / LASTS);
-    const passed = Math.max(now - state.playing.since, 0) / 1000; // a frame's time is that of its beginning, before a click within it
+    // a frame's time is that of its beginning, before a click within it
+    const passed = Math.max(now - state.playing.since, 0) / 1000;
     state.time = Math.min(state.playing.from + speed * passed, end);
     if (state.time >= end) state.playing = null;
   }
@@ -127,15 +161,18 @@ function render({ model, el }) {
   const mapShown = () => values().view === 'gains';
 
   function drawLandscape() {
-    const note = !state.settings ? 'no run yet' : mapped(state.settings) ? '' : 'This law does not use these gains.';
+    const note = !state.settings ? 'no run yet' : mapped(state.settings) ? ''
+        : 'This law does not use these gains.';
     if (!note) gainMap.update(state.settings, values().axes, values().metric);
-    drawMap(mapCanvas, state.colours, { map: gainMap.map, gains: state.settings && state.settings.gains, note });
+    drawMap(mapCanvas, state.colours,
+        { map: gainMap.map, gains: state.settings && state.settings.gains, note });
     mapCanvas.dataset.finished = String(note !== '' || gainMap.finished);
   }
 
   function describe(run, cursor) {
     const status = find('.wmr-status'), text = state.trouble || state.said || state.sentence || '';
-    status.classList.toggle('wmr-trouble', state.trouble !== '' || state.said.includes('not allowed'));
+    status.classList.toggle('wmr-trouble',
+        state.trouble !== '' || state.said.includes('not allowed'));
     if (status.textContent !== text) { status.textContent = text; announce(text); }
     showKey();
     showFigures(state.trouble ? null : state.figures, state.ghost && state.ghost.figures);
@@ -150,13 +187,19 @@ function render({ model, el }) {
     find('.wmr-clock').textContent = `${t.toFixed(1)} of ${end.toFixed(1)} s`;
     const { rho, alpha, theta, ink } = state.colours;
     find('.wmr-polar').innerHTML = [
-      [rho, 'ρ', written(run.rho[cursor], 'm')], [alpha, 'α', hasSight(run, cursor) ? inDegrees(run.alpha[cursor]) : '–'], [theta, 'θ', hasSight(run, cursor) ? inDegrees(run.theta[cursor]) : '–'],
+      [rho, 'ρ', written(run.rho[cursor], 'm')],
+          [alpha, 'α', hasSight(run, cursor) ? inDegrees(run.alpha[cursor]) : '–'],
+          [theta, 'θ', hasSight(run, cursor) ? inDegrees(run.theta[cursor]) : '–'],
       [ink, 'v', written(run.v[cursor], 'm/s')], [ink, 'ω', written(run.omega[cursor], 'rad/s')],
-    ].map(([colour, name, value]) => `<span style="color: ${colour}"><b>${name}</b> = ${value}</span>`).join('');
+    ].map(([colour, name, value]) =>
+        `<span style="color: ${colour}"><b>${name}</b> = ${value}</span>`).join('');
     scene.setAttribute('aria-label', `Path from start to goal. ${text}`);
-    charts.setAttribute('aria-label', `Speed, turning rate, position errors and V over time. ${text}`);
+    charts.setAttribute('aria-label',
+        `Speed, turning rate, position errors and V over time. ${text}`);
     const { k_alpha, h, k_rho } = state.settings.gains;
-    mapCanvas.setAttribute('aria-label', `Gain landscape; the gains are k_rho ${k_rho}, k_alpha ${k_alpha}, h ${h}; arrow keys change them. ${text}`);
+    mapCanvas.setAttribute('aria-label',
+        `Gain landscape; the gains are k_rho ${k_rho}, k_alpha ${k_alpha}, h ${h}; arrow keys ` +
+        `change them. ${text}`);
   }
 
   // A screen reader hears where a drag ends, not each step of it.
@@ -168,8 +211,9 @@ function render({ model, el }) {
   function showKey() {
     const mark = (name, text) => `<span><i data-mark="${name}"></i>${text}</span>`;
     const pinned = state.ghost ? mark('pinned', 'pinned run') : '';
+    const none = state.settings && state.settings.reference ? 'no value' : 'does not arrive';
     const text = mapShown()
-      ? `<span>click the map to set the gains</span>${mark('never', state.settings && state.settings.reference ? 'no value' : 'does not arrive')}`
+      ? `<span>click the map to set the gains</span>${mark('never', none)}`
       : `${mark('run', 'run')}${pinned}${mark('rising', 'V rises')}`;
     if (text !== shownKey) find('.wmr-key').innerHTML = shownKey = text;
   }
@@ -185,14 +229,19 @@ function render({ model, el }) {
 
   // Zooms by a factor about a place that stays where it is.
   function zoomBy(factor, [x, y]) {
-    const [cx, cy, reach] = state.zoom || zoomOf(state.view), next = Math.min(Math.max(reach * factor, 0.005), 1e6), share = next / reach;
+    const [cx, cy, reach] = state.zoom || zoomOf(state.view),
+        next = Math.min(Math.max(reach * factor, 0.005), 1e6), share = next / reach;
     state.zoom = [x + (cx - x) * share, y + (cy - y) * share, next];
     schedule();
   }
   const robot = () => { const k = cursorOf(state.run); return [state.run.x[k], state.run.y[k]]; };
-  const goalNow = () => { const k = cursorOf(state.run); return [state.run.goalX[k], state.run.goalY[k]]; };
+  const goalNow = () => {
+    const k = cursorOf(state.run);
+    return [state.run.goalX[k], state.run.goalY[k]];
+  };
 
-  // Into the clipboard, the old way, which needs no permission and works in a page from the disk too.
+  // Into the clipboard, the old way, which needs no permission and works in a page from the disk
+  // too.
   function copy(text, what) {
     const box = find('.wmr-text'), before = document.activeElement;
     Object.assign(box, { value: text, hidden: false });
@@ -207,10 +256,13 @@ function render({ model, el }) {
   const acts = {
     play() {
       if (state.playing) { state.playing = null; return; }
-      const end = endOf(state.run), time = state.time === null || state.time >= end ? 0 : state.time;
+      const end = endOf(state.run),
+          time = state.time === null || state.time >= end ? 0 : state.time;
       state.playing = { from: time, since: performance.now() };
     },
-    pin() { if (state.run && !state.trouble) state.ghost = { run: state.run, figures: state.figures }; },
+    pin() {
+      if (state.run && !state.trouble) state.ghost = { run: state.run, figures: state.figures };
+    },
     unpin() { state.ghost = null; find('[data-do=pin]').focus(); }, // its own button goes
     reset() { state.ghost = null; look(setup.home); write(setup.home); },
     in() { if (state.run) zoomBy(1 / 1.5, robot()); },
@@ -222,23 +274,38 @@ function render({ model, el }) {
       copy(link, 'a link to this page with the panel as it is now');
     },
     python() { if (state.settings) copy(pythonOf(state.settings), 'this run as Python'); },
-    csv() { if (state.run) download('run.csv', new Blob([csvOf(state.run)], { type: 'text/csv' })); },
-    png() { pictureOf(shownCanvases(), find('.wmr-status').textContent, state.colours).then((blob) => download('run.png', blob)); },
+    csv() {
+      if (state.run) download('run.csv', new Blob([csvOf(state.run)], { type: 'text/csv' }));
+    },
+    png() {
+      pictureOf(shownCanvases(), find('.wmr-status').textContent, state.colours)
+          .then((blob) => download('run.png', blob));
+    },
   };
   root.addEventListener('click', (event) => {
     const act = event.target.closest('[data-do]');
     if (act) { acts[act.dataset.do](); schedule(); }
   });
-  find('.wmr-time').addEventListener('input', (event) => { Object.assign(state, { time: Number(event.target.value), playing: null }); schedule(); });
+  find('.wmr-time').addEventListener('input', (event) => {
+    Object.assign(state, { time: Number(event.target.value), playing: null });
+    schedule();
+  });
 
-  dragOver(charts, (x) => { Object.assign(state, { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x), playing: null }); schedule(); });
+  dragOver(charts, (x) => {
+    Object.assign(state,
+        { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x),
+        playing: null });
+    schedule();
+  });
   scene.addEventListener('wheel', (event) => {
     if (!state.run || !(event.ctrlKey || event.metaKey)) return; // without, the wheel is the page's
     event.preventDefault();
     const box = scene.getBoundingClientRect(), { zoom } = sizeOf(scene);
-    zoomBy(1.2 ** Math.sign(event.deltaY), state.view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom));
+    zoomBy(1.2 ** Math.sign(event.deltaY),
+        state.view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom));
   }, { passive: false });
-  let grip = null; // the place in the plane that is held, where it was taken, and whether that was a tap
+  // the place in the plane that is held, where it was taken, and whether that was a tap
+  let grip = null;
   dragOver(scene, (x, y, event, first) => {
     if (!state.view) return;
     const [wx, wy] = state.view.toWorld(x, y);
@@ -257,13 +324,16 @@ function render({ model, el }) {
     state.view = viewOf([], [], {}, sizeOf(scene), state.zoom);
     schedule();
   });
-  dragOver(mapCanvas, (x, y) => { if (gainMap.map && mapped(state.settings)) write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y)); });
+  dragOver(mapCanvas, (x, y) => {
+    if (gainMap.map && mapped(state.settings)) write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y));
+  });
   mapCanvas.addEventListener('keydown', (event) => {
     const move = MOVES[event.key], { map } = gainMap;
     if (!move || !map) return;
     event.preventDefault();
     event.stopPropagation();
-    const nudge = (name, by) => Math.min(Math.max(Math.round(values()[name] * 20 + by) / 20, 0), RANGES[name]);
+    const nudge = (name, by) =>
+        Math.min(Math.max(Math.round(values()[name] * 20 + by) / 20, 0), RANGES[name]);
     write({ [map.kx]: nudge(map.kx, move[0]), [map.ky]: nudge(map.ky, move[1]) });
   });
 
@@ -303,11 +373,19 @@ function dragOver(canvas, onPlace) {
   let down = false;
   const tell = (event) => {
     const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas);
-    onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom, event, event.type === 'pointerdown');
+    onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom, event,
+        event.type === 'pointerdown');
   };
-  canvas.addEventListener('pointerdown', (event) => { if (event.button || !event.isPrimary) return; down = true; canvas.setPointerCapture(event.pointerId); tell(event); });
+  canvas.addEventListener('pointerdown', (event) => {
+    if (event.button || !event.isPrimary) return;
+    down = true;
+    canvas.setPointerCapture(event.pointerId);
+    tell(event);
+  });
   canvas.addEventListener('pointermove', (event) => { if (down && event.isPrimary) tell(event); });
-  ['pointerup', 'lostpointercapture'].forEach((over) => canvas.addEventListener(over, () => { down = false; }));
+  ['pointerup', 'lostpointercapture'].forEach((over) => canvas.addEventListener(over, () => {
+    down = false;
+  }));
 }
 
 export default widget('explorer', render);

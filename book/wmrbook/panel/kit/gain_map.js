@@ -1,4 +1,5 @@
-// The second view: what a run amounts to over two of the gains, as a heat map that a worker computes.
+// The second view: what a run amounts to over two of the gains, as a heat map that a worker
+// computes.
 
 import { DEGREES, viridis } from './style.js';
 import { LAWS } from './model.js';
@@ -6,7 +7,8 @@ import { label, roundStep, surfaceOf, tickLabel, ticksOf } from './surface.js';
 import { landscape } from './simulate.js';
 
 const MEASURES = {
-  headingError: { title: 'heading error on arrival [°]', lasting: 'heading error at the end [°]', scale: DEGREES, most: 180 },
+  headingError: { title: 'heading error on arrival [°]', lasting: 'heading error at the end [°]',
+      scale: DEGREES, most: 180 },
   time: { title: 'arrival time [s]', lasting: 'distance left [m]', scale: 1, most: Infinity },
   peakOmega: { title: 'peak |ω| [rad/s]', lasting: 'peak |ω| [rad/s]', scale: 1, most: Infinity },
 };
@@ -14,26 +16,36 @@ export const RANGES = { k_alpha: 5, h: 5, k_rho: 4 };
 const UNITS = { k_alpha: 'k_alpha [1/s]', h: 'h [1]', k_rho: 'k_rho [1/m]' };
 const LEVELS = [10, 50]; // cells a side: a first impression, then the whole
 
-export const mapped = (settings) => Object.keys(RANGES).every((name) => LAWS[settings.law].gains.includes(name));
-const centres = (name, n) => Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
-const mapOf = ({ settings, kx, ky, n, metric }) => landscape({ ...settings, kx, xs: centres(kx, n), ky, ys: centres(ky, n), metric });
+export const mapped = (settings) =>
+    Object.keys(RANGES).every((name) => LAWS[settings.law].gains.includes(name));
+const centres = (name, n) =>
+    Float64Array.from({ length: n }, (_, i) => RANGES[name] * (i + 0.5) / n);
+const mapOf = ({ settings, kx, ky, n, metric }) =>
+    landscape({ ...settings, kx, xs: centres(kx, n), ky, ys: centres(ky, n), metric });
 
 // This module is the worker's too: there it finds no page, and computes what it is sent.
-if (typeof document === 'undefined') onmessage = ({ data }) => postMessage({ ...data, values: mapOf(data) });
+if (typeof document === 'undefined')
+  onmessage = ({ data }) => postMessage({ ...data, values: mapOf(data) });
 
-// The worker's script. In a page from the disk, where none may be a module, it is all of the kit, which is one function there.
-const script = () => (typeof wmrKit === 'function' ? [`(${wmrKit})()`, 'classic'] : [`import '${import.meta.url}';`, 'module']);
+// The worker's script. In a page from the disk, where none may be a module, it is all of the kit,
+// which is one function there.
+const script = () =>
+    (typeof wmrKit === 'function' ? [`(${wmrKit})()`, 'classic']
+    : [`import '${import.meta.url}';`, 'module']);
 
-// `update` begins a map if anything that it shows has changed; `onDone` is called for each that is there.
+// `update` begins a map if anything that it shows has changed; `onDone` is called for each that is
+// there.
 export function buildGainMap(onDone) {
   let key = '', job = null, busy = false, done = null, worker = null;
   function begin() {
     const [text, type] = script();
-    worker = new Worker(URL.createObjectURL(new Blob([text], { type: 'text/javascript' })), { type });
+    worker = new Worker(URL.createObjectURL(new Blob([text], { type: 'text/javascript' })),
+        { type });
     worker.onmessage = ({ data }) => take(data);
     worker.onerror = (event) => { // this page forbids workers
       event.preventDefault();
-      worker = { postMessage: (data) => setTimeout(() => take({ ...data, values: mapOf(data) })), terminate() {} };
+      worker = { postMessage: (data) => setTimeout(() => take({ ...data, values: mapOf(data) })),
+          terminate() {} };
       next();
     };
   }
@@ -42,7 +54,8 @@ export function buildGainMap(onDone) {
     busy = job !== null;
     if (busy) worker.postMessage(job);
   }
-  // A map that is no longer wanted is shown all the same: under a moving hand any is better than none.
+  // A map that is no longer wanted is shown all the same: under a moving hand any is better than
+  // none.
   function take(map) {
     done = { ...map, measure: MEASURES[map.metric] };
     if (map.key === key) job = map.level + 1 < LEVELS.length ? jobOf(map, map.level + 1) : null;
@@ -52,7 +65,8 @@ export function buildGainMap(onDone) {
   const jobOf = ({ values, ...rest }, level) => ({ ...rest, level, n: LEVELS[level] });
   return {
     update(settings, kx, metric) {
-      const { [kx]: _x, h: _h, ...others } = settings.gains, wanted = JSON.stringify([{ ...settings, gains: others }, kx, metric]);
+      const { [kx]: _x, h: _h, ...others } = settings.gains,
+          wanted = JSON.stringify([{ ...settings, gains: others }, kx, metric]);
       if (wanted === key) return;
       key = wanted;
       job = jobOf({ key, settings, kx, ky: 'h', metric }, 0);
@@ -65,13 +79,16 @@ export function buildGainMap(onDone) {
 }
 
 function mapBox(width, height) {
-  return { left: 62, top: 12, width: Math.max(width - 62 - 96, 20), height: Math.max(height - 12 - 46, 20) };
+  return { left: 62, top: 12, width: Math.max(width - 62 - 96, 20),
+      height: Math.max(height - 12 - 46, 20) };
 }
 
 export function gainsAt(map, { width, height }, x, y) {
-  const box = mapBox(width, height), share = (value, low, size) => Math.min(Math.max((value - low) / size, 0), 1);
+  const box = mapBox(width, height),
+      share = (value, low, size) => Math.min(Math.max((value - low) / size, 0), 1);
   const round = (value, name) => Math.max(0.05, Math.round(value * RANGES[name] * 20) / 20);
-  return { [map.kx]: round(share(x, box.left, box.width), map.kx), [map.ky]: round(1 - share(y, box.top, box.height), map.ky) };
+  return { [map.kx]: round(share(x, box.left, box.width), map.kx),
+      [map.ky]: round(1 - share(y, box.top, box.height), map.ky) };
 }
 
 export function drawMap(canvas, colours, { map, gains, note }) {
@@ -80,7 +97,8 @@ export function drawMap(canvas, colours, { map, gains, note }) {
   if (!map || note) {
     ctx.strokeStyle = colours.line;
     ctx.strokeRect(box.left, box.top, box.width, box.height);
-    label(ctx, note || 'computing ...', width / 2, height / 2, colours, { align: 'center', size: 14 });
+    label(ctx, note || 'computing ...', width / 2, height / 2, colours,
+        { align: 'center', size: 14 });
     return;
   }
   const top = topOf(map);
@@ -103,21 +121,27 @@ export function drawMap(canvas, colours, { map, gains, note }) {
 
 const shown = (map, i) => Math.abs(map.values[i]) * map.measure.scale;
 
-// The top of the colour bar: a round number above 95 % of the cells, so that a few wild ones don't flatten the rest.
+// The top of the colour bar: a round number above 95 % of the cells, so that a few wild ones don't
+// flatten the rest.
 function topOf(map) {
-  const values = Array.from(map.values, (_, i) => shown(map, i)).filter(Number.isFinite).sort((a, b) => a - b);
+  const values = Array.from(map.values, (_, i) => shown(map, i)).filter(Number.isFinite)
+      .sort((a, b) => a - b);
   if (!values.length) return 1;
-  const high = Math.max(values[Math.min(values.length - 1, Math.floor(0.95 * values.length))], 1e-6), step = roundStep(high, 4);
+  const high = Math.max(values[Math.min(values.length - 1, Math.floor(0.95 * values.length))],
+      1e-6), step = roundStep(high, 4);
   return Math.min(Math.ceil(high / step - 1e-9) * step, map.measure.most);
 }
 
 function imageOf(map, top, colours) {
   const { n } = map, image = document.createElement('canvas');
   image.width = image.height = n;
-  const ctx = image.getContext('2d'), pixels = ctx.createImageData(n, n), dark = parseInt(colours.paper.slice(1, 3), 16) < 128;
+  const ctx = image.getContext('2d'), pixels = ctx.createImageData(n, n),
+      dark = parseInt(colours.paper.slice(1, 3), 16) < 128;
   for (let i = 0; i < n * n; i += 1) {
-    const row = n - 1 - Math.floor(i / n), column = i % n, value = shown(map, i), stripe = (row + column) % 4 < 2;
-    const colour = Number.isFinite(value) ? viridis(value / top) : Array(3).fill((dark ? 60 : 200) + (stripe ? 25 : 0));
+    const row = n - 1 - Math.floor(i / n), column = i % n, value = shown(map, i),
+        stripe = (row + column) % 4 < 2;
+    const colour = Number.isFinite(value) ? viridis(value / top)
+        : Array(3).fill((dark ? 60 : 200) + (stripe ? 25 : 0));
     pixels.data.set([...colour, 255], 4 * (row * n + column));
   }
   ctx.putImageData(pixels, 0, 0);
@@ -125,16 +149,20 @@ function imageOf(map, top, colours) {
 }
 
 function drawMapAxes(ctx, box, map, colours) {
-  const across = ticksOf(0, RANGES[map.kx], box.width / 60), up = ticksOf(0, RANGES[map.ky], box.height / 40);
+  const across = ticksOf(0, RANGES[map.kx], box.width / 60),
+      up = ticksOf(0, RANGES[map.ky], box.height / 40);
   for (const value of across.ticks) {
     const x = box.left + box.width * value / RANGES[map.kx];
     tickLabel(ctx, across.write(value), x, box.top + box.height + 12, colours, 'center');
   }
   for (const value of up.ticks) {
-    tickLabel(ctx, up.write(value), box.left - 6, box.top + box.height * (1 - value / RANGES[map.ky]), colours, 'right');
+    tickLabel(ctx, up.write(value), box.left - 6,
+        box.top + box.height * (1 - value / RANGES[map.ky]), colours, 'right');
   }
-  label(ctx, UNITS[map.kx], box.left + box.width / 2, box.top + box.height + 33, colours, { align: 'center' });
-  label(ctx, UNITS[map.ky], 14, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+  label(ctx, UNITS[map.kx], box.left + box.width / 2, box.top + box.height + 33, colours,
+      { align: 'center' });
+  label(ctx, UNITS[map.ky], 14, box.top + box.height / 2, colours,
+      { align: 'center', turn: -Math.PI / 2 });
 }
 
 function drawColourBar(ctx, box, map, top, colours) {
@@ -145,7 +173,10 @@ function drawColourBar(ctx, box, map, top, colours) {
   }
   const { ticks, write } = ticksOf(0, top, 5);
   for (const value of ticks) {
-    tickLabel(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value), left + wide + 5, box.top + box.height * (1 - value / top), colours, 'left');
+    tickLabel(ctx, (value >= top * (1 - 1e-9) && top < map.measure.most ? '≥ ' : '') + write(value),
+        left + wide + 5, box.top + box.height * (1 - value / top), colours, 'left');
   }
-  label(ctx, map.settings.reference === null ? map.measure.title : map.measure.lasting, box.left + box.width + 84, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+  label(ctx, map.settings.reference === null ? map.measure.title : map.measure.lasting,
+      box.left + box.width + 84, box.top + box.height / 2, colours,
+      { align: 'center', turn: -Math.PI / 2 });
 }

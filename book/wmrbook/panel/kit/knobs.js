@@ -4,17 +4,21 @@ import { ROLES } from './style.js';
 import { STEP_KEYS, fromWords, placeOf, stopsOf } from './controls.js';
 
 const DRAG = 5; // px of a number's drag a step
-const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ', zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
+const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
+    zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
 export const made = (parent, tag, properties = {}, attributes = {}) => {
   const it = Object.assign(parent.appendChild(document.createElement(tag)), properties);
   for (const [name, value] of Object.entries(attributes)) it.setAttribute(name, value);
   return it;
 };
-export const inWords = (value) => (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−') : String(value));
+export const inWords = (value) =>
+    (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')
+    : String(value));
 
 // A symbol such as k_alpha, as in the formulas: Greek, with its index, and in its colour.
 function putSymbol(parent, name) {
-  const [stem, ...index] = name.split('_'), role = ROLES.includes(stem) ? stem : ROLES.includes(index[0]) ? index[0] : '';
+  const [stem, ...index] = name.split('_'),
+      role = ROLES.includes(stem) ? stem : ROLES.includes(index[0]) ? index[0] : '';
   const it = made(parent, 'i', { className: 'live-symbol', textContent: SYMBOLS[stem] || stem });
   if (role) it.style.color = `var(--${role})`;
   if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || index.join(' ') });
@@ -22,16 +26,23 @@ function putSymbol(parent, name) {
 
 // A number among words: it can be dragged, typed over, and stepped with the arrow keys.
 function putNumber(parent, knob, { get, step, set, refuse }) {
-  const it = made(parent, 'input', { className: 'live-number', inputMode: 'decimal', autocomplete: 'off' }, { 'aria-label': knob.says, role: 'spinbutton', 'aria-valuemin': knob.low, 'aria-valuemax': knob.high });
+  const it = made(parent, 'input',
+      { className: 'live-number', inputMode: 'decimal', autocomplete: 'off' },
+      { 'aria-label': knob.says, role: 'spinbutton', 'aria-valuemin': knob.low,
+      'aria-valuemax': knob.high });
   let grip = null;
-  it.addEventListener('dragstart', (event) => event.preventDefault()); // of digits that are selected: the browser would take the pointer away
-  it.addEventListener('pointerdown', (event) => { grip = { x: event.clientX, from: get(), moved: false }; });
+  // of digits that are selected: the browser would take the pointer away
+  it.addEventListener('dragstart', (event) => event.preventDefault());
+  it.addEventListener('pointerdown', (event) => {
+    grip = { x: event.clientX, from: get(), moved: false };
+  });
   it.addEventListener('pointermove', (event) => {
     if (!grip || (!grip.moved && Math.abs(event.clientX - grip.x) < DRAG)) return;
     if (!grip.moved) { grip.moved = true; it.setPointerCapture(event.pointerId); it.blur(); }
     set(step(grip.from, Math.round((event.clientX - grip.x) / DRAG)));
   });
-  for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) it.addEventListener(end, () => { grip = null; });
+  for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'])
+    it.addEventListener(end, () => { grip = null; });
   it.addEventListener('keydown', (event) => {
     event.stopPropagation(); // a notebook would take the keys to change cells
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
@@ -44,7 +55,9 @@ function putNumber(parent, knob, { get, step, set, refuse }) {
   it.addEventListener('change', () => {
     const value = fromWords(it.value);
     if (value >= knob.low && value <= knob.high) set(value);
-    else refuse(`${it.value ? `${it.value} is not allowed: a` : 'A'} number from ${inWords(knob.low)} to ${inWords(knob.high)} is needed.`);
+    else refuse(
+        `${it.value ? `${it.value} is not allowed: a` : 'A'} number from ` +
+        `${inWords(knob.low)} to ${inWords(knob.high)} is needed.`);
     it.value = it.dataset.shown;
   });
   return (value) => {
@@ -57,22 +70,29 @@ function putNumber(parent, knob, { get, step, set, refuse }) {
 }
 
 export function putKnobs(root, setup, { get, set, refuse, changed }) {
-  const sentence = root.querySelector('.live-sentence'), rows = root.querySelector('.live-rows'), results = {}, shows = [], timers = [];
+  const sentence = root.querySelector('.live-sentence'), rows = root.querySelector('.live-rows'),
+      results = {}, shows = [], timers = [];
   const parts = Object.fromEntries(setup.knobs.map((knob) => [knob.name, knob]));
-  for (const knob of setup.knobs) if (!knob.choices) knob.stops = stopsOf(knob.low, knob.high, knob.step);
+  for (const knob of setup.knobs)
+    if (!knob.choices) knob.stops = stopsOf(knob.low, knob.high, knob.step);
   const stepFrom = ({ stops }) => (value, by) => {
-    const place = placeOf(stops, value), next = by > 0 ? Math.floor(place + by + 1e-9) : by < 0 ? Math.ceil(place + by - 1e-9) : place;
+    const place = placeOf(stops, value),
+        next = by > 0 ? Math.floor(place + by + 1e-9) : by < 0 ? Math.ceil(place + by - 1e-9)
+        : place;
     return by ? stops[Math.min(Math.max(next, 0), stops.length - 1)] : value;
   };
   const put = (name) => (value) => set({ [name]: value });
   let into = sentence;
   for (const piece of setup.sentence.split(/(\{[^}]+\}|\*[a-z_]+\*|[[\]])/)) {
-    const bare = piece.endsWith('!}'), name = piece.slice(1, bare ? -2 : -1), knob = piece[0] === '{' && parts[name]; // {name!}: without its symbol and unit, as in a formula
+    // {name!}: without its symbol and unit, as in a formula
+    const bare = piece.endsWith('!}'), name = piece.slice(1, bare ? -2 : -1),
+        knob = piece[0] === '{' && parts[name];
     if (piece === '[') into = made(sentence, 'span', { className: 'live-whole' });
     else if (piece === ']') into = sentence;
     else if (piece[0] === '*') putSymbol(into, name);
     else if (knob && knob.choices) {
-      const select = made(into, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
+      const select =
+          made(into, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
       select.replaceChildren(...knob.choices.map(([value, text]) => new Option(text, value)));
       select.addEventListener('change', () => put(name)(select.value));
       select.addEventListener('keydown', (event) => event.stopPropagation());
@@ -80,17 +100,22 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     } else if (knob) {
       const whole = made(into, 'span', { className: 'live-whole' });
       if (knob.symbol && !bare) { putSymbol(whole, knob.symbol); whole.append(' = '); }
-      const show = putNumber(whole, knob, { get: () => get()[name], step: stepFrom(knob), set: put(name), refuse });
+      const show = putNumber(whole, knob,
+          { get: () => get()[name], step: stepFrom(knob), set: put(name), refuse });
       if (knob.unit && !bare) whole.append(knob.unit === '°' ? knob.unit : ` ${knob.unit}`);
       shows.push((values) => show(values[name]));
-    } else if (piece[0] === '{') (results[name] ||= []).push(made(into, 'b', { className: 'live-result' }));
+    } else if (piece[0] === '{')
+      (results[name] ||= []).push(made(into, 'b', { className: 'live-result' }));
     else into.append(into === sentence ? piece : piece.replaceAll('-', '−'));
   }
   for (const knob of setup.knobs.filter((each) => each.stops)) {
-    const row = made(rows, knob.plays ? 'div' : 'label', { className: 'wmr-control live-row' }), { stops, name } = knob, own = made(row, 'span');
+    const row = made(rows, knob.plays ? 'div' : 'label', { className: 'wmr-control live-row' }),
+        { stops, name } = knob, own = made(row, 'span');
     row.dataset.control = name;
     if (knob.symbol) putSymbol(own, knob.symbol); else own.textContent = knob.label;
-    const slider = made(row, 'input', { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' }, { 'aria-label': knob.says });
+    const slider = made(row, 'input',
+        { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' },
+        { 'aria-label': knob.says });
     slider.addEventListener('input', () => { stop(); put(name)(stops[Math.round(slider.value)]); });
     slider.addEventListener('keydown', (event) => {
       const by = STEP_KEYS[event.key];
@@ -101,7 +126,10 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
       put(name)(stepFrom(knob)(get()[name], by));
     });
     let playing = 0;
-    const call = (text) => { button.textContent = text; button.setAttribute('aria-label', `${text}: ${knob.says}`); };
+    const call = (text) => {
+      button.textContent = text;
+      button.setAttribute('aria-label', `${text}: ${knob.says}`);
+    };
     const stop = () => {
       if (!playing) return;
       cancelAnimationFrame(playing);
@@ -113,16 +141,23 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
       if (playing) { stop(); return; }
       const from = get()[name] >= knob.high ? knob.low : get()[name], begin = performance.now();
       const go = (now) => {
-        const value = Math.min(from + (knob.high - knob.low) * Math.max(now - begin, 0) / 1000 / knob.plays, knob.high);
+        const value = Math.min(from
+            + (knob.high - knob.low) * Math.max(now - begin, 0) / 1000 / knob.plays, knob.high);
         set({ [name]: Number(value.toPrecision(3)) }, true);
         if (value < knob.high) playing = requestAnimationFrame(go); else stop();
       };
       call('Stop');
       go(begin); // where it begins is shown at once: a hand may stop it before the next frame
     };
-    const button = knob.plays ? made(row, 'button', { type: 'button', className: 'live-play', textContent: 'Play', onclick: play }, { 'aria-label': `play: ${knob.says}` }) : null;
+    const button = knob.plays
+        ? made(row, 'button',
+        { type: 'button', className: 'live-play', textContent: 'Play', onclick: play },
+        { 'aria-label': `play: ${knob.says}` }) : null;
     timers.push(stop);
-    if (knob.auto && document.documentElement.dataset.still === undefined && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => { if (!playing) play(); });
+    if (knob.auto && document.documentElement.dataset.still === undefined
+        && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => {
+      if (!playing) play();
+    });
     shows.push((values) => {
       slider.value = placeOf(stops, values[name]);
       slider.setAttribute('aria-valuetext', `${inWords(values[name])} ${knob.unit}`.trim());
@@ -132,7 +167,8 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
   const showResults = (said) => {
     for (const [name, places] of Object.entries(results)) {
       const text = said ? String(said[name]) : '–'; // nothing follows from what is refused
-      for (const place of places) if (place.textContent !== text) { place.textContent = text; changed(); }
+      for (const place of places)
+        if (place.textContent !== text) { place.textContent = text; changed(); }
     }
   };
   return { show, showResults, stop: () => timers.forEach((each) => each()) };
@@ -140,6 +176,8 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
 
 // Calls once, when an element comes into view.
 function whenSeen(element, act) {
-  const watch = new IntersectionObserver((entries) => { if (entries.some((each) => each.isIntersecting)) { watch.disconnect(); act(); } });
+  const watch = new IntersectionObserver((entries) => {
+    if (entries.some((each) => each.isIntersecting)) { watch.disconnect(); act(); }
+  });
   watch.observe(element);
 }

@@ -1,4 +1,5 @@
-// A small thing to move: pictures, a sentence with numbers that can be dragged or typed, a slider for each, and, before it opens, a prediction.
+// A small thing to move: pictures, a sentence with numbers that can be dragged or typed, a slider
+// for each, and, before it opens, a prediction.
 
 import { buildGate } from './gate.js';
 import { followTheme, readColours, written } from './style.js';
@@ -10,21 +11,31 @@ import { showHandles } from './grips.js';
 import { widget } from './widget.js';
 
 // An explorable is, in a file of its own,
-//   panes(values, found, setup): the panes by name, see board.js, with `alt`, what it shows in words, and `scrub(x, y, moved, values, found)`: what a
-//     pointer on it changes, or nothing; `moved` is [dx, dy] since the last call while it is held, or null while it passes over;
-//   find(values, setup): what follows from the knobs; throws RangeError, in words, where nothing does;
-//   draw(panes, values, found, hidden, setup): `hidden` before the prediction, when only what is given may be drawn;
-//   say(values, found, setup): the results in the sentence, by name;
-//   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws RangeError, in words, where nothing can }].
+//   panes(values, found, setup): the panes by name, see board.js, with `alt`, what it shows in
+//   words, and `scrub(x, y, moved, values, found)`: what a
+//     pointer on it changes, or nothing; `moved` is [dx, dy] since the last call while it is held,
+//     or null while it passes over;
+//   find(values, setup): what follows from the knobs; throws RangeError, in words, where nothing
+//   does; draw(panes, values, found, hidden, setup): `hidden` before the prediction, when only what
+//   is given may be drawn; say(values, found, setup): the results in the sentence, by name;
+//   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws
+//   RangeError, in words, where nothing can }].
 export const live = (name, explorable) => widget(`live/${name}`, ({ model, el }) => {
-  const setup = structuredClone(model.get('setup')), root = made(el, 'div', { className: 'wmr live' });
+  const setup = structuredClone(model.get('setup')),
+      root = made(el, 'div', { className: 'wmr live' });
   keepKeys(root);
-  root.innerHTML = '<div class="live-ask"></div><p class="live-sentence"></p><div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
-    + '<p class="live-trouble" role="alert"></p><div class="wmr-aside" role="status" aria-live="polite"></div>';
-  const find = (selector) => root.querySelector(selector), canvases = {}, values = () => model.get('state');
-  let frame = 0, spoken = 0, colours = null, found = null, refused = '', panes = {}, specs = {};
+  root.innerHTML =
+      '<div class="live-ask"></div><p class="live-sentence"></p><div ' +
+      'class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
+    + '<p class="live-trouble" role="alert"></p><div class="wmr-aside" role="status" ' +
+        'aria-live="polite"></div>';
+  const find = (selector) => root.querySelector(selector), canvases = {},
+      values = () => model.get('state');
+  let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
+  const panes = {};
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
-  const set = (changes, playing = false) => { // a hand stops what plays; a kernel hears where it ends
+  // a hand stops what plays; a kernel hears where it ends
+  const set = (changes, playing = false) => {
     refused = '';
     if (!playing) knobs.stop();
     if (changes) model.set('state', { ...values(), ...changes });
@@ -36,7 +47,11 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     try {
       const changes = change() || {};
       for (const { name, low, high, says, symbol, unit } of setup.knobs) {
-        if (low !== undefined && name in changes && !(changes[name] >= low && changes[name] <= high)) throw new RangeError(`${symbol || says} would be ${written(changes[name], unit)}; ${inWords(low)} to ${inWords(high)} is allowed.`);
+        if (low !== undefined && name in changes
+            && !(changes[name] >= low && changes[name] <= high))
+            throw new RangeError(
+                `${symbol || says} would be ${written(changes[name], unit)}; ${inWords(low)} to ` +
+                `${inWords(high)} is allowed.`);
       }
       set(changes);
     } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }
@@ -45,25 +60,43 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   };
   const say = () => {
     clearTimeout(spoken);
-    spoken = setTimeout(() => { find('.wmr-aside').textContent = find('.live-sentence').textContent ? [...root.querySelectorAll('.live-result')].map((each) => each.textContent).join(', ') : ''; }, 700);
+    spoken = setTimeout(() => {
+      find('.wmr-aside').textContent = find('.live-sentence').textContent
+          ? [...root.querySelectorAll('.live-result')].map((each) => each.textContent).join(', ')
+          : '';
+    }, 700);
   };
   const knobs = putKnobs(root, setup, { get: values, set, refuse, changed: say });
-  const gate = setup.ask ? buildGate(find('.live-ask'), setup.ask, { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement }) : null;
+  const gate = setup.ask
+      ? buildGate(find('.live-ask'), setup.ask,
+      { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement })
+      : null;
 
   function build(name, spec) {
-    const host = made(find('.live-panes'), 'div', { className: `live-pane${spec.tall ? ' live-tall' : ''}` }), canvas = canvases[name] = made(host, 'canvas', {}, { role: 'img' });
+    const host = made(find('.live-panes'), 'div',
+        { className: `live-pane${spec.tall ? ' live-tall' : ''}` }),
+        canvas = canvases[name] = made(host, 'canvas', {}, { role: 'img' });
     let last = null;
     const place = (event) => {
-      const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas), { scrub } = specs[name];
+      const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas),
+          { scrub } = specs[name];
       if (!scrub || !panes[name] || !found || (gate && !gate.open())) return;
-      const [x, y] = panes[name].view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom), moved = last && [event.clientX - last[0], event.clientY - last[1]];
+      const [x, y] = panes[name].view.toWorld((event.clientX - box.left) / zoom,
+          (event.clientY - box.top) / zoom),
+          moved = last && [event.clientX - last[0], event.clientY - last[1]];
       if (last) last = [event.clientX, event.clientY];
       const changes = scrub(x, y, moved, values(), found);
-      if (changes && (last || Object.keys(changes).every((each) => each === 'time'))) set(changes); // what passes over a picture only moves the robot
+      // what passes over a picture only moves the robot
+      if (changes && (last || Object.keys(changes).every((each) => each === 'time'))) set(changes);
     };
-    canvas.addEventListener('pointerdown', (event) => { last = [event.clientX, event.clientY]; if (specs[name].scrub) canvas.setPointerCapture(event.pointerId); place(event); });
+    canvas.addEventListener('pointerdown', (event) => {
+      last = [event.clientX, event.clientY];
+      if (specs[name].scrub) canvas.setPointerCapture(event.pointerId);
+      place(event);
+    });
     canvas.addEventListener('pointermove', place);
-    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture']) canvas.addEventListener(end, () => { last = null; });
+    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'])
+      canvas.addEventListener(end, () => { last = null; });
     resized.observe(canvas);
   }
   function draw() {
@@ -71,14 +104,20 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     if (!colours) return;
     const now = values(), hidden = Boolean(gate && !gate.open());
     let trouble = refused, sound = true;
-    try { found = explorable.find(now, setup); } catch (error) { if (!(error instanceof RangeError)) throw error; [trouble, sound] = [error.message, false]; }
+    try { found = explorable.find(now, setup); } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      [trouble, sound] = [error.message, false];
+    }
     if (found) paint(now, hidden);
-    find('.live-trouble').textContent = hidden && found ? '' : trouble; // words after pictures: a font on a canvas waits for the styles of all that has changed
+    // words after pictures: a font on a canvas waits for the styles of all that has changed
+    find('.live-trouble').textContent = hidden && found ? '' : trouble;
     knobs.show(now);
     for (const part of ['.live-sentence', '.live-rows']) find(part).hidden = hidden;
     if (!found) return;
     const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
-    for (const name of Object.keys(specs)) showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name), panes[name], give);
+    for (const name of Object.keys(specs))
+      showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name),
+          panes[name], give);
     if (!hidden) knobs.showResults(sound ? explorable.say(now, found, setup) : null);
   }
   function paint(now, hidden) {
@@ -94,17 +133,22 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     if (gate) gate.draw();
     else root.dataset.open = 'true';
   }
-  // What is below the sentence stays under the hand: it keeps the room that it takes anywhere on a knob's way, and that it once took.
+  // What is below the sentence stays under the hand: it keeps the room that it takes anywhere on a
+  // knob's way, and that it once took.
   const sentence = find('.live-sentence'), SHARES = [0, 0.11, 0.23, 0.37, 0.5, 0.63, 0.77, 0.89, 1];
   let wide = 0, trying = 0;
   const high = () => sentence.getBoundingClientRect().height;
   const tryAll = () => {
-    if (root.querySelector('.live-number:focus')) { trying = setTimeout(tryAll, 1000); return; } // what is being typed would be lost
+    // what is being typed would be lost
+    if (root.querySelector('.live-number:focus')) { trying = setTimeout(tryAll, 1000); return; }
     const heights = [high()];
     for (const { name, choices, stops } of setup.knobs) {
-      for (const value of choices ? choices.map(([each]) => each) : SHARES.map((share) => stops[Math.round(share * (stops.length - 1))])) {
+      for (const value of choices ? choices.map(([each]) => each)
+          : SHARES.map((share) => stops[Math.round(share * (stops.length - 1))])) {
         const then = { ...values(), [name]: value };
-        try { knobs.showResults(explorable.say(then, explorable.find(then, setup), setup)); } catch (error) { if (!(error instanceof RangeError)) throw error; }
+        try {
+          knobs.showResults(explorable.say(then, explorable.find(then, setup), setup));
+        } catch (error) { if (!(error instanceof RangeError)) throw error; }
         knobs.show(then);
         heights.push(high());
       }
@@ -120,10 +164,23 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     if (width) trying = setTimeout(tryAll, 300);
   });
   room.observe(sentence);
-  const repaint = () => { Object.values(canvases).forEach(measure); colours = readColours(root); schedule(); };
+  const repaint = () => {
+    Object.values(canvases).forEach(measure);
+    colours = readColours(root);
+    schedule();
+  };
   const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
   resized.observe(root);
   model.on('change:state', schedule);
   repaint();
-  return () => { knobs.stop(); unfollow(); resized.disconnect(); room.disconnect(); clearTimeout(trying); cancelAnimationFrame(frame); clearTimeout(spoken); model.off('change:state', schedule); };
+  return () => {
+    knobs.stop();
+    unfollow();
+    resized.disconnect();
+    room.disconnect();
+    clearTimeout(trying);
+    cancelAnimationFrame(frame);
+    clearTimeout(spoken);
+    model.off('change:state', schedule);
+  };
 });

@@ -2,7 +2,8 @@
 
 import { simulate, summarise } from './simulate.js';
 
-// A function of what JSON can say that keeps its last answer: a run need not be driven anew while only the time moves.
+// A function of what JSON can say that keeps its last answer: a run need not be driven anew while
+// only the time moves.
 export function remembered(f) {
   let key, last;
   return (asked) => {
@@ -12,11 +13,16 @@ export function remembered(f) {
   };
 }
 
-// A run of the law that acts all the time, sample by sample; `start`, `goal` and `gains` as for `simulate`.
-export const driven = remembered((options) => simulate({ reference: null, law: 'corrected', method: 'continuous', dt: 0.05, duration: 60, arrivalRadius: 0.05, ...options }));
+// A run of the law that acts all the time, sample by sample; `start`, `goal` and `gains` as for
+// `simulate`.
+export const driven = remembered((options) =>
+    simulate(
+    { reference: null, law: 'corrected', method: 'continuous', dt: 0.05, duration: 60,
+    arrivalRadius: 0.05, ...options }));
 export const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
 
-// The time, as a share, at which a path comes nearest to a point, or nothing if that is farther than `reach`: for `scrub`.
+// The time, as a share, at which a path comes nearest to a point, or nothing if that is farther
+// than `reach`: for `scrub`.
 export function timeNear(xs, ys, x, y, reach) {
   let best = 0;
   const far = (k) => Math.hypot(xs[k] - x, ys[k] - y);
@@ -24,15 +30,22 @@ export function timeNear(xs, ys, x, y, reach) {
   return far(best) < reach ? { time: best / (xs.length - 1) } : null;
 }
 
-// A chain of goals, sampled, each left behind within its own of the `radii`: columns as of a run, and `leg`. As wmrlib's `drive_route`.
+// A chain of goals, sampled, each left behind within its own of the `radii`: columns as of a run,
+// and `leg`. As wmrlib's `drive_route`.
 export const alongRoute = remembered(({ start, goals, radii, gains }) => {
   const joined = { t: [], x: [], y: [], heading: [], v: [], V: [], leg: [] };
   let pose = start, begin = 0, peakOmega = 0, arrived = true;
   for (let leg = 0; arrived && leg < goals.length; leg += 1) {
-    const run = simulate({ start: pose, goal: goals[leg], gains, reference: null, law: 'corrected', method: 'arc', dt: 0.1, duration: 120, arrivalRadius: radii[leg] }), last = run.n - 1;
+    const run =
+        simulate(
+        { start: pose, goal: goals[leg], gains, reference: null, law: 'corrected', method: 'arc',
+        dt: 0.1, duration: 120, arrivalRadius: radii[leg] }), last = run.n - 1;
     arrived = run.outcome === 'ARRIVED';
-    const kept = arrived && leg < goals.length - 1 ? last : run.n; // where a leg ends stands the next one's first sample
-    for (let k = 0; k < kept; k += 1) for (const [name, column] of Object.entries(joined)) column.push(name === 't' ? begin + run.t[k] : name === 'leg' ? leg : run[name][k]);
+    // where a leg ends stands the next one's first sample
+    const kept = arrived && leg < goals.length - 1 ? last : run.n;
+    for (let k = 0; k < kept; k += 1)
+      for (const [name, column] of Object.entries(joined))
+        column.push(name === 't' ? begin + run.t[k] : name === 'leg' ? leg : run[name][k]);
     peakOmega = Math.max(peakOmega, summarise(run).peakOmega);
     [pose, begin] = [poseAt(run, last), begin + run.t[last]];
   }

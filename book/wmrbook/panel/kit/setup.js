@@ -13,7 +13,8 @@ export function notAllowed(name, value, needed) {
 }
 
 function checkedNumber(name, value, positive = false) {
-  if (typeof value === 'number' && Number.isFinite(value) && (positive ? value > 0 : value >= 0)) return value;
+  if (typeof value === 'number' && Number.isFinite(value) && (positive ? value > 0 : value >= 0))
+    return value;
   throw notAllowed(name, value, `a finite number ${positive ? 'above' : 'at least'} 0`);
 }
 
@@ -23,16 +24,23 @@ export function checkedPose(name, pose) {
 }
 
 export function checkedSetup(options) {
-  const moving = options.reference === 'circle', laws = Object.keys(LAWS).filter((name) => moving || !LAWS[name].needsReference);
-  if (!moving && options.reference != null) throw notAllowed('reference', options.reference, "null or 'circle'");
-  if (!laws.includes(options.law)) throw notAllowed('law', options.law, `one of ${laws.join(', ')}`);
+  const moving = options.reference === 'circle',
+      laws = Object.keys(LAWS).filter((name) => moving || !LAWS[name].needsReference);
+  if (!moving && options.reference != null)
+    throw notAllowed('reference', options.reference, "null or 'circle'");
+  if (!laws.includes(options.law))
+    throw notAllowed('law', options.law, `one of ${laws.join(', ')}`);
   const methods = [...Object.keys(STEPS), 'continuous'];
-  if (!methods.includes(options.method)) throw notAllowed('method', options.method, `one of ${methods.join(', ')}`);
+  if (!methods.includes(options.method))
+    throw notAllowed('method', options.method, `one of ${methods.join(', ')}`);
   const { law } = options, given = { ...options.gains, ...options.feedback }, gains = {};
-  for (const name of LAWS[law].gains) gains[name] = checkedNumber(name, given[name], POSITIVE.includes(name));
-  const dt = checkedNumber('dt', options.dt, true), duration = checkedNumber('duration', options.duration, true);
+  for (const name of LAWS[law].gains)
+    gains[name] = checkedNumber(name, given[name], POSITIVE.includes(name));
+  const dt = checkedNumber('dt', options.dt, true),
+      duration = checkedNumber('duration', options.duration, true);
   if (dt > duration) throw notAllowed('dt', dt, `at most the duration, ${duration},`);
-  if (duration / dt > MOST_SAMPLES) throw notAllowed('duration', duration, `at most ${MOST_SAMPLES} steps of dt = ${dt}`);
+  if (duration / dt > MOST_SAMPLES)
+    throw notAllowed('duration', duration, `at most ${MOST_SAMPLES} steps of dt = ${dt}`);
   return {
     law,
     step: STEPS[options.method],

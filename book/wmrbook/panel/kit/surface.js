@@ -1,25 +1,34 @@
-// What every canvas here shares: sharp pixels, axes with round numbers, and text that stays readable over lines.
+// What every canvas here shares: sharp pixels, axes with round numbers, and text that stays
+// readable over lines.
 
 import { FONT } from './style.js';
 
-const sizes = new WeakMap(); // asking an element for its size in the middle of a drag would make the browser lay out the page
+// asking an element for its size in the middle of a drag would make the browser lay out the page
+const sizes = new WeakMap();
 
-// Width and height in units of `zoom` CSS pixels: a large canvas is meant for an audience at a distance, and everything on it grows.
+// Width and height in units of `zoom` CSS pixels: a large canvas is meant for an audience at a
+// distance, and everything on it grows.
 export function measure(canvas) {
-  if (canvas.clientWidth === 0 || canvas.clientHeight === 0) return; // hidden for a while, as everything is while JupyterLab changes its theme
-  const least = Number(getComputedStyle(canvas).getPropertyValue('--zoom')) || 1; // a deck's, for the last row
+  // hidden for a while, as everything is while JupyterLab changes its theme
+  if (canvas.clientWidth === 0 || canvas.clientHeight === 0) return;
+  // a deck's, for the last row
+  const least = Number(getComputedStyle(canvas).getPropertyValue('--zoom')) || 1;
   const zoom = Math.max(Math.min(canvas.clientWidth / 660, 1.4), least);
   sizes.set(canvas, { zoom, width: canvas.clientWidth / zoom, height: canvas.clientHeight / zoom });
 }
 
-export const sizeOf = (canvas) => sizes.get(canvas) || (measure(canvas), sizes.get(canvas) || { zoom: 1, width: 1, height: 1 });
+export const sizeOf = (canvas) => sizes.get(canvas)
+    || (measure(canvas), sizes.get(canvas) || { zoom: 1, width: 1, height: 1 });
 
 // Returns {ctx, width, height} in those units, cleared, with as many real pixels as the screen has.
 export function surfaceOf(canvas, colours) {
   const { zoom, width, height } = sizeOf(canvas);
   const ratio = (window.devicePixelRatio || 1) * zoom;
   const [across, down] = [Math.round(width * ratio), Math.round(height * ratio)];
-  if (canvas.width !== across || canvas.height !== down) { canvas.width = across; canvas.height = down; }
+  if (canvas.width !== across || canvas.height !== down) {
+    canvas.width = across;
+    canvas.height = down;
+  }
   const ctx = canvas.getContext('2d', { alpha: false });
   ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
   ctx.fillStyle = colours.paper;
@@ -30,13 +39,15 @@ export function surfaceOf(canvas, colours) {
 
 // A step of 1, 2 or 5 times a power of ten that cuts `span` into at most `most` pieces.
 export function roundStep(span, most) {
-  const rough = Math.max(span, 1e-12) / Math.max(most, 1), power = 10 ** Math.floor(Math.log10(rough));
+  const rough = Math.max(span, 1e-12) / Math.max(most, 1),
+      power = 10 ** Math.floor(Math.log10(rough));
   return [1, 2, 5, 10].find((each) => each * power >= rough * (1 - 1e-9)) * power;
 }
 
 export function multiples(step, low, high) {
   const found = [];
-  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1) found.push(k * step);
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1)
+    found.push(k * step);
   return found;
 }
 
@@ -54,7 +65,8 @@ export function ticksOf(low, high, most) {
 
 export function tickText(value, step) {
   const size = Math.max(Math.abs(value), step);
-  if (size >= 1e5 || step < 1e-4) return value === 0 ? '0' : value.toExponential(0).replace('-', '−');
+  if (size >= 1e5 || step < 1e-4)
+    return value === 0 ? '0' : value.toExponential(0).replace('-', '−');
   return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace('-', '−');
 }
 
@@ -79,7 +91,9 @@ export function tickLabel(ctx, text, x, y, colours, align) {
 }
 
 // Text with a rim in the colour of the paper.
-export function label(ctx, text, x, y, colours, { colour = colours.ink, size = 13, align = 'left', base = 'middle', weight = 400, turn = 0 } = {}) {
+export function label(ctx, text, x, y, colours,
+    { colour = colours.ink, size = 13, align = 'left', base = 'middle', weight = 400,
+    turn = 0 } = {}) {
   ctx.save();
   ctx.font = `${weight} ${size}px ${FONT}`;
   ctx.textAlign = align;

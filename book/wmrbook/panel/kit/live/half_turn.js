@@ -1,10 +1,12 @@
-// A goal behind the robot: a hair to either side of straight behind, and the robot turns the other way.
+// A goal behind the robot: a hair to either side of straight behind, and the robot turns the other
+// way.
 
 import { DEGREES, inDegrees, written } from '../style.js';
 import { driven, poseAt } from '../runs.js';
 import { live } from '../live.js';
 
-const away = (start, off) => [start[0], start[1], Math.PI - off / DEGREES]; // the goal lies `off` degrees to the right of straight behind
+// the goal lies `off` degrees to the right of straight behind
+const away = (start, off) => [start[0], start[1], Math.PI - off / DEGREES];
 
 export default live('half_turn', {
   find({ off, time }, { data: { start, goal, gains } }) {
@@ -12,7 +14,10 @@ export default live('half_turn', {
     return { run, k: Math.round(time * last), turns: run.omega[0] > 0 ? 'left' : 'right' };
   },
   panes: (values, { run, turns }) => ({
-    plane: { x: [-12.5, 4, 'x [m]'], y: [-4.5, 4.5, 'y [m]'], equal: true, tall: true, given: 'The robot looks away from the goal, 10 m straight behind it.', alt: `The robot sets off ${run.v[0] < 0 ? 'backwards' : 'forwards'}, turns ${turns}, and drives to the goal; dashed, the mirror image.` },
+    plane: { x: [-12.5, 4, 'x [m]'], y: [-4.5, 4.5, 'y [m]'], equal: true, tall: true,
+        given: 'The robot looks away from the goal, 10 m straight behind it.',
+        alt: `The robot sets off ${run.v[0] < 0 ? 'backwards' : 'forwards'}, turns ${turns}, ` +
+        `and drives to the goal; dashed, the mirror image.` },
   }),
   draw({ plane }, values, { run, k }, hidden, { data: { start, goal } }) {
     plane.pose(goal, 'goal');
@@ -24,7 +29,9 @@ export default live('half_turn', {
     plane.robot(poseAt(run, k));
   },
   say: (values, { run, turns }) => ({
-    alpha: inDegrees(run.alpha[0]), omega: written(Math.abs(run.omega[0]), 'rad/s'), sets: run.v[0] < 0 ? 'backwards' : 'forwards', turns,
-    end: run.outcome === 'ARRIVED' ? `is there after ${written(run.t[run.n - 1], 's')}` : 'is still on its way after a minute',
+    alpha: inDegrees(run.alpha[0]), omega: written(Math.abs(run.omega[0]), 'rad/s'),
+        sets: run.v[0] < 0 ? 'backwards' : 'forwards', turns,
+    end: run.outcome === 'ARRIVED' ? `is there after ${written(run.t[run.n - 1], 's')}`
+        : 'is still on its way after a minute',
   }),
 });

@@ -9,8 +9,13 @@ export default live('silence', {
     return { faith, braking, far: faith + braking, stands: timeout + speed / brake };
   },
   panes: ({ speed }, { far, stands }) => ({
-    road: { x: [-1, 17, 'way after the last fix [m]'], y: [-1.5, 1.5, ''], given: 'The robot where it has its last fix.', alt: `The robot rolls ${written(far, 'm')} after its last fix.` },
-    speed: { x: [0, 6.2, 'time after the last fix [s]'], y: [0, 4.3, 'speed [m/s]'], given: 'The speed over time: nothing yet.', alt: `The speed over time: ${written(speed, 'm/s')} at first, 0 after ${written(stands, 's')}.` },
+    road: { x: [-1, 17, 'way after the last fix [m]'], y: [-1.5, 1.5, ''],
+        given: 'The robot where it has its last fix.',
+        alt: `The robot rolls ${written(far, 'm')} after its last fix.` },
+    speed: { x: [0, 6.2, 'time after the last fix [s]'], y: [0, 4.3, 'speed [m/s]'],
+        given: 'The speed over time: nothing yet.',
+        alt: `The speed over time: ${written(speed, 'm/s')} at first, 0 after ` +
+        `${written(stands, 's')}.` },
   }),
   draw({ road, speed: pane }, { speed, timeout }, { faith, far, stands }, hidden) {
     road.line([[-1, 0], [17, 0]], 'ghost', { width: 1.5 });
@@ -27,8 +32,12 @@ export default live('silence', {
     pane.line([[0, speed], [timeout, speed], [stands, 0]], 'path');
   },
   handles: ({ speed, timeout }) => [{
-    id: 'corner', pane: 'speed', at: [timeout, speed], says: `the timeout and the speed, ${written(timeout, 's')} and ${written(speed, 'm/s')}`,
-    move: (x, y) => ({ timeout: Math.min(Math.max(Math.round(20 * x) / 20, 0), 2), speed: Math.min(Math.max(Math.round(10 * y) / 10, 0.1), 4) }),
+    id: 'corner', pane: 'speed', at: [timeout, speed],
+        says: `the timeout and the speed, ${written(timeout, 's')} and ${written(speed, 'm/s')}`,
+    move: (x, y) =>
+        ({ timeout: Math.min(Math.max(Math.round(20 * x) / 20, 0), 2),
+        speed: Math.min(Math.max(Math.round(10 * y) / 10, 0.1), 4) }),
   }],
-  say: (values, { faith, braking, far }) => ({ faith: written(faith, 'm'), braking: written(braking, 'm'), far: written(far, 'm') }),
+  say: (values, { faith, braking, far }) =>
+      ({ faith: written(faith, 'm'), braking: written(braking, 'm'), far: written(far, 'm') }),
 });

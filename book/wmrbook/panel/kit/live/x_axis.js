@@ -5,18 +5,28 @@ import { driven, poseAt, timeNear } from '../runs.js';
 import { live } from '../live.js';
 import { wrap } from '../model.js';
 
-const onMap = ([x, y, heading], axis) => (axis === 'east' ? [x, y, heading] : [y, x, Math.PI / 2 - heading]);
+const onMap = ([x, y, heading], axis) =>
+    (axis === 'east' ? [x, y, heading] : [y, x, Math.PI / 2 - heading]);
 
 export default live('x_axis', {
   find({ axis, time }, { data: { starts, goals, gains } }) {
     const run = driven({ start: starts[axis], goal: goals[axis], gains }), last = run.n - 1;
-    const way = Array.from({ length: run.n }, (_, k) => onMap(poseAt(run, k), axis)), x = way.map((each) => each[0]), y = way.map((each) => each[1]);
-    return { run, way, x, y, k: Math.round(time * last), alpha: run.alpha[0], off: wrap(run.theta[last] - run.alpha[last]), start: onMap(starts[axis], axis), goal: onMap(goals[axis], axis) };
+    const way = Array.from({ length: run.n }, (_, k) => onMap(poseAt(run, k), axis)),
+        x = way.map((each) => each[0]), y = way.map((each) => each[1]);
+    return { run, way, x, y, k: Math.round(time * last), alpha: run.alpha[0],
+        off: wrap(run.theta[last] - run.alpha[last]), start: onMap(starts[axis], axis),
+        goal: onMap(goals[axis], axis) };
   },
   panes({ axis }, { off, goal, x, y }) {
     return {
-      whole: { x: [-12, 32, 'east [m]'], y: [-5, 62, 'north [m]'], equal: true, given: 'The start and the goal on a map, north up, without their headings.', alt: `The drive on a map with north up, read with x ${axis}.`, scrub: (...at) => timeNear(x, y, ...at.slice(0, 2), 3) },
-      near: { x: [goal[0] - 1.5, goal[0] + 1.5, 'east [m]'], y: [goal[1] - 2, goal[1] + 1, 'north [m]'], equal: true, given: 'The goal from near.', alt: `The last two metres: the robot stops ${inDegrees(off)} off.`, scrub: (...at) => timeNear(x, y, ...at.slice(0, 2), 0.2) },
+      whole: { x: [-12, 32, 'east [m]'], y: [-5, 62, 'north [m]'], equal: true,
+          given: 'The start and the goal on a map, north up, without their headings.',
+          alt: `The drive on a map with north up, read with x ${axis}.`,
+          scrub: (...at) => timeNear(x, y, ...at.slice(0, 2), 3) },
+      near: { x: [goal[0] - 1.5, goal[0] + 1.5, 'east [m]'],
+          y: [goal[1] - 2, goal[1] + 1, 'north [m]'], equal: true, given: 'The goal from near.',
+          alt: `The last two metres: the robot stops ${inDegrees(off)} off.`,
+          scrub: (...at) => timeNear(x, y, ...at.slice(0, 2), 0.2) },
     };
   },
   draw({ whole, near }, values, { way, x, y, k, start, goal }, hidden) {
@@ -34,5 +44,7 @@ export default live('x_axis', {
       pane.robot(way[k]);
     }
   },
-  say: (values, { run, alpha, off }) => ({ alpha: `${Math.abs(alpha * DEGREES).toFixed(0)}°`, seconds: written(run.t[run.n - 1], 's'), off: `${Math.abs(off * DEGREES).toFixed(0)}°` }),
+  say: (values, { run, alpha, off }) =>
+      ({ alpha: `${Math.abs(alpha * DEGREES).toFixed(0)}°`, seconds: written(run.t[run.n - 1], 's'),
+      off: `${Math.abs(off * DEGREES).toFixed(0)}°` }),
 });
