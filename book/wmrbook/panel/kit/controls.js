@@ -1,11 +1,11 @@
 // Sliders, each with a number that can be typed over, and menus: the browser's own, named and
 // spoken by labels.
 
+import { made, onArrows } from './hands.js';
 import { applies, lawsFor, presetOf } from './settings.js';
 
 // of each decade
 const ROUND = [1, 1.1, 1.2, 1.3, 1.5, 1.7, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9];
-export const STEP_KEYS = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1 };
 
 // A key that is pressed here is no command of a notebook's, where b adds a cell. (JupyterLab heeds
 // data-lm-suppress-shortcuts only on what has the focus itself.)
@@ -35,6 +35,26 @@ export function placeOf(stops, value) {
   return after - (stops[after] - value) / (stops[after] - stops[after - 1]);
 }
 
+// The stop that is so many stops away.
+export function stepped(stops, value, by) {
+  const place = placeOf(stops, value);
+  const next = by > 0 ? Math.floor(place + by + 1e-9) : Math.ceil(place + by - 1e-9);
+  return by ? stops[Math.min(Math.max(next, 0), stops.length - 1)] : value;
+}
+
+// A slider over stops, called so by who reads it out. Returns what shows a value and says it.
+export function putSlider(row, says, stops, { get, set }) {
+  const slider = made(row, 'input',
+      { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' },
+      { 'aria-label': says });
+  slider.addEventListener('input', () => set(stops[Math.round(slider.value)]));
+  onArrows(slider, ([across, up]) => set(stepped(stops, get(), across + up)));
+  return (value, text) => {
+    slider.value = Number.isFinite(value) ? placeOf(stops, value) : 0;
+    slider.setAttribute('aria-valuetext', text);
+  };
+}
+
 // A comma is a decimal one: 1,000 could be either, and is neither.
 export const fromWords = (text) =>
     (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim())
@@ -43,20 +63,16 @@ export const fromWords = (text) =>
 // `change(values)` is told what a hand does, `refuse(sentence)` what is typed that is no number.
 // Returns what shows a state.
 export function buildControls(root, setup, { change, refuse }) {
-  const make = (parent, tag, properties, attributes = {}) => {
-    const it = Object.assign(parent.appendChild(document.createElement(tag)), properties);
-    for (const [name, value] of Object.entries(attributes)) it.setAttribute(name, value);
-    return it;
-  };
+  let now = {};
   const row = (name, text, tip) => {
-    const it = make(root, 'label', { className: 'wmr-control', title: tip });
+    const it = made(root, 'label', { className: 'wmr-control', title: tip });
     it.dataset.control = name;
-    make(it, 'span', { textContent: text });
+    made(it, 'span', { textContent: text });
     return it;
   };
   const menus = setup.menus.map(([name, text, tip, choices]) => {
     const it = row(name, text, tip),
-        select = make(it, 'select', {}, { 'aria-label': `${text}: ${tip}` });
+        select = made(it, 'select', {}, { 'aria-label': `${text}: ${tip}` });
     select.addEventListener('change',
         () => change(name === 'preset' ? { preset: select.selectedIndex }
         : { [name]: select.value }));
@@ -65,20 +81,11 @@ export function buildControls(root, setup, { change, refuse }) {
   const sliders = setup.sliders.map(([name, text, tip, ...ends]) => {
     const stops = stopsOf(...ends), [symbol, unit] = text.match(/^(\S+) \[(.*)\]$/).slice(1),
         it = row(name, text, tip);
-    const slider = make(it, 'input',
-        { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' },
-        { 'aria-label': `${symbol}, ${tip}` });
-    const typed = make(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' },
-        { 'aria-label': `${text}, typed` });
-    slider.addEventListener('input', () => change({ [name]: stops[Math.round(slider.value)] }));
-    slider.addEventListener('keydown', (event) => {
-      const by = STEP_KEYS[event.key], place = Number(slider.value);
-      if (!by) return;
-      event.preventDefault();
-      event.stopPropagation(); // a notebook would take the arrows to change cells
-      const next = by > 0 ? Math.floor(place + 1 + 1e-9) : Math.ceil(place - 1 - 1e-9);
-      change({ [name]: stops[Math.min(Math.max(next, 0), stops.length - 1)] });
+    const showSlider = putSlider(it, `${symbol}, ${tip}`, stops, {
+      get: () => now[name], set: (value) => change({ [name]: value }),
     });
+    const typed = made(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' },
+        { 'aria-label': `${text}, typed` });
     const take = () => {
       const value = fromWords(typed.value);
       if (!Number.isFinite(value))
@@ -89,9 +96,10 @@ export function buildControls(root, setup, { change, refuse }) {
     };
     typed.addEventListener('change', take);
     typed.addEventListener('keydown', (event) => event.stopPropagation());
-    return { name, it, slider, typed, stops, unit };
+    return { name, it, showSlider, typed, unit };
   });
   return (state) => {
+    now = state;
     for (const { name, it, select, choices } of menus) {
       it.hidden = !applies(name, state, setup);
       const options = name === 'law'
@@ -104,13 +112,12 @@ export function buildControls(root, setup, { change, refuse }) {
       }
       if (select.value !== value) select.value = value;
     }
-    for (const { name, it, slider, typed, stops, unit } of sliders) {
+    for (const { name, it, showSlider, typed, unit } of sliders) {
       const value = state[name],
           text = Number.isFinite(value) ? String(Number(value.toPrecision(6))) : String(value);
       it.hidden = !applies(name, state, setup);
-      slider.value = Number.isFinite(value) ? placeOf(stops, value) : 0;
-      slider.setAttribute('aria-valuetext',
-          `${text} ${unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '))}`.trim());
+      const spoken = unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '));
+      showSlider(value, `${text} ${spoken}`.trim());
       if (typed.dataset.shown !== text) typed.value = typed.dataset.shown = text;
     }
   };

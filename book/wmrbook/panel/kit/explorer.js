@@ -1,7 +1,8 @@
 // Puts the parts together: reads the widget's traits, simulates, draws once a frame, and answers
 // hands and keys.
 
-import { MOVES, buildHandles } from './handles.js';
+import { buildHandles } from './handles.js';
+import { held, made, onArrows, placeOn } from './hands.js';
 import { RANGES, buildGainMap, drawMap, gainsAt, mapped } from './gain_map.js';
 import { buildControls, keepKeys } from './controls.js';
 import { buildFigures, figuresOf, sentenceOf } from './figures.js';
@@ -35,8 +36,7 @@ const button = ([act, text, title]) =>
     `<button type="button" data-do="${act}" title="${title}">${text}</button>`;
 
 function scaffold(el) {
-  const root = el.appendChild(document.createElement('div'));
-  root.className = 'wmr';
+  const root = made(el, 'div', { className: 'wmr' });
   root.dataset.lmSuppressShortcuts = 'true'; // keys are the panel's, not JupyterLab's
   root.innerHTML = `
     <div class="wmr-stage">
@@ -98,7 +98,7 @@ function render({ model, el }) {
   const placeHandles = buildHandles(find('.wmr-plane'), {
     get: (name) => values()[name], set: (name, pose) => write({ [name]: pose }),
         view: () => state.view,
-    hold: (held) => { state.held = held; schedule(); },
+    hold(holds) { state.held = holds; schedule(); },
   });
 
   function compute() {
@@ -291,23 +291,22 @@ function render({ model, el }) {
     schedule();
   });
 
-  dragOver(charts, (x) => {
+  held(charts, { drag(event) {
+    const [x] = placeOn(charts, event);
     Object.assign(state,
         { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x),
         playing: null });
     schedule();
-  });
+  } });
   scene.addEventListener('wheel', (event) => {
     if (!state.run || !(event.ctrlKey || event.metaKey)) return; // without, the wheel is the page's
     event.preventDefault();
-    const box = scene.getBoundingClientRect(), { zoom } = sizeOf(scene);
-    zoomBy(1.2 ** Math.sign(event.deltaY),
-        state.view.toWorld((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom));
+    zoomBy(1.2 ** Math.sign(event.deltaY), state.view.toWorld(...placeOn(scene, event)));
   }, { passive: false });
   // the place in the plane that is held, where it was taken, and whether that was a tap
   let grip = null;
-  dragOver(scene, (x, y, event, first) => {
-    if (!state.view) return;
+  held(scene, { take: () => state.view, drag(event, first) {
+    const [x, y] = placeOn(scene, event);
     const [wx, wy] = state.view.toWorld(x, y);
     if (first) {
       grip = { wx, wy, x, y, tap: true };
@@ -323,18 +322,19 @@ function render({ model, el }) {
     state.zoom = [cx + grip.wx - wx, cy + grip.wy - wy, reach];
     state.view = viewOf([], [], {}, sizeOf(scene), state.zoom);
     schedule();
+  } });
+  held(mapCanvas, {
+    take: () => gainMap.map && mapped(state.settings),
+    drag: (event) =>
+      write(gainsAt(gainMap.map, sizeOf(mapCanvas), ...placeOn(mapCanvas, event))),
   });
-  dragOver(mapCanvas, (x, y) => {
-    if (gainMap.map && mapped(state.settings)) write(gainsAt(gainMap.map, sizeOf(mapCanvas), x, y));
-  });
-  mapCanvas.addEventListener('keydown', (event) => {
-    const move = MOVES[event.key], { map } = gainMap;
-    if (!move || !map) return;
-    event.preventDefault();
-    event.stopPropagation();
+  onArrows(mapCanvas, ([across, up]) => {
+    const { map } = gainMap;
+    if (!map) return false;
     const nudge = (name, by) =>
         Math.min(Math.max(Math.round(values()[name] * 20 + by) / 20, 0), RANGES[name]);
-    write({ [map.kx]: nudge(map.kx, move[0]), [map.ky]: nudge(map.ky, move[1]) });
+    write({ [map.kx]: nudge(map.kx, across), [map.ky]: nudge(map.ky, up) });
+    return true;
   });
 
   const repaint = () => {
@@ -366,26 +366,6 @@ function render({ model, el }) {
     clearTimeout(spoken);
     model.off('change:state', follow);
   };
-}
-
-// Calls back with the place in the canvas's own units while a pointer is held down on the canvas.
-function dragOver(canvas, onPlace) {
-  let down = false;
-  const tell = (event) => {
-    const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas);
-    onPlace((event.clientX - box.left) / zoom, (event.clientY - box.top) / zoom, event,
-        event.type === 'pointerdown');
-  };
-  canvas.addEventListener('pointerdown', (event) => {
-    if (event.button || !event.isPrimary) return;
-    down = true;
-    canvas.setPointerCapture(event.pointerId);
-    tell(event);
-  });
-  canvas.addEventListener('pointermove', (event) => { if (down && event.isPrimary) tell(event); });
-  ['pointerup', 'lostpointercapture'].forEach((over) => canvas.addEventListener(over, () => {
-    down = false;
-  }));
 }
 
 export default widget('explorer', render);

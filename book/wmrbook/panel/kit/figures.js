@@ -1,6 +1,7 @@
 // What a run amounts to, in numbers and in a sentence.
 
 import { LAWS } from './model.js';
+import { made } from './hands.js';
 import { inDegrees, written } from './style.js';
 import { modes } from './simulate.js';
 
@@ -63,14 +64,10 @@ export function sentenceOf(settings, run, summary) {
 export function buildFigures(root) {
   const cells = {};
   for (const key of FIGURES) {
-    const cell = root.appendChild(document.createElement('div'));
+    const cell = made(root, 'div', {}, { role: 'listitem' });
     cell.dataset.figure = key;
-    cell.setAttribute('role', 'listitem');
-    cells[key] = ['name', 'value', 'pinned'].map((part) => {
-      const line = cell.appendChild(document.createElement('div'));
-      line.className = `wmr-${part}`;
-      return line;
-    });
+    cells[key] = ['name', 'value', 'pinned'].map((part) =>
+      made(cell, 'div', { className: `wmr-${part}` }));
   }
   return (figures, pinned) => {
     root.classList.toggle('wmr-alone', !pinned);

@@ -2,9 +2,8 @@
 // the picture opens, with what was said in it.
 
 import { DEGREES, inDegrees } from './style.js';
-import { MOVES, turned } from './handles.js';
-import { made } from './knobs.js';
-import { sizeOf } from './surface.js';
+import { turned } from './handles.js';
+import { MOVES, held, made, placeOn } from './hands.js';
 
 // `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane`
 // and `at` of an arrow to turn; `pane` and `at`, the start, of a path to sketch. `key` is the
@@ -55,17 +54,19 @@ export function buildGate(root, ask, { get, set, panes, host }) {
     if (listening || !ask.pane || !panes()[ask.pane]) return;
     listening = true;
     const canvas = host(ask.pane).querySelector('canvas');
-    let down = false;
-    const place = (event) => {
-      const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas),
-          [x, y] = panes()[ask.pane].view.toWorld((event.clientX - box.left) / zoom,
-          (event.clientY - box.top) / zoom);
-      if (ask.kind === 'turn') {
-        draft = Math.round(Math.atan2(y - ask.at[1], x - ask.at[0]) * DEGREES / 5) * 5 / DEGREES;
-        turn.value = draft * DEGREES;
-      } else draft.push([x, y]);
-      set();
-    };
+    held(canvas, {
+      take: () => !open(),
+      drag(event, first) {
+        const [x, y] = panes()[ask.pane].view.toWorld(...placeOn(canvas, event));
+        if (first && ask.kind === 'sketch') draft = [ask.at];
+        if (ask.kind === 'turn') {
+          draft = Math.round(Math.atan2(y - ask.at[1], x - ask.at[0]) * DEGREES / 5) * 5 / DEGREES;
+          turn.value = draft * DEGREES;
+        } else draft.push([x, y]);
+        set();
+      },
+      drop: show,
+    });
     canvas.addEventListener('keydown', (event) => {
       const move = MOVES[event.key], { range: [x0, x1] } = panes()[ask.pane], step = (x1 - x0) / 40;
       if (open() || ask.kind !== 'sketch' || !(move || (event.key === 'Backspace' && draft.length)))
@@ -79,18 +80,6 @@ export function buildGate(root, ask, { get, set, panes, host }) {
           : draft.slice(0, -1);
       set();
     });
-    canvas.addEventListener('pointerdown', (event) => {
-      if (open() || event.button || !event.isPrimary) return;
-      down = true;
-      if (ask.kind === 'sketch') draft = [ask.at];
-      canvas.setPointerCapture(event.pointerId);
-      place(event);
-    });
-    canvas.addEventListener('pointermove', (event) => {
-      if (down && event.isPrimary) place(event);
-    });
-    for (const end of ['pointerup', 'lostpointercapture'])
-      canvas.addEventListener(end, () => { down = false; show(); });
   }
   function teach(canvas) { // the picture takes fingers and keys for as long as it asks
     const asks = !open(), sketches = asks && ask.kind === 'sketch';

@@ -1,16 +1,12 @@
 // The sentence and its numbers, a slider for each, and the buttons that play.
 
 import { ROLES } from './style.js';
-import { STEP_KEYS, fromWords, placeOf, stopsOf } from './controls.js';
+import { fromWords, putSlider, stepped, stopsOf } from './controls.js';
+import { held, made } from './hands.js';
 
 const DRAG = 5; // px of a number's drag a step
 const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
     zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
-export const made = (parent, tag, properties = {}, attributes = {}) => {
-  const it = Object.assign(parent.appendChild(document.createElement(tag)), properties);
-  for (const [name, value] of Object.entries(attributes)) it.setAttribute(name, value);
-  return it;
-};
 export const inWords = (value) =>
     (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')
     : String(value));
@@ -25,31 +21,29 @@ function putSymbol(parent, name) {
 }
 
 // A number among words: it can be dragged, typed over, and stepped with the arrow keys.
-function putNumber(parent, knob, { get, step, set, refuse }) {
+function putNumber(parent, knob, { get, set, refuse }) {
   const it = made(parent, 'input',
       { className: 'live-number', inputMode: 'decimal', autocomplete: 'off' },
       { 'aria-label': knob.says, role: 'spinbutton', 'aria-valuemin': knob.low,
       'aria-valuemax': knob.high });
-  let grip = null;
   // of digits that are selected: the browser would take the pointer away
   it.addEventListener('dragstart', (event) => event.preventDefault());
-  it.addEventListener('pointerdown', (event) => {
-    grip = { x: event.clientX, from: get(), moved: false };
+  let from = null;
+  held(it, {
+    slack: DRAG,
+    take({ clientX }) { from = { x: clientX, value: get() }; return true; },
+    drag({ clientX }, first) {
+      if (first) it.blur();
+      set(stepped(knob.stops, from.value, Math.round((clientX - from.x) / DRAG)));
+    },
   });
-  it.addEventListener('pointermove', (event) => {
-    if (!grip || (!grip.moved && Math.abs(event.clientX - grip.x) < DRAG)) return;
-    if (!grip.moved) { grip.moved = true; it.setPointerCapture(event.pointerId); it.blur(); }
-    set(step(grip.from, Math.round((event.clientX - grip.x) / DRAG)));
-  });
-  for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'])
-    it.addEventListener(end, () => { grip = null; });
   it.addEventListener('keydown', (event) => {
     event.stopPropagation(); // a notebook would take the keys to change cells
     const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
     if (event.key === 'Escape') it.value = it.dataset.shown;
     if (!by) return;
     event.preventDefault();
-    set(step(get(), by));
+    set(stepped(knob.stops, get(), by));
   });
   it.addEventListener('input', () => refuse('')); // what was refused is no longer there
   it.addEventListener('change', () => {
@@ -75,12 +69,6 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
   const parts = Object.fromEntries(setup.knobs.map((knob) => [knob.name, knob]));
   for (const knob of setup.knobs)
     if (!knob.choices) knob.stops = stopsOf(knob.low, knob.high, knob.step);
-  const stepFrom = ({ stops }) => (value, by) => {
-    const place = placeOf(stops, value),
-        next = by > 0 ? Math.floor(place + by + 1e-9) : by < 0 ? Math.ceil(place + by - 1e-9)
-        : place;
-    return by ? stops[Math.min(Math.max(next, 0), stops.length - 1)] : value;
-  };
   const put = (name) => (value) => set({ [name]: value });
   let into = sentence;
   for (const piece of setup.sentence.split(/(\{[^}]+\}|\*[a-z_]+\*|[[\]])/)) {
@@ -101,7 +89,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
       const whole = made(into, 'span', { className: 'live-whole' });
       if (knob.symbol && !bare) { putSymbol(whole, knob.symbol); whole.append(' = '); }
       const show = putNumber(whole, knob,
-          { get: () => get()[name], step: stepFrom(knob), set: put(name), refuse });
+          { get: () => get()[name], set: put(name), refuse });
       if (knob.unit && !bare) whole.append(knob.unit === '°' ? knob.unit : ` ${knob.unit}`);
       shows.push((values) => show(values[name]));
     } else if (piece[0] === '{')
@@ -113,17 +101,8 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         { stops, name } = knob, own = made(row, 'span');
     row.dataset.control = name;
     if (knob.symbol) putSymbol(own, knob.symbol); else own.textContent = knob.label;
-    const slider = made(row, 'input',
-        { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' },
-        { 'aria-label': knob.says });
-    slider.addEventListener('input', () => { stop(); put(name)(stops[Math.round(slider.value)]); });
-    slider.addEventListener('keydown', (event) => {
-      const by = STEP_KEYS[event.key];
-      if (!by) return;
-      event.preventDefault();
-      event.stopPropagation();
-      stop();
-      put(name)(stepFrom(knob)(get()[name], by));
+    const showSlider = putSlider(row, knob.says, stops, {
+      get: () => get()[name], set(value) { stop(); put(name)(value); },
     });
     let playing = 0;
     const call = (text) => {
@@ -159,8 +138,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
       if (!playing) play();
     });
     shows.push((values) => {
-      slider.value = placeOf(stops, values[name]);
-      slider.setAttribute('aria-valuetext', `${inWords(values[name])} ${knob.unit}`.trim());
+      showSlider(values[name], `${inWords(values[name])} ${knob.unit}`.trim());
     });
   }
   const show = (values) => shows.forEach((each) => each(values));

@@ -3,9 +3,10 @@
 
 import { buildGate } from './gate.js';
 import { followTheme, readColours, written } from './style.js';
-import { inWords, made, putKnobs } from './knobs.js';
+import { held, made, placeOn } from './hands.js';
+import { inWords, putKnobs } from './knobs.js';
 import { keepKeys } from './controls.js';
-import { measure, sizeOf } from './surface.js';
+import { measure } from './surface.js';
 import { paneOf } from './board.js';
 import { showHandles } from './grips.js';
 import { widget } from './widget.js';
@@ -76,27 +77,24 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     const host = made(find('.live-panes'), 'div',
         { className: `live-pane${spec.tall ? ' live-tall' : ''}` }),
         canvas = canvases[name] = made(host, 'canvas', {}, { role: 'img' });
-    let last = null;
-    const place = (event) => {
-      const box = canvas.getBoundingClientRect(), { zoom } = sizeOf(canvas),
-          { scrub } = specs[name];
-      if (!scrub || !panes[name] || !found || (gate && !gate.open())) return;
-      const [x, y] = panes[name].view.toWorld((event.clientX - box.left) / zoom,
-          (event.clientY - box.top) / zoom),
-          moved = last && [event.clientX - last[0], event.clientY - last[1]];
-      if (last) last = [event.clientX, event.clientY];
-      const changes = scrub(x, y, moved, values(), found);
+    const scrub = (event, moved) => {
+      if (!specs[name].scrub || !panes[name] || !found || (gate && !gate.open())) return;
+      const [x, y] = panes[name].view.toWorld(...placeOn(canvas, event));
+      const changes = specs[name].scrub(x, y, moved, values(), found);
       // what passes over a picture only moves the robot
-      if (changes && (last || Object.keys(changes).every((each) => each === 'time'))) set(changes);
+      if (changes && (moved || Object.keys(changes).every((each) => each === 'time'))) set(changes);
     };
-    canvas.addEventListener('pointerdown', (event) => {
-      last = [event.clientX, event.clientY];
-      if (specs[name].scrub) canvas.setPointerCapture(event.pointerId);
-      place(event);
+    let last = null;
+    held(canvas, {
+      take: () => specs[name].scrub,
+      drag(event, first) {
+        const { clientX, clientY } = event, moved = first ? [0, 0] : [clientX - last[0], clientY - last[1]];
+        last = [clientX, clientY];
+        scrub(event, moved);
+      },
+      drop() { last = null; },
     });
-    canvas.addEventListener('pointermove', place);
-    for (const end of ['pointerup', 'pointercancel', 'lostpointercapture'])
-      canvas.addEventListener(end, () => { last = null; });
+    canvas.addEventListener('pointermove', (event) => { if (!last) scrub(event, null); });
     resized.observe(canvas);
   }
   function draw() {
