@@ -662,3 +662,11 @@ def test_a_view_that_is_closed_answers_no_more(emptied_page):
     )
     emptied_page.wait_for_timeout(100)
     assert emptied_page.evaluate("() => drawings") == 0
+
+
+def test_what_another_version_has_stored_is_to_be_run_again(emptied_page):
+    explorer = Explorer()
+    explorer.contract = "another"
+    mounted(emptied_page, explorer)
+    assert "run its cell again" in emptied_page.locator("body").inner_text()
+    assert emptied_page.locator("canvas").count() == 0

@@ -2,11 +2,13 @@
 // goal, path ...), the same as in formulas and figures.
 
 import { drawAngle, drawName, drawPose, drawRobot } from './scene.js';
-import { inside, label, line, sizeOf, surfaceOf, tickLabel, ticksOf } from './surface.js';
+import { drawAxes } from './axes.js';
+import { inside, label, line, sizeOf, surfaceOf, ticksOf } from './surface.js';
 
 // A pane is { x: [from, to, title, write], y: [from, to, title, write], equal, bare, tall }:
 // `equal` scales keep circles round, a `bare` one has no axes, and `write`, if given, says what a
 // tick's value is called.
+/** @param {HTMLCanvasElement} canvas @param {Colours} colours @param {Spec} spec */
 export function paneOf(canvas, colours, spec) {
   const { ctx, width, height } = surfaceOf(canvas, colours), { zoom } = sizeOf(canvas),
       room = spec.bare ? [4, 4, 4, 4] : [10, spec.x[2] ? 40 : 24, spec.y[2] ? 56 : 34, 12];
@@ -27,6 +29,7 @@ export function paneOf(canvas, colours, spec) {
       view = { box, zoom, scale: across, toScreen: at,
       toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
   const cut = (draw) => inside(ctx, box, draw), names = [];
+  /** @type {Pane} */
   const pane = {
     ctx, box, view, at, ink, range: [x0, x1, y0, y1], pixel: 1 / across,
     line(points, role = 'path', { width: w = 2.5, dash = [] } = {}) {
@@ -95,27 +98,17 @@ export function paneOf(canvas, colours, spec) {
       pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85);
     },
   };
-  if (!spec.bare) drawAxes(pane, spec, colours, [x0, x1, y0, y1]);
+  if (!spec.bare) drawAxes(ctx, box, colours, axesOf(pane, spec, pane.range));
   return pane;
 }
 
-function drawAxes({ ctx, box, at }, { x, y, equal }, colours, [x0, x1, y0, y1]) {
+/** As many numbers as have room. @param {Pane} pane @param {Spec} spec @param {number[]} range */
+function axesOf({ box, at }, { x, y, equal }, [x0, x1, y0, y1]) {
   const most = equal ? Math.max(Math.min(box.width, box.height) / 45, 2) : 0,
       along = ticksOf(x0, x1, most || box.width / 60),
       up = ticksOf(y0, y1, most || box.height / 36);
-  for (const value of along.ticks) {
-    const [px] = at(value, y0);
-    line(ctx, [[px, box.top], [px, box.top + box.height]], colours.line, value === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, (x[3] || along.write)(value), px, box.top + box.height + 11, colours, 'center');
-  }
-  for (const value of up.ticks) {
-    const [, py] = at(x0, value);
-    line(ctx, [[box.left, py], [box.left + box.width, py]], colours.line, value === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, (y[3] || up.write)(value), box.left - 6, py, colours, 'right');
-  }
-  if (x[2])
-    label(ctx, x[2], box.left + box.width / 2, box.top + box.height + 29, colours,
-        { align: 'center' });
-  if (y[2])
-    label(ctx, y[2], 9, box.top + box.height / 2, colours, { align: 'center', turn: -Math.PI / 2 });
+  return {
+    along: { ...along, title: x[2], write: x[3] || along.write, at: (value) => at(value, y0)[0] },
+    up: { ...up, title: y[2], write: y[3] || up.write, at: (value) => at(x0, value)[1] },
+  };
 }

@@ -2,7 +2,8 @@
 // robot on the path.
 
 import { FONT } from './style.js';
-import { inside, label, line, surfaceOf, tickLabel, ticksOf } from './surface.js';
+import { drawAxes } from './axes.js';
+import { inside, label, line, surfaceOf, ticksOf } from './surface.js';
 
 const CHARTS = [
   { name: 'v', title: 'v [m/s]', lines: [{ role: 'path', of: (run) => run.v }] },
@@ -34,20 +35,16 @@ export function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
   const { ctx, width, height } = surfaceOf(canvas, colours);
   const time = timeAxis(width, run, ghost);
   const each = (height - AXIS.top - AXIS.bottom - AXIS.gap * (CHARTS.length - 1)) / CHARTS.length;
-  const foot = height - AXIS.bottom;
   const boxOf = (i) =>
       ({ left: AXIS.left, top: AXIS.top + i * (each + AXIS.gap),
       width: width - AXIS.left - AXIS.right, height: each });
   const { ticks, write } = ticksOf(0, time.span, Math.max(2, Math.floor(width / 80)));
-  for (const t of ticks) {
-    CHARTS.forEach((_, i) => {
-      const { top, height: high } = boxOf(i);
-      line(ctx, [[time.toX(t), top], [time.toX(t), top + high]], colours.line, 0.6);
-    });
-    tickLabel(ctx, write(t), time.toX(t), foot + 12, colours, 'center');
-  }
-  label(ctx, 'time [s]', (AXIS.left + width - AXIS.right) / 2, foot + 32, colours,
-      { align: 'center' });
+  CHARTS.forEach((_, i) => {
+    const last = i === CHARTS.length - 1;
+    const along =
+        { ticks, write: last ? write : () => '', at: time.toX, title: last && 'time [s]' };
+    drawAxes(ctx, boxOf(i), colours, { along });
+  });
   ctx.globalAlpha = faded ? 0.35 : 1;
   CHARTS.forEach((chart, i) => drawChart(ctx, chart, boxOf(i), time, colours, run, ghost));
   if (run) {
@@ -58,7 +55,7 @@ export function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
     });
     ctx.fillStyle = colours.ink;
     ctx.beginPath();
-    ctx.arc(x, foot, 6, 0, 2 * Math.PI);
+    ctx.arc(x, height - AXIS.bottom, 6, 0, 2 * Math.PI);
     ctx.fill();
   }
   CHARTS.forEach((chart, i) => drawTitle(ctx, chart, boxOf(i), colours));
@@ -73,11 +70,7 @@ function drawChart(ctx, chart, box, time, colours, run, ghost) {
   ctx.strokeStyle = colours.line;
   ctx.lineWidth = 1;
   ctx.strokeRect(box.left, box.top, box.width, box.height);
-  for (const value of axis.ticks) {
-    line(ctx, [[box.left, axis.toY(value)], [box.left + box.width, axis.toY(value)]], colours.line,
-        0.6);
-    tickLabel(ctx, axis.write(value), box.left - 5, axis.toY(value), colours, 'right');
-  }
+  drawAxes(ctx, box, colours, { up: { ...axis, at: axis.toY } });
   inside(ctx, { ...box, top: box.top - 3, height: box.height + 6 }, () => {
     for (const { old } of series) drawSeries(ctx, ghost, old, time, axis, colours.ghost, 2, [3, 5]);
     for (const { values, role, dash = [] } of series)

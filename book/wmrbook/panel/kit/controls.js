@@ -35,7 +35,10 @@ export function placeOf(stops, value) {
   return after - (stops[after] - value) / (stops[after] - stops[after - 1]);
 }
 
-// The stop that is so many stops away.
+/**
+ * The stop that is so many stops away.
+ * @param {number[]} stops @param {number} value @param {number} by
+ */
 export function stepped(stops, value, by) {
   const place = placeOf(stops, value);
   const next = by > 0 ? Math.floor(place + by + 1e-9) : Math.ceil(place + by - 1e-9);
@@ -47,10 +50,10 @@ export function putSlider(row, says, stops, { get, set }) {
   const slider = made(row, 'input',
       { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' },
       { 'aria-label': says });
-  slider.addEventListener('input', () => set(stops[Math.round(slider.value)]));
+  slider.addEventListener('input', () => set(stops[Math.round(Number(slider.value))]));
   onArrows(slider, ([across, up]) => set(stepped(stops, get(), across + up)));
   return (value, text) => {
-    slider.value = Number.isFinite(value) ? placeOf(stops, value) : 0;
+    slider.value = String(Number.isFinite(value) ? placeOf(stops, value) : 0);
     slider.setAttribute('aria-valuetext', text);
   };
 }

@@ -228,6 +228,7 @@ function render({ model, el }) {
   }
 
   // Zooms by a factor about a place that stays where it is.
+  /** @param {number} factor @param {Point} place */
   function zoomBy(factor, [x, y]) {
     const [cx, cy, reach] = state.zoom || zoomOf(state.view),
         next = Math.min(Math.max(reach * factor, 0.005), 1e6), share = next / reach;
@@ -243,7 +244,7 @@ function render({ model, el }) {
   // Into the clipboard, the old way, which needs no permission and works in a page from the disk
   // too.
   function copy(text, what) {
-    const box = find('.wmr-text'), before = document.activeElement;
+    const box = find('.wmr-text'), before = /** @type {HTMLElement} */ (document.activeElement);
     Object.assign(box, { value: text, hidden: false });
     box.select();
     box.hidden = document.execCommand('copy');
@@ -283,7 +284,7 @@ function render({ model, el }) {
     },
   };
   root.addEventListener('click', (event) => {
-    const act = event.target.closest('[data-do]');
+    const act = /** @type {any} */ (event.target).closest('[data-do]');
     if (act) { acts[act.dataset.do](); schedule(); }
   });
   find('.wmr-time').addEventListener('input', (event) => {

@@ -3,6 +3,7 @@
 
 import { DEGREES, viridis } from './style.js';
 import { LAWS } from './model.js';
+import { drawAxes } from './axes.js';
 import { label, roundStep, surfaceOf, tickLabel, ticksOf } from './surface.js';
 import { landscape } from './simulate.js';
 
@@ -29,6 +30,7 @@ if (typeof document === 'undefined')
 
 // The worker's script. In a page from the disk, where none may be a module, it is all of the kit,
 // which is one function there.
+/** @returns {[string, WorkerType]} */
 const script = () =>
     (typeof wmrKit === 'function' ? [`(${wmrKit})()`, 'classic']
     : [`import '${import.meta.url}';`, 'module']);
@@ -62,6 +64,7 @@ export function buildGainMap(onDone) {
     next();
     onDone();
   }
+  /** @param {Values} map @param {number} level */
   const jobOf = ({ values, ...rest }, level) => ({ ...rest, level, n: LEVELS[level] });
   return {
     update(settings, kx, metric) {
@@ -151,18 +154,17 @@ function imageOf(map, top, colours) {
 function drawMapAxes(ctx, box, map, colours) {
   const across = ticksOf(0, RANGES[map.kx], box.width / 60),
       up = ticksOf(0, RANGES[map.ky], box.height / 40);
-  for (const value of across.ticks) {
-    const x = box.left + box.width * value / RANGES[map.kx];
-    tickLabel(ctx, across.write(value), x, box.top + box.height + 12, colours, 'center');
-  }
-  for (const value of up.ticks) {
-    tickLabel(ctx, up.write(value), box.left - 6,
-        box.top + box.height * (1 - value / RANGES[map.ky]), colours, 'right');
-  }
-  label(ctx, UNITS[map.kx], box.left + box.width / 2, box.top + box.height + 33, colours,
-      { align: 'center' });
-  label(ctx, UNITS[map.ky], 14, box.top + box.height / 2, colours,
-      { align: 'center', turn: -Math.PI / 2 });
+  drawAxes(ctx, box, colours, {
+    lines: false,
+    along: {
+      ...across, title: UNITS[map.kx],
+      at: (value) => box.left + box.width * value / RANGES[map.kx],
+    },
+    up: {
+      ...up, title: UNITS[map.ky],
+      at: (value) => box.top + box.height * (1 - value / RANGES[map.ky]),
+    },
+  });
 }
 
 function drawColourBar(ctx, box, map, top, colours) {

@@ -13,6 +13,7 @@ export function buildGate(root, ask, { get, set, panes, host }) {
   const still = document.documentElement.dataset.still !== undefined;
   const committed = () => get().guess !== null && get().guess !== undefined,
       open = () => still || committed();
+  /** @type {any} */
   let draft = ask.kind === 'sketch' ? [] : null, listening = false, shown = null, answered = false;
   const form = made(root, 'form', { className: 'live-gate' });
   made(form, 'p', { className: 'live-question', textContent: ask.question });
@@ -61,7 +62,7 @@ export function buildGate(root, ask, { get, set, panes, host }) {
         if (first && ask.kind === 'sketch') draft = [ask.at];
         if (ask.kind === 'turn') {
           draft = Math.round(Math.atan2(y - ask.at[1], x - ask.at[0]) * DEGREES / 5) * 5 / DEGREES;
-          turn.value = draft * DEGREES;
+          turn.value = String(draft * DEGREES);
         } else draft.push([x, y]);
         set();
       },

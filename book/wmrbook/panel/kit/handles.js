@@ -52,6 +52,7 @@ export function buildHandles(host, { get, set, view, hold }) {
   };
 }
 
+/** @param {Pose} pose @param {Point} move @param {boolean} turn @param {number} step */
 function nudged([x, y, heading], [across, up], turn, step) {
   // 5 deg; left and up are counter-clockwise
   if (turn) return [x, y, tidy(turned(heading + (up - across) * Math.PI / 36))];

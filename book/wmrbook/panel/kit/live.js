@@ -21,6 +21,7 @@ import { widget } from './widget.js';
 //   is given may be drawn; say(values, found, setup): the results in the sentence, by name;
 //   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws
 //   RangeError, in words, where nothing can }].
+/** @param {string} name @param {Drawing} explorable */
 export const live = (name, explorable) => widget(`live/${name}`, ({ model, el }) => {
   const setup = structuredClone(model.get('setup')),
       root = made(el, 'div', { className: 'wmr live' });
@@ -88,7 +89,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     held(canvas, {
       take: () => specs[name].scrub,
       drag(event, first) {
-        const { clientX, clientY } = event, moved = first ? [0, 0] : [clientX - last[0], clientY - last[1]];
+        const { clientX, clientY } = event,
+            moved = first ? [0, 0] : [clientX - last[0], clientY - last[1]];
         last = [clientX, clientY];
         scrub(event, moved);
       },

@@ -15,6 +15,7 @@ export function remembered(f) {
 
 // A run of the law that acts all the time, sample by sample; `start`, `goal` and `gains` as for
 // `simulate`.
+/** @type {(options: Partial<Options>) => Run} */
 export const driven = remembered((options) =>
     simulate(
     { reference: null, law: 'corrected', method: 'continuous', dt: 0.05, duration: 60,

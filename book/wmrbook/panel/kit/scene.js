@@ -1,9 +1,8 @@
 // The path in the plane, equal scales: start and goal as arrows, the robot, and the three polar
 // errors as angles and a distance.
 
-import {
-  inside, label, line, multiples, stepFor, surfaceOf, tickLabel, tickText,
-} from './surface.js';
+import { drawAxes } from './axes.js';
+import { inside, label, line, multiples, stepFor, surfaceOf, tickText } from './surface.js';
 
 // px from a pose to the handle that turns it; unequal, so that both can be reached when they
 // coincide
@@ -14,6 +13,7 @@ const SPANS = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10];
 // and depends on nothing but its arguments. `marks` are points that must be seen; the runs are
 // followed as far as three times the marks' distance from the first. `zoomed` is null or [x, y,
 // metres from there to the nearer edge].
+/** @returns {View} */
 export function viewOf(runs, marks, arrows, { zoom, width, height }, zoomed) {
   const box =
       { left: 54, top: 10, width: Math.max(width - 66, 40), height: Math.max(height - 56, 40) };
@@ -160,20 +160,17 @@ function drawGrid(ctx, view, colours) {
   // the same both ways
   const finest = (low, high) => stepFor(low, high, (high - low) * view.scale / 55),
       step = Math.min(finest(left, right), finest(bottom, top));
-  for (const value of multiples(step, left, right)) {
-    const [x] = view.toScreen(value, 0);
-    line(ctx, [[x, box.top], [x, box.top + box.height]], colours.line, value === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, tickText(value, step), x, box.top + box.height + 12, colours, 'center');
-  }
-  for (const value of multiples(step, bottom, top)) {
-    const [, y] = view.toScreen(0, value);
-    line(ctx, [[box.left, y], [box.left + box.width, y]], colours.line, value === 0 ? 1.5 : 0.6);
-    tickLabel(ctx, tickText(value, step), box.left - 6, y, colours, 'right');
-  }
-  label(ctx, 'x [m]', box.left + box.width / 2, box.top + box.height + 32, colours,
-      { align: 'center' });
-  label(ctx, 'y [m]', 10, box.top + box.height / 2, colours,
-      { align: 'center', turn: -Math.PI / 2 });
+  const write = (value) => tickText(value, step);
+  drawAxes(ctx, box, colours, {
+    along: {
+      ticks: multiples(step, left, right), write, title: 'x [m]',
+      at: (value) => view.toScreen(value, 0)[0],
+    },
+    up: {
+      ticks: multiples(step, bottom, top), write, title: 'y [m]',
+      at: (value) => view.toScreen(0, value)[1],
+    },
+  });
 }
 
 function drawPath(ctx, view, xs, ys, n, colour, width, dash) {
@@ -217,6 +214,10 @@ export function drawName(ctx, view, pose, name, colours, robot = null) {
       { colour: colours[name], weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
 }
 
+/**
+ * @param {CanvasRenderingContext2D} ctx @param {Point} place @param {number} heading
+ * @param {Colours} colours
+ */
 export function drawRobot(ctx, [x, y], heading, colours) {
   ctx.save();
   ctx.translate(x, y);
@@ -272,6 +273,11 @@ function drawAngles(ctx, view, run, k, colours) {
   }
 }
 
+/**
+ * @param {CanvasRenderingContext2D} ctx @param {Point} place @param {number} from
+ * @param {number} angle @param {number} radius @param {string} name @param {string} colour
+ * @param {Colours} colours
+ */
 export function drawAngle(ctx, [x, y], from, angle, radius, name, colour, colours) {
   ctx.strokeStyle = colour;
   ctx.lineWidth = 3;

@@ -23,6 +23,7 @@ export function checkedPose(name, pose) {
   throw notAllowed(name, pose, '[x, y, heading], all finite,');
 }
 
+/** @param {Options} options */
 export function checkedSetup(options) {
   const moving = options.reference === 'circle',
       laws = Object.keys(LAWS).filter((name) => moving || !LAWS[name].needsReference);

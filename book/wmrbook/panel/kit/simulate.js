@@ -33,6 +33,7 @@ function drive(setup, record) {
 // samples (t, x, y, heading, rho, alpha, theta, v, omega, V; for the circle goalX, goalY,
 // goalHeading) and an outcome. `into`, an earlier result that is no longer needed, lends its
 // memory. Throws RangeError, which names the argument.
+/** @param {Options} options @param {Run | null} into @returns {Run} */
 export function simulate(options, into = null) {
   const setup = checkedSetup(options);
   const names = setup.moving ? [...RUN_COLUMNS, ...CIRCLE_COLUMNS] : RUN_COLUMNS;
@@ -51,6 +52,7 @@ export function simulate(options, into = null) {
   };
   const [n, outcome, peakOmega, pathLength] =
       (setup.step ? drive : driveContinuously)(setup, record);
+  /** @type {any} */
   const run = { n, outcome: OUTCOMES[outcome], peakOmega, pathLength };
   names.forEach((name, i) => { run[name] = columns[i].subarray(0, n); });
   return run;
@@ -59,6 +61,7 @@ export function simulate(options, into = null) {
 // What a run amounts to: time in s (Infinity if it did not arrive), headingError in rad and
 // distance in m at the last sample, peakOmega in rad/s, pathLength in m, and residual, the mean
 // distance over the last 5 s, in m. All NaN but time for a run without a sample.
+/** @param {Run} run */
 export function summarise(run) {
   const last = run.n - 1, arrived = run.outcome === 'ARRIVED';
   let peak = last < 0 ? NaN : 0, length = peak, sum = 0, late = 0;
@@ -85,6 +88,8 @@ let scratch = null; // the memory of the last run of a map, lent to the next
 // the Float64Array is of xs[i] and ys[j]; NaN where the robot does not arrive. Behind a moving goal
 // nothing arrives: there it is what the end of the run amounts to, and 'residual' in the place of
 // 'time'.
+/** @param {Options & { kx: string, xs: Float64Array, ky: string, ys: Float64Array,
+ *   metric: string }} options */
 export function landscape(options) {
   const { kx, xs, ky, ys, metric } = options,
       map = new Float64Array(xs.length * ys.length).fill(NaN), gains = { ...options.gains };
@@ -108,6 +113,7 @@ export function landscape(options) {
 // How the closed loop settles near the goal (see wmrlib.modes): rate in 1/s, naturalFrequency in
 // rad/s, damping, and how many times slower the heading settles than the distance: Infinity where
 // the heading isn't steered.
+/** @param {Gains} gains @param {string} law */
 export function modes(gains, law = 'corrected') {
   const [rate, a, b] = LAWS[law].modes(gains), half = a / 2, gap = half * half - b;
   const settling = gap > 0 ? b / (half + Math.sqrt(gap)) : half;

@@ -70,6 +70,10 @@ export function tickText(value, step) {
   return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace('-', '−');
 }
 
+/**
+ * @param {CanvasRenderingContext2D} ctx @param {Point[]} points @param {string} colour
+ * @param {number[]} dash
+ */
 export function line(ctx, points, colour, width = 1.5, dash = []) {
   ctx.save();
   ctx.strokeStyle = colour;
@@ -108,6 +112,7 @@ export function label(ctx, text, x, y, colours,
   ctx.restore();
 }
 
+/** @param {CanvasRenderingContext2D} ctx @param {Box} box @param {() => void} draw */
 export function inside(ctx, box, draw) {
   ctx.save();
   ctx.beginPath();

@@ -13,7 +13,10 @@ function opensUnchanged({ model }) {
       || data[`${kind}-view+json`].model_id in stored)) notebook.dirty = false;
 }
 
-// `render` is called only with a state of the contract that the program was written for.
+/**
+ * `render` is called only with a state of the contract that the program was written for.
+ * @param {string} program @param {(context: Context) => (() => void) | void} render
+ */
 export const widget = (program, render) => ({
   initialize: opensUnchanged,
   render(context) {

@@ -64,8 +64,8 @@ export default live('bowl', {
       bowl.line(
           [[0, 0], ...rings.map((each) => each[i])].map((point) => at(...point, high(...point))),
           'line', { width: 1 });
-    for (const [axis, role, end] of [['α', 'alpha', [REACH, 0, 0]],
-        ['θ', 'theta', [0, REACH, 0]]]) {
+    for (const { axis, role, end } of [{ axis: 'α', role: 'alpha', end: [REACH, 0, 0] },
+        { axis: 'θ', role: 'theta', end: [0, REACH, 0] }]) {
       bowl.arrow(...at(0, 0, 0), ...at(...end), role, { width: 1.5 });
       bowl.text(axis, ...at(...end), { role, dx: 5, dy: 8, size: 16 });
     }

@@ -22,11 +22,14 @@ export default live('commutator', {
   draw({ plane }, values, { poses, done, now }, hidden) {
     if (!hidden) {
       plane.robot([0, 0, 0], 0.45);
-      for (const [from, role, dash] of [[0, 'path', []], [2, 'ghost', [6, 4]]]) {
+      for (const { from, role, dash } of [{ from: 0, role: 'path', dash: [] },
+          { from: 2, role: 'ghost', dash: [6, 4] }]) {
         for (let k = from; k <= done; k += 4)
           plane.line([poses[k], k === done ? now : poses[k + 1]], role, { dash });
       }
-      [[0, 'forward', 'path', 10], [2, 'back', 'ghost', -14]].forEach(([k, name, role, dy]) => {
+      [{ k: 0, name: 'forward', role: 'path', dy: 10 },
+          { k: 2, name: 'back', role: 'ghost', dy: -14 }]
+          .forEach(({ k, name, role, dy }) => {
         const [x, y] = poses[k + 1 - k / 2];
         if (done >= k) plane.text(name, x, y, { role, dx: 20, dy });
       });

@@ -7,6 +7,7 @@ import { wrap } from '../model.js';
 
 // The field in the robot's frame, [ahead, left], and the heading that follows from it; the robot's
 // heading in radians from magnetic east.
+/** @param {number} heading @param {Values} knobs @param {number} field */
 function felt(heading, { iron, soft }, field) {
   const s = soft / 100,
       at = [(1 + s) * field * Math.sin(heading) + iron, (1 - s) * field * Math.cos(heading)];

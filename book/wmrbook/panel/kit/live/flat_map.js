@@ -22,6 +22,7 @@ function bothMaps(rho, lat, radius) {
       Math.cos(turn) - Math.sin(from) * Math.sin(to));
   return [[rho * side, rho * side], [radius * lon * Math.cos(from), radius * (to - from)]];
 }
+/** @type {(maps: Point[]) => number} */
 const between = ([[x, y], [x2, y2]]) => Math.hypot(x - x2, y - y2);
 
 export default live('flat_map', {

@@ -41,17 +41,16 @@ export default live('phase', {
         k: Math.round(time * last) };
   },
   panes(values, { run, k, turned }) {
-    const limit = [-60, 60];
     return {
       plane: {
-        x: [...limit, 'α [°]'], y: [...limit, 'θ [°]'], equal: true,
+        x: [-60, 60, 'α [°]'], y: [-60, 60, 'θ [°]'], equal: true,
             given: 'The plane of the angles, with the state at alpha 0 and theta 40 degrees, ' +
             'and the goal in its middle.',
         alt: `The plane of the angles: the state is at alpha ${inDegrees(run.alpha[k])} and ` +
             `theta ${inDegrees(run.theta[k])}. Until it is down to a twentieth, theta ${turned}.`,
         scrub: (x, y) => timeNear(run.across, run.up, x, y, 4),
       },
-      angles: { x: [0, LENGTH, 'time [s]'], y: [...limit, 'α, θ [°]'],
+      angles: { x: [0, LENGTH, 'time [s]'], y: [-60, 60, 'α, θ [°]'],
           given: 'Room for both angles over time.',
           alt: `Both angles over time. Until they are down to a twentieth, theta ${turned}.`,
           scrub: (x) => ({ time: Math.min(Math.max(x / LENGTH, 0), 1) }) },

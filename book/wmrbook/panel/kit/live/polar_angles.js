@@ -9,6 +9,7 @@ const clear = ([x, y, heading], by) => [x + by * Math.cos(heading), y + by * Mat
 const toward = (from, x, y) => Math.round(Math.atan2(y - from[1], x - from[0]) * DEGREES / 5) * 5;
 const LONG = 1.5; // m
 
+/** @param {Values} values */
 function find({ x, y, heading, goal_heading }, { data: { goal } }) {
   const robot = [x, y, heading / DEGREES], aim = [goal[0], goal[1], goal_heading / DEGREES],
       [rho, alpha, theta] = polarFromPose(...robot, ...aim);

@@ -56,12 +56,12 @@ export default live('stopping', {
     if (hidden) return;
     for (const name of ['paper', 'gentle']) {
       const each = all[name],
-          looks = name === gains ? ['path'] : ['ghost', { width: 1.5, dash: [5, 4] }], points = [];
+          role = name === gains ? 'path' : 'ghost', points = [];
       for (let i = each.from; i < each.run.n; i += 1)
         points.push([-Math.log10(each.run.rho[i]), each.off[i] * DEGREES]);
-      errors.line(points, ...looks);
+      errors.line(points, role, name === gains ? {} : { width: 1.5, dash: [5, 4] });
       const [x, y] = points[Math.floor(points.length / 6)];
-      errors.text(name, x, y, { role: looks[0], dx: 8, dy: 12 });
+      errors.text(name, x, y, { role, dx: 8, dy: 12 });
     }
     errors.line([[-Math.log10(stop), -90], [-Math.log10(stop), 180]], 'ink',
         { width: 1, dash: [2, 3] });

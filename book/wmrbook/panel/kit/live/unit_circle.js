@@ -16,6 +16,7 @@ function stepMatrix({ k_rho, k_alpha, h, v_max }, method, dt) {
   return [[1 + sight[0] - turn[0], sight[1] - turn[1]], [sight[0], 1 + sight[1]]];
 }
 
+/** @param {Point[]} matrix */
 function eigenvalues([[a, b], [c, d]]) {
   const middle = (a + d) / 2, gap = middle * middle - (a * d - b * c),
       root = Math.sqrt(Math.abs(gap));

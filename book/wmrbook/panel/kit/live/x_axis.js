@@ -5,6 +5,7 @@ import { driven, poseAt, timeNear } from '../runs.js';
 import { live } from '../live.js';
 import { wrap } from '../model.js';
 
+/** @type {(pose: Pose, axis: string) => Pose} */
 const onMap = ([x, y, heading], axis) =>
     (axis === 'east' ? [x, y, heading] : [y, x, Math.PI / 2 - heading]);
 
