@@ -1,6 +1,8 @@
 // Runs of the robot as the drawings ask for them, kept while only the time moves.
 
-import { simulate, summarise } from './simulate.js';
+import { ARRIVED } from './setup.js';
+import { arcStep } from './model.js';
+import { drive, simulate, summarise } from './simulate.js';
 
 // A function of what JSON can say that keeps its last answer: a run need not be driven anew while
 // only the time moves.
@@ -20,6 +22,20 @@ export const driven = remembered((options) =>
     simulate(
     { reference: null, law: 'corrected', method: 'continuous', dt: 0.05, duration: 60,
     arrivalRadius: 0.05, ...options }));
+/**
+ * A drive by commands that are held, of `steps` at most: its poses and twists, and whether it
+ * arrived. It may have a sight and wheels of its own, see `drive`.
+ * @param {Values} options
+ */
+export function heldRun({ start, goal, gains, dt, radius, steps, ...odd }) {
+  const poses = [], twists = [], setup = { law: 'corrected', step: arcStep, moving: false };
+  const asked = { start, goal, gains, dt, samples: steps + 1, arrivalRadius: radius, ...odd };
+  const [, outcome] = drive({ ...setup, ...asked }, (k, t, pose, seen, twist) => {
+    poses.push(pose);
+    twists.push(twist);
+  });
+  return { poses, twists, arrived: outcome === ARRIVED };
+}
 export const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
 
 // The time, as a share, at which a path comes nearest to a point, or nothing if that is farther

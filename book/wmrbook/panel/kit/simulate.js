@@ -10,15 +10,19 @@ const OUTCOMES = ['ARRIVED', 'TIMED_OUT', 'DIVERGED', 'COMPLETED'];
 export const RUN_COLUMNS = ['t', 'x', 'y', 'heading', 'rho', 'alpha', 'theta', 'v', 'omega', 'V'];
 const CIRCLE_COLUMNS = ['goalX', 'goalY', 'goalHeading'];
 
-// One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. Gives [samples,
-// outcome].
-function drive(setup, record) {
-  const { law, step, gains, dt, samples, arrivalRadius, moving } = setup;
+// One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. The law may see what
+// `sight(k, pose)` shows of a pose, and the robot do what `wheels(v, omega)` make of its twist.
+// Gives [samples, outcome].
+export function drive(setup, record) {
+  const { law, step, gains, dt, samples, arrivalRadius, moving, sight, wheels } = setup;
   let pose = setup.start, goal = [...setup.goal, 0, 0];
   for (let k = 0; k < samples; k++) {
     if (moving) goal = circle(dt * k);
-    const seen = polarFromPose(pose[0], pose[1], pose[2], goal[0], goal[1], goal[2]), rho = seen[0];
-    const twist = controlLaw(rho, seen[1], seen[2], gains, law, goal[3], goal[4]);
+    const shown = sight ? sight(k, pose) : pose;
+    const seen = polarFromPose(shown[0], shown[1], shown[2], goal[0], goal[1], goal[2]);
+    const [rho, alpha, theta] = seen;
+    let twist = controlLaw(rho, alpha, theta, gains, law, goal[3], goal[4]);
+    if (wheels) twist = wheels(twist[0], twist[1]);
     if (!Number.isFinite(rho + twist[0] + twist[1])) return [k, DIVERGED];
     record(k, dt * k, pose, seen, twist, goal);
     if (rho <= arrivalRadius) return [k + 1, ARRIVED];

@@ -2,53 +2,33 @@
 // whose right wheel slips: where they stand in the end.
 
 import { DEGREES, written } from '../style.js';
-import { arcStep, polarFromPose, wrap } from '../model.js';
-import { controlLaw } from '../law.js';
+import { heldRun, remembered } from '../runs.js';
 import { live } from '../live.js';
-import { remembered } from '../runs.js';
-
-// mulberry32, and the rule of Box and Muller: wmrbook.live.noise draws the same numbers.
-const normals = remembered(({ count, seed }) => {
-  let state = seed;
-  const even = () => {
-    state = (state + 0x6D2B79F5) | 0;
-    let mixed = Math.imul(state ^ (state >>> 15), state | 1);
-    mixed ^= mixed + Math.imul(mixed ^ (mixed >>> 7), mixed | 61);
-    return (((mixed ^ (mixed >>> 14)) >>> 0) + 0.5) / 2 ** 32;
-  };
-  return Float64Array.from({ length: count }, () => {
-    const size = even();
-    return Math.sqrt(-2 * Math.log(size)) * Math.cos(2 * Math.PI * even());
-  });
-});
+import { normals } from '../random.js';
+import { wrap } from '../model.js';
 
 const median = (sorted) =>
     (sorted[Math.floor((sorted.length - 1) / 2)] + sorted[Math.floor(sorted.length / 2)]) / 2;
 
-const cloud = remembered(({ start, goal, gains, dt, radius, robots, track, steps, seed, sigma,
-    memory, late, slip }) => {
-  const fresh = normals({ count: 2 * robots * steps, seed }), keep = Math.exp(-dt / memory),
-      share = Math.sqrt(1 - keep * keep), back = Math.round(late / dt), ends = [];
-  for (let robot = 0; robot < robots; robot += 1) {
+const cloud = remembered(({ robots, track, seed, sigma, memory, late, slip, ...drive }) => {
+  const keep = Math.exp(-drive.dt / memory), share = Math.sqrt(1 - keep * keep);
+  const back = Math.round(late / drive.dt);
+  const wheels = (v, omega) => {
+    const lost = slip * (v + omega * track / 2); // m/s at the wheel
+    return [v - lost / 2, omega - lost / track];
+  };
+  return Array.from({ length: robots }, (_, robot) => {
     const fixes = [];
-    let pose = start, n = 0, [east, north] = [fresh[robot], fresh[robots + robot]];
-    for (; n < steps; n += 1) {
-      if (n) {
-        east = keep * east + share * fresh[2 * n * robots + robot];
-        north = keep * north + share * fresh[(2 * n + 1) * robots + robot];
-      }
-      fixes.push([pose[0] + sigma * east, pose[1] + sigma * north]);
-      const [x, y] = fixes[Math.max(n - back, 0)],
-          [rho, alpha, theta] = polarFromPose(x, y, pose[2], goal[0], goal[1], goal[2]);
-      if (rho <= radius) break;
-      // m/s at the wheel
-      const [v, omega] = controlLaw(rho, alpha, theta, gains),
-          lost = slip * (v + omega * track / 2);
-      pose = arcStep(pose[0], pose[1], pose[2], v - lost / 2, omega - lost / track, dt);
-    }
-    ends.push({ pose, n });
-  }
-  return ends;
+    let [east, north] = [0, 0];
+    const sight = (k, [x, y, heading]) => {
+      const fresh = normals(robot, k, seed);
+      [east, north] = k ? [keep * east + share * fresh[0], keep * north + share * fresh[1]] : fresh;
+      fixes.push([x + sigma * east, y + sigma * north]);
+      return [...fixes[Math.max(k - back, 0)], heading];
+    };
+    const { poses } = heldRun({ ...drive, sight, wheels });
+    return { pose: poses.at(-1), n: poses.length - 1 };
+  });
 });
 
 export default live('bench', {

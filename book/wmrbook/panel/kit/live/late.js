@@ -1,24 +1,20 @@
 // A robot whose position or whose heading is that of a while ago.
 
 import { DEGREES, written } from '../style.js';
-import { arcStep, polarFromPose, wrap } from '../model.js';
-import { controlLaw } from '../law.js';
+import { heldRun, remembered } from '../runs.js';
 import { live } from '../live.js';
-import { remembered } from '../runs.js';
+import { wrap } from '../model.js';
 
-const held = remembered(({ start, goal, gains, dt, radius, lost, position, heading }) => {
-  const poses = [start], steps = Math.round(lost / dt),
-      [back, turnedBy] = [position, heading].map((each) => Math.round(each / dt));
-  for (let n = 0; n < steps; n += 1) {
-    const [x, y] = poses[Math.max(n - back, 0)],
-        [rho, alpha, theta] = polarFromPose(x, y, poses[Math.max(n - turnedBy, 0)][2], ...goal);
-    if (rho <= radius) break;
-    const [v, omega] = controlLaw(rho, alpha, theta, gains);
-    poses.push(arcStep(...poses[n], v, omega, dt));
-  }
-  return { x: poses.map((each) => each[0]), y: poses.map((each) => each[1]),
-      end: poses[poses.length - 1],
-      time: poses.length <= steps ? dt * (poses.length - 1) : Infinity };
+const lateRun = remembered(({ lost, position, heading, ...drive }) => {
+  const { dt } = drive, [back, turnedBack] = [position, heading].map((it) => Math.round(it / dt));
+  const past = [];
+  const { poses, arrived } = heldRun({ ...drive, steps: Math.round(lost / dt), sight(k, pose) {
+    past.push(pose);
+    const [x, y] = past[Math.max(k - back, 0)];
+    return [x, y, past[Math.max(k - turnedBack, 0)][2]];
+  } });
+  const [x, y] = [0, 1].map((axis) => poses.map((pose) => pose[axis]));
+  return { x, y, end: poses.at(-1), time: arrived ? dt * (poses.length - 1) : Infinity };
 });
 
 const LATE = { position: 'position', heading: 'heading', both: 'pose' };
@@ -28,7 +24,7 @@ const length = ({ time }) =>
 export default live('late', {
   find({ delay, which }, { data }) {
     const run =
-        held({ ...data, position: which === 'heading' ? 0 : delay,
+        lateRun({ ...data, position: which === 'heading' ? 0 : delay,
         heading: which === 'position' ? 0 : delay });
     return { run, off: wrap(run.end[2] - data.goal[2]) };
   },

@@ -1,9 +1,7 @@
 // Wheels that can't go faster, three rules for what they do then, and the path that each rule
 // leaves.
 
-import { arcStep, polarFromPose } from '../model.js';
-import { driven, poseAt, remembered, timeNear } from '../runs.js';
-import { controlLaw } from '../law.js';
+import { driven, heldRun, poseAt, remembered, timeNear } from '../runs.js';
 import { live } from '../live.js';
 import { written } from '../style.js';
 
@@ -22,18 +20,20 @@ const RULES = {
   },
 };
 
-// `turn` is half the difference of the wheels' speeds.
-const limited = remembered(({ start, goal, gains, track, dt, limit, rule }) => {
-  const run = { x: [], y: [], heading: [], left: [], right: [], t: [] };
-  for (let pose = start, k = 0; ; k += 1) {
-    const [rho, alpha, theta] = polarFromPose(...pose, ...goal),
-        [v, omega] = controlLaw(rho, alpha, theta, gains),
-        [ahead, turn] = RULES[rule](v, omega * track / 2, limit);
-    [run.x[k], run.y[k], run.heading[k]] = pose;
-    [run.t[k], run.left[k], run.right[k]] = [dt * k, ahead - turn, ahead + turn];
-    if (rho <= 0.05 || k >= 1499) return { ...run, n: k + 1, arrived: rho <= 0.05 };
-    pose = arcStep(...pose, ahead, 2 * turn / track, dt);
-  }
+// What is limited is the speed ahead and half the difference of the wheels' speeds.
+const limited = remembered(({ track, limit, rule, ...drive }) => {
+  const { poses, twists, arrived } = heldRun({ ...drive, radius: 0.05, steps: 1499,
+    wheels(v, omega) {
+      const [ahead, turn] = RULES[rule](v, omega * track / 2, limit);
+      return [ahead, 2 * turn / track];
+    } });
+  const column = (of) => poses.map((pose, k) => of(pose, twists[k]));
+  return {
+    x: column(([x]) => x), y: column(([, y]) => y), heading: column((pose) => pose[2]),
+    left: column((_, [v, omega]) => v - omega * track / 2),
+    right: column((_, [v, omega]) => v + omega * track / 2),
+    t: poses.map((_, k) => drive.dt * k), n: poses.length, arrived,
+  };
 });
 
 const straying = remembered(({ x, y, free }) => Math.sqrt(Math.max(...x.map((px, k) => {
