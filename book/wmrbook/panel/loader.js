@@ -61,8 +61,10 @@ function found(model) {
 }
 
 export default {
-  async initialize(context) {
-    (await found(context.model)).initialize?.(context);
+  // Without waiting: while a host waits for a model, it hears no answer of the kernel. What goes
+  // wrong `render` says.
+  initialize(context) {
+    found(context.model).then((program) => program.initialize?.(context), () => {});
   },
   async render(context) {
     const { model, el } = context;

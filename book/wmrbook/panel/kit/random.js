@@ -1,5 +1,5 @@
-// Random numbers that are counted, not drawn in turn: those of a fix follow from the seed, its run's
-// number and its sample, as for wmrlib's receivers.
+// Random numbers that are counted, not drawn in turn: those of a fix follow from the seed, from the
+// number of its run and from its sample, as for wmrlib's receivers.
 
 const WORD = 2 ** 32, KEYS = [0x9E3779B9, 0xBB67AE85];
 
