@@ -67,6 +67,7 @@ myst_update_mathjax = False
 
 # The live widgets: anywidgets all of them, which a page needs no widget manager of 4 MB for.
 html_js_files = [("widgets.js", {"data-start": "whole page"}), "figures.js"]
+html_js_files += [("vendor/panels.js", {"defer": ""})]
 nb_ipywidgets_js = {}
 
 

@@ -51,7 +51,7 @@ PLANS = {
     "sweeping": "jit sweeping; jit receiver",
     "tuning": "quick tuning; jit tuning",
 }
-NO_FORMULAS = {"__init__", "_checks", "_compile", "explorer"}
+NO_FORMULAS = {"__init__", "_checks", "_compile"}
 # The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
     ("_chunks.py", "in _HEARD_AFTER = ", "a patience"),

@@ -3,16 +3,20 @@
 from __future__ import annotations
 
 import math
+import posixpath
 import re
-from pathlib import Path
+from pathlib import Path, PurePosixPath
 
 import numpy as np
 import pytest
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
+from kit import printed
+
 import wmrlib as wmr
+from wmrbook.panel import Explorer, kit
+from wmrbook.panel.controls import METHODS
 from wmrlib import paper
-from wmrlib.explorer import Explorer, javascript
 from wmrlib.laws import POSE_LAWS
 
 GAINS = wmr.Gains(0.7, 3.0, 1.5, 2.0)
@@ -31,7 +35,7 @@ def test_the_trajectory_is_that_of_the_state():
     explorer = Explorer(law="printed", method="euler")
     explorer.gains, explorer.dt, explorer.law = GAINS, 0.05, "aicardi"
     explorer.start, explorer.goal = wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0)
-    for method in wmr.explorer.METHODS:
+    for method in METHODS:
         explorer.state = explorer.state | {"method": method, "arrival_radius": 0.2}
         ends, how = (wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0)), {"dt": 0.05}
         how |= {"law": "aicardi", "method": method, "arrival_radius": 0.2}
@@ -115,13 +119,43 @@ def test_bad_settings_are_refused_by_name():
             setattr(explorer, name, value)
 
 
-def test_the_module_asks_for_nothing_from_outside():
-    source = javascript()
-    assert not re.search(r"https?:|\bimport\b[^/\n]*from\s*['\"]|\brequire\(|\bfetch\(", source)
-    assert source.rstrip().endswith("export default { initialize: opensUnchanged, render };")
+def imported(texts, path, above=()):
+    """Every module that a module needs, itself included; none in a circle."""
+    assert path not in above, (*above, path)
+    others = re.findall(r"^(?:import|\}).* from '(.+)';$", texts[path], re.MULTILINE)
+    found = (posixpath.normpath(PurePosixPath(path).parent / other) for other in others)
+    return {path}.union(*(imported(texts, other, (*above, path)) for other in found))
 
 
-def test_no_law_is_typed_by_hand_in_the_drawing():
-    ours = javascript().split("// Colours by role")[1]
-    assert "expm1" not in ours
-    assert "Math.exp" not in ours
+def test_a_kernel_sends_all_that_a_program_imports_and_that_asks_for_nothing_else():
+    for program in kit.programs():
+        texts = kit.sources(program)
+        for path in imported(texts, f"{program}.js"):
+            assert not re.search(r"https?:|\brequire\(|\bfetch\(", texts[path]), path
+
+
+def test_a_contract_is_of_the_names_that_are_stored():
+    explorer = Explorer()
+    explorer.gains, before = GAINS, explorer.contract
+    assert kit.contract(explorer.state, explorer.setup) == before
+    assert kit.contract(explorer.state | {"new": 0}, explorer.setup) != before
+    assert kit.contract(explorer.state, explorer.setup | {"data": {"new": 0}}) != before
+
+
+def test_a_kernel_sends_the_program_that_is_asked_for(monkeypatch):
+    explorer, sent = Explorer(), []
+    monkeypatch.setattr(explorer, "send", sent.append)
+    explorer._handle_custom_msg("another", [])
+    explorer._handle_custom_msg("kit", [])
+    assert sent == [kit.sources("explorer")]
+
+
+def test_the_committed_modules_are_what_is_printed():
+    for name, text in printed().items():
+        assert (kit.KIT / name).read_text(encoding="utf-8") == text, "run python book/tools/kit.py"
+
+
+def test_no_law_is_typed_by_hand_in_the_kit():
+    for path in kit.KIT.glob("*.js"):
+        if path.name != "model.js":
+            assert not re.search(r"expm1|Math\.exp\(", path.read_text(encoding="utf-8")), path

@@ -19,8 +19,9 @@ from decimal import Decimal
 import numpy as np, sympy as sp
 import wmrlib, wmrlib as wmr
 from wmrbook.challenge import scoreboard
+from wmrbook.panel import Explorer
 starts, goals, gains = wmr.Pose([5.0, 6.0], 1.0, 0.0), wmr.Pose(0.0, 0.0, 0.0), wmr.GENTLE_GAINS
-Explorer, paper = wmr.Explorer, wmr.paper
+paper = wmr.paper
 explorer, x, y, heading, goal = Explorer(), 1.0, 2.0, 0.3, goals
 c = SimpleNamespace(Spawner=SimpleNamespace())
 """

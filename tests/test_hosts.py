@@ -28,7 +28,7 @@ points = wmr.read_track("log.csv").points
 results += [points.lat, points.lon]
 import matplotlib
 matplotlib.use("agg")
-import wmrlib.symbolic, wmrlib.explorer
+import wmrlib.symbolic
 print([np.round(np.asarray(each, dtype=complex), 6).tolist() for each in results])
 """
 FULL = "import resource as r; r.setrlimit(r.RLIMIT_FSIZE, (0, 0))"

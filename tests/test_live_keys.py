@@ -50,7 +50,7 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "poles modes": lambda f: lambda k: f(k._replace(h=1 / k.h)),
     "unit_circle longest_step": lambda f: lambda *a: 0.5 * f(*a),
     "wheel_limit wheels_to_twist": lambda f: lambda a, b, c: f(b, a, c),
-    "bench advance": lambda f: lambda pose, v, omega, dt: f(pose, v, -omega, dt),
+    "bench polar_error": lambda f: lambda *a: f(*a)._replace(theta=-f(*a).theta),
     "late Receiver": lambda f: lambda delay, heading_delay: f(0, 0, 0, heading_delay, delay),
     "threshold simulate": lambda f: lambda a, b, k, **o: f(a, b, _backwards(k), **o),
     "rising lyapunov_rate": lambda f: lambda *a, **o: -f(*a, **o),

@@ -12,7 +12,8 @@ pytestmark = [pytest.mark.slow, pytest.mark.needs("npm", "browser")]
 def test_the_recipe_leaves_every_test_of_live_figures_green(tmp_path):
     copy, (drawing, function, truth) = copied(tmp_path / "copy"), blocks("To add a live figure")
     live = copy / "book" / "wmrbook" / "live"
-    (live / "js" / "half_round.js").write_text(drawing, encoding="utf-8")
+    drawings = copy / "book" / "wmrbook" / "panel" / "kit" / "live"
+    (drawings / "half_round.js").write_text(drawing, encoding="utf-8")
     put(live / "robot.py", f"{function}\n\n", "def one_step() -> Live:")
     put(live / "__init__.py", '"half_round", ', '"one_step", "turning_centre"]')
     truths = copy / "tests" / "browser" / "test_live_truth.py"
@@ -23,6 +24,7 @@ def test_the_recipe_leaves_every_test_of_live_figures_green(tmp_path):
     cell = json.loads(json.dumps(shown[-1])) | {"id": "half-round", "source": "live.half_round()"}
     notebook["cells"].insert(notebook["cells"].index(shown[-1]) + 1, cell)
     chapter.write_text(json.dumps(notebook), encoding="utf-8")
+    run(copy, sys.executable, "book/tools/kit.py")
     run(copy, sys.executable, "book/tools/run.py", "02")
     browser = ("tests/browser/test_live.py", "tests/browser/test_live_truth.py")
     check(copy, sys.executable, *browser, "-k", "half_round")

@@ -1,11 +1,9 @@
-"""A law added to a copy by the steps of CONTRIBUTING.md is everywhere, and the same.
-
-All but the last: storing the panels of all chapters would take minutes.
-"""
+"""A law added to a copy by the steps of CONTRIBUTING.md is everywhere, and the same."""
 
 import json
 import shutil
 import sys
+import textwrap
 
 import numpy as np
 import pytest
@@ -15,24 +13,11 @@ pytestmark = pytest.mark.slow
 
 CC = shutil.which("cc") or shutil.which("gcc")
 NODE = shutil.which("node")
-TWINS = """
-def scaled(share):
-    def scaled_law(rho, alpha, theta, gains):
-        v_over_rho, omega = corrected_law(rho, alpha, theta, gains)
-        return share * v_over_rho, omega
-
-    return formula(scaled_law)
-
-
-"""
-ROWS = """    "half": Law(scaled(0.5), Gains, "half", "half as fast"),
-    "twice": Law(scaled(2.0), Gains, "twice", "twice as fast"),
-"""
 PYTHON = """
 import json, sys
 import numpy as np, sympy as sp, wmrlib as wmr
 from wmrlib import symbolic
-from wmrlib.explorer import Explorer
+from wmrbook.panel import Explorer
 from wmrlib.symbolic import alpha, h, k_alpha, k_rho, rho, theta, v_max
 states = np.array(json.load(sys.stdin))
 gains, how = wmr.Gains(*states[3:]), {"law": "rational", "arrival_radius": 0.05}
@@ -43,8 +28,6 @@ swept = wmr.sweep(start, goal, wmr.Gains(0.5, 2.0, [1.0, 1.0], 2.0), method="arc
 smooth = wmr.sweep(start, goal, wmr.Gains(0.5, 2.0, [1.0, 1.0], 2.0), **how)
 explorer = Explorer(start, goal, wmr.Gains(0.5, 2.0, 1.0, 2.0), law="rational")
 json.dump({
-    "twins": [wmr.control_law(9.0, 0.5, 0.2, wmr.Gains(0.5, 2.0, 1.0, 2.0), law=each)[0]
-              for each in ("half", "twice")],
     "control": np.transpose(wmr.control_law(*states[:3], gains, law="rational")).tolist(),
     "rate": wmr.lyapunov_rate(*states[:3], gains, law="rational").tolist(),
     "sympy": np.transpose(sp.lambdify(symbols, symbolic.law("rational"))(*states)).tolist(),
@@ -55,9 +38,12 @@ json.dump({
 }, sys.stdout)
 """
 JAVASCRIPT = """
-const states = JSON.parse(require('fs').readFileSync(0)), names = LAWS.rational.gains;
-const call = (s) => LAWS.rational.command(...s.slice(0, 3),
-  Object.fromEntries(names.map((name, i) => [name, s[3 + i]])), 0, 0);
+import { readFileSync } from 'node:fs';
+import { controlLaw } from './book/wmrbook/panel/kit/law.js';
+import { LAWS } from './book/wmrbook/panel/kit/model.js';
+const states = JSON.parse(readFileSync(0)), names = LAWS.rational.gains;
+const call = (s) => controlLaw(...s.slice(0, 3),
+  Object.fromEntries(names.map((name, i) => [name, s[3 + i]])), 'rational');
 console.log(JSON.stringify(states[0].map((_, i) => call(states.map((row) => row[i])))));
 """
 C = r"""
@@ -88,11 +74,15 @@ def states():
 @pytest.fixture(scope="module")
 def package(tmp_path_factory):
     """A copy of wmrlib with the law: its formula, its row, printed again."""
-    copy, (formula, row, *_) = copied(tmp_path_factory.mktemp("copy")), blocks("To add a law")
+    copy = copied(tmp_path_factory.mktemp("copy"))
+    formula, row, codes, line = blocks("To add a law")
     laws = copy / "wmrlib" / "laws.py"
-    put(laws, f"{formula}\n{TWINS}", "class Law(NamedTuple):")
-    put(laws, f"    {row}{ROWS}", '    "corrected": Law(')
+    put(laws, f"{formula}\n\n", "class Law(NamedTuple):")
+    put(laws, f"    {row}", '    "kanayama": Law(')
+    put(laws, f"{codes}#", "CORRECTED, PRINTED")
+    put(laws, f"{textwrap.indent(line, '    ')}", "    return aicardi_law(rho")
     run(copy, sys.executable, "-m", "wmrlib.symbolic")
+    run(copy, sys.executable, "book/tools/kit.py")
     return copy / "wmrlib"
 
 
@@ -113,15 +103,13 @@ def test_python_sympy_and_the_loops_agree(ours, states):
     np.testing.assert_allclose(ours["rate"], slope, rtol=1e-9, atol=1e-9)
     np.testing.assert_allclose(ours["swept"], ours["run"], rtol=1e-9)
     np.testing.assert_allclose(ours["smooth"], ours["run"][0], rtol=0.05)
-    assert ours["twins"][1] == pytest.approx(4.0 * ours["twins"][0])  # made by one function
     assert ours["panel"] == [True, ours["run"][0]]
 
 
 @pytest.mark.skipif(not NODE, reason="this test needs Node.js (Debian: apt install nodejs)")
 def test_javascript_agrees(package, ours, states):
-    program = (package / "explorer" / "js" / "model.js").read_text(encoding="utf-8") + JAVASCRIPT
-    (package.parent / "law.js").write_text(program, encoding="utf-8")
-    printed = run(package.parent, NODE, "law.js", given=json.dumps(states.tolist()))
+    (package.parent / "law.mjs").write_text(JAVASCRIPT, encoding="utf-8")
+    printed = run(package.parent, NODE, "law.mjs", given=json.dumps(states.tolist()))
     np.testing.assert_allclose(json.loads(printed), ours["control"], rtol=1e-12, atol=1e-12)
 
 

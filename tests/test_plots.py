@@ -15,6 +15,7 @@ import wmrlib as wmr
 from wmrbook import figures
 from wmrbook.figures import style
 from wmrbook.figures._drawing import SERIES
+from wmrbook.panel.kit import STYLE
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -88,7 +89,7 @@ SHARED = "path", "start", "goal", "rho", "alpha", "theta"
 
 def panel_colours():
     """The panel's colours by role, as red, green and blue from 0 to 1, in each of its themes."""
-    css = Path(wmr.__file__).parent.joinpath("explorer/js/panel.css").read_text(encoding="utf-8")
+    css = STYLE.read_text(encoding="utf-8")
     blocks = [block for block in re.findall(r"\{(.*?)\}", css, re.DOTALL) if "--paper:" in block]
     assert len(blocks) == 2
     return [

@@ -15,7 +15,7 @@ from packaging.requirements import Requirement
 from pybtex.database import parse_file
 
 from wmrbook import live
-from wmrlib.explorer import Explorer
+from wmrbook.panel import Explorer
 
 ROOT = Path(__file__).parent.parent
 PROJECT = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))["project"]
@@ -121,7 +121,7 @@ def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
 
 @pytest.mark.parametrize(
     ("part", "package"),
-    [("wmrlib.explorer", "anywidget"), ("wmrlib.symbolic", "sympy"), ("wmrbook", "filelock")],
+    [("wmrbook.panel", "anywidget"), ("wmrlib.symbolic", "sympy"), ("wmrbook", "filelock")],
 )
 def test_a_part_without_its_package_says_what_to_install(part, package):
     code = f"import sys; sys.modules['{package}'] = None; import {part}"
@@ -250,18 +250,16 @@ def test_every_picture_has_its_text():
 def test_the_stored_panels_are_those_of_now():
     """Else run book/tools/run.py: without their state a reader sees no panel before it is run."""
     things = [getattr(live, name)() for name in set(live.__all__) - live.PARTS]
-    now = {each._esm: each._css for each in (Explorer(), *things)}
+    now = {it.program: (it.contract, it._esm) for it in (Explorer(), *things)}
     for name, notebook in CHAPTERS.items():
         state = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {})
         shown = {output.data[VIEW]["model_id"] for output in outputs(name, VIEW)}
         assert shown <= set(state), name
         drawn = [it["state"] for it in state.values() if it["model_name"] == "AnyModel"]
         assert len(drawn) == len(shown)
-        for each in drawn:
-            fresh = now.get(each["_esm"]) == each["_css"]
-            assert fresh, (
-                f"{name}: book/tools/run.py stores them"
-            )  # their texts would fill the screen
+        for it in drawn:
+            fresh = now[it["program"]] == (it["contract"], it["_esm"])
+            assert fresh, f"{name}: book/tools/run.py stores {it['program']} anew"
 
 
 def test_each_chapter_has_something_to_move_and_asks_for_predictions_before_they_are_answered():

@@ -17,12 +17,13 @@ WANTED = {
     "wmrlib/py.typed",
     "wmrlib/_loops/polar.py",
     "wmrlib/tracks/gpx.py",
-    "wmrlib/explorer/js/explorer.js",
-    "wmrlib/explorer/js/panel.css",
     "wmrlib/symbolic/c/wmr_law.h",
     "wmrlib/symbolic/c/example.c",
     "wmrbook/__init__.py",
     "wmrbook/figures/robot.py",
+    "wmrbook/panel/loader.js",
+    "wmrbook/panel/kit/live/bowl.js",
+    "wmrbook/panel/kit/panel.css",
 }
 
 

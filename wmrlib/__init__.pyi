@@ -5,7 +5,6 @@ from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
 from .control import lyapunov_rate as lyapunov_rate
-from .explorer import Explorer as Explorer
 from .gains import GENTLE_GAINS as GENTLE_GAINS
 from .gains import Gains as Gains
 from .gains import KanayamaGains as KanayamaGains

@@ -1,17 +1,23 @@
-// On a telephone a figure is seen whole, with small letters, and at a tap in letters that can be read, to be scrolled.
+// On a telephone a figure is seen whole, with small letters, and at a tap in letters that can be
+// read, to be scrolled.
 addEventListener('load', () => {
   const LARGE = 576; // px, as in book.css
   for (const box of document.querySelectorAll('.figure-box')) {
     const image = box.querySelector('img'), words = image.alt.slice(0, 60);
-    const button = Object.assign(document.createElement('button'), { type: 'button', className: 'figure-size', textContent: 'Larger' });
+    const button = Object.assign(document.createElement('button'),
+        { type: 'button', className: 'figure-size', textContent: 'Larger' });
     const turn = () => {
       const large = box.classList.toggle('large');
       button.setAttribute('aria-pressed', large);
-      for (const [name, value] of [['tabindex', 0], ['role', 'group'], ['aria-label', words]]) { // scrolled by the keyboard too
+      // scrolled by the keyboard too
+      for (const [name, value] of [['tabindex', 0], ['role', 'group'], ['aria-label', words]]) {
         large ? box.setAttribute(name, value) : box.removeAttribute(name);
       }
     };
-    const look = () => { button.hidden = Math.min(image.getAttribute('width') || parseFloat(image.style.width), LARGE) < 1.15 * box.clientWidth; };
+    const look = () => {
+      button.hidden = Math.min(image.getAttribute('width') || parseFloat(image.style.width), LARGE)
+          < 1.15 * box.clientWidth;
+    };
     button.setAttribute('aria-pressed', false);
     button.setAttribute('aria-label', `Larger: ${words}`);
     button.addEventListener('click', turn);

@@ -1,5 +1,6 @@
-// Cells that run in the page. Python itself, 16 MB beside this file, is loaded when the first one is run, into a worker that can be
-// stopped. Before a cell the ones above it run, as far as they have not, or not since something above them changed.
+// Cells that run in the page. Python itself, 16 MB beside this file, is loaded when the first one
+// is run, into a worker that can be stopped. Before a cell the ones above it run, as far as they
+// have not, or not since something above them changed.
 (function () {
   const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
   const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
@@ -18,7 +19,8 @@
   function load(name) {
     return new Promise((resolve, reject) => {
       const onerror = () => reject(Error(`${name}.js is not beside this page`));
-      document.head.append(make('script', { src: `${FOLDER}${name}.js`, onload: resolve, onerror }));
+      document.head.append(
+          make('script', { src: `${FOLDER}${name}.js`, onload: resolve, onerror }));
     });
   }
 
@@ -26,7 +28,8 @@
     const bytes = Uint8Array.from(atob(window.PYTHON_PARTS[name]), (it) => it.charCodeAt(0));
     delete window.PYTHON_PARTS[name];
     if (!ZIPPED.has(name)) return bytes.buffer;
-    return new Response(new Blob([bytes]).stream().pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
+    return new Response(new Blob([bytes]).stream()
+        .pipeThrough(new DecompressionStream('gzip'))).arrayBuffer();
   }
 
   async function allParts() {
@@ -39,7 +42,8 @@
     parts ??= allParts();
     parts.catch(() => { parts = undefined; });
     return parts.then(({ worker: script, ...rest }) => new Promise((resolve, reject) => {
-      const python = new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
+      const python =
+          new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
       let finish, stopped = false;
       python.onmessage = ({ data }) => {
         if (data.failed) reject(Error(data.failed));
@@ -67,7 +71,8 @@
   const kind = (cell) => (cell.space === 'tasks' ? 'task' : 'cell');
   const say = (cell, text) => { cell.status.textContent = text; };
 
-  // What is written into a cell that waits for an answer outlives a reload; not where a browser keeps nothing, as some do for files.
+  // What is written into a cell that waits for an answer outlives a reload; not where a browser
+  // keeps nothing, as some do for files.
   const place = (name) => `wmr-answer ${location.pathname} ${name}`;
 
   function kept(name) {
@@ -85,7 +90,8 @@
     } catch { /* then the page itself is all that holds it */ }
   }
 
-  const keepAnswer = (cell) => cell.name && keep(cell.name, source(cell) === cell.source ? null : source(cell));
+  const keepAnswer = (cell) => cell.name
+      && keep(cell.name, source(cell) === cell.source ? null : source(cell));
 
   async function run(cell) {
     if (running) return running === cell || say(cell, 'Another cell is running.');
@@ -96,7 +102,8 @@
       say(cell, worker ? 'Running …' : 'Loading Python …');
       const python = await (worker ??= started());
       for (const each of cells.slice(0, cell.place + 1)) {
-        const needed = each.space === cell.space && !each.checks.length && each.ran !== source(each);
+        const needed =
+            each.space === cell.space && !each.checks.length && each.ran !== source(each);
         if (each !== cell && !needed) continue;
         say(cell, each === cell ? 'Running …' : `Running ${kind(each)} ${each.number} …`);
         const start = performance.now();
@@ -106,15 +113,20 @@
           each.output.replaceChildren();  // of an earlier run
           return say(cell, 'Stopped. All variables are gone.');
         }
-        if (ran !== each.ran) forget(cells.slice(each.place).filter((it) => it.space === each.space));
+        if (ran !== each.ran)
+          forget(cells.slice(each.place).filter((it) => it.space === each.space));
         each.ran = error ? undefined : ran;
         if (died) stop();
         await show(each, shown, error);
         const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
         if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
         const time = `${((performance.now() - start) / 1000).toFixed(1)} s`;
-        const answered = each.name && [...(shown.at(-1)?.[1] ?? '').matchAll(/^(Hint|Right)/gm)].at(-1)?.[0];  // of a chapter's own exercise
-        say(each, answered === 'Hint' ? 'Not yet.' : answered || each.checks.length ? 'Right.' : `Done in ${time}.`);
+        // of a chapter's own exercise
+        const answered =
+            each.name && [...(shown.at(-1)?.[1] ?? '').matchAll(/^(Hint|Right)/gm)].at(-1)?.[0];
+        say(each,
+            answered === 'Hint' ? 'Not yet.' : answered || each.checks.length ? 'Right.'
+            : `Done in ${time}.`);
       }
     } catch (error) {
       worker = undefined;
@@ -136,16 +148,24 @@
   }
 
   async function show(cell, shown, error) {
-    const lines = (text, kind) => make('div', { className: `output highlight ${kind}` }, make('pre', { textContent: text, tabIndex: text.length > 2000 ? 0 : -1 }));  // so that what is long scrolls by keyboard
-    const formula = (text) => make('div', { className: 'output text_latex math notranslate nohighlight', textContent: `\\[${text}\\]` });
-    const parts = shown.map(([kind, text]) => (kind === 'latex' ? formula(text.replace(/^\$+|\$+$/g, '')) : lines(text, 'stream')));
+    // so that what is long scrolls by keyboard
+    const lines = (text, kind) =>
+        make('div', { className: `output highlight ${kind}` },
+        make('pre', { textContent: text, tabIndex: text.length > 2000 ? 0 : -1 }));
+    const formula = (text) =>
+        make('div',
+        { className: 'output text_latex math notranslate nohighlight',
+        textContent: `\\[${text}\\]` });
+    const parts = shown.map(([kind, text]) =>
+        (kind === 'latex' ? formula(text.replace(/^\$+|\$+$/g, '')) : lines(text, 'stream')));
     if (error) parts.push(lines(error, 'python-error'));
     cell.stored.forEach((it) => { it.hidden = true; });
     cell.output.replaceChildren(...parts);
     await MathJax.startup.promise;
     MathJax.typesetClear([cell.output]);
     await MathJax.typesetPromise([cell.output]);
-    window.dispatchEvent(new Event('resize'));  // a formula that is too wide is reached by the keyboard, see mathjax.js
+    // a formula that is too wide is reached by the keyboard, see mathjax.js
+    window.dispatchEvent(new Event('resize'));
   }
 
   function fit({ editor }) {
@@ -154,7 +174,9 @@
   }
 
   function edit(cell) {
-    cell.editor = make('textarea', { className: 'python-editor', value: (cell.name && kept(cell.name)) ?? cell.source, spellcheck: false, autocapitalize: 'off' });
+    cell.editor = make('textarea',
+        { className: 'python-editor', value: (cell.name && kept(cell.name)) ?? cell.source,
+        spellcheck: false, autocapitalize: 'off' });
     cell.editor.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
     cell.editor.setAttribute('aria-describedby', 'python-keys');
     cell.editor.addEventListener('input', () => { fit(cell); keepAnswer(cell); });
@@ -208,7 +230,8 @@
     cell.place = cells.length;
     cell.number = 1 + cells.filter((it) => it.space === cell.space).length;
     const button = (text, does, hidden) => {
-      const made = make('button', { type: 'button', textContent: text, hidden, onclick: () => does(cell) });
+      const made = make('button',
+          { type: 'button', textContent: text, hidden, onclick: () => does(cell) });
       made.setAttribute('aria-label', `${text}, ${kind(cell)} ${cell.number}`);
       return made;
     };
@@ -218,12 +241,14 @@
     cell.stop = button('Stop', stop, true);
     cell.status = make('span', { className: 'python-status' });
     cell.status.setAttribute('role', 'status');
-    cell.tools = make('div', { className: 'python-tools' }, cell.run, cell.edit, cell.reset, cell.stop, cell.status);
+    cell.tools = make('div', { className: 'python-tools' }, cell.run, cell.edit, cell.reset,
+        cell.stop, cell.status);
     if (cell.left_out) {
       const lines = cell.left_out === 1 ? 'One line needs' : `${cell.left_out} lines need`;
       const notebook = document.querySelector('.run-it a')?.cloneNode() ?? make('span');
       notebook.textContent = 'the notebook';
-      cell.tools.append(make('span', { className: 'python-left-out' }, `${lines} numpy: in `, notebook, '.'));
+      cell.tools.append(
+          make('span', { className: 'python-left-out' }, `${lines} numpy: in `, notebook, '.'));
     }
     cell.stored = [...cell.element.querySelectorAll('.cell_output')];
     cell.output = make('div', { className: 'cell_output python-output' });
@@ -239,8 +264,10 @@
   window.addEventListener('resize', () => cells.filter((it) => it.editor).forEach(fit));
   document.addEventListener('DOMContentLoaded', () => {
     document.querySelectorAll('script.python-cell').forEach(enliven);
-    const about = ' Cells with a Run button run in this page too; the others need numpy or compiled code.';
-    if (cells.some((it) => it.space === 'chapter')) document.querySelector('.run-it')?.append(about);
+    const about =
+        ' Cells with a Run button run in this page too; the others need numpy or compiled code.';
+    if (cells.some((it) => it.space === 'chapter'))
+      document.querySelector('.run-it')?.append(about);
     const keys = 'Ctrl+Enter runs it. Tab indents; Esc and then Tab leaves.';
     document.body.append(make('p', { id: 'python-keys', hidden: true, textContent: keys }));
   });

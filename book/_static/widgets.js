@@ -1,5 +1,6 @@
-// Brings the widgets of a page or a deck to life without a kernel. Each is an anywidget: an ES module, a style sheet, and the values that
-// they share. Both lie in the page, as notebooks store them, so nothing is loaded.
+// Brings the widgets of a page or a deck to life without a kernel. Each is an anywidget: an ES
+// module that finds its program in the page, and the values that they share, as notebooks store
+// them.
 (function () {
   const TYPE = 'application/vnd.jupyter.widget';
   const once = (make) => { // for what many widgets have in common
@@ -10,9 +11,9 @@
     const address = URL.createObjectURL(new Blob([text], { type: 'text/javascript' }));
     try { return (await import(address)).default; } finally { URL.revokeObjectURL(address); }
   });
-  const styled = once((text) => document.head.append(Object.assign(document.createElement('style'), { textContent: text })));
 
-  // What a widget sees of itself, as under Backbone: whoever listens hears of a value only if it is another one.
+  // What a widget sees of itself, as under Backbone: whoever listens hears of a value only if it is
+  // another one.
   function modelOf(values) {
     const listeners = {}, heard = (event) => listeners[event] ||= new Set();
     return {
@@ -22,7 +23,8 @@
         values[name] = value;
         if (!same) for (const listener of [...heard(`change:${name}`)]) listener();
       },
-      save_changes() {}, // there is no kernel to tell
+      save_changes() {}, // there is no kernel to tell,
+      send() {}, // nor to ask
       on: (event, listener) => heard(event).add(listener),
       off: (event, listener) => heard(event).delete(listener),
     };
@@ -32,7 +34,6 @@
     const el = document.createElement('div');
     place.after(el);
     try {
-      styled(model.get('_css'));
       return await (await imported(model.get('_esm'))).render({ model, el });
     } catch (error) {
       el.className = 'widget-error';
@@ -47,13 +48,11 @@
   function showAll(root = document) {
     const parts = (kind) => [...root.querySelectorAll(`script[type="${TYPE}-${kind}+json"]`)];
     const states = Object.assign({}, ...parts('state').map((it) => JSON.parse(it.text).state));
-    for (const { state } of Object.values(states)) {
-      for (const trait of ['_esm', '_css']) { // of a text that begins like another one's a page holds the rest, see pages.py
-        if (Array.isArray(state[trait])) { const [home, shared, rest] = state[trait]; state[trait] = states[home].state[trait].slice(0, shared) + rest; }
-      }
-    }
-    const models = once((id) => modelOf(states[id].state)); // one that is shown twice moves in both places
-    const shown = parts('view').map((place) => [place, JSON.parse(place.text).model_id]).filter(([, id]) => id in states); // on paper stand pictures
+    // one that is shown twice moves in both places
+    const models = once((id) => modelOf(states[id].state));
+    // on paper stand pictures
+    const shown = parts('view').map((place) => [place, JSON.parse(place.text).model_id])
+        .filter(([, id]) => id in states);
     return Promise.all(shown.map(([place, id]) => show(place, models(id))));
   }
   window.widgets = { modelOf, show, showAll };

@@ -1,5 +1,6 @@
-// Compiles zips of Python files, by the Python that will run them: node compile.mjs PYODIDE IN.zip OUT.zip ...
-// Compiling takes the page most of its time. Modules that are named in OWN stay readable beside it, for hints that quote a function.
+// Compiles zips of Python files, by the Python that will run them: node compile.mjs PYODIDE IN.zip
+// OUT.zip ... Compiling takes the page most of its time. Modules that are named in OWN stay
+// readable beside it, for hints that quote a function.
 import { readFileSync, writeFileSync } from 'node:fs';
 
 const [pyodide, ...zips] = process.argv.slice(2);

@@ -5,7 +5,8 @@ const ready = new Promise((resolve, reject) => {
     start(data).then(resolve, reject);
   };
 });
-ready.then(() => self.postMessage({ ready: true }), (error) => self.postMessage({ failed: String(error) }));
+ready.then(() => self.postMessage({ ready: true }),
+    (error) => self.postMessage({ failed: String(error) }));
 
 async function start({ asm, wasm, stdlib, packages }) {
   const url = (part, type) => URL.createObjectURL(new Blob([part], { type }));
@@ -15,10 +16,13 @@ async function start({ asm, wasm, stdlib, packages }) {
     : fetch(what, ...rest)))(self.fetch);
   const { default: createPyodideModule } = await import(url(asm, 'text/javascript'));
   const pyodide = await loadPyodide({
-    indexURL: 'https://none.invalid/', lockFileContents: LOCK, stdLibURL: url(stdlib, 'application/zip'), createPyodideModule,
+    indexURL: 'https://none.invalid/', lockFileContents: LOCK,
+        stdLibURL: url(stdlib, 'application/zip'), createPyodideModule,
   });
   pyodide.unpackArchive(packages, 'zip', { extractDir: '/packages' });
-  const run = pyodide.runPython('import sys; sys.path.insert(0, "/packages"); from run_cell import run; run');
+  const run =
+      pyodide.runPython(
+      'import sys; sys.path.insert(0, "/packages"); from run_cell import run; run');
   return ({ space, number, before, source, checks }) => {
     try {
       return JSON.parse(run(space, number, before, source, pyodide.toPy(checks)));

@@ -38,6 +38,9 @@ c.ServerApp.jpserver_extensions = {
     )
     if find_spec(name.partition(".")[0])
 }
+# The panels' program, by an address that labconfig, beside this file, tells the page: a notebook
+# that is opened shows its panels before its kernel runs anything.
+c.ServerApp.extra_static_paths = [str(ROOT / "book" / "wmrbook" / "panel")]
 # Their buttons stay out by labconfig, beside this file.
 os.environ["JUPYTER_CONFIG_PATH"] = os.pathsep.join(
     filter(None, [str(Path(__file__).parent), os.environ.get("JUPYTER_CONFIG_PATH")])

@@ -22,6 +22,7 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import nbformat
+from kit import bundle
 from nbformat import NotebookNode
 from pdf import find_browser, print_book
 from python_pack import write_scripts
@@ -55,6 +56,7 @@ def main(output: Path, pdf: bool = False, whole: bool = False, lecturer: bool = 
         find_browser()  # before minutes of work
     install_javascript()
     copy_javascript(VENDOR)
+    bundle(VENDOR / "panels.js")
     say("the Python for the pages")
     write_scripts(VENDOR / "python", MODULES)
     for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages

@@ -7,7 +7,6 @@ r"""A Sphinx extension: what readers of the pages need and the theme leaves out.
   from the disk may not fetch another.
 - What a screen reader would stumble over in the theme's own HTML is mended.
 - Of the theme's 2,000 icons, 1.5 MB, the page loads those that it shows.
-- What the scripts of a page's widgets begin with alike, 80 KB each, it holds once; see widgets.js.
 """
 
 from __future__ import annotations
@@ -30,9 +29,6 @@ FIGURE = re.compile(
     rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)">'
 )
 TAG = re.compile(r"<[^>]+>")
-STATES = re.compile(
-    r"(<script type=\"application/vnd.jupyter.widget-state\+json\">)(.*?)(</script>)", re.DOTALL
-)
 MODEL = re.compile(r'(?<=")[0-9a-f]{32}(?=": \{"model_name)')
 EMPTY = r"<th\b[^>]*>\s*(?:<p></p>)?\s*</th>"
 MENDED = (  # what the theme writes, and what axe-core finds nothing in
@@ -122,7 +118,6 @@ def mend(app, exception):
         text = path.read_text(encoding="utf-8")
         for theirs, ours in MENDED:
             text = re.sub(theirs, ours, text)
-        text = STATES.sub(_held_once, text)
         for count, model in enumerate(dict.fromkeys(MODEL.findall(text)), 1):  # named at random
             text = text.replace(model, f"widget-{count:03}")
         path.write_text(text, encoding="utf-8")
@@ -131,21 +126,6 @@ def mend(app, exception):
     _thin_icons(Path(app.outdir))
     script = f"const PAGES = {json.dumps(words, ensure_ascii=False)};\n"
     Path(app.outdir, "_static", "words.js").write_text(script, encoding="utf-8")
-
-
-def _held_once(script: re.Match) -> str:
-    """Write of later texts of widgets how much of the first one's they begin with, and the rest."""
-    stored, first = json.loads(script[2]), {}
-    for model, widget in stored["state"].items():
-        for trait in {"_esm", "_css"} & set(widget["state"]):
-            text = widget["state"][trait]
-            home, begins = first.setdefault(trait, (model, text))
-            if home != model:
-                pairs = enumerate(zip(begins, text, strict=False))
-                ends = min(len(begins), len(text))
-                shared = next((k for k, (one, other) in pairs if one != other), ends)
-                widget["state"][trait] = [home, shared, text[shared:]]
-    return script[1] + json.dumps(stored).replace("</", "<\\/") + script[3]
 
 
 def _thin_icons(site: Path) -> None:

@@ -32,7 +32,7 @@ INSTALLED = ("sympy", "mpmath", "lazy_loader")
 # What no cell needs; a folder of its own would be too large for a page.
 LEFT_OUT = re.compile(
     r".*\b(tests|benchmarks|__pycache__)/|sympy/(physics/(?!units)\w+/|parsing/\w+/|stats/)"
-    r"|wmrlib/(explorer|tracks)/|wmrbook/(figures|audit|challenge|live|questions)/"
+    r"|wmrlib/tracks/|wmrbook/(figures|audit|challenge|live|panel|questions)/"
 )
 KINDS = {".py", ".pyi", ".c", ".h"}
 DAY = 24 * 3600.0  # s

@@ -27,6 +27,7 @@ from build import (
     install_javascript,
     without_solutions,
 )
+from kit import bundle
 from nbconvert.exporters import SlidesExporter
 from nbformat import NotebookNode
 
@@ -122,6 +123,7 @@ def lay_out(output: Path) -> None:
     """Put what every deck loads into the folder."""
     install_javascript()
     copy_javascript(output / "vendor", NPM_FILES | {"reveal": REVEAL_FILES})
+    bundle(output / "vendor" / "panels.js")
     for path in BESIDE:
         shutil.copy(path, output)
 

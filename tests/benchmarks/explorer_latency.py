@@ -21,15 +21,16 @@ from ipywidgets.embed import dependency_state, embed_data
 from playwright.sync_api import sync_playwright
 from timing import ROOT, Row, show
 
-from wmrlib.explorer import Explorer
+from wmrbook.panel import Explorer
 
 sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book" / "tools")]
 from conftest import FLAGS  # noqa: E402
+from kit import bundle  # noqa: E402
 from live import PATIENCE, jupyterlab, thumb  # noqa: E402
 from pdf import BROWSERS  # noqa: E402
 
 STEPS = 40
-PANEL_CELL = "from wmrlib.explorer import Explorer\nexplorer = Explorer()\nexplorer"
+PANEL_CELL = "from wmrbook.panel import Explorer\nexplorer = Explorer()\nexplorer"
 INTERACTIVE_CELL = """
 %matplotlib inline
 import ipywidgets, matplotlib.pyplot as plt, wmrlib as wmr
@@ -99,10 +100,12 @@ def static_page(folder: Path) -> Path:
         json.dumps(data[name]).replace("</", "<\\/") for name in ("manager_state", "view_specs")
     )
     shutil.copy(ROOT / "book" / "_static" / "widgets.js", folder)
+    bundle(folder / "panels.js")
     page = folder / "index.html"
     page.write_text(
         f"""<!doctype html><html><head><meta charset="utf-8">
-        <script src="widgets.js" data-start="whole page"></script></head><body>
+        <script src="widgets.js" data-start="whole page"></script>
+        <script src="panels.js"></script></head><body>
         <script type="application/vnd.jupyter.widget-state+json">{state}</script>
         <script type="application/vnd.jupyter.widget-view+json">{view[1:-1]}</script>
         </body></html>""",

@@ -122,16 +122,14 @@ def watched(browser):
 
 @pytest.fixture
 def panel_core(browser_page):
-    """A `browser_page` with the panel's model, simulation and axes, loaded as one ES module."""
-    from wmrlib import explorer, symbolic
+    """A `browser_page` with the panel's model, simulation and axes."""
+    from host import served
 
-    text = explorer.javascript((*explorer.MODEL, "surface"))
-    printed = map(symbolic.javascript_name, symbolic.FORMULAS)
-    names = ", ".join(("simulate", "summarise", "landscape", "modes", "wrap", "ticksOf", *printed))
-    browser_page.goto("about:blank")
-    browser_page.add_script_tag(
-        type="module", content=f"{text}\nObject.assign(window, {{ {names}, loaded: true }});"
-    )
+    served(browser_page)
+    names = "model", "simulate", "surface"
+    loads = ", ".join(f"import('/kit/{name}.js')" for name in names)
+    script = f"Promise.all([{loads}]).then((all) => Object.assign(window, ...all, {{loaded: 1}}));"
+    browser_page.add_script_tag(content=script)
     browser_page.wait_for_function("window.loaded")
     return browser_page
 

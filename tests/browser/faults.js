@@ -1,13 +1,16 @@
 // What a reader of this page, at this width, would not see or could not use: sentences by kind.
 () => {
   const found = {};
-  const note = (kind, text) => (found[kind] ??= []).push(text.trim().replace(/\s+/g, ' ').slice(0, 60));
+  const note = (kind, text) =>
+      (found[kind] ??= []).push(text.trim().replace(/\s+/g, ' ').slice(0, 60));
   const article = document.querySelector('article') ?? document.body;
   const seen = (it) => it.checkVisibility() && it.getClientRects().length > 0;
   const scrolls = (it) => /auto|scroll/.test(getComputedStyle(it).overflowX);
-  const clips = (it) => getComputedStyle(it).overflowX !== 'visible' && getComputedStyle(it).display !== 'inline';
+  const clips = (it) => getComputedStyle(it).overflowX !== 'visible'
+      && getComputedStyle(it).display !== 'inline';
 
-  // From left to right what those around an element leave to be seen of it, at once or by scrolling.
+  // From left to right what those around an element leave to be seen of it, at once or by
+  // scrolling.
   function window_of(element, scrolling = true) {
     let [left, right] = [0, document.documentElement.clientWidth];
     for (let it = element.parentElement; it && it !== document.body; it = it.parentElement) {
@@ -16,7 +19,8 @@
       if (scrolling && scrolls(it)) {
         const [from, to] = window_of(it);
         const start = box.left + it.clientLeft - it.scrollLeft;
-        return box.left < from - 1 || box.right > to + 1 ? [from, to] : [start, start + it.scrollWidth];
+        return box.left < from - 1 || box.right > to + 1 ? [from, to]
+            : [start, start + it.scrollWidth];
       }
       left = Math.max(left, box.left);
       right = Math.min(right, box.right);
@@ -24,7 +28,8 @@
     return [left, right];
   }
 
-  // The words to be seen in an element, with the boxes that they are drawn in: two for one that is torn.
+  // The words to be seen in an element, with the boxes that they are drawn in: two for one that is
+  // torn.
   function* words(element, shape) {
     const walker = document.createTreeWalker(element, NodeFilter.SHOW_TEXT);
     const range = document.createRange();
@@ -41,7 +46,8 @@
 
   for (const block of article.querySelectorAll('pre')) {
     if (!seen(block)) continue;
-    // What is printed may scroll in its box, which is to be seen then; what is typed has to be seen at once.
+    // What is printed may scroll in its box, which is to be seen then; what is typed has to be seen
+    // at once.
     const edge = window_of(block, false)[1], box = block.getBoundingClientRect();
     if (block.closest('.cell_output') && scrolls(block)) {
       if (box.right > edge + 1) note('outputs cut', block.textContent);
@@ -69,26 +75,33 @@
     if (right > to + 1) note('equations beyond their box', said);
     for (const number of formula.querySelectorAll('[data-labels] use')) {
       const label = number.getBoundingClientRect();
-      const others = [...formula.querySelectorAll('[data-table] use')].map((it) => it.getBoundingClientRect());
-      if (others.some((it) => it.right > label.left && it.left < label.right && it.bottom > label.top && it.top < label.bottom)) {
+      const others = [...formula.querySelectorAll('[data-table] use')].map((it) =>
+          it.getBoundingClientRect());
+      if (others.some((it) => it.right > label.left && it.left < label.right
+          && it.bottom > label.top && it.top < label.bottom)) {
         note('equations over their number', said);
         break;
       }
     }
-    if (!formula.parentElement.querySelector('mjx-assistive-mml math')) note('formulas without a spoken text', said);
+    if (!formula.parentElement.querySelector('mjx-assistive-mml math'))
+      note('formulas without a spoken text', said);
   }
 
   for (const table of article.querySelectorAll('table')) {
     if (!seen(table) || table.closest('.jupyter-widgets')) continue;
-    const looks = new Set([...table.querySelectorAll('tr, td, th')].map((it) => getComputedStyle(it).display));
-    const whole = getComputedStyle(table).display === 'table' && [...looks].every((it) => it.startsWith('table-'));
+    const looks =
+        new Set([...table.querySelectorAll('tr, td, th')].map((it) =>
+        getComputedStyle(it).display));
+    const whole = getComputedStyle(table).display === 'table'
+        && [...looks].every((it) => it.startsWith('table-'));
     const [from, to] = window_of(table);
     const box = table.getBoundingClientRect();
     let torn = '';
     for (const word of words(table, /[\p{L}\p{N}_]+/gu)) {
       if (new Set([...word.boxes].map((it) => Math.round(it.top))).size > 1) torn = word.text;
     }
-    if (!whole || torn || box.left < from - 1 || box.right > to + 1) note('tables broken', `${torn} ${table.textContent}`);
+    if (!whole || torn || box.left < from - 1 || box.right > to + 1)
+      note('tables broken', `${torn} ${table.textContent}`);
   }
 
   const over = document.documentElement.scrollWidth - document.documentElement.clientWidth;
@@ -102,7 +115,8 @@
     // Its caption is the next paragraph in the text, and says its number.
     const cell = image.closest('.cell') ?? image;
     const after = cell.nextElementSibling;
-    if (!image.closest('figure')?.querySelector('.caption-number') && !/^Figure \d+(\.\d+)?\./.test(after?.textContent.trim() ?? '')) {
+    if (!image.closest('figure')?.querySelector('.caption-number')
+        && !/^Figure \d+(\.\d+)?\./.test(after?.textContent.trim() ?? '')) {
       note('figures without number and caption', image.alt);
     }
   }

@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import hashlib
 from pathlib import Path
+from urllib.parse import urlsplit
+
+from wmrbook.panel.kit import KIT, sources
 
 PARTS = (Path(__file__).parents[2] / "book/_static/widgets.js", Path(__file__).with_name("host.js"))
 HOST = "\n".join(part.read_text(encoding="utf-8") for part in PARTS)
 PAGE = Path(__file__).with_suffix(".html")
+URL = "http://localhost/"
 SETTLED = """async () => {
     const frames = () => new Promise(done =>
         requestAnimationFrame(() => requestAnimationFrame(done)));
@@ -36,19 +40,32 @@ COLOURS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].m
 })"""
 FIGURES = """() => Object.fromEntries([...document.querySelectorAll('[data-figure]')]
     .map(it => [it.dataset.figure, it.children[1].textContent]))"""
-TRAITS = ("state", "setup", "_esm", "_css")
+TRAITS = ("program", "contract", "state", "setup", "_esm")
 
 
-def mounted(page, explorer, width=1280, height=720, url=None):
+def served(page, url=URL):
+    """Open an empty page of a server that has the kit too."""
+
+    def answer(route):
+        path = urlsplit(route.request.url).path
+        route.fulfill(path=KIT.parent / path[1:] if path.startswith("/kit/") else PAGE)
+
+    page.goto("about:blank")  # forgets what was there before
+    page.unroute(f"{URL}**")
+    page.route(f"{URL}**", answer)
+    page.goto(url)
+
+
+def mounted(page, explorer, width=1280, height=720, url=URL, texts=None):
     """Show the explorer in the page and return the Panel that drives it, once it is drawn.
 
-    In an empty page, or in the one at `url`.
+    Its program are the `texts`, by default those that a kernel sends.
     """
     page.set_viewport_size({"width": width, "height": height})
-    page.goto("about:blank")  # forgets what was mounted before
-    page.goto(url or PAGE.as_uri())
+    served(page, url)
     page.add_script_tag(content=HOST)
-    page.evaluate("traits => mount(traits)", explorer.get_state(TRAITS))
+    given = [explorer.get_state(TRAITS), texts or sources(explorer.program)]
+    page.evaluate("([traits, texts]) => mount(traits, texts)", given)
     return Panel(page).settled()
 
 

@@ -10,11 +10,12 @@ import numpy as np
 import pytest
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
-from host import PAGE, mounted
+from host import URL, mounted
 
 import wmrlib as wmr
-from wmrlib.explorer import Explorer
-from wmrlib.explorer.controls import MENUS, METHODS, SLIDERS, laws_for
+from wmrbook.panel import Explorer
+from wmrbook.panel.controls import MENUS, METHODS, SLIDERS, laws_for
+from wmrbook.panel.kit import sources
 
 POSE_SLIDERS = ("k_rho", "k_alpha", "h", "v_max", "dt", "arrival_radius")
 CIRCLE_SLIDERS = ("k_x", "k_y", "k_heading")
@@ -192,9 +193,9 @@ def test_a_map_is_computed_beside_the_page_and_in_it_only_where_that_is_forbidde
     browser_page.wait_for_timeout(200)
     assert browser_page.locator(".wmr-map").get_attribute("data-finished") == "false"
     assert panel.figures() != figures
-    explorer = Explorer(view="gains")
-    explorer._esm = explorer._esm.replace("new Blob([script]", "new Blob(['throw 1']")
-    assert_sound(mounted(browser_page, explorer))
+    texts = sources("explorer")
+    texts["gain_map.js"] = texts["gain_map.js"].replace("new Blob([text]", "new Blob(['throw 1']")
+    assert_sound(mounted(browser_page, Explorer(view="gains"), texts=texts))
 
 
 def test_every_handle_can_be_dragged_and_obeys_the_keyboard(emptied_page):
@@ -636,7 +637,7 @@ def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page
     panel.click("near").drag(browser_page.locator(".wmr-charts"), 60, 0)
     picture, figures = panel.picture(), panel.figures()
     link = panel.click("link").page.evaluate("location.href")
-    assert link.startswith(f"{PAGE.as_uri()}#")
+    assert link.startswith(f"{URL}#")
     again = mounted(browser_page, ours, url=link)
     assert (again.picture(), again.figures()) == (picture, figures)
     assert again.click("reset").figures() == untouched
@@ -661,3 +662,11 @@ def test_a_view_that_is_closed_answers_no_more(emptied_page):
     )
     emptied_page.wait_for_timeout(100)
     assert emptied_page.evaluate("() => drawings") == 0
+
+
+def test_what_another_version_has_stored_is_to_be_run_again(emptied_page):
+    explorer = Explorer()
+    explorer.contract = "another"
+    mounted(emptied_page, explorer)
+    assert "run its cell again" in emptied_page.locator("body").inner_text()
+    assert emptied_page.locator("canvas").count() == 0

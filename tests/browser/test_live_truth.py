@@ -471,3 +471,15 @@ def test_on_paper_the_right_option_is_marked(emptied_page):
             emptied_page.evaluate(SETTLED)
             marked = emptied_page.locator(".live-key")
             assert marked.all_inner_texts() == [ask["options"][ask["key"]]], ask["name"]
+
+
+def test_the_benchs_receivers_are_those_of_the_library():
+    start, goal = noise.last_ten_metres()
+    seen = wmr.Receiver(sigma=0.5, memory=5.0, delay=0.3)
+    path, driven = noise.seeing(start, goal, noise.receiver(0.5, 5.0), late=0.3)
+    gains = noise.GENTLE_GAINS._replace(k_rho=np.full(noise.ROBOTS, noise.GENTLE_GAINS.k_rho))
+    how = {"method": "arc", "dt": noise.DT, "duration": 40.0, "arrival_radius": noise.RADIUS}
+    theirs = wmr.sweep(start, goal, gains, receiver=seen, seed=noise.SEED, progress=False, **how)
+    np.testing.assert_allclose(driven * noise.DT, theirs.time, atol=1e-9)
+    far = np.hypot(path.x[-1], path.y[-1])
+    np.testing.assert_allclose(far, theirs.distance, atol=1e-9)

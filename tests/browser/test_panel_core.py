@@ -10,7 +10,8 @@ import pytest
 import sympy as sp
 
 import wmrlib as wmr
-from wmrlib import explorer, laws, paper, symbolic
+from wmrbook.panel.controls import METHODS
+from wmrlib import laws, paper, symbolic
 
 OUTDOOR = {
     "start": [0.0, 0.0, paper.START_HEADING],
@@ -29,7 +30,7 @@ OUTDOOR = {
 CALL = """([name, rows, count, gains]) => rows.map((row) => {
   const given = row.slice(0, count);
   const tuned = Object.fromEntries(gains.map((gain, i) => [gain, row[count + i]]));
-  if (gains.length) given.splice(3, 0, tuned);
+  if (gains.length) given.push(tuned);
   return [window[name](...given)].flat();
 })"""
 
@@ -73,7 +74,7 @@ def test_maps_equal_a_sweep(panel_core):
     }
     call = """([options, metrics]) =>
         metrics.map((metric) => Array.from(landscape({...options, metric})))"""
-    for law, method in itertools.product(laws.POSE_LAWS, explorer.METHODS):
+    for law, method in itertools.product(laws.POSE_LAWS, METHODS):
         kx, ky = next(axes)
         xs, ys = np.linspace(*low_high[kx], 12), np.linspace(*low_high[ky], 10)
         grid = dict(zip((kx, ky), np.meshgrid(xs, ys), strict=True))

@@ -1,8 +1,8 @@
 """The model as sympy expressions, and the same formulas printed as JavaScript and as C.
 
 The expressions are what the functions of `laws`, `motion` and `geodesy` return for symbols, so that
-no formula is typed twice. ``python -m wmrlib.symbolic`` prints `FORMULAS` into the panel's
-``model.js`` and `C_FORMULAS` into the C header ``wmr_law.h``.
+no formula is typed twice. ``python -m wmrlib.symbolic`` prints `C_FORMULAS` into the C header
+``wmr_law.h``; `javascript` prints `FORMULAS` for the book's panels.
 """
 
 from wmrlib._checks import book_extra
@@ -12,6 +12,6 @@ with book_extra("wmrlib.symbolic"):
 
 from wmrlib.symbolic.c_header import C_HEADER, c_function, c_header  # noqa: F401
 from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, FORMULAS, Formula  # noqa: F401
-from wmrlib.symbolic.javascript import MODEL_JS, javascript, javascript_name  # noqa: F401
+from wmrlib.symbolic.javascript import javascript, javascript_name  # noqa: F401
 from wmrlib.symbolic.model import LAWS, closed_loop, law, lyapunov, lyapunov_rate  # noqa: F401
 from wmrlib.symbolic.symbols import *  # noqa: F403

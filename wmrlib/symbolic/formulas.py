@@ -46,13 +46,21 @@ def _read(function: Callable, arguments: tuple, says: str) -> Formula:
 
 
 def _law(name: str) -> Formula:
-    """(v, omega) of a law, with v/rho as a local, which is finite at the goal."""
-    row, gains, (speed, turning) = laws.LAWS[name], vars(gains_of(name)).values(), steering(name)
-    if row.needs_reference:
-        return _shared((*s.STATE, s.v_ref, s.omega_ref), (speed, turning), row.says, gains)
-    used = tuple(each for each in gains if speed.has(each) or turning.has(each))
+    """(v, omega) of a pose law, with v/rho as a local, which is finite at the goal."""
+    row, (speed, turning) = laws.LAWS[name], steering(name)
+    used = tuple(it for it in vars(gains_of(name)).values() if speed.has(it) or turning.has(it))
     values = s.rho * s.v_over_rho, turning.subs(speed, s.v_over_rho)
     return Formula(s.STATE, values, row.says, used, ((s.v_over_rho, speed),))
+
+
+def _formula(name: str) -> Formula:
+    """What a row of `LAWS` has as its formula, and takes what that takes."""
+    row, gains = laws.LAWS[name], gains_of(name)
+    if not row.needs_reference:
+        law = _law(name)
+        return law._replace(values=(s.v_over_rho, law.values[1]))
+    state = s.ahead, s.left, s.turn, s.v_ref, s.omega_ref
+    return _shared(state, read(row.formula, *state, gains), row.says, vars(gains).values())
 
 
 def _value(name: str) -> Formula:
@@ -83,7 +91,8 @@ _GUARDS = {
 }
 FORMULAS = {
     **_GUARDS,
-    **{f"{name}_command": _law(name) for name in laws.LAWS},
+    **{f"{name}_law": _formula(name) for name in laws.LAWS},
+    "body_error": _read(laws.body_error, s.STATE, "the goal ahead, to the left, and turned"),
     **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
     **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
     **{f.__name__: _read(f, _POSE + _TWIST, f"method {name}") for name, f in motion.STEPS.items()},

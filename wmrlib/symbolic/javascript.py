@@ -1,10 +1,10 @@
-"""The formulas as JavaScript, for the panel."""
+"""The formulas as JavaScript, for the book's panels."""
 
 from __future__ import annotations
 
 import json
 import re
-from pathlib import Path
+import textwrap
 
 import sympy as sp
 from sympy.printing.jscode import JavascriptCodePrinter
@@ -14,8 +14,7 @@ from wmrlib import laws, motion
 from wmrlib._loops import tableau
 from wmrlib.symbolic.formulas import FORMULAS, Formula
 
-MODEL_JS = Path(__file__).parents[1] / "explorer" / "js" / "model.js"
-_HEADER = "// Printed from wmrlib's formulas by python -m wmrlib.symbolic: change those.\n"
+_HEADER = "// Printed from wmrlib's formulas by symbolic.javascript: change those.\n"
 
 
 class _Printer(JavascriptCodePrinter):
@@ -44,25 +43,29 @@ def javascript_name(name: str) -> str:
 
 def _function(name: str, formula: Formula) -> str:
     structure = [f"{{ {', '.join(map(str, formula.gains))} }}"] if formula.gains else []
-    arguments = [str(each) for each in formula.arguments]
-    arguments[3:3] = structure  # behind the state, before what only some laws need
+    arguments = [*map(str, formula.arguments), *structure]
     lines = [f"const {each} = {_PRINTER.line(value)};" for each, value in formula.locals_]
     values = ", ".join(_PRINTER.line(value) for value in formula.values)
     lines.append(f"return {values};" if len(formula.values) == 1 else f"return [{values}];")
-    body = "".join(f"  {line}\n" for line in lines)
-    head = f"function {javascript_name(name)}({', '.join(arguments)}) {{"
+    body = "".join(f"{_wrapped(f'  {line}')}\n" for line in lines)
+    head = _wrapped(f"export function {javascript_name(name)}({', '.join(arguments)}) {{")
     return f"\n// {formula.says}\n{head}\n{body}}}\n"
+
+
+def _wrapped(line: str) -> str:
+    return "\n".join(textwrap.wrap(line, 100, subsequent_indent="    ", break_long_words=False))
 
 
 def _law(name: str, row: laws.Law) -> str:
     parts = {
-        "command": javascript_name(f"{name}_command"),
+        "formula": javascript_name(f"{name}_law"),
         "value": javascript_name(row.value.__name__),
         "modes": "null" if row.needs_reference else javascript_name(f"{name}_modes"),
         "gains": str(list(row.gains._fields)),
         "needsReference": str(row.needs_reference).lower(),
     }
-    return f"  {name}: {{ {', '.join(f'{key}: {part}' for key, part in parts.items())} }},\n"
+    row_text = ", ".join(f"{key}: {part}" for key, part in parts.items())
+    return _wrapped(f"  {name}: {{ {row_text} }},") + "\n"
 
 
 def javascript() -> str:
@@ -73,5 +76,5 @@ def javascript() -> str:
     rows = {"stages": tableau.STAGES, "weights": tableau.WEIGHTS}
     rows |= {"fifth": tableau.FIFTH, "third": tableau.THIRD}
     rule = json.dumps(rows).replace('"', "")
-    tables = f"const STEPS = {{ {steps} }};\nconst RULE = {rule};\n"
-    return f"{_HEADER}{functions}\nconst LAWS = {{\n{table}}};\n{tables}"
+    tables = f"export const STEPS = {{ {steps} }};\n{_wrapped(f'export const RULE = {rule};')}\n"
+    return f"{_HEADER}{functions}\nexport const LAWS = {{\n{table}}};\n{tables}"

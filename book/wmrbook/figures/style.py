@@ -2,7 +2,7 @@
 
 The colours are those of Okabe and Ito, which colour-blind readers can tell apart, some darker where
 they colour text. Whatever a colour says, a line style, a marker or a label says too. What the live
-panel shows as well has the same hue there, in explorer/js/panel.css.
+panel shows as well has the same hue there, in panel/kit/panel.css.
 """
 
 from __future__ import annotations

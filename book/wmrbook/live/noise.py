@@ -30,17 +30,26 @@ LOST = 60.0  # s
 
 
 @cache
-def normals(count: int, seed: int = SEED) -> np.ndarray:
-    """Normal random numbers that any language can draw: mulberry32 and the rule of Box and Muller.
+def normals() -> np.ndarray:
+    """Normal random numbers for each sample, axis and robot: those of wmrlib's receivers.
 
-    NumPy's generators would have to be written anew in JavaScript; this one is five lines.
+    Philox 4x32-10 counts robots and samples, and so does `kit/random.js`. Two of its words make the
+    size and two the direction of the errors to the east and to the north, by Box and Muller's rule.
     """
-    state = (seed + np.arange(1, 2 * count + 1, dtype=np.uint64) * 0x6D2B79F5) % 2**32
-    state = state.astype(np.uint32)
-    mixed = (state ^ (state >> 15)) * (state | 1)
-    mixed = mixed ^ (mixed + (mixed ^ (mixed >> 7)) * (mixed | 61))
-    size, turn = ((mixed ^ (mixed >> 14)) + 0.5).reshape(count, 2).T / 2**32
-    return np.sqrt(-2.0 * np.log(size)) * np.cos(2.0 * math.pi * turn)
+    low = np.uint64(0xFFFFFFFF)
+    zero = np.zeros((STEPS, ROBOTS), np.uint64)
+    a, b, c, d = zero + np.arange(ROBOTS, dtype=np.uint64), zero, zero.copy(), zero
+    c += np.arange(STEPS, dtype=np.uint64)[:, None]
+    for turn in range(10):
+        key_1 = np.uint64((SEED + turn * 0x9E3779B9) & int(low))
+        key_2 = np.uint64((turn * 0xBB67AE85) & int(low))
+        one, two = a * np.uint64(0xD2511F53), c * np.uint64(0xCD9E8D57)
+        a, b = (two >> np.uint64(32)) ^ b ^ key_1, two & low
+        c, d = (one >> np.uint64(32)) ^ d ^ key_2, one & low
+    size = (a * 2.0**21 + (b >> np.uint64(11)) + 0.5) * 2.0**-53
+    angle = 2.0 * math.pi * (c * 2.0**21 + (d >> np.uint64(11))) * 2.0**-53
+    length = np.sqrt(-2.0 * np.log(size))
+    return np.stack([length * np.cos(angle), length * np.sin(angle)], axis=1)
 
 
 def seeing(
@@ -76,7 +85,7 @@ def seeing(
 
 def receiver(sigma: float, memory: float) -> np.ndarray:
     """The errors of the bench's receivers: a Gauss-Markov process each, (steps, 2, robots), m."""
-    fresh, keep = normals(2 * ROBOTS * STEPS).reshape(STEPS, 2, ROBOTS), math.exp(-DT / memory)
+    fresh, keep = normals(), math.exp(-DT / memory)
     error = [fresh[0]]
     for noise in fresh[1:]:
         error.append(keep * error[-1] + math.sqrt(1.0 - keep**2) * noise)

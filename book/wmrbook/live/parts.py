@@ -2,21 +2,12 @@
 
 from __future__ import annotations
 
-import functools
 from collections.abc import Iterable
-from pathlib import Path
 from typing import Any, NamedTuple
 
-import anywidget
-import traitlets
-
+from wmrbook.panel.kit import Panel
 from wmrlib._checks import choice, refusal, scalar
-from wmrlib.explorer import CSS, MODEL, javascript
 from wmrlib.kinematics import Pose
-
-_JS = Path(__file__).parent / "js"
-_DRAWING = "style", "surface", "scene", "handles", "controls"
-_OWN = "board", "runs", "knobs", "grips", "gate", "live"
 
 
 class Knob(NamedTuple):
@@ -77,8 +68,8 @@ def nearest(value: float, choices: Iterable[float]) -> int:
     return near.index(min(near))
 
 
-class Live(anywidget.AnyWidget):
-    """A small thing to move; `book/wmrbook/live/js/NAME.js` says what is drawn.
+class Live(Panel):
+    """A small thing to move; `book/wmrbook/panel/kit/live/NAME.js` says what is drawn.
 
     Parameters
     ----------
@@ -95,11 +86,6 @@ class Live(anywidget.AnyWidget):
     ------
     ValueError : a knob that it does not have, or a value that the knob does not allow
     """
-
-    _esm = traitlets.Unicode().tag(sync=True)
-    _css = traitlets.Unicode().tag(sync=True)
-    state = traitlets.Dict().tag(sync=True)
-    setup = traitlets.Dict().tag(sync=True)
 
     def __init__(
         self,
@@ -124,8 +110,7 @@ class Live(anywidget.AnyWidget):
             "ask": ask and {"name": name, **ask._asdict()},
         }
         state = {each: knob.allowed(each, knob.value) for each, knob in knobs.items()}
-        super().__init__(_esm=module(name), _css=_css(), state=state | {"guess": None}, setup=setup)
-        self.add_class("jupyter-widgets")
+        super().__init__(f"live/{name}", state | {"guess": None}, setup)
 
     def __repr__(self) -> str:
         return f"<live: {self.setup['sentence']}>"
@@ -141,16 +126,3 @@ class Live(anywidget.AnyWidget):
         if name not in self._knobs:
             raise refusal("knob", name, f"one of {', '.join(self._knobs)}")
         return name
-
-
-@functools.cache
-def module(name: str) -> str:
-    """The ES module of a drawing: the panel's parts that it needs, the kit's, and its own."""
-    own = (_JS / f"{part}.js" for part in (*_OWN, name))
-    texts = [javascript((*MODEL, *_DRAWING)), *(path.read_text(encoding="utf-8") for path in own)]
-    return "\n".join([*texts, "export default live(explorable);\n"])
-
-
-@functools.cache
-def _css() -> str:
-    return f"{CSS}\n{(_JS / 'live.css').read_text(encoding='utf-8')}"

@@ -1,0 +1,63 @@
+"""Print the modules of the panels' kit that follow from Python: its model and its contracts.
+
+As a module, make the kit one script for pages from the disk.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+import sys
+from pathlib import Path
+
+from wmrbook import live
+from wmrbook.panel import Explorer
+from wmrbook.panel.kit import KIT, programs
+from wmrlib import symbolic
+
+MODULES = Path(__file__).parents[1] / "node_modules"
+# The kit is a function, which the worker of a map is made of too: a page from the disk may have no
+# module as a worker. What it makes is where loader.js looks first.
+BEGIN = "(function wmrKit() {"
+END = "if (typeof document === 'object') globalThis.wmrPanels = kit.shown(); })();"
+ENTRY = """{imports}
+import css from './panel.css';
+export function shown() {{
+  document.head.append(Object.assign(document.createElement('style'), {{ textContent: css }}));
+  return {{ {programs} }};
+}}"""
+
+
+def printed() -> dict[str, str]:
+    """The texts of the modules that are printed, by name."""
+    drawings = [getattr(live, name)() for name in sorted(set(live.__all__) - live.PARTS)]
+    rows = "".join(f"  '{it.program}': '{it.contract}',\n" for it in (Explorer(), *drawings))
+    head = "// Printed by book/tools/kit.py: the contract of what is stored for each program.\n"
+    contracts = f"{head}export const CONTRACTS = {{\n{rows}}};\n"
+    return {"model.js": symbolic.javascript(), "contracts.js": contracts}
+
+
+def bundle(script: Path) -> None:
+    """Write the kit as one script."""
+    names = {f"program{k}": name for k, name in enumerate(programs())}
+    imports = "\n".join(f"import {it} from './{name}.js';" for it, name in names.items())
+    entry = ENTRY.format(
+        imports=imports, programs=", ".join(f"'{name}': {it}" for it, name in names.items())
+    )
+    esbuild = shutil.which("esbuild", path=MODULES / ".bin")
+    options = ["--bundle", "--minify", "--format=iife", "--global-name=kit", "--loader:.css=text"]
+    options += [f"--banner:js={BEGIN}", f"--footer:js={END}", '--define:import.meta.url=""']
+    folders = [str(Path(sys.executable).parent), os.environ["PATH"]]  # of a node from PyPI
+    subprocess.run(
+        [esbuild, *options, "--log-level=warning", f"--outfile={script}"],
+        input=entry.encode(),
+        cwd=KIT,
+        env=os.environ | {"PATH": os.pathsep.join(folders)},
+        check=True,
+    )
+
+
+if __name__ == "__main__":
+    for name, text in printed().items():
+        (KIT / name).write_bytes(text.encode())

@@ -1,0 +1,8 @@
+"""What is live in a page: the Explorer, and the kit that it and the live figures are made of."""
+
+from wmrlib._checks import book_extra
+
+with book_extra("wmrbook.panel"):
+    import anywidget  # noqa: F401
+
+from wmrbook.panel.explorer import Explorer  # noqa: F401

@@ -1,0 +1,174 @@
+"""The Explorer: the robot under sliders, in a notebook, slides, or a page without a kernel."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from wmrbook.panel.controls import MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS, laws_for
+from wmrbook.panel.kit import Panel
+from wmrlib import paper
+from wmrlib._checks import choice, instance, refusal, scalar
+from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
+from wmrlib.kinematics import Pose
+from wmrlib.laws import LAWS
+from wmrlib.runs import Trajectory
+from wmrlib.simulation import simulate, track
+
+FEEDBACK = KanayamaGains(k_x=1.0, k_y=2.0, k_heading=2.0)
+"""Well damped on the circle at every speed: k_heading/(2 sqrt(k_y)) = 0.71."""
+
+
+def _tuned(name: str, kind: Any, says: str) -> property:
+    return property(
+        lambda self: kind(*(self.state[field] for field in kind._fields)),
+        lambda self, gains: self._set(_numbers(name, gains, kind)),
+        doc=says,
+    )
+
+
+def _placed(name: str, says: str) -> property:
+    return property(
+        lambda self: Pose(*self.state[name]),
+        lambda self, pose: self._set({name: _three(name, pose)}),
+        doc=says,
+    )
+
+
+class Explorer(Panel):
+    """The robot on its way from `start` to `goal`, or after the paper's circle, under sliders.
+
+    Everything but `trajectory` works without a kernel too.
+
+    Parameters
+    ----------
+    start, goal, gains : Pose, Pose, Gains; by default the paper's.
+    law : "corrected", "printed", "aicardi" or, if the goal moves, "kanayama".
+    method : "arc", "euler" or "continuous", see `simulate`.
+    dt, duration, arrival_radius : float; s, s, m
+    reference : None for a goal that stands still, "circle" (or `paper.circle`) for the moving one.
+    feedback : KanayamaGains
+    view : "time" or "gains", the gain landscape.
+    at : float or None, s: where on the run the panel opens; by default at 30 % of it.
+    zoom : float or None, m round the goal that the picture opens on; by default the whole path.
+
+    Raises
+    ------
+    ValueError : for anything else.
+    """
+
+    def __init__(
+        self,
+        start: Pose | None = None,
+        goal: Pose | None = None,
+        gains: Gains | None = None,
+        *,
+        law: str = "corrected",
+        method: str = "arc",
+        dt: float = paper.TIME_STEP,
+        duration: float = 60.0,
+        arrival_radius: float = 0.05,
+        reference=None,
+        feedback: KanayamaGains = FEEDBACK,
+        view: str = "time",
+        at: float | None = None,
+        zoom: float | None = None,
+    ):
+        moving = _moves(reference)
+        outdoor = paper.outdoor()
+        start = (paper.CIRCLE_START if moving else outdoor.start) if start is None else start
+        gains = (paper.CIRCLE_GAINS if moving else outdoor.gains) if gains is None else gains
+        duration = scalar("duration", duration, above=0.0)
+        home: dict[str, Any] = {
+            "moving": moving,
+            "start": _three("start", start),
+            "goal": _three("goal", outdoor.goal if goal is None else goal),
+            **_numbers("gains", gains, Gains),
+            **_numbers("feedback", feedback, KanayamaGains),
+            "dt": _step(dt, duration),
+            "duration": duration,
+            "arrival_radius": scalar("arrival_radius", arrival_radius, low=0.0),
+            "law": choice("law", law, laws_for(moving)),
+            "method": choice("method", method, METHODS),
+            "view": choice("view", view, VIEWS),
+            "metric": "headingError",
+            "axes": "k_alpha",
+            "time": None if at is None else scalar("at", at, low=0.0),
+            "zoom": None,
+        }
+        if zoom is not None:
+            middle = paper.circle(at or 0.0)[:2] if moving else home["goal"][:2]
+            home["zoom"] = [*map(float, middle), scalar("zoom", zoom, low=0.005, high=1e6)]
+        # Lists, for a stored notebook keeps the order of no mapping.
+        menus = [(name, *row, [*choices.items()]) for name, (*row, choices) in MENUS.items()]
+        sliders = [(name, *row) for name, row in SLIDERS.items()]
+        setup = {"home": home, "presets": _presets(), "laws": PANEL_LAWS}
+        super().__init__("explorer", home, setup | {"sliders": sliders, "menus": menus})
+
+    def __repr__(self) -> str:
+        return f"Explorer(law={self.law!r}, method={self.state['method']!r})"
+
+    @classmethod
+    def circle(cls, **options) -> Explorer:
+        """An Explorer of the paper's moving goal: a circle of 4 m radius, once round in 40 s."""
+        return cls(reference="circle", **options)
+
+    gains = _tuned("gains", Gains, "The gains that the sliders show; setting them moves these.")
+    feedback = _tuned("feedback", KanayamaGains, "The same for the law with feed-forward.")
+    start = _placed("start", "Where the robot starts; setting it moves its handle.")
+    goal = _placed("goal", "The goal that stands still; setting it moves its handle.")
+
+    dt = property(
+        lambda self: self.state["dt"],
+        lambda self, dt: self._set({"dt": _step(dt, self.state["duration"])}),
+        doc="The time step, s, at most the duration; setting it moves the slider.",
+    )
+    law = property(
+        lambda self: self.state["law"],
+        lambda self, law: self._set({"law": choice("law", law, laws_for(self.moving))}),
+        doc="The law in force, one that this goal allows; setting it moves the menu.",
+    )
+    moving = property(lambda self: self.state["moving"], doc="Whether the goal is the circle's.")
+
+    def trajectory(self) -> Trajectory:
+        """The run that the panel shows, by `wmrlib.simulate` or `wmrlib.track`."""
+        how = {name: self.state[name] for name in ("law", "method", "dt", "duration")}
+        if self.moving:
+            gains = self.gains if LAWS[self.law].gains is Gains else self.feedback
+            return track(paper.circle, self.start, gains, **how)
+        radius = self.state["arrival_radius"]
+        return simulate(self.start, self.goal, self.gains, arrival_radius=radius, **how)
+
+    def _set(self, values: dict[str, Any]) -> None:
+        self.state = self.state | values
+
+
+def _moves(reference) -> bool:
+    moving = reference is paper.circle or (isinstance(reference, str) and reference == "circle")
+    if moving or reference is None:
+        return moving
+    raise refusal("reference", reference, "None, 'circle' or wmrlib.paper.circle")
+
+
+def _step(dt: float, duration: float) -> float:
+    return scalar("dt", dt, low=duration / 100_000, high=duration)
+
+
+def _three(name: str, pose: Pose) -> list[float]:
+    return list(_numbers(name, pose, Pose).values())
+
+
+def _numbers(name: str, value, kind: type) -> dict[str, float]:
+    fields = instance(name, value, kind)._asdict()
+    return {f: scalar(f"{name}.{f}", each, low=-1e6, high=1e6) for f, each in fields.items()}
+
+
+def _presets() -> list[dict]:
+    outdoor = paper.outdoor()
+    still, moving = ({"moving": each, "law": "corrected"} for each in (False, True))
+    poses = {"start": _three("start", outdoor.start), "goal": _three("goal", outdoor.goal)}
+    circle = {"start": _three("start", paper.CIRCLE_START), "dt": paper.TIME_STEP}
+    return [
+        still | poses | outdoor.gains._asdict() | {"dt": outdoor.dt},
+        moving | circle | paper.CIRCLE_GAINS._asdict(),
+        still | GENTLE_GAINS._asdict() | {"dt": paper.TIME_STEP},
+    ]

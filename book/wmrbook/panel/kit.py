@@ -1,0 +1,58 @@
+"""The kit: ES modules that panels are made of, and how a page gets at them.
+
+A notebook stores of a panel the name of its program, the contract of what it stores, and what it
+stores; not the program. `loader.js` finds it in the page, where the book's own pages and slides
+have all of the kit as one script, on a Jupyter server that says where it serves the kit, or else in
+the kernel, which sends the modules.
+"""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from pathlib import Path
+from typing import Any
+
+import anywidget
+import traitlets
+
+KIT = Path(__file__).with_name("kit")
+STYLE = KIT / "panel.css"
+LOADER = Path(__file__).with_name("loader.js").read_text(encoding="utf-8")
+
+
+def programs() -> list[str]:
+    """The names of the programs: the Explorer's, and each live figure's."""
+    return ["explorer", *(f"live/{path.stem}" for path in sorted(KIT.glob("live/*.js")))]
+
+
+def sources(program: str) -> dict[str, str]:
+    """The texts that a page needs for a program, by their paths in the kit."""
+    paths = [*sorted(KIT.glob("*.js")), KIT / f"{program}.js", STYLE]
+    return {path.relative_to(KIT).as_posix(): path.read_text(encoding="utf-8") for path in paths}
+
+
+def contract(state: dict[str, Any], setup: dict[str, Any]) -> str:
+    """A hash of what is stored by which names: a program that knows others can't show it."""
+    names = [sorted(state), sorted(setup), sorted(setup.get("data", ()))]
+    return hashlib.sha256(json.dumps(names).encode()).hexdigest()[:8]
+
+
+class Panel(anywidget.AnyWidget):
+    """A widget whose program is a module of the kit, by its name there."""
+
+    _esm = traitlets.Unicode(LOADER).tag(sync=True)
+    program = traitlets.Unicode().tag(sync=True)
+    contract = traitlets.Unicode().tag(sync=True)
+    state = traitlets.Dict().tag(sync=True)
+    setup = traitlets.Dict().tag(sync=True)
+
+    def __init__(self, program: str, state: dict[str, Any], setup: dict[str, Any]):
+        stored = {"contract": contract(state, setup), "state": state, "setup": setup}
+        super().__init__(program=program, **stored)
+        self.add_class("jupyter-widgets")
+        self.on_msg(self._answer)
+
+    def _answer(self, _, content: Any, buffers: Any) -> None:
+        if content == "kit":
+            self.send(sources(self.program))

@@ -1,0 +1,114 @@
+// What is drawn on: panes with axes in the world's units. A colour is a role of the panel's (alpha,
+// goal, path ...), the same as in formulas and figures.
+
+import { drawAngle, drawName, drawPose, drawRobot } from './scene.js';
+import { drawAxes } from './axes.js';
+import { inside, label, line, sizeOf, surfaceOf, ticksOf } from './surface.js';
+
+// A pane is { x: [from, to, title, write], y: [from, to, title, write], equal, bare, tall }:
+// `equal` scales keep circles round, a `bare` one has no axes, and `write`, if given, says what a
+// tick's value is called.
+/** @param {HTMLCanvasElement} canvas @param {Colours} colours @param {Spec} spec */
+export function paneOf(canvas, colours, spec) {
+  const { ctx, width, height } = surfaceOf(canvas, colours), { zoom } = sizeOf(canvas),
+      room = spec.bare ? [4, 4, 4, 4] : [10, spec.x[2] ? 40 : 24, spec.y[2] ? 56 : 34, 12];
+  const box = { left: room[2], top: room[0], width: Math.max(width - room[2] - room[3], 20),
+      height: Math.max(height - room[0] - room[1], 20) };
+  let [x0, x1] = spec.x, [y0, y1] = spec.y,
+      [across, up] = [box.width / (x1 - x0), box.height / (y1 - y0)];
+  if (spec.equal) {
+    across = up = Math.min(across, up);
+    [x0, x1] = [(x0 + x1 - box.width / across) / 2, (x0 + x1 + box.width / across) / 2];
+    [y0, y1] = [(y0 + y1 - box.height / up) / 2, (y0 + y1 + box.height / up) / 2];
+  }
+  const FAR = 1e5; // canvases lose their way with coordinates beyond the range of 32-bit pixels
+  const at = (x, y) =>
+      [box.left + (x - x0) * across,
+      box.top + box.height - (y - y0) * up].map((each) => Math.min(Math.max(each, -FAR), FAR));
+  const ink = (role) => colours[role] || role,
+      view = { box, zoom, scale: across, toScreen: at,
+      toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
+  const cut = (draw) => inside(ctx, box, draw), names = [];
+  /** @type {Pane} */
+  const pane = {
+    ctx, box, view, at, ink, range: [x0, x1, y0, y1], pixel: 1 / across,
+    line(points, role = 'path', { width: w = 2.5, dash = [] } = {}) {
+      cut(() => line(ctx, points.map(([x, y]) => at(x, y)), ink(role), w, dash));
+    },
+    // Columns of a run, from sample `from` to before `to`.
+    path(xs, ys, role = 'path', { width: w = 2.5, dash = [], from = 0, to = xs.length } = {}) {
+      pane.line(
+          Array.from({ length: Math.max(to - from, 0) }, (_, k) => [xs[from + k], ys[from + k]]),
+          role, { width: w, dash });
+    },
+    curve(f, role = 'path', looks = {}) {
+      const n = Math.max(Math.round(box.width / 2), 2);
+      pane.line(Array.from({ length: n + 1 }, (_, k) => x0 + (x1 - x0) * k / n)
+          .map((x) => [x, f(x)]).filter(([, y]) => Number.isFinite(y)), role, looks);
+    },
+    area(points, role, share = 0.25) {
+      cut(() => {
+        ctx.globalAlpha = share; ctx.fillStyle = ink(role); ctx.beginPath();
+        points.forEach(([x, y]) => ctx.lineTo(...at(x, y)));
+        ctx.fill(); ctx.globalAlpha = 1;
+      });
+    },
+    dot(x, y, role = 'ink', { size = 6, hollow = false } = {}) {
+      cut(() => {
+        ctx.beginPath(); ctx.arc(...at(x, y), size, 0, 2 * Math.PI);
+        ctx.fillStyle = hollow ? colours.paper : ink(role); ctx.fill();
+        ctx.lineWidth = 2.5; ctx.strokeStyle = ink(role); ctx.stroke();
+      });
+    },
+    cross(x, y, role = 'ink', size = 6) {
+      const [px, py] = at(x, y);
+      cut(() =>
+          [-1, 1].forEach((s) =>
+          line(ctx, [[px - size, py - s * size], [px + size, py + s * size]], ink(role), 3)));
+    },
+    arrow(x, y, toX, toY, role = 'ink', { width: w = 3, dash = [] } = {}) {
+      const from = at(x, y), to = at(toX, toY), back = Math.atan2(from[1] - to[1], from[0] - to[0]),
+          head = Math.min(11, Math.hypot(to[0] - from[0], to[1] - from[1]) / 1.5);
+      line(ctx, [from, to], ink(role), w, dash);
+      line(ctx,
+          [0.5, 0, -0.5].map((turn) =>
+          (turn ? [to[0] + head * Math.cos(back + turn), to[1] + head * Math.sin(back + turn)]
+          : to)), ink(role), w);
+    },
+    // `dx` and `dy`, in pixels, to the right and up, keep a text clear of what it names.
+    text(said, x, y,
+        { role = 'ink', dx = 0, dy = 0, size = 14, align = 'left', weight = 500 } = {}) {
+      const [px, py] = at(x, y);
+      label(ctx, said, px + dx, py - dy, colours, { colour: ink(role), size, align, weight });
+    },
+    angle(x, y, from, by, name, role, radius = 34) {
+      drawAngle(ctx, at(x, y), from, by, radius, name, ink(role), colours);
+    },
+    robot([x, y, heading], share = 1) {
+      const [px, py] = at(x, y);
+      // out of sight
+      if (px < box.left - 20 || px > box.left + box.width + 20 || py < box.top - 20
+          || py > box.top + box.height + 20) return;
+      ctx.globalAlpha = share; drawRobot(ctx, [px, py], heading, colours); ctx.globalAlpha = 1;
+    },
+    pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
+    // at last, for no path may strike one out
+    name() { names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours)); },
+    bar(x, from, to, role, half = 0.3) {
+      pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85);
+    },
+  };
+  if (!spec.bare) drawAxes(ctx, box, colours, axesOf(pane, spec, pane.range));
+  return pane;
+}
+
+/** As many numbers as have room. @param {Pane} pane @param {Spec} spec @param {number[]} range */
+function axesOf({ box, at }, { x, y, equal }, [x0, x1, y0, y1]) {
+  const most = equal ? Math.max(Math.min(box.width, box.height) / 45, 2) : 0,
+      along = ticksOf(x0, x1, most || box.width / 60),
+      up = ticksOf(y0, y1, most || box.height / 36);
+  return {
+    along: { ...along, title: x[2], write: x[3] || along.write, at: (value) => at(value, y0)[0] },
+    up: { ...up, title: y[2], write: y[3] || up.write, at: (value) => at(x0, value)[1] },
+  };
+}

@@ -1,0 +1,127 @@
+// Sliders, each with a number that can be typed over, and menus: the browser's own, named and
+// spoken by labels.
+
+import { made, onArrows } from './hands.js';
+import { applies, lawsFor, presetOf } from './settings.js';
+
+// of each decade
+const ROUND = [1, 1.1, 1.2, 1.3, 1.5, 1.7, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9];
+
+// A key that is pressed here is no command of a notebook's, where b adds a cell. (JupyterLab heeds
+// data-lm-suppress-shortcuts only on what has the focus itself.)
+export function keepKeys(root) {
+  root.addEventListener('keydown', (event) => {
+    if (!event.ctrlKey && !event.metaKey && !event.altKey && root.closest('.jp-Notebook'))
+      event.stopPropagation();
+  });
+}
+
+// What a slider can be set to: even steps, or, without a step, the round numbers of each decade.
+export function stopsOf(low, high, step) {
+  if (step)
+    return Array.from({ length: Math.round((high - low) / step) + 1 },
+        (_, i) => Number((low + i * step).toPrecision(12)));
+  const stops = [];
+  for (let power = Math.floor(Math.log10(low)); power <= Math.log10(high); power += 1) {
+    for (const each of ROUND) stops.push(Number((each * 10 ** power).toPrecision(2)));
+  }
+  return stops.filter((each) => each >= low && each <= high);
+}
+
+// The place of a value among the stops, between two of them if it is none.
+export function placeOf(stops, value) {
+  const after = stops.findIndex((each) => each >= value);
+  if (after <= 0) return after === 0 ? 0 : stops.length - 1;
+  return after - (stops[after] - value) / (stops[after] - stops[after - 1]);
+}
+
+/**
+ * The stop that is so many stops away.
+ * @param {number[]} stops @param {number} value @param {number} by
+ */
+export function stepped(stops, value, by) {
+  const place = placeOf(stops, value);
+  const next = by > 0 ? Math.floor(place + by + 1e-9) : Math.ceil(place + by - 1e-9);
+  return by ? stops[Math.min(Math.max(next, 0), stops.length - 1)] : value;
+}
+
+// A slider over stops, called so by who reads it out. Returns what shows a value and says it.
+export function putSlider(row, says, stops, { get, set }) {
+  const slider = made(row, 'input',
+      { type: 'range', className: 'wmr-slider', min: 0, max: stops.length - 1, step: 'any' },
+      { 'aria-label': says });
+  slider.addEventListener('input', () => set(stops[Math.round(Number(slider.value))]));
+  onArrows(slider, ([across, up]) => set(stepped(stops, get(), across + up)));
+  return (value, text) => {
+    slider.value = String(Number.isFinite(value) ? placeOf(stops, value) : 0);
+    slider.setAttribute('aria-valuetext', text);
+  };
+}
+
+// A comma is a decimal one: 1,000 could be either, and is neither.
+export const fromWords = (text) =>
+    (/^[-+−]?(?![1-9]\d{0,2},\d{3}$)(\d+[.,]?\d*|[.,]\d+)(e[-+]?\d+)?$/i.test(text.trim())
+    ? Number(text.trim().replace(',', '.').replace('−', '-')) : NaN);
+
+// `change(values)` is told what a hand does, `refuse(sentence)` what is typed that is no number.
+// Returns what shows a state.
+export function buildControls(root, setup, { change, refuse }) {
+  let now = {};
+  const row = (name, text, tip) => {
+    const it = made(root, 'label', { className: 'wmr-control', title: tip });
+    it.dataset.control = name;
+    made(it, 'span', { textContent: text });
+    return it;
+  };
+  const menus = setup.menus.map(([name, text, tip, choices]) => {
+    const it = row(name, text, tip),
+        select = made(it, 'select', {}, { 'aria-label': `${text}: ${tip}` });
+    select.addEventListener('change',
+        () => change(name === 'preset' ? { preset: select.selectedIndex }
+        : { [name]: select.value }));
+    return { name, it, select, choices };
+  });
+  const sliders = setup.sliders.map(([name, text, tip, ...ends]) => {
+    const stops = stopsOf(...ends), [symbol, unit] = text.match(/^(\S+) \[(.*)\]$/).slice(1),
+        it = row(name, text, tip);
+    const showSlider = putSlider(it, `${symbol}, ${tip}`, stops, {
+      get: () => now[name], set: (value) => change({ [name]: value }),
+    });
+    const typed = made(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' },
+        { 'aria-label': `${text}, typed` });
+    const take = () => {
+      const value = fromWords(typed.value);
+      if (!Number.isFinite(value))
+        refuse(`${text} = ${typed.value} is not allowed: a number is needed. The value stays as ` +
+            `it was.`);
+      else change({ [name]: value });
+      typed.value = typed.dataset.shown;
+    };
+    typed.addEventListener('change', take);
+    typed.addEventListener('keydown', (event) => event.stopPropagation());
+    return { name, it, showSlider, typed, unit };
+  });
+  return (state) => {
+    now = state;
+    for (const { name, it, select, choices } of menus) {
+      it.hidden = !applies(name, state, setup);
+      const options = name === 'law'
+          ? lawsFor(setup, state.moving).map((law) => [law.name, law.title]) : choices;
+      const key = JSON.stringify(options),
+          value = name === 'preset' ? String(presetOf(state, setup)) : state[name];
+      if (select.dataset.key !== key) {
+        select.dataset.key = key;
+        select.replaceChildren(...options.map(([each, title]) => new Option(title, each)));
+      }
+      if (select.value !== value) select.value = value;
+    }
+    for (const { name, it, showSlider, typed, unit } of sliders) {
+      const value = state[name],
+          text = Number.isFinite(value) ? String(Number(value.toPrecision(6))) : String(value);
+      it.hidden = !applies(name, state, setup);
+      const spoken = unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '));
+      showSlider(value, `${text} ${spoken}`.trim());
+      if (typed.dataset.shown !== text) typed.value = typed.dataset.shown = text;
+    }
+  };
+}

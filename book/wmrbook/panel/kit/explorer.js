@@ -1,0 +1,372 @@
+// Puts the parts together: reads the widget's traits, simulates, draws once a frame, and answers
+// hands and keys.
+
+import { buildHandles } from './handles.js';
+import { held, made, onArrows, placeOn } from './hands.js';
+import { RANGES, buildGainMap, drawMap, gainsAt, mapped } from './gain_map.js';
+import { buildControls, keepKeys } from './controls.js';
+import { buildFigures, figuresOf, sentenceOf } from './figures.js';
+import { canLink, csvOf, download, linkOf, pictureOf, pythonOf, stateInLink } from './share.js';
+import { drawCharts, endOf, timeAxis } from './charts.js';
+import { drawScene, hasSight, marksOf, nearestOf, viewOf, zoomOf } from './scene.js';
+import { followTheme, inDegrees, readColours, written } from './style.js';
+import { measure, sizeOf } from './surface.js';
+import { presetValues, runOf, settingsOf } from './settings.js';
+import { summarise } from './simulate.js';
+import { widget } from './widget.js';
+
+const LASTS = 8; // s that playing a run takes at most
+const RESTING = 0.3; // where on the run the cursor stands until somebody moves it
+
+const RUN_BUTTONS = [ // what each does, is called, and says
+  ['pin', 'Pin', 'keep this run on the picture, to compare the next with'],
+  ['unpin', 'Unpin', 'forget the pinned run'],
+  ['reset', 'Reset', 'back to how it was opened'],
+  ['link', 'Link', 'copy a link to this page with the panel as it is now'],
+  ['python', 'Python', 'copy this run as Python'],
+  ['csv', 'CSV', 'save this run as a table'],
+  ['png', 'PNG', 'save the picture'],
+];
+const ZOOM_BUTTONS = [
+  ['out', '−', 'zoom out (Ctrl and the wheel)'],
+  ['in', '+', 'zoom in on the robot (Ctrl and the wheel)'],
+  ['near', 'last 2 m', 'the last two metres before the goal, or all of the path'],
+];
+const button = ([act, text, title]) =>
+    `<button type="button" data-do="${act}" title="${title}">${text}</button>`;
+
+function scaffold(el) {
+  const root = made(el, 'div', { className: 'wmr' });
+  root.dataset.lmSuppressShortcuts = 'true'; // keys are the panel's, not JupyterLab's
+  root.innerHTML = `
+    <div class="wmr-stage">
+      <div class="wmr-status"></div>
+      <div class="wmr-figures" role="list"></div>
+      <div class="wmr-controls"><div class="wmr-rows" role="group" aria-label="settings"></div>
+        <div class="wmr-bar">
+          ${RUN_BUTTONS.map(button).join('')}</div></div>
+      <div class="wmr-view">
+        <div class="wmr-bar"><div class="wmr-polar"></div></div>
+        <div class="wmr-plane"><canvas class="wmr-scene" role="img"></canvas>
+          <div class="wmr-bar wmr-zoom">${ZOOM_BUTTONS.map(button).join('')}</div></div>
+        <div class="wmr-bar">${button(['play', 'Play', 'drive along the path'])}
+          <input type="range" class="wmr-time" min="0" max="1" step="any"
+            aria-label="time cursor"><output class="wmr-clock"></output></div>
+      </div>
+      <div class="wmr-side">
+        <div class="wmr-bar"><div class="wmr-key"></div></div>
+        <canvas class="wmr-charts" role="img"></canvas>
+        <canvas class="wmr-map" role="img" tabindex="0" hidden></canvas>
+      </div>
+    </div>
+    <textarea class="wmr-text" readonly hidden aria-label="to copy"></textarea>
+    <div class="wmr-aside" role="status" aria-live="polite"></div>`;
+  return root;
+}
+
+function render({ model, el }) {
+  const root = scaffold(el), find = (selector) => root.querySelector(selector),
+      setup = model.get('setup');
+  keepKeys(root);
+  const [scene, charts, mapCanvas] = ['.wmr-scene', '.wmr-charts', '.wmr-map'].map(find);
+  const showFigures = buildFigures(find('.wmr-figures')), gainMap = buildGainMap(() => schedule());
+  const state = { run: null, settings: null, figures: null, trouble: '', said: '', ghost: null,
+      playing: null, colours: null, view: null, held: false };
+  let frame = 0, stale = true, spoken = 0, shownKey = '';
+
+  const values = () => model.get('state');
+  // The cursor and the zoom are the view's own: a kernel need not hear of each frame.
+  const look = (from) => Object.assign(state, { time: from.time, zoom: from.zoom, playing: null });
+  function write(changed) {
+    model.set('state', { ...values(), ...changed });
+    model.save_changes();
+  }
+  const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
+  const poses = () => ({ start: values().start, goal: values().moving ? null : values().goal });
+  const showControls = buildControls(find('.wmr-rows'), setup, {
+    change({ preset, ...changed }) {
+      if (preset > 0) {
+        const before = values().moving;
+        write(presetValues(setup.presets[preset - 1], values(), setup));
+        if (values().moving !== before) state.zoom = null; // of another scene
+      }
+      else write(changed);
+      showControls(values()); // the handle goes to the stop that was taken
+    },
+    refuse(sentence) { state.said = sentence; schedule(); },
+  });
+  const placeHandles = buildHandles(find('.wmr-plane'), {
+    get: (name) => values()[name], set: (name, pose) => write({ [name]: pose }),
+        view: () => state.view,
+    hold(holds) { state.held = holds; schedule(); },
+  });
+
+  function compute() {
+    stale = false;
+    const settings = settingsOf(values());
+    let run;
+    try { run = runOf(settings); } catch (error) { state.trouble = error.message; return; }
+    const summary = summarise(run);
+    Object.assign(state,
+        { run, trouble: '', settings, figures: figuresOf(settings, run, summary),
+        sentence: sentenceOf(settings, run, summary) });
+  }
+
+  function cursorOf(run) {
+    const end = endOf(run),
+        time = state.time === null ? RESTING * end : Math.min(Math.max(state.time, 0), end);
+    return end > 0 ? Math.round(time / end * (run.n - 1)) : 0;
+  }
+
+  function draw(now) {
+    frame = 0;
+    if (stale) compute();
+    advance(now);
+    const { run, ghost, colours, trouble } = state, faded = trouble !== '';
+    const cursor = run ? cursorOf(run) : 0, at = poses(), ghostRun = ghost && ghost.run;
+    const safe = run ? at : { start: [0, 0, 0], goal: [1, 0, 0] };
+    const drawn = faded && state.settings
+        ? { start: state.settings.start,
+        goal: state.settings.reference ? null : state.settings.goal } : safe;
+    if (!state.held || !state.view) {
+      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn,
+          sizeOf(scene), state.zoom);
+    }
+    drawScene(scene, colours,
+        { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded,
+        zoomed: state.zoom });
+    // a finger moves the page, or the picture when it is zoomed
+    scene.style.touchAction = state.zoom ? 'none' : '';
+    placeHandles(drawn);
+    // Out of the picture nobody would see what has the focus.
+    find('.wmr-plane').querySelectorAll('.wmr-handle').forEach((it) => {
+      it.tabIndex = it.style.pointerEvents ? -1 : 0;
+    });
+    if (mapShown()) drawLandscape();
+    else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
+    describe(run, cursor);
+    root.dispatchEvent(new CustomEvent('drawn', { bubbles: true })); // for whoever measures
+    if (state.playing) schedule();
+  }
+
+  function advance(now) {
+    if (!state.playing || !state.run) return;
+    const end = endOf(state.run), speed = Math.max(1, end / LASTS);
+    // a frame's time is that of its beginning, before a click within it
+    const passed = Math.max(now - state.playing.since, 0) / 1000;
+    state.time = Math.min(state.playing.from + speed * passed, end);
+    if (state.time >= end) state.playing = null;
+  }
+
+  const mapShown = () => values().view === 'gains';
+
+  function drawLandscape() {
+    const note = !state.settings ? 'no run yet' : mapped(state.settings) ? ''
+        : 'This law does not use these gains.';
+    if (!note) gainMap.update(state.settings, values().axes, values().metric);
+    drawMap(mapCanvas, state.colours,
+        { map: gainMap.map, gains: state.settings && state.settings.gains, note });
+    mapCanvas.dataset.finished = String(note !== '' || gainMap.finished);
+  }
+
+  function describe(run, cursor) {
+    const status = find('.wmr-status'), text = state.trouble || state.said || state.sentence || '';
+    status.classList.toggle('wmr-trouble',
+        state.trouble !== '' || state.said.includes('not allowed'));
+    if (status.textContent !== text) { status.textContent = text; announce(text); }
+    showKey();
+    showFigures(state.trouble ? null : state.figures, state.ghost && state.ghost.figures);
+    find('[data-do=play]').textContent = state.playing ? 'Pause' : 'Play';
+    find('[data-do=unpin]').hidden = !state.ghost;
+    find('[data-do=link]').hidden = !canLink();
+    find('[data-do=near]').textContent = state.zoom ? 'whole path' : 'last 2 m';
+    if (!run) return;
+    const t = run.t[cursor], end = endOf(run), slider = find('.wmr-time');
+    Object.assign(slider, { max: end || 1, value: t });
+    slider.setAttribute('aria-valuetext', `${written(t, 's')} of ${written(end, 's')}`);
+    find('.wmr-clock').textContent = `${t.toFixed(1)} of ${end.toFixed(1)} s`;
+    const { rho, alpha, theta, ink } = state.colours;
+    find('.wmr-polar').innerHTML = [
+      [rho, 'ρ', written(run.rho[cursor], 'm')],
+          [alpha, 'α', hasSight(run, cursor) ? inDegrees(run.alpha[cursor]) : '–'],
+          [theta, 'θ', hasSight(run, cursor) ? inDegrees(run.theta[cursor]) : '–'],
+      [ink, 'v', written(run.v[cursor], 'm/s')], [ink, 'ω', written(run.omega[cursor], 'rad/s')],
+    ].map(([colour, name, value]) =>
+        `<span style="color: ${colour}"><b>${name}</b> = ${value}</span>`).join('');
+    scene.setAttribute('aria-label', `Path from start to goal. ${text}`);
+    charts.setAttribute('aria-label',
+        `Speed, turning rate, position errors and V over time. ${text}`);
+    const { k_alpha, h, k_rho } = state.settings.gains;
+    mapCanvas.setAttribute('aria-label',
+        `Gain landscape; the gains are k_rho ${k_rho}, k_alpha ${k_alpha}, h ${h}; arrow keys ` +
+        `change them. ${text}`);
+  }
+
+  // A screen reader hears where a drag ends, not each step of it.
+  function announce(text) {
+    clearTimeout(spoken);
+    spoken = setTimeout(() => { find('.wmr-aside').textContent = text; }, 700);
+  }
+
+  function showKey() {
+    const mark = (name, text) => `<span><i data-mark="${name}"></i>${text}</span>`;
+    const pinned = state.ghost ? mark('pinned', 'pinned run') : '';
+    const none = state.settings && state.settings.reference ? 'no value' : 'does not arrive';
+    const text = mapShown()
+      ? `<span>click the map to set the gains</span>${mark('never', none)}`
+      : `${mark('run', 'run')}${pinned}${mark('rising', 'V rises')}`;
+    if (text !== shownKey) find('.wmr-key').innerHTML = shownKey = text;
+  }
+
+  function follow() {
+    charts.hidden = mapShown();
+    mapCanvas.hidden = !mapShown();
+    Object.assign(state, { said: '' });
+    stale = true;
+    showControls(values());
+    schedule();
+  }
+
+  // Zooms by a factor about a place that stays where it is.
+  /** @param {number} factor @param {Point} place */
+  function zoomBy(factor, [x, y]) {
+    const [cx, cy, reach] = state.zoom || zoomOf(state.view),
+        next = Math.min(Math.max(reach * factor, 0.005), 1e6), share = next / reach;
+    state.zoom = [x + (cx - x) * share, y + (cy - y) * share, next];
+    schedule();
+  }
+  const robot = () => { const k = cursorOf(state.run); return [state.run.x[k], state.run.y[k]]; };
+  const goalNow = () => {
+    const k = cursorOf(state.run);
+    return [state.run.goalX[k], state.run.goalY[k]];
+  };
+
+  // Into the clipboard, the old way, which needs no permission and works in a page from the disk
+  // too.
+  function copy(text, what) {
+    const box = find('.wmr-text'), before = /** @type {HTMLElement} */ (document.activeElement);
+    Object.assign(box, { value: text, hidden: false });
+    box.select();
+    box.hidden = document.execCommand('copy');
+    state.said = box.hidden ? `Copied: ${what}.` : 'Press Ctrl+C to copy it.';
+    if (box.hidden) before.focus();
+  }
+  const now = () => ({ ...values(), time: state.time, zoom: state.zoom });
+  const shownCanvases = () => [scene, mapShown() ? mapCanvas : charts];
+
+  const acts = {
+    play() {
+      if (state.playing) { state.playing = null; return; }
+      const end = endOf(state.run),
+          time = state.time === null || state.time >= end ? 0 : state.time;
+      state.playing = { from: time, since: performance.now() };
+    },
+    pin() {
+      if (state.run && !state.trouble) state.ghost = { run: state.run, figures: state.figures };
+    },
+    unpin() { state.ghost = null; find('[data-do=pin]').focus(); }, // its own button goes
+    reset() { state.ghost = null; look(setup.home); write(setup.home); },
+    in() { if (state.run) zoomBy(1 / 1.5, robot()); },
+    out() { if (state.run) zoomBy(1.5, robot()); },
+    near() { state.zoom = state.zoom || !state.run ? null : [...goalNow(), 2]; },
+    link() {
+      const link = linkOf(setup.home, now());
+      history.replaceState(history.state, '', link);
+      copy(link, 'a link to this page with the panel as it is now');
+    },
+    python() { if (state.settings) copy(pythonOf(state.settings), 'this run as Python'); },
+    csv() {
+      if (state.run) download('run.csv', new Blob([csvOf(state.run)], { type: 'text/csv' }));
+    },
+    png() {
+      pictureOf(shownCanvases(), find('.wmr-status').textContent, state.colours)
+          .then((blob) => download('run.png', blob));
+    },
+  };
+  root.addEventListener('click', (event) => {
+    const act = /** @type {any} */ (event.target).closest('[data-do]');
+    if (act) { acts[act.dataset.do](); schedule(); }
+  });
+  find('.wmr-time').addEventListener('input', (event) => {
+    Object.assign(state, { time: Number(event.target.value), playing: null });
+    schedule();
+  });
+
+  held(charts, { drag(event) {
+    const [x] = placeOn(charts, event);
+    Object.assign(state,
+        { time: timeAxis(sizeOf(charts).width, state.run, state.ghost && state.ghost.run).toTime(x),
+        playing: null });
+    schedule();
+  } });
+  scene.addEventListener('wheel', (event) => {
+    if (!state.run || !(event.ctrlKey || event.metaKey)) return; // without, the wheel is the page's
+    event.preventDefault();
+    zoomBy(1.2 ** Math.sign(event.deltaY), state.view.toWorld(...placeOn(scene, event)));
+  }, { passive: false });
+  // the place in the plane that is held, where it was taken, and whether that was a tap
+  let grip = null;
+  held(scene, { take: () => state.view, drag(event, first) {
+    const [x, y] = placeOn(scene, event);
+    const [wx, wy] = state.view.toWorld(x, y);
+    if (first) {
+      grip = { wx, wy, x, y, tap: true };
+      const k = nearestOf(state.run, state.view, x, y); // a tap on the path takes the robot there
+      if (k !== null) Object.assign(state, { time: state.run.t[k], playing: null });
+      schedule();
+      return;
+    }
+    if (event.pointerType !== 'mouse' && !state.zoom) return;
+    grip.tap &&= Math.hypot(x - grip.x, y - grip.y) < 4; // a hand trembles
+    if (grip.tap) return;
+    const [cx, cy, reach] = state.zoom || zoomOf(state.view);
+    state.zoom = [cx + grip.wx - wx, cy + grip.wy - wy, reach];
+    state.view = viewOf([], [], {}, sizeOf(scene), state.zoom);
+    schedule();
+  } });
+  held(mapCanvas, {
+    take: () => gainMap.map && mapped(state.settings),
+    drag: (event) =>
+      write(gainsAt(gainMap.map, sizeOf(mapCanvas), ...placeOn(mapCanvas, event))),
+  });
+  onArrows(mapCanvas, ([across, up]) => {
+    const { map } = gainMap;
+    if (!map) return false;
+    const nudge = (name, by) =>
+        Math.min(Math.max(Math.round(values()[name] * 20 + by) / 20, 0), RANGES[name]);
+    write({ [map.kx]: nudge(map.kx, across), [map.ky]: nudge(map.ky, up) });
+    return true;
+  });
+
+  const repaint = () => {
+    [scene, charts, mapCanvas].forEach(measure);
+    state.colours = readColours(root);
+    schedule();
+  };
+  function visit() {
+    const linked = stateInLink(setup.home);
+    if (!Object.keys(linked).length) return;
+    look({ ...setup.home, ...linked });
+    write({ ...setup.home, ...linked });
+    root.scrollIntoView({ block: 'nearest' });
+  }
+  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
+  [root, scene, charts, mapCanvas].forEach((each) => resized.observe(each));
+  model.on('change:state', follow);
+  addEventListener('hashchange', visit);
+  look(values());
+  repaint();
+  follow();
+  visit();
+  return () => {
+    removeEventListener('hashchange', visit);
+    unfollow();
+    resized.disconnect();
+    gainMap.close();
+    cancelAnimationFrame(frame);
+    clearTimeout(spoken);
+    model.off('change:state', follow);
+  };
+}
+
+export default widget('explorer', render);

@@ -1,0 +1,150 @@
+// A prediction before the result: one chooses, turns an arrow or sketches a path, and commits; then
+// the picture opens, with what was said in it.
+
+import { DEGREES, inDegrees } from './style.js';
+import { turned } from './handles.js';
+import { MOVES, held, made, placeOn } from './hands.js';
+
+// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane`
+// and `at` of an arrow to turn; `pane` and `at`, the start, of a path to sketch. `key` is the
+// number of the option or the arrow's angle in radians; of a path there is none, the eye compares.
+export function buildGate(root, ask, { get, set, panes, host }) {
+  // on paper the picture stands beside the question
+  const still = document.documentElement.dataset.still !== undefined;
+  const committed = () => get().guess !== null && get().guess !== undefined,
+      open = () => still || committed();
+  /** @type {any} */
+  let draft = ask.kind === 'sketch' ? [] : null, listening = false, shown = null, answered = false;
+  const form = made(root, 'form', { className: 'live-gate' });
+  made(form, 'p', { className: 'live-question', textContent: ask.question });
+  const options = made(form, 'div', { className: 'live-options' },
+      { role: 'radiogroup', 'aria-label': ask.question });
+  (ask.options || []).forEach((text, k) => {
+    const row = made(options, 'label');
+    made(row, 'input', { type: 'radio', name: `gate-${ask.name}`, value: k, onchange: () => {
+      draft = k;
+      show();
+    } });
+    made(row, 'span', { textContent: text });
+  });
+  const turn = ask.kind === 'turn'
+      ? made(options, 'input',
+      { type: 'range', className: 'wmr-slider', min: -180, max: 180, step: 5, value: 0,
+      oninput: () => {
+    draft = Number(turn.value) / DEGREES;
+    set();
+  } }, { 'aria-label': 'the angle of the arrow, degrees counter-clockwise from the right' }) : null;
+  form.addEventListener('keydown', (event) => event.stopPropagation());
+  const bar = made(form, 'div', { className: 'wmr-bar' }),
+      commit = made(bar, 'button', { className: 'live-commit', textContent: 'Commit' });
+  const again = made(bar, 'button',
+      { type: 'button', textContent: 'Copy as a line', hidden: true }),
+      verdict = made(form, 'p', { className: 'live-verdict', tabIndex: -1 }, { role: 'status' });
+  form.addEventListener('submit', (event) => {
+    event.preventDefault();
+    if (ready()) { set({ guess: draft }); answered = true; }
+  });
+  again.addEventListener('click', () => copyLine(root, `predict ${ask.name} ${guessed()}`));
+  const guessed = () => (ask.kind === 'turn' ? Math.round(get().guess * DEGREES) : get().guess);
+  const ready = () => (ask.kind === 'sketch' ? draft.length > 3 : draft !== null);
+  const within = (value, low, high) => Math.min(Math.max(value, low), high);
+  const right = (guess) =>
+      (ask.kind === 'choose' ? guess === ask.key : Math.abs(turned(guess - ask.key)) < Math.PI / 9);
+
+  function listen() { // to a hand that turns the arrow or draws the path
+    if (listening || !ask.pane || !panes()[ask.pane]) return;
+    listening = true;
+    const canvas = host(ask.pane).querySelector('canvas');
+    held(canvas, {
+      take: () => !open(),
+      drag(event, first) {
+        const [x, y] = panes()[ask.pane].view.toWorld(...placeOn(canvas, event));
+        if (first && ask.kind === 'sketch') draft = [ask.at];
+        if (ask.kind === 'turn') {
+          draft = Math.round(Math.atan2(y - ask.at[1], x - ask.at[0]) * DEGREES / 5) * 5 / DEGREES;
+          turn.value = String(draft * DEGREES);
+        } else draft.push([x, y]);
+        set();
+      },
+      drop: show,
+    });
+    canvas.addEventListener('keydown', (event) => {
+      const move = MOVES[event.key], { range: [x0, x1] } = panes()[ask.pane], step = (x1 - x0) / 40;
+      if (open() || ask.kind !== 'sketch' || !(move || (event.key === 'Backspace' && draft.length)))
+        return;
+      event.preventDefault();
+      event.stopPropagation();
+      const [x, y] = draft.length ? draft.at(-1) : ask.at, [, , y0, y1] = panes()[ask.pane].range;
+      draft = move
+          ? [...(draft.length ? draft : [ask.at]),
+          [within(x + move[0] * step, x0, x1), within(y + move[1] * step, y0, y1)]]
+          : draft.slice(0, -1);
+      set();
+    });
+  }
+  function teach(canvas) { // the picture takes fingers and keys for as long as it asks
+    const asks = !open(), sketches = asks && ask.kind === 'sketch';
+    canvas.style.touchAction = asks ? 'none' : '';
+    canvas.tabIndex = sketches ? 0 : -1;
+    canvas.setAttribute('role', sketches ? 'application' : 'img');
+    if (sketches)
+      canvas.setAttribute('aria-label',
+          `${canvas.getAttribute('aria-label')} The arrow keys sketch, Backspace takes back: ` +
+          `${Math.max(draft.length - 1, 0)} strokes.`);
+  }
+  function show() {
+    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft || 0)} from the right`);
+    const guess = get().guess, done = committed(), key = JSON.stringify([guess, done, ready()]);
+    if (key === shown) return;
+    shown = key;
+    commit.disabled = !ready();
+    commit.hidden = done || still;
+    again.hidden = !done || ask.kind === 'sketch'; // a path is no line
+    options.hidden = done && ask.kind !== 'choose';
+    form.querySelectorAll('input').forEach((each) => {
+      each.disabled = done;
+      if (ask.kind === 'choose') each.checked = Number(each.value) === (done ? guess : draft);
+    });
+    form.classList.toggle('live-answered', done);
+    if (ask.kind === 'choose')
+      options.querySelectorAll('label').forEach((each, k) => {
+        each.classList.toggle('live-key', open() && k === ask.key);
+        each.hidden = done && k !== ask.key && k !== guess;
+      });
+    verdict.textContent = !done ? ''
+        : `${ask.kind === 'sketch' ? '' : right(guess) ? 'As you said. ' : 'Not so. '}${ask.why}`;
+    root.closest('.live').dataset.open = String(open());
+    if (answered) { answered = false; verdict.focus(); } // where a keyboard and a voice go on
+  }
+  function draw() {
+    show();
+    listen();
+    if (listening) teach(host(ask.pane).querySelector('canvas'));
+    const pane = panes()[ask.pane],
+        said = committed() ? get().guess : ask.kind === 'turn' ? draft || 0 : draft;
+    if (still || !pane || said === null) return;
+    if (ask.kind === 'turn') {
+      const [x, y] = pane.at(...ask.at), along = Math.cos(said), up = Math.sin(said),
+          side = along < 0 ? -1 : 1, { left, top, width, height } = pane.box;
+      // beside the shaft, and in the picture
+      const words = x + side * Math.max(72 * Math.abs(along), 14),
+          row = within(y - 72 * up, top + 22, top + height - 22);
+      pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * along, y - 62 * up), 'ghost',
+          { dash: [5, 5] });
+      pane.text('your guess',
+          ...pane.view.toWorld(side < 0 ? Math.max(words, left + 76)
+          : Math.min(words, left + width - 76), row),
+          { dy: up < 0 ? -14 : 14, role: 'ghost', align: side < 0 ? 'right' : 'left' });
+    }
+    if (ask.kind === 'sketch' && said.length) pane.line(said, 'ghost', { width: 3, dash: [3, 6] });
+  }
+  return { open, draw };
+}
+
+function copyLine(root, text) {
+  root.querySelectorAll('.wmr-text').forEach((each) => each.remove());
+  const box = made(root, 'textarea', { className: 'wmr-text', value: text, readOnly: true },
+      { 'aria-label': 'to copy' });
+  box.select();
+  if (document.execCommand('copy')) box.remove();
+}

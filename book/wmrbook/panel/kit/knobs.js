@@ -1,0 +1,161 @@
+// The sentence and its numbers, a slider for each, and the buttons that play.
+
+import { ROLES } from './style.js';
+import { fromWords, putSlider, stepped, stopsOf } from './controls.js';
+import { held, made } from './hands.js';
+
+const DRAG = 5; // px of a number's drag a step
+const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
+    zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
+export const inWords = (value) =>
+    (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')
+    : String(value));
+
+// A symbol such as k_alpha, as in the formulas: Greek, with its index, and in its colour.
+function putSymbol(parent, name) {
+  const [stem, ...index] = name.split('_'),
+      role = ROLES.includes(stem) ? stem : ROLES.includes(index[0]) ? index[0] : '';
+  const it = made(parent, 'i', { className: 'live-symbol', textContent: SYMBOLS[stem] || stem });
+  if (role) it.style.color = `var(--${role})`;
+  if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || index.join(' ') });
+}
+
+// A number among words: it can be dragged, typed over, and stepped with the arrow keys.
+function putNumber(parent, knob, { get, set, refuse }) {
+  const it = made(parent, 'input',
+      { className: 'live-number', inputMode: 'decimal', autocomplete: 'off' },
+      { 'aria-label': knob.says, role: 'spinbutton', 'aria-valuemin': knob.low,
+      'aria-valuemax': knob.high });
+  // of digits that are selected: the browser would take the pointer away
+  it.addEventListener('dragstart', (event) => event.preventDefault());
+  let from = null;
+  held(it, {
+    slack: DRAG,
+    take({ clientX }) { from = { x: clientX, value: get() }; return true; },
+    drag({ clientX }, first) {
+      if (first) it.blur();
+      set(stepped(knob.stops, from.value, Math.round((clientX - from.x) / DRAG)));
+    },
+  });
+  it.addEventListener('keydown', (event) => {
+    event.stopPropagation(); // a notebook would take the keys to change cells
+    const by = { ArrowUp: 1, ArrowDown: -1 }[event.key];
+    if (event.key === 'Escape') it.value = it.dataset.shown;
+    if (!by) return;
+    event.preventDefault();
+    set(stepped(knob.stops, get(), by));
+  });
+  it.addEventListener('input', () => refuse('')); // what was refused is no longer there
+  it.addEventListener('change', () => {
+    const value = fromWords(it.value);
+    if (value >= knob.low && value <= knob.high) set(value);
+    else refuse(
+        `${it.value ? `${it.value} is not allowed: a` : 'A'} number from ` +
+        `${inWords(knob.low)} to ${inWords(knob.high)} is needed.`);
+    it.value = it.dataset.shown;
+  });
+  return (value) => {
+    const text = inWords(value);
+    it.style.width = `${text.length + 1.2}ch`;
+    it.setAttribute('aria-valuenow', value);
+    it.setAttribute('aria-valuetext', `${text} ${knob.unit}`.trim());
+    if (it.dataset.shown !== text) it.value = it.dataset.shown = text;
+  };
+}
+
+export function putKnobs(root, setup, { get, set, refuse, changed }) {
+  const sentence = root.querySelector('.live-sentence'), rows = root.querySelector('.live-rows'),
+      results = {}, shows = [], timers = [];
+  const parts = Object.fromEntries(setup.knobs.map((knob) => [knob.name, knob]));
+  for (const knob of setup.knobs)
+    if (!knob.choices) knob.stops = stopsOf(knob.low, knob.high, knob.step);
+  const put = (name) => (value) => set({ [name]: value });
+  let into = sentence;
+  for (const piece of setup.sentence.split(/(\{[^}]+\}|\*[a-z_]+\*|[[\]])/)) {
+    // {name!}: without its symbol and unit, as in a formula
+    const bare = piece.endsWith('!}'), name = piece.slice(1, bare ? -2 : -1),
+        knob = piece[0] === '{' && parts[name];
+    if (piece === '[') into = made(sentence, 'span', { className: 'live-whole' });
+    else if (piece === ']') into = sentence;
+    else if (piece[0] === '*') putSymbol(into, name);
+    else if (knob && knob.choices) {
+      const select =
+          made(into, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
+      select.replaceChildren(...knob.choices.map(([value, text]) => new Option(text, value)));
+      select.addEventListener('change', () => put(name)(select.value));
+      select.addEventListener('keydown', (event) => event.stopPropagation());
+      shows.push((values) => { select.value = values[name]; });
+    } else if (knob) {
+      const whole = made(into, 'span', { className: 'live-whole' });
+      if (knob.symbol && !bare) { putSymbol(whole, knob.symbol); whole.append(' = '); }
+      const show = putNumber(whole, knob,
+          { get: () => get()[name], set: put(name), refuse });
+      if (knob.unit && !bare) whole.append(knob.unit === '°' ? knob.unit : ` ${knob.unit}`);
+      shows.push((values) => show(values[name]));
+    } else if (piece[0] === '{')
+      (results[name] ||= []).push(made(into, 'b', { className: 'live-result' }));
+    else into.append(into === sentence ? piece : piece.replaceAll('-', '−'));
+  }
+  for (const knob of setup.knobs.filter((each) => each.stops)) {
+    const row = made(rows, knob.plays ? 'div' : 'label', { className: 'wmr-control live-row' }),
+        { stops, name } = knob, own = made(row, 'span');
+    row.dataset.control = name;
+    if (knob.symbol) putSymbol(own, knob.symbol); else own.textContent = knob.label;
+    const showSlider = putSlider(row, knob.says, stops, {
+      get: () => get()[name], set(value) { stop(); put(name)(value); },
+    });
+    let playing = 0;
+    const call = (text) => {
+      button.textContent = text;
+      button.setAttribute('aria-label', `${text}: ${knob.says}`);
+    };
+    const stop = () => {
+      if (!playing) return;
+      cancelAnimationFrame(playing);
+      playing = 0;
+      call('Play');
+      set({});
+    };
+    const play = () => {
+      if (playing) { stop(); return; }
+      const from = get()[name] >= knob.high ? knob.low : get()[name], begin = performance.now();
+      const go = (now) => {
+        const value = Math.min(from
+            + (knob.high - knob.low) * Math.max(now - begin, 0) / 1000 / knob.plays, knob.high);
+        set({ [name]: Number(value.toPrecision(3)) }, true);
+        if (value < knob.high) playing = requestAnimationFrame(go); else stop();
+      };
+      call('Stop');
+      go(begin); // where it begins is shown at once: a hand may stop it before the next frame
+    };
+    const button = knob.plays
+        ? made(row, 'button',
+        { type: 'button', className: 'live-play', textContent: 'Play', onclick: play },
+        { 'aria-label': `play: ${knob.says}` }) : null;
+    timers.push(stop);
+    if (knob.auto && document.documentElement.dataset.still === undefined
+        && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => {
+      if (!playing) play();
+    });
+    shows.push((values) => {
+      showSlider(values[name], `${inWords(values[name])} ${knob.unit}`.trim());
+    });
+  }
+  const show = (values) => shows.forEach((each) => each(values));
+  const showResults = (said) => {
+    for (const [name, places] of Object.entries(results)) {
+      const text = said ? String(said[name]) : '–'; // nothing follows from what is refused
+      for (const place of places)
+        if (place.textContent !== text) { place.textContent = text; changed(); }
+    }
+  };
+  return { show, showResults, stop: () => timers.forEach((each) => each()) };
+}
+
+// Calls once, when an element comes into view.
+function whenSeen(element, act) {
+  const watch = new IntersectionObserver((entries) => {
+    if (entries.some((each) => each.isIntersecting)) { watch.disconnect(); act(); }
+  });
+  watch.observe(element);
+}

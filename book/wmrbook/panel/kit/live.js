@@ -1,0 +1,186 @@
+// A small thing to move: pictures, a sentence with numbers that can be dragged or typed, a slider
+// for each, and, before it opens, a prediction.
+
+import { buildGate } from './gate.js';
+import { followTheme, readColours, written } from './style.js';
+import { held, made, placeOn } from './hands.js';
+import { inWords, putKnobs } from './knobs.js';
+import { keepKeys } from './controls.js';
+import { measure } from './surface.js';
+import { paneOf } from './board.js';
+import { showHandles } from './grips.js';
+import { widget } from './widget.js';
+
+// An explorable is, in a file of its own,
+//   panes(values, found, setup): the panes by name, see board.js, with `alt`, what it shows in
+//   words, and `scrub(x, y, moved, values, found)`: what a
+//     pointer on it changes, or nothing; `moved` is [dx, dy] since the last call while it is held,
+//     or null while it passes over;
+//   find(values, setup): what follows from the knobs; throws RangeError, in words, where nothing
+//   does; draw(panes, values, found, hidden, setup): `hidden` before the prediction, when only what
+//   is given may be drawn; say(values, found, setup): the results in the sentence, by name;
+//   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws
+//   RangeError, in words, where nothing can }].
+/** @param {string} name @param {Drawing} explorable */
+export const live = (name, explorable) => widget(`live/${name}`, ({ model, el }) => {
+  const setup = structuredClone(model.get('setup')),
+      root = made(el, 'div', { className: 'wmr live' });
+  keepKeys(root);
+  root.innerHTML =
+      '<div class="live-ask"></div><p class="live-sentence"></p><div ' +
+      'class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
+    + '<p class="live-trouble" role="alert"></p><div class="wmr-aside" role="status" ' +
+        'aria-live="polite"></div>';
+  const find = (selector) => root.querySelector(selector), canvases = {},
+      values = () => model.get('state');
+  let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
+  const panes = {};
+  const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
+  // a hand stops what plays; a kernel hears where it ends
+  const set = (changes, playing = false) => {
+    refused = '';
+    if (!playing) knobs.stop();
+    if (changes) model.set('state', { ...values(), ...changes });
+    if (changes && !playing) model.save_changes();
+    schedule();
+  };
+  const refuse = (sentence) => { knobs.stop(); refused = sentence; schedule(); };
+  const give = (change, atOnce = false) => {
+    try {
+      const changes = change() || {};
+      for (const { name, low, high, says, symbol, unit } of setup.knobs) {
+        if (low !== undefined && name in changes
+            && !(changes[name] >= low && changes[name] <= high))
+            throw new RangeError(
+                `${symbol || says} would be ${written(changes[name], unit)}; ${inWords(low)} to ` +
+                `${inWords(high)} is allowed.`);
+      }
+      set(changes);
+    } catch (error) { if (!(error instanceof RangeError)) throw error; refuse(error.message); }
+    if (atOnce) { cancelAnimationFrame(frame); draw(); } // the next key goes on from here
+    return !refused;
+  };
+  const say = () => {
+    clearTimeout(spoken);
+    spoken = setTimeout(() => {
+      find('.wmr-aside').textContent = find('.live-sentence').textContent
+          ? [...root.querySelectorAll('.live-result')].map((each) => each.textContent).join(', ')
+          : '';
+    }, 700);
+  };
+  const knobs = putKnobs(root, setup, { get: values, set, refuse, changed: say });
+  const gate = setup.ask
+      ? buildGate(find('.live-ask'), setup.ask,
+      { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement })
+      : null;
+
+  function build(name, spec) {
+    const host = made(find('.live-panes'), 'div',
+        { className: `live-pane${spec.tall ? ' live-tall' : ''}` }),
+        canvas = canvases[name] = made(host, 'canvas', {}, { role: 'img' });
+    const scrub = (event, moved) => {
+      if (!specs[name].scrub || !panes[name] || !found || (gate && !gate.open())) return;
+      const [x, y] = panes[name].view.toWorld(...placeOn(canvas, event));
+      const changes = specs[name].scrub(x, y, moved, values(), found);
+      // what passes over a picture only moves the robot
+      if (changes && (moved || Object.keys(changes).every((each) => each === 'time'))) set(changes);
+    };
+    let last = null;
+    held(canvas, {
+      take: () => specs[name].scrub,
+      drag(event, first) {
+        const { clientX, clientY } = event,
+            moved = first ? [0, 0] : [clientX - last[0], clientY - last[1]];
+        last = [clientX, clientY];
+        scrub(event, moved);
+      },
+      drop() { last = null; },
+    });
+    canvas.addEventListener('pointermove', (event) => { if (!last) scrub(event, null); });
+    resized.observe(canvas);
+  }
+  function draw() {
+    frame = 0;
+    if (!colours) return;
+    const now = values(), hidden = Boolean(gate && !gate.open());
+    let trouble = refused, sound = true;
+    try { found = explorable.find(now, setup); } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      [trouble, sound] = [error.message, false];
+    }
+    if (found) paint(now, hidden);
+    // words after pictures: a font on a canvas waits for the styles of all that has changed
+    find('.live-trouble').textContent = hidden && found ? '' : trouble;
+    knobs.show(now);
+    for (const part of ['.live-sentence', '.live-rows']) find(part).hidden = hidden;
+    if (!found) return;
+    const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
+    for (const name of Object.keys(specs))
+      showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name),
+          panes[name], give);
+    if (!hidden) knobs.showResults(sound ? explorable.say(now, found, setup) : null);
+  }
+  function paint(now, hidden) {
+    root.found = found; // for tests
+    specs = explorable.panes(now, found, setup);
+    for (const [name, spec] of Object.entries(specs)) {
+      if (!canvases[name]) build(name, spec);
+      canvases[name].setAttribute('aria-label', hidden ? spec.given || 'what is given' : spec.alt);
+      panes[name] = paneOf(canvases[name], colours, spec);
+    }
+    explorable.draw(panes, now, found, hidden, setup);
+    Object.values(panes).forEach((pane) => pane.name());
+    if (gate) gate.draw();
+    else root.dataset.open = 'true';
+  }
+  // What is below the sentence stays under the hand: it keeps the room that it takes anywhere on a
+  // knob's way, and that it once took.
+  const sentence = find('.live-sentence'), SHARES = [0, 0.11, 0.23, 0.37, 0.5, 0.63, 0.77, 0.89, 1];
+  let wide = 0, trying = 0;
+  const high = () => sentence.getBoundingClientRect().height;
+  const tryAll = () => {
+    // what is being typed would be lost
+    if (root.querySelector('.live-number:focus')) { trying = setTimeout(tryAll, 1000); return; }
+    const heights = [high()];
+    for (const { name, choices, stops } of setup.knobs) {
+      for (const value of choices ? choices.map(([each]) => each)
+          : SHARES.map((share) => stops[Math.round(share * (stops.length - 1))])) {
+        const then = { ...values(), [name]: value };
+        try {
+          knobs.showResults(explorable.say(then, explorable.find(then, setup), setup));
+        } catch (error) { if (!(error instanceof RangeError)) throw error; }
+        knobs.show(then);
+        heights.push(high());
+      }
+    }
+    sentence.style.minHeight = `${Math.max(...heights)}px`;
+    draw();
+  };
+  const room = new ResizeObserver(([{ contentRect: { width } }]) => {
+    sentence.style.minHeight = width === wide ? `${high()}px` : '';
+    if (width === wide) return;
+    wide = width;
+    clearTimeout(trying);
+    if (width) trying = setTimeout(tryAll, 300);
+  });
+  room.observe(sentence);
+  const repaint = () => {
+    Object.values(canvases).forEach(measure);
+    colours = readColours(root);
+    schedule();
+  };
+  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
+  resized.observe(root);
+  model.on('change:state', schedule);
+  repaint();
+  return () => {
+    knobs.stop();
+    unfollow();
+    resized.disconnect();
+    room.disconnect();
+    clearTimeout(trying);
+    cancelAnimationFrame(frame);
+    clearTimeout(spoken);
+    model.off('change:state', schedule);
+  };
+});

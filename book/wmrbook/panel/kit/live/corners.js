@@ -1,0 +1,64 @@
+// A route with one corner: the heading that shares its bend between two legs, and the way that
+// follows.
+
+import { DEGREES, inDegrees, written } from '../style.js';
+import { alongRoute, poseAt } from '../runs.js';
+import { live } from '../live.js';
+import { wrap } from '../model.js';
+
+const HAIRPIN = Math.PI - 1e-9; // a turn of 180 degrees but for rounding goes to the left
+
+function sharedHeading(first, corner, last) {
+  const [come, leave] = [[first, corner],
+      [corner, last]].map(([a, b]) =>
+      (a[0] === b[0] && a[1] === b[1] ? null : Math.atan2(b[1] - a[1], b[0] - a[0])));
+  if (come === null || leave === null)
+    return { come: come ?? leave, leave: leave ?? come, heading: come ?? leave };
+  const turn = wrap(leave - come);
+  return { come, leave, heading: wrap(come + (Math.abs(turn) > HAIRPIN ? Math.PI : turn) / 2) };
+}
+
+export default live('corners', {
+  find({ x, y, stop }, { data: { first, last, gains, ...radii } }) {
+    const bend = sharedHeading(first, [x, y], last);
+    const run =
+        alongRoute(
+        { start: [...first, bend.come], goals: [[x, y, bend.heading], [...last, bend.leave]],
+        radii: [radii[stop], radii.stop], gains });
+    return { ...bend, run };
+  },
+  panes: ({ x, y }, { heading, run }) => ({ plane: {
+    x: [-34, 38, 'east [m]'], y: [-32, 32, 'north [m]'], equal: true, tall: true,
+        given: 'A start, a corner, and a door, joined by two legs.',
+    alt: `A route by way of a corner at ${written(x)} and ${written(y)} metres, where the robot ` +
+        `looks to ${(heading * DEGREES).toFixed(0)} degrees; ` +
+        `${run.arrived ? `${written(run.t[run.n - 1], 's')} long` : 'it does not arrive'}.`,
+  } }),
+  draw({ plane }, { x, y }, { come, heading, leave, run }, hidden, { data: { first, last }, ask }) {
+    const corner = hidden ? ask.at : [x, y];
+    plane.line([first, corner, last], 'ghost', { width: 1.5, dash: [4, 5] });
+    plane.dot(...corner, 'ink', { hollow: true });
+    if (hidden) {
+      plane.text('start', ...first, { role: 'start', dy: -18, align: 'center' });
+      plane.text('door', ...last, { role: 'goal', dy: 18, align: 'center' });
+      plane.dot(...first, 'start', { hollow: true });
+      plane.dot(...last, 'goal', { hollow: true });
+      return;
+    }
+    plane.path(run.x, run.y);
+    plane.pose([...first, come], 'start');
+    plane.pose([...last, leave], 'goal');
+    plane.arrow(x, y, x + 7 * Math.cos(heading), y + 7 * Math.sin(heading), 'theta');
+    plane.robot(poseAt(run, run.n - 1));
+  },
+  handles: ({ x, y }) => [{
+    id: 'corner', pane: 'plane', at: [x, y],
+        says: `the corner, ${written(x)} m east and ${written(y)} m north`,
+    move: (...at) =>
+        Object.fromEntries(
+        at.map((each, k) => ['xy'[k], Math.min(Math.max(Math.round(2 * each) / 2, -30), 30)])),
+  }],
+  say: (values, { heading, run }) =>
+      ({ heading: inDegrees(heading), omega: written(run.peakOmega, 'rad/s'),
+      seconds: run.arrived ? written(run.t[run.n - 1], 's') : 'more than four minutes' }),
+});

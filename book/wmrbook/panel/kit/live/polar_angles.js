@@ -1,0 +1,66 @@
+// The three numbers that the controller sees, of a robot that is moved and turned, and of a goal
+// that is turned.
+
+import { DEGREES, inDegrees, written } from '../style.js';
+import { live } from '../live.js';
+import { polarFromPose, wrap } from '../model.js';
+
+const clear = ([x, y, heading], by) => [x + by * Math.cos(heading), y + by * Math.sin(heading)];
+const toward = (from, x, y) => Math.round(Math.atan2(y - from[1], x - from[0]) * DEGREES / 5) * 5;
+const LONG = 1.5; // m
+
+/** @param {Values} values */
+function find({ x, y, heading, goal_heading }, { data: { goal } }) {
+  const robot = [x, y, heading / DEGREES], aim = [goal[0], goal[1], goal_heading / DEGREES],
+      [rho, alpha, theta] = polarFromPose(...robot, ...aim);
+  if (rho < 0.05)
+    throw new RangeError(
+        'On the goal itself the line of sight has no direction, and the angles mean nothing.');
+  return { robot, goal: aim, rho, alpha, theta, gamma: wrap(robot[2] - aim[2]),
+      sight: robot[2] + alpha };
+}
+
+export default live('polar_angles', {
+  find,
+  panes: (values, { rho, alpha, theta }) => ({ plane: {
+    x: [-1, 8, 'x [m]'], y: [-1, 6, 'y [m]'], equal: true, tall: true,
+        given: 'A robot as a dot, the goal with its heading, and the line of sight from the ' +
+        'robot to the goal.',
+    alt: `The goal is ${written(rho, 'm')} away; alpha, from the robot's heading to the line of ` +
+        `sight, is ${inDegrees(alpha)}; theta, from the goal's heading to it, is ` +
+        `${inDegrees(theta)}.`,
+  } }),
+  draw({ plane }, values, { robot, goal, alpha, theta, sight }, hidden, { data }) {
+    const [from, to] = hidden ? [data.start, data.goal] : [robot, goal];
+    plane.line([from, to], 'rho', { dash: [4, 4] });
+    plane.text('ρ', 0.6 * from[0] + 0.4 * to[0], 0.6 * from[1] + 0.4 * to[1],
+        { role: 'rho', dy: 16, dx: -12, size: 17 });
+    plane.pose(to, 'goal');
+    if (hidden) { plane.dot(from[0], from[1], 'path'); return; }
+    plane.line([robot, clear(robot, LONG)], 'alpha', { width: 1.5, dash: [6, 4] });
+    plane.line([goal, clear([goal[0], goal[1], sight], LONG)], 'rho', { dash: [4, 4], width: 1.5 });
+    plane.angle(robot[0], robot[1], robot[2], alpha, 'α', 'alpha', 40);
+    plane.angle(goal[0], goal[1], goal[2], theta, 'θ', 'theta', 46);
+    plane.robot(robot);
+  },
+  handles: (values, { robot, goal }) => [
+    { id: 'robot', pane: 'plane', at: robot.slice(0, 2),
+        says: `the robot, at ${written(robot[0], 'm')} and ${written(robot[1], 'm')}`, move(x, y) {
+      const to = { x: Math.round(10 * Math.min(Math.max(x, -0.5), 7.5)) / 10,
+          y: Math.round(10 * Math.min(Math.max(y, -0.5), 5.5)) / 10 };
+      find({ ...values, ...to }, { data: { goal } });
+      return to;
+    } },
+    { id: 'heading', pane: 'plane', at: clear(robot, LONG),
+        says: `the robot's heading, ${inDegrees(robot[2])}`,
+        move: (x, y) => ({ heading: toward(robot, x, y) }) },
+    { id: 'goal', pane: 'plane', at: clear(goal, LONG),
+        says: `the goal's heading, ${inDegrees(goal[2])}`,
+        move: (x, y) => ({ goal_heading: toward(goal, x, y) }) },
+  ],
+  say: (values, { rho, alpha, theta, gamma }) => ({
+    rho: written(rho, 'm'), alpha: inDegrees(alpha), theta: inDegrees(theta),
+        beta: inDegrees(-theta), gamma: inDegrees(gamma),
+    way: Math.abs(alpha) < 1e-9 ? 'goes straight on' : `turns ${alpha > 0 ? 'left' : 'right'}`,
+  }),
+});

@@ -1,0 +1,90 @@
+// Where V rises under (24) as printed, over the angles, at a distance and with a weight of the
+// distance; and V over time from there.
+
+import { DEGREES, written } from '../style.js';
+import { LAWS, polarClosingRate, poseOfError } from '../model.js';
+import { live } from '../live.js';
+import { remembered } from '../runs.js';
+import { simulate } from '../simulate.js';
+
+const CELLS = 73;
+
+// (19) along the loop that a law closes.
+function rateOfV(law, rho, alpha, theta, gains, L) {
+  const [nearer, turning, sweeping] =
+      polarClosingRate(rho, alpha, ...LAWS[law].formula(rho, alpha, theta, gains));
+  return rho * nearer / L + alpha * turning + gains.h * theta * sweeping;
+}
+
+// Row by row of theta: where it begins to rise and where it ends, in cells of alpha.
+const map = remembered(({ rho, L, gains }) => {
+  const middles = Array.from({ length: CELLS }, (_, k) => (k + 0.5) / CELLS * 360 - 180), rows = [];
+  let count = 0;
+  for (const theta of middles) {
+    let from = null;
+    middles.forEach((alpha, k) => {
+      const up = rateOfV('printed', rho, alpha / DEGREES, theta / DEGREES, gains, L) > 0;
+      if (up) count += 1;
+      if (up && from === null) from = k;
+      if (from !== null && (!up || k === CELLS - 1)) {
+        rows.push([theta, from, up ? k + 1 : k]);
+        from = null;
+      }
+    });
+  }
+  return { rows, share: count / CELLS ** 2 };
+});
+
+const runs = remembered(({ rho, alpha, theta, gains }) =>
+    ['printed',
+    'corrected'].map((law) =>
+    simulate(
+    { start: poseOfError(rho, alpha / DEGREES, theta / DEGREES, 0, 0, 0), goal: [0, 0, 0], gains,
+    reference: null, law, method: 'continuous', dt: 0.06, duration: 3, arrivalRadius: 0 })));
+
+export default live('rising', {
+  find({ alpha, theta, rho, L }, { data: { gains } }) {
+    const value = (run) =>
+        Array.from(run.t,
+        (_, k) =>
+        run.rho[k] ** 2 / (2 * L) + run.alpha[k] ** 2 / 2 + gains.h * run.theta[k] ** 2 / 2);
+    const both = runs({ rho, alpha, theta, gains });
+    return { rate: rateOfV('printed', rho, alpha / DEGREES, theta / DEGREES, gains, L),
+        ...map({ rho, L, gains }), t: Array.from(both[0].t), V: both.map(value) };
+  },
+  panes: (values, { share, V }) => ({
+    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true,
+        given: 'The plane of the two angles: nothing yet.',
+        alt: `The plane of alpha and theta: V rises in ${(100 * share).toFixed(0)} percent of ` +
+        `it.` },
+    time: { x: [0, 3, 'time [s]'], y: [0, 3, 'V / V at first'], given: 'V over time: nothing yet.',
+        alt: `V over three seconds: times ${written(V[0][V[0].length - 1] / V[0][0])} with the ` +
+        `printed law, times ${written(V[1][V[1].length - 1] / V[1][0])} with the corrected one.` },
+  }),
+  draw({ plane, time }, { alpha, theta }, { rows, t, V, rate }, hidden) {
+    if (hidden) return;
+    const edge = (k) => k / CELLS * 360 - 180, half = 180 / CELLS;
+    for (const [middle, from, to] of rows)
+      plane.area(
+          [[edge(from), middle - half], [edge(to), middle - half], [edge(to), middle + half],
+          [edge(from), middle + half]], 'rising', 0.3);
+    plane.dot(alpha, theta, rate > 0 ? 'rising' : 'path', { hollow: true });
+    time.line([[0, 1], [3, 1]], 'ghost', { width: 1.5, dash: [4, 4] });
+    V.forEach((each, k) =>
+        time.path(t, each.map((it) => it / each[0]), k ? 'path' : 'rising',
+        { dash: k ? [] : [8, 5] }));
+    time.text('(24) as printed', 1.7, 2.75, { role: 'rising' });
+    time.text('corrected', 1.7, 2.5, { role: 'path' });
+  },
+  handles: ({ alpha, theta }) => [{
+    id: 'state', pane: 'plane', at: [alpha, theta],
+        says: `the state, alpha ${alpha} and theta ${theta} degrees`,
+    move: (...at) =>
+        Object.fromEntries(
+        at.map((each, k) =>
+        [['alpha', 'theta'][k], Math.min(Math.max(5 * Math.round(each / 5), -180), 180)])),
+  }],
+  say: (values, { rate, share }) =>
+      ({ rate: written(rate, 'per second'), fate: rate > 0 ? 'rises' : 'does not rise',
+      share: `${(100 * share).toFixed(0)} %` }),
+});

@@ -1,0 +1,43 @@
+// A robot whose fixes stop: on in good faith, then braking. The way is the area under the speed.
+
+import { live } from '../live.js';
+import { written } from '../style.js';
+
+export default live('silence', {
+  find({ speed, timeout, brake }) {
+    const faith = speed * timeout, braking = speed ** 2 / (2 * brake);
+    return { faith, braking, far: faith + braking, stands: timeout + speed / brake };
+  },
+  panes: ({ speed }, { far, stands }) => ({
+    road: { x: [-1, 17, 'way after the last fix [m]'], y: [-1.5, 1.5, ''],
+        given: 'The robot where it has its last fix.',
+        alt: `The robot rolls ${written(far, 'm')} after its last fix.` },
+    speed: { x: [0, 6.2, 'time after the last fix [s]'], y: [0, 4.3, 'speed [m/s]'],
+        given: 'The speed over time: nothing yet.',
+        alt: `The speed over time: ${written(speed, 'm/s')} at first, 0 after ` +
+        `${written(stands, 's')}.` },
+  }),
+  draw({ road, speed: pane }, { speed, timeout }, { faith, far, stands }, hidden) {
+    road.line([[-1, 0], [17, 0]], 'ghost', { width: 1.5 });
+    road.text('last fix', 0, 0, { role: 'start', dy: 30, align: 'center' });
+    road.robot([0, 0, 0], hidden ? 1 : 0.3);
+    if (hidden) return;
+    road.area([[0, -0.25], [faith, -0.25], [faith, 0.25], [0, 0.25]], 'start', 0.5);
+    road.area([[faith, -0.25], [far, -0.25], [far, 0.25], [faith, 0.25]], 'rising', 0.5);
+    road.text('in good faith', 0, -0.25, { role: 'start', dy: -14 });
+    road.text('braking', faith, -0.25, { role: 'rising', dy: -32 });
+    road.robot([far, 0, 0]);
+    pane.area([[0, 0], [0, speed], [timeout, speed], [timeout, 0]], 'start', 0.5);
+    pane.area([[timeout, 0], [timeout, speed], [stands, 0]], 'rising', 0.5);
+    pane.line([[0, speed], [timeout, speed], [stands, 0]], 'path');
+  },
+  handles: ({ speed, timeout }) => [{
+    id: 'corner', pane: 'speed', at: [timeout, speed],
+        says: `the timeout and the speed, ${written(timeout, 's')} and ${written(speed, 'm/s')}`,
+    move: (x, y) =>
+        ({ timeout: Math.min(Math.max(Math.round(20 * x) / 20, 0), 2),
+        speed: Math.min(Math.max(Math.round(10 * y) / 10, 0.1), 4) }),
+  }],
+  say: (values, { faith, braking, far }) =>
+      ({ faith: written(faith, 'm'), braking: written(braking, 'm'), far: written(far, 'm') }),
+});

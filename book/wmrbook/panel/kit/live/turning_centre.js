@@ -1,0 +1,49 @@
+// Two wheel speeds make a speed and a turning rate, and the point about which the robot turns.
+
+import { live } from '../live.js';
+import { written } from '../style.js';
+
+const motion = (v, omega, centre) =>
+    (omega ? `It turns about a point ${written(centre, 'm')} to its left.` : v
+    ? 'It drives straight on.' : 'It stands.');
+
+export default live('turning_centre', {
+  find: ({ left, right }, { data: { track } }) => {
+    const v = (left + right) / 2, omega = (right - left) / track;
+    return { v, omega, centre: v / omega, wheels: [[left, track / 2], [right, -track / 2]] };
+  },
+  panes: (values, { v, omega, centre }) => ({ plane: {
+    x: [-1.6, 1.6, 'ahead [m]'], y: [-1.7, 1.7, 'left [m]'], equal: true, tall: true,
+    given: 'A robot seen from above, its left wheel above and its right wheel below.',
+    alt: `The robot from above, its wheels' speeds as arrows. ${motion(v, omega, centre)}`,
+  } }),
+  draw({ plane }, values, { v, omega, centre, wheels }, hidden) {
+    if (!hidden && omega && Math.abs(centre) < 50) {
+      const way = Array.from({ length: 61 }, (_, k) => 2 * Math.PI * k / 60)
+          .map((turn) => [centre * Math.sin(turn), centre - centre * Math.cos(turn)]);
+      plane.line(way, 'ghost', { width: 1.5, dash: [4, 4] });
+      plane.line([[wheels[0][0], wheels[0][1]], [0, centre], [wheels[1][0], wheels[1][1]]], 'rho',
+          { width: 1.2, dash: [2, 4] });
+      plane.cross(0, centre, 'goal');
+      plane.text('turning centre', 0, centre, { role: 'goal', dx: 12, dy: 2 });
+    }
+    plane.robot([0, 0, 0]);
+    for (const [speed, side] of wheels) {
+      plane.line([[-0.14, side], [0.14, side]], 'ink', { width: 9 });
+      if (!hidden && speed) plane.arrow(0, side, speed, side, 'path');
+    }
+    if (!hidden && v) plane.arrow(0, 0, v, 0, 'start');
+  },
+  handles: (values, { wheels }) => ['left', 'right'].map((name, k) => ({
+    id: name, pane: 'plane', at: wheels[k],
+        says: `the ${name} wheel's speed, ${written(values[name], 'm/s')}`,
+    move: (x) => ({ [name]: Math.round(Math.min(Math.max(x, -1.5), 1.5) * 20) / 20 }),
+  })),
+  say: (values, { v, omega, centre }) => ({
+    speed: written(v, 'm/s'), turning: written(omega, 'rad/s'),
+    centre: omega
+        ? (v ? `turns about a point ${written(Math.abs(centre), 'm')} to its ` +
+        `${centre > 0 ? 'left' : 'right'}` : 'turns on the spot') : v ? 'drives straight on'
+        : 'stands',
+  }),
+});

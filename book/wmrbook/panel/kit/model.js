@@ -1,0 +1,169 @@
+// Printed from wmrlib's formulas by symbolic.javascript: change those.
+
+// sin(angle)/angle, which is 1 at 0
+export function sinc(angle) {
+  return ((Math.abs(angle) > 1e-08) ? ( Math.sin(angle)/angle ) : ( 1 ));
+}
+
+// (1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0
+export function decay(rho, k_rho) {
+  return ((k_rho*Math.abs(rho) > 1e-08) ? ( -Math.expm1(-k_rho*rho)/rho ) : ( k_rho*(-1/2*k_rho*rho
+    + 1) ));
+}
+
+// an angle within a turn of 0
+export function turnedBack(angle) {
+  return ((angle > Math.PI) ? ( angle - 2*Math.PI ) : ((angle <= -Math.PI) ? ( angle + 2*Math.PI ) :
+    ( angle )));
+}
+
+// the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn
+export function wrap(angle) {
+  return ((angle <= Math.PI && angle > -Math.PI) ? ( angle ) : ( turnedBack((angle % (2*Math.PI)))
+    ));
+}
+
+// (22), and the omega that the proof needs
+export function correctedLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+  const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);
+  return [v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*sinc(alpha)];
+}
+
+// (22) and (24) as the paper prints them
+export function printedLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+  const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);
+  return [v_over_rho, alpha*k_alpha + v_over_rho*(alpha +
+    h*theta)*Math.sin(alpha)*Math.cos(alpha)*sinc(alpha)];
+}
+
+// Aicardi et al. (1995), without a speed limit
+export function aicardiLaw(rho, alpha, theta, { k_rho, k_alpha, h }) {
+  const v_over_rho = k_rho*Math.cos(alpha);
+  return [v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*sinc(alpha)];
+}
+
+// Kanayama et al. (1990), feed-forward and feedback
+export function kanayamaLaw(ahead, left, turn, v_ref, omega_ref, { k_x, k_y, k_heading }) {
+  return [ahead*k_x + v_ref*Math.cos(turn), omega_ref + v_ref*(k_heading*Math.sin(turn) +
+    k_y*left)];
+}
+
+// feed-forward and a constant matrix, such as `control.lqr` computes
+export function linearLaw(ahead, left, turn, v_ref, omega_ref, { v_x, v_y, v_heading, omega_x,
+    omega_y, omega_heading }) {
+  return [ahead*v_x + left*v_y + turn*v_heading + v_ref*Math.cos(turn), ahead*omega_x + left*omega_y
+    + omega_heading*turn + omega_ref];
+}
+
+// the goal ahead, to the left, and turned
+export function bodyError(rho, alpha, theta) {
+  return [rho*Math.cos(alpha), rho*Math.sin(alpha), wrap(alpha - theta)];
+}
+
+// its Lyapunov function
+export function poseValue(rho, alpha, theta, { h }) {
+  return (1/2)*(alpha*alpha) + (1/2)*h*(theta*theta) + (1/2)*(rho*rho);
+}
+
+// its Lyapunov function
+export function kanayamaValue(rho, alpha, theta, { k_y }) {
+  return (1/2)*(rho*rho) + (1 - Math.cos(alpha - theta))/k_y;
+}
+
+// its Lyapunov function
+export function linearValue(rho, alpha, theta) {
+  return (1/2)*(rho*rho) + (1/2)*(wrap(alpha - theta)*wrap(alpha - theta));
+}
+
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+export function correctedModes({ k_rho, k_alpha, h, v_max }) {
+  return [k_rho*v_max, k_alpha, h*(k_rho*k_rho)*(v_max*v_max)];
+}
+
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+export function printedModes({ k_rho, k_alpha, v_max }) {
+  const part0 = k_rho*v_max;
+  return [part0, k_alpha - part0, 0];
+}
+
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+export function aicardiModes({ k_rho, k_alpha, h }) {
+  return [k_rho, k_alpha, h*(k_rho*k_rho)];
+}
+
+// method euler
+export function eulerStep(x, y, heading, v, omega, dt) {
+  const part0 = dt*v;
+  return [part0*Math.cos(heading) + x, part0*Math.sin(heading) + y, wrap(dt*omega + heading)];
+}
+
+// method arc
+export function arcStep(x, y, heading, v, omega, dt) {
+  const part0 = dt*omega;
+  const part1 = (1/2)*part0;
+  const part2 = heading + part1;
+  const part3 = dt*v*sinc(part1);
+  return [part3*Math.cos(part2) + x, part3*Math.sin(part2) + y, wrap(heading + part0)];
+}
+
+// rho, alpha, theta
+export function polarFromPose(x, y, heading, goal_x, goal_y, goal_heading) {
+  const part0 = goal_x - x;
+  const part1 = goal_y - y;
+  const part2 = -Math.atan2(part1, part0);
+  return [Math.sqrt((part0*part0) + (part1*part1)), wrap(-heading - part2), wrap(-goal_heading -
+    part2)];
+}
+
+// x, y, heading
+export function poseOfError(rho, alpha, theta, goal_x, goal_y, goal_heading) {
+  const part0 = goal_heading + theta;
+  return [goal_x - rho*Math.cos(part0), goal_y - rho*Math.sin(part0), wrap(-alpha + part0)];
+}
+
+// (7) to (9)
+export function polarClosingRate(rho, alpha, v_over_rho, omega) {
+  const part0 = Math.sin(alpha);
+  return [-rho*v_over_rho*Math.cos(alpha), -omega + part0*v_over_rho, part0*v_over_rho];
+}
+
+// x, y, heading, v, omega of the goal
+export function circle(t) {
+  const part0 = (1/20)*Math.PI;
+  const part1 = part0*t;
+  return [4*Math.cos(part1) - 4, 4*Math.sin(part1), part1 + (1/2)*Math.PI, 0.6283185307179586,
+    part0];
+}
+
+export const LAWS = {
+  corrected: { formula: correctedLaw, value: poseValue, modes: correctedModes, gains: ['k_rho',
+    'k_alpha', 'h', 'v_max'], needsReference: false },
+  printed: { formula: printedLaw, value: poseValue, modes: printedModes, gains: ['k_rho', 'k_alpha',
+    'h', 'v_max'], needsReference: false },
+  aicardi: { formula: aicardiLaw, value: poseValue, modes: aicardiModes, gains: ['k_rho', 'k_alpha',
+    'h', 'v_max'], needsReference: false },
+  kanayama: { formula: kanayamaLaw, value: kanayamaValue, modes: null, gains: ['k_x', 'k_y',
+    'k_heading'], needsReference: true },
+  linear: { formula: linearLaw, value: linearValue, modes: null, gains: ['v_x', 'v_y', 'v_heading',
+    'omega_x', 'omega_y', 'omega_heading'], needsReference: true },
+};
+export const STEPS = { euler: eulerStep, arc: arcStep };
+export const RULE = {stages: [[0.05260015195876773], [0.0197250569845379, 0.0591751709536137],
+    [0.02958758547680685, 0, 0.08876275643042054], [0.2413651341592667, 0, -0.8845494793282861,
+    0.924834003261792], [0.037037037037037035, 0, 0, 0.17082860872947386, 0.12546768756682242],
+    [0.037109375, 0, 0, 0.17025221101954405, 0.06021653898045596, -0.017578125],
+    [0.03709200011850479, 0, 0, 0.17038392571223998, 0.10726203044637328, -0.015319437748624402,
+    0.008273789163814023], [0.6241109587160757, 0, 0, -3.3608926294469414, -0.868219346841726,
+    27.59209969944671, 20.154067550477894, -43.48988418106996], [0.47766253643826434, 0, 0,
+    -2.4881146199716677, -0.590290826836843, 21.230051448181193, 15.279233632882423,
+    -33.28821096898486, -0.020331201708508627], [-0.9371424300859873, 0, 0, 5.186372428844064,
+    1.0914373489967295, -8.149787010746927, -18.52006565999696, 22.739487099350505,
+    2.4936055526796523, -3.0467644718982196], [2.273310147516538, 0, 0, -10.53449546673725,
+    -2.0008720582248625, -17.9589318631188, 27.94888452941996, -2.8589982771350235,
+    -8.87285693353063, 12.360567175794303, 0.6433927460157636]], weights: [0.054293734116568765, 0,
+    0, 0, 0, 4.450312892752409, 1.8915178993145003, -5.801203960010585, 0.3111643669578199,
+    -0.1521609496625161, 0.20136540080403034, 0.04471061572777259], fifth: [0.01312004499419488, 0,
+    0, 0, 0, -1.2251564463762044, -0.4957589496572502, 1.6643771824549864, -0.35032884874997366,
+    0.3341791187130175, 0.08192320648511571, -0.022355307863886294], third: [-0.18980075407240762,
+    0.0, 0.0, 0.0, 0.0, 4.450312892752409, 1.8915178993145003, -5.801203960010585,
+    -0.422682321323792, -0.1521609496625161, 0.20136540080403034, 0.02265179219836082]};

@@ -1,0 +1,33 @@
+// Random numbers that are counted, not drawn in turn: those of a fix follow from the seed, from the
+// number of its run and from its sample, as for wmrlib's receivers.
+
+const WORD = 2 ** 32, KEYS = [0x9E3779B9, 0xBB67AE85];
+
+// The upper word of the product of two words.
+function upper(a, b) {
+  const low = (a & 0xFFFF) * (b & 0xFFFF), left = (a >>> 16) * (b & 0xFFFF) + (low >>> 16);
+  const right = (a & 0xFFFF) * (b >>> 16) + left % 65536;
+  return (a >>> 16) * (b >>> 16) + Math.floor(left / 65536) + Math.floor(right / 65536);
+}
+
+// Philox 4x32-10 of Salmon et al. (2011): four random words.
+function philox([a, b, c, d], key) {
+  let [one, two] = key;
+  for (let round = 0; round < 10; round += 1) {
+    [a, b, c, d] = [
+      upper(0xCD9E8D57, c) ^ b ^ one, Math.imul(0xCD9E8D57, c),
+      upper(0xD2511F53, a) ^ d ^ two, Math.imul(0xD2511F53, a),
+    ].map((word) => word >>> 0);
+    [one, two] = [(one + KEYS[0]) % WORD, (two + KEYS[1]) % WORD];
+  }
+  return [a, b, c, d];
+}
+
+// Two standard normal numbers, by the rule of Box and Muller, out of 53 bits each.
+export function normals(run, sample, seed) {
+  const [a, b, c, d] = philox([run, 0, sample, 0], [seed % WORD, Math.floor(seed / WORD)]);
+  const size = (a * 2 ** 21 + (b >>> 11) + 0.5) * 2 ** -53;
+  const turn = 2 * Math.PI * (c * 2 ** 21 + (d >>> 11)) * 2 ** -53;
+  const length = Math.sqrt(-2 * Math.log(size));
+  return [length * Math.cos(turn), length * Math.sin(turn)];
+}

@@ -1,0 +1,70 @@
+// Runs of the robot as the drawings ask for them, kept while only the time moves.
+
+import { ARRIVED } from './setup.js';
+import { arcStep } from './model.js';
+import { drive, simulate, summarise } from './simulate.js';
+
+// A function of what JSON can say that keeps its last answer: a run need not be driven anew while
+// only the time moves.
+export function remembered(f) {
+  let key, last;
+  return (asked) => {
+    const text = JSON.stringify(asked);
+    if (text !== key) [key, last] = [text, f(asked)];
+    return last;
+  };
+}
+
+// A run of the law that acts all the time, sample by sample; `start`, `goal` and `gains` as for
+// `simulate`.
+/** @type {(options: Partial<Options>) => Run} */
+export const driven = remembered((options) =>
+    simulate(
+    { reference: null, law: 'corrected', method: 'continuous', dt: 0.05, duration: 60,
+    arrivalRadius: 0.05, ...options }));
+/**
+ * A drive by commands that are held, of `steps` at most: its poses and twists, and whether it
+ * arrived. It may have a sight and wheels of its own, see `drive`.
+ * @param {Values} options
+ */
+export function heldRun({ start, goal, gains, dt, radius, steps, ...odd }) {
+  const poses = [], twists = [], setup = { law: 'corrected', step: arcStep, moving: false };
+  const asked = { start, goal, gains, dt, samples: steps + 1, arrivalRadius: radius, ...odd };
+  const [, outcome] = drive({ ...setup, ...asked }, (k, t, pose, seen, twist) => {
+    poses.push(pose);
+    twists.push(twist);
+  });
+  return { poses, twists, arrived: outcome === ARRIVED };
+}
+export const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
+
+// The time, as a share, at which a path comes nearest to a point, or nothing if that is farther
+// than `reach`: for `scrub`.
+export function timeNear(xs, ys, x, y, reach) {
+  let best = 0;
+  const far = (k) => Math.hypot(xs[k] - x, ys[k] - y);
+  for (let k = 1; k < xs.length; k += 1) if (far(k) < far(best)) best = k;
+  return far(best) < reach ? { time: best / (xs.length - 1) } : null;
+}
+
+// A chain of goals, sampled, each left behind within its own of the `radii`: columns as of a run,
+// and `leg`. As wmrlib's `drive_route`.
+export const alongRoute = remembered(({ start, goals, radii, gains }) => {
+  const joined = { t: [], x: [], y: [], heading: [], v: [], V: [], leg: [] };
+  let pose = start, begin = 0, peakOmega = 0, arrived = true;
+  for (let leg = 0; arrived && leg < goals.length; leg += 1) {
+    const run =
+        simulate(
+        { start: pose, goal: goals[leg], gains, reference: null, law: 'corrected', method: 'arc',
+        dt: 0.1, duration: 120, arrivalRadius: radii[leg] }), last = run.n - 1;
+    arrived = run.outcome === 'ARRIVED';
+    // where a leg ends stands the next one's first sample
+    const kept = arrived && leg < goals.length - 1 ? last : run.n;
+    for (let k = 0; k < kept; k += 1)
+      for (const [name, column] of Object.entries(joined))
+        column.push(name === 't' ? begin + run.t[k] : name === 'leg' ? leg : run[name][k]);
+    peakOmega = Math.max(peakOmega, summarise(run).peakOmega);
+    [pose, begin] = [poseAt(run, last), begin + run.t[last]];
+  }
+  return { ...joined, n: joined.t.length, arrived, peakOmega };
+});

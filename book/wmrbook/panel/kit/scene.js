@@ -1,0 +1,290 @@
+// The path in the plane, equal scales: start and goal as arrows, the robot, and the three polar
+// errors as angles and a distance.
+
+import { drawAxes } from './axes.js';
+import { inside, label, line, multiples, stepFor, surfaceOf, tickText } from './surface.js';
+
+// px from a pose to the handle that turns it; unequal, so that both can be reached when they
+// coincide
+const ARROW = { start: 52, goal: 68 };
+const SPANS = [1, 1.25, 1.6, 2, 2.5, 3.2, 4, 5, 6.4, 8, 10];
+
+// Where the picture looks. It moves in steps, so that it doesn't swim while a slider is dragged,
+// and depends on nothing but its arguments. `marks` are points that must be seen; the runs are
+// followed as far as three times the marks' distance from the first. `zoomed` is null or [x, y,
+// metres from there to the nearer edge].
+/** @returns {View} */
+export function viewOf(runs, marks, arrows, { zoom, width, height }, zoomed) {
+  const box =
+      { left: 54, top: 10, width: Math.max(width - 66, 40), height: Math.max(height - 56, 40) };
+  if (zoomed) {
+    const centre = [box.left + box.width / 2, box.top + box.height / 2];
+    return viewAt(box, zoom, Math.min(box.width, box.height) / 2 / zoomed[2], zoomed, centre);
+  }
+  const reach =
+      2 + 3 * Math.max(...marks.map(([x, y]) => Math.hypot(x - marks[0][0], y - marks[0][1])));
+  const bounds = [Infinity, Infinity, -Infinity, -Infinity];
+  const include = (x, y) => {
+    bounds[0] = Math.min(bounds[0], x); bounds[1] = Math.min(bounds[1], y);
+    bounds[2] = Math.max(bounds[2], x); bounds[3] = Math.max(bounds[3], y);
+  };
+  marks.forEach(([x, y]) => include(x, y));
+  const clip = (value, middle) => Math.min(Math.max(value, middle - reach), middle + reach);
+  for (const run of runs) {
+    for (let k = 0; k < run.n; k += 1)
+      include(clip(run.x[k], marks[0][0]), clip(run.y[k], marks[0][1]));
+  }
+  const room = roomFor(arrows);
+  const needed = Math.max(
+    (bounds[2] - bounds[0]) / Math.max(box.width - room.left - room.right, 20),
+        (bounds[3] - bounds[1]) / Math.max(box.height - room.top - room.bottom, 20), 0.004,
+  );
+  const power = 10 ** Math.floor(Math.log10(needed));
+  // px a metre
+  const scale = 1 / (SPANS.find((each) => each * power >= needed * (1 - 1e-9)) * power);
+  const snap = (value) => Math.round(value * scale / 20) * 20 / scale;
+  const middle = [snap((bounds[0] + bounds[2]) / 2), snap((bounds[1] + bounds[3]) / 2)];
+  const centre = [box.left + (box.width + room.left - room.right) / 2,
+      box.top + (box.height + room.top - room.bottom) / 2];
+  return viewAt(box, zoom, scale, middle, centre);
+}
+
+// The view that shows the place `middle` at `centre`, with `scale` px a metre.
+const viewAt = (box, zoom, scale, middle, centre) => ({
+  box, scale, zoom,
+  toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
+  toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
+});
+
+// What `zoomed` would be for a view as it is.
+export const zoomOf = ({ box, scale, toWorld }) =>
+    [...toWorld(box.left + box.width / 2, box.top + box.height / 2),
+    Math.min(box.width, box.height) / 2 / scale];
+
+// px between the content and the frame, so that an arrow on the rim still shows its tip, and its
+// name beside it.
+function roomFor(arrows) {
+  const most = (least, share) =>
+      Math.max(least,
+      ...Object.entries(arrows)
+      .map(([name, pose]) => (pose ? 14 + ARROW[name] * share(pose[2]) : 0)));
+  return { left: most(54, (a) => -Math.cos(a)), right: most(54, Math.cos), top: most(30, Math.sin),
+      bottom: most(30, (a) => -Math.sin(a)) };
+}
+
+// What must be seen: start and goal, or start and the goal's whole way.
+export function marksOf(poses, run) {
+  const way = [];
+  if (poses.goal === null && run)
+    for (let k = 0; k < run.n; k += Math.ceil(run.n / 60)) way.push([run.goalX[k], run.goalY[k]]);
+  return [poses.goal, poses.start, ...way].filter(Boolean);
+}
+
+export const knobOf = (view, pose, name) => {
+  const [x, y] = view.toScreen(pose[0], pose[1]);
+  return [x + ARROW[name] * Math.cos(pose[2]), y - ARROW[name] * Math.sin(pose[2])];
+};
+
+export function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded, zoomed }) {
+  const { ctx } = surfaceOf(canvas, colours);
+  const goal = poses.goal || [run.goalX[cursor], run.goalY[cursor], run.goalHeading[cursor]];
+  drawGrid(ctx, view, colours);
+  ctx.globalAlpha = faded ? 0.35 : 1;
+  inside(ctx, view.box, () => {
+    if (ghost) drawPath(ctx, view, ghost.x, ghost.y, ghost.n, colours.ghost, 2.5, [3, 6]);
+    if (poses.goal === null && run)
+      drawPath(ctx, view, run.goalX, run.goalY, run.n, colours.goal, 1.5, [8, 5]);
+    if (run) drawPath(ctx, view, run.x, run.y, run.n, colours.path, 3, []);
+    if (run && hasSight(run, cursor)) drawAngles(ctx, view, run, cursor, colours);
+    drawPose(ctx, view, goal, 'goal', colours);
+    drawPose(ctx, view, poses.start, 'start', colours);
+    if (run)
+      drawRobot(ctx, view.toScreen(run.x[cursor], run.y[cursor]), run.heading[cursor], colours);
+  });
+  if (run && poses.goal && !zoomed && view.scale * LAST < 40)
+    drawLast(ctx, view, run, poses, colours);
+  inside(ctx, view.box, () => { // over the robot and the corner, where they are in the way
+    const robot = run && view.toScreen(run.x[cursor], run.y[cursor]);
+    drawName(ctx, view, goal, 'goal', colours, robot);
+    drawName(ctx, view, poses.start, 'start', colours, robot);
+  });
+  ctx.globalAlpha = 1;
+}
+
+const LAST = 1.5; // m round the goal: what a picture of the whole way is too small for
+
+// How the run ends, in the corner where least is in its way, over a ghost of the robot that has
+// parked as it should.
+function drawLast(ctx, view, run, poses, colours) {
+  const { box } = view, size = Math.min(0.38 * Math.min(box.width, box.height), 190), gap = 8;
+  const right = box.left + box.width - size - gap, bottom = box.top + box.height - size - gap;
+  const frames = [[right, bottom], [box.left + gap, bottom],
+      [box.left + gap, box.top + gap]].map(([left, top]) =>
+      ({ left, top, width: size, height: size }));
+  // with their names
+  const points = [poses.start,
+      poses.goal].flatMap((pose, k) =>
+      [0, -45, 45].map((dx) => view.toScreen(pose[0] + dx / view.scale, pose[1]))
+      .concat([knobOf(view, pose, k ? 'goal' : 'start')]));
+  for (let k = 0; k < run.n; k += Math.ceil(run.n / 200))
+    points.push(view.toScreen(run.x[k], run.y[k]));
+  const crowd = ({ left, top }) =>
+      points.filter(([x, y]) => x > left - 20 && x < left + size + 20 && y > top - 20
+      && y < top + size + 20).length;
+  const frame = frames.reduce((best, each) => (crowd(each) < crowd(best) ? each : best));
+  const near = viewAt(frame, view.zoom, size / 2 / LAST, poses.goal,
+      [frame.left + size / 2, frame.top + size / 2]), last = run.n - 1, alpha = ctx.globalAlpha;
+  inside(ctx, frame, () => {
+    ctx.fillStyle = colours.paper;
+    ctx.fillRect(frame.left, frame.top, size, size);
+    drawPath(ctx, near, run.x, run.y, run.n, colours.path, 3, []);
+    ctx.globalAlpha = 0.3 * alpha;
+    drawRobot(ctx, near.toScreen(poses.goal[0], poses.goal[1]), poses.goal[2], colours);
+    ctx.globalAlpha = alpha;
+    line(ctx, [near.toScreen(poses.goal[0], poses.goal[1]), knobOf(near, poses.goal, 'start')],
+        colours.goal, 3, [2, 5]);
+    if (run.outcome === 'ARRIVED')
+      drawRobot(ctx, near.toScreen(run.x[last], run.y[last]), run.heading[last], colours);
+    label(ctx, `within ${LAST} m`, frame.left + 6, frame.top + 12, colours,
+        { colour: colours.soft });
+  });
+  ctx.lineWidth = 1.5;
+  ctx.strokeStyle = colours.soft;
+  ctx.strokeRect(frame.left, frame.top, size, size);
+}
+
+function drawGrid(ctx, view, colours) {
+  const { box } = view;
+  const [left, bottom] = view.toWorld(box.left, box.top + box.height);
+  const [right, top] = view.toWorld(box.left + box.width, box.top);
+  // the same both ways
+  const finest = (low, high) => stepFor(low, high, (high - low) * view.scale / 55),
+      step = Math.min(finest(left, right), finest(bottom, top));
+  const write = (value) => tickText(value, step);
+  drawAxes(ctx, box, colours, {
+    along: {
+      ticks: multiples(step, left, right), write, title: 'x [m]',
+      at: (value) => view.toScreen(value, 0)[0],
+    },
+    up: {
+      ticks: multiples(step, bottom, top), write, title: 'y [m]',
+      at: (value) => view.toScreen(0, value)[1],
+    },
+  });
+}
+
+function drawPath(ctx, view, xs, ys, n, colour, width, dash) {
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = width;
+  ctx.setLineDash(dash);
+  ctx.beginPath();
+  const far = 1e5; // canvases lose their way with coordinates beyond the range of 32-bit pixels
+  for (let k = 0; k < n; k += 1) {
+    const [x, y] = view.toScreen(xs[k], ys[k]);
+    ctx.lineTo(Math.min(Math.max(x, -far), far), Math.min(Math.max(y, -far), far));
+  }
+  ctx.stroke();
+  ctx.restore();
+}
+
+export function drawPose(ctx, view, pose, name, colours) {
+  const [x, y] = view.toScreen(pose[0], pose[1]), [tipX, tipY] = knobOf(view, pose, name);
+  const colour = colours[name], back = pose[2] + Math.PI;
+  line(ctx, [[x, y], [tipX, tipY]], colour, 3);
+  line(ctx,
+      [0.45, -0.45].map((turn) =>
+      [tipX + 13 * Math.cos(back + turn), tipY - 13 * Math.sin(back + turn)])
+      .toSpliced(1, 0, [tipX, tipY]), colour, 3);
+  ctx.beginPath();
+  ctx.arc(x, y, 8, 0, 2 * Math.PI);
+  ctx.fillStyle = colours.paper;
+  ctx.fill();
+  ctx.lineWidth = 3;
+  ctx.strokeStyle = colour;
+  ctx.stroke();
+}
+
+// Behind a pose's arrow, out of its way, and on the side where the robot isn't.
+export function drawName(ctx, view, pose, name, colours, robot = null) {
+  const [x, y] = view.toScreen(pose[0], pose[1]), side = Math.cos(pose[2]) > 0 ? -1 : 1;
+  let down = Math.sin(pose[2]) > 0 ? 16 : -16; // px
+  if (robot && Math.hypot(x + side * 36 - robot[0], y + down - robot[1]) < 34) down = -down;
+  label(ctx, name, x + side * 16, y + down, colours,
+      { colour: colours[name], weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
+}
+
+/**
+ * @param {CanvasRenderingContext2D} ctx @param {Point} place @param {number} heading
+ * @param {Colours} colours
+ */
+export function drawRobot(ctx, [x, y], heading, colours) {
+  ctx.save();
+  ctx.translate(x, y);
+  ctx.rotate(-heading);
+  ctx.fillStyle = colours.ink;
+  for (const side of [-1, 1]) ctx.fillRect(-8, side * 12 - 3, 16, 6);
+  ctx.beginPath();
+  ctx.moveTo(-11, -9); ctx.lineTo(6, -9); ctx.lineTo(16, 0); ctx.lineTo(6, 9); ctx.lineTo(-11, 9);
+  ctx.closePath();
+  ctx.fillStyle = colours.path;
+  ctx.fill();
+  ctx.lineWidth = 2;
+  ctx.strokeStyle = colours.paper;
+  ctx.stroke();
+  ctx.restore();
+}
+
+// The sample of a run that is drawn nearest to a place on the screen, or null if none is near.
+export function nearestOf(run, view, x, y) {
+  let best = null, least = 20 ** 2; // px
+  for (let k = 0; run && k < run.n; k += 1) {
+    const [px, py] = view.toScreen(run.x[k], run.y[k]), far = (px - x) ** 2 + (py - y) ** 2;
+    if (far < least) [best, least] = [k, far];
+  }
+  return best;
+}
+
+// On the goal itself the line of sight has no direction, and the angles mean nothing.
+export const hasSight = (run, k) => run.rho[k] > 1e-6;
+
+// rho along the line of sight; alpha at the robot, from its heading; theta at the goal, from the
+// goal's heading: Fig. 2 of the paper.
+function drawAngles(ctx, view, run, k, colours) {
+  const robot = view.toScreen(run.x[k], run.y[k]), goal = view.toScreen(run.goalX[k], run.goalY[k]);
+  const sight = run.heading[k] + run.alpha[k];
+  const ahead = ([x, y], angle, length) =>
+      [x + length * Math.cos(angle), y - length * Math.sin(angle)];
+  line(ctx, [robot, goal], colours.rho, 1.5, [2, 5]);
+  line(ctx, [robot, ahead(robot, run.heading[k], 58)], colours.alpha, 1.5, [6, 4]);
+  line(ctx, [goal, ahead(goal, sight, 58)], colours.rho, 1.5, [2, 5]);
+  line(ctx, [goal, ahead(goal, run.goalHeading[k], 58)], colours.theta, 1.5, [6, 4]);
+  drawAngle(ctx, robot, run.heading[k], run.alpha[k], 36, 'α', colours.alpha, colours);
+  const distance = Math.hypot(goal[0] - robot[0], goal[1] - robot[1]);
+  // beyond the name of alpha
+  drawAngle(ctx, goal, run.goalHeading[k], run.theta[k], distance < 40 ? 72 : 46, 'θ',
+      colours.theta, colours);
+  if (distance > 90) {
+    const side = run.alpha[k] < 0 ? 12 : -12; // px; the other side of the line than alpha's arc
+    const middle = [(robot[0] + goal[0]) / 2 + side * Math.sin(sight),
+        (robot[1] + goal[1]) / 2 + side * Math.cos(sight)];
+    label(ctx, 'ρ', ...middle, colours,
+        { colour: colours.rho, size: 17, weight: 600, align: 'center' });
+  }
+}
+
+/**
+ * @param {CanvasRenderingContext2D} ctx @param {Point} place @param {number} from
+ * @param {number} angle @param {number} radius @param {string} name @param {string} colour
+ * @param {Colours} colours
+ */
+export function drawAngle(ctx, [x, y], from, angle, radius, name, colour, colours) {
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = 3;
+  ctx.beginPath();
+  ctx.arc(x, y, radius, -from, -(from + angle), angle > 0);
+  ctx.stroke();
+  const middle = from + angle / 2, away = radius + 13;
+  label(ctx, name, x + away * Math.cos(middle), y - away * Math.sin(middle), colours,
+      { colour, size: 17, weight: 600, align: 'center' });
+}

@@ -1,0 +1,72 @@
+// Colours by role, the page's theme, and how numbers are written.
+
+export const ROLES = ['paper', 'ink', 'soft', 'line', 'raised', 'focus', 'path', 'start', 'goal',
+    'rho', 'alpha', 'theta', 'rising', 'ghost'];
+export const FONT = 'system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
+export const DEGREES = 180 / Math.PI;
+
+function pageIsDark(root) {
+  const named = root.closest('[data-theme], [data-jp-theme-light]')
+      || document.querySelector('body[data-jp-theme-light]');
+  if (named && named.dataset.jpThemeLight) return named.dataset.jpThemeLight === 'false';
+  if (named && /^(dark|light)$/.test(named.dataset.theme)) return named.dataset.theme === 'dark';
+  return matchMedia('(prefers-color-scheme: dark)').matches;
+}
+
+// Calls back whenever the page turns light or dark. Returns what stops it.
+export function followTheme(onChange) {
+  const system = matchMedia('(prefers-color-scheme: dark)');
+  const watch = new MutationObserver(onChange);
+  for (const each of [document.documentElement, document.body]) {
+    watch.observe(each,
+        { attributes: true, attributeFilter: ['data-theme', 'data-mode', 'data-jp-theme-light'] });
+  }
+  system.addEventListener('change', onChange);
+  return () => { watch.disconnect(); system.removeEventListener('change', onChange); };
+}
+
+// Marks the panel, and the card it stands in, as light or dark; returns the colours for the
+// canvases.
+export function readColours(root) {
+  const theme = pageIsDark(root) ? 'dark' : 'light';
+  for (const each of [root, root.closest('.wmr-explorer')]) if (each) each.dataset.wmrTheme = theme;
+  const style = getComputedStyle(root);
+  return Object.fromEntries(
+      ROLES.map((role) => [role, style.getPropertyValue(`--${role}`).trim()]));
+}
+
+// viridis at 17 even steps (matplotlib, CC0); between them, straight lines in sRGB are within two
+// levels of the full table.
+const VIRIDIS = [
+  [68, 1, 84], [72, 24, 106], [71, 45, 123], [66, 64, 134], [59, 82, 139], [51, 99, 141],
+      [44, 114, 142], [38, 130, 142], [33, 145, 140],
+  [31, 160, 136], [40, 174, 128], [63, 188, 115], [94, 201, 98], [132, 212, 75], [173, 220, 48],
+      [216, 226, 25], [253, 231, 37],
+];
+
+export function viridis(share) {
+  const place = Math.min(Math.max(share, 0), 1) * (VIRIDIS.length - 1);
+  const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
+  return VIRIDIS[low].map((from, i) =>
+      Math.round(from + (place - low) * (VIRIDIS[low + 1][i] - from)));
+}
+
+// A number and i times another one, in words.
+export const complex = ([re, im]) =>
+    `${written(re)} ${im < 0 ? 'minus' : 'plus'} ${written(Math.abs(im))} i`;
+
+// Three significant digits, with a real minus sign.
+export function written(value, unit = '', digits = 3) {
+  if (!Number.isFinite(value)) return '–';
+  const size = Math.abs(value);
+  const text = size === 0 ? '0' : size >= 1e5
+    ? value.toExponential(1)
+    : value.toFixed(
+        Math.max(0, Math.min(3, digits - 1 - Math.floor(Math.log10(Math.max(size, 0.01))))));
+  const gap = unit === '°' || unit === '' ? '' : ' ';
+  return text.replace(/^-(?=[0.]*$)/, '').replace('-', '−') + gap + unit;
+}
+
+export const inDegrees = (angle) =>
+    (Number.isFinite(angle)
+    ? `${(angle * DEGREES).toFixed(1).replace(/^-0\.0$/, '0.0').replace('-', '−')}°` : '–');

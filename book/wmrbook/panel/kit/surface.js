@@ -1,0 +1,123 @@
+// What every canvas here shares: sharp pixels, axes with round numbers, and text that stays
+// readable over lines.
+
+import { FONT } from './style.js';
+
+// asking an element for its size in the middle of a drag would make the browser lay out the page
+const sizes = new WeakMap();
+
+// Width and height in units of `zoom` CSS pixels: a large canvas is meant for an audience at a
+// distance, and everything on it grows.
+export function measure(canvas) {
+  // hidden for a while, as everything is while JupyterLab changes its theme
+  if (canvas.clientWidth === 0 || canvas.clientHeight === 0) return;
+  // a deck's, for the last row
+  const least = Number(getComputedStyle(canvas).getPropertyValue('--zoom')) || 1;
+  const zoom = Math.max(Math.min(canvas.clientWidth / 660, 1.4), least);
+  sizes.set(canvas, { zoom, width: canvas.clientWidth / zoom, height: canvas.clientHeight / zoom });
+}
+
+export const sizeOf = (canvas) => sizes.get(canvas)
+    || (measure(canvas), sizes.get(canvas) || { zoom: 1, width: 1, height: 1 });
+
+// Returns {ctx, width, height} in those units, cleared, with as many real pixels as the screen has.
+export function surfaceOf(canvas, colours) {
+  const { zoom, width, height } = sizeOf(canvas);
+  const ratio = (window.devicePixelRatio || 1) * zoom;
+  const [across, down] = [Math.round(width * ratio), Math.round(height * ratio)];
+  if (canvas.width !== across || canvas.height !== down) {
+    canvas.width = across;
+    canvas.height = down;
+  }
+  const ctx = canvas.getContext('2d', { alpha: false });
+  ctx.setTransform(ratio, 0, 0, ratio, 0, 0);
+  ctx.fillStyle = colours.paper;
+  ctx.fillRect(0, 0, width, height);
+  ctx.lineJoin = ctx.lineCap = 'round';
+  return { ctx, width, height };
+}
+
+// A step of 1, 2 or 5 times a power of ten that cuts `span` into at most `most` pieces.
+export function roundStep(span, most) {
+  const rough = Math.max(span, 1e-12) / Math.max(most, 1),
+      power = 10 ** Math.floor(Math.log10(rough));
+  return [1, 2, 5, 10].find((each) => each * power >= rough * (1 - 1e-9)) * power;
+}
+
+export function multiples(step, low, high) {
+  const found = [];
+  for (let k = Math.ceil(low / step - 1e-9); k * step <= high + 1e-9 * step; k += 1)
+    found.push(k * step);
+  return found;
+}
+
+// Such a step with two numbers between the ends at least, for one alone is no scale.
+export function stepFor(low, high, most) {
+  let step = roundStep(high - low, most);
+  while (multiples(step, low, high).length < 2) step = roundStep(step, 2.5); // 5, 2, 1, 0.5
+  return step;
+}
+
+export function ticksOf(low, high, most) {
+  const step = stepFor(low, high, most);
+  return { ticks: multiples(step, low, high), write: (value) => tickText(value, step) };
+}
+
+export function tickText(value, step) {
+  const size = Math.max(Math.abs(value), step);
+  if (size >= 1e5 || step < 1e-4)
+    return value === 0 ? '0' : value.toExponential(0).replace('-', '−');
+  return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace('-', '−');
+}
+
+/**
+ * @param {CanvasRenderingContext2D} ctx @param {Point[]} points @param {string} colour
+ * @param {number[]} dash
+ */
+export function line(ctx, points, colour, width = 1.5, dash = []) {
+  ctx.save();
+  ctx.strokeStyle = colour;
+  ctx.lineWidth = width;
+  ctx.setLineDash(dash);
+  ctx.beginPath();
+  points.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+  ctx.stroke();
+  ctx.restore();
+}
+
+// The numbers of an axis: plain text, for there are many, and nothing crosses them.
+export function tickLabel(ctx, text, x, y, colours, align) {
+  ctx.font = `13px ${FONT}`;
+  ctx.textAlign = align;
+  ctx.textBaseline = 'middle';
+  ctx.fillStyle = colours.soft;
+  ctx.fillText(text, x, y);
+}
+
+// Text with a rim in the colour of the paper.
+export function label(ctx, text, x, y, colours,
+    { colour = colours.ink, size = 13, align = 'left', base = 'middle', weight = 400,
+    turn = 0 } = {}) {
+  ctx.save();
+  ctx.font = `${weight} ${size}px ${FONT}`;
+  ctx.textAlign = align;
+  ctx.textBaseline = base;
+  ctx.translate(x, y);
+  ctx.rotate(turn);
+  ctx.lineWidth = 4;
+  ctx.strokeStyle = colours.paper;
+  ctx.strokeText(text, 0, 0);
+  ctx.fillStyle = colour;
+  ctx.fillText(text, 0, 0);
+  ctx.restore();
+}
+
+/** @param {CanvasRenderingContext2D} ctx @param {Box} box @param {() => void} draw */
+export function inside(ctx, box, draw) {
+  ctx.save();
+  ctx.beginPath();
+  ctx.rect(box.left, box.top, box.width, box.height);
+  ctx.clip();
+  draw();
+  ctx.restore();
+}
