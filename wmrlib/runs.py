@@ -24,6 +24,11 @@ class Outcome(Enum):
     COMPLETED = "followed the reference to the end"
 
 
+# The codes by which loops say so; the last is a run's that would take too many steps.
+OUTCOMES = tuple(Outcome)
+ARRIVED, TIMED_OUT, DIVERGED, COMPLETED, UNFINISHED = range(len(OUTCOMES) + 1)
+
+
 class ReadOnly:
     """A frozen dataclass whose arrays can't be written to, in copies and pickles too."""
 
