@@ -42,8 +42,8 @@ from .runs import Outcome as Outcome
 from .runs import Trajectories as Trajectories
 from .runs import Trajectory as Trajectory
 from .simulation import simulate as simulate
+from .simulation import track as track
 from .sweeping import sweep as sweep
-from .tracking import track as track
 from .tracks import Track as Track
 from .tracks import read_track as read_track
 from .tracks import write_geojson as write_geojson

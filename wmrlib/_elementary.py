@@ -88,9 +88,24 @@ def share_of(value, limit):
     return limit / value if value > limit else 1.0
 
 
-_ARRAYS = {expm1: np.expm1, root: np.sqrt, distance: np.hypot, direction: np.arctan2}
-for _function, _numpys in _ARRAYS.items():
-    _function.register(np.ndarray, _numpys)
+@expm1.register(np.ndarray)
+def _(x):
+    return np.expm1(x)
+
+
+@root.register(np.ndarray)
+def _(x):
+    return np.sqrt(x)
+
+
+@distance.register(np.ndarray)
+def _(x, y):
+    return np.hypot(x, y)
+
+
+@direction.register(np.ndarray)
+def _(y, x):
+    return np.arctan2(y, x)
 
 
 @sincos.register(np.ndarray)

@@ -88,6 +88,11 @@ class Trajectory(ReadOnly):
     peak_omega: float
     path_length: float
 
+    @classmethod
+    def of(cls, t, record, outcome, peak, length, *setting) -> Trajectory:
+        """The run of a loop's samples, one a column, its outcome's code and its sums."""
+        return cls(*(t, *record, OUTCOMES[outcome], *setting, peak, length))
+
     def __len__(self) -> int:
         return self.t.size
 

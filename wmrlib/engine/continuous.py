@@ -1,72 +1,62 @@
 """The law acting all the time, with error control, for runs side by side in the lanes of a bench.
 
-A bench is one flat array. Its rows are named by where they begin, so that LLVM sees that they don't
-overlap, and computes four or eight runs with each instruction: 12 us a run on two cores, where
-`simulate` takes 180 on one.
+12 us a run on two cores, where `simulate` takes 180 on one.
 """
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 
 from wmrlib import motion
 from wmrlib._compile import compiled, formula
-from wmrlib._dop853 import FIFTH, SHARP, STAGES, THIRD, WEIGHTS
-from wmrlib._dop853 import growth, larger, step_error, until_event
+from wmrlib._dop853 import SHARP, growth, larger, step_error, until_event
 from wmrlib._elementary import wrap
 from wmrlib.engine import lanes
+from wmrlib.engine.bench import (  # fmt: skip
+    ALPHA,
+    BEYOND,
+    COARSE,
+    DT,
+    FINE,
+    GLIMPSE,
+    K_ALPHA,
+    K_RHO,
+    KEPT,
+    LANES,
+    LAST,
+    LEFT,
+    LENGTH,
+    NEAR,
+    NEW,
+    NEXT,
+    OMEGA,
+    PEAK,
+    RHO,
+    ROLLED,
+    ROOM,
+    SLOPES,
+    STAGE,
+    STEP,
+    SWING,
+    TAKEN,
+    THETA,
+    TIME,
+    TRIALS,
+    V_MAX,
+    H,
+    combine,
+)
 from wmrlib.engine.vectors import vectorised
 from wmrlib.gains import GainsFields
 from wmrlib.motion import polar_from_pose, pose_of_error
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
-LANES = 32  # runs side by side: a bench stays in the first-level cache
 MOST_TRIALS = 100_000.0  # steps of a run
 _BEYOND = 1e100  # m or rad: whoever gets so far in so many steps never ends
-_GLIMPSE = 1e-6  # share of a step behind its end at which omega is looked at too, for its rate
 _ROUNDS = 4  # steps between two looks at who has finished
-
-# A state is rho, alpha and theta, and the metres rolled in the step, signed as v is.
-RHO, ALPHA, THETA, ROLLED = range(0, 4 * LANES, LANES)
-# TIME has passed, and LEFT is to go: its sign turns if the run is over before. A sample is due at
-# NEXT. OMEGA is the row below a state's, among the slopes alone.
-LEFT, TIME, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, STEP, SWING, TRIALS, NEXT = range(
-    4 * LANES, 16 * LANES, LANES
-)
-SLOPES, STAGE = 16 * LANES, 5 * LANES  # of each stage, the rates of the state, and then omega
-OMEGA = 4 * LANES
-KEPT = 21  # rows: what is kept of a run between two steps, the slopes at its beginning too
-LAST, BEYOND = 12, 13  # the stages at the end of a step, and a glimpse behind it
-NEW, NEAR, FINE, COARSE, DT, TAKEN, ROOM = (
-    SLOPES + 14 * STAGE + rows * LANES for rows in (0, 4, 8, 12, 16, 17, 18)
-)
-_TO = (*STAGES, WEIGHTS, (*WEIGHTS, _GLIMPSE), FIFTH, THIRD)  # what each stage adds up
 polar_closing_rate = vectorised(motion.polar_closing_rate)
-
-
-def _written_out():
-    """The text of `combine`: LLVM vectorises no loop that holds another, and a loop over the slopes
-    outside, which keeps its sums in memory, takes 100 ns a step of a run where this takes 20.
-    """
-    yield "def combine(bench, used, stage):"
-    yield f" for first in range(0, 4 * {LANES}, {LANES}):"
-    yield "  row = first & 127"  # so that LLVM knows that no index is negative
-    for stage, weights in enumerate(_TO, 1):
-        slopes = ((SLOPES + j * STAGE, float(w)) for j, w in enumerate(weights) if w)
-        total = " + ".join(f"{weight!r} * bench[{at} + row + i]" for at, weight in slopes)
-        to = {BEYOND: NEAR, BEYOND + 1: FINE, BEYOND + 2: COARSE}.get(stage, NEW)
-        start = "bench[row + i] + " if stage <= BEYOND else ""
-        yield f"  if stage == {stage}:\n   for i in range(used):"
-        yield f"    bench[{to} + row + i] = {start}bench[{DT} + i] * ({total})"
-
-
-_space: dict[str, Any] = {"__name__": __name__}
-exec(compile("\n".join(_written_out()), __file__, "exec"), _space)
-combine = compiled(_space["combine"])
-"""Write the state at a stage, from its sum of slopes; or one of the two errors."""
 
 
 @formula
@@ -87,7 +77,7 @@ def begin(bench, used, law, wheels):
     """The slopes of stage 0, the first length of a step, and how omega changes."""
     slopes(bench, used, 0, 0, law, wheels)
     for i in range(used):
-        bench[STEP + i], bench[DT + i] = 0.01, 0.01 * _GLIMPSE
+        bench[STEP + i], bench[DT + i] = 0.01, 0.01 * GLIMPSE
         bench[PEAK + i] = abs(bench[SLOPES + OMEGA + i])
         for row in range(0, OMEGA, LANES):
             bench[NEAR + row + i] = bench[row + i] + bench[DT + i] * bench[SLOPES + row + i]
@@ -128,7 +118,7 @@ def judge(bench, used, radius):
         step, due, length = bench[STEP + i], bench[NEXT + i], bench[LENGTH + i]
         before, trials = bench[SWING + i], bench[TRIALS + i] - 1.0  # all first, see `decide`
         new, rolled, omega = bench[NEW + i], bench[NEW + ROLLED + i], bench[last + OMEGA]
-        swing = (bench[SLOPES + BEYOND * STAGE + OMEGA + i] - omega) / (_GLIMPSE * dt)
+        swing = (bench[SLOPES + BEYOND * STAGE + OMEGA + i] - omega) / (GLIMPSE * dt)
         falling = bench[RHO + i], bench[first], new, bench[last]
         rolling = 0.0, bench[first + ROLLED], rolled, bench[last + ROLLED]
         turning = bench[first + OMEGA], before, omega, swing
@@ -169,7 +159,7 @@ def note(bench, width, inside, goals, dt, records):
     for i in range(width):
         due = bench[TIME + i] == bench[NEXT + i] or bench[LEFT + i] == 0.0  # the last, if rounded
         if bench[TAKEN + i] > 0.0 and due:
-            k, run = int(round(bench[NEXT + i] / dt)), inside[i]
+            k, run = round(bench[NEXT + i] / dt), inside[i]
             if bench[LEFT + i] >= 0.0:  # an arrival is none
                 polar = max(bench[RHO + i], 0.0), bench[ALPHA + i], bench[THETA + i]
                 pose = pose_of_error(*polar, goals[0, run], goals[1, run], goals[2, run])
@@ -250,4 +240,6 @@ def survey(runs, law, wheels, _, dt, samples, radius, recorded):
     records = np.full((8, samples if recorded else 0, runs.shape[1]), np.nan)
     states = begun(runs, whole, radius, recorded)
     drive(states, runs[3:6], radius, law, wheels, dt, records)
-    return summed_up(states, whole, radius), records
+    summary = summed_up(states, whole, radius)
+    records[:, :, ~np.isin(summary[lanes.OUTCOME], (ARRIVED, TIMED_OUT))] = np.nan
+    return summary, records

@@ -13,8 +13,8 @@ import numpy as np
 from wmrlib._compile import compiled, formula
 from wmrlib._elementary import sincos
 
-# The rows of a receiver: its fields, in samples, the memory as how fast it fades; the number of its
-# run; its last fix, as the error in standard deviations and the sample; and the sample it shows now.
+# The rows of a receiver: its fields, in samples, the memory as how fast it fades; its run's number;
+# its last fix, as the error in standard deviations and the sample; and the sample it shows now.
 SIGMA, FADING, PERIOD, DELAY, HEADING_DELAY, RUN, EAST, NORTH, FIX, NOW = range(10)
 ROWS = NOW + 1
 _WORD = 0xFFFFFFFF

@@ -12,15 +12,16 @@ from wmrlib._elementary import wrap
 from wmrlib.engine import lanes, receivers
 from wmrlib.engine.vectors import BETWEEN_DIRECTIONS, NEAREST, vectorised
 from wmrlib.gains import GainsFields
+from wmrlib.loops import held, steer
 from wmrlib.motion import polar_from_pose
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT
-from wmrlib.simulation import held, steer
 
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
 _VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
 _ROUNDS = 16  # steps between two looks at who has finished
-# The rows of a block. LEFT is the number of steps to go, and its sign turns on arrival. GOING says
-# whether the step is taken, and ALIVE whether the sample is one of the run's. The pose that is seen is the receiver's, where there is one.
+# The rows of a block. LEFT is the number of steps to go, and its sign turns on arrival, which HERE
+# notes. GOING says whether the step is taken, and ALIVE whether the sample is one of the run's. The
+# pose that is seen is the receiver's, where there is one.
 X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(10)  # as in a sweep
 LEFT, PEAK, LENGTH, RHO, ALPHA, THETA, V, OMEGA, GOING, ALIVE, HERE = range(10, 21)
 SEEN = HERE + 1
@@ -179,9 +180,9 @@ def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded, *ke
         records = np.full((8, samples, runs.shape[1]), np.nan)
     if recorded or key:
         eyes, depth = receivers.in_samples(runs[LEFT:], dt, samples)
-        more = samples, records, eyes, depth, key or None
-        drive_all(states, *how, max(arrival_radius, NEAREST), *more)
+        shown = samples, records, eyes, depth, key or None
+        drive_all(states, *how, max(arrival_radius, NEAREST), *shown)
     else:
         drive(states, *how, max(arrival_radius, NEAREST))
-    more = samples, arrival_radius, records, bool(key)
-    return conclude(states, runs[:LEFT], *how, *more), records
+    ends = samples, arrival_radius, records, bool(key)
+    return conclude(states, runs[:LEFT], *how, *ends), records
