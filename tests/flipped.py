@@ -21,7 +21,7 @@ HEADING = (laws.corrected_law, "+ gains.h * theta", "- gains.h * theta")
 SPEED = (laws.corrected_law, "gains.v_max * decay", "-gains.v_max * decay")
 FLIPS = {  # the question: a formula behind it, what stands there, and what to make of it
     "arrived-parked": HEADING,
-    "swapped-points": (geodesy.haversine_distance, "e = np.sin(", "e = -np.sin("),
+    "swapped-points": (geodesy.great_circle_angle, "e = sin", "e = -sin"),
     "bearing-and-heading": (geodesy.destination_point, "np.sin(bearing)", "-np.sin(bearing)"),
     "turning-centre": (kinematics.wheels_to_twist, "right - left", "left - right"),
     "four-moves": (motion.arc_step, "y + chord", "y - chord"),
@@ -41,7 +41,7 @@ FLIPS = {  # the question: a formula behind it, what stands there, and what to m
     "crooked-compass": HEADING,
     "as-printed": (motion.polar_closing_rate, "turning - omega", "turning + omega"),
     "is-it-parked": HEADING,
-    "swapped-cables": (kinematics.twist_to_wheels, "v - omega", "v + omega"),
+    "swapped-cables": (motion.wheel_speeds, "v - omega", "v + omega"),
     "bearing-for-heading": (motion.polar_from_pose, "sight - heading", "sight + heading"),
     "at-the-corner": (routes.headings_along, "+ 0.5 * turn", "- 0.5 * turn"),
     "along-a-route": HEADING,

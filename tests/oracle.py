@@ -10,13 +10,14 @@ from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
 from wmrlib import laws
-from wmrlib._compile import elementwise
+from wmrlib._elementary import elementwise
 
 
 def commanded(rho, alpha, theta, v_ref, omega_ref, gains, law):
     """The twist (v, omega) that any of the laws commands, as the compiled loops ask for it."""
     tuned = laws.tuning_of(gains, law, laws.TRACKING_LAWS)
-    return elementwise(laws.command, 2, rho, alpha, theta, v_ref, omega_ref, options=tuned)
+    state = rho, alpha, theta, v_ref, omega_ref
+    return elementwise(lambda *values: laws.command(*values, *tuned), *state)
 
 
 def integrated(start, goal, gains, *, law, wheels, arrival_radius, duration, dt=0.1):

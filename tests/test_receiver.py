@@ -8,8 +8,8 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import _chunks
-from wmrlib._loops import sight
+from wmrlib.engine import receivers as engine
+from wmrlib.engine import sampled, threads
 
 DT, GAINS = 0.1, wmr.GENTLE_GAINS
 START, GOAL = wmr.Pose(-6.0, 2.0, 0.5), wmr.Pose(0.0, 0.0, -1.0)
@@ -31,7 +31,7 @@ FULL = 0xFFFFFFFF
     ],
 )
 def test_random_words_are_those_that_are_known(counter, key, words):
-    assert [f"{word:08x}" for word in sight.philox(counter, key)] == words.split()
+    assert [f"{word:08x}" for word in engine.philox(counter, key)] == words.split()
 
 
 # A second way, sample by sample, with whole numbers that don't overflow ---------------------------
@@ -184,7 +184,7 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     whole = wmr.sweep(many, GOAL, GAINS, **options)
     assert np.ptp(whole.distance) > 1.0
     assert 3.0 < np.abs(whole.heading_error).max() <= math.pi
-    monkeypatch.setattr(_chunks, "CORES", 1)
+    monkeypatch.setattr(threads, "CORES", 1)
     monkeypatch.setattr(wmr.sweeping, "_CHUNK", (1, 1))
     sizes, run_chunk = [], wmr.sweeping.run_chunk
 
@@ -194,7 +194,7 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
 
     monkeypatch.setattr(wmr.sweeping, "run_chunk", counted)
     assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, **options)))
-    assert set(sizes) == {1}  # Ctrl-C is heard between chunks: the longest run is the longest wait
+    assert max(sizes) <= sampled.BLOCK  # Ctrl-C is heard between chunks
     first = many._replace(x=many.x[0, :100])
     few = options | {"receiver": receiver._replace(sigma=receiver.sigma[:100], memory=0.0)}
     alone = wmr.sweep(first, GOAL, GAINS, **few)
@@ -209,10 +209,8 @@ def test_a_place_out_of_the_range_of_numbers_ends_the_run():
     options = SHORT | {"trajectories": True}
     ends, paths = wmr.sweep(START, GOAL, GAINS, receiver=wmr.Receiver([1e308, 1e-3]), **options)
     assert (ends.arrived.tolist(), ends.time[0]) == ([False, True], math.inf)
-    count = np.isfinite(paths.rho[0]).sum()
-    assert 1 < count < 50
-    assert ends.distance[0] == paths.rho[0, count - 1] > 1.0
-    assert ends.path_length[0] == pytest.approx(DT * np.abs(paths.v[0, : count - 1]).sum())
+    assert np.isnan([field[0] for field in ends[2:]]).all()
+    assert np.isfinite(paths.rho[0]).tolist().index(False) == 1
 
 
 @pytest.mark.parametrize(

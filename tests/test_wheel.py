@@ -15,7 +15,7 @@ ROOT = Path(__file__).resolve().parents[1]
 WANTED = {
     "wmrlib/__init__.pyi",
     "wmrlib/py.typed",
-    "wmrlib/_loops/polar.py",
+    "wmrlib/engine/lanes.py",
     "wmrlib/tracks/gpx.py",
     "wmrlib/symbolic/c/wmr_law.h",
     "wmrlib/symbolic/c/example.c",

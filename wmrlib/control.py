@@ -5,10 +5,12 @@ The formulas stand in `wmrlib.laws`. Here they take arrays and say what is wrong
 
 from __future__ import annotations
 
+from collections.abc import Callable
+
 from wmrlib._checks import Real, choice, instance, reals
-from wmrlib._compile import elementwise, formula
+from wmrlib._elementary import elementwise
 from wmrlib.gains import Gains, GainsFields, WheelLimits, checked_wheels
-from wmrlib.laws import POSE_LAWS, lyapunov_value, pose_law, saturation_scale
+from wmrlib.laws import LAWS, POSE_LAWS, lyapunov_value, saturation_scale
 from wmrlib.motion import polar_closing_rate
 
 
@@ -43,7 +45,7 @@ def control_law(
     """
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned)
-    v_over_rho, omega = elementwise(_numbers_to_law, 2, *state, options=(_code(law),))
+    v_over_rho, omega = elementwise(_law(law), *state)
     return v_over_rho * state[0], omega
 
 
@@ -69,7 +71,7 @@ def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Rea
     2.75
     """
     state = _checked(rho=rho, alpha=alpha, theta=theta, h=h, L=L)
-    return elementwise(lyapunov_value, 1, *state)[0]
+    return elementwise(lyapunov_value, *state)
 
 
 def lyapunov_rate(
@@ -104,8 +106,8 @@ def lyapunov_rate(
     tuned = instance("gains", gains, Gains)._asdict()
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned, L=L)
     rho, alpha, theta, *_, h, _, L = state
-    v_over_rho, omega = elementwise(_numbers_to_law, 2, *state[:-1], options=(_code(law),))
-    rates = elementwise(polar_closing_rate, 3, rho, alpha, v_over_rho, omega)
+    v_over_rho, omega = elementwise(_law(law), *state[:-1])
+    rates = elementwise(polar_closing_rate, rho, alpha, v_over_rho, omega)
     return rho * rates[0] / L + (alpha * rates[1] + h * theta * rates[2])
 
 
@@ -133,7 +135,7 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
     """
     v, omega = reals(v=v, omega=omega)
     limits = checked_wheels(limits, "limits")
-    scale = elementwise(saturation_scale, 1, v, omega, options=(limits,))[0]
+    scale = elementwise(lambda *twist: saturation_scale(*twist, limits), v, omega)
     return v * scale, omega * scale
 
 
@@ -141,10 +143,7 @@ def _checked(**state: Real) -> list[Real]:
     return reals(at_least_0=("rho", "h"), above_0=("L",), **state)
 
 
-def _code(law: str) -> int:
-    return POSE_LAWS[choice("law", law, POSE_LAWS)]
-
-
-@formula
-def _numbers_to_law(rho, alpha, theta, k_rho, k_alpha, h, v_max, law):
-    return pose_law(rho, alpha, theta, GainsFields(k_rho, k_alpha, h, v_max), law)
+def _law(law: str) -> Callable:
+    """The law as a formula of the polar error and four gains."""
+    row = LAWS[choice("law", law, POSE_LAWS)]
+    return lambda rho, alpha, theta, *gains: row.formula(rho, alpha, theta, GainsFields(*gains))

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 from collections import namedtuple
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 
@@ -105,8 +105,6 @@ class WheelLimits(NamedTuple):
     max_speed: float = math.inf
 
 
-FIELDS: Any = {Gains: GainsFields, KanayamaGains: KanayamaFields, LinearGains: LinearFields}
-"""What compiled loops make of each kind of gains."""
 NO_LIMITS = WheelLimits(1.0, math.inf)
 
 

@@ -10,6 +10,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from wmrlib._checks import Real, instance, plain, real, reals, same_shape, scalar
+from wmrlib._elementary import direction, elementwise, root, sincos
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
@@ -37,6 +38,24 @@ class GeoPoint:
         same_shape(lat=self.lat, lon=self.lon)
 
 
+def great_circle_angle(lat1, lat2, delta_lat, delta_lon):
+    """(11) and (12), without the radius."""
+    (sin_lat, _), (sin_lon, cos_lon) = sincos(delta_lat / 2), sincos(delta_lon / 2)
+    across = sincos(lat1)[1] * sincos(lat2)[1]
+    e = sin_lat**2 + across * sin_lon**2
+    # 1 - e without the difference, which loses digits near the antipode: the haversine to it
+    rest = sincos((lat2 + lat1) / 2)[0] ** 2 + across * cos_lon**2
+    return 2 * direction(root(e), root(rest))
+
+
+def bearing_angle(lat1, lat2, delta_lat, delta_lon):
+    """(15) to (17), in (-pi, pi]."""
+    cos_lat2 = sincos(lat2)[1]
+    # equals (17), and loses no digits for points close together
+    zeta_y = sincos(delta_lat)[0] + 2 * sincos(lat1)[0] * cos_lat2 * sincos(delta_lon / 2)[0] ** 2
+    return direction(cos_lat2 * sincos(delta_lon)[0], zeta_y)
+
+
 def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M) -> Real:
     """Return the great-circle distance from `a` to `b`.
 
@@ -61,13 +80,8 @@ def haversine_distance(a: GeoPoint, b: GeoPoint, radius: float = EARTH_RADIUS_M)
     >>> print(f"{wmr.haversine_distance(a, b):.2f} m")  # the paper prints 58.07
     58.08 m
     """
-    lat1, lat2, delta_lat, delta_lon = _radians(a=a, b=b)
-    metres = scalar("radius", radius, above=0.0)
-    across = np.cos(lat1) * np.cos(lat2)
-    e = np.sin(delta_lat / 2) ** 2 + across * np.sin(delta_lon / 2) ** 2
-    # 1 - e without the difference, which loses digits near the antipode: the haversine to it
-    rest = np.sin((lat2 + lat1) / 2) ** 2 + across * np.cos(delta_lon / 2) ** 2
-    return plain(metres * 2.0 * np.arctan2(np.sqrt(e), np.sqrt(rest)))
+    angles = _radians(a=a, b=b)
+    return scalar("radius", radius, above=0.0) * elementwise(great_circle_angle, *angles)
 
 
 def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
@@ -93,12 +107,8 @@ def initial_bearing(a: GeoPoint, b: GeoPoint) -> Real:
     >>> print(f"{math.degrees(wmr.initial_bearing(a, b)):.2f} deg")  # the paper prints 9.4
     9.58 deg
     """
-    lat1, lat2, delta_lat, delta_lon = _radians(a=a, b=b)
-    zeta_x = np.cos(lat2) * np.sin(delta_lon)
-    # equals (17), and loses no digits for points close together
-    zeta_y = np.sin(delta_lat) + 2.0 * np.sin(lat1) * np.cos(lat2) * np.sin(delta_lon / 2) ** 2
     turn = 2.0 * np.pi
-    bearing = np.mod(np.arctan2(zeta_x, zeta_y), turn)
+    bearing = np.mod(elementwise(bearing_angle, *_radians(a=a, b=b)), turn)
     return plain(np.where(bearing < turn, bearing, 0.0))  # mod rounds -1e-17 up to a full turn
 
 
@@ -212,5 +222,5 @@ def _radians(**points: GeoPoint) -> tuple[Real, Real, Real, Real]:
     named = {name: instance(name, point, GeoPoint) for name, point in points.items()}
     same_shape(**{f"{k}.{f}": getattr(named[k], f) for k in named for f in ("lat", "lon")})
     a, b = named.values()
-    differences = np.radians(np.subtract(b.lat, a.lat)), np.radians(np.subtract(b.lon, a.lon))
-    return np.radians(a.lat), np.radians(b.lat), *differences
+    differences = np.subtract(b.lat, a.lat), np.subtract(b.lon, a.lon)
+    return tuple(map(np.radians, (a.lat, b.lat, *differences)))

@@ -1,7 +1,7 @@
-"""Every law, once: a formula and one row in `LAWS`; equations (18), (22) and (24) of the paper.
+"""Every law, once: a formula, a row in `LAWS` and a line in `pose_law`; (18), (22) and (24).
 
-All else follows from these two: what `control` computes, the compiled loops, the sympy expressions,
-the panel's JavaScript and menu, and the C header.
+All else follows from these: what `control` computes, the compiled loops, the sympy expressions, the
+panel's JavaScript and menu, and the C header.
 """
 
 from __future__ import annotations
@@ -10,10 +10,16 @@ from collections.abc import Callable
 from typing import Any, NamedTuple
 
 from wmrlib._checks import choice, instance, refusal
-from wmrlib._compile import compiled, formula
-from wmrlib._vecmath import decay, sinc, sincos
-from wmrlib.gains import FIELDS, Gains, KanayamaGains, LinearGains
-from wmrlib.kinematics import wrap
+from wmrlib._compile import formula
+from wmrlib._elementary import decay, share_of, sinc, sincos, wrap
+from wmrlib.gains import (
+    Gains,
+    GainsFields,
+    KanayamaFields,
+    KanayamaGains,
+    LinearFields,
+    LinearGains,
+)
 
 # The formulas, one number at a time. A pose law gives v/rho, which is finite at the goal, where the
 # polar model divides v by rho; a law for a moving goal gives v.
@@ -90,8 +96,7 @@ def fastest_wheel(v, omega, track_width):
 @formula
 def saturation_scale(v, omega, wheels):
     """The factor on the twist that brings the faster wheel down to its limit."""
-    fastest = fastest_wheel(v, omega, wheels.track_width)
-    return wheels.max_speed / fastest if fastest > wheels.max_speed else 1.0
+    return share_of(fastest_wheel(v, omega, wheels.track_width), wheels.max_speed)
 
 
 class Law(NamedTuple):
@@ -124,60 +129,64 @@ LAWS = {
     ),
     "linear": Law(linear_law, LinearGains, "feed-forward (matrix)", _LINEAR, linear_value, True),
 }
-"""Every law, by name. The compiled loops know a law by its place in this table."""
+"""Every law, by name."""
+MOST_GAINS = max(len(row.gains._fields) for row in LAWS.values())
 TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
 POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name].needs_reference}
-# Loops take a "tuning": gains of each kind side by side, all 0 but those of the law, and in plain
-# tuples, which numba unpacks sooner than named ones.
-_KINDS = [*FIELDS]
-_UNUSED = tuple((0.0,) * len(fields._fields) for fields in FIELDS.values())
-OTHERS = _UNUSED[1:]  # the gains that a pose law has no use for
+
+
+# Loops know a law by its place in `LAWS`, and its gains as plain numbers, in the order of its own.
+CORRECTED, PRINTED, AICARDI, KANAYAMA, LINEAR = range(len(LAWS))
 
 
 @formula
-def _scaled(rho, v_over_rho, omega):
-    return v_over_rho * rho, omega
+def pose_gains(numbers):
+    return GainsFields(numbers[0], numbers[1], numbers[2], numbers[3])
 
 
-def _command_of(row: Law) -> str:
-    if row.needs_reference:
-        return "{formula}(*body_error(rho, alpha, theta), v_ref, omega_ref, {gains})"
-    return "_scaled(rho, *{formula}(rho, alpha, theta, {gains}))"
+@formula
+def kanayama_gains(numbers):
+    return KanayamaFields(numbers[0], numbers[1], numbers[2])
 
 
-def _by_law(name: str, arguments: str, laws: dict[str, int], call_of) -> Callable:
-    """The function of (rho, alpha, theta, `arguments`, law) that makes the call of that law.
-
-    In one expression, because numba takes a tenth of a second for each function, however short.
-    """
-    cases, known = [], globals() | {fields.__name__: fields for fields in FIELDS.values()}
-    for row, code in ((LAWS[each], code) for each, code in laws.items()):
-        used = {"formula": f"formula_{code}", "value": f"value_{code}"}
-        known |= {used["formula"]: row.formula, used["value"]: row.value}
-        gains = f"{FIELDS[row.gains].__name__}(*tuning[{_KINDS.index(row.gains)}])"
-        call = call_of(row).format(**used, gains=gains)
-        cases.append(f"{call} if law == {code}")
-    text = " else ".join(cases).rpartition(" if ")[0]  # the last law needs no condition
-    function = eval(f"lambda rho, alpha, theta, {arguments}, law: {text}", known)
-    function.__name__ = function.__qualname__ = name
-    return function
+@formula
+def pose_law(rho, alpha, theta, gains, law):
+    """(v/rho, omega) of a pose law."""
+    if law == CORRECTED:
+        return corrected_law(rho, alpha, theta, gains)
+    if law == PRINTED:
+        return printed_law(rho, alpha, theta, gains)
+    return aicardi_law(rho, alpha, theta, gains)
 
 
-_rule = _by_law("pose_law", "gains", POSE_LAWS, lambda _: "{formula}(rho, alpha, theta, gains)")
-pose_law = formula(_rule)
-"""(v/rho, omega) of a pose law: a function of (rho, alpha, theta, gains, law)."""
-command = compiled(_by_law("command", "v_ref, omega_ref, tuning", TRACKING_LAWS, _command_of))
-"""(v, omega) of any of the laws: of (rho, alpha, theta, v_ref, omega_ref, tuning, law)."""
-_rule = _by_law("value", "tuning", TRACKING_LAWS, lambda _: "{value}(rho, alpha, theta, {gains})")
-lyapunov_value_of = formula(_rule)
-"""Each law's own Lyapunov function with L = 1, of (rho, alpha, theta, tuning, law)."""
+@formula
+def command(rho, alpha, theta, v_ref, omega_ref, numbers, law):
+    """(v, omega) of any of the laws."""
+    if law < KANAYAMA:
+        v_over_rho, omega = pose_law(rho, alpha, theta, pose_gains(numbers), law)
+        return v_over_rho * rho, omega
+    ahead, left, turn = body_error(rho, alpha, theta)
+    if law == KANAYAMA:
+        return kanayama_law(ahead, left, turn, v_ref, omega_ref, kanayama_gains(numbers))
+    return linear_law(ahead, left, turn, v_ref, omega_ref, LinearFields(*numbers))
 
 
-def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[tuple, int]:
-    """The gains and the law as the compiled loops take them; ValueError if they don't match."""
+@formula
+def value_of(rho, alpha, theta, numbers, law):
+    """Each law's own Lyapunov function, with L = 1."""
+    if law == KANAYAMA:
+        return kanayama_value(rho, alpha, theta, kanayama_gains(numbers))
+    if law == LINEAR:
+        return linear_value(rho, alpha, theta, LinearFields(*numbers))
+    return pose_value(rho, alpha, theta, pose_gains(numbers))
+
+
+def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[tuple[float, ...], int]:
+    """The gains and the law as the loops take them; ValueError if they don't match."""
     code = laws[choice("law", law, laws)]
     instance("gains", gains, LAWS[law].gains)
     if {*map(type, gains)} != {float}:
         raise refusal("gains", gains, "one number a gain", "; sweep takes arrays of gains")
-    place = _KINDS.index(LAWS[law].gains)
-    return (*_UNUSED[:place], tuple(gains), *_UNUSED[place + 1 :]), code
+    numbers = (*gains, *(0.0,) * (MOST_GAINS - len(gains)))
+    command(1.0, 0.5, 0.2, 0.0, 0.0, numbers, code)  # a slip in a formula is Python's own error
+    return numbers, code

@@ -2,18 +2,18 @@
 
 from __future__ import annotations
 
-from wmrlib._compile import compiled, formula
-from wmrlib._vecmath import direction, distance, sinc, sincos, wrap
+from wmrlib._compile import formula
+from wmrlib._elementary import direction, distance, sinc, sincos, wrap
 
 
-@compiled
+@formula
 def polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading):
     east, north = goal_x - x, goal_y - y
     sight = direction(north, east)
     return distance(east, north), wrap(sight - heading), wrap(sight - goal_heading)
 
 
-@compiled
+@formula
 def pose_of_error(rho, alpha, theta, goal_x, goal_y, goal_heading):
     """The inverse: the pose that sees its goal so."""
     sight = theta + goal_heading
@@ -29,19 +29,25 @@ def polar_closing_rate(rho, alpha, v_over_rho, omega):
     return -v_over_rho * rho * cos_alpha, turning - omega, turning
 
 
-@compiled
+@formula
 def euler_step(x, y, heading, v, omega, dt):
     sin_heading, cos_heading = sincos(heading)
     return x + v * cos_heading * dt, y + v * sin_heading * dt, wrap(heading + omega * dt)
 
 
-@compiled
+@formula
 def arc_step(x, y, heading, v, omega, dt):
     """The arc's chord points half the turn aside and is sinc(half the turn) times as long."""
     half_turn = 0.5 * omega * dt
     sin_chord, cos_chord = sincos(heading + half_turn)
     chord = v * dt * sinc(half_turn)
     return x + chord * cos_chord, y + chord * sin_chord, wrap(heading + 2.0 * half_turn)
+
+
+@formula
+def wheel_speeds(v, omega, track_width):
+    """The inverse of (1) and (2)."""
+    return v - omega * (track_width / 2.0), v + omega * (track_width / 2.0)
 
 
 STEPS = {"euler": euler_step, "arc": arc_step}

@@ -8,9 +8,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-import numpy as np
-
 from wmrlib._checks import Real, choice, real
+from wmrlib._elementary import elementwise, sincos
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, local_position
 from wmrlib.kinematics import Pose, Reference
@@ -77,7 +76,13 @@ def circle(t: Real) -> Reference:
     ------
     ValueError : NaN
     """
+    return Reference(*elementwise(circle_at, real("t", t)))
+
+
+def circle_at(t):
+    """The formula of `circle`."""
     turn = 2.0 * math.pi / CIRCLE_PERIOD
-    angle = turn * real("t", t)
-    x, y = CIRCLE_RADIUS * (np.cos(angle) - 1.0), CIRCLE_RADIUS * np.sin(angle)
-    return Reference(x, y, angle + math.pi / 2.0, CIRCLE_SPEED + 0.0 * angle, turn + 0.0 * angle)
+    angle, still = turn * t, 0.0 * t
+    sine, cosine = sincos(angle)
+    x, y = CIRCLE_RADIUS * (cosine - 1.0), CIRCLE_RADIUS * sine
+    return x, y, angle + math.pi / 2.0, CIRCLE_SPEED + still, turn + still

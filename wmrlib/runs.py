@@ -24,6 +24,11 @@ class Outcome(Enum):
     COMPLETED = "followed the reference to the end"
 
 
+# The codes by which loops say so; the last is a run's that would take too many steps.
+OUTCOMES = tuple(Outcome)
+ARRIVED, TIMED_OUT, DIVERGED, COMPLETED, UNFINISHED = range(len(OUTCOMES) + 1)
+
+
 class ReadOnly:
     """A frozen dataclass whose arrays can't be written to, in copies and pickles too."""
 
@@ -82,6 +87,11 @@ class Trajectory(ReadOnly):
     method: str
     peak_omega: float
     path_length: float
+
+    @classmethod
+    def of(cls, t, record, outcome, peak, length, *setting) -> Trajectory:
+        """The run of a loop's samples, one a column, its outcome's code and its sums."""
+        return cls(*(t, *record, OUTCOMES[outcome], *setting, peak, length))
 
     def __len__(self) -> int:
         return self.t.size

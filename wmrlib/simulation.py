@@ -7,15 +7,24 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrlib._checks import choice, instance, reals, refusal, scalar
-from wmrlib._loops import alone, plane, rows
+from wmrlib._dop853 import NODES
+from wmrlib._elementary import wrap
 from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
-from wmrlib.motion import wrap
-from wmrlib.runs import Outcome, Trajectory, sample_count, single_pose
+from wmrlib.loops import MOST_TRIALS, continuous, held, in_python
+from wmrlib.motion import polar_from_pose
+from wmrlib.runs import (
+    ARRIVED,
+    COMPLETED,
+    TIMED_OUT,
+    UNFINISHED,
+    Trajectory,
+    sample_count,
+    single_pose,
+)
 
-_METHODS = (*plane.STEPS, "continuous")
-_OUTCOMES = tuple(Outcome)  # in the order of the loops' codes
+METHODS = ("arc", "euler", "continuous")
 
 
 def simulate(
@@ -74,20 +83,23 @@ def simulate(
     23.1 s, 2.1 deg off
     """
     begin, end = single_pose("start", start), single_pose("goal", goal)
-    tuning, code = tuning_of(gains, law, POSE_LAWS)
+    target = end.x, end.y, wrap(end.heading)
+    numbers, code = tuning_of(gains, law, POSE_LAWS)
     samples, dt = sample_count(dt, duration), float(dt)
     radius = scalar("arrival_radius", arrival_radius, low=0.0)
     limits, lag = checked_wheels(wheels), scalar("wheel_lag", wheel_lag, low=0.0)
-    continuously = choice("method", method, _METHODS) == "continuous"
+    continuously = choice("method", method, METHODS) == "continuous"
     if lag and not (continuously and radius):  # on the goal itself there is no line of sight
         raise refusal("wheel_lag", lag, '0, or method "continuous" with an arrival radius,')
-    t = dt * np.arange(samples)
+    t, loop = dt * np.arange(samples), (numbers, code, limits)
     if continuously:
-        run = alone.to_goal(begin, end, tuning, code, limits, t, radius, lag)
+        state = np.zeros(6 if lag else 4)
+        state[:3] = polar_from_pose(*begin, *target)
+        run = _continuous(t, state, radius, target, None, *loop, lag)
     else:
-        path = np.array([end.x, end.y, wrap(end.heading), 0.0, 0.0])[:, None]
-        run = _held(t, method, dt, radius, begin, path, tuning, code, limits)
-    return _trajectory(*run, end, gains, law, method)
+        path = np.array([*target, 0.0, 0.0])[:, None]
+        run = _held(t, method, radius, begin, path, *loop)
+    return Trajectory.of(*run, end, gains, law, method)
 
 
 def track(
@@ -134,37 +146,51 @@ def track(
     if not callable(reference):
         raise refusal("reference", reference, "a function of time")
     begin = single_pose("start", start)
-    tuning, code = tuning_of(gains, law, TRACKING_LAWS)
+    numbers, code = tuning_of(gains, law, TRACKING_LAWS)
     samples, dt = sample_count(dt, duration), float(dt)
-    limits = checked_wheels(wheels)
-    t = dt * np.arange(samples)
+    t, loop = dt * np.arange(samples), (numbers, code, checked_wheels(wheels))
 
     def path_at(times: np.ndarray) -> np.ndarray:
         seen = reference(np.minimum(times, duration))  # three times 0.1 is more than 0.3
-        fields = instance("reference(t)", seen, Reference)._asdict()
-        named = {f"reference(t).{name}": values for name, values in fields.items()}
-        path = np.array(np.broadcast_arrays(*reals(**named, t=times))[:-1])
-        if path.shape[1:] != times.shape:
-            raise refusal("reference(t)", named, "one number, or one a time, in each field")
+        path = np.empty((len(Reference._fields), times.size))
+        for row, values in zip(path, instance("reference(t)", seen, Reference), strict=True):
+            row[:] = values
         return path
 
+    first = instance("reference(t)", reference(np.minimum(t, duration)), Reference)._asdict()
+    named = {f"reference(t).{name}": values for name, values in first.items()}
+    if np.broadcast_shapes(*map(np.shape, reals(**named, t=t))) != t.shape:
+        raise refusal("reference(t)", named, "one number, or one a time, in each field")
     path = path_at(t)
-    if choice("method", method, _METHODS) == "continuous":
-        run = alone.after_reference(path_at, begin, tuning, code, limits, t)
+    if choice("method", method, METHODS) == "continuous":
+        state = np.array([*begin, 0.0])  # in the plane: the line of sight may have no length
+
+        def goals_at(now: float, dt: float) -> np.ndarray:
+            return path_at(now + dt * NODES)
+
+        run = _continuous(t, state, -np.inf, begin, goals_at, *loop, 0.0)
     else:
-        run = _held(t, method, dt, -1.0, begin, path, tuning, code, limits)
+        run = _held(t, method, -1.0, begin, path, *loop)
     t, record, outcome, *sums = run
-    ended = rows.COMPLETED if outcome == rows.TIMED_OUT else outcome
-    return _trajectory(t, record, ended, *sums, Pose(*path[:3, : t.size]), gains, law, method)
+    ended = COMPLETED if outcome == TIMED_OUT else outcome
+    goal = Pose(*path[:3, : t.size])
+    return Trajectory.of(t, record, ended, *sums, goal, gains, law, method)
 
 
-def _held(t, method, dt, radius, start, path, *loop) -> tuple:
-    """(t, record, outcome, peak omega, path length) of a run whose twist is held for dt."""
-    record = np.empty((rows.LYAPUNOV + 1, t.size))
-    steps = plane.STEPS[method], dt, radius
-    count, *sums = plane.drive(record.T, tuple(start), path, *loop, *steps)
+def _held(t, method, radius, begin, path, *loop) -> tuple:
+    """(t, record, outcome, peak omega, path length) of a run whose twist is held."""
+    record, dt = np.empty((9, t.size)), t[1]
+    count, *sums = held(record, tuple(begin), path, *loop, method == "arc", dt, radius)
     return t[:count], record[:, :count], *sums
 
 
-def _trajectory(t, record, outcome, peak, length, *setting) -> Trajectory:
-    return Trajectory(*(t, *record, _OUTCOMES[outcome], *setting, peak, length))
+def _continuous(t, state, radius, goal, goals_at, *loop) -> tuple:
+    """The same of a run whose law acts all the time, to its arrival too."""
+    record = np.empty((9, t.size))
+    drive = continuous if goals_at is None else in_python
+    count, outcome, end, *sums = drive(record, state, t, radius, tuple(goal), goals_at, *loop)
+    if outcome == UNFINISHED:
+        words = f", or slower gains and wheels: it would take more than {MOST_TRIALS:,} steps"
+        raise refusal("method", "continuous", "'arc' or 'euler'", words)
+    t = np.append(t[: count - 1], end) if outcome == ARRIVED else t[:count]
+    return t, record[:, :count], outcome, *sums

@@ -10,21 +10,19 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib import _chunks
 from wmrlib._checks import as_array, choice, instance, real, refusal, same_shape, scalar
-from wmrlib._loops import adaptive, plane, rows
+from wmrlib.engine import continuous, lanes, sampled, threads
 from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import POSE_LAWS
 from wmrlib.receiver import Receiver
-from wmrlib.runs import Arrival, Trajectories, sample_count
+from wmrlib.runs import ARRIVED, UNFINISHED, Arrival, Trajectories, sample_count
 
 MOST_RECORDED = 50_000_000
-_METHODS = {"continuous": (adaptive, None)} | {k: (plane, code) for k, code in plane.STEPS.items()}
+_ENGINES = {"continuous": continuous, "arc": sampled, "euler": sampled}
 # A chunk is worth a thread, and soon done when the sweep is stopped: evaluations of the law.
 _CHUNK = 250_000, 4_000_000  # least, most
 _LONG_WORK = 40_000_000
-_ALONE_COST = 17  # evaluations of the law that take as long as one step of a run driven by itself
 
 
 class _Task(NamedTuple):
@@ -43,7 +41,7 @@ class _Task(NamedTuple):
         """Evaluations of the law in one run, about, or what takes as long."""
         if self.method == "continuous":
             return 700 + 14 * self.samples * self.recorded
-        return self.samples * (_ALONE_COST if self.key or self.recorded else 1)
+        return self.samples * (4 if self.key else 1 + self.recorded)
 
 
 def sweep(
@@ -115,7 +113,7 @@ def sweep(
         fields[name] = wrap_angle(real(name, fields[name]))  # loops take directions
     fields["law"] = _law_codes(law)
     shape = same_shape(**fields)
-    choice("method", method, _METHODS)
+    choice("method", method, _ENGINES)
     samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
     if receiver and method == "continuous":
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
@@ -133,25 +131,25 @@ def sweep(
             f"at most {MOST_RECORDED:,} in all are needed"
         )
     summary = np.full((len(Arrival._fields), total), np.nan)
-    record = np.full((rows.LYAPUNOV, total, samples if trajectories else 0), np.nan)
+    record = np.full((8, samples if trajectories else 0, total), np.nan)
     source = [np.broadcast_to(field, shape).reshape(-1) for field in fields.values()]
     if receiver:
         source.insert(-1, np.arange(total))  # before the law: the run's number
     long = progress and total * task.cost >= _LONG_WORK
     with (
-        _chunks.watched(total, long) as go_on,
+        threads.watched(total, long) as go_on,
         closing(_results(source, total, task, go_on)) as results,
     ):
         for (first, last), (metrics, paths) in results:
-            summary[:, first:last], record[:, first:last] = metrics, paths
+            summary[:, first:last], record[:, :, first:last] = metrics, paths
             go_on(last - first)
     for message in _shortcomings(summary):
         warnings.warn(message, RuntimeWarning, stacklevel=2)
     outcome, *rest = (row.reshape(shape) if shape else float(row[0]) for row in summary)
-    metrics = Arrival(outcome == rows.ARRIVED, *rest)
+    metrics = Arrival(outcome == ARRIVED, *rest)
     if not trajectories:
         return metrics
-    paths = record.reshape(rows.LYAPUNOV, *shape, samples)
+    paths = np.moveaxis(record.reshape(8, samples, *shape), 1, -1)
     return metrics, Trajectories(dt * np.arange(samples), *paths)
 
 
@@ -159,13 +157,13 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
     laws = np.unique(runs[-1])
     if laws.size == 1:
-        module, step = _METHODS[task.method]
-        return module.survey(runs[:-1], int(laws[0]), task.limits, step, *task[2:-1], *task.key)
+        survey, how = _ENGINES[task.method].survey, (task.limits, task.method, *task[2:-1])
+        return survey(runs[:-1], int(laws[0]), *how, *task.key)
     summary = np.empty((len(Arrival._fields), runs.shape[1]))
-    record = np.empty((rows.LYAPUNOV, runs.shape[1], task.samples if task.recorded else 0))
+    record = np.empty((8, task.samples if task.recorded else 0, runs.shape[1]))
     for law in laws:
         members = np.flatnonzero(runs[-1] == law)
-        summary[:, members], record[:, members] = run_chunk(runs.take(members, axis=1), task)
+        summary[:, members], record[:, :, members] = run_chunk(runs.take(members, axis=1), task)
     return summary, record
 
 
@@ -177,25 +175,24 @@ def _results(source, total: int, task: _Task, go_on) -> Generator:
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
     if len(chunks) > 1:  # compile here, and not in several threads
         run_chunk(np.tile(np.unique(source[-1]), (len(source), 1)), task._replace(samples=2))
-    return _chunks.spread(run_chunk, chunks, arguments, go_on)
+    return threads.spread(run_chunk, chunks, arguments, go_on)
 
 
 def _shortcomings(summary: np.ndarray) -> Iterator[str]:
-    outcome = summary[rows.OUTCOME]
-    done, given_up = (~np.isnan(outcome)).sum(), (outcome == rows.UNFINISHED).sum()
+    outcome = summary[lanes.OUTCOME]
+    done, given_up = (~np.isnan(outcome)).sum(), (outcome == UNFINISHED).sum()
     if done < outcome.size:
         yield f"interrupted: {done:,} of {outcome.size:,} runs are done, the others are NaN"
     if given_up:
-        most = f"{adaptive.MOST_TRIALS:,.0f} steps"
+        most = f"{continuous.MOST_TRIALS:,.0f} steps"
         yield f"{given_up:,} of {outcome.size:,} runs are NaN: their gains need more than {most}"
 
 
 def _chunk_size(total: int, task: _Task) -> int:
     """Whole blocks of runs, if they run in blocks; if worth it, four chunks for each core."""
     least, most = _CHUNK
-    size = math.ceil(min(most, max(least, total * task.cost / (4 * _chunks.CORES))) / task.cost)
-    block = 1 if task.key or task.recorded else plane.BLOCK  # those are driven one by one
-    return block * math.ceil(size / block)
+    size = math.ceil(min(most, max(least, total * task.cost / (4 * threads.CORES))) / task.cost)
+    return sampled.BLOCK * math.ceil(size / sampled.BLOCK)
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:

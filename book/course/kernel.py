@@ -212,6 +212,7 @@ def _environment(lib: Path, home: Path) -> dict[str, str]:
         **{f"{name}_NUM_THREADS": count for name, count in threads.items()},
         **dict.fromkeys(("HOME", "USERPROFILE", "TMPDIR", "TEMP"), str(home)),
         "PYTHONPATH": str(lib),
+        "NUMBA_CACHE_DIR": str(lib / "wmrlib" / "__pycache__"),
         "MALLOC_ARENA_MAX": "2",  # each arena counts 64 MB of the memory
     }
 

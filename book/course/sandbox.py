@@ -52,7 +52,7 @@ class Sandbox:
     def __enter__(self) -> Sandbox:
         import wmrbook
         import wmrlib
-        from wmrlib._compile import _FOLDERS
+        from wmrlib._compile import FOLDER
 
         self.stage = Path(tempfile.mkdtemp(prefix="wmr-"))
         for package in wmrlib, wmrbook:
@@ -60,8 +60,8 @@ class Sandbox:
             copy = self.stage / "lib" / source.name  # without what older versions compiled
             shutil.copytree(source, copy, ignore=shutil.ignore_patterns("compiled-*"))
         compiled = self.stage / "lib" / "wmrlib" / "__pycache__"
-        for folder in filter(Path.exists, _FOLDERS):
-            shutil.copytree(folder, compiled / folder.name, dirs_exist_ok=True)
+        if FOLDER:
+            shutil.copytree(FOLDER, compiled / FOLDER.name, dirs_exist_ok=True)
         self.processes = _processes()
         return self
 

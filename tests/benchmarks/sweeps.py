@@ -13,7 +13,7 @@ import numpy as np
 from timing import Row, in_turn
 
 import wmrlib as wmr
-from wmrlib import _chunks
+from wmrlib.engine import threads
 
 os.environ.setdefault(
     "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
@@ -47,7 +47,7 @@ def states(runs: int) -> list[np.ndarray]:
 
 def on(cores: int):
     """A context in which sweeps have so many cores."""
-    return mock.patch.object(_chunks, "CORES", cores)
+    return mock.patch.object(threads, "CORES", cores)
 
 
 def sweep(method: str, runs: int, steps: int, cores: int = 1):

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from wmrlib import geodesy, kinematics, laws, motion, paper
+from wmrlib import geodesy, laws, motion, paper
 from wmrlib.gains import Gains
 from wmrlib.symbolic import symbols as s
 from wmrlib.symbolic.model import closed_loop, gains_of, read, steering
@@ -99,7 +99,7 @@ FORMULAS = {
     "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
     "pose_of_error": _read(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
     "polar_closing_rate": _read(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
-    "circle": _read(paper.circle, (s.t,), "x, y, heading, v, omega of the goal"),
+    "circle": _read(paper.circle_at, (s.t,), "x, y, heading, v, omega of the goal"),
 }
 """What is printed for the panel, by name."""
 
@@ -111,12 +111,12 @@ C_LAWS = {
 """The laws that the C header has, by their names there."""
 
 _DISTANCE, _SIGHT, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
-_LEFT, _RIGHT = read(kinematics.twist_to_wheels, s.v, s.omega, s.b)
+_LEFT, _RIGHT = read(motion.wheel_speeds, s.v, s.omega, s.b)
 _TWIST_AND_WIDTH = s.v, s.omega, s.b
 _SCALE = "the factor on the twist for a max_speed"
-_START, _END = (s.lat1,), (s.lat2, s.dlat, s.dlong)
-_LENGTH = read(geodesy.haversine_distance, _START, _END, s.R)
-_BEARING = read(geodesy.initial_bearing, _START, _END)
+_ENDS = s.lat1, s.lat2, s.dlat, s.dlong
+_LENGTH = s.R * read(geodesy.great_circle_angle, *_ENDS)[0]
+_BEARING = read(geodesy.bearing_angle, *_ENDS)
 C_FORMULAS = {
     **_GUARDS,
     "lyapunov_value": _read(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
@@ -126,7 +126,7 @@ C_FORMULAS = {
     "right_wheel": Formula(_TWIST_AND_WIDTH, (_RIGHT,), "ground speed, from (1) and (2)"),
     "fastest_wheel": _read(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
     "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
-    "sphere_distance": _shared((*_START, *_END, s.R), _LENGTH, "(11) to (13)"),
-    "bearing": _shared(_START + _END, _BEARING, "(15) to (17)"),
+    "sphere_distance": _shared((*_ENDS, s.R), (_LENGTH,), "(11) to (13)"),
+    "bearing": _shared(_ENDS, _BEARING, "(15) to (17)"),
 }
 """What a robot needs around the law, each a function of numbers."""

@@ -10,8 +10,7 @@ import sympy as sp
 from sympy.printing.jscode import JavascriptCodePrinter
 from sympy.printing.precedence import PRECEDENCE
 
-from wmrlib import laws, motion
-from wmrlib._loops import tableau
+from wmrlib import _dop853, laws, motion
 from wmrlib.symbolic.formulas import FORMULAS, Formula
 
 _HEADER = "// Printed from wmrlib's formulas by symbolic.javascript: change those.\n"
@@ -73,8 +72,8 @@ def javascript() -> str:
     functions = "".join(_function(name, formula) for name, formula in FORMULAS.items())
     table = "".join(_law(name, row) for name, row in laws.LAWS.items())
     steps = ", ".join(f"{name}: {javascript_name(f.__name__)}" for name, f in motion.STEPS.items())
-    rows = {"stages": tableau.STAGES, "weights": tableau.WEIGHTS}
-    rows |= {"fifth": tableau.FIFTH, "third": tableau.THIRD}
+    rows = {"stages": _dop853.STAGES, "weights": _dop853.WEIGHTS}
+    rows |= {"fifth": _dop853.FIFTH.tolist(), "third": _dop853.THIRD.tolist()}
     rule = json.dumps(rows).replace('"', "")
     tables = f"export const STEPS = {{ {steps} }};\n{_wrapped(f'export const RULE = {rule};')}\n"
     return f"{_HEADER}{functions}\nexport const LAWS = {{\n{table}}};\n{tables}"

@@ -2,49 +2,39 @@
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable
 from types import SimpleNamespace
 from typing import Any
 
-import numpy as np
 import sympy as sp
 
-from wmrlib import _checks, _vecmath, geodesy, laws, motion
+from wmrlib import _elementary, laws, motion
 from wmrlib._checks import choice
 from wmrlib.symbolic import symbols as s
 
 LAWS = tuple(laws.LAWS)
 
 
-def _sincos(angle: sp.Expr) -> tuple[sp.Expr, sp.Expr]:
+@_elementary.sincos.register(sp.Expr)
+def _(angle):
     angle = angle.args[0] if isinstance(angle, s.wrap) else angle
     return sp.sin(angle), sp.cos(angle)
 
 
-_LIBRARY = SimpleNamespace(
-    **(vars(sp) | {"arctan2": sp.atan2, "hypot": lambda x, y: sp.sqrt(x**2 + y**2)}),
-    mod=lambda x, period: x,
-    where=lambda test, x, y: x,
-)
-_SYMBOLIC = {
-    math: _LIBRARY,
-    np: _LIBRARY,
-    _vecmath.sincos: _sincos,
-    _vecmath.sinc: sp.sinc,
-    _vecmath.decay: s.decay,
-    motion.wrap: s.wrap,
-    _checks.real: lambda name, value, **bounds: value,
-    _checks.scalar: lambda name, value, **bounds: value,
-    _checks.reals: lambda above_0, **values: values.values(),
-    geodesy._radians: lambda a, b: (a[0], b[0], b[1], b[2]),
-    _checks.plain: lambda value: value,
-}
+for _function, _symbols in {
+    _elementary.sinc: sp.sinc,
+    _elementary.decay: s.decay,
+    _elementary.wrap: s.wrap,
+    _elementary.root: sp.sqrt,
+    _elementary.direction: sp.atan2,
+    _elementary.distance: lambda x, y: sp.sqrt(x**2 + y**2),
+}.items():
+    _function.register(sp.Expr, _symbols)
 
 
 def read(function: Callable, *arguments: Any) -> tuple[sp.Expr, ...]:
-    """What a function of numbers returns for symbols: it runs with sympy's functions inside."""
-    value = _vecmath.rebuilt(function, dict(_SYMBOLIC))(*arguments)
+    """What a formula returns for symbols, as a tuple."""
+    value = function(*arguments)
     return tuple(map(_exact, value if isinstance(value, tuple) else (value,)))
 
 

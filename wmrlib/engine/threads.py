@@ -14,7 +14,7 @@ import numba
 
 CORES = numba.config.NUMBA_NUM_THREADS  # that this process may use
 _BAR_AFTER = 1.0  # s
-_HEARD_AFTER = 0.5  # s; so late a wait may hear Ctrl-C
+_POLL_SECONDS = 0.5  # s; so late a wait may hear Ctrl-C
 _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
 
 
@@ -32,7 +32,7 @@ def spread(job: Callable, chunks: Iterable, arguments: Callable, go_on: Callable
             if not waiting:
                 return
             going = go_on(0)
-            patience = _HEARD_AFTER if going else 0.0
+            patience = _POLL_SECONDS if going else 0.0
             for future in futures.wait(waiting, patience, futures.FIRST_COMPLETED).done:
                 yield waiting.pop(future), future.result()
     finally:

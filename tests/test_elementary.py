@@ -5,7 +5,7 @@ A unit is 2^-52 of the value. The laws see angles of some turns and rho up to a 
 
 import itertools
 import math
-from types import SimpleNamespace
+from functools import cache
 
 import mpmath
 import numpy as np
@@ -13,8 +13,10 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from wmrlib import _vecmath, control
+from wmrlib import _elementary, laws
 from wmrlib._compile import compiled
+from wmrlib.engine import vectors
+from wmrlib.gains import GainsFields
 
 mpmath.mp.dps = 40
 TWO_ULP = 2.0 * 2.0**-52
@@ -26,53 +28,67 @@ def near(truth):
     return pytest.approx(float(truth), rel=TWO_ULP, abs=1e-300)
 
 
-both = pytest.mark.parametrize(
-    "form", [lambda function: function, _vecmath.vectorised], ids=["alone", "vectorised"]
-)
+@cache
+def in_lanes(function):
+    """The form that the engine compiles, for one number."""
+    form = vectors.vectorised(function)
+    return compiled(lambda *numbers: form(*numbers))
 
 
-@both
+def numpys(function):
+    def of_arrays(*numbers):
+        results = _elementary.elementwise(function, *map(np.atleast_1d, numbers))
+        return tuple(each[0] for each in results) if len(results) == 2 else results[0]
+
+    return of_arrays
+
+
+FORMS = {"alone": lambda function: function, "in lanes": in_lanes, "arrays": numpys}
+forms = pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
+
+
+@forms
 @given(angle=angles | st.integers(-2000, 2000).map(lambda quarters: quarters * math.pi / 2))
 @example(angle=0.0)
 @example(angle=-0.0)
 def test_sincos(form, angle):
-    sine, cosine = form(_vecmath.sincos)(angle)
+    sine, cosine = form(_elementary.sincos)(angle)
     assert sine == near(mpmath.sin(angle))
     assert cosine == near(mpmath.cos(angle))
 
 
 @pytest.mark.parametrize("angle", [1e6, -999_999.25, 636_619 * math.pi / 2])
 def test_sincos_up_to_a_million_radians(angle):
-    assert _vecmath.vector_sincos(angle) == (near(mpmath.sin(angle)), near(mpmath.cos(angle)))
+    assert vectors.vector_sincos(angle) == (near(mpmath.sin(angle)), near(mpmath.cos(angle)))
 
 
 @pytest.mark.parametrize("angle", [1.1e6, -1e300, math.inf, -math.inf, math.nan])
 def test_a_direction_that_is_lost_is_not_a_number(angle):
     assert np.isnan(
-        [*_vecmath.vector_sincos(angle), _vecmath.vectorised(_vecmath.sinc)(angle)]
+        [*vectors.vector_sincos(angle), vectors.vectorised(_elementary.sinc)(angle)]
     ).all()
 
 
-@both
+@forms
 @given(angle=angles)
 @example(angle=0.0)
 @example(angle=1e-8)
 @example(angle=-1.0000001e-8)
 @example(angle=5e-324)
 def test_sinc(form, angle):
-    assert form(_vecmath.sinc)(angle) == near(
+    assert form(_elementary.sinc)(angle) == near(
         mpmath.sin(angle) / mpmath.mpf(angle) if angle else 1.0
     )
 
 
-@both
+@forms
 @given(x=st.floats(-800.0, 1.0) | st.floats(-1e-6, 1e-6) | st.floats(-2.0, 0.0))
 @example(x=0.0)
 def test_expm1(form, x):
-    assert form(_vecmath.expm1)(x) == near(mpmath.expm1(mpmath.mpf(x)))
+    assert form(_elementary.expm1)(x) == near(mpmath.expm1(mpmath.mpf(x)))
 
 
-@both
+@forms
 @given(
     rho=st.floats(0.0, 1e3)
     | st.floats(0.0, 1e-6)
@@ -90,7 +106,7 @@ def test_decay(form, rho, k_rho):
     past = max(
         0.0, -k_rho * rho
     )  # the rounding of this product, half a unit, is made larger by as much as exp grows
-    assert form(_vecmath.decay)(rho, k_rho) == pytest.approx(
+    assert form(_elementary.decay)(rho, k_rho) == pytest.approx(
         float(truth), rel=TWO_ULP * (1.0 + past), abs=1e-300
     )
 
@@ -98,7 +114,7 @@ def test_decay(form, rho, k_rho):
 lengths = st.floats(-1e3, 1e3) | st.floats(-1e150, 1e150) | st.floats(-1e-100, 1e-100)
 
 
-@both
+@forms
 @given(y=lengths, x=lengths)
 @example(y=1.0, x=1.0)
 @example(y=math.sqrt(2.0) - 1.0, x=1.0)  # where the direction is first turned back by pi/4
@@ -106,21 +122,21 @@ lengths = st.floats(-1e3, 1e3) | st.floats(-1e150, 1e150) | st.floats(-1e-100, 1
 @example(y=1e150, x=1e-200)
 def test_direction_and_distance(form, y, x):
     truth = mpmath.atan2(y, x) if y or x > 0.0 else math.atan2(y, x)  # mpmath knows no -0
-    assert form(_vecmath.direction)(y, x) == near(truth)
-    away, truth = form(_vecmath.distance)(x, y), mpmath.hypot(x, y)
-    assert away == near(truth) or max(away, truth) < _vecmath.NEAREST
+    assert form(_elementary.direction)(y, x) == near(truth)
+    away, truth = form(_elementary.distance)(x, y), mpmath.hypot(x, y)
+    assert away == near(truth) or max(away, truth) < vectors.NEAREST
 
 
 edges = 0.0, 1.0, 1e300, math.inf
 
 
-@both
+@forms
 def test_direction_has_the_signs_of_atan2_on_every_axis(form):
     ends = [sign * edge for edge in edges for sign in (1.0, -1.0)]
     for y, x in itertools.product(ends, ends):
-        mine, truth = form(_vecmath.direction)(y, x), math.atan2(y, x)
+        mine, truth = form(_elementary.direction)(y, x), math.atan2(y, x)
         if abs(y) == abs(x) == math.inf and math.isnan(mine):
-            assert form is _vecmath.vectorised
+            assert form is in_lanes
         else:
             assert (mine, math.copysign(1.0, mine)) == (near(truth), math.copysign(1.0, truth))
 
@@ -135,26 +151,26 @@ def test_direction_has_the_signs_of_atan2_on_every_axis(form):
 def test_wrap_is_exact(angle):
     turns = mpmath.ceil((mpmath.mpf(angle) - math.pi) / mpmath.mpf(2.0 * math.pi))
     truth = float(mpmath.mpf(angle) - turns * mpmath.mpf(2.0 * math.pi))
-    assert _vecmath.wrap(angle) == _vecmath.vector_wrap(angle) == truth
+    assert _elementary.wrap(angle) == vectors.vector_wrap(angle) == truth
     if abs(angle) <= 2.0 * math.pi:
-        assert _vecmath.vector_wrap_once(angle) == truth
+        assert vectors.vector_wrap_once(angle) == truth
 
 
-@both
+@forms
 def test_not_a_number_stays_one(form):
     for function, count in (("expm1", 1), ("wrap", 1), *dict.fromkeys(TWO_NUMBERS, 2).items()):
         for place in range(count):
             numbers = [math.nan if k == place else 1.0 for k in range(count)]
-            assert math.isnan(form(getattr(_vecmath, function))(*numbers)), function
-    lost = [_vecmath.vector_wrap(1.1e6), _vecmath.vector_wrap(math.inf)]
-    assert np.isnan([*lost, _vecmath.vector_wrap_once(math.nan)]).all()
+            assert math.isnan(form(getattr(_elementary, function))(*numbers)), function
+    lost = [vectors.vector_wrap(1.1e6), vectors.vector_wrap(math.inf)]
+    assert np.isnan([*lost, vectors.vector_wrap_once(math.nan)]).all()
 
 
 def test_a_loop_over_many_gives_the_same_to_the_last_digits():
     """In a loop LLVM computes several at once; what it then does in another order must not show."""
     names = "sincos", "sinc", "expm1", "distance", "direction", "wrap"
     sincos, sinc, expm1, distance, direction, wrap = (
-        _vecmath.vectorised(getattr(_vecmath, name)) for name in names
+        vectors.vectorised(getattr(_elementary, name)) for name in names
     )
 
     @compiled
@@ -176,23 +192,13 @@ def test_a_loop_over_many_gives_the_same_to_the_last_digits():
 
 def test_a_vectorised_law_is_the_law():
     """The same text with the other sine inside, down to what the functions that it calls call."""
-    law, gains = control.pose_law, control.GainsFields(2.0, 1.0, 0.3, 4.0)
-    for code in control.POSE_LAWS.values():
-        assert _vecmath.vectorised(law)(3.0, 0.7, -2.0, gains, code) == pytest.approx(
+    law, gains = laws.pose_law, GainsFields(2.0, 1.0, 0.3, 4.0)
+    for code in laws.POSE_LAWS.values():
+        assert vectors.vectorised(law)(3.0, 0.7, -2.0, gains, code) == pytest.approx(
             law(3.0, 0.7, -2.0, gains, code), rel=1e-14
         )
-    assert _vecmath.vectorised(law) is _vecmath.vectorised(law)
+    assert vectors.vectorised(law) is vectors.vectorised(law)
     assert math.isnan(
-        _vecmath.vectorised(law)(3.0, 1e7, -2.0, gains, 0)[0]
+        vectors.vectorised(law)(3.0, 1e7, -2.0, gains, 0)[0]
     )  # vector_sincos is in it, three calls down
     assert math.isfinite(law(3.0, 1e7, -2.0, gains, 0)[0])
-
-
-def test_the_widest_vectors_are_asked_for_where_llvmlite_can_be_asked():
-    loop = compiled(lambda: _vecmath.widest_vectors(), cache=False)
-    loop()
-    assert '"prefer-vector-width"="512"' in loop.inspect_llvm(())
-    for other in (SimpleNamespace(), SimpleNamespace(attributes=["cold"])):
-        before = repr(other)
-        _vecmath._ask_for_512_bits(other)
-        assert repr(other) == before

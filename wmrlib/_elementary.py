@@ -1,0 +1,152 @@
+"""The elementary functions that formulas are made of, finite where the textbook divides by 0.
+
+Each is written for one number, as compiled loops take it. Called from Python, it goes by what it is
+given: numpy's functions stand below, and `symbolic` adds sympy's. So a formula of these functions
+takes numbers, arrays and symbols alike.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable
+from functools import singledispatch
+from typing import Any
+
+import numpy as np
+
+from wmrlib._compile import elementary
+
+TURN = 2.0 * math.pi
+SMALL = 1e-8  # below this, the next term of the series is under half a unit in the last place
+
+
+def _kinds(function: Callable) -> Any:
+    """The function, to which others can be added by the type of the first argument."""
+    kinds = singledispatch(function)
+    elementary(kinds)(lambda *_: function)
+    return kinds
+
+
+@_kinds
+def sincos(angle):
+    """The sine and the cosine of `angle` [rad]."""
+    return math.sin(angle), math.cos(angle)
+
+
+@_kinds
+def expm1(x):
+    """exp(x) - 1, accurate near 0 too."""
+    return math.expm1(x)
+
+
+@_kinds
+def root(x):
+    return math.sqrt(x)
+
+
+@_kinds
+def distance(x, y):
+    return math.hypot(x, y)
+
+
+@_kinds
+def direction(y, x):
+    return math.atan2(y, x)
+
+
+@_kinds
+def wrap(angle):
+    """The same direction in (-pi, pi]."""
+    if -math.pi < angle <= math.pi:
+        return angle
+    angle = np.fmod(angle, TURN)  # exact, and so is what follows
+    if angle > math.pi:
+        return angle - TURN
+    return angle + TURN if angle <= -math.pi else angle
+
+
+@_kinds
+def sinc(angle):
+    """sin(angle)/angle, which is 1 at 0 (numpy's sinc has a pi inside)."""
+    tiny = abs(angle) <= SMALL
+    divisor = 1.0 if tiny else angle
+    return 1.0 if tiny else sincos(angle)[0] / divisor
+
+
+@_kinds
+def decay(rho, k_rho):
+    """(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0."""
+    x = k_rho * rho
+    tiny = abs(x) <= SMALL
+    divisor = 1.0 if tiny else rho
+    return k_rho * (1.0 - 0.5 * x) if tiny else -expm1(-x) / divisor
+
+
+@_kinds
+def share_of(value, limit):
+    """The factor that brings a value down to its limit."""
+    return limit / value if value > limit else 1.0
+
+
+@expm1.register(np.ndarray)
+def _(x):
+    return np.expm1(x)
+
+
+@root.register(np.ndarray)
+def _(x):
+    return np.sqrt(x)
+
+
+@distance.register(np.ndarray)
+def _(x, y):
+    return np.hypot(x, y)
+
+
+@direction.register(np.ndarray)
+def _(y, x):
+    return np.arctan2(y, x)
+
+
+@sincos.register(np.ndarray)
+def _(angle):
+    return np.sin(angle), np.cos(angle)
+
+
+@wrap.register(np.ndarray)
+def _(angle):
+    turned = np.fmod(angle, TURN)
+    turned = np.where(turned > math.pi, turned - TURN, turned)
+    turned = np.where(turned <= -math.pi, turned + TURN, turned)
+    return np.where((-math.pi < angle) & (angle <= math.pi), angle, turned)
+
+
+@sinc.register(np.ndarray)
+def _(angle):
+    tiny = np.abs(angle) <= SMALL
+    return np.where(tiny, 1.0, np.sin(angle) / np.where(tiny, 1.0, angle))
+
+
+@decay.register(np.ndarray)
+def _(rho, k_rho):
+    x = k_rho * rho
+    tiny = np.abs(x) <= SMALL
+    return np.where(tiny, k_rho * (1.0 - 0.5 * x), -np.expm1(-x) / np.where(tiny, 1.0, rho))
+
+
+@share_of.register(np.ndarray)
+def _(value, limit):
+    over = value > limit
+    return np.where(over, limit / np.where(over, value, 1.0), 1.0)
+
+
+def elementwise(formula: Callable, *arguments: Any) -> Any:
+    """What a formula gives for numbers, or for each entry of arrays that broadcast."""
+    if all(isinstance(value, float | int) for value in arguments):
+        return formula(*arguments)
+    arrays = np.broadcast_arrays(*arguments)
+    with np.errstate(all="ignore"):  # infinities and NaN are answers, as in a compiled loop
+        results = formula(*arrays)
+    if isinstance(results, tuple):
+        return tuple(np.array(np.broadcast_to(each, arrays[0].shape)) for each in results)
+    return np.array(np.broadcast_to(results, arrays[0].shape))

@@ -1,0 +1,188 @@
+"""Sampled control for runs side by side: the twist is held from one sample to the next."""
+
+from __future__ import annotations
+
+import math
+
+import numpy as np
+
+from wmrlib import motion
+from wmrlib._compile import compiled, formula
+from wmrlib._elementary import wrap
+from wmrlib.engine import lanes, receivers
+from wmrlib.engine.vectors import BETWEEN_DIRECTIONS, NEAREST, vectorised
+from wmrlib.gains import GainsFields
+from wmrlib.loops import held, steer
+from wmrlib.motion import polar_from_pose
+from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT
+
+BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
+_VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
+_ROUNDS = 16  # steps between two looks at who has finished
+# The rows of a block. LEFT is the number of steps to go, and its sign turns on arrival, which HERE
+# notes. GOING says whether the step is taken, and ALIVE whether the sample is one of the run's. The
+# pose that is seen is the receiver's, where there is one.
+X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(10)  # as in a sweep
+LEFT, PEAK, LENGTH, RHO, ALPHA, THETA, V, OMEGA, GOING, ALIVE, HERE = range(10, 21)
+SEEN = HERE + 1
+ROWS = SEEN + 3
+
+_polar_from_pose = vectorised(motion.polar_from_pose, BETWEEN_DIRECTIONS)
+_euler_step, _arc_step = vectorised(motion.euler_step), vectorised(motion.arc_step)
+
+
+# A step is three loops, because a processor has too few registers for all their constants at once,
+# and too little foresight to begin the next runs before the end of a long step.
+
+
+@formula
+def look(block, used, place):
+    """See the goal from the pose in the rows from `place` on."""
+    for i in range(used):
+        pose = block[place, i], block[place + 1, i], block[place + 2, i]
+        seen = _polar_from_pose(*pose, block[GOAL_X, i], block[GOAL_Y, i], block[GOAL_HEADING, i])
+        block[RHO, i], block[ALPHA, i], block[THETA, i] = seen
+
+
+@formula
+def decide(block, used, law, wheels, dt, arrival_radius):
+    """What each run commands; a run that is over, or has arrived, takes no step."""
+    for i in range(used):
+        gains = GainsFields(block[K_RHO, i], block[K_ALPHA, i], block[H, i], block[V_MAX, i])
+        polar = block[RHO, i], block[ALPHA, i], block[THETA, i]
+        v_over_rho, omega = lanes.steered(polar, gains, law, wheels)
+        v, left, peak = v_over_rho * polar[0], block[LEFT, i], block[PEAK, i]
+        length, here = block[LENGTH, i], block[HERE, i]  # all first: loads between stores are slow
+        near = polar[0] <= arrival_radius
+        going, arrived = (left > 0.0) & (polar[0] > arrival_radius), (left >= 0.0) & near
+        block[V, i], block[OMEGA, i], block[GOING, i] = v, omega, (1.0 if going else 0.0)
+        block[PEAK, i] = abs(omega) if (left >= 0.0) & (abs(omega) > peak) else peak
+        block[LENGTH, i] = length + (dt * abs(v) if going else 0.0)
+        block[LEFT, i] = left - 1.0 if going else -abs(left)
+        block[HERE, i] = 1.0 if arrived else here
+
+
+@formula
+def move(block, used, along_arc, dt):
+    for i in range(used):
+        going, pose = block[GOING, i] > 0.0, (block[X, i], block[Y, i], block[HEADING, i])
+        twist = (block[V, i] if going else 0.0), (block[OMEGA, i] if going else 0.0)
+        step = _arc_step(*pose, *twist, dt) if along_arc else _euler_step(*pose, *twist, dt)
+        block[X, i], block[Y, i], block[HEADING, i] = step
+
+
+@compiled
+def drive(states, law, wheels, along_arc, dt, arrival_radius):
+    """Take every run to its end, or to its last step; then it gives its lane to the next."""
+    block, inside = np.zeros((ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
+    waiting = width = 0
+    while True:
+        width, waiting = lanes.refill_lanes(states, block, inside, width, waiting, LEFT)
+        if width == 0:
+            return
+        used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
+        for _ in range(_ROUNDS):
+            look(block, used, X)
+            decide(block, used, law, wheels, dt, arrival_radius)
+            move(block, used, along_arc, dt)
+
+
+@compiled
+def drive_all(
+    states, law, wheels, along_arc, dt, arrival_radius, samples, records, eyes, depth, key
+):
+    """The same, sample after sample, because each is recorded, or steered by what a receiver shows.
+
+    `records` has an axis for the rows, one for the samples, and one for the runs.
+    """
+    block, past = np.zeros((ROWS, BLOCK)), np.zeros((3, depth, BLOCK))
+    shown = np.zeros((receivers.ROWS, BLOCK))
+    for first in range(0, states.shape[1], BLOCK):
+        width = min(BLOCK, states.shape[1] - first)
+        used = (width + _VECTORS - 1) // _VECTORS * _VECTORS
+        for i in range(width):
+            lanes.copy_column(block, i, states, first + i)
+            lanes.copy_column(shown, i, eyes, first + i)
+        for k in range(samples):
+            for i in range(used):
+                block[ALIVE, i] = 1.0 if block[LEFT, i] >= 0.0 else 0.0
+            look(block, used, X)
+            if records.shape[1] > 0:
+                for row, at in enumerate((X, Y, HEADING, RHO, ALPHA, THETA)):
+                    _note(records[row, k], block, width, first, at)
+            if key is not None:
+                receivers.show(block, SEEN, shown, past, k, used, key)
+                look(block, used, SEEN)
+            decide(block, used, law, wheels, dt, arrival_radius)
+            if records.shape[1] > 0:
+                _note(records[6, k], block, width, first, V)
+                _note(records[7, k], block, width, first, OMEGA)
+            move(block, used, along_arc, dt)
+        for i in range(width):
+            lanes.copy_column(states, first + i, block, i)
+
+
+@formula
+def _note(record, block, width, first, row):
+    for i in range(width):
+        if block[ALIVE, i] > 0.0:
+            record[first + i] = block[row, i]
+
+
+@compiled
+def conclude(states, runs, law, wheels, along_arc, dt, samples, arrival_radius, records, shown):
+    """Sum up each run. One that ended without a number is driven alone, by the C library.
+
+    With a receiver it is left, because there the pose is hardly one that a receiver could show.
+    """
+    summary = np.empty((lanes.DISTANCE + 1, runs.shape[1]))
+    alone, path = np.empty((9, samples)), np.zeros((5, 1))
+    for i in range(runs.shape[1]):
+        start, goal, gains = lanes.run_of(runs, i)
+        pose = states[X, i], states[Y, i], states[HEADING, i]
+        left, peak, length = states[LEFT, i], states[PEAK, i], states[LENGTH, i]
+        loop = (*gains, 0.0, 0.0), law, wheels
+        polar = polar_from_pose(*pose, *goal)
+        v, omega = steer(polar, (0.0, 0.0), *loop)
+        last, arrived = samples - 1 - int(abs(left)), polar[0] <= arrival_radius
+        if shown:
+            arrived = states[HERE, i] > 0.0
+        else:
+            peak = max(peak, abs(omega))
+        outcome = ARRIVED if arrived else TIMED_OUT
+        known = math.isfinite(polar[0] + v + omega + peak)
+        if shown and not known:
+            outcome, peak, length = DIVERGED, math.nan, math.nan
+            polar = math.nan, math.nan, math.nan
+        elif not (shown or (known and last > 0 and (arrived or left == 0.0))):
+            path[0, 0], path[1, 0], path[2, 0] = goal
+            how = path, *loop, along_arc, dt, arrival_radius
+            count, outcome, peak, length = held(alone, start, *how)
+            last = max(count - 1, 0)
+            polar = alone[3, last], alone[4, last], alone[5, last]
+            for k in range(records.shape[1]):
+                for row in range(records.shape[0]):
+                    records[row, k, i] = alone[row, k] if k < count else math.nan
+        heading_error = wrap(polar[2] - polar[1])
+        lanes.summarise(summary, i, outcome, last * dt, heading_error, peak, length, polar[0])
+    return summary
+
+
+def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded, *key):
+    """Sum up many runs to goals that stand still; their samples too, NaN after each one's end.
+
+    With a key to random numbers, a receiver and the run's number are below each run.
+    """
+    states, records = np.zeros((ROWS, runs.shape[1])), np.empty((8, 0, runs.shape[1]))
+    states[:LEFT], states[LEFT] = runs[:LEFT], samples - 1.0
+    how = law, wheels, method == "arc", dt
+    if recorded:
+        records = np.full((8, samples, runs.shape[1]), np.nan)
+    if recorded or key:
+        eyes, depth = receivers.in_samples(runs[LEFT:], dt, samples)
+        shown = samples, records, eyes, depth, key or None
+        drive_all(states, *how, max(arrival_radius, NEAREST), *shown)
+    else:
+        drive(states, *how, max(arrival_radius, NEAREST))
+    ends = samples, arrival_radius, records, bool(key)
+    return conclude(states, runs[:LEFT], *how, *ends), records
