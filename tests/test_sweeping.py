@@ -114,6 +114,21 @@ def test_the_samples_lie_on_the_same_run_and_dt_changes_nothing_else(start, gain
         assert np.all(np.abs(off) <= 1e-6 * (1.0 + np.abs(theirs))), name
 
 
+@settings(max_examples=20, deadline=None)
+@given(wide_gains, st.floats(0.01, 0.5), st.sampled_from([0.9, 3.0, 10.0]))
+@example(wmr.Gains(0.1, 0.5, 10.0, 4.0), 0.02, 60.0)
+def test_no_sample_is_written_into_the_place_of_another(gains, dt, duration):
+    """A run that goes on to the end has its last sample and its first."""
+    start = wmr.Pose([-58.0, -9.0], 0.0, 1.0)
+    options = {"dt": min(dt, duration), "duration": duration, "arrival_radius": 0.0}
+    paths = wmr.sweep(start, ORIGIN, gains, trajectories=True, **options)[1]
+    for name in ("x", "y", "rho"):
+        assert np.isfinite(getattr(paths, name)).all(), name
+    assert paths.x[:, 0] == pytest.approx(start.x)
+    assert paths.rho[:, 0] == pytest.approx([58.0, 9.0])
+    assert (np.diff(paths.rho) <= 1e-9).all()
+
+
 @pytest.mark.parametrize("duration", [60.0, 0.9])
 @pytest.mark.parametrize("gains", [(0.5, 1e6, 1.0, 4.0), (2.0, 1e9, 1e9, 4)])
 def test_hopeless_gains_are_given_up_with_a_warning(gains, duration):

@@ -158,7 +158,7 @@ def note(bench, width, inside, goals, dt, records):
     """Record the runs whose step has ended on a sample; rounding can carry rho past the goal."""
     for i in range(width):
         due = bench[TIME + i] == bench[NEXT + i] or bench[LEFT + i] == 0.0  # the last, if rounded
-        if bench[TAKEN + i] > 0.0 and due:
+        if bench[TAKEN + i] > 0.0 and due and bench[NEXT + i] < math.inf:
             k, run = round(bench[NEXT + i] / dt), inside[i]
             if bench[LEFT + i] >= 0.0:  # an arrival is none
                 polar = max(bench[RHO + i], 0.0), bench[ALPHA + i], bench[THETA + i]
