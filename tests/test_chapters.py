@@ -25,8 +25,8 @@ FLIPS = {  # the formula: the chapter that derives it, its text, and what to mak
     ),
     "the bearing's arguments (15)": (
         "01_gps_to_metres",
-        r"arctan2\((zeta_x), (zeta_y)\)",
-        r"arctan2(\2, \1)",
+        r"direction\((cos_lat2 \* sincos\(delta_lon\)\[0\]), (zeta_y)\)",
+        r"direction(\2, \1)",
     ),
 }
 

@@ -34,19 +34,26 @@ def _digest() -> str:
     return sha256(compiler + b"".join(map(Path.read_bytes, _SOURCES))).hexdigest()[:16]
 
 
-def _folder() -> Path | None:
-    """The first folder that can be written to; or the first that is there to be read."""
+def _folders() -> list[Path]:
+    """Where compiled code may be kept, the best place first."""
     own = os.environ.get("NUMBA_CACHE_DIR")
-    places = [own] if own else [str(_PACKAGE / "__pycache__"), "~/.cache/wmrlib"]
-    folders = [Path(place).expanduser() / f"compiled-{_digest()}" for place in places]
+    given = [own] if own else [str(_PACKAGE / "__pycache__"), "~/.cache/wmrlib"]
+    places = [os.path.expanduser(place) for place in given]
+    # What still begins with a tilde is the home of a user that has none.
+    return [Path(place, f"compiled-{_digest()}") for place in places if place[0] != "~"]
+
+
+def _folder(folders: list[Path]) -> Path | None:
+    """The first folder that can be written to; or the first that there is something in to read."""
     for folder in folders:
-        with suppress(OSError, RuntimeError):  # the latter where a user has no home
+        with suppress(OSError):
             if not folder.exists():
                 _forget_old(folder.parent)
                 folder.mkdir(parents=True)
-            TemporaryFile(dir=folder).close()
+            with TemporaryFile(dir=folder) as trial:
+                trial.write(b"kept")
             return folder
-    return next(filter(Path.exists, folders), None)
+    return next((folder for folder in folders if folder.is_dir() and any(folder.iterdir())), None)
 
 
 def _forget_old(place: Path) -> None:
@@ -86,9 +93,11 @@ class _Cache(FunctionCache):
             super().save_overload(signature, data)
 
 
-FOLDER = _folder()
+_FOLDERS = _folders()
+FOLDER = _folder(_FOLDERS)
 if not FOLDER and not numba.config.DISABLE_JIT:
-    text = "compiled code can't be kept here, so each process compiles anew: "
+    places = " or ".join(str(folder.parent) for folder in _FOLDERS)
+    text = f"compiled code can't be kept in {places}, so each process compiles anew: "
     warnings.warn(text + "set NUMBA_CACHE_DIR to a folder for it", RuntimeWarning, stacklevel=2)
 
 
