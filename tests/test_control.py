@@ -10,6 +10,8 @@ from hypothesis import strategies as st
 from oracle import commanded
 
 import wmrlib as wmr
+from wmrlib import laws
+from wmrlib.gains import GainsFields, KanayamaFields, LinearFields
 from wmrlib.laws import POSE_LAWS
 
 mpmath.mp.dps = 40
@@ -220,3 +222,15 @@ def test_laws_for_a_moving_goal_know_angles_up_to_full_turns_and_their_v():
     run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, kanayama, law="kanayama")
     value = 0.5 * run.rho**2 + (1.0 - np.cos(run.alpha - run.theta)) / kanayama.k_y
     assert pytest.approx(value, abs=1e-12) == run.V
+
+
+def test_loops_ask_each_law_by_its_place_in_the_table():
+    state, reference, numbers = (1.3, 0.7, -0.4), (0.6, 0.2), (0.9, 1.1, 0.3, 2.0, 0.7, 0.4)
+    for code, (name, row) in enumerate(laws.LAWS.items()):
+        kind = {wmr.Gains: GainsFields, wmr.KanayamaGains: KanayamaFields}.get(row.gains)
+        gains = (kind or LinearFields)(*numbers[: len(row.gains._fields)])
+        given = state if name in POSE_LAWS else (*laws.body_error(*state), *reference)
+        v, omega = row.formula(*given, gains)
+        v = v * state[0] if name in POSE_LAWS else v
+        assert laws.command(*state, *reference, numbers, code) == (v, omega), name
+        assert laws.value_of(*state, numbers, code) == row.value(*state, gains), name
