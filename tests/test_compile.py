@@ -142,6 +142,7 @@ def test_a_file_whose_text_is_damaged_is_compiled_anew(tmp_path_factory, begin, 
         last = first + int(share * (len(content) - first))
         index.write_bytes(content[:first] + other + content[last:])
         assert compiled_again(folder, patch)[0] == 3.0 * FACTOR
+        assert compiled_again(folder, patch) == (3.0 * FACTOR, 0)
 
 
 HEX = st.text("0123456789abcdef", min_size=16, max_size=16)
@@ -149,9 +150,14 @@ NAMES = HEX.map("compiled-{}".format) | st.sampled_from(["thesis", "compiled-the
 
 
 @settings(max_examples=40, deadline=None)
-@given(name=NAMES, days=st.sampled_from([29, 31, 400]), kind=st.sampled_from(["folder", "link"]))
+@given(
+    name=NAMES,
+    days=st.sampled_from([29, 31, 400]),
+    kind=st.sampled_from(["folder", "folder", "link"]),
+    others=st.sets(st.sampled_from(["thesis", "loops.held-1.nbc.txt"]), max_size=1),
+)
 def test_only_what_older_versions_compiled_is_forgotten_and_after_a_month(
-    tmp_path_factory, name, days, kind
+    tmp_path_factory, name, days, kind, others
 ):
     place, target = tmp_path_factory.mktemp("cache"), tmp_path_factory.mktemp("other")
     path, then = place / name, time.time() - 86400 * days
@@ -159,10 +165,25 @@ def test_only_what_older_versions_compiled_is_forgotten_and_after_a_month(
         path.mkdir()
     else:
         path.symlink_to(target)
+    for file in {"loops.held-1.nbi", "loops.held-1.1.nbc", *others}:
+        (path / file).write_text("kept")
     os.utime(path, (then, then))
     _compile._forget_old(place)
     old = kind == "folder" and re.fullmatch("compiled-[0-9a-f]{16}", name) and days > 30
-    assert path.exists() == (not old)
+    assert path.exists() == (not old or bool(others))
+    if path.exists():
+        assert {file.name for file in path.iterdir()} >= others
+        assert old or len([*path.iterdir()]) == 2 + len(others)
+
+
+def test_two_processes_may_forget_at_the_same_time(tmp_path, monkeypatch):
+    old, unlink = tmp_path / "compiled-0123456789abcdef", Path.unlink
+    old.mkdir()
+    (old / "loops.held-1.nbi").touch()
+    os.utime(old, (0, 0))
+    monkeypatch.setattr(Path, "unlink", lambda path: [unlink(path) for _ in range(2)])
+    _compile._forget_old(tmp_path)
+    assert not [*old.iterdir()]
 
 
 def test_an_edit_to_any_compiled_module_and_another_compiler_lead_to_another_folder(

@@ -8,6 +8,7 @@ import math
 from functools import cache
 
 import mpmath
+import numba
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -32,7 +33,7 @@ def near(truth):
 def in_lanes(function):
     """The form that the engine compiles, for one number."""
     form = vectors.vectorised(function)
-    return compiled(lambda *numbers: form(*numbers))
+    return numba.njit(error_model="numpy", fastmath={"contract"})(lambda *numbers: form(*numbers))
 
 
 def numpys(function):

@@ -8,7 +8,6 @@ folder named by a digest of all modules.
 from __future__ import annotations
 
 import os
-import shutil
 import sys
 import time
 import warnings
@@ -59,9 +58,11 @@ def _folder(folders: list[Path]) -> Path | None:
 def _forget_old(place: Path) -> None:
     """Remove what other versions compiled, where nothing was added for a month."""
     for folder in place.glob("compiled-" + 16 * "[0-9a-f]"):
-        with suppress(OSError):  # another process forgets it too
+        with suppress(OSError):  # it holds something else, or another process forgets it too
             if folder.stat().st_mtime < time.time() - _MONTH and not folder.is_symlink():
-                shutil.rmtree(folder)
+                for file in (*folder.glob("*.nbi"), *folder.glob("*.nbc")):
+                    file.unlink()
+                folder.rmdir()
 
 
 class _Locator(InTreeCacheLocator):
@@ -84,12 +85,15 @@ class _Cache(FunctionCache):
     _impl_class = _Kept
 
     def load_overload(self, signature, target_context):
-        with suppress(Exception):  # a damaged file raises any
+        try:
             return super().load_overload(signature, target_context)
+        except Exception:  # a damaged file raises any, and would when something is added to it
+            with suppress(OSError):
+                self.flush()
         return None
 
     def save_overload(self, signature, data):
-        with suppress(Exception):
+        with suppress(OSError):
             super().save_overload(signature, data)
 
 

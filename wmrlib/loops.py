@@ -146,7 +146,7 @@ def note(record, k, state, goal, goals, stage, twist, numbers, law, wheels, lag)
     write(record, k, pose, polar, twist, numbers, law)
 
 
-def in_python(record, state, t, radius, goal, goals_at, *loop):
+def integrate(record, state, t, radius, goal, goals_at, *loop):
     """Act all the time, in steps with error control; a sample ends a step, and so do events.
 
     `goals_at(time, dt)` gives a moving goal at the stages of a step, one a column; it is None for a
@@ -190,4 +190,4 @@ def in_python(record, state, t, radius, goal, goals_at, *loop):
     return t.size, TIMED_OUT, now, peak, length
 
 
-continuous = compiled(in_python)  # goals that move are asked for in Python
+continuous = compiled(integrate)  # goals that move are asked for in Python

@@ -192,7 +192,8 @@ def _chunk_size(total: int, task: _Task) -> int:
     """Whole blocks of runs, if they run in blocks; if worth it, four chunks for each core."""
     least, most = _CHUNK
     size = math.ceil(min(most, max(least, total * task.cost / (4 * threads.CORES))) / task.cost)
-    return sampled.BLOCK * math.ceil(size / sampled.BLOCK)
+    block = sampled.VECTORS if task.key or task.recorded else sampled.BLOCK
+    return block * math.ceil(size / block)
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:

@@ -17,7 +17,7 @@ from wmrlib.motion import polar_from_pose
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT
 
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
-_VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
+VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
 _ROUNDS = 16  # steps between two looks at who has finished
 # The rows of a block. LEFT is the number of steps to go, and its sign turns on arrival, which HERE
 # notes. GOING says whether the step is taken, and ALIVE whether the sample is one of the run's. The
@@ -80,7 +80,7 @@ def drive(states, law, wheels, along_arc, dt, arrival_radius):
         width, waiting = lanes.refill_lanes(states, block, inside, width, waiting, LEFT)
         if width == 0:
             return
-        used = min(BLOCK, (width + _VECTORS - 1) // _VECTORS * _VECTORS)
+        used = min(BLOCK, (width + VECTORS - 1) // VECTORS * VECTORS)
         for _ in range(_ROUNDS):
             look(block, used, X)
             decide(block, used, law, wheels, dt, arrival_radius)
@@ -99,7 +99,7 @@ def drive_all(
     shown = np.zeros((receivers.ROWS, BLOCK))
     for first in range(0, states.shape[1], BLOCK):
         width = min(BLOCK, states.shape[1] - first)
-        used = (width + _VECTORS - 1) // _VECTORS * _VECTORS
+        used = (width + VECTORS - 1) // VECTORS * VECTORS
         for i in range(width):
             lanes.copy_column(block, i, states, first + i)
             lanes.copy_column(shown, i, eyes, first + i)

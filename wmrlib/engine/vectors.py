@@ -154,7 +154,7 @@ def vectorised(function: Callable, forms: dict = _FORMS) -> Callable:
     if function not in forms:
         plain = getattr(function, "__wrapped__", function)  # of several kinds of numbers
         used = {
-            name: vectorised(value, forms) if _is_formula(value, forms) else value
+            name: vectorised(value, forms) if _is_formula(value) else value
             for name, value in plain.__globals__.items()
             if name in plain.__code__.co_names
         }
@@ -164,5 +164,5 @@ def vectorised(function: Callable, forms: dict = _FORMS) -> Callable:
     return forms[function]
 
 
-def _is_formula(value: object, forms: dict) -> bool:
+def _is_formula(value: object) -> bool:
     return isinstance(value, FunctionType) and value.__module__.startswith("wmrlib")
