@@ -186,6 +186,16 @@ def test_two_processes_may_forget_at_the_same_time(tmp_path, monkeypatch):
     assert not [*old.iterdir()]
 
 
+def test_processes_that_begin_at_once_all_keep_what_they_compile(monkeypatch, tmp_path):
+    def made_meanwhile(folder):
+        folder.mkdir(parents=True)
+        return False
+
+    monkeypatch.setattr(Path, "exists", made_meanwhile)
+    place = tmp_path / "none" / "compiled"
+    assert _compile._folder([place]) == place
+
+
 def test_an_edit_to_any_compiled_module_and_another_compiler_lead_to_another_folder(
     monkeypatch, tmp_path
 ):

@@ -48,7 +48,7 @@ def _folder(folders: list[Path]) -> Path | None:
         with suppress(OSError):
             if not folder.exists():
                 _forget_old(folder.parent)
-                folder.mkdir(parents=True)
+                folder.mkdir(parents=True, exist_ok=True)  # another process may be first
             with TemporaryFile(dir=folder) as trial:
                 trial.write(b"kept")
             return folder
