@@ -18,6 +18,7 @@ from wmrlib.motion import arc_step, euler_step, polar_closing_rate, polar_from_p
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
 MOST_TRIALS = 1_000_000  # steps
+ROOM = 16  # rows: the slopes at the start and after each stage, two for swing_of, the new state
 
 
 @formula
@@ -66,7 +67,7 @@ def column(goals, stage):
     return None if goals is None else goals[:, stage]
 
 
-@formula
+@compiled
 def slopes_of(state, goal, numbers, law, wheels, lag, out):
     """Write the rates of a state, and return the twist.
 
@@ -94,12 +95,22 @@ def slopes_of(state, goal, numbers, law, wheels, lag, out):
 
 
 @formula
-def swing_of(state, slopes, goal, omega, later, out, *loop):
-    """How fast omega changes, by how it is a little later."""
+def swing_of(state, slopes, goal, omega, later, free, *loop):
+    """How fast omega changes, by how it is a little later; `free` is two rows to write to."""
     if goal is not None:
         x, y, heading = euler_step(goal[0], goal[1], goal[2], goal[3], goal[4], later)
         goal = np.array([x, y, heading, goal[3], goal[4]])
-    return (slopes_of(state + later * slopes, goal, *loop, out)[1] - omega) / later
+    for i in range(state.size):
+        free[0, i] = state[i] + later * slopes[i]
+    return (slopes_of(free[0], goal, *loop, free[1])[1] - omega) / later
+
+
+@formula
+def magnitude(state):
+    total = 0.0
+    for number in state:
+        total += abs(number)
+    return total
 
 
 @formula
@@ -127,10 +138,10 @@ def attempt(state, dt, slopes, new, goals, before, radius, peak, *loop):
         scale = larger(abs(new[i]), 1e-150 if goals is None and i == 0 else 1.0)
         fine = larger(abs(dt * weighted(FIFTH, slopes, i)) / scale, fine)
         coarse = larger(abs(dt * weighted(THIRD, slopes, i)) / scale, coarse)
-    swing = swing_of(new, slopes[12], column(goals, 12), omega, 1e-6 * dt, slopes[13], *loop)
+    swing = swing_of(new, slopes[12], column(goals, 12), omega, 1e-6 * dt, slopes[13:], *loop)
     rho, rolled = (state[0], slopes[0, 0], new[0], slopes[12, 0]), (0.0, before[0], new[3], v)
     wanted = until_event(rho, rolled, (*before[1:], omega, swing), dt, radius, peak)
-    error = step_error(fine, coarse) if math.isfinite(new.sum() + omega) else math.inf
+    error = step_error(fine, coarse) if math.isfinite(magnitude(new) + omega) else math.inf
     return error, wanted, (v, omega, swing)
 
 
@@ -146,19 +157,20 @@ def note(record, k, state, goal, goals, stage, twist, numbers, law, wheels, lag)
     write(record, k, pose, polar, twist, numbers, law)
 
 
-def integrate(record, state, t, radius, goal, goals_at, *loop):
+def integrate(record, state, room, t, radius, goal, goals_at, *loop):
     """Act all the time, in steps with error control; a sample ends a step, and so do events.
 
-    `goals_at(time, dt)` gives a moving goal at the stages of a step, one a column; it is None for a
-    `goal` that stands still. Returns (samples, outcome, time, largest |omega|, metres rolled).
+    `room` is `ROOM` rows to work in. `goals_at(time, dt)` gives a moving goal at the stages of a
+    step, one a column; it is None for a `goal` that stands still. Returns (samples, outcome, time,
+    largest |omega|, metres rolled).
     """
-    slopes, new = np.zeros((14, state.size)), np.zeros(state.size)
+    slopes, new = room[:15], room[15]
     now, step, peak, length, trials = 0.0, 0.01, 0.0, 0.0, 0
     goals = None if goals_at is None else goals_at(now, 0.0)
     v, omega = slopes_of(state, column(goals, 0), *loop, slopes[0])
-    if not math.isfinite(state.sum() + slopes[0].sum() + omega):
+    if not math.isfinite(magnitude(state) + magnitude(slopes[0]) + omega):
         return 0, DIVERGED, now, peak, length
-    swing = swing_of(state, slopes[0], column(goals, 0), omega, 1e-8, slopes[13], *loop)
+    swing = swing_of(state, slopes[0], column(goals, 0), omega, 1e-8, slopes[13:], *loop)
     here = v, omega, swing
     note(record, 0, state, goal, goals, 0, here[:2], *loop)
     peak = abs(omega)
@@ -175,16 +187,18 @@ def integrate(record, state, t, radius, goal, goals_at, *loop):
                 now = now + dt if dt < t[k] - now else t[k]
                 step = max(step, growth(error) * dt) if now == t[k] else growth(error) * dt
                 length, peak, here = length + abs(new[3]), max(peak, abs(there[1])), there
-                state[:], slopes[0], state[3] = new, slopes[12], 0.0
+                for i in range(state.size):  # to copy at once takes long to compile
+                    state[i], slopes[0, i] = new[i], slopes[12, i]
+                state[3] = 0.0
                 if goals_at is None and state[0] <= radius * (1.0 + SHARP):
                     note(record, k, state, goal, goals, 12, here[:2], *loop)
                     return k + 1, ARRIVED, now, peak, length
                 continue
             step = wanted if error <= 1.0 else growth(error) * dt
             if stuck or step < 1e-290:
-                lost = not np.abs(state).max() < 1e100 or not math.isfinite(slopes[0].sum())
+                lost = not magnitude(state) < 1e100 or not math.isfinite(magnitude(slopes[0]))
                 return k, (DIVERGED if lost else UNFINISHED), now, peak, length
-        if not math.isfinite(state.sum() + here[0] + here[1]):
+        if not math.isfinite(magnitude(state) + here[0] + here[1]):
             return k, DIVERGED, now, peak, length
         note(record, k, state, goal, goals, 12, here[:2], *loop)
     return t.size, TIMED_OUT, now, peak, length

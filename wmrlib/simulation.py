@@ -12,7 +12,7 @@ from wmrlib._elementary import wrap
 from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
-from wmrlib.loops import MOST_TRIALS, continuous, held, integrate
+from wmrlib.loops import MOST_TRIALS, ROOM, continuous, held, integrate
 from wmrlib.motion import polar_from_pose
 from wmrlib.runs import (
     ARRIVED,
@@ -186,9 +186,9 @@ def _held(t, method, radius, begin, path, *loop) -> tuple:
 
 def _continuous(t, state, radius, goal, goals_at, *loop) -> tuple:
     """The same of a run whose law acts all the time, to its arrival too."""
-    record = np.empty((9, t.size))
+    record, room = np.empty((9, t.size)), np.zeros((ROOM, state.size))
     drive = continuous if goals_at is None else integrate
-    count, outcome, end, *sums = drive(record, state, t, radius, tuple(goal), goals_at, *loop)
+    count, outcome, end, *sums = drive(record, state, room, t, radius, tuple(goal), goals_at, *loop)
     if outcome == UNFINISHED:
         words = f", or slower gains and wheels: it would take more than {MOST_TRIALS:,} steps"
         raise refusal("method", "continuous", "'arc' or 'euler'", words)
