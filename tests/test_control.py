@@ -45,6 +45,40 @@ def test_laws_are_the_formulas_and_finite(law, rho, alpha, theta, gains):
     assert omega == pytest.approx(float(omega_true), rel=1e-13, abs=10 * scale)
 
 
+@pytest.mark.parametrize(
+    ("goal", "curvature"),  # of Nav2's own test, with k_phi = 1 and k_delta = 10
+    [(wmr.Pose(0.0, 5.0, 0.0), 5.407042), (wmr.Pose(4.5, -2.17, -0.785), -0.416228)],
+)
+def test_the_graceful_law_is_that_of_nav2(goal, curvature):
+    v, omega = wmr.control_law(
+        *wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), goal), wmr.Gains(0.7, 10.0, 1.0), "graceful"
+    )
+    assert omega / v == pytest.approx(curvature, abs=1e-4)
+
+
+@given(st.floats(0.1, 50.0), angles, angles, gains_drawn)
+def test_the_graceful_law_brings_alpha_back_to_its_path(rho, alpha, theta, gains):
+    """z = alpha + atan(k_phi theta) falls as z' = -k_delta (v/rho) z, wherever the robot looks."""
+    v, omega = wmr.control_law(rho, alpha, theta, gains, "graceful")
+    _, alpha_rate, theta_rate = wmr.polar_rate(rho, alpha, v, omega)
+    z = alpha + math.atan(gains.h * theta)
+    z_rate = alpha_rate + gains.h * theta_rate / (1.0 + (gains.h * theta) ** 2)
+    assert z_rate == pytest.approx(-gains.k_alpha * v / rho * z, rel=1e-9, abs=1e-9 * (1 + abs(v)))
+
+
+@given(st.floats(0.1, 50.0), st.floats(-3.0, 3.0), st.floats(-3.0, 3.0), gains_drawn)
+def test_the_barrier_law_lets_its_angles_fall(rho, alpha, theta, gains):
+    """Of V, 2 (tan(alpha/2)^2 + h tan(theta/2)^2) falls by k_alpha (2 tan(alpha/2))^2."""
+    v, omega = wmr.control_law(rho, alpha, theta, gains, "barrier")
+    rates = wmr.polar_rate(rho, alpha, v, omega)
+    tan_a, tan_t = math.tan(alpha / 2), math.tan(theta / 2)
+    terms = 2 * tan_a * (1 + tan_a**2) * rates[1], 2 * gains.h * tan_t * (1 + tan_t**2) * rates[2]
+    size = 1e-12 * (1 + abs(terms[0]) + abs(terms[1]))
+    assert sum(terms) == pytest.approx(-gains.k_alpha * (2 * tan_a) ** 2, rel=1e-9, abs=size)
+    value = laws.LAWS["barrier"].value(rho, alpha, theta, gains)
+    assert value == pytest.approx(rho**2 / 2 + 2 * (tan_a**2 + gains.h * tan_t**2), rel=1e-12)
+
+
 # Lyapunov
 
 

@@ -19,6 +19,7 @@ import wmrlib as wmr
 from wmrlib import _dop853
 from wmrlib._dop853 import TOLERANCE
 from wmrlib.engine import continuous as engine
+from wmrlib.engine import lanes
 from wmrlib.gains import checked_wheels
 from wmrlib.laws import LAWS, POSE_LAWS
 
@@ -136,7 +137,7 @@ def test_columns_agree_with_the_public_functions(method):
             assert getattr(polar, name) == pytest.approx(getattr(run, name), abs=1e-9)
         v, omega = wmr.control_law(run.rho, run.alpha, run.theta, CALM, law)
         assert (run.v, run.omega) == (pytest.approx(v), pytest.approx(omega))
-        assert pytest.approx(wmr.lyapunov(run.rho, run.alpha, run.theta, CALM.h)) == run.V
+        assert run.V == pytest.approx(LAWS[law].value(run.rho, run.alpha, run.theta, CALM))
         assert run.x_error == pytest.approx(goal.x - run.x)
         assert run.y_error == pytest.approx(goal.y - run.y)
         error = wmr.wrap_angle(run.heading - goal.heading)
@@ -326,7 +327,7 @@ def test_continuous_against_taylor_series_at_thirty_digits(start, gains, law):
 def begun(starts, gains):
     """Runs to the origin in the engine, and how their loops are called."""
     runs = np.array([[*start, *ORIGIN, *each] for start, each in zip(starts, gains, strict=True)])
-    how = POSE_LAWS["corrected"], checked_wheels(None)
+    how = lanes.as_type(POSE_LAWS["corrected"]), checked_wheels(None)
     return engine.begun(runs.T.copy(), 60.0, 0.05, False), how
 
 

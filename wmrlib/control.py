@@ -25,7 +25,10 @@ def control_law(
     gains : Gains, whose fields may be arrays that broadcast with the polar error.
     law : "corrected": v = v_max (1 - exp(-k_rho rho)) cos(alpha) and
         omega = k_alpha alpha + v/rho sin(alpha)/alpha (alpha + h theta); "printed": with
-        cos(alpha) sin(alpha) once more in omega; "aicardi": with v = k_rho rho cos(alpha).
+        cos(alpha) sin(alpha) once more in omega; "aicardi": with v = k_rho rho cos(alpha);
+        "barrier": as "corrected", with 2 tan(x/2) for either angle x in V; "graceful": Nav2's
+        curvature, omega/v = (k_alpha z + (1 + h/(1 + (h theta)^2)) sin(alpha))/rho, where
+        z = alpha + atan(h theta), with v = v_max (1 - exp(-k_rho rho)).
 
     Returns
     -------

@@ -13,15 +13,15 @@ from wmrlib._checks import Real, checked, instance, real, scalar
 
 @checked(at_least_0=("k_rho", "k_alpha", "h"), above_0=("v_max",))
 class Gains(NamedTuple):
-    """The gains of the laws "corrected", "printed" and "aicardi", which has no speed limit.
+    """The gains of the laws for a goal that stands still; "aicardi" has no speed limit.
 
     The proof asks for positive gains; 0 is allowed, to show what a gain does.
 
     Parameters
     ----------
     k_rho : float or array, 1/m ("aicardi": 1/s). How fast the speed falls near the goal.
-    k_alpha : float or array, 1/s. Steering towards the goal.
-    h : float or array. Weight of the final heading.
+    k_alpha : float or array, 1/s ("graceful": k_delta, no unit). Steering towards the goal.
+    h : float or array ("graceful": k_phi). Weight of the final heading.
     v_max : float or array, m/s. Speed limit.
 
     Raises

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from wmrlib._checks import choice, instance, refusal
 from wmrlib._compile import formula
-from wmrlib._elementary import decay, share_of, sinc, sincos, wrap
+from wmrlib._elementary import decay, direction, share_of, sinc, sincos, wrap
 from wmrlib.gains import (
     Gains,
     GainsFields,
@@ -47,6 +47,25 @@ def aicardi_law(rho, alpha, theta, gains):
 
 
 @formula
+def barrier_law(rho, alpha, theta, gains):
+    sin_alpha, cos_alpha = sincos(alpha)
+    sin_half, cos_half = sincos(0.5 * theta)
+    facing = 0.25 * (1.0 + cos_alpha) * (1.0 + cos_alpha)  # cos(alpha/2)^4
+    v_over_rho = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
+    heading = 2.0 * gains.h * sin_half / (cos_half * cos_half * cos_half)
+    return v_over_rho, gains.k_alpha * sin_alpha + v_over_rho * (sin_alpha + facing * heading)
+
+
+@formula
+def graceful_law(rho, alpha, theta, gains):
+    sin_alpha = sincos(alpha)[0]
+    v_over_rho = gains.v_max * decay(rho, gains.k_rho)
+    wanted = gains.h * theta
+    follow = gains.k_alpha * (alpha + direction(wanted, 1.0))
+    return v_over_rho, v_over_rho * (follow + (1.0 + gains.h / (1.0 + wanted * wanted)) * sin_alpha)
+
+
+@formula
 def kanayama_law(ahead, left, turn, v_ref, omega_ref, gains):
     sin_turn, cos_turn = sincos(turn)
     v = v_ref * cos_turn + gains.k_x * ahead
@@ -74,6 +93,22 @@ def lyapunov_value(rho, alpha, theta, h, L):
 @formula
 def pose_value(rho, alpha, theta, gains):
     return lyapunov_value(rho, alpha, theta, gains.h, 1.0)
+
+
+@formula
+def barrier_value(rho, alpha, theta, gains):
+    """As `lyapunov_value`, with 2 tan(x/2) for either angle: infinite at half a turn."""
+    sin_alpha, cos_alpha = sincos(0.5 * alpha)
+    sin_theta, cos_theta = sincos(0.5 * theta)
+    tan_alpha, tan_theta = sin_alpha / cos_alpha, sin_theta / cos_theta
+    return lyapunov_value(rho, 2.0 * tan_alpha, 2.0 * tan_theta, gains.h, 1.0)
+
+
+@formula
+def graceful_value(rho, alpha, theta, gains):
+    """Half the square of alpha + atan(k_phi theta); it says nothing about rho."""
+    away = alpha + direction(gains.h * theta, 1.0)
+    return 0.5 * away * away
 
 
 @formula
@@ -118,12 +153,16 @@ class Law(NamedTuple):
 
 
 _AICARDI = "Aicardi et al. (1995), without a speed limit"
+_BARRIER = "after Todorovski et al. (2025): never crosses half a turn of alpha or theta"
+_GRACEFUL = "Park and Kuipers (2011), as in Nav2: k_alpha is their k_delta, h their k_phi"
 _KANAYAMA = "Kanayama et al. (1990), feed-forward and feedback"
 _LINEAR = "feed-forward and a constant matrix, such as `control.lqr` computes"
 LAWS = {
     "corrected": Law(corrected_law, Gains, "corrected", "(22), and the omega that the proof needs"),
     "printed": Law(printed_law, Gains, "printed", "(22) and (24) as the paper prints them"),
     "aicardi": Law(aicardi_law, Gains, "Aicardi", _AICARDI, ignores=("v_max",)),
+    "barrier": Law(barrier_law, Gains, "barrier", _BARRIER, barrier_value),
+    "graceful": Law(graceful_law, Gains, "Graceful (Nav2)", _GRACEFUL, graceful_value),
     "kanayama": Law(
         kanayama_law, KanayamaGains, "feed-forward (Kanayama)", _KANAYAMA, kanayama_value, True
     ),
@@ -136,7 +175,7 @@ POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name
 
 
 # Loops know a law by its place in `LAWS`, and its gains as plain numbers, in the order of its own.
-CORRECTED, PRINTED, AICARDI, KANAYAMA, LINEAR = range(len(LAWS))
+CORRECTED, PRINTED, AICARDI, BARRIER, GRACEFUL, KANAYAMA, LINEAR = range(len(LAWS))
 
 
 @formula
@@ -156,6 +195,10 @@ def pose_law(rho, alpha, theta, gains, law):
         return corrected_law(rho, alpha, theta, gains)
     if law == PRINTED:
         return printed_law(rho, alpha, theta, gains)
+    if law == BARRIER:
+        return barrier_law(rho, alpha, theta, gains)
+    if law == GRACEFUL:
+        return graceful_law(rho, alpha, theta, gains)
     return aicardi_law(rho, alpha, theta, gains)
 
 
@@ -178,6 +221,10 @@ def value_of(rho, alpha, theta, numbers, law):
         return kanayama_value(rho, alpha, theta, kanayama_gains(numbers))
     if law == LINEAR:
         return linear_value(rho, alpha, theta, LinearFields(*numbers))
+    if law == BARRIER:
+        return barrier_value(rho, alpha, theta, pose_gains(numbers))
+    if law == GRACEFUL:
+        return graceful_value(rho, alpha, theta, pose_gains(numbers))
     return pose_value(rho, alpha, theta, pose_gains(numbers))
 
 

@@ -46,7 +46,7 @@ def simulate(
     ----------
     start, goal : Pose of numbers, m and rad
     gains : Gains of numbers
-    law : "corrected", "printed" or "aicardi", see `control_law`
+    law : "corrected", "printed", "aicardi", "barrier" or "graceful", see `control_law`
     method : "euler", the paper's: the twist is held for `dt` and the pose moves along its tangent;
         "arc": the twist is held and the pose moves along the exact arc;
         "continuous": the law acts all the time; (rho, alpha, theta) is integrated by Dormand and

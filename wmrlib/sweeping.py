@@ -158,7 +158,7 @@ def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
     laws = np.unique(runs[-1])
     if laws.size == 1:
         survey, how = _ENGINES[task.method].survey, (task.limits, task.method, *task[2:-1])
-        return survey(runs[:-1], int(laws[0]), *how, *task.key)
+        return survey(runs[:-1], lanes.as_type(int(laws[0])), *how, *task.key)
     summary = np.empty((len(Arrival._fields), runs.shape[1]))
     record = np.empty((8, task.samples if task.recorded else 0, runs.shape[1]))
     for law in laws:

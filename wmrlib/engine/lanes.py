@@ -16,10 +16,19 @@ OUTCOME, TIME, HEADING_ERROR, PEAK_OMEGA, PATH_LENGTH, DISTANCE = range(6)
 _pose_law = vectorised(laws.pose_law)
 
 
+def as_type(law: int) -> tuple[int, ...]:
+    """A law as the loops take it: by the length of a tuple, which numba knows when it compiles.
+
+    So each law has a loop of its own, compiled when it is wanted. With all five in one loop,
+    sweeps of the corrected law take 1.3 times as long by Euler's steps, and 1.5 in continuous time.
+    """
+    return (0,) * law
+
+
 @formula
 def steered(polar, gains, law, wheels):
     """(v/rho, omega) under a pose law and the limits of the wheels."""
-    v_over_rho, omega = _pose_law(polar[0], polar[1], polar[2], gains, law)
+    v_over_rho, omega = _pose_law(polar[0], polar[1], polar[2], gains, len(law))
     share = laws.saturation_scale(v_over_rho * polar[0], omega, wheels)
     return share * v_over_rho, share * omega
 

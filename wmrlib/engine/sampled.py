@@ -141,7 +141,7 @@ def conclude(states, runs, law, wheels, along_arc, dt, samples, arrival_radius, 
         start, goal, gains = lanes.run_of(runs, i)
         pose = states[X, i], states[Y, i], states[HEADING, i]
         left, peak, length = states[LEFT, i], states[PEAK, i], states[LENGTH, i]
-        loop = (*gains, 0.0, 0.0), law, wheels
+        loop = (*gains, 0.0, 0.0), len(law), wheels
         polar = polar_from_pose(*pose, *goal)
         v, omega = steer(polar, (0.0, 0.0), *loop)
         last, arrived = samples - 1 - int(abs(left)), polar[0] <= arrival_radius

@@ -50,7 +50,8 @@ enum { WMR_OK = 0, WMR_STOP = 1 };
 
 typedef struct { WMR_REAL x, y, heading; } wmr_pose;
 typedef struct { WMR_REAL rho, alpha, theta; } wmr_polar;
-/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (even for aicardi) */
+/* 1/m (aicardi: 1/s), 1/s (graceful: no unit), no unit: all 0 or more; m/s: above 0 (even
+   for aicardi) */
 typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;

@@ -48,7 +48,8 @@ enum { WMR_OK = 0, WMR_STOP = 1 };
 
 typedef struct { WMR_REAL x, y, heading; } wmr_pose;
 typedef struct { WMR_REAL rho, alpha, theta; } wmr_polar;
-/* 1/m (aicardi: 1/s), 1/s, no unit: all 0 or more; m/s: above 0 (even for aicardi) */
+/* 1/m (aicardi: 1/s), 1/s (graceful: no unit), no unit: all 0 or more; m/s: above 0 (even
+   for aicardi) */
 typedef struct { WMR_REAL k_rho, k_alpha, h, v_max; } wmr_gains;
 typedef struct { WMR_REAL v, omega; int status; } wmr_twist;
 typedef struct { WMR_REAL left, right; int status; } wmr_wheels;
@@ -206,6 +207,30 @@ static inline wmr_twist wmr_law_aicardi(wmr_polar error, wmr_gains gains) {
   const WMR_REAL v_over_rho = k_rho * WMR_F(cos)(alpha);
   const WMR_REAL omega = alpha * k_alpha + v_over_rho * (alpha + h * theta) *
       wmr_sinc(alpha);
+  return wmr_checked(error, gains, rho * v_over_rho, omega);
+}
+
+/* after Todorovski et al. (2025): never crosses half a turn of alpha or theta */
+static inline wmr_twist wmr_law_barrier(wmr_polar error, wmr_gains gains) {
+  const WMR_REAL rho = error.rho, alpha = error.alpha, theta = error.theta;
+  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h,
+      v_max = gains.v_max;
+  const WMR_REAL v_over_rho = v_max * WMR_F(cos)(alpha) * wmr_decay(rho, k_rho);
+  const WMR_REAL omega = k_alpha * WMR_F(sin)(alpha) + v_over_rho * (WMR_C(2.0) * h *
+      (WMR_C(0.25) * WMR_F(cos)(alpha) + WMR_C(0.25)) * (WMR_F(cos)(alpha) + WMR_C(1.0))
+      * WMR_F(sin)(WMR_C(0.5) * theta)/WMR_F(pow)(WMR_F(cos)(WMR_C(0.5) * theta),
+      WMR_C(3.0)) + WMR_F(sin)(alpha));
+  return wmr_checked(error, gains, rho * v_over_rho, omega);
+}
+
+/* Park and Kuipers (2011), as in Nav2: k_alpha is their k_delta, h their k_phi */
+static inline wmr_twist wmr_law_graceful(wmr_polar error, wmr_gains gains) {
+  const WMR_REAL rho = error.rho, alpha = error.alpha, theta = error.theta;
+  const WMR_REAL k_rho = gains.k_rho, k_alpha = gains.k_alpha, h = gains.h,
+      v_max = gains.v_max;
+  const WMR_REAL v_over_rho = v_max * wmr_decay(rho, k_rho);
+  const WMR_REAL omega = v_over_rho * (k_alpha * (alpha + WMR_F(atan)(h * theta)) +
+      (h/((h * h) * (theta * theta) + WMR_C(1.0)) + WMR_C(1.0)) * WMR_F(sin)(alpha));
   return wmr_checked(error, gains, rho * v_over_rho, omega);
 }
 

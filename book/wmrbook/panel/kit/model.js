@@ -42,6 +42,21 @@ export function aicardiLaw(rho, alpha, theta, { k_rho, k_alpha, h }) {
   return [v_over_rho, alpha*k_alpha + v_over_rho*(alpha + h*theta)*sinc(alpha)];
 }
 
+// after Todorovski et al. (2025): never crosses half a turn of alpha or theta
+export function barrierLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+  const v_over_rho = v_max*Math.cos(alpha)*decay(rho, k_rho);
+  return [v_over_rho, k_alpha*Math.sin(alpha) + v_over_rho*(2*h*((1/4)*Math.cos(alpha) +
+    1/4)*(Math.cos(alpha) + 1)*Math.sin((1/2)*theta)/Math.pow(Math.cos((1/2)*theta), 3) +
+    Math.sin(alpha))];
+}
+
+// Park and Kuipers (2011), as in Nav2: k_alpha is their k_delta, h their k_phi
+export function gracefulLaw(rho, alpha, theta, { k_rho, k_alpha, h, v_max }) {
+  const v_over_rho = v_max*decay(rho, k_rho);
+  return [v_over_rho, v_over_rho*(k_alpha*(alpha + Math.atan(h*theta)) + (h/((h*h)*(theta*theta) +
+    1) + 1)*Math.sin(alpha))];
+}
+
 // Kanayama et al. (1990), feed-forward and feedback
 export function kanayamaLaw(ahead, left, turn, v_ref, omega_ref, { k_x, k_y, k_heading }) {
   return [ahead*k_x + v_ref*Math.cos(turn), omega_ref + v_ref*(k_heading*Math.sin(turn) +
@@ -63,6 +78,20 @@ export function bodyError(rho, alpha, theta) {
 // its Lyapunov function
 export function poseValue(rho, alpha, theta, { h }) {
   return (1/2)*(alpha*alpha) + (1/2)*h*(theta*theta) + (1/2)*(rho*rho);
+}
+
+// its Lyapunov function
+export function barrierValue(rho, alpha, theta, { h }) {
+  const part0 = (1/2)*alpha;
+  const part1 = (1/2)*theta;
+  return 2*h*(Math.sin(part1)*Math.sin(part1))/(Math.cos(part1)*Math.cos(part1)) + (1/2)*(rho*rho) +
+    2*(Math.sin(part0)*Math.sin(part0))/(Math.cos(part0)*Math.cos(part0));
+}
+
+// its Lyapunov function
+export function gracefulValue(rho, alpha, theta, { h }) {
+  const part0 = Math.atan(h*theta);
+  return ((1/2)*alpha + (1/2)*part0)*(alpha + part0);
 }
 
 // its Lyapunov function
@@ -89,6 +118,17 @@ export function printedModes({ k_rho, k_alpha, v_max }) {
 // p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
 export function aicardiModes({ k_rho, k_alpha, h }) {
   return [k_rho, k_alpha, h*(k_rho*k_rho)];
+}
+
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+export function barrierModes({ k_rho, k_alpha, h, v_max }) {
+  return [k_rho*v_max, k_alpha, h*(k_rho*k_rho)*(v_max*v_max)];
+}
+
+// p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles
+export function gracefulModes({ k_rho, k_alpha, h, v_max }) {
+  const part0 = k_rho*v_max;
+  return [part0, h*part0 + k_alpha*part0, h*k_alpha*(k_rho*k_rho)*(v_max*v_max)];
 }
 
 // method euler
@@ -141,6 +181,10 @@ export const LAWS = {
     'h', 'v_max'], needsReference: false },
   aicardi: { formula: aicardiLaw, value: poseValue, modes: aicardiModes, gains: ['k_rho', 'k_alpha',
     'h', 'v_max'], needsReference: false },
+  barrier: { formula: barrierLaw, value: barrierValue, modes: barrierModes, gains: ['k_rho',
+    'k_alpha', 'h', 'v_max'], needsReference: false },
+  graceful: { formula: gracefulLaw, value: gracefulValue, modes: gracefulModes, gains: ['k_rho',
+    'k_alpha', 'h', 'v_max'], needsReference: false },
   kanayama: { formula: kanayamaLaw, value: kanayamaValue, modes: null, gains: ['k_x', 'k_y',
     'k_heading'], needsReference: true },
   linear: { formula: linearLaw, value: linearValue, modes: null, gains: ['v_x', 'v_y', 'v_heading',
