@@ -58,7 +58,7 @@ def test_the_graceful_law_is_that_of_nav2(goal, curvature):
 
 @given(st.floats(0.1, 50.0), angles, angles, gains_drawn)
 def test_the_graceful_law_brings_alpha_back_to_its_path(rho, alpha, theta, gains):
-    """z = alpha + atan(k_phi theta) falls as z' = -k_delta (v/rho) z, wherever the robot looks."""
+    """Z = alpha + atan(k_phi theta) falls as z' = -k_delta (v/rho) z, wherever the robot looks."""
     v, omega = wmr.control_law(rho, alpha, theta, gains, "graceful")
     _, alpha_rate, theta_rate = wmr.polar_rate(rho, alpha, v, omega)
     z = alpha + math.atan(gains.h * theta)

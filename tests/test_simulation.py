@@ -137,7 +137,7 @@ def test_columns_agree_with_the_public_functions(method):
             assert getattr(polar, name) == pytest.approx(getattr(run, name), abs=1e-9)
         v, omega = wmr.control_law(run.rho, run.alpha, run.theta, CALM, law)
         assert (run.v, run.omega) == (pytest.approx(v), pytest.approx(omega))
-        assert run.V == pytest.approx(LAWS[law].value(run.rho, run.alpha, run.theta, CALM))
+        assert pytest.approx(LAWS[law].value(run.rho, run.alpha, run.theta, CALM)) == run.V
         assert run.x_error == pytest.approx(goal.x - run.x)
         assert run.y_error == pytest.approx(goal.y - run.y)
         error = wmr.wrap_angle(run.heading - goal.heading)
