@@ -37,8 +37,8 @@ def test_random_words_are_those_that_are_known(counter, key, words):
 # A second way, sample by sample, with whole numbers that don't overflow ---------------------------
 
 
-def two_normals(run, sample, seed):
-    a, b, c, d = run % 2**32, run // 2**32, sample, 0
+def two_normals(run, sample, seed, stream=0):
+    a, b, c, d = run % 2**32, run // 2**32, sample, stream
     for n in range(10):
         key = (seed + n * 0x9E3779B9) % 2**32, (seed // 2**32 + n * 0xBB67AE85) % 2**32
         (two, b_next), (one, d_next) = divmod(0xCD9E8D57 * c, 2**32), divmod(0xD2511F53 * a, 2**32)
@@ -50,7 +50,7 @@ def two_normals(run, sample, seed):
 def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
     """The poses and twists at each sample, and whether it believes to have arrived."""
     truth, twists, errors, fixes = [START], [], {}, {}
-    late, heading_late = (round(age / DT) for age in receiver[3:])
+    late, heading_late = (round(age / DT) for age in receiver[3:5])
     every = max(round(receiver.period / DT), 1)
     for k in range(round(SHORT["duration"] / DT) + 1):
         fix = max(k - k % every - late, 0)
@@ -64,7 +64,9 @@ def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
             fixes[fix] = complex(truth[fix].x, truth[fix].y) + receiver.sigma * error
         seen = wmr.Pose(fixes[fix].real, fixes[fix].imag, truth[max(k - heading_late, 0)].heading)
         polar = wmr.polar_error(seen, GOAL)
-        v, omega = wmr.control_law(*polar, gains)
+        turn = receiver.sight * two_normals(run, k, seed, 1).real
+        angles = (wmr.wrap_angle(angle + turn) for angle in polar[1:])
+        v, omega = wmr.control_law(polar.rho, *angles, gains)
         v, omega = wmr.limit_wheels(v, omega, wheels) if wheels else (v, omega)
         twists.append((v, omega))
         if polar.rho <= SHORT["arrival_radius"]:
@@ -76,7 +78,7 @@ def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
 times = st.sampled_from([0.0, 0.1, 0.3, 1.0])
 receivers = st.builds(
     wmr.Receiver, st.sampled_from([0.0, 0.2, 0.5]), st.sampled_from([0.0, 0.4, 30.0]), times, times,
-    times,
+    times, st.sampled_from([0.0, 0.1]),
 )  # fmt: skip
 
 
@@ -85,6 +87,7 @@ receivers = st.builds(
 @example(wmr.Receiver(0.5, -0.0), 0, 0, "arc", None)
 @example(wmr.Receiver(period=1.0), 0, 0, "arc", None)
 @example(wmr.Receiver(heading_delay=0.3), 0, 0, "arc", None)
+@example(wmr.Receiver(sight=0.2), 3, 1, "arc", None)
 @given(receivers, st.integers(0, 2**64 - 1), st.integers(0, 1), st.sampled_from(["arc", "euler"]),
        st.none() | st.just(LIMITS))  # fmt: skip
 def test_a_sweep_is_the_plain_loop_with_the_same_numbers(receiver, seed, run, method, wheels):

@@ -246,7 +246,8 @@ def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices(method, 
     runs_of = np.array([*np.broadcast_arrays(*starts, *goal, *gains)])
     states = np.zeros((sampled.ROWS, 1500))  # all are driven side by side, and nobody once more
     states[:10], states[sampled.LEFT] = runs_of, 300.0
-    sampled.drive(states, lanes.as_type(0), checked_wheels(wheels), method == "arc", 0.1, 0.05)
+    how = lanes.as_type(0), checked_wheels(wheels), method == "arc", 0.1, 0.05
+    sampled.drive(states, *how, None)
     assert (states[sampled.LEFT] <= 0.0).all()
     for i in order[:200]:
         start, tuned = (type(row)(*(float(each[i]) for each in row)) for row in (starts, gains))

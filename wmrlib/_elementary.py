@@ -88,6 +88,18 @@ def share_of(value, limit):
     return limit / value if value > limit else 1.0
 
 
+@_kinds
+def whole(x):
+    """The nearest whole number."""
+    return np.floor(x + 0.5)
+
+
+@_kinds
+def within(value, limit, other):
+    """`value` if it is smaller than `limit`, with either sign; otherwise, or if NaN, `other`."""
+    return value if abs(value) < limit else other
+
+
 @expm1.register(np.ndarray)
 def _(x):
     return np.expm1(x)
@@ -111,6 +123,16 @@ def _(y, x):
 @sincos.register(np.ndarray)
 def _(angle):
     return np.sin(angle), np.cos(angle)
+
+
+@whole.register(np.ndarray)
+def _(x):
+    return np.floor(x + 0.5)
+
+
+@within.register(np.ndarray)
+def _(value, limit, other):
+    return np.where(np.abs(value) < limit, value, other)
 
 
 @wrap.register(np.ndarray)

@@ -14,7 +14,14 @@ from wmrlib._compile import compiled, formula
 from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_error, until_event
 from wmrlib._elementary import sincos, wrap
 from wmrlib.laws import command, pose_gains, pose_law, saturation_scale, value_of
-from wmrlib.motion import arc_step, euler_step, polar_closing_rate, polar_from_pose, pose_of_error
+from wmrlib.motion import (
+    arc_step,
+    euler_step,
+    keep_branch,
+    polar_closing_rate,
+    polar_from_pose,
+    pose_of_error,
+)
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
 MOST_TRIALS = 1_000_000  # steps
@@ -39,16 +46,18 @@ def write(record, k, pose, polar, twist, numbers, law):
 
 
 @compiled
-def held(record, pose, path, numbers, law, wheels, along_arc, dt, arrival_radius):
+def held(record, pose, path, numbers, law, wheels, along_arc, dt, arrival_radius, hysteresis):
     """Hold the twist for dt, sample after sample; column k of `path` is the goal then, or its last.
 
     Returns (samples, outcome, largest |omega|, metres rolled). A negative radius never arrives.
     """
-    peak, length, rolled = 0.0, 0.0, 0.0
+    peak, length, rolled, before = 0.0, 0.0, 0.0, math.nan
     pose = pose[0], pose[1], wrap(pose[2])
     for k in range(record.shape[1]):
         x, y, heading, v_ref, omega_ref = path[:, min(k, path.shape[1] - 1)]
-        polar = polar_from_pose(*pose, x, y, heading)
+        rho, alpha, theta = polar_from_pose(*pose, x, y, heading)
+        before = keep_branch(theta, before, hysteresis)
+        polar = rho, alpha, before
         v, omega = steer(polar, (v_ref, omega_ref), numbers, law, wheels)
         write(record, k, pose, polar, (v, omega), numbers, law)
         if not math.isfinite(polar[0] + v + omega):

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from wmrlib._compile import formula
-from wmrlib._elementary import direction, distance, sinc, sincos, wrap
+from wmrlib._elementary import TURN, direction, distance, sinc, sincos, whole, within, wrap
 
 
 @formula
@@ -11,6 +11,13 @@ def polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading):
     east, north = goal_x - x, goal_y - y
     sight = direction(north, east)
     return distance(east, north), wrap(sight - heading), wrap(sight - goal_heading)
+
+
+@formula
+def keep_branch(theta, before, hysteresis):
+    """theta, on the branch that it had `before` until it is there over pi + hysteresis."""
+    continued = theta + TURN * whole((before - theta) / TURN)
+    return within(continued, 0.5 * TURN + hysteresis, theta)
 
 
 @formula

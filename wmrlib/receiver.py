@@ -7,7 +7,7 @@ from typing import NamedTuple
 from wmrlib._checks import Real, checked
 
 
-@checked(at_least_0=("sigma", "memory", "period", "delay", "heading_delay"))
+@checked(at_least_0=("sigma", "memory", "period", "delay", "heading_delay", "sight"))
 class Receiver(NamedTuple):
     """A receiver that errs, shows its fixes one at a time, and late; or many of them.
 
@@ -22,6 +22,8 @@ class Receiver(NamedTuple):
     period : float or array, s. A fix is shown for so long, until the next; 0: for one sample.
     delay : float or array, s. Age of a fix when it is first shown.
     heading_delay : float or array, s. Age of the heading, which is exact.
+    sight : float or array, rad. Standard deviation of white noise on the line of sight, so on alpha
+        and theta alike: what is shown is turned round the goal, anew in each sample.
 
     Raises
     ------
@@ -33,3 +35,4 @@ class Receiver(NamedTuple):
     period: Real = 0.0
     delay: Real = 0.0
     heading_delay: Real = 0.0
+    sight: Real = 0.0

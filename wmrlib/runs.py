@@ -172,6 +172,15 @@ def single_pose(name: str, pose: Pose) -> Pose:
     return pose
 
 
+def checked_hysteresis(hysteresis: float, method: str) -> float:
+    """The hysteresis, if it is one of the method's; otherwise raise ValueError."""
+    kept = scalar("hysteresis", hysteresis, low=0.0)
+    if kept and method == "continuous":
+        needed = "0, or method 'arc' or 'euler',"
+        raise refusal("hysteresis", kept, needed, ": with 'continuous' theta never jumps")
+    return kept
+
+
 def sample_count(dt: float, duration: float) -> int:
     """Return how many samples a run has, both ends included; raise ValueError as `simulate`."""
     steps = scalar("duration", duration, above=0.0) / scalar("dt", dt, above=0.0)

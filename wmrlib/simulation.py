@@ -20,6 +20,7 @@ from wmrlib.runs import (
     TIMED_OUT,
     UNFINISHED,
     Trajectory,
+    checked_hysteresis,
     sample_count,
     single_pose,
 )
@@ -39,6 +40,7 @@ def simulate(
     arrival_radius: float = 0.05,
     wheels: WheelLimits | None = None,
     wheel_lag: float = 0.0,
+    hysteresis: float = 0.0,
 ) -> Trajectory:
     """Drive from one pose to another.
 
@@ -60,6 +62,8 @@ def simulate(
     wheel_lag : float, s; with "continuous" and an arrival radius, the wheels start at rest and
         follow the limited command as first-order systems with this time constant (an inner loop
         with a bandwidth of 1/wheel_lag rad/s); the run's v and omega are then what the wheels do
+    hysteresis : float, rad; with "arc" and "euler", theta does not jump by 2 pi until its old
+        branch is pi + hysteresis from 0, so the run's theta may be that large
 
     Returns
     -------
@@ -91,6 +95,7 @@ def simulate(
     continuously = choice("method", method, METHODS) == "continuous"
     if lag and not (continuously and radius):  # on the goal itself there is no line of sight
         raise refusal("wheel_lag", lag, '0, or method "continuous" with an arrival radius,')
+    kept = checked_hysteresis(hysteresis, method)
     t, loop = dt * np.arange(samples), (numbers, code, limits)
     if continuously:
         state = np.zeros(6 if lag else 4)
@@ -98,7 +103,7 @@ def simulate(
         run = _continuous(t, state, radius, target, None, *loop, lag)
     else:
         path = np.array([*target, 0.0, 0.0])[:, None]
-        run = _held(t, method, radius, begin, path, *loop)
+        run = _held(t, method, radius, kept, begin, path, *loop)
     return Trajectory.of(*run, end, gains, law, method)
 
 
@@ -170,17 +175,18 @@ def track(
 
         run = _continuous(t, state, -np.inf, begin, goals_at, *loop, 0.0)
     else:
-        run = _held(t, method, -1.0, begin, path, *loop)
+        run = _held(t, method, -1.0, 0.0, begin, path, *loop)
     t, record, outcome, *sums = run
     ended = COMPLETED if outcome == TIMED_OUT else outcome
     goal = Pose(*path[:3, : t.size])
     return Trajectory.of(t, record, ended, *sums, goal, gains, law, method)
 
 
-def _held(t, method, radius, begin, path, *loop) -> tuple:
+def _held(t, method, radius, hysteresis, begin, path, *loop) -> tuple:
     """(t, record, outcome, peak omega, path length) of a run whose twist is held."""
     record, dt = np.empty((9, t.size)), t[1]
-    count, *sums = held(record, tuple(begin), path, *loop, method == "arc", dt, radius)
+    how = *loop, method == "arc", dt, radius, hysteresis
+    count, *sums = held(record, tuple(begin), path, *how)
     return t[:count], record[:, :count], *sums
 
 

@@ -16,7 +16,14 @@ from wmrlib.gains import Gains, WheelLimits, checked_wheels
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import POSE_LAWS
 from wmrlib.receiver import Receiver
-from wmrlib.runs import ARRIVED, UNFINISHED, Arrival, Trajectories, sample_count
+from wmrlib.runs import (
+    ARRIVED,
+    UNFINISHED,
+    Arrival,
+    Trajectories,
+    checked_hysteresis,
+    sample_count,
+)
 
 MOST_RECORDED = 50_000_000
 _ENGINES = {"continuous": continuous, "arc": sampled, "euler": sampled}
@@ -34,6 +41,7 @@ class _Task(NamedTuple):
     samples: int
     arrival_radius: float
     recorded: bool
+    hysteresis: float
     key: tuple[int, ...]  # to the random numbers of receivers, if there are any
 
     @property
@@ -55,6 +63,7 @@ def sweep(
     duration: float = 60.0,
     arrival_radius: float = 0.05,
     wheels: WheelLimits | None = None,
+    hysteresis: float = 0.0,
     receiver: Receiver | None = None,
     seed: int = 0,
     trajectories: bool = False,
@@ -75,8 +84,8 @@ def sweep(
     law : str or array of str, as in `simulate`
     method : as in `simulate`; with "arc" and "euler" each entry is `arrival(simulate(...))` of that
         run, to 1e-9 unless the run magnifies rounding
-    dt, duration, arrival_radius, wheels : as in `simulate`; with "continuous", dt only says where
-        the samples lie; the last one within the duration ends the run
+    dt, duration, arrival_radius, wheels, hysteresis : as in `simulate`; with "continuous", dt only
+        says where the samples lie; the last one within the duration ends the run
     receiver : Receiver, with "arc" and "euler" only, by what each run steers; its fields broadcast
         too. A run stops, and has arrived, where it believes to be within the radius; all that is
         returned is where it really is. None: it knows.
@@ -120,7 +129,8 @@ def sweep(
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**64:
         raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
     limits, key = checked_wheels(wheels), divmod(int(seed), 2**32)[::-1] if receiver else ()
-    task = _Task(method, limits, float(dt), samples, radius, bool(trajectories), key)
+    kept = checked_hysteresis(hysteresis, method)
+    task = _Task(method, limits, float(dt), samples, radius, bool(trajectories), kept, key)
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
             raise refusal(name, value, "True or False")

@@ -234,7 +234,7 @@ def summed_up(states, whole, radius):
     return summary
 
 
-def survey(runs, law, wheels, _, dt, samples, radius, recorded):
+def survey(runs, law, wheels, _, dt, samples, radius, recorded, *__):
     """As `sampled.survey`; the last sample is the one before arrival."""
     whole = (samples - 1) * dt
     records = np.full((8, samples if recorded else 0, runs.shape[1]), np.nan)

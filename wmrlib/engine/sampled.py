@@ -13,7 +13,7 @@ from wmrlib.engine import lanes, receivers
 from wmrlib.engine.vectors import BETWEEN_DIRECTIONS, NEAREST, vectorised
 from wmrlib.gains import GainsFields
 from wmrlib.loops import held, steer
-from wmrlib.motion import polar_from_pose
+from wmrlib.motion import keep_branch, polar_from_pose
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT
 
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
@@ -25,9 +25,11 @@ _ROUNDS = 16  # steps between two looks at who has finished
 X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(10)  # as in a sweep
 LEFT, PEAK, LENGTH, RHO, ALPHA, THETA, V, OMEGA, GOING, ALIVE, HERE = range(10, 21)
 SEEN = HERE + 1
-ROWS = SEEN + 3
+BRANCH = SEEN + 3  # with hysteresis, theta as it is, and below it as it is seen
+ROWS = BRANCH + 2
 
 _polar_from_pose = vectorised(motion.polar_from_pose, BETWEEN_DIRECTIONS)
+_keep_branch = vectorised(motion.keep_branch)
 _euler_step, _arc_step = vectorised(motion.euler_step), vectorised(motion.arc_step)
 
 
@@ -36,12 +38,19 @@ _euler_step, _arc_step = vectorised(motion.euler_step), vectorised(motion.arc_st
 
 
 @formula
-def look(block, used, place):
-    """See the goal from the pose in the rows from `place` on."""
+def look(block, used, place, branch, hysteresis):
+    """See the goal from the pose in the rows from `place` on.
+
+    No hysteresis is None, by whose type numba leaves out what it would cost.
+    """
     for i in range(used):
         pose = block[place, i], block[place + 1, i], block[place + 2, i]
-        seen = _polar_from_pose(*pose, block[GOAL_X, i], block[GOAL_Y, i], block[GOAL_HEADING, i])
-        block[RHO, i], block[ALPHA, i], block[THETA, i] = seen
+        goal = block[GOAL_X, i], block[GOAL_Y, i], block[GOAL_HEADING, i]
+        rho, alpha, theta = _polar_from_pose(*pose, *goal)
+        if hysteresis is not None:
+            theta = _keep_branch(theta, block[branch, i], hysteresis)
+            block[branch, i] = theta
+        block[RHO, i], block[ALPHA, i], block[THETA, i] = rho, alpha, theta
 
 
 @formula
@@ -72,7 +81,7 @@ def move(block, used, along_arc, dt):
 
 
 @compiled
-def drive(states, law, wheels, along_arc, dt, arrival_radius):
+def drive(states, law, wheels, along_arc, dt, arrival_radius, hysteresis):
     """Take every run to its end, or to its last step; then it gives its lane to the next."""
     block, inside = np.zeros((ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
     waiting = width = 0
@@ -82,14 +91,14 @@ def drive(states, law, wheels, along_arc, dt, arrival_radius):
             return
         used = min(BLOCK, (width + VECTORS - 1) // VECTORS * VECTORS)
         for _ in range(_ROUNDS):
-            look(block, used, X)
+            look(block, used, X, BRANCH, hysteresis)
             decide(block, used, law, wheels, dt, arrival_radius)
             move(block, used, along_arc, dt)
 
 
 @compiled
 def drive_all(
-    states, law, wheels, along_arc, dt, arrival_radius, samples, records, eyes, depth, key
+    states, law, wheels, along_arc, dt, radius, hysteresis, samples, records, eyes, depth, key
 ):
     """The same, sample after sample, because each is recorded, or steered by what a receiver shows.
 
@@ -106,14 +115,14 @@ def drive_all(
         for k in range(samples):
             for i in range(used):
                 block[ALIVE, i] = 1.0 if block[LEFT, i] >= 0.0 else 0.0
-            look(block, used, X)
+            look(block, used, X, BRANCH, hysteresis)
             if records.shape[1] > 0:
                 for row, at in enumerate((X, Y, HEADING, RHO, ALPHA, THETA)):
                     _note(records[row, k], block, width, first, at)
             if key is not None:
-                receivers.show(block, SEEN, shown, past, k, used, key)
-                look(block, used, SEEN)
-            decide(block, used, law, wheels, dt, arrival_radius)
+                receivers.show(block, SEEN, GOAL_X, shown, past, k, used, key)
+                look(block, used, SEEN, BRANCH + 1, hysteresis)
+            decide(block, used, law, wheels, dt, radius)
             if records.shape[1] > 0:
                 _note(records[6, k], block, width, first, V)
                 _note(records[7, k], block, width, first, OMEGA)
@@ -130,7 +139,9 @@ def _note(record, block, width, first, row):
 
 
 @compiled
-def conclude(states, runs, law, wheels, along_arc, dt, samples, arrival_radius, records, shown):
+def conclude(
+    states, runs, law, wheels, along_arc, dt, arrival_radius, hysteresis, samples, records, shown
+):
     """Sum up each run. One that ended without a number is driven alone, by the C library.
 
     With a receiver it is left, because there the pose is hardly one that a receiver could show.
@@ -142,7 +153,8 @@ def conclude(states, runs, law, wheels, along_arc, dt, samples, arrival_radius, 
         pose = states[X, i], states[Y, i], states[HEADING, i]
         left, peak, length = states[LEFT, i], states[PEAK, i], states[LENGTH, i]
         loop = (*gains, 0.0, 0.0), len(law), wheels
-        polar = polar_from_pose(*pose, *goal)
+        rho, alpha, theta = polar_from_pose(*pose, *goal)
+        polar = rho, alpha, keep_branch(theta, states[BRANCH, i], hysteresis)
         v, omega = steer(polar, (0.0, 0.0), *loop)
         last, arrived = samples - 1 - int(abs(left)), polar[0] <= arrival_radius
         if shown:
@@ -156,7 +168,7 @@ def conclude(states, runs, law, wheels, along_arc, dt, samples, arrival_radius, 
             polar = math.nan, math.nan, math.nan
         elif not (shown or (known and last > 0 and (arrived or left == 0.0))):
             path[0, 0], path[1, 0], path[2, 0] = goal
-            how = path, *loop, along_arc, dt, arrival_radius
+            how = path, *loop, along_arc, dt, arrival_radius, hysteresis
             count, outcome, peak, length = held(alone, start, *how)
             last = max(count - 1, 0)
             polar = alone[3, last], alone[4, last], alone[5, last]
@@ -168,21 +180,21 @@ def conclude(states, runs, law, wheels, along_arc, dt, samples, arrival_radius, 
     return summary
 
 
-def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded, *key):
+def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded, hysteresis, *key):
     """Sum up many runs to goals that stand still; their samples too, NaN after each one's end.
 
     With a key to random numbers, a receiver and the run's number are below each run.
     """
     states, records = np.zeros((ROWS, runs.shape[1])), np.empty((8, 0, runs.shape[1]))
-    states[:LEFT], states[LEFT] = runs[:LEFT], samples - 1.0
+    states[:LEFT], states[LEFT], states[BRANCH:] = runs[:LEFT], samples - 1.0, math.nan
     how = law, wheels, method == "arc", dt
+    ends = max(arrival_radius, NEAREST), hysteresis or None
     if recorded:
         records = np.full((8, samples, runs.shape[1]), np.nan)
     if recorded or key:
         eyes, depth = receivers.in_samples(runs[LEFT:], dt, samples)
-        shown = samples, records, eyes, depth, key or None
-        drive_all(states, *how, max(arrival_radius, NEAREST), *shown)
+        drive_all(states, *how, *ends, samples, records, eyes, depth, key or None)
     else:
-        drive(states, *how, max(arrival_radius, NEAREST))
-    ends = samples, arrival_radius, records, bool(key)
-    return conclude(states, runs[:LEFT], *how, *ends), records
+        drive(states, *how, *ends)
+    rest = arrival_radius, hysteresis, samples, records, bool(key)
+    return conclude(states, runs[:LEFT], *how, *rest), records

@@ -43,7 +43,10 @@ class _Printer(C99CodePrinter):
         return re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", text)  # brackets of its own
 
 
-_LIBRARY = {name: f"WMR_F({name})" for name in _FUNCTIONS} | {"Abs": "WMR_F(fabs)"}
+_LIBRARY = {name: f"WMR_F({name})" for name in _FUNCTIONS} | {
+    "Abs": "WMR_F(fabs)",
+    "floor": "WMR_F(floor)",
+}
 _PRINTER = _Printer({"user_functions": _LIBRARY | _OURS})
 
 

@@ -83,6 +83,8 @@ _TWIST = s.v, s.omega, s.dt
 _CLOSING = s.rho, s.alpha, s.v_over_rho, s.omega
 _WRAP = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
 _DECAY = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
+_KEEPS = "theta on the branch of the sample before, NaN if none, to pi + hysteresis"
+_BRANCH = _read(motion.keep_branch, (s.theta, s.before, s.hysteresis), _KEEPS)
 _GUARDS = {
     "sinc": Formula((s.angle,), (s.GUARDED_SINC,), "sin(angle)/angle, which is 1 at 0"),
     "decay": Formula((s.rho, s.k_rho), (s.GUARDED_DECAY,), _DECAY),
@@ -97,6 +99,7 @@ FORMULAS = {
     **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
     **{f.__name__: _read(f, _POSE + _TWIST, f"method {name}") for name, f in motion.STEPS.items()},
     "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
+    "keep_branch": _BRANCH,
     "pose_of_error": _read(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
     "polar_closing_rate": _read(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
     "circle": _read(paper.circle_at, (s.t,), "x, y, heading, v, omega of the goal"),
@@ -120,6 +123,7 @@ _BEARING = read(geodesy.bearing_angle, *_ENDS)
 C_FORMULAS = {
     **_GUARDS,
     "lyapunov_value": _read(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
+    "keep_branch": _BRANCH,
     "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
     "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
     "left_wheel": Formula(_TWIST_AND_WIDTH, (_LEFT,), "ground speed, from (1) and (2)"),

@@ -26,6 +26,8 @@ for _function, _symbols in {
     _elementary.decay: s.decay,
     _elementary.wrap: s.wrap,
     _elementary.root: sp.sqrt,
+    _elementary.whole: lambda x: sp.floor(x + sp.S.Half),
+    _elementary.within: lambda x, limit, other: sp.Piecewise((x, abs(x) < limit), (other, True)),
     _elementary.direction: sp.atan2,
     _elementary.distance: lambda x, y: sp.sqrt(x**2 + y**2),
 }.items():

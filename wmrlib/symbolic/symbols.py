@@ -19,6 +19,7 @@ k_rho, k_alpha, h, v_max, L = _positive("k_rho k_alpha h v_max L")
 k_x, k_y, k_heading = _positive("k_x k_y k_heading")
 x, y, heading, goal_x, goal_y, goal_heading = _real("x y heading goal_x goal_y goal_heading")
 ahead, left, turn, angle, t, dt = _real("ahead left turn angle t dt")
+before, hysteresis = _real("before hysteresis")
 lat1, lat2, dlat, dlong, R = _real("lat1 lat2 Delta_lat Delta_long R")
 east, north, b, fastest, max_speed = _real("east north b fastest max_speed")
 

@@ -95,6 +95,16 @@ static inline WMR_REAL wmr_lyapunov_value(WMR_REAL rho, WMR_REAL alpha, WMR_REAL
       (rho * rho)/L;
 }
 
+/* theta on the branch of the sample before, NaN if none, to pi + hysteresis */
+static inline WMR_REAL wmr_keep_branch(WMR_REAL theta, WMR_REAL before,
+      WMR_REAL hysteresis) {
+  const WMR_REAL part0 = theta + WMR_C(6.283185307179586) *
+      WMR_F(floor)(WMR_C(0.15915494309189535) * before - WMR_C(0.15915494309189535) *
+      theta + WMR_C(0.5));
+  return ((WMR_F(fabs)(part0) < hysteresis + WMR_C(3.141592653589793)) ? ( part0 ) : (
+      theta ));
+}
+
 /* rho */
 static inline WMR_REAL wmr_distance(WMR_REAL east, WMR_REAL north) {
   return WMR_F(sqrt)((east * east) + (north * north));

@@ -155,6 +155,13 @@ export function polarFromPose(x, y, heading, goal_x, goal_y, goal_heading) {
     part2)];
 }
 
+// theta on the branch of the sample before, NaN if none, to pi + hysteresis
+export function keepBranch(theta, before, hysteresis) {
+  const part0 = theta + 6.283185307179586*Math.floor(0.15915494309189535*before -
+    0.15915494309189535*theta + 1/2);
+  return ((Math.abs(part0) < hysteresis + 3.141592653589793) ? ( part0 ) : ( theta ));
+}
+
 // x, y, heading
 export function poseOfError(rho, alpha, theta, goal_x, goal_y, goal_heading) {
   const part0 = goal_heading + theta;

@@ -1,5 +1,6 @@
 // Random numbers that are counted, not drawn in turn: those of a fix follow from the seed, from the
-// number of its run and from its sample, as for wmrlib's receivers.
+// number of its run and from its sample, as for wmrlib's receivers: those of positions in stream 0,
+// those of lines of sight in stream 1.
 
 const WORD = 2 ** 32, KEYS = [0x9E3779B9, 0xBB67AE85];
 
@@ -24,8 +25,8 @@ function philox([a, b, c, d], key) {
 }
 
 // Two standard normal numbers, by the rule of Box and Muller, out of 53 bits each.
-export function normals(run, sample, seed) {
-  const [a, b, c, d] = philox([run, 0, sample, 0], [seed % WORD, Math.floor(seed / WORD)]);
+export function normals(run, sample, seed, stream = 0) {
+  const [a, b, c, d] = philox([run, 0, sample, stream], [seed % WORD, Math.floor(seed / WORD)]);
   const size = (a * 2 ** 21 + (b >>> 11) + 0.5) * 2 ** -53;
   const turn = 2 * Math.PI * (c * 2 ** 21 + (d >>> 11)) * 2 ** -53;
   const length = Math.sqrt(-2 * Math.log(size));

@@ -42,12 +42,16 @@ export function checkedSetup(options) {
   if (dt > duration) throw notAllowed('dt', dt, `at most the duration, ${duration},`);
   if (duration / dt > MOST_SAMPLES)
     throw notAllowed('duration', duration, `at most ${MOST_SAMPLES} steps of dt = ${dt}`);
+  const hysteresis = checkedNumber('hysteresis', options.hysteresis ?? 0);
+  if (hysteresis && (moving || options.method === 'continuous'))
+    throw notAllowed('hysteresis', hysteresis, '0, or a goal and a twist that are held,');
   return {
     law,
     step: STEPS[options.method],
     moving,
     gains,
     dt,
+    hysteresis,
     samples: Math.floor(duration / dt + 1e-9) + 1,
     start: checkedPose('start', options.start),
     goal: moving ? [0, 0, 0] : checkedPose('goal', options.goal),

@@ -2,7 +2,7 @@
 // formulas are those of model.js.
 
 import { ARRIVED, COMPLETED, DIVERGED, TIMED_OUT, Unsettled, checkedSetup } from './setup.js';
-import { LAWS, circle, polarFromPose, wrap } from './model.js';
+import { LAWS, circle, keepBranch, polarFromPose, wrap } from './model.js';
 import { controlLaw } from './law.js';
 import { driveContinuously } from './continuous.js';
 
@@ -14,12 +14,13 @@ const CIRCLE_COLUMNS = ['goalX', 'goalY', 'goalHeading'];
 // `sight(k, pose)` shows of a pose, and the robot do what `wheels(v, omega)` make of its twist.
 // Gives [samples, outcome].
 export function drive(setup, record) {
-  const { law, step, gains, dt, samples, arrivalRadius, moving, sight, wheels } = setup;
-  let pose = setup.start, goal = [...setup.goal, 0, 0];
+  const { law, step, gains, dt, samples, arrivalRadius, hysteresis, moving, sight, wheels } = setup;
+  let before = NaN, pose = setup.start, goal = [...setup.goal, 0, 0];
   for (let k = 0; k < samples; k++) {
     if (moving) goal = circle(dt * k);
     const shown = sight ? sight(k, pose) : pose;
     const seen = polarFromPose(shown[0], shown[1], shown[2], goal[0], goal[1], goal[2]);
+    if (hysteresis) seen[2] = before = keepBranch(seen[2], before, hysteresis);
     const [rho, alpha, theta] = seen;
     let twist = controlLaw(rho, alpha, theta, gains, law, goal[3], goal[4]);
     if (wheels) twist = wheels(twist[0], twist[1]);
@@ -33,7 +34,8 @@ export function drive(setup, record) {
 
 // One run: start and goal are [x, y, heading] in m, m, rad; reference is null or 'circle', which
 // takes the goal's place, and which some laws need. A law finds its gains by name in `gains`
-// {k_rho, k_alpha, h, v_max} or in `feedback` {k_x, k_y, k_heading}. Gives Float64Arrays of n
+// {k_rho, k_alpha, h, v_max} or in `feedback` {k_x, k_y, k_heading}. Its hysteresis in rad is 0
+// unless given. Gives Float64Arrays of n
 // samples (t, x, y, heading, rho, alpha, theta, v, omega, V; for the circle goalX, goalY,
 // goalHeading) and an outcome. `into`, an earlier result that is no longer needed, lends its
 // memory. Throws RangeError, which names the argument.

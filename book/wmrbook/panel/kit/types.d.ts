@@ -30,6 +30,7 @@ type Run = {
 type Options = {
   start: Pose; goal?: Pose; reference: 'circle' | null; law: string; method: string;
   gains: Gains; feedback?: Gains; dt: number; duration: number; arrivalRadius?: number;
+  hysteresis?: number;
 };
 
 /** Where a picture of the plane looks. */
