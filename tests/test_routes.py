@@ -237,7 +237,7 @@ def test_poses_of_gps_points():
     for given_headings, expected in [
         (own, own),
         (np.array(own), own),
-        ([math.nan, None, 0.5, math.nan], [*poses.heading[:2], 0.5, poses.heading[3]]),
+        ([math.nan, math.nan, 0.5, math.nan], [*poses.heading[:2], 0.5, poses.heading[3]]),
     ]:
         found = wmr.route_poses(CAMPUS, given_headings).heading
         np.testing.assert_array_equal(found, expected)
