@@ -75,7 +75,6 @@ EQUIVALENT = [
     ("geodesy.py", "in lon2 = np.where", "half a turn more or less, in mod 360, which keeps -180"),
     ("routes.py", "in _APART = ", "a tolerance"),
     ("routes.py", "in new = np.append(True", "the first point is new in the next line too"),
-    ("routes.py", "in begins = ", "no leg comes after one without a sample"),
     ("runs.py", "int(steps + 1e-9)", "a tolerance"),
     ("runs.py", "if steps > MOST_SAMPLES", "one step in ten million"),
     ("simulation.py", "'0.0' -> '1' in path = ", "rows that are not used"),

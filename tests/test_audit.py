@@ -247,21 +247,6 @@ def test_the_derived_law_is_the_librarys():
     assert proof.rising(audit.slope(law)) is None
 
 
-def test_v_rises_near_the_goal_with_any_gains_and_weight():
-    """What `rising` finds, in the library's numbers: V' > 0 at a small alpha of theta's sign."""
-    for gains in (paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.Gains(0.2, 2.0, 2.0, 1.0)):
-        for L in (1e-3, 1.0, 1e3):
-            for side in (1.0, -1.0):
-                state = 1e-9, side * 1e-3, side * 3.0
-                rate = wmr.lyapunov_rate(*state, gains, law="printed", L=L)
-                expected = gains.h * gains.v_max * gains.k_rho * 3e-3
-                assert rate == pytest.approx(expected, rel=0.05)
-    at_45_deg = {symbolic.alpha: sp.pi / 4, symbolic.theta: 0, symbolic.k_alpha: 1}
-    lam = {symbolic.k_rho: 2, symbolic.v_max: 4}
-    limit = audit.near_goal(audit.slope(row.printed(24))).subs(at_45_deg | lam)
-    assert float(limit) == pytest.approx(0.954, abs=5e-4)
-
-
 def test_equivalence_is_proved_or_refused():
     x = symbolic.alpha
     assert audit.equivalent(sp.sin(2 * x), 2 * sp.sin(x) * sp.cos(x))
@@ -292,40 +277,12 @@ def test_a_number_fits_by_rounding_or_by_a_small_cut():
     assert not audit.fits(58.0758, Published(58.07, "", "here"), cut=5e-5)
 
 
-def test_other_numbers(monkeypatch):
-    for key, value, verdict in (
-        ("circle_residual", 0.4, Verdict.WRONG),
-        ("sphere_error", 0.7, Verdict.WRONG),
-        ("x_error_at_start", 9.67, Verdict.HOLDS),
-        ("bearing", 9.5, Verdict.OPEN),  # 0.9 % are cut off
-    ):
-        assert verdict_with(monkeypatch, key, number(key, value)) is verdict, key
-
-
 def test_what_a_threshold_or_a_choice_decides_is_not_decided():
     assert audit.decide(lambda: True) is Verdict.HOLDS
     assert audit.decide(lambda known: known > 5, over=[(1,), (2,)]) is Verdict.WRONG
     assert audit.decide(lambda known: known > 1, over=[(1,), (2,)]) is Verdict.OPEN
     for stop, verdict in ((0.02, Verdict.WRONG), (0.03, Verdict.OPEN), (0.2, Verdict.HOLDS)):
         assert audit.decide(lambda radius, stop=stop: radius < stop, "arrival") is verdict
-
-
-def test_the_bounds_of_the_sphere_are_those_of_short_geodesics():
-    geodesic = pytest.importorskip("geographiclib.geodesic").Geodesic.WGS84
-    errors = []
-    for lat, azimuth in ((0.0, 0.0), (0.0, 90.0), (89.9, 0.0), (89.9, 90.0)):
-        end = geodesic.Direct(lat, 10.0, azimuth, 100.0)
-        points = wmr.GeoPoint(lat=lat, lon=10.0), wmr.GeoPoint(lat=end["lat2"], lon=end["lon2"])
-        errors.append(wmr.haversine_distance(*points) - 100.0)
-    assert (min(errors), max(errors)) == pytest.approx(claims.sphere_bounds(), abs=2e-3)
-
-
-def test_poles_at_the_goal_are_those_of_the_linear_loop():
-    assert claims.slowest_pole(8e6) == pytest.approx(
-        -wmr.modes(paper.OUTDOOR_GAINS).heading_rate, abs=1e-3
-    )
-    assert claims.slowest_pole(20.0) == math.inf
-    assert claims.slowest_pole(80.0) > 0 > claims.slowest_pole(160.0)
 
 
 # The table --------------------------------------------------------------------------------------

@@ -28,13 +28,6 @@ def test_beta_as_its_authors_define_it(pose, goal):
         assert translate(there, name, "corke") == there
 
 
-def test_arrays_broadcast():
-    rho, alpha, beta = translate((np.ones((2, 1)), 0.5, np.array([0.1, -0.2])), "aicardi", "corke")
-    assert rho.shape == (2, 1)
-    assert alpha == 0.5
-    assert beta.tolist() == [-0.1, 0.2]
-
-
 @pytest.mark.parametrize(("name", "sign"), list(zip(CONVENTIONS, (1, -1, -1, 1), strict=True)))
 def test_the_linear_law_is_the_corrected_one_near_the_goal(name, sign):
     """k_beta < 0 for Corke and Siegwart, > 0 for PythonRobotics, which subtracts it."""
@@ -66,16 +59,3 @@ def test_the_linear_law_parks_the_robot_and_with_the_other_sign_it_does_not():
     for name in CONVENTIONS:
         assert heading_left(name, 1) < 0.02, name
         assert heading_left(name, -1) > 1.0, name
-
-
-def test_bad_input():
-    for make, message in (
-        (lambda: translate((-1, 0, 0), "aicardi", "corke"), "rho = -1 .* at least 0 is needed"),
-        (lambda: translate((1, 0, math.nan), "aicardi", "corke"), "third angle = nan"),
-        (
-            lambda: translate((1, [0.0, 1.0], [0.0, 1.0, 2.0]), "aicardi", "corke"),
-            r"mismatched lengths: alpha has shape \(2,\)",
-        ),
-    ):
-        with pytest.raises(ValueError, match=message):
-            make()

@@ -23,14 +23,6 @@ GAINS = wmr.Gains(0.7, 3.0, 1.5, 2.0)
 PAGE = Path(__file__).parents[1] / "book" / "explorer.md"
 
 
-def test_the_defaults_are_the_papers():
-    explorer = Explorer()
-    outdoor = paper.outdoor()
-    assert explorer.gains == outdoor.gains
-    assert (explorer.start, explorer.goal, explorer.dt) == (outdoor.start, outdoor.goal, outdoor.dt)
-    assert (explorer.law, explorer.moving) == ("corrected", False)
-
-
 def test_the_trajectory_is_that_of_the_state():
     explorer = Explorer(law="printed", method="euler")
     explorer.gains, explorer.dt, explorer.law = GAINS, 0.05, "aicardi"

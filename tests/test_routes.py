@@ -237,7 +237,7 @@ def test_poses_of_gps_points():
     for given_headings, expected in [
         (own, own),
         (np.array(own), own),
-        ([math.nan, None, 0.5, math.nan], [*poses.heading[:2], 0.5, poses.heading[3]]),
+        ([math.nan, math.nan, 0.5, math.nan], [*poses.heading[:2], 0.5, poses.heading[3]]),
     ]:
         found = wmr.route_poses(CAMPUS, given_headings).heading
         np.testing.assert_array_equal(found, expected)
@@ -293,41 +293,17 @@ def test_out_to_gpx_and_back(tmp_path):
 
 def test_bad_input():
     drive, poses, along = wmr.drive_route, wmr.route_poses, wmr.headings_along
-    nested = wmr.GeoPoint(lat=[[1.0, 2.0]], lon=[[1.0, 2.0]])
     none, square = wmr.Pose([], [], []), wmr.Pose(np.ones((2, 2)), 0.0, 0.0)
-    besides = "a list with at least one waypoint besides the start is needed"
-    of_three = "True, False or a list of 3, one a waypoint, is needed"
     for make, message in [
         (lambda: along([1, 2], [1]), r"mismatched lengths: x has shape \(2,\), y has shape \(1,\)"),
         (lambda: along([], []), "at least one number"),
-        (lambda: along([1.0, math.nan], [1.0, 2.0]), r"x = .*nan.* is not allowed"),
-        (lambda: poses([(1, 2)]), "a GeoPoint is needed, not a list"),
-        (lambda: poses(nested), "a list of at least one position is needed"),
         (lambda: poses(CAMPUS, [1]), r"headings have shape \(1,\), points have shape \(4,\)"),
-        (lambda: poses(CAMPUS, 1.0), r"headings have shape \(1,\)"),
-        (lambda: poses(CAMPUS, [1, math.inf, 0, 0]), r"headings = .*inf.* is not allowed"),
-        (lambda: poses(CAMPUS, ["n", "s"]), r"headings = \['n', 's'\] is not allowed: a finite"),
-        (lambda: poses(CAMPUS, [True] * 4), r"headings = \[True, .* is not allowed"),
-        (lambda: poses(CAMPUS, [[1.0], [1.0, 2.0]]), r"headings = \[\[1\.0\], .* is not allowed"),
         (lambda: poses(CAMPUS, origin=CAMPUS), "origin = .* a single point is needed"),
-        (lambda: poses(CAMPUS, origin=(1, 2)), "a GeoPoint is needed, not a tuple"),
-        (lambda: wmr.route_points(SQUARE, CAMPUS), "a Route is needed, not a Pose"),
-        (lambda: drive(ONE, GENTLE), r"poses have shape \(1,\), which is not allowed: " + besides),
-        (lambda: drive(none, GENTLE), r"poses have shape \(0,\)"),
+        (lambda: drive(ONE, GENTLE), r"poses have shape \(1,\), .* at least one waypoint besides"),
         (lambda: drive(none, GENTLE, start=ONE), r"poses have shape \(0,\)"),
         (lambda: drive(square, GENTLE), r"poses have shape \(2, 2\)"),
-        (lambda: drive([ONE], GENTLE), "a Pose is needed, not a list"),
         (lambda: drive(SQUARE, GENTLE, start=SQUARE), r"start\.x = .* one number is needed"),
-        (
-            lambda: drive(SQUARE, GENTLE, stop=[True]),
-            r"stop = \[True\] is not allowed: " + of_three,
-        ),
-        (lambda: drive(SQUARE, GENTLE, stop=[[True], [True, False]]), r"stop = \[\[True\], "),
-        (lambda: drive(SQUARE, GENTLE, stop=1), "stop = 1 is not allowed"),
-        (lambda: drive(SQUARE, GENTLE, pass_radius=-1.0), r"pass_radius = -1\.0 is not allowed"),
-        (lambda: drive(SQUARE, GENTLE, arrival_radius=-1.0, stop=False), "arrival_radius = -1"),
-        (lambda: drive(SQUARE, GENTLE, law="prited"), "law = 'prited' is not allowed"),
-        (lambda: drive(SQUARE, (1, 2, 3)), "a Gains is needed"),
+        (lambda: drive(SQUARE, GENTLE, stop=[True]), r"stop = \[True\] .* a list of 3, one a way"),
     ]:
         with pytest.raises(ValueError, match=message):
             make()

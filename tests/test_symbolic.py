@@ -207,12 +207,6 @@ def test_geodesy_and_wheels_are_equations_11_to_17_and_1_to_2():
     assert twist == pytest.approx(wmr.wheels_to_twist(left, right, width))
 
 
-def test_an_unknown_law_is_a_value_error():
-    for name in ("law", "closed_loop", "lyapunov", "lyapunov_rate"):
-        with pytest.raises(ValueError, match=r"name = 'lqr' is not allowed: one of '"):
-            getattr(symbolic, name)("lqr")
-
-
 # Printing
 
 

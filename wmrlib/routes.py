@@ -1,7 +1,5 @@
 """A route of several points, driven pose to pose; each waypoint is a stop or is passed."""
 
-from __future__ import annotations
-
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
@@ -157,8 +155,6 @@ def route_poses(
     chosen = headings_along(east, north)
     if headings is None:
         return Pose(east, north, chosen)
-    if isinstance(headings, list | tuple):
-        headings = [math.nan if heading is None else heading for heading in headings]
     given = np.atleast_1d(real("headings", headings, nan=True))
     if given.shape != lat.shape:
         shapes = f"headings have shape {given.shape}, points have shape {lat.shape}"
@@ -223,14 +219,16 @@ def drive_route(
     >>> wmr.drive_route(corner, wmr.GENTLE_GAINS, stop=False, method="continuous")
     <Route: 2 of 2 waypoints reached in 17.4 s, 39.81 m long>
     """
-    listed = np.broadcast_arrays(*map(np.atleast_1d, instance("poses", poses, Pose)))
-    shape = listed[0].shape
-    if len(shape) != 1 or shape[0] <= (start is None):
+    listed = np.array(np.broadcast_arrays(*map(np.atleast_1d, instance("poses", poses, Pose))))
+    if listed.ndim != 2 or listed.shape[1] <= (start is None):
         needed = "a list with at least one waypoint besides the start is needed"
-        raise ValueError(f"poses have shape {shape}, which is not allowed: {needed}")
-    goals = [Pose(*map(float, pose)) for pose in zip(*listed, strict=True)]
+        raise ValueError(f"poses have shape {listed.shape[1:]}, which is not allowed: {needed}")
+    goals = [Pose(*pose) for pose in listed.T.tolist()]
     start = goals.pop(0) if start is None else start
-    stops = _stops(stop, len(goals))
+    flags = as_array(stop)
+    if flags.dtype != bool or flags.shape not in ((), (len(goals),)):
+        raise refusal("stop", stop, f"True, False or a list of {len(goals)}, one a waypoint,")
+    stops = tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (len(goals) - 1), True)
     stop_radius = scalar("arrival_radius", arrival_radius, low=0.0)
     pass_radius = scalar("pass_radius", pass_radius, low=0.0)
     pose, legs = start, []
@@ -243,21 +241,10 @@ def drive_route(
         pose = Pose(float(leg.x[-1]), float(leg.y[-1]), float(leg.heading[-1]))
     waypoints = Pose(*np.array(goals).T)
     arrivals = tuple(arrival(leg) if len(leg) else _NOWHERE for leg in legs)
-    return Route(start, waypoints, stops, tuple(legs), arrivals, leg.outcome, **_joined(legs))
-
-
-def _joined(legs: list[Trajectory]) -> dict[str, np.ndarray]:
-    leg = np.repeat(np.arange(len(legs)), [len(driven) for driven in legs])
+    which = np.repeat(np.arange(len(legs)), [len(leg) for leg in legs])
     # Where a leg ends stands the next one's first sample, whose command moves the robot on.
-    kept = np.append(leg[1:] == leg[:-1], True)[: leg.size]
-    begins = np.cumsum([0.0, *(driven.t[-1] if len(driven) else 0.0 for driven in legs)])
-    joined = {k: np.concatenate([getattr(driven, k) for driven in legs])[kept] for k in _JOINED}
-    joined["t"] += begins[leg[kept]]
-    return joined | {"leg": leg[kept]}
-
-
-def _stops(stop: bool | Sequence[bool], count: int) -> tuple[bool, ...]:
-    flags = as_array(stop)
-    if flags.dtype != bool or flags.shape not in ((), (count,)):
-        raise refusal("stop", stop, f"True, False or a list of {count}, one a waypoint,")
-    return tuple(flags.tolist()) if flags.ndim else (*[bool(flags)] * (count - 1), True)
+    kept = np.append(which[1:] == which[:-1], True)[: which.size]
+    joined = {name: np.concatenate([getattr(leg, name) for leg in legs])[kept] for name in _JOINED}
+    joined["t"] += np.cumsum([0.0, *(leg.t[-1] for leg in legs[:-1])])[which[kept]]
+    columns = joined | {"leg": which[kept]}
+    return Route(start, waypoints, stops, tuple(legs), arrivals, leg.outcome, **columns)

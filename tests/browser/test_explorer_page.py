@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import math
-import re
 
 import numpy as np
 import pytest
@@ -52,13 +51,8 @@ CONTRASTS = """() => {
     return ['--soft', '--focus', '--start', '--goal', '--path', '--alpha', '--theta', '--rising']
         .map(against);
 }"""
-# How many pixels are other ones than when it was asked last.
-CHANGED = """() => {
-    const { width, height } = document.querySelector('.wmr-scene'), before = window.pixels;
-    const drawn = document.querySelector('.wmr-scene').getContext('2d');
-    window.pixels = new Uint32Array(drawn.getImageData(0, 0, width, height).data.buffer);
-    return before ? window.pixels.filter((each, k) => each !== before[k]).length : 0;
-}"""
+
+
 FINGER = """() => {
     const scene = document.querySelector('.wmr-scene'), box = scene.getBoundingClientRect();
     scene.setPointerCapture = () => {};
@@ -77,28 +71,6 @@ WALK = """name => {
         stops.push(panel.get('state')[name]);
     }
     return stops;
-}"""
-# The text beside the axes, read from what is drawn: each canvas is drawn anew with a pen that keeps
-# the words and where they stand.
-WORDS = """async () => {
-    const words = [], pen = CanvasRenderingContext2D.prototype, plain = pen.fillText;
-    pen.fillText = function (text, ...at) {
-        words.push([this.canvas.className, this.textAlign, text]);
-        plain.call(this, text, ...at);
-    };
-    document.querySelector('.wmr-time').dispatchEvent(new Event('input'));
-    await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
-    pen.fillText = plain;
-    return words;
-}"""
-# The strips above the charts, where their titles stand, as pixels.
-TITLES = """() => {
-    const canvas = document.querySelector('.wmr-charts'), ratio = canvas.width / canvas.clientWidth;
-    const ctx = canvas.getContext('2d'), each = (canvas.clientHeight - 22 - 42 - 72) / 4;
-    return [0, 1, 2, 3].map((i) => {
-        const top = (22 + i * (each + 24) - 18) * ratio;
-        return ctx.getImageData(0, top, canvas.width, 14 * ratio).data.join();
-    });
 }"""
 
 
@@ -134,15 +106,6 @@ def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_soun
                 assert_sound(panel)
                 picture, figures = panel.picture(), panel.figures()
             panel.set(**{name: explorer.state[name]})
-
-
-def test_every_slider_at_both_ends_on_the_circle_is_sound(emptied_page):
-    for law in laws_for(moving=True):
-        panel = mounted(emptied_page, Explorer.circle(law=law))
-        for name in SLIDERS:
-            if panel.control(name).is_visible():
-                for end in ends(name):
-                    assert_sound(panel.put(name, end))
 
 
 def test_every_choice_of_every_menu_changes_the_picture_and_the_figures(emptied_page):
@@ -286,16 +249,6 @@ def test_an_absurd_value_is_answered_in_the_panel(emptied_page):
     assert not panel.set(k_rho=1.0).troubled()
 
 
-def test_a_start_on_the_goal_and_one_far_from_it(emptied_page):
-    for goal in ((0.0, 0.0, 0.0), (0.0, 0.0, 2.0), (1e-9, 0.0, 0.0), (1e5, -1e5, 1.0)):
-        panel = mounted(emptied_page, Explorer(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(*goal)))
-        assert not panel.troubled()
-        assert_sound(panel)
-        assert_sound(panel.put("view", "gains"))
-        assert_sound(panel.put("view", "time").put("method", "continuous"))
-        assert panel.drag(panel.handle("start", "turn"), 10, 30).get("start")[2] != 0.0
-
-
 def test_play_moves_the_cursor_to_the_end_and_pause_stops_it(emptied_page):
     panel = mounted(emptied_page, Explorer())
     cursor = emptied_page.locator(".wmr-time")
@@ -412,20 +365,6 @@ def test_light_and_dark_follow_the_page_and_the_system(emptied_page):
     assert panel.settled().picture() == picture
 
 
-def test_a_page_that_hides_the_panel_while_it_changes_its_theme_finds_it_whole_again(emptied_page):
-    panel = mounted(emptied_page, Explorer())
-    picture = panel.picture()
-    emptied_page.evaluate(
-        """async () => {
-            document.body.style.display = 'none';
-            document.body.dataset.jpThemeLight = 'true';
-            await new Promise(done => setTimeout(done));
-            document.body.style.display = '';
-        }"""
-    )
-    assert panel.settled().picture() == picture
-
-
 @pytest.mark.parametrize("view", ["time", "gains"])
 def test_all_is_in_view_and_nothing_is_cut_off_overlaps_or_is_small(emptied_page, view):
     for width, height in SIZES:
@@ -511,28 +450,6 @@ def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(emptied_page):
         assert typed.input_value() == f"{taken:g}"
 
 
-def test_axes_have_two_numbers_at_least_and_the_cursor_leaves_the_titles_alone(emptied_page):
-    for width in (320, 936):
-        panel = mounted(emptied_page, Explorer(gains=wmr.Gains(0.1, 3.0, 0.1, 0.9)), width)
-        for act in ("out", "near", "in"):
-            panel.click(act)
-            words = emptied_page.evaluate(WORDS)
-            for side in ("center", "right"):
-                numbers = {
-                    text
-                    for canvas, align, text in words
-                    if "scene" in canvas and align == side and re.fullmatch(r"[\d.\We]+", text)
-                }
-                assert len(numbers) >= 2, (width, act, words)
-        assert sum(align == "right" for canvas, align, _ in words if "charts" in canvas) >= 8
-    strips = []
-    for place in (66, 72, 90):  # within the words of the titles
-        emptied_page.locator(".wmr-charts").click(position={"x": place, "y": 60})
-        panel.settled()
-        strips.append(emptied_page.evaluate(TITLES))
-    assert strips[0] == strips[1] == strips[2]
-
-
 def test_the_picture_zooms_by_buttons_and_wheel_and_leaves_the_page_its_scrolling(emptied_page):
     panel = mounted(emptied_page, Explorer(method="continuous"), 936, 400)
     whole, scene = panel.picture(), emptied_page.locator(".wmr-scene")
@@ -595,13 +512,6 @@ def test_a_tap_on_the_path_takes_the_robot_there_and_a_finger_moves_what_is_zoom
     assert panel.settled().picture() != zoomed
     panel.put("preset", 2)  # another scene is seen whole
     assert scene.evaluate("it => getComputedStyle(it).touchAction") == "pan-y pinch-zoom"
-
-
-def test_a_picture_of_the_whole_way_shows_how_it_ends(emptied_page):
-    panel = mounted(emptied_page, Explorer(at=0.0))
-    assert emptied_page.evaluate(CHANGED) == 0
-    panel.set(arrival_radius=0.3)  # which no pixel of the whole way tells from 5 cm
-    assert emptied_page.evaluate(CHANGED) > 100
 
 
 def test_a_run_can_be_taken_along_as_python_table_and_picture(emptied_page, tmp_path):

@@ -53,13 +53,6 @@ def test_each_printed_formula_equals_its_expression(panel_core):
         np.testing.assert_allclose(printed, expected, rtol=1e-12, atol=1e-12, err_msg=name)
 
 
-def test_wrap_is_exact(panel_core):
-    angles = [0.0, math.pi, -math.pi, 3.0 * math.pi, math.nextafter(math.pi, 4.0)]
-    angles += [1e6, -1e6, 1e22, -123.456]
-    wrapped = panel_core.evaluate("(angles) => angles.map(wrap)", angles)
-    assert wrapped == [wmr.wrap_angle(angle) for angle in angles]
-
-
 def test_maps_equal_a_sweep(panel_core):
     low_high = {"k_rho": (0.005, 0.5), "k_alpha": (0.3, 4.0), "h": (0.1, 3.0), "v_max": (0.5, 4.0)}
     gains = OUTDOOR["gains"] | {"k_rho": 0.1, "k_alpha": 3.0}

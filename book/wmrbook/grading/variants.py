@@ -89,21 +89,18 @@ class Drive:
         limits = f"{radius:.1f} cm, {self.heading_deg:g} deg, {self.time:.1f} s"
         robot = f"at most {self.v_max:.1f} m/s and {self.omega:.2f} rad/s"
         if self.dt:
-            robot = f"a look every {self.dt:.3f} s, wheels {self.track_width:.2f} m apart that do "
-            robot += f"{self.v_max:.1f} m/s"
+            wheels = f"wheels {self.track_width:.2f} m apart that do {self.v_max:.1f} m/s"
+            robot = f"sampled every {self.dt:.3f} s, {wheels}"
         return f"from {' to '.join(places)}: {limits}; {robot}"
 
     def broken(self, end: Arrival) -> list[str]:
         """Return the limits of time and heading that the drive does not keep."""
-        off = abs(math.degrees(end.heading_error))
-        return [
-            f"{what}, where {most:.3g} {unit} are allowed"
-            for value, most, unit, what in (
-                (end.time, self.time, "s", f"it takes {end.time:.1f} s"),
-                (off, self.heading_deg, "deg", f"the heading is {off:.2f} deg off"),
-            )
-            if value > most
-        ]
+        off, broken = abs(math.degrees(end.heading_error)), []
+        if end.time > self.time:
+            broken = [f"it takes {end.time:.1f} s, where {self.time:.3g} s are allowed"]
+        if off > (most := self.heading_deg):
+            broken += [f"the heading is {off:.2f} deg off, where {most:.3g} deg are allowed"]
+        return broken
 
     def gains(self, name: str, value: Any) -> Gains:
         """Return the value if it is gains that this robot can have, or raise Hint."""
@@ -221,9 +218,8 @@ def _drive(make: Callable, name: str, *, back: bool = False, dt: float = 0.0, **
     case, poses = outdoor(), []
     for pose in (case.goal, case.start) if back else (case.start, case.goal):
         place = metre * complex(pose.x, side * pose.y) * cmath.exp(1j * turn)
-        poses.append(
-            Pose(place.real + 0.0, place.imag + 0.0, wrap_angle(side * pose.heading + turn))
-        )
+        heading = wrap_angle(side * pose.heading + turn)
+        poses.append(Pose(place.real + 0.0, place.imag + 0.0, heading))
     time, omega = math.ceil(10.0 * paper["time"] * second) / 10.0, paper["omega"] / second
     omega = math.ceil(100.0 * omega) / 100.0 if omega < math.inf else omega
     limits = (v_max, time, paper["heading_deg"], omega, dt * second or None)
@@ -243,13 +239,10 @@ def _drawn(make: Callable, name: str) -> tuple[str, Random]:
 
 def _class() -> tuple[str, list[str]]:
     """Who handed in, and all who did, as far as the grader tells; '' and [] if nobody does."""
-    folder = Path.cwd().parent
-    if student := os.environ.get("WMR_STUDENT", ""):
-        others = os.environ.get("WMR_CLASS", "").split(",")
-    elif folder.parent.name == "autograded":
+    folder, others = Path.cwd().parent, os.environ.get("WMR_CLASS", "").split(",")
+    student = os.environ.get("WMR_STUDENT", "")
+    if not student and folder.parent.name == "autograded":
         student, others = folder.name, [each.name for each in folder.parent.iterdir()]
-    else:
-        others = []
     return _plain(student), sorted(filter(None, map(_plain, others)))
 
 
