@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, choice, instance, plain, real, reals
+from wmrlib._checks import Real, choice, instance, plain, real, reals, refusal
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Arrival, Trajectories
@@ -30,6 +30,8 @@ class Modes(NamedTuple):
     natural_frequency, damping : float or array, rad/s and ratio; of the angles
     poles : three complex numbers or arrays, 1/s; the distance's, then the angles' two
     slower : float or array; distance_rate/heading_rate
+    kappa : float or array; k_alpha/distance_rate. With h it sets the shape of the path: `slower`
+        is below 1 exactly when 2 < kappa < 1 + h
     """
 
     distance_rate: Real
@@ -38,6 +40,7 @@ class Modes(NamedTuple):
     damping: Real
     poles: tuple[complex | np.ndarray, complex | np.ndarray, complex | np.ndarray]
     slower: Real
+    kappa: Real
 
 
 def modes(gains: Gains, law: str = "corrected") -> Modes:
@@ -50,7 +53,7 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
 
     Returns
     -------
-    Modes, in the shape of the gains; a gain of 0 makes `damping` or `slower` infinite, or NaN
+    Modes, in the shape of the gains; a gain of 0 makes ratios infinite, or NaN
 
     Raises
     ------
@@ -75,6 +78,7 @@ def modes(gains: Gains, law: str = "corrected") -> Modes:
             damping=plain(k_alpha / (2.0 * frequency)),
             poles=tuple(plain(pole) for pole in poles),
             slower=plain(rate / slow),
+            kappa=plain(k_alpha / rate),
         )
 
 
@@ -125,7 +129,9 @@ def gains_for(
     *,
     natural_frequency: Real | None = None,
     heading_rate: Real | None = None,
-    damping: Real = 1.0,
+    damping: Real | None = None,
+    kappa: Real | None = None,
+    h: Real | None = None,
     v_max: Real = 4.0,
 ) -> Gains:
     """Return the gains of the corrected law that settle as specified: the inverse of `modes`.
@@ -133,7 +139,10 @@ def gains_for(
     Parameters
     ----------
     distance_rate, v_max : float or array, 1/s and m/s
-    natural_frequency, heading_rate, damping : float or array, rad/s, 1/s and ratio; of the angles
+    natural_frequency, heading_rate : float or array, rad/s and 1/s; of the angles, either of them
+    damping : float or array, ratio; beside either, by default 1
+    kappa, h : float or array, no unit; instead of them, a point of the window 2 < kappa < 1 + h,
+        where the heading settles faster than the distance; kappa is k_alpha/distance_rate
 
     Returns
     -------
@@ -141,34 +150,40 @@ def gains_for(
 
     Raises
     ------
-    ValueError : not exactly one of natural_frequency and heading_rate, an argument that is not
-        positive, mismatched lengths, or gains outside the range of numbers
+    ValueError : not exactly one of the three specifications, an argument that is not positive, a
+        point outside the window, mismatched lengths, or gains outside the range of numbers
 
     Examples
     --------
     >>> import wmrlib as wmr
     >>> wmr.gains_for(distance_rate=0.8, natural_frequency=1.0, damping=1.0)
     Gains(k_rho=0.2, k_alpha=2.0, h=1.5625, v_max=4.0)
+    >>> wmr.gains_for(distance_rate=0.8, kappa=2.5, h=2.0)
+    Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
     """
-    angles = {"natural_frequency": natural_frequency, "heading_rate": heading_rate}
+    angles = {"natural_frequency": natural_frequency, "heading_rate": heading_rate, "kappa": kappa}
     given = {name: value for name, value in angles.items() if value is not None}
-    if len(given) != 1:
-        both = f"natural_frequency = {natural_frequency!r} and heading_rate = {heading_rate!r}"
-        raise ValueError(f"{both} are not allowed together: one of the two is needed")
-    wanted = {"distance_rate": distance_rate, **given, "damping": damping, "v_max": v_max}
-    distance_rate, frequency, damping, v_max = reals(above_0=wanted, **wanted)
-    if natural_frequency is None:
-        # Above 1 this is 1/(damping - sqrt(damping^2 - 1)) without the cancellation.
-        root = np.sqrt(np.maximum(np.square(damping) - 1.0, 0.0))
-        frequency = frequency * np.where(np.less(damping, 1.0), 1.0 / damping, damping + root)
+    beside = {"h": h, "damping": damping}
+    if len(given) != 1 or (h is None) != (kappa is None) or not (kappa is None or damping is None):
+        listed = ", ".join(f"{name} = {value!r}" for name, value in (angles | beside).items())
+        needed = "one of the three is needed, kappa with h and the others without it"
+        raise ValueError(f"{listed} are not allowed together: {needed}")
+    named = {"damping": 1.0 if damping is None else damping} if h is None else {"h": h}
+    wanted = {"distance_rate": distance_rate, **given, **named, "v_max": v_max}
+    rate, angle, other, v_max = reals(above_0=wanted, **wanted)
     with np.errstate(over="ignore", under="ignore"):
-        h = plain(np.square(frequency / distance_rate))
-        return Gains(
-            plain(distance_rate / v_max),
-            plain(2.0 * damping * frequency),
-            real("(natural_frequency/distance_rate)^2", h, above=0.0),
-            v_max,
-        )
+        k_rho = plain(rate / v_max)
+        if kappa is not None:
+            if np.all((angle > 2.0) & (angle < 1.0 + other)):
+                return Gains(k_rho, plain(angle * rate), other, v_max)
+            raise refusal("kappa", kappa, "a number between 2 and 1 + h", f", with h = {h!r}")
+        if heading_rate is not None:
+            # Above 1 this is 1/(damping - sqrt(damping^2 - 1)) without the cancellation.
+            root = np.sqrt(np.maximum(np.square(other) - 1.0, 0.0))
+            angle = angle * np.where(np.less(other, 1.0), 1.0 / other, other + root)
+        weight = plain(np.square(angle / rate))
+        weight = real("(natural_frequency/distance_rate)^2", weight, above=0.0)
+        return Gains(k_rho, plain(2.0 * other * angle), weight, v_max)
 
 
 def gain_map(
