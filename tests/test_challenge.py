@@ -36,6 +36,16 @@ PUBLISHED = [
     ("across", 268, -334, 987, 1716, 972, 1440),
     ("far behind", 1788, -1905, -728, 1729, 3376, -1472),
 ]
+CHAOTIC = [  # of 4000 random gains, those whose score hung on rounding with two drives a case
+    wmr.Gains(5.827, 0.377, 7.336, 2.639),
+    wmr.Gains(3.048, 0.187, 7.132, 3.55),
+    wmr.Gains(2.101, 0.178, 4.685, 7.521),
+    wmr.Gains(4.626, 1.308, 5.188, 7.859),
+    wmr.Gains(3.244, 0.156, 4.343, 4.542),
+    wmr.Gains(5.775, 0.192, 4.054, 4.822),
+    wmr.Gains(5.452, 0.293, 4.745, 2.552),
+    wmr.Gains(3.528, 1.548, 3.913, 10.59),
+]
 
 
 def pushed(game, push):
@@ -80,6 +90,14 @@ def test_every_seed_has_each_kind_of_case(seed):
     for case in game.cases:
         assert max(abs(case.start.x), abs(case.start.y)) <= 20.0
         assert abs(wmr.polar_error(case.start, case.goal).theta) < math.radians(152)
+
+
+def test_seeds_differ_in_sides_too():
+    left = [
+        [wmr.polar_error(*case[1:]).alpha > 0 for case in from_seed(seed).cases]
+        for seed in range(200)
+    ]
+    assert np.all(np.abs(np.mean(left, axis=0) - 0.5) < 0.12)
 
 
 @given(st.integers(0, 2**63 - 1))
@@ -231,6 +249,13 @@ def test_what_rounding_could_do_changes_no_score(gains, seed):
     assert [case.note for case in one.cases] == [case.note for case in other.cases]
 
 
+def test_chaotic_runs_score_the_same_wherever_rounding_pushes_them():
+    for gains in CHAOTIC:
+        one = score(gains)
+        for push in np.random.default_rng(1).normal(0.0, 1e-12, (10, 3)):
+            assert score(gains, pushed(one.game, push)).total == one.total, gains
+
+
 def test_plain_python_scores_the_same():
     """Without the compiler, which contracts products and sums, every run is rounded differently."""
     chosen = [PAPER, GENTLE, GOOD, WILD, wmr.paper.CIRCLE_GAINS]
@@ -242,6 +267,15 @@ def test_plain_python_scores_the_same():
     plain = os.environ | {"NUMBA_DISABLE_JIT": "1"}
     told = subprocess.run(command, env=plain, capture_output=True, text=True, check=True)
     assert json.loads(told.stdout) == [score(gains).total for gains in chosen]
+
+
+def test_a_run_that_hangs_on_rounding_is_not_reached():
+    wild = score(WILD)
+    notes = [case.note for case in wild.cases]
+    assert "not reached" in notes
+    hanging = wild.cases[notes.index("hangs on rounding")]
+    assert hanging.time < math.inf
+    assert hanging.points == wild.game.penalty
 
 
 def test_a_goal_exactly_behind_or_underfoot_hangs_on_rounding():

@@ -81,8 +81,10 @@ WAY = wmr.Pose(np.linspace(-3.0, 0.0, 20), np.linspace(-2.0, 0.1, 20), np.linspa
 LIMITS, LEFT = np.array([1.0, 2.0, 4.0]), np.array([0.524, 0.199, 0.090])
 GROUPS = {"one": (np.array([1.0, 2.0]), np.array([0.5, 0.4])), "two": (np.array([3.0]), [0.25])}
 STEPS = np.array([0.02, 0.1, 0.7, 1.0])
-
-
+LIMITED = [wmr.Pose(0.0, 0.0, 0.5), wmr.Pose(1.0, 0.0, 0.5), wmr.Pose(1.0, 3.0, 0.5)]
+PARK = wmr.Pose(9.0, 57.0, 1.0)
+SPREAD = np.random.default_rng(4).normal(0.0, 0.2, (2, 300))
+ENDS = wmr.Pose(9.0 + SPREAD[0], 57.0 + SPREAD[1], 1.0 + np.linspace(-3.1, 3.1, 300))
 MEMORY = np.array([0.0, 3.0, 1e9])  # s
 FOUND = {  # distance, m, and heading error, deg
     "10 Hz": (np.array([0.2, 0.5, 1.4]), np.array([80.0, 91.0, 12.0])),
@@ -300,6 +302,21 @@ def axes_of(name):
     return picture(name).figure.axes
 
 
+def test_the_triangle_has_three_sides_on_the_globe():
+    (axes,) = axes_of("spherical_triangle")
+    assert not axes.axison
+    sides = [line.get_data() for line in axes.lines if line.get_linewidth() == 3.0]
+    assert [len(x) for x, _ in sides] == [101] * 3
+    assert max(np.hypot(x, y).max() for x, y in sides) <= 1.0
+
+
+def test_the_maps_star_is_the_line_asked_for():
+    (axes,) = axes_of("sphere_error_map")
+    star = axes.lines[-1].get_xydata()[0]
+    assert star == pytest.approx([9.6274, paper.GPS_POINT_1.lat])
+    assert any("+0.244 %" in text.get_text() for text in axes.texts)
+
+
 def test_arcs_begin_and_end_on_their_sides():
     """Theta's arc runs from the goal's heading to the line of sight, beta's the other way."""
     figure = picture("third_angle").figure
@@ -314,6 +331,19 @@ def test_arcs_begin_and_end_on_their_sides():
         assert angles[0] == pytest.approx(begin)
         assert angles[-1] == pytest.approx(end, abs=0.05)  # the rest is the arrowhead
         assert np.ptp(np.hypot(x - GOAL.x, y - GOAL.y)) < 1e-9
+
+
+def test_no_name_lies_on_the_line_of_sight():
+    figure = picture("third_angle").figure
+    figure.canvas.draw()
+    for axes in figure.axes:
+        dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
+        ends = axes.transData.transform(dashed.get_xydata())
+        points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
+        names = [text for text in axes.texts if text.get_text() in ("robot", "goal")]
+        assert len(names) == 2
+        boxes = [text.get_window_extent() for text in names]
+        assert not any(box.contains(*point) for box in boxes for point in points)
 
 
 def test_paths_and_angles_are_those_of_the_runs():
@@ -349,6 +379,20 @@ def test_on_a_logarithmic_scale_nothing_is_drawn_below_a_millionth():
     assert np.array_equal(np.isnan(drawn), tiny.rho < 1e-6)
     assert axes.get_ylim()[0] == 1e-6
     assert axes_of("compare_runs, log")[0].get_ylim()[0] > 0.01
+
+
+def test_a_course_is_told_once():
+    """No range where the ends are the range; and what rounds to zero is not called zero."""
+
+    def told(field, run):
+        return figures.compare_runs({"one": run}, field, level=(4.0, "the 4 m/s")).alt
+
+    assert ", between " in told("omega", chase())
+    assert told("v", chase()).endswith("a dotted line marks the 4 m/s.")
+    near = dataclasses.replace(chase(), rho=np.linspace(1.0, 1e-4, len(chase())))
+    assert "one goes from 1.00 to less than 0.01 m;" in told("rho", near)
+    past = dataclasses.replace(chase(), omega=np.linspace(1.0, -1e-4, len(chase())))
+    assert "one goes from 1.00 to nearly 0 rad/s;" in told("omega", past)
 
 
 def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
@@ -415,6 +459,22 @@ def test_the_crosses_are_the_roots():
     np.testing.assert_allclose(cross.get_xdata(), roots.real)
 
 
+def test_a_locus_says_its_course_and_no_label_lies_across_the_left_axis():
+    meeting = "The two poles meet at -0.50, and the pair then runs straight up and down."
+    for over, values, course in (
+        ("k_alpha", np.linspace(0.1, 2.0, 20), "The pair runs on a circle of 4.38 rad/s. At"),
+        ("k_alpha", np.array([10.0, 20.0]), "Both poles stay real."),
+        ("h", np.array([0.1, 1.0]), "The pair runs straight up and down at -0.50."),
+        ("h", np.geomspace(1e-4, 1.0, 100), meeting),
+    ):
+        found = figures.root_locus(GAINS, over, values)
+        assert course in found.alt
+        found.svg()
+        axes = found.figure.axes[0]
+        for box in (text.get_window_extent() for text in axes.texts):
+            assert box.x0 > axes.bbox.x0 or box.x1 < axes.bbox.x0, course
+
+
 def test_the_front_shows_what_is_below_its_border():
     runs, best, marked = tried()
     error = np.array(runs.heading_error)
@@ -438,6 +498,22 @@ def test_time_steps_draw_each_run_and_each_limit():
         np.testing.assert_allclose(drawn[method].get_ydata(), wanted)
         limit = {wmr.longest_step(GAINS, method)}
         assert any(set(line.get_xdata()) == limit for line in axes.lines)
+
+
+def test_scatter_says_how_many_positions_are_the_last_dot():
+    east, north = np.array([0.0, 3.0, 5.0, 5.0, 5.0]), np.array([0.0, -1.0, 1.0, 1.0, 1.0])
+    place = wmr.point_at(paper.GPS_POINT_1, east, north)
+    for count, word in ((2, "last"), (3, "last"), (4, "last two"), (5, "last three")):
+        found = stationary_scatter(wmr.GeoPoint(lat=place.lat[:count], lon=place.lon[:count]))
+        shown = figures.scatter(found)
+        assert [text.get_text() for text in shown.figure.axes[0].texts] == ["first", word]
+        assert (f"the {word} are one dot" in shown.alt) == (count > 3)
+
+
+def test_the_verdicts_bars_differ_in_hatching_too():
+    bars = axes_of("verdicts")[0].patches
+    assert [bar.get_width() for bar in bars] == [21, 7, 3, 0]
+    assert len({bar.get_hatch() for bar in bars}) == 2
 
 
 def test_a_route_is_drawn_as_it_was_driven():
@@ -486,3 +562,57 @@ def test_the_legend_says_which_arrow_is_the_start():
 
 
 # Bad input --------------------------------------------------------------------------------------
+
+HERE = wmr.GeoPoint(lat=5.0, lon=0.0)
+FIVE = {str(k): STEPS for k in range(6)}
+BAD = [
+    ("a GeoPoint is needed, not a tuple", "local_map", ((33, 44), HERE)),
+    ("a GeoPoint is needed, not a tuple", "spherical_triangle", ((5, 0), HERE)),
+    ("a GeoPoint is needed, not a tuple", "sphere_error_map", ((5, 0), 0.0)),
+    (r"track_width = 0\.0 .* above 0", "coordinate_system", (ORIGIN, 0.0, 0.1)),
+    (r"wheel_radius = -0\.1 .* above 0", "coordinate_system", (ORIGIN, 1.0, -0.1)),
+    ("tracks has 0 entries, .* 1 to 4 are needed", "path_choices", ({}, ORIGIN)),
+    ("a Pose is needed, not a tuple", "path_choices", ({"one": WAY}, (0, 0, 0))),
+    ("runs has 0 entries", "angles_over_time", ([],)),
+    ("runs has 5 entries, .* 1 to 4 are needed", "path", ([0] * 5,)),
+    ("labels has 2 entries", "heading_errors", ([0], ["one", "two"])),
+    ("runs has 0 entries, .* 1 to 5 are needed", "compare_runs", ({}, "v")),
+    ("runs has 6 entries", "compare_runs", (FIVE, "v")),
+    (r"runs\['one'\] = 3 .* a Trajectory is needed", "compare_runs", ({"one": 3}, "v")),
+    ("runs = .* is not allowed: a Mapping is needed", "chase", ([3],)),
+    ("a Trajectory is needed", "snapshots", (3, [0.0, 1.0])),
+    ("one = .* is not allowed", "heading_shares", ({"one": np.array([math.nan])},)),
+    (r"time_step = 0\.0 is not allowed", "block_diagram", (0.0, 10.0)),
+    ("gains has 1 .* 2 are needed", "time_steps", (ROBOT, GOAL, {"one": GAINS}, STEPS)),
+    ("cases has 0 entries", "inner_loops", ({},)),
+    ("series has 0 entries, .* 1 to 4 are needed", "memories", (MEMORY, {})),
+    ("mismatched lengths", "memories", (MEMORY, {"one": (np.ones(3), np.ones(2))})),
+    ("counts has 0 entries", "verdicts", ({},)),
+    ("a Route is needed, not a Pose", "route", (WAY,)),
+    ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
+]
+
+
+def test_bad_input_is_named():
+    for message, name, arguments in BAD:
+        with pytest.raises(ValueError, match=message):
+            getattr(figures, name)(*arguments)
+
+
+def test_bad_input_beside_a_run_is_named():
+    for message, make in (
+        ("field = 'speed' .* one of 'v'", lambda: figures.compare_runs({"one": drive()}, "speed")),
+        ("times has 1 entries, .* 2 to 6", lambda: figures.snapshots(drive(), [0.0])),
+        (r"times = .* at most 15\.5", lambda: figures.snapshots(drive(), [0.0, 99.0])),
+        (
+            "mismatched lengths",
+            lambda: figures.residual_curve(LIMITS, LEFT[:2], predict, published=0.1),
+        ),
+        (
+            r"one x = 0\.0 is not allowed",
+            lambda: figures.tradeoff({"one": (0.0, 1.0)}, (1, 1, "a"), xlabel="", ylabel=""),
+        ),
+        ("driven has no sample", lambda: figures.route(route("lost"))),
+    ):
+        with pytest.raises(ValueError, match=message):
+            make()

@@ -26,6 +26,11 @@ CIRCLE = wmr.track(
 PARKED = wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
 
 
+def test_a_peak_that_comes_again_and_again_has_no_one_spell():
+    wave = figures.twist(replace(RUN, omega=np.sin(RUN.t)))
+    assert "omega goes from 0.0 to 0.2 rad/s, between -1.0 and 1.0 rad/s." in wave.alt
+
+
 def test_a_path_that_begins_backwards_says_so():
     starts = [wmr.Pose(-10.0, 0.0, sign * (math.pi + 0.1)) for sign in (1, -1)]
     runs = [wmr.simulate(start, ORIGIN, PAPER.gains) for start in starts]
@@ -70,6 +75,13 @@ def test_path_has_equal_scales_and_the_robots_heading():
         assert seen == pytest.approx([last, PAPER.goal.heading, PAPER.start.heading])
         top = axes.patches[-2].get_xy()[:, 1].max()
         assert top < axes.get_ylim()[1] - 0.01 * np.ptp(axes.get_ylim())  # clear of the frame
+
+
+def test_the_arrows_of_several_paths_have_one_size():
+    runs = [wmr.simulate(wmr.Pose(x, 0.0, 0.5), ORIGIN, PAPER.gains) for x in (-5.0, -20.0)]
+    darts = [dart.get_xy() for dart in figures.path(runs).figure.axes[0].patches]
+    lengths = [np.linalg.norm(dart[0] - dart[2]) for dart in darts]
+    assert lengths == pytest.approx([lengths[0]] * 4)
 
 
 SHARED = "path", "start", "goal", "rho", "alpha", "theta"

@@ -1,6 +1,7 @@
 """What the repository promises of itself: the locks, the README's commands, the chapters' form."""
 
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -95,6 +96,18 @@ def test_a_python_is_refused_unless_pyproject_allows_it():
         said = check_python.refusal((3, minor, 0), "HERE")
         assert (said is None) == (f"3.{minor}" in allowed)
         assert not said or ("Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said)
+
+
+def test_the_readmes_commands_refuse_an_old_python_before_anything_is_installed():
+    pyenv = sorted(Path.home().glob(".pyenv/versions/3.10.*/bin/python3"))
+    old = next(iter(pyenv), None) or shutil.which("python3.10")
+    if old is None:
+        pytest.skip("this test needs Python 3.10")
+    line = f"{old} {CHECK} && echo installed"
+    done = subprocess.run(line, shell=True, cwd=ROOT, capture_output=True, text=True)
+    assert done.returncode == 1
+    assert done.stderr.startswith("This book needs Python 3.11 to 3.14")
+    assert not done.stdout
 
 
 def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
@@ -223,6 +236,15 @@ def test_a_chapters_equations_are_numbered_in_order():
         tags = re.findall(r"\\tag\{(\d+)\.(\d+)", prose(name))
         wanted = [(str(int(name[:2])), str(count)) for count in range(1, len(tags) + 1)]
         assert tags == wanted, name
+
+
+def test_every_picture_has_its_text():
+    for name in CHAPTERS:
+        shown = [it.data["text/html"] for it in outputs(name, "text/html")]
+        pictures = [text for text in shown if "<img" in text]
+        assert pictures, name
+        for picture in pictures:
+            assert re.match(r'<img alt="[^"]{60,}" width="\d+" src="data:', picture), picture[:200]
 
 
 def test_the_stored_panels_are_those_of_now():

@@ -6,6 +6,7 @@ import random
 import re
 import subprocess
 import sys
+from concurrent.futures import ThreadPoolExecutor
 from urllib.parse import quote
 
 import pytest
@@ -186,6 +187,12 @@ def test_what_it_says(board):
     assert "0 names ranked, 1 line refused" in repr(board.ranking())
 
 
+def test_only_a_true_line_is_taken(board):
+    assert board.add_line(f" {LINE} \n")
+    assert not board.add_line(LINE.replace("1.089", "1.098"))
+    assert board.path.read_bytes() == f"{LINE}\n".encode()
+
+
 def test_what_is_damaged_is_told_with_its_line_and_never_lost(board):
     forged = signed(body(LINE).replace("21.81", "1.81"))
     head = f"\n# our class, 2026\r\n{LINE[:60]}\r\n".encode()
@@ -249,6 +256,13 @@ def test_a_line_that_is_written_in_part_is_an_error(board):
     assert ranked(board) == [(1, "Bob", 1)]
 
 
+def test_threads_lose_no_line(board):
+    lines = [certificate(f"thread {k}", PAPER) for k in range(200)]
+    with ThreadPoolExecutor(8) as pool:
+        assert all(pool.map(board.add_line, lines))
+    assert sorted(board.path.read_text().splitlines()) == sorted(lines)
+
+
 def test_processes_lose_no_line(board):
     board.path.write_text("# no newline at the end")
     code = (
@@ -263,3 +277,19 @@ def test_processes_lose_no_line(board):
     assert first == "# no newline at the end"
     expected = [certificate(f"process {n} {k}", PAPER) for n in range(3) for k in range(50)]
     assert sorted(lines) == sorted(expected)
+
+
+def test_bad_input():
+    for make, message in (
+        *(
+            (lambda name=name: certificate(name, GOOD), "name = .* is not allowed")
+            for name in ("", " \n", "...", "a" * 61, "A\x1b[2J", "\ud800a", None)
+        ),
+        (lambda: certificate("Ada", (1, 2, 3)), "a Gains is needed, not a tuple"),
+        (lambda: certificate("Ada", GOOD, seed=-1), "seed = -1 is not allowed"),
+        (lambda: certificate("Ada", GOOD, date="2026-03-01"), "a date is needed, not a str"),
+        (lambda: verify(b"line"), "a str is needed, not a bytes"),
+        (lambda: Scoreboard("nowhere.txt").ranking(2.5), r"seed = 2\.5 is not allowed"),
+    ):
+        with pytest.raises(ValueError, match=message):
+            make()

@@ -135,6 +135,18 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     page.assert_quiet()
 
 
+def test_without_the_books_settings_a_panel_comes_from_the_kernel(tmp_path, browser_page):
+    page = browser_page
+    (tmp_path / "notebooks").mkdir()
+    shutil.copy(ROOT / CHAPTER, tmp_path / CHAPTER)
+    with jupyterlab(tmp_path, "--IdentityProvider.token=bare") as url:
+        open_notebook(page, f"{url}lab/tree/{CHAPTER}?token=bare", CHAPTER)
+        page.evaluate(RUN_ALL)
+        assert_slider_matters(page, sliders(page)[0])
+        page.assert_quiet()
+        page.goto("about:blank")  # before its server ends
+
+
 def test_a_graded_exercise_shows_its_hint_and_nothing_leaves(lab, browser_page):
     page = browser_page
     name = f"notebooks/{ASSIGNMENT}.ipynb"

@@ -125,6 +125,15 @@ def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
     assert not leaks(site)
 
 
+def test_every_image_says_what_it_shows_and_has_a_caption(site):
+    for path in pages(site):
+        page = _Parts(path)
+        for text in page.texts:
+            assert len(text.split()) > 3, f"{path.name}: {text!r} is no alternative text"
+        captions = [anchor for anchor in page.anchors if anchor.startswith("figure-")]
+        assert len(captions) == len(page.texts), path.name
+
+
 def test_each_chapter_can_be_downloaded_as_a_notebook(site):
     for chapter in chapters():
         page = site / "notebooks" / f"{chapter.stem}.html"
