@@ -14,6 +14,7 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib import symbolic
+from wmrlib.motion import keep_branch
 
 CC = shutil.which("cc") or shutil.which("gcc")
 CXX = shutil.which("c++") or shutil.which("g++")
@@ -41,6 +42,7 @@ void local(const double *s, R *out) {
   wmr_local_position(s[0], s[1], s[2], s[3], out, out + 1); }
 void local_e7(const int32_t *s, R *out) {
   wmr_local_position_e7(s[0], s[1], s[2], s[3], out, out + 1); }
+void branch(const R *s, R *out) { out[0] = wmr_keep_branch(s[0], s[1], s[2]); }
 void less_1(const R *s, R *out) { out[0] = wmr_expm1(s[0]); }
 """
 AVR_STRICT = STRICT.replace("-Wdouble-promotion", "")  # there are no doubles to promote to
@@ -136,6 +138,19 @@ def test_the_laws_are_those_of_wmrlib(compiled):
             assert abs(v - expected[0]) <= tolerance * steepest * rho, (law, state)
             steep = 2.0 * abs(expected[1] * math.tan(theta / 2)) if law == "barrier" else 0.0
             assert abs(omega - expected[1]) <= tolerance * (size + steep), (law, state)
+
+
+@compiler
+def test_theta_keeps_its_branch(compiled):
+    call, tolerance, rounded = compiled
+    for state in np.random.default_rng(8).uniform((-3.1, -7.0, 0.0), (3.1, 7.0, 3.0), (1000, 3)):
+        theta, before, hysteresis = rounded(state)
+        assert call("branch", theta, math.nan, hysteresis)[0] == theta
+        expected = keep_branch(theta, before, hysteresis)
+        off = math.remainder(theta - before, 2 * math.pi)  # at a border, rounding decides
+        if math.pi - abs(off) > 1e-4 < abs(abs(before + off) - math.pi - hysteresis):
+            kept = call("branch", theta, before, hysteresis)[0]
+            assert kept == pytest.approx(expected, abs=4 * tolerance), state
 
 
 @compiler

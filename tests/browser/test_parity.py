@@ -12,6 +12,7 @@ from oracle import commanded
 
 import wmrlib as wmr
 from wmrlib import paper
+from wmrlib.laws import LAWS, POSE_LAWS
 
 COLUMNS = ("t", "x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
 ANGLES = ("heading", "alpha", "theta")
@@ -63,14 +64,17 @@ def _draw(random: np.random.Generator, circle: bool, methods=("arc", "euler")) -
     def scaled(low, high):
         return math.exp(between(math.log(low), math.log(high)))
 
-    laws = ["corrected", "printed", "aicardi", *(["kanayama"] if circle else [])]
+    laws = [*POSE_LAWS, *(["kanayama"] if circle else [])]
     reach = 6.0 if circle else 40.0
+    method = str(random.choice(methods))
+    kept = between(0.0, 2.0) if random.random() < 0.5 else 0.0
     return {
         "start": [between(-reach, reach), between(-reach, reach), between(-math.pi, math.pi)],
         "goal": [between(-reach, reach), between(-reach, reach), between(-math.pi, math.pi)],
         "reference": "circle" if circle else None,
         "law": str(random.choice(laws)),
-        "method": str(random.choice(methods)),
+        "method": method,
+        "hysteresis": 0.0 if circle or method == "continuous" else kept,
         "gains": {
             "k_rho": scaled(0.05, 3.0),
             "k_alpha": between(0.1, 5.0),
@@ -95,9 +99,8 @@ def _ours(options: dict[str, Any]):
     shared = {key: options[key] for key in ("law", "method", "dt", "duration")}
     if options["reference"]:
         return wmr.track(paper.circle, start, gains, **shared), gains
-    return wmr.simulate(
-        start, wmr.Pose(*options["goal"]), gains, arrival_radius=options["arrivalRadius"], **shared
-    ), gains
+    shared |= {"arrival_radius": options["arrivalRadius"], "hysteresis": options["hysteresis"]}
+    return wmr.simulate(start, wmr.Pose(*options["goal"]), gains, **shared), gains
 
 
 def _runs(page, drawn: list[dict[str, Any]]) -> list[Run]:
@@ -199,17 +202,13 @@ def _assert_steps(run: Run) -> None:
     state = [theirs[c] for c in seen]
     twist = commanded(*state, v_ref, omega_ref, run.gains, options["law"])
     expected = seen | dict(zip(("v", "omega"), twist, strict=True))
-    rho, alpha, theta = state
-    if options["law"] == "kanayama":
-        expected["V"] = rho**2 / 2.0 + (1.0 - np.cos(alpha - theta)) / run.gains.k_y
-    else:
-        expected["V"] = wmr.lyapunov(rho, alpha, theta, run.gains.h)
+    expected["V"] = LAWS[options["law"]].value(*state, run.gains)
     for column, values in expected.items():
         error = np.abs(_difference(column, theirs[column], values))
         slack = 1e-12 * (1.0 + np.abs(values))
         if column in ("alpha", "theta") and options["reference"]:
             # the circle's goal is computed anew, to the last bits of some metres
-            slack = slack + 1e-14 / np.maximum(rho, 1e-300)
+            slack = slack + 1e-14 / np.maximum(theirs["rho"], 1e-300)
         assert (error <= slack).all(), (column, error.max(), options)
     moved = wmr.advance(pose, theirs["v"], theirs["omega"], options["dt"], options["method"])
     for column in ("x", "y", "heading"):

@@ -29,7 +29,6 @@ BRANCH = SEEN + 3  # with hysteresis, theta as it is, and below it as it is seen
 ROWS = BRANCH + 2
 
 _polar_from_pose = vectorised(motion.polar_from_pose, BETWEEN_DIRECTIONS)
-_keep_branch = vectorised(motion.keep_branch)
 _euler_step, _arc_step = vectorised(motion.euler_step), vectorised(motion.arc_step)
 
 
@@ -48,8 +47,7 @@ def look(block, used, place, branch, hysteresis):
         goal = block[GOAL_X, i], block[GOAL_Y, i], block[GOAL_HEADING, i]
         rho, alpha, theta = _polar_from_pose(*pose, *goal)
         if hysteresis is not None:
-            theta = _keep_branch(theta, block[branch, i], hysteresis)
-            block[branch, i] = theta
+            theta = block[branch, i] = keep_branch(theta, block[branch, i], hysteresis)
         block[RHO, i], block[ALPHA, i], block[THETA, i] = rho, alpha, theta
 
 

@@ -83,7 +83,7 @@ _TWIST = s.v, s.omega, s.dt
 _CLOSING = s.rho, s.alpha, s.v_over_rho, s.omega
 _WRAP = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
 _DECAY = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
-_KEEPS = "theta on the branch of the sample before, NaN if none, to pi + hysteresis"
+_KEEPS = "theta to be used, up to pi + hysteresis; before: the last result, NaN if there is none"
 _BRANCH = _read(motion.keep_branch, (s.theta, s.before, s.hysteresis), _KEEPS)
 _GUARDS = {
     "sinc": Formula((s.angle,), (s.GUARDED_SINC,), "sin(angle)/angle, which is 1 at 0"),

@@ -42,7 +42,7 @@ class Explorer(Panel):
     Parameters
     ----------
     start, goal, gains : Pose, Pose, Gains; by default the paper's.
-    law : "corrected", "printed", "aicardi" or, if the goal moves, "kanayama".
+    law : a law of `simulate` or, if the goal moves, "kanayama" too.
     method : "arc", "euler" or "continuous", see `simulate`.
     dt, duration, arrival_radius : float; s, s, m
     reference : None for a goal that stands still, "circle" (or `paper.circle`) for the moving one.

@@ -95,7 +95,8 @@ static inline WMR_REAL wmr_lyapunov_value(WMR_REAL rho, WMR_REAL alpha, WMR_REAL
       (rho * rho)/L;
 }
 
-/* theta on the branch of the sample before, NaN if none, to pi + hysteresis */
+/* theta to be used, up to pi + hysteresis; before: the last result, NaN if there is
+   none */
 static inline WMR_REAL wmr_keep_branch(WMR_REAL theta, WMR_REAL before,
       WMR_REAL hysteresis) {
   const WMR_REAL part0 = theta + WMR_C(6.283185307179586) *

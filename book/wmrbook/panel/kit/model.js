@@ -155,7 +155,7 @@ export function polarFromPose(x, y, heading, goal_x, goal_y, goal_heading) {
     part2)];
 }
 
-// theta on the branch of the sample before, NaN if none, to pi + hysteresis
+// theta to be used, up to pi + hysteresis; before: the last result, NaN if there is none
 export function keepBranch(theta, before, hysteresis) {
   const part0 = theta + 6.283185307179586*Math.floor(0.15915494309189535*before -
     0.15915494309189535*theta + 1/2);
