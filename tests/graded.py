@@ -190,6 +190,14 @@ def closed() -> list[str]:
     return sorted({run for run in runs if len(run) > 30})
 
 
+def leaks(folder: Path) -> list[str]:
+    """What is the lecturer's alone, and stands in a file of the folder."""
+    kinds = {".html", ".js", ".ipynb", ".md", ".txt"}
+    paths = [it for it in folder.rglob("*") if it.suffix in kinds and "vendor" not in it.parts]
+    texts = [" ".join(it.read_text(encoding="utf-8").split()) for it in paths]
+    return [each for each in closed() if any(each in text for text in texts)]
+
+
 @cache
 def exercises() -> dict[str, dict[str, str]]:
     """Of each check of wmrbook.grading.exercises: `answer` and `more`, and an edit a hint."""

@@ -28,7 +28,7 @@ PROSE = re.sub(r"^```.*?^```$", "", GUIDE, flags=re.MULTILINE | re.DOTALL)
 SHELL = re.findall(r"^    (\S.*)$", PROSE, re.MULTILINE)
 COMMANDS = SHELL + re.findall(r"`((?:cd \S+ && )?[./]*\.venv/bin/\w+ [^`]+)`", GUIDE)
 ELSEWHERE = {  # commands of the guide that another test runs
-    "build.py --lecturer": "tests/browser/test_page.py",
+    "build.py --lecturer": "tests/browser/test_book.py",
     "slides.py --questions": "tests/browser/test_votes.py",
     "python3 -m venv": "tests/test_hub.py",
     "chmod -R": "tests/test_hub.py",

@@ -27,6 +27,11 @@ def chapters() -> list[Path]:
     return sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 
 
+def pages(site: Path) -> list[Path]:
+    """The pages of the site, without the theme's own files."""
+    return sorted(path for path in site.rglob("*.html") if "_static" not in path.parts)
+
+
 def confine(page, folder: Path) -> None:
     """Let a request of the page that leaves the folder be a trouble."""
     ours = (f"{folder.as_uri()}/", "data:", "blob:", "about:")
