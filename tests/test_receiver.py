@@ -191,9 +191,9 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     monkeypatch.setattr(wmr.sweeping, "_CHUNK", (1, 1))
     sizes, run_chunk = [], wmr.sweeping.run_chunk
 
-    def counted(runs, task):
+    def counted(runs, *rest):
         sizes.append(runs.shape[1])
-        return run_chunk(runs, task)
+        return run_chunk(runs, *rest)
 
     monkeypatch.setattr(wmr.sweeping, "run_chunk", counted)
     assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, **options)))

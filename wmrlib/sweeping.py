@@ -148,10 +148,10 @@ def sweep(
     long = progress and total * task.cost >= _LONG_WORK
     with (
         threads.watched(total, long) as go_on,
-        closing(_results(source, total, task, go_on)) as results,
+        closing(_results(source, record, task, go_on)) as results,
     ):
-        for (first, last), (metrics, paths) in results:
-            summary[:, first:last], record[:, :, first:last] = metrics, paths
+        for (first, last), metrics in results:
+            summary[:, first:last] = metrics
             go_on(last - first)
     for message in _shortcomings(summary):
         warnings.warn(message, RuntimeWarning, stacklevel=2)
@@ -163,28 +163,37 @@ def sweep(
     return metrics, Trajectories(dt * np.arange(samples), *paths)
 
 
-def run_chunk(runs: np.ndarray, task: _Task) -> tuple[np.ndarray, np.ndarray]:
-    """The summary and samples of the runs in the columns of `runs`, whose last row is the law."""
+def run_chunk(runs: np.ndarray, task: _Task, record: np.ndarray, first: int) -> np.ndarray:
+    """The summary of the runs in the columns of `runs`, whose last row is the law.
+
+    Their samples are written where they stay, from run `first` of the record on: a copy of a
+    hundred megabytes takes as long as to drive them.
+    """
     laws = np.unique(runs[-1])
     if laws.size == 1:
-        survey, how = _ENGINES[task.method].survey, (task.limits, task.method, *task[2:-1])
-        return survey(runs[:-1], lanes.as_type(int(laws[0])), *how, *task.key)
+        survey, law = _ENGINES[task.method].survey, lanes.as_type(int(laws[0]))
+        return survey(runs[:-1], record, first, law, task)
     summary = np.empty((len(Arrival._fields), runs.shape[1]))
-    record = np.empty((8, task.samples if task.recorded else 0, runs.shape[1]))
     for law in laws:
         members = np.flatnonzero(runs[-1] == law)
-        summary[:, members], record[:, :, members] = run_chunk(runs.take(members, axis=1), task)
-    return summary, record
+        own = np.full((*record.shape[:2], members.size), np.nan)
+        summary[:, members] = run_chunk(runs.take(members, axis=1), task, own, 0)
+        record[:, :, first + members] = own
+    return summary
 
 
-def _results(source, total: int, task: _Task, go_on) -> Generator:
-    def arguments(chunk: tuple[int, int]) -> tuple[np.ndarray, _Task]:
-        return np.array([field[slice(*chunk)] for field in source], dtype=float), task
+def _results(source, record: np.ndarray, task: _Task, go_on) -> Generator:
+    def arguments(chunk: tuple[int, int]) -> tuple:
+        runs = np.array([field[slice(*chunk)] for field in source], dtype=float)
+        return runs, task, record, chunk[0]
 
+    total = source[0].size
     size = _chunk_size(total, task)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
     if len(chunks) > 1:  # compile here, and not in several threads
-        run_chunk(np.tile(np.unique(source[-1]), (len(source), 1)), task._replace(samples=2))
+        few = np.tile(np.unique(source[-1]), (len(source), 1))
+        short = np.full((8, 2 * task.recorded, few.shape[1]), np.nan)
+        run_chunk(few, task._replace(samples=2), short, 0)
     return threads.spread(run_chunk, chunks, arguments, go_on)
 
 

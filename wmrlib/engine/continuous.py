@@ -154,7 +154,7 @@ def judge(bench, used, radius):
 
 
 @compiled
-def note(bench, width, inside, goals, dt, records):
+def note(bench, width, inside, goals, dt, records, place):
     """Record the runs whose step has ended on a sample; rounding can carry rho past the goal."""
     for i in range(width):
         due = bench[TIME + i] == bench[NEXT + i] or bench[LEFT + i] == 0.0  # the last, if rounded
@@ -165,12 +165,12 @@ def note(bench, width, inside, goals, dt, records):
                 pose = pose_of_error(*polar, goals[0, run], goals[1, run], goals[2, run])
                 twist = bench[SLOPES + ROLLED + i], bench[SLOPES + OMEGA + i]
                 for row, value in enumerate((*pose, *polar, *twist)):
-                    records[row, k, run] = value
+                    records[row, k, place + run] = value
             bench[NEXT + i] = (k + 1) * dt if k + 1 < records.shape[1] else math.inf
 
 
 @compiled
-def drive(states, goals, radius, law, wheels, dt, records):
+def drive(states, goals, radius, law, wheels, dt, records, place):
     """Take every run to its end; a run that is over gives its lane to the next."""
     bench, inside = np.zeros(ROOM), np.zeros(LANES, np.int64)
     rows, width, waiting = bench.reshape(-1, LANES), 0, 0
@@ -182,7 +182,7 @@ def drive(states, goals, radius, law, wheels, dt, records):
             inside[i], bench[TAKEN + i] = first + i, 1.0
         begin(bench, LANES, law, wheels)
         if records.shape[1] > 0:
-            note(bench, used, inside, goals, dt, records)
+            note(bench, used, inside, goals, dt, records, place)
         for i in range(used):
             lanes.copy_column(states, first + i, kept, i)
     while True:
@@ -193,7 +193,7 @@ def drive(states, goals, radius, law, wheels, dt, records):
             attempt(bench, LANES, law, wheels)
             judge(bench, LANES, radius)
             if records.shape[1] > 0:
-                note(bench, width, inside, goals, dt, records)
+                note(bench, width, inside, goals, dt, records, place)
 
 
 @compiled
@@ -234,12 +234,12 @@ def summed_up(states, whole, radius):
     return summary
 
 
-def survey(runs, law, wheels, _, dt, samples, radius, recorded, *__):
+def survey(runs, records, place, law, task):
     """As `sampled.survey`; the last sample is the one before arrival."""
-    whole = (samples - 1) * dt
-    records = np.full((8, samples if recorded else 0, runs.shape[1]), np.nan)
-    states = begun(runs, whole, radius, recorded)
-    drive(states, runs[3:6], radius, law, wheels, dt, records)
+    whole, radius = (task.samples - 1) * task.dt, task.arrival_radius
+    states = begun(runs, whole, radius, task.recorded)
+    drive(states, runs[3:6], radius, law, task.limits, task.dt, records, place)
     summary = summed_up(states, whole, radius)
-    records[:, :, ~np.isin(summary[lanes.OUTCOME], (ARRIVED, TIMED_OUT))] = np.nan
-    return summary, records
+    unfit = np.flatnonzero(~np.isin(summary[lanes.OUTCOME], (ARRIVED, TIMED_OUT)))
+    records[:, :, place + unfit] = np.nan
+    return summary

@@ -78,9 +78,9 @@ def show(block, place, goal, eyes, past, k, used, key):
         block[place, i], block[place + 1, i], block[place + 2, i] = x, y, past[2, looked, i]
 
 
-def in_samples(receivers, dt, samples):
+def in_samples(receivers, task):
     """The rows before the first sample, and how many samples back any of them looks."""
-    eyes = np.zeros((ROWS, receivers.shape[1]))
+    eyes, dt, samples = np.zeros((ROWS, receivers.shape[1])), task.dt, task.samples
     eyes[: len(receivers)], eyes[FIX], eyes[PERIOD] = receivers, -1.0, 1.0
     if not len(receivers):
         return eyes, 1

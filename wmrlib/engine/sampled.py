@@ -96,7 +96,7 @@ def drive(states, law, wheels, along_arc, dt, arrival_radius, hysteresis):
 
 @compiled
 def drive_all(
-    states, law, wheels, along_arc, dt, radius, hysteresis, samples, records, eyes, depth, key
+    states, law, wheels, arc, dt, radius, hysteresis, samples, key, records, place, eyes, depth
 ):
     """The same, sample after sample, because each is recorded, or steered by what a receiver shows.
 
@@ -116,15 +116,15 @@ def drive_all(
             look(block, used, X, BRANCH, hysteresis)
             if records.shape[1] > 0:
                 for row, at in enumerate((X, Y, HEADING, RHO, ALPHA, THETA)):
-                    _note(records[row, k], block, width, first, at)
+                    _note(records[row, k], block, width, place + first, at)
             if key is not None:
                 receivers.show(block, SEEN, GOAL_X, shown, past, k, used, key)
                 look(block, used, SEEN, BRANCH + 1, hysteresis)
             decide(block, used, law, wheels, dt, radius)
             if records.shape[1] > 0:
-                _note(records[6, k], block, width, first, V)
-                _note(records[7, k], block, width, first, OMEGA)
-            move(block, used, along_arc, dt)
+                _note(records[6, k], block, width, place + first, V)
+                _note(records[7, k], block, width, place + first, OMEGA)
+            move(block, used, arc, dt)
         for i in range(width):
             lanes.copy_column(states, first + i, block, i)
 
@@ -137,9 +137,7 @@ def _note(record, block, width, first, row):
 
 
 @compiled
-def conclude(
-    states, runs, law, wheels, along_arc, dt, arrival_radius, hysteresis, samples, records, shown
-):
+def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, samples, key, records, place):
     """Sum up each run. One that ended without a number is driven alone, by the C library.
 
     With a receiver it is left, because there the pose is hardly one that a receiver could show.
@@ -154,45 +152,43 @@ def conclude(
         rho, alpha, theta = polar_from_pose(*pose, *goal)
         polar = rho, alpha, keep_branch(theta, states[BRANCH, i], hysteresis)
         v, omega = steer(polar, (0.0, 0.0), *loop)
-        last, arrived = samples - 1 - int(abs(left)), polar[0] <= arrival_radius
-        if shown:
+        last, arrived = samples - 1 - int(abs(left)), polar[0] <= radius
+        if key is not None:
             arrived = states[HERE, i] > 0.0
         else:
             peak = max(peak, abs(omega))
         outcome = ARRIVED if arrived else TIMED_OUT
         known = math.isfinite(polar[0] + v + omega + peak)
-        if shown and not known:
+        if key is not None and not known:
             outcome, peak, length = DIVERGED, math.nan, math.nan
             polar = math.nan, math.nan, math.nan
-        elif not (shown or (known and last > 0 and (arrived or left == 0.0))):
+        elif not (key is not None or (known and last > 0 and (arrived or left == 0.0))):
             path[0, 0], path[1, 0], path[2, 0] = goal
-            how = path, *loop, along_arc, dt, arrival_radius, hysteresis
+            how = path, *loop, arc, dt, radius, hysteresis
             count, outcome, peak, length = held(alone, start, *how)
             last = max(count - 1, 0)
             polar = alone[3, last], alone[4, last], alone[5, last]
             for k in range(records.shape[1]):
                 for row in range(records.shape[0]):
-                    records[row, k, i] = alone[row, k] if k < count else math.nan
+                    records[row, k, place + i] = alone[row, k] if k < count else math.nan
         heading_error = wrap(polar[2] - polar[1])
         lanes.summarise(summary, i, outcome, last * dt, heading_error, peak, length, polar[0])
     return summary
 
 
-def survey(runs, law, wheels, method, dt, samples, arrival_radius, recorded, hysteresis, *key):
-    """Sum up many runs to goals that stand still; their samples too, NaN after each one's end.
+def survey(runs, records, place, law, task):
+    """Sum up many runs to goals that stand still.
 
-    With a key to random numbers, a receiver and the run's number are below each run.
+    Their samples go into `records`, which are NaN, from run `place` on. With a key to random
+    numbers, a receiver and the run's number are below each run.
     """
-    states, records = np.zeros((ROWS, runs.shape[1])), np.empty((8, 0, runs.shape[1]))
-    states[:LEFT], states[LEFT], states[BRANCH:] = runs[:LEFT], samples - 1.0, math.nan
-    how = law, wheels, method == "arc", dt
-    ends = max(arrival_radius, NEAREST), hysteresis or None
-    if recorded:
-        records = np.full((8, samples, runs.shape[1]), np.nan)
-    if recorded or key:
-        eyes, depth = receivers.in_samples(runs[LEFT:], dt, samples)
-        drive_all(states, *how, *ends, samples, records, eyes, depth, key or None)
+    states, key = np.zeros((ROWS, runs.shape[1])), task.key or None
+    states[:LEFT], states[LEFT], states[BRANCH:] = runs[:LEFT], task.samples - 1.0, math.nan
+    how = law, task.limits, task.method == "arc", task.dt
+    ends = max(task.arrival_radius, NEAREST), task.hysteresis or None
+    rest = task.samples, key, records, place
+    if task.recorded or key:
+        drive_all(states, *how, *ends, *rest, *receivers.in_samples(runs[LEFT:], task))
     else:
         drive(states, *how, *ends)
-    rest = arrival_radius, hysteresis, samples, records, bool(key)
-    return conclude(states, runs[:LEFT], *how, *rest), records
+    return conclude(states, runs[:LEFT], *how, task.arrival_radius, task.hysteresis, *rest)
