@@ -366,7 +366,7 @@ def test_steps_are_as_many_as_another_program_takes_and_sum_up_to_the_same():
 
         states, how = begun([start], [gains])
         no_records = np.empty((8, 0, 1))
-        engine.drive(states, np.zeros((3, 1)), 0.05, *how, 0.1, no_records)
+        engine.drive(states, np.zeros((3, 1)), 0.05, *how, 0.1, no_records, 0)
         rows = (engine.TIME, engine.PEAK, engine.LENGTH, engine.TRIALS)
         end, peak, length, left = (states[row // engine.LANES, 0] for row in rows)
         begin = wmr.polar_error(start, ORIGIN)
