@@ -20,7 +20,8 @@ function comparedWith(slower) {
 
 // Where kappa lies with the corrected law, in words, and on a bar below them from 0 to 6.
 function placeInWindow({ kappa }, { h }) {
-  const high = Number((1 + h).toPrecision(3)), share = (value) => `${Math.min(value / 6, 1) * 100}%`;
+  const high = Number((1 + h).toPrecision(3)),
+      share = (value) => `${Math.min(value / 6, 1) * 100}%`;
   return {
     name: h > 1 ? `κ, window 2–${high}` : 'κ, no window', text: written(kappa),
     note: `k_alpha/(v_max k_rho): the heading settles before the distance if it is above 2 and ` +
@@ -87,6 +88,7 @@ export function buildFigures(root) {
       name.textContent = figures ? figures[key].name : name.textContent;
       value.textContent = figures ? figures[key].text : '–';
       value.title = name.title = figures ? figures[key].note : '';
+      value.removeAttribute('style');
       for (const [part, share] of Object.entries((figures && figures[key].bar) || {}))
         value.style.setProperty(`--${part}`, share);
       old.textContent = pinned ? `pinned: ${pinned[key].text}` : '';

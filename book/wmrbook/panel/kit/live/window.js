@@ -8,7 +8,8 @@ import { modes, polesOf } from '../simulate.js';
 import { live } from '../live.js';
 import { wrap } from '../model.js';
 
-const GOAL = [0, 0, 0], MOST = 6, NEAR = 0.15; // of kappa and h; what a hand takes for a named point
+const GOAL = [0, 0, 0], MOST = 6; // of kappa and h
+const NEAR = 0.15; // a hand so near a named point means that point
 const RADII = [0.1, 0.01]; // in lengths of 1/k_rho, where the sentence says what is left
 const tick = (place) => ['1', '0.1', '0.01'][place] || '';
 const within = (value) => Number(Math.min(Math.max(value, 0.05), MOST).toFixed(2));
@@ -29,7 +30,8 @@ export default live('window', {
           there = error[k - 1] + share * (error[k] - error[k - 1]);
       return Math.max(...[there, ...error.slice(k)].map(Math.abs));
     });
-    return { poles: polesOf(kappa, h), slower, inside: kappa > 2 && kappa < 1 + h, run, error, late };
+    return { run, error, late, poles: polesOf(kappa, h), slower,
+        inside: kappa > 2 && kappa < 1 + h };
   },
   panes: ({ kappa, h }, { poles, inside, run, error, late }, { data: { named } }) => ({
     plane: { x: [0, MOST, 'κ'], y: [0, MOST, 'h'],
@@ -44,8 +46,8 @@ export default live('window', {
         `minus 1.` },
     left: { x: [-0.75, 2.3, 'distance left, r', tick], y: [-180, 180, 'heading error [°]'],
         given: 'Room for the heading error over the distance left.',
-        alt: `The heading error over the distance left, at most ${late[0].toFixed(1)} degrees from ` +
-        `r = 0.1 on.` },
+        alt: `The heading error over the distance left, at most ${late[0].toFixed(1)} degrees ` +
+        `from r = 0.1 on.` },
     path: { x: [-4, 2, 'k_rho x'], y: [-5, 1, 'k_rho y'], equal: true,
         given: 'The start and the goal.',
         alt: `The path: the robot stops ${inDegrees(error[run.n - 1] / DEGREES)} off.` },
