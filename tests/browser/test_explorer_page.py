@@ -303,7 +303,7 @@ def test_a_pinned_run_stays_as_a_ghost_until_it_is_unpinned(emptied_page):
     assert panel.click("unpin").picture() != with_ghost
 
 
-@pytest.mark.parametrize(("h", "name"), [(2.0, "κ, window 2–3"), (0.5, "κ, no window")])
+@pytest.mark.parametrize(("h", "name"), [(2.0, "κ, window 2\N{EN DASH}3"), (0.5, "κ, no window")])
 def test_a_bar_says_where_the_gains_stand_in_the_window(emptied_page, h, name):
     panel = mounted(emptied_page, Explorer(gains=wmr.GENTLE_GAINS._replace(h=h)))
     cell = emptied_page.locator("[data-figure=window]")
@@ -314,7 +314,7 @@ def test_a_bar_says_where_the_gains_stand_in_the_window(emptied_page, h, name):
     bar = [float(parts[f"--{part}"].rstrip("%")) / 100 * 6 for part in ("kappa", "low", "high")]
     assert bar == pytest.approx([2.5, 2.0, max(2.0, 1.0 + h)])
     panel.put("law", "printed")
-    assert panel.figures()["window"] == "–"
+    assert panel.figures()["window"] == "\N{EN DASH}"
     assert not cell.locator(".wmr-value").get_attribute("style")
 
 
