@@ -160,7 +160,7 @@ def heading_first(k_rho, k_alpha, h, v_max):
     return (2 < k_alpha / (v_max * k_rho) < 1 + h) == (slower < 1)
 
 
-SAME_PATH = "that agree in both drive the same path from the same scaled start"
+SAME_PATH = "any gains that agree in both drive the same path from the same scaled start"
 SCALED = {"distance": (0.5, 20.0), "alpha": ROUND, "theta": ROUND, "kappa": (0.3, 6.0)}
 SCALES = {"h": (0.1, 6.0), "k_rho": (0.1, 5.0), "v_max": (0.2, 8.0)}
 
