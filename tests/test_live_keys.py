@@ -46,7 +46,7 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "x_axis polar_error": lambda f: lambda a, b: f(b, a),
     "heading_left simulate": _uphill,
     "lag track": lambda f: lambda g, a, k, **o: f(g, a, k._replace(k_rho=1.9), **o),
-    "phase modes": lambda f: lambda k: f(k._replace(k_alpha=2 * k.k_alpha)),
+    "window simulate": lambda f: lambda a, b, k, **o: f(a, b, k._replace(v_max=4.0), **o),
     "poles modes": lambda f: lambda k: f(k._replace(h=1 / k.h)),
     "unit_circle longest_step": lambda f: lambda *a: 0.5 * f(*a),
     "wheel_limit wheels_to_twist": lambda f: lambda a, b, c: f(b, a, c),

@@ -303,6 +303,21 @@ def test_a_pinned_run_stays_as_a_ghost_until_it_is_unpinned(emptied_page):
     assert panel.click("unpin").picture() != with_ghost
 
 
+@pytest.mark.parametrize(("h", "name"), [(2.0, "κ, window 2\N{EN DASH}3"), (0.5, "κ, no window")])
+def test_a_bar_says_where_the_gains_stand_in_the_window(emptied_page, h, name):
+    panel = mounted(emptied_page, Explorer(gains=wmr.GENTLE_GAINS._replace(h=h)))
+    cell = emptied_page.locator("[data-figure=window]")
+    assert cell.locator(".wmr-name").inner_text() == name
+    assert float(panel.figures()["window"]) == wmr.modes(wmr.GENTLE_GAINS).kappa
+    style = cell.locator(".wmr-value").get_attribute("style")
+    parts = dict(part.split(": ") for part in style.rstrip("; ").split("; "))
+    bar = [float(parts[f"--{part}"].rstrip("%")) / 100 * 6 for part in ("kappa", "low", "high")]
+    assert bar == pytest.approx([2.5, 2.0, max(2.0, 1.0 + h)])
+    panel.put("law", "printed")
+    assert panel.figures()["window"] == "\N{EN DASH}"
+    assert not cell.locator(".wmr-value").get_attribute("style")
+
+
 def test_reset_is_the_loaded_state_whatever_was_done(emptied_page):
     for options in ({"at": 3.0, "zoom": 5.0, "law": "printed", "view": "gains"}, {}):
         panel = mounted(emptied_page, Explorer(**options))

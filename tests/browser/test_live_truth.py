@@ -8,7 +8,6 @@ import math
 import control
 import numpy as np
 import pytest
-from scipy.integrate import solve_ivp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import SETTLED, TRAITS, mounted
@@ -368,20 +367,20 @@ def lqr(values, found, data) -> None:
     np.testing.assert_allclose(found["run"]["omega"], ours.omega, atol=1e-6)
 
 
-def phase(values, found, data) -> None:
-    gains = wmr.Gains(**data["gains"])
-    gains = gains._replace(k_alpha=2 * values["damping"] * wmr.modes(gains).natural_frequency)
-
-    def rates(t, state):
-        near = 1e-9  # m: the goal itself has no direction
-        twist = wmr.control_law(near, *state, gains)
-        return wmr.polar_rate(near, state[0], *twist)[1:]
-
-    start = np.radians([values["alpha"], values["theta"]])
-    ours = solve_ivp(rates, (0, 8), start, t_eval=[1.0, 4.0, 8.0], rtol=1e-9, atol=1e-11)
-    run = found["run"]
-    theirs = [[run[name][k] for k in (100, 400, 800)] for name in ("alpha", "theta")]
-    np.testing.assert_allclose(theirs, ours.y, atol=1e-6)
+def window(values, found, data) -> None:
+    gains, start = wmr.Gains(1.0, values["kappa"], values["h"], 1.0), pose(data["start"])
+    how = {"dt": 0.02, "duration": 90.0, "arrival_radius": 0.005}
+    same_run(found["run"], start, wmr.Pose(0, 0, 0), gains, **how)
+    modes = wmr.modes(gains)
+    theirs = np.sort_complex([complex(*each) for each in found["poles"]])
+    assert np.abs(theirs - np.sort_complex(modes.poles[1:])).max() < 1e-6
+    assert found["inside"] == (modes.slower < 1)
+    other = wmr.Gains(0.5, 3.0 * values["kappa"], values["h"], 6.0)  # in metres and seconds
+    start, how = wmr.Pose(2 * start.x, 2 * start.y, start.heading), {"method": "continuous"}
+    run = wmr.simulate(start, wmr.Pose(0, 0, 0), other, dt=0.005, arrival_radius=0.01, **how)
+    error = np.degrees(np.abs(wmr.wrap_angle(run.theta - run.alpha)))
+    late = [error[run.rho <= radius].max() for radius in (0.2, 0.02)]
+    np.testing.assert_allclose(found["late"], late, atol=0.5)
 
 
 TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the same name

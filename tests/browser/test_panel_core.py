@@ -97,12 +97,12 @@ def test_a_map_without_hope_is_empty_and_start_on_goal_is_there_at_once(panel_co
 
 def test_modes_equal_wmrlib(panel_core):
     others = wmr.Gains(0.2, 2.0, 2.0), wmr.Gains(0.2, 4.0, 0.1, 2.0)
-    names = "rate", "naturalFrequency", "damping", "slower"
+    names = "rate", "naturalFrequency", "damping", "slower", "kappa"
     call = "(options) => modes(...options)"
     for gains in (paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, *others):
         for law in ("corrected", "aicardi"):
             ours, shown = wmr.modes(gains, law), panel_core.evaluate(call, [gains._asdict(), law])
-            expected = ours.distance_rate, ours.natural_frequency, ours.damping, ours.slower
+            expected = ours.distance_rate, ours.natural_frequency, *ours[3:4], *ours[5:]
             assert [shown[name] for name in names] == pytest.approx(expected, rel=1e-12)
     printed = panel_core.evaluate(call, [paper.OUTDOOR_GAINS._asdict(), "printed"])
     assert printed["slower"] == math.inf

@@ -7,7 +7,7 @@ from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.axes import Axes
-from matplotlib.colors import Normalize
+from matplotlib.colors import LogNorm
 from scipy.optimize import brentq
 
 from wmrbook.figures._drawing import note
@@ -71,7 +71,7 @@ def pareto_front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]
     figure, axes = new_figure(7.5, 5.2)
     small = {"ms": 2, "color": "#BBBBBB", "rasterized": True, "label": "tried"}
     axes.plot(time[arrived], drawn[arrived], ".", **small)
-    looks = {"cmap": "viridis", "norm": Normalize(peak[best].min(), peak[best].max())}
+    looks = {"cmap": "viridis", "norm": LogNorm(peak[best].min(), peak[best].max())}
     looks |= {"ec": COLOURS["ink"], "lw": 0.4, "zorder": 3}
     large = {"c": peak[above], "s": 28, "label": "not dominated"}
     dots = axes.scatter(time[above], drawn[above], **large, **looks)

@@ -13,7 +13,7 @@ from wmrlib import paper
 
 CIRCLE, SPEED = paper.CIRCLE_GAINS, paper.CIRCLE_SPEED
 GAINS, GENTLE = paper.OUTDOOR_GAINS, wmr.GENTLE_GAINS
-AXES = ["east", "north"]
+AXES, AT = ["east", "north"], wmr.Pose(0.0, 0.0, 0.0)
 
 
 def off_goal(far: float, aim: float, turned: float) -> wmr.Pose:
@@ -158,6 +158,29 @@ WAYS = {"axis": AXES, "radius": (0.01, 0.05), "heading": (0.5, 2.5)}
 def heading_first(k_rho, k_alpha, h, v_max):
     slower = wmr.modes(wmr.Gains(k_rho, k_alpha, h, v_max)).slower
     return (2 < k_alpha / (v_max * k_rho) < 1 + h) == (slower < 1)
+
+
+SAME_PATH = "any gains that agree in both drive the same path from the same scaled start"
+SCALED = {"distance": (0.5, 20.0), "alpha": ROUND, "theta": ROUND, "kappa": (0.3, 6.0)}
+SCALES = {"h": (0.1, 6.0), "k_rho": (0.1, 5.0), "v_max": (0.2, 8.0)}
+
+
+@headline("07", SAME_PATH, at_most=1e-6, **SCALED, **SCALES)
+def scaled_apart(distance, alpha, theta, kappa, h, k_rho, v_max):
+    ends = []
+    for size, speed in ((1.0, 1.0), (1 / k_rho, v_max)):
+        error, time = wmr.PolarError(distance * size, alpha, theta), size / speed
+        start, gains = wmr.pose_from_polar(error, AT), wmr.Gains(1 / size, kappa / time, h, speed)
+        how = {"duration": 500 * time, "dt": 0.05 * time, "arrival_radius": 0.01 * size}
+        end = wmr.arrival(wmr.simulate(start, AT, gains, method="continuous", **how))
+        ends.append([end.path_length / size, end.time / time, end.peak_omega * time])
+    return np.abs(np.divide(*ends) - 1).max()
+
+
+@headline("07", r"$h = \kappa^2/4$, enters it at $\kappa = 2$ only", kappa=(0.01, 20.0))
+def enters_at_two(kappa):
+    at = wmr.modes(wmr.Gains(1.0, kappa, kappa**2 / 4, 1.0))
+    return math.isclose(at.damping, 1.0) and (at.slower < 1) == (kappa > 2)
 
 
 @headline("07", NO_FASTER, at_most=0.5 + 1e-9, unit="1/s", **POSITIVE | {"k_alpha": [1.0]})

@@ -20,7 +20,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "lyapunov": ["bowl", "small_angle", "two_bars"],
         "pose_to_pose": ["heading_left", "x_axis"],
         "circle": ["lag", "lqr"],
-        "design": ["phase", "poles"],
+        "design": ["poles", "window"],
         "sampling": ["unit_circle", "wheel_limit"],
         "noise": ["bench", "late"],
         "audit": ["rising", "threshold"],

@@ -2,14 +2,12 @@
 
 from __future__ import annotations
 
-import math
-
 from wmrbook.live.parts import Ask, Knob, Live
-from wmrlib import Gains, Pose, modes, paper
+from wmrlib import GENTLE_GAINS, Gains, Pose, arrival, gains_for, modes, paper, simulate
 
 GAINS = Gains(k_rho=0.5, k_alpha=2.0, h=0.5, v_max=4.0)
 HEAVIER = 4.0  # times h, in the prediction
-ASKED = (0.0, 40.0)  # deg, alpha and theta
+SIEGWART = (3.0, 8.0, -1.5)  # k_rho, k_alpha, k_beta of Siegwart et al. (2011), section 3.6.2
 START, GOAL = Pose(-2.0, -0.8, 0.6), Pose(0.0, 0.0, 0.0)
 
 
@@ -47,29 +45,43 @@ def poles() -> Live:
     )
 
 
-def phase() -> Live:
-    """The plane of the angles near the goal: a state to drag, and its way home."""
-    gains = paper.OUTDOOR_GAINS
-    damping = float(modes(gains).damping)
-    kept = math.exp(-math.pi * damping / math.sqrt(1.0 - damping**2))
+def window() -> Live:
+    """The plane of kappa and h, the window in it, and what a robot with such gains does."""
+    named = {
+        "paper": paper.OUTDOOR_GAINS,
+        "gentle": GENTLE_GAINS,
+        "designed": gains_for(0.8, heading_rate=1.6),
+    }
+    points = [(name, modes(it).kappa, it.h) for name, it in named.items()]
+    # near the goal alpha' = -(k_alpha - k_rho) alpha + k_beta theta, and theta' = k_rho alpha
+    k_rho, k_alpha, k_beta = SIEGWART
+    points.append(("Siegwart", (k_alpha - k_rho) / k_rho, -k_beta / k_rho))
+    twice = GAINS._replace(k_alpha=2 * GAINS.k_alpha, v_max=2 * GAINS.v_max)
+    how = {"method": "continuous", "arrival_radius": 0.01}
+    one, two = (arrival(simulate(START, GOAL, gains, **how)) for gains in (GAINS, twice))
+    longer, time = two.path_length / one.path_length, two.time / one.time
+    becomes = {
+        "A wider path: a faster robot turns later": longer > 1.01,
+        "A tighter path: it steers harder": longer < 0.99,
+        "The same path, in half the time": 0.99 < longer < 1.01 and 0.45 < time < 0.55,
+        "The same path, in the same time": 0.99 < longer < 1.01 and 0.95 < time < 1.05,
+    }
     return Live(
-        "phase",
-        "With a damping of {damping}, from {alpha} and {theta}, the state "
-        "{home}. Until then *theta* {turned}.",
+        "window",
+        "With {kappa} and {h} the gains are {place}: near the goal the heading settles {compared} "
+        "than the distance. From *r* = 0.1 on it is up to {late} off, from 0.01 on up to {later}.",
         {
-            "damping": Knob(round(damping, 3), 0.05, 2.0, 0.01, "damping ratio", "", "zeta"),
-            "alpha": Knob(ASKED[0], -60.0, 60.0, 1.0, "alpha at first", "°", "alpha"),
-            "theta": Knob(ASKED[1], -60.0, 60.0, 1.0, "theta at first", "°", "theta"),
-            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far on its way", label="moved", plays=8.0),
+            "kappa": Knob(0.125, 0.05, 6.0, 0.05, "kappa, k_alpha/(v_max k_rho)", "", "kappa"),
+            "h": Knob(0.3, 0.05, 6.0, 0.05, "weight of the final heading, h", "", "h"),
         },
-        data={"gains": gains._asdict(), "asked": ASKED},
+        data={"named": points, "start": [-1.0, -4.5, 0.6]},
         ask=Ask(
-            "sketch",
-            f"With the paper's gains the damping is {damping:.3f}. Near the goal the state starts "
-            "at alpha = 0 and theta = 40°. Sketch its way to the middle.",
-            f"Each half swing keeps {kept:.0%} of the one before, on the other side of the middle. "
-            "For small angles how much is kept follows from the damping ratio alone.",
-            pane="plane",
-            at=ASKED,
+            "choose",
+            "v_max and k_alpha are doubled; k_rho and h stay. What becomes of the path?",
+            "In lengths of 1/k_rho and times of 1/(v_max k_rho) the loop has two numbers left, "
+            "k_alpha/(v_max k_rho) and h. Neither changed, so the path stays; the clock runs twice "
+            "as fast.",
+            key=[*becomes.values()].index(True),
+            options=(*becomes,),
         ),
     )

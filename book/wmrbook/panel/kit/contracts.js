@@ -16,7 +16,6 @@ export const CONTRACTS = {
   'live/lqr': '47c2554b',
   'live/one_step': '730eccb8',
   'live/passing': '1f3ce541',
-  'live/phase': '2e9caa09',
   'live/polar_angles': 'dbf4f159',
   'live/poles': '467b55a8',
   'live/rising': '99758e7c',
@@ -28,5 +27,6 @@ export const CONTRACTS = {
   'live/two_bars': 'c5d73944',
   'live/unit_circle': '364ae8fe',
   'live/wheel_limit': '312a1d30',
+  'live/window': '8a0e6ef4',
   'live/x_axis': '230649d3',
 };

@@ -5,7 +5,7 @@ import { made } from './hands.js';
 import { inDegrees, written } from './style.js';
 import { modes } from './simulate.js';
 
-const FIGURES = ['arrival', 'heading', 'peak', 'length', 'damping', 'slower'];
+const FIGURES = ['arrival', 'heading', 'peak', 'length', 'window', 'slower'];
 
 // The closed loop near a goal that stands still; a law that needs a moving one has no such figures.
 function modesOf(settings) {
@@ -16,6 +16,18 @@ function modesOf(settings) {
 function comparedWith(slower) {
   return slower >= 1 ? `${written(slower, '', 2)} × slower`
       : `${written(1 / slower, '', 2)} × faster`;
+}
+
+// Where kappa lies with the corrected law, in words, and on a bar below them from 0 to 6.
+function placeInWindow({ kappa }, { h }) {
+  const high = Number((1 + h).toPrecision(3)),
+      share = (value) => `${Math.min(value / 6, 1) * 100}%`;
+  return {
+    name: h > 1 ? `κ, window 2–${high}` : 'κ, no window', text: written(kappa),
+    note: `k_alpha/(v_max k_rho): the heading settles before the distance if it is above 2 and ` +
+        `below 1 + h = ${high}`,
+    bar: { kappa: share(kappa), low: share(2), high: share(Math.max(high, 2)) },
+  };
 }
 
 export function figuresOf(settings, run, summary) {
@@ -36,8 +48,8 @@ export function figuresOf(settings, run, summary) {
         note: 'largest turning rate' },
     length: { name: 'Path length', text: written(summary.pathLength, 'm'),
         note: 'backward motion included' },
-    damping: { name: 'Damping', text: known ? written(near.damping) : '–',
-        note: known ? 'of the heading near a goal that stands still; 1 is critical' : none },
+    window: settings.law === 'corrected' ? placeInWindow(near, settings.gains)
+        : { name: 'κ', text: '–', note: 'of the corrected law' },
     slower: {
       name: 'Heading settles',
           text: known && Number.isFinite(near.slower) ? comparedWith(near.slower) : '–',
@@ -76,6 +88,9 @@ export function buildFigures(root) {
       name.textContent = figures ? figures[key].name : name.textContent;
       value.textContent = figures ? figures[key].text : '–';
       value.title = name.title = figures ? figures[key].note : '';
+      value.removeAttribute('style');
+      for (const [part, share] of Object.entries((figures && figures[key].bar) || {}))
+        value.style.setProperty(`--${part}`, share);
       old.textContent = pinned ? `pinned: ${pinned[key].text}` : '';
     }
   };

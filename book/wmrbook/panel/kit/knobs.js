@@ -6,7 +6,7 @@ import { held, made } from './hands.js';
 
 const DRAG = 5; // px of a number's drag a step
 const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
-    zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
+    kappa: 'κ', zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
 export const inWords = (value) =>
     (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')
     : String(value));

@@ -117,12 +117,20 @@ export function landscape(options) {
 }
 
 // How the closed loop settles near the goal (see wmrlib.modes): rate in 1/s, naturalFrequency in
-// rad/s, damping, and how many times slower the heading settles than the distance: Infinity where
-// the heading isn't steered.
+// rad/s, damping, how many times slower the heading settles than the distance (Infinity where the
+// heading isn't steered), and kappa.
 /** @param {Gains} gains @param {string} law */
 export function modes(gains, law = 'corrected') {
   const [rate, a, b] = LAWS[law].modes(gains), half = a / 2, gap = half * half - b;
   const settling = gap > 0 ? b / (half + Math.sqrt(gap)) : half;
   return { rate, naturalFrequency: Math.sqrt(b), damping: half / Math.sqrt(b),
-      slower: b === 0 ? Infinity : rate / settling };
+      slower: b === 0 ? Infinity : rate / settling, kappa: a / rate };
+}
+
+// The roots of s^2 + a s + b.
+export function polesOf(a, b) {
+  const half = a / 2, gap = half * half - b;
+  if (gap < 0) return [[-half, Math.sqrt(-gap)], [-half, -Math.sqrt(-gap)]];
+  const fast = -half - Math.sqrt(gap);
+  return [[fast ? b / fast : 0, 0], [fast, 0]]; // so the slow one keeps its digits
 }

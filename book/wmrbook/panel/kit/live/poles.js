@@ -5,17 +5,9 @@ import { DEGREES, complex, written } from '../style.js';
 import { LAWS, wrap } from '../model.js';
 import { driven, poseAt } from '../runs.js';
 import { live } from '../live.js';
-import { modes } from '../simulate.js';
+import { modes, polesOf } from '../simulate.js';
 
 const CLEAR = 0.12; // 1/s: nearer the axis than this a hand means the axis
-
-// s^2 + a s + b = 0
-function polesOf(a, b) {
-  const half = a / 2, gap = half * half - b;
-  if (gap < 0) return [[-half, Math.sqrt(-gap)], [-half, -Math.sqrt(-gap)]];
-  const fast = -half - Math.sqrt(gap);
-  return [[fast ? b / fast : 0, 0], [fast, 0]]; // so the slow one keeps its digits
-}
 
 function gainsOf([first, second], pace) {
   const a = -(first[0] + second[0]), b = first[0] * second[0] - first[1] * second[1];
