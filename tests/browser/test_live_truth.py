@@ -286,18 +286,6 @@ def bowl(values, found, data) -> None:
     assert found["height"] == pytest.approx(height[found["k"]], abs=AGREES)
 
 
-def small_angle(values, found, data) -> None:
-    alpha, (gains, theta) = math.radians(values["alpha"]), (wmr.GENTLE_GAINS, 1.0)
-    v, omega = wmr.control_law(0.5, alpha, theta, gains)
-    steered = v / 0.5 * (alpha + gains.h * theta)
-    assert found["factor"] * steered == pytest.approx(omega - gains.k_alpha * alpha, abs=1e-12)
-    x, y = np.transpose(found["rod"])
-    steps = np.diff(x) + 1j * np.diff(y)
-    assert np.abs(steps).sum() == pytest.approx(2.0, rel=1e-3)
-    assert np.angle(steps[-1]) - np.angle(steps[40]) == pytest.approx(alpha * 39 / 40)
-    assert math.hypot(x[-1] - x[0], y[-1] - y[0]) == pytest.approx(2 * abs(found["factor"]))
-
-
 def two_bars(values, found, data) -> None:
     def parts(alpha, theta):
         twist = {

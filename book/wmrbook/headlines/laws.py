@@ -23,7 +23,7 @@ def _around(distance, direction, heading) -> Pose:
 
 PARKED = {"at_most": 0.01, "unit": "rad", **ANY}
 PARKS = "the robot parks from every start away from its goal, in continuous time"
-ATTRACTS = r"In the plane the goal attracts every pose with $\rho > 0$"
+ATTRACTS = r"In the plane the goal attracts every pose with $\rho>0$"
 ON_THE_GOAL = Before("in the plane it is attractive but", {"distance": [0.0], **ANY}, at_most=0.01)
 
 
@@ -40,13 +40,9 @@ def off_in_the_end(distance, direction, heading, k_rho, k_alpha, h, v_max) -> fl
 RISING = {"distance": (0.05, 60.0), **ANY_START, "L": (1e-4, 1e4), "dt": (0.01, 0.1)}
 NO_ROLE = Before("so L plays no role", {"method": ["arc"], **RISING}, at_most=0.0)
 ANY_L = "each part falls by itself, so in continuous time any L will do"
-ARCS = {"method": ["arc"], "dt": (0.002, 0.01), "L": [1.0], "distance": [0.5], **ANY_START}
-LONGER = ARCS | {"dt": [0.02], "L": (1.0, 100.0)}
-ROSE = Before("arcs of 0.02 s: V rises in 0 steps", LONGER, at_most=0.0)
 
 
 @headline("04", ANY_L, at_most=0.0, method=["continuous"], before=NO_ROLE, **RISING)
-@headline("04", "arc 0.01 s 0 %", at_most=0.0, before=ROSE, **ARCS)  # of the starts with L = 1
 def rise(method, dt, L, distance, direction, heading) -> float:
     start, gains = _around(distance, direction, heading), paper.OUTDOOR_GAINS
     run = wmr.simulate(start, GOAL, gains, method=method, dt=dt, arrival_radius=0.01)
@@ -54,26 +50,82 @@ def rise(method, dt, L, distance, direction, heading) -> float:
     return np.diff(value).max() / value[0]
 
 
+ANGLES = {"alpha": ROUND, "theta": ROUND, "rho": (0.05, 20.0), **ANY_GAINS}
+CUSP = "a drive has at most one cusp, with any gains"
+
+
+def _angles_over_time(rho, alpha, theta, gains, seconds):
+    start = wmr.pose_from_polar(wmr.PolarError(rho, alpha, theta), GOAL)
+    how = {"method": "continuous", "arrival_radius": 0.0, "dt": seconds / 5000}
+    return wmr.simulate(start, GOAL, gains, duration=seconds, **how)
+
+
+@headline("04", CUSP, at_most=1.0, **ANGLES)
+def cusps(rho, alpha, theta, k_rho, k_alpha, h, v_max) -> float:
+    gains = Gains(k_rho, k_alpha, h, v_max)
+    run = _angles_over_time(rho, alpha, theta, gains, 2.0 * rho / v_max + 10.0 / k_alpha)
+    return float(np.sum(np.diff(np.cos(run.alpha) > 0)))
+
+
+NO_TIME = Before("LaSalle gives a limit and no time", {"much": [0.0], **ANGLES}, at_most=0.0)
+BOUNDS = "Both bounds hold"
+
+
+@headline("04", BOUNDS + "; (4.11)", at_most=0.0, unit="s", much=[1.0], before=NO_TIME, **ANGLES)
+def later_than_promised(much, rho, alpha, theta, k_rho, k_alpha, h, v_max) -> float:
+    """Seconds, for the distance to reach a hundredth of itself; `much` of what turning may cost."""
+    gains, rate, near = Gains(k_rho, k_alpha, h, v_max), v_max * k_rho, rho / 100
+    straight = math.log(math.expm1(k_rho * rho) / math.expm1(k_rho * near)) / rate
+    turning = much * (alpha**2 + h * theta**2) / (2 * k_alpha)
+    run = _angles_over_time(rho, alpha, theta, gains, 1.2 * straight + turning + 20.0 / k_alpha)
+    passed = run.t[np.argmax(run.rho <= near)] if run.rho.min() <= near else math.inf
+    return passed - straight - turning - run.t[1]
+
+
+AWAY = "From 0.5 m over half park facing away"
 WRAPPED = Before(r"With $\theta$ wrapped it still is", {"seed": SEEDS}, at_most=0.0)
-AWAY = "over half of the robots that start at 180 deg stop at 5 cm facing away"
 BESIDE = "from however near, the heading swings by more than 90 deg"
 
 
 @headline("04", AWAY, at_least=50.0, unit="%", seed=SEEDS, before=WRAPPED)
-@headline("04", "and none at 170 deg", at_most=0.0, unit="%", theta_deg=[-170.0, 170.0], seed=SEEDS)
-def facing_away(seed, theta_deg=180.0, noise_deg=2.0) -> float:
-    theta, random, count = math.radians(theta_deg), np.random.default_rng(seed), 1000
-    state = -math.cos(theta) / 2, -math.sin(theta) / 2, theta
-    x, y, heading = (np.full(count, it) for it in state)
-    going = np.full(count, True)
-    while going.any():
-        sight = np.arctan2(-y, -x) + math.radians(noise_deg) * random.normal(size=count)
-        distance = np.hypot(x, y)
-        going = distance > 0.05
-        seen = wmr.wrap_angle(sight - heading), wmr.wrap_angle(sight)
-        twist = wmr.control_law(distance, *seen, paper.OUTDOOR_GAINS)
-        x, y, heading = wmr.advance(Pose(x, y, heading), *(going * it for it in twist), 0.01)
-    return 100 * np.mean(np.cos(heading) < 0)
+@headline("04", "0.2 rad", at_most=0.1, unit="%", seed=SEEDS, hysteresis=[0.2])
+@headline(
+    "04",
+    "From 0.2 m the drive ends",
+    at_least=99.0,
+    seed=SEEDS,
+    hysteresis=[0.0, 0.2],
+    distance=[0.2],
+)
+def facing_away(seed, distance=0.5, hysteresis=0.0) -> float:
+    seen = wmr.Receiver(sight=np.full(1000, math.radians(2.0)))
+    start = wmr.pose_from_polar(wmr.PolarError(distance, 0.0, math.pi), GOAL)
+    how = {"method": "arc", "dt": 0.01, "receiver": seen, "seed": seed, "hysteresis": hysteresis}
+    ends = wmr.sweep(start, GOAL, paper.OUTDOOR_GAINS, progress=False, **how)
+    return 100 * np.mean(abs(ends.heading_error) > math.pi / 2)
+
+
+LEMMA = r"Two jumps are at least $4\pi/\lambda$ apart"
+
+
+@headline(
+    "04", LEMMA, at_least=1.0, distance=(0.5, 20.0), seed=SEEDS, h=(0.005, 1.0), k_alpha=(0.1, 4.0)
+)
+def least_gap(distance, seed, h, k_alpha) -> float:
+    """The shortest time between two jumps without alpha passing 90 deg, over 4 pi / lambda."""
+    gains = paper.OUTDOOR_GAINS._replace(h=h, k_alpha=k_alpha)
+    alpha, theta = np.random.default_rng(seed).uniform([-3.1, 2.5], 3.1)
+    theory = 4.0 * math.pi / (gains.v_max * gains.k_rho)
+    state, last, gap, dt = np.array([distance, alpha, theta]), -math.inf, math.inf, 0.002
+    for k in range(10_000):
+        ahead = math.cos(state[1]) > 0
+        v, omega = wmr.control_law(*state, gains)
+        state = state + dt * np.array(wmr.polar_rate(state[0], state[1], v, omega))
+        last = last if ahead == (math.cos(state[1]) > 0) else -math.inf
+        if abs(state[2]) > math.pi:
+            state[2] -= math.copysign(2 * math.pi, state[2])
+            gap, last = min(gap, dt * (k + 1) - last), dt * k
+    return min(gap / theory, 2.0)
 
 
 @headline("04", BESIDE, at_least=90.0, unit="deg", beside=(1e-6, 1.0), side=[-1, 1], **ANY_GAINS)

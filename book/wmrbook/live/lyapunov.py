@@ -15,7 +15,6 @@ GOAL = Pose(0.0, 0.0, 0.0)
 NEAR = 0.5  # m from the goal
 LOOK = (-30.0, 35.0)  # deg, yaw and tilt of the bowl at first
 ASKED = (0.0, 60.0)  # deg, alpha and theta
-BENT = 60.0  # deg
 
 
 def bowl() -> Live:
@@ -108,35 +107,5 @@ def two_bars() -> Live:
             "heading is wrong. That V never rises is not enough; it must not stay level either.",
             key=[*parts.values()].index(True),
             options=(*parts,),
-        ),
-    )
-
-
-def small_angle() -> Live:
-    """sin(alpha)/alpha, the share of its length that the ends of a bent rod are apart."""
-    alpha, theta = np.array([-1e-4, 1e-4]), math.radians(ASKED[1])
-    v, omega = control_law(NEAR, alpha, theta, OUTDOOR_GAINS)
-    steered = v / NEAR * (alpha + OUTDOOR_GAINS.h * theta)
-    factor = (omega - OUTDOOR_GAINS.k_alpha * alpha) / steered
-    ways = {
-        "It jumps from \u22121 to 1": (-1.0, 1.0),
-        "It goes to 0": (0.0, 0.0),
-        "It goes to 1 from either side": (1.0, 1.0),
-        "It grows without bound": (math.inf, math.inf),
-    }
-    return Live(
-        "small_angle",
-        "A rod bends by {alpha} from its middle to each end. Its ends are [sin *alpha* / *alpha* = "
-        "{factor}] of its length apart{straight}.",
-        {"alpha": Knob(BENT, -180.0, 180.0, 1.0, "alpha", "°", "alpha")},
-        data={"bent": BENT},
-        ask=Ask(
-            "choose",
-            "The steering has the factor sin(alpha)/alpha. A robot turns towards its goal, and "
-            "alpha passes through 0, where that reads 0/0. What does the factor do there?",
-            "It is 1 - alpha²/6 + …, a series that divides by nothing. Bend a rod less and less: "
-            "the distance between its ends grows to its whole length.",
-            key=[np.allclose(factor, each, atol=1e-6) for each in ways.values()].index(True),
-            options=(*ways,),
         ),
     )

@@ -20,7 +20,6 @@ export const CONTRACTS = {
   'live/poles': '467b55a8',
   'live/rising': '99758e7c',
   'live/silence': '651bc34e',
-  'live/small_angle': '3a8858c6',
   'live/stopping': '531fdfc5',
   'live/threshold': '8f0e7e19',
   'live/turning_centre': '38a38b22',
