@@ -41,6 +41,7 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "polar_angles polar_error": lambda f: lambda *a: f(*a)._replace(alpha=-f(*a).alpha),
     "half_turn simulate": lambda f: lambda a, b, k, **o: f(_turned(a), b, k, **o),
     "bowl simulate": _uphill,
+    "torus sweep": lambda f: lambda *a, **o: f(*a, **o | {"hysteresis": 0.4}),
     "two_bars control_law": lambda f: lambda *a: (-f(*a)[0], f(*a)[1]),
     "x_axis polar_error": lambda f: lambda a, b: f(b, a),
     "heading_left simulate": _uphill,

@@ -286,6 +286,18 @@ def bowl(values, found, data) -> None:
     assert found["height"] == pytest.approx(height[found["k"]], abs=AGREES)
 
 
+def torus(values, found, data) -> None:
+    start, robots = wmr.Pose(values["distance"], 0.0, math.pi), data["robots"]
+    seen = wmr.Receiver(sight=np.full(robots, math.radians(values["noise"])))
+    how = {"method": "arc", "dt": data["dt"], "arrival_radius": data["radius"]}
+    how |= {"hysteresis": values["hysteresis"], "seed": data["seed"]}
+    gains = wmr.Gains(**data["gains"])
+    ends = wmr.sweep(start, pose(data["goal"]), gains, receiver=seen, **how)
+    off = np.array([run["off"] for run in found["runs"]])
+    assert np.abs(wmr.wrap_angle(off - ends.heading_error)).max() < AGREES
+    assert found["lost"] == np.sum(np.abs(ends.heading_error) > math.pi / 2)
+
+
 def two_bars(values, found, data) -> None:
     def parts(alpha, theta):
         twist = {

@@ -91,7 +91,7 @@ BESIDE = "from however near, the heading swings by more than 90 deg"
 @headline("04", "0.2 rad", at_most=0.1, unit="%", seed=SEEDS, hysteresis=[0.2])
 @headline(
     "04",
-    "From 0.2 m the drive ends",
+    "From 0.2 m the drive ends too soon",
     at_least=99.0,
     seed=SEEDS,
     hysteresis=[0.0, 0.2],

@@ -17,7 +17,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "earth": ["bearing", "flat_map"],
         "robot": ["commutator", "one_step", "turning_centre"],
         "angles": ["half_turn", "polar_angles"],
-        "lyapunov": ["bowl", "two_bars"],
+        "lyapunov": ["bowl", "torus", "two_bars"],
         "pose_to_pose": ["heading_left", "x_axis"],
         "circle": ["lag", "lqr"],
         "design": ["poles", "window"],

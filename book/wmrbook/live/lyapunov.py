@@ -7,7 +7,16 @@ import math
 import numpy as np
 
 from wmrbook.live.parts import Ask, Choice, Knob, Live
-from wmrlib import GENTLE_GAINS, PolarError, Pose, polar_rate, pose_from_polar, simulate
+from wmrlib import (
+    GENTLE_GAINS,
+    PolarError,
+    Pose,
+    Receiver,
+    polar_rate,
+    pose_from_polar,
+    simulate,
+    sweep,
+)
 from wmrlib.control import control_law
 from wmrlib.paper import OUTDOOR_GAINS
 
@@ -15,6 +24,8 @@ GOAL = Pose(0.0, 0.0, 0.0)
 NEAR = 0.5  # m from the goal
 LOOK = (-30.0, 35.0)  # deg, yaw and tilt of the bowl at first
 ASKED = (0.0, 60.0)  # deg, alpha and theta
+FACING, NOISE = 0.5, 2.0  # m and deg, of the robots on the seam
+SWARM = {"robots": 40, "dt": 0.01, "radius": 0.05, "seed": 5, "steps": 1000}
 
 
 def bowl() -> Live:
@@ -107,5 +118,42 @@ def two_bars() -> Live:
             "heading is wrong. That V never rises is not enough; it must not stay level either.",
             key=[*parts.values()].index(True),
             options=(*parts,),
+        ),
+    )
+
+
+def torus() -> Live:
+    """Robots that start on the seam and see their goal through noise; hysteresis mends it."""
+    start = Pose(FACING, 0.0, math.pi)
+    seen = Receiver(sight=np.full(SWARM["robots"], math.radians(NOISE)))
+    how = {"method": "arc", "dt": SWARM["dt"], "arrival_radius": SWARM["radius"]}
+    ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=seen, seed=SWARM["seed"], **how)
+    share = np.mean(np.abs(ends.heading_error) > math.pi / 2)
+    ways = {
+        "All properly: the first reading decides, left or right": share < 0.1,
+        "Over half of them more than 90° off: their turns cancel": 0.5 < share < 0.9,
+        "None properly: no law turns a robot that looks the wrong way": share >= 0.9,
+    }
+    return Live(
+        "torus",
+        "With {noise} of noise and {hysteresis} of hysteresis, from {distance} away, {lost} "
+        "robots park over 90° off.",
+        {
+            "noise": Knob(NOISE, 0.0, 5.0, 0.1, "noise on the line of sight", "°", label="noise"),
+            "hysteresis": Knob(0.0, 0.0, 0.4, 0.05, "hysteresis", "rad", label="hysteresis"),
+            "distance": Knob(FACING, 0.2, 2.0, 0.1, "the start's distance", "m", label="start"),
+            "yaw": Knob(70.0, -180.0, 180.0, 1.0, "the torus, turned round", "°", label="turned"),
+            "tilt": Knob(50.0, 5.0, 85.0, 1.0, "the torus, tilted", "°", label="tilted"),
+        },
+        data={**SWARM, "goal": list(GOAL), "gains": OUTDOOR_GAINS._asdict()},
+        ask=Ask(
+            "choose",
+            "40 robots, 0.5 m from the goal, look at it, but should look the other way when they "
+            "get there: theta is 180°. Each reads the line of sight with 2° of noise, 100 times a "
+            "second. How do they park?",
+            "Where theta jumps, each reading sends a robot round the other way: its turns "
+            "cancel, and it drives straight on. Only those that drift off the seam in time turn.",
+            key=[*ways.values()].index(True),
+            options=(*ways,),
         ),
     )

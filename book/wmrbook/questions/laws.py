@@ -35,7 +35,9 @@ def level_spot() -> tuple[str, list[Option], str]:
     return ask, cases(computed, options), why
 
 
-@question(4, "We proved it. Brockett says impossible. Who is right?", "A millimetre beside the goal")
+@question(
+    4, "We proved it. Brockett says impossible. Who is right?", "A millimetre beside the goal"
+)
 def millimetre_beside() -> tuple[str, list[Option], str]:
     place, runs = {"method": "continuous", "arrival_radius": 1e-8}, []
     for gains in (wmr.GENTLE_GAINS, wmr.paper.OUTDOOR_GAINS, wmr.paper.CIRCLE_GAINS):

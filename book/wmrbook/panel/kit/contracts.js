@@ -22,6 +22,7 @@ export const CONTRACTS = {
   'live/silence': '651bc34e',
   'live/stopping': '531fdfc5',
   'live/threshold': '8f0e7e19',
+  'live/torus': '3fb68f23',
   'live/turning_centre': '38a38b22',
   'live/two_bars': 'c5d73944',
   'live/unit_circle': '364ae8fe',

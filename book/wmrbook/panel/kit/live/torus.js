@@ -1,0 +1,134 @@
+// Robots that start on the seam of theta and see their goal through noise: their ways over the two
+// angles, on a torus and laid flat, and in the plane.
+
+import { DEGREES } from '../style.js';
+import { heldRun, remembered } from '../runs.js';
+import { LAWS, polarClosingRate, polarFromPose, wrap } from '../model.js';
+import { live } from '../live.js';
+import { normals } from '../random.js';
+
+const TUBE = 0.45, AROUND = 48, QUARTER = Math.PI / 2;
+
+// Where each of the robots ends, and its angles on the way, wrapped.
+const swarm = remembered(({ robots, seed, noise, distance, ...drive }) =>
+  Array.from({ length: robots }, (_, robot) => {
+    const [goalX, goalY] = drive.goal, sight = (k, [x, y, heading]) => {
+      const turn = noise * normals(robot, k, seed, 1)[0], c = Math.cos(turn), s = Math.sin(turn);
+      const [east, north] = [x - goalX, y - goalY];
+      return [goalX + c * east - s * north, goalY + s * east + c * north, heading];
+    };
+    const { poses } = heldRun({ ...drive, start: [distance, 0, Math.PI], sight });
+    const angles = poses.map((pose) => polarFromPose(...pose, ...drive.goal).slice(1));
+    return { poses, angles, off: wrap(poses.at(-1)[2] - drive.goal[2]) };
+  }));
+
+// A point of the torus on the screen, alpha = 0 on top, and whether it is on the side that is seen.
+function turned(yaw, tilt) {
+  const [c, s, up, down] = [Math.cos(yaw / DEGREES), Math.sin(yaw / DEGREES),
+      Math.cos(tilt / DEGREES), Math.sin(tilt / DEGREES)];
+  const shown = (x, y, z) => [x * c - y * s, (x * s + y * c) * down + z * up,
+      z * down - (x * s + y * c) * up];
+  return ([alpha, theta]) => {
+    const [ca, sa, ct, st] =
+        [Math.sin(alpha), Math.cos(alpha), Math.cos(theta), Math.sin(theta)];
+    const [x, y] = shown((1 + TUBE * ca) * ct, (1 + TUBE * ca) * st, TUBE * sa);
+    return { at: [x, y], front: shown(ca * ct, ca * st, sa)[2] > 0 };
+  };
+}
+
+// A line over the torus: what is behind is thin and pale.
+function over(pane, view, points, role, width) {
+  let piece = [], side = null;
+  const end = () => {
+    if (piece.length > 1)
+      pane.line(piece, side ? role : 'line', { width: side ? width : 1 });
+  };
+  for (const { at, front } of points.map(view)) {
+    if (side !== null && front !== side) { end(); piece = piece.slice(-1); }
+    side = front;
+    piece.push(at);
+  }
+  end();
+}
+
+// A way over the square, in degrees, cut where theta jumps.
+function flat(pane, angles, role, width) {
+  let piece = [];
+  for (const [alpha, theta] of angles) {
+    const point = [alpha * DEGREES, theta * DEGREES];
+    if (piece.length && Math.abs(point[1] - piece.at(-1)[1]) > 180) {
+      pane.line(piece, role, { width });
+      piece = [];
+    }
+    piece.push(point);
+  }
+  pane.line(piece, role, { width });
+}
+
+// Which way the law takes the angles, as a short arrow.
+function field(pane, alpha, theta, rho, gains) {
+  const commanded = LAWS.corrected.formula(rho, alpha, theta, gains);
+  const [, alphaRate, thetaRate] = polarClosingRate(rho, alpha, ...commanded);
+  const size = 16 / Math.max(Math.hypot(alphaRate, thetaRate), 1e-9);
+  const [x, y] = [alpha * DEGREES, theta * DEGREES];
+  pane.arrow(x, y, x + size * alphaRate, y + size * thetaRate, 'ink', { width: 1.2 });
+}
+
+const circle = (point) =>
+    Array.from({ length: AROUND + 1 }, (_, k) => point(2 * Math.PI * k / AROUND));
+
+export default live('torus', {
+  find({ noise, hysteresis, distance }, { data }) {
+    const runs = swarm({ ...data, noise: noise / DEGREES, hysteresis, distance }),
+        lost = runs.filter(({ off }) => Math.abs(off) > QUARTER).length;
+    return { runs, lost };
+  },
+  panes: ({ distance }, { runs, lost }) => ({
+    torus: {
+      x: [-1.55, 1.55], y: [-1.3, 1.3], equal: true, bare: true,
+      given: 'A torus of the two angles, with the seam as a ring about its tube.',
+      alt: `On the torus ${runs.length} ways begin on the seam; ${lost} never leave it for good.`,
+      scrub: (x, y, moved, now) => moved
+          && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES,
+          tilt: Math.min(Math.max(now.tilt + moved[1] / 2, 5), 85) },
+    },
+    square: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true,
+        given: 'The torus laid flat: its upper and its lower edge are the seam.',
+        alt: 'The same ways over the square of alpha and theta.' },
+    plane: { x: [-0.4 * distance, 1.4 * distance, 'x [m]'],
+        y: [-0.7 * distance, 0.7 * distance, 'y [m]'], equal: true,
+        given: 'The goal, and the robot that looks at it from the front.',
+        alt: `The ways in the plane: ${lost} of ${runs.length} robots park over 90 degrees off.` },
+  }),
+  draw({ torus, square, plane }, { yaw, tilt, distance }, { runs }, hidden, { data }) {
+    const view = turned(yaw, tilt);
+    for (let k = 0; k < 12; k += 1) {
+      over(torus, view, circle((alpha) => [alpha, Math.PI * k / 6]), 'ghost', 0.8);
+      over(torus, view, circle((theta) => [Math.PI * k / 6, theta]), 'ghost', 0.8);
+    }
+    over(torus, view, circle((alpha) => [alpha, Math.PI]), 'rising', 3);
+    for (const edge of [-180, 180])
+      square.line([[-180, edge], [180, edge]], 'rising', { width: 5 });
+    for (const theta of [-150, -90, 90, 150])
+      for (let alpha = -150; alpha <= 150; alpha += 60)
+        field(square, alpha / DEGREES, theta / DEGREES, distance, data.gains);
+    if (!hidden)
+      for (const { poses, angles, off } of runs) {
+        const role = Math.abs(off) > QUARTER ? 'rising' : 'path';
+        over(torus, view, angles, role, 1.5);
+        flat(square, angles, role, 1.5);
+        const [x, y, heading] = poses.at(-1), size = 0.1 * distance;
+        plane.line(poses, role, { width: 1.5 });
+        plane.arrow(x, y, x + size * Math.cos(heading), y + size * Math.sin(heading), role,
+            { width: 1.5 });
+      }
+    const goal = view([0, 0]), start = view([0, Math.PI]);
+    if (goal.front) torus.dot(...goal.at, 'goal');
+    if (start.front) torus.dot(...start.at, 'start', { size: 4 });
+    torus.text('seam', ...view([QUARTER, Math.PI]).at, { role: 'rising', dx: 8, size: 13 });
+    square.dot(0, 0, 'goal');
+    plane.pose([distance, 0, Math.PI], 'start');
+    plane.pose(data.goal, 'goal');
+  },
+  say: (values, { runs, lost }) => ({ lost: `${lost} of ${runs.length}` }),
+});
