@@ -106,6 +106,7 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
         backing = int((many.v[:, 0] < -1e-9).sum())
         longest = np.nansum(steps, axis=1).max()
         texts.append(f"{title} {backing} set off backwards, the longest path has {longest:.1f} m")
+    figure.draw_without_rendering()  # the layout knows titles beside equal scales only then
     count, far = len(many.x), many.rho[:, 0].max()
     what = f"Paths to a goal from {count} starts on a circle of {far:.0f} m"
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
