@@ -61,12 +61,11 @@ def path(
 
 def _draw_end(axes: Axes, run: Trajectory, near: float) -> None:
     """An inset with the last bit of the way, beside the path."""
-    goal, end = pose_at(run.goal, -1), pose_at(run, -1)
+    goal = pose_at(run.goal, -1)
     left = 0.57 if np.median(run.x) <= np.mean(axes.get_xlim()) else 0.04
     inset = axes.inset_axes([left, 0.05, 0.4, 0.4], aspect="equal")
     inset.plot(run.x, run.y, color=COLOURS["path"])
     dart(inset, goal, 0.2 * near, "none", "goal", lw=2.0, zorder=4)
-    dart(inset, end, 0.13 * near, "robot")
     inset.set(xlim=(goal.x - near, goal.x + near), ylim=(goal.y - near, goal.y + near))
     inset.set(xticks=[], yticks=[])
     inset.set_title(f"within {near:g} m", fontsize=10)
