@@ -56,7 +56,7 @@ export default live('window', {
       { data: { start, named } }) {
     if (!hidden) plane.area([[2, 1], [2, 99], [100, 99]], 'start', 0.2);
     if (!hidden) plane.curve((x) => x * x / 4, 'ghost', { width: 1.5, dash: [5, 4] });
-    if (!hidden) plane.text('damping 1', MOST, 5.5, { role: 'ghost', align: 'right', size: 13 });
+    if (!hidden) plane.text('damping 1', MOST, 4.9, { role: 'ghost', align: 'right', size: 13 });
     if (!hidden) plane.text('window', 2, 5.5, { role: 'start', dx: 6, size: 13 });
     for (const [name, x, y] of named) {
       plane.dot(x, y, 'ink', { size: 4 });
