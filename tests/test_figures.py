@@ -35,6 +35,14 @@ def drive(law="corrected", gains=GAINS, x_axis="east", **options):
 
 
 @cache
+def around(gains):
+    """Three runs from 2 m away, the first from straight ahead of the goal."""
+    starts = wmr.Pose(np.array([2.0, -1.0, 0.0]), np.array([0.0, 3.0**0.5, -2.0]), np.zeros(3))
+    how = {"trajectories": True, "dt": 0.02, "progress": False}
+    return wmr.sweep(starts, wmr.Pose(0.0, 0.0, 0.0), gains, **how)[1]
+
+
+@cache
 def chase():
     return wmr.track(paper.circle, paper.CIRCLE_START, CIRCLE_GAINS, duration=40.0)
 
@@ -134,9 +142,7 @@ CASES = {
         {"one": drive(), "two": drive("printed", x_axis="north")}, "v", level=(4.0, "the limit")
     ),
     "compare_runs, log": lambda: figures.compare_runs({"one": chase()}, "rho", log=True),
-    "last_seconds": lambda: figures.last_seconds(
-        {"one": drive(), "two": wmr.simulate(CASE.start, CASE.goal, GAINS)}
-    ),
+    "ring": lambda: figures.ring({"one": around(GAINS), "two": around(GAINS)}, wmr.Pose(0, 0, 0)),
     "snapshots, tall": lambda: figures.snapshots(drive(), [0.0, 5.0, 10.0, drive().t[-1]]),
     "snapshots, wide": lambda: figures.snapshots(drive(x_axis="north"), [0.0, 5.0, 14.0]),
     "heading_shares": lambda: figures.heading_shares(
@@ -208,9 +214,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "one goes from 3.96 to 0.36 m/s",
         "a dotted line marks the limit, 4 m/s",
     ],
-    "last_seconds": lambda: [
-        "one ends at 15.5 s, |omega| at most 4.3 rad/s; two ends at 15.6 s, |omega| at most 6.3"
-    ],
+    "ring": lambda: ["from 3 starts on a circle of 2 m: one 1 set off backwards, the longest path"],
     "compare_runs, log": lambda: ["one goes from 2.2 to 0.09 m."],
     "snapshots, tall": lambda: [
         "b after 5.0 s, 38.1 m to go, heading 84 deg",
@@ -412,6 +416,14 @@ def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
 def test_the_share_at_an_error_is_that_of_the_runs_below_it():
     line = axes_of("heading_shares")[0].lines[0].get_xydata()[1:-1]
     assert line.tolist() == [[1.0, 25.0], [2.0, 50.0], [4.0, 75.0], [30.0, 100.0]]
+
+
+def test_a_ring_has_a_path_from_each_start_and_a_panel_for_each_label():
+    panels = figures.ring({"one": around(GAINS), "two": around(GAINS)}, wmr.Pose(0, 0, 0)).figure
+    many = around(GAINS)
+    for axes in panels.axes:
+        np.testing.assert_array_equal(axes.lines[1].get_xdata(), many.x[1])
+        assert len(axes.lines) == len(many.x) == len(axes.patches) - 1  # the goal is one too
 
 
 def test_chase_draws_the_reference_and_each_run():

@@ -53,7 +53,20 @@ def test_v_is_red_where_it_rises_and_only_there():
     np.testing.assert_array_equal([begin, end], whole.get_xydata()[[rises, rises + 1]])
     assert np.isnan(gap[:, 1]).all()
     assert rising.get_linewidth() > 2 * whole.get_linewidth()  # a shape beside the colour
-    assert len(figures.lyapunov_over_time(RUN).figure.axes[0].lines) == 1
+    (only,) = figures.lyapunov_over_time(RUN).figure.axes
+    assert len(only.lines) == 1
+    assert only.get_legend() is None  # nothing to tell apart
+
+
+def test_an_inset_shows_the_end_of_the_path_around_the_goal():
+    (inset,) = figures.path(RUN, near=2.0).figure.axes[0].child_axes
+    goal = RUN.goal
+    assert inset.get_xlim() == pytest.approx((goal.x - 2, goal.x + 2))
+    assert inset.get_ylim() == pytest.approx((goal.y - 2, goal.y + 2))
+    np.testing.assert_array_equal(inset.lines[0].get_xydata(), np.transpose([RUN.x, RUN.y]))
+    assert not figures.path(RUN).figure.axes[0].child_axes
+    with pytest.raises(ValueError, match=r"near = 0\.0 is not allowed"):
+        figures.path(RUN, near=0.0)
 
 
 def test_lines_are_the_runs_fields():

@@ -311,8 +311,8 @@ def test_a_bar_says_where_the_gains_stand_in_the_window(emptied_page, h, name):
     assert float(panel.figures()["window"]) == wmr.modes(wmr.GENTLE_GAINS).kappa
     style = cell.locator(".wmr-value").get_attribute("style")
     parts = dict(part.split(": ") for part in style.rstrip("; ").split("; "))
-    bar = [float(parts[f"--{part}"].rstrip("%")) / 100 * 6 for part in ("kappa", "low", "high")]
-    assert bar == pytest.approx([2.5, 2.0, max(2.0, 1.0 + h)])
+    bar = [float(parts[f"--{part}"].rstrip("%")) for part in ("kappa", "low", "high")]
+    assert bar == pytest.approx([2.5 / 6, 200 / 6, max(200, 100 + 100 * h) / 6])
     panel.put("law", "printed")
     assert panel.figures()["window"] == "\N{EN DASH}"
     assert not cell.locator(".wmr-value").get_attribute("style")

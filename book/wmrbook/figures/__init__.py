@@ -16,7 +16,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
             "block_diagram",
             "compare_runs",
             "heading_shares",
-            "last_seconds",
+            "ring",
             "snapshots",
         ],
         "circle": ["chase", "residual_curve", "tradeoff"],

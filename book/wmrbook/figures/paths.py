@@ -11,17 +11,24 @@ from matplotlib.lines import Line2D
 
 from wmrbook.figures._drawing import run_list
 from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
+from wmrlib._checks import scalar
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.runs import Trajectory
 
 
-def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) -> Picture:
+def path(
+    runs: Trajectory | Sequence[Trajectory],
+    labels: Sequence[str] = (),
+    *,
+    near: float | None = None,
+) -> Picture:
     """Show the path of one run, with the robot at every tenth of the way, or of several to compare.
 
     Parameters
     ----------
     runs : Trajectory, or 1 to 4 of them
     labels : one str a run, or none
+    near : m, or None; an inset shows the end of the first path so near its goal
 
     Returns
     -------
@@ -45,9 +52,23 @@ def path(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) ->
         lines = [Line2D([], [], color=COLOURS["path"], ls=style) for style in LINES[:count]]
         axes.legend(lines, labels)
     equal_scales(axes, x, y, room=0.12)
+    if near is not None:
+        _draw_end(axes, runs[0], scalar("near", near, above=0.0))
     names = [f"{label}: " for label in labels] or [""] * count
     words = [name + path_in_words(run) for name, run in zip(names, runs, strict=True)]
     return Picture(figure, "Path in metres: " + "; ".join(words) + ".")
+
+
+def _draw_end(axes: Axes, run: Trajectory, near: float) -> None:
+    """An inset with the last bit of the way, beside the path."""
+    goal = pose_at(run.goal, -1)
+    left = 0.57 if np.median(run.x) <= np.mean(axes.get_xlim()) else 0.04
+    inset = axes.inset_axes([left, 0.05, 0.4, 0.4], aspect="equal")
+    inset.plot(run.x, run.y, color=COLOURS["path"])
+    dart(inset, goal, 0.2 * near, "none", "goal", lw=2.0, zorder=4)
+    inset.set(xlim=(goal.x - near, goal.x + near), ylim=(goal.y - near, goal.y + near))
+    inset.set(xticks=[], yticks=[])
+    inset.set_title(f"within {near:g} m", fontsize=10)
 
 
 def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, robots: bool = True):

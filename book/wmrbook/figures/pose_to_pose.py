@@ -1,4 +1,4 @@
-"""Chapter 5: several runs on one axis, moments of one run, and the block diagram.
+"""Chapter 5: several runs on one axis, moments of one run, many runs, and the block diagram.
 
 `runs` maps one to five labels to Trajectories; a label keeps its colour and line style in all
 figures whose labels stand in the same order.
@@ -22,9 +22,10 @@ from wmrbook.figures._drawing import (
     pointer,
 )
 from wmrbook.figures.paths import pose_at
-from wmrbook.figures.style import COLOURS, Picture, dart, new_figure
+from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import choice, instance, real, scalar
-from wmrlib.runs import Trajectory
+from wmrlib.kinematics import Pose
+from wmrlib.runs import Trajectories, Trajectory
 
 _LEAST = 1e-6  # of a logarithmic scale
 _FIELDS = {
@@ -83,31 +84,31 @@ def compare_runs(
     return Picture(figure, f"The {name} over time{scale}: {'; '.join(parts)}{mark}.")
 
 
-def last_seconds(runs: Mapping[str, Trajectory], seconds: float = 1.5) -> Picture:
-    """Alpha [deg] and omega of several runs from `seconds` before the first of them ends.
+def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
+    """The paths of many runs to one goal, a panel for each label: the field's icon.
 
-    The commands of a sampled run are drawn as the steps in which they are held.
+    Starts that face alike, on a circle round the goal, show a law's habits at a glance.
     """
-    check_series(runs, Trajectory)
-    seconds = scalar("seconds", seconds, above=0.0)
-    figure, (above, below) = new_figure(7.5, 5.2, rows=2)
-    begin = min(run.t[-1] for run in runs.values()) - seconds
+    check_series(paths, Trajectories)
+    figure, row = panels(1, len(paths), 4.2 * len(paths), 4.4, sharey=True, squeeze=False)
     texts = []
-    for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
-        late = run.t >= begin - 1e-9
-        looks = {"color": COLOURS[role], "ls": style}
-        above.plot(run.t[late], np.degrees(run.alpha[late]), label=title, **looks)
-        turning = run.omega[late]
-        if run.method != "continuous":
-            looks["drawstyle"] = "steps-post"
-            turning = np.r_[turning[:-1], turning[-2:-1]]  # the robot stops before the last one
-        below.plot(run.t[late], turning, **looks)
-        peak = np.abs(run.omega[late]).max()
-        texts.append(f"{title} ends at {run.t[-1]:.1f} s, |omega| at most {peak:.1f} rad/s")
-    above.set(ylabel="alpha [deg]")
-    below.set(xlabel="time [s]", ylabel="omega [rad/s]")
-    figure_legend(figure)
-    what = f"Alpha and omega over the last {seconds:g} s"
+    for (title, many), axes in zip(paths.items(), row[0], strict=True):
+        here = np.array([goal.x, goal.y])[:, None]
+        steps = np.hypot(np.diff(many.x), np.diff(many.y))
+        axes.plot(many.x.T, many.y.T, color=COLOURS["path"], lw=1.3)
+        for k in range(len(many.x)):
+            dart(axes, Pose(many.x[k, 0], many.y[k, 0], many.heading[k, 0]), 0.45, "start")
+        dart(axes, goal, 0.7, "none", "goal", lw=2.0, zorder=5)
+        axes.set_title(title, fontsize=12)
+        equal_scales(axes, np.r_[many.x[:, 0], here[0]], np.r_[many.y[:, 0], here[1]], room=0.2)
+        axes.set(xlabel="x [m]", ylabel="y [m]")
+        axes.label_outer()
+        backing = int((many.v[:, 0] < -1e-9).sum())
+        longest = np.nansum(steps, axis=1).max()
+        texts.append(f"{title} {backing} set off backwards, the longest path has {longest:.1f} m")
+    figure.draw_without_rendering()  # the layout knows titles beside equal scales only then
+    count, far = len(many.x), many.rho[:, 0].max()
+    what = f"Paths to a goal from {count} starts on a circle of {far:.0f} m"
     return Picture(figure, f"{what}: {'; '.join(texts)}.")
 
 
@@ -162,7 +163,8 @@ def heading_shares(
         )
     axes.axvline(allowed, color=COLOURS["ink"], ls=":", lw=1.2, label=f"{allowed:g} deg")
     axes.set(xlabel=f"{of} [deg]", ylabel="share of the starts [%]")
-    axes.set(xlim=(0, widest), ylim=(0, 102))
+    axes.set(xscale="log", xlim=(0.1, widest), ylim=(0, 102))
+    axes.xaxis.set_major_formatter("{x:g}")
     figure_legend(figure)
     what = f"Share of many starts against the {of}"
     return Picture(figure, f"{what}: {'; '.join(texts)}.")

@@ -229,3 +229,13 @@ def gentle_off(seed, high=60.0) -> float:
 @headline("05", IN_TEN, at_least=25.0, at_most=35.0, low=[1.0], high=[5.0], **SHARE)
 def designed_off(low, high, seed) -> float:
     return _share_off(DESIGNED, low, high, seed, 1000)
+
+
+ROOM = "from 6 m on all are within 5 deg"
+
+
+@headline("05", ROOM, at_most=5.0, unit="deg", distance=(6.0, 60.0), alpha=ROUND, theta=ROUND)
+def off_with_room(distance, alpha, theta) -> float:
+    start = wmr.pose_from_polar(wmr.PolarError(distance, alpha, theta), GOAL)
+    run = wmr.simulate(start, GOAL, DESIGNED, method="continuous", duration=120.0)
+    return math.degrees(abs(run.heading_error[-1]))

@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from wmrbook.live.parts import Ask, Choice, Knob, Live, between, nearest
-from wmrlib import Gains, Pose, paper, simulate
+from wmrlib import paper, simulate
 from wmrlib.gains import GENTLE_GAINS
 
 
@@ -14,11 +14,19 @@ def last_metres(ask: bool = True) -> Live:
 
     Parameters
     ----------
-    ask : whether to ask first which way the robot looks when it stops
+    ask : whether to ask first how far off its heading the robot may stop
     """
     start, goal, gains, _ = paper.outdoor()
-    end = float(simulate(start, goal, gains, method="continuous").heading[-1])
-    off_deg = math.degrees(end - goal.heading)
+    run = simulate(start, goal, gains, method="continuous")
+    off_deg, value = abs(math.degrees(run.heading_error[-1])), run.V[-1]
+    angles = value - run.rho[-1] ** 2 / 2  # the part of V that is not distance
+    room = {
+        "Yes, within a degree: V is down to a ten-thousandth": off_deg < 1,
+        "Within a few degrees: it is on the spot": 1 <= off_deg < 10,
+        "No, it may be tens of degrees off": off_deg >= 10,
+    }
+    # |theta - alpha| is largest, for this part, where alpha = -h theta
+    most_deg = math.degrees(math.sqrt(2 * angles * (1 + 1 / gains.h)))
     shown = {"label": "on its way", "plays": 6.0, "auto": not ask}
     return Live(
         "last_metres",
@@ -32,14 +40,14 @@ def last_metres(ask: bool = True) -> Live:
         },
         data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
         ask=Ask(
-            "turn",
-            "The robot drives with the paper's gains and stops 5 cm before the goal. Which way "
-            "does it look there? Turn the arrow.",
-            f"It stops {abs(off_deg):.0f} deg off, with the law acting all the time: the heading "
-            "is late, and there are no metres left to mend it.",
-            key=end,
-            pane="near",
-            at=goal[:2],
+            "choose",
+            f"With the paper's gains the robot stops 5 cm before the goal. V has fallen from "
+            f"{run.V[0]:.0f} to {value:.3f}, and rho²/2 is {run.rho[-1] ** 2 / 2:.3f} of that. "
+            "Does the robot face the goal's way?",
+            f"The rest of V, {angles:.3f}, is all angles. With h = {gains.h:g} it leaves room for "
+            f"{most_deg:.0f} deg of heading error, and the robot stops {off_deg:.0f} deg off.",
+            key=[*room.values()].index(True),
+            options=(*room,),
         )
         if ask
         else None,
@@ -50,11 +58,16 @@ def stopping() -> Live:
     """The heading error over the distance to go, for a robot that stops where one wants."""
     start, goal, gains, _ = paper.outdoor()
     radii = 0.05, 0.01  # m
-    here, nearer = (abs(_left_over(start, goal, gains, radius)) for radius in radii)
+    here, nearer = (
+        simulate(start, goal, gains, method="continuous", arrival_radius=radius) for radius in radii
+    )
+    off_deg, then_deg = (abs(math.degrees(it.heading_error[-1])) for it in (here, nearer))
+    way = "away from" if here.omega[-1] * here.heading_error[-1] > 0 else "back to"
+    seconds = nearer.t[-1] - here.t[-1]
     shares = {"a fifth of that": 0.2, "about the same": 1.0, "twice as far": 2.0}
     return Live(
         "stopping",
-        "With {gains} a robot that stops {stop} before the goal is there after {seconds} and looks "
+        "With {gains} a robot that stops {stop} before the goal is there after {seconds} and faces "
         "{off}.",
         {
             "stop": Knob(radii[0], 0.01, 2.0, None, "where it stops", "m", label="stops at"),
@@ -65,17 +78,12 @@ def stopping() -> Live:
         data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
         ask=Ask(
             "choose",
-            f"Stopped {100 * radii[0]:.0f} cm before the goal, the robot does not look the way it "
-            f"should. How far off is it if it stops at {100 * radii[1]:.0f} cm?",
-            f"{nearer:.0f} deg, and {here:.0f} before: the heading swings to and fro while the "
+            f"With {100 * radii[0]:.0f} cm to go the robot is {off_deg:.0f} deg off and turns "
+            f"{way} the goal's heading, at {abs(here.omega[-1]):.0f} rad/s. It is {seconds:.1f} s "
+            f"from the point where {100 * radii[1]:.0f} cm are left. How far off is it there?",
+            f"{then_deg:.0f} deg, after {off_deg:.0f}: the heading swings to and fro while the "
             "last metre is driven, so where one stops decides what is left. Nearer is not better.",
-            key=nearest(nearer / here, shares.values()),
+            key=nearest(then_deg / off_deg, shares.values()),
             options=(*shares,),
         ),
     )
-
-
-def _left_over(start: Pose, goal: Pose, gains: Gains, radius: float) -> float:
-    """The heading error where a robot stops `radius` before the goal, deg."""
-    run = simulate(start, goal, gains, method="continuous", arrival_radius=radius)
-    return math.degrees(run.heading_error[-1])

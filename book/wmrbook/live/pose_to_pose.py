@@ -52,14 +52,15 @@ def heading_left() -> Live:
         "designed": gains_for(0.8, heading_rate=1.6, damping=1.0),
     }
     how = {"method": "continuous", "dt": 0.05, "duration": 120.0}
-    first, second = (
-        abs(_heading_left(case.start, case.goal, case.gains, arrival_radius=radius, **how))
-        for radius in RADII
+    first, second, far = (
+        _heading_left(case.start, case.goal, case.gains, arrival_radius=radius, **how)
+        for radius in (*RADII, 0.3)
     )
+    more, less = abs(second) > 1.2 * abs(first), abs(second) < 0.8 * abs(first)
     left = {
-        "More: there was less time to turn": second > 1.2 * first,
-        "As much": 0.8 * first <= second <= 1.2 * first,
-        "Hardly anything": second < 0.2 * first,
+        "More than at 5 cm: there was less time to turn": more,
+        "As much as at 5 cm": not more and not less,
+        "Less than at 5 cm: it has swung through zero in between": less and first * far < 0,
     }
     return Live(
         "heading_left",
@@ -84,11 +85,12 @@ def heading_left() -> Live:
         ),
         ask=Ask(
             "choose",
-            f"With the paper's gains the robot stops {100 * RADII[0]:.0f} cm before the goal, "
-            f"{math.degrees(first):.0f}° off. How much is left if it stops "
-            f"{100 * RADII[1]:.0f} cm before it?",
-            "The heading swings all along the last metre, and there it happens to pass zero. What "
-            "is left of a swing that outlasts the distance tells where it was stopped, no more.",
+            f"With the paper's gains the heading is {abs(math.degrees(far)):.0f}° off to the left "
+            f"when 30 cm are left, and {abs(math.degrees(first)):.0f}° to the right when "
+            f"{100 * RADII[0]:.0f} cm are. How far off is a robot that stops "
+            f"{100 * RADII[1]:.0f} cm before its goal?",
+            "Between the two it passes zero, and that happens near 10 cm. What is left of a swing "
+            "that outlasts the distance tells where it was stopped, no more.",
             key=[*left.values()].index(True),
             options=(*left,),
         ),

@@ -98,7 +98,7 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
     return ask, cases(computed, options), why
 
 
-@question(5, "Exercise 5.1: Left is right", "In the mirror")
+@question(5, "Many starts", "In the mirror")
 def mirror() -> tuple[str, list[Option], str]:
     alpha, theta, gains = 0.7, -1.1, wmr.paper.OUTDOOR_GAINS
     v, omega = wmr.control_law(3.0, alpha, theta, gains)

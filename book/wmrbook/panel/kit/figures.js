@@ -18,15 +18,16 @@ function comparedWith(slower) {
       : `${written(1 / slower, '', 2)} × faster`;
 }
 
-// Where kappa lies with the corrected law, in words, and on a bar below them from 0 to 6.
+// Where kappa lies with the corrected law, in words, and on a bar from 0 to 6.
 function placeInWindow({ kappa }, { h }) {
   const high = Number((1 + h).toPrecision(3)),
-      share = (value) => `${Math.min(value / 6, 1) * 100}%`;
+      share = (value) => Math.min(value / 6, 1);
   return {
     name: h > 1 ? `κ, window 2–${high}` : 'κ, no window', text: written(kappa),
-    note: `k_alpha/(v_max k_rho): the heading settles before the distance if it is above 2 and ` +
-        `below 1 + h = ${high}`,
-    bar: { kappa: share(kappa), low: share(2), high: share(Math.max(high, 2)) },
+    note: `k_alpha/(v_max k_rho): near a goal that stands still the heading settles before the ` +
+        `distance if it is above 2 and below 1 + h = ${high}`,
+    bar: { kappa: share(kappa), low: `${100 * share(2)}%`,
+        high: `${100 * share(Math.max(high, 2))}%` },
   };
 }
 

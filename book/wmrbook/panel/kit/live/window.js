@@ -56,14 +56,15 @@ export default live('window', {
       { data: { start, named } }) {
     if (!hidden) plane.area([[2, 1], [2, 99], [100, 99]], 'start', 0.2);
     if (!hidden) plane.curve((x) => x * x / 4, 'ghost', { width: 1.5, dash: [5, 4] });
-    if (!hidden) plane.text('damping 1', MOST, 5.5, { role: 'ghost', align: 'right', size: 13 });
+    if (!hidden) plane.text('damping 1', MOST, 4.9, { role: 'ghost', align: 'right', size: 13 });
     if (!hidden) plane.text('window', 2, 5.5, { role: 'start', dx: 6, size: 13 });
     for (const [name, x, y] of named) {
       plane.dot(x, y, 'ink', { size: 4 });
-      plane.text(name, x, y, { dx: 15, dy: -3, size: 13 });
+      const [dx, align] = x > MOST / 2 ? [-15, 'right'] : [15, 'left'];
+      plane.text(name, x, y, { dx, dy: -3, size: 13, align });
     }
     roots.area([[-1, -9], [-1, 9], [9, 9], [9, -9]], 'rising', 0.12);
-    roots.text('slower', -1, -2.7, { role: 'rising', dx: 4, size: 13 });
+    roots.text('slower', 0.6, -2.7, { role: 'rising', align: 'right', size: 13 });
     roots.dot(-1, 0, 'rho', { hollow: true });
     path.pose(GOAL, 'goal');
     if (hidden) { path.robot(start); return; }
