@@ -137,7 +137,7 @@ def torus() -> Live:
     return Live(
         "torus",
         "With {noise} of noise and {hysteresis} of hysteresis, from {distance} away, {lost} "
-        "robots park over 90° off.",
+        "robots park over 90° off, the worst {worst}.",
         {
             "noise": Knob(NOISE, 0.0, 5.0, 0.1, "noise on the line of sight", "°", label="noise"),
             "hysteresis": Knob(0.0, 0.0, 0.4, 0.05, "hysteresis", "rad", label="hysteresis"),

@@ -1,7 +1,7 @@
 // Robots that start on the seam of theta and see their goal through noise: their ways over the two
 // angles, on a torus and laid flat, and in the plane.
 
-import { DEGREES } from '../style.js';
+import { DEGREES, inDegrees } from '../style.js';
 import { heldRun, remembered } from '../runs.js';
 import { LAWS, polarClosingRate, polarFromPose, wrap } from '../model.js';
 import { live } from '../live.js';
@@ -9,11 +9,16 @@ import { normals } from '../random.js';
 
 const TUBE = 0.45, AROUND = 48, QUARTER = Math.PI / 2;
 
+// What is random is drawn once.
+const drawn = remembered(({ robots, seed, steps }) =>
+  Array.from({ length: robots }, (_, robot) =>
+    Array.from({ length: steps }, (__, k) => normals(robot, k, seed, 1)[0])));
+
 // Where each of the robots ends, and its angles on the way, wrapped.
 const swarm = remembered(({ robots, seed, noise, distance, ...drive }) =>
-  Array.from({ length: robots }, (_, robot) => {
+  drawn({ robots, seed, steps: drive.steps }).map((errors) => {
     const [goalX, goalY] = drive.goal, sight = (k, [x, y, heading]) => {
-      const turn = noise * normals(robot, k, seed, 1)[0], c = Math.cos(turn), s = Math.sin(turn);
+      const turn = noise * errors[k], c = Math.cos(turn), s = Math.sin(turn);
       const [east, north] = [x - goalX, y - goalY];
       return [goalX + c * east - s * north, goalY + s * east + c * north, heading];
     };
@@ -51,11 +56,14 @@ function over(pane, view, points, role, width) {
   end();
 }
 
-// A way over the square, in degrees, cut where theta jumps.
+// In degrees, over a square with the seam in its middle.
+const unrolled = ([alpha, theta]) =>
+    [alpha * DEGREES, theta * DEGREES + (theta < 0 ? 180 : -180)];
+
+// A way over that square, cut where it leaves it.
 function flat(pane, angles, role, width) {
   let piece = [];
-  for (const [alpha, theta] of angles) {
-    const point = [alpha * DEGREES, theta * DEGREES];
+  for (const point of angles.map(unrolled)) {
     if (piece.length && Math.abs(point[1] - piece.at(-1)[1]) > 180) {
       pane.line(piece, role, { width });
       piece = [];
@@ -70,9 +78,11 @@ function field(pane, alpha, theta, rho, gains) {
   const commanded = LAWS.corrected.formula(rho, alpha, theta, gains);
   const [, alphaRate, thetaRate] = polarClosingRate(rho, alpha, ...commanded);
   const size = 16 / Math.max(Math.hypot(alphaRate, thetaRate), 1e-9);
-  const [x, y] = [alpha * DEGREES, theta * DEGREES];
+  const [x, y] = unrolled([alpha, theta]);
   pane.arrow(x, y, x + size * alphaRate, y + size * thetaRate, 'ink', { width: 1.2 });
 }
+
+const named = (y) => (y ? (y > 0 ? y - 180 : y + 180).toFixed(0).replace('-', '−') : '±180');
 
 const circle = (point) =>
     Array.from({ length: AROUND + 1 }, (_, k) => point(2 * Math.PI * k / AROUND));
@@ -92,8 +102,8 @@ export default live('torus', {
           && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES,
           tilt: Math.min(Math.max(now.tilt + moved[1] / 2, 5), 85) },
     },
-    square: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true,
-        given: 'The torus laid flat: its upper and its lower edge are the seam.',
+    square: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]', named], equal: true,
+        given: 'The torus laid flat, the seam across its middle, and which way the law drives.',
         alt: 'The same ways over the square of alpha and theta.' },
     plane: { x: [-0.4 * distance, 1.4 * distance, 'x [m]'],
         y: [-0.7 * distance, 0.7 * distance, 'y [m]'], equal: true,
@@ -107,8 +117,8 @@ export default live('torus', {
       over(torus, view, circle((theta) => [Math.PI * k / 6, theta]), 'ghost', 0.8);
     }
     over(torus, view, circle((alpha) => [alpha, Math.PI]), 'rising', 3);
-    for (const edge of [-180, 180])
-      square.line([[-180, edge], [180, edge]], 'rising', { width: 5 });
+    square.line([[-180, 0], [180, 0]], 'rising', { width: 3 });
+    square.text('seam', -175, 0, { role: 'rising', dy: 10, size: 13 });
     for (const theta of [-150, -90, 90, 150])
       for (let alpha = -150; alpha <= 150; alpha += 60)
         field(square, alpha / DEGREES, theta / DEGREES, distance, data.gains);
@@ -126,9 +136,10 @@ export default live('torus', {
     if (goal.front) torus.dot(...goal.at, 'goal');
     if (start.front) torus.dot(...start.at, 'start', { size: 4 });
     torus.text('seam', ...view([QUARTER, Math.PI]).at, { role: 'rising', dx: 8, size: 13 });
-    square.dot(0, 0, 'goal');
+    for (const edge of [-180, 180]) square.dot(0, edge, 'goal');
     plane.pose([distance, 0, Math.PI], 'start');
     plane.pose(data.goal, 'goal');
   },
-  say: (values, { runs, lost }) => ({ lost: `${lost} of ${runs.length}` }),
+  say: (values, { runs, lost }) => ({ lost: `${lost} of ${runs.length}`,
+      worst: inDegrees(Math.max(...runs.map(({ off }) => Math.abs(off)))) }),
 });
