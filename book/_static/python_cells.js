@@ -5,7 +5,7 @@
   const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
   const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
   const ZIPPED = new Set(['worker', 'asm', 'wasm']);
-  const ASKS_Z3 = /\bimport z3\b|\bwmrbook(\.| import .*)proof\b/;
+  const ASKS_Z3 = /\bimport z3\b|\bwmrbook(\.| import .*)strict\b/;
   const cells = [];
   let parts, solver, worker, running;
 

@@ -27,7 +27,7 @@ from page_tasks import CHAPTER, add_tasks, handed_in
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
 THERE = {
     *("collections", "functools", "math", "sympy", "z3"),
-    *("wmrbook.equations", "wmrbook.grading", "wmrbook.proof", "wmrlib.symbolic"),
+    *("wmrbook.equations", "wmrbook.grading", "wmrbook.strict", "wmrlib.symbolic"),
 }
 
 

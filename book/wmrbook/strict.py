@@ -52,7 +52,7 @@ def counterexample(polynomial: sp.Expr, *given: sp.Rel) -> dict[sp.Symbol, sp.Ra
     meets too. None says that there is no such state: z3 has proved the polynomial negative.
     Raises TimeoutError if z3 decides neither within PATIENCE.
     """
-    with book_extra("wmrbook.proof"):
+    with book_extra("wmrbook.strict"):
         import z3
     names = {symbol: z3.Real(symbol.name) for symbol in (P, Q, K2)}
 
