@@ -1,6 +1,7 @@
 // A small thing to move: pictures, a sentence with numbers that can be dragged or typed, a slider
 // for each, and, before it opens, a prediction.
 
+import { buildAsker } from './asker.js';
 import { buildGate } from './gate.js';
 import { followTheme, readColours, written } from './style.js';
 import { held, made, placeOn } from './hands.js';
@@ -29,8 +30,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   root.innerHTML =
       '<div class="live-ask"></div><p class="live-sentence"></p><div ' +
       'class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
-    + '<p class="live-trouble" role="alert"></p><div class="wmr-aside" role="status" ' +
-        'aria-live="polite"></div>';
+    + '<div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
+        'class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {},
       values = () => model.get('state');
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
@@ -69,6 +70,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     }, 700);
   };
   const knobs = putKnobs(root, setup, { get: values, set, refuse, changed: say });
+  const asker = setup.asks
+      ? buildAsker(find('.live-asks'), setup.asks, { model, get: values, set }) : null;
   const gate = setup.ask
       ? buildGate(find('.live-ask'), setup.ask,
       { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement })
@@ -112,7 +115,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     // words after pictures: a font on a canvas waits for the styles of all that has changed
     find('.live-trouble').textContent = hidden && found ? '' : trouble;
     knobs.show(now);
-    for (const part of ['.live-sentence', '.live-rows']) find(part).hidden = hidden;
+    for (const part of ['.live-sentence', '.live-rows', '.live-asks']) find(part).hidden = hidden;
+    asker?.show();
     if (!found) return;
     const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
     for (const name of Object.keys(specs))
@@ -175,6 +179,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   repaint();
   return () => {
     knobs.stop();
+    asker?.stop();
     unfollow();
     resized.disconnect();
     room.disconnect();
