@@ -84,7 +84,4 @@ def answer(k2: float) -> dict[str, Any]:
     The gain is taken as the decimal number that it is written as. No state, `None`, means proved.
     """
     state = counterexample(slope().subs(K2, sp.Rational(repr(k2))))
-    if state is None:
-        return {"state": None}
-    pair = state[P], state[Q]
-    return {"state": [*map(float, pair)], "exactly": [*map(str, pair)]}
+    return {"state": state and [float(state[P]), float(state[Q])]}

@@ -18,9 +18,8 @@ def strict() -> Live:
     """Where V rises among the states drawn, and z3's word on all of them."""
     return Live(
         "strict",
-        "With {k2}, V rises in {cells} cells drawn. Does it fall at every state? z3 {verdict}. "
-        "{drive}",
-        {"k2": Knob(0.2, 0.05, 50.0, None, "the steering gain, scaled: k2", "", "k_2")},
+        "With {k2}, V rises in {cells} cells drawn. Does it fall at every state?",
+        {"k2": Knob(0.25, 0.05, 50.0, None, "the steering gain, scaled: k2", "", "k_2")},
         data={"rho": 0.5, "V": _terms(STRICT), "slope": _terms(slope())},
         asks=Asks("Prove it", "wmrbook.strict.answer", ("k2",)),
     )

@@ -15,6 +15,7 @@ export function buildAsker(root, asks, { model, get, set }) {
       clock = made(bar, 'span', {}, { 'aria-hidden': 'true' });
   /** @type {(() => void) | null} */
   let leave = null;
+  let shown = '';
   const say = (text) => { status.textContent = text; };
 
   async function press() {
@@ -28,7 +29,9 @@ export function buildAsker(root, asks, { model, get, set }) {
     try {
       const page = globalThis.wmrPython, asked = (page ? ofPage : ofKernel)(of);
       const found = await Promise.race([left, asked]);
-      say(found ? '' : 'Stopped.');
+      const moved = asks.knobs.some((name) => get()[name] !== of[name]);
+      say(!found ? 'Stopped.' : moved ? 'The question has changed: ask again.' : '');
+      shown = '';
       if (found) set({ answer: { of, is: found.is } });
       else if (page) { asked.catch(() => {}); page.stop(); }
     } catch (error) { say(`No answer: ${error.message}`); } finally {
@@ -60,8 +63,12 @@ export function buildAsker(root, asks, { model, get, set }) {
     });
   }
   return {
-    // a deck has neither
-    show() { bar.hidden = typeof wmrKit !== 'undefined' && !globalThis.wmrPython; },
+    show(verdict) {
+      bar.hidden = typeof wmrKit !== 'undefined' && !globalThis.wmrPython; // in a deck
+      if (leave || verdict === shown) return;
+      shown = verdict;
+      say(verdict);
+    },
     stop() { if (leave) leave(); },
   };
 }

@@ -21,7 +21,8 @@ import { widget } from './widget.js';
 //   does; draw(panes, values, found, hidden, setup): `hidden` before the prediction, when only what
 //   is given may be drawn; say(values, found, setup): the results in the sentence, by name;
 //   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws
-//   RangeError, in words, where nothing can }].
+//   RangeError, in words, where nothing can }]; verdict(values, found): where Python can be asked,
+//   what follows from its answer, or ''.
 /** @param {string} name @param {Drawing} explorable */
 export const live = (name, explorable) => widget(`live/${name}`, ({ model, el }) => {
   const setup = structuredClone(model.get('setup')),
@@ -116,13 +117,13 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     find('.live-trouble').textContent = hidden && found ? '' : trouble;
     knobs.show(now);
     for (const part of ['.live-sentence', '.live-rows', '.live-asks']) find(part).hidden = hidden;
-    asker?.show();
     if (!found) return;
     const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
     for (const name of Object.keys(specs))
       showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name),
           panes[name], give);
     if (!hidden) knobs.showResults(sound ? explorable.say(now, found, setup) : null);
+    asker?.show(explorable.verdict(now, found));
   }
   function paint(now, hidden) {
     root.found = found; // for tests

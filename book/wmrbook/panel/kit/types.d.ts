@@ -84,6 +84,7 @@ type Drawing = {
     setup: Setup): void;
   say(values: Values, found: any, setup: Setup): Record<string, string | number>;
   handles?(values: Values, found: any, setup: Setup): Handle[];
+  verdict?(values: Values, found: any): string;
 };
 
 /** A widget's model, as anywidget gives it. */
