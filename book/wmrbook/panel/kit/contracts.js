@@ -22,7 +22,7 @@ export const CONTRACTS = {
   'live/silence': '651bc34e',
   'live/small_angle': '3a8858c6',
   'live/stopping': '531fdfc5',
-  'live/strict': '2b6685d3',
+  'live/strict': '9b03bd6a',
   'live/threshold': '8f0e7e19',
   'live/turning_centre': '38a38b22',
   'live/two_bars': 'c5d73944',

@@ -1,5 +1,5 @@
 // Is V strict under the barrier law? Where it rises among the angles that are drawn, what z3 says
-// of all of them, and V along the drive from the state that z3 finds.
+// of all of them, and V along a drive: from the state that z3 finds, if it finds one.
 
 import { DEGREES, inDegrees, written } from '../style.js';
 import { decay, poseOfError } from '../model.js';
@@ -38,48 +38,40 @@ const drive = remembered(({ k2, p, q, rho, V }) => {
 export default live('strict', {
   find({ k2, answer }, { data }) {
     const known = answer && answer.of.k2 === k2, state = known && answer.is.state,
-        run = state && drive({ k2, p: state[0], q: state[1], rho: data.rho, V: data.V });
-    return { known, state, run, most: run ? Math.max(...run.grown) : 0,
+        [p, q] = state || data.state, run = drive({ k2, p, q, rho: data.rho, V: data.V }),
+        most = Math.max(...run.grown, 1e-9), [low, high] = state ? [-2 * most, 1.4 * most] : [-100, 20],
+        end = run.grown.findIndex((each) => each < 0.98 * low);
+    return { known, state, run, most, low, high, end: end < 0 ? run.t.length - 1 : end,
       rising: map({ k2, slope: data.slope }) };
   },
-  panes: ({ k2 }, { known, run, rising, most }) => ({
+  panes: (values, { state, run, low, high, end, rising, most }) => ({
     plane: { x: [-HALF, HALF, 'α [°]'], y: [-HALF, HALF, 'θ [°]'], equal: true,
-        alt: `Alpha and theta up to 50 degrees: V rises in ${rising.length} of ` +
-        `${CELLS ** 2} cells${run ? '; a drive from the state that z3 found' : ''}.` },
-    time: { x: [0, run ? run.t[ends(run, most)] : 1, 'time [s]'],
-        y: [-2 * (most || 1), 1.4 * (most || 1), 'V against the start [%]'],
-        alt: run ? `V rises by ${written(most, 'percent')} and then falls.`
-        : known ? `No drive: with k2 = ${written(k2)} V falls from every state.`
-        : 'No drive: z3 has not been asked.' },
+        alt: `Alpha and theta up to 50 degrees: V rises in ${rising.length} of ${CELLS ** 2} ` +
+        `cells. A drive from ${state ? 'the state that z3 found' : 'a state farther out'}.` },
+    time: { x: [0, run.t[end], 'time [s]'], y: [low, high, 'V against the start [%]'],
+        alt: state ? `V rises by ${written(most, 'percent')} and then falls.`
+        : `V falls by ${written(-run.grown[end], 'percent')}.` },
   }),
-  draw({ plane, time }, values, { known, run, rising }) {
-    const half = HALF / CELLS;
+  draw({ plane, time }, values, { state, run, rising }) {
+    const half = HALF / CELLS, role = state ? 'rising' : 'path';
     for (const [theta, alpha] of rising)
       plane.area([[alpha - half, theta - half], [alpha + half, theta - half],
         [alpha + half, theta + half], [alpha - half, theta + half]], 'rising', 0.5);
     plane.cross(0, 0, 'goal');
+    plane.path(run.alpha.map((each) => each * DEGREES), run.theta.map((each) => each * DEGREES));
+    plane.dot(run.alpha[0] * DEGREES, run.theta[0] * DEGREES, role, { hollow: true });
     time.line([[0, 0], [1e3, 0]], 'ghost', { width: 1.5, dash: [4, 4] });
-    if (run) {
-      plane.path(run.alpha.map((each) => each * DEGREES), run.theta.map((each) => each * DEGREES));
-      plane.dot(run.alpha[0] * DEGREES, run.theta[0] * DEGREES, 'rising', { hollow: true });
-      time.path(run.t, run.grown);
-      time.dot(0, 0, 'rising', { hollow: true });
-    } else time.text(known ? 'V falls from every state' : 'z3 has not been asked', 0.5, 0.3,
-        { align: 'center', role: known ? 'path' : 'ghost' });
+    time.path(run.t, run.grown);
+    time.dot(0, 0, role, { hollow: true });
   },
   say: (values, { rising }) =>
       ({ cells: `${rising.length ? inThousands(rising.length) : 'none'} of the ` +
       `${inThousands(CELLS ** 2)}` }),
-  verdict: (values, { known, run, most }) => (!known ? ''
-      : run ? `z3: no, not at α = ${inDegrees(run.alpha[0])}, θ = ${inDegrees(run.theta[0])}. ` +
-      `Driven from there, V first rises by ${written(most)}\u00a0%.`
+  verdict: (values, { known, state, run, most }) => (!known ? ''
+      : state ? `z3: no, not at α = ${inDegrees(run.alpha[0])}, θ = ${inDegrees(run.theta[0])}. ` +
+      `Driven from there, V first rises by ${small(most)}\u00a0%.`
       : 'z3: yes, proved.'),
 });
 
+const small = (share) => (share < 0.001 ? 'less than 0.001' : written(share));
 const inThousands = (count) => count.toLocaleString('en');
-
-// Where a curve that has risen is as far below its start as twice that.
-function ends({ grown, t }, most) {
-  const k = grown.findIndex((each) => each < -2 * (most || 1));
-  return k < 0 ? t.length - 1 : k;
-}
