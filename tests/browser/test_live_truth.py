@@ -486,7 +486,7 @@ def test_what_z3_finds_is_driven_for_as_long_as_the_gain_is_that_one(emptied_pag
     grown = 100 * (V / V[0] - 1)
     np.testing.assert_allclose(found["run"]["grown"], grown, atol=1e-4)
     assert found["most"] == pytest.approx(grown.max(), abs=1e-4)
-    assert grown.max() > 0.5
+    assert grown.max() > 0.4
     said = emptied_page.locator(".live-asks")
     assert re.search(r"no, not at . = .?14\.3°, . = 0\.0°", said.inner_text())
     panel.set(k2=1.0)

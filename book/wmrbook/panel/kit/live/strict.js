@@ -48,7 +48,7 @@ export default live('strict', {
     plane: { x: [-HALF, HALF, 'α [°]'], y: [-HALF, HALF, 'θ [°]'], equal: true,
         alt: `Alpha and theta up to 50 degrees: V rises in ${rising.length} of ${CELLS ** 2} ` +
         `cells. A drive from ${state ? 'the state that z3 found' : 'a state farther out'}.` },
-    time: { x: [0, run.t[end], 'time [s]'], y: [low, high, 'V against the start [%]'],
+    time: { x: [0, run.t[end], 'time, scaled'], y: [low, high, 'V against the start [%]'],
         alt: state ? `V rises by ${written(most, 'percent')} and then falls.`
         : `V falls by ${written(-run.grown[end], 'percent')}.` },
   }),
