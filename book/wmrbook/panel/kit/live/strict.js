@@ -39,7 +39,8 @@ export default live('strict', {
   find({ k2, answer }, { data }) {
     const known = answer && answer.of.k2 === k2, state = known && answer.is.state,
         [p, q] = state || data.state, run = drive({ k2, p, q, rho: data.rho, V: data.V }),
-        most = Math.max(...run.grown, 1e-9), [low, high] = state ? [-2 * most, 1.4 * most] : [-100, 20],
+        most = Math.max(...run.grown, 1e-9),
+        [low, high] = state ? [-2 * most, 1.4 * most] : [-100, 20],
         end = run.grown.findIndex((each) => each < 0.98 * low);
     return { known, state, run, most, low, high, end: end < 0 ? run.t.length - 1 : end,
       rising: map({ k2, slope: data.slope }) };
