@@ -478,7 +478,7 @@ def test_what_z3_finds_is_driven_for_as_long_as_the_gain_is_that_one(emptied_pag
     rho, origin = live.strict().setup["data"]["rho"], pose([0.0, 0.0, 0.0])
     start = wmr.pose_from_polar(wmr.PolarError(rho, 2 * math.atan(q), 2 * math.atan(p)), origin)
     gains = wmr.Gains(1.0, 0.2 * -math.expm1(-rho) / rho, 1.0, 1.0)
-    how = {"method": "continuous", "dt": 0.04 / 1.2, "duration": 40 / 1.2, "arrival_radius": 0.0}
+    how = {"method": "continuous", "dt": 0.01 / 1.2, "duration": 30 / 1.2, "arrival_radius": 0.0}
     run = wmr.simulate(start, origin, gains, law="barrier", **how)
     np.testing.assert_allclose(found["run"]["alpha"], run.alpha, atol=AGREES)
     np.testing.assert_allclose(found["run"]["theta"], run.theta, atol=AGREES)
