@@ -26,5 +26,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "audit": ["rising", "threshold"],
         "real_robot": ["compass", "silence"],
         "routes": ["corners", "passing"],
+        "other_laws": ["heading_power", "race"],
     },
 )
