@@ -34,8 +34,8 @@ def race() -> Live:
     ahead = [control_law(2.0, math.pi, math.pi / 2, TUNED[law], law=law)[0] > 0 for law in asked]
     return Live(
         "race",
-        "From {x}, {y}, facing {heading}, {law} {ends}, {back}, {left} off. To turn the rest on "
-        "the spot takes {turn}.",
+        "From {x}, {y}, facing {heading}, {law} {ends}, {left} off; it has driven {back} "
+        "backwards. To turn the rest on the spot would take {turn}.",
         {
             "x": Knob(BEHIND.x, -3.5, 3.5, 0.1, "the start's x", "m", label="start's x"),
             "y": Knob(BEHIND.y, -2.5, 2.5, 0.1, "the start's y", "m", label="start's y"),

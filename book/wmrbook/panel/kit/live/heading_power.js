@@ -6,8 +6,7 @@ import { live } from '../live.js';
 import { simulate, summarise } from '../simulate.js';
 
 const LEAST = 1e-4; // degrees, the lower border
-const power = (value) =>
-    Number(`1e${value}`).toLocaleString('en', { maximumFractionDigits: 4, useGrouping: false });
+const power = (value) => (Number.isInteger(value) ? String(+(10 ** value).toPrecision(1)) : '');
 const free = (options) =>
     simulate({ reference: null, law: 'graceful', method: 'continuous', dt: 0.05, duration: 120,
     ...options });
@@ -43,7 +42,7 @@ export default live('heading_power', {
     Object.keys(data.defaults).forEach((name, i) => {
       const points = curve(others[i]), [x, y] = points[points.length - 1];
       error.line(points, 'ghost', { width: 1.5, dash: i ? [2, 5] : [7, 4] });
-      error.text(name, Math.max(x, -2.25), Math.max(y, -3.8), { role: 'ghost', dx: 4, dy: 14 });
+      error.text(name, x, y, { role: 'ghost', dx: 4, dy: -12, size: 12 });
     });
     error.line(curve(run), 'path');
     const at = [Math.log10(radius), Math.log10(Math.max(left * DEGREES, LEAST))];

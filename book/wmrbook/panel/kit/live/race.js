@@ -43,6 +43,12 @@ export default live('race', {
       plane.robot(run.end, run.law === law ? 1 : 0.2);
     });
     plane.robot([x, y, heading / DEGREES], 0.5);
+    const [left, , , top] = plane.range;
+    Object.entries(LOOKS).forEach(([name, [role, dash]], i) => {
+      const [from, at] = [left + 10 * plane.pixel, top - (10 + 16 * i) * plane.pixel];
+      plane.line([[from, at], [from + 30 * plane.pixel, at]], role, { dash });
+      plane.text(name[0].toUpperCase() + name.slice(1), from, at, { role, dx: 36, size: 12 });
+    });
   },
   handles: ({ x, y }) => [{
     id: 'start', pane: 'plane', at: [x, y],
@@ -55,8 +61,8 @@ export default live('race', {
     },
   }],
   say: (values, { chosen: { arrived, time, left, back } }, { data: { most, track } }) => ({
-    ends: arrived ? `arrives after ${written(time, 's')}` : 'has not arrived after a minute',
-    back: `${written(back, 'm')} of them backwards`,
-    left: `${(left * DEGREES).toFixed(0)}°`, turn: written(left * track / 2 / most, 's'),
+    ends: arrived ? `arrives after ${written(time, 's')}` : 'is on its way after a minute',
+    back: `${back.toFixed(1)} m`, left: `${(left * DEGREES).toFixed(0)}°`,
+        turn: `${(left * track / 2 / most).toFixed(1)} s`,
   }),
 });
