@@ -5,6 +5,7 @@ import { heldRun, remembered } from '../runs.js';
 import { live } from '../live.js';
 import { wrap } from '../model.js';
 
+/** @type {Record<string, [string, number[]]>} */
 const LOOKS = { corrected: ['path', []], printed: ['rising', [2, 5]], aicardi: ['alpha', [9, 4]],
     barrier: ['theta', [9, 3, 2, 3]], graceful: ['goal', [4, 4]] };
 const raced = remembered(({ start, goal, tuned, dt, seconds, radius, track, most }) => {
