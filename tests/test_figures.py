@@ -164,6 +164,8 @@ CASES = {
     "challenge_paths, wild": lambda: figures.challenge_paths(score(5.0, 0.1, 5.0, 20.0)),
     "challenge_paths, five": lambda: figures.challenge_paths(score(2.0, 1.0, 0.3, cases=5)),
     "challenge_paths, nowhere": lambda: figures.challenge_paths(score(1e300, 1e300, 1e300)),
+    "heading_powers": lambda: figures.heading_powers({"docking": graceful()}, {"docking": 2.0}),
+    "last_turns": lambda: figures.last_turns({"one": (3.0, 2.0), "two": (math.nan, 2.5)}),
 }
 picture = cache(lambda name: CASES[name]())
 
@@ -179,6 +181,12 @@ def beside(driven):
     """How far the route passes its first waypoint."""
     way = driven.waypoints
     return np.hypot(driven.x - way.x[0], driven.y - way.y[0]).min()
+
+
+@cache
+def graceful():
+    docking, how = wmr.Gains(1.0, 2.0, 3.0, 1.0), {"method": "continuous", "law": "graceful"}
+    return wmr.simulate(wmr.Pose(-1.5, 1.0, 0.0), ORIGIN, docking, **how)
 
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
@@ -262,6 +270,13 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "challenge_paths": lambda: [
         "12 of them reached, with 21.81 points in the mean; "
         "the costliest is case 12, far behind, with 42.7"
+    ],
+    "heading_powers": lambda: [
+        f"docking ends {abs(math.degrees(graceful().heading_error[-1])):.2g} deg off at 5 cm, "
+        "by the power 2."
+    ],
+    "last_turns": lambda: [
+        "one 3.0 s without and 2.0 s with a last turn; two never without and 2.5 s with"
     ],
 }
 
@@ -510,6 +525,20 @@ def test_scatter_says_how_many_positions_are_the_last_dot():
         assert (f"the {word} are one dot" in shown.alt) == (count > 3)
 
 
+def test_the_thin_lines_slope_is_the_power():
+    (axes,) = axes_of("heading_powers")
+    for line in axes.get_lines():  # the run itself ends with it
+        down, left = (np.diff(np.log(it[-2:])) for it in (line.get_ydata(), line.get_xdata()))
+        assert down / left == pytest.approx(2.0, abs=0.2)
+
+
+def test_what_never_parks_has_a_cross_and_no_bar():
+    (axes,) = axes_of("last_turns")
+    assert [bar.get_height() for bar in axes.patches] == [3.0, 0.0, 2.0, 2.5]
+    crosses = [line.get_xdata().tolist() for line in axes.get_lines()]
+    assert crosses == [[pytest.approx(0.8)], []]
+
+
 def test_the_verdicts_bars_differ_in_hatching_too():
     bars = axes_of("verdicts")[0].patches
     assert [bar.get_width() for bar in bars] == [21, 7, 3, 0]
@@ -590,6 +619,8 @@ BAD = [
     ("counts has 0 entries", "verdicts", ({},)),
     ("a Route is needed, not a Pose", "route", (WAY,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
+    ("runs has 0 entries", "heading_powers", ({}, {})),
+    ("seconds has 1 entries", "last_turns", ({"one": (1.0, 1.0)},)),
 ]
 
 

@@ -57,6 +57,8 @@ FLIPS = {  # the thing, and what its module takes from wmrlib
     "compass wrap_angle": lambda f: lambda angle: -f(angle),
     "silence rolled": lambda f: lambda v, timeout, brake: f(v, timeout, -brake),
     "corners headings_along": lambda f: lambda x, y: -f(x, y),
+    "race control_law": lambda f: lambda *a, **o: (-f(*a, **o)[0], f(*a, **o)[1]),
+    "heading_power simulate": lambda f: lambda a, b, k, **o: f(a, b, _backwards(k), **o),
     "passing drive_route": lambda f: lambda p, g, **o: f(p, g, **(o | {"pass_radius": 1e9})),
 }
 

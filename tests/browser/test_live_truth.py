@@ -393,6 +393,35 @@ def window(values, found, data) -> None:
     np.testing.assert_allclose(found["late"], late, atol=0.5)
 
 
+def race(values, found, data) -> None:
+    start = wmr.Pose(values["x"], values["y"], math.radians(values["heading"]))
+    wheels = wmr.WheelLimits(data["track"], data["most"])
+    how = {"dt": data["dt"], "duration": data["seconds"], "arrival_radius": data["radius"]}
+    for run in found["runs"]:
+        gains = wmr.Gains(**data["tuned"][run["law"]])
+        ours = wmr.simulate(start, pose(data["goal"]), gains, law=run["law"], wheels=wheels, **how)
+        assert run["arrived"] == (ours.outcome is wmr.Outcome.ARRIVED)
+        np.testing.assert_allclose(run["x"], ours.x, atol=1e-6)
+        assert run["left"] == pytest.approx(abs(ours.heading_error[-1]), abs=1e-6)
+        driven = np.maximum(-ours.v[:-1], 0.0).sum() * data["dt"]
+        assert run["back"] == pytest.approx(driven, abs=1e-6)
+
+
+def heading_power(values, found, data) -> None:
+    gains = wmr.Gains(**data["gains"])._replace(h=values["k_phi"], k_alpha=values["k_delta"])
+    ends, how = (pose(data["start"]), pose(data["goal"])), {"law": "graceful", "duration": 120.0}
+    same_run(found["run"], *ends, gains, arrival_radius=0.005, **how)
+    stop = {"method": "continuous", "arrival_radius": values["radius"]}
+    ours = wmr.simulate(*ends, gains, **how, **stop)
+    assert found["left"] == pytest.approx(abs(ours.heading_error[-1]), abs=1e-7)
+    z = []
+    for radius in (0.02, 0.01):
+        run = wmr.simulate(*ends, gains, **how, **stop | {"arrival_radius": radius})
+        z.append(run.alpha[-1] + math.atan(gains.h * run.theta[-1]))
+    assert math.log2(z[0] / z[1]) == pytest.approx(gains.k_alpha, abs=0.02)
+    assert found["power"] == min(values["k_phi"], values["k_delta"])
+
+
 TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the same name
 
 

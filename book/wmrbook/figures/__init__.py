@@ -25,5 +25,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "noise": ["memories", "scatter"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route"],
+        "other_laws": ["heading_powers", "last_turns"],
     },
 )

@@ -100,4 +100,4 @@ def _within(interval: tuple[float, float], turn: int, random: np.random.Generato
 
 
 # They fill it:
-from wmrbook.headlines import field, ground, laws, practice, sampled  # noqa: E402, F401
+from wmrbook.headlines import field, ground, laws, other_laws, practice, sampled  # noqa: E402, F401

@@ -27,5 +27,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "real_robot": ["compass", "silence"],
         "routes": ["corners", "passing"],
         "prover": ["strict"],
+        "other_laws": ["heading_power", "race"],
     },
 )

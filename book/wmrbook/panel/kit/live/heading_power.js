@@ -1,0 +1,56 @@
+// Graceful's heading error over the distance left, on logarithmic scales: a power of it.
+
+import { DEGREES, written } from '../style.js';
+import { driven, remembered } from '../runs.js';
+import { live } from '../live.js';
+import { simulate, summarise } from '../simulate.js';
+
+const LEAST = 1e-4; // degrees, the lower border
+const power = (value) => (Number.isInteger(value) ? String(+(10 ** value).toPrecision(1)) : '');
+const free = (options) =>
+    simulate({ reference: null, law: 'graceful', method: 'continuous', dt: 0.05, duration: 120,
+    ...options });
+const stopped = remembered(free), shipped = remembered(({ all, ...how }) =>
+    all.map((gains) => free({ ...how, gains })));
+const off = (run, k) => Math.abs(run.theta[k] - run.alpha[k]) * DEGREES;
+const curve = (run) =>
+    Array.from({ length: run.n }, (_, k) =>
+        [Math.log10(run.rho[k]), Math.log10(Math.max(off(run, k), LEAST))]);
+
+export default live('heading_power', {
+  find({ k_phi, k_delta, radius }, { data: { start, goal, gains, defaults } }) {
+    const steer = (phi, delta) => ({ ...gains, h: phi, k_alpha: delta }),
+        here = { start, goal, gains: steer(k_phi, k_delta), law: 'graceful' },
+        least = { dt: 0.05, duration: 120, arrivalRadius: 0.005 },
+        run = driven({ ...here, ...least });
+    const { headingError, time } = summarise(stopped({ ...here, arrivalRadius: radius }));
+    const others = shipped({ start, goal, ...least,
+        all: Object.values(defaults).map(([phi, delta]) => steer(phi, delta)) });
+    return { run, others, time, left: Math.abs(headingError), power: Math.min(k_phi, k_delta) };
+  },
+  panes: ({ radius }, { left, power: slope }) => ({ error: {
+    x: [-2.3, 0.6, 'distance left [m]', power],
+        y: [-4, 2.4, 'heading error [°]', power], tall: true,
+    given: 'Logarithmic scales for the heading error over the distance left.',
+    alt: `The heading error over the distance left, both on logarithmic scales: near the goal a ` +
+        `line of slope ${written(slope)}; ${written(left * DEGREES, '°')} at ` +
+        `${written(radius, 'm')}. Thin lines are Nav2's two defaults.`,
+    scrub: (x) => ({ radius: Math.min(Math.max(10 ** x, 0.01), 1) }),
+  } }),
+  draw({ error }, { radius }, { run, others, left, power: slope }, hidden, { data }) {
+    if (hidden) return;
+    Object.keys(data.defaults).forEach((name, i) => {
+      const points = curve(others[i]), [x, y] = points[points.length - 1];
+      error.line(points, 'ghost', { width: 1.5, dash: i ? [2, 5] : [7, 4] });
+      error.text(name, x, y, { role: 'ghost', dx: 4, dy: -12, size: 12 });
+    });
+    error.line(curve(run), 'path');
+    const at = [Math.log10(radius), Math.log10(Math.max(left * DEGREES, LEAST))];
+    error.line([-1, 1].map((by) => [at[0] + by, at[1] + by * slope]), 'goal',
+        { width: 1.5, dash: [3, 4] });
+    error.line([[at[0], -4], [at[0], 2.4]], 'rho', { width: 1.5, dash: [3, 4] });
+    error.dot(at[0], at[1]);
+  },
+  say: (values, { time, left, power: slope }) =>
+      ({ power: written(slope), seconds: written(time, 's'), left: written(left * DEGREES, '°') }),
+});
