@@ -1,6 +1,7 @@
 """Is a Lyapunov function strict? z3 proves it for every state, or names one where it is not.
 
-z3 decides polynomials over the real numbers, and half-angle tangents make one of the barrier law.
+z3 decides polynomial inequalities over the real numbers, and with half-angle tangents the barrier
+law makes V' a polynomial.
 """
 
 from __future__ import annotations
@@ -18,7 +19,7 @@ from wmrlib._checks import book_extra
 P, Q, K2 = sp.symbols("p q k2", real=True)
 """tan(theta/2), tan(alpha/2) and k_alpha/(v_max decay(rho, k_rho))."""
 STRICT = (1 + 4 * P**2 + 4 * Q**2) ** 3 - 1 + (2 * P + 2 * Q) ** 2
-"""The V of chapter 13."""
+"""V of (13.4)."""
 PATIENCE = 60.0  # s
 _COMPARED = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operator.ge}
 
