@@ -1,12 +1,13 @@
 // Cells that run in the page. Python itself, 16 MB beside this file, is loaded when the first one
-// is run, into a worker that can be stopped. Before a cell the ones above it run, as far as they
-// have not, or not since something above them changed.
+// is run, into a worker that can be stopped, and z3 for the first one that asks it. Before a cell
+// the ones above it run, as far as they have not, or not since something above them changed.
 (function () {
   const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
   const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
   const ZIPPED = new Set(['worker', 'asm', 'wasm']);
+  const ASKS_Z3 = /\bimport z3\b|\bwmrbook(\.| import .*)strict\b/;
   const cells = [];
-  let parts, worker, running;
+  let parts, solver, worker, running;
 
   const make = (tag, properties = {}, ...children) => {
     const element = Object.assign(document.createElement(tag), properties);
@@ -38,24 +39,35 @@
     return Object.fromEntries(PARTS.map((name, i) => [name, found[i]]));
   }
 
+  // of z3
+  function loadedSolver() {
+    solver ??= load('z3').then(() => unpacked('z3'));
+    solver.catch(() => { solver = undefined; });
+    return solver;
+  }
+
   function started() {
     parts ??= allParts();
     parts.catch(() => { parts = undefined; });
     return parts.then(({ worker: script, ...rest }) => new Promise((resolve, reject) => {
       const python =
           new Worker(URL.createObjectURL(new Blob([script], { type: 'text/javascript' })));
-      let finish, stopped = false;
+      let finish, stopped = false, solves = false;
       python.onmessage = ({ data }) => {
         if (data.failed) reject(Error(data.failed));
         else if (data.ready) resolve({ run, stop });
         else finish(data);
       };
-      const run = (cell) => new Promise((done) => {
-        const { space, number, before, checks } = cell;
-        finish = done;
-        if (stopped) done({ stopped });
-        else python.postMessage({ space, number, before, checks, source: source(cell) });
-      });
+      const run = async (cell) => {
+        const { space, number, before, checks } = cell, text = source(cell);
+        const more = !solves && ASKS_Z3.test(`${before}\n${text}`) && await loadedSolver();
+        solves ||= Boolean(more);
+        return new Promise((done) => {
+          finish = done;
+          if (stopped) done({ stopped });
+          else python.postMessage({ space, number, before, checks, source: text, more });
+        });
+      };
       const stop = () => {
         stopped = true;
         python.terminate();
@@ -138,6 +150,31 @@
       cell.stop.hidden = true;
     }
   }
+
+  // What a figure asks: the text that its code prints.
+  async function answer(code, say) {
+    if (running) throw Error('a cell is running.');
+    running = {};
+    document.documentElement.classList.add('python-busy');
+    try {
+      say(worker ? 'Asking …' : 'Loading Python …');
+      worker ??= started();
+      const python = await worker;
+      say('Asking …');
+      const asked = { space: 'figures', number: 0, before: '', checks: [], source: code };
+      const { shown, error, died, stopped } = await python.run(asked);
+      if (died) stop();
+      if (error || stopped) throw Error(error || 'it was stopped.');
+      return shown[0][1];
+    } catch (error) {
+      worker?.catch(() => { worker = undefined; });  // it did not start
+      throw error;
+    } finally {
+      running = undefined;
+      document.documentElement.classList.remove('python-busy');
+    }
+  }
+  window.wmrPython = { answer, stop };
 
   const forget = (some) => some.forEach((each) => { each.ran = undefined; });
 

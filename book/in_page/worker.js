@@ -23,8 +23,9 @@ async function start({ asm, wasm, stdlib, packages }) {
   const run =
       pyodide.runPython(
       'import sys; sys.path.insert(0, "/packages"); from run_cell import run; run');
-  return ({ space, number, before, source, checks }) => {
+  return ({ space, number, before, source, checks, more }) => {
     try {
+      if (more) pyodide.unpackArchive(more, 'zip', { extractDir: '/packages' });
       return JSON.parse(run(space, number, before, source, pyodide.toPy(checks)));
     } catch (error) {  // Python itself broke, as by too deep a recursion
       return { shown: [], error: String(error), died: true };

@@ -1,8 +1,9 @@
 """A Sphinx extension: cells that run in the page, and tasks that are checked there.
 
-The page has Python and sympy, but no numpy, no matplotlib and no compiled code. A statement of a
-chapter runs there if nothing that it names comes from one that can't, and a cell if all that it
-*shows* can; what else it holds is left out, and the page says so. Nothing is marked by hand.
+The page has Python, sympy and z3, but no numpy, no matplotlib and no code that numba compiles. A
+statement of a chapter runs there if nothing that it names comes from one that can't, and a cell if
+all that it *shows* can; what else it holds is left out, and the page says so. Nothing is marked by
+hand.
 
 Below a chapter's exercises stand graded tasks that can be checked in the page, see page_tasks.py.
 Paper shows none of this.
@@ -25,8 +26,8 @@ from page_tasks import CHAPTER, add_tasks, handed_in
 
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
 THERE = {
-    *("collections", "functools", "math", "sympy"),
-    *("wmrbook.equations", "wmrbook.grading", "wmrlib.symbolic"),
+    *("collections", "functools", "math", "sympy", "z3"),
+    *("wmrbook.equations", "wmrbook.grading", "wmrbook.strict", "wmrlib.symbolic"),
 }
 
 

@@ -1,9 +1,10 @@
-"""The Python that a page carries: Pyodide, sympy and the parts of wmrlib that need no more.
+"""The Python that a page carries: Pyodide, sympy, z3 and the parts of wmrlib that need no more.
 
 A page from the disk may not fetch, but it may load scripts: each part is one, in base64. Pyodide
 (MPL-2.0) comes unchanged from npm, sympy, mpmath and lazy_loader with their licences out of this
 environment, wmrlib and wmrbook out of this repository. Where those need numpy, numba or a part that
-is not here, book/in_page/stand_ins has a module in its place.
+is not here, book/in_page/stand_ins has a module in its place. z3 (MIT) comes from PyPI, as the
+wheel for Pyodide that book/in_page/z3.txt names, and is loaded only for a cell that asks it.
 """
 
 from __future__ import annotations
@@ -34,6 +35,10 @@ LEFT_OUT = re.compile(
     r".*\b(tests|benchmarks|__pycache__)/|sympy/(physics/(?!units)\w+/|parsing/\w+/|stats/)"
     r"|wmrlib/tracks/|wmrbook/(figures|audit|challenge|live|panel|questions)/"
 )
+Z3 = IN_PAGE / "z3.txt"  # the version and the hash of a wheel
+Z3_LICENCE = IN_PAGE / "z3_LICENSE.txt"  # which the wheel lacks
+Z3_PLATFORM = "pyemscripten_2026_0_wasm32"
+Z3_FILES = re.compile(r"z3/\w+\.py|z3/lib/libz3\.so|.*/METADATA")
 KINDS = {".py", ".pyi", ".c", ".h"}
 DAY = 24 * 3600.0  # s
 FIXED = (1980, 1, 1, 0, 0, 0)  # the same files make the same zip
@@ -52,13 +57,15 @@ def write_scripts(folder: Path, modules: Path) -> None:
     worker += (pyodide / "pyodide.js").read_text(encoding="utf-8").rpartition("//#")[0]
     worker += (IN_PAGE / "worker.js").read_text(encoding="utf-8")
     stdlib = (pyodide / "python_stdlib.zip").read_bytes()
-    stdlib, own = compiled(modules, {"stdlib": stdlib, "packages": packages()})
+    zips = {"stdlib": stdlib, "packages": packages(), "z3": z3(modules)}
+    stdlib, own, solver = compiled(modules, zips)
     parts = {
         "worker": gzip.compress(worker.encode(), mtime=0),
         "asm": gzip.compress((pyodide / "pyodide.asm.mjs").read_bytes(), mtime=0),
         "wasm": gzip.compress((pyodide / "pyodide.asm.wasm").read_bytes(), mtime=0),
         "stdlib": stdlib,
         "packages": own,
+        "z3": solver,
     }
     folder.mkdir(parents=True, exist_ok=True)
     for name, content in parts.items():
@@ -97,11 +104,34 @@ def packages() -> bytes:
         files |= _installed_files(name)
     files |= {path.relative_to(STAND_INS).as_posix(): path for path in STAND_INS.rglob("*.py")}
     files["run_cell.py"] = IN_PAGE / "run_cell.py"
+    return _zipped({name: path.read_bytes() for name, path in files.items()}, b"packages")
+
+
+def z3(modules: Path) -> bytes:
+    """Return z3 as a zip, out of a wheel that pip fetches once; the wheel has its library twice."""
+    digest = sha256(Z3.read_bytes()).hexdigest()[:16]
+    kept = modules / ".z3" / digest
+    if not kept.is_dir():
+        kept.parent.mkdir(exist_ok=True)
+        made = Path(tempfile.mkdtemp(dir=kept.parent))
+        command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--dest", made]
+        command += ["--only-binary", ":all:", "--platform", Z3_PLATFORM, "--require-hashes"]
+        subprocess.run([*command, "-r", Z3], check=True)
+        with suppress(OSError):  # another build was first
+            made.rename(kept)
+    (wheel,) = kept.glob("*.whl")
+    with zipfile.ZipFile(wheel) as archive:
+        wanted = (it for it in archive.namelist() if Z3_FILES.fullmatch(it))
+        files = {name: archive.read(name) for name in wanted}
+    return _zipped(files | {"z3/LICENSE": Z3_LICENCE.read_bytes()})
+
+
+def _zipped(files: dict[str, bytes], comment: bytes = b"") -> bytes:
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        archive.comment = b"packages"
-        for name, path in sorted(files.items()):
-            archive.writestr(zipfile.ZipInfo(name, FIXED), path.read_bytes(), zipfile.ZIP_DEFLATED)
+        archive.comment = comment
+        for name, text in sorted(files.items()):
+            archive.writestr(zipfile.ZipInfo(name, FIXED), text, zipfile.ZIP_DEFLATED)
     return content.getvalue()
 
 

@@ -20,6 +20,7 @@ CELLS = [
     "explorer = Explorer(view='gains')\nexplorer",
     "print('seen', explorer.gains, len(explorer.trajectory()), explorer.law, explorer.moving)",
     "explorer.gains, explorer.law = wmr.Gains(1.5, 4.0, 2.5), 'aicardi'",
+    "from wmrbook import live\nlive.strict()",
 ]
 # ipywidgets' broken link over what has no kernel, which a stored panel doesn't need.
 BROKEN_LINKS = """() => [...document.querySelectorAll('.jupyter-widgets-disconnected')]
@@ -238,3 +239,16 @@ def test_python_follows_the_panel_and_the_panel_follows_python(lab, browser_page
     page.locator("[data-do=reset]").click()
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
     page.assert_quiet()
+
+
+def test_a_figure_asks_the_kernel(lab, browser_page):
+    page = browser_page
+    open_notebook(page, link(lab).replace(CHAPTER, PANEL), PANEL)
+    run(page, 3)
+    page.get_by_role("button", name="Prove it").click(timeout=PATIENCE)
+    said = page.locator(".live-asks [role=status]")
+    said.filter(has_text="z3: no, not at").wait_for(timeout=PATIENCE)
+    page.locator(".live-number").fill("2")
+    page.locator(".live-number").press("Enter")
+    page.get_by_role("button", name="Prove it").click(timeout=PATIENCE)
+    said.filter(has_text="z3: yes, proved.").wait_for(timeout=PATIENCE)

@@ -4,10 +4,12 @@ from __future__ import annotations
 
 import json
 import math
+import re
 
 import control
 import numpy as np
 import pytest
+import sympy as sp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import SETTLED, TRAITS, mounted
@@ -16,6 +18,7 @@ from test_live import NAMES, commit
 import wmrlib as wmr
 from wmrbook import live
 from wmrbook.live import audit, noise, real_robot
+from wmrbook.strict import K2, STRICT, P, Q, answer, slope
 
 FOUND = """() => JSON.stringify(document.querySelector('.live').found,
     (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
@@ -232,6 +235,13 @@ def rising(values, found, data) -> None:
         run = wmr.simulate(start, origin, gains, law=law, **how)
         ours = run.rho**2 / 2 / L + run.alpha**2 / 2 + gains.h * run.theta**2 / 2
         np.testing.assert_allclose(V, ours, rtol=1e-6, atol=1e-7)
+
+
+def strict(values, found, data) -> None:
+    middles = ((np.arange(121) + 0.5) / 121 * 2 - 1) * 50
+    p, q = np.tan(np.radians(np.meshgrid(middles, middles, indexing="ij")) / 2)
+    rate = sp.lambdify((P, Q, K2), slope())(p, q, values["k2"])
+    assert len(found["rising"]) == (rate > 0).sum()
 
 
 def compass(values, found, data) -> None:
@@ -487,6 +497,31 @@ def test_poles_go_where_the_hand_goes_and_take_each_other_along(emptied_page):
     panel.drag(poles[0], 1.5 * scale, 0)
     assert "h would be" in emptied_page.locator(".live-trouble").inner_text()
     assert found()[0][0] < 0.0
+
+
+def test_what_z3_finds_is_driven_for_as_long_as_the_gain_is_that_one(emptied_page):
+    panel = mounted(emptied_page, live.strict(), width=390)
+    panel.set(k2=0.2, answer={"of": {"k2": 0.2}, "is": answer(0.2)})
+    found = json.loads(emptied_page.evaluate(FOUND))
+    p, q = answer(0.2)["state"]
+    rho, origin = live.strict().setup["data"]["rho"], pose([0.0, 0.0, 0.0])
+    start = wmr.pose_from_polar(wmr.PolarError(rho, 2 * math.atan(q), 2 * math.atan(p)), origin)
+    gains = wmr.Gains(1.0, 0.2 * -math.expm1(-rho) / rho, 1.0, 1.0)
+    how = {"method": "continuous", "dt": 0.01 / 1.2, "duration": 30 / 1.2, "arrival_radius": 0.0}
+    run = wmr.simulate(start, origin, gains, law="barrier", **how)
+    np.testing.assert_allclose(found["run"]["alpha"], run.alpha, atol=AGREES)
+    np.testing.assert_allclose(found["run"]["theta"], run.theta, atol=AGREES)
+    V = sp.lambdify((P, Q), STRICT)(np.tan(run.theta / 2), np.tan(run.alpha / 2))
+    grown = 100 * (V / V[0] - 1)
+    np.testing.assert_allclose(found["run"]["grown"], grown, atol=1e-4)
+    assert found["most"] == pytest.approx(grown.max(), abs=1e-4)
+    assert grown.max() > 0.4
+    said = emptied_page.locator(".live-asks")
+    assert re.search(r"no, not at . = .?14\.3°, . = 0\.0°", said.inner_text())
+    panel.set(k2=1.0)
+    assert said.inner_text() == "Prove it"
+    panel.set(answer={"of": {"k2": 1.0}, "is": answer(1.0)})
+    assert "yes, proved" in said.inner_text()
 
 
 def test_on_paper_the_right_option_is_marked(emptied_page):

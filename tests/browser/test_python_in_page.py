@@ -14,10 +14,13 @@ import graded
 import nbformat
 import pytest
 from faults import SIZES, of_page
+from host import TRAITS
 from live import PATIENCE, ROOT, chapters
 from page_tasks import TASKS
 from python_cells import runnable
-from python_pack import packages
+from python_pack import Z3, packages
+
+from wmrbook import live
 
 if not os.environ.get("BOOK_HTML"):
     pytestmark = pytest.mark.needs("npm")
@@ -119,7 +122,100 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     page.locator("#pst-back-to-top").wait_for(state="hidden", timeout=PATIENCE)
     assert not of_page(page, SIZES[:1])
     sizes = [each.stat().st_size for each in (site / "_static/vendor/python").iterdir()]
-    assert sum(sizes) < 20e6
+    assert sum(sizes) < 25e6
+
+
+SOLVED = """from wmrbook.strict import K2, Q, counterexample, slope
+found = []
+for k2 in ("13/64", "1/2", "2"):
+    asked = slope().subs(K2, k2)
+    found.append(counterexample(asked, Q > 0))
+print(found)"""
+
+
+def test_z3_decides_in_the_page_and_is_loaded_for_a_cell_that_asks_it(site, tmp_path, browser_page):
+    texts = "1 + 1", SOLVED, "import z3\nz3.get_version_string()"
+    cells = [{"place": i, "source": text, "before": "", "left_out": 0, "checks": [],
+              "space": "chapter", "name": ""} for i, text in enumerate(texts)]  # fmt: skip
+    path = tmp_path / "z3.html"
+    path.write_text(page_of(cells, (site / "_static").as_uri()), encoding="utf-8")
+    browser_page.goto(path.as_uri())
+    asked = []
+    browser_page.on("request", lambda request: asked.append(request.url.rpartition("/")[2]))
+    for number, most in enumerate((5, 6, 6)):
+        press(browser_page, number, "Run")
+        assert told(browser_page, number).startswith("Done")
+        assert sum(it.endswith(".js") for it in asked) == most
+        assert ("z3.js" in asked) == (number > 0)
+    assert shown(browser_page, 1).strip() == "[{p: 0, q: 1/8}, None, None]"
+    version = Z3.read_text(encoding="utf-8").split()[0].removeprefix("z3-solver==")
+    assert version.startswith(shown(browser_page, 2).strip(" '\n"))
+
+    # Stopped while it thinks, it is asked again.
+    endless = "from wmrbook import strict\nwhile True:\n    strict.counterexample(strict.slope())"
+    write(browser_page, 1, endless)
+    press(browser_page, 1, "Run")
+    browser_page.wait_for_timeout(500)
+    press(browser_page, 1, "Stop")
+    assert told(browser_page, 1) == "Stopped. All variables are gone."
+    press(browser_page, 1, "Reset")
+    press(browser_page, 2, "Run")
+    assert told(browser_page, 2).startswith("Done")
+    assert sum(it == "z3.js" for it in asked) == 1
+
+
+def test_a_figure_asks_the_pages_python_and_says_what_is_missing(site, tmp_path, browser_page):
+    pytest.importorskip("anywidget", reason="what moves needs anywidget")
+    static, z3 = tmp_path.as_uri(), tmp_path / "vendor/python/z3.js"
+    for each in (site / "_static").rglob("*.js"):  # what is there, but not z3
+        place = tmp_path / each.relative_to(site / "_static")
+        place.parent.mkdir(parents=True, exist_ok=True)
+        if place != z3:
+            place.symlink_to(each)
+    kind, traits = "application/vnd.jupyter.widget", live.strict().get_state(TRAITS)
+    states = json.dumps({"state": {"it": {"model_name": "AnyModel", "state": traits}}})
+    page = page_of([], static) + f'<body><script src="{static}/vendor/panels.js"></script>'
+    page += f'<script src="{static}/widgets.js" data-start="1"></script>'
+    page += f'<script type="{kind}-state+json">' + states.replace("</", "<\\/") + "</script>"
+    page += f'<script type="{kind}-view+json">{{"model_id": "it"}}</script>'
+    path = tmp_path / "figure.html"
+    path.write_text(page, encoding="utf-8")
+    browser_page.goto(path.as_uri())
+    said, number = browser_page.locator(".live-asks [role=status]"), ".live-number"
+    button = browser_page.locator(".live-asks button")
+
+    def asked(k2):
+        browser_page.locator(number).fill(k2, timeout=PATIENCE)
+        browser_page.locator(number).press("Enter")
+        button.click(timeout=PATIENCE)
+        browser_page.wait_for_function(
+            "() => document.querySelector('.live-asks button').textContent === 'Prove it'"
+            " && document.querySelector('.live-asks [role=status]').textContent",
+            timeout=PATIENCE,
+        )
+        return said.text_content()
+
+    assert not browser_page.evaluate("Object.keys(window.PYTHON_PARTS ?? {}).length")
+    assert asked("1") == "No answer: z3.js is not beside this page"
+    browser_page.troubles.clear()  # the console says so too
+    z3.symlink_to(site / "_static/vendor/python/z3.js")
+    assert asked("1") == "z3: yes, proved."
+    for k2 in ("0.25", "0.2", "16"):
+        assert asked(k2).startswith("z3: no, not at")
+    assert asked("0.254033").endswith("less than 0.001\u00a0%.")
+
+    # Stopped while Python is loaded again, and asked once more.
+    browser_page.evaluate("wmrPython.stop()")
+    browser_page.locator(number).fill("2")
+    browser_page.locator(number).press("Enter")
+    button.click()
+    assert button.text_content() == "Stop"
+    button.click()
+    browser_page.wait_for_function(
+        "() => document.querySelector('.live-asks [role=status]').textContent === 'Stopped.'"
+    )
+    browser_page.wait_for_function("() => !document.documentElement.matches('.python-busy')")
+    assert asked("2") == "z3: yes, proved."
 
 
 def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_path, browser_page):

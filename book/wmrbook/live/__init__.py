@@ -6,7 +6,7 @@ ask for a prediction first. They live in a page without a kernel, as the Explore
 
 import lazy_loader
 
-PARTS = {"Ask", "Choice", "Knob", "Live"}
+PARTS = {"Ask", "Asks", "Choice", "Knob", "Live"}
 """What the rest is made of."""
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
@@ -26,6 +26,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "audit": ["rising", "threshold"],
         "real_robot": ["compass", "silence"],
         "routes": ["corners", "passing"],
+        "prover": ["strict"],
         "other_laws": ["heading_power", "race"],
     },
 )

@@ -23,6 +23,7 @@ export const CONTRACTS = {
   'live/rising': '99758e7c',
   'live/silence': '651bc34e',
   'live/stopping': '531fdfc5',
+  'live/strict': '9b03bd6a',
   'live/threshold': '8f0e7e19',
   'live/torus': '3fb68f23',
   'live/turning_centre': '38a38b22',

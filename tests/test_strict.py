@@ -1,0 +1,122 @@
+"""What z3 proves of a Lyapunov function, and where it says that there is nothing to prove."""
+
+import re
+from pathlib import Path
+
+import pytest
+import sympy as sp
+from python_pack import Z3
+
+from wmrbook import strict
+from wmrbook.strict import K2, STRICT, P, Q, counterexample, rates, slope
+from wmrlib import laws, symbolic
+
+ROOT = Path(__file__).resolve().parents[1]
+WINDOW = K2**2 - 16 * K2 + 4 <= 0
+
+
+@pytest.fixture
+def law(monkeypatch):
+    """Put a formula in the barrier law's place."""
+
+    def put(formula):
+        row = laws.LAWS["barrier"]._replace(formula=formula)
+        monkeypatch.setitem(laws.LAWS, "barrier", row)
+
+    return put
+
+
+def test_the_function_is_strict_in_the_window_and_nowhere_else():
+    falls = slope()
+    assert counterexample(falls, WINDOW) is None
+    for k2 in (sp.Rational(13, 64), sp.Rational(127, 500), sp.Rational(63, 4), 100):
+        state = counterexample(falls.subs(K2, k2))
+        assert set(state) == {P, Q}
+        assert any(state.values())
+        # As exact fractions, from the law itself: z3 need not be believed.
+        p_rate, q_rate = (rate.subs({K2: k2, **state}) for rate in rates())
+        V_rate = STRICT.diff(P).subs(state) * p_rate + STRICT.diff(Q).subs(state) * q_rate
+        assert V_rate.is_Rational
+        assert V_rate >= 0
+    for k2 in (sp.Rational(51, 200), sp.Rational(1, 2), 2, sp.Rational(1574, 100)):
+        assert counterexample(falls.subs(K2, k2)) is None
+    # Near the goal the quadratic part decides: it is negative exactly in the window.
+    bent = sp.hessian(falls, (P, Q)).subs({P: 0, Q: 0})
+    assert sp.expand(bent.det() + 64 * WINDOW.lhs) == 0
+
+
+def test_the_polynomial_is_the_laws_own_rate():
+    values = {"rho": 0.7, "alpha": 0.9, "theta": -2.1, "k_rho": 1.3, "h": 1.0, "v_max": 0.8}
+    clock = 0.8 * symbolic.decay(0.7, 1.3).evalf()
+    at = {getattr(symbolic, name): value for name, value in values.items()}
+    at[symbolic.k_alpha] = 0.6 * clock
+    half = {P: sp.tan(symbolic.theta / 2), Q: sp.tan(symbolic.alpha / 2)}
+    V = STRICT.subs(half)
+    loop = zip((symbolic.alpha, symbolic.theta), symbolic.closed_loop("barrier")[1:], strict=True)
+    rate = sum(V.diff(angle) * turning for angle, turning in loop).subs(at)
+    here = {x: tangent.subs(at) for x, tangent in half.items()} | {K2: 0.6}
+    wanted = rate / clock * (1 + here[Q] ** 2) ** 2
+    assert float(slope().subs(here)) == pytest.approx(float(wanted), rel=1e-9)
+
+
+def test_the_laws_own_function_falls_but_not_strictly():
+    falls = slope(4 * P**2 + 4 * Q**2)
+    assert counterexample(falls, K2 > 0, Q > 0) is None
+    assert counterexample(falls, K2 > 0, Q < 0) is None
+    state = counterexample(falls, K2 > 0)
+    assert (state[Q], falls.subs(Q, 0)) == (0, 0)
+
+
+@pytest.mark.parametrize("part", ["alpha", "theta", "speed"])
+def test_a_sign_turned_round_in_the_law_is_found(law, part):
+    right = laws.barrier_law
+    signs = {"alpha": (-1, 1), "theta": (1, -1), "speed": (1, 1)}[part]
+
+    def wrong(rho, alpha, theta, gains):
+        speed, turning = right(rho, signs[0] * alpha, signs[1] * theta, gains)
+        return (-speed if part == "speed" else speed), turning
+
+    law(wrong)
+    falls = slope().subs(K2, 1)
+    assert falls.subs(counterexample(falls)) > 0
+
+
+def test_what_is_no_polynomial_is_refused():
+    with pytest.raises(sp.PolynomialError):
+        slope(law="corrected")
+    with pytest.raises(sp.PolynomialError):
+        slope(sp.exp(P))
+
+
+def test_z3_says_so_when_it_gives_up(monkeypatch):
+    monkeypatch.setattr(strict, "PATIENCE", 0.001)
+    hard = slope()
+    with pytest.raises(TimeoutError, match="neither"):
+        counterexample(hard, WINDOW)
+
+
+def test_a_figure_is_answered_by_the_kernel_too(monkeypatch):
+    pytest.importorskip("anywidget", reason="what moves needs anywidget")
+    from wmrbook import live
+
+    sent, thing = [], live.strict()
+    monkeypatch.setattr(thing, "send", sent.append)
+    for k2 in (0.25, 1.0):
+        thing._handle_custom_msg({"of": {"k2": k2}}, [])
+    rising, none = (it["is"]["state"] for it in sent)
+    assert none is None
+    assert slope().subs({K2: 0.25, **dict(zip((P, Q), rising, strict=True))}) > 0
+
+    def silent(k2):
+        raise TimeoutError(f"z3 decides nothing at {k2}")
+
+    monkeypatch.setattr(strict, "answer", silent)
+    thing._handle_custom_msg({"of": {"k2": 2.0}}, [])
+    assert sent[2] == {"of": {"k2": 2.0}, "error": "z3 decides nothing at 2.0"}
+
+
+def test_the_page_has_the_version_of_the_locks():
+    (wheel,) = re.findall(r"^z3-solver==([\d.]+) ", Z3.read_text(encoding="utf-8"))
+    for lock in (ROOT / "environment.txt", ROOT / "tests" / "environment.txt"):
+        row = f"z3-solver=={wheel} ; platform_machine != 'aarch64' or sys_platform != 'linux'\n"
+        assert row in lock.read_text(encoding="utf-8")
