@@ -14,8 +14,14 @@ from wmrlib.tracks.fixes import LONGEST, Fixes, timestamp
 _SENTENCE = re.compile(r"\$([A-Za-z]{2}[^$*\r\n]{3}[^$*\r\n]*)(\*[0-9A-Fa-f]{0,2})?")
 _CLOCK = re.compile(r"([01][0-9]|2[0-3])([0-5][0-9])([0-5][0-9](?:\.[0-9]*)?)")
 _PLACE = re.compile(r"([0-9]{2})([0-5][0-9]\.[0-9]+),([NS]),([0-9]{3})([0-5][0-9]\.[0-9]+),([EW])")
-# The most trusted kind first: its rank, and where its time, its place and its modes are.
-_KINDS = {"GGA": (0, 1, 2, 6), "GNS": (1, 1, 2, 6), "RMC": (2, 1, 3, 12), "GLL": (3, 5, 1, 7)}
+# The most trusted kind first: its rank, and where its time, its place, its modes and its status
+# are; of GGA and GNS the number of satellites is the status. Before 2000 RMC and GLL had no mode.
+_KINDS = {
+    "GGA": (0, 1, 2, 6, 7),
+    "GNS": (1, 1, 2, 6, 7),
+    "RMC": (2, 1, 3, 12, 2),
+    "GLL": (3, 5, 1, 7, 6),
+}
 _DAY = 86400.0  # s
 
 
@@ -63,14 +69,12 @@ def _said(body: str, stated: str, line: int) -> tuple:
         raise ValueError("wrong checksum" if stated else "sentence without a checksum")
     if (kind := fields[0][2:].upper()) not in _KINDS:
         raise ValueError("other sentence")
-    rank, at_time, at_place, at_mode = _KINDS[kind]
-    clock, modes = _CLOCK.fullmatch(fields[at_time]), fields[at_mode]
+    rank, at_time, at_place, at_mode, at_status = _KINDS[kind]
+    clock, modes, status = _CLOCK.fullmatch(fields[at_time]), fields[at_mode], fields[at_status]
     second = int(clock[1]) * 3600 + int(clock[2]) * 60 + float(clock[3]) if clock else 0.0
-    if rank > 1:  # RMC and GLL have a status too, and before 2000 had no mode
-        modes = (modes or "A") if fields[2 if rank == 2 else 6] == "A" else "N"
-    elif fields[7] in ("0", "00") or (rank == 0 and modes not in {*"123459"}):  # 0 satellites
-        modes = "N"
-    fixed = bool({*modes} & {*("ADPRF" if rank else "123459")})  # not estimated or put in by hand
+    sound = status == "A" if rank > 1 else status not in ("0", "00")
+    measured = {*"ADPRF"} & {*(modes or "A" * (rank > 1))} if rank else modes in {*"123459"}
+    fixed = sound and bool(measured)  # not estimated or put in by hand
     place = _PLACE.fullmatch(",".join(fields[at_place : at_place + 4]))
     if not clock:
         raise ValueError("fix without a readable time" if fixed else "sentence without a fix")
