@@ -40,7 +40,7 @@ class Report:
 
 
 class Tally(dict[str, Count]):
-    """How often something was met, by what it is."""
+    """Counts, by reason or by kind."""
 
     def count(self, reason: str, line: int, times: int = 1) -> None:
         before, first = self.get(reason, (0, line))

@@ -68,7 +68,7 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
             columns = [_column(cell) for cell in next(csv.reader([line], delimiter=delimiter))]
             roles = [role for role, _ in columns]
             if {"lat", "lon"} <= {*roles}:
-                if "minutes" in roles or any(roles.count(each) > 1 for each in [*_ROLES][:6]):
+                if "minutes" in roles or any(roles.count(role) > 1 for role in [*_ROLES][:6]):
                     wrong = "has a column twice, or minutes of a degree, which is not read"
                     raise ValueError(f"its header {shown} {wrong}")
                 return row, delimiter, columns
@@ -99,8 +99,8 @@ def _position(columns: _Columns, row: list[str]) -> tuple[float, float, float | 
     per, cells = dict(columns), {"time": ""}
     for (role, _), cell in zip(columns, row, strict=False):
         cells[role] = cell.strip()
-        said = re.findall("[a-z]+|-?[0-9]+", cell.casefold()) or [""]
-        if said[0] not in _GOOD.get(role, said):
+        words = re.findall("[a-z]+|-?[0-9]+", cell.casefold()) or [""]
+        if words[0] not in _GOOD.get(role, words):
             raise ValueError("row without a measured fix")
     lat = _degrees(cells["lat"], "NS", cells.get("N/S")) / per["lat"]
     lon = _degrees(cells["lon"], "EW", cells.get("E/W")) / per["lon"]
