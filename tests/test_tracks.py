@@ -143,12 +143,12 @@ def test_the_real_log(read):
     assert track.points.lat[0] == pytest.approx(LAT, abs=1e-12)
     assert track.points.lon[-1] == pytest.approx(10 + 49.4885 / 60, abs=1e-12)
     lines = LOG.read_text(encoding="utf-8").splitlines()
-    first_rmc = 1 + next(i for i, line in enumerate(lines) if "RMC" in line)
-    counts = dict(track.report.skipped)
-    assert counts.pop("comment") == (sum(line.startswith("#") for line in lines), 1)
-    assert counts.pop("same epoch again") == (18, first_rmc)  # RMC and GLL
-    assert counts.pop("other sentence").count == sum(line.startswith("$") for line in lines) - 27
-    assert not counts
+    starts = ["#" if line[:1] == "#" else line[3:6] for line in lines]
+    assert dict(track.report.skipped) == {
+        "comment": (starts.count("#"), 1),
+        "same epoch again": (18, 1 + starts.index("RMC")),  # RMC and GLL
+        "other sentence": (sum(line.startswith("$") for line in lines) - 27, 8),
+    }
     assert not track.report.noted
     for values in (track.points.lat, track.points.lon, track.t):
         with pytest.raises(ValueError, match="read-only"):
@@ -237,22 +237,20 @@ SENTENCES = [
 @given(st.integers(0, 5), st.integers(0, 200), st.integers(0, 255))
 def test_a_corrupted_byte_is_never_used_silently(tmp_path_factory, which, place, byte):
     """Whatever one byte becomes, only true positions come out, and what is lost is counted."""
-    truth = [54 + (k + 0.6081) / 60 for k in range(6)]
     data = bytearray("\r\n".join([*SENTENCES, ""]).encode())
-    begin = sum(len(sentence) + 2 for sentence in SENTENCES[:which])
-    at = begin + place % len(SENTENCES[which])
-    changed = data[at] != byte
-    data[at] = byte
+    at = sum(len(sentence) + 2 for sentence in SENTENCES[:which]) + place % len(SENTENCES[which])
+    changed, data[at] = data[at] != byte, byte
     path = tmp_path_factory.getbasetemp() / "corrupted.nmea"
     path.write_bytes(data)
     track = wmr.read_track(path)
-    kept = [k for k in range(6) if np.isclose(track.points.lat, truth[k], rtol=0, atol=1e-12).any()]
-    assert len(kept) == len(track)  # no position but a true one
+    minutes = (track.points.lat - 54) * 60 - 0.6081
+    kept = np.round(minutes).astype(int).tolist()  # no position but a true one
+    assert np.allclose(minutes, kept, rtol=0, atol=1e-10)
+    assert sorted({*kept} & {*range(6)}) == kept
     assert np.allclose(track.points.lon, LON, rtol=0, atol=1e-12)
-    if changed and SENTENCES[which].index("*") > at - begin > 0:
+    if changed and SENTENCES[which].index("*") > place % len(SENTENCES[which]) > 0:
         assert which not in kept
-    if len(kept) < 6:
-        assert track.report.skipped
+    assert len(kept) == 6 or track.report.skipped
 
 
 AIS = "!AIVDM,1,1,,B,177KQJ5000G?tO`K>RA1wUbN0TKH,0*5C"
@@ -667,13 +665,6 @@ def test_a_path_comes_back(tmp_path_factory, lat, lon, n, seed):
     assert points.lat.size == n
     assert np.abs(points.lat - there.lat).max() <= 0.5001e-7
     assert np.abs((points.lon - there.lon + 180) % 360 - 180).max() <= 0.5001e-7
-    wmr.write_geojson(file, there)
-    x, y = np.reshape(json.loads(file.read_text())["geometry"]["coordinates"], (n, 2)).T
-    assert np.abs(np.diff(x)).max(initial=0.0) < 1.0
-    assert (y.tolist(), np.abs((x - points.lon + 180) % 360 - 180).max() < 1e-9) == (
-        points.lat.tolist(),
-        True,
-    )
 
 
 GPX_FILE = """<?xml version="1.0" encoding="UTF-8"?>
@@ -741,13 +732,10 @@ def test_bad_input_to_the_writers(tmp_path):
             (write, PAIR, {"name": "a\x00b"}, r"^name = 'a\\x00b' is not allowed: printable"),
             (write, PAIR, {"name": 3}, "a str is needed"),
         ]
-    (tmp_path / "old").write_text("as it was")
     for write, points, options, message in cases:
-        for path in (tmp_path / "old", tmp_path / "new"):
-            with pytest.raises(ValueError, match=message):
-                write(path, points, **options)
-    assert (tmp_path / "old").read_text() == "as it was"
-    assert not (tmp_path / "new").exists()
+        with pytest.raises(ValueError, match=message):
+            write(tmp_path / "new", points, **options)
+    assert not [*tmp_path.iterdir()]
 
 
 @pytest.mark.parametrize("write", [wmr.write_gpx, wmr.write_geojson])
