@@ -571,7 +571,7 @@ def test_what_would_have_to_be_guessed_is_not_read(read):
             track = read(f"date,time,lat,lon\n{day.strftime(how)},12:00:00,1,2\n")
             assert (places(track), dict(track.report.noted)) == (([1.0], [2.0]), unreadable)
             assert np.isnan(track.t).all()
-    for number in ("45292.5", "12345", "1767225600"):  # Excel's days, ms since it was switched on
+    for number in ("45292.5", "12345", "1767225600", "-5"):  # Excel's days, ms since it was switched on
         assert dict(read(f"time,lat,lon\n{number},1,2\n").report.noted) == unreadable
     cut = {"in a last line without an end, which may be cut off": (1, 2)}
     track = read("t_ms,lat,lon\n1767225600000000,1,2")  # rather microseconds
