@@ -200,7 +200,7 @@ BAD_SENTENCES = {
     NO_FIX: [
         *(gga(mode=k) for k in (0, 6, 8, 10, "")),
         *(rmc(mode=mode) for mode in "NEMS"),
-        *(rmc(status="V"), rmc(status="", mode="")),
+        *(rmc(status="V"), rmc(status="", mode=""), said("GNS", mode="")),
         *(said(kind, sats=sats) for kind in ("GGA", "GNS") for sats in ("0", "00")),
     ],
     UNREADABLE: [  # not zero, nor 55 degrees
@@ -274,6 +274,8 @@ def test_a_sentence_is_found_whatever_stands_beside_it(read):
         (nmea("GPTXT,01,01,02,Hello!") + sentence, {"other sentence": (1, 1)}),
         (f"# {sentence}\n{sentence}", {"comment": (1, 1)}),
         (f"${body}*\n{sentence}", {"wrong checksum": (1, 1)}),
+        (said("RMC", mode=""), {}),  # as before 2000
+        (said("GLL", mode=""), {}),
     ]:
         for written in (content, content.encode("utf-8-sig"), content.encode("utf-16")):
             track = read(written)
@@ -571,7 +573,7 @@ def test_what_would_have_to_be_guessed_is_not_read(read):
             track = read(f"date,time,lat,lon\n{day.strftime(how)},12:00:00,1,2\n")
             assert (places(track), dict(track.report.noted)) == (([1.0], [2.0]), unreadable)
             assert np.isnan(track.t).all()
-    for number in ("45292.5", "12345", "1767225600", "-5"):  # Excel's days, ms since it was switched on
+    for number in ("45292.5", "12345", "1767225600", "-5"):  # of Excel, since switched on
         assert dict(read(f"time,lat,lon\n{number},1,2\n").report.noted) == unreadable
     cut = {"in a last line without an end, which may be cut off": (1, 2)}
     track = read("t_ms,lat,lon\n1767225600000000,1,2")  # rather microseconds
