@@ -634,7 +634,7 @@ def test_a_file_without_a_position_says_why(read, tmp_path):
         ("x,y\n1,2\n", "first line 'x,y' does not name lat and lon"),
         ("lat,latitude,lon\n1,1,2\n", "has a column twice"),
         ("lat,lon\n", "it is CSV, but holds no position"),
-        ("lat,lon\n-95,2\n", r"1 latitude not in -90 to 90 \(first in line 2\)"),
+        ("lat,lon\n-95,2", r"1 latitude not in -90 to 90 \(first in line 2\)$"),
         ("lat,lon\n1," + "2" * 200_000, "its table is broken"),
         ('lat,lon\n1,2\n"3,4\n', "its table is broken"),
         ('{"type": "Point", "coordinates": [1, 2]}', "does not name"),

@@ -50,7 +50,7 @@ def read(text: TextIO) -> Fixes:
 
 
 def _lines(text: TextIO, fixes: Fixes) -> Iterator[str]:
-    """The lines; a last one that gave a position but has no end is noted in `fixes`."""
+    """The lines; a last one without an end is noted in `fixes`, since it may be cut off."""
     for row, line in enumerate(iter(partial(text.readline, LONGEST), ""), 1):
         yield line
         if len(line) == LONGEST and not line.endswith("\n"):
