@@ -38,7 +38,7 @@ class Track:
     def __repr__(self) -> str:
         timed = self.t[~np.isnan(self.t)]
         span = f"over {np.ptp(timed):.6g} s" if timed.size else "without times"
-        left = sum(each.count for each in self.report.skipped.values())
+        left = sum(reason.count for reason in self.report.skipped.values())
         return f"<Track: {len(self)} positions from {self.source}, {span}; {left} not used>"
 
 

@@ -39,16 +39,21 @@ class Report:
         return "\n".join(rows)
 
 
+class Tally(dict[str, Count]):
+    """Counts, by reason or by kind."""
+
+    def count(self, reason: str, line: int, times: int = 1) -> None:
+        before, first = self.get(reason, (0, line))
+        self[reason] = Count(before + times, min(first, line))
+
+
 class Fixes:
     """The positions of one file as they are found, and the reasons why others are not used."""
 
     def __init__(self) -> None:
         self.table, self.segment = array("d"), 0  # in the next segment times may be earlier
-        self.skipped: dict[str, Count] = {}
-        self.noted: dict[str, Count] = {}
-
-    def skip(self, reason: str, line: int, times: int = 1) -> None:
-        count(self.skipped, reason, line, times)
+        self.skipped, self.noted = Tally(), Tally()
+        self.skip = self.skipped.count
 
     def add(self, lat: float, lon: float, time: float | None, line: int) -> None:
         """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
@@ -57,7 +62,7 @@ class Fixes:
             nan = "latitude or longitude not a number"
             return self.skip(wrong[abs(lat) <= 90.0] if math.isfinite(lat + lon) else nan, line)
         if time is None:
-            count(self.noted, "with an unreadable time", line)
+            self.noted.count("with an unreadable time", line)
         self.table.extend((lat, lon, math.nan if time is None else time, line, self.segment))
 
     def settle(self) -> tuple[np.ndarray, Report]:
@@ -69,11 +74,6 @@ class Fixes:
             self.skip("time runs backwards", int(table[late, 3][0]), int(late.sum()))
         table = table[~late, :3].T
         return table, Report(table.shape[1], self.skipped, self.noted)
-
-
-def count(met: dict[str, Count], what: str, line: int, times: int = 1) -> None:
-    before, first = met.get(what, (0, line))
-    met[what] = Count(before + times, min(first, line))
 
 
 def number(text: str) -> float:

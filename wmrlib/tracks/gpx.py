@@ -4,9 +4,9 @@ import math
 from io import BufferedReader
 from xml.parsers import expat
 
-from wmrlib.tracks.fixes import Count, Fixes, count, number, timestamp
+from wmrlib.tracks.fixes import Fixes, Tally, number, timestamp
 
-# Where each kind of place belongs; the first kind that a file has is its track.
+# Where each kind of place belongs, and what it is called; the first that a file has is its track.
 _PARENT = {"trkpt": "trkseg", "rtept": "rte", "wpt": "gpx"}
 _WORDS = {"trkpt": "track point", "rtept": "route point", "wpt": "waypoint"}
 _BLOCK = 1 << 18  # bytes
@@ -16,7 +16,7 @@ def read(file: BufferedReader) -> Fixes:
     """The track points of all segments; without any the route points, or else the waypoints."""
     wide = file.peek().startswith((b"\xff\xfe", b"\xfe\xff"))
     parser = expat.ParserCreate("utf-16" if wide else None)
-    places, met = {kind: Fixes() for kind in _PARENT}, dict[str, Count]()
+    places, met = {kind: Fixes() for kind in _PARENT}, Tally()
     path, clock, place = list[str](), list[str](), list[float]()
 
     def refuse(*_: object) -> None:
@@ -27,9 +27,9 @@ def read(file: BufferedReader) -> Fixes:
         if not path and name != "gpx":
             raise ValueError(f"it is a {name.upper()} file, not a GPX file; export it as GPX")
         if name in _PARENT:
-            count(met, name, line)
+            met.count(name, line)
             if path[-1] == _PARENT[name]:
-                place[:] = [*(number(attributes.get(each, "")) for each in ("lat", "lon")), line]
+                place[:] = [*(number(attributes.get(key, "")) for key in ("lat", "lon")), line]
             else:
                 places[name].skip(f"{_WORDS[name]} outside <{_PARENT[name]}>", line)
                 name = ""
@@ -51,12 +51,10 @@ def read(file: BufferedReader) -> Fixes:
     parser.StartDoctypeDeclHandler = refuse
     parser.StartElementHandler, parser.EndElementHandler = start, end
     try:
-        read = 0
         while block := file.read(_BLOCK):
             parser.Parse(block)
-            read += len(block)
-            # What is not complete, expat reads again with each block.
-            if read - max(0, parser.CurrentByteIndex) > 8 * _BLOCK:
+            # Expat reads again with each block all of a tag that is not complete.
+            if file.tell() - max(0, parser.CurrentByteIndex) > 8 * _BLOCK:
                 raise ValueError("its XML holds a tag of more than 2 MB")
         parser.Parse(b"", True)
     except (expat.ExpatError, LookupError) as error:

@@ -10,30 +10,36 @@ from typing import TextIO
 
 from wmrlib.tracks.fixes import LONGEST, Fixes, timestamp
 
-# A body, whatever stands around it, and what is stated as its checksum.
+# A body, with anything before and after it, and the checksum that is stated.
 _SENTENCE = re.compile(r"\$([A-Za-z]{2}[^$*\r\n]{3}[^$*\r\n]*)(\*[0-9A-Fa-f]{0,2})?")
 _CLOCK = re.compile(r"([01][0-9]|2[0-3])([0-5][0-9])([0-5][0-9](?:\.[0-9]*)?)")
 _PLACE = re.compile(r"([0-9]{2})([0-5][0-9]\.[0-9]+),([NS]),([0-9]{3})([0-5][0-9]\.[0-9]+),([EW])")
-# The most trusted kind first: its rank, and where its time, its place and its modes are.
-_KINDS = {"GGA": (0, 1, 2, 6), "GNS": (1, 1, 2, 6), "RMC": (2, 1, 3, 12), "GLL": (3, 5, 1, 7)}
+# The most trusted kind first: its rank, and where its time, its place, its modes and its status
+# are; of GGA and GNS the number of satellites is the status. Before 2000 RMC and GLL had no mode.
+_KINDS = {
+    "GGA": (0, 1, 2, 6, 7),
+    "GNS": (1, 1, 2, 6, 7),
+    "RMC": (2, 1, 3, 12, 2),
+    "GLL": (3, 5, 1, 7, 6),
+}
 _DAY = 86400.0  # s
 
 
 def read(text: TextIO) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
     fixes, last, zero = Fixes(), 0.0, 0.0
-    for second, epoch in groupby(_sentences(text, fixes), lambda each: each[2]):
-        told = sorted(epoch)
-        _, denied, _, line, lat, lon, _ = told[0]
+    for second, epoch in groupby(_sentences(text, fixes), lambda sentence: sentence[2]):
+        sentences = sorted(epoch)
+        _, denied, _, line, lat, lon, _ = sentences[0]
         if not denied:
             day = _DAY * math.ceil((last - 60.0 - second) / _DAY)  # undated, time goes on
-            if dated := max(each[-1] for each in told):
+            if dated := max(sentence[-1] for sentence in sentences):
                 zero = zero or dated - day
                 day = dated - zero
             last = second + day
             fixes.add(lat, lon, last, line)
         doubt = "sentence of an epoch that a more trusted one says has no fix"
-        for _, denies, _, line, *_ in told if denied else told[1:]:
+        for _, denies, _, line, *_ in sentences if denied else sentences[1:]:
             others = doubt if denied else "same epoch again"
             fixes.skip("sentence without a fix" if denies else others, line)
     known = fixes.skipped.keys() - {"comment", "line that is no sentence"}
@@ -41,21 +47,21 @@ def read(text: TextIO) -> Fixes | None:
 
 
 def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple]:
-    """What each sound sentence of a known kind says; `fixes` counts all else."""
+    """The contents of sound sentences of known kinds; `fixes` counts all others."""
     line = 1
     while words := text.readline(LONGEST):
-        found = [] if words.startswith("#") else _SENTENCE.findall(words)
-        if not found and (rest := words.strip(" \t\r\n\0")):
+        matches = [] if words.startswith("#") else _SENTENCE.findall(words)
+        if not matches and (rest := words.strip(" \t\r\n\0")):
             fixes.skip("comment" if rest.startswith("#") else "line that is no sentence", line)
-        for body, stated in found:
+        for body, stated in matches:
             try:
-                yield _said(body, stated.upper(), line)
+                yield _parsed(body, stated.upper(), line)
             except ValueError as error:
                 fixes.skip(str(error), line)
         line += words.endswith(("\n", "\r"))
 
 
-def _said(body: str, stated: str, line: int) -> tuple:
+def _parsed(body: str, stated: str, line: int) -> tuple:
     """Rank, whether it denies a fix, second, line, lat, lon, date; or ValueError."""
     checksum = f"*{reduce(xor, body.encode('utf-8', 'surrogateescape')):02X}"
     fields = [*body.split(","), *[""] * 13]
@@ -63,14 +69,12 @@ def _said(body: str, stated: str, line: int) -> tuple:
         raise ValueError("wrong checksum" if stated else "sentence without a checksum")
     if (kind := fields[0][2:].upper()) not in _KINDS:
         raise ValueError("other sentence")
-    rank, at_time, at_place, at_mode = _KINDS[kind]
-    clock, modes = _CLOCK.fullmatch(fields[at_time]), fields[at_mode]
+    rank, at_time, at_place, at_mode, at_status = _KINDS[kind]
+    clock, modes, status = _CLOCK.fullmatch(fields[at_time]), fields[at_mode], fields[at_status]
     second = int(clock[1]) * 3600 + int(clock[2]) * 60 + float(clock[3]) if clock else 0.0
-    if rank > 1:  # RMC and GLL have a status too, and before 2000 had no mode
-        modes = (modes or "A") if fields[2 if rank == 2 else 6] == "A" else "N"
-    elif fields[7] in ("0", "00") or (rank == 0 and modes not in {*"123459"}):  # 0 satellites
-        modes = "N"
-    fixed = bool({*modes} & {*("ADPRF" if rank else "123459")})  # not estimated or put in by hand
+    sound = status == "A" if rank > 1 else status not in ("0", "00")
+    measured = {*"ADPRF"} & {*(modes or "A" * (rank > 1))} if rank else modes in {*"123459"}
+    fixed = sound and bool(measured)  # not estimated or put in by hand
     place = _PLACE.fullmatch(",".join(fields[at_place : at_place + 4]))
     if not clock:
         raise ValueError("fix without a readable time" if fixed else "sentence without a fix")

@@ -4,9 +4,10 @@ import csv
 import math
 import re
 from collections.abc import Iterator
+from functools import partial
 from typing import TextIO
 
-from wmrlib.tracks.fixes import LONGEST, Fixes, count, number, timestamp
+from wmrlib.tracks.fixes import LONGEST, Fixes, number, timestamp
 
 _LAT, _LON = "(gps )?lat(itude)?", "(gps )?(lng|long?|longitude)"
 _SIDE = "(dir|direction|ref|reference|hemi|hemisphere|indicator)"
@@ -31,13 +32,13 @@ _Columns = list[tuple[str, float]]  # the role, "" for none, and how many make o
 
 def read(text: TextIO) -> Fixes:
     """Rows under the first line that names the columns; LookupError where none does."""
-    fixes, last = Fixes(), [""]
-    lines = _lines(text, last)
+    fixes = Fixes()
+    lines = _lines(text, fixes)
     try:
-        line, delimiter, columns = _header(lines, fixes)
-        header, reader = line, csv.reader(lines, delimiter=delimiter, strict=True)
-        for row in reader:
-            line = header + reader.line_num
+        header, delimiter, columns = _header(lines, fixes)
+        rows = csv.reader(lines, delimiter=delimiter, strict=True)
+        for row in rows:
+            line = header + rows.line_num
             try:
                 if "".join(row).strip():
                     fixes.add(*_position(columns, row), line)
@@ -45,18 +46,17 @@ def read(text: TextIO) -> Fixes:
                 fixes.skip(str(error), line)
     except csv.Error as error:
         raise ValueError(f"its table is broken: {error}") from None
-    if fixes.table and last[0].strip() and not last[0].endswith(("\n", "\r")):
-        count(fixes.noted, "in a last line without an end, which may be cut off", line)
     return fixes
 
 
-def _lines(text: TextIO, last: list[str]) -> Iterator[str]:
-    """The lines, the latest of which is in `last`."""
-    while line := text.readline(LONGEST):
-        last[0] = line
+def _lines(text: TextIO, fixes: Fixes) -> Iterator[str]:
+    """The lines; a last one without an end is noted in `fixes`, since it may be cut off."""
+    for row, line in enumerate(iter(partial(text.readline, LONGEST), ""), 1):
         yield line
         if len(line) == LONGEST and not line.endswith("\n"):
             raise csv.Error(f"a line has more than {LONGEST} characters")
+        if fixes.table and line.strip() and not line.endswith(("\n", "\r")):
+            fixes.noted.count("in a last line without an end, which may be cut off", row)
 
 
 def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
@@ -68,7 +68,7 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
             columns = [_column(cell) for cell in next(csv.reader([line], delimiter=delimiter))]
             roles = [role for role, _ in columns]
             if {"lat", "lon"} <= {*roles}:
-                if "minutes" in roles or any(roles.count(each) > 1 for each in [*_ROLES][:6]):
+                if "minutes" in roles or any(roles.count(role) > 1 for role in [*_ROLES][:6]):
                     wrong = "has a column twice, or minutes of a degree, which is not read"
                     raise ValueError(f"its header {shown} {wrong}")
                 return row, delimiter, columns
@@ -99,8 +99,8 @@ def _position(columns: _Columns, row: list[str]) -> tuple[float, float, float | 
     per, cells = dict(columns), {"time": ""}
     for (role, _), cell in zip(columns, row, strict=False):
         cells[role] = cell.strip()
-        said = re.findall("[a-z]+|-?[0-9]+", cell.casefold()) or [""]
-        if said[0] not in _GOOD.get(role, said):
+        words = re.findall("[a-z]+|-?[0-9]+", cell.casefold()) or [""]
+        if words[0] not in _GOOD.get(role, words):
             raise ValueError("row without a measured fix")
     lat = _degrees(cells["lat"], "NS", cells.get("N/S")) / per["lat"]
     lon = _degrees(cells["lon"], "EW", cells.get("E/W")) / per["lon"]
@@ -116,13 +116,11 @@ def _position(columns: _Columns, row: list[str]) -> tuple[float, float, float | 
 
 def _degrees(cell: str, sides: str, side: str | None) -> float:
     """Degrees, NaN if there are none; ValueError where sign and hemisphere leave a doubt."""
-    bare = cell.upper().strip(sides + " \xba\xb0\udcba\udcb0")  # degree signs, of Latin-1 too
-    letters = cell.upper().replace(bare, "", 1) if bare else ""
-    if side is not None:
-        letters += (letter := side.upper()[:1])
-        if not letter or letter not in sides:
-            raise ValueError("row without a readable hemisphere")
-    plus, minus = (each in letters for each in sides)
+    if side is not None and side.upper()[:1] not in {*sides}:
+        raise ValueError("row without a readable hemisphere")
+    text = (cell + (side or "")[:1]).upper()
+    bare = text.strip(sides + " \xba\xb0\udcba\udcb0")  # degree signs, of Latin-1 too
+    plus, minus = (letter in text.replace(bare, "", 1) for letter in sides)
     if (plus and (minus or bare[:1] in ("-", "\u2212"))) or (minus and bare[:1] == "+"):
         raise ValueError("sign and hemisphere that contradict each other")
     return -abs(_number(bare)) if minus else _number(bare)
