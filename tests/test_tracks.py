@@ -301,7 +301,7 @@ HEARD = st.lists(st.tuples(st.sampled_from(KINDS), st.sampled_from(CLAIMS), HALV
 @given(st.lists(HEARD, min_size=1, max_size=6))
 def test_every_sentence_is_used_or_counted_with_its_reason(tmp_path_factory, epochs):
     """Epoch by epoch, against the rule itself."""
-    lines, expected, used = [], Counter(), []
+    lines, expected, used, first = [], Counter(), [], {}
     for second, heard in enumerate([*epochs, [("GGA", "fix", ("N", "E", 1))]]):
         ranks, signs = {"fix": [], "none": [], "estimated": []}, {}
         for kind, claim, (north, east, sign) in heard:
@@ -315,6 +315,7 @@ def test_every_sentence_is_used_or_counted_with_its_reason(tmp_path_factory, epo
                 signs.setdefault(KINDS.index(kind), sign)
             if claim != "fix":
                 expected[REASONS[claim]] += 1
+                first.setdefault(REASONS[claim], len(lines))
             ranks.setdefault(claim, []).append(KINDS.index(kind))
         fixes, denied = ranks["fix"], ranks["none"] + ranks["estimated"]
         if fixes and min(fixes) <= min(denied, default=9):
@@ -328,6 +329,7 @@ def test_every_sentence_is_used_or_counted_with_its_reason(tmp_path_factory, epo
     track = wmr.read_track(path)
     assert np.transpose(places(track)) == pytest.approx(np.array(used))
     assert {why: count for why, (count, _) in track.report.skipped.items()} == +expected
+    assert all(track.report.skipped[why].first == line for why, line in first.items())
     assert len(used) + expected.total() == len(lines)
 
 
