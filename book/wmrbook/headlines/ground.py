@@ -1,4 +1,4 @@
-"""Headlines of chapters 0 to 3: the first drive, the globe, the wheels, the angles."""
+"""Headlines of chapters 0 to 3: the first drive, the globe, the wheels, the angles; one of 4."""
 
 from __future__ import annotations
 
@@ -130,10 +130,10 @@ def by_acos(distance: float) -> bool:
 
 PLACES = {"alpha": ROUND, "theta": ROUND, "whose": list(GAINS)}
 ON_THE_SPOT = Before("attractive but not stable", PLACES | {"rho": [0.0, 1.0]}, at_most=0.1)
-ATTRACTS = r"attracts every pose with $\rho > 0$ but none on the spot"
+ATTRACTS = r"attracts every pose with $\rho>0$ but none on the spot"
 
 
-@headline("02", ATTRACTS, at_most=0.1, unit="deg", before=ON_THE_SPOT, rho=(0.01, 60.0), **PLACES)
+@headline("04", ATTRACTS, at_most=0.1, unit="deg", before=ON_THE_SPOT, rho=(0.01, 60.0), **PLACES)
 def never_parked(rho: float, alpha: float, theta: float, whose: str) -> float:
     run = drive(seen_from(rho, alpha, theta), ORIGIN, GAINS[whose], 0.0, dt=0.1, duration=100.0)
     return np.degrees(abs(run.heading_error[-1])) + run.rho[-1]
