@@ -375,6 +375,14 @@ def test_paths_and_angles_are_those_of_the_runs():
     assert found == pytest.approx([1.0, 0.2, 0.0])
 
 
+def test_a_wrapped_angle_is_not_joined_across_its_jump():
+    far = wmr.pose_from_polar(wmr.PolarError(10.0, np.radians(90.0), np.radians(175.0)), ORIGIN)
+    picture = figures.angles_over_time(wmr.simulate(far, ORIGIN, GAINS, method="arc", dt=0.02))
+    drawn = picture.figure.axes[1].lines[0].get_ydata()
+    assert np.isnan(drawn).sum() == 1
+    assert np.nanmax(np.abs(np.diff(drawn))) < 10.0
+
+
 def test_headings_are_not_wrapped():
     _, wild = near_goal_runs()
     drawn = axes_of("heading_errors")[0].lines[2].get_ydata()

@@ -102,7 +102,9 @@ def angles_over_time(
     for axes, name in zip(rows, ("alpha", "theta"), strict=True):
         for run, style, label in zip(runs, LINES, names, strict=False):
             degrees = np.degrees(getattr(run, name))
-            axes.plot(run.t, degrees, style, color=COLOURS[name], label=label)
+            jumps = np.flatnonzero(np.abs(np.diff(degrees)) > 180.0) + 1
+            times, degrees = np.insert(run.t, jumps, np.nan), np.insert(degrees, jumps, np.nan)
+            axes.plot(times, degrees, style, color=COLOURS[name], label=label)
         for half_turn in (-180.0, 180.0):
             axes.axhline(half_turn, color=COLOURS["ink"], lw=1.0, ls=":")
         axes.set(ylabel=f"{name} [deg]", yticks=np.arange(-180, 181, 90))
