@@ -82,7 +82,7 @@ function field(pane, alpha, theta, rho, gains) {
   pane.arrow(x, y, x + size * alphaRate, y + size * thetaRate, 'ink', { width: 1.2 });
 }
 
-const named = (y) => (y ? (y > 0 ? y - 180 : y + 180).toFixed(0).replace('-', '−') : '±180');
+const named = (y) => (y > 0 ? y - 180 : y + 180).toFixed(0).replace('-', '−');
 
 const circle = (point) =>
     Array.from({ length: AROUND + 1 }, (_, k) => point(2 * Math.PI * k / AROUND));
@@ -97,7 +97,7 @@ export default live('torus', {
     torus: {
       x: [-1.55, 1.55], y: [-1.3, 1.3], equal: true, bare: true,
       given: 'A torus of the two angles, with the seam as a ring about its tube.',
-      alt: `On the torus ${runs.length} ways begin on the seam; ${lost} never leave it for good.`,
+      alt: `On the torus ${runs.length} ways begin on the seam; ${lost} leave it, but too late.`,
       scrub: (x, y, moved, now) => moved
           && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES,
           tilt: Math.min(Math.max(now.tilt + moved[1] / 2, 5), 85) },
@@ -132,6 +132,11 @@ export default live('torus', {
         plane.arrow(x, y, x + size * Math.cos(heading), y + size * Math.sin(heading), role,
             { width: 1.5 });
       }
+    for (const { angles, off } of hidden ? [] : runs) {
+      const last = view(angles.at(-1)), role = Math.abs(off) > QUARTER ? 'rising' : 'path';
+      if (last.front) torus.dot(...last.at, role, { size: 3 });
+      square.dot(...unrolled(angles.at(-1)), role, { size: 3 });
+    }
     const goal = view([0, 0]), start = view([0, Math.PI]);
     if (goal.front) torus.dot(...goal.at, 'goal');
     if (start.front) torus.dot(...start.at, 'start', { size: 4 });
