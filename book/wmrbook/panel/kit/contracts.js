@@ -25,7 +25,7 @@ export const CONTRACTS = {
   'live/stopping': '531fdfc5',
   'live/strict': '9b03bd6a',
   'live/threshold': '8f0e7e19',
-  'live/torus': '3fb68f23',
+  'live/torus': '61d0d0b3',
   'live/turning_centre': '38a38b22',
   'live/two_bars': 'c5d73944',
   'live/unit_circle': '364ae8fe',

@@ -93,7 +93,7 @@ export default live('torus', {
         lost = runs.filter(({ off }) => Math.abs(off) > QUARTER).length;
     return { runs, lost };
   },
-  panes: ({ distance }, { runs, lost }) => ({
+  panes: (values, { runs, lost }) => ({
     torus: {
       x: [-1.55, 1.55], y: [-1.3, 1.3], equal: true, bare: true,
       given: 'A torus of the two angles, with the seam as a ring about its tube.',
@@ -105,13 +105,12 @@ export default live('torus', {
     square: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]', named], equal: true,
         given: 'The torus laid flat, the seam across its middle, and which way the law drives.',
         alt: 'The same ways over the square of alpha and theta.' },
-    plane: { x: [-0.4 * distance, 1.4 * distance, 'x [m]'],
-        y: [-0.7 * distance, 0.7 * distance, 'y [m]'], equal: true,
+    plane: { x: [-0.2, 0.95, 'x [m]'], y: [-0.4, 0.4, 'y [m]'], equal: true,
         given: 'The goal, and the robot that looks at it from the front.',
         alt: `The ways in the plane: ${lost} of ${runs.length} robots park over 90 degrees off.` },
   }),
-  draw({ torus, square, plane }, { yaw, tilt, distance }, { runs }, hidden, { data }) {
-    const view = turned(yaw, tilt);
+  draw({ torus, square, plane }, values, { runs }, hidden, { data }) {
+    const { yaw, tilt, distance } = hidden ? data.asked : values, view = turned(yaw, tilt);
     for (let k = 0; k < 12; k += 1) {
       over(torus, view, circle((alpha) => [alpha, Math.PI * k / 6]), 'ghost', 0.8);
       over(torus, view, circle((theta) => [Math.PI * k / 6, theta]), 'ghost', 0.8);
@@ -122,20 +121,16 @@ export default live('torus', {
     for (const theta of [-150, -90, 90, 150])
       for (let alpha = -150; alpha <= 150; alpha += 60)
         field(square, alpha / DEGREES, theta / DEGREES, distance, data.gains);
-    if (!hidden)
-      for (const { poses, angles, off } of runs) {
-        const role = Math.abs(off) > QUARTER ? 'rising' : 'path';
-        over(torus, view, angles, role, 1.5);
-        flat(square, angles, role, 1.5);
-        const [x, y, heading] = poses.at(-1), size = 0.1 * distance;
-        plane.line(poses, role, { width: 1.5 });
-        plane.arrow(x, y, x + size * Math.cos(heading), y + size * Math.sin(heading), role,
-            { width: 1.5 });
-      }
-    for (const { angles, off } of hidden ? [] : runs) {
-      const last = view(angles.at(-1)), role = Math.abs(off) > QUARTER ? 'rising' : 'path';
+    for (const { poses, angles, off } of hidden ? [] : runs) {
+      const role = Math.abs(off) > QUARTER ? 'rising' : 'path', last = view(angles.at(-1));
+      over(torus, view, angles, role, 1.5);
       if (last.front) torus.dot(...last.at, role, { size: 3 });
+      flat(square, angles, role, 1.5);
       square.dot(...unrolled(angles.at(-1)), role, { size: 3 });
+      const [x, y, heading] = poses.at(-1);
+      plane.line(poses, role, { width: 1.5 });
+      plane.arrow(x, y, x + 0.06 * Math.cos(heading), y + 0.06 * Math.sin(heading), role,
+          { width: 1.5 });
     }
     const goal = view([0, 0]), start = view([0, Math.PI]);
     if (goal.front) torus.dot(...goal.at, 'goal');
