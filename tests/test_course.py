@@ -217,7 +217,7 @@ def test_the_package_has_what_a_student_needs_and_no_answers(course, tmp_path):
     with zipfile.ZipFile(course / "students.zip") as package:
         package.extractall(tmp_path)
     texts = [path.read_text("utf-8") for path in tmp_path.rglob("*.ipynb")]
-    assert len(texts) == len(ASSIGNMENTS) + 13
+    assert len(texts) == len(ASSIGNMENTS) + len([*(ROOT / "notebooks").glob("*.ipynb")])
     assert not any("SOLUTION" in text or "<summary>Solution" in text for text in texts)
     assert not [*tmp_path.rglob("source"), *tmp_path.rglob("tests"), *tmp_path.rglob("*.toml.*")]
     robot = tmp_path / "robot"

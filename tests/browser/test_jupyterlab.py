@@ -113,8 +113,9 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
         assert_slider_matters(page, slider)
     assert solutions_in_sight(page) == []
     count = page.evaluate(f"() => {WIDGETS}.length")
-    page.locator(".live [type=radio]").first.check()
-    page.get_by_role("button", name="Commit").last.click()
+    asks = page.locator(".live:has([type=radio])").first
+    asks.locator("[type=radio]").first.check()
+    asks.get_by_role("button", name="Commit").click()
     for place in ("[aria-label^=controls] .wmr-slider", ".wmr:not(.live) button"):
         page.locator(place).locator("visible=true").first.press("b")  # in a cell it adds one
     assert page.evaluate(f"() => {WIDGETS}.length") == count
