@@ -151,15 +151,18 @@
     }
   }
 
-  // What a figure asks: the text that its code prints.
-  async function answer(code, say) {
+  // What a figure asks: the text that its code prints, unless whoever asked is gone.
+  async function answer(code, say, gone) {
+    if (running?.starts) throw Error('Python is still starting: ask again in some seconds.');
     if (running) throw Error('a cell is running.');
-    running = {};
+    running = { starts: true };
     document.documentElement.classList.add('python-busy');
     try {
       say(worker ? 'Asking …' : 'Loading Python …');
       worker ??= started();
       const python = await worker;
+      if (gone()) throw Error('it was stopped.');
+      running.starts = false;
       say('Asking …');
       const asked = { space: 'figures', number: 0, before: '', checks: [], source: code };
       const { shown, error, died, stopped } = await python.run(asked);

@@ -69,7 +69,7 @@ def heading_power() -> Live:
     )
     return Live(
         "heading_power",
-        "With {k_phi} and {k_delta} the heading error falls as the power {power} of the distance. "
+        "With {k_phi} and {k_delta} the heading error tends to the power {power} of the distance. "
         "The robot that stops at {radius} does so after {seconds}, {left} off.",
         {
             "k_phi": Knob(3.0, 0.5, 5.0, 0.1, "Nav2's k_phi", symbol="k_phi"),

@@ -15,11 +15,13 @@ export function buildAsker(root, asks, { model, get, set }) {
       clock = made(bar, 'span', {}, { 'aria-hidden': 'true' });
   /** @type {(() => void) | null} */
   let leave = null;
-  let shown = '';
+  let shown = '', turn = 0;
   const say = (text) => { status.textContent = text; };
 
   async function press() {
     if (leave) { leave(); return; }
+    const mine = turn += 1, gone = () => mine !== turn || !leave;
+    const tell = (text) => { if (!gone()) say(text); }; // who was left says no more
     const of = Object.fromEntries(asks.knobs.map((name) => [name, get()[name]])),
         left = new Promise((done) => { leave = () => done(null); }), begin = performance.now();
     const ticking = setInterval(() => {
@@ -27,7 +29,7 @@ export function buildAsker(root, asks, { model, get, set }) {
     }, 1000);
     button.textContent = 'Stop';
     try {
-      const page = globalThis.wmrPython, asked = (page ? ofPage : ofKernel)(of);
+      const page = globalThis.wmrPython, asked = (page ? ofPage : ofKernel)(of, tell, gone);
       const found = await Promise.race([left, asked]);
       const moved = asks.knobs.some((name) => get()[name] !== of[name]);
       say(!found ? 'Stopped.' : moved ? 'The question has changed: ask again.' : '');
@@ -41,16 +43,16 @@ export function buildAsker(root, asks, { model, get, set }) {
       leave = null;
     }
   }
-  async function ofPage(of) {
+  async function ofPage(of, tell, gone) {
     const [, module, name] = asks.function.match(/(.*)\.(.*)/), given = JSON.stringify(of);
     const code = `import json\nfrom ${module} import ${name}\n`
         + `print(json.dumps({"is": ${name}(**json.loads('${given}'))}))`;
-    return JSON.parse(await globalThis.wmrPython.answer(code, say));
+    return JSON.parse(await globalThis.wmrPython.answer(code, tell, gone));
   }
-  function ofKernel(of) {
-    say('Asking the kernel …');
+  function ofKernel(of, tell) {
+    tell('Asking the kernel …');
     const waiting =
-        setTimeout(() => say('Asking the kernel … If none is running, run this cell.'), SLOW);
+        setTimeout(() => tell('Asking the kernel … If none is running, run this cell.'), SLOW);
     return new Promise((resolve, reject) => {
       const hear = (content) => {
         if (JSON.stringify(content.of) !== JSON.stringify(of)) return;

@@ -6,7 +6,8 @@ declare const wmrKit: () => void;
 declare var wmrPanels: Record<string, any>;
 /** The Python of a page that runs cells, see book/_static/python_cells.js. */
 declare var wmrPython: undefined | {
-  answer(code: string, say: (text: string) => void): Promise<string>; stop(): void;
+  answer(code: string, say: (text: string) => void, gone: () => boolean): Promise<string>;
+  stop(): void;
 };
 /** What a figure found, for tests. */
 interface HTMLDivElement { found?: any }

@@ -14,8 +14,8 @@ const stopped = remembered(free), shipped = remembered(({ all, ...how }) =>
     all.map((gains) => free({ ...how, gains })));
 const off = (run, k) => Math.abs(run.theta[k] - run.alpha[k]) * DEGREES;
 const curve = (run) =>
-    Array.from({ length: run.n }, (_, k) =>
-        [Math.log10(run.rho[k]), Math.log10(Math.max(off(run, k), LEAST))]);
+    Array.from({ length: run.n }, (_, k) => [Math.log10(run.rho[k]), Math.log10(off(run, k))])
+    .filter(([, y]) => y >= Math.log10(LEAST));
 
 export default live('heading_power', {
   find({ k_phi, k_delta, radius }, { data: { start, goal, gains, defaults } }) {
@@ -51,6 +51,9 @@ export default live('heading_power', {
     error.line([[at[0], -4], [at[0], 2.4]], 'rho', { width: 1.5, dash: [3, 4] });
     error.dot(at[0], at[1]);
   },
-  say: (values, { time, left, power: slope }) =>
-      ({ power: written(slope), seconds: written(time, 's'), left: written(left * DEGREES, '°') }),
+  say: ({ k_phi, k_delta }, { time, left, power: slope }) => ({
+    power: written(slope) + (k_phi === k_delta ? ', times a logarithm,' : ''),
+    seconds: written(time, 's'),
+    left: left * DEGREES < 0.001 ? 'less than 0.001°' : written(left * DEGREES, '°'),
+  }),
 });

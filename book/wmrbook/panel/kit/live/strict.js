@@ -1,7 +1,7 @@
 // Is V strict under the barrier law? Where it rises among the angles that are drawn, what z3 says
 // of all of them, and V along a drive: from the state that z3 finds, if it finds one.
 
-import { DEGREES, inDegrees, written } from '../style.js';
+import { DEGREES, written } from '../style.js';
 import { decay, poseOfError } from '../model.js';
 import { live } from '../live.js';
 import { remembered } from '../runs.js';
@@ -76,7 +76,8 @@ export default live('strict', {
       ({ cells: `${rising.length ? inThousands(rising.length) : 'none'} of the ` +
       `${inThousands(CELLS ** 2)}` }),
   verdict: (values, { known, state, run, most }) => (!known ? ''
-      : state ? `z3: no, not at α = ${inDegrees(run.alpha[0])}, θ = ${inDegrees(run.theta[0])}. ` +
+      : state ? `z3: no, not at α = ${written(run.alpha[0] * DEGREES, '°')}, ` +
+      `θ = ${written(run.theta[0] * DEGREES, '°')}. ` +
       `Driven from there, V first rises by ${small(most)}\u00a0%.`
       : 'z3: yes, proved.'),
 });

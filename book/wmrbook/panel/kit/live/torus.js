@@ -95,7 +95,7 @@ export default live('torus', {
   },
   panes: (values, { runs, lost }) => ({
     torus: {
-      x: [-1.55, 1.55], y: [-1.3, 1.3], equal: true, bare: true,
+      x: [-1.55, 1.55], y: [-1.5, 1.5], equal: true, bare: true,
       given: 'A torus of the two angles, with the seam as a ring about its tube.',
       alt: `On the torus ${runs.length} ways begin on the seam; ${lost} leave it, but too late.`,
       scrub: (x, y, moved, now) => moved

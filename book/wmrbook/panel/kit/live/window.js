@@ -22,7 +22,7 @@ function pointAt(x, y, named) {
 export default live('window', {
   find({ kappa, h }, { data: { start } }) {
     const gains = { k_rho: 1, k_alpha: kappa, h, v_max: 1 }, { slower } = modes(gains),
-        run = driven({ start, goal: GOAL, gains, dt: 0.02, duration: 90, arrivalRadius: 0.005 }),
+        run = driven({ start, goal: GOAL, gains, dt: 0.02, duration: 90, arrivalRadius: 1e-6 }),
         error = Array.from(run.theta, (theta, k) => wrap(theta - run.alpha[k]) * DEGREES);
     const late = RADII.map((radius) => { // from the radius itself on, between two samples
       const k = run.rho.findIndex((rho) => rho <= radius),
