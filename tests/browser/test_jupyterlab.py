@@ -129,6 +129,8 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     assert solutions_in_sight(page) == []
 
     page.evaluate(SAVE)
+    # what the kernel still says to a page that is left is logged as an error
+    page.wait_for_function(f"() => {KERNEL}.status === 'idle'", timeout=PATIENCE)
     open_notebook(page, link(lab), CHAPTER)
     assert_slider_matters(page, sliders(page)[0])
     assert solutions_in_sight(page) == []
