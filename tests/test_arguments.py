@@ -20,7 +20,7 @@ from wmrbook.pareto import pareto
 
 PAPER = wmr.paper.outdoor()
 POINT, OTHER = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
-GAINS, ORIGIN, LIMITS = wmr.GENTLE_GAINS, wmr.Pose(0.0, 0.0, 0.0), wmr.WheelLimits(0.5, 2.0)
+GAINS, ORIGIN, LIMITS = wmr.GENTLE_GAINS, wmr.Pose(0.0, 0.0, 0.0), wmr.Wheels(0.5, 2.0)
 GOAL = wmr.Pose(1.0, 1.0, 0.0)
 RUN = wmr.simulate(ORIGIN, GOAL, GAINS)
 POLAR = {"rho": 1.0, "alpha": 0.5, "theta": 0.2}
@@ -107,8 +107,8 @@ ODD = [
     *([[1.0], [1.0, 2.0]], [None], [[]], [object()], ["a", 1.0], np.array([None, 1.0], object)),
     *(np.ma.masked, np.ma.array([1.0], mask=[True]), [np.ma.array([1.0, 2.0], mask=[True, False])]),
     *(np.zeros(3, "V8"), np.array(["a"]), np.zeros((2, 0), complex), range(0), iter([])),
-    *(wmr.PolarError("a", None, 1.0), wmr.PolarError(10**400, 0, 0), wmr.WheelLimits(None, "fast")),
-    *(wmr.WheelLimits([1.0, [2.0]], 1.0), wmr.WheelLimits(1.0, 10**400), (1.0,), (1.0, "a", 2.0)),
+    *(wmr.PolarError("a", None, 1.0), wmr.PolarError(10**400, 0, 0), wmr.Wheels(None, "fast")),
+    *(wmr.Wheels([1.0, [2.0]], 1.0), wmr.Wheels(1.0, 10**400), (1.0,), (1.0, "a", 2.0)),
     *(Decimal(1), Fraction(1, 3), np.array([1 + 1j]), memoryview(b"12"), [True, 1.0], -1.0),
 ]
 

@@ -165,7 +165,7 @@ def test_poses_angles_wheels_and_energy(compiled):
         turned = abs(wmr.wrap_angle(got[1:] - expected[1:])).max()
         assert turned < 3 * tolerance * (1 + 1 / expected.rho)
         v, omega, width, fastest = rounded(rng.uniform((-5, -5, 0.1, 0.1), (5, 5, 2, 4)))
-        limited = wmr.limit_wheels(v, omega, wmr.WheelLimits(width, fastest))
+        limited = wmr.limit_wheels(v, omega, wmr.Wheels(width, fastest))
         sides = [*wmr.twist_to_wheels(*limited, width), 0]
         assert call("wheels", v, omega, width, fastest) == pytest.approx(sides, abs=10 * tolerance)
         values = rounded(rng.uniform((0, -3, -3, 0.1, 0.5), (3, 3, 3, 2, 2)))
@@ -269,7 +269,7 @@ def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
     steps, *reached = map(float, printed.split())
     east, north = wmr.local_position(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2)
     pose, goal = wmr.Pose(0.0, 0.0, math.radians(72)), wmr.Pose(east, north, math.radians(-60))
-    limits, count = wmr.WheelLimits(0.5, 2.0), 0
+    limits, count = wmr.Wheels(0.5, 2.0), 0
     while (error := wmr.polar_error(pose, goal)).rho > 0.05:
         twist = wmr.control_law(*error, wmr.Gains(0.2, 2.0, 2.0, 4.0))
         pose, count = wmr.advance(pose, *wmr.limit_wheels(*twist, limits), 0.05), count + 1
@@ -411,7 +411,7 @@ def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float(
         assert (east, north) == pytest.approx(expected, abs=2e-4)
         error = wmr.polar_error(wmr.Pose(0, 0, heading), wmr.Pose(*expected, goal_heading))
         twist = wmr.control_law(*error, wmr.Gains(*gains))
-        limited = wmr.limit_wheels(*twist, wmr.WheelLimits(0.5, 2.0))
+        limited = wmr.limit_wheels(*twist, wmr.Wheels(0.5, 2.0))
         assert wheels == pytest.approx(wmr.twist_to_wheels(*limited, 0.5), abs=2e-5)
 
 

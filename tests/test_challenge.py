@@ -66,7 +66,7 @@ def test_the_published_cases():
         "dt": 0.1,
         "duration": 60.0,
         "arrival_radius": 0.05,
-        "wheels": wmr.WheelLimits(0.5, 2.0),
+        "wheels": wmr.Wheels(0.5, 2.0),
     }
     units = 100, 100, 1800 / math.pi
     for (kind, *poses), row in zip(game.cases, PUBLISHED, strict=True):
@@ -130,7 +130,7 @@ def test_a_case_hangs_on_rounding_beyond_one_step_or_one_point(which, points, dt
 @given(st.floats(0.1, 2.0), st.floats(0.1, 5.0), st.floats(1.0, 90.0))
 def test_a_case_not_reached_costs_the_worst_arrival(width, speed, duration):
     """All the time, half a point a degree of 180, four a rad/s of a turn on the spot."""
-    game = replace(from_seed(), wheels=wmr.WheelLimits(width, speed), duration=duration)
+    game = replace(from_seed(), wheels=wmr.Wheels(width, speed), duration=duration)
     turn = wmr.wheels_to_twist(-speed, speed, width)[1]
     assert game.penalty == pytest.approx(duration + 90.0 + 4.0 * turn)
 
@@ -296,7 +296,7 @@ def test_a_goal_exactly_behind_or_underfoot_hangs_on_rounding():
 
 def test_bad_input():
     game, one = from_seed(), from_seed().cases[0]
-    many, wide = wmr.Pose([1.0, 2.0], 0, 0), wmr.WheelLimits(np.ones(2), 2.0)
+    many, wide = wmr.Pose([1.0, 2.0], 0, 0), wmr.Wheels(np.ones(2), 2.0)
     seeds = (-1, 2.0, True, "1", None, 2**63, [1])
     for make, message in (
         *((lambda seed=seed: from_seed(seed), "seed = .* a whole number") for seed in seeds),
@@ -315,9 +315,9 @@ def test_bad_input():
             lambda: Challenge(0, (one._replace(start=many),)),
             r"cases\[0\]\.start\.x = .* one number is needed",
         ),
-        (lambda: replace(game, wheels=None), "wheels = None .* a WheelLimits is needed"),
+        (lambda: replace(game, wheels=None), "wheels = None .* a Wheels is needed"),
         (lambda: replace(game, wheels=wide), r"wheels\.track_width = .* one number is needed"),
-        (lambda: replace(game, wheels=wmr.WheelLimits(0.5)), r"wheels\.max_speed = inf is not"),
+        (lambda: replace(game, wheels=wmr.Wheels(0.5)), r"wheels\.max_speed = inf is not"),
         (lambda: replace(game, dt=0.0), r"dt = 0\.0 is not allowed"),
         (lambda: replace(game, arrival_radius=-1.0), r"arrival_radius = -1\.0 is not allowed"),
     ):

@@ -196,7 +196,7 @@ def test_pose_laws_do_not_look_at_the_references_twist():
 
 @given(st.floats(-5, 5), st.floats(-5, 5), st.floats(0.1, 2.0), st.floats(0.1, 5.0))
 def test_wheel_limits_keep_the_curvature(v, omega, width, fastest):
-    limited = wmr.limit_wheels(v, omega, wmr.WheelLimits(width, fastest))
+    limited = wmr.limit_wheels(v, omega, wmr.Wheels(width, fastest))
     before, after = wmr.twist_to_wheels(v, omega, width), wmr.twist_to_wheels(*limited, width)
     assert max(map(abs, after)) <= fastest * (1 + 1e-12)
     assert limited[0] * omega == pytest.approx(limited[1] * v, abs=1e-12)  # the same curvature
@@ -236,7 +236,7 @@ BAD = [
         lambda g: wmr.lyapunov_rate(1.0, 0, 0, g, L=0.0),
         r"L = 0\.0 is not allowed: a finite number above 0",
     ),
-    (lambda g: wmr.limit_wheels(math.inf, 0, wmr.WheelLimits(0.5, 1.0)), r"v = inf"),
+    (lambda g: wmr.limit_wheels(math.inf, 0, wmr.Wheels(0.5, 1.0)), r"v = inf"),
 ]
 
 

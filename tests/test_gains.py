@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 import wmrlib as wmr
-from wmrlib.gains import checked_wheels
+from wmrlib.body import checked_wheels
 
 
 def test_fields_defaults_and_floats():
@@ -74,17 +74,17 @@ def test_replaced_fields_may_be_arrays_where_fields_may():
 def test_no_wheel_limits_never_bind():
     assert checked_wheels(None).max_speed == math.inf
     for infinite in (math.inf, np.float64(math.inf)):
-        assert checked_wheels(wmr.WheelLimits(1, infinite)) == (1.0, math.inf)
+        assert checked_wheels(wmr.Wheels(1, infinite)) == (1.0, math.inf)
 
 
-LIMITS = wmr.WheelLimits
+LIMITS = wmr.Wheels
 BAD = [
     (lambda: wmr.Gains(2.0, 1.0, [0.3, -0.1]), r"h = \[0\.3, -0\.1\] .* at least 0"),
     (lambda: wmr.LinearGains(np.eye(2)), r"matrix has shape \(2, 2\).*\(2, 3\) is needed"),
     (lambda: checked_wheels(LIMITS(-0.5, 1.0)), r"wheels\.track_width = -0\.5 .* above 0"),
     (lambda: checked_wheels(LIMITS(0.5, 0.0), "limits"), r"limits\.max_speed = 0\.0 .* above 0"),
     (lambda: checked_wheels(LIMITS(0.5, -math.inf)), r"wheels\.max_speed = -inf .* above 0"),
-    (lambda: checked_wheels(2.0), r"wheels = 2\.0 .* a WheelLimits is needed, not a float"),
+    (lambda: checked_wheels(2.0), r"wheels = 2\.0 .* a Wheels is needed, not a float"),
     (
         lambda: checked_wheels(LIMITS(np.ones(2), 2.0)),
         r"track_width = .* not an array of shape \(2,\)",

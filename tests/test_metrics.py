@@ -52,7 +52,7 @@ def test_peak_omega_and_heading_error():
 @given(
     st.builds(wmr.Pose, st.floats(-9, 9), st.floats(-9, 9), st.floats(-3, 3)),
     st.builds(wmr.Gains, *[st.floats(0.2, 3.0)] * 4),
-    st.sampled_from([None, wmr.WheelLimits(0.5, 1.0)]),
+    st.sampled_from([None, wmr.Wheels(0.5, 1.0)]),
     st.sampled_from([0.0, 0.2]),
 )
 def test_peak_and_path_between_the_samples(start, gains, wheels, lag):
@@ -108,7 +108,7 @@ def test_whatever_is_above_0_counts():
     left, right = wmr.twist_to_wheels(1.0, 1.0, 1e-3)
     twist = wmr.wheels_to_twist(left, right, 1e-3)
     assert (right - left, *twist) == pytest.approx((1e-3, 1.0, 1.0))
-    limited = wmr.limit_wheels(1.0, 1.0, wmr.WheelLimits(1e-3, 1e-3))
+    limited = wmr.limit_wheels(1.0, 1.0, wmr.Wheels(1e-3, 1e-3))
     assert wmr.twist_to_wheels(*limited, 1e-3)[1] == pytest.approx(1e-3)
 
 

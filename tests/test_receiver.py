@@ -13,7 +13,7 @@ from wmrlib.engine import sampled, threads
 
 DT, GAINS = 0.1, wmr.GENTLE_GAINS
 START, GOAL = wmr.Pose(-6.0, 2.0, 0.5), wmr.Pose(0.0, 0.0, -1.0)
-LIMITS = wmr.WheelLimits(track_width=0.5, max_speed=1.0)
+LIMITS = wmr.Wheels(track_width=0.5, max_speed=1.0)
 SHORT = {"method": "arc", "dt": DT, "duration": 12.0, "arrival_radius": 0.3}
 FULL = 0xFFFFFFFF
 

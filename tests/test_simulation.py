@@ -20,7 +20,7 @@ from wmrlib import _dop853
 from wmrlib._dop853 import TOLERANCE
 from wmrlib.engine import continuous as engine
 from wmrlib.engine import lanes
-from wmrlib.gains import checked_wheels
+from wmrlib.body import checked_wheels
 from wmrlib.laws import LAWS, POSE_LAWS
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
@@ -469,7 +469,7 @@ def test_the_last_sample_is_at_the_duration_although_tenths_are_not_exact():
 
 
 def test_wheel_limits_bind_and_keep_the_curvature():
-    limits = wmr.WheelLimits(track_width=0.5, max_speed=1.0)
+    limits = wmr.Wheels(track_width=0.5, max_speed=1.0)
     for method in METHODS:
         options = {"method": method, "wheels": limits, "duration": 120.0}
         run = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, **options)
@@ -483,7 +483,7 @@ def test_wheel_limits_bind_and_keep_the_curvature():
 def test_continuous_turns_no_faster_than_its_wheels():
     """Against small steps, each limited by itself; the limits bind all through the turn."""
     ends = wmr.Pose(0.0, 0.0, 2.5), wmr.Pose(5.0, 1.0, 0.0)
-    options = {"wheels": wmr.WheelLimits(track_width=0.8, max_speed=0.6), "duration": 6.0}
+    options = {"wheels": wmr.Wheels(track_width=0.8, max_speed=0.6), "duration": 6.0}
     oracle = wmr.simulate(*ends, CALM, method="continuous", **options)
     small = wmr.simulate(*ends, CALM, dt=0.001, **options)
     assert np.hypot(small.x[::100] - oracle.x, small.y[::100] - oracle.y).max() < 0.01
@@ -504,8 +504,8 @@ BAD = [
     ({"start": (0, 0, 0)}, r"start = \(0, 0, 0\) .* a Pose is needed"),
     ({"goal": wmr.Pose([1.0], 0, 0)}, r"goal\.x = array.* one number is needed; sweep takes arr"),
     ({"gains": wmr.Gains([1.0], 1, 1)}, "one number a gain is needed; sweep takes arrays of gains"),
-    ({"wheels": 1.0}, r"wheels = 1\.0 .* a WheelLimits is needed, not a float"),
-    ({"wheels": wmr.WheelLimits([0.5], 2.0)}, r"wheels\.track_width = .* one number is needed"),
+    ({"wheels": 1.0}, r"wheels = 1\.0 .* a Wheels is needed, not a float"),
+    ({"wheels": wmr.Wheels([0.5], 2.0)}, r"wheels\.track_width = .* one number is needed"),
     ({"wheel_lag": 0.1}, r'wheel_lag = 0\.1 .*: 0, or method "continuous" with an arrival radius'),
     (LAGGING | {"arrival_radius": 0.0}, r"wheel_lag = 0\.1 is not allowed"),
     (LAGGING | {"wheel_lag": -0.1}, r"wheel_lag = -0\.1 .* at least 0 is needed"),
@@ -646,7 +646,7 @@ def test_a_goal_that_stands_still_is_a_reference_too(method):
 
 def test_lagging_wheels_are_the_motion_of_the_pose_and_of_each_wheel():
     """Against the two wheels' speeds and the pose itself, integrated by another method."""
-    lag, limits = 0.1, wmr.WheelLimits(0.5, 3.0)
+    lag, limits = 0.1, wmr.Wheels(0.5, 3.0)
     options = {"wheel_lag": lag, "wheels": limits, "duration": 10.0}
 
     def rate(_, state, gains):

@@ -19,14 +19,14 @@ from scipy.integrate._ivp import dop853_coefficients
 import wmrlib as wmr
 from wmrlib import _dop853, sweeping
 from wmrlib.engine import lanes, sampled, threads
-from wmrlib.gains import checked_wheels
+from wmrlib.body import checked_wheels
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
 CALM = wmr.Gains(k_rho=0.4, k_alpha=2.0, h=0.6, v_max=2.0)
 LAWS = ("corrected", "printed", "aicardi")
 METHODS = tuple(sweeping._ENGINES)
-LIMITS = wmr.WheelLimits(track_width=0.5, max_speed=1.0)
+LIMITS = wmr.Wheels(track_width=0.5, max_speed=1.0)
 
 
 def scattered(count, seed=0):
@@ -64,7 +64,7 @@ wide_gains = st.builds(
     wmr.Gains,
     decades(0.02, 10.0), decades(0.1, 20.0), decades(0.01, 20.0) | st.just(0.0), decades(0.1, 20.0),
 )  # fmt: skip
-limits = st.none() | st.builds(wmr.WheelLimits, st.floats(0.2, 1.0), st.floats(0.3, 5.0))
+limits = st.none() | st.builds(wmr.Wheels, st.floats(0.2, 1.0), st.floats(0.3, 5.0))
 
 
 def test_the_steps_have_the_coefficients_of_their_authors():
@@ -310,7 +310,7 @@ def test_bad_input_names_argument_value_and_range(monkeypatch):
         ({"law": ["corrected", ["printed"]]}, r"law = \['corrected', \['printed'\]\] is not"),
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
-        ({"wheels": 2.0}, "a WheelLimits is needed"),
+        ({"wheels": 2.0}, "a Wheels is needed"),
         ({"arrival_radius": -1.0}, r"arrival_radius = -1\.0"),
         ({"trajectories": "no"}, "trajectories = 'no' is not allowed: True or False is needed"),
         ({"progress": 1}, "progress = 1 is not allowed: True or False is needed"),

@@ -1,6 +1,8 @@
 # The public names and where they live, for lazy_loader, editors and type checkers.
 from . import metrics as metrics
 from . import paper as paper
+from .body import LastTurn as LastTurn
+from .body import Wheels as Wheels
 from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov
@@ -9,7 +11,6 @@ from .gains import GENTLE_GAINS as GENTLE_GAINS
 from .gains import Gains as Gains
 from .gains import KanayamaGains as KanayamaGains
 from .gains import LinearGains as LinearGains
-from .gains import WheelLimits as WheelLimits
 from .geodesy import EARTH_RADIUS_M as EARTH_RADIUS_M
 from .geodesy import GeoPoint as GeoPoint
 from .geodesy import destination_point as destination_point

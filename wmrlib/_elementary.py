@@ -89,6 +89,25 @@ def share_of(value, limit):
 
 
 @_kinds
+def between(value, low, high):
+    """The value, or the limit that it is beyond."""
+    value = high if value > high else value
+    return low if value < low else value
+
+
+@_kinds
+def signed(size, like):
+    """A size with the sign of another number."""
+    return math.copysign(size, like)
+
+
+@_kinds
+def stepped(x, step):
+    """The nearest whole number of steps, or x itself if a step is 0."""
+    return step * np.floor(x / step + 0.5) if step > 0.0 else x
+
+
+@_kinds
 def whole(x):
     """The nearest whole number."""
     return np.floor(x + 0.5)

@@ -9,7 +9,8 @@ from collections.abc import Callable
 
 from wmrlib._checks import Real, choice, instance, reals
 from wmrlib._elementary import elementwise
-from wmrlib.gains import Gains, GainsFields, WheelLimits, checked_wheels
+from wmrlib.body import Wheels, checked_wheels
+from wmrlib.gains import Gains, GainsFields
 from wmrlib.laws import LAWS, POSE_LAWS, lyapunov_value, saturation_scale
 from wmrlib.motion import polar_closing_rate
 
@@ -114,12 +115,12 @@ def lyapunov_rate(
     return rho * rates[0] / L + (alpha * rates[1] + h * theta * rates[2])
 
 
-def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]:
+def limit_wheels(v: Real, omega: Real, limits: Wheels) -> tuple[Real, Real]:
     """The twist, scaled so that no wheel is too fast and the curvature omega/v stays.
 
     Parameters
     ----------
-    v, omega, limits : float or array, m/s; float or array, rad/s; WheelLimits
+    v, omega, limits : float or array, m/s; float or array, rad/s; Wheels
 
     Returns
     -------
@@ -132,7 +133,7 @@ def limit_wheels(v: Real, omega: Real, limits: WheelLimits) -> tuple[Real, Real]
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> limits = wmr.WheelLimits(track_width=1.0, max_speed=2.0)
+    >>> limits = wmr.Wheels(track_width=1.0, max_speed=2.0)
     >>> wmr.limit_wheels(v=3.0, omega=2.0, limits=limits)  # the outer wheel would need 4 m/s
     (1.5, 1.0)
     """

@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-import math
 from collections import namedtuple
 from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, checked, instance, real, scalar
+from wmrlib._checks import Real, checked, real, scalar
 
 
 @checked(at_least_0=("k_rho", "k_alpha", "h"), above_0=("v_max",))
@@ -91,29 +90,3 @@ class LinearGains(LinearFields):
     def _make(cls, fields):  # type: ignore[override]  # what `_replace` calls
         entries = [scalar(name, value) for name, value in zip(cls._fields, fields, strict=True)]
         return cls((entries[:3], entries[3:]))
-
-
-class WheelLimits(NamedTuple):
-    """How fast a wheel can turn.
-
-    Parameters
-    ----------
-    track_width, max_speed : float; m from wheel to wheel, m/s over ground
-    """
-
-    track_width: float
-    max_speed: float = math.inf
-
-
-NO_LIMITS = WheelLimits(1.0, math.inf)
-
-
-def checked_wheels(limits: WheelLimits | None, name: str = "wheels") -> WheelLimits:
-    """The limits as floats, with limits that never bind for None; ValueError names the argument."""
-    if limits is None:
-        return NO_LIMITS
-    width, speed = instance(name, limits, WheelLimits)
-    width = scalar(f"{name}.track_width", width, above=0.0)
-    if not (isinstance(speed, float) and speed == math.inf):
-        speed = scalar(f"{name}.max_speed", speed, above=0.0)
-    return WheelLimits(width, float(speed))

@@ -12,7 +12,8 @@ import numpy as np
 
 from wmrlib._compile import compiled, formula
 from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_error, until_event
-from wmrlib._elementary import sincos, wrap
+from wmrlib._elementary import between, sincos, wrap
+from wmrlib.body import at_rest, hurry, last_turn, roll
 from wmrlib.laws import command, pose_gains, pose_law, saturation_scale, value_of
 from wmrlib.motion import (
     arc_step,
@@ -32,6 +33,8 @@ ROOM = 16  # rows: the slopes at the start and after each stage, two for swing_o
 def steer(polar, goal_twist, numbers, law, wheels):
     """What a law commands, within the limits of the wheels: (v, omega)."""
     v, omega = command(*polar, *goal_twist, numbers, law)
+    more = hurry(v, polar[1], wheels.min_speed)
+    v, omega = more * v, more * omega
     share = saturation_scale(v, omega, wheels)
     return share * v, share * omega
 
@@ -46,24 +49,34 @@ def write(record, k, pose, polar, twist, numbers, law):
 
 
 @compiled
-def held(record, pose, path, numbers, law, wheels, along_arc, dt, arrival_radius, hysteresis):
+def held(
+    record, pose, path, numbers, law, wheels, along_arc, dt, arrival_radius, hysteresis, motors, end
+):
     """Hold the twist for dt, sample after sample; column k of `path` is the goal then, or its last.
 
+    `motors` are the Wheels that have to follow, or None; `end` is a LastTurn, or None.
     Returns (samples, outcome, largest |omega|, metres rolled). A negative radius never arrives.
     """
     peak, length, rolled, before = 0.0, 0.0, 0.0, math.nan
     pose = pose[0], pose[1], wrap(pose[2])
+    body, turning = (0.0, 0.0, 0.0, 0.0), False
     for k in range(record.shape[1]):
         x, y, heading, v_ref, omega_ref = path[:, min(k, path.shape[1] - 1)]
         rho, alpha, theta = polar_from_pose(*pose, x, y, heading)
         before = keep_branch(theta, before, hysteresis)
         polar = rho, alpha, before
         v, omega = steer(polar, (v_ref, omega_ref), numbers, law, wheels)
+        arrived = polar[0] <= arrival_radius
+        if end is not None:
+            v, omega, turning, arrived = last_turn(*polar, v, omega, turning, arrival_radius, end)
+        if motors is not None:
+            arrived = arrived and (end is None or at_rest(body))
+            v, omega, body = roll(v, omega, body, motors, dt)
         write(record, k, pose, polar, (v, omega), numbers, law)
         if not math.isfinite(polar[0] + v + omega):
             return k, DIVERGED, peak, length
         peak, length = max(peak, abs(omega)), length + rolled
-        if polar[0] <= arrival_radius:
+        if arrived:
             return k + 1, ARRIVED, peak, length
         rolled = dt * abs(v)
         step = *pose, v, omega, dt
@@ -77,7 +90,7 @@ def column(goals, stage):
 
 
 @compiled
-def slopes_of(state, goal, numbers, law, wheels, lag, out):
+def slopes_of(state, goal, numbers, law, wheels, motors, out):
     """Write the rates of a state, and return the twist.
 
     A state is the polar error, or the pose if the goal moves; then the metres rolled; and, with
@@ -91,11 +104,17 @@ def slopes_of(state, goal, numbers, law, wheels, lag, out):
         return v, omega
     rho, alpha = state[0], state[1]
     v_over_rho, omega = pose_law(rho, alpha, state[2], pose_gains(numbers), law)
+    more = hurry(v_over_rho * rho, alpha, wheels.min_speed)
+    v_over_rho, omega = more * v_over_rho, more * omega
     share = saturation_scale(v_over_rho * rho, omega, wheels)
     v_over_rho, omega = share * v_over_rho, share * omega
     v = v_over_rho * rho
-    if lag > 0.0:
-        out[4], out[5] = (v - state[4]) / lag, (omega - state[5]) / lag
+    if motors is not None:
+        most, half = motors.acceleration, 0.5 * motors.track_width
+        change, swing = (v - state[4]) / motors.lag, (omega - state[5]) / motors.lag
+        left = between(change - half * swing, -most, most)
+        right = between(change + half * swing, -most, most)
+        out[4], out[5] = 0.5 * (left + right), (right - left) / (2.0 * half)
         v, omega = state[4], state[5]
         v_over_rho = v / (rho if rho != 0.0 else 1.0)
     out[0], out[1], out[2] = polar_closing_rate(rho, alpha, v_over_rho, omega)
@@ -155,7 +174,7 @@ def attempt(state, dt, slopes, new, goals, before, radius, peak, *loop):
 
 
 @compiled
-def note(record, k, state, goal, goals, stage, twist, numbers, law, wheels, lag):
+def note(record, k, state, goal, goals, stage, twist, numbers, law, wheels, motors):
     """Write down a sample; rounding can carry rho a hair past the goal."""
     if goals is None:
         polar = larger(state[0], 0.0), state[1], state[2]

@@ -9,7 +9,8 @@ import numpy as np
 from wmrlib._checks import choice, instance, reals, refusal, scalar
 from wmrlib._dop853 import NODES
 from wmrlib._elementary import wrap
-from wmrlib.gains import Gains, KanayamaGains, LinearGains, WheelLimits, checked_wheels
+from wmrlib.body import LastTurn, Wheels, checked_turn, checked_wheels, in_loops
+from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
 from wmrlib.loops import MOST_TRIALS, ROOM, continuous, held, integrate
@@ -38,8 +39,8 @@ def simulate(
     dt: float = 0.1,
     duration: float = 60.0,
     arrival_radius: float = 0.05,
-    wheels: WheelLimits | None = None,
-    wheel_lag: float = 0.0,
+    wheels: Wheels | None = None,
+    last_turn: LastTurn | None = None,
     hysteresis: float = 0.0,
 ) -> Trajectory:
     """Drive from one pose to another.
@@ -58,10 +59,11 @@ def simulate(
     duration : float, s, within which lies the last sample, where the robot stops; at most ten
         million dt
     arrival_radius : float, m, within which it stops; 0 drives on
-    wheels : WheelLimits or None, see `limit_wheels`
-    wheel_lag : float, s; with "continuous" and an arrival radius, the wheels start at rest and
-        follow the limited command as first-order systems with this time constant (an inner loop
-        with a bandwidth of 1/wheel_lag rad/s); the run's v and omega are then what the wheels do
+    wheels : Wheels or None, ideal ones. Wheels that can't do at once what they are told start at
+        rest, and the run's v and omega are what they do ("arc" and "euler": on average until the
+        next sample). "continuous" needs an arrival radius and a lag for these, and knows no dead
+        band and no encoder steps.
+    last_turn : LastTurn or None; with "arc" and "euler", turn on the spot within the arrival radius
     hysteresis : float, rad; with "arc" and "euler", theta does not jump by 2 pi until its old
         branch is pi + hysteresis from 0, so the run's theta may be that large
 
@@ -91,19 +93,23 @@ def simulate(
     numbers, code = tuning_of(gains, law, POSE_LAWS)
     samples, dt = sample_count(dt, duration), float(dt)
     radius = scalar("arrival_radius", arrival_radius, low=0.0)
-    limits, lag = checked_wheels(wheels), scalar("wheel_lag", wheel_lag, low=0.0)
     continuously = choice("method", method, METHODS) == "continuous"
-    if lag and not (continuously and radius):  # on the goal itself there is no line of sight
-        raise refusal("wheel_lag", lag, '0, or method "continuous" with an arrival radius,')
-    kept = checked_hysteresis(hysteresis, method)
-    t, loop = dt * np.arange(samples), (numbers, code, limits)
+    kept, end = checked_hysteresis(hysteresis, method), checked_turn(last_turn, dt, method, radius)
+    (limits, motors), t = in_loops(checked_wheels(wheels)), dt * np.arange(samples)
+    loop = numbers, code, limits
     if continuously:
-        state = np.zeros(6 if lag else 4)
+        if motors is not None and not (radius and motors.lag):  # on the goal is no line of sight
+            needed = "ideal wheels, or a lag and an arrival radius, with method 'continuous'"
+            raise refusal("wheels", motors, needed)
+        if motors is not None and (motors.dead_band or motors.encoder_step):
+            needed = "neither dead_band nor encoder_step with method 'continuous'"
+            raise refusal("wheels", motors, needed)
+        state = np.zeros(4 if motors is None else 6)
         state[:3] = polar_from_pose(*begin, *target)
-        run = _continuous(t, state, radius, target, None, *loop, lag)
+        run = _continuous(t, state, radius, target, None, *loop, motors)
     else:
         path = np.array([*target, 0.0, 0.0])[:, None]
-        run = _held(t, method, radius, kept, begin, path, *loop)
+        run = _held(t, method, radius, kept, motors, end, begin, path, *loop)
     return Trajectory.of(*run, end, gains, law, method)
 
 
@@ -116,7 +122,7 @@ def track(
     method: str = "arc",
     dt: float = 0.1,
     duration: float = 60.0,
-    wheels: WheelLimits | None = None,
+    wheels: Wheels | None = None,
 ) -> Trajectory:
     """Follow a moving goal to the end of the given time.
 
@@ -131,7 +137,8 @@ def track(
         "kanayama": v = v_ref cos(e_h) + k_x e_x and
         omega = omega_ref + v_ref (k_y e_y + k_heading sin(e_h));
         "linear": v = v_ref cos(e_h) + K_1 e and omega = omega_ref + K_2 e
-    method, dt, duration, wheels : as in `simulate`, but "continuous" integrates the pose
+    method, dt, duration, wheels : as in `simulate`, but "continuous" integrates the pose, and its
+        wheels are ideal
 
     Returns
     -------
@@ -153,7 +160,8 @@ def track(
     begin = single_pose("start", start)
     numbers, code = tuning_of(gains, law, TRACKING_LAWS)
     samples, dt = sample_count(dt, duration), float(dt)
-    t, loop = dt * np.arange(samples), (numbers, code, checked_wheels(wheels))
+    (limits, motors), t = in_loops(checked_wheels(wheels)), dt * np.arange(samples)
+    loop = numbers, code, limits
 
     def path_at(times: np.ndarray) -> np.ndarray:
         seen = reference(np.minimum(times, duration))  # three times 0.1 is more than 0.3
@@ -168,24 +176,26 @@ def track(
         raise refusal("reference(t)", named, "one number, or one a time, in each field")
     path = path_at(t)
     if choice("method", method, METHODS) == "continuous":
+        if motors is not None:
+            raise refusal("wheels", motors, "ideal wheels, or method 'arc' or 'euler',")
         state = np.array([*begin, 0.0])  # in the plane: the line of sight may have no length
 
         def goals_at(now: float, dt: float) -> np.ndarray:
             return path_at(now + dt * NODES)
 
-        run = _continuous(t, state, -np.inf, begin, goals_at, *loop, 0.0)
+        run = _continuous(t, state, -np.inf, begin, goals_at, *loop, None)
     else:
-        run = _held(t, method, -1.0, 0.0, begin, path, *loop)
+        run = _held(t, method, -1.0, 0.0, motors, None, begin, path, *loop)
     t, record, outcome, *sums = run
     ended = COMPLETED if outcome == TIMED_OUT else outcome
     goal = Pose(*path[:3, : t.size])
     return Trajectory.of(t, record, ended, *sums, goal, gains, law, method)
 
 
-def _held(t, method, radius, hysteresis, begin, path, *loop) -> tuple:
+def _held(t, method, radius, hysteresis, motors, end, begin, path, *loop) -> tuple:
     """(t, record, outcome, peak omega, path length) of a run whose twist is held."""
     record, dt = np.empty((9, t.size)), t[1]
-    how = *loop, method == "arc", dt, radius, hysteresis
+    how = *loop, method == "arc", dt, radius, hysteresis, motors, end
     count, *sums = held(record, tuple(begin), path, *how)
     return t[:count], record[:, :count], *sums
 

@@ -12,7 +12,7 @@ import numpy as np
 
 from wmrlib._checks import as_array, choice, instance, real, refusal, same_shape, scalar
 from wmrlib.engine import continuous, lanes, sampled, threads
-from wmrlib.gains import Gains, WheelLimits, checked_wheels
+from wmrlib.gains import Gains, Wheels, checked_wheels
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import POSE_LAWS
 from wmrlib.receiver import Receiver
@@ -36,7 +36,7 @@ class _Task(NamedTuple):
     """What all the runs have in common."""
 
     method: str
-    limits: WheelLimits
+    limits: Wheels
     dt: float
     samples: int
     arrival_radius: float
@@ -62,7 +62,7 @@ def sweep(
     dt: float = 0.1,
     duration: float = 60.0,
     arrival_radius: float = 0.05,
-    wheels: WheelLimits | None = None,
+    wheels: Wheels | None = None,
     hysteresis: float = 0.0,
     receiver: Receiver | None = None,
     seed: int = 0,

@@ -163,7 +163,7 @@ def wheel_limit(values, found, data) -> None:
         return np.clip(v, -0.75 * most, 0.75 * most), np.clip(omega, -turning, turning)
 
     def both(v, omega):
-        return wmr.limit_wheels(v, omega, wmr.WheelLimits(track, most))
+        return wmr.limit_wheels(v, omega, wmr.Wheels(track, most))
 
     limit = {"wheels": clipped, "apart": apart, "both": both}[values["rule"]]
     gains, goal = wmr.Gains(**data["gains"]), pose(data["goal"])
@@ -395,7 +395,7 @@ def window(values, found, data) -> None:
 
 def race(values, found, data) -> None:
     start = wmr.Pose(values["x"], values["y"], math.radians(values["heading"]))
-    wheels = wmr.WheelLimits(data["track"], data["most"])
+    wheels = wmr.Wheels(data["track"], data["most"])
     how = {"dt": data["dt"], "duration": data["seconds"], "arrival_radius": data["radius"]}
     for run in found["runs"]:
         gains = wmr.Gains(**data["tuned"][run["law"]])

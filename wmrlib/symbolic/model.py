@@ -27,6 +27,12 @@ for _function, _symbols in {
     _elementary.wrap: s.wrap,
     _elementary.root: sp.sqrt,
     _elementary.whole: lambda x: sp.floor(x + sp.S.Half),
+    _elementary.between: lambda x, low, high: sp.Max(low, sp.Min(high, x)),
+    _elementary.signed: lambda size, like: sp.Piecewise((-size, like < 0), (size, True)),
+    _elementary.share_of: lambda x, limit: sp.Piecewise((limit / x, x > limit), (1, True)),
+    _elementary.stepped: lambda x, step: sp.Piecewise(
+        (step * sp.floor(x / step + sp.S.Half), step > 0), (x, True)
+    ),
     _elementary.within: lambda x, limit, other: sp.Piecewise((x, abs(x) < limit), (other, True)),
     _elementary.direction: sp.atan2,
     _elementary.distance: lambda x, y: sp.sqrt(x**2 + y**2),

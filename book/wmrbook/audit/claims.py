@@ -17,7 +17,7 @@ from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits
 from wmrbook.ellipsoid import FLATTENING, SEMI_MAJOR_M, sphere_error
 from wmrbook.published import PUBLISHED
 from wmrlib import paper
-from wmrlib.gains import WheelLimits
+from wmrlib.body import Wheels
 from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, haversine_distance, initial_bearing
 from wmrlib.metrics import arrival, residual
 from wmrlib.runs import Trajectory
@@ -249,7 +249,7 @@ def _better() -> Row:
     v = k_rho rho cos(alpha): with the number that the paper has for k_rho, and with the slope
     v_max k_rho that (22) has at the goal. A verdict is one on the stand-ins.
     """
-    wheels, gains = WheelLimits(0.4, PUBLISHED["speed_limit"].value), paper.CIRCLE_GAINS
+    wheels, gains = Wheels(0.4, PUBLISHED["speed_limit"].value), paper.CIRCLE_GAINS
 
     def index(law: str, k_rho: float) -> float:
         return math.sqrt(np.mean(circle_run(law, wheels, k_rho=k_rho).rho ** 2))

@@ -24,7 +24,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wmrlib._checks import instance, scalar
-from wmrlib.gains import Gains, WheelLimits, checked_wheels
+from wmrlib.body import Wheels, checked_wheels
+from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectory, sample_count, single_pose
 from wmrlib.simulation import simulate
@@ -47,7 +48,7 @@ SEED = 2026
 _HEADING_WEIGHT, _OMEGA_WEIGHT = 0.5, 4.0  # points a degree, points a rad/s
 _ASIDE = 1e-6 * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])  # m
 _TIPPED = 1.0  # points
-_WHEELS = WheelLimits(track_width=0.5, max_speed=2.0)  # m, m/s
+_WHEELS = Wheels(track_width=0.5, max_speed=2.0)  # m, m/s
 _KINDS = (  # name, distance in m from, to, |alpha| in deg from, to
     ("ahead", 5.0, 15.0, 0.0, 30.0),
     ("ahead", 20.0, 40.0, 10.0, 60.0),
@@ -77,13 +78,13 @@ class Challenge:
     """What everyone is given: the cases, and how they are driven.
 
     seed: from which `from_seed` drew it; cases: tuple of Case, each a text and two single poses;
-    wheels: WheelLimits with a finite speed; dt: s, for which a command is held; arrival_radius: m;
+    wheels: Wheels with a finite speed; dt: s, for which a command is held; arrival_radius: m;
     duration: s, within which the goal has to be reached. Raises ValueError for anything else.
     """
 
     seed: int
     cases: tuple[Case, ...]
-    wheels: WheelLimits = _WHEELS
+    wheels: Wheels = _WHEELS
     dt: float = 0.1
     arrival_radius: float = 0.05
     duration: float = 60.0
@@ -99,7 +100,7 @@ class Challenge:
             instance(f"cases[{k}].kind", kind, str)
             single_pose(f"cases[{k}].start", start)
             single_pose(f"cases[{k}].goal", goal)
-        wheels = checked_wheels(instance("wheels", self.wheels, WheelLimits))
+        wheels = checked_wheels(instance("wheels", self.wheels, Wheels))
         scalar("wheels.max_speed", wheels.max_speed)
         sample_count(self.dt, self.duration)
         scalar("arrival_radius", self.arrival_radius, low=0.0)

@@ -22,7 +22,8 @@ from wmrbook.grading._hints import (
     spread,
 )
 from wmrlib.control import control_law, limit_wheels
-from wmrlib.gains import GENTLE_GAINS, Gains, WheelLimits
+from wmrlib.body import Wheels
+from wmrlib.gains import GENTLE_GAINS, Gains
 from wmrlib.kinematics import Pose, polar_error, twist_to_wheels, wrap_angle
 
 COUNTS = 65536  # of a counter of 16 bits
@@ -129,7 +130,7 @@ def ticks_properties(rolled: Callable) -> str:
 
 def step_stops(wheel_speeds: Callable) -> str:
     """wheel_speeds(x, y, heading, age, goal, gains, limits): (0, 0) if in doubt or arrived."""
-    given = Pose(0.0, 0.0, 0.0), GENTLE_GAINS, WheelLimits(0.5, 2.0)
+    given = Pose(0.0, 0.0, 0.0), GENTLE_GAINS, Wheels(0.5, 2.0)
     fine = {"x": -5.0, "y": 1.0, "heading": 0.3, "age": 0.1}
     for name, value in itertools.product(fine, (math.nan, math.inf, -math.inf)):
         why = f"without its {name} a fix can't be trusted."
@@ -201,7 +202,7 @@ def _expect_stop(wheel_speeds: Callable, at: dict, given: tuple, what: str, why:
     expect((left, right) == STOP, hint)
 
 
-def _situations(count: int) -> list[tuple[Pose, float, Pose, Gains, WheelLimits]]:
+def _situations(count: int) -> list[tuple[Pose, float, Pose, Gains, Wheels]]:
     """Fixes at most 0.5 s old, from a millimetre more than 0.2 m away to 20 m."""
     random, found = np.random.default_rng(113), []
     for k, near in enumerate(spread(1e-3, 20.0, count)):
@@ -210,6 +211,6 @@ def _situations(count: int) -> list[tuple[Pose, float, Pose, Gains, WheelLimits]
         pose = Pose(goal.x - far * math.cos(sight), goal.y - far * math.sin(sight), look)
         gains = Gains(*random.uniform((0.1, 0.5, 0.2, 1.0), (1.0, 3.0, 3.0, 4.0)).tolist())
         age = 0.5 if k == 0 else random.uniform(0.0, 0.5)
-        limits = WheelLimits(*random.uniform((0.3, 0.8), (1.0, 3.0)).tolist())
+        limits = Wheels(*random.uniform((0.3, 0.8), (1.0, 3.0)).tolist())
         found.append((pose, age, goal, gains, limits))
     return found

@@ -50,7 +50,7 @@ def rms_distances(law: str, seed: int, limit: float, most: float, start: wmr.Pos
     if law == "kanayama":
         kind, low, high = wmr.KanayamaGains, [0.3, 0.3, 0.3], [8.0, 20.0, 8.0]
     drawn = np.exp(np.random.default_rng(seed).uniform(np.log(low), np.log(high), (40, len(low))))
-    best, how = math.inf, {"law": law, "wheels": wmr.WheelLimits(0.4, limit), "duration": 40.0}
+    best, how = math.inf, {"law": law, "wheels": wmr.Wheels(0.4, limit), "duration": 40.0}
     for gains in drawn:
         run = wmr.track(paper.circle, start, kind(*gains), **how)
         if np.abs(run.omega).max() <= most:

@@ -10,7 +10,7 @@ from scipy.linalg import expm
 import wmrlib as wmr
 from wmrbook.headlines import SEEDS, Before, headline
 from wmrbook.headlines.laws import ANY, ANY_START, DESIGNED, GOAL
-from wmrlib import Gains, Pose, WheelLimits
+from wmrlib import Gains, Pose, Wheels
 
 WALL = {"distance": (0.1, 60.0), **ANY}
 WRAPS = Before("no law lets an angle cross half a turn", WALL | {"law": ["corrected"]}, at_most=180)
@@ -29,7 +29,7 @@ def _random(near, far, seed, count=1000) -> Pose:
 def widest_angle(distance, direction, heading, k_rho, k_alpha, h, v_max, law="barrier") -> float:
     """The wheels slow the clock and leave the path as it is, so that no turn is too fast."""
     start = Pose(distance * math.cos(direction), distance * math.sin(direction), heading)
-    how = {"method": "continuous", "dt": 0.05, "duration": 30.0, "wheels": WheelLimits(0.4, 1.0)}
+    how = {"method": "continuous", "dt": 0.05, "duration": 30.0, "wheels": Wheels(0.4, 1.0)}
     run = wmr.simulate(start, GOAL, Gains(k_rho, k_alpha, h, v_max), law=law, **how)
     return math.degrees(max(np.abs(run.alpha).max(), np.abs(run.theta).max()))
 
@@ -82,7 +82,7 @@ def sooner_backwards(law, seed, track, fastest, dt) -> bool:
     rng = np.random.default_rng(seed)
     x, (y, heading) = rng.uniform(1.8, 2.2, 1000), rng.uniform(-0.4, 0.4, (2, 1000))
     other = {"aicardi": Gains(0.8, 3.2, 4.0, 1.0), "graceful": Gains(1.0, 2.0, 3.0, 1.0)}
-    gains, wheels = other.get(law, DESIGNED), WheelLimits(track, fastest)
+    gains, wheels = other.get(law, DESIGNED), Wheels(track, fastest)
     how = {"law": law, "method": "arc", "dt": dt, "wheels": wheels, "progress": False}
     forwards, backwards = (
         wmr.sweep(Pose(x, y, heading + turn), GOAL._replace(heading=turn), gains, **how).time

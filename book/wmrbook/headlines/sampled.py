@@ -52,7 +52,7 @@ def stray(way, far, theta, most, limit, dt=0.02):
         wmr.Pose(far * math.cos(way), far * math.sin(way), way - theta),
     )
     free = wmr.simulate(start, goal, GENTLE, method="continuous", dt=0.005)
-    pose, wheels, off, limits = start, np.zeros(2), 0.0, wmr.WheelLimits(0.5, limit)
+    pose, wheels, off, limits = start, np.zeros(2), 0.0, wmr.Wheels(0.5, limit)
     for step in range(int(60.0 / dt)):
         if (seen := wmr.polar_error(pose, goal)).rho < 0.05:
             break

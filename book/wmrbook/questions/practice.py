@@ -34,7 +34,7 @@ def twice_as_fast() -> tuple[str, list[Option], str]:
 @question(8, "Wheels that can't go faster", "Too fast for the wheels")
 def one_factor() -> tuple[str, list[Option], str]:
     v, omega, width, most = 2.0, 4.0, 0.5, 1.5
-    limited = wmr.limit_wheels(v, omega, wmr.WheelLimits(track_width=width, max_speed=most))
+    limited = wmr.limit_wheels(v, omega, wmr.Wheels(track_width=width, max_speed=most))
     left, right = (min(speed, most) for speed in (v - omega * width / 2.0, v + omega * width / 2.0))
     half = most / (v + omega * width / 2.0)
 

@@ -1,0 +1,184 @@
+"""What a robot adds to a law: wheels with a motor each, and a turn on the spot at the end.
+
+The formulas hold for one period of a sampled drive, in which the command does not change.
+"""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+from wmrlib._checks import instance, refusal, scalar
+from wmrlib._compile import formula
+from wmrlib._elementary import between, expm1, share_of, signed, sincos, stepped, within, wrap
+from wmrlib.motion import wheel_speeds
+
+_TINY = 1e-300  # a divisor in the place of 0, where 0/0 stands for 0
+_AT_REST = 1e-3  # m/s: a slower wheel stands
+_FASTEST = 1e9  # as a factor on a speed
+
+
+class Wheels(NamedTuple):
+    """Two wheels, and what their motors can do; as they are, all but the width is ideal.
+
+    Every speed is over ground.
+
+    Parameters
+    ----------
+    track_width : float, m from wheel to wheel
+    max_speed : float, m/s. The twist is scaled so that no wheel is told more, see `limit_wheels`.
+    min_speed : float, m/s. The twist is scaled up until |v| is min_speed |cos(alpha)|: the path
+        stays as it is, and the robot does not slow down until it stalls.
+    acceleration : float, m/s^2. A wheel changes its speed no faster.
+    lag : float, s. Time constant with which a wheel follows the speed that it is told.
+    dead_band : float, m/s. A wheel that is told less stands.
+    encoder_step : float, m. A wheel moves by whole steps in a period; the rest waits.
+    """
+
+    track_width: float
+    max_speed: float = math.inf
+    min_speed: float = 0.0
+    acceleration: float = math.inf
+    lag: float = 0.0
+    dead_band: float = 0.0
+    encoder_step: float = 0.0
+
+
+class LastTurn(NamedTuple):
+    """How a robot turns on the spot to the heading of its goal, once it is near enough.
+
+    Within the arrival radius it stops, and turns at `gain` times the heading error, at least at
+    `min_rate` and at most at `max_rate`, until the error is within `tolerance` and the wheels
+    stand: then it has arrived. If it slips farther away than `leave` times the radius, it drives
+    again.
+
+    Parameters
+    ----------
+    tolerance, gain, min_rate, max_rate, leave : float; rad, 1/s, rad/s, rad/s, no unit
+    """
+
+    tolerance: float = 0.02
+    gain: float = 2.0
+    min_rate: float = 0.2
+    max_rate: float = 1.0
+    leave: float = 2.0
+
+
+NO_LIMITS = Wheels(1.0)
+
+
+def checked_wheels(wheels: Wheels | None, name: str = "wheels") -> Wheels:
+    """The wheels as floats, ideal ones for None; ValueError names the argument and its field."""
+    if wheels is None:
+        return NO_LIMITS
+    fields = instance(name, wheels, Wheels)._asdict()
+    for field, value in fields.items():
+        if not (isinstance(value, float) and value == math.inf and field in _MAY_BE_INFINITE):
+            needed = {"above": 0.0} if field in _ABOVE_0 else {"low": 0.0}
+            fields[field] = scalar(f"{name}.{field}", value, **needed)
+    checked = Wheels(**{field: float(value) for field, value in fields.items()})
+    if checked.min_speed > checked.max_speed:
+        most = f"at most max_speed, {checked.max_speed:g},"
+        raise refusal(f"{name}.min_speed", checked.min_speed, most)
+    return checked
+
+
+_MAY_BE_INFINITE = "max_speed", "acceleration"
+_ABOVE_0 = "track_width", "max_speed", "acceleration"
+
+
+def in_loops(wheels: Wheels) -> tuple[Wheels, Wheels | None]:
+    """The wheels as limits of a twist, and as a body, or None if they do at once what they are told.
+
+    None says by its type that something is left out, so that numba compiles nothing for it.
+    """
+    ideal = wheels._replace(max_speed=wheels.max_speed, acceleration=math.inf, lag=0.0)
+    ideal = ideal._replace(dead_band=0.0, encoder_step=0.0)
+    limits = ideal if ideal.min_speed else ideal._replace(min_speed=None)  # type: ignore[arg-type]
+    return limits, (None if wheels == ideal else wheels)
+
+
+def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -> LastTurn | None:
+    """The last turn as floats; ValueError names what is not allowed."""
+    if turn is None:
+        return None
+    fields = instance("last_turn", turn, LastTurn)._asdict()
+    turn = LastTurn(*(scalar(f"last_turn.{f}", value, above=0.0) for f, value in fields.items()))
+    if method == "continuous" or not radius:
+        needed = "None, or method 'arc' or 'euler' with an arrival radius,"
+        raise refusal("last_turn", tuple(turn), needed)
+    if turn.max_rate < turn.min_rate:
+        raise refusal("last_turn.max_rate", turn.max_rate, f"at least min_rate, {turn.min_rate:g},")
+    if turn.min_rate * dt > 2.0 * turn.tolerance:  # it would swing to and fro for ever
+        most = f"at most two tolerances a step, {2.0 * turn.tolerance / dt:g},"
+        raise refusal("last_turn.min_rate", turn.min_rate, most)
+    if turn.leave < 1.0:
+        raise refusal("last_turn.leave", turn.leave, "at least 1")
+    return turn
+
+
+@formula
+def hurry(v, alpha, min_speed):
+    """The factor on a twist that makes |v| at least min_speed |cos(alpha)|."""
+    if min_speed is None:
+        return 1.0
+    wanted = min_speed * abs(sincos(alpha)[1])
+    return 1.0 / between(share_of(wanted, abs(v)), 1.0 / _FASTEST, 1.0)
+
+
+@formula
+def turn_rate(error, gain, min_rate, max_rate):
+    """omega of a turn on the spot, for the angle that is still to be turned by."""
+    return signed(between(gain * abs(error), min_rate, max_rate), error)
+
+
+@formula
+def last_turn(rho, alpha, theta, v, omega, turning, radius, end):
+    """The twist when the turn on the spot has its say, whether it is on, and whether it is done."""
+    turning = rho <= (radius * end.leave if turning else radius)
+    off = wrap(theta - alpha)
+    done = turning & (abs(off) <= end.tolerance)
+    rate = 0.0 if done else turn_rate(-off, end.gain, end.min_rate, end.max_rate)
+    return (0.0 if turning else v), (rate if turning else omega), turning, done
+
+
+@formula
+def follow(speed, told, easing, lag, dt):
+    """A wheel's mean speed in a period, and its speed after it.
+
+    The speed follows what the wheel is told with the time constant `lag`, and changes by 1/easing
+    a second at most: first on a straight line, then along an exponential.
+    """
+    gap = told - speed
+    ramp = between(abs(gap) * easing - lag, 0.0, dt)  # s
+    begun = speed + gap * (ramp / (abs(gap) * easing + _TINY))
+    rest, open_ = dt - ramp, told - begun
+    closed = -expm1(-rest / (lag + _TINY)) * open_
+    travelled = 0.5 * (speed + begun) * ramp + told * rest - lag * closed
+    return travelled / dt, begun + closed
+
+
+@formula
+def roll(v, omega, body, wheels, dt):
+    """What the wheels make of a twist in a period: the mean twist, and the body after it.
+
+    A body is the speeds of the left and the right wheel, and what either is behind in whole steps.
+    """
+    left, right, left_rest, right_rest = body
+    told_left, told_right = wheel_speeds(v, omega, wheels.track_width)
+    easing, dead = 1.0 / wheels.acceleration, wheels.dead_band
+    told_left = told_left - within(told_left, dead, 0.0)
+    told_right = told_right - within(told_right, dead, 0.0)
+    mean_left, left = follow(left, told_left, easing, wheels.lag, dt)
+    mean_right, right = follow(right, told_right, easing, wheels.lag, dt)
+    due_left, due_right = left_rest + dt * mean_left, right_rest + dt * mean_right
+    rolled_left = stepped(due_left, wheels.encoder_step)
+    rolled_right = stepped(due_right, wheels.encoder_step)
+    body = left, right, due_left - rolled_left, due_right - rolled_right
+    v = 0.5 * (rolled_left + rolled_right) / dt
+    return v, (rolled_right - rolled_left) / (wheels.track_width * dt), body
+
+
+@formula
+def at_rest(body):
+    return (abs(body[0]) < _AT_REST) & (abs(body[1]) < _AT_REST)
