@@ -12,7 +12,8 @@ import numpy as np
 
 from wmrlib._checks import as_array, choice, instance, real, refusal, same_shape, scalar
 from wmrlib.engine import continuous, lanes, sampled, threads
-from wmrlib.gains import Gains, Wheels, checked_wheels
+from wmrlib.body import LastTurn, Wheels, checked_turn, checked_wheels, in_loops
+from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import POSE_LAWS
 from wmrlib.receiver import Receiver
@@ -37,11 +38,13 @@ class _Task(NamedTuple):
 
     method: str
     limits: Wheels
+    motors: Wheels | None
     dt: float
     samples: int
     arrival_radius: float
     recorded: bool
     hysteresis: float
+    end: LastTurn | None
     key: tuple[int, ...]  # to the random numbers of receivers, if there are any
 
     @property
@@ -63,6 +66,7 @@ def sweep(
     duration: float = 60.0,
     arrival_radius: float = 0.05,
     wheels: Wheels | None = None,
+    last_turn: LastTurn | None = None,
     hysteresis: float = 0.0,
     receiver: Receiver | None = None,
     seed: int = 0,
@@ -84,8 +88,9 @@ def sweep(
     law : str or array of str, as in `simulate`
     method : as in `simulate`; with "arc" and "euler" each entry is `arrival(simulate(...))` of that
         run, to 1e-9 unless the run magnifies rounding
-    dt, duration, arrival_radius, wheels, hysteresis : as in `simulate`; with "continuous", dt only
-        says where the samples lie; the last one within the duration ends the run
+    dt, duration, arrival_radius, wheels, last_turn, hysteresis : as in `simulate`; with
+        "continuous", dt only says where the samples lie, and the last one within the duration ends
+        the run; wheels that can't do at once what they are told need "arc" or "euler"
     receiver : Receiver, with "arc" and "euler" only, by what each run steers; its fields broadcast
         too. A run stops, and has arrived, where it believes to be within the radius; all that is
         returned is where it really is. None: it knows.
@@ -128,9 +133,12 @@ def sweep(
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**64:
         raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
-    limits, key = checked_wheels(wheels), divmod(int(seed), 2**32)[::-1] if receiver else ()
-    kept = checked_hysteresis(hysteresis, method)
-    task = _Task(method, limits, float(dt), samples, radius, bool(trajectories), kept, key)
+    (limits, motors), kept = in_loops(checked_wheels(wheels)), checked_hysteresis(hysteresis, method)
+    if motors is not None and method == "continuous":
+        raise refusal("wheels", motors, "ideal wheels, or method 'arc' or 'euler',")
+    end = checked_turn(last_turn, dt, method, radius)
+    key, recorded = divmod(int(seed), 2**32)[::-1] if receiver else (), bool(trajectories)
+    task = _Task(method, limits, motors, float(dt), samples, radius, recorded, kept, end, key)
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
             raise refusal(name, value, "True or False")

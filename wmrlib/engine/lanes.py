@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrlib import laws
+from wmrlib import body, laws
 from wmrlib._compile import compiled, formula
 from wmrlib.engine.vectors import vectorised
 from wmrlib.runs import ARRIVED
@@ -13,7 +13,7 @@ from wmrlib.runs import ARRIVED
 OUTCOME, TIME, HEADING_ERROR, PEAK_OMEGA, PATH_LENGTH, DISTANCE = range(6)
 
 
-_pose_law = vectorised(laws.pose_law)
+_pose_law, _hurry = vectorised(laws.pose_law), vectorised(body.hurry)
 
 
 def as_type(law: int) -> tuple[int, ...]:
@@ -29,6 +29,8 @@ def as_type(law: int) -> tuple[int, ...]:
 def steered(polar, gains, law, wheels):
     """(v/rho, omega) under a pose law and the limits of the wheels."""
     v_over_rho, omega = _pose_law(polar[0], polar[1], polar[2], gains, len(law))
+    more = _hurry(v_over_rho * polar[0], polar[1], wheels.min_speed)
+    v_over_rho, omega = more * v_over_rho, more * omega
     share = laws.saturation_scale(v_over_rho * polar[0], omega, wheels)
     return share * v_over_rho, share * omega
 

@@ -9,6 +9,7 @@ import numpy as np
 from wmrlib import motion
 from wmrlib._compile import compiled, formula
 from wmrlib._elementary import wrap
+from wmrlib.body import at_rest, last_turn, roll
 from wmrlib.engine import lanes, receivers
 from wmrlib.engine.vectors import BETWEEN_DIRECTIONS, NEAREST, vectorised
 from wmrlib.gains import GainsFields
@@ -26,7 +27,8 @@ X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(10
 LEFT, PEAK, LENGTH, RHO, ALPHA, THETA, V, OMEGA, GOING, ALIVE, HERE = range(10, 21)
 SEEN = HERE + 1
 BRANCH = SEEN + 3  # with hysteresis, theta as it is, and below it as it is seen
-ROWS = BRANCH + 2
+TURNING, BODY = BRANCH + 2, BRANCH + 3
+ROWS = BODY + 4
 
 _polar_from_pose = vectorised(motion.polar_from_pose, BETWEEN_DIRECTIONS)
 _euler_step, _arc_step = vectorised(motion.euler_step), vectorised(motion.arc_step)
@@ -52,16 +54,29 @@ def look(block, used, place, branch, hysteresis):
 
 
 @formula
-def decide(block, used, law, wheels, dt, arrival_radius):
-    """What each run commands; a run that is over, or has arrived, takes no step."""
+def decide(block, used, law, wheels, dt, arrival_radius, motors, end):
+    """What each run commands; a run that is over, or has arrived, takes no step.
+
+    Ideal wheels and no last turn are None, which costs nothing, as without hysteresis.
+    """
     for i in range(used):
         gains = GainsFields(block[K_RHO, i], block[K_ALPHA, i], block[H, i], block[V_MAX, i])
         polar = block[RHO, i], block[ALPHA, i], block[THETA, i]
         v_over_rho, omega = lanes.steered(polar, gains, law, wheels)
         v, left, peak = v_over_rho * polar[0], block[LEFT, i], block[PEAK, i]
         length, here = block[LENGTH, i], block[HERE, i]  # all first: loads between stores are slow
-        near = polar[0] <= arrival_radius
-        going, arrived = (left > 0.0) & (polar[0] > arrival_radius), (left >= 0.0) & near
+        done, far = polar[0] <= arrival_radius, polar[0] > arrival_radius
+        if end is not None:
+            turning = block[TURNING, i] > 0.0
+            v, omega, turning, done = last_turn(*polar, v, omega, turning, arrival_radius, end)
+            block[TURNING, i], far = (1.0 if turning else 0.0), not done
+        if motors is not None:
+            rows = block[BODY, i], block[BODY + 1, i], block[BODY + 2, i], block[BODY + 3, i]
+            done = done and (end is None or at_rest(rows))
+            v, omega, rows = roll(v, omega, rows, motors, dt)
+            block[BODY, i], block[BODY + 1, i], block[BODY + 2, i], block[BODY + 3, i] = rows
+            far = far or not done
+        going, arrived = (left > 0.0) & far, (left >= 0.0) & done
         block[V, i], block[OMEGA, i], block[GOING, i] = v, omega, (1.0 if going else 0.0)
         block[PEAK, i] = abs(omega) if (left >= 0.0) & (abs(omega) > peak) else peak
         block[LENGTH, i] = length + (dt * abs(v) if going else 0.0)
@@ -79,7 +94,7 @@ def move(block, used, along_arc, dt):
 
 
 @compiled
-def drive(states, law, wheels, along_arc, dt, arrival_radius, hysteresis):
+def drive(states, law, wheels, along_arc, dt, arrival_radius, hysteresis, motors, end):
     """Take every run to its end, or to its last step; then it gives its lane to the next."""
     block, inside = np.zeros((ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
     waiting = width = 0
@@ -90,14 +105,15 @@ def drive(states, law, wheels, along_arc, dt, arrival_radius, hysteresis):
         used = min(BLOCK, (width + VECTORS - 1) // VECTORS * VECTORS)
         for _ in range(_ROUNDS):
             look(block, used, X, BRANCH, hysteresis)
-            decide(block, used, law, wheels, dt, arrival_radius)
+            decide(block, used, law, wheels, dt, arrival_radius, motors, end)
             move(block, used, along_arc, dt)
 
 
 @compiled
 def drive_all(
-    states, law, wheels, arc, dt, radius, hysteresis, samples, key, records, place, eyes, depth
-):
+    states, law, wheels, arc, dt, radius, hysteresis, motors, end, samples, key, records, place,
+    eyes, depth,
+):  # fmt: skip
     """The same, sample after sample, because each is recorded, or steered by what a receiver shows.
 
     `records` has an axis for the rows, one for the samples, and one for the runs.
@@ -120,7 +136,7 @@ def drive_all(
             if key is not None:
                 receivers.show(block, SEEN, GOAL_X, shown, past, k, used, key)
                 look(block, used, SEEN, BRANCH + 1, hysteresis)
-            decide(block, used, law, wheels, dt, radius)
+            decide(block, used, law, wheels, dt, radius, motors, end)
             if records.shape[1] > 0:
                 _note(records[6, k], block, width, place + first, V)
                 _note(records[7, k], block, width, place + first, OMEGA)
@@ -137,7 +153,9 @@ def _note(record, block, width, first, row):
 
 
 @compiled
-def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, samples, key, records, place):
+def conclude(
+    states, runs, law, wheels, arc, dt, radius, hysteresis, motors, end, samples, key, records, place
+):
     """Sum up each run. One that ended without a number is driven alone, by the C library.
 
     With a receiver it is left, because there the pose is hardly one that a receiver could show.
@@ -153,7 +171,7 @@ def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, samples, ke
         polar = rho, alpha, keep_branch(theta, states[BRANCH, i], hysteresis)
         v, omega = steer(polar, (0.0, 0.0), *loop)
         last, arrived = samples - 1 - int(abs(left)), polar[0] <= radius
-        if key is not None:
+        if key is not None or motors is not None or end is not None:
             arrived = states[HERE, i] > 0.0
         else:
             peak = max(peak, abs(omega))
@@ -164,7 +182,7 @@ def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, samples, ke
             polar = math.nan, math.nan, math.nan
         elif not (key is not None or (known and last > 0 and (arrived or left == 0.0))):
             path[0, 0], path[1, 0], path[2, 0] = goal
-            how = path, *loop, arc, dt, radius, hysteresis
+            how = path, *loop, arc, dt, radius, hysteresis, motors, end
             count, outcome, peak, length = held(alone, start, *how)
             last = max(count - 1, 0)
             polar = alone[3, last], alone[4, last], alone[5, last]
@@ -183,12 +201,13 @@ def survey(runs, records, place, law, task):
     numbers, a receiver and the run's number are below each run.
     """
     states, key = np.zeros((ROWS, runs.shape[1])), task.key or None
-    states[:LEFT], states[LEFT], states[BRANCH:] = runs[:LEFT], task.samples - 1.0, math.nan
+    states[:LEFT], states[LEFT], states[BRANCH:TURNING] = runs[:LEFT], task.samples - 1.0, math.nan
     how = law, task.limits, task.method == "arc", task.dt
-    ends = max(task.arrival_radius, NEAREST), task.hysteresis or None
+    ends = max(task.arrival_radius, NEAREST), task.hysteresis or None, task.motors, task.end
     rest = task.samples, key, records, place
     if task.recorded or key:
         drive_all(states, *how, *ends, *rest, *receivers.in_samples(runs[LEFT:], task))
     else:
         drive(states, *how, *ends)
-    return conclude(states, runs[:LEFT], *how, task.arrival_radius, task.hysteresis, *rest)
+    ends = task.arrival_radius, task.hysteresis, *ends[2:]
+    return conclude(states, runs[:LEFT], *how, *ends, *rest)
