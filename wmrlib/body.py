@@ -10,12 +10,12 @@ from typing import NamedTuple
 
 from wmrlib._checks import instance, refusal, scalar
 from wmrlib._compile import formula
-from wmrlib._elementary import between, expm1, share_of, signed, sincos, stepped, within, wrap
+from wmrlib._elementary import between, expm1, signed, sincos, stepped, within, wrap
 from wmrlib.motion import wheel_speeds
 
-_TINY = 1e-300  # a divisor in the place of 0, where 0/0 stands for 0
+_TINY = 1e-30  # a divisor in the place of 0, where 0/0 stands for 0
 _AT_REST = 1e-3  # m/s: a slower wheel stands
-_FASTEST = 1e9  # as a factor on a speed
+_FASTEST = 1e9  # times a speed, which may be 0
 
 
 class Wheels(NamedTuple):
@@ -50,7 +50,7 @@ class LastTurn(NamedTuple):
     Within the arrival radius it stops, and turns at `gain` times the heading error, at least at
     `min_rate` and at most at `max_rate`, until the error is within `tolerance` and the wheels
     stand: then it has arrived. If it slips farther away than `leave` times the radius, it drives
-    again.
+    again; with an infinite `leave` it never does.
 
     Parameters
     ----------
@@ -102,8 +102,12 @@ def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -
     """The last turn as floats; ValueError names what is not allowed."""
     if turn is None:
         return None
-    fields = instance("last_turn", turn, LastTurn)._asdict()
-    turn = LastTurn(*(scalar(f"last_turn.{f}", value, above=0.0) for f, value in fields.items()))
+    *fields, leave = instance("last_turn", turn, LastTurn)
+    named = zip(LastTurn._fields, fields, strict=False)
+    turn = LastTurn(*(scalar(f"last_turn.{name}", value, above=0.0) for name, value in named))
+    if leave != math.inf or not isinstance(leave, float):
+        leave = scalar("last_turn.leave", leave, low=1.0)
+    turn = turn._replace(leave=leave)
     if method == "continuous" or not radius:
         needed = "None, or method 'arc' or 'euler' with an arrival radius,"
         raise refusal("last_turn", tuple(turn), needed)
@@ -112,8 +116,6 @@ def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -
     if turn.min_rate * dt > 2.0 * turn.tolerance:  # it would swing to and fro for ever
         most = f"at most two tolerances a step, {2.0 * turn.tolerance / dt:g},"
         raise refusal("last_turn.min_rate", turn.min_rate, most)
-    if turn.leave < 1.0:
-        raise refusal("last_turn.leave", turn.leave, "at least 1")
     return turn
 
 
@@ -123,7 +125,7 @@ def hurry(v, alpha, min_speed):
     if min_speed is None:
         return 1.0
     wanted = min_speed * abs(sincos(alpha)[1])
-    return 1.0 / between(share_of(wanted, abs(v)), 1.0 / _FASTEST, 1.0)
+    return between(wanted / (abs(v) + _TINY), 1.0, _FASTEST)
 
 
 @formula
@@ -152,10 +154,10 @@ def follow(speed, told, easing, lag, dt):
     gap = told - speed
     ramp = between(abs(gap) * easing - lag, 0.0, dt)  # s
     begun = speed + gap * (ramp / (abs(gap) * easing + _TINY))
-    rest, open_ = dt - ramp, told - begun
-    closed = -expm1(-rest / (lag + _TINY)) * open_
-    travelled = 0.5 * (speed + begun) * ramp + told * rest - lag * closed
-    return travelled / dt, begun + closed
+    rest = dt - ramp
+    closer = -expm1(-rest / (lag + _TINY)) * (told - begun)
+    rolled = 0.5 * (speed + begun) * ramp + told * rest - lag * closer
+    return rolled / dt, begun + closer
 
 
 @formula

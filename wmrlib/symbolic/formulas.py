@@ -3,14 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from types import SimpleNamespace
 from typing import NamedTuple
 
 import sympy as sp
 
-from wmrlib import geodesy, laws, motion, paper
+from wmrlib import body, geodesy, laws, motion, paper
 from wmrlib.gains import Gains
 from wmrlib.symbolic import symbols as s
-from wmrlib.symbolic.model import closed_loop, gains_of, read, steering
+from wmrlib.symbolic.model import closed_loop, exact, gains_of, read, steering
 
 
 class Formula(NamedTuple):
@@ -91,6 +92,23 @@ _GUARDS = {
     "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
     "wrap": Formula((s.angle,), (s.GUARDED_WRAP,), _WRAP),
 }
+_HURRY = _read(body.hurry, (s.v, s.alpha, s.min_speed), "the factor on a twist for a min_speed")
+_TURNING = s.error, s.gain, s.min_rate, s.max_rate
+_TURN_RATE = _read(body.turn_rate, _TURNING, "omega of a turn on the spot by an error that is left")
+_BODY = s.speed_left, s.speed_right, s.rest_left, s.rest_right
+
+
+def _roll() -> Formula:
+    """The body's wheels as numbers one by one; the new body follows the twist."""
+    fields = {name: vars(s).get(name) for name in body.Wheels._fields}
+    wheels = SimpleNamespace(**fields | {"track_width": s.b})
+    v, omega, after = body.roll(s.v, s.omega, _BODY, wheels, s.dt)
+    says = "the mean twist in a period, and the left and right speeds and rests after it"
+    used = s.b, s.acceleration, s.lag, s.dead_band, s.encoder_step
+    arguments = (s.v, s.omega, *_BODY, *used, s.dt)
+    return _shared(arguments, tuple(map(exact, (v, omega, *after))), says)
+
+
 FORMULAS = {
     **_GUARDS,
     **{f"{name}_law": _formula(name) for name in laws.LAWS},
@@ -100,6 +118,9 @@ FORMULAS = {
     **{f.__name__: _read(f, _POSE + _TWIST, f"method {name}") for name, f in motion.STEPS.items()},
     "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
     "keep_branch": _BRANCH,
+    "hurry": _HURRY,
+    "turn_rate": _TURN_RATE,
+    "roll": _roll(),
     "pose_of_error": _read(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
     "polar_closing_rate": _read(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
     "circle": _read(paper.circle_at, (s.t,), "x, y, heading, v, omega of the goal"),
@@ -124,6 +145,8 @@ C_FORMULAS = {
     **_GUARDS,
     "lyapunov_value": _read(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
     "keep_branch": _BRANCH,
+    "hurry": _HURRY,
+    "turn_rate": _TURN_RATE,
     "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
     "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
     "left_wheel": Formula(_TWIST_AND_WIDTH, (_LEFT,), "ground speed, from (1) and (2)"),

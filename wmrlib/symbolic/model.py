@@ -7,6 +7,7 @@ from types import SimpleNamespace
 from typing import Any
 
 import sympy as sp
+from sympy.codegen.cfunctions import expm1
 
 from wmrlib import _elementary, laws, motion
 from wmrlib._checks import choice
@@ -26,10 +27,12 @@ for _function, _symbols in {
     _elementary.decay: s.decay,
     _elementary.wrap: s.wrap,
     _elementary.root: sp.sqrt,
+    _elementary.expm1: expm1,
     _elementary.whole: lambda x: sp.floor(x + sp.S.Half),
-    _elementary.between: lambda x, low, high: sp.Max(low, sp.Min(high, x)),
+    _elementary.between: lambda x, low, high: sp.Piecewise(
+        (low, x < low), (high, x > high), (x, True)
+    ),
     _elementary.signed: lambda size, like: sp.Piecewise((-size, like < 0), (size, True)),
-    _elementary.share_of: lambda x, limit: sp.Piecewise((limit / x, x > limit), (1, True)),
     _elementary.stepped: lambda x, step: sp.Piecewise(
         (step * sp.floor(x / step + sp.S.Half), step > 0), (x, True)
     ),
@@ -43,10 +46,10 @@ for _function, _symbols in {
 def read(function: Callable, *arguments: Any) -> tuple[sp.Expr, ...]:
     """What a formula returns for symbols, as a tuple."""
     value = function(*arguments)
-    return tuple(map(_exact, value if isinstance(value, tuple) else (value,)))
+    return tuple(map(exact, value if isinstance(value, tuple) else (value,)))
 
 
-def _exact(expression: sp.Expr) -> sp.Expr:
+def exact(expression: sp.Expr) -> sp.Expr:
     """With fractions in the places of floats that are short ones, such as 0.5."""
     expression = sp.sympify(expression)
     fractions = {each: sp.Rational(repr(float(each))) for each in expression.atoms(sp.Float)}

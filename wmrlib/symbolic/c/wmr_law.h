@@ -106,6 +106,23 @@ static inline WMR_REAL wmr_keep_branch(WMR_REAL theta, WMR_REAL before,
       theta ));
 }
 
+/* the factor on a twist for a min_speed */
+static inline WMR_REAL wmr_hurry(WMR_REAL v, WMR_REAL alpha, WMR_REAL min_speed) {
+  const WMR_REAL part0 = min_speed * WMR_F(fabs)(WMR_F(cos)(alpha))/(WMR_F(fabs)(v) +
+      WMR_C(1e-30));
+  return ((part0 < WMR_C(1.0)) ? ( WMR_C(1.0) ) : ((part0 > WMR_C(1000000000.0)) ? (
+      WMR_C(1000000000.0) ) : ( part0 )));
+}
+
+/* omega of a turn on the spot by an error that is left */
+static inline WMR_REAL wmr_turn_rate(WMR_REAL error, WMR_REAL gain, WMR_REAL min_rate,
+      WMR_REAL max_rate) {
+  const WMR_REAL part0 = gain * WMR_F(fabs)(error);
+  const WMR_REAL part1 = ((min_rate > part0) ? ( min_rate ) : ((max_rate < part0) ? (
+      max_rate ) : ( part0 )));
+  return ((error < WMR_C(0.0)) ? ( -part1 ) : ( part1 ));
+}
+
 /* rho */
 static inline WMR_REAL wmr_distance(WMR_REAL east, WMR_REAL north) {
   return WMR_F(sqrt)((east * east) + (north * north));

@@ -162,6 +162,67 @@ export function keepBranch(theta, before, hysteresis) {
   return ((Math.abs(part0) < hysteresis + 3.141592653589793) ? ( part0 ) : ( theta ));
 }
 
+// the factor on a twist for a min_speed
+export function hurry(v, alpha, min_speed) {
+  const part0 = min_speed*Math.abs(Math.cos(alpha))/(Math.abs(v) + 1e-30);
+  return ((part0 < 1) ? ( 1 ) : ((part0 > 1000000000) ? ( 1000000000 ) : ( part0 )));
+}
+
+// omega of a turn on the spot by an error that is left
+export function turnRate(error, gain, min_rate, max_rate) {
+  const part0 = gain*Math.abs(error);
+  const part1 = ((min_rate > part0) ? ( min_rate ) : ((max_rate < part0) ? ( max_rate ) : ( part0
+    )));
+  return ((error < 0) ? ( -part1 ) : ( part1 ));
+}
+
+// the mean twist in a period, and the left and right speeds and rests after it
+export function roll(v, omega, left, right, left_rest, right_rest, b, acceleration, lag, dead_band,
+    encoder_step, dt) {
+  const part0 = 1/dt;
+  const part1 = 1/encoder_step;
+  const part2 = (1/2)*b*omega;
+  const part3 = part2 + v;
+  const part4 = dead_band > Math.abs(part3);
+  const part5 = ((part4) ? ( part3 ) : ( 0 ));
+  const part6 = -part5;
+  const part7 = 1/acceleration;
+  const part8 = lag - part7*Math.abs(right);
+  const part9 = part3 - right;
+  const part10 = lag - part7*Math.abs(part9);
+  const part11 = part6 + part9;
+  const part12 = Math.abs(part11);
+  const part13 = (((part4 || part10 > 0) && (!part4 || part8 > 0)) ? ( 0 ) : (((part4 || dt <
+    -part10) && (!part4 || dt < -part8)) ? ( dt ) : ( -lag + part12*part7 )));
+  const part14 = dt - part13;
+  const part15 = part11*part13/(part12*part7 + 1e-30);
+  const part16 = 1/(lag + 1e-30);
+  const part17 = -v;
+  const part18 = part15 + right;
+  const part19 = (-part17 - part18 + part2 - part5)*Math.expm1(-part14*part16);
+  const part20 = lag*part19 + part13*((1/2)*part15 + right) + part14*(part3 + part6) + right_rest;
+  const part21 = encoder_step > 0;
+  const part22 = ((part21) ? ( encoder_step*Math.floor(part1*part20 + 1/2) ) : ( part20 ));
+  const part23 = part17 + part2;
+  const part24 = dead_band > Math.abs(part23);
+  const part25 = ((part24) ? ( -part23 ) : ( 0 ));
+  const part26 = lag - part7*Math.abs(left);
+  const part27 = left + part23;
+  const part28 = lag - part7*Math.abs(part27);
+  const part29 = part25 + part27;
+  const part30 = Math.abs(part29);
+  const part31 = (((part24 || part28 > 0) && (!part24 || part26 > 0)) ? ( 0 ) : (((part24 || dt <
+    -part28) && (!part24 || dt < -part26)) ? ( dt ) : ( -lag + part30*part7 )));
+  const part32 = dt - part31;
+  const part33 = -part29*part31/(part30*part7 + 1e-30);
+  const part34 = (-part29 - part33)*Math.expm1(-part16*part32);
+  const part35 = lag*part34 + left_rest + part31*(left + (1/2)*part33) + part32*(-part23 - part25);
+  const part36 = ((part21) ? ( encoder_step*Math.floor(part1*part35 + 1/2) ) : ( part35 ));
+  const part37 = -part22;
+  return [part0*((1/2)*part22 + (1/2)*part36), part0*(-part36 - part37)/b, left + part33 - part34,
+    part18 - part19, part35 - part36, part20 + part37];
+}
+
 // x, y, heading
 export function poseOfError(rho, alpha, theta, goal_x, goal_y, goal_heading) {
   const part0 = goal_heading + theta;
