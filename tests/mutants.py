@@ -71,7 +71,7 @@ EQUIVALENT = [
     ("engine/vectors.py", "> _HIGHEST else x", "both branches agree at the border"),
     ("_elementary.py", "in divisor = 1.0 if tiny", "a quotient that is not used"),
     ("_elementary.py", "in tiny = ", "both branches agree at the border"),
-    ("gains.py", "'1.0' -> '2.0' in NO_LIMITS = ", "limits that never bind"),
+    ("body.py", "'1.0' -> '2.0' in NO_LIMITS = ", "limits that never bind"),
     ("geodesy.py", "in lon2 = np.where", "half a turn more or less, in mod 360, which keeps -180"),
     ("routes.py", "in _APART = ", "a tolerance"),
     ("routes.py", "in new = np.append(True", "the first point is new in the next line too"),

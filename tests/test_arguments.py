@@ -51,12 +51,17 @@ VALID = {
     wmr.point_at: {"origin": POINT, "east": 1.0, "north": 1.0, "radius": 10.0},
     wmr.simulate: {"start": ORIGIN, "goal": GOAL, "gains": GAINS, "law": "corrected"}
     | DRIVE
-    | {"wheel_lag": 0.0, "hysteresis": 0.1},
+    | {"last_turn": wmr.LastTurn(), "hysteresis": 0.1},
     wmr.track: {"reference": wmr.paper.circle, "start": ORIGIN, "gains": GAINS, "law": "corrected"}
     | {"method": "arc", "dt": 0.1, "duration": 1.0, "wheels": LIMITS},
     wmr.sweep: {"starts": ORIGIN, "goals": GOAL, "gains": GAINS, "law": "corrected"}
     | DRIVE
-    | {"hysteresis": 0.1, "receiver": wmr.Receiver(0.5, 1.0), "seed": 1},
+    | {
+        "hysteresis": 0.1,
+        "last_turn": wmr.LastTurn(),
+        "receiver": wmr.Receiver(0.5, 1.0),
+        "seed": 1,
+    },
     wmr.Receiver: {"sigma": 0.5, "memory": 1.0, "period": 0.2, "delay": 0.1, "heading_delay": 0.0}
     | {"sight": 0.1},
     wmr.arrival: {"trajectory": RUN},
@@ -160,7 +165,7 @@ def test_odd_arguments_are_refused_by_name(function):
 BOUNDS = {  # a value just beyond what is allowed, what is needed, and the arguments that need it
     ("Corrected", "one of '"): "law method x_axis source target convention",
     (-1e-9, "a finite number at least 0"): "rho h k_rho k_alpha k_x k_heading distance sigma memory"
-    " period delay heading_delay arrival_radius pass_radius wheel_lag"
+    " period delay heading_delay arrival_radius pass_radius"
     " hysteresis sight",
     (0.0, "a finite number above 0"): "radius track_width L v_max k_y dt duration last",
     (90.1, "a finite number at least -90 and at most 90"): "lat",

@@ -27,7 +27,7 @@ from wmrlib import loops
 kinds = {"float": (0.0, 0.0, 0.5), "int": (0, 0, 0.5)}
 goal, path = w.Pose(3.0, 1.0, -1.0), np.array([[3.0], [1.0], [-1.0], [0.0], [0.0]])
 for kind in sys.argv[1:]:
-    how = (1.0, 2.0, 0.5, 4.0, 0.0, 0.0), 0, w.gains.checked_wheels(None), True, 0.1, 0.05, 0.0
+    how = (1.0, 2.0, 0.5, 4.0, 0.0, 0.0), 0, w.body.NO_LIMITS, True, 0.1, 0.05, 0.0, None, None
     print(*loops.held(np.empty((9, 300)), kinds[kind], path, *how)[2:])
 stats = getattr(loops.held, "stats", None)
 print(sum(stats.cache_misses.values()) if stats else None)

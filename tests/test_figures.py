@@ -106,7 +106,7 @@ def predict(v_max):
 
 
 def wheel_loops():
-    return {"slow": drive(wheel_lag=0.1), "at once": drive()}
+    return {"slow": drive(wheels=wmr.Wheels(1.0, lag=0.1)), "at once": drive()}
 
 
 def time_steps():
@@ -249,7 +249,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "deg at 0.7 s, longest step 0.714 s",
     ],
     "inner_loops": lambda: [
-        f"one, slow: {degrees_left(drive(wheel_lag=0.1))}; one, at once: {degrees_left(drive())}"
+        f"one, slow: {degrees_left(wheel_loops()['slow'])}; one, at once: {degrees_left(drive())}"
     ],
     "scatter": lambda: [
         "9 positions",

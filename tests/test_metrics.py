@@ -52,13 +52,12 @@ def test_peak_omega_and_heading_error():
 @given(
     st.builds(wmr.Pose, st.floats(-9, 9), st.floats(-9, 9), st.floats(-3, 3)),
     st.builds(wmr.Gains, *[st.floats(0.2, 3.0)] * 4),
-    st.sampled_from([None, wmr.Wheels(0.5, 1.0)]),
-    st.sampled_from([0.0, 0.2]),
+    st.sampled_from([None, wmr.Wheels(0.5, 1.0), wmr.Wheels(0.5, 1.0, lag=0.2)]),
 )
-def test_peak_and_path_between_the_samples(start, gains, wheels, lag):
+def test_peak_and_path_between_the_samples(start, gains, wheels):
     """However far apart the samples are: against a run with hundreds of times as many."""
     assume(math.hypot(start.x, start.y) > 0.2)
-    options = {"method": "continuous", "duration": 4.0, "wheels": wheels, "wheel_lag": lag}
+    options = {"method": "continuous", "duration": 4.0, "wheels": wheels}
     coarse, fine = (wmr.simulate(start, ORIGIN, gains, dt=dt, **options) for dt in (2.0, 0.005))
     peak, speed = np.abs(fine.omega).max(), np.abs(fine.v)
     assert coarse.peak_omega == pytest.approx(peak, rel=0.02)
@@ -66,7 +65,7 @@ def test_peak_and_path_between_the_samples(start, gains, wheels, lag):
     assert coarse.peak_omega == pytest.approx(fine.peak_omega, rel=1e-6, abs=1e-9)
     trapezoids = 0.5 * (speed[1:] + speed[:-1]) @ np.diff(fine.t)
     assert coarse.path_length == pytest.approx(trapezoids, abs=1e-3)
-    assert coarse.path_length == pytest.approx(fine.path_length, abs=1e-8)
+    assert coarse.path_length == pytest.approx(fine.path_length, abs=1e-7)
 
 
 @example(wmr.Pose(-0.75, 1.24, -0.95), (0.667, 1.721, 1.356, 1.823))
@@ -89,7 +88,7 @@ def test_a_peak_in_the_first_step_of_stiff_gains(start, decades):
 def test_a_peak_that_the_samples_miss():
     """Wheels at rest that follow a command for a moment: omega rises and falls within 0.1 s."""
     gains, start = wmr.Gains(0.2, 20.0, 2.0), wmr.Pose(-5.0, 0.0, 2.0)
-    options = {"method": "continuous", "wheel_lag": 0.01, "duration": 5.0}
+    options = {"method": "continuous", "wheels": wmr.Wheels(1.0, lag=0.01), "duration": 5.0}
     run = wmr.simulate(start, ORIGIN, gains, dt=1.0, **options)
     assert wmr.arrival(run).peak_omega > 10.0 * np.abs(run.omega).max()
 

@@ -18,9 +18,9 @@ from scipy.interpolate import CubicHermiteSpline
 import wmrlib as wmr
 from wmrlib import _dop853
 from wmrlib._dop853 import TOLERANCE
+from wmrlib.body import checked_wheels
 from wmrlib.engine import continuous as engine
 from wmrlib.engine import lanes
-from wmrlib.body import checked_wheels
 from wmrlib.laws import LAWS, POSE_LAWS
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
@@ -490,7 +490,7 @@ def test_continuous_turns_no_faster_than_its_wheels():
     assert np.abs(wmr.wrap_angle(small.heading[::100] - oracle.heading)).max() < 0.01
 
 
-LAGGING = {"method": "continuous", "wheel_lag": 0.1}
+LAGGING = {"method": "continuous", "wheels": wmr.Wheels(1.0, lag=0.1)}
 BAD = [
     ({"dt": 0.0}, r"dt = 0\.0 is not allowed: a finite number above 0 is needed"),
     ({"dt": math.nan}, r"dt = nan"),
@@ -506,9 +506,22 @@ BAD = [
     ({"gains": wmr.Gains([1.0], 1, 1)}, "one number a gain is needed; sweep takes arrays of gains"),
     ({"wheels": 1.0}, r"wheels = 1\.0 .* a Wheels is needed, not a float"),
     ({"wheels": wmr.Wheels([0.5], 2.0)}, r"wheels\.track_width = .* one number is needed"),
-    ({"wheel_lag": 0.1}, r'wheel_lag = 0\.1 .*: 0, or method "continuous" with an arrival radius'),
-    (LAGGING | {"arrival_radius": 0.0}, r"wheel_lag = 0\.1 is not allowed"),
-    (LAGGING | {"wheel_lag": -0.1}, r"wheel_lag = -0\.1 .* at least 0 is needed"),
+    (
+        LAGGING | {"arrival_radius": 0.0},
+        r"wheels = Wheels.*: ideal wheels, or a lag and an arrival",
+    ),
+    (
+        LAGGING | {"wheels": wmr.Wheels(1.0, lag=-0.1)},
+        r"wheels\.lag = -0\.1 .* at least 0 is needed",
+    ),
+    (LAGGING | {"wheels": wmr.Wheels(1.0, acceleration=1.0)}, "ideal wheels, or a lag and an arr"),
+    (LAGGING | {"wheels": wmr.Wheels(1.0, lag=0.1, dead_band=0.1)}, "neither dead_band nor enc"),
+    (LAGGING | {"last_turn": wmr.LastTurn()}, "last_turn = .*: None, or method 'arc' or 'euler'"),
+    ({"last_turn": wmr.LastTurn(), "arrival_radius": 0.0}, "with an arrival radius, is needed"),
+    ({"last_turn": wmr.LastTurn(leave=0.9)}, r"last_turn\.leave = 0\.9 .* at least 1 is needed"),
+    ({"last_turn": wmr.LastTurn(max_rate=0.1)}, r"max_rate = 0\.1 .*: at least min_rate, 0\.2,"),
+    ({"last_turn": wmr.LastTurn(min_rate=0.5)}, r"min_rate = 0\.5 .*: at most two tolerances a st"),
+    ({"wheels": wmr.Wheels(1.0, 0.5, min_speed=1.0)}, r"wheels\.min_speed = 1\.0 .*: at most max"),
 ]
 BAD_TRACKS = [
     ({"reference": lambda t: (t, t)}, "a Reference is needed, not a tuple"),
@@ -646,8 +659,8 @@ def test_a_goal_that_stands_still_is_a_reference_too(method):
 
 def test_lagging_wheels_are_the_motion_of_the_pose_and_of_each_wheel():
     """Against the two wheels' speeds and the pose itself, integrated by another method."""
-    lag, limits = 0.1, wmr.Wheels(0.5, 3.0)
-    options = {"wheel_lag": lag, "wheels": limits, "duration": 10.0}
+    lag, limits = 0.1, wmr.Wheels(0.5, 3.0, lag=0.1)
+    options = {"wheels": limits, "duration": 10.0}
 
     def rate(_, state, gains):
         x, y, heading, left, right = state
@@ -674,7 +687,10 @@ def test_lagging_wheels_are_the_motion_of_the_pose_and_of_each_wheel():
 def test_lagging_wheels_that_graze_the_radius_have_arrived(start, lag, exponent):
     """Where a run without a radius comes nearest, by its samples, one a hair wider is met."""
     assume(math.hypot(start.x, start.y) > 1.0)
-    gains, how = wmr.Gains(0.5, 2.0, 2.0, 2.0), {"method": "continuous", "wheel_lag": lag}
+    gains, how = (
+        wmr.Gains(0.5, 2.0, 2.0, 2.0),
+        {"method": "continuous", "wheels": wmr.Wheels(0.5, lag=lag)},
+    )
     free = wmr.simulate(start, ORIGIN, gains, dt=0.001, arrival_radius=1e-9, **how)
     nearest = 1 + int(np.argmax(np.diff(free.rho) > 0.0))  # the first time that it goes away
     assume(1e-6 < free.rho[nearest] < 0.5 * free.rho[0])

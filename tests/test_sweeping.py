@@ -18,8 +18,8 @@ from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
 from wmrlib import _dop853, sweeping
-from wmrlib.engine import lanes, sampled, threads
 from wmrlib.body import checked_wheels
+from wmrlib.engine import lanes, sampled, threads
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -64,7 +64,9 @@ wide_gains = st.builds(
     wmr.Gains,
     decades(0.02, 10.0), decades(0.1, 20.0), decades(0.01, 20.0) | st.just(0.0), decades(0.1, 20.0),
 )  # fmt: skip
-limits = st.none() | st.builds(wmr.Wheels, st.floats(0.2, 1.0), st.floats(0.3, 5.0))
+limits = st.none() | st.builds(
+    lambda *most: wmr.Wheels(*most), st.floats(0.2, 1.0), st.floats(0.3, 5.0)
+)
 
 
 def test_the_steps_have_the_coefficients_of_their_authors():
@@ -247,7 +249,7 @@ def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices(method, 
     states = np.zeros((sampled.ROWS, 1500))  # all are driven side by side, and nobody once more
     states[:10], states[sampled.LEFT] = runs_of, 300.0
     how = lanes.as_type(0), checked_wheels(wheels), method == "arc", 0.1, 0.05
-    sampled.drive(states, *how, None)
+    sampled.drive(states, *how, None, None, None)
     assert (states[sampled.LEFT] <= 0.0).all()
     for i in order[:200]:
         start, tuned = (type(row)(*(float(each[i]) for each in row)) for row in (starts, gains))

@@ -18,7 +18,7 @@ from oracle import commanded
 import wmrlib as wmr
 from wmrbook import equations
 from wmrbook.equations import EQUATIONS
-from wmrlib import laws, motion, paper, symbolic
+from wmrlib import body, laws, motion, paper, symbolic
 from wmrlib.laws import LAWS, pose_value
 from wmrlib.symbolic import (
     L,
@@ -226,16 +226,29 @@ def test_the_committed_header_is_what_is_printed(tmp_path, monkeypatch, capsys):
     assert command() == ({"own.h": header, "law.h": header}, "")
 
 
+def rolled(v, omega, left, right, left_rest, right_rest, width, easing, lag, dead, step, dt):
+    """`body.roll` of numbers one by one, as it is printed."""
+    wheels = wmr.Wheels(width, acceleration=easing, lag=lag, dead_band=dead, encoder_step=step)
+    state = left, right, left_rest, right_rest
+    v, omega, after = body.roll(v, omega, state, wheels, dt)
+    return v, omega, *after
+
+
+PRINTED_APART = {"roll": rolled, "saturation_scale": lambda most, fast: min(most / fast, 1.0)}
+
+
 def test_a_printed_function_does_what_the_one_of_that_name_does_in_python():
     random, compared = np.random.default_rng(3), 0
     within = [{"turned_back": lambda angle: math.remainder(angle, 2.0 * math.pi)}, "numpy"]
     for name, formula in symbolic.FORMULAS.items():
-        ours = next((getattr(it, name) for it in (paper, motion, laws) if hasattr(it, name)), None)
+        homes = SimpleNamespace(**PRINTED_APART), paper, motion, laws, body
+        ours = next((getattr(it, name) for it in homes if hasattr(it, name)), None)
         if ours is None:
             continue
         ours, size = getattr(ours, "py_func", ours), len(formula.arguments)
         names = (*formula.arguments, *formula.gains)
-        given = dict(zip(map(str, names), random.uniform(-3.0, 3.0, len(names)), strict=True))
+        low = 0.1 if name in PRINTED_APART else -3.0
+        given = dict(zip(map(str, names), random.uniform(low, 3.0, len(names)), strict=True))
         gains = [SimpleNamespace(**given)] * ("gains" in inspect.signature(ours).parameters)
         expected = np.ravel(ours(*list(given.values())[:size], *gains))
         printed = sp.lambdify(names, formula.expanded(), within)(**given)

@@ -88,12 +88,11 @@ _ABOVE_0 = "track_width", "max_speed", "acceleration"
 
 
 def in_loops(wheels: Wheels) -> tuple[Wheels, Wheels | None]:
-    """The wheels as limits of a twist, and as a body, or None if they do at once what they are told.
+    """The wheels as limits of a twist, and as motors, or None if they obey at once.
 
     None says by its type that something is left out, so that numba compiles nothing for it.
     """
-    ideal = wheels._replace(max_speed=wheels.max_speed, acceleration=math.inf, lag=0.0)
-    ideal = ideal._replace(dead_band=0.0, encoder_step=0.0)
+    ideal = Wheels(*wheels[:3])
     limits = ideal if ideal.min_speed else ideal._replace(min_speed=None)  # type: ignore[arg-type]
     return limits, (None if wheels == ideal else wheels)
 
@@ -130,7 +129,7 @@ def hurry(v, alpha, min_speed):
 
 @formula
 def turn_rate(error, gain, min_rate, max_rate):
-    """omega of a turn on the spot, for the angle that is still to be turned by."""
+    """Omega of a turn on the spot, for the angle that is still to be turned by."""
     return signed(between(gain * abs(error), min_rate, max_rate), error)
 
 

@@ -94,7 +94,7 @@ def simulate(
     samples, dt = sample_count(dt, duration), float(dt)
     radius = scalar("arrival_radius", arrival_radius, low=0.0)
     continuously = choice("method", method, METHODS) == "continuous"
-    kept, end = checked_hysteresis(hysteresis, method), checked_turn(last_turn, dt, method, radius)
+    kept, turn = checked_hysteresis(hysteresis, method), checked_turn(last_turn, dt, method, radius)
     (limits, motors), t = in_loops(checked_wheels(wheels)), dt * np.arange(samples)
     loop = numbers, code, limits
     if continuously:
@@ -109,7 +109,7 @@ def simulate(
         run = _continuous(t, state, radius, target, None, *loop, motors)
     else:
         path = np.array([*target, 0.0, 0.0])[:, None]
-        run = _held(t, method, radius, kept, motors, end, begin, path, *loop)
+        run = _held(t, method, radius, kept, motors, turn, begin, path, *loop)
     return Trajectory.of(*run, end, gains, law, method)
 
 

@@ -11,8 +11,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib._checks import as_array, choice, instance, real, refusal, same_shape, scalar
-from wmrlib.engine import continuous, lanes, sampled, threads
 from wmrlib.body import LastTurn, Wheels, checked_turn, checked_wheels, in_loops
+from wmrlib.engine import continuous, lanes, sampled, threads
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import POSE_LAWS
@@ -133,7 +133,8 @@ def sweep(
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**64:
         raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
-    (limits, motors), kept = in_loops(checked_wheels(wheels)), checked_hysteresis(hysteresis, method)
+    limits, motors = in_loops(checked_wheels(wheels))
+    kept = checked_hysteresis(hysteresis, method)
     if motors is not None and method == "continuous":
         raise refusal("wheels", motors, "ideal wheels, or method 'arc' or 'euler',")
     end = checked_turn(last_turn, dt, method, radius)

@@ -75,6 +75,8 @@ def _draw(random: np.random.Generator, circle: bool, methods=("arc", "euler")) -
         "law": str(random.choice(laws)),
         "method": method,
         "hysteresis": 0.0 if circle or method == "continuous" else kept,
+        "wheels": None if circle or method == "continuous" else _wheels(random),
+        "lastTurn": None if circle or method == "continuous" else _last_turn(random),
         "gains": {
             "k_rho": scaled(0.05, 3.0),
             "k_alpha": between(0.1, 5.0),
@@ -92,6 +94,26 @@ def _draw(random: np.random.Generator, circle: bool, methods=("arc", "euler")) -
     }
 
 
+def _wheels(random: np.random.Generator) -> dict[str, float] | None:
+    """Wheels with some of what wheels can have; each now and then."""
+    if random.random() < 0.4:
+        return None
+    most = {
+        "acceleration": 3.0,
+        "lag": 0.3,
+        "dead_band": 0.1,
+        "min_speed": 0.2,
+        "encoder_step": 0.01,
+    }
+    kept = [name for name in most if random.random() < 0.4]
+    some = {name: float(random.uniform(0.2, 1.0)) * most[name] for name in kept}
+    return {"track_width": 0.5, "max_speed": float(random.uniform(0.4, 4.0))} | some
+
+
+def _last_turn(random: np.random.Generator) -> dict[str, float] | None:
+    return None if random.random() < 0.5 else {"tolerance": 0.05, "leave": 1.5}
+
+
 def _ours(options: dict[str, Any]):
     start, law = wmr.Pose(*options["start"]), options["law"]
     kind, of = (wmr.KanayamaGains, "feedback") if law == "kanayama" else (wmr.Gains, "gains")
@@ -100,6 +122,8 @@ def _ours(options: dict[str, Any]):
     if options["reference"]:
         return wmr.track(paper.circle, start, gains, **shared), gains
     shared |= {"arrival_radius": options["arrivalRadius"], "hysteresis": options["hysteresis"]}
+    shared |= {"wheels": options["wheels"] and wmr.Wheels(**options["wheels"])}
+    shared |= {"last_turn": options["lastTurn"] and wmr.LastTurn(**options["lastTurn"])}
     return wmr.simulate(start, wmr.Pose(*options["goal"]), gains, **shared), gains
 
 
@@ -201,7 +225,9 @@ def _assert_steps(run: Run) -> None:
     seen = dict(zip(("rho", "alpha", "theta"), wmr.polar_error(pose, goal), strict=True))
     state = [theirs[c] for c in seen]
     twist = commanded(*state, v_ref, omega_ref, run.gains, options["law"])
-    expected = seen | dict(zip(("v", "omega"), twist, strict=True))
+    expected = dict(seen)
+    if not (options["wheels"] or options["lastTurn"]):
+        expected |= dict(zip(("v", "omega"), twist, strict=True))
     expected["V"] = LAWS[options["law"]].value(*state, run.gains)
     for column, values in expected.items():
         error = np.abs(_difference(column, theirs[column], values))

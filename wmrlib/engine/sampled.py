@@ -153,13 +153,12 @@ def _note(record, block, width, first, row):
 
 
 @compiled
-def conclude(
-    states, runs, law, wheels, arc, dt, radius, hysteresis, motors, end, samples, key, records, place
-):
+def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, motors, end, samples, *rest):
     """Sum up each run. One that ended without a number is driven alone, by the C library.
 
     With a receiver it is left, because there the pose is hardly one that a receiver could show.
     """
+    key, records, place = rest
     summary = np.empty((lanes.DISTANCE + 1, runs.shape[1]))
     alone, path = np.empty((9, samples)), np.zeros((5, 1))
     for i in range(runs.shape[1]):

@@ -92,7 +92,13 @@ _GUARDS = {
     "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
     "wrap": Formula((s.angle,), (s.GUARDED_WRAP,), _WRAP),
 }
-_HURRY = _read(body.hurry, (s.v, s.alpha, s.min_speed), "the factor on a twist for a min_speed")
+_TWIST_AND_WIDTH = s.v, s.omega, s.b
+_SCALE = "the factor on the twist for a max_speed"
+_LIMITS = {
+    "hurry": _read(body.hurry, (s.v, s.alpha, s.min_speed), "the factor on it for a min_speed"),
+    "fastest_wheel": _read(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
+    "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
+}
 _TURNING = s.error, s.gain, s.min_rate, s.max_rate
 _TURN_RATE = _read(body.turn_rate, _TURNING, "omega of a turn on the spot by an error that is left")
 _BODY = s.speed_left, s.speed_right, s.rest_left, s.rest_right
@@ -118,7 +124,7 @@ FORMULAS = {
     **{f.__name__: _read(f, _POSE + _TWIST, f"method {name}") for name, f in motion.STEPS.items()},
     "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
     "keep_branch": _BRANCH,
-    "hurry": _HURRY,
+    **_LIMITS,
     "turn_rate": _TURN_RATE,
     "roll": _roll(),
     "pose_of_error": _read(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
@@ -136,8 +142,6 @@ C_LAWS = {
 
 _DISTANCE, _SIGHT, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
 _LEFT, _RIGHT = read(motion.wheel_speeds, s.v, s.omega, s.b)
-_TWIST_AND_WIDTH = s.v, s.omega, s.b
-_SCALE = "the factor on the twist for a max_speed"
 _ENDS = s.lat1, s.lat2, s.dlat, s.dlong
 _LENGTH = s.R * read(geodesy.great_circle_angle, *_ENDS)[0]
 _BEARING = read(geodesy.bearing_angle, *_ENDS)
@@ -145,14 +149,12 @@ C_FORMULAS = {
     **_GUARDS,
     "lyapunov_value": _read(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
     "keep_branch": _BRANCH,
-    "hurry": _HURRY,
     "turn_rate": _TURN_RATE,
     "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
     "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
     "left_wheel": Formula(_TWIST_AND_WIDTH, (_LEFT,), "ground speed, from (1) and (2)"),
     "right_wheel": Formula(_TWIST_AND_WIDTH, (_RIGHT,), "ground speed, from (1) and (2)"),
-    "fastest_wheel": _read(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
-    "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
+    **_LIMITS,
     "sphere_distance": _shared((*_ENDS, s.R), (_LENGTH,), "(11) to (13)"),
     "bearing": _shared(_ENDS, _BEARING, "(15) to (17)"),
 }

@@ -21,8 +21,8 @@ from wmrbook.grading._hints import (
     slip,
     spread,
 )
-from wmrlib.control import control_law, limit_wheels
 from wmrlib.body import Wheels
+from wmrlib.control import control_law, limit_wheels
 from wmrlib.gains import GENTLE_GAINS, Gains
 from wmrlib.kinematics import Pose, polar_error, twist_to_wheels, wrap_angle
 

@@ -42,7 +42,7 @@ def gentle_step(rho, alpha, theta):
 @headline("08", TEN_TIMES, at_least=11.5, at_most=12.5, unit="deg", **STEPS)
 def ten_times_faster(dt, arrival_radius):
     off = partial(settled_deg, GAINS, 0.05, dt=dt, arrival_radius=arrival_radius)
-    return off(wheel_lag=1 / 80) - off()
+    return off(wheels=wmr.Wheels(1.0, lag=1 / 80)) - off()
 
 
 def stray(way, far, theta, most, limit, dt=0.02):

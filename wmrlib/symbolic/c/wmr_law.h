@@ -106,14 +106,6 @@ static inline WMR_REAL wmr_keep_branch(WMR_REAL theta, WMR_REAL before,
       theta ));
 }
 
-/* the factor on a twist for a min_speed */
-static inline WMR_REAL wmr_hurry(WMR_REAL v, WMR_REAL alpha, WMR_REAL min_speed) {
-  const WMR_REAL part0 = min_speed * WMR_F(fabs)(WMR_F(cos)(alpha))/(WMR_F(fabs)(v) +
-      WMR_C(1e-30));
-  return ((part0 < WMR_C(1.0)) ? ( WMR_C(1.0) ) : ((part0 > WMR_C(1000000000.0)) ? (
-      WMR_C(1000000000.0) ) : ( part0 )));
-}
-
 /* omega of a turn on the spot by an error that is left */
 static inline WMR_REAL wmr_turn_rate(WMR_REAL error, WMR_REAL gain, WMR_REAL min_rate,
       WMR_REAL max_rate) {
@@ -141,6 +133,14 @@ static inline WMR_REAL wmr_left_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
 /* ground speed, from (1) and (2) */
 static inline WMR_REAL wmr_right_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
   return WMR_C(0.5) * b * omega + v;
+}
+
+/* the factor on it for a min_speed */
+static inline WMR_REAL wmr_hurry(WMR_REAL v, WMR_REAL alpha, WMR_REAL min_speed) {
+  const WMR_REAL part0 = min_speed * WMR_F(fabs)(WMR_F(cos)(alpha))/(WMR_F(fabs)(v) +
+      WMR_C(1e-30));
+  return ((part0 < WMR_C(1.0)) ? ( WMR_C(1.0) ) : ((part0 > WMR_C(1000000000.0)) ? (
+      WMR_C(1000000000.0) ) : ( part0 )));
 }
 
 /* speed of the faster wheel */

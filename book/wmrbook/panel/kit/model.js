@@ -162,10 +162,20 @@ export function keepBranch(theta, before, hysteresis) {
   return ((Math.abs(part0) < hysteresis + 3.141592653589793) ? ( part0 ) : ( theta ));
 }
 
-// the factor on a twist for a min_speed
+// the factor on it for a min_speed
 export function hurry(v, alpha, min_speed) {
   const part0 = min_speed*Math.abs(Math.cos(alpha))/(Math.abs(v) + 1e-30);
   return ((part0 < 1) ? ( 1 ) : ((part0 > 1000000000) ? ( 1000000000 ) : ( part0 )));
+}
+
+// speed of the faster wheel
+export function fastestWheel(v, omega, b) {
+  return (1/2)*b*Math.abs(omega) + Math.abs(v);
+}
+
+// the factor on the twist for a max_speed
+export function saturationScale(max_speed, fastest) {
+  return ((fastest > max_speed) ? ( max_speed/fastest ) : ( 1 ));
 }
 
 // omega of a turn on the spot by an error that is left

@@ -2,7 +2,9 @@
 // formulas are those of model.js.
 
 import { ARRIVED, COMPLETED, DIVERGED, TIMED_OUT, Unsettled, checkedSetup } from './setup.js';
-import { LAWS, circle, keepBranch, polarFromPose, wrap } from './model.js';
+import {
+  LAWS, circle, fastestWheel, hurry, keepBranch, polarFromPose, roll, saturationScale, turnRate, wrap,
+} from './model.js';
 import { controlLaw } from './law.js';
 import { driveContinuously } from './continuous.js';
 
@@ -10,12 +12,24 @@ const OUTCOMES = ['ARRIVED', 'TIMED_OUT', 'DIVERGED', 'COMPLETED'];
 export const RUN_COLUMNS = ['t', 'x', 'y', 'heading', 'rho', 'alpha', 'theta', 'v', 'omega', 'V'];
 const CIRCLE_COLUMNS = ['goalX', 'goalY', 'goalHeading'];
 
+// A twist within the limits of the wheels.
+function limited(twist, alpha, { b, max_speed, min_speed }) {
+  const [v, omega] = twist;
+  const more = hurry(v, alpha, min_speed);
+  const share = more * saturationScale(max_speed, fastestWheel(more * v, more * omega, b));
+  return [share * v, share * omega];
+}
+
+const atRest = (body) => Math.abs(body[0]) < 1e-3 && Math.abs(body[1]) < 1e-3;
+
 // One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. The law may see what
 // `sight(k, pose)` shows of a pose, and the robot do what `wheels(v, omega)` make of its twist.
 // Gives [samples, outcome].
 export function drive(setup, record) {
   const { law, step, gains, dt, samples, arrivalRadius, hysteresis, moving, sight, wheels } = setup;
+  const { limits = null, motors = null, end = null } = setup;
   let before = NaN, pose = setup.start, goal = [...setup.goal, 0, 0];
+  let turning = false, body = [0, 0, 0, 0];
   for (let k = 0; k < samples; k++) {
     if (moving) goal = circle(dt * k);
     const shown = sight ? sight(k, pose) : pose;
@@ -23,10 +37,24 @@ export function drive(setup, record) {
     if (hysteresis) seen[2] = before = keepBranch(seen[2], before, hysteresis);
     const [rho, alpha, theta] = seen;
     let twist = controlLaw(rho, alpha, theta, gains, law, goal[3], goal[4]);
+    if (limits) twist = limited(twist, alpha, limits);
+    let arrived = rho <= arrivalRadius;
+    if (end) {
+      const off = wrap(theta - alpha);
+      turning = rho <= arrivalRadius * (turning ? end.leave : 1);
+      arrived = turning && Math.abs(off) <= end.tolerance;
+      const omega = arrived ? 0 : turnRate(-off, end.gain, end.min_rate, end.max_rate);
+      if (turning) twist = [0, omega];
+    }
+    if (motors) {
+      arrived &&= !end || atRest(body);
+      const [v, omega, ...after] = roll(twist[0], twist[1], ...body, ...motors, dt);
+      [twist, body] = [[v, omega], after];
+    }
     if (wheels) twist = wheels(twist[0], twist[1]);
     if (!Number.isFinite(rho + twist[0] + twist[1])) return [k, DIVERGED];
     record(k, dt * k, pose, seen, twist, goal);
-    if (rho <= arrivalRadius) return [k + 1, ARRIVED];
+    if (arrived) return [k + 1, ARRIVED];
     pose = step(pose[0], pose[1], pose[2], twist[0], twist[1], dt);
   }
   return [samples, moving ? COMPLETED : TIMED_OUT];
@@ -38,7 +66,8 @@ export function drive(setup, record) {
 // unless given. Gives Float64Arrays of n
 // samples (t, x, y, heading, rho, alpha, theta, v, omega, V; for the circle goalX, goalY,
 // goalHeading) and an outcome. `into`, an earlier result that is no longer needed, lends its
-// memory. Throws RangeError, which names the argument.
+// memory. `wheels` and `lastTurn` are the fields of wmrlib's Wheels and LastTurn by name. Throws
+// RangeError, which names the argument.
 /** @param {Options} options @param {Run | null} into @returns {Run} */
 export function simulate(options, into = null) {
   const setup = checkedSetup(options);

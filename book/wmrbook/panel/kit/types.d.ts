@@ -35,7 +35,7 @@ type Run = {
 type Options = {
   start: Pose; goal?: Pose; reference: 'circle' | null; law: string; method: string;
   gains: Gains; feedback?: Gains; dt: number; duration: number; arrivalRadius?: number;
-  hysteresis?: number;
+  hysteresis?: number; wheels?: Record<string, number>; lastTurn?: Record<string, number> | null;
 };
 
 /** Where a picture of the plane looks. */
