@@ -288,6 +288,28 @@ def passing(values, found, data) -> None:
     same_route(found["run"], data["poses"], (values["radius"], 0.05), gains, False)
 
 
+def parking(values, found, data) -> None:
+    dead, least = values["dead"], 1.1 * values["dead"]
+    wheels = wmr.Wheels(**data["wheels"], dead_band=dead)
+    wheels = wheels._replace(min_speed=0.0 if values["mend"] == "none" else least)
+    rate = max(2.0 * least / wheels.track_width, 0.2)
+    turn = wmr.LastTurn(0.03, 2.0, rate, 1.0) if values["mend"] == "turn" else None
+    how = {"method": "arc", "last_turn": turn, "arrival_radius": values["radius"], "wheels": wheels}
+    gains = wmr.Gains(**data["gains"])
+    same_run(found["run"], data["start"], data["goal"], gains, **how)
+    alone = wmr.simulate(
+        wmr.Pose(data["goal"][0] - 2.0, data["goal"][1], 0.0),
+        wmr.Pose(*data["goal"][:2], 0.0),
+        gains,
+        dt=0.01,
+        duration=100.0,
+        arrival_radius=0.0,
+        wheels=wmr.Wheels(0.5, dead_band=max(dead, 1e-3)),
+    )
+    if dead:
+        assert found["stalls"] == pytest.approx(alone.rho[-1], abs=0.01)
+
+
 def bowl(values, found, data) -> None:
     gains = wmr.Gains(**data["gains"][values["choice"]])
     same_run(found["run"], data["start"], data["goal"], gains, **ROLLING)

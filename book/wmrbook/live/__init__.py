@@ -21,7 +21,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "pose_to_pose": ["heading_left", "x_axis"],
         "circle": ["lag", "lqr"],
         "design": ["poles", "window"],
-        "sampling": ["unit_circle", "wheel_limit"],
+        "sampling": ["parking", "unit_circle", "wheel_limit"],
         "noise": ["bench", "late"],
         "audit": ["rising", "threshold"],
         "real_robot": ["compass", "silence"],

@@ -6,9 +6,10 @@ import math
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live, between
+from wmrbook.live.parts import Ask, Choice, Knob, Live, between, nearest
 from wmrlib import (
     Pose,
+    Wheels,
     advance,
     arrival,
     control_law,
@@ -112,5 +113,48 @@ def wheel_limit() -> Live:
             "little is left to turn with. The lower the limit, the wider the path.",
             pane="plane",
             at=START[:2],
+        ),
+    )
+
+
+def parking() -> Live:
+    """Wheels that stand below a speed: where the robot stops, and what mends it."""
+    dead, radius, wheels = 0.1, 0.05, Wheels(TRACK, max_speed=2.0, acceleration=2.0)
+    case, how = paper.outdoor(), {"dt": DT, "duration": 60.0, "arrival_radius": radius}
+    motors = wheels._replace(dead_band=dead)
+    end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, wheels=motors, **how))
+    choices = (0.05, 0.13, 0.5)
+    return Live(
+        "parking",
+        "Wheels that are told less than {dead} stand. To arrive within {radius}, the robot {mend}. "
+        "It {ends}, {stops} from the goal and {off} off.",
+        {
+            "dead": Knob(dead, 0.0, 0.2, 0.01, "what a wheel stands below", "m/s", "v_dead"),
+            "mend": Choice(
+                "none",
+                {
+                    "none": "slows down as the law says",
+                    "least": "never asks for less than 1.1 of that",
+                    "turn": "does not slow down to less, and at last turns on the spot",
+                },
+                "what the robot does about it",
+            ),
+            "radius": Knob(radius, 0.02, 0.3, 0.01, "the arrival radius", "m", label="radius"),
+            "time": Knob(1.0, 0.0, 1.0, 0.01, "how far through the last metre", label="on its way",
+                         plays=5.0),
+        },  # fmt: skip
+        data=between(
+            *case[:2],
+            gains=GENTLE_GAINS._asdict(),
+            wheels={"track_width": TRACK, "max_speed": 2.0, "acceleration": 2.0},
+        ),
+        ask=Ask(
+            "choose",
+            "The outdoor drive with gentle gains should end at 5 cm. A wheel that is told less "
+            "than 0.1 m/s stands. How far from the goal does the robot stop?",
+            "The speed falls with the distance, and the wheels stand as soon as it is below "
+            "0.1 m/s. The slower the gains brake, the farther away that is.",
+            key=nearest(end.distance, choices),
+            options=("5 cm", "about 13 cm", "half a metre"),
         ),
     )

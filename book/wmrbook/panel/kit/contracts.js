@@ -16,6 +16,7 @@ export const CONTRACTS = {
   'live/late': '3650784c',
   'live/lqr': '47c2554b',
   'live/one_step': '730eccb8',
+  'live/parking': '7fca8be6',
   'live/passing': '1f3ce541',
   'live/polar_angles': 'dbf4f159',
   'live/poles': '467b55a8',
