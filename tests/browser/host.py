@@ -17,6 +17,7 @@ SETTLED = """async () => {
         requestAnimationFrame(() => requestAnimationFrame(done)));
     const begin = performance.now();
     await frames();
+    while (document.querySelector('[data-moving]')) await frames();
     while (panel.get('state').view === 'gains'
         && document.querySelector('.wmr-map').dataset.finished !== 'true') {
         if (performance.now() > begin + 30e3) throw new Error('the map is not done');
@@ -62,6 +63,7 @@ def mounted(page, explorer, width=1280, height=720, url=URL, texts=None):
     Its program are the `texts`, by default those that a kernel sends.
     """
     page.set_viewport_size({"width": width, "height": height})
+    page.emulate_media(reduced_motion="reduce")
     served(page, url)
     page.add_script_tag(content=HOST)
     given = [explorer.get_state(TRAITS), texts or sources(explorer.program)]

@@ -73,6 +73,15 @@ def threshold() -> Live:
             "happens to stop. A verdict that hangs on such a line of ours is not decided.",
             key=[*VERDICTS].index(parked(curves["paper"], RADIUS, MOST)),
             options=(*VERDICTS.values(),),
+            wrong=(
+                "At 10 cm, x east, the heading happens to swing through zero: there it is parked.",
+                "",
+                "At 5 cm, x east, it is 27° off.",
+            ),
+            asked=(
+                {"radius": 2.5},
+                {"radius": 10.0},
+            ),
         ),
     )
 
@@ -113,6 +122,13 @@ def rising() -> Live:
             "So with every L the angles decide, near enough to the goal.",
             key=[*answers.values()].index(True),
             options=(*answers,),
+            wrong=(
+                "Here the distance now outweighs the angles, and V falls.",
+                "The distance's part fades with the square of the distance, so nearer to the "
+                "goal the angles win again.",
+                "",
+            ),
+            asked=({"L": 0.001},),
         )
         if rises(0.35, 1.0)
         else None,

@@ -52,6 +52,14 @@ def lag() -> Live:
             "too far apart for the gain, more is left.)",
             key=[*left.values()].index(True),
             options=(*left,),
+            wrong=(
+                "On the goal the law commands no speed, so a robot that keeps up stays behind.",
+                "",
+                "The speed that is commanded hangs on k_rho and the distance: with more of one,"
+                " less of the other is enough.",
+                "With a larger k_rho the goal's speed is commanded from nearer.",
+            ),
+            asked=({"k_rho": 3.8},),
         ),
     )
 
@@ -85,5 +93,12 @@ def lqr() -> Live:
             "across.",
             key=[*faster.values()].index(True),
             options=(*faster,),
+            wrong=(
+                "A weight says what is worth most, not what the wheels can do: they never push "
+                "sideways.",
+                "So it would be if the wheels could push in each direction.",
+                "",
+            ),
+            asked=({"q": 100.0},),
         ),
     )

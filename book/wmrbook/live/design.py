@@ -41,6 +41,15 @@ def poles() -> Live:
             "damper that stops a slow swing is a weak one for a fast swing.",
             key=[*becomes.values()].index(True),
             options=(*becomes,),
+            wrong=(
+                "",
+                "The ratio compares k_alpha with the natural frequency, and h makes that larger.",
+                "h is the spring, not the damper. A stiffer spring makes the same damper a "
+                "weaker one.",
+                "The natural frequency goes with the root of h: four times h is twice the "
+                "frequency.",
+            ),
+            asked=({"h": 2.0},),
         ),
     )
 
@@ -83,5 +92,13 @@ def window() -> Live:
             "as fast.",
             key=[*becomes.values()].index(True),
             options=(*becomes,),
+            wrong=(
+                "So it would be if v_max alone were doubled. With k_alpha doubled too, kappa "
+                "stays.",
+                "So it would be if k_alpha alone were doubled. With v_max doubled too, kappa "
+                "stays.",
+                "",
+                "The path stays, but the robot is twice as fast on it.",
+            ),
         ),
     )

@@ -70,6 +70,14 @@ def flat_map() -> Live:
             "with the square of the distance, at any latitude but near the equator's.",
             key=nearest(asked, shown.values()),
             options=(*shown,),
+            wrong=(
+                "The meridians close in along the way: the farther, the more.",
+                "Twice the way closes the meridians in twice as much, and that over twice the way.",
+                "",
+                "A million times would be the cube of the distance, as it is only near the "
+                "equator.",
+            ),
+            asked=({"km": 10.0},),
         ),
     )
 

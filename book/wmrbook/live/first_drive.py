@@ -48,6 +48,12 @@ def last_metres(ask: bool = True) -> Live:
             f"{most_deg:.0f} deg of heading error, and the robot stops {off_deg:.0f} deg off.",
             key=[*room.values()].index(True),
             options=(*room,),
+            wrong=(
+                "V began with the square of 58 m. That is gone, and says nothing about the angles.",
+                "To be on the spot is not to face the right way: what is left of V is nearly "
+                "all angles.",
+                "",
+            ),
         )
         if ask
         else None,
@@ -85,5 +91,12 @@ def stopping() -> Live:
             "last metre is driven, so where one stops decides what is left. Nearer is not better.",
             key=nearest(then_deg / off_deg, shares.values()),
             options=(*shares,),
+            wrong=(
+                "A fifth of the way is left, but at 4 rad/s the heading turns by tens of "
+                "degrees in 0.2 s.",
+                "At 4 rad/s the heading turns by tens of degrees in 0.2 s.",
+                "",
+            ),
+            asked=({"stop": 0.01},),
         ),
     )

@@ -75,6 +75,11 @@ def bowl() -> Live:
             "its two angles as it likes, so its way down is its own.",
             key=[*ways.values()].index(True),
             options=(*ways,),
+            wrong=(
+                "The robot can't turn alpha and theta as it likes: only driving turns theta.",
+                "",
+                "The law is designed so that V never rises.",
+            ),
         ),
     )
 
@@ -119,6 +124,12 @@ def two_bars() -> Live:
             "heading is wrong. That V never rises is not enough; it must not stay level either.",
             key=[*parts.values()].index(True),
             options=(*parts,),
+            wrong=(
+                "The angles' part falls by what alpha is, and alpha is 0.",
+                "",
+                "It drives towards its goal, so the distance falls; and alpha is 0.",
+                "It drives towards its goal, so the distance's part falls.",
+            ),
         ),
     )
 
@@ -163,5 +174,11 @@ def torus() -> Live:
             "cancel, and it drives straight on. Only those that drift off the seam in time turn.",
             key=[*ways.values()].index(True),
             options=(*ways,),
+            wrong=(
+                "Each reading decides anew, so the robot turns left, then right, and drives "
+                "straight on.",
+                "",
+                "Some drift off the seam in time, and turn.",
+            ),
         ),
     )

@@ -143,6 +143,15 @@ def bench() -> Live:
             "sight, and with it the heading.",
             key=[*options.values()].index((far[0] < far[1], turned[0] < turned[1])),
             options=(*options,),
+            wrong=(
+                "Nearer, yes. But in the last metres an error that is new in each fix throws "
+                "the line of sight about, and the heading with it.",
+                "",
+                "An error that lasts moves the place where the robot stops by as much.",
+                "It is the other way round: what lasts costs the place, and what changes costs "
+                "the heading.",
+            ),
+            asked=({"memory": 300.0},),
         ),
     )
 
@@ -186,5 +195,13 @@ def late() -> Live:
             "turns, so an old position does harm only near the goal.",
             key=[*options.values()].index((position, heading)),
             options=(*options,),
+            wrong=(
+                "A late heading lets it steer too far, and back, for longer than a minute.",
+                "",
+                "It is the other way round: far away the line of sight hardly turns, so an old "
+                "position does little harm there.",
+                "An old position does harm only near the goal, where the line of sight turns.",
+            ),
+            asked=({"which": "position"},),
         ),
     )

@@ -53,6 +53,12 @@ def race() -> Live:
             "Graceful's does not: it drives forwards, in a wide loop.",
             key=ahead.index(True),
             options=tuple(NAMES[law][0].upper() + NAMES[law][1:] for law in asked),
+            wrong=(
+                "Its speed contains cos alpha, which is negative while the goal is behind.",
+                "Its speed contains cos alpha, which is negative while the goal is behind.",
+                "Its speed contains cos alpha, which is negative while the goal is behind.",
+                "",
+            ),
         ),
     )
 
@@ -92,5 +98,11 @@ def heading_power() -> Live:
             "of the two gains is the power.",
             key=nearest(second / first, SHARES.values()),
             options=(*SHARES,),
+            wrong=(
+                "The heading settles on the way, and this way is longer.",
+                "Half would be the first power of the distance, which takes a gain of 1.",
+                "",
+            ),
+            asked=({"radius": 0.05},),
         ),
     )

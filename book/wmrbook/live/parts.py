@@ -45,8 +45,11 @@ class Choice(NamedTuple):
 class Ask(NamedTuple):
     """A prediction that is asked for before anything is shown.
 
-    By its kind: "choose" one of `options`, whose `key` is a number; "turn" an arrow that stands
+    By its kind: "choose" one of `options`, whose `key` is a number, with what is `wrong` about each
+    of the others; "turn" an arrow that stands
     `at` a point of a `pane` (the `key` is its angle, rad); "sketch" a path that starts there.
+    After it the knobs go to the places of `asked`, one after the other: from what the question
+    gives to what it asks about.
     """
 
     kind: str
@@ -54,6 +57,8 @@ class Ask(NamedTuple):
     why: str
     key: float | None = None
     options: tuple[str, ...] = ()
+    wrong: tuple[str, ...] = ()
+    asked: tuple[dict[str, float | str], ...] = ()
     pane: str = ""
     at: tuple[float, float] | None = None
 

@@ -93,6 +93,12 @@ def heading_left() -> Live:
             "that outlasts the distance tells where it was stopped, no more.",
             key=[*left.values()].index(True),
             options=(*left,),
+            wrong=(
+                "The heading swings. On its way from 52° left to 27° right it passes through zero.",
+                "Between 52° left and 27° right it passes through zero, so it is not 27° off "
+                "all the way.",
+                "",
+            ),
         ),
     )
 

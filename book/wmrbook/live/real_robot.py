@@ -81,7 +81,7 @@ def silence() -> Live:
         "A robot at {speed} hears nothing for {timeout}, then brakes at {brake}. It rolls "
         "{faith} in good faith and {braking} braking, {far} in all.",
         {
-            "speed": Knob(2.0, 0.1, 4.0, 0.1, "the speed, v", "m/s", "v"),
+            "speed": Knob(1.0, 0.1, 4.0, 0.1, "the speed, v", "m/s", "v"),
             "timeout": Knob(timeout, 0.0, 2.0, 0.05, "the timeout, T", "s", "T"),
             "brake": Knob(brake, 1.0, 5.0, 0.1, "the braking, a", "m/s²", "a"),
         },
@@ -93,5 +93,13 @@ def silence() -> Live:
             "square. The faster the robot, the more the second one counts.",
             key=[*answers.values()].index(True),
             options=(*answers,),
+            wrong=(
+                "The way while braking grows with the square of the speed.",
+                "",
+                "So it would be if it braked at once. Half a second is driven at full speed, "
+                "and that way is doubled.",
+                "No part of its way grows by more than the square of the speed.",
+            ),
+            asked=({"speed": 2.0},),
         ),
     )

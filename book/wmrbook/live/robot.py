@@ -40,6 +40,11 @@ def turning_centre() -> Live:
             "go forward, so it lies beyond it.",
             key=[*places.values()].index(True),
             options=(*places,),
+            wrong=(
+                "It lies between the wheels only if they roll against each other.",
+                "",
+                "The faster wheel has the longer way round, so the centre lies on the other side.",
+            ),
         ),
     )
 
@@ -72,6 +77,12 @@ def commutator() -> Live:
             "right of the way out. Moves are undone in reverse order; in another they need not be.",
             key=nearest(end.y, places.values()),
             options=(*places,),
+            wrong=(
+                "The moves are undone in the wrong order: after the turn the way back lies "
+                "along another line.",
+                "It looks to the left when it drives back, so the way back leads to the right.",
+                "",
+            ),
         ),
     )
 
@@ -94,6 +105,12 @@ def one_step() -> Live:
             "misses add up. So it is for every Euler step that is short enough.",
             key=nearest(halved, shares.values()),
             options=(*shares,),
+            wrong=(
+                "Each step misses less, and so does the end.",
+                "",
+                "Each step misses a quarter as much, but there are twice as many.",
+            ),
+            asked=({"dt": 0.2},),
         ),
     )
 

@@ -75,5 +75,12 @@ def passing() -> Live:
             "farther away. Between the changes only the law moves V, and there it falls.",
             key=[*answers.values()].index(True),
             options=(*answers,),
+            wrong=(
+                "V measures the way to the goal, and the goal has changed.",
+                "",
+                "The next point is farther away than the one that is passed.",
+                "It could jump down where a point lies nearer than the last. On this route none"
+                " does.",
+            ),
         ),
     )

@@ -67,6 +67,11 @@ def unit_circle() -> Live:
             "from step to step, and it stops with what they happen to be; elsewhere, with little.",
             key=[*ends.values()].index(True),
             options=(*ends,),
+            wrong=(
+                "A tenth too long is too long: the angles grow from step to step.",
+                "",
+                "The distance has a limit of its own, 1.25 s. It still comes down.",
+            ),
         ),
     )
 
@@ -157,5 +162,10 @@ def parking() -> Live:
             "0.1 m/s. The slower the gains brake, the farther away that is.",
             key=nearest(end.distance, choices),
             options=("5 cm", "about 13 cm", "half a metre"),
+            wrong=(
+                "5 cm away the gentle gains ask for 0.04 m/s. Long before, the wheels stand.",
+                "",
+                "Half a metre away they still ask for nearly 0.4 m/s.",
+            ),
         ),
     )

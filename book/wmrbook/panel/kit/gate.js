@@ -1,14 +1,18 @@
 // A prediction before the result: one chooses, turns an arrow or sketches a path, and commits; then
-// the picture opens, with what was said in it.
+// the picture opens, with what was said in it, and moves from what was given to what was asked.
 
-import { DEGREES, inDegrees } from './style.js';
+import * as memory from './memory.js';
+import { DEGREES, inDegrees, written } from './style.js';
 import { turned } from './handles.js';
 import { MOVES, held, made, placeOn } from './hands.js';
 
-// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from; `pane`
-// and `at` of an arrow to turn; `pane` and `at`, the start, of a path to sketch. `key` is the
-// number of the option or the arrow's angle in radians; of a path there is none, the eye compares.
-export function buildGate(root, ask, { get, set, panes, host }) {
+// `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from, with what
+// is `wrong` about each; `pane` and `at` of an arrow to turn; `pane` and `at`, the start, of a path
+// to sketch. `key` is the number of the option or the arrow's angle in radians; of a path there is
+// none, but `way()` is the true one. `open(moving)` shows what was asked, and `close()` what was
+// given. A guess of SKIPPED is nobody's.
+const SKIPPED = 'skipped';
+export function buildGate(root, ask, { get, set, panes, host, way, reveal, close }) {
   // on paper the picture stands beside the question
   const still = document.documentElement.dataset.still !== undefined;
   const committed = () => get().guess !== null && get().guess !== undefined,
@@ -37,14 +41,31 @@ export function buildGate(root, ask, { get, set, panes, host }) {
   form.addEventListener('keydown', (event) => event.stopPropagation());
   const bar = made(form, 'div', { className: 'wmr-bar' }),
       commit = made(bar, 'button', { className: 'live-commit', textContent: 'Commit' });
-  const again = made(bar, 'button',
-      { type: 'button', textContent: 'Copy as a line', hidden: true }),
-      verdict = made(form, 'p', { className: 'live-verdict', tabIndex: -1 }, { role: 'status' });
+  const button = (textContent, onclick) =>
+      made(bar, 'button', { type: 'button', textContent, onclick, hidden: true });
+  const skip = button('Just show me', () => { commitTo(SKIPPED); }),
+      line = button('Copy as a line', () => copyLine(root, `predict ${ask.name} ${guessed()}`)),
+      again = button('Try again', () => { memory.forget(ask.name); tryAgain(); }),
+      never = button('Never ask me', () => { memory.ask(true); show(true); }),
+      clear = button('Forget all my answers', () => { memory.forgetAll(); tryAgain(); });
+  const verdict = made(form, 'p', { className: 'live-verdict', tabIndex: -1 }, { role: 'status' });
+  function tryAgain() {
+    draft = ask.kind === 'sketch' ? [] : null;
+    set({ guess: null });
+    close();
+  }
+  function commitTo(guess) {
+    set({ guess });
+    answered = true;
+    if (guess !== SKIPPED) memory.remember(ask.name, guess);
+    reveal(true);
+  }
   form.addEventListener('submit', (event) => {
     event.preventDefault();
-    if (ready()) { set({ guess: draft }); answered = true; }
+    if (ready()) commitTo(draft);
   });
-  again.addEventListener('click', () => copyLine(root, `predict ${ask.name} ${guessed()}`));
+  const before = memory.recall(ask.name) ?? (memory.neverAsk() ? SKIPPED : null);
+  if (before !== null && !open()) { set({ guess: before }); reveal(false); }
   const guessed = () => (ask.kind === 'turn' ? Math.round(get().guess * DEGREES) : get().guess);
   const ready = () => (ask.kind === 'sketch' ? draft.length > 3 : draft !== null);
   const within = (value, low, high) => Math.min(Math.max(value, low), high);
@@ -92,14 +113,31 @@ export function buildGate(root, ask, { get, set, panes, host }) {
           `${canvas.getAttribute('aria-label')} The arrow keys sketch, Backspace takes back: ` +
           `${Math.max(draft.length - 1, 0)} strokes.`);
   }
-  function show() {
+  // What was said, and what is wrong about it: of a path how far it is from the true one.
+  function judged(guess) {
+    if (guess === SKIPPED) return '';
+    if (ask.kind === 'sketch') {
+      const { x, y } = way(), far = guess.map(([px, py]) =>
+        Math.min(...Array.from(x, (each, k) => Math.hypot(each - px, y[k] - py))));
+      const mean = far.reduce((sum, each) => sum + each, 0) / far.length;
+      return `Your path is ${written(mean, 'm', 2)} from the robot's, on average. `;
+    }
+    if (right(guess)) return 'As you said. ';
+    return `Not so. ${ask.wrong?.[guess] ? `${ask.wrong[guess]} ` : ''}`;
+  }
+  function show(anew = false) {
     if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft || 0)} from the right`);
     const guess = get().guess, done = committed(), key = JSON.stringify([guess, done, ready()]);
-    if (key === shown) return;
+    if (key === shown && !anew) return;
     shown = key;
+    const guesses = done && guess !== SKIPPED;
+    skip.hidden = done || still;
+    again.hidden = !done || still;
+    never.hidden = guess !== SKIPPED || still || memory.neverAsk() || !memory.keepsAnswers();
+    clear.hidden = !done || still || !memory.keepsAnswers() || (guesses && ask.kind === 'sketch');
     commit.disabled = !ready();
     commit.hidden = done || still;
-    again.hidden = !done || ask.kind === 'sketch'; // a path is no line
+    line.hidden = !guesses || ask.kind === 'sketch'; // a path is no line
     options.hidden = done && ask.kind !== 'choose';
     form.querySelectorAll('input').forEach((each) => {
       each.disabled = done;
@@ -111,8 +149,7 @@ export function buildGate(root, ask, { get, set, panes, host }) {
         each.classList.toggle('live-key', open() && k === ask.key);
         each.hidden = done && k !== ask.key && k !== guess;
       });
-    verdict.textContent = !done ? ''
-        : `${ask.kind === 'sketch' ? '' : right(guess) ? 'As you said. ' : 'Not so. '}${ask.why}`;
+    verdict.textContent = done ? judged(guess) + ask.why : '';
     root.closest('.live').dataset.open = String(open());
     if (answered) { answered = false; verdict.focus(); } // where a keyboard and a voice go on
   }
@@ -122,7 +159,7 @@ export function buildGate(root, ask, { get, set, panes, host }) {
     if (listening) teach(host(ask.pane).querySelector('canvas'));
     const pane = panes()[ask.pane],
         said = committed() ? get().guess : ask.kind === 'turn' ? draft || 0 : draft;
-    if (still || !pane || said === null) return;
+    if (still || !pane || said === null || said === SKIPPED) return;
     if (ask.kind === 'turn') {
       const [x, y] = pane.at(...ask.at), along = Math.cos(said), up = Math.sin(said),
           side = along < 0 ? -1 : 1, { left, top, width, height } = pane.box;

@@ -1,10 +1,11 @@
 // The sentence and its numbers, a slider for each, and the buttons that play.
 
 import { ROLES } from './style.js';
-import { fromWords, putSlider, stepped, stopsOf } from './controls.js';
+import { fromWords, placeOf, putSlider, stepped, stopsOf } from './controls.js';
 import { held, made } from './hands.js';
 
 const DRAG = 5; // px of a number's drag a step
+const GLIDE = 1500, PAUSE = 500; // ms: from one place to the next, and before and after
 const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
     kappa: 'κ', zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
 export const inWords = (value) =>
@@ -65,7 +66,7 @@ function putNumber(parent, knob, { get, set, refuse }) {
 
 export function putKnobs(root, setup, { get, set, refuse, changed }) {
   const sentence = root.querySelector('.live-sentence'), rows = root.querySelector('.live-rows'),
-      results = {}, shows = [], timers = [];
+      results = {}, shows = [], timers = [], plays = [];
   const parts = Object.fromEntries(setup.knobs.map((knob) => [knob.name, knob]));
   for (const knob of setup.knobs)
     if (!knob.choices) knob.stops = stopsOf(knob.low, knob.high, knob.step);
@@ -133,6 +134,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         { type: 'button', className: 'live-play', textContent: 'Play', onclick: play },
         { 'aria-label': `play: ${knob.says}` }) : null;
     timers.push(stop);
+    if (button) plays.push(() => { set({ [name]: knob.low }, true); play(); });
     if (knob.auto && document.documentElement.dataset.still === undefined
         && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => {
       if (!playing) play();
@@ -140,6 +142,38 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     shows.push((values) => {
       showSlider(values[name], `${inWords(values[name])} ${knob.unit}`.trim());
     });
+  }
+  // One place after another, each knob along its stops; a hand stops it, as it stops what plays.
+  let gliding = 0;
+  function halt() {
+    clearTimeout(gliding);
+    cancelAnimationFrame(gliding);
+    gliding = 0;
+    delete root.dataset.moving;
+  }
+  timers.push(halt);
+  function glide(places, done) {
+    root.dataset.moving = 'true';
+    const [place, ...rest] = places;
+    if (!place) {
+      const last = plays.at(-1);
+      halt();
+      if (last) last(); else done();
+      return;
+    }
+    const from = { ...get() }, begin = performance.now();
+    const go = (now) => {
+      const share = Math.min(Math.max(now - begin - PAUSE, 0) / GLIDE, 1), at = {};
+      for (const [name, to] of Object.entries(place)) {
+        const { stops } = parts[name], where = (value) => placeOf(stops, value);
+        at[name] = share === 1 || !stops ? to : stops[Math.round(where(from[name])
+            + share * (where(to) - where(from[name])))];
+        if (!stops && share === 0) at[name] = from[name];
+      }
+      set(at, true);
+      gliding = share < 1 ? requestAnimationFrame(go) : window.setTimeout(() => glide(rest, done), PAUSE);
+    };
+    go(begin);
   }
   const show = (values) => shows.forEach((each) => each(values));
   const showResults = (said) => {
@@ -149,7 +183,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         if (place.textContent !== text) { place.textContent = text; changed(); }
     }
   };
-  return { show, showResults, stop: () => timers.forEach((each) => each()) };
+  return { show, showResults, glide, stop: () => timers.forEach((each) => each()) };
 }
 
 // Calls once, when an element comes into view.

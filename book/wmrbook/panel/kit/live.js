@@ -34,7 +34,10 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     + '<div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
         'class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {},
-      values = () => model.get('state');
+      still = document.documentElement.dataset.still !== undefined, // on paper
+      values = () => (still && setup.ask
+      ? Object.assign({}, model.get('state'), ...(setup.ask.asked || [])) : model.get('state'));
+  const home = Object.fromEntries(setup.knobs.map(({ name, value }) => [name, value]));
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
   const panes = {};
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
@@ -75,8 +78,20 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       ? buildAsker(find('.live-asks'), setup.asks, { model, get: values, set }) : null;
   const gate = setup.ask
       ? buildGate(find('.live-ask'), setup.ask,
-      { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement })
+      { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
+      way: () => found.run, reveal, close: () => set({ ...home }) })
       : null;
+
+  // The picture goes from what was given to what was asked, place by place, and then it plays.
+  function reveal(moving) {
+    const asked = setup.ask.asked || [];
+    if (!moving || matchMedia('(prefers-reduced-motion: reduce)').matches) {
+      set(Object.assign({}, ...asked));
+      return;
+    }
+    set({});
+    knobs.glide(asked, () => set({}));
+  }
 
   function build(name, spec) {
     const host = made(find('.live-panes'), 'div',
