@@ -10,6 +10,7 @@ from wmrlib._checks import book_extra
 with book_extra("wmrlib.symbolic"):
     import sympy  # noqa: F401
 
+from wmrlib.symbolic.c_drive import C_DRIVE, c_drive  # noqa: F401
 from wmrlib.symbolic.c_header import C_HEADER, c_function, c_header  # noqa: F401
 from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, FORMULAS, Formula  # noqa: F401
 from wmrlib.symbolic.javascript import javascript, javascript_name  # noqa: F401
