@@ -11,6 +11,22 @@ from typing import NamedTuple
 import numpy as np
 
 LONGEST = 1 << 16  # characters of a line that are read at once
+KNOT = 1852.0 / 3600.0  # m/s
+
+
+class Said(NamedTuple):
+    """What a receiver says of a fix, in the units of Track; NaN where it does not."""
+
+    quality: float = math.nan
+    satellites: float = math.nan
+    hdop: float = math.nan
+    speed: float = math.nan
+    course: float = math.nan
+    heading: float = math.nan
+    accuracy: float = math.nan
+
+
+UNSAID = Said()
 
 
 class Count(NamedTuple):
@@ -55,7 +71,9 @@ class Fixes:
         self.skipped, self.noted = Tally(), Tally()
         self.skip = self.skipped.count
 
-    def add(self, lat: float, lon: float, time: float | None, line: int) -> None:
+    def add(
+        self, lat: float, lon: float, time: float | None, line: int, said: Said = UNSAID
+    ) -> None:
         """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
         if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):
             wrong = "latitude not in -90 to 90", "longitude not in -180 to 180"
@@ -63,16 +81,17 @@ class Fixes:
             return self.skip(wrong[abs(lat) <= 90.0] if math.isfinite(lat + lon) else nan, line)
         if time is None:
             self.noted.count("with an unreadable time", line)
-        self.table.extend((lat, lon, math.nan if time is None else time, line, self.segment))
+        time = math.nan if time is None else time
+        self.table.extend((line, self.segment, lat, lon, time, *said))
 
     def settle(self) -> tuple[np.ndarray, Report]:
-        """The rows lat, lon and time of the positions in order of time, and the report."""
-        table = np.array(self.table).reshape(-1, 5)
-        parts = np.split(table, np.flatnonzero(np.diff(table[:, 4])) + 1)
-        late = np.concatenate([_late(part[:, 2]) for part in parts])
+        """The rows lat, lon, time and Said of the positions in order of time, and the report."""
+        table = np.frombuffer(self.table).reshape(-1, 5 + len(Said._fields))
+        parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
+        late = np.concatenate([_late(part[:, 4]) for part in parts])
         if late.any():
-            self.skip("time runs backwards", int(table[late, 3][0]), int(late.sum()))
-        table = table[~late, :3].T
+            self.skip("time runs backwards", int(table[late, 0][0]), int(late.sum()))
+        table = table[~late, 2:].T
         return table, Report(table.shape[1], self.skipped, self.noted)
 
 
@@ -82,6 +101,12 @@ def number(text: str) -> float:
         return float(text.replace("_", "?"))
     except ValueError:
         return math.nan
+
+
+def reading(text: str, unit: float = 1.0) -> float:
+    """A number from 0 on in its unit, or NaN if the text is none."""
+    value = number(text) * unit
+    return value if 0.0 <= value < math.inf else math.nan
 
 
 def timestamp(text: str) -> float | None:
