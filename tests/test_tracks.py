@@ -674,7 +674,7 @@ def test_a_line_without_an_end_takes_little_time_and_memory(read, tmp_path, kind
     if kind == "one line":
         assert len(wmr.read_track(path)) == 1
     else:
-        with pytest.raises(ValueError, match=r"more than|without a checksum|neither NMEA"):
+        with pytest.raises(ValueError, match=r"more than|without a checksum|neither NMEA,"):
             wmr.read_track(path)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
@@ -684,7 +684,7 @@ def test_a_line_without_an_end_takes_little_time_and_memory(read, tmp_path, kind
 
 # Whatever a file holds
 
-NO_KIND = "it is neither NMEA nor GPX, and as a table"
+NO_KIND = "it is neither NMEA, UBX nor GPX, and as a table"
 
 
 def test_a_file_without_a_position_says_why(read, tmp_path):

@@ -1,4 +1,4 @@
-"""Positions in NMEA, GPX and CSV files, with an account of what is not used."""
+"""Positions in NMEA, UBX, GPX and CSV files, with an account of what is not used."""
 
 import os
 from dataclasses import dataclass
@@ -8,7 +8,7 @@ import numpy as np
 
 from wmrlib._checks import refusal
 from wmrlib.geodesy import GeoPoint
-from wmrlib.tracks import gpx, nmea, tables
+from wmrlib.tracks import gpx, nmea, tables, ubx
 from wmrlib.tracks.fixes import Count, Fixes, Report, Said
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
@@ -65,10 +65,12 @@ class Track:
 
 
 def read_track(path: str | os.PathLike) -> Track:
-    """Read positions from NMEA sentences, GPX or a CSV table; the content tells which.
+    """Read positions from NMEA, UBX, GPX or a CSV table; the content tells which.
 
     NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once;
     not where the most trusted of these says that there is no fix; checksum needed.
+    UBX, alone or mixed with NMEA: NAV-PVT, of its epoch NAV-HPPOSLLH's digits, NAV-RELPOSNED's
+    heading and NAV-DOP's hdop; in a file without NAV-PVT the sentences. It takes pyubx2.
     GPX: the track points, or else the route's, or else the waypoints (without their times).
     CSV: one of the first ten lines names the columns: lat or latitude; lon, lng, long or longitude,
     in degrees (33.27, 33.27 N or "33,27") or e7; optionally N/S and E/W; t, time_s or time_ms,
@@ -117,11 +119,13 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
     coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
     if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
         return "GPX", gpx.read(file)  # XML itself says how it is encoded
+    if not wide and (read := ubx.read(file)):
+        return read
     with TextIOWrapper(file, coding, errors, newline="") as text:
         try:
             return "CSV", tables.read(text)
         except LookupError as error:  # no header
             text.seek(0)
-            if (fixes := nmea.read(text)) is None:
-                raise ValueError(f"it is neither NMEA nor GPX, and {error.args[0]}") from None
+            if (fixes := nmea.read(nmea.numbered(text), Fixes())) is None:
+                raise ValueError(f"it is neither NMEA, UBX nor GPX, and {error.args[0]}") from None
             return "NMEA", fixes

@@ -30,7 +30,7 @@ UNSAID = Said()
 
 
 class Count(NamedTuple):
-    """How often something was met, and the line where it was met first."""
+    """How often something was met, and the line (in UBX the byte) where it was met first."""
 
     count: int  # type: ignore[assignment]  # hides tuple.count, which nobody calls here
     first: int
@@ -40,18 +40,20 @@ class Count(NamedTuple):
 class Report:
     """How many positions were used, and by its reason the Count of lines that gave none.
 
-    `noted` counts positions that are used although something is amiss with them; `print` it all.
+    `noted` counts positions that are used although something is amiss with them, and `place` is
+    "line" or "byte"; `print` it all.
     """
 
     used: int
     skipped: Mapping[str, Count]
     noted: Mapping[str, Count] = field(default_factory=dict)
+    place: str = "line"
 
     def __repr__(self) -> str:
         rows = [f"{self.used} position{'s' * (self.used != 1)} used"]
         for what, met in (("not used", self.skipped), ("used, but", self.noted)):
             for reason, (times, first) in sorted(met.items(), key=lambda row: row[1].first):
-                rows.append(f"{what}: {times} {reason} (first in line {first})")
+                rows.append(f"{what}: {times} {reason} (first in {self.place} {first})")
         return "\n".join(rows)
 
 
@@ -66,10 +68,10 @@ class Tally(dict[str, Count]):
 class Fixes:
     """The positions of one file as they are found, and the reasons why others are not used."""
 
-    def __init__(self) -> None:
+    def __init__(self, place: str = "line") -> None:
         self.table, self.segment = array("d"), 0  # in the next segment times may be earlier
         self.skipped, self.noted = Tally(), Tally()
-        self.skip = self.skipped.count
+        self.skip, self.place = self.skipped.count, place
 
     def add(
         self, lat: float, lon: float, time: float | None, line: int, said: Said = UNSAID
@@ -92,7 +94,7 @@ class Fixes:
         if late.any():
             self.skip("time runs backwards", int(table[late, 0][0]), int(late.sum()))
         table = table[~late, 2:].T
-        return table, Report(table.shape[1], self.skipped, self.noted)
+        return table, Report(table.shape[1], self.skipped, self.noted, self.place)
 
 
 def number(text: str) -> float:

@@ -2,7 +2,7 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import reduce
 from itertools import groupby
 from operator import xor
@@ -26,10 +26,10 @@ _QUALITY = {"R": 4.0, "F": 5.0, "P": 3.0, "D": 2.0, "A": 1.0}  # of a mode, the 
 _DAY = 86400.0  # s
 
 
-def read(text: TextIO) -> Fixes | None:
+def read(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
-    fixes, last, zero = Fixes(), 0.0, 0.0
-    for second, epoch in groupby(_sentences(text, fixes), lambda sentence: sentence[2]):
+    last, zero = 0.0, 0.0
+    for second, epoch in groupby(_sentences(lines, fixes), lambda sentence: sentence[2]):
         sentences = sorted(epoch)
         _, denied, _, line, lat, lon, *_ = sentences[0]
         if not denied:
@@ -50,10 +50,17 @@ def read(text: TextIO) -> Fixes | None:
     return fixes if fixes.table or known else None
 
 
-def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple]:
-    """The contents of sound sentences of known kinds; `fixes` counts all others."""
+def numbered(text: TextIO) -> Iterator[tuple[int, str]]:
+    """The lines, or parts of long ones, and their numbers."""
     line = 1
     while words := text.readline(LONGEST):
+        yield line, words
+        line += words.endswith(("\n", "\r"))
+
+
+def _sentences(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Iterator[tuple]:
+    """The contents of sound sentences of known kinds; `fixes` counts all others."""
+    for line, words in lines:
         matches = [] if words.startswith("#") else _SENTENCE.findall(words)
         if not matches and (rest := words.strip(" \t\r\n\0")):
             fixes.skip("comment" if rest.startswith("#") else "line that is no sentence", line)
@@ -62,7 +69,6 @@ def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple]:
                 yield _parsed(body, stated.upper(), line)
             except ValueError as error:
                 fixes.skip(str(error), line)
-        line += words.endswith(("\n", "\r"))
 
 
 def _parsed(body: str, stated: str, line: int) -> tuple:
