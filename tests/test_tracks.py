@@ -115,7 +115,7 @@ def settled(*segments):
 @example([[5, 7, 6], [1, 9, 2, 3]])  # 1 or 9: as long a run goes on from either
 @example([[0, 1, 99, 99, 99, 2, 2], [-5, -5, -5, 0, 1]])  # a wrong time, however often
 def test_a_time_out_of_order_costs_its_own_position_only(segments):
-    (lat, _, time), report = settled(*segments)
+    (lat, _, time, *_), report = settled(*segments)
     alone = [settled(segment)[0][2] for segment in segments]
     np.testing.assert_array_equal(time, np.concatenate([[], *alone]))
     line = sum(map(len, segments))
@@ -348,6 +348,40 @@ def test_large_files_are_streams(tmp_path):
         assert peak < 20_000 * 200 + 2_000_000
 
 
+SAID = ("quality", "satellites", "hdop", "speed", "course", "heading", "accuracy")
+
+
+def says(track, **expected):
+    """Each array of what a receiver says: NaN unless it is expected."""
+    for field in SAID:
+        value = expected.get(field, math.nan)
+        np.testing.assert_allclose(getattr(track, field), value, rtol=1e-12, err_msg=field)
+        assert not getattr(track, field).flags.writeable
+    assert track.rtk.tolist() == np.broadcast_to(expected.get("rtk", ""), len(track)).tolist()
+
+
+ALL = {"satellites": 8, "hdop": 1.1, "speed": 0.24 * 1852 / 3600, "course": math.radians(18.02)}
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_a_receiver_says_of_a_fix_is_kept(read, kind):
+    modes = dict(zip("123459" if kind == "GGA" else "ADPRFD", (1, 2, 3, 4, 5, 2), strict=True))
+    fields = {"GGA": ["satellites", "hdop"], "GNS": ["satellites", "hdop"], "GLL": []}
+    expected = {field: ALL[field] for field in fields.get(kind, ["speed", "course"])}
+    for mode, quality in modes.items():
+        rtk = {4: "fixed", 5: "float"}.get(quality, "none")
+        says(read(said(kind, mode=mode)), quality=quality, rtk=rtk, **expected)
+    if kind == "GNS":  # a mode for each constellation
+        says(read(said(kind, mode="ANRD")), quality=4, rtk="fixed", **expected)
+    both = [said("GGA", mode=4), said(kind, mode="A" if kind != "GGA" else 4)]
+    for lines in (both, both[::-1]):  # the most trusted first, in whatever order
+        expected |= {"satellites": 8, "hdop": 1.1}
+        says(read(lines), quality=4, rtk="fixed", **expected)
+    empty = FORMS[kind].replace("{sats},1.1", ",nan").replace("0.24,18.02", "-1,")
+    track = read(nmea(empty.format(**{**FIX, "mode": 1 if kind == "GGA" else "A"})))
+    says(track, quality=1, rtk="none")
+
+
 # GPX
 
 
@@ -537,6 +571,32 @@ def test_every_row_is_kept_or_counted_with_its_line(tmp_path_factory, rows):
     assert {first for _, first in report.skipped.values()} <= ends
 
 
+def test_what_a_phone_or_a_table_says_of_a_fix_is_kept(read):
+    inner = "<{0}sat>7</{0}sat><{0}hdop>0.9</{0}hdop><x><{0}speed>1.5</{0}speed></x>"
+    point = '<trkpt lat="1" lon="2">{}<course>90</course><fix>{}</fix></trkpt>'
+    whole = {"satellites": 7, "hdop": 0.9, "speed": 1.5, "course": math.pi / 2, "rtk": "none"}
+    for fix, quality in {"2d": 1, "3d": 1, "dgps": 2, "pps": 3}.items():
+        says(read(gpx(trk(point.format(inner.format(""), fix)))), quality=quality, **whole)
+    two = trk(point.format(inner.format("g:"), "dgps"), '<trkpt lat="1" lon="3"/>')
+    track = read(gpx(two, root=f'gpx version="1.1" xmlns:g="{GPX_11[1:-1]}"'))
+    says(track, **{name: [value, math.nan] for name, value in {**whole, "quality": 2}.items()
+                   if name != "rtk"}, rtk=["none", ""])  # fmt: skip
+    speeds = {"speed (m/s)": 1.5, "Ground speed [km/h]": 5.4, "speed_kn": 1.5 * 3600 / 1852}
+    speeds |= {"SOG knots": 1.5 * 3600 / 1852, "speed_mph": 1.5 / 0.44704, "speed_mps": 1.5}
+    for name, speed in speeds.items():
+        text = f"lat;lon;{name};course;NSAT;hdop;quality\n1;2;{speed!r};90,0;7;0,9;2\n"
+        says(read(text), quality=2, **whole)
+    words = {"SPS": 1, "gps": 1, "DGPS": 2, "pps": 3, "RTK": 4, "RTK float": 5, "FRTK": 5, "9": 2}
+    words |= {"Fixed RTK": 4, "Float-RTK": 5}
+    for word, quality in words.items():
+        rtk = {4: "fixed", 5: "float"}.get(quality, "none")
+        says(read(f"lat,lon,fix quality\n1,2,{word}\n"), quality=quality, rtk=rtk)
+    for header, row in {  # neither of these names a unit, or a quality
+        "speed": "3", "heading": "3", "fix": "fixed", "valid": "1", "status": "4", "hdop": "-1"
+    }.items():  # fmt: skip
+        says(read(f"lat,lon,{header}\n1,2,{row}\n"))
+
+
 SIDES = ["Dir", "Direction", "Ref", "Hemi", "Hemisphere", "Indicator"]
 PAIRS = [("N/S", "E/W"), ("n_s", "e_w"), ("NS Indicator", "EW Indicator"), ("North/South", "ew")]
 PAIRS += [(f"Lat{gap}{side}", f"Longitude{gap}{side}") for gap in ("", " ", "_") for side in SIDES]
@@ -614,7 +674,7 @@ def test_a_line_without_an_end_takes_little_time_and_memory(read, tmp_path, kind
     if kind == "one line":
         assert len(wmr.read_track(path)) == 1
     else:
-        with pytest.raises(ValueError, match=r"more than|without a checksum|neither NMEA"):
+        with pytest.raises(ValueError, match=r"more than|without a checksum|neither NMEA,"):
             wmr.read_track(path)
     peak = tracemalloc.get_traced_memory()[1]
     tracemalloc.stop()
@@ -624,7 +684,7 @@ def test_a_line_without_an_end_takes_little_time_and_memory(read, tmp_path, kind
 
 # Whatever a file holds
 
-NO_KIND = "it is neither NMEA nor GPX, and as a table"
+NO_KIND = "it is neither NMEA, UBX nor GPX, and as a table"
 
 
 def test_a_file_without_a_position_says_why(read, tmp_path):

@@ -1,4 +1,4 @@
-"""Positions in NMEA, GPX and CSV files, with an account of what is not used."""
+"""Positions in NMEA, UBX, GPX and CSV files, with an account of what is not used."""
 
 import os
 from dataclasses import dataclass
@@ -8,8 +8,8 @@ import numpy as np
 
 from wmrlib._checks import refusal
 from wmrlib.geodesy import GeoPoint
-from wmrlib.tracks import gpx, nmea, tables
-from wmrlib.tracks.fixes import Count, Fixes, Report
+from wmrlib.tracks import gpx, nmea, tables, ubx
+from wmrlib.tracks.fixes import Count, Fixes, Report, Said
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
 __all__ = ["Count", "Report", "Track", "read_track", "write_geojson", "write_gpx"]
@@ -20,17 +20,39 @@ class Track:
     """The positions of a file, in its order, in arrays that can't be written to.
 
     `t` is in s since the first position that has a time, NaN where there is none, and in order
-    within a segment of GPX and in the whole of another file. `source` is "NMEA", "GPX" or "CSV".
+    within a segment of GPX and in the whole of another file. `source` is "NMEA", "UBX", "GPX" or
+    "CSV". The other arrays hold what the receiver says of itself, NaN where it does not: `quality`
+    of the fix as in GGA (1 plain, 2 differential or SBAS, 3 precise, 4 RTK fixed, 5 RTK float);
+    `satellites` in use; `hdop`; `speed` in m/s and `course` over ground in rad clockwise from
+    north; `heading`, so too, of the line from one antenna to another; `accuracy`, its own estimate
+    of the error in the plane, in m.
     """
 
     points: GeoPoint
     t: np.ndarray
     source: str
     report: Report
+    quality: np.ndarray
+    satellites: np.ndarray
+    hdop: np.ndarray
+    speed: np.ndarray
+    course: np.ndarray
+    heading: np.ndarray
+    accuracy: np.ndarray
 
     def __post_init__(self) -> None:
-        for values in (self.points.lat, self.points.lon, self.t):
+        said = (getattr(self, field) for field in Said._fields)
+        for values in (self.points.lat, self.points.lon, self.t, *said):
             np.asarray(values).flags.writeable = False
+
+    @property
+    def rtk(self) -> np.ndarray:
+        """Of each position "fixed", "float" or "none"; "" where the receiver does not say."""
+        return np.select(
+            [self.quality == 4.0, self.quality == 5.0, self.quality > 0.0],
+            ["fixed", "float", "none"],
+            "",
+        )
 
     def __len__(self) -> int:
         return self.t.size
@@ -43,10 +65,12 @@ class Track:
 
 
 def read_track(path: str | os.PathLike) -> Track:
-    """Read positions from NMEA sentences, GPX or a CSV table; the content tells which.
+    """Read positions from NMEA, UBX, GPX or a CSV table; the content tells which.
 
     NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once;
     not where the most trusted of these says that there is no fix; checksum needed.
+    UBX, alone or mixed with NMEA: NAV-PVT, of its epoch NAV-HPPOSLLH's digits, NAV-RELPOSNED's
+    heading and NAV-DOP's hdop; in a file without NAV-PVT the sentences. It takes pyubx2.
     GPX: the track points, or else the route's, or else the waypoints (without their times).
     CSV: one of the first ten lines names the columns: lat or latitude; lon, lng, long or longitude,
     in degrees (33.27, 33.27 N or "33,27") or e7; optionally N/S and E/W; t, time_s or time_ms,
@@ -76,14 +100,14 @@ def read_track(path: str | os.PathLike) -> Track:
     try:
         with open(path, "rb") as file:
             source, fixes = _read(file)
-        (lat, lon, time), report = fixes.settle()
+        (lat, lon, time, *said), report = fixes.settle()
         if not report.used:
             reasons = repr(report).partition("not used: ")[2].replace("\nnot used: ", "; ")
             raise ValueError(f"it is {source}, but {reasons or 'holds no position'}")
     except ValueError as error:
         raise ValueError(f"no position in {os.fspath(path)!r}: {error}") from None
     begin = time[~np.isnan(time)][:1].sum()
-    return Track(GeoPoint(lat=lat, lon=lon), time - begin, source, report)
+    return Track(GeoPoint(lat=lat, lon=lon), time - begin, source, report, *said)
 
 
 def _read(file: BufferedReader) -> tuple[str, Fixes]:
@@ -95,11 +119,13 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
     coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
     if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
         return "GPX", gpx.read(file)  # XML itself says how it is encoded
+    if not wide and (read := ubx.read(file)):
+        return read
     with TextIOWrapper(file, coding, errors, newline="") as text:
         try:
             return "CSV", tables.read(text)
         except LookupError as error:  # no header
             text.seek(0)
-            if (fixes := nmea.read(text)) is None:
-                raise ValueError(f"it is neither NMEA nor GPX, and {error.args[0]}") from None
+            if (fixes := nmea.read(nmea.numbered(text), Fixes())) is None:
+                raise ValueError(f"it is neither NMEA, UBX nor GPX, and {error.args[0]}") from None
             return "NMEA", fixes

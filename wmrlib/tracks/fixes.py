@@ -11,10 +11,26 @@ from typing import NamedTuple
 import numpy as np
 
 LONGEST = 1 << 16  # characters of a line that are read at once
+KNOT = 1852.0 / 3600.0  # m/s
+
+
+class Said(NamedTuple):
+    """What a receiver says of a fix, in the units of Track; NaN where it does not."""
+
+    quality: float = math.nan
+    satellites: float = math.nan
+    hdop: float = math.nan
+    speed: float = math.nan
+    course: float = math.nan
+    heading: float = math.nan
+    accuracy: float = math.nan
+
+
+UNSAID = Said()
 
 
 class Count(NamedTuple):
-    """How often something was met, and the line where it was met first."""
+    """How often something was met, and the line (in UBX the byte) where it was met first."""
 
     count: int  # type: ignore[assignment]  # hides tuple.count, which nobody calls here
     first: int
@@ -24,18 +40,20 @@ class Count(NamedTuple):
 class Report:
     """How many positions were used, and by its reason the Count of lines that gave none.
 
-    `noted` counts positions that are used although something is amiss with them; `print` it all.
+    `noted` counts positions that are used although something is amiss with them, and `place` is
+    "line" or "byte"; `print` it all.
     """
 
     used: int
     skipped: Mapping[str, Count]
     noted: Mapping[str, Count] = field(default_factory=dict)
+    place: str = "line"
 
     def __repr__(self) -> str:
         rows = [f"{self.used} position{'s' * (self.used != 1)} used"]
         for what, met in (("not used", self.skipped), ("used, but", self.noted)):
             for reason, (times, first) in sorted(met.items(), key=lambda row: row[1].first):
-                rows.append(f"{what}: {times} {reason} (first in line {first})")
+                rows.append(f"{what}: {times} {reason} (first in {self.place} {first})")
         return "\n".join(rows)
 
 
@@ -50,12 +68,14 @@ class Tally(dict[str, Count]):
 class Fixes:
     """The positions of one file as they are found, and the reasons why others are not used."""
 
-    def __init__(self) -> None:
+    def __init__(self, place: str = "line") -> None:
         self.table, self.segment = array("d"), 0  # in the next segment times may be earlier
         self.skipped, self.noted = Tally(), Tally()
-        self.skip = self.skipped.count
+        self.skip, self.place = self.skipped.count, place
 
-    def add(self, lat: float, lon: float, time: float | None, line: int) -> None:
+    def add(
+        self, lat: float, lon: float, time: float | None, line: int, said: Said = UNSAID
+    ) -> None:
         """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
         if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):
             wrong = "latitude not in -90 to 90", "longitude not in -180 to 180"
@@ -63,17 +83,18 @@ class Fixes:
             return self.skip(wrong[abs(lat) <= 90.0] if math.isfinite(lat + lon) else nan, line)
         if time is None:
             self.noted.count("with an unreadable time", line)
-        self.table.extend((lat, lon, math.nan if time is None else time, line, self.segment))
+        time = math.nan if time is None else time
+        self.table.extend((line, self.segment, lat, lon, time, *said))
 
     def settle(self) -> tuple[np.ndarray, Report]:
-        """The rows lat, lon and time of the positions in order of time, and the report."""
-        table = np.array(self.table).reshape(-1, 5)
-        parts = np.split(table, np.flatnonzero(np.diff(table[:, 4])) + 1)
-        late = np.concatenate([_late(part[:, 2]) for part in parts])
+        """The rows lat, lon, time and Said of the positions in order of time, and the report."""
+        table = np.frombuffer(self.table).reshape(-1, 5 + len(Said._fields))
+        parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
+        late = np.concatenate([_late(part[:, 4]) for part in parts])
         if late.any():
-            self.skip("time runs backwards", int(table[late, 3][0]), int(late.sum()))
-        table = table[~late, :3].T
-        return table, Report(table.shape[1], self.skipped, self.noted)
+            self.skip("time runs backwards", int(table[late, 0][0]), int(late.sum()))
+        table = table[~late, 2:].T
+        return table, Report(table.shape[1], self.skipped, self.noted, self.place)
 
 
 def number(text: str) -> float:
@@ -82,6 +103,12 @@ def number(text: str) -> float:
         return float(text.replace("_", "?"))
     except ValueError:
         return math.nan
+
+
+def reading(text: str, unit: float = 1.0) -> float:
+    """A number from 0 on in its unit, or NaN if the text is none."""
+    value = number(text) * unit
+    return value if 0.0 <= value < math.inf else math.nan
 
 
 def timestamp(text: str) -> float | None:

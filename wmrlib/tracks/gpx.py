@@ -1,14 +1,17 @@
 """Positions in GPX files, read as a stream; without a document type XML has no entities."""
 
 import math
+from collections import defaultdict
 from io import BufferedReader
 from xml.parsers import expat
 
-from wmrlib.tracks.fixes import Fixes, Tally, number, timestamp
+from wmrlib.tracks.fixes import Fixes, Said, Tally, number, reading, timestamp
 
 # Where each kind of place belongs, and what it is called; the first that a file has is its track.
 _PARENT = {"trkpt": "trkseg", "rtept": "rte", "wpt": "gpx"}
 _WORDS = {"trkpt": "track point", "rtept": "route point", "wpt": "waypoint"}
+_SAID = {"sat": "satellites", "hdop": "hdop", "speed": "speed", "course": "course"}
+_QUALITY = {"2d": 1.0, "3d": 1.0, "dgps": 2.0, "pps": 3.0}
 _BLOCK = 1 << 18  # bytes
 
 
@@ -17,7 +20,7 @@ def read(file: BufferedReader) -> Fixes:
     wide = file.peek().startswith((b"\xff\xfe", b"\xfe\xff"))
     parser = expat.ParserCreate("utf-16" if wide else None)
     places, met = {kind: Fixes() for kind in _PARENT}, Tally()
-    path, clock, place = list[str](), list[str](), list[float]()
+    path, place, texts = list[str](), list[float](), defaultdict[str, list[str]](list)
 
     def refuse(*_: object) -> None:
         raise ValueError("its XML holds a document type or an entity, which is not read")
@@ -33,8 +36,10 @@ def read(file: BufferedReader) -> Fixes:
             else:
                 places[name].skip(f"{_WORDS[name]} outside <{_PARENT[name]}>", line)
                 name = ""
-        elif name == "time" and path[-1] in _PARENT:
-            parser.CharacterDataHandler = clock.append
+        elif (name == "time" and path[-1] in _PARENT) or (
+            (name in _SAID or name == "fix") and not _PARENT.keys().isdisjoint(path)
+        ):
+            parser.CharacterDataHandler = texts[name].append
         elif name == "trkseg":
             places["trkpt"].segment += 1
         path.append(name)
@@ -43,10 +48,15 @@ def read(file: BufferedReader) -> Fixes:
         parser.CharacterDataHandler = None
         if (name := path.pop()) in _PARENT:
             # The time of a waypoint tells when it was made, not when it was passed.
-            time = "".join(clock).strip() if name == "trkpt" else ""
-            clock.clear()
+            words = {key: "".join(parts).strip() for key, parts in texts.items()}
+            texts.clear()
+            time = words.get("time") if name == "trkpt" else None
+            said = {field: reading(words.get(key, "")) for key, field in _SAID.items()}
+            said["course"] *= math.radians(1.0)
+            said["quality"] = _QUALITY.get(words.get("fix", ""), math.nan)
             lat, lon, line = place
-            places[name].add(lat, lon, timestamp(time) if time else math.nan, int(line))
+            seconds = timestamp(time) if time else math.nan
+            places[name].add(lat, lon, seconds, int(line), Said(**said))
 
     parser.StartDoctypeDeclHandler = refuse
     parser.StartElementHandler, parser.EndElementHandler = start, end

@@ -2,13 +2,13 @@
 
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import reduce
 from itertools import groupby
 from operator import xor
 from typing import TextIO
 
-from wmrlib.tracks.fixes import LONGEST, Fixes, timestamp
+from wmrlib.tracks.fixes import KNOT, LONGEST, UNSAID, Fixes, Said, reading, timestamp
 
 # A body, with anything before and after it, and the checksum that is stated.
 _SENTENCE = re.compile(r"\$([A-Za-z]{2}[^$*\r\n]{3}[^$*\r\n]*)(\*[0-9A-Fa-f]{0,2})?")
@@ -22,22 +22,26 @@ _KINDS = {
     "RMC": (2, 1, 3, 12, 2),
     "GLL": (3, 5, 1, 7, 6),
 }
+_QUALITY = {"R": 4.0, "F": 5.0, "P": 3.0, "D": 2.0, "A": 1.0}  # of a mode, the best first
 _DAY = 86400.0  # s
 
 
-def read(text: TextIO) -> Fixes | None:
+def read(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
-    fixes, last, zero = Fixes(), 0.0, 0.0
-    for second, epoch in groupby(_sentences(text, fixes), lambda sentence: sentence[2]):
+    last, zero = 0.0, 0.0
+    for second, epoch in groupby(_sentences(lines, fixes), lambda sentence: sentence[2]):
         sentences = sorted(epoch)
-        _, denied, _, line, lat, lon, _ = sentences[0]
+        _, denied, _, line, lat, lon, *_ = sentences[0]
         if not denied:
             day = _DAY * math.ceil((last - 60.0 - second) / _DAY)  # undated, time goes on
-            if dated := max(sentence[-1] for sentence in sentences):
+            if dated := max(sentence[6] for sentence in sentences):
                 zero = zero or dated - day
                 day = dated - zero
             last = second + day
-            fixes.add(lat, lon, last, line)
+            # Of what several sentences say, the most trusted counts.
+            heard = zip(*(sentence[7] for sentence in sentences if not sentence[1]), strict=True)
+            said = (next((x for x in values if x == x), math.nan) for values in heard)
+            fixes.add(lat, lon, last, line, Said(*said))
         doubt = "sentence of an epoch that a more trusted one says has no fix"
         for _, denies, _, line, *_ in sentences if denied else sentences[1:]:
             others = doubt if denied else "same epoch again"
@@ -46,10 +50,17 @@ def read(text: TextIO) -> Fixes | None:
     return fixes if fixes.table or known else None
 
 
-def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple]:
-    """The contents of sound sentences of known kinds; `fixes` counts all others."""
+def numbered(text: TextIO) -> Iterator[tuple[int, str]]:
+    """The lines, or parts of long ones, and their numbers."""
     line = 1
     while words := text.readline(LONGEST):
+        yield line, words
+        line += words.endswith(("\n", "\r"))
+
+
+def _sentences(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Iterator[tuple]:
+    """The contents of sound sentences of known kinds; `fixes` counts all others."""
+    for line, words in lines:
         matches = [] if words.startswith("#") else _SENTENCE.findall(words)
         if not matches and (rest := words.strip(" \t\r\n\0")):
             fixes.skip("comment" if rest.startswith("#") else "line that is no sentence", line)
@@ -58,11 +69,10 @@ def _sentences(text: TextIO, fixes: Fixes) -> Iterator[tuple]:
                 yield _parsed(body, stated.upper(), line)
             except ValueError as error:
                 fixes.skip(str(error), line)
-        line += words.endswith(("\n", "\r"))
 
 
 def _parsed(body: str, stated: str, line: int) -> tuple:
-    """Rank, whether it denies a fix, second, line, lat, lon, date; or ValueError."""
+    """Rank, whether it denies a fix, second, line, lat, lon, date, Said; or ValueError."""
     checksum = f"*{reduce(xor, body.encode('utf-8', 'surrogateescape')):02X}"
     fields = [*body.split(","), *[""] * 13]
     if stated != checksum:
@@ -79,10 +89,21 @@ def _parsed(body: str, stated: str, line: int) -> tuple:
     if not clock:
         raise ValueError("fix without a readable time" if fixed else "sentence without a fix")
     if not fixed:
-        return rank, True, second, line, 0.0, 0.0, 0.0
+        return rank, True, second, line, 0.0, 0.0, 0.0, UNSAID
     if not place:
         raise ValueError("unreadable position")
     lat, lon = (int(place[i]) + float(place[i + 1]) / 60.0 for i in (1, 4))
     lat, lon = -lat if place[3] == "S" else lat, -lon if place[6] == "W" else lon
     day = timestamp(f"20{fields[9][4:]}-{fields[9][2:4]}-{fields[9][:2]}") if rank == 2 else 0.0
-    return rank, False, second, line, lat, lon, day or 0.0
+    return rank, False, second, line, lat, lon, day or 0.0, _said(rank, modes, fields)
+
+
+def _said(rank: int, modes: str, fields: list[str]) -> Said:
+    best = (quality for mode, quality in _QUALITY.items() if mode in modes)
+    said = Said(next(best, math.nan) if rank else reading(modes.replace("9", "2")))
+    if rank == 2:
+        speed, course = reading(fields[7], KNOT), reading(fields[8], math.radians(1.0))
+        return said._replace(speed=speed, course=course)
+    if rank > 2:
+        return said
+    return said._replace(satellites=reading(fields[7]), hdop=reading(fields[8]))

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TextIO
 
-from wmrlib.tracks.fixes import LONGEST, Fixes, number, timestamp
+from wmrlib.tracks.fixes import KNOT, LONGEST, Fixes, Said, number, reading, timestamp
 
 _LAT, _LON = "(gps )?lat(itude)?", "(gps )?(lng|long?|longitude)"
 _SIDE = "(dir|direction|ref|reference|hemi|hemisphere|indicator)"
@@ -19,14 +19,24 @@ _ROLES = {  # of a column, by the words of its name; the first six once in a hea
     "time": "((gps |utc )?time|timestamp|date ?time|t)( utc)?( s| sec| seconds| ms| us)?",
     "date": "date( utc)?",
     "minutes": f"({_LAT}|{_LON}) ?(.* )?(m|mins?|minutes?|s|secs?|seconds?)",  # of a degree
-    "fix": "(is |gps )?(valid|fix)|(fix |gps )?quality",
+    "fix": "(is |gps )?(valid|fix)",
+    "quality": "(fix |gps )?quality",
     "fix mode": "(gps )?fix (mode|type)",
     "status": "(fix |gps )?status",
+    "satellites": "(num(ber of)? )?(sv|sats?|satellites)( used)?|n ?sat|num ?sv",
+    "hdop": "hdop",
+    "speed": "((ground )?speed|speed over ground|sog) (m s|mps|km h|kmh|kph|knots?|kts?|kn|mph)",
+    "course": "(course( over ground)?|cog)( deg| degrees)?",
 }
 _PER = {"e7": 1e7, "t": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e3, "us": 1e6}
+_PER |= dict.fromkeys(("h", "kmh", "kph"), 3.6) | {"mph": 1.0 / 0.44704}
+_PER |= dict.fromkeys(("knot", "knots", "kt", "kts", "kn"), 1.0 / KNOT)
 _FIX = {"yes", "true", "ok", "valid", "fix", "fixed", "float", "y", "a", "d", "p", "r", "f", "gps"}
 _FIX |= {"gnss", "sps", "dgps", "pps", "rtk", "frtk", "1", "2", "3", "4", "5", "9", ""}
-_GOOD = {"fix": _FIX, "fix mode": _FIX - {"1"}, "status": _FIX | {"0"}}  # the first word says so
+_QUALITY = {"float": 5.0, "frtk": 5.0, "rtk": 4.0, "pps": 3.0, "dgps": 2.0}  # first word to fit
+_QUALITY |= dict.fromkeys(("sps", "gps", "gnss"), 1.0)  # "fixed" may be any fix
+# The first word says so.
+_GOOD = {"fix": _FIX, "quality": _FIX, "fix mode": _FIX - {"1"}, "status": _FIX | {"0"}}
 _Columns = list[tuple[str, float]]  # the role, "" for none, and how many make one of its unit
 
 
@@ -41,7 +51,7 @@ def read(text: TextIO) -> Fixes:
             line = header + rows.line_num
             try:
                 if "".join(row).strip():
-                    fixes.add(*_position(columns, row), line)
+                    fixes.add(*_position(columns, row), line, _said(columns, row))
             except ValueError as error:
                 fixes.skip(str(error), line)
     except csv.Error as error:
@@ -112,6 +122,19 @@ def _position(columns: _Columns, row: list[str]) -> tuple[float, float, float | 
         return lat, lon, timestamp(f"{day}T{clock}" if "date" in per else clock)
     # Without its unit none is guessed; since 1970 ms are more than 1e11.
     return lat, lon, seconds / per["time"] if per["time"] * 1e11 > abs(seconds) else None
+
+
+def _said(columns: _Columns, row: list[str]) -> Said:
+    per = dict(columns)
+    cells = {role: cell.strip() for (role, _), cell in zip(columns, row, strict=False)}
+    wanted = per.keys() & {*Said._fields} - {"quality"}
+    said = {role: reading(cells[role].replace(",", "."), 1.0 / per[role]) for role in wanted}
+    text = cells.get("quality", cells.get("fix", "")).casefold()
+    number = reading(text.replace("9", "2")) if "quality" in per else math.nan
+    words = re.findall("[a-z]+", text)
+    said["quality"] = next((_QUALITY[it] for it in _QUALITY if it in words), number)
+    said["course"] = said.get("course", math.nan) * math.radians(1.0)
+    return Said(**said)
 
 
 def _degrees(cell: str, sides: str, side: str | None) -> float:

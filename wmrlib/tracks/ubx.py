@@ -1,0 +1,115 @@
+"""Positions in UBX, the binary messages of u-blox, alone or mixed with NMEA sentences."""
+
+import math
+import re
+from collections.abc import Iterator
+from io import BufferedReader
+from itertools import groupby
+from mmap import ACCESS_READ, mmap
+from typing import Any
+
+import numpy as np
+
+from wmrlib._checks import book_extra
+from wmrlib.tracks import nmea
+from wmrlib.tracks.fixes import Fixes, Said, timestamp
+
+# Where a message or a sentence may begin, and the messages that are read, by class and id, with
+# the lengths that they may have: out of any other pyubx2 reads numbers all the same.
+_START = re.compile(rb"\xb5\x62|\$[A-Za-z]{2}[^$*\r\n\xb5]{4,200}(?:\*[0-9A-Fa-f]{0,2})?")
+_PVT, _PLACE, _BASELINE, _DOP = b"\x01\x07", b"\x01\x14", b"\x01\x3c", b"\x01\x04"
+_LENGTHS = {_PVT: (84, 92), _PLACE: (36,), _BASELINE: (64,), _DOP: (18,)}
+
+
+def read(file: BufferedReader) -> tuple[str, Fixes] | None:
+    """The source and the positions: NAV-PVT's, or else the sentences'; None without a message."""
+    try:
+        data = mmap(file.fileno(), 0, access=ACCESS_READ)
+    except ValueError:  # empty
+        return None
+    with data:
+        if data.find(b"\xb5\x62") < 0:
+            return None
+        kinds = {kind for _, kind, _ in _parts(data, Fixes())}
+        if kinds <= {b""}:
+            return None
+        fixes = Fixes(place="byte")
+        if _PVT not in kinds:
+            return "NMEA", nmea.read(_sentences(data, fixes), fixes) or fixes
+        for _, epoch in groupby(_messages(data, fixes), lambda message: message[2].iTOW):
+            _use({kind: (byte, message) for byte, kind, message in epoch}, fixes)
+        return "UBX", fixes
+
+
+def _parts(data: mmap, fixes: Fixes) -> Iterator[tuple[int, bytes, bytes]]:
+    """First byte, class and id, and the whole of each sound message; b"" for a sentence's kind."""
+    at, size = 0, len(data)
+    while match := _START.search(data, at):
+        begin, end, kind = match.start(), match.end(), b""
+        if data[at:begin].strip(b" \t\r\n\0"):
+            fixes.skip("stretch of bytes that is no message", at)
+        if data[begin] != ord("$"):
+            kind, length = data[end : end + 2], data[end + 2 : end + 4]
+            end = begin + 8 + int.from_bytes(length, "little")
+            if end > size or _sums(data[begin + 2 : end - 2]) != data[end - 2 : end]:
+                fixes.skip("message that is damaged or cut off", begin)
+                at = begin + 2
+                continue
+        yield begin, kind, data[begin:end]
+        at = end
+    if data[at:].strip(b" \t\r\n\0"):
+        fixes.skip("stretch of bytes that is no message", at)
+
+
+def _sums(body: bytes) -> bytes:
+    """The checksum: the sum of the bytes, and that of the sums up to each of them."""
+    values = np.frombuffer(body, np.uint8).astype(np.int64)
+    return bytes([values.sum() & 255, values @ np.arange(values.size, 0, -1) & 255])
+
+
+def _sentences(data: mmap, fixes: Fixes) -> Iterator[tuple[int, str]]:
+    for byte, kind, part in _parts(data, fixes):
+        if not kind:
+            yield byte, part.decode("utf-8", "surrogateescape")
+        else:
+            fixes.skip("message without a position", byte)
+
+
+def _messages(data: mmap, fixes: Fixes) -> Iterator[tuple[int, bytes, Any]]:
+    """First byte, class and id, and what pyubx2 reads of the messages that are used."""
+    with book_extra("UBX"):
+        from pyubx2 import UBXReader
+    for byte, kind, part in _parts(data, fixes):
+        if kind in _LENGTHS and len(part) - 8 in _LENGTHS[kind]:
+            yield byte, kind, UBXReader.parse(part)
+        else:
+            odd = "of an unknown length" if kind in _LENGTHS else "without a position"
+            fixes.skip(f"message {odd}" if kind else "sentence beside NAV-PVT", byte)
+
+
+def _use(epoch: dict[bytes, tuple[int, Any]], fixes: Fixes) -> None:
+    """Use the position of one epoch, or count why not."""
+    for kind in epoch.keys() - {_PVT} if _PVT not in epoch else ():
+        fixes.skip("message of an epoch without NAV-PVT", epoch[kind][0])
+    if _PVT not in epoch:
+        return
+    byte, pvt = epoch[_PVT]
+    if not pvt.gnssFixOk or pvt.fixType not in (2, 3, 4) or pvt.invalidLlh:
+        return fixes.skip("NAV-PVT without a fix", byte)
+    place, baseline, dop = (epoch.get(kind, (0, None))[1] for kind in (_PLACE, _BASELINE, _DOP))
+    best = pvt if place is None or place.invalidLlh else place
+    time = None
+    if pvt.validDate and pvt.validTime:
+        clock = f"{pvt.hour:02d}:{pvt.min:02d}:{pvt.second:02d}"
+        time = timestamp(f"{pvt.year:04d}-{pvt.month:02d}-{pvt.day:02d}T{clock}")
+    aims = baseline is not None and baseline.relPosValid and baseline.relPosHeadingValid
+    said = Said(
+        quality={2: 4.0, 1: 5.0}.get(pvt.carrSoln, 2.0 if pvt.diffSoln else 1.0),
+        satellites=pvt.numSV,
+        hdop=math.nan if dop is None else dop.hDOP,
+        speed=1e-3 * pvt.gSpeed,
+        course=math.radians(pvt.headMot % 360.0),
+        heading=math.radians(baseline.relPosHeading % 360.0) if aims else math.nan,
+        accuracy=1e-3 * best.hAcc,
+    )
+    fixes.add(best.lat, best.lon, time and time + 1e-9 * pvt.nano, byte, said)
