@@ -17,7 +17,7 @@ from test_live import NAMES, commit
 
 import wmrlib as wmr
 from wmrbook import live
-from wmrbook.live import audit, noise, real_robot
+from wmrbook.live import audit, facing, noise, real_robot
 from wmrbook.strict import K2, STRICT, P, Q, answer, slope
 
 FOUND = """() => JSON.stringify(document.querySelector('.live').found,
@@ -262,6 +262,22 @@ def silence(values, found, data) -> None:
     far = real_robot.rolled(values["speed"], values["timeout"], values["brake"])
     assert found["far"] == pytest.approx(far, rel=1e-9)
     assert found["faith"] == pytest.approx(values["speed"] * values["timeout"])
+
+
+def course_cone(values, found, data) -> None:
+    far = facing.course_sigma(values["sigma"], values["distance"])
+    assert found["off"] == pytest.approx(far, rel=1e-12)
+    needed = found["needed"]
+    assert facing.course_sigma(values["sigma"], needed) == pytest.approx(math.radians(5))
+
+
+def leaning_compass(values, found, data) -> None:
+    dip, lean = math.radians(values["dip"]), math.radians(values["lean"])
+    for degrees, error in zip(found["turn"], found["errors"], strict=True):
+        off = facing.leaning_error(math.radians(degrees), dip, lean)
+        assert wmr.wrap_angle(off - math.radians(error)) == pytest.approx(0.0, abs=1e-9)
+    here = facing.leaning_error(math.radians(values["heading"]), dip, lean)
+    assert wmr.wrap_angle(found["off"] - here) == pytest.approx(0.0, abs=1e-9)
 
 
 def same_route(found, poses, radii, gains, stop) -> None:

@@ -27,6 +27,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "real_robot": ["compass", "silence"],
         "routes": ["corners", "passing"],
         "prover": ["strict"],
+        "facing": ["course_cone", "leaning_compass"],
         "other_laws": ["heading_power", "race"],
     },
 )

@@ -1,0 +1,72 @@
+"""Chapter 14: after what distance a heading is known, and what a filter believes about it."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+import numpy as np
+from matplotlib.ticker import FuncFormatter
+
+from wmrbook.figures._drawing import SERIES, check_count, figure_legend, note
+from wmrbook.figures.style import COLOURS, Picture, new_figure
+from wmrlib._checks import instance, real, same_shape
+
+
+def heading_distance(
+    distance: np.ndarray,
+    series: Mapping[str, np.ndarray],
+    seen: tuple[float, float],
+    usable: float = 5.0,
+) -> Picture:
+    """The rms heading error [deg] over the distance driven [m], on logarithmic scales.
+
+    series: from a receiver's name to its errors, one to five; seen: a distance and an error that
+    someone reported; usable: the error [deg] below which the text says a heading is usable.
+    """
+    distance = real("distance", distance, above=0.0)
+    check_count("series", instance("series", series, Mapping), 1, len(SERIES))
+    figure, axes = new_figure(7.5, 4.6)
+    words = []
+    for (name, errors), (role, style) in zip(series.items(), SERIES, strict=False):
+        same_shape(distance=distance, **{f"series[{name!r}]": errors})
+        axes.plot(distance, errors, color=COLOURS[role], ls=style, label=name)
+        good = np.flatnonzero(errors <= usable)
+        after = f"after {distance[good[0]]:.2g} m" if good.size else "nowhere"
+        words.append(f"{name}, {after}")
+    axes.axhline(usable, color=COLOURS["ink"], lw=0.9, ls=":")
+    axes.plot(*seen, "*", color=COLOURS["goal"], ms=15)
+    note(axes, "reported", seen, (9, 5))
+    axes.set(xscale="log", yscale="log", xlabel="distance driven [m]", ylabel="heading, rms [deg]")
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+    figure_legend(figure)
+    return Picture(
+        figure,
+        f"The rms error of the heading over the distance driven straight, on logarithmic scales. "
+        f"It is within {usable:g} deg: {'; '.join(words)}. "
+        f"A star marks a report of {seen[1]:g} deg at {seen[0]:g} m.",
+    )
+
+
+def beliefs(time: np.ndarray, runs: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
+    """The heading error [deg] over time [s] within twice the deviation [deg] that a filter claims.
+
+    runs: from a name to (error, deviation), one to four, a row of axes each.
+    """
+    time = real("time", time)
+    check_count("runs", instance("runs", runs, Mapping), 1, 4)
+    figure, rows = new_figure(7.5, 1.2 + 1.5 * len(runs), rows=len(runs))
+    words = []
+    for axes, (name, (error, deviation)) in zip(np.atleast_1d(rows), runs.items(), strict=True):
+        same_shape(time=time, **{f"runs[{name!r}]": error, f"{name} deviation": deviation})
+        band = {"color": COLOURS["robot"], "alpha": 0.4, "lw": 0}
+        axes.fill_between(time, -2.0 * deviation, 2.0 * deviation, **band)
+        axes.plot(time, error, color=COLOURS["path"], lw=1.4)
+        axes.set_title(name, fontsize=12, loc="left")
+        axes.set(ylabel="error [deg]")
+        ends = f"{deviation[0]:.1f} to {deviation[-1]:.1f} deg"
+        inside = np.mean(np.abs(error) <= 2.0 * deviation)
+        words.append(f"{name}: {ends}, error inside {100 * inside:.0f} % of the time")
+    np.atleast_1d(rows)[-1].set_xlabel("time [s]")
+    what = "The heading error over time in a band of twice the deviation that the filter claims"
+    return Picture(figure, f"{what}, by what it sees. {'; '.join(words)}.")
