@@ -348,3 +348,85 @@ def test_nothing_is_said_to_follow_from_what_is_refused(emptied_page):
     panel.set(east=0, north=0)
     assert emptied_page.locator(".live-trouble").inner_text()
     assert set(emptied_page.locator(".live-result").all_inner_texts()) == {"\N{EN DASH}"}
+
+
+CHOICES = [name for name in NAMES if (asks := getattr(live, name)().setup["ask"])
+           and asks["kind"] == "choose"]  # fmt: skip
+
+
+@pytest.mark.parametrize("name", CHOICES)
+def test_each_wrong_answer_is_told_what_is_wrong_and_the_picture_shows_what_was_asked(
+    emptied_page, name
+):
+    thing = getattr(live, name)()
+    ask, page = thing.setup["ask"], emptied_page
+    assert len(ask["wrong"]) == len(ask["options"])
+    assert [not said for said in ask["wrong"]] == [
+        k == ask["key"] for k in range(len(ask["wrong"]))
+    ]
+    panel = mounted(page, thing, width=900)
+    shown = {}
+    for place in ask["asked"]:
+        for knob, value in place.items():
+            thing[knob] = value  # or it is refused
+            shown[knob] = value
+    verdict = page.locator(".live-verdict")
+    for k, wrong in enumerate(ask["wrong"]):
+        page.get_by_role("radio").nth(k).check()
+        page.get_by_role("button", name="Commit").click()
+        panel.settled()
+        assert {knob: panel.get(knob) for knob in shown} == shown
+        told = "As you said." if k == ask["key"] else f"Not so. {wrong}"
+        assert verdict.inner_text() == f"{told} {ask['why']}"
+        page.get_by_role("button", name="Try again").click()
+        panel.settled()
+        assert verdict.inner_text() == ""
+        given = {knob["name"]: knob["value"] for knob in thing.setup["knobs"]}
+        assert {knob: panel.get(knob) for knob in given} == given
+        assert page.locator(".live-sentence").is_hidden()
+    page.get_by_role("button", name="Just show me").click()
+    panel.settled()
+    assert verdict.inner_text() == ask["why"]
+    assert page.get_by_role("button", name="Copy as a line").is_hidden()
+
+
+WATCHED = """() => { window.seen = []; panel.on('change:state', () =>
+    window.seen.push([panel.get('state').stop, performance.now()])); }"""
+
+
+def test_the_picture_moves_from_what_was_given_to_what_was_asked_unless_a_hand_stops_it(
+    emptied_page,
+):
+    thing = live.stopping()
+    panel, page = mounted(emptied_page, thing, width=900), emptied_page
+    page.emulate_media(reduced_motion="no-preference")
+    page.evaluate(WATCHED)
+    commit(panel, thing.setup["ask"])
+    passed = [stop for stop, _ in page.evaluate("window.seen")]
+    assert passed[0] == 0.05
+    assert passed[-1] == 0.01
+    assert passed == sorted(passed, reverse=True)
+    assert len({*passed}) > 4
+    page.get_by_role("button", name="Try again").click()
+    panel.settled()
+    page.get_by_role("radio").first.check()
+    page.get_by_role("button", name="Commit").click()
+    page.wait_for_function("panel.get('state').stop < 0.05")
+    panel.slider("stop").press("ArrowRight")
+    stopped = panel.settled().get("stop")
+    page.wait_for_timeout(1500)
+    assert panel.get("stop") == stopped > 0.01
+
+
+def test_a_sketch_is_judged_by_its_distance_from_the_way(emptied_page):
+    panel = mounted(emptied_page, live.wheel_limit(), width=900)
+    commit(panel, panel.page.evaluate("panel.get('setup').ask"))
+    said = emptied_page.locator(".live-verdict").inner_text()
+    far = float(re.search(r"Your path is ([\d.]+) m from the robot's, on average", said)[1])
+    x, y = emptied_page.evaluate(
+        "(({ x, y }) => [[...x], [...y]])(document.querySelector('.live').found.run)"
+    )
+    guess = panel.get("guess")
+    ours = [min(((a - px) ** 2 + (b - py) ** 2) ** 0.5 for a, b in zip(x, y, strict=True))
+            for px, py in guess]  # fmt: skip
+    assert far == pytest.approx(sum(ours) / len(ours), rel=0.05)

@@ -57,6 +57,12 @@ def course_cone() -> Live:
             "are a twelfth of the distance.",
             key=nearest(needed, options.values()),
             options=(*options,),
+            wrong=(
+                "After 5 m the heading is still uncertain by 40 degrees.",
+                "After 15 m the heading is still uncertain by 16 degrees.",
+                "",
+                "After 150 m the heading is known to less than 2 degrees.",
+            ),
         ),
     )
 
@@ -83,5 +89,11 @@ def leaning_compass() -> Live:
             "twentieth of it into the compass's plane.",
             key=nearest(worst, options.values()),
             options=(*options,),
+            wrong=(
+                "Only in a level field does a lean not matter.",
+                "The lean tips the steep part of the field, and that is the larger one.",
+                "",
+                "That takes a lean of about 8 degrees.",
+            ),
         ),
     )

@@ -171,7 +171,8 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         if (!stops && share === 0) at[name] = from[name];
       }
       set(at, true);
-      gliding = share < 1 ? requestAnimationFrame(go) : window.setTimeout(() => glide(rest, done), PAUSE);
+      gliding = share < 1 ? requestAnimationFrame(go)
+          : window.setTimeout(() => glide(rest, done), PAUSE);
     };
     go(begin);
   }
