@@ -47,14 +47,29 @@ def two_normals(run, sample, seed, stream=0):
     return np.sqrt(-2.0 * np.log(size)) * np.exp(2j * np.pi * turn)
 
 
+def comes(run, fix, seed, stream, often):
+    """The direction of what comes so often, or 0."""
+    normal = two_normals(run, fix, seed, stream)
+    return normal / abs(normal) if math.exp(-(abs(normal) ** 2) / 2) < 1 - math.exp(-often) else 0
+
+
 def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
     """The poses and twists at each sample, and whether it believes to have arrived."""
-    truth, twists, errors, fixes = [START], [], {}, {}
+    truth, twists, errors, fixes, over, jump = [START], [], {}, {}, 0, 0.0
+    constant = receiver.bias * two_normals(run, 0, seed, 2)
+    turned = receiver.compass * two_normals(run, 0, seed, 3).real
     late, heading_late = (round(age / DT) for age in receiver[3:5])
     every = max(round(receiver.period / DT), 1)
     for k in range(round(SHORT["duration"] / DT) + 1):
-        fix = max(k - k % every - late, 0)
+        fix, last = max(k - k % every - late, 0), max(fixes, default=-1)
+        if fix > last >= 0 and receiver.dropout:
+            begins = comes(run, fix, seed, 4, every * DT / receiver.dropout)
+            if fix >= over and begins:
+                over = fix + max(round(receiver.outage / DT), 1)
+            fix = last if fix < over else fix
         if fix not in fixes:
+            if fixes and receiver.jump_every:
+                jump = comes(run, fix, seed, 5, (fix - last) * DT / receiver.jump_every) or jump
             error = two_normals(run, fix, seed)
             if errors and receiver.memory:
                 last = max(errors)
@@ -62,7 +77,10 @@ def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
                 error = keep * errors[last] + math.sqrt(1.0 - keep**2) * error
             errors[fix] = error
             fixes[fix] = complex(truth[fix].x, truth[fix].y) + receiver.sigma * error
-        seen = wmr.Pose(fixes[fix].real, fixes[fix].imag, truth[max(k - heading_late, 0)].heading)
+            fixes[fix] += constant + receiver.jump * jump
+        seen = wmr.Pose(
+            fixes[fix].real, fixes[fix].imag, truth[max(k - heading_late, 0)].heading + turned
+        )
         polar = wmr.polar_error(seen, GOAL)
         turn = receiver.sight * two_normals(run, k, seed, 1).real
         angles = (wmr.wrap_angle(angle + turn) for angle in polar[1:])
@@ -78,12 +96,17 @@ def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
 times = st.sampled_from([0.0, 0.1, 0.3, 1.0])
 receivers = st.builds(
     wmr.Receiver, st.sampled_from([0.0, 0.2, 0.5]), st.sampled_from([0.0, 0.4, 30.0]), times, times,
-    times, st.sampled_from([0.0, 0.1]),
+    times, st.sampled_from([0.0, 0.1]), st.sampled_from([0.0, 0.5]), st.sampled_from([0.0, 2.0]),
+    st.sampled_from([0.0, 1.0, 3.0]), st.sampled_from([0.0, 1.0]), st.sampled_from([0.0, 3.0]),
+    st.sampled_from([0.0, 0.2]),
 )  # fmt: skip
 
 
 @settings(max_examples=25, deadline=None)
 @example(wmr.Receiver(0.5, 3.0, 1.0, 0.3, 0.1), 2**64 - 1, 1, "euler", LIMITS)
+@example(wmr.Receiver(bias=0.5, compass=3.0), 9, 1, "arc", None)
+@example(wmr.Receiver(dropout=2.0, outage=1.5), 4, 1, "arc", None)
+@example(wmr.Receiver(0.2, 5.0, 0.3, 0.3, jump=1.0, jump_every=2.0), 4, 1, "arc", None)
 @example(wmr.Receiver(0.5, -0.0), 0, 0, "arc", None)
 @example(wmr.Receiver(period=1.0), 0, 0, "arc", None)
 @example(wmr.Receiver(heading_delay=0.3), 0, 0, "arc", None)
@@ -148,6 +171,50 @@ def test_the_error_keeps_its_size_and_forgets_as_fast_as_it_should(memory):
     assert abs((found[0] * found[1]).mean()) < 5.0 / math.sqrt(4000.0 * 40.0 / (1.0 + 2.0 * memory))
     assert abs((found[:, 1:] * found[:, :-1]).mean()) < 5.0 / math.sqrt(8000.0)
     assert (np.abs(found) < 3.0).mean() == pytest.approx(math.erf(3.0 / math.sqrt(2.0)), abs=2e-3)
+
+
+def test_bias_and_compass_are_drawn_once_a_run():
+    found = errors(wmr.Receiver(bias=0.5), 4000, 30)
+    assert np.abs(np.diff(found, axis=2)).max() < 1e-6
+    scaled, few = found[:, :, 0] / 0.5, 5.0 / math.sqrt(4000.0)
+    assert np.abs(scaled.mean(axis=1)).max() < few
+    assert np.abs((scaled**2).mean(axis=1) - 1.0).max() < math.sqrt(2.0) * few
+    assert abs((scaled[0] * scaled[1]).mean()) < few
+    turned = np.arctan(errors(wmr.Receiver(compass=0.2), 4000, 3) / 1e6) / 0.2
+    assert np.abs(turned - turned[:1, :, :1]).max() < 1e-9
+    assert abs(turned[0, :, 0].mean()) < few
+    assert abs((turned[0, :, 0] ** 2).mean() - 1.0) < math.sqrt(2.0) * few
+    both = errors(wmr.Receiver(bias=0.5, sigma=0.5), 4000, 3)[:, :, 0]
+    assert abs((both[0] - 0.5 * scaled[0]) @ scaled[0] / 4000.0) < few  # other numbers than sigma's
+    assert abs(turned[0, :, 0] @ scaled[0] / 4000.0) < few
+
+
+@pytest.mark.parametrize("every", [3.0, 20.0])
+def test_jumps_come_at_random_times_and_point_anywhere(every):
+    found = errors(wmr.Receiver(jump=2.0, jump_every=every), 4000, 30)
+    size, few = np.hypot(*found), 5.0 / math.sqrt(4000.0)
+    assert np.abs(np.where(size > 1.0, size - 2.0, size)).max() < 1e-5
+    for at in (0, 1, 4, 29):
+        assert abs((size[:, at] < 1.0).mean() - math.exp(-at / every)) < 0.5 * few
+    east, north = found / 2.0
+    assert max(abs(east[:, -1].mean()), abs(north[:, -1].mean())) < few
+    for lag in (1, 5):
+        alike = (east[:, 20] * east[:, 20 + lag] + north[:, 20] * north[:, 20 + lag]).mean()
+        jumped = 1.0 - math.exp(-20.0 / every)
+        assert abs(alike - jumped * math.exp(-lag / every)) < few
+
+
+@pytest.mark.parametrize(("dropout", "outage"), [(4.0, 0.0), (4.0, 3.0), (20.0, 7.0)])
+def test_outages_hold_the_last_fix_as_often_and_as_long_as_they_should(dropout, outage):
+    found = errors(wmr.Receiver(0.5, dropout=dropout, outage=outage), 1000, 300)
+    held = np.abs(np.diff(found[0], axis=1)) < 1e-9
+    chance, lost = 1.0 - math.exp(-1.0 / dropout), max(outage, 1.0)
+    share = lost / (lost + (1.0 - chance) / chance)  # of a renewal process, once it has settled
+    assert abs(held[:, 99:].mean() - share) < 0.01
+    assert abs(held[:, 0].mean() - chance) < 5.0 * math.sqrt(chance / 1000.0)
+    ends = np.flatnonzero(np.diff(held.astype(int).ravel()))
+    assert np.diff(ends).min() <= lost
+    assert (held == (np.abs(np.diff(found[1], axis=1)) < 1e-9)).all()
 
 
 @pytest.mark.parametrize("field", ["period", "delay", "heading_delay"])

@@ -7,9 +7,14 @@ from typing import NamedTuple
 from wmrlib._checks import Real, checked
 
 
-@checked(at_least_0=("sigma", "memory", "period", "delay", "heading_delay", "sight"))
+@checked(
+    at_least_0=(
+        *("sigma", "memory", "period", "delay", "heading_delay", "sight", "bias"),
+        *("dropout", "outage", "jump", "jump_every", "compass"),
+    )
+)
 class Receiver(NamedTuple):
-    """A receiver that errs, shows its fixes one at a time, and late; or many of them.
+    """A receiver with its compass: it errs, shows fixes one at a time, and late; or many of them.
 
     The error is a Gauss-Markov process on each axis, in its stationary state from the first fix on:
     tau seconds later it keeps the share c = exp(-tau/memory), and sqrt(1 - c^2) sigma is new.
@@ -21,9 +26,17 @@ class Receiver(NamedTuple):
     memory : float or array, s. Correlation time of the error; with 0 that of each fix is new.
     period : float or array, s. A fix is shown for so long, until the next; 0: for one sample.
     delay : float or array, s. Age of a fix when it is first shown.
-    heading_delay : float or array, s. Age of the heading, which is exact.
+    heading_delay : float or array, s. Age of the heading.
     sight : float or array, rad. Standard deviation of white noise on the line of sight, so on alpha
         and theta alike: what is shown is turned round the goal, anew in each sample.
+    bias : float or array, m. Standard deviation, to the east and to the north, of a constant error
+        that is drawn when the receiver is switched on, once a run.
+    dropout, outage : float or array, s. Mean time from the end of one outage to the next, 0 for
+        none, and how long each lasts. Meanwhile the last fix is held.
+    jump, jump_every : float or array, m and s. Size of an offset that is 0 at first and, after
+        random times of this mean (0: never), has another direction; it lasts until the next jump.
+    compass : float or array, rad. Standard deviation of a constant error of the heading, once a
+        run.
 
     Raises
     ------
@@ -36,3 +49,9 @@ class Receiver(NamedTuple):
     delay: Real = 0.0
     heading_delay: Real = 0.0
     sight: Real = 0.0
+    bias: Real = 0.0
+    dropout: Real = 0.0
+    outage: Real = 0.0
+    jump: Real = 0.0
+    jump_every: Real = 0.0
+    compass: Real = 0.0
