@@ -94,6 +94,7 @@ PARK = wmr.Pose(9.0, 57.0, 1.0)
 SPREAD = np.random.default_rng(4).normal(0.0, 0.2, (2, 300))
 ENDS = wmr.Pose(9.0 + SPREAD[0], 57.0 + SPREAD[1], 1.0 + np.linspace(-3.1, 3.1, 300))
 MEMORY = np.array([0.0, 3.0, 1e9])  # s
+MANY = np.array([0.0, 3.0, 30.0, 300.0])  # s
 FOUND = {  # distance, m, and heading error, deg
     "10 Hz": (np.array([0.2, 0.5, 1.4]), np.array([80.0, 91.0, 12.0])),
     "1 Hz": (np.array([0.3, 0.6, 1.5]), np.array([70.0, 40.0, 20.0])),
@@ -160,6 +161,7 @@ CASES = {
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
     "scatter": lambda: figures.scatter(stationary_scatter(wmr.read_track(TRACK))),
     "memories": lambda: figures.memories(MEMORY, FOUND),
+    "designs": lambda: figures.designs(MANY, {"one": MANY / 100.0}, {"one": 60.0 - MANY / 10.0}),
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
     ),
@@ -260,6 +262,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "from white to constant: 10 Hz, from 0.2 m and about 80 deg to 1.4 m and 10 deg, "
         "the heading worst, about 90 deg, at 3 s; 1 Hz, "
     ],
+    "designs": lambda: ["with 4 receivers: one, 0.0 to 3.0 m and 30.0 to 60.0 deg."],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
@@ -636,6 +639,8 @@ BAD = [
     ("cases has 0 entries", "inner_loops", ({},)),
     ("series has 0 entries, .* 1 to 4 are needed", "memories", (MEMORY, {})),
     ("mismatched lengths", "memories", (MEMORY, {"one": (np.ones(3), np.ones(2))})),
+    ("heading has 2 entries, .* 1 are needed", "designs", (MANY, {"a": MANY}, FOUND)),
+    ("memory's values has 5 entries", "designs", (np.arange(5.0), {"a": MANY}, {"a": MANY})),
     ("counts has 0 entries", "verdicts", ({},)),
     ("a Route is needed, not a Pose", "route", (WAY,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),

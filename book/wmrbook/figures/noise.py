@@ -96,3 +96,47 @@ def _fives(value: float) -> int:
 def _compass(east: float, north: float) -> str:
     along, across = ("west" if east < 0 else "east"), ("south" if north < 0 else "north")
     return f"{abs(east):.1f} m {along} and {abs(north):.1f} m {across}"
+
+
+def designs(
+    memory: np.ndarray, place: Mapping[str, np.ndarray], heading: Mapping[str, np.ndarray]
+) -> Picture:
+    """Distance [m] and heading error [deg] of some designs, a dot for each receiver.
+
+    memory: the receivers' memories [s], of which up to four differ. place, heading: from the
+    design's name to an array as long as `memory`.
+    """
+    memory = real("memory", memory)
+    check_count("place", instance("place", place, Mapping), 1, 9)
+    check_count("heading", instance("heading", heading, Mapping), len(place), len(place))
+    kinds = np.unique(memory)
+    check_count("memory's values", kinds, 1, 4)
+    figure, axes = new_figure(8.6, 1.6 + 0.42 * len(place), mosaic=[["place", "heading"]])
+    texts = []
+    for row, name in enumerate(place):
+        left = place[name], instance("heading", heading.get(name), np.ndarray)
+        same_shape(memory=memory, **{f"place[{name!r}]": left[0], f"heading[{name!r}]": left[1]})
+        for panel, values in zip(axes.values(), left, strict=True):
+            for k, (kind, role) in enumerate(zip(kinds, _ROLES, strict=False)):
+                at = -row + 0.16 * (1.5 - k)
+                some = values[memory == kind]
+                looks = {"marker": "os^D"[k], "ms": 5, "ls": "", "color": COLOURS[role]}
+                first = panel is axes["place"] and not row
+                label = f"memory {_named(kind)}" if kind else "white noise"
+                looks["label"] = label if first else None
+                panel.plot(some, np.full(some.size, at), alpha=0.8, **looks)
+        span = (f"{values.min():.1f} to {values.max():.1f}" for values in left)
+        texts.append(f"{name}, {next(span)} m and {next(span)} deg")
+    for panel in axes.values():
+        panel.set_yticks(-np.arange(len(place)))
+        panel.tick_params(labelleft=False)
+    for row, name in enumerate(place):
+        across = axes["place"].get_yaxis_transform()
+        axes["place"].text(-0.03, -row, name, transform=across, ha="right", va="center")
+    axes["place"].set(xlabel="distance, rms [m]", xlim=(0.0, None))
+    axes["heading"].set(xlabel="heading error, rms [deg]", xlim=(-3.0, None))
+    figure_legend(figure)
+    return Picture(figure, f"What is left with {memory.size} receivers: {'; '.join(texts)}.")
+
+
+_ROLES = "path", "y_error", "omega", "ink"

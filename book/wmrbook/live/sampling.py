@@ -140,9 +140,10 @@ def parking() -> Live:
                 "what the robot does about it",
             ),
             "radius": Knob(radius, 0.02, 0.3, 0.01, "the arrival radius", "m", label="radius"),
-            "time": Knob(1.0, 0.0, 1.0, 0.01, "how far through the last metre", label="on its way",
-                         plays=5.0),
-        },  # fmt: skip
+            "time": Knob(
+                1.0, 0.0, 1.0, 0.01, "how far through the last metre", label="on its way", plays=5.0
+            ),
+        },
         data=between(
             *case[:2],
             gains=GENTLE_GAINS._asdict(),

@@ -28,8 +28,8 @@ export default live('parking', {
       stalls: -Math.log1p(-dead / data.gains.v_max) / data.gains.k_rho };
   },
   panes: (values, { distance }, { data: { goal } }) => ({
-    near: { x: [goal[0] - 0.75, goal[0] + 0.75, 'x [m]'],
-        y: [goal[1] - 0.75, goal[1] + 0.75, 'y [m]'], equal: true,
+    near: { x: [goal[0] - 0.55, goal[0] + 0.35, 'x [m]'],
+        y: [goal[1] - 0.4, goal[1] + 0.5, 'y [m]'], equal: true,
         given: 'The goal from near.',
         alt: `The last metre: the robot stands ${written(distance, 'm')} from the goal.` },
     speed: { x: [0, 2.1, 'distance to go', toGo], y: [-0.1, 0.9, 'speed [m/s]'],
@@ -56,6 +56,9 @@ export default live('parking', {
         { width: 1.5, dash: [5, 4] });
     speed.line([[-Math.log10(radius), -0.1], [-Math.log10(radius), 0.9]], 'goal',
         { width: 1.5, dash: [4, 4] });
+    if (stalls > 0) speed.text('(8.9)', -Math.log10(stalls), 0.8, { role: 'start', dx: 6 });
+    speed.text('radius', -Math.log10(radius), 0.7, { role: 'goal', dx: 6 });
+    speed.text('wheels stand', 0.05, 0.05, { role: 'rising' });
     speed.line(points, 'path');
     speed.dot(...points[points.length - 1], 'path');
   },
