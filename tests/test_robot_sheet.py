@@ -18,7 +18,7 @@ WRONG = {
     "track_width = 0 is not allowed: a number from 0.05 to 5 m is needed": {"track_width": 0.0},
     "goal_lat = 133 is not allowed: a number from -90 to 90 degrees is needed: "
     "are latitude and longitude swapped?": {"goal_lat": 133.0},
-    "the points are 1564 km apart: at most 1 km is allowed; "
+    "the points are 1561 km apart: at most 1 km is allowed; "
     "are latitude and longitude of one of them swapped?": {
         "goal_lat": 44.373264,
         "goal_lon": 33.274087,
