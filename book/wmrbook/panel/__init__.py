@@ -6,3 +6,4 @@ with book_extra("wmrbook.panel"):
     import anywidget  # noqa: F401
 
 from wmrbook.panel.explorer import Explorer  # noqa: F401
+from wmrbook.panel.my_robot import MyRobot  # noqa: F401

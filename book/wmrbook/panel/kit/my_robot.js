@@ -1,0 +1,187 @@
+// My robot: two points and a data sheet go in; the numbers that it is told, where it will park, and
+// the files for it come out.
+
+import { DEGREES, followTheme, readColours, written } from './style.js';
+import { certified, filesOf, parkedRun, sheetOf } from './sheet.js';
+import { download } from './share.js';
+import { keepKeys } from './controls.js';
+import { made } from './hands.js';
+import { measure } from './surface.js';
+import { paneOf } from './board.js';
+import { widget } from './widget.js';
+
+const AT_ONCE = 30; // ms that the page may be busy
+const OWN = 'my own';
+
+// Rows of names and values.
+function table(parent, title) {
+  const box = made(parent, 'section');
+  made(box, 'h3', { textContent: title });
+  const list = made(box, 'dl');
+  return (rows) => {
+    list.textContent = '';
+    for (const [name, value] of rows) {
+      made(list, 'dt', { textContent: name });
+      made(list, 'dd', { textContent: value });
+    }
+  };
+}
+
+const told = (robot, { gains, turn, ...sheet }) => [
+  ['distance', written(sheet.distance, 'm')],
+  ['arrival radius', written(sheet.radius, 'm')],
+  ['k_rho', written(gains.k_rho, '1/m')],
+  ['k_alpha', written(gains.k_alpha, '1/s')],
+  ['h', written(gains.h)],
+  ['v_max', written(gains.v_max, 'm/s')],
+  ['kappa, 2 < kappa < 1 + h', written(gains.k_alpha / (gains.k_rho * gains.v_max))],
+  ['longest step', `${written(sheet.longest_step, 's')} (yours: ${written(robot.period, 's')})`],
+  ['least speed', written(sheet.min_speed, 'm/s')],
+  ['last turn, within', written(turn.tolerance * DEGREES, '°')],
+  ['last turn, rates', `${written(turn.min_rate)} to ${written(turn.max_rate, 'rad/s')}`],
+];
+
+const bounded = (value, unit) => (value === Infinity ? 'no bound' : written(value, unit));
+
+const expected = (found, runs) => [
+  ['parked', `${found.parked} of ${runs}`],
+  ['place, rms', bounded(found.place_rms, 'm')],
+  ['place, 95 % of drives', bounded(found.place_bound, 'm')],
+  ['heading, rms', bounded(found.heading_rms * DEGREES, '°')],
+  ['heading, 95 % of drives', bounded(found.heading_bound * DEGREES, '°')],
+  ['time, median', bounded(found.time, 's')],
+];
+
+function render({ model, el }) {
+  const root = made(el, 'div', { className: 'wmr my-robot' }),
+      { groups, receivers, rules, files: templates } = model.get('setup');
+  root.dataset.lmSuppressShortcuts = 'true';
+  keepKeys(root);
+  const form = made(root, 'div', { className: 'my-fields' }), inputs = {};
+  const trouble = made(root, 'p', { className: 'live-trouble' }, { role: 'alert' });
+  const results = made(root, 'div', { className: 'my-results' }),
+      showTold = table(results, 'What it is told'),
+      showExpected = table(results, 'Where it will park'),
+      canvas = made(results, 'canvas', {}, { role: 'img' });
+  const sentence = made(root, 'p', {}, { role: 'status' }),
+      bar = made(root, 'div', { className: 'wmr-bar' });
+  let colours = readColours(root), turn = 0, ends = [], sheet = null, waiting = 0;
+
+  const robot = () => model.get('state');
+  function change(values) {
+    model.set('state', { ...robot(), ...values });
+    model.save_changes();
+  }
+  let kinds = null;
+  for (const [title, fields] of groups) {
+    const group = made(form, 'fieldset');
+    made(group, 'legend', { textContent: title });
+    if (fields.some(([name]) => name === 'sigma')) {
+      const row = made(group, 'label', { className: 'my-row' });
+      made(row, 'span', { textContent: 'kind of fix' });
+      const menu = kinds = made(row, 'select');
+      for (const name of [...receivers.map(([each]) => each), OWN])
+        made(menu, 'option', { textContent: name, value: name });
+      menu.onchange = () => change(Object.fromEntries(receivers)[menu.value] || {});
+    }
+    for (const [name, label] of fields) {
+      const row = made(group, 'label', { className: 'my-row' });
+      made(row, 'span', { textContent: label });
+      inputs[name] = made(row, 'input', { type: 'number', step: 'any', className: 'wmr-typed',
+        onchange: ({ target }) => change({ [name]: target.valueAsNumber }) }, { name });
+      made(row, 'span', { textContent: rules.bounds[name][2].replace('degrees', '°') });
+    }
+  }
+  for (const name of Object.keys(templates))
+    made(bar, 'button', { type: 'button', textContent: `Save ${name}`,
+      onclick: () => download(name, new Blob([filesOf(robot(), sheet, templates)[name]])) });
+
+  function draw() {
+    const far = ends.reduce((most, { place }) => Math.max(most, place < Infinity ? place : 0),
+        sheet.radius), half = 1.15 * far;
+    const pane = paneOf(canvas, colours, { equal: true, alt: '',
+      x: [-half, half, 'east of the goal [m]'], y: [-half, half, 'north [m]'] });
+    const ring = Array.from({ length: 65 }, (_, k) => k * Math.PI / 32);
+    for (const { at } of ends) if (at) {
+      const [x, y, heading] = at, long = far / 12;
+      pane.arrow(x, y, x + long * Math.cos(heading), y + long * Math.sin(heading), 'path',
+          { width: 1 });
+    }
+    pane.line(ring.map((a) => [sheet.radius * Math.cos(a), sheet.radius * Math.sin(a)]), 'goal',
+        { width: 1.5, dash: [4, 4] });
+    pane.pose([0, 0, sheet.heading], 'goal');
+    pane.name();
+  }
+
+  // The runs, a few at a time, until something changes.
+  function go(mine) {
+    if (mine !== turn) return;
+    const until = performance.now() + AT_ONCE;
+    while (ends.length < rules.runs && performance.now() < until)
+      ends.push(parkedRun(robot(), sheet, rules, ends.length));
+    const done = ends.length === rules.runs;
+    if (!done) {
+      sentence.textContent = `Driving: ${ends.length} of ${rules.runs} …`;
+      waiting = setTimeout(go, 0, mine);
+      return;
+    }
+    const found = certified(ends, rules);
+    showExpected(expected(found, rules.runs));
+    sentence.textContent = found.place_bound === Infinity
+      ? `${rules.runs - found.parked} of ${rules.runs} drives did not end in time: nothing is ` +
+        'certain of the others. Try a shorter delay, slower or stronger wheels.'
+      : `With 95 % confidence, 95 of 100 drives end within ${written(found.place_bound, 'm')} of ` +
+        `the goal, and as many within ${written(found.heading_bound * DEGREES, '°')} of its ` +
+        'heading, if robot and receiver are as you say.';
+    canvas.setAttribute('aria-label', `The robot about its goal after ${found.parked} drives: ` +
+      `${written(found.place_rms, 'm')} off, root mean square.`);
+    Object.assign(root, { found: { sheet, ends, ...found,
+      files: filesOf(robot(), sheet, templates) } });
+    root.dataset.done = 'true';
+    draw();
+  }
+
+  function compute() {
+    const now = robot();
+    turn += 1;
+    clearTimeout(waiting);
+    root.dataset.done = 'false';
+    for (const [name, input] of Object.entries(inputs))
+      if (document.activeElement !== input || input.valueAsNumber !== now[name])
+        input.value = Number.isFinite(now[name]) ? String(now[name]) : '';
+    kinds.value = receivers.find(([, each]) =>
+      Object.entries(each).every(([name, value]) => now[name] === value))?.[0] || OWN;
+    let said = '';
+    try { sheet = sheetOf(now, rules); } catch (error) {
+      if (!(error instanceof RangeError)) throw error;
+      said = error.message;
+    }
+    trouble.textContent = said;
+    for (const [name, input] of Object.entries(inputs))
+      input.setAttribute('aria-invalid', String(said.startsWith(`${name} `)));
+    results.hidden = sentence.hidden = bar.hidden = said !== '';
+    if (said) { root.dataset.done = 'true'; return; }
+    showTold(told(now, sheet));
+    ends = [];
+    go(turn);
+  }
+
+  const repaint = () => {
+    measure(canvas);
+    colours = readColours(root);
+    if (root.dataset.done === 'true' && !results.hidden) draw();
+  };
+  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
+  resized.observe(root);
+  model.on('change:state', compute);
+  compute();
+  return () => {
+    turn += 1;
+    clearTimeout(waiting);
+    unfollow();
+    resized.disconnect();
+    model.off('change:state', compute);
+  };
+}
+
+export default widget('my_robot', render);

@@ -1,0 +1,163 @@
+// A robot's sheet: what it is told, and where it parks, run by run. The rules and their numbers are
+// those of wmrbook/robot_sheet.py, which come with the panel as `rules`.
+
+import { DEGREES } from './style.js';
+import { arcStep, wrap } from './model.js';
+import { ARRIVED, notAllowed } from './setup.js';
+import { drive } from './simulate.js';
+import { normals } from './random.js';
+
+const digits = (value, count = 6) => String(Number(value.toPrecision(count)));
+
+// East and north of the start, m, as wmrlib's local_position.
+/** @param {Point} start @param {Point} goal @param {number} earth */
+function placeOf([lat, lon], [lat2, lon2], earth) {
+  const [from, to, up, across] =
+      [lat, lat2, lat2 - lat, lon2 - lon].map((degrees) => degrees / DEGREES);
+  const side = Math.sin(across / 2) ** 2,
+      e = Math.sin(up / 2) ** 2 + Math.cos(from) * Math.cos(to) * side;
+  const east = Math.cos(to) * Math.sin(across),
+      north = Math.sin(up) + 2 * Math.sin(from) * Math.cos(to) * side;
+  const share = 2 * earth * Math.atan2(Math.sqrt(e), Math.sqrt(1 - e))
+      / (Math.hypot(east, north) || 1);
+  return [share * east, share * north];
+}
+
+/** @param {Values} robot @param {Values} rules */
+function checkedPlace(robot, { far, earth }) {
+  const start = [robot.start_lat, robot.start_lon], goal = [robot.goal_lat, robot.goal_lon];
+  const place = placeOf(start, goal, earth), apart = Math.hypot(...place);
+  if (apart <= far) return place;
+  const swapped = placeOf(start, [Math.min(goal[1], 90), goal[0]], earth);
+  throw new RangeError(`the points are ${(apart / 1000).toFixed(0)} km apart: at most ${far / 1000}`
+    + ' km is allowed' + (Math.hypot(...swapped) <= far
+      ? '; are latitude and longitude of one of them swapped?' : ''));
+}
+
+/**
+ * What the robot is told, as `sheet` of robot_sheet.py; throws RangeError, which names what is
+ * wrong. @param {Values} robot @param {Values} rules
+ */
+export function sheetOf(robot, rules) {
+  for (const [name, [low, high, unit]] of Object.entries(rules.bounds))
+    if (!(robot[name] >= low && robot[name] <= high)) {
+      const { message } = notAllowed(name, digits(robot[name]),
+          `a number from ${low} to ${high} ${unit}`);
+      throw new RangeError(message
+        + (name.endsWith('_lat') ? ': are latitude and longitude swapped?' : ''));
+    }
+  const [x, y] = checkedPlace(robot, rules), { kappa, h } = rules.shape,
+      { max_speed: speed, dead_band: dead, acceleration, track_width: width, delay } = robot;
+  const late = delay + robot.period, distance = Math.hypot(x, y);
+  if (dead > speed / 2)
+    throw notAllowed('dead_band', digits(dead), `at most half of max_speed, ${digits(speed / 2)},`);
+  const keep = robot.memory ? Math.exp(-2 * rules.fresh / robot.memory) : 0,
+      minSpeed = rules.moves * dead, vMax = rules.spare * speed;
+  const radius = Math.max(rules.nearest, robot.sigma * Math.sqrt(1 - keep),
+      minSpeed * (late + robot.fix_period));
+  if (distance < 4 * radius)
+    throw new RangeError(`the points are ${digits(distance, 3)} m apart: at least `
+      + `${digits(4 * radius, 3)} m, four times the arrival radius, is needed`);
+  const braking = 2 * acceleration / width, // rad/s^2
+      step = rules.step / Math.max(5 * robot.period, 2 * late, delay + robot.fix_period),
+      agile = Math.sqrt(braking / Math.PI) / kappa;
+  const rate = Math.min(rules.brake * vMax / radius, acceleration / vMax, step, agile);
+  const minRate = Math.max(0.1, 2 * rules.moves * dead / width),
+      maxRate = Math.max(minRate, Math.min(1, speed / width)),
+      tolerance = Math.max(0.02, minRate * late + minRate ** 2 / (2 * braking));
+  if (tolerance > rules.coarse) {
+    const { message } = notAllowed('dead_band', digits(dead),
+        `a last turn within ${(rules.coarse * DEGREES).toFixed(0)} deg`);
+    throw new RangeError(`${message}; with this width, acceleration and delay it is `
+      + `${(tolerance * DEGREES).toFixed(0)} deg`);
+  }
+  const k = rate / vMax, near = (rho) => Math.log1p(-Math.exp(-k * rho)),
+      travel = (k * (distance - radius) + near(distance) - near(radius)) / rate;
+  return { x, y, heading: wrap((90 - robot.bearing) / DEGREES), distance, radius,
+      gains: { k_rho: k, k_alpha: kappa * rate, h, v_max: vMax },
+      longest_step: rules.step / rate, min_speed: minSpeed,
+      turn: { tolerance, gain: Math.min(2, 0.5 / late, braking / maxRate), min_rate: minRate,
+        max_rate: maxRate, leave: rules.leave },
+      duration: Math.ceil(60 + 2 * travel) };
+}
+
+function inSamples(seconds, dt) { // of two whole numbers as near, the even one, as numpy's rint
+  const most = Math.round(seconds / dt);
+  return most - seconds / dt === 0.5 && most % 2 ? most - 1 : most;
+}
+
+// What a receiver shows of a pose in sample k, as wmrlib's: wrong, held and late.
+function sightOf({ sigma, memory, fix_period, delay, period: dt }, run, seed) {
+  const period = Math.max(inSamples(fix_period, dt), 1), late = inSamples(delay, dt), past = [];
+  let fix = -1, error = [0, 0];
+  return (k, pose) => {
+    past.push(pose);
+    const now = Math.max(Math.floor(k / period) * period - late, 0);
+    if (sigma && now > fix) {
+      const age = fix < 0 ? Infinity : (now - fix) * dt / memory, keep = Math.exp(-age),
+          share = Math.sqrt(-Math.expm1(-2 * age)), fresh = normals(run, now, seed);
+      error = error.map((old, i) => keep * old + share * fresh[i]);
+      fix = now;
+    }
+    const [x, y] = past[now];
+    return [x + sigma * error[0], y + sigma * error[1], past[Math.max(k - late, 0)][2]];
+  };
+}
+
+// One run to the goal: where it ends, seen from there, m and rad; infinitely far if not in time.
+export function parkedRun(robot, told, rules, run) {
+  const { track_width: b, max_speed, acceleration, dead_band, period: dt } = robot;
+  const first = Math.atan2(told.y, told.x) + Math.PI * ((run * rules.golden) % 1 - 0.5);
+  let end = [0, 0, 0], time = 0;
+  const [, outcome] = drive({ law: 'corrected', step: arcStep, moving: false, gains: told.gains, dt,
+    samples: Math.floor(told.duration / dt + 1e-9) + 1, start: [0, 0, wrap(first)],
+    goal: [told.x, told.y, told.heading], arrivalRadius: told.radius, end: told.turn,
+    limits: { b, max_speed, min_speed: told.min_speed }, motors: [b, acceleration, 0, dead_band, 0],
+    sight: sightOf(robot, run, rules.seed) }, (k, t, pose) => { [end, time] = [pose, t]; });
+  if (outcome !== ARRIVED) return { place: Infinity, heading: Infinity, time: Infinity };
+  const [compass] = normals(run, 0, rules.seed, rules.compass);
+  const turned = wrap(end[2] - told.heading + robot.compass / DEGREES * compass);
+  return { at: [end[0] - told.x, end[1] - told.y, told.heading + turned], time,
+      place: Math.hypot(end[0] - told.x, end[1] - told.y), heading: Math.abs(turned) };
+}
+
+// Which of the runs' sorted values is the bound, as `sure` of robot_sheet.py.
+export function sure(runs, share) {
+  let chance = share ** runs, total = chance, beyond = 0;
+  while (total <= 1 - share) {
+    chance *= (runs - beyond) / (beyond + 1) * (1 - share) / share;
+    beyond += 1;
+    total += chance;
+  }
+  return runs - beyond + 1;
+}
+
+// What the runs amount to, as `certificate`.
+export function certified(ends, { share }) {
+  const parked = ends.filter(({ time }) => Number.isFinite(time)), least = sure(ends.length, share);
+  const sorted = (name) => Float64Array.from(ends, (end) => end[name]).sort(),
+      times = sorted('time'), half = ends.length / 2;
+  const rms = (name) => (parked.length
+    ? Math.sqrt(parked.reduce((sum, end) => sum + end[name] ** 2, 0) / parked.length) : Infinity);
+  const bound = (name) => (least <= ends.length ? sorted(name)[least - 1] : Infinity);
+  return { parked: parked.length, place_rms: rms('place'), heading_rms: rms('heading'),
+      place_bound: bound('place'), heading_bound: bound('heading'),
+      time: (times[Math.ceil(half) - 1] + times[Math.floor(half)]) / 2 };
+}
+
+// The files for the robot, by name, out of their templates.
+export function filesOf(robot, told, templates) {
+  const number = (value) => {
+    const text = Number(value.toPrecision(6)).toFixed(10).replace(/0+$/, '');
+    return text.endsWith('.') ? `${text}0` : text;
+  };
+  const words = {};
+  for (const [name, value] of Object.entries({ ...robot, ...told, ...told.gains, ...told.turn }))
+    if (typeof value === 'number') words[name] = number(value);
+  for (const name of ['start_lat', 'start_lon', 'goal_lat', 'goal_lon']) {
+    words[`${name}_e7`] = String(Math.floor(1e7 * robot[name] + 0.5));
+    words[name] = robot[name].toFixed(7);
+  }
+  return Object.fromEntries(Object.entries(templates).map(([name, text]) =>
+    [name, text.replace(/@([a-z0-9_]+)@/g, (_, word) => words[word])]));
+}

@@ -1,0 +1,20 @@
+// my_robot_arduino.h: one robot's numbers, for an Arduino sketch.
+// Metres, seconds, radians; x is east, headings are counter-clockwise from east.
+#pragma once
+#include <stdint.h>
+
+// Degrees * 1e7, as UBX sends them: a float loses half a metre.
+const int32_t START_LAT_E7 = @start_lat_e7@, START_LON_E7 = @start_lon_e7@;
+const int32_t GOAL_LAT_E7 = @goal_lat_e7@, GOAL_LON_E7 = @goal_lon_e7@;
+const float GOAL_HEADING = @heading@f;
+
+const float K_RHO = @k_rho@f, K_ALPHA = @k_alpha@f, H = @h@f, V_MAX = @v_max@f;
+const float PERIOD = @period@f;    // of the loop: longest step @longest_step@ s
+const float RADIUS_IN = @radius@f; // within it, turn on the spot
+
+const float TRACK_WIDTH = @track_width@f;
+const float MAX_SPEED = @max_speed@f;
+const float MIN_SPEED = @min_speed@f; // over the dead band
+
+const float TURN_GAIN = @gain@f, TURN_MIN = @min_rate@f, TURN_MAX = @max_rate@f;
+const float TURN_TOLERANCE = @tolerance@f;

@@ -1,0 +1,250 @@
+"""A robot's sheet: what two points and a data sheet say about its gains, and where it will park.
+
+`kit/my_robot.js` says the same in a page, run by run; tests/browser/test_my_robot.py compares them.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+from typing import NamedTuple
+
+import numpy as np
+
+import wmrlib as wmr
+from wmrlib._checks import scalar
+from wmrlib.engine.receivers import normals
+
+SHAPE = {"kappa": 2.5, "h": 2.0}  # of the path: inside the window 2 < kappa < 1 + h
+SPARE = 0.8  # share of the wheels' speed that the law may ask for: the rest is for turns
+BRAKE = 0.3  # k_rho times the radius at most: it is slow before it stops
+NEW = 5.0  # s: what is new of the receiver's error after that long sets the radius
+NEAREST = 0.05  # m: no radius is smaller
+MOVES = 1.25  # times the dead band a wheel surely turns
+COARSE = 0.35  # rad: a last turn that is coarser is none
+FAR = 1000.0  # m
+FILES = Path(__file__).with_name("robot_files")
+RUNS, SEED, SHARE = 400, 14, 0.95
+GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # spreads the first headings evenly
+COMPASS = 2  # the stream of random numbers that compasses err by
+
+
+class Robot(NamedTuple):
+    """Two points, a robot and its receiver; by default a small one with RTK on the paper's way.
+
+    Parameters
+    ----------
+    start_lat, start_lon, goal_lat, goal_lon, bearing : float, degrees; where it faces at the goal,
+        clockwise from north
+    track_width, max_speed, acceleration, dead_band : float, m, m/s, m/s^2, m/s; of the wheels
+    period, delay : float, s; of the control loop, and how old the pose is that it sees
+    sigma, memory, fix_period, compass : float, m, s, s, degrees; of the receiver's error to the
+        east and to the north, and of the compass, which errs by one angle in a drive
+    """
+
+    start_lat: float = 33.273572
+    start_lon: float = 44.373160
+    goal_lat: float = 33.274087
+    goal_lon: float = 44.373264
+    bearing: float = 150.0
+    track_width: float = 0.4
+    max_speed: float = 1.0
+    acceleration: float = 1.0
+    dead_band: float = 0.05
+    period: float = 0.05
+    delay: float = 0.1
+    sigma: float = 0.014
+    memory: float = 10.0
+    fix_period: float = 0.2
+    compass: float = 3.0
+
+
+BOUNDS = {
+    **dict.fromkeys(("start_lat", "goal_lat"), (-90.0, 90.0, "degrees")),
+    **dict.fromkeys(("start_lon", "goal_lon"), (-180.0, 180.0, "degrees")),
+    "bearing": (0.0, 360.0, "degrees"),
+    "track_width": (0.05, 5.0, "m"),
+    "max_speed": (0.05, 10.0, "m/s"),
+    "acceleration": (0.05, 20.0, "m/s²"),
+    "dead_band": (0.0, 5.0, "m/s"),
+    "period": (0.01, 0.5, "s"),
+    "delay": (0.0, 2.0, "s"),
+    "sigma": (0.0, 10.0, "m"),
+    "memory": (0.0, 10000.0, "s"),
+    "fix_period": (0.01, 5.0, "s"),
+    "compass": (0.0, 45.0, "degrees"),
+}
+# Sigma and memory to begin with, until a log at rest gives those of one's own receiver.
+RECEIVERS = {
+    "GPS alone": {"sigma": 1.5, "memory": 300.0},
+    "SBAS": {"sigma": 0.7, "memory": 300.0},
+    "RTK float": {"sigma": 0.2, "memory": 60.0},
+    "RTK fixed": {"sigma": 0.014, "memory": 10.0},
+}
+
+
+class Sheet(NamedTuple):
+    """What the robot is told; m, s, rad, and x is east of the start. `duration` ends a drive."""
+
+    x: float
+    y: float
+    heading: float
+    distance: float
+    gains: wmr.Gains
+    radius: float
+    longest_step: float
+    min_speed: float
+    turn: wmr.LastTurn
+    duration: float
+
+
+class Certificate(NamedTuple):
+    """Where the runs end: m, rad, s; the bounds hold for 95 % of drives, with 95 % confidence."""
+
+    parked: int
+    place_rms: float
+    heading_rms: float
+    place_bound: float
+    heading_bound: float
+    time: float  # median
+    place: np.ndarray  # of each run
+    heading: np.ndarray
+
+
+def refused(name: str, value: float, needed: str, more: str = "") -> ValueError:
+    return ValueError(f"{name} = {value:g} is not allowed: {needed} is needed{more}")
+
+
+def place_of(robot: Robot) -> tuple[float, float]:
+    """Where the goal is, east and north of the start, m; both not too far apart."""
+    start = wmr.GeoPoint(lat=robot.start_lat, lon=robot.start_lon)
+    goal = wmr.GeoPoint(lat=robot.goal_lat, lon=robot.goal_lon)
+    if (apart := wmr.haversine_distance(start, goal)) <= FAR:
+        return wmr.local_position(start, goal)
+    said = f"the points are {apart / 1000:.0f} km apart: at most {FAR / 1000:g} km is allowed"
+    swapped = wmr.GeoPoint(lat=min(goal.lon, 90.0), lon=goal.lat)
+    if wmr.haversine_distance(start, swapped) <= FAR:
+        said += "; are latitude and longitude of one of them swapped?"
+    raise ValueError(said)
+
+
+def sheet(robot: Robot) -> Sheet:
+    """Return what the robot is told, by the rules above.
+
+    Raises
+    ------
+    ValueError : a field out of its bounds, or fields that don't go together; it is named
+    """
+    for name, (low, high, unit) in BOUNDS.items():
+        value = scalar(name, getattr(robot, name))
+        if not low <= value <= high:
+            swapped = ": are latitude and longitude swapped?" if name.endswith("_lat") else ""
+            raise refused(name, value, f"a number from {low:g} to {high:g} {unit}", swapped)
+    x, y = place_of(robot)
+    speed, dead, late = robot.max_speed, robot.dead_band, robot.delay + robot.period
+    if dead > speed / 2:
+        raise refused("dead_band", dead, f"at most half of max_speed, {speed / 2:g},")
+    keep = math.exp(-2 * NEW / robot.memory) if robot.memory else 0.0
+    min_speed, v_max = MOVES * dead, SPARE * speed
+    radius = max(NEAREST, robot.sigma * math.sqrt(1 - keep), min_speed * (late + robot.fix_period))
+    if (apart := math.hypot(x, y)) < 4 * radius:
+        raise ValueError(
+            f"the points are {apart:.3g} m apart: at least {4 * radius:.3g} m, four times the "
+            "arrival radius, is needed"
+        )
+    braking = 2 * robot.acceleration / robot.track_width  # rad/s^2
+    step = wmr.longest_step(wmr.gains_for(1.0, **SHAPE))
+    step /= max(5 * robot.period, 2 * late, robot.delay + robot.fix_period)
+    agile = math.sqrt(braking / math.pi) / SHAPE["kappa"]  # it can slow a turn from behind
+    rate = min(BRAKE * v_max / radius, robot.acceleration / v_max, step, agile)
+    gains = wmr.gains_for(rate, **SHAPE, v_max=v_max)
+    min_rate = max(0.1, 2 * MOVES * dead / robot.track_width)
+    max_rate = max(min_rate, min(1.0, speed / robot.track_width))
+    tolerance = max(0.02, min_rate * late + min_rate**2 / (2 * braking))
+    if tolerance > COARSE:
+        coarse = f"a last turn within {math.degrees(COARSE):.0f} deg"
+        more = f"; with this width, acceleration and delay it is {math.degrees(tolerance):.0f} deg"
+        raise refused("dead_band", dead, coarse, more)
+    k, far = gains.k_rho, math.log1p(-math.exp(-gains.k_rho * apart))
+    travel = (k * (apart - radius) + far - math.log1p(-math.exp(-k * radius))) / rate
+    turn = wmr.LastTurn(tolerance, min(2.0, 0.5 / late, braking / max_rate), min_rate, max_rate)
+    heading, longest = wmr.wrap_angle(math.radians(90.0 - robot.bearing)), wmr.longest_step(gains)
+    duration = math.ceil(60.0 + 2.0 * travel)
+    return Sheet(x, y, heading, apart, gains, radius, longest, min_speed, turn, duration)
+
+
+def sure(runs: int) -> int:
+    """Which of the runs' sorted values is the bound: with 95 % confidence few drives are beyond."""
+    chance = total = SHARE**runs
+    beyond = 0
+    while total <= 1 - SHARE:
+        chance *= (runs - beyond) / (beyond + 1) * (1 - SHARE) / SHARE
+        beyond, total = beyond + 1, total + chance
+    return runs - beyond + 1
+
+
+def certificate(robot: Robot, runs: int = RUNS, seed: int = SEED) -> Certificate:
+    """Drive the robot of the sheet `runs` times, each with errors and a first heading of its own.
+
+    It first faces the goal, up to a quarter of a turn to either side: from behind, a robot whose
+    pose is late and whose wheels are slow may swing to and fro for ever. A drive that does not end
+    in time counts as infinitely far off.
+    """
+    told = sheet(robot)
+    first = math.atan2(told.y, told.x) + math.pi * (np.arange(runs) * GOLDEN % 1.0 - 0.5)
+    wheels = wmr.Wheels(robot.track_width, robot.max_speed, told.min_speed, robot.acceleration)
+    sigma, late = np.full(runs, robot.sigma), robot.delay
+    end = wmr.sweep(
+        wmr.Pose(0.0, 0.0, first),
+        wmr.Pose(told.x, told.y, told.heading),
+        told.gains,
+        method="arc",
+        dt=robot.period,
+        duration=told.duration,
+        arrival_radius=told.radius,
+        wheels=wheels._replace(dead_band=robot.dead_band),
+        last_turn=told.turn,
+        receiver=wmr.Receiver(sigma, robot.memory, robot.fix_period, late, late),
+        seed=seed,
+        progress=False,
+    )
+    key = seed % 2**32, seed // 2**32
+    compass = np.array([normals(run, 0, COMPASS, key)[0] for run in range(runs)])
+    turned = wmr.wrap_angle(end.heading_error + math.radians(robot.compass) * compass)
+    place, heading = (np.where(end.arrived, each, np.inf) for each in (end.distance, abs(turned)))
+    least = sure(runs)
+    place_rms, heading_rms = (_rms(each[end.arrived]) for each in (place, heading))
+    bounds = (np.sort(each)[least - 1] if least <= runs else np.inf for each in (place, heading))
+    time = np.median(np.where(end.arrived, end.time, np.inf))
+    parked = int(end.arrived.sum())
+    return Certificate(parked, place_rms, heading_rms, *map(float, (*bounds, time)), place, heading)
+
+
+def _rms(values: np.ndarray) -> float:
+    return math.sqrt(np.mean(values**2)) if values.size else math.inf
+
+
+def number(value: float) -> str:
+    """Six digits, and a point: C and YAML take 2 for a whole number."""
+    text = f"{float(f'{value:.6g}'):.10f}".rstrip("0")
+    return text + "0" if text.endswith(".") else text
+
+
+def templates() -> dict[str, str]:
+    """The texts of the files, by name, in which @name@ stands for a number."""
+    return {path.name: path.read_text(encoding="utf-8") for path in sorted(FILES.iterdir())}
+
+
+def files(robot: Robot) -> dict[str, str]:
+    """The files for the robot, by name: for C, for Arduino, and parameters for ROS 2."""
+    told = sheet(robot)
+    numbers = robot._asdict() | told._asdict() | told.gains._asdict() | told.turn._asdict()
+    words = {name: number(value) for name, value in numbers.items() if np.isscalar(value)}
+    for name in ("start_lat", "start_lon", "goal_lat", "goal_lon"):
+        words[f"{name}_e7"] = f"{math.floor(1e7 * numbers[name] + 0.5)}"
+        words[name] = f"{numbers[name]:.7f}"
+    return {
+        name: re.sub("@([a-z0-9_]+)@", lambda match: words[match[1]], text)
+        for name, text in templates().items()
+    }

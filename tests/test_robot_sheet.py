@@ -1,0 +1,164 @@
+"""A robot's sheet: rules that hold for many robots, refusals that name what is wrong, and files."""
+
+import math
+import re
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+import yaml
+
+import wmrlib as wmr
+from wmrbook import robot_sheet
+from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, files, sheet
+from wmrlib import symbolic
+
+WRONG = {
+    "track_width = 0 is not allowed: a number from 0.05 to 5 m is needed": {"track_width": 0.0},
+    "goal_lat = 133 is not allowed: a number from -90 to 90 degrees is needed: "
+    "are latitude and longitude swapped?": {"goal_lat": 133.0},
+    "the points are 1561 km apart: at most 1 km is allowed; "
+    "are latitude and longitude of one of them swapped?": {
+        "goal_lat": 44.373264,
+        "goal_lon": 33.274087,
+    },
+    "the points are 111 km apart: at most 1 km is allowed": {"goal_lat": 34.273572},
+    "dead_band = 0.6 is not allowed: at most half of max_speed, 0.5, is needed": {"dead_band": 0.6},
+    "dead_band = 0.3 is not allowed: a last turn within 20 deg is needed; "
+    "with this width, acceleration and delay it is 36 deg": {"dead_band": 0.3},
+    "the points are 0 m apart: at least 0.2 m, four times the arrival radius, is needed": {
+        "goal_lat": Robot().start_lat,
+        "goal_lon": Robot().start_lon,
+    },
+    "sigma = nan is not allowed: a finite number is needed": {"sigma": math.nan},
+}
+
+
+@pytest.mark.parametrize("said", WRONG)
+def test_a_refusal_names_what_is_wrong(said):
+    with pytest.raises(ValueError, match=re.escape(said)) as refusal:
+        sheet(Robot(**WRONG[said]))
+    assert str(refusal.value) == said
+
+
+def robots(count, seed=3):
+    """Robots of many kinds whose sheet there is."""
+    rng = np.random.default_rng(seed)
+    while count:
+        speed = 10 ** rng.uniform(-0.7, 0.5)
+        robot = Robot(
+            track_width=rng.uniform(0.15, 1.2),
+            max_speed=speed,
+            acceleration=10 ** rng.uniform(-0.7, 0.7),
+            dead_band=speed * rng.choice([0.0, 0.05, 0.1]),
+            period=rng.choice([0.02, 0.05, 0.1]),
+            delay=rng.choice([0.0, 0.1, 0.3]),
+            fix_period=rng.choice([0.1, 0.2, 1.0]),
+            **rng.choice([*RECEIVERS.values()]),
+        )
+        try:
+            sheet(robot)
+        except ValueError:
+            continue
+        count -= 1
+        yield robot
+
+
+def test_a_sheets_numbers_fit_the_robot():
+    for robot in robots(200):
+        told = sheet(robot)
+        gains = told.gains
+        assert 2 < wmr.modes(gains).kappa < 1 + gains.h
+        assert told.longest_step == wmr.longest_step(gains)
+        assert 5 * robot.period <= told.longest_step * (1 + 1e-9)
+        assert 2 * (robot.period + robot.delay) <= told.longest_step * (1 + 1e-9)
+        least = told.turn.min_rate * robot.track_width / 2  # m/s, of each wheel in the last turn
+        assert min(told.min_speed, least) >= 1.2 * robot.dead_band
+        fastest = gains.v_max**2 * gains.k_rho / 4  # m/s^2, braking on a straight line
+        assert fastest <= robot.acceleration
+        assert told.turn.max_rate * robot.track_width / 2 <= robot.max_speed
+        assert told.turn.min_rate * robot.period <= 2 * told.turn.tolerance
+
+
+def test_all_but_the_latest_robots_park_and_the_bounds_are_above_what_they_bound():
+    for robot in robots(30):
+        found = certificate(robot, runs=200)
+        assert found.parked == 200, robot
+        for values, rms, bound in (
+            (found.place, found.place_rms, found.place_bound),
+            (found.heading, found.heading_rms, found.heading_bound),
+        ):
+            assert rms == pytest.approx(math.sqrt(np.mean(values**2)))
+            assert np.mean(values < bound) >= 0.95
+            assert bound > np.quantile(values, 0.95)
+
+
+def test_place_follows_the_receiver_and_heading_the_compass():
+    found = {name: certificate(Robot(**numbers)) for name, numbers in RECEIVERS.items()}
+    for name, numbers in RECEIVERS.items():
+        radius = sheet(Robot(**numbers)).radius
+        expected = math.hypot(math.sqrt(2) * numbers["sigma"], radius)
+        assert 0.5 * expected < found[name].place_rms < 1.2 * expected
+    still, shaky = (certificate(Robot(compass=degrees)) for degrees in (0.0, 10.0))
+    assert still.heading_rms < sheet(Robot()).turn.tolerance
+    assert shaky.heading_rms == pytest.approx(math.radians(10.0), rel=0.15)
+    assert shaky.place_rms == still.place_rms
+
+
+def test_a_bound_holds_with_the_confidence_that_is_claimed():
+    for runs in (100, 400, 1000):
+        sure = robot_sheet.sure(runs)
+        below = [math.comb(runs, k) * 0.95**k * 0.05 ** (runs - k) for k in range(sure)]
+        assert sum(below) >= 0.95 > sum(below[:-1])
+    assert robot_sheet.sure(20) > 20  # too few to be sure of anything
+
+
+def test_a_drive_that_does_not_end_spoils_the_bound(monkeypatch):
+    monkeypatch.setattr(robot_sheet, "sheet", lambda robot: sheet(robot)._replace(duration=20.0))
+    found = certificate(Robot(), runs=100)
+    assert found.parked == 0
+    assert found.place_bound == found.heading_bound == found.place_rms == math.inf
+
+
+def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
+    robot = Robot(track_width=2.0, dead_band=0.0)
+    told = sheet(robot)
+    read = yaml.safe_load(files(robot)["my_robot.yaml"])["/**"]["ros__parameters"]
+    assert read["gains"] == pytest.approx(told.gains._asdict())
+    assert read["goal"] == [robot.goal_lat, robot.goal_lon]
+    assert (read["track_width"], read["min_speed"]) == (2.0, 0.0)
+    flat = [*read["gains"].values(), *read["last_turn"].values(), read["track_width"]]
+    assert {type(value) for value in flat} == {float}
+    assert read["arrival_radius"] == told.radius
+
+
+@pytest.mark.needs("compiler")
+def test_c_and_arduino_compile_and_steer_as_wmrlib_does(tmp_path):
+    robot = Robot()
+    for name, text in files(robot).items():
+        (tmp_path / name).write_text(text, encoding="utf-8")
+    (tmp_path / "main.c").write_text(
+        """#include <stdio.h>
+#include "my_robot.h"
+#include "my_robot_arduino.h"
+int main(void) {
+  wmr_pose pose = {0, 0, 0}, goal = {0, 0, MY_GOAL_HEADING};
+  const wmr_gains gains = MY_GAINS;
+  wmr_local_position_e7(MY_START_E7, MY_GOAL_E7, &goal.x, &goal.y);
+  const wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), gains);
+  printf("%.9f %.9f %.9f %.9f\\n", twist.v, twist.omega, wmr_turn_rate(0.01, MY_TURN),
+         (double)(K_RHO + GOAL_LAT_E7));
+}
+""",
+        encoding="utf-8",
+    )
+    flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{symbolic.C_HEADER.parent}"]
+    cc = shutil.which("cc") or shutil.which("gcc")
+    subprocess.run([cc, *flags, "main.c", "-o", "main", "-lm"], cwd=tmp_path, check=True)
+    done = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True)
+    told = sheet(robot)
+    error = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(told.x, told.y, told.heading))
+    v, omega, rate, _ = map(float, done.stdout.split())
+    assert (v, omega) == pytest.approx(wmr.control_law(*error, told.gains), rel=1e-4)
+    assert rate == told.turn.min_rate
