@@ -61,7 +61,7 @@ napoleon_custom_sections = [("Attributes", "params_style")]
 add_module_names = toc_object_entries = False
 
 # MathJax 3 as one file; mathjax.js holds its settings, so MyST must not write any.
-mathjax_path = "vendor/mathjax/tex-svg-full.js"
+mathjax_path = "vendor/mathjax/tex-svg.js"
 mathjax_config_path = "mathjax.js"
 myst_update_mathjax = False
 

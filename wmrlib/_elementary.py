@@ -154,6 +154,21 @@ def _(value, limit, other):
     return np.where(np.abs(value) < limit, value, other)
 
 
+@between.register(np.ndarray)
+def _(value, low, high):
+    return np.where(value < low, low, np.where(value > high, high, value))
+
+
+@signed.register(np.ndarray)
+def _(size, like):
+    return np.copysign(size, like)
+
+
+@stepped.register(np.ndarray)
+def _(x, step):
+    return step * np.floor(x / step + 0.5) if step > 0.0 else x
+
+
 @wrap.register(np.ndarray)
 def _(angle):
     turned = np.fmod(angle, TURN)

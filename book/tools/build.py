@@ -33,7 +33,7 @@ MODULES = BOOK / "node_modules"
 VENDOR = BOOK / "_static" / "vendor"
 # What the pages carry, by folder. MathJax draws in SVG: one file with every extension in it, and no
 # font files, which some browsers refuse to load from file://.
-NPM_FILES = {"mathjax": ("mathjax/es5/tex-svg-full.js", "mathjax/LICENSE")}
+NPM_FILES = {"mathjax": ("mathjax/es5/tex-svg.js", "mathjax/LICENSE")}
 ZIP = "robot-book.zip"
 START = Path(__file__).with_name("start.html")  # the zip's first page
 LONG = 12  # lines of code; a page folds a cell that has more

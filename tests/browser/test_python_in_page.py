@@ -261,7 +261,7 @@ def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_
 
 def page_of(cells: list[dict], static: str) -> str:
     """A page that holds these cells and nothing else."""
-    names = ("vendor/mathjax/tex-svg-full.js", "python_cells.js")
+    names = ("vendor/mathjax/tex-svg.js", "python_cells.js")
     head = f"<script>{(ROOT / 'book' / 'mathjax.js').read_text(encoding='utf-8')}</script>"
     head += "".join(f'<script src="{static}/{name}"></script>' for name in names)
     holder = '<div class="cell"><div class="cell_input"><pre></pre></div>{}</div>'

@@ -1,0 +1,84 @@
+"""What a log tells of a robot, against simulated robots that are known."""
+
+import math
+
+import numpy as np
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+from wmrbook.commissioning import dead_band, latency, wheel_response
+from wmrlib.body import roll
+
+DT, STEP = 0.05, 0.002  # s, m
+
+
+def driven(told, wheels):
+    """How fast the left wheel went in each period, with its encoder's steps."""
+    went, body = [], (0.0,) * 4
+    for each in told:
+        v, omega, body = roll(each, 0.0, body, wheels, DT)
+        went.append(v - 0.5 * wheels.track_width * omega)
+    return np.array(went)
+
+
+def test_a_slow_ramp_finds_the_dead_band():
+    up = np.linspace(0.0, 0.4, 400)
+    told = np.concatenate([up, up[::-1], -up, -up[::-1]])
+    for dead in (0.03, 0.08, 0.2):
+        wheels = wmr.Wheels(0.5, dead_band=dead, encoder_step=STEP)
+        found = dead_band(told, driven(told, wheels), STEP / DT)
+        assert found.stood == pytest.approx(dead, abs=0.045)
+        assert found.turned == pytest.approx(dead, abs=0.01)
+    with pytest.raises(ValueError, match="a ramp on which the wheel stands, and turns,"):
+        dead_band(told, np.zeros(told.size), STEP / DT)
+
+
+@settings(max_examples=10, deadline=None)
+@given(st.floats(0.03, 0.4), st.sampled_from([0.5, 1.0, 3.0]), st.integers(0, 99))
+def test_steps_find_lag_and_acceleration(lag, acceleration, seed):
+    assume(lag * acceleration > 0.05)  # or the lag is not to be seen
+    told = np.repeat([0.0, 0.1, 0.0, 0.3, 0.0, 1.0, -1.0, 0.2, 0.0, 2.0, 0.0], 40)
+    wheels = wmr.Wheels(0.5, acceleration=acceleration, lag=lag)
+    went = driven(told, wheels) + 0.005 * np.random.default_rng(seed).standard_normal(told.size)
+    found = wheel_response(told, went, DT)
+    assert found.lag == pytest.approx(lag, rel=0.12, abs=0.01)
+    assert found.acceleration == pytest.approx(acceleration, rel=0.12)
+    assert found.misses == pytest.approx(0.005, rel=0.5)
+    ideal = wheel_response(told, told, DT)
+    assert (ideal.lag, ideal.acceleration) == (0.0, math.inf)
+
+
+def log_of(age, sigma, seed, stops=True, memory=100.0):
+    """A drive straight on: the wheels' metres, and fixes at 5 Hz that come late and wander."""
+    t = np.arange(0.0, 60.0, DT)
+    speed = np.where((t % 20.0 < 12.0) | (not stops), 1.0, 0.0) * np.minimum(t, 1.0)
+    way = np.concatenate([[0.0], np.cumsum(speed[:-1]) * DT])
+    t_fix, random = np.arange(0.0, 60.0, 0.2), np.random.default_rng(seed)
+    keep, error = math.exp(-0.2 / memory), [0.0]
+    for fresh in random.standard_normal(t_fix.size - 1):
+        error.append(keep * error[-1] + math.sqrt(1.0 - keep**2) * 0.2 * fresh)
+    noise = sigma * random.standard_normal(t_fix.size)
+    return t, way, t_fix, np.interp(t_fix - age, t, way) + noise + np.array(error)
+
+
+@settings(max_examples=25, deadline=None)
+@given(st.floats(0.05, 1.5), st.integers(0, 10**6))
+def test_stops_find_how_late_fixes_are(age, seed):
+    found = latency(*log_of(age, 0.02, seed), 0.02)
+    assert found.age == pytest.approx(age, abs=0.2)
+    assert found.scale == pytest.approx(1.0, abs=0.05)
+    still = latency(*log_of(age, 0.02, seed, memory=1e9), 0.02)
+    assert found.low <= found.age <= found.high
+    assert still.age == pytest.approx(age, abs=0.05)
+
+
+def test_a_steady_drive_does_not_tell_the_latency():
+    t, way, t_fix, far = log_of(0.5, 0.05, 1, stops=False)
+    with pytest.raises(ValueError, match="a drive that stops and starts again"):
+        latency(t + 10.0, way, t_fix + 10.0, far, 5.0)
+    with pytest.raises(ValueError, match="a drive of 1 m at least"):
+        latency(t, way, t_fix, np.zeros(t_fix.size), 0.1)
+    with pytest.raises(ValueError, match="mismatched lengths: t has shape"):
+        latency(t, way[1:], t_fix, far, 0.1)
