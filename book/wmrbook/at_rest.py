@@ -86,7 +86,7 @@ def fit_receiver(error, dt: float) -> Fit:
     n, c = error.size, np.exp(-1.0 / _MEMORIES)
     ends, inner = error[0] + error[-1], error[1:-1].sum()
     bias = (ends + (1.0 - c) * inner) / (2.0 + (n - 2) * (1.0 - c))
-    # Sums over e = error - bias, for all c at once: of e^2 but the ends, of the ends, of neighbours.
+    # Sums over e = error - bias, for all c at once: of e^2 inside, at the ends, and of neighbours.
     middle = error.mean()
     e, off = error - middle, bias - middle
     square = np.sum(e[1:-1] ** 2) - 2.0 * off * e[1:-1].sum() + (n - 2) * off**2
