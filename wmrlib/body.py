@@ -14,6 +14,7 @@ from wmrlib._elementary import between, expm1, signed, sincos, stepped, within, 
 from wmrlib.motion import wheel_speeds
 
 _TINY = 1e-30  # a divisor in the place of 0, where 0/0 stands for 0
+_NO_LAG = 1e-15  # s, in its place: a rest that rounds to below 0 does not overflow by it
 _AT_REST = 1e-3  # m/s: a slower wheel stands
 _FASTEST = 1e9  # times a speed, which may be 0
 
@@ -154,7 +155,7 @@ def follow(speed, told, easing, lag, dt):
     ramp = between(abs(gap) * easing - lag, 0.0, dt)  # s
     begun = speed + gap * (ramp / (abs(gap) * easing + _TINY))
     rest = dt - ramp
-    closer = -expm1(-rest / (lag + _TINY)) * (told - begun)
+    closer = -expm1(-rest / (lag + _NO_LAG)) * (told - begun)
     rolled = 0.5 * (speed + begun) * ramp + told * rest - lag * closer
     return rolled / dt, begun + closer
 

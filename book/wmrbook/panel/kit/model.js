@@ -206,7 +206,7 @@ export function roll(v, omega, left, right, left_rest, right_rest, b, accelerati
     -part10) && (!part4 || dt < -part8)) ? ( dt ) : ( -lag + part12*part7 )));
   const part14 = dt - part13;
   const part15 = part11*part13/(part12*part7 + 1e-30);
-  const part16 = 1/(lag + 1e-30);
+  const part16 = 1/(lag + 1e-15);
   const part17 = -v;
   const part18 = part15 + right;
   const part19 = (-part17 - part18 + part2 - part5)*Math.expm1(-part14*part16);
