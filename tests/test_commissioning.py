@@ -28,11 +28,11 @@ def test_a_slow_ramp_finds_the_dead_band():
     told = np.concatenate([up, up[::-1], -up, -up[::-1]])
     for dead in (0.03, 0.08, 0.2):
         wheels = wmr.Wheels(0.5, dead_band=dead, encoder_step=STEP)
-        found = dead_band(told, driven(told, wheels), STEP / DT)
+        found = dead_band(told, driven(told, wheels), 0.5 * STEP / DT)
         assert found.stood == pytest.approx(dead, abs=0.045)
         assert found.turned == pytest.approx(dead, abs=0.01)
     with pytest.raises(ValueError, match="a ramp on which the wheel stands, and turns,"):
-        dead_band(told, np.zeros(told.size), STEP / DT)
+        dead_band(told, np.zeros(told.size), 0.5 * STEP / DT)
 
 
 @settings(max_examples=10, deadline=None)

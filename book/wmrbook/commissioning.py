@@ -53,19 +53,19 @@ def dead_band(told, went, quantum: float) -> DeadBand:
     Parameters
     ----------
     told, went : arrays, m/s, what the wheel was told and what its encoder counted, by periods
-    quantum : float, m/s, one encoder step a period: what is less is not seen
+    quantum : float, m/s, half an encoder step a period: what is less is not seen
 
     Raises
     ------
     ValueError : a wheel that never stood, or never turned
     """
     told, went = _alike(told=told, went=went)
-    still = np.abs(went) < scalar("quantum", quantum, above=0.0)
+    turns = np.abs(went) >= scalar("quantum", quantum, above=0.0)
     # The encoder says nothing for some periods even of a wheel that turns slowly.
-    still = np.array([still[max(k - 3, 0) : k + 4].all() for k in range(still.size)])
-    if not still.any() or still.all():
+    stands = np.array([not turns[max(k - 3, 0) : k + 4].any() for k in range(turns.size)])
+    if not (stands.any() and turns.any()):
         raise refusal("went", went, "a ramp on which the wheel stands, and turns,")
-    return DeadBand(float(np.abs(told[still]).max()), float(np.abs(told[~still]).min()))
+    return DeadBand(float(np.abs(told[stands]).max()), float(np.abs(told[turns]).min()))
 
 
 def wheel_response(told, went, dt: float, dead: float = 0.0) -> Response:
