@@ -19,7 +19,7 @@ _AGES = np.arange(0.0, 3.0, 0.01)  # s
 class DeadBand(NamedTuple):
     """Of what a wheel was told, in m/s: the most with which it stood, the least with which it went.
 
-    `stood` above `turned` says that it sticks: it goes on with less than it needs to begin.
+    `stood` above `turned` says that it lags, or sticks: it goes on with less than it needs to begin.
     """
 
     stood: float
