@@ -96,6 +96,8 @@ def test_eleven_minutes_bound_a_memory_of_minutes_from_below_only():
     track = wmr.read_track(LOG)
     middle = wmr.GeoPoint(lat=track.points.lat.mean(), lon=track.points.lon.mean())
     for error in wmr.local_position(middle, track.points):
-        fit = at_rest.fit_receiver(error, 1.0)
-        assert fit.shortest > 100.0
-        assert fit.longest == math.inf
+        every, tenth = (at_rest.fit_receiver(error[::k], float(k)) for k in (1, 10))
+        assert every.longest == tenth.longest == math.inf
+        assert tenth.memory < every.shortest or tenth.shortest < 0.5 * every.shortest
+        smooth = at_rest.autocorrelation(np.diff(error), [1, 5])
+        assert smooth.min() > 0.2  # steps are alike, which no Gauss-Markov error's are

@@ -5,7 +5,6 @@ import html
 import math
 import re
 from functools import cache
-from pathlib import Path
 
 import numpy as np
 import pytest
@@ -15,14 +14,13 @@ from matplotlib.colors import same_color
 import wmrlib as wmr
 from wmrbook import challenge, figures
 from wmrbook.pareto import pareto
-from wmrbook.scatter import stationary_scatter
 from wmrlib import paper
 
 GAINS, CIRCLE_GAINS, GENTLE = paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.GENTLE_GAINS
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 CASE = paper.outdoor()
 ROBOT, GOAL = wmr.Pose(0.0, 0.0, math.radians(15)), wmr.Pose(4.0, 5.7, math.radians(-25))
-TRACK = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"
+LAGS, AT_REST = np.array([1.0, 10.0, 100.0]), np.array([[0.1, 0.4, 0.2], [0.9, 0.8, 0.7]])
 
 
 # What the figures are given: computed once a process, and not at collection ---------------------
@@ -159,7 +157,7 @@ CASES = {
     "pareto_front": lambda: figures.pareto_front(*tried()),
     "time_steps": time_steps,
     "inner_loops": lambda: figures.inner_loops({"one": wheel_loops(), "two": {"slow": drive()}}),
-    "scatter": lambda: figures.scatter(stationary_scatter(wmr.read_track(TRACK))),
+    "at_rest": lambda: figures.at_rest(LAGS, {"east": AT_REST}, {"300 s": AT_REST - 1.0}),
     "memories": lambda: figures.memories(MEMORY, FOUND),
     "designs": lambda: figures.designs(MANY, {"one": MANY / 100.0}, {"one": 60.0 - MANY / 10.0}),
     "verdicts": lambda: figures.verdicts(
@@ -261,10 +259,9 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     "inner_loops": lambda: [
         f"one, slow: {degrees_left(wheel_loops()['slow'])}; one, at once: {degrees_left(drive())}"
     ],
-    "scatter": lambda: [
-        "9 positions",
-        "from 7.5 m west and 0.5 m south to 2.7 m east and 0.6 m north, where the last two are one",
-        "a dashed circle of 2.1 m holds half of them",
+    "at_rest": lambda: [
+        "Over spans and lags of 1 to 100 s: east, Allan deviation from 0.10 m over 1 s to at most "
+        "0.40 m over 10 s, autocorrelation 0.7 after 100 s; 300 s, autocorrelation from -0.8 to"
     ],
     "memories": lambda: [
         "from white to constant: 10 Hz, from 0.2 m and about 80 deg to 1.4 m and 10 deg, "
@@ -546,16 +543,6 @@ def test_time_steps_draw_each_run_and_each_limit():
         np.testing.assert_allclose(drawn[method].get_ydata(), wanted)
         limit = {wmr.longest_step(GAINS, method)}
         assert any(set(line.get_xdata()) == limit for line in axes.lines)
-
-
-def test_scatter_says_how_many_positions_are_the_last_dot():
-    east, north = np.array([0.0, 3.0, 5.0, 5.0, 5.0]), np.array([0.0, -1.0, 1.0, 1.0, 1.0])
-    place = wmr.point_at(paper.GPS_POINT_1, east, north)
-    for count, word in ((2, "last"), (3, "last"), (4, "last two"), (5, "last three")):
-        found = stationary_scatter(wmr.GeoPoint(lat=place.lat[:count], lon=place.lon[:count]))
-        shown = figures.scatter(found)
-        assert [text.get_text() for text in shown.figure.axes[0].texts] == ["first", word]
-        assert (f"the {word} are one dot" in shown.alt) == (count > 3)
 
 
 def test_the_thin_lines_slope_is_the_power():

@@ -76,6 +76,9 @@ class Fit(NamedTuple):
 def fit_receiver(error, dt: float) -> Fit:
     """Fit sigma, memory and bias of a Gauss-Markov error to a log, by likelihood.
 
+    Fit every tenth position too: where the memory then changes by more than its bounds allow, the
+    error is no Gauss-Markov process (a receiver smooths what it shows), and the bounds mean little.
+
     Parameters
     ----------
     error : array (n,), m, along one axis, every dt (s); n at least 3, not all the same

@@ -23,7 +23,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "circle": ["chase", "residual_curve", "tradeoff"],
         "design": ["pareto_front", "root_locus"],
         "sampling": ["inner_loops", "time_steps"],
-        "noise": ["designs", "memories", "scatter"],
+        "noise": ["at_rest", "designs", "memories"],
         "audit": ["verdicts"],
         "routes": ["challenge_paths", "route"],
         "other_laws": ["heading_powers", "last_turns"],

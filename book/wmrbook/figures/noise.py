@@ -5,49 +5,55 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.patches import Circle
 
-from wmrbook.figures._drawing import check_count, figure_legend, legend_above, note
+from wmrbook.figures._drawing import check_count, figure_legend
 from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
-from wmrbook.scatter import StationaryScatter
 from wmrlib._checks import instance, real, same_shape
 
-_COUNTS = {1: "last", 2: "last two", 3: "last three", 4: "last four"}
 
+def at_rest(
+    times: np.ndarray,
+    logs: Mapping[str, tuple[np.ndarray, np.ndarray]],
+    bands: Mapping[str, tuple[np.ndarray, np.ndarray]],
+) -> Picture:
+    """Allan deviation [m] and autocorrelation of logs at rest, and bands of autocorrelations.
 
-def scatter(spread: StationaryScatter) -> Picture:
-    """The positions [m] of a receiver at rest about their mean; the circle holds half of them.
-
-    They are joined in order; if the last ones are equal, the picture says how many they are.
+    times: spans and lags [s]. logs: from a name to both, each as long as `times`; bands: from a
+    name to the lowest and the highest autocorrelation. Both have up to four.
     """
-    instance("spread", spread, StationaryScatter)
-    figure, axes = new_figure(7.5, 3.9)
-    east, north = spread.east, spread.north
-    axes.plot(east, north, "-", color=COLOURS["path"], lw=1.2)
-    axes.plot(east, north, "o", color=COLOURS["path"], ms=6, label="positions, in order")
-    axes.plot(0.0, 0.0, "+", color=COLOURS["ink"], ms=16, mew=2.5, label="mean")
-    axes.add_patch(Circle((0.0, 0.0), spread.cep, fill=False, ls="--", ec=COLOURS["ink"]))
-    half = f"half of them within {spread.cep:.1f} m (CEP)"
-    axes.plot([], [], "--", color=COLOURS["ink"], lw=1.0, label=half)
-    places = np.column_stack([east, north])
-    at_last = np.isclose(places, places[-1], rtol=0.0, atol=1e-3).all(axis=1)
-    count = int(np.argmin([*at_last[::-1], False]))  # how many stay where the last is
-    last = _COUNTS.get(count, f"last {count}")
-    for k, name in ((0, "first"), (-1, last)):
-        note(axes, name, places[k], (0, 9), ha="center", fontsize=11)
-    left, right = min(east.min(), -spread.cep) - 1.0, max(east.max(), spread.cep) + 1.0
-    height = 1.15 * max(np.abs(north).max(), spread.cep)
-    axes.set(xlim=(left, right), ylim=(-height, height), aspect="equal")
-    axes.set(xlabel="east of the mean [m]", ylabel="north of the mean [m]")
-    legend_above(axes, 3, fontsize=10)
-    dot = "" if count == 1 else f", where the {last} are one dot"
-    return Picture(
-        figure,
-        f"{spread.n} positions about their mean, joined in order: they walk from "
-        f"{_compass(*places[0])} to {_compass(*places[-1])}{dot}; "
-        f"a dashed circle of {spread.cep:.1f} m holds half of them; the standard deviation is "
-        f"{spread.std_east:.1f} m east and {spread.std_north:.1f} m north.",
-    )
+    times = real("times", times, above=0.0)
+    for name, given in (("logs", logs), ("bands", bands)):
+        check_count(name, instance(name, given, Mapping), 1, len(LINES))
+    figure, rows = new_figure(7.5, 5.6, rows=2)
+    texts, roles = [], ("path", "y_error", "omega", "ink")
+    for (name, shown), style, role in zip(logs.items(), LINES, roles, strict=False):
+        for axes, values in zip(rows, shown, strict=True):
+            same_shape(times=times, **{f"logs[{name!r}]": values})
+            label = name if axes is rows[0] else None  # once in the legend
+            axes.plot(times, values, style, color=COLOURS[role], lw=2.2, label=label)
+        allan, alike = shown
+        texts.append(
+            f"{name}, Allan deviation from {allan[0]:.2f} m over {times[0]:g} s to at most "
+            f"{allan.max():.2f} m over {times[allan.argmax()]:.0f} s, autocorrelation "
+            f"{alike[-1]:.1f} after {times[-1]:.0f} s"
+        )
+    white = rows[0].get_lines()[0].get_ydata()[0] * np.sqrt(times[0] / times)
+    rows[0].plot(times, white, color=COLOURS["start"], lw=1.0, label="slope of white noise")
+    for (name, (low, high)), style, role in zip(
+        bands.items(), LINES, ("alpha", "robot", "ink", "goal"), strict=False
+    ):
+        same_shape(times=times, low=low, high=high)
+        how = {"color": COLOURS[role], "lw": 1.3}
+        rows[0].plot([], [], style, **how, label=name)
+        rows[1].plot(times, low, style, times, high, style, **how)
+        ends = f"from {low[-1]:.1f} to {high[-1]:.1f}"
+        texts.append(f"{name}, autocorrelation {ends} after {times[-1]:.0f} s")
+    rows[0].set(xscale="log", yscale="log", ylabel="Allan deviation [m]")
+    rows[1].set(ylabel="autocorrelation [1]", xlabel="span, or lag [s]")
+    figure.align_ylabels()
+    figure_legend(figure)
+    over = f"Over spans and lags of {times[0]:g} to {times[-1]:g} s"
+    return Picture(figure, f"{over}: {'; '.join(texts)}.")
 
 
 def memories(memory: np.ndarray, series: Mapping[str, tuple[np.ndarray, np.ndarray]]) -> Picture:
@@ -91,11 +97,6 @@ def _named(memory: float) -> str:
 
 def _fives(value: float) -> int:
     return 5 * round(float(value) / 5)
-
-
-def _compass(east: float, north: float) -> str:
-    along, across = ("west" if east < 0 else "east"), ("south" if north < 0 else "north")
-    return f"{abs(east):.1f} m {along} and {abs(north):.1f} m {across}"
 
 
 def designs(
