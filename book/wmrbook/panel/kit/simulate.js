@@ -3,7 +3,8 @@
 
 import { ARRIVED, COMPLETED, DIVERGED, TIMED_OUT, Unsettled, checkedSetup } from './setup.js';
 import {
-  LAWS, circle, fastestWheel, hurry, keepBranch, polarFromPose, roll, saturationScale, turnRate, wrap,
+  LAWS, circle, fastestWheel, hurry, keepBranch, polarFromPose, roll, saturationScale, turnRate,
+  wrap,
 } from './model.js';
 import { controlLaw } from './law.js';
 import { driveContinuously } from './continuous.js';
