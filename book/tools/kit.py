@@ -32,7 +32,8 @@ export function shown() {{
 def printed() -> dict[str, str]:
     """The texts of the modules that are printed, by name."""
     drawings = [getattr(live, name)() for name in sorted(set(live.__all__) - live.PARTS)]
-    rows = "".join(f"  '{it.program}': '{it.contract}',\n" for it in (Explorer(), MyRobot(), *drawings))
+    panels = Explorer(), MyRobot(), *drawings
+    rows = "".join(f"  '{it.program}': '{it.contract}',\n" for it in panels)
     head = "// Printed by book/tools/kit.py: the contract of what is stored for each program.\n"
     contracts = f"{head}export const CONTRACTS = {{\n{rows}}};\n"
     return {"model.js": symbolic.javascript(), "contracts.js": contracts}

@@ -16,11 +16,12 @@ from wmrbook.robot_sheet import RECEIVERS, RUNS, Robot, certificate, files, shee
 
 DONE = "() => document.querySelector('.my-robot').dataset.done === 'true'"
 FOUND = """() => { const { ends, ...found } = document.querySelector('.my-robot').found;
-    return { ...found, place: ends.map(it => it.place), heading: ends.map(it => it.heading) }; }"""
+    const columns = ['place', 'heading'].map(name => [name, ends.map(it => it[name])]);
+    return { ...found, ...Object.fromEntries(columns) }; }"""
 WIDE = """() => [...document.querySelectorAll('.my-robot *')].filter(it => it.checkVisibility()
     && (it.getBoundingClientRect().right > innerWidth + 1
         || it.getBoundingClientRect().left < -1)).map(it => it.outerHTML.slice(0, 90))"""
-SMALL = """() => [...document.querySelectorAll('.my-robot button, .my-robot input, .my-robot select')]
+SMALL = """() => [...document.querySelectorAll('.my-robot :is(button, input, select)')]
     .filter(it => it.checkVisibility() && it.getBoundingClientRect().height < 24)
     .map(it => it.outerHTML)"""
 FAULTS = "async () => (await axe.run('.my-robot')).violations.map(it => [it.id, it.nodes[0].html])"

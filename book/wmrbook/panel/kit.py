@@ -22,8 +22,12 @@ LOADER = Path(__file__).with_name("loader.js").read_text(encoding="utf-8")
 
 
 def programs() -> list[str]:
-    """The names of the programs: the Explorer's, that of "My robot", and each live figure's."""
-    return ["explorer", "my_robot", *(f"live/{path.stem}" for path in sorted(KIT.glob("live/*.js")))]
+    """The names of the programs: the Explorer's, My robot's, and each live figure's."""
+    return [
+        "explorer",
+        "my_robot",
+        *(f"live/{path.stem}" for path in sorted(KIT.glob("live/*.js"))),
+    ]
 
 
 def sources(program: str) -> dict[str, str]:

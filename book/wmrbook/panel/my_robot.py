@@ -34,12 +34,14 @@ GROUPS = {
         "compass": "error of the compass, sigma",
     },
 }
+NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "far", "golden")
+NUMBERS += ("compass", "runs", "seed", "share")
 
 
 class MyRobot(Panel):
     """The panel; `robot` is what is filled in, to begin with the one that is given."""
 
-    def __init__(self, robot: Robot = Robot()):
+    def __init__(self, robot: Robot | None = None):
         rules = {
             "bounds": BOUNDS,
             "shape": robot_sheet.SHAPE,
@@ -48,11 +50,10 @@ class MyRobot(Panel):
             "earth": EARTH_RADIUS_M,
             "fresh": robot_sheet.NEW,
         }
-        names = "spare brake nearest moves coarse far golden compass runs seed share".split()
-        rules |= {name: getattr(robot_sheet, name.upper()) for name in names}
+        rules |= {name: getattr(robot_sheet, name.upper()) for name in NUMBERS}
         groups = [[title, [*fields.items()]] for title, fields in GROUPS.items()]
         setup = {"groups": groups, "receivers": [*RECEIVERS.items()], "rules": rules}
-        state = {name: float(value) for name, value in robot._asdict().items()}
+        state = {name: float(value) for name, value in (robot or Robot())._asdict().items()}
         super().__init__("my_robot", state, setup | {"files": robot_sheet.templates()})
 
     robot = property(lambda self: Robot(**self.state), doc="What is filled in now.")

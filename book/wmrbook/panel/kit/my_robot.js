@@ -34,7 +34,7 @@ const told = (robot, { gains, turn, ...sheet }) => [
   ['k_alpha', written(gains.k_alpha, '1/s')],
   ['h', written(gains.h)],
   ['v_max', written(gains.v_max, 'm/s')],
-  ['kappa, 2 < kappa < 1 + h', written(gains.k_alpha / (gains.k_rho * gains.v_max))],
+  ['kappa, 2 to 1 + h', written(gains.k_alpha / (gains.k_rho * gains.v_max))],
   ['longest step', `${written(sheet.longest_step, 's')} (yours: ${written(robot.period, 's')})`],
   ['least speed', written(sheet.min_speed, 'm/s')],
   ['last turn, within', written(turn.tolerance * DEGREES, '°')],
