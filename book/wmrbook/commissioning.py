@@ -19,7 +19,7 @@ _AGES = np.arange(0.0, 3.0, 0.01)  # s
 class DeadBand(NamedTuple):
     """Of what a wheel was told, in m/s: the most with which it stood, the least with which it went.
 
-    `stood` above `turned` says that it lags, or sticks: it goes on with less than it needs to begin.
+    `stood` above `turned` says that it lags, or sticks: it goes on with less than it begins with.
     """
 
     stood: float
@@ -127,7 +127,7 @@ def latency(t, way, t_fix, way_fix, sigma: float) -> Latency:
     squares, scales = [], []
     for age in _AGES:
         rolled = np.interp(t_fix[kept] - age, t, way)
-        (scale, offset), left, *_ = np.polyfit(rolled, way_fix[kept], 1, full=True)
+        (scale, _), left, *_ = np.polyfit(rolled, way_fix[kept], 1, full=True)
         squares.append(float(left[0]) if left.size else 0.0)
         scales.append(scale)
     loss = np.array(squares) / sigma**2
