@@ -2,7 +2,8 @@
 
 The expressions are what the functions of `laws`, `motion` and `geodesy` return for symbols, so that
 no formula is typed twice. ``python -m wmrlib.symbolic`` prints `C_FORMULAS` into the C header
-``wmr_law.h``; `javascript` prints `FORMULAS` for the book's panels.
+``wmr_law.h``, `C_FILTER` into ``wmr_filter.h`` and `JACOBIANS` into ``wmrlib/_jacobians.py``;
+`javascript` prints `FORMULAS` for the book's panels.
 """
 
 from wmrlib._checks import book_extra
@@ -10,8 +11,22 @@ from wmrlib._checks import book_extra
 with book_extra("wmrlib.symbolic"):
     import sympy  # noqa: F401
 
-from wmrlib.symbolic.c_header import C_HEADER, c_function, c_header  # noqa: F401
-from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, FORMULAS, Formula  # noqa: F401
+from wmrlib.symbolic.c_header import (  # noqa: F401
+    C_FILTER_HEADER,
+    C_HEADER,
+    c_filter_header,
+    c_function,
+    c_header,
+)
+from wmrlib.symbolic.formulas import (  # noqa: F401
+    C_FILTER,
+    C_FORMULAS,
+    C_LAWS,
+    FORMULAS,
+    JACOBIANS,
+    Formula,
+)
 from wmrlib.symbolic.javascript import javascript, javascript_name  # noqa: F401
 from wmrlib.symbolic.model import LAWS, closed_loop, law, lyapunov, lyapunov_rate  # noqa: F401
+from wmrlib.symbolic.python import PYTHON_MODULE, python_module  # noqa: F401
 from wmrlib.symbolic.symbols import *  # noqa: F403

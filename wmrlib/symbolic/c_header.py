@@ -11,10 +11,11 @@ from sympy.printing.c import C99CodePrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from wmrlib.geodesy import EARTH_RADIUS_M
-from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, Formula
+from wmrlib.symbolic.formulas import C_FILTER, C_FORMULAS, C_LAWS, Formula
 
 C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
-_FRAME = C_HEADER.with_name("frame.h")
+C_FILTER_HEADER = C_HEADER.with_name("wmr_filter.h")
+_FRAME, _FILTER_FRAME = C_HEADER.with_name("frame.h"), C_HEADER.with_name("filter_frame.h")
 _COLUMNS = 88
 _FUNCTIONS = ("sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "fmod")
 _OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap", "turned_back", "expm1")}
@@ -55,7 +56,7 @@ def c_function(name: str, formula: Formula) -> str:
 
     Parameters
     ----------
-    name, formula : its name without the wmr_; of `C_FORMULAS` or `C_LAWS`
+    name, formula : its name without the wmr_; of `C_FORMULAS`, `C_LAWS` or `C_FILTER`
 
     Returns
     -------
@@ -72,7 +73,12 @@ def c_function(name: str, formula: Formula) -> str:
         lines.append(f"const WMR_REAL omega = {values[1]};")
         arguments, kind = ["wmr_polar error", "wmr_gains gains"], "wmr_twist"
         values = [f"wmr_checked(error, gains, {values[0]}, omega)"]
-    body = [_wrapped(f"  {line}") for line in [*lines, f"return {values[0]};"]]
+    if len(values) > 1 and not formula.gains:  # into an array
+        arguments, kind = [*arguments, f"WMR_REAL\xa0out[{len(values)}]"], "void"
+        ends = [f"out[{count}] = {value};" for count, value in enumerate(values)]
+    else:
+        ends = [f"return {values[0]};"]
+    body = [_wrapped(f"  {line}") for line in [*lines, *ends]]
     head = _wrapped(f"static inline {kind} wmr_{name}({', '.join(arguments)}) {{")
     return "\n".join([_wrapped(f"/* {formula.says} */", "   "), head, *body, "}\n"])
 
@@ -85,9 +91,18 @@ def _wrapped(line: str, indent: str = "      ") -> str:
 
 def c_header() -> str:
     """The text of ``wmr_law.h``: ``frame.h`` with the printed functions in their places."""
-    text = _FRAME.read_text(encoding="utf-8").partition("*/\n")[2]  # what frame.h says of itself
-    places = {"@EARTH_RADIUS_M@": repr(EARTH_RADIUS_M)}
-    for place, table in (("FORMULAS", C_FORMULAS), ("LAWS", C_LAWS)):
+    return _filled(_FRAME, {"FORMULAS": C_FORMULAS, "LAWS": C_LAWS})
+
+
+def c_filter_header() -> str:
+    """The text of ``wmr_filter.h``, likewise."""
+    return _filled(_FILTER_FRAME, {"FILTER": C_FILTER})
+
+
+def _filled(frame: Path, tables: dict[str, dict[str, Formula]]) -> str:
+    text = frame.read_text(encoding="utf-8").partition("*/\n")[2]  # what the frame says of itself
+    places = {"@EARTH_RADIUS_M@": repr(EARTH_RADIUS_M)} if "LAWS" in tables else {}
+    for place, table in tables.items():
         printed = "\n".join(c_function(name, formula) for name, formula in table.items())
         places[f"/* @{place}@ */\n"] = printed
     for place, printed in places.items():

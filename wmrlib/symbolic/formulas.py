@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from wmrlib import body, geodesy, laws, motion, paper
+from wmrlib import body, geodesy, laws, motion, paper, sensing
 from wmrlib.gains import Gains
 from wmrlib.symbolic import symbols as s
 from wmrlib.symbolic.model import closed_loop, exact, gains_of, read, steering
@@ -159,3 +159,43 @@ C_FORMULAS = {
     "bearing": _shared(_ENDS, _BEARING, "(15) to (17)"),
 }
 """What a robot needs around the law, each a function of numbers."""
+
+
+_STATE = s.x, s.y, s.heading, s.gyro_bias, s.wheel_scale
+_INPUTS = s.v, s.omega, s.gyro, s.share, s.dt
+_ARM = s.ahead, s.left
+_TRUE = sensing.speed_and_turn(*_STATE[3:], *_INPUTS[:4])
+_HERE = read(sensing.moved, *_POSE, s.speed, s.turn, s.dt)
+
+
+def _moved_rows() -> Formula:
+    """Each of x, y, heading by the state, then by speed and turning rate."""
+    truth = {s.speed: _TRUE[0], s.turn: _TRUE[1]}
+    by_state = sp.Matrix(_HERE).subs(truth).jacobian(_STATE)
+    by_twist = sp.Matrix(_HERE).jacobian([s.speed, s.turn]).subs(truth)
+    says = "d(x, y, heading) by the state's five entries, the speed and the turning rate"
+    return _shared((*_STATE[2:], *_INPUTS), tuple(by_state.row_join(by_twist)), says)
+
+
+def _antenna_rows() -> Formula:
+    place = sp.Matrix(read(sensing.antenna, *_POSE, *_ARM))
+    says = "d(east, north) of the antenna by the state's five entries"
+    return _shared((s.heading, *_ARM), tuple(place.jacobian(_STATE)), says)
+
+
+JACOBIANS = {"moved_rows": _moved_rows(), "antenna_rows": _antenna_rows()}
+"""The filter's derivatives, row by row."""
+
+_WHEELS = s.v, s.omega, s.track_width, s.noise
+C_FILTER = {
+    "moved": _read(sensing.moved, (*_POSE, s.speed, s.turn, s.dt), "x, y, heading after a step"),
+    "true_twist": _read(
+        sensing.speed_and_turn, (*_STATE[3:], *_INPUTS[:4]), "true speed and turning rate"
+    ),
+    "gyro_reading": _read(sensing.gyro_reading, (*_STATE[3:], s.omega), "the gyro without slip"),
+    "wheel_noise": _read(sensing.wheel_noise, _WHEELS, "variance rates of speed and turning rate"),
+    "antenna": _read(sensing.antenna, (*_POSE, *_ARM), "the antenna's east and north"),
+    "course": _read(sensing.course, (s.heading, s.v, s.omega, *_ARM), "where the antenna moves"),
+    **JACOBIANS,
+}
+"""What the C filter is made of."""

@@ -1,0 +1,113 @@
+"""The printed filter: what is committed is what is printed, and C does what Python does."""
+
+import ctypes
+import math
+
+import numpy as np
+import pytest
+from driven import ARM, DT, FIRST, NOISE, drive
+from test_c_header import build, compiler
+
+from wmrlib import estimation, symbolic
+from wmrlib.estimation import Estimate
+
+
+def test_what_is_committed_is_what_is_printed():
+    for path, text in (
+        (symbolic.PYTHON_MODULE, symbolic.python_module()),
+        (symbolic.C_FILTER_HEADER, symbolic.c_filter_header()),
+    ):
+        assert path.read_text(encoding="utf-8") == text, "run python -m wmrlib.symbolic"
+
+
+CALLS = """
+static wmr_filter filter;
+void start(const R *s) { wmr_pose p = {s[0], s[1], s[2]};
+  filter = wmr_filter_start(p, s[3], s[4], s[5], s[6]); }
+int carry(const R *s) { wmr_noise n = {s[4], s[5], s[6], s[7], s[8]};
+  return wmr_filter_predict(&filter, s[0], s[1], s[2], s[3], n, s[9]); }
+int position(const R *s) {
+  return wmr_filter_position(&filter, s[0], s[1], s[2], s[3], s[4], s[5]); }
+int heading(const R *s) { return wmr_filter_heading(&filter, s[0], s[1], s[2]); }
+int course(const R *s) {
+  return wmr_filter_course(&filter, s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7]); }
+void tell(R *out) { int i, j, k = 0;
+  wmr_pose p = wmr_filter_pose(&filter); out[k++] = p.x; out[k++] = p.y; out[k++] = p.heading;
+  out[k++] = filter.state[3]; out[k++] = filter.state[4]; out[k++] = filter.surprise;
+  for (i = 0; i < 5; ++i) for (j = 0; j < 5; ++j) out[k++] = filter.covariance[i][j]; }
+"""
+KINDS = {"double": ctypes.c_double, "float": ctypes.c_float}
+
+
+@pytest.fixture(scope="module", params=KINDS)
+def in_c(request, tmp_path_factory):
+    """(the name of its numbers, call a function by name, tell the state as an Estimate)."""
+    folder = tmp_path_factory.mktemp(request.param)
+    head = f'#define WMR_REAL {request.param}\n#include "wmr_filter.h"\ntypedef WMR_REAL R;\n'
+    (folder / "calls.c").write_text(head + CALLS)
+    unused = "-Wno-unused-function"
+    library = ctypes.CDLL(str(build(folder / "calls.c", folder, "-shared", "-fPIC", unused)))
+    kind = KINDS[request.param]
+
+    def call(name, *values):
+        return bool(getattr(library, name)((kind * len(values))(*values)))
+
+    def tell():
+        out = (kind * 31)()
+        library.tell(out)
+        numbers = np.array(out[:], dtype=float)
+        return Estimate(numbers[:5], numbers[6:].reshape(5, 5), numbers[5])
+
+    return request.param, call, tell
+
+
+@compiler
+def test_c_has_the_same_filter(in_c):
+    kind, call, tell = in_c
+    call("start", 1.0, -2.0, 0.4, 0.5, 0.2, 0.02, 0.03)
+    ours, used, worst = FIRST, [], 0.0
+    for n, ((v, omega, gyro), fix, heading) in enumerate(drive()):
+        gyro += 0.5 * (n == 130)  # the wheels slip
+        ours = estimation.predict(ours, v, omega, gyro, DT, NOISE)
+        good = call("carry", v, omega, gyro, DT, *NOISE, estimation.GATE_1)
+        used.append((good, math.isnan(gyro) or ours.surprise <= estimation.GATE_1))
+        if n % 5 == 0:
+            fix += 3.0 * (n == 200)  # a jump
+            ours = estimation.use_position(ours, *fix, 0.02, **ARM)
+            good = call("position", *fix, 0.02, *ARM.values(), estimation.GATE_2)
+            used.append((good, ours.surprise <= estimation.GATE_2))
+        if n % 7 == 0:
+            ours = estimation.use_heading(ours, heading, 0.05)
+            good = call("heading", heading, 0.05, estimation.GATE_1)
+            used.append((good, ours.surprise <= estimation.GATE_1))
+        if n % 11 == 0:
+            course = heading + (math.pi if v < 0 else 0.0)
+            ours = estimation.use_course(ours, course, 0.3, v, omega, **ARM)
+            good = call("course", course, 0.3, v, omega, *ARM.values(), 0.3, estimation.GATE_1)
+            used.append((good, v != 0.0 and ours.surprise <= estimation.GATE_1))
+        theirs = tell()
+        scale = np.outer(ours.sigma, ours.sigma)
+        off = np.abs(theirs.covariance - ours.covariance) / scale
+        worst = max(worst, off.max(), (np.abs(theirs.state - ours.state) / ours.sigma).max())
+    assert worst < {"double": 1e-9, "float": 5e-3}[kind]
+    assert sum(not good for good, _ in used) >= 2
+    assert all(one == other for one, other in used)
+
+
+@compiler
+def test_c_changes_nothing_for_a_number_that_is_none(in_c):
+    _, call, tell = in_c
+    call("start", 1.0, -2.0, 0.4, 0.5, 0.2, 0.02, 0.03)
+    before = tell()
+    for bad in (math.nan, math.inf):
+        assert not call("carry", bad, 0.0, 0.0, 0.1, *NOISE, 10.0)
+        assert not call("carry", 0.0, 0.0, 0.0, bad, *NOISE, 10.0)
+        assert not call("position", 1.0, bad, 0.1, 0.0, 0.0, 10.0)
+        assert not call("heading", bad, 0.1, 10.0)
+        assert not call("heading", 0.4, bad, 10.0)
+        assert not call("course", 0.4, 0.1, bad, 0.0, 0.0, 0.0, 0.3, 10.0)
+    assert not call("carry", 0.0, 0.0, 0.0, 0.0, *NOISE, 10.0)
+    assert not call("heading", 0.4, 0.0, 10.0)
+    after = tell()
+    assert (after.state == before.state).all()
+    assert (after.covariance == before.covariance).all()

@@ -1,0 +1,149 @@
+"""The filter at its limits: gates, slip, courses, angles, bad input, and its covariance."""
+
+import math
+
+import numpy as np
+import pytest
+from driven import ARM, DT, FIRST, NOISE, seen
+from hypothesis import given
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+from wmrlib import estimation
+from wmrlib.estimation import Noise
+
+# What each measurement does ----------------------------------------------------------------------
+
+
+def test_at_rest_the_gyro_shows_its_bias_and_the_heading_stays():
+    now = FIRST
+    for _ in range(100):
+        now = estimation.predict(now, 0.0, 0.0, 0.013, DT, NOISE)
+    assert now.state[3] == pytest.approx(0.013, abs=2e-4)
+    assert now.sigma[3] < 0.1 * FIRST.sigma[3]
+    assert now.pose == FIRST.pose
+    assert now.sigma[:3] == pytest.approx(FIRST.sigma[:3])
+
+
+def test_a_jump_is_refused_and_its_surprise_told():
+    jump = estimation.use_position(FIRST, 31.0, -2.0, 0.5)
+    assert jump.surprise == pytest.approx(30.0**2 / 0.5)
+    assert (jump.state == FIRST.state).all()
+    assert (jump.covariance == FIRST.covariance).all()
+    assert estimation.use_position(FIRST, 31.0, -2.0, 0.5, gate=math.inf).pose.x == 16.0
+    edge = math.sqrt(estimation.GATE_1 * (0.2**2 + 0.1**2))
+    assert [
+        estimation.use_heading(FIRST, 0.4 + side * edge, 0.1).pose.heading == 0.4
+        for side in (0.999, 1.001)
+    ] == [False, True]
+
+
+def test_wheels_that_slip_leave_the_turn_to_the_gyro():
+    still = estimation.predict(FIRST, 0.0, 0.0, 0.0, 5.0, NOISE)
+    slipped = estimation.predict(still, 0.5, 2.0, 0.1, DT, NOISE)
+    assert slipped.surprise > estimation.GATE_1
+    assert slipped.pose.heading == pytest.approx(0.4 + 0.1 * DT, abs=1e-6)
+
+
+def test_a_course_counts_backwards_and_beside_the_middle_but_not_at_a_crawl():
+    for v, omega in ((1.0, 0.0), (-1.0, 0.0), (0.5, 0.8), (-0.5, 0.8), (0.0, 1.0)):
+        before = seen((0.0, 0.0, 0.4, 0, 0))
+        then = seen((*wmr.advance(wmr.Pose(0.0, 0.0, 0.4), v, omega, 1e-6), 0, 0))
+        course = math.atan2(*(then - before)[::-1])
+        used = estimation.use_course(FIRST, course, 1e-3, v, omega, **ARM, slowest=0.1)
+        assert used.pose.heading == pytest.approx(0.4, abs=1e-5)
+        assert used.sigma[2] < 2e-3
+        slow = estimation.use_course(FIRST, course, 1e-3, 0.29 * v, 0.0, slowest=0.3)
+        assert slow is FIRST
+
+
+def test_a_heading_goes_the_short_way_round():
+    near = estimation.start(wmr.Pose(0.0, 0.0, 3.1), 1.0, 0.1)
+    used = estimation.use_heading(near, -3.1, 0.1)
+    assert used.pose.heading == pytest.approx(math.pi)
+    pushed = estimation.use_heading(near, -3.0, 0.01)
+    assert pushed.pose.heading == pytest.approx(-3.0, abs=0.01)
+
+
+# Whatever comes, the covariance is one -----------------------------------------------------------
+
+STEP = st.tuples(st.floats(-3, 3), st.floats(-3, 3), st.floats(-3, 3) | st.just(math.nan))
+SIGHT = st.tuples(
+    st.sampled_from("phc"), st.floats(-50, 50), st.floats(-50, 50), st.floats(1e-3, 9)
+)
+
+
+@given(st.lists(st.tuples(STEP, SIGHT), max_size=30), st.sampled_from([math.inf, 10.0]))
+def test_the_covariance_stays_symmetric_and_positive_definite(steps, gate):
+    now = FIRST
+    for (v, omega, gyro), (kind, a, b, sigma) in steps:
+        now = estimation.predict(now, v, omega, gyro, DT, NOISE, gate)
+        if kind == "p":
+            now = estimation.use_position(now, a, b, sigma, **ARM, gate=gate)
+        elif kind == "h":
+            now = estimation.use_heading(now, a, sigma, gate)
+        else:
+            now = estimation.use_course(now, a, sigma, v, omega, **ARM, gate=gate)
+        assert (now.covariance == now.covariance.T).all()
+        scaled = now.covariance / np.outer(now.sigma, now.sigma)
+        assert np.linalg.eigvalsh(scaled)[0] > 0.0
+        assert -math.pi < now.state[2] <= math.pi
+
+
+def test_josephs_form_outlasts_the_short_one_in_floats():
+    """A sharp fix after a vague guess: the short form's variance falls below 0 in floats."""
+    short = np.diag([1e4, 1e4]).astype(np.float32)
+    long = short.copy()
+    for row in ([1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]):
+        row, variance, one = (
+            np.array(row, np.float32),
+            np.float32(1e-6),
+            np.eye(2, dtype=np.float32),
+        )
+        gain = short @ row / (row @ short @ row + variance)
+        short = (one - np.outer(gain, row)) @ short
+        gain = long @ row / (row @ long @ row + variance)
+        kept = one - np.outer(gain, row)
+        long = kept @ long @ kept.T + variance * np.outer(gain, gain)
+    assert np.linalg.eigvalsh(short)[0] <= 0.0 < np.linalg.eigvalsh(long)[0]
+
+
+# Bad input ---------------------------------------------------------------------------------------
+
+ODD = ("north", None, math.nan, math.inf, [1.0, 2.0], 1j, {})
+STEP_OF = {"v": 1.0, "omega": 0.1, "gyro": 0.1, "dt": 0.1, "noise": NOISE, "gate": 9.0}
+FIX = {"x": 1.0, "y": 1.0, "sigma": 0.1, **ARM, "gate": 9.0}
+COURSE = {"course": 1.0, "sigma": 0.1, "v": 1.0, "omega": 0.0, **ARM, "slowest": 0.3, "gate": 9.0}
+CASES = {
+    estimation.start: {"pose": wmr.Pose(0.0, 0.0, 0.0), "position_sigma": 1.0, "heading_sigma": 1.0}
+    | {"bias_sigma": 1.0, "scale_sigma": 1.0},
+    estimation.predict: {"estimate": FIRST} | STEP_OF,
+    estimation.use_position: {"estimate": FIRST} | FIX,
+    estimation.use_heading: {"estimate": FIRST, "heading": 1.0, "sigma": 0.1, "gate": 9.0},
+    estimation.use_course: {"estimate": FIRST} | COURSE,
+    Noise: NOISE._asdict(),
+}
+ALLOWED = [("gyro", math.nan), ("gate", math.inf)]
+
+
+@pytest.mark.parametrize("function", CASES, ids=lambda function: function.__name__)
+def test_odd_arguments_are_refused_by_name(function):
+    function(**CASES[function])
+    for name in CASES[function]:
+        below = [0.0] if name in ("dt", "track_width") or name.endswith("sigma") else [-1.0]
+        bound = below if name not in ("x", "y", "v", "omega", "heading", "course", *ARM) else []
+        bound = [] if name == "gyro" and function is estimation.predict else bound
+        for odd in (*ODD, *bound):
+            if any(name == other and odd is value for other, value in ALLOWED) or (
+                function is Noise and odd == [1.0, 2.0]
+            ):
+                continue
+            with pytest.raises(ValueError, match=f"^{name} = "):
+                function(**(CASES[function] | {name: odd}))
+
+
+def test_a_pose_or_a_noise_of_arrays_is_refused():
+    with pytest.raises(ValueError, match=r"x = .* one number"):
+        estimation.start(wmr.Pose([0.0, 1.0], 0.0, 0.0), 1.0, 0.1)
+    with pytest.raises(ValueError, match=r"wheels = .* one number"):
+        estimation.predict(FIRST, 1.0, 0.0, 0.0, 0.1, NOISE._replace(wheels=[0.1, 0.2]))

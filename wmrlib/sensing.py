@@ -1,0 +1,52 @@
+"""The model behind the filter: how the state moves on, and what each sensor should read.
+
+The state is x, y, heading, gyro_bias [rad/s] and wheel_scale, the true speed over the one that the
+wheels report. `wmrlib.symbolic` prints these formulas and their derivatives.
+"""
+
+from __future__ import annotations
+
+from wmrlib._compile import formula
+from wmrlib._elementary import direction, distance, sincos
+from wmrlib.motion import euler_step
+
+
+@formula
+def moved(x, y, heading, speed, turn, dt):
+    """A step along the heading at half time, which is second-order accurate."""
+    return euler_step(x, y, heading + 0.5 * turn * dt, speed, 0.5 * turn, dt)
+
+
+@formula
+def speed_and_turn(gyro_bias, wheel_scale, v, omega, gyro, share):
+    """The true twist; `share` weights the wheels' turning rate against the gyro's."""
+    return wheel_scale * v, share * wheel_scale * omega + (1.0 - share) * (gyro - gyro_bias)
+
+
+@formula
+def gyro_reading(gyro_bias, wheel_scale, omega):
+    """What the gyro reads while the wheels roll without slip; at rest, its bias."""
+    return gyro_bias + wheel_scale * omega
+
+
+@formula
+def wheel_noise(v, omega, track_width, noise):
+    """Variance rates of the speed [m^2/s] and the turning rate [rad^2/s]; none at rest.
+
+    Each wheel strays by `noise` [m] in the first metre, independently in the next.
+    """
+    rate = noise * noise * distance(v, 0.5 * track_width * omega)
+    return 0.5 * rate, 2.0 * rate / (track_width * track_width)
+
+
+@formula
+def antenna(x, y, heading, ahead, left):
+    """Where an antenna is, `ahead` and `left` of the middle between the wheels [m]."""
+    sine, cosine = sincos(heading)
+    return x + ahead * cosine - left * sine, y + ahead * sine + left * cosine
+
+
+@formula
+def course(heading, v, omega, ahead, left):
+    """The direction in which the antenna moves, from east; behind the robot if it reverses."""
+    return heading + direction(omega * ahead, v - omega * left)
