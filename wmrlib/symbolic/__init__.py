@@ -11,6 +11,7 @@ from wmrlib._checks import book_extra
 with book_extra("wmrlib.symbolic"):
     import sympy  # noqa: F401
 
+from wmrlib.symbolic.c_drive import C_DRIVE, c_drive  # noqa: F401
 from wmrlib.symbolic.c_header import (  # noqa: F401
     C_FILTER_HEADER,
     C_HEADER,

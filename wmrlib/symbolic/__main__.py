@@ -1,4 +1,4 @@
-"""``python -m wmrlib.symbolic`` prints wmr_law.h, wmr_filter.h and _jacobians.py.
+"""``python -m wmrlib.symbolic`` prints wmr_law.h, wmr_drive.h, wmr_filter.h and _jacobians.py.
 
 ``--c PATH`` prints wmr_law.h alone, elsewhere.
 """
@@ -8,9 +8,11 @@ import sys
 from pathlib import Path
 
 from wmrlib.symbolic import (
+    C_DRIVE,
     C_FILTER_HEADER,
     C_HEADER,
     PYTHON_MODULE,
+    c_drive,
     c_filter_header,
     c_header,
     python_module,
@@ -25,5 +27,6 @@ elif target:
     Path(target).write_bytes(c_header().encode())
 else:
     C_HEADER.write_bytes(c_header().encode())
+    C_DRIVE.write_bytes(c_drive().encode())
     C_FILTER_HEADER.write_bytes(c_filter_header().encode())
     PYTHON_MODULE.write_bytes(python_module().encode())

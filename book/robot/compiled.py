@@ -1,0 +1,98 @@
+"""The drive as C, compiled here: what `wmrlib.Drive` does, by ``wmr_drive.h``."""
+
+from __future__ import annotations
+
+import ctypes
+import shutil
+import subprocess
+import tempfile
+from functools import cache
+from pathlib import Path
+from typing import get_type_hints
+
+import wmrlib as wmr
+from wmrlib import parking, symbolic, trust
+
+_CALL = """#include "wmr_drive.h"
+void step(wmr_memory *m, const wmr_seen *seen, const wmr_plan *plan, WMR_REAL *out) {
+  const wmr_wheels wheels = wmr_drive(m, seen, plan);
+  out[0] = wheels.left, out[1] = wheels.right;
+}
+"""
+REALS = {"double": ctypes.c_double, "float": ctypes.c_float}
+
+
+def _structure(kind, real):
+    """A class of wmrlib as the structure that the header has for it."""
+    plain = {float: real, int: ctypes.c_int}
+    fields = [
+        (name, plain.get(hint) or _structure(hint, real))
+        for name, hint in get_type_hints(kind).items()
+    ]
+    return type(kind.__name__, (ctypes.Structure,), {"_fields_": fields})
+
+
+@cache
+def _library(real: str, law: str) -> tuple:
+    """The compiled function and its structures; the folder goes as soon as it is loaded."""
+    compiler, number = shutil.which("cc") or shutil.which("gcc"), REALS[real]
+    if not compiler:
+        raise RuntimeError("this needs a C compiler (Debian: apt install gcc libc6-dev)")
+    kinds = {
+        kind: _structure(kind, number)
+        for kind in (trust.Memory, wmr.Seen, trust.Place, wmr.Wheels, wmr.LastTurn, wmr.Rules)
+    }
+    gains = type(
+        "Gains", (ctypes.Structure,), {"_fields_": [(k, number) for k in wmr.Gains._fields]}
+    )
+    parts = trust.Place, wmr.Wheels, wmr.LastTurn, wmr.Rules
+    names = "goal", "motors", "end", "rules"
+    fields = [(name, kinds[part]) for name, part in zip(names, parts, strict=True)]
+    fields.insert(1, ("gains", gains))
+    plan = type("Plan", (ctypes.Structure,), {"_fields_": fields})
+    options = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC", f"-DWMR_REAL={real}"]
+    options += [f"-DWMR_DRIVE_LAW=wmr_{law}", f"-I{symbolic.C_DRIVE.parent}"]
+    with tempfile.TemporaryDirectory() as folder:
+        source, library = Path(folder, "step.c"), Path(folder, "step.so")
+        source.write_text(_CALL, encoding="utf-8")
+        subprocess.run([compiler, *options, source, "-o", library, "-lm"], check=True)
+        return ctypes.CDLL(str(library)).step, kinds, plan
+
+
+class CDrive(wmr.Drive):
+    """A `Drive` whose steps are the header's."""
+
+    def __init__(self, *given, real: str = "double", **named) -> None:
+        super().__init__(*given, **named)
+        law = "law" if self.law == "corrected" else f"law_{self.law}"
+        self._step, kinds, plan = _library(real, law)
+        self._seen, self._kept = kinds[wmr.Seen], kinds[trust.Memory]()
+        self._out = (REALS[real] * 2)()
+        rules = self.rules._replace()._asdict() | {"settle": int(self.rules.settle)}
+        self._plan = plan(
+            tuple(self.goal),
+            tuple(self.gains),
+            tuple(self.wheels),
+            tuple(self.end),
+            tuple(rules.values()),
+        )
+
+    def reset(self) -> None:
+        super().reset()
+        if hasattr(self, "_kept"):
+            self._kept = type(self._kept)()
+
+    @property
+    def state(self) -> str:
+        return trust.STATES[self._kept.state]
+
+    @property
+    def reason(self) -> str:
+        return parking.REASONS[self._kept.reason]
+
+    def step(self, seen: wmr.Seen) -> tuple[float, float]:
+        given = self._seen(*seen)
+        self._step(
+            ctypes.byref(self._kept), ctypes.byref(given), ctypes.byref(self._plan), self._out
+        )
+        return self._out[0], self._out[1]

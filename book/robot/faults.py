@@ -1,0 +1,221 @@
+"""Thirty faults, each in a drive over the paper's two points: does the robot drive blind?
+
+    python book/robot/faults.py [--c] [--seed N]
+
+prints what each run came to. With --c the drive is the compiled wmr_drive.h.
+"""
+
+from __future__ import annotations
+
+import argparse
+import math
+from typing import Any, NamedTuple
+
+import compiled
+from world import CASE, PERIOD, WATCHDOG, WHEELS, Faults, World
+
+import wmrlib as wmr
+
+GAINS = wmr.GENTLE_GAINS
+LONGEST = 300.0  # s
+SPEED, BRAKE = WHEELS.max_speed, WHEELS.acceleration
+BRAKING = SPEED**2 / (2.0 * BRAKE) + SPEED * (WHEELS.lag + 2 * PERIOD)  # m, as far as it rolls on
+SILENCE = SPEED * (wmr.Rules().patience + 0.2) + BRAKING  # m, after the last usable fix
+
+
+class Case(NamedTuple):
+    """A fault: what is wrong `begin` to `end` s after the start, and what must come of it.
+
+    `must` is "parked", or the state and the reason in which it stands in the end; `within` is, in
+    m, how far from its goal it may park, or how far it may roll from the fault on.
+    """
+
+    name: str
+    wrong: dict[str, Any]
+    must: str
+    within: float
+    begin: float = 20.0
+    end: float = math.inf
+    rules: dict[str, Any] = {}  # noqa: RUF012 (nobody changes it)
+    fence: tuple = (-15.0, -15.0, 25.0, 75.0)
+
+
+_WHEEL = 2.5 * wmr.Rules().wheel + BRAKING
+_FROZEN = wmr.Rules().frozen + SILENCE
+_LEG = 2.0 * wmr.Rules().course + BRAKING
+_AT_ONCE = 4 * PERIOD * SPEED + BRAKING
+CASES = (
+    Case("no fix at boot", {"silent": True}, "wait: no fix", 0.0, begin=0.0),
+    Case("a fix after 15 s", {"silent": True}, "parked", 0.3, begin=0.0, end=15.0),
+    Case("silent", {"silent": True}, "wait: no fix", SILENCE),
+    Case("silent for 10 s", {"silent": True}, "parked", 0.3, end=30.0),
+    Case("quality 0", {"quality": 0}, "wait: fix of too low quality", SILENCE),
+    Case("dead reckoning", {"quality": 6}, "wait: fix of too low quality", SILENCE),
+    Case("its own error 3 m", {"error": 3.0}, "wait: fix of too low quality", SILENCE),
+    Case("message frozen", {"stuck_message": True}, "wait: fix time stands or goes back", SILENCE),
+    Case("position frozen", {"stuck_position": True}, "wait: position frozen", _FROZEN),
+    Case("time goes back", {"time": -1.0}, "wait: fix time stands or goes back", SILENCE),
+    Case("x is NaN", {"not_a_number": "x"}, "wait: fix is no number", SILENCE),
+    Case("heading is NaN", {"not_a_number": "heading"}, "wait: fix is no number", SILENCE),
+    Case("1 s late, and says so", {"delay": 1.0}, "wait: fix too old", SILENCE),
+    Case("0.4 s late, unsaid", {"delay": 0.4, "told": False}, "parked", 0.4),
+    Case("one fix a second", {"period": 1.0}, "parked", 0.4, rules={"patience": 1.5}, begin=0.0),
+    Case("one fix a second, patience 0.5 s", {"period": 1.0}, "wait: no fix", 0.0, begin=0.0),
+    Case("a jump of 30 m", {"jump": 30.0}, "wait: position jumped", SILENCE),
+    Case("a jump, and back", {"jump": 30.0}, "parked", 0.3, end=25.0),
+    Case("one fix 30 m off", {"jump": 30.0}, "parked", 0.3, end=20.1),
+    Case("drifts by 2 m/s", {"drift": 2.0}, "stopped: heading disagrees with course", _LEG),
+    Case("lat and lon swapped", {"swapped": True}, "stopped: robot outside the fence", 0.0, 0.0),
+    Case("swapped on the way", {"swapped": True}, "wait: position jumped", SILENCE),
+    Case("clock jumps an hour", {"clock": 3600.0}, "parked", 0.3),
+    Case("clock goes back", {"clock": -10.0}, "parked", 0.3),
+    Case("clock stands", {"clock_stands": True}, "wait: clock jumped", _AT_ONCE),
+    Case("program hangs for 2 s", {"hangs": True}, "parked", 0.3, end=22.0),
+    Case("encoder lost", {"left_encoder": 0.0}, "stopped: wheel or encoder stuck", _WHEEL),
+    Case("wheel blocked", {"right_motor": 0.0}, "stopped: wheel or encoder stuck", _WHEEL),
+    Case(
+        "motor runs on as it waits",
+        {"silent": True, "left_runs_on": True},
+        "stopped: wheel turns untold",
+        _WHEEL,
+        0.0,
+    ),
+    Case(
+        "pushed as it waits",
+        {"silent": True, "pushed": 0.3},
+        "stopped: wheel turns untold",
+        _WHEEL,
+        0.0,
+    ),
+    Case("cables swapped", {"cables_swapped": True}, "stopped: wheel or encoder stuck", _LEG, 0.0),
+    Case("spins in the mud", {"grip": 0.0}, "stopped: wheels turn and robot stands", _LEG),
+    Case("dead band unknown", {"dead_band": 0.15}, "stopped: wheel or encoder stuck", _LEG, 60.0),
+    Case(
+        "compass a quarter off",
+        {"compass": 1.571},
+        "stopped: heading disagrees with course",
+        _LEG,
+        0.0,
+    ),
+    Case(
+        "bearing for heading",
+        {"clockwise": True},
+        "stopped: heading disagrees with wheels",
+        _LEG,
+        0.0,
+    ),
+    Case(
+        "compass by a motor",
+        {"compass_by_motors": 1.5},
+        "stopped: heading disagrees with wheels",
+        _LEG,
+        0.0,
+    ),
+    Case(
+        "battery low", {"battery": 20.0}, "stopped: battery low", SILENCE, rules={"battery": 22.0}
+    ),
+    Case(
+        "goal outside the fence",
+        {},
+        "stopped: goal outside the fence",
+        0.0,
+        0.0,
+        fence=(-15.0, -15.0, 25.0, 50.0),
+    ),
+    Case(
+        "goal 58 m away, 50 allowed",
+        {},
+        "stopped: goal too far",
+        0.0,
+        0.0,
+        rules={"farthest": 50.0},
+    ),
+    Case(
+        "40 s, and not there",
+        {},
+        "stopped: drive too long",
+        40.0,
+        0.0,
+        rules={"longest_drive": 40.0},
+    ),
+    Case(
+        "fence across the way",
+        {},
+        "stopped: robot outside the fence",
+        BRAKING,
+        math.inf,
+        fence=(-15.0, -15.0, 25.0, 57.5),
+    ),
+)
+
+
+class Ran(NamedTuple):
+    """What a run came to: its end, place and heading errors [m, rad], and all decisions."""
+
+    end: str
+    distance: float
+    heading: float
+    blind: float  # m rolled from the fault on
+    time: float
+    decisions: tuple[tuple[str, str], ...]
+    seen: tuple[wmr.Seen, ...]
+
+
+def run(case: Case, drive_kind: type = wmr.Drive, seed: int = 1) -> Ran:
+    """One drive, with the fault, until it has parked or has stood for 20 s."""
+    rules = wmr.Rules()._replace(**case.rules)
+    drive = drive_kind(CASE.goal, GAINS, WHEELS, rules=rules)
+    world, decisions, seen = World(seed, case.fence), [], []
+    told, at_fault, stands = (0.0, 0.0), None, 0.0
+    longest = 20.0 + max(when for when in (0.0, case.begin, case.end) if when < math.inf)
+    while world.now < LONGEST and stands < longest:
+        wrong = case.begin <= world.now + 1e-9 < case.end
+        faults = Faults(**case.wrong) if wrong else Faults()
+        if at_fault is None and (wrong or not world.inside(*world.pose[:2])):
+            at_fault, world.clock_error = world.rolled, faults.clock
+        if faults.hangs:
+            if world.now > case.begin + WATCHDOG:
+                told = (0.0, 0.0)
+                drive.reset()
+        else:
+            seen.append(world.see(faults))
+            told = drive.step(seen[-1])
+            decisions.append((drive.state, drive.reason))
+        world.power = drive.state != "stopped"
+        world.roll(told, faults)
+        stands = stands + PERIOD if max(map(abs, world.speeds)) < 1e-6 else 0.0
+        if drive.state == "parked" and stands > 1.0:
+            break
+    end = drive.state + (f": {drive.reason}" if drive.reason else "")
+    gap = math.dist(world.pose[:2], CASE.goal[:2])
+    heading = abs(wmr.wrap_angle(world.pose.heading - CASE.goal.heading))
+    blind = world.rolled - (world.rolled if at_fault is None else at_fault)
+    return Ran(end, gap, heading, blind, world.now, tuple(decisions), tuple(seen))
+
+
+def holds(case: Case, ran: Ran) -> bool:
+    """Whether the run came to what it must."""
+    far = ran.distance if case.must == "parked" else ran.blind
+    return ran.end == case.must and far <= case.within + 1e-9
+
+
+def main() -> None:
+    """Print the table."""
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("--c", action="store_true", help="by the compiled header")
+    parser.add_argument("--seed", type=int, default=1)
+    given = parser.parse_args()
+    kind = compiled.CDrive if given.c else wmr.Drive
+    print(f"{'fault':33} {'came to':41} {'m':>6} {'at most':>7}")
+    good = 0
+    for case in CASES:
+        ran = run(case, kind, given.seed)
+        far = ran.distance if case.must == "parked" else ran.blind
+        good += holds(case, ran)
+        fault = "" if holds(case, ran) else f"  must be {case.must}"
+        print(f"{case.name:33} {ran.end:41} {far:6.2f} {case.within:7.2f}{fault}")
+    print(f"{good} of {len(CASES)} as they must")
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,150 @@
+"""A lawn with a robot on it whose parts can fail: the truth, and what the sensors say of it."""
+
+from __future__ import annotations
+
+import math
+from typing import NamedTuple
+
+import numpy as np
+
+import wmrlib as wmr
+from wmrlib import paper
+from wmrlib.body import follow
+
+PERIOD = 0.05  # s
+CASE = paper.outdoor()
+WHEELS = wmr.Wheels(0.5, max_speed=1.0, min_speed=0.1, acceleration=2.0, lag=0.1)
+WATCHDOG = 0.2  # s: a program that hangs for so long is started again, its wheels stopped
+
+
+class Faults(NamedTuple):
+    """What can be wrong with a robot, all of it in order."""
+
+    silent: bool = False  # the receiver
+    stuck_position: bool = False
+    stuck_message: bool = False
+    not_a_number: str = ""  # the field
+    quality: int = 4
+    error: float = 0.02  # m, by the receiver's own word
+    period: float = 0.1  # s, of the fixes
+    delay: float = 0.05  # s, of them
+    told: bool = True  # the fix's age is known
+    jump: float = 0.0  # m, to the east
+    drift: float = 0.0  # m/s, to the east
+    swapped: bool = False  # latitude and longitude
+    time: float = 1.0  # how fast the time of the fixes goes on
+    compass: float = 0.0  # rad
+    compass_by_motors: float = 0.0  # rad at full speed
+    clockwise: bool = False  # a bearing in place of a heading
+    clock: float = 0.0  # s, by which it jumps at once
+    clock_stands: bool = False
+    hangs: bool = False  # the program
+    left_encoder: float = 1.0
+    right_motor: float = 1.0
+    left_runs_on: bool = False
+    cables_swapped: bool = False
+    grip: float = 1.0  # the share of what the wheels roll
+    dead_band: float = 0.0  # m/s
+    battery: float = 24.0  # V
+    pushed: float = 0.0  # m/s, downhill
+
+
+class World:
+    """The truth, and the sensors."""
+
+    def __init__(self, seed: int, fence: tuple = (-15.0, -15.0, 25.0, 75.0)) -> None:
+        self.rng, self.fence = np.random.default_rng(seed), fence
+        self.pose, self.speeds = CASE.start, [0.0, 0.0]
+        self.now, self.rolled, self.power = 0.0, 0.0, True
+        self.past: list[tuple[float, wmr.Pose]] = []
+        self.clock_error = self.drifted = 0.0
+        self.said: wmr.Pose | None = None  # by the receiver, last
+        self.time = self.due = 0.0  # of the fixes
+        self.encoders = [0.0, 0.0]
+        # what the program keeps of it
+        self.clock = self.last_time = self.silence = 0.0
+
+    def inside(self, x: float, y: float) -> bool:
+        """Whether a place is inside the fence; NaN is not."""
+        west, south, east, north = self.fence
+        return west <= x <= east and south <= y <= north
+
+    def roll(self, told: tuple[float, float], faults: Faults) -> None:
+        """A period of the truth."""
+        told = told[::-1] if faults.cables_swapped else told
+        rolled = []
+        for side, speed in enumerate(told):
+            goal = speed if self.power and abs(speed) >= faults.dead_band else 0.0
+            goal *= faults.right_motor if side else 1.0
+            if faults.left_runs_on and not side and self.power:
+                goal = WHEELS.max_speed
+            if side and not faults.right_motor:
+                self.speeds[1] = 0.0  # it is blocked
+            mean, self.speeds[side] = follow(
+                self.speeds[side], goal, 1.0 / WHEELS.acceleration, WHEELS.lag, PERIOD
+            )
+            pushed = faults.pushed if self.power else 0.0  # without power its brakes are on
+            rolled.append((mean + pushed) * PERIOD)
+        self.encoders = [rolled[0] * faults.left_encoder, rolled[1]]
+        v, omega = wmr.wheels_to_twist(*(faults.grip * each / PERIOD for each in rolled), 0.5)
+        self.pose = wmr.advance(self.pose, v, omega, PERIOD)
+        self.rolled += abs(v) * PERIOD
+        self.now += PERIOD
+        self.past.append((self.now, self.pose))
+
+    def see(self, faults: Faults) -> wmr.Seen:
+        """What the program reads in a period, by its own clock."""
+        self.drifted += faults.drift * PERIOD
+        before, clock = self.clock, self.now + self.clock_error
+        if not faults.clock_stands:
+            self.clock = clock
+        fix = self._fix(faults)
+        self.silence += PERIOD
+        if fix:
+            self.silence = 0.0 if fix["later"] > 0.0 else self.silence
+        goal_inside = int(self.inside(CASE.goal.x, CASE.goal.y))
+        given = {"battery": faults.battery, "goal_inside": goal_inside} | fix
+        return wmr.Seen(self.clock - before, *self.encoders, **given)
+
+    def _fix(self, faults: Faults) -> dict:
+        self.due += PERIOD
+        self.time += PERIOD * faults.time
+        if faults.silent or self.due < faults.period - 1e-9:
+            return {}
+        self.due = 0.0
+        back = max(0, len(self.past) - 1 - round(faults.delay / PERIOD))
+        pose = self.past[back][1] if self.past else self.pose
+        x, y = np.array(pose[:2]) + self.rng.normal(0.0, 0.02, 2)
+        x += faults.jump + self.drifted
+        if faults.swapped:
+            x, y = swapped(x, y)
+        load = max(map(abs, self.speeds)) / WHEELS.max_speed
+        heading = pose.heading + self.rng.normal(0.0, 0.01)
+        heading += faults.compass + faults.compass_by_motors * load
+        heading = 0.5 * math.pi - heading if faults.clockwise else heading
+        if faults.stuck_position or faults.stuck_message:
+            x, y = (self.said or pose)[:2]
+        self.said = wmr.Pose(float(x), float(y), wmr.wrap_angle(heading))
+        fields = self.said._asdict()
+        if faults.not_a_number:
+            fields[faults.not_a_number] = math.nan
+        time = self.last_time if faults.stuck_message else self.time
+        later = time - self.last_time
+        if later > 0.0 or self.silence > 1.0:  # after a silence a receiver may begin anew
+            self.last_time = time
+        return fields | {
+            "fresh": 1,
+            "quality": faults.quality,
+            "error": faults.error,
+            "age": faults.delay if faults.told else 0.05,
+            "later": later,
+            "inside": int(self.inside(fields["x"], fields["y"])),
+        }
+
+
+def swapped(x: float, y: float) -> tuple[float, float]:
+    """Where a program is that reads longitude for latitude; too far off for a plane, but far."""
+    a = paper.GPS_POINT_1
+    b = wmr.point_at(a, x, y)
+    east, north = wmr.local_position(a, wmr.GeoPoint(lat=b.lon, lon=b.lat))
+    return float(east), float(north)

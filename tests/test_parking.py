@@ -1,0 +1,198 @@
+"""The drive round the law: every fault is survived, in Python and in C, by every row of the table."""
+
+import subprocess
+import sys
+from pathlib import Path
+
+import compiled
+import faults
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+import wmrlib as wmr
+from wmrlib import parking, symbolic
+
+CASES = {case.name: case for case in faults.CASES}
+NEVER = "silent", "swapped"
+
+
+@pytest.fixture(scope="module")
+def ran():
+    return {name: faults.run(case) for name, case in CASES.items()}
+
+
+@pytest.mark.parametrize("name", CASES)
+def test_a_fault_is_survived_and_none_drives_blind(ran, name):
+    assert faults.holds(CASES[name], ran[name]), ran[name][:5]
+
+
+@pytest.mark.needs("compiler")
+@pytest.mark.parametrize("name", CASES)
+def test_c_decides_the_same_in_each_period(ran, name):
+    case, seen = CASES[name], ran[name].seen
+    if case.wrong.get("hangs"):
+        assert faults.run(case, compiled.CDrive).decisions == ran[name].decisions
+        return
+    rules = wmr.Rules()._replace(**case.rules)
+    both = [
+        kind(faults.CASE.goal, faults.GAINS, faults.WHEELS, rules=rules)
+        for kind in (wmr.Drive, compiled.CDrive)
+    ]
+    for period, decided in zip(seen, ran[name].decisions, strict=True):
+        speeds = [drive.step(period) for drive in both]
+        assert speeds[1] == pytest.approx(speeds[0], abs=1e-12)
+        assert [(drive.state, drive.reason) for drive in both] == [decided] * 2
+
+
+@pytest.mark.parametrize("seed", range(3))
+def test_a_sound_robot_parks_and_never_waits(seed):
+    ran = faults.run(faults.Case("none", {}, "parked", 0.3), seed=seed)
+    assert faults.holds(faults.Case("none", {}, "parked", 0.3), ran)
+    assert ran.heading < 0.05
+    states = [state for state, _ in ran.decisions]
+    assert list(dict.fromkeys(states)) == ["wait", "drive", "turn", "parked"]
+    assert states.index("drive") < 20
+
+
+@pytest.mark.parametrize("row", [row for row in parking.TABLE if row.reason])
+def test_no_row_of_the_table_can_be_spared(monkeypatch, row):
+    cases = [case for case in faults.CASES if case.must.endswith(row.reason)]
+    assert cases, row
+    place = parking.TABLE.index(row)
+    rows = [each for k, each in enumerate(parking._ROWS) if k != place]
+    monkeypatch.setattr(parking, "_ROWS", rows)
+    assert not any(faults.holds(case, faults.run(case)) for case in cases)
+
+
+def test_a_row_without_a_reason_leads_on():
+    leads = [(row.within, row.to) for row in parking.TABLE if not row.reason]
+    assert leads == [
+        *(("wait", "drive"), ("drive", "turn"), ("drive", "parked")),
+        *(("turn", "drive"), ("turn", "parked")),
+    ]
+
+
+def goes(drive, pose, seconds, **fields):
+    """Let a robot with perfect wheels drive for a time."""
+    states, left, right = [], 0.0, 0.0
+    for _ in range(round(seconds / 0.05)):
+        seen = wmr.Seen(0.05, 0.05 * left, 0.05 * right, fresh=1, **pose._asdict(), **fields)
+        left, right = drive.step(seen)
+        pose = wmr.advance(pose, *wmr.wheels_to_twist(left, right, 0.5), 0.05)
+        states.append(drive.state)
+    return pose, states
+
+
+GOAL, START = wmr.Pose(3.0, 0.0, 1.5), wmr.Pose(0.0, 0.0, 0.0)
+KINDS = wmr.Drive, pytest.param(compiled.CDrive, marks=pytest.mark.needs("compiler"))
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_without_a_last_turn_it_parks_as_it_arrives(kind):
+    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, last_turn=None)
+    pose, states = goes(drive, START, 20.0)
+    assert list(dict.fromkeys(states)) == ["wait", "drive", "parked"]
+    assert abs(pose.heading - GOAL.heading) > 0.1
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_carried_off_during_the_last_turn_it_drives_again(kind):
+    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wmr.Rules(jump=2.0))
+    pose = START
+    while drive.state != "turn":
+        pose, _ = goes(drive, pose, 0.05)
+    pose, states = goes(drive, pose._replace(x=pose.x - 1.0), 20.0)
+    assert list(dict.fromkeys(states)) == ["drive", "turn", "parked"]
+    assert pose.heading == pytest.approx(GOAL.heading, abs=0.03)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_what_has_stopped_or_parked_stays_so_until_it_is_reset(kind):
+    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wmr.Rules(battery=20.0))
+    pose, _ = goes(drive, START, 2.0, battery=24.0)
+    pose, _ = goes(drive, pose, 2.0, battery=19.0)
+    assert (drive.state, drive.reason) == ("stopped", "battery low")
+    stands, _ = goes(drive, pose, 5.0, battery=24.0)
+    assert stands == pose
+    drive.reset()
+    goes(drive, pose, 20.0, battery=24.0)
+    assert (drive.state, drive.reason) == ("parked", "")
+
+
+numbers = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([float("nan"), float("inf"), 1e6]))
+periods = st.builds(
+    wmr.Seen,
+    seconds=st.sampled_from([0.05, 0.05, 0.05, 0.0, 1.0, -1.0]),
+    left=st.floats(-0.1, 0.1),
+    right=st.floats(-0.1, 0.1),
+    battery=st.sampled_from([24.0, 24.0, 20.0, float("nan")]),
+    inside=st.sampled_from([1, 1, 1, 0]),
+    fresh=st.sampled_from([1, 1, 0]),
+    x=numbers,
+    y=numbers,
+    heading=numbers,
+    quality=st.sampled_from([4, 4, 4, 0, 6]),
+    error=st.sampled_from([0.0, 0.5, 2.0, float("nan")]),
+    later=st.sampled_from([0.1, 0.1, 0.0, -0.1, float("nan")]),
+    age=st.sampled_from([0.05, 0.05, 0.4, -1.0, float("nan")]),
+)
+
+
+@pytest.mark.needs("compiler")
+@settings(max_examples=200)
+@given(st.lists(st.tuples(periods, st.integers(1, 12)), max_size=30))
+def test_whatever_the_sensors_say_c_and_python_agree_and_the_unsettled_stand(given_):
+    rules = wmr.Rules(jump=4.0, battery=22.0)
+    given_ = [seen for seen, times in given_ for _ in range(times)]
+    drives = [
+        kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=rules)
+        for kind in (wmr.Drive, compiled.CDrive)
+    ]
+    silent = 0.0
+    for seen in given_:
+        speeds = [drive.step(seen) for drive in drives]
+        assert speeds[1] == pytest.approx(speeds[0], abs=1e-12)
+        assert drives[0].state == drives[1].state
+        assert drives[0].reason == drives[1].reason
+        trusted = seen.fresh and 1 <= seen.quality <= 5 and seen.later > 0 and seen.age >= 0
+        silent = 0.0 if trusted else silent + max(seen.seconds, 0.0)
+        if silent > rules.patience or drives[0].state not in ("drive", "turn"):
+            assert speeds[0] == (0.0, 0.0)
+
+
+def test_the_committed_header_is_what_is_printed():
+    assert symbolic.C_DRIVE.read_text(encoding="utf-8") == symbolic.c_drive()
+
+
+@pytest.mark.parametrize("text", ["[1]", "seen.x ** 2", "seen.x if m.good else [2]", "0 < m.good < 2"])
+def test_what_c_has_no_word_for_is_not_printed(text):
+    with pytest.raises((NotImplementedError, KeyError, ValueError)):
+        symbolic.c_drive_condition(text)
+
+
+@pytest.mark.parametrize(
+    ("change", "named"),
+    [
+        ({"goal": (0, 0, 0)}, "goal"),
+        ({"gains": wmr.KanayamaGains(1, 1, 1)}, "gains"),
+        ({"wheels": (0.5,)}, "wheels"),
+        ({"rules": {}}, "rules"),
+        ({"law": "kanayama"}, "law"),
+        ({"last_turn": 3}, "last_turn"),
+        ({"wheels": wmr.Wheels(0.5, dead_band=0.05)}, "last_turn.min_rate = 0.2"),
+    ],
+)
+def test_an_argument_that_is_not_allowed_is_named(change, named):
+    given_ = {"goal": GOAL, "gains": wmr.GENTLE_GAINS, "wheels": faults.WHEELS} | change
+    with pytest.raises(ValueError, match=f"^{named}"):
+        wmr.Drive(**given_)
+
+
+def test_the_command_prints_the_table(ran):
+    command = [sys.executable, Path(faults.__file__)]
+    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
+    *rows, last = printed.splitlines()[1:]
+    assert last == f"{len(CASES)} of {len(CASES)} as they must"
+    assert [row[:33].strip() for row in rows] == list(CASES)
+    assert all(ran[row[:33].strip()].end in row for row in rows)

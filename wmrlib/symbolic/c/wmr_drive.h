@@ -1,0 +1,372 @@
+/* wmr_drive.h: a state machine round wmr_law.h, that never drives blind.
+   Printed by python -m wmrlib.symbolic from wmrlib's parking and trust: change those.
+
+   A robot waits for good fixes, drives, turns on the spot, and has parked; whatever is wrong
+   with a sensor, a wheel, the clock or the goal makes it wait until that is over, or stop until
+   a person resets it. One wmr_memory, all zeros at first, is all that it keeps.
+
+   #define WMR_DRIVE_LAW to another of wmr_law.h's laws before the #include.
+
+   SPDX-License-Identifier: BSD-3-Clause */
+#ifndef WMR_DRIVE_H
+#define WMR_DRIVE_H
+
+#include "wmr_law.h"
+
+#ifndef WMR_DRIVE_LAW
+#define WMR_DRIVE_LAW wmr_law
+#endif
+
+/* states, why a fix is not used, and why the robot waits or has stopped */
+enum { WMR_WAIT, WMR_DRIVE, WMR_TURN, WMR_PARKED, WMR_STOPPED };
+enum { WMR_NONE, WMR_BROKEN, WMR_POOR, WMR_LATE, WMR_STALE, WMR_FROZEN, WMR_JUMPED,
+    WMR_TURNED };
+enum { WMR_FINE, WMR_BATTERY_LOW, WMR_GOAL_OUTSIDE_THE_FENCE,
+    WMR_ROBOT_OUTSIDE_THE_FENCE, WMR_GOAL_TOO_FAR, WMR_WHEEL_OR_ENCODER_STUCK,
+    WMR_WHEEL_TURNS_UNTOLD, WMR_HEADING_DISAGREES_WITH_WHEELS,
+    WMR_WHEELS_TURN_AND_ROBOT_STANDS, WMR_HEADING_DISAGREES_WITH_COURSE,
+    WMR_DRIVE_TOO_LONG, WMR_CLOCK_JUMPED, WMR_FIX_IS_NO_NUMBER,
+    WMR_FIX_OF_TOO_LOW_QUALITY, WMR_FIX_TOO_OLD, WMR_FIX_TIME_STANDS_OR_GOES_BACK,
+    WMR_POSITION_FROZEN, WMR_POSITION_JUMPED, WMR_NO_FIX };
+
+/* what wmrlib's Wheels, LastTurn, Rules, Seen, Wheel and Memory say of their fields */
+typedef struct { WMR_REAL track_width; WMR_REAL max_speed; WMR_REAL min_speed;
+    WMR_REAL acceleration; WMR_REAL lag; WMR_REAL dead_band; WMR_REAL encoder_step; }
+    wmr_motors;
+typedef struct { WMR_REAL tolerance; WMR_REAL gain; WMR_REAL min_rate;
+    WMR_REAL max_rate; WMR_REAL leave; } wmr_last_turn;
+typedef struct { WMR_REAL arrival_radius; WMR_REAL patience; WMR_REAL oldest;
+    WMR_REAL largest_error; int settle; WMR_REAL jump; WMR_REAL slip; WMR_REAL frozen;
+    WMR_REAL course; WMR_REAL astray; WMR_REAL wheel; WMR_REAL share;
+    WMR_REAL longest_period; WMR_REAL longest_drive; WMR_REAL farthest;
+    WMR_REAL battery; } wmr_rules;
+typedef struct { WMR_REAL seconds; WMR_REAL left; WMR_REAL right; WMR_REAL battery;
+    int goal_inside; int inside; int fresh; WMR_REAL x; WMR_REAL y; WMR_REAL heading;
+    int quality; WMR_REAL error; WMR_REAL later; WMR_REAL age; } wmr_seen;
+typedef struct { WMR_REAL told; WMR_REAL speed; WMR_REAL due; WMR_REAL rolled;
+    int stuck; int loose; } wmr_wheel;
+typedef struct { int state; int reason; wmr_pose pose; wmr_wheel left; wmr_wheel right;
+    int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; WMR_REAL pace;
+    WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still; int outside; wmr_pose begin;
+    wmr_pose leg; WMR_REAL length; WMR_REAL turning; int turned; int astray;
+    int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off; int facing; } wmr_memory;
+typedef struct {
+  wmr_pose goal;
+  wmr_gains gains;
+  wmr_motors motors;
+  wmr_last_turn end; /* a tolerance of 0 is none */
+  wmr_rules rules;
+} wmr_plan;
+
+static inline wmr_rules wmr_usual_rules(void) {
+  const wmr_rules usual = {WMR_C(0.2), WMR_C(0.5), WMR_C(0.3), WMR_C(1.0), 3,
+      WMR_C(1.0), WMR_C(0.2), WMR_C(0.3), WMR_C(4.0), WMR_C(0.8), WMR_C(0.48),
+      WMR_C(0.25), WMR_C(0.15), WMR_C(300.0), WMR_C(500.0), WMR_C(0.0)};
+  return usual;
+}
+
+/* The reason in words. */
+static inline const char *wmr_reason(int reason) {
+  static const char *const words[] = {
+    "",
+    "battery low",
+    "goal outside the fence",
+    "robot outside the fence",
+    "goal too far",
+    "wheel or encoder stuck",
+    "wheel turns untold",
+    "heading disagrees with wheels",
+    "wheels turn and robot stands",
+    "heading disagrees with course",
+    "drive too long",
+    "clock jumped",
+    "fix is no number",
+    "fix of too low quality",
+    "fix too old",
+    "fix time stands or goes back",
+    "position frozen",
+    "position jumped",
+    "no fix"
+  };
+  return reason >= 0 && reason < (int)(sizeof words / sizeof *words) ? words[reason] : "";
+}
+
+/* Move a place on along the arc that the wheels rolled. */
+static inline void wmr_carry(wmr_pose *place, WMR_REAL ahead, WMR_REAL turn) {
+  const WMR_REAL chord = ahead * wmr_sinc(WMR_C(0.5) * turn);
+  place->x += chord * WMR_F(cos)(place->heading + WMR_C(0.5) * turn);
+  place->y += chord * WMR_F(sin)(place->heading + WMR_C(0.5) * turn);
+  place->heading = wmr_wrap(place->heading + turn);
+}
+
+/* Take a fix's word for a place. */
+static inline void wmr_set_place(wmr_pose *place, const wmr_seen *seen) {
+  place->x = seen->x;
+  place->y = seen->y;
+  place->heading = seen->heading;
+}
+
+/* Hold what a wheel rolled against what it was told. */
+static inline void wmr_watch_wheel(wmr_wheel *wheel, WMR_REAL rolled, WMR_REAL dt,
+    const wmr_rules *rules, const wmr_motors *wheels) {
+  const WMR_REAL told = (WMR_F(fabs)(wheel->told) < wheels->dead_band) ? WMR_C(0.0) :
+      wheel->told;
+  const WMR_REAL reach = wheels->acceleration * dt;
+  wheel->speed += WMR_F(fmin)(WMR_F(fmax)(told - wheel->speed, -reach), reach);
+  wheel->due += wheel->speed * dt;
+  wheel->rolled += rolled;
+  if (WMR_F(fmax)(WMR_F(fabs)(wheel->due), WMR_F(fabs)(wheel->rolled)) >= rules->wheel)
+      {
+    const WMR_REAL both = wheel->due * wheel->rolled;
+    if (WMR_F(fabs)(wheel->due) >= WMR_F(fabs)(wheel->rolled)) {
+      wheel->stuck = both < rules->share * wheel->due * wheel->due;
+    } else {
+      wheel->loose = both < rules->share * wheel->rolled * wheel->rolled;
+    }
+    wheel->due = WMR_C(0.0);
+    wheel->rolled = WMR_C(0.0);
+  }
+}
+
+/* Why a fix can't be used; NONE if it can. */
+static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
+    const wmr_rules *rules) {
+  if (!(WMR_F(fabs)(seen->x) + WMR_F(fabs)(seen->y) + WMR_F(fabs)(seen->heading) <
+      WMR_C(1000000000.0) && WMR_F(fabs)(seen->age) < WMR_C(1000000000.0))) {
+    return WMR_BROKEN;
+  }
+  if (seen->quality < 1 || seen->quality > 5 || !(seen->error <= rules->largest_error))
+      {
+    return WMR_POOR;
+  }
+  if (seen->age > rules->oldest || seen->age < WMR_C(0.0)) {
+    return WMR_LATE;
+  }
+  if (!(seen->later > WMR_C(0.0))) {
+    return WMR_STALE;
+  }
+  if (m->still > rules->frozen) {
+    return WMR_FROZEN;
+  }
+  const WMR_REAL gap = wmr_distance(seen->x - m->pose.x, seen->y - m->pose.y);
+  if (gap > rules->jump + rules->slip * m->since + m->pace * seen->age) {
+    return WMR_JUMPED;
+  }
+  if (WMR_F(fabs)(wmr_wrap(seen->heading - m->leg.heading)) > rules->astray && m->driven
+      > WMR_C(0.0)) {
+    return WMR_TURNED;
+  }
+  return WMR_NONE;
+}
+
+/* Let the wheels and the fixes set off from the same place. */
+static inline void wmr_begin_leg(wmr_memory *m, const wmr_seen *seen) {
+  wmr_set_place(&m->begin, seen);
+  wmr_set_place(&m->leg, seen);
+  m->length = WMR_C(0.0);
+  m->turning = WMR_C(0.0);
+}
+
+/* Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew. */
+static inline void wmr_compare(wmr_memory *m, const wmr_seen *seen,
+    const wmr_rules *rules) {
+  const WMR_REAL east = m->leg.x - m->begin.x;
+  const WMR_REAL north = m->leg.y - m->begin.y;
+  const WMR_REAL x = seen->x - m->begin.x;
+  const WMR_REAL y = seen->y - m->begin.y;
+  const WMR_REAL rolled = wmr_distance(east, north);
+  if (rolled >= rules->course) {
+    m->slipping = wmr_distance(x, y) < WMR_C(0.5) * rolled;
+    m->astray = WMR_F(fabs)(WMR_F(atan2)(east * y - (north * x), east * x + north * y))
+        > rules->astray;
+  }
+  if (rolled >= rules->course || m->length > WMR_C(4.0) * rules->course || m->turning >
+      WMR_C(3.0)) {
+    wmr_begin_leg(m, seen);
+  }
+}
+
+/* Take a fix, or say why not; before the first drive a jump is a new beginning. */
+static inline void wmr_read(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules)
+    {
+  if (seen->x != m->x || seen->y != m->y) {
+    m->still = WMR_C(0.0);
+  }
+  m->x = seen->x;
+  m->y = seen->y;
+  m->refused = wmr_refusal_of(m, seen, rules);
+  m->turned = (m->refused == WMR_TURNED) ? (m->turned + 1) : 0;
+  const int first = m->refused == WMR_JUMPED && m->driven == WMR_C(0.0);
+  m->good = (first || m->refused != WMR_NONE) ? 0 : m->good;
+  if (m->refused == WMR_NONE || first) {
+    m->good += 1;
+    m->silence = seen->age;
+    m->since = WMR_C(0.0);
+    m->outside = !seen->inside;
+    wmr_set_place(&m->pose, seen);
+    if (m->driven > WMR_C(0.0)) {
+      wmr_compare(m, seen, rules);
+    } else {
+      wmr_begin_leg(m, seen);
+    }
+  }
+}
+
+/* Take in a period: the clock, the wheels, the battery, and a fix if there is one. */
+static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules,
+    const wmr_motors *wheels) {
+  m->regular = seen->seconds > WMR_C(0.0) && seen->seconds <= rules->longest_period;
+  const WMR_REAL dt = WMR_F(fmin)(WMR_F(fmax)(seen->seconds, WMR_C(0.0)),
+      rules->longest_period);
+  const WMR_REAL ahead = WMR_C(0.5) * (seen->left + seen->right);
+  const WMR_REAL turn = (seen->right - seen->left) / wheels->track_width;
+  if (m->regular) {
+    wmr_watch_wheel(&m->left, seen->left, dt, rules, wheels);
+    wmr_watch_wheel(&m->right, seen->right, dt, rules, wheels);
+    m->pace = WMR_F(fabs)(ahead) / dt;
+  }
+  wmr_carry(&m->pose, ahead, turn);
+  wmr_carry(&m->leg, ahead, turn);
+  m->since += WMR_F(fabs)(ahead);
+  m->still += WMR_F(fabs)(ahead);
+  m->length += WMR_F(fabs)(ahead);
+  m->turning += WMR_F(fabs)(turn);
+  m->silence += WMR_F(fmax)(seen->seconds, WMR_C(0.0));
+  m->low = (!(seen->battery >= rules->battery)) ? (m->low + dt) : WMR_C(0.0);
+  m->driven += (m->state == WMR_DRIVE || m->state == WMR_TURN) ? dt : WMR_C(0.0);
+  if (!m->regular || m->silence > rules->patience) {
+    m->good = 0;
+  }
+  if (seen->fresh) {
+    wmr_read(m, seen, rules);
+  }
+}
+
+
+/* The first row of the table that fits. */
+static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules,
+                              const wmr_last_turn *end) {
+  if (m->state <= WMR_TURN && m->low > rules->patience) {
+    m->state = WMR_STOPPED, m->reason = WMR_BATTERY_LOW;
+    return;
+  }
+  if (m->state <= WMR_TURN && seen->goal_inside == 0) {
+    m->state = WMR_STOPPED, m->reason = WMR_GOAL_OUTSIDE_THE_FENCE;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->good >= rules->settle && m->outside != 0) {
+    m->state = WMR_STOPPED, m->reason = WMR_ROBOT_OUTSIDE_THE_FENCE;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->good >= rules->settle && m->rho > rules->farthest) {
+    m->state = WMR_STOPPED, m->reason = WMR_GOAL_TOO_FAR;
+    return;
+  }
+  if (m->state <= WMR_TURN && (m->left.stuck != 0 || m->right.stuck != 0)) {
+    m->state = WMR_STOPPED, m->reason = WMR_WHEEL_OR_ENCODER_STUCK;
+    return;
+  }
+  if (m->state <= WMR_TURN && (m->left.loose != 0 || m->right.loose != 0)) {
+    m->state = WMR_STOPPED, m->reason = WMR_WHEEL_TURNS_UNTOLD;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->turned >= rules->settle) {
+    m->state = WMR_STOPPED, m->reason = WMR_HEADING_DISAGREES_WITH_WHEELS;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->slipping != 0) {
+    m->state = WMR_STOPPED, m->reason = WMR_WHEELS_TURN_AND_ROBOT_STANDS;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->astray != 0) {
+    m->state = WMR_STOPPED, m->reason = WMR_HEADING_DISAGREES_WITH_COURSE;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->driven > rules->longest_drive) {
+    m->state = WMR_STOPPED, m->reason = WMR_DRIVE_TOO_LONG;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->regular == 0) {
+    m->state = WMR_WAIT, m->reason = WMR_CLOCK_JUMPED;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_BROKEN)
+      {
+    m->state = WMR_WAIT, m->reason = WMR_FIX_IS_NO_NUMBER;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_POOR) {
+    m->state = WMR_WAIT, m->reason = WMR_FIX_OF_TOO_LOW_QUALITY;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_LATE) {
+    m->state = WMR_WAIT, m->reason = WMR_FIX_TOO_OLD;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_STALE) {
+    m->state = WMR_WAIT, m->reason = WMR_FIX_TIME_STANDS_OR_GOES_BACK;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_FROZEN)
+      {
+    m->state = WMR_WAIT, m->reason = WMR_POSITION_FROZEN;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_JUMPED)
+      {
+    m->state = WMR_WAIT, m->reason = WMR_POSITION_JUMPED;
+    return;
+  }
+  if (m->state <= WMR_TURN && m->silence > rules->patience) {
+    m->state = WMR_WAIT, m->reason = WMR_NO_FIX;
+    return;
+  }
+  if (m->state <= WMR_WAIT && m->good >= rules->settle) {
+    m->state = WMR_DRIVE, m->reason = WMR_FINE;
+    return;
+  }
+  if (m->state == WMR_DRIVE && m->rho <= rules->arrival_radius && end->tolerance >
+      WMR_C(0.0)) {
+    m->state = WMR_TURN, m->reason = WMR_FINE;
+    return;
+  }
+  if (m->state == WMR_DRIVE && m->rho <= rules->arrival_radius) {
+    m->state = WMR_PARKED, m->reason = WMR_FINE;
+    return;
+  }
+  if (m->state == WMR_TURN && m->rho > end->leave * rules->arrival_radius) {
+    m->state = WMR_DRIVE, m->reason = WMR_FINE;
+    return;
+  }
+  if (m->state == WMR_TURN && m->facing >= rules->settle) {
+    m->state = WMR_PARKED, m->reason = WMR_FINE;
+    return;
+  }
+}
+
+/* What the wheels are to do in the next period. */
+static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wmr_plan *plan) {
+  const wmr_last_turn *end = &plan->end;
+  wmr_twist twist = {WMR_C(0.0), WMR_C(0.0), WMR_OK};
+  wmr_polar error;
+  wmr_wheels wheels;
+  wmr_look(m, seen, &plan->rules, &plan->motors);
+  error = wmr_polar_error(m->pose, plan->goal);
+  m->rho = error.rho, m->off = wmr_wrap(error.alpha - error.theta);
+  m->facing = m->state == WMR_TURN && WMR_F(fabs)(m->off) <= end->tolerance ? m->facing + 1 : 0;
+  wmr_decide(m, seen, &plan->rules, end);
+  if (m->state == WMR_DRIVE) {
+    twist = WMR_DRIVE_LAW(error, plan->gains);
+    if (plan->motors.min_speed > WMR_C(0.0)) {
+      const WMR_REAL more = wmr_hurry(twist.v, error.alpha, plan->motors.min_speed);
+      twist.v *= more, twist.omega *= more;
+    }
+  } else if (m->state == WMR_TURN && WMR_F(fabs)(m->off) > end->tolerance) {
+    twist.omega = wmr_turn_rate(m->off, end->gain, end->min_rate, end->max_rate);
+  }
+  wheels = wmr_limited_wheels(twist, plan->motors.track_width, plan->motors.max_speed);
+  m->left.told = wheels.left, m->right.told = wheels.right;
+  return wheels;
+}
+
+#endif

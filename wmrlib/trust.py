@@ -1,0 +1,256 @@
+"""What a robot makes of its sensors: where it is, and which of them can be trusted.
+
+`symbolic` prints all of it as ``wmr_drive.h``, so it is written in the Python that C has too.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, field
+from math import atan2, cos, sin
+from typing import NamedTuple
+
+from wmrlib._checks import checked
+from wmrlib._elementary import distance, sinc, wrap
+from wmrlib.body import Wheels
+
+STATES = "wait", "drive", "turn", "parked", "stopped"
+WAIT, DRIVE, TURN, PARKED, STOPPED = range(len(STATES))
+REFUSALS = "none", "broken", "poor", "late", "stale", "frozen", "jumped", "turned"
+NONE, BROKEN, POOR, LATE, STALE, FROZEN, JUMPED, TURNED = range(len(REFUSALS))
+
+
+@checked(above_0=("arrival_radius", "patience", "oldest", "settle", "course", "wheel"))
+class Rules(NamedTuple):
+    """How far a robot trusts its sensors.
+
+    Parameters
+    ----------
+    arrival_radius : float, m. There it parks, or begins the last turn.
+    patience : float, s since the last usable fix; then it stops, and waits.
+    oldest, largest_error : float; s, m. A fix that is older, or says that it is worse, is not used.
+    settle : int. So many good fixes in a row let it drive.
+    jump, slip : float; m, no unit. Nor is one used that is farther than jump from where the wheels
+        can be; they may err by the share slip of what they rolled.
+    frozen : float, m. Rolled so far, a robot whose position has the same bits has no receiver.
+    course, astray : float; m, rad. Over legs so long, headings by fixes and wheels are compared.
+    wheel, share : float; m, no unit. When a wheel was to roll, or rolled, so far, and did less than
+        this share of it, it is stuck; and loose the other way round.
+    longest_period, longest_drive : float, s
+    farthest : float, m. A goal that is farther away is a mistake.
+    battery : float, V. Below it for the time of `patience`, the robot stops.
+    """
+
+    arrival_radius: float = 0.2
+    patience: float = 0.5
+    oldest: float = 0.3
+    largest_error: float = 1.0
+    settle: int = 3
+    jump: float = 1.0
+    slip: float = 0.2
+    frozen: float = 0.3
+    course: float = 4.0
+    astray: float = 0.8
+    wheel: float = 0.48
+    share: float = 0.25
+    longest_period: float = 0.15
+    longest_drive: float = 300.0
+    farthest: float = 500.0
+    battery: float = 0.0
+
+
+class Seen(NamedTuple):
+    """What the sensors say in a period: clock, encoders, battery, fence, and a fix if it is new.
+
+    Parameters
+    ----------
+    seconds : float, s since the period before by the robot's clock
+    left, right : float, m that the wheels rolled in that time, by their encoders
+    battery : float, V
+    goal_inside, inside, fresh : int, 0 if the goal, or the fix, is outside the fence, and if there
+        is no new fix: then what follows is not read
+    x, y, heading : float; m, m, rad
+    quality : int, NMEA's: 1 to 5 are GPS, differential, PPS and RTK, others are no fix
+    error : float, m. What the receiver, or a filter, says of its own accuracy; 0 if nothing
+    later, age : float, s from the fix before by the receiver's own time, and since it was true
+    """
+
+    seconds: float
+    left: float
+    right: float
+    battery: float = math.inf
+    goal_inside: int = 1
+    inside: int = 1
+    fresh: int = 0
+    x: float = 0.0
+    y: float = 0.0
+    heading: float = 0.0
+    quality: int = 4
+    error: float = 0.0
+    later: float = 0.1
+    age: float = 0.0
+
+
+@dataclass(slots=True)
+class Place:
+    """A pose that odometry carries on."""
+
+    x: float = 0.0
+    y: float = 0.0
+    heading: float = 0.0
+
+
+@dataclass(slots=True)
+class Wheel:
+    """A wheel: its command and its speed due [m/s], and what is due and what it rolled [m]."""
+
+    told: float = 0.0
+    speed: float = 0.0
+    due: float = 0.0
+    rolled: float = 0.0
+    stuck: int = 0
+    loose: int = 0
+
+
+@dataclass(slots=True)
+class Memory:
+    """All that a drive keeps from one period to the next; it begins with zeros."""
+
+    state: int = WAIT
+    reason: int = 0
+    pose: Place = field(default_factory=Place)  # the last usable fix, carried on by odometry
+    left: Wheel = field(default_factory=Wheel)
+    right: Wheel = field(default_factory=Wheel)
+    regular: int = 0  # the clock went on by a period
+    low: float = 0.0  # s of a low battery
+    silence: float = 0.0  # s since the last usable fix
+    good: int = 0  # usable fixes in a row
+    refused: int = NONE  # why the last fix was not used
+    pace: float = 0.0  # m/s
+    since: float = 0.0  # m rolled since the last usable fix
+    x: float = 0.0  # of the last fix, usable or not
+    y: float = 0.0
+    still: float = 0.0  # m rolled since these changed
+    outside: int = 0
+    begin: Place = field(default_factory=Place)  # where a leg began, and where the wheels are since
+    leg: Place = field(default_factory=Place)
+    length: float = 0.0  # m of it
+    turning: float = 0.0  # rad of it
+    turned: int = 0  # fixes in a row whose heading is not the wheels'
+    astray: int = 0
+    slipping: int = 0
+    driven: float = 0.0  # s
+    rho: float = 0.0
+    off: float = 0.0  # rad that are still to be turned by
+    facing: int = 0  # periods in a row with the goal's heading
+
+
+def carry(place: Place, ahead: float, turn: float) -> None:
+    """Move a place on along the arc that the wheels rolled."""
+    chord = ahead * sinc(0.5 * turn)
+    place.x += chord * cos(place.heading + 0.5 * turn)
+    place.y += chord * sin(place.heading + 0.5 * turn)
+    place.heading = wrap(place.heading + turn)
+
+
+def set_place(place: Place, seen: Seen) -> None:
+    """Take a fix's word for a place."""
+    place.x, place.y, place.heading = seen.x, seen.y, seen.heading
+
+
+def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wheels) -> None:
+    """Hold what a wheel rolled against what it was told."""
+    told = 0.0 if abs(wheel.told) < wheels.dead_band else wheel.told
+    reach = wheels.acceleration * dt
+    wheel.speed += min(max(told - wheel.speed, -reach), reach)
+    wheel.due += wheel.speed * dt
+    wheel.rolled += rolled
+    if max(abs(wheel.due), abs(wheel.rolled)) >= rules.wheel:
+        both = wheel.due * wheel.rolled
+        if abs(wheel.due) >= abs(wheel.rolled):
+            wheel.stuck = both < rules.share * wheel.due * wheel.due
+        else:
+            wheel.loose = both < rules.share * wheel.rolled * wheel.rolled
+        wheel.due, wheel.rolled = 0.0, 0.0
+
+
+def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
+    """Why a fix can't be used; NONE if it can."""
+    if not (abs(seen.x) + abs(seen.y) + abs(seen.heading) < 1e9 and abs(seen.age) < 1e9):
+        return BROKEN
+    if seen.quality < 1 or seen.quality > 5 or not seen.error <= rules.largest_error:
+        return POOR
+    if seen.age > rules.oldest or seen.age < 0.0:
+        return LATE
+    if not seen.later > 0.0:
+        return STALE
+    if m.still > rules.frozen:
+        return FROZEN
+    gap = distance(seen.x - m.pose.x, seen.y - m.pose.y)
+    if gap > rules.jump + rules.slip * m.since + m.pace * seen.age:
+        return JUMPED
+    if abs(wrap(seen.heading - m.leg.heading)) > rules.astray and m.driven > 0.0:
+        return TURNED
+    return NONE
+
+
+def begin_leg(m: Memory, seen: Seen) -> None:
+    """Let the wheels and the fixes set off from the same place."""
+    set_place(m.begin, seen)
+    set_place(m.leg, seen)
+    m.length, m.turning = 0.0, 0.0
+
+
+def compare(m: Memory, seen: Seen, rules: Rules) -> None:
+    """Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew."""
+    east, north = m.leg.x - m.begin.x, m.leg.y - m.begin.y
+    x, y = seen.x - m.begin.x, seen.y - m.begin.y
+    rolled = distance(east, north)
+    if rolled >= rules.course:
+        m.slipping = distance(x, y) < 0.5 * rolled
+        m.astray = abs(atan2(east * y - north * x, east * x + north * y)) > rules.astray
+    if rolled >= rules.course or m.length > 4.0 * rules.course or m.turning > 3.0:
+        begin_leg(m, seen)
+
+
+def read(m: Memory, seen: Seen, rules: Rules) -> None:
+    """Take a fix, or say why not; before the first drive a jump is a new beginning."""
+    if seen.x != m.x or seen.y != m.y:
+        m.still = 0.0
+    m.x, m.y = seen.x, seen.y
+    m.refused = refusal_of(m, seen, rules)
+    m.turned = m.turned + 1 if m.refused == TURNED else 0
+    first = m.refused == JUMPED and m.driven == 0.0
+    m.good = 0 if first or m.refused != NONE else m.good
+    if m.refused == NONE or first:
+        m.good += 1
+        m.silence, m.since, m.outside = seen.age, 0.0, not seen.inside
+        set_place(m.pose, seen)
+        if m.driven > 0.0:
+            compare(m, seen, rules)
+        else:
+            begin_leg(m, seen)
+
+
+def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
+    """Take in a period: the clock, the wheels, the battery, and a fix if there is one."""
+    m.regular = seen.seconds > 0.0 and seen.seconds <= rules.longest_period
+    dt = min(max(seen.seconds, 0.0), rules.longest_period)
+    ahead, turn = 0.5 * (seen.left + seen.right), (seen.right - seen.left) / wheels.track_width
+    if m.regular:
+        watch_wheel(m.left, seen.left, dt, rules, wheels)
+        watch_wheel(m.right, seen.right, dt, rules, wheels)
+        m.pace = abs(ahead) / dt
+    carry(m.pose, ahead, turn)
+    carry(m.leg, ahead, turn)
+    m.since += abs(ahead)
+    m.still += abs(ahead)
+    m.length += abs(ahead)
+    m.turning += abs(turn)
+    m.silence += max(seen.seconds, 0.0)
+    m.low = m.low + dt if not seen.battery >= rules.battery else 0.0
+    m.driven += dt if m.state == DRIVE or m.state == TURN else 0.0
+    if not m.regular or m.silence > rules.patience:
+        m.good = 0
+    if seen.fresh:
+        read(m, seen, rules)
