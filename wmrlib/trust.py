@@ -132,8 +132,8 @@ class Memory:
     y: float = 0.0
     still: float = 0.0  # m rolled since these changed
     outside: int = 0
-    begin: Place = field(default_factory=Place)  # where a leg began, and where the wheels are since
-    leg: Place = field(default_factory=Place)
+    begin: Place = field(default_factory=Place)  # of a leg
+    leg: Place = field(default_factory=Place)  # where the wheels are by now
     length: float = 0.0  # m of it
     turning: float = 0.0  # rad of it
     turned: int = 0  # fixes in a row whose heading is not the wheels'
@@ -194,13 +194,6 @@ def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
     return NONE
 
 
-def begin_leg(m: Memory, seen: Seen) -> None:
-    """Let the wheels and the fixes set off from the same place."""
-    set_place(m.begin, seen)
-    set_place(m.leg, seen)
-    m.length, m.turning = 0.0, 0.0
-
-
 def compare(m: Memory, seen: Seen, rules: Rules) -> None:
     """Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew."""
     east, north = m.leg.x - m.begin.x, m.leg.y - m.begin.y
@@ -209,8 +202,11 @@ def compare(m: Memory, seen: Seen, rules: Rules) -> None:
     if rolled >= rules.course:
         m.slipping = distance(x, y) < 0.5 * rolled
         m.astray = abs(atan2(east * y - north * x, east * x + north * y)) > rules.astray
-    if rolled >= rules.course or m.length > 4.0 * rules.course or m.turning > 3.0:
-        begin_leg(m, seen)
+    curls = m.length > 4.0 * rules.course or m.turning > 3.0
+    if rolled >= rules.course or curls or m.driven == 0.0:
+        set_place(m.begin, seen)
+        set_place(m.leg, seen)
+        m.length, m.turning = 0.0, 0.0
 
 
 def read(m: Memory, seen: Seen, rules: Rules) -> None:
@@ -226,10 +222,7 @@ def read(m: Memory, seen: Seen, rules: Rules) -> None:
         m.good += 1
         m.silence, m.since, m.outside = seen.age, 0.0, not seen.inside
         set_place(m.pose, seen)
-        if m.driven > 0.0:
-            compare(m, seen, rules)
-        else:
-            begin_leg(m, seen)
+        compare(m, seen, rules)
 
 
 def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
@@ -250,7 +243,6 @@ def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     m.silence += max(seen.seconds, 0.0)
     m.low = m.low + dt if not seen.battery >= rules.battery else 0.0
     m.driven += dt if m.state == DRIVE or m.state == TURN else 0.0
-    if not m.regular or m.silence > rules.patience:
-        m.good = 0
+    m.good = m.good if m.regular and m.silence <= rules.patience else 0
     if seen.fresh:
         read(m, seen, rules)

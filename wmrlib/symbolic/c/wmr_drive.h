@@ -159,14 +159,6 @@ static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
   return WMR_NONE;
 }
 
-/* Let the wheels and the fixes set off from the same place. */
-static inline void wmr_begin_leg(wmr_memory *m, const wmr_seen *seen) {
-  wmr_set_place(&m->begin, seen);
-  wmr_set_place(&m->leg, seen);
-  m->length = WMR_C(0.0);
-  m->turning = WMR_C(0.0);
-}
-
 /* Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew. */
 static inline void wmr_compare(wmr_memory *m, const wmr_seen *seen,
     const wmr_rules *rules) {
@@ -180,9 +172,12 @@ static inline void wmr_compare(wmr_memory *m, const wmr_seen *seen,
     m->astray = WMR_F(fabs)(WMR_F(atan2)(east * y - (north * x), east * x + north * y))
         > rules->astray;
   }
-  if (rolled >= rules->course || m->length > WMR_C(4.0) * rules->course || m->turning >
-      WMR_C(3.0)) {
-    wmr_begin_leg(m, seen);
+  const int curls = m->length > WMR_C(4.0) * rules->course || m->turning > WMR_C(3.0);
+  if (rolled >= rules->course || curls || m->driven == WMR_C(0.0)) {
+    wmr_set_place(&m->begin, seen);
+    wmr_set_place(&m->leg, seen);
+    m->length = WMR_C(0.0);
+    m->turning = WMR_C(0.0);
   }
 }
 
@@ -204,11 +199,7 @@ static inline void wmr_read(wmr_memory *m, const wmr_seen *seen, const wmr_rules
     m->since = WMR_C(0.0);
     m->outside = !seen->inside;
     wmr_set_place(&m->pose, seen);
-    if (m->driven > WMR_C(0.0)) {
-      wmr_compare(m, seen, rules);
-    } else {
-      wmr_begin_leg(m, seen);
-    }
+    wmr_compare(m, seen, rules);
   }
 }
 
@@ -234,9 +225,7 @@ static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules
   m->silence += WMR_F(fmax)(seen->seconds, WMR_C(0.0));
   m->low = (!(seen->battery >= rules->battery)) ? (m->low + dt) : WMR_C(0.0);
   m->driven += (m->state == WMR_DRIVE || m->state == WMR_TURN) ? dt : WMR_C(0.0);
-  if (!m->regular || m->silence > rules->patience) {
-    m->good = 0;
-  }
+  m->good = (m->regular && m->silence <= rules->patience) ? m->good : 0;
   if (seen->fresh) {
     wmr_read(m, seen, rules);
   }
