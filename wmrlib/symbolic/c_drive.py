@@ -117,8 +117,8 @@ def _statement(node: ast.stmt, c: _C, indent: str) -> list[str]:
     match node:
         case ast.Expr(value=ast.Call()):
             return [f"{indent}{c.visit(node.value)};"]
-        case ast.Return():
-            return [f"{indent}return {c.visit(node.value)};"]
+        case ast.Return(value=ast.expr() as value):
+            return [f"{indent}return {c.visit(value)};"]
         case ast.AugAssign(op=op):
             return [f"{indent}{c.visit(node.target)} {_SIGNS[type(op)]}= {c.visit(node.value)};"]
         case ast.Assign(targets=[ast.Tuple(elts=names)], value=ast.Tuple(elts=values)):
@@ -138,7 +138,8 @@ def _statement(node: ast.stmt, c: _C, indent: str) -> list[str]:
 
 
 def _function(function) -> str:
-    tree = ast.parse(inspect.getsource(function)).body[0]
+    (tree,) = ast.parse(inspect.getsource(function)).body
+    assert isinstance(tree, ast.FunctionDef)
     kinds = get_type_hints(function)
     back = _KINDS[kinds.pop("return")]
     plain = {name for name, kind in kinds.items() if kind in (float, int)}
@@ -148,12 +149,9 @@ def _function(function) -> str:
         const = "const " if issubclass(kind, tuple) else ""
         given.append(f"{const}{_KINDS[kind]}{star}{name}".replace(" ", "\xa0"))
     c = _C(set(kinds) - plain)
-    says, *statements = tree.body
-    lines = [line for each in statements for line in _statement(each, c, "  ")]
+    lines = [line for each in tree.body[1:] for line in _statement(each, c, "  ")]
     head = f"static inline {back} wmr_{function.__name__}({', '.join(given)}) {{"
-    return "\n".join(
-        [f"/* {ast.literal_eval(says.value)} */", *map(_wrapped, [head, *lines]), "}\n"]
-    )
+    return "\n".join([f"/* {inspect.getdoc(function)} */", *map(_wrapped, [head, *lines]), "}\n"])
 
 
 def _wrapped(line: str) -> str:
@@ -183,8 +181,7 @@ def _row(row: parking.Row) -> str:
 def c_drive() -> str:
     """The text of ``wmr_drive.h``."""
     text = _FRAME.read_text(encoding="utf-8").partition("*/\n")[2]
-    names = [*map(code_name, trust.STATES)], [*map(code_name, trust.REFUSALS)]
-    names = *names, [*map(code_name, parking.REASONS)]
+    names = [map(code_name, each) for each in (trust.STATES, trust.REFUSALS, parking.REASONS)]
     usual = ", ".join(
         str(int(value)) if kind is int else f"WMR_C({float(value)})"
         for value, kind in zip(trust.Rules(), get_type_hints(trust.Rules).values(), strict=True)
