@@ -20,10 +20,15 @@ settings.load_profile("repeatable")
 settings.register_profile("stress", deadline=None, print_blob=True, max_examples=1000)
 
 TOOLS = {  # what a test may need, the commands that are it, and what to install
+    "arm": (
+        ("arm-linux-gnueabihf-gcc",),
+        "a compiler for ARM (Debian: apt install gcc-arm-linux-gnueabihf libc6-dev-armhf-cross)",
+    ),
     "avr": (("avr-gcc",), "a compiler for AVR boards (Debian: apt install gcc-avr avr-libc)"),
     "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
     "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
     "npm": (("npm",), "npm (Debian: apt install npm)"),
+    "qemu": (("qemu-arm",), "qemu, which imitates ARM (Debian: apt install qemu-user)"),
     "simavr": (("simavr",), "simavr, which simulates AVR boards (Debian: apt install simavr)"),
 }
 

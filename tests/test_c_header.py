@@ -262,107 +262,10 @@ def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, option):
 
 
 @compiler
-@pytest.mark.parametrize(("real", "tolerance"), [("double", 2e-9), ("float", 2e-3)])
-def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
-    program = build(FOLDER / "example.c", tmp_path, f"-DWMR_REAL={real}")
-    printed = subprocess.run([program], check=True, capture_output=True, text=True).stdout
-    steps, *reached = map(float, printed.split())
-    east, north = wmr.local_position(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2)
-    pose, goal = wmr.Pose(0.0, 0.0, math.radians(72)), wmr.Pose(east, north, math.radians(-60))
-    limits, count = wmr.Wheels(0.5, 2.0), 0
-    while (error := wmr.polar_error(pose, goal)).rho > 0.05:
-        twist = wmr.control_law(*error, wmr.Gains(0.2, 2.0, 2.0, 4.0))
-        pose, count = wmr.advance(pose, *wmr.limit_wheels(*twist, limits), 0.05), count + 1
-    assert abs(steps - count) <= (0 if real == "double" else 1)
-    assert reached == pytest.approx(list(pose), abs=tolerance)
-
-
-# The example's own precautions: a scripted receiver, and the example without each check.
-
-BOARD = """#include <stdlib.h>
-static uint32_t turn = 0, late = 0, held = 0;
-static uint32_t clock_ms(void) {{ return turn * PERIOD_MS + late + held; }}
-static void wait_for_timer(void) {{ late = 0; if (++turn == 60) exit(0); }}
-static void feed_watchdog(void) {{ printf("fed %d\\n", (int)turn); }}
-static int read_fix(robot_fix *fix) {{
-  robot_fix seen = {{{{0, 0, 1}}, 1000 + PERIOD_MS * turn, 20, 1}};
-  {receiver}
-  *fix = seen;
-  return 1;
-}}
-static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds) {{
-  late = turn < 20 ? PERIOD_MS : PERIOD_MS + 1; /* how long the turn takes */
-  if (wheels.left + wheels.right > 0) printf("drives %d\\n", (int)turn);
-  (void)track_width, (void)seconds;
-}}
-"""
-UNCHECKED = "gains);", "gains), twist.v = 1, twist.status = WMR_OK;"
-PATIENT = "clock_ms() - seen < PATIENCE_MS", "(seen || 1)"
-CHECKS = {  # what the receiver does, what is to happen in which turns, a check, and none
-    "starts silent": ("return 0;", "drives", [], "has_fix = 0;", "has_fix = 1;"),
-    "falls silent": (*("if (turn >= 20) return 0;", "drives", range(29)), *PATIENT),
-    "long turns": ("if (turn >= 20) { held += 1000; return 0; }", "drives", range(20), *PATIENT),
-    "no fix": ("if (turn >= 20) seen.quality = 0;", "drives", range(29), "fix.quality >= 1 &&", ""),
-    "a guess": (
-        "if (turn >= 20) seen.quality = 6;",
-        "drives",
-        range(29),
-        "fix.quality <= 5 &&",
-        "",
-    ),
-    "old": ("if (turn >= 20) seen.age = 301;", "drives", range(29), " && fix.age <= OLDEST_MS", ""),
-    "frozen": (
-        *("if (turn >= 20) seen.time = 1950;", "drives", range(29)),
-        *("(int32_t)(time - last_time) > 0", "(int32_t)(time - last_time) >= 0"),
-    ),
-    "old times again": (
-        *("if (turn >= 20) seen.time = 1900 + 50 * (turn % 2);", "drives", range(29)),
-        *("(int32_t)(time - last_time) > 0", "time != last_time"),
-    ),
-    "backwards": (
-        *("if (turn >= 20) seen.time = 2900 - 50 * turn;", "drives", range(29)),
-        *("(int32_t)(time - last_time) > 0", "time != last_time"),
-    ),
-    "x NaN": ("if (turn >= 20) seen.pose.x = (WMR_REAL)NAN;", "drives", range(20), *UNCHECKED),
-    "no heading": (
-        "if (turn >= 20) seen.pose.heading = (WMR_REAL)NAN;",
-        "drives",
-        range(20),
-        *UNCHECKED,
-    ),
-    "late turns": ("", "fed", range(20), "if (clock_ms() - begin <= PERIOD_MS) ", "(void)begin, "),
-    "back again": (
-        *("if (turn >= 20 && turn < 40) return 0;", "drives", [*range(29), *range(40, 60)]),
-        *("seen = clock_ms() - fix.age, ", ""),
-    ),
-}
-
-
-@compiler
-@pytest.mark.parametrize(
-    ("receiver", "what", "turns", "check", "none"), CHECKS.values(), ids=CHECKS
-)
-def test_the_example_drives_by_good_fixes_alone(tmp_path, receiver, what, turns, check, none):
-    (tmp_path / "board.h").write_text(BOARD.format(receiver=receiver))
-    source = (FOLDER / "example.c").read_text(encoding="utf-8")
-    assert source.count(check) == 1
-
-    def seen(text):
-        (tmp_path / "example.c").write_text(text)
-        options = f"-I{tmp_path}", '-DHARDWARE="board.h"'
-        program = build(tmp_path / "example.c", tmp_path, *options)
-        ran = subprocess.run([program], check=True, capture_output=True, text=True).stdout
-        return [int(turn) for turn in re.findall(rf"{what} (\d+)", ran)]
-
-    assert seen(source) == list(turns)
-    assert seen(source.replace(check, none)) != list(turns)  # so the check is needed
-
-
-@compiler
 @pytest.mark.skipif(not CXX, reason="this test needs a C++ compiler (Debian: apt install g++)")
 @pytest.mark.parametrize("real", REALS)
 def test_it_is_cpp_too(tmp_path, real):
-    text = f'#define WMR_REAL {real}\n#include "wmr_law.h"\nint main() {{ return 0; }}\n'
+    text = f'#define WMR_REAL {real}\n#include "wmr_drive.h"\nint main() {{ return 0; }}\n'
     (tmp_path / "empty.cpp").write_text(text)
     build(tmp_path / "empty.cpp", tmp_path, compiler=(CXX, "-std=c++11"))
 
@@ -413,13 +316,6 @@ def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float(
         twist = wmr.control_law(*error, wmr.Gains(*gains))
         limited = wmr.limit_wheels(*twist, wmr.Wheels(0.5, 2.0))
         assert wheels == pytest.approx(wmr.twist_to_wheels(*limited, 0.5), abs=2e-5)
-
-
-@pytest.mark.needs("avr")
-def test_the_example_is_a_program_there_too(avr_gcc):
-    source = (FOLDER / "example.c").read_text(encoding="utf-8")
-    done = avr_gcc(f"#define WMR_REAL float\n{source}")
-    assert done.returncode == 0, done.stderr
 
 
 @pytest.mark.needs("avr")

@@ -190,7 +190,7 @@ def c_drive() -> str:
     places = {
         "NAMES": "\n".join(_wrapped(f"enum {{ {', '.join(each)} }};") for each in names),
         "STRUCTURES": "\n".join(map(_structure, _STRUCTS)),
-        "USUAL": _wrapped(f"  const wmr_rules usual = {{{usual}}};"),
+        "USUAL": " \\\n".join(_wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
         "FUNCTIONS": "\n".join(_function(each) for each in _OWN),
         "TABLE": "\n".join(map(_row, parking.TABLE)),
         "REASONS": ",\n".join(said),

@@ -31,10 +31,8 @@ typedef struct {
   wmr_rules rules;
 } wmr_plan;
 
-static inline wmr_rules wmr_usual_rules(void) {
+/* the rules that Python has unless it is told others */
 /* @USUAL@ */
-  return usual;
-}
 
 /* The reason in words. */
 static inline const char *wmr_reason(int reason) {

@@ -1,87 +1,107 @@
-/* A drive with wmr_law.h: a robot's main loop, with arithmetic in place of its hardware.
+/* A drive with wmr_drive.h: a robot's main loop, with arithmetic in place of its hardware.
    cc -std=c99 -Wall -Wextra -Werror example.c -o example -lm && ./example
-   On a robot, -DHARDWARE='"board.h"' names a header with its own five functions. */
+   On a robot, -DHARDWARE='"board.h"' names a header with its own nine functions. */
 #include <stdint.h>
 #include <stdio.h>
 
-#include "wmr_law.h"
+#include "wmr_drive.h"
 
 #define PERIOD_MS 50u
-#define OLDEST_MS 300u   /* a fix that is older is not used */
-#define PATIENCE_MS 500u /* since the last usable fix, then stop */
+#define TRACK_WIDTH WMR_C(0.5)
+#define COUNT_M WMR_C(0.0005) /* what a wheel rolls in a count of its encoder */
 
 typedef struct {
-  wmr_pose pose;      /* from receiver and compass */
+  wmr_pose pose;      /* from receiver and compass, or a filter */
   uint32_t time, age; /* ms: of the fix, counted on over midnight, and how long ago that was */
   int quality;        /* NMEA's: 1 to 5 are GPS, differential, PPS and RTK, others no fix */
+  WMR_REAL error;     /* m, by the receiver's own word; 0 if it says nothing */
 } robot_fix;
 
 #ifdef HARDWARE
 #include HARDWARE
 #else
 static wmr_pose robot = {0, 0, WMR_C(1.2566370614359172)};
+static WMR_REAL rolled[2] = {0, 0};
 static uint32_t now_ms = 0;
 
 static uint32_t clock_ms(void) { return now_ms; }
 static void wait_for_timer(void) { now_ms += PERIOD_MS; } /* until the next period begins */
 static void feed_watchdog(void) {}                        /* unfed, it resets the board */
+static WMR_REAL battery_volts(void) { return WMR_C(24.0); }
+static void cut_power(void) {} /* of the motors: opens their relay, which sets the brakes */
+
+static int is_inside(WMR_REAL x, WMR_REAL y) { /* the fence */
+  return -20 < x && x < 30 && -20 < y && y < 80;
+}
 
 static int read_fix(robot_fix *fix) { /* 0 when there is nothing new */
-  const robot_fix seen = {robot, now_ms, 0, 4};
+  const robot_fix seen = {robot, now_ms, 0, 4, WMR_C(0.02)};
   *fix = seen;
   return 1;
 }
 
+static void read_encoders(int32_t *left, int32_t *right) { /* forwards counts up */
+  *left = (int32_t)(rolled[0] / COUNT_M), *right = (int32_t)(rolled[1] / COUNT_M);
+}
+
 /* to the wheel loop */
-static void set_wheels(wmr_wheels wheels, WMR_REAL track_width, WMR_REAL seconds) {
-  const WMR_REAL v = (wheels.left + wheels.right) / WMR_C(2.0);
-  const WMR_REAL turn = (wheels.right - wheels.left) / track_width * seconds;
-  const WMR_REAL middle = robot.heading + turn / WMR_C(2.0);
-  const WMR_REAL chord = v * seconds * wmr_sinc(turn / WMR_C(2.0));
-  robot.x += chord * WMR_F(cos)(middle);
-  robot.y += chord * WMR_F(sin)(middle);
-  robot.heading = wmr_wrap(robot.heading + turn);
+static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {
+  const WMR_REAL left = wheels.left * seconds, right = wheels.right * seconds;
+  wmr_carry(&robot, (left + right) / WMR_C(2.0), (right - left) / TRACK_WIDTH);
+  rolled[0] += left, rolled[1] += right;
 }
 #endif
 
-/* numbers that are NaN stop wmr_law */
-static int is_usable(robot_fix fix) {
-  return fix.quality >= 1 && fix.quality <= 5 && fix.age <= OLDEST_MS;
-}
-
-/* a frozen receiver repeats the time of its last fix, a confused one goes back */
-static int is_later(uint32_t time, uint32_t last_time) {
-  return (int32_t)(time - last_time) > 0;
+/* What the sensors say. `last` is the time of the last fix that went on; after a second of
+   silence a receiver may begin anew. */
+static wmr_seen look(wmr_pose goal, uint32_t past_ms, WMR_REAL silence) {
+  static uint32_t last = 0;
+  static int32_t left = 0, right = 0;
+  const int32_t left_before = left, right_before = right;
+  robot_fix fix;
+  wmr_seen seen = {0};
+  read_encoders(&left, &right);
+  seen.seconds = WMR_C(0.001) * (WMR_REAL)(int32_t)past_ms; /* a clock that goes back shows */
+  seen.left = COUNT_M * (WMR_REAL)(left - left_before);
+  seen.right = COUNT_M * (WMR_REAL)(right - right_before);
+  seen.battery = battery_volts();
+  seen.goal_inside = is_inside(goal.x, goal.y);
+  seen.fresh = read_fix(&fix);
+  if (!seen.fresh) return seen;
+  seen.inside = is_inside(fix.pose.x, fix.pose.y);
+  seen.x = fix.pose.x, seen.y = fix.pose.y, seen.heading = fix.pose.heading;
+  seen.quality = fix.quality, seen.error = fix.error;
+  seen.age = WMR_C(0.001) * (WMR_REAL)fix.age;
+  seen.later = WMR_C(0.001) * (WMR_REAL)(int32_t)(fix.time - last);
+  if (seen.later > 0 || silence > 1) last = fix.time;
+  return seen;
 }
 
 int main(void) {
-  const wmr_gains gains = {WMR_C(0.2), WMR_C(2.0), WMR_C(2.0), WMR_C(4.0)};
-  const WMR_REAL track_width = WMR_C(0.5), max_speed = WMR_C(2.0);
-  const WMR_REAL arrived = WMR_C(0.05), period = WMR_C(0.001) * PERIOD_MS;
-  int count, has_fix = 0; /* so the wheels wait for the first one */
-  uint32_t last_time = 0, seen = 0;
-  robot_fix fix;
-  wmr_pose goal = {0, 0, WMR_C(-1.0471975511965976)}, pose = {0, 0, 0};
-  const wmr_wheels stopped = {0, 0, WMR_STOP};
+  wmr_plan plan = {{0, 0, WMR_C(-1.0471975511965976)},
+                   {WMR_C(0.2), WMR_C(2.0), WMR_C(2.0), WMR_C(4.0)},
+                   {TRACK_WIDTH, 2, WMR_C(0.1), (WMR_REAL)INFINITY, 0, 0, 0},
+                   {WMR_C(0.02), 2, WMR_C(0.2), 1, 2},
+                   WMR_USUAL_RULES};
+  static wmr_memory memory; /* all zeros */
+  uint32_t begun = clock_ms() - PERIOD_MS;
+  int count, reason = 0;
+  plan.rules.arrival_radius = WMR_C(0.05);
+  plan.rules.battery = WMR_C(22.0);
+  wmr_local_position_e7(332735720, 443731600, 332740870, 443732640, &plan.goal.x, &plan.goal.y);
 
-  wmr_local_position_e7(332735720, 443731600, 332740870, 443732640, &goal.x, &goal.y); /* once */
-
-  for (count = 0; count < 2000; ++count) { /* each turn one period of the timer */
-    const uint32_t begin = clock_ms();
-    wmr_twist twist = {0, 0, WMR_STOP};
-    if (read_fix(&fix) && is_usable(fix) && (!has_fix || is_later(fix.time, last_time))) {
-      pose = fix.pose, last_time = fix.time, seen = clock_ms() - fix.age, has_fix = 1;
-    }
-    if (has_fix && clock_ms() - seen < PATIENCE_MS) {
-      const wmr_polar error = wmr_polar_error(pose, goal);
-      if (error.rho <= arrived) break;
-      twist = wmr_law(error, gains);
-    }
-    set_wheels(wmr_limited_wheels(twist, track_width, max_speed), track_width, period);
-    if (clock_ms() - begin <= PERIOD_MS) feed_watchdog(); /* only by a turn in time */
+  for (count = 0; count < 4000 && memory.state != WMR_PARKED; ++count) { /* one period each */
+    const uint32_t past_ms = clock_ms() - begun;
+    const wmr_seen seen = look(plan.goal, past_ms, memory.silence);
+    const wmr_wheels wheels = wmr_drive(&memory, &seen, &plan);
+    begun += past_ms;
+    if (memory.state == WMR_STOPPED) cut_power(); /* until a person switches it on again */
+    set_wheels(wheels, WMR_C(0.001) * PERIOD_MS);
+    if (memory.reason != reason) printf("%s\n", wmr_reason(reason = memory.reason));
+    if (clock_ms() - begun <= PERIOD_MS) feed_watchdog(); /* only by a turn in time */
     wait_for_timer();
   }
-  set_wheels(stopped, track_width, period);
-  printf("%d %.9f %.9f %.9f\n", count, (double)pose.x, (double)pose.y, (double)pose.heading);
+  printf("%d %.9f %.9f %.9f\n", count, (double)memory.pose.x, (double)memory.pose.y,
+         (double)memory.pose.heading);
   return 0;
 }

@@ -58,12 +58,10 @@ typedef struct {
   wmr_rules rules;
 } wmr_plan;
 
-static inline wmr_rules wmr_usual_rules(void) {
-  const wmr_rules usual = {WMR_C(0.2), WMR_C(0.5), WMR_C(0.3), WMR_C(1.0), 3,
-      WMR_C(1.0), WMR_C(0.2), WMR_C(0.3), WMR_C(4.0), WMR_C(0.8), WMR_C(0.48),
-      WMR_C(0.25), WMR_C(0.15), WMR_C(300.0), WMR_C(500.0), WMR_C(0.0)};
-  return usual;
-}
+/* the rules that Python has unless it is told others */
+#define WMR_USUAL_RULES {WMR_C(0.2), WMR_C(0.5), WMR_C(0.3), WMR_C(1.0), 3, WMR_C(1.0), \
+    WMR_C(0.2), WMR_C(0.3), WMR_C(4.0), WMR_C(0.8), WMR_C(0.48), WMR_C(0.25), \
+    WMR_C(0.15), WMR_C(300.0), WMR_C(500.0), WMR_C(0.0)}
 
 /* The reason in words. */
 static inline const char *wmr_reason(int reason) {

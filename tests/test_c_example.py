@@ -1,0 +1,162 @@
+"""The example's main loop: what it drives, by which of its checks, and on which boards."""
+
+import math
+import re
+import subprocess
+
+import boards
+import pytest
+from test_c_header import build
+
+import wmrlib as wmr
+from wmrlib import symbolic
+
+FOLDER = symbolic.C_DRIVE.parent
+SOURCE = (FOLDER / "example.c").read_text(encoding="utf-8")
+compiler = pytest.mark.needs("compiler")
+
+
+def drive_of_the_example():
+    """The same loop in Python: the number of periods, and the pose at the end."""
+    east, north = wmr.local_position(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2)
+    pose, goal = wmr.Pose(0.0, 0.0, math.radians(72)), wmr.Pose(east, north, math.radians(-60))
+    gains, wheels = wmr.Gains(0.2, 2.0, 2.0, 4.0), wmr.Wheels(0.5, 2.0, min_speed=0.1)
+    drive = wmr.Drive(goal, gains, wheels, rules=wmr.Rules(arrival_radius=0.05))
+    rolled, counts, speeds, count = [0.0, 0.0], [0, 0], (0.0, 0.0), 0
+    while drive.state != "parked":
+        before, counts = counts, [int(each / 0.0005) for each in rolled]
+        moved = (0.0005 * (now - then) for now, then in zip(counts, before, strict=True))
+        speeds = drive.step(wmr.Seen(0.05, *moved, fresh=1, error=0.02, **pose._asdict()))
+        rolled = [each + 0.05 * speed for each, speed in zip(rolled, speeds, strict=True)]
+        pose = wmr.advance(pose, *wmr.wheels_to_twist(*speeds, 0.5), 0.05)
+        count += 1
+    return count, tuple(pose)
+
+
+@compiler
+@pytest.mark.parametrize(("real", "tolerance"), [("double", 2e-9), ("float", 2e-3)])
+def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
+    program = build(FOLDER / "example.c", tmp_path, f"-DWMR_REAL={real}")
+    printed = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+    periods, *reached = map(float, printed.split())
+    count, pose = drive_of_the_example()
+    assert abs(periods - count) <= (0 if real == "double" else 1)
+    assert reached == pytest.approx(list(pose), abs=tolerance)
+
+
+@pytest.mark.needs("avr", "simavr")
+def test_it_parks_on_an_avr_in_time():
+    board, (count, pose) = boards.avr(), drive_of_the_example()
+    assert abs(board.periods - count) <= 1
+    assert board.pose == pytest.approx(pose, abs=2e-3)
+    assert board.flash < 20_000  # of 32 kB, and a third of it is printf
+    assert board.memory < board.ram < 1_000  # of 2 kB
+    assert board.work / 16e3 == pytest.approx(3.5, abs=0.3)  # ms, as chapter 11 says
+
+
+@pytest.mark.needs("arm", "qemu")
+def test_it_parks_on_arm():
+    board, (count, pose) = boards.arm(), drive_of_the_example()
+    assert abs(board.periods - count) <= 1
+    assert board.pose == pytest.approx(pose, abs=2e-3)
+    assert board.flash < 8_000
+    assert 200 < board.work < 5_000
+
+
+# What the loop itself has to do: a scripted robot, and the example without each check.
+
+BOARD = """#include <stdlib.h>
+static uint32_t turn = 0, late = 0;
+static wmr_pose robot = {{0, 0, 1}};
+static WMR_REAL rolled[2] = {{0, 0}};
+static uint32_t clock_ms(void) {{ return turn * PERIOD_MS + late; }}
+static void wait_for_timer(void) {{ late = 0; if (++turn == 120) exit(0); }}
+static void feed_watchdog(void) {{ printf("fed %d\\n", (int)turn); }}
+static void cut_power(void) {{ printf("cut %d\\n", (int)turn); }}
+static WMR_REAL battery_volts(void) {{ return turn < 20 ? 24 : {battery}; }}
+static int is_inside(WMR_REAL x, WMR_REAL y) {{ return turn < 20 || {inside}; }}
+static int read_fix(robot_fix *fix) {{
+  robot_fix seen = {{robot, 1000 + PERIOD_MS * turn, 20, 1, 0}};
+  if (turn >= 20) {{ {receiver} }}
+  *fix = seen;
+  return 1;
+}}
+static void read_encoders(int32_t *left, int32_t *right) {{
+  *left = (int32_t)(rolled[0] / COUNT_M), *right = (int32_t)(rolled[1] / COUNT_M);
+}}
+static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {{
+  const WMR_REAL left = wheels.left * seconds, right = wheels.right * seconds;
+  wmr_carry(&robot, (left + right) / 2, (right - left) / TRACK_WIDTH);
+  rolled[0] += left, rolled[1] += right;
+  late = turn < 20 ? PERIOD_MS : PERIOD_MS + 1; /* how long the turn takes */
+  if (wheels.left + wheels.right > 0) printf("drives %d\\n", (int)turn);
+}}
+"""
+LATER = "if (seen.later > 0 || silence > 1) last"
+CHECKS = {  # what goes wrong in turn 20, what is to happen in which turns, a check, and none
+    "sound": ({}, "drives", range(2, 120), "COUNT_M * (WMR_REAL)(left", "0 * (WMR_REAL)(left"),
+    "silent": (
+        *({"receiver": "*fix = seen; return 0;"}, "drives", range(2, 29)),
+        *("seen.fresh = read_fix(&fix);", "seen.fresh = read_fix(&fix) + 1;"),
+    ),
+    "no fix": (
+        *({"receiver": "seen.quality = 0;"}, "drives", range(2, 29)),
+        *("seen.quality = fix.quality", "seen.quality = 4"),
+    ),
+    "worse than a metre": (
+        *({"receiver": "seen.error = 2;"}, "drives", range(2, 29)),
+        *("seen.error = fix.error", "seen.error = 0"),
+    ),
+    "old": (
+        *({"receiver": "seen.age = 301;"}, "drives", range(2, 29)),
+        *("(WMR_REAL)fix.age", "(WMR_REAL)(fix.age % 300)"),
+    ),
+    "frozen": (
+        *({"receiver": "seen.time = 1950;"}, "drives", range(2, 29)),
+        *("(int32_t)(fix.time - last)", "50"),
+    ),
+    "backwards": (
+        *({"receiver": "seen.time = 2900 - 50 * turn;"}, "drives", range(2, 29)),
+        *("(WMR_REAL)(int32_t)(fix.time", "(WMR_REAL)(uint32_t)(fix.time"),
+    ),
+    "old times again": (
+        *({"receiver": "seen.time = 1900 + 50 * (turn % 2);"}, "drives", range(2, 29)),
+        *(LATER, "last"),
+    ),
+    "begun anew": (
+        *({"receiver": "seen.time = 10 * turn;"}, "drives", [*range(2, 29), *range(43, 120)]),
+        *(LATER, "if (seen.later > 0) last"),
+    ),
+    "battery": ({"battery": "21"}, "drives", range(2, 30), "= battery_volts()", "= 24"),
+    "fence": (
+        *({"inside": "y < 40"}, "drives", range(2, 20)),
+        *("= is_inside(goal.x, goal.y)", "= 1"),
+    ),
+    "crossed": (
+        *({"inside": "y > 10"}, "drives", range(2, 20)),
+        *("= is_inside(fix.pose.x, fix.pose.y)", "= 1"),
+    ),
+    "power": (
+        *({"battery": "21"}, "cut", range(30, 120)),
+        *("if (memory.state == WMR_STOPPED) cut_power();", ""),
+    ),
+    "late turns": ({}, "fed", range(20), "if (clock_ms() - begun <= PERIOD_MS) ", ""),
+}
+
+
+@compiler
+@pytest.mark.parametrize(("wrong", "what", "turns", "check", "none"), CHECKS.values(), ids=CHECKS)
+def test_the_loop_has_no_check_too_many(tmp_path, wrong, what, turns, check, none):
+    sound = {"battery": "24", "inside": "(x - x + y - y == 0)", "receiver": ""}
+    (tmp_path / "board.h").write_text(BOARD.format(**sound | wrong))
+    assert check in SOURCE
+
+    def seen(text):
+        (tmp_path / "example.c").write_text(text)
+        options = f"-I{tmp_path}", '-DHARDWARE="board.h"', "-Wno-unused"
+        program = build(tmp_path / "example.c", tmp_path, *options)
+        ran = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+        return [int(turn) for turn in re.findall(rf"{what} (\d+)", ran)]
+
+    assert seen(SOURCE) == list(turns)
+    assert seen(SOURCE.replace(check, none)) != list(turns)  # so the check is needed
