@@ -24,7 +24,7 @@ def drive_of_the_example():
     drive = wmr.Drive(goal, gains, wheels, rules=wmr.Rules(arrival_radius=0.05))
     rolled, counts, speeds, count = [0.0, 0.0], [0, 0], (0.0, 0.0), 0
     while drive.state != "parked":
-        before, counts = counts, [int(each / 0.0005) for each in rolled]
+        before, counts = counts, [int(each / 0.0005 + 0.5) for each in rolled]
         moved = (0.0005 * (now - then) for now, then in zip(counts, before, strict=True))
         speeds = drive.step(wmr.Seen(0.05, *moved, fresh=1, error=0.02, **pose._asdict()))
         rolled = [each + 0.05 * speed for each, speed in zip(rolled, speeds, strict=True)]

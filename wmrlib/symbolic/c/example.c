@@ -41,7 +41,8 @@ static int read_fix(robot_fix *fix) { /* 0 when there is nothing new */
 }
 
 static void read_encoders(int32_t *left, int32_t *right) { /* forwards counts up */
-  *left = (int32_t)(rolled[0] / COUNT_M), *right = (int32_t)(rolled[1] / COUNT_M);
+  *left = (int32_t)(rolled[0] / COUNT_M + WMR_C(0.5));
+  *right = (int32_t)(rolled[1] / COUNT_M + WMR_C(0.5));
 }
 
 /* to the wheel loop */
