@@ -22,7 +22,7 @@ typedef struct {
 #else
 static wmr_pose robot = {0, 0, WMR_C(1.2566370614359172)};
 static WMR_REAL rolled[2] = {0, 0};
-static uint32_t now_ms = 0;
+static uint32_t now_ms = 1000;
 
 static uint32_t clock_ms(void) { return now_ms; }
 static void wait_for_timer(void) { now_ms += PERIOD_MS; } /* until the next period begins */
