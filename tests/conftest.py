@@ -27,6 +27,7 @@ TOOLS = {  # what a test may need, the commands that are it, and what to install
     "avr": (("avr-gcc",), "a compiler for AVR boards (Debian: apt install gcc-avr avr-libc)"),
     "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
     "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
+    "gpsd": (("gpsd", "/usr/sbin/gpsd"), "gpsd (Debian: apt install gpsd)"),
     "npm": (("npm",), "npm (Debian: apt install npm)"),
     "qemu": (("qemu-arm",), "qemu, which imitates ARM (Debian: apt install qemu-user)"),
     "simavr": (("simavr",), "simavr, which simulates AVR boards (Debian: apt install simavr)"),

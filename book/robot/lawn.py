@@ -167,12 +167,12 @@ def run(
     turn = LastTurn(min_rate=0.25) if design.last_turn else None
     for goal in goals:
         drive = CDrive(goal, design.gains, WHEELS, turn, rules, design.law)
-        rolled = (0.0, 0.0)
-        while drive.state not in ("parked", "stopped"):
+        rolled, latest = (0.0, 0.0), robot.now + LONGEST
+        while drive.state not in ("parked", "stopped") and robot.now < latest:
             rolled = robot.roll(drive.step(robot.look(rolled)))
         while max(map(abs, robot.speeds)) > 1e-3:
             robot.look(robot.roll((0.0, 0.0)))
-        if drive.state == "stopped":
+        if drive.state != "parked":
             break
     far = math.dist(robot.pose[:2], goals[-1][:2])
     off = float(wmr.wrap_angle(robot.pose[2] - goals[-1].heading))
