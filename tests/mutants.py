@@ -50,11 +50,13 @@ PLANS = {
     "geodesy": "plain geodesy routes",
     "laws": "plain control; quick simulation; jit simulation",
     "motion": "plain kinematics; quick simulation; jit simulation hysteresis",
+    "parking": "plain parking",
     "receiver": "jit receiver",
     "sensing": "jit estimation; jit filter",
     "runs": "plain metrics; quick simulation; jit simulation",
     "simulation": "quick simulation; jit simulation",
     "sweeping": "jit sweeping; jit receiver",
+    "trust": "plain parking",
     "tuning": "quick tuning; jit tuning",
 }
 NO_FORMULAS = {"__init__", "_checks", "_compile"}

@@ -17,6 +17,7 @@ WANTED = {
     "wmrlib/py.typed",
     "wmrlib/engine/lanes.py",
     "wmrlib/tracks/gpx.py",
+    "wmrlib/symbolic/c/wmr_drive.h",
     "wmrlib/symbolic/c/wmr_filter.h",
     "wmrlib/symbolic/c/wmr_law.h",
     "wmrlib/symbolic/c/example.c",

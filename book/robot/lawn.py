@@ -24,7 +24,8 @@ from world import CASE, PERIOD
 
 import wmrlib as wmr
 from wmrlib import _filter, estimation, paper
-from wmrlib.body import LastTurn, follow
+from wmrlib.body import LastTurn, at_rest, roll
+from wmrlib.motion import arc_step, wheel_speeds
 
 WHEELS = wmr.Wheels(
     0.5, max_speed=1.0, min_speed=0.12, acceleration=2.0, lag=0.1, dead_band=0.04, encoder_step=1e-3
@@ -35,6 +36,7 @@ GYRO, GYRO_BIAS = 0.002, 0.01  # rad/s
 SCALE = 0.01  # of the wheels, unknown to the robot
 COMPASS = math.radians(5.0)  # what is left of its errors for a drive
 ROUTE = (wmr.Pose(15.0, 20.0, 0.5), wmr.Pose(15.0, 45.0, 2.4), CASE.goal)
+FORM = tuple(FORMATS)
 
 
 class Receiver(NamedTuple):
@@ -89,7 +91,7 @@ class Robot:
 
     def __init__(self, kind: Receiver, seed: int, link: Gpsd | None, form: str) -> None:
         self.rng, self.kind, self.link, self.form = np.random.default_rng(seed), kind, link, form
-        self.pose, self.speeds, self.rest = [*CASE.start], [0.0, 0.0], [0.0, 0.0]
+        self.pose, self.body = tuple(CASE.start), (0.0, 0.0, 0.0, 0.0)
         self.past, self.now, self.steps = [tuple(CASE.start[:2])], 0.0, 0
         self.error = self.rng.normal(0.0, kind.sigma, 2)
         self.scale = 1.0 + self.rng.normal(0.0, SCALE)
@@ -107,8 +109,8 @@ class Robot:
         self.error = kept * self.error + math.sqrt(1.0 - kept**2) * fresh
         x, y = self.past[max(0, len(self.past) - 1 - round(self.kind.delay / PERIOD))] + self.error
         point = wmr.point_at(paper.GPS_POINT_1, float(x), float(y))
-        sent = Position(self.now + 1.0, point.lat, point.lon, self.kind.sigma, self.kind.rtk)
-        sent = sent._replace(time=round(sent.time, 2))
+        time = round(self.now + 1.0, 2)
+        sent = Position(time, point.lat, point.lon, self.kind.sigma, self.kind.rtk)
         got = self.link.pass_on(sent) if self.link else rounded(sent, self.form)
         place = wmr.GeoPoint(lat=got.lat, lon=got.lon)
         east, north = wmr.local_position(paper.GPS_POINT_1, place)
@@ -116,38 +118,28 @@ class Robot:
 
     def roll(self, told: tuple[float, float]) -> tuple[float, float]:
         """A period of the truth; what the encoders count of it [m]."""
-        rolled = []
-        for side, speed in enumerate(told):
-            goal = speed if abs(speed) >= WHEELS.dead_band else 0.0
-            ease = 1.0 / WHEELS.acceleration
-            mean, self.speeds[side] = follow(self.speeds[side], goal, ease, WHEELS.lag, PERIOD)
-            due = self.rest[side] + mean * PERIOD
-            steps = WHEELS.encoder_step * math.floor(due / WHEELS.encoder_step + 0.5)
-            self.rest[side] = due - steps
-            rolled.append(steps)
-        ahead = 0.5 * (rolled[0] + rolled[1]) * self.scale
-        self.turned = (rolled[1] - rolled[0]) / WHEELS.track_width * self.scale
-        middle = self.pose[2] + 0.5 * self.turned
-        self.pose[0] += ahead * math.cos(middle)
-        self.pose[1] += ahead * math.sin(middle)
-        self.pose[2] += self.turned
+        twist = 0.5 * (told[0] + told[1]), (told[1] - told[0]) / WHEELS.track_width
+        v, omega, self.body = roll(*twist, self.body, WHEELS, PERIOD)
+        rolled = tuple(PERIOD * speed for speed in wheel_speeds(v, omega, WHEELS.track_width))
+        self.turned = omega * self.scale * PERIOD
+        self.pose = arc_step(*self.pose, v * self.scale, omega * self.scale, PERIOD)
         self.past.append((self.pose[0], self.pose[1]))
         self.now += PERIOD
         self.steps += 1
-        return rolled[0], rolled[1]
+        return rolled
 
     def look(self, rolled: tuple[float, float]) -> wmr.Seen:
         """What the filter makes of a period."""
         v = 0.5 * (rolled[0] + rolled[1]) / PERIOD
         omega = (rolled[1] - rolled[0]) / WHEELS.track_width / PERIOD
         gyro = self.turned / PERIOD + self.bias + self.rng.normal(0.0, GYRO)
-        state, spread = self.state, self.covariance
+        state, spread, kind = self.state, self.covariance, self.kind
         _filter.carry(state, spread, v, omega, gyro, PERIOD, self.noise, estimation.GATE_1)
         seen = wmr.Seen(PERIOD, *rolled)
         if self.steps % EVERY:
             return seen
         x, y = self.fix()
-        behind, kind = -v * self.kind.delay, self.kind  # where the antenna was
+        behind = -v * kind.delay  # where the antenna was
         _filter.see_antenna(state, spread, x, y, behind, 0.0, kind.sigma, estimation.GATE_2)
         if kind.heading < math.inf:
             heading = self.pose[2] + self.rng.normal(0.0, kind.heading)
@@ -170,16 +162,13 @@ def run(
         rolled, latest = (0.0, 0.0), robot.now + LONGEST
         while drive.state not in ("parked", "stopped") and robot.now < latest:
             rolled = robot.roll(drive.step(robot.look(rolled)))
-        while max(map(abs, robot.speeds)) > 1e-3:
+        while not at_rest(robot.body):
             robot.look(robot.roll((0.0, 0.0)))
         if drive.state != "parked":
             break
     far = math.dist(robot.pose[:2], goals[-1][:2])
     off = float(wmr.wrap_angle(robot.pose[2] - goals[-1].heading))
     return Ended(drive.state == "parked", far, off, robot.now, drive.reason)
-
-
-FORM = tuple(FORMATS)
 
 
 def _runs(work: tuple) -> list[Ended]:
