@@ -75,7 +75,9 @@ def test_over_a_route_it_parks_at_the_last_pose():
 
 def test_the_table_has_all_pairs_and_a_last_turn_the_best_headings(tmp_path, monkeypatch, capsys):
     file = tmp_path / "lawn.json"
-    monkeypatch.setattr(sys, "argv", ["lawn.py", "--runs", "4", "--jobs", "1", "--json", str(file)])
+    monkeypatch.setattr(
+        sys, "argv", ["lawn.py", "--runs=4", "--jobs=1", "--gpsd=0", f"--json={file}"]
+    )
     lawn.main()
     rows = json.loads(file.read_text(encoding="utf-8"))
     printed = capsys.readouterr().out.splitlines()

@@ -1,5 +1,6 @@
 """The drive round the law: it survives every fault, in Python and in C, and by each row."""
 
+import math
 import subprocess
 import sys
 from pathlib import Path
@@ -11,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import parking, symbolic
+from wmrlib import parking, symbolic, trust
 from wmrlib.symbolic.c_drive import c_condition
 
 CASES = {case.name: case for case in faults.CASES}
@@ -118,6 +119,36 @@ def test_what_has_stopped_or_parked_stays_so_until_it_is_reset(kind):
     drive.reset()
     goes(drive, pose, 20.0, battery=24.0)
     assert (drive.state, drive.reason) == ("parked", "")
+
+
+@pytest.mark.parametrize("off", [-3.0, -0.9, -0.7, 0.0, 0.7, 0.9, 3.0])
+@pytest.mark.parametrize("heading", [0.0, 0.8, 2.0, -2.4])
+def test_a_leg_of_the_fixes_is_astray_beyond_an_angle_to_either_side(heading, off):
+    m, far = trust.Memory(driven=1.0), 4.1
+    m.leg = trust.Place(far * math.cos(heading), far * math.sin(heading), heading)
+    course = heading + off
+    seen = wmr.Seen(0.05, 0.0, 0.0, x=far * math.cos(course), y=far * math.sin(course))
+    trust.compare(m, seen, wmr.Rules())
+    assert m.astray == (abs(off) > 0.8)
+    assert not m.slipping
+    assert (m.begin.x, m.leg.y) == (seen.x, seen.y)
+
+
+@pytest.mark.parametrize(
+    ("fields", "anew"),
+    [({"length": 16.1}, 1), ({"length": 15.9}, 0), ({"turning": 3.1}, 1), ({"turning": 2.9}, 0)],
+)
+def test_a_leg_that_curls_begins_anew(fields, anew):
+    m = trust.Memory(driven=1.0, **fields)
+    trust.compare(m, wmr.Seen(0.05, 0.0, 0.0, x=1.0), wmr.Rules())
+    assert m.begin.x == anew
+
+
+@pytest.mark.parametrize(("gap", "refused"), [(1.7, trust.NONE), (1.9, trust.JUMPED)])
+def test_an_older_fix_may_be_farther_behind(gap, refused):
+    m = trust.Memory(driven=1.0, pace=2.0, since=1.0)  # 1 m, 0.2 m of slip, and 2 m/s for 0.3 s
+    seen = wmr.Seen(0.05, 0.0, 0.0, x=-gap, age=0.3)
+    assert trust.refusal_of(m, seen, wmr.Rules()) == refused
 
 
 numbers = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([float("nan"), float("inf"), 1e6]))

@@ -210,7 +210,7 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--runs", type=int, default=20, help="of each design with each receiver")
     parser.add_argument("--route", action="store_true", help="over three poses, not one")
-    parser.add_argument("--gpsd", type=int, default=0, help="runs through the real gpsd too")
+    parser.add_argument("--gpsd", type=int, default=10, help="runs through the real gpsd")
     parser.add_argument("--json", metavar="FILE")
     parser.add_argument("--jobs", type=int, default=os.cpu_count())
     given = parser.parse_args()
@@ -228,8 +228,11 @@ def main() -> None:
             print(f" {row['time_s']:5.0f} s", end="")
         print()
     if given.gpsd:
-        apart = through_gpsd(given.gpsd, goals)
-        print(f"{given.gpsd} runs through gpsd end within {1000 * apart:.1f} mm of those without")
+        try:
+            apart = 1000.0 * through_gpsd(given.gpsd, goals)
+            print(f"{given.gpsd} runs through gpsd end within {apart:.1f} mm of those without")
+        except RuntimeError as lacking:
+            print(f"no run through gpsd: {lacking}")
     if given.json:
         named = [
             {"design": d, "receiver": r} | row for (d, r), row in zip(pairs, rows, strict=True)
