@@ -121,6 +121,14 @@ def test_a_drive_that_does_not_end_spoils_the_bound(monkeypatch):
     assert found.place_bound == found.heading_bound == found.place_rms == math.inf
 
 
+def test_a_late_and_slow_robot_that_first_faces_away_may_never_park():
+    wheels = {"max_speed": 0.8, "acceleration": 0.2, "dead_band": 0.04}
+    robot = Robot(**wheels, memory=30.0, period=0.2, delay=0.8, fix_period=0.1)
+    towards, round_about = (certificate(robot, spread=spread) for spread in (0.5, 1.0))
+    assert round_about.parked < 0.8 * towards.parked
+    assert certificate(Robot(), spread=1.0).parked == towards.parked == 400  # others may
+
+
 def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     robot = Robot(track_width=2.0, dead_band=0.0)
     told = sheet(robot)

@@ -85,7 +85,7 @@ RECEIVERS = {
 
 
 class Sheet(NamedTuple):
-    """What the robot is told; m, s, rad, and x is east of the start. `duration` ends a drive."""
+    """What the robot is told; m, s, rad; x is east of the start, and `duration` ends a drive."""
 
     x: float
     y: float
@@ -184,19 +184,19 @@ def sure(runs: int) -> int:
     return runs - beyond + 1
 
 
-def certificate(robot: Robot, runs: int = RUNS, seed: int = SEED) -> Certificate:
+def certificate(robot: Robot, runs=RUNS, seed=SEED, spread=0.5) -> Certificate:
     """Drive the robot of the sheet `runs` times, each with errors and a first heading of its own.
 
-    It first faces the goal, up to a quarter of a turn to either side: from behind, a robot whose
+    It first faces the goal to within half of the `spread`, in turns: from behind, a robot whose
     pose is late and whose wheels are slow may swing to and fro for ever. A drive that does not end
     in time counts as infinitely far off.
     """
     told = sheet(robot)
-    first = math.atan2(told.y, told.x) + math.pi * (np.arange(runs) * GOLDEN % 1.0 - 0.5)
+    aside = 2 * math.pi * spread * (np.arange(runs) * GOLDEN % 1.0 - 0.5)
     wheels = wmr.Wheels(robot.track_width, robot.max_speed, told.min_speed, robot.acceleration)
     sigma, late = np.full(runs, robot.sigma), robot.delay
     end = wmr.sweep(
-        wmr.Pose(0.0, 0.0, first),
+        wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x) + aside),
         wmr.Pose(told.x, told.y, told.heading),
         told.gains,
         method="arc",

@@ -25,11 +25,17 @@ SMALL = """() => [...document.querySelectorAll('.my-robot :is(button, input, sel
     .filter(it => it.checkVisibility() && it.getBoundingClientRect().height < 24)
     .map(it => it.outerHTML)"""
 FAULTS = "async () => (await axe.run('.my-robot')).violations.map(it => [it.id, it.nodes[0].html])"
-ROBOTS = [
+SLOW = {"track_width": 1.0, "acceleration": 0.2, "max_speed": 2.0}
+QUICK = {"track_width": 0.2, "acceleration": 5.0, "dead_band": 0.0, "delay": 0.0}
+ROBOTS = [  # among them, each term of each rule decides
     Robot(),
     Robot(**RECEIVERS["SBAS"]),  # in a run a wheel stops just as a period ends
     Robot(**RECEIVERS["SBAS"], dead_band=0.0, delay=0.0, goal_lon=44.3729, bearing=10.0),
     Robot(sigma=0.3, memory=0.0, period=0.1, delay=0.25, fix_period=1.0, track_width=0.8),
+    Robot(sigma=0.0, memory=0.0, dead_band=0.15, delay=0.2, fix_period=0.5, **SLOW),
+    Robot(sigma=1.5, memory=0.0, period=0.03, fix_period=0.125, compass=0.0, **QUICK),
+    Robot(period=0.2, **QUICK | {"track_width": 1.5, "max_speed": 0.5}),
+    Robot(goal_lat=33.279, **QUICK | {"acceleration": 0.1, "max_speed": 3.0, "delay": 0.1}),
 ]
 WRONG = [
     {"track_width": 0.0},

@@ -16,7 +16,7 @@ const OWN = 'my own';
 // Rows of names and values.
 function table(parent, title) {
   const box = made(parent, 'section');
-  made(box, 'h3', { textContent: title });
+  made(box, 'p', { className: 'my-title', textContent: title });
   const list = made(box, 'dl');
   return (rows) => {
     list.textContent = '';
