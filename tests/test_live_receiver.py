@@ -15,7 +15,7 @@ from pathlib import Path
 import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[1] / "book" / "robot"))
-from live import LiveReceiver
+from live_receiver import LiveReceiver
 
 VERSION = b'{"class":"VERSION","release":"3.22"}\n'
 

@@ -1,5 +1,6 @@
 """The drive round the law: it survives every fault, in Python and in C, and by each row."""
 
+import json
 import math
 import subprocess
 import sys
@@ -26,6 +27,15 @@ def ran():
 @pytest.mark.parametrize("name", CASES)
 def test_a_fault_is_survived_and_none_drives_blind(ran, name):
     assert faults.holds(CASES[name], ran[name]), ran[name][:5]
+
+
+def test_the_page_shows_the_faults_as_they_come_out(ran):
+    stored = json.loads((Path(faults.__file__).parents[1] / "faults.json").read_text("utf-8"))
+    assert [row[0] for row in stored] == [*CASES]
+    for name, end, far, within in stored:
+        came = ran[name].distance if end == "parked" else ran[name].blind
+        assert (end, within) == (ran[name].end, CASES[name].within)
+        assert far == pytest.approx(came, abs=0.02)  # the last bits of processors
 
 
 @pytest.mark.needs("compiler")

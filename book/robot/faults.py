@@ -8,7 +8,9 @@ prints what each run came to. With --c the drive is the compiled wmr_drive.h.
 from __future__ import annotations
 
 import argparse
+import json
 import math
+from pathlib import Path
 from typing import Any, NamedTuple
 
 import compiled
@@ -204,17 +206,22 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
     parser.add_argument("--c", action="store_true", help="by the compiled header")
     parser.add_argument("--seed", type=int, default=1)
+    parser.add_argument("--json", metavar="FILE")
     given = parser.parse_args()
     kind = compiled.CDrive if given.c else wmr.Drive
     print(f"{'fault':33} {'came to':41} {'m':>6} {'at most':>7}")
-    good = 0
+    good, rows = 0, []
     for case in CASES:
         ran = run(case, kind, given.seed)
         far = ran.distance if case.must == "parked" else ran.blind
         good += holds(case, ran)
+        rows.append([case.name, ran.end, round(far, 2), case.within])
         fault = "" if holds(case, ran) else f"  must be {case.must}"
         print(f"{case.name:33} {ran.end:41} {far:6.2f} {case.within:7.2f}{fault}")
     print(f"{good} of {len(CASES)} as they must")
+    if given.json:
+        text = ",\n".join(map(json.dumps, rows))
+        Path(given.json).write_text(f"[\n{text}\n]\n", encoding="utf-8")
 
 
 if __name__ == "__main__":

@@ -157,7 +157,8 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
     """Put the book's pages and the chapters into one tree, as Sphinx wants them."""
     hidden = shutil.ignore_patterns(".*", "__pycache__")
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=hidden)
-    for page in (*BOOK.glob("*.md"), BOOK / "speed.json", BOOK / "classroom.json"):
+    stored = [BOOK / f"{name}.json" for name in ("classroom", "faults", "lawn", "speed")]
+    for page in (*BOOK.glob("*.md"), *stored):
         shutil.copy(page, source)
     if lecturer:
         shutil.copytree(BOOK / "course" / "source", source / "course" / "source")  # for its table

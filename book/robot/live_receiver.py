@@ -1,6 +1,6 @@
 """The latest fix of a receiver that gpsd serves, without ever waiting for it.
 
-    python book/robot/live.py [--host 127.0.0.1] [--port 2947]     # prints it once a second
+    python book/robot/live_receiver.py [--host 127.0.0.1] [--port 2947]  # prints it once a second
 
 A thread listens, and connects again when gpsd is gone; the control loop asks what is known and how
 old it is, and decides for itself from what age on it stops.
