@@ -203,6 +203,7 @@ def test_an_edit_to_any_compiled_module_and_another_compiler_lead_to_another_fol
         path
         for path in PACKAGE.rglob("*.py")
         if "wmrlib._compile import" in path.read_text(encoding="utf-8")
+        and path.parent.name != "symbolic"  # which prints modules that are compiled
     }
     assert PACKAGE / "engine" / "sampled.py" in users <= set(_compile._SOURCES)
     copies = [Path(shutil.copy(path, tmp_path / f"{k}.py")) for k, path in enumerate(users)]

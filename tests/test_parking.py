@@ -7,7 +7,7 @@ import sys
 from pathlib import Path
 
 import compiled
-import faults
+import drive_faults as faults
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st

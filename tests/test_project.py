@@ -211,6 +211,14 @@ def test_a_chapter_is_read_in_twenty_minutes():
         assert len(prose(name).split()) / 200 + seen / 2 <= 20, name
 
 
+def test_no_two_modules_that_tests_import_by_name_are_called_alike():
+    """Else the first that a worker imports stands for both."""
+    places = ("book/tools", "book/course", "book/robot", "tests", "tests/browser")
+    names = [path.stem for place in places for path in (ROOT / place).glob("*.py")]
+    twice = {name for name in names if names.count(name) > 1}
+    assert twice <= {"conftest"}
+
+
 def test_an_exercise_has_its_number_and_a_folded_solution():
     for name in CHAPTERS:
         exercises = re.split(r"^### Exercise ", prose(name), flags=re.MULTILINE)[1:]

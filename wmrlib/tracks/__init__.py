@@ -119,7 +119,7 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
     coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
     if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
         return "GPX", gpx.read(file)  # XML itself says how it is encoded
-    if not wide and (read := ubx.read(file)):
+    if read := ubx.read(file):
         return read
     with TextIOWrapper(file, coding, errors, newline="") as text:
         try:

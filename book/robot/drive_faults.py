@@ -1,6 +1,6 @@
 """Thirty faults, each in a drive over the paper's two points: does the robot drive blind?
 
-    python book/robot/faults.py [--c] [--seed N]
+    python book/robot/drive_faults.py [--c] [--seed N]
 
 prints what each run came to. With --c the drive is the compiled wmr_drive.h.
 """
