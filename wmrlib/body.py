@@ -51,7 +51,8 @@ class LastTurn(NamedTuple):
     Within the arrival radius it stops, and turns at `gain` times the heading error, at least at
     `min_rate` and at most at `max_rate`, until the error is within `tolerance` and the wheels
     stand: then it has arrived. If it slips farther away than `leave` times the radius, it drives
-    again; with an infinite `leave` it never does.
+    again; with an infinite `leave` it never does. A robot that sees its heading late
+    sees itself within the tolerance too soon.
 
     Parameters
     ----------

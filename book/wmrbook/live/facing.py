@@ -58,7 +58,7 @@ def course_cone() -> Live:
             key=nearest(needed, options.values()),
             options=(*options,),
             wrong=(
-                "After 5 m the heading is still uncertain by 40 degrees.",
+                "After 5 m the heading is still uncertain by some 50 degrees.",
                 "After 15 m the heading is still uncertain by 16 degrees.",
                 "",
                 "After 150 m the heading is known to less than 2 degrees.",

@@ -64,7 +64,7 @@ def unit_circle() -> Live:
             "The outdoor drive, x east, in arcs: gentle gains, and a time step a tenth longer than "
             "the longest with which the angles near the goal settle. Where does it end?",
             "Here the distance still comes down, so the robot reaches the goal. The angles grow "
-            "from step to step, and it stops with what they happen to be; elsewhere, with little.",
+            "from step to step, and it stops at whatever heading it has by then.",
             key=[*ends.values()].index(True),
             options=(*ends,),
             wrong=(
@@ -91,7 +91,7 @@ def wheel_limit() -> Live:
     limit = 2.0
     free = simulate(START, BESIDE, GENTLE_GAINS, method="continuous", dt=0.02)
     x, _, _ = np.transpose(clipped_wheels(limit))
-    swing = "swings wide to the right" if x.max() > 2.0 * free.x.max() else "keeps to the free path"
+    swing = "swings wide ahead" if x.max() > 2.0 * free.x.max() else "keeps to the free path"
     return Live(
         "wheel_limit",
         "No wheel can go faster than {limit}, and {rule}. The robot parks after {seconds} and "
