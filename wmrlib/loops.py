@@ -69,6 +69,7 @@ def held(
         arrived = polar[0] <= arrival_radius
         if end is not None:
             v, omega, turning, arrived = last_turn(*polar, v, omega, turning, arrival_radius, end)
+            omega = omega * saturation_scale(v, omega, wheels)
         if motors is not None:
             arrived = arrived and (end is None or at_rest(body))
             v, omega, body = roll(v, omega, body, motors, dt)

@@ -29,11 +29,12 @@ class Row(NamedTuple):
 
 
 _GOING, _SILENT = "wait drive turn", "m.silence > rules.patience"
+_KNOWN = "(m.good >= rules.settle or m.driven > 0.0)"
 TABLE = (
     Row(_GOING, "m.low > rules.patience", "stopped", "battery low"),
     Row(_GOING, "seen.goal_inside == 0", "stopped", "goal outside the fence"),
-    Row(_GOING, "m.good >= rules.settle and m.outside != 0", "stopped", "robot outside the fence"),
-    Row(_GOING, "m.good >= rules.settle and m.rho > rules.farthest", "stopped", "goal too far"),
+    Row(_GOING, f"{_KNOWN} and m.outside != 0", "stopped", "robot outside the fence"),
+    Row(_GOING, f"{_KNOWN} and m.rho > rules.farthest", "stopped", "goal too far"),
     Row(_GOING, "m.left.stuck != 0 or m.right.stuck != 0", "stopped", "wheel or encoder stuck"),
     Row(_GOING, "m.left.loose != 0 or m.right.loose != 0", "stopped", "wheel turns untold"),
     Row(_GOING, "m.turned >= rules.settle", "stopped", "heading disagrees with wheels"),

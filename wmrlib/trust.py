@@ -162,7 +162,7 @@ def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wh
     """Hold what a wheel rolled against what it was told."""
     told = 0.0 if abs(wheel.told) < wheels.dead_band else wheel.told
     reach = wheels.acceleration * dt
-    wheel.speed += min(max(told - wheel.speed, -reach), reach)
+    wheel.speed += min(max((told - wheel.speed) * dt / (wheels.lag + dt), -reach), reach)
     wheel.due += wheel.speed * dt
     wheel.rolled += rolled
     if max(abs(wheel.due), abs(wheel.rolled)) >= rules.wheel:
@@ -217,7 +217,8 @@ def read(m: Memory, seen: Seen, rules: Rules) -> None:
     m.refused = refusal_of(m, seen, rules)
     m.turned = m.turned + 1 if m.refused == TURNED else 0
     first = m.refused == JUMPED and m.driven == 0.0
-    m.good = 0 if first or m.refused != NONE else m.good
+    again = m.refused == STALE  # the same fix, told twice
+    m.good = 0 if first or (m.refused != NONE and not again) else m.good
     if m.refused == NONE or first:
         m.good += 1
         m.silence, m.since, m.outside = seen.age, 0.0, not seen.inside
@@ -227,12 +228,14 @@ def read(m: Memory, seen: Seen, rules: Rules) -> None:
 
 def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     """Take in a period: the clock, the wheels, the battery, and a fix if there is one."""
-    m.regular = seen.seconds > 0.0 and seen.seconds <= rules.longest_period
+    sound = abs(seen.left) + abs(seen.right) < 1e9  # or an encoder says no number
+    m.regular = seen.seconds > 0.0 and seen.seconds <= rules.longest_period and sound
     dt = min(max(seen.seconds, 0.0), rules.longest_period)
-    ahead, turn = 0.5 * (seen.left + seen.right), (seen.right - seen.left) / wheels.track_width
+    left, right = seen.left if sound else 0.0, seen.right if sound else 0.0
+    ahead, turn = 0.5 * (left + right), (right - left) / wheels.track_width
     if m.regular:
-        watch_wheel(m.left, seen.left, dt, rules, wheels)
-        watch_wheel(m.right, seen.right, dt, rules, wheels)
+        watch_wheel(m.left, left, dt, rules, wheels)
+        watch_wheel(m.right, right, dt, rules, wheels)
         m.pace = abs(ahead) / dt
     carry(m.pose, ahead, turn)
     carry(m.leg, ahead, turn)

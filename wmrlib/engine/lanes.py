@@ -59,11 +59,14 @@ def copy_column(target, i, source, k):
 
 
 @compiled
-def refill_lanes(states, lanes, inside, width, waiting, left):
-    """Put back the runs with nothing `left`, and take others in: how many are in, who is next."""
+def refill_lanes(states, lanes, inside, width, waiting, left, over=0.0):
+    """Put back the runs with nothing `left`, and take others in: how many are in, who is next.
+
+    Nothing is `over` or less: where 0 has a last sample to come, less than 0.
+    """
     i = 0
     while i < width:
-        if lanes[left, i] <= 0.0:
+        if lanes[left, i] <= over:
             width -= 1
             copy_column(states, inside[i], lanes, i)
             copy_column(lanes, i, lanes, width)

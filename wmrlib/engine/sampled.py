@@ -13,6 +13,7 @@ from wmrlib.body import at_rest, last_turn, roll
 from wmrlib.engine import lanes, receivers
 from wmrlib.engine.vectors import BETWEEN_DIRECTIONS, NEAREST, vectorised
 from wmrlib.gains import GainsFields
+from wmrlib.laws import saturation_scale
 from wmrlib.loops import held, steer
 from wmrlib.motion import keep_branch, polar_from_pose
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT
@@ -69,6 +70,7 @@ def decide(block, used, law, wheels, dt, arrival_radius, motors, end):
         if end is not None:
             turning = block[TURNING, i] > 0.0
             v, omega, turning, done = last_turn(*polar, v, omega, turning, arrival_radius, end)
+            omega = omega * saturation_scale(v, omega, wheels)
             block[TURNING, i], far = (1.0 if turning else 0.0), not done
         if motors is not None:
             rows = block[BODY, i], block[BODY + 1, i], block[BODY + 2, i], block[BODY + 3, i]
@@ -80,7 +82,8 @@ def decide(block, used, law, wheels, dt, arrival_radius, motors, end):
         block[V, i], block[OMEGA, i], block[GOING, i] = v, omega, (1.0 if going else 0.0)
         block[PEAK, i] = abs(omega) if (left >= 0.0) & (abs(omega) > peak) else peak
         block[LENGTH, i] = length + (dt * abs(v) if going else 0.0)
-        block[LEFT, i] = left - 1.0 if going else -abs(left)
+        over = -left - 0.5 if left >= 0.0 else left  # half a step, so that 0 has a sign too
+        block[LEFT, i] = left - 1.0 if going else over
         block[HERE, i] = 1.0 if arrived else here
 
 
@@ -99,7 +102,7 @@ def drive(states, law, wheels, along_arc, dt, arrival_radius, hysteresis, motors
     block, inside = np.zeros((ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
     waiting = width = 0
     while True:
-        width, waiting = lanes.refill_lanes(states, block, inside, width, waiting, LEFT)
+        width, waiting = lanes.refill_lanes(states, block, inside, width, waiting, LEFT, -0.5)
         if width == 0:
             return
         used = min(BLOCK, (width + VECTORS - 1) // VECTORS * VECTORS)
@@ -179,7 +182,7 @@ def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, motors, end
         if key is not None and not known:
             outcome, peak, length = DIVERGED, math.nan, math.nan
             polar = math.nan, math.nan, math.nan
-        elif not (key is not None or (known and last > 0 and (arrived or left == 0.0))):
+        elif not (key is not None or (known and last > 0 and (arrived or left > -1.0))):
             path[0, 0], path[1, 0], path[2, 0] = goal
             how = path, *loop, arc, dt, radius, hysteresis, motors, end
             count, outcome, peak, length = held(alone, start, *how)

@@ -110,7 +110,8 @@ static inline void wmr_watch_wheel(wmr_wheel *wheel, WMR_REAL rolled, WMR_REAL d
   const WMR_REAL told = (WMR_F(fabs)(wheel->told) < wheels->dead_band) ? WMR_C(0.0) :
       wheel->told;
   const WMR_REAL reach = wheels->acceleration * dt;
-  wheel->speed += WMR_F(fmin)(WMR_F(fmax)(told - wheel->speed, -reach), reach);
+  wheel->speed += WMR_F(fmin)(WMR_F(fmax)((told - wheel->speed) * dt / (wheels->lag +
+      dt), -reach), reach);
   wheel->due += wheel->speed * dt;
   wheel->rolled += rolled;
   if (WMR_F(fmax)(WMR_F(fabs)(wheel->due), WMR_F(fabs)(wheel->rolled)) >= rules->wheel)
@@ -190,7 +191,8 @@ static inline void wmr_read(wmr_memory *m, const wmr_seen *seen, const wmr_rules
   m->refused = wmr_refusal_of(m, seen, rules);
   m->turned = (m->refused == WMR_TURNED) ? (m->turned + 1) : 0;
   const int first = m->refused == WMR_JUMPED && m->driven == WMR_C(0.0);
-  m->good = (first || m->refused != WMR_NONE) ? 0 : m->good;
+  const int again = m->refused == WMR_STALE;
+  m->good = (first || (m->refused != WMR_NONE && !again)) ? 0 : m->good;
   if (m->refused == WMR_NONE || first) {
     m->good += 1;
     m->silence = seen->age;
@@ -204,14 +206,19 @@ static inline void wmr_read(wmr_memory *m, const wmr_seen *seen, const wmr_rules
 /* Take in a period: the clock, the wheels, the battery, and a fix if there is one. */
 static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules,
     const wmr_motors *wheels) {
-  m->regular = seen->seconds > WMR_C(0.0) && seen->seconds <= rules->longest_period;
+  const int sound = WMR_F(fabs)(seen->left) + WMR_F(fabs)(seen->right) <
+      WMR_C(1000000000.0);
+  m->regular = seen->seconds > WMR_C(0.0) && seen->seconds <= rules->longest_period &&
+      sound;
   const WMR_REAL dt = WMR_F(fmin)(WMR_F(fmax)(seen->seconds, WMR_C(0.0)),
       rules->longest_period);
-  const WMR_REAL ahead = WMR_C(0.5) * (seen->left + seen->right);
-  const WMR_REAL turn = (seen->right - seen->left) / wheels->track_width;
+  const WMR_REAL left = sound ? seen->left : WMR_C(0.0);
+  const WMR_REAL right = sound ? seen->right : WMR_C(0.0);
+  const WMR_REAL ahead = WMR_C(0.5) * (left + right);
+  const WMR_REAL turn = (right - left) / wheels->track_width;
   if (m->regular) {
-    wmr_watch_wheel(&m->left, seen->left, dt, rules, wheels);
-    wmr_watch_wheel(&m->right, seen->right, dt, rules, wheels);
+    wmr_watch_wheel(&m->left, left, dt, rules, wheels);
+    wmr_watch_wheel(&m->right, right, dt, rules, wheels);
     m->pace = WMR_F(fabs)(ahead) / dt;
   }
   wmr_carry(&m->pose, ahead, turn);
@@ -241,11 +248,13 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
     m->state = WMR_STOPPED, m->reason = WMR_GOAL_OUTSIDE_THE_FENCE;
     return;
   }
-  if (m->state <= WMR_TURN && m->good >= rules->settle && m->outside != 0) {
+  if (m->state <= WMR_TURN && ((m->good >= rules->settle || m->driven > WMR_C(0.0)) &&
+      m->outside != 0)) {
     m->state = WMR_STOPPED, m->reason = WMR_ROBOT_OUTSIDE_THE_FENCE;
     return;
   }
-  if (m->state <= WMR_TURN && m->good >= rules->settle && m->rho > rules->farthest) {
+  if (m->state <= WMR_TURN && ((m->good >= rules->settle || m->driven > WMR_C(0.0)) &&
+      m->rho > rules->farthest)) {
     m->state = WMR_STOPPED, m->reason = WMR_GOAL_TOO_FAR;
     return;
   }

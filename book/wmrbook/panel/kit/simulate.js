@@ -45,7 +45,8 @@ export function drive(setup, record) {
       turning = rho <= arrivalRadius * (turning ? end.leave : 1);
       arrived = turning && Math.abs(off) <= end.tolerance;
       const omega = arrived ? 0 : turnRate(-off, end.gain, end.min_rate, end.max_rate);
-      if (turning) twist = [0, omega];
+      const most = limits ? saturationScale(limits.max_speed, fastestWheel(0, omega, limits.b)) : 1;
+      if (turning) twist = [0, most * omega];
     }
     if (motors) {
       arrived &&= !end || atRest(body);
