@@ -77,6 +77,7 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
             faults += [(f"{kind}, {width}x{height}", place) for place in places]
         cut = f"figures that are not seen whole, {width}x{height}"
         faults += [(cut, place) for place in page.evaluate(WIDER)]
+        page.wait_for_timeout(300)  # so late, beside other work, a small figure gets its button
         page.evaluate(LARGER)
         for source, scale, said in page.evaluate(FIGURES):
             svg = Path(url2pathname(urlsplit(source).path)).read_text(encoding="utf-8")
