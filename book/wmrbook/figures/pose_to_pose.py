@@ -90,7 +90,7 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
     Starts that face alike, on a circle round the goal, show a law's habits at a glance.
     """
     check_series(paths, Trajectories)
-    figure, row = panels(1, len(paths), 4.2 * len(paths), 4.4, sharey=True, squeeze=False)
+    figure, row = panels(1, len(paths), 3.5 * len(paths), 3.8, sharey=True, squeeze=False)
     texts = []
     for (title, many), axes in zip(paths.items(), row[0], strict=True):
         here = np.array([goal.x, goal.y])[:, None]
