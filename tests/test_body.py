@@ -197,3 +197,20 @@ def test_a_last_turn_keeps_to_the_wheels_limit_and_a_run_that_runs_out_of_time_h
                 alone = wmr.arrival(one)
                 assert bool(swept.arrived[i]) == alone.arrived, (seconds, i)
                 assert swept.peak_omega[i] == pytest.approx(alone.peak_omega, abs=1e-6)
+
+
+@pytest.mark.parametrize("late", [0.1, 0.4, 1.0])
+def test_a_turn_that_settles_sees_through_a_late_heading(late):
+    """Once it has stood for as long as the heading is late, what it sees is what is."""
+    random = np.random.default_rng(7)
+    starts = wmr.Pose(*random.uniform((-5, -5, -3), (5, 5, 3), (200, 3)).T)
+    how = {"method": "arc", "dt": 0.05, "arrival_radius": 0.2, "duration": 200.0}
+    how |= {"receiver": wmr.Receiver(heading_delay=late), "wheels": wmr.Wheels(0.5, 1.0)}
+    gains = wmr.Gains(0.2, 0.6, 2.0, 1.0) if late > 0.5 else GENTLE  # which is too fast for 1 s
+    turn = wmr.LastTurn(tolerance=0.1, gain=0.3, min_rate=0.1, max_rate=0.5, leave=math.inf)
+    hasty = wmr.sweep(starts, GOAL, gains, last_turn=turn, **how)
+    ends = wmr.sweep(starts, GOAL, gains, last_turn=turn._replace(settle=late + 0.05), **how)
+    assert ends.arrived.all()
+    assert np.abs(ends.heading_error).max() <= turn.tolerance
+    if late == 0.4:
+        assert np.abs(hasty.heading_error).max() > 1.5 * turn.tolerance

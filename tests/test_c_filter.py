@@ -28,6 +28,7 @@ int carry(const R *s) { wmr_noise n = {s[4], s[5], s[6], s[7], s[8]};
   return wmr_filter_predict(&filter, s[0], s[1], s[2], s[3], n, s[9]); }
 int position(const R *s) {
   return wmr_filter_position(&filter, s[0], s[1], s[2], s[3], s[4], s[5]); }
+int doubt(const R *s) { wmr_filter_doubt(&filter, s[0]); return 1; }
 int heading(const R *s) { return wmr_filter_heading(&filter, s[0], s[1], s[2]); }
 int course(const R *s) {
   return wmr_filter_course(&filter, s[0], s[1], s[2], s[3], s[4], s[5], s[6], s[7]); }
@@ -76,6 +77,10 @@ def test_c_has_the_same_filter(in_c):
             ours = estimation.use_position(ours, *fix, 0.02, **ARM)
             good = call("position", *fix, 0.02, *ARM.values(), estimation.GATE_2)
             used.append((good, ours.surprise <= estimation.GATE_2))
+            if not good:
+                factor = ours.surprise / estimation.GATE_2
+                ours = estimation.doubt(ours, factor)
+                call("doubt", factor)
         if n % 7 == 0:
             ours = estimation.use_heading(ours, heading, 0.05)
             good = call("heading", heading, 0.05, estimation.GATE_1)

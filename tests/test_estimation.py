@@ -38,6 +38,25 @@ def test_a_jump_is_refused_and_its_surprise_told():
     ] == [False, True]
 
 
+def test_a_robot_that_was_carried_is_found_once_the_filter_doubts_itself():
+    """Its gate refuses the new place for an hour; doubt lets it in."""
+    now = FIRST
+    for _ in range(50):
+        now = estimation.use_position(now, 1.0, -2.0, 0.02)
+    carried, refused = 0.5, now
+    for _ in range(3600):
+        refused = estimation.predict(refused, 0.0, 0.0, math.nan, 1.0, NOISE)
+        refused = estimation.use_position(refused, 1.0 + carried, -2.0, 0.02)
+    assert refused.pose.x == pytest.approx(1.0, abs=0.02)
+    found, used = refused, 0
+    for _ in range(40):
+        found = estimation.use_position(found, 1.0 + carried, -2.0, 0.02)
+        used += found.surprise <= estimation.GATE_2
+        found = found if used else estimation.doubt(found, 4.0)
+    assert used > 25
+    assert found.pose.x == pytest.approx(1.0 + carried, abs=3.0 * found.sigma[0])
+
+
 def test_wheels_that_slip_leave_the_turn_to_the_gyro():
     still = estimation.predict(FIRST, 0.0, 0.0, 0.0, 5.0, NOISE)
     slipped = estimation.predict(still, 0.5, 2.0, 0.1, DT, NOISE)
@@ -121,6 +140,7 @@ CASES = {
     estimation.use_position: {"estimate": FIRST} | FIX,
     estimation.use_heading: {"estimate": FIRST, "heading": 1.0, "sigma": 0.1, "gate": 9.0},
     estimation.use_course: {"estimate": FIRST} | COURSE,
+    estimation.doubt: {"estimate": FIRST, "factor": 2.0},
     Noise: NOISE._asdict(),
 }
 ALLOWED = [("gyro", math.nan), ("gate", math.inf)]

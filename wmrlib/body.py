@@ -16,6 +16,7 @@ from wmrlib.motion import wheel_speeds
 _TINY = 1e-30  # a divisor in the place of 0, where 0/0 stands for 0
 _NO_LAG = 1e-15  # s, in its place: a rest that rounds to below 0 does not overflow by it
 _AT_REST = 1e-3  # m/s: a slower wheel stands
+_AT_ONCE = 1e-9  # s: what a sum of periods may be short of a time
 _FASTEST = 1e9  # times a speed, which may be 0
 
 
@@ -51,12 +52,13 @@ class LastTurn(NamedTuple):
     Within the arrival radius it stops, and turns at `gain` times the heading error, at least at
     `min_rate` and at most at `max_rate`, until the error is within `tolerance` and the wheels
     stand: then it has arrived. If it slips farther away than `leave` times the radius, it drives
-    again; with an infinite `leave` it never does. A robot that sees its heading late
-    sees itself within the tolerance too soon.
+    again; with an infinite `leave` it never does.
 
     Parameters
     ----------
     tolerance, gain, min_rate, max_rate, leave : float; rad, 1/s, rad/s, rad/s, no unit
+    settle : float, s. It has arrived once it has stayed within the tolerance for so long. A robot
+        that sees its heading late needs as much, and the time in which its wheels stop.
     """
 
     tolerance: float = 0.02
@@ -64,6 +66,7 @@ class LastTurn(NamedTuple):
     min_rate: float = 0.2
     max_rate: float = 1.0
     leave: float = 2.0
+    settle: float = 0.0
 
 
 NO_LIMITS = Wheels(1.0)
@@ -103,12 +106,12 @@ def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -
     """The last turn as floats; ValueError names what is not allowed."""
     if turn is None:
         return None
-    *fields, leave = instance("last_turn", turn, LastTurn)
+    *fields, leave, settle = instance("last_turn", turn, LastTurn)
     named = zip(LastTurn._fields, fields, strict=False)
     turn = LastTurn(*(scalar(f"last_turn.{name}", value, above=0.0) for name, value in named))
     if leave != math.inf or not isinstance(leave, float):
         leave = scalar("last_turn.leave", leave, low=1.0)
-    turn = turn._replace(leave=leave)
+    turn = turn._replace(leave=leave, settle=scalar("last_turn.settle", settle, low=0.0))
     if method == "continuous" or not radius:
         needed = "None, or method 'arc' or 'euler' with an arrival radius,"
         raise refusal("last_turn", tuple(turn), needed)
@@ -136,13 +139,20 @@ def turn_rate(error, gain, min_rate, max_rate):
 
 
 @formula
-def last_turn(rho, alpha, theta, v, omega, turning, radius, end):
-    """The twist when the turn on the spot has its say, whether it is on, and whether it is done."""
-    turning = rho <= (radius * end.leave if turning else radius)
+def last_turn(rho, alpha, theta, v, omega, turning, radius, dt, end):
+    """The twist when the turn on the spot has its say, `turning` from now on, and if it is done.
+
+    `turning` is 0 while the robot drives; later 1, and the s more for which it has seen itself
+    within the tolerance.
+    """
+    near = rho <= (radius * end.leave if turning > 0.0 else radius)
     off = wrap(theta - alpha)
-    done = turning & (abs(off) <= end.tolerance)
-    rate = 0.0 if done else turn_rate(-off, end.gain, end.min_rate, end.max_rate)
-    return (0.0 if turning else v), (rate if turning else omega), turning, done
+    faces = near & (abs(off) <= end.tolerance)
+    faced = turning - 1.0 if turning > 1.0 else 0.0
+    rate = 0.0 if faces else turn_rate(-off, end.gain, end.min_rate, end.max_rate)
+    turning = (1.0 + (faced + dt if faces else 0.0)) if near else 0.0
+    done = faces & (faced >= end.settle - _AT_ONCE)
+    return (0.0 if near else v), (rate if near else omega), turning, done
 
 
 @formula

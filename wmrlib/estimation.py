@@ -234,6 +234,29 @@ def use_course(
     return Estimate(state, covariance, see_heading(state, covariance, value - side, sigma, bound))
 
 
+def doubt(estimate: Estimate, factor: float) -> Estimate:
+    """The same state, less certain: the covariance times a factor.
+
+    A gate that has refused several measurements in a row may be refusing the truth, for a robot
+    that was carried, or a first heading that was wrong. Multiply by 4, say, with each one that it
+    refuses from then on, until one is used.
+
+    Parameters
+    ----------
+    factor : float, no unit. At least 1.
+
+    Examples
+    --------
+    >>> import wmrlib as wmr
+    >>> first = wmr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
+    >>> wmr.estimation.doubt(first, 4.0).sigma[:3].tolist()
+    [2.0, 2.0, 0.2]
+    """
+    state, covariance = _parts(estimate)
+    factor = scalar("factor", factor, low=1.0)
+    return Estimate(state, factor * covariance, estimate.surprise)
+
+
 def _parts(estimate: Estimate) -> tuple[np.ndarray, np.ndarray]:
     """Copies, which the compiled functions change."""
     state, covariance, _ = instance("estimate", estimate, Estimate)

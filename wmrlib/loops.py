@@ -59,7 +59,7 @@ def held(
     """
     peak, length, rolled, before = 0.0, 0.0, 0.0, math.nan
     pose = pose[0], pose[1], wrap(pose[2])
-    body, turning = (0.0, 0.0, 0.0, 0.0), False
+    body, turning = (0.0, 0.0, 0.0, 0.0), 0.0
     for k in range(record.shape[1]):
         x, y, heading, v_ref, omega_ref = path[:, min(k, path.shape[1] - 1)]
         rho, alpha, theta = polar_from_pose(*pose, x, y, heading)
@@ -68,7 +68,8 @@ def held(
         v, omega = steer(polar, (v_ref, omega_ref), numbers, law, wheels)
         arrived = polar[0] <= arrival_radius
         if end is not None:
-            v, omega, turning, arrived = last_turn(*polar, v, omega, turning, arrival_radius, end)
+            turn = *polar, v, omega, turning, arrival_radius, dt, end
+            v, omega, turning, arrived = last_turn(*turn)
             omega = omega * saturation_scale(v, omega, wheels)
         if motors is not None:
             arrived = arrived and (end is None or at_rest(body))

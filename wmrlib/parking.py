@@ -53,7 +53,7 @@ TABLE = (
     Row("drive", "m.rho <= rules.arrival_radius and end.tolerance > 0.0", "turn"),
     Row("drive", "m.rho <= rules.arrival_radius", "parked"),
     Row("turn", "m.rho > end.leave * rules.arrival_radius", "drive"),
-    Row("turn", "m.facing >= rules.settle", "parked"),
+    Row("turn", "m.facing >= rules.settle and m.faced >= end.settle", "parked"),
 )
 """Every decision, in the order of priority: the first row that fits is taken, if one does."""
 REASONS = tuple(dict.fromkeys(["", *(row.reason for row in TABLE)]))
@@ -152,7 +152,7 @@ class Drive:
         state = polar_from_pose(m.pose.x, m.pose.y, m.pose.heading, *self.goal)
         m.rho, m.off = state[0], wrap(state[1] - state[2])
         faces = m.state == TURN and abs(m.off) <= end.tolerance
-        m.facing = m.facing + 1 if faces else 0
+        m.facing, m.faced = (m.facing + 1, m.faced + seen.seconds) if faces else (0, 0.0)
         decide(m, seen, self.rules, end)
         if m.state == DRIVE:
             v_over_rho, omega = LAWS[self.law].formula(*state, self.gains)

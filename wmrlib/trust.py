@@ -143,6 +143,7 @@ class Memory:
     rho: float = 0.0
     off: float = 0.0  # rad that are still to be turned by
     facing: int = 0  # periods in a row with the goal's heading
+    faced: float = 0.0  # s of these
 
 
 def carry(place: Place, ahead: float, turn: float) -> None:

@@ -31,6 +31,7 @@ WHEELS = wmr.Wheels(
     0.5, max_speed=1.0, min_speed=0.12, acceleration=2.0, lag=0.1, dead_band=0.04, encoder_step=1e-3
 )
 EVERY = 4  # periods from fix to fix
+PATIENT = 5  # fixes that the filter refuses before it doubts itself
 LONGEST = 240.0  # s, of a leg
 GYRO, GYRO_BIAS = 0.002, 0.01  # rad/s
 SCALE = 0.01  # of the wheels, unknown to the robot
@@ -101,6 +102,7 @@ class Robot:
         x, y = self.fix()
         first = estimation.start(wmr.Pose(x, y, wmr.wrap_angle(compass)), kind.sigma, COMPASS)
         self.state, self.covariance, self.turned = first.state, first.covariance, 0.0
+        self.refused = 0  # fixes in a row
 
     def fix(self) -> tuple[float, float]:
         """East and north as the receiver says, after their way as bytes."""
@@ -140,10 +142,16 @@ class Robot:
             return seen
         x, y = self.fix()
         behind = -v * kind.delay  # where the antenna was
-        _filter.see_antenna(state, spread, x, y, behind, 0.0, kind.sigma, estimation.GATE_2)
+        gate, fix = estimation.GATE_2, (x, y, behind, 0.0, kind.sigma)
+        surprise = _filter.see_antenna(state, spread, *fix, gate)
+        self.refused = 0 if surprise <= gate else self.refused + 1
+        if self.refused >= PATIENT:  # it may be the filter that is wrong
+            spread *= 4.0
         if kind.heading < math.inf:
             heading = self.pose[2] + self.rng.normal(0.0, kind.heading)
             _filter.see_heading(state, spread, heading, kind.heading, estimation.GATE_1)
+        if not surprise <= gate:  # a fix that is refused says nothing to the drive
+            return seen
         x, y, heading = map(float, state[:3])
         return seen._replace(fresh=1, x=x, y=y, heading=heading, later=EVERY * PERIOD)
 

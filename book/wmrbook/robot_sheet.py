@@ -168,7 +168,9 @@ def sheet(robot: Robot) -> Sheet:
         raise refused("dead_band", dead, coarse, more)
     k, far = gains.k_rho, math.log1p(-math.exp(-gains.k_rho * apart))
     travel = (k * (apart - radius) + far - math.log1p(-math.exp(-k * radius))) / rate
-    turn = wmr.LastTurn(tolerance, min(2.0, 0.5 / late, braking / max_rate), min_rate, max_rate)
+    gain = min(2.0, 0.5 / late, braking / max_rate)
+    settle = late + max_rate / braking  # until it sees where it has come to rest
+    turn = wmr.LastTurn(tolerance, gain, min_rate, max_rate, settle=settle)
     heading, longest = wmr.wrap_angle(math.radians(90.0 - robot.bearing)), wmr.longest_step(gains)
     duration = math.ceil(60.0 + 2.0 * travel)
     return Sheet(x, y, heading, apart, gains, radius, longest, min_speed, turn, duration)

@@ -68,10 +68,9 @@ def decide(block, used, law, wheels, dt, arrival_radius, motors, end):
         length, here = block[LENGTH, i], block[HERE, i]  # all first: loads between stores are slow
         done, far = polar[0] <= arrival_radius, polar[0] > arrival_radius
         if end is not None:
-            turning = block[TURNING, i] > 0.0
-            v, omega, turning, done = last_turn(*polar, v, omega, turning, arrival_radius, end)
-            omega = omega * saturation_scale(v, omega, wheels)
-            block[TURNING, i], far = (1.0 if turning else 0.0), not done
+            turn = *polar, v, omega, block[TURNING, i], arrival_radius, dt, end
+            v, omega, block[TURNING, i], done = last_turn(*turn)
+            omega, far = omega * saturation_scale(v, omega, wheels), not done
         if motors is not None:
             rows = block[BODY, i], block[BODY + 1, i], block[BODY + 2, i], block[BODY + 3, i]
             done = done and (end is None or at_rest(rows))

@@ -100,4 +100,12 @@ def _within(interval: tuple[float, float], turn: int, random: np.random.Generato
 
 
 # They fill it:
-from wmrbook.headlines import field, ground, laws, other_laws, practice, sampled  # noqa: E402, F401
+from wmrbook.headlines import (  # noqa: E402
+    body,  # noqa: F401
+    field,  # noqa: F401
+    ground,  # noqa: F401
+    laws,  # noqa: F401
+    other_laws,  # noqa: F401
+    practice,  # noqa: F401
+    sampled,  # noqa: F401
+)

@@ -21,5 +21,6 @@
 /* wmr_turn_rate(error, MY_TURN) until the error is within the tolerance */
 #define MY_TURN WMR_C(@gain@), WMR_C(@min_rate@), WMR_C(@max_rate@)
 #define MY_TOLERANCE WMR_C(@tolerance@)
+#define MY_SETTLE WMR_C(@settle@) /* for so many seconds, as the heading is seen late */
 
 #endif

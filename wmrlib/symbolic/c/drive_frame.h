@@ -59,7 +59,10 @@ static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wm
   wmr_look(m, seen, &plan->rules, &plan->motors);
   error = wmr_polar_error(m->pose, plan->goal);
   m->rho = error.rho, m->off = wmr_wrap(error.alpha - error.theta);
-  m->facing = m->state == WMR_TURN && WMR_F(fabs)(m->off) <= end->tolerance ? m->facing + 1 : 0;
+  if (m->state == WMR_TURN && WMR_F(fabs)(m->off) <= end->tolerance)
+    m->facing += 1, m->faced += seen->seconds;
+  else
+    m->facing = 0, m->faced = WMR_C(0.0);
   wmr_decide(m, seen, &plan->rules, end);
   if (m->state == WMR_DRIVE) {
     twist = WMR_DRIVE_LAW(error, plan->gains);

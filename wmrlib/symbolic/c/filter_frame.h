@@ -153,6 +153,14 @@ static inline int wmr_filter_predict(wmr_filter *filter, WMR_REAL v, WMR_REAL om
   return together;
 }
 
+/* The same state, less certain: for a gate that has refused several measurements in a row
+   and may be refusing the truth. Call it with 4, say, at each refusal from then on. */
+static inline void wmr_filter_doubt(wmr_filter *filter, WMR_REAL factor) {
+  int i, j;
+  for (i = 0; i < WMR_SIZE; ++i)
+    for (j = 0; j < WMR_SIZE; ++j) filter->covariance[i][j] *= factor;
+}
+
 /* Uses the position of an antenna `ahead` and `left` of the middle of the wheels [m],
    with a standard deviation of each number. */
 static inline int wmr_filter_position(wmr_filter *filter, WMR_REAL x, WMR_REAL y,

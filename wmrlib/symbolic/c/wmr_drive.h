@@ -34,7 +34,7 @@ typedef struct { WMR_REAL track_width; WMR_REAL max_speed; WMR_REAL min_speed;
     WMR_REAL acceleration; WMR_REAL lag; WMR_REAL dead_band; WMR_REAL encoder_step; }
     wmr_motors;
 typedef struct { WMR_REAL tolerance; WMR_REAL gain; WMR_REAL min_rate;
-    WMR_REAL max_rate; WMR_REAL leave; } wmr_last_turn;
+    WMR_REAL max_rate; WMR_REAL leave; WMR_REAL settle; } wmr_last_turn;
 typedef struct { WMR_REAL arrival_radius; WMR_REAL patience; WMR_REAL oldest;
     WMR_REAL largest_error; int settle; WMR_REAL jump; WMR_REAL slip; WMR_REAL frozen;
     WMR_REAL course; WMR_REAL astray; WMR_REAL wheel; WMR_REAL share;
@@ -49,7 +49,8 @@ typedef struct { int state; int reason; wmr_pose pose; wmr_wheel left; wmr_wheel
     int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; WMR_REAL pace;
     WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still; int outside; wmr_pose begin;
     wmr_pose leg; WMR_REAL length; WMR_REAL turning; int turned; int astray;
-    int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off; int facing; } wmr_memory;
+    int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off; int facing;
+    WMR_REAL faced; } wmr_memory;
 typedef struct {
   wmr_pose goal;
   wmr_gains gains;
@@ -334,7 +335,7 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
     m->state = WMR_DRIVE, m->reason = WMR_FINE;
     return;
   }
-  if (m->state == WMR_TURN && m->facing >= rules->settle) {
+  if (m->state == WMR_TURN && m->facing >= rules->settle && m->faced >= end->settle) {
     m->state = WMR_PARKED, m->reason = WMR_FINE;
     return;
   }
@@ -349,7 +350,10 @@ static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wm
   wmr_look(m, seen, &plan->rules, &plan->motors);
   error = wmr_polar_error(m->pose, plan->goal);
   m->rho = error.rho, m->off = wmr_wrap(error.alpha - error.theta);
-  m->facing = m->state == WMR_TURN && WMR_F(fabs)(m->off) <= end->tolerance ? m->facing + 1 : 0;
+  if (m->state == WMR_TURN && WMR_F(fabs)(m->off) <= end->tolerance)
+    m->facing += 1, m->faced += seen->seconds;
+  else
+    m->facing = 0, m->faced = WMR_C(0.0);
   wmr_decide(m, seen, &plan->rules, end);
   if (m->state == WMR_DRIVE) {
     twist = WMR_DRIVE_LAW(error, plan->gains);

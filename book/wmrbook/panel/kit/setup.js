@@ -42,9 +42,11 @@ function checkedWheels(options) {
 
 function checkedTurn({ lastTurn = null }) {
   if (lastTurn === null) return null;
-  const end = { tolerance: 0.02, gain: 2, min_rate: 0.2, max_rate: 1, leave: 2, ...lastTurn };
+  const end = { tolerance: 0.02, gain: 2, min_rate: 0.2, max_rate: 1, leave: 2, settle: 0,
+    ...lastTurn };
   for (const name of ['tolerance', 'gain', 'min_rate', 'max_rate'])
     checkedNumber(`lastTurn.${name}`, end[name], true);
+  checkedNumber('lastTurn.settle', end.settle);
   return end;
 }
 

@@ -77,7 +77,7 @@ export function sheetOf(robot, rules) {
       gains: { k_rho: k, k_alpha: kappa * rate, h, v_max: vMax },
       longest_step: rules.step / rate, min_speed: minSpeed,
       turn: { tolerance, gain: Math.min(2, 0.5 / late, braking / maxRate), min_rate: minRate,
-        max_rate: maxRate, leave: rules.leave },
+        max_rate: maxRate, leave: rules.leave, settle: late + maxRate / braking },
       duration: Math.ceil(60 + 2 * travel) };
 }
 

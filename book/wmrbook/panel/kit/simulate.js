@@ -30,7 +30,7 @@ export function drive(setup, record) {
   const { law, step, gains, dt, samples, arrivalRadius, hysteresis, moving, sight, wheels } = setup;
   const { limits = null, motors = null, end = null } = setup;
   let before = NaN, pose = setup.start, goal = [...setup.goal, 0, 0];
-  let turning = false, body = [0, 0, 0, 0];
+  let turning = 0, body = [0, 0, 0, 0]; // turning is as in wmrlib's last_turn
   for (let k = 0; k < samples; k++) {
     if (moving) goal = circle(dt * k);
     const shown = sight ? sight(k, pose) : pose;
@@ -42,11 +42,13 @@ export function drive(setup, record) {
     let arrived = rho <= arrivalRadius;
     if (end) {
       const off = wrap(theta - alpha);
-      turning = rho <= arrivalRadius * (turning ? end.leave : 1);
-      arrived = turning && Math.abs(off) <= end.tolerance;
-      const omega = arrived ? 0 : turnRate(-off, end.gain, end.min_rate, end.max_rate);
+      const near = rho <= arrivalRadius * (turning > 0 ? end.leave : 1);
+      const faces = near && Math.abs(off) <= end.tolerance, faced = Math.max(turning - 1, 0);
+      turning = near ? 1 + (faces ? faced + dt : 0) : 0;
+      arrived = faces && faced >= end.settle - 1e-9;
+      const omega = faces ? 0 : turnRate(-off, end.gain, end.min_rate, end.max_rate);
       const most = limits ? saturationScale(limits.max_speed, fastestWheel(0, omega, limits.b)) : 1;
-      if (turning) twist = [0, most * omega];
+      if (near) twist = [0, most * omega];
     }
     if (motors) {
       arrived &&= !end || atRest(body);
