@@ -169,7 +169,7 @@ def sheet(robot: Robot) -> Sheet:
     k, far = gains.k_rho, math.log1p(-math.exp(-gains.k_rho * apart))
     travel = (k * (apart - radius) + far - math.log1p(-math.exp(-k * radius))) / rate
     gain = min(2.0, 0.5 / late, braking / max_rate)
-    settle = late + max_rate / braking  # until it sees where it has come to rest
+    settle = late + max(min_rate, gain * tolerance) / braking  # it sees where it came to rest
     turn = wmr.LastTurn(tolerance, gain, min_rate, max_rate, settle=settle)
     heading, longest = wmr.wrap_angle(math.radians(90.0 - robot.bearing)), wmr.longest_step(gains)
     duration = math.ceil(60.0 + 2.0 * travel)

@@ -65,6 +65,7 @@ export function sheetOf(robot, rules) {
   const minRate = Math.max(0.1, 2 * rules.moves * dead / width),
       maxRate = Math.max(minRate, Math.min(1, speed / width)),
       tolerance = Math.max(0.02, minRate * late + minRate ** 2 / (2 * braking));
+  const gain = Math.min(2, 0.5 / late, braking / maxRate);
   if (tolerance > rules.coarse) {
     const { message } = notAllowed('dead_band', digits(dead),
         `a last turn within ${(rules.coarse * DEGREES).toFixed(0)} deg`);
@@ -76,8 +77,8 @@ export function sheetOf(robot, rules) {
   return { x, y, heading: wrap((90 - robot.bearing) / DEGREES), distance, radius,
       gains: { k_rho: k, k_alpha: kappa * rate, h, v_max: vMax },
       longest_step: rules.step / rate, min_speed: minSpeed,
-      turn: { tolerance, gain: Math.min(2, 0.5 / late, braking / maxRate), min_rate: minRate,
-        max_rate: maxRate, leave: rules.leave, settle: late + maxRate / braking },
+      turn: { tolerance, gain, min_rate: minRate, max_rate: maxRate, leave: rules.leave,
+        settle: late + Math.max(minRate, gain * tolerance) / braking },
       duration: Math.ceil(60 + 2 * travel) };
 }
 
