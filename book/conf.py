@@ -30,7 +30,7 @@ nb_execution_timeout = 120
 nb_execution_raise_on_error = True
 nb_kernel_rgx_aliases = {".*": "python3"}
 nb_merge_streams = True
-nb_code_prompt_show, nb_code_prompt_hide = "Show the code", "Hide the code"
+nb_code_prompt_show, nb_code_prompt_hide = "Code", "Hide the code"
 # A table that a cell prints may have formulas and links to chapters.
 nb_render_markdown_format = "myst"
 nb_output_stderr = "remove-warn"  # and a warning fails the build
@@ -38,7 +38,7 @@ nb_output_stderr = "remove-warn"  # and a warning fails the build
 html_theme = "sphinx_book_theme"
 html_title = project
 html_static_path = ["_static"]
-html_css_files = ["book.css"]
+html_css_files = ["vendor/face.css", "book.css"]
 html_show_sphinx = False
 html_domain_indices = False
 # Light or dark as the reader's system is; the button overrides it.
@@ -66,7 +66,7 @@ mathjax_config_path = "mathjax.js"
 myst_update_mathjax = False
 
 # The live widgets: anywidgets all of them, which a page needs no widget manager of 4 MB for.
-html_js_files = [("widgets.js", {"data-start": "whole page"}), "figures.js"]
+html_js_files = [("widgets.js", {"data-start": "whole page"}), "figures.js", "reading.js"]
 html_js_files += [("vendor/panels.js", {"defer": ""})]
 nb_ipywidgets_js = {}
 

@@ -11,6 +11,7 @@ Playwright, and Chromium or Chrome.
 from __future__ import annotations
 
 import argparse
+import base64
 import os
 import re
 import shutil
@@ -27,6 +28,8 @@ from nbformat import NotebookNode
 from pdf import find_browser, print_book
 from python_pack import write_scripts
 
+from wmrbook import face
+
 BOOK = Path(__file__).resolve().parents[1]
 ROOT = BOOK.parent
 MODULES = BOOK / "node_modules"
@@ -36,7 +39,6 @@ VENDOR = BOOK / "_static" / "vendor"
 NPM_FILES = {"mathjax": ("mathjax/es5/tex-svg.js", "mathjax/LICENSE")}
 ZIP = "robot-book.zip"
 START = Path(__file__).with_name("start.html")  # the zip's first page
-LONG = 12  # lines of code; a page folds a cell that has more
 GUIDE = "lecturers.md"
 TO_GUIDE = re.compile(rf"\[([^\]]+)\]\({re.escape(GUIDE)}[^)]*\)|^lecturers\n", re.MULTILINE)
 SOLUTION = re.compile(
@@ -143,6 +145,26 @@ def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES
         (vendor / folder).mkdir(parents=True)
         for path in (path for pattern in patterns for path in npm_files(pattern)):
             shutil.copy(path, vendor / folder)
+    write_face(vendor / "face.css")
+
+
+def write_face(sheet: Path) -> None:
+    """Write the book's colours and fonts as one sheet.
+
+    The fonts are in it: a page from the disk may not load others, in Firefox.
+    """
+    rules = []
+    for family, weights, styles, package, part in face.FILES:
+        for style in styles.split():
+            name = f"{package.rsplit('/')[-1]}-{part}-{style}.woff2"
+            (path,) = npm_files(f"@fontsource{package}/files/{name}")
+            data = base64.b64encode(path.read_bytes()).decode()
+            source = f'url("data:font/woff2;base64,{data}") format("woff2")'
+            rules.append(
+                f'@font-face {{ font-family: "{family}"; font-style: {style}; '
+                f"font-weight: {weights}; src: {source}; }}\n"
+            )
+    sheet.write_text("".join([face.css(), *rules]), encoding="utf-8")
 
 
 def npm_files(pattern: str) -> list[Path]:
@@ -174,7 +196,7 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
         if not lecturer:
             without_solutions(notebook)
         for cell in notebook.cells:
-            if cell.cell_type == "code" and cell.source.count("\n") >= LONG:
+            if cell.cell_type == "code":
                 cell.metadata.setdefault("tags", []).append("hide-input")
         nbformat.write(notebook, chapter)
 

@@ -11,7 +11,7 @@ import subprocess
 import sys
 from pathlib import Path
 
-from wmrbook import live
+from wmrbook import face, live
 from wmrbook.panel import Explorer, MyRobot
 from wmrbook.panel.kit import KIT, programs
 from wmrlib import symbolic
@@ -36,7 +36,11 @@ def printed() -> dict[str, str]:
     rows = "".join(f"  '{it.program}': '{it.contract}',\n" for it in panels)
     head = "// Printed by book/tools/kit.py: the contract of what is stored for each program.\n"
     contracts = f"{head}export const CONTRACTS = {{\n{rows}}};\n"
-    return {"model.js": symbolic.javascript(), "contracts.js": contracts}
+    return {
+        "model.js": symbolic.javascript(),
+        "contracts.js": contracts,
+        "face.js": face.javascript(),
+    }
 
 
 def bundle(script: Path) -> None:

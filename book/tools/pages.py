@@ -28,6 +28,8 @@ CHAPTER = re.compile(r"notebooks/(\d\d)_")
 FIGURE = re.compile(
     rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)">'
 )
+GROWN = 1.2  # letters of a figure are as large as those of the text
+MEASURE = 690  # px, of the column of text
 TAG = re.compile(r"<[^>]+>")
 MODEL = re.compile(r'(?<=")[0-9a-f]{32}(?=": \{"model_name)')
 EMPTY = r"<th\b[^>]*>\s*(?:<p></p>)?\s*</th>"
@@ -66,12 +68,28 @@ def _line(text: str) -> str:
     return f'<span class="line"{style}>{text}</span>'
 
 
+def _cell_of(output: nodes.Node) -> nodes.Element:
+    """The cell that printed it."""
+    while "cell" not in output.get("classes", ()):
+        output = output.parent
+    return output
+
+
+def widen(app, doctree):
+    """Give a panel, as a wide figure, all the width that there is."""
+    for output in doctree.findall(nodes.raw):
+        if "jupyter.widget-view+json" in output.astext():
+            _cell_of(output)["classes"].append("full-width")
+
+
 def show_figures(app, doctree):
     """Give each figure of a cell two files, of which the theme shows one, and its words."""
     for output in list(doctree.findall(nodes.raw)):
         if not (figure := FIGURE.fullmatch(output.astext().strip())):
             continue
-        svg = unquote(figure["svg"])
+        svg, width = unquote(figure["svg"]), round(GROWN * int(figure["width"]))
+        if width > MEASURE:
+            _cell_of(output)["classes"].append("full-width")
         name = hashlib.sha256(svg.encode()).hexdigest()[:12]
         images = []
         for theme, text in (("light", svg), ("dark", darkened(svg))):
@@ -79,7 +97,7 @@ def show_figures(app, doctree):
             path.parent.mkdir(exist_ok=True)
             path.write_text(text, encoding="utf-8")
             image = nodes.image(uri=f"/_figures/{path.name}", alt=html.unescape(figure["alt"]))
-            image["width"] = f"{figure['width']}px"
+            image["width"] = f"{width}px"
             image["classes"] = [f"only-{theme}", "no-scaled-link"]
             if theme == "dark":  # not loaded where the theme hides it
                 image["loading"] = "lazy"
@@ -151,7 +169,7 @@ def add_words(app, docname, template, context, doctree):
 
 def setup(app):
     PygmentsBridge.html_formatter = Lines
-    for change in (show_figures, begin_chapter):
+    for change in (show_figures, widen, begin_chapter):
         app.connect("doctree-read", change, priority=400)  # before Sphinx collects images, titles
     app.connect("html-page-context", add_words)
     app.connect("build-finished", mend)

@@ -1,8 +1,6 @@
 """What all figures have in common: colours by role, line styles, axes, darts and a text.
 
-The colours are those of Okabe and Ito, which colour-blind readers can tell apart, some darker where
-they colour text. Whatever a colour says, a line style, a marker or a label says too. What the live
-panel shows as well has the same hue there, in panel/kit/panel.css.
+Colours and font are those of `wmrbook.face`, which pages, panels and slides have too.
 """
 
 from __future__ import annotations
@@ -11,59 +9,62 @@ import html
 import io
 import math
 import re
+from importlib.resources import files
 from typing import Any
 from urllib.parse import quote
 
 import matplotlib as mpl
 import numpy as np
+from matplotlib import font_manager
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import Polygon
+from matplotlib.text import Text
 
+from wmrbook import face
 from wmrlib.kinematics import Pose
 
-COLOURS = {
-    "path": "#0072B2",
-    "start": "#009E73",
-    "goal": "#D55E00",
-    "rho": "#222222",
-    "alpha": "#A8447F",
-    "theta": "#7D7000",
-    "robot": "#56B4E9",
-    "v": "#0072B2",
-    "omega": "#CC79A7",
-    "x_error": "#0072B2",
-    "y_error": "#E69F00",
-    "V": "#0072B2",
-    "V_rising": "#D40000",
-    "ink": "#222222",
+COLOURS = {role: light for role, (light, _) in face.COLOURS.items()} | {
+    "robot": "#56b4e9",
+    "v": face.COLOURS["path"][0],
+    "omega": "#cc79a7",
+    "x_error": face.COLOURS["path"][0],
+    "y_error": "#e69f00",
+    "V_rising": face.COLOURS["rising"][0],
 }
-STYLE: dict[Any, float] = {
-    "font.size": 12,
+STYLE: dict[Any, Any] = {
+    "font.family": "Source Sans Pro",
+    "font.size": 13,
+    "mathtext.fontset": "stix",
     "axes.grid": True,
-    "grid.alpha": 0.35,
+    "axes.axisbelow": True,
+    "grid.color": face.COLOURS["line"][0],
+    "grid.linewidth": 0.6,
     "axes.spines.top": False,
     "axes.spines.right": False,
+    "axes.edgecolor": face.COLOURS["soft"][0],
+    "axes.titleweight": 600,
+    "xtick.color": face.COLOURS["soft"][0],
+    "ytick.color": face.COLOURS["soft"][0],
+    "text.color": face.COLOURS["ink"][0],
+    "axes.labelcolor": face.COLOURS["ink"][0],
     "lines.linewidth": 2.0,
+    "legend.frameon": False,
 }
-# On dark paper: ink is white, white is the paper, and what is drawn has the hue that it has on
-# white and in the panel, lighter. An area with hatches in ink, and the robot on its path, is dark.
-DARK = {
-    "#000000": "#f0f3f6",
-    "#222222": "#f0f3f6",
-    "#ffffff": "#121212",
-    "#0072b2": "#56b4e9",
-    "#009e73": "#2fc796",
-    "#d55e00": "#f58d3d",
-    "#a8447f": "#e59cc4",
-    "#7d7000": "#f0e442",
+# On dark paper: black is ink, white is the paper, and an area with hatches in ink, and the robot on
+# its path, is dark.
+DARK = dict(face.COLOURS.values()) | {
+    "#000000": face.COLOURS["ink"][1],
+    "#ffffff": face.COLOURS["paper"][1],
     "#56b4e9": "#0072b2",
-    "#d40000": "#ff7b72",
     "#f0e442": "#857c00",
     "#bbbbbb": "#5c646d",
     "#bfbfbf": "#4a5159",
     "#f7c9a8": "#7a3f12",
 }
+for _path in files("font_source_sans_pro").joinpath("files").iterdir():
+    if _path.name in ("SourceSansPro-Regular.ttf", "SourceSansPro-Semibold.ttf"):
+        font_manager.fontManager.addfont(str(_path))
 LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
 SVG_URL = "data:image/svg+xml,"
@@ -85,6 +86,8 @@ class Picture:
     def __init__(self, figure: Figure, alt: str) -> None:
         self.figure = figure
         self.alt = alt
+        for text in figure.findobj(Text):  # those made after `new_figure` have matplotlib's font
+            text.set_fontfamily(STYLE["font.family"])
 
     def __repr__(self) -> str:
         return f"<Picture: {self.alt}>"
@@ -96,7 +99,7 @@ class Picture:
                 one.set_rasterized(True)
         buffer, nothing = io.StringIO(), dict.fromkeys(("Creator", "Date", "Format", "Type"))
         with mpl.rc_context({"svg.hashsalt": "wmrbook", "svg.fonttype": "path"}):
-            self.figure.savefig(buffer, format="svg", dpi=144, metadata=nothing)
+            self.figure.savefig(buffer, format="svg", dpi=144, facecolor="none", metadata=nothing)
         text = " ".join(buffer.getvalue().split())
         text = _UNUSED.sub("", text[text.index("<svg") :])
         text, names = _POINTS.sub(lambda path: _NUMBER.sub(_rounded, path[0]), text), {}

@@ -1,6 +1,6 @@
 // The sentence and its numbers, a slider for each, and the buttons that play.
 
-import { ROLES } from './style.js';
+import { COLOURS } from './face.js';
 import { fromWords, placeOf, putSlider, stepped, stopsOf } from './controls.js';
 import { held, made } from './hands.js';
 
@@ -15,9 +15,9 @@ export const inWords = (value) =>
 // A symbol such as k_alpha, as in the formulas: Greek, with its index, and in its colour.
 function putSymbol(parent, name) {
   const [stem, ...index] = name.split('_'),
-      role = ROLES.includes(stem) ? stem : ROLES.includes(index[0]) ? index[0] : '';
+      role = stem in COLOURS ? stem : index[0] in COLOURS ? index[0] : '';
   const it = made(parent, 'i', { className: 'live-symbol', textContent: SYMBOLS[stem] || stem });
-  if (role) it.style.color = `var(--${role})`;
+  if (role) { it.style.color = `var(--${role})`; it.dataset.role = role; }
   if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || index.join(' ') });
 }
 

@@ -1,8 +1,8 @@
 // Colours by role, the page's theme, and how numbers are written.
 
-export const ROLES = ['paper', 'ink', 'soft', 'line', 'raised', 'focus', 'path', 'start', 'goal',
-    'rho', 'alpha', 'theta', 'rising', 'ghost'];
-export const FONT = 'system-ui, "Segoe UI", Roboto, "Helvetica Neue", Arial, sans-serif';
+import { COLOURS, FONTS } from './face.js';
+
+export const FONT = FONTS.sans;
 export const DEGREES = 180 / Math.PI;
 
 function pageIsDark(root) {
@@ -25,14 +25,18 @@ export function followTheme(onChange) {
   return () => { watch.disconnect(); system.removeEventListener('change', onChange); };
 }
 
-// Marks the panel, and the card it stands in, as light or dark; returns the colours for the
-// canvases.
+// Marks the panel as light or dark; gives it the book's colours and
+// fonts as variables, and returns the colours for the canvases.
 export function readColours(root) {
-  const theme = pageIsDark(root) ? 'dark' : 'light';
-  for (const each of [root, root.closest('.wmr-explorer')]) if (each) each.dataset.wmrTheme = theme;
-  const style = getComputedStyle(root);
-  return Object.fromEntries(
-      ROLES.map((role) => [role, style.getPropertyValue(`--${role}`).trim()]));
+  const dark = pageIsDark(root), theme = dark ? 'dark' : 'light';
+  root.dataset.wmrTheme = theme;
+  const colours = {};
+  for (const [role, codes] of Object.entries(COLOURS)) {
+    colours[role] = codes[Number(dark)];
+    root.style.setProperty(`--${role}`, colours[role]);
+  }
+  for (const [role, names] of Object.entries(FONTS)) root.style.setProperty(`--${role}`, names);
+  return colours;
 }
 
 // viridis at 17 even steps (matplotlib, CC0); between them, straight lines in sRGB are within two

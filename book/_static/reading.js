@@ -1,0 +1,35 @@
+// One switch unfolds the code of every chapter, and a symbol that is touched lights up wherever it
+// stands.
+addEventListener('DOMContentLoaded', () => {
+  const KEY = 'wmr-code', root = document.documentElement;
+  const kept = () => { try { return localStorage.getItem(KEY); } catch { return null; } };
+  const keep = (value) => { try { localStorage.setItem(KEY, value); } catch { /* it may not */ } };
+  const folds = [...document.querySelectorAll('details.above-input')];
+  const place = document.querySelector('.run-it');
+  if (folds.length && place) {
+    const button = Object.assign(document.createElement('button'),
+        { type: 'button', className: 'all-code', textContent: 'Show all code' });
+    const turn = (open) => {
+      for (const fold of folds) fold.open = open;
+      button.setAttribute('aria-pressed', open);
+    };
+    button.addEventListener('click', () => {
+      const open = button.getAttribute('aria-pressed') !== 'true';
+      keep(open ? 'shown' : 'folded');
+      turn(open);
+    });
+    place.append(' ', button);
+    turn(kept() === 'shown');
+  }
+
+  const LETTERS = { '1D70C': 'rho', '1D6FC': 'alpha', '1D703': 'theta', '210E': 'h', '1D449': 'V' };
+  const roleOf = (target) => {
+    const it = target instanceof Element && target.closest('[data-c], .live-symbol');
+    return it && (LETTERS[it.dataset.c] || it.dataset.role);
+  };
+  const light = ({ target }) => {
+    const role = roleOf(target);
+    if (role) root.dataset.lit = role; else delete root.dataset.lit;
+  };
+  for (const event of ['pointerover', 'pointerdown']) addEventListener(event, light);
+});

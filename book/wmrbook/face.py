@@ -1,0 +1,76 @@
+"""The book's face: what each thing's colour is on light and on dark paper, and the fonts.
+
+One table, which figures, panels, pages, slides and the printed book take their looks from. The
+colours are those of Okabe and Ito, which colour-blind readers can tell apart, darker where they
+colour text; a symbol has one hue wherever it stands. Whatever a colour says, a line style, a marker
+or a label says too.
+"""
+
+from __future__ import annotations
+
+COLOURS = {
+    # role: on light paper, on dark paper
+    "paper": ("#fdfcf8", "#15191e"),
+    "ink": ("#1d2429", "#eef1f4"),
+    "soft": ("#57606a", "#b1bac4"),
+    "line": ("#cdcbc1", "#424a53"),
+    "raised": ("#f2f0e8", "#22272e"),
+    "focus": ("#0069a6", "#56b4e9"),
+    "lawn": ("#e1ead2", "#1c261c"),
+    "mown": ("#d5e0c2", "#233024"),
+    "path": ("#0072b2", "#56b4e9"),
+    "start": ("#00795a", "#2fc796"),
+    "goal": ("#b84f00", "#f58d3d"),
+    "rho": ("#7a3fb8", "#c3a2f2"),
+    "alpha": ("#a8447f", "#e59cc4"),
+    "theta": ("#7d7000", "#f0e442"),
+    "h": ("#4a7800", "#a5d65c"),
+    "V": ("#3a55c9", "#95aaff"),
+    "rising": ("#d00000", "#ff7b72"),
+    "ghost": ("#7a828b", "#9aa4af"),
+}
+LETTERS = {"rho": "1D70C", "alpha": "1D6FC", "theta": "1D703", "h": "210E", "V": "1D449"}
+"""The symbols among them, as MathJax names what it draws."""
+
+FONTS = {
+    "serif": '"Source Serif 4", Georgia, "Times New Roman", serif',
+    "sans": '"Source Sans 3", "Source Sans Pro", system-ui, "Segoe UI", Roboto, Arial, sans-serif',
+    "code": '"JetBrains Mono", ui-monospace, Menlo, Consolas, monospace',
+    "maths": '"STIX Two Text", "STIX Two Math", "Cambria Math", Georgia, serif',
+}
+# The files that pages carry, from npm's @fontsource: family, weights, styles, folder, parts.
+FILES = (
+    ("Source Serif 4", "200 900", "normal italic", "-variable/source-serif-4", "latin-wght"),
+    ("Source Serif 4", "200 900", "normal", "-variable/source-serif-4", "greek-wght"),
+    ("Source Sans 3", "200 900", "normal italic", "-variable/source-sans-3", "latin-wght"),
+    ("Source Sans 3", "200 900", "normal", "-variable/source-sans-3", "greek-wght"),
+    ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "latin-wght"),
+    ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "greek-wght"),
+    ("STIX Two Text", "400", "normal italic", "/stix-two-text", "latin-400"),
+    ("STIX Two Text", "400", "normal italic", "/stix-two-text", "greek-400"),
+)
+
+
+def css() -> str:
+    """The table as variables of CSS, for pages whose theme stands at their root."""
+    themes = []
+    for k, theme in enumerate(("light", "dark")):
+        rows = "".join(f"  --{role}: {codes[k]};\n" for role, codes in COLOURS.items())
+        chosen = ":root" if theme == "light" else ':root[data-theme="dark"]'
+        themes.append(f"{chosen} {{\n{rows}}}\n")
+    fonts = "".join(f"  --{role}: {names};\n" for role, names in FONTS.items())
+    letters = "".join(
+        f'[data-c="{code}"] {{ fill: var(--{role}); }}\n' for role, code in LETTERS.items()
+    )
+    return "".join([*themes, f":root {{\n{fonts}}}\n", letters])
+
+
+def javascript() -> str:
+    """The table as a module of the panels' kit."""
+    rows = "".join(f"  {role}: ['{a}', '{b}'],\n" for role, (a, b) in COLOURS.items())
+    fonts = "".join(f"  {role}: '{names}',\n" for role, names in FONTS.items())
+    return (
+        "// Printed by book/tools/kit.py from wmrbook.face: colours on light and on dark paper, "
+        "and fonts.\n"
+        f"export const COLOURS = {{\n{rows}}};\nexport const FONTS = {{\n{fonts}}};\n"
+    )
