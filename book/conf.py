@@ -17,7 +17,10 @@ language = "en"
 exclude_patterns = ["course"]  # the graded exercises: only a table of them is shown
 extensions = ["crossref", "myst_nb", "sphinx_copybutton", "sphinx_design", "sphinxcontrib.bibtex"]
 extensions += ["pages", "python_cells", "reference"]
-myst_enable_extensions = ["amsmath", "attrs_inline", "colon_fence", "deflist", "dollarmath"]
+myst_enable_extensions = ["amsmath", "attrs_block", "attrs_inline", "colon_fence", "deflist"]
+myst_enable_extensions += ["dollarmath", "substitution"]
+edition = f"Version {version}, November 2026"
+myst_substitutions = {"author": author, "edition": edition}
 myst_heading_anchors = 3
 bibtex_bibfiles = [str(Path(__file__).parent / "references.bib")]
 bibtex_cite_id = "cite-{key}"
@@ -43,6 +46,10 @@ html_show_sphinx = False
 html_domain_indices = False
 # Light or dark as the reader's system is; the button overrides it.
 html_context = {"default_mode": "auto"}
+html_sidebars = {  # the front page is a picture and three doors
+    "index": [],
+    "**": ["navbar-logo.html", "search-button-field.html", "sbt-sidebar-nav.html"],
+}
 html_theme_options = {
     "navbar_persistent": [],  # the search field is in the side bar already
     "show_toc_level": 2,

@@ -76,7 +76,12 @@ def _cell_of(output: nodes.Node) -> nodes.Element:
 
 
 def widen(app, doctree):
-    """Give a panel, as a wide figure, all the width that there is."""
+    """Give a panel, as a wide figure, all the width that there is.
+
+    The theme's script then hides the table of contents, which the front page hasn't.
+    """
+    if app.env.docname == "index":
+        return
     for output in doctree.findall(nodes.raw):
         if "jupyter.widget-view+json" in output.astext():
             _cell_of(output)["classes"].append("full-width")

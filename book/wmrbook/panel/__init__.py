@@ -6,4 +6,5 @@ with book_extra("wmrbook.panel"):
     import anywidget  # noqa: F401
 
 from wmrbook.panel.explorer import Explorer  # noqa: F401
+from wmrbook.panel.front import Front  # noqa: F401
 from wmrbook.panel.my_robot import MyRobot  # noqa: F401

@@ -22,9 +22,10 @@ LOADER = Path(__file__).with_name("loader.js").read_text(encoding="utf-8")
 
 
 def programs() -> list[str]:
-    """The names of the programs: the Explorer's, My robot's, and each live figure's."""
+    """The names of the programs: the panels', and each live figure's."""
     return [
         "explorer",
+        "front",
         "my_robot",
         *(f"live/{path.stem}" for path in sorted(KIT.glob("live/*.js"))),
     ]

@@ -50,7 +50,7 @@ export function viewOf(runs, marks, arrows, { zoom, width, height }, zoomed) {
 }
 
 // The view that shows the place `middle` at `centre`, with `scale` px a metre.
-const viewAt = (box, zoom, scale, middle, centre) => ({
+export const viewAt = (box, zoom, scale, middle, centre) => ({
   box, scale, zoom,
   toScreen: (x, y) => [centre[0] + (x - middle[0]) * scale, centre[1] - (y - middle[1]) * scale],
   toWorld: (x, y) => [middle[0] + (x - centre[0]) / scale, middle[1] - (y - centre[1]) / scale],
@@ -215,23 +215,42 @@ export function drawName(ctx, view, pose, name, colours, robot = null) {
 }
 
 /**
+ * The robot from above: two wheels, a body with a nose, the castor's lid, and a shadow. It is 27 px
+ * long, times `size`.
  * @param {CanvasRenderingContext2D} ctx @param {Point} place @param {number} heading
  * @param {Colours} colours
  */
-export function drawRobot(ctx, [x, y], heading, colours) {
+export function drawRobot(ctx, [x, y], heading, colours, size = 1) {
+  const body = new Path2D('M-11-9Q-13-9-13-7V7Q-13 9-11 9H4Q9 8 15 0 9-8 4-9Z');
   ctx.save();
   ctx.translate(x, y);
+  ctx.save(); // light falls from one side, wherever the robot looks
+  ctx.translate(1.5 * size, 2.5 * size);
   ctx.rotate(-heading);
+  ctx.scale(size, size);
+  ctx.globalAlpha *= 0.2;
+  ctx.fillStyle = '#000000';
+  ctx.fill(body);
+  ctx.restore();
+  ctx.rotate(-heading);
+  ctx.scale(size, size);
   ctx.fillStyle = colours.ink;
-  for (const side of [-1, 1]) ctx.fillRect(-8, side * 12 - 3, 16, 6);
-  ctx.beginPath();
-  ctx.moveTo(-11, -9); ctx.lineTo(6, -9); ctx.lineTo(16, 0); ctx.lineTo(6, 9); ctx.lineTo(-11, 9);
-  ctx.closePath();
+  for (const side of [-1, 1]) {
+    ctx.beginPath();
+    ctx.roundRect(-8, side * 11.5 - 3, 16, 6, 2);
+    ctx.fill();
+  }
   ctx.fillStyle = colours.path;
+  ctx.fill(body);
+  ctx.lineWidth = 1.6;
+  ctx.strokeStyle = ctx.fillStyle = colours.paper;
+  ctx.stroke(body);
+  ctx.beginPath();
+  ctx.moveTo(5, -4); ctx.lineTo(10.5, 0); ctx.lineTo(5, 4); ctx.closePath();
   ctx.fill();
-  ctx.lineWidth = 2;
-  ctx.strokeStyle = colours.paper;
-  ctx.stroke();
+  ctx.beginPath();
+  ctx.arc(-8, 0, 2.2, 0, 2 * Math.PI);
+  ctx.fill();
   ctx.restore();
 }
 
