@@ -9,6 +9,7 @@ import html
 import io
 import math
 import re
+import unicodedata
 from importlib.resources import files
 from typing import Any
 from urllib.parse import quote
@@ -71,6 +72,9 @@ SVG_URL = "data:image/svg+xml,"
 _UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
 _HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
 _POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
+_DEGREES = re.compile(r"(?<=\d) deg\b|(?<=\[)deg(?=\])")
+_GREEK = {"lambda": "lamda"}  # as Unicode spells it
+_NAME = re.compile(r"\b(?:k_rho|k_alpha|rho|alpha|theta|omega|kappa|lambda|sigma|tau|beta)\b")
 _NUMBER = re.compile(r"-?\d+\.\d{3,}(?:e-?\d+)?")  # with more decimals than one can see
 
 
@@ -88,6 +92,8 @@ class Picture:
         self.alt = alt
         for text in figure.findobj(Text):  # those made after `new_figure` have matplotlib's font
             text.set_fontfamily(STYLE["font.family"])
+            if "$" not in text.get_text():
+                text.set_text(in_symbols(text.get_text()))
 
     def __repr__(self) -> str:
         return f"<Picture: {self.alt}>"
@@ -111,6 +117,17 @@ class Picture:
         source = quote(self.svg().replace('"', "'"), safe=" ='/:;,()")
         image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{SVG_URL}{source}">'
         return {"text/html": image, "text/plain": repr(self)}
+
+
+def in_symbols(words: str) -> str:
+    """Return a text with symbols for their names, and a sign for degrees."""
+    return _NAME.sub(_symbol, _DEGREES.sub("°", words))
+
+
+def _symbol(name: re.Match) -> str:
+    if "_" in name[0]:
+        return "$k_\\" + name[0].partition("_")[2] + "$"
+    return unicodedata.lookup(f"GREEK SMALL LETTER {_GREEK.get(name[0], name[0]).upper()}")
 
 
 def darkened(svg: str) -> str:

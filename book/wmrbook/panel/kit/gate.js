@@ -5,6 +5,7 @@ import * as memory from './memory.js';
 import { DEGREES, inDegrees, written } from './style.js';
 import { turned } from './handles.js';
 import { MOVES, held, made, placeOn } from './hands.js';
+import { putWords } from './symbols.js';
 
 // `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from, with what
 // is `wrong` about each; `pane` and `at` of an arrow to turn; `pane` and `at`, the start, of a path
@@ -20,7 +21,7 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
   /** @type {any} */
   let draft = ask.kind === 'sketch' ? [] : null, listening = false, shown = null, answered = false;
   const form = made(root, 'form', { className: 'live-gate' });
-  made(form, 'p', { className: 'live-question', textContent: ask.question });
+  putWords(made(form, 'p', { className: 'live-question' }), ask.question);
   const options = made(form, 'div', { className: 'live-options' },
       { role: 'radiogroup', 'aria-label': ask.question });
   (ask.options || []).forEach((text, k) => {
@@ -29,7 +30,7 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
       draft = k;
       show();
     } });
-    made(row, 'span', { textContent: text });
+    putWords(made(row, 'span'), text);
   });
   const turn = ask.kind === 'turn'
       ? made(options, 'input',
@@ -149,7 +150,7 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
         each.classList.toggle('live-key', open() && k === ask.key);
         each.hidden = done && k !== ask.key && k !== guess;
       });
-    verdict.textContent = done ? judged(guess) + ask.why : '';
+    putWords(verdict, done ? judged(guess) + ask.why : '');
     root.closest('.live').dataset.open = String(open());
     if (answered) { answered = false; verdict.focus(); } // where a keyboard and a voice go on
   }

@@ -1,25 +1,14 @@
 // The sentence and its numbers, a slider for each, and the buttons that play.
 
-import { COLOURS } from './face.js';
 import { fromWords, placeOf, putSlider, stepped, stopsOf } from './controls.js';
 import { held, made } from './hands.js';
+import { putSymbol } from './symbols.js';
 
 const DRAG = 5; // px of a number's drag a step
 const GLIDE = 1500, PAUSE = 500; // ms: from one place to the next, and before and after
-const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
-    kappa: 'κ', zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
 export const inWords = (value) =>
     (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')
     : String(value));
-
-// A symbol such as k_alpha, as in the formulas: Greek, with its index, and in its colour.
-function putSymbol(parent, name) {
-  const [stem, ...index] = name.split('_'),
-      role = stem in COLOURS ? stem : index[0] in COLOURS ? index[0] : '';
-  const it = made(parent, 'i', { className: 'live-symbol', textContent: SYMBOLS[stem] || stem });
-  if (role) { it.style.color = `var(--${role})`; it.dataset.role = role; }
-  if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || index.join(' ') });
-}
 
 // A number among words: it can be dragged, typed over, and stepped with the arrow keys.
 function putNumber(parent, knob, { get, set, refuse }) {

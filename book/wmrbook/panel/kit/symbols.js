@@ -1,0 +1,26 @@
+// Symbols among words, as in the formulas: Greek, with their index, and in their colour.
+
+import { COLOURS } from './face.js';
+import { made } from './hands.js';
+
+const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
+    kappa: 'κ', zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
+const NAMED = RegExp(`\\b((?:k|v|l)_(?:${Object.keys(SYMBOLS).join('|')}|max|x|y)|${
+  Object.keys(SYMBOLS).join('|')})\\b`);
+
+// A symbol such as k_alpha.
+export function putSymbol(parent, name) {
+  const [stem, ...index] = name.split('_'),
+      role = stem in COLOURS ? stem : index[0] in COLOURS ? index[0] : '';
+  const it = made(parent, 'i', { className: 'live-symbol', textContent: SYMBOLS[stem] || stem });
+  if (role) { it.style.color = `var(--${role})`; it.dataset.role = role; }
+  if (index.length) made(it, 'sub', { textContent: SYMBOLS[index[0]] || index.join(' ') });
+}
+
+// A text in which symbols have their names and degrees are "deg".
+export function putWords(parent, text) {
+  parent.textContent = '';
+  text.replace(/(?<=\d) deg\b/g, '°').split(NAMED).forEach((piece, k) => {
+    if (k % 2) putSymbol(parent, piece); else parent.append(piece);
+  });
+}
