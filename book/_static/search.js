@@ -5,3 +5,13 @@ window.fetch = (url) => {
   const text = `<div role="main">${PAGES[name] ?? ''}</div>`;
   return Promise.resolve({ text: () => Promise.resolve(text) });
 };
+// Of two pages with a word the one that says it more often comes first.
+addEventListener('DOMContentLoaded', () => Object.assign(globalThis.Scorer, {
+  score([name, , , , score]) {
+    const asked = new URLSearchParams(location.search).get('q') ?? '';
+    const words = asked.toLowerCase().match(/[\p{L}\d]+/gu) ?? [];
+    const page = (PAGES[name] ?? '').toLowerCase();
+    const times = (word) => Math.min(page.split(word).length - 1, 40);
+    return score + words.reduce((sum, word) => sum + times(word), 0) / 4;
+  },
+}));

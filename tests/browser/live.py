@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import contextlib
 import os
+import re
 import socket
 import subprocess
 import sys
@@ -11,6 +12,8 @@ import time
 import urllib.error
 import urllib.request
 from pathlib import Path
+
+from wmrbook.figures.style import in_symbols
 
 ROOT = Path(__file__).resolve().parents[2]
 PATIENCE = 120_000  # ms for what takes seconds on a quiet machine
@@ -20,6 +23,15 @@ PICTURE = """() => [
         .map(it => it.toDataURL()),
     ...[...document.querySelectorAll('img')].map(it => it.src),
 ].join()"""
+
+
+def as_shown(text: str) -> str:
+    """A text of a prediction as the page has it, with symbols for their names."""
+
+    def bare(formula: re.Match) -> str:
+        return re.sub(r"[_{}]", "", in_symbols(formula[1].replace("\\", "")))
+
+    return re.sub(r"\$(\w_[^$]*)\$", bare, in_symbols(text))
 
 
 def chapters() -> list[Path]:

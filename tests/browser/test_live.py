@@ -10,6 +10,7 @@ import pytest
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from faults import axe
 from host import mounted
+from live import as_shown
 
 from wmrbook import live
 
@@ -213,18 +214,21 @@ def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use
         answers = page.locator(".live-sentence, .live-rows, .wmr-handle")
         assert answers.locator("visible=true").count() == 0
         assert re.search(r"\?|Sketch", ask["question"])
-        assert ask["why"] not in page.evaluate(TEXT)
+        assert as_shown(ask["why"]) not in page.evaluate(TEXT)
+        assert page.evaluate(TOUCH) == ["pan-y pinch-zoom"]  # a finger scrolls over it
+        grips = page.locator(".live-grip:visible")  # but where the arrow or the path begins
+        assert grips.count() == (ask["kind"] != "choose")
         assert page.get_by_role("button", name="Commit").is_disabled()
         assert not page.evaluate(WIDE)
         assert not page.evaluate(SMALL)
         assert not page.evaluate(FAULTS)
         commit(panel, ask)
-        assert ask["why"] in page.evaluate(TEXT)
+        assert as_shown(ask["why"]) in page.evaluate(TEXT)
+        assert grips.count() == 0
         assert page.locator(".live-sentence").is_visible()
         assert page.evaluate(PICTURE) != given
         assert page.locator(".live-gate input:enabled").count() == 0
         assert page.evaluate("document.activeElement.matches('.live-verdict')")  # keys go on there
-        assert page.evaluate(TOUCH) == ["pan-y pinch-zoom"]  # and fingers scroll the page again
     assert not page.evaluate(WIDE)
     assert not page.evaluate(SMALL)
     assert not page.evaluate(FAULTS)
@@ -377,7 +381,7 @@ def test_each_wrong_answer_is_told_what_is_wrong_and_the_picture_shows_what_was_
         panel.settled()
         assert {knob: panel.get(knob) for knob in shown} == shown
         told = "As you said." if k == ask["key"] else f"Not so. {wrong}"
-        assert verdict.inner_text() == f"{told} {ask['why']}"
+        assert verdict.inner_text() == as_shown(f"{told} {ask['why']}")
         page.get_by_role("button", name="Try again").click()
         panel.settled()
         assert verdict.inner_text() == ""
@@ -386,7 +390,7 @@ def test_each_wrong_answer_is_told_what_is_wrong_and_the_picture_shows_what_was_
         assert page.locator(".live-sentence").is_hidden()
     page.get_by_role("button", name="Just show me").click()
     panel.settled()
-    assert verdict.inner_text() == ask["why"]
+    assert verdict.inner_text() == as_shown(ask["why"])
     assert page.get_by_role("button", name="Copy as a line").is_hidden()
 
 

@@ -73,8 +73,22 @@ _UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
 _HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
 _POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
 _DEGREES = re.compile(r"(?<=\d) deg\b|(?<=\[)deg(?=\])")
-_GREEK = {"lambda": "lamda"}  # as Unicode spells it
-_NAME = re.compile(r"\b(?:k_rho|k_alpha|rho|alpha|theta|omega|kappa|lambda|sigma|tau|beta)\b")
+_GREEK = [
+    "alpha",
+    "beta",
+    "gamma",
+    "delta",
+    "zeta",
+    "theta",
+    "kappa",
+    "lambda",
+    "rho",
+    "sigma",
+    "tau",
+    "phi",
+    "omega",
+]
+_NAME = re.compile(rf"\b(?:([kvl])_(max|x|y|{'|'.join(_GREEK)})|({'|'.join(_GREEK)}))\b")
 _NUMBER = re.compile(r"-?\d+\.\d{3,}(?:e-?\d+)?")  # with more decimals than one can see
 
 
@@ -125,9 +139,11 @@ def in_symbols(words: str) -> str:
 
 
 def _symbol(name: re.Match) -> str:
-    if "_" in name[0]:
-        return "$k_\\" + name[0].partition("_")[2] + "$"
-    return unicodedata.lookup(f"GREEK SMALL LETTER {_GREEK.get(name[0], name[0]).upper()}")
+    stem, index, letter = name.groups()
+    if stem:
+        return f"${stem}_{{\\{index}}}$" if index in _GREEK else f"${stem}_{{{index}}}$"
+    spelled = "lamda" if letter == "lambda" else letter  # by Unicode
+    return unicodedata.lookup(f"GREEK SMALL LETTER {spelled.upper()}")
 
 
 def darkened(svg: str) -> str:

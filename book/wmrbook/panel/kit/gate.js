@@ -19,7 +19,7 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
   const committed = () => get().guess !== null && get().guess !== undefined,
       open = () => still || committed();
   /** @type {any} */
-  let draft = ask.kind === 'sketch' ? [] : null, listening = false, shown = null, answered = false;
+  let draft = ask.kind === 'sketch' ? [] : null, listening = false, shown = null, answered = false, grip = null;
   const form = made(root, 'form', { className: 'live-gate' });
   putWords(made(form, 'p', { className: 'live-question' }), ask.question);
   const options = made(form, 'div', { className: 'live-options' },
@@ -77,7 +77,8 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     if (listening || !ask.pane || !panes()[ask.pane]) return;
     listening = true;
     const canvas = host(ask.pane).querySelector('canvas');
-    held(canvas, {
+    grip = made(host(ask.pane), 'div', { className: 'live-grip' });
+    for (const each of [canvas, grip]) held(each, {
       take: () => !open(),
       drag(event, first) {
         const [x, y] = panes()[ask.pane].view.toWorld(...placeOn(canvas, event));
@@ -104,9 +105,17 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
       set();
     });
   }
-  function teach(canvas) { // the picture takes fingers and keys for as long as it asks
-    const asks = !open(), sketches = asks && ask.kind === 'sketch';
-    canvas.style.touchAction = asks ? 'none' : '';
+  // The picture takes keys for as long as it asks, and a finger that begins where the arrow or the
+  // path ends: elsewhere a finger scrolls.
+  function teach(canvas) {
+    const sketches = !open() && ask.kind === 'sketch', pane = panes()[ask.pane];
+    grip.hidden = open();
+    if (pane && !grip.hidden) {
+      const [x, y] = pane.at(...(sketches ? draft.at(-1) || ask.at : ask.at)), { zoom } = pane.view;
+      const [dx, dy] = sketches ? [0, 0] : [Math.cos(draft || 0), -Math.sin(draft || 0)];
+      grip.style.left = `${zoom * (x + 62 * dx)}px`;
+      grip.style.top = `${zoom * (y + 62 * dy)}px`;
+    }
     canvas.tabIndex = sketches ? 0 : -1;
     canvas.setAttribute('role', sketches ? 'application' : 'img');
     if (sketches)
