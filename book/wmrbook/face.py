@@ -45,9 +45,8 @@ FILES = (
     ("Source Sans 3", "200 900", "normal italic", "-variable/source-sans-3", "latin-wght"),
     ("Source Sans 3", "200 900", "normal", "-variable/source-sans-3", "greek-wght"),
     ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "latin-wght"),
-    ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "greek-wght"),
-    ("STIX Two Text", "400", "normal italic", "/stix-two-text", "latin-400"),
-    ("STIX Two Text", "400", "normal italic", "/stix-two-text", "greek-400"),
+    ("STIX Two Text", "400", "italic", "/stix-two-text", "latin-400"),
+    ("STIX Two Text", "400", "italic", "/stix-two-text", "greek-400"),
 )
 
 
