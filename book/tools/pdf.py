@@ -1,13 +1,18 @@
-"""Print the book into a PDF file: panels pictured, solutions unfolded, pages referred to."""
+"""Print the book into a PDF file: a title, running heads, states of panels, answers, an index.
+
+Chromium wins over LaTeX and paged.js: the pages' own formulas, figures and panels go on paper as
+they are, in seconds; its margin boxes write the heads, and a first printing tells the page numbers.
+"""
 
 from __future__ import annotations
 
-import base64
 import re
 import shutil
 import sys
 from importlib.util import find_spec
 from pathlib import Path
+
+import wmrlib
 
 # The first is the same without windows, and takes three quarters of the time.
 BROWSERS = (
@@ -18,20 +23,12 @@ BROWSERS = (
     "google-chrome-stable",
     "chrome",
 )
-FOOTER = (
-    '<p style="width: 100%; text-align: center; font-size: 9px">'
-    '<span class="pageNumber"></span></p>'
-)
-MARGIN = {"top": "18mm", "bottom": "18mm", "left": "16mm", "right": "16mm"}
+HERE = Path(__file__)
+CHANGES = HERE.parents[2] / "CHANGELOG.md"
 DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:[^)]*\)")
 PATIENCE = 300_000  # ms: a whole book
-PAPER = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
-SHARP = 2  # dots a pixel
-# Without what is empty, and with low pictures: letters are the larger for it on paper.
-LOW = """.live-gate .wmr-bar, .live-verdict { display: none }
-    .live-pane canvas { height: 280px !important }
-    .live-tall canvas { height: 320px !important }"""
+SHARP = 3  # dots a pixel
 # Show the panels of another page of the site in this one: for each a page of its own takes seconds.
 SHOW = """(html) => {
     const there = new DOMParser().parseFromString(html, 'text/html');
@@ -46,8 +43,6 @@ DRAWN = """async () => {
     return canvases.length && canvases.every(it => it.width) && panels.every(
         it => it.parentElement.querySelector('.jupyter-widgets'));
 }"""
-# A sentence soon takes the room that it may need, and its panel grows: not while it is pictured.
-GROWN = "() => [...document.querySelectorAll('.live-sentence')].every(it => it.style.minHeight)"
 # Pictures stand for the panels, so none may live: before the page looks for their states.
 DEAD = """addEventListener('DOMContentLoaded', () => document
     .querySelectorAll('script[type$="widget-state+json"]').forEach(it => it.remove()))"""
@@ -66,7 +61,7 @@ def find_browser() -> str:
 
 
 def print_book(site: Path, page: Path, pdf: Path) -> None:
-    """Print the file `page` into `pdf`, A4, with pictures of the panels in the folder `site`."""
+    """Print the file `page` into `pdf`, with states of the panels in the folder `site`."""
     from playwright.sync_api import sync_playwright
 
     with sync_playwright() as playwright:
@@ -74,24 +69,22 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         chromium = playwright.chromium.launch(
             executable_path=find_browser(), args=["--no-sandbox", "--disable-gpu"]
         )
-        blank = open_book(chromium, page)
-        places = blank.evaluate("paper.places()")
-        stills = picture_panels(chromium, site, list(dict.fromkeys(places)))
-        blank.evaluate("stills => paper.prepare(stills)", stills)
-        # Once for the places of the pages, with nothing to be seen; then whole, in a page of its
-        # own: what has been printed once may break its pages otherwise the next time.
-        blank.add_style_tag(content="* { visibility: hidden !important }")
-        pages = find_pages(print_page(blank, pdf), blank.evaluate("paper.anchors()"))
-        blank.close()
-        for _ in range(5):  # a number of fewer digits may move what follows
-            before = pages
-            book = open_book(chromium, page)
-            book.evaluate("stills => paper.prepare(stills)", stills)
+        book = open_book(chromium, page)
+        places = book.evaluate("paper.places()")
+        states = picture_panels(chromium, site, list(dict.fromkeys(places)))
+        pages: dict[str, int] = {}
+        for _ in range(6):  # a number of fewer digits may move what follows
+            book.evaluate("given => paper.prepare(...given)", [states, front_matter(), terms()])
             book.evaluate("pages => paper.number_pages(pages)", pages)
-            pages = find_pages(print_page(book, pdf, outline=True, tagged=True), list(pages))
+            if not pages:  # once for the places of the pages, with nothing to be seen
+                book.add_style_tag(content="* { visibility: hidden !important }")
+            print_page(book, pdf, outline=bool(pages), tagged=bool(pages))
+            before, pages = pages, find_pages(pdf, book.evaluate("paper.anchors()"))
             book.close()
-            if pages == before:
+            if all(before.get(it) == number for it, number in pages.items()):
                 break
+            # Anew: what has been printed once may break its pages otherwise the next time.
+            book = open_book(chromium, page)
         else:
             sys.exit("The PDF's pages moved when their numbers were filled in.")
         chromium.close()
@@ -104,41 +97,48 @@ def open_book(chromium, page: Path):
     book.set_default_timeout(PATIENCE)
     book.add_init_script(DEAD)
     book.goto(page.as_uri(), wait_until="load")
-    book.add_script_tag(content=PAPER)
+    book.add_style_tag(path=HERE.with_suffix(".css"))
+    book.add_script_tag(path=HERE.with_suffix(".js"))
     return book
 
 
-def print_page(page, pdf: Path, **more: bool) -> Path:
-    page.pdf(
-        path=pdf,
-        format="A4",
-        margin=MARGIN,
-        scale=0.84,
-        display_header_footer=True,
-        header_template="<span></span>",
-        footer_template=FOOTER,
-        **more,
+def print_page(page, pdf: Path, **more: bool) -> None:
+    page.pdf(path=pdf, prefer_css_page_size=True, print_background=True, **more)
+
+
+def front_matter() -> str:
+    """Return the title page and its back, of the version that the change log names first."""
+    import conf
+
+    edition = re.search(r"^## (.+)", CHANGES.read_text(encoding="utf-8"), re.MULTILINE)[1]
+    text = HERE.with_name("front.html").read_text(encoding="utf-8")
+    return text.format(title=conf.project, author=conf.author, edition=f"Version {edition}")
+
+
+def terms() -> list[tuple[str, str]]:
+    """Return the terms of the index, each with the pattern by which it is found."""
+    rows = HERE.with_name("index.txt").read_text(encoding="utf-8").splitlines()
+    pairs = (row.partition(" | ") for row in sorted(rows, key=str.lower))
+    return [(term, pattern or re.escape(term)) for term, _, pattern in pairs]
+
+
+def picture_panels(chromium, site: Path, places: list[str]) -> list[dict]:
+    """Return the states of the panels in these documents of the site: see `states` in pdf.js."""
+    page = chromium.new_page(
+        color_scheme="light", viewport=STILL, device_scale_factor=SHARP, reduced_motion="reduce"
     )
-    return pdf
-
-
-def picture_panels(chromium, site: Path, places: list[str]) -> list[str]:
-    """Return pictures of the panels in these documents of the site, as addresses of images."""
-    page = chromium.new_page(color_scheme="light", viewport=STILL, device_scale_factor=SHARP)
     page.set_default_timeout(PATIENCE)
     page.goto((site / "explorer.html").as_uri(), wait_until="load")
+    page.add_script_tag(path=HERE.with_suffix(".js"))
     page.wait_for_function(DRAWN)
-    page.evaluate("document.documentElement.dataset.still = ''")  # what asks first is open
-    page.add_style_tag(content=LOW)
-    shots = []
+    states = []
     for place in places:
         page.evaluate(SHOW, (site / f"{place}.html").read_text(encoding="utf-8"))
         page.wait_for_function(DRAWN)
-        page.wait_for_function(GROWN)
         page.evaluate(FRAMES)
-        shots += [it.screenshot() for it in page.locator(".jupyter-widgets").all()]
+        states += page.evaluate("paper.states()")
     page.close()
-    return [f"data:image/png;base64,{base64.b64encode(shot).decode()}" for shot in shots]
+    return states
 
 
 def find_pages(pdf: Path, anchors: list[str]) -> dict[str, int]:
