@@ -179,7 +179,8 @@ window.paper = (() => {
     const list = made('nav', 'matter lines contents-on-paper', '<h3>Contents</h3>');
     for (const chapter of chapters) {
       for (const section of [chapter, ...all(':scope > section', chapter)]) {
-        if (title(section) && !(section !== chapter && chapter.id.match(/^(answers|solutions)$/)))
+        if (title(section) && !/^(Exercises|Summary)$/.test(wordsOf(title(section)))
+            && (section === chapter || chapter.id !== 'solutions'))
           list.append(line(section.id, section === chapter ? 'of-a-chapter' : 'of-a-section',
               ...heading(section)));
       }
@@ -269,6 +270,9 @@ window.paper = (() => {
     all('.cell').filter((it) => !it.textContent.trim() && !it.querySelector('img'))
         .forEach((it) => it.remove());
     all('img').forEach((it) => { it.loading = 'eager'; });
+    // a mark before its word, which no font of ours has
+    all('article td, article td *').forEach((it) => { if (/^[✓✗✎] /.test(it.firstChild?.data))
+      it.firstChild.data = it.firstChild.data.slice(2); });
     // a line in bold type, or one that announces what follows
     for (const it of all('article p:not(td p)')) {
       const bold = it.querySelector(':scope > strong');
@@ -289,7 +293,7 @@ window.paper = (() => {
       const words = title(it).firstChild, numbered = words.data?.match(/^(\d+)\. /);
       if (numbered) {
         words.data = words.data.slice(numbered[0].length);
-        words.before(made('span', 'number', `Chapter ${numbered[1]}`));
+        words.before(made('span', 'number', numbered[0]));
         it.dataset.number = `${numbered[1]}\u2002`;
       }
     });
