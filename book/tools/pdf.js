@@ -308,9 +308,10 @@ window.paper = (() => {
       if (link.closest('.lines, .indexed')) link.append(number);
       else if (leads_elsewhere(link)) link.after(' ', number);
     }
-    number_pages({});
     name_pages(all('.chapter, .matter'));
-    await Promise.all([document.fonts.ready, ...[...document.images].map((it) => it.decode())]);
+    mark_pictures();
+    measure();
+    return document.documentElement.outerHTML;
   }
 
   // From one document into another: there a reader on paper has to turn pages.
@@ -321,16 +322,39 @@ window.paper = (() => {
         && !link.closest('pre, table, .headerlink');
   }
 
-  // `pages` tells where an anchor was printed; "000" keeps its place before anything is.
-  function number_pages(pages) {
+  // Before each picture, and what holds on to it, an empty place: where the page before it ends.
+  function mark_pictures() {
+    all('.figure-box, figure').forEach((picture, k) => {
+      let first = picture;
+      if (!picture.previousElementSibling?.matches('.prediction, .answer'))
+        first = picture.closest('.cell') || picture;
+      for (;;) {
+        const before = first.previousElementSibling;
+        if (before?.matches('h4, h5, .leads-on')) first = before;
+        else if (!before && first.parentElement.matches('section section')) first = first.parentElement;
+        else break;
+      }
+      const place = made('div', '');
+      place.id = `above-${k}`;
+      first.before(place);
+      picture.id = `picture-${k}`;
+      for (const id of [place.id, picture.id])
+        picture.append(Object.assign(line(id, 'place'), { hidden: true }));
+    });
+  }
+
+  // `pages` tells where an anchor was printed, and `heights` how high a picture may be, in mm.
+  function fill(pages, heights) {
     for (const number of all('.page-number')) {
-      const page = pages[number.dataset.of] ?? '000';
+      const page = pages[number.dataset.of] ?? number.dataset.guess;
       number.textContent = number.closest('.lines, .indexed') ? `${page}` : `[p. ${page}]`;
     }
+    for (const [id, height] of Object.entries(heights))
+      all('img', document.getElementById(id)).forEach((it) => { it.style.maxHeight = `${height}mm`; });
     for (const row of all('.index-on-paper p')) { // each page once
       const seen = new Set();
       for (const link of all('.indexed', row)) {
-        if (seen.has(link.textContent) && link.textContent !== '000') {
+        if (seen.has(link.textContent)) {
           link.previousSibling.remove();
           link.remove();
         }
@@ -339,6 +363,30 @@ window.paper = (() => {
     }
   }
 
-  const anchors = () => [...new Set(all('.page-number').map((it) => it.dataset.of))];
-  return { places, states, prepare, number_pages, anchors };
+  // About the page that each number will tell, so that few lines move when it is known; and of each
+  // picture how high it is, and how high with all that holds on to it, in mm.
+  function measure() {
+    document.body.style.width = '151mm';
+    const MM = 96 / 25.4, page = 0.93 * 218 * MM, top = (it) => it.getBoundingClientRect().top;
+    for (const number of all('.page-number'))
+      number.dataset.guess = Math.ceil(top(document.getElementById(number.dataset.of)) / page) + 1;
+    all('[id^="picture-"]').forEach((picture, k) => {
+      const place = document.getElementById(`above-${k}`),
+          caption = picture.closest('.cell')?.nextElementSibling,
+          last = caption?.matches('.figure-caption') ? caption : picture;
+      place.dataset.needs = (last.getBoundingClientRect().bottom - top(place)) / MM;
+      place.dataset.high = Math.max(...all('img', picture).map((it) => it.clientHeight)) / MM;
+    });
+    document.body.style.width = '';
+  }
+  const pictured = () => all('[id^="picture-"]').map(({ id }) => {
+    const above = id.replace('picture', 'above'), place = document.getElementById(above),
+        { needs, high } = place.dataset;
+    return { id, above, needs: Number(needs), high: Number(high),
+        chapter: place.closest('.chapter, .matter').id };
+  });
+
+  const anchors = () =>
+      [...new Set(all('article a[href^="#"]').map((it) => it.getAttribute('href').slice(1)))];
+  return { places, states, prepare, fill, anchors, pictured };
 })();

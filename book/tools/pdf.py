@@ -28,7 +28,10 @@ CHANGES = HERE.parents[2] / "CHANGELOG.md"
 DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:[^)]*\)")
 PATIENCE = 300_000  # ms: a whole book
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
-SHARP = 3  # dots a pixel
+SHARP = 2.4  # dots a pixel
+FOOT = 20.0  # mm, the margin below the text; see pdf.css
+EMPTY = 0.39 * 218  # mm at the end of a page, before a picture that did not fit is made lower
+LOWEST = 0.5  # of its height
 # Show the panels of another page of the site in this one: for each a page of its own takes seconds.
 SHOW = """(html) => {
     const there = new DOMParser().parseFromString(html, 'text/html');
@@ -69,30 +72,22 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         chromium = playwright.chromium.launch(
             executable_path=find_browser(), args=["--no-sandbox", "--disable-gpu"]
         )
-        book = open_book(chromium, page)
-        places = book.evaluate("paper.places()")
-        states = picture_panels(chromium, site, list(dict.fromkeys(places)))
-        pages: dict[str, int] = {}
-        for _ in range(6):  # a number of fewer digits may move what follows
-            book.evaluate("given => paper.prepare(...given)", [states, front_matter(), terms()])
-            book.evaluate("pages => paper.number_pages(pages)", pages)
-            if not pages:  # once for the places of the pages, with nothing to be seen
-                book.add_style_tag(content="* { visibility: hidden !important }")
-            print_page(book, pdf, outline=bool(pages), tagged=bool(pages))
-            before, pages = pages, find_pages(pdf, book.evaluate("paper.anchors()"))
-            book.close()
-            if all(before.get(it) == number for it, number in pages.items()):
-                break
-            # Anew: what has been printed once may break its pages otherwise the next time.
-            book = open_book(chromium, page)
-        else:
-            sys.exit("The PDF's pages moved when their numbers were filled in.")
+        paper = page.with_name("paper.html")
+        book = open_page(chromium, page)
+        documents = book.evaluate("paper.places()")
+        states = picture_panels(chromium, site, list(dict.fromkeys(documents)))
+        html = book.evaluate("it => paper.prepare(...it)", [states, front_matter(), terms()])
+        book.close()
+        paper.write_text(f"<!doctype html>{html}", encoding="utf-8")
+        found = settle(chromium, paper, pdf)
+        if not print_page(chromium, paper, pdf, *found, seen=True)[0].items() <= found[0].items():
+            sys.exit("The PDF's pages moved when they could be seen.")
         chromium.close()
     undated = DATE.sub(lambda date: b" " * len(date[0]), pdf.read_bytes())
     pdf.write_bytes(undated)  # the same file from the same sources
 
 
-def open_book(chromium, page: Path):
+def open_page(chromium, page: Path):
     book = chromium.new_page(color_scheme="light")
     book.set_default_timeout(PATIENCE)
     book.add_init_script(DEAD)
@@ -102,8 +97,40 @@ def open_book(chromium, page: Path):
     return book
 
 
-def print_page(page, pdf: Path, **more: bool) -> None:
-    page.pdf(path=pdf, prefer_css_page_size=True, print_background=True, **more)
+def settle(chromium, paper: Path, pdf: Path) -> tuple[dict[str, int], dict[str, float]]:
+    """Find the pages of all anchors, and heights of pictures that leave no page half empty."""
+    pages: dict[str, int] = {}
+    heights: dict[str, float] = {}
+    for _ in range(9):
+        before = pages, dict(heights)
+        found, pictures = print_page(chromium, paper, pdf, *before)
+        pages = pages | found  # the index names a page once, and with it one anchor
+        moved = set()  # chapters: what follows in one moves when a picture becomes lower
+        for it in pictures:
+            lower = it["high"] - (it["needs"] - it["room"]) - 3.0
+            torn = pages[it["id"]] > pages[it["above"]] and it["room"] > EMPTY
+            if torn and it["chapter"] not in moved and LOWEST * it["high"] < lower < it["high"]:
+                moved.add(it["chapter"])
+                heights.setdefault(it["id"], lower)  # once
+        print({k: round(v) for k, v in heights.items()}, sum(before[0].get(k)!=v for k,v in pages.items()))
+        if (pages, heights) == before:
+            return before
+    sys.exit("The PDF's pages moved when their numbers were filled in.")
+
+
+def print_page(chromium, paper: Path, pdf: Path, pages, heights, seen: bool = False):
+    """Print anew: what has been printed once may break its pages otherwise the next time."""
+    page = open_page(chromium, paper)
+    page.evaluate("given => paper.fill(...given)", [pages, heights])
+    if not seen:  # it takes a quarter of the time
+        page.add_style_tag(content="* { visibility: hidden !important }")
+    page.pdf(path=pdf, prefer_css_page_size=True, print_background=True, outline=seen, tagged=seen)
+    places = find_places(pdf, page.evaluate("paper.anchors()"))
+    pictures = page.evaluate("paper.pictured()")
+    page.close()
+    for it in pictures:
+        it["room"] = places[it["above"]][1]
+    return {name: number for name, (number, _) in places.items()}, pictures
 
 
 def front_matter() -> str:
@@ -141,13 +168,18 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[dict]:
     return states
 
 
-def find_pages(pdf: Path, anchors: list[str]) -> dict[str, int]:
-    """On which page each anchor was printed."""
+def find_places(pdf: Path, anchors: list[str]) -> dict[str, tuple[int, float]]:
+    """On which page each anchor was printed, and how many mm of text had room below it."""
     import pypdfium2
-    from pypdfium2.raw import FPDF_GetNamedDestByName, FPDFDest_GetDestPageIndex
+    import pypdfium2.raw as pdfium
 
-    printed = pypdfium2.PdfDocument(pdf)
-    places = {it: FPDF_GetNamedDestByName(printed, it.encode()) for it in anchors}
-    if lost := [it for it, place in places.items() if not place]:
-        sys.exit(f"The PDF has no place for the links to {', '.join(lost)}.")
-    return {it: FPDFDest_GetDestPageIndex(printed, place) + 1 for it, place in places.items()}
+    printed, places = pypdfium2.PdfDocument(pdf), {}
+    for name in anchors:
+        place = pdfium.FPDF_GetNamedDestByName(printed, name.encode())
+        if not place:
+            sys.exit(f"The PDF has no place for the link to {name}.")
+        view = (pdfium.FS_FLOAT * 4)()  # the left edge, the upper one, the zoom
+        pdfium.FPDFDest_GetView(place, pdfium.c_ulong(), view)
+        page = pdfium.FPDFDest_GetDestPageIndex(printed, place) + 1
+        places[name] = page, view[1] / 72 * 25.4 - FOOT
+    return places
