@@ -51,6 +51,7 @@ window.paper = (() => {
     const found = [];
     for (const panel of all('.jupyter-widgets')) {
       const gate = panel.querySelector('.live-gate'), state = { given: shots(panel) };
+      while (panel.querySelector('.my-results canvas:not([aria-label])')) await settled();
       if (gate) {
         state.question = gate.querySelector('.live-question').textContent;
         state.options = all('.live-options span', gate).map((it) => it.textContent);
@@ -112,7 +113,7 @@ window.paper = (() => {
       const answer = made('div', 'answer',
           `<p><a href="#prediction-${id}"><b>${chapter}.${number}</b></a> </p>`);
       answer.id = `answer-${id}`;
-      answer.firstChild.append(key >= 0 ? `${letter(key)} ${options[key]}. ${why}` : why);
+      answer.firstChild.append(key >= 0 ? `${letter(key)} ${options[key].replace(/\.$/, '')}. ${why}` : why);
       answers.append(answer, pictures(asked, says));
     });
     return answers;
@@ -165,14 +166,15 @@ window.paper = (() => {
   }
 
   const line = (id, className, ...words) => {
-    const it = made('a', className);
+    const it = made('a', className, words.length ? '<span></span>' : '');
     it.href = `#${id}`;
-    it.append(...words);
+    it.firstChild?.append(...words);
     return it;
   };
   const heading = (section) => {
     const words = title(section).cloneNode(true);
     all('.headerlink, .number', words).forEach((it) => it.remove());
+    all('[id]', words).forEach((it) => it.removeAttribute('id'));
     return [section.dataset.number || '', ...words.childNodes];
   };
   function contents(chapters) {
@@ -192,7 +194,7 @@ window.paper = (() => {
     for (const caption of all('.figure-caption')) {
       const [number, says] = wordsOf(caption).match(/Figure ([\d.]+)\. (.*?)(?=[.;:] |[.]$|$)/s)
           .slice(1);
-      list.append(line(caption.id, '', made('b', '', number), made('span', '', says)));
+      list.append(line(caption.id, '', made('b', '', number), says));
     }
     return list;
   }
@@ -224,7 +226,8 @@ window.paper = (() => {
       const row = made('p', term[0].toUpperCase() !== last ? 'begins' : '');
       last = term[0].toUpperCase();
       row.append(term);
-      for (const [chapter, { node }] of places) {
+      const told = [...places].filter(([, it]) => it.main);
+      for (const [chapter, { node }] of told.length ? told : [...places].slice(0, 4)) {
         const found = node.data.match(sought), mark = made('span', 'term', found[0]);
         mark.id = `term-${k}-${chapter}`;
         const rest = node.splitText(found.index);

@@ -30,7 +30,7 @@ PATIENCE = 300_000  # ms: a whole book
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
 SHARP = 2.4  # dots a pixel
 FOOT = 20.0  # mm, the margin below the text; see pdf.css
-EMPTY = 0.39 * 218  # mm at the end of a page, before a picture that did not fit is made lower
+EMPTY = 0.37 * 218  # mm at the end of a page, before a picture that did not fit is made lower
 LOWEST = 0.5  # of its height
 # Show the panels of another page of the site in this one: for each a page of its own takes seconds.
 SHOW = """(html) => {
@@ -107,11 +107,12 @@ def settle(chromium, paper: Path, pdf: Path) -> tuple[dict[str, int], dict[str, 
         pages = pages | found  # the index names a page once, and with it one anchor
         moved = set()  # chapters: what follows in one moves when a picture becomes lower
         for it in pictures:
-            lower = it["high"] - (it["needs"] - it["room"]) - 3.0
+            lower = it["high"] - (it["needs"] - it["room"]) - 4.0
+            lower = min(lower, heights.get(it["id"], it["high"]) - 6.0)
             torn = pages[it["id"]] > pages[it["above"]] and it["room"] > EMPTY
-            if torn and it["chapter"] not in moved and LOWEST * it["high"] < lower < it["high"]:
+            if torn and it["chapter"] not in moved and lower > LOWEST * it["high"]:
                 moved.add(it["chapter"])
-                heights.setdefault(it["id"], lower)  # once
+                heights[it["id"]] = lower
         print({k: round(v) for k, v in heights.items()}, sum(before[0].get(k)!=v for k,v in pages.items()))
         if (pages, heights) == before:
             return before
