@@ -25,15 +25,14 @@ window.paper = (() => {
   });
 
   // ---- pictures of the panels, on the page that shows them -------------------------------------
-  // A sentence with its numbers as text, and the knobs that it does not name.
-  function sentenceOf(panel) {
-    const said = panel.querySelector('.live-sentence, .wmr-status').cloneNode(true);
-    const there = all('input, select', panel.querySelector('.live-sentence, .wmr-status'));
-    all('input, select', said).forEach((it, k) => it.replaceWith(
+  // Words with symbols; numbers and choices among them are text.
+  function wordsOn(it) {
+    const said = it.cloneNode(true), there = all('input, select', it);
+    all('input, select', said).forEach((knob, k) => knob.replaceWith(
         there[k].selectedOptions ? there[k].selectedOptions[0].text : there[k].value));
-    all('*', said).forEach((it) => {
-      if (it.tagName === 'I') it.className = 'symbol';
-      else if (it.tagName !== 'SUB') it.replaceWith(...it.childNodes);
+    all('*', said).forEach((part) => {
+      if (part.tagName === 'I') part.className = 'symbol';
+      else if (part.tagName !== 'SUB') part.replaceWith(...part.childNodes);
     });
     return said.innerHTML;
   }
@@ -53,17 +52,18 @@ window.paper = (() => {
       const gate = panel.querySelector('.live-gate'), state = { given: shots(panel) };
       while (panel.querySelector('.my-results canvas:not([aria-label])')) await settled();
       if (gate) {
-        state.question = gate.querySelector('.live-question').textContent;
-        state.options = all('.live-options span', gate).map((it) => it.textContent);
+        state.question = wordsOn(gate.querySelector('.live-question'));
+        state.options = all('.live-options label > span', gate).map(wordsOn);
         all('button', gate).find((it) => it.textContent === 'Just show me').click();
         await settled();
         const keys = all('.live-options label', gate).map((it) => it.matches('.live-key'));
         state.key = keys.indexOf(true);
-        state.why = gate.querySelector('.live-verdict').textContent;
+        state.why = wordsOn(gate.querySelector('.live-verdict'));
         state.asked = shots(panel);
       }
-      if (panel.querySelector('.live-sentence, .wmr-status')) state.says = sentenceOf(panel);
-      if (!panel.querySelector('.live')) state.knobs = knobs(panel);
+      const says = panel.querySelector('.live-sentence, .wmr-status, .front-words');
+      if (says) state.says = wordsOn(says);
+      if (panel.querySelector('.wmr-stage, .my-robot')) state.knobs = knobs(panel);
       state.table = panel.querySelector('.my-results dl')
           && all('.my-results dl', panel).map((it) => it.outerHTML).join('');
       found.push(state);
@@ -100,12 +100,11 @@ window.paper = (() => {
       const asks = made('div', 'prediction',
           `<p class="leads-on"><b>Prediction ${chapter}.${number}.</b> </p>`);
       asks.id = `prediction-${id}`;
-      asks.firstChild.append(question.replace('Turn the arrow', 'Draw the arrow'));
+      asks.firstChild.innerHTML += question.replace('Turn the arrow', 'Draw the arrow');
       if (options.length) {
         asks.append(made('ol', 'options'));
         options.forEach((text, place) => {
-          asks.lastChild.append(made('li'));
-          asks.lastChild.lastChild.textContent = `${letter(place)} ${text}`;
+          asks.lastChild.append(made('li', '', `${letter(place)} ${text}`));
         });
       }
       asks.append(made('p', 'given', `<a href="#answer-${id}">Answer</a>`));
@@ -113,7 +112,8 @@ window.paper = (() => {
       const answer = made('div', 'answer',
           `<p><a href="#prediction-${id}"><b>${chapter}.${number}</b></a> </p>`);
       answer.id = `answer-${id}`;
-      answer.firstChild.append(key >= 0 ? `${letter(key)} ${options[key].replace(/\.$/, '')}. ${why}` : why);
+      answer.firstChild.innerHTML +=
+          key >= 0 ? `${letter(key)} ${options[key].replace(/\.$/, '')}. ${why}` : why;
       answers.append(answer, pictures(asked, says));
     });
     return answers;
@@ -137,6 +137,15 @@ window.paper = (() => {
       back.append(solved);
     }
     return back;
+  }
+
+  // A listing stands in full, but one of many lines, or one that only calls a panel.
+  function unfold() {
+    for (const fold of all('details.above-input')) {
+      const lines = all('.line', fold).length, panel = fold.parentElement.querySelector('figure');
+      if (lines > 12 || (panel && lines < 4)) fold.remove();
+      else fold.replaceWith(fold.querySelector('.cell_input'));
+    }
   }
 
   // Sphinx writes #document-notebooks/04_lyapunov#paper-24, and several chapters have a section of
@@ -245,7 +254,7 @@ window.paper = (() => {
   // Each chapter's pages have its name, and their heads its title.
   function name_pages(chapters) {
     const quoted = (text) => JSON.stringify(text);
-    const head = 'font: 8.5pt "Source Sans 3", sans-serif; color: #57606a; vertical-align: bottom;'
+    const head = 'font: 8.5pt "Paper Sans"; color: #57606a; vertical-align: bottom;'
         + ' padding-bottom: 5mm; white-space: nowrap';
     const book = wordsOf(document.querySelector('.title-page h1'));
     const rules = chapters.map((chapter, k) => {
@@ -263,13 +272,15 @@ window.paper = (() => {
   async function prepare(states, front, terms) {
     await MathJax.startup.promise;
     for (const it of all('link[rel="stylesheet"]'))
-      if (!/pygments|fonts|book\.css/.test(it.href)) it.remove();
+      if (!/pygments|face|book\.css/.test(it.href)) it.remove();
     const article = document.querySelector('article.bd-article');
     document.body.replaceChildren(article);
+    article.className = document.body.className = '';
     document.documentElement.dataset.theme = 'light';
     const answers = still(states), solved = solutions();
     all('.headerlink, .copybtn, .run-it, .figure-size, .sd-container-fluid, .only-dark, script, '
-        + '.cell:not(.matter *) > details.above-input, .colour-mode').forEach((it) => it.remove());
+        + '.edition, .colour-mode').forEach((it) => it.remove());
+    unfold();
     all('.cell').filter((it) => !it.textContent.trim() && !it.querySelector('img'))
         .forEach((it) => it.remove());
     all('img').forEach((it) => { it.loading = 'eager'; });
@@ -283,7 +294,7 @@ window.paper = (() => {
         it.classList.add('leads-on');
     }
     mend_links();
-    const whole = article.querySelector('section'), chapters = begins().map((it) =>
+    const scene = article.querySelector('figure'), whole = article.querySelector('section'), chapters = begins().map((it) =>
       it.nextElementSibling);
     const preface = made('section', 'chapter', '<h3>Preface</h3>');
     preface.id = 'preface';
@@ -301,7 +312,9 @@ window.paper = (() => {
       }
     });
     const backs = [answers, solved].filter((it) => it.children.length > 1);
+    scene.closest('.cell').remove();
     article.replaceChildren(...made('div', '', front).children, preface, ...chapters, ...backs);
+    article.querySelector('.subtitle').after(scene.querySelector('img'));
     const listed = index(terms);
     preface.before(contents([preface, ...chapters, ...backs, listed]), figures());
     article.append(listed);

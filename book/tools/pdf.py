@@ -10,6 +10,7 @@ import re
 import shutil
 import sys
 from importlib.util import find_spec
+from itertools import product
 from pathlib import Path
 
 import wmrlib
@@ -24,7 +25,11 @@ BROWSERS = (
     "chrome",
 )
 HERE = Path(__file__)
-CHANGES = HERE.parents[2] / "CHANGELOG.md"
+# Static fonts: what a PDF has of a variable one are drawings without a name.
+FACES = (("Serif", "source-serif-4"), ("Sans", "source-sans-3"), ("Code", "jetbrains-mono"))
+FACE = """@font-face {{ font-family: "Paper {name}"; font-weight: {weight}; font-style: {style};
+    src: url("{url}"); unicode-range: {range} }}"""
+RANGES = {"latin": "U+0-36F, U+1E00-FFFF", "greek": "U+370-3FF"}
 DATE = re.compile(rb"/(?:Creation|Mod)Date \(D:[^)]*\)")
 PATIENCE = 300_000  # ms: a whole book
 STILL = {"width": 1000, "height": 1400}  # a window for panels, in pixels
@@ -92,7 +97,7 @@ def open_page(chromium, page: Path):
     book.set_default_timeout(PATIENCE)
     book.add_init_script(DEAD)
     book.goto(page.as_uri(), wait_until="load")
-    book.add_style_tag(path=HERE.with_suffix(".css"))
+    book.add_style_tag(content=faces() + HERE.with_suffix(".css").read_text(encoding="utf-8"))
     book.add_script_tag(path=HERE.with_suffix(".js"))
     return book
 
@@ -113,7 +118,6 @@ def settle(chromium, paper: Path, pdf: Path) -> tuple[dict[str, int], dict[str, 
             if torn and it["chapter"] not in moved and lower > LOWEST * it["high"]:
                 moved.add(it["chapter"])
                 heights[it["id"]] = lower
-        print({k: round(v) for k, v in heights.items()}, sum(before[0].get(k)!=v for k,v in pages.items()))
         if (pages, heights) == before:
             return before
     sys.exit("The PDF's pages moved when their numbers were filled in.")
@@ -134,13 +138,25 @@ def print_page(chromium, paper: Path, pdf: Path, pages, heights, seen: bool = Fa
     return {name: number for name, (number, _) in places.items()}, pictures
 
 
+def faces() -> str:
+    """Return the rules that bring the fonts of the paper."""
+    from build import MODULES  # which imports this module
+
+    rules = []
+    for name, package in FACES:
+        for weight, style, part in product((400, 600, 700), ("normal", "italic"), RANGES):
+            file = f"@fontsource/{package}/files/{package}-{part}-{weight}-{style}.woff2"
+            names = {"name": name, "weight": weight, "style": style, "range": RANGES[part]}
+            rules.append(FACE.format(url=(MODULES / file).as_uri(), **names))
+    return "\n".join(rules)
+
+
 def front_matter() -> str:
-    """Return the title page and its back, of the version that the change log names first."""
+    """Return the title page and its back."""
     import conf
 
-    edition = re.search(r"^## (.+)", CHANGES.read_text(encoding="utf-8"), re.MULTILINE)[1]
     text = HERE.with_name("front.html").read_text(encoding="utf-8")
-    return text.format(title=conf.project, author=conf.author, edition=f"Version {edition}")
+    return text.format(title=conf.project, author=conf.author, edition=conf.edition)
 
 
 def terms() -> list[tuple[str, str]]:
