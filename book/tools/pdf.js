@@ -1,52 +1,157 @@
 // The single page that holds the whole book, made ready for paper: see pdf.py, which calls these.
 window.paper = (() => {
-  const panels = () =>
-      [...document.querySelectorAll('script[type="application/vnd.jupyter.widget-view+json"]')];
   const begins = () => [...document.querySelectorAll('span[id^="document-"]')];
-  const title = (section) => section.querySelector(':scope > :is(h1, h2, h3, h4)');
+  const all = (selector, root = document) => [...root.querySelectorAll(selector)];
+  const title = (section) => section.querySelector(':scope > :is(h1, h2, h3, h4, h5)');
+  const views = () => all('script[type="application/vnd.jupyter.widget-view+json"]');
+  const nameOf = (begin) => begin.id.replace('document-', '');
+  const wordsOf = (it) => {
+    const copy = it.cloneNode(true);
+    all('.headerlink, .number', copy).forEach((each) => each.remove());
+    return copy.textContent.trim();
+  };
+  function made(tag, className, html = '') {
+    const it = document.createElement(tag);
+    it.className = className;
+    it.innerHTML = html;
+    return it;
+  }
 
-  // The document that each panel is in, such as notebooks/04_lyapunov.
-  const places = () => panels().map((panel) => begins()
-    // the front page has none
-    .filter((it) => it.compareDocumentPosition(panel) & Node.DOCUMENT_POSITION_FOLLOWING)
-        .at(-1)?.id.replace('document-', '') ?? 'index');
+  // The document that each panel is in, such as notebooks/04_lyapunov; the front page has no mark.
+  const places = () => views().map((panel) => {
+    const before = (it) => it.compareDocumentPosition(panel) & Node.DOCUMENT_POSITION_FOLLOWING;
+    const last = begins().filter(before).at(-1);
+    return last ? nameOf(last) : 'index';
+  });
 
-  // Pictures in place of the panels, links that lead within the page, contents, and room for page
-  // numbers.
-  async function prepare(stills) {
-    panels().forEach((it, k) => {
-      const still = document.createElement('img');
-      Object.assign(still,
-          { src: stills[k], alt: 'The live panel, as its page opens it.', className: 'still' });
-      it.after(still);
+  // ---- pictures of the panels, on the page that shows them -------------------------------------
+  // Words with symbols; numbers and choices among them are text.
+  function wordsOn(it) {
+    const said = it.cloneNode(true), there = all('input, select', it);
+    all('input, select', said).forEach((knob, k) => knob.replaceWith(
+        there[k].selectedOptions ? there[k].selectedOptions[0].text : there[k].value));
+    all('*', said).forEach((part) => {
+      if (part.tagName === 'I') part.className = 'symbol';
+      else if (part.tagName !== 'SUB') part.replaceWith(...part.childNodes);
     });
-    document.querySelectorAll('details').forEach((it) => { it.open = true; });
-    document.querySelectorAll('img').forEach((it) => { it.loading = 'eager'; });
-    // a line in bold type, or one that announces what follows
-    for (const it of document.querySelectorAll('article p:not(td p)')) {
-      const bold = it.querySelector(':scope > strong');
-      it.classList.toggle('leads-on',
-          /:\s*$/.test(it.textContent) || bold?.textContent === it.textContent);
+    return said.innerHTML;
+  }
+  const settled = () => new Promise((done) => setTimeout(done, 60));
+  const shots = (panel) => all('canvas', panel).filter((it) => it.checkVisibility()).map((it) =>
+    [it.toDataURL(), it.getAttribute('aria-label') || 'The panel.', it.clientWidth]);
+  const knobs = (panel) => all('.wmr-control, .my-row', panel).map((row) => {
+    const knob = row.querySelector('select, .wmr-typed, input:not([type=range])');
+    return knob && [wordsOf(row.querySelector('span') || row),
+      knob.selectedOptions ? knob.selectedOptions[0]?.text : knob.value].join(' ');
+  }).filter(Boolean);
+
+  // What a panel shows before a prediction and after it: there is no control on paper.
+  async function states() {
+    const found = [];
+    for (const panel of all('.jupyter-widgets')) {
+      const gate = panel.querySelector('.live-gate'), state = { given: shots(panel) };
+      while (panel.querySelector('.my-results canvas:not([aria-label])')) await settled();
+      if (gate) {
+        state.question = wordsOn(gate.querySelector('.live-question'));
+        state.options = all('.live-options label > span', gate).map(wordsOn);
+        all('button', gate).find((it) => it.textContent === 'Just show me').click();
+        await settled();
+        const keys = all('.live-options label', gate).map((it) => it.matches('.live-key'));
+        state.key = keys.indexOf(true);
+        state.why = wordsOn(gate.querySelector('.live-verdict'));
+        state.asked = shots(panel);
+      }
+      const says = panel.querySelector('.live-sentence, .wmr-status, .front-words');
+      if (says) state.says = wordsOn(says);
+      if (panel.querySelector('.wmr-stage, .my-robot')) state.knobs = knobs(panel);
+      state.table = panel.querySelector('.my-results dl')
+          && all('.my-results dl', panel).map((it) => it.outerHTML).join('');
+      found.push(state);
     }
-    mend_links();
-    begins()[0].before(contents());
-    for (const link of [...document.querySelectorAll('article a[href^="#"]')]) {
-      const number = document.createElement('span');
-      number.className = 'page-number';
-      number.dataset.of = link.getAttribute('href').slice(1);
-      if (link.closest('.contents-on-paper')) link.append(number);
-      else if (leads_elsewhere(link)) link.after(' ', number);
+    return found;
+  }
+
+  // ---- the book ---------------------------------------------------------------------------------
+  const letter = (k) => `(${String.fromCharCode(97 + k)})`;
+  function pictures(shown, words) {
+    const figure = made('figure', shown.length === 1 ? 'alone' : 'pair', '<div class="panes"></div>');
+    for (const [src, alt] of shown)
+      figure.firstChild.append(Object.assign(new Image(), { src, alt }));
+    if (words) figure.append(made('figcaption', '', words));
+    return figure;
+  }
+
+  // A panel becomes a picture of its state; a prediction a question, whose answer stands at the
+  // back.
+  function still(states) {
+    const answers = made('section', 'matter', '<h3>Answers to the predictions</h3>');
+    answers.id = 'answers';
+    const counts = {}, where = places();
+    views().forEach((view, k) => {
+      const { given, asked, question, options, key, why, says, knobs: rows, table } = states[k];
+      if (!question) {
+        const words = rows ? `${says || ''} <span class="given">${rows.join(', ')}.</span>` : says;
+        view.after(pictures(given, words));
+        if (table) view.after(made('div', 'given', table));
+        return;
+      }
+      const chapter = Number(where[k].match(/\d+/)), number = counts[chapter] =
+          (counts[chapter] || 0) + 1, id = `${chapter}-${number}`;
+      const asks = made('div', 'prediction',
+          `<p class="leads-on"><b>Prediction ${chapter}.${number}.</b> </p>`);
+      asks.id = `prediction-${id}`;
+      asks.firstChild.innerHTML += question.replace('Turn the arrow', 'Draw the arrow');
+      if (options.length) {
+        asks.append(made('ol', 'options'));
+        options.forEach((text, place) => {
+          asks.lastChild.append(made('li', '', `${letter(place)} ${text}`));
+        });
+      }
+      asks.append(made('p', 'given', `<a href="#answer-${id}">Answer</a>`));
+      view.after(asks, pictures(given));
+      const answer = made('div', 'answer',
+          `<p><a href="#prediction-${id}"><b>${chapter}.${number}</b></a> </p>`);
+      answer.id = `answer-${id}`;
+      answer.firstChild.innerHTML +=
+          key >= 0 ? `${letter(key)} ${options[key].replace(/\.$/, '')}. ${why}` : why;
+      answers.append(answer, pictures(asked, says));
+    });
+    return answers;
+  }
+
+  // The lecturer's solutions stand at the back too.
+  function solutions() {
+    const back = made('section', 'matter', '<h3>Solutions of the exercises</h3>');
+    back.id = 'solutions';
+    for (const exercise of all('section[id*="exercise-"]')) {
+      all('.cell_output', exercise).filter((it) => !it.closest('.tag_hide-cell'))
+          .forEach((it) => it.remove()); // that the answer has no value yet
+      const parts = all(':scope > details, :scope > .tag_hide-cell', exercise);
+      if (!parts.length) continue;
+      const solved = made('section', '', `<h4>${wordsOf(title(exercise))}</h4>`);
+      solved.id = `solution-of-${exercise.id}`;
+      all('summary', exercise).forEach((it) => it.remove());
+      parts.forEach((it) => solved.append(...it.childNodes));
+      all('details', solved).forEach((it) => it.replaceWith(...it.childNodes));
+      exercise.append(made('p', 'given', `<a href="#${solved.id}">Solution</a>`));
+      back.append(solved);
     }
-    number_pages({});
-    await MathJax.startup.promise;
-    await Promise.all([...document.images].map((it) => it.decode()));
+    return back;
+  }
+
+  // A listing stands in full, but one of many lines, or one that only calls a panel.
+  function unfold() {
+    for (const fold of all('details.above-input')) {
+      const lines = all('.line', fold).length, panel = fold.parentElement.querySelector('figure');
+      if (lines > 12 || (panel && lines < 4)) fold.remove();
+      else fold.replaceWith(fold.querySelector('.cell_input'));
+    }
   }
 
   // Sphinx writes #document-notebooks/04_lyapunov#paper-24, and several chapters have a section of
   // the same name.
   function mend_links() {
-    const links = Map.groupBy(document.querySelectorAll('article a[href^="#"]'),
-        (it) => it.getAttribute('href'));
+    const links = Map.groupBy(all('article a[href^="#"]'), (it) => it.getAttribute('href'));
     // what is empty has no place on paper
     const whole = (it) => it.matches('.math > span') ? it.parentElement : it;
     const lead = (found, target) => found?.forEach((link) => {
@@ -59,7 +164,7 @@ window.paper = (() => {
           ...chapter.querySelectorAll('section[id], span[id], div[id], dt[id], p[id]')]) {
         const id = it.id;
         if (seen.has(id)) {
-          it.id = `${begin.id.replace('document-', '')}-${id}`;
+          it.id = `${nameOf(begin)}-${id}`;
           lead(links.get(`#${id}`)?.filter((link) => chapter.contains(link)), it);
         }
         seen.add(id);
@@ -69,42 +174,235 @@ window.paper = (() => {
     }
   }
 
-  function contents() {
-    const list = document.createElement('nav');
-    list.className = 'contents-on-paper';
-    list.innerHTML = '<h2>Contents</h2>';
-    for (const { nextElementSibling: chapter } of begins()) {
-      for (const section of [chapter, ...chapter.querySelectorAll(':scope > section')]) {
-        if (!title(section)) continue;
-        const line = document.createElement('a');
-        line.href = `#${section.id}`;
-        line.className = section === chapter ? 'of-a-chapter' : 'of-a-section';
-        const words = title(section).cloneNode(true);
-        words.querySelectorAll('.headerlink').forEach((it) => it.remove());
-        line.append(...words.childNodes);
-        list.append(line);
+  const line = (id, className, ...words) => {
+    const it = made('a', className, words.length ? '<span></span>' : '');
+    it.href = `#${id}`;
+    it.firstChild?.append(...words);
+    return it;
+  };
+  const heading = (section) => {
+    const words = title(section).cloneNode(true);
+    all('.headerlink, .number', words).forEach((it) => it.remove());
+    all('[id]', words).forEach((it) => it.removeAttribute('id'));
+    return [section.dataset.number || '', ...words.childNodes];
+  };
+  function contents(chapters) {
+    const list = made('nav', 'matter lines contents-on-paper', '<h3>Contents</h3>');
+    for (const chapter of chapters) {
+      for (const section of [chapter, ...all(':scope > section', chapter)]) {
+        if (title(section) && !/^(Exercises|Summary)$/.test(wordsOf(title(section)))
+            && (section === chapter || chapter.id !== 'solutions'))
+          list.append(line(section.id, section === chapter ? 'of-a-chapter' : 'of-a-section',
+              ...heading(section)));
       }
     }
     return list;
+  }
+  function figures() {
+    const list = made('nav', 'matter lines figures-on-paper', '<h3>Figures</h3>');
+    for (const caption of all('.figure-caption')) {
+      const [number, says] = wordsOf(caption).match(/Figure ([\d.]+)\. (.*?)(?=[.;:] |[.]$|$)/s)
+          .slice(1);
+      list.append(line(caption.id, '', made('b', '', number), says));
+    }
+    return list;
+  }
+
+  // Where a term is explained, in a heading or in other type, or else where a chapter first says it.
+  function index(terms) {
+    const back = made('section', 'matter index-on-paper', '<h3>Index</h3><div></div>');
+    back.id = 'index';
+    const walker = document.createTreeWalker(document.querySelector('article'),
+        NodeFilter.SHOW_TEXT, (node) => {
+      const it = node.parentElement;
+      return it.closest('pre, code, script, mjx-container, a, dl, .citation, .prediction, figure')
+          || !it.closest('.chapter') ? NodeFilter.FILTER_REJECT : NodeFilter.FILTER_ACCEPT;
+    });
+    const nodes = [];
+    while (walker.nextNode()) nodes.push(walker.currentNode);
+    const lost = [];
+    let last = '';
+    terms.forEach(([term, pattern], k) => {
+      const sought = RegExp(`(?<![\\w-])(?:${pattern})(?!\\w)`, 'i'), places = new Map();
+      for (const node of nodes) {
+        if (!sought.test(node.data)) continue;
+        const chapter = node.parentElement.closest('.chapter').id;
+        const main = Boolean(node.parentElement.closest('h3, h4, h5, strong, em'));
+        const known = places.get(chapter);
+        if (!known || (main && !known.main)) places.set(chapter, { node, main });
+      }
+      if (!places.size) { lost.push(term); return; }
+      const row = made('p', term[0].toUpperCase() !== last ? 'begins' : '');
+      last = term[0].toUpperCase();
+      row.append(term);
+      const told = [...places].filter(([, it]) => it.main);
+      for (const [chapter, { node }] of told.length ? told : [...places].slice(0, 4)) {
+        const found = node.data.match(sought), mark = made('span', 'term', found[0]);
+        mark.id = `term-${k}-${chapter}`;
+        const rest = node.splitText(found.index);
+        rest.data = rest.data.slice(found[0].length);
+        rest.before(mark);
+        nodes.splice(nodes.indexOf(node) + 1, 0, rest);
+        row.append(', ', line(mark.id, 'indexed'));
+      }
+      back.lastChild.append(row);
+    });
+    if (lost.length) throw new Error(`The book does not say what its index has: ${lost.join(', ')}.`);
+    return back;
+  }
+
+  // Each chapter's pages have its name, and their heads its title.
+  function name_pages(chapters) {
+    const quoted = (text) => JSON.stringify(text);
+    const head = 'font: 8.5pt "Paper Sans"; color: #57606a; vertical-align: bottom;'
+        + ' padding-bottom: 5mm; white-space: nowrap';
+    const book = wordsOf(document.querySelector('.title-page h1'));
+    const rules = chapters.map((chapter, k) => {
+      chapter.style.page = `p${k}`;
+      const says = quoted((chapter.dataset.number || '') + wordsOf(title(chapter)));
+      return `@page p${k} { @top-left { ${head} } @top-right { ${head} } }
+        @page p${k}:left { @top-left { content: counter(page) } @top-right { content: ${quoted(book)} } }
+        @page p${k}:right { @top-left { content: ${says} } @top-right { content: counter(page) } }`;
+    });
+    document.head.append(made('style', '', ''));
+    document.head.lastChild.textContent = rules.join('\n');
+  }
+
+  // The theme's sheets go, and what only a screen has use for.
+  async function prepare(states, front, terms) {
+    await MathJax.startup.promise;
+    for (const it of all('link[rel="stylesheet"]'))
+      if (!/pygments|face|book\.css/.test(it.href)) it.remove();
+    const article = document.querySelector('article.bd-article');
+    document.body.replaceChildren(article);
+    article.className = document.body.className = '';
+    document.documentElement.dataset.theme = 'light';
+    const answers = still(states), solved = solutions();
+    all('.headerlink, .copybtn, .run-it, .figure-size, .sd-container-fluid, .only-dark, script, '
+        + '.edition, .colour-mode').forEach((it) => it.remove());
+    unfold();
+    all('.cell').filter((it) => !it.textContent.trim() && !it.querySelector('img'))
+        .forEach((it) => it.remove());
+    all('img').forEach((it) => { it.loading = 'eager'; });
+    // a mark before its word, which no font of ours has
+    all('article td, article td *').forEach((it) => { if (/^[✓✗✎] /.test(it.firstChild?.data))
+      it.firstChild.data = it.firstChild.data.slice(2); });
+    // a line in bold type, or one that announces what follows
+    for (const it of all('article p:not(td p)')) {
+      const bold = it.querySelector(':scope > strong');
+      if (/:\s*$/.test(it.textContent) || bold?.textContent === it.textContent)
+        it.classList.add('leads-on');
+    }
+    mend_links();
+    const scene = article.querySelector('figure'), whole = article.querySelector('section'), chapters = begins().map((it) =>
+      it.nextElementSibling);
+    const preface = made('section', 'chapter', '<h3>Preface</h3>');
+    preface.id = 'preface';
+    title(whole).remove();
+    preface.append(...[...whole.childNodes].filter((it) =>
+      !it.classList?.contains('toctree-wrapper')));
+    all('h2', preface).forEach((it) => it.replaceWith(made('h4', '', it.innerHTML)));
+    chapters.forEach((it) => {
+      it.classList.add('chapter');
+      const words = title(it).firstChild, numbered = words.data?.match(/^(\d+)\. /);
+      if (numbered) {
+        words.data = words.data.slice(numbered[0].length);
+        words.before(made('span', 'number', numbered[0]));
+        it.dataset.number = `${numbered[1]}\u2002`;
+      }
+    });
+    const backs = [answers, solved].filter((it) => it.children.length > 1);
+    scene.closest('.cell').remove();
+    article.replaceChildren(...made('div', '', front).children, preface, ...chapters, ...backs);
+    article.querySelector('.subtitle').after(scene.querySelector('img'));
+    const listed = index(terms);
+    preface.before(contents([preface, ...chapters, ...backs, listed]), figures());
+    article.append(listed);
+    for (const link of all('article a[href^="#"]')) {
+      const number = made('span', 'page-number');
+      number.dataset.of = link.getAttribute('href').slice(1);
+      if (link.closest('.lines, .indexed')) link.append(number);
+      else if (leads_elsewhere(link)) link.after(' ', number);
+    }
+    name_pages(all('.chapter, .matter'));
+    mark_pictures();
+    measure();
+    return document.documentElement.outerHTML;
   }
 
   // From one document into another: there a reader on paper has to turn pages.
   function leads_elsewhere(link) {
     const target = document.getElementById(link.getAttribute('href').slice(1));
-    const chapter = (it) => it?.closest('span[id^="document-"] + section');
+    const chapter = (it) => it?.closest('.chapter, .matter');
     return chapter(target) && chapter(link) && chapter(target) !== chapter(link)
         && !link.closest('pre, table, .headerlink');
   }
 
-  // `pages` tells where an anchor was printed; "000" keeps its place before anything is.
-  function number_pages(pages) {
-    for (const number of document.querySelectorAll('.page-number')) {
-      const page = pages[number.dataset.of] ?? '000';
-      number.textContent = number.closest('.contents-on-paper') ? ` ${page}` : `[p. ${page}]`;
+  // Before each picture, and what holds on to it, an empty place: where the page before it ends.
+  function mark_pictures() {
+    all('.figure-box, figure').forEach((picture, k) => {
+      let first = picture;
+      if (!picture.previousElementSibling?.matches('.prediction, .answer'))
+        first = picture.closest('.cell') || picture;
+      for (;;) {
+        const before = first.previousElementSibling;
+        if (before?.matches('h4, h5, .leads-on')) first = before;
+        else if (!before && first.parentElement.matches('section section')) first = first.parentElement;
+        else break;
+      }
+      const place = made('div', '');
+      place.id = `above-${k}`;
+      first.before(place);
+      picture.id = `picture-${k}`;
+      for (const id of [place.id, picture.id])
+        picture.append(Object.assign(line(id, 'place'), { hidden: true }));
+    });
+  }
+
+  // `pages` tells where an anchor was printed, and `heights` how high a picture may be, in mm.
+  function fill(pages, heights) {
+    for (const number of all('.page-number')) {
+      const page = pages[number.dataset.of] ?? number.dataset.guess;
+      number.textContent = number.closest('.lines, .indexed') ? `${page}` : `[p. ${page}]`;
+    }
+    for (const [id, height] of Object.entries(heights))
+      all('img', document.getElementById(id)).forEach((it) => { it.style.maxHeight = `${height}mm`; });
+    for (const row of all('.index-on-paper p')) { // each page once
+      const seen = new Set();
+      for (const link of all('.indexed', row)) {
+        if (seen.has(link.textContent)) {
+          link.previousSibling.remove();
+          link.remove();
+        }
+        seen.add(link.textContent);
+      }
     }
   }
 
+  // About the page that each number will tell, so that few lines move when it is known; and of each
+  // picture how high it is, and how high with all that holds on to it, in mm.
+  function measure() {
+    document.body.style.width = '151mm';
+    const MM = 96 / 25.4, page = 0.93 * 218 * MM, top = (it) => it.getBoundingClientRect().top;
+    for (const number of all('.page-number'))
+      number.dataset.guess = Math.ceil(top(document.getElementById(number.dataset.of)) / page) + 1;
+    all('[id^="picture-"]').forEach((picture, k) => {
+      const place = document.getElementById(`above-${k}`),
+          caption = picture.closest('.cell')?.nextElementSibling,
+          last = caption?.matches('.figure-caption') ? caption : picture;
+      place.dataset.needs = (last.getBoundingClientRect().bottom - top(place)) / MM;
+      place.dataset.high = Math.max(...all('img', picture).map((it) => it.clientHeight)) / MM;
+    });
+    document.body.style.width = '';
+  }
+  const pictured = () => all('[id^="picture-"]').map(({ id }) => {
+    const above = id.replace('picture', 'above'), place = document.getElementById(above),
+        { needs, high } = place.dataset;
+    return { id, above, needs: Number(needs), high: Number(high),
+        chapter: place.closest('.chapter, .matter').id };
+  });
+
   const anchors = () =>
-      [...new Set([...document.querySelectorAll('.page-number')].map((it) => it.dataset.of))];
-  return { places, prepare, number_pages, anchors };
+      [...new Set(all('article a[href^="#"]').map((it) => it.getAttribute('href').slice(1)))];
+  return { places, states, prepare, fill, anchors, pictured };
 })();

@@ -12,16 +12,27 @@ from urllib.parse import urlsplit
 from zipfile import ZipFile
 
 import build
+import conf
 import nbformat
-import pypdfium2
 import pytest
-from faults import PANEL, SIZES, of_page, of_paper, stills
+from faults import PANEL, SIZES, of_page
 from graded import closed, leaks
-from live import PATIENCE, ROOT, assert_slider_matters, chapters, pages, sliders
+from live import PATIENCE, ROOT, as_shown, assert_slider_matters, chapters, pages, sliders
+from paper import Printed
+from pdf import terms
+from test_live import NAMES
+
+from wmrbook import live
 
 pytestmark = [pytest.mark.slow]
 if not os.environ.get("BOOK_HTML"):
     pytestmark.append(pytest.mark.needs("npm"))
+FONT = re.compile(r"(SourceSerif4|SourceSans3|JetBrainsMono|STIXTwoText)\w*(-\w+)?")  # shipped
+CONTROLS = "Play|Commit|Stop|Just show me|Try again|Show the code|Hide the code"
+
+
+def letters(text: str) -> str:
+    return re.sub(r"[\W_]+", "", text)
 
 
 def test_the_lecturers_build_has_the_guide_and_the_solutions(tmp_path, browser_page):
@@ -50,31 +61,65 @@ def book(site) -> Path:
     return site.parent / "book.pdf"
 
 
-@pytest.mark.needs("browser")
-def test_the_printed_book_holds_every_chapter(site, book):
+@pytest.fixture(scope="module")
+def printed(book) -> Printed:
     assert book.is_file(), "build the book with --pdf"
-    printed = pypdfium2.PdfDocument(book)
-    text = "\n".join(page.get_textpage().get_text_bounded() for page in printed)
-    begins = {it.get_title(): it.get_dest().get_index() + 1 for it in printed.get_toc()}
-    contents = " ".join(text.split("Contents", 1)[1].split())
+    return Printed(book)
+
+
+@pytest.mark.needs("browser")
+def test_the_printed_book_is_a_book(site, printed):
+    title, back, contents = *printed.pages[:2], printed.text("Contents")
+    assert conf.project in title and conf.edition in title
+    assert all(words in back for words in ("CC BY 4.0", "BSD", "Yousif", conf.edition))
     for chapter in chapters():
         number = int(chapter.name[:2])
-        heading = nbformat.read(chapter, 4).cells[0].source.splitlines()[0]
-        title = f"{number}. {heading.removeprefix('# ')}"
-        assert f"{title} {begins[title]} " in contents
-        assert f"Exercise {number}.1" in text
-    assert "Bibliography" in text
-    assert not [each for each in closed() if each in " ".join(text.split())]
-    assert re.search(r"\(24\)\s+\[p\.\s+\d+\]", text)  # a reader on paper turns pages
-    assert "000" not in re.findall(r"\[p\. (\d+)\]", text)
-    assert len(printed) > 10 * len(chapters())
-    assert len(begins) > 5 * len(chapters())
+        heading = nbformat.read(chapter, 4).cells[0].source.splitlines()[0].removeprefix("# ")
+        its_pages = printed.of(f"{number}. {heading}")
+        assert f"{number} {heading} {its_pages[0]} " in contents
+        for page in its_pages:
+            head = f"{number} {heading}" if page % 2 else conf.project
+            assert head in printed.pages[page - 1] and str(page) in printed.pages[page - 1]
+        assert f"Exercise {number}.1" in printed.text(f"{number}. {heading}")
+    for level, heading, page in printed.outline:
+        if level == 2 and heading not in ("Exercises", "Summary"):
+            assert f"{heading} {page} " in contents, heading
+    assert "Bibliography" in printed.begins
+    text = " ".join(printed.pages)
+    assert not [it for it in closed() if it in text]
+    assert re.search(r"\(24\) \[p\. \d+\]", text)  # a reader on paper turns pages
+    assert not [name for name in printed.fonts() if not FONT.fullmatch(name)]
     panels = [path.read_text(encoding="utf-8").count(PANEL) for path in pages(site)]
-    assert stills(book) == sum(panels) > 5
-    faults = Counter(kind for kind, _ in of_paper(book))
-    # What can't be broken may not fit where it stands: one page in fifty.
-    assert faults.pop("pages more than half empty in a chapter", 0) <= len(printed) / 50
-    assert not faults
+    assert len(printed.pictures()) > sum(panels) > 5 and min(printed.pictures()) > 3
+    assert not Counter(kind for kind, _ in printed.faults())
+
+
+@pytest.mark.needs("browser")
+def test_what_the_printed_book_lists_stands_where_it_says(printed):
+    captions = re.findall(r"(?<![\d.])(\d+\.\d+) .*?(\d+)(?= \d+\.\d+ | \d+ [A-Z]|$)", printed.text("Figures"))
+    assert len(captions) > 30
+    for number, page in captions:
+        assert f"Figure {number}." in printed.pages[int(page) - 1], f"figure {number}"
+    index = printed.text("Index")
+    entries = {term: re.search(rf"(?<![\w,’'-] ){re.escape(term)}((?:, \d+)+)", index) for term, _ in terms()}
+    assert len(entries) >= 80
+    for term, pattern in terms():
+        for page in re.findall(r"\d+", entries[term][1]):
+            said = printed.pages[int(page) - 1].replace("’", "'")
+            assert re.search(pattern, said, re.IGNORECASE), f"{term}: page {page}"
+
+
+@pytest.mark.needs("browser")
+def test_paper_has_states_and_no_controls_and_answers_at_the_back(printed):
+    title = "Answers to the predictions"
+    back, before = printed.text(title), " ".join(printed.pages[: printed.begins[title] - 1])
+    asks = [ask for name in NAMES if (ask := getattr(live, name)().setup["ask"])]
+    for ask in asks:
+        why, question = (letters(as_shown(ask[part])) for part in ("why", "question"))
+        assert why in letters(back) and why not in letters(before), ask["name"]
+        assert question[:40] in letters(before), ask["name"]
+    assert len(re.findall(r"Prediction \d+\.\d+\.", before)) == len(asks)
+    assert not re.findall(rf"(?<![\w*])(?:{CONTROLS})(?!\w)", before + back)
 
 
 @pytest.mark.needs("browser")
