@@ -25,7 +25,7 @@ export const CONTRACTS = {
   'live/polar_angles': 'dbf4f159',
   'live/poles': '467b55a8',
   'live/race': '0955d080',
-  'live/rising': '99758e7c',
+  'live/rising': '6705e25d',
   'live/silence': '651bc34e',
   'live/stopping': '531fdfc5',
   'live/strict': '9b03bd6a',
