@@ -76,6 +76,10 @@ def flat_map(values, found, data) -> None:
     lat, lon = np.radians([point.lat - origin.lat, point.lon])
     there = data["radius"] * np.array([lon * math.cos(math.radians(origin.lat)), lat])
     assert flat == pytest.approx(there, rel=1e-9, abs=1e-7)
+    step = math.degrees(values["km"] / data["radius"])
+    ahead = wmr.GeoPoint(lat=point.lat + step, lon=point.lon)
+    x, y = np.subtract(wmr.local_position(origin, ahead), on_sphere)
+    assert found["leans"] == pytest.approx(math.atan2(-x, y), abs=1e-6)
 
 
 def commutator(values, found, data) -> None:

@@ -10,7 +10,7 @@ export const CONTRACTS = {
   'live/compass': '1414a931',
   'live/corners': '096f0807',
   'live/course_cone': '0fc5d63f',
-  'live/flat_map': '48be783d',
+  'live/flat_map': 'ba491e96',
   'live/half_turn': '63cfd94d',
   'live/heading_left': 'c21b7040',
   'live/heading_power': 'c6fc51c0',
