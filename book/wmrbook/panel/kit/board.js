@@ -33,6 +33,7 @@ export function paneOf(canvas, colours, spec) {
       view = { box, zoom, scale: across, toScreen: at,
       toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
   const cut = (draw) => inside(ctx, box, draw), names = [];
+  let robot = null;
   /** @type {Pane} */
   const pane = {
     ctx, box, view, at, ink, range: [x0, x1, y0, y1], pixel: 1 / across,
@@ -93,6 +94,7 @@ export function paneOf(canvas, colours, spec) {
       // out of sight
       if (px < box.left - 20 || px > box.left + box.width + 20 || py < box.top - 20
           || py > box.top + box.height + 20) return;
+      if (share === 1) robot = [px, py];
       ctx.globalAlpha = share;
       drawRobot(ctx, [px, py], heading, { ...colours, path: ink(role) }, size);
       ctx.globalAlpha = 1;
@@ -109,7 +111,7 @@ export function paneOf(canvas, colours, spec) {
     pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
     // at last, for no path may strike one out
     name() {
-      names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours));
+      names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours, robot));
       if (spec.lawn) drawScale(ctx, view, colours, (metres) => written(metres, 'm', 1));
     },
     bar(x, from, to, role, half = 0.3) {
