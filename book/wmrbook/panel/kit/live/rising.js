@@ -58,7 +58,7 @@ export default live('rising', {
         ...map({ rho, L, gains }), t: Array.from(both[0].t), V: both.map(value), both };
   },
   panes: ({ alpha, theta, rho }, { share, V }, { data: { asked } }, hidden) => ({
-    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true,
+    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'],
         given: 'The plane of the two angles, with the state that is asked about.',
         alt: `The plane of alpha and theta: V rises in ${(100 * share).toFixed(0)} percent of ` +
         `it.` },
