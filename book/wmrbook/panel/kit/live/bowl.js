@@ -93,8 +93,8 @@ export default live('bowl', {
       ctx.lineWidth = 1;
       ctx.beginPath();
       for (const [alpha, theta] of corners) {
-        const [x, y] = at(alpha, theta, high(alpha, theta));
-        ctx.lineTo(...bowl.at(x, y));
+        const [x, y] = at(alpha, theta, high(alpha, theta)), [px, py] = bowl.at(x, y);
+        ctx.lineTo(px, py);
       }
       ctx.closePath();
       ctx.fill();
