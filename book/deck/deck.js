@@ -71,7 +71,7 @@
     const panels = [...page.querySelectorAll('.panel')];
     await Promise.all(panels.map((panel) => widgets.showAll(panel)));
     fit(page);
-    panels.forEach((panel) => watch.observe(panel.querySelector('.live, .wmr') ?? panel));
+    for (const it of page.querySelectorAll('.panel > div, .live > *')) watch.observe(it);
     return true;
   }
 
