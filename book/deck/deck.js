@@ -27,7 +27,9 @@
     const least = live ? 1 : 0.72; // 20 px
     for (let scale = live ? 1.25 : page.matches('.picture') ? 1 : 1.2; ; scale -= 0.03) {
       page.style.setProperty('--scale', Math.max(scale, least));
-      if (scale <= least || !parts.some(over)) return;
+      // long texts beside a panel's pictures get more room, rather than smaller letters
+      page.style.setProperty('--column', `${14 + 60 * Math.max(least - scale, 0)}rem`);
+      if (scale <= least - (live ? 0.12 : 0) || !parts.some(over)) return;
     }
   }
 
