@@ -92,7 +92,7 @@ def vote(output: Path) -> None:
 
     lay_out(output)
     slides = [
-        Slide(title, words, picture and pictured(picture._repr_mimebundle_(), {}, []), notes)
+        Slide(title, words, pictured(picture._repr_mimebundle_(), {}, ()) if picture else "", notes)
         for title, words, picture, notes in deck.slides(made())
     ]
     write(output / "questions.html", deck.TITLE, slides)
