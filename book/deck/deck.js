@@ -139,5 +139,6 @@
     if (printing) { await printable; await Promise.all(pages.map(show)); } else await arrived();
     root.dataset.deck = 'ready';
   });
+  deck.showAll = () => Promise.all(pages.map(show)); // for tests
   window.deck = deck;
 })();

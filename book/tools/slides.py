@@ -142,7 +142,8 @@ def pictured(data: dict, stored: dict, settings: Iterable[str]) -> str:
             f'<script type="{kind}">{json.dumps(it).replace("<", SAFE)}</script>'
             for kind, it in ((VIEW, {"model_id": "it"}), (STATE, {"state": {"it": model}}))
         )
-        return f'<div class="panel" data-prevent-swipe>{"".join(scripts)}</div>'
+        program = model["state"]["program"]
+        return f'<div class="panel" data-prevent-swipe data-program="{program}">{"".join(scripts)}</div>'
     image = data["text/html"]
     source = re.search(r'src="(.*?)"', image)[1]
     dark = SVG_URL + quote(darkened(unquote(source.removeprefix(SVG_URL))), safe=" ='/:;,()")
