@@ -16,7 +16,7 @@ from live import PATIENCE, ROOT, assert_slider_matters, confine, settled_picture
 READY = os.environ.get("SLIDES")
 pytestmark = [] if READY else pytest.mark.needs("npm")
 CHAPTER = "00"  # with a panel
-SIZES = [(1280, 720), (1920, 1080)] + [(1366, 768), (1024, 768)] * bool(READY)
+SIZES = [(1280, 720)] + [(1920, 1080), (1366, 768), (1024, 768)] * bool(READY)
 TROUBLES = (Path(__file__).parent / "slides.js").read_text(encoding="utf-8")
 ALL_OPEN = """() => ![...document.querySelectorAll('.live')].some(
     it => it.dataset.open !== 'true' || it.dataset.moving)"""
@@ -103,7 +103,6 @@ def test_each_slide_can_be_read_and_its_picture_is_large_before_and_after_an_ans
                         break
                 found += [(path.name[:2], height, answered, *it) for it in troubles]
             if height == SIZES[0][1]:
-                assert page.locator("section mjx-container svg").count() > 10
                 assert page.locator("mjx-merror, [data-mjx-error], .widget-error").count() == 0
                 assert "$" not in page.locator(".slides").inner_text()
                 texts = page.eval_on_selector_all(".slides img", "them => them.map(it => it.alt)")
