@@ -96,12 +96,17 @@ def test_the_printed_book_is_a_book(site, printed):
 
 @pytest.mark.needs("browser")
 def test_what_the_printed_book_lists_stands_where_it_says(printed):
-    captions = re.findall(r"(?<![\d.])(\d+\.\d+) .*?(\d+)(?= \d+\.\d+ | \d+ [A-Z]|$)", printed.text("Figures"))
+    captions = re.findall(
+        r"(?<![\d.])(\d+\.\d+) .*?(\d+)(?= \d+\.\d+ | \d+ [A-Z]|$)", printed.text("Figures")
+    )
     assert len(captions) > 30
     for number, page in captions:
         assert f"Figure {number}." in printed.pages[int(page) - 1], f"figure {number}"
     index = printed.text("Index")
-    entries = {term: re.search(rf"(?<![\w,’'-] ){re.escape(term)}((?:, \d+)+)", index) for term, _ in terms()}
+    entries = {
+        term: re.search(rf"(?<![\w,’'-] ){re.escape(term)}((?:, \d+)+)", index)
+        for term, _ in terms()
+    }
     assert len(entries) >= 80
     for term, pattern in terms():
         for page in re.findall(r"\d+", entries[term][1]):
