@@ -196,7 +196,7 @@ def formula(text: str, how: dict) -> str:
 
 def wide(slide: Slide) -> bool:
     """Whether a slide's picture takes the width, with one line of words below it."""
-    return "panel" in slide.picture or not re.search(r"\$\$|^[->1<|]", slide.words, re.MULTILINE)
+    return "panel" in slide.picture or not re.search(r"\$\$|^(?:[->|<]|1\. )", slide.words, re.M)
 
 
 def lay_out(output: Path) -> None:
