@@ -142,8 +142,8 @@ def pictured(data: dict, stored: dict, settings: Iterable[str]) -> str:
             f'<script type="{kind}">{json.dumps(it).replace("<", SAFE)}</script>'
             for kind, it in ((VIEW, {"model_id": "it"}), (STATE, {"state": {"it": model}}))
         )
-        program = model["state"]["program"]
-        return f'<div class="panel" data-prevent-swipe data-program="{program}">{"".join(scripts)}</div>'
+        named = f'data-program="{model["state"]["program"]}"'
+        return f'<div class="panel" data-prevent-swipe {named}>{"".join(scripts)}</div>'
     image = data["text/html"]
     source = re.search(r'src="(.*?)"', image)[1]
     dark = SVG_URL + quote(darkened(unquote(source.removeprefix(SVG_URL))), safe=" ='/:;,()")
@@ -179,12 +179,12 @@ def solved(number: str) -> str:
 
 def write(path: Path, title: str, slides: list[Slide], number: int | None = None) -> None:
     """Write one deck."""
-    place = Environment(loader=FileSystemLoader(BOOK / "deck"), autoescape=True)
+    pages = Environment(loader=FileSystemLoader(BOOK / "deck"), autoescape=True)
     written = MarkdownIt("commonmark", {"typographer": True})
     written.enable(["table", "replacements", "smartquotes"])
     written.use(dollarmath_plugin, renderer=formula, double_inline=True)
-    place.filters |= {"words": written.render, "line": written.renderInline, "wide": wide}
-    page = place.get_template("index.html.j2")
+    pages.filters |= {"words": written.render, "line": written.renderInline, "wide": wide}
+    page = pages.get_template("index.html.j2")
     path.write_text(page.render(title=title, slides=slides, number=number), encoding="utf-8")
     print(path, flush=True)
 
@@ -196,7 +196,7 @@ def formula(text: str, how: dict) -> str:
 
 def wide(slide: Slide) -> bool:
     """Whether a slide's picture takes the width, with one line of words below it."""
-    return "panel" in slide.picture or not re.search(r"\$\$|^[->1<|]", slide.words, re.MULTILINE)
+    return "panel" in slide.picture or not re.search(r"\$\$|^(?:[->|<]|1\. )", slide.words, re.M)
 
 
 def lay_out(output: Path) -> None:
@@ -227,11 +227,10 @@ if __name__ == "__main__":
     parser.add_argument("--chapters", nargs="+", default=[], metavar="NN", help=text)
     text = "the concept questions, into book/_build/votes by default"
     parser.add_argument("--questions", action="store_true", help=text)
-    parser_default = parser.get_default("output")
     given = parser.parse_args()
-    output, own = given.output, "votes" if given.questions else "lecturer/slides"
-    if output == parser_default and (given.questions or given.lecturer):
-        output = BOOK / "_build" / own
+    output = given.output
+    if output == parser.get_default("output") and (given.questions or given.lecturer):
+        output = BOOK / "_build" / ("votes" if given.questions else "lecturer/slides")
     if given.questions:
         vote(output.resolve())
     else:

@@ -46,9 +46,5 @@ def slides(questions: tuple[Question, ...]) -> Iterator[tuple[str, str, Picture 
         right = dict(zip(LETTERS, question.options, strict=True))[question.key].text
         notes = f"Chapter {question.chapter}, {question.section!r}. Line: {question.id}"
         untested = f". Not in the test: {question.untested}" if question.untested else ""
-        yield (
-            f"{number}. {question.key}: {right}",
-            f"{question.why}\n\n{wrong}",
-            None,
-            notes + untested,
-        )
+        answer = f"{number}. {question.key}: {right}"
+        yield answer, f"{question.why}\n\n{wrong}", None, notes + untested
