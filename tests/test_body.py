@@ -124,6 +124,21 @@ def test_a_least_speed_keeps_the_path_in_continuous_time(start, least):
     assert (np.diff(fast.V) <= 1e-12).all()
 
 
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.1, 40.0), st.floats(0.3, 30.0), st.floats(-3.1, 3.1), st.floats(0.02, 0.3))
+def test_a_last_turn_either_ends_or_is_refused(gain, most, heading, tolerance):
+    """With a gain above 2 a period each turn overshoots by more than it turned."""
+    dt = 0.1
+    turn = wmr.LastTurn(tolerance, gain, min_rate=0.2, max_rate=most)
+    start, goal = wmr.Pose(0.0, 0.0, heading), wmr.Pose(0.05, 0.0, 0.0)
+    how = {"dt": dt, "arrival_radius": 0.2, "duration": 120.0, "last_turn": turn}
+    if gain * dt >= 2.0 and most * dt > 2.0 * tolerance:
+        with pytest.raises(ValueError, match=r"^last_turn\.gain = .* a period of 0\.1 s, is"):
+            wmr.simulate(start, goal, GENTLE, **how)
+    elif gain * dt < 1.95:  # from 2 down it ends ever later
+        assert wmr.arrival(wmr.simulate(start, goal, GENTLE, **how)).arrived
+
+
 @settings(max_examples=25, deadline=None)
 @given(starts, wheels_of_all_kinds, st.sampled_from([0.5, 1.0, 2.0]))
 def test_the_last_turn_ends_within_its_tolerance_and_at_rest(start, wheels, h):

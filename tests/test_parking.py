@@ -8,6 +8,7 @@ from pathlib import Path
 
 import compiled
 import drive_faults as faults
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -161,6 +162,23 @@ def test_an_older_fix_may_be_farther_behind(gap, refused):
     assert trust.refusal_of(m, seen, wmr.Rules()) == refused
 
 
+@given(st.one_of(st.floats(), st.integers(-3, 9)))
+def test_only_the_qualities_of_a_measured_fix_are_used(quality):
+    seen = wmr.Seen(0.05, 0.0, 0.0, quality=quality)
+    refused = trust.refusal_of(trust.Memory(), seen, wmr.Rules())
+    assert refused == (trust.NONE if 1 <= quality <= 5 else trust.POOR)
+
+
+@given(st.floats(0.1, 60.0), st.floats(0.02, 0.5))
+def test_a_last_turn_that_would_swing_in_the_longest_period_is_refused(gain, period):
+    turn, rules = wmr.LastTurn(gain=gain, max_rate=3.0), wmr.Rules(longest_period=period)
+    if gain * period < 2.0:
+        assert wmr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules).end == turn
+    else:
+        with pytest.raises(ValueError, match=r"^last_turn\.gain = .* a period of "):
+            wmr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules)
+
+
 numbers = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([float("nan"), float("inf"), 1e6]))
 periods = st.builds(
     wmr.Seen,
@@ -174,7 +192,7 @@ periods = st.builds(
     x=numbers,
     y=numbers,
     heading=numbers,
-    quality=st.sampled_from([4, 4, 4, 0, 6]),
+    quality=st.sampled_from([4, 4, 4, 0, 6]),  # whole numbers in C
     error=st.sampled_from([0.0, 0.5, 2.0, float("nan")]),
     later=st.sampled_from([0.1, 0.1, 0.0, -0.1, float("nan")]),
     age=st.sampled_from([0.05, 0.05, 0.4, -1.0, float("nan")]),
@@ -220,6 +238,9 @@ def test_what_c_has_no_word_for_is_not_printed(text):
         ({"goal": (0, 0, 0)}, "goal"),
         ({"gains": wmr.KanayamaGains(1, 1, 1)}, "gains"),
         ({"wheels": (0.5,)}, "wheels"),
+        ({"wheels": None}, "wheels = None"),
+        ({"last_turn": wmr.LastTurn(leave=np.array([2.0, 3.0]))}, "last_turn.leave"),
+        ({"last_turn": wmr.LastTurn(tolerance=float("nan"))}, "last_turn.tolerance"),
         ({"rules": {}}, "rules"),
         ({"law": "kanayama"}, "law"),
         ({"last_turn": 3}, "last_turn"),

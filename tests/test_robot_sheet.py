@@ -78,6 +78,9 @@ def test_a_sheets_numbers_fit_the_robot():
         fastest = gains.v_max**2 * gains.k_rho / 4  # m/s^2, braking on a straight line
         assert fastest <= robot.acceleration
         assert told.turn.max_rate * robot.track_width / 2 <= robot.max_speed
+        wheels = wmr.Wheels(robot.track_width, robot.max_speed, dead_band=robot.dead_band)
+        place = wmr.Pose(told.x, told.y, told.heading)
+        assert wmr.Drive(place, gains, wheels, told.turn).end == told.turn  # it does not swing
         assert told.turn.min_rate * robot.period <= 2 * told.turn.tolerance
 
 

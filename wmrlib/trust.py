@@ -179,7 +179,8 @@ def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
     """Why a fix can't be used; NONE if it can."""
     if not (abs(seen.x) + abs(seen.y) + abs(seen.heading) < 1e9 and abs(seen.age) < 1e9):
         return BROKEN
-    if seen.quality < 1 or seen.quality > 5 or not seen.error <= rules.largest_error:
+    measured = seen.quality >= 1 and seen.quality <= 5
+    if not measured or not seen.error <= rules.largest_error:
         return POOR
     if seen.age > rules.oldest or seen.age < 0.0:
         return LATE

@@ -135,8 +135,8 @@ static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
       WMR_C(1000000000.0) && WMR_F(fabs)(seen->age) < WMR_C(1000000000.0))) {
     return WMR_BROKEN;
   }
-  if (seen->quality < 1 || seen->quality > 5 || !(seen->error <= rules->largest_error))
-      {
+  const int measured = seen->quality >= 1 && seen->quality <= 5;
+  if (!measured || !(seen->error <= rules->largest_error)) {
     return WMR_POOR;
   }
   if (seen->age > rules->oldest || seen->age < WMR_C(0.0)) {
