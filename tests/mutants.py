@@ -50,6 +50,7 @@ PLANS = {
     "geodesy": "plain geodesy routes",
     "laws": "plain control; quick simulation; jit simulation",
     "motion": "plain kinematics; quick simulation; jit simulation hysteresis",
+    "odometry": "plain parking",
     "parking": "plain parking",
     "receiver": "jit receiver",
     "sensing": "jit estimation; jit filter",

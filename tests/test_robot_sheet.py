@@ -142,6 +142,8 @@ def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     flat = [*read["gains"].values(), *read["last_turn"].values(), read["track_width"]]
     assert {type(value) for value in flat} == {float}
     assert read["arrival_radius"] == told.radius
+    assert read["oldest_fix"] == pytest.approx(told.oldest)
+    assert read["patience"] == pytest.approx(told.patience)
 
 
 @pytest.mark.needs("compiler")
@@ -159,7 +161,7 @@ int main(void) {
   wmr_local_position_e7(MY_START_E7, MY_GOAL_E7, &goal.x, &goal.y);
   const wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), gains);
   printf("%.9f %.9f %.9f %.9f\\n", twist.v, twist.omega, wmr_turn_rate(0.01, MY_TURN),
-         (double)(K_RHO + GOAL_LAT_E7));
+         (double)(MY_PATIENCE - PATIENCE + MY_OLDEST - OLDEST_FIX));
 }
 """,
         encoding="utf-8",
@@ -170,6 +172,7 @@ int main(void) {
     done = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True)
     told = sheet(robot)
     error = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(told.x, told.y, told.heading))
-    v, omega, rate, _ = map(float, done.stdout.split())
+    v, omega, rate, differ = map(float, done.stdout.split())
+    assert differ == pytest.approx(0.0, abs=1e-6)
     assert (v, omega) == pytest.approx(wmr.control_law(*error, told.gains), rel=1e-4)
     assert rate == told.turn.min_rate

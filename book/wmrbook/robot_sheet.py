@@ -23,6 +23,7 @@ NEW = 5.0  # s: what is new of the receiver's error after that long sets the rad
 NEAREST = 0.05  # m: no radius is smaller
 MOVES = 1.25  # times the dead band a wheel surely turns
 COARSE = 0.35  # rad: a last turn that is coarser is none
+MARGIN = 0.2  # s: a fix may be so much older than usual
 FAR = 1000.0  # m
 FILES = Path(__file__).with_name("robot_files")
 RUNS, SEED, SHARE = 400, 14, 0.95
@@ -97,6 +98,8 @@ class Sheet(NamedTuple):
     min_speed: float
     turn: wmr.LastTurn
     duration: float
+    oldest: float  # of a drive's `Rules`, as `patience`
+    patience: float
 
 
 class Certificate(NamedTuple):
@@ -173,7 +176,10 @@ def sheet(robot: Robot) -> Sheet:
     turn = wmr.LastTurn(tolerance, gain, min_rate, max_rate, settle=settle)
     heading, longest = wmr.wrap_angle(math.radians(90.0 - robot.bearing)), wmr.longest_step(gains)
     duration = math.ceil(60.0 + 2.0 * travel)
-    return Sheet(x, y, heading, apart, gains, radius, longest, min_speed, turn, duration)
+    oldest = robot.delay + MARGIN
+    patience = oldest + 2 * max(robot.fix_period, robot.period)
+    told = x, y, heading, apart, gains, radius, longest, min_speed, turn, duration
+    return Sheet(*told, oldest, patience)
 
 
 def sure(runs: int) -> int:

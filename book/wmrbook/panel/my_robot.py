@@ -34,7 +34,7 @@ GROUPS = {
         "compass": "error of the compass, sigma",
     },
 }
-NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "far", "golden")
+NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "far", "golden")
 NUMBERS += ("compass", "runs", "seed", "share")
 
 

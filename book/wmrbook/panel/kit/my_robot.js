@@ -38,6 +38,7 @@ const told = (robot, { gains, turn, ...sheet }) => [
   ['longest step', `${written(sheet.longest_step, 's')} (yours: ${written(robot.period, 's')})`],
   ['least speed', written(sheet.min_speed, 'm/s')],
   ['last turn, within', written(turn.tolerance * DEGREES, '°')],
+  ['oldest fix, patience', `${written(sheet.oldest)} and ${written(sheet.patience, 's')}`],
   ['last turn, rates', `${written(turn.min_rate)} to ${written(turn.max_rate, 'rad/s')}`],
 ];
 
