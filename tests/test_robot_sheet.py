@@ -11,7 +11,8 @@ import yaml
 
 import wmrlib as wmr
 from wmrbook import robot_sheet
-from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, files, sheet
+from wmrbook.robot_io import along, at_rest, files
+from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, sheet
 from wmrlib import symbolic
 
 WRONG = {
@@ -144,6 +145,22 @@ def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     assert read["arrival_radius"] == told.radius
     assert read["oldest_fix"] == pytest.approx(told.oldest)
     assert read["patience"] == pytest.approx(told.patience)
+
+
+def test_a_track_gives_the_way_and_the_scatter(tmp_path):
+    """Of a made log whose way and errors are known."""
+    errors = np.random.default_rng(2).normal(0.0, 0.4, (2, 4000))
+    base, path = wmr.GeoPoint(lat=-33.1, lon=151.2), tmp_path / "rest.gpx"
+    wmr.write_gpx(path, wmr.point_at(base, *errors))
+    track = wmr.read_track(path)
+    robot = at_rest(Robot(), track)
+    assert robot.sigma == pytest.approx(math.sqrt(errors.var(axis=1).mean()), abs=0.005)
+    assert robot == Robot(sigma=robot.sigma)
+    robot = along(Robot(), track)
+    for name, k in (("start", 0), ("goal", -1)):
+        assert getattr(robot, f"{name}_lat") == track.points.lat[k]
+        assert getattr(robot, f"{name}_lon") == track.points.lon[k]
+    assert robot._replace(**{name: getattr(Robot(), name) for name in robot._fields[:4]}) == Robot()
 
 
 @pytest.mark.needs("compiler")

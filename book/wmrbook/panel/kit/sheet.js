@@ -11,7 +11,7 @@ const digits = (value, count = 6) => String(Number(value.toPrecision(count)));
 
 // East and north of the start, m, as wmrlib's local_position.
 /** @param {Point} start @param {Point} goal @param {number} earth */
-function placeOf([lat, lon], [lat2, lon2], earth) {
+export function placeOf([lat, lon], [lat2, lon2], earth) {
   const [from, to, up, across] =
       [lat, lat2, lat2 - lat, lon2 - lon].map((degrees) => degrees / DEGREES);
   const side = Math.sin(across / 2) ** 2,
