@@ -84,6 +84,13 @@ def test_the_page_says_the_figures_that_its_panel_shows():
     off = abs(math.degrees(end.heading_error))
     assert f"{end.time:.1f} s" in text
     assert f"{off:.0f} deg" in text
+    panel = Explorer(wheels=wmr.Wheels(0.5, acceleration=1.0))
+    assert f"arrive after {wmr.arrival(panel.trajectory()).time:.1f} s" in text
+    panel.gains, times = wmr.GENTLE_GAINS, []
+    for wheels in (panel.wheels, wmr.Wheels(0.5)):
+        panel.wheels = wheels
+        times.append(wmr.arrival(panel.trajectory()).time)
+    assert f"need {times[0] - times[1]:.0f} s more" in text
 
 
 LAWS = str(tuple(POSE_LAWS))[1:-1]
