@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
-from wmrlib.body import follow, hurry, roll, turn_rate
+from wmrlib.body import follow, hurry, last_turn, roll, turn_rate
 
 GOAL, GENTLE = wmr.Pose(0.0, 0.0, 0.5), wmr.GENTLE_GAINS
 speeds = st.floats(-3.0, 3.0)
@@ -177,6 +177,19 @@ def test_a_sweep_of_bodies_is_each_run_alone(poses, wheels, turns):
         np.testing.assert_allclose(paths.x[i, : len(run)], run.x, atol=1e-6)
         np.testing.assert_allclose(paths.omega[i, : len(run)], run.omega, atol=1e-5)
         assert np.isnan(paths.x[i, len(run) :]).all()
+
+
+def test_a_turn_settles_for_whole_periods_and_by_default_is_left_at_two_radii():
+    for settle in (0.3, 0.7, 0.8):  # sums of 0.1 are now above, now below
+        end, turning, periods = wmr.LastTurn(settle=settle), 1.0, 0
+        done = False
+        while not done:
+            *_, turning, done = last_turn(0.1, 0.0, 0.0, 0.0, 0.0, turning, 0.2, 0.1, end)
+            periods += 1
+        assert periods == round(settle / 0.1) + 1
+    for rho, turns in ((0.39, True), (0.41, False)):
+        v, *_ = last_turn(rho, 0.0, 1.0, 0.5, 0.0, 1.0, 0.2, 0.1, wmr.LastTurn())
+        assert (v == 0.0) == turns
 
 
 def test_a_receiver_decides_where_the_last_turn_begins():

@@ -216,6 +216,22 @@ def test_a_wrong_heading_is_told_from_a_late_one(wrong):
     assert ran.blind < 2.0
 
 
+@pytest.mark.parametrize("kind", KINDS)
+@given(distance=st.floats(0.25, 1.0), heading=st.floats(-1.2, 1.2), least=st.floats(0.1, 0.8))
+def test_the_least_speed_keeps_the_path_of_the_law(kind, distance, heading, least):
+    """Near its goal, where the law alone would drive more slowly, both wheels hurry alike."""
+    wheels, gains = wmr.Wheels(0.5, min_speed=least), wmr.Gains(0.1, 0.5, 2.0, 1.0)
+    start, goal = wmr.Pose(0.0, 0.0, heading), wmr.Pose(distance, 0.0, 0.4)
+    drive = kind(goal, gains, wheels)
+    while drive.state != "drive":
+        speeds = drive.step(wmr.Seen(0.05, 0.0, 0.0, fresh=1, **start._asdict()))
+    error = wmr.polar_error(start, goal)
+    v, omega = wmr.control_law(*error, gains)
+    hurried = wmr.wheels_to_twist(*speeds, 0.5)
+    assert hurried == pytest.approx([max(1.0, least * math.cos(error.alpha) / v) * each
+                                     for each in (v, omega)])  # fmt: skip
+
+
 @given(st.one_of(st.floats(), st.integers(-3, 9)))
 def test_only_the_qualities_of_a_measured_fix_are_used(quality):
     seen = wmr.Seen(0.05, 0.0, 0.0, quality=quality)
