@@ -168,20 +168,20 @@ def late_drive(position: float, heading: float) -> tuple[Pose, float]:
 
 
 def late() -> Live:
-    """Two robots race, one with an old position, one with an old heading."""
+    """Two robots race: one sees its position late, the other its heading."""
     start, goal, *_ = paper.outdoor()
     delay = 0.6
     position, heading = (math.isfinite(late_drive(*each)[1]) for each in ((delay, 0), (0, delay)))
     options = {
         "Both": (True, True),
-        "Only the one with the old position": (True, False),
-        "Only the one with the old heading": (False, True),
+        "Only the one whose position is late": (True, False),
+        "Only the one whose heading is late": (False, True),
         "Neither": (False, False),
     }
     return Live(
         "late",
-        "Two robots with gentle gains see something {delay} late. The one with the old position "
-        "{position}; the one with the old heading {heading}.",
+        "Both robots have gentle gains. One sees its position {delay} late and {position}; the "
+        "other sees its heading that late and {heading}.",
         {
             "delay": Knob(delay, 0.0, 1.5, 0.1, "how late it is", "s", label="late by"),
             "time": Knob(1.0, 0.0, 1.0, 0.005, "how far through the race", label="race", plays=12),
@@ -189,8 +189,8 @@ def late() -> Live:
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS, lost=LOST),
         ask=Ask(
             "choose",
-            "Two robots drive at up to 4 m/s. What one knows of its position is 0.6 s old; the "
-            "other's heading is. Which of them come to the goal, 58 m away, within a minute?",
+            "Two robots drive at up to 4 m/s. One sees its position 0.6 s late, the other its "
+            "heading. Which of them come to the goal, 58 m away, within a minute?",
             "The heading turns as fast as the law steers, so an old one makes it steer too far, "
             "and back: it comes in on a long spiral, or never. Far away the line of sight hardly "
             "turns, so an old position does harm only near the goal.",

@@ -1,5 +1,5 @@
-// Two robots race: the position that one sees is that of a while ago, and so is the other's
-// heading. Pale, where each believes it is.
+// Two robots race: one sees its position late, the other its heading. Pale, where each believes it
+// is.
 
 import { DEGREES, written } from '../style.js';
 import { heldRun, remembered } from '../runs.js';
@@ -34,15 +34,15 @@ export default live('late', {
     const near = ({ pose }, k) => {
       const [east, north] = (hidden ? start : pose).map((it) => [it - NEAR, it + NEAR]);
       return { x: east, y: north, lawn: 4, given: 'The robot at the start, from near.',
-        alt: `The robot with the old ${RACERS[k].name} from near, and, pale, where it ` +
+        alt: `The robot whose ${RACERS[k].name} is late, from near, and, pale, where it ` +
         `believes it is.` };
     };
     const [position, heading] = runs.map(near);
     return {
       whole: { x: [-14, 30], y: [-9, 68], lawn: true,
         given: 'The start and the goal, 58 m apart, each with its heading.',
-        alt: `Two robots on a lawn after ${written(t, 's')}: the one with the old position is ` +
-        `${inWords(runs[0], start)}, the one with the old heading ${inWords(runs[1], start)}.` },
+        alt: `Two robots on a lawn after ${written(t, 's')}: the one whose position is late is ` +
+        `${inWords(runs[0], start)}, the one whose heading is late ${inWords(runs[1], start)}.` },
       position, heading,
     };
   },
