@@ -13,8 +13,6 @@ from importlib.util import find_spec
 from itertools import product
 from pathlib import Path
 
-import wmrlib
-
 # The first is the same without windows, and takes three quarters of the time.
 BROWSERS = (
     "chromium-headless-shell",
