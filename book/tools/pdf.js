@@ -304,6 +304,9 @@ window.paper = (() => {
     all('h2', preface).forEach((it) => it.replaceWith(made('h4', '', it.innerHTML)));
     chapters.forEach((it) => {
       it.classList.add('chapter');
+      const deeper = 3 - Number(title(it).tagName[1]); // a page may have sections above its chapters
+      for (const each of deeper ? all('h2, h3, h4, h5', it) : [])
+        each.replaceWith(made(`h${Number(each.tagName[1]) + deeper}`, '', each.innerHTML));
       const words = title(it).firstChild, numbered = words.data?.match(/^(\d+)\. /);
       if (numbered) {
         words.data = words.data.slice(numbered[0].length);

@@ -6,6 +6,7 @@ they are, in seconds; its margin boxes write the heads, and a first printing tel
 
 from __future__ import annotations
 
+import base64
 import re
 import shutil
 import sys
@@ -79,6 +80,7 @@ def print_book(site: Path, page: Path, pdf: Path) -> None:
         book = open_page(chromium, page)
         documents = book.evaluate("paper.places()")
         states = picture_panels(chromium, site, list(dict.fromkeys(documents)))
+        save_pictures(states, page.parent)
         html = book.evaluate("it => paper.prepare(...it)", [states, front_matter(), terms()])
         book.close()
         paper.write_text(f"<!doctype html>{html}", encoding="utf-8")
@@ -181,6 +183,17 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[dict]:
         states += page.evaluate("paper.states()")
     page.close()
     return states
+
+
+def save_pictures(states: list[dict], folder: Path) -> None:
+    """Put files in the place of the pictures: whoever opens the page often has less to read."""
+    shots = [
+        shot for state in states for part in ("given", "asked") for shot in state.get(part, [])
+    ]
+    for k, shot in enumerate(shots):
+        picture = folder / f"still-{k}.png"
+        picture.write_bytes(base64.b64decode(shot[0].partition(",")[2]))
+        shot[0] = picture.name
 
 
 def find_places(pdf: Path, anchors: list[str]) -> dict[str, tuple[int, float]]:
