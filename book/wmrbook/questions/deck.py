@@ -53,6 +53,6 @@ def slides(questions: tuple[Question, ...]) -> Iterator[tuple[str, str | Picture
         right = dict(zip(LETTERS, question.options, strict=True))[question.key].text
         answer = f"## {number}. {question.key}: {right}\n\n{question.why}\n\n{wrong}"
         yield "subslide", answer
-        notes = f"Chapter {question.chapter}, {question.section!r}. Line: {question.id}"
+        notes = f"Chapter {question.chapter}, “{question.section}”. Line: {question.id}"
         untested = f". Not in the test: {question.untested}" if question.untested else ""
         yield "notes", notes + untested
