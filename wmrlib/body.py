@@ -56,7 +56,8 @@ class LastTurn(NamedTuple):
 
     Parameters
     ----------
-    tolerance, gain, min_rate, max_rate, leave : float; rad, 1/s, rad/s, rad/s, no unit
+    tolerance, gain, min_rate, max_rate, leave : float; rad, 1/s, rad/s, rad/s, no unit. With a
+        gain of 2 a period or more the turn would swing for ever.
     settle : float, s. It has arrived once it has stayed within the tolerance for so long. A robot
         that sees its heading late needs as much, and the time in which its wheels stop.
     """

@@ -29,8 +29,8 @@ class Rules(NamedTuple):
     ----------
     arrival_radius : float, m. There it parks, or begins the last turn.
     patience : float, s since the last usable fix; then it stops, and waits.
-    oldest, largest_error : float; s, m. A fix that is older, or says that it is worse, is not used:
-        give it your receiver's usual delay and 0.2 s, and `patience` as much and two fixes more.
+    oldest, largest_error : float; s, m. A fix that is older, or says that it is worse, is not used.
+        Give `oldest` the usual delay of your receiver and 0.2 s more, `patience` two fixes more.
     settle : int. So many good fixes in a row let it drive.
     jump, slip : float; m, no unit. Nor is one used that is farther than jump from where the wheels
         can be; they may err by the share slip of what they rolled.
@@ -164,7 +164,7 @@ def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wh
 
 
 def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
-    """Why a fix can't be used; NONE if it can. It is brought up to now on the way."""
+    """Why a fix can't be used; NONE if it can. On the way, the fix is carried on to now."""
     if not (abs(seen.x) + abs(seen.y) + abs(seen.heading) < 1e9 and abs(seen.age) < 1e9):
         return BROKEN
     measured = seen.quality >= 1 and seen.quality <= 5

@@ -72,7 +72,7 @@ def joined_known(joined: Callable) -> str:
             "the mean of two deviations is no deviation of a mean.": (right, 0.5 * (one + other)),
         }
         case = f"{first:.2f} within {one:.2f} and {second:.2f} within {other:.2f} rad"
-        hint = f"{case} come out as {heading:.3f} within {sigma:.3f}: which mean errs least?"
+        hint = f"{case} come out as {heading:.4g} within {sigma:.4g}: which mean errs least?"
         slip((heading, sigma), (right, joint), "(heading, sigma)")
         explain((heading, sigma), mistakes, hint, _same)
     return "Twenty pairs of headings, each joined with the weights that make the error least."
@@ -91,7 +91,7 @@ def joined_across(joined: Callable) -> str:
         for before, after in (pair, pair[::-1]):
             heading = ask_numbers(joined, 2, *before, *after)[0]
             if not angle_equal(heading, right):
-                hint = f"{degrees} come out as {math.degrees(heading):.0f} deg."
+                hint = f"{degrees} come out as {math.degrees(heading):.4g} deg."
                 explain(heading, {apart: plain}, hint, angle_equal)
     return "Across due west too, whichever comes first."
 

@@ -178,7 +178,7 @@ static inline void wmr_watch_wheel(wmr_wheel *wheel, WMR_REAL rolled, WMR_REAL d
   }
 }
 
-/* Why a fix can't be used; NONE if it can. It is brought up to now on the way. */
+/* Why a fix can't be used; NONE if it can. On the way, the fix is carried on to now. */
 static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
     const wmr_rules *rules) {
   if (!(WMR_F(fabs)(seen->x) + WMR_F(fabs)(seen->y) + WMR_F(fabs)(seen->heading) <
