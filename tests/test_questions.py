@@ -55,7 +55,7 @@ def test_the_test_has_no_words_that_the_course_brings():
 @pytest.mark.parametrize("question", QUESTIONS, ids=lambda it: it.id)
 def test_a_question_is_short_has_one_right_option_and_a_section_that_answers_it(question):
     chapter = CHAPTERS[question.chapter].read_text(encoding="utf-8")
-    section = re.escape(json.dumps(question.section)[1:-1])
+    section = re.escape(json.dumps(question.section, ensure_ascii=False)[1:-1])
     assert re.search(rf'"#+ {section}(\\n)?"', chapter), question.section
     assert len(question.ask.split()) <= 40
     assert len({as_html(option.text) for option in question.options}) == 5
