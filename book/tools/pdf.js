@@ -37,8 +37,9 @@ window.paper = (() => {
     return said.innerHTML;
   }
   const settled = () => new Promise((done) => setTimeout(done, 60));
-  const shots = (panel) => all('canvas', panel).filter((it) => it.checkVisibility()).map((it) =>
-    [it.toDataURL(), it.getAttribute('aria-label') || 'The panel.', it.clientWidth]);
+  const shots = (panel) => all('canvas', panel).filter((it) => it.checkVisibility()
+      && it.hasAttribute('aria-label')).map((it) =>
+    [it.toDataURL(), it.getAttribute('aria-label')]);
   const knobs = (panel) => all('.wmr-control, .my-row', panel).map((row) => {
     const knob = row.querySelector('select, .wmr-typed, input:not([type=range])');
     return knob && [wordsOf(row.querySelector('span') || row),
@@ -293,6 +294,8 @@ window.paper = (() => {
       if (/:\s*$/.test(it.textContent) || bold?.textContent === it.textContent)
         it.classList.add('leads-on');
     }
+    for (const caption of all('.figure-caption')) // which stays with its figure
+      all('.figure-box', caption.previousElementSibling).at(-1)?.append(caption);
     mend_links();
     const scene = article.querySelector('figure'), whole = article.querySelector('section'), chapters = begins().map((it) =>
       it.nextElementSibling);
@@ -310,7 +313,7 @@ window.paper = (() => {
       const words = title(it).firstChild, numbered = words.data?.match(/^(\d+)\. /);
       if (numbered) {
         words.data = words.data.slice(numbered[0].length);
-        words.before(made('span', 'number', numbered[0]));
+        words.before(made('span', 'number', `${numbered[1]}.\u00a0`));
         it.dataset.number = `${numbered[1]}\u2002`;
       }
     });
@@ -390,10 +393,8 @@ window.paper = (() => {
     for (const number of all('.page-number'))
       number.dataset.guess = Math.ceil(top(document.getElementById(number.dataset.of)) / page) + 1;
     all('[id^="picture-"]').forEach((picture, k) => {
-      const place = document.getElementById(`above-${k}`),
-          caption = picture.closest('.cell')?.nextElementSibling,
-          last = caption?.matches('.figure-caption') ? caption : picture;
-      place.dataset.needs = (last.getBoundingClientRect().bottom - top(place)) / MM;
+      const place = document.getElementById(`above-${k}`);
+      place.dataset.needs = (picture.getBoundingClientRect().bottom - top(place)) / MM;
       place.dataset.high = Math.max(...all('img', picture).map((it) => it.clientHeight)) / MM;
     });
     document.body.style.width = '';

@@ -56,15 +56,13 @@ class Printed:
         faults, matrix = [], FS_MATRIX()
         ends = {page - 1 for page in self.begins.values()} | {1, 2, len(self.book)}
         for number, page in enumerate(self.book, start=1):
-            # The order of the text is that of painting, not of reading: places tell what is on top.
+            # The order of the text is that of painting, not of reading: places tell what is last.
             inside = page.get_textpage()
             text, letters = inside.get_text_range(), []  # height of the line, size, letter
             for place, letter in enumerate(text):
                 if not letter.isspace() and FPDFText_GetMatrix(inside, place, matrix):
                     size = FPDFText_GetFontSize(inside, place) * matrix.d
                     letters += [(round(matrix.f), size, letter)] if FOOT < matrix.f < HEAD else []
-            highest = max(letters, default=(0,))[0]
-            top = "".join(letter for height, _, letter in letters if height == highest)
             rows = (page.render(scale=0.4, grayscale=True).to_numpy() < 210).any(axis=1)
             from_top, to_foot = int(len(rows) * 22 / 260), int(len(rows) * 240 / 260)
             ink = np.flatnonzero(rows[from_top:to_foot]) / (to_foot - from_top)
@@ -74,8 +72,7 @@ class Printed:
                     len(ink) and ink[-1] < FULL and number not in ends
                 ),
                 "a heading at the foot": letters and min(letters)[1] > 13 and number not in ends,
-                "a figure parted from its code": re.match(r"Figure\d+\.\d+\.", top),
-                "text under 8 points": any(size < 7.99 for _, size, _ in letters),
+                "text under 8 points": any(size < 7.9 for _, size, _ in letters),
                 "a gap after the number of a page": re.search(r"\[p\.\s\d+\]\s+[.,;:)]", text),
             }
             faults += [(kind, f"page {number}") for kind, is_so in found.items() if is_so]
