@@ -14,8 +14,6 @@ from importlib.util import find_spec
 from itertools import product
 from pathlib import Path
 
-import wmrlib
-
 # The first is the same without windows, and takes three quarters of the time.
 BROWSERS = (
     "chromium-headless-shell",
@@ -189,7 +187,9 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[dict]:
 
 def save_pictures(states: list[dict], folder: Path) -> None:
     """Put files in the place of the pictures: whoever opens the page often has less to read."""
-    shots = [shot for state in states for part in ("given", "asked") for shot in state.get(part, [])]
+    shots = [
+        shot for state in states for part in ("given", "asked") for shot in state.get(part, [])
+    ]
     for k, shot in enumerate(shots):
         picture = folder / f"still-{k}.png"
         picture.write_bytes(base64.b64decode(shot[0].partition(",")[2]))

@@ -11,7 +11,6 @@ from pathlib import Path
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
-import numpy as np
 from build import MODULES, install_javascript
 
 ROOT = Path(__file__).resolve().parents[2]

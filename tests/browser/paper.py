@@ -20,6 +20,11 @@ def plain(text: str) -> str:
     return " ".join(text.replace("\ufffe", "").split())
 
 
+def letters(text: str) -> str:
+    """Without spaces, which a PDF does not have everywhere, and marks."""
+    return re.sub(r"[\W_]+", "", text)
+
+
 class Printed:
     """A PDF: `pages` has the text of each page, `begins` the first page of each heading."""
 
@@ -30,11 +35,11 @@ class Printed:
             (it.level, plain(it.get_title()), it.get_dest().get_index() + 1)
             for it in self.book.get_toc()
         ]
-        self.begins = {title: page for level, title, page in self.outline if level == 1}
+        self.begins = {letters(it): page for level, it, page in self.outline if level == 1}
 
     def of(self, title: str) -> range:
         """The pages of what begins with this title."""
-        first = self.begins[title]
+        first = self.begins[letters(title)]
         later = [page for page in self.begins.values() if page > first]
         return range(first, min(later, default=len(self.pages) + 1))
 
