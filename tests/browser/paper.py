@@ -46,6 +46,12 @@ class Printed:
     def text(self, title: str) -> str:
         return " ".join(self.pages[page - 1] for page in self.of(title))
 
+    def lines(self, title: str) -> list[str]:
+        """The lines below the heads of what begins with this title."""
+        pages = (self.book[page - 1].get_textpage() for page in self.of(title))
+        boxes = (page.get_text_bounded(top=HEAD, bottom=FOOT) for page in pages)
+        return [line.strip() for box in boxes for line in box.splitlines()]
+
     def fonts(self) -> set[str]:
         names = {name.decode() for name in FONT.findall(self.bytes)}
         return names | ({"drawings"} if b"/Subtype /Type3" in self.bytes else set())
