@@ -98,8 +98,13 @@ def open_page(chromium, page: Path):
     book.add_init_script(DEAD)
     book.goto(page.as_uri(), wait_until="load")
     book.add_style_tag(content=faces() + HERE.with_suffix(".css").read_text(encoding="utf-8"))
-    book.add_script_tag(path=HERE.with_suffix(".js"))
+    add_scripts(book)
     return book
+
+
+def add_scripts(page) -> None:
+    for name in ("pdf_parts.js", "pdf.js"):
+        page.add_script_tag(path=HERE.with_name(name))
 
 
 def settle(chromium, paper: Path, pdf: Path) -> tuple[dict[str, int], dict[str, float]]:
@@ -173,7 +178,7 @@ def picture_panels(chromium, site: Path, places: list[str]) -> list[dict]:
     )
     page.set_default_timeout(PATIENCE)
     page.goto((site / "explorer.html").as_uri(), wait_until="load")
-    page.add_script_tag(path=HERE.with_suffix(".js"))
+    add_scripts(page)
     page.wait_for_function(DRAWN)
     states = []
     for place in places:

@@ -20,6 +20,11 @@ def plain(text: str) -> str:
     return " ".join(text.replace("\ufffe", "").split())
 
 
+def letters(text: str) -> str:
+    """Without spaces, which a PDF does not have everywhere, and marks."""
+    return re.sub(r"[\W_]+", "", text)
+
+
 class Printed:
     """A PDF: `pages` has the text of each page, `begins` the first page of each heading."""
 
@@ -30,16 +35,22 @@ class Printed:
             (it.level, plain(it.get_title()), it.get_dest().get_index() + 1)
             for it in self.book.get_toc()
         ]
-        self.begins = {title: page for level, title, page in self.outline if level == 1}
+        self.begins = {letters(it): page for level, it, page in self.outline if level == 1}
 
     def of(self, title: str) -> range:
         """The pages of what begins with this title."""
-        first = self.begins[title]
+        first = self.begins[letters(title)]
         later = [page for page in self.begins.values() if page > first]
         return range(first, min(later, default=len(self.pages) + 1))
 
     def text(self, title: str) -> str:
         return " ".join(self.pages[page - 1] for page in self.of(title))
+
+    def lines(self, title: str) -> list[str]:
+        """The lines below the heads of what begins with this title."""
+        pages = (self.book[page - 1].get_textpage() for page in self.of(title))
+        boxes = (page.get_text_bounded(top=HEAD, bottom=FOOT) for page in pages)
+        return [line.strip() for box in boxes for line in box.splitlines()]
 
     def fonts(self) -> set[str]:
         names = {name.decode() for name in FONT.findall(self.bytes)}
@@ -56,15 +67,13 @@ class Printed:
         faults, matrix = [], FS_MATRIX()
         ends = {page - 1 for page in self.begins.values()} | {1, 2, len(self.book)}
         for number, page in enumerate(self.book, start=1):
-            # The order of the text is that of painting, not of reading: places tell what is on top.
+            # The order of the text is that of painting, not of reading: places tell what is last.
             inside = page.get_textpage()
             text, letters = inside.get_text_range(), []  # height of the line, size, letter
             for place, letter in enumerate(text):
                 if not letter.isspace() and FPDFText_GetMatrix(inside, place, matrix):
                     size = FPDFText_GetFontSize(inside, place) * matrix.d
                     letters += [(round(matrix.f), size, letter)] if FOOT < matrix.f < HEAD else []
-            highest = max(letters, default=(0,))[0]
-            top = "".join(letter for height, _, letter in letters if height == highest)
             rows = (page.render(scale=0.4, grayscale=True).to_numpy() < 210).any(axis=1)
             from_top, to_foot = int(len(rows) * 22 / 260), int(len(rows) * 240 / 260)
             ink = np.flatnonzero(rows[from_top:to_foot]) / (to_foot - from_top)
@@ -74,8 +83,7 @@ class Printed:
                     len(ink) and ink[-1] < FULL and number not in ends
                 ),
                 "a heading at the foot": letters and min(letters)[1] > 13 and number not in ends,
-                "a figure parted from its code": re.match(r"Figure\d+\.\d+\.", top),
-                "text under 8 points": any(size < 7.99 for _, size, _ in letters),
+                "text under 8 points": any(size < 7.9 for _, size, _ in letters),
                 "a gap after the number of a page": re.search(r"\[p\.\s\d+\]\s+[.,;:)]", text),
             }
             faults += [(kind, f"page {number}") for kind, is_so in found.items() if is_so]

@@ -18,7 +18,7 @@ import pytest
 from faults import PANEL, SIZES, of_page
 from graded import closed, leaks
 from live import PATIENCE, ROOT, as_shown, assert_slider_matters, chapters, pages, sliders
-from paper import Printed
+from paper import Printed, letters
 from pdf import terms
 from test_live import NAMES
 
@@ -28,11 +28,7 @@ pytestmark = [pytest.mark.slow]
 if not os.environ.get("BOOK_HTML"):
     pytestmark.append(pytest.mark.needs("npm"))
 FONT = re.compile(r"(SourceSerif4|SourceSans3|JetBrainsMono|STIXTwoText)\w*(-\w+)?")  # shipped
-CONTROLS = "Play|Commit|Stop|Just show me|Try again|Show the code|Hide the code"
-
-
-def letters(text: str) -> str:
-    return re.sub(r"[\W_]+", "", text)
+CONTROLS = "Play|Commit|Just show me|Try again|Show the code|Hide the code"
 
 
 def test_the_lecturers_build_has_the_guide_and_the_solutions(tmp_path, browser_page):
@@ -69,62 +65,68 @@ def printed(book) -> Printed:
 
 @pytest.mark.needs("browser")
 def test_the_printed_book_is_a_book(site, printed):
-    title, back, contents = *printed.pages[:2], printed.text("Contents")
-    assert all(words in title for words in (conf.project, conf.edition))
+    title, back, contents = *printed.pages[:2], letters(printed.text("Contents"))
+    assert conf.project in title
+    assert conf.edition in title
     assert all(words in back for words in ("CC BY 4.0", "BSD", "Yousif", conf.edition))
     for chapter in chapters():
         number = int(chapter.name[:2])
         heading = nbformat.read(chapter, 4).cells[0].source.splitlines()[0].removeprefix("# ")
         its_pages = printed.of(f"{number}. {heading}")
-        assert f"{number} {heading} {its_pages[0]} " in contents
+        assert letters(f"{number} {heading} {its_pages[0]}") in contents
         for page in its_pages:
             head = f"{number} {heading}" if page % 2 else conf.project
-            assert all(words in printed.pages[page - 1] for words in (head, str(page)))
+            assert head in printed.pages[page - 1]
+            assert str(page) in printed.pages[page - 1]
         assert f"Exercise {number}.1" in printed.text(f"{number}. {heading}")
-    for level, heading, page in printed.outline:
-        if level == 2 and heading not in ("Exercises", "Summary"):
-            assert f"{heading} {page} " in contents, heading
     assert "Bibliography" in printed.begins
     text = " ".join(printed.pages)
     assert not [it for it in closed() if it in text]
     assert re.search(r"\(24\) \[p\. \d+\]", text)  # a reader on paper turns pages
     assert not [name for name in printed.fonts() if not FONT.fullmatch(name)]
     panels = [path.read_text(encoding="utf-8").count(PANEL) for path in pages(site)]
-    assert len(printed.pictures()) > sum(panels) > 5
-    assert min(printed.pictures()) > 3
+    pictures = printed.pictures()
+    assert len(pictures) > sum(panels) > 5
+    assert min(pictures) > 3
     assert not Counter(kind for kind, _ in printed.faults())
 
 
 @pytest.mark.needs("browser")
 def test_what_the_printed_book_lists_stands_where_it_says(printed):
-    captions = re.findall(
-        r"(?<![\d.])(\d+\.\d+) .*?(\d+)(?= \d+\.\d+ | \d+ [A-Z]|$)", printed.text("Figures")
-    )
-    assert len(captions) > 30
-    for number, page in captions:
+    listed = re.findall(r"\b(\d+\.\d+) \D.*? (\d+)(?= \d+\.\d+ \D)", printed.text("Figures"))
+    entries = [re.fullmatch(r"(?:\d+ ?(?=\D))?(.+?) ?(\d+)", it) for it in printed.lines("Contents")]
+    entries = [it for it in entries if it]
+    assert len(entries) > 5 * len(chapters())
+    for heading, page in (it.groups() for it in entries):
+        assert letters(heading) in letters(printed.pages[int(page) - 1]), heading
+    assert len(listed) > 30
+    for number, page in listed:
         assert f"Figure {number}." in printed.pages[int(page) - 1], f"figure {number}"
-    index = printed.text("Index")
-    entries = {
-        term: re.search(rf"(?<![\w,\u2019'-] ){re.escape(term)}((?:, \d+)+)", index)
+    index = "".join(printed.text("Index").split())
+    terms_pages = {
+        term: re.search(rf"(?<=[\dxt]){re.escape(term.replace(' ', ''))}((?:,\d+)+)", index)
         for term, _ in terms()
     }
-    assert len(entries) >= 80
+    assert len(terms_pages) >= 80
     for term, pattern in terms():
-        for page in re.findall(r"\d+", entries[term][1]):
-            said = printed.pages[int(page) - 1].replace("\u2019", "'")
+        for page in re.findall(r"\d+", terms_pages[term][1]):
+            said = printed.pages[int(page) - 1]
             assert re.search(pattern, said, re.IGNORECASE), f"{term}: page {page}"
 
 
 @pytest.mark.needs("browser")
 def test_paper_has_states_and_no_controls_and_answers_at_the_back(printed):
     title = "Answers to the predictions"
-    back, before = printed.text(title), " ".join(printed.pages[: printed.begins[title] - 1])
+    back, before = (
+        printed.text(title),
+        " ".join(printed.pages[: printed.begins[letters(title)] - 1]),
+    )
     asks = [ask for name in NAMES if (ask := getattr(live, name)().setup["ask"])]
     for ask in asks:
         why, question = (letters(as_shown(ask[part])) for part in ("why", "question"))
         assert why in letters(back), ask["name"]
         assert why not in letters(before), ask["name"]
-        assert question[:40] in letters(before), ask["name"]
+        assert question.removesuffix("Turnthearrow")[-30:] in letters(before), ask["name"]
     assert len(re.findall(r"Prediction \d+\.\d+\.", before)) == len(asks)
     assert not re.findall(rf"(?<![\w*])(?:{CONTROLS})(?!\w)", before + back)
 
