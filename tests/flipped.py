@@ -15,7 +15,7 @@ import textwrap
 from types import FunctionType
 
 from wmrbook.questions import MAKERS, Refusal
-from wmrlib import geodesy, kinematics, laws, motion, routes, tuning
+from wmrlib import _filter, geodesy, kinematics, laws, motion, routes, tuning
 
 HEADING = (laws.corrected_law, "+ gains.h * theta", "- gains.h * theta")
 SPEED = (laws.corrected_law, "gains.v_max * decay", "-gains.v_max * decay")
@@ -45,6 +45,7 @@ FLIPS = {  # the question: a formula behind it, what stands there, and what to m
     "bearing-for-heading": (motion.polar_from_pose, "sight - heading", "sight + heading"),
     "at-the-corner": (routes.headings_along, "+ 0.5 * turn", "- 0.5 * turn"),
     "along-a-route": HEADING,
+    "in-the-dock": (_filter.see_heading, "heading - state[2]", "state[2] - heading"),
 }
 
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
-from wmrlib.body import follow, hurry, roll, turn_rate
+from wmrlib.body import follow, hurry, last_turn, roll, turn_rate
 
 GOAL, GENTLE = wmr.Pose(0.0, 0.0, 0.5), wmr.GENTLE_GAINS
 speeds = st.floats(-3.0, 3.0)
@@ -124,6 +124,21 @@ def test_a_least_speed_keeps_the_path_in_continuous_time(start, least):
     assert (np.diff(fast.V) <= 1e-12).all()
 
 
+@settings(max_examples=40, deadline=None)
+@given(st.floats(0.1, 40.0), st.floats(0.3, 30.0), st.floats(-3.1, 3.1), st.floats(0.02, 0.3))
+def test_a_last_turn_either_ends_or_is_refused(gain, most, heading, tolerance):
+    """With a gain above 2 a period each turn overshoots by more than it turned."""
+    dt = 0.1
+    turn = wmr.LastTurn(tolerance, gain, min_rate=0.2, max_rate=most)
+    start, goal = wmr.Pose(0.0, 0.0, heading), wmr.Pose(0.05, 0.0, 0.0)
+    how = {"dt": dt, "arrival_radius": 0.2, "duration": 120.0, "last_turn": turn}
+    if gain * dt >= 2.0 and most * dt > 2.0 * tolerance:
+        with pytest.raises(ValueError, match=r"^last_turn\.gain = .* a period of 0\.1 s, is"):
+            wmr.simulate(start, goal, GENTLE, **how)
+    elif gain * dt < 1.95:  # from 2 down it ends ever later
+        assert wmr.arrival(wmr.simulate(start, goal, GENTLE, **how)).arrived
+
+
 @settings(max_examples=25, deadline=None)
 @given(starts, wheels_of_all_kinds, st.sampled_from([0.5, 1.0, 2.0]))
 def test_the_last_turn_ends_within_its_tolerance_and_at_rest(start, wheels, h):
@@ -162,6 +177,19 @@ def test_a_sweep_of_bodies_is_each_run_alone(poses, wheels, turns):
         np.testing.assert_allclose(paths.x[i, : len(run)], run.x, atol=1e-6)
         np.testing.assert_allclose(paths.omega[i, : len(run)], run.omega, atol=1e-5)
         assert np.isnan(paths.x[i, len(run) :]).all()
+
+
+def test_a_turn_settles_for_whole_periods_and_by_default_is_left_at_two_radii():
+    for settle in (0.3, 0.7, 0.8):  # sums of 0.1 are now above, now below
+        end, turning, periods = wmr.LastTurn(settle=settle), 1.0, 0
+        done = False
+        while not done:
+            *_, turning, done = last_turn(0.1, 0.0, 0.0, 0.0, 0.0, turning, 0.2, 0.1, end)
+            periods += 1
+        assert periods == round(settle / 0.1) + 1
+    for rho, turns in ((0.39, True), (0.41, False)):
+        v, *_ = last_turn(rho, 0.0, 1.0, 0.5, 0.0, 1.0, 0.2, 0.1, wmr.LastTurn())
+        assert (v == 0.0) == turns
 
 
 def test_a_receiver_decides_where_the_last_turn_begins():

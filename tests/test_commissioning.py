@@ -1,6 +1,8 @@
 """What a log tells of a robot, against simulated robots that are known."""
 
 import math
+import re
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -82,3 +84,15 @@ def test_a_steady_drive_does_not_tell_the_latency():
         latency(t, way, t_fix, np.zeros(t_fix.size), 0.1)
     with pytest.raises(ValueError, match="mismatched lengths: t has shape"):
         latency(t, way[1:], t_fix, far, 0.1)
+
+
+def test_the_pages_cells_run_and_its_drive_parks(capsys):
+    page = (Path(__file__).parents[1] / "book" / "commissioning.md").read_text(encoding="utf-8")
+    names = {}
+    for cell in re.findall(r"```{code-cell} ipython3\n(.*?)```", page, re.DOTALL):
+        exec(cell, names)
+    *states, last = capsys.readouterr().out.splitlines()[-5:]
+    assert [line.split()[0] for line in states] == ["wait", "drive", "turn", "parked"]
+    assert last.startswith("parked, ")
+    assert names["far"] < 2.0 * names["told"].radius
+    assert abs(names["off"]) <= names["told"].turn.tolerance

@@ -7,6 +7,7 @@ import pytest
 from driven import ARM, DT, FIRST, NOISE, seen
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.stats import chi2
 
 import wmrlib as wmr
 from wmrlib import estimation
@@ -167,3 +168,8 @@ def test_a_pose_or_a_noise_of_arrays_is_refused():
         estimation.start(wmr.Pose([0.0, 1.0], 0.0, 0.0), 1.0, 0.1)
     with pytest.raises(ValueError, match=r"wheels = .* one number"):
         estimation.predict(FIRST, 1.0, 0.0, 0.0, 0.1, NOISE._replace(wheels=[0.1, 0.2]))
+
+
+@pytest.mark.parametrize(("gate", "numbers"), [(estimation.GATE_1, 1), (estimation.GATE_2, 2)])
+def test_a_gate_lets_999_of_1000_sound_measurements_pass(gate, numbers):
+    assert chi2.cdf(gate, numbers) == pytest.approx(0.999, abs=1e-5)

@@ -39,6 +39,25 @@ def test_the_trajectory_is_that_of_the_state():
     assert (explorer.gains, explorer.dt) == (GAINS, 0.05)
 
 
+def test_wheels_are_in_the_trajectory_while_commands_are_held():
+    wheels = wmr.Wheels(0.4, acceleration=1.0, lag=0.2, dead_band=0.05)
+    explorer = Explorer(wheels=wheels)
+    assert explorer.wheels == wheels
+    theirs = wmr.simulate(explorer.start, explorer.goal, explorer.gains, wheels=wheels,
+                          arrival_radius=0.05)  # fmt: skip
+    np.testing.assert_array_equal(explorer.trajectory().x, theirs.x)
+    circle = Explorer.circle(wheels=wheels)
+    assert wmr.residual(circle.trajectory()) > 0.1
+    explorer.state = explorer.state | {"method": "continuous"}
+    assert explorer.wheels is None
+    assert wmr.arrival(explorer.trajectory()).arrived
+    explorer.wheels = wmr.Wheels(0.3)
+    explorer.state = explorer.state | {"method": "arc"}
+    assert explorer.wheels is None
+    explorer.wheels = wmr.Wheels(0.3, lag=0.1)
+    assert explorer.wheels == wmr.Wheels(0.3, lag=0.1)
+
+
 def test_the_circle_is_followed_with_and_without_feed_forward():
     explorer = Explorer.circle()
     assert explorer.moving
@@ -65,6 +84,13 @@ def test_the_page_says_the_figures_that_its_panel_shows():
     off = abs(math.degrees(end.heading_error))
     assert f"{end.time:.1f} s" in text
     assert f"{off:.0f} deg" in text
+    panel = Explorer(wheels=wmr.Wheels(0.5, acceleration=1.0))
+    assert f"arrive after {wmr.arrival(panel.trajectory()).time:.1f} s" in text
+    panel.gains, times = wmr.GENTLE_GAINS, []
+    for wheels in (panel.wheels, wmr.Wheels(0.5)):
+        panel.wheels = wheels
+        times.append(wmr.arrival(panel.trajectory()).time)
+    assert f"need {times[0] - times[1]:.0f} s more" in text
 
 
 LAWS = str(tuple(POSE_LAWS))[1:-1]
@@ -83,6 +109,9 @@ BAD = [
     ("gains", 3.0, " = 3.0 is not allowed: a Gains is needed"),
     ("gains", wmr.Gains(np.ones(2), 1.0, 1.0), ".k_rho = array([1., 1.]) is not allowed"),
     ("feedback", GAINS, f" = {GAINS!r} is not allowed: a KanayamaGains is needed"),
+    ("wheels", wmr.Wheels(0.5, 2.0), " = Wheels(track_width=0.5, max_speed=2.0"),
+    ("wheels", wmr.Wheels(0.5, lag=-1.0), ".lag = -1.0 is not allowed"),
+    ("wheels", None, " = None is not allowed"),
     ("law", "kanayama", f" = 'kanayama' is not allowed: one of {LAWS} is needed"),
     ("method", "rk4", " = 'rk4' is not allowed: one of 'arc', 'euler', 'continuous' is needed"),
     ("at", -1.0, " = -1.0 is not allowed: a finite number at least 0"),

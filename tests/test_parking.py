@@ -8,7 +8,9 @@ from pathlib import Path
 
 import compiled
 import drive_faults as faults
+import numpy as np
 import pytest
+import world
 from hypothesis import given
 from hypothesis import strategies as st
 
@@ -97,6 +99,7 @@ def goes(drive, pose, seconds, until="", **fields):
     return pose, states
 
 
+ANYWHERE = (-99.0, -99.0, 99.0, 99.0)
 GOAL, START = wmr.Pose(3.0, 0.0, 1.5), wmr.Pose(0.0, 0.0, 0.0)
 KINDS = wmr.Drive, pytest.param(compiled.CDrive, marks=pytest.mark.needs("compiler"))
 
@@ -137,11 +140,11 @@ def test_a_leg_of_the_fixes_is_astray_beyond_an_angle_to_either_side(heading, of
     m, far = trust.Memory(driven=1.0), 4.1
     m.leg = trust.Place(far * math.cos(heading), far * math.sin(heading), heading)
     course = heading + off
-    seen = wmr.Seen(0.05, 0.0, 0.0, x=far * math.cos(course), y=far * math.sin(course))
-    trust.compare(m, seen, wmr.Rules())
+    m.fix = trust.Place(far * math.cos(course), far * math.sin(course))
+    trust.compare(m, wmr.Rules())
     assert m.astray == (abs(off) > 0.8)
     assert not m.slipping
-    assert (m.begin.x, m.leg.y) == (seen.x, seen.y)
+    assert (m.begin.x, m.leg.y) == (m.fix.x, m.fix.y)
 
 
 @pytest.mark.parametrize(
@@ -149,16 +152,101 @@ def test_a_leg_of_the_fixes_is_astray_beyond_an_angle_to_either_side(heading, of
     [({"length": 16.1}, 1), ({"length": 15.9}, 0), ({"turning": 3.1}, 1), ({"turning": 2.9}, 0)],
 )
 def test_a_leg_that_curls_begins_anew(fields, anew):
-    m = trust.Memory(driven=1.0, **fields)
-    trust.compare(m, wmr.Seen(0.05, 0.0, 0.0, x=1.0), wmr.Rules())
+    m = trust.Memory(driven=1.0, fix=trust.Place(1.0), **fields)
+    trust.compare(m, wmr.Rules())
     assert m.begin.x == anew
 
 
-@pytest.mark.parametrize(("gap", "refused"), [(1.7, trust.NONE), (1.9, trust.JUMPED)])
-def test_an_older_fix_may_be_farther_behind(gap, refused):
-    m = trust.Memory(driven=1.0, pace=2.0, since=1.0)  # 1 m, 0.2 m of slip, and 2 m/s for 0.3 s
-    seen = wmr.Seen(0.05, 0.0, 0.0, x=-gap, age=0.3)
-    assert trust.refusal_of(m, seen, wmr.Rules()) == refused
+@pytest.mark.parametrize(("gap", "refused"), [(1.1, trust.NONE), (1.3, trust.JUMPED)])
+def test_a_jump_is_measured_from_where_an_old_fix_is_by_now(gap, refused):
+    m, rules = trust.Memory(driven=1.0, since=1.0), wmr.Rules()  # 1 m, and 0.2 m of slip
+    trust.remember(m.past, 0.6, 0.0, 0.3, rules.oldest)
+    seen = wmr.Seen(0.05, 0.0, 0.0, x=-gap - 0.6, age=0.3)
+    assert trust.refusal_of(m, seen, rules) == refused
+
+
+@given(
+    st.lists(st.tuples(st.floats(0.005, 0.15), st.floats(-1, 1), st.floats(-3, 3)), min_size=1),
+    st.floats(0.0, 1.0),
+    st.floats(0.1, 1.0),
+    st.booleans(),
+)
+def test_an_old_fix_is_carried_on_by_what_the_wheels_rolled_since(rows, share, oldest, steady):
+    """Exactly while they keep a twist; otherwise to within what they turn in a stretch or so."""
+    m, pose = trust.Memory(), START
+    v, omega = rows[0][1:]
+    path, now = [], 0.0
+    for dt, *twist in rows * 20:
+        v, omega = (v, omega) if steady else twist
+        path.append((now, pose, v, omega))
+        pose, now = wmr.advance(pose, v, omega, dt), now + dt
+        trust.remember(m.past, v * dt, omega * dt, dt, oldest)
+    age = min(share * oldest, now)
+    begin, then, *twist = next(row for row in path[::-1] if row[0] <= now - age)
+    then = wmr.advance(then, *twist, now - age - begin)
+    trust.bring_up(m, wmr.Seen(0.05, 0.0, 0.0, **then._asdict(), age=age))
+    off = abs(wmr.wrap_angle(m.fix.heading - pose.heading))
+    assert m.past.since.seconds == pytest.approx(age, abs=1e-9)
+    if steady:
+        assert off < 1e-6
+        assert (m.fix.x, m.fix.y) == pytest.approx((pose.x, pose.y), abs=1e-6)
+    assert off <= 3.0 * (oldest / 6 + 0.15) + 1e-9
+
+
+@pytest.mark.parametrize("late", [0.0, 0.1, 0.3, 0.5])
+def test_honest_drives_with_late_fixes_park(monkeypatch, late):
+    """And as near, whatever the delay; the wheels know what the fixes don't say yet."""
+    rng, rules = np.random.default_rng(1), {"oldest": late + 0.2, "patience": late + 0.4}
+    case = faults.Case("late", {"delay": late}, "parked", 0.3, 0.0, rules=rules, fence=ANYWHERE)
+    for seed in range(15):
+        start, goal = wmr.Pose(0.0, 0.0, rng.uniform(-3, 3)), wmr.Pose(*rng.uniform(-9, 9, 2), 1.0)
+        fake = faults.CASE._replace(start=start, goal=goal)
+        for module in (faults, world):
+            monkeypatch.setattr(module, "CASE", fake)
+        ran = faults.run(case, seed=seed)
+        assert faults.holds(case, ran), (ran[:5], start, goal)
+        assert ran.heading < 0.04
+
+
+@pytest.mark.parametrize("wrong", [{"compass_by_motors": 1.5}, {"clockwise": True}])
+def test_a_wrong_heading_is_told_from_a_late_one(wrong):
+    rules = {"oldest": 0.7, "patience": 0.9}
+    ran = faults.run(faults.Case("", wrong | {"delay": 0.5}, "", 0.0, 0.0, rules=rules))
+    assert ran.end == "stopped: heading disagrees with wheels"
+    assert ran.blind < 2.0
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@given(distance=st.floats(0.25, 1.0), heading=st.floats(-1.2, 1.2), least=st.floats(0.1, 0.8))
+def test_the_least_speed_keeps_the_path_of_the_law(kind, distance, heading, least):
+    """Near its goal, where the law alone would drive more slowly, both wheels hurry alike."""
+    wheels, gains = wmr.Wheels(0.5, min_speed=least), wmr.Gains(0.1, 0.5, 2.0, 1.0)
+    start, goal = wmr.Pose(0.0, 0.0, heading), wmr.Pose(distance, 0.0, 0.4)
+    drive = kind(goal, gains, wheels)
+    while drive.state != "drive":
+        speeds = drive.step(wmr.Seen(0.05, 0.0, 0.0, fresh=1, **start._asdict()))
+    error = wmr.polar_error(start, goal)
+    v, omega = wmr.control_law(*error, gains)
+    hurried = wmr.wheels_to_twist(*speeds, 0.5)
+    assert hurried == pytest.approx([max(1.0, least * math.cos(error.alpha) / v) * each
+                                     for each in (v, omega)])  # fmt: skip
+
+
+@given(st.one_of(st.floats(), st.integers(-3, 9)))
+def test_only_the_qualities_of_a_measured_fix_are_used(quality):
+    seen = wmr.Seen(0.05, 0.0, 0.0, quality=quality)
+    refused = trust.refusal_of(trust.Memory(), seen, wmr.Rules())
+    assert refused == (trust.NONE if 1 <= quality <= 5 else trust.POOR)
+
+
+@given(st.floats(0.1, 60.0), st.floats(0.02, 0.5))
+def test_a_last_turn_that_would_swing_in_the_longest_period_is_refused(gain, period):
+    turn, rules = wmr.LastTurn(gain=gain, max_rate=3.0), wmr.Rules(longest_period=period)
+    if gain * period < 2.0:
+        assert wmr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules).end == turn
+    else:
+        with pytest.raises(ValueError, match=r"^last_turn\.gain = .* a period of "):
+            wmr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules)
 
 
 numbers = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([float("nan"), float("inf"), 1e6]))
@@ -174,7 +262,7 @@ periods = st.builds(
     x=numbers,
     y=numbers,
     heading=numbers,
-    quality=st.sampled_from([4, 4, 4, 0, 6]),
+    quality=st.sampled_from([4, 4, 4, 0, 6]),  # whole numbers in C
     error=st.sampled_from([0.0, 0.5, 2.0, float("nan")]),
     later=st.sampled_from([0.1, 0.1, 0.0, -0.1, float("nan")]),
     age=st.sampled_from([0.05, 0.05, 0.4, -1.0, float("nan")]),
@@ -220,6 +308,9 @@ def test_what_c_has_no_word_for_is_not_printed(text):
         ({"goal": (0, 0, 0)}, "goal"),
         ({"gains": wmr.KanayamaGains(1, 1, 1)}, "gains"),
         ({"wheels": (0.5,)}, "wheels"),
+        ({"wheels": None}, "wheels = None"),
+        ({"last_turn": wmr.LastTurn(leave=np.array([2.0, 3.0]))}, "last_turn.leave"),
+        ({"last_turn": wmr.LastTurn(tolerance=float("nan"))}, "last_turn.tolerance"),
         ({"rules": {}}, "rules"),
         ({"law": "kanayama"}, "law"),
         ({"last_turn": 3}, "last_turn"),

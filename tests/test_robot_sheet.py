@@ -11,7 +11,8 @@ import yaml
 
 import wmrlib as wmr
 from wmrbook import robot_sheet
-from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, files, sheet
+from wmrbook.robot_io import along, at_rest, files
+from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, sheet
 from wmrlib import symbolic
 
 WRONG = {
@@ -78,6 +79,9 @@ def test_a_sheets_numbers_fit_the_robot():
         fastest = gains.v_max**2 * gains.k_rho / 4  # m/s^2, braking on a straight line
         assert fastest <= robot.acceleration
         assert told.turn.max_rate * robot.track_width / 2 <= robot.max_speed
+        wheels = wmr.Wheels(robot.track_width, robot.max_speed, dead_band=robot.dead_band)
+        place = wmr.Pose(told.x, told.y, told.heading)
+        assert wmr.Drive(place, gains, wheels, told.turn).end == told.turn  # it does not swing
         assert told.turn.min_rate * robot.period <= 2 * told.turn.tolerance
 
 
@@ -139,6 +143,24 @@ def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     flat = [*read["gains"].values(), *read["last_turn"].values(), read["track_width"]]
     assert {type(value) for value in flat} == {float}
     assert read["arrival_radius"] == told.radius
+    assert read["oldest_fix"] == pytest.approx(told.oldest)
+    assert read["patience"] == pytest.approx(told.patience)
+
+
+def test_a_track_gives_the_way_and_the_scatter(tmp_path):
+    """Of a made log whose way and errors are known."""
+    errors = np.random.default_rng(2).normal(0.0, 0.4, (2, 4000))
+    base, path = wmr.GeoPoint(lat=-33.1, lon=151.2), tmp_path / "rest.gpx"
+    wmr.write_gpx(path, wmr.point_at(base, *errors))
+    track = wmr.read_track(path)
+    robot = at_rest(Robot(), track)
+    assert robot.sigma == pytest.approx(math.sqrt(errors.var(axis=1).mean()), abs=0.005)
+    assert robot == Robot(sigma=robot.sigma)
+    robot = along(Robot(), track)
+    for name, k in (("start", 0), ("goal", -1)):
+        assert getattr(robot, f"{name}_lat") == track.points.lat[k]
+        assert getattr(robot, f"{name}_lon") == track.points.lon[k]
+    assert robot._replace(**{name: getattr(Robot(), name) for name in robot._fields[:4]}) == Robot()
 
 
 @pytest.mark.needs("compiler")
@@ -156,7 +178,7 @@ int main(void) {
   wmr_local_position_e7(MY_START_E7, MY_GOAL_E7, &goal.x, &goal.y);
   const wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), gains);
   printf("%.9f %.9f %.9f %.9f\\n", twist.v, twist.omega, wmr_turn_rate(0.01, MY_TURN),
-         (double)(K_RHO + GOAL_LAT_E7));
+         (double)(MY_PATIENCE - PATIENCE + MY_OLDEST - OLDEST_FIX));
 }
 """,
         encoding="utf-8",
@@ -167,6 +189,7 @@ int main(void) {
     done = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True)
     told = sheet(robot)
     error = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(told.x, told.y, told.heading))
-    v, omega, rate, _ = map(float, done.stdout.split())
+    v, omega, rate, differ = map(float, done.stdout.split())
+    assert differ == pytest.approx(0.0, abs=1e-6)
     assert (v, omega) == pytest.approx(wmr.control_law(*error, told.gains), rel=1e-4)
     assert rate == told.turn.min_rate

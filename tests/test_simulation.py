@@ -518,6 +518,7 @@ BAD = [
     (LAGGING | {"wheels": wmr.Wheels(1.0, lag=0.1, dead_band=0.1)}, "neither dead_band nor enc"),
     (LAGGING | {"last_turn": wmr.LastTurn()}, "last_turn = .*: None, or method 'arc' or 'euler'"),
     ({"last_turn": wmr.LastTurn(), "arrival_radius": 0.0}, "with an arrival radius, is needed"),
+    ({"last_turn": wmr.LastTurn(leave=np.array([2.0]))}, r"last_turn\.leave = .* one number is"),
     ({"last_turn": wmr.LastTurn(leave=0.9)}, r"last_turn\.leave = 0\.9 .* at least 1 is needed"),
     ({"last_turn": wmr.LastTurn(max_rate=0.1)}, r"max_rate = 0\.1 .*: at least min_rate, 0\.2,"),
     ({"last_turn": wmr.LastTurn(min_rate=0.5)}, r"min_rate = 0\.5 .*: at most two tolerances a st"),

@@ -1,126 +1,111 @@
-"""Each cell of a chapter says which part it plays on the slides, and a deck is made by that."""
+"""Each chapter's deck is written as one: claims, pictures, and what to ask a class."""
 
+import json
 import re
-from collections import Counter
 from pathlib import Path
 
-import nbformat
 import pytest
 import slides
-from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 
-CHAPTERS = sorted((Path(__file__).parent.parent / "notebooks").glob("[0-9][0-9]_*.ipynb"))
-
-
-def kind(cell):
-    return cell.metadata.get("slideshow", {}).get("slide_type")
+NUMBERS = sorted(path.stem for path in (slides.BOOK / "deck").glob("[0-9][0-9].md"))
+NUMBER = re.compile(r"(?<![\w.])\d[\d,]*(?:\.\d+)?(?:e-?\d+)?")
+FORMULA = re.compile(r"\$\$.*?\$\$|\$[^$]+\$", re.DOTALL)
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
-def test_a_chapters_cells_make_slides(path):
-    cells = nbformat.read(path, as_version=4).cells
-    types = [kind(cell) for cell in cells]
-    assert set(types) <= {"slide", "subslide", "fragment", "-", "notes", "skip"}, types
-    assert cells[0].source.startswith("# ")
-    for cell in cells:
-        prose = cell.source if cell.cell_type == "markdown" else ""
-        titles = re.findall(r"^#{1,2} ", prose, re.MULTILINE)
-        assert len(titles) == (kind(cell) == "slide"), cell.source
-        if "### Exercise" in prose:
-            assert prose.count("### Exercise") == 1
-            assert kind(cell) in ("slide", "subslide"), cell.source
-        if kind(cell) == "notes":  # what is derived or computed is for the class to see
-            assert prose, cell.source
-            assert "$$" not in prose, cell.source
-        if "hide-cell" in cell.metadata.get("tags", ()):  # it computes a solution
-            assert kind(cell) == "skip", cell.source
+def source(number):
+    return (slides.BOOK / "deck" / f"{number}.md").read_text(encoding="utf-8")
 
 
-def printed(cells):
-    """The outputs, and the rows of those that are tables, which may go on on the next slide."""
-    for output in (output for cell in cells for output in cell.get("outputs", ())):
-        table = output.get("data", {}).get("text/markdown", "")
-        rows = [line for line in table.splitlines() if line.startswith("|")]
-        yield from rows[2:] or [output]
+def test_each_chapter_has_a_deck():
+    paths = (slides.ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb")
+    assert sorted(path.name[:2] for path in paths) == NUMBERS
 
 
-@pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
-def test_a_deck_shows_all_that_a_chapter_shows_and_each_slide_begins_with_a_title(path):
-    chapter = nbformat.read(path, as_version=4)
-    asked = [cell for cell in chapter.cells if kind(cell) != "skip"]
-    words = said(asked)
-    cells = slides.prepared(chapter).cells
-    words -= Counter(("Exercises", "details", "details", "summary", "summary") * len(asked))
-    assert not words - said(cells), "words that no slide shows"
-    assert [*printed(cells)] == [*printed(asked)]  # their links lead to decks now
-    begins = [count for count, cell in enumerate(cells) if kind(cell) in ("slide", "subslide")]
-    assert len({cell.id for cell in cells}) == len(cells)
-    assert begins[0] == 0
-    for begin, end in zip(begins, [*begins[1:], None], strict=True):
-        heading, *shown = cells[begin:end]
-        assert not any(cell.source.count("$$") % 2 for cell in shown), heading.source
-        outputs = [output for cell in shown for output in cell.get("outputs", ())]
-        assert re.fullmatch(r"#{1,3} \S.*", heading.source)
-        assert sum(slides.shape(it) is not None for it in outputs) <= 1, heading.source
-        for cell in shown:
-            assert cell.cell_type == "code" or cell.source.strip(), heading.source
+@pytest.mark.parametrize("number", NUMBERS)
+def test_a_deck_claims_shows_and_asks(number):
+    title, deck = slides.deck(number)
+    assert 12 <= len(deck) <= 20
+    assert title not in [slide.title for slide in deck]
+    assert len({slide.title for slide in deck}) == len(deck)
+    assert sum(not slide.picture for slide in deck) <= len(deck) / 4
+    assert sum(not slide.picture and "$" not in slide.words for slide in deck) <= 1
+    assert sum('"ask": {' in slide.picture for slide in deck) >= 1  # votes
+    for slide in deck:
+        assert re.match(r"[A-Z\d$]", slide.title), slide.title
+        assert len(slide.title.split()) >= 4, slide.title
+        assert len(slide.title) <= 75, slide.title
+        assert slide.picture or slide.words, slide.title
+        assert slide.words.count("$$") % 2 == 0, slide.title
+        words = FORMULA.sub("x", slide.words).split()
+        assert len(words) <= (35 if slide.picture else 85), slide.title
+        assert re.search(r"\?|Vote|Ask|Let ", slide.notes), slide.title
+        assert "cell" not in re.findall(r"\w+", slide.title + slide.words), slide.title
+        assert not re.search(r"```|>>>", slide.words), slide.title
 
 
-def said(cells):
-    """How often the cells say each word."""
-    text = " ".join(cell.source for cell in cells if cell.cell_type == "markdown")
-    return Counter(re.findall(r"\w+", slides.LINK.sub(r"\1", text)))
+@pytest.mark.parametrize("number", NUMBERS)
+def test_the_numbers_in_a_deck_are_those_of_the_chapters_that_it_shows(number):
+    figures = re.findall(r"^figure: (.*)$", source(number), re.MULTILINE)
+    shown = {number, *(name[:2] for name in figures if name[2] == "/")}
+    known = numbers(" ".join([*map(said, shown), *figures]).replace("=", " "))
+    told = numbers(re.sub(r"^figure: .*$", "", source(number), flags=re.MULTILINE))
+    assert {it for it in told - known if it >= 10 or it % 1} == set()
 
 
-def test_a_deck_has_a_title_its_own_links_and_solutions_as_notes():
-    prose = "See [this](04_lyapunov.ipynb#x), [that](../book/use.md), [there](https://a.org)."
-    begins = {"slideshow": {"slide_type": "slide"}}
-    solution = "\n\n<details><summary>Solution</summary>\n\nTwo.\n\n</details>"
-    table = new_output("display_data", data={"text/markdown": prose})
-    cells = [
-        new_markdown_cell(f"# A title\n\n{prose}", metadata=begins),
-        new_markdown_cell(f"### Exercise 1\n\nOne and one?{solution}", metadata=begins),
-        new_code_cell("1", outputs=[table]),
-    ]
-    deck = slides.prepared(new_notebook(cells=cells))
-    linked = "See [this](04_lyapunov.slides.html), that, [there](https://a.org)."
-    assert deck.metadata["title"] == "A title"
-    assert [cell.source for cell in deck.cells] == [
-        "# A title",
-        linked,
-        "### Exercise 1",
-        "One and one?",
-        "**Solution.** Two.",
-        "1",
-    ]
-    assert deck.cells[-1].outputs[0].data["text/markdown"] == linked
-    assert [kind(cell) for cell in deck.cells[:-1]] == ["slide", "-", "slide", "-", "notes"]
+def numbers(text):
+    return {float(it.replace(",", "")) for it in NUMBER.findall(text)}
 
 
-def test_a_full_slide_goes_on_under_its_title_and_a_heading_alone_is_no_slide():
-    sentence = f"$x$ is so {'very ' * 24}long. "  # 28 words
-    why = f"**Why so.** {sentence * 2}"
-    sources = ("# A", f"## B\n\n{sentence * 3}", why, "## C", "### D\n\nE.")
-    kinds = ("slide", "slide", "fragment", "slide", "subslide")
-    cells = [
-        new_markdown_cell(source, metadata={"slideshow": {"slide_type": name}})
-        for source, name in zip(sources, kinds, strict=True)
-    ]
-    titles = [
-        (cell.source, kind(cell))
-        for cell in slides.prepared(new_notebook(cells=cells)).cells
-        if cell.source.startswith("#")
-    ]
-    assert titles == [
-        ("## B", "slide"),
-        ("## B", "subslide"),
-        ("## B: Why so", "subslide"),
-        ("### D", "slide"),
-    ]
+def said(number):
+    """All that a chapter says in words, prints, and asks."""
+    chapter, texts = slides.chapter(number), []
+    for cell in chapter.cells:
+        texts.append(cell.source)
+        for output in cell.get("outputs", ()):
+            data = output.get("data", {})
+            texts += [output.get("text", ""), data.get("text/plain", "")]
+            texts += [data.get("text/markdown", ""), data.get("text/latex", "")]
+    for model in chapter.metadata.widgets[slides.STATE]["state"].values():
+        setup = model["state"].get("setup", {})
+        told = [setup.get(part) for part in ("ask", "knobs", "sentence")]
+        texts.append(json.dumps(told, ensure_ascii=False))
+    return " ".join(texts)
+
+
+@pytest.mark.parametrize(
+    ("wrong", "message"),
+    [
+        (("no-cell",), "0 pictures at cell 'no-cell': 1 is needed"),
+        (("live-two-bars", "gain=3"), "no knob 'gain', only law, alpha, theta"),
+        (("live-two-bars", "law=none"), "law=none: only nothing, speed, corrected, printed"),
+        (("live-two-bars", "alpha=400"), "alpha=400: not from -180.0 to 180.0"),
+    ],
+)
+def test_a_picture_that_is_not_there_and_a_knob_that_does_not_turn_so_far_are_told(wrong, message):
+    with pytest.raises(SystemExit, match=re.escape(message)):
+        slides.shown("04", *wrong)
+
+
+def test_a_panel_begins_as_its_slide_says_and_leaves_the_chapters_own_alone():
+    panel = slides.shown("04", "live-two-bars", "law=printed", "theta=-90", "open")
+    state = json.loads(re.findall(r">(\{.*?\})</script>", panel)[1])["state"]["it"]["state"]
+    assert state["state"] == {"alpha": 0.0, "guess": None, "law": "printed", "theta": -90.0}
+    assert state["setup"]["ask"] is None
+    again = slides.shown("04", "live-two-bars")
+    assert '"law": "corrected"' in again
+    assert '"ask": {' in again
+
+
+@pytest.mark.parametrize("number", NUMBERS)
+def test_a_lecturers_notes_have_the_exercises_with_their_solutions(number):
+    solved = slides.solved(number)
+    assert solved.count("### Exercise") == solved.count("**Solution.**") == 3
+    assert "<details>" not in solved
+    assert "**Solution.**" not in source(number)
 
 
 def test_a_chapter_that_is_not_there_is_told_before_anything_is_made(tmp_path):
     for wrong in ("7", "99", "OUT", "00_from_gps_to_a_parked_robot"):
         with pytest.raises(SystemExit, match=f"no chapter {wrong}: two digits each, such as 00 04"):
             slides.main(tmp_path / "decks", ["00", wrong])
-    assert not any(tmp_path.iterdir())
+    assert not any(Path(tmp_path).iterdir())

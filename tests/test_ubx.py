@@ -37,10 +37,8 @@ def pvt(k=0, lat=-331000000, fix=3, flags=1, valid=3, bad=0, second=None, size=9
     return frame(KINDS["pvt"], payload.ljust(size, b"\0"))
 
 
-def place(k=0, invalid=0):
-    head = pack("<BBBB", 0, 0, 0, invalid) + pack(
-        "<Iii", 1000 * k + 5000, 441234567, -331000000 + k
-    )
+def place(k=0, invalid=0, lat=-331000000):
+    head = pack("<BBBB", 0, 0, 0, invalid) + pack("<Iii", 1000 * k + 5000, 441234567, lat + k)
     return frame(KINDS["place"], head + pack("<iibbbbII", 0, 0, 89, -12, 0, 0, 123, 0))
 
 
@@ -141,6 +139,44 @@ def test_a_file_without_a_position_says_why(read):
     ]:
         with pytest.raises(ValueError, match=message):
             read(*parts)
+
+
+@given(st.data())
+def test_messages_of_two_receivers_are_never_one_position(tmp_path_factory, data):
+    """With the times of the epochs the same, the first's positions are used, and all is counted."""
+    epochs = []
+    for k in range(3):
+        one = [pvt(k), place(k), baseline(k), dop(k)]
+        other = [pvt(k, lat=-332000000), place(k, lat=-332000000), baseline(k, flags=0)]
+        kept = data.draw(st.lists(st.sampled_from(one[1:]), unique=True))
+        epochs.append([one[0], *data.draw(st.permutations(kept + other))])
+    path = tmp_path_factory.getbasetemp() / "two.ubx"
+    path.write_bytes(b"".join(map(b"".join, epochs)))
+    track = wmr.read_track(path)
+    assert {*np.round(track.points.lat, 9)} <= RIGHT
+    assert len(track) == 3
+    assert np.isnan([track.heading, track.hdop]).all()
+    assert dict(track.report.noted) == {"of an epoch with two receivers, the first's": (3, 0)}
+    lost = sum(count for count, _ in track.report.skipped.values())
+    parts = [part for epoch in epochs for part in epoch]
+    assert lost == len(parts) - 3 - sum(place(k) in epochs[k] for k in range(3))
+
+
+def test_a_message_told_twice_is_used_once(read):
+    track = read(pvt(), pvt(), baseline(), baseline())
+    assert (len(track), track.heading[0]) == (1, pytest.approx(math.radians(123.45678)))
+    assert dict(track.report.skipped) == {"message again": (2, 100)}
+    assert not track.report.noted
+
+
+@pytest.mark.parametrize("sign", [b"\xb5b", b"\xb5b\x01\x07\xff\x7f", b"\xb5b\0\0\xf0\xf0"])
+def test_signs_of_a_message_that_is_none_are_summed_in_one_pass(read, monkeypatch, sign):
+    summed, cumsum = [], np.cumsum
+    monkeypatch.setattr(np, "cumsum", lambda x, **k: summed.append(x.size) or cumsum(x, **k))
+    noise = sign * (600_000 // len(sign))
+    track = read(pvt(), noise, bytes(70_000), pvt(1))
+    assert len(track) == 2
+    assert sum(summed) <= 8 * (len(noise) + 80_000)  # two sums in each of two passes, and windows
 
 
 EPOCHS = [[pvt(k), place(k), dop(k), GGA, OTHER] for k in range(4)]

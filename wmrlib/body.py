@@ -56,7 +56,8 @@ class LastTurn(NamedTuple):
 
     Parameters
     ----------
-    tolerance, gain, min_rate, max_rate, leave : float; rad, 1/s, rad/s, rad/s, no unit
+    tolerance, gain, min_rate, max_rate, leave : float; rad, 1/s, rad/s, rad/s, no unit. With a
+        gain of 2 a period or more the turn would swing for ever.
     settle : float, s. It has arrived once it has stayed within the tolerance for so long. A robot
         that sees its heading late needs as much, and the time in which its wheels stop.
     """
@@ -103,24 +104,32 @@ def in_loops(wheels: Wheels) -> tuple[Wheels, Wheels | None]:
 
 
 def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -> LastTurn | None:
-    """The last turn as floats; ValueError names what is not allowed."""
+    """The last turn for steps of dt; ValueError names what is not allowed."""
     if turn is None:
         return None
-    *fields, leave, settle = instance("last_turn", turn, LastTurn)
-    named = zip(LastTurn._fields, fields, strict=False)
-    turn = LastTurn(*(scalar(f"last_turn.{name}", value, above=0.0) for name, value in named))
-    if leave != math.inf or not isinstance(leave, float):
-        leave = scalar("last_turn.leave", leave, low=1.0)
-    turn = turn._replace(leave=leave, settle=scalar("last_turn.settle", settle, low=0.0))
+    turn = sound_turn(turn, dt)
     if method == "continuous" or not radius:
         needed = "None, or method 'arc' or 'euler' with an arrival radius,"
         raise refusal("last_turn", tuple(turn), needed)
-    if turn.max_rate < turn.min_rate:
-        raise refusal("last_turn.max_rate", turn.max_rate, f"at least min_rate, {turn.min_rate:g},")
     if turn.min_rate * dt > 2.0 * turn.tolerance:  # it would swing to and fro for ever
         most = f"at most two tolerances a step, {2.0 * turn.tolerance / dt:g},"
         raise refusal("last_turn.min_rate", turn.min_rate, most)
     return turn
+
+
+def sound_turn(turn: LastTurn, dt: float) -> LastTurn:
+    """The last turn as floats, if its gain does not swing in periods of up to dt."""
+    *fields, leave, settle = instance("last_turn", turn, LastTurn)
+    named = zip(LastTurn._fields, fields, strict=False)
+    turn = LastTurn(*(scalar(f"last_turn.{name}", value, above=0.0) for name, value in named))
+    if not (isinstance(leave, float) and leave == math.inf):
+        leave = scalar("last_turn.leave", leave, low=1.0)
+    if turn.max_rate < turn.min_rate:
+        raise refusal("last_turn.max_rate", turn.max_rate, f"at least min_rate, {turn.min_rate:g},")
+    if turn.gain * dt >= 2.0 and turn.max_rate * dt > 2.0 * turn.tolerance:
+        most = f"less than {2.0 / dt:g}, 2 a period of {dt:g} s,"
+        raise refusal("last_turn.gain", turn.gain, most)
+    return turn._replace(leave=leave, settle=scalar("last_turn.settle", settle, low=0.0))
 
 
 @formula

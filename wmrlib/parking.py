@@ -11,7 +11,7 @@ from typing import NamedTuple
 from wmrlib import trust
 from wmrlib._checks import choice, instance, refusal, scalar
 from wmrlib._elementary import wrap
-from wmrlib.body import LastTurn, Wheels, checked_wheels, hurry, turn_rate
+from wmrlib.body import LastTurn, Wheels, checked_wheels, hurry, sound_turn, turn_rate
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS, saturation_scale
@@ -93,7 +93,8 @@ class Drive:
 
     Raises
     ------
-    ValueError : another type, an unknown law, or a last turn too slow for the dead band
+    ValueError : another type, an unknown law, or a last turn that is too slow for the dead band or
+        whose gain swings in periods of `rules.longest_period`
 
     Examples
     --------
@@ -122,13 +123,16 @@ class Drive:
         self.goal = Pose(*map(float, instance("goal", goal, Pose)))
         fields = instance("gains", gains, Gains)._asdict()
         self.gains = Gains(*(scalar(f"gains.{name}", value) for name, value in fields.items()))
-        self.wheels, self.rules = checked_wheels(wheels), instance("rules", rules, Rules)
+        self.wheels = checked_wheels(instance("wheels", wheels, Wheels))
+        self.rules = instance("rules", rules, Rules)
         self.law = choice("law", law, [name for name, row in LAWS.items() if row.gains is Gains])
-        self.end = LastTurn(tolerance=0.0) if last_turn is None else last_turn
-        slowest = 0.5 * instance("last_turn", self.end, LastTurn).min_rate * wheels.track_width
-        if last_turn and slowest <= wheels.dead_band:
-            needed = f"more than {2.0 * wheels.dead_band / wheels.track_width:g}, the dead band's,"
-            raise refusal("last_turn.min_rate", last_turn.min_rate, needed)
+        self.end = LastTurn(tolerance=0.0)
+        if last_turn is not None:
+            self.end = sound_turn(last_turn, self.rules.longest_period)
+            least = 2.0 * self.wheels.dead_band / self.wheels.track_width
+            if self.end.min_rate <= least:
+                needed = f"more than {least:g}, the dead band's,"
+                raise refusal("last_turn.min_rate", self.end.min_rate, needed)
         self.reset()
 
     def reset(self) -> None:

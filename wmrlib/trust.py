@@ -7,12 +7,13 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, field
-from math import atan2, cos, sin
+from math import atan2
 from typing import NamedTuple
 
 from wmrlib._checks import checked
-from wmrlib._elementary import distance, sinc, wrap
+from wmrlib._elementary import distance, wrap
 from wmrlib.body import Wheels
+from wmrlib.odometry import Past, Place, carry, copy_place, look_back, remember
 
 STATES = "wait", "drive", "turn", "parked", "stopped"
 WAIT, DRIVE, TURN, PARKED, STOPPED = range(len(STATES))
@@ -29,6 +30,7 @@ class Rules(NamedTuple):
     arrival_radius : float, m. There it parks, or begins the last turn.
     patience : float, s since the last usable fix; then it stops, and waits.
     oldest, largest_error : float; s, m. A fix that is older, or says that it is worse, is not used.
+        Give `oldest` the usual delay of your receiver and 0.2 s more, `patience` two fixes more.
     settle : int. So many good fixes in a row let it drive.
     jump, slip : float; m, no unit. Nor is one used that is farther than jump from where the wheels
         can be; they may err by the share slip of what they rolled.
@@ -92,15 +94,6 @@ class Seen(NamedTuple):
 
 
 @dataclass(slots=True)
-class Place:
-    """A pose that odometry carries on."""
-
-    x: float = 0.0
-    y: float = 0.0
-    heading: float = 0.0
-
-
-@dataclass(slots=True)
 class Wheel:
     """A wheel: its command and its speed due [m/s], and what is due and what it rolled [m]."""
 
@@ -126,7 +119,8 @@ class Memory:
     silence: float = 0.0  # s since the last usable fix
     good: int = 0  # usable fixes in a row
     refused: int = NONE  # why the last fix was not used
-    pace: float = 0.0  # m/s
+    past: Past = field(default_factory=Past)
+    fix: Place = field(default_factory=Place)  # the last one, brought up to now
     since: float = 0.0  # m rolled since the last usable fix
     x: float = 0.0  # of the last fix, usable or not
     y: float = 0.0
@@ -146,17 +140,11 @@ class Memory:
     faced: float = 0.0  # s of these
 
 
-def carry(place: Place, ahead: float, turn: float) -> None:
-    """Move a place on along the arc that the wheels rolled."""
-    chord = ahead * sinc(0.5 * turn)
-    place.x += chord * cos(place.heading + 0.5 * turn)
-    place.y += chord * sin(place.heading + 0.5 * turn)
-    place.heading = wrap(place.heading + turn)
-
-
-def set_place(place: Place, seen: Seen) -> None:
-    """Take a fix's word for a place."""
-    place.x, place.y, place.heading = seen.x, seen.y, seen.heading
+def bring_up(m: Memory, seen: Seen) -> None:
+    """Carry a fix on by what the wheels rolled since it was true."""
+    look_back(m.past, seen.age)
+    m.fix.x, m.fix.y, m.fix.heading = seen.x, seen.y, seen.heading
+    carry(m.fix, m.past.since.ahead, m.past.since.turn)
 
 
 def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wheels) -> None:
@@ -176,37 +164,39 @@ def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wh
 
 
 def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
-    """Why a fix can't be used; NONE if it can."""
+    """Why a fix can't be used; NONE if it can. On the way, the fix is carried on to now."""
     if not (abs(seen.x) + abs(seen.y) + abs(seen.heading) < 1e9 and abs(seen.age) < 1e9):
         return BROKEN
-    if seen.quality < 1 or seen.quality > 5 or not seen.error <= rules.largest_error:
+    measured = seen.quality >= 1 and seen.quality <= 5
+    if not measured or not seen.error <= rules.largest_error:
         return POOR
     if seen.age > rules.oldest or seen.age < 0.0:
         return LATE
+    bring_up(m, seen)
     if not seen.later > 0.0:
         return STALE
     if m.still > rules.frozen:
         return FROZEN
-    gap = distance(seen.x - m.pose.x, seen.y - m.pose.y)
-    if gap > rules.jump + rules.slip * m.since + m.pace * seen.age:
+    gap = distance(m.fix.x - m.pose.x, m.fix.y - m.pose.y)
+    if gap > rules.jump + rules.slip * m.since:
         return JUMPED
-    if abs(wrap(seen.heading - m.leg.heading)) > rules.astray and m.driven > 0.0:
+    if abs(wrap(m.fix.heading - m.leg.heading)) > rules.astray and m.driven > 0.0:
         return TURNED
     return NONE
 
 
-def compare(m: Memory, seen: Seen, rules: Rules) -> None:
+def compare(m: Memory, rules: Rules) -> None:
     """Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew."""
     east, north = m.leg.x - m.begin.x, m.leg.y - m.begin.y
-    x, y = seen.x - m.begin.x, seen.y - m.begin.y
+    x, y = m.fix.x - m.begin.x, m.fix.y - m.begin.y
     rolled = distance(east, north)
     if rolled >= rules.course:
         m.slipping = distance(x, y) < 0.5 * rolled
         m.astray = abs(atan2(east * y - north * x, east * x + north * y)) > rules.astray
     curls = m.length > 4.0 * rules.course or m.turning > 3.0
     if rolled >= rules.course or curls or m.driven == 0.0:
-        set_place(m.begin, seen)
-        set_place(m.leg, seen)
+        copy_place(m.begin, m.fix)
+        copy_place(m.leg, m.fix)
         m.length, m.turning = 0.0, 0.0
 
 
@@ -223,8 +213,8 @@ def read(m: Memory, seen: Seen, rules: Rules) -> None:
     if m.refused == NONE or first:
         m.good += 1
         m.silence, m.since, m.outside = seen.age, 0.0, not seen.inside
-        set_place(m.pose, seen)
-        compare(m, seen, rules)
+        copy_place(m.pose, m.fix)
+        compare(m, rules)
 
 
 def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
@@ -237,9 +227,9 @@ def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     if m.regular:
         watch_wheel(m.left, left, dt, rules, wheels)
         watch_wheel(m.right, right, dt, rules, wheels)
-        m.pace = abs(ahead) / dt
     carry(m.pose, ahead, turn)
     carry(m.leg, ahead, turn)
+    remember(m.past, ahead, turn, dt, rules.oldest)
     m.since += abs(ahead)
     m.still += abs(ahead)
     m.length += abs(ahead)

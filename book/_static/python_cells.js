@@ -296,6 +296,7 @@
     cell.code = input.firstElementChild;
     const folded = input.closest('details');
     input.after(cell.tools);  // which fold with it
+    folded?.querySelector('summary .collapsed')?.append(', runs here');
     (folded && cell.element.contains(folded) ? folded : cell.tools).after(cell.output);
     cells.push(cell);
     if (cell.name) edit(cell);
@@ -305,7 +306,7 @@
   document.addEventListener('DOMContentLoaded', () => {
     document.querySelectorAll('script.python-cell').forEach(enliven);
     const about =
-        ' Cells with a Run button run in this page too; the others need numpy or compiled code.';
+        ' Code that “runs here” runs in this page too; the rest needs numpy or compiled code.';
     if (cells.some((it) => it.space === 'chapter'))
       document.querySelector('.run-it')?.append(about);
     const keys = 'Ctrl+Enter runs it. Tab indents; Esc and then Tab leaves.';

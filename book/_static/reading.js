@@ -9,17 +9,18 @@ addEventListener('DOMContentLoaded', () => {
   if (folds.length && place) {
     const button = Object.assign(document.createElement('button'),
         { type: 'button', className: 'all-code', textContent: 'Show all code' });
+    let shown = false;
     const turn = (open) => {
+      shown = open;
+      button.textContent = open ? 'Fold all code' : 'Show all code';
       for (const fold of folds) fold.open = open;
-      button.setAttribute('aria-pressed', open);
     };
     button.addEventListener('click', () => {
-      const open = button.getAttribute('aria-pressed') !== 'true';
-      keep(open ? 'shown' : 'folded');
-      turn(open);
+      turn(!shown);
+      keep(shown ? 'shown' : 'folded');
     });
     place.append(' ', button);
-    turn(kept() === 'shown');
+    if (kept() === 'shown') turn(true); // an answer's cell is open anyhow
   }
 
   const LETTERS = { '1D70C': 'rho', '1D6FC': 'alpha', '1D703': 'theta', '210E': 'h', '1D449': 'V' };

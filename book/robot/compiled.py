@@ -8,10 +8,11 @@ import subprocess
 import tempfile
 from functools import cache
 from pathlib import Path
-from typing import get_type_hints
+from typing import get_args, get_type_hints
 
 import wmrlib as wmr
 from wmrlib import parking, symbolic, trust
+from wmrlib.odometry import PAST, Place
 
 _CALL = """#include "wmr_drive.h"
 void step(wmr_memory *m, const wmr_seen *seen, const wmr_plan *plan, WMR_REAL *out) {
@@ -25,10 +26,11 @@ REALS = {"double": ctypes.c_double, "float": ctypes.c_float}
 def _structure(kind, real):
     """A class of wmrlib as the structure that the header has for it."""
     plain = {float: real, int: ctypes.c_int}
-    fields = [
-        (name, plain.get(hint) or _structure(hint, real))
-        for name, hint in get_type_hints(kind).items()
-    ]
+    fields = []
+    for name, hint in get_type_hints(kind).items():
+        (one,) = get_args(hint) or (hint,)
+        field = plain.get(one) or _structure(one, real)
+        fields.append((name, field if one is hint else field * PAST))
     return type(kind.__name__, (ctypes.Structure,), {"_fields_": fields})
 
 
@@ -40,12 +42,12 @@ def _library(real: str, law: str) -> tuple:
         raise RuntimeError("this needs a C compiler (Debian: apt install gcc libc6-dev)")
     kinds = {
         kind: _structure(kind, number)
-        for kind in (trust.Memory, wmr.Seen, trust.Place, wmr.Wheels, wmr.LastTurn, wmr.Rules)
+        for kind in (trust.Memory, wmr.Seen, Place, wmr.Wheels, wmr.LastTurn, wmr.Rules)
     }
     gains = type(
         "Gains", (ctypes.Structure,), {"_fields_": [(k, number) for k in wmr.Gains._fields]}
     )
-    parts = trust.Place, wmr.Wheels, wmr.LastTurn, wmr.Rules
+    parts = Place, wmr.Wheels, wmr.LastTurn, wmr.Rules
     names = "goal", "motors", "end", "rules"
     fields = [(name, kinds[part]) for name, part in zip(names, parts, strict=True)]
     fields.insert(1, ("gains", gains))

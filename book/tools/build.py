@@ -180,7 +180,8 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
     hidden = shutil.ignore_patterns(".*", "__pycache__")
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=hidden)
     stored = [BOOK / f"{name}.json" for name in ("classroom", "faults", "lawn", "speed")]
-    for page in (*BOOK.glob("*.md"), *stored):
+    pages = (page for page in BOOK.glob("*.md") if page.name != "design.md")
+    for page in (*pages, *stored):
         shutil.copy(page, source)
     if lecturer:
         shutil.copytree(BOOK / "course" / "source", source / "course" / "source")  # for its table

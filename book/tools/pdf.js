@@ -63,7 +63,8 @@ window.paper = (() => {
     return list;
   }
 
-  // Where a term is explained, in a heading or in other type, or else where a chapter first says it.
+  // Where a term is explained, in a heading or in other type, or else where a chapter first
+  // says it.
   function index(terms) {
     const back = made('section', 'matter index-on-paper', '<h3>Index</h3><div></div>');
     back.id = 'index';
@@ -105,7 +106,8 @@ window.paper = (() => {
       }
       back.lastChild.append(row);
     });
-    if (lost.length) throw new Error(`The book does not say what its index has: ${lost.join(', ')}.`);
+    if (lost.length)
+      throw new Error(`The book does not say what its index has: ${lost.join(', ')}.`);
     return back;
   }
 
@@ -119,7 +121,9 @@ window.paper = (() => {
       chapter.style.page = `p${k}`;
       const says = quoted((chapter.dataset.number || '') + wordsOf(title(chapter)));
       return `@page p${k} { @top-left { ${head} } @top-right { ${head} } }
-        @page p${k}:left { @top-left { content: counter(page) } @top-right { content: ${quoted(book)} } }
+        @page p${k}:left {
+          @top-left { content: counter(page) } @top-right { content: ${quoted(book)} }
+        }
         @page p${k}:right { @top-left { content: ${says} } @top-right { content: counter(page) } }`;
     });
     document.head.append(made('style', '', ''));
@@ -154,7 +158,8 @@ window.paper = (() => {
     for (const caption of all('.figure-caption')) // which stays with its figure
       all('.figure-box', caption.previousElementSibling).at(-1)?.append(caption);
     mend_links();
-    const scene = article.querySelector('figure'), whole = article.querySelector('section'), chapters = begins().map((it) =>
+    const scene = article.querySelector('figure'), whole = article.querySelector('section');
+    const chapters = begins().map((it) =>
       it.nextElementSibling);
     const preface = made('section', 'chapter', '<h3>Preface</h3>');
     preface.id = 'preface';
@@ -164,7 +169,8 @@ window.paper = (() => {
     all('h2', preface).forEach((it) => it.replaceWith(made('h4', '', it.innerHTML)));
     chapters.forEach((it) => {
       it.classList.add('chapter');
-      const deeper = 3 - Number(title(it).tagName[1]); // a page may have sections above its chapters
+      // a page may have sections above its chapters
+      const deeper = 3 - Number(title(it).tagName[1]);
       for (const each of deeper ? all('h2, h3, h4, h5', it) : [])
         each.replaceWith(made(`h${Number(each.tagName[1]) + deeper}`, '', each.innerHTML));
       const words = title(it).firstChild, numbered = words.data?.match(/^(\d+)\. /);
@@ -224,7 +230,8 @@ window.paper = (() => {
       for (;;) {
         const before = first.previousElementSibling;
         if (before?.matches('h4, h5, .leads-on')) first = before;
-        else if (!before && first.parentElement.matches('section section')) first = first.parentElement;
+        else if (!before && first.parentElement.matches('section section'))
+          first = first.parentElement;
         else break;
       }
       const place = made('div', '');
@@ -243,7 +250,8 @@ window.paper = (() => {
       number.textContent = number.closest('.lines, .indexed') ? `${page}` : `[p. ${page}]`;
     }
     for (const [id, height] of Object.entries(heights))
-      all('img', document.getElementById(id)).forEach((it) => { it.style.maxHeight = `${height}mm`; });
+      for (const it of all('img', document.getElementById(id)))
+        it.style.maxHeight = `${height}mm`;
     for (const row of all('.index-on-paper p')) { // each page once
       const seen = new Set();
       for (const link of all('.indexed', row)) {

@@ -75,7 +75,8 @@ window.parts = (() => {
   // ---- the book ---------------------------------------------------------------------------------
   const letter = (k) => `(${String.fromCharCode(97 + k)})`;
   function pictures(shown, words) {
-    const figure = made('figure', shown.length === 1 ? 'alone' : 'pair', '<div class="panes"></div>');
+    const kind = shown.length === 1 ? 'alone' : 'pair';
+    const figure = made('figure', kind, '<div class="panes"></div>');
     for (const [src, alt] of shown)
       figure.firstChild.append(Object.assign(new Image(), { src, alt }));
     if (words) figure.append(made('figcaption', '', words));

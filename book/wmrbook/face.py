@@ -41,13 +41,11 @@ FONTS = {
 # The files that pages carry, from npm's @fontsource: family, weights, styles, folder, parts.
 FILES = (
     ("Source Serif 4", "200 900", "normal italic", "-variable/source-serif-4", "latin-wght"),
-    ("Source Serif 4", "200 900", "normal", "-variable/source-serif-4", "greek-wght"),
-    ("Source Sans 3", "200 900", "normal italic", "-variable/source-sans-3", "latin-wght"),
+    ("Source Sans 3", "200 900", "normal", "-variable/source-sans-3", "latin-wght"),
     ("Source Sans 3", "200 900", "normal", "-variable/source-sans-3", "greek-wght"),
     ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "latin-wght"),
-    ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "greek-wght"),
-    ("STIX Two Text", "400", "normal italic", "/stix-two-text", "latin-400"),
-    ("STIX Two Text", "400", "normal italic", "/stix-two-text", "greek-400"),
+    ("STIX Two Text", "400", "italic", "/stix-two-text", "latin-400"),
+    ("STIX Two Text", "400", "italic", "/stix-two-text", "greek-400"),
 )
 
 

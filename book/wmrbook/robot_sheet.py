@@ -6,8 +6,6 @@
 from __future__ import annotations
 
 import math
-import re
-from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -23,8 +21,8 @@ NEW = 5.0  # s: what is new of the receiver's error after that long sets the rad
 NEAREST = 0.05  # m: no radius is smaller
 MOVES = 1.25  # times the dead band a wheel surely turns
 COARSE = 0.35  # rad: a last turn that is coarser is none
+MARGIN = 0.2  # s: a fix may be so much older than usual
 FAR = 1000.0  # m
-FILES = Path(__file__).with_name("robot_files")
 RUNS, SEED, SHARE = 400, 14, 0.95
 GOLDEN = (math.sqrt(5.0) - 1.0) / 2.0  # spreads the first headings evenly
 COMPASS = 2  # the stream of random numbers that compasses err by
@@ -97,6 +95,8 @@ class Sheet(NamedTuple):
     min_speed: float
     turn: wmr.LastTurn
     duration: float
+    oldest: float  # of a drive's `Rules`, as `patience`
+    patience: float
 
 
 class Certificate(NamedTuple):
@@ -173,7 +173,10 @@ def sheet(robot: Robot) -> Sheet:
     turn = wmr.LastTurn(tolerance, gain, min_rate, max_rate, settle=settle)
     heading, longest = wmr.wrap_angle(math.radians(90.0 - robot.bearing)), wmr.longest_step(gains)
     duration = math.ceil(60.0 + 2.0 * travel)
-    return Sheet(x, y, heading, apart, gains, radius, longest, min_speed, turn, duration)
+    oldest = robot.delay + MARGIN
+    patience = oldest + 2 * max(robot.fix_period, robot.period)
+    told = x, y, heading, apart, gains, radius, longest, min_speed, turn, duration
+    return Sheet(*told, oldest, patience)
 
 
 def sure(runs: int) -> int:
@@ -225,28 +228,3 @@ def certificate(robot: Robot, runs=RUNS, seed=SEED, spread=0.5) -> Certificate:
 
 def _rms(values: np.ndarray) -> float:
     return math.sqrt(np.mean(values**2)) if values.size else math.inf
-
-
-def number(value: float) -> str:
-    """Six digits, and a point: C and YAML take 2 for a whole number."""
-    text = f"{float(f'{value:.6g}'):.10f}".rstrip("0")
-    return text + "0" if text.endswith(".") else text
-
-
-def templates() -> dict[str, str]:
-    """The texts of the files, by name, in which @name@ stands for a number."""
-    return {path.name: path.read_text(encoding="utf-8") for path in sorted(FILES.iterdir())}
-
-
-def files(robot: Robot) -> dict[str, str]:
-    """The files for the robot, by name: for C, for Arduino, and parameters for ROS 2."""
-    told = sheet(robot)
-    numbers = robot._asdict() | told._asdict() | told.gains._asdict() | told.turn._asdict()
-    words = {name: number(value) for name, value in numbers.items() if np.isscalar(value)}
-    for name in ("start_lat", "start_lon", "goal_lat", "goal_lon"):
-        words[f"{name}_e7"] = f"{math.floor(1e7 * numbers[name] + 0.5)}"
-        words[name] = f"{numbers[name]:.7f}"
-    return {
-        name: re.sub("@([a-z0-9_]+)@", lambda match: words[match[1]], text)
-        for name, text in templates().items()
-    }

@@ -18,6 +18,8 @@ from wmrbook.panel.kit import sources
 
 POSE_SLIDERS = ("k_rho", "k_alpha", "h", "v_max", "dt", "arrival_radius")
 CIRCLE_SLIDERS = ("k_x", "k_y", "k_heading")
+WHEELS = ("track_width", "acceleration", "lag", "dead_band")
+LAZY = wmr.Wheels(0.4, acceleration=1.0, lag=0.2, dead_band=0.06)
 HANDLES = [(pose, part) for pose in ("start", "goal") for part in ("move", "turn")]
 SIZES = [(320, 700), (390, 844), (688, 672), (936, 672), (1004, 779), (1890, 1040)]
 
@@ -92,8 +94,12 @@ def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_soun
     for explorer, names in (
         (Explorer(), POSE_SLIDERS),
         (Explorer.circle(law="kanayama"), CIRCLE_SLIDERS),
+        (Explorer(wheels=LAZY, gains=wmr.GENTLE_GAINS), WHEELS),
     ):
         panel = mounted(emptied_page, explorer)
+        if names == WHEELS:
+            assert not panel.slider("lag").is_visible()
+            emptied_page.get_by_text("Wheels", exact=True).click()
         for name in names:
             picture, figures = panel.picture(), panel.figures()
             for end, key in zip(ends(name), ("Home", "End"), strict=True):
@@ -106,6 +112,16 @@ def test_every_slider_changes_the_picture_and_the_figures_and_both_ends_are_soun
                 assert_sound(panel)
                 picture, figures = panel.picture(), panel.figures()
             panel.set(**{name: explorer.state[name]})
+
+
+def test_continuous_motion_hides_the_wheels_and_knows_none(emptied_page):
+    panel = mounted(emptied_page, Explorer(wheels=LAZY))
+    fold, figures = emptied_page.get_by_text("Wheels", exact=True), panel.figures()
+    assert fold.is_visible()
+    panel.put("method", "continuous")
+    assert not fold.is_visible()
+    assert panel.figures() != figures
+    assert not panel.troubled()
 
 
 def test_every_choice_of_every_menu_changes_the_picture_and_the_figures(emptied_page):
@@ -499,6 +515,8 @@ RUNS = [
     Explorer(wmr.Pose(1.0, -2.0, 3.0), law="printed", method="euler", duration=7.5),
     Explorer.circle(law="aicardi"),
     Explorer.circle(law="kanayama", dt=0.05),
+    Explorer(wheels=LAZY),
+    Explorer.circle(wheels=wmr.Wheels(0.3, lag=0.2)),
 ]
 
 

@@ -76,6 +76,10 @@ def flat_map(values, found, data) -> None:
     lat, lon = np.radians([point.lat - origin.lat, point.lon])
     there = data["radius"] * np.array([lon * math.cos(math.radians(origin.lat)), lat])
     assert flat == pytest.approx(there, rel=1e-9, abs=1e-7)
+    step = math.degrees(values["km"] / data["radius"])
+    ahead = wmr.GeoPoint(lat=point.lat + step, lon=point.lon)
+    x, y = np.subtract(wmr.local_position(origin, ahead), on_sphere)
+    assert found["leans"] == pytest.approx(math.atan2(-x, y), abs=1e-6)
 
 
 def commutator(values, found, data) -> None:
@@ -200,12 +204,20 @@ def bench(values, found, data) -> None:
 
 
 def late(values, found, data) -> None:
-    delays = (values["delay"] * (values["which"] != each) for each in ("heading", "position"))
-    path, time = noise.late_drive(*delays)
-    assert found["run"]["time"] == (pytest.approx(time) if time < math.inf else None)
-    shown = min(len(path.x), 300)  # later a robot that swings for ever magnifies what is rounded
-    np.testing.assert_allclose(found["run"]["x"][:shown], path.x[:shown], atol=AGREES)
-    np.testing.assert_allclose(found["run"]["y"][:shown], path.y[:shown], atol=AGREES)
+    for k, run in enumerate(found["runs"]):
+        delays = [0.0, 0.0]
+        delays[k] = values["delay"]
+        path, time = noise.late_drive(*delays)
+        assert run["time"] == (pytest.approx(time) if time < math.inf else None)
+        shown = min(len(path.x), 300)  # later a robot that swings for ever magnifies rounding
+        x, y, heading = np.transpose(run["poses"])
+        np.testing.assert_allclose(x[:shown], path.x[:shown], atol=AGREES)
+        np.testing.assert_allclose(y[:shown], path.y[:shown], atol=AGREES)
+        back, now = round(values["delay"] / noise.DT), run["now"]
+        then = max(now - back, 0)
+        believed = (x[then], y[then], heading[now]) if k == 0 else (x[now], y[now], heading[then])
+        if now < len(run["seen"]):
+            assert run["old"] == pytest.approx(believed)
 
 
 def threshold(values, found, data) -> None:

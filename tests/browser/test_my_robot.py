@@ -3,6 +3,9 @@
 from __future__ import annotations
 
 import math
+from functools import reduce
+from operator import xor
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -11,9 +14,13 @@ pytest.importorskip("anywidget", reason="the panel needs anywidget")
 from faults import axe
 from host import mounted
 
+import wmrlib as wmr
 from wmrbook.panel import MyRobot
-from wmrbook.robot_sheet import RECEIVERS, RUNS, Robot, certificate, files, sheet, sure
+from wmrbook.robot_io import along, at_rest, files
+from wmrbook.robot_sheet import RECEIVERS, RUNS, Robot, certificate, sheet, sure
 
+DATA = Path(__file__).parents[2] / "notebooks" / "data"
+STATE = "() => panel.get('state')"
 DONE = "() => document.querySelector('.my-robot').dataset.done === 'true'"
 FOUND = """() => { const { ends, ...found } = document.querySelector('.my-robot').found;
     const columns = ['place', 'heading'].map(name => [name, ends.map(it => it[name])]);
@@ -61,7 +68,8 @@ def test_the_page_says_what_python_says(emptied_page, robot):
     given = found["sheet"]
     for name in ("x", "y", "heading", "distance", "radius", "longest_step", "min_speed"):
         assert given[name] == pytest.approx(getattr(told, name), abs=1e-7), name
-    assert given["duration"] == told.duration
+    for name in ("duration", "oldest", "patience"):
+        assert given[name] == getattr(told, name), name
     assert given["gains"] == pytest.approx(told.gains._asdict())
     assert given["turn"] == pytest.approx(told.turn._asdict())
     assert found["files"] == files(robot)
@@ -121,6 +129,64 @@ def test_a_hand_fills_in_fields_and_takes_the_files(emptied_page):
             emptied_page.get_by_role("button", name=f"Save {name}").click()
         assert saved.value.suggested_filename == name
         assert saved.value.path().read_text(encoding="utf-8") == text
+
+
+def sentence(body):
+    return f"${body}*{reduce(xor, body.encode()):02X}"
+
+
+def log_of_all_kinds():
+    """A drive south-west of Greenwich's equator, with epochs of which no place is to be used."""
+    gga = "GPGGA,{},0012.{:05d},S,00101.5,W,{},08,1.0,1,M,1,M,,"
+    rmc = "GNRMC,{},A,0012.{:05d},S,00101.5,W,0,0,010326,,,A"
+    rows = [
+        gga.format("120000.00", 30000, 0),
+        rmc.format("120000.00", 31000),  # the GGA denies it
+        rmc.format("120001.00", 32000),
+        gga.format("120001.00", 33000, 4),  # first
+        gga.format("120002.00", 34000, 6),
+        "GNGNS,120003.00,0012.35000,S,00101.5,W,AN,10,1,1,1,,",
+        "GPGLL,0012.36000,S,00101.5,W,120004.00,A,A",
+        "GPGGA,120005.00,0012.37,S,00191.5,W,1,08,1.0,1,M,1,M,,",  # 91 minutes
+        rmc.format("120006.00", 38000).replace(",A,0012", ",V,0012"),
+        "GPGLL,0012.39000,S,00101.6,W,120007.00,A",  # last
+        gga.format("120008.00", 40000, 8),
+        gga.format("", 41000, 1),
+    ]
+    lines = [sentence(row) for row in rows]
+    lines += [f"# {sentence(gga.format('120009.00', 42000, 1))}"]
+    lines += [sentence(gga.format("120010.00", 43000, 1))[:-2] + "00"]
+    return "\r\n".join(lines) + "\r\n"
+
+
+def test_a_log_fills_in_the_way_and_the_scatter(emptied_page, tmp_path):
+    """As wmrlib reads it, with the same files at rest and the same way."""
+    opened(emptied_page)
+    made = tmp_path / "made.nmea"
+    made.write_bytes(log_of_all_kinds().encode())
+    assert len(wmr.read_track(made)) == 4
+    for path in (made, *DATA.glob("ublox*")):
+        track = wmr.read_track(path)
+        for label, filled in (("from the log of a drive", along), ("from a log at rest", at_rest)):
+            emptied_page.get_by_label(label).set_input_files(path)
+            said = f"{path.name}: {len(track)} fixes"
+            emptied_page.wait_for_function(
+                "said => document.querySelector('.my-heard').textContent === said", arg=said
+            )
+            wanted, given = filled(Robot(), track)._asdict(), emptied_page.evaluate(STATE)
+            changed = [name for name, value in Robot()._asdict().items() if wanted[name] != value]
+            assert changed
+            for name in changed:
+                assert given[name] == pytest.approx(
+                    wanted[name], rel=5.1e-4 * (name == "sigma"), abs=6e-8
+                ), name
+            emptied_page.evaluate("() => document.querySelector('.my-heard').textContent = ''")
+    none = tmp_path / "none.nmea"
+    none.write_text("$GPGGA,nothing*00")
+    before = emptied_page.evaluate(STATE)
+    emptied_page.get_by_label("from a log at rest").set_input_files(none)
+    emptied_page.get_by_text("none.nmea: no NMEA sentence").wait_for()
+    assert emptied_page.evaluate(STATE) == before
 
 
 @pytest.mark.parametrize("width", [320, 390, 1366, 1920])

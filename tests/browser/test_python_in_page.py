@@ -48,6 +48,7 @@ def told(page, number: int) -> str:
 
 
 def press(page, number: int, name: str) -> None:
+    page.evaluate("document.querySelectorAll('details').forEach(it => { it.open = true; })")
     tools = page.locator(".python-tools").nth(number)
     tools.get_by_role("button", name=name).click(timeout=PATIENCE)
 

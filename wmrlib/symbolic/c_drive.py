@@ -6,25 +6,32 @@ import ast
 import inspect
 import textwrap
 from pathlib import Path
-from typing import get_type_hints
+from typing import get_origin, get_type_hints
 
-from wmrlib import parking, trust
+from wmrlib import odometry, parking, trust
 from wmrlib.body import LastTurn, Wheels
 
 C_DRIVE = Path(__file__).parent / "c" / "wmr_drive.h"
 _FRAME = C_DRIVE.with_name("drive_frame.h")
 _COLUMNS = 88
-_KINDS = {float: "WMR_REAL", int: "int", type(None): "void", trust.Place: "wmr_pose"}
+_KINDS = {float: "WMR_REAL", int: "int", type(None): "void", odometry.Place: "wmr_pose"}
 _KINDS |= {LastTurn: "wmr_last_turn", Wheels: "wmr_motors", trust.Wheel: "wmr_wheel"}
 _KINDS |= {kind: f"wmr_{kind.__name__.lower()}" for kind in (trust.Rules, trust.Seen, trust.Memory)}
-_STRUCTS = Wheels, LastTurn, trust.Rules, trust.Seen, trust.Wheel, trust.Memory
-_OWN = [value for value in vars(trust).values() if inspect.isfunction(value)]
-_OWN = [value for value in _OWN if value.__module__ == trust.__name__]
+_KINDS |= dict.fromkeys((odometry.Stretch, list[odometry.Stretch]), "wmr_stretch")
+_KINDS[odometry.Past] = "wmr_past"
+_STRUCTS = [Wheels, LastTurn, trust.Rules, trust.Seen, trust.Wheel]
+_STRUCTS += [odometry.Stretch, odometry.Past, trust.Memory]
+_OWN = {
+    name: value
+    for module in (odometry, trust)
+    for name, value in vars(module).items()
+    if inspect.isfunction(value) and value.__module__ == module.__name__
+}
 _CALLS = {"min": "WMR_F(fmin)", "max": "WMR_F(fmax)", "abs": "WMR_F(fabs)"}
 _CALLS |= {name: f"WMR_F({name})" for name in ("cos", "sin", "atan2")}
 _SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.And: "&&", ast.Or: "||"}
 _SIGNS |= {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
-_SIGNS |= {ast.Not: "!", ast.USub: "-"}
+_SIGNS |= {ast.Not: "!", ast.USub: "-", ast.Mod: "%"}
 
 
 def code_name(words: str) -> str:
@@ -51,6 +58,9 @@ class _C(ast.NodeVisitor):
         pointed = isinstance(node.value, ast.Name) and node.value.id in self.pointers
         return f"{self.visit(node.value)}{'->' if pointed else '.'}{node.attr}"
 
+    def visit_Subscript(self, node):
+        return f"{self.visit(node.value)}[{self.visit(node.slice)}]"
+
     def visit_BinOp(self, node):
         left = self.visit(node.left) if self._binds(node.left, node) else self._part(node.left)
         right, same = node.right, isinstance(node.op, ast.Add | ast.Mult)
@@ -61,8 +71,9 @@ class _C(ast.NodeVisitor):
     def _binds(inner, outer):
         """Whether it needs no brackets within a sum or a product."""
         tight = ast.Mult | ast.Div
+        loose = not isinstance(outer.op, tight | ast.Mod)
         return isinstance(inner, ast.BinOp) and (
-            isinstance(inner.op, tight) or not isinstance(outer.op, tight)
+            loose or (isinstance(inner.op, tight) and not isinstance(outer.op, ast.Mod))
         )
 
     def visit_BoolOp(self, node):
@@ -86,11 +97,11 @@ class _C(ast.NodeVisitor):
 
     def visit_Call(self, node):
         name = node.func.id
-        if name not in {own.__name__ for own in _OWN}:
+        if name not in _OWN:
             return f"{_CALLS.get(name, f'wmr_{name}')}({', '.join(map(self.visit, node.args))})"
         given = [
             f"&{self.visit(arg)}"
-            if isinstance(arg, ast.Attribute) and self._is_structure(name, k)
+            if isinstance(arg, ast.Attribute | ast.Subscript) and self._is_structure(name, k)
             else self.visit(arg)
             for k, arg in enumerate(node.args)
         ]
@@ -98,12 +109,14 @@ class _C(ast.NodeVisitor):
 
     @staticmethod
     def _is_structure(name, place):
-        kinds = list(get_type_hints(getattr(trust, name)).values())
+        kinds = list(get_type_hints(_OWN[name]).values())
         return kinds[place] not in (float, int)
 
     def _part(self, node):
         text = self.visit(node)
-        simple = isinstance(node, ast.Name | ast.Constant | ast.Attribute | ast.Call)
+        simple = isinstance(
+            node, ast.Name | ast.Constant | ast.Attribute | ast.Subscript | ast.Call
+        )
         return text if simple else f"({text})"
 
 
@@ -134,6 +147,10 @@ def _statement(node: ast.stmt, c: _C, indent: str) -> list[str]:
             other = [line for each in node.orelse for line in _statement(each, c, inner)]
             other = [f"{indent}}} else {{", *other] if other else []
             return [f"{indent}if ({c.visit(node.test)}) {{", *body, *other, f"{indent}}}"]
+        case ast.For(target=ast.Name(id=k), iter=ast.Call(func=ast.Name(id="range"), args=[end])):
+            body = [line for each in node.body for line in _statement(each, c, inner)]
+            head = f"{indent}for (int {k} = 0; {k} < {c.visit(end)}; {k} += 1) {{"
+            return [head, *body, f"{indent}}}"]
     raise NotImplementedError(f"{ast.unparse(node)} has no counterpart in C here")
 
 
@@ -162,7 +179,10 @@ def _wrapped(line: str) -> str:
 
 def _structure(kind) -> str:
     hints = get_type_hints(kind).items()
-    fields = " ".join(f"{_KINDS[hint]}\xa0{name};" for name, hint in hints)
+    many = f"[{code_name('past')}]"
+    fields = " ".join(
+        f"{_KINDS[hint]}\xa0{name}{many if get_origin(hint) else ''};" for name, hint in hints
+    )
     return _wrapped(f"typedef struct {{ {fields} }} {_KINDS[kind]};")
 
 
@@ -188,10 +208,11 @@ def c_drive() -> str:
     )
     said = [f'    "{reason}"' for reason in parking.REASONS]
     places = {
-        "NAMES": "\n".join(_wrapped(f"enum {{ {', '.join(each)} }};") for each in names),
+        "NAMES": "\n".join(_wrapped(f"enum {{ {', '.join(each)} }};") for each in names)
+        + f"\nenum {{ {code_name('past')} = {odometry.PAST} }};",
         "STRUCTURES": "\n".join(map(_structure, _STRUCTS)),
         "USUAL": " \\\n".join(_wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
-        "FUNCTIONS": "\n".join(_function(each) for each in _OWN),
+        "FUNCTIONS": "\n".join(_function(each) for each in _OWN.values()),
         "TABLE": "\n".join(map(_row, parking.TABLE)),
         "REASONS": ",\n".join(said),
     }

@@ -64,7 +64,7 @@ DARK = dict(face.COLOURS.values()) | {
     "#f7c9a8": "#7a3f12",
 }
 for _path in files("font_source_sans_pro").joinpath("files").iterdir():
-    if _path.name in ("SourceSansPro-Regular.ttf", "SourceSansPro-Semibold.ttf"):
+    if re.fullmatch(r"SourceSansPro-(Regular|It|Semibold|Bold)\.ttf", _path.name):
         font_manager.fontManager.addfont(str(_path))
 LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room

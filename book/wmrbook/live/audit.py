@@ -94,12 +94,12 @@ def rising() -> Live:
         here = rho, math.radians(alpha), math.radians(theta)
         return bool(lyapunov_rate(*here, gains, law="printed", L=L) > 0.0)
 
-    heavy = 1e-3  # m^2
+    heavy, away = 1e-3, 0.35  # m^2, m
     answers = {
-        "It rises here too, and so nothing is mended.": rises(0.35, heavy),
-        "It falls here, and everywhere nearer to the goal.": not rises(0.35, heavy)
+        "It rises here too, and so nothing is mended.": rises(away, heavy),
+        "It falls here, and everywhere nearer to the goal.": not rises(away, heavy)
         and not rises(1e-6, heavy),
-        "It falls here, and rises nearer to the goal.": not rises(0.35, heavy)
+        "It falls here, and rises nearer to the goal.": not rises(away, heavy)
         and rises(1e-6, heavy),
     }
     return Live(
@@ -109,13 +109,16 @@ def rising() -> Live:
         {
             "alpha": Knob(alpha, -180.0, 180.0, 5.0, "alpha, degrees", "°", "alpha"),
             "theta": Knob(theta, -180.0, 180.0, 5.0, "theta, degrees", "°", "theta"),
-            "rho": Knob(0.35, 0.001, 1.0, None, "the distance, rho", "m", "rho"),
+            "rho": Knob(away, 0.001, 1.0, None, "the distance, rho", "m", "rho"),
             "L": Knob(1.0, 0.001, 10.0, None, "L: a small one lets the distance count", "m²", "L"),
         },
-        data={"gains": gains._asdict()},
+        data={
+            "gains": gains._asdict(),
+            "asked": {"alpha": alpha, "theta": theta, "rho": away},
+        },
         ask=Ask(
             "choose",
-            "With L = 1 m², V rises under (24) as printed where the goal is 0.35 m away and 45° to "
+            "With L = 1 m², V rises under (24) as printed 0.35 m from the goal, which lies 45° to "
             "the left, with theta = 0. Now let the distance count a thousand times as much in V: "
             "L = 0.001 m². What does V do?",
             "The distance's part of V' fades with the square of the distance, whatever its weight. "
@@ -130,6 +133,6 @@ def rising() -> Live:
             ),
             asked=({"L": 0.001},),
         )
-        if rises(0.35, 1.0)
+        if rises(away, 1.0)
         else None,
     )

@@ -36,7 +36,7 @@ def lag() -> Live:
         {
             "k_rho": Knob(gains.k_rho, 1.0, 8.0, 0.1, "pull of the goal, k_rho", "1/m", "k_rho"),
             "v_max": Knob(gains.v_max, 2.0, 8.0, 0.1, "top speed, v_max", "m/s", "v_max"),
-            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far round", label="driven", plays=8.0),
+            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far round", label="driven", plays=16.0),
         },
         data={
             "start": list(paper.CIRCLE_START),

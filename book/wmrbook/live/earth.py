@@ -56,12 +56,15 @@ def flat_map() -> Live:
     return Live(
         "flat_map",
         "At latitude {lat} a flat map puts a point {km} to the north-east {off} from where "
-        "distance and bearing put it.",
+        "distance and bearing put it. True north leans {leans} there from the map's.",
         {
             "km": Knob(DISTANCES[0] / 1000, 0.01, 1000.0, None, "distance", "km", label="distance"),
             "lat": Knob(round(here.lat), 0.0, 75.0, 1.0, "latitude", "°", label="latitude"),
         },
-        data={"radius": EARTH_RADIUS_M},
+        data={
+            "radius": EARTH_RADIUS_M,
+            "asked": {"km": DISTANCES[0] / 1000, "lat": round(here.lat)},
+        },
         ask=Ask(
             "choose",
             f"Over {DISTANCES[0]:.0f} m the flat map is {1000 * known:.1f} mm off. And over "

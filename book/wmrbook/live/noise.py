@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live, between
+from wmrbook.live.parts import Ask, Knob, Live, between
 from wmrlib import (
     Pose,
     Receiver,
@@ -110,34 +110,35 @@ def left_over(sigma: float, memory: float, **faults: float) -> tuple[float, floa
 
 
 def bench() -> Live:
-    """Where robots stand in the end whose receiver errs and is late, and whose wheel slips."""
+    """How robots drive up and park whose receiver errs and is late, and whose wheel slips."""
     start, goal = last_ten_metres()
     far, turned = zip(*(left_over(0.5, memory) for memory in (WHITE, 300.0)), strict=True)
     options = {
-        "Those with the new errors stand nearer and look straighter.": (True, True),
-        "Those with the new errors stand nearer; the others look straighter.": (True, False),
-        "Those with the lasting error stand nearer and look straighter.": (False, False),
-        "Those with the lasting error stand nearer; the others look straighter.": (False, True),
+        "Those with new errors stop nearer and face better": (True, True),
+        "Those with new errors stop nearer; the others face better": (True, False),
+        "Those with a lasting error stop nearer and face better": (False, False),
+        "Those with a lasting error stop nearer; the others face better": (False, True),
     }
     return Live(
         "bench",
         f"{ROBOTS} robots, each with a receiver that errs by {{sigma}}, remembers it for "
         "{memory} and is {late} late; the right wheel loses {slip} of its motion. Half of them "
-        "stand within {far} of the goal, and half within {turned} of its heading{driving}.",
+        "park within {far} of the goal, and half within {turned} of its heading{driving}.",
         {
-            "sigma": Knob(0.5, 0.0, 2.0, 0.05, "the receiver's error, sigma", "m", "sigma"),
-            "memory": Knob(WHITE, WHITE, 1000.0, None, "the memory of the error", "s", "T"),
-            "late": Knob(0.0, 0.0, 1.0, 0.1, "how late the position comes", "s", "tau"),
+            "sigma": Knob(0.5, 0.0, 2.0, 0.05, "the receiver's error", "m", label="error"),
+            "memory": Knob(
+                WHITE, WHITE, 1000.0, None, "how long the error lasts", "s", label="it lasts"
+            ),
+            "late": Knob(0.0, 0.0, 1.0, 0.1, "how late the position comes", "s", label="late by"),
             "slip": Knob(0.0, 0.0, 20.0, 1.0, "what the right wheel loses", "%", label="slip"),
+            "time": Knob(1.0, 0.0, 1.0, 0.02, "how far they have driven", label="drive", plays=8),
         },
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS)
         | {"track": TRACK, "robots": ROBOTS, "steps": STEPS, "seed": SEED},
         ask=Ask(
             "choose",
-            "Some robots see through receivers whose error of 0.5 m is new in each fix, ten times "
-            "a second. The error of the others is as large and lasts five minutes. Both stop when "
-            f"they believe they are within {RADIUS:g} m of the goal. Which stop nearer to it, and "
-            "whose heading is better?",
+            "Receivers err by 0.5 m, anew in each fix or alike for five minutes. Which robots "
+            "stop nearer to the goal, and which face its heading better?",
             "While the radius is well below the error, a slow robot averages what changes quickly, "
             "and what lasts moves the place. In the last metres what changes swings the line of "
             "sight, and with it the heading.",
@@ -167,41 +168,40 @@ def late_drive(position: float, heading: float) -> tuple[Pose, float]:
 
 
 def late() -> Live:
-    """A position that comes late, or a heading: one of them the robot bears."""
+    """Two robots race: one sees its position late, the other its heading."""
     start, goal, *_ = paper.outdoor()
     delay = 0.6
     position, heading = (math.isfinite(late_drive(*each)[1]) for each in ((delay, 0), (0, delay)))
     options = {
-        "It arrives in both cases.": (True, True),
-        "It arrives if only its position is late.": (True, False),
-        "It arrives if only its heading is late.": (False, True),
-        "It arrives in neither case.": (False, False),
+        "Both": (True, True),
+        "Only the one whose position is late": (True, False),
+        "Only the one whose heading is late": (False, True),
+        "Neither": (False, False),
     }
-    parts = {"position": "position", "heading": "heading", "both": "pose"}
     return Live(
         "late",
-        "The {which} comes {delay} late. The robot {end}.",
+        "Both robots have gentle gains. One sees its position {delay} late and {position}; the "
+        "other sees its heading that late and {heading}.",
         {
-            "delay": Knob(delay, 0.0, 1.5, 0.1, "how late it comes", "s", "tau"),
-            "which": Choice("heading", parts, "what is late"),
+            "delay": Knob(delay, 0.0, 1.5, 0.1, "how late it is", "s", label="late by"),
+            "time": Knob(1.0, 0.0, 1.0, 0.005, "how far through the race", label="race", plays=12),
         },
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS, lost=LOST),
         ask=Ask(
             "choose",
-            "A robot with gentle gains, at up to 4 m/s. Its position is 0.6 s late, or else its "
-            "heading is. Does it come to its goal, 58 m away, within a minute?",
+            "Two robots drive at up to 4 m/s. One sees its position 0.6 s late, the other its "
+            "heading. Which of them come to the goal, 58 m away, within a minute?",
             "The heading turns as fast as the law steers, so an old one makes it steer too far, "
             "and back: it comes in on a long spiral, or never. Far away the line of sight hardly "
             "turns, so an old position does harm only near the goal.",
             key=[*options.values()].index((position, heading)),
             options=(*options,),
             wrong=(
-                "A late heading lets it steer too far, and back, for longer than a minute.",
+                "An old heading lets it steer too far, and back, for longer than a minute.",
                 "",
                 "It is the other way round: far away the line of sight hardly turns, so an old "
                 "position does little harm there.",
                 "An old position does harm only near the goal, where the line of sight turns.",
             ),
-            asked=({"which": "position"},),
         ),
     )

@@ -17,7 +17,13 @@ SLIDERS = {
     "k_heading": ("k_heading [1/m]", "steering against the heading error", 0.0, 10.0, 0.1),
     "dt": ("dt [s]", "time from one command, or sample, to the next", 0.01, 1.0, None),
     "arrival_radius": ("arrival [m]", "how near the goal the robot stops", 0.01, 1.0, None),
+    "track_width": ("track_width [m]", "from wheel to wheel", 0.1, 2.0, 0.05),
+    "acceleration": ("acceleration [m/s²]", "of a wheel at most; 0: any", 0.0, 5.0, 0.1),
+    "lag": ("lag [s]", "with which a wheel follows", 0.0, 1.0, 0.02),
+    "dead_band": ("dead_band [m/s]", "a wheel that is told less stands", 0.0, 0.5, 0.01),
 }
+FOLDED = {"Wheels": ("track_width", "acceleration", "lag", "dead_band")}
+"""Sliders that are out of sight until their group is opened."""
 PANEL_LAWS: list[dict[str, Any]] = [
     {
         "name": name,

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
-from wmrbook.panel.controls import MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS, laws_for
+from wmrbook.panel.controls import FOLDED, MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS, laws_for
 from wmrbook.panel.kit import Panel
 from wmrlib import paper
 from wmrlib._checks import choice, instance, refusal, scalar
+from wmrlib.body import Wheels, checked_wheels
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS
@@ -49,6 +51,8 @@ class Explorer(Panel):
     feedback : KanayamaGains
     view : "time" or "gains", the gain landscape.
     at : float or None, s: where on the run the panel opens; by default at 30 % of it.
+    wheels : Wheels with a track width, an acceleration, a lag and a dead band; by default ideal
+        ones. Continuous motion knows none.
     zoom : float or None, m round the goal that the picture opens on; by default the whole path.
 
     Raises
@@ -72,6 +76,7 @@ class Explorer(Panel):
         view: str = "time",
         at: float | None = None,
         zoom: float | None = None,
+        wheels: Wheels = Wheels(0.5),  # noqa: B008 (it can't change)
     ):
         moving = _moves(reference)
         outdoor = paper.outdoor()
@@ -94,6 +99,7 @@ class Explorer(Panel):
             "axes": "k_alpha",
             "time": None if at is None else scalar("at", at, low=0.0),
             "zoom": None,
+            **_rolling(wheels),
         }
         if zoom is not None:
             middle = paper.circle(at or 0.0)[:2] if moving else home["goal"][:2]
@@ -102,7 +108,8 @@ class Explorer(Panel):
         menus = [(name, *row, [*choices.items()]) for name, (*row, choices) in MENUS.items()]
         sliders = [(name, *row) for name, row in SLIDERS.items()]
         setup = {"home": home, "presets": _presets(), "laws": PANEL_LAWS}
-        super().__init__("explorer", home, setup | {"sliders": sliders, "menus": menus})
+        setup |= {"sliders": sliders, "menus": menus, "folded": [*FOLDED.items()]}
+        super().__init__("explorer", home, setup)
 
     def __repr__(self) -> str:
         return f"Explorer(law={self.law!r}, method={self.state['method']!r})"
@@ -116,6 +123,18 @@ class Explorer(Panel):
     feedback = _tuned("feedback", KanayamaGains, "The same for the law with feed-forward.")
     start = _placed("start", "Where the robot starts; setting it moves its handle.")
     goal = _placed("goal", "The goal that stands still; setting it moves its handle.")
+
+    @property
+    def wheels(self) -> Wheels | None:
+        """The wheels that the sliders show, None if they are ideal or the motion continuous."""
+        width, most, lag, dead = (self.state[name] for name in FOLDED["Wheels"])
+        shown = Wheels(width, acceleration=most or math.inf, lag=lag, dead_band=dead)
+        ideal = shown == Wheels(width) or self.state["method"] == "continuous"
+        return None if ideal else shown
+
+    @wheels.setter
+    def wheels(self, wheels: Wheels) -> None:
+        self._set(_rolling(wheels))
 
     dt = property(
         lambda self: self.state["dt"],
@@ -132,6 +151,7 @@ class Explorer(Panel):
     def trajectory(self) -> Trajectory:
         """The run that the panel shows, by `wmrlib.simulate` or `wmrlib.track`."""
         how = {name: self.state[name] for name in ("law", "method", "dt", "duration")}
+        how["wheels"] = self.wheels
         if self.moving:
             gains = self.gains if LAWS[self.law].gains is Gains else self.feedback
             return track(paper.circle, self.start, gains, **how)
@@ -160,6 +180,15 @@ def _three(name: str, pose: Pose) -> list[float]:
 def _numbers(name: str, value, kind: type) -> dict[str, float]:
     fields = instance(name, value, kind)._asdict()
     return {f: scalar(f"{name}.{f}", each, low=-1e6, high=1e6) for f, each in fields.items()}
+
+
+def _rolling(wheels: Wheels) -> dict[str, float]:
+    """The wheels as sliders have them, where an acceleration of 0 stands for any."""
+    given = checked_wheels(instance("wheels", wheels, Wheels))
+    fields = {name: getattr(given, name) for name in FOLDED["Wheels"]}
+    if given != Wheels(**fields):
+        raise refusal("wheels", wheels, f"nothing but {', '.join(fields)}")
+    return fields | {"acceleration": 0.0 if given.acceleration == math.inf else given.acceleration}
 
 
 def _presets() -> list[dict]:

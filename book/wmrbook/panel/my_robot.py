@@ -5,7 +5,7 @@ It computes in the page, by `kit/sheet.js`; `wmrbook.robot_sheet` is its twin.
 
 from __future__ import annotations
 
-from wmrbook import robot_sheet
+from wmrbook import robot_io, robot_sheet
 from wmrbook.panel.kit import Panel
 from wmrbook.robot_sheet import BOUNDS, RECEIVERS, Robot
 from wmrlib import EARTH_RADIUS_M, LastTurn, gains_for, longest_step
@@ -34,7 +34,7 @@ GROUPS = {
         "compass": "error of the compass, sigma",
     },
 }
-NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "far", "golden")
+NUMBERS = ("spare", "brake", "nearest", "moves", "coarse", "margin", "far", "golden")
 NUMBERS += ("compass", "runs", "seed", "share")
 
 
@@ -54,7 +54,7 @@ class MyRobot(Panel):
         groups = [[title, [*fields.items()]] for title, fields in GROUPS.items()]
         setup = {"groups": groups, "receivers": [*RECEIVERS.items()], "rules": rules}
         state = {name: float(value) for name, value in (robot or Robot())._asdict().items()}
-        super().__init__("my_robot", state, setup | {"files": robot_sheet.templates()})
+        super().__init__("my_robot", state, setup | {"files": robot_io.templates()})
 
     robot = property(lambda self: Robot(**self.state), doc="What is filled in now.")
 

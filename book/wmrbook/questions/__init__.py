@@ -1,4 +1,4 @@
-"""Twenty-five concept questions on chapters 0 to 12, for votes in class and as a test.
+"""Twenty-six concept questions on chapters 0 to 12 and 14, for votes in class and as a test.
 
 One source makes three things: slides to vote by (`book/tools/slides.py --questions`), a form that
 works from the disk on a telephone (`python -m wmrbook.questions form`), and, of the lines that come

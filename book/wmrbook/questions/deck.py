@@ -12,16 +12,12 @@ from wmrbook.figures.scenes import names_of_angles, scene_of
 from wmrbook.figures.style import Picture
 from wmrbook.questions import LETTERS, Question
 
-ANGLES = r"""## What the letters mean
-
-- $\rho$: how far the goal is
+ANGLES = r"""- $\rho$: how far the goal is
 - $\alpha$: from the robot's heading to the line of sight
 - $\theta$: from the goal's heading to it; $\beta = -\theta$
 - left is positive: here $\alpha < 0$, $\theta > 0$
 """
-GAINS = r"""## The law, and its gains
-
-$$ v = v_{\max}(1 - e^{-k_\rho\rho})\cos\alpha, \qquad
+GAINS = r"""$$ v = v_{\max}(1 - e^{-k_\rho\rho})\cos\alpha, \qquad
 \omega = k_\alpha\alpha + \frac{v}{\rho}\,\frac{\sin\alpha}{\alpha}\,(\alpha + h\theta) $$
 
 - $v_{\max}$: the speed limit, in m/s
@@ -33,26 +29,22 @@ $$ v = v_{\max}(1 - e^{-k_\rho\rho})\cos\alpha, \qquad
 TITLE = "From two GPS points to a parked robot: questions to vote on"
 
 
-def slides(questions: tuple[Question, ...]) -> Iterator[tuple[str, str | Picture]]:
-    """Yield (type, content) of each cell: a slide type, and Markdown or a picture."""
-    yield "slide", f"# {TITLE}\n\nVote alone, talk to your neighbour, vote again. Then watch."
-    yield "slide", ANGLES
-    yield "-", names_of_angles()
-    yield "slide", GAINS
+def slides(questions: tuple[Question, ...]) -> Iterator[tuple[str, str, Picture | None, str]]:
+    """Yield each slide's title, its words and notes as Markdown, and its picture."""
+    yield TITLE, "Vote alone, talk to your neighbour, vote again. Then watch.", None, ""
+    yield "What the letters mean", ANGLES, names_of_angles(), ""
+    yield "The law, and its gains", GAINS, None, ""
     for number, question in enumerate(questions, start=1):
         options = "\n".join(f"<li>{option.text}</li>" for option in question.options)
         ask = f"{question.ask}\n\n<ol type='A'>\n{options}\n</ol>"
-        yield "slide", f"## {number}. {question.title}\n\n{ask}"
-        if scene := scene_of(question.id):
-            yield "-", scene
+        yield f"{number}. {question.title}", ask, scene_of(question.id), ""
         wrong = "\n".join(
             f"- {letter}: {option.mistake}"
             for letter, option in zip(LETTERS, question.options, strict=True)
             if option.mistake
         )
         right = dict(zip(LETTERS, question.options, strict=True))[question.key].text
-        answer = f"## {number}. {question.key}: {right}\n\n{question.why}\n\n{wrong}"
-        yield "subslide", answer
         notes = f"Chapter {question.chapter}, {question.section!r}. Line: {question.id}"
         untested = f". Not in the test: {question.untested}" if question.untested else ""
-        yield "notes", notes + untested
+        answer = f"{number}. {question.key}: {right}"
+        yield answer, f"{question.why}\n\n{wrong}", None, notes + untested

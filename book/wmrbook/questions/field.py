@@ -1,4 +1,4 @@
-"""Concept questions on chapters 11 and 12: a real robot on the bench, routes."""
+"""Concept questions on chapters 11, 12 and 14: a real robot on the bench, routes, a filter."""
 
 from __future__ import annotations
 
@@ -8,6 +8,7 @@ import numpy as np
 
 import wmrlib as wmr
 from wmrbook.questions._asking import Option, cases, numbers, question, sign
+from wmrlib import estimation
 
 
 @question(11, "On the bench", "Swapped motor cables")
@@ -100,5 +101,34 @@ def along_a_route() -> tuple[str, list[Option], str]:
     }
     why = (
         "The law makes $V$ fall to the goal of the moment. A new goal is a new error, further off."
+    )
+    return ask, cases(computed, options), why
+
+
+@question(14, "Stable, and wrong", "In the dock", "its chapter comes after the course")
+def in_the_dock() -> tuple[str, list[Option], str]:
+    arm, bias = 0.6, math.radians(5.0)
+    now = estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.2)
+    places = []
+    for _ in range(300):
+        now = estimation.use_position(now, arm, 0.0, 0.001, ahead=arm)
+        now = estimation.use_heading(now, bias, math.radians(1.0))
+        places.append((round(100.0 * now.pose.x), round(100.0 * now.pose.y)))
+    computed = places[-1] if len({*places[-50:]}) == 1 else "wanders"
+    ask = (
+        "An antenna sits 0.6 m ahead of a robot's middle; its fixes are exact. The compass always "
+        "reads 5 deg too far to the left. The robot stands still. Where does a filter believe its "
+        "middle to be?"
+    )
+    options = {
+        (0, -5): ("5 cm to the right of it", ""),
+        (0, 5): ("5 cm to the left of it", "the antenna's side taken for the robot's"),
+        (0, 0): ("where it is", "exact fixes taken for an exact place"),
+        (60, 0): ("60 cm ahead of it", "the arm forgotten"),
+        "wanders": ("now here, now there", "a constant error taken for noise"),
+    }
+    why = (
+        "By its compass the antenna is 5 cm to the left of its middle. It knows where the antenna "
+        "is, so its middle must be 5 cm to the right of where it is, and nothing disagrees."
     )
     return ask, cases(computed, options), why

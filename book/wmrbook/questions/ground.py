@@ -160,7 +160,7 @@ def two_angles() -> tuple[str, list[Option], str]:
     return ask, cases((alpha, theta), options), why
 
 
-@question(3, "Whose theta? Whose beta?", "The wrong sign of the third angle")
+@question(3, "Whose θ? Whose β?", "The wrong sign of the third angle")
 def beta_or_theta() -> tuple[str, list[Option], str]:
     k_rho, k_alpha, k_beta, pose = 3.0, 8.0, -1.5, wmr.Pose(-3.0, 0.5, -0.3)
     for _ in range(1200):

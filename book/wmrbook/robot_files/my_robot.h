@@ -23,4 +23,8 @@
 #define MY_TOLERANCE WMR_C(@tolerance@)
 #define MY_SETTLE WMR_C(@settle@) /* for so many seconds, as the heading is seen late */
 
+/* of wmr_drive.h's rules: an older fix is not used; without one for so long the robot waits */
+#define MY_OLDEST WMR_C(@oldest@)
+#define MY_PATIENCE WMR_C(@patience@)
+
 #endif

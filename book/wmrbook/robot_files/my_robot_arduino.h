@@ -19,3 +19,6 @@ const float MIN_SPEED = @min_speed@f; // over the dead band
 const float TURN_GAIN = @gain@f, TURN_MIN = @min_rate@f, TURN_MAX = @max_rate@f;
 const float TURN_TOLERANCE = @tolerance@f;
 const float TURN_SETTLE = @settle@f; // s within it, as the heading is seen late
+
+const float OLDEST_FIX = @oldest@f; // s: an older one is not used
+const float PATIENCE = @patience@f; // s without a usable one, and it waits

@@ -82,7 +82,7 @@ int main(void) {
   wmr_plan plan = {{0, 0, WMR_C(-1.0471975511965976)},
                    {WMR_C(0.2), WMR_C(2.0), WMR_C(2.0), WMR_C(4.0)},
                    {TRACK_WIDTH, 2, WMR_C(0.1), (WMR_REAL)INFINITY, 0, 0, 0},
-                   {WMR_C(0.02), 2, WMR_C(0.2), 1, 2},
+                   {WMR_C(0.02), 2, WMR_C(0.2), 1, 2, 0},
                    WMR_USUAL_RULES};
   static wmr_memory memory; /* all zeros */
   uint32_t begun = clock_ms() - PERIOD_MS;

@@ -28,6 +28,7 @@ enum { WMR_FINE, WMR_BATTERY_LOW, WMR_GOAL_OUTSIDE_THE_FENCE,
     WMR_DRIVE_TOO_LONG, WMR_CLOCK_JUMPED, WMR_FIX_IS_NO_NUMBER,
     WMR_FIX_OF_TOO_LOW_QUALITY, WMR_FIX_TOO_OLD, WMR_FIX_TIME_STANDS_OR_GOES_BACK,
     WMR_POSITION_FROZEN, WMR_POSITION_JUMPED, WMR_NO_FIX };
+enum { WMR_PAST = 8 };
 
 /* what wmrlib's Wheels, LastTurn, Rules, Seen, Wheel and Memory say of their fields */
 typedef struct { WMR_REAL track_width; WMR_REAL max_speed; WMR_REAL min_speed;
@@ -45,11 +46,14 @@ typedef struct { WMR_REAL seconds; WMR_REAL left; WMR_REAL right; WMR_REAL batte
     int quality; WMR_REAL error; WMR_REAL later; WMR_REAL age; } wmr_seen;
 typedef struct { WMR_REAL told; WMR_REAL speed; WMR_REAL due; WMR_REAL rolled;
     int stuck; int loose; } wmr_wheel;
+typedef struct { WMR_REAL seconds; WMR_REAL ahead; WMR_REAL turn; } wmr_stretch;
+typedef struct { wmr_stretch stretches[WMR_PAST]; int newest; wmr_stretch since; }
+    wmr_past;
 typedef struct { int state; int reason; wmr_pose pose; wmr_wheel left; wmr_wheel right;
-    int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; WMR_REAL pace;
-    WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still; int outside; wmr_pose begin;
-    wmr_pose leg; WMR_REAL length; WMR_REAL turning; int turned; int astray;
-    int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off; int facing;
+    int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; wmr_past past;
+    wmr_pose fix; WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still; int outside;
+    wmr_pose begin; wmr_pose leg; WMR_REAL length; WMR_REAL turning; int turned;
+    int astray; int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off; int facing;
     WMR_REAL faced; } wmr_memory;
 typedef struct {
   wmr_pose goal;
@@ -98,11 +102,57 @@ static inline void wmr_carry(wmr_pose *place, WMR_REAL ahead, WMR_REAL turn) {
   place->heading = wmr_wrap(place->heading + turn);
 }
 
-/* Take a fix's word for a place. */
-static inline void wmr_set_place(wmr_pose *place, const wmr_seen *seen) {
-  place->x = seen->x;
-  place->y = seen->y;
-  place->heading = seen->heading;
+/* Make one place the other. */
+static inline void wmr_copy_place(wmr_pose *place, wmr_pose *other) {
+  place->x = other->x;
+  place->y = other->y;
+  place->heading = other->heading;
+}
+
+/* Keep what the wheels rolled in a period, for the `longest` time and a little more. */
+static inline void wmr_remember(wmr_past *past, WMR_REAL ahead, WMR_REAL turn,
+    WMR_REAL dt, WMR_REAL longest) {
+  if (past->stretches[past->newest].seconds * (WMR_PAST - 2) >= longest) {
+    past->newest = (past->newest + 1) % WMR_PAST;
+    past->stretches[past->newest].seconds = WMR_C(0.0);
+    past->stretches[past->newest].ahead = WMR_C(0.0);
+    past->stretches[past->newest].turn = WMR_C(0.0);
+  }
+  past->stretches[past->newest].seconds += dt;
+  past->stretches[past->newest].ahead += ahead;
+  past->stretches[past->newest].turn += turn;
+}
+
+/* Put before a stretch of time the next older one, or its share up to an age. */
+static inline void wmr_lengthen(wmr_stretch *since, wmr_stretch *stretch, WMR_REAL age)
+    {
+  const WMR_REAL share = WMR_F(fmin)((age - since->seconds) /
+      WMR_F(fmax)(stretch->seconds, WMR_C(1e-09)), WMR_C(1.0));
+  since->seconds += share * stretch->seconds;
+  since->ahead += share * stretch->ahead;
+  since->turn += share * stretch->turn;
+}
+
+/* Add up what the wheels rolled in the last `age` seconds. */
+static inline void wmr_look_back(wmr_past *past, WMR_REAL age) {
+  past->since.seconds = WMR_C(0.0);
+  past->since.ahead = WMR_C(0.0);
+  past->since.turn = WMR_C(0.0);
+  for (int k = 0; k < WMR_PAST; k += 1) {
+    if (past->since.seconds < age) {
+      wmr_lengthen(&past->since, &past->stretches[(past->newest + WMR_PAST - k) %
+          WMR_PAST], age);
+    }
+  }
+}
+
+/* Carry a fix on by what the wheels rolled since it was true. */
+static inline void wmr_bring_up(wmr_memory *m, const wmr_seen *seen) {
+  wmr_look_back(&m->past, seen->age);
+  m->fix.x = seen->x;
+  m->fix.y = seen->y;
+  m->fix.heading = seen->heading;
+  wmr_carry(&m->fix, m->past.since.ahead, m->past.since.turn);
 }
 
 /* Hold what a wheel rolled against what it was told. */
@@ -128,44 +178,44 @@ static inline void wmr_watch_wheel(wmr_wheel *wheel, WMR_REAL rolled, WMR_REAL d
   }
 }
 
-/* Why a fix can't be used; NONE if it can. */
+/* Why a fix can't be used; NONE if it can. On the way, the fix is carried on to now. */
 static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
     const wmr_rules *rules) {
   if (!(WMR_F(fabs)(seen->x) + WMR_F(fabs)(seen->y) + WMR_F(fabs)(seen->heading) <
       WMR_C(1000000000.0) && WMR_F(fabs)(seen->age) < WMR_C(1000000000.0))) {
     return WMR_BROKEN;
   }
-  if (seen->quality < 1 || seen->quality > 5 || !(seen->error <= rules->largest_error))
-      {
+  const int measured = seen->quality >= 1 && seen->quality <= 5;
+  if (!measured || !(seen->error <= rules->largest_error)) {
     return WMR_POOR;
   }
   if (seen->age > rules->oldest || seen->age < WMR_C(0.0)) {
     return WMR_LATE;
   }
+  wmr_bring_up(m, seen);
   if (!(seen->later > WMR_C(0.0))) {
     return WMR_STALE;
   }
   if (m->still > rules->frozen) {
     return WMR_FROZEN;
   }
-  const WMR_REAL gap = wmr_distance(seen->x - m->pose.x, seen->y - m->pose.y);
-  if (gap > rules->jump + rules->slip * m->since + m->pace * seen->age) {
+  const WMR_REAL gap = wmr_distance(m->fix.x - m->pose.x, m->fix.y - m->pose.y);
+  if (gap > rules->jump + rules->slip * m->since) {
     return WMR_JUMPED;
   }
-  if (WMR_F(fabs)(wmr_wrap(seen->heading - m->leg.heading)) > rules->astray && m->driven
-      > WMR_C(0.0)) {
+  if (WMR_F(fabs)(wmr_wrap(m->fix.heading - m->leg.heading)) > rules->astray &&
+      m->driven > WMR_C(0.0)) {
     return WMR_TURNED;
   }
   return WMR_NONE;
 }
 
 /* Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew. */
-static inline void wmr_compare(wmr_memory *m, const wmr_seen *seen,
-    const wmr_rules *rules) {
+static inline void wmr_compare(wmr_memory *m, const wmr_rules *rules) {
   const WMR_REAL east = m->leg.x - m->begin.x;
   const WMR_REAL north = m->leg.y - m->begin.y;
-  const WMR_REAL x = seen->x - m->begin.x;
-  const WMR_REAL y = seen->y - m->begin.y;
+  const WMR_REAL x = m->fix.x - m->begin.x;
+  const WMR_REAL y = m->fix.y - m->begin.y;
   const WMR_REAL rolled = wmr_distance(east, north);
   if (rolled >= rules->course) {
     m->slipping = wmr_distance(x, y) < WMR_C(0.5) * rolled;
@@ -174,8 +224,8 @@ static inline void wmr_compare(wmr_memory *m, const wmr_seen *seen,
   }
   const int curls = m->length > WMR_C(4.0) * rules->course || m->turning > WMR_C(3.0);
   if (rolled >= rules->course || curls || m->driven == WMR_C(0.0)) {
-    wmr_set_place(&m->begin, seen);
-    wmr_set_place(&m->leg, seen);
+    wmr_copy_place(&m->begin, &m->fix);
+    wmr_copy_place(&m->leg, &m->fix);
     m->length = WMR_C(0.0);
     m->turning = WMR_C(0.0);
   }
@@ -199,8 +249,8 @@ static inline void wmr_read(wmr_memory *m, const wmr_seen *seen, const wmr_rules
     m->silence = seen->age;
     m->since = WMR_C(0.0);
     m->outside = !seen->inside;
-    wmr_set_place(&m->pose, seen);
-    wmr_compare(m, seen, rules);
+    wmr_copy_place(&m->pose, &m->fix);
+    wmr_compare(m, rules);
   }
 }
 
@@ -220,10 +270,10 @@ static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules
   if (m->regular) {
     wmr_watch_wheel(&m->left, left, dt, rules, wheels);
     wmr_watch_wheel(&m->right, right, dt, rules, wheels);
-    m->pace = WMR_F(fabs)(ahead) / dt;
   }
   wmr_carry(&m->pose, ahead, turn);
   wmr_carry(&m->leg, ahead, turn);
+  wmr_remember(&m->past, ahead, turn, dt, rules->oldest);
   m->since += WMR_F(fabs)(ahead);
   m->still += WMR_F(fabs)(ahead);
   m->length += WMR_F(fabs)(ahead);

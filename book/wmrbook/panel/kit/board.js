@@ -1,22 +1,26 @@
 // What is drawn on: panes with axes in the world's units. A colour is a role of the panel's (alpha,
 // goal, path ...), the same as in formulas and figures.
 
-import { drawAngle, drawName, drawPose, drawRobot } from './scene.js';
+import { drawAngle, drawAngles, drawName, drawPose, drawRobot, hasSight } from './scene.js';
 import { drawAxes } from './axes.js';
+import { drawLawn, drawScale } from './lawn.js';
 import { inside, label, line, sizeOf, surfaceOf, ticksOf } from './surface.js';
+import { poseOfError } from './model.js';
+import { written } from './style.js';
 
-// A pane is { x: [from, to, title, write], y: [from, to, title, write], equal, bare, tall }:
-// `equal` scales keep circles round, a `bare` one has no axes, and `write`, if given, says what a
-// tick's value is called.
+// A pane is { x: [from, to, title, write], y: [from, to, title, write], equal, bare, tall, lawn }:
+// `equal` scales keep circles round, a `bare` one has no axes, a `lawn`, true or its stripes' width
+// in metres, has a bar for its scale, and `write`, if given, says what a tick's value is called.
 /** @param {HTMLCanvasElement} canvas @param {Colours} colours @param {Spec} spec */
 export function paneOf(canvas, colours, spec) {
   const { ctx, width, height } = surfaceOf(canvas, colours), { zoom } = sizeOf(canvas),
-      room = spec.bare ? [4, 4, 4, 4] : [10, spec.x[2] ? 40 : 24, spec.y[2] ? 56 : 34, 12];
+      room = spec.lawn ? [0, 0, 0, 0] : spec.bare ? [4, 4, 4, 4]
+          : [10, spec.x[2] ? 40 : 24, spec.y[2] ? 56 : 34, 12];
   const box = { left: room[2], top: room[0], width: Math.max(width - room[2] - room[3], 20),
       height: Math.max(height - room[0] - room[1], 20) };
   let [x0, x1] = spec.x, [y0, y1] = spec.y,
       [across, up] = [box.width / (x1 - x0), box.height / (y1 - y0)];
-  if (spec.equal) {
+  if (spec.equal || spec.lawn) {
     across = up = Math.min(across, up);
     [x0, x1] = [(x0 + x1 - box.width / across) / 2, (x0 + x1 + box.width / across) / 2];
     [y0, y1] = [(y0 + y1 - box.height / up) / 2, (y0 + y1 + box.height / up) / 2];
@@ -29,6 +33,7 @@ export function paneOf(canvas, colours, spec) {
       view = { box, zoom, scale: across, toScreen: at,
       toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
   const cut = (draw) => inside(ctx, box, draw), names = [];
+  let robot = null;
   /** @type {Pane} */
   const pane = {
     ctx, box, view, at, ink, range: [x0, x1, y0, y1], pixel: 1 / across,
@@ -84,21 +89,37 @@ export function paneOf(canvas, colours, spec) {
     angle(x, y, from, by, name, role, radius = 34) {
       drawAngle(ctx, at(x, y), from, by, radius, name, ink(role), colours);
     },
-    robot([x, y, heading], share = 1) {
+    robot([x, y, heading], share = 1, { size = 1, role = 'path' } = {}) {
       const [px, py] = at(x, y);
       // out of sight
       if (px < box.left - 20 || px > box.left + box.width + 20 || py < box.top - 20
           || py > box.top + box.height + 20) return;
-      ctx.globalAlpha = share; drawRobot(ctx, [px, py], heading, colours); ctx.globalAlpha = 1;
+      if (share === 1) robot = [px, py];
+      ctx.globalAlpha = share;
+      drawRobot(ctx, [px, py], heading, { ...colours, path: ink(role) }, size);
+      ctx.globalAlpha = 1;
+    },
+    // the robot in a state of polar errors, before a goal at the origin that faces right
+    state(rho, alpha, theta) {
+      const [x, y, heading] = poseOfError(rho, alpha, theta, 0, 0, 0), one = { x: [x], y: [y],
+        heading: [heading], rho: [rho], alpha: [alpha], theta: [theta], goalX: [0], goalY: [0],
+        goalHeading: [0] };
+      pane.pose([0, 0, 0], 'goal');
+      if (hasSight(one, 0)) drawAngles(ctx, view, one, 0, colours);
+      pane.robot([x, y, heading]);
     },
     pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
     // at last, for no path may strike one out
-    name() { names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours)); },
+    name() {
+      names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours, robot));
+      if (spec.lawn) drawScale(ctx, view, colours, (metres) => written(metres, 'm', 1));
+    },
     bar(x, from, to, role, half = 0.3) {
       pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85);
     },
   };
-  if (!spec.bare) drawAxes(ctx, box, colours, axesOf(pane, spec, pane.range));
+  if (spec.lawn) drawLawn(ctx, view, colours, Number(spec.lawn === true ? 0 : spec.lawn));
+  else if (!spec.bare) drawAxes(ctx, box, colours, axesOf(pane, spec, pane.range));
   return pane;
 }
 

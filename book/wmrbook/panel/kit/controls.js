@@ -67,8 +67,14 @@ export const fromWords = (text) =>
 // Returns what shows a state.
 export function buildControls(root, setup, { change, refuse }) {
   let now = {};
+  const folds = setup.folded.map(([title, names]) => {
+    const fold = made(root, 'details', { className: 'wmr-fold' });
+    made(fold, 'summary', { textContent: title });
+    return { fold, names };
+  });
   const row = (name, text, tip) => {
-    const it = made(root, 'label', { className: 'wmr-control', title: tip });
+    const { fold = root } = folds.find(({ names }) => names.includes(name)) || {};
+    const it = made(fold, 'label', { className: 'wmr-control', title: tip });
     it.dataset.control = name;
     made(it, 'span', { textContent: text });
     return it;
@@ -101,8 +107,11 @@ export function buildControls(root, setup, { change, refuse }) {
     typed.addEventListener('keydown', (event) => event.stopPropagation());
     return { name, it, showSlider, typed, unit };
   });
+  root.append(...folds.map(({ fold }) => fold)); // below the others
   return (state) => {
     now = state;
+    for (const { fold, names } of folds)
+      fold.hidden = !names.some((name) => applies(name, state, setup));
     for (const { name, it, select, choices } of menus) {
       it.hidden = !applies(name, state, setup);
       const options = name === 'law'

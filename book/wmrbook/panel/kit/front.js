@@ -4,6 +4,7 @@
 import { DEGREES, followTheme, readColours, written } from './style.js';
 import { buildHandles } from './handles.js';
 import { drawAngle, drawName, drawPose, drawRobot, viewAt } from './scene.js';
+import { drawLawn } from './lawn.js';
 import { driven, poseAt } from './runs.js';
 import { label, line, measure, sizeOf, surfaceOf } from './surface.js';
 import { made } from './hands.js';
@@ -164,17 +165,6 @@ function render({ model, el }) {
     byHand();
     cancelAnimationFrame(frame);
   };
-}
-
-// Stripes, as a mower leaves them, as wide as one can tell.
-function drawLawn(ctx, view, colours) {
-  const { box, scale } = view, stripe = 2 ** Math.round(Math.log2(60 / scale));
-  ctx.fillStyle = colours.lawn;
-  ctx.fillRect(box.left, box.top, box.width, box.height);
-  ctx.fillStyle = colours.mown;
-  const [left] = view.toWorld(0, 0), [right] = view.toWorld(box.width, 0);
-  for (let k = 2 * Math.floor(left / stripe / 2); k * stripe < right; k += 2)
-    ctx.fillRect(view.toScreen(k * stripe, 0)[0], box.top, stripe * scale, box.height);
 }
 
 function trace(ctx, view, { x, y }, n, colour, width, dash) {

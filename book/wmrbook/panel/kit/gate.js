@@ -19,7 +19,8 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
   const committed = () => get().guess !== null && get().guess !== undefined,
       open = () => still || committed();
   /** @type {any} */
-  let draft = ask.kind === 'sketch' ? [] : null, listening = false, shown = null, answered = false, grip = null;
+  let draft = ask.kind === 'sketch' ? [] : null;
+  let listening = false, shown = null, answered = false, grip = null;
   const form = made(root, 'form', { className: 'live-gate' });
   putWords(made(form, 'p', { className: 'live-question' }), ask.question);
   const options = made(form, 'div', { className: 'live-options' },

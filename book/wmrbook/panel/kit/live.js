@@ -13,8 +13,8 @@ import { showHandles } from './grips.js';
 import { widget } from './widget.js';
 
 // An explorable is, in a file of its own,
-//   panes(values, found, setup): the panes by name, see board.js, with `alt`, what it shows in
-//   words, and `scrub(x, y, moved, values, found)`: what a
+//   panes(values, found, setup, hidden): the panes by name, see board.js, with `alt`, what it shows
+//     in words, and `scrub(x, y, moved, values, found)`: what a
 //     pointer on it changes, or nothing; `moved` is [dx, dy] since the last call while it is held,
 //     or null while it passes over;
 //   find(values, setup): what follows from the knobs; throws RangeError, in words, where nothing
@@ -142,7 +142,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   }
   function paint(now, hidden) {
     root.found = found; // for tests
-    specs = explorable.panes(now, found, setup);
+    specs = explorable.panes(now, found, setup, hidden);
     for (const [name, spec] of Object.entries(specs)) {
       if (!canvases[name]) build(name, spec);
       canvases[name].setAttribute('aria-label', hidden ? spec.given || 'what is given' : spec.alt);

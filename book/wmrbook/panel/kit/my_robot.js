@@ -2,16 +2,34 @@
 // the files for it come out.
 
 import { DEGREES, followTheme, readColours, written } from './style.js';
-import { certified, filesOf, parkedRun, sheetOf } from './sheet.js';
+import { certified, filesOf, parkedRun, placeOf, sheetOf } from './sheet.js';
 import { download } from './share.js';
 import { keepKeys } from './controls.js';
 import { made } from './hands.js';
 import { measure } from './surface.js';
 import { paneOf } from './board.js';
+import { pointsOf } from './nmea.js';
 import { widget } from './widget.js';
 
 const AT_ONCE = 30; // ms that the page may be busy
 const OWN = 'my own';
+
+// What the points of a log fill in, by the first field of the group that takes it.
+const LOGS = {
+  start_lat: ['from the log of a drive', (points) => {
+    const [[start_lat, start_lon], [goal_lat, goal_lon]] = [points[0], points[points.length - 1]]
+        .map((point) => point.map((degrees) => Number(degrees.toFixed(7))));
+    return { start_lat, start_lon, goal_lat, goal_lon };
+  }],
+  sigma: ['from a log at rest', (points, { earth }) => {
+    const places = points.map((point) => placeOf(points[0], point, earth));
+    const spread = (k) => {
+      const mean = places.reduce((sum, place) => sum + place[k], 0) / places.length;
+      return places.reduce((sum, place) => sum + (place[k] - mean) ** 2, 0) / places.length;
+    };
+    return { sigma: Number(Math.sqrt((spread(0) + spread(1)) / 2).toPrecision(4)) };
+  }],
+};
 
 // Rows of names and values.
 function table(parent, title) {
@@ -39,6 +57,7 @@ const told = (robot, { gains, turn, ...sheet }) => [
   ['least speed', written(sheet.min_speed, 'm/s')],
   ['last turn, within', written(turn.tolerance * DEGREES, '°')],
   ['last turn, rates', `${written(turn.min_rate)} to ${written(turn.max_rate, 'rad/s')}`],
+  ['oldest fix, patience', `${written(sheet.oldest)} and ${written(sheet.patience, 's')}`],
 ];
 
 const bounded = (value, unit) => (value === Infinity ? 'no bound' : written(value, unit));
@@ -58,7 +77,8 @@ function render({ model, el }) {
   root.dataset.lmSuppressShortcuts = 'true';
   keepKeys(root);
   const form = made(root, 'div', { className: 'my-fields' }), inputs = {};
-  const trouble = made(root, 'p', { className: 'live-trouble' }, { role: 'alert' });
+  const heard = made(root, 'output', { className: 'my-heard' }),
+      trouble = made(root, 'p', { className: 'live-trouble' }, { role: 'alert' });
   const results = made(root, 'div', { className: 'my-results' }),
       showTold = table(results, 'What it is told'),
       showExpected = table(results, 'Where it will park'),
@@ -83,6 +103,17 @@ function render({ model, el }) {
       for (const name of [...receivers.map(([each]) => each), OWN])
         made(menu, 'option', { textContent: name, value: name });
       menu.onchange = () => change(Object.fromEntries(receivers)[menu.value] || {});
+    }
+    const [words, filled] = LOGS[fields[0][0]] || [];
+    if (filled) {
+      const row = made(group, 'label', { className: 'my-row' });
+      made(row, 'span', { textContent: words });
+      made(row, 'input', { type: 'file', onchange: async ({ target: { files: [file] } }) => {
+        const points = file ? pointsOf(await file.text()) : [];
+        if (points.length) change(filled(points, rules));
+        if (file) heard.textContent = `${file.name}: ` + (points.length
+          ? `${points.length} fixes` : 'no NMEA sentence with a fix and its checksum');
+      } });
     }
     for (const [name, label] of fields) {
       const row = made(group, 'label', { className: 'my-row' });

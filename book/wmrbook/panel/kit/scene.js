@@ -269,7 +269,7 @@ export const hasSight = (run, k) => run.rho[k] > 1e-6;
 
 // rho along the line of sight; alpha at the robot, from its heading; theta at the goal, from the
 // goal's heading: Fig. 2 of the paper.
-function drawAngles(ctx, view, run, k, colours) {
+export function drawAngles(ctx, view, run, k, colours) {
   const robot = view.toScreen(run.x[k], run.y[k]), goal = view.toScreen(run.goalX[k], run.goalY[k]);
   const sight = run.heading[k] + run.alpha[k];
   const ahead = ([x, y], angle, length) =>

@@ -5,17 +5,26 @@ import { checkedPose, notAllowed } from './setup.js';
 import { simulate } from './simulate.js';
 
 const GAINS = ['k_rho', 'k_alpha', 'h', 'v_max'], FEEDBACK = ['k_x', 'k_y', 'k_heading'];
+const WHEELS = ['track_width', 'acceleration', 'lag', 'dead_band'];
 const LONGEST = { held: 100_000, continuous: 10_000 }; // steps: what a frame still has time for
 const FARTHEST = 1e6; // m: beyond, the plane is no longer a map
 
 const pick = (values, names) => Object.fromEntries(names.map((name) => [name, values[name]]));
+
+// None where all are ideal, or where no command is held; an acceleration of 0 stands for any.
+function wheelsOf(state) {
+  const { acceleration, ...others } = pick(state, WHEELS);
+  const ideal = !(acceleration || others.lag || others.dead_band);
+  if (ideal || state.method === 'continuous') return null;
+  return acceleration ? { ...others, acceleration } : others;
+}
 
 export function settingsOf(state) {
   return {
     start: state.start, goal: state.goal, reference: state.moving ? 'circle' : null, law: state.law,
         method: state.method,
     gains: pick(state, GAINS), feedback: pick(state, FEEDBACK), dt: state.dt,
-        duration: state.duration, arrivalRadius: state.arrival_radius,
+        duration: state.duration, arrivalRadius: state.arrival_radius, wheels: wheelsOf(state),
   };
 }
 
@@ -46,6 +55,7 @@ export function applies(name, state, setup) {
   const law = setup.laws.find((each) => each.name === state.law);
   if ([...GAINS, ...FEEDBACK].includes(name)) return !law || law.gains.includes(name);
   if (name === 'arrival_radius') return !state.moving;
+  if (WHEELS.includes(name)) return state.method !== 'continuous';
   return !['metric', 'axes'].includes(name) || state.view === 'gains';
 }
 

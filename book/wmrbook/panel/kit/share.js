@@ -8,8 +8,8 @@ import { differences } from './settings.js';
 const COLUMNS = RUN_COLUMNS; // of the CSV file, named as the fields of a Trajectory
 
 export function pythonOf(settings) {
-  const { start, goal, law, gains, feedback, method, dt, duration, arrivalRadius, reference } =
-      settings;
+  const { start, goal, law, gains, feedback, method, dt, duration, arrivalRadius, reference,
+    wheels } = settings;
   const pose = (values) => `wmr.Pose(${values.join(', ')})`,
       named = (values) =>
       Object.entries(values).map(([name, value]) => `${name}=${value}`).join(', ');
@@ -21,6 +21,7 @@ export function pythonOf(settings) {
   return `import wmrlib as wmr\n${moving ? 'from wmrlib import paper\n' : ''}\nrun = ` +
       `wmr.${moving ? 'track' : 'simulate'}(\n    ${first},\n    ${second},\n    ${tuning},\n   ` +
       ` ${how}`
+    + `${wheels ? `    wheels=wmr.Wheels(${named(wheels)}),\n` : ''}`
     + `${moving ? '' : `    arrival_radius=${arrivalRadius},\n`})\nprint(wmr.arrival(run))\n`;
 }
 

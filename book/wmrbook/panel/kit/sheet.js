@@ -11,7 +11,7 @@ const digits = (value, count = 6) => String(Number(value.toPrecision(count)));
 
 // East and north of the start, m, as wmrlib's local_position.
 /** @param {Point} start @param {Point} goal @param {number} earth */
-function placeOf([lat, lon], [lat2, lon2], earth) {
+export function placeOf([lat, lon], [lat2, lon2], earth) {
   const [from, to, up, across] =
       [lat, lat2, lat2 - lat, lon2 - lon].map((degrees) => degrees / DEGREES);
   const side = Math.sin(across / 2) ** 2,
@@ -72,6 +72,7 @@ export function sheetOf(robot, rules) {
     throw new RangeError(`${message}; with this width, acceleration and delay it is `
       + `${(tolerance * DEGREES).toFixed(0)} deg`);
   }
+  const oldest = delay + rules.margin;
   const k = rate / vMax, near = (rho) => Math.log1p(-Math.exp(-k * rho)),
       travel = (k * (distance - radius) + near(distance) - near(radius)) / rate;
   return { x, y, heading: wrap((90 - robot.bearing) / DEGREES), distance, radius,
@@ -79,7 +80,8 @@ export function sheetOf(robot, rules) {
       longest_step: rules.step / rate, min_speed: minSpeed,
       turn: { tolerance, gain, min_rate: minRate, max_rate: maxRate, leave: rules.leave,
         settle: late + Math.max(minRate, gain * tolerance) / braking },
-      duration: Math.ceil(60 + 2 * travel) };
+      duration: Math.ceil(60 + 2 * travel), oldest,
+      patience: oldest + 2 * Math.max(robot.fix_period, robot.period) };
 }
 
 function inSamples(seconds, dt) { // of two whole numbers as near, the even one, as numpy's rint

@@ -48,6 +48,7 @@ type View = {
 type Axis = [number, number, string?, ((value: number) => string)?];
 type Spec = {
   x: Axis; y: Axis; alt: string; given?: string; equal?: boolean; bare?: boolean; tall?: boolean;
+  lawn?: boolean | number;
   scrub?(x: number, y: number, moved: Point | null, values: Values, found: any): Values | null;
 };
 type Looks = { width?: number; dash?: number[] };
@@ -66,7 +67,8 @@ type Pane = {
   arrow(...endsRoleLooks: any[]): void;
   text(said: string, ...placeLooks: any[]): void;
   angle(...placeFromByNameRole: any[]): void;
-  robot(pose: Pose, share?: number): void;
+  robot(pose: Pose, share?: number, looks?: { size?: number; role?: string }): void;
+  state(rho: number, alpha: number, theta: number): void;
   pose(pose: Pose, name: string): void;
   name(): void;
   bar(x: number, from: number, to: number, role: string, half?: number): void;
@@ -80,7 +82,7 @@ type Setup = { sentence: string; knobs: Values[]; data: any; ask: Values | null 
 /** A live figure, see live.js. */
 type Drawing = {
   find(values: Values, setup: Setup): any;
-  panes(values: Values, found: any, setup: Setup): Record<string, Spec>;
+  panes(values: Values, found: any, setup: Setup, hidden: boolean): Record<string, Spec>;
   draw(panes: Record<string, Pane>, values: Values, found: any, hidden: boolean,
     setup: Setup): void;
   say(values: Values, found: any, setup: Setup): Record<string, string | number>;

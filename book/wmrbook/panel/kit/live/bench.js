@@ -1,11 +1,14 @@
 // Robots that see through receivers, with an error that has a memory, other for each, and late, and
-// whose right wheel slips: where they stand in the end.
+// whose right wheel slips: how they drive up, and where they park.
 
 import { DEGREES, written } from '../style.js';
 import { heldRun, remembered } from '../runs.js';
 import { live } from '../live.js';
 import { normals } from '../random.js';
 import { wrap } from '../model.js';
+
+const BARS = 12, WIDE = 360 / BARS; // deg
+const LENGTH = 0.6, ICON = 27; // m and px, the robot's length and that of its drawing
 
 const median = (sorted) =>
     (sorted[Math.floor((sorted.length - 1) / 2)] + sorted[Math.floor(sorted.length / 2)]) / 2;
@@ -26,44 +29,52 @@ const cloud = remembered(({ robots, track, seed, sigma, memory, late, slip, ...d
       fixes.push([x + sigma * east, y + sigma * north]);
       return [...fixes[Math.max(k - back, 0)], heading];
     };
-    const { poses } = heldRun({ ...drive, sight, wheels });
-    return { pose: poses.at(-1), n: poses.length - 1 };
+    return heldRun({ ...drive, sight, wheels }).poses;
   });
 });
 
 export default live('bench', {
-  find({ sigma, memory, late, slip }, { data }) {
-    const ends = cloud({ ...data, sigma, memory, late, slip: slip / 100 }),
-        off = ends.map(({ pose }) => wrap(pose[2] - data.goal[2]));
+  find({ sigma, memory, late, slip, time }, { data }) {
+    const ways = cloud({ ...data, sigma, memory, late, slip: slip / 100 }),
+        ends = ways.map((poses) => ({ pose: poses.at(-1), n: poses.length - 1 })),
+        off = ends.map(({ pose }) => wrap(pose[2] - data.goal[2])),
+        k = Math.round(time * Math.max(...ends.map(({ n }) => n)));
     const middle = (values) => median([...values].sort((a, b) => a - b));
-    return { ends, off, far: middle(ends.map(({ pose }) => Math.hypot(pose[0], pose[1]))),
-        turned: middle(off.map(Math.abs)),
+    return { ways, ends, off, k, far: middle(ends.map(({ pose }) => Math.hypot(pose[0], pose[1]))),
+        turned: middle(off.map(Math.abs)), parked: ends.filter(({ n }) => n <= k).length,
         driving: ends.filter(({ n }) => n === data.steps).length };
   },
-  panes: (values, { far, turned }) => ({
-    place: { x: [-3, 3, 'east of the goal [m]'], y: [-2.4, 2.4, 'north [m]'], equal: true,
-        given: 'The goal, with the heading that is asked for.',
-        alt: `The robots about the goal, half of them within ${written(far, 'm')}.` },
-    heading: { x: [-180, 180, 'heading error [°]'], y: [0, 33, 'robots'],
-        given: 'The heading errors: nothing yet.',
-        alt: `How the heading errors are spread: half of the robots are within ` +
-        `${(turned * DEGREES).toFixed(0)} degrees.` },
+  panes: (values, { ends, far, turned, parked }) => ({
+    place: { x: [-9, 3], y: [-8.5, 4.5], lawn: true,
+        given: 'The goal, and the robots where they start, 10 m from it.',
+        alt: `${parked} of ${ends.length} robots have parked about the goal; in the end half of ` +
+        `them are within ${written(far, 'm')}.` },
+    heading: { x: [-180, 180, 'heading error where it parks [°]'], y: [0, 33, 'robots'],
+        given: 'The heading errors: no robot has parked.',
+        alt: `How the heading errors of ${parked} parked robots are spread: in the end half of ` +
+        `them are within ${(turned * DEGREES).toFixed(0)} degrees.` },
   }),
-  draw({ place, heading }, values, { ends, off }, hidden, { data: { goal, radius } }) {
-    const circle = Array.from({ length: 49 },
-        (_, k) => [radius * Math.cos(Math.PI * k / 24), radius * Math.sin(Math.PI * k / 24)]);
-    if (!hidden) {
-      for (const { pose: [x, y, angle] } of ends)
-        place.arrow(x - 0.1 * Math.cos(angle), y - 0.1 * Math.sin(angle),
-            x + 0.22 * Math.cos(angle), y + 0.22 * Math.sin(angle), 'path', { width: 2 });
-      const counts = Array(12).fill(0);
-      for (const each of off) counts[Math.min(Math.floor((each + Math.PI) / Math.PI * 6), 11)] += 1;
-      counts.forEach((count, k) => {
-        if (count) heading.bar(-165 + 30 * k, 0, count, 'path', 13);
-      });
-    }
-    place.line(circle, 'goal', { width: 1.5, dash: [4, 4] });
+  draw({ place, heading }, values, { ways, ends, off, k }, hidden,
+      { data: { start, goal, radius } }) {
+    place.line(Array.from({ length: 49 },
+        (_, i) => [radius * Math.cos(Math.PI * i / 24), radius * Math.sin(Math.PI * i / 24)]),
+    'goal', { width: 1.5, dash: [4, 4] });
     place.pose(goal, 'goal');
+    const size = { size: Math.max(LENGTH / place.pixel / ICON, 0.45) };
+    heading.line([[0, 0], [0, 33]], 'goal', { width: 1.5, dash: [4, 4] });
+    if (hidden) { place.robot(start, 1, size); return; }
+    ways.forEach((poses) => place.line(poses.slice(Math.max(k - 15, 0), k + 1), 'path',
+        { width: 1 }));
+    ways.forEach((poses) => place.robot(poses[Math.min(k, poses.length - 1)],
+        k < poses.length - 1 ? 1 : 0.75, size));
+    const counts = Array(BARS).fill(0);
+    off.forEach((each, robot) => {
+      if (ends[robot].n <= k)
+        counts[Math.min(Math.floor((each + Math.PI) * DEGREES / WIDE), BARS - 1)] += 1;
+    });
+    counts.forEach((count, i) => {
+      if (count) heading.bar((i + 0.5) * WIDE - 180, 0, count, 'path', 13);
+    });
   },
   say: (values, { far, turned, driving }) =>
       ({ far: written(far, 'm'), turned: `${(turned * DEGREES).toFixed(0)}°`,

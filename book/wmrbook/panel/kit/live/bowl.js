@@ -1,18 +1,41 @@
 // The angles' part of V as a bowl to be turned by hand, and its level sets; in both the state rolls
-// along one run.
+// along one run, and the robot drives it.
 
 import { DEGREES, inDegrees, written } from '../style.js';
 import { LAWS, wrap } from '../model.js';
 import { driven, timeNear } from '../runs.js';
 import { live } from '../live.js';
 
-// rad that are one unit of the picture; rings; points of a ring
-const REACH = 3, RINGS = 8, AROUND = 64;
+// rad that are one unit of the picture; rings; points of a ring; m round the goal
+const REACH = 3, RINGS = 8, AROUND = 64, NEAR = 0.75;
+const LIGHT = [-0.45, 0.3, 0.84]; // from the left, from behind and from above
 
 const ring = (level, h) =>
     Array.from({ length: AROUND + 1 }, (_, k) => 2 * Math.PI * k / AROUND)
     .map((turn) =>
     [Math.sqrt(2 * level) * Math.cos(turn), Math.sqrt(2 * level / h) * Math.sin(turn)]);
+
+// The facets between rings, those behind first: corners, whether its inside is seen, how light it
+// is and how high. `rim` is V at the edge.
+function facets(rings, rim, h, yaw, tilt) {
+  const [c, s, up, down] = [Math.cos(yaw / DEGREES), Math.sin(yaw / DEGREES),
+      Math.cos(tilt / DEGREES), Math.sin(tilt / DEGREES)], found = [];
+  rings.forEach((outer, i) => {
+    const inner = i ? rings[i - 1] : outer.map(() => [0, 0]);
+    for (let k = 0; k < AROUND; k += 1) {
+      const corners = [inner[k], outer[k], outer[k + 1], inner[k + 1]],
+          [alpha, theta] = [0, 1].map((it) => corners.reduce((sum, at) => sum + at[it] / 4, 0)),
+          [across, along] = [-alpha * REACH / rim, -h * theta * REACH / rim],
+          size = Math.hypot(across, along, 1), turned = [(across * c - along * s) / size,
+            (across * s + along * c) / size, 1 / size], height = ((i + 0.5) / RINGS) ** 2;
+      const inside = turned[2] * down > turned[1] * up,
+          light = turned.reduce((sum, each, it) => sum + each * LIGHT[it], 0) * (inside ? 1 : -1);
+      found.push({ corners, inside, light, height,
+        near: height * down - (alpha * s + theta * c) / REACH * up });
+    }
+  });
+  return found.sort((a, b) => a.near - b.near);
+}
 
 // alpha and theta, in radians, and the height to two numbers on the screen
 function projected(yaw, tilt) {
@@ -46,24 +69,41 @@ export default live('bowl', {
           `${inDegrees(run.alpha[k])} and theta ${inDegrees(run.theta[k])}.`,
       scrub: (x, y) => timeNear(run.alpha, run.theta, x / DEGREES, y / DEGREES, 0.2),
     },
+    robot: { x: [-NEAR, NEAR], y: [-NEAR, NEAR], lawn: true,
+        given: 'The robot in that state, on a lawn.',
+        alt: `The robot in that state, ${written(run.rho[k], 'm')} from its goal.` },
   }),
-  draw({ bowl, levels }, { yaw, tilt }, { run, k, h, top, value }, hidden,
+  draw({ bowl, levels, robot }, values, { run, k, h, top, value }, hidden,
       { data: { look, gains } }) {
-    const at = hidden ? projected(...look) : projected(yaw, tilt),
+    const [yaw, tilt] = hidden ? look : [values.yaw, values.tilt], at = projected(yaw, tilt),
         weight = hidden ? gains.gentle.h : h, now = hidden ? 0 : k;
     const rim = hidden ? LAWS.corrected.value(0, run.alpha[0], run.theta[0], gains.gentle) : top,
         high = (alpha, theta) => LAWS.corrected.value(0, alpha, theta, { h: weight }) / rim;
     const rings =
         Array.from({ length: RINGS }, (_, i) => ring(rim * ((i + 1) / RINGS) ** 2, weight));
-    for (const each of rings) {
-      bowl.line(each.map((point) => at(...point, high(...point))), 'ghost', { width: 1 });
+    for (const each of rings)
       levels.line(each.map(([alpha, theta]) => [alpha * DEGREES, theta * DEGREES]), 'ghost',
           { width: 1 });
-    }
-    for (let i = 0; i < AROUND; i += 4)
-      bowl.line(
-          [[0, 0], ...rings.map((each) => each[i])].map((point) => at(...point, high(...point))),
-          'line', { width: 1 });
+    const sides = facets(rings, rim, weight, yaw, tilt), { ctx } = bowl;
+    const fill = ({ corners, light, height }, share) => {
+      const dark = Math.round(24 + 30 * height + 40 * (1 - light) / 2);
+      ctx.fillStyle = ctx.strokeStyle =
+          `color-mix(in srgb, ${bowl.ink('V')} ${dark}%, ${bowl.ink('paper')})`;
+      ctx.globalAlpha = share;
+      ctx.lineWidth = 1;
+      ctx.beginPath();
+      for (const [alpha, theta] of corners) {
+        const [x, y] = at(alpha, theta, high(alpha, theta)), [px, py] = bowl.at(x, y);
+        ctx.lineTo(px, py);
+      }
+      ctx.closePath();
+      ctx.fill();
+      if (share === 1) ctx.stroke(); // no seams
+      ctx.globalAlpha = 1;
+    };
+    sides.filter(({ inside }) => inside).forEach((each) => fill(each, 1));
+    for (const each of rings)
+      bowl.line(each.map((point) => at(...point, high(...point))), 'paper', { width: 0.6 });
     for (const { axis, role, end } of [{ axis: 'α', role: 'alpha', end: [REACH, 0, 0] },
         { axis: 'θ', role: 'theta', end: [0, REACH, 0] }]) {
       bowl.arrow(...at(0, 0, 0), ...at(...end), role, { width: 1.5 });
@@ -75,10 +115,27 @@ export default live('bowl', {
           'path');
       levels.path(run.alpha.map((each) => each * DEGREES), run.theta.map((each) => each * DEGREES),
           'path', { to: k + 1 });
+      robot.path(run.x, run.y, 'path', { to: k + 1 });
     }
-    bowl.dot(...at(run.alpha[now], run.theta[now], high(run.alpha[now], run.theta[now])), 'path',
-        { size: 7 });
+    const ball = at(run.alpha[now], run.theta[now], high(run.alpha[now], run.theta[now]));
+    bowl.dot(...ball, 'path', { size: 8 });
+    bowl.dot(ball[0] - 2.5 * bowl.pixel, ball[1] + 3 * bowl.pixel, 'paper', { size: 1 });
+    sides.filter(({ inside }) => !inside).forEach((each) => fill(each, 0.45));
+    if (!hidden && yaw === look[0] && tilt === look[1]) {
+      const arc = Array.from({ length: 25 }, (_, i) => (205 + 130 * i / 24) / DEGREES)
+          .map((turn) => [0.95 * Math.cos(turn), -0.35 + 0.32 * Math.sin(turn)]);
+      bowl.line(arc, 'focus');
+      bowl.arrow(...arc[21], ...arc[24], 'focus');
+      bowl.text('turn me', 0, -0.8, { role: 'focus', align: 'center', weight: 600 });
+    }
     levels.dot(run.alpha[now] * DEGREES, run.theta[now] * DEGREES, 'path', { size: 7 });
+    robot.state(run.rho[now], run.alpha[now], run.theta[now]);
+  },
+  handles({ yaw, tilt }) {
+    const at = projected(yaw, tilt), down = Math.sin(tilt / DEGREES);
+    return [{ id: 'turn', pane: 'bowl', at: at(REACH, 0, 0),
+      says: `the bowl, turned by ${written(yaw)} degrees`,
+      move: (x, y) => ({ yaw: Math.round(Math.atan2(y / down, x) * DEGREES) }) }];
   },
   say: (values, { run, k, height, top }) =>
       ({ seconds: written(run.t[k], 's'), height: written(height), top: written(top) }),

@@ -1,10 +1,12 @@
-// Behind a goal that drives round: the distance that is left, in the picture and over time, and
-// what (6.2) says of it.
+// Behind a goal that drives round: a camera rides with the goal, and shows the distance that is
+// left; beside it that distance over time, and what (6.2) says of it.
 
-import { driven, poseAt, timeNear } from '../runs.js';
+import { driven, poseAt } from '../runs.js';
 import { live } from '../live.js';
 import { summarise } from '../simulate.js';
 import { written } from '../style.js';
+
+const NEAR = 0.22; // m round the goal, or as far as the robot is
 
 export default live('lag', {
   find({ k_rho, v_max, time }, { data: { start, gains, speed } }) {
@@ -14,22 +16,31 @@ export default live('lag', {
     return { run, k: Math.round(time * (run.n - 1)), residual: summarise(run).residual,
         predicted: -Math.log(1 - speed / v_max) / k_rho };
   },
-  panes: (values, { run, k, residual }) => ({
-    circle: { x: [-8.6, 2.6, 'x [m]'], y: [-4.8, 4.8, 'y [m]'], equal: true,
-        given: 'The circle of the goal and the robot where it starts.',
-        alt: `The robot ${written(run.rho[k], 'm')} behind the goal, which drives round a circle.`,
-        scrub: (x, y) => timeNear(run.x, run.y, x, y, 0.5) },
-    distance: { x: [0, 40, 'time [s]'], y: [0, 0.4, 'distance to the goal [m]'],
-        given: 'Room for the distance over time.',
-        alt: `The distance over time levels out at ${written(residual, 'm')}.`,
-        scrub: (x) => ({ time: Math.min(Math.max(x / 40, 0), 1) }) },
-  }),
-  draw({ circle: picture, distance }, values, { run, k, predicted }, hidden, { data: { start } }) {
-    picture.path(run.goalX, run.goalY, 'goal', { width: 1.2, dash: [3, 4] });
-    if (hidden) { picture.robot(start); return; }
-    picture.path(run.x, run.y, 'path', { to: k + 1 });
-    picture.pose([run.goalX[k], run.goalY[k], run.goalHeading[k]], 'goal');
-    picture.robot(poseAt(run, k));
+  panes(values, { run, k, residual }, setup, hidden) {
+    const now = hidden ? 0 : k, near = Math.max(NEAR, 1.25 * run.rho[now]),
+        around = (at) => /** @type {Axis} */ ([at - near, at + near]);
+    return {
+      circle: { x: around(run.goalX[now]), y: around(run.goalY[now]), lawn: 0.25,
+          given: 'The goal from near, and the robot where it starts.',
+          alt: `The robot ${written(run.rho[k], 'm')} behind the goal, seen from a camera that ` +
+          `rides with the goal.` },
+      distance: { x: [0, 40, 'time [s]'], y: [0, 0.4, 'distance to the goal [m]'],
+          given: 'Room for the distance over time.',
+          alt: `The distance over time levels out at ${written(residual, 'm')}.`,
+          scrub: (x) => ({ time: Math.min(Math.max(x / 40, 0), 1) }) },
+    };
+  },
+  draw({ circle: picture, distance }, values, { run, k, predicted }, hidden) {
+    const now = hidden ? 0 : k, pose = poseAt(run, now), [x, y] = pose,
+        goal = [run.goalX[now], run.goalY[now], run.goalHeading[now]];
+    picture.path(run.goalX, run.goalY, 'goal', { width: 1.5, dash: [3, 4] });
+    if (!hidden) picture.path(run.x, run.y, 'path', { to: k + 1 });
+    picture.pose(goal, 'goal');
+    picture.robot(pose);
+    picture.arrow(x, y, goal[0], goal[1], 'rho');
+    if (hidden) return;
+    picture.text(written(run.rho[k], 'm'), (x + goal[0]) / 2, (y + goal[1]) / 2,
+        { role: 'rho', dx: 40 * Math.sin(goal[2]), dy: -40 * Math.cos(goal[2]), align: 'center' });
     distance.line([[0, predicted], [40, predicted]], 'start', { width: 1.5, dash: [6, 4] });
     distance.text('(6.2)', 39, predicted, { role: 'start', dy: 11, align: 'right' });
     distance.path(run.t, run.rho, 'rho');

@@ -1,53 +1,75 @@
-// A robot whose position or whose heading is that of a while ago.
+// Two robots race: one sees its position late, the other its heading. Pale, where each believes it
+// is.
 
 import { DEGREES, written } from '../style.js';
 import { heldRun, remembered } from '../runs.js';
 import { live } from '../live.js';
 import { wrap } from '../model.js';
 
-const lateRun = remembered(({ lost, position, heading, ...drive }) => {
-  const { dt } = drive, [back, turnedBack] = [position, heading].map((it) => Math.round(it / dt));
-  const past = [];
+const RACERS = [{ name: 'position', role: 'path' }, { name: 'heading', role: 'alpha' }];
+const NEAR = 4.5; // m round a robot
+
+const race = remembered(({ delay, lost, ...drive }) => RACERS.map(({ name }) => {
+  const { dt } = drive, back = Math.round(delay / dt), past = [], seen = [];
   const { poses, arrived } = heldRun({ ...drive, steps: Math.round(lost / dt), sight(k, pose) {
     past.push(pose);
-    const [x, y] = past[Math.max(k - back, 0)];
-    return [x, y, past[Math.max(k - turnedBack, 0)][2]];
+    const old = past[Math.max(k - back, 0)];
+    seen.push(name === 'position' ? [old[0], old[1], pose[2]] : [pose[0], pose[1], old[2]]);
+    return seen[k];
   } });
-  const [x, y] = [0, 1].map((axis) => poses.map((pose) => pose[axis]));
-  return { x, y, end: poses.at(-1), time: arrived ? dt * (poses.length - 1) : Infinity };
-});
-
-const LATE = { position: 'position', heading: 'heading', both: 'pose' };
-const length = ({ time }) =>
-    (Number.isFinite(time) ? `${written(time, 's')} long` : 'which does not arrive');
+  return { poses, seen, time: arrived ? dt * (poses.length - 1) : Infinity };
+}));
 
 export default live('late', {
-  find({ delay, which }, { data }) {
-    const run =
-        lateRun({ ...data, position: which === 'heading' ? 0 : delay,
-        heading: which === 'position' ? 0 : delay });
-    return { run, off: wrap(run.end[2] - data.goal[2]) };
+  find({ delay, time }, { data }) {
+    const runs = race({ delay, ...data }), longest = Math.max(...runs.map((it) => it.poses.length));
+    const k = Math.round(time * (longest - 1));
+    return { runs: runs.map((run) => {
+      const now = Math.min(k, run.poses.length - 1);
+      return { ...run, now, pose: run.poses[now], old: run.seen[now] || run.poses[now],
+        off: wrap(run.poses.at(-1)[2] - data.goal[2]) };
+    }), t: k * data.dt };
   },
-  panes: ({ which, delay }, { run }, { data: { goal: [x, y] } }) => ({
-    whole: { x: [-25, 40, 'x, east [m]'], y: [-8, 72, 'y, north [m]'], equal: true,
+  panes(values, { runs, t }, { data: { start } }, hidden) {
+    const near = ({ pose }, k) => {
+      const [east, north] = (hidden ? start : pose).map((it) => [it - NEAR, it + NEAR]);
+      return { x: east, y: north, lawn: 4, given: 'The robot at the start, from near.',
+        alt: `The robot whose ${RACERS[k].name} is late, from near, and, pale, where it ` +
+        `believes it is.` };
+    };
+    const [position, heading] = runs.map(near);
+    return {
+      whole: { x: [-14, 30], y: [-9, 68], lawn: true,
         given: 'The start and the goal, 58 m apart, each with its heading.',
-        alt: `The drive with a ${LATE[which]} ${written(delay, 's')} late, ${length(run)}.` },
-    near: { x: [x - 3, x + 3, 'x [m]'], y: [y - 3, y + 3, 'y [m]'], equal: true,
-        given: 'The goal from near.',
-        alt: 'The drive where it is near the goal, and the robot at its end.' },
-  }),
-  draw({ whole, near }, values, { run }, hidden, { data: { start, goal } }) {
+        alt: `Two robots on a lawn after ${written(t, 's')}: the one whose position is late is ` +
+        `${inWords(runs[0], start)}, the one whose heading is late ${inWords(runs[1], start)}.` },
+      position, heading,
+    };
+  },
+  draw({ whole, ...near }, values, { runs }, hidden, { data: { start, goal } }) {
     whole.pose(start, 'start');
     whole.pose(goal, 'goal');
-    near.pose(goal, 'goal');
-    if (hidden) return;
-    for (const pane of [whole, near]) {
-      pane.path(run.x, run.y, 'path', { width: 2 });
-      pane.robot(run.end);
-    }
+    RACERS.forEach(({ name, role }, k) => {
+      const pane = near[name], { poses, now, pose, old } = runs[k], [x, y, heading] = pose;
+      pane.pose(goal, 'goal');
+      if (hidden) { pane.robot(start, 1, { size: 1.5, role }); return; }
+      for (const each of [whole, pane]) each.line(poses.slice(0, now + 1), role);
+      pane.line([old, pose], role, { width: 1.5, dash: [2, 5] });
+      pane.robot(old, 0.4, { size: 1.5, role });
+      for (const [along, share] of [[heading, 1], [old[2], 0.5]])
+        pane.line([[x, y], [x + 1.8 * Math.cos(along), y + 1.8 * Math.sin(along)]], role,
+            { width: 1.5 + share, dash: share < 1 ? [4, 4] : [] });
+      pane.robot(pose, 1, { size: 1.5, role });
+      whole.robot(pose, 1, { role });
+    });
+    RACERS.forEach(({ name, role }) => near[name].text(`${name} late`,
+        ...near[name].view.toWorld(10, 16), { role, weight: 600 }));
   },
-  say: (values, { run, off }) =>
-      ({ end: Number.isFinite(run.time)
-      ? `stops after ${written(run.time, 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off`
-      : 'does not arrive within a minute' }),
+  say: (values, { runs }) => Object.fromEntries(runs.map(({ time, off }, k) => [RACERS[k].name,
+    Number.isFinite(time)
+      ? `stops after ${written(time, 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off`
+      : 'does not arrive within a minute'])),
 });
+
+const inWords = ({ pose, poses, now }, start) => (now === poses.length - 1 ? 'at its end'
+    : `${written(Math.hypot(pose[0] - start[0], pose[1] - start[1]), 'm')} from the start`);

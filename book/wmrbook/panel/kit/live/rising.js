@@ -1,5 +1,5 @@
 // Where V rises under (24) as printed, over the angles, at a distance and with a weight of the
-// distance; and V over time from there.
+// distance; the robot in that state, and its ways and V over time from there.
 
 import { DEGREES, written } from '../style.js';
 import { LAWS, polarClosingRate, poseOfError } from '../model.js';
@@ -8,6 +8,11 @@ import { remembered } from '../runs.js';
 import { simulate } from '../simulate.js';
 
 const CELLS = 73;
+const LAW = [{ name: '(24) as printed', role: 'rising', dash: [8, 5] },
+    { name: 'corrected', role: 'path', dash: [] }];
+/** @type {(rho: number) => { x: Axis, y: Axis, lawn: boolean }} */
+const around = (rho) =>
+     ({ x: [-1.3 * rho, 1.3 * rho], y: [-1.3 * rho, 1.3 * rho], lawn: true });
 
 // (19) along the loop that a law closes.
 function rateOfV(law, rho, alpha, theta, gains, L) {
@@ -50,31 +55,37 @@ export default live('rising', {
         run.rho[k] ** 2 / (2 * L) + run.alpha[k] ** 2 / 2 + gains.h * run.theta[k] ** 2 / 2);
     const both = runs({ rho, alpha, theta, gains });
     return { rate: rateOfV('printed', rho, alpha / DEGREES, theta / DEGREES, gains, L),
-        ...map({ rho, L, gains }), t: Array.from(both[0].t), V: both.map(value) };
+        ...map({ rho, L, gains }), t: Array.from(both[0].t), V: both.map(value), both };
   },
-  panes: (values, { share, V }) => ({
-    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true,
-        given: 'The plane of the two angles: nothing yet.',
+  panes: ({ alpha, theta, rho }, { share, V }, { data: { asked } }, hidden) => ({
+    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'],
+        given: 'The plane of the two angles, with the state that is asked about.',
         alt: `The plane of alpha and theta: V rises in ${(100 * share).toFixed(0)} percent of ` +
         `it.` },
+    robot: { ...around(hidden ? asked.rho : rho), given: 'The robot in that state, on a lawn.',
+        alt: `The robot ${written(rho, 'm')} from its goal, alpha ${written(alpha)} and theta ` +
+        `${written(theta)} degrees, and where it drives in three seconds with either law.` },
     time: { x: [0, 3, 'time [s]'], y: [0, 3, 'V / V at first'], given: 'V over time: nothing yet.',
         alt: `V over three seconds: times ${written(V[0][V[0].length - 1] / V[0][0])} with the ` +
         `printed law, times ${written(V[1][V[1].length - 1] / V[1][0])} with the corrected one.` },
   }),
-  draw({ plane, time }, { alpha, theta }, { rows, t, V, rate }, hidden) {
-    if (hidden) return;
+  draw({ plane, robot, time }, values, { rows, t, V, rate, both }, hidden, { data: { asked } }) {
+    const { alpha, theta, rho } = hidden ? asked : values;
+    time.line([[0, 1], [3, 1]], 'ghost', { width: 1.5, dash: [4, 4] });
+    if (!hidden)
+      both.forEach(({ x, y }, k) => robot.path(x, y, LAW[k].role, { dash: LAW[k].dash }));
+    robot.state(rho, alpha / DEGREES, theta / DEGREES);
+    if (hidden) { plane.dot(alpha, theta, 'ink', { hollow: true }); return; }
     const edge = (k) => k / CELLS * 360 - 180, half = 180 / CELLS;
     for (const [middle, from, to] of rows)
       plane.area(
           [[edge(from), middle - half], [edge(to), middle - half], [edge(to), middle + half],
           [edge(from), middle + half]], 'rising', 0.3);
     plane.dot(alpha, theta, rate > 0 ? 'rising' : 'path', { hollow: true });
-    time.line([[0, 1], [3, 1]], 'ghost', { width: 1.5, dash: [4, 4] });
-    V.forEach((each, k) =>
-        time.path(t, each.map((it) => it / each[0]), k ? 'path' : 'rising',
-        { dash: k ? [] : [8, 5] }));
-    time.text('(24) as printed', 1.7, 2.75, { role: 'rising' });
-    time.text('corrected', 1.7, 2.5, { role: 'path' });
+    V.forEach((each, k) => {
+      time.path(t, each.map((it) => it / each[0]), LAW[k].role, { dash: LAW[k].dash });
+      time.text(LAW[k].name, 2.9, 2.75 - 0.25 * k, { role: LAW[k].role, align: 'right' });
+    });
   },
   handles: ({ alpha, theta }) => [{
     id: 'state', pane: 'plane', at: [alpha, theta],

@@ -1,5 +1,5 @@
-// V' as a sum of two bars, for the distance and for the angles, at a state to be dragged, while the
-// law is put in piece by piece.
+// V' as a sum of two bars, for the distance and for the angles, at a state to be dragged, with the
+// robot in that state, while the law is put in piece by piece.
 
 import { DEGREES, written } from '../style.js';
 import { correctedLaw, polarClosingRate, printedLaw } from '../model.js';
@@ -33,22 +33,26 @@ export default live('two_bars', {
   find: ({ law, alpha, theta }, { data: { rho, gains } }) =>
       ({ bars: falls(law, rho, alpha / DEGREES, theta / DEGREES, gains),
       marks: rising([law, rho, gains]) }),
-  panes: ({ alpha, theta }, { bars, marks }) => ({
-    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'], equal: true,
+  panes: ({ alpha, theta }, { bars, marks }, { data: { rho } }) => ({
+    plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'],
         given: 'The plane of the two angles, with the state.',
         alt: `The plane of the angles, the state at ${written(alpha)} and ` +
         `${written(theta)} degrees; V rises at ${marks.length} of ${MARKS ** 2} states, each ` +
         `with a cross.` },
+    robot: { x: [-1.3 * rho, 1.3 * rho], y: [-1.3 * rho, 1.3 * rho], lawn: true,
+        given: 'The robot in that state, on a lawn.',
+        alt: `The robot in that state, ${written(rho, 'm')} from its goal, with both angles.` },
     bars: { x: [0.4, 3.6, '', () => ''], y: [-11, 7, 'rate of V [1/s]'],
         given: 'Room for two bars and their sum.',
         alt: `Two bars, ${written(bars[0])} for the distance and ${written(bars[1])} for the ` +
         `angles, and their sum, ${written(bars[0] + bars[1])}.` },
   }),
-  draw({ plane, bars: chart }, { alpha, theta }, { bars, marks }, hidden, { data: { asked } }) {
-    const sum = bars[0] + bars[1];
+  draw({ plane, robot, bars: chart }, values, { bars, marks }, hidden, { data: { asked, rho } }) {
+    const sum = bars[0] + bars[1], [alpha, theta] = hidden ? asked : [values.alpha, values.theta];
+    robot.state(rho, alpha / DEGREES, theta / DEGREES);
     if (!hidden)
       for (const mark of marks) plane.cross(mark[0] * DEGREES, mark[1] * DEGREES, 'rising', 2.5);
-    plane.dot(...(hidden ? asked : [alpha, theta]), 'path', { size: 8 });
+    plane.dot(alpha, theta, 'path', { size: 8, hollow: true });
     chart.line([[0.4, 0], [3.6, 0]], 'ink', { width: 1 });
     [['distance', 'rho', bars[0]], ['angles', 'alpha', bars[1]],
         ['sum', 'ink', sum]].forEach(([name, role, rate], k) => {

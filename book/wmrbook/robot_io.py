@@ -1,0 +1,63 @@
+"""What a log fills in of a robot's sheet, and the files that come out of it.
+
+`kit/nmea.js` and `kit/sheet.js` do the same in a page.
+"""
+
+from __future__ import annotations
+
+import math
+import re
+from pathlib import Path
+
+import numpy as np
+
+import wmrlib as wmr
+from wmrbook.robot_sheet import Robot, sheet
+
+FILES = Path(__file__).with_name("robot_files")
+
+
+def along(robot: Robot, track: wmr.Track) -> Robot:
+    """The robot, from the first to the last fix of a drive, or of a walk with its receiver."""
+    (start_lat, goal_lat), (start_lon, goal_lon) = (
+        map(float, degrees[[0, -1]]) for degrees in (track.points.lat, track.points.lon)
+    )
+    return robot._replace(
+        start_lat=start_lat, start_lon=start_lon, goal_lat=goal_lat, goal_lon=goal_lon
+    )
+
+
+def at_rest(robot: Robot, track: wmr.Track) -> Robot:
+    """The robot with the scatter of a log at rest as its receiver's sigma.
+
+    It is too small unless the log is much longer than the memory: what errs by the same amount all
+    the time does not scatter.
+    """
+    first = wmr.GeoPoint(lat=float(track.points.lat[0]), lon=float(track.points.lon[0]))
+    places = wmr.local_position(first, track.points)
+    return robot._replace(sigma=math.sqrt(float(np.mean(np.var(places, axis=1)))))
+
+
+def number(value: float) -> str:
+    """Six digits, and a point: C and YAML take 2 for a whole number."""
+    text = f"{float(f'{value:.6g}'):.10f}".rstrip("0")
+    return text + "0" if text.endswith(".") else text
+
+
+def templates() -> dict[str, str]:
+    """The texts of the files, by name, in which @name@ stands for a number."""
+    return {path.name: path.read_text(encoding="utf-8") for path in sorted(FILES.iterdir())}
+
+
+def files(robot: Robot) -> dict[str, str]:
+    """The files for the robot, by name: for C, for Arduino, and parameters for ROS 2."""
+    told = sheet(robot)
+    numbers = robot._asdict() | told._asdict() | told.gains._asdict() | told.turn._asdict()
+    words = {name: number(value) for name, value in numbers.items() if np.isscalar(value)}
+    for name in ("start_lat", "start_lon", "goal_lat", "goal_lon"):
+        words[f"{name}_e7"] = f"{math.floor(1e7 * numbers[name] + 0.5)}"
+        words[name] = f"{numbers[name]:.7f}"
+    return {
+        name: re.sub("@([a-z0-9_]+)@", lambda match: words[match[1]], text)
+        for name, text in templates().items()
+    }
