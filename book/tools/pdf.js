@@ -187,16 +187,30 @@ window.paper = (() => {
     const listed = index(terms);
     preface.before(contents([preface, ...chapters, ...backs, listed]), figures());
     article.append(listed);
+    const sought = made('div', ''); // Chromium tells the places of links alone
+    sought.hidden = true;
     for (const link of all('article a[href^="#"]')) {
       const number = made('span', 'page-number');
-      number.dataset.of = link.getAttribute('href').slice(1);
+      number.dataset.of = firstOf(link.getAttribute('href').slice(1));
+      sought.append(line(number.dataset.of, ''));
       if (link.closest('.lines, .indexed')) link.append(number);
       else if (leads_elsewhere(link)) link.after(' ', number);
     }
+    article.append(sought);
     name_pages(all('.chapter, .matter'));
     mark_pictures();
     measure();
     return document.documentElement.outerHTML;
+  }
+
+  // What is printed on the page of a section's heading: Chromium may place the heading itself on
+  // the page before, where it first tried it.
+  function firstOf(id) {
+    let it = document.getElementById(id);
+    while (it?.matches('section') && title(it)) it = title(it).nextElementSibling;
+    if (!it) return id;
+    it.id ||= `first-of-${id}`;
+    return it.id;
   }
 
   // From one document into another: there a reader on paper has to turn pages.

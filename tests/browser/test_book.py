@@ -94,11 +94,12 @@ def test_the_printed_book_is_a_book(site, printed):
 @pytest.mark.needs("browser")
 def test_what_the_printed_book_lists_stands_where_it_says(printed):
     listed = re.findall(r"\b(\d+\.\d+) \D.*? (\d+)(?= \d+\.\d+ \D)", printed.text("Figures"))
-    entry = re.compile(r"(?:\d+ ?(?=\D))?(.+?) ?(\d+)")
-    entries = [entry.fullmatch(it) for it in printed.lines("Contents")]
+    line = re.compile(r"(?:\d+ ?(?=\D))?(.+?) ?(\d+)")
+    entries = [line.fullmatch(it) for it in printed.lines("Contents")]
     entries = [it for it in entries if it]
     assert len(entries) > 5 * len(chapters())
-    for heading, page in (it.groups() for it in entries):
+    for entry, page in (it.groups() for it in entries):
+        heading = re.sub(r"^.*\d{3} ", "", entry)  # of two that came as one line
         assert letters(heading) in letters(printed.pages[int(page) - 1]), heading
     assert len(listed) > 30
     for number, page in listed:
