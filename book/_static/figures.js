@@ -27,6 +27,19 @@ addEventListener('load', () => {
     look();
   }
 });
+// The figures for the dark are loaded when they are wanted.
+addEventListener('DOMContentLoaded', () => {
+  const bring = () => {
+    if (document.documentElement.dataset.theme !== 'dark') return;
+    for (const it of document.querySelectorAll('img[data-src]')) {
+      it.src = it.dataset.src;
+      it.removeAttribute('data-src');
+    }
+  };
+  new MutationObserver(bring)
+      .observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });
+  bring();
+});
 // Paper is white.
 const theme = document.documentElement.dataset;
 addEventListener('beforeprint', () => { theme.screen = theme.theme; theme.theme = 'light'; });

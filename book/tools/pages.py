@@ -41,6 +41,8 @@ MENDED = (  # what the theme writes, and what axe-core finds nothing in
     (r'role="doc-biblioentry"', 'role="listitem"'),
     (rf"<thead>\s*<tr[^>]*>(?:\s*{EMPTY})+\s*</tr>\s*</thead>", ""),
     (EMPTY, "<td></td>"),
+    # figures.js brings it when the page turns dark
+    (r'(<img [^>]*class="only-dark[^>]*) loading="lazy"([^>]*) src=', r'\1\2 data-src='),
 )
 # An icon in the theme's script: name: [width, height, [other names], code, path].
 ICON = re.compile(r'"?([\w-]+)"?:\[\d+,\d+,(\[[^\]]*\]),"[0-9a-f]+",(?:"[^"]*"|\[[^\]]*\])\],?')
