@@ -42,7 +42,10 @@ MENDED = (  # what the theme writes, and what axe-core finds nothing in
     (rf"<thead>\s*<tr[^>]*>(?:\s*{EMPTY})+\s*</tr>\s*</thead>", ""),
     (EMPTY, "<td></td>"),
     # figures.js brings it when the page turns dark
-    (r'(<img [^>]*class="only-dark[^>]*) loading="lazy"([^>]*) src=', r'\1\2 data-src='),
+    (r'(<img [^>]*class="only-dark[^>]*) loading="lazy"([^>]*) src=', r"\1\2 data-src="),
+)
+DESIGN = re.compile(
+    r"<link[^>]*sphinx-design[^>]*>|<script[^>]*design-tabs[^>]*></script>", re.IGNORECASE
 )
 # An icon in the theme's script: name: [width, height, [other names], code, path].
 ICON = re.compile(r'"?([\w-]+)"?:\[\d+,\d+,(\[[^\]]*\]),"[0-9a-f]+",(?:"[^"]*"|\[[^\]]*\])\],?')
@@ -143,6 +146,8 @@ def mend(app, exception):
         text = path.read_text(encoding="utf-8")
         for theirs, ours in MENDED:
             text = re.sub(theirs, ours, text)
+        if 'class="sd-' not in text:  # nothing here is sphinx-design's
+            text = DESIGN.sub("", text)
         for count, model in enumerate(dict.fromkeys(MODEL.findall(text)), 1):  # named at random
             text = text.replace(model, f"widget-{count:03}")
         path.write_text(text, encoding="utf-8")
