@@ -36,7 +36,7 @@ FONTS = {
     "serif": '"Source Serif 4", Georgia, "Times New Roman", serif',
     "sans": '"Source Sans 3", "Source Sans Pro", system-ui, "Segoe UI", Roboto, Arial, sans-serif',
     "code": '"JetBrains Mono", ui-monospace, Menlo, Consolas, monospace',
-    "maths": '"STIX Two Text", "STIX Two Math", "Cambria Math", Georgia, serif',
+    "maths": '"STIX Two Text", "Source Serif 4", "Cambria Math", Georgia, serif',
 }
 # The files that pages carry, from npm's @fontsource: family, weights, styles, folder, parts.
 FILES = (
@@ -44,7 +44,6 @@ FILES = (
     ("Source Sans 3", "200 900", "normal", "-variable/source-sans-3", "latin-wght"),
     ("Source Sans 3", "200 900", "normal", "-variable/source-sans-3", "greek-wght"),
     ("JetBrains Mono", "100 800", "normal", "-variable/jetbrains-mono", "latin-wght"),
-    ("STIX Two Text", "400", "italic", "/stix-two-text", "latin-400"),
     ("STIX Two Text", "400", "italic", "/stix-two-text", "greek-400"),
 )
 

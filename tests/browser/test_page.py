@@ -28,6 +28,8 @@ def test_every_page_opens_without_trouble_and_without_faults(site, opened, brows
     for name, scheme in zip(names, itertools.cycle(["light", "dark"]), strict=False):
         browser_page.emulate_media(color_scheme=scheme)
         browser_page.set_viewport_size({"width": 1366, "height": 768})
+        browser_page.goto("about:blank")  # the page before may still be loading
+        browser_page.wait_for_timeout(100)
         loaded.clear()
         page = opened(name)
         assert sum(path.stat().st_size for path in map(Path, loaded) if path.is_file()) < 4e6, name

@@ -23,5 +23,5 @@ export const FONTS = {
   serif: '"Source Serif 4", Georgia, "Times New Roman", serif',
   sans: '"Source Sans 3", "Source Sans Pro", system-ui, "Segoe UI", Roboto, Arial, sans-serif',
   code: '"JetBrains Mono", ui-monospace, Menlo, Consolas, monospace',
-  maths: '"STIX Two Text", "STIX Two Math", "Cambria Math", Georgia, serif',
+  maths: '"STIX Two Text", "Source Serif 4", "Cambria Math", Georgia, serif',
 };
