@@ -54,9 +54,10 @@ export default live('two_bars', {
       for (const mark of marks) plane.cross(mark[0] * DEGREES, mark[1] * DEGREES, 'rising', 2.5);
     plane.dot(alpha, theta, 'path', { size: 8, hollow: true });
     chart.line([[0.4, 0], [3.6, 0]], 'ink', { width: 1 });
+    const names = Math.min(14, chart.box.width / 15); // beside each other in a narrow picture too
     [['distance', 'rho', bars[0]], ['angles', 'alpha', bars[1]],
         ['sum', 'ink', sum]].forEach(([name, role, rate], k) => {
-      chart.text(name, k + 1, 7, { role, dy: -12, align: 'center' });
+      chart.text(name, k + 1, 7, { role, dy: -12, align: 'center', size: names });
       if (hidden) return;
       chart.bar(k + 1, 0, Math.min(Math.max(rate, -10.2), 5.4), role);
       chart.text(way(rate), k + 1, rate < 0 ? 0 : Math.min(rate, 5.4),
