@@ -30,7 +30,8 @@ function render({ model, el }) {
   const still = matchMedia('(prefers-reduced-motion: reduce)').matches
       || document.documentElement.dataset.still !== undefined;
   let colours = readColours(root), share = model.get('state').share, run, off, view, whole = true,
-      begin = 0, at = 0, near = 0, frame = 0, later = 0, mending = !still, holds = false;
+      begin = 0, at = 0, near = 0, frame = 0, later = 0, mending = !still, holds = false,
+      stays = false; // whoever wants to see the whole way goes on seeing it
 
   const drive = () => {
     const gains = Object.fromEntries(Object.keys(paper)
@@ -50,7 +51,7 @@ function render({ model, el }) {
   const again = made(row, 'button', { type: 'button', textContent: 'Drive again' });
   const zoom = made(row, 'button', { type: 'button' });
   again.addEventListener('click', () => { byHand(); keep(); play(); });
-  zoom.addEventListener('click', () => { byHand(); whole = !whole; move(); });
+  zoom.addEventListener('click', () => { byHand(); stays = whole = !whole; move(); });
   const handles = buildHandles(host, {
     get: (name) => poses[name],
     set(name, pose) { byHand(); poses[name] = pose; drive(); end(); },
@@ -63,7 +64,7 @@ function render({ model, el }) {
   function change(value) { share = value; model.set('state', { share }); drive(); }
   function end() { at = run.n - 1; begin = 0; draw(); }
   function play() {
-    if (still) { whole = false; end(); move(); return; }
+    if (still) { whole = stays; end(); move(); return; }
     [at, whole, begin] = [0, true, performance.now()];
     move();
   }
@@ -75,7 +76,7 @@ function render({ model, el }) {
       const passed = Math.min(Math.max(now - begin, 0) / DRIVE, 1), last = run.n - 1;
       // as a film that slows down towards its end
       at = Math.round((1 - (1 - passed) ** 2) * last);
-      if (run.rho[at] < 12) whole = false;
+      if (run.rho[at] < 12 && !stays) whole = false;
       if (passed === 1) { begin = 0; if (mending) later = window.setTimeout(mend, LOOK); }
     }
     const to = whole ? 0 : 1, speed = still ? 1 : 0.035;
@@ -132,13 +133,19 @@ function render({ model, el }) {
           `${(off * DEGREES).toFixed(0)}°`, colours.rising, colours);
     }
     for (const name of ['start', 'goal'])
-      drawName(ctx, view, poses[name], name, colours, done ? null : place);
+      drawName(ctx, view, poses[name], name, colours, place);
     const times = icon * ICON / view.scale / ROBOT;
     label(ctx, times > 1.5 ? `the robot is drawn ${written(times, '', 2)} times its size`
         : 'the robot is drawn to scale', width - 12, height - 14, colours,
     { colour: colours.soft, align: 'right' });
     say(done);
-    handles(begin ? { start: null, goal: null } : poses);
+    label(ctx, 'drag a circle or an arrow', width - 12, height - 34, colours,
+        { colour: colours.soft, align: 'right' });
+    const inView = (name) => {
+      const [x, y] = view.toScreen(poses[name][0], poses[name][1]);
+      return x > 0 && x < width && y > 0 && y < height ? poses[name] : null;
+    };
+    handles({ start: inView('start'), goal: inView('goal') });
   }
   function say(done) {
     const degrees = `${(off * DEGREES).toFixed(0)}°`, arrived = run.outcome === 'ARRIVED';

@@ -20,7 +20,7 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
       open = () => still || committed();
   /** @type {any} */
   let draft = ask.kind === 'sketch' ? [] : null;
-  let listening = false, shown = null, answered = false, grip = null;
+  let listening = false, shown = null, answered = false, renewed = false, grip = null;
   const form = made(root, 'form', { className: 'live-gate' });
   putWords(made(form, 'p', { className: 'live-question' }), ask.question);
   const options = made(form, 'div', { className: 'live-options' },
@@ -53,6 +53,7 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
   const verdict = made(form, 'p', { className: 'live-verdict', tabIndex: -1 }, { role: 'status' });
   function tryAgain() {
     draft = ask.kind === 'sketch' ? [] : null;
+    renewed = true;
     set({ guess: null });
     close();
   }
@@ -162,6 +163,7 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
       });
     putWords(verdict, done ? judged(guess) + ask.why : '');
     root.closest('.live').dataset.open = String(open());
+    if (renewed && !done) { renewed = false; form.querySelector('input')?.focus(); }
     if (answered) { answered = false; verdict.focus(); } // where a keyboard and a voice go on
   }
   function draw() {

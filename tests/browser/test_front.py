@@ -1,0 +1,85 @@
+"""The front page's picture says what wmrlib finds, can be held by both poses, and reads well."""
+
+from __future__ import annotations
+
+import math
+import re
+
+import pytest
+
+pytest.importorskip("anywidget", reason="the panel needs anywidget")
+from faults import axe
+from host import TRAITS, mounted
+
+import wmrlib as wmr
+from wmrbook.panel import Front
+
+PICTURE = "() => document.querySelector('.front canvas').toDataURL()"
+SAID = "() => document.querySelector('.front-words').textContent"
+
+
+def off_deg(goal, gains) -> float:
+    start = wmr.paper.outdoor().start
+    return abs(
+        math.degrees(wmr.simulate(start, goal, gains, method="continuous").heading_error[-1])
+    )
+
+
+@pytest.mark.parametrize("width", [390, 1366])
+def test_it_says_how_far_off_the_paper_s_gains_leave_the_robot_and_that_gentle_ones_park_it(
+    emptied_page, width
+):
+    mounted(emptied_page, Front(), width=width, height=768)
+    _, goal, gains, _ = wmr.paper.outdoor()
+    assert f"faces {off_deg(goal, gains):.0f}° the wrong way" in emptied_page.evaluate(SAID)
+    slider = emptied_page.locator(".front-row input")
+    slider.focus()
+    slider.press("End")
+    for _ in range(60):
+        slider.press("ArrowRight")
+    assert off_deg(goal, wmr.GENTLE_GAINS) < 3.0
+    assert emptied_page.evaluate(SAID).endswith("With gentler gains it parks.")
+    emptied_page.add_script_tag(path=axe())
+    assert not emptied_page.evaluate("axe.run('.front').then(it => it.violations.map(it => it.id))")
+
+
+def test_a_pose_that_is_turned_by_keys_is_driven_to_and_the_whole_way_stays_in_view(emptied_page):
+    page = emptied_page
+    mounted(page, Front(), width=1366, height=768)
+    before = page.evaluate(SAID)
+    turn = page.locator("[data-pose=goal][data-part=turn]")
+    for _ in range(18):
+        turn.press("ArrowLeft")
+    said = page.evaluate(SAID)
+    assert said != before
+    heading = float(
+        re.search(r"heading (.*?)°", turn.get_attribute("aria-label"))[1].replace(
+            "\N{MINUS SIGN}", "-"
+        )
+    )
+    _, goal, gains, _ = wmr.paper.outdoor()
+    turned = goal._replace(heading=math.radians(heading))
+    assert f"faces {off_deg(turned, gains):.0f}° the wrong way" in said
+    start = page.locator("[data-pose=start]")
+    assert start.locator("visible=true").count() == 0  # out of the picture
+    page.get_by_role("button", name="The whole way").click()
+    start.last.wait_for(state="visible")
+    assert start.locator("visible=true").count() == 2
+    page.get_by_role("button", name="Drive again").click()
+    page.wait_for_timeout(200)
+    assert page.get_by_role("button", name="The last metre").is_visible()
+    assert start.locator("visible=true").count() == 2
+
+
+def test_it_moves_within_a_second_and_stops_when_a_hand_comes(emptied_page):
+    page = emptied_page
+    mounted(page, Front(), width=1366, height=768)
+    page.emulate_media(reduced_motion="no-preference")
+    page.evaluate("() => { unmount(); document.body.replaceChildren(); }")
+    page.evaluate("traits => mount(traits)", Front().get_state(TRAITS))
+    page.wait_for_timeout(300)
+    first = page.evaluate(PICTURE)
+    page.wait_for_timeout(600)
+    assert page.evaluate(PICTURE) != first
+    page.wait_for_function(f"({SAID})().includes('27°')", timeout=15_000)
+    page.wait_for_function(f"({SAID})().endsWith('it parks.')", timeout=20_000)
