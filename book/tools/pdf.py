@@ -24,8 +24,6 @@ BROWSERS = (
     "chrome",
 )
 HERE = Path(__file__)
-# A printing does not wait for fonts: on a busy machine it took others.
-LOADED = "() => Promise.all([...document.fonts].map(it => it.load()))"
 # Static fonts: what a PDF has of a variable one are drawings without a name.
 FACES = (("Serif", "source-serif-4"), ("Sans", "source-sans-3"), ("Code", "jetbrains-mono"))
 FACE = """@font-face {{ font-family: "Paper {name}"; font-weight: {weight}; font-style: {style};
@@ -100,7 +98,6 @@ def open_page(chromium, page: Path):
     book.add_init_script(DEAD)
     book.goto(page.as_uri(), wait_until="load")
     book.add_style_tag(content=faces() + HERE.with_suffix(".css").read_text(encoding="utf-8"))
-    book.evaluate(LOADED)
     add_scripts(book)
     return book
 

@@ -63,7 +63,6 @@ def printed(book) -> Printed:
     return Printed(book)
 
 
-@pytest.mark.xfail(reason="on some machines Chromium prints with another font", strict=False)
 @pytest.mark.needs("browser")
 def test_the_printed_book_is_a_book(site, printed):
     title, back, contents = *printed.pages[:2], letters(printed.text("Contents"))
