@@ -128,7 +128,7 @@ def test_formulas_colour_the_letters_that_are_meant():
         assert unicodedata.name(letter) == (
             wanted or {"h": "PLANCK CONSTANT", "V": "MATHEMATICAL ITALIC CAPITAL V"}[role]
         )
-        assert f'[data-c="{code}"] {{ fill: var(--{role}); }}' in face.css()
+        assert f'[data-c="{code}"] {{ fill: var(--{role}); --role: {role}; }}' in face.css()
 
 
 @pytest.mark.parametrize("theme", [0, 1], ids=["light", "dark"])

@@ -23,10 +23,9 @@ addEventListener('DOMContentLoaded', () => {
     if (kept() === 'shown') turn(true); // an answer's cell is open anyhow
   }
 
-  const LETTERS = { '1D70C': 'rho', '1D6FC': 'alpha', '1D703': 'theta', '210E': 'h', '1D449': 'V' };
   const roleOf = (target) => {
     const it = target instanceof Element && target.closest('[data-c], .live-symbol');
-    return it && (LETTERS[it.dataset.c] || it.dataset.role);
+    return it && (it.dataset.role || getComputedStyle(it).getPropertyValue('--role').trim());
   };
   const light = ({ target }) => {
     const role = roleOf(target);

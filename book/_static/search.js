@@ -6,7 +6,8 @@ window.fetch = (url) => {
   return Promise.resolve({ text: () => Promise.resolve(text) });
 };
 // Of two pages with a word the one that says it more often comes first.
-addEventListener('DOMContentLoaded', () => Object.assign(globalThis.Scorer, {
+// Before Sphinx's own listener, which searches.
+document.addEventListener('DOMContentLoaded', () => Object.assign(globalThis.Scorer, {
   score([name, , , , score]) {
     const asked = new URLSearchParams(location.search).get('q') ?? '';
     const words = asked.toLowerCase().match(/[\p{L}\d]+/gu) ?? [];

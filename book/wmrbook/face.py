@@ -56,8 +56,12 @@ def css() -> str:
         chosen = ":root" if theme == "light" else ':root[data-theme="dark"]'
         themes.append(f"{chosen} {{\n{rows}}}\n")
     fonts = "".join(f"  --{role}: {names};\n" for role, names in FONTS.items())
+    # A page's script reads --role of what is touched, see reading.js.
     letters = "".join(
-        f'[data-c="{code}"] {{ fill: var(--{role}); }}\n' for role, code in LETTERS.items()
+        f'[data-c="{code}"] {{ fill: var(--{role}); --role: {role}; }}\n'
+        f'[data-lit="{role}"] :is([data-c="{code}"], .live-symbol[data-role="{role}"]) '
+        "{ filter: var(--lit); }\n"
+        for role, code in LETTERS.items()
     )
     return "".join([*themes, f":root {{\n{fonts}}}\n", letters])
 

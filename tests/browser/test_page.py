@@ -13,6 +13,8 @@ from faults import SIZES, of_page
 from graded import leaks
 from live import PATIENCE, assert_slider_matters, chapters, pages, settled_picture, sliders
 
+from wmrbook import face
+
 pytestmark = [] if os.environ.get("BOOK_HTML") else pytest.mark.needs("npm")
 
 # Formulas that would have to be scrolled.
@@ -99,6 +101,39 @@ def test_no_link_of_the_site_is_broken(site):
                 or there not in parts
                 or unquote(url.fragment) in parts[there].anchors
             ), f"{path.name}: {target}"
+
+
+def test_of_pages_with_a_word_the_one_that_says_it_most_comes_first(opened):
+    page = opened("search.html?q=LaSalle")
+    found = page.locator("#search-results li > a")
+    found.nth(2).wait_for()
+    assert found.first.get_attribute("href") == "notebooks/04_lyapunov.html"
+
+
+def test_one_switch_unfolds_the_code_of_every_chapter(opened):
+    folded = """() => [...document.querySelectorAll('details.above-input')]
+        .filter(it => !it.querySelector('.python-editor')).map(it => it.open)"""  # no answer
+    page = opened("notebooks/02_the_robot.html")
+    assert page.evaluate(folded).count(True) == 0
+    assert len(page.evaluate(folded)) > 5
+    page.get_by_role("button", name="Show all code").click()
+    assert all(page.evaluate(folded))
+    page = opened("notebooks/06_the_circle.html")
+    assert all(page.evaluate(folded))
+    page.get_by_role("button", name="Fold all code").click()
+    assert not any(opened("notebooks/02_the_robot.html").evaluate(folded))
+
+
+def test_a_symbol_that_is_touched_lights_up_and_no_other(opened):
+    page = opened("notebooks/04_lyapunov.html")
+    lit = """role => [...document.querySelectorAll(`[data-c="${role}"]`)]
+        .map(it => getComputedStyle(it).filter !== 'none')"""
+    for role, code in face.LETTERS.items():
+        page.locator(f'#the-paper-s-bowl [data-c="{code}"]').first.hover()
+        for other, letter in face.LETTERS.items():
+            assert set(page.evaluate(lit, letter)) == {other == role}, (role, other)
+    page.locator("article h1").hover()
+    assert not any(page.evaluate(lit, face.LETTERS["alpha"]))
 
 
 def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
