@@ -16,67 +16,77 @@ from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS, saturation_scale
 from wmrlib.motion import polar_from_pose, wheel_speeds
-from wmrlib.trust import DRIVE, STATES, TURN, Memory, Rules, Seen
+from wmrlib.trust import (
+    BROKEN,
+    DRIVE,
+    FROZEN,
+    JUMPED,
+    LATE,
+    POOR,
+    STALE,
+    STATES,
+    TURN,
+    Memory,
+    Rules,
+    Seen,
+    loose,
+    outside,
+    silent,
+    silent_by,
+    stuck,
+    too_far,
+    turned,
+)
 
 
 class Row(NamedTuple):
-    """In one of the states `within`, where `condition` holds, go `to` a state; the reason why."""
+    """In one of the states `within`, where `condition` holds, go `to` a state; the reason why.
+
+    A condition asks the memory m, the sensors s, the rules r and the last turn e. `symbolic` prints
+    its source for C.
+    """
 
     within: str
-    condition: str
+    condition: Callable[[Memory, Seen, Rules, LastTurn], int]
     to: str
     reason: str = ""
 
 
-_GOING, _SILENT = "wait drive turn", "m.silence > rules.patience"
-_KNOWN = "(m.good >= rules.settle or m.driven > 0.0)"
+_GOING = "wait drive turn"
 TABLE = (
-    Row(_GOING, "m.low > rules.patience", "stopped", "battery low"),
-    Row(_GOING, "seen.goal_inside == 0", "stopped", "goal outside the fence"),
-    Row(_GOING, f"{_KNOWN} and m.outside != 0", "stopped", "robot outside the fence"),
-    Row(_GOING, f"{_KNOWN} and m.rho > rules.farthest", "stopped", "goal too far"),
-    Row(_GOING, "m.left.stuck != 0 or m.right.stuck != 0", "stopped", "wheel or encoder stuck"),
-    Row(_GOING, "m.left.loose != 0 or m.right.loose != 0", "stopped", "wheel turns untold"),
-    Row(_GOING, "m.turned >= rules.settle", "stopped", "heading disagrees with wheels"),
-    Row(_GOING, "m.slipping != 0", "stopped", "wheels turn and robot stands"),
-    Row(_GOING, "m.astray != 0", "stopped", "heading disagrees with course"),
-    Row(_GOING, "m.driven > rules.longest_drive", "stopped", "drive too long"),
-    Row(_GOING, "m.regular == 0", "wait", "clock jumped"),
-    Row(_GOING, f"{_SILENT} and m.refused == BROKEN", "wait", "fix is no number"),
-    Row(_GOING, f"{_SILENT} and m.refused == POOR", "wait", "fix of too low quality"),
-    Row(_GOING, f"{_SILENT} and m.refused == LATE", "wait", "fix too old"),
-    Row(_GOING, f"{_SILENT} and m.refused == STALE", "wait", "fix time stands or goes back"),
-    Row(_GOING, f"{_SILENT} and m.refused == FROZEN", "wait", "position frozen"),
-    Row(_GOING, f"{_SILENT} and m.refused == JUMPED", "wait", "position jumped"),
-    Row(_GOING, _SILENT, "wait", "no fix"),
-    Row("wait", "m.good >= rules.settle", "drive"),
-    Row("drive", "m.rho <= rules.arrival_radius and end.tolerance > 0.0", "turn"),
-    Row("drive", "m.rho <= rules.arrival_radius", "parked"),
-    Row("turn", "m.rho > end.leave * rules.arrival_radius", "drive"),
-    Row("turn", "m.facing >= rules.settle and m.faced >= end.settle", "parked"),
+    Row(_GOING, lambda m, s, r, e: m.low > r.patience, "stopped", "battery low"),
+    Row(_GOING, lambda m, s, r, e: s.goal_inside == 0, "stopped", "goal outside the fence"),
+    Row(_GOING, lambda m, s, r, e: outside(m, r), "stopped", "robot outside the fence"),
+    Row(_GOING, lambda m, s, r, e: too_far(m, r), "stopped", "goal too far"),
+    Row(_GOING, lambda m, s, r, e: stuck(m), "stopped", "wheel or encoder stuck"),
+    Row(_GOING, lambda m, s, r, e: loose(m), "stopped", "wheel turns untold"),
+    Row(_GOING, lambda m, s, r, e: turned(m, r), "stopped", "heading disagrees with wheels"),
+    Row(_GOING, lambda m, s, r, e: m.slipping != 0, "stopped", "wheels turn and robot stands"),
+    Row(_GOING, lambda m, s, r, e: m.astray != 0, "stopped", "heading disagrees with course"),
+    Row(_GOING, lambda m, s, r, e: m.driven > r.longest_drive, "stopped", "drive too long"),
+    Row(_GOING, lambda m, s, r, e: m.regular == 0, "wait", "clock jumped"),
+    Row(_GOING, lambda m, s, r, e: silent_by(m, r, BROKEN), "wait", "fix is no number"),
+    Row(_GOING, lambda m, s, r, e: silent_by(m, r, POOR), "wait", "fix of too low quality"),
+    Row(_GOING, lambda m, s, r, e: silent_by(m, r, LATE), "wait", "fix too old"),
+    Row(_GOING, lambda m, s, r, e: silent_by(m, r, STALE), "wait", "fix time stands or goes back"),
+    Row(_GOING, lambda m, s, r, e: silent_by(m, r, FROZEN), "wait", "position frozen"),
+    Row(_GOING, lambda m, s, r, e: silent_by(m, r, JUMPED), "wait", "position jumped"),
+    Row(_GOING, lambda m, s, r, e: silent(m, r), "wait", "no fix"),
+    Row("wait", lambda m, s, r, e: m.good >= r.settle, "drive"),
+    Row("drive", lambda m, s, r, e: m.rho <= r.arrival_radius and e.tolerance > 0.0, "turn"),
+    Row("drive", lambda m, s, r, e: m.rho <= r.arrival_radius, "parked"),
+    Row("turn", lambda m, s, r, e: m.rho > e.leave * r.arrival_radius, "drive"),
+    Row("turn", lambda m, s, r, e: m.facing >= r.settle and m.faced >= e.settle, "parked"),
 )
 """Every decision, in the order of priority: the first row that fits is taken, if one does."""
 REASONS = tuple(dict.fromkeys(["", *(row.reason for row in TABLE)]))
 
 
-_PLACES = "m", "seen", "rules", "end"
-_TEXT = "lambda {}: {}"
-_ROWS: list[tuple[set[int], Callable, int, int]] = [
-    (
-        {STATES.index(state) for state in row.within.split()},
-        eval(_TEXT.format(", ".join(_PLACES), row.condition), vars(trust)),
-        STATES.index(row.to),
-        REASONS.index(row.reason),
-    )
-    for row in TABLE
-]
-
-
 def decide(m: Memory, seen: Seen, rules: Rules, end: LastTurn) -> None:
     """Take the first row of `TABLE` that fits."""
-    for within, condition, to, reason in _ROWS:
-        if m.state in within and condition(m, seen, rules, end):
-            m.state, m.reason = to, reason
+    for row in TABLE:
+        if STATES[m.state] in row.within.split() and row.condition(m, seen, rules, end):
+            m.state, m.reason = STATES.index(row.to), REASONS.index(row.reason)
             return
 
 

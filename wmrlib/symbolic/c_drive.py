@@ -34,6 +34,9 @@ _SIGNS |= {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==",
 _SIGNS |= {ast.Not: "!", ast.USub: "-", ast.Mod: "%"}
 
 
+_SHORT = {"s": "seen", "r": "rules", "e": "end"}  # in a condition of the table
+
+
 def code_name(words: str) -> str:
     """A state, a refusal or a reason as a constant of the header."""
     return "WMR_" + (words or "fine").upper().replace(" ", "_")
@@ -49,7 +52,7 @@ class _C(ast.NodeVisitor):
         raise NotImplementedError(f"{ast.unparse(node)} has no counterpart in C here")
 
     def visit_Name(self, node):
-        return code_name(node.id) if node.id.isupper() else node.id
+        return code_name(node.id) if node.id.isupper() else _SHORT.get(node.id, node.id)
 
     def visit_Constant(self, node):
         return f"WMR_C({node.value!r})" if isinstance(node.value, float) else repr(node.value)
@@ -120,9 +123,15 @@ class _C(ast.NodeVisitor):
         return text if simple else f"({text})"
 
 
-def c_condition(text: str, pointers: str = "m seen rules end") -> str:
+def c_condition(condition: ast.Lambda) -> str:
     """A condition of the table as C."""
-    return _C(set(pointers.split())).visit(ast.parse(text, mode="eval").body)
+    return _C({each.arg for each in condition.args.args}).visit(condition.body)
+
+
+def _conditions() -> list[ast.Lambda]:
+    """Those of `parking.TABLE` in the order in which its source has them."""
+    tree = ast.parse(inspect.getsource(parking))
+    return [node for node in ast.walk(tree) if isinstance(node, ast.Lambda)]
 
 
 def _statement(node: ast.stmt, c: _C, indent: str) -> list[str]:
@@ -186,12 +195,11 @@ def _structure(kind) -> str:
     return _wrapped(f"typedef struct {{ {fields} }} {_KINDS[kind]};")
 
 
-def _row(row: parking.Row) -> str:
+def _row(row: parking.Row, condition: str) -> str:
     within = row.within.split()
     every = within == list(trust.STATES[: len(within)])  # up to the last of them
     test = f"m->state {'<=' if every else '=='} {code_name(within[-1])} && "
     assert every or len(within) == 1, row
-    condition = c_condition(row.condition)
     test += f"({condition})" if "||" in condition else condition
     test = _wrapped(f"  if ({test}) {{")
     change = f"    m->state = {code_name(row.to)}, m->reason = {code_name(row.reason)};"
@@ -213,7 +221,7 @@ def c_drive() -> str:
         "STRUCTURES": "\n".join(map(_structure, _STRUCTS)),
         "USUAL": " \\\n".join(_wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
         "FUNCTIONS": "\n".join(_function(each) for each in _OWN.values()),
-        "TABLE": "\n".join(map(_row, parking.TABLE)),
+        "TABLE": "\n".join(map(_row, parking.TABLE, map(c_condition, _conditions()))),
         "REASONS": ",\n".join(said),
     }
     for place, printed in places.items():

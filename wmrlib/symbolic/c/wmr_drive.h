@@ -287,6 +287,46 @@ static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules
   }
 }
 
+/* Whether good fixes have said where the robot is. */
+static inline int wmr_placed(wmr_memory *m, const wmr_rules *rules) {
+  return m->good >= rules->settle || m->driven > WMR_C(0.0);
+}
+
+/* Whether the robot is outside its fence. */
+static inline int wmr_outside(wmr_memory *m, const wmr_rules *rules) {
+  return wmr_placed(m, rules) && m->outside != 0;
+}
+
+/* Whether the goal is too far away to be meant. */
+static inline int wmr_too_far(wmr_memory *m, const wmr_rules *rules) {
+  return wmr_placed(m, rules) && m->rho > rules->farthest;
+}
+
+/* Whether a wheel, or its encoder, stands though it was told to roll. */
+static inline int wmr_stuck(wmr_memory *m) {
+  return m->left.stuck != 0 || m->right.stuck != 0;
+}
+
+/* Whether a wheel rolls though it was not told to. */
+static inline int wmr_loose(wmr_memory *m) {
+  return m->left.loose != 0 || m->right.loose != 0;
+}
+
+/* Whether fix after fix has another heading than the wheels. */
+static inline int wmr_turned(wmr_memory *m, const wmr_rules *rules) {
+  return m->turned >= rules->settle;
+}
+
+/* Whether the last usable fix is too long ago. */
+static inline int wmr_silent(wmr_memory *m, const wmr_rules *rules) {
+  return m->silence > rules->patience;
+}
+
+/* Whether it is, and the last fix could not be used because of this. */
+static inline int wmr_silent_by(wmr_memory *m, const wmr_rules *rules, int why) {
+  return wmr_silent(m, rules) && m->refused == why;
+}
+
 
 /* The first row of the table that fits. */
 static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules,
@@ -299,25 +339,23 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
     m->state = WMR_STOPPED, m->reason = WMR_GOAL_OUTSIDE_THE_FENCE;
     return;
   }
-  if (m->state <= WMR_TURN && ((m->good >= rules->settle || m->driven > WMR_C(0.0)) &&
-      m->outside != 0)) {
+  if (m->state <= WMR_TURN && wmr_outside(m, rules)) {
     m->state = WMR_STOPPED, m->reason = WMR_ROBOT_OUTSIDE_THE_FENCE;
     return;
   }
-  if (m->state <= WMR_TURN && ((m->good >= rules->settle || m->driven > WMR_C(0.0)) &&
-      m->rho > rules->farthest)) {
+  if (m->state <= WMR_TURN && wmr_too_far(m, rules)) {
     m->state = WMR_STOPPED, m->reason = WMR_GOAL_TOO_FAR;
     return;
   }
-  if (m->state <= WMR_TURN && (m->left.stuck != 0 || m->right.stuck != 0)) {
+  if (m->state <= WMR_TURN && wmr_stuck(m)) {
     m->state = WMR_STOPPED, m->reason = WMR_WHEEL_OR_ENCODER_STUCK;
     return;
   }
-  if (m->state <= WMR_TURN && (m->left.loose != 0 || m->right.loose != 0)) {
+  if (m->state <= WMR_TURN && wmr_loose(m)) {
     m->state = WMR_STOPPED, m->reason = WMR_WHEEL_TURNS_UNTOLD;
     return;
   }
-  if (m->state <= WMR_TURN && m->turned >= rules->settle) {
+  if (m->state <= WMR_TURN && wmr_turned(m, rules)) {
     m->state = WMR_STOPPED, m->reason = WMR_HEADING_DISAGREES_WITH_WHEELS;
     return;
   }
@@ -337,34 +375,31 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
     m->state = WMR_WAIT, m->reason = WMR_CLOCK_JUMPED;
     return;
   }
-  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_BROKEN)
-      {
+  if (m->state <= WMR_TURN && wmr_silent_by(m, rules, WMR_BROKEN)) {
     m->state = WMR_WAIT, m->reason = WMR_FIX_IS_NO_NUMBER;
     return;
   }
-  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_POOR) {
+  if (m->state <= WMR_TURN && wmr_silent_by(m, rules, WMR_POOR)) {
     m->state = WMR_WAIT, m->reason = WMR_FIX_OF_TOO_LOW_QUALITY;
     return;
   }
-  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_LATE) {
+  if (m->state <= WMR_TURN && wmr_silent_by(m, rules, WMR_LATE)) {
     m->state = WMR_WAIT, m->reason = WMR_FIX_TOO_OLD;
     return;
   }
-  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_STALE) {
+  if (m->state <= WMR_TURN && wmr_silent_by(m, rules, WMR_STALE)) {
     m->state = WMR_WAIT, m->reason = WMR_FIX_TIME_STANDS_OR_GOES_BACK;
     return;
   }
-  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_FROZEN)
-      {
+  if (m->state <= WMR_TURN && wmr_silent_by(m, rules, WMR_FROZEN)) {
     m->state = WMR_WAIT, m->reason = WMR_POSITION_FROZEN;
     return;
   }
-  if (m->state <= WMR_TURN && m->silence > rules->patience && m->refused == WMR_JUMPED)
-      {
+  if (m->state <= WMR_TURN && wmr_silent_by(m, rules, WMR_JUMPED)) {
     m->state = WMR_WAIT, m->reason = WMR_POSITION_JUMPED;
     return;
   }
-  if (m->state <= WMR_TURN && m->silence > rules->patience) {
+  if (m->state <= WMR_TURN && wmr_silent(m, rules)) {
     m->state = WMR_WAIT, m->reason = WMR_NO_FIX;
     return;
   }
