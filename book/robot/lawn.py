@@ -15,6 +15,7 @@ import json
 import math
 import os
 from concurrent.futures import ProcessPoolExecutor
+from pathlib import Path
 from typing import NamedTuple
 
 import numpy as np
@@ -242,11 +243,12 @@ def main() -> None:
         except RuntimeError as lacking:
             print(f"no run through gpsd: {lacking}")
     if given.json:
-        named = [
-            {"design": d, "receiver": r} | row for (d, r), row in zip(pairs, rows, strict=True)
-        ]
-        with open(given.json, "w", encoding="utf-8") as file:
-            json.dump(named, file, indent=1)
+        lines = []
+        for (design, receiver), row in zip(pairs, rows, strict=True):
+            rounded = {name: round(value, 4) for name, value in row.items()}
+            lines.append(json.dumps({"design": design, "receiver": receiver} | rounded))
+        text = "[\n" + ",\n".join(lines) + "\n]\n"
+        Path(given.json).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":
