@@ -182,3 +182,27 @@ def test_different_things_have_different_hues_and_no_run_has_a_poses():
     series = [figures.COLOURS[role] for role, _ in SERIES]
     assert len(set(series)) == len(series)
     assert not set(series) & {figures.COLOURS["start"], figures.COLOURS["goal"]}
+
+
+def test_a_page_plays_a_drive_where_the_picture_has_it():
+    picture = figures.path(RUN, near=2.0)
+    picture.svg()
+    motion, (whole,) = picture.motion(), picture.figure.axes
+    assert motion["seconds"] == pytest.approx(RUN.t[-1], abs=0.01)
+    for robot, axes in zip(motion["robots"], (whole, *whole.child_axes), strict=True):
+        left, top, right, bottom = robot["box"]
+        assert 0 <= left < right <= 10_000
+        assert 0 <= top < bottom <= 10_000
+        for k, place in ((0, 0), (-1, -1)):
+            (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
+            across = left + (right - left) * (RUN.x[k] - west) / (east - west)
+            down = bottom - (bottom - top) * (RUN.y[k] - south) / (north - south)
+            assert robot["x"][place] == pytest.approx(across, abs=12)  # boxes are rounded, and
+            assert robot["y"][place] == pytest.approx(down, abs=12)  # an inset enlarges that
+            assert robot["heading"][place] == round(math.degrees(np.unwrap(RUN.heading)[k]))
+
+
+def test_robots_that_arrive_early_wait_and_rings_have_no_gaps():
+    motion = figures.path([RUN, PARKED]).motion()
+    assert len(set(motion["robots"][1]["x"])) == 1
+    assert 'data-motion="' not in figures.twist(RUN)._repr_mimebundle_()["text/html"]

@@ -23,8 +23,10 @@ BEGIN = "(function wmrKit() {"
 END = "if (typeof document === 'object') globalThis.wmrPanels = kit.shown(); })();"
 ENTRY = """{imports}
 import css from './panel.css';
+import {{ enliven }} from './player.js';
 export function shown() {{
   document.head.append(Object.assign(document.createElement('style'), {{ textContent: css }}));
+  enliven(document);
   return {{ {programs} }};
 }}"""
 

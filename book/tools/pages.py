@@ -26,7 +26,8 @@ from wmrbook.figures.style import SVG_URL, darkened
 
 CHAPTER = re.compile(r"notebooks/(\d\d)_")
 FIGURE = re.compile(
-    rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)">'
+    rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)"'
+    r'(?: data-motion="(?P<motion>[^"]*)")?>'
 )
 GROWN = 1.2  # letters of a figure are as large as those of the text
 MEASURE = 690  # px, of the column of text
@@ -112,6 +113,10 @@ def show_figures(app, doctree):
             if theme == "dark":  # not loaded where the theme hides it
                 image["loading"] = "lazy"
             images.append(image)
+        if figure["motion"]:  # the kit's player.js plays it
+            told = html.unescape(figure["motion"])
+            told = f'<script type="application/json">{told}</script>'
+            images.append(nodes.raw("", told, format="html"))
         # In a box of its own, since it scrolls in a narrow window.
         output.replace_self(nodes.container("", *images, classes=["figure-box"]))
 

@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.ticker import FuncFormatter, LogLocator
 
 from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
-from wmrbook.figures.paths import pose_at
+from wmrbook.figures.paths import play, pose_at
 from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import real
 from wmrlib.kinematics import Pose
@@ -30,8 +30,10 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     goal = Pose(*(np.broadcast_to(field, first.t.shape) for field in first.goal))
     wide = {"color": "0.75", "lw": 7.0, "solid_capstyle": "round"}
     axes.plot(goal.x, goal.y, label="reference", **wide)
+    drives = []
     for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
         axes.plot(run.x, run.y, color=COLOURS[role], ls=style, label=title)
+        drives.append(play(axes, run, role))
     every_x = np.concatenate([goal.x, *(run.x for run in runs.values())])
     every_y = np.concatenate([goal.y, *(run.y for run in runs.values())])
     start, target = pose_at(first, 0), pose_at(goal, 0)
@@ -53,6 +55,7 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
         figure,
         f"{_course_of_goal(goal.x, goal.y)}, and {who} at ({start.x:g}, {start.y:g}) m; "
         f"distance from the goal at the end: {'; '.join(parts)}.",
+        drives,
     )
 
 

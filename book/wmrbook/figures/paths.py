@@ -10,7 +10,7 @@ from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
 from wmrbook.figures._drawing import run_list
-from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, LINES, Drive, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import scalar
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.runs import Trajectory
@@ -52,14 +52,21 @@ def path(
         lines = [Line2D([], [], color=COLOURS["path"], ls=style) for style in LINES[:count]]
         axes.legend(lines, labels)
     equal_scales(axes, x, y, room=0.12)
+    drives = [play(axes, run) for run in runs]
     if near is not None:
-        _draw_end(axes, runs[0], scalar("near", near, above=0.0))
+        inset = _draw_end(axes, runs[0], scalar("near", near, above=0.0))
+        drives.append(play(inset, runs[0]))
     names = [f"{label}: " for label in labels] or [""] * count
     words = [name + path_in_words(run) for name, run in zip(names, runs, strict=True)]
-    return Picture(figure, "Path in metres: " + "; ".join(words) + ".")
+    return Picture(figure, "Path in metres: " + "; ".join(words) + ".", drives)
 
 
-def _draw_end(axes: Axes, run: Trajectory, near: float) -> None:
+def play(axes: Axes, run: Trajectory, role: str = "path") -> Drive:
+    """What a page needs to play a run."""
+    return Drive(axes, run.t, run.x, run.y, run.heading, role)
+
+
+def _draw_end(axes: Axes, run: Trajectory, near: float) -> Axes:
     """An inset with the last bit of the way, beside the path."""
     goal = pose_at(run.goal, -1)
     left = 0.57 if np.median(run.x) <= np.mean(axes.get_xlim()) else 0.04
@@ -69,6 +76,7 @@ def _draw_end(axes: Axes, run: Trajectory, near: float) -> None:
     inset.set(xlim=(goal.x - near, goal.x + near), ylim=(goal.y - near, goal.y + near))
     inset.set(xticks=[], yticks=[])
     inset.set_title(f"within {near:g} m", fontsize=10)
+    return inset
 
 
 def draw_path(axes: Axes, run: Trajectory, style: str = "-", *, size: float, robots: bool = True):

@@ -22,7 +22,7 @@ from wmrbook.figures._drawing import (
     pointer,
 )
 from wmrbook.figures.paths import pose_at
-from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import choice, instance, real, scalar
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectories, Trajectory
@@ -91,7 +91,7 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
     """
     check_series(paths, Trajectories)
     figure, row = panels(1, len(paths), 3.5 * len(paths), 3.8, sharey=True, squeeze=False)
-    texts = []
+    texts, drives = [], []
     for (title, many), axes in zip(paths.items(), row[0], strict=True):
         here = np.array([goal.x, goal.y])[:, None]
         steps = np.hypot(np.diff(many.x), np.diff(many.y))
@@ -103,13 +103,16 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
         equal_scales(axes, np.r_[many.x[:, 0], here[0]], np.r_[many.y[:, 0], here[1]], room=0.2)
         axes.set(xlabel="x [m]", ylabel="y [m]")
         axes.label_outer()
+        for x, y, heading in zip(many.x, many.y, many.heading, strict=True):
+            driven = np.isfinite(x)
+            drives.append(Drive(axes, many.t[driven], x[driven], y[driven], heading[driven]))
         backing = int((many.v[:, 0] < -1e-9).sum())
         longest = np.nansum(steps, axis=1).max()
         texts.append(f"{title} {backing} set off backwards, the longest path has {longest:.1f} m")
     figure.draw_without_rendering()  # the layout knows titles beside equal scales only then
     count, far = len(many.x), many.rho[:, 0].max()
     what = f"Paths to a goal from {count} starts on a circle of {far:.0f} m"
-    return Picture(figure, f"{what}: {'; '.join(texts)}.")
+    return Picture(figure, f"{what}: {'; '.join(texts)}.", drives)
 
 
 def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:

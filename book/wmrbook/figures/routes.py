@@ -10,7 +10,8 @@ from matplotlib.lines import Line2D
 
 from wmrbook.challenge import Score, drive_cases
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
-from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.paths import play
+from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose
 from wmrlib.routes import Route
@@ -45,7 +46,8 @@ def route(driven: Route) -> Picture:
         handles.append(_marker("not reached", COLOURS["ink"], "x"))
     legend_above(axes, len(handles), handles)
     axes.set(xlabel="x, east [m]", ylabel="y, north [m]")
-    return Picture(figure, f"{_in_words(driven)}.")
+    way_driven = Drive(axes, driven.t, driven.x, driven.y, driven.heading)
+    return Picture(figure, f"{_in_words(driven)}.", [way_driven])
 
 
 def challenge_paths(score: Score) -> Picture:
@@ -89,6 +91,7 @@ def challenge_paths(score: Score) -> Picture:
         f"The paths of {len(runs)} cases, the start a filled arrow and the goal an outlined one; "
         f"{score.reached} of them reached, with {score.total:.2f} points in the mean; the "
         f"costliest is case {costliest + 1}, {worst.kind}, with {worst.points:.1f} points.",
+        [play(axes, run) for axes, run in zip(grid.flat, runs, strict=False)],
     )
 
 

@@ -7,11 +7,13 @@ from __future__ import annotations
 
 import html
 import io
+import json
 import math
 import re
 import unicodedata
+from collections.abc import Sequence
 from importlib.resources import files
-from typing import Any
+from typing import Any, NamedTuple
 from urllib.parse import quote
 
 import matplotlib as mpl
@@ -69,6 +71,7 @@ for _path in files("font_source_sans_pro").joinpath("files").iterdir():
 LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
 SVG_URL = "data:image/svg+xml,"
+FRAMES, PARTS = 120, 10_000  # of a drive that is played; places in so many parts of the picture
 _UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
 _HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
 _POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
@@ -92,6 +95,17 @@ _NAME = re.compile(rf"\b(?:([kvl])_(max|x|y|{'|'.join(_GREEK)})|({'|'.join(_GREE
 _NUMBER = re.compile(r"-?\d+\.\d{3,}(?:e-?\d+)?")  # with more decimals than one can see
 
 
+class Drive(NamedTuple):
+    """A run that a page can play in the axes that show it: arrays in s, m and rad, and a colour."""
+
+    axes: Axes
+    t: np.ndarray
+    x: np.ndarray
+    y: np.ndarray
+    heading: np.ndarray
+    role: str = "path"
+
+
 class Picture:
     """A figure and its alternative text, which Jupyter shows as an SVG image with that text.
 
@@ -99,11 +113,13 @@ class Picture:
     ----------
     figure : matplotlib's Figure, to change or save
     alt : str, for readers who don't see the figure, and for tests
+    drives : Drives that the book's pages play over the picture
     """
 
-    def __init__(self, figure: Figure, alt: str) -> None:
+    def __init__(self, figure: Figure, alt: str, drives: Sequence[Drive] = ()) -> None:
         self.figure = figure
         self.alt = alt
+        self.drives = drives
         for text in figure.findobj(Text):  # those made after `new_figure` have matplotlib's font
             text.set_fontfamily(STYLE["font.family"])
             if "$" not in text.get_text():
@@ -125,12 +141,47 @@ class Picture:
         text, names = _POINTS.sub(lambda path: _NUMBER.sub(_rounded, path[0]), text), {}
         return _HASHED.sub(lambda it: names.setdefault(it[0], f"{it[0][0]}{len(names)}"), text)
 
+    def motion(self) -> dict[str, Any]:
+        """Return where the robots are on the picture, in `FRAMES` even steps of time.
+
+        Places and the boxes of the axes are in `PARTS` of its width and height, from the left and
+        from the top; headings in degrees.
+        """
+        seconds = max(float(drive.t[-1]) for drive in self.drives)
+        times, (width, height) = np.linspace(0.0, seconds, FRAMES), self.figure.bbox.size
+        robots = []
+        for axes, t, x, y, heading, role in self.drives:
+            left, bottom, right, top = axes.get_window_extent().extents
+            sides = left / width, 1.0 - top / height, right / width, 1.0 - bottom / height
+            place = axes.transData.transform(np.column_stack([x, y]))
+            across, down = place[:, 0] / width, 1.0 - place[:, 1] / height
+            robots.append(
+                {
+                    "box": _parts(np.array(sides)),
+                    "x": _parts(np.interp(times, t, across)),
+                    "y": _parts(np.interp(times, t, down)),
+                    "heading": np.rint(np.interp(times, t, np.degrees(np.unwrap(heading))))
+                    .astype(int)
+                    .tolist(),
+                    "role": role,
+                }
+            )
+        return {"seconds": round(seconds, 2), "robots": robots}
+
     def _repr_mimebundle_(self, include=None, exclude=None):
         """As HTML: JupyterLab gives a bare image no alternative text."""
         width = round(self.figure.get_figwidth() * 72)
         source = quote(self.svg().replace('"', "'"), safe=" ='/:;,()")
-        image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{SVG_URL}{source}">'
+        image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{SVG_URL}{source}"'
+        if self.drives:  # after svg(), which lays the axes out
+            told = json.dumps(self.motion(), separators=(",", ":"))
+            image += f' data-motion="{html.escape(told)}"'
+        image += ">"
         return {"text/html": image, "text/plain": repr(self)}
+
+
+def _parts(shares: np.ndarray) -> list[int]:
+    return np.rint(PARTS * shares).astype(int).tolist()
 
 
 def in_symbols(words: str) -> str:

@@ -1,0 +1,63 @@
+"""Drives that a page plays over their pictures."""
+
+from __future__ import annotations
+
+import pytest
+from live import chapters
+
+pytestmark = pytest.mark.needs("npm")
+PLAYERS = {"00": 1, "05": 1, "06": 1, "12": 2}
+# Where on its canvas something is drawn: the middle of it, in parts of its size.
+DRAWN = """player => {
+  const box = [player.previousElementSibling, player.previousElementSibling.previousElementSibling]
+      .find(it => it.matches('.figure-box')), canvas = box.querySelector('canvas');
+  const { width, height } = canvas, data = canvas.getContext('2d')
+      .getImageData(0, 0, width, height).data;
+  let sum = 0, x = 0, y = 0;
+  for (let k = 0; k < width * height; k += 1) if (data[4 * k + 3] > 200) {
+    sum += 1; x += k % width; y += Math.floor(k / width);
+  }
+  const { seconds, robots } = JSON.parse(box.querySelector('script').text);
+  return { count: sum, at: [x / sum / width, y / sum / height], seconds,
+           ways: robots.map(it => [it.x, it.y].map(values => values.map(v => v / 10000))) };
+}"""
+
+
+def name_of(chapter):
+    return next(f"notebooks/{path.stem}.html" for path in chapters() if path.stem[:2] == chapter)
+
+
+@pytest.mark.parametrize("chapter", PLAYERS)
+def test_a_drive_plays_over_its_picture(opened, chapter):
+    page = opened(name_of(chapter))
+    players = page.query_selector_all(".player")
+    assert len(players) == PLAYERS[chapter]
+    for player in players:
+        player.scroll_into_view_if_needed()
+        assert player.evaluate(DRAWN)["count"] == 0  # the picture speaks for itself
+        slider, button = player.query_selector("input"), player.query_selector("button")
+        for key, place in (("End", -1), ("Home", 0)):
+            slider.focus()
+            page.keyboard.press(key)
+            seen = player.evaluate(DRAWN)
+            if len(seen["ways"]) == 1:
+                expected = [values[place] for values in seen["ways"][0]]
+                assert seen["at"] == pytest.approx(expected, abs=0.02)
+            assert seen["count"] > 20
+        assert slider.get_attribute("aria-valuetext") == "0.0 s"
+        button.click()
+        assert button.inner_text() == "Pause"
+        page.wait_for_function("b => b.textContent === 'Play'", arg=button, timeout=20_000)
+        assert slider.get_attribute("aria-valuetext") == f"{seen['seconds']:.1f} s"
+
+
+def test_a_drive_waits_where_it_is_paused(opened):
+    page = opened(name_of("12"))
+    player = page.query_selector(".player")
+    slider, button = player.query_selector("input"), player.query_selector("button")
+    button.click()
+    page.wait_for_timeout(300)
+    button.click()
+    first = slider.get_attribute("aria-valuetext")
+    page.wait_for_timeout(200)
+    assert slider.get_attribute("aria-valuetext") == first != "0.0 s"
