@@ -38,7 +38,7 @@ def drive_of_the_example():
 def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
     program = build(FOLDER / "example.c", tmp_path, f"-DWMR_REAL={real}")
     printed = subprocess.run([program], check=True, capture_output=True, text=True).stdout
-    periods, *reached = map(float, printed.split())
+    periods, *reached = map(float, printed.splitlines()[-1].split())
     count, pose = drive_of_the_example()
     assert abs(periods - count) <= (0 if real == "double" else 1)
     assert reached == pytest.approx(list(pose), abs=tolerance)
@@ -160,3 +160,15 @@ def test_the_loop_has_no_check_too_many(tmp_path, wrong, what, turns, check, non
 
     assert seen(SOURCE) == list(turns)
     assert seen(SOURCE.replace(check, none)) != list(turns)  # so the check is needed
+
+
+@compiler
+def test_a_robot_that_the_loop_leaves_stands(tmp_path):
+    (tmp_path / "board.h").write_text(BOARD.format(battery="24", inside="1", receiver=""))
+    source = SOURCE.replace("count < 4000", "count < 60")
+    for text, cut in ((source, True), (source.replace("  cut_power(); /* parked", "  /*"), False)):
+        (tmp_path / "example.c").write_text(text)
+        options = f"-I{tmp_path}", '-DHARDWARE="board.h"', "-Wno-unused"
+        program = build(tmp_path / "example.c", tmp_path, *options)
+        ran = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+        assert ("cut 60" in ran.splitlines()) == cut

@@ -173,3 +173,12 @@ def test_a_pose_or_a_noise_of_arrays_is_refused():
 @pytest.mark.parametrize(("gate", "numbers"), [(estimation.GATE_1, 1), (estimation.GATE_2, 2)])
 def test_a_gate_lets_999_of_1000_sound_measurements_pass(gate, numbers):
     assert chi2.cdf(gate, numbers) == pytest.approx(0.999, abs=1e-5)
+
+
+def test_doubt_has_an_end():
+    """However often a measurement without a number is refused, the next good one is used."""
+    found = FIRST
+    for _ in range(600):
+        found = estimation.doubt(found, 4.0)
+    assert 100.0 < found.sigma[0] < 300.0
+    assert estimation.use_position(found, 3.0, 4.0, 0.02).pose[:2] == pytest.approx((3.0, 4.0))

@@ -251,8 +251,8 @@ def test_a_last_turn_that_would_swing_in_the_longest_period_is_refused(gain, per
 numbers = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([float("nan"), float("inf"), 1e6]))
 periods = st.builds(
     wmr.Seen,
-    seconds=st.sampled_from([0.05, 0.05, 0.05, 0.0, 1.0, -1.0]),
-    left=st.floats(-0.1, 0.1),
+    seconds=st.sampled_from([0.05] * 9 + [0.0, 1.0, -1.0, 1e30, float("nan")]),
+    left=st.one_of(st.floats(-0.1, 0.1), st.sampled_from([float("nan"), 1e30])),
     right=st.floats(-0.1, 0.1),
     battery=st.sampled_from([24.0, 24.0, 20.0, float("nan")]),
     goal_inside=st.just(1),
@@ -284,7 +284,7 @@ def test_whatever_the_sensors_say_c_and_python_agree_and_the_unsettled_stand(giv
         assert drives[0].state == drives[1].state
         assert drives[0].reason == drives[1].reason
         trusted = seen.fresh and 1 <= seen.quality <= 5 and seen.later > 0 and seen.age >= 0
-        silent = 0.0 if trusted else silent + max(seen.seconds, 0.0)
+        silent = 0.0 if trusted else silent + (seen.seconds if seen.seconds > 0.0 else 0.0)
         if silent > rules.patience or drives[0].state not in ("drive", "turn"):
             assert speeds[0] == (0.0, 0.0)
 
@@ -309,6 +309,7 @@ def test_what_c_has_no_word_for_is_not_printed(text):
         ({"last_turn": wmr.LastTurn(leave=np.array([2.0, 3.0]))}, "last_turn.leave"),
         ({"last_turn": wmr.LastTurn(tolerance=float("nan"))}, "last_turn.tolerance"),
         ({"rules": {}}, "rules"),
+        ({"rules": wmr.Rules(settle=2.5)}, "rules.settle = 2.5"),
         ({"law": "kanayama"}, "law"),
         ({"last_turn": 3}, "last_turn"),
         ({"wheels": wmr.Wheels(0.5, dead_band=0.05)}, "last_turn.min_rate = 0.2"),
@@ -327,3 +328,10 @@ def test_the_command_prints_the_table(ran):
     assert last == f"{len(CASES)} of {len(CASES)} as they must"
     assert [row[:33].strip() for row in rows] == list(CASES)
     assert all(ran[row[:33].strip()].end in row for row in rows)
+
+
+@pytest.mark.parametrize("name", wmr.Rules._fields)
+def test_a_rule_that_means_nothing_is_refused(name):
+    for wrong in (-1.0, float("nan"), "1", *((2.0,) if name == "share" else ())):
+        with pytest.raises(ValueError, match=f"^{name} = "):
+            wmr.Rules(**{name: wrong})

@@ -8,12 +8,15 @@ import subprocess
 import numpy as np
 import pytest
 import yaml
+from hypothesis import example, given, settings
+from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrbook import robot_sheet
 from wmrbook.robot_io import along, at_rest, files
 from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, sheet
 from wmrlib import symbolic
+from wmrlib.body import roll
 
 WRONG = {
     "track_width = 0 is not allowed: a number from 0.05 to 5 m is needed": {"track_width": 0.0},
@@ -143,8 +146,17 @@ def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     flat = [*read["gains"].values(), *read["last_turn"].values(), read["track_width"]]
     assert {type(value) for value in flat} == {float}
     assert read["arrival_radius"] == told.radius
-    assert read["oldest_fix"] == pytest.approx(told.oldest)
-    assert read["patience"] == pytest.approx(told.patience)
+    assert read["oldest_fix"] == pytest.approx(told.rules.oldest)
+    for name in (
+        "patience",
+        "largest_error",
+        "jump",
+        "longest_period",
+        "longest_drive",
+        "farthest",
+    ):
+        assert read[name] == pytest.approx(getattr(told.rules, name))
+    assert (read["acceleration"], read["dead_band"]) == (robot.acceleration, 0.0)
 
 
 def test_a_track_gives_the_way_and_the_scatter(tmp_path):
@@ -178,7 +190,8 @@ int main(void) {
   wmr_local_position_e7(MY_START_E7, MY_GOAL_E7, &goal.x, &goal.y);
   const wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), gains);
   printf("%.9f %.9f %.9f %.9f\\n", twist.v, twist.omega, wmr_turn_rate(0.01, MY_TURN),
-         (double)(MY_PATIENCE - PATIENCE + MY_OLDEST - OLDEST_FIX));
+         (double)(MY_PATIENCE - PATIENCE + MY_OLDEST - OLDEST_FIX + MY_JUMP - JUMP +
+                  MY_FARTHEST - FARTHEST + MY_ACCELERATION - ACCELERATION));
 }
 """,
         encoding="utf-8",
@@ -193,3 +206,43 @@ int main(void) {
     assert differ == pytest.approx(0.0, abs=1e-6)
     assert (v, omega) == pytest.approx(wmr.control_law(*error, told.gains), rel=1e-4)
     assert rate == told.turn.min_rate
+
+
+@settings(max_examples=10, deadline=None)
+@given(
+    robot=st.builds(
+        Robot,
+        goal_lat=st.floats(33.2739, 33.2790),
+        track_width=st.floats(0.1, 1.5),
+        max_speed=st.floats(0.2, 3.0),
+        acceleration=st.floats(0.2, 5.0),
+        dead_band=st.floats(0.0, 0.1),
+        period=st.floats(0.06, 0.5),
+        delay=st.floats(0.0, 1.0),
+        sigma=st.floats(0.0, 3.0),
+    )
+)
+@example(robot=Robot(period=0.2))
+@example(robot=Robot(max_speed=0.2, dead_band=0.0))
+@example(robot=Robot(goal_lat=33.2790))
+@example(robot=Robot(**RECEIVERS["GPS alone"]))
+def test_a_perfect_robot_parks_by_the_drive_that_the_sheet_describes(robot):
+    try:
+        told = sheet(robot)
+    except ValueError:
+        return
+    wheels = wmr.Wheels(robot.track_width, robot.max_speed, told.min_speed, robot.acceleration)
+    goal, dt = wmr.Pose(told.x, told.y, told.heading), robot.period
+    drive = wmr.Drive(goal, told.gains, wheels, told.turn, told.rules)
+    pose, body, rolled = wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x)), (0.0,) * 4, (0.0, 0.0)
+    for _ in range(math.ceil(1.2 * told.rules.longest_drive / dt)):
+        fix = {"fresh": 1, "error": robot.sigma, "later": dt, "age": 0.0}
+        speeds = drive.step(wmr.Seen(dt, *rolled, **pose._asdict(), **fix))
+        if drive.state in ("parked", "stopped"):
+            break
+        twist = wmr.wheels_to_twist(*speeds, robot.track_width)
+        *twist, body = roll(*twist, body, wheels, dt)
+        rolled = [dt * speed for speed in wmr.twist_to_wheels(*twist, robot.track_width)]
+        pose = wmr.advance(pose, *twist, dt)
+    assert drive.state == "parked", (drive.reason, told)
+    assert math.dist(pose[:2], goal[:2]) <= 2.0 * told.radius

@@ -113,10 +113,11 @@ def same_shape(**arguments: Any) -> tuple[int, ...]:
         raise ValueError(f"mismatched lengths: {listed}; {needed}") from None
 
 
-def reals(*, at_least_0=(), above_0=(), **values: Any) -> list[Real]:
+def reals(*, at_least_0=(), above_0=(), at_most_1=(), **values: Any) -> list[Real]:
     """Each value through `real`; ValueError too where their shapes don't broadcast together."""
     bounds = {name: {"low": 0.0} for name in at_least_0}
     bounds |= {name: {"above": 0.0} for name in above_0}
+    bounds |= {name: {"low": 0.0, "high": 1.0} for name in at_most_1}
     numbers = [real(name, value, **bounds.get(name, {})) for name, value in values.items()]
     if any(type(number) is not float for number in numbers):
         same_shape(**values)

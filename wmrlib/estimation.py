@@ -20,6 +20,7 @@ from wmrlib.kinematics import Pose
 
 GATE_1, GATE_2 = 10.83, 13.82
 """Chi-square bounds that 99.9 % of good measurements pass: of one number, of a position."""
+DOUBTED = 100.0  # m
 
 
 @checked(at_least_0=("wheels", "bias_walk", "scale_walk"), above_0=("gyro", "track_width"))
@@ -239,7 +240,8 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
 
     A gate that has refused several measurements in a row may be refusing the truth, for a robot
     that was carried, or a first heading that was wrong. Multiply by 4, say, with each one that it
-    refuses from then on, until one is used.
+    refuses from then on, until one is used. A place that is uncertain by more than 100 m is not
+    doubted further: what is refused then has no number, or another fault.
 
     Parameters
     ----------
@@ -254,6 +256,8 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
     """
     state, covariance = _parts(estimate)
     factor = scalar("factor", factor, low=1.0)
+    if covariance[0, 0] + covariance[1, 1] > DOUBTED**2:
+        factor = 1.0
     return Estimate(state, factor * covariance, estimate.surprise)
 
 

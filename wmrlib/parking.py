@@ -63,6 +63,7 @@ TABLE = (
     Row(_GOING, lambda m, s, r, e: turned(m, r), "stopped", "heading disagrees with wheels"),
     Row(_GOING, lambda m, s, r, e: m.slipping != 0, "stopped", "wheels turn and robot stands"),
     Row(_GOING, lambda m, s, r, e: m.astray != 0, "stopped", "heading disagrees with course"),
+    Row(_GOING, lambda m, s, r, e: m.outran != 0, "stopped", "position outruns the wheels"),
     Row(_GOING, lambda m, s, r, e: m.driven > r.longest_drive, "stopped", "drive too long"),
     Row(_GOING, lambda m, s, r, e: m.regular == 0, "wait", "clock jumped"),
     Row(_GOING, lambda m, s, r, e: silent_by(m, r, BROKEN), "wait", "fix is no number"),
@@ -73,6 +74,7 @@ TABLE = (
     Row(_GOING, lambda m, s, r, e: silent_by(m, r, JUMPED), "wait", "position jumped"),
     Row(_GOING, lambda m, s, r, e: silent(m, r), "wait", "no fix"),
     Row("wait", lambda m, s, r, e: m.good >= r.settle, "drive"),
+    Row("wait", lambda m, s, r, e: m.good < r.settle, "wait", "too few good fixes"),
     Row("drive", lambda m, s, r, e: m.rho <= r.arrival_radius and e.tolerance > 0.0, "turn"),
     Row("drive", lambda m, s, r, e: m.rho <= r.arrival_radius, "parked"),
     Row("turn", lambda m, s, r, e: m.rho > e.leave * r.arrival_radius, "drive"),
@@ -143,6 +145,8 @@ class Drive:
             if self.end.min_rate <= least:
                 needed = f"more than {least:g}, the dead band's,"
                 raise refusal("last_turn.min_rate", self.end.min_rate, needed)
+        if self.rules.settle % 1:
+            raise refusal("rules.settle", self.rules.settle, "a whole number")
         self.reset()
 
     def reset(self) -> None:

@@ -21,9 +21,17 @@ REFUSALS = "none", "broken", "poor", "late", "stale", "frozen", "jumped", "turne
 NONE, BROKEN, POOR, LATE, STALE, FROZEN, JUMPED, TURNED = range(len(REFUSALS))
 
 
-@checked(above_0=("arrival_radius", "patience", "oldest", "settle", "course", "wheel"))
+_ABOVE_0 = "arrival_radius patience oldest largest_error settle jump frozen course astray wheel"
+_ABOVE_0 += " longest_period longest_drive farthest"
+
+
+@checked(above_0=_ABOVE_0.split(), at_least_0=("slip", "battery"), at_most_1=("share",))
 class Rules(NamedTuple):
     """How far a robot trusts its sensors.
+
+    What is wrong by less than these say goes unnoticed: a compass that is off by less than
+    `astray`, or by any angle on a drive shorter than `course`; a position that drifts so slowly
+    that the wheels could have done it.
 
     Parameters
     ----------
@@ -33,7 +41,8 @@ class Rules(NamedTuple):
         Give `oldest` the usual delay of your receiver and 0.2 s more, `patience` two fixes more.
     settle : int. So many good fixes in a row let it drive.
     jump, slip : float; m, no unit. Nor is one used that is farther than jump from where the wheels
-        can be; they may err by the share slip of what they rolled.
+        can be; the place that they tell may err by the share slip of what they rolled. One wheel
+        alone may slip by about astray times the track width over `course`: then it is `astray`.
     frozen : float, m. Rolled so far, a robot whose position has the same bits has no receiver.
     course, astray : float; m, rad. Over legs so long, headings by fixes and wheels are compared.
     wheel, share : float; m, no unit. When a wheel was to roll, or rolled, so far, and did less than
@@ -126,6 +135,7 @@ class Memory:
     y: float = 0.0
     still: float = 0.0  # m rolled since these changed
     outside: int = 0
+    outran: int = 0  # the fixes went farther than the wheels can have rolled
     begin: Place = field(default_factory=Place)  # of a leg
     leg: Place = field(default_factory=Place)  # where the wheels are by now
     length: float = 0.0  # m of it
@@ -192,6 +202,7 @@ def compare(m: Memory, rules: Rules) -> None:
     rolled = distance(east, north)
     if rolled >= rules.course:
         m.slipping = distance(x, y) < 0.5 * rolled
+        m.outran = distance(x, y) > 2.0 * rolled
         m.astray = abs(atan2(east * y - north * x, east * x + north * y)) > rules.astray
     curls = m.length > 4.0 * rules.course or m.turning > 3.0
     if rolled >= rules.course or curls or m.driven == 0.0:
@@ -221,7 +232,8 @@ def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     """Take in a period: the clock, the wheels, the battery, and a fix if there is one."""
     sound = abs(seen.left) + abs(seen.right) < 1e9  # or an encoder says no number
     m.regular = seen.seconds > 0.0 and seen.seconds <= rules.longest_period and sound
-    dt = min(max(seen.seconds, 0.0), rules.longest_period)
+    passed = seen.seconds if seen.seconds > 0.0 else 0.0  # not what is no number
+    dt = min(passed, rules.longest_period)
     left, right = seen.left if sound else 0.0, seen.right if sound else 0.0
     ahead, turn = 0.5 * (left + right), (right - left) / wheels.track_width
     if m.regular:
@@ -234,7 +246,7 @@ def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     m.still += abs(ahead)
     m.length += abs(ahead)
     m.turning += abs(turn)
-    m.silence += max(seen.seconds, 0.0)
+    m.silence += passed
     m.low = m.low + dt if not seen.battery >= rules.battery else 0.0
     m.driven += dt if m.state == DRIVE or m.state == TURN else 0.0
     m.good = m.good if m.regular and m.silence <= rules.patience else 0

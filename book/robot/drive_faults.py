@@ -62,11 +62,14 @@ CASES = (
     Case("1 s late, and says so", {"delay": 1.0}, "wait: fix too old", SILENCE),
     Case("0.4 s late, unsaid", {"delay": 0.4, "told": False}, "parked", 0.4),
     Case("one fix a second", {"period": 1.0}, "parked", 0.4, rules={"patience": 1.5}, begin=0.0),
-    Case("one fix a second, patience 0.5 s", {"period": 1.0}, "wait: no fix", 0.0, begin=0.0),
+    Case("one fix a second, patience 0.5 s", {"period": 1.0}, "wait: too few good fixes", 0.0, 0.0),
     Case("a jump of 30 m", {"jump": 30.0}, "wait: position jumped", SILENCE),
     Case("a jump, and back", {"jump": 30.0}, "parked", 0.3, end=25.0),
     Case("one fix 30 m off", {"jump": 30.0}, "parked", 0.3, end=20.1),
-    Case("drifts by 2 m/s", {"drift": 2.0}, "stopped: heading disagrees with course", _LEG),
+    Case("drifts by 2 m/s", {"drift": (2.0, 0.0)}, "stopped: heading disagrees with course", _LEG),
+    Case(
+        "drifts ahead by 3 m/s", {"drift": (0.0, 3.0)}, "stopped: position outruns the wheels", _LEG
+    ),
     Case("lat and lon swapped", {"swapped": True}, "stopped: robot outside the fence", 0.0, 0.0),
     Case("swapped on the way", {"swapped": True}, "wait: position jumped", SILENCE),
     Case("clock jumps an hour", {"clock": 3600.0}, "parked", 0.3),

@@ -87,7 +87,7 @@ class LiveReceiver:
                         break
                     self._hear(report)
                 self.trouble = "gpsd has ended the connection"
-            except (OSError, ValueError) as error:  # a ValueError is no JSON, or no UTF-8
+            except Exception as error:  # whatever a stream may hold, the thread goes on
                 self.trouble = str(error) or type(error).__name__
             with suppress(OSError):
                 self._client.close()

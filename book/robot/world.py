@@ -30,7 +30,7 @@ class Faults(NamedTuple):
     delay: float = 0.05  # s, of them
     told: bool = True  # the fix's age is known
     jump: float = 0.0  # m, to the east
-    drift: float = 0.0  # m/s, to the east
+    drift: tuple[float, float] = (0.0, 0.0)  # m/s, to the east and to the north
     swapped: bool = False  # latitude and longitude
     time: float = 1.0  # how fast the time of the fixes goes on
     compass: float = 0.0  # rad
@@ -57,7 +57,7 @@ class World:
         self.pose, self.speeds = CASE.start, [0.0, 0.0]
         self.now, self.rolled, self.power = 0.0, 0.0, True
         self.past: list[tuple[float, wmr.Pose]] = []
-        self.clock_error = self.drifted = 0.0
+        self.clock_error, self.drifted = 0.0, np.zeros(2)
         self.said: wmr.Pose | None = None  # by the receiver, last
         self.time = self.due = 0.0  # of the fixes
         self.encoders = [0.0, 0.0]
@@ -94,7 +94,7 @@ class World:
 
     def see(self, faults: Faults) -> wmr.Seen:
         """What the program reads in a period, by its own clock."""
-        self.drifted += faults.drift * PERIOD
+        self.drifted += np.multiply(faults.drift, PERIOD)
         before, clock = self.clock, self.now + self.clock_error
         if not faults.clock_stands:
             self.clock = clock
@@ -114,8 +114,8 @@ class World:
         self.due = 0.0
         back = max(0, len(self.past) - 1 - round(faults.delay / PERIOD))
         pose = self.past[back][1] if self.past else self.pose
-        x, y = np.array(pose[:2]) + self.rng.normal(0.0, 0.02, 2)
-        x += faults.jump + self.drifted
+        x, y = np.array(pose[:2]) + self.rng.normal(0.0, 0.02, 2) + self.drifted
+        x += faults.jump
         if faults.swapped:
             x, y = swapped(x, y)
         load = max(map(abs, self.speeds)) / WHEELS.max_speed

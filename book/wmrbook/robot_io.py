@@ -52,7 +52,9 @@ def templates() -> dict[str, str]:
 def files(robot: Robot) -> dict[str, str]:
     """The files for the robot, by name: for C, for Arduino, and parameters for ROS 2."""
     told = sheet(robot)
-    numbers = robot._asdict() | told._asdict() | told.gains._asdict() | told.turn._asdict()
+    numbers = robot._asdict() | told._asdict()
+    for part in told.gains, told.turn, told.rules:
+        numbers |= part._asdict()
     words = {name: number(value) for name, value in numbers.items() if np.isscalar(value)}
     for name in ("start_lat", "start_lon", "goal_lat", "goal_lon"):
         words[f"{name}_e7"] = f"{math.floor(1e7 * numbers[name] + 0.5)}"

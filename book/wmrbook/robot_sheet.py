@@ -95,8 +95,7 @@ class Sheet(NamedTuple):
     min_speed: float
     turn: wmr.LastTurn
     duration: float
-    oldest: float  # of a drive's `Rules`, as `patience`
-    patience: float
+    rules: wmr.Rules  # of a drive
 
 
 class Certificate(NamedTuple):
@@ -174,9 +173,19 @@ def sheet(robot: Robot) -> Sheet:
     heading, longest = wmr.wrap_angle(math.radians(90.0 - robot.bearing)), wmr.longest_step(gains)
     duration = math.ceil(60.0 + 2.0 * travel)
     oldest = robot.delay + MARGIN
-    patience = oldest + 2 * max(robot.fix_period, robot.period)
+    usual = wmr.Rules()
+    rules = usual._replace(
+        arrival_radius=radius,
+        patience=oldest + 2 * max(robot.fix_period, robot.period),
+        oldest=oldest,
+        largest_error=max(usual.largest_error, 3 * robot.sigma),
+        jump=max(usual.jump, 4 * robot.sigma),
+        longest_period=max(usual.longest_period, 1.5 * robot.period),
+        longest_drive=max(usual.longest_drive, duration),
+        farthest=max(usual.farthest, 2 * apart),
+    )
     told = x, y, heading, apart, gains, radius, longest, min_speed, turn, duration
-    return Sheet(*told, oldest, patience)
+    return Sheet(*told, rules)
 
 
 def sure(runs: int) -> int:

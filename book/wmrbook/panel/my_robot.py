@@ -8,7 +8,7 @@ from __future__ import annotations
 from wmrbook import robot_io, robot_sheet
 from wmrbook.panel.kit import Panel
 from wmrbook.robot_sheet import BOUNDS, RECEIVERS, Robot
-from wmrlib import EARTH_RADIUS_M, LastTurn, gains_for, longest_step
+from wmrlib import EARTH_RADIUS_M, LastTurn, Rules, gains_for, longest_step
 
 # What a reader fills in: the title of each group, and its fields, by their names for readers.
 GROUPS = {
@@ -47,6 +47,7 @@ class MyRobot(Panel):
             "shape": robot_sheet.SHAPE,
             "step": longest_step(gains_for(1.0, **robot_sheet.SHAPE)),
             "leave": LastTurn().leave,
+            "usual": Rules()._asdict(),
             "earth": EARTH_RADIUS_M,
             "fresh": robot_sheet.NEW,
         }

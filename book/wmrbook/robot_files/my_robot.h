@@ -17,6 +17,8 @@
 #define MY_TRACK_WIDTH WMR_C(@track_width@)
 #define MY_MAX_SPEED WMR_C(@max_speed@)
 #define MY_MIN_SPEED WMR_C(@min_speed@) /* over the dead band, for wmr_hurry */
+#define MY_ACCELERATION WMR_C(@acceleration@) /* for wmr_drive.h: else honest wheels seem stuck */
+#define MY_DEAD_BAND WMR_C(@dead_band@)
 
 /* wmr_turn_rate(error, MY_TURN) until the error is within the tolerance */
 #define MY_TURN WMR_C(@gain@), WMR_C(@min_rate@), WMR_C(@max_rate@)
@@ -26,5 +28,10 @@
 /* of wmr_drive.h's rules: an older fix is not used; without one for so long the robot waits */
 #define MY_OLDEST WMR_C(@oldest@)
 #define MY_PATIENCE WMR_C(@patience@)
+#define MY_LARGEST_ERROR WMR_C(@largest_error@)
+#define MY_JUMP WMR_C(@jump@)
+#define MY_LONGEST_PERIOD WMR_C(@longest_period@)
+#define MY_LONGEST_DRIVE WMR_C(@longest_drive@)
+#define MY_FARTHEST WMR_C(@farthest@)
 
 #endif

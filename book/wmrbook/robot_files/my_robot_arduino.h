@@ -15,6 +15,7 @@ const float RADIUS_IN = @radius@f; // within it, turn on the spot
 const float TRACK_WIDTH = @track_width@f;
 const float MAX_SPEED = @max_speed@f;
 const float MIN_SPEED = @min_speed@f; // over the dead band
+const float ACCELERATION = @acceleration@f, DEAD_BAND = @dead_band@f;
 
 const float TURN_GAIN = @gain@f, TURN_MIN = @min_rate@f, TURN_MAX = @max_rate@f;
 const float TURN_TOLERANCE = @tolerance@f;
@@ -22,3 +23,6 @@ const float TURN_SETTLE = @settle@f; // s within it, as the heading is seen late
 
 const float OLDEST_FIX = @oldest@f; // s: an older one is not used
 const float PATIENCE = @patience@f; // s without a usable one, and it waits
+const float LARGEST_ERROR = @largest_error@f, JUMP = @jump@f; // m: a worse fix is not used
+const float LONGEST_PERIOD = @longest_period@f, LONGEST_DRIVE = @longest_drive@f; // s
+const float FARTHEST = @farthest@f;

@@ -85,6 +85,7 @@ int main(void) {
                    {WMR_C(0.02), 2, WMR_C(0.2), 1, 2, 0},
                    WMR_USUAL_RULES};
   static wmr_memory memory; /* all zeros */
+  const wmr_wheels none = {0};
   uint32_t begun = clock_ms() - PERIOD_MS;
   int count, reason = 0;
   plan.rules.arrival_radius = WMR_C(0.05);
@@ -102,6 +103,8 @@ int main(void) {
     if (clock_ms() - begun <= PERIOD_MS) feed_watchdog(); /* only by a turn in time */
     wait_for_timer();
   }
+  set_wheels(none, 0);
+  cut_power(); /* parked, or out of time */
   printf("%d %.9f %.9f %.9f\n", count, (double)memory.pose.x, (double)memory.pose.y,
          (double)memory.pose.heading);
   return 0;

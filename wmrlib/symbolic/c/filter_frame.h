@@ -154,9 +154,12 @@ static inline int wmr_filter_predict(wmr_filter *filter, WMR_REAL v, WMR_REAL om
 }
 
 /* The same state, less certain: for a gate that has refused several measurements in a row
-   and may be refusing the truth. Call it with 4, say, at each refusal from then on. */
+   and may be refusing the truth. Call it with 4, say, at each refusal from then on. A place
+   that is uncertain by more than 100 m is not doubted further: such a measurement has no
+   number, or another fault. */
 static inline void wmr_filter_doubt(wmr_filter *filter, WMR_REAL factor) {
   int i, j;
+  if (filter->covariance[0][0] + filter->covariance[1][1] > WMR_C(1e4)) return;
   for (i = 0; i < WMR_SIZE; ++i)
     for (j = 0; j < WMR_SIZE; ++j) filter->covariance[i][j] *= factor;
 }

@@ -25,9 +25,10 @@ enum { WMR_FINE, WMR_BATTERY_LOW, WMR_GOAL_OUTSIDE_THE_FENCE,
     WMR_ROBOT_OUTSIDE_THE_FENCE, WMR_GOAL_TOO_FAR, WMR_WHEEL_OR_ENCODER_STUCK,
     WMR_WHEEL_TURNS_UNTOLD, WMR_HEADING_DISAGREES_WITH_WHEELS,
     WMR_WHEELS_TURN_AND_ROBOT_STANDS, WMR_HEADING_DISAGREES_WITH_COURSE,
-    WMR_DRIVE_TOO_LONG, WMR_CLOCK_JUMPED, WMR_FIX_IS_NO_NUMBER,
-    WMR_FIX_OF_TOO_LOW_QUALITY, WMR_FIX_TOO_OLD, WMR_FIX_TIME_STANDS_OR_GOES_BACK,
-    WMR_POSITION_FROZEN, WMR_POSITION_JUMPED, WMR_NO_FIX };
+    WMR_POSITION_OUTRUNS_THE_WHEELS, WMR_DRIVE_TOO_LONG, WMR_CLOCK_JUMPED,
+    WMR_FIX_IS_NO_NUMBER, WMR_FIX_OF_TOO_LOW_QUALITY, WMR_FIX_TOO_OLD,
+    WMR_FIX_TIME_STANDS_OR_GOES_BACK, WMR_POSITION_FROZEN, WMR_POSITION_JUMPED,
+    WMR_NO_FIX, WMR_TOO_FEW_GOOD_FIXES };
 enum { WMR_PAST = 8 };
 
 /* what wmrlib's Wheels, LastTurn, Rules, Seen, Wheel and Memory say of their fields */
@@ -52,9 +53,9 @@ typedef struct { wmr_stretch stretches[WMR_PAST]; int newest; wmr_stretch since;
 typedef struct { int state; int reason; wmr_pose pose; wmr_wheel left; wmr_wheel right;
     int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; wmr_past past;
     wmr_pose fix; WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still; int outside;
-    wmr_pose begin; wmr_pose leg; WMR_REAL length; WMR_REAL turning; int turned;
-    int astray; int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off; int facing;
-    WMR_REAL faced; } wmr_memory;
+    int outran; wmr_pose begin; wmr_pose leg; WMR_REAL length; WMR_REAL turning;
+    int turned; int astray; int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off;
+    int facing; WMR_REAL faced; } wmr_memory;
 typedef struct {
   wmr_pose goal;
   wmr_gains gains;
@@ -81,6 +82,7 @@ static inline const char *wmr_reason(int reason) {
     "heading disagrees with wheels",
     "wheels turn and robot stands",
     "heading disagrees with course",
+    "position outruns the wheels",
     "drive too long",
     "clock jumped",
     "fix is no number",
@@ -89,7 +91,8 @@ static inline const char *wmr_reason(int reason) {
     "fix time stands or goes back",
     "position frozen",
     "position jumped",
-    "no fix"
+    "no fix",
+    "too few good fixes"
   };
   return reason >= 0 && reason < (int)(sizeof words / sizeof *words) ? words[reason] : "";
 }
@@ -219,6 +222,7 @@ static inline void wmr_compare(wmr_memory *m, const wmr_rules *rules) {
   const WMR_REAL rolled = wmr_distance(east, north);
   if (rolled >= rules->course) {
     m->slipping = wmr_distance(x, y) < WMR_C(0.5) * rolled;
+    m->outran = wmr_distance(x, y) > WMR_C(2.0) * rolled;
     m->astray = WMR_F(fabs)(WMR_F(atan2)(east * y - (north * x), east * x + north * y))
         > rules->astray;
   }
@@ -261,8 +265,8 @@ static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules
       WMR_C(1000000000.0);
   m->regular = seen->seconds > WMR_C(0.0) && seen->seconds <= rules->longest_period &&
       sound;
-  const WMR_REAL dt = WMR_F(fmin)(WMR_F(fmax)(seen->seconds, WMR_C(0.0)),
-      rules->longest_period);
+  const WMR_REAL passed = (seen->seconds > WMR_C(0.0)) ? seen->seconds : WMR_C(0.0);
+  const WMR_REAL dt = WMR_F(fmin)(passed, rules->longest_period);
   const WMR_REAL left = sound ? seen->left : WMR_C(0.0);
   const WMR_REAL right = sound ? seen->right : WMR_C(0.0);
   const WMR_REAL ahead = WMR_C(0.5) * (left + right);
@@ -278,7 +282,7 @@ static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules
   m->still += WMR_F(fabs)(ahead);
   m->length += WMR_F(fabs)(ahead);
   m->turning += WMR_F(fabs)(turn);
-  m->silence += WMR_F(fmax)(seen->seconds, WMR_C(0.0));
+  m->silence += passed;
   m->low = (!(seen->battery >= rules->battery)) ? (m->low + dt) : WMR_C(0.0);
   m->driven += (m->state == WMR_DRIVE || m->state == WMR_TURN) ? dt : WMR_C(0.0);
   m->good = (m->regular && m->silence <= rules->patience) ? m->good : 0;
@@ -367,6 +371,10 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
     m->state = WMR_STOPPED, m->reason = WMR_HEADING_DISAGREES_WITH_COURSE;
     return;
   }
+  if (m->state <= WMR_TURN && m->outran != 0) {
+    m->state = WMR_STOPPED, m->reason = WMR_POSITION_OUTRUNS_THE_WHEELS;
+    return;
+  }
   if (m->state <= WMR_TURN && m->driven > rules->longest_drive) {
     m->state = WMR_STOPPED, m->reason = WMR_DRIVE_TOO_LONG;
     return;
@@ -405,6 +413,10 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
   }
   if (m->state <= WMR_WAIT && m->good >= rules->settle) {
     m->state = WMR_DRIVE, m->reason = WMR_FINE;
+    return;
+  }
+  if (m->state <= WMR_WAIT && m->good < rules->settle) {
+    m->state = WMR_WAIT, m->reason = WMR_TOO_FEW_GOOD_FIXES;
     return;
   }
   if (m->state == WMR_DRIVE && m->rho <= rules->arrival_radius && end->tolerance >

@@ -72,16 +72,22 @@ export function sheetOf(robot, rules) {
     throw new RangeError(`${message}; with this width, acceleration and delay it is `
       + `${(tolerance * DEGREES).toFixed(0)} deg`);
   }
-  const oldest = delay + rules.margin;
+  const oldest = delay + rules.margin, { usual } = rules;
   const k = rate / vMax, near = (rho) => Math.log1p(-Math.exp(-k * rho)),
-      travel = (k * (distance - radius) + near(distance) - near(radius)) / rate;
+      travel = (k * (distance - radius) + near(distance) - near(radius)) / rate,
+      duration = Math.ceil(60 + 2 * travel);
   return { x, y, heading: wrap((90 - robot.bearing) / DEGREES), distance, radius,
       gains: { k_rho: k, k_alpha: kappa * rate, h, v_max: vMax },
       longest_step: rules.step / rate, min_speed: minSpeed,
       turn: { tolerance, gain, min_rate: minRate, max_rate: maxRate, leave: rules.leave,
         settle: late + Math.max(minRate, gain * tolerance) / braking },
-      duration: Math.ceil(60 + 2 * travel), oldest,
-      patience: oldest + 2 * Math.max(robot.fix_period, robot.period) };
+      duration, rules: { ...usual, arrival_radius: radius, oldest,
+        patience: oldest + 2 * Math.max(robot.fix_period, robot.period),
+        largest_error: Math.max(usual.largest_error, 3 * robot.sigma),
+        jump: Math.max(usual.jump, 4 * robot.sigma),
+        longest_period: Math.max(usual.longest_period, 1.5 * robot.period),
+        longest_drive: Math.max(usual.longest_drive, duration),
+        farthest: Math.max(usual.farthest, 2 * distance) } };
 }
 
 function inSamples(seconds, dt) { // of two whole numbers as near, the even one, as numpy's rint
@@ -155,7 +161,8 @@ export function filesOf(robot, told, templates) {
     return text.endsWith('.') ? `${text}0` : text;
   };
   const words = {};
-  for (const [name, value] of Object.entries({ ...robot, ...told, ...told.gains, ...told.turn }))
+  const numbers = { ...robot, ...told, ...told.gains, ...told.turn, ...told.rules };
+  for (const [name, value] of Object.entries(numbers))
     if (typeof value === 'number') words[name] = number(value);
   for (const name of ['start_lat', 'start_lon', 'goal_lat', 'goal_lon']) {
     words[`${name}_e7`] = String(Math.floor(1e7 * robot[name] + 0.5));
