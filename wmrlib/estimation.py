@@ -83,8 +83,8 @@ def start(
     pose : Pose of numbers
     position_sigma, heading_sigma, bias_sigma, scale_sigma : float; m, rad, rad/s, ratio. Standard
         deviations. An antenna off the middle does not tell where the middle is until the heading is
-        known: allow for the arm. The filter is linear in the heading error: begin within 0.2 rad,
-        from a compass, a course or two antennas.
+        known: allow for the arm. The filter is linear in the heading error: begin within 0.1 rad
+        with an arm of 0.3 m, closer with a longer one, from a compass, a course or two antennas.
 
     Raises
     ------

@@ -153,6 +153,14 @@ CASES = (
     ),
 )
 
+# Too slight for the table: what it does not notice, or late. `within` is of the goal.
+SLIGHT = (
+    Case("compass 40 deg off", {"compass": 0.7}, "parked", 0.3, 0.0),
+    Case("drifts by 0.2 m/s", {"drift": (0.2, 0.0)}, "parked", 10.0),
+    Case("drifts by 0.5 m/s", {"drift": (0.5, 0.0)}, "stopped: wheels turn and robot stands", 60.0),
+    Case("a wheel at 30 %", {"right_motor": 0.3}, "stopped: robot outside the fence", 60.0),
+)
+
 
 class Ran(NamedTuple):
     """What a run came to: its end, place and heading errors [m, rad], and all decisions."""
@@ -222,9 +230,16 @@ def main() -> None:
         fault = "" if holds(case, ran) else f"  must be {case.must}"
         print(f"{case.name:33} {ran.end:41} {far:6.2f} {case.within:7.2f}{fault}")
     print(f"{good} of {len(CASES)} as they must")
+    slight = []
+    for case in SLIGHT:
+        ran = run(case, kind, given.seed)
+        off = round(math.degrees(ran.heading))
+        slight.append([case.name, ran.end, round(ran.blind), round(ran.distance, 1), off])
+        print(f"{case.name:33} {ran.end:41} {ran.blind:6.2f}")
     if given.json:
-        text = ",\n".join(map(json.dumps, rows))
-        Path(given.json).write_text(f"[\n{text}\n]\n", encoding="utf-8")
+        faults, rest = (",\n".join(map(json.dumps, part)) for part in (rows, slight))
+        text = f'{{"faults": [\n{faults}\n],\n"slight": [\n{rest}\n]}}\n'
+        Path(given.json).write_text(text, encoding="utf-8")
 
 
 if __name__ == "__main__":

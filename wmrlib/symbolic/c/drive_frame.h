@@ -1,5 +1,5 @@
 /* The frame of wmr_drive.h: wmrlib.symbolic puts what it prints where the @ signs are. */
-/* wmr_drive.h: a state machine round wmr_law.h, that never drives blind.
+/* wmr_drive.h: a state machine round wmr_law.h: it drives while its sensors agree.
    Printed by python -m wmrlib.symbolic from wmrlib's parking and trust: change those.
 
    A robot waits for good fixes, drives, turns on the spot, and has parked; whatever is wrong
