@@ -8,12 +8,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import NamedTuple
 
+from wmrbook import tables
 from wmrbook.audit.row import Row, Verdict
 
 SOURCE = "Judged from a converted text of the paper: a slip may be the conversion's."
 SOURCE += " Its figures are not known."
 _TAG = "audit:"
-_HEAD = ("What", "Verdict", "The paper says", "What is found", "Shown in")
+_HEAD = "What | Verdict | The paper says | What is found | Shown in"
 
 
 class Place(NamedTuple):
@@ -79,13 +80,13 @@ class Table:
 
     def markdown(self) -> str:
         """The source, and a pipe table with a line for each row."""
-        lines = [_HEAD, ("---",) * len(_HEAD)]
+        lines = []
         for row in self.rows:
             verdict = f"**{row.verdict.value}**: {row.why}"
             shown = _linked(self.where.get(row.item, ()))
             lines.append((f"**{row.title}**", verdict, row.says, row.holds, shown))
-        escaped = ((cell.replace("|", r"\|") for cell in line) for line in lines)
-        return "\n".join([f"*{SOURCE}*\n", *(f"| {' | '.join(line)} |" for line in escaped)])
+        escaped = (" | ".join(cell.replace("|", r"\|") for cell in line) for line in lines)
+        return f"*{SOURCE}*\n\n{tables.Table(_HEAD, escaped, ':-')}"
 
     def __repr__(self) -> str:
         width = max((len(row.title) for row in self.rows), default=0)

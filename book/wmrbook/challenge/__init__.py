@@ -17,12 +17,14 @@ and of a chaotic run all five may end alike.
 from __future__ import annotations
 
 import math
+from collections.abc import Iterator
 from dataclasses import dataclass
 from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
 
+from wmrbook.tables import Table
 from wmrlib._checks import instance, scalar
 from wmrlib.body import Wheels, checked_wheels
 from wmrlib.gains import Gains
@@ -48,7 +50,9 @@ SEED = 2026
 _HEADING_WEIGHT, _OMEGA_WEIGHT = 0.5, 4.0  # points a degree, points a rad/s
 _ASIDE = 1e-6 * np.array([[0, 0], [1, 0], [-1, 0], [0, 1], [0, -1]])  # m
 _TIPPED = 1.0  # points
+_HEAD = "case", "kind", "distance [m]", "time [s]", "heading [deg]", "omega [rad/s]", "points"
 _WHEELS = Wheels(track_width=0.5, max_speed=2.0)  # m, m/s
+_SHOWN = ".1f", ".1f", ".1f", ".2f", ".2f"
 _KINDS = (  # name, distance in m from, to, |alpha| in deg from, to
     ("ahead", 5.0, 15.0, 0.0, 30.0),
     ("ahead", 20.0, 40.0, 10.0, 60.0),
@@ -164,14 +168,19 @@ class Score:
     def __repr__(self) -> str:
         gains = ", ".join(f"{name} {value:g}" for name, value in self.gains._asdict().items())
         reached = f"{self.reached} of {len(self.cases)} reached"
-        columns = "{:>4}  {:<16}{:>13}{:>10}{:>15}{:>15}{:>9}"
-        names = "distance [m]", "time [s]", "heading [deg]", "omega [rad/s]", "points"
+        columns = "{:>4}  {:<16}{:>13}{:>10}{:>15}{:>15}{:>9}  {}"
         rows = [f"<Score: {self.total:.2f} points, {reached}; {gains}; seed {self.game.seed}>"]
-        rows.append(columns.format("case", "kind", *names))
-        for k, (kind, distance, time, heading, omega, points, note) in enumerate(self.cases, 1):
-            numbers = f"{distance:13.1f}{time:10.1f}{heading:15.1f}{omega:15.2f}{points:9.2f}"
-            rows.append(f"{k:>4}  {kind:<16}{numbers}  {note}".rstrip())
+        rows += (columns.format(*row).rstrip() for row in ((*_HEAD, ""), *self._rows()))
         return "\n".join(rows)
+
+    def _rows(self) -> Iterator[tuple[str, ...]]:
+        for k, (kind, *numbers, note) in enumerate(self.cases, 1):
+            yield str(k), kind, *map(format, numbers, _SHOWN), note
+
+    def _repr_markdown_(self) -> str:
+        head = repr(self).splitlines()[0][1:-1].replace("_", r"\_")
+        lines = (f"{' | '.join(row)} {note}" for *row, note in self._rows())
+        return f"{head}\n\n{Table(' | '.join(_HEAD), lines)}"
 
     @property
     def reached(self) -> int:
