@@ -76,9 +76,9 @@ def bowl() -> Live:
             key=[*ways.values()].index(True),
             options=(*ways,),
             wrong=(
-                "The robot can't turn alpha and theta as it likes: only driving turns theta.",
+                "Only driving turns theta.",
                 "",
-                "The law is designed so that V never rises.",
+                "Such a law would prove nothing.",
             ),
         ),
     )
@@ -125,7 +125,7 @@ def two_bars() -> Live:
             key=[*parts.values()].index(True),
             options=(*parts,),
             wrong=(
-                "The angles' part falls by what alpha is, and alpha is 0.",
+                "Here alpha is 0.",
                 "",
                 "It drives towards its goal, so the distance falls; and alpha is 0.",
                 "It drives towards its goal, so the distance's part falls.",
@@ -175,10 +175,9 @@ def torus() -> Live:
             key=[*ways.values()].index(True),
             options=(*ways,),
             wrong=(
-                "Each reading decides anew, so the robot turns left, then right, and drives "
-                "straight on.",
+                "The first reading does not decide: the next may say the opposite.",
                 "",
-                "Some drift off the seam in time, and turn.",
+                "A robot that looks the wrong way does turn, once noise has pushed it aside.",
             ),
         ),
     )
