@@ -2,6 +2,7 @@ r"""A Sphinx extension: what readers of the pages need and the theme leaves out.
 
 - A line of code that is too long for its window goes on below, marked; see book.css.
 - A figure is a file of its own, and a second one in the colours of the dark theme.
+- Code of cells in a row that show nothing is folded once, with that of the next.
 - A chapter's title has its number, and below it stands how to run the chapter.
 - The search shows what stands around the words found, from a file beside it: a page that is opened
   from the disk may not fetch another.
@@ -15,10 +16,13 @@ import hashlib
 import html
 import json
 import re
+from contextlib import suppress
 from pathlib import Path
 from urllib.parse import unquote
+from xml.etree import ElementTree
 
 from docutils import nodes
+from docutils.utils.math.latex2mathml import tex2mathml
 from pygments.formatters import HtmlFormatter
 from sphinx.highlighting import PygmentsBridge
 
@@ -55,9 +59,12 @@ ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
 UNSAID = re.compile(
     r'<(script|style|svg|summary)\b.*?</\1>|<a class="headerlink".*?</a>'
     r'|<div class="[^"]*\bmath\b.*?</div>'
-    r"|\\(?:[()]|(?=[a-z]))|<(?!/?section\b)[^>]+>",
+    r"|<(?!/?section\b)[^>]+>",
     re.DOTALL,
 )
+FORMULA = re.compile(r"\\\((.*?)\\\)", re.DOTALL)
+JOINED = {"mfrac": "/", "msub": "_", "msup": "^"}
+ACCENTS = {ord("˙"): "\u0307", ord("¨"): "\u0308"}  # over the letter before
 
 
 class Lines(HtmlFormatter):
@@ -121,6 +128,16 @@ def show_figures(app, doctree):
         output.replace_self(nodes.container("", *images, classes=["figure-box"]))
 
 
+def join_code(app, doctree):
+    """Fold a cell's code that shows nothing with the code of the cell below it."""
+    for cell in list(doctree.findall(nodes.container)):
+        below = cell.next_node(descend=False, siblings=True)
+        kinds = [getattr(it, "attributes", {}).get("hide_mode") for it in (cell, below)]
+        if kinds == ["input", "input"] and len(cell) == 1 and not isinstance(below[-1], nodes.raw):
+            below[0].insert(0, cell[0].children)
+            cell.parent.remove(cell)
+
+
 def begin_chapter(app, doctree):
     """Number a chapter's title, and say below it how the chapter is run."""
     chapter = CHAPTER.match(app.env.docname)
@@ -157,10 +174,27 @@ def mend(app, exception):
             text = text.replace(model, f"widget-{count:03}")
         path.write_text(text, encoding="utf-8")
         if name in app.env.found_docs:
-            words[name] = re.sub(r"\s+", " ", UNSAID.sub("", ARTICLE.search(text)[1]))
+            said = FORMULA.sub(_in_letters, UNSAID.sub("", ARTICLE.search(text)[1]))
+            words[name] = re.sub(r"\s+", " ", said)
     _thin_icons(Path(app.outdir))
     script = f"const PAGES = {json.dumps(words, ensure_ascii=False)};\n"
     Path(app.outdir, "_static", "words.js").write_text(script, encoding="utf-8")
+
+
+def _in_letters(formula: re.Match) -> str:
+    r"""A formula without TeX: 1/2, k_ρ and V̇ for \tfrac12, k_\rho and \dot V."""
+    tex = html.unescape(formula[1]).replace("°", r"\text{°}").replace(r"\dots", r"\ldots")
+    tex = re.sub(r"\\big\b", "", re.sub(r"(frac\s*)(\d)(\d)", r"\1{\2}{\3}", tex))
+    with suppress(Exception):  # what docutils raises differs from one command to the next
+        written = tex2mathml(tex).replace("&ApplyFunction;", " ")
+        return html.escape(_plain(ElementTree.fromstring(written)))
+    return ""
+
+
+def _plain(part: ElementTree.Element) -> str:
+    kind = part.tag.rpartition("}")[2]
+    text = JOINED.get(kind, "").join(map(_plain, part)) or part.text or ""
+    return f"√({text})" if kind == "msqrt" else text.translate(ACCENTS)
 
 
 def _thin_icons(site: Path) -> None:
@@ -178,7 +212,9 @@ def _thin_icons(site: Path) -> None:
 
 
 def add_words(app, docname, template, context, doctree):
-    """Load the words of all pages where they are searched."""
+    """Load the words of all pages where they are searched; the front page has no side bar."""
+    if docname == "index":
+        context["theme_article_header_start"] = ["search-button-field.html"]
     if docname == "search":
         app.add_js_file("words.js")
         app.add_js_file("search.js")
@@ -188,6 +224,7 @@ def setup(app):
     PygmentsBridge.html_formatter = Lines
     for change in (show_figures, widen, begin_chapter):
         app.connect("doctree-read", change, priority=400)  # before Sphinx collects images, titles
+    app.connect("doctree-read", join_code, priority=410)  # after python_cells
     app.connect("html-page-context", add_words)
     app.connect("build-finished", mend)
     return {"parallel_read_safe": True, "parallel_write_safe": True}

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import itertools
 import os
+import re
 from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
@@ -69,6 +70,24 @@ def test_the_search_says_the_chapter_and_what_stands_around_the_words(opened):
     page = opened("search.html?q=residual")
     found = page.locator("#search-results li", has_text="6. The circle").first
     assert "residual" in found.locator("p.context").inner_text(timeout=PATIENCE)
+
+
+def test_search_excerpts_show_formulas_as_letters_and_no_tex(opened):
+    page = opened("search.html?q=Lipschitz")
+    found = page.locator("#search-results li", has_text="4. Lyapunov").locator("p.context")
+    assert "f(b)|≤K|a" in found.inner_text(timeout=PATIENCE)
+    words = page.evaluate("PAGES['notebooks/04_lyapunov']")
+    assert all(each in words for each in ("k_\u03c1", "V\u0307", "q\u0308", "1/2"))
+    assert not re.search(r"\\|frac\d", words)
+
+
+def test_the_front_page_can_be_searched(opened):
+    page = opened("index.html")
+    assert page.get_by_role("button", name="Search").count() == 1
+    page.get_by_role("button", name="Search").click()
+    page.keyboard.type("haversine")
+    page.keyboard.press("Enter")
+    page.wait_for_url("**/search.html?q=haversine", timeout=PATIENCE)
 
 
 class _Parts(HTMLParser):
