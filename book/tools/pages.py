@@ -33,7 +33,7 @@ FIGURE = re.compile(
     rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)"'
     r'(?: data-motion="(?P<motion>[^"]*)")?>'
 )
-GROWN = 1.2  # letters of a figure are as large as those of the text
+GROWN = 1.27  # letters of a figure are as large as those of the text
 MEASURE = 690  # px, of the column of text
 TAG = re.compile(r"<[^>]+>")
 MODEL = re.compile(r'(?<=")[0-9a-f]{32}(?=": \{"model_name)')

@@ -18,6 +18,11 @@
       const tall = naturalWidth ? Math.min(height, width * naturalHeight / naturalWidth) : height;
       const share = tall / tallest;
       if (share < 0.6) tell('small picture', `${(100 * share).toFixed(1)} %`);
+      // matplotlib draws letters of 100 units, scaled to points, of which a pixel has 0.75
+      const drawn = decodeURIComponent(picture.src || '').matchAll(/scale\(([\d.]+) -/g),
+          points = Math.min(...[...drawn].map((it) => 100 * Number(it[1]))),
+          letters = points * tall / naturalHeight / 0.75;
+      if (letters < least - 0.05) tell('small letters', `${letters.toFixed(1)} px`);
     }
 
     const texts = document.createTreeWalker(page, NodeFilter.SHOW_TEXT), small = new Set();

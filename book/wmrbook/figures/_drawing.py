@@ -54,11 +54,11 @@ def legend_above(axes: Axes, columns: int, handles=None, fontsize: float = 11) -
 def figure_legend(figure: Figure) -> None:
     """The legend of a figure's first axes above it, in as many columns as fit."""
     labels = figure.axes[0].get_legend_handles_labels()[1]
-    width = 0.7 + 0.095 * max(map(len, labels))  # inches an entry, handle included
+    width = 0.7 + 0.11 * max(map(len, labels))  # inches an entry, handle included
     columns = max(1, min(len(labels), int(figure.get_figwidth() / width)))
     rows = -(-len(labels) // columns)
     columns = -(-len(labels) // rows)
-    figure.legend(loc="outside upper center", ncols=columns, fontsize=11, frameon=False)
+    figure.legend(loc="outside upper center", ncols=columns, frameon=False)
 
 
 def check_count(name: str, entries: Sized, least: int, most: int) -> None:

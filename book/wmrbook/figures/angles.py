@@ -37,7 +37,7 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
     ):
         _scene(axes, pose, goal, rho, sight)
         _arc(axes, goal, begin, turn, 0.40 * rho, f"{name} = {_degrees(turn)}", "theta")
-        axes.set_title(title, fontsize=12)
+        axes.set_title(title)
         _room(axes, pose, goal, rho * np.array([-0.32, 0.98]), rho * np.array([-0.25, 0.62]))
     return Picture(
         figure,
@@ -84,7 +84,7 @@ def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
         )
     dart(axes, goal, 1.3 * size, "none", "goal", lw=2.0, zorder=5)
     above = {"loc": "upper center", "bbox_to_anchor": (0.5, 1.0 + 0.09 * len(handles))}
-    axes.legend(handles=handles, fontsize=11, frameon=False, **above)
+    axes.legend(handles=handles, frameon=False, **above)
     x, y = (np.concatenate([getattr(track, axis) for track in tracks.values()]) for axis in "xy")
     equal_scales(axes, x, y, 0.15)
     axes.set(xlabel="x [m]", ylabel="y [m]")
@@ -135,7 +135,7 @@ def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None
         # square to the line of sight, away from the heading
         aside = sight + math.copysign(math.pi / 2, math.sin(sight - at.heading))
         offset = 36.0 * math.cos(aside), 28.0 * math.sin(aside)
-        note(axes, name, (at.x, at.y), offset, ha="center", va="center", fontsize=12)
+        note(axes, name, (at.x, at.y), offset, ha="center", va="center")
     axes.plot([pose.x, goal.x], [pose.y, goal.y], "--", color=COLOURS["rho"])
     _ray(axes, goal, sight, 0.62 * rho, "line of sight", color=COLOURS["rho"], lw=1.2, ls="--")
     axes.set(xlabel="x [m]", ylabel="y [m]")
@@ -151,7 +151,7 @@ def _ray(axes: Axes, at: Pose, heading: float, length: float, label: str, **look
     """A line that begins at `at`, with its name at its end."""
     end = at.x + length * math.cos(heading), at.y + length * math.sin(heading)
     axes.plot([at.x, end[0]], [at.y, end[1]], **looks)
-    note(axes, label, end, (4, 0), va="center", fontsize=11, color=looks["color"])
+    note(axes, label, end, (4, 0), va="center", color=looks["color"])
 
 
 def _arc(

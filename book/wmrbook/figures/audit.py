@@ -20,7 +20,7 @@ def verdicts(counts: Mapping[str, Mapping[str, int]]) -> Picture:
     figure, axes = new_figure(7.5, 0.7 * len(counts) + 1.8)
     ends = dict.fromkeys(counts, 0)
     box = {"boxstyle": "round,pad=0.15", "fc": "white", "ec": "none"}
-    centred = {"ha": "center", "va": "center", "bbox": box, "fontsize": 11}
+    centred = {"ha": "center", "va": "center", "bbox": box}
     for name, (colour, hatch) in zip(names, _LOOKS, strict=False):
         widths = [counts[group][name] for group in counts]
         looks = {"color": colour, "hatch": hatch, "ec": COLOURS["ink"], "label": name}

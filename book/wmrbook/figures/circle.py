@@ -43,7 +43,7 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     equal_scales(axes, every_x, every_y)
     inward, ha = (-12, "right") if target.x > sum(axes.get_xlim()) / 2 else (12, "left")
     place = target.x, target.y
-    note(axes, "goal at 0 s", place, (inward, 0), ha=ha, va="center", fontsize=11)
+    note(axes, "goal at 0 s", place, (inward, 0), ha=ha, va="center")
     axes.set(xlabel="x [m]", ylabel="y [m]")
     figure_legend(figure)
     left = (

@@ -47,7 +47,7 @@ def root_locus(gains: Gains, over: str, values: np.ndarray) -> Picture:
     axes.axvline(0.0, color=COLOURS["ink"], lw=0.8)
     axes.set(xlim=(left, -0.06 * left), xlabel="real part [1/s]")
     axes.set(ylim=(-reach, reach), ylabel="imaginary part [rad/s]")
-    figure.legend(loc="outside upper center", ncols=2, fontsize=10)
+    figure.legend(loc="outside upper center", ncols=2)
     return Picture(
         figure,
         f"Root locus of the angles for {over} from {values[0]:g} to {values[-1]:g}. "
@@ -87,7 +87,7 @@ def pareto_front(tried: Arrival, best: np.ndarray, marked: Mapping[str, Arrival]
         words.append(f"{name} {run.time:.1f} s, {left:.1f} deg")
     axes.set(xlabel="time to arrive [s]", ylabel="heading error [deg]")
     axes.set(yscale="log", ylim=(_LEAST_DEG, 200.0))
-    figure.legend(loc="outside upper center", ncols=5, fontsize=10)
+    figure.legend(loc="outside upper center", ncols=5)
     if below.any():
         border = f"{below.sum()} triangles at the lower border are below {_LEAST_DEG:g} deg"
         words.append(border)
@@ -107,7 +107,7 @@ def _draw_dampings(axes: Axes, left: float, reach: float) -> None:
             axes.plot([0.0, x], [0.0, -side * slope * x], ":", color=COLOURS["ink"], lw=0.9)
         at_left_axis = x < 0.95 * left  # there the label moves inside
         offset, ha = ((6, -8), "left") if at_left_axis else ((-4, -2), "right")
-        note(axes, f"{damping}", (x, -slope * x), offset, ha=ha, va="top", fontsize=10)
+        note(axes, f"{damping}", (x, -slope * x), offset, ha=ha, va="top")
 
 
 def _course(poles: np.ndarray) -> str:

@@ -36,7 +36,7 @@ def local_map(origin: GeoPoint, point: GeoPoint) -> Picture:
     axes.plot(east, north, "*", ms=15, color=COLOURS["goal"])
     for name, where, at in (("start", origin, (0, 0)), ("goal", point, (east, north))):
         label = f"{name}\n{where.lat:.6f} deg N\n{where.lon:.6f} deg E"
-        note(axes, label, at, (10, -4), va="center", fontsize=10)
+        note(axes, label, at, (10, -4), va="center")
     middle = east / 2, north / 2
     note(axes, f"{distance:.2f} m at {bearing:.2f} deg", middle, (10, 0), va="center")
     equal_scales(axes, np.array([0, east]), np.array([0, north]), room=0.25)
@@ -84,7 +84,7 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
     )
     for point, name, offset, side in named:
         axes.plot(*_seen(point, view), "o", ms=8, color=COLOURS["ink"])
-        note(axes, name, _seen(point, view), offset, ha=side, fontsize=12)
+        note(axes, name, _seen(point, view), offset, ha=side)
     axes.set(xlim=(-1.08, 1.08), ylim=(-1.08, 1.12), aspect="equal")
     axes.set_axis_off()
     length = math.degrees(haversine_distance(a, b, 1.0))
@@ -116,13 +116,12 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
     axes.clabel(
         lines,
         fmt=lambda level: "0" if abs(level) < 0.01 else f"{level:+.1f} %",
-        fontsize=11,
         manual=[(90, 72), (90, 48), (90, 31), *low],
     )
     here = 100.0 * sphere_error(point.lat, bearing)
     at = math.degrees(bearing), point.lat
     axes.plot(*at, "*", ms=16, color=COLOURS["path"], mec="white")
-    note(axes, f"{here:+.3f} %", at, (12, -4), fontsize=12, weight="bold", color=DARK_INK)
+    note(axes, f"{here:+.3f} %", at, (12, -4), weight="bold", color=DARK_INK)
     axes.set(xlabel="bearing [deg]", ylabel="latitude [deg]")
     axes.set(xticks=range(0, 181, 30), yticks=range(-90, 91, 30))
     return Picture(

@@ -25,7 +25,7 @@ def heading_distance(
     """
     distance = real("distance", distance, above=0.0)
     check_count("series", instance("series", series, Mapping), 1, len(SERIES))
-    figure, axes = new_figure(7.5, 4.6)
+    figure, axes = new_figure(6.5, 4.6)
     words = []
     for (name, errors), (role, style) in zip(series.items(), SERIES, strict=False):
         same_shape(distance=distance, **{f"series[{name!r}]": errors})
@@ -62,7 +62,7 @@ def beliefs(time: np.ndarray, runs: Mapping[str, tuple[np.ndarray, np.ndarray]])
         band = {"color": COLOURS["robot"], "alpha": 0.4, "lw": 0}
         axes.fill_between(time, -2.0 * deviation, 2.0 * deviation, **band)
         axes.plot(time, error, color=COLOURS["path"], lw=1.4)
-        axes.set_title(name, fontsize=12, loc="left")
+        axes.set_title(name, loc="left")
         axes.set(ylabel="error [deg]")
         ends = f"{deviation[0]:.1f} to {deviation[-1]:.1f} deg"
         inside = np.mean(np.abs(error) <= 2.0 * deviation)

@@ -75,7 +75,7 @@ def draw_series(axes: Axes, run: Trajectory, label: str, **styles: str) -> None:
         axes.plot(run.t, getattr(run, name), style, color=COLOURS[name], label=words)
     axes.set_ylabel(label)
     if len(styles) > 1:
-        axes.legend(loc="upper right", fontsize=10)
+        axes.legend(loc="upper right")
 
 
 def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
@@ -85,7 +85,7 @@ def draw_lyapunov(axes: Axes, run: Trajectory) -> None:
         gaps = np.full(len(rising), np.nan)
         t, V = (np.column_stack([line[:-1], line[1:], gaps])[rising] for line in (run.t, values))
         axes.plot(t.ravel(), V.ravel(), color=COLOURS["V_rising"], lw=5.0, label="rising")
-        axes.legend(loc="upper right", fontsize=10)
+        axes.legend(loc="upper right")
     xlim, ylim = (0.0, max(run.t[-1], 1e-9)), (values.min() / 2, values.max() * 2)
     axes.set(ylabel="V [1]", yscale="log", xlim=xlim, ylim=ylim)
 

@@ -75,7 +75,7 @@ def _draw_end(axes: Axes, run: Trajectory, near: float) -> Axes:
     dart(inset, goal, 0.2 * near, "none", "goal", lw=2.0, zorder=4)
     inset.set(xlim=(goal.x - near, goal.x + near), ylim=(goal.y - near, goal.y + near))
     inset.set(xticks=[], yticks=[])
-    inset.set_title(f"within {near:g} m", fontsize=10)
+    inset.set_title(f"within {near:g} m")
     return inset
 
 

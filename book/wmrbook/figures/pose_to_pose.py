@@ -41,7 +41,7 @@ _BOXES = (  # name, what it does, the colour's role, centre: row by row, there a
     ("wheel loop", "(1), (2): left and\nright wheel", "omega", (4.5, 1.5)),
     ("robot", "(3)-(6): x, y,\nheading", "robot", (1.2, 1.5)),
 )
-_SIGNALS = ("lat, lon", "goal pose", "polar error", "v, omega", "wheel speeds")
+_SIGNALS = ("lat, lon", "goal pose", "polar error", "v, omega", "speeds")
 
 
 def compare_runs(
@@ -99,7 +99,7 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
         for k in range(len(many.x)):
             dart(axes, Pose(many.x[k, 0], many.y[k, 0], many.heading[k, 0]), 0.45, "start")
         dart(axes, goal, 0.7, "none", "goal", lw=2.0, zorder=5)
-        axes.set_title(title, fontsize=12)
+        axes.set_title(title)
         equal_scales(axes, np.r_[many.x[:, 0], here[0]], np.r_[many.y[:, 0], here[1]], room=0.2)
         axes.set(xlabel="x [m]", ylabel="y [m]")
         axes.label_outer()
@@ -134,7 +134,7 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
         dart(axes, goal, size, "none", "goal", lw=2.5, zorder=5)
         dart(axes, pose_at(run, k), size, "robot", zorder=4)
         to_go = f"{run.rho[k]:.1f}" if run.rho[k] >= 1 else f"{run.rho[k]:.2f}"
-        axes.set_title(f"{letter}) {run.t[k]:.1f} s, {to_go} m to go", fontsize=11)
+        axes.set_title(f"{letter}) {run.t[k]:.1f} s, {to_go} m to go")
         axes.set(aspect="equal", xlabel="x [m]", ylabel="y [m]")
         axes.set(xlim=_room(run.x, 2.2 * size), ylim=_room(run.y, 2.2 * size))
         axes.label_outer()
@@ -187,25 +187,25 @@ def block_diagram(time_step: float, times_faster: float) -> Picture:
     for name, does, role, (x, y) in _BOXES:
         looks = {"boxstyle": "round,pad=0.06", "fc": "white", "ec": COLOURS[role], "lw": 2.5}
         axes.add_patch(FancyBboxPatch((x - 1.0, y - 0.6), 2.0, 1.2, **looks))
-        axes.text(x, y + 0.32, name, weight="bold", fontsize=13, **centred)
-        axes.text(x, y - 0.2, does, fontsize=11, **centred)
+        axes.text(x, y + 0.32, name, weight="bold", **centred)
+        axes.text(x, y - 0.2, does, **centred)
     ink = {"colour": COLOURS["ink"], "lw": 2.0}
     ends = pairwise(centre for *_, centre in _BOXES)
     for signal, ((x0, y0), (x1, y1)) in zip(_SIGNALS, ends, strict=True):
         if y0 == y1:
             gap = math.copysign(1.08, x1 - x0)
             pointer(axes, (x0 + gap, y0), (x1 - gap, y1), **ink)
-            axes.text((x0 + x1) / 2, y0 + 0.2, signal, fontsize=10.5, **centred)
+            axes.text((x0 + x1) / 2, y0 + 0.2, signal, **centred)
         else:
             pointer(axes, (x0, y0 - 0.68), (x1, y1 + 0.68), **ink)
-            axes.text(x0 + 0.12, (y0 + y1) / 2, signal, ha="left", va="center", fontsize=10.5)
+            axes.text(x0 + 0.12, (y0 + y1) / 2, signal, ha="left", va="center")
     # the pose goes back to where the error is formed
     axes.plot([1.2, 1.2, 7.2, 7.2], [2.18, 2.8, 2.8, 3.0], color=COLOURS["ink"], lw=2.0)
     pointer(axes, (7.2, 2.98), (7.2, 3.42), **ink)
-    axes.text(4.2, 3.0, f"pose, fed back every {time_step:g} s", fontsize=11, **centred)
+    axes.text(4.2, 3.0, f"pose, fed back every {time_step:g} s", **centred)
     axes.plot([1.2, 1.2, 4.5], [0.82, 0.4, 0.4], color=COLOURS["omega"], lw=2.0, ls="--")
     pointer(axes, (4.5, 0.4), (4.5, 0.82), COLOURS["omega"], lw=2.0, ls="--")
-    axes.text(2.85, 0.15, f"wheel speeds, fed back every {inner:g} s", fontsize=11, **centred)
+    axes.text(2.85, 0.15, f"wheel speeds, fed back every {inner:g} s", **centred)
     return Picture(
         figure,
         f"Block diagram: {' to '.join(name for name, *_ in _BOXES)}; the pose is fed back to the "

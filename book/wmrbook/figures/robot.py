@@ -77,13 +77,13 @@ def robot_loops(time_step: float, times_faster: float) -> Picture:
     figure, axes = new_figure(9.0, 5.0)
     axes.set_axis_off()
     axes.set(xlim=(0.0, 10.2), ylim=(0.0, 5.6))
-    middle = {"ha": "center", "va": "center", "fontsize": 11}
+    middle = {"ha": "center", "va": "center"}
     for name, (does, role, (x, y)) in _BLOCKS.items():
         half = 1.35 if name == "pose" else 0.95
         looks = {"boxstyle": "round,pad=0.06", "fc": "white", "ec": COLOURS[role], "lw": 2.5}
         axes.add_patch(FancyBboxPatch((x - half, y - 0.6), 2 * half, 1.2, **looks))
         axes.text(x, y + 0.33, name, weight="bold", **middle)
-        axes.text(x, y - 0.2, does, **middle | {"fontsize": 10.5})
+        axes.text(x, y - 0.2, does, **middle)
     ink, wheels = {"colour": COLOURS["ink"], "lw": 2.0}, {"color": COLOURS["y_error"], "lw": 2.0}
     for x0, x1, y in ((2.2, 2.8, 3.9), (4.8, 5.4, 3.9), (7.4, 8.0, 3.9), (5.4, 3.9, 1.1)):
         pointer(axes, (x0, y), (x1, y), **ink)
@@ -93,8 +93,8 @@ def robot_loops(time_step: float, times_faster: float) -> Picture:
     pointer(axes, (6.4, 2.32), (6.4, 1.75), **ink)
     axes.plot([9.0, 9.0, 2.9], [0.44, 0.2, 0.2], color=COLOURS["ink"], lw=2.0)
     pointer(axes, (2.9, 0.18), (2.9, 0.44), **ink)
-    axes.text(1.4, 5.1, "goal: GPS point to metres, once", ha="left", va="center", fontsize=11)
-    axes.text(1.35, 2.85, f"every {time_step:g} s", ha="left", va="center", fontsize=11)
+    axes.text(1.4, 5.1, "goal: GPS point to metres, once", ha="left", va="center")
+    axes.text(1.35, 2.85, f"every {time_step:g} s", ha="left", va="center")
     axes.plot([8.7, 8.7, 6.6], [4.55, 4.95, 4.95], ls="--", **wheels)
     pointer(axes, (6.6, 4.95), (6.6, 4.55), COLOURS["y_error"], lw=2.0, ls="--")
     axes.text(7.65, 5.15, f"wheel speeds, every {inner:g} s", **middle)

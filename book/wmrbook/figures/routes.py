@@ -57,9 +57,10 @@ def challenge_paths(score: Score) -> Picture:
     dashed.
     """
     runs = drive_cases(instance("score", score, Score).gains, score.game)
-    columns = min(4, len(runs))
+    columns = min(6, len(runs))
     rows = math.ceil(len(runs) / columns)
-    figure, grid = panels(rows, columns, 2.4 * columns, 2.6 * rows, squeeze=False)
+    figure, grid = panels(rows, columns, 1.87 * columns, 1.2 + 1.8 * rows, squeeze=False)
+    figure.get_layout_engine().set(h_pad=0.08)
     for axes in grid.flat[len(runs) :]:
         axes.set_axis_off()
     everything = zip(grid.flat, runs, score.cases, score.game.cases, strict=False)
@@ -71,9 +72,8 @@ def challenge_paths(score: Score) -> Picture:
         dart(axes, case.goal, size, "none", "goal", lw=1.6, zorder=4)
         dart(axes, case.start, size, "start", lw=0.8, zorder=3)
         end = row.note or f"{row.time:.1f} s, {row.heading_error_deg:.0f} deg off"
-        axes.set_title(f"{k} {row.kind}\n{row.points:.1f} points\n{end}", fontsize=13)
-        axes.locator_params(nbins=3)
-        axes.tick_params(labelsize=11)
+        axes.set_title(f"{k} {row.kind}\n{row.points:.1f} points\n{end}")
+        axes.locator_params(nbins=2)
     figure.supxlabel("x [m]")
     figure.supylabel("y [m]")
     handles = [Line2D([], [], color=COLOURS["path"], label="path")]
@@ -82,7 +82,7 @@ def challenge_paths(score: Score) -> Picture:
         handles.append(Line2D([], [], **dashed))
     handles.append(_marker("start", COLOURS["ink"], ">", COLOURS["start"]))
     handles.append(_marker("goal", COLOURS["goal"], ">"))
-    looks = {"ncols": len(handles), "frameon": False, "fontsize": 14}
+    looks = {"ncols": len(handles), "frameon": False}
     figure.legend(handles=handles, loc="outside upper center", **looks)
     costliest = max(range(len(runs)), key=lambda k: score.cases[k].points)
     worst = score.cases[costliest]

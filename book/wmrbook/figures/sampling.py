@@ -24,7 +24,7 @@ _SERIES = (  # colour, line style and marker of each of up to five lines
     (COLOURS["omega"], ":", "D"),
     (COLOURS["ink"], "-", ""),
 )
-_BESIDE = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5), "fontsize": 10.5}
+_BESIDE = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
 
 
 def time_steps(
@@ -56,7 +56,7 @@ def time_steps(
             texts.append(f"{name}, {method}: {text}")
         axes.set(xscale="log", ylim=(-5.0, 200.0), yticks=range(0, 181, 45))
         axes.set_ylabel("|heading error| [deg]")
-        axes.set_title(name, fontsize=12)
+        axes.set_title(name)
         axes.legend(**_BESIDE)
     rows[-1].set(xlabel="time step dt [s], crosses: did not arrive")
     rows[-1].xaxis.set_major_formatter("{x:g}")
@@ -81,8 +81,8 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
         axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
         least = min(float(run.rho[-1]) for runs in cases.values() for run in runs.values())
         axes.set(xscale="log", xlim=(5.0, least), ylabel="heading error [deg]")
-        axes.set_title(title, fontsize=12)
-        axes.legend(title="inner loop", title_fontsize=10.5, **_BESIDE)
+        axes.set_title(title)
+        axes.legend(title="inner loop", **_BESIDE)
     rows[-1].set_xlabel("distance left to the goal [m], the goal to the right")
     rows[-1].xaxis.set_major_formatter("{x:g}")
     what = "Heading error against the distance left to the goal; where it ends"

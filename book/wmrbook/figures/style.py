@@ -68,6 +68,7 @@ DARK = dict(face.COLOURS.values()) | {
 for _path in files("font_source_sans_pro").joinpath("files").iterdir():
     if re.fullmatch(r"SourceSansPro-(Regular|It|Semibold|Bold)\.ttf", _path.name):
         font_manager.fontManager.addfont(str(_path))
+TALLEST = 4.8  # inches: on a slide of 720 px the letters of a figure then have 20 px at least
 LINES = ("-", "--", ":", "-.")
 CROWD = 300  # shapes in one graph; more are stored as pixels, which take less room
 SVG_URL = "data:image/svg+xml,"
@@ -120,8 +121,11 @@ class Picture:
         self.figure = figure
         self.alt = alt
         self.drives = drives
+        size = figure.get_size_inches()
+        figure.set_size_inches(size * min(TALLEST / size[1], 1.0))
         for text in figure.findobj(Text):  # those made after `new_figure` have matplotlib's font
             text.set_fontfamily(STYLE["font.family"])
+            text.set_fontsize(max(text.get_fontsize(), STYLE["font.size"]))
             if "$" not in text.get_text():
                 text.set_text(in_symbols(text.get_text()))
 

@@ -35,7 +35,7 @@ def bars(histograms: list[Histogram], title: str) -> Picture:
             else {}
         )
         axes.set_xticks(places, histogram.labels, **turned)
-        axes.set_title(histogram.title, fontsize=9 if columns > 1 else 12)
+        axes.set_title(histogram.title)
         axes.set_ylim(0.0, 1.1 * max(highest, 1))
         axes.grid(visible=False, axis="x")
         axes.yaxis.get_major_locator().set_params(integer=True)
