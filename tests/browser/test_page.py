@@ -155,6 +155,18 @@ def test_a_symbol_that_is_touched_lights_up_and_no_other(opened):
     assert not any(page.evaluate(lit, face.LETTERS["alpha"]))
 
 
+def test_a_symbol_that_is_touched_has_a_halo_in_the_pictures(opened):
+    page = opened("notebooks/03_polar_coordinates.html")
+    heading = page.locator("article h1")
+    heading.hover()
+    dark = settled_picture(page)
+    for role in ("alpha", "theta"):
+        page.locator(f'[data-c="{face.LETTERS[role]}"]').first.hover()
+        assert settled_picture(page) != dark, role
+    heading.hover()
+    assert settled_picture(page) == dark
+
+
 def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
     assert not (site / "lecturers.html").exists()
     assert not leaks(site)

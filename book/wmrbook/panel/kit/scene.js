@@ -2,7 +2,7 @@
 // errors as angles and a distance.
 
 import { drawAxes } from './axes.js';
-import { inside, label, line, multiples, stepFor, surfaceOf, tickText } from './surface.js';
+import { halo, inside, label, line, multiples, stepFor, surfaceOf, tickText } from './surface.js';
 
 // px from a pose to the handle that turns it; unequal, so that both can be reached when they
 // coincide
@@ -302,7 +302,9 @@ export function drawAngle(ctx, [x, y], from, angle, radius, name, colour, colour
   ctx.lineWidth = 3;
   ctx.beginPath();
   ctx.arc(x, y, radius, -from, -(from + angle), angle > 0);
+  halo(ctx, colour);
   ctx.stroke();
+  ctx.shadowBlur = 0;
   const middle = from + angle / 2, away = radius + 13;
   label(ctx, name, x + away * Math.cos(middle), y - away * Math.sin(middle), colours,
       { colour, size: 17, weight: 600, align: 'center' });

@@ -13,13 +13,14 @@ function pageIsDark(root) {
   return matchMedia('(prefers-color-scheme: dark)').matches;
 }
 
-// Calls back whenever the page turns light or dark. Returns what stops it.
+// Calls back whenever the page turns light or dark, or a symbol in it lights up. Returns what stops
+// it.
 export function followTheme(onChange) {
   const system = matchMedia('(prefers-color-scheme: dark)');
   const watch = new MutationObserver(onChange);
   for (const each of [document.documentElement, document.body]) {
-    watch.observe(each,
-        { attributes: true, attributeFilter: ['data-theme', 'data-mode', 'data-jp-theme-light'] });
+    watch.observe(each, { attributes: true,
+      attributeFilter: ['data-theme', 'data-mode', 'data-jp-theme-light', 'data-lit'] });
   }
   system.addEventListener('change', onChange);
   return () => { watch.disconnect(); system.removeEventListener('change', onChange); };
@@ -35,6 +36,7 @@ export function readColours(root) {
     colours[role] = codes[Number(dark)];
     root.style.setProperty(`--${role}`, colours[role]);
   }
+  colours.lit = colours[document.documentElement.dataset.lit];
   for (const [role, names] of Object.entries(FONTS)) root.style.setProperty(`--${role}`, names);
   return colours;
 }

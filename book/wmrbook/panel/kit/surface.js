@@ -34,7 +34,14 @@ export function surfaceOf(canvas, colours) {
   ctx.fillStyle = colours.paper;
   ctx.fillRect(0, 0, width, height);
   ctx.lineJoin = ctx.lineCap = 'round';
+  canvas.dataset.lit = colours.lit || '';
   return { ctx, width, height };
+}
+
+// What a symbol that is lit in the text stands for has a halo.
+export function halo(ctx, colour) {
+  ctx.shadowColor = colour;
+  ctx.shadowBlur = ctx.canvas.dataset.lit === colour ? 24 : 0;
 }
 
 // A step of 1, 2 or 5 times a power of ten that cuts `span` into at most `most` pieces.
@@ -76,6 +83,7 @@ export function tickText(value, step) {
  */
 export function line(ctx, points, colour, width = 1.5, dash = []) {
   ctx.save();
+  halo(ctx, colour);
   ctx.strokeStyle = colour;
   ctx.lineWidth = width;
   ctx.setLineDash(dash);
@@ -107,6 +115,7 @@ export function label(ctx, text, x, y, colours,
   ctx.lineWidth = 4;
   ctx.strokeStyle = colours.paper;
   ctx.strokeText(text, 0, 0);
+  halo(ctx, colour);
   ctx.fillStyle = colour;
   ctx.fillText(text, 0, 0);
   ctx.restore();
