@@ -244,6 +244,18 @@ def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use
         assert {*after} != {before}, handle.get_attribute("data-handle")
 
 
+@pytest.mark.parametrize("name", ["bench", "lag", "late"])
+def test_a_hand_moves_a_drive_along_its_picture_whose_cursor_says_so(name, emptied_page):
+    thing = getattr(live, name)()
+    panel = mounted(emptied_page, thing)
+    held = emptied_page.locator("canvas[style*=crosshair]")
+    assert held.count() == 0  # not before it is asked
+    commit(panel, thing.setup["ask"])
+    time = emptied_page.evaluate("panel.get('state').time")
+    panel.drag(held.first, -9, 5)
+    assert emptied_page.evaluate("panel.get('state').time") != time
+
+
 def test_python_moves_it_and_refuses_what_is_not_allowed():
     thing = live.turning_centre()
     thing["left"] = 1.25

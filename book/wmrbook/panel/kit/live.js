@@ -146,6 +146,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     for (const [name, spec] of Object.entries(specs)) {
       if (!canvases[name]) build(name, spec);
       canvases[name].setAttribute('aria-label', hidden ? spec.given || 'what is given' : spec.alt);
+      canvases[name].style.cursor = spec.scrub && !hidden ? 'crosshair' : '';
       panes[name] = paneOf(canvases[name], colours, spec);
     }
     explorable.draw(panes, now, found, hidden, setup);

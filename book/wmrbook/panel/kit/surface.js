@@ -41,7 +41,7 @@ export function surfaceOf(canvas, colours) {
 // What a symbol that is lit in the text stands for has a halo.
 export function halo(ctx, colour) {
   ctx.shadowColor = colour;
-  ctx.shadowBlur = ctx.canvas.dataset.lit === colour ? 24 : 0;
+  ctx.shadowBlur = ctx.canvas.dataset.lit === colour ? 16 : 0;
 }
 
 // A step of 1, 2 or 5 times a power of ten that cuts `span` into at most `most` pieces.

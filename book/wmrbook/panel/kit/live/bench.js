@@ -2,7 +2,7 @@
 // whose right wheel slips: how they drive up, and where they park.
 
 import { DEGREES, written } from '../style.js';
-import { heldRun, remembered } from '../runs.js';
+import { heldRun, remembered, timeAlong } from '../runs.js';
 import { live } from '../live.js';
 import { normals } from '../random.js';
 import { wrap } from '../model.js';
@@ -44,11 +44,12 @@ export default live('bench', {
         turned: middle(off.map(Math.abs)), parked: ends.filter(({ n }) => n <= k).length,
         driving: ends.filter(({ n }) => n === data.steps).length };
   },
-  panes: (values, { ends, far, turned, parked }) => ({
+  panes: (values, { ways, ends, far, turned, parked }) => ({
     place: { x: [-9, 3], y: [-8.5, 4.5], lawn: true,
         given: 'The goal, and the robots where they start, 10 m from it.',
         alt: `${parked} of ${ends.length} robots have parked about the goal; in the end half of ` +
-        `them are within ${written(far, 'm')}.` },
+        `them are within ${written(far, 'm')}.`,
+        scrub: (x, y) => timeAlong(ways, x, y, 3) },
     heading: { x: [-180, 180, 'heading error where it parks [°]'], y: [0, 33, 'robots'],
         given: 'The heading errors: no robot has parked.',
         alt: `How the heading errors of ${parked} parked robots are spread: in the end half of ` +

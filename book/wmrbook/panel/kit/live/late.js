@@ -2,7 +2,7 @@
 // is.
 
 import { DEGREES, written } from '../style.js';
-import { heldRun, remembered } from '../runs.js';
+import { heldRun, remembered, timeAlong } from '../runs.js';
 import { live } from '../live.js';
 import { wrap } from '../model.js';
 
@@ -42,7 +42,8 @@ export default live('late', {
       whole: { x: [-14, 30], y: [-9, 68], lawn: true,
         given: 'The start and the goal, 58 m apart, each with its heading.',
         alt: `Two robots on a lawn after ${written(t, 's')}: the one whose position is late is ` +
-        `${inWords(runs[0], start)}, the one whose heading is late ${inWords(runs[1], start)}.` },
+        `${inWords(runs[0], start)}, the one whose heading is late ${inWords(runs[1], start)}.`,
+        scrub: (x, y) => timeAlong(runs.map(({ poses }) => poses), x, y, 6) },
       position, heading,
     };
   },
