@@ -31,7 +31,9 @@ class Goals:
         self.parameters = AsyncParameterClient(self.node, "wmr_park")
         self.handle: Any = None
         self.states: list[str] = []
-        if not self.client.wait_for_server(PATIENT) or not self.parameters.wait_for_services(PATIENT):
+        if not self.client.wait_for_server(PATIENT) or not self.parameters.wait_for_services(
+            PATIENT
+        ):
             raise RuntimeError("there is no node that parks")
 
     def wait(self, future: Any) -> Any:
@@ -55,6 +57,12 @@ class Goals:
             set_yaw(asked.goal.pose.orientation, goal[2])
         self.handle = self.wait(self.client.send_goal_async(asked, self.hear))
         return self.handle.accepted
+
+    def another(self, goal: list[float]) -> bool:
+        """Send a goal beside the last one; whether it was accepted."""
+        first, accepted = self.handle, self.park(goal)
+        self.handle = first
+        return accepted
 
     def hear(self, message: Any) -> None:
         if not self.states or self.states[-1] != message.feedback.state:

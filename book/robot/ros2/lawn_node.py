@@ -17,7 +17,7 @@ from nav_msgs.msg import Odometry
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from wmr_interfaces.action import Park
-from world import CASE, PERIOD, WHEELS, Faults, World
+from world import PERIOD, WHEELS, Faults, World
 
 import wmrlib as wmr
 from wmrlib import odometry, paper
@@ -62,16 +62,20 @@ class Lawn:
 
     def begin(self, width: float) -> None:
         """Forget the drive before, and wait for the node."""
-        all_there = lambda: all(it.get_subscription_count() for it in self.publishers.values())  # noqa: E731
         for _ in range(round(PATIENT / 0.01)):
-            if all_there() and self.node.count_publishers("cmd_vel"):
+            heard = min(it.get_subscription_count() for it in self.publishers.values())
+            if heard and self.node.count_publishers("cmd_vel"):
                 break
             self.executor.spin_once(timeout_sec=0.01)
         self.width, self.place, self.told = width, odometry.Place(), [0.0, 0.0]
-        self.state, self.heard = "", 0
+        self.state, self.heard, self.asked = "", 0, None
+        self.unasked: list[list[float]] = []
 
     def obey(self, command: TwistStamped) -> None:
         v, omega = command.twist.linear.x, command.twist.angular.z
+        if (command.header.stamp.sec, command.header.stamp.nanosec) != self.asked:
+            self.unasked.append([v, omega])  # a stop, with a time of its own
+            return
         self.told, self.heard = list(wmr.twist_to_wheels(v, omega, self.width)), self.heard + 1
 
     def hear(self, message: Any) -> None:
@@ -87,6 +91,7 @@ class Lawn:
         stamp = message.header.stamp
         stamp.sec, stamp.nanosec = BEGIN + nanoseconds // 10**9, nanoseconds % 10**9
         if name == "odom":
+            self.asked = stamp.sec, stamp.nanosec
             message.header.frame_id, message.child_frame_id = "odom", "base_link"
             message.pose.pose.position.x = self.place.x
             message.pose.pose.position.y = self.place.y
@@ -150,6 +155,13 @@ class Lawn:
             poses.append(robot.pose)
         return {"poses": poses, "state": self.state}
 
+    def listen(self, seconds: float) -> list[list[float]]:
+        """Publish nothing; what is commanded all the same, in m/s and rad/s."""
+        self.unasked = []
+        for _ in range(round(seconds / 0.01)):
+            self.executor.spin_once(timeout_sec=0.01)
+        return self.unasked
+
 
 def set_yaw(quaternion: Any, heading: float) -> None:
     """Turn a quaternion about the vertical."""
@@ -178,6 +190,8 @@ def main() -> None:
         wish = json.loads(line)
         if "case" in wish:
             ended = lawn.drive(cases[wish["case"]])
+        elif "listen" in wish:
+            ended = lawn.listen(wish["listen"])
         else:
             ended = lawn.exact(wmr.Pose(*wish["start"]), wish["width"], wish["longest"])
         print(json.dumps(ended), flush=True)

@@ -1,7 +1,7 @@
 """A drive by three processes that know each other by ROS 2 alone: node, lawn and goals.
 
-    python book/robot/ros2/three.py            # each fault of drive_faults.py that ROS can show
-    python book/robot/ros2/three.py --exact    # exact sensors: the pose after each period, as JSON
+python book/robot/ros2/three.py            # each fault of drive_faults.py that ROS can show
+python book/robot/ros2/three.py --exact    # exact sensors: the pose after each period, as JSON
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ sys.path[:0] = [str(path) for path in (HERE, HERE / "wmr_park", HERE.parent)]
 
 import drive_faults  # noqa: E402
 import interfaces  # noqa: E402
+import numpy as np  # noqa: E402
 from compiled import CDrive  # noqa: E402
 from drive_faults import CASES, Case  # noqa: E402
 from wmr_park import adapter  # noqa: E402
@@ -49,7 +50,10 @@ node.main()
 
 def parameters(case: Case) -> dict[str, Any]:
     """The node's parameters for a case of drive_faults.py."""
-    told = {"start": [paper.GPS_POINT_1.lat, paper.GPS_POINT_1.lon], "fence": list(map(float, case.fence))}
+    told = {
+        "start": [paper.GPS_POINT_1.lat, paper.GPS_POINT_1.lon],
+        "fence": list(map(float, case.fence)),
+    }
     told |= {f"gains.{name}": value for name, value in drive_faults.GAINS._asdict().items()}
     rules = wmr.Rules(**case.rules)._asdict()
     told |= {adapter.OWN.get(name, name): value for name, value in rules.items()}
@@ -59,17 +63,19 @@ def parameters(case: Case) -> dict[str, Any]:
 class Three:
     """The three processes, from `with` to its end."""
 
-    def __init__(self, prefix: Path, domain: int = 0) -> None:
+    def __init__(self, prefix: Path, domain: int = 0, *arguments: str) -> None:
+        # The lawn keeps step, however slow the machine is: the watchdog is for real time.
+        self.arguments = arguments or ("-p", "watchdog:=60.0")
         self.folder = tempfile.TemporaryDirectory()
         self.record = Path(self.folder.name, "record")
         self.environment = interfaces.environment(prefix, domain)
         self.environment["WMR_RECORD"] = str(self.record)
 
     def __enter__(self) -> Three:
-        # The lawn keeps step, however slow the machine is: the watchdog is for real time.
-        late = ["--ros-args", "-p", "watchdog:=60.0"]
-        self.node = self.begin("-c", _RECORDED, *late)
-        self.lawn, self.goals = (self.begin(str(HERE / f"{name}_node.py")) for name in ("lawn", "goals"))
+        self.node = self.begin("-c", _RECORDED, "--ros-args", *self.arguments)
+        self.lawn, self.goals = (
+            self.begin(str(HERE / f"{name}_node.py")) for name in ("lawn", "goals")
+        )
         return self
 
     def begin(self, *command: str) -> subprocess.Popen:
@@ -117,11 +123,34 @@ class Three:
 def by_c(told: dict[str, Any], goal: wmr.Pose, steps: list) -> list[int]:
     """The periods in which the C header does not do what the node did."""
     drive, differ = adapter.drive_of(adapter.DEFAULTS | told, goal, CDrive), []
-    for k, (seen, speeds, state, reason) in enumerate(steps):
-        same = max(abs(a - b) for a, b in zip(drive.step(wmr.Seen(*seen)), speeds, strict=True)) < 1e-9
-        if not (same and (drive.state, drive.reason) == (state, reason)):
+    for k, (seen, speeds, *decided) in enumerate(steps):
+        off = max(map(abs, np.subtract(drive.step(wmr.Seen(*seen)), speeds)))
+        if off > 1e-9 or [drive.state, drive.reason] != decided:
             differ.append(k)
     return differ
+
+
+def exact(
+    three: Three,
+    start: wmr.Pose,
+    goal: wmr.Pose,
+    gains: wmr.Gains,
+    wheels: wmr.Wheels,
+    rules: wmr.Rules,
+    longest: float = 200.0,
+) -> list[list[float]]:
+    """Drive with exact sensors over ROS; the poses at the start and after each period.
+
+    Parameters
+    ----------
+    start, goal : Pose, m east and north of the paper's first point
+    gains, wheels, rules : as for `wmr.Drive`; the last turn is the usual one
+    longest : float, s
+    """
+    told = parameters(CASES[0]._replace(rules=rules._asdict(), fence=adapter.DEFAULTS["fence"]))
+    told |= wheels._asdict() | {f"gains.{name}": k for name, k in gains._asdict().items()}
+    wish = {"start": list(start), "width": wheels.track_width, "longest": longest}
+    return three.run(told, goal, wish)["poses"]
 
 
 def main() -> None:
@@ -132,11 +161,17 @@ def main() -> None:
     parser.add_argument("--build", type=Path, default=Path(tempfile.gettempdir(), "wmr_interfaces"))
     given = parser.parse_args()
     with Three(interfaces.build(given.build), given.domain) as three:
+        if given.exact:
+            rules = wmr.Rules(arrival_radius=0.05)
+            robot = CASE.start, CASE.goal, drive_faults.GAINS, WHEELS, rules
+            print(json.dumps(exact(three, *robot)))
+            return
         for case in SHOWN:
-            ran = three.run(parameters(case), CASE.goal, {"case": case.name})
+            told = parameters(case)
+            ran = three.run(told, CASE.goal, {"case": case.name})
             steps = three.steps()
-            end = ": ".join(filter(None, steps[-1][2:]))
-            print(f"{case.name:33} {end:41} {ran['blind']:6.2f} {len(by_c(parameters(case), CASE.goal, steps))}")
+            end, differ = ": ".join(filter(None, steps[-1][2:])), by_c(told, CASE.goal, steps)
+            print(f"{case.name:33} {end:41} {ran['blind']:6.2f} m; C differs in {len(differ)}")
 
 
 if __name__ == "__main__":

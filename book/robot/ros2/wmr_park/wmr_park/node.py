@@ -7,6 +7,7 @@ Each odometry message is a period: `wmr.Drive` decides, and the answer carries i
 
 from __future__ import annotations
 
+import signal
 from typing import Any
 
 import rclpy
@@ -14,14 +15,15 @@ from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.clock import Clock, ClockType
-from rclpy.executors import ExternalShutdownException
+from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
+from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from wmr_interfaces.action import Park
-from wmr_park.adapter import DEFAULTS, Sensors, drive_of, goal_of, yaw
 
 import wmrlib as wmr
+from wmr_park.adapter import DEFAULTS, Sensors, drive_of, goal_of, yaw
 
 
 class ParkNode(Node):
@@ -45,7 +47,9 @@ class ParkNode(Node):
         self.create_subscription(BatteryState, "battery", self.on_battery, sensor)
         self.create_subscription(Odometry, "odom", self.on_odometry, sensor)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.dog = self.create_timer(self.get_parameter("watchdog").value, self.on_silence, clock=steady)
+        self.dog = self.create_timer(
+            self.get_parameter("watchdog").value, self.on_silence, clock=steady
+        )
         answers = {"goal_callback": self.on_goal, "cancel_callback": self.on_cancel}
         answers["handle_accepted_callback"] = self.on_accepted
         self.server = ActionServer(self, Park, "park", self.park, **answers)
@@ -112,7 +116,10 @@ class ParkNode(Node):
 
     def on_odometry(self, odom: Odometry) -> None:
         """A period has ended: decide, and command the next."""
-        given, frames = self.sensors and self.sensors.given, (odom.header.frame_id, odom.child_frame_id)
+        given, frames = (
+            self.sensors and self.sensors.given,
+            (odom.header.frame_id, odom.child_frame_id),
+        )
         if not self.wish:
             return
         if frames != (given["odom_frame"], given["base_frame"]):
@@ -150,17 +157,18 @@ class ParkNode(Node):
 
 def main(kind: type[ParkNode] = ParkNode) -> None:
     """Run the node until it is told to end; the last thing that it says is a stop."""
-    rclpy.init()
-    node = kind()
+    rclpy.init(signal_handler_options=SignalHandlerOptions.NO)  # else it could say nothing more
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    node, executor = kind(), SingleThreadedExecutor()
+    executor.add_node(node)
     try:
-        rclpy.spin(node)
-    except (KeyboardInterrupt, ExternalShutdownException):
-        pass
+        while rclpy.ok():
+            executor.spin_once(timeout_sec=0.1)  # between two of these Python sees a signal
+    except KeyboardInterrupt:
+        node.tell(0.0, 0.0, node.get_clock().now().to_msg())
     finally:
-        if rclpy.ok():
-            node.tell(0.0, 0.0, node.get_clock().now().to_msg())
         node.destroy_node()
-        rclpy.try_shutdown()
+        rclpy.shutdown()
 
 
 if __name__ == "__main__":
