@@ -8,7 +8,8 @@ from pathlib import Path
 
 import pytest
 
-pytest.importorskip("rclpy", reason="this test needs rclpy: pip install '.[robot]' on Linux")
+if not os.environ.get("WMR_INTERFACES"):  # which CI sets: there it must be present
+    pytest.importorskip("rclpy", reason="this test needs rclpy: pip install '.[robot]' on Linux")
 ROS2 = Path(__file__).parents[2] / "book" / "robot" / "ros2"
 sys.path.insert(0, str(ROS2))
 
@@ -58,10 +59,9 @@ def test_a_fault_comes_to_what_it_must_and_each_step_is_the_c_headers(robot, nam
     assert far <= case.within + (PERIOD_M if case.within else 1e-9)
     assert ran["answer"]["status"] == STATUS.get(ran["answer"]["state"], CANCELED)
     assert ": ".join(filter(None, (ran["answer"]["state"], ran["answer"]["reason"]))) == ran["end"]
-    assert len(steps) > 20
     assert by_c(told, CASE.goal, steps) == []
-    steps[10][1] = [steps[10][1][0] + 1e-6, steps[10][1][1]]
-    assert by_c(told, CASE.goal, steps) == [10]
+    steps[3][1][0] += 1e-6
+    assert by_c(told, CASE.goal, steps) == [3]
 
 
 def test_without_a_fault_the_action_succeeds_and_its_feedback_tells_the_states(robot):

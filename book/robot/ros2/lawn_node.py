@@ -23,7 +23,7 @@ import wmrlib as wmr
 from wmrlib import odometry, paper
 
 BEGIN = 1_000_000_000  # s since 1970, at the start of a drive
-STANDS = 2.0  # s, after which a robot that stands has come to its end
+STANDS = 6.0  # s, after which a robot that stands has come to its end: a blocked wheel shows later
 PATIENT = 20.0  # s, of a real clock, until a command
 ORIGIN = paper.GPS_POINT_1
 STATUS = {1: 0, 2: 1, 4: 2, 5: 2}  # NavSatStatus of NMEA's qualities; any other is no fix
