@@ -7,6 +7,7 @@ from __future__ import annotations
 
 import json
 import sys
+import threading
 from typing import Any
 
 import rclpy
@@ -27,6 +28,8 @@ class Goals:
         rclpy.init()
         self.node, self.executor = rclpy.create_node("goals"), SingleThreadedExecutor()
         self.executor.add_node(self.node)
+        self.thread = threading.Thread(target=self.executor.spin)  # it hears every feedback
+        self.thread.start()
         self.client = ActionClient(self.node, Park, "park")
         self.parameters = AsyncParameterClient(self.node, "wmr_park")
         self.handle: Any = None
@@ -37,8 +40,9 @@ class Goals:
             raise RuntimeError("there is no node that parks")
 
     def wait(self, future: Any) -> Any:
-        rclpy.spin_until_future_complete(self.node, future, self.executor, PATIENT)
-        if not future.done():
+        done = threading.Event()
+        future.add_done_callback(lambda _: done.set())
+        if not done.wait(PATIENT):
             raise RuntimeError("the node does not answer")
         return future.result()
 
@@ -85,6 +89,8 @@ def main() -> None:
     for line in sys.stdin:
         name, *given = json.loads(line)
         print(json.dumps(getattr(goals, name)(*given)), flush=True)
+    goals.executor.shutdown()
+    goals.thread.join()
 
 
 if __name__ == "__main__":

@@ -85,7 +85,8 @@ class Three:
 
     def __exit__(self, *how: object) -> None:
         for process in (self.goals, self.lawn, self.node):
-            process.terminate()
+            if process is self.node:
+                process.terminate()
             process.communicate()
         self.folder.cleanup()
 
