@@ -64,8 +64,12 @@ class Three:
     """The three processes, from `with` to its end."""
 
     def __init__(self, prefix: Path, domain: int = 0, *arguments: str) -> None:
-        # The lawn keeps step, however slow the machine is: the watchdog is for real time.
-        self.arguments = arguments or ("-p", "watchdog:=60.0")
+        # The lawn keeps step, however slow the machine is: the watchdog is for real time, and no
+        # message may be lost.
+        self.arguments = list(arguments or ("-p", "watchdog:=60.0"))
+        for topic in ("imu", "fix", "battery", "odom"):
+            quality = f"qos_overrides./{topic}.subscription.reliability:=reliable"
+            self.arguments += ["-p", quality]
         self.folder = tempfile.TemporaryDirectory()
         self.record = Path(self.folder.name, "record")
         self.environment = interfaces.environment(prefix, domain)

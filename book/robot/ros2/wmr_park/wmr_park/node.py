@@ -18,6 +18,7 @@ from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
+from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from wmr_interfaces.action import Park
@@ -39,13 +40,14 @@ class ParkNode(Node):
         self.sensors: Sensors | None = None
         self.wish: Any = None
         self.stamped = self.get_parameter("stamped").value
-        kind = TwistStamped if self.stamped else Twist
-        self.command = self.create_publisher(kind, "cmd_vel", 1)
-        sensor = qos_profile_sensor_data
-        self.create_subscription(Imu, "imu", self.on_imu, sensor)
-        self.create_subscription(NavSatFix, "fix", self.on_fix, sensor)
-        self.create_subscription(BatteryState, "battery", self.on_battery, sensor)
-        self.create_subscription(Odometry, "odom", self.on_odometry, sensor)
+        twist = TwistStamped if self.stamped else Twist
+        self.command = self.create_publisher(twist, "cmd_vel", 1)
+        heard = {"imu": (Imu, self.on_imu), "fix": (NavSatFix, self.on_fix)}
+        heard |= {"battery": (BatteryState, self.on_battery), "odom": (Odometry, self.on_odometry)}
+        for topic, (message, take) in heard.items():  # parameters may ask for "reliable"
+            more = QoSOverridingOptions.with_default_policies()
+            options = {"qos_overriding_options": more}
+            self.create_subscription(message, topic, take, qos_profile_sensor_data, **options)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
         self.dog = self.create_timer(
             self.get_parameter("watchdog").value, self.on_silence, clock=steady
