@@ -29,6 +29,14 @@ def test_all_that_can_run_here_drive_alike(found):
     assert avr > 1e-6  # 32 bits show
 
 
+def test_the_stored_table_is_that_of_now(found):
+    stored = json.loads((Path(four.__file__).parents[1] / "four.json").read_text(encoding="utf-8"))
+    assert list(stored["programs"]) == ["Python", "JavaScript", "C on AVR", "ROS 2"]
+    for name, row in found["programs"].items():
+        assert stored["programs"][name] == row
+    assert all(far < MOST[b] + MOST.get(a, 0.0) for a, b, far in stored["apart"])
+
+
 def test_a_law_with_a_flipped_sign_is_far_away(monkeypatch):
     usual = four.driven(four.python())
     monkeypatch.setattr(four, "GAINS", four.GAINS._replace(h=0.0))
