@@ -91,7 +91,7 @@ def _reached(text: str) -> tuple[int, tuple[float, float, float]]:
     return int(found[0]), (x, y, heading)
 
 
-def _timed() -> str:
+def timed() -> str:
     """The example with a timer round what a real robot would compute in a period."""
     text = (FOLDER / "example.c").read_text(encoding="utf-8")
     place = "#endif\n\n/* What the sensors say."
@@ -99,11 +99,11 @@ def _timed() -> str:
     return text.replace(place, TIMED + place)
 
 
-def avr() -> Board:
-    """On an ATmega328P, by simavr."""
+def on_avr(example: str) -> tuple[str, int, int]:
+    """What example.c, as changed, prints on an ATmega328P by simavr; its flash and RAM in bytes."""
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        (folder / "example.c").write_text(_timed(), encoding="utf-8")
+        (folder / "example.c").write_text(example, encoding="utf-8")
         (folder / "board.c").write_text(AVR, encoding="utf-8")
         options = ["-mmcu=atmega328p", *STRICT, f"-I{FOLDER}", "-Wl,-u,vfprintf"]
         source = ["board.c", "-o", "board.elf", "-lprintf_flt", "-lm"]
@@ -111,7 +111,12 @@ def avr() -> Board:
         flash, ram = _sizes("avr-", folder, "board.elf")
         command = ["simavr", "-m", "atmega328p", "-f", str(int(1e6 * CLOCK_MHZ)), "board.elf"]
         said = _run(*command, folder=folder)
-    plain = re.sub(r"\x1b\[[\d;]*m|\.\.?$", "", said, flags=re.MULTILINE)
+    return re.sub(r"\x1b\[[\d;]*m|\.\.?$", "", said, flags=re.MULTILINE), flash, ram
+
+
+def avr() -> Board:
+    """On an ATmega328P, by simavr."""
+    plain, flash, ram = on_avr(timed())
     (cycles,), (memory,) = re.findall(r"cycles (\d+)", plain), re.findall(r"memory (\d+)", plain)
     return Board(*_reached(plain), flash, ram, int(memory), float(cycles))
 

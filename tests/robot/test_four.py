@@ -1,0 +1,60 @@
+"""One robot, four programs: the same drive, within what each arithmetic allows."""
+
+import json
+import os
+import sys
+from importlib.util import find_spec
+from pathlib import Path
+
+import four
+import numpy as np
+import pytest
+
+pytestmark = pytest.mark.needs("avr", "npm", "simavr")
+SHARED = os.environ.get("WMR_INTERFACES")
+MOST = {"JavaScript": 1e-10, "C on AVR": 1e-3, "ROS 2": 1e-7}  # m, from Python's places
+
+
+@pytest.fixture(scope="module")
+def found(tmp_path_factory):
+    return four.compared(Path(SHARED) if SHARED else tmp_path_factory.mktemp("interfaces"))
+
+
+def test_all_that_can_run_here_drive_alike(found):
+    ros = {"ROS 2"} if SHARED or find_spec("rclpy") else set()
+    assert set(found["programs"]) == {"Python", "JavaScript", "C on AVR"} | ros
+    for a, b, far in found["apart"]:
+        assert far < MOST[b] + MOST.get(a, 0.0), (a, b)
+    avr = next(far for a, b, far in found["apart"] if (a, b) == ("Python", "C on AVR"))
+    assert avr > 1e-6  # 32 bits show
+
+
+def test_the_stored_table_is_that_of_now(found):
+    stored = json.loads((Path(four.__file__).parents[1] / "four.json").read_text(encoding="utf-8"))
+    assert list(stored["programs"]) == ["Python", "JavaScript", "C on AVR", "ROS 2"]
+    for name, row in found["programs"].items():
+        assert stored["programs"][name] == row
+    assert all(far < MOST[b] + MOST.get(a, 0.0) for a, b, far in stored["apart"])
+
+
+def test_a_law_with_a_flipped_sign_is_far_away(monkeypatch):
+    usual = four.driven(four.python())
+    monkeypatch.setattr(four, "GAINS", four.GAINS._replace(h=0.0))
+    assert four.apart(usual, four.driven(four.python())) > 0.1
+
+
+def test_places_are_compared_from_the_first_move_and_to_the_last_end():
+    stays, moves = [0.0, 0.0], [1.0, 0.0]
+    late, soon = four.driven([stays, stays, stays, moves]), four.driven([stays, moves, moves])
+    assert four.apart(late, soon) == 0.0
+    assert four.apart(soon, np.array([stays, moves, [1.0, 0.5]])) == 0.5
+
+
+def test_the_command_prints_each_pair_and_writes_the_table(found, tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(four, "compared", lambda build: found)
+    monkeypatch.setattr(sys, "argv", ["four.py", f"--json={tmp_path / 'four.json'}"])
+    four.main()
+    printed = capsys.readouterr().out.splitlines()
+    count = len(found["programs"])
+    assert len(printed) == count + count * (count - 1) // 2 + len(found["left_out"])
+    assert json.loads((tmp_path / "four.json").read_text(encoding="utf-8")) == found
