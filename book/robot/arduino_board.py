@@ -1,15 +1,16 @@
-"""The Arduino sketch: its library written and compiled, and an ATmega328P that runs it, simulated.
+"""The Arduino library written and compiled, and a simulated ATmega328P that runs its sketch.
 
     python book/robot/arduino_board.py WmrPark.zip
 
-writes the library as the Arduino IDE adds it (Sketch, Include Library, Add .ZIP Library).
-Compiling needs avr-gcc and Arduino's core, running cc and libsimavr (Debian: apt install gcc-avr
-avr-libc arduino-core-avr gcc libc6-dev libsimavr-dev).
+writes the library for the Arduino IDE: Sketch, Include Library, Add .ZIP Library. To compile needs
+avr-gcc and Arduino's core, to run cc and libsimavr (Debian: apt install gcc-avr avr-libc
+arduino-core-avr gcc libc6-dev libsimavr-dev).
 """
 
 from __future__ import annotations
 
 import ctypes
+import re
 import subprocess
 import sys
 import tempfile
@@ -25,10 +26,10 @@ from wmrlib import symbolic
 FOLDER = Path(__file__).parent / "arduino"
 LIBRARY = FOLDER / "WmrPark"
 CORE = Path("/usr/share/arduino/hardware/arduino/avr")
-SIMAVR = Path("/usr/include/simavr/sim_avr.h")
 NUMBERS = "my_robot_arduino.h"
 CLOCK, BAUD = 16_000_000, 38_400
-# As platform.txt of the core has them; its avr-gcc is newer than Debian's, which lacks DECIMAL_DIG.
+_RESET, _SOUND = 0, (2, 3)  # of simavr's states: by the watchdog; running, sleeping
+# As in the core's platform.txt; Debian's avr-gcc is older than Arduino's and lacks DECIMAL_DIG.
 _FLAGS = "-mmcu=atmega328p -DF_CPU=16000000L -DARDUINO=10819 -DARDUINO_AVR_UNO -DARDUINO_ARCH_AVR"
 _FLAGS += " -Os -flto -fno-fat-lto-objects -ffunction-sections -fdata-sections"
 _CPP = "-std=gnu++11 -fpermissive -fno-exceptions -fno-threadsafe-statics"
@@ -57,16 +58,17 @@ def write_zip(path: Path) -> None:
 
 
 class Program(NamedTuple):
-    """A compiled program, and its bytes of flash and of RAM besides the stack."""
+    """A compiled program, its bytes of flash, and its bytes of RAM without the stack."""
 
     elf: bytes
     flash: int
     ram: int
 
 
-def _gcc(folder: Path, *options: str | Path, command: str = "avr-gcc") -> str:
-    words = [word for each in options for word in (str(each).split() if isinstance(each, str) else [each])]
-    done = subprocess.run([command, *words], cwd=folder, capture_output=True, text=True)
+def _run(command: str, folder: Path, *words: str | Path) -> str:
+    """What a command prints; a string of several words is split."""
+    split = [part for word in words for part in (word.split() if isinstance(word, str) else [word])]
+    done = subprocess.run([command, *split], cwd=folder, capture_output=True, text=True)
     if done.returncode:
         raise RuntimeError(f"{command}: {done.stderr}")
     return done.stdout
@@ -75,99 +77,125 @@ def _gcc(folder: Path, *options: str | Path, command: str = "avr-gcc") -> str:
 @cache
 def _core() -> bytes:
     """Arduino's own part, as an archive."""
+    sources = [path for part in _PARTS for path in sorted(part.glob("*.c*"))]
     includes = [f"-I{part}" for part in _PARTS]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
-        sources = [path for part in _PARTS for path in sorted(part.rglob("*.c*"))]
         for path in sources:
             language = _CPP if path.suffix == ".cpp" else "-std=gnu11"
-            _gcc(folder, "-c -w", _FLAGS, language, *includes, path, f"-o {path.name}.o")
-        objects = [f"{path.name}.o" for path in sources]
-        _gcc(folder, "rcs core.a", *objects, command="avr-gcc-ar")
+            _run("avr-gcc", folder, "-c -w", _FLAGS, language, *includes, path, f"-o {path.name}.o")
+        _run("avr-gcc-ar", folder, "rcs core.a", *(f"{path.name}.o" for path in sources))
         return (folder / "core.a").read_bytes()
 
 
 @cache
-def compiled(robot: Robot = Robot(), changes: tuple[tuple[str, str], ...] = ()) -> Program:  # noqa: B008
-    """The sketch for an Uno, with the robot's numbers, and texts of it changed for others."""
+def compiled(robot: Robot, changes: tuple[tuple[str, str], ...] = ()) -> Program:
+    """The library's sketch with the robot's numbers.
+
+    Each of the changes is a text that is in the library once, and the one in its place.
+    """
     texts = library(robot)
-    sketch = texts["examples/Park/Park.ino"]
     for old, new in changes:
-        if sketch.count(old) != 1:
-            raise ValueError(f"changes has {old!r}: a text that is in the sketch once is needed")
-        sketch = sketch.replace(old, new)
-    # the IDE declares functions, and includes Arduino.h
-    head = "#include <Arduino.h>\nvoid report(uint16_t longest);\n#line 1\n"
-    return build({**texts, "examples/Park/Park.cpp": head + sketch}, "examples/Park/Park.cpp")
+        places = [name for name, text in texts.items() if old in text]
+        if len(places) != 1 or texts[places[0]].count(old) != 1:
+            raise ValueError(f"changes has {old!r}: a text that is in the library once is needed")
+        texts[places[0]] = texts[places[0]].replace(old, new)
+    sketch = texts["examples/Park/Park.ino"]  # the IDE includes Arduino.h and declares functions
+    declared = ";\n".join(re.findall(r"^(void \w+\(.*\)) {$", sketch, re.MULTILINE))
+    head = f'#include <Arduino.h>\n{declared};\n#line 1 "Park.ino"\n'
+    texts["examples/Park/Park.cpp"] = head + sketch
+    return build(texts, "examples/Park/Park.cpp")
 
 
 def build(texts: dict[str, str], main: str) -> Program:
-    """Compile one file, which may include the others, against Arduino's core."""
+    """Compile one of the files, which may include the others, with Arduino's core, for an Uno."""
+    includes = [f"-I{part}" for part in (*_PARTS, "src")]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for place, text in texts.items():
             (folder / place).parent.mkdir(parents=True, exist_ok=True)
             (folder / place).write_text(text, encoding="utf-8")
         (folder / "core.a").write_bytes(_core())
-        includes = [f"-I{part}" for part in (*_PARTS, folder / "src")]
-        _gcc(folder, "-c -Wall -Wextra -Werror", _FLAGS, _CPP, *includes, main, "-o main.o")
+        strict = "-c -Wall -Wextra -Werror"
+        _run("avr-gcc", folder, strict, _FLAGS, _CPP, *includes, main, "-o main.o")
         link = "-Os -flto -fuse-linker-plugin -Wl,--gc-sections -mmcu=atmega328p"
-        _gcc(folder, link, "main.o core.a -o main.elf -lm")
-        sizes = _gcc(folder, "main.elf", command="avr-size").split("\n")[1].split()[:3]
+        _run("avr-gcc", folder, link, "main.o core.a -o main.elf -lm")
+        sizes = _run("avr-size", folder, "main.elf").split("\n")[1].split()[:3]
         text, data, bss = map(int, sizes)
         return Program((folder / "main.elf").read_bytes(), text + data, data + bss)
 
 
 @cache
-def _host() -> ctypes.CDLL:
+def _simulator() -> ctypes.CDLL:
     """sim.c as a library; the folder goes as soon as it is loaded."""
+    options = "-std=gnu11 -O2 -Wall -Wextra -Werror -shared -fPIC"
     with tempfile.TemporaryDirectory() as name:
-        options = "-std=gnu11 -O2 -Wall -Wextra -Werror -shared -fPIC"
-        _gcc(Path(name), options, FOLDER / "sim.c", "-o sim.so -lsimavr -lm", command="cc")
-        host = ctypes.CDLL(str(Path(name, "sim.so")))
-    host.sim_run.argtypes = [ctypes.c_uint32, ctypes.c_double, ctypes.c_double]
-    host.sim_run.argtypes += [ctypes.c_int16, ctypes.c_int16, ctypes.c_int, ctypes.c_int, ctypes.c_int]
-    return host
+        _run("cc", Path(name), options, FOLDER / "sim.c", "-o sim.so -lsimavr -lm")
+        sim = ctypes.CDLL(str(Path(name, "sim.so")))
+    whole, real = ctypes.c_int, ctypes.c_double
+    sim.sim_run.argtypes = [ctypes.c_uint32, real, real, whole, whole, whole, whole, whole]
+    return sim
+
+
+class Inputs(NamedTuple):
+    """What the board's pins see: the encoders' quarter steps and the field, in counts.
+
+    `field` is None for a compass that does not answer.
+    """
+
+    quarters: tuple[float, float] = (0.0, 0.0)
+    field: tuple[float, float] | None = None
+    pressed: bool = False  # the emergency stop
+    volts: float = 3.0  # at the battery's pin
 
 
 class Board:
-    """An ATmega328P that runs a program; one at a time."""
+    """An ATmega328P that runs a program, one at a time."""
 
     def __init__(self, program: Program, baud: int = BAUD) -> None:
-        self.host, self.text = _host(), ""
+        self.sim, self.program, self.baud, self.resets = _simulator(), program, baud, 0
+        self._open()
+
+    def _open(self) -> None:
         with tempfile.NamedTemporaryFile(suffix=".elf") as file:
-            file.write(program.elf)
+            file.write(self.program.elf)
             file.flush()
-            if not self.host.sim_open(file.name.encode(), baud):
+            if not self.sim.sim_open(file.name.encode(), self.baud):
                 raise RuntimeError("simavr can't load the program")
 
     def send(self, data: bytes) -> None:
-        """Bytes that its UART receives, one after the other at the baud."""
-        self.host.sim_send(data, len(data))
+        """Let its UART receive bytes, one after the other at the baud."""
+        self.sim.sim_send(data, len(data))
 
-    def run(self, seconds, quarters=(0.0, 0.0), field=(0, 0), answers=True, pressed=False, volts=12.0):
-        """Run while the encoders turn to so many quarter steps; what the program sends meanwhile."""
-        cycles, millivolts = round(CLOCK * seconds), round(250 * volts)
-        state = self.host.sim_run(cycles, *quarters, *field, answers, pressed, millivolts)
-        if state not in (2, 3):
-            raise RuntimeError(f"the program crashed: simavr's state is {state}")
+    def run(self, seconds: float, inputs: Inputs = Inputs()) -> bytes:  # noqa: B008 (constant)
+        """Run, while the encoders turn to their quarter steps; what the program sends meanwhile."""
+        answers = inputs.field is not None
+        x, y = map(round, inputs.field or (0, 0))
+        given = *inputs.quarters, x, y, answers, inputs.pressed, round(1000 * inputs.volts)
+        state = self.sim.sim_run(round(CLOCK * seconds), *given)
+        if state == _RESET:
+            self.resets += 1
+            self._open()
+            return b""
+        if state not in _SOUND:
+            raise RuntimeError(f"the program crashed: simavr is in state {state}")
         letters = ctypes.create_string_buffer(4096)
-        count = self.host.sim_said(letters, 4096)
+        count = self.sim.sim_said(letters, len(letters))
         return letters.raw[:count]
 
     def pins(self) -> tuple[float, float, bool]:
         """Duty of the left and the right motor, -1 to 1, and whether they have power."""
         out = (ctypes.c_double * 3)()
-        self.host.sim_pins(out)
+        self.sim.sim_pins(out)
         return out[0], out[1], bool(out[2])
 
-    def hang(self, on: bool) -> None:
-        """Catch the program in an endless loop, or let the next one go on."""
-        self.host.sim_hang(on)
+    def hang(self) -> None:
+        """Catch the program in an endless loop where it is, until it is reset."""
+        self.sim.sim_hang()
 
     def untouched(self) -> int:
         """Bytes of RAM that neither data nor stack ever reached."""
-        return self.host.sim_untouched()
+        return self.sim.sim_untouched()
 
 
 if __name__ == "__main__":

@@ -1,7 +1,6 @@
 /* A board with an ATmega328P on a robot, by simavr: what arduino_run.py calls through ctypes.
    A QMC5883L answers on its bus, a receiver's bytes come in at their baud, two quadrature
    encoders turn as they are told, and the pins of motors and relay are read. */
-#include <math.h>
 #include <simavr/avr_adc.h>
 #include <simavr/avr_ioport.h>
 #include <simavr/avr_twi.h>
@@ -19,7 +18,7 @@ enum { PORTB = 0x25, PORTC = 0x28, TCCR1A = 0x80, OCR1A = 0x88, OCR1B = 0x8A,
 static avr_t *avr;
 static elf_firmware_t firmware;
 static uint8_t queue[QUEUE], said[QUEUE];
-static int first, waiting, heard, due;
+static int first, waiting, heard;
 static uint32_t byte_cycles;
 
 static struct {
@@ -32,13 +31,15 @@ static struct {
   avr_irq_t *a, *b;
 } wheels[2];
 static avr_cycle_count_t since;
+static avr_run_t runs; /* simavr's function, until its watchdog puts a reset in its place */
 
 /* What Python sets before a run: field ahead and to the left, counts; battery, mV; 1 or 0. */
 static struct { int16_t x, y; int compass, millivolts; } world;
 
-static void silent(avr_t *board, const int level, const char *format, va_list list) {
+/* A program that hangs loses bytes; every other error is worth a line. */
+static void log_error(avr_t *board, const int level, const char *format, va_list list) {
   (void)board;
-  if (level <= LOG_ERROR) vfprintf(stderr, format, list);
+  if (level <= LOG_ERROR && !strstr(format, "overrun")) vfprintf(stderr, format, list);
 }
 
 static void no_sleep(avr_t *board, avr_cycle_count_t cycles) { (void)board, (void)cycles; }
@@ -90,7 +91,7 @@ static void on_battery(avr_irq_t *irq, uint32_t value, void *given) {
 
 static avr_cycle_count_t next_byte(avr_t *board, avr_cycle_count_t when, void *given) {
   (void)board, (void)given;
-  if (!waiting) return due = 0;
+  if (!waiting) return 0;
   avr_raise_irq(avr_io_getirq(avr, AVR_IOCTL_UART_GETIRQ('0'), UART_IRQ_INPUT), queue[first]);
   first = (first + 1) % QUEUE, --waiting;
   return when + byte_cycles;
@@ -120,13 +121,13 @@ static avr_cycle_count_t end_of_run(avr_t *board, avr_cycle_count_t when, void *
 int sim_open(const char *path, uint32_t baud) {
   static const char ports[] = {'D', 'D', 'D', 'D'};
   static const int pins[] = {2, 4, 3, 7};
-  avr_global_logger_set(silent);
+  avr_global_logger_set(log_error);
   memset(&firmware, 0, sizeof firmware), memset(&compass, 0, sizeof compass);
-  memset(wheels, 0, sizeof wheels), first = waiting = heard = due = 0, since = 0;
+  memset(wheels, 0, sizeof wheels), first = waiting = heard = 0, since = 0;
   if (elf_read_firmware(path, &firmware) || !(avr = avr_make_mcu_by_name("atmega328p"))) return 0;
   avr_init(avr);
   firmware.frequency = 16000000, avr_load_firmware(avr, &firmware);
-  avr->sleep = no_sleep, avr->vcc = avr->avcc = avr->aref = 5000;
+  avr->sleep = no_sleep, runs = avr->run, avr->vcc = avr->avcc = avr->aref = 5000;
   byte_cycles = 10 * 16000000 / baud;
   memset(avr->data + 0x100 + firmware.datasize + firmware.bsssize, PAINT,
          avr->ramend + 1 - (0x100 + firmware.datasize + firmware.bsssize));
@@ -151,17 +152,19 @@ int sim_open(const char *path, uint32_t baud) {
 void sim_send(const uint8_t *bytes, int count) {
   for (int k = 0; k < count && waiting < QUEUE; ++k)
     queue[(first + waiting++) % QUEUE] = bytes[k];
-  if (!due && waiting) due = 1, avr_cycle_timer_register(avr, byte_cycles, next_byte, NULL);
+  if (waiting && !avr_cycle_timer_status(avr, next_byte, NULL)) /* a reset cancels timers */
+    avr_cycle_timer_register(avr, byte_cycles, next_byte, NULL);
 }
 
-/* Runs for so many cycles, while the encoders turn to `left` and `right` quarter steps. Returns
-   how the simulator's state ended; 2 and 3, running and asleep, are sound. */
-int sim_run(uint32_t cycles, double left, double right, int16_t x, int16_t y, int answers,
+/* Runs for so many cycles, while the encoders turn to `left` and `right` quarter steps. Returns 0
+   when the watchdog has reset the board, which is to be opened again, as simavr 1.6 does not reset
+   timers well; else simavr's state: 2 and 3, running and asleep, are sound. */
+int sim_run(uint32_t cycles, double left, double right, int x, int y, int answers,
             int open, int millivolts) {
   const double to[2] = {left, right};
   const avr_cycle_count_t end = since + cycles;
   int state = avr->state;
-  world.x = x, world.y = y, world.compass = answers;
+  world.x = (int16_t)x, world.y = (int16_t)y, world.compass = answers;
   world.millivolts = millivolts;
   avr_ioport_external_t button = {.name = 'B', .mask = 0x10, .value = open ? 0x10 : 0};
   avr_ioctl(avr, AVR_IOCTL_IOPORT_SET_EXTERNAL('B'), &button);
@@ -174,7 +177,10 @@ int sim_run(uint32_t cycles, double left, double right, int16_t x, int16_t y, in
                                        (void *)side);
   }
   if (avr->cycle < end) avr_cycle_timer_register(avr, end - avr->cycle, end_of_run, NULL);
-  while (avr->cycle < end && state != cpu_Done && state != cpu_Crashed) state = avr_run(avr);
+  while (avr->cycle < end && state != cpu_Done && state != cpu_Crashed) {
+    if (avr->run != runs) return 0;
+    state = avr_run(avr);
+  }
   for (int side = 0; side < 2; ++side) wheels[side].from = to[side];
   since = end;
   return state;
@@ -196,13 +202,10 @@ void sim_pins(double *out) {
   out[2] = data[PORTC] & 1;
 }
 
-/* The program hangs where it is: an endless loop, until a reset. */
-void sim_hang(int on) {
-  static avr_flashaddr_t place;
-  static uint8_t kept[2];
+/* The program hangs where it is, in an endless loop. */
+void sim_hang(void) {
   const uint16_t loop = TURNS_FOREVER;
-  if (on) place = avr->pc, memcpy(kept, avr->flash + place, 2), memcpy(avr->flash + place, &loop, 2);
-  else memcpy(avr->flash + place, kept, 2);
+  memcpy(avr->flash + avr->pc, &loop, 2);
 }
 
 /* Bytes of RAM that the stack never reached. */

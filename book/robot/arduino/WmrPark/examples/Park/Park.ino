@@ -4,30 +4,37 @@
 #include <WmrPark.h>
 #include <avr/sleep.h>
 #include <avr/wdt.h>
+
 #include "my_robot_arduino.h"
 
-const uint8_t STOP_PIN = 12;    // closed to ground; open, or cut, it stops
-const uint8_t POWER_PIN = A0;   // the motors' relay
-const uint8_t BATTERY_PIN = A1; // through a divider
-const float VOLTS = 5.0f * 4 / 1023, BATTERY_LOW = 10.5f;
-const float FULL_SPEED = 1.25f * MAX_SPEED, COUNT_M = 0.001f;
-const float FENCE = 15; // m round the rectangle of start and goal
-const float TICK = 78 * 1024L / 16e6f; // s of the wheels' loop
+const bool BENCH = false; // true: the bench test, wheels in the air
+
+// pins: the emergency stop, closed to ground; the motors' relay; the battery, by a divider
+const uint8_t STOP_PIN = 12, POWER_PIN = A0, BATTERY_PIN = A1;
+const float DIVIDER = 4, BATTERY_LOW = 10.5f; // the pin has a quarter of the volts
+const float FULL_SPEED = 1.25f * MAX_SPEED;   // m/s at full PWM
+const float COUNT_M = 0.001f;                 // m from one change of encoder pin A to the next
+const float FENCE = 15;                       // m round the rectangle of start and goal
+const float TICK = 78 * 1024L / 16e6f;        // s of the wheels' loop
 const uint32_t PERIOD_US = (uint32_t)(1e6f * PERIOD);
 
-//                     PWM, back, encoder A and B
+//          pins: PWM, back, encoder A and B
 Wheel left({9, 8, 2, 4, COUNT_M, FULL_SPEED, ACCELERATION, 2});
 Wheel right({10, 11, 3, 7, COUNT_M, FULL_SPEED, ACCELERATION, 2});
 Compass compass;
 Ublox ublox;
 Pilot pilot;
 bool fresh = false;            // a fix has come
-volatile bool stopped = false; // by the button, until a reset
+volatile bool stopped = false; // by the button or the drive, until a reset
 
 void left_changed() { left.changed(); }
 void right_changed() { right.changed(); }
 
+// It lets encoders and receiver interrupt it; not itself, if it ever takes longer than a tick.
 ISR(TIMER2_COMPA_vect, ISR_NOBLOCK) {
+  static volatile bool busy = false;
+  if (busy) return;
+  busy = true;
   stopped = stopped || digitalRead(STOP_PIN);
   if (stopped) {
     digitalWrite(POWER_PIN, LOW);
@@ -35,14 +42,12 @@ ISR(TIMER2_COMPA_vect, ISR_NOBLOCK) {
   } else {
     left.tick(TICK), right.tick(TICK);
   }
+  busy = false;
 }
-
-void receive() { fresh = ublox.read(Serial) || fresh; }
 
 void setup() {
   wdt_enable(WDTO_250MS);
-  pinMode(STOP_PIN, INPUT_PULLUP);
-  pinMode(POWER_PIN, OUTPUT);
+  pinMode(STOP_PIN, INPUT_PULLUP), pinMode(POWER_PIN, OUTPUT);
   left.begin(left_changed), right.begin(right_changed);
   Serial.begin(38400);
   compass.iron_x = 0, compass.iron_y = 0; // of the bench test
@@ -51,16 +56,15 @@ void setup() {
 
   pilot.lat = START_LAT_E7, pilot.lon = START_LON_E7;
   pilot.goal(GOAL_LAT_E7, GOAL_LON_E7, GOAL_HEADING);
-  pilot.plan.gains = {K_RHO, K_ALPHA, H, V_MAX};
-  pilot.plan.motors = {TRACK_WIDTH, MAX_SPEED, MIN_SPEED, ACCELERATION, 0.1f, 0, COUNT_M};
-  pilot.plan.end = {TURN_TOLERANCE, TURN_GAIN, TURN_MIN, TURN_MAX, 2, TURN_SETTLE};
-  pilot.plan.rules = WMR_USUAL_RULES;
-  pilot.plan.rules.arrival_radius = RADIUS_IN;
-  pilot.plan.rules.oldest = OLDEST_FIX, pilot.plan.rules.patience = PATIENCE;
-  pilot.plan.rules.largest_error = fmax(1, 3 * SIGMA);
-  pilot.plan.rules.jump = fmax(1, 6 * SIGMA), pilot.plan.rules.course = fmax(4, 12 * SIGMA);
-  pilot.plan.rules.longest_drive = LONGEST_DRIVE;
-  pilot.plan.rules.battery = BATTERY_LOW;
+  wmr_plan &plan = pilot.plan;
+  plan.gains = {K_RHO, K_ALPHA, H, V_MAX};
+  plan.motors = {TRACK_WIDTH, MAX_SPEED, MIN_SPEED, ACCELERATION, 0.1f, 0, COUNT_M};
+  plan.end = {TURN_TOLERANCE, TURN_GAIN, TURN_MIN, TURN_MAX, 2, TURN_SETTLE};
+  plan.rules = WMR_USUAL_RULES;
+  plan.rules.arrival_radius = RADIUS_IN, plan.rules.battery = BATTERY_LOW;
+  plan.rules.oldest = OLDEST_FIX, plan.rules.patience = PATIENCE;
+  plan.rules.longest_drive = LONGEST_DRIVE, plan.rules.largest_error = fmax(1, 3 * SIGMA);
+  plan.rules.jump = fmax(1, 6 * SIGMA), plan.rules.course = fmax(4, 12 * SIGMA);
   pilot.noise = {0.02f, 0.01f, 0.001f, 0.001f, TRACK_WIDTH};
   pilot.delay = DELAY, pilot.compass = COMPASS_DEG * DEG_TO_RAD, pilot.fence = FENCE;
 
@@ -69,18 +73,30 @@ void setup() {
   digitalWrite(POWER_PIN, HIGH);
 }
 
+// More often than the 64 bytes of its buffer take, 16 ms.
+void receive() { fresh = ublox.read(Serial) || fresh; }
+
 void loop() {
   static uint32_t begun = micros();
-  static uint16_t periods = 0, longest = 0;
+  static uint16_t longest = 0;
   receive();
-  if (micros() - begun < PERIOD_US) {
+  const uint32_t now = micros(), past = now - begun;
+  if (past < PERIOD_US) {
     sleep_mode(); // until the next interrupt
     return;
   }
-  const uint32_t now = micros(), past = now - begun;
   begun = now;
+  if (BENCH) bench();
+  else drive(1e-6f * (float)past, longest);
+  const uint32_t took = micros() - now;
+  if (took > longest) longest = (uint16_t)took;
+  if (took <= PERIOD_US) wdt_reset(); // a turn that is late does not feed the watchdog
+}
 
-  pilot.roll(1e-6f * (float)past, left.rolled(), right.rolled());
+void drive(float seconds, uint16_t longest) {
+  static uint8_t periods = 0;
+  const wmr_memory &m = pilot.memory;
+  pilot.roll(seconds, left.rolled(), right.rolled());
   receive();
   if (fresh) {
     float heading;
@@ -88,22 +104,47 @@ void loop() {
     fresh = false;
     receive();
   }
-  const wmr_wheels wheels = pilot.drive(VOLTS * (float)analogRead(BATTERY_PIN));
+  const wmr_wheels wheels = pilot.drive(DIVIDER * 5 / 1023 * (float)analogRead(BATTERY_PIN));
   if (stopped) pilot.memory.state = WMR_STOPPED;
-  if (pilot.memory.state == WMR_STOPPED) stopped = true;
+  if (m.state == WMR_STOPPED) stopped = true;
   left.tell(wheels.left), right.tell(wheels.right);
-
-  const uint32_t took = micros() - now;
-  if (took > longest) longest = (uint16_t)took;
-  if (took <= PERIOD_US) wdt_reset(); // a turn that is late does not feed the watchdog
-  if (++periods % 10 == 0) report(longest);
+  if (++periods % 10) return;
+  // state, reason, x and y in cm, heading in mrad, longest period in us
+  const int32_t numbers[] = {m.state, m.reason, (int32_t)(100 * m.pose.x),
+                             (int32_t)(100 * m.pose.y), (int32_t)(1000 * m.pose.heading), longest};
+  say(numbers, 6);
 }
 
-// State, reason, x and y in cm, heading in mrad, and the longest period in us.
-void report(uint16_t longest) {
-  const wmr_memory &m = pilot.memory;
-  const int32_t numbers[] = {m.state, m.reason, (int32_t)(100 * m.pose.x), (int32_t)(100 * m.pose.y),
-                             (int32_t)(1000 * m.pose.heading), longest};
-  for (const int32_t number : numbers) Serial.print(number), Serial.print(' ');
-  Serial.println();
+// Twelve times three seconds: left, right, a turn to the left, the eight poses of chapter 11 with
+// the goal at the origin facing east, and a stop. Each ends with mm/s told and rolled of left and
+// right, the compass's x, y and heading in degrees, and the fix's quality.
+void bench() {
+  static const int8_t POSES[8][3] = {{-50, 0, 0},  {-50, 0, 30}, {-50, 0, -30}, {-50, 20, 0},
+                                     {-50, -20, 0}, {50, 0, 0},   {-5, 0, 0},    {0, 0, 0}};
+  static uint8_t phase = 0, periods = 0;
+  static wmr_wheels told = {0.2f, 0, WMR_OK};
+  static float rolled[2] = {0, 0};
+  const uint8_t many = (uint8_t)(3 / PERIOD);
+  rolled[0] += left.rolled(), rolled[1] += right.rolled();
+  left.tell(told.left), right.tell(told.right);
+  if (++periods < many) return;
+  float heading = 0;
+  if (!compass.read(&heading)) compass.x = compass.y = 0;
+  const float each = 1000 / (many * PERIOD);
+  const int32_t numbers[] = {(int32_t)(1000 * told.left), (int32_t)(1000 * told.right),
+                             (int32_t)(each * rolled[0]), (int32_t)(each * rolled[1]),
+                             compass.x, compass.y, (int32_t)(heading * RAD_TO_DEG),
+                             ublox.pvt.quality};
+  say(numbers, 8);
+  rolled[0] = rolled[1] = 0, periods = 0, ++phase;
+  told = {phase == 2 ? -0.2f : 0, phase < 3 ? 0.2f : 0, WMR_OK};
+  if (phase < 3 || phase > 10) return;
+  const int8_t *at = POSES[phase - 3];
+  const wmr_pose pose = {0.1f * at[0], 0.1f * at[1], at[2] * (float)DEG_TO_RAD}, goal = {0, 0, 0};
+  const wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), pilot.plan.gains);
+  told = wmr_limited_wheels(twist, TRACK_WIDTH, MAX_SPEED);
+}
+
+void say(const int32_t *numbers, uint8_t count) {
+  while (count--) Serial.print(*numbers++), Serial.print(count ? ' ' : '\n');
 }
