@@ -133,8 +133,7 @@ def drive(
     lawn, board = Lawn(robot, start, seed), Board(compiled(robot, changes))
     counted, text, rolled, stood, step = [0.0, 0.0], b"", 0.0, 0.0, 0
     state, reason, longest, every = "wait", "", 0.0, round(robot.fix_period / STEP)
-    stays = 6.0 + max(when for when in (0.0, fault.begin, fault.end) if when < math.inf)
-    while stood < (1.0 if state == "parked" else stays) and step * STEP < told.duration:
+    while stood < (1.0 if state == "parked" else 6.0) and step * STEP < told.duration:
         now, step = step * STEP, step + 1
         wrong = fault if fault.begin <= now < fault.end else SOUND
         if step % every == 0 and not wrong.silent:

@@ -5,6 +5,7 @@ Its sensors are exact and its wheels ideal: only the arithmetic differs, float t
 
 from __future__ import annotations
 
+import math
 import struct
 
 from arduino_board import Board, build, library
@@ -69,7 +70,9 @@ class AvrDrive(wmr.Drive):
 
 
 def _number(value: float) -> str:
-    return str(value) if isinstance(value, int) else f"{value!r}f".replace("inff", "INFINITY")
+    if math.isinf(value):
+        return "INFINITY"
+    return f"{value:.0f}" if value == int(value) else f"{value!r}f"
 
 
 def positions(drive: wmr.Drive, start: wmr.Pose, period: float, longest: float) -> list[wmr.Pose]:
