@@ -116,7 +116,7 @@ void drive(float seconds, uint16_t longest) {
 }
 
 // Twelve times three seconds: left, right, a turn to the left, the eight poses of chapter 11 with
-// the goal at the origin facing east, and a stop. Each ends with mm/s told and rolled of left and
+// the goal at the origin facing east, and a stop. Each ends with mm/s told and rolled, left and
 // right, the compass's x, y and heading in degrees, and the fix's quality.
 void bench() {
   static const int8_t POSES[8][3] = {{-50, 0, 0},  {-50, 0, 30}, {-50, 0, -30}, {-50, 20, 0},
@@ -124,19 +124,19 @@ void bench() {
   static uint8_t phase = 0, periods = 0;
   static wmr_wheels told = {0.2f, 0, WMR_OK};
   static float rolled[2] = {0, 0};
-  const uint8_t many = (uint8_t)(3 / PERIOD);
+  const uint8_t second = (uint8_t)(1 / PERIOD);
+  if (periods == 2 * second) rolled[0] = rolled[1] = 0; // by then it has sped up
   rolled[0] += left.rolled(), rolled[1] += right.rolled();
   left.tell(told.left), right.tell(told.right);
-  if (++periods < many) return;
+  if (++periods < 3 * second) return;
   float heading = 0;
   if (!compass.read(&heading)) compass.x = compass.y = 0;
-  const float each = 1000 / (many * PERIOD);
   const int32_t numbers[] = {(int32_t)(1000 * told.left), (int32_t)(1000 * told.right),
-                             (int32_t)(each * rolled[0]), (int32_t)(each * rolled[1]),
+                             (int32_t)(1000 * rolled[0]), (int32_t)(1000 * rolled[1]),
                              compass.x, compass.y, (int32_t)(heading * RAD_TO_DEG),
                              ublox.pvt.quality};
   say(numbers, 8);
-  rolled[0] = rolled[1] = 0, periods = 0, ++phase;
+  periods = 0, ++phase;
   told = {phase == 2 ? -0.2f : 0, phase < 3 ? 0.2f : 0, WMR_OK};
   if (phase < 3 || phase > 10) return;
   const int8_t *at = POSES[phase - 3];
