@@ -193,6 +193,7 @@ class Pilot {
   int32_t lat, lon;          // of the origin, degrees * 1e7
   float delay, compass;      // s, rad: of the receiver's fixes, and the compass's error
   float fence;               // m round the rectangle of origin and goal
+  void (*meanwhile)();       // called where a fix takes long, to empty the UART's buffer
 
   void goal(int32_t goal_lat, int32_t goal_lon, float heading) {
     wmr_local_position_e7(lat, lon, goal_lat, goal_lon, &plan.goal.x, &plan.goal.y);
@@ -225,6 +226,7 @@ class Pilot {
     } else {
       // The compass errs by the same all the time: many readings say little more than one.
       wmr_filter_heading(&filter, heading, 8 * compass, WMR_GATE_1);
+      meanwhile();
       refused = use(sigma) ? 0 : refused + 1;
       if (refused >= PATIENT) wmr_filter_doubt(&filter, 4);  // it may be the filter that errs
     }

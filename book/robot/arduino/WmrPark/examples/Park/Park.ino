@@ -27,6 +27,8 @@ Pilot pilot;
 bool fresh = false;            // a fix has come
 volatile bool stopped = false; // by the button or the drive, until a reset
 
+// More often than the 64 bytes of its buffer take, 16 ms.
+void receive() { fresh = ublox.read(Serial) || fresh; }
 void left_changed() { left.changed(); }
 void right_changed() { right.changed(); }
 
@@ -67,14 +69,12 @@ void setup() {
   plan.rules.jump = fmax(1, 6 * SIGMA), plan.rules.course = fmax(4, 12 * SIGMA);
   pilot.noise = {0.02f, 0.01f, 0.001f, 0.001f, TRACK_WIDTH};
   pilot.delay = DELAY, pilot.compass = COMPASS_DEG * DEG_TO_RAD, pilot.fence = FENCE;
+  pilot.meanwhile = receive;
 
   TCCR2A = 1 << WGM21, OCR2A = 77; // a tick is 78 * 1024 cycles
   TCCR2B = 1 << CS22 | 1 << CS21 | 1 << CS20, TIMSK2 = 1 << OCIE2A;
   digitalWrite(POWER_PIN, HIGH);
 }
-
-// More often than the 64 bytes of its buffer take, 16 ms.
-void receive() { fresh = ublox.read(Serial) || fresh; }
 
 void loop() {
   static uint32_t begun = micros();
@@ -100,8 +100,8 @@ void drive(float seconds, uint16_t longest) {
   receive();
   if (fresh) {
     float heading;
-    pilot.fix(ublox.pvt, compass.read(&heading) ? heading : NAN);
     fresh = false;
+    pilot.fix(ublox.pvt, compass.read(&heading) ? heading : NAN);
     receive();
   }
   const wmr_wheels wheels = pilot.drive(DIVIDER * 5 / 1023 * (float)analogRead(BATTERY_PIN));
