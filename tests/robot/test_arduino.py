@@ -37,7 +37,7 @@ def test_the_zip_is_a_library_with_what_is_printed(tmp_path):
     for line in names["keywords.txt"].splitlines():
         word, kind = line.split("\t")
         form = rf"(class|struct) {word}\b" if kind == "KEYWORD1" else rf"\b{word}\("
-        assert re.search(form, names["src/WmrPark.h"]), word
+        assert re.search(form, names["src/WmrParts.h"] + names["src/WmrPark.h"]), word
     pins = re.findall(
         r"\b[AD]\d+\b", names["README.md"].partition("## Wiring")[2].partition("Pull")[0]
     )
