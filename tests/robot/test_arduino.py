@@ -8,7 +8,7 @@ import arduino_board
 import lockstep
 import numpy as np
 import pytest
-from arduino_board import Board, Inputs, compiled
+from arduino_board import Board, Inputs, compiled, library
 from arduino_run import COUNT, FAULTS, NEAR, SETTINGS, STEP, Fault, Lawn, drive
 
 import wmrlib as wmr
@@ -38,10 +38,18 @@ def test_the_zip_is_a_library_with_what_is_printed(tmp_path):
         word, kind = line.split("\t")
         form = rf"(class|struct) {word}\b" if kind == "KEYWORD1" else rf"\b{word}\("
         assert re.search(form, names["src/WmrParts.h"] + names["src/WmrPark.h"]), word
-    pins = re.findall(
-        r"\b[AD]\d+\b", names["README.md"].partition("## Wiring")[2].partition("Pull")[0]
-    )
-    assert len(pins) == len(set(pins)) == 15
+
+
+def test_table_drawing_and_sketch_have_the_same_pins():
+    texts = library()
+    table = texts["README.md"].partition("| pin | goes to |")[2].partition("Pull")[0]
+    sketch = texts["examples/Park/Park.ino"]
+    wheels = re.findall(r"^Wheel \w+\({(\d+), (\d+), (\d+), (\d+),", sketch, re.MULTILINE)
+    pins = [*re.findall(r"_PIN = (\w+)", sketch), *(pin for wheel in wheels for pin in wheel)]
+    pins = sorted([*(pin if pin[0] == "A" else f"D{pin}" for pin in pins), "D0", "D1", "A4", "A5"])
+    assert len(pins) == 15
+    assert sorted(re.findall(r"\b[AD]\d+\b", table)) == pins
+    assert sorted(re.findall(r">([AD]\d+)<", texts["wiring.svg"])) == pins
 
 
 def test_a_change_of_no_text_is_refused():
