@@ -65,8 +65,9 @@ void setup() {
   plan.rules = WMR_USUAL_RULES;
   plan.rules.arrival_radius = RADIUS_IN, plan.rules.battery = BATTERY_LOW;
   plan.rules.oldest = OLDEST_FIX, plan.rules.patience = PATIENCE;
-  plan.rules.longest_drive = LONGEST_DRIVE, plan.rules.largest_error = fmax(1, 3 * SIGMA);
-  plan.rules.jump = fmax(1, 6 * SIGMA), plan.rules.course = fmax(4, 12 * SIGMA);
+  plan.rules.largest_error = LARGEST_ERROR, plan.rules.farthest = FARTHEST;
+  plan.rules.longest_period = LONGEST_PERIOD, plan.rules.longest_drive = LONGEST_DRIVE;
+  plan.rules.jump = JUMP, plan.rules.course = fmax(4, 3 * JUMP);
   pilot.noise = {0.02f, 0.01f, 0.001f, 0.001f, TRACK_WIDTH};
   pilot.delay = DELAY, pilot.compass = COMPASS_DEG * DEG_TO_RAD, pilot.fence = FENCE;
   pilot.meanwhile = receive;
