@@ -25,7 +25,7 @@ Compass compass;
 Ublox ublox;
 Pilot pilot;
 bool fresh = false;            // a fix has come
-volatile bool stopped = false; // by the button or the drive, until a reset
+volatile bool stopped = false; // by the button, or as the drive has ended, until a reset
 
 // More often than the 64 bytes of its buffer take, 16 ms.
 void receive() { fresh = ublox.read(Serial) || fresh; }
@@ -106,8 +106,8 @@ void drive(float seconds, uint16_t longest) {
     receive();
   }
   const wmr_wheels wheels = pilot.drive(DIVIDER * 5 / 1023 * (float)analogRead(BATTERY_PIN));
-  if (stopped) pilot.memory.state = WMR_STOPPED;
-  if (m.state == WMR_STOPPED) stopped = true;
+  if (stopped && m.state != WMR_PARKED) pilot.memory.state = WMR_STOPPED;
+  if (m.state >= WMR_PARKED) stopped = true;
   left.tell(wheels.left), right.tell(wheels.right);
   if (++periods % 10) return;
   // state, reason, x and y in cm, heading in mrad, longest period in us
