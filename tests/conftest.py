@@ -24,10 +24,18 @@ TOOLS = {  # what a test may need, the commands that are it, and what to install
         ("arm-linux-gnueabihf-gcc",),
         "a compiler for ARM (Debian: apt install gcc-arm-linux-gnueabihf libc6-dev-armhf-cross)",
     ),
+    "arduino": (
+        ("/usr/share/arduino/hardware/arduino/avr/platform.txt",),
+        "Arduino's core (Debian: apt install arduino-core-avr)",
+    ),
     "avr": (("avr-gcc",), "a compiler for AVR boards (Debian: apt install gcc-avr avr-libc)"),
     "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
     "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
     "gpsd": (("gpsd", "/usr/sbin/gpsd"), "gpsd (Debian: apt install gpsd)"),
+    "libsimavr": (
+        ("/usr/include/simavr/sim_avr.h",),
+        "simavr as a library (Debian: apt install libsimavr-dev)",
+    ),
     "npm": (("npm",), "npm (Debian: apt install npm)"),
     "qemu": (("qemu-arm",), "qemu, which imitates ARM (Debian: apt install qemu-user)"),
     "simavr": (("simavr",), "simavr, which simulates AVR boards (Debian: apt install simavr)"),
@@ -38,9 +46,11 @@ TOOLS = {  # what a test may need, the commands that are it, and what to install
 def command(tool: str) -> str | None:
     """The path of the command that is this tool, or None."""
     beside = os.pathsep.join([os.environ["PATH"], str(Path(sys.executable).parent), "/usr/sbin"])
-    return next(
-        (path for name in TOOLS[tool][0] if (path := shutil.which(name, path=beside))), None
-    )
+    for name in TOOLS[tool][0]:
+        mode = os.F_OK if name.endswith((".h", ".txt")) else os.X_OK
+        if path := shutil.which(name, mode, beside):
+            return path
+    return None
 
 
 def lacking(tool: str) -> str:

@@ -26,3 +26,6 @@ const float PATIENCE = @patience@f; // s without a usable one, and it waits
 const float LARGEST_ERROR = @largest_error@f, JUMP = @jump@f; // m: a worse fix is not used
 const float LONGEST_PERIOD = @longest_period@f, LONGEST_DRIVE = @longest_drive@f; // s
 const float FARTHEST = @farthest@f;
+
+const float DELAY = @delay@f;          // s, of a fix
+const float COMPASS_DEG = @compass@f;  // the compass's error

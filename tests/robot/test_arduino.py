@@ -1,0 +1,193 @@
+"""The Arduino library: what is in it, and its sketch on a simulated Uno, which parks a robot."""
+
+import math
+import re
+import zipfile
+
+import arduino_board
+import lockstep
+import numpy as np
+import pytest
+from arduino_board import Board, Inputs, compiled, library
+from arduino_run import COUNT, FAULTS, NEAR, SETTINGS, STEP, Fault, Lawn, drive
+
+import wmrlib as wmr
+from wmrbook.robot_sheet import sheet
+from wmrlib import symbolic
+
+uno = pytest.mark.needs("arduino", "avr", "compiler", "libsimavr")
+
+
+def test_the_zip_is_a_library_with_what_is_printed(tmp_path):
+    arduino_board.write_zip(tmp_path / "library.zip")
+    with zipfile.ZipFile(tmp_path / "library.zip") as archive:
+        names = {name.partition("/")[2]: archive.read(name).decode() for name in archive.namelist()}
+        assert {name.partition("/")[0] for name in archive.namelist()} == {"WmrPark"}
+    assert names["src/wmr_law.h"] == symbolic.c_header()
+    assert names["src/wmr_drive.h"] == symbolic.c_drive()
+    assert names["src/wmr_filter.h"] == symbolic.c_filter_header()
+    assert "const float DELAY = 0.1f" in names["examples/Park/my_robot_arduino.h"]
+    told = dict(line.split("=", 1) for line in names["library.properties"].splitlines())
+    for field in ["version", "author", "maintainer", "sentence", "paragraph", "category", "url"]:
+        assert told[field], field
+    assert told["name"] == "WmrPark"
+    assert told["includes"] == "WmrPark.h"
+    for line in names["keywords.txt"].splitlines():
+        word, kind = line.split("\t")
+        form = rf"(class|struct) {word}\b" if kind == "KEYWORD1" else rf"\b{word}\("
+        assert re.search(form, names["src/WmrParts.h"] + names["src/WmrPark.h"]), word
+
+
+def test_table_drawing_and_sketch_have_the_same_pins():
+    texts = library()
+    table = texts["README.md"].partition("| pin | goes to |")[2].partition("Pull")[0]
+    sketch = texts["examples/Park/Park.ino"]
+    wheels = re.findall(r"^Wheel \w+\({(\d+), (\d+), (\d+), (\d+),", sketch, re.MULTILINE)
+    pins = [*re.findall(r"_PIN = (\w+)", sketch), *(pin for wheel in wheels for pin in wheel)]
+    pins = sorted([*(pin if pin[0] == "A" else f"D{pin}" for pin in pins), "D0", "D1", "A4", "A5"])
+    assert len(pins) == 15
+    assert sorted(re.findall(r"\b[AD]\d+\b", table)) == pins
+    assert sorted(re.findall(r">([AD]\d+)<", texts["wiring.svg"])) == pins
+
+
+def test_a_change_of_no_text_is_refused():
+    with pytest.raises(ValueError, match="changes has 'no such text'"):
+        compiled(NEAR, (("no such text", ""),))
+
+
+@uno
+def test_it_parks_in_time_and_fits():
+    program, ran = compiled(NEAR, SETTINGS), drive()
+    assert program.flash <= 30_720  # of a Nano's old loader; an Uno's leaves 32,256
+    assert ran.end == "parked"
+    assert ran.place < 0.1
+    assert abs(ran.heading) < math.radians(10.0)
+    assert ran.resets == 0
+    assert ran.longest < 0.8 * NEAR.period
+    assert ran.untouched >= 64  # bytes of RAM
+    told = sheet(NEAR)
+    start = wmr.Pose(1.0, -2.0, math.atan2(told.y, told.x) - 1.2)
+    aside = drive(start=start, seed=2)
+    assert (aside.end, aside.resets) == ("parked", 0)
+    assert aside.place < 0.1
+
+
+@uno
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_fault_stops_it_or_passes(name):
+    fault, must = FAULTS[name]
+    ran = drive(fault=fault)
+    assert ran.end == must
+    assert ran.power == must.startswith("wait")
+    assert ran.resets == fault.hangs
+    far = {"emergency stop": 0.15, "pressed for 0.1 s": 0.15, "no compass": 0.0}.get(name, 1.5)
+    assert ran.rolled <= far or must == "parked"
+
+
+# A change of the library or its sketch, a fault, and what does not come of that then.
+FLIPS = {
+    "lat and lon": (
+        "kept + 24, 4), memcpy(&pvt.lat, kept + 28",
+        "kept + 28, 4), memcpy(&pvt.lat, kept + 24",
+        "",
+    ),
+    "encoders": ("digitalRead(s.b) ? -1 : 1", "digitalRead(s.b) ? 1 : -1", ""),
+    "back": ("digitalWrite(s.back, duty < 0)", "digitalWrite(s.back, duty > 0)", ""),
+    "the sum": ("count > HEAD + LENGTH && byte == sum_b", "true", "messages garbled"),
+    "silence": ("plan.rules.patience = PATIENCE", "plan.rules.patience = 600", "receiver silent"),
+    "watchdog": ("wdt_enable(WDTO_250MS);", "", "program hangs"),
+    "button": ("stopped || digitalRead(STOP_PIN)", "stopped", "emergency stop"),
+    "latch": (
+        "if (stopped && m.state != WMR_PARKED) pilot.memory.state = WMR_STOPPED;",
+        "stopped = false;",
+        "pressed for 0.1 s",
+    ),
+    "battery": ("plan.rules.battery = BATTERY_LOW", "plan.rules.battery = 0", "battery low"),
+}
+
+BENCH_FLIPS = {
+    "compass": ("- declination - atan2f", "- declination + atan2f"),
+    "wheel loop": ("lack += speed * dt - s.count_m", "lack += speed * dt + s.count_m"),
+}
+
+
+@uno
+@pytest.mark.slow
+@pytest.mark.parametrize("name", FLIPS)
+def test_each_part_is_needed(name):
+    old, new, wrong = FLIPS[name]
+    fault, must = FAULTS[wrong] if wrong else (Fault(math.inf), "parked")
+    ran = drive(fault=fault, changes=(*SETTINGS, (old, new)))
+    assert ran.end != must or (must == "parked" and ran.place > 0.5)
+
+
+def bench(swapped=False, change=()):
+    """The lines of the bench test; its compass reads 1,000 ahead and 300 to the left, and iron."""
+    changes = (*SETTINGS, ("const bool BENCH = false", "const bool BENCH = true"), *change)
+    lawn, board = Lawn(NEAR, wmr.Pose(0.0, 0.0, 0.0), 1), Board(compiled(NEAR, changes))
+    left, right, text = 0.0, 0.0, b""
+    for _ in range(round(34.0 / STEP)):
+        duties = board.pins()[:2]
+        moved = lawn.roll(duties[::-1] if swapped else duties)
+        left, right = (
+            was + 2.0 * more / COUNT for was, more in zip((left, right), moved, strict=True)
+        )
+        text += board.run(STEP, Inputs((left, right), (1600.0, -100.0)))
+    return [list(map(int, line.split())) for line in text.decode().splitlines()]
+
+
+def is_sound(rows):
+    """Whether each wheel rolls what chapter 11's table tells it, and the heading is right."""
+    gains, wheels = sheet(NEAR).gains, wmr.Wheels(NEAR.track_width, NEAR.max_speed)
+    poses = [
+        (-5, 0, 0),
+        (-5, 0, 30),
+        (-5, 0, -30),
+        (-5, 2, 0),
+        (-5, -2, 0),
+        (5, 0, 0),
+        (-0.5, 0, 0),
+    ]
+    told = [(0.2, 0.0), (0.0, 0.2), (-0.2, 0.2)]
+    for x, y, degrees in [*poses, (0, 0, 0)]:
+        pose = wmr.Pose(float(x), float(y), math.radians(degrees))
+        error = wmr.polar_error(pose, wmr.Pose(0.0, 0.0, 0.0))
+        twist = wmr.limit_wheels(*wmr.control_law(*error, gains), wheels)
+        told.append(wmr.twist_to_wheels(*twist, wheels.track_width))
+    mm = 1000.0 * np.array(told)
+    *sides, x, y, heading, _ = np.array(rows).T
+    off = math.degrees(math.atan2(300, 1000))
+    good = [np.abs(np.transpose(sides[:2]) - mm).max() < 1.5, (x == 1600).all(), (y == -100).all()]
+    good += [
+        np.abs(np.transpose(sides[2:]) - mm).max() < 30,
+        np.abs(heading - (85 - off)).max() < 1,
+    ]
+    return all(good)
+
+
+@uno
+def test_the_bench_test_shows_the_signs():
+    assert is_sound(bench())
+
+
+@uno
+@pytest.mark.slow
+@pytest.mark.parametrize("name", ["cables", "compass", "wheel loop"])
+def test_the_bench_test_shows_what_is_wrong(name):
+    change = () if name == "cables" else (BENCH_FLIPS[name],)
+    assert not is_sound(bench(name == "cables", change))
+
+
+@uno
+def test_the_board_drives_as_python_does():
+    goal, start = wmr.Pose(6.0, 5.0, -1.0), wmr.Pose(0.0, 0.0, 1.2)
+    given = goal, wmr.GENTLE_GAINS, wmr.Wheels(0.5, 1.0, min_speed=0.1)
+    ours = lockstep.positions(wmr.Drive(*given), start, 0.05, 60.0)
+    theirs = lockstep.positions(lockstep.AvrDrive(*given, period=0.05), start, 0.05, 60.0)
+    assert len(ours) == len(theirs) < 1000
+    assert max(math.dist(one[:2], two[:2]) for one, two in zip(ours, theirs, strict=True)) < 1e-4
+    flipped = wmr.Gains(0.2, 2.0, -2.0 + 4.1, 4.0)
+    off = lockstep.positions(wmr.Drive(goal, flipped, given[2]), start, 0.05, 60.0)
+    assert max(math.dist(one[:2], two[:2]) for one, two in zip(off, theirs, strict=False)) > 1e-3
+    with pytest.raises(ValueError, match="law = 'aicardi' is not allowed"):
+        lockstep.AvrDrive(*given, law="aicardi", period=0.05)
