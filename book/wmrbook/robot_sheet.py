@@ -174,12 +174,14 @@ def sheet(robot: Robot) -> Sheet:
     duration = math.ceil(60.0 + 2.0 * travel)
     oldest = robot.delay + MARGIN
     usual = wmr.Rules()
+    jump = max(usual.jump, 4 * robot.sigma)
     rules = usual._replace(
         arrival_radius=radius,
         patience=oldest + 2 * max(robot.fix_period, robot.period),
         oldest=oldest,
         largest_error=max(usual.largest_error, 3 * robot.sigma),
-        jump=max(usual.jump, 4 * robot.sigma),
+        jump=jump,
+        course=max(usual.course, 3 * jump),  # over less, errors that are allowed turn a leg
         longest_period=max(usual.longest_period, 1.5 * robot.period),
         longest_drive=max(usual.longest_drive, duration),
         farthest=max(usual.farthest, 2 * apart),

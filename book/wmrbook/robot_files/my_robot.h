@@ -30,6 +30,7 @@
 #define MY_PATIENCE WMR_C(@patience@)
 #define MY_LARGEST_ERROR WMR_C(@largest_error@)
 #define MY_JUMP WMR_C(@jump@)
+#define MY_COURSE WMR_C(@course@)
 #define MY_LONGEST_PERIOD WMR_C(@longest_period@)
 #define MY_LONGEST_DRIVE WMR_C(@longest_drive@)
 #define MY_FARTHEST WMR_C(@farthest@)

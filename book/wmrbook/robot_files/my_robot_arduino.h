@@ -24,6 +24,7 @@ const float TURN_SETTLE = @settle@f; // s within it, as the heading is seen late
 const float OLDEST_FIX = @oldest@f; // s: an older one is not used
 const float PATIENCE = @patience@f; // s without a usable one, and it waits
 const float LARGEST_ERROR = @largest_error@f, JUMP = @jump@f; // m: a worse fix is not used
+const float COURSE = @course@f; // m: over legs so long it compares headings
 const float LONGEST_PERIOD = @longest_period@f, LONGEST_DRIVE = @longest_drive@f; // s
 const float FARTHEST = @farthest@f;
 

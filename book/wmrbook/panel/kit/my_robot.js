@@ -57,7 +57,8 @@ const told = (robot, { gains, turn, ...sheet }) => [
   ['least speed', written(sheet.min_speed, 'm/s')],
   ['last turn, within', written(turn.tolerance * DEGREES, '°')],
   ['last turn, rates', `${written(turn.min_rate)} to ${written(turn.max_rate, 'rad/s')}`],
-  ['oldest fix, patience', `${written(sheet.rules.oldest)} and ${written(sheet.rules.patience, 's')}`],
+  ['oldest fix, patience',
+    `${written(sheet.rules.oldest)} and ${written(sheet.rules.patience, 's')}`],
 ];
 
 const bounded = (value, unit) => (value === Infinity ? 'no bound' : written(value, unit));

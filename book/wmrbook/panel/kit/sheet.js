@@ -72,7 +72,8 @@ export function sheetOf(robot, rules) {
     throw new RangeError(`${message}; with this width, acceleration and delay it is `
       + `${(tolerance * DEGREES).toFixed(0)} deg`);
   }
-  const oldest = delay + rules.margin, { usual } = rules;
+  const oldest = delay + rules.margin, { usual } = rules,
+      jump = Math.max(usual.jump, 4 * robot.sigma);
   const k = rate / vMax, near = (rho) => Math.log1p(-Math.exp(-k * rho)),
       travel = (k * (distance - radius) + near(distance) - near(radius)) / rate,
       duration = Math.ceil(60 + 2 * travel);
@@ -84,7 +85,7 @@ export function sheetOf(robot, rules) {
       duration, rules: { ...usual, arrival_radius: radius, oldest,
         patience: oldest + 2 * Math.max(robot.fix_period, robot.period),
         largest_error: Math.max(usual.largest_error, 3 * robot.sigma),
-        jump: Math.max(usual.jump, 4 * robot.sigma),
+        jump, course: Math.max(usual.course, 3 * jump),
         longest_period: Math.max(usual.longest_period, 1.5 * robot.period),
         longest_drive: Math.max(usual.longest_drive, duration),
         farthest: Math.max(usual.farthest, 2 * distance) } };

@@ -67,7 +67,7 @@ void setup() {
   plan.rules.oldest = OLDEST_FIX, plan.rules.patience = PATIENCE;
   plan.rules.largest_error = LARGEST_ERROR, plan.rules.farthest = FARTHEST;
   plan.rules.longest_period = LONGEST_PERIOD, plan.rules.longest_drive = LONGEST_DRIVE;
-  plan.rules.jump = JUMP, plan.rules.course = fmax(4, 3 * JUMP);
+  plan.rules.jump = JUMP, plan.rules.course = COURSE;
   pilot.noise = {0.02f, 0.01f, 0.001f, 0.001f, TRACK_WIDTH};
   pilot.delay = DELAY, pilot.compass = COMPASS_DEG * DEG_TO_RAD, pilot.fence = FENCE;
   pilot.meanwhile = receive;
