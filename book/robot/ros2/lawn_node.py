@@ -54,6 +54,8 @@ class Lawn:
         rclpy.init()
         self.node, self.executor = rclpy.create_node("lawn"), SingleThreadedExecutor()
         self.executor.add_node(self.node)
+        self.unasked: list[list[float]] = []
+        self.asked = None
         made = ((name, self.node.create_publisher(kind, name, 10)) for name, kind in KINDS.items())
         self.publishers = dict(made)
         feedback = "park/_action/feedback", self.hear, 10
@@ -69,7 +71,6 @@ class Lawn:
             self.executor.spin_once(timeout_sec=0.01)
         self.width, self.place, self.told = width, odometry.Place(), [0.0, 0.0]
         self.state, self.heard, self.asked = "", 0, None
-        self.unasked: list[list[float]] = []
 
     def obey(self, command: TwistStamped) -> None:
         v, omega = command.twist.linear.x, command.twist.angular.z

@@ -50,7 +50,7 @@ node.main()
 
 def parameters(case: Case) -> dict[str, Any]:
     """The node's parameters for a case of drive_faults.py."""
-    told = {
+    told = adapter.DEFAULTS | {
         "start": [paper.GPS_POINT_1.lat, paper.GPS_POINT_1.lon],
         "fence": list(map(float, case.fence)),
     }

@@ -66,22 +66,20 @@ class ParkNode(Node):
             if frame not in ("", "map"):
                 raise ValueError(f"frame_id = {frame!r} is not allowed: 'map' or '' is needed")
             goal = wmr.Pose(pose.position.x, pose.position.y, yaw(pose.orientation))
+            sensors = Sensors(given)
             drive = drive_of(given, goal if frame else goal_of(given), self.drive_kind)
         except ValueError as refusal:
             self.get_logger().error(str(refusal))
             return GoalResponse.REJECT
-        self.drive, self.sensors = drive, Sensors(given)
+        self.drive, self.sensors = drive, sensors
         return GoalResponse.ACCEPT
 
     def on_accepted(self, wish: Any) -> None:
-        """Drive from the next odometry on. It executes as it ends: a coroutine that waited for the
-        end would be polled without a pause.
-        """
+        """Drive from the next odometry on. It executes as it ends: so no thread has to wait."""
         self.wish = wish
 
     def on_cancel(self, wish: Any) -> CancelResponse:
-        """Stop at once, and answer when the goal is marked as cancelled."""
-        self.tell(0.0, 0.0, self.get_clock().now().to_msg())
+        """Yes, whatever the reason; it ends once the goal is marked as cancelled."""
         self.executor.create_task(self.end)
         return CancelResponse.ACCEPT
 
@@ -96,6 +94,7 @@ class ParkNode(Node):
         state, reason = self.drive.state, self.drive.reason
         self.drive = self.sensors = None
         if wish.is_cancel_requested:
+            self.tell(0.0, 0.0, self.get_clock().now().to_msg())
             wish.canceled()
         else:
             (wish.succeed if state == "parked" else wish.abort)()

@@ -1,0 +1,77 @@
+"""What the ROS 2 node makes of messages, without ROS: signs, frames, stamps."""
+
+import math
+import sys
+from pathlib import Path
+from types import SimpleNamespace as Message
+
+import pytest
+
+sys.path.insert(0, str(Path(__file__).parents[2] / "book" / "robot" / "ros2" / "wmr_park"))
+
+from wmr_park.adapter import DEFAULTS, Sensors, yaw
+
+import wmrlib as wmr
+
+START = [33.273572, 44.373160]
+GOAL = wmr.Pose(3.0, 0.0, 0.0)
+
+
+def at(seconds, **fields):
+    """A message with a stamp."""
+    whole = math.floor(seconds)
+    stamp = Message(sec=whole, nanosec=round(1e9 * (seconds - whole)))
+    return Message(header=Message(stamp=stamp), **fields)
+
+
+def facing(heading):
+    return Message(x=0.0, y=0.0, z=math.sin(heading / 2), w=math.cos(heading / 2))
+
+
+def odometry(seconds, x, y, heading):
+    pose = Message(position=Message(x=x, y=y), orientation=facing(heading))
+    return at(seconds, pose=Message(pose=pose))
+
+
+def sensors(seconds=0.9, **more):
+    """Sensors that have seen one odometry, a heading of 2 rad and a fix 3 m east, 4 m north."""
+    found = Sensors(DEFAULTS | {"start": START, "filter": False} | more)
+    found.seen(odometry(1.0, 5.0, 6.0, 1.0), GOAL)
+    imu = {"orientation": facing(2.0), "orientation_covariance": [0.0]}
+    turning = {"angular_velocity_covariance": [-1.0]}
+    found.take_imu(at(seconds, **imu, **turning))
+    point = wmr.point_at(wmr.GeoPoint(lat=START[0], lon=START[1]), 3.0, 4.0)
+    status, variance = Message(status=0), [0.04, 0, 0, 0, 0.01, 0, 0, 0, 0]
+    fields = {"status": status, "position_covariance": variance, "position_covariance_type": 2}
+    found.fix = at(0.9, latitude=point.lat, longitude=point.lon, **fields)
+    return found
+
+
+def test_odometry_on_an_arc_is_what_the_wheels_rolled():
+    left, right, width = 0.04, 0.06, DEFAULTS["track_width"]
+    pose = wmr.Pose(5.0, 6.0, 1.0)
+    pose = wmr.advance(pose, *wmr.wheels_to_twist(left / 0.05, right / 0.05, width), 0.05)
+    seen = sensors().seen(odometry(1.05, *pose), GOAL)
+    assert (seen.seconds, seen.left, seen.right) == pytest.approx((0.05, left, right))
+
+
+def test_a_fix_is_east_and_north_with_its_age_error_and_heading():
+    seen = sensors().seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
+    assert (seen.x, seen.y, seen.heading) == pytest.approx((3.0, 4.0, 2.0), abs=1e-6)
+    assert (seen.fresh, seen.quality) == (1, 1)
+    assert (seen.age, seen.error) == pytest.approx((0.15, 0.2))
+
+
+def test_an_antenna_ahead_is_not_the_middle_of_the_wheels():
+    seen = sensors(antenna=[1.0, 0.0]).seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
+    assert (seen.x, seen.y) == pytest.approx((3.0 - math.cos(2.0), 4.0 - math.sin(2.0)), abs=1e-6)
+
+
+def test_a_heading_from_another_time_and_a_quaternion_that_is_none_are_no_numbers():
+    assert math.isnan(sensors(0.1).seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL).heading)
+    assert math.isnan(yaw(Message(x=0.0, y=0.0, z=0.0, w=0.0)))
+
+
+def test_outside_its_fence_a_goal_and_a_fix_are_said_to_be():
+    seen = sensors(fence=[0.0, 0.0, 2.0, 9.0]).seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
+    assert (seen.goal_inside, seen.inside) == (0, 0)
