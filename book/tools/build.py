@@ -23,7 +23,7 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import nbformat
-from kit import bundle
+from kit import bundle, bundle_physics
 from nbformat import NotebookNode
 from pdf import find_browser, print_book
 from python_pack import write_scripts
@@ -59,6 +59,7 @@ def main(output: Path, pdf: bool = False, whole: bool = False, lecturer: bool = 
     install_javascript()
     copy_javascript(VENDOR)
     bundle(VENDOR / "panels.js")
+    bundle_physics(VENDOR / "mujoco.js")
     say("the Python for the pages")
     write_scripts(VENDOR / "python", MODULES)
     for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages
@@ -179,7 +180,7 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
     """Put the book's pages and the chapters into one tree, as Sphinx wants them."""
     hidden = shutil.ignore_patterns(".*", "__pycache__")
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=hidden)
-    stored = [BOOK / f"{name}.json" for name in ("classroom", "faults", "lawn", "speed")]
+    stored = [BOOK / f"{name}.json" for name in ("classroom", "faults", "lawn", "rover", "speed")]
     pages = (page for page in BOOK.glob("*.md") if page.name != "design.md")
     for page in (*pages, *stored):
         shutil.copy(page, source)

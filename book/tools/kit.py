@@ -5,6 +5,8 @@ As a module, make the kit one script for pages from the disk.
 
 from __future__ import annotations
 
+import base64
+import gzip
 import os
 import shutil
 import subprocess
@@ -12,7 +14,7 @@ import sys
 from pathlib import Path
 
 from wmrbook import face, live
-from wmrbook.panel import Explorer, Front, MyRobot
+from wmrbook.panel import Explorer, Front, MyRobot, Rover
 from wmrbook.panel.kit import KIT, programs
 from wmrlib import symbolic
 
@@ -34,7 +36,7 @@ export function shown() {{
 def printed() -> dict[str, str]:
     """The texts of the modules that are printed, by name."""
     drawings = [getattr(live, name)() for name in sorted(set(live.__all__) - live.PARTS)]
-    panels = Explorer(), Front(), MyRobot(), *drawings
+    panels = Explorer(), Front(), MyRobot(), Rover(), *drawings
     rows = "".join(f"  '{it.program}': '{it.contract}',\n" for it in panels)
     head = "// Printed by book/tools/kit.py: the contract of what is stored for each program.\n"
     contracts = f"{head}export const CONTRACTS = {{\n{rows}}};\n"
@@ -52,14 +54,33 @@ def bundle(script: Path) -> None:
     entry = ENTRY.format(
         imports=imports, programs=", ".join(f"'{name}': {it}" for it, name in names.items())
     )
+    options = ["--loader:.css=text", f"--banner:js={BEGIN}", f"--footer:js={END}"]
+    _esbuild(script, KIT, entry, "kit", *options)
+
+
+def bundle_physics(script: Path) -> None:
+    """Write MuJoCo as a script that a page may load from the disk: its program packed, in base64.
+
+    It is Apache-2.0, as npm has it; the licence lies beside it.
+    """
+    folder = MODULES / "@mujoco" / "mujoco"
+    entry = "export { default as start } from './mujoco.js';"
+    _esbuild(script, folder, entry, "wmrMujoco", "--external:module")  # which Node alone asks for
+    packed = gzip.compress((folder / "mujoco.wasm").read_bytes(), mtime=0)
+    with script.open("a", encoding="utf-8") as file:
+        file.write(f'wmrMujoco={{...wmrMujoco,wasm:"{base64.b64encode(packed).decode()}"}};\n')
+
+
+def _esbuild(script: Path, folder: Path, entry: str, name: str, *options: str) -> None:
+    """Make one script of the entry and what it imports; `name` is that of its exports."""
     esbuild = shutil.which("esbuild", path=MODULES / ".bin")
-    options = ["--bundle", "--minify", "--format=iife", "--global-name=kit", "--loader:.css=text"]
-    options += [f"--banner:js={BEGIN}", f"--footer:js={END}", '--define:import.meta.url=""']
+    common = ["--bundle", "--minify", "--format=iife", f"--global-name={name}"]
+    common += ['--define:import.meta.url=""', "--log-level=warning", f"--outfile={script}"]
     folders = [str(Path(sys.executable).parent), os.environ["PATH"]]  # of a node from PyPI
     subprocess.run(
-        [esbuild, *options, "--log-level=warning", f"--outfile={script}"],
+        [esbuild, *common, *options],
         input=entry.encode(),
-        cwd=KIT,
+        cwd=folder,
         env=os.environ | {"PATH": os.pathsep.join(folders)},
         check=True,
     )

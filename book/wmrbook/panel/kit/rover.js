@@ -1,0 +1,227 @@
+// A rover with mass beside the kinematic robot: one law drives both, and MuJoCo moves one of them.
+
+import { followTheme, inDegrees, readColours, written } from './style.js';
+import { arcStep, fastestWheel, polarFromPose, saturationScale, wrap } from './model.js';
+import { bodyAt, loadedEngine } from './rover_body.js';
+import { controlLaw } from './law.js';
+import { inWords } from './knobs.js';
+import { keepKeys, putSlider, stopsOf } from './controls.js';
+import { made } from './hands.js';
+import { measure } from './surface.js';
+import { paneOf } from './board.js';
+import { poseAt } from './runs.js';
+import { simulate } from './simulate.js';
+import { widget } from './widget.js';
+
+const AT_ONCE = 12; // ms of a frame that the physics may take
+const SLOW = 0.3; // m/s, below which a slip angle says little
+const LIFTED = 1; // N
+const NEAR = 2.2, AWAY = 40; // m about start and goal that are seen at first, and at most
+
+function render({ model, el }) {
+  const root = made(el, 'div', { className: 'wmr rover' }), rules = model.get('setup'),
+      { start, goal, period, radius, track } = rules;
+  keepKeys(root);
+  const scene = made(root, 'div', { className: 'rover-scene' }),
+      canvases = ['rover-plan', 'rover-side'].map((className) =>
+        made(scene, 'canvas', { className }, { role: 'img' }));
+  const words = made(root, 'p', { className: 'rover-words' }, { role: 'status' }),
+      bar = made(root, 'div', { className: 'wmr-bar' }),
+      rows = made(root, 'div', { className: 'wmr-rows' });
+  const still = matchMedia('(prefers-reduced-motion: reduce)').matches
+      || document.documentElement.dataset.still !== undefined;
+  let colours = readColours(root), mujoco = null, body = null, ideal, path = [], k = 0, before = 0,
+      frame = 0, speed = 1, told = 0, rim = NEAR, ended = false,
+      worst = { slip: 0, load: Infinity }, trouble = '';
+  const state = () => model.get('state');
+  const gains = () => ({ ...rules.gains, ...Object.fromEntries(['k_alpha', 'h', 'v_max']
+      .map((name) => [name, state()[name]])) });
+
+  const button = (textContent, act, pressed) => {
+    const it = made(bar, 'button', { type: 'button', textContent },
+        pressed === undefined ? {} : { 'aria-pressed': String(pressed) });
+    it.addEventListener('click', () => act(it));
+    return it;
+  };
+  const loader = button('Give it a body (MuJoCo, 5 MB)', async () => {
+    loader.disabled = true;
+    const asked = performance.now();
+    words.textContent = 'MuJoCo is loading …';
+    try {
+      mujoco = await loadedEngine();
+      loader.hidden = true;
+      restart();
+      root.dataset.ready = String(performance.now() - asked); // ms, for tests
+    } catch (error) {
+      [trouble, loader.disabled] = [`${error.message}.`, false];
+      draw();
+    }
+  });
+  button('Drive again', () => restart());
+  button('Four times as fast', (it) => {
+    speed = speed === 1 ? 4 : 1;
+    it.setAttribute('aria-pressed', String(speed === 4));
+  }, false);
+  const shows = rules.sliders.map(([name, text, unit, low, high, by]) => {
+    const row = made(rows, 'label', { className: 'wmr-control' });
+    made(row, 'span', { textContent: text });
+    const show = putSlider(row, text, stopsOf(low, high, by), {
+      get: () => state()[name],
+      set(value) {
+        model.set('state', { ...state(), [name]: value });
+        model.save_changes();
+      },
+    });
+    const output = made(row, 'output', { className: 'rover-value' });
+    return () => {
+      output.textContent = `${inWords(state()[name])}${unit === '°' ? '' : ' '}${unit}`.trim();
+      show(state()[name], output.textContent);
+    };
+  });
+
+  function restart() {
+    body?.free();
+    body = mujoco && bodyAt(mujoco, rules, { ...rules.rover, ...state() });
+    ideal = simulate({ start, goal, gains: gains(), law: 'corrected', method: 'arc', dt: period,
+      duration: rules.longest, arrivalRadius: rules.arrival, reference: null,
+      wheels: { track_width: track, max_speed: rules.fastest } });
+    [path, k, before, told, rim, ended, trouble, worst] =
+        [[], 0, 0, 0, NEAR, false, '', { slip: 0, load: Infinity }];
+    shows.forEach((show) => show());
+    root.dataset.done = 'false';
+    frame ||= requestAnimationFrame(move);
+  }
+
+  // A period begins: what the law tells the wheels.
+  function command() {
+    const pose = body.pose(), polar = polarFromPose(pose[0], pose[1], pose[2], ...goal),
+        loads = body.loads(), [ahead, side] = body.speeds();
+    path.push(pose);
+    worst.load = Math.min(worst.load, ...loads);
+    if (Math.abs(ahead) > SLOW)
+      worst.slip = Math.max(worst.slip, Math.abs(Math.atan2(side, Math.abs(ahead))));
+    ended = polar[0] <= rules.arrival || polar[0] > AWAY || time() >= rules.longest;
+    const [v, omega] = controlLaw(...polar, gains()),
+        share = saturationScale(rules.fastest, fastestWheel(v, omega, track));
+    told = Math.min(Math.abs(share * v), told + rules.rover.acceleration * period);
+    body.tell(Math.sign(v) * told, share * omega);
+  }
+  const time = () => k * rules.rover.timestep;
+  function move(now) {
+    frame = 0;
+    const passed = still ? Infinity : before ? Math.min((now - before) / 1000, 0.1) * speed : 0,
+        until = performance.now() + AT_ONCE, to = time() + passed;
+    before = now;
+    const last = ideal.t[ideal.n - 1];
+    while (!ended && time() < to && performance.now() < until) {
+      if (!body) {
+        k += 1;
+        ended = time() >= last;
+      } else {
+        if (k % body.steps === 0) command();
+        if (!ended) { body.step(); k += 1; }
+      }
+    }
+    draw();
+    if (!ended) frame = requestAnimationFrame(move);
+    else root.dataset.done = 'true';
+  }
+
+  function draw() {
+    const last = ideal.n - 1, at = Math.min(time() / period, last), j = Math.floor(at);
+    const [x, y, heading] = poseAt(ideal, j), own = body ? body.pose() : null,
+        now = arcStep(x, y, heading, ideal.v[j], ideal.omega[j], j < last ? (at - j) * period : 0);
+    const across = [start[0], goal[0]], up = [start[1], goal[1]];
+    const out = (value, ends) => Math.max(Math.min(...ends) - value, value - Math.max(...ends));
+    if (own) while (rim < AWAY && Math.max(out(own[0], across), out(own[1], up)) > rim) rim *= 1.5;
+    const range = (ends) => /** @type {Axis} */
+      ([Math.min(...ends) - rim, Math.max(...ends) + rim]);
+    const plan = paneOf(canvases[0], colours,
+        { x: range(across), y: range(up), lawn: rim > NEAR ? true : 1, alt: '' });
+    const size = Math.max(0.5 * plan.view.scale / 27, 0.8);
+    plan.path(ideal.x, ideal.y, 'ghost', { width: 2, dash: [2, 5], to: j + 1 });
+    plan.line(path, 'path', { width: 3 });
+    plan.pose(start, 'start');
+    plan.pose(goal, 'goal');
+    plan.robot(now, own ? 0.45 : 1, { size, role: own ? 'ghost' : 'path' });
+    if (own) plan.robot(own, 1, { size });
+    plan.name();
+    drawSides();
+    say(last);
+  }
+
+  // From behind and from the left: the wheels, the load, and what each of three carries.
+  function drawSides() {
+    const pane = paneOf(canvases[1], colours, { x: [-0.6, 0.6], y: [-1.2, 0.66], equal: true,
+      bare: true, alt: '' });
+    const { height } = state(), [z, roll, pitch] = body ? body.lean() : [radius, 0, 0],
+        loads = body ? body.loads() : [];
+    const view = (foot, title, angle, shapes) => {
+      const place = ([x, y]) => [x * Math.cos(angle) - y * Math.sin(angle),
+        foot + z + x * Math.sin(angle) + y * Math.cos(angle)];
+      pane.line([[-0.55, foot], [0.55, foot]], 'soft', { width: 2 });
+      for (const [role, points] of shapes) {
+        pane.area(points.map(place), role, 0.8);
+        pane.line([...points, points[0]].map(place), role, { width: 1.5 });
+      }
+      pane.text(title, 0, foot - 0.2, { role: 'soft', align: 'center' });
+    };
+    const box = (x, y, wide, high) => [[x - wide, y - high], [x + wide, y - high],
+      [x + wide, y + high], [x - wide, y + high]];
+    const ring = (x, y, r) => Array.from({ length: 24 }, (_, i) =>
+      [x + r * Math.cos(i * Math.PI / 12), y + r * Math.sin(i * Math.PI / 12)]);
+    const ink = (i) => (loads[i] < LIFTED ? 'rising' : 'ink'), top = height - radius;
+    view(0, 'from behind', roll, [['soft', box(0, top / 2, 0.02, top / 2)],
+      ['path', box(0, top, 0.18, 0.08)],
+      [ink(0), box(-track / 2, 0, 0.03, radius)], [ink(1), box(track / 2, 0, 0.03, radius)]]);
+    view(-0.95, 'from the right', -pitch, [['soft', box(-0.1, top / 2, 0.02, top / 2)],
+      ['path', box(-0.1, top, 0.25, 0.08)],
+      ['ink', ring(0, 0, radius)], [ink(2), ring(-0.4, -radius / 2, radius / 2)]]);
+    const name = (side, i, x, y) => {
+      const load = loads[i] < LIFTED ? 'lifts' : written(loads[i], 'N', 2);
+      if (body) pane.text(`${side} ${load}`, x, y, { role: ink(i), align: 'center' });
+    };
+    name('left', 0, -0.3, -0.09);
+    name('right', 1, 0.3, -0.09);
+    name('castor', 2, -0.35, -1.04);
+  }
+
+  function say(last) {
+    const off = (pose) => inDegrees(Math.abs(wrap(pose[2] - goal[2]))), own = body && body.pose();
+    const whole = 'The kinematic robot ' + (ideal.outcome === 'ARRIVED'
+      ? `arrives after ${written(ideal.t[last], 's')} and faces ${off(poseAt(ideal, last))} off`
+      : 'does not arrive');
+    const far = own && Math.hypot(own[0] - goal[0], own[1] - goal[1]);
+    const arrived = own && ended && far <= rules.arrival;
+    const said = !own ? `${whole}.` : !ended
+      ? `${written(time(), 's')}: the rover slips by at most ${inDegrees(worst.slip)}, and `
+        + `its lightest wheel carried ${written(worst.load, 'N', 2)}.`
+      : `${whole}; the rover ${arrived ? `after ${written(time(), 's')}, ${off(own)} off`
+        : 'does not arrive'}. It slipped by up to ${inDegrees(worst.slip)}; its lightest wheel `
+        + `${worst.load < LIFTED ? 'lifted' : `carried ${written(worst.load, 'N', 2)}`}.`;
+    if (words.textContent !== (trouble || said)) words.textContent = trouble || said;
+    canvases[0].setAttribute('aria-label', `The plan: ${said}`);
+    canvases[1].setAttribute('aria-label', 'The rover from behind and from the right'
+      + `${body ? `, leaning by ${inDegrees(Math.hypot(...body.lean().slice(1)))}` : ''}.`);
+    Object.assign(root, { found: { path, ideal, time: time(), worst, arrived } });
+  }
+
+  const repaint = () => {
+    canvases.forEach(measure);
+    colours = readColours(root);
+    draw();
+  };
+  model.on('change:state', restart);
+  restart();
+  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
+  resized.observe(root);
+  return () => {
+    unfollow();
+    resized.disconnect();
+    model.off('change:state', restart);
+    cancelAnimationFrame(frame);
+    body?.free();
+  };
+}
+
+export default widget('rover', render);
