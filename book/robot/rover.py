@@ -1,6 +1,6 @@
 """A rover with mass, in MuJoCo: what the theorem's model leaves out, measured.
 
-    python book/robot/rover.py [--json FILE] [--jobs N]
+    python book/robot/rover.py [--json book/wmrbook/rover.json] [--jobs N]
 
 The corrected law drives two wheels, motors and a castor over the paper's two points, on concrete
 and on wet grass, level and on slopes, beside the kinematic robot. It needs the package mujoco.

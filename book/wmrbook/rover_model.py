@@ -5,14 +5,16 @@
 
 from __future__ import annotations
 
+import json
 import math
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from wmrlib import GENTLE_GAINS, Pose
 from wmrlib._checks import instance, scalar
 
 TEXT = Path(__file__).with_suffix(".xml").read_text(encoding="utf-8")
+STORED = Path(__file__).with_name("rover.json")
 TRACK_WIDTH, WHEEL_RADIUS = 0.5, 0.1  # m, as in the text
 FASTEST = 5.0  # m/s, of a wheel
 PERIOD = 0.05  # s, of the law
@@ -70,6 +72,11 @@ LIMITS: dict[str, tuple[float, float]] = {
     "wheel": (0.001, 20.0),
     "timestep": (0.0001, 0.005),
 }
+
+
+def stored() -> dict[str, Any]:
+    """What book/robot/rover.py has measured: it writes the file that is read here."""
+    return json.loads(STORED.read_text(encoding="utf-8"))
 
 
 def mjcf(rover: Rover = Rover()) -> str:  # noqa: B008

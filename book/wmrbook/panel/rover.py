@@ -13,7 +13,7 @@ from wmrbook.rover_model import PAGE_DRIVE, PAGE_GAINS
 SLIDERS = {
     "load": ("load", "kg", 2.0, 80.0, 2.0),
     "height": ("height of the load", "m", 0.1, 0.5, 0.02),
-    "friction": ("grip (wet grass: 0.3)", "", 0.1, 1.2, 0.05),
+    "friction": ("grip (grass: 0.3)", "", 0.1, 1.2, 0.05),
     "slope_deg": ("slope", "°", 0.0, 20.0, 1.0),
     "downhill_deg": ("downhill, from east", "°", -180.0, 180.0, 15.0),
     "castor_deg": ("castor at the start", "°", 0.0, 175.0, 5.0),

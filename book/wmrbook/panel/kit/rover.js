@@ -15,7 +15,7 @@ import { widget } from './widget.js';
 
 const AT_ONCE = 12; // ms of a frame that the physics may take
 const SLOW = 0.3; // m/s, below which a slip angle says little
-const LIFTED = 1; // N
+const LIFTED = 1, CALM = 0.3; // N; the share by which a load follows what it is in a period
 const NEAR = 2.2, AWAY = 40; // m about start and goal that are seen at first, and at most
 
 function render({ model, el }) {
@@ -32,7 +32,7 @@ function render({ model, el }) {
       || document.documentElement.dataset.still !== undefined;
   let colours = readColours(root), mujoco = null, body = null, ideal, path = [], k = 0, before = 0,
       frame = 0, speed = 1, told = 0, rim = NEAR, ended = false,
-      worst = { slip: 0, load: Infinity }, trouble = '';
+      worst = { slip: 0, load: Infinity }, carried = null, trouble = '';
   const state = () => model.get('state');
   const gains = () => ({ ...rules.gains, ...Object.fromEntries(['k_alpha', 'h', 'v_max']
       .map((name) => [name, state()[name]])) });
@@ -85,8 +85,8 @@ function render({ model, el }) {
     ideal = simulate({ start, goal, gains: gains(), law: 'corrected', method: 'arc', dt: period,
       duration: rules.longest, arrivalRadius: rules.arrival, reference: null,
       wheels: { track_width: track, max_speed: rules.fastest } });
-    [path, k, before, told, rim, ended, trouble, worst] =
-        [[], 0, 0, 0, NEAR, false, '', { slip: 0, load: Infinity }];
+    [path, k, before, told, rim, carried, ended, trouble, worst] =
+        [[], 0, 0, 0, NEAR, null, false, '', { slip: 0, load: Infinity }];
     shows.forEach((show) => show());
     root.dataset.done = 'false';
     frame ||= requestAnimationFrame(move);
@@ -97,7 +97,8 @@ function render({ model, el }) {
     const pose = body.pose(), polar = polarFromPose(pose[0], pose[1], pose[2], ...goal),
         loads = body.loads(), [ahead, side] = body.speeds();
     path.push(pose);
-    worst.load = Math.min(worst.load, ...loads);
+    carried = carried ? carried.map((it, i) => it + CALM * (loads[i] - it)) : loads;
+    worst.load = Math.min(worst.load, ...carried);
     if (Math.abs(ahead) > SLOW)
       worst.slip = Math.max(worst.slip, Math.abs(Math.atan2(side, Math.abs(ahead))));
     ended = polar[0] <= rules.arrival || polar[0] > AWAY || time() >= rules.longest;
@@ -155,7 +156,7 @@ function render({ model, el }) {
     const pane = paneOf(canvases[1], colours, { x: [-0.6, 0.6], y: [-1.2, 0.66], equal: true,
       bare: true, alt: '' });
     const { height } = state(), [z, roll, pitch] = body ? body.lean() : [radius, 0, 0],
-        loads = body ? body.loads() : [];
+        loads = carried || [];
     const view = (foot, title, angle, shapes) => {
       const place = ([x, y]) => [x * Math.cos(angle) - y * Math.sin(angle),
         foot + z + x * Math.sin(angle) + y * Math.cos(angle)];
@@ -179,7 +180,7 @@ function render({ model, el }) {
       ['ink', ring(0, 0, radius)], [ink(2), ring(-0.4, -radius / 2, radius / 2)]]);
     const name = (side, i, x, y) => {
       const load = loads[i] < LIFTED ? 'lifts' : written(loads[i], 'N', 2);
-      if (body) pane.text(`${side} ${load}`, x, y, { role: ink(i), align: 'center' });
+      if (carried) pane.text(`${side} ${load}`, x, y, { role: ink(i), align: 'center' });
     };
     name('left', 0, -0.3, -0.09);
     name('right', 1, 0.3, -0.09);
