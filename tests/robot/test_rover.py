@@ -5,7 +5,8 @@ import math
 import numpy as np
 import pytest
 
-mujoco = pytest.importorskip("mujoco", reason='the rover needs mujoco: pip install ".[robot]"')
+pytest.importorskip("mujoco", reason='the rover needs mujoco: pip install ".[robot]"')
+import mujoco
 import rover as robot
 
 import wmrlib as wmr

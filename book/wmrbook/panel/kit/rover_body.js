@@ -6,7 +6,7 @@ import { made } from './hands.js';
 let engine;
 
 async function load() {
-  const kit = document.querySelector('script[src$="vendor/panels.js"]');
+  const kit = document.querySelector('script[src*="vendor/panels.js"]');
   if (!(kit instanceof HTMLScriptElement))
     throw new Error('the rover drives in the book’s pages alone');
   await new Promise((onload, reject) => {
