@@ -19,6 +19,7 @@ from wmrbook.panel.kit import KIT, programs
 from wmrlib import symbolic
 
 MODULES = Path(__file__).parents[1] / "node_modules"
+LICENCE = MODULES.with_name("in_page") / "mujoco_LICENSE.txt"
 # The kit is a function, which the worker of a map is made of too: a page from the disk may have no
 # module as a worker. What it makes is where loader.js looks first.
 BEGIN = "(function wmrKit() {"
@@ -61,7 +62,7 @@ def bundle(script: Path) -> None:
 def bundle_physics(script: Path) -> None:
     """Write MuJoCo as a script that a page may load from the disk: its program packed, in base64.
 
-    It is Apache-2.0, as npm has it; the licence lies beside it.
+    npm's package (Apache-2.0) lacks its licence, which is put beside it.
     """
     folder = MODULES / "@mujoco" / "mujoco"
     entry = "export { default as start } from './mujoco.js';"
@@ -69,6 +70,7 @@ def bundle_physics(script: Path) -> None:
     packed = gzip.compress((folder / "mujoco.wasm").read_bytes(), mtime=0)
     with script.open("a", encoding="utf-8") as file:
         file.write(f'wmrMujoco={{...wmrMujoco,wasm:"{base64.b64encode(packed).decode()}"}};\n')
+    shutil.copy(LICENCE, script.parent)
 
 
 def _esbuild(script: Path, folder: Path, entry: str, name: str, *options: str) -> None:

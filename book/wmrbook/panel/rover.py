@@ -17,6 +17,7 @@ SLIDERS = {
     "slope_deg": ("slope", "°", 0.0, 20.0, 1.0),
     "downhill_deg": ("downhill, from east", "°", -180.0, 180.0, 15.0),
     "castor_deg": ("castor at the start", "°", 0.0, 175.0, 5.0),
+    "k_rho": ("k_rho", "1/m", 0.1, 2.0, 0.1),
     "k_alpha": ("k_alpha", "1/s", 0.1, 6.0, 0.1),
     "h": ("h", "", 0.0, 5.0, 0.1),
     "v_max": ("v_max", "m/s", 0.5, 4.0, 0.1),
@@ -33,7 +34,6 @@ class Rover(Panel):
         setup = {
             "text": rover_model.TEXT,
             "rover": rover,
-            "gains": PAGE_GAINS._asdict(),
             "start": list(start),
             "goal": list(goal),
             "sliders": [[name, *row] for name, row in SLIDERS.items()],

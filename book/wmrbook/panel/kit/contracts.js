@@ -3,7 +3,7 @@ export const CONTRACTS = {
   'explorer': 'a7b10af4',
   'front': '76d67975',
   'my_robot': '02ef3a6e',
-  'rover': '7b1d3447',
+  'rover': '3743f828',
   'live/bearing': '84e0139d',
   'live/bench': '409a0f6c',
   'live/bowl': 'b1402a59',

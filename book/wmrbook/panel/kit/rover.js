@@ -34,8 +34,6 @@ function render({ model, el }) {
       frame = 0, speed = 1, told = 0, rim = NEAR, ended = false,
       worst = { slip: 0, load: Infinity }, carried = null, trouble = '';
   const state = () => model.get('state');
-  const gains = () => ({ ...rules.gains, ...Object.fromEntries(['k_alpha', 'h', 'v_max']
-      .map((name) => [name, state()[name]])) });
 
   const button = (textContent, act, pressed) => {
     const it = made(bar, 'button', { type: 'button', textContent },
@@ -82,7 +80,7 @@ function render({ model, el }) {
   function restart() {
     body?.free();
     body = mujoco && bodyAt(mujoco, rules, { ...rules.rover, ...state() });
-    ideal = simulate({ start, goal, gains: gains(), law: 'corrected', method: 'arc', dt: period,
+    ideal = simulate({ start, goal, gains: state(), law: 'corrected', method: 'arc', dt: period,
       duration: rules.longest, arrivalRadius: rules.arrival, reference: null,
       wheels: { track_width: track, max_speed: rules.fastest } });
     [path, k, before, told, rim, carried, ended, trouble, worst] =
@@ -102,7 +100,7 @@ function render({ model, el }) {
     if (Math.abs(ahead) > SLOW)
       worst.slip = Math.max(worst.slip, Math.abs(Math.atan2(side, Math.abs(ahead))));
     ended = polar[0] <= rules.arrival || polar[0] > AWAY || time() >= rules.longest;
-    const [v, omega] = controlLaw(...polar, gains()),
+    const [v, omega] = controlLaw(...polar, state()),
         share = saturationScale(rules.fastest, fastestWheel(v, omega, track));
     told = Math.min(Math.abs(share * v), told + rules.rover.acceleration * period);
     body.tell(Math.sign(v) * told, share * omega);
