@@ -47,7 +47,9 @@ function render({ model, el }) {
     words.textContent = 'MuJoCo is loading …';
     try {
       mujoco = await loadedEngine();
+      const held = document.activeElement === loader;
       loader.hidden = true;
+      if (held) again.focus(); // a keyboard goes on from there
       restart();
       root.dataset.ready = String(performance.now() - asked); // ms, for tests
     } catch (error) {
@@ -55,7 +57,7 @@ function render({ model, el }) {
       draw();
     }
   });
-  button('Drive again', () => restart());
+  const again = button('Drive again', () => restart());
   button('Four times as fast', (it) => {
     speed = speed === 1 ? 4 : 1;
     it.setAttribute('aria-pressed', String(speed === 4));
