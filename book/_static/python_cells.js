@@ -1,13 +1,14 @@
 // Cells that run in the page. Python itself, 16 MB beside this file, is loaded when the first one
-// is run, into a worker that can be stopped, and z3 for the first one that asks it. Before a cell
-// the ones above it run, as far as they have not, or not since something above them changed.
+// is run, into a worker that can be stopped, and z3 for the first one that asks it; the editor,
+// when a cell to write in is near. Before a cell the ones above it run, as far as they have not, or
+// not since something above them changed.
 (function () {
   const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
   const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
   const ZIPPED = new Set(['worker', 'asm', 'wasm']);
   const ASKS_Z3 = /\bimport z3\b|\bwmrbook(\.| import .*)strict\b/;
   const cells = [];
-  let parts, solver, worker, running;
+  let parts, solver, editor, worker, running;
 
   const make = (tag, properties = {}, ...children) => {
     const element = Object.assign(document.createElement(tag), properties);
@@ -208,26 +209,28 @@
     window.dispatchEvent(new Event('resize'));
   }
 
-  function fit({ editor }) {
-    editor.style.height = 'auto';
-    editor.style.height = `${editor.scrollHeight + 2}px`;
-  }
+  const near = new IntersectionObserver((seen) => {
+    for (const { target } of seen.filter((it) => it.isIntersecting)) {
+      near.unobserve(target);
+      editor ??= load('../editor');
+      editor.then(() => window.wmrEditor.dress(target), () => {});  // else the textarea does
+    }
+  }, { rootMargin: '100%' });
 
   function edit(cell) {
-    cell.editor = make('textarea',
+    const area = cell.editor = make('textarea',
         { className: 'python-editor', value: (cell.name && kept(cell.name)) ?? cell.source,
-        spellcheck: false, autocapitalize: 'off' });
-    cell.editor.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
-    cell.editor.setAttribute('aria-describedby', 'python-keys');
-    cell.editor.addEventListener('input', () => { fit(cell); keepAnswer(cell); });
-    cell.editor.addEventListener('keydown', keys(cell));
+        rows: cell.source.split('\n').length + 1, spellcheck: false, autocapitalize: 'off' });
+    area.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
+    area.setAttribute('aria-describedby', 'python-keys');
+    area.addEventListener('input', () => keepAnswer(cell));
     cell.code.hidden = true;
-    cell.code.after(cell.editor);
-    const folded = cell.editor.closest('details');
+    cell.written.replaceChildren(area);
+    near.observe(area);
+    const folded = cell.written.closest('details');
     if (folded) folded.open = true;
     cell.edit.hidden = true;
     cell.reset.hidden = false;
-    fit(cell);
   }
 
   function reset(cell) {
@@ -239,7 +242,7 @@
       cell.editor.dispatchEvent(new Event('input'));
       cell.editor.focus();
     } else {
-      cell.editor.remove();
+      cell.written.replaceChildren();
       cell.editor = undefined;
       keepAnswer(cell);
       cell.code.hidden = false;
@@ -249,19 +252,11 @@
     }
   }
 
-  // Tab indents, but after Esc it leaves.
-  const keys = (cell) => {
-    let leaving = false;
-    return (event) => {
-      if (event.key === 'Enter' && (event.ctrlKey || event.shiftKey || event.metaKey)) {
-        event.preventDefault();
-        run(cell);
-      } else if (event.key === 'Tab' && !event.shiftKey && !leaving) {
-        event.preventDefault();
-        document.execCommand('insertText', false, '    ');  // so that it can be undone
-      }
-      leaving = event.key === 'Escape';
-    };
+  const keys = (cell) => (event) => {
+    if (event.key !== 'Enter' || !(event.ctrlKey || event.shiftKey || event.metaKey)) return;
+    event.preventDefault();
+    event.stopPropagation();  // the editor has another use for them
+    run(cell);
   };
 
   function enliven(script) {
@@ -294,6 +289,9 @@
     cell.output = make('div', { className: 'cell_output python-output' });
     const input = cell.element.querySelector('.cell_input');
     cell.code = input.firstElementChild;
+    cell.written = make('div');
+    cell.written.addEventListener('keydown', keys(cell), true);
+    cell.code.after(cell.written);
     const folded = input.closest('details');
     input.after(cell.tools);  // which fold with it
     folded?.querySelector('summary .collapsed')?.append(', runs here');
@@ -302,7 +300,6 @@
     if (cell.name) edit(cell);
   }
 
-  window.addEventListener('resize', () => cells.filter((it) => it.editor).forEach(fit));
   document.addEventListener('DOMContentLoaded', () => {
     document.querySelectorAll('script.python-cell').forEach(enliven);
     const about =

@@ -23,10 +23,10 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import nbformat
-from kit import bundle
+from kit import bundle, bundled
 from nbformat import NotebookNode
 from pdf import find_browser, print_book
-from python_pack import write_scripts
+from python_pack import IN_PAGE, write_scripts
 
 from wmrbook import face
 
@@ -59,6 +59,7 @@ def main(output: Path, pdf: bool = False, whole: bool = False, lecturer: bool = 
     install_javascript()
     copy_javascript(VENDOR)
     bundle(VENDOR / "panels.js")
+    bundled("export * from './editor.js';", IN_PAGE, VENDOR / "editor.js", "wmrEditor")
     say("the Python for the pages")
     write_scripts(VENDOR / "python", MODULES)
     for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages

@@ -52,14 +52,19 @@ def bundle(script: Path) -> None:
     entry = ENTRY.format(
         imports=imports, programs=", ".join(f"'{name}': {it}" for it, name in names.items())
     )
+    options = ["--loader:.css=text", f"--banner:js={BEGIN}", f"--footer:js={END}"]
+    bundled(entry, KIT, script, "kit", *options, '--define:import.meta.url=""')
+
+
+def bundled(entry: str, folder: Path, script: Path, name: str, *options: str) -> None:
+    """Write a module of a folder, and all that it imports, as one script that sets `name`."""
     esbuild = shutil.which("esbuild", path=MODULES / ".bin")
-    options = ["--bundle", "--minify", "--format=iife", "--global-name=kit", "--loader:.css=text"]
-    options += [f"--banner:js={BEGIN}", f"--footer:js={END}", '--define:import.meta.url=""']
+    always = ["--bundle", "--minify", "--format=iife", "--log-level=warning"]
     folders = [str(Path(sys.executable).parent), os.environ["PATH"]]  # of a node from PyPI
     subprocess.run(
-        [esbuild, *options, "--log-level=warning", f"--outfile={script}"],
+        [esbuild, *always, *options, f"--global-name={name}", f"--outfile={script}"],
         input=entry.encode(),
-        cwd=KIT,
+        cwd=folder,
         env=os.environ | {"PATH": os.pathsep.join(folders)},
         check=True,
     )

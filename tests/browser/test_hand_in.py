@@ -4,15 +4,15 @@ import os
 import re
 from pathlib import Path
 
+import damage
 import graded
 import handins
 import nbformat
 import pytest
-from damage import empty_course
 from gradebook import Course
 from page_tasks import TASKS, handed_in
 from playwright.sync_api import Page
-from test_python_in_page import given
+from test_python_in_page import fill, given
 
 if not os.environ.get("BOOK_HTML"):
     pytestmark = pytest.mark.needs("npm")
@@ -41,7 +41,7 @@ def cell_of(site: Path, page: Page, chapter: str, name: str):
 
 def written(site: Path, page: Page, chapter: str, answers: dict[str, str]) -> None:
     for name, text in answers.items():
-        cell_of(site, page, chapter, name).locator(".python-editor").fill(text)
+        fill(cell_of(site, page, chapter, name), text)
 
 
 def saved(page: Page) -> tuple[str, nbformat.NotebookNode]:
@@ -103,7 +103,7 @@ def test_where_a_browser_keeps_nothing_answers_are_handed_in_all_the_same(
 @pytest.mark.slow
 def test_what_a_page_hands_in_is_the_release_with_the_answers(site, opened, tmp_path):
     """So it is graded like any other: nothing in it has to be repaired."""
-    with Course(empty_course(tmp_path, *CHAPTERS)) as course:
+    with Course(damage.empty_course(tmp_path, *CHAPTERS)) as course:
         for chapter, name in CHAPTERS.items():
             page = opened(f"notebooks/{name}.html")
             written(site, page, chapter, models(chapter))
@@ -115,3 +115,15 @@ def test_what_a_page_hands_in_is_the_release_with_the_answers(site, opened, tmp_
             found, how = handins.repaired(notebook, release)
             assert (how, by_id(found)) == ([], by_id(notebook))
             assert models(chapter).items() <= by_id(notebook).items()
+
+
+@pytest.mark.slow
+def test_a_telephone_is_enough_to_hand_in_for_full_points(site, opened, tmp_path):
+    page = opened(f"notebooks/{CHAPTERS['ch01']}.html")
+    page.set_viewport_size({"width": 390, "height": 844})
+    written(site, page, "ch01", models("ch01"))
+    page.reload()
+    course = damage.empty_course(tmp_path, "ch01")
+    damage.hand_in(course, "ada", "ch01", saved(page)[1])
+    points = damage.rows(damage.command("grade.py", course))["ch01", "ada"].split()[0]
+    assert points == f"{graded.most('ch01'):g}/{graded.most('ch01'):g}"

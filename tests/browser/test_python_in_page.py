@@ -55,10 +55,16 @@ def press(page, number: int, name: str) -> None:
 
 def write(page, number: int, code: str) -> None:
     """Put the code into the editor of a cell."""
-    editor = page.locator(".cell:has(script.python-cell)").nth(number).locator(".python-editor")
-    if not editor.count():
+    cell = page.locator(".cell:has(script.python-cell)").nth(number)
+    if not cell.locator(".python-editor").count():
         press(page, number, "Edit")
-    editor.fill(code, timeout=PATIENCE)
+    fill(cell, code)
+
+
+def fill(cell, code: str) -> None:
+    """Put the code into a cell's editor, which is there once the cell is near."""
+    cell.scroll_into_view_if_needed(timeout=PATIENCE)
+    cell.locator(".cm-content").fill(code, timeout=PATIENCE)
 
 
 def shown(page, number: int) -> str:
@@ -114,7 +120,12 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     # By keyboard: Tab indents, and leaves after Esc.
     write(page, model, "")
     page.keyboard.press("Tab")
-    assert page.locator(":focus").input_value() == "    "
+    editor = page.locator(".cell:has(script.python-cell)").nth(model).locator(".python-editor")
+    assert editor.input_value() == "    "
+    page.keyboard.press("Control+z")
+    assert editor.input_value() == ""
+    page.keyboard.type("if x:\nprint('y')")  # the second line is indented by itself
+    assert editor.input_value() == "if x:\n    print('y')"
     page.keyboard.press("Escape")
     page.keyboard.press("Tab")
     assert page.locator(":focus").text_content() == "Run"
