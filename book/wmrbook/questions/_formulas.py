@@ -27,7 +27,7 @@ def _written(formula: str) -> str:
     text = re.sub(r"\\sqrt\s*(\w)", r"&radic;\1", text)
     text = text.replace(r"_{\max}", "<sub>max</sub>")
     text = re.sub(r"\\[a-z]+", lambda it: _known(it[0], formula), text)
-    text = re.sub(r"_(&\w+;|\w)", r"<sub>\1</sub>", text)
+    text = re.sub(r"_\{(&\w+;|\w+)\}|_(&\w+;|\w)", r"<sub>\1\2</sub>", text)
     text = re.sub(r"\^\{([^}]*)\}", r"<sup>\1</sup>", text)
     if set(text) & set("\\{}^_"):
         raise ValueError(f"${formula}$ is not allowed: a form can't write it")

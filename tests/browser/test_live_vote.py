@@ -1,0 +1,89 @@
+"""A vote in class: two telephones, and the lecturer's slide, from the command to the bars."""
+
+from __future__ import annotations
+
+import contextlib
+import signal
+import subprocess
+import sys
+
+import pytest
+from faults import ASK, axe
+from live import PATIENCE, ROOT, free_port
+
+pytestmark = pytest.mark.needs("npm")
+STILL = "* { transition: none !important; }"
+
+
+@contextlib.contextmanager
+def serving(which: str):
+    """The lecturer's link and the class's address of a vote that the command serves."""
+    command = [sys.executable, ROOT / "book/tools/vote.py", which]
+    command += ["--address", "127.0.0.1", "--port", str(free_port())]
+    with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
+        try:
+            links = (line.split()[-1] for line in server.stdout if " http" in line)
+            yield next(links), next(links)
+            server.send_signal(signal.SIGINT)
+            assert server.wait(10) == 0
+        finally:
+            server.kill()
+
+
+@pytest.mark.parametrize(("which", "slide"), [("04", 4), ("questions", 3)])
+def test_two_telephones_vote_and_the_slide_shows_the_bars_only_when_asked(
+    which, slide, another_page
+):
+    ours, ada, bob = pages = [another_page() for _ in range(3)]
+    for page, size in zip(pages, ((1280, 720), (390, 844), (390, 844)), strict=True):
+        page.set_viewport_size(dict(zip(("width", "height"), size, strict=True)))
+    with serving(which) as (link, address):
+        ours.goto(link)
+        ours.wait_for_function(
+            "document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE
+        )
+        assert "token" not in ours.url  # the projector shows it
+        ada.goto(address)
+        ada.get_by_text("Nothing is asked now.").wait_for()
+        ours.evaluate("slide => deck.slide(slide)", slide)
+        said, bars = (ours.locator(f".present .vote-{it}") for it in ("said", "bars"))
+        ada.get_by_role("button").nth(1).click()
+        ada.get_by_text("Your vote: B. You may change it.").wait_for()
+        bob.goto(address)
+        bob.get_by_role("button").nth(1).click()
+        bob.get_by_role("button").nth(0).click()  # a change of mind is one vote
+        ours.get_by_text("2 votes").locator("visible=true").wait_for()
+        assert not bars.is_visible()
+        assert ada.locator("[aria-pressed=true]").count() == 1
+        ours.keyboard.press("v")
+        counts = bars.locator("> span:not(:has(i))").all_inner_texts()
+        assert counts[:3] == ["1", "1", "0"]
+        widths = [it.bounding_box()["width"] for it in bars.locator("i").all()]
+        assert widths[0] == widths[1] > 20 * widths[2]
+        ada.reload()
+        ada.get_by_text("Your vote: B. You may change it.").wait_for()
+        ours.keyboard.press("c")
+        ada.get_by_text("Your vote: B. The vote is closed.").wait_for()
+        assert ada.get_by_role("button").first.is_disabled()
+        # A code that a telephone's camera can find: black, with the four light modules round it.
+        code = ours.locator(".present .vote-code svg")
+        small = code.bounding_box()["width"]
+        ours.keyboard.press("q")
+        assert code.bounding_box()["width"] > 2.5 * small
+        ours.keyboard.press("q")
+        for page in ours, ada:
+            page.add_style_tag(content=STILL)
+            page.add_script_tag(path=axe())
+            for theme in "light", "dark":
+                page.evaluate("it => { document.documentElement.dataset.theme = it; }", theme)
+                assert not page.evaluate(ASK, {})
+        ours.get_by_role("button", name="Vote again").locator("visible=true").click()
+        ours.get_by_text("0 votes").locator("visible=true").wait_for()
+        assert not bars.is_visible()
+        assert said.inner_text() == "0 votes"
+        ada.get_by_text("Choose one.").wait_for()
+        ours.keyboard.press("PageDown")
+        ada.get_by_text("Nothing is asked now.").wait_for()
+        for page in pages:
+            page.assert_quiet()
+    ada.get_by_text("No connection. It tries again.").wait_for()
