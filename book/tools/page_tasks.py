@@ -18,13 +18,16 @@ CHAPTER = re.compile(r"notebooks/(\d\d)_")
 # The graded tasks that are right in the page too, by the id of the cell to fill in.
 TASKS = {
     "01": ("distance", "bearing", "local"),
-    "03": ("our-gains",),
+    "02": ("wheels", "twist", "arc", "limited"),
+    "03": ("polar", "tail-model", "our-gains"),
     "04": ("V-rate", "turning", "V-rate-closed", "rising"),
     "05": ("law", "axes"),
-    "06": ("law",),
-    "10": ("claim23", "claim26"),
-    "11": ("compass",),
-    "12": ("degrees",),
+    "06": ("law", "twist"),
+    "09": ("radius", "averaging"),
+    "10": ("claim23", "claim26", "rule", "digits"),
+    "11": ("compass", "ticks", "safe"),
+    "12": ("checksum", "degrees", "headings"),
+    "14": ("distance", "joined"),
 }
 # Those whose checks drive, which is too much for the page: it makes a student's numbers alone.
 DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
@@ -32,7 +35,7 @@ SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTA
 STUB = 'raise NotImplementedError("write your answer here")\n'
 ABOUT = (
     "Graded tasks of the course, checked here with its hints. "
-    "This page has `math`, `sympy` and `numpy` for single numbers; arrays need the notebook."
+    "This page has `math`, `sympy` and a part of `numpy`, which says what it lacks."
 )
 DRIVEN = (
     "A graded task of the course. With your name, the cell "

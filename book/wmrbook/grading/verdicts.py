@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from decimal import ROUND_DOWN, Decimal
+from functools import cache
 from typing import Any
 
 import numpy as np
@@ -102,6 +103,7 @@ def digits_needed(decimals_needed: Callable) -> str:
     """decimals_needed(metres): against rounding latitudes to so many decimals, and one fewer."""
     own_work(decimals_needed)
     lats = np.random.default_rng(101).uniform(-80.0, 80.0, 20_000)
+    off = cache(lambda n: float(np.abs(np.round(lats, n) - lats).max()) * DEGREE)
     edges = [0.5 * DEGREE * 10.0**-n * side for n in range(6) for side in (0.9995, 1.0005)]
     for metres in (0.01, 5.0, 6.0, 2e6, *edges, *spread(1e-3, 1e5, 30)):
         count = ask_number(decimals_needed, metres)
@@ -109,10 +111,7 @@ def digits_needed(decimals_needed: Callable) -> str:
         hint = f"for {metres:.4g} m you want {count:.3g} decimals"
         expect(count <= 20, f"{hint}, more than a float has.")
         expect(count >= 0, f"{hint}; there are none before the point.")
-        moved, coarser = (
-            float(np.abs(np.round(lats, n) - lats).max()) * DEGREE
-            for n in (int(count), int(count) - 1)
-        )
+        moved, coarser = off(int(count)), off(int(count) - 1)
         hint = f"with {count:.0f} decimals a latitude moves by up to {moved:.3g} m, "
         expect(moved <= metres, f"{hint}where {metres:.4g} m are allowed.")
         hint = f"for {metres:.4g} m one decimal fewer than your {count:.0f} does: "

@@ -1,0 +1,151 @@
+"""The page's stand-in for numpy, against numpy: the same values, shapes and refusals."""
+
+import importlib
+import math
+import sys
+
+import numpy as np
+import pytest
+from build import ROOT
+from hypothesis import given
+from hypothesis import strategies as st
+
+STAND_INS = ROOT / "book" / "in_page" / "stand_ins"
+
+
+def imported():
+    """The stand-in, imported beside numpy."""
+    real = {name: it for name, it in sys.modules.items() if name.split(".")[0] == "numpy"}
+    for name in real:
+        del sys.modules[name]
+    sys.path.insert(0, str(STAND_INS))
+    try:
+        return importlib.import_module("numpy")
+    finally:
+        sys.path.remove(str(STAND_INS))
+        for name in [it for it in sys.modules if it.split(".")[0] == "numpy"]:
+            del sys.modules[name]
+        sys.modules.update(real)
+
+
+page = imported()
+NUMBERS = st.floats(-1e3, 1e3).map(lambda x: round(x, 3))
+ROWS = st.lists(NUMBERS, min_size=2, max_size=6)
+TABLES = st.integers(1, 4).flatmap(
+    lambda n: st.lists(st.lists(NUMBERS, min_size=n, max_size=n), min_size=2, max_size=4)
+)
+ALIKE = st.integers(2, 5).flatmap(
+    lambda n: st.tuples(*[st.lists(NUMBERS, min_size=n, max_size=n)] * 2)
+)
+OF_ONE = """
+np.sin(x) np.arctan(x) np.exp(x/99) np.sqrt(x) np.log(x) np.abs(x) -x x**2 x//3 x%7 1/x x/0
+np.radians(x) np.sign(x) np.floor(x) np.sinc(x/9) np.square(x) np.isfinite(1/x) np.round(x,1)
+~(x>0) np.arcsin(x) np.clip(x,-1,2) np.where(x>0,x,-1) np.expm1(x/99) np.ceil(x)
+np.logical_not(x) x.sum() x.mean() x.std() x.var(ddof=1) np.std(x,ddof=1) x.max() x.min()
+x.argmax() x.argmin() x.ravel() np.all(x>0) np.any(x>0) np.linalg.norm(x) x.T x.shape len(x)
+x.tolist() x.size x.ndim x.reshape(-1) x[0] x[-1] x[1:] x[::-1] x[x>0] x[[0,-1]] x[None]
+np.append(x,3) np.repeat(x,2) np.diff(x) np.concatenate([x,x]) x.cumsum() np.allclose(x,x+1e-9)
+np.isclose(x,x+1) np.prod(x/99) x.sum(axis=0) x.mean(axis=0) x.max(axis=0) x.min(0)
+x.std(axis=0) x@x.T 2*x+x[0]
+"""
+OF_ROWS = """
+np.unwrap(x) np.insert(x,0,5) np.sort(x) np.interp([0.5,-9e3,7],np.sort(x)+np.arange(x.size),x)
+np.linspace(x[0],x[1],5) np.arange(x.size) np.dot(x,x) x[x.argmax():]
+"""
+OF_TABLES = """
+x[:,0] x[1,0] x[:,None] x[0] x[:,[0]] x.sum(axis=1) x.mean(axis=-1) np.transpose(x)
+x-x.mean(axis=0) x[0]-x np.linalg.norm(x,axis=1) np.concatenate([x,x],axis=1)
+np.column_stack(list(x)) x*x[:,:1]
+"""
+OF_TWO = """
+x+y x-y x*y x/y x**2+y x<y x==y x!=y (x>0)&(y>0) (x>0)|(y>0) np.hypot(x,y) np.arctan2(x,y)
+np.maximum(x,y) np.minimum(x,y) np.fmod(x,y) np.mod(x,y) x@y np.subtract(x,y) np.where(x>y,x,y)
+x[:,None]*y np.power(2.0,x/99) np.logical_and(x>0,y>0) np.column_stack([x,y]) np.append(x,y)
+np.add(x,y) np.divide(x,y) np.multiply(x,y)
+"""
+
+
+def same(text, *values):
+    names = dict(zip("xy", values, strict=False))
+    with np.errstate(all="ignore"):
+        wanted = eval(text, {"np": np} | {it: np.array(v) for it, v in names.items()})
+    found = eval(text, {"np": page} | {it: page.array(v) for it, v in names.items()})
+    shape = getattr(found, "shape", ())
+    if not isinstance(wanted, tuple | list | int):
+        assert shape == np.shape(wanted), text
+    listed = found.tolist() if shape else found
+    np.testing.assert_allclose(listed, wanted, rtol=1e-9, atol=1e-9, err_msg=text)
+
+
+@given(st.one_of(ROWS, TABLES))
+def test_arrays_of_one_and_two_dimensions_are_as_numpys(x):
+    for text in OF_ONE.split():
+        same(text, x)
+
+
+@given(ROWS)
+def test_rows_are_as_numpys(x):
+    for text in OF_ROWS.split():
+        same(text, x)
+
+
+@given(TABLES)
+def test_tables_are_as_numpys(x):
+    for text in OF_TABLES.split():
+        same(text, x)
+
+
+@given(ALIKE)
+def test_two_arrays_are_as_numpys(pair):
+    for text in OF_TWO.split():
+        same(text, *pair)
+
+
+@pytest.mark.parametrize(
+    "wrong",
+    [
+        "np.array([1, 2]) + np.array([1, 2, 3])",
+        "np.array([1])[5]",
+        "np.array([[1, 2], [3]])",
+        "np.array([1, 2]) @ np.array([1])",
+    ],
+)
+def test_it_refuses_what_numpy_refuses(wrong):
+    for numpy in np, page:
+        with pytest.raises((ValueError, IndexError)):
+            eval(wrong, {"np": numpy})
+
+
+@pytest.mark.parametrize("name", ["linalg.inv", "fft.rfft", "meshgrid", "random.seed"])
+def test_what_is_missing_is_named_with_what_there_is(name):
+    first, _, last = name.partition(".")
+    with pytest.raises(AttributeError) as told:
+        getattr(getattr(page, first), last or "shape")
+    wanted = first if first in ("fft", "meshgrid") else name
+    assert str(told.value).startswith(f"numpy.{wanted} is not in this page, which has a part of")
+    assert " arctan2, " in str(told.value)
+    assert "The notebook has all of it." in str(told.value)
+    assert not hasattr(page.array([1.0]), "nonzero")
+
+
+def test_a_slice_is_a_copy_and_an_index_can_be_written_to():
+    x = page.array([[1, 2], [3, 4]])
+    y = x[0]
+    x[0, 1], x[x > 3], x[:, 0] = 7, 9, [5, 6]
+    assert (x.tolist(), y.tolist()) == ([[5, 9], [6, 9]], [1, 2])
+    assert f"{page.array(2.5):.2f}" == "2.50"
+
+
+def test_random_numbers_are_the_same_each_time_and_spread_as_asked():
+    def drawn():
+        random = page.random.default_rng(7)
+        return random.normal(3.0, 2.0, 4000), random.uniform([0.0, 5.0], [1.0, 6.0], (2000, 2))
+
+    (normal, table), (again, _) = drawn(), drawn()
+    assert normal.tolist() == again.tolist()
+    assert math.isclose(normal.mean(), 3.0, abs_tol=0.15)
+    assert math.isclose(normal.std(), 2.0, abs_tol=0.15)
+    assert table.shape == (2000, 2)
+    assert np.allclose(table.mean(axis=0).tolist(), [0.5, 5.5], atol=0.05)
+    assert set(page.random.default_rng(1).integers(0, 3, 200).tolist()) == {0, 1, 2}
+    assert sorted(page.random.default_rng(1).permutation(5).tolist()) == list(range(5))
