@@ -24,10 +24,12 @@
 
   function answered(notebook, who) {
     const made = structuredClone(notebook),
-        answers = new Map(cellsOf().filter((it) => it.checks.length).map((it) => [it.name, it]));
+        tasks = cellsOf().filter((it) => it.space === 'tasks'),
+        answers = new Map(tasks.map((it) => [it.name, it]));
     for (const cell of made.cells) {
       const answer = answers.get(idOf(cell));
-      if (answer && answer.written !== answer.source) cell.source = answer.written;
+      if (answer && idOf(cell) !== 'mine' && answer.written !== answer.source)
+        cell.source = answer.written;
       else if (idOf(cell) === 'name') cell.source = `name = ${JSON.stringify(who)}`;
     }
     return made;

@@ -107,6 +107,7 @@
       && keep(cell.name, source(cell) === cell.source ? null : source(cell));
 
   async function run(cell) {
+    if (cell.later) return say(cell, 'It is kept, and checked when you hand in.');
     if (running) return running === cell || say(cell, 'Another cell is running.');
     running = cell;
     document.documentElement.classList.add('python-busy');
@@ -115,8 +116,8 @@
       say(cell, worker ? 'Running …' : 'Loading Python …');
       const python = await (worker ??= started());
       for (const each of cells.slice(0, cell.place + 1)) {
-        const needed =
-            each.space === cell.space && !each.checks.length && each.ran !== source(each);
+        const makes = !each.checks.length && !each.later;
+        const needed = makes && each.space === cell.space && each.ran !== source(each);
         if (each !== cell && !needed) continue;
         say(cell, each === cell ? 'Running …' : `Running ${kind(each)} ${each.number} …`);
         const start = performance.now();
@@ -237,7 +238,7 @@
     cell.output.replaceChildren();
     cell.stored.forEach((it) => { it.hidden = false; });
     say(cell, '');
-    if (cell.checks.length) {
+    if (cell.checks.length || cell.later) {
       cell.editor.value = cell.source;
       cell.editor.dispatchEvent(new Event('input'));
       cell.editor.focus();
@@ -271,6 +272,7 @@
       return made;
     };
     cell.run = button(cell.checks.length ? 'Check' : 'Run', run, false);
+    cell.run.hidden = cell.later;
     cell.edit = button('Edit', (it) => { edit(it); it.editor.focus(); }, false);
     cell.reset = button('Reset', reset, true);
     cell.stop = button('Stop', stop, true);

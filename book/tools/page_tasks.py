@@ -29,18 +29,13 @@ TASKS = {
     "12": ("checksum", "degrees", "headings"),
     "14": ("distance", "joined"),
 }
-# Those whose checks drive, which is too much for the page: it makes a student's numbers alone.
-DRIVES = {"00": ("my-gains",), "07": ("tuning",), "08": ("slow",)}
 SOLUTION = re.compile(r"( *)### BEGIN SOLUTION\n.*?### END SOLUTION\n?", re.DOTALL)
 STUB = 'raise NotImplementedError("write your answer here")\n'
 ABOUT = (
-    "Graded tasks of the course, checked here with its hints. "
+    "Graded tasks of the course, with its hints. "
     "This page has `math`, `sympy` and a part of `numpy`, which says what it lacks."
 )
-DRIVEN = (
-    "A graded task of the course. With your name, the cell "
-    "shows your numbers; the course's notebook drives with them."
-)
+LATER = "*The check of this one is too much for a page: it runs when you hand in.*"
 
 
 def add_tasks(app, docname, source):
@@ -57,8 +52,7 @@ def add_tasks(app, docname, source):
 
 def tasks(chapter: str) -> list:
     """Return the chapter's tasks as cells of a notebook, without their solutions."""
-    wanted, driven = TASKS.get(chapter, ()), DRIVES.get(chapter, ())
-    if not (wanted or driven):
+    if not _is_there(chapter):
         return []
     text, mine, setup, cells = "", "", [], {}
     for cell in nbformat.read(_path(chapter), 4).cells:
@@ -74,21 +68,23 @@ def tasks(chapter: str) -> list:
             cells[settings["grade_id"]], mine = (text, code, checks := []), ""
         elif settings["grade"]:
             checks.append(cell.source)
-    made = []
-    for name in (*wanted, *driven):
-        text, (mine, answer), checks = cells[name]
-        about = f"\n\n{DRIVEN if name in driven else ABOUT}" * (not made)
-        made.append(nbformat.v4.new_markdown_cell(text + about))
+    made, shown = [], ""
+    for name, (text, (mine, answer), checks) in cells.items():
+        later = name not in TASKS.get(chapter, ())
+        about = [text] * (text != shown) + [ABOUT] * (not made) + [LATER] * later
+        made.append(nbformat.v4.new_markdown_cell("\n\n".join(about)))
+        shown = text
         parts = (
-            ("mine", mine, "from wmrbook import grading", []),
-            (name, answer, setup[0], checks),
+            ("mine", mine, "from wmrbook import grading", [], False),
+            (name, answer, setup[0], checks * (not later), later),
         )
-        for key, source, before, graded in parts:
-            if source and not (graded and name in driven):
+        for key, source, before, graded, unchecked in parts:
+            if source:
                 code = nbformat.v4.new_code_cell(source.strip("\n"))
-                code.metadata["task"] = {"before": before, "checks": graded, "name": key}
+                told = {"before": before, "checks": graded, "name": key, "later": unchecked}
+                code.metadata["task"] = told
                 made.append(code)
-    return made
+    return [cell for cell in made if cell.source]
 
 
 def _stub(solution: re.Match) -> str:
@@ -99,22 +95,27 @@ def handed_in(chapter: str) -> dict | None:
     """Return the notebook in which a page hands its answers in, as students are given it.
 
     With the name of its file, and the titles of the tasks that the page has not. None where the
-    page takes no answers.
+    course has no assignment.
     """
-    if chapter not in TASKS:
+    if not _is_there(chapter):
         return None
+    here = {cell.metadata["task"]["name"] for cell in tasks(chapter) if "task" in cell.metadata}
     path, title, elsewhere = _path(chapter), "", []
     notebook = nbformat.read(path, 4)
     for cell in notebook.cells:
         name = cell.metadata["nbgrader"]["grade_id"]
         title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
-        if cell.metadata["nbgrader"]["solution"] and name not in (*TASKS[chapter], "name"):
+        if cell.metadata["nbgrader"]["solution"] and name not in here | {"name"}:
             elsewhere.append(title)
     settings = PyFileConfigLoader("nbgrader_config.py", str(SOURCE.parent)).load_config()
     for step in ClearSolutions, ClearMarkScheme, ClearHiddenTests:
         notebook, _ = step(config=settings).preprocess(notebook, {})
     elsewhere = list(dict.fromkeys(elsewhere))
     return {"file": path.name, "notebook": notebook, "elsewhere": elsewhere}
+
+
+def _is_there(chapter: str) -> bool:
+    return (SOURCE / f"ch{chapter}").is_dir()
 
 
 def _path(chapter: str) -> Path:

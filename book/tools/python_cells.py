@@ -41,6 +41,7 @@ class Cell(NamedTuple):
     checks: tuple[str, ...] = ()
     space: str = "chapter"  # cells of one space share their variables
     name: str = ""  # of an answer that it waits for, by which the page keeps it
+    later: bool = False  # its check is not in the page
 
 
 def runnable(notebook) -> list[Cell]:
@@ -180,8 +181,8 @@ def give_cells(app, doctree):
     cells = {cell.place: cell for cell in runnable(notebook)}
     for place, cell in enumerate(notebook.cells):
         if task := cell.metadata.get("task"):
-            before, checks = task["before"], tuple(task["checks"])
-            cells[place] = Cell(place, cell.source, before, 0, checks, "tasks", task["name"])
+            known = {"checks": tuple(task["checks"]), "space": "tasks"}
+            cells[place] = Cell(place, cell.source, **(task | known))
     section = None
     for container in list(doctree.findall(nodes.container)):
         if cell := cells.get(container.get("cell_index")):

@@ -239,6 +239,8 @@ def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_
         stored = notebook.cells
         names = iter(TASKS.get(number, ()))
         for cell in given(site / f"notebooks/{chapter.stem}.html"):
+            if cell["later"]:
+                continue
             if cell["checks"]:
                 cell["source"] = graded.cells(f"ch{number}")[next(names)][0]
                 wanted.append(None)
