@@ -24,7 +24,7 @@ def body_windows(
 
     NaN stands where it does not arrive. The lines enclose the window, 2 < kappa < 1 + h.
     """
-    figure, row = panels(1, len(off_deg), 3.1 * len(off_deg) + 0.4, 4.0, sharey=True)
+    figure, row = panels(1, len(off_deg), 2.5 * len(off_deg) + 0.4, 3.9, sharey=True)
     kappa, h = np.meshgrid(kappas, weights, indexing="ij")
     inside = (kappa > 2.0) & (kappa < 1.0 + h)
     told = []
@@ -32,7 +32,7 @@ def body_windows(
         size, low = np.nan_to_num(np.abs(error), nan=np.inf), -1.0
         for high, words, looks in _MARKS:
             drawn = (size > low) & (size <= high)
-            axes.plot(kappa[drawn], h[drawn], ls="none", ms=7, label=words, **looks)
+            axes.plot(kappa[drawn], h[drawn], ls="none", ms=6, label=words, **looks)
             low = high
         edge = np.array([2.0, max(kappas) + 0.3])
         axes.plot([2.0, *edge], [max(weights) + 0.3, *(edge - 1.0)], color=COLOURS["ink"], lw=1.2)

@@ -41,7 +41,7 @@ function render({ model, el }) {
     it.addEventListener('click', () => act(it));
     return it;
   };
-  const loader = button('Give it a body (MuJoCo, 5 MB)', async () => {
+  const loader = button('Give it a body (MuJoCo, 3.5 MB)', async () => {
     loader.disabled = true;
     const asked = performance.now();
     words.textContent = 'MuJoCo is loading …';

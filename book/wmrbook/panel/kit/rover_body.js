@@ -21,7 +21,7 @@ async function load() {
   return start({ wasmBinary, locateFile: (name) => name }); // else it asks where this file is
 }
 
-/** MuJoCo, once: 5 MB beside the page, of which nothing is loaded before it is asked for. */
+/** MuJoCo, once: 3.5 MB beside the page, of which nothing is loaded before it is asked for. */
 export function loadedEngine() {
   engine ??= load();
   engine.catch(() => { engine = undefined; });
