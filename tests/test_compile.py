@@ -90,6 +90,14 @@ def test_what_the_package_cannot_keep_is_kept_at_home_or_not_at_all(copy):
     assert printed(process(copy, "float", **homes))[1] != "0"
 
 
+def test_what_was_compiled_is_read_where_nothing_may_be_written(copy, tmp_path):
+    first = printed(process(copy, "float"))
+    refuse = "import tempfile\ndef none(*_, **__): raise OSError(30, 'read-only')\n"
+    refuse += "tempfile.TemporaryFile = none\n"
+    home = {"HOME": str(tmp_path / "none"), "PYTHONWARNINGS": "error"}
+    assert printed(process(copy, "float", code=refuse + RUN, **home)) == (first[0], "0")
+
+
 def test_two_processes_at_once_keep_what_each_compiled(copy):
     for one in [process(copy, kind) for kind in ("float", "int")]:
         printed(one)

@@ -71,6 +71,9 @@ class _Locator(InTreeCacheLocator):
     def get_cache_path(self) -> str:
         return str(FOLDER)
 
+    def ensure_cache_path(self) -> None:
+        """The folder is there, if only to be read: numba would refuse to cache."""
+
     def get_source_stamp(self) -> str:
         return ""  # an edit leads to another folder
 
