@@ -20,6 +20,7 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
+from rclpy.task import Future
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from wmr_interfaces.action import Park
 
@@ -39,6 +40,7 @@ class ParkNode(Node):
         self.drive: wmr.Drive | None = None
         self.sensors: Sensors | None = None
         self.wish: Any = None
+        self.ended = Future()
         self.stamped = self.get_parameter("stamped").value
         twist = TwistStamped if self.stamped else Twist
         self.command = self.create_publisher(twist, "cmd_vel", 1)
@@ -75,8 +77,9 @@ class ParkNode(Node):
         return GoalResponse.ACCEPT
 
     def on_accepted(self, wish: Any) -> None:
-        """Drive from the next odometry on. It executes as it ends: so no thread has to wait."""
-        self.wish = wish
+        """Drive from the next odometry on."""
+        self.wish, self.ended = wish, Future()
+        wish.execute()
 
     def on_cancel(self, wish: Any) -> CancelResponse:
         """Yes, whatever the reason; it ends once the goal is marked as cancelled."""
@@ -86,11 +89,12 @@ class ParkNode(Node):
     def end(self) -> None:
         """The drive has parked or stopped, or is cancelled."""
         if self.wish:
-            wish, self.wish = self.wish, None
-            wish.execute()
+            self.wish = None
+            self.ended.set_result(None)
 
-    def park(self, wish: Any) -> Park.Result:
-        """The action's last word."""
+    async def park(self, wish: Any) -> Park.Result:
+        """The action's last word, once the drive has ended; no thread waits for it."""
+        await self.ended
         state, reason = self.drive.state, self.drive.reason
         self.drive = self.sensors = None
         if wish.is_cancel_requested:
