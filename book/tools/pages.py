@@ -133,7 +133,8 @@ def join_code(app, doctree):
     for cell in list(doctree.findall(nodes.container)):
         below = cell.next_node(descend=False, siblings=True)
         kinds = [getattr(it, "attributes", {}).get("hide_mode") for it in (cell, below)]
-        if kinds == ["input", "input"] and len(cell) == 1 and not isinstance(below[-1], nodes.raw):
+        silent = len(cell) == 1 and "cell_input" in cell[0].get("classes", ())
+        if silent and kinds == ["input", "input"] and not isinstance(below[-1], nodes.raw):
             below[0].insert(0, cell[0].children)
             cell.parent.remove(cell)
 

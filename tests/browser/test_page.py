@@ -181,6 +181,17 @@ def test_every_image_says_what_it_shows_and_has_a_caption(site):
         assert len(captions) == len(page.texts), path.name
 
 
+def test_code_is_folded_and_nothing_that_it_shows(site):
+    for page in sorted((site / "notebooks").glob("*.html")):
+        folds = re.findall(
+            r'<details class="[^"]*above-input.*?</details>', page.read_text("utf-8"), re.DOTALL
+        )
+        assert folds, page
+        for fold in folds:
+            assert "highlight" in fold, page
+            assert not re.search("widget-view|cell_output|figure-box", fold), (page, fold[:300])
+
+
 def test_each_chapter_can_be_downloaded_as_a_notebook(site):
     for chapter in chapters():
         page = site / "notebooks" / f"{chapter.stem}.html"
