@@ -30,6 +30,7 @@ COMMANDS = SHELL + re.findall(r"`((?:cd \S+ && )?[./]*\.venv/bin/\w+ [^`]+)`", G
 ELSEWHERE = {  # commands of the guide that another test runs
     "build.py --lecturer": "tests/browser/test_book.py",
     "slides.py --questions": "tests/browser/test_votes.py",
+    "tools/vote.py": "tests/browser/test_live_vote.py",
     "python3 -m venv": "tests/test_hub.py",
     "chmod -R": "tests/test_hub.py",
     "jupyterhub --config": "tests/test_hub.py",

@@ -1,5 +1,6 @@
 """JupyterLab for a reader; README's first command uses it, and it opens the first chapter."""
 
+import logging
 import os
 from importlib.util import find_spec
 from pathlib import Path
@@ -50,3 +51,6 @@ os.environ["JUPYTER_CONFIG_PATH"] = os.pathsep.join(
 notary = NotebookNotary()
 for chapter in (ROOT / "notebooks").glob("*.ipynb"):
     notary.sign(nbformat.read(chapter, as_version=4))
+
+# While a notebook is saved its folder holds a file that a listing may just miss: no news for a user.
+logging.getLogger("ServerApp").addFilter(lambda record: "/.~" not in record.getMessage())

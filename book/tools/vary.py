@@ -81,7 +81,8 @@ def text(where: str) -> str:
         return plain((ROOT / where).read_text(encoding="utf-8"))
     (path,) = (ROOT / "notebooks").glob(f"{where}_*.ipynb")
     cells = nbformat.read(path, as_version=4).cells
-    printed = [out.get("text", "") for cell in cells for out in cell.get("outputs", ())]
+    outputs = [out for cell in cells for out in cell.get("outputs", ())]
+    printed = [out.get("text") or out.get("data", {}).get("text/markdown", "") for out in outputs]
     return plain("\n".join([cell.source for cell in cells] + printed))
 
 

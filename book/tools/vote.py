@@ -13,6 +13,7 @@ import hmac
 import json
 import re
 import secrets
+import signal
 import socket
 import tempfile
 import time
@@ -246,5 +247,6 @@ if __name__ == "__main__":
     parser.add_argument("--address", type=ip_address, default=own_address(), help="to listen on")
     parser.add_argument("--port", type=int, default=8040)
     given = parser.parse_args()
+    signal.signal(signal.SIGINT, signal.default_int_handler)  # also where a shell had it ignored
     with suppress(KeyboardInterrupt):
         asyncio.run(serve(given.deck, str(given.address), given.port))

@@ -19,7 +19,10 @@ DRAWN = """player => {
   }
   const { seconds, robots } = JSON.parse(box.querySelector('script').text);
   return { count: sum, at: [x / sum / width, y / sum / height], seconds,
-           ways: robots.map(it => [it.x, it.y].map(values => values.map(v => v / 10000))) };
+           ways: robots.map(it => [it.x, it.y].map(values => {
+             let sum = 0;
+             return values.map(v => (sum += v) / 10000);
+           })) };
 }"""
 
 

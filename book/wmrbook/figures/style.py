@@ -148,8 +148,8 @@ class Picture:
     def motion(self) -> dict[str, Any]:
         """Return where the robots are on the picture, in `FRAMES` even steps of time.
 
-        Places and the boxes of the axes are in `PARTS` of its width and height, from the left and
-        from the top; headings in degrees.
+        Boxes of the axes and first places are in `PARTS` of its width and height, from the left
+        and from the top, and first headings in degrees; what follows are changes, which are short.
         """
         seconds = max(float(drive.t[-1]) for drive in self.drives)
         times, (width, height) = np.linspace(0.0, seconds, FRAMES), self.figure.bbox.size
@@ -159,14 +159,13 @@ class Picture:
             sides = left / width, 1.0 - top / height, right / width, 1.0 - bottom / height
             place = axes.transData.transform(np.column_stack([x, y]))
             across, down = place[:, 0] / width, 1.0 - place[:, 1] / height
+            degrees = np.degrees(np.unwrap(heading))
             robots.append(
                 {
                     "box": _parts(np.array(sides)),
-                    "x": _parts(np.interp(times, t, across)),
-                    "y": _parts(np.interp(times, t, down)),
-                    "heading": np.rint(np.interp(times, t, np.degrees(np.unwrap(heading))))
-                    .astype(int)
-                    .tolist(),
+                    "x": _changes(_parts(np.interp(times, t, across))),
+                    "y": _changes(_parts(np.interp(times, t, down))),
+                    "heading": _changes(_whole(np.interp(times, t, degrees))),
                     "role": role,
                 }
             )
@@ -184,8 +183,16 @@ class Picture:
         return {"text/html": image, "text/plain": repr(self)}
 
 
+def _whole(values: np.ndarray) -> list[int]:
+    return np.rint(values).astype(int).tolist()
+
+
 def _parts(shares: np.ndarray) -> list[int]:
-    return np.rint(PARTS * shares).astype(int).tolist()
+    return _whole(PARTS * shares)
+
+
+def _changes(values: list[int]) -> list[int]:
+    return [values[0], *np.diff(values).tolist()]
 
 
 def in_symbols(words: str) -> str:

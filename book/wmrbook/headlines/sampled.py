@@ -93,7 +93,7 @@ SPIRAL = (
 )
 LATE = {"axis": AXES, "heading": (1.4, 1.75)}
 IN_120_S = Before("matched position 0 s, heading 0.9 s late: never in 120 s", LATE, at_most=0)
-NEVER = "position 0 s, heading 0.9 s late: never / 0 deg off"
+NEVER = "0 s | 0.9 s | never / never | never / 0 deg"
 
 
 @headline("09", SPIRAL, at_most=0, axis=AXES, heading=(1.1, 1.4), delay=(0.6, 1.5))

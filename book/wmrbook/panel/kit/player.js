@@ -16,7 +16,13 @@ const STOPS = stopsOf(0, 1, 0.002);
  * @param {{ seconds: number, robots: { box: number[], x: number[], y: number[], heading: number[],
  *   role: string }[] }} motion
  */
-function player(box, { seconds, robots }) {
+function player(box, { seconds, robots: told }) {
+  const summed = (changes) => { // they are stored as changes, which are shorter
+    let sum = 0;
+    return changes.map((change) => (sum += change));
+  };
+  const robots = told.map((it) => ({ ...it, x: summed(it.x), y: summed(it.y),
+    heading: summed(it.heading) }));
   const images = [...box.querySelectorAll('img')];
   const canvas = made(box, 'canvas', { className: 'player-robots' }, { 'aria-hidden': 'true' });
   const root = document.createElement('div'), row = made(root, 'div', { className: 'wmr-control' });
