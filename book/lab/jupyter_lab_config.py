@@ -52,5 +52,5 @@ notary = NotebookNotary()
 for chapter in (ROOT / "notebooks").glob("*.ipynb"):
     notary.sign(nbformat.read(chapter, as_version=4))
 
-# While a notebook is saved its folder holds a file that a listing may just miss: no news for a user.
+# While a notebook is saved its folder holds a file that a listing may just miss: no news.
 logging.getLogger("ServerApp").addFilter(lambda record: "/.~" not in record.getMessage())
