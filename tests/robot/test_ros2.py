@@ -3,6 +3,7 @@
 import math
 import os
 import re
+import signal
 import sys
 from pathlib import Path
 
@@ -130,6 +131,40 @@ def test_the_parameters_are_my_robots_and_drive_it(prefix):
     x, y, heading = ran["poses"][-1]
     assert math.hypot(x - told.x, y - told.y) < 2 * told.radius
     assert abs(wmr.wrap_angle(heading - told.heading)) < told.turn.tolerance
+
+
+WRONG = """
+import sys, time, rclpy
+from nav_msgs.msg import Odometry
+rclpy.init()
+node, wrong = rclpy.create_node("wrong"), Odometry()
+publisher = node.create_publisher(Odometry, "odom", 10)
+wrong.header.frame_id, wrong.child_frame_id = "odom", "base_link"
+wrong.pose.pose.orientation.w = float(sys.argv[1])
+while not publisher.get_subscription_count():
+    time.sleep(0.05)
+publisher.publish(wrong)
+time.sleep(0.5)
+"""
+
+
+@pytest.mark.parametrize("end", ["2.0", "nan", signal.SIGHUP])
+def test_a_message_of_nonsense_is_no_message_and_a_lost_terminal_stops_the_robot(prefix, end):
+    with Three(prefix, DOMAIN + 1, "-p", "watchdog:=5.0") as robot:
+        robot.ask(robot.goals, ["set", parameters(CASES[0])])
+        robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
+        wish = {"start": list(CASE.start), "width": 0.5, "longest": 3.0}
+        assert robot.ask(robot.lawn, wish)["state"] == "drive"
+        robot.tell(robot.lawn, {"listen": 8.0})
+        if isinstance(end, str):
+            with robot.begin("-c", WRONG, end) as other:
+                other.wait(20.0)
+        else:
+            robot.node.send_signal(end)
+        heard = robot.answer(robot.lawn)
+        assert heard
+        assert set(map(tuple, heard)) == {(0.0, 0.0)}
+        assert (robot.node.poll() is None) == isinstance(end, str)
 
 
 def test_silence_stops_the_robot_and_so_does_the_end_of_the_node(prefix):

@@ -70,7 +70,7 @@ class ParkNode(Node):
             goal = wmr.Pose(pose.position.x, pose.position.y, yaw(pose.orientation))
             sensors = Sensors(given)
             drive = drive_of(given, goal if frame else goal_of(given), self.drive_kind)
-        except ValueError as refusal:
+        except (ValueError, IndexError, TypeError) as refusal:  # lists of parameters too
             self.get_logger().error(str(refusal))
             return GoalResponse.REJECT
         self.drive, self.sensors = drive, sensors
@@ -130,8 +130,13 @@ class ParkNode(Node):
         if frames != (given["odom_frame"], given["base_frame"]):
             self.get_logger().error(f"odometry from {frames} is ignored", once=True)
             return
+        try:
+            seen = self.sensors.seen(odom, self.drive.goal)
+        except (ValueError, ArithmeticError, IndexError) as nonsense:
+            self.get_logger().error(f"not used: {nonsense}", throttle_duration_sec=1.0)
+            return  # and if no better one comes, that is silence
         self.dog.reset()
-        self.step(self.sensors.seen(odom, self.drive.goal), odom.header.stamp)
+        self.step(seen, odom.header.stamp)
 
     def on_silence(self) -> None:
         """No odometry: a period of no length makes the drive wait."""
@@ -163,15 +168,17 @@ class ParkNode(Node):
 def main(kind: type[ParkNode] = ParkNode) -> None:
     """Run the node until it is told to end; the last thing that it says is a stop."""
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)  # else it could say nothing more
-    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    for end in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
+        signal.signal(end, signal.default_int_handler)
     node, executor = kind(), SingleThreadedExecutor()
     executor.add_node(node)
     try:
         while rclpy.ok():
             executor.spin_once(timeout_sec=0.1)  # between two of these Python sees a signal
     except KeyboardInterrupt:
+        pass
+    finally:  # an error too ends with a stop
         node.tell(0.0, 0.0, node.get_clock().now().to_msg())
-    finally:
         node.destroy_node()
         rclpy.shutdown()
 
