@@ -52,6 +52,8 @@ void setup() {
   pinMode(STOP_PIN, INPUT_PULLUP), pinMode(POWER_PIN, OUTPUT);
   left.begin(left_changed), right.begin(right_changed);
   Serial.begin(38400);
+  while (PERIOD < 0.019f || PERIOD > 0.201f) // the watchdog's, and a counter's, bounds
+    wdt_disable(), Serial.println(F("PERIOD: 0.02 to 0.2 s")), delay(1000);
   compass.iron_x = 0, compass.iron_y = 0; // of the bench test
   compass.declination = 0.087f;           // of your place and year
   compass.begin();
@@ -137,7 +139,8 @@ void bench() {
                              compass.x, compass.y, (int32_t)(heading * RAD_TO_DEG),
                              ublox.pvt.quality};
   say(numbers, 8);
-  periods = 0, ++phase;
+  periods = 0;
+  if (phase < 12) ++phase; // then it stands, however long
   told = {phase == 2 ? -0.2f : 0, phase < 3 ? 0.2f : 0, WMR_OK};
   if (phase < 3 || phase > 10) return;
   const int8_t *at = POSES[phase - 3];
