@@ -149,3 +149,35 @@ def test_random_numbers_are_the_same_each_time_and_spread_as_asked():
     assert np.allclose(table.mean(axis=0).tolist(), [0.5, 5.5], atol=0.05)
     assert set(page.random.default_rng(1).integers(0, 3, 200).tolist()) == {0, 1, 2}
     assert sorted(page.random.default_rng(1).permutation(5).tolist()) == list(range(5))
+
+
+@given(st.lists(st.integers(-9, 9), min_size=2, max_size=5), NUMBERS, st.sampled_from("+-*/"))
+def test_what_is_written_is_numpys_or_is_refused(whole, number, sign):
+    """What would be cut off is refused, and what numpy refuses in place too."""
+    for begin in (whole, list(map(float, whole))):
+        ours, theirs = page.array(begin), np.array(begin)
+        alias = ours
+        code = f"a[0] = {number!r}", f"a[-1:] = {number!r}", f"a {sign}= {number!r}", "a *= 2"
+        for line in code if number else code[-1:]:
+            try:
+                exec(line, {"a": theirs})
+                cut = theirs.dtype.kind == "i" and "=" in line and "*= 2" not in line
+            except TypeError:
+                cut = True
+            if cut:
+                with pytest.raises(TypeError):
+                    exec(line, {"a": ours})
+                break
+            exec(line, {"a": ours})
+            assert ours.tolist() == pytest.approx(theirs.tolist(), abs=1e-9)
+        assert alias is ours
+
+
+def test_a_part_of_an_array_says_that_it_is_a_copy():
+    table = page.array([[1.0, 2.0], [3.0, 4.0]])
+    for line in ("t[0][0] = 5.0", "r = t[:, 1]; r += 1.0", "for r in t: r[0] = 0.0"):
+        with pytest.raises(TypeError, match="part of another"):
+            exec(line, {"t": table})
+    exec("r = t[:, 1].copy(); r += 1.0; s = t[0] + 0; s[0] = 9.0; t[0, 1] = 7", {"t": table})
+    assert table.tolist() == [[1.0, 7.0], [3.0, 4.0]]
+    assert type(table.tolist()[0][1]) is float

@@ -37,7 +37,7 @@ LIMITS = {  # of one request: bytes, and seconds for its head and for its body
     "body_timeout": 5.0,
 }
 DEVICES = 1000  # that a question counts
-BURST, RATE = 60.0, 5.0  # of one address: new devices or votes at once, and again each second
+BURST, RATE = 300.0, 5.0  # of one address: new devices or votes at once, and again each second
 
 
 class Poll:
@@ -247,6 +247,12 @@ if __name__ == "__main__":
     parser.add_argument("--address", type=ip_address, default=own_address(), help="to listen on")
     parser.add_argument("--port", type=int, default=8040)
     given = parser.parse_args()
+    if given.address.version == 6 or given.address.is_unspecified:
+        parser.error(
+            f"--address = {given.address} is not allowed: the IPv4 address of this machine"
+        )
+    if given.address.is_loopback:
+        print("Only this machine can reach 127.0.0.1: telephones need --address", flush=True)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # also where a shell had it ignored
     with suppress(KeyboardInterrupt):
         asyncio.run(serve(given.deck, str(given.address), given.port))

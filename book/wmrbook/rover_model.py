@@ -38,7 +38,7 @@ class Rover(NamedTuple):
     dry : float, N m, friction in each motor, whose dead band is WHEEL_RADIUS dry/servo
     servo, torque : float, N m s and N m; a motor's torque is servo times what its wheel lacks in
         rad/s, and no larger than `torque`
-    acceleration : float, m/s^2; the program tells the wheels to speed up no faster. Motors at
+    acceleration : float, m/s^2; v grows no faster, and omega is obeyed at once. Motors at
         their limit can't steer, and a mass behind the axle then turns the rover round.
     wheel : float, kg, of each driven wheel
     timestep : float, s, of MuJoCo

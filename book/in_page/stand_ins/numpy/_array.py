@@ -86,8 +86,23 @@ def _operator(function, swapped=False):
     return method
 
 
+def _in_place(function):
+    apply = _operator(function)
+
+    def method(self, other):
+        found = apply(self, other)
+        if found.shape != self.shape:
+            raise ValueError(f"an array of shape {self.shape} can't become one of {found.shape}")
+        self._write(range(self.size), found.flat)
+        return self
+
+    return method
+
+
 class ndarray:  # noqa: N801
     __array_priority__ = 1000  # sympy's numbers leave the formula to the array
+    part = False  # of another one, which numpy changes with it
+    kind = None  # of its numbers, once it is written to
 
     def __init__(self, flat, shape):
         self.flat, self.shape, self.ndim, self.size = flat, shape, len(shape), len(flat)
@@ -135,12 +150,27 @@ class ndarray:  # noqa: N801
 
     def __getitem__(self, key):
         chosen, shape = self._chosen(key)
-        return made([self.flat[place] for place in chosen], shape)
+        found = made([self.flat[place] for place in chosen], shape)
+        if isinstance(found, ndarray):
+            found.part = not isinstance(key, ndarray | list)
+        return found
 
     def __setitem__(self, key, value):
         chosen, shape = self._chosen(key)
-        for place, entry in zip(chosen, spread(asarray(value), shape), strict=True):
-            self.flat[place] = entry
+        self._write(chosen, spread(asarray(value), shape))
+
+    def _write(self, chosen, entries):
+        """Store entries; refuse where numpy would cut them off or change another array too."""
+        if self.part:
+            text = "this is a part of another array, which numpy would change too, and a page "
+            text += "would not: write a[:2] = a[:2] + 1 to that array, or begin with .copy()"
+            raise TypeError(text)
+        self.kind = self.kind or self.dtype.kind
+        for place, entry in zip(chosen, entries, strict=True):
+            if self.kind in "ib" and isinstance(entry, float):
+                text = f"an array of whole numbers can't keep {entry:g}: numpy cuts it off. "
+                raise TypeError(text + "Begin with floats, as in np.array([0.0, 0.0])")
+            self.flat[place] = float(entry) if self.kind == "f" and type(entry) is int else entry
 
     def _chosen(self, key):
         """The places in `flat` of what an index names, and the shape of it."""
@@ -227,6 +257,8 @@ for _name in ("add", "sub", "mul", "truediv", "floordiv", "mod", "pow", "and", "
     _function = getattr(operator, _name + "_" * (_name in ("and", "or")))
     setattr(ndarray, f"__{_name}__", _operator(_function))
     setattr(ndarray, f"__r{_name}__", _operator(_function, swapped=True))
+for _name in ("add", "sub", "mul", "truediv", "floordiv", "mod", "pow"):
+    setattr(ndarray, f"__i{_name}__", _in_place(getattr(operator, _name)))
 for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
     setattr(ndarray, f"__{_name}__", _operator(getattr(operator, _name)))
 for _name, _function in {

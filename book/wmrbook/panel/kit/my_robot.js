@@ -83,7 +83,7 @@ function render({ model, el }) {
   const results = made(root, 'div', { className: 'my-results' }),
       showTold = table(results, 'What it is told'),
       showExpected = table(results, 'Where it will park'),
-      canvas = made(results, 'canvas', {}, { role: 'img' });
+      canvas = made(results, 'canvas', {}, { role: 'img', 'aria-label': 'not yet driven' });
   const sentence = made(root, 'p', {}, { role: 'status' }),
       bar = made(root, 'div', { className: 'wmr-bar' });
   let colours = readColours(root), turn = 0, ends = [], sheet = null, waiting = 0;
