@@ -74,6 +74,7 @@ CROWD = 300  # shapes in one graph; more are stored as pixels, which take less r
 SVG_URL = "data:image/svg+xml,"
 FRAMES, PARTS = 120, 10_000  # of a drive that is played; places in so many parts of the picture
 _UNUSED = re.compile(r'<!--.*?--> |(?<=<g) id="[^"]*"')
+_CROWDED = re.compile(r'<g( clip-path="[^"]*")>((?: <use [^>]*?style="([^"]*)"/>){100,}) </g>')
 _HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
 _POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
 _DEGREES = re.compile(r"(?<=\d) deg\b|(?<=\[)deg(?=\])")
@@ -141,7 +142,7 @@ class Picture:
         with mpl.rc_context({"svg.hashsalt": "wmrbook", "svg.fonttype": "path"}):
             self.figure.savefig(buffer, format="svg", dpi=144, facecolor="none", metadata=nothing)
         text = " ".join(buffer.getvalue().split())
-        text = _UNUSED.sub("", text[text.index("<svg") :])
+        text = _CROWDED.sub(_styled_once, _UNUSED.sub("", text[text.index("<svg") :]))
         text, names = _POINTS.sub(lambda path: _NUMBER.sub(_rounded, path[0]), text), {}
         return _HASHED.sub(lambda it: names.setdefault(it[0], f"{it[0][0]}{len(names)}"), text)
 
@@ -212,6 +213,13 @@ def darkened(svg: str) -> str:
     """Return an SVG text of a Picture in the colours of dark paper."""
     text = re.sub(r"#[0-9a-f]{6}", lambda colour: DARK.get(colour[0], colour[0]), svg)
     return text.replace("<svg", f"<svg fill='{DARK['#000000']}'", 1)  # black is not written
+
+
+def _styled_once(group: re.Match) -> str:
+    """A crowd of marks with the style of the last, if all have it, written once."""
+    clip, marks, style = group.groups()
+    bare = marks.replace(f' style="{style}"', "")
+    return group[0] if "style=" in bare else f'<g{clip} style="{style}">{bare} </g>'
 
 
 def _rounded(number: re.Match) -> str:
