@@ -20,7 +20,6 @@ from rclpy.node import Node
 from rclpy.qos import qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
-from rclpy.task import Future
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from wmr_interfaces.action import Park
 
@@ -40,7 +39,6 @@ class ParkNode(Node):
         self.drive: wmr.Drive | None = None
         self.sensors: Sensors | None = None
         self.wish: Any = None
-        self.ended = Future()
         self.stamped = self.get_parameter("stamped").value
         twist = TwistStamped if self.stamped else Twist
         self.command = self.create_publisher(twist, "cmd_vel", 1)
@@ -77,9 +75,8 @@ class ParkNode(Node):
         return GoalResponse.ACCEPT
 
     def on_accepted(self, wish: Any) -> None:
-        """Drive from the next odometry on."""
-        self.wish, self.ended = wish, Future()
-        wish.execute()
+        """Drive from the next odometry on. It executes as it ends: so no thread has to wait."""
+        self.wish = wish
 
     def on_cancel(self, wish: Any) -> CancelResponse:
         """Yes, whatever the reason; it ends once the goal is marked as cancelled."""
@@ -89,12 +86,11 @@ class ParkNode(Node):
     def end(self) -> None:
         """The drive has parked or stopped, or is cancelled."""
         if self.wish:
-            self.wish = None
-            self.ended.set_result(None)
+            wish, self.wish = self.wish, None
+            wish.execute()
 
-    async def park(self, wish: Any) -> Park.Result:
-        """The action's last word, once the drive has ended; no thread waits for it."""
-        await self.ended
+    def park(self, wish: Any) -> Park.Result:
+        """The action's last word."""
         state, reason = self.drive.state, self.drive.reason
         self.drive = self.sensors = None
         if wish.is_cancel_requested:
