@@ -8,7 +8,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -73,8 +72,7 @@ class Three:
             self.arguments += ["-p", quality]
         self.folder = tempfile.TemporaryDirectory()
         self.record = Path(self.folder.name, "record")
-        own = 60 + os.getpid() % 40  # that no other run on this machine hears it
-        self.environment = interfaces.environment(prefix, domain or own)
+        self.environment = interfaces.environment(prefix, domain)
         self.environment["WMR_RECORD"] = str(self.record)
 
     def __enter__(self) -> Three:
