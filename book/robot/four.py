@@ -80,13 +80,13 @@ def c_on_avr() -> list:
     return [START[:2], *([float(x), float(y)] for x, y in found)]
 
 
-def ros_2(build: Path) -> list:
+def ros_2(build: Path, domain: int) -> list:
     """By the node in book/robot/ros2, with a lawn that keeps step."""
     sys.path.insert(0, str(Path(__file__).parent / "ros2"))
     import interfaces
     import three
 
-    with three.Three(interfaces.build(build), 39) as processes:
+    with three.Three(interfaces.build(build), domain) as processes:
         return three.exact(processes, START, GOAL, GAINS, WHEELS, RULES, LONGEST)
 
 
@@ -104,11 +104,14 @@ def apart(a: np.ndarray, b: np.ndarray) -> float:
     return float(np.max(np.hypot(*(a - b).T)))
 
 
-def compared(build: Path) -> dict:
-    """Each program's periods and end, why it differs, and how far each pair is apart, in m."""
+def compared(build: Path, domain: int = 39) -> dict:
+    """Each program's periods and end, why it differs, and how far each pair is apart, in m.
+
+    Over ROS 2 two that compare at once need a domain each, or they hear each other.
+    """
     programs = {"Python": python, "JavaScript": javascript, "C on AVR": c_on_avr}
     if find_spec("rclpy"):
-        programs["ROS 2"] = lambda: ros_2(build)
+        programs["ROS 2"] = lambda: ros_2(build, domain)
     ran, left_out = {}, {} if "ROS 2" in programs else {"ROS 2": "no rclpy"}
     for name, program in programs.items():
         try:

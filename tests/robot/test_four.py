@@ -17,7 +17,8 @@ MOST = {"JavaScript": 1e-10, "C on AVR": 1e-3, "ROS 2": 1e-7}  # m, from Python'
 
 @pytest.fixture(scope="module")
 def found(tmp_path_factory):
-    return four.compared(Path(SHARED) if SHARED else tmp_path_factory.mktemp("interfaces"))
+    build = Path(SHARED) if SHARED else tmp_path_factory.mktemp("interfaces")
+    return four.compared(build, 30 + int(os.environ.get("PYTEST_XDIST_WORKER", "gw0")[2:]))
 
 
 def test_all_that_can_run_here_drive_alike(found):
@@ -51,7 +52,7 @@ def test_places_are_compared_from_the_first_move_and_to_the_last_end():
 
 
 def test_the_command_prints_each_pair_and_writes_the_table(found, tmp_path, monkeypatch, capsys):
-    monkeypatch.setattr(four, "compared", lambda build: found)
+    monkeypatch.setattr(four, "compared", lambda *_: found)
     monkeypatch.setattr(sys, "argv", ["four.py", f"--json={tmp_path / 'four.json'}"])
     four.main()
     printed = capsys.readouterr().out.splitlines()
