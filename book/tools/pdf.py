@@ -44,7 +44,7 @@ SHOW = """(html) => {
     document.querySelector('article').replaceChildren(place);
     return widgets.showAll(place);
 }"""
-DRAWN = """async () => {
+DRAWN = """() => {
     const panels = [...document.querySelectorAll('script[type$="widget-view+json"]')];
     const canvases = [...document.querySelectorAll('article canvas')];
     return canvases.length && canvases.every(it => it.width) && panels.every(

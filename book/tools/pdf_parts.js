@@ -50,8 +50,8 @@ window.parts = (() => {
   async function states() {
     const found = [];
     for (const panel of all('.jupyter-widgets')) {
+      while (panel.querySelector('.my-robot[data-done=false]')) await settled();
       const gate = panel.querySelector('.live-gate'), state = { given: shots(panel) };
-      while (panel.querySelector('.my-results canvas:not([aria-label])')) await settled();
       if (gate) {
         state.question = wordsOn(gate.querySelector('.live-question'));
         state.options = all('.live-options label > span', gate).map(wordsOn);

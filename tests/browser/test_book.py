@@ -64,9 +64,6 @@ def printed(book) -> Printed:
 
 
 @pytest.mark.needs("browser")
-@pytest.mark.xfail(
-    strict=False, reason="one page has hardly a word since the figures have other sizes"
-)
 def test_the_printed_book_is_a_book(site, printed):
     title, back, contents = *printed.pages[:2], letters(printed.text("Contents"))
     assert conf.project in title
