@@ -8,6 +8,7 @@ from __future__ import annotations
 import json
 import math
 import sys
+import time
 from typing import Any
 
 import drive_faults
@@ -99,8 +100,14 @@ class Lawn:
             set_yaw(message.pose.pose.orientation, self.place.heading)
         self.publishers[name].publish(message)
 
-    def ask(self, seen: wmr.Seen, clock: float, fixed: float, turned: float) -> None:
-        """Publish a period, the odometry last, which ends it, and wait for the command."""
+    def ask(
+        self, seen: wmr.Seen, clock: float, fixed: float, turned: float, pause: float = 0.0
+    ) -> None:
+        """Publish a period, the odometry last, which ends it, and wait for the command.
+
+        Topics do not wait for one another: without a pause [s] before it the odometry may overtake
+        a fix, which then counts in the next period.
+        """
         ahead, around = 0.5 * (seen.left + seen.right), (seen.right - seen.left) / self.width
         odometry.carry(self.place, ahead, around)
         heard, imu = self.heard, Imu()
@@ -114,6 +121,7 @@ class Lawn:
         gyro = {"angular_velocity": imu.angular_velocity, "orientation_covariance": none}
         self.say("imu", clock, **gyro)
         self.say("battery", clock, voltage=seen.battery)
+        time.sleep(pause)
         self.say("odom", clock)
         for _ in range(round(PATIENT / 0.01)):
             self.executor.spin_once(timeout_sec=0.01)
@@ -151,7 +159,7 @@ class Lawn:
         self.begin(width)
         while not self.over() and robot.now < longest:
             seen = robot.see(faults)
-            self.ask(seen, robot.now, robot.now, seen.right - seen.left)
+            self.ask(seen, robot.now, robot.now, seen.right - seen.left, pause=0.01)
             robot.roll(tuple(self.told), faults)
             poses.append(robot.pose)
         return {"poses": poses, "state": self.state}
