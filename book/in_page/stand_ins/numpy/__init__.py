@@ -107,6 +107,11 @@ def _var(flat, ddof=0):
     )
 
 
+def _most(choose):
+    """The first entry that is not a number, as in numpy, else what is chosen."""
+    return lambda flat: next((it for it in flat if it != it), None) or choose(flat)
+
+
 def _norm(flat):
     return math.hypot(*map(abs, flat))
 
@@ -114,10 +119,10 @@ def _norm(flat):
 sum, max, min, all, any, prod, mean, var, std, argmax, argmin = map(
     _reduced,
     (
-        *(sum, max, min, all, any, math.prod, _mean, _var),
+        *(sum, _most(max), _most(min), all, any, math.prod, _mean, _var),
         lambda flat, ddof=0: math.sqrt(_var(flat, ddof)),
-        lambda flat: flat.index(builtins.max(flat)),
-        lambda flat: flat.index(builtins.min(flat)),
+        lambda flat: flat.index(_most(builtins.max)(flat)),
+        lambda flat: flat.index(_most(builtins.min)(flat)),
     ),
 )
 

@@ -14,7 +14,16 @@ class NotInThisPage(AttributeError):  # noqa: N818
 
 
 def missing(name):
-    ours = {"elementwise", "made", "missing", "safe", "errstate", "vectorize", "broadcast_shapes"}
+    ours = {
+        "elementwise",
+        "keys",
+        "made",
+        "missing",
+        "safe",
+        "errstate",
+        "vectorize",
+        "broadcast_shapes",
+    }
     there = sorted(
         it
         for it, value in vars(numpy).items()
@@ -45,7 +54,8 @@ def made(entries, shape):
 def spread(array, shape):
     own = (1,) * (len(shape) - array.ndim) + array.shape
     strides = [0 if size == 1 else step for size, step in zip(own, steps(own), strict=True)]
-    return [array.flat[place] for place in places(map(range, shape), strides)]
+    flat = array.flat
+    return [flat[place] for place in places(map(range, shape), strides)]
 
 
 def steps(shape):
@@ -58,6 +68,10 @@ def places(axes, strides):
         chosen = list(axis)
         found = [place + step * at for place in found for at in chosen]
     return found
+
+
+def keys(key):
+    return key if isinstance(key, tuple) else (key,)
 
 
 def safe(function):
@@ -101,11 +115,20 @@ def _in_place(function):
 
 class ndarray:  # noqa: N801
     __array_priority__ = 1000  # sympy's numbers leave the formula to the array
-    part = False  # of another one, which numpy changes with it
     kind = None  # of its numbers, once it is written to
 
-    def __init__(self, flat, shape):
-        self.flat, self.shape, self.ndim, self.size = flat, shape, len(shape), len(flat)
+    def __init__(self, flat, shape, base=None, seats=()):
+        self.base, self._seats = base, seats  # a part of another array has its numbers there
+        self._own, self.shape, self.ndim, self.size = flat, shape, len(shape), math.prod(shape)
+
+    @property
+    def flat(self):
+        return self._own if self.base is None else [self.base._own[seat] for seat in self._seats]
+
+    def _part(self, chosen, shape):
+        if self.base is None:
+            return ndarray(None, shape, self, chosen)
+        return ndarray(None, shape, self.base, [self._seats[place] for place in chosen])
 
     @property
     def dtype(self):
@@ -114,9 +137,8 @@ class ndarray:  # noqa: N801
         return SimpleNamespace(kind=mixed[0] if kinds <= {*"cfi"} or len(kinds) == 1 else "O")
 
     T = property(
-        lambda self: ndarray(
-            [self.flat[it] for it in places(map(range, self.shape[::-1]), steps(self.shape)[::-1])],
-            self.shape[::-1],
+        lambda self: self._part(
+            places(map(range, self.shape[::-1]), steps(self.shape)[::-1]), self.shape[::-1]
         )
     )
     real = property(lambda self: made([entry.real for entry in self.flat], self.shape))
@@ -131,7 +153,10 @@ class ndarray:  # noqa: N801
     def reshape(self, *shape):
         shape = shape[0] if isinstance(shape[0], tuple) else shape
         rest = self.size // abs(math.prod(shape)) if -1 in shape else 0
-        return ndarray(list(self.flat), tuple(rest if size == -1 else size for size in shape))
+        shape = tuple(rest if size == -1 else size for size in shape)
+        if math.prod(shape) != self.size:
+            raise ValueError(f"cannot reshape array of size {self.size} into shape {shape}")
+        return self._part(range(self.size), shape)
 
     def item(self):
         (only,) = self.flat
@@ -150,27 +175,25 @@ class ndarray:  # noqa: N801
 
     def __getitem__(self, key):
         chosen, shape = self._chosen(key)
-        found = made([self.flat[place] for place in chosen], shape)
-        if isinstance(found, ndarray):
-            found.part = not isinstance(key, ndarray | list)
-        return found
+        if shape and not any(isinstance(it, ndarray | list) for it in keys(key)):
+            return self._part(chosen, shape)
+        flat = self.flat
+        return made([flat[place] for place in chosen], shape)
 
     def __setitem__(self, key, value):
         chosen, shape = self._chosen(key)
         self._write(chosen, spread(asarray(value), shape))
 
     def _write(self, chosen, entries):
-        """Store entries; refuse where numpy would cut them off or change another array too."""
-        if self.part:
-            text = "this is a part of another array, which numpy would change too, and a page "
-            text += "would not: write a[:2] = a[:2] + 1 to that array, or begin with .copy()"
-            raise TypeError(text)
+        """Store entries; refuse what numpy would cut off."""
+        if self.base is not None:
+            return self.base._write([self._seats[place] for place in chosen], entries)
         self.kind = self.kind or self.dtype.kind
         for place, entry in zip(chosen, entries, strict=True):
             if self.kind in "ib" and isinstance(entry, float):
                 text = f"an array of whole numbers can't keep {entry:g}: numpy cuts it off. "
                 raise TypeError(text + "Begin with floats, as in np.array([0.0, 0.0])")
-            self.flat[place] = float(entry) if self.kind == "f" and type(entry) is int else entry
+            self._own[place] = float(entry) if self.kind == "f" and type(entry) is int else entry
 
     def _chosen(self, key):
         """The places in `flat` of what an index names, and the shape of it."""
@@ -179,11 +202,10 @@ class ndarray:  # noqa: N801
             chosen = [place for place, true in enumerate(mask.flat) if true]
             return chosen, (len(chosen),)
         axes, shape, sizes = [], [], iter(self.shape)
-        keys = key if isinstance(key, tuple) else (key,)
-        left = self.ndim - len([it for it in keys if it is not None])
-        if left < 0 or sum(isinstance(it, ndarray | list) for it in keys) > 1:
+        left = self.ndim - len([it for it in keys(key) if it is not None])
+        if left < 0 or sum(isinstance(it, ndarray | list) for it in keys(key)) > 1:
             raise IndexError(f"this index is too much, in a page, for {self.ndim} dimensions")
-        for at in (*keys, *[slice(None)] * left):
+        for at in (*keys(key), *[slice(None)] * left):
             if at is None:
                 shape.append(1)
                 continue

@@ -91,4 +91,8 @@ def cumsum(value):
 
 
 def sort(value):
-    return asarray(sorted(asarray(value).flat))
+    """Sort along the last axis, what is not a number at the end."""
+    value = asarray(value)
+    if value.ndim > 1:
+        return asarray([sort(row) for row in value])
+    return asarray(sorted(value.flat, key=lambda it: (it != it, it)))
