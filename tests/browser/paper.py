@@ -46,9 +46,9 @@ class Printed:
     def text(self, title: str) -> str:
         return " ".join(self.pages[page - 1] for page in self.of(title))
 
-    def lines(self, title: str) -> list[str]:
-        """The lines below the heads of what begins with this title."""
-        pages = (self.book[page - 1].get_textpage() for page in self.of(title))
+    def lines(self, numbers: range) -> list[str]:
+        """The lines of these pages between their heads and feet: a sentence runs on there."""
+        pages = (self.book[number - 1].get_textpage() for number in numbers)
         boxes = (page.get_text_bounded(top=HEAD, bottom=FOOT) for page in pages)
         return [line.strip() for box in boxes for line in box.splitlines()]
 

@@ -95,7 +95,7 @@ def test_the_printed_book_is_a_book(site, printed):
 def test_what_the_printed_book_lists_stands_where_it_says(printed):
     listed = re.findall(r"\b(\d+\.\d+) \D.*? (\d+)(?= \d+\.\d+ \D)", printed.text("Figures"))
     line = re.compile(r"(?:\d+ ?(?=\D))?(.+?) ?(\d+)")
-    entries = [line.fullmatch(it) for it in printed.lines("Contents")]
+    entries = [line.fullmatch(it) for it in printed.lines(printed.of("Contents"))]
     entries = [it for it in entries if it]
     assert len(entries) > 5 * len(chapters())
     for entry, page in (it.groups() for it in entries):
@@ -118,10 +118,9 @@ def test_what_the_printed_book_lists_stands_where_it_says(printed):
 
 @pytest.mark.needs("browser")
 def test_paper_has_states_and_no_controls_and_answers_at_the_back(printed):
-    title = "Answers to the predictions"
+    at_the_back = printed.of("Answers to the predictions")
     back, before = (
-        printed.text(title),
-        " ".join(printed.pages[: printed.begins[letters(title)] - 1]),
+        " ".join(printed.lines(it)) for it in (at_the_back, range(1, at_the_back.start))
     )
     asks = [ask for name in NAMES if (ask := getattr(live, name)().setup["ask"])]
     for ask in asks:
