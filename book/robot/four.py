@@ -3,8 +3,8 @@
     python book/robot/four.py [--build FOLDER] [--json FILE]
 
 needs node, avr-gcc and simavr (see boards.py), and for ROS 2 what `pip install '.[robot]'` brings;
-a program whose tools are missing is left out, and said to be. Positions are compared period by
-period from the first in which a program moves, since JavaScript has no fixes to wait for.
+a program whose tools are missing is left out, and said to be. Poses are compared period by period
+from the first in which a program moves, since JavaScript has no fixes to wait for.
 """
 
 from __future__ import annotations
@@ -35,7 +35,7 @@ GOAL = wmr.Pose(*map(float, wmr.local_position(*ENDS)), -math.pi / 3)
 KIT = Path(__file__).parent.parent / "wmrbook" / "panel" / "kit" / "simulate.js"
 JAVASCRIPT = """import {{ simulate }} from {kit};
 const run = simulate({options});
-console.log(JSON.stringify(Array.from(run.x, (x, k) => [x, run.y[k]])));
+console.log(JSON.stringify(Array.from(run.x, (x, k) => [x, run.y[k], run.heading[k]])));
 """
 DIFFERS = {
     "Python": "64 bits; it waits for three fixes",
@@ -47,13 +47,13 @@ DIFFERS = {
 
 def python() -> list:
     """By `wmr.Drive`, with exact sensors."""
-    drive, pose, rolled, places = wmr.Drive(GOAL, GAINS, WHEELS, rules=RULES), START, (0.0, 0.0), []
-    while drive.state != "parked" and len(places) < LONGEST / PERIOD:
-        places.append(pose[:2])
+    drive, pose, rolled, poses = wmr.Drive(GOAL, GAINS, WHEELS, rules=RULES), START, (0.0, 0.0), []
+    while drive.state != "parked" and len(poses) < LONGEST / PERIOD:
+        poses.append(pose)
         told = drive.step(wmr.Seen(PERIOD, *rolled, fresh=1, error=0.02, **pose._asdict()))
         rolled = PERIOD * told[0], PERIOD * told[1]
         pose = wmr.advance(pose, *wmr.wheels_to_twist(*told, WHEELS.track_width), PERIOD)
-    return [*places, pose[:2]]
+    return [*poses, pose]
 
 
 def javascript() -> list:
@@ -71,13 +71,15 @@ def javascript() -> list:
 
 
 def c_on_avr() -> list:
-    """By example.c on a simulated ATmega328P, which prints each place."""
+    """By example.c on a simulated ATmega328P, which prints each pose."""
     text, place = boards.timed(), "    if (memory.reason != reason)"
     assert text.count(place) == 1
-    line = '    printf("at %.6f %.6f\\n", (double)robot.x, (double)robot.y);\n'
+    line = '    printf("at %.6f %.6f ", (double)robot.x, (double)robot.y);\n'
+    line += '    printf("%.6f\\n", (double)robot.heading);\n'
     said, *_ = boards.on_avr(text.replace(place, line + place))
-    found = re.findall(r"at (-?\d+\.\d+) (-?\d+\.\d+)", said)
-    return [START[:2], *([float(x), float(y)] for x, y in found)]
+    number = r"(-?\d+\.\d+)"
+    found = re.findall(rf"at {number} {number} {number}", said)
+    return [START, *(list(map(float, pose)) for pose in found)]
 
 
 def ros_2(build: Path, domain: int) -> list:
@@ -90,22 +92,23 @@ def ros_2(build: Path, domain: int) -> list:
         return three.exact(processes, START, GOAL, GAINS, WHEELS, RULES, LONGEST)
 
 
-def driven(places: list) -> np.ndarray:
-    """East and north in m, from the last place at which it stood before it first moved."""
-    at = np.array([place[:2] for place in places])
+def driven(poses: list) -> np.ndarray:
+    """East, north and heading in m and rad, from the last pose before it first moved."""
+    at = np.array(poses)
     moved = np.flatnonzero(np.any(at != at[0], axis=1))
     return at[moved[0] - 1 :]
 
 
-def apart(a: np.ndarray, b: np.ndarray) -> float:
-    """The largest distance in a period, m; who has parked stays."""
+def apart(a: np.ndarray, b: np.ndarray) -> tuple[float, float]:
+    """The largest distance and turn in a period, m and rad; who has parked stays."""
     count = max(len(a), len(b))
     a, b = (np.vstack([it, np.repeat(it[-1:], count - len(it), axis=0)]) for it in (a, b))
-    return float(np.max(np.hypot(*(a - b).T)))
+    x, y, turn = (a - b).T
+    return float(np.max(np.hypot(x, y))), float(np.max(np.abs(wmr.wrap_angle(turn))))
 
 
 def compared(build: Path, domain: int = 39) -> dict:
-    """Each program's periods and end, why it differs, and how far each pair is apart, in m.
+    """Each program's periods and end, why it differs, and how far pairs are apart, in m and rad.
 
     Over ROS 2 two that compare at once need a domain each, or they hear each other.
     """
@@ -122,7 +125,7 @@ def compared(build: Path, domain: int = 39) -> dict:
         name: {"periods": len(at) - 1, "end": at[-1].round(6).tolist(), "differs": DIFFERS[name]}
         for name, at in ran.items()
     }
-    pairs = [[a, b, apart(ran[a], ran[b])] for a, b in itertools.combinations(ran, 2)]
+    pairs = [[a, b, *apart(ran[a], ran[b])] for a, b in itertools.combinations(ran, 2)]
     return {"programs": rows, "apart": pairs, "left_out": left_out}
 
 
@@ -134,10 +137,11 @@ def main() -> None:
     given = parser.parse_args()
     found = compared(given.build)
     for name, row in found["programs"].items():
-        x, y = row["end"]
-        print(f"{name:10} {row['periods']:5} periods to {x:.4f}, {y:.4f}; {row['differs']}")
-    for a, b, far in found["apart"]:
-        print(f"{a:10} {b:10} {1000.0 * far:.3g} mm")
+        x, y, heading = row["end"]
+        end = f"{x:.4f}, {y:.4f}, {math.degrees(heading):.3f} deg"
+        print(f"{name:10} {row['periods']:5} periods to {end}; {row['differs']}")
+    for a, b, far, turned in found["apart"]:
+        print(f"{a:10} {b:10} {1000.0 * far:.3g} mm {math.degrees(turned):.3g} deg")
     for name, why in found["left_out"].items():
         print(f"{name:10} left out: {why}")
     if given.json:

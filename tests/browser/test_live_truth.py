@@ -190,7 +190,8 @@ def wheel_limit(values, found, data) -> None:
 
 
 def bench(values, found, data) -> None:
-    start, goal = pose(data["start"]), pose(data["goal"])
+    turned, start, goal = np.radians(values["set_off"]), pose(data["start"]), pose(data["goal"])
+    start = start._replace(heading=start.heading + turned)
     receiver = values["sigma"], values["memory"]
     faults = {"late": values["late"], "slip": values["slip"] / 100}
     path, driven = noise.seeing(start, goal, noise.receiver(*receiver), **faults)
@@ -199,7 +200,7 @@ def bench(values, found, data) -> None:
         np.testing.assert_allclose(np.cos(ours[-1]), np.cos(theirs), atol=1e-6)
     assert [each["n"] for each in found["ends"]] == driven.tolist()
     assert (found["far"], found["turned"]) == pytest.approx(
-        noise.left_over(*receiver, **faults), abs=1e-6
+        noise.left_over(*receiver, turned, **faults), abs=1e-6
     )
 
 
@@ -207,7 +208,7 @@ def late(values, found, data) -> None:
     for k, run in enumerate(found["runs"]):
         delays = [0.0, 0.0]
         delays[k] = values["delay"]
-        path, time = noise.late_drive(*delays)
+        path, time = noise.late_drive(*delays, *np.radians([values["set_off"], values["face"]]))
         assert run["time"] == (pytest.approx(time) if time < math.inf else None)
         shown = min(len(path.x), 300)  # later a robot that swings for ever magnifies rounding
         x, y, heading = np.transpose(run["poses"])

@@ -2,6 +2,7 @@
 
 import math
 import sys
+from array import array
 from pathlib import Path
 from types import SimpleNamespace as Message
 
@@ -9,7 +10,7 @@ import pytest
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "book" / "robot" / "ros2" / "wmr_park"))
 
-from wmr_park.adapter import DEFAULTS, Sensors, yaw
+from wmr_park.adapter import DEFAULTS, Sensors, typed, yaw
 
 import wmrlib as wmr
 
@@ -43,7 +44,7 @@ def sensors(seconds=0.9, **more):
     point = wmr.point_at(wmr.GeoPoint(lat=START[0], lon=START[1]), 3.0, 4.0)
     status, variance = Message(status=0), [0.04, 0, 0, 0, 0.01, 0, 0, 0, 0]
     fields = {"status": status, "position_covariance": variance, "position_covariance_type": 2}
-    found.fix = at(0.9, latitude=point.lat, longitude=point.lon, **fields)
+    found.fixes.append(at(0.9, latitude=point.lat, longitude=point.lon, **fields))
     return found
 
 
@@ -75,3 +76,36 @@ def test_a_heading_from_another_time_and_a_quaternion_that_is_none_are_no_number
 def test_outside_its_fence_a_goal_and_a_fix_are_said_to_be():
     seen = sensors(fence=[0.0, 0.0, 2.0, 9.0]).seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
     assert (seen.goal_inside, seen.inside) == (0, 0)
+
+
+def test_a_fix_from_after_the_odometry_waits_until_it_is_due():
+    found = sensors()
+    fix = found.fixes.pop()
+    fix.header.stamp = at(1.06).header.stamp
+    found.fixes.append(fix)
+    assert not found.seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL).fresh
+    due = found.seen(odometry(1.1, 5.0, 6.0, 1.0), GOAL)
+    assert (due.fresh, due.age) == (1, pytest.approx(0.04))
+    assert not found.seen(odometry(1.15, 5.0, 6.0, 1.0), GOAL).fresh
+
+
+def test_a_receiver_whose_clock_is_far_ahead_is_told_to_the_drive():
+    found = sensors()
+    fix = found.fixes.pop()
+    fix.header.stamp = at(1.06 + DEFAULTS["oldest_fix"]).header.stamp
+    found.fixes.append(fix)
+    seen = found.seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
+    assert seen.fresh
+    assert seen.age < 0.0  # which it refuses
+
+
+def test_whole_numbers_are_numbers_and_what_is_of_another_kind_is_named():
+    assert typed({"start": array("q", [33, 44]), "track_width": 1}) == {
+        "start": [33.0, 44.0],
+        "track_width": 1.0,
+    }
+    wrong = {"start": 33.0, "track_width": "0.5", "filter": 1, "law": ["corrected"], "goal": ["x"]}
+    for name, value in wrong.items():
+        with pytest.raises(ValueError, match=f"{name} = .* is not allowed"):
+            typed({name: value})
+    assert repr(typed(DEFAULTS)) == repr(DEFAULTS)

@@ -103,6 +103,7 @@ def test_with_the_filter_a_robot_parks_or_stands(robot, name):
         ({"goal": [133.0, 44.0]}, None),
         ({"gains.k_rho": -1.0}, CASE.goal),
         ({"law": "kanayama"}, CASE.goal),
+        ({"track_width": "half a metre"}, CASE.goal),
         ({}, (math.nan, 0.0, 0.0)),
     ],
 )
@@ -124,7 +125,7 @@ def test_a_second_goal_is_refused_until_the_first_is_cancelled(robot):
 def test_the_parameters_are_my_robots_and_drive_it(prefix):
     assert YAML.read_text(encoding="utf-8") == files(Robot())["my_robot.yaml"]
     told, width = sheet(Robot()), Robot().track_width
-    with Three(prefix, DOMAIN + 1, "--params-file", str(YAML), "-p", "watchdog:=60.0") as robot:
+    with Three(prefix, DOMAIN + 1, "--params-file", str(YAML), "-p", "watchdog:=60") as robot:
         wish = {"start": [0.0, 0.0, 1.3], "width": width, "longest": 200.0}
         ran = robot.run({"filter": False}, None, wish)
     assert ran["state"] == "parked"
@@ -150,7 +151,7 @@ time.sleep(0.5)
 
 @pytest.mark.parametrize("end", ["2.0", "nan", signal.SIGHUP])
 def test_a_message_of_nonsense_is_no_message_and_a_lost_terminal_stops_the_robot(prefix, end):
-    with Three(prefix, DOMAIN + 1, "-p", "watchdog:=5.0") as robot:
+    with Three(prefix, DOMAIN + 1, "-p", "watchdog:=5") as robot:
         robot.ask(robot.goals, ["set", parameters(CASES[0])])
         robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
         wish = {"start": list(CASE.start), "width": 0.5, "longest": 3.0}
@@ -168,7 +169,7 @@ def test_a_message_of_nonsense_is_no_message_and_a_lost_terminal_stops_the_robot
 
 
 def test_silence_stops_the_robot_and_so_does_the_end_of_the_node(prefix):
-    with Three(prefix, DOMAIN + 1, "-p", "watchdog:=5.0") as robot:
+    with Three(prefix, DOMAIN + 1, "-p", "watchdog:=5") as robot:
         robot.ask(robot.goals, ["set", parameters(CASES[0])])
         robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
         wish = {"start": list(CASE.start), "width": 0.5, "longest": 3.0}

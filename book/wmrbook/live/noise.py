@@ -29,6 +29,15 @@ WHITE = 0.01  # s: a memory so short that each fix errs anew
 LOST = 60.0  # s
 
 
+def _turn(pose: Pose, by: float) -> Pose:
+    return pose._replace(heading=pose.heading + by)
+
+
+def _turned(what: str) -> Knob:
+    label = f"{what.removeprefix('the ')} turned"
+    return Knob(0.0, -180.0, 180.0, 5.0, f"{what}, turned from the drive's", "°", label=label)
+
+
 @cache
 def normals() -> np.ndarray:
     """Normal random numbers for each sample, axis and robot: those of wmrlib's receivers.
@@ -101,9 +110,15 @@ def last_ten_metres() -> tuple[Pose, Pose]:
     return Pose(x - goal.x, y - goal.y, heading), Pose(0.0, 0.0, goal.heading)
 
 
-def left_over(sigma: float, memory: float, **faults: float) -> tuple[float, float]:
-    """Medians of the distance [m] and of the heading error [rad] of the robots where they stand."""
+def left_over(
+    sigma: float, memory: float, set_off: float = 0.0, **faults: float
+) -> tuple[float, float]:
+    """Medians of the distance [m] and of the heading error [rad] of the robots where they stand.
+
+    They start turned by `set_off` [rad] from the drive's heading.
+    """
     start, goal = last_ten_metres()
+    start = _turn(start, set_off)
     path, _ = seeing(start, goal, receiver(sigma, memory), **faults)
     far, turned = np.hypot(path.x[-1], path.y[-1]), wrap_angle(path.heading[-1] - goal.heading)
     return float(np.median(far)), float(np.median(np.abs(turned)))
@@ -131,6 +146,7 @@ def bench() -> Live:
             ),
             "late": Knob(0.0, 0.0, 1.0, 0.1, "how late the position comes", "s", label="late by"),
             "slip": Knob(0.0, 0.0, 20.0, 1.0, "what the right wheel loses", "%", label="slip"),
+            "set_off": _turned("the start"),
             "time": Knob(1.0, 0.0, 1.0, 0.02, "how far they have driven", label="drive", plays=8),
         },
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS)
@@ -157,9 +173,14 @@ def bench() -> Live:
     )
 
 
-def late_drive(position: float, heading: float) -> tuple[Pose, float]:
-    """The outdoor drive with both readings late [s]: its poses, and its time, infinite if lost."""
-    start, goal, *_ = paper.outdoor()
+def late_drive(
+    position: float, heading: float, set_off: float = 0.0, face: float = 0.0
+) -> tuple[Pose, float]:
+    """The outdoor drive with both readings late [s]: its poses, and its time, infinite if lost.
+
+    Its start is turned by `set_off` and its goal by `face` [rad].
+    """
+    start, goal = map(_turn, paper.outdoor()[:2], (set_off, face))
     late = Receiver(delay=position, heading_delay=heading)
     how = {"method": "arc", "dt": DT, "duration": LOST, "arrival_radius": RADIUS}
     end, path = sweep(start, goal, GENTLE_GAINS, receiver=late, trajectories=True, **how)
@@ -184,6 +205,8 @@ def late() -> Live:
         "other sees its heading that late and {heading}.",
         {
             "delay": Knob(delay, 0.0, 1.5, 0.1, "how late it is", "s", label="late by"),
+            "set_off": _turned("the start"),
+            "face": _turned("the goal"),
             "time": Knob(1.0, 0.0, 1.0, 0.005, "how far through the race", label="race", plays=12),
         },
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS, lost=LOST),

@@ -6,6 +6,7 @@ from collections.abc import Iterable
 from importlib import import_module
 from typing import Any, NamedTuple
 
+from wmrbook.live.scenes import SCENES
 from wmrbook.panel.kit import Panel
 from wmrlib._checks import choice, refusal, scalar
 from wmrlib.kinematics import Pose
@@ -99,6 +100,8 @@ class Live(Panel):
     ask : Ask or None
     asks : Asks or None
 
+    `scenes.SCENES` has the ideas of a scene that grows.
+
     `thing["k_alpha"]` is where a knob stands, and can be set.
 
     Raises
@@ -117,6 +120,9 @@ class Live(Panel):
         asks: Asks | None = None,
     ):
         self._knobs = knobs
+        steps = [step._asdict() for step in SCENES.get(name, ())]
+        for step in steps:
+            step["to"] = {it: self._knobs[it].allowed(it, to) for it, to in step["to"].items()}
         listed = []
         for knob_name, knob in knobs.items():
             row: dict[str, Any] = {"name": knob_name, **knob._asdict()}
@@ -128,6 +134,7 @@ class Live(Panel):
             "knobs": listed,
             "data": data or {},
             "ask": ask and {"name": name, **ask._asdict()},
+            "steps": steps,
         }
         state = {each: knob.allowed(each, knob.value) for each, knob in knobs.items()}
         if asks:

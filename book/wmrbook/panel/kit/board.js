@@ -32,13 +32,14 @@ export function paneOf(canvas, colours, spec) {
   const ink = (role) => colours[role] || role,
       view = { box, zoom, scale: across, toScreen: at,
       toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
-  const cut = (draw) => inside(ctx, box, draw), names = [];
+  const cut = (draw) => inside(ctx, box, draw), names = [], trail = [];
   let robot = null;
   /** @type {Pane} */
   const pane = {
-    ctx, box, view, at, ink, range: [x0, x1, y0, y1], pixel: 1 / across,
+    ctx, box, view, at, ink, trail, range: [x0, x1, y0, y1], pixel: 1 / across,
     line(points, role = 'path', { width: w = 2.5, dash = [] } = {}) {
       cut(() => line(ctx, points.map(([x, y]) => at(x, y)), ink(role), w, dash));
+      if (role === 'path' && !dash.length && points.length > 8) trail.push(points); // a ghost later
     },
     // Columns of a run, from sample `from` to before `to`.
     path(xs, ys, role = 'path', { width: w = 2.5, dash = [], from = 0, to = xs.length } = {}) {

@@ -9,8 +9,13 @@ import { inWords, putKnobs } from './knobs.js';
 import { keepKeys } from './controls.js';
 import { measure } from './surface.js';
 import { paneOf } from './board.js';
+import { putSteps } from './steps.js';
 import { showHandles } from './grips.js';
 import { widget } from './widget.js';
+
+const CALM = '(prefers-reduced-motion: reduce)';
+const REST = 700; // ms between two moves of a knob after which the next is a new run
+const GHOSTS = 2, FAINT = { width: 2, dash: [2, 6] };
 
 // An explorable is, in a file of its own,
 //   panes(values, found, setup, hidden): the panes by name, see board.js, with `alt`, what it shows
@@ -29,7 +34,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       root = made(el, 'div', { className: 'wmr live' });
   keepKeys(root);
   root.innerHTML =
-      '<div class="live-ask"></div><p class="live-sentence"></p><div ' +
+      '<div class="live-ask"></div><div class="live-idea"></div><p class="live-sentence"></p><div ' +
       'class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
     + '<div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
         'class="wmr-aside" role="status" aria-live="polite"></div>';
@@ -39,12 +44,21 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       ? Object.assign({}, model.get('state'), ...(setup.ask.asked || [])) : model.get('state'));
   const home = Object.fromEntries(setup.knobs.map(({ name, value }) => [name, value]));
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
+  let ghosts = {}, changed = -REST; // paths of the runs before, by pane; when a knob last moved
   const panes = {};
+  const keep = (changes) => {
+    const now = performance.now(), rested = now - changed > REST;
+    if (!Object.keys(changes).some((each) => each !== 'time' && each in home)) return;
+    changed = now;
+    for (const [name, { trail }] of Object.entries(rested ? panes : {}))
+      if (trail.length) ghosts[name] = [trail, ...(ghosts[name] || [])].slice(0, GHOSTS);
+  };
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
   // a hand stops what plays; a kernel hears where it ends
   const set = (changes, playing = false) => {
     refused = '';
     if (!playing) knobs.stop();
+    if (changes) keep(changes);
     if (changes) model.set('state', { ...values(), ...changes });
     if (changes && !playing) model.save_changes();
     schedule();
@@ -79,13 +93,19 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   const gate = setup.ask
       ? buildGate(find('.live-ask'), setup.ask,
       { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
-      way: () => found.run, reveal, close: () => set({ ...home }) })
+      way: () => found.run, reveal, close: () => { set({ ...home }); ghosts = {}; } })
       : null;
+  if (setup.steps.length && !still) putSteps(find('.live-idea'), setup.steps, (k) => {
+    setup.step = k;
+    knobs.stop();
+    if (document.hidden || matchMedia(CALM).matches) set({ ...setup.steps[k].to });
+    else knobs.glide([setup.steps[k].to], () => set({}));
+  });
 
   // The picture goes from what was given to what was asked, place by place, and then it plays.
   function reveal(moving) {
     const asked = setup.ask.asked || [];
-    if (!moving || matchMedia('(prefers-reduced-motion: reduce)').matches) {
+    if (!moving || matchMedia(CALM).matches) {
       set(Object.assign({}, ...asked));
       return;
     }
@@ -131,7 +151,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     // words after pictures: a font on a canvas waits for the styles of all that has changed
     find('.live-trouble').textContent = hidden && found ? '' : trouble;
     knobs.show(now);
-    for (const part of ['.live-sentence', '.live-rows', '.live-asks']) find(part).hidden = hidden;
+    for (const part of ['.live-idea', '.live-sentence', '.live-rows', '.live-asks'])
+      find(part).hidden = hidden;
     if (!found) return;
     const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
     for (const name of Object.keys(specs))
@@ -147,7 +168,9 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       if (!canvases[name]) build(name, spec);
       canvases[name].setAttribute('aria-label', hidden ? spec.given || 'what is given' : spec.alt);
       canvases[name].style.cursor = spec.scrub && !hidden ? 'crosshair' : '';
-      panes[name] = paneOf(canvases[name], colours, spec);
+      const pane = panes[name] = paneOf(canvases[name], colours, spec);
+      if ((spec.equal || spec.lawn) && spec.ghosts !== false && !hidden)
+        (ghosts[name] || []).flat().forEach((path) => pane.line(path, 'ghost', FAINT));
     }
     explorable.draw(panes, now, found, hidden, setup);
     Object.values(panes).forEach((pane) => pane.name());

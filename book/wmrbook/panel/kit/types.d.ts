@@ -51,12 +51,14 @@ type Axis = [number, number, string?, ((value: number) => string)?];
 type Spec = {
   x: Axis; y: Axis; alt: string; given?: string; equal?: boolean; bare?: boolean; tall?: boolean;
   lawn?: boolean | number;
+  ghosts?: boolean;
   scrub?(x: number, y: number, moved: Point | null, values: Values, found: any): Values | null;
 };
 type Looks = { width?: number; dash?: number[] };
 /** What a drawing draws on, in the world's units; a role is a colour's, see board.js. */
 type Pane = {
   ctx: CanvasRenderingContext2D; box: Box; view: View; range: number[]; pixel: number;
+  trail: Point[][];
   at(x: number, y: number): Point;
   ink(role: string): string;
   line(points: Point[], role?: string, looks?: Looks): void;
@@ -79,7 +81,10 @@ type Handle = {
   id: string; pane: string; at: Point; says: string;
   move(...placeAndKey: any[]): Values;
 };
-type Setup = { sentence: string; knobs: Values[]; data: any; ask: Values | null };
+type Setup = {
+  sentence: string; knobs: Values[]; data: any; ask: Values | null;
+  steps: { says: string, to: Values }[]; step?: number;
+};
 
 /** A live figure, see live.js. */
 type Drawing = {

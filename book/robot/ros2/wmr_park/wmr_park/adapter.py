@@ -20,6 +20,7 @@ from wmrlib.sensing import antenna
 QUALITY = {0: 1, 1: 2, 2: 4}  # of a NavSatStatus, as NMEA says it
 PATIENT = 5  # fixes that the filter refuses before it doubts itself
 HEADINGS = 256  # the last ones, of which the nearest to a fix is taken
+WAITING = 16  # fixes whose stamps are after the odometry's, at most
 OWN = {"oldest": "oldest_fix"}  # what "My robot" calls a field of the rules
 
 DEFAULTS: dict[str, Any] = {
@@ -43,6 +44,28 @@ DEFAULTS: dict[str, Any] = {
     **{f"last_turn.{name}": value for name, value in wmr.LastTurn()._asdict().items()},
 }
 """Every parameter of the node with its default, in m, s, rad and, for points, degrees."""
+
+
+def typed(given: Mapping[str, Any]) -> dict[str, Any]:
+    """The parameters, 1 for 1.0 too; ValueError that names the one of another kind."""
+    found = {}
+    for name, value in given.items():
+        try:
+            found[name] = _like(DEFAULTS[name], value)
+        except TypeError:
+            text = f"{name} = {value!r} is not allowed: like {DEFAULTS[name]!r} is needed"
+            raise ValueError(text) from None
+    return found
+
+
+def _like(usual: Any, value: Any) -> Any:
+    if isinstance(usual, list):
+        return [_like(usual[0], it) for it in value]
+    if type(usual) is float and type(value) is int:
+        return float(value)
+    if type(value) is not type(usual):
+        raise TypeError
+    return value
 
 
 def place(start: wmr.GeoPoint, lat: float, lon: float) -> tuple[float, float]:
@@ -99,7 +122,8 @@ class Sensors:
     def __init__(self, given: Mapping[str, Any]) -> None:
         self.given, self.start = given, point(given["start"])
         self.noise = estimation.Noise(track_width=given["track_width"])
-        self.fix = self.odom = self.fixed = self.gyro = self.said = None
+        self.odom = self.fixed = self.gyro = self.said = None
+        self.fixes: deque = deque(maxlen=WAITING)
         self.headings: deque = deque(maxlen=HEADINGS)
         self.battery, self.refused = math.inf, 0
         self.estimate: estimation.Estimate | None = None
@@ -130,8 +154,17 @@ class Sensors:
         told = told._replace(goal_inside=self.inside(goal.x, goal.y))
         if self.estimate and 0.0 < past <= self.given["longest_period"]:
             self._carry(ahead / past, turn / past, past)
-        fix, self.fix = self.fix, None
+        fix = self._due()
         return self._with_fix(told, fix) if fix else told
+
+    def _due(self) -> Any:
+        """The newest fix that is not after the odometry, or that is so by more than a delay."""
+        soon = lambda fix: -self.given["oldest_fix"] <= elapsed(self.odom, fix) < 0.0  # noqa: E731
+        ripe, self.fixes = (
+            [fix for fix in self.fixes if not soon(fix)],
+            deque(filter(soon, self.fixes), WAITING),
+        )
+        return ripe[-1] if ripe else None
 
     def _carry(self, v: float, omega: float, past: float) -> None:
         if math.isfinite(v + omega):

@@ -13,6 +13,7 @@ from typing import Any
 import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
+from rcl_interfaces.msg import ParameterDescriptor
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
@@ -24,7 +25,7 @@ from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from wmr_interfaces.action import Park
 
 import wmrlib as wmr
-from wmr_park.adapter import DEFAULTS, Sensors, drive_of, goal_of, yaw
+from wmr_park.adapter import DEFAULTS, Sensors, drive_of, goal_of, typed, yaw
 
 
 class ParkNode(Node):
@@ -34,12 +35,13 @@ class ParkNode(Node):
 
     def __init__(self) -> None:
         super().__init__("wmr_park")
-        for name, value in DEFAULTS.items():
-            self.declare_parameter(name, value)
+        for name, value in DEFAULTS.items():  # `typed` takes 1 for 1.0, which ROS does not
+            self.declare_parameter(name, value, ParameterDescriptor(dynamic_typing=True))
+        given = self.given()
         self.drive: wmr.Drive | None = None
         self.sensors: Sensors | None = None
         self.wish: Any = None
-        self.stamped = self.get_parameter("stamped").value
+        self.stamped = given["stamped"]
         twist = TwistStamped if self.stamped else Twist
         self.command = self.create_publisher(twist, "cmd_vel", 1)
         heard = {"imu": (Imu, self.on_imu), "fix": (NavSatFix, self.on_fix)}
@@ -49,17 +51,19 @@ class ParkNode(Node):
             options = {"qos_overriding_options": more}
             self.create_subscription(message, topic, take, qos_profile_sensor_data, **options)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.dog = self.create_timer(
-            self.get_parameter("watchdog").value, self.on_silence, clock=steady
-        )
+        self.dog = self.create_timer(given["watchdog"], self.on_silence, clock=steady)
         answers = {"goal_callback": self.on_goal, "cancel_callback": self.on_cancel}
         answers["handle_accepted_callback"] = self.on_accepted
         self.server = ActionServer(self, Park, "park", self.park, **answers)
 
+    def given(self) -> dict[str, Any]:
+        """The parameters of now; ValueError names one of another kind."""
+        return typed({name: self.get_parameter(name).value for name in DEFAULTS})
+
     def on_goal(self, request: Park.Goal) -> GoalResponse:
         """Accept a goal in the map frame, or without a frame the parameters'; one at a time."""
-        given = {name: self.get_parameter(name).value for name in DEFAULTS}
         try:
+            given = self.given()
             if self.drive:
                 raise ValueError("goal is not allowed: the robot is on its way to another")
             frame, pose = request.goal.header.frame_id, request.goal.pose
@@ -108,7 +112,7 @@ class ParkNode(Node):
     def on_fix(self, fix: NavSatFix) -> None:
         """Keep it until the period ends."""
         if self.sensors:
-            self.sensors.fix = fix
+            self.sensors.fixes.append(fix)
 
     def on_battery(self, battery: BatteryState) -> None:
         """Keep its voltage."""

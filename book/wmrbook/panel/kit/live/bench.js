@@ -1,7 +1,7 @@
 // Robots that see through receivers, with an error that has a memory, other for each, and late, and
 // whose right wheel slips: how they drive up, and where they park.
 
-import { DEGREES, written } from '../style.js';
+import { DEGREES, inDegrees, written } from '../style.js';
 import { heldRun, remembered, timeAlong } from '../runs.js';
 import { live } from '../live.js';
 import { normals } from '../random.js';
@@ -34,18 +34,20 @@ const cloud = remembered(({ robots, track, seed, sigma, memory, late, slip, ...d
 });
 
 export default live('bench', {
-  find({ sigma, memory, late, slip, time }, { data }) {
-    const ways = cloud({ ...data, sigma, memory, late, slip: slip / 100 }),
+  find({ sigma, memory, late, slip, set_off, time }, { data }) {
+    const [x, y, heading] = data.start, start = [x, y, heading + set_off / DEGREES],
+        ways = cloud({ ...data, start, sigma, memory, late, slip: slip / 100 }),
         ends = ways.map((poses) => ({ pose: poses.at(-1), n: poses.length - 1 })),
         off = ends.map(({ pose }) => wrap(pose[2] - data.goal[2])),
         k = Math.round(time * Math.max(...ends.map(({ n }) => n)));
     const middle = (values) => median([...values].sort((a, b) => a - b));
-    return { ways, ends, off, k, far: middle(ends.map(({ pose }) => Math.hypot(pose[0], pose[1]))),
+    return { ways, ends, off, k, start,
+        far: middle(ends.map(({ pose }) => Math.hypot(pose[0], pose[1]))),
         turned: middle(off.map(Math.abs)), parked: ends.filter(({ n }) => n <= k).length,
         driving: ends.filter(({ n }) => n === data.steps).length };
   },
   panes: (values, { ways, ends, far, turned, parked }) => ({
-    place: { x: [-9, 3], y: [-8.5, 4.5], lawn: true,
+    place: { x: [-9, 3], y: [-8.5, 4.5], lawn: true, ghosts: false,
         given: 'The goal, and the robots where they start, 10 m from it.',
         alt: `${parked} of ${ends.length} robots have parked about the goal; in the end half of ` +
         `them are within ${written(far, 'm')}.`,
@@ -55,8 +57,8 @@ export default live('bench', {
         alt: `How the heading errors of ${parked} parked robots are spread: in the end half of ` +
         `them are within ${(turned * DEGREES).toFixed(0)} degrees.` },
   }),
-  draw({ place, heading }, values, { ways, ends, off, k }, hidden,
-      { data: { start, goal, radius } }) {
+  draw({ place, heading }, values, found, hidden, { data: { start, goal, radius } }) {
+    const { ways, ends, off, k } = found;
     place.line(Array.from({ length: 49 },
         (_, i) => [radius * Math.cos(Math.PI * i / 24), radius * Math.sin(Math.PI * i / 24)]),
     'goal', { width: 1.5, dash: [4, 4] });
@@ -64,6 +66,7 @@ export default live('bench', {
     const size = { size: Math.max(LENGTH / place.pixel / ICON, 0.45) };
     heading.line([[0, 0], [0, 33]], 'goal', { width: 1.5, dash: [4, 4] });
     if (hidden) { place.robot(start, 1, size); return; }
+    place.pose(found.start, 'start');
     ways.forEach((poses) => place.line(poses.slice(Math.max(k - 15, 0), k + 1), 'path',
         { width: 1 }));
     ways.forEach((poses) => place.robot(poses[Math.min(k, poses.length - 1)],
@@ -77,6 +80,12 @@ export default live('bench', {
       if (count) heading.bar((i + 0.5) * WIDE - 180, 0, count, 'path', 13);
     });
   },
+  handles: (values, { start: [x, y, heading] }, { data }) => [{
+    id: 'set_off', pane: 'place', at: [x + 1.6 * Math.cos(heading), y + 1.6 * Math.sin(heading)],
+    says: `the heading with which they start, ${inDegrees(heading)}`,
+    move: (toX, toY) => ({ set_off: 5 * Math.round(wrap(Math.atan2(toY - y, toX - x)
+        - data.start[2]) * DEGREES / 5) }),
+  }],
   say: (values, { far, turned, driving }) =>
       ({ far: written(far, 'm'), turned: `${(turned * DEGREES).toFixed(0)}°`,
       driving: driving ? `; ${driving} still drive after 40 s` : '' }),

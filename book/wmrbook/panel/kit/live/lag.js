@@ -46,6 +46,14 @@ export default live('lag', {
     distance.path(run.t, run.rho, 'rho');
     distance.dot(run.t[k], run.rho[k], 'rho');
   },
+  handles: ({ v_max }, { predicted }, { data: { speed } }) => [{
+    id: 'predicted', pane: 'distance', at: [34, predicted],
+    says: `the distance that stays, ${written(predicted, 'm')}`,
+    move(x, y) { // the k_rho with which (6.2) says this distance
+      const k_rho = -Math.log(1 - speed / v_max) / Math.max(y, 0.01);
+      return { k_rho: Math.round(10 * Math.min(Math.max(k_rho, 1), 8)) / 10 };
+    },
+  }],
   say: (values, { residual, predicted }) =>
       ({ residual: written(residual, 'm'), predicted: written(predicted, 'm') }),
 });

@@ -1,13 +1,16 @@
 // Two robots race: one sees its position late, the other its heading. Pale, where each believes it
 // is.
 
-import { DEGREES, written } from '../style.js';
+import { DEGREES, inDegrees, written } from '../style.js';
 import { heldRun, remembered, timeAlong } from '../runs.js';
 import { live } from '../live.js';
 import { wrap } from '../model.js';
 
 const RACERS = [{ name: 'position', role: 'path' }, { name: 'heading', role: 'alpha' }];
+const tip = ([x, y, heading]) => [x + 8 * Math.cos(heading), y + 8 * Math.sin(heading)];
 const NEAR = 4.5; // m round a robot
+
+const turned = (pose, degrees) => [pose[0], pose[1], pose[2] + degrees / DEGREES];
 
 const race = remembered(({ delay, lost, ...drive }) => RACERS.map(({ name }) => {
   const { dt } = drive, back = Math.round(delay / dt), past = [], seen = [];
@@ -21,16 +24,17 @@ const race = remembered(({ delay, lost, ...drive }) => RACERS.map(({ name }) => 
 }));
 
 export default live('late', {
-  find({ delay, time }, { data }) {
-    const runs = race({ delay, ...data }), longest = Math.max(...runs.map((it) => it.poses.length));
+  find({ delay, time, set_off, face }, { data }) {
+    const start = turned(data.start, set_off), goal = turned(data.goal, face),
+        runs = race({ delay, ...data, start, goal }), longest = Math.max(...runs.map((it) => it.poses.length));
     const k = Math.round(time * (longest - 1));
     return { runs: runs.map((run) => {
       const now = Math.min(k, run.poses.length - 1);
       return { ...run, now, pose: run.poses[now], old: run.seen[now] || run.poses[now],
-        off: wrap(run.poses.at(-1)[2] - data.goal[2]) };
-    }), t: k * data.dt };
+        off: wrap(run.poses.at(-1)[2] - goal[2]) };
+    }), t: k * data.dt, start, goal };
   },
-  panes(values, { runs, t }, { data: { start } }, hidden) {
+  panes(values, { runs, t, start }, setup, hidden) {
     const near = ({ pose }, k) => {
       const [east, north] = (hidden ? start : pose).map((it) => [it - NEAR, it + NEAR]);
       return { x: east, y: north, lawn: 4, given: 'The robot at the start, from near.',
@@ -47,7 +51,7 @@ export default live('late', {
       position, heading,
     };
   },
-  draw({ whole, ...near }, values, { runs }, hidden, { data: { start, goal } }) {
+  draw({ whole, ...near }, values, { runs, start, goal }, hidden) {
     whole.pose(start, 'start');
     whole.pose(goal, 'goal');
     RACERS.forEach(({ name, role }, k) => {
@@ -66,6 +70,12 @@ export default live('late', {
     RACERS.forEach(({ name, role }) => near[name].text(`${name} late`,
         ...near[name].view.toWorld(10, 16), { role, weight: 600 }));
   },
+  handles: (values, { start, goal }, { data }) =>
+      [['set_off', start, data.start, "start's"], ['face', goal, data.goal, "goal's"]].map(
+      ([id, pose, usual, whose]) => ({ id, pane: 'whole', at: tip(pose),
+        says: `the ${whose} heading, ${inDegrees(pose[2])}`,
+        move: (x, y) => ({ [id]: Math.round(wrap(Math.atan2(y - pose[1], x - pose[0]) - usual[2])
+            * DEGREES / 5) * 5 }) })),
   say: (values, { runs }) => Object.fromEntries(runs.map(({ time, off }, k) => [RACERS[k].name,
     Number.isFinite(time)
       ? `stops after ${written(time, 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off`

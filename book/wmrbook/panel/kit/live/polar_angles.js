@@ -30,17 +30,22 @@ export default live('polar_angles', {
         `sight, is ${inDegrees(alpha)}; theta, from the goal's heading to it, is ` +
         `${inDegrees(theta)}.`,
   } }),
-  draw({ plane }, values, { robot, goal, alpha, theta, sight }, hidden, { data }) {
+  draw({ plane }, values, { robot, goal, alpha, theta, sight }, hidden, { data, step = 9 }) {
     const [from, to] = hidden ? [data.start, data.goal] : [robot, goal];
     plane.line([from, to], 'rho', { dash: [4, 4] });
     plane.text('ρ', 0.6 * from[0] + 0.4 * to[0], 0.6 * from[1] + 0.4 * to[1],
         { role: 'rho', dy: 16, dx: -12, size: 17 });
     plane.pose(to, 'goal');
     if (hidden) { plane.dot(from[0], from[1], 'path'); return; }
-    plane.line([robot, clear(robot, LONG)], 'alpha', { width: 1.5, dash: [6, 4] });
-    plane.line([goal, clear([goal[0], goal[1], sight], LONG)], 'rho', { dash: [4, 4], width: 1.5 });
-    plane.angle(robot[0], robot[1], robot[2], alpha, 'α', 'alpha', 40);
-    plane.angle(goal[0], goal[1], goal[2], theta, 'θ', 'theta', 46);
+    if (step > 0) {
+      plane.line([robot, clear(robot, LONG)], 'alpha', { width: 1.5, dash: [6, 4] });
+      plane.angle(robot[0], robot[1], robot[2], alpha, 'α', 'alpha', 40);
+    }
+    if (step > 1) {
+      plane.line([goal, clear([goal[0], goal[1], sight], LONG)], 'rho',
+          { dash: [4, 4], width: 1.5 });
+      plane.angle(goal[0], goal[1], goal[2], theta, 'θ', 'theta', 46);
+    }
     plane.robot(robot);
   },
   handles: (values, { robot, goal }) => [

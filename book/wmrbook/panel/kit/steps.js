@@ -1,0 +1,25 @@
+// A scene that grows idea by idea: to each belong a sentence and the places of some knobs.
+
+import { made } from './hands.js';
+import { putWords } from './symbols.js';
+
+/**
+ * Buttons with numbers, and the sentence of the one that was taken.
+ * @param {HTMLElement} root @param {{ says: string, to: Values }[]} steps
+ * @param {(k: number) => void} take
+ */
+export function putSteps(root, steps, take) {
+  const row = made(root, 'div', { className: 'live-steps' },
+      { role: 'group', 'aria-label': 'idea by idea' });
+  const buttons = steps.map((step, k) => made(row, 'button',
+      { type: 'button', textContent: String(k + 1), onclick: () => go(k) },
+      { 'aria-label': `idea ${k + 1} of ${steps.length}` }));
+  const says = made(row, 'span', { textContent: `One scene, ${steps.length} ideas.` },
+      { role: 'status' });
+  function go(k) {
+    buttons.forEach((each, i) => (i === k ? each.setAttribute('aria-current', 'step')
+        : each.removeAttribute('aria-current')));
+    putWords(says, steps[k].says);
+    take(k);
+  }
+}

@@ -1,0 +1,221 @@
+"""One scene in each chapter grows: its sentences are true, its runs stay, its handles move it."""
+
+from __future__ import annotations
+
+import itertools
+import json
+
+import numpy as np
+import pytest
+
+pytest.importorskip("anywidget", reason="what moves needs anywidget")
+from host import mounted
+from live import as_shown, chapters
+from test_live import NAMES
+from test_live_truth import FOUND
+
+import wmrlib as wmr
+from wmrbook import live
+from wmrbook.live.scenes import SCENES
+
+
+def degrees(found, name):
+    return [abs(np.degrees(each[name])) for each in found]
+
+
+def rises(values) -> bool:
+    return all(a < b for a, b in itertools.pairwise(values))
+
+
+def last_metres(found):
+    off, time = degrees(found, "off"), [each["run"]["t"][-1] for each in found]
+    return off[0] > 20.0, rises(off[::-1]), off[-1] < 3.0, rises(time)
+
+
+def flat_map(found):
+    near, far, north, level = (np.hypot(*np.subtract(*each["maps"])) for each in found)
+    return near < 1e-3, far / near == pytest.approx(1e4, rel=0.01), north > far, level < 1e-3 * far
+
+
+def turning_centre(found):
+    straight, arc, about, spot = found
+    yield straight["omega"] == 0.0
+    yield arc["centre"] > arc["wheels"][0][1]
+    yield about["centre"] == pytest.approx(about["wheels"][0][1])
+    yield spot["v"] == 0.0
+
+
+def polar_angles(found):
+    *_, before, robot, goal = ([each[name] for name in ("rho", "alpha", "theta")] for each in found)
+    yield (np.not_equal(robot, before) == [False, True, False]).all()
+    yield (np.not_equal(goal, robot) == [False, False, True]).all()
+
+
+def bowl(found):
+    for each in found:
+        alpha, theta = np.array(each["run"]["alpha"]), np.array(each["run"]["theta"])
+        V = alpha**2 + each["h"] * theta**2
+        yield (np.diff(V) < 1e-9).all()
+        steepest = np.arctan2(each["h"] * theta[0], alpha[0])
+        went = np.arctan2(theta[0] - theta[5], alpha[0] - alpha[5])
+        yield abs(steepest - went) > np.radians(20.0)
+
+
+def heading_left(found):
+    near, swings, far, gentle = degrees(found, "left")
+    yield swings < near < far
+    yield np.prod([each["left"] for each in found[::2]]) < 0.0  # it has swung in between
+    yield gentle < near
+    run = found[3]["run"]
+    left = np.abs(wmr.wrap_angle(np.subtract(run["theta"], run["alpha"])))
+    yield (np.diff(left[np.array(run["rho"]) > 0.01]) < 0.0).all()
+
+
+def lag(found):
+    first, steep, fast = (each["residual"] for each in found)
+    return first > 0.05, steep == pytest.approx(first / 2, rel=0.02), 0.4 < fast / first < 0.5
+
+
+def window(found):
+    swings, lags, inside = found
+    yield not swings["inside"]
+    yield not lags["inside"]
+    yield inside["inside"]
+    yield swings["late"][1] > 20.0
+    yield inside["late"][1] < 1.0 < lags["late"][1]
+    yield abs(swings["poles"][0][1]) > 0.0  # it swings, where the other only lags
+    yield lags["poles"][0][1] == 0.0
+
+
+def wheel_limit(found):
+    free, wide, other, scaled = (each["strays"] for each in found)
+    yield max(free, scaled) < other < wide
+    yield found[3]["run"]["t"][-1] > found[0]["run"]["t"][-1]
+    yield np.max(found[1]["run"]["x"]) > 2.0 * np.max(found[1]["free"]["x"])
+
+
+def bench(found):
+    (new, anywhere), (lasts, right), (slips, askew), (_, wrong) = (
+        (each["far"], np.degrees(each["turned"])) for each in found
+    )
+    yield new < lasts
+    yield right < anywhere / 2
+    yield slips == pytest.approx(lasts, rel=0.1)
+    yield askew > 1.5 * right
+    yield wrong > 90.0
+
+
+def rising(found):
+    up, down, again = (each["rate"] for each in found)
+    return up > 0.0, down < 0.0, again > 0.0
+
+
+def compass(found):
+    none, magnets, steel, both = (np.array(each["errors"]) for each in found)
+    yield np.abs(none).max() < 1e-9
+    for errors, waves in (magnets, 1), (steel, 2):
+        yield np.argmax(np.abs(np.fft.rfft(errors[:-1]))) == waves
+    yield np.ptp(both) > 10.0
+
+
+def corners(found):
+    passed, stopped, sharp, hardly = (
+        (each["run"]["t"][-1], each["run"]["peakOmega"]) for each in found
+    )
+    return stopped[0] > passed[0], sharp[1] > passed[1], hardly[1] < 0.1
+
+
+def race(found):
+    backs = [{run["law"]: run["back"] for run in each["runs"]} for each in found]
+    yield backs[0]["corrected"] > 0.1
+    yield backs[1]["aicardi"] > 0.1
+    yield backs[2]["graceful"] == 0.0
+    yield max(backs[3].values()) == 0.0
+
+
+def leaning_compass(found):
+    level, slope, north, flat = (each["worst"] for each in found)
+    return level < 1e-9, slope == pytest.approx(7.0, abs=1.0), north > slope, flat < 0.2
+
+
+def test_each_chapter_has_a_scene_that_grows():
+    for chapter in chapters():
+        text = chapter.read_text(encoding="utf-8")
+        assert any(f"live.{name}(" in text for name in SCENES), chapter
+    assert set(SCENES) <= set(NAMES)
+
+
+@pytest.mark.parametrize("name", SCENES)
+def test_what_each_idea_says_is_so(emptied_page, name):
+    thing, steps = getattr(live, name)(), SCENES[name]
+    panel = mounted(emptied_page, thing)
+    assert not emptied_page.locator(".live-steps:visible").count() or not thing.setup["ask"]
+    panel.set(guess="skipped")
+    found, pictures = [], [panel.picture()]
+    for k, step in enumerate(steps):
+        button = emptied_page.locator(".live-steps button").nth(k)
+        button.click()
+        panel.settled()
+        assert button.get_attribute("aria-current") == "step"
+        assert emptied_page.locator(".live-steps [aria-current]").count() == 1
+        assert emptied_page.locator(".live-steps span").inner_text() == as_shown(step.says)
+        assert {it: panel.get(it) for it in step.to} == step.to
+        assert not emptied_page.locator(".live-trouble:visible").count()
+        found.append(json.loads(emptied_page.evaluate(FOUND)))
+        pictures.append(panel.picture())
+    assert all(a != b for a, b in itertools.pairwise(pictures[1:]))
+    claims = list(globals()[name](found))
+    assert claims
+    assert all(claims), claims
+
+
+def test_with_motion_a_scene_goes_to_its_idea(emptied_page):
+    panel = mounted(emptied_page, live.last_metres())
+    panel.set(guess="skipped")
+    emptied_page.emulate_media(reduced_motion="no-preference")
+    seen = set()
+    emptied_page.locator(".live-steps button").nth(2).click()
+    while emptied_page.locator("[data-moving]").count():
+        seen.add(round(panel.get("share"), 2))
+    assert len(seen) > 3
+    emptied_page.get_by_role("button", name="Stop: how far on its way").click()
+    assert panel.get("share") == 1.0
+
+
+def test_the_last_runs_stay_until_one_tries_again(emptied_page):
+    panel, where = mounted(emptied_page, live.last_metres()), {"guess": "skipped", "share": 1.0}
+    alone = panel.set(**where).picture()
+    for k in (0, 2):
+        emptied_page.wait_for_timeout(800)  # a knob that moves again at once is the same run
+        emptied_page.locator(".live-steps button").nth(k).click()
+        panel.settled()
+    assert panel.get("share") == 1.0
+    assert panel.picture() != alone
+    emptied_page.get_by_role("button", name="Try again").click()
+    assert panel.set(**where).picture() == alone
+
+
+@pytest.mark.parametrize(
+    ("name", "handle", "knob", "by"),
+    [
+        ("late", "set_off", "set_off", (40, 0)),
+        ("late", "face", "face", (40, 0)),
+        ("bench", "set_off", "set_off", (40, 0)),
+        ("lag", "predicted", "k_rho", (0, -30)),
+    ],
+)
+def test_what_can_be_held_moves_the_scene(emptied_page, name, handle, knob, by):
+    panel = mounted(emptied_page, getattr(live, name)())
+    panel.set(guess="skipped")
+    before, picture = panel.get(knob), panel.picture()
+    panel.drag(emptied_page.locator(f"[data-handle={handle}]"), *by)
+    assert panel.get(knob) != before
+    assert panel.settled().picture() != picture
+    if name == "lag":  # a longer distance is a gentler pull
+        assert panel.get(knob) < before
+        found = json.loads(emptied_page.evaluate(FOUND))
+        gains = wmr.paper.CIRCLE_GAINS._replace(k_rho=panel.get(knob), v_max=panel.get("v_max"))
+        speed = wmr.control_law(found["predicted"], 0.0, 0.0, gains)[0]
+        assert speed == pytest.approx(wmr.paper.CIRCLE_SPEED)
+    emptied_page.locator(f"[data-handle={handle}]").press("ArrowUp")
+    assert not emptied_page.locator(".live-trouble:visible").count()
