@@ -47,8 +47,10 @@ SHOW = """(html) => {
 DRAWN = """() => {
     const panels = [...document.querySelectorAll('script[type$="widget-view+json"]')];
     const canvases = [...document.querySelectorAll('article canvas')];
+    const figures = [...document.querySelectorAll('article .live')];
     return canvases.length && canvases.every(it => it.width) && panels.every(
-        it => it.parentElement.querySelector('.jupyter-widgets'));
+        it => it.parentElement.querySelector('.jupyter-widgets')
+    ) && figures.every(it => it.dataset.open === 'true');
 }"""
 # Pictures stand for the panels, so none may live: before the page looks for their states.
 DEAD = """addEventListener('DOMContentLoaded', () => document
