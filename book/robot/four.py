@@ -79,7 +79,8 @@ def c_on_avr() -> list:
     said, *_ = boards.on_avr(text.replace(place, line + place))
     number = r"(-?\d+\.\d+)"
     found = re.findall(rf"at {number} {number} {number}", said)
-    return [START, *(list(map(float, pose)) for pose in found)]
+    start = [round(it, 6) for it in START]  # as it prints the others: it has not moved
+    return [start, *(list(map(float, pose)) for pose in found)]
 
 
 def ros_2(build: Path, domain: int) -> list:

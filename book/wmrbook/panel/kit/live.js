@@ -98,8 +98,10 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   if (setup.steps.length && !still) putSteps(find('.live-idea'), setup.steps, (k) => {
     setup.step = k;
     knobs.stop();
-    if (document.hidden || matchMedia(CALM).matches) set({ ...setup.steps[k].to });
-    else knobs.glide([setup.steps[k].to], () => set({}));
+    // what it says is said of the other knobs where they were at first
+    const { time: _, ...to } = { ...home, ...setup.steps[k].to };
+    if (document.hidden || matchMedia(CALM).matches) set(to);
+    else knobs.glide([to], () => set({}));
   });
 
   // The picture goes from what was given to what was asked, place by place, and then it plays.
