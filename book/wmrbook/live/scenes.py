@@ -9,7 +9,7 @@ class Step(NamedTuple):
     """An idea of a scene that grows: its sentence, and the knobs that do not stand as at first."""
 
     says: str
-    to: dict[str, float | str] = {}
+    to: dict[str, float | str] = {}  # noqa: RUF012
 
 
 SCENES = {

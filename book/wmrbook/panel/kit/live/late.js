@@ -34,7 +34,8 @@ export default live('late', {
         off: wrap(run.poses.at(-1)[2] - goal[2]) };
     }), t: k * data.dt, start, goal };
   },
-  panes(values, { runs, t, start }, setup, hidden) {
+  panes(values, { runs, t, ...ends }, { data }, hidden) {
+    const { start } = hidden ? data : ends;
     const near = ({ pose }, k) => {
       const [east, north] = (hidden ? start : pose).map((it) => [it - NEAR, it + NEAR]);
       return { x: east, y: north, lawn: 4, given: 'The robot at the start, from near.',
@@ -51,7 +52,8 @@ export default live('late', {
       position, heading,
     };
   },
-  draw({ whole, ...near }, values, { runs, start, goal }, hidden) {
+  draw({ whole, ...near }, values, { runs, ...ends }, hidden, { data }) {
+    const { start, goal } = hidden ? data : ends;
     whole.pose(start, 'start');
     whole.pose(goal, 'goal');
     RACERS.forEach(({ name, role }, k) => {
