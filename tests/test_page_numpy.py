@@ -46,7 +46,9 @@ x.argmax() x.argmin() x.ravel() np.all(x>0) np.any(x>0) np.linalg.norm(x) x.T x.
 x.tolist() x.size x.ndim x.reshape(-1) x[0] x[-1] x[1:] x[::-1] x[x>0] x[[0,-1]] x[None]
 np.append(x,3) np.repeat(x,2) np.diff(x) np.concatenate([x,x]) x.cumsum() np.allclose(x,x+1e-9)
 np.isclose(x,x+1) np.prod(x/99) x.sum(axis=0) x.mean(axis=0) x.max(axis=0) x.min(0)
-x.std(axis=0) x@x.T 2*x+x[0]
+x.std(axis=0) x@x.T 2*x+x[0] (x>0)*(x<6) (x>0)+(x<-2) x[(x>0)*(x<6)] x//0 x**(1/3) x**-1 x**0.5
+np.log10(x) np.log1p(x) np.sign(0*x/0) np.floor(x/0) np.ceil(x)/2 x**401 np.vectorize(abs)(x)
+np.power(x,-2) np.log10(x-x[0]) np.column_stack([x,x]) ~(x>0)*1
 """
 OF_HOLES = "x.max() x.min() x.argmax() x.argmin() np.sort(x) x.sum() np.max([x,x],axis=1)"
 OF_ROWS = """
@@ -116,6 +118,10 @@ def test_two_arrays_are_as_numpys(pair):
         "np.array([1])[5]",
         "np.array([[1, 2], [3]])",
         "np.array([1, 2]) @ np.array([1])",
+        "np.array([1, 2, 3]).__setitem__(slice(2), [1, 2, 3])",
+        "np.array([[1, 2], [3, 4]]).__setitem__((slice(None), 0), [1, 2, 3, 4])",
+        "np.array([1.0, 2.0]).__setitem__(slice(None), np.array([[1.0, 2.0], [3.0, 4.0]]))",
+        "(a := np.array([3.5, 1.5, 7.5])).__setitem__(a > 2, [1.5, 2.5, 3.5])",
     ],
 )
 def test_it_refuses_what_numpy_refuses(wrong):
@@ -177,7 +183,38 @@ def test_what_is_written_is_numpys_or_is_refused(whole, number, sign):
         assert alias is ours
 
 
-PARTS = "a[0] a[-1] a[:,1] a[1:] a[::2,::-1] a.T a.T[1] a.reshape(-1) a[:,1][::2] a[[1,0]] a[a>0]"
+@pytest.mark.parametrize(
+    "code",
+    [
+        "a = np.arange(3.0); a[0] = 0.5",
+        "a = np.arange(4.0); a += 0.5",
+        "a = np.floor(np.array([1.5, 2.5])); a /= 2",
+        "a = np.array([[1, 2], [3.5, 4]])[0].copy(); a[0] = 0.25",
+        "a = np.array([1.0, -1.0, 7.0]); m = (a > 0) * (a < 6); a[m] = 0",
+        "a = np.array([1.0, -1.0, 7.0]); m = a > 6; m[0] = 1; a[m] = 0",
+        "a = np.zeros(4); a.shape = (2, 2); a[0] = [1, 2]",
+    ],
+)
+def test_what_a_student_writes_comes_to_the_same(code):
+    ours, theirs = {"np": page}, {"np": np}
+    exec(code, ours)
+    exec(code, theirs)
+    np.testing.assert_allclose(ours["a"].tolist(), theirs["a"])
+
+
+def test_a_number_that_would_be_lost_is_refused():
+    with pytest.raises(TypeError):
+        page.array([[1.0, 2.0]])[0].flat[1] = 5.0
+    for code in ("np.linalg.norm([[1.0]], 1)", "np.unwrap([[1.0]])", "np.array([1.0])[[[0]]]"):
+        with pytest.raises(AttributeError, match="not in this page"):
+            eval(code, {"np": page})
+
+
+PARTS = """
+a[0] a[-1] a[:,1] a[1:] a[::2,::-1] a.T a.T[1] a.reshape(-1) a[:,1][::2] a[[1,0]] a[a>0] a.ravel()
+a.T.ravel() a.T.reshape(-1) a[:,::2].reshape(-1) a[1:].ravel() a[:,1].reshape(3,1) a[:,1].ravel()
+np.asarray(a,dtype=float) np.asarray(a) np.array(a)
+"""
 LINES = "a[0,1]=7 p[:]=5 p+=1 a[:,0]=[5,6,7] p[0]=p[-1] a*=2 p[::2]-=3"
 
 
@@ -188,7 +225,8 @@ LINES = "a[0,1]=7 p[:]=5 p+=1 a[:,0]=[5,6,7] p[0]=p[-1] a*=2 p[::2]-=3"
 )
 def test_a_part_and_its_array_change_together_as_in_numpy(begin, part, lines):
     theirs, ours = (
-        {"a": numpy.array([list(map(float, row)) for row in begin])} for numpy in (np, page)
+        {"np": numpy, "a": numpy.array([list(map(float, row)) for row in begin])}
+        for numpy in (np, page)
     )
     for line in (f"p={part}", *lines):
         for names in theirs, ours:
@@ -196,5 +234,7 @@ def test_a_part_and_its_array_change_together_as_in_numpy(begin, part, lines):
                 exec(line, names)
             except IndexError:  # an empty part has no first number
                 assert not names["p"].size
+            except ValueError:  # or what is written does not fit
+                assert names["p"].shape
         for name in "ap":
             np.testing.assert_allclose(ours[name].tolist(), theirs[name], err_msg=line)

@@ -7,10 +7,12 @@ from pathlib import Path
 from types import SimpleNamespace as Message
 
 import pytest
+from hypothesis import given
+from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "book" / "robot" / "ros2" / "wmr_park"))
 
-from wmr_park.adapter import DEFAULTS, Sensors, typed, yaw
+from wmr_park.adapter import DEFAULTS, SOON, Sensors, typed, yaw
 
 import wmrlib as wmr
 
@@ -92,7 +94,7 @@ def test_a_fix_from_after_the_odometry_waits_until_it_is_due():
 def test_a_receiver_whose_clock_is_far_ahead_is_told_to_the_drive():
     found = sensors()
     fix = found.fixes.pop()
-    fix.header.stamp = at(1.06 + DEFAULTS["oldest_fix"]).header.stamp
+    fix.header.stamp = at(1.06 + SOON).header.stamp
     found.fixes.append(fix)
     seen = found.seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
     assert seen.fresh
@@ -109,3 +111,26 @@ def test_whole_numbers_are_numbers_and_what_is_of_another_kind_is_named():
         with pytest.raises(ValueError, match=f"{name} = .* is not allowed"):
             typed({name: value})
     assert repr(typed(DEFAULTS)) == repr(DEFAULTS)
+
+
+@given(st.lists(st.tuples(st.floats(0.0, 1.0), st.floats(-0.3, 0.4)), max_size=40))
+def test_no_fix_is_used_twice_or_goes_back_and_only_a_clock_of_its_own_is_told(fixes):
+    """Each fix comes at a time, and was measured some time before or, as it says, after."""
+    found = Sensors(DEFAULTS | {"start": START, "filter": False})
+    sample, used = sensors().fixes[0], []
+    for k in range(40):
+        now = 0.05 * k
+        for comes, late in fixes:
+            if now - 0.05 < comes <= now:
+                fix = Message(**vars(sample))
+                fix.header = at(10.0 + comes - late).header
+                found.fixes.append(fix)
+        before = found.fixed
+        seen = found.seen(odometry(10.0 + now, 0.0, 0.0, 0.0), GOAL)
+        if seen.fresh:
+            used.append(found.fixed)
+            assert seen.age >= 0.0 or seen.age < -SOON
+            assert before is not found.fixed
+    assert len(used) == len(set(map(id, used))) <= len(fixes)
+    told = [late for comes, late in fixes if late > 0.0]
+    assert bool(used) >= bool(told)  # one of a steady receiver is never starved

@@ -108,8 +108,17 @@ def test_with_the_filter_a_robot_parks_or_stands(robot, name):
     ],
 )
 def test_what_is_not_allowed_is_refused_with_the_goal(robot, told, goal):
-    with pytest.raises(ValueError, match="refused"):
+    with pytest.raises(ValueError, match=r"refused|is not allowed"):
         robot.run(parameters(CASES[0]) | told, goal, {"case": ""})
+
+
+def test_a_parameter_of_another_kind_is_refused_while_it_drives_too(robot):
+    robot.ask(robot.goals, ["set", parameters(CASES[0])])
+    assert robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
+    said = robot.ask(robot.goals, ["set", {"base_frame": 3}])
+    assert said == "base_frame = 3 is not allowed: like 'base_link' is needed"
+    assert robot.ask(robot.goals, ["cancel"])
+    assert robot.ask(robot.goals, ["result"])["status"] == CANCELED
 
 
 def test_a_second_goal_is_refused_until_the_first_is_cancelled(robot):

@@ -42,7 +42,7 @@ def last_metres(ask: bool = True) -> Live:
         ask=Ask(
             "choose",
             f"With the paper's gains the robot stops 5 cm before the goal. V has fallen from "
-            f"{run.V[0]:.0f} to {value:.3f}, and rho²/2 is {run.rho[-1] ** 2 / 2:.3f} of that. "
+            f"{run.V[0]:.0f} to {value:.3f}, of which rho²/2 makes up {run.rho[-1] ** 2 / 2:.3f}. "
             "Does the robot face the goal's way?",
             f"The rest of V, {angles:.3f}, is all angles. With h = {gains.h:g} it leaves room for "
             f"{most_deg:.0f} deg of heading error, and the robot stops {off_deg:.0f} deg off.",

@@ -14,8 +14,8 @@ class Step(NamedTuple):
 
 SCENES = {
     "last_metres": (
-        Step("The paper's gains: it arrives, and looks the wrong way."),
-        Step("Gentler by half: more of the turn is done by the time it arrives.", {"share": 0.5}),
+        Step("The paper's gains: it arrives, and has turned past the goal's heading."),
+        Step("Half way to gentle gains: still past it, by less.", {"share": 0.5}),
         Step("Gentle gains: it arrives later, and parks.", {"share": 1.0}),
     ),
     "flat_map": (
@@ -34,13 +34,22 @@ SCENES = {
         Step("How far? rho, along the line of sight."),
         Step("Where does it lie? alpha, from the robot's heading."),
         Step("How should one come? theta, from the goal's heading."),
-        Step("Turn the robot, and only alpha changes.", {"heading": 0.0}),
-        Step("Turn the goal, and only theta changes.", {"heading": 0.0, "goal_heading": 90.0}),
+        Step("Turn the robot: of the three only alpha changes.", {"heading": 0.0}),
+        Step(
+            "Turn the goal: of the three only theta changes.",
+            {"heading": 0.0, "goal_heading": 90.0},
+        ),
     ),
     "bowl": (
         Step("Gentle gains: V falls, and not by the steepest way."),
-        Step("The paper's gains: V falls too, by another way.", {"choice": "paper"}),
-        Step("From above, the bowl is a map of two angles.", {"choice": "paper", "tilt": 85.0}),
+        Step(
+            "The paper's gains: a flatter bowl, for h is less, and another way down.",
+            {"choice": "paper"},
+        ),
+        Step(
+            "From above, the bowl is a map of two angles.",
+            {"choice": "paper", "tilt": 85.0, "yaw": 0.0},
+        ),
     ),
     "heading_left": (
         Step("The paper's gains, stopped at 5 cm.", {"choice": "paper", "radius": 0.05}),
@@ -96,10 +105,10 @@ SCENES = {
         Step("Hardly a corner, hardly a turn.", {"x": 4.0, "y": 12.0}),
     ),
     "race": (
-        Step("The goal is behind: this law backs up.", {"law": "corrected"}),
-        Step("So does Aicardi's.", {"law": "aicardi"}),
+        Step("The goal is behind: the barrier law backs up to it.", {"law": "barrier"}),
+        Step("The corrected law backs up by little, and turns.", {"law": "corrected"}),
         Step("Graceful never does: it drives a loop."),
-        Step("With the goal ahead none of them backs up.", {"x": -3.0, "y": 1.0}),
+        Step("With the goal ahead none of them backs up.", {"x": -3.0, "y": -1.0}),
     ),
     "leaning_compass": (
         Step("On level ground it reads true.", {"lean": 0.0}),

@@ -15,7 +15,7 @@ from types import SimpleNamespace
 from numpy._array import asarray, elementwise, made, missing, ndarray, safe
 from numpy._array import broadcast_shapes as broadcast_shapes
 from numpy._making import *  # noqa: F403
-from numpy._making import append, cumsum, diff, ravel, transpose
+from numpy._making import append, cumsum, diff, transpose
 from numpy._random import Generator
 
 inf, nan, pi, e = math.inf, math.nan, math.pi, math.e
@@ -51,7 +51,9 @@ def where(test, one, other):
 
 
 def unwrap(angles):
-    angles = ravel(angles)
+    angles = asarray(angles)
+    if angles.ndim > 1:
+        raise missing("unwrap of more than a row")
     steps = diff(angles)
     turns = where(abs(steps) > pi, (steps + pi) // (2 * pi), 0) * (2 * pi)
     return angles - append(0, cumsum(turns))
@@ -134,7 +136,13 @@ class _Part(SimpleNamespace):
         raise AttributeError(name) if name.startswith("__") else missing(f"{self.part}.{name}")
 
 
-linalg = _Part(part="linalg", norm=_reduced(_norm))
+def _length(value, ord=None, axis=None):
+    if ord not in (None, 2):
+        raise missing(f"linalg.norm(ord={ord})")
+    return _reduced(_norm)(value, axis)
+
+
+linalg = _Part(part="linalg", norm=_length)
 _METHODS = "sum max min all any prod mean var std argmax argmin cumsum ravel transpose"
 for _name in _METHODS.split():
     setattr(ndarray, _name, vars()[_name])
@@ -146,16 +154,18 @@ def errstate(**_):
 
 
 def vectorize(function, **_):
-    return function
+    return elementwise(function)
 
 
-_SAME = "ceil cos degrees expm1 floor log10 log1p radians sin tan tanh"
+_SAME = "cos degrees expm1 log10 log1p radians sin tan tanh"
 _NAMED = {name: getattr(math, name) for name in _SAME.split()} | {
     **{"abs": abs, "arccos": math.acos, "arcsin": math.asin, "arctan": math.atan},
     **{"deg2rad": math.radians, "rad2deg": math.degrees, "square": lambda x: x * x},
     **{"exp": lambda x: (cmath if isinstance(x, complex) else math).exp(x), "sqrt": math.sqrt},
     **{"log": math.log, "isfinite": cmath.isfinite, "isnan": cmath.isnan},
-    **{"sign": lambda x: x and math.copysign(1, x), "angle": cmath.phase},
+    **{"sign": lambda x: x and math.copysign(1, x) if x == x else x, "angle": cmath.phase},
+    **{"ceil": lambda x: float(math.ceil(x)) if abs(x) < inf else x},
+    **{"floor": lambda x: float(math.floor(x)) if abs(x) < inf else x},
     **{"sinc": lambda x: math.sin(pi * x) / (pi * x) if x else 1.0},
     **{"arctan2": math.atan2, "hypot": math.hypot, "fmod": math.fmod, "add": operator.add},
     **{"mod": operator.mod, "remainder": operator.mod, "subtract": operator.sub},

@@ -74,27 +74,41 @@ def keys(key):
     return key if isinstance(key, tuple) else (key,)
 
 
+_LOGS = {math.log: 0, math.log10: 0, math.log1p: -1}
+_DIVISIONS = operator.truediv, operator.floordiv
+
+
 def safe(function):
-    """As numpy does, nan and inf where Python raises an error."""
+    """As numpy does, nan and inf where Python raises an error or leaves the real numbers."""
 
     def apply(*values):
         try:
-            return function(*values)
+            found = function(*values)
         except (ValueError, OverflowError, ZeroDivisionError) as error:
-            if function is operator.truediv and values[0] and values[0] == values[0]:
-                return math.copysign(math.inf, values[0]) * math.copysign(1.0, values[1])
-            if function is math.log and values == (0,):
-                return -math.inf
-            return math.inf if isinstance(error, OverflowError) else math.nan
+            x, y = values[0], values[-1]
+            if function in _DIVISIONS and x and x == x:
+                return math.copysign(math.inf, x) * math.copysign(1.0, y)
+            if function is operator.pow and not isinstance(x, complex):
+                return math.copysign(math.inf, x if y % 2 == 1 else 1.0)
+            if isinstance(error, OverflowError):
+                return math.inf
+            return -math.inf if _LOGS.get(function) == x else math.nan
+        left = isinstance(found, complex) and not any(isinstance(it, complex) for it in values)
+        return math.nan if left else found
 
     return apply
 
 
+_OF_BOOLS = {operator.add: operator.or_, operator.mul: operator.and_}
+
+
 def _operator(function, swapped=False):
-    apply = elementwise(safe(function))
+    apply, of_bools = elementwise(safe(function)), elementwise(_OF_BOOLS.get(function))
 
     def method(self, other):
-        found = apply(other, self) if swapped else apply(self, other)
+        bools = function in _OF_BOOLS and {self.dtype.kind, asarray(other).dtype.kind} == {"b"}
+        values = (other, self) if swapped else (self, other)
+        found = of_bools(*values) if bools else apply(*values)
         return found if isinstance(found, ndarray) else ndarray([found], ())
 
     return method
@@ -119,11 +133,18 @@ class ndarray:  # noqa: N801
 
     def __init__(self, flat, shape, base=None, seats=()):
         self.base, self._seats = base, seats  # a part of another array has its numbers there
-        self._own, self.shape, self.ndim, self.size = flat, shape, len(shape), math.prod(shape)
+        if base is None and {type(entry) for entry in flat} == {int, float}:
+            flat = [float(entry) for entry in flat]
+        self._own, self.shape = flat, shape
+
+    ndim = property(lambda self: len(self.shape))
+    size = property(lambda self: math.prod(self.shape))
 
     @property
     def flat(self):
-        return self._own if self.base is None else [self.base._own[seat] for seat in self._seats]
+        if self.base is None:
+            return self._own
+        return tuple(self.base._own[seat] for seat in self._seats)  # which can't be written to
 
     def _part(self, chosen, shape):
         if self.base is None:
@@ -156,7 +177,13 @@ class ndarray:  # noqa: N801
         shape = tuple(rest if size == -1 else size for size in shape)
         if math.prod(shape) != self.size:
             raise ValueError(f"cannot reshape array of size {self.size} into shape {shape}")
-        return self._part(range(self.size), shape)
+        if self.ndim == 1 or self.in_one_piece():
+            return self._part(range(self.size), shape)
+        return ndarray(list(self.flat), shape)  # as numpy, which copies what it must
+
+    def in_one_piece(self):
+        seats = [*self._seats]
+        return self.base is None or seats == [*range(seats[0], seats[0] + self.size)]
 
     def item(self):
         (only,) = self.flat
@@ -181,8 +208,10 @@ class ndarray:  # noqa: N801
         return made([flat[place] for place in chosen], shape)
 
     def __setitem__(self, key, value):
-        chosen, shape = self._chosen(key)
-        self._write(chosen, spread(asarray(value), shape))
+        (chosen, shape), value = self._chosen(key), asarray(value)
+        if broadcast_shapes(value.shape, shape) != shape:
+            raise ValueError(f"numbers of shape {value.shape} don't fit into {shape}")
+        self._write(chosen, spread(value, shape))
 
     def _write(self, chosen, entries):
         """Store entries; refuse what numpy would cut off."""
@@ -190,7 +219,10 @@ class ndarray:  # noqa: N801
             return self.base._write([self._seats[place] for place in chosen], entries)
         self.kind = self.kind or self.dtype.kind
         for place, entry in zip(chosen, entries, strict=True):
-            if self.kind in "ib" and isinstance(entry, float):
+            if self.kind == "b":
+                self._own[place] = bool(entry)
+                continue
+            if self.kind == "i" and isinstance(entry, float):
                 text = f"an array of whole numbers can't keep {entry:g}: numpy cuts it off. "
                 raise TypeError(text + "Begin with floats, as in np.array([0.0, 0.0])")
             self._own[place] = float(entry) if self.kind == "f" and type(entry) is int else entry
@@ -212,6 +244,8 @@ class ndarray:  # noqa: N801
             chosen = range(next(sizes))
             if isinstance(at, ndarray | list):
                 at = asarray(at)
+                if at.ndim != 1:
+                    raise missing(f"ndarray[an array of {at.ndim} dimensions]")
                 if at.dtype.kind == "b":
                     chosen = [k for k, true in zip(chosen, at.flat, strict=True) if true]
                 else:
@@ -251,7 +285,8 @@ class ndarray:  # noqa: N801
 def asarray(value, dtype=None):
     """Return an array of numbers, of rows, or of rows of rows."""
     if dtype is not None:
-        return asarray(value).astype(dtype)
+        found = asarray(value)
+        return found if found.dtype.kind == _KINDS.get(dtype) else found.astype(dtype)
     if isinstance(value, ndarray):
         return value
     if not isinstance(value, list | tuple | range):
@@ -286,6 +321,6 @@ for _name in ("lt", "le", "gt", "ge", "eq", "ne"):
 for _name, _function in {
     "neg": operator.neg,
     "abs": abs,
-    "invert": lambda it: not it if it in (False, True) else ~it,
+    "invert": lambda it: not it if isinstance(it, bool) else ~it,
 }.items():
     setattr(ndarray, f"__{_name}__", elementwise(_function))

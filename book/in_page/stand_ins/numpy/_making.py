@@ -3,7 +3,7 @@
 import itertools
 import math
 
-from numpy._array import asarray, ndarray
+from numpy._array import asarray, missing, ndarray
 
 
 def array(value, dtype=None):
@@ -27,6 +27,7 @@ def ones(shape):
 def arange(start, stop=None, step=1):
     start, stop = (0, start) if stop is None else (start, stop)
     count = max(math.ceil((stop - start) / step), 0)
+    start = float(start) if float in map(type, (start, stop, step)) else start
     return ndarray([start + step * k for k in range(count)], (count,))
 
 
@@ -45,7 +46,8 @@ def ndim(value):
 
 
 def ravel(value):
-    return asarray(value).reshape(-1)
+    value = asarray(value)
+    return (value if value.in_one_piece() else value.copy()).reshape(-1)
 
 
 def transpose(value):
@@ -54,6 +56,8 @@ def transpose(value):
 
 def concatenate(arrays, axis=0):
     parts = [asarray(each) for each in arrays]
+    if axis and parts[0].ndim > 2:
+        raise missing(f"concatenate of {parts[0].ndim} dimensions")
     if axis:
         return transpose(concatenate([transpose(each) for each in parts]))
     if len({each.shape[1:] for each in parts}) > 1:
@@ -71,7 +75,8 @@ def insert(value, at, more):
 
 
 def column_stack(arrays):
-    return transpose(asarray(list(arrays)))
+    columns = [each if each.ndim > 1 else each[:, None] for each in map(asarray, arrays)]
+    return concatenate(columns, axis=1)
 
 
 def repeat(value, counts):

@@ -97,6 +97,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     let playing = 0;
     const call = (text) => {
       button.textContent = text;
+      button.toggleAttribute('data-playing', text === 'Stop');
       button.setAttribute('aria-label', `${text}: ${knob.says}`);
     };
     const stop = () => {
@@ -108,6 +109,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     };
     const play = () => {
       if (playing) { stop(); return; }
+      halt();
       const from = get()[name] >= knob.high ? knob.low : get()[name], begin = performance.now();
       const go = (now) => {
         const value = Math.min(from
@@ -135,10 +137,12 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
   // One place after another, each knob along its stops; a hand stops it, as it stops what plays.
   let gliding = 0;
   function halt() {
+    const was = gliding;
     clearTimeout(gliding);
     cancelAnimationFrame(gliding);
     gliding = 0;
     delete root.dataset.moving;
+    if (was) set({}); // a kernel hears where it ends
   }
   timers.push(halt);
   function glide(places, done) {
@@ -173,7 +177,8 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         if (place.textContent !== text) { place.textContent = text; changed(); }
     }
   };
-  return { show, showResults, glide, stop: () => timers.forEach((each) => each()) };
+  const moving = () => gliding || root.querySelector('.live-play[data-playing]');
+  return { show, showResults, glide, moving, stop: () => timers.forEach((each) => each()) };
 }
 
 // Calls once, when an element comes into view.

@@ -15,7 +15,7 @@ import { widget } from './widget.js';
 
 const CALM = '(prefers-reduced-motion: reduce)';
 const REST = 700; // ms between two moves of a knob after which the next is a new run
-const GHOSTS = 2, FAINT = { width: 2, dash: [2, 6] };
+const GHOSTS = 2;
 
 // An explorable is, in a file of its own,
 //   panes(values, found, setup, hidden): the panes by name, see board.js, with `alt`, what it shows
@@ -34,8 +34,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       root = made(el, 'div', { className: 'wmr live' });
   keepKeys(root);
   root.innerHTML =
-      '<div class="live-ask"></div><div class="live-idea"></div><p class="live-sentence"></p><div ' +
-      'class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
+      '<div class="live-ask"></div><div class="live-idea"></div><p class="live-sentence"></p>' +
+      '<div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
     + '<div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
         'class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {},
@@ -46,19 +46,24 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
   let ghosts = {}, changed = -REST; // paths of the runs before, by pane; when a knob last moved
   const panes = {};
-  const keep = (changes) => {
+  const keep = () => {
     const now = performance.now(), rested = now - changed > REST;
-    if (!Object.keys(changes).some((each) => each !== 'time' && each in home)) return;
     changed = now;
-    for (const [name, { trail }] of Object.entries(rested ? panes : {}))
-      if (trail.length) ghosts[name] = [trail, ...(ghosts[name] || [])].slice(0, GHOSTS);
+    for (const [name, { trail }] of Object.entries(rested ? panes : {})) {
+      const [last = []] = ghosts[name] ||= [];
+      if (trail.length && JSON.stringify(trail) !== JSON.stringify(last))
+        ghosts[name] = [trail, ...ghosts[name]].slice(0, GHOSTS);
+    }
   };
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
   // a hand stops what plays; a kernel hears where it ends
   const set = (changes, playing = false) => {
     refused = '';
     if (!playing) knobs.stop();
-    if (changes) keep(changes);
+    if (changes && Object.keys(changes).some((each) => each !== 'time' && each in home)) {
+      keep();
+      if (!playing) steps?.leave(); // what an idea says is said of where it put the knobs
+    }
     if (changes) model.set('state', { ...values(), ...changes });
     if (changes && !playing) model.save_changes();
     schedule();
@@ -93,16 +98,21 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   const gate = setup.ask
       ? buildGate(find('.live-ask'), setup.ask,
       { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
-      way: () => found.run, reveal, close: () => { set({ ...home }); ghosts = {}; } })
+      way: () => found.run, reveal, close })
       : null;
-  if (setup.steps.length && !still) putSteps(find('.live-idea'), setup.steps, (k) => {
+  const steps = setup.steps.length && !still ? putSteps(find('.live-idea'), setup.steps, (k) => {
     setup.step = k;
     knobs.stop();
     // what it says is said of the other knobs where they were at first
-    const { time: _, ...to } = { ...home, ...setup.steps[k].to };
-    if (document.hidden || matchMedia(CALM).matches) set(to);
+    const { time, ...to } = { ...home, ...setup.steps[k].to };
+    if (matchMedia(CALM).matches) set(time === undefined ? to : { ...to, time: 1 });
     else knobs.glide([to], () => set({}));
-  });
+  }) : null;
+  function close() {
+    set({ ...home });
+    ghosts = {};
+    delete setup.step;
+  }
 
   // The picture goes from what was given to what was asked, place by place, and then it plays.
   function reveal(moving) {
@@ -124,7 +134,8 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       const [x, y] = panes[name].view.toWorld(...placeOn(canvas, event));
       const changes = specs[name].scrub(x, y, moved, values(), found);
       // what passes over a picture only moves the robot
-      if (changes && (moved || Object.keys(changes).every((each) => each === 'time'))) set(changes);
+      if (changes && (moved || (Object.keys(changes).every((each) => each === 'time')
+          && !knobs.moving()))) set(changes);
     };
     let last = null;
     held(canvas, {
@@ -171,8 +182,12 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       canvases[name].setAttribute('aria-label', hidden ? spec.given || 'what is given' : spec.alt);
       canvases[name].style.cursor = spec.scrub && !hidden ? 'crosshair' : '';
       const pane = panes[name] = paneOf(canvases[name], colours, spec);
-      if ((spec.equal || spec.lawn) && spec.ghosts !== false && !hidden)
-        (ghosts[name] || []).flat().forEach((path) => pane.line(path, 'ghost', FAINT));
+      if ((spec.equal || spec.lawn) && !spec.bare && spec.ghosts !== false && !hidden) {
+        pane.ctx.globalAlpha = 0.3;
+        (ghosts[name] || []).flat().forEach((path) => pane.line(path));
+        pane.ctx.globalAlpha = 1;
+      }
+      pane.trail.length = 0;
     }
     explorable.draw(panes, now, found, hidden, setup);
     Object.values(panes).forEach((pane) => pane.name());

@@ -19,8 +19,8 @@ from wmrlib.sensing import antenna
 
 QUALITY = {0: 1, 1: 2, 2: 4}  # of a NavSatStatus, as NMEA says it
 PATIENT = 5  # fixes that the filter refuses before it doubts itself
-HEADINGS = 256  # the last ones, of which the nearest to a fix is taken
-WAITING = 16  # fixes whose stamps are after the odometry's, at most
+HEADINGS = 256  # the last ones, of which the nearest to a fix is taken; and as many fixes
+SOON = 0.05  # s by which a fix may be later than the odometry, whose topic does not wait for its
 OWN = {"oldest": "oldest_fix"}  # what "My robot" calls a field of the rules
 
 DEFAULTS: dict[str, Any] = {
@@ -123,7 +123,7 @@ class Sensors:
         self.given, self.start = given, point(given["start"])
         self.noise = estimation.Noise(track_width=given["track_width"])
         self.odom = self.fixed = self.gyro = self.said = None
-        self.fixes: deque = deque(maxlen=WAITING)
+        self.fixes: deque = deque(maxlen=HEADINGS)
         self.headings: deque = deque(maxlen=HEADINGS)
         self.battery, self.refused = math.inf, 0
         self.estimate: estimation.Estimate | None = None
@@ -158,13 +158,16 @@ class Sensors:
         return self._with_fix(told, fix) if fix else told
 
     def _due(self) -> Any:
-        """The newest fix that is not after the odometry, or that is so by more than a delay."""
-        soon = lambda fix: -self.given["oldest_fix"] <= elapsed(self.odom, fix) < 0.0  # noqa: E731
-        ripe, self.fixes = (
-            [fix for fix in self.fixes if not soon(fix)],
-            deque(filter(soon, self.fixes), WAITING),
-        )
-        return ripe[-1] if ripe else None
+        """The newest fix that the odometry has reached; one that is a little later waits.
+
+        One that is later by more has a clock of its own: the drive sees its age and refuses it.
+        """
+        ages = [(elapsed(self.odom, fix), fix) for fix in self.fixes]
+        soon = [fix for age, fix in ages if -SOON <= age < 0.0]
+        here = [fix for age, fix in ages if age >= 0.0]
+        odd = [fix for age, fix in ages if not age >= -SOON]
+        self.fixes = deque(soon, HEADINGS)
+        return (here or odd or [None])[-1]
 
     def _carry(self, v: float, omega: float, past: float) -> None:
         if math.isfinite(v + omega):

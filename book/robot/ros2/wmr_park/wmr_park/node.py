@@ -13,11 +13,12 @@ from typing import Any
 import rclpy
 from geometry_msgs.msg import Twist, TwistStamped
 from nav_msgs.msg import Odometry
-from rcl_interfaces.msg import ParameterDescriptor
+from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
 from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
+from rclpy.parameter import Parameter
 from rclpy.qos import qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
@@ -41,7 +42,8 @@ class ParkNode(Node):
         self.drive: wmr.Drive | None = None
         self.sensors: Sensors | None = None
         self.wish: Any = None
-        self.stamped = given["stamped"]
+        self.stamped, self.frame = given["stamped"], given["base_frame"]
+        self.add_on_set_parameters_callback(self.allowed)
         twist = TwistStamped if self.stamped else Twist
         self.command = self.create_publisher(twist, "cmd_vel", 1)
         heard = {"imu": (Imu, self.on_imu), "fix": (NavSatFix, self.on_fix)}
@@ -75,8 +77,16 @@ class ParkNode(Node):
         except (ValueError, IndexError, TypeError) as refusal:  # lists of parameters too
             self.get_logger().error(str(refusal))
             return GoalResponse.REJECT
-        self.drive, self.sensors = drive, sensors
+        self.drive, self.sensors, self.frame = drive, sensors, given["base_frame"]
         return GoalResponse.ACCEPT
+
+    def allowed(self, told: list[Parameter]) -> SetParametersResult:
+        """Whether parameters may be set, while it drives too: they count from the next goal on."""
+        try:
+            typed({it.name: it.value for it in told if it.name in DEFAULTS})
+        except ValueError as refusal:
+            return SetParametersResult(successful=False, reason=str(refusal))
+        return SetParametersResult(successful=True)
 
     def on_accepted(self, wish: Any) -> None:
         """Drive from the next odometry on. It executes as it ends: so no thread has to wait."""
@@ -160,7 +170,7 @@ class ParkNode(Node):
         twist = message.twist if self.stamped else message
         if self.stamped:
             message.header.stamp = stamp
-            message.header.frame_id = self.get_parameter("base_frame").value
+            message.header.frame_id = self.frame
         twist.linear.x, twist.angular.z = float(v), float(omega)
         self.command.publish(message)
 

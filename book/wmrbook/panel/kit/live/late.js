@@ -26,7 +26,8 @@ const race = remembered(({ delay, lost, ...drive }) => RACERS.map(({ name }) => 
 export default live('late', {
   find({ delay, time, set_off, face }, { data }) {
     const start = turned(data.start, set_off), goal = turned(data.goal, face),
-        runs = race({ delay, ...data, start, goal }), longest = Math.max(...runs.map((it) => it.poses.length));
+        runs = race({ delay, ...data, start, goal }),
+        longest = Math.max(...runs.map((it) => it.poses.length));
     const k = Math.round(time * (longest - 1));
     return { runs: runs.map((run) => {
       const now = Math.min(k, run.poses.length - 1);

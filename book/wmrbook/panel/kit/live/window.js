@@ -40,6 +40,9 @@ export default live('window', {
         `kappa minus 1. The point, ${written(kappa)} and ${written(h)}, is ` +
         `${inside ? 'in' : 'out'}side.`,
         scrub: (x, y, moved) => (moved ? pointAt(x, y, named) : null) },
+    path: { x: [-4, 2, 'k_rho x'], y: [-5, 1, 'k_rho y'], equal: true,
+        given: 'The start and the goal.',
+        alt: `The path: the robot stops ${inDegrees(error[run.n - 1] / DEGREES)} off.` },
     poles: { x: [-MOST - 0.3, 0.6, 'real part / λ'], y: [-3.2, 3.2, 'imaginary part / λ'],
         given: 'The plane of the poles, with the distance\'s at minus 1.',
         alt: `The poles of the angles at ${poles.map(complex).join(' and ')}; the distance's at ` +
@@ -48,15 +51,12 @@ export default live('window', {
         given: 'Room for the heading error over the distance left.',
         alt: `The heading error over the distance left, at most ${late[0].toFixed(1)} degrees ` +
         `from r = 0.1 on.` },
-    path: { x: [-4, 2, 'k_rho x'], y: [-5, 1, 'k_rho y'], equal: true,
-        given: 'The start and the goal.',
-        alt: `The path: the robot stops ${inDegrees(error[run.n - 1] / DEGREES)} off.` },
   }),
   draw({ plane, poles: roots, left, path }, { kappa, h }, { poles, run, error }, hidden,
       { data: { start, named } }) {
     if (!hidden) plane.area([[2, 1], [2, 99], [100, 99]], 'start', 0.2);
     if (!hidden) plane.curve((x) => x * x / 4, 'ghost', { width: 1.5, dash: [5, 4] });
-    if (!hidden) plane.text('damping 1', MOST, 4.9, { role: 'ghost', align: 'right', size: 13 });
+    if (!hidden) plane.text('damping 1', 4.6, 5.7, { role: 'ghost', align: 'right', size: 13 });
     if (!hidden) plane.text('window', 2, 5.5, { role: 'start', dx: 6, size: 13 });
     for (const [name, x, y] of named) {
       plane.dot(x, y, 'ink', { size: 4 });
