@@ -48,7 +48,7 @@ SCENES = {
         ),
         Step(
             "From above, the bowl is a map of two angles.",
-            {"choice": "paper", "tilt": 85.0, "yaw": 0.0},
+            {"choice": "paper", "tilt": 60.0, "yaw": 0.0},
         ),
     ),
     "heading_left": (

@@ -34,9 +34,9 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       root = made(el, 'div', { className: 'wmr live' });
   keepKeys(root);
   root.innerHTML =
-      '<div class="live-ask"></div><div class="live-idea"></div><p class="live-sentence"></p>' +
-      '<div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls"></div>'
-    + '<div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
+      '<div class="live-ask"></div><div class="live-idea"></div><p class="live-sentence"></p>'
+    + '<div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls">'
+    + '</div><div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
         'class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {},
       still = document.documentElement.dataset.still !== undefined, // on paper
