@@ -50,7 +50,7 @@ DRAWN = """() => {
     const figures = [...document.querySelectorAll('article .live')];
     return canvases.length && canvases.every(it => it.width) && panels.every(
         it => it.parentElement.querySelector('.jupyter-widgets')
-    ) && figures.every(it => it.dataset.open === 'true');
+    ) && figures.every(it => it.dataset.open);
 }"""
 # Pictures stand for the panels, so none may live: before the page looks for their states.
 DEAD = """addEventListener('DOMContentLoaded', () => document

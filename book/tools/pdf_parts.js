@@ -56,7 +56,7 @@ window.parts = (() => {
         state.question = wordsOn(gate.querySelector('.live-question'));
         state.options = all('.live-options label > span', gate).map(wordsOn);
         all('button', gate).find((it) => it.textContent === 'Just show me').click();
-        await settled();
+        do await settled(); while (!panel.querySelector('.live[data-open=true]'));
         const keys = all('.live-options label', gate).map((it) => it.matches('.live-key'));
         state.key = keys.indexOf(true);
         state.why = wordsOn(gate.querySelector('.live-verdict'));

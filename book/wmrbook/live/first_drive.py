@@ -57,6 +57,7 @@ def last_metres(ask: bool = True) -> Live:
         )
         if ask
         else None,
+        grows=ask,  # the book's first screen has no room for more
     )
 
 

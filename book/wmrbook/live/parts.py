@@ -99,8 +99,7 @@ class Live(Panel):
     data : what the drawing needs that does not move: numbers, lists and texts
     ask : Ask or None
     asks : Asks or None
-
-    `scenes.SCENES` has the ideas of a scene that grows.
+    grows : whether it shows its ideas, if `scenes.SCENES` has some
 
     `thing["k_alpha"]` is where a knob stands, and can be set.
 
@@ -118,9 +117,10 @@ class Live(Panel):
         data: dict[str, Any] | None = None,
         ask: Ask | None = None,
         asks: Asks | None = None,
+        grows: bool = True,
     ):
         self._knobs = knobs
-        steps = [step._asdict() for step in SCENES.get(name, ())]
+        steps = [step._asdict() for step in SCENES.get(name, ()) if grows]
         for step in steps:
             step["to"] = {it: self._knobs[it].allowed(it, to) for it, to in step["to"].items()}
         listed = []
