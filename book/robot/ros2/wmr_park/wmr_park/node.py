@@ -8,6 +8,7 @@ Each odometry message is a period: `wmr.Drive` decides, and the answer carries i
 from __future__ import annotations
 
 import signal
+import time
 from typing import Any
 
 import rclpy
@@ -188,7 +189,9 @@ def main(kind: type[ParkNode] = ParkNode) -> None:
     except KeyboardInterrupt:
         pass
     finally:  # an error too ends with a stop
-        node.tell(0.0, 0.0, node.get_clock().now().to_msg())
+        for _ in range(3):  # one alone may be lost with the process that sends it
+            node.tell(0.0, 0.0, node.get_clock().now().to_msg())
+            time.sleep(0.05)
         node.destroy_node()
         rclpy.shutdown()
 
