@@ -124,6 +124,7 @@ def test_a_parameter_of_another_kind_is_refused_while_it_drives_too(robot):
 def test_a_second_goal_is_refused_until_the_first_is_cancelled(robot):
     robot.ask(robot.goals, ["set", parameters(CASES[0])])
     goal = list(map(float, CASE.goal))
+    assert not robot.ask(robot.lawn, {"listen": 0.0})  # from here on it hears
     assert robot.ask(robot.goals, ["park", goal])
     assert not robot.ask(robot.goals, ["another", goal])
     assert robot.ask(robot.goals, ["cancel"])

@@ -63,13 +63,17 @@ class Lawn:
         self.node.create_subscription(Park.Impl.FeedbackMessage, *feedback)
         self.node.create_subscription(TwistStamped, "cmd_vel", self.obey, 10)
 
-    def begin(self, width: float) -> None:
-        """Forget the drive before, and wait for the node."""
+    def meet(self) -> None:
+        """Wait for the node: what it says before that is not heard."""
         for _ in range(round(PATIENT / 0.01)):
             heard = min(it.get_subscription_count() for it in self.publishers.values())
             if heard and self.node.count_publishers("cmd_vel"):
                 break
             self.executor.spin_once(timeout_sec=0.01)
+
+    def begin(self, width: float) -> None:
+        """Forget the drive before."""
+        self.meet()
         self.width, self.place, self.told = width, odometry.Place(), [0.0, 0.0]
         self.state, self.heard, self.asked = "", 0, None
 
@@ -194,6 +198,7 @@ def fix_of(seen: wmr.Seen) -> dict[str, Any]:
 def main() -> None:
     """Answer the lines of standard input."""
     lawn, cases = Lawn(), {case.name: case for case in drive_faults.CASES}
+    lawn.meet()
     cases[""] = drive_faults.Case("", {}, "parked", 0.3)
     for line in sys.stdin:
         wish = json.loads(line)
