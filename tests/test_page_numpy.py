@@ -211,7 +211,8 @@ def test_a_number_that_would_be_lost_is_refused():
 
 PARTS = """
 a[0] a[-1] a[:,1] a[1:] a[::2,::-1] a.T a.T[1] a.reshape(-1) a[:,1][::2] a[[1,0]] a[a>0] a.ravel()
-a.T.ravel() a.T.reshape(-1) a[:,::2].reshape(-1) a[1:].ravel() a[:,1].reshape(3,1) a[:,1].ravel()
+a.T.ravel() a.T.reshape(-1) a[:,::2].reshape(-1) a[1:].ravel() a[:,1].reshape(3,1)
+a[:,1].ravel() a[3:].ravel() a[:0].reshape(-1)
 np.asarray(a,dtype=float) np.asarray(a) np.array(a)
 """
 LINES = "a[0,1]=7 p[:]=5 p+=1 a[:,0]=[5,6,7] p[0]=p[-1] a*=2 p[::2]-=3"

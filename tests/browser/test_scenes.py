@@ -11,7 +11,7 @@ import pytest
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
 from live import as_shown, chapters
-from test_live import NAMES
+from test_live import NAMES, commit
 from test_live_truth import FOUND
 
 import wmrlib as wmr
@@ -245,3 +245,16 @@ def test_what_can_be_held_moves_the_scene(emptied_page, name, handle, knob, by):
         assert speed == pytest.approx(wmr.paper.CIRCLE_SPEED)
     emptied_page.locator(f"[data-handle={handle}]").press("ArrowUp")
     assert not emptied_page.locator(".live-trouble:visible").count()
+
+
+def test_a_remembered_answer_opens_a_scene_with_its_ideas(browser_page):
+    name, thing = "lag", live.lag()
+    assert thing.setup["ask"]["asked"]  # opening moves a knob, before the ideas are there
+    browser_page.add_init_script("globalThis.wmrKit = () => {}")  # as where a page remembers
+    for turn in range(2):  # the second time the page remembers what was answered
+        panel = mounted(browser_page, getattr(live, name)())
+        if not turn:
+            commit(panel, thing.setup["ask"])
+        assert panel.settled().get("k_rho") == thing.setup["ask"]["asked"][0]["k_rho"]
+    browser_page.locator(".live-steps button").first.click()
+    assert panel.settled().get("k_rho") == thing.setup["knobs"][0]["value"]

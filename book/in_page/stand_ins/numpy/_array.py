@@ -183,7 +183,7 @@ class ndarray:  # noqa: N801
 
     def in_one_piece(self):
         seats = [*self._seats]
-        return self.base is None or seats == [*range(seats[0], seats[0] + self.size)]
+        return self.base is None or not seats or seats == [*range(seats[0], seats[0] + self.size)]
 
     def item(self):
         (only,) = self.flat

@@ -45,6 +45,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   const home = Object.fromEntries(setup.knobs.map(({ name, value }) => [name, value]));
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
   let ghosts = {}, changed = -REST; // paths of the runs before, by pane; when a knob last moved
+  let steps = null; // a remembered answer opens the gate before there are any
   const panes = {};
   const keep = () => {
     const now = performance.now(), rested = now - changed > REST;
@@ -100,7 +101,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
       way: () => found.run, reveal, close })
       : null;
-  const steps = setup.steps.length && !still ? putSteps(find('.live-idea'), setup.steps, (k) => {
+  steps = setup.steps.length && !still ? putSteps(find('.live-idea'), setup.steps, (k) => {
     setup.step = k;
     knobs.stop();
     // what it says is said of the other knobs where they were at first
