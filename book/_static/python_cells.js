@@ -87,13 +87,11 @@
   // What is written into a cell that waits for an answer outlives a reload; not where a browser
   // keeps nothing, as some do for files.
   const place = (name) => `wmr-answer ${location.pathname} ${name}`;
-  let barred = false;
 
   function kept(name) {
     try {
       return localStorage.getItem(place(name));
     } catch {
-      barred = true;
       return null;
     }
   }
@@ -303,15 +301,6 @@
     cells.push(cell);
     if (cell.name) edit(cell);
   }
-
-  // A browser may put into a field what stood there when the page was last left: what is kept, and
-  // what was reset, is newer.
-  addEventListener('pageshow', () => cells.filter((it) => it.name && it.editor).forEach((cell) => {
-    const text = kept(cell.name) ?? cell.source;
-    if (barred || cell.editor.value === text) return;
-    cell.editor.value = text;
-    cell.editor.dispatchEvent(new Event('input'));
-  }));
 
   document.addEventListener('DOMContentLoaded', () => {
     document.querySelectorAll('script.python-cell').forEach(enliven);

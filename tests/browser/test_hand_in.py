@@ -10,6 +10,7 @@ import handins
 import nbformat
 import pytest
 from gradebook import Course
+from live import again
 from page_tasks import TASKS, handed_in, tasks
 from playwright.sync_api import Page
 from test_python_in_page import fill, given
@@ -72,7 +73,7 @@ def test_answers_outlive_a_reload_and_stand_in_the_notebook_that_is_given_out(si
     page.get_by_label("User name").fill("bob")
     page.get_by_role("button", name=SAVE).click()
     assert 'The cell above says name = "Adá"' in page.locator(".python-hand-in").last.inner_text()
-    page.reload()
+    again(page, "wmr-user-name", page.reload)
     asked = cell_of(site, page, "ch04", exercise)
     assert asked.locator(".python-editor").input_value() == LINE
     assert page.get_by_label("User name").input_value() == "bob"
@@ -87,12 +88,12 @@ def test_answers_outlive_a_reload_and_stand_in_the_notebook_that_is_given_out(si
     # Another page does not have them, and what is reset is gone.
     page.goto(page.url.replace(CHAPTERS["ch04"], CHAPTERS["ch01"]))
     assert by_id(saved(page)[1]) == by_id(handed_in("01")["notebook"])
-    page.go_back()
+    again(page, "wmr-user-name", page.go_back)
     rate = cell_of(site, page, "ch04", "V-rate")
     for cell in rate, asked:
         cell.get_by_role("button", name="Reset").press("Enter")
     assert LINE not in rate.locator(".python-editor").input_value()
-    page.reload()
+    again(page, "wmr-user-name", page.reload)
     assert asked.locator(".python-editor").input_value() != LINE
     assert by_id(saved(page)[1])["V-rate"] == release["V-rate"]
 
@@ -134,7 +135,7 @@ def test_a_telephone_is_enough_to_hand_in_for_full_points(site, opened, tmp_path
         page = opened(f"notebooks/{CHAPTERS[chapter]}.html")
         page.set_viewport_size({"width": 390, "height": 844})
         written(site, page, chapter, models(chapter))
-        page.reload()
+        again(page, "wmr-answer", page.reload)
         damage.hand_in(course, "ada", chapter, saved(page)[1])
     rows = damage.rows(damage.command("grade.py", course))
     points = {chapter: row.split()[0] for (chapter, _), row in rows.items()}

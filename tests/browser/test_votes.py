@@ -5,6 +5,7 @@ from __future__ import annotations
 import pytest
 import slides
 from faults import of_page
+from live import again
 from test_decks import TROUBLES
 
 from wmrbook import questions
@@ -51,7 +52,7 @@ def test_the_form_on_a_telephone_makes_a_line_that_counts(tmp_path, browser_page
     told = line.input_value()
     which = f"post-{questions.fingerprint(made)}"
     assert read(told) == Line("test", which, "Zoë O'Neil (4) !", "".join(answers))
-    browser_page.reload()
+    again(browser_page, "wmr-test-", browser_page.reload)
     assert line.input_value() == told
     for size in range(1, 61):  # of every length that a block of the checksum can end in
         one = Line("gate", "ch04-level", "ñ" * size, "left of it")
