@@ -44,7 +44,7 @@ def bearing() -> Live:
 
 def flat_map() -> Live:
     """How far off a flat map is, over the distance and at any latitude."""
-    here = paper.GPS_POINT_1
+    here = GeoPoint(lat=round(paper.GPS_POINT_1.lat), lon=0.0)  # as the sliders say it
     known, asked = (_flat_error(here, distance) for distance in DISTANCES)
     times = DISTANCES[1] / DISTANCES[0]
     shown = {
@@ -59,11 +59,11 @@ def flat_map() -> Live:
         "distance and bearing put it. True north leans {leans} there from the map's.",
         {
             "km": Knob(DISTANCES[0] / 1000, 0.01, 1000.0, None, "distance", "km", label="distance"),
-            "lat": Knob(round(here.lat), 0.0, 75.0, 1.0, "latitude", "°", label="latitude"),
+            "lat": Knob(here.lat, 0.0, 75.0, 1.0, "latitude", "°", label="latitude"),
         },
         data={
             "radius": EARTH_RADIUS_M,
-            "asked": {"km": DISTANCES[0] / 1000, "lat": round(here.lat)},
+            "asked": {"km": DISTANCES[0] / 1000, "lat": here.lat},
         },
         ask=Ask(
             "choose",

@@ -122,9 +122,10 @@ function render({ model, el }) {
     ctx.globalAlpha = 0.35;
     drawRobot(ctx, view.toScreen(poses.goal[0], poses.goal[1]), poses.goal[2], colours, icon);
     ctx.globalAlpha = 1;
-    for (const name of ['start', 'goal']) drawPose(ctx, view, poses[name], name, colours);
+    drawPose(ctx, view, poses.start, 'start', colours);
     const pose = poseAt(run, at), place = view.toScreen(pose[0], pose[1]);
     drawRobot(ctx, place, pose[2], colours, icon);
+    drawPose(ctx, view, poses.goal, 'goal', colours); // on the robot that stands on it
     if (done && !whole && off > PARKED) { // from the way it looks to the way it should
       const radius = 25 * icon, ahead = [place[0] + 1.2 * radius * Math.cos(pose[2]),
         place[1] - 1.2 * radius * Math.sin(pose[2])];
