@@ -178,6 +178,7 @@ CASES = {
         {"good": np.array([9.0, 4.0, 1.0]), "bad": np.array([80.0, 40.0, 9.0])},
         (5.04, 48.6),
     ),
+    "lever_arm": lambda: figures.lever_arm(0.3, math.radians(10.0)),
     "beliefs": lambda: figures.beliefs(
         np.arange(4.0), {"all": (np.array([5.0, -9.0, 1.0, 1.0]), np.array([4.0, 4.0, 2.0, 1.0]))}
     ),
@@ -291,6 +292,7 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "by the power 2."
     ],
     "heading_distance": lambda: ["5 deg: good, after 2 m; bad, nowhere. A star marks", "48.6 deg"],
+    "lever_arm": lambda: ["10 deg off", "52 mm to the right"],
     "beliefs": lambda: ["all: 4.0 to 1.0 deg, error inside 75 % of the time."],
     "last_turns": lambda: [
         "one 3.0 s without and 2.0 s with a last turn; two never without and 2.5 s with"
@@ -475,6 +477,12 @@ def test_chase_draws_the_reference_and_each_run():
     assert [(text.get_text(), text.xy) for text in axes.texts] == [("goal at 0 s", (0.0, 0.0))]
 
 
+def test_a_chase_plays_its_goal_too():
+    run, (goal, robot) = chase(), figures.chase({"one": chase()}).drives
+    assert (goal.role, robot.role) == ("goal", "path")
+    np.testing.assert_allclose(np.hypot(goal.x - robot.x, goal.y - robot.y), run.rho, atol=1e-9)
+
+
 def test_a_chase_says_what_the_goal_does():
     x, y, heading = chase().goal
     stop = np.minimum(np.arange(len(x)), len(x) // 2)
@@ -648,6 +656,7 @@ BAD = [
     ("seconds has 1 entries", "last_turns", ({"one": (1.0, 1.0)},)),
     ("series has 0 entries, .* 1 to 5 are needed", "heading_distance", (MEMORY + 1, {}, (1, 1))),
     ("mismatched lengths", "heading_distance", (np.ones(2), {"one": np.ones(3)}, (1, 1))),
+    ("arm = 0", "lever_arm", (0.0, 0.1)),
     ("runs has 0 entries, .* 1 to 4 are needed", "beliefs", (MEMORY, {})),
     ("mismatched lengths", "beliefs", (np.ones(2), {"one": (np.ones(3), np.ones(2))})),
 ]

@@ -89,7 +89,7 @@ def _cell_of(output: nodes.Node) -> nodes.Element:
 
 
 def widen(app, doctree):
-    """Give a panel, as a wide figure, all the width that there is.
+    """Give a panel, as a wide figure or table, all the width that there is.
 
     The theme's script then hides the table of contents, which the front page hasn't.
     """
@@ -98,6 +98,9 @@ def widen(app, doctree):
     for output in doctree.findall(nodes.raw):
         if "jupyter.widget-view+json" in output.astext():
             _cell_of(output)["classes"].append("full-width")
+    for cell in doctree.findall(nodes.container):
+        if "tag_full-width" in cell["classes"]:
+            cell["classes"].append("full-width")
 
 
 def show_figures(app, doctree):

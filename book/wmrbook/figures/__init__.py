@@ -7,7 +7,7 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
     submod_attrs={
         "style": ["COLOURS", "LINES", "Picture"],
         "paths": ["path"],
-        "facing": ["beliefs", "heading_distance"],
+        "facing": ["beliefs", "heading_distance", "lever_arm"],
         "first_drive": ["dashboard", "lyapunov_over_time", "twist"],
         "earth": ["local_map", "sphere_error_map", "spherical_triangle"],
         "robot": ["coordinate_system", "robot_loops"],

@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping
 
 import numpy as np
 from matplotlib.ticker import FuncFormatter
 
-from wmrbook.figures._drawing import SERIES, check_count, figure_legend, note
+from wmrbook.figures._drawing import SERIES, check_count, figure_legend, note, panels
+from wmrbook.figures.robot import draw_robot
 from wmrbook.figures.style import COLOURS, Picture, new_figure
-from wmrlib._checks import instance, real, same_shape
+from wmrlib._checks import instance, real, same_shape, scalar
+from wmrlib.kinematics import Pose
 
 
 def heading_distance(
@@ -45,6 +48,40 @@ def heading_distance(
         f"The rms error of the heading over the distance driven straight, on logarithmic scales. "
         f"It is within {usable:g} deg: {'; '.join(words)}. "
         f"A star marks a report of {seen[1]:g} deg at {seen[0]:g} m.",
+    )
+
+
+def lever_arm(arm: float, bias: float) -> Picture:
+    """An antenna's circle in a spin, and where a biased heading [rad] puts a robot that stands.
+
+    arm: the antenna's distance ahead of the robot's middle, m.
+    """
+    arm, bias = scalar("arm", arm, above=0.0), scalar("bias", bias, low=-1.0, high=1.0)
+    figure, (spin, dock) = panels(1, 2, 9.0, 4.2)
+    turned = np.linspace(0.0, 2 * math.pi, 73)
+    spin.plot(arm * np.cos(turned), arm * np.sin(turned), color=COLOURS["path"])
+    spin.plot(arm * np.cos(turned[::9]), arm * np.sin(turned[::9]), "o", color=COLOURS["path"])
+    draw_robot(spin, Pose(0.0, 0.0, 0.0), 0.6 * arm, 0.12 * arm)
+    spin.plot([0.0, arm], [0.0, 0.0], color=COLOURS["ink"])
+    note(spin, "$r$", (0.8 * arm, 0.0), (0, 5))
+    believed = Pose(arm - arm * math.cos(bias), -arm * math.sin(bias), bias)
+    for pose, role in ((Pose(0.0, 0.0, 0.0), "path"), (believed, "rising")):
+        draw_robot(dock, pose, 0.6 * arm, 0.12 * arm)
+        dock.plot([pose.x, arm], [pose.y, 0.0], color=COLOURS[role])
+        dock.plot(pose.x, pose.y, "o", color=COLOURS[role], zorder=6)
+    dock.plot(arm, 0.0, "o", color=COLOURS["ink"], zorder=6)
+    note(dock, "stands", (0.6 * arm, 0.0), (0, 5), color=COLOURS["path"])
+    there = 0.5 * (believed.x + arm), 0.5 * believed.y
+    note(dock, "believed", there, (4, -18), color=COLOURS["rising"])
+    for axes, title in ((spin, "a spin on the spot"), (dock, "at rest, with a bias")):
+        axes.set(ylim=(-1.2 * arm, 1.2 * arm), aspect="equal", title=title)
+        axes.set(xlim=(-1.2 * arm, 1.2 * arm), xlabel="east [m]", ylabel="north [m]")
+    return Picture(
+        figure,
+        f"An antenna {arm:g} m ahead of the middle. In a spin its eight fixes lie on a circle. At "
+        f"rest, with a heading that is {math.degrees(bias):.0f} deg off, the antenna stays and the "
+        f"middle is believed {1000 * abs(believed.y):.0f} mm to the "
+        f"{'right' if bias > 0 else 'left'}.",
     )
 
 

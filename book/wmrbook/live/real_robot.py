@@ -28,6 +28,7 @@ def compass_heading(heading: float, iron: float, soft: float) -> float:
 def compass() -> Live:
     """Hard and soft iron: what a compass makes of the heading while the robot turns."""
     iron = 20.0
+    read = compass_heading(0.0, iron, 0.0)
     return Live(
         "compass",
         "The magnets on the robot add {iron} ahead to the Earth's 30 µT, and its steel makes the "
@@ -47,9 +48,10 @@ def compass() -> Live:
             "the robot add 20 µT ahead. The program takes the sum for north. Where does it believe "
             "it looks? Turn the arrow.",
             "The sum points between left and ahead, and the robot believes north to be there: so "
-            "it believes it looks further north. Hard iron turns with the robot, so the error "
-            "changes with the heading, and no single angle corrects it.",
-            key=compass_heading(0.0, iron, 0.0),
+            f"it believes it looks {math.degrees(read):.1f}° to the north of east. Hard iron "
+            "turns with the robot, so the error changes with the heading, and no single angle "
+            "corrects it.",
+            key=read,
             pane="above",
             at=(0.0, 0.0),
         ),

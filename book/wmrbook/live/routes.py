@@ -33,7 +33,7 @@ def corners() -> Live:
         data={"first": first, "last": last, "gains": GAINS._asdict(), "pass": 5.0, "stop": 0.05},
         ask=Ask(
             "turn",
-            "A robot comes from the start and goes on to the door. Which heading at the corner "
+            "A robot comes from the start and goes on to the goal. Which heading at the corner "
             "leaves it the same turn, a small one, before the corner and after it? Turn the arrow.",
             "The heading lies halfway between the two legs' directions, counted along the shorter "
             "turn. It is no average of two numbers of degrees, and does not point into the corner.",

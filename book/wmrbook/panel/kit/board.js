@@ -113,7 +113,8 @@ export function paneOf(canvas, colours, spec) {
     // at last, for no path may strike one out
     name() {
       names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours, robot));
-      if (spec.lawn) drawScale(ctx, view, colours, (metres) => written(metres, 'm', 1));
+      if (spec.lawn) drawScale(ctx, view, colours, (metres) =>
+        (metres < 0.01 ? written(1000 * metres, 'mm', 1) : written(metres, 'm', 1)));
     },
     bar(x, from, to, role, half = 0.3) {
       pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85);

@@ -65,7 +65,7 @@ export default live('bowl', {
     levels: {
       x: [-180, 180, 'α [°]'], y: [-160, 160, 'θ [°]'], equal: true,
           given: 'The level sets from above, with the state at the start.',
-      alt: `The level sets from above, and the state's way over them; it is at alpha ` +
+      alt: `The level sets from above, the steepest way, dashed, and the state's; it is at alpha ` +
           `${inDegrees(run.alpha[k])} and theta ${inDegrees(run.theta[k])}.`,
       scrub: (x, y) => timeNear(run.alpha, run.theta, x / DEGREES, y / DEGREES, 0.2),
     },
@@ -110,6 +110,13 @@ export default live('bowl', {
       bowl.text(axis, ...at(...end), { role, dx: 5, dy: 8, size: 16 });
     }
     if (!hidden) {
+      // down the gradient (alpha, h theta)
+      const steepest = Array.from({ length: 41 }, (_, i) =>
+          [run.alpha[0] * 0.9 ** i, run.theta[0] * 0.9 ** (h * i)]), dashed = { dash: [5, 4] };
+      bowl.line(steepest.map((point) => at(...point, high(...point))), 'rising', dashed);
+      levels.line(steepest.map((point) => point.map((each) => each * DEGREES)), 'rising', dashed);
+      const [alpha, theta] = steepest[9].map((each) => each * DEGREES);
+      levels.text('steepest', alpha, theta, { role: 'rising', dx: 6, dy: -8 });
       bowl.line(
           Array.from({ length: k + 1 }, (_, i) => at(run.alpha[i], run.theta[i], value(i) / top)),
           'path');

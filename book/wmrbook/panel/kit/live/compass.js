@@ -26,7 +26,7 @@ export default live('compass', {
         sum: [ahead * cos - left * sin, ahead * sin + left * cos] };
   },
   panes: (values, { read, worst }) => ({
-    above: { x: [-60, 60, ''], y: [-48, 48, ''], equal: true, bare: true,
+    above: { x: [-60, 60, ''], y: [-48, 58, ''], equal: true, bare: true,
         given: 'A robot from above that looks east, and the field that points north.',
         alt: `The robot from above and the fields that it feels: it looks to ` +
         `${values.heading} degrees and believes it looks to ` +
@@ -39,7 +39,7 @@ export default live('compass', {
   draw({ above, error }, { heading }, { turn, errors, read, cos, sin, sum: [east, north] }, hidden,
       { data: { field } }) {
     above.arrow(0, 0, 0, field, 'ghost');
-    above.text('north', 0, field, { role: 'ghost', dy: 12, align: 'center' });
+    above.text('north', 0, field, { role: 'ghost', dx: -8, dy: 6, align: 'right' });
     above.robot([0, 0, hidden ? 0 : Math.atan2(sin, cos)]);
     if (hidden) return;
     above.line([[0, field], [east, north]], 'goal', { width: 2 });

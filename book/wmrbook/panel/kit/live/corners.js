@@ -28,8 +28,8 @@ export default live('corners', {
     return { ...bend, run };
   },
   panes: ({ x, y }, { heading, run }) => ({ plane: {
-    x: [-34, 38, 'east [m]'], y: [-32, 32, 'north [m]'], equal: true, tall: true,
-        given: 'A start, a corner, and a door, joined by two legs.',
+    x: [-34, 38, 'east [m]'], y: [-32, 42, 'north [m]'], equal: true, tall: true,
+        given: 'A start, a corner and a goal, joined by two legs.',
     alt: `A route by way of a corner at ${written(x)} and ${written(y)} metres, where the robot ` +
         `looks to ${(heading * DEGREES).toFixed(0)} degrees; ` +
         `${run.arrived ? `${written(run.t[run.n - 1], 's')} long` : 'it does not arrive'}.`,
@@ -40,7 +40,7 @@ export default live('corners', {
     plane.dot(...corner, 'ink', { hollow: true });
     if (hidden) {
       plane.text('start', ...first, { role: 'start', dy: -18, align: 'center' });
-      plane.text('door', ...last, { role: 'goal', dy: 18, align: 'center' });
+      plane.text('goal', ...last, { role: 'goal', dy: 18, align: 'center' });
       plane.dot(...first, 'start', { hollow: true });
       plane.dot(...last, 'goal', { hollow: true });
       return;

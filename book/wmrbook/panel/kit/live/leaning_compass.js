@@ -20,7 +20,7 @@ export default live('leaning_compass', {
         worst: Math.max(...errors.map(Math.abs)) };
   },
   panes: (values, { off, worst }) => ({
-    above: { x: [-60, 60, ''], y: [-48, 48, ''], equal: true, bare: true,
+    above: { x: [-60, 60, ''], y: [-48, 58, ''], equal: true, bare: true,
         given: 'A robot from above that faces north.',
         alt: `The robot from above: it faces ${values.heading} degrees and believes it faces ` +
         `${(values.heading + off * DEGREES).toFixed(0)} degrees.` },
@@ -32,7 +32,7 @@ export default live('leaning_compass', {
   draw({ above, error }, { heading }, { turn, errors, off }, hidden) {
     const angle = heading / DEGREES, read = angle + off;
     above.arrow(0, 0, 0, 30, 'ghost');
-    above.text('north', 0, 30, { role: 'ghost', dy: 12, align: 'center' });
+    above.text('north', 0, 30, { role: 'ghost', dx: -8, dy: 6, align: 'right' });
     above.robot([0, 0, hidden ? Math.PI / 2 : angle]);
     if (hidden) return;
     above.arrow(0, 0, 40 * Math.cos(angle), 40 * Math.sin(angle), 'path');
