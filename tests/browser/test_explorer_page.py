@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import csv
 import math
+import re
 
 import numpy as np
 import pytest
@@ -372,11 +373,20 @@ def test_presets_show_which_one_is_in_force_and_bring_their_scene(emptied_page):
     start = panel.put("preset", 3).get("start")
     assert [panel.get(name) for name in ("k_rho", "k_alpha", "h")] == [0.2, 2.0, 2.0]
     assert chosen.input_value() == "3"
+    panel.put("dt", 0.01).put("preset", 1).put("dt", 0.01).put("preset", 3)
+    assert (panel.get("dt"), chosen.input_value()) == (0.01, "3")  # gains, whatever the step
     panel.put("preset", 2)
     assert panel.get("moving")
     assert panel.figures()["arrival"] == "0.090 m"  # the paper's "converges to 0.1 m"
     panel.put("law", "kanayama").put("preset", 3)
     assert (panel.get("start"), panel.get("law")) == (start, "corrected")
+
+
+def test_a_slower_preset_leaves_the_robot_in_a_near_picture(emptied_page):
+    panel = mounted(emptied_page, Explorer(at=15.0, zoom=2.0))
+    panel.put("method", "euler").put("dt", 0.01).put("preset", 3)
+    said = emptied_page.locator(".wmr-polar").inner_text()
+    assert float(re.search(r"= ([\d.]+) m", said)[1]) < 2.0
 
 
 def test_light_and_dark_follow_the_page_and_the_system(emptied_page):

@@ -182,7 +182,7 @@ def wheel_limit(values, found, data) -> None:
         assert wheels == pytest.approx(wmr.twist_to_wheels(*twist, track), abs=AGREES)
         robot = wmr.advance(robot, *twist, data["dt"])
     assert (seen.rho <= 0.05) == run["arrived"]
-    free = wmr.simulate(pose(data["start"]), goal, gains, method="continuous", dt=0.02)
+    free = wmr.simulate(pose(data["start"]), goal, gains, method="continuous", dt=0.005)
     far = max(
         np.hypot(free.x - x, free.y - y).min() for x, y in zip(run["x"], run["y"], strict=True)
     )

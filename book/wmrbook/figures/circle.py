@@ -11,7 +11,7 @@ from matplotlib.ticker import FuncFormatter, LogLocator
 
 from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
 from wmrbook.figures.paths import play, pose_at
-from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import real
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectory
@@ -30,7 +30,7 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     goal = Pose(*(np.broadcast_to(field, first.t.shape) for field in first.goal))
     wide = {"color": "0.75", "lw": 7.0, "solid_capstyle": "round"}
     axes.plot(goal.x, goal.y, label="reference", **wide)
-    drives = []
+    drives = [Drive(axes, first.t, goal.x, goal.y, goal.heading, "goal")]
     for (title, run), (role, style) in zip(runs.items(), SERIES, strict=False):
         axes.plot(run.x, run.y, color=COLOURS[role], ls=style, label=title)
         drives.append(play(axes, run, role))

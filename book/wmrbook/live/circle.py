@@ -88,9 +88,9 @@ def lqr() -> Live:
             "At q = 1 errors and commands weigh the same. Now all three errors are weighted "
             f"{heavier:.0f} times as heavily. How much faster does the slowest part of the error "
             "fade?",
-            f"On this circle more weight helps up to q = {fastest:.0f}. Beyond, the limit is what "
-            "is aside: the wheels push ahead, never sideways, and only the goal's speed carries it "
-            "across.",
+            f"On this circle the slowest part fades fastest at q = {fastest:.0f}. Beyond, the "
+            "limit is what is aside: the wheels push ahead, never sideways, and only the goal's "
+            "speed carries it across.",
             key=[*faster.values()].index(True),
             options=(*faster,),
             wrong=(

@@ -28,8 +28,8 @@ def turning_centre() -> Live:
         "The left wheel rolls at {left}, the right one at {right}. The middle moves at {speed} and "
         "turns at {turning}: the robot {centre}.",
         {
-            "left": Knob(left, -1.5, 1.5, 0.05, "speed of the left wheel", "m/s", "v_l"),
-            "right": Knob(right, -1.5, 1.5, 0.05, "speed of the right wheel", "m/s", "v_r"),
+            "left": Knob(left, -1.5, 1.5, 0.05, "speed of the left wheel", "m/s", "V_l"),
+            "right": Knob(right, -1.5, 1.5, 0.05, "speed of the right wheel", "m/s", "V_r"),
         },
         data={"track": TRACK},
         ask=Ask(

@@ -95,7 +95,7 @@ def wheel_limit() -> Live:
     return Live(
         "wheel_limit",
         "No wheel can go faster than {limit}, and {rule}. The robot parks after {seconds} and "
-        "strays {strays} from the path of a robot without a limit.",
+        "strays {strays} from its path without a limit and in continuous time.",
         {
             "limit": Knob(limit, 1.2, 4.0, 0.1, "the fastest that a wheel goes", "m/s", "v_w"),
             "rule": Choice(
@@ -124,7 +124,7 @@ def wheel_limit() -> Live:
 
 def parking() -> Live:
     """Wheels that stand below a speed: where the robot stops, and what mends it."""
-    dead, radius, wheels = 0.1, 0.05, Wheels(TRACK, max_speed=2.0, acceleration=2.0)
+    dead, radius, wheels = 0.1, 0.05, Wheels(TRACK, max_speed=2.0, acceleration=1.0)
     case, how = paper.outdoor(), {"dt": DT, "duration": 60.0, "arrival_radius": radius}
     motors = wheels._replace(dead_band=dead)
     end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, wheels=motors, **how))
@@ -152,7 +152,7 @@ def parking() -> Live:
         data=between(
             *case[:2],
             gains=GENTLE_GAINS._asdict(),
-            wheels={"track_width": TRACK, "max_speed": 2.0, "acceleration": 2.0},
+            wheels={"track_width": TRACK, "max_speed": 2.0, "acceleration": 1.0},
         ),
         ask=Ask(
             "choose",

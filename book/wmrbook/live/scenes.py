@@ -69,15 +69,21 @@ SCENES = {
         Step("v_max twice as large: less than half.", {"v_max": 8.0}),
     ),
     "window": (
-        Step("Too little steering: the heading still swings.", {"kappa": 0.15, "h": 0.3}),
+        Step(
+            "Two numbers are left. With little steering, a small kappa, the heading still swings.",
+            {"kappa": 0.15, "h": 0.3},
+        ),
         Step("Enough of it, but h is small: the heading lags.", {"kappa": 4.0, "h": 0.3}),
         Step("Inside the window the heading settles first.", {"kappa": 4.0, "h": 4.0}),
     ),
     "wheel_limit": (
-        Step("Wheels that are fast enough.", {"limit": 4.0, "rule": "both"}),
+        Step(
+            "Wheels that are fast enough: it strays because each command is held for 0.05 s.",
+            {"limit": 4.0, "rule": "both"},
+        ),
         Step("Slower wheels, each clipped by itself: it swings wide."),
         Step("v and omega clipped one by one: another path.", {"rule": "apart"}),
-        Step("Both scaled alike: the first path, driven more slowly.", {"rule": "both"}),
+        Step("Both scaled alike: nearly the first path, driven more slowly.", {"rule": "both"}),
     ),
     "bench": (
         Step("Errors that are new in each fix: near, but tens of degrees off."),

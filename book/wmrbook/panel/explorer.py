@@ -199,5 +199,5 @@ def _presets() -> list[dict]:
     return [
         still | poses | outdoor.gains._asdict() | {"dt": outdoor.dt},
         moving | circle | paper.CIRCLE_GAINS._asdict(),
-        still | GENTLE_GAINS._asdict() | {"dt": paper.TIME_STEP},
+        still | GENTLE_GAINS._asdict(),  # of any step: a reader shortens it, then compares
     ]

@@ -86,9 +86,11 @@ function render({ model, el }) {
   const showControls = buildControls(find('.wmr-rows'), setup, {
     change({ preset, ...changed }) {
       if (preset > 0) {
-        const before = values().moving;
+        const before = values().moving, share = (state.time ?? 0) / (endOf(state.run) || 1);
         write(presetValues(setup.presets[preset - 1], values(), setup));
         if (values().moving !== before) state.zoom = null; // of another scene
+        compute();
+        if (state.time !== null) state.time = share * endOf(state.run); // as far on its way
       }
       else write(changed);
       showControls(values()); // the handle goes to the stop that was taken

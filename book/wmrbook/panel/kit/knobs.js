@@ -126,7 +126,8 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         { 'aria-label': `play: ${knob.says}` }) : null;
     timers.push(stop);
     // What happens in time is seen once more; a heading that turns stays where it was asked for.
-    if (button && knob.value === knob.high) plays.push(() => { set({ [name]: knob.low }, true); play(); });
+    if (button && knob.value === knob.high)
+      plays.push(() => { set({ [name]: knob.low }, true); play(); });
     if (knob.auto && document.documentElement.dataset.still === undefined
         && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => {
       if (!playing) play();

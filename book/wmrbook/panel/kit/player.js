@@ -1,9 +1,9 @@
-// Plays a drive over the picture that shows it: robots go along their paths, at a button or under a
-// slider. `Picture.motion` in wmrbook.figures says where they are.
+// Plays a drive over the picture that shows it: robots and a goal go along their paths, at a button
+// or under a slider. `Picture.motion` in wmrbook.figures says where they are.
 
 import { followTheme, readColours } from './style.js';
 import { putSlider, stopsOf } from './controls.js';
-import { drawRobot } from './scene.js';
+import { drawPose, drawRobot } from './scene.js';
 import { inside } from './surface.js';
 import { made } from './hands.js';
 
@@ -68,8 +68,17 @@ function player(box, { seconds, robots: told }) {
       };
       const frame = { left: left * width / PARTS, top: top * height / PARTS,
         width: (right - left) * width / PARTS, height: (bottom - top) * height / PARTS };
-      inside(ctx, frame, () => drawRobot(ctx, [at(x) * width / PARTS, at(y) * height / PARTS],
-          at(heading) * Math.PI / 180, { ...colours, path: colours[role] || colours.path }, size));
+      const place = [at(x) * width / PARTS, at(y) * height / PARTS],
+          turned = at(heading) * Math.PI / 180;
+      inside(ctx, frame, () => {
+        if (role !== 'goal') {
+          drawRobot(ctx, place, turned, { ...colours, path: colours[role] || colours.path }, size);
+          return;
+        }
+        ctx.translate(place[0], place[1]);
+        ctx.scale(size, size);
+        drawPose(ctx, { toScreen: (east, down) => [east, down] }, [0, 0, turned], role, colours);
+      });
     }
   }
   const repaint = () => { colours = readColours(root); draw(); };

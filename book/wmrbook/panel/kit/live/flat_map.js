@@ -72,7 +72,8 @@ export default live('flat_map', {
     for (const ring of RINGS.filter((each) => each > 0.02 * rho && each < 2 * rho)) {
       map.line(Array.from({ length: 91 }, (_, k) => [ring * Math.cos(Math.PI * k / 45),
         ring * Math.sin(Math.PI * k / 45)]), 'line', { width: 1.5 });
-      map.text(lengthText(ring, 1), 0, ring, { role: 'soft', dx: 6, dy: -9, size: 13 });
+      const [x, y, dy] = ring < 0.3 * rho ? [-ring, 0, 0] : [0, ring, -9]; // where less is drawn
+      map.text(lengthText(ring, 1), x, y, { role: 'soft', dx: -6, dy, size: 13, align: 'right' });
     }
     size.line([[1, -2], [6, -2]], 'ghost', { width: 1.5, dash: [2, 4] });
     size.text('1 cm', 6, -2, { role: 'ghost', dx: -6, dy: 9, align: 'right' });

@@ -63,7 +63,7 @@ export default live('parking', {
     speed.dot(...points[points.length - 1], 'path');
   },
   say: (values, { run, arrived, distance, headingError }) => ({
-    stops: written(distance, 'm'), off: `${Math.abs(headingError * DEGREES).toFixed(0)}°`,
+    stops: written(distance, 'm'), off: `${Math.abs(headingError * DEGREES).toFixed(1)}°`,
     ends: arrived ? `parks after ${written(run.t[run.n - 1], 's')}` : 'never parks: it stands',
   }),
 });

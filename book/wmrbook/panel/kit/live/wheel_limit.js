@@ -48,7 +48,7 @@ const straying = remembered(({ x, y, free }) => Math.sqrt(Math.max(...x.map((px,
 export default live('wheel_limit', {
   find({ limit, rule, time }, { data }) {
     const { start, goal, gains } = data, run = limited({ ...data, limit, rule }),
-        whole = driven({ start, goal, gains, dt: 0.02 });
+        whole = driven({ start, goal, gains, dt: 0.005 });
     const free = { x: Array.from(whole.x), y: Array.from(whole.y) };
     return { run, free, strays: straying({ x: run.x, y: run.y, free }),
         k: Math.round(time * (run.n - 1)) };
@@ -56,7 +56,8 @@ export default live('wheel_limit', {
   panes: ({ limit }, { run, strays }) => ({
     plane: { x: [-5, 8, 'x [m]'], y: [-1.5, 14, 'y [m]'], equal: true,
         given: 'The robot and its goal, 10 m to its left; both look the same way.',
-        alt: `The path strays ${written(strays, 'm')} from the one without a limit.`,
+        alt: `The path strays ${written(strays, 'm')} from the one without a limit and in ` +
+        `continuous time.`,
       scrub: (x, y) => timeNear(run.x, run.y, x, y, 1.5) },
     speeds: { x: [0, 20, 'time [s]'], y: [-4.4, 4.4, 'wheels [m/s]'],
         given: 'The speeds of the wheels over time: nothing yet.',

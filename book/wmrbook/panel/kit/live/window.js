@@ -60,8 +60,9 @@ export default live('window', {
     if (!hidden) plane.text('window', 2, 5.5, { role: 'start', dx: 6, size: 13 });
     for (const [name, x, y] of named) {
       plane.dot(x, y, 'ink', { size: 4 });
-      const [dx, align] = x > MOST / 2 ? [-15, 'right'] : [15, 'left'];
-      plane.text(name, x, y, { dx, dy: -3, size: 13, align });
+      const [dx, dy, align] = x > MOST / 2 ? [-15, -3, 'right']
+          : x < 0.5 ? [0, 20, 'left'] : [15, -3, 'left'];
+      plane.text(name, x, y, { dx, dy, size: 13, align });
     }
     roots.area([[-1, -9], [-1, 9], [9, 9], [9, -9]], 'rising', 0.12);
     roots.text('slower', 0.6, -2.7, { role: 'rising', align: 'right', size: 13 });

@@ -20,7 +20,7 @@ export default live('x_axis', {
   },
   panes({ axis }, { off, goal, x, y }) {
     return {
-      whole: { x: [-12, 32, 'east [m]'], y: [-5, 62, 'north [m]'], equal: true,
+      whole: { x: [-12, 32, 'east [m]'], y: [-5, 70, 'north [m]'], equal: true,
           given: 'The start and the goal on a map, north up, without their headings.',
           alt: `The drive on a map with north up, read with x ${axis}.`,
           scrub: (...at) => timeNear(x, y, ...at.slice(0, 2), 3) },
