@@ -72,7 +72,7 @@ def bowl() -> Live:
             "choose",
             "This chapter designs a law for this bowl. How will the ball get to the bottom?",
             "Along a motion V must not rise; nothing is asked of the direction. A robot can't turn "
-            "its two angles as it likes, so its way down is its own.",
+            "its two angles as it likes, so its way down is its own. The steepest is dashed.",
             key=[*ways.values()].index(True),
             options=(*ways,),
             wrong=(

@@ -115,8 +115,6 @@ export default live('bowl', {
           [run.alpha[0] * 0.9 ** i, run.theta[0] * 0.9 ** (h * i)]), dashed = { dash: [5, 4] };
       bowl.line(steepest.map((point) => at(...point, high(...point))), 'rising', dashed);
       levels.line(steepest.map((point) => point.map((each) => each * DEGREES)), 'rising', dashed);
-      const [alpha, theta] = steepest[9].map((each) => each * DEGREES);
-      levels.text('steepest', alpha, theta, { role: 'rising', dx: 6, dy: -8 });
       bowl.line(
           Array.from({ length: k + 1 }, (_, i) => at(run.alpha[i], run.theta[i], value(i) / top)),
           'path');
