@@ -179,6 +179,8 @@ CASES = {
         (5.04, 48.6),
     ),
     "lever_arm": lambda: figures.lever_arm(0.3, math.radians(10.0)),
+    "lever_arm, right": lambda: figures.lever_arm(0.5, math.radians(-20.0)),
+    "lever_arm, none": lambda: figures.lever_arm(0.3, 0.0),
     "beliefs": lambda: figures.beliefs(
         np.arange(4.0), {"all": (np.array([5.0, -9.0, 1.0, 1.0]), np.array([4.0, 4.0, 2.0, 1.0]))}
     ),
@@ -292,7 +294,9 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
         "by the power 2."
     ],
     "heading_distance": lambda: ["5 deg: good, after 2 m; bad, nowhere. A star marks", "48.6 deg"],
-    "lever_arm": lambda: ["10 deg off", "52 mm to the right"],
+    "lever_arm": lambda: ["10 deg too far to the left", "52.1 mm to the right"],
+    "lever_arm, right": lambda: ["20 deg too far to the right", "171 mm to the left"],
+    "lever_arm, none": lambda: ["An antenna 0.3 m ahead of the middle, its circle"],
     "beliefs": lambda: ["all: 4.0 to 1.0 deg, error inside 75 % of the time."],
     "last_turns": lambda: [
         "one 3.0 s without and 2.0 s with a last turn; two never without and 2.5 s with"

@@ -24,14 +24,14 @@ STILL = "* { transition: none !important; }"
 
 
 @contextlib.contextmanager
-def serving(which: str):
-    """The lecturer's link and the class's address of a vote that the command serves."""
+def serving(which: str, port: int = 0):
+    """The lecturer's link, the class's address and the process of a vote that is served."""
     command = [sys.executable, ROOT / "book/tools/vote.py", which]
-    command += ["--address", "127.0.0.1", "--port", str(free_port())]
+    command += ["--address", "127.0.0.1", "--port", str(port or free_port())]
     with subprocess.Popen(command, stdout=subprocess.PIPE, text=True) as server:
         try:
             links = (line.split()[-1] for line in server.stdout if " http" in line)
-            yield next(links), next(links)
+            yield next(links), next(links), server
             server.send_signal(signal.SIGINT)
             assert server.wait(10) == 0
         finally:
@@ -45,7 +45,7 @@ def test_two_telephones_vote_and_the_slide_shows_the_bars_only_when_asked(
     ours, ada, bob = pages = [another_page() for _ in range(3)]
     for page, size in zip(pages, ((1280, 720), (390, 844), (390, 844)), strict=True):
         page.set_viewport_size(dict(zip(("width", "height"), size, strict=True)))
-    with serving(which) as (link, address):
+    with serving(which) as (link, address, _):
         ours.goto(link)
         ours.add_style_tag(content=STILL)
         ours.wait_for_function(
@@ -100,3 +100,24 @@ def test_two_telephones_vote_and_the_slide_shows_the_bars_only_when_asked(
         for page in pages:
             page.assert_quiet()
     ada.get_by_text("No connection. It tries again.").wait_for()
+
+
+def test_a_vote_outlives_a_server_that_hangs_and_one_that_begins_anew(another_page):
+    ours, ada, port = another_page(), another_page(), free_port()
+    with serving("04", port) as (link, address, server):
+        ours.goto(link)
+        ours.wait_for_function(
+            "document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE
+        )
+        ours.evaluate("deck.slide(4)")
+        ada.goto(address)
+        ada.get_by_role("button").nth(1).click()
+        ada.get_by_text("Your vote: B. You may change it.").wait_for()
+        server.send_signal(signal.SIGSTOP)
+        ada.get_by_role("button").nth(0).click()
+        ada.get_by_text("No connection. Your vote is sent when it is back.").wait_for()
+        server.send_signal(signal.SIGCONT)
+        ada.get_by_text("Your vote: A. You may change it.").wait_for()
+    ada.get_by_text("No connection. It tries again.").wait_for()
+    with serving("04", port):
+        ada.get_by_text("Nothing is asked now.").wait_for()

@@ -46,6 +46,15 @@ def test_every_page_opens_without_trouble_and_without_faults(site, opened, brows
         assert not faults, f"{name}: {faults}"
 
 
+@pytest.mark.parametrize("name", ["rover", "lawn", "notebooks/10_the_audit"])
+def test_what_is_wide_makes_no_page_scroll_sideways(name, opened):
+    page = opened(f"{name}.html")
+    wide = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+    for width in (600, 992, 1024, 1199, 1200, 1366, 1699, 1700):
+        page.set_viewport_size({"width": width, "height": 800})
+        assert page.evaluate(wide) <= 0, width
+
+
 def test_every_slider_moves_by_keyboard_and_changes_the_picture(opened):
     page = opened("explorer.html")
     found = sliders(page)

@@ -54,9 +54,9 @@ def heading_distance(
 def lever_arm(arm: float, bias: float) -> Picture:
     """An antenna's circle in a spin, and where a biased heading [rad] puts a robot that stands.
 
-    arm: the antenna's distance ahead of the robot's middle, m.
+    arm: the antenna's distance ahead of the robot's middle, m; bias: to the left, up to 0.5.
     """
-    arm, bias = scalar("arm", arm, above=0.0), scalar("bias", bias, low=-1.0, high=1.0)
+    arm, bias = scalar("arm", arm, above=0.0), scalar("bias", bias, low=-0.5, high=0.5)
     figure, (spin, dock) = panels(1, 2, 9.0, 4.2)
     turned = np.linspace(0.0, 2 * math.pi, 73)
     spin.plot(arm * np.cos(turned), arm * np.sin(turned), color=COLOURS["path"])
@@ -66,22 +66,28 @@ def lever_arm(arm: float, bias: float) -> Picture:
     note(spin, "$r$", (0.8 * arm, 0.0), (0, 5))
     believed = Pose(arm - arm * math.cos(bias), -arm * math.sin(bias), bias)
     for pose, role in ((Pose(0.0, 0.0, 0.0), "path"), (believed, "rising")):
-        draw_robot(dock, pose, 0.6 * arm, 0.12 * arm)
+        draw_robot(dock, pose, 0.6 * arm, 0.12 * arm, role if pose is believed else "")
         dock.plot([pose.x, arm], [pose.y, 0.0], color=COLOURS[role])
         dock.plot(pose.x, pose.y, "o", color=COLOURS[role], zorder=6)
     dock.plot(arm, 0.0, "o", color=COLOURS["ink"], zorder=6)
-    note(dock, "stands", (0.6 * arm, 0.0), (0, 5), color=COLOURS["path"])
-    there = 0.5 * (believed.x + arm), 0.5 * believed.y
-    note(dock, "believed", there, (4, -18), color=COLOURS["rising"])
+    side = math.copysign(1.0, bias)
+    for text, pose, role, beyond in (
+        ("stands", Pose(0.0, 0.0, 0.0), "path", 0.5 * side),
+        ("believed", believed, "rising", -0.5 * side),
+    ):
+        at = (pose.x - 0.1 * arm, pose.y + beyond * arm)
+        note(dock, text, at, color=COLOURS[role], ha="center", va="center")
     for axes, title in ((spin, "a spin on the spot"), (dock, "at rest, with a bias")):
         axes.set(ylim=(-1.2 * arm, 1.2 * arm), aspect="equal", title=title)
         axes.set(xlim=(-1.2 * arm, 1.2 * arm), xlabel="east [m]", ylabel="north [m]")
+    aside = f"{1000 * abs(believed.y):.3g} mm to the {'right' if bias > 0 else 'left'}"
     return Picture(
         figure,
         f"An antenna {arm:g} m ahead of the middle. In a spin its eight fixes lie on a circle. At "
-        f"rest, with a heading that is {math.degrees(bias):.0f} deg off, the antenna stays and the "
-        f"middle is believed {1000 * abs(believed.y):.0f} mm to the "
-        f"{'right' if bias > 0 else 'left'}.",
+        f"rest, with a heading that is {math.degrees(abs(bias)):.0f} deg too far to the "
+        f"{'left' if bias > 0 else 'right'}, the antenna stays and the middle is believed {aside}."
+        if bias
+        else f"An antenna {arm:g} m ahead of the middle, its circle in a spin, and at rest.",
     )
 
 

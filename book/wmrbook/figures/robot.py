@@ -117,16 +117,23 @@ def _placed(pose: Pose, point) -> tuple[float, float]:
     return pose.x + cos * point[0] - sin * point[1], pose.y + sin * point[0] + cos * point[1]
 
 
-def draw_robot(axes: Axes, pose: Pose, b: float, r: float) -> None:
-    """Draw the robot from above; b between its wheels, whose radius is r, in metres."""
+def draw_robot(axes: Axes, pose: Pose, b: float, r: float, outline: str = "") -> None:
+    """Draw the robot from above; b between its wheels, whose radius is r, in metres.
+
+    outline: a role in COLOURS, for a robot that is only thought of.
+    """
     body = [_placed(pose, (b * ahead, b * left)) for ahead, left in _BODY]
-    axes.add_patch(Polygon(body, fc=COLOURS["robot"], ec=COLOURS["ink"], alpha=0.45))
+    ink = COLOURS[outline or "ink"]
+    if outline:
+        axes.add_patch(Polygon(body, fill=False, ec=ink, lw=1.5))
+    else:
+        axes.add_patch(Polygon(body, fc=COLOURS["robot"], ec=ink, alpha=0.45))
     corners = (r, 0.06 * b), (-r, 0.06 * b), (-r, -0.06 * b), (r, -0.06 * b)
     for side in (0.5 * b, -0.5 * b):
         wheel = [_placed(pose, (ahead, side + left)) for ahead, left in corners]
-        axes.add_patch(Polygon(wheel, fc=COLOURS["ink"], zorder=3))
+        axes.add_patch(Polygon(wheel, fc=ink, zorder=3))
     axle = _placed(pose, (0.0, 0.5 * b)), _placed(pose, (0.0, -0.5 * b))
-    axes.plot(*zip(*axle, strict=True), color=COLOURS["ink"], lw=2.0)
+    axes.plot(*zip(*axle, strict=True), color=ink, lw=2.0)
 
 
 def _dimension(axes: Axes, one, other, name: str) -> None:

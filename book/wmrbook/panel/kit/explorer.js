@@ -86,11 +86,21 @@ function render({ model, el }) {
   const showControls = buildControls(find('.wmr-rows'), setup, {
     change({ preset, ...changed }) {
       if (preset > 0) {
-        const before = values().moving, share = (state.time ?? 0) / (endOf(state.run) || 1);
+        const before = values().moving, left = state.run && state.run.rho[cursorOf(state.run)];
         write(presetValues(setup.presets[preset - 1], values(), setup));
         if (values().moving !== before) state.zoom = null; // of another scene
         compute();
-        if (state.time !== null) state.time = share * endOf(state.run); // as far on its way
+        if (state.trouble) { // of a step that was refused
+          write({ dt: setup.presets[0].dt });
+          compute();
+        }
+        if (state.run && state.time !== null) { // as near to its goal as before
+          const { rho, n, t } = state.run;
+          let k = 0;
+          while (k < n - 1 && rho[k] > left) k += 1;
+          state.time = t[k];
+        }
+        if (state.playing) state.playing = { from: state.time, since: performance.now() };
       }
       else write(changed);
       showControls(values()); // the handle goes to the stop that was taken

@@ -60,7 +60,9 @@ function player(box, { seconds, robots: told }) {
     const ctx = canvas.getContext('2d');
     ctx.scale(ratio, ratio);
     const size = Math.min(Math.max(width / 640, 0.5), 1.2) * (robots.length > 4 ? 0.4 : 1);
-    for (const { box: [left, top, right, bottom], x, y, heading, role } of shown ? robots : []) {
+    const last = ({ role }) => Number(role === 'goal'); // on the robot that stands on it
+    for (const { box: [left, top, right, bottom], x, y, heading, role }
+      of shown ? robots.toSorted((a, b) => last(a) - last(b)) : []) {
       const at = (values) => {
         const k = Math.min(Math.floor(share * (values.length - 1)), values.length - 2),
             rest = share * (values.length - 1) - k;

@@ -111,10 +111,11 @@ export default live('bowl', {
     }
     if (!hidden) {
       // down the gradient (alpha, h theta)
-      const steepest = Array.from({ length: 41 }, (_, i) =>
-          [run.alpha[0] * 0.9 ** i, run.theta[0] * 0.9 ** (h * i)]), dashed = { dash: [5, 4] };
-      bowl.line(steepest.map((point) => at(...point, high(...point))), 'rising', dashed);
-      levels.line(steepest.map((point) => point.map((each) => each * DEGREES)), 'rising', dashed);
+      const by = Math.log(0.01) / 40 / Math.min(1, h), dashed = { dash: [5, 4] },
+          steepest = Array.from({ length: 41 }, (_, i) =>
+          [run.alpha[0] * Math.exp(by * i), run.theta[0] * Math.exp(h * by * i)]);
+      bowl.line(steepest.map((point) => at(...point, high(...point))), 'ink', dashed);
+      levels.line(steepest.map((point) => point.map((each) => each * DEGREES)), 'ink', dashed);
       bowl.line(
           Array.from({ length: k + 1 }, (_, i) => at(run.alpha[i], run.theta[i], value(i) / top)),
           'path');
