@@ -55,6 +55,16 @@ def test_what_is_wide_makes_no_page_scroll_sideways(name, opened):
         assert page.evaluate(wide) <= 0, width
 
 
+def test_no_word_for_folded_code_lies_under_the_contents(opened):
+    page = opened("notebooks/04_lyapunov.html")
+    ends = """() => [...document.querySelectorAll('details.above-input > summary')]
+        .map(it => it.getBoundingClientRect().right)"""
+    for width in (1200, 1280, 1359, 1360, 1366, 1920):
+        page.set_viewport_size({"width": width, "height": 800})
+        contents = page.locator(".bd-sidebar-secondary").bounding_box()["x"]
+        assert max(page.evaluate(ends)) < contents, width
+
+
 def test_every_slider_moves_by_keyboard_and_changes_the_picture(opened):
     page = opened("explorer.html")
     found = sliders(page)
