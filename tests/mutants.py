@@ -64,8 +64,8 @@ PLANS = {
 NO_FORMULAS = {"__init__", "_checks", "_compile"}
 # The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
-    ("engine/threads.py", "in _POLL_SECONDS = ", "a patience"),
-    ("engine/threads.py", "in _IN_FLIGHT = ", "how many chunks wait does not show"),
+    ("_threads.py", "in _POLL_SECONDS = ", "a patience"),
+    ("_threads.py", "in _IN_FLIGHT = ", "how many chunks wait does not show"),
     ("engine", "in _ROUNDS = ", "how often is looked at who has finished does not show"),
     ("engine/continuous.py", "'>' -> '>=' in far = ", "nobody stops at the border"),
     ("engine/continuous.py", "'<' -> '<=' in hopeless", "a patience"),

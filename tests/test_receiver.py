@@ -8,8 +8,9 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
+from wmrlib import _threads as threads
 from wmrlib.engine import receivers as engine
-from wmrlib.engine import sampled, threads
+from wmrlib.engine import sampled
 
 DT, GAINS = 0.1, wmr.GENTLE_GAINS
 START, GOAL = wmr.Pose(-6.0, 2.0, 0.5), wmr.Pose(0.0, 0.0, -1.0)

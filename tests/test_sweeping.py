@@ -18,8 +18,9 @@ from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
 from wmrlib import _dop853, sweeping
+from wmrlib import _threads as threads
 from wmrlib.body import checked_wheels
-from wmrlib.engine import lanes, sampled, threads
+from wmrlib.engine import lanes, sampled
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()

@@ -13,7 +13,7 @@ import numpy as np
 from timing import Row, in_turn
 
 import wmrlib as wmr
-from wmrlib.engine import threads
+from wmrlib import _threads as threads
 
 os.environ.setdefault(
     "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
