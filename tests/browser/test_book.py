@@ -93,7 +93,8 @@ def test_the_printed_book_is_a_book(site, printed):
 
 @pytest.mark.needs("browser")
 def test_what_the_printed_book_lists_stands_where_it_says(printed):
-    listed = re.findall(r"\b(\d+\.\d+) \D.*? (\d+)(?= \d+\.\d+ \D)", printed.text("Figures"))
+    figures = " ".join(printed.lines(printed.of("Figures")))
+    listed = re.findall(r"\b(\d+\.\d+) \D.*?(\d+)(?= \d+\.\d+ \D)", figures)
     line = re.compile(r"(?:\d+ ?(?=\D))?(.+?) ?(\d+)")
     entries = [line.fullmatch(it) for it in printed.lines(printed.of("Contents"))]
     entries = [it for it in entries if it]
@@ -104,7 +105,7 @@ def test_what_the_printed_book_lists_stands_where_it_says(printed):
     assert len(listed) > 30
     for number, page in listed:
         assert f"Figure {number}." in printed.pages[int(page) - 1], f"figure {number}"
-    index = "".join(printed.text("Index").split())
+    index = "".join("".join(printed.lines(printed.of("Index"))).split())
     terms_pages = {
         term: re.search(rf"(?<=[\dxt]){re.escape(term.replace(' ', ''))}((?:,\d+)+)", index)
         for term, _ in terms()
