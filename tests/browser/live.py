@@ -48,8 +48,8 @@ def pages(site: Path) -> list[Path]:
 def again(page, key: str, load: Callable[[], object]) -> None:
     """Load a page anew, once more where a browser under load hands it an empty store.
 
-    Chromium does that to one load in thirty beside four busy processes, with a profile on a disk
-    too. The next load has what was kept under keys that begin like this one.
+    Chromium does that now and then beside busy processes, with a profile on a disk too. The next
+    load has what was kept under keys that begin like this one.
     """
     load()
     for _ in range(5):
