@@ -62,7 +62,7 @@ function player(box, { seconds, robots: told }) {
     const size = Math.min(Math.max(width / 640, 0.5), 1.2) * (robots.length > 4 ? 0.4 : 1);
     const last = ({ role }) => Number(role === 'goal'); // on the robot that stands on it
     for (const { box: [left, top, right, bottom], x, y, heading, role }
-      of shown ? robots.toSorted((a, b) => last(a) - last(b)) : []) {
+      of shown ? [...robots].sort((a, b) => last(a) - last(b)) : []) {
       const at = (values) => {
         const k = Math.min(Math.floor(share * (values.length - 1)), values.length - 2),
             rest = share * (values.length - 1) - k;
