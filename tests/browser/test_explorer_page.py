@@ -382,6 +382,15 @@ def test_presets_show_which_one_is_in_force_and_bring_their_scene(emptied_page):
     assert (panel.get("start"), panel.get("law")) == (start, "corrected")
 
 
+def test_a_preset_ends_a_refused_step(emptied_page):
+    panel = mounted(emptied_page, Explorer(duration=200.0))
+    panel.put("dt", 0.001)
+    refused = emptied_page.locator(".wmr-polar").inner_text()
+    panel.put("preset", 3)
+    assert panel.get("dt") == 0.1
+    assert emptied_page.locator(".wmr-polar").inner_text() != refused
+
+
 def test_a_preset_leaves_the_robot_in_a_near_picture(emptied_page):
     panel = mounted(emptied_page, Explorer(at=15.0, zoom=2.0))
     panel.put("method", "euler").put("dt", 0.01)
