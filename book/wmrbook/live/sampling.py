@@ -128,7 +128,7 @@ def parking() -> Live:
     case, how = paper.outdoor(), {"dt": DT, "duration": 60.0, "arrival_radius": radius}
     motors = wheels._replace(dead_band=dead)
     end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, wheels=motors, **how))
-    choices = (0.05, 0.13, 0.5)
+    choices = (0.05, 0.12, 0.5)
     return Live(
         "parking",
         "Wheels that are told less than {dead} stand. To arrive within {radius}, the robot {mend}. "
@@ -161,7 +161,7 @@ def parking() -> Live:
             "The speed falls with the distance, and the wheels stand as soon as it is below "
             "0.1 m/s. The slower the gains brake, the farther away that is.",
             key=nearest(end.distance, choices),
-            options=("5 cm", "about 13 cm", "half a metre"),
+            options=("5 cm", "about 12 cm", "half a metre"),
             wrong=(
                 "5 cm away the gentle gains ask for 0.04 m/s. Long before, the wheels stand.",
                 "",
