@@ -151,7 +151,7 @@ def sweep(
             f"at most {MOST_RECORDED:,} in all are needed"
         )
     summary = np.full((len(Arrival._fields), total), np.nan)
-    record = np.full((8, samples if trajectories else 0, total), np.nan)
+    record = np.empty((8, total, samples if trajectories else 0))
     source = [np.broadcast_to(field, shape).reshape(-1) for field in fields.values()]
     if receiver:
         source.insert(-1, np.arange(total))  # before the law: the run's number
@@ -169,8 +169,8 @@ def sweep(
     metrics = Arrival(outcome == ARRIVED, *rest)
     if not trajectories:
         return metrics
-    paths = np.moveaxis(record.reshape(8, samples, *shape), 1, -1)
-    return metrics, Trajectories(dt * np.arange(samples), *paths)
+    record[:, np.isnan(summary[lanes.OUTCOME])] = np.nan  # what is undone has not been written to
+    return metrics, Trajectories(dt * np.arange(samples), *record.reshape(8, *shape, samples))
 
 
 def run_chunk(runs: np.ndarray, task: _Task, record: np.ndarray, first: int) -> np.ndarray:
@@ -182,13 +182,14 @@ def run_chunk(runs: np.ndarray, task: _Task, record: np.ndarray, first: int) -> 
     laws = np.unique(runs[-1])
     if laws.size == 1:
         survey, law = _ENGINES[task.method].survey, lanes.as_type(int(laws[0]))
+        record[:, first : first + runs.shape[1]] = np.nan
         return survey(runs[:-1], record, first, law, task)
     summary = np.empty((len(Arrival._fields), runs.shape[1]))
     for law in laws:
         members = np.flatnonzero(runs[-1] == law)
-        own = np.full((*record.shape[:2], members.size), np.nan)
+        own = np.empty((8, members.size, record.shape[2]))
         summary[:, members] = run_chunk(runs.take(members, axis=1), task, own, 0)
-        record[:, :, first + members] = own
+        record[:, first + members] = own
     return summary
 
 
@@ -202,7 +203,7 @@ def _results(source, record: np.ndarray, task: _Task, go_on) -> Generator:
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
     if len(chunks) > 1:  # compile here, and not in several threads
         few = np.tile(np.unique(source[-1]), (len(source), 1))
-        short = np.full((8, 2 * task.recorded, few.shape[1]), np.nan)
+        short = np.empty((8, few.shape[1], 2 * task.recorded))
         run_chunk(few, task._replace(samples=2), short, 0)
     return threads.spread(run_chunk, chunks, arguments, go_on)
 

@@ -165,8 +165,8 @@ def note(bench, width, inside, goals, dt, records, place):
                 pose = pose_of_error(*polar, goals[0, run], goals[1, run], goals[2, run])
                 twist = bench[SLOPES + ROLLED + i], bench[SLOPES + OMEGA + i]
                 for row, value in enumerate((*pose, *polar, *twist)):
-                    records[row, k, place + run] = value
-            bench[NEXT + i] = (k + 1) * dt if k + 1 < records.shape[1] else math.inf
+                    records[row, place + run, k] = value
+            bench[NEXT + i] = (k + 1) * dt if k + 1 < records.shape[2] else math.inf
 
 
 @compiled
@@ -181,7 +181,7 @@ def drive(states, goals, radius, law, wheels, dt, records, place):
             lanes.copy_column(kept, i, states, first + i)
             inside[i], bench[TAKEN + i] = first + i, 1.0
         begin(bench, LANES, law, wheels)
-        if records.shape[1] > 0:
+        if records.shape[2] > 0:
             note(bench, used, inside, goals, dt, records, place)
         for i in range(used):
             lanes.copy_column(states, first + i, kept, i)
@@ -192,7 +192,7 @@ def drive(states, goals, radius, law, wheels, dt, records, place):
         for _ in range(_ROUNDS):
             attempt(bench, LANES, law, wheels)
             judge(bench, LANES, radius)
-            if records.shape[1] > 0:
+            if records.shape[2] > 0:
                 note(bench, width, inside, goals, dt, records, place)
 
 
@@ -241,5 +241,5 @@ def survey(runs, records, place, law, task):
     drive(states, runs[3:6], radius, law, task.limits, task.dt, records, place)
     summary = summed_up(states, whole, radius)
     unfit = np.flatnonzero(~np.isin(summary[lanes.OUTCOME], (ARRIVED, TIMED_OUT)))
-    records[:, :, place + unfit] = np.nan
+    records[:, place + unfit] = np.nan
     return summary

@@ -118,7 +118,7 @@ def drive_all(
 ):  # fmt: skip
     """The same, sample after sample, because each is recorded, or steered by what a receiver shows.
 
-    `records` has an axis for the rows, one for the samples, and one for the runs.
+    `records` has an axis for the rows, one for the runs, and one for the samples.
     """
     block, past = np.zeros((ROWS, BLOCK)), np.zeros((3, depth, BLOCK))
     shown = np.zeros((receivers.ROWS, BLOCK))
@@ -132,26 +132,26 @@ def drive_all(
             for i in range(used):
                 block[ALIVE, i] = 1.0 if block[LEFT, i] >= 0.0 else 0.0
             look(block, used, X, BRANCH, hysteresis)
-            if records.shape[1] > 0:
+            if records.shape[2] > 0:
                 for row, at in enumerate((X, Y, HEADING, RHO, ALPHA, THETA)):
-                    _note(records[row, k], block, width, place + first, at)
+                    _note(records[row], k, block, width, place + first, at)
             if key is not None:
                 receivers.show(block, SEEN, GOAL_X, shown, past, k, used, key)
                 look(block, used, SEEN, BRANCH + 1, hysteresis)
             decide(block, used, law, wheels, dt, radius, motors, end)
-            if records.shape[1] > 0:
-                _note(records[6, k], block, width, place + first, V)
-                _note(records[7, k], block, width, place + first, OMEGA)
+            if records.shape[2] > 0:
+                _note(records[6], k, block, width, place + first, V)
+                _note(records[7], k, block, width, place + first, OMEGA)
             move(block, used, arc, dt)
         for i in range(width):
             lanes.copy_column(states, first + i, block, i)
 
 
 @formula
-def _note(record, block, width, first, row):
+def _note(record, k, block, width, first, row):
     for i in range(width):
         if block[ALIVE, i] > 0.0:
-            record[first + i] = block[row, i]
+            record[first + i, k] = block[row, i]
 
 
 @compiled
@@ -187,9 +187,9 @@ def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, motors, end
             count, outcome, peak, length = held(alone, start, *how)
             last = max(count - 1, 0)
             polar = alone[3, last], alone[4, last], alone[5, last]
-            for k in range(records.shape[1]):
+            for k in range(records.shape[2]):
                 for row in range(records.shape[0]):
-                    records[row, k, place + i] = alone[row, k] if k < count else math.nan
+                    records[row, place + i, k] = alone[row, k] if k < count else math.nan
         heading_error = wrap(polar[2] - polar[1])
         lanes.summarise(summary, i, outcome, last * dt, heading_error, peak, length, polar[0])
     return summary
