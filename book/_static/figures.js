@@ -21,7 +21,7 @@ addEventListener('load', () => {
     button.setAttribute('aria-pressed', false);
     button.setAttribute('aria-label', `Larger: ${words}`);
     button.addEventListener('click', turn);
-    box.addEventListener('click', () => { if (button.checkVisibility()) turn(); });
+    box.addEventListener('click', () => { if (button.offsetWidth) turn(); });
     box.after(button);
     addEventListener('resize', look);
     look();

@@ -43,21 +43,15 @@
     setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
   }
 
-  function remembered(name) {  // some browsers keep nothing for files
-    try {
-      if (name !== undefined) localStorage.setItem(NAME, name);
-      return localStorage.getItem(NAME) ?? '';
-    } catch {
-      return '';
-    }
-  }
+  // Some browsers keep nothing for files.
+  const kept = () => { try { return localStorage.getItem(NAME) ?? ''; } catch { return ''; } };
+  const keep = (name) => { try { localStorage.setItem(NAME, name); } catch { /* it may not */ } };
 
   function enliven(script) {
     const { file, notebook, elsewhere } = JSON.parse(script.textContent),
         named = notebook.cells.some((it) => idOf(it) === 'name');
     const who = make('input',
-        { value: remembered(), autocomplete: 'off', maxLength: 60,
-        oninput: () => remembered(who.value) });
+        { value: kept(), autocomplete: 'off', maxLength: 60, oninput: () => keep(who.value) });
     const status = make('span', { className: 'python-status' });
     status.setAttribute('role', 'status');
     const refused = (sentence) => { status.textContent = sentence; who.focus(); };

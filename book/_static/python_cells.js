@@ -85,26 +85,20 @@
   const say = (cell, text) => { cell.status.textContent = text; };
 
   // What is written into a cell that waits for an answer outlives a reload; not where a browser
-  // keeps nothing, as some do for files.
-  const place = (name) => `wmr-answer ${location.pathname} ${name}`;
+  // keeps nothing, as some do for files: then the page itself is all that holds it.
+  const place = ({ name }) => `wmr-answer ${location.pathname} ${name}`;
 
-  function kept(name) {
-    try {
-      return localStorage.getItem(place(name));
-    } catch {
-      return null;
-    }
+  function kept(cell) {
+    try { return cell.name ? localStorage.getItem(place(cell)) : null; } catch { return null; }
   }
 
-  function keep(name, text) {
+  function keep(cell) {
     try {
-      if (text === null) localStorage.removeItem(place(name));
-      else localStorage.setItem(place(name), text);
-    } catch { /* then the page itself is all that holds it */ }
+      if (!cell.name) return;
+      if (source(cell) === cell.source) localStorage.removeItem(place(cell));
+      else localStorage.setItem(place(cell), source(cell));
+    } catch { /* see above */ }
   }
-
-  const keepAnswer = (cell) => cell.name
-      && keep(cell.name, source(cell) === cell.source ? null : source(cell));
 
   async function run(cell) {
     if (cell.later) return say(cell, 'It is kept, and checked when you hand in.');
@@ -220,11 +214,11 @@
 
   function edit(cell) {
     const area = cell.editor = make('textarea',
-        { className: 'python-editor', value: (cell.name && kept(cell.name)) ?? cell.source,
+        { className: 'python-editor', value: kept(cell) ?? cell.source,
         rows: cell.source.split('\n').length + 1, spellcheck: false, autocapitalize: 'off' });
     area.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
     area.setAttribute('aria-describedby', 'python-keys');
-    area.addEventListener('input', () => keepAnswer(cell));
+    area.addEventListener('input', () => keep(cell));
     cell.code.hidden = true;
     cell.written.replaceChildren(area);
     near.observe(area);
@@ -245,7 +239,7 @@
     } else {
       cell.written.replaceChildren();
       cell.editor = undefined;
-      keepAnswer(cell);
+      keep(cell);
       cell.code.hidden = false;
       cell.reset.hidden = true;
       cell.edit.hidden = false;
@@ -271,8 +265,7 @@
       made.setAttribute('aria-label', `${text}, ${kind(cell)} ${cell.number}`);
       return made;
     };
-    cell.run = button(cell.checks.length ? 'Check' : 'Run', run, false);
-    cell.run.hidden = cell.later;
+    cell.run = button(cell.checks.length ? 'Check' : 'Run', run, cell.later);
     cell.edit = button('Edit', (it) => { edit(it); it.editor.focus(); }, false);
     cell.reset = button('Reset', reset, true);
     cell.stop = button('Stop', stop, true);

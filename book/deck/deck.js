@@ -5,7 +5,6 @@
   root.dataset.theme = matchMedia('(prefers-color-scheme: dark)').matches ? 'dark' : 'light';
   const pages = [...document.querySelectorAll('.page')], shown = new WeakSet();
   const rem = () => parseFloat(getComputedStyle(root).fontSize);
-  const pageOf = (slide) => slide.querySelector('.page');
 
   /** Whether a part of a page, or a formula in it, needs more than its room. */
   const over = (it) => it.scrollHeight > it.clientHeight + 1 || it.scrollWidth > it.clientWidth + 1
@@ -68,13 +67,12 @@
 
   /** Draws the panels of a page. */
   async function show(page) {
-    if (shown.has(page)) return false;
+    if (shown.has(page)) return;
     shown.add(page);
     const panels = [...page.querySelectorAll('.panel')];
     await Promise.all(panels.map((panel) => widgets.showAll(panel)));
     fit(page);
     for (const it of page.querySelectorAll('.panel > div, .live > *')) watch.observe(it);
-    return true;
   }
 
   // What plays: it begins anew on each visit, and stops when the slide is left.
@@ -83,7 +81,7 @@
       .filter((button) => button.textContent === words).at(-1)?.click();
   let left = null, waiting = 0;
   async function arrived() {
-    const slide = deck.getCurrentSlide(), page = pageOf(slide);
+    const slide = deck.getCurrentSlide(), page = slide.querySelector('.page');
     document.activeElement?.blur();
     if (left && left !== slide) press(left, 'Stop');
     left = slide;

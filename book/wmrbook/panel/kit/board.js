@@ -1,10 +1,12 @@
 // What is drawn on: panes with axes in the world's units. A colour is a role of the panel's (alpha,
 // goal, path ...), the same as in formulas and figures.
 
-import { drawAngle, drawAngles, drawName, drawPose, drawRobot, hasSight } from './scene.js';
+import { drawAngle, drawAngles, drawName, drawPose, drawRobot } from './scene.js';
 import { drawAxes } from './axes.js';
 import { drawLawn, drawScale } from './lawn.js';
-import { inside, label, line, sizeOf, surfaceOf, ticksOf } from './surface.js';
+import {
+  disc, head, inside, label, line, onCanvas, sizeOf, surfaceOf, ticksOf,
+} from './surface.js';
 import { poseOfError } from './model.js';
 import { written } from './style.js';
 
@@ -25,10 +27,8 @@ export function paneOf(canvas, colours, spec) {
     [x0, x1] = [(x0 + x1 - box.width / across) / 2, (x0 + x1 + box.width / across) / 2];
     [y0, y1] = [(y0 + y1 - box.height / up) / 2, (y0 + y1 + box.height / up) / 2];
   }
-  const FAR = 1e5; // canvases lose their way with coordinates beyond the range of 32-bit pixels
   const at = (x, y) =>
-      [box.left + (x - x0) * across,
-      box.top + box.height - (y - y0) * up].map((each) => Math.min(Math.max(each, -FAR), FAR));
+      [box.left + (x - x0) * across, box.top + box.height - (y - y0) * up].map(onCanvas);
   const ink = (role) => colours[role] || role,
       view = { box, zoom, scale: across, toScreen: at,
       toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
@@ -60,11 +60,7 @@ export function paneOf(canvas, colours, spec) {
       });
     },
     dot(x, y, role = 'ink', { size = 6, hollow = false } = {}) {
-      cut(() => {
-        ctx.beginPath(); ctx.arc(...at(x, y), size, 0, 2 * Math.PI);
-        ctx.fillStyle = hollow ? colours.paper : ink(role); ctx.fill();
-        ctx.lineWidth = 2.5; ctx.strokeStyle = ink(role); ctx.stroke();
-      });
+      cut(() => disc(ctx, at(x, y), size, hollow ? colours.paper : ink(role), ink(role)));
     },
     cross(x, y, role = 'ink', size = 6) {
       const [px, py] = at(x, y);
@@ -73,13 +69,10 @@ export function paneOf(canvas, colours, spec) {
           line(ctx, [[px - size, py - s * size], [px + size, py + s * size]], ink(role), 3)));
     },
     arrow(x, y, toX, toY, role = 'ink', { width: w = 3, dash = [] } = {}) {
-      const from = at(x, y), to = at(toX, toY), back = Math.atan2(from[1] - to[1], from[0] - to[0]),
-          head = Math.min(11, Math.hypot(to[0] - from[0], to[1] - from[1]) / 1.5);
+      const from = at(x, y), to = at(toX, toY), [dx, dy] = [from[0] - to[0], from[1] - to[1]],
+          size = Math.min(11, Math.hypot(dx, dy) / 1.5);
       line(ctx, [from, to], ink(role), w, dash);
-      line(ctx,
-          [0.5, 0, -0.5].map((turn) =>
-          (turn ? [to[0] + head * Math.cos(back + turn), to[1] + head * Math.sin(back + turn)]
-          : to)), ink(role), w);
+      head(ctx, to, Math.atan2(dy, dx), size, 0.5, ink(role), w);
     },
     // `dx` and `dy`, in pixels, to the right and up, keep a text clear of what it names.
     text(said, x, y,
@@ -102,12 +95,10 @@ export function paneOf(canvas, colours, spec) {
     },
     // the robot in a state of polar errors, before a goal at the origin that faces right
     state(rho, alpha, theta) {
-      const [x, y, heading] = poseOfError(rho, alpha, theta, 0, 0, 0), one = { x: [x], y: [y],
-        heading: [heading], rho: [rho], alpha: [alpha], theta: [theta], goalX: [0], goalY: [0],
-        goalHeading: [0] };
-      pane.pose([0, 0, 0], 'goal');
-      if (hasSight(one, 0)) drawAngles(ctx, view, one, 0, colours);
-      pane.robot([x, y, heading]);
+      const pose = poseOfError(rho, alpha, theta, 0, 0, 0), goal = [0, 0, 0];
+      pane.pose(goal, 'goal');
+      drawAngles(ctx, view, pose, [rho, alpha, theta], goal, colours);
+      pane.robot(pose);
     },
     pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
     // at last, for no path may strike one out
@@ -116,8 +107,8 @@ export function paneOf(canvas, colours, spec) {
       if (spec.lawn) drawScale(ctx, view, colours, (metres) =>
         (metres < 0.01 ? written(1000 * metres, 'mm', 1) : written(metres, 'm', 1)));
     },
-    bar(x, from, to, role, half = 0.3) {
-      pane.area([[x - half, from], [x - half, to], [x + half, to], [x + half, from]], role, 0.85);
+    rect(left, bottom, right, top, role, share = 0.85) {
+      pane.area([[left, bottom], [right, bottom], [right, top], [left, top]], role, share);
     },
   };
   if (spec.lawn) drawLawn(ctx, view, colours, Number(spec.lawn === true ? 0 : spec.lawn));

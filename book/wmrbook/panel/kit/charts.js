@@ -3,19 +3,20 @@
 
 import { FONT } from './style.js';
 import { drawAxes } from './axes.js';
-import { inside, label, line, surfaceOf, ticksOf } from './surface.js';
+import { disc, inside, label, line, surfaceOf, ticksOf } from './surface.js';
+import { within } from './numbers.js';
 
 const CHARTS = [
-  { name: 'v', title: 'v [m/s]', lines: [{ role: 'path', of: (run) => run.v }] },
-  { name: 'omega', title: 'ω [rad/s]', lines: [{ role: 'path', of: (run) => run.omega }] },
+  { title: 'v [m/s]', lines: [{ role: 'path', of: (run) => run.v }] },
+  { title: 'ω [rad/s]', lines: [{ role: 'path', of: (run) => run.omega }] },
   {
-    name: 'error', title: 'position error [m]',
+    title: 'position error [m]',
     lines: [
       { role: 'path', of: (run) => difference(run.goalX, run.x), tag: 'x' },
       { role: 'ink', of: (run) => difference(run.goalY, run.y), tag: 'y', dash: [7, 5] },
     ],
   },
-  { name: 'V', title: 'V [1], L = 1 m²', log: true, lines: [{ role: 'path', of: (run) => run.V }] },
+  { title: 'V [1], L = 1 m²', log: true, lines: [{ role: 'path', of: (run) => run.V }] },
 ];
 const AXIS = { left: 62, right: 14, top: 22, bottom: 42, gap: 24 };
 const ROUNDING = 1e-6; // a V that grows by less than this share in a step is as good as level
@@ -28,45 +29,35 @@ export function timeAxis(width, run, ghost) {
   const span = Math.max(endOf(run), endOf(ghost)) || 1;
   const across = Math.max(width - AXIS.left - AXIS.right, 10);
   return { span, toX: (t) => AXIS.left + across * t / span,
-      toTime: (x) => Math.min(Math.max((x - AXIS.left) / across, 0), 1) * span };
+      toTime: (x) => within((x - AXIS.left) / across, 0, 1) * span };
 }
 
 export function drawCharts(canvas, colours, { run, ghost, cursor, faded }) {
   const { ctx, width, height } = surfaceOf(canvas, colours);
   const time = timeAxis(width, run, ghost);
   const each = (height - AXIS.top - AXIS.bottom - AXIS.gap * (CHARTS.length - 1)) / CHARTS.length;
-  const boxOf = (i) =>
-      ({ left: AXIS.left, top: AXIS.top + i * (each + AXIS.gap),
-      width: width - AXIS.left - AXIS.right, height: each });
-  const { ticks, write } = ticksOf(0, time.span, Math.max(2, Math.floor(width / 80)));
-  CHARTS.forEach((_, i) => {
-    const last = i === CHARTS.length - 1;
+  const { ticks, write } = ticksOf(0, time.span, Math.max(2, Math.floor(width / 80))),
+      x = run && time.toX(run.t[cursor]);
+  CHARTS.forEach((chart, i) => {
+    const last = i === CHARTS.length - 1, top = AXIS.top + i * (each + AXIS.gap),
+        box = { left: AXIS.left, top, width: width - AXIS.left - AXIS.right, height: each };
     const along =
         { ticks, write: last ? write : () => '', at: time.toX, title: last && 'time [s]' };
-    drawAxes(ctx, boxOf(i), colours, { along });
+    drawAxes(ctx, box, colours, { along });
+    ctx.globalAlpha = faded ? 0.35 : 1;
+    drawChart(ctx, chart, box, time, colours, run, ghost);
+    if (run) line(ctx, [[x, top], [x, top + each]], colours.ink, 2);
+    if (run && last) disc(ctx, [x, top + each], 5, colours.ink, colours.ink, 2);
+    drawTitle(ctx, chart, box, colours);
+    ctx.globalAlpha = 1;
   });
-  ctx.globalAlpha = faded ? 0.35 : 1;
-  CHARTS.forEach((chart, i) => drawChart(ctx, chart, boxOf(i), time, colours, run, ghost));
-  if (run) {
-    const x = time.toX(run.t[cursor]);
-    CHARTS.forEach((_, i) => {
-      const { top, height: high } = boxOf(i);
-      line(ctx, [[x, top], [x, top + high]], colours.ink, 2);
-    });
-    ctx.fillStyle = colours.ink;
-    ctx.beginPath();
-    ctx.arc(x, height - AXIS.bottom, 6, 0, 2 * Math.PI);
-    ctx.fill();
-  }
-  CHARTS.forEach((chart, i) => drawTitle(ctx, chart, boxOf(i), colours));
-  ctx.globalAlpha = 1;
 }
 
 function drawChart(ctx, chart, box, time, colours, run, ghost) {
   const series = chart.lines.map((each) =>
       ({ ...each, values: run ? each.of(run) : [], old: ghost ? each.of(ghost) : [] }));
-  const axis =
-      (chart.log ? logAxis : linearAxis)(series.flatMap((each) => [each.values, each.old]), box);
+  const all = series.flatMap(({ values, old }) => [...values, ...old]),
+      axis = (chart.log ? logAxis : linearAxis)(all, box);
   ctx.strokeStyle = colours.line;
   ctx.lineWidth = 1;
   ctx.strokeRect(box.left, box.top, box.width, box.height);
@@ -75,7 +66,7 @@ function drawChart(ctx, chart, box, time, colours, run, ghost) {
     for (const { old } of series) drawSeries(ctx, ghost, old, time, axis, colours.ghost, 2, [3, 5]);
     for (const { values, role, dash = [] } of series)
       drawSeries(ctx, run, values, time, axis, colours[role], 2.5, dash);
-    if (chart.name === 'V' && run) drawRising(ctx, run, time, axis, colours);
+    if (chart.log && run) drawRising(ctx, run, time, axis, colours);
   });
 }
 
@@ -93,8 +84,7 @@ function drawTitle(ctx, chart, box, colours) {
 
 function drawSeries(ctx, run, values, time, axis, colour, width, dash) {
   if (!values.length) return;
-  const points = [];
-  for (let k = 0; k < values.length; k += 1) points.push([time.toX(run.t[k]), axis.toY(values[k])]);
+  const points = Array.from(values, (value, k) => [time.toX(run.t[k]), axis.toY(value)]);
   if (points.length > 1) line(ctx, points, colour, width, dash);
   // a run of one sample is a dot
   else line(ctx, [points[0], [points[0][0] + 1, points[0][1]]], colour, 7);
@@ -115,10 +105,9 @@ function drawRising(ctx, run, time, axis, colours) {
   flush();
 }
 
-function linearAxis(columns, box) {
+function linearAxis(values, box) {
   let low = 0, high = 0;
-  for (const values of columns)
-    for (const value of values) { low = Math.min(low, value); high = Math.max(high, value); }
+  for (const value of values) { low = Math.min(low, value); high = Math.max(high, value); }
   if (high - low < 1e-9) high = low + 1;
   const room = 0.06 * (high - low);
   const scale = box.height / (high - low + 2 * room);
@@ -126,13 +115,12 @@ function linearAxis(columns, box) {
       toY: (value) => box.top + (high + room - value) * scale };
 }
 
-function logAxis(columns, box) {
+function logAxis(values, box) {
   let low = Infinity, high = 0;
-  for (const values of columns)
-    for (const value of values) {
-      if (value > 0) low = Math.min(low, value);
-      high = Math.max(high, value);
-    }
+  for (const value of values) {
+    if (value > 0) low = Math.min(low, value);
+    high = Math.max(high, value);
+  }
   if (high === 0) [low, high] = [0.1, 1];
   low = Math.max(low, high * 1e-7);
   const from = Math.floor(Math.log10(low)), to = Math.max(Math.ceil(Math.log10(high)), from + 1);

@@ -3,6 +3,8 @@
 
 import { made, onArrows } from './hands.js';
 import { applies, lawsFor, presetOf } from './settings.js';
+import { inWords } from './style.js';
+import { within } from './numbers.js';
 
 // of each decade
 const ROUND = [1, 1.1, 1.2, 1.3, 1.5, 1.7, 2, 2.2, 2.5, 3, 3.5, 4, 4.5, 5, 5.5, 6, 7, 8, 9];
@@ -42,8 +44,18 @@ export function placeOf(stops, value) {
 export function stepped(stops, value, by) {
   const place = placeOf(stops, value);
   const next = by > 0 ? Math.floor(place + by + 1e-9) : Math.ceil(place + by - 1e-9);
-  return by ? stops[Math.min(Math.max(next, 0), stops.length - 1)] : value;
+  return by ? stops[within(next, 0, stops.length - 1)] : value;
 }
+
+/**
+ * The stops nearest to what a hand asks of some knobs, by their names.
+ * @param {{ knobs: Values[] }} setup @param {Values} asked @returns {any}
+ */
+export const onStops = ({ knobs }, asked) =>
+    Object.fromEntries(Object.entries(asked).map(([name, value]) => {
+      const { stops } = knobs.find((knob) => knob.name === name);
+      return [name, stops[Math.round(placeOf(stops, value))]];
+    }));
 
 // A slider over stops, called so by who reads it out. Returns what shows a value and says it.
 export function putSlider(row, says, stops, { get, set }) {
@@ -95,15 +107,14 @@ export function buildControls(root, setup, { change, refuse }) {
     });
     const typed = made(it, 'input', { className: 'wmr-typed', inputMode: 'decimal' },
         { 'aria-label': `${text}, typed` });
-    const take = () => {
+    typed.addEventListener('change', () => {
       const value = fromWords(typed.value);
       if (!Number.isFinite(value))
         refuse(`${text} = ${typed.value} is not allowed: a number is needed. The value stays as ` +
             `it was.`);
       else change({ [name]: value });
       typed.value = typed.dataset.shown;
-    };
-    typed.addEventListener('change', take);
+    });
     typed.addEventListener('keydown', (event) => event.stopPropagation());
     return { name, it, showSlider, typed, unit };
   });
@@ -125,8 +136,7 @@ export function buildControls(root, setup, { change, refuse }) {
       if (select.value !== value) select.value = value;
     }
     for (const { name, it, showSlider, typed, unit } of sliders) {
-      const value = state[name],
-          text = Number.isFinite(value) ? String(Number(value.toPrecision(6))) : String(value);
+      const value = state[name], text = inWords(value);
       it.hidden = !applies(name, state, setup);
       const spoken = unit.replace(/^1\/?/, (each) => (each === '1' ? '' : 'per '));
       showSlider(value, `${text} ${spoken}`.trim());

@@ -6,11 +6,14 @@ import { held, made, onArrows, placeOn } from './hands.js';
 import { RANGES, buildGainMap, drawMap, gainsAt, mapped } from './gain_map.js';
 import { buildControls, keepKeys } from './controls.js';
 import { buildFigures, figuresOf, sentenceOf } from './figures.js';
-import { canLink, csvOf, download, linkOf, pictureOf, pythonOf, stateInLink } from './share.js';
+import {
+  canLink, copied, csvOf, download, linkOf, pictureOf, pythonOf, stateInLink,
+} from './share.js';
 import { drawCharts, endOf, timeAxis } from './charts.js';
 import { drawScene, hasSight, marksOf, nearestOf, viewOf, zoomOf } from './scene.js';
-import { followTheme, inDegrees, readColours, written } from './style.js';
-import { measure, sizeOf } from './surface.js';
+import { inDegrees, written } from './style.js';
+import { repainted, sizeOf } from './surface.js';
+import { within } from './numbers.js';
 import { presetValues, runOf, settingsOf } from './settings.js';
 import { summarise } from './simulate.js';
 import { widget } from './widget.js';
@@ -59,7 +62,6 @@ function scaffold(el) {
         <canvas class="wmr-map" role="img" tabindex="0" hidden></canvas>
       </div>
     </div>
-    <textarea class="wmr-text" readonly hidden aria-label="to copy"></textarea>
     <div class="wmr-aside" role="status" aria-live="polite"></div>`;
   return root;
 }
@@ -82,7 +84,6 @@ function render({ model, el }) {
     model.save_changes();
   }
   const schedule = () => { if (!frame) frame = requestAnimationFrame(draw); };
-  const poses = () => ({ start: values().start, goal: values().moving ? null : values().goal });
   const showControls = buildControls(find('.wmr-rows'), setup, {
     change({ preset, ...changed }) {
       if (preset > 0) {
@@ -95,10 +96,8 @@ function render({ model, el }) {
           compute();
         }
         if (state.run && state.time !== null) { // as near to its goal as before
-          const { rho, n, t } = state.run;
-          let k = 0;
-          while (k < n - 1 && rho[k] > left) k += 1;
-          state.time = t[k];
+          const near = state.run.rho.findIndex((rho) => rho <= left);
+          state.time = state.run.t.at(near); // or its end
         }
         if (state.playing) state.playing = { from: state.time, since: performance.now() };
       }
@@ -126,7 +125,7 @@ function render({ model, el }) {
 
   function cursorOf(run) {
     const end = endOf(run),
-        time = state.time === null ? RESTING * end : Math.min(Math.max(state.time, 0), end);
+        time = state.time === null ? RESTING * end : within(state.time, 0, end);
     return end > 0 ? Math.round(time / end * (run.n - 1)) : 0;
   }
 
@@ -134,26 +133,20 @@ function render({ model, el }) {
     frame = 0;
     if (stale) compute();
     advance(now);
-    const { run, ghost, colours, trouble } = state, faded = trouble !== '';
-    const cursor = run ? cursorOf(run) : 0, at = poses(), ghostRun = ghost && ghost.run;
-    const safe = run ? at : { start: [0, 0, 0], goal: [1, 0, 0] };
-    const drawn = faded && state.settings
-        ? { start: state.settings.start,
-        goal: state.settings.reference ? null : state.settings.goal } : safe;
+    const { run, ghost, colours, settings } = state, faded = state.trouble !== '';
+    const cursor = run ? cursorOf(run) : 0, ghostRun = ghost && ghost.run;
+    const poses = settings
+        ? { start: settings.start, goal: settings.reference ? null : settings.goal }
+        : { start: [0, 0, 0], goal: [1, 0, 0] };
     if (!state.held || !state.view) {
-      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(drawn, run), drawn,
+      state.view = viewOf([run, ghostRun].filter(Boolean), marksOf(poses, run), poses,
           sizeOf(scene), state.zoom);
     }
     drawScene(scene, colours,
-        { view: state.view, run, ghost: ghostRun, poses: drawn, cursor, faded,
-        zoomed: state.zoom });
+        { view: state.view, run, ghost: ghostRun, poses, cursor, faded, zoomed: state.zoom });
     // a finger moves the page, or the picture when it is zoomed
     scene.style.touchAction = state.zoom ? 'none' : '';
-    placeHandles(drawn);
-    // Out of the picture nobody would see what has the focus.
-    find('.wmr-plane').querySelectorAll('.wmr-handle').forEach((it) => {
-      it.tabIndex = it.style.pointerEvents ? -1 : 0;
-    });
+    placeHandles(poses);
     if (mapShown()) drawLandscape();
     else drawCharts(charts, colours, { run, ghost: ghostRun, cursor, faded });
     describe(run, cursor);
@@ -197,12 +190,12 @@ function render({ model, el }) {
     Object.assign(slider, { max: end || 1, value: t });
     slider.setAttribute('aria-valuetext', `${written(t, 's')} of ${written(end, 's')}`);
     find('.wmr-clock').textContent = `${t.toFixed(1)} of ${end.toFixed(1)} s`;
-    const { rho, alpha, theta, ink } = state.colours;
+    const { rho, alpha, theta, ink } = state.colours,
+        angle = (column) => inDegrees(hasSight(run.rho[cursor]) ? column[cursor] : NaN);
     find('.wmr-polar').innerHTML = [
-      [rho, 'ρ', written(run.rho[cursor], 'm')],
-          [alpha, 'α', hasSight(run, cursor) ? inDegrees(run.alpha[cursor]) : '–'],
-          [theta, 'θ', hasSight(run, cursor) ? inDegrees(run.theta[cursor]) : '–'],
-      [ink, 'v', written(run.v[cursor], 'm/s')], [ink, 'ω', written(run.omega[cursor], 'rad/s')],
+      [rho, 'ρ', written(run.rho[cursor], 'm')], [alpha, 'α', angle(run.alpha)],
+      [theta, 'θ', angle(run.theta)], [ink, 'v', written(run.v[cursor], 'm/s')],
+      [ink, 'ω', written(run.omega[cursor], 'rad/s')],
     ].map(([colour, name, value]) =>
         `<span style="color: ${colour}"><b>${name}</b> = ${value}</span>`).join('');
     scene.setAttribute('aria-label', `Path from start to goal. ${text}`);
@@ -233,7 +226,7 @@ function render({ model, el }) {
   function follow() {
     charts.hidden = mapShown();
     mapCanvas.hidden = !mapShown();
-    Object.assign(state, { said: '' });
+    state.said = '';
     stale = true;
     showControls(values());
     schedule();
@@ -243,28 +236,15 @@ function render({ model, el }) {
   /** @param {number} factor @param {Point} place */
   function zoomBy(factor, [x, y]) {
     const [cx, cy, reach] = state.zoom || zoomOf(state.view),
-        next = Math.min(Math.max(reach * factor, 0.005), 1e6), share = next / reach;
+        next = within(reach * factor, 0.005, 1e6), share = next / reach;
     state.zoom = [x + (cx - x) * share, y + (cy - y) * share, next];
     schedule();
   }
-  const robot = () => { const k = cursorOf(state.run); return [state.run.x[k], state.run.y[k]]; };
-  const goalNow = () => {
-    const k = cursorOf(state.run);
-    return [state.run.goalX[k], state.run.goalY[k]];
-  };
+  const now = (...names) => names.map((name) => state.run[name][cursorOf(state.run)]);
 
-  // Into the clipboard, the old way, which needs no permission and works in a page from the disk
-  // too.
   function copy(text, what) {
-    const box = find('.wmr-text'), before = /** @type {HTMLElement} */ (document.activeElement);
-    Object.assign(box, { value: text, hidden: false });
-    box.select();
-    box.hidden = document.execCommand('copy');
-    state.said = box.hidden ? `Copied: ${what}.` : 'Press Ctrl+C to copy it.';
-    if (box.hidden) before.focus();
+    state.said = copied(root, text) ? `Copied: ${what}.` : 'Press Ctrl+C to copy it.';
   }
-  const now = () => ({ ...values(), time: state.time, zoom: state.zoom });
-  const shownCanvases = () => [scene, mapShown() ? mapCanvas : charts];
 
   const acts = {
     play() {
@@ -278,11 +258,11 @@ function render({ model, el }) {
     },
     unpin() { state.ghost = null; find('[data-do=pin]').focus(); }, // its own button goes
     reset() { state.ghost = null; look(setup.home); write(setup.home); },
-    in() { if (state.run) zoomBy(1 / 1.5, robot()); },
-    out() { if (state.run) zoomBy(1.5, robot()); },
-    near() { state.zoom = state.zoom || !state.run ? null : [...goalNow(), 2]; },
+    in() { if (state.run) zoomBy(1 / 1.5, now('x', 'y')); },
+    out() { if (state.run) zoomBy(1.5, now('x', 'y')); },
+    near() { state.zoom = state.zoom || !state.run ? null : [...now('goalX', 'goalY'), 2]; },
     link() {
-      const link = linkOf(setup.home, now());
+      const link = linkOf(setup.home, { ...values(), time: state.time, zoom: state.zoom });
       history.replaceState(history.state, '', link);
       copy(link, 'a link to this page with the panel as it is now');
     },
@@ -291,7 +271,8 @@ function render({ model, el }) {
       if (state.run) download('run.csv', new Blob([csvOf(state.run)], { type: 'text/csv' }));
     },
     png() {
-      pictureOf(shownCanvases(), find('.wmr-status').textContent, state.colours)
+      const shown = [scene, mapShown() ? mapCanvas : charts];
+      pictureOf(shown, find('.wmr-status').textContent, state.colours)
           .then((blob) => download('run.png', blob));
     },
   };
@@ -344,17 +325,11 @@ function render({ model, el }) {
   onArrows(mapCanvas, ([across, up]) => {
     const { map } = gainMap;
     if (!map) return false;
-    const nudge = (name, by) =>
-        Math.min(Math.max(Math.round(values()[name] * 20 + by) / 20, 0), RANGES[name]);
+    const nudge = (name, by) => within(Math.round(values()[name] * 20 + by) / 20, 0, RANGES[name]);
     write({ [map.kx]: nudge(map.kx, across), [map.ky]: nudge(map.ky, up) });
     return true;
   });
 
-  const repaint = () => {
-    [scene, charts, mapCanvas].forEach(measure);
-    state.colours = readColours(root);
-    schedule();
-  };
   function visit() {
     const linked = stateInLink(setup.home);
     if (!Object.keys(linked).length) return;
@@ -362,18 +337,18 @@ function render({ model, el }) {
     write({ ...setup.home, ...linked });
     root.scrollIntoView({ block: 'nearest' });
   }
-  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
-  [root, scene, charts, mapCanvas].forEach((each) => resized.observe(each));
   model.on('change:state', follow);
   addEventListener('hashchange', visit);
   look(values());
-  repaint();
+  const page = repainted(root, [root, scene, charts, mapCanvas], (colours) => {
+    state.colours = colours;
+    schedule();
+  });
   follow();
   visit();
   return () => {
     removeEventListener('hashchange', visit);
-    unfollow();
-    resized.disconnect();
+    page.stop();
     gainMap.close();
     cancelAnimationFrame(frame);
     clearTimeout(spoken);

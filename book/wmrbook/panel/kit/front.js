@@ -1,15 +1,16 @@
 // The front page's picture: a lawn, a robot that drives to a pose, and a camera that follows it to
 // the last metre. Both poses are handles, the gains one slider; the last drives stay as ghosts.
 
-import { DEGREES, followTheme, readColours, written } from './style.js';
+import { DEGREES, inDegrees, isCalm, written } from './style.js';
 import { buildHandles } from './handles.js';
-import { drawAngle, drawName, drawPose, drawRobot, viewAt } from './scene.js';
+import { drawAngle, drawName, drawPath, drawPose, drawRobot, viewAt } from './scene.js';
 import { drawLawn } from './lawn.js';
-import { driven, poseAt } from './runs.js';
-import { label, line, measure, sizeOf, surfaceOf } from './surface.js';
+import { blended, driven, poseAt } from './runs.js';
+import { label, line, repainted, sizeOf, surfaceOf } from './surface.js';
 import { made } from './hands.js';
 import { putSlider, stopsOf } from './controls.js';
 import { widget } from './widget.js';
+import { within } from './numbers.js';
 import { wrap } from './model.js';
 
 const DRIVE = 4000, LOOK = 2200, MEND = 1500; // ms: a drive, what it came to, the slider's glide
@@ -26,23 +27,18 @@ function render({ model, el }) {
       canvas = made(host, 'canvas', {}, { role: 'img' }),
       words = made(root, 'p', { className: 'front-words' }),
       row = made(root, 'div', { className: 'wmr-control front-row' });
-  const poses = { start, goal }, ghosts = [];
-  const still = matchMedia('(prefers-reduced-motion: reduce)').matches
-      || document.documentElement.dataset.still !== undefined;
-  let colours = readColours(root), share = model.get('state').share, run, off, view, whole = true,
-      begin = 0, at = 0, near = 0, frame = 0, later = 0, mending = !still, holds = false,
+  const poses = { start, goal };
+  let ghosts = [];
+  const still = isCalm();
+  let colours, share = model.get('state').share, run, off, view, whole = true, begin = 0, at = 0,
+      near = 0, frame = 0, later = 0, mending = !still, holds = false,
       stays = false; // whoever wants to see the whole way goes on seeing it
 
   const drive = () => {
-    const gains = Object.fromEntries(Object.keys(paper)
-        .map((name) => [name, paper[name] ** (1 - share) * gentle[name] ** share]));
-    run = driven({ ...poses, gains });
+    run = driven({ ...poses, gains: blended(paper, gentle, share) });
     off = Math.abs(wrap(run.heading[run.n - 1] - poses.goal[2]));
   };
-  const keep = () => {
-    ghosts.push({ x: run.x, y: run.y, n: run.n });
-    ghosts.splice(0, ghosts.length - 3);
-  };
+  const keep = () => { ghosts = [...ghosts, run].slice(-3); };
 
   made(row, 'span', { textContent: 'paper’s gains' });
   const showSlider = putSlider(row, 'gains, from the paper’s to gentle ones', STOPS,
@@ -73,7 +69,7 @@ function render({ model, el }) {
   function step(now) {
     frame = 0;
     if (begin) {
-      const passed = Math.min(Math.max(now - begin, 0) / DRIVE, 1), last = run.n - 1;
+      const passed = within((now - begin) / DRIVE, 0, 1), last = run.n - 1;
       // as a film that slows down towards its end
       at = Math.round((1 - (1 - passed) ** 2) * last);
       if (run.rho[at] < 12 && !stays) whole = false;
@@ -90,7 +86,7 @@ function render({ model, el }) {
     keep();
     const from = share, first = performance.now();
     const glide = (now) => {
-      const done = Math.min(Math.max(now - first, 0) / MEND, 1);
+      const done = within((now - first) / MEND, 0, 1);
       change(STOPS[Math.round((from + ease(done) * (1 - from)) * (STOPS.length - 1))]);
       if (done < 1) { end(); frame = requestAnimationFrame(glide); } else { frame = 0; play(); }
     };
@@ -117,8 +113,8 @@ function render({ model, el }) {
     if (!holds || !view) view = look({ width, height });
     drawLawn(ctx, view, colours);
     const icon = Math.max(view.scale * ROBOT / ICON, 1), done = at === run.n - 1 && !begin;
-    for (const ghost of ghosts) trace(ctx, view, ghost, ghost.n, colours.ghost, 1.5, [2, 5]);
-    trace(ctx, view, run, at + 1, colours.path, 3, []);
+    for (const { x, y, n } of ghosts) drawPath(ctx, view, x, y, n, colours.ghost, 1.5, [2, 5]);
+    drawPath(ctx, view, run.x, run.y, at + 1, colours.path, 3);
     ctx.globalAlpha = 0.35;
     drawRobot(ctx, view.toScreen(poses.goal[0], poses.goal[1]), poses.goal[2], colours, icon);
     ctx.globalAlpha = 1;
@@ -131,7 +127,7 @@ function render({ model, el }) {
         place[1] - 1.2 * radius * Math.sin(pose[2])];
       line(ctx, [place, ahead], colours.rising, 3, [3, 7]);
       drawAngle(ctx, place, pose[2], wrap(poses.goal[2] - pose[2]), radius,
-          `${(off * DEGREES).toFixed(0)}°`, colours.rising, colours);
+          inDegrees(off, 0), colours.rising, colours);
     }
     for (const name of ['start', 'goal'])
       drawName(ctx, view, poses[name], name, colours, place);
@@ -149,11 +145,11 @@ function render({ model, el }) {
     handles({ start: inView('start'), goal: inView('goal') });
   }
   function say(done) {
-    const degrees = `${(off * DEGREES).toFixed(0)}°`, arrived = run.outcome === 'ARRIVED';
+    const arrived = run.outcome === 'ARRIVED';
     words.textContent = 'It is told where to stop and which way to face. '
         + `${share < 0.5 ? 'With the paper’s gains' : 'With gentler gains'} it ${!done ? 'drives …'
           : !arrived ? 'has not arrived after a minute.'
-            : off < PARKED ? 'parks.' : `arrives and faces ${degrees} the wrong way.`}`;
+            : off < PARKED ? 'parks.' : `arrives and faces ${inDegrees(off, 0)} the wrong way.`}`;
     canvas.setAttribute('aria-label', 'A lawn from above, with a robot on its way from a start to '
         + `a goal ${written(Math.hypot(poses.goal[0] - poses.start[0],
           poses.goal[1] - poses.start[1]), 'm')} away. ${done ? words.textContent : ''}`);
@@ -162,24 +158,14 @@ function render({ model, el }) {
     root.dataset.done = String(done && !mending && !frame);
   }
 
-  const repaint = () => { measure(canvas); colours = readColours(root); draw(); };
   drive();
+  const page = repainted(root, [canvas], (read) => { colours = read; draw(); });
   play();
-  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
-  resized.observe(canvas);
   return () => {
-    unfollow();
-    resized.disconnect();
+    page.stop();
     byHand();
     cancelAnimationFrame(frame);
   };
-}
-
-function trace(ctx, view, { x, y }, n, colour, width, dash) {
-  const every = Math.max(1, Math.floor(n / 400)), points = [];
-  for (let k = 0; k < n; k += k + every < n || k === n - 1 ? every : n - 1 - k)
-    points.push(view.toScreen(x[k], y[k]));
-  line(ctx, points, colour, width, dash);
 }
 
 export default widget('front', render);

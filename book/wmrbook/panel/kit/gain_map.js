@@ -6,6 +6,7 @@ import { LAWS } from './model.js';
 import { drawAxes } from './axes.js';
 import { label, roundStep, surfaceOf, tickLabel, ticksOf } from './surface.js';
 import { landscape } from './simulate.js';
+import { within } from './numbers.js';
 
 const MEASURES = {
   headingError: { title: 'heading error on arrival [°]', lasting: 'heading error at the end [°]',
@@ -87,8 +88,8 @@ function mapBox(width, height) {
 }
 
 export function gainsAt(map, { width, height }, x, y) {
-  const box = mapBox(width, height),
-      share = (value, low, size) => Math.min(Math.max((value - low) / size, 0), 1);
+  const box = mapBox(width, height);
+  const share = (value, low, size) => within((value - low) / size, 0, 1);
   const round = (value, name) => Math.max(0.05, Math.round(value * RANGES[name] * 20) / 20);
   return { [map.kx]: round(share(x, box.left, box.width), map.kx),
       [map.ky]: round(1 - share(y, box.top, box.height), map.ky) };
@@ -107,10 +108,16 @@ export function drawMap(canvas, colours, { map, gains, note }) {
   const top = topOf(map);
   ctx.imageSmoothingEnabled = false;
   ctx.drawImage(imageOf(map, top, colours), box.left, box.top, box.width, box.height);
-  drawMapAxes(ctx, box, map, colours);
+  const ranges = [RANGES[map.kx], RANGES[map.ky]],
+      across = (gain) => box.left + box.width * Math.min(gain / ranges[0], 1),
+      up = (gain) => box.top + box.height * (1 - Math.min(gain / ranges[1], 1));
+  drawAxes(ctx, box, colours, {
+    lines: false,
+    along: { ...ticksOf(0, ranges[0], box.width / 60), title: UNITS[map.kx], at: across },
+    up: { ...ticksOf(0, ranges[1], box.height / 40), title: UNITS[map.ky], at: up },
+  });
   drawColourBar(ctx, box, map, top, colours);
-  const x = box.left + box.width * Math.min(gains[map.kx] / RANGES[map.kx], 1);
-  const y = box.top + box.height * (1 - Math.min(gains[map.ky] / RANGES[map.ky], 1));
+  const x = across(gains[map.kx]), y = up(gains[map.ky]);
   for (const [colour, thick] of [['#000000', 6], ['#ffffff', 2.5]]) {
     ctx.strokeStyle = colour;
     ctx.lineWidth = thick;
@@ -149,22 +156,6 @@ function imageOf(map, top, colours) {
   }
   ctx.putImageData(pixels, 0, 0);
   return image;
-}
-
-function drawMapAxes(ctx, box, map, colours) {
-  const across = ticksOf(0, RANGES[map.kx], box.width / 60),
-      up = ticksOf(0, RANGES[map.ky], box.height / 40);
-  drawAxes(ctx, box, colours, {
-    lines: false,
-    along: {
-      ...across, title: UNITS[map.kx],
-      at: (value) => box.left + box.width * value / RANGES[map.kx],
-    },
-    up: {
-      ...up, title: UNITS[map.ky],
-      at: (value) => box.top + box.height * (1 - value / RANGES[map.ky]),
-    },
-  });
 }
 
 function drawColourBar(ctx, box, map, top, colours) {

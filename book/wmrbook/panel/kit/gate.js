@@ -3,9 +3,12 @@
 
 import * as memory from './memory.js';
 import { DEGREES, inDegrees, written } from './style.js';
-import { turned } from './handles.js';
 import { MOVES, held, made, placeOn } from './hands.js';
+import { copied } from './share.js';
+import { putSlider, stopsOf } from './controls.js';
 import { putWords } from './symbols.js';
+import { within } from './numbers.js';
+import { wrap } from './model.js';
 
 // `ask` is { name, kind, question, key, why } and, by its kind: `options` to choose from, with what
 // is `wrong` about each; `pane` and `at` of an arrow to turn; `pane` and `at`, the start, of a path
@@ -14,10 +17,7 @@ import { putWords } from './symbols.js';
 // given. A guess of SKIPPED is nobody's.
 const SKIPPED = 'skipped';
 export function buildGate(root, ask, { get, set, panes, host, way, reveal, close }) {
-  // on paper the picture stands beside the question
-  const still = document.documentElement.dataset.still !== undefined;
-  const committed = () => get().guess !== null && get().guess !== undefined,
-      open = () => still || committed();
+  const open = () => get().guess !== null && get().guess !== undefined;
   /** @type {any} */
   let draft = ask.kind === 'sketch' ? [] : null;
   let listening = false, shown = null, answered = false, renewed = false, grip = null;
@@ -33,20 +33,16 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     } });
     putWords(made(row, 'span'), text);
   });
-  const turn = ask.kind === 'turn'
-      ? made(options, 'input',
-      { type: 'range', className: 'wmr-slider', min: -180, max: 180, step: 5, value: 0,
-      oninput: () => {
-    draft = Number(turn.value) / DEGREES;
-    set();
-  } }, { 'aria-label': 'the angle of the arrow, degrees counter-clockwise from the right' }) : null;
+  const showTurn = ask.kind === 'turn' ? putSlider(options,
+      'the angle of the arrow, degrees counter-clockwise from the right', stopsOf(-180, 180, 5),
+      { get: () => draft * DEGREES, set(angle) { draft = angle / DEGREES; set(); } }) : null;
   form.addEventListener('keydown', (event) => event.stopPropagation());
   const bar = made(form, 'div', { className: 'wmr-bar' }),
       commit = made(bar, 'button', { className: 'live-commit', textContent: 'Commit' });
   const button = (textContent, onclick) =>
       made(bar, 'button', { type: 'button', textContent, onclick, hidden: true });
   const skip = button('Just show me', () => { commitTo(SKIPPED); }),
-      line = button('Copy as a line', () => copyLine(root, `predict ${ask.name} ${guessed()}`)),
+      line = button('Copy as a line', () => copied(root, `predict ${ask.name} ${guessed()}`)),
       again = button('Try again', () => { memory.forget(ask.name); tryAgain(); }),
       never = button('Never ask me', () => { memory.ask(true); show(true); }),
       clear = button('Forget all my answers', () => { memory.forgetAll(); tryAgain(); });
@@ -71,9 +67,8 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
   if (before !== null && !open()) { set({ guess: before }); reveal(false); }
   const guessed = () => (ask.kind === 'turn' ? Math.round(get().guess * DEGREES) : get().guess);
   const ready = () => (ask.kind === 'sketch' ? draft.length > 3 : draft !== null);
-  const within = (value, low, high) => Math.min(Math.max(value, low), high);
   const right = (guess) =>
-      (ask.kind === 'choose' ? guess === ask.key : Math.abs(turned(guess - ask.key)) < Math.PI / 9);
+      (ask.kind === 'choose' ? guess === ask.key : Math.abs(wrap(guess - ask.key)) < Math.PI / 9);
 
   function listen() { // to a hand that turns the arrow or draws the path
     if (listening || !ask.pane || !panes()[ask.pane]) return;
@@ -85,10 +80,11 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
       drag(event, first) {
         const [x, y] = panes()[ask.pane].view.toWorld(...placeOn(canvas, event));
         if (first && ask.kind === 'sketch') draft = [ask.at];
-        if (ask.kind === 'turn') {
-          draft = Math.round(Math.atan2(y - ask.at[1], x - ask.at[0]) * DEGREES / 5) * 5 / DEGREES;
-          turn.value = String(draft * DEGREES);
-        } else draft.push([x, y]);
+        if (ask.kind === 'sketch') draft.push([x, y]);
+        else {
+          const angle = Math.atan2(y - ask.at[1], x - ask.at[0]);
+          draft = 5 * Math.round(angle * DEGREES / 5) / DEGREES;
+        }
         set();
       },
       drop: show,
@@ -138,17 +134,16 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     return `Not so. ${ask.wrong?.[guess] ? `${ask.wrong[guess]} ` : ''}`;
   }
   function show(anew = false) {
-    if (turn) turn.setAttribute('aria-valuetext', `${inDegrees(draft || 0)} from the right`);
-    const guess = get().guess, done = committed(), key = JSON.stringify([guess, done, ready()]);
+    showTurn?.(draft * DEGREES, `${inDegrees(draft || 0)} from the right`);
+    const guess = get().guess, done = open(), key = JSON.stringify([guess, done, ready()]);
     if (key === shown && !anew) return;
     shown = key;
     const guesses = done && guess !== SKIPPED;
-    skip.hidden = done || still;
-    again.hidden = !done || still;
-    never.hidden = guess !== SKIPPED || still || memory.neverAsk() || !memory.keepsAnswers();
-    clear.hidden = !done || still || !memory.keepsAnswers() || (guesses && ask.kind === 'sketch');
+    skip.hidden = commit.hidden = done;
+    again.hidden = !done;
+    never.hidden = guess !== SKIPPED || memory.neverAsk() || !memory.keepsAnswers();
+    clear.hidden = !done || !memory.keepsAnswers() || (guesses && ask.kind === 'sketch');
     commit.disabled = !ready();
-    commit.hidden = done || still;
     line.hidden = !guesses || ask.kind === 'sketch'; // a path is no line
     options.hidden = done && ask.kind !== 'choose';
     form.querySelectorAll('input').forEach((each) => {
@@ -158,11 +153,11 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     form.classList.toggle('live-answered', done);
     if (ask.kind === 'choose')
       options.querySelectorAll('label').forEach((each, k) => {
-        each.classList.toggle('live-key', open() && k === ask.key);
+        each.classList.toggle('live-key', done && k === ask.key);
         each.hidden = done && k !== ask.key && k !== guess;
       });
     putWords(verdict, done ? judged(guess) + ask.why : '');
-    root.closest('.live').dataset.open = String(open());
+    root.closest('.live').dataset.open = String(done);
     if (renewed && !done) { renewed = false; form.querySelector('input')?.focus(); }
     if (answered) { answered = false; verdict.focus(); } // where a keyboard and a voice go on
   }
@@ -171,8 +166,8 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     listen();
     if (listening) teach(host(ask.pane).querySelector('canvas'));
     const pane = panes()[ask.pane],
-        said = committed() ? get().guess : ask.kind === 'turn' ? draft || 0 : draft;
-    if (still || !pane || said === null || said === SKIPPED) return;
+        said = open() ? get().guess : ask.kind === 'turn' ? draft || 0 : draft;
+    if (!pane || said === null || said === SKIPPED) return;
     if (ask.kind === 'turn') {
       const [x, y] = pane.at(...ask.at), along = Math.cos(said), up = Math.sin(said),
           side = along < 0 ? -1 : 1, { left, top, width, height } = pane.box;
@@ -189,12 +184,4 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     if (ask.kind === 'sketch' && said.length) pane.line(said, 'ghost', { width: 3, dash: [3, 6] });
   }
   return { open, draw };
-}
-
-function copyLine(root, text) {
-  root.querySelectorAll('.wmr-text').forEach((each) => each.remove());
-  const box = made(root, 'textarea', { className: 'wmr-text', value: text, readOnly: true },
-      { 'aria-label': 'to copy' });
-  box.select();
-  if (document.execCommand('copy')) box.remove();
 }

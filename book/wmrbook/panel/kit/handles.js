@@ -5,8 +5,8 @@ import { inDegrees, written } from './style.js';
 import { knobOf } from './scene.js';
 import { putHandle } from './hands.js';
 import { roundStep } from './surface.js';
+import { wrap } from './model.js';
 
-export const turned = (angle) => Math.atan2(Math.sin(angle), Math.cos(angle));
 // 0.1 mm, 0.006 deg: what a hand can't aim at
 const tidy = (value) => Math.round(value * 1e4) / 1e4;
 
@@ -41,8 +41,10 @@ export function buildHandles(host, { get, set, view, hold }) {
       const pose = poses[name];
       button.hidden = !pose;
       if (!pose) continue;
-      // out of view, for keys only
-      button.style.pointerEvents = show(placeOf(name, part, pose)) ? '' : 'none';
+      // out of the picture nobody would see what has the focus
+      const seen = show(placeOf(name, part, pose));
+      button.style.pointerEvents = seen ? '' : 'none';
+      button.tabIndex = seen ? 0 : -1;
       const place =
           `x ${written(pose[0], 'm')}, y ${written(pose[1], 'm')}, heading ${inDegrees(pose[2])}`;
       const keys = part === 'move' ? 'arrow keys move it, Shift and the arrow keys turn it'
@@ -55,6 +57,6 @@ export function buildHandles(host, { get, set, view, hold }) {
 /** @param {Pose} pose @param {Point} move @param {boolean} turn @param {number} step */
 function nudged([x, y, heading], [across, up], turn, step) {
   // 5 deg; left and up are counter-clockwise
-  if (turn) return [x, y, tidy(turned(heading + (up - across) * Math.PI / 36))];
+  if (turn) return [x, y, tidy(wrap(heading + (up - across) * Math.PI / 36))];
   return [tidy(x + across * step), tidy(y + up * step), heading];
 }

@@ -2,13 +2,12 @@
 
 import { fromWords, placeOf, putSlider, stepped, stopsOf } from './controls.js';
 import { held, made } from './hands.js';
+import { inWords } from './style.js';
 import { putSymbol } from './symbols.js';
+import { within } from './numbers.js';
 
 const DRAG = 5; // px of a number's drag a step
 const GLIDE = 1500, PAUSE = 500; // ms: from one place to the next, and before and after
-export const inWords = (value) =>
-    (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')
-    : String(value));
 
 // A number among words: it can be dragged, typed over, and stepped with the arrow keys.
 function putNumber(parent, knob, { get, set, refuse }) {
@@ -92,12 +91,11 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     row.dataset.control = name;
     if (knob.symbol) putSymbol(own, knob.symbol); else own.textContent = knob.label;
     const showSlider = putSlider(row, knob.says, stops, {
-      get: () => get()[name], set(value) { stop(); put(name)(value); },
+      get: () => get()[name], set: put(name),
     });
     let playing = 0;
     const call = (text) => {
       button.textContent = text;
-      button.toggleAttribute('data-playing', text === 'Stop');
       button.setAttribute('aria-label', `${text}: ${knob.says}`);
     };
     const stop = () => {
@@ -121,17 +119,12 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
       go(begin); // where it begins is shown at once: a hand may stop it before the next frame
     };
     const button = knob.plays
-        ? made(row, 'button',
-        { type: 'button', className: 'live-play', textContent: 'Play', onclick: play },
-        { 'aria-label': `play: ${knob.says}` }) : null;
+        ? made(row, 'button', { type: 'button', className: 'live-play', onclick: play }) : null;
+    if (button) call('Play');
     timers.push(stop);
     // What happens in time is seen once more; a heading that turns stays where it was asked for.
     if (button && knob.value === knob.high)
       plays.push(() => { set({ [name]: knob.low }, true); play(); });
-    if (knob.auto && document.documentElement.dataset.still === undefined
-        && !matchMedia('(prefers-reduced-motion: reduce)').matches) whenSeen(row, () => {
-      if (!playing) play();
-    });
     shows.push((values) => {
       showSlider(values[name], `${inWords(values[name])} ${knob.unit}`.trim());
     });
@@ -158,7 +151,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     }
     const from = { ...get() }, begin = performance.now();
     const go = (now) => {
-      const share = Math.min(Math.max(now - begin - PAUSE, 0) / GLIDE, 1), at = {};
+      const share = within((now - begin - PAUSE) / GLIDE, 0, 1), at = {};
       for (const [name, to] of Object.entries(place)) {
         const { stops } = parts[name], where = (value) => placeOf(stops, value);
         at[name] = share === 1 || !stops ? to : stops[Math.round(where(from[name])
@@ -179,14 +172,6 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
         if (place.textContent !== text) { place.textContent = text; changed(); }
     }
   };
-  const moving = () => gliding || root.querySelector('.live-play[data-playing]');
+  const moving = () => gliding || root.querySelector('.live-play[aria-label^="Stop"]');
   return { show, showResults, glide, moving, stop: () => timers.forEach((each) => each()) };
-}
-
-// Calls once, when an element comes into view.
-function whenSeen(element, act) {
-  const watch = new IntersectionObserver((entries) => {
-    if (entries.some((each) => each.isIntersecting)) { watch.disconnect(); act(); }
-  });
-  watch.observe(element);
 }

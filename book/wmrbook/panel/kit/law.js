@@ -1,6 +1,6 @@
 // What a law commands.
 
-import { LAWS, bodyError } from './model.js';
+import { LAWS, bodyError, polarClosingRate } from './model.js';
 
 // (v, omega). The formula of a law for a goal that stands still gives v/rho, that of one for a
 // moving goal v.
@@ -10,4 +10,10 @@ export function controlLaw(rho, alpha, theta, gains, law = 'corrected', vRef = 0
   const twist = formula(rho, alpha, theta, gains);
   twist[0] *= rho;
   return twist;
+}
+
+/** What the distance and what the angles add to the rate of V, (19). @param {Point} command */
+export function ratesOfV([vOverRho, omega], rho, alpha, theta, h, L = 1) {
+  const [nearer, turning, sweeping] = polarClosingRate(rho, alpha, vOverRho, omega);
+  return [rho * nearer / L, alpha * turning + h * theta * sweeping];
 }

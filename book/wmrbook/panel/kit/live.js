@@ -3,17 +3,16 @@
 
 import { buildAsker } from './asker.js';
 import { buildGate } from './gate.js';
-import { followTheme, readColours, written } from './style.js';
 import { held, made, placeOn } from './hands.js';
-import { inWords, putKnobs } from './knobs.js';
+import { inWords, isCalm, written } from './style.js';
 import { keepKeys } from './controls.js';
-import { measure } from './surface.js';
 import { paneOf } from './board.js';
+import { putKnobs } from './knobs.js';
 import { putSteps } from './steps.js';
+import { repainted } from './surface.js';
 import { showHandles } from './grips.js';
 import { widget } from './widget.js';
 
-const CALM = '(prefers-reduced-motion: reduce)';
 const REST = 700; // ms between two moves of a knob after which the next is a new run
 const GHOSTS = 2;
 
@@ -39,9 +38,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     + '</div><div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
         'class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {},
-      still = document.documentElement.dataset.still !== undefined, // on paper
-      values = () => (still && setup.ask
-      ? Object.assign({}, model.get('state'), ...(setup.ask.asked || [])) : model.get('state'));
+      values = () => model.get('state');
   const home = Object.fromEntries(setup.knobs.map(({ name, value }) => [name, value]));
   let frame = 0, spoken = 0, colours = null, found = null, refused = '', specs = {};
   let ghosts = {}, changed = -REST; // paths of the runs before, by pane; when a knob last moved
@@ -101,12 +98,12 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
       way: () => found.run, reveal, close })
       : null;
-  steps = setup.steps.length && !still ? putSteps(find('.live-idea'), setup.steps, (k) => {
+  steps = setup.steps.length ? putSteps(find('.live-idea'), setup.steps, (k) => {
     setup.step = k;
     knobs.stop();
     // what it says is said of the other knobs where they were at first
     const { time, ...to } = { ...home, ...setup.steps[k].to };
-    if (matchMedia(CALM).matches) set(time === undefined ? to : { ...to, time: 1 });
+    if (isCalm()) set(time === undefined ? to : { ...to, time: 1 });
     else knobs.glide([to], () => set({}));
   }) : null;
   function close() {
@@ -118,12 +115,11 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   // The picture goes from what was given to what was asked, place by place, and then it plays.
   function reveal(moving) {
     const asked = setup.ask.asked || [];
-    if (!moving || matchMedia(CALM).matches) {
-      set(Object.assign({}, ...asked));
-      return;
+    if (!moving || isCalm()) set(Object.assign({}, ...asked));
+    else {
+      set({});
+      knobs.glide(asked, () => set({}));
     }
-    set({});
-    knobs.glide(asked, () => set({}));
   }
 
   function build(name, spec) {
@@ -150,7 +146,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       drop() { last = null; },
     });
     canvas.addEventListener('pointermove', (event) => { if (!last) scrub(event, null); });
-    resized.observe(canvas);
+    page.watch(canvas);
   }
   function draw() {
     frame = 0;
@@ -226,20 +222,12 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     if (width) trying = setTimeout(tryAll, 300);
   });
   room.observe(sentence);
-  const repaint = () => {
-    Object.values(canvases).forEach(measure);
-    colours = readColours(root);
-    schedule();
-  };
-  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
-  resized.observe(root);
+  const page = repainted(root, [root], (read) => { colours = read; schedule(); });
   model.on('change:state', schedule);
-  repaint();
   return () => {
     knobs.stop();
     asker?.stop();
-    unfollow();
-    resized.disconnect();
+    page.stop();
     room.disconnect();
     clearTimeout(trying);
     cancelAnimationFrame(frame);

@@ -1,14 +1,15 @@
 // My robot: two points and a data sheet go in; the numbers that it is told, where it will park, and
 // the files for it come out.
 
-import { DEGREES, followTheme, readColours, written } from './style.js';
+import { DEGREES, written } from './style.js';
 import { certified, filesOf, parkedRun, placeOf, sheetOf } from './sheet.js';
 import { download } from './share.js';
 import { keepKeys } from './controls.js';
 import { made } from './hands.js';
-import { measure } from './surface.js';
 import { paneOf } from './board.js';
 import { pointsOf } from './nmea.js';
+import { repainted } from './surface.js';
+import { ahead, ring } from './numbers.js';
 import { widget } from './widget.js';
 
 const AT_ONCE = 30; // ms that the page may be busy
@@ -86,7 +87,7 @@ function render({ model, el }) {
       canvas = made(results, 'canvas', {}, { role: 'img', 'aria-label': 'not yet driven' });
   const sentence = made(root, 'p', {}, { role: 'status' }),
       bar = made(root, 'div', { className: 'wmr-bar' });
-  let colours = readColours(root), turn = 0, ends = [], sheet = null, waiting = 0;
+  let colours, turn = 0, ends = [], sheet = null, waiting = 0;
 
   const robot = () => model.get('state');
   function change(values) {
@@ -133,14 +134,9 @@ function render({ model, el }) {
         sheet.radius), half = 1.15 * far;
     const pane = paneOf(canvas, colours, { equal: true, alt: '',
       x: [-half, half, 'east of the goal [m]'], y: [-half, half, 'north [m]'] });
-    const ring = Array.from({ length: 65 }, (_, k) => k * Math.PI / 32);
-    for (const { at } of ends) if (at) {
-      const [x, y, heading] = at, long = far / 12;
-      pane.arrow(x, y, x + long * Math.cos(heading), y + long * Math.sin(heading), 'path',
-          { width: 1 });
-    }
-    pane.line(ring.map((a) => [sheet.radius * Math.cos(a), sheet.radius * Math.sin(a)]), 'goal',
-        { width: 1.5, dash: [4, 4] });
+    for (const { at } of ends.filter((end) => end.at))
+      pane.arrow(at[0], at[1], ...ahead(at, far / 12), 'path', { width: 1 });
+    pane.line(ring(0, 0, sheet.radius), 'goal', { width: 1.5, dash: [4, 4] });
     pane.pose([0, 0, sheet.heading], 'goal');
     pane.name();
   }
@@ -198,20 +194,16 @@ function render({ model, el }) {
     go(turn);
   }
 
-  const repaint = () => {
-    measure(canvas);
-    colours = readColours(root);
+  const page = repainted(root, [root], (read) => {
+    colours = read;
     if (root.dataset.done === 'true' && !results.hidden) draw();
-  };
-  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
-  resized.observe(root);
+  });
   model.on('change:state', compute);
   compute();
   return () => {
     turn += 1;
     clearTimeout(waiting);
-    unfollow();
-    resized.disconnect();
+    page.stop();
     model.off('change:state', compute);
   };
 }

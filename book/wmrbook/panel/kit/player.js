@@ -1,10 +1,11 @@
 // Plays a drive over the picture that shows it: robots and a goal go along their paths, at a button
 // or under a slider. `Picture.motion` in wmrbook.figures says where they are.
 
-import { followTheme, readColours } from './style.js';
+import { DEGREES } from './style.js';
+import { between, within } from './numbers.js';
 import { putSlider, stopsOf } from './controls.js';
 import { drawPose, drawRobot } from './scene.js';
-import { inside } from './surface.js';
+import { inside, repainted } from './surface.js';
 import { made } from './hands.js';
 
 const PARTS = 10000; // of the picture's width and height
@@ -32,7 +33,7 @@ function player(box, { seconds, robots: told }) {
   const show = putSlider(row, 'time of the drive', STOPS,
       { get: () => share, set(value) { share = value; begin = 0; draw(); } });
   const clock = made(row, 'output');
-  let share = 0, begin = 0, colours = readColours(root), shown = false;
+  let share = 0, begin = 0, colours, shown = false;
   button.addEventListener('click', () => {
     begin = begin ? 0 : performance.now() - (share < 1 ? share : 0) * lasts;
     if (begin) requestAnimationFrame(step);
@@ -42,7 +43,7 @@ function player(box, { seconds, robots: told }) {
 
   function step(now) {
     if (!begin) return;
-    share = Math.min(Math.max(now - begin, 0) / lasts, 1);
+    share = within((now - begin) / lasts, 0, 1);
     if (share === 1) begin = 0; else requestAnimationFrame(step);
     draw();
   }
@@ -63,15 +64,11 @@ function player(box, { seconds, robots: told }) {
     const last = ({ role }) => Number(role === 'goal'); // on the robot that stands on it
     for (const { box: [left, top, right, bottom], x, y, heading, role }
       of shown ? [...robots].sort((a, b) => last(a) - last(b)) : []) {
-      const at = (values) => {
-        const k = Math.min(Math.floor(share * (values.length - 1)), values.length - 2),
-            rest = share * (values.length - 1) - k;
-        return values[k] + rest * (values[k + 1] - values[k]);
-      };
+      const at = (values) => between(values, share * (values.length - 1));
       const frame = { left: left * width / PARTS, top: top * height / PARTS,
         width: (right - left) * width / PARTS, height: (bottom - top) * height / PARTS };
       const place = [at(x) * width / PARTS, at(y) * height / PARTS],
-          turned = at(heading) * Math.PI / 180;
+          turned = at(heading) / DEGREES;
       inside(ctx, frame, () => {
         if (role !== 'goal') {
           drawRobot(ctx, place, turned, { ...colours, path: colours[role] || colours.path }, size);
@@ -83,10 +80,7 @@ function player(box, { seconds, robots: told }) {
       });
     }
   }
-  const repaint = () => { colours = readColours(root); draw(); };
-  followTheme(repaint);
-  const resized = new ResizeObserver(repaint);
-  for (const image of images) resized.observe(image);
+  repainted(root, images, (read) => { colours = read; draw(); });
 }
 
 export function enliven(page) {

@@ -1,16 +1,14 @@
 // A rover with mass beside the kinematic robot: one law drives both, and MuJoCo moves one of them.
 
-import { followTheme, inDegrees, readColours, written } from './style.js';
+import { inDegrees, inWords, isCalm, written } from './style.js';
 import { arcStep, fastestWheel, polarFromPose, saturationScale, wrap } from './model.js';
 import { bodyAt, loadedEngine } from './rover_body.js';
 import { controlLaw } from './law.js';
-import { inWords } from './knobs.js';
 import { keepKeys, putSlider, stopsOf } from './controls.js';
 import { made } from './hands.js';
-import { measure } from './surface.js';
 import { paneOf } from './board.js';
-import { poseAt } from './runs.js';
-import { simulate } from './simulate.js';
+import { freshRun, poseAt } from './runs.js';
+import { repainted } from './surface.js';
 import { widget } from './widget.js';
 
 const AT_ONCE = 12; // ms of a frame that the physics may take
@@ -28,19 +26,13 @@ function render({ model, el }) {
   const words = made(root, 'p', { className: 'rover-words' }, { role: 'status' }),
       bar = made(root, 'div', { className: 'wmr-bar' }),
       rows = made(root, 'div', { className: 'wmr-rows' });
-  const still = matchMedia('(prefers-reduced-motion: reduce)').matches
-      || document.documentElement.dataset.still !== undefined;
-  let colours = readColours(root), mujoco = null, body = null, ideal, path = [], k = 0, before = 0,
-      frame = 0, speed = 1, told = 0, rim = NEAR, ended = false,
-      worst = { slip: 0, load: Infinity }, carried = null, trouble = '';
+  const still = isCalm();
+  let colours, mujoco = null, body = null, before = 0, frame = 0, speed = 1, ideal, path, k, told,
+      rim, ended, worst, carried, trouble;
   const state = () => model.get('state');
 
-  const button = (textContent, act, pressed) => {
-    const it = made(bar, 'button', { type: 'button', textContent },
-        pressed === undefined ? {} : { 'aria-pressed': String(pressed) });
-    it.addEventListener('click', () => act(it));
-    return it;
-  };
+  const button = (textContent, onclick, attributes = {}) =>
+      made(bar, 'button', { type: 'button', textContent, onclick }, attributes);
   const loader = button('Give it a body (MuJoCo, 3.5 MB)', async () => {
     loader.disabled = true;
     const asked = performance.now();
@@ -57,11 +49,11 @@ function render({ model, el }) {
       draw();
     }
   });
-  const again = button('Drive again', () => restart());
-  button('Four times as fast', (it) => {
+  const again = button('Drive again', restart);
+  const faster = button('Four times as fast', () => {
     speed = speed === 1 ? 4 : 1;
-    it.setAttribute('aria-pressed', String(speed === 4));
-  }, false);
+    faster.setAttribute('aria-pressed', String(speed === 4));
+  }, { 'aria-pressed': 'false' });
   const shows = rules.sliders.map(([name, text, unit, low, high, by]) => {
     const row = made(rows, 'label', { className: 'wmr-control' });
     made(row, 'span', { textContent: text });
@@ -82,8 +74,8 @@ function render({ model, el }) {
   function restart() {
     body?.free();
     body = mujoco && bodyAt(mujoco, rules, { ...rules.rover, ...state() });
-    ideal = simulate({ start, goal, gains: state(), law: 'corrected', method: 'arc', dt: period,
-      duration: rules.longest, arrivalRadius: rules.arrival, reference: null,
+    ideal = freshRun({ start, goal, gains: state(), method: 'arc', dt: period,
+      duration: rules.longest, arrivalRadius: rules.arrival,
       wheels: { track_width: track, max_speed: rules.fastest } });
     [path, k, before, told, rim, carried, ended, trouble, worst] =
         [[], 0, 0, 0, NEAR, null, false, '', { slip: 0, load: Infinity }];
@@ -207,18 +199,11 @@ function render({ model, el }) {
     Object.assign(root, { found: { path, ideal, time: time(), worst, arrived } });
   }
 
-  const repaint = () => {
-    canvases.forEach(measure);
-    colours = readColours(root);
-    draw();
-  };
   model.on('change:state', restart);
   restart();
-  const unfollow = followTheme(repaint), resized = new ResizeObserver(repaint);
-  resized.observe(root);
+  const page = repainted(root, [root], (read) => { colours = read; draw(); });
   return () => {
-    unfollow();
-    resized.disconnect();
+    page.stop();
     model.off('change:state', restart);
     cancelAnimationFrame(frame);
     body?.free();

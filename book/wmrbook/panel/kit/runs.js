@@ -3,6 +3,7 @@
 import { ARRIVED } from './setup.js';
 import { arcStep } from './model.js';
 import { drive, simulate, summarise } from './simulate.js';
+import { nearest } from './numbers.js';
 
 // A function of what JSON can say that keeps its last answer: a run need not be driven anew while
 // only the time moves.
@@ -15,13 +16,15 @@ export function remembered(f) {
   };
 }
 
-// A run of the law that acts all the time, sample by sample; `start`, `goal` and `gains` as for
-// `simulate`.
-/** @type {(options: Partial<Options>) => Run} */
-export const driven = remembered((options) =>
-    simulate(
-    { reference: null, law: 'corrected', method: 'continuous', dt: 0.05, duration: 60,
-    arrivalRadius: 0.05, ...options }));
+// A run of `simulate`: unless said otherwise of the corrected law, which acts all the time, to a
+// goal that stands still.
+/** @type {(options: any) => Run} */
+export const freshRun = (options) =>
+    simulate({ reference: null, law: 'corrected', method: 'continuous', dt: 0.05, duration: 60,
+      arrivalRadius: 0.05, ...options });
+/** @type {(options: any) => Run} */
+export const driven = remembered(freshRun);
+
 /**
  * A drive by commands that are held, of `steps` at most: its poses and twists, and whether it
  * arrived. It may have a sight and wheels of its own, see `drive`.
@@ -38,13 +41,15 @@ export function heldRun({ start, goal, gains, dt, radius, steps, ...odd }) {
 }
 export const poseAt = (run, k) => [run.x[k], run.y[k], run.heading[k]];
 
+// Gains between two others, by their logarithms.
+export const blended = (from, to, share) => Object.fromEntries(Object.keys(from)
+    .map((name) => [name, from[name] ** (1 - share) * to[name] ** share]));
+
 // The time, as a share, at which a path comes nearest to a point, or nothing if that is farther
 // than `reach`: for `scrub`.
 export function timeNear(xs, ys, x, y, reach) {
-  let best = 0;
-  const far = (k) => Math.hypot(xs[k] - x, ys[k] - y);
-  for (let k = 1; k < xs.length; k += 1) if (far(k) < far(best)) best = k;
-  return far(best) < reach ? { time: best / (xs.length - 1) } : null;
+  const k = nearest(xs.length, (i) => Math.hypot(xs[i] - x, ys[i] - y), reach);
+  return k === null ? null : { time: k / (xs.length - 1) };
 }
 
 // The same of the longest of some drives, each a list of poses.
@@ -59,10 +64,8 @@ export const alongRoute = remembered(({ start, goals, radii, gains }) => {
   const joined = { t: [], x: [], y: [], heading: [], v: [], V: [], leg: [] };
   let pose = start, begin = 0, peakOmega = 0, arrived = true;
   for (let leg = 0; arrived && leg < goals.length; leg += 1) {
-    const run =
-        simulate(
-        { start: pose, goal: goals[leg], gains, reference: null, law: 'corrected', method: 'arc',
-        dt: 0.1, duration: 120, arrivalRadius: radii[leg] }), last = run.n - 1;
+    const run = freshRun({ start: pose, goal: goals[leg], gains, method: 'arc', dt: 0.1,
+      duration: 120, arrivalRadius: radii[leg] }), last = run.n - 1;
     arrived = run.outcome === 'ARRIVED';
     // where a leg ends stands the next one's first sample
     const kept = arrived && leg < goals.length - 1 ? last : run.n;

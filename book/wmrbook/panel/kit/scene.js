@@ -2,7 +2,11 @@
 // errors as angles and a distance.
 
 import { drawAxes } from './axes.js';
-import { halo, inside, label, line, multiples, stepFor, surfaceOf, tickText } from './surface.js';
+import { nearest, within } from './numbers.js';
+import { poseAt } from './runs.js';
+import {
+  disc, halo, head, inside, label, line, multiples, stepFor, surfaceOf, tickText,
+} from './surface.js';
 
 // px from a pose to the handle that turns it; unequal, so that both can be reached when they
 // coincide
@@ -29,7 +33,7 @@ export function viewOf(runs, marks, arrows, { zoom, width, height }, zoomed) {
     bounds[2] = Math.max(bounds[2], x); bounds[3] = Math.max(bounds[3], y);
   };
   marks.forEach(([x, y]) => include(x, y));
-  const clip = (value, middle) => Math.min(Math.max(value, middle - reach), middle + reach);
+  const clip = (value, middle) => within(value, middle - reach, middle + reach);
   for (const run of runs) {
     for (let k = 0; k < run.n; k += 1)
       include(clip(run.x[k], marks[0][0]), clip(run.y[k], marks[0][1]));
@@ -87,7 +91,9 @@ export const knobOf = (view, pose, name) => {
 
 export function drawScene(canvas, colours, { view, run, ghost, poses, cursor, faded, zoomed }) {
   const { ctx } = surfaceOf(canvas, colours);
-  const goal = poses.goal || [run.goalX[cursor], run.goalY[cursor], run.goalHeading[cursor]];
+  const now = (column) => column[cursor], pose = run && poseAt(run, cursor),
+      robot = run && view.toScreen(pose[0], pose[1]),
+      goal = poses.goal || [run.goalX, run.goalY, run.goalHeading].map(now);
   drawGrid(ctx, view, colours);
   ctx.globalAlpha = faded ? 0.35 : 1;
   inside(ctx, view.box, () => {
@@ -95,16 +101,15 @@ export function drawScene(canvas, colours, { view, run, ghost, poses, cursor, fa
     if (poses.goal === null && run)
       drawPath(ctx, view, run.goalX, run.goalY, run.n, colours.goal, 1.5, [8, 5]);
     if (run) drawPath(ctx, view, run.x, run.y, run.n, colours.path, 3, []);
-    if (run && hasSight(run, cursor)) drawAngles(ctx, view, run, cursor, colours);
+    if (run)
+      drawAngles(ctx, view, pose, [now(run.rho), now(run.alpha), now(run.theta)], goal, colours);
     drawPose(ctx, view, goal, 'goal', colours);
     drawPose(ctx, view, poses.start, 'start', colours);
-    if (run)
-      drawRobot(ctx, view.toScreen(run.x[cursor], run.y[cursor]), run.heading[cursor], colours);
+    if (run) drawRobot(ctx, robot, pose[2], colours);
   });
   if (run && poses.goal && !zoomed && view.scale * LAST < 40)
     drawLast(ctx, view, run, poses, colours);
   inside(ctx, view.box, () => { // over the robot and the corner, where they are in the way
-    const robot = run && view.toScreen(run.x[cursor], run.y[cursor]);
     drawName(ctx, view, goal, 'goal', colours, robot);
     drawName(ctx, view, poses.start, 'start', colours, robot);
   });
@@ -122,15 +127,14 @@ function drawLast(ctx, view, run, poses, colours) {
       [box.left + gap, box.top + gap]].map(([left, top]) =>
       ({ left, top, width: size, height: size }));
   // with their names
-  const points = [poses.start,
-      poses.goal].flatMap((pose, k) =>
-      [0, -45, 45].map((dx) => view.toScreen(pose[0] + dx / view.scale, pose[1]))
-      .concat([knobOf(view, pose, k ? 'goal' : 'start')]));
+  const points = ['start', 'goal'].flatMap((name) => {
+    const [x, y] = view.toScreen(poses[name][0], poses[name][1]);
+    return [[x - 45, y], [x, y], [x + 45, y], knobOf(view, poses[name], name)];
+  });
   for (let k = 0; k < run.n; k += Math.ceil(run.n / 200))
     points.push(view.toScreen(run.x[k], run.y[k]));
-  const crowd = ({ left, top }) =>
-      points.filter(([x, y]) => x > left - 20 && x < left + size + 20 && y > top - 20
-      && y < top + size + 20).length;
+  const crowd = ({ left, top }) => points.filter(([x, y]) =>
+    Math.max(Math.abs(x - left - size / 2), Math.abs(y - top - size / 2)) < size / 2 + 20).length;
   const frame = frames.reduce((best, each) => (crowd(each) < crowd(best) ? each : best));
   const near = viewAt(frame, view.zoom, size / 2 / LAST, poses.goal,
       [frame.left + size / 2, frame.top + size / 2]), last = run.n - 1, alpha = ctx.globalAlpha;
@@ -173,36 +177,18 @@ function drawGrid(ctx, view, colours) {
   });
 }
 
-function drawPath(ctx, view, xs, ys, n, colour, width, dash) {
-  ctx.save();
-  ctx.strokeStyle = colour;
-  ctx.lineWidth = width;
-  ctx.setLineDash(dash);
-  ctx.beginPath();
-  const far = 1e5; // canvases lose their way with coordinates beyond the range of 32-bit pixels
-  for (let k = 0; k < n; k += 1) {
-    const [x, y] = view.toScreen(xs[k], ys[k]);
-    ctx.lineTo(Math.min(Math.max(x, -far), far), Math.min(Math.max(y, -far), far));
-  }
-  ctx.stroke();
-  ctx.restore();
+// The first `n` samples of a way.
+export function drawPath(ctx, view, xs, ys, n, colour, width, dash = []) {
+  const points = Array.from({ length: n }, (_, k) => view.toScreen(xs[k], ys[k]));
+  line(ctx, points, colour, width, dash);
 }
 
 export function drawPose(ctx, view, pose, name, colours) {
-  const [x, y] = view.toScreen(pose[0], pose[1]), [tipX, tipY] = knobOf(view, pose, name);
-  const colour = colours[name], back = pose[2] + Math.PI;
-  line(ctx, [[x, y], [tipX, tipY]], colour, 3);
-  line(ctx,
-      [0.45, -0.45].map((turn) =>
-      [tipX + 13 * Math.cos(back + turn), tipY - 13 * Math.sin(back + turn)])
-      .toSpliced(1, 0, [tipX, tipY]), colour, 3);
-  ctx.beginPath();
-  ctx.arc(x, y, 8, 0, 2 * Math.PI);
-  ctx.fillStyle = colours.paper;
-  ctx.fill();
-  ctx.lineWidth = 3;
-  ctx.strokeStyle = colour;
-  ctx.stroke();
+  const place = view.toScreen(pose[0], pose[1]), tip = knobOf(view, pose, name),
+      colour = colours[name];
+  line(ctx, [place, tip], colour, 3);
+  head(ctx, tip, Math.PI - pose[2], 13, 0.45, colour, 3);
+  disc(ctx, place, 8, colours.paper, colour, 3);
 }
 
 // Behind a pose's arrow, out of its way, and on the side where the robot isn't.
@@ -221,7 +207,10 @@ export function drawName(ctx, view, pose, name, colours, robot = null) {
  * @param {Colours} colours
  */
 export function drawRobot(ctx, [x, y], heading, colours, size = 1) {
-  const body = new Path2D('M-11-9Q-13-9-13-7V7Q-13 9-11 9H4Q9 8 15 0 9-8 4-9Z');
+  const body = new Path2D('M-11-9Q-13-9-13-7V7Q-13 9-11 9H4Q9 8 15 0 9-8 4-9Z'),
+      wheels = new Path2D([-14.5, 8.5].map((side) =>
+        `M-6 ${side}h12a2 2 0 0 1 2 2v2a2 2 0 0 1-2 2h-12a2 2 0 0 1-2-2v-2a2 2 0 0 1 2-2z`)
+          .join(''));
   ctx.save();
   ctx.translate(x, y);
   ctx.save(); // light falls from one side, wherever the robot looks
@@ -235,11 +224,7 @@ export function drawRobot(ctx, [x, y], heading, colours, size = 1) {
   ctx.rotate(-heading);
   ctx.scale(size, size);
   ctx.fillStyle = colours.ink;
-  for (const side of [-1, 1]) {
-    ctx.beginPath();
-    ctx.roundRect(-8, side * 11.5 - 3, 16, 6, 2);
-    ctx.fill();
-  }
+  ctx.fill(wheels);
   ctx.fillStyle = colours.path;
   ctx.fill(body);
   ctx.lineWidth = 1.6;
@@ -256,35 +241,33 @@ export function drawRobot(ctx, [x, y], heading, colours, size = 1) {
 
 // The sample of a run that is drawn nearest to a place on the screen, or null if none is near.
 export function nearestOf(run, view, x, y) {
-  let best = null, least = 20 ** 2; // px
-  for (let k = 0; run && k < run.n; k += 1) {
-    const [px, py] = view.toScreen(run.x[k], run.y[k]), far = (px - x) ** 2 + (py - y) ** 2;
-    if (far < least) [best, least] = [k, far];
-  }
-  return best;
+  return nearest(run ? run.n : 0, (k) => {
+    const [px, py] = view.toScreen(run.x[k], run.y[k]);
+    return Math.hypot(px - x, py - y);
+  }, 20); // px
 }
 
 // On the goal itself the line of sight has no direction, and the angles mean nothing.
-export const hasSight = (run, k) => run.rho[k] > 1e-6;
+export const hasSight = (rho) => rho > 1e-6;
 
 // rho along the line of sight; alpha at the robot, from its heading; theta at the goal, from the
 // goal's heading: Fig. 2 of the paper.
-export function drawAngles(ctx, view, run, k, colours) {
-  const robot = view.toScreen(run.x[k], run.y[k]), goal = view.toScreen(run.goalX[k], run.goalY[k]);
-  const sight = run.heading[k] + run.alpha[k];
+export function drawAngles(ctx, view, pose, [rho, alpha, theta], aim, colours) {
+  if (!hasSight(rho)) return;
+  const robot = view.toScreen(pose[0], pose[1]), goal = view.toScreen(aim[0], aim[1]),
+      sight = pose[2] + alpha;
   const ahead = ([x, y], angle, length) =>
       [x + length * Math.cos(angle), y - length * Math.sin(angle)];
   line(ctx, [robot, goal], colours.rho, 1.5, [2, 5]);
-  line(ctx, [robot, ahead(robot, run.heading[k], 58)], colours.alpha, 1.5, [6, 4]);
+  line(ctx, [robot, ahead(robot, pose[2], 58)], colours.alpha, 1.5, [6, 4]);
   line(ctx, [goal, ahead(goal, sight, 58)], colours.rho, 1.5, [2, 5]);
-  line(ctx, [goal, ahead(goal, run.goalHeading[k], 58)], colours.theta, 1.5, [6, 4]);
-  drawAngle(ctx, robot, run.heading[k], run.alpha[k], 36, 'α', colours.alpha, colours);
+  line(ctx, [goal, ahead(goal, aim[2], 58)], colours.theta, 1.5, [6, 4]);
+  drawAngle(ctx, robot, pose[2], alpha, 36, 'α', colours.alpha, colours);
   const distance = Math.hypot(goal[0] - robot[0], goal[1] - robot[1]);
   // beyond the name of alpha
-  drawAngle(ctx, goal, run.goalHeading[k], run.theta[k], distance < 40 ? 72 : 46, 'θ',
-      colours.theta, colours);
+  drawAngle(ctx, goal, aim[2], theta, distance < 40 ? 72 : 46, 'θ', colours.theta, colours);
   if (distance > 90) {
-    const side = run.alpha[k] < 0 ? 12 : -12; // px; the other side of the line than alpha's arc
+    const side = alpha < 0 ? 12 : -12; // px; the other side of the line than alpha's arc
     const middle = [(robot[0] + goal[0]) / 2 + side * Math.sin(sight),
         (robot[1] + goal[1]) / 2 + side * Math.cos(sight)];
     label(ctx, 'ρ', ...middle, colours,

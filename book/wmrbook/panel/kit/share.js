@@ -4,30 +4,29 @@ import { FONT } from './style.js';
 import { LAWS } from './model.js';
 import { RUN_COLUMNS } from './simulate.js';
 import { differences } from './settings.js';
-
-const COLUMNS = RUN_COLUMNS; // of the CSV file, named as the fields of a Trajectory
+import { made } from './hands.js';
 
 export function pythonOf(settings) {
-  const { start, goal, law, gains, feedback, method, dt, duration, arrivalRadius, reference,
-    wheels } = settings;
-  const pose = (values) => `wmr.Pose(${values.join(', ')})`,
-      named = (values) =>
-      Object.entries(values).map(([name, value]) => `${name}=${value}`).join(', ');
-  const tuning = LAWS[law].gains.includes('k_x') ? `wmr.KanayamaGains(${named(feedback)})`
-      : `wmr.Gains(${named(gains)})`;
-  const how = `law="${law}",\n    method="${method}",\n    dt=${dt},\n    duration=${duration},\n`;
-  const moving = reference !== null, first = moving ? 'paper.circle' : pose(start),
-      second = pose(moving ? start : goal);
-  return `import wmrlib as wmr\n${moving ? 'from wmrlib import paper\n' : ''}\nrun = ` +
-      `wmr.${moving ? 'track' : 'simulate'}(\n    ${first},\n    ${second},\n    ${tuning},\n   ` +
-      ` ${how}`
-    + `${wheels ? `    wheels=wmr.Wheels(${named(wheels)}),\n` : ''}`
-    + `${moving ? '' : `    arrival_radius=${arrivalRadius},\n`})\nprint(wmr.arrival(run))\n`;
+  const { start, goal, law, gains, feedback, method, dt, duration, wheels } = settings,
+      moving = settings.reference !== null;
+  const named = (values) => Object.entries(values).map(([name, value]) => `${name}=${value}`),
+      call = (name, values) => `wmr.${name}(${values.join(', ')})`;
+  const ends = (moving ? [start] : [start, goal]).map((pose) => call('Pose', pose)),
+      tuning = LAWS[law].gains.includes('k_x') ? call('KanayamaGains', named(feedback))
+      : call('Gains', named(gains));
+  const how = named({ law: `"${law}"`, method: `"${method}"`, dt, duration,
+    ...(wheels && { wheels: call('Wheels', named(wheels)) }),
+    ...(!moving && { arrival_radius: settings.arrivalRadius }) });
+  const rows = [...(moving ? ['paper.circle'] : []), ...ends, tuning, ...how]
+      .map((row) => `    ${row},\n`).join('');
+  return `import wmrlib as wmr\n${moving ? 'from wmrlib import paper\n' : ''}\n`
+    + `run = wmr.${moving ? 'track' : 'simulate'}(\n${rows})\nprint(wmr.arrival(run))\n`;
 }
 
+// As a table, its columns named as the fields of a Trajectory.
 export function csvOf(run) {
-  const lines = [COLUMNS.join(',')];
-  for (let k = 0; k < run.n; k += 1) lines.push(COLUMNS.map((name) => run[name][k]).join(','));
+  const lines = [RUN_COLUMNS.join(',')];
+  for (let k = 0; k < run.n; k += 1) lines.push(RUN_COLUMNS.map((name) => run[name][k]).join(','));
   return `${lines.join('\n')}\n`;
 }
 
@@ -52,6 +51,20 @@ export function download(name, blob) {
       { href: URL.createObjectURL(blob), download: name });
   link.click();
   setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+}
+
+// Whether a text is in the clipboard: the old way, which needs no permission and works in a page
+// from the disk too. Where it does not, the text stands there to be copied by hand.
+export function copied(root, text) {
+  root.querySelectorAll('.wmr-text').forEach((each) => each.remove());
+  const before = /** @type {HTMLElement} */ (document.activeElement);
+  const box = made(root, 'textarea', { className: 'wmr-text', value: text, readOnly: true },
+      { 'aria-label': 'to copy' });
+  box.select();
+  if (!document.execCommand('copy')) return false;
+  box.remove();
+  before.focus();
+  return true;
 }
 
 // Where a page is an application with a kernel, a link leads to another kernel, whose Python would

@@ -5,6 +5,7 @@ import { DEGREES } from './style.js';
 import { arcStep, wrap } from './model.js';
 import { ARRIVED, notAllowed } from './setup.js';
 import { drive } from './simulate.js';
+import { median } from './numbers.js';
 import { normals } from './random.js';
 
 const digits = (value, count = 6) => String(Number(value.toPrecision(count)));
@@ -97,7 +98,7 @@ function inSamples(seconds, dt) { // of two whole numbers as near, the even one,
 }
 
 // What a receiver shows of a pose in sample k, as wmrlib's: wrong, held and late.
-function sightOf({ sigma, memory, fix_period, delay, period: dt }, run, seed) {
+export function sightOf({ sigma, memory, fix_period, delay, period: dt }, run, seed) {
   const period = Math.max(inSamples(fix_period, dt), 1), late = inSamples(delay, dt), past = [];
   let fix = -1, error = [0, 0];
   return (k, pose) => {
@@ -145,14 +146,13 @@ export function sure(runs, share) {
 // What the runs amount to, as `certificate`.
 export function certified(ends, { share }) {
   const parked = ends.filter(({ time }) => Number.isFinite(time)), least = sure(ends.length, share);
-  const sorted = (name) => Float64Array.from(ends, (end) => end[name]).sort(),
-      times = sorted('time'), half = ends.length / 2;
+  const sorted = (name) => Float64Array.from(ends, (end) => end[name]).sort();
   const rms = (name) => (parked.length
     ? Math.sqrt(parked.reduce((sum, end) => sum + end[name] ** 2, 0) / parked.length) : Infinity);
   const bound = (name) => (least <= ends.length ? sorted(name)[least - 1] : Infinity);
   return { parked: parked.length, place_rms: rms('place'), heading_rms: rms('heading'),
       place_bound: bound('place'), heading_bound: bound('heading'),
-      time: (times[Math.ceil(half) - 1] + times[Math.floor(half)]) / 2 };
+      time: median(ends.map(({ time }) => time)) };
 }
 
 // The files for the robot, by name, out of their templates.

@@ -154,16 +154,15 @@ export function landscape(options) {
 // heading isn't steered), and kappa.
 /** @param {Gains} gains @param {string} law */
 export function modes(gains, law = 'corrected') {
-  const [rate, a, b] = LAWS[law].modes(gains), half = a / 2, gap = half * half - b;
-  const settling = gap > 0 ? b / (half + Math.sqrt(gap)) : half;
-  return { rate, naturalFrequency: Math.sqrt(b), damping: half / Math.sqrt(b),
-      slower: b === 0 ? Infinity : rate / settling, kappa: a / rate };
+  const [rate, a, b] = LAWS[law].modes(gains), [[slow]] = polesOf(a, b);
+  return { rate, naturalFrequency: Math.sqrt(b), damping: a / 2 / Math.sqrt(b),
+      slower: b === 0 ? Infinity : rate / -slow, kappa: a / rate };
 }
 
-// The roots of s^2 + a s + b.
+// The roots of s^2 + a s + b, the one farther from 0 last.
 export function polesOf(a, b) {
-  const half = a / 2, gap = half * half - b;
-  if (gap < 0) return [[-half, Math.sqrt(-gap)], [-half, -Math.sqrt(-gap)]];
-  const fast = -half - Math.sqrt(gap);
-  return [[fast ? b / fast : 0, 0], [fast, 0]]; // so the slow one keeps its digits
+  const half = a / 2, gap = half * half - b, root = Math.sqrt(Math.abs(gap));
+  if (gap < 0) return [[-half, root], [-half, -root]];
+  const far = half < 0 ? root - half : -half - root;
+  return [[far ? b / far : 0, 0], [far, 0]]; // so the other one keeps its digits
 }

@@ -1,6 +1,7 @@
 // Colours by role, the page's theme, and how numbers are written.
 
 import { COLOURS, FONTS } from './face.js';
+import { within } from './numbers.js';
 
 export const FONT = FONTS.sans;
 export const DEGREES = 180 / Math.PI;
@@ -13,21 +14,11 @@ function pageIsDark(root) {
   return matchMedia('(prefers-color-scheme: dark)').matches;
 }
 
-// Calls back whenever the page turns light or dark, or a symbol in it lights up. Returns what stops
-// it.
-export function followTheme(onChange) {
-  const system = matchMedia('(prefers-color-scheme: dark)');
-  const watch = new MutationObserver(onChange);
-  for (const each of [document.documentElement, document.body]) {
-    watch.observe(each, { attributes: true,
-      attributeFilter: ['data-theme', 'data-mode', 'data-jp-theme-light', 'data-lit'] });
-  }
-  system.addEventListener('change', onChange);
-  return () => { watch.disconnect(); system.removeEventListener('change', onChange); };
-}
+// Whether whoever reads wants nothing to move by itself.
+export const isCalm = () => matchMedia('(prefers-reduced-motion: reduce)').matches;
 
-// Marks the panel as light or dark; gives it the book's colours and
-// fonts as variables, and returns the colours for the canvases.
+// Marks the panel as light or dark; gives it the book's colours and fonts as variables, and returns
+// the colours for the canvases.
 export function readColours(root) {
   const dark = pageIsDark(root), theme = dark ? 'dark' : 'light';
   root.dataset.wmrTheme = theme;
@@ -51,7 +42,7 @@ const VIRIDIS = [
 ];
 
 export function viridis(share) {
-  const place = Math.min(Math.max(share, 0), 1) * (VIRIDIS.length - 1);
+  const place = within(share, 0, 1) * (VIRIDIS.length - 1);
   const low = Math.min(Math.floor(place), VIRIDIS.length - 2);
   return VIRIDIS[low].map((from, i) =>
       Math.round(from + (place - low) * (VIRIDIS[low + 1][i] - from)));
@@ -73,6 +64,13 @@ export function written(value, unit = '', digits = 3) {
   return text.replace(/^-(?=[0.]*$)/, '').replace('-', '−') + gap + unit;
 }
 
-export const inDegrees = (angle) =>
-    (Number.isFinite(angle)
-    ? `${(angle * DEGREES).toFixed(1).replace(/^-0\.0$/, '0.0').replace('-', '−')}°` : '–');
+// As many digits as it was typed with, or as a slider's step has.
+export const inWords = (value) =>
+    (Number.isFinite(value) ? String(Number(value.toPrecision(6))).replace('-', '−')
+    : String(value));
+
+export function inDegrees(angle, digits = 1) {
+  if (!Number.isFinite(angle)) return '–';
+  const text = (angle * DEGREES).toFixed(digits);
+  return `${text.replace(/^-(?=[0.]*$)/, '').replace('-', '−')}°`;
+}

@@ -1,7 +1,8 @@
 // What every canvas here shares: sharp pixels, axes with round numbers, and text that stays
 // readable over lines.
 
-import { FONT } from './style.js';
+import { FONT, readColours } from './style.js';
+import { within } from './numbers.js';
 
 // asking an element for its size in the middle of a drag would make the browser lay out the page
 const sizes = new WeakMap();
@@ -19,6 +20,32 @@ export function measure(canvas) {
 
 export const sizeOf = (canvas) => sizes.get(canvas)
     || (measure(canvas), sizes.get(canvas) || { zoom: 1, width: 1, height: 1 });
+
+/**
+ * Calls `paint(colours)` now, and whenever the page turns light or dark, a symbol in it lights up,
+ * or one of these elements gets another size. Returns what looks after one more, and what ends it.
+ * @param {HTMLElement} root @param {Element[]} elements
+ * @param {(colours: Colours) => void} paint
+ */
+export function repainted(root, elements, paint) {
+  const repaint = () => {
+    root.querySelectorAll('canvas').forEach(measure);
+    paint(readColours(root));
+  };
+  const system = matchMedia('(prefers-color-scheme: dark)'), page = new MutationObserver(repaint),
+      resized = new ResizeObserver(repaint), watch = (element) => resized.observe(element),
+      attributeFilter = ['data-theme', 'data-mode', 'data-jp-theme-light', 'data-lit'];
+  for (const each of [document.documentElement, document.body])
+    page.observe(each, { attributeFilter });
+  system.addEventListener('change', repaint);
+  elements.forEach(watch);
+  repaint();
+  return { watch, stop() {
+    system.removeEventListener('change', repaint);
+    page.disconnect();
+    resized.disconnect();
+  } };
+}
 
 // Returns {ctx, width, height} in those units, cleared, with as many real pixels as the screen has.
 export function surfaceOf(canvas, colours) {
@@ -77,6 +104,9 @@ export function tickText(value, step) {
   return value.toFixed(Math.max(0, -Math.floor(Math.log10(step) + 1e-9))).replace('-', '−');
 }
 
+// Canvases lose their way with coordinates beyond the range of 32-bit pixels.
+export const onCanvas = (pixels) => within(pixels, -1e5, 1e5);
+
 /**
  * @param {CanvasRenderingContext2D} ctx @param {Point[]} points @param {string} colour
  * @param {number[]} dash
@@ -88,9 +118,27 @@ export function line(ctx, points, colour, width = 1.5, dash = []) {
   ctx.lineWidth = width;
   ctx.setLineDash(dash);
   ctx.beginPath();
-  points.forEach(([x, y], i) => (i ? ctx.lineTo(x, y) : ctx.moveTo(x, y)));
+  points.forEach(([x, y]) => ctx.lineTo(onCanvas(x), onCanvas(y)));
   ctx.stroke();
   ctx.restore();
+}
+
+/** The head of an arrow, which points away from the angle `back`. @param {Point} tip */
+export function head(ctx, tip, back, size, spread, colour, width) {
+  const barb = (turn) =>
+      [tip[0] + size * Math.cos(back + turn), tip[1] + size * Math.sin(back + turn)];
+  line(ctx, [barb(spread), tip, barb(-spread)], colour, width);
+}
+
+/** A dot with a rim. @param {CanvasRenderingContext2D} ctx @param {Point} place */
+export function disc(ctx, [x, y], radius, fill, rim, width = 2.5) {
+  ctx.beginPath();
+  ctx.arc(x, y, radius, 0, 2 * Math.PI);
+  ctx.fillStyle = fill;
+  ctx.fill();
+  ctx.lineWidth = width;
+  ctx.strokeStyle = rim;
+  ctx.stroke();
 }
 
 // The numbers of an axis: plain text, for there are many, and nothing crosses them.
@@ -104,12 +152,11 @@ export function tickLabel(ctx, text, x, y, colours, align) {
 
 // Text with a rim in the colour of the paper.
 export function label(ctx, text, x, y, colours,
-    { colour = colours.ink, size = 13, align = 'left', base = 'middle', weight = 400,
-    turn = 0 } = {}) {
+    { colour = colours.ink, size = 13, align = 'left', weight = 400, turn = 0 } = {}) {
   ctx.save();
   ctx.font = `${weight} ${size}px ${FONT}`;
   ctx.textAlign = align;
-  ctx.textBaseline = base;
+  ctx.textBaseline = 'middle';
   ctx.translate(x, y);
   ctx.rotate(turn);
   ctx.lineWidth = 4;

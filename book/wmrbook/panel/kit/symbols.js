@@ -20,7 +20,7 @@ export function putSymbol(parent, name) {
 // A text in which symbols have their names and degrees are "deg".
 export function putWords(parent, text) {
   parent.textContent = '';
-  text.replace(/(?<=\d) deg\b/g, '°').split(NAMED).forEach((piece, k) => {
+  text.replace(/(\d) deg\b/g, '$1°').split(NAMED).forEach((piece, k) => {
     if (k % 2) putSymbol(parent, piece); else parent.append(piece);
   });
 }

@@ -75,7 +75,7 @@ type Pane = {
   state(rho: number, alpha: number, theta: number): void;
   pose(pose: Pose, name: string): void;
   name(): void;
-  bar(x: number, from: number, to: number, role: string, half?: number): void;
+  rect(...endsRoleShare: any[]): void;
 };
 type Handle = {
   id: string; pane: string; at: Point; says: string;

@@ -1,9 +1,7 @@
 // One direction, counted in two ways: clockwise from north and counter-clockwise from east; and
 // where one goes who swaps the two.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import { DEGREES, inDegrees, live, onStops, wrap, written } from '../drawing.js';
 
 const clockwise = (angle) => `${((angle * DEGREES + 360) % 360).toFixed(1)}°`;
 
@@ -44,16 +42,15 @@ export default live('bearing', {
         { role: 'goal', dx: east > 30 ? -10 : 10, dy: north > 0 ? 14 : -14,
         align: east > 30 ? 'right' : 'left' });
   },
-  handles: ({ east, north }) => [{
+  handles: ({ east, north }, found, setup) => [{
     id: 'point', pane: 'map', at: [east, north],
         says: `point 2, ${written(east, 'm')} east and ${written(north, 'm')} north`,
-    move(...to) {
-      const [x, y] = to.map((each) => Math.round(Math.min(Math.max(each, -60), 60)));
-      find({ east: x, north: y });
-      return { east: x, north: y };
+    move(x, y) {
+      const to = onStops(setup, { east: x, north: y });
+      find(to);
+      return to;
     },
   }],
   say: (values, { bearing, sight, off }) =>
-      ({ bearing: clockwise(bearing), angle: inDegrees(sight),
-      off: `${(off * DEGREES).toFixed(0)}°` }),
+      ({ bearing: clockwise(bearing), angle: inDegrees(sight), off: inDegrees(off, 0) }),
 });

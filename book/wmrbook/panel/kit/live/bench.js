@@ -1,34 +1,23 @@
 // Robots that see through receivers, with an error that has a memory, other for each, and late, and
 // whose right wheel slips: how they drive up, and where they park.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { heldRun, remembered, timeAlong } from '../runs.js';
-import { live } from '../live.js';
-import { normals } from '../random.js';
-import { wrap } from '../model.js';
+import {
+  DEGREES, ahead, heldRun, inDegrees, live, median, onStops, remembered, ring, sightOf,
+  timeAlong, wrap, written,
+} from '../drawing.js';
 
 const BARS = 12, WIDE = 360 / BARS; // deg
 const LENGTH = 0.6, ICON = 27; // m and px, the robot's length and that of its drawing
 
-const median = (sorted) =>
-    (sorted[Math.floor((sorted.length - 1) / 2)] + sorted[Math.floor(sorted.length / 2)]) / 2;
-
 const cloud = remembered(({ robots, track, seed, sigma, memory, late, slip, ...drive }) => {
-  const keep = Math.exp(-drive.dt / memory), share = Math.sqrt(1 - keep * keep);
-  const back = Math.round(late / drive.dt);
+  const { dt } = drive, receiver = { sigma, memory, fix_period: dt, delay: late, period: dt };
   const wheels = (v, omega) => {
     const lost = slip * (v + omega * track / 2); // m/s at the wheel
     return [v - lost / 2, omega - lost / track];
   };
   return Array.from({ length: robots }, (_, robot) => {
-    const fixes = [];
-    let [east, north] = [0, 0];
-    const sight = (k, [x, y, heading]) => {
-      const fresh = normals(robot, k, seed);
-      [east, north] = k ? [keep * east + share * fresh[0], keep * north + share * fresh[1]] : fresh;
-      fixes.push([x + sigma * east, y + sigma * north]);
-      return [...fixes[Math.max(k - back, 0)], heading];
-    };
+    const seen = sightOf(receiver, robot, seed);
+    const sight = (k, pose) => [...seen(k, pose).slice(0, 2), pose[2]]; // a compass is not late
     return heldRun({ ...drive, sight, wheels }).poses;
   });
 });
@@ -40,10 +29,9 @@ export default live('bench', {
         ends = ways.map((poses) => ({ pose: poses.at(-1), n: poses.length - 1 })),
         off = ends.map(({ pose }) => wrap(pose[2] - data.goal[2])),
         k = Math.round(time * Math.max(...ends.map(({ n }) => n)));
-    const middle = (values) => median([...values].sort((a, b) => a - b));
     return { ways, ends, off, k, start,
-        far: middle(ends.map(({ pose }) => Math.hypot(pose[0], pose[1]))),
-        turned: middle(off.map(Math.abs)), parked: ends.filter(({ n }) => n <= k).length,
+        far: median(ends.map(({ pose }) => Math.hypot(pose[0], pose[1]))),
+        turned: median(off.map(Math.abs)), parked: ends.filter(({ n }) => n <= k).length,
         driving: ends.filter(({ n }) => n === data.steps).length };
   },
   panes: (values, { ways, ends, far, turned, parked }) => ({
@@ -59,9 +47,7 @@ export default live('bench', {
   }),
   draw({ place, heading }, values, found, hidden, { data: { start, goal, radius } }) {
     const { ways, ends, off, k } = found;
-    place.line(Array.from({ length: 49 },
-        (_, i) => [radius * Math.cos(Math.PI * i / 24), radius * Math.sin(Math.PI * i / 24)]),
-    'goal', { width: 1.5, dash: [4, 4] });
+    place.line(ring(0, 0, radius), 'goal', { width: 1.5, dash: [4, 4] });
     place.pose(goal, 'goal');
     const size = { size: Math.max(LENGTH / place.pixel / ICON, 0.45) };
     heading.line([[0, 0], [0, 33]], 'goal', { width: 1.5, dash: [4, 4] });
@@ -77,16 +63,19 @@ export default live('bench', {
         counts[Math.min(Math.floor((each + Math.PI) * DEGREES / WIDE), BARS - 1)] += 1;
     });
     counts.forEach((count, i) => {
-      if (count) heading.bar((i + 0.5) * WIDE - 180, 0, count, 'path', 13);
+      const left = i * WIDE - 180;
+      if (count) heading.rect(left + 2, 0, left + WIDE - 2, count, 'path');
     });
   },
-  handles: (values, { start: [x, y, heading] }, { data }) => [{
-    id: 'set_off', pane: 'place', at: [x + 1.6 * Math.cos(heading), y + 1.6 * Math.sin(heading)],
-    says: `the heading with which they start, ${inDegrees(heading)}`,
-    move: (toX, toY) => ({ set_off: 5 * Math.round(wrap(Math.atan2(toY - y, toX - x)
-        - data.start[2]) * DEGREES / 5) }),
+  handles: (values, { start }, setup) => [{
+    id: 'set_off', pane: 'place', at: ahead(start, 1.6),
+    says: `the heading with which they start, ${inDegrees(start[2])}`,
+    move(x, y) {
+      const turn = Math.atan2(y - start[1], x - start[0]) - setup.data.start[2];
+      return onStops(setup, { set_off: wrap(turn) * DEGREES });
+    },
   }],
   say: (values, { far, turned, driving }) =>
-      ({ far: written(far, 'm'), turned: `${(turned * DEGREES).toFixed(0)}°`,
+      ({ far: written(far, 'm'), turned: inDegrees(turned, 0),
       driving: driving ? `; ${driving} still drive after 40 s` : '' }),
 });

@@ -1,37 +1,32 @@
 // The angles' part of V as a bowl to be turned by hand, and its level sets; in both the state rolls
 // along one run, and the robot drives it.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { LAWS, wrap } from '../model.js';
-import { driven, timeNear } from '../runs.js';
-import { live } from '../live.js';
+import {
+  DEGREES, LAWS, camera, driven, inDegrees, live, ring, timeNear, turnedBy, written,
+} from '../drawing.js';
 
-// rad that are one unit of the picture; rings; points of a ring; m round the goal
-const REACH = 3, RINGS = 8, AROUND = 64, NEAR = 0.75;
+// rad that are one unit of the picture; rings; m round the goal
+const REACH = 3, RINGS = 8, NEAR = 0.75;
 const LIGHT = [-0.45, 0.3, 0.84]; // from the left, from behind and from above
 
-const ring = (level, h) =>
-    Array.from({ length: AROUND + 1 }, (_, k) => 2 * Math.PI * k / AROUND)
-    .map((turn) =>
-    [Math.sqrt(2 * level) * Math.cos(turn), Math.sqrt(2 * level / h) * Math.sin(turn)]);
+const levelSet = (level, h) =>
+    ring(0, 0, Math.sqrt(2 * level)).map(([alpha, theta]) => [alpha, theta / Math.sqrt(h)]);
 
 // The facets between rings, those behind first: corners, whether its inside is seen, how light it
 // is and how high. `rim` is V at the edge.
 function facets(rings, rim, h, yaw, tilt) {
-  const [c, s, up, down] = [Math.cos(yaw / DEGREES), Math.sin(yaw / DEGREES),
-      Math.cos(tilt / DEGREES), Math.sin(tilt / DEGREES)], found = [];
+  const seen = camera(yaw, tilt), fromAbove = camera(yaw, 90), found = [];
   rings.forEach((outer, i) => {
     const inner = i ? rings[i - 1] : outer.map(() => [0, 0]);
-    for (let k = 0; k < AROUND; k += 1) {
+    for (let k = 0; k < outer.length - 1; k += 1) {
       const corners = [inner[k], outer[k], outer[k + 1], inner[k + 1]],
           [alpha, theta] = [0, 1].map((it) => corners.reduce((sum, at) => sum + at[it] / 4, 0)),
-          [across, along] = [-alpha * REACH / rim, -h * theta * REACH / rim],
-          size = Math.hypot(across, along, 1), turned = [(across * c - along * s) / size,
-            (across * s + along * c) / size, 1 / size], height = ((i + 0.5) / RINGS) ** 2;
-      const inside = turned[2] * down > turned[1] * up,
-          light = turned.reduce((sum, each, it) => sum + each * LIGHT[it], 0) * (inside ? 1 : -1);
+          normal = [-alpha * REACH / rim, -h * theta * REACH / rim, 1],
+          inside = seen(...normal)[2] > 0, height = ((i + 0.5) / RINGS) ** 2;
+      const light = fromAbove(...normal).reduce((sum, each, it) => sum + each * LIGHT[it], 0)
+          / Math.hypot(...normal) * (inside ? 1 : -1);
       found.push({ corners, inside, light, height,
-        near: height * down - (alpha * s + theta * c) / REACH * up });
+        near: seen(alpha / REACH, theta / REACH, height)[2] });
     }
   });
   return found.sort((a, b) => a.near - b.near);
@@ -39,10 +34,8 @@ function facets(rings, rim, h, yaw, tilt) {
 
 // alpha and theta, in radians, and the height to two numbers on the screen
 function projected(yaw, tilt) {
-  const [c, s, up, down] = [Math.cos(yaw / DEGREES), Math.sin(yaw / DEGREES),
-      Math.cos(tilt / DEGREES), Math.sin(tilt / DEGREES)];
-  return (alpha, theta, height) =>
-      [(alpha * c - theta * s) / REACH, (alpha * s + theta * c) / REACH * down + height * up];
+  const seen = camera(yaw, tilt);
+  return (alpha, theta, height) => seen(alpha / REACH, theta / REACH, height).slice(0, 2);
 }
 
 export default live('bowl', {
@@ -58,9 +51,7 @@ export default live('bowl', {
       x: [-1.25, 1.25], y: [-0.85, 1.75], equal: true, bare: true,
           given: 'The bowl over the two angles, with a ball on its rim.',
           alt: `The bowl, turned by ${written(yaw)} degrees; the ball is ${written(height)} high.`,
-      scrub: (x, y, moved, now) => moved
-          && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES,
-          tilt: Math.min(Math.max(now.tilt + moved[1] / 2, 5), 85) },
+      scrub: turnedBy,
     },
     levels: {
       x: [-180, 180, 'α [°]'], y: [-160, 160, 'θ [°]'], equal: true,
@@ -80,7 +71,7 @@ export default live('bowl', {
     const rim = hidden ? LAWS.corrected.value(0, run.alpha[0], run.theta[0], gains.gentle) : top,
         high = (alpha, theta) => LAWS.corrected.value(0, alpha, theta, { h: weight }) / rim;
     const rings =
-        Array.from({ length: RINGS }, (_, i) => ring(rim * ((i + 1) / RINGS) ** 2, weight));
+        Array.from({ length: RINGS }, (_, i) => levelSet(rim * ((i + 1) / RINGS) ** 2, weight));
     for (const each of rings)
       levels.line(each.map(([alpha, theta]) => [alpha * DEGREES, theta * DEGREES]), 'ghost',
           { width: 1 });
@@ -128,10 +119,10 @@ export default live('bowl', {
     bowl.dot(ball[0] - 2.5 * bowl.pixel, ball[1] + 3 * bowl.pixel, 'paper', { size: 1 });
     sides.filter(({ inside }) => !inside).forEach((each) => fill(each, 0.45));
     if (!hidden && yaw === look[0] && tilt === look[1]) {
-      const arc = Array.from({ length: 25 }, (_, i) => (205 + 130 * i / 24) / DEGREES)
-          .map((turn) => [0.95 * Math.cos(turn), -0.35 + 0.32 * Math.sin(turn)]);
+      const arc = ring(0, 0, 0.95, 205 / DEGREES, 335 / DEGREES)
+          .map(([x, y]) => [x, 0.32 / 0.95 * y - 0.35]);
       bowl.line(arc, 'focus');
-      bowl.arrow(...arc[21], ...arc[24], 'focus');
+      bowl.arrow(...arc.at(-11), ...arc.at(-1), 'focus');
       bowl.text('turn me', 0, -0.8, { role: 'focus', align: 'center', weight: 600 });
     }
     levels.dot(run.alpha[now] * DEGREES, run.theta[now] * DEGREES, 'path', { size: 7 });

@@ -1,8 +1,9 @@
 // Forward, left, back, right, and again: where moves that cancel lead.
 
-import { DEGREES, written } from '../style.js';
-import { arcStep } from '../model.js';
-import { live } from '../live.js';
+import { DEGREES, arcStep, live, written } from '../drawing.js';
+
+const WAYS = [{ first: 0, name: 'forward', role: 'path', dash: [], dy: 10 },
+    { first: 2, name: 'back', role: 'ghost', dash: [6, 4], dy: -14 }];
 
 export default live('commutator', {
   find({ step, turn, moves }) {
@@ -22,17 +23,12 @@ export default live('commutator', {
   draw({ plane }, values, { poses, done, now }, hidden) {
     if (!hidden) {
       plane.robot([0, 0, 0], 0.45);
-      for (const { from, role, dash } of [{ from: 0, role: 'path', dash: [] },
-          { from: 2, role: 'ghost', dash: [6, 4] }]) {
-        for (let k = from; k <= done; k += 4)
+      for (const { first, name, role, dash, dy } of WAYS) {
+        for (let k = first; k <= done; k += 4)
           plane.line([poses[k], k === done ? now : poses[k + 1]], role, { dash });
+        const [x, y] = poses[1 + first / 2];
+        if (done >= first) plane.text(name, x, y, { role, dx: 20, dy });
       }
-      [{ k: 0, name: 'forward', role: 'path', dy: 10 },
-          { k: 2, name: 'back', role: 'ghost', dy: -14 }]
-          .forEach(({ k, name, role, dy }) => {
-        const [x, y] = poses[k + 1 - k / 2];
-        if (done >= k) plane.text(name, x, y, { role, dx: 20, dy });
-      });
       for (let k = 4; k <= done; k += 4) plane.robot(poses[k], 0.45);
     }
     plane.text('start', 0, 0, { role: 'start', dy: 22, align: 'center' });

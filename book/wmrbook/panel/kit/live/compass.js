@@ -1,9 +1,7 @@
 // A compass on a robot with magnets and steel: the field that it feels, and the heading that it
 // makes of it.
 
-import { DEGREES, inDegrees } from '../style.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import { DEGREES, inDegrees, live, onStops, wrap } from '../drawing.js';
 
 // The field in the robot's frame, [ahead, left], and the heading that follows from it; the robot's
 // heading in radians from magnetic east.
@@ -25,7 +23,7 @@ export default live('compass', {
     return { turn, errors, worst: Math.max(...errors.map(Math.abs)), read, cos, sin,
         sum: [ahead * cos - left * sin, ahead * sin + left * cos] };
   },
-  panes: (values, { read, worst }) => ({
+  panes: (values, { read, worst }, setup) => ({
     above: { x: [-60, 60, ''], y: [-48, 58, ''], equal: true, bare: true,
         given: 'A robot from above that looks east, and the field that points north.',
         alt: `The robot from above and the fields that it feels: it looks to ` +
@@ -34,7 +32,7 @@ export default live('compass', {
     error: { x: [-180, 180, 'heading [°]'], y: [-90, 90, 'error [°]'],
         given: 'The error over the heading: nothing yet.',
         alt: `The heading's error in a full turn, up to ${worst.toFixed(0)} degrees.`,
-        scrub: (x) => ({ heading: Math.min(Math.max(2 * Math.round(x / 2), -180), 180) }) },
+        scrub: (x) => onStops(setup, { heading: x }) },
   }),
   draw({ above, error }, { heading }, { turn, errors, read, cos, sin, sum: [east, north] }, hidden,
       { data: { field } }) {

@@ -1,31 +1,27 @@
 // A route with one corner: the heading that shares its bend between two legs, and the way that
 // follows.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { alongRoute, poseAt } from '../runs.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import {
+  DEGREES, ahead, alongRoute, inDegrees, live, onStops, poseAt, wrap, written,
+} from '../drawing.js';
 
 const HAIRPIN = Math.PI - 1e-9; // a turn of 180 degrees but for rounding goes to the left
 
+/** @type {(from: Point, to: Point) => number | null} */
+const courseOf = ([x, y], [toX, toY]) =>
+    (x === toX && y === toY ? null : Math.atan2(toY - y, toX - x));
+
 function sharedHeading(first, corner, last) {
-  const [come, leave] = [[first, corner],
-      [corner, last]].map(([a, b]) =>
-      (a[0] === b[0] && a[1] === b[1] ? null : Math.atan2(b[1] - a[1], b[0] - a[0])));
-  if (come === null || leave === null)
-    return { come: come ?? leave, leave: leave ?? come, heading: come ?? leave };
-  const turn = wrap(leave - come);
+  const come = courseOf(first, corner) ?? courseOf(corner, last),
+      leave = courseOf(corner, last) ?? come, turn = wrap(leave - come);
   return { come, leave, heading: wrap(come + (Math.abs(turn) > HAIRPIN ? Math.PI : turn) / 2) };
 }
 
 export default live('corners', {
   find({ x, y, stop }, { data: { first, last, gains, ...radii } }) {
     const bend = sharedHeading(first, [x, y], last);
-    const run =
-        alongRoute(
-        { start: [...first, bend.come], goals: [[x, y, bend.heading], [...last, bend.leave]],
-        radii: [radii[stop], radii.stop], gains });
-    return { ...bend, run };
+    const goals = [[x, y, bend.heading], [...last, bend.leave]], start = [...first, bend.come];
+    return { ...bend, run: alongRoute({ start, goals, radii: [radii[stop], radii.stop], gains }) };
   },
   panes: ({ x, y }, { heading, run }) => ({ plane: {
     x: [-34, 38, 'east [m]'], y: [-32, 42, 'north [m]'], equal: true, tall: true,
@@ -48,15 +44,13 @@ export default live('corners', {
     plane.path(run.x, run.y);
     plane.pose([...first, come], 'start');
     plane.pose([...last, leave], 'goal');
-    plane.arrow(x, y, x + 7 * Math.cos(heading), y + 7 * Math.sin(heading), 'theta');
+    plane.arrow(x, y, ...ahead([x, y, heading], 7), 'theta');
     plane.robot(poseAt(run, run.n - 1));
   },
-  handles: ({ x, y }) => [{
+  handles: ({ x, y }, found, setup) => [{
     id: 'corner', pane: 'plane', at: [x, y],
         says: `the corner, ${written(x)} m east and ${written(y)} m north`,
-    move: (...at) =>
-        Object.fromEntries(
-        at.map((each, k) => ['xy'[k], Math.min(Math.max(Math.round(2 * each) / 2, -30), 30)])),
+    move: (toX, toY) => onStops(setup, { x: toX, y: toY }),
   }],
   say: (values, { heading, run }) =>
       ({ heading: inDegrees(heading), omega: written(run.peakOmega, 'rad/s'),

@@ -1,12 +1,9 @@
 // Two fixes, each somewhere in its circle, and the cone of headings that they allow; drawn in units
 // of the distance between them.
 
-import { DEGREES, written } from '../style.js';
-import { live } from '../live.js';
+import { DEGREES, live, ring, written } from '../drawing.js';
 
 const degrees = (angle) => (angle > 2 ? 'nothing' : written(angle * DEGREES, '°'));
-const circle = (x, radius) => Array.from({ length: 73 }, (_, k) =>
-    [x + radius * Math.cos(k / 36 * Math.PI), radius * Math.sin(k / 36 * Math.PI)]);
 
 export default live('course_cone', {
   find: ({ sigma, distance }, { data: { usable } }) => ({
@@ -24,10 +21,9 @@ export default live('course_cone', {
     for (const x of [0, 1]) above.dot(x, 0, 'start');
     above.text('first fix', 0, 0, { role: 'start', dy: 22, align: 'center' });
     if (hidden) return;
-    for (const x of [0, 1]) above.line(circle(x, sigma / distance), 'start', { width: 1.5 });
-    const half = Math.min(off, Math.PI), rim = Array.from({ length: 41 }, (_, k) =>
-        [reach * Math.cos(half * (k / 20 - 1)), reach * Math.sin(half * (k / 20 - 1))]);
-    above.area([[0, 0], ...rim], 'rising', 0.25);
+    for (const x of [0, 1]) above.line(ring(x, 0, sigma / distance), 'start', { width: 1.5 });
+    const half = Math.min(off, Math.PI);
+    above.area([[0, 0], ...ring(0, 0, reach, -half, half)], 'rising', 0.25);
     above.line([[0, 0], [reach, 0]], 'path', { dash: [6, 4] });
   },
   say: (values, { off, needed }) => ({ off: degrees(off), needed: written(needed, 'm') }),

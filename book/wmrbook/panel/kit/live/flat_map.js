@@ -1,10 +1,7 @@
 // A map that zooms from a lawn to a country: where a flat map puts a point that is seen to the
 // north-east, how far from there it lies on the sphere, and which way north is there.
 
-import { DEGREES, written } from '../style.js';
-import { inside } from '../surface.js';
-import { live } from '../live.js';
-import { roundBelow } from '../lawn.js';
+import { DEGREES, disc, inside, live, onStops, ring, roundBelow, written } from '../drawing.js';
 
 const lengthText = (metres, digits = 3) => {
   const [size, unit] = metres >= 1e3 ? [1e-3, 'km'] : metres >= 0.999 ? [1, 'm'] : metres >= 0.00999
@@ -46,8 +43,8 @@ export default live('flat_map', {
         [x, y] = onSphere(east, north + km, lat, radius); // a thousandth to the north
     return { maps, off: between(maps), leans: Math.atan2(maps[0][0] - x, y - maps[0][1]) };
   },
-  panes: ({ km, lat }, { off, leans }, { data: { asked } }, hidden) => {
-    const rho = 1000 * (hidden ? asked.km : km);
+  panes: ({ km, lat }, { off, leans }, setup, hidden) => {
+    const rho = 1000 * (hidden ? setup.data.asked.km : km);
     return {
       map: { x: [-0.2 * rho, 1.05 * rho], y: [-0.2 * rho, 1.05 * rho], equal: true, bare: true,
           given: 'A lawn, and a point to the north-east of where the map begins.',
@@ -59,21 +56,18 @@ export default live('flat_map', {
             given: 'The error of the flat map over the distance: one dot, at 100 m.',
         alt: `The flat map's error over the distance, a straight line on logarithmic scales: ` +
             `${lengthText(off)} at ${lengthText(1000 * km)}.`,
-        scrub: (x) => ({ km: kmAt(x) }),
+        scrub: (x) => onStops(setup, { km: 10 ** (x - 3) }),
       },
     };
   },
   draw({ map, size }, values, { maps, off, leans }, hidden, { data: { radius, asked } }) {
     const { km, lat } = hidden ? asked : values, rho = 1000 * km, { ctx } = map;
-    map.area([[0, 0], [0, LAWN], [LAWN, LAWN], [LAWN, 0]], 'lawn', 1);
-    for (let k = 0; k < 10; k += 2)
-      map.area([[k, 0], [k, 10], [k + 1, 10], [k + 1, 0]].map(([x, y]) => [10 * x, 10 * y]),
-          'mown', 1);
-    for (const ring of RINGS.filter((each) => each > 0.02 * rho && each < 2 * rho)) {
-      map.line(Array.from({ length: 91 }, (_, k) => [ring * Math.cos(Math.PI * k / 45),
-        ring * Math.sin(Math.PI * k / 45)]), 'line', { width: 1.5 });
-      const [x, y, dy] = ring < 0.3 * rho ? [-ring, 0, 0] : [0, ring, -9]; // where less is drawn
-      map.text(lengthText(ring, 1), x, y, { role: 'soft', dx: -6, dy, size: 13, align: 'right' });
+    map.rect(0, 0, LAWN, LAWN, 'lawn', 1);
+    for (let left = 0; left < LAWN; left += 20) map.rect(left, 0, left + 10, LAWN, 'mown', 1);
+    for (const far of RINGS.filter((each) => each > 0.02 * rho && each < 2 * rho)) {
+      map.line(ring(0, 0, far), 'line', { width: 1.5 });
+      const [x, y, dy] = far < 0.3 * rho ? [-far, 0, 0] : [0, far, -9]; // where less is drawn
+      map.text(lengthText(far, 1), x, y, { role: 'soft', dx: -6, dy, size: 13, align: 'right' });
     }
     size.line([[1, -2], [6, -2]], 'ghost', { width: 1.5, dash: [2, 4] });
     size.text('1 cm', 6, -2, { role: 'ghost', dx: -6, dy: 9, align: 'right' });
@@ -100,10 +94,7 @@ export default live('flat_map', {
     const scale = 2 * LENS * map.pixel / wide, [x, y] = map.at(centre[0], centre[1]);
     const spot = maps[1].map((each, k) => centre[k] + (each - maps[0][k]) * scale);
     map.line([there, centre], 'soft', { width: 1 });
-    ctx.beginPath();
-    ctx.arc(x, y, LENS, 0, 2 * Math.PI);
-    ctx.fillStyle = map.ink('raised'); ctx.fill();
-    ctx.lineWidth = 2; ctx.strokeStyle = map.ink('soft'); ctx.stroke();
+    disc(ctx, [x, y], LENS, map.ink('raised'), map.ink('soft'), 2);
     inside(ctx, { left: x - LENS, top: y - LENS, width: 2 * LENS, height: 2 * LENS }, () => {
       map.line([centre, spot], 'rising', { width: 3 });
       map.dot(...spot, 'ghost', { hollow: true, size: 5 });
@@ -114,11 +105,13 @@ export default live('flat_map', {
       align: 'center', size: 13 });
     size.curve((each) => Math.log10(between(bothMaps(10 ** each, lat, radius)) || 1e-12));
   },
-  handles: ({ km }, { off }) => [{ id: 'distance', pane: 'size', says: `the distance, ${km} km`,
-    at: [Math.log10(1000 * km), Math.log10(off || 1e-12)], move: (x) => ({ km: kmAt(x) }) }],
+  handles: ({ km }, { off }, setup) => [{
+    id: 'distance', pane: 'size', says: `the distance, ${km} km`,
+    at: [Math.log10(1000 * km), Math.log10(off || 1e-12)],
+    move: (x) => onStops(setup, { km: 10 ** (x - 3) }),
+  }],
   say: (values, { off, leans }) => ({ off: lengthText(off), leans: leaning(leans) }),
 });
 
-const kmAt = (x) => Number(Math.min(Math.max(10 ** (x - 3), 0.01), 1000).toPrecision(2));
 const leaning = (angle) => (Math.abs(angle * DEGREES) < 0.001 ? 'less than 0.001°'
     : written(Math.abs(angle * DEGREES), '°'));

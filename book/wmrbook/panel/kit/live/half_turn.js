@@ -1,9 +1,7 @@
 // A goal behind the robot: a hair to either side of straight behind, and the robot turns the other
 // way.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { driven, poseAt } from '../runs.js';
-import { live } from '../live.js';
+import { DEGREES, driven, inDegrees, live, poseAt, written } from '../drawing.js';
 
 // the goal lies `off` degrees to the right of straight behind
 const away = (start, off) => [start[0], start[1], Math.PI - off / DEGREES];

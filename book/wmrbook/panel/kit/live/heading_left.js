@@ -1,16 +1,13 @@
 // The heading error over the distance left, and the last metre: where one stops decides what is
 // left.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { driven, poseAt, remembered } from '../runs.js';
-import { live } from '../live.js';
-import { simulate, summarise } from '../simulate.js';
-import { wrap } from '../model.js';
+import {
+  DEGREES, driven, freshRun, inDegrees, live, poseAt, remembered, ring, summarise, within, wrap,
+  written,
+} from '../drawing.js';
 
-const unsampled = (options) =>
-    simulate(
-    { reference: null, law: 'corrected', method: 'continuous', dt: 120, duration: 120,
-    ...options }), approach = remembered(unsampled), stopped = remembered(unsampled);
+const unsampled = (options) => freshRun({ dt: 120, duration: 120, ...options }),
+    approach = remembered(unsampled), stopped = remembered(unsampled);
 
 export default live('heading_left', {
   find({ choice, radius }, { data: { start, goal, gains } }) {
@@ -26,26 +23,24 @@ export default live('heading_left', {
     return { run, k, time, left: headingError, largest, end: poseAt(stop, stop.n - 1), error };
   },
   panes({ radius }, { left }, { data: { goal } }) {
-    const within = (distance) => ({ radius: Math.min(Math.max(distance, 0.005), 0.6) });
+    const stopAt = (distance) => ({ radius: within(distance, 0.005, 0.6) });
     return {
       error: { x: [0, 0.6, 'distance left [m]'], y: [-90, 90, 'heading error [°]'],
           given: 'Room for the heading error over the distance left.',
           alt: `The heading error over the distance left: ${inDegrees(left)} at ` +
-          `${written(radius, 'm')}.`, scrub: within },
+          `${written(radius, 'm')}.`, scrub: stopAt },
       near: { x: [goal[0] - 0.7, goal[0] + 0.7, 'x [m]'],
           y: [goal[1] - 0.9, goal[1] + 0.5, 'y [m]'], equal: true,
           given: 'The goal, with a circle of 5 cm and one of 10 cm.',
           alt: `The last metre: the robot stops on a circle round the goal, ` +
           `${inDegrees(left)} off.`,
-          scrub: (x, y) => within(Math.hypot(x - goal[0], y - goal[1])) },
+          scrub: (x, y) => stopAt(Math.hypot(x - goal[0], y - goal[1])) },
     };
   },
   draw({ error: chart, near }, { radius }, { run, k, left, end, error }, hidden,
       { data: { goal, asked } }) {
     const round = (size) =>
-        near.line(Array.from({ length: 65 }, (_, i) => 2 * Math.PI * i / 64)
-        .map((turn) => [goal[0] + size * Math.cos(turn), goal[1] + size * Math.sin(turn)]), 'rho',
-        { width: 1.5, dash: [3, 4] });
+        near.line(ring(goal[0], goal[1], size), 'rho', { width: 1.5, dash: [3, 4] });
     near.pose(goal, 'goal');
     if (hidden) { asked.forEach(round); return; }
     round(radius);
@@ -62,6 +57,6 @@ export default live('heading_left', {
     near.robot(end);
   },
   say: (values, { time, left, largest }) =>
-      ({ seconds: written(time, 's'), left: `${Math.abs(left * DEGREES).toFixed(0)}°`,
-      largest: `${(largest * DEGREES).toFixed(0)}°` }),
+      ({ seconds: written(time, 's'), left: inDegrees(Math.abs(left), 0),
+      largest: inDegrees(largest, 0) }),
 });

@@ -1,17 +1,13 @@
 // Graceful's heading error over the distance left, on logarithmic scales: a power of it.
 
-import { DEGREES, written } from '../style.js';
-import { driven, remembered } from '../runs.js';
-import { live } from '../live.js';
-import { simulate, summarise } from '../simulate.js';
+import {
+  DEGREES, driven, freshRun, live, remembered, summarise, within, written,
+} from '../drawing.js';
 
 const LEAST = 1e-4; // degrees, the lower border
 const power = (value) => (Number.isInteger(value) ? String(+(10 ** value).toPrecision(1)) : '');
-const free = (options) =>
-    simulate({ reference: null, law: 'graceful', method: 'continuous', dt: 0.05, duration: 120,
-    ...options });
-const stopped = remembered(free), shipped = remembered(({ all, ...how }) =>
-    all.map((gains) => free({ ...how, gains })));
+const stopped = remembered(freshRun), shipped = remembered(({ all, ...how }) =>
+    all.map((gains) => freshRun({ ...how, gains })));
 const off = (run, k) => Math.abs(run.theta[k] - run.alpha[k]) * DEGREES;
 const curve = (run) =>
     Array.from({ length: run.n }, (_, k) => [Math.log10(run.rho[k]), Math.log10(off(run, k))])
@@ -20,12 +16,10 @@ const curve = (run) =>
 export default live('heading_power', {
   find({ k_phi, k_delta, radius }, { data: { start, goal, gains, defaults } }) {
     const steer = (phi, delta) => ({ ...gains, h: phi, k_alpha: delta }),
-        here = { start, goal, gains: steer(k_phi, k_delta), law: 'graceful' },
-        least = { dt: 0.05, duration: 120, arrivalRadius: 0.005 },
-        run = driven({ ...here, ...least });
+        how = { start, goal, law: 'graceful', duration: 120, arrivalRadius: 0.005 },
+        here = { ...how, gains: steer(k_phi, k_delta) }, run = driven(here);
     const { headingError, time } = summarise(stopped({ ...here, arrivalRadius: radius }));
-    const others = shipped({ start, goal, ...least,
-        all: Object.values(defaults).map(([phi, delta]) => steer(phi, delta)) });
+    const others = shipped({ ...how, all: Object.values(defaults).map((each) => steer(...each)) });
     return { run, others, time, left: Math.abs(headingError), power: Math.min(k_phi, k_delta) };
   },
   panes: ({ radius }, { left, power: slope }) => ({ error: {
@@ -35,7 +29,7 @@ export default live('heading_power', {
     alt: `The heading error over the distance left, both on logarithmic scales: near the goal a ` +
         `line of slope ${written(slope)}; ${written(left * DEGREES, '°')} at ` +
         `${written(radius, 'm')}. Thin lines are Nav2's two defaults.`,
-    scrub: (x) => ({ radius: Math.min(Math.max(10 ** x, 0.01), 1) }),
+    scrub: (x) => ({ radius: within(10 ** x, 0.01, 1) }),
   } }),
   draw({ error }, { radius }, { run, others, left, power: slope }, hidden, { data }) {
     if (hidden) return;

@@ -1,10 +1,7 @@
 // Behind a goal that drives round: a camera rides with the goal, and shows the distance that is
 // left; beside it that distance over time, and what (6.2) says of it.
 
-import { driven, poseAt } from '../runs.js';
-import { live } from '../live.js';
-import { summarise } from '../simulate.js';
-import { written } from '../style.js';
+import { driven, live, onStops, poseAt, summarise, within, written } from '../drawing.js';
 
 const NEAR = 0.22; // m round the goal, or as far as the robot is
 
@@ -27,7 +24,7 @@ export default live('lag', {
       distance: { x: [0, 40, 'time [s]'], y: [0, 0.4, 'distance to the goal [m]'],
           given: 'Room for the distance over time.',
           alt: `The distance over time levels out at ${written(residual, 'm')}.`,
-          scrub: (x) => ({ time: Math.min(Math.max(x / 40, 0), 1) }) },
+          scrub: (x) => ({ time: within(x / 40, 0, 1) }) },
     };
   },
   draw({ circle: picture, distance }, values, { run, k, predicted }, hidden) {
@@ -46,13 +43,12 @@ export default live('lag', {
     distance.path(run.t, run.rho, 'rho');
     distance.dot(run.t[k], run.rho[k], 'rho');
   },
-  handles: ({ v_max }, { predicted }, { data: { speed } }) => [{
+  handles: ({ v_max }, { predicted }, setup) => [{
     id: 'predicted', pane: 'distance', at: [34, predicted],
     says: `the distance that stays, ${written(predicted, 'm')}`,
-    move(x, y) { // the k_rho with which (6.2) says this distance
-      const k_rho = -Math.log(1 - speed / v_max) / Math.max(y, 0.01);
-      return { k_rho: Math.round(10 * Math.min(Math.max(k_rho, 1), 8)) / 10 };
-    },
+    // the k_rho with which (6.2) says this distance
+    move: (x, y) => onStops(setup,
+        { k_rho: -Math.log(1 - setup.data.speed / v_max) / Math.max(y, 0.01) }),
   }],
   say: (values, { residual, predicted }) =>
       ({ residual: written(residual, 'm'), predicted: written(predicted, 'm') }),

@@ -1,15 +1,11 @@
 // The paper's outdoor drive and its last two metres, and gains between the paper's and gentle ones.
 
-import { DEGREES, written } from '../style.js';
-import { driven, poseAt } from '../runs.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import { DEGREES, blended, driven, inDegrees, live, poseAt, wrap, written } from '../drawing.js';
 
 export default live('last_metres', {
   find({ share, time }, { data: { start, goal, paper, gentle } }) {
-    const gains = Object.fromEntries(Object.keys(paper)
-        .map((name) => [name, paper[name] ** (1 - share) * gentle[name] ** share]));
-    const run = driven({ start, goal, gains }), last = run.n - 1;
+    const gains = blended(paper, gentle, share), run = driven({ start, goal, gains }),
+        last = run.n - 1;
     return { gains, run, k: Math.round(time * last), off: wrap(run.heading[last] - goal[2]) };
   },
   panes: (values, { run, off }, { data: { goal } }) => ({
@@ -35,6 +31,6 @@ export default live('last_metres', {
   },
   say: (values, { run, gains, off }) => ({
     k_rho: written(gains.k_rho, '1/m'), k_alpha: written(gains.k_alpha, '1/s'), h: written(gains.h),
-        seconds: written(run.t[run.n - 1], 's'), off: `${Math.abs(off * DEGREES).toFixed(0)}°`,
+        seconds: written(run.t[run.n - 1], 's'), off: inDegrees(Math.abs(off), 0),
   }),
 });

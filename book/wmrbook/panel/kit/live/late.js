@@ -1,13 +1,11 @@
 // Two robots race: one sees its position late, the other its heading. Pale, where each believes it
 // is.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { heldRun, remembered, timeAlong } from '../runs.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import {
+  DEGREES, ahead, heldRun, inDegrees, live, onStops, remembered, timeAlong, wrap, written,
+} from '../drawing.js';
 
 const RACERS = [{ name: 'position', role: 'path' }, { name: 'heading', role: 'alpha' }];
-const tip = ([x, y, heading]) => [x + 8 * Math.cos(heading), y + 8 * Math.sin(heading)];
 const NEAR = 4.5; // m round a robot
 
 const turned = (pose, degrees) => [pose[0], pose[1], pose[2] + degrees / DEGREES];
@@ -65,7 +63,7 @@ export default live('late', {
       pane.line([old, pose], role, { width: 1.5, dash: [2, 5] });
       pane.robot(old, 0.4, { size: 1.5, role });
       for (const [along, share] of [[heading, 1], [old[2], 0.5]])
-        pane.line([[x, y], [x + 1.8 * Math.cos(along), y + 1.8 * Math.sin(along)]], role,
+        pane.line([[x, y], ahead([x, y, along], 1.8)], role,
             { width: 1.5 + share, dash: share < 1 ? [4, 4] : [] });
       pane.robot(pose, 1, { size: 1.5, role });
       whole.robot(pose, 1, { role });
@@ -73,15 +71,17 @@ export default live('late', {
     RACERS.forEach(({ name, role }) => near[name].text(`${name} late`,
         ...near[name].view.toWorld(10, 16), { role, weight: 600 }));
   },
-  handles: (values, { start, goal }, { data }) =>
-      [['set_off', start, data.start, "start's"], ['face', goal, data.goal, "goal's"]].map(
-      ([id, pose, usual, whose]) => ({ id, pane: 'whole', at: tip(pose),
-        says: `the ${whose} heading, ${inDegrees(pose[2])}`,
-        move: (x, y) => ({ [id]: Math.round(wrap(Math.atan2(y - pose[1], x - pose[0]) - usual[2])
-            * DEGREES / 5) * 5 }) })),
+  handles: (values, { start, goal }, setup) =>
+      [['set_off', start, 'start'], ['face', goal, 'goal']].map(([id, pose, name]) => ({
+        id, pane: 'whole', at: ahead(pose, 8), says: `the ${name}'s heading, ${inDegrees(pose[2])}`,
+        move(x, y) {
+          const turn = Math.atan2(y - pose[1], x - pose[0]) - setup.data[name][2];
+          return onStops(setup, { [id]: wrap(turn) * DEGREES });
+        },
+      })),
   say: (values, { runs }) => Object.fromEntries(runs.map(({ time, off }, k) => [RACERS[k].name,
     Number.isFinite(time)
-      ? `stops after ${written(time, 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off`
+      ? `stops after ${written(time, 's')}, ${inDegrees(Math.abs(off), 0)} off`
       : 'does not arrive within a minute'])),
 });
 

@@ -1,8 +1,6 @@
 // A compass that takes its own plane for level, on a robot that leans in a field that dips.
 
-import { DEGREES } from '../style.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import { DEGREES, inDegrees, live, onStops, wrap } from '../drawing.js';
 
 // Its error [rad] at a heading from magnetic east.
 /** @param {number} heading @param {Values} knobs */
@@ -19,7 +17,7 @@ export default live('leaning_compass', {
     return { turn, errors, off: errorAt(values.heading / DEGREES, values),
         worst: Math.max(...errors.map(Math.abs)) };
   },
-  panes: (values, { off, worst }) => ({
+  panes: (values, { off, worst }, setup) => ({
     above: { x: [-60, 60, ''], y: [-48, 58, ''], equal: true, bare: true,
         given: 'A robot from above that faces north.',
         alt: `The robot from above: it faces ${values.heading} degrees and believes it faces ` +
@@ -27,7 +25,7 @@ export default live('leaning_compass', {
     error: { x: [-180, 180, 'heading [°]'], y: [-60, 60, 'error [°]'],
         given: 'The error over the heading: nothing yet.',
         alt: `The compass's error in a full turn, up to ${worst.toFixed(1)} degrees.`,
-        scrub: (x) => ({ heading: Math.min(Math.max(2 * Math.round(x / 2), -180), 180) }) },
+        scrub: (x) => onStops(setup, { heading: x }) },
   }),
   draw({ above, error }, { heading }, { turn, errors, off }, hidden) {
     const angle = heading / DEGREES, read = angle + off;
@@ -43,6 +41,6 @@ export default live('leaning_compass', {
     error.line([[heading, 0], [heading, off * DEGREES]], 'ghost', { width: 1.5 });
     error.dot(heading, off * DEGREES, 'rising', { hollow: true });
   },
-  say: (values, { off, worst }) => ({ off: `${(Math.abs(off) * DEGREES).toFixed(1)}°`,
-      worst: `${worst.toFixed(1)}°` }),
+  say: (values, { off, worst }) =>
+      ({ off: inDegrees(Math.abs(off)), worst: `${worst.toFixed(1)}°` }),
 });

@@ -1,14 +1,13 @@
 // The LQR of the error behind a circle: its gains by the sign of the Hamiltonian matrix, its poles,
 // and the robot that it drives.
 
-import { LAWS } from '../model.js';
-import { driveContinuously } from '../continuous.js';
-import { live } from '../live.js';
-import { poseAt, remembered, timeNear } from '../runs.js';
-import { complex, written } from '../style.js';
+import {
+  LAWS, complex, driveContinuously, live, polesOf, poseAt, remembered, timeNear, written,
+} from '../drawing.js';
 
-const product = (a, b) =>
-    a.map((row) => b[0].map((_, j) => row.reduce((sum, each, k) => sum + each * b[k][j], 0)));
+const transposed = (a) => a[0].map((_, j) => a.map((row) => row[j]));
+const product = (a, b) => a.map((row) => transposed(b).map((column) =>
+  row.reduce((sum, each, k) => sum + each * column[k], 0)));
 
 // By Gauss and Jordan, with the largest pivot.
 function inverse(matrix) {
@@ -29,11 +28,10 @@ function inverse(matrix) {
 // K for Q = q times the identity and R the identity. The columns of I - sign(H) span the states
 // that fade, and there P times the state is the costate.
 const regulator = remembered(({ A, B, q }) => {
-  const across =
-      B.map((row) => B.map((other) => row.reduce((sum, each, k) => sum + each * other[k], 0)));
+  const across = product(B, transposed(B));
   let sign = [...A.map((row, i) => [...row, ...across[i].map((each) => -each)]),
-      ...A.map((row, i) =>
-      [...row.map((_, j) => -q * Number(i === j)), ...A.map((other) => -other[i])])];
+      ...transposed(A).map((row, i) =>
+      [...row.map((_, j) => -q * Number(i === j)), ...row.map((each) => -each)])];
   for (let k = 0, moved = 1; k < 60 && moved > 1e-14; k += 1) {
     const back = inverse(sign);
     moved = Math.max(...back.flatMap((row, i) => row.map((each, j) => Math.abs(each - sign[i][j]))))
@@ -42,7 +40,7 @@ const regulator = remembered(({ A, B, q }) => {
   }
   const half = sign.map((row, i) => row.slice(0, 3).map((each, j) => Number(i === j) - each)),
       P = product(half.slice(3), inverse(half.slice(0, 3)));
-  return product(B[0].map((_, j) => B.map((row) => row[j])), P);
+  return product(transposed(B), P);
 });
 
 // The roots of s^3 + a s^2 + b s + c, all with a real part below 0: one by halving, two by what it
@@ -53,10 +51,7 @@ function cubic(a, b, c) {
     const s = (low + high) / 2;
     if (((s + a) * s + b) * s + c < 0) low = s; else high = s;
   }
-  const half = -(a + low) / 2, gap = half * half - (b + low * (a + low)),
-      root = Math.sqrt(Math.abs(gap));
-  return [[low, 0],
-      ...[1, -1].map((way) => (gap < 0 ? [half, way * root] : [half + way * root, 0]))];
+  return [[low, 0], ...polesOf(a + low, b + low * (a + low))];
 }
 
 const drove = remembered(({ gains, start }) => {
@@ -76,7 +71,7 @@ export default live('lqr', {
     const K = regulator({ A, B, q }),
         gains = Object.fromEntries(LAWS.linear.gains.map((name, i) => [name, -K.flat()[i]])),
         run = drove({ gains, start });
-    const M = A.map((row, i) => row.map((each, j) => each - product([B[i]], K)[0][j])),
+    const fed = product(B, K), M = A.map((row, i) => row.map((each, j) => each - fed[i][j])),
         minor = (i, j) => M[i][i] * M[j][j] - M[i][j] * M[j][i];
     const volume = M[0][0] * minor(1, 2) - M[0][1] * (M[1][0] * M[2][2] - M[1][2] * M[2][0])
         + M[0][2] * (M[1][0] * M[2][1] - M[1][1] * M[2][0]);
@@ -95,7 +90,7 @@ export default live('lqr', {
         scrub: (x, y) => timeNear(run.x, run.y, x, y, 0.5) },
   }),
   draw({ plane, circle: picture }, values, { poles, run, k }, hidden, { data: { start } }) {
-    plane.area([[0, -9], [0, 9], [9, 9], [9, -9]], 'rising', 0.12);
+    plane.rect(0, -9, 9, 9, 'rising', 0.12);
     picture.line(run.goal, 'goal', { width: 1.2, dash: [3, 4] });
     if (hidden) { picture.robot(start); return; }
     for (const [re, im] of poles) plane.cross(re, im, 'path', 8);

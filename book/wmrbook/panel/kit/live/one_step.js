@@ -1,23 +1,17 @@
 // A half turn in exact arcs and in Euler's straight steps.
 
-import { STEPS } from '../model.js';
-import { live } from '../live.js';
-import { written } from '../style.js';
+import { STEPS, live, ring, written } from '../drawing.js';
 
 export default live('one_step', {
   find({ dt }, { data: { v, omega } }) {
     const whole = Math.PI / omega,
         times = Array.from({ length: Math.ceil(whole / dt - 1e-9) },
         (_, k) => Math.min(dt, whole - k * dt));
-    const ways =
-        Object.fromEntries(
-        ['arc', 'euler'].map((name) =>
-        [name, times.reduce((poses, time) =>
-        [...poses, STEPS[name](...poses.at(-1), v, omega, time)], [[0, 0, 0]])]));
-    const apart = (k) =>
-        Math.hypot(ways.arc.at(k)[0] - ways.euler.at(k)[0],
-        ways.arc.at(k)[1] - ways.euler.at(k)[1]);
-    return { ...ways, miss: apart(1), off: apart(-1) };
+    const way = (step) => times.reduce((poses, time) =>
+      [...poses, step(...poses.at(-1), v, omega, time)], [[0, 0, 0]]);
+    const arc = way(STEPS.arc), euler = way(STEPS.euler);
+    const apart = (k) => Math.hypot(arc.at(k)[0] - euler.at(k)[0], arc.at(k)[1] - euler.at(k)[1]);
+    return { arc, euler, miss: apart(1), off: apart(-1) };
   },
   panes: (values, { arc, off }, { data: { v, omega } }) => ({ plane: {
     x: [-1.1 * v / omega, 2.1 * v / omega, 'x [m]'],
@@ -27,10 +21,8 @@ export default live('one_step', {
         `straight steps go outside of it and end ${written(off, 'm')} away.`,
   } }),
   draw({ plane }, values, { arc, euler }, hidden, { data: { v, omega } }) {
-    const radius = v / omega,
-        half = Array.from({ length: 61 }, (_, k) => Math.PI * k / 60)
-        .map((turn) => [radius * Math.sin(turn), radius - radius * Math.cos(turn)]);
-    plane.line(half, 'path');
+    const radius = v / omega;
+    plane.line(ring(0, radius, radius, -Math.PI / 2, Math.PI / 2), 'path');
     plane.robot([0, 0, 0], hidden ? 1 : 0.45);
     if (hidden) return;
     plane.line(euler, 'ghost', { dash: [6, 4] });

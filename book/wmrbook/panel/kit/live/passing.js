@@ -1,15 +1,12 @@
 // A walk whose points are passed: the way, and V, which is another one after each of them.
 
-import { alongRoute, poseAt, timeNear } from '../runs.js';
-import { live } from '../live.js';
-import { written } from '../style.js';
+import { ahead, alongRoute, live, poseAt, ring, timeNear, within, written } from '../drawing.js';
 
 export default live('passing', {
   find({ radius, time }, { data: { poses, gains } }) {
     const [start, ...goals] = poses,
-        run = alongRoute(
-        { start, goals, radii: goals.map((_, k) => (k < goals.length - 1 ? radius : 0.05)),
-        gains });
+        radii = goals.map((_, k) => (k < goals.length - 1 ? radius : 0.05)),
+        run = alongRoute({ start, goals, radii, gains });
     return { run, k: Math.round(time * (run.n - 1)) };
   },
   panes: ({ radius }, { run }) => ({
@@ -20,19 +17,16 @@ export default live('passing', {
       scrub: (x, y) => timeNear(run.x, run.y, x, y, 6) },
     value: { x: [0, 60, 'time [s]'], y: [0, 800, 'V'], given: 'V over time: nothing yet.',
         alt: `V over time: ${run.leg[run.n - 1]} jumps between falling legs.`,
-        scrub: (x) => ({ time: Math.min(Math.max(x / run.t[run.n - 1], 0), 1) }) },
+        scrub: (x) => ({ time: within(x / run.t[run.n - 1], 0, 1) }) },
   }),
   draw({ plane, value }, { radius }, { run, k }, hidden, { data: { poses } }) {
-    const circle = Array.from({ length: 49 },
-        (_, i) => [Math.cos(Math.PI * i / 24), Math.sin(Math.PI * i / 24)]);
     poses.forEach(([x, y, heading], i) => {
       const ends = i === 0 ? 'start' : i === poses.length - 1 ? 'goal' : '';
       if (ends) plane.pose([x, y, heading], ends);
       else {
         if (!hidden)
-          plane.line(circle.map(([cos, sin]) => [x + radius * cos, y + radius * sin]), 'ghost',
-              { width: 1.5, dash: [3, 4] });
-        plane.arrow(x, y, x + 6 * Math.cos(heading), y + 6 * Math.sin(heading), 'theta');
+          plane.line(ring(x, y, radius), 'ghost', { width: 1.5, dash: [3, 4] });
+        plane.arrow(x, y, ...ahead([x, y, heading], 6), 'theta');
         plane.dot(x, y, 'ink', { hollow: true });
       }
     });

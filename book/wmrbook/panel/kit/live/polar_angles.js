@@ -1,12 +1,11 @@
 // The three numbers that the controller sees, of a robot that is moved and turned, and of a goal
 // that is turned.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { live } from '../live.js';
-import { polarFromPose, wrap } from '../model.js';
+import {
+  DEGREES, ahead, inDegrees, live, onStops, polarFromPose, wrap, written,
+} from '../drawing.js';
 
-const clear = ([x, y, heading], by) => [x + by * Math.cos(heading), y + by * Math.sin(heading)];
-const toward = (from, x, y) => Math.round(Math.atan2(y - from[1], x - from[0]) * DEGREES / 5) * 5;
+const toward = (from, x, y) => Math.atan2(y - from[1], x - from[0]) * DEGREES;
 const LONG = 1.5; // m
 
 /** @param {Values} values */
@@ -38,30 +37,29 @@ export default live('polar_angles', {
     plane.pose(to, 'goal');
     if (hidden) { plane.dot(from[0], from[1], 'path'); return; }
     if (step > 0) {
-      plane.line([robot, clear(robot, LONG)], 'alpha', { width: 1.5, dash: [6, 4] });
+      plane.line([robot, ahead(robot, LONG)], 'alpha', { width: 1.5, dash: [6, 4] });
       plane.angle(robot[0], robot[1], robot[2], alpha, 'α', 'alpha', 40);
     }
     if (step > 1) {
-      plane.line([goal, clear([goal[0], goal[1], sight], LONG)], 'rho',
+      plane.line([goal, ahead([goal[0], goal[1], sight], LONG)], 'rho',
           { dash: [4, 4], width: 1.5 });
       plane.angle(goal[0], goal[1], goal[2], theta, 'θ', 'theta', 46);
     }
     plane.robot(robot);
   },
-  handles: (values, { robot, goal }) => [
+  handles: (values, { robot, goal }, setup) => [
     { id: 'robot', pane: 'plane', at: robot.slice(0, 2),
         says: `the robot, at ${written(robot[0], 'm')} and ${written(robot[1], 'm')}`, move(x, y) {
-      const to = { x: Math.round(10 * Math.min(Math.max(x, -0.5), 7.5)) / 10,
-          y: Math.round(10 * Math.min(Math.max(y, -0.5), 5.5)) / 10 };
-      find({ ...values, ...to }, { data: { goal } });
+      const to = onStops(setup, { x, y });
+      find({ ...values, ...to }, setup);
       return to;
     } },
-    { id: 'heading', pane: 'plane', at: clear(robot, LONG),
+    { id: 'heading', pane: 'plane', at: ahead(robot, LONG),
         says: `the robot's heading, ${inDegrees(robot[2])}`,
-        move: (x, y) => ({ heading: toward(robot, x, y) }) },
-    { id: 'goal', pane: 'plane', at: clear(goal, LONG),
+        move: (x, y) => onStops(setup, { heading: toward(robot, x, y) }) },
+    { id: 'goal', pane: 'plane', at: ahead(goal, LONG),
         says: `the goal's heading, ${inDegrees(goal[2])}`,
-        move: (x, y) => ({ goal_heading: toward(goal, x, y) }) },
+        move: (x, y) => onStops(setup, { goal_heading: toward(goal, x, y) }) },
   ],
   say: (values, { rho, alpha, theta, gamma }) => ({
     rho: written(rho, 'm'), alpha: inDegrees(alpha), theta: inDegrees(theta),

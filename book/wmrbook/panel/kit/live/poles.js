@@ -1,11 +1,9 @@
 // The poles of the angles near the goal and the gains that put them there, each from the other; and
 // the robot that has them.
 
-import { DEGREES, complex, written } from '../style.js';
-import { LAWS, wrap } from '../model.js';
-import { driven, poseAt } from '../runs.js';
-import { live } from '../live.js';
-import { modes, polesOf } from '../simulate.js';
+import {
+  DEGREES, LAWS, complex, driven, inDegrees, live, modes, polesOf, poseAt, wrap, written,
+} from '../drawing.js';
 
 const CLEAR = 0.12; // 1/s: nearer the axis than this a hand means the axis
 
@@ -40,7 +38,7 @@ export default live('poles', {
         `${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
   }),
   draw({ plane, robot }, values, { poles, pace, run }, hidden, { data: { start, goal } }) {
-    plane.area([[0, -99], [0, 99], [99, 99], [99, -99]], 'rising', 0.12);
+    plane.rect(0, -99, 99, 99, 'rising', 0.12);
     robot.pose(goal, 'goal');
     if (hidden) { robot.robot(start); return; }
     plane.dot(-pace, 0, 'rho', { hollow: true });
@@ -68,7 +66,7 @@ export default live('poles', {
   say: (values, { damping, naturalFrequency, run, off }) => ({
     damping: written(damping), frequency: written(naturalFrequency, 'rad/s'),
         end: run.outcome === 'ARRIVED'
-        ? `stops after ${written(run.t[run.n - 1], 's')}, ` +
-        `${Math.abs(off * DEGREES).toFixed(1)}° off` : 'is still on its way after 30 s',
+        ? `stops after ${written(run.t[run.n - 1], 's')}, ${inDegrees(Math.abs(off))} off`
+        : 'is still on its way after 30 s',
   }),
 });

@@ -1,22 +1,17 @@
 // Five laws from one start, with the same wheels: their paths, and how each of them ends.
 
-import { DEGREES, written } from '../style.js';
-import { heldRun, remembered } from '../runs.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import {
+  DEGREES, heldRun, inDegrees, live, onStops, remembered, wrap, written,
+} from '../drawing.js';
 
 /** @type {Record<string, [string, number[]]>} */
 const LOOKS = { corrected: ['path', []], printed: ['rising', [2, 5]], aicardi: ['alpha', [9, 4]],
     barrier: ['theta', [9, 3, 2, 3]], graceful: ['goal', [4, 4]] };
 const raced = remembered(({ start, goal, tuned, dt, seconds, radius, track, most }) => {
-  const wheels = (v, omega) => {
-    const fastest = Math.abs(v) + Math.abs(omega) * track / 2,
-        share = Math.min(1, most / Math.max(fastest, 1e-12));
-    return [share * v, share * omega];
-  };
+  const limits = { b: track, max_speed: most, min_speed: 0 }, steps = Math.round(seconds / dt);
   return Object.entries(tuned).map(([law, gains]) => {
-    const how = { start, goal, gains, dt, radius, law, wheels, steps: Math.round(seconds / dt) };
-    const { poses, twists, arrived } = heldRun(how), end = poses[poses.length - 1];
+    const how = { start, goal, gains, dt, radius, law, limits, steps };
+    const { poses, twists, arrived } = heldRun(how), end = poses.at(-1);
     return { law, arrived, end, x: poses.map(([x]) => x), y: poses.map(([, y]) => y),
         time: dt * (poses.length - 1), left: Math.abs(wrap(end[2] - goal[2])),
         back: twists.slice(0, -1).reduce((sum, [v]) => sum + dt * Math.max(-v, 0), 0) };
@@ -50,18 +45,14 @@ export default live('race', {
       plane.text(name[0].toUpperCase() + name.slice(1), from, at, { role, dx: 36, size: 12 });
     });
   },
-  handles: ({ x, y }) => [{
+  handles: ({ x, y }, found, setup) => [{
     id: 'start', pane: 'plane', at: [x, y],
         says: `the start, at ${written(x, 'm')} and ${written(y, 'm')}`,
-    move(toX, toY) {
-      const [nx, ny] = [toX, toY].map((it, i) =>
-          Math.round(10 * Math.min(Math.max(it, i ? -2.5 : -3.5), i ? 2.5 : 3.5)) / 10);
-      return { x: nx, y: ny };
-    },
+    move: (toX, toY) => onStops(setup, { x: toX, y: toY }),
   }],
   say: (values, { chosen: { arrived, time, left, back } }, { data: { most, track } }) => ({
     ends: arrived ? `arrives after ${written(time, 's')}` : 'is on its way after a minute',
-    back: `${back.toFixed(1)} m`, left: `${(left * DEGREES).toFixed(0)}°`,
+    back: `${back.toFixed(1)} m`, left: inDegrees(left, 0),
         turn: `${(left * track / 2 / most).toFixed(1)} s`,
   }),
 });

@@ -1,11 +1,9 @@
 // Where V rises under (24) as printed, over the angles, at a distance and with a weight of the
 // distance; the robot in that state, and its ways and V over time from there.
 
-import { DEGREES, written } from '../style.js';
-import { LAWS, polarClosingRate, poseOfError } from '../model.js';
-import { live } from '../live.js';
-import { remembered } from '../runs.js';
-import { simulate } from '../simulate.js';
+import {
+  DEGREES, LAWS, freshRun, live, onStops, poseOfError, ratesOfV, remembered, written,
+} from '../drawing.js';
 
 const CELLS = 73;
 const LAW = [{ name: '(24) as printed', role: 'rising', dash: [8, 5] },
@@ -14,11 +12,12 @@ const LAW = [{ name: '(24) as printed', role: 'rising', dash: [8, 5] },
 const around = (rho) =>
      ({ x: [-1.3 * rho, 1.3 * rho], y: [-1.3 * rho, 1.3 * rho], lawn: true });
 
-// (19) along the loop that a law closes.
-function rateOfV(law, rho, alpha, theta, gains, L) {
-  const [nearer, turning, sweeping] =
-      polarClosingRate(rho, alpha, ...LAWS[law].formula(rho, alpha, theta, gains));
-  return rho * nearer / L + alpha * turning + gains.h * theta * sweeping;
+// At angles in degrees, under (24) as printed.
+function rateOfV(rho, alpha, theta, gains, L) {
+  const [a, t] = [alpha / DEGREES, theta / DEGREES];
+  const [distance, angles] =
+      ratesOfV(LAWS.printed.formula(rho, a, t, gains), rho, a, t, gains.h, L);
+  return distance + angles;
 }
 
 // Row by row of theta: where it begins to rise and where it ends, in cells of alpha.
@@ -28,7 +27,7 @@ const map = remembered(({ rho, L, gains }) => {
   for (const theta of middles) {
     let from = null;
     middles.forEach((alpha, k) => {
-      const up = rateOfV('printed', rho, alpha / DEGREES, theta / DEGREES, gains, L) > 0;
+      const up = rateOfV(rho, alpha, theta, gains, L) > 0;
       if (up) count += 1;
       if (up && from === null) from = k;
       if (from !== null && (!up || k === CELLS - 1)) {
@@ -40,22 +39,17 @@ const map = remembered(({ rho, L, gains }) => {
   return { rows, share: count / CELLS ** 2 };
 });
 
-const runs = remembered(({ rho, alpha, theta, gains }) =>
-    ['printed',
-    'corrected'].map((law) =>
-    simulate(
-    { start: poseOfError(rho, alpha / DEGREES, theta / DEGREES, 0, 0, 0), goal: [0, 0, 0], gains,
-    reference: null, law, method: 'continuous', dt: 0.06, duration: 3, arrivalRadius: 0 })));
+const runs = remembered(({ rho, alpha, theta, gains }) => ['printed', 'corrected'].map((law) =>
+    freshRun({ start: poseOfError(rho, alpha / DEGREES, theta / DEGREES, 0, 0, 0), goal: [0, 0, 0],
+      gains, law, dt: 0.06, duration: 3, arrivalRadius: 0 })));
 
 export default live('rising', {
   find({ alpha, theta, rho, L }, { data: { gains } }) {
-    const value = (run) =>
-        Array.from(run.t,
-        (_, k) =>
-        run.rho[k] ** 2 / (2 * L) + run.alpha[k] ** 2 / 2 + gains.h * run.theta[k] ** 2 / 2);
+    const value = (run) => Array.from(run.rho, (away, k) =>
+      away ** 2 / (2 * L) + run.alpha[k] ** 2 / 2 + gains.h * run.theta[k] ** 2 / 2);
     const both = runs({ rho, alpha, theta, gains });
-    return { rate: rateOfV('printed', rho, alpha / DEGREES, theta / DEGREES, gains, L),
-        ...map({ rho, L, gains }), t: Array.from(both[0].t), V: both.map(value), both };
+    return { rate: rateOfV(rho, alpha, theta, gains, L), ...map({ rho, L, gains }),
+        t: Array.from(both[0].t), V: both.map(value), both };
   },
   panes: ({ alpha, theta, rho }, { share, V }, { data: { asked } }, hidden) => ({
     plane: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]'],
@@ -78,22 +72,17 @@ export default live('rising', {
     if (hidden) { plane.dot(alpha, theta, 'ink', { hollow: true }); return; }
     const edge = (k) => k / CELLS * 360 - 180, half = 180 / CELLS;
     for (const [middle, from, to] of rows)
-      plane.area(
-          [[edge(from), middle - half], [edge(to), middle - half], [edge(to), middle + half],
-          [edge(from), middle + half]], 'rising', 0.3);
+      plane.rect(edge(from), middle - half, edge(to), middle + half, 'rising', 0.3);
     plane.dot(alpha, theta, rate > 0 ? 'rising' : 'path', { hollow: true });
     V.forEach((each, k) => {
       time.path(t, each.map((it) => it / each[0]), LAW[k].role, { dash: LAW[k].dash });
       time.text(LAW[k].name, 2.9, 2.75 - 0.25 * k, { role: LAW[k].role, align: 'right' });
     });
   },
-  handles: ({ alpha, theta }) => [{
+  handles: ({ alpha, theta }, found, setup) => [{
     id: 'state', pane: 'plane', at: [alpha, theta],
         says: `the state, alpha ${alpha} and theta ${theta} degrees`,
-    move: (...at) =>
-        Object.fromEntries(
-        at.map((each, k) =>
-        [['alpha', 'theta'][k], Math.min(Math.max(5 * Math.round(each / 5), -180), 180)])),
+    move: (x, y) => onStops(setup, { alpha: x, theta: y }),
   }],
   say: (values, { rate, share }) =>
       ({ rate: written(rate, 'per second'), fate: rate > 0 ? 'rises' : 'does not rise',

@@ -1,7 +1,6 @@
 // A robot whose fixes stop: on in good faith, then braking. The way is the area under the speed.
 
-import { live } from '../live.js';
-import { written } from '../style.js';
+import { live, onStops, written } from '../drawing.js';
 
 export default live('silence', {
   find({ speed, timeout, brake }) {
@@ -22,21 +21,19 @@ export default live('silence', {
     road.text('last fix', 0, 0, { role: 'start', dy: 30, align: 'center' });
     road.robot([0, 0, 0], hidden ? 1 : 0.3);
     if (hidden) return;
-    road.area([[0, -0.25], [faith, -0.25], [faith, 0.25], [0, 0.25]], 'start', 0.5);
-    road.area([[faith, -0.25], [far, -0.25], [far, 0.25], [faith, 0.25]], 'rising', 0.5);
+    road.rect(0, -0.25, faith, 0.25, 'start', 0.5);
+    road.rect(faith, -0.25, far, 0.25, 'rising', 0.5);
     road.text('in good faith', 0, -0.25, { role: 'start', dy: -14 });
     road.text('braking', faith, -0.25, { role: 'rising', dy: -32 });
     road.robot([far, 0, 0]);
-    pane.area([[0, 0], [0, speed], [timeout, speed], [timeout, 0]], 'start', 0.5);
+    pane.rect(0, 0, timeout, speed, 'start', 0.5);
     pane.area([[timeout, 0], [timeout, speed], [stands, 0]], 'rising', 0.5);
     pane.line([[0, speed], [timeout, speed], [stands, 0]], 'path');
   },
-  handles: ({ speed, timeout }) => [{
+  handles: ({ speed, timeout }, found, setup) => [{
     id: 'corner', pane: 'speed', at: [timeout, speed],
         says: `the timeout and the speed, ${written(timeout, 's')} and ${written(speed, 'm/s')}`,
-    move: (x, y) =>
-        ({ timeout: Math.min(Math.max(Math.round(20 * x) / 20, 0), 2),
-        speed: Math.min(Math.max(Math.round(10 * y) / 10, 0.1), 4) }),
+    move: (x, y) => onStops(setup, { timeout: x, speed: y }),
   }],
   say: (values, { faith, braking, far }) =>
       ({ faith: written(faith, 'm'), braking: written(braking, 'm'), far: written(far, 'm') }),

@@ -1,46 +1,36 @@
 // The heading error over the distance still to go, and a robot that stops wherever one wants.
 
-import { DEGREES, written } from '../style.js';
-import { live } from '../live.js';
-import { remembered } from '../runs.js';
-import { simulate } from '../simulate.js';
-import { wrap } from '../model.js';
+import {
+  DEGREES, between, freshRun, inDegrees, live, nearest, onStops, remembered, wrap, written,
+} from '../drawing.js';
 
 const toGo = (place) => ['1 m', '10 cm', '1 cm'][place] || '';
 const NEAR = 0.25; // m: a pointer this near the path is on it
-const runs = remembered(({ start, goal, paper,
-    gentle }) => Object.fromEntries(Object.entries({ paper, gentle }).map(([name, gains]) => {
-  const run =
-      simulate(
-      { start, goal, gains, reference: null, law: 'corrected', method: 'continuous', dt: 0.005,
-      duration: 60, arrivalRadius: 0.01 });
-  return [name,
-      { run, from: run.rho.findIndex((rho) => rho < 2),
-      off: Array.from(run.heading, (heading) => wrap(heading - goal[2])) }];
-})));
+const approach = (start, goal, gains) => {
+  const run = freshRun({ start, goal, gains, dt: 0.005, arrivalRadius: 0.01 });
+  return { run, from: run.rho.findIndex((rho) => rho < 2),
+      off: Array.from(run.heading, (heading) => wrap(heading - goal[2])) };
+};
+const runs = remembered(({ start, goal, paper, gentle }) =>
+    ({ paper: approach(start, goal, paper), gentle: approach(start, goal, gentle) }));
 
 export default live('stopping', {
   find({ gains, stop }, { data }) {
     const all = runs(data), { run, off, from } = all[gains],
         at = run.rho.findIndex((rho) => rho <= stop), k = at < 0 ? run.n - 1 : Math.max(at, 1);
-    const share = (run.rho[k - 1] - stop) / (run.rho[k - 1] - run.rho[k]),
-        between = (each) => each[k - 1] + share * (each[k] - each[k - 1]);
-    return { all, run, from, k, t: between(run.t), off: between(off),
-        pose: ['x', 'y', 'heading'].map((name) => between(run[name])) };
+    const place = k - 1 + (run.rho[k - 1] - stop) / (run.rho[k - 1] - run.rho[k]);
+    return { all, run, from, k, t: between(run.t, place), off: between(off, place),
+        pose: [run.x, run.y, run.heading].map((column) => between(column, place)) };
   },
-  panes: ({ stop }, { off }, { data: { goal } }) => ({
+  panes: ({ stop }, { off }, { data: { goal }, ...setup }) => ({
     near: {
       x: [goal[0] - 1.4, goal[0] + 0.8, 'x [m]'], y: [goal[1] - 1.4, goal[1] + 0.8, 'y [m]'],
           equal: true, given: 'The goal from near, with the heading that is asked for.',
       alt: `The robot stops ${written(stop, 'm')} before the goal, ` +
           `${Math.abs(off * DEGREES).toFixed(0)} degrees off.`,
       scrub(x, y, moved, values, { run, from }) {
-        let best = NEAR, rho = null;
-        for (let k = from; k < run.n; k += 1) {
-          const far = Math.hypot(run.x[k] - x, run.y[k] - y);
-          if (far < best) [best, rho] = [far, run.rho[k]];
-        }
-        return rho && { stop: Math.min(Math.max(Number(rho.toPrecision(2)), 0.01), 2) };
+        const k = nearest(run.n, (i) => Math.hypot(run.x[i] - x, run.y[i] - y), NEAR, from);
+        return k && onStops(setup, { stop: run.rho[k] });
       },
     },
     errors: {
@@ -48,15 +38,14 @@ export default live('stopping', {
           given: 'Axes: the heading error over the distance to go, from 2 m to 1 cm.',
       alt: `The heading error over the distance to go, from 2 m to 1 cm: ` +
           `${(off * DEGREES).toFixed(0)} degrees at ${written(stop, 'm')}.`,
-      scrub: (x) => ({ stop: Math.min(Math.max(Number((10 ** -x).toPrecision(2)), 0.01), 2) }),
+      scrub: (x) => onStops(setup, { stop: 10 ** -x }),
     },
   }),
   draw({ near, errors }, { gains, stop }, { all, run, k, off, pose }, hidden, { data: { goal } }) {
     near.pose(goal, 'goal');
     if (hidden) return;
     for (const name of ['paper', 'gentle']) {
-      const each = all[name],
-          role = name === gains ? 'path' : 'ghost', points = [];
+      const each = all[name], role = name === gains ? 'path' : 'ghost', points = [];
       for (let i = each.from; i < each.run.n; i += 1)
         points.push([-Math.log10(each.run.rho[i]), each.off[i] * DEGREES]);
       errors.line(points, role, name === gains ? {} : { width: 1.5, dash: [5, 4] });
@@ -73,5 +62,5 @@ export default live('stopping', {
   },
   say: (values, { t, off }) =>
       ({ seconds: written(t, 's'),
-      off: `${Math.abs(off * DEGREES).toFixed(0)}° too far to the ${off < 0 ? 'right' : 'left'}` }),
+      off: `${inDegrees(Math.abs(off), 0)} too far to the ${off < 0 ? 'right' : 'left'}` }),
 });

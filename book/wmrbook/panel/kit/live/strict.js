@@ -1,11 +1,7 @@
 // Is V strict under the barrier law? Where it rises among the angles that are drawn, what z3 says
 // of all of them, and V along a drive: from the state that z3 finds, if it finds one.
 
-import { DEGREES, written } from '../style.js';
-import { decay, poseOfError } from '../model.js';
-import { live } from '../live.js';
-import { remembered } from '../runs.js';
-import { simulate } from '../simulate.js';
+import { DEGREES, decay, freshRun, live, poseOfError, remembered, written } from '../drawing.js';
 
 const HALF = 50, CELLS = 121, SAMPLES = 3000;
 
@@ -32,9 +28,8 @@ const map = remembered(({ k2, slope }) => {
 const drive = remembered(({ k2, p, q, rho, V }) => {
   const gains = { k_rho: 1, k_alpha: k2 * decay(rho, 1), h: 1, v_max: 1 }, dt = 0.01 / (1 + k2),
       [alpha, theta] = [2 * Math.atan(q), 2 * Math.atan(p)],
-      run = simulate({ start: poseOfError(rho, alpha, theta, 0, 0, 0), goal: [0, 0, 0], gains,
-        reference: null, law: 'barrier', method: 'continuous', dt, duration: SAMPLES * dt,
-        arrivalRadius: 0 });
+      run = freshRun({ start: poseOfError(rho, alpha, theta, 0, 0, 0), goal: [0, 0, 0], gains,
+        law: 'barrier', dt, duration: SAMPLES * dt, arrivalRadius: 0 });
   const values = Array.from(run.t, (_, k) =>
       at(along(V, Math.tan(run.theta[k] / 2), k2), Math.tan(run.alpha[k] / 2)));
   return { t: Array.from(run.t), alpha: Array.from(run.alpha), theta: Array.from(run.theta),
@@ -63,8 +58,7 @@ export default live('strict', {
   draw({ plane, time }, values, { state, run, rising, scale }) {
     const half = HALF / CELLS, role = state ? 'rising' : 'path';
     for (const [theta, alpha] of rising)
-      plane.area([[alpha - half, theta - half], [alpha + half, theta - half],
-        [alpha + half, theta + half], [alpha - half, theta + half]], 'rising', 0.5);
+      plane.rect(alpha - half, theta - half, alpha + half, theta + half, 'rising', 0.5);
     plane.cross(0, 0, 'goal');
     plane.path(run.alpha.map((each) => each * DEGREES), run.theta.map((each) => each * DEGREES));
     plane.dot(run.alpha[0] * DEGREES, run.theta[0] * DEGREES, role, { hollow: true });

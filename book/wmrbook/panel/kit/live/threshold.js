@@ -1,8 +1,7 @@
 // Is it parked? The heading that is left over where a robot stops, and two lines that we draw: each
 // halved, as it is, and doubled.
 
-import { live } from '../live.js';
-import { written } from '../style.js';
+import { between, live, onStops, written } from '../drawing.js';
 
 const SCALES = [0.5, 1, 2];
 
@@ -10,11 +9,7 @@ const offs = (stops) => stops.flat().map(([, off]) => off.toFixed(1)).join(', ')
 
 export default live('threshold', {
   find({ radius, most, gains }, { data: { step, curves } }) {
-    const at = (curve, r) => {
-      const place = Math.min(r / step - 1, curve.length - 1),
-          k = Math.min(Math.floor(place), curve.length - 2);
-      return curve[k] + (place - k) * (curve[k + 1] - curve[k]);
-    };
+    const at = (curve, r) => between(curve, Math.min(r / step - 1, curve.length - 1));
     const stops = curves[gains].map((curve) =>
         SCALES.map((scale) => [scale * radius, at(curve, scale * radius)]));
     const yes = stops.flat().flatMap(([, off]) => SCALES.map((scale) => off < scale * most))
@@ -29,11 +24,8 @@ export default live('threshold', {
   } }),
   draw({ plane }, { radius, most, gains }, { stops }, hidden, { data: { step, curves } }) {
     if (hidden) return;
-    plane.area([[radius / 2, 0], [radius / 2, most / 2], [2 * radius, most / 2], [2 * radius, 0]],
-        'start', 0.3);
-    plane.area(
-        [[radius / 2, most / 2], [radius / 2, 2 * most], [2 * radius, 2 * most],
-        [2 * radius, most / 2]], 'theta', 0.2);
+    plane.rect(radius / 2, 0, 2 * radius, most / 2, 'start', 0.3);
+    plane.rect(radius / 2, most / 2, 2 * radius, 2 * most, 'theta', 0.2);
     for (const scale of SCALES) {
       plane.line([[radius / 2, scale * most], [2 * radius, scale * most]], 'theta',
           { width: 1.5, dash: [5, 4] });
@@ -49,12 +41,10 @@ export default live('threshold', {
           { role: k ? 'goal' : 'path', dy: 12 });
     });
   },
-  handles: ({ radius, most }) => [{
+  handles: ({ radius, most }, found, setup) => [{
     id: 'line', pane: 'plane', at: [radius, most],
         says: `where the lines cross, ${written(radius, 'cm')} and ${written(most, '°')}`,
-    move: (x, y) =>
-        ({ radius: Math.min(Math.max(Math.round(2 * x) / 2, 1), 20),
-        most: Math.min(Math.max(Math.round(2 * y) / 2, 0.5), 25) }),
+    move: (x, y) => onStops(setup, { radius: x, most: y }),
   }],
   say: (values, { yes, verdict }) =>
       ({ yes: `in ${yes} of 18`,

@@ -1,11 +1,10 @@
 // Robots that start on the seam of theta and see their goal through noise: their ways over the two
 // angles, on a torus and laid flat, and in the plane.
 
-import { DEGREES, inDegrees } from '../style.js';
-import { heldRun, remembered } from '../runs.js';
-import { LAWS, polarClosingRate, polarFromPose, wrap } from '../model.js';
-import { live } from '../live.js';
-import { normals } from '../random.js';
+import {
+  DEGREES, LAWS, ahead, camera, heldRun, inDegrees, live, normals, polarClosingRate,
+  polarFromPose, remembered, turnedBy, wrap,
+} from '../drawing.js';
 
 const TUBE = 0.45, AROUND = 48, QUARTER = Math.PI / 2;
 
@@ -29,15 +28,11 @@ const swarm = remembered(({ robots, seed, noise, distance, ...drive }) =>
 
 // A point of the torus on the screen, alpha = 0 on top, and whether it is on the side that is seen.
 function turned(yaw, tilt) {
-  const [c, s, up, down] = [Math.cos(yaw / DEGREES), Math.sin(yaw / DEGREES),
-      Math.cos(tilt / DEGREES), Math.sin(tilt / DEGREES)];
-  const shown = (x, y, z) => [x * c - y * s, (x * s + y * c) * down + z * up,
-      z * down - (x * s + y * c) * up];
+  const seen = camera(yaw, tilt);
   return ([alpha, theta]) => {
-    const [ca, sa, ct, st] =
-        [Math.sin(alpha), Math.cos(alpha), Math.cos(theta), Math.sin(theta)];
-    const [x, y] = shown((1 + TUBE * ca) * ct, (1 + TUBE * ca) * st, TUBE * sa);
-    return { at: [x, y], front: shown(ca * ct, ca * st, sa)[2] > 0 };
+    const [out, up, ct, st] = [Math.sin(alpha), Math.cos(alpha), Math.cos(theta), Math.sin(theta)];
+    const [x, y] = seen((1 + TUBE * out) * ct, (1 + TUBE * out) * st, TUBE * up);
+    return { at: [x, y], front: seen(out * ct, out * st, up)[2] > 0 };
   };
 }
 
@@ -98,9 +93,7 @@ export default live('torus', {
       x: [-1.55, 1.55], y: [-1.5, 1.5], equal: true, bare: true,
       given: 'A torus of the two angles, with the seam as a ring about its tube.',
       alt: `On the torus ${runs.length} ways begin on the seam; ${lost} leave it, but too late.`,
-      scrub: (x, y, moved, now) => moved
-          && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES,
-          tilt: Math.min(Math.max(now.tilt + moved[1] / 2, 5), 85) },
+      scrub: turnedBy,
     },
     square: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]', named], equal: true,
         given: 'The torus laid flat, the seam across its middle, and which way the law drives.',
@@ -127,10 +120,9 @@ export default live('torus', {
       if (last.front) torus.dot(...last.at, role, { size: 3 });
       flat(square, angles, role, 1.5);
       square.dot(...unrolled(angles.at(-1)), role, { size: 3 });
-      const [x, y, heading] = poses.at(-1);
+      const end = poses.at(-1);
       plane.line(poses, role, { width: 1.5 });
-      plane.arrow(x, y, x + 0.06 * Math.cos(heading), y + 0.06 * Math.sin(heading), role,
-          { width: 1.5 });
+      plane.arrow(end[0], end[1], ...ahead(end, 0.06), role, { width: 1.5 });
     }
     const goal = view([0, 0]), start = view([0, Math.PI]);
     if (goal.front) torus.dot(...goal.at, 'goal');

@@ -1,7 +1,6 @@
 // Two wheel speeds make a speed and a turning rate, and the point about which the robot turns.
 
-import { live } from '../live.js';
-import { written } from '../style.js';
+import { live, onStops, ring, written } from '../drawing.js';
 
 const motion = (v, omega, centre) =>
     (omega ? `It turns about a point ${written(centre, 'm')} to its left.` : v
@@ -19,9 +18,7 @@ export default live('turning_centre', {
   } }),
   draw({ plane }, values, { v, omega, centre, wheels }, hidden) {
     if (!hidden && omega && Math.abs(centre) < 50) {
-      const way = Array.from({ length: 61 }, (_, k) => 2 * Math.PI * k / 60)
-          .map((turn) => [centre * Math.sin(turn), centre - centre * Math.cos(turn)]);
-      plane.line(way, 'ghost', { width: 1.5, dash: [4, 4] });
+      plane.line(ring(0, centre, Math.abs(centre)), 'ghost', { width: 1.5, dash: [4, 4] });
       plane.line([[wheels[0][0], wheels[0][1]], [0, centre], [wheels[1][0], wheels[1][1]]], 'rho',
           { width: 1.2, dash: [2, 4] });
       plane.cross(0, centre, 'goal');
@@ -34,10 +31,10 @@ export default live('turning_centre', {
     }
     if (!hidden && v) plane.arrow(0, 0, v, 0, 'start');
   },
-  handles: (values, { wheels }) => ['left', 'right'].map((name, k) => ({
+  handles: (values, { wheels }, setup) => ['left', 'right'].map((name, k) => ({
     id: name, pane: 'plane', at: wheels[k],
         says: `the ${name} wheel's speed, ${written(values[name], 'm/s')}`,
-    move: (x) => ({ [name]: Math.round(Math.min(Math.max(x, -1.5), 1.5) * 20) / 20 }),
+    move: (x) => onStops(setup, { [name]: x }),
   })),
   say: (values, { v, omega, centre }) => ({
     speed: written(v, 'm/s'), turning: written(omega, 'rad/s'),

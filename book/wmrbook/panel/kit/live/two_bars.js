@@ -1,10 +1,9 @@
 // V' as a sum of two bars, for the distance and for the angles, at a state to be dragged, with the
 // robot in that state, while the law is put in piece by piece.
 
-import { DEGREES, written } from '../style.js';
-import { correctedLaw, polarClosingRate, printedLaw } from '../model.js';
-import { live } from '../live.js';
-import { remembered } from '../runs.js';
+import {
+  DEGREES, correctedLaw, live, onStops, printedLaw, ratesOfV, remembered, within, written,
+} from '../drawing.js';
 
 const MARKS = 19; // marks a side of the plane
 
@@ -15,12 +14,8 @@ const LAWS_SO_FAR = {
   printed: printedLaw,
 };
 
-// (7) to (9) and the chain rule, with L = 1 m^2
-function falls(law, rho, alpha, theta, gains) {
-  const [rhoRate, alphaRate, thetaRate] =
-      polarClosingRate(rho, alpha, ...LAWS_SO_FAR[law](rho, alpha, theta, gains));
-  return [rho * rhoRate, alpha * alphaRate + gains.h * theta * thetaRate];
-}
+const falls = (law, rho, alpha, theta, gains) => // with L = 1 m^2
+    ratesOfV(LAWS_SO_FAR[law](rho, alpha, theta, gains), rho, alpha, theta, gains.h);
 
 const rising = remembered(([law, rho, gains]) => {
   const side = Array.from({ length: MARKS }, (_, i) => (2 * (i + 0.5) / MARKS - 1) * Math.PI);
@@ -59,17 +54,15 @@ export default live('two_bars', {
         ['sum', 'ink', sum]].forEach(([name, role, rate], k) => {
       chart.text(name, k + 1, 7, { role, dy: -12, align: 'center', size: names });
       if (hidden) return;
-      chart.bar(k + 1, 0, Math.min(Math.max(rate, -10.2), 5.4), role);
+      chart.rect(k + 0.7, 0, k + 1.3, within(rate, -10.2, 5.4), role);
       chart.text(way(rate), k + 1, rate < 0 ? 0 : Math.min(rate, 5.4),
           { role, dy: 12, align: 'center', weight: 400 });
     });
   },
-  handles: ({ alpha, theta }) => [{
+  handles: ({ alpha, theta }, found, setup) => [{
     id: 'state', pane: 'plane', at: [alpha, theta],
         says: `the state, alpha ${written(alpha)} and theta ${written(theta)} degrees`,
-    move: (x, y) =>
-        ({ alpha: Math.round(Math.min(Math.max(x, -180), 180)),
-        theta: Math.round(Math.min(Math.max(y, -180), 180)) }),
+    move: (x, y) => onStops(setup, { alpha: x, theta: y }),
   }],
   say: (values, { bars, marks }) =>
       ({ distance: way(bars[0]), angles: way(bars[1]),

@@ -1,11 +1,9 @@
 // The poles of one time step near the goal, on the unit circle's plane, and the end of the drive
 // that is sampled so.
 
-import { DEGREES, complex, written } from '../style.js';
-import { LAWS, wrap } from '../model.js';
-import { live } from '../live.js';
-import { poseAt, remembered } from '../runs.js';
-import { simulate } from '../simulate.js';
+import {
+  DEGREES, LAWS, complex, driven, inDegrees, live, polesOf, poseAt, ring, within, wrap, written,
+} from '../drawing.js';
 
 // What one step makes of (alpha, theta): chapter 8's (8.3), with the angle of the chord 0, or half
 // the turn.
@@ -16,14 +14,7 @@ function stepMatrix({ k_rho, k_alpha, h, v_max }, method, dt) {
   return [[1 + sight[0] - turn[0], sight[1] - turn[1]], [sight[0], 1 + sight[1]]];
 }
 
-/** @param {Point[]} matrix */
-function eigenvalues([[a, b], [c, d]]) {
-  const middle = (a + d) / 2, gap = middle * middle - (a * d - b * c),
-      root = Math.sqrt(Math.abs(gap));
-  return gap < 0 ? [[middle, root], [middle, -root]] : [[middle + root, 0], [middle - root, 0]];
-}
-
-const sampled = remembered((options) => simulate(options)), WIDE = 1.6;
+const WIDE = 1.6;
 
 const endOf = ({ outcome }, off) =>
     (outcome === 'ARRIVED' ? `stops ${Math.abs(off * DEGREES).toFixed(0)} degrees off`
@@ -32,10 +23,9 @@ const endOf = ({ outcome }, off) =>
 export default live('unit_circle', {
   find({ times, gains: name, method }, { data: { gains, longest, start, goal } }) {
     const dt = times * longest[name][method], [rate] = LAWS.corrected.modes(gains[name]),
-        poles = eigenvalues(stepMatrix(gains[name], method, dt));
-    const run =
-        sampled({ start, goal, gains: gains[name], reference: null, law: 'corrected', method, dt,
-        duration: 60, arrivalRadius: 0.05 });
+        [[a, b], [c, d]] = stepMatrix(gains[name], method, dt),
+        poles = polesOf(-a - d, a * d - b * c),
+        run = driven({ start, goal, gains: gains[name], method, dt });
     return { dt, poles, size: Math.max(...poles.map((each) => Math.hypot(...each))), run,
         off: wrap(run.heading[run.n - 1] - goal[2]), longest: longest[name][method], rate,
         kept: 1 - dt * rate };
@@ -49,16 +39,14 @@ export default live('unit_circle', {
         alt: `The last two metres, sample by sample: the robot ${endOf(run, off)}.` },
   }),
   draw({ plane, near }, values, { poles, run, kept, size }, hidden, { data: { goal } }) {
-    const circle = Array.from({ length: 121 },
-        (_, k) => [Math.cos(Math.PI * k / 60), Math.sin(Math.PI * k / 60)]);
-    plane.area(circle, 'path', 0.1);
-    plane.line(circle, 'ink', { width: 1.5 });
+    plane.area(ring(0, 0, 1), 'path', 0.1);
+    plane.line(ring(0, 0, 1), 'ink', { width: 1.5 });
     near.pose(goal, 'goal');
     if (hidden) return;
     plane.dot(kept, 0, 'rho', { hollow: true });
     plane.text('distance', kept, 0, { role: 'rho', dy: -18, align: 'center' });
     for (const [re, im] of poles) {
-      const inside = Math.min(Math.max(re, -WIDE), WIDE);
+      const inside = within(re, -WIDE, WIDE);
       plane.cross(inside, im, size > 1 ? 'rising' : 'alpha', 8);
       if (inside !== re)
         plane.text(`${written(re)}`, inside, im,
@@ -75,7 +63,7 @@ export default live('unit_circle', {
         fate: size < 1 ? 'shrink' : size > 1 + 1e-9 ? 'grow from step to step'
         : 'neither shrink nor grow',
     end: run.outcome === 'ARRIVED'
-        ? `ends after ${written(run.t[run.n - 1], 's')}, ${Math.abs(off * DEGREES).toFixed(0)}° off`
+        ? `ends after ${written(run.t[run.n - 1], 's')}, ${inDegrees(Math.abs(off), 0)} off`
         : 'does not end within a minute',
   }),
 });

@@ -1,21 +1,20 @@
 // Wheels that can't go faster, three rules for what they do then, and the path that each rule
 // leaves.
 
-import { driven, heldRun, poseAt, remembered, timeNear } from '../runs.js';
-import { live } from '../live.js';
-import { written } from '../style.js';
+import {
+  driven, heldRun, live, poseAt, remembered, saturationScale, timeNear, within, written,
+} from '../drawing.js';
 
 const RULES = {
   wheels: (v, turn, most) => {
-    const [left, right] = [v - turn, v + turn].map((each) => Math.min(Math.max(each, -most), most));
+    const [left, right] = [v - turn, v + turn].map((each) => within(each, -most, most));
     return [(left + right) / 2, (right - left) / 2];
   },
   // together never more than `most`
   apart: (v, turn, most) =>
-      [Math.min(Math.max(v, -0.75 * most), 0.75 * most),
-      Math.min(Math.max(turn, -0.25 * most), 0.25 * most)],
+      [within(v, -0.75 * most, 0.75 * most), within(turn, -0.25 * most, 0.25 * most)],
   both: (v, turn, most) => {
-    const share = Math.min(1, most / Math.max(Math.abs(v - turn), Math.abs(v + turn), 1e-12));
+    const share = saturationScale(most, Math.abs(v) + Math.abs(turn));
     return [share * v, share * turn];
   },
 };
@@ -62,7 +61,7 @@ export default live('wheel_limit', {
     speeds: { x: [0, 20, 'time [s]'], y: [-4.4, 4.4, 'wheels [m/s]'],
         given: 'The speeds of the wheels over time: nothing yet.',
         alt: `The speeds of the two wheels over time, never beyond ${written(limit, 'm/s')}.`,
-      scrub: (x) => ({ time: Math.min(Math.max(x / run.t[run.n - 1], 0), 1) }) },
+      scrub: (x) => ({ time: within(x / run.t[run.n - 1], 0, 1) }) },
   }),
   draw({ plane, speeds }, { limit }, { run, free, k }, hidden, { data: { start, goal } }) {
     plane.pose(goal, 'goal');

@@ -2,21 +2,19 @@
 // settles before the distance. All is in lengths of 1/k_rho and times of 1/(v_max k_rho), so the
 // loop is that of gains (1, kappa, h, 1).
 
-import { DEGREES, complex, inDegrees, written } from '../style.js';
-import { driven, poseAt } from '../runs.js';
-import { modes, polesOf } from '../simulate.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import {
+  DEGREES, between, complex, driven, inDegrees, live, modes, onStops, polesOf, poseAt, wrap,
+  written,
+} from '../drawing.js';
 
 const GOAL = [0, 0, 0], MOST = 6; // of kappa and h
 const NEAR = 0.15; // a hand so near a named point means that point
 const RADII = [0.1, 0.01]; // in lengths of 1/k_rho, where the sentence says what is left
 const tick = (place) => ['1', '0.1', '0.01'][place] || '';
-const within = (value) => Number(Math.min(Math.max(value, 0.05), MOST).toFixed(2));
 
-function pointAt(x, y, named) {
-  const known = named.find(([, kappa, h]) => Math.hypot(kappa - x, h - y) < NEAR);
-  return known ? { kappa: known[1], h: known[2] } : { kappa: within(x), h: within(y) };
+function pointAt(x, y, setup) {
+  const known = setup.data.named.find(([, kappa, h]) => Math.hypot(kappa - x, h - y) < NEAR);
+  return known ? { kappa: known[1], h: known[2] } : onStops(setup, { kappa: x, h: y });
 }
 
 export default live('window', {
@@ -26,20 +24,19 @@ export default live('window', {
         error = Array.from(run.theta, (theta, k) => wrap(theta - run.alpha[k]) * DEGREES);
     const late = RADII.map((radius) => { // from the radius itself on, between two samples
       const k = run.rho.findIndex((rho) => rho <= radius),
-          share = (run.rho[k - 1] - radius) / (run.rho[k - 1] - run.rho[k]),
-          there = error[k - 1] + share * (error[k] - error[k - 1]);
-      return Math.max(...[there, ...error.slice(k)].map(Math.abs));
+          place = k - 1 + (run.rho[k - 1] - radius) / (run.rho[k - 1] - run.rho[k]);
+      return Math.max(...[between(error, place), ...error.slice(k)].map(Math.abs));
     });
     return { run, error, late, poles: polesOf(kappa, h), slower,
         inside: kappa > 2 && kappa < 1 + h };
   },
-  panes: ({ kappa, h }, { poles, inside, run, error, late }, { data: { named } }) => ({
+  panes: ({ kappa, h }, { poles, inside, run, error, late }, setup) => ({
     plane: { x: [0, MOST, 'κ'], y: [0, MOST, 'h'],
         given: 'The plane of kappa and h, with some gains by name.',
         alt: `The plane of kappa and h: the window lies right of kappa 2 and above the line h = ` +
         `kappa minus 1. The point, ${written(kappa)} and ${written(h)}, is ` +
         `${inside ? 'in' : 'out'}side.`,
-        scrub: (x, y, moved) => (moved ? pointAt(x, y, named) : null) },
+        scrub: (x, y, moved) => (moved ? pointAt(x, y, setup) : null) },
     path: { x: [-4, 2, 'k_rho x'], y: [-5, 1, 'k_rho y'], equal: true,
         given: 'The start and the goal.',
         alt: `The path: the robot stops ${inDegrees(error[run.n - 1] / DEGREES)} off.` },
@@ -64,7 +61,7 @@ export default live('window', {
           : x < 0.5 ? [0, 20, 'left'] : [15, -3, 'left'];
       plane.text(name, x, y, { dx, dy, size: 13, align });
     }
-    roots.area([[-1, -9], [-1, 9], [9, 9], [9, -9]], 'rising', 0.12);
+    roots.rect(-1, -9, 9, 9, 'rising', 0.12);
     roots.text('slower', 0.6, -2.7, { role: 'rising', align: 'right', size: 13 });
     roots.dot(-1, 0, 'rho', { hollow: true });
     path.pose(GOAL, 'goal');
@@ -78,9 +75,9 @@ export default live('window', {
     path.robot(start, 0.35);
     path.robot(poseAt(run, run.n - 1));
   },
-  handles: ({ kappa, h }, found, { data: { named } }) => [{
+  handles: ({ kappa, h }, found, setup) => [{
     id: 'point', pane: 'plane', at: [kappa, h], says: `kappa ${written(kappa)}, h ${written(h)}`,
-    move: (x, y, exact) => (exact ? { kappa: within(x), h: within(y) } : pointAt(x, y, named)),
+    move: (x, y, exact) => (exact ? onStops(setup, { kappa: x, h: y }) : pointAt(x, y, setup)),
   }],
   say: (values, { slower, inside, late }) => ({
     place: inside ? 'in the window' : 'outside the window',

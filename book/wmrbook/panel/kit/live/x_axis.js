@@ -1,9 +1,6 @@
 // The same numbers read with x east and with x north, on one map with north up.
 
-import { DEGREES, inDegrees, written } from '../style.js';
-import { driven, poseAt, timeNear } from '../runs.js';
-import { live } from '../live.js';
-import { wrap } from '../model.js';
+import { driven, inDegrees, live, poseAt, timeNear, wrap, written } from '../drawing.js';
 
 /** @type {(pose: Pose, axis: string) => Pose} */
 const onMap = ([x, y, heading], axis) =>
@@ -46,6 +43,6 @@ export default live('x_axis', {
     }
   },
   say: (values, { run, alpha, off }) =>
-      ({ alpha: `${Math.abs(alpha * DEGREES).toFixed(0)}°`, seconds: written(run.t[run.n - 1], 's'),
-      off: `${Math.abs(off * DEGREES).toFixed(0)}°` }),
+      ({ alpha: inDegrees(Math.abs(alpha), 0), seconds: written(run.t[run.n - 1], 's'),
+      off: inDegrees(Math.abs(off), 0) }),
 });

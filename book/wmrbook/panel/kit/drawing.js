@@ -1,0 +1,16 @@
+// What the drawings in live/ are made of: each imports from here what it needs.
+
+export * from './camera.js';
+export * from './model.js';
+export * from './numbers.js';
+export * from './runs.js';
+export { DEGREES, complex, inDegrees, written } from './style.js';
+export { disc, inside } from './surface.js';
+export { driveContinuously } from './continuous.js';
+export { live } from './live.js';
+export { modes, polesOf, summarise } from './simulate.js';
+export { normals } from './random.js';
+export { onStops } from './controls.js';
+export { ratesOfV } from './law.js';
+export { roundBelow } from './lawn.js';
+export { sightOf } from './sheet.js';
