@@ -9,6 +9,7 @@ import math
 from typing import NamedTuple
 
 import numpy as np
+from scipy.special import bdtr
 
 import wmrlib as wmr
 from wmrlib._checks import scalar
@@ -192,12 +193,8 @@ def sheet(robot: Robot) -> Sheet:
 
 def sure(runs: int) -> int:
     """Which of the runs' sorted values is the bound: with 95 % confidence few drives are beyond."""
-    chance = total = SHARE**runs
-    beyond = 0
-    while total <= 1 - SHARE:
-        chance *= (runs - beyond) / (beyond + 1) * (1 - SHARE) / SHARE
-        beyond, total = beyond + 1, total + chance
-    return runs - beyond + 1
+    at_most = bdtr(np.arange(runs + 1), runs, 1 - SHARE)  # the chance of so many beyond, or fewer
+    return runs - int(np.argmax(at_most > 1 - SHARE)) + 1
 
 
 def certificate(robot: Robot, runs=RUNS, seed=SEED, spread=0.5) -> Certificate:

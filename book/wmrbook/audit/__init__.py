@@ -15,7 +15,7 @@ from __future__ import annotations
 from wmrbook.audit import claims, equations, proof
 from wmrbook.audit.proof import near_goal, slope, steering
 from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits
-from wmrbook.audit.slips import equation_row, judge, one_slip
+from wmrbook.audit.slips import one_slip
 from wmrbook.audit.table import SOURCE, Place, Table, missing, places, tally
 from wmrlib._checks import choice
 
@@ -24,14 +24,11 @@ __all__ = [
     "SOURCE",
     "THRESHOLDS",
     "Place",
-    "Row",
     "Table",
     "Verdict",
     "decide",
-    "equation_row",
     "equivalent",
     "fits",
-    "judge",
     "missing",
     "near_goal",
     "one_slip",

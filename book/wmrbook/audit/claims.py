@@ -86,15 +86,10 @@ def _computed(key: str, note: str, readings: dict[str, float]) -> Row:
     return _number(key, verdict, note.format(*readings.values()), why)
 
 
-def sphere_bounds() -> tuple[float, float]:
-    """The least and the greatest error of the sphere on a short line, in percent."""
+def _earth() -> list[Row]:
     latitudes = np.linspace(0.0, 90.0, 9001)[:, None]
     errors = 100.0 * sphere_error(latitudes, np.array([0.0, math.pi / 2.0]))
-    return float(errors.min()), float(errors.max())
-
-
-def _earth() -> list[Row]:
-    low, high = sphere_bounds()
+    low, high = float(errors.min()), float(errors.max())  # of short lines
     start, goal = (
         GeoPoint(lat=PUBLISHED[f"{end}_latitude"].value, lon=PUBLISHED[f"{end}_longitude"].value)
         for end in ("start", "goal")

@@ -33,18 +33,6 @@ from wmrlib.runs import Trajectory, sample_count, single_pose
 from wmrlib.simulation import simulate
 from wmrlib.sweeping import sweep
 
-__all__ = [
-    "SEED",
-    "Case",
-    "CaseScore",
-    "Challenge",
-    "Score",
-    "drive_cases",
-    "from_seed",
-    "rounded",
-    "score",
-]
-
 SEED = 2026
 """The seed of the published challenge."""
 _HEADING_WEIGHT, _OMEGA_WEIGHT = 0.5, 4.0  # points a degree, points a rad/s

@@ -22,17 +22,6 @@ from wmrbook.challenge.certificate import Entry, Verdict, certificate, verify
 from wmrbook.lines import UTF_16, Refused, numbered, same_name
 from wmrlib.gains import Gains
 
-__all__ = [
-    "Entry",
-    "Ranked",
-    "Ranking",
-    "Refused",
-    "Scoreboard",
-    "Verdict",
-    "certificate",
-    "verify",
-]
-
 _DECIDING = 20  # sets of drives: near the best score, gains that differ in a digit tie in one
 
 

@@ -40,15 +40,9 @@ def pointer(axes: Axes, tail, tip, colour: str, zorder: float | None = None, **l
     axes.annotate("", tip, tail, arrowprops=looks, **more)
 
 
-def legend_above(axes: Axes, columns: int, handles=None, fontsize: float = 11) -> None:
-    axes.legend(
-        handles=handles,
-        loc="lower center",
-        bbox_to_anchor=(0.5, 1.0),
-        ncols=columns,
-        frameon=False,
-        fontsize=fontsize,
-    )
+def legend_above(axes: Axes, columns: int, handles=None) -> None:
+    above = {"loc": "lower center", "bbox_to_anchor": (0.5, 1.0), "ncols": columns}
+    axes.legend(handles=handles, frameon=False, fontsize=11, **above)
 
 
 def figure_legend(figure: Figure) -> None:
@@ -76,8 +70,13 @@ def check_series(runs: Mapping, kind: type = object) -> None:
         instance(f"runs[{label!r}]", run, kind)
 
 
-def run_list(runs: Trajectory | Sequence[Trajectory], least: int = 1) -> list[Trajectory]:
-    """One run or several as a list of at most four."""
+def run_list(
+    runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()
+) -> list[Trajectory]:
+    """One run or several as a list of at most four, with one label each, or none."""
     runs = [runs] if isinstance(runs, Trajectory) else list(runs)
-    check_count("runs", runs, least, len(LINES))
+    check_count("runs", runs, 1, len(LINES))
+    if len(labels) not in (0, len(runs)):
+        needed = f"one for each of the {len(runs)} runs is needed"
+        raise ValueError(f"labels has {len(labels)} entries, which is not allowed: {needed}")
     return runs

@@ -38,7 +38,6 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
         _scene(axes, pose, goal, rho, sight)
         _arc(axes, goal, begin, turn, 0.40 * rho, f"{name} = {_degrees(turn)}", "theta")
         axes.set_title(title)
-        _room(axes, pose, goal, rho * np.array([-0.32, 0.98]), rho * np.array([-0.25, 0.62]))
     return Picture(
         figure,
         f"The same robot and goal twice. Left: theta = {_degrees(theta)}, turned from the goal's "
@@ -56,7 +55,6 @@ def draw_angles(axes: Axes, pose: Pose, goal: Pose) -> None:
         _arc(axes, at, at.heading, turn, 0.4 * rho, rf"$\{role}$", role, fontsize=20)
     middle = 0.5 * (pose.x + goal.x), 0.5 * (pose.y + goal.y)
     note(axes, r"$\rho$", middle, (12, -14), fontsize=20, ha="center", va="center")
-    _room(axes, pose, goal, rho * np.array([-0.32, 0.98]), rho * np.array([-0.25, 0.62]))
 
 
 def path_choices(tracks: Mapping[str, Pose], goal: Pose) -> Picture:
@@ -96,7 +94,7 @@ def angles_over_time(
     runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()
 ) -> Picture:
     """Alpha and theta [deg] over time of one to four runs, with the half turns marked."""
-    runs = run_list(runs)
+    runs = run_list(runs, labels)
     figure, rows = new_figure(7.5, 5.0, rows=2)
     names = list(labels) or [f"run {k}" for k in range(1, len(runs) + 1)]
     for axes, name in zip(rows, ("alpha", "theta"), strict=True):
@@ -115,19 +113,17 @@ def angles_over_time(
         rows[0].legend(fontsize=11, frameon=False, **above)
     words = [
         f"{label}: alpha {_span(run.alpha)}, theta {_span(run.theta)}"
-        for run, label in zip(runs, names, strict=False)
+        for run, label in zip(runs, names, strict=True)
     ]
     alt = "Angles over time, in degrees; dotted lines mark the half turns. "
     return Picture(figure, f"{alt}{'; '.join(words)}.")
 
 
 def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None:
-    """Robot, goal, their headings and the line of sight."""
-    robot_looks = {"fill": "robot"}
-    goal_looks = {"fill": "white", "edge": "goal", "lw": 2.5}
+    """Robot, goal, their headings and the line of sight, with room for the angles."""
     for at, role, name, looks in (
-        (pose, "path", "robot", robot_looks),
-        (goal, "goal", "goal", goal_looks),
+        (pose, "path", "robot", {"fill": "robot"}),
+        (goal, "goal", "goal", {"fill": "white", "edge": "goal", "lw": 2.5}),
     ):
         style = {"color": COLOURS[role], "lw": 2.0, "ls": "-"}
         _ray(axes, at, at.heading, 0.62 * rho, f"{name}'s heading", **style)
@@ -139,11 +135,8 @@ def _scene(axes: Axes, pose: Pose, goal: Pose, rho: float, sight: float) -> None
     axes.plot([pose.x, goal.x], [pose.y, goal.y], "--", color=COLOURS["rho"])
     _ray(axes, goal, sight, 0.62 * rho, "line of sight", color=COLOURS["rho"], lw=1.2, ls="--")
     axes.set(xlabel="x [m]", ylabel="y [m]")
-
-
-def _room(axes: Axes, pose: Pose, goal: Pose, reach_x: np.ndarray, reach_y: np.ndarray) -> None:
-    x = np.add.outer([pose.x, goal.x], reach_x).ravel()
-    y = np.add.outer([pose.y, goal.y], reach_y).ravel()
+    x = np.add.outer([pose.x, goal.x], rho * np.array([-0.32, 0.98]))
+    y = np.add.outer([pose.y, goal.y], rho * np.array([-0.25, 0.62]))
     equal_scales(axes, x, y, 0.0)
 
 

@@ -6,8 +6,7 @@ import math
 from collections.abc import Callable, Mapping
 
 import numpy as np
-from matplotlib.axes import Axes
-from matplotlib.ticker import FuncFormatter, LogLocator
+from matplotlib.ticker import LogLocator
 
 from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
 from wmrbook.figures.paths import play, pose_at
@@ -42,8 +41,7 @@ def chase(runs: Mapping[str, Trajectory]) -> Picture:
     dart(axes, target, size, "white", "goal", lw=2.0, zorder=3)
     equal_scales(axes, every_x, every_y)
     inward, ha = (-12, "right") if target.x > sum(axes.get_xlim()) / 2 else (12, "left")
-    place = target.x, target.y
-    note(axes, "goal at 0 s", place, (inward, 0), ha=ha, va="center")
+    note(axes, "goal at 0 s", target[:2], (inward, 0), ha=ha, va="center")
     axes.set(xlabel="x [m]", ylabel="y [m]")
     figure_legend(figure)
     left = (
@@ -106,20 +104,16 @@ def tradeoff(
     axes.axvline(mark[0], color=COLOURS["ink"], lw=1.0, ls=":")
     axes.axhline(mark[1], color=COLOURS["ink"], lw=1.0, ls=":")
     axes.set(xscale="log", yscale="log", xlabel=xlabel, ylabel=ylabel)
-    _plain_ticks(axes)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
+        axis.set_major_formatter("{x:g}")
+        axis.set_minor_locator(LogLocator(subs=()))
     figure_legend(figure)
     return Picture(
         figure,
         f"{ylabel} against {xlabel}, a point for each run: {'; '.join(texts)}; "
         f"{mark[2]} at ({mark[0]:.2f}, {mark[1]:.2f}).",
     )
-
-
-def _plain_ticks(axes: Axes) -> None:
-    for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_locator(LogLocator(subs=(1.0, 2.0, 5.0)))
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
-        axis.set_minor_locator(LogLocator(subs=()))
 
 
 def _near_zero(value: float) -> float:

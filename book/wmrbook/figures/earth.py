@@ -64,7 +64,8 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
         (a, b, "-", COLOURS["path"], "$c=\\rho/R$", (8, -16), "left"),
     )
     for start, end, style, colour, name, offset, side in sides:
-        x, y = _seen(_great_circle(start, end), view)
+        steps = np.linspace(0.0, haversine_distance(start, end), 101)
+        x, y = _seen(destination_point(start, steps, initial_bearing(start, end)), view)
         axes.plot(x, y, style, color=colour, lw=3.0)
         note(axes, name, (x[50], y[50]), offset, ha=side, fontsize=14, color=colour)
     for corner, first, second, name, offset in (
@@ -132,11 +133,6 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
         f"A star at latitude {point.lat:.1f} deg and bearing {math.degrees(bearing):.1f} deg "
         f"marks {here:+.3f} %.",
     )
-
-
-def _great_circle(a: GeoPoint, b: GeoPoint) -> GeoPoint:
-    steps = np.linspace(0.0, haversine_distance(a, b), 101)
-    return destination_point(a, steps, initial_bearing(a, b))
 
 
 def _seen(point: GeoPoint, view: GeoPoint) -> tuple[np.ndarray, np.ndarray]:

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter
 
 from wmrbook.figures._drawing import SERIES, check_count, figure_legend, note, panels
 from wmrbook.figures.robot import draw_robot
@@ -14,17 +13,18 @@ from wmrbook.figures.style import COLOURS, Picture, new_figure
 from wmrlib._checks import instance, real, same_shape, scalar
 from wmrlib.kinematics import Pose
 
+_USABLE = 5.0  # deg, of a heading
+
 
 def heading_distance(
     distance: np.ndarray,
     series: Mapping[str, np.ndarray],
     seen: tuple[float, float],
-    usable: float = 5.0,
 ) -> Picture:
     """The rms heading error [deg] over the distance driven [m], on logarithmic scales.
 
     series: from a receiver's name to its errors, one to five; seen: a distance and an error that
-    someone reported; usable: the error [deg] below which the text says a heading is usable.
+    someone reported.
     """
     distance = real("distance", distance, above=0.0)
     check_count("series", instance("series", series, Mapping), 1, len(SERIES))
@@ -33,20 +33,20 @@ def heading_distance(
     for (name, errors), (role, style) in zip(series.items(), SERIES, strict=False):
         same_shape(distance=distance, **{f"series[{name!r}]": errors})
         axes.plot(distance, errors, color=COLOURS[role], ls=style, label=name)
-        good = np.flatnonzero(errors <= usable)
+        good = np.flatnonzero(errors <= _USABLE)
         after = f"after {distance[good[0]]:.2g} m" if good.size else "nowhere"
         words.append(f"{name}, {after}")
-    axes.axhline(usable, color=COLOURS["ink"], lw=0.9, ls=":")
+    axes.axhline(_USABLE, color=COLOURS["ink"], lw=0.9, ls=":")
     axes.plot(*seen, "*", color=COLOURS["goal"], ms=15)
     note(axes, "reported", seen, (9, 5))
     axes.set(xscale="log", yscale="log", xlabel="distance driven [m]", ylabel="heading, rms [deg]")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_major_formatter("{x:g}")
     figure_legend(figure)
     return Picture(
         figure,
         f"The rms error of the heading over the distance driven straight, on logarithmic scales. "
-        f"It is within {usable:g} deg: {'; '.join(words)}. "
+        f"It is within {_USABLE:g} deg: {'; '.join(words)}. "
         f"A star marks a report of {seen[1]:g} deg at {seen[0]:g} m.",
     )
 

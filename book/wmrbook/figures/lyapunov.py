@@ -15,8 +15,8 @@ _TINTS = tuple(COLOURS[role] for role in ("ink", "omega", "path", "y_error"))
 
 def heading_errors(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) -> Picture:
     """The heading error theta - alpha of one to four runs over time, in degrees and not wrapped."""
-    runs = run_list(runs)
-    names = _names(runs, labels)
+    runs = run_list(runs, labels)
+    names = list(labels) or [run.law for run in runs]
     figure, axes = new_figure(7.5, 3.8)
     axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
     words = []
@@ -28,13 +28,3 @@ def heading_errors(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str
     axes.set(xlabel="time [s]", ylabel="heading error [deg]")
     axes.margins(x=0.01)
     return Picture(figure, f"Heading error over time. {'; '.join(words)}.")
-
-
-def _names(runs: list[Trajectory], labels: Sequence[str]) -> list[str]:
-    names = list(labels) or [run.law for run in runs]
-    if len(names) == len(runs):
-        return names
-    raise ValueError(
-        f"labels has {len(names)} entries, which is not allowed: "
-        f"one for each of the {len(runs)} runs is needed"
-    )

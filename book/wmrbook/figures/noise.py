@@ -10,6 +10,8 @@ from wmrbook.figures._drawing import check_count, figure_legend
 from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
 from wmrlib._checks import instance, real, same_shape
 
+_ROLES = "path", "y_error", "omega", "ink"
+
 
 def at_rest(
     times: np.ndarray,
@@ -25,8 +27,8 @@ def at_rest(
     for name, given in (("logs", logs), ("bands", bands)):
         check_count(name, instance(name, given, Mapping), 1, len(LINES))
     figure, rows = new_figure(7.5, 5.6, rows=2)
-    texts, roles = [], ("path", "y_error", "omega", "ink")
-    for (name, shown), style, role in zip(logs.items(), LINES, roles, strict=False):
+    texts = []
+    for (name, shown), style, role in zip(logs.items(), LINES, _ROLES, strict=False):
         for axes, values in zip(rows, shown, strict=True):
             same_shape(times=times, **{f"logs[{name!r}]": values})
             label = name if axes is rows[0] else None  # once in the legend
@@ -66,10 +68,8 @@ def memories(memory: np.ndarray, series: Mapping[str, tuple[np.ndarray, np.ndarr
     check_count("series", instance("series", series, Mapping), 1, len(LINES))
     figure, rows = new_figure(7.5, 5.6, rows=2)
     texts, at = [], np.arange(memory.size)
-    roles = "path", "y_error", "omega", "ink"
-    for (name, left), style, role, marker in zip(
-        series.items(), LINES, roles, "os^D", strict=False
-    ):
+    looks = zip(LINES, _ROLES, "os^D", strict=True)
+    for (name, left), (style, role, marker) in zip(series.items(), looks, strict=False):
         for axes, values in zip(rows, left, strict=True):
             same_shape(memory=memory, **{f"series[{name!r}]": values})
             label = name if axes is rows[0] else None  # once in the legend
@@ -138,6 +138,3 @@ def designs(
     axes["heading"].set(xlabel="heading error, rms [deg]", xlim=(-3.0, None))
     figure_legend(figure)
     return Picture(figure, f"What is left with {memory.size} receivers: {'; '.join(texts)}.")
-
-
-_ROLES = "path", "y_error", "omega", "ink"

@@ -6,7 +6,6 @@ import math
 from collections.abc import Mapping
 
 import numpy as np
-from matplotlib.ticker import FuncFormatter
 
 from wmrbook.figures._drawing import SERIES, check_count, check_series, figure_legend, note
 from wmrbook.figures.style import COLOURS, Picture, new_figure
@@ -37,7 +36,7 @@ def heading_powers(runs: Mapping[str, Trajectory], powers: Mapping[str, float]) 
     axes.set(xscale="log", yscale="log", ylim=(_LEAST_DEG, 300.0))
     axes.set(xlabel="distance left [m]", ylabel="heading error [deg]")
     for axis in (axes.xaxis, axes.yaxis):
-        axis.set_major_formatter(FuncFormatter(lambda value, _: f"{value:g}"))
+        axis.set_major_formatter("{x:g}")
     figure_legend(figure)
     what = "The heading error over the distance left on logarithmic scales"
     return Picture(figure, f"{what}: {'; '.join(words)}.")

@@ -38,11 +38,8 @@ def path(
     ------
     ValueError : another number of runs or labels
     """
-    runs = run_list(runs)
+    runs = run_list(runs, labels)
     count, single = len(runs), len(runs) == 1
-    if len(labels) not in (0, count):
-        needed = f"one for each of the {count} runs is needed"
-        raise ValueError(f"labels has {len(labels)} entries, which is not allowed: {needed}")
     figure, axes = new_figure(5.5, 5.5)
     x, y = np.concatenate([run.x for run in runs]), np.concatenate([run.y for run in runs])
     size = (0.04 if single else 0.025) * max(np.ptp(x), np.ptp(y), 1.0)

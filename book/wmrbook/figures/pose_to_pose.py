@@ -28,6 +28,7 @@ from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectories, Trajectory
 
 _LEAST = 1e-6  # of a logarithmic scale
+_ALLOWED = 5.0  # deg, of a heading
 _FIELDS = {
     "v": ("v [m/s]", "speed v", "m/s"),
     "omega": ("omega [rad/s]", "turning rate omega", "rad/s"),
@@ -93,14 +94,13 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
     figure, row = panels(1, len(paths), 3.5 * len(paths), 3.8, sharey=True, squeeze=False)
     texts, drives = [], []
     for (title, many), axes in zip(paths.items(), row[0], strict=True):
-        here = np.array([goal.x, goal.y])[:, None]
         steps = np.hypot(np.diff(many.x), np.diff(many.y))
         axes.plot(many.x.T, many.y.T, color=COLOURS["path"], lw=1.3)
         for k in range(len(many.x)):
             dart(axes, Pose(many.x[k, 0], many.y[k, 0], many.heading[k, 0]), 0.45, "start")
         dart(axes, goal, 0.7, "none", "goal", lw=2.0, zorder=5)
         axes.set_title(title)
-        equal_scales(axes, np.r_[many.x[:, 0], here[0]], np.r_[many.y[:, 0], here[1]], room=0.2)
+        equal_scales(axes, np.r_[many.x[:, 0], goal.x], np.r_[many.y[:, 0], goal.y], room=0.2)
         axes.set(xlabel="x [m]", ylabel="y [m]")
         axes.label_outer()
         for x, y, heading in zip(many.x, many.y, many.heading, strict=True):
@@ -145,11 +145,11 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
 
 
 def heading_shares(
-    errors: Mapping[str, np.ndarray], *, allowed: float = 5.0, of: str = "heading error at arrival"
+    errors: Mapping[str, np.ndarray], *, of: str = "heading error at arrival"
 ) -> Picture:
     """The cumulative share of runs over their heading error [deg], one line for each label.
 
-    A dotted line marks the `allowed` error; `of` says which error it is.
+    A dotted line marks the error that is allowed; `of` says which error it is.
     """
     check_series(errors)
     figure, axes = new_figure(7.0, 3.8)
@@ -160,11 +160,9 @@ def heading_shares(
         share = 100.0 * np.arange(1, values.size + 1) / values.size
         steps = np.r_[0.0, values, widest], np.r_[0.0, share, 100.0]
         axes.plot(*steps, drawstyle="steps-post", color=COLOURS[role], ls=style, label=title)
-        texts.append(
-            f"{title} {100.0 * np.mean(values > allowed):.1f} % are more than {allowed:g} deg off, "
-            f"the worst {values[-1]:.1f} deg"
-        )
-    axes.axvline(allowed, color=COLOURS["ink"], ls=":", lw=1.2, label=f"{allowed:g} deg")
+        off = f"{100.0 * np.mean(values > _ALLOWED):.1f} % are more than {_ALLOWED:g} deg off"
+        texts.append(f"{title} {off}, the worst {values[-1]:.1f} deg")
+    axes.axvline(_ALLOWED, color=COLOURS["ink"], ls=":", lw=1.2, label=f"{_ALLOWED:g} deg")
     axes.set(xlabel=f"{of} [deg]", ylabel="share of the starts [%]")
     axes.set(xscale="log", xlim=(0.1, widest), ylim=(0, 102))
     axes.xaxis.set_major_formatter("{x:g}")

@@ -43,7 +43,11 @@ def coordinate_system(pose: Pose, track_width: float, wheel_radius: float) -> Pi
         ("$b$", (-0.85 * b, 0.5 * b), (-0.85 * b, -0.5 * b)),
         ("$r$", (0.0, 0.72 * b), (-r, 0.72 * b)),
     ):
-        _dimension(axes, _placed(pose, one), _placed(pose, other), name)
+        ends = _placed(pose, other), _placed(pose, one)
+        bars = {"arrowstyle": "|-|,widthA=0.3,widthB=0.3", "lw": 1.2}
+        pointer(axes, *ends, COLOURS["ink"], **bars)
+        middle = 0.5 * sum(x for x, _ in ends), 0.5 * sum(y for _, y in ends)
+        note(axes, name, middle, (-14, 8), fontsize=15, ha="center", va="center")
     axes.set(xlim=(0.0, pose.x + 2.4 * b), ylim=(0.0, pose.y + 2.0 * b), aspect="equal")
     axes.set(xlabel="$X$, east [m]", ylabel="$Y$, north [m]")
     return Picture(
@@ -134,10 +138,3 @@ def draw_robot(axes: Axes, pose: Pose, b: float, r: float, outline: str = "") ->
         axes.add_patch(Polygon(wheel, fc=ink, zorder=3))
     axle = _placed(pose, (0.0, 0.5 * b)), _placed(pose, (0.0, -0.5 * b))
     axes.plot(*zip(*axle, strict=True), color=ink, lw=2.0)
-
-
-def _dimension(axes: Axes, one, other, name: str) -> None:
-    bars = {"arrowstyle": "|-|,widthA=0.3,widthB=0.3", "lw": 1.2}
-    pointer(axes, other, one, COLOURS["ink"], **bars)
-    middle = 0.5 * (one[0] + other[0]), 0.5 * (one[1] + other[1])
-    note(axes, name, middle, (-14, 8), fontsize=15, ha="center", va="center")

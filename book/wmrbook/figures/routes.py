@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 from wmrbook.challenge import Score, drive_cases
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
 from wmrbook.figures.paths import play
-from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
+from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib._checks import instance
 from wmrlib.kinematics import Pose
 from wmrlib.routes import Route
@@ -25,7 +25,10 @@ def route(driven: Route) -> Picture:
     A stop is a square, a waypoint to pass a circle, both numbered; one that was not reached is
     crossed out.
     """
-    _with_samples(driven)
+    if not len(instance("driven", driven, Route)):
+        raise ValueError(
+            "driven has no sample: the first leg left the range of numbers at its start"
+        )
     figure, axes = new_figure(7.0, 6.6)
     way = driven.waypoints
     start = _marker("start", COLOURS["start"], ">", COLOURS["start"])
@@ -46,8 +49,7 @@ def route(driven: Route) -> Picture:
         handles.append(_marker("not reached", COLOURS["ink"], "x"))
     legend_above(axes, len(handles), handles)
     axes.set(xlabel="x, east [m]", ylabel="y, north [m]")
-    way_driven = Drive(axes, driven.t, driven.x, driven.y, driven.heading)
-    return Picture(figure, f"{_in_words(driven)}.", [way_driven])
+    return Picture(figure, f"{_in_words(driven)}.", [play(axes, driven)])
 
 
 def challenge_paths(score: Score) -> Picture:
@@ -128,10 +130,3 @@ def _in_words(driven: Route) -> str:
         f"{count - passed} to stop at and {passed} to pass{nearest}; "
         f"{driven.length:.1f} m in {driven.t[-1]:.1f} s{end}"
     )
-
-
-def _with_samples(driven: Route) -> None:
-    if not len(instance("driven", driven, Route)):
-        raise ValueError(
-            "driven has no sample: the first leg left the range of numbers at its start"
-        )

@@ -17,12 +17,12 @@ from wmrlib.runs import Trajectory
 from wmrlib.simulation import simulate
 from wmrlib.tuning import longest_step
 
-_SERIES = (  # colour, line style and marker of each of up to five lines
-    (COLOURS["path"], "-", "o"),
-    (COLOURS["y_error"], "--", "s"),
-    (COLOURS["theta"], "-.", "^"),
-    (COLOURS["omega"], ":", "D"),
-    (COLOURS["ink"], "-", ""),
+_SERIES = (  # colour and line style of each of up to five lines
+    (COLOURS["path"], "-"),
+    (COLOURS["y_error"], "--"),
+    (COLOURS["theta"], "-."),
+    (COLOURS["omega"], ":"),
+    (COLOURS["ink"], "-"),
 )
 _BESIDE = {"loc": "center left", "bbox_to_anchor": (1.0, 0.5)}
 
@@ -74,7 +74,7 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
     texts = []
     for axes, (title, runs) in zip(rows, cases.items(), strict=True):
         check_count("runs", runs, 1, len(_SERIES))
-        for (label, run), (colour, style, _) in zip(runs.items(), _SERIES, strict=False):
+        for (label, run), (colour, style) in zip(runs.items(), _SERIES, strict=False):
             heading = np.degrees(run.theta - run.alpha)  # "continuous" never jumps
             axes.plot(run.rho, heading, style, color=colour, label=label)
             texts.append(f"{title}, {label}: {round(heading[-1])} deg")

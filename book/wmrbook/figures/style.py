@@ -78,22 +78,8 @@ _CROWDED = re.compile(r'<g( clip-path="[^"]*")>((?: <use [^>]*?style="([^"]*)"/>
 _HASHED = re.compile(r"(?<=[\"#])[mp][0-9a-f]{10}\b")  # of all digits of what it names
 _POINTS = re.compile(r' (?:d|x|y|width|height)="[^"]*"|translate\([^)]*\)')
 _DEGREES = re.compile(r"(?<=\d) deg\b|(?<=\[)deg(?=\])")
-_GREEK = [
-    "alpha",
-    "beta",
-    "gamma",
-    "delta",
-    "zeta",
-    "theta",
-    "kappa",
-    "lambda",
-    "rho",
-    "sigma",
-    "tau",
-    "phi",
-    "omega",
-]
-_NAME = re.compile(rf"\b(?:([kvl])_(max|x|y|{'|'.join(_GREEK)})|({'|'.join(_GREEK)}))\b")
+_GREEK = "alpha|beta|gamma|delta|zeta|theta|kappa|lambda|rho|sigma|tau|phi|omega"
+_NAME = re.compile(rf"\b(?:([kvl])_(?:(max|x|y)|({_GREEK}))|({_GREEK}))\b")
 _NUMBER = re.compile(r"-?\d+\.\d{3,}(?:e-?\d+)?")  # with more decimals than one can see
 
 
@@ -163,9 +149,9 @@ class Picture:
             degrees = np.degrees(np.unwrap(heading))
             robots.append(
                 {
-                    "box": _parts(np.array(sides)),
-                    "x": _changes(_parts(np.interp(times, t, across))),
-                    "y": _changes(_parts(np.interp(times, t, down))),
+                    "box": _whole(PARTS * np.array(sides)),
+                    "x": _changes(_whole(PARTS * np.interp(times, t, across))),
+                    "y": _changes(_whole(PARTS * np.interp(times, t, down))),
                     "heading": _changes(_whole(np.interp(times, t, degrees))),
                     "role": role,
                 }
@@ -188,10 +174,6 @@ def _whole(values: np.ndarray) -> list[int]:
     return np.rint(values).astype(int).tolist()
 
 
-def _parts(shares: np.ndarray) -> list[int]:
-    return _whole(PARTS * shares)
-
-
 def _changes(values: list[int]) -> list[int]:
     return [values[0], *np.diff(values).tolist()]
 
@@ -202,9 +184,9 @@ def in_symbols(words: str) -> str:
 
 
 def _symbol(name: re.Match) -> str:
-    stem, index, letter = name.groups()
+    stem, index, greek, letter = name.groups()
     if stem:
-        return f"${stem}_{{\\{index}}}$" if index in _GREEK else f"${stem}_{{{index}}}$"
+        return f"${stem}_{{{index}}}$" if index else f"${stem}_{{\\{greek}}}$"
     spelled = "lamda" if letter == "lambda" else letter  # by Unicode
     return unicodedata.lookup(f"GREEK SMALL LETTER {spelled.upper()}")
 

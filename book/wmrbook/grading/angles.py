@@ -113,7 +113,9 @@ def textbook_gains(
 ) -> str:
     """our_gains(k_rho, k_alpha, k_beta, v_max): gains that do the same near the goal."""
     own_work(our_gains)
-    for theirs in ((3.0, 8.0, -1.5), *_their_gains(12)):
+    rows = drawn(5, 12, (0.5, 5.0), (0.2, 5.0), (-3.0, -0.2))
+    stable = [(k_rho, k_rho + more, k_beta) for k_rho, more, k_beta in rows]
+    for theirs in ((3.0, 8.0, -1.5), *stable):
         for v_max in (0.5, 1.0, 4.0):
             k_rho, k_alpha, h = given = ask_numbers(our_gains, 3, *theirs, v_max)
             right = theirs[0] / v_max, theirs[1] - theirs[0], -theirs[2] / theirs[0]
@@ -241,8 +243,3 @@ def _fits(rows: list[list[sp.Expr]], which: slice, column: int | None = None) ->
             np.allclose(np.array(entries(*where), complex), rates[which, columns], atol=1e-6)
             for where, rates in _tail_states()
         )
-
-
-def _their_gains(count: int) -> list[list[float]]:
-    rows = drawn(5, count, (0.5, 5.0), (0.2, 5.0), (-3.0, -0.2))
-    return [[k_rho, k_rho + more, k_beta] for k_rho, more, k_beta in rows]

@@ -7,18 +7,8 @@ from collections.abc import Callable
 
 import numpy as np
 
+from wmrbook.grading import _earth
 from wmrbook.grading._asking import ask_number, ask_numbers
-from wmrbook.grading._earth import (
-    CONSTANT,
-    Function,
-    Pair,
-    between,
-    distance_right,
-    explain_bearing,
-    explain_distance,
-    places,
-    same_direction,
-)
 from wmrbook.grading._hints import close, drawn, expect, own_work, rule_out, slip, spread
 from wmrlib.geodesy import (
     GeoPoint,
@@ -35,25 +25,25 @@ _RADIUS = "this is less than 1 % off: is your Earth a sphere of 6371 km, and pi 
 _MAP_TOLERANCE_M = 0.02  # flat map against sphere, over 300 m and up to 60 deg of latitude
 
 
-def distance_known(distance: Function) -> str:
+def distance_known(distance: _earth.Function) -> str:
     """distance(lat_1, lon_1, lat_2, lon_2): degrees in, metres out, all over the Earth."""
     own_work(distance)
-    for a, b in [(GPS_POINT_1, GPS_POINT_2), *places(20)]:
-        if not distance_right(distance, a, b):
-            explain_distance(distance, a, b)
+    for a, b in [(GPS_POINT_1, GPS_POINT_2), *_earth.places(20)]:
+        if not _earth.distance_right(distance, a, b):
+            _earth.explain_distance(distance, a, b)
     metres = haversine_distance(GPS_POINT_1, GPS_POINT_2)
     return f"{metres:.2f} m between the paper's two points, and right elsewhere."
 
 
-def distance_properties(distance: Function) -> str:
+def distance_properties(distance: _earth.Function) -> str:
     """The same there and back, 0 from a point to itself, unchanged when the Earth is turned."""
     own_work(distance)
-    for a, b in places(20):
-        there = between(distance, a, b)
+    for a, b in _earth.places(20):
+        there = _earth.between(distance, a, b)
         expect(there > 1e-3, "the distance between two different places must be positive.")
-        back = between(distance, b, a)
+        back = _earth.between(distance, b, a)
         expect(close(there, back), "the way back is not as long as the way there.")
-        still = abs(between(distance, a, a))
+        still = abs(_earth.between(distance, a, a))
         expect(still < 1e-6, "from a point to itself it must be 0 m.")
         turned = ask_number(distance, a.lat, a.lon - 25.0, b.lat, b.lon - 25.0)
         hint = "turn the Earth: if both longitudes change by the same, the distance must stay."
@@ -61,14 +51,14 @@ def distance_properties(distance: Function) -> str:
     return "There is as far as back, and only the difference of the longitudes counts."
 
 
-def distance_close(distance: Function) -> str:
+def distance_close(distance: _earth.Function) -> str:
     """A centimetre is a centimetre: the haversine keeps the digits that an acos loses."""
     own_work(distance)
     random = np.random.default_rng(3)
     for metres in spread(0.01, 1e4, 60):
         way = random.uniform(-math.pi, math.pi)
         there = point_at(GPS_POINT_1, metres * math.cos(way), metres * math.sin(way))
-        value = between(distance, GPS_POINT_1, there)
+        value = _earth.between(distance, GPS_POINT_1, there)
         slip(value, metres, within=0.0)
         away = f"two points {metres:.8g} m apart come out {value:.8g} m apart: "
         hint = f"{away}see to the checks above first."
@@ -78,7 +68,7 @@ def distance_close(distance: Function) -> str:
     return "One centimetre comes out as one centimetre."
 
 
-def bearing_known(bearing: Function) -> str:
+def bearing_known(bearing: _earth.Function) -> str:
     """bearing(lat_1, lon_1, lat_2, lon_2): degrees clockwise from north, up to full turns."""
     own_work(bearing)
     home = GeoPoint(lat=10.0, lon=20.0)
@@ -86,29 +76,30 @@ def bearing_known(bearing: Function) -> str:
     for name, (east, north) in compass.items():
         there = point_at(home, 1000.0 * east, 1000.0 * north)
         hint = f"to a point 1 km {name} of you the bearing comes out as {{:.4g}}: "
-        explain_bearing(bearing, home, there, hint + "where does it count from?")
-    for a, b in [(GPS_POINT_1, GPS_POINT_2), *places(20)]:
+        _earth.explain_bearing(bearing, home, there, hint + "where does it count from?")
+    for a, b in [(GPS_POINT_1, GPS_POINT_2), *_earth.places(20)]:
         hint = "the bearing between two known places is wrong: "
         hint += "compare with (15) to (17), term by term."
-        explain_bearing(bearing, a, b, hint)
+        _earth.explain_bearing(bearing, a, b, hint)
     paper = math.degrees(initial_bearing(GPS_POINT_1, GPS_POINT_2))
     return f"{paper:.2f} deg for the paper's two points, and right elsewhere."
 
 
-def bearing_range(bearing: Function) -> str:
+def bearing_range(bearing: _earth.Function) -> str:
     """It is in [0, 360): just west of north is nearly 360, not a little less than 0."""
     own_work(bearing)
     west_of_north = (GPS_POINT_1, point_at(GPS_POINT_1, -0.1, 57.0))
     north = GeoPoint(lat=GPS_POINT_1.lat + 0.001, lon=GPS_POINT_1.lon)
-    for a, b in [west_of_north, *places(40), (GPS_POINT_1, north)]:
-        value = between(bearing, a, b)
+    for a, b in [west_of_north, *_earth.places(40), (GPS_POINT_1, north)]:
+        value = _earth.between(bearing, a, b)
         hint = f"the bearing comes out as {value:.4g} deg"
         west = f"{hint} for a goal in the west; the compass goes on from 270 to 360."
         expect(value >= 0.0, west)
         expect(value < 360.0, f"{hint}: a full turn is 0 again.")
-    there, home = between(bearing, *west_of_north), between(bearing, *west_of_north[::-1])
+    ways = west_of_north, west_of_north[::-1]
+    there, home = (_earth.between(bearing, *pair) for pair in ways)
     hint = "over 57 m the way back must point the opposite way, to a thousandth of a degree."
-    expect(same_direction(there, home + 180.0, 1e-3), hint)
+    expect(_earth.same_direction(there, home + 180.0, 1e-3), hint)
     where = f"A goal 10 cm west of north is at {there:.1f} deg"
     return f"{where}, the way back at {home:.1f} deg."
 
@@ -135,7 +126,7 @@ def local_known(local: Local) -> str:
         rule_out(value, mistakes, _on_the_spot)
         slip(value, right, within=0.0)
         there = ask_numbers(local, 2, 10.0, 20.0, 10.001, 20.002)
-        expect(not all(map(close, value, there)), CONSTANT)
+        expect(not all(map(close, value, there)), _earth.CONSTANT)
         far = not _on_the_spot([1000.0 * each for each in value], right)
         expect(far, "the result is in kilometres; metres are asked for.")
         far = not _on_the_spot([math.radians(each) for each in value], right)
@@ -177,7 +168,7 @@ def _on_the_spot(value: tuple[float, float], right: tuple[float, float]) -> bool
     return math.dist(value, right) < _MAP_TOLERANCE_M
 
 
-def _walks(seed: int, count: int, farthest: float) -> list[Pair]:
+def _walks(seed: int, count: int, farthest: float) -> list[_earth.Pair]:
     """Places up to 60 deg from the equator, and points 20 m to `farthest` from them."""
     found, way = [], ((20.0, farthest), (-math.pi, math.pi))
     for lat, lon, length, angle in drawn(seed, count, (-60.0, 60.0), (-170.0, 170.0), *way):

@@ -133,7 +133,8 @@ def headings_known(headings: Callable) -> str:
     for k, (x, y) in enumerate(_routes(20)):
         value = ask_array(headings, (x.size,), x.copy(), y.copy())
         legs = np.arctan2(np.diff(y), np.diff(x))
-        right = _bisecting(legs)
+        ways = np.exp(1j * legs)  # the sum of two points half-way between them
+        right = np.angle(_ends(ways, ways[1:] + ways[:-1]))
         if _same_ways(value, right):
             continue
         between = "Between two legs half of the turn is done."
@@ -251,12 +252,6 @@ def _routes(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
         x, y = (np.cumsum(np.insert(s, 0, at)) for s, at in zip(steps, start, strict=True))
         found.append((np.append(x, x[1]), np.append(y, y[1])) if k % 3 == 1 else (x, y))
     return found
-
-
-def _bisecting(legs: np.ndarray) -> np.ndarray:
-    """By unit vectors: the sum of two points half-way between them."""
-    ways = np.exp(1j * legs)
-    return np.angle(_ends(ways, ways[1:] + ways[:-1]))
 
 
 def _ends(legs: np.ndarray, between: np.ndarray) -> np.ndarray:

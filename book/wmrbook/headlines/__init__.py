@@ -11,6 +11,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
+from importlib import import_module
 from typing import Any
 
 import numpy as np
@@ -99,13 +100,5 @@ def _within(interval: tuple[float, float], turn: int, random: np.random.Generato
     return random.uniform(low, high)
 
 
-# They fill it:
-from wmrbook.headlines import (  # noqa: E402
-    body,  # noqa: F401
-    field,  # noqa: F401
-    ground,  # noqa: F401
-    laws,  # noqa: F401
-    other_laws,  # noqa: F401
-    practice,  # noqa: F401
-    sampled,  # noqa: F401
-)
+for _chapters in ("body", "field", "ground", "laws", "other_laws", "practice", "sampled"):
+    import_module(f"{__name__}.{_chapters}")  # which fills HEADLINES

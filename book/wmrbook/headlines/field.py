@@ -79,15 +79,12 @@ def ahead(t: np.ndarray) -> wmr.Reference:
     return wmr.Reference(SPEED * t, 0 * t, 0 * t, SPEED + 0 * t, 0 * t)
 
 
-@headline(
-    "06",
-    "so it shrinks below 34.7 ms",
-    at_least=34.5,
-    at_most=34.8,
-    unit="ms",
-    off=(-3e-4, 3e-4),
-    before=Before("A step must stay below twice that, 29 ms", {"off": (-3e-4, 3e-4)}, at_most=29.5),
-)
+OFF = {"off": (-3e-4, 3e-4)}
+BELOW_29 = Before("A step must stay below twice that, 29 ms", OFF, at_most=29.5)
+BELOW = "so it shrinks below 34.7 ms"
+
+
+@headline("06", BELOW, at_least=34.5, at_most=34.8, unit="ms", before=BELOW_29, **OFF)
 def longest_step_behind(off):
     low, high = 0.02, 0.05
     for _ in range(9):

@@ -16,20 +16,12 @@ GAINS, GENTLE = paper.OUTDOOR_GAINS, wmr.GENTLE_GAINS
 DIGIT = (-0.5e-6, 0.5e-6)  # half a unit of a printed coordinate's last digit, deg
 
 
-@headline(
-    "README.md",
-    "swings from 52 deg at 30 cm to -59 deg at 1 cm (continuous time, x east)",
-    at_least=-59.4,
-    at_most=52.5,
-    unit="deg",
-    stop=(0.01, 0.3),
-    before=Before(
-        "swings from 52 to -59 deg over the last 30 cm",
-        {"stop": (0.005, 0.3)},
-        at_least=-59.4,
-        at_most=52.5,
-    ),
-)
+SWINGS = "swings from 52 deg at 30 cm to -59 deg at 1 cm (continuous time, x east)"
+ENDS = {"at_least": -59.4, "at_most": 52.5}
+TO_1_CM = Before("swings from 52 to -59 deg over the last 30 cm", {"stop": (0.005, 0.3)}, **ENDS)
+
+
+@headline("README.md", SWINGS, unit="deg", stop=(0.01, 0.3), before=TO_1_CM, **ENDS)
 def heading_at(stop):
     case = paper.outdoor("east")
     how = {"method": "continuous", "dt": 0.005, "arrival_radius": 0.004}

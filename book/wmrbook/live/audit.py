@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrbook.live.parts import Choice, Knob, Live, choose
 from wmrlib import lyapunov_rate, paper, simulate
 from wmrlib.gains import GENTLE_GAINS, Gains
 
@@ -48,6 +48,7 @@ def threshold() -> Live:
         name: [heading_left(gains, axis)[1] for axis in ("east", "north")]
         for name, gains in tunings.items()
     }
+    found = parked(curves["paper"], RADIUS, MOST)
     return Live(
         "threshold",
         "With {gains} the robot stops at {radius}, or at half or twice that, and counts as parked "
@@ -65,14 +66,12 @@ def threshold() -> Live:
             "step": 100 * _STEP,
             "curves": {name: np.round(each, 4).tolist() for name, each in curves.items()},
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             "The paper's outdoor drive, in both readings of its axes: the robot stops 2.5, 5 or 10 "
             "cm before the goal, and a heading is right within 2.5°, 5° or 10°. Is it parked?",
             "A heading that still swings while the last metre is driven has any value where one "
             "happens to stop. A verdict that hangs on such a line of ours is not decided.",
-            key=[*VERDICTS].index(parked(curves["paper"], RADIUS, MOST)),
-            options=(*VERDICTS.values(),),
+            answers={words: verdict == found for verdict, words in VERDICTS.items()},
             wrong=(
                 "At 10 cm, x east, the heading happens to swing through zero: there it is parked.",
                 "",
@@ -95,13 +94,6 @@ def rising() -> Live:
         return bool(lyapunov_rate(*here, gains, law="printed", L=L) > 0.0)
 
     heavy, away = 1e-3, 0.35  # m^2, m
-    answers = {
-        "It rises here too, and so nothing is mended.": rises(away, heavy),
-        "It falls here, and everywhere nearer to the goal.": not rises(away, heavy)
-        and not rises(1e-6, heavy),
-        "It falls here, and rises nearer to the goal.": not rises(away, heavy)
-        and rises(1e-6, heavy),
-    }
     return Live(
         "rising",
         "At {rho} from the goal, {alpha} and {theta}, with {L}, V changes at {rate} under (24) "
@@ -116,15 +108,19 @@ def rising() -> Live:
             "gains": gains._asdict(),
             "asked": {"alpha": alpha, "theta": theta, "rho": away},
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             "With L = 1 m², V rises under (24) as printed 0.35 m from the goal, which lies 45° to "
             "the left, with theta = 0. Now let the distance count a thousand times as much in V: "
             "L = 0.001 m². What does V do?",
             "The distance's part of V' fades with the square of the distance, whatever its weight. "
             "So with every L the angles decide, near enough to the goal.",
-            key=[*answers.values()].index(True),
-            options=(*answers,),
+            answers={
+                "It rises here too, and so nothing is mended.": rises(away, heavy),
+                "It falls here, and everywhere nearer to the goal.": not rises(away, heavy)
+                and not rises(1e-6, heavy),
+                "It falls here, and rises nearer to the goal.": not rises(away, heavy)
+                and rises(1e-6, heavy),
+            },
             wrong=(
                 "Here the distance now outweighs the angles, and V falls.",
                 "The distance's part fades with the square of the distance, so nearer to the "

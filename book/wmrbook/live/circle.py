@@ -7,7 +7,7 @@ import math
 import control
 import numpy as np
 
-from wmrbook.live.parts import Ask, Knob, Live
+from wmrbook.live.parts import Knob, Live, choose
 from wmrlib import paper, residual, track
 
 WEIGHTS = 1.0, 100.0  # q, between which the prediction compares; the commands' is 1
@@ -43,15 +43,13 @@ def lag() -> Live:
             "gains": gains._asdict(),
             "speed": paper.CIRCLE_SPEED,
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"Once round the circle the robot is {once:.2f} m behind its goal, and stays there. "
             "What becomes of this distance if k_rho is doubled?",
             "At the goal the law commands no speed, so the robot keeps the distance at which it "
             "commands the goal's. That goes as 1/k_rho, and so no gain removes it. (With samples "
             "too far apart for the gain, more is left.)",
-            key=[*left.values()].index(True),
-            options=(*left,),
+            answers=left,
             wrong=(
                 "On the goal the law commands no speed, so a robot that keeps up stays behind.",
                 "",
@@ -69,11 +67,6 @@ def lqr() -> Live:
     tried = np.geomspace(0.01, WEIGHTS[1], 41)
     fades = [-max(control.lqr(A, B, q * np.eye(3), np.eye(2))[2].real) for q in (*WEIGHTS, *tried)]
     ratio, heavier, fastest = fades[1] / fades[0], WEIGHTS[1], tried[np.argmax(fades[2:])]
-    faster = {
-        f"{heavier:.0f} times faster": ratio > heavier / 2,
-        f"{math.sqrt(heavier):.0f} times faster": heavier / 20 < ratio < heavier / 5,
-        "No faster": ratio < 1.1,
-    }
     return Live(
         "lqr",
         "With the error weighted by {q} its slowest part fades at {slowest}. The robot turns at "
@@ -83,16 +76,18 @@ def lqr() -> Live:
             "time": Knob(1.0, 0.0, 1.0, 0.005, "how far round", label="driven", plays=8.0),
         },
         data={"A": A.tolist(), "B": B.tolist(), "start": list(paper.CIRCLE_START)},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "At q = 1 errors and commands weigh the same. Now all three errors are weighted "
             f"{heavier:.0f} times as heavily. How much faster does the slowest part of the error "
             "fade?",
             f"On this circle the slowest part fades fastest at q = {fastest:.0f}. Beyond, the "
             "limit is what is aside: the wheels push ahead, never sideways, and only the goal's "
             "speed carries it across.",
-            key=[*faster.values()].index(True),
-            options=(*faster,),
+            answers={
+                f"{heavier:.0f} times faster": ratio > heavier / 2,
+                f"{math.sqrt(heavier):.0f} times faster": heavier / 20 < ratio < heavier / 5,
+                "No faster": ratio < 1.1,
+            },
             wrong=(
                 "A weight says what is worth most, not what the wheels can do: they never push "
                 "sideways.",

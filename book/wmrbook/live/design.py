@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from wmrbook.live.parts import Ask, Knob, Live
+from wmrbook.live.parts import Knob, Live, choose
 from wmrlib import GENTLE_GAINS, Gains, Pose, arrival, gains_for, modes, paper, simulate
 
 GAINS = Gains(k_rho=0.5, k_alpha=2.0, h=0.5, v_max=4.0)
@@ -15,12 +15,6 @@ def poles() -> Live:
     """The poles of the angles near the goal: drag them, and the gains follow; and back."""
     pace = GAINS.k_rho * GAINS.v_max
     ratio = modes(GAINS._replace(h=HEAVIER * GAINS.h)).damping / modes(GAINS).damping
-    becomes = {
-        "It is halved": 0.4 < ratio < 0.6,
-        "It stays: only k_alpha is a damper": 0.9 < ratio < 1.1,
-        "It is doubled": 1.9 < ratio < 2.1,
-        "It is a quarter of what it was": 0.2 < ratio < 0.3,
-    }
     return Live(
         "poles",
         f"With [*k_rho* *v_max* = {pace:g}] per second the poles of the angles solve "
@@ -33,14 +27,17 @@ def poles() -> Live:
             "h": Knob(GAINS.h, 0.05, 5.0, 0.05, "weight of the final heading, h", "", "h"),
         },
         data={"k_rho": GAINS.k_rho, "v_max": GAINS.v_max, "start": list(START), "goal": list(GOAL)},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "The weight h of the final heading is made four times as large, and the other gains "
             "stay. What becomes of the damping ratio?",
             "It is k_alpha over twice the natural frequency, which grows with the root of h. A "
             "damper that stops a slow swing is a weak one for a fast swing.",
-            key=[*becomes.values()].index(True),
-            options=(*becomes,),
+            answers={
+                "It is halved": 0.4 < ratio < 0.6,
+                "It stays: only k_alpha is a damper": 0.9 < ratio < 1.1,
+                "It is doubled": 1.9 < ratio < 2.1,
+                "It is a quarter of what it was": 0.2 < ratio < 0.3,
+            },
             wrong=(
                 "",
                 "The ratio compares k_alpha with the natural frequency, and h makes that larger.",
@@ -69,12 +66,6 @@ def window() -> Live:
     how = {"method": "continuous", "arrival_radius": 0.01}
     one, two = (arrival(simulate(START, GOAL, gains, **how)) for gains in (GAINS, twice))
     longer, time = two.path_length / one.path_length, two.time / one.time
-    becomes = {
-        "A wider path: a faster robot turns later": longer > 1.01,
-        "A tighter path: it steers harder": longer < 0.99,
-        "The same path, in half the time": 0.99 < longer < 1.01 and 0.45 < time < 0.55,
-        "The same path, in the same time": 0.99 < longer < 1.01 and 0.95 < time < 1.05,
-    }
     return Live(
         "window",
         "With {kappa} and {h} the gains are {place}: near the goal the heading settles {compared} "
@@ -84,14 +75,17 @@ def window() -> Live:
             "h": Knob(0.3, 0.05, 6.0, 0.05, "weight of the final heading, h", "", "h"),
         },
         data={"named": points, "start": [-1.0, -4.5, 0.6]},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "v_max and k_alpha are doubled; k_rho and h stay. What becomes of the path?",
             "In lengths of 1/k_rho and times of 1/(v_max k_rho) the loop has two numbers left, "
             "k_alpha/(v_max k_rho) and h. Neither changed, so the path stays; the clock runs twice "
             "as fast.",
-            key=[*becomes.values()].index(True),
-            options=(*becomes,),
+            answers={
+                "A wider path: a faster robot turns later": longer > 1.01,
+                "A tighter path: it steers harder": longer < 0.99,
+                "The same path, in half the time": 0.99 < longer < 1.01 and 0.45 < time < 0.55,
+                "The same path, in the same time": 0.99 < longer < 1.01 and 0.95 < time < 1.05,
+            },
             wrong=(
                 "So it would be if v_max alone were doubled. With k_alpha doubled too, kappa "
                 "stays.",

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Knob, Live, nearest
+from wmrbook.live.parts import Ask, Knob, Live, choose, nearest
 from wmrlib import EARTH_RADIUS_M, GeoPoint, paper
 from wmrlib.geodesy import destination_point, initial_bearing, local_position, point_at
 
@@ -65,14 +65,12 @@ def flat_map() -> Live:
             "radius": EARTH_RADIUS_M,
             "asked": {"km": DISTANCES[0] / 1000, "lat": here.lat},
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"Over {DISTANCES[0]:.0f} m the flat map is {1000 * known:.1f} mm off. And over "
             f"{DISTANCES[1] / 1000:.0f} km, {times:.0f} times as far?",
             f"It is {asked:.1f} m: the meridians close in along the way, and what that costs grows "
             "with the square of the distance, at any latitude but near the equator's.",
-            key=nearest(asked, shown.values()),
-            options=(*shown,),
+            answers=nearest(asked, shown),
             wrong=(
                 "The meridians close in along the way: the farther, the more.",
                 "Twice the way closes the meridians in twice as much, and that over twice the way.",

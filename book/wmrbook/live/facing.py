@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Knob, Live, nearest
+from wmrbook.live.parts import Knob, Live, choose, nearest
 from wmrlib import wrap_angle
 
 DIP = 68.0  # degrees below the horizontal, as in central Europe
@@ -48,15 +48,13 @@ def course_cone() -> Live:
             "distance": Knob(5.0, 0.5, 200.0, None, "the distance between them", "m", "d"),
         },
         data={"usable": math.radians(USABLE)},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "A receiver errs by 3 m to the east and to the north, each fix anew. The robot drives "
             f"straight from one fix to another. How far must it drive to know its heading to "
             f"{USABLE:g} degrees?",
             "Both fixes err across the path by 3 m, so their difference by 4.2 m, and 5 degrees "
             "are a twelfth of the distance.",
-            key=nearest(needed, options.values()),
-            options=(*options,),
+            answers=nearest(needed, options),
             wrong=(
                 "After 5 m the heading is still uncertain by some 50 degrees.",
                 "After 15 m the heading is still uncertain by 16 degrees.",
@@ -80,15 +78,13 @@ def leaning_compass() -> Live:
             "dip": Knob(DIP, 0.0, 80.0, 1.0, "how far the field dips", "°", label="dip"),
             "heading": Knob(90.0, -180.0, 180.0, 2.0, "the true heading", "°", "phi", plays=6.0),
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             "In central Europe the magnetic field points 68 degrees below the horizontal. A robot "
             "on a slope leans 3 degrees to its side and takes its compass for level. How far can "
             "its heading be off?",
             "The steep part of the field is 2.5 times the level part, and the lean tips a "
             "twentieth of it into the compass's plane.",
-            key=nearest(worst, options.values()),
-            options=(*options,),
+            answers=nearest(worst, options),
             wrong=(
                 "Only in a level field does a lean not matter.",
                 "The lean tips the steep part of the field, and that is the larger one.",

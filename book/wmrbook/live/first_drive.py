@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live, between, nearest
+from wmrbook.live.parts import Choice, Knob, Live, between, choose, nearest
 from wmrlib import paper, simulate
 from wmrlib.gains import GENTLE_GAINS
 
@@ -20,11 +20,6 @@ def last_metres(ask: bool = True) -> Live:
     run = simulate(start, goal, gains, method="continuous")
     off_deg, value = abs(math.degrees(run.heading_error[-1])), run.V[-1]
     angles = value - run.rho[-1] ** 2 / 2  # the part of V that is not distance
-    room = {
-        "Yes, within a degree: V is down to a ten-thousandth": off_deg < 1,
-        "Within a few degrees: it is on the spot": 1 <= off_deg < 10,
-        "No, it may be tens of degrees off": off_deg >= 10,
-    }
     # |theta - alpha| is largest, for this part, where alpha = -h theta
     most_deg = math.degrees(math.sqrt(2 * angles * (1 + 1 / gains.h)))
     shown = {"label": "on its way", "plays": 6.0, "auto": not ask}
@@ -39,15 +34,17 @@ def last_metres(ask: bool = True) -> Live:
             "time": Knob(float(ask), 0.0, 1.0, 0.01, "how far on its way", **shown),
         },
         data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"With the paper's gains the robot stops 5 cm before the goal. V has fallen from "
             f"{run.V[0]:.0f} to {value:.3f}, of which rho²/2 makes up {run.rho[-1] ** 2 / 2:.3f}. "
             "Does the robot face the goal's way?",
             f"The rest of V, {angles:.3f}, is all angles. With h = {gains.h:g} it leaves room for "
             f"{most_deg:.0f} deg of heading error, and the robot stops {off_deg:.0f} deg off.",
-            key=[*room.values()].index(True),
-            options=(*room,),
+            answers={
+                "Yes, within a degree: V is down to a ten-thousandth": off_deg < 1,
+                "Within a few degrees: it is on the spot": 1 <= off_deg < 10,
+                "No, it may be tens of degrees off": off_deg >= 10,
+            },
             wrong=(
                 "V began with the square of 58 m. That is gone, and says nothing about the angles.",
                 "To be on the spot is not to face the right way: what is left of V is nearly "
@@ -83,15 +80,13 @@ def stopping() -> Live:
             ),
         },
         data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"With {100 * radii[0]:.0f} cm to go the robot is {off_deg:.0f} deg off and turns "
             f"{way} the goal's heading, at {abs(here.omega[-1]):.0f} rad/s. It is {seconds:.1f} s "
             f"from the point where {100 * radii[1]:.0f} cm are left. How far off is it there?",
             f"{then_deg:.0f} deg, after {off_deg:.0f}: the heading swings to and fro while the "
             "last metre is driven, so where one stops decides what is left. Nearer is not better.",
-            key=nearest(then_deg / off_deg, shares.values()),
-            options=(*shares,),
+            answers=nearest(then_deg / off_deg, shares),
             wrong=(
                 "A fifth of the way is left, but at 4 rad/s the heading turns by tens of "
                 "degrees in 0.2 s.",

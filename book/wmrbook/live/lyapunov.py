@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrbook.live.parts import Choice, Knob, Live, choose
 from wmrlib import (
     GENTLE_GAINS,
     PolarError,
@@ -31,10 +31,10 @@ SWARM = {"robots": 40, "dt": 0.01, "radius": 0.05, "seed": 5, "steps": 1000}
 
 def bowl() -> Live:
     """The angles' part of V as a bowl to turn, its level sets, and a state that rolls over both."""
-    start = pose_from_polar(PolarError(NEAR, math.radians(110.0), math.radians(90.0)), GOAL)
-    run = simulate(
-        start, GOAL, GENTLE_GAINS, method="continuous", dt=0.02, duration=12.0, arrival_radius=0.0
-    )
+    seen = PolarError(NEAR, math.radians(110.0), math.radians(90.0))
+    start = pose_from_polar(seen, GOAL)
+    how = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
+    run = simulate(start, GOAL, GENTLE_GAINS, **how)
     h = GENTLE_GAINS.h
     heights = (run.alpha**2 + h * run.theta**2) / 2
     steepest = np.arctan2(-h * run.theta, -run.alpha)
@@ -68,13 +68,11 @@ def bowl() -> Live:
             "look": LOOK,
             "gains": {"gentle": GENTLE_GAINS._asdict(), "paper": OUTDOOR_GAINS._asdict()},
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             "This chapter designs a law for this bowl. How will the ball get to the bottom?",
             "Along a motion V must not rise; nothing is asked of the direction. A robot can't turn "
             "its two angles as it likes, so its way down is its own. The steepest is dashed.",
-            key=[*ways.values()].index(True),
-            options=(*ways,),
+            answers=ways,
             wrong=(
                 "Only driving turns theta.",
                 "",
@@ -91,12 +89,6 @@ def two_bars() -> Live:
     rates = polar_rate(NEAR, alpha, *twist)
     distance = NEAR * rates[0] < -1e-9
     angles = alpha * rates[1] + OUTDOOR_GAINS.h * theta * rates[2] < -1e-9
-    parts = {
-        "Both parts": distance and angles,
-        "Only that of the distance": distance and not angles,
-        "Only that of the angles": angles and not distance,
-        "Neither": not distance and not angles,
-    }
     return Live(
         "two_bars",
         "With {law}, 0.5 m from the goal, at {alpha} and {theta}, the part of "
@@ -116,14 +108,17 @@ def two_bars() -> Live:
             "theta": Knob(ASKED[1], -180.0, 180.0, 1.0, "theta", "°", "theta"),
         },
         data={"rho": NEAR, "gains": OUTDOOR_GAINS._asdict(), "asked": ASKED},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "A robot with this law faces its goal squarely, 0.5 m ahead, but should be turned "
             "by 60° there: alpha is 0 and theta is 60°. Which part of V is falling?",
             "The angles' part falls by what alpha is, whatever theta is: it can't see that the "
             "heading is wrong. That V never rises is not enough; it must not stay level either.",
-            key=[*parts.values()].index(True),
-            options=(*parts,),
+            answers={
+                "Both parts": distance and angles,
+                "Only that of the distance": distance and not angles,
+                "Only that of the angles": angles and not distance,
+                "Neither": not distance and not angles,
+            },
             wrong=(
                 "Here alpha is 0.",
                 "",
@@ -141,11 +136,6 @@ def torus() -> Live:
     how = {"method": "arc", "dt": SWARM["dt"], "arrival_radius": SWARM["radius"]}
     ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=seen, seed=SWARM["seed"], **how)
     share = np.mean(np.abs(ends.heading_error) > math.pi / 2)
-    ways = {
-        "All properly: the first reading decides, left or right": share < 0.1,
-        "Over half of them more than 90° off: their turns cancel": 0.5 < share < 0.9,
-        "None properly: no law turns a robot that looks the wrong way": share >= 0.9,
-    }
     return Live(
         "torus",
         "With {noise} of noise and {hysteresis} of hysteresis, from {distance} away, {lost} "
@@ -165,15 +155,17 @@ def torus() -> Live:
             "gains": OUTDOOR_GAINS._asdict(),
             "asked": {"yaw": SEEN[0], "tilt": SEEN[1], "distance": FACING},
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             "40 robots, 0.5 m from the goal, look at it, but should look the other way when they "
             "get there: theta is 180°. Each reads the line of sight with 2° of noise, 100 times a "
             "second. How do they park?",
             "Where theta jumps, each reading sends a robot round the other way: its turns "
             "cancel, and it drives straight on. Only those that drift off the seam in time turn.",
-            key=[*ways.values()].index(True),
-            options=(*ways,),
+            answers={
+                "All properly: the first reading decides, left or right": share < 0.1,
+                "Over half of them more than 90° off: their turns cancel": 0.5 < share < 0.9,
+                "None properly: no law turns a robot that looks the wrong way": share >= 0.9,
+            },
             wrong=(
                 "The first reading does not decide: the next may say the opposite.",
                 "",

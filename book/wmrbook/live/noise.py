@@ -7,7 +7,7 @@ from functools import cache
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Knob, Live, between
+from wmrbook.live.parts import Knob, Live, between, choose
 from wmrlib import (
     Pose,
     Receiver,
@@ -21,6 +21,7 @@ from wmrlib import (
     wheels_to_twist,
     wrap_angle,
 )
+from wmrlib.engine.receivers import normals
 from wmrlib.gains import GENTLE_GAINS
 
 DT, RADIUS, TRACK = 0.1, 0.2, 0.5  # s, m, m
@@ -39,26 +40,15 @@ def _turned(what: str) -> Knob:
 
 
 @cache
-def normals() -> np.ndarray:
+def drawn() -> np.ndarray:
     """Normal random numbers for each sample, axis and robot: those of wmrlib's receivers.
 
-    Philox 4x32-10 counts robots and samples, and so does `kit/random.js`. Two of its words make the
-    size and two the direction of the errors to the east and to the north, by Box and Muller's rule.
+    They are counted by robots and samples, as in `kit/random.js`.
     """
-    low = np.uint64(0xFFFFFFFF)
-    zero = np.zeros((STEPS, ROBOTS), np.uint64)
-    a, b, c, d = zero + np.arange(ROBOTS, dtype=np.uint64), zero, zero.copy(), zero
-    c += np.arange(STEPS, dtype=np.uint64)[:, None]
-    for turn in range(10):
-        key_1 = np.uint64((SEED + turn * 0x9E3779B9) & int(low))
-        key_2 = np.uint64((turn * 0xBB67AE85) & int(low))
-        one, two = a * np.uint64(0xD2511F53), c * np.uint64(0xCD9E8D57)
-        a, b = (two >> np.uint64(32)) ^ b ^ key_1, two & low
-        c, d = (one >> np.uint64(32)) ^ d ^ key_2, one & low
-    size = (a * 2.0**21 + (b >> np.uint64(11)) + 0.5) * 2.0**-53
-    angle = 2.0 * math.pi * (c * 2.0**21 + (d >> np.uint64(11))) * 2.0**-53
-    length = np.sqrt(-2.0 * np.log(size))
-    return np.stack([length * np.cos(angle), length * np.sin(angle)], axis=1)
+    rows = [
+        [normals(robot, step, 0, (SEED, 0)) for robot in range(ROBOTS)] for step in range(STEPS)
+    ]
+    return np.moveaxis(rows, 2, 1)
 
 
 def seeing(
@@ -94,7 +84,7 @@ def seeing(
 
 def receiver(sigma: float, memory: float) -> np.ndarray:
     """The errors of the bench's receivers: a Gauss-Markov process each, (steps, 2, robots), m."""
-    fresh, keep = normals(), math.exp(-DT / memory)
+    fresh, keep = drawn(), math.exp(-DT / memory)
     error = [fresh[0]]
     for noise in fresh[1:]:
         error.append(keep * error[-1] + math.sqrt(1.0 - keep**2) * noise)
@@ -128,11 +118,12 @@ def bench() -> Live:
     """How robots drive up and park whose receiver errs and is late, and whose wheel slips."""
     start, goal = last_ten_metres()
     far, turned = zip(*(left_over(0.5, memory) for memory in (WHITE, 300.0)), strict=True)
-    options = {
-        "Those with new errors stop nearer and face better": (True, True),
-        "Those with new errors stop nearer; the others face better": (True, False),
-        "Those with a lasting error stop nearer and face better": (False, False),
-        "Those with a lasting error stop nearer; the others face better": (False, True),
+    nearer, better = far[0] < far[1], turned[0] < turned[1]
+    ends = {
+        "Those with new errors stop nearer and face better": nearer and better,
+        "Those with new errors stop nearer; the others face better": nearer and not better,
+        "Those with a lasting error stop nearer and face better": not nearer and not better,
+        "Those with a lasting error stop nearer; the others face better": not nearer and better,
     }
     return Live(
         "bench",
@@ -151,15 +142,13 @@ def bench() -> Live:
         },
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS)
         | {"track": TRACK, "robots": ROBOTS, "steps": STEPS, "seed": SEED},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "Receivers err by 0.5 m, anew in each fix or alike for five minutes. Which robots "
             "stop nearer to the goal, and which face its heading better?",
             "While the radius is well below the error, a slow robot averages what changes quickly, "
             "and what lasts moves the place. In the last metres what changes swings the line of "
             "sight, and with it the heading.",
-            key=[*options.values()].index((far[0] < far[1], turned[0] < turned[1])),
-            options=(*options,),
+            answers=ends,
             wrong=(
                 "Nearer, yes. But in the last metres an error that is new in each fix throws "
                 "the line of sight about, and the heading with it.",
@@ -193,12 +182,6 @@ def late() -> Live:
     start, goal, *_ = paper.outdoor()
     delay = 0.6
     position, heading = (math.isfinite(late_drive(*each)[1]) for each in ((delay, 0), (0, delay)))
-    options = {
-        "Both": (True, True),
-        "Only the one whose position is late": (True, False),
-        "Only the one whose heading is late": (False, True),
-        "Neither": (False, False),
-    }
     return Live(
         "late",
         "Both robots have gentle gains. One sees its position {delay} late and {position}; the "
@@ -210,15 +193,18 @@ def late() -> Live:
             "time": Knob(1.0, 0.0, 1.0, 0.005, "how far through the race", label="race", plays=12),
         },
         data=between(start, goal, gains=GENTLE_GAINS._asdict(), dt=DT, radius=RADIUS, lost=LOST),
-        ask=Ask(
-            "choose",
+        ask=choose(
             "Two robots drive at up to 4 m/s. One sees its position 0.6 s late, the other its "
             "heading. Which of them come to the goal, 58 m away, within a minute?",
             "The heading turns as fast as the law steers, so an old one makes it steer too far, "
             "and back: it comes in on a long spiral, or never. Far away the line of sight hardly "
             "turns, so an old position does harm only near the goal.",
-            key=[*options.values()].index((position, heading)),
-            options=(*options,),
+            answers={
+                "Both": position and heading,
+                "Only the one whose position is late": position and not heading,
+                "Only the one whose heading is late": heading and not position,
+                "Neither": not position and not heading,
+            },
             wrong=(
                 "An old heading lets it steer too far, and back, for longer than a minute.",
                 "",

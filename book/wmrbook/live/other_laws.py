@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live, between, nearest
+from wmrbook.live.parts import Choice, Knob, Live, between, choose, nearest
 from wmrlib import Gains, Pose, control_law, gains_for, simulate
 
 GOAL = Pose(0.0, 0.0, 0.0)
@@ -31,7 +31,9 @@ SHARES = {"As much": 1.0, "Half of it": 0.5, "A quarter of it": 0.25}
 def race() -> Live:
     """Five laws from a start that the reader drags, with the same wheels."""
     asked = [law for law in NAMES if law != "printed"]
-    ahead = [control_law(2.0, math.pi, math.pi / 2, TUNED[law], law=law)[0] > 0 for law in asked]
+    speeds = [control_law(2.0, math.pi, math.pi / 2, TUNED[law], law=law)[0] for law in asked]
+    names = [NAMES[law][0].upper() + NAMES[law][1:] for law in asked]
+    backs_up = "Its speed contains cos alpha, which is negative while the goal is behind."
     return Live(
         "race",
         "From {x}, {y}, facing {heading}, {law} {ends}, {left} off; it has driven {back} "
@@ -46,31 +48,21 @@ def race() -> Live:
             **between(BEHIND, GOAL, tuned={law: it._asdict() for law, it in TUNED.items()}),
             **{"dt": 0.02, "seconds": 60.0, "radius": 0.05, "track": 0.4, "most": 0.5},
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             "The goal lies behind the robot. Which of these laws never drives backwards?",
             "The other speeds contain cos alpha, which is negative as long as the goal is behind. "
             "Graceful's does not: it drives forwards, in a wide loop.",
-            key=ahead.index(True),
-            options=tuple(NAMES[law][0].upper() + NAMES[law][1:] for law in asked),
-            wrong=(
-                "Its speed contains cos alpha, which is negative while the goal is behind.",
-                "Its speed contains cos alpha, which is negative while the goal is behind.",
-                "Its speed contains cos alpha, which is negative while the goal is behind.",
-                "",
-            ),
+            answers={name: v > 0 for name, v in zip(names, speeds, strict=True)},
+            wrong=(backs_up, backs_up, backs_up, ""),
         ),
     )
 
 
 def heading_power() -> Live:
     """Graceful's heading error over the distance left, for k_phi, k_delta and a radius."""
+    how = {"law": "graceful", "method": "continuous"}
     first, second = (
-        abs(
-            simulate(
-                ASIDE, GOAL, DOCKING, law="graceful", method="continuous", arrival_radius=radius
-            ).heading_error[-1]
-        )
+        abs(simulate(ASIDE, GOAL, DOCKING, arrival_radius=radius, **how).heading_error[-1])
         for radius in RADII
     )
     return Live(
@@ -90,14 +82,12 @@ def heading_power() -> Live:
             gains=DOCKING._asdict(),
             defaults={"docking (3, 2)": [3.0, 2.0], "Graceful (2, 1)": [2.0, 1.0]},
         ),
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"With docking's (3, 2) the robot stops 10 cm before its goal, "
             f"{math.degrees(first):.1f}° off. How much is left if it stops at 5 cm?",
             "Halving the distance divides an error that falls as its square by four: the smaller "
             "of the two gains is the power.",
-            key=nearest(second / first, SHARES.values()),
-            options=(*SHARES,),
+            answers=nearest(second / first, SHARES),
             wrong=(
                 "The heading settles on the way, and this way is longer.",
                 "Half would be the first power of the distance, which takes a gain of 1.",

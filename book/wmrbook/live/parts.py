@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable
 from importlib import import_module
 from typing import Any, NamedTuple
 
@@ -81,10 +80,18 @@ def between(start: Pose, goal: Pose, **more: Any) -> dict[str, Any]:
     return {"start": list(start), "goal": list(goal), **more}
 
 
-def nearest(value: float, choices: Iterable[float]) -> int:
-    """Return which of the choices a number is: the key of the answers that stand for them."""
-    near = [abs(each - value) for each in choices]
-    return near.index(min(near))
+def choose(
+    question: str, why: str, answers: dict[str, bool], wrong: tuple[str, ...], asked: tuple = ()
+) -> Ask:
+    """Return the choice of an answer; `answers` says of each whether it is so."""
+    key = [*answers.values()].index(True)
+    return Ask("choose", question, why, key, (*answers,), wrong, asked)
+
+
+def nearest(value: float, answers: dict[str, float]) -> dict[str, bool]:
+    """Return which answer is so, of some that each stand for a number."""
+    best = min(answers.values(), key=lambda each: abs(each - value))
+    return {words: each == best for words, each in answers.items()}
 
 
 class Live(Panel):

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live, between
-from wmrlib import GENTLE_GAINS, Pose, gains_for, paper, polar_error, simulate
+from wmrbook.live.parts import Ask, Choice, Knob, Live, between, choose
+from wmrlib import GENTLE_GAINS, gains_for, paper, polar_error, simulate
 
 RADII = (0.05, 0.1)  # m, where the prediction compares
 
@@ -52,16 +52,10 @@ def heading_left() -> Live:
         "designed": gains_for(0.8, heading_rate=1.6, damping=1.0),
     }
     how = {"method": "continuous", "dt": 0.05, "duration": 120.0}
-    first, second, far = (
-        _heading_left(case.start, case.goal, case.gains, arrival_radius=radius, **how)
-        for radius in (*RADII, 0.3)
-    )
+    stops = [{"arrival_radius": radius, **how} for radius in (*RADII, 0.3)]
+    runs = (simulate(case.start, case.goal, case.gains, **stop) for stop in stops)
+    first, second, far = (float(run.heading_error[-1]) for run in runs)
     more, less = abs(second) > 1.2 * abs(first), abs(second) < 0.8 * abs(first)
-    left = {
-        "More than at 5 cm: there was less time to turn": more,
-        "As much as at 5 cm": not more and not less,
-        "Less than at 5 cm: it has swung through zero in between": less and first * far < 0,
-    }
     return Live(
         "heading_left",
         "With {choice} the robot that stops {radius} before its goal does so after {seconds}, "
@@ -83,16 +77,18 @@ def heading_left() -> Live:
         data=between(
             *case[:2], gains={name: it._asdict() for name, it in kinds.items()}, asked=RADII
         ),
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"With the paper's gains the heading is {abs(math.degrees(far)):.0f}° off to the left "
             f"when 30 cm are left, and {abs(math.degrees(first)):.0f}° to the right when "
             f"{100 * RADII[0]:.0f} cm are. How far off is a robot that stops "
             f"{100 * RADII[1]:.0f} cm before its goal?",
             "Between the two it passes zero, and that happens near 10 cm. What is left of a swing "
             "that outlasts the distance tells where it was stopped, no more.",
-            key=[*left.values()].index(True),
-            options=(*left,),
+            answers={
+                "More than at 5 cm: there was less time to turn": more,
+                "As much as at 5 cm": not more and not less,
+                "Less than at 5 cm: it has swung through zero in between": less and first * far < 0,
+            },
             wrong=(
                 "The heading swings. On its way from 52° left to 27° right it passes through zero.",
                 "Between 52° left and 27° right it passes through zero, so it is not 27° off "
@@ -101,7 +97,3 @@ def heading_left() -> Live:
             ),
         ),
     )
-
-
-def _heading_left(start: Pose, goal: Pose, gains, **how) -> float:
-    return float(simulate(start, goal, gains, **how).heading_error[-1])

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Knob, Live
+from wmrbook.live.parts import Ask, Knob, Live, choose
 from wmrlib import Pose, advance, wrap_angle
 
 FIELD = 30.0  # microtesla, the horizontal part of the Earth's
@@ -72,12 +72,6 @@ def silence() -> Live:
     """How far a robot rolls when its fixes stop: on in good faith, then braking."""
     timeout, brake = 0.5, 1.0  # s, m/s^2
     times = rolled(2.0, timeout, brake) / rolled(1.0, timeout, brake)
-    answers = {
-        "twice as far": times < 2.1,
-        "between two and four times as far": 2.1 <= times < 3.9,
-        "four times as far": 3.9 <= times < 4.1,
-        "more than four times as far": times >= 4.1,
-    }
     return Live(
         "silence",
         "A robot at {speed} hears nothing for {timeout}, then brakes at {brake}. It rolls "
@@ -87,14 +81,17 @@ def silence() -> Live:
             "timeout": Knob(timeout, 0.0, 2.0, 0.05, "the timeout, T", "s", "T"),
             "brake": Knob(brake, 1.0, 5.0, 0.1, "the braking, a", "m/s²", "a"),
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             "Its fixes stop. A robot drives on for half a second, then brakes at 1 m/s² and "
             "stands. Its twin comes at twice the speed, 2 m/s. How far does the twin roll?",
             "The way during the timeout grows with the speed, the way while braking with its "
             "square. The faster the robot, the more the second one counts.",
-            key=[*answers.values()].index(True),
-            options=(*answers,),
+            answers={
+                "twice as far": times < 2.1,
+                "between two and four times as far": 2.1 <= times < 3.9,
+                "four times as far": 3.9 <= times < 4.1,
+                "more than four times as far": times >= 4.1,
+            },
             wrong=(
                 "The way while braking grows with the square of the speed.",
                 "",

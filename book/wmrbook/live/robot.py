@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrbook.live.parts import Ask, Knob, Live, nearest
+from wmrbook.live.parts import Knob, Live, choose, nearest
 from wmrlib import Pose, advance, wheels_to_twist
 
 TRACK = 0.6  # m
@@ -18,11 +18,6 @@ def turning_centre() -> Live:
     left, right = 0.5, 1.0
     v, omega = wheels_to_twist(left, right, TRACK)
     where = v / omega  # m to the left
-    places = {
-        "between the wheels": abs(where) < TRACK / 2,
-        "to its left, beyond the slower wheel": where > TRACK / 2,
-        "to its right, beyond the faster wheel": where < -TRACK / 2,
-    }
     return Live(
         "turning_centre",
         "The left wheel rolls at {left}, the right one at {right}. The middle moves at {speed} and "
@@ -32,14 +27,16 @@ def turning_centre() -> Live:
             "right": Knob(right, -1.5, 1.5, 0.05, "speed of the right wheel", "m/s", "V_r"),
         },
         data={"track": TRACK},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "The right wheel rolls twice as fast as the left one, both forward. Where is the point "
             "about which the robot turns?",
             "The slower wheel has the shorter way round, so the centre lies on its side; and both "
             "go forward, so it lies beyond it.",
-            key=[*places.values()].index(True),
-            options=(*places,),
+            answers={
+                "between the wheels": abs(where) < TRACK / 2,
+                "to its left, beyond the slower wheel": where > TRACK / 2,
+                "to its right, beyond the faster wheel": where < -TRACK / 2,
+            },
             wrong=(
                 "It lies between the wheels only if they roll against each other.",
                 "",
@@ -69,14 +66,12 @@ def commutator() -> Live:
             "turn": Knob(TURN, 5.0, 45.0, 1.0, "how far left and right", "°", label="left"),
             "moves": Knob(12.0, 0.0, 12.0, 0.05, "moves made", label="moves", plays=8.0),
         },
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"Drive forward {STEP} m, turn left by {TURN:.0f} deg, drive back as far, turn right "
             "as far. On which side of where it began is the robot then?",
             "It drove out along one heading and back along another, and the way back leads to the "
             "right of the way out. Moves are undone in reverse order; in another they need not be.",
-            key=nearest(end.y, places.values()),
-            options=(*places,),
+            answers=nearest(end.y, places),
             wrong=(
                 "The moves are undone in the wrong order: after the turn the way back lies "
                 "along another line.",
@@ -97,14 +92,12 @@ def one_step() -> Live:
         "first misses the arc by {miss}; after the last it is {off} away.",
         {"dt": Knob(DT, 0.02, 1.5, None, "time step", "s", label="time step")},
         data={"v": V, "omega": OMEGA},
-        ask=Ask(
-            "choose",
+        ask=choose(
             f"In steps of {DT} s, each straight on along the old heading, the robot ends "
             f"{_miss(DT):.1f} m from the half circle's end. How far with steps half as long?",
             "A step half as long misses a quarter as much, but there are twice as many, and the "
             "misses add up. So it is for every Euler step that is short enough.",
-            key=nearest(halved, shares.values()),
-            options=(*shares,),
+            answers=nearest(halved, shares),
             wrong=(
                 "Each step misses less, and so does the end.",
                 "",

@@ -7,7 +7,7 @@ from itertools import pairwise
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live
+from wmrbook.live.parts import Ask, Choice, Knob, Live, choose
 from wmrlib import Gains, Pose, drive_route, headings_along
 
 GAINS = Gains(k_rho=0.4, k_alpha=2.0, h=1.0, v_max=4.0)
@@ -52,12 +52,6 @@ def passing() -> Live:
     how = {"stop": False, "pass_radius": 5.0, "method": "continuous"}
     legs = drive_route(poses, GAINS, **how).legs
     jumps = [float(b.V[0] - a.V[-1]) for a, b in pairwise(legs)]
-    answers = {
-        "It falls on, without a break.": max(map(abs, jumps)) < 1e-6,
-        "It jumps up.": min(jumps) > 1e-6,
-        "It jumps down.": max(jumps) < -1e-6,
-        "It jumps up at some, down at others.": min(jumps) < -1e-6 and max(jumps) > 1e-6,
-    }
     return Live(
         "passing",
         "Each point but the door is passed within {radius}. The walk takes {seconds}, the fastest "
@@ -67,14 +61,17 @@ def passing() -> Live:
             "time": Knob(1.0, 0.0, 1.0, 0.005, "how far on its way", label="on its way", plays=8.0),
         },
         data={"poses": np.transpose(poses).tolist(), "gains": GAINS._asdict()},
-        ask=Ask(
-            "choose",
+        ask=choose(
             "On each leg the law makes V fall. The robot comes within 5 m of a point, passes it, "
             "and the next point becomes its goal. What does V do there?",
             "A new goal is a new error, and so a new V: mostly a larger one, for the next point is "
             "farther away. Between the changes only the law moves V, and there it falls.",
-            key=[*answers.values()].index(True),
-            options=(*answers,),
+            answers={
+                "It falls on, without a break.": max(map(abs, jumps)) < 1e-6,
+                "It jumps up.": min(jumps) > 1e-6,
+                "It jumps down.": max(jumps) < -1e-6,
+                "It jumps up at some, down at others.": min(jumps) < -1e-6 and max(jumps) > 1e-6,
+            },
             wrong=(
                 "V measures the way to the goal, and the goal has changed.",
                 "",

@@ -6,7 +6,7 @@ import math
 
 import numpy as np
 
-from wmrbook.live.parts import Ask, Choice, Knob, Live, between, nearest
+from wmrbook.live.parts import Ask, Choice, Knob, Live, between, choose, nearest
 from wmrlib import (
     Pose,
     Wheels,
@@ -38,11 +38,6 @@ def unit_circle() -> Live:
     how = {"method": "arc", "dt": LATE * longest["gentle"]["arc"], "duration": 60.0}
     end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, **how))
     off = abs(math.degrees(end.heading_error))
-    ends = {
-        "as it should, but for a few degrees": end.arrived and off < 10.0,
-        "at the goal, looking elsewhere": end.arrived and off >= 10.0,
-        "nowhere: it drives on and on": not end.arrived,
-    }
     return Live(
         "unit_circle",
         "A robot with {gains} drives in {method}; {longest} is its longest step. Sampled every "
@@ -59,14 +54,16 @@ def unit_circle() -> Live:
         data=between(
             *case[:2], gains={name: it._asdict() for name, it in tunings.items()}, longest=longest
         ),
-        ask=Ask(
-            "choose",
+        ask=choose(
             "The outdoor drive, x east, in arcs: gentle gains, and a time step a tenth longer than "
             "the longest with which the angles near the goal settle. Where does it end?",
             "Here the distance still comes down, so the robot reaches the goal. The angles grow "
             "from step to step, and it stops at whatever heading it has by then.",
-            key=[*ends.values()].index(True),
-            options=(*ends,),
+            answers={
+                "as it should, but for a few degrees": end.arrived and off < 10.0,
+                "at the goal, looking elsewhere": end.arrived and off >= 10.0,
+                "nowhere: it drives on and on": not end.arrived,
+            },
             wrong=(
                 "A tenth too long is too long: the angles grow from step to step.",
                 "",
@@ -128,7 +125,7 @@ def parking() -> Live:
     case, how = paper.outdoor(), {"dt": DT, "duration": 60.0, "arrival_radius": radius}
     motors = wheels._replace(dead_band=dead)
     end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, wheels=motors, **how))
-    choices = (0.05, 0.12, 0.5)
+    choices = {"5 cm": 0.05, "about 12 cm": 0.12, "half a metre": 0.5}
     return Live(
         "parking",
         "Wheels that are told less than {dead} stand. To arrive within {radius}, the robot {mend}. "
@@ -154,14 +151,12 @@ def parking() -> Live:
             gains=GENTLE_GAINS._asdict(),
             wheels={"track_width": TRACK, "max_speed": 2.0, "acceleration": 1.0},
         ),
-        ask=Ask(
-            "choose",
+        ask=choose(
             "The outdoor drive with gentle gains should end at 5 cm. A wheel that is told less "
             "than 0.1 m/s stands. How far from the goal does the robot stop?",
             "The speed falls with the distance, and the wheels stand as soon as it is below "
             "0.1 m/s. The slower the gains brake, the farther away that is.",
-            key=nearest(end.distance, choices),
-            options=("5 cm", "about 12 cm", "half a metre"),
+            answers=nearest(end.distance, choices),
             wrong=(
                 "5 cm away the gentle gains ask for 0.04 m/s. Long before, the wheels stand.",
                 "",

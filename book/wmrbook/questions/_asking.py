@@ -50,13 +50,17 @@ MAKERS: dict[str, Callable[[], Question]] = {}
 
 
 def question(chapter: int, section: str, title: str, untested: str = "") -> Callable:
-    """Enter a function that returns (ask, options, why) as the question of its name."""
+    """Enter a function that returns (ask, options, why) as the question of its name.
+
+    How the texts are broken into lines does not count.
+    """
 
     def enter(make: Callable[[], tuple[str, list[Option], str]]) -> Callable[[], Question]:
         name = make.__name__.replace("_", "-")
 
         def made() -> Question:
             ask, options, why = make()
+            ask, why = (" ".join(text.split()) for text in (ask, why))
             texts = [option.text for option in options]
             if len(set(texts)) < len(LETTERS):
                 raise Refusal(f"{name}: five different options are needed, not {texts}")

@@ -16,10 +16,8 @@ def swapped_cables() -> tuple[str, list[Option], str]:
     seen = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(10.0, 6.0, 0.0))
     wheels = wmr.twist_to_wheels(*wmr.control_law(*seen, wmr.GENTLE_GAINS), 0.5)
     v, omega = wmr.wheels_to_twist(wheels[1], wheels[0], 0.5)
-    ask = (
-        "The left motor's cable is in the right motor's plug; all else is right. The goal lies "
-        "ahead, to the left. What does the robot do at once?"
-    )
+    ask = """The left motor's cable is in the right motor's plug; all else is right. The goal
+        lies ahead, to the left. What does the robot do at once?"""
     options = {
         (1, -1): ("drives ahead, turns right", ""),
         (1, 1): ("drives ahead, turns left", "the swap taken to change nothing"),
@@ -27,10 +25,8 @@ def swapped_cables() -> tuple[str, list[Option], str]:
         (-1, -1): ("backs up, turns right", "a swap taken to turn everything round"),
         (0, -1): ("turns right on the spot", "the mean taken to vanish"),
     }
-    why = (
-        "The swap keeps the wheels' mean, $v$, and changes the sign of their difference, and so "
-        "of $\\omega$."
-    )
+    why = """The swap keeps the wheels' mean, $v$, and changes the sign of their difference, and
+        so of $\\omega$."""
     return ask, cases((sign(v, 0.05), sign(omega, 0.05)), options), why
 
 
@@ -39,10 +35,8 @@ def bearing_for_heading() -> tuple[str, list[Option], str]:
     bearing = math.radians(90.0)  # of a robot that looks east, at a goal in the east
     seen = wmr.polar_error(wmr.Pose(0.0, 0.0, bearing), wmr.Pose(10.0, 0.0, 0.0))
     v, omega = wmr.control_law(*seen, wmr.GENTLE_GAINS)
-    ask = (
-        "Robot and goal look east, and the goal lies 10 m ahead. The program takes the compass's "
-        "bearing, 90 deg, for the heading. What does the robot do at once?"
-    )
+    ask = """Robot and goal look east, and the goal lies 10 m ahead. The program takes the
+        compass's bearing, 90 deg, for the heading. What does the robot do at once?"""
     options = {
         (0, -1): ("turns right on the spot", ""),
         (0, 1): ("turns left on the spot", "$\\alpha$ from the line of sight to the heading"),
@@ -50,10 +44,8 @@ def bearing_for_heading() -> tuple[str, list[Option], str]:
         (-1, 0): ("backs straight up", "90 deg taken for half a turn"),
         (1, -1): ("drives a right bend", "the cosine of 90 deg overlooked"),
     }
-    why = (
-        "It believes it looks north, with the goal abeam on its right: $\\cos\\alpha = 0$ leaves "
-        "no speed, $k_\\alpha\\alpha$ turns it right."
-    )
+    why = """It believes it looks north, with the goal abeam on its right: $\\cos\\alpha = 0$
+        leaves no speed, $k_\\alpha\\alpha$ turns it right."""
     return ask, cases((sign(v, 0.05), sign(omega, 0.05)), options), why
 
 
@@ -70,10 +62,8 @@ def at_the_corner() -> tuple[str, list[Option], str]:
         "the heading in which it sets off": leave,
         "the bend taken to the other side": come - bend / 2.0,
     }
-    ask = (
-        "A leg leads at 160 deg to a waypoint, the next one at -100 deg away from it. Which "
-        "heading shares the bend between the two legs?"
-    )
+    ask = """A leg leads at 160 deg to a waypoint, the next one at -100 deg away from it. Which
+        heading shares the bend between the two legs?"""
     why = "The bend, wrapped, is 100 deg to the left; half of it from 160 deg is 210, that is -150."
     return ask, numbers(heading, mistaken, "{:.0f} deg"), why
 
@@ -88,10 +78,8 @@ def along_a_route() -> tuple[str, list[Option], str]:
     )
     steps, change = np.diff(route.V), np.diff(route.leg) != 0
     computed = bool((steps[~change] > 1e-9).any()), sign(steps[change].min(), 1e-6)
-    ask = (
-        "A route of three goals, the first two only passed, is driven by the corrected law in "
-        "continuous time. What does $V$, counted to the present goal, do?"
-    )
+    ask = """A route of three goals, the first two only passed, is driven by the corrected law in
+        continuous time. What does $V$, counted to the present goal, do?"""
     options = {
         (False, 1): ("falls, but jumps up between legs", ""),
         (False, 0): ("falls from first to last", "one proof taken for the whole route"),
@@ -99,9 +87,8 @@ def along_a_route() -> tuple[str, list[Option], str]:
         (False, -1): ("falls, and jumps down between legs", "a goal passed taken for a gain"),
         (True, 0): ("rises on each leg", "a longer way taken for a larger $V$"),
     }
-    why = (
-        "The law makes $V$ fall to the goal of the moment. A new goal is a new error, further off."
-    )
+    why = """The law makes $V$ fall to the goal of the moment. A new goal is a new error, further
+        off."""
     return ask, cases(computed, options), why
 
 
@@ -115,11 +102,9 @@ def in_the_dock() -> tuple[str, list[Option], str]:
         now = estimation.use_heading(now, bias, math.radians(1.0))
         places.append((round(100.0 * now.pose.x), round(100.0 * now.pose.y)))
     computed = places[-1] if len({*places[-50:]}) == 1 else "wanders"
-    ask = (
-        "An antenna sits 0.6 m ahead of a robot's middle; its fixes are exact. The compass always "
-        "reads 5 deg too far to the left. The robot stands still. Where does a filter believe its "
-        "middle to be?"
-    )
+    ask = """An antenna sits 0.6 m ahead of a robot's middle; its fixes are exact. The compass
+        always reads 5 deg too far to the left. The robot stands still. Where does a filter
+        believe its middle to be?"""
     options = {
         (0, -5): ("5 cm to the right of it", ""),
         (0, 5): ("5 cm to the left of it", "the antenna's side taken for the robot's"),
@@ -127,8 +112,7 @@ def in_the_dock() -> tuple[str, list[Option], str]:
         (60, 0): ("60 cm ahead of it", "the arm forgotten"),
         "wanders": ("now here, now there", "a constant error taken for noise"),
     }
-    why = (
-        "By its compass the antenna is 5 cm to the left of its middle. It knows where the antenna "
-        "is, so its middle must be 5 cm to the right of where it is, and nothing disagrees."
-    )
+    why = """By its compass the antenna is 5 cm to the left of its middle. It knows where the
+        antenna is, so its middle must be 5 cm to the right of where it is, and nothing
+        disagrees."""
     return ask, cases(computed, options), why

@@ -27,11 +27,9 @@ def arrived_parked() -> tuple[str, list[Option], str]:
     sizes = [abs(error) for error in errors]
     best, even = radii[sizes.index(min(sizes))], max(sizes) - min(sizes) < 5.0
     through = errors[0] > 50.0 > -50.0 > errors[-1]
-    ask = (
-        "The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4, "
-        "continuous time) is stopped 30, 10, 5 or 1 cm before its goal. Where does the robot look "
-        "most nearly the right way?"
-    )
+    ask = """The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4,
+        continuous time) is stopped 30, 10, 5 or 1 cm before its goal. Where does the robot look
+        most nearly the right way?"""
     options = {
         0.3: ("at 30 cm", "the heading only gets worse"),
         0.1: ("at 10 cm", ""),
@@ -39,10 +37,8 @@ def arrived_parked() -> tuple[str, list[Option], str]:
         0.01: ("at 1 cm", "the closer, the better"),
         "even": ("equally well at all four", "on the spot is parked"),
     }
-    why = (
-        "The heading swings from 50 deg on one side to 50 on the other over the last 30 cm, and "
-        "passes zero near 10 cm by luck."
-    )
+    why = """The heading swings from 50 deg on one side to 50 on the other over the last 30 cm,
+        and passes zero near 10 cm by luck."""
     return ask, cases("even" if even else best if through else None, options), why
 
 
@@ -59,14 +55,10 @@ def swapped_points() -> tuple[str, list[Option], str]:
         "a sine in place of the cosine": apart / math.sin(slope),
         "a tangent in place of the cosine": apart * math.tan(slope),
     }
-    ask = (
-        "Two points near Oslo (60 deg north, 11 deg east) are 100 m apart, one due east of the "
-        "other. A program swaps latitude and longitude. What distance does it report?"
-    )
-    why = (
-        "The points differ in longitude only, and a degree of it is half as long at 60 deg as a "
-        "degree of latitude."
-    )
+    ask = """Two points near Oslo (60 deg north, 11 deg east) are 100 m apart, one due east of
+        the other. A program swaps latitude and longitude. What distance does it report?"""
+    why = """The points differ in longitude only, and a degree of it is half as long at 60 deg as
+        a degree of latitude."""
     return ask, numbers(wmr.haversine_distance(*swapped), mistaken, "{:.0f} m"), why
 
 
@@ -83,10 +75,8 @@ def bearing_and_heading() -> tuple[str, list[Option], str]:
         "counter-clockwise, but still from north": -bearing_deg,
         "the line of sight taken from the goal back": 270.0 - bearing_deg,
     }
-    ask = (
-        "The goal's bearing is 120 deg, clockwise from north. Which heading, counter-clockwise "
-        "from east, looks at it?"
-    )
+    ask = """The goal's bearing is 120 deg, clockwise from north. Which heading,
+        counter-clockwise from east, looks at it?"""
     why = "The heading is 90 deg minus the bearing: it starts in the east and turns the other way."
     return ask, numbers(right, mistaken, "{:.0f} deg"), why
 
@@ -101,10 +91,8 @@ def turning_centre() -> tuple[str, list[Option], str]:
         "the middle of the axle taken for the centre": 0.0,
         "the sum of the wheels' speeds, not the mean": -width * (left + right) / (left - right),
     }
-    ask = (
-        "Two wheels, 0.5 m apart, roll at 0.6 m/s (left) and 0.2 m/s (right). How far to the left "
-        "of the axle's middle is the point about which the robot turns?"
-    )
+    ask = """Two wheels, 0.5 m apart, roll at 0.6 m/s (left) and 0.2 m/s (right). How far to the
+        left of the axle's middle is the point about which the robot turns?"""
     why = "It lies $v/\\omega$ to the left: 0.4 m/s over -0.8 rad/s is half a metre to the right."
     return ask, numbers(v / omega, mistaken, "{:.2f} m"), why
 
@@ -115,10 +103,8 @@ def four_moves() -> tuple[str, list[Option], str]:
     for v, omega in ((drive, 0.0), (0.0, turn), (-drive, 0.0), (0.0, -turn)):
         pose = wmr.advance(pose, v, omega, 1.0)
     ahead, left = (sign(value, 0.1) for value in pose[:2])
-    ask = (
-        "A robot drives 0.5 m ahead, turns 30 deg left, drives 0.5 m back, and turns 30 deg "
-        "right. Where is it then, mainly, seen from where it began?"
-    )
+    ask = """A robot drives 0.5 m ahead, turns 30 deg left, drives 0.5 m back, and turns 30 deg
+        right. Where is it then, mainly, seen from where it began?"""
     options = {
         (0, -1): ("to the right", ""),
         (0, 1): ("to the left", "as the nose turned first"),
@@ -126,10 +112,8 @@ def four_moves() -> tuple[str, list[Option], str]:
         (1, 0): ("ahead", "wheels can't move it sideways"),
         (-1, 0): ("behind", "the drive back taken for the longer one"),
     }
-    why = (
-        "It backs along a line that is turned left, so to the right. The wheels forbid a "
-        "velocity, not a place."
-    )
+    why = """It backs along a line that is turned left, so to the right. The wheels forbid a
+        velocity, not a place."""
     return ask, cases((ahead, left), options), why
 
 
@@ -152,10 +136,8 @@ def two_angles() -> tuple[str, list[Option], str]:
         (a, -b): (pair(a, -b), "$\\beta$ taken for $\\theta$"),
         (b, a): (pair(b, a), "$\\alpha$ and $\\theta$ in each other's place"),
     }
-    ask = (
-        "The robot faces north-west. Its goal lies due west and looks south. Which angles does "
-        "the law get?"
-    )
+    ask = """The robot faces north-west. Its goal lies due west and looks south. Which angles
+        does the law get?"""
     why = "Each turns from a heading to the line of sight, positive to the left, and is wrapped."
     return ask, cases((alpha, theta), options), why
 
@@ -170,11 +152,9 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
         omega = k_alpha * seen.alpha + k_beta * seen.theta
         pose = wmr.advance(pose, k_rho * seen.rho, omega, 0.005)
     there, parked = seen.rho < 0.01, abs(pose.heading) < 0.1
-    ask = (
-        "A law from a book is $v = 3\\rho$, $\\omega = 8\\alpha - 1.5\\beta$, with $\\beta = "
-        "-\\theta$ and all angles wrapped to $\\pm$180 deg. A program puts $\\theta$ where "
-        "$\\beta$ belongs. What does the robot do?"
-    )
+    ask = """A law from a book is $v = 3\\rho$, $\\omega = 8\\alpha - 1.5\\beta$, with $\\beta =
+        -\\theta$ and all angles wrapped to $\\pm$180 deg. A program puts $\\theta$ where
+        $\\beta$ belongs. What does the robot do?"""
     options = {
         (True, False): ("reaches the place, looks another way", ""),
         (True, True): ("parks as before", "only the angle's name has changed"),
@@ -182,8 +162,7 @@ def beta_or_theta() -> tuple[str, list[Option], str]:
         "mirror": ("parks on the mirrored path", "both angles taken for mirrored"),
         "spin": ("spins on the spot", "the sign of $\\alpha$ taken for wrong"),
     }
-    why = (
-        "The distance falls whatever the third angle is; with the wrong sign the heading error "
-        "grows, wrapped or not, until the robot is there. Siegwart counts $\\beta$, we $\\theta$."
-    )
+    why = """The distance falls whatever the third angle is; with the wrong sign the heading
+        error grows, wrapped or not, until the robot is there. Siegwart counts $\\beta$, we
+        $\\theta$."""
     return ask, cases((there, parked), options), why

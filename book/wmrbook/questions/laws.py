@@ -17,10 +17,8 @@ def level_spot() -> tuple[str, list[Option], str]:
     alpha = 1e-3 * here[1]  # a millisecond later
     later = wmr.lyapunov_rate(rho, alpha, theta, gains)
     computed = sign(here[1], 0.1), sign(here[2], 1e-6), sign(later, 1e-9)
-    ask = (
-        "At $\\rho \\to 0$, $\\alpha = 0$, $\\theta$ = 60 deg the corrected law ($h > 0$) gives "
-        "$\\dot V = 0$. What happens next?"
-    )
+    ask = """At $\\rho \\to 0$, $\\alpha = 0$, $\\theta$ = 60 deg the corrected law ($h > 0$)
+        gives $\\dot V = 0$. What happens next?"""
     options = {
         (-1, 0, -1): ("$\\alpha$ changes, then $V$ falls again", ""),
         (0, 0, 0): ("nothing: the robot stays so", "$\\dot V = 0$ taken for rest"),
@@ -28,10 +26,8 @@ def level_spot() -> tuple[str, list[Option], str]:
         (1, 0, 1): ("$\\alpha$ changes, and $V$ rises", "$\\dot V$ taken to change its sign at 0"),
         (0, 1, 1): ("$\\theta$ grows, and $V$ with it", "the goal taken for unstable"),
     }
-    why = (
-        "The state can't stay where $\\dot V = 0$: $\\dot\\alpha$ is not zero there while "
-        "$\\theta$ is not. This is LaSalle's step."
-    )
+    why = """The state can't stay where $\\dot V = 0$: $\\dot\\alpha$ is not zero there while
+        $\\theta$ is not. This is LaSalle's step."""
     return ask, cases(computed, options), why
 
 
@@ -48,10 +44,8 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
         (1.0, 10.0, 45.0, 90.0, math.inf) if all(wmr.arrival(run).arrived for run in runs) else ()
     )
     computed = next((limit for limit in limits if most <= limit), None)
-    ask = (
-        "A robot stands 1 mm beside its goal, abreast of it, with exactly the right heading. How "
-        "far off does its heading get on the way (corrected law, any gains)?"
-    )
+    ask = """A robot stands 1 mm beside its goal, abreast of it, with exactly the right heading.
+        How far off does its heading get on the way (corrected law, any gains)?"""
     options = {
         math.inf: ("more than 90 deg", ""),
         90.0: ("45 to 90 deg", "a turn to the line of sight, no further"),
@@ -59,10 +53,8 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
         10.0: ("1 to 10 deg", "small start, small swing"),
         1.0: ("less than 1 deg", "stable in polar coordinates, so stable in the plane"),
     }
-    why = (
-        "However near, it sees both angles at 90 deg; while $\\alpha$ falls to 0, $\\theta$ rises "
-        "further. Attractive, not stable."
-    )
+    why = """However near, it sees both angles at 90 deg; while $\\alpha$ falls to 0, $\\theta$
+        rises further. Attractive, not stable."""
     return ask, cases(computed, options), why
 
 
@@ -79,11 +71,9 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
     ratio = sampled / smooth
     computed = next((limit for limit in (0.5, 0.9, 1.1, 2.0, math.inf) if ratio <= limit), None)
     too_long = 0.1 / wmr.longest_step(case.gains, "arc")
-    ask = (
-        "The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{\\max}$ 4) is "
-        f"{smooth:.0f} deg off at 5 cm in continuous time. How far off with commands held "
-        "for 0.1 s?"
-    )
+    ask = f"""The paper's drive ($x$ east, $k_\\rho$ 2, $k_\\alpha$ 1, $h$ 0.3, $v_{{\\max}}$ 4)
+        is {smooth:.0f} deg off at 5 cm in continuous time. How far off with commands held for
+        0.1 s?"""
     options = {
         math.inf: ("more than twice as far", ""),
         2.0: ("a little further", "a longer step is only a little less accurate"),
@@ -91,10 +81,8 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
         0.9: ("a little less", "holding a command taken to smooth it"),
         0.5: ("less than half as far", "holding a command taken for damping"),
     }
-    why = (
-        "Near the goal this step is not inaccurate but unstable: "
-        f"{too_long:.1f} times longer than these gains allow."
-    )
+    why = f"""Near the goal this step is not inaccurate but unstable: {too_long:.1f} times longer
+        than these gains allow."""
     return ask, cases(computed, options), why
 
 
@@ -107,10 +95,8 @@ def mirror() -> tuple[str, list[Option], str]:
     def change(now: float, then: float) -> int:
         return 1 if math.isclose(now, then) else -1 if math.isclose(now, -then) else 0
 
-    ask = (
-        "Start and goal are reflected in the $x$ axis. What do $v$ and $\\omega$ become, under "
-        "the corrected law?"
-    )
+    ask = """Start and goal are reflected in the $x$ axis. What do $v$ and $\\omega$ become,
+        under the corrected law?"""
     options = {
         (1, -1): ("$v$ stays, $\\omega$ changes its sign", ""),
         (1, 1): ("both stay", "the law taken not to know left from right"),
@@ -118,9 +104,8 @@ def mirror() -> tuple[str, list[Option], str]:
         (-1, 1): ("$v$ changes its sign, $\\omega$ stays", "a mirror taken for a reverse gear"),
         (1, 0): ("$v$ stays, $\\omega$ changes its size", "the sum of two angles taken for uneven"),
     }
-    why = (
-        "Both angles change their signs. $v$ is even in them, $\\omega$ odd: the drive is mirrored."
-    )
+    why = """Both angles change their signs. $v$ is even in them, $\\omega$ odd: the drive is
+        mirrored."""
     return ask, cases((change(v, seen_v), change(omega, seen_omega)), options), why
 
 
@@ -138,15 +123,11 @@ def how_far_behind() -> tuple[str, list[Option], str]:
         "$v_{\\max}$ taken for no part of the gain": speed / k_rho,
         "log10 taken for the natural logarithm": -math.log10(1.0 - speed / v_max) / k_rho,
     }
-    ask = (
-        "A goal drives straight on at 1 m/s. A robot follows it with $v = v_{\\max}(1 - "
-        "e^{-k_\\rho\\rho})\\cos\\alpha$, $v_{\\max}$ 2 m/s, $k_\\rho$ 1 per metre. How far "
-        "behind does it stay?"
-    )
-    why = (
-        "To keep up it must stay where the law commands 1 m/s: $e^{-k_\\rho\\rho}$ is one half, "
-        "$\\rho = \\ln 2$."
-    )
+    ask = """A goal drives straight on at 1 m/s. A robot follows it with $v = v_{\\max}(1 -
+        e^{-k_\\rho\\rho})\\cos\\alpha$, $v_{\\max}$ 2 m/s, $k_\\rho$ 1 per metre. How far behind
+        does it stay?"""
+    why = """To keep up it must stay where the law commands 1 m/s: $e^{-k_\\rho\\rho}$ is one
+        half, $\\rho = \\ln 2$."""
     return ask, numbers(low, mistaken, "{:.2f} m"), why
 
 
@@ -168,11 +149,9 @@ def nearer() -> tuple[str, list[Option], str]:
         for name, change in changes.items()
     }
     near = [name for name in left if abs(left[name] / left["none"] - 0.5) < 0.05]
-    ask = (
-        f"A robot follows a goal round a circle at {wmr.paper.CIRCLE_SPEED:.2f} m/s, "
-        f"{100.0 * left['none']:.0f} cm behind. The further off its goal, the faster it drives. "
-        "Which change halves the distance?"
-    )
+    ask = f"""A robot follows a goal round a circle at {wmr.paper.CIRCLE_SPEED:.2f} m/s,
+        {100.0 * left["none"]:.0f} cm behind. The further off its goal, the faster it drives.
+        Which change halves the distance?"""
     options = {
         "k_rho": ("the same speed at half the distance", ""),
         "k_alpha": ("twice the steering", "$k_\\alpha$: quicker steering taken to catch up"),
@@ -186,10 +165,8 @@ def nearer() -> tuple[str, list[Option], str]:
             "stiffer steering taken to catch up",
         ),
     }
-    why = (
-        "It keeps the distance at which its law commands the goal's speed: only $k_\\rho$, here "
-        "doubled, and $v_{\\max}$ matter, and less $v_{\\max}$ lengthens it."
-    )
+    why = """It keeps the distance at which its law commands the goal's speed: only $k_\\rho$,
+        here doubled, and $v_{\\max}$ matter, and less $v_{\\max}$ lengthens it."""
     return ask, cases(near[0] if len(near) == 1 else None, options), why
 
 
@@ -210,14 +187,11 @@ def damping() -> tuple[str, list[Option], str]:
     }
     best = max(ratios, key=ratios.get)
     softer, slower = (100.0 * (ratios[it] / before - 1.0) for it in (("h", 0.5), ("v_max", 0.75)))
-    ask = (
-        "With the paper's gains the heading swings near the goal, at a damping ratio of "
-        f"{before:.2f}. Which one of these changes raises the ratio most?"
-    )
-    why = (
-        "The ratio is $k_\\alpha/(2 v_{\\max} k_\\rho\\sqrt h)$: doubling $k_\\alpha$ doubles it, "
-        f"halving $h$ raises it by {softer:.0f} %, less $v_{{\\max}}$ by {slower:.0f} %."
-    )
+    ask = f"""With the paper's gains the heading swings near the goal, at a damping ratio of
+        {before:.2f}. Which one of these changes raises the ratio most?"""
+    why = f"""The ratio is $k_\\alpha/(2 v_{{\\max}} k_\\rho\\sqrt h)$: doubling $k_\\alpha$
+        doubles it, halving $h$ raises it by {softer:.0f} %, less $v_{{\\max}}$ by {slower:.0f}
+        %."""
     return ask, cases(best, changes), why
 
 
@@ -232,12 +206,9 @@ def more_steering() -> tuple[str, list[Option], str]:
         "only $h$ taken to count": 1.0,
         "the damping ratio taken for a time": 0.25,
     }
-    ask = (
-        "Near the goal the heading is critically damped: it just does not swing. Now $k_\\alpha$ "
-        "is made four times as large, nothing else. How many times as fast does it settle?"
-    )
-    why = (
-        "Beyond critical damping one pole comes back towards zero: the robot aims at the goal so "
-        "hard that its heading waits."
-    )
+    ask = """Near the goal the heading is critically damped: it just does not swing. Now
+        $k_\\alpha$ is made four times as large, nothing else. How many times as fast does it
+        settle?"""
+    why = """Beyond critical damping one pole comes back towards zero: the robot aims at the goal
+        so hard that its heading waits."""
     return ask, numbers(after / before, mistaken, "{:.2f}"), why

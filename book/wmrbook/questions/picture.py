@@ -5,10 +5,8 @@ from __future__ import annotations
 import html
 import math
 
-import matplotlib as mpl
-from matplotlib.figure import Figure
-
-from wmrbook.figures.style import COLOURS, STYLE, Picture
+from wmrbook.figures._drawing import panels
+from wmrbook.figures.style import COLOURS, Picture
 from wmrbook.questions.classes import Histogram
 
 _COLUMNS = 5
@@ -19,11 +17,9 @@ def bars(histograms: list[Histogram], title: str) -> Picture:
     columns = min(_COLUMNS, len(histograms))
     rows = math.ceil(len(histograms) / columns)
     size = (6.5, 3.6) if columns == 1 else (2.4 * columns, 1.75 * rows)
-    with mpl.rc_context(STYLE):
-        figure = Figure(figsize=size, layout="constrained")
-        grid = figure.subplots(rows, columns, squeeze=False).ravel()
+    figure, grid = panels(rows, columns, *size, squeeze=False)
     highest = max(max(histogram.counts, default=0) for histogram in histograms)
-    for axes, histogram in zip(grid, histograms, strict=False):
+    for axes, histogram in zip(grid.flat, histograms, strict=False):
         places, look = range(len(histogram.labels)), {"color": COLOURS["robot"], "ec": "none"}
         drawn = axes.bar(places, histogram.counts, **look)
         for bar, label in zip(drawn, histogram.labels, strict=True):
@@ -39,7 +35,7 @@ def bars(histograms: list[Histogram], title: str) -> Picture:
         axes.set_ylim(0.0, 1.1 * max(highest, 1))
         axes.grid(visible=False, axis="x")
         axes.yaxis.get_major_locator().set_params(integer=True)
-    for axes in grid[len(histograms) :]:
+    for axes in grid.flat[len(histograms) :]:
         axes.remove()
     counts = "; ".join(_in_words(histogram) for histogram in histograms)
     return Picture(figure, f"Histogram of a class's answers, {title}. {counts}.")

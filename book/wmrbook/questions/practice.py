@@ -23,10 +23,8 @@ def twice_as_fast() -> tuple[str, list[Option], str]:
         "the step taken to go with the root of the rate": step / math.sqrt(2.0),
         "quicker poles taken to forgive more": 2.0 * step,
     }
-    ask = (
-        f"A robot settles with steps up to {step:.2f} s. Now $k_\\rho$ and $k_\\alpha$ are "
-        "doubled, so that all goes twice as fast near the goal. What is the longest step?"
-    )
+    ask = f"""A robot settles with steps up to {step:.2f} s. Now $k_\\rho$ and $k_\\alpha$ are
+        doubled, so that all goes twice as fast near the goal. What is the longest step?"""
     why = "Only step times rate counts: the same loop on a clock that runs twice as fast."
     return ask, numbers(shorter, mistaken, "{:.2f} s"), why
 
@@ -48,14 +46,10 @@ def one_factor() -> tuple[str, list[Option], str]:
         twist(most, omega * most / v): "scaled by $v$ alone",
         twist(most - omega * width / 2.0, omega): "$\\omega$ kept, $v$ from what is left",
     }
-    ask = (
-        "The law asks for 2 m/s and 4 rad/s. The wheels, 0.5 m apart, change speed at once, and "
-        "reach 1.5 m/s. $v$ and $\\omega$ are scaled by one factor. What does the robot do?"
-    )
-    why = (
-        "The faster wheel should do 3 m/s, twice its limit. Half of both keeps the curvature, and "
-        "with it the path; but not of wheels that take time to change speed."
-    )
+    ask = """The law asks for 2 m/s and 4 rad/s. The wheels, 0.5 m apart, change speed at once,
+        and reach 1.5 m/s. $v$ and $\\omega$ are scaled by one factor. What does the robot do?"""
+    why = """The faster wheel should do 3 m/s, twice its limit. Half of both keeps the curvature,
+        and with it the path; but not of wheels that take time to change speed."""
     options = {answer: (answer, mistake) for answer, mistake in mistakes.items()}
     return ask, cases(twist(*limited), options), why
 
@@ -75,10 +69,8 @@ def _park(goal: wmr.Pose, off_m: float) -> wmr.Pose:
 def constant_offset() -> tuple[str, list[Option], str]:
     end = _park(_GOAL, 2.0)
     computed = round(end.x), round(end.y), abs(end.heading) < math.radians(10.0)
-    ask = (
-        "During the whole drive the receiver shows each position 2 m too far east; the compass is "
-        "exact. Where does the robot park, with gains that park it otherwise?"
-    )
+    ask = """During the whole drive the receiver shows each position 2 m too far east; the
+        compass is exact. Where does the robot park, with gains that park it otherwise?"""
     options = {
         (-2, 0, True): ("2 m west, heading right", ""),
         (2, 0, True): ("2 m east, heading right", "the error's sign taken over"),
@@ -86,10 +78,8 @@ def constant_offset() -> tuple[str, list[Option], str]:
         (0, 0, False): ("on the goal, heading wrong", "the place taken for what feedback sees"),
         (-2, 0, False): ("2 m west, heading wrong", "an offset taken for noise"),
     }
-    why = (
-        "It parks where it believes the goal to be. Nothing in the loop sees a constant error, "
-        "and no gain removes it."
-    )
+    why = """It parks where it believes the goal to be. Nothing in the loop sees a constant
+        error, and no gain removes it."""
     return ask, cases(computed, options), why
 
 
@@ -105,14 +95,11 @@ def crooked_compass() -> tuple[str, list[Option], str]:
         "$h$ taken to divide it, nothing else": delta_deg / gains.h,
         "the turning line of sight forgotten": delta_deg * gains.k_alpha / (gains.h * lam),
     }
-    ask = (
-        "The compass reads 4 deg too much, the position is exact. With $v_{\\max} k_\\rho$ 0.8 and "
-        "$k_\\alpha$ 2 per s, $h$ 2, the robot finds the place. How far off is its heading?"
-    )
-    why = (
-        "Driving straight in, it believes $\\alpha$ is -4 deg. Only a $\\theta$ that cancels this "
-        "in $\\omega$ lets it rest: $4(2 + 0.8)/(2 \\cdot 0.8)$ deg."
-    )
+    ask = """The compass reads 4 deg too much, the position is exact. With $v_{\\max} k_\\rho$
+        0.8 and $k_\\alpha$ 2 per s, $h$ 2, the robot finds the place. How far off is its
+        heading?"""
+    why = """Driving straight in, it believes $\\alpha$ is -4 deg. Only a $\\theta$ that cancels
+        this in $\\omega$ lets it rest: $4(2 + 0.8)/(2 \\cdot 0.8)$ deg."""
     return ask, numbers(rest, mistaken, "{:.1f} deg"), why
 
 
@@ -128,15 +115,11 @@ def as_printed() -> tuple[str, list[Option], str]:
         "the steering forgotten": lam,
         "a sign lost": gains.k_alpha - lam,
     }
-    ask = (
-        f"Near its goal a robot drives at {lam:.0f} times its distance a second, and turns at "
-        f"{gains.k_alpha:.0f} rad/s for each rad of $\\alpha$, which is small. What is "
-        "$\\dot\\alpha/\\alpha$?"
-    )
-    why = (
-        "The line of sight runs away at 8 per s, and the steering takes back 1: $\\alpha$ grows. "
-        "So does (24) as printed: the factor too many switches the rest off."
-    )
+    ask = f"""Near its goal a robot drives at {lam:.0f} times its distance a second, and turns at
+        {gains.k_alpha:.0f} rad/s for each rad of $\\alpha$, which is small. What is
+        $\\dot\\alpha/\\alpha$?"""
+    why = """The line of sight runs away at 8 per s, and the steering takes back 1: $\\alpha$
+        grows. So does (24) as printed: the factor too many switches the rest off."""
     return ask, numbers(rate, mistaken, "{:.0f} per s"), why
 
 
@@ -160,10 +143,9 @@ def is_it_parked() -> tuple[str, list[Option], str]:
             computed = verdict
     if len(east) == len(north) == 1 and east != north:
         computed = "axis"
-    ask = (
-        "Parked: within 5 cm and 5 deg. An audit halves and doubles both thresholds, and tries "
-        "$x$ east and north, with the gains 2, 1, 0.3, 4 in continuous time. What does it report?"
-    )
+    ask = """Parked: within 5 cm and 5 deg. An audit halves and doubles both thresholds, and
+        tries $x$ east and north, with the gains 2, 1, 0.3, 4 in continuous time. What does it
+        report?"""
     options = {
         "open": ("not decided", ""),
         "wrong": ("wrong", "one radius taken for a verdict"),
@@ -171,8 +153,6 @@ def is_it_parked() -> tuple[str, list[Option], str]:
         "axis": ("it holds for one of the axes", "one drive taken for the law"),
         "typo": ("a typo in the gains", "a bad result taken for a misprint"),
     }
-    why = (
-        "The heading swings through zero near 10 cm, so the verdict flips with our thresholds. "
-        "The heading still settles 16 times slower than the distance."
-    )
+    why = """The heading swings through zero near 10 cm, so the verdict flips with our
+        thresholds. The heading still settles 16 times slower than the distance."""
     return ask, cases(computed, options), why

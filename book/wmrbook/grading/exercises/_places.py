@@ -139,14 +139,15 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
     for far, ahead, beside, *at in drawn(3, 20, *bounds):
         goal = Pose(*at)
         value = ask_numbers(pose, 3, far, ahead, beside, goal)
+        opposite = far, ahead + math.pi, beside + math.pi
         other, from_x = (far, -ahead, beside), (far, ahead, beside - goal.heading)
         mistakes = {
-            "the robot is on the other side of the goal: rho leads back.": (-far, ahead, beside),
+            "the robot is on the other side of the goal: rho leads back.": opposite,
             "theta has the other sign here; is it Corke's beta?": (far, ahead, -beside),
             "alpha is the line of sight less the heading, not the other way.": other,
             "the line of sight is theta from the goal's heading, not from x.": from_x,
         }
-        found = {hint: _inverse(goal, *each) for hint, each in mistakes.items()}
+        found = {hint: pose_from_polar(PolarError(*each), goal) for hint, each in mistakes.items()}
         right = pose_from_polar(PolarError(far, ahead, beside), goal)
         if not same_pose(value, right):
             rule_out(value, found, same_pose)
@@ -161,10 +162,10 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
         "degrees are wanted for the heading.": (math.radians(-35.0), degrees),
         "beta went in for theta, and they have opposite signs.": (math.radians(35.0), turned),
     }
-    right = _inverse(north, *log, math.radians(-35.0))
+    right = pose_from_polar(PolarError(*log, math.radians(-35.0)), north)
     if not _seen_there((*place, turned), right):
         for hint, (beside, heading) in mistakes.items():
-            found = _inverse(north, *log, beside)
+            found = pose_from_polar(PolarError(*log, beside), north)
             expect(not _seen_there((*place, heading), found), f"the function is right; {hint}")
         hint = "the function is right; the colleague's robot is elsewhere, or a digit is missing."
         raise Hint(hint)
@@ -181,11 +182,6 @@ def _seen_there(one: Sequence[float], other: Sequence[float]) -> bool:
     """To a centimetre and a degree."""
     turned = math.remainder(one[2] - other[2], 2.0 * math.pi)
     return math.dist(one[:2], other[:2]) < 0.011 and abs(turned) < math.radians(1.0)
-
-
-def _inverse(goal: Pose, far: float, ahead: float, beside: float) -> tuple[float, float, float]:
-    sight = beside + goal.heading
-    return goal.x - far * math.cos(sight), goal.y - far * math.sin(sight), sight - ahead
 
 
 @exercise
