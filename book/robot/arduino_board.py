@@ -11,13 +11,14 @@ from __future__ import annotations
 
 import ctypes
 import re
-import subprocess
 import sys
 import tempfile
 import zipfile
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
+
+from boards import run, sizes
 
 from wmrbook import robot_io
 from wmrbook.robot_sheet import Robot
@@ -65,26 +66,18 @@ class Program(NamedTuple):
     ram: int
 
 
-def _run(command: str, folder: Path, *words: str | Path) -> str:
-    """What a command prints; a string of several words is split."""
-    split = [part for word in words for part in (word.split() if isinstance(word, str) else [word])]
-    done = subprocess.run([command, *split], cwd=folder, capture_output=True, text=True)
-    if done.returncode:
-        raise RuntimeError(f"{command}: {done.stderr}")
-    return done.stdout
-
-
 @cache
 def _core() -> bytes:
     """Arduino's own part, as an archive."""
     sources = [path for part in _PARTS for path in sorted(part.glob("*.c*"))]
-    includes = [f"-I{part}" for part in _PARTS]
+    gcc = ["avr-gcc", "-c", "-w", *_FLAGS.split(), *(f"-I{part}" for part in _PARTS)]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for path in sources:
             language = _CPP if path.suffix == ".cpp" else "-std=gnu11"
-            _run("avr-gcc", folder, "-c -w", _FLAGS, language, *includes, path, f"-o {path.name}.o")
-        _run("avr-gcc-ar", folder, "rcs core.a", *(f"{path.name}.o" for path in sources))
+            run(*gcc, *language.split(), path, "-o", f"{path.name}.o", folder=folder)
+        objects = (f"{path.name}.o" for path in sources)
+        run("avr-gcc-ar", "rcs", "core.a", *objects, folder=folder)
         return (folder / "core.a").read_bytes()
 
 
@@ -109,20 +102,18 @@ def compiled(robot: Robot, changes: tuple[tuple[str, str], ...] = ()) -> Program
 
 def build(texts: dict[str, str], main: str) -> Program:
     """Compile one of the files, which may include the others, with Arduino's core, for an Uno."""
-    includes = [f"-I{part}" for part in (*_PARTS, "src")]
+    gcc = ["avr-gcc", *f"-c -Wall -Wextra -Werror {_FLAGS} {_CPP}".split()]
+    gcc += [f"-I{part}" for part in (*_PARTS, "src")]
     with tempfile.TemporaryDirectory() as name:
         folder = Path(name)
         for place, text in texts.items():
             (folder / place).parent.mkdir(parents=True, exist_ok=True)
             (folder / place).write_text(text, encoding="utf-8")
         (folder / "core.a").write_bytes(_core())
-        strict = "-c -Wall -Wextra -Werror"
-        _run("avr-gcc", folder, strict, _FLAGS, _CPP, *includes, main, "-o main.o")
-        link = "-Os -flto -fuse-linker-plugin -Wl,--gc-sections -mmcu=atmega328p"
-        _run("avr-gcc", folder, link, "main.o core.a -o main.elf -lm")
-        sizes = _run("avr-size", folder, "main.elf").split("\n")[1].split()[:3]
-        text, data, bss = map(int, sizes)
-        return Program((folder / "main.elf").read_bytes(), text + data, data + bss)
+        run(*gcc, main, "-o", "main.o", folder=folder)
+        link = "avr-gcc -Os -flto -fuse-linker-plugin -Wl,--gc-sections -mmcu=atmega328p"
+        run(*f"{link} main.o core.a -o main.elf -lm".split(), folder=folder)
+        return Program((folder / "main.elf").read_bytes(), *sizes("avr-", folder, "main.elf"))
 
 
 @cache
@@ -130,7 +121,8 @@ def _simulator() -> ctypes.CDLL:
     """sim.c as a library; the folder goes as soon as it is loaded."""
     options = "-std=gnu11 -O2 -Wall -Wextra -Werror -shared -fPIC"
     with tempfile.TemporaryDirectory() as name:
-        _run("cc", Path(name), options, FOLDER / "sim.c", "-o sim.so -lsimavr -lm")
+        command = ["cc", *options.split(), FOLDER / "sim.c", "-o", "sim.so", "-lsimavr", "-lm"]
+        run(*command, folder=Path(name))
         sim = ctypes.CDLL(str(Path(name, "sim.so")))
     whole, real = ctypes.c_int, ctypes.c_double
     sim.sim_run.argtypes = [ctypes.c_uint32, real, real, whole, whole, whole, whole, whole]

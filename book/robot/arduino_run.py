@@ -151,11 +151,8 @@ def drive(
         *lines, text = (text + board.run(STEP, inputs)).split(b"\n")
         for line in lines:
             numbers = list(map(int, line.split()))
-            state, reason, longest = (
-                trust.STATES[numbers[0]],
-                parking.REASONS[numbers[1]],
-                max(longest, 1e-6 * numbers[5]),
-            )
+            state, reason = trust.STATES[numbers[0]], parking.REASONS[numbers[1]]
+            longest = max(longest, 1e-6 * numbers[5])
         rolled += max(map(abs, moved)) * (now >= fault.begin)
         stood = 0.0 if max(map(abs, lawn.speeds)) > 1e-3 else stood + STEP
     end = state + (f": {reason}" if reason else "")

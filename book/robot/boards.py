@@ -70,17 +70,18 @@ class Board(NamedTuple):
     work: float  # cycles, or on ARM instructions, in a period
 
 
-def _run(*command: str | Path, folder: Path) -> str:
+def run(*command: str | Path, folder: Path) -> str:
+    """What a command prints; RuntimeError with its words if it fails."""
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
     if done.returncode:
         raise RuntimeError(f"{command[0]}: {done.stdout}{done.stderr}")
     return done.stdout + done.stderr
 
 
-def _sizes(prefix: str, folder: Path, name: str) -> tuple[int, int]:
-    text, data, bss = map(
-        int, _run(f"{prefix}size", name, folder=folder).split("\n")[1].split()[:3]
-    )
+def sizes(prefix: str, folder: Path, name: str) -> tuple[int, int]:
+    """Bytes of flash, and of RAM without the stack, of a compiled program."""
+    numbers = run(f"{prefix}size", name, folder=folder).splitlines()[1].split()
+    text, data, bss = map(int, numbers[:3])
     return text + data, data + bss
 
 
@@ -107,10 +108,10 @@ def on_avr(example: str) -> tuple[str, int, int]:
         (folder / "board.c").write_text(AVR, encoding="utf-8")
         options = ["-mmcu=atmega328p", *STRICT, f"-I{FOLDER}", "-Wl,-u,vfprintf"]
         source = ["board.c", "-o", "board.elf", "-lprintf_flt", "-lm"]
-        _run("avr-gcc", *options, *source, folder=folder)
-        flash, ram = _sizes("avr-", folder, "board.elf")
+        run("avr-gcc", *options, *source, folder=folder)
+        flash, ram = sizes("avr-", folder, "board.elf")
         command = ["simavr", "-m", "atmega328p", "-f", str(int(1e6 * CLOCK_MHZ)), "board.elf"]
-        said = _run(*command, folder=folder)
+        said = run(*command, folder=folder)
     return re.sub(r"\x1b\[[\d;]*m|\.\.?$", "", said, flags=re.MULTILINE), flash, ram
 
 
@@ -127,20 +128,20 @@ def arm() -> Board:
         folder, periods = Path(name), (20, 40)
         options = [*STRICT, f"-I{FOLDER}", f"{FOLDER}/example.c"]
         gcc = "arm-linux-gnueabihf-gcc"
-        _run(gcc, *options, "-static", "-o", "example", "-lm", folder=folder)
-        periods_driven, pose = _reached(_run("qemu-arm", "example", folder=folder))
+        run(gcc, *options, "-static", "-o", "example", "-lm", folder=folder)
+        periods_driven, pose = _reached(run("qemu-arm", "example", folder=folder))
         cortex = ["-mcpu=cortex-m4", "-mthumb", "-mfloat-abi=hard", "-mfpu=fpv4-sp-d16"]
-        _run(gcc, *options, *cortex, "-c", "-o", "example.o", folder=folder)
-        flash, ram = _sizes("arm-linux-gnueabihf-", folder, "example.o")
+        run(gcc, *options, *cortex, "-c", "-o", "example.o", folder=folder)
+        flash, ram = sizes("arm-linux-gnueabihf-", folder, "example.o")
         text, counts = (FOLDER / "example.c").read_text(encoding="utf-8"), []
         assert text.count("count < 4000") == 1
         for count in periods:
             source = folder / "some.c"
             source.write_text(text.replace("count < 4000", f"count < {count}"), encoding="utf-8")
             options[-1] = "some.c"
-            _run(gcc, *options, "-static", "-o", "some", "-lm", folder=folder)
+            run(gcc, *options, "-static", "-o", "some", "-lm", folder=folder)
             one_by_one = ["qemu-arm", "-singlestep", "-d", "exec,nochain", "-D", "log", "some"]
-            _run(*one_by_one, folder=folder)
+            run(*one_by_one, folder=folder)
             with (folder / "log").open(encoding="utf-8", errors="replace") as log:
                 counts.append(sum(line.startswith("Trace") for line in log))
     work = (counts[1] - counts[0]) / (periods[1] - periods[0])

@@ -44,13 +44,10 @@ def _library(real: str, law: str) -> tuple:
         kind: _structure(kind, number)
         for kind in (trust.Memory, wmr.Seen, Place, wmr.Wheels, wmr.LastTurn, wmr.Rules)
     }
-    gains = type(
-        "Gains", (ctypes.Structure,), {"_fields_": [(k, number) for k in wmr.Gains._fields]}
-    )
-    parts = Place, wmr.Wheels, wmr.LastTurn, wmr.Rules
-    names = "goal", "motors", "end", "rules"
-    fields = [(name, kinds[part]) for name, part in zip(names, parts, strict=True)]
-    fields.insert(1, ("gains", gains))
+    fields = [(name, number) for name in wmr.Gains._fields]
+    gains = type("Gains", (ctypes.Structure,), {"_fields_": fields})
+    fields = [("goal", kinds[Place]), ("gains", gains), ("motors", kinds[wmr.Wheels])]
+    fields += [("end", kinds[wmr.LastTurn]), ("rules", kinds[wmr.Rules])]
     plan = type("Plan", (ctypes.Structure,), {"_fields_": fields})
     options = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC", f"-DWMR_REAL={real}"]
     options += [f"-DWMR_DRIVE_LAW=wmr_{law}", f"-I{symbolic.C_DRIVE.parent}"]
@@ -70,14 +67,9 @@ class CDrive(wmr.Drive):
         self._step, kinds, plan = _library(real, law)
         self._seen, self._kept = kinds[wmr.Seen], kinds[trust.Memory]()
         self._out = (REALS[real] * 2)()
-        rules = self.rules._replace()._asdict() | {"settle": int(self.rules.settle)}
-        self._plan = plan(
-            tuple(self.goal),
-            tuple(self.gains),
-            tuple(self.wheels),
-            tuple(self.end),
-            tuple(rules.values()),
-        )
+        rules = self.rules._asdict() | {"settle": int(self.rules.settle)}
+        parts = self.goal, self.gains, self.wheels, self.end, rules.values()
+        self._plan = plan(*map(tuple, parts))
 
     def reset(self) -> None:
         super().reset()
@@ -93,8 +85,6 @@ class CDrive(wmr.Drive):
         return parking.REASONS[self._kept.reason]
 
     def step(self, seen: wmr.Seen) -> tuple[float, float]:
-        given = self._seen(*seen)
-        self._step(
-            ctypes.byref(self._kept), ctypes.byref(given), ctypes.byref(self._plan), self._out
-        )
+        given = self._kept, self._seen(*seen), self._plan
+        self._step(*map(ctypes.byref, given), self._out)
         return self._out[0], self._out[1]

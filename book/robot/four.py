@@ -22,6 +22,7 @@ from pathlib import Path
 
 import boards
 import numpy as np
+from world import positions
 
 import wmrlib as wmr
 
@@ -47,13 +48,7 @@ DIFFERS = {
 
 def python() -> list:
     """By `wmr.Drive`, with exact sensors."""
-    drive, pose, rolled, poses = wmr.Drive(GOAL, GAINS, WHEELS, rules=RULES), START, (0.0, 0.0), []
-    while drive.state != "parked" and len(poses) < LONGEST / PERIOD:
-        poses.append(pose)
-        told = drive.step(wmr.Seen(PERIOD, *rolled, fresh=1, error=0.02, **pose._asdict()))
-        rolled = PERIOD * told[0], PERIOD * told[1]
-        pose = wmr.advance(pose, *wmr.wheels_to_twist(*told, WHEELS.track_width), PERIOD)
-    return [*poses, pose]
+    return positions(wmr.Drive(GOAL, GAINS, WHEELS, rules=RULES), START, PERIOD, LONGEST)
 
 
 def javascript() -> list:

@@ -59,10 +59,8 @@ def nmea(fix: Position) -> bytes:
         f"GPRMC,{clock},A,{where},,,010626,,,A",
         f"GPGGA,{clock},{where},{quality},20,0.6,30.0,M,0.0,M,,",
     )
-    sums = (reduce(xor, body.encode()) for body in bodies)
-    return "".join(
-        f"${body}*{each:02X}\r\n" for body, each in zip(bodies, sums, strict=True)
-    ).encode()
+    lines = (f"${body}*{reduce(xor, body.encode()):02X}\r\n" for body in bodies)
+    return "".join(lines).encode()
 
 
 FORMATS = {"ubx": ubx, "nmea": nmea}
@@ -103,10 +101,7 @@ class Gpsd:
     def _read(self) -> None:
         """Keep what gpsd says, and connect again until it is ended."""
         while self.daemon.poll() is None:
-            with (
-                suppress(OSError, EnvironmentError),
-                gpsdclient.GPSDClient(port=self.port) as client,
-            ):
+            with suppress(OSError), gpsdclient.GPSDClient(port=self.port) as client:
                 for report in client.dict_stream(convert_datetime=False, filter={"TPV"}):
                     if report.get("mode", 0) >= 2 and "lat" in report and "time" in report:
                         self.reports.put(report)

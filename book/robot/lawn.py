@@ -15,6 +15,7 @@ import json
 import math
 import os
 from concurrent.futures import ProcessPoolExecutor
+from contextlib import ExitStack, closing
 from pathlib import Path
 from typing import NamedTuple
 
@@ -202,15 +203,12 @@ def summary(ended: list[Ended]) -> dict:
 def through_gpsd(count: int, goals: tuple) -> float:
     """Drive `count` runs through gpsd and without it; how far apart they end, in m at most."""
     apart, names = 0.0, list(RECEIVERS)
-    links = [Gpsd(form) for form in FORM]
-    try:
+    with ExitStack() as opened:
+        links = [opened.enter_context(closing(Gpsd(form))) for form in FORM]
         for seed in range(count):
             kind, design = RECEIVERS[names[seed % len(names)]], list(DESIGNS.values())[seed % 5]
             ends = [run(design, kind, seed, goals, link) for link in (None, links[seed % 2])]
             apart = max(apart, abs(ends[0].distance - ends[1].distance))
-    finally:
-        for link in links:
-            link.close()
     return apart
 
 

@@ -9,6 +9,7 @@ import math
 import struct
 
 from arduino_board import Board, build, library
+from world import positions as positions
 
 import wmrlib as wmr
 from wmrlib import trust
@@ -73,26 +74,3 @@ def _number(value: float) -> str:
     if math.isinf(value):
         return "INFINITY"
     return f"{value:.0f}" if value == int(value) else f"{value!r}f"
-
-
-def positions(drive: wmr.Drive, start: wmr.Pose, period: float, longest: float) -> list[wmr.Pose]:
-    """Drive an ideal robot by any `Drive` until it has parked, or for `longest` s.
-
-    Parameters
-    ----------
-    drive : `wmr.Drive`, `compiled.CDrive` or `AvrDrive`
-    start : Pose; m, m, rad
-    period : float, s
-
-    Returns
-    -------
-    list of Pose : where it is at the begin of each period, and at the end
-    """
-    poses, speeds = [start], (0.0, 0.0)
-    width = drive.wheels.track_width
-    while drive.state not in ("parked", "stopped") and period * len(poses) <= longest:
-        left, right = (period * speed for speed in speeds)
-        seen = wmr.Seen(period, left, right, fresh=1, later=period, **poses[-1]._asdict())
-        speeds = drive.step(seen)
-        poses.append(wmr.advance(poses[-1], *wmr.wheels_to_twist(*speeds, width), period))
-    return poses

@@ -1,4 +1,7 @@
-"""A lawn with a robot on it whose parts can fail: the truth, and what the sensors say of it."""
+"""A lawn with a robot on it whose parts can fail: the truth, and what the sensors say of it.
+
+Beside it `positions` drives a robot on which nothing fails.
+"""
 
 from __future__ import annotations
 
@@ -148,3 +151,26 @@ def swapped(x: float, y: float) -> tuple[float, float]:
     b = wmr.point_at(a, x, y)
     east, north = wmr.local_position(a, wmr.GeoPoint(lat=b.lon, lon=b.lat))
     return float(east), float(north)
+
+
+def positions(drive: wmr.Drive, start: wmr.Pose, period: float, longest: float) -> list[wmr.Pose]:
+    """Drive an ideal robot by any `Drive` until it has parked, or for `longest` s.
+
+    Parameters
+    ----------
+    drive : `wmr.Drive`, or what steps as one does
+    start : Pose; m, m, rad
+    period : float, s
+
+    Returns
+    -------
+    list of Pose : where it is at the begin of each period, and at the end
+    """
+    poses, speeds = [start], (0.0, 0.0)
+    width = drive.wheels.track_width
+    while drive.state not in ("parked", "stopped") and period * len(poses) <= longest:
+        left, right = (period * speed for speed in speeds)
+        seen = wmr.Seen(period, left, right, fresh=1, later=period, **poses[-1]._asdict())
+        speeds = drive.step(seen)
+        poses.append(wmr.advance(poses[-1], *wmr.wheels_to_twist(*speeds, width), period))
+    return poses

@@ -19,6 +19,7 @@ from pathlib import Path
 
 from docutils import nodes
 from pybtex.database import parse_file
+from reference import ancestors
 from sphinx.util import logging
 
 TAG = re.compile(r"\\tag\{(?P<number>\d+\.\d+)(?:, (?P<relation>paper|corrects) (?P<paper>\d+))?\}")
@@ -26,6 +27,8 @@ TAG = re.compile(r"\\tag\{(?P<number>\d+\.\d+)(?:, (?P<relation>paper|corrects) 
 MENTION = re.compile(r"(?<![\w)\]])\((\d{1,2}|\d{1,2}\.\d{1,2})\)(?!\w)")
 CAPTION = re.compile(r"Figure (\d+(?:\.\d+)?)\.")
 CITED = "bibliography"
+NO_SENTENCE = (nodes.literal, nodes.literal_block, nodes.math, nodes.math_block, nodes.reference)
+NO_SENTENCE += (nodes.title, nodes.raw, nodes.comment)
 
 log = logging.getLogger(__name__)
 
@@ -68,7 +71,7 @@ def link_mentions(app, doctree, docname):
     """Turn (24) and (4.2) in running text into links."""
     places = equations(app.env)
     for text in list(doctree.findall(nodes.Text)):
-        if not MENTION.search(text) or not _in_a_sentence(text):
+        if not MENTION.search(text) or any(isinstance(it, NO_SENTENCE) for it in ancestors(text)):
             continue
         parts, end = [], 0
         for mention in MENTION.finditer(text):
@@ -77,9 +80,8 @@ def link_mentions(app, doctree, docname):
                     "equation (%s) is nowhere in the book", mention[1], location=text.parent
                 )
                 continue
-            address = (
-                app.builder.get_relative_uri(docname, places[mention[1]]) + "#" + anchor(mention[1])
-            )
+            page = app.builder.get_relative_uri(docname, places[mention[1]])
+            address = f"{page}#{anchor(mention[1])}"
             link = nodes.reference("", mention[0], internal=True, refuri=address)
             parts += [nodes.Text(text[end : mention.start()]), link]
             end = mention.end()
@@ -123,32 +125,10 @@ def forget(app, env, docname):
 
 
 def merge(app, env, docnames, other):
-    for name in equations(env).keys() & {
-        name for name, place in equations(other).items() if place in docnames
-    }:
+    theirs = {name: place for name, place in equations(other).items() if place in docnames}
+    for name in equations(env).keys() & theirs:
         log.warning("equation (%s) is numbered on two pages", name)
-    env.book_equations |= {
-        name: place for name, place in equations(other).items() if place in docnames
-    }
-
-
-def _in_a_sentence(text: nodes.Text) -> bool:
-    excluded = (
-        nodes.literal,
-        nodes.literal_block,
-        nodes.math,
-        nodes.math_block,
-        nodes.reference,
-        nodes.title,
-        nodes.raw,
-        nodes.comment,
-    )
-    parent = text.parent
-    while parent is not None:
-        if isinstance(parent, excluded):
-            return False
-        parent = parent.parent
-    return True
+    env.book_equations |= theirs
 
 
 def setup(app):

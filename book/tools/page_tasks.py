@@ -52,10 +52,10 @@ def add_tasks(app, docname, source):
 
 def tasks(chapter: str) -> list:
     """Return the chapter's tasks as cells of a notebook, without their solutions."""
-    if not _is_there(chapter):
+    if not (path := _path(chapter)):
         return []
     text, mine, setup, cells = "", "", [], {}
-    for cell in nbformat.read(_path(chapter), 4).cells:
+    for cell in nbformat.read(path, 4).cells:
         settings = cell.metadata["nbgrader"]
         if cell.cell_type == "markdown":
             text = cell.source.replace("## Task", "### Task")
@@ -97,11 +97,10 @@ def handed_in(chapter: str) -> dict | None:
     With the name of its file, and the titles of the tasks that the page has not. None where the
     course has no assignment.
     """
-    if not _is_there(chapter):
+    if not (path := _path(chapter)):
         return None
     here = {cell.metadata["task"]["name"] for cell in tasks(chapter) if "task" in cell.metadata}
-    path, title, elsewhere = _path(chapter), "", []
-    notebook = nbformat.read(path, 4)
+    notebook, title, elsewhere = nbformat.read(path, 4), "", []
     for cell in notebook.cells:
         name = cell.metadata["nbgrader"]["grade_id"]
         title = (re.findall(r"^## (Task .*)", cell.source) or [title])[0]
@@ -114,10 +113,5 @@ def handed_in(chapter: str) -> dict | None:
     return {"file": path.name, "notebook": notebook, "elsewhere": elsewhere}
 
 
-def _is_there(chapter: str) -> bool:
-    return (SOURCE / f"ch{chapter}").is_dir()
-
-
-def _path(chapter: str) -> Path:
-    (path,) = (SOURCE / f"ch{chapter}").glob("*.ipynb")
-    return path
+def _path(chapter: str) -> Path | None:
+    return next((SOURCE / f"ch{chapter}").glob("*.ipynb"), None)

@@ -23,12 +23,13 @@ from xml.etree import ElementTree
 
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
+from page_tasks import CHAPTER
 from pygments.formatters import HtmlFormatter
+from reference import ancestors
 from sphinx.highlighting import PygmentsBridge
 
 from wmrbook.figures.style import SVG_URL, darkened
 
-CHAPTER = re.compile(r"notebooks/(\d\d)_")
 FIGURE = re.compile(
     rf'<img alt="(?P<alt>[^"]*)" width="(?P<width>\d+)" src="{re.escape(SVG_URL)}(?P<svg>[^"]*)"'
     r'(?: data-motion="(?P<motion>[^"]*)")?>'
@@ -83,9 +84,7 @@ def _line(text: str) -> str:
 
 def _cell_of(output: nodes.Node) -> nodes.Element:
     """The cell that printed it."""
-    while "cell" not in output.get("classes", ()):
-        output = output.parent
-    return output
+    return next(it for it in ancestors(output) if "cell" in it.get("classes", ()))
 
 
 def widen(app, doctree):
@@ -150,16 +149,12 @@ def begin_chapter(app, doctree):
         return
     title.insert(0, nodes.Text(f"{int(chapter[1])}. "))
     name = f"{app.env.docname}.ipynb"
-    title.parent.insert(
-        title.parent.index(title) + 1,
-        nodes.raw(
-            "",
-            f'<p class="run-it">Run it yourself: <a href="../_sources/{name}" download>download '
-            f'this chapter</a>, or <a href="../use.html#as-notebooks">open them all</a> with '
-            f"<code>jupyter lab {name}</code>.</p>",
-            format="html",
-        ),
+    run_it = (
+        f'<p class="run-it">Run it yourself: <a href="../_sources/{name}" download>download this '
+        f'chapter</a>, or <a href="../use.html#as-notebooks">open them all</a> with '
+        f"<code>jupyter lab {name}</code>.</p>"
     )
+    title.parent.insert(title.parent.index(title) + 1, nodes.raw("", run_it, format="html"))
 
 
 def mend(app, exception):

@@ -113,21 +113,19 @@ window.paper = (() => {
 
   // Each chapter's pages have its name, and their heads its title.
   function name_pages(chapters) {
-    const quoted = (text) => JSON.stringify(text);
     const head = 'font: 8.5pt "Paper Sans"; color: #57606a; vertical-align: bottom;'
         + ' padding-bottom: 5mm; white-space: nowrap';
     const book = wordsOf(document.querySelector('.title-page h1'));
     const rules = chapters.map((chapter, k) => {
       chapter.style.page = `p${k}`;
-      const says = quoted((chapter.dataset.number || '') + wordsOf(title(chapter)));
+      const says = JSON.stringify((chapter.dataset.number || '') + wordsOf(title(chapter)));
       return `@page p${k} { @top-left { ${head} } @top-right { ${head} } }
         @page p${k}:left {
-          @top-left { content: counter(page) } @top-right { content: ${quoted(book)} }
+          @top-left { content: counter(page) } @top-right { content: ${JSON.stringify(book)} }
         }
         @page p${k}:right { @top-left { content: ${says} } @top-right { content: counter(page) } }`;
     });
-    document.head.append(made('style', '', ''));
-    document.head.lastChild.textContent = rules.join('\n');
+    document.head.append(made('style', '', rules.join('\n')));
   }
 
   // The theme's sheets go, and what only a screen has use for.
@@ -159,8 +157,7 @@ window.paper = (() => {
       all('.figure-box', caption.previousElementSibling).at(-1)?.append(caption);
     mend_links();
     const scene = article.querySelector('figure'), whole = article.querySelector('section');
-    const chapters = begins().map((it) =>
-      it.nextElementSibling);
+    const chapters = begins().map((it) => it.nextElementSibling);
     const preface = made('section', 'chapter', '<h3>Preface</h3>');
     preface.id = 'preface';
     title(whole).remove();

@@ -23,6 +23,7 @@ from typing import NamedTuple
 import nbformat
 from docutils import nodes
 from page_tasks import CHAPTER, add_tasks, handed_in
+from reference import ancestors
 
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
 THERE = {
@@ -106,9 +107,8 @@ def _is_there(node: ast.AST) -> bool:
     if isinstance(node, ast.Import):
         return {it.name for it in node.names} <= THERE
     if isinstance(node, ast.ImportFrom):
-        return all(
-            not THERE.isdisjoint({node.module, f"{node.module}.{it.name}"}) for it in node.names
-        )
+        wanted = ({node.module, f"{node.module}.{it.name}"} for it in node.names)
+        return not any(map(THERE.isdisjoint, wanted))
     return True
 
 
@@ -188,7 +188,7 @@ def give_cells(app, doctree):
         if cell := cells.get(container.get("cell_index")):
             container += _data("python-cell", cell._asdict())
             if cell.space == "tasks":
-                section = _section_of(container)
+                section = next(it for it in ancestors(container) if isinstance(it, nodes.section))
                 section["classes"].append("python-task")
     if section and (given := handed_in(CHAPTER.match(app.env.docname)[1])):
         section += _data("python-hand-in", given)
@@ -198,12 +198,6 @@ def _data(kind: str, given: dict) -> nodes.raw:
     text = json.dumps(given, ensure_ascii=False).replace("</", "<\\/")
     script = f'<script type="application/json" class="{kind}">{text}</script>'
     return nodes.raw("", script, format="html")
-
-
-def _section_of(node: nodes.Node) -> nodes.section:
-    while not isinstance(node, nodes.section):
-        node = node.parent
-    return node
 
 
 def leave_out_of_print(app, doctree, docname):

@@ -81,11 +81,9 @@ def link_names(app, doctree, docname):
             continue
         shown = NAME.fullmatch(name.astext())
         code = nodes.literal("", name.astext())
-        name.replace_self(code)
         if shown and (address := address_of(app, docname, f"wmrlib.{shown[1]}")):
-            code.replace_self(
-                nodes.reference("", "", code.deepcopy(), refuri=address, internal=True)
-            )
+            code = nodes.reference("", "", code, refuri=address, internal=True)
+        name.replace_self(code)
 
 
 def split_fields(app, what, name, obj, options, lines):

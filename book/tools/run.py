@@ -12,15 +12,14 @@ import argparse
 import os
 import re
 import sys
-import tempfile
 from concurrent.futures import ProcessPoolExecutor
 from pathlib import Path
 
+import kernels
 import nbformat
 from nbclient import NotebookClient
 from nbclient.exceptions import CellExecutionError
 from nbformat import NotebookNode
-from traitlets.config import Config
 
 BOOK = Path(__file__).resolve().parents[1]
 ROOT = BOOK.parent
@@ -36,7 +35,8 @@ def main(numbers: list[str]) -> None:
     folders = [str(ROOT), str(BOOK), os.environ.get("PYTHONPATH")]
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, folders))  # the kernels inherit it
     failed = 0
-    with ProcessPoolExecutor(min(len(paths), os.cpu_count() or 1)) as pool:
+    workers = min(len(paths), os.cpu_count() or 1)
+    with ProcessPoolExecutor(workers, initializer=kernels.use_files) as pool:
         for path, trouble in zip(paths, pool.map(run, paths), strict=True):
             print(f"{path.name}: {trouble or 'stored'}", flush=True)
             failed += bool(trouble)
@@ -47,20 +47,17 @@ def run(path: Path) -> str:
     """Run one notebook in its folder and store it; return the error of a cell that fails."""
     notebook = nbformat.read(path, as_version=4)
     notebook.metadata.pop("widgets", None)
-    with tempfile.TemporaryDirectory() as folder:
-        sockets = {"transport": "ipc", "ip": f"{folder}/kernel"}  # two kernels may want one port
-        client = NotebookClient(
-            notebook,
-            timeout=600,
-            record_timing=False,
-            coalesce_streams=True,
-            resources={"metadata": {"path": path.parent}},
-            config=Config({"KernelManager": sockets if os.name == "posix" else {}}),
-        )
-        try:
-            client.execute()
-        except CellExecutionError as error:
-            return str(error)
+    client = NotebookClient(
+        notebook,
+        timeout=600,
+        record_timing=False,
+        coalesce_streams=True,
+        resources={"metadata": {"path": path.parent}},
+    )
+    try:
+        client.execute()
+    except CellExecutionError as error:
+        return str(error)
     whole = path.with_suffix(".new")  # a full disk leaves the chapter as it was
     whole.write_text(stored(notebook), encoding="utf-8")
     whole.replace(path)

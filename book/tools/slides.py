@@ -39,17 +39,10 @@ REVEAL_FILES = (
     "reveal.js/plugin/notes/notes.js",
     "reveal.js/LICENSE",
 )
-BESIDE = (
-    BOOK / "mathjax.js",
-    BOOK / "_static" / "widgets.js",
-    BOOK / "deck" / "deck.css",
-    BOOK / "deck" / "deck.js",
-)
-EXERCISE = re.compile(r"### (Exercise .*)\n\n([^#]*)\Z")
+BESIDE = ("mathjax.js", "_static/widgets.js", "deck/deck.css", "deck/deck.js")
 SOLUTION = re.compile(r"<details><summary>Solution</summary>\n\n(.*?)\n\n</details>", re.DOTALL)
 SLIDE = re.compile(r"# (?P<title>.*)\n+(?:figure: (?P<figure>.*)\n+)?(?P<words>[\s\S]*?)"
                    r"(?:^note: (?P<notes>[\s\S]*))?\Z", re.MULTILINE)  # fmt: skip
-SIZE = re.compile(r"viewBox='0 0 ([\d.]+) ([\d.]+)'")
 KIND = "application/vnd.jupyter.widget"
 SAFE = r"\u003c"  # in a script an HTML tag could end it
 VIEW, STATE = f"{KIND}-view+json", f"{KIND}-state+json"
@@ -204,21 +197,18 @@ def lay_out(output: Path) -> None:
     install_javascript()
     copy_javascript(output / "vendor", NPM_FILES | {"reveal": REVEAL_FILES})
     bundle(output / "vendor" / "panels.js")
-    for path in BESIDE:
-        shutil.copy(path, output)
+    for name in BESIDE:
+        shutil.copy(BOOK / name, output)
 
 
 def contents(decks: list[Path]) -> str:
     """The page that lists the decks and says which keys they know."""
-    titles = {
-        path.name: re.search("<title>(.*?)</title>", path.read_text(encoding="utf-8"))[1]
-        for path in decks
-    }
-    items = "\n".join(
-        f'<li>{int(name[:2])}. <a href="{name}">{title}</a></li>' for name, title in titles.items()
-    )
+    items = []
+    for path in decks:
+        title = re.search("<title>(.*?)</title>", path.read_text(encoding="utf-8"))[1]
+        items.append(f'<li>{int(path.name[:2])}. <a href="{path.name}">{title}</a></li>')
     page = (BOOK / "deck" / "contents.html").read_text(encoding="utf-8")
-    return page.replace("<!-- decks -->", items)
+    return page.replace("<!-- decks -->", "\n".join(items))
 
 
 if __name__ == "__main__":

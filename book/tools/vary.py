@@ -2,7 +2,6 @@
 
     python book/tools/vary.py                # every headline, 40 draws each
     python book/tools/vary.py 05 README.md   # those that stand in chapter 5 and in the README
-    python book/tools/vary.py --fallen       # also the former sentences, which fall
 
 Prints the range that each number takes; exits with 1 if a sentence falls, or is not in its place.
 """
@@ -29,7 +28,7 @@ STRONG = (
 )
 
 
-def main(places: list[str], draws: int, seed: int, fallen: bool) -> int:
+def main(places: list[str], draws: int, seed: int) -> int:
     """Print a line a headline; return how many fall."""
     rows = [row for row in HEADLINES if not places or row.where in places]
     if missing := set(places) - {row.where for row in rows}:
@@ -37,41 +36,30 @@ def main(places: list[str], draws: int, seed: int, fallen: bool) -> int:
     numbers = [HEADLINES.index(row) for row in rows]
     with ProcessPoolExecutor() as pool:
         ranges = pool.map(partial(spread, draws=draws, seed=seed), numbers)
-        falls = sum(report(row, taken) for row, taken in zip(rows, ranges, strict=True))
-        if fallen:
-            before = pool.map(partial(spread, draws=draws, seed=seed, old=True), numbers)
-            for row, taken in zip(rows, before, strict=True):
-                if row.before:
-                    report(row, taken, old=True)
+        falls = sum(report(row, *taken) for row, taken in zip(rows, ranges, strict=True))
     print(f"{len(rows)} headlines, {draws} draws each: {falls} fall")
     return falls
 
 
-def spread(number: int, draws: int, seed: int, old: bool = False) -> tuple[float, float, str]:
+def spread(number: int, draws: int, seed: int) -> tuple[float, float, str]:
     """Return the least and greatest value of a headline, and the first draw that it forbids."""
-    row = HEADLINES[number]
-    claim = row.before if old else row
-    if claim is None:
-        return 0.0, 0.0, ""
-    values, broken = [], ""
-    for draw, value in drawn(row.value, claim.vary, draws, seed):
+    row, values, broken = HEADLINES[number], [], ""
+    for draw, value in drawn(row.value, row.vary, draws, seed):
         values.append(value)
-        if not claim.at_least <= value <= claim.at_most:  # NaN too
+        if not row.at_least <= value <= row.at_most:  # NaN too
             broken = broken or ", ".join(f"{name} {_short(it)}" for name, it in draw.items())
     return min(values), max(values), broken
 
 
-def report(row: Headline, taken: tuple[float, float, str], old: bool = False) -> bool:
+def report(row: Headline, low: float, high: float, broken: str) -> bool:
     """Print what a headline's number takes; return whether its sentence falls."""
-    claim = row.before if old else row
-    low, high, broken = taken
-    lost = not old and plain(row.says) not in text(row.where)
+    lost = plain(row.says) not in text(row.where)
     verdict = "NOT THERE" if lost else f"FALLS at {broken}" if broken else "holds"
-    limits = f"{claim.at_least:.4g} to {claim.at_most:.4g}".replace("-inf to", "at most")
+    limits = f"{row.at_least:.4g} to {row.at_most:.4g}".replace("-inf to", "at most")
     limits = re.sub("(.*) to inf", r"at least \1", limits)
-    name = f"{row.where} {row.value.__name__}{' BEFORE' if old else ''}"
+    name = f"{row.where} {row.value.__name__}"
     print(f"{name:34} takes {low:.4g} to {high:.4g} {row.unit}, may {limits}: {verdict}")
-    print(f"    over {', '.join(claim.vary)}: {claim.says}")
+    print(f"    over {', '.join(row.vary)}: {row.says}")
     return lost or bool(broken)
 
 
@@ -102,6 +90,4 @@ if __name__ == "__main__":
     parser.add_argument("places", nargs="*", help="two digits of a chapter, or a file's path")
     parser.add_argument("--draws", type=int, default=40)
     parser.add_argument("--seed", type=int, default=0)
-    parser.add_argument("--fallen", action="store_true", help="try the former sentences too")
-    given = parser.parse_args()
-    sys.exit(bool(main(given.places, given.draws, given.seed, given.fallen)))
+    sys.exit(bool(main(**vars(parser.parse_args()))))

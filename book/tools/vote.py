@@ -248,9 +248,8 @@ if __name__ == "__main__":
     parser.add_argument("--port", type=int, default=8040)
     given = parser.parse_args()
     if given.address.version == 6 or given.address.is_unspecified:
-        parser.error(
-            f"--address = {given.address} is not allowed: the IPv4 address of this machine"
-        )
+        wanted = "the IPv4 address of this machine"
+        parser.error(f"--address = {given.address} is not allowed: {wanted}")
     if given.address.is_loopback:
         print("Only this machine can reach 127.0.0.1: telephones need --address", flush=True)
     signal.signal(signal.SIGINT, signal.default_int_handler)  # also where a shell had it ignored

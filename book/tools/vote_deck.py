@@ -42,8 +42,7 @@ def make(folder: Path, which: str, address: str) -> tuple[str, dict[int, Questio
     """Make a deck to vote by in a folder; return its page, and its questions by slide."""
     if which == "questions":
         slides.vote(folder)
-        page, words = "questions.html", [it[:2] for it in deck.slides(made())]
-        all_slides = [slides.Slide(*it) for it in words]
+        page, all_slides = "questions.html", [slides.Slide(*it[:2]) for it in deck.slides(made())]
     else:
         slides.main(folder, [which])
         (path,), (_, all_slides) = folder.glob("*.slides.html"), slides.deck(which)

@@ -34,9 +34,8 @@ class Goals:
         self.parameters = AsyncParameterClient(self.node, "wmr_park")
         self.handle: Any = None
         self.states: list[str] = []
-        if not self.client.wait_for_server(PATIENT) or not self.parameters.wait_for_services(
-            PATIENT
-        ):
+        found = self.client.wait_for_server(PATIENT)
+        if not found or not self.parameters.wait_for_services(PATIENT):
             raise RuntimeError("there is no node that parks")
 
     def wait(self, future: Any) -> Any:

@@ -18,7 +18,7 @@ from nav_msgs.msg import Odometry
 from rclpy.executors import SingleThreadedExecutor
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from wmr_interfaces.action import Park
-from world import PERIOD, WHEELS, Faults, World
+from world import PERIOD, WHEELS, Faults, World, positions
 
 import wmrlib as wmr
 from wmrlib import odometry, paper
@@ -29,23 +29,6 @@ PATIENT = 20.0  # s, of a real clock, until a command
 ORIGIN = paper.GPS_POINT_1
 STATUS = {1: 0, 2: 1, 4: 2, 5: 2}  # NavSatStatus of NMEA's qualities; any other is no fix
 KINDS = {"imu": Imu, "fix": NavSatFix, "battery": BatteryState, "odom": Odometry}
-
-
-class Exact:
-    """A robot that errs nowhere and obeys at once."""
-
-    def __init__(self, start: wmr.Pose, width: float) -> None:
-        self.pose, self.width, self.encoders, self.now = start, width, [0.0, 0.0], 0.0
-
-    def see(self, faults: Faults) -> wmr.Seen:
-        """What the sensors say."""
-        return wmr.Seen(PERIOD, *self.encoders, fresh=1, **self.pose._asdict())
-
-    def roll(self, told: tuple[float, float], faults: Faults) -> None:
-        """A period of it."""
-        self.encoders = [PERIOD * speed for speed in told]
-        self.pose = wmr.advance(self.pose, *wmr.wheels_to_twist(*told, self.width), PERIOD)
-        self.now += PERIOD
 
 
 class Lawn:
@@ -71,18 +54,19 @@ class Lawn:
                 break
             self.executor.spin_once(timeout_sec=0.01)
 
-    def begin(self, width: float) -> None:
+    def begin(self, wheels: wmr.Wheels) -> None:
         """Forget the drive before."""
         self.meet()
-        self.width, self.place, self.told = width, odometry.Place(), [0.0, 0.0]
-        self.state, self.heard, self.asked = "", 0, None
+        self.wheels, self.place, self.told = wheels, odometry.Place(), (0.0, 0.0)
+        self.state, self.heard, self.asked, self.now = "", 0, None, 0.0
 
     def obey(self, command: TwistStamped) -> None:
         v, omega = command.twist.linear.x, command.twist.angular.z
         if (command.header.stamp.sec, command.header.stamp.nanosec) != self.asked:
             self.unasked.append([v, omega])  # a stop, with a time of its own
             return
-        self.told, self.heard = list(wmr.twist_to_wheels(v, omega, self.width)), self.heard + 1
+        self.told = wmr.twist_to_wheels(v, omega, self.wheels.track_width)
+        self.heard += 1
 
     def hear(self, message: Any) -> None:
         self.state = message.feedback.state
@@ -112,8 +96,8 @@ class Lawn:
         Topics do not wait for one another: without a pause [s] before it the odometry may overtake
         a fix, which then counts in the next period.
         """
-        ahead, around = 0.5 * (seen.left + seen.right), (seen.right - seen.left) / self.width
-        odometry.carry(self.place, ahead, around)
+        around = (seen.right - seen.left) / self.wheels.track_width
+        odometry.carry(self.place, 0.5 * (seen.left + seen.right), around)
         heard, imu = self.heard, Imu()
         none = [-1.0, *[0.0] * 8]
         if seen.fresh:
@@ -136,7 +120,7 @@ class Lawn:
     def drive(self, case: drive_faults.Case, seed: int = 1) -> dict:
         """A case of drive_faults.py until the robot stands, in the way that its `run` drives."""
         world, at_fault, stands, fixed = World(seed, case.fence), None, 0.0, 0.0
-        self.begin(WHEELS.track_width)
+        self.begin(WHEELS)
         before = world.pose.heading
         until = max((t for t in (case.begin, case.end) if t < math.inf), default=0.0) + STANDS
         while world.now < until or (stands < STANDS and world.now < drive_faults.LONGEST):
@@ -150,23 +134,22 @@ class Lawn:
                 strays = world.time - PERIOD - world.now  # the receiver's time from the right one
                 fixed = fixed if faults.stuck_message else world.clock + strays - seen.age
                 self.ask(seen, world.clock, fixed, turned)
-            told = [0.0, 0.0] if self.over() else self.told
             world.power = self.state != "stopped"
-            world.roll(tuple(told), faults)
+            world.roll((0.0, 0.0) if self.over() else self.told, faults)
             stands = stands + PERIOD if max(map(abs, world.speeds)) < 1e-6 else 0.0
         blind = world.rolled - (world.rolled if at_fault is None else at_fault)
         return {"pose": world.pose, "blind": blind, "time": world.now, "state": self.state}
 
     def exact(self, start: wmr.Pose, width: float, longest: float) -> dict:
         """A drive without errors until it ends: the pose at the end of each period."""
-        robot, poses, faults = Exact(start, width), [start], Faults()
-        self.begin(width)
-        while not self.over() and robot.now < longest:
-            seen = robot.see(faults)
-            self.ask(seen, robot.now, robot.now, seen.right - seen.left, pause=0.01)
-            robot.roll(tuple(self.told), faults)
-            poses.append(robot.pose)
-        return {"poses": poses, "state": self.state}
+        self.begin(wmr.Wheels(width))
+        return {"poses": positions(self, start, PERIOD, longest), "state": self.state}
+
+    def step(self, seen: wmr.Seen) -> tuple[float, float]:
+        """A period of it: the wheels' speeds, as a `Drive` says them."""
+        self.ask(seen, self.now, self.now, seen.right - seen.left, pause=0.01)
+        self.now += PERIOD
+        return self.told
 
     def listen(self, seconds: float) -> list[list[float]]:
         """Publish nothing; what is commanded all the same, in m/s and rad/s."""

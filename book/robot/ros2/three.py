@@ -1,7 +1,6 @@
 """A drive by three processes that know each other by ROS 2 alone: node, lawn and goals.
 
-python book/robot/ros2/three.py            # each fault of drive_faults.py that ROS can show
-python book/robot/ros2/three.py --exact    # exact sensors: the pose after each period, as JSON
+python book/robot/ros2/three.py    # each fault of drive_faults.py that ROS can show
 """
 
 from __future__ import annotations
@@ -161,16 +160,10 @@ def exact(
 def main() -> None:
     """Print what each drive came to."""
     parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
-    parser.add_argument("--exact", action="store_true")
     parser.add_argument("--domain", type=int, default=0)
     parser.add_argument("--build", type=Path, default=Path(tempfile.gettempdir(), "wmr_interfaces"))
     given = parser.parse_args()
     with Three(interfaces.build(given.build), given.domain) as three:
-        if given.exact:
-            rules = wmr.Rules(arrival_radius=0.05)
-            robot = CASE.start, CASE.goal, drive_faults.GAINS, WHEELS, rules
-            print(json.dumps(exact(three, *robot)))
-            return
         for case in SHOWN:
             told = parameters(case)
             ran = three.run(told, CASE.goal, {"case": case.name})

@@ -1,7 +1,6 @@
 """Stands in for numpy in the page's Python: the part that graded tasks, and wmrlib, ask of it.
 
-Its functions do what numpy's do, which tests compare, but a slice is a copy. Whatever else numpy
-has is refused by name.
+Its functions do what numpy's do, which tests compare. Whatever else numpy has is refused by name.
 """
 
 import bisect
@@ -104,9 +103,8 @@ def _mean(flat):
 
 def _var(flat, ddof=0):
     middle = _mean(flat)
-    return safe(operator.truediv)(
-        builtins.sum(abs(it - middle) ** 2 for it in flat), len(flat) - ddof
-    )
+    squares = builtins.sum(abs(it - middle) ** 2 for it in flat)
+    return safe(operator.truediv)(squares, len(flat) - ddof)
 
 
 def _most(choose):
@@ -157,7 +155,7 @@ def vectorize(function, **_):
     return elementwise(function)
 
 
-_SAME = "cos degrees expm1 log10 log1p radians sin tan tanh"
+_SAME = "copysign cos degrees expm1 log10 log1p radians sin tan tanh"
 _NAMED = {name: getattr(math, name) for name in _SAME.split()} | {
     **{"abs": abs, "arccos": math.acos, "arcsin": math.asin, "arctan": math.atan},
     **{"deg2rad": math.radians, "rad2deg": math.degrees, "square": lambda x: x * x},
@@ -172,6 +170,7 @@ _NAMED = {name: getattr(math, name) for name in _SAME.split()} | {
     **{"multiply": operator.mul, "divide": operator.truediv, "power": operator.pow},
     **{"maximum": lambda a, b: a if a >= b or a != a else b},
     **{"minimum": lambda a, b: a if a <= b or a != a else b},
+    **{"fmin": lambda a, b: a if a <= b or b != b else b},
     **{"clip": lambda x, low, high: builtins.min(builtins.max(x, low), high)},
     **{"logical_and": lambda a, b: bool(a and b), "logical_or": lambda a, b: bool(a or b)},
     **{"logical_not": operator.not_},

@@ -132,12 +132,9 @@ class ParkNode(Node):
 
     def on_odometry(self, odom: Odometry) -> None:
         """A period has ended: decide, and command the next."""
-        given, frames = (
-            self.sensors and self.sensors.given,
-            (odom.header.frame_id, odom.child_frame_id),
-        )
         if not self.wish:
             return
+        given, frames = self.sensors.given, (odom.header.frame_id, odom.child_frame_id)
         if frames != (given["odom_frame"], given["base_frame"]):
             self.get_logger().error(f"odometry from {frames} is ignored", once=True)
             return
