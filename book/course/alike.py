@@ -53,9 +53,8 @@ def _marks(tree: ast.AST, source: str) -> set[str]:
     constants = (repr(it.value) for it in ast.walk(tree) if isinstance(it, ast.Constant))
     found |= {text for text in constants if 4 < len(text) < 60}
     tokens = tokenize.generate_tokens(io.StringIO(source).readline)
-    return found | {
-        each.string for each in tokens if each.type == tokenize.COMMENT and len(each.string) > 12
-    }
+    remarks = {each.string for each in tokens if each.type == tokenize.COMMENT}
+    return found | {text for text in remarks if len(text) > 12}
 
 
 def _form(tree: ast.AST) -> str:

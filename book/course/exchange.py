@@ -132,9 +132,8 @@ def give_back(students: Path, feedback: Path) -> tuple[list[Path], list[str]]:
 
 
 if __name__ == "__main__":
-    parser = argparse.ArgumentParser(
-        description=__doc__, formatter_class=argparse.RawDescriptionHelpFormatter
-    )
+    form = argparse.RawDescriptionHelpFormatter
+    parser = argparse.ArgumentParser(description=__doc__, formatter_class=form)
     parser.add_argument("what", choices=("unzip", "collect", "return"))
     said = "the zip, or the folder with a home for each student"
     parser.add_argument("place", type=Path, help=said)

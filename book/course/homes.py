@@ -60,7 +60,9 @@ class Place(NamedTuple):
 def folder(home: Path, *parts: str, make: bool = False) -> Iterator[Place]:
     """Open a folder of a home, and make it if it is to be; raises Unfit or FileNotFoundError."""
     home = Path(os.path.realpath(home))  # the home itself may be a link: its student made none
-    place = Place(os.open(home, FOLDER) if SAFE else None, str(home), _owner(home))
+    about = home.stat()
+    owner = about.st_uid, about.st_gid
+    place = Place(os.open(home, FOLDER) if SAFE else None, str(home), owner)
     try:
         for part in parts:
             made = False
@@ -144,8 +146,3 @@ def write(place: Place, name: str, content: bytes, replace: bool = True) -> bool
             os.unlink(aside, dir_fd=at)
         raise
     return True
-
-
-def _owner(home: Path) -> tuple[int, int]:
-    about = home.stat()
-    return about.st_uid, about.st_gid

@@ -15,6 +15,7 @@ from typing import Any
 
 import nbformat
 import psutil
+from cells import defined
 from nbformat import NotebookNode
 
 from wmrbook.grading._wire import Line
@@ -133,7 +134,7 @@ def _define(name: str, given: list[str], names: dict, line: Line) -> None:
     if name in names or hasattr(builtins, name):
         return
     for k in reversed(range(len(given))):
-        if name in _made(given[k]):
+        if name in defined(given[k]):
             for each in _asked(given[k]):
                 _define(each, given[:k], names, line)
             exec(compile(given[k], "<given>", "exec"), names)
@@ -142,22 +143,11 @@ def _define(name: str, given: list[str], names: dict, line: Line) -> None:
         names[name] = line.value(name)
 
 
-def _names(source: str) -> list[ast.AST]:
-    return [*ast.walk(ast.parse(source))]
-
-
-def _made(source: str) -> set[str]:
-    made = {
-        n.id for n in _names(source) if isinstance(n, ast.Name) and isinstance(n.ctx, ast.Store)
-    }
-    imported = [n for n in _names(source) if isinstance(n, (ast.Import, ast.ImportFrom))]
-    return made | {(each.asname or each.name).split(".")[0] for n in imported for each in n.names}
-
-
 def _asked(source: str) -> list[str]:
-    made = _made(source)
-    used = [n.id for n in _names(source) if isinstance(n, ast.Name) and n.id not in made]
-    return list(dict.fromkeys(used))
+    """The names that a cell of ours uses, and does not define itself."""
+    used = (node.id for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Name))
+    own = defined(source)
+    return [name for name in dict.fromkeys(used) if name not in own]
 
 
 def _is_given(cell: NotebookNode) -> bool:

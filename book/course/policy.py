@@ -53,9 +53,8 @@ class Term(NamedTuple):
             return None
         granted = (self.extensions.get(who) for who in {student, self.groups.get(student)})
         each = (it.get(assignment) if isinstance(it, dict) else it for it in granted)
-        return max(
-            [common, *(common + it if isinstance(it, timedelta) else it for it in each if it)]
-        )
+        dates = (common + it if isinstance(it, timedelta) else it for it in each if it)
+        return max([common, *dates])
 
     def days_late(self, assignment: str, student: str, handed_in: datetime | None) -> int:
         """How many days have begun since it was due; 0 where it was in time, or nobody knows."""

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import re
-from collections.abc import Iterator
 from pathlib import Path
 from typing import NamedTuple
 from unicodedata import normalize
@@ -33,16 +32,20 @@ def read(path: Path) -> list[Student]:
     except UnicodeDecodeError as error:
         raise ValueError(f"{path}: {error}; save it as CSV UTF-8") from None
     first = text.partition("\n")[0]
-    lines = csv.reader(text.splitlines(), delimiter=max(",;\t", key=first.count), strict=True)
-    columns = [each.strip().casefold() for each in next(lines, [])]
+    reader = csv.reader(text.splitlines(), delimiter=max(",;\t", key=first.count), strict=True)
+    try:
+        lines = [(reader.line_num, line) for line in reader if any(line)]
+    except csv.Error as error:
+        raise ValueError(f"{path}: {error}") from None
+    columns = [each.strip().casefold() for _, line in lines[:1] for each in line]
     if columns.count("username") != 1:
         wanted = f"username is needed of {', '.join(Student._fields)}"
         raise ValueError(f"{path}: the columns are {first.strip()!r}; {wanted}")
     students: dict[str, Student] = {}
-    for line in filter(any, _sound(path, lines)):
+    for number, line in lines[1:]:
         named = dict(zip(columns, map(str.strip, line), strict=False))
         one = Student(**{key: named.get(key, "") for key in Student._fields})
-        where = f"{path}, line {lines.line_num}: the user name {one.username!r}"
+        where = f"{path}, line {number}: the user name {one.username!r}"
         if not NAME.fullmatch(normalize("NFC", one.username)):
             raise ValueError(f"{where}; letters, digits, blanks and _.@- are allowed")
         key = normalize("NFC", one.username).casefold()
@@ -52,14 +55,6 @@ def read(path: Path) -> list[Student]:
     if not students:
         raise ValueError(f"{path}: no student in it")
     return list(students.values())
-
-
-def _sound(path: Path, lines: Iterator[list[str]]) -> Iterator[list[str]]:
-    """The lines of a table; raises ValueError where it is none."""
-    try:
-        yield from lines
-    except csv.Error as error:
-        raise ValueError(f"{path}: {error}") from None
 
 
 def of(course: Path) -> list[Student]:

@@ -219,9 +219,8 @@ def report(week: Week, rows: list[Row]) -> str:
 def main(folder: Path, now: datetime, look: bool = False, group: str = "") -> str:
     """Grade what is due, unless it is only to be looked at, and return the report."""
     week = Week(folder, now, group)
-    rows = (
-        [] if look or not week.due else grade.grade(folder, week.due, Limits(), os.cpu_count() or 1)
-    )
+    jobs = os.cpu_count() or 1
+    rows = [] if look or not week.due else grade.grade(folder, week.due, Limits(), jobs)
     return report(week, rows)
 
 
