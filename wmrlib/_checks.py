@@ -54,12 +54,20 @@ def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=Fals
     raise refusal(name, value, f"a finite number {allowed}".strip() + " or NaN" * nan)
 
 
-def scalar(name: str, value: Any, **bounds: float) -> float:
-    """As `real`, for arguments that can't be arrays."""
+def scalar(name: str, value: Any, *, endless: bool = False, **bounds: float) -> float:
+    """As `real`, for arguments that can't be arrays; infinity too, if it may be `endless`."""
+    if endless and isinstance(value, float) and value == math.inf:
+        return math.inf
     checked = real(name, value, **bounds)
     if isinstance(checked, float):
         return checked
     raise refusal(name, value, "one number", f", not an array of shape {checked.shape}")
+
+
+def scalars(above_0: Collection[str] = (), **values: Any) -> list[float]:
+    """Each value through `scalar`."""
+    bounds: dict[str, Any] = {"above": 0.0}
+    return [scalar(k, value, **bounds if k in above_0 else {}) for k, value in values.items()]
 
 
 def _masked(value: Any) -> bool:
@@ -124,11 +132,16 @@ def reals(*, at_least_0=(), above_0=(), at_most_1=(), **values: Any) -> list[Rea
     return numbers
 
 
-def checked(**bounds: Collection[str]) -> Callable[[Kind], Kind]:
-    """Pass the fields of a NamedTuple through `reals` wherever one is made, by `_replace` too."""
+def checked(others: str = "", **bounds: Collection[str]) -> Callable[[Kind], Kind]:
+    """Pass the fields of a NamedTuple through `reals` wherever one is made, by `_replace` too.
+
+    `others` is the bound of the fields that have no other, if they have one.
+    """
 
     def decorate(kind: Any) -> Any:
         unchecked = kind.__new__
+        if others:
+            bounds[others] = {*kind._fields}.difference(*bounds.values())
 
         @wraps(unchecked)  # numba and the reference read the signature
         def new(cls, *values, **named):

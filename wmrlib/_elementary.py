@@ -1,7 +1,7 @@
 """The elementary functions that formulas are made of, finite where the textbook divides by 0.
 
 Each is written for one number, as compiled loops take it. Called from Python, it goes by what it is
-given: numpy's functions stand below, and `symbolic` adds sympy's. So a formula of these functions
+given: beside each stands numpy's, and `symbolic` adds sympy's. So a formula of these functions
 takes numbers, arrays and symbols alike.
 """
 
@@ -20,41 +20,47 @@ TURN = 2.0 * math.pi
 SMALL = 1e-8  # below this, the next term of the series is under half a unit in the last place
 
 
-def _kinds(function: Callable) -> Any:
-    """The function, to which others can be added by the type of the first argument."""
-    kinds = singledispatch(function)
-    elementary(kinds)(lambda *_: function)
-    return kinds
+def _kinds(of_arrays: Callable | None = None) -> Callable[[Callable], Any]:
+    """The function, and another for arrays; more can be added by the type of the first argument."""
+
+    def decorate(function: Callable) -> Any:
+        kinds = singledispatch(function)
+        elementary(kinds)(lambda *_: function)
+        if of_arrays:
+            kinds.register(np.ndarray, of_arrays)
+        return kinds
+
+    return decorate
 
 
-@_kinds
+@_kinds(lambda angle: (np.sin(angle), np.cos(angle)))
 def sincos(angle):
     """The sine and the cosine of `angle` [rad]."""
     return math.sin(angle), math.cos(angle)
 
 
-@_kinds
+@_kinds(np.expm1)
 def expm1(x):
     """exp(x) - 1, accurate near 0 too."""
     return math.expm1(x)
 
 
-@_kinds
+@_kinds(np.sqrt)
 def root(x):
     return math.sqrt(x)
 
 
-@_kinds
+@_kinds(np.hypot)
 def distance(x, y):
     return math.hypot(x, y)
 
 
-@_kinds
+@_kinds(np.arctan2)
 def direction(y, x):
     return math.atan2(y, x)
 
 
-@_kinds
+@_kinds()
 def wrap(angle):
     """The same direction in (-pi, pi]."""
     if -math.pi < angle <= math.pi:
@@ -65,7 +71,7 @@ def wrap(angle):
     return angle + TURN if angle <= -math.pi else angle
 
 
-@_kinds
+@_kinds()
 def sinc(angle):
     """sin(angle)/angle, which is 1 at 0 (numpy's sinc has a pi inside)."""
     tiny = abs(angle) <= SMALL
@@ -73,7 +79,7 @@ def sinc(angle):
     return 1.0 if tiny else sincos(angle)[0] / divisor
 
 
-@_kinds
+@_kinds()
 def decay(rho, k_rho):
     """(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0."""
     x = k_rho * rho
@@ -82,99 +88,48 @@ def decay(rho, k_rho):
     return k_rho * (1.0 - 0.5 * x) if tiny else -expm1(-x) / divisor
 
 
-@_kinds
+@_kinds(lambda value, limit: np.fmin(limit / value, 1.0))
 def share_of(value, limit):
     """The factor that brings a value down to its limit."""
     return limit / value if value > limit else 1.0
 
 
-@_kinds
+@_kinds(np.clip)
 def between(value, low, high):
     """The value, or the limit that it is beyond."""
     value = high if value > high else value
     return low if value < low else value
 
 
-@_kinds
+@_kinds(np.copysign)
 def signed(size, like):
     """A size with the sign of another number."""
     return math.copysign(size, like)
 
 
-@_kinds
+@_kinds()
 def stepped(x, step):
     """The nearest whole number of steps, or x itself if a step is 0."""
     return step * np.floor(x / step + 0.5) if step > 0.0 else x
 
 
-@_kinds
+@_kinds()
 def whole(x):
     """The nearest whole number."""
     return np.floor(x + 0.5)
 
 
-@_kinds
+@_kinds(lambda value, limit, other: np.where(np.abs(value) < limit, value, other))
 def within(value, limit, other):
     """`value` if it is smaller than `limit`, with either sign; otherwise, or if NaN, `other`."""
     return value if abs(value) < limit else other
-
-
-@expm1.register(np.ndarray)
-def _(x):
-    return np.expm1(x)
-
-
-@root.register(np.ndarray)
-def _(x):
-    return np.sqrt(x)
-
-
-@distance.register(np.ndarray)
-def _(x, y):
-    return np.hypot(x, y)
-
-
-@direction.register(np.ndarray)
-def _(y, x):
-    return np.arctan2(y, x)
-
-
-@sincos.register(np.ndarray)
-def _(angle):
-    return np.sin(angle), np.cos(angle)
-
-
-@whole.register(np.ndarray)
-def _(x):
-    return np.floor(x + 0.5)
-
-
-@within.register(np.ndarray)
-def _(value, limit, other):
-    return np.where(np.abs(value) < limit, value, other)
-
-
-@between.register(np.ndarray)
-def _(value, low, high):
-    return np.where(value < low, low, np.where(value > high, high, value))
-
-
-@signed.register(np.ndarray)
-def _(size, like):
-    return np.copysign(size, like)
-
-
-@stepped.register(np.ndarray)
-def _(x, step):
-    return step * np.floor(x / step + 0.5) if step > 0.0 else x
 
 
 @wrap.register(np.ndarray)
 def _(angle):
     turned = np.fmod(angle, TURN)
     turned = np.where(turned > math.pi, turned - TURN, turned)
-    turned = np.where(turned <= -math.pi, turned + TURN, turned)
-    return np.where((-math.pi < angle) & (angle <= math.pi), angle, turned)
+    return np.where(turned <= -math.pi, turned + TURN, turned)
 
 
 @sinc.register(np.ndarray)
@@ -188,12 +143,6 @@ def _(rho, k_rho):
     x = k_rho * rho
     tiny = np.abs(x) <= SMALL
     return np.where(tiny, k_rho * (1.0 - 0.5 * x), -np.expm1(-x) / np.where(tiny, 1.0, rho))
-
-
-@share_of.register(np.ndarray)
-def _(value, limit):
-    over = value > limit
-    return np.where(over, limit / np.where(over, value, 1.0), 1.0)
 
 
 def elementwise(formula: Callable, *arguments: Any) -> Any:

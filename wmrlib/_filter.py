@@ -9,11 +9,27 @@ from __future__ import annotations
 import numpy as np
 
 from wmrlib import sensing
-from wmrlib._compile import compiled
+from wmrlib._compile import compiled, formula
 from wmrlib._elementary import wrap
 from wmrlib._jacobians import antenna_rows, moved_rows
 
 SIZE = 5  # x, y, heading, gyro_bias, wheel_scale
+
+
+@formula
+def spread(covariance, matrix, vector, variance):
+    """Make the covariance matrix covariance matrix' + vector variance vector'."""
+    half = np.zeros((SIZE, SIZE))
+    for i in range(SIZE):
+        for j in range(SIZE):
+            for k in range(SIZE):
+                half[i, j] += matrix[i, k] * covariance[k, j]
+    for i in range(SIZE):
+        for j in range(i + 1):
+            value = vector[i] * variance * vector[j]
+            for k in range(SIZE):
+                value += half[i, k] * matrix[j, k]
+            covariance[i, j] = covariance[j, i] = value
 
 
 @compiled
@@ -28,18 +44,7 @@ def absorb(state, covariance, row, residual, variance):
         total += row[i] * shared[i]
     gain = shared / total
     state += gain * residual
-    kept = np.eye(SIZE) - np.outer(gain, row)
-    half = np.zeros((SIZE, SIZE))
-    for i in range(SIZE):
-        for j in range(SIZE):
-            for k in range(SIZE):
-                half[i, j] += kept[i, k] * covariance[k, j]
-    for i in range(SIZE):
-        for j in range(i + 1):
-            value = gain[i] * variance * gain[j]
-            for k in range(SIZE):
-                value += half[i, k] * kept[j, k]
-            covariance[i, j] = covariance[j, i] = value
+    spread(covariance, np.eye(SIZE) - np.outer(gain, row), gain, variance)
     return residual * residual / total
 
 
@@ -76,23 +81,16 @@ def carry(state, covariance, v, omega, gyro, dt, noise, gate):
     pose = sensing.moved(state[0], state[1], heading, speed, turn, dt)
     state[0], state[1], state[2] = pose
     rates = speed_rate, share * share * turn_rate + (1.0 - share) * (1.0 - share) * gyro_rate
-    step, half = np.eye(SIZE), np.zeros((SIZE, SIZE))
+    step = np.eye(SIZE)
     for i in range(3):
         for j in range(SIZE):
             step[i, j] = slopes[7 * i + j]
-    for i in range(SIZE):
-        for j in range(SIZE):
-            for k in range(SIZE):
-                half[i, j] += step[i, k] * covariance[k, j]
-    for i in range(SIZE):
-        for j in range(i + 1):
-            value = 0.0
-            for k in range(SIZE):
-                value += half[i, k] * step[j, k]
-            if i < 3:
-                for k in range(2):
-                    value += slopes[7 * i + 5 + k] * slopes[7 * j + 5 + k] * rates[k] / dt
-            covariance[i, j] = covariance[j, i] = value
+    spread(covariance, step, np.zeros(SIZE), 0.0)
+    for i in range(3):
+        for j in range(3):
+            for k in range(2):
+                part = slopes[7 * i + 5 + k] * slopes[7 * j + 5 + k] * rates[k] / dt
+                covariance[i, j] += part
     covariance[3, 3] += bias_walk * bias_walk * dt
     covariance[4, 4] += scale_walk * scale_walk * dt
     return surprise

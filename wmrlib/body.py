@@ -6,7 +6,7 @@ The formulas hold for one period of a sampled drive, in which the command does n
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from wmrlib._checks import instance, refusal, scalar
 from wmrlib._compile import formula
@@ -77,20 +77,12 @@ def checked_wheels(wheels: Wheels | None, name: str = "wheels") -> Wheels:
     """The wheels as floats, ideal ones for None; ValueError names the argument and its field."""
     if wheels is None:
         return NO_LIMITS
-    fields = instance(name, wheels, Wheels)._asdict()
-    for field, value in fields.items():
-        if not (isinstance(value, float) and value == math.inf and field in _MAY_BE_INFINITE):
-            needed = {"above": 0.0} if field in _ABOVE_0 else {"low": 0.0}
-            fields[field] = scalar(f"{name}.{field}", value, **needed)
-    checked = Wheels(**{field: float(value) for field, value in fields.items()})
+    may_be_0 = dict.fromkeys(("min_speed", "lag", "dead_band", "encoder_step"), 0.0)
+    checked = _sound(name, wheels, Wheels, may_be_0, ("max_speed", "acceleration"))
     if checked.min_speed > checked.max_speed:
         most = f"at most max_speed, {checked.max_speed:g},"
         raise refusal(f"{name}.min_speed", checked.min_speed, most)
     return checked
-
-
-_MAY_BE_INFINITE = "max_speed", "acceleration"
-_ABOVE_0 = "track_width", "max_speed", "acceleration"
 
 
 def in_loops(wheels: Wheels) -> tuple[Wheels, Wheels | None]:
@@ -119,17 +111,22 @@ def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -
 
 def sound_turn(turn: LastTurn, dt: float) -> LastTurn:
     """The last turn as floats, if its gain does not swing in periods of up to dt."""
-    *fields, leave, settle = instance("last_turn", turn, LastTurn)
-    named = zip(LastTurn._fields, fields, strict=False)
-    turn = LastTurn(*(scalar(f"last_turn.{name}", value, above=0.0) for name, value in named))
-    if not (isinstance(leave, float) and leave == math.inf):
-        leave = scalar("last_turn.leave", leave, low=1.0)
+    turn = _sound("last_turn", turn, LastTurn, {"leave": 1.0, "settle": 0.0}, ("leave",))
     if turn.max_rate < turn.min_rate:
         raise refusal("last_turn.max_rate", turn.max_rate, f"at least min_rate, {turn.min_rate:g},")
     if turn.gain * dt >= 2.0 and turn.max_rate * dt > 2.0 * turn.tolerance:
         most = f"less than {2.0 / dt:g}, 2 a period of {dt:g} s,"
         raise refusal("last_turn.gain", turn.gain, most)
-    return turn._replace(leave=leave, settle=scalar("last_turn.settle", settle, low=0.0))
+    return turn
+
+
+def _sound(name: str, values: Any, kind: type, least: dict[str, float], endless: tuple) -> Any:
+    """The fields as floats above 0, or at least what `least` says; some may be `endless`."""
+    fields = instance(name, values, kind)._asdict()
+    for field, value in fields.items():
+        bound = {"low": least[field]} if field in least else {"above": 0.0}
+        fields[field] = scalar(f"{name}.{field}", value, endless=field in endless, **bound)
+    return kind(**fields)
 
 
 @formula

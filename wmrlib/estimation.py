@@ -9,42 +9,20 @@ uses everything. A ValueError names a wrong type, a number that is not finite, o
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from typing import NamedTuple
 
 import numpy as np
 
 from wmrlib import sensing
-from wmrlib._checks import checked, instance, scalar
+from wmrlib._checks import instance, scalar, scalars
 from wmrlib._filter import carry, see_antenna, see_heading
 from wmrlib.kinematics import Pose
+from wmrlib.sensing import Noise
 
 GATE_1, GATE_2 = 10.83, 13.82
 """Chi-square bounds that 99.9 % of good measurements pass: of one number, of a position."""
 DOUBTED = 100.0  # m
-
-
-@checked(at_least_0=("wheels", "bias_walk", "scale_walk"), above_0=("gyro", "track_width"))
-class Noise(NamedTuple):
-    """How far wheels and gyro can be trusted.
-
-    Parameters
-    ----------
-    wheels : float, m. Standard deviation of a wheel's distance after 1 m; over d m, sqrt(d) times.
-    gyro : float, rad/sqrt(s). White noise: standard deviation of the angle after 1 s.
-    bias_walk : float, rad/s/sqrt(s). How far the gyro's bias wanders in 1 s.
-    scale_walk : float, 1/sqrt(s). How far the wheel scale wanders in 1 s.
-    track_width : float, m. Distance between the wheels.
-
-    Raises
-    ------
-    ValueError : for a negative field, a gyro or track width of 0, or NaN.
-    """
-
-    wheels: float = 0.03
-    gyro: float = 1e-3
-    bias_walk: float = 1e-5
-    scale_walk: float = 1e-5
-    track_width: float = 0.5
 
 
 class Estimate(NamedTuple):
@@ -97,11 +75,10 @@ def start(
     >>> first.sigma.tolist()
     [2.0, 2.0, 0.2, 0.02, 0.03]
     """
-    fields = instance("pose", pose, Pose)._asdict()
-    state = [scalar(name, value) for name, value in fields.items()]
+    state = scalars(**instance("pose", pose, Pose)._asdict())
     sigmas = {"position_sigma": position_sigma, "heading_sigma": heading_sigma}
     sigmas |= {"bias_sigma": bias_sigma, "scale_sigma": scale_sigma}
-    position, *rest = (scalar(name, value, above=0.0) for name, value in sigmas.items())
+    position, *rest = scalars(sigmas, **sigmas)
     return Estimate(np.array([*state, 0.0, 1.0]), np.diag([position, position, *rest]) ** 2)
 
 
@@ -135,13 +112,10 @@ def predict(
     >>> print(f"gyro bias {rested.state[3]:.3f} rad/s")
     gyro bias 0.010 rad/s
     """
-    state, covariance = _parts(estimate)
-    twist = scalar("v", v), scalar("omega", omega), scalar("gyro", gyro, nan=True)
-    fields = instance("noise", noise, Noise)._asdict().items()
-    values = tuple(scalar(name, value) for name, value in fields)
-    step = scalar("dt", dt, above=0.0)
-    surprise = carry(state, covariance, *twist, step, values, _gate(gate))
-    return Estimate(state, covariance, surprise)
+    v, omega, dt = scalars(("dt",), v=v, omega=omega, dt=dt)
+    gyro = scalar("gyro", gyro, nan=True)
+    numbers = scalars(**instance("noise", noise, Noise)._asdict())
+    return _used(estimate, gate, carry, v, omega, gyro, dt, tuple(numbers))
 
 
 def use_position(
@@ -168,11 +142,8 @@ def use_position(
     >>> wmr.estimation.use_position(first, 1.0, 0.0, 1.0).pose.x
     0.5
     """
-    state, covariance = _parts(estimate)
-    numbers = {"x": x, "y": y, "ahead": ahead, "left": left}
-    fix = [scalar(name, value) for name, value in numbers.items()]
-    sigma = scalar("sigma", sigma, above=0.0)
-    return Estimate(state, covariance, see_antenna(state, covariance, *fix, sigma, _gate(gate)))
+    fix = scalars(("sigma",), x=x, y=y, ahead=ahead, left=left, sigma=sigma)
+    return _used(estimate, gate, see_antenna, *fix)
 
 
 def use_heading(estimate: Estimate, heading: float, sigma: float, gate: float = GATE_1) -> Estimate:
@@ -190,9 +161,7 @@ def use_heading(estimate: Estimate, heading: float, sigma: float, gate: float = 
     >>> wmr.estimation.use_heading(first, 0.1, 0.1).pose.heading
     0.05
     """
-    state, covariance = _parts(estimate)
-    value, sigma = scalar("heading", heading), scalar("sigma", sigma, above=0.0)
-    return Estimate(state, covariance, see_heading(state, covariance, value, sigma, _gate(gate)))
+    return _used(estimate, gate, see_heading, *scalars(("sigma",), heading=heading, sigma=sigma))
 
 
 def use_course(
@@ -224,15 +193,10 @@ def use_course(
     >>> back.pose.heading  # it reverses to the west, so it faces east
     0.0
     """
-    state, covariance = _parts(estimate)
-    numbers = {"course": course, "v": v, "omega": omega, "ahead": ahead, "left": left}
-    value, v, omega, ahead, left = (scalar(name, number) for name, number in numbers.items())
-    sigma, slowest = scalar("sigma", sigma, above=0.0), scalar("slowest", slowest, low=0.0)
-    bound = _gate(gate)
-    if math.hypot(v - omega * left, omega * ahead) < slowest:
-        return estimate
-    side = sensing.course(0.0, v, omega, ahead, left)
-    return Estimate(state, covariance, see_heading(state, covariance, value - side, sigma, bound))
+    course, v, omega, ahead, left = scalars(course=course, v=v, omega=omega, ahead=ahead, left=left)
+    used = use_heading(estimate, course - sensing.course(0.0, v, omega, ahead, left), sigma, gate)
+    slow = math.hypot(v - omega * left, omega * ahead) < scalar("slowest", slowest, low=0.0)
+    return estimate if slow else used
 
 
 def doubt(estimate: Estimate, factor: float) -> Estimate:
@@ -254,18 +218,15 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
     >>> wmr.estimation.doubt(first, 4.0).sigma[:3].tolist()
     [2.0, 2.0, 0.2]
     """
-    state, covariance = _parts(estimate)
+    covariance = instance("estimate", estimate, Estimate).covariance
     factor = scalar("factor", factor, low=1.0)
-    if covariance[0, 0] + covariance[1, 1] > DOUBTED**2:
-        factor = 1.0
-    return Estimate(state, factor * covariance, estimate.surprise)
+    lost = covariance[0, 0] + covariance[1, 1] > DOUBTED**2
+    return estimate if lost else estimate._replace(covariance=factor * covariance)
 
 
-def _parts(estimate: Estimate) -> tuple[np.ndarray, np.ndarray]:
-    """Copies, which the compiled functions change."""
+def _used(estimate: Estimate, gate: float, use: Callable, *numbers) -> Estimate:
+    """What a compiled function makes of copies, which it changes, and returns."""
     state, covariance, _ = instance("estimate", estimate, Estimate)
-    return state.copy(), covariance.copy()
-
-
-def _gate(gate: float) -> float:
-    return math.inf if gate == math.inf else scalar("gate", gate, low=0.0)
+    state, covariance = state.copy(), covariance.copy()
+    bound = scalar("gate", gate, low=0.0, endless=True)
+    return Estimate(state, covariance, use(state, covariance, *numbers, bound))

@@ -10,7 +10,7 @@ import numpy as np
 from wmrlib._checks import Real, checked, real, scalar
 
 
-@checked(at_least_0=("k_rho", "k_alpha", "h"), above_0=("v_max",))
+@checked("at_least_0", above_0=("v_max",))
 class Gains(NamedTuple):
     """The gains of the laws for a goal that stands still; "aicardi" has no speed limit.
 
@@ -40,7 +40,7 @@ GENTLE_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 """The book's own gains for the paper's outdoor drive: well damped, and slow."""
 
 
-@checked(at_least_0=("k_x", "k_heading"), above_0=("k_y",))
+@checked("at_least_0", above_0=("k_y",))
 class KanayamaGains(NamedTuple):
     """The gains of the law "kanayama".
 

@@ -11,15 +11,9 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wmrlib import motion
 from wmrlib._checks import Real, checked, choice, instance, real, reals
 from wmrlib._elementary import elementwise, wrap
-from wmrlib.motion import (
-    STEPS,
-    polar_closing_rate,
-    polar_from_pose,
-    pose_of_error,
-    wheel_speeds,
-)
 
 
 @checked()
@@ -93,7 +87,7 @@ def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, 
 def twist_to_wheels(v: Real, omega: Real, track_width: float) -> tuple[Real, Real]:
     """The wheels' ground speeds (left, right) in m/s: the inverse of `wheels_to_twist`."""
     v, omega, width = reals(above_0=("track_width",), v=v, omega=omega, track_width=track_width)
-    return wheel_speeds(v, omega, width)
+    return motion.wheel_speeds(v, omega, width)
 
 
 def wrap_angle(angle: Real) -> Real:
@@ -165,7 +159,7 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
     1.00, 1.00
     """
     instance("pose", pose, Pose)
-    step = STEPS[choice("method", method, STEPS)]
+    step = motion.STEPS[choice("method", method, motion.STEPS)]
     state = reals(at_least_0=("dt",), **pose._asdict(), v=v, omega=omega, dt=dt)
     return Pose(*elementwise(step, *state))
 
@@ -198,13 +192,13 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
     5.0 m away, alpha = 53.1 deg, theta = -36.9 deg
     """
     fields = reals(**_fields(pose=pose, goal=goal))
-    return PolarError(*elementwise(polar_from_pose, *fields))
+    return PolarError(*elementwise(motion.polar_from_pose, *fields))
 
 
 def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
     """The pose that sees `goal` as `polar`: the inverse of `polar_error`."""
     named = instance("polar", polar, PolarError)._asdict() | _fields(goal=goal)
-    return Pose(*elementwise(pose_of_error, *reals(at_least_0=("rho",), **named)))
+    return Pose(*elementwise(motion.pose_of_error, *reals(at_least_0=("rho",), **named)))
 
 
 def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real, Real]:
@@ -226,7 +220,7 @@ def polar_rate(rho: Real, alpha: Real, v: Real, omega: Real) -> tuple[Real, Real
     ValueError : unless rho > 0 (the goal has no direction when on it), NaN, mismatched lengths.
     """
     rho, alpha, v, omega = reals(above_0=("rho",), rho=rho, alpha=alpha, v=v, omega=omega)
-    return elementwise(polar_closing_rate, rho, alpha, v / rho, omega)
+    return elementwise(motion.polar_closing_rate, rho, alpha, v / rho, omega)
 
 
 def _fields(**poses: Pose) -> dict[str, Real]:

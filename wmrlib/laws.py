@@ -179,16 +179,6 @@ CORRECTED, PRINTED, AICARDI, BARRIER, GRACEFUL, KANAYAMA, LINEAR = range(len(LAW
 
 
 @formula
-def pose_gains(numbers):
-    return GainsFields(numbers[0], numbers[1], numbers[2], numbers[3])
-
-
-@formula
-def kanayama_gains(numbers):
-    return KanayamaFields(numbers[0], numbers[1], numbers[2])
-
-
-@formula
 def pose_law(rho, alpha, theta, gains, law):
     """(v/rho, omega) of a pose law."""
     if law == CORRECTED:
@@ -206,11 +196,11 @@ def pose_law(rho, alpha, theta, gains, law):
 def command(rho, alpha, theta, v_ref, omega_ref, numbers, law):
     """(v, omega) of any of the laws."""
     if law < KANAYAMA:
-        v_over_rho, omega = pose_law(rho, alpha, theta, pose_gains(numbers), law)
+        v_over_rho, omega = pose_law(rho, alpha, theta, GainsFields(*numbers[:4]), law)
         return v_over_rho * rho, omega
     ahead, left, turn = body_error(rho, alpha, theta)
     if law == KANAYAMA:
-        return kanayama_law(ahead, left, turn, v_ref, omega_ref, kanayama_gains(numbers))
+        return kanayama_law(ahead, left, turn, v_ref, omega_ref, KanayamaFields(*numbers[:3]))
     return linear_law(ahead, left, turn, v_ref, omega_ref, LinearFields(*numbers))
 
 
@@ -218,14 +208,15 @@ def command(rho, alpha, theta, v_ref, omega_ref, numbers, law):
 def value_of(rho, alpha, theta, numbers, law):
     """Each law's own Lyapunov function, with L = 1."""
     if law == KANAYAMA:
-        return kanayama_value(rho, alpha, theta, kanayama_gains(numbers))
+        return kanayama_value(rho, alpha, theta, KanayamaFields(*numbers[:3]))
     if law == LINEAR:
         return linear_value(rho, alpha, theta, LinearFields(*numbers))
+    gains = GainsFields(*numbers[:4])
     if law == BARRIER:
-        return barrier_value(rho, alpha, theta, pose_gains(numbers))
+        return barrier_value(rho, alpha, theta, gains)
     if law == GRACEFUL:
-        return graceful_value(rho, alpha, theta, pose_gains(numbers))
-    return pose_value(rho, alpha, theta, pose_gains(numbers))
+        return graceful_value(rho, alpha, theta, gains)
+    return pose_value(rho, alpha, theta, gains)
 
 
 def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[tuple[float, ...], int]:

@@ -10,19 +10,13 @@ import math
 
 import numpy as np
 
+from wmrlib import motion
 from wmrlib._compile import compiled, formula
 from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_error, until_event
 from wmrlib._elementary import between, sincos, wrap
 from wmrlib.body import at_rest, hurry, last_turn, roll
-from wmrlib.laws import command, pose_gains, pose_law, saturation_scale, value_of
-from wmrlib.motion import (
-    arc_step,
-    euler_step,
-    keep_branch,
-    polar_closing_rate,
-    polar_from_pose,
-    pose_of_error,
-)
+from wmrlib.gains import GainsFields
+from wmrlib.laws import command, pose_law, saturation_scale, value_of
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
 MOST_TRIALS = 1_000_000  # steps
@@ -62,8 +56,8 @@ def held(
     body, turning = (0.0, 0.0, 0.0, 0.0), 0.0
     for k in range(record.shape[1]):
         x, y, heading, v_ref, omega_ref = path[:, min(k, path.shape[1] - 1)]
-        rho, alpha, theta = polar_from_pose(*pose, x, y, heading)
-        before = keep_branch(theta, before, hysteresis)
+        rho, alpha, theta = motion.polar_from_pose(*pose, x, y, heading)
+        before = motion.keep_branch(theta, before, hysteresis)
         polar = rho, alpha, before
         v, omega = steer(polar, (v_ref, omega_ref), numbers, law, wheels)
         arrived = polar[0] <= arrival_radius
@@ -82,7 +76,7 @@ def held(
             return k + 1, ARRIVED, peak, length
         rolled = dt * abs(v)
         step = *pose, v, omega, dt
-        pose = arc_step(*step) if along_arc else euler_step(*step)
+        pose = motion.arc_step(*step) if along_arc else motion.euler_step(*step)
     return record.shape[1], TIMED_OUT, peak, length
 
 
@@ -99,13 +93,13 @@ def slopes_of(state, goal, numbers, law, wheels, motors, out):
     wheels that lag, their twist.
     """
     if goal is not None:
-        polar = polar_from_pose(state[0], state[1], state[2], goal[0], goal[1], goal[2])
+        polar = motion.polar_from_pose(state[0], state[1], state[2], goal[0], goal[1], goal[2])
         v, omega = steer(polar, (goal[3], goal[4]), numbers, law, wheels)
         sine, cosine = sincos(state[2])
         out[0], out[1], out[2], out[3] = v * cosine, v * sine, omega, v
         return v, omega
     rho, alpha = state[0], state[1]
-    v_over_rho, omega = pose_law(rho, alpha, state[2], pose_gains(numbers), law)
+    v_over_rho, omega = pose_law(rho, alpha, state[2], GainsFields(*numbers[:4]), law)
     more = hurry(v_over_rho * rho, alpha, wheels.min_speed)
     v_over_rho, omega = more * v_over_rho, more * omega
     share = saturation_scale(v_over_rho * rho, omega, wheels)
@@ -119,7 +113,7 @@ def slopes_of(state, goal, numbers, law, wheels, motors, out):
         out[4], out[5] = 0.5 * (left + right), (right - left) / (2.0 * half)
         v, omega = state[4], state[5]
         v_over_rho = v / (rho if rho != 0.0 else 1.0)
-    out[0], out[1], out[2] = polar_closing_rate(rho, alpha, v_over_rho, omega)
+    out[0], out[1], out[2] = motion.polar_closing_rate(rho, alpha, v_over_rho, omega)
     out[3] = v
     return v, omega
 
@@ -128,7 +122,7 @@ def slopes_of(state, goal, numbers, law, wheels, motors, out):
 def swing_of(state, slopes, goal, omega, later, free, *loop):
     """How fast omega changes, by how it is a little later; `free` is two rows to write to."""
     if goal is not None:
-        x, y, heading = euler_step(goal[0], goal[1], goal[2], goal[3], goal[4], later)
+        x, y, heading = motion.euler_step(goal[0], goal[1], goal[2], goal[3], goal[4], later)
         goal = np.array([x, y, heading, goal[3], goal[4]])
     for i in range(state.size):
         free[0, i] = state[i] + later * slopes[i]
@@ -180,10 +174,10 @@ def note(record, k, state, goal, goals, stage, twist, numbers, law, wheels, moto
     """Write down a sample; rounding can carry rho a hair past the goal."""
     if goals is None:
         polar = larger(state[0], 0.0), state[1], state[2]
-        pose = pose_of_error(*polar, *goal)
+        pose = motion.pose_of_error(*polar, *goal)
     else:
         pose = state[0], state[1], wrap(state[2])
-        polar = polar_from_pose(*pose, goals[0, stage], goals[1, stage], goals[2, stage])
+        polar = motion.polar_from_pose(*pose, goals[0, stage], goals[1, stage], goals[2, stage])
     write(record, k, pose, polar, twist, numbers, law)
 
 

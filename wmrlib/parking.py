@@ -1,6 +1,7 @@
 """A drive that parks: a law, a last turn, and a table that says when the robot may move.
 
-`TABLE` holds every decision. Python runs it here, and `symbolic` prints it as ``wmr_drive.h``.
+`TABLE` holds every decision, by the conditions above it. Python runs them here, and `symbolic`
+prints them as part of ``wmr_drive.h``, so they are written in the Python that C has too.
 """
 
 from __future__ import annotations
@@ -29,14 +30,47 @@ from wmrlib.trust import (
     Memory,
     Rules,
     Seen,
-    loose,
-    outside,
-    silent,
-    silent_by,
-    stuck,
-    too_far,
-    turned,
 )
+
+
+def placed(m: Memory, rules: Rules) -> int:
+    """Whether good fixes have said where the robot is."""
+    return m.good >= rules.settle or m.driven > 0.0
+
+
+def outside(m: Memory, rules: Rules) -> int:
+    """Whether the robot is outside its fence."""
+    return placed(m, rules) and m.outside != 0
+
+
+def too_far(m: Memory, rules: Rules) -> int:
+    """Whether the goal is too far away to be meant."""
+    return placed(m, rules) and m.rho > rules.farthest
+
+
+def stuck(m: Memory) -> int:
+    """Whether a wheel, or its encoder, stands though it was told to roll."""
+    return m.left.stuck != 0 or m.right.stuck != 0
+
+
+def loose(m: Memory) -> int:
+    """Whether a wheel rolls though it was not told to."""
+    return m.left.loose != 0 or m.right.loose != 0
+
+
+def turned(m: Memory, rules: Rules) -> int:
+    """Whether fix after fix has another heading than the wheels."""
+    return m.turned >= rules.settle
+
+
+def silent(m: Memory, rules: Rules) -> int:
+    """Whether the last usable fix is too long ago."""
+    return m.silence > rules.patience
+
+
+def silent_by(m: Memory, rules: Rules, why: int) -> int:
+    """Whether it is, and the last fix could not be used because of this."""
+    return silent(m, rules) and m.refused == why
 
 
 class Row(NamedTuple):
@@ -82,14 +116,6 @@ TABLE = (
 )
 """Every decision, in the order of priority: the first row that fits is taken, if one does."""
 REASONS = tuple(dict.fromkeys(["", *(row.reason for row in TABLE)]))
-
-
-def decide(m: Memory, seen: Seen, rules: Rules, end: LastTurn) -> None:
-    """Take the first row of `TABLE` that fits."""
-    for row in TABLE:
-        if STATES[m.state] in row.within.split() and row.condition(m, seen, rules, end):
-            m.state, m.reason = STATES.index(row.to), REASONS.index(row.reason)
-            return
 
 
 class Drive:
@@ -171,7 +197,7 @@ class Drive:
         m.rho, m.off = state[0], wrap(state[1] - state[2])
         faces = m.state == TURN and abs(m.off) <= end.tolerance
         m.facing, m.faced = (m.facing + 1, m.faced + seen.seconds) if faces else (0, 0.0)
-        decide(m, seen, self.rules, end)
+        self._decide(seen)
         if m.state == DRIVE:
             v_over_rho, omega = LAWS[self.law].formula(*state, self.gains)
             more = hurry(v_over_rho * m.rho, state[1], self.wheels.min_speed)
@@ -182,3 +208,12 @@ class Drive:
         speeds = wheel_speeds(v * scale, omega * scale, self.wheels.track_width)
         m.left.told, m.right.told = speeds
         return speeds
+
+    def _decide(self, seen: Seen) -> None:
+        """Take the first row of `TABLE` that fits."""
+        m = self.memory
+        for row in TABLE:
+            asked = STATES[m.state] in row.within.split()
+            if asked and row.condition(m, seen, self.rules, self.end):
+                m.state, m.reason = STATES.index(row.to), REASONS.index(row.reason)
+                return

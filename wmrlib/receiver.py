@@ -7,12 +7,7 @@ from typing import NamedTuple
 from wmrlib._checks import Real, checked
 
 
-@checked(
-    at_least_0=(
-        *("sigma", "memory", "period", "delay", "heading_delay", "sight", "bias"),
-        *("dropout", "outage", "jump", "jump_every", "compass"),
-    )
-)
+@checked("at_least_0")
 class Receiver(NamedTuple):
     """A receiver with its compass: it errs, shows fixes one at a time, and late; or many of them.
 

@@ -1,4 +1,4 @@
-"""The model behind the filter: how the state moves on, and what each sensor should read.
+"""The model behind the filter: how the state moves on, what each sensor should read, and the noise.
 
 The state is x, y, heading, gyro_bias [rad/s] and wheel_scale, the true speed over the one that the
 wheels report. `wmrlib.symbolic` prints these formulas and their derivatives.
@@ -6,9 +6,36 @@ wheels report. `wmrlib.symbolic` prints these formulas and their derivatives.
 
 from __future__ import annotations
 
+from typing import NamedTuple
+
+from wmrlib._checks import checked
 from wmrlib._compile import formula
 from wmrlib._elementary import direction, distance, sincos
 from wmrlib.motion import euler_step
+
+
+@checked("at_least_0", above_0=("gyro", "track_width"))
+class Noise(NamedTuple):
+    """How far wheels and gyro can be trusted.
+
+    Parameters
+    ----------
+    wheels : float, m. Standard deviation of a wheel's distance after 1 m; over d m, sqrt(d) times.
+    gyro : float, rad/sqrt(s). White noise: standard deviation of the angle after 1 s.
+    bias_walk : float, rad/s/sqrt(s). How far the gyro's bias wanders in 1 s.
+    scale_walk : float, 1/sqrt(s). How far the wheel scale wanders in 1 s.
+    track_width : float, m. Distance between the wheels.
+
+    Raises
+    ------
+    ValueError : for a negative field, a gyro or track width of 0, or NaN.
+    """
+
+    wheels: float = 0.03
+    gyro: float = 1e-3
+    bias_walk: float = 1e-5
+    scale_walk: float = 1e-5
+    track_width: float = 0.5
 
 
 @formula

@@ -6,6 +6,7 @@ from collections.abc import Callable
 
 import numpy as np
 
+from wmrlib import runs
 from wmrlib._checks import choice, instance, reals, refusal, scalar
 from wmrlib._dop853 import NODES
 from wmrlib._elementary import wrap
@@ -15,16 +16,7 @@ from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
 from wmrlib.loops import MOST_TRIALS, ROOM, continuous, held, integrate
 from wmrlib.motion import polar_from_pose
-from wmrlib.runs import (
-    ARRIVED,
-    COMPLETED,
-    TIMED_OUT,
-    UNFINISHED,
-    Trajectory,
-    checked_hysteresis,
-    sample_count,
-    single_pose,
-)
+from wmrlib.runs import Trajectory
 
 METHODS = ("arc", "euler", "continuous")
 
@@ -88,15 +80,15 @@ def simulate(
     15.5 s, -27.2 deg off
     23.1 s, 2.1 deg off
     """
-    begin, end = single_pose("start", start), single_pose("goal", goal)
+    begin, end = runs.single_pose("start", start), runs.single_pose("goal", goal)
     target = end.x, end.y, wrap(end.heading)
-    numbers, code = tuning_of(gains, law, POSE_LAWS)
-    samples, dt = sample_count(dt, duration), float(dt)
+    samples, dt = runs.sample_count(dt, duration), float(dt)
     radius = scalar("arrival_radius", arrival_radius, low=0.0)
     continuously = choice("method", method, METHODS) == "continuous"
-    kept, turn = checked_hysteresis(hysteresis, method), checked_turn(last_turn, dt, method, radius)
+    kept = runs.checked_hysteresis(hysteresis, method)
+    turn = checked_turn(last_turn, dt, method, radius)
     (limits, motors), t = in_loops(checked_wheels(wheels)), dt * np.arange(samples)
-    loop = numbers, code, limits
+    loop = *tuning_of(gains, law, POSE_LAWS), limits
     if continuously:
         if motors is not None and not (radius and motors.lag):  # on the goal is no line of sight
             needed = "ideal wheels, or a lag and an arrival radius, with method 'continuous'"
@@ -157,11 +149,10 @@ def track(
     """
     if not callable(reference):
         raise refusal("reference", reference, "a function of time")
-    begin = single_pose("start", start)
-    numbers, code = tuning_of(gains, law, TRACKING_LAWS)
-    samples, dt = sample_count(dt, duration), float(dt)
+    begin = runs.single_pose("start", start)
+    samples, dt = runs.sample_count(dt, duration), float(dt)
     (limits, motors), t = in_loops(checked_wheels(wheels)), dt * np.arange(samples)
-    loop = numbers, code, limits
+    loop = *tuning_of(gains, law, TRACKING_LAWS), limits
 
     def path_at(times: np.ndarray) -> np.ndarray:
         seen = reference(np.minimum(times, duration))  # three times 0.1 is more than 0.3
@@ -187,7 +178,7 @@ def track(
     else:
         run = _held(t, method, -1.0, 0.0, motors, None, begin, path, *loop)
     t, record, outcome, *sums = run
-    ended = COMPLETED if outcome == TIMED_OUT else outcome
+    ended = runs.COMPLETED if outcome == runs.TIMED_OUT else outcome
     goal = Pose(*path[:3, : t.size])
     return Trajectory.of(t, record, ended, *sums, goal, gains, law, method)
 
@@ -205,8 +196,8 @@ def _continuous(t, state, radius, goal, goals_at, *loop) -> tuple:
     record, room = np.empty((9, t.size)), np.zeros((ROOM, state.size))
     drive = continuous if goals_at is None else integrate
     count, outcome, end, *sums = drive(record, state, room, t, radius, tuple(goal), goals_at, *loop)
-    if outcome == UNFINISHED:
+    if outcome == runs.UNFINISHED:
         words = f", or slower gains and wheels: it would take more than {MOST_TRIALS:,} steps"
         raise refusal("method", "continuous", "'arc' or 'euler'", words)
-    t = np.append(t[: count - 1], end) if outcome == ARRIVED else t[:count]
+    t = np.append(t[: count - 1], end) if outcome == runs.ARRIVED else t[:count]
     return t, record[:, :count], outcome, *sums

@@ -5,9 +5,8 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field
-from math import atan2
+from math import atan2, inf
 from typing import NamedTuple
 
 from wmrlib._checks import checked
@@ -21,11 +20,7 @@ REFUSALS = "none", "broken", "poor", "late", "stale", "frozen", "jumped", "turne
 NONE, BROKEN, POOR, LATE, STALE, FROZEN, JUMPED, TURNED = range(len(REFUSALS))
 
 
-_ABOVE_0 = "arrival_radius patience oldest largest_error settle jump frozen course astray wheel"
-_ABOVE_0 += " longest_period longest_drive farthest"
-
-
-@checked(above_0=_ABOVE_0.split(), at_least_0=("slip", "battery"), at_most_1=("share",))
+@checked("above_0", at_least_0=("slip", "battery"), at_most_1=("share",))
 class Rules(NamedTuple):
     """How far a robot trusts its sensors.
 
@@ -89,7 +84,7 @@ class Seen(NamedTuple):
     seconds: float
     left: float
     right: float
-    battery: float = math.inf
+    battery: float = inf
     goal_inside: int = 1
     inside: int = 1
     fresh: int = 0
@@ -252,43 +247,3 @@ def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     m.good = m.good if m.regular and m.silence <= rules.patience else 0
     if seen.fresh:
         read(m, seen, rules)
-
-
-def placed(m: Memory, rules: Rules) -> int:
-    """Whether good fixes have said where the robot is."""
-    return m.good >= rules.settle or m.driven > 0.0
-
-
-def outside(m: Memory, rules: Rules) -> int:
-    """Whether the robot is outside its fence."""
-    return placed(m, rules) and m.outside != 0
-
-
-def too_far(m: Memory, rules: Rules) -> int:
-    """Whether the goal is too far away to be meant."""
-    return placed(m, rules) and m.rho > rules.farthest
-
-
-def stuck(m: Memory) -> int:
-    """Whether a wheel, or its encoder, stands though it was told to roll."""
-    return m.left.stuck != 0 or m.right.stuck != 0
-
-
-def loose(m: Memory) -> int:
-    """Whether a wheel rolls though it was not told to."""
-    return m.left.loose != 0 or m.right.loose != 0
-
-
-def turned(m: Memory, rules: Rules) -> int:
-    """Whether fix after fix has another heading than the wheels."""
-    return m.turned >= rules.settle
-
-
-def silent(m: Memory, rules: Rules) -> int:
-    """Whether the last usable fix is too long ago."""
-    return m.silence > rules.patience
-
-
-def silent_by(m: Memory, rules: Rules, why: int) -> int:
-    """Whether it is, and the last fix could not be used because of this."""
-    return silent(m, rules) and m.refused == why

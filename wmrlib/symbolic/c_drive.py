@@ -1,29 +1,26 @@
-"""The drive of `parking` as a C header: the classes and functions of `trust`, and the table."""
+"""The drive of `parking` as a C header: the classes and functions behind it, and the table."""
 
 from __future__ import annotations
 
 import ast
 import inspect
-import textwrap
-from pathlib import Path
+from itertools import repeat
 from typing import get_origin, get_type_hints
 
 from wmrlib import odometry, parking, trust
 from wmrlib.body import LastTurn, Wheels
+from wmrlib.symbolic.c_header import C_HEADER, filled, wrapped
 
-C_DRIVE = Path(__file__).parent / "c" / "wmr_drive.h"
-_FRAME = C_DRIVE.with_name("drive_frame.h")
-_COLUMNS = 88
-_KINDS = {float: "WMR_REAL", int: "int", type(None): "void", odometry.Place: "wmr_pose"}
-_KINDS |= {LastTurn: "wmr_last_turn", Wheels: "wmr_motors", trust.Wheel: "wmr_wheel"}
-_KINDS |= {kind: f"wmr_{kind.__name__.lower()}" for kind in (trust.Rules, trust.Seen, trust.Memory)}
-_KINDS |= dict.fromkeys((odometry.Stretch, list[odometry.Stretch]), "wmr_stretch")
-_KINDS[odometry.Past] = "wmr_past"
+C_DRIVE = C_HEADER.with_name("wmr_drive.h")
 _STRUCTS = [Wheels, LastTurn, trust.Rules, trust.Seen, trust.Wheel]
 _STRUCTS += [odometry.Stretch, odometry.Past, trust.Memory]
+_KINDS = {kind: f"wmr_{kind.__name__.lower()}" for kind in _STRUCTS}
+_KINDS |= {LastTurn: "wmr_last_turn", Wheels: "wmr_motors", odometry.Place: "wmr_pose"}
+_KINDS |= {float: "WMR_REAL", int: "int", type(None): "void"}
+_KINDS[list[odometry.Stretch]] = "wmr_stretch"
 _OWN = {
     name: value
-    for module in (odometry, trust)
+    for module in (odometry, trust, parking)
     for name, value in vars(module).items()
     if inspect.isfunction(value) and value.__module__ == module.__name__
 }
@@ -32,8 +29,8 @@ _CALLS |= {name: f"WMR_F({name})" for name in ("cos", "sin", "atan2")}
 _SIGNS = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/", ast.And: "&&", ast.Or: "||"}
 _SIGNS |= {ast.Lt: "<", ast.LtE: "<=", ast.Gt: ">", ast.GtE: ">=", ast.Eq: "==", ast.NotEq: "!="}
 _SIGNS |= {ast.Not: "!", ast.USub: "-", ast.Mod: "%"}
-
-
+_TIGHT = ast.Mult | ast.Div
+_WHOLE = ast.Name | ast.Constant | ast.Attribute | ast.Subscript | ast.Call  # needs no brackets
 _SHORT = {"s": "seen", "r": "rules", "e": "end"}  # in a condition of the table
 
 
@@ -65,19 +62,13 @@ class _C(ast.NodeVisitor):
         return f"{self.visit(node.value)}[{self.visit(node.slice)}]"
 
     def visit_BinOp(self, node):
-        left = self.visit(node.left) if self._binds(node.left, node) else self._part(node.left)
-        right, same = node.right, isinstance(node.op, ast.Add | ast.Mult)
-        right = self.visit(right) if same and self._binds(right, node) else self._part(right)
-        return f"{left} {_SIGNS[type(node.op)]} {right}"
-
-    @staticmethod
-    def _binds(inner, outer):
-        """Whether it needs no brackets within a sum or a product."""
-        tight = ast.Mult | ast.Div
-        loose = not isinstance(outer.op, tight | ast.Mod)
-        return isinstance(inner, ast.BinOp) and (
-            loose or (isinstance(inner.op, tight) and not isinstance(outer.op, ast.Mod))
-        )
+        sides = []
+        for inner, same in (node.left, True), (node.right, isinstance(node.op, ast.Add | ast.Mult)):
+            binds = isinstance(node.op, ast.Add | ast.Sub) or (
+                isinstance(node.op, _TIGHT) and isinstance(getattr(inner, "op", None), _TIGHT)
+            )
+            sides.append(self._part(inner, ast.BinOp if same and binds else ()))
+        return f" {_SIGNS[type(node.op)]} ".join(sides)
 
     def visit_BoolOp(self, node):
         parts = (self._part(n) if isinstance(n, ast.BoolOp) else self.visit(n) for n in node.values)
@@ -88,39 +79,26 @@ class _C(ast.NodeVisitor):
 
     def visit_Compare(self, node):
         (sign,), (right,) = node.ops, node.comparators
-        left, right = (
-            self.visit(n) if isinstance(n, ast.BinOp) else self._part(n) for n in (node.left, right)
-        )
+        left, right = self._part(node.left, ast.BinOp), self._part(right, ast.BinOp)
         return f"{left} {_SIGNS[type(sign)]} {right}"
 
     def visit_IfExp(self, node):
-        return " ".join(
-            [self._part(node.test), "?", self._part(node.body), ":", self._part(node.orelse)]
-        )
+        test, body, other = map(self._part, (node.test, node.body, node.orelse))
+        return f"{test} ? {body} : {other}"
 
     def visit_Call(self, node):
         name = node.func.id
-        if name not in _OWN:
-            return f"{_CALLS.get(name, f'wmr_{name}')}({', '.join(map(self.visit, node.args))})"
-        given = [
-            f"&{self.visit(arg)}"
-            if isinstance(arg, ast.Attribute | ast.Subscript) and self._is_structure(name, k)
-            else self.visit(arg)
-            for k, arg in enumerate(node.args)
-        ]
-        return f"wmr_{name}({', '.join(given)})"
+        kinds = get_type_hints(_OWN[name]).values() if name in _OWN else repeat(float)
+        given = []
+        for arg, kind in zip(node.args, kinds, strict=False):
+            whole = kind in (float, int) or isinstance(arg, ast.Name)  # a name is a pointer
+            given.append(self.visit(arg) if whole else f"&{self.visit(arg)}")
+        return f"{_CALLS.get(name, f'wmr_{name}')}({', '.join(given)})"
 
-    @staticmethod
-    def _is_structure(name, place):
-        kinds = list(get_type_hints(_OWN[name]).values())
-        return kinds[place] not in (float, int)
-
-    def _part(self, node):
+    def _part(self, node, bare=()):
+        """A part in brackets, unless it is whole, or may be bare."""
         text = self.visit(node)
-        simple = isinstance(
-            node, ast.Name | ast.Constant | ast.Attribute | ast.Subscript | ast.Call
-        )
-        return text if simple else f"({text})"
+        return text if isinstance(node, (_WHOLE, bare)) else f"({text})"
 
 
 def c_condition(condition: ast.Lambda) -> str:
@@ -177,13 +155,7 @@ def _function(function) -> str:
     c = _C(set(kinds) - plain)
     lines = [line for each in tree.body[1:] for line in _statement(each, c, "  ")]
     head = f"static inline {back} wmr_{function.__name__}({', '.join(given)}) {{"
-    return "\n".join([f"/* {inspect.getdoc(function)} */", *map(_wrapped, [head, *lines]), "}\n"])
-
-
-def _wrapped(line: str) -> str:
-    indent = line[: len(line) - len(line.lstrip())] + "    "
-    filled = textwrap.fill(line, _COLUMNS, subsequent_indent=indent, break_long_words=False)
-    return filled.replace("\xa0", " ")
+    return "\n".join([f"/* {inspect.getdoc(function)} */", *map(wrapped, [head, *lines]), "}\n"])
 
 
 def _structure(kind) -> str:
@@ -192,7 +164,7 @@ def _structure(kind) -> str:
     fields = " ".join(
         f"{_KINDS[hint]}\xa0{name}{many if get_origin(hint) else ''};" for name, hint in hints
     )
-    return _wrapped(f"typedef struct {{ {fields} }} {_KINDS[kind]};")
+    return wrapped(f"typedef struct {{ {fields} }} {_KINDS[kind]};")
 
 
 def _row(row: parking.Row, condition: str) -> str:
@@ -201,30 +173,25 @@ def _row(row: parking.Row, condition: str) -> str:
     test = f"m->state {'<=' if every else '=='} {code_name(within[-1])} && "
     assert every or len(within) == 1, row
     test += f"({condition})" if "||" in condition else condition
-    test = _wrapped(f"  if ({test}) {{")
+    test = wrapped(f"  if ({test}) {{")
     change = f"    m->state = {code_name(row.to)}, m->reason = {code_name(row.reason)};"
     return f"{test}\n{change}\n    return;\n  }}"
 
 
 def c_drive() -> str:
     """The text of ``wmr_drive.h``."""
-    text = _FRAME.read_text(encoding="utf-8").partition("*/\n")[2]
     names = [map(code_name, each) for each in (trust.STATES, trust.REFUSALS, parking.REASONS)]
     usual = ", ".join(
         str(int(value)) if kind is int else f"WMR_C({float(value)})"
         for value, kind in zip(trust.Rules(), get_type_hints(trust.Rules).values(), strict=True)
     )
-    said = [f'    "{reason}"' for reason in parking.REASONS]
     places = {
-        "NAMES": "\n".join(_wrapped(f"enum {{ {', '.join(each)} }};") for each in names)
+        "NAMES": "\n".join(wrapped(f"enum {{ {', '.join(each)} }};") for each in names)
         + f"\nenum {{ {code_name('past')} = {odometry.PAST} }};",
         "STRUCTURES": "\n".join(map(_structure, _STRUCTS)),
-        "USUAL": " \\\n".join(_wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
+        "USUAL": " \\\n".join(wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
         "FUNCTIONS": "\n".join(_function(each) for each in _OWN.values()),
         "TABLE": "\n".join(map(_row, parking.TABLE, map(c_condition, _conditions()))),
-        "REASONS": ",\n".join(said),
+        "REASONS": ",\n".join(f'    "{reason}"' for reason in parking.REASONS),
     }
-    for place, printed in places.items():
-        assert text.count(f"/* @{place}@ */\n") == 1, place
-        text = text.replace(f"/* @{place}@ */\n", printed + "\n")
-    return text
+    return filled("drive_frame.h", {place: f"{printed}\n" for place, printed in places.items()})

@@ -15,9 +15,7 @@ from wmrlib.symbolic.formulas import C_FILTER, C_FORMULAS, C_LAWS, Formula
 
 C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
 C_FILTER_HEADER = C_HEADER.with_name("wmr_filter.h")
-_FRAME, _FILTER_FRAME = C_HEADER.with_name("frame.h"), C_HEADER.with_name("filter_frame.h")
-_COLUMNS = 88
-_FUNCTIONS = ("sin", "cos", "tan", "atan", "atan2", "sinh", "cosh", "tanh", "exp", "log", "fmod")
+_FUNCTIONS = "sin cos tan atan atan2 sinh cosh tanh exp log floor fmod"
 _OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap", "turned_back", "expm1")}
 
 
@@ -44,10 +42,7 @@ class _Printer(C99CodePrinter):
         return re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", text)  # brackets of its own
 
 
-_LIBRARY = {name: f"WMR_F({name})" for name in _FUNCTIONS} | {
-    "Abs": "WMR_F(fabs)",
-    "floor": "WMR_F(floor)",
-}
+_LIBRARY = {name: f"WMR_F({name})" for name in _FUNCTIONS.split()} | {"Abs": "WMR_F(fabs)"}
 _PRINTER = _Printer({"user_functions": _LIBRARY | _OURS})
 
 
@@ -78,34 +73,38 @@ def c_function(name: str, formula: Formula) -> str:
         ends = [f"out[{count}] = {value};" for count, value in enumerate(values)]
     else:
         ends = [f"return {values[0]};"]
-    body = [_wrapped(f"  {line}") for line in [*lines, *ends]]
-    head = _wrapped(f"static inline {kind} wmr_{name}({', '.join(arguments)}) {{")
-    return "\n".join([_wrapped(f"/* {formula.says} */", "   "), head, *body, "}\n"])
+    body = [wrapped(f"  {line}") for line in [*lines, *ends]]
+    head = wrapped(f"static inline {kind} wmr_{name}({', '.join(arguments)}) {{", 6)
+    return "\n".join([wrapped(f"/* {formula.says} */", 3), head, *body, "}\n"])
 
 
-def _wrapped(line: str, indent: str = "      ") -> str:
-    """The line in as many as fit on a page of the book."""
-    filled = textwrap.fill(line, _COLUMNS, subsequent_indent=indent, break_long_words=False)
+def wrapped(line: str, indent: int | None = None) -> str:
+    """The line in as many as fit on a page of the book; the others begin 4 later if not told."""
+    spaces = " " * (len(line) - len(line.lstrip()) + 4 if indent is None else indent)
+    filled = textwrap.fill(line, 88, subsequent_indent=spaces, break_long_words=False)
     return filled.replace("\xa0", " ")
 
 
 def c_header() -> str:
     """The text of ``wmr_law.h``: ``frame.h`` with the printed functions in their places."""
-    return _filled(_FRAME, {"FORMULAS": C_FORMULAS, "LAWS": C_LAWS})
+    printed = {"FORMULAS": _functions(C_FORMULAS), "LAWS": _functions(C_LAWS)}
+    return filled("frame.h", printed).replace("@EARTH_RADIUS_M@", repr(EARTH_RADIUS_M))
 
 
 def c_filter_header() -> str:
     """The text of ``wmr_filter.h``, likewise."""
-    return _filled(_FILTER_FRAME, {"FILTER": C_FILTER})
+    return filled("filter_frame.h", {"FILTER": _functions(C_FILTER)})
 
 
-def _filled(frame: Path, tables: dict[str, dict[str, Formula]]) -> str:
-    text = frame.read_text(encoding="utf-8").partition("*/\n")[2]  # what the frame says of itself
-    places = {"@EARTH_RADIUS_M@": repr(EARTH_RADIUS_M)} if "LAWS" in tables else {}
-    for place, table in tables.items():
-        printed = "\n".join(c_function(name, formula) for name, formula in table.items())
-        places[f"/* @{place}@ */\n"] = printed
-    for place, printed in places.items():
-        assert text.count(place) == 1, place
-        text = text.replace(place, printed)
+def _functions(table: dict[str, Formula]) -> str:
+    return "\n".join(c_function(name, formula) for name, formula in table.items())
+
+
+def filled(frame: str, printed: dict[str, str]) -> str:
+    """The text of a frame with what is printed in its places."""
+    text = C_HEADER.with_name(frame).read_text(encoding="utf-8")
+    text = text.partition("*/\n")[2]  # what the frame says of itself
+    for place, lines in printed.items():
+        assert text.count(f"/* @{place}@ */\n") == 1, place
+        text = text.replace(f"/* @{place}@ */\n", lines)
     return text

@@ -52,7 +52,7 @@ def _function(name: str, formula: Formula) -> str:
 
 
 def _wrapped(line: str) -> str:
-    return "\n".join(textwrap.wrap(line, 100, subsequent_indent="    ", break_long_words=False))
+    return textwrap.fill(line, 100, subsequent_indent="    ", break_long_words=False)
 
 
 def _law(name: str, row: laws.Law) -> str:

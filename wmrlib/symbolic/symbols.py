@@ -21,7 +21,6 @@ x, y, heading, goal_x, goal_y, goal_heading = _real("x y heading goal_x goal_y g
 ahead, left, turn, angle, t, dt = _real("ahead left turn angle t dt")
 before, hysteresis = _real("before hysteresis")
 error, gain, min_rate, max_rate, min_speed = _real("error gain min_rate max_rate min_speed")
-tolerance, leave, turning, radius = _real("tolerance leave turning radius")
 speed_left, speed_right, rest_left, rest_right = _real("left right left_rest right_rest")
 acceleration, lag, dead_band, encoder_step = _real("acceleration lag dead_band encoder_step")
 gyro_bias, wheel_scale, gyro, share, speed = _real("gyro_bias wheel_scale gyro share speed")

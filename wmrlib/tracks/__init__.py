@@ -48,11 +48,8 @@ class Track:
     @property
     def rtk(self) -> np.ndarray:
         """Of each position "fixed", "float" or "none"; "" where the receiver does not say."""
-        return np.select(
-            [self.quality == 4.0, self.quality == 5.0, self.quality > 0.0],
-            ["fixed", "float", "none"],
-            "",
-        )
+        kinds = [self.quality == 4.0, self.quality == 5.0, self.quality > 0.0]
+        return np.select(kinds, ["fixed", "float", "none"], "")
 
     def __len__(self) -> int:
         return self.t.size
