@@ -66,6 +66,8 @@ def pytest_runtest_setup(item):
     wanted = {tool for mark in item.iter_markers("needs") for tool in mark.args}
     if "browser" in item.fixturenames:
         wanted.add("browser")
+    if "site" in item.fixturenames and not os.environ.get("BOOK_HTML"):
+        wanted.add("npm")
     for reason in filter(None, map(lacking, sorted(wanted))):
         (pytest.fail if os.environ.get("CI") else pytest.skip)(reason)
 

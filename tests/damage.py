@@ -163,7 +163,6 @@ EDITS: dict[str, tuple[Callable[[NotebookNode], object], str]] = {  # the progra
     "sound": (lambda n: None, ""),
     "check copied": (lambda n: copied(n, checks(n)), "copies dropped"),
     "answer copied": (lambda n: copied(n, answers(n)), "copies dropped"),
-    "all copied": (lambda n: copied(n, [*range(len(n.cells))]), "copies dropped"),
     "split": (lambda n: split(n, True), "parts joined"),
     "split and stripped": (lambda n: split(n, False), ""),
     "checks deleted": (lambda n: without(n, checks(n)), "put back"),
@@ -207,9 +206,7 @@ def damaged(solved: NotebookNode, other: NotebookNode) -> Iterator[tuple[str, ob
     yield "exit", notebook, "less", "it ended Python"
     without(notebook := by("answer deleted"), graded_answers(notebook)[:1])
     yield "answer deleted", notebook, "less", "is missing"
-    yield "empty", "", "", "is empty"
     yield "cut", nbformat.writes(solved)[:1000], "", "is no notebook"
-    yield "no json", "<!DOCTYPE html>", "", "is no notebook"
     yield "no cells", '{"nbformat": 4, "nbformat_minor": 5, "metadata": {}}', "", "is no notebook"
     yield "of another", other, "", "not of this assignment"
     yield "no file", "print()", "", "no notebook in its folder"

@@ -52,12 +52,12 @@ PLANS = {
     "laws": "plain control; quick simulation; jit simulation",
     "motion": "plain kinematics; quick simulation; jit simulation hysteresis",
     "odometry": "plain parking",
-    "parking": "plain parking",
     "receiver": "jit receiver",
     "sensing": "jit estimation; jit filter",
     "runs": "plain metrics; quick simulation; jit simulation",
     "simulation": "quick simulation; jit simulation",
     "sweeping": "jit sweeping; jit receiver",
+    "symbolic": "plain symbolic control",
     "trust": "plain parking",
     "tuning": "quick tuning; jit tuning",
 }

@@ -6,6 +6,7 @@ import os
 import re
 import shutil
 import subprocess
+import sys
 import textwrap
 from pathlib import Path
 
@@ -33,18 +34,16 @@ def put(path: Path, text: str, before: str) -> None:
     path.write_text(whole.replace(before, text + before), encoding="utf-8")
 
 
-def run(folder: Path, *command: str | Path, given: str = "") -> str:
-    """What a command prints; where it fails, the test does."""
+def run(folder: Path, *arguments: str) -> None:
+    """Run Python in the copy; where it fails, the test does."""
     places = os.pathsep.join([str(folder), str(folder / "book")])
     environment = os.environ | {"PYTHONPATH": places, "PYTEST_ADDOPTS": ""}
-    options = {"cwd": folder, "env": environment, "input": given}
-    line = list(map(str, command))
-    done = subprocess.run(line, **options, capture_output=True, text=True, encoding="utf-8")
+    options = {"cwd": folder, "env": environment, "text": True, "encoding": "utf-8"}
+    done = subprocess.run([sys.executable, *arguments], capture_output=True, **options)
     assert done.returncode == 0, done.stdout + done.stderr
-    return done.stdout
 
 
-def check(folder: Path, python: str, *tests: str) -> None:
+def check(folder: Path, *tests: str) -> None:
     """Run tests of the copy."""
     options = ["-q", "-m", "", "-p", "no:cacheprovider", "-p", "no:nbval"]
-    run(folder, python, "-m", "pytest", "--override-ini=addopts=", *options, *tests)
+    run(folder, "-m", "pytest", "--override-ini=addopts=", *options, *tests)

@@ -24,17 +24,6 @@ def test_allan_deviation_of_the_thousand_points_of_nist():
     assert found == pytest.approx([2.922319e-1, 9.159953e-2, 3.241343e-2], rel=5e-7)
 
 
-def test_slopes_of_white_noise_and_of_a_random_walk():
-    spans, white = [1, 4, 16, 64], np.random.default_rng(1).standard_normal((200, 4000))
-    found = np.sqrt(np.mean(at_rest.allan_deviation(white, spans) ** 2, axis=0))
-    assert found == pytest.approx(1.0 / np.sqrt(spans), rel=0.03)
-    walk = at_rest.allan_deviation(np.cumsum(white, axis=1), spans)
-    expected = [math.sqrt((2 * m * m + 1) / (6 * m)) for m in spans]  # of its means, in steps
-    assert np.sqrt(np.mean(walk**2, axis=0)) == pytest.approx(expected, rel=0.04)
-    assert at_rest.allan_deviation(white[0] + 7.0, spans) == pytest.approx(
-        at_rest.allan_deviation(white[0], spans))  # fmt: skip
-
-
 @pytest.mark.parametrize("memory", [20.0, 60.0])
 def test_allan_deviation_and_autocorrelation_of_a_gauss_markov_error(memory):
     error = at_rest.gauss_markov(0.5, memory, 1.0, 6000, 300, 2)

@@ -1,12 +1,13 @@
 """The audit: every row is there, and its verdict changes when what it is about changes."""
 
-import json
 import math
 import re
 from functools import cache
 
+import nbformat
 import pytest
 import sympy as sp
+from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook
 
 import wmrlib as wmr
 from wmrbook import audit
@@ -213,12 +214,6 @@ def test_a_law_that_no_slip_mends_is_wrong_and_stabilises_nothing(monkeypatch):
             assert verdict_with(monkeypatch, item, equation(place, right)) is Verdict.WRONG
 
 
-def test_the_slip_of_24_is_the_repeated_factor():
-    sines = row.latex(sp.sin(symbolic.alpha) * sp.cos(symbolic.alpha))
-    matrices = [sp.ImmutableMatrix([each]) for each in (row.printed(24), audit.steering())]
-    assert audit.one_slip(*matrices) == f"${sines}$ printed twice"
-
-
 def test_slips():
     def slip(*pair):
         return audit.one_slip(*(sp.ImmutableMatrix([each]) for each in pair))
@@ -289,24 +284,20 @@ def test_what_a_threshold_or_a_choice_decides_is_not_decided():
 
 
 def code(*tags):
-    return {"cell_type": "code", "source": "", "metadata": {"tags": list(tags)}}
-
-
-def prose(text):
-    return {"cell_type": "markdown", "source": text.splitlines(keepends=True), "metadata": {}}
+    return new_code_cell(metadata={"tags": [*tags]})
 
 
 @pytest.fixture
 def folder(tmp_path):
-    law = prose("text\n## The | law\nmore")
+    four, law, six = map(new_markdown_cell, ("# Four", "text\n## The | law\nmore", "# Six"))
+    both, again = code("audit:eq-24", "audit:eq-25"), code("audit:eq-24")
     chapters = {
-        "04_lyapunov": [prose("# Four"), code(), law, code("audit:eq-24", "audit:eq-25")],
-        "06_the_circle": [prose("# Six"), code("audit:eq-24", "hide-cell"), prose("no heading")],
+        "04_lyapunov": [four, code(), law, both, again],
+        "06_the_circle": [six, code("audit:eq-24", "hide-cell"), new_markdown_cell("no heading")],
         "notes": [code("audit:eq-1")],
     }
-    chapters["04_lyapunov"].append(code("audit:eq-24"))
     for name, cells in chapters.items():
-        (tmp_path / f"{name}.ipynb").write_text(json.dumps({"cells": cells}), encoding="utf-8")
+        nbformat.write(new_notebook(cells=cells), tmp_path / f"{name}.ipynb")
     return tmp_path
 
 

@@ -116,8 +116,7 @@ def test_a_least_speed_keeps_the_path_in_continuous_time(start, least):
         wmr.simulate(start, GOAL, GENTLE, wheels=wmr.Wheels(0.5, min_speed=speed), **how)
         for speed in (0.0, least)
     )
-    ends = (wmr.arrival(run) for run in (free, fast))
-    slow, quick = next(ends), next(ends)
+    slow, quick = wmr.arrival(free), wmr.arrival(fast)
     assert quick.time < slow.time
     assert quick.heading_error == pytest.approx(slow.heading_error, abs=1e-6)
     assert quick.path_length == pytest.approx(slow.path_length, abs=1e-5)

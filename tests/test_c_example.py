@@ -5,6 +5,7 @@ import re
 import subprocess
 
 import boards
+import lockstep
 import pytest
 from test_c_header import build
 
@@ -17,20 +18,13 @@ compiler = pytest.mark.needs("compiler")
 
 
 def drive_of_the_example():
-    """The same loop in Python: the number of periods, and the pose at the end."""
+    """The same drive in Python: the number of periods, and the pose at the end."""
     east, north = wmr.local_position(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2)
-    pose, goal = wmr.Pose(0.0, 0.0, math.radians(72)), wmr.Pose(east, north, math.radians(-60))
+    start, goal = wmr.Pose(0.0, 0.0, math.radians(72)), wmr.Pose(east, north, math.radians(-60))
     gains, wheels = wmr.Gains(0.2, 2.0, 2.0, 4.0), wmr.Wheels(0.5, 2.0, min_speed=0.1)
     drive = wmr.Drive(goal, gains, wheels, rules=wmr.Rules(arrival_radius=0.05))
-    rolled, counts, speeds, count = [0.0, 0.0], [0, 0], (0.0, 0.0), 0
-    while drive.state != "parked":
-        before, counts = counts, [int(each / 0.0005 + 0.5) for each in rolled]
-        moved = (0.0005 * (now - then) for now, then in zip(counts, before, strict=True))
-        speeds = drive.step(wmr.Seen(0.05, *moved, fresh=1, error=0.02, **pose._asdict()))
-        rolled = [each + 0.05 * speed for each, speed in zip(rolled, speeds, strict=True)]
-        pose = wmr.advance(pose, *wmr.wheels_to_twist(*speeds, 0.5), 0.05)
-        count += 1
-    return count, tuple(pose)
+    poses = lockstep.positions(drive, start, 0.05, 200.0)
+    return len(poses) - 1, tuple(poses[-1])
 
 
 @compiler
@@ -93,82 +87,71 @@ static void set_wheels(wmr_wheels wheels, WMR_REAL seconds) {{
 }}
 """
 LATER = "if (seen.later > 0 || silence > 1) last"
-CHECKS = {  # what goes wrong in turn 20, what is to happen in which turns, a check, and none
-    "sound": ({}, "drives", range(2, 120), "COUNT_M * (WMR_REAL)(left", "0 * (WMR_REAL)(left"),
-    "silent": (
-        *({"receiver": "*fix = seen; return 0;"}, "drives", range(2, 29)),
-        *("seen.fresh = read_fix(&fix);", "seen.fresh = read_fix(&fix) + 1;"),
-    ),
-    "no fix": (
-        *({"receiver": "seen.quality = 0;"}, "drives", range(2, 29)),
-        *("seen.quality = fix.quality", "seen.quality = 4"),
-    ),
-    "worse than a metre": (
-        *({"receiver": "seen.error = 2;"}, "drives", range(2, 29)),
-        *("seen.error = fix.error", "seen.error = 0"),
-    ),
-    "old": (
-        *({"receiver": "seen.age = 301;"}, "drives", range(2, 29)),
-        *("(WMR_REAL)fix.age", "(WMR_REAL)(fix.age % 300)"),
-    ),
-    "frozen": (
-        *({"receiver": "seen.time = 1950;"}, "drives", range(2, 29)),
-        *("(int32_t)(fix.time - last)", "50"),
-    ),
-    "backwards": (
-        *({"receiver": "seen.time = 2900 - 50 * turn;"}, "drives", range(2, 29)),
-        *("(WMR_REAL)(int32_t)(fix.time", "(WMR_REAL)(uint32_t)(fix.time"),
-    ),
-    "old times again": (
-        *({"receiver": "seen.time = 1900 + 50 * (turn % 2);"}, "drives", range(2, 29)),
-        *(LATER, "last"),
-    ),
-    "begun anew": (
-        *({"receiver": "seen.time = 10 * turn;"}, "drives", [*range(2, 29), *range(43, 120)]),
-        *(LATER, "if (seen.later > 0) last"),
-    ),
-    "battery": ({"battery": "21"}, "drives", range(2, 30), "= battery_volts()", "= 24"),
-    "fence": (
-        *({"inside": "y < 40"}, "drives", range(2, 20)),
-        *("= is_inside(goal.x, goal.y)", "= 1"),
-    ),
-    "crossed": (
-        *({"inside": "y > 10"}, "drives", range(2, 20)),
-        *("= is_inside(fix.pose.x, fix.pose.y)", "= 1"),
-    ),
-    "power": (
-        *({"battery": "21"}, "cut", range(30, 120)),
-        *("if (memory.state == WMR_STOPPED) cut_power();", ""),
-    ),
-    "late turns": ({}, "fed", range(20), "if (clock_ms() - begun <= PERIOD_MS) ", ""),
+STOPS = "drives", range(2, 29)  # after the patience of the rules
+WRONG = {  # what goes wrong in turn 20, and what is to happen in which turns
+    "sound": ({}, "drives", range(2, 120)),
+    "silent": ({"receiver": "*fix = seen; return 0;"}, *STOPS),
+    "no fix": ({"receiver": "seen.quality = 0;"}, *STOPS),
+    "worse than a metre": ({"receiver": "seen.error = 2;"}, *STOPS),
+    "old": ({"receiver": "seen.age = 301;"}, *STOPS),
+    "frozen": ({"receiver": "seen.time = 1950;"}, *STOPS),
+    "backwards": ({"receiver": "seen.time = 2900 - 50 * turn;"}, *STOPS),
+    "old times again": ({"receiver": "seen.time = 1900 + 50 * (turn % 2);"}, *STOPS),
+    "anew": ({"receiver": "seen.time = 10 * turn;"}, "drives", [*range(2, 29), *range(43, 120)]),
+    "battery": ({"battery": "21"}, "drives", range(2, 30)),
+    "fence": ({"inside": "y < 40"}, "drives", range(2, 20)),
+    "crossed": ({"inside": "y > 10"}, "drives", range(2, 20)),
+    "power": ({"battery": "21"}, "cut", range(30, 120)),
+    "late turns": ({}, "fed", range(20)),
+}
+CHECKS = {  # the line of the loop that sees to it, and one that does not
+    "sound": ("COUNT_M * (WMR_REAL)(left", "0 * (WMR_REAL)(left"),
+    "silent": ("seen.fresh = read_fix(&fix);", "seen.fresh = read_fix(&fix) + 1;"),
+    "no fix": ("seen.quality = fix.quality", "seen.quality = 4"),
+    "worse than a metre": ("seen.error = fix.error", "seen.error = 0"),
+    "old": ("(WMR_REAL)fix.age", "(WMR_REAL)(fix.age % 300)"),
+    "frozen": ("(int32_t)(fix.time - last)", "50"),
+    "backwards": ("(WMR_REAL)(int32_t)(fix.time", "(WMR_REAL)(uint32_t)(fix.time"),
+    "old times again": (LATER, "last"),
+    "anew": (LATER, "if (seen.later > 0) last"),
+    "battery": ("= battery_volts()", "= 24"),
+    "fence": ("= is_inside(goal.x, goal.y)", "= 1"),
+    "crossed": ("= is_inside(fix.pose.x, fix.pose.y)", "= 1"),
+    "power": ("if (memory.state == WMR_STOPPED) cut_power();", ""),
+    "late turns": ("if (clock_ms() - begun <= PERIOD_MS) ", ""),
 }
 
 
-@compiler
-@pytest.mark.parametrize(("wrong", "what", "turns", "check", "none"), CHECKS.values(), ids=CHECKS)
-def test_the_loop_has_no_check_too_many(tmp_path, wrong, what, turns, check, none):
-    sound = {"battery": "24", "inside": "(x - x + y - y == 0)", "receiver": ""}
-    (tmp_path / "board.h").write_text(BOARD.format(**sound | wrong))
-    assert check in SOURCE
+@pytest.fixture
+def on_board(tmp_path):
+    """What a loop prints on a board with what is wrong there."""
 
-    def seen(text):
+    def run(text, **wrong):
+        sound = {"battery": "24", "inside": "(x - x + y - y == 0)", "receiver": ""}
+        (tmp_path / "board.h").write_text(BOARD.format(**sound | wrong))
         (tmp_path / "example.c").write_text(text)
         options = f"-I{tmp_path}", '-DHARDWARE="board.h"', "-Wno-unused"
         program = build(tmp_path / "example.c", tmp_path, *options)
-        ran = subprocess.run([program], check=True, capture_output=True, text=True).stdout
-        return [int(turn) for turn in re.findall(rf"{what} (\d+)", ran)]
+        return subprocess.run([program], check=True, capture_output=True, text=True).stdout
+
+    return run
+
+
+@compiler
+@pytest.mark.parametrize("name", WRONG)
+def test_the_loop_has_no_check_too_many(on_board, name):
+    (wrong, what, turns), (check, none) = WRONG[name], CHECKS[name]
+    assert check in SOURCE
+
+    def seen(text):
+        return [int(turn) for turn in re.findall(rf"{what} (\d+)", on_board(text, **wrong))]
 
     assert seen(SOURCE) == list(turns)
     assert seen(SOURCE.replace(check, none)) != list(turns)  # so the check is needed
 
 
 @compiler
-def test_a_robot_that_the_loop_leaves_stands(tmp_path):
-    (tmp_path / "board.h").write_text(BOARD.format(battery="24", inside="1", receiver=""))
+def test_a_robot_that_the_loop_leaves_stands(on_board):
     source = SOURCE.replace("count < 4000", "count < 60")
     for text, cut in ((source, True), (source.replace("  cut_power(); /* parked", "  /*"), False)):
-        (tmp_path / "example.c").write_text(text)
-        options = f"-I{tmp_path}", '-DHARDWARE="board.h"', "-Wno-unused"
-        program = build(tmp_path / "example.c", tmp_path, *options)
-        ran = subprocess.run([program], check=True, capture_output=True, text=True).stdout
-        assert ("cut 60" in ran.splitlines()) == cut
+        assert ("cut 60" in on_board(text).splitlines()) == cut

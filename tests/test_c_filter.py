@@ -1,12 +1,11 @@
 """The printed filter: what is committed is what is printed, and C does what Python does."""
 
-import ctypes
 import math
 
 import numpy as np
 import pytest
 from driven import ARM, DT, FIRST, NOISE, drive
-from test_c_header import build, compiler
+from test_c_header import REALS, compiler, library
 
 from wmrlib import estimation, symbolic
 from wmrlib.estimation import Estimate
@@ -16,6 +15,7 @@ def test_what_is_committed_is_what_is_printed():
     for path, text in (
         (symbolic.PYTHON_MODULE, symbolic.python_module()),
         (symbolic.C_FILTER_HEADER, symbolic.c_filter_header()),
+        (symbolic.C_DRIVE, symbolic.c_drive()),
     ):
         assert path.read_text(encoding="utf-8") == text, "run python -m wmrlib.symbolic"
 
@@ -37,25 +37,20 @@ void tell(R *out) { int i, j, k = 0;
   out[k++] = filter.state[3]; out[k++] = filter.state[4]; out[k++] = filter.surprise;
   for (i = 0; i < 5; ++i) for (j = 0; j < 5; ++j) out[k++] = filter.covariance[i][j]; }
 """
-KINDS = {"double": ctypes.c_double, "float": ctypes.c_float}
 
 
-@pytest.fixture(scope="module", params=KINDS)
+@pytest.fixture(scope="module", params=REALS)
 def in_c(request, tmp_path_factory):
     """(the name of its numbers, call a function by name, tell the state as an Estimate)."""
-    folder = tmp_path_factory.mktemp(request.param)
-    head = f'#define WMR_REAL {request.param}\n#include "wmr_filter.h"\ntypedef WMR_REAL R;\n'
-    (folder / "calls.c").write_text(head + CALLS)
-    unused = "-Wno-unused-function"
-    library = ctypes.CDLL(str(build(folder / "calls.c", folder, "-shared", "-fPIC", unused)))
-    kind = KINDS[request.param]
+    folder, (kind, _) = tmp_path_factory.mktemp(request.param), REALS[request.param]
+    built = library("wmr_filter.h", CALLS, request.param, folder)
 
     def call(name, *values):
-        return bool(getattr(library, name)((kind * len(values))(*values)))
+        return bool(getattr(built, name)((kind * len(values))(*values)))
 
     def tell():
         out = (kind * 31)()
-        library.tell(out)
+        built.tell(out)
         numbers = np.array(out[:], dtype=float)
         return Estimate(numbers[:5], numbers[6:].reshape(5, 5), numbers[5])
 

@@ -4,9 +4,9 @@ import ctypes
 import math
 import re
 import shutil
-import struct
 import subprocess
 
+import boards
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -45,25 +45,12 @@ void local_e7(const int32_t *s, R *out) {
 void branch(const R *s, R *out) { out[0] = wmr_keep_branch(s[0], s[1], s[2]); }
 void less_1(const R *s, R *out) { out[0] = wmr_expm1(s[0]); }
 """
-AVR_STRICT = STRICT.replace("-Wdouble-promotion", "")  # there are no doubles to promote to
-AVR = """#define WMR_REAL float
-#include "wmr_law.h"
-#include <avr/interrupt.h>
+AVR = """#include "wmr_drive.h"
 #include <avr/pgmspace.h>
-#include <avr/sleep.h>
+static uint16_t most = 0; /* of boards.py, which counts cycles */
 typedef struct { int32_t gps[4]; float heading, goal_heading; wmr_gains gains; } drive;
-static const drive DRIVES[] PROGMEM = {
-#include "drives.h"
-};
-static void send(char letter) { while (!(UCSR0A & (1 << UDRE0))) {} UDR0 = (uint8_t)letter; }
-static void show(float number) {
-  union { float number; uint8_t bytes[4]; } same = {number};
-  for (int i = 0; i < 4; ++i) {
-    send("0123456789abcdef"[same.bytes[i] >> 4]); send("0123456789abcdef"[same.bytes[i] & 15]);
-  }
-}
+static const drive DRIVES[] PROGMEM = {@drives@};
 int main(void) {
-  UCSR0B = 1 << TXEN0;
   for (unsigned i = 0; i < sizeof DRIVES / sizeof *DRIVES; ++i) {
     drive d;
     memcpy_P(&d, &DRIVES[i], sizeof d);
@@ -71,12 +58,9 @@ int main(void) {
     wmr_local_position_e7(d.gps[0], d.gps[1], d.gps[2], d.gps[3], &goal.x, &goal.y);
     wmr_twist twist = wmr_law(wmr_polar_error(pose, goal), d.gains);
     wmr_wheels wheels = wmr_limited_wheels(twist, 0.5F, 2.0F);
-    show(goal.x), show(goal.y), show(wheels.left), show(wheels.right);
-    send('\\n');
+    printf("goes %.8e %.8e %.8e %.8e\\n", goal.x, goal.y, wheels.left, wheels.right);
   }
-  cli();
-  sleep_enable();
-  sleep_cpu(); /* without interrupts this ends the simulation */
+  return 0;
 }
 """
 STATE, WHEELS = [1.0, 0.5, -0.5, 2.0, 1.0, 0.3, 4.0], [1.0, 0.5, 0.4, 2.0]
@@ -93,18 +77,23 @@ def build(source, folder, *options, compiler=(CC, "-std=c99")):
     return program
 
 
+def library(header, calls, real, folder):
+    """A header with these calls of its functions, of numbers R."""
+    head = f'#define WMR_REAL {real}\n#include "{header}"\ntypedef WMR_REAL R;\n'
+    (folder / "calls.c").write_text(head + calls)
+    options = "-shared", "-fPIC", "-Wno-unused-function"
+    return ctypes.CDLL(str(build(folder / "calls.c", folder, *options)))
+
+
 @pytest.fixture(scope="module", params=REALS)
 def compiled(request, tmp_path_factory):
     """(call a function of the header, tolerance, round a number to the header's type)."""
     kind, tolerance = REALS[request.param]
-    folder = tmp_path_factory.mktemp(request.param)
-    head = f'#define WMR_REAL {request.param}\n#include "wmr_law.h"\ntypedef WMR_REAL R;\n'
-    (folder / "calls.c").write_text(head + CALLS)
-    library = ctypes.CDLL(str(build(folder / "calls.c", folder, "-shared", "-fPIC")))
+    built = library("wmr_law.h", CALLS, request.param, tmp_path_factory.mktemp(request.param))
 
     def call(name, *values):
         out, given = (kind * 3)(), GIVEN.get(name, kind)
-        getattr(library, name)((given * len(values))(*values), out)
+        getattr(built, name)((given * len(values))(*values), out)
         return np.array(out[:], dtype=float)
 
     return call, tolerance, lambda values: [kind(value).value for value in values]
@@ -252,13 +241,12 @@ def test_exp_less_1(compiled, x):
 
 @compiler
 @pytest.mark.parametrize("option", ["-ffast-math", "-ffinite-math-only"])
-def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, option):
+def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, capfd, option):
     (tmp_path / "empty.c").write_text('#include "wmr_law.h"\nint main(void) { return 0; }\n')
     build(tmp_path / "empty.c", tmp_path)
-    command = [CC, option, f"-I{FOLDER}", "-fsyntax-only", str(tmp_path / "empty.c")]
-    told = subprocess.run(command, capture_output=True, text=True)
-    assert told.returncode
-    assert "wmr_law.h needs NaN and infinity" in told.stderr
+    with pytest.raises(subprocess.CalledProcessError):
+        build(tmp_path / "empty.c", tmp_path, option)
+    assert "wmr_law.h needs NaN and infinity" in capfd.readouterr().err
 
 
 @compiler
@@ -273,42 +261,21 @@ def test_it_is_cpp_too(tmp_path, real):
 # On an ATmega328P, where double is float and <math.h> has no expm1.
 
 
-@pytest.fixture
-def avr_gcc(find_tool, tmp_path):
-    """Compile a program for the board."""
-
-    def compile_(source):
-        (tmp_path / "board.c").write_text(source)
-        command = [find_tool("avr"), "-mmcu=atmega328p", *AVR_STRICT.split()]
-        command += ["-std=c99", f"-I{FOLDER}", "board.c", "-o", "board.elf", "-lm"]
-        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True)
-
-    return compile_
-
-
 @pytest.mark.needs("avr", "simavr")
-def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float(
-    avr_gcc, find_tool, tmp_path
-):
+def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float():
     rng = np.random.default_rng(8)
-    drives = []
-    for _ in range(150):
-        lat, lon = rng.integers((-800_000_000, -1_790_000_000), (800_000_000, 1_790_000_000))
-        gps = [lat, lon, *rng.integers(-30_000, 30_000, 2)]
-        gps = [*gps[:2], gps[0] + gps[2], gps[1] + gps[3]]
-        floats = rng.uniform((-3, -3, 0.05, 0.1, 0.05, 0.5), (3, 3, 3, 3, 3, 4))
-        drives.append((list(map(int, gps)), np.float32(floats).astype(float).tolist()))
+    places = rng.integers((-800_000_000, -1_790_000_000), (800_000_000, 1_790_000_000), (150, 2))
+    points = np.hstack([places, places + rng.integers(-30_000, 30_000, places.shape)]).tolist()
+    low, high = (-3, -3, 0.05, 0.1, 0.05, 0.5), (3, 3, 3, 3, 3, 4)
+    floats = np.float32(rng.uniform(low, high, (len(points), 6))).tolist()
+    drives = [*zip(points, floats, strict=True)]
     lines = [f"{{{{{gps}}}, {a!r}, {b!r}, {{{gains}}}}},\n" for gps, (a, b, *gains) in drives]
     text = "".join(lines).replace("[", "").replace("]", "")
-    (tmp_path / "drives.h").write_text(re.sub(r"(-?\d+\.[\de-]+)", r"\1F", text))
-    done = avr_gcc(AVR)
-    assert done.returncode == 0, done.stderr
-    command = [find_tool("simavr"), "-m", "atmega328p", "-f", "16000000", "board.elf"]
-    ran = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=100)
-    rows = re.findall(r"[0-9a-f]{32}", ran.stdout + ran.stderr)
+    said, *_ = boards.on_avr(AVR.replace("@drives@", text))
+    rows = re.findall(r"goes (.+)", said)
     assert len(rows) == len(drives)
     for row, (gps, (heading, goal_heading, *gains)) in zip(rows, drives, strict=True):
-        east, north, *wheels = struct.unpack("<4f", bytes.fromhex(row))
+        east, north, *wheels = map(float, row.split())
         a, b = (wmr.GeoPoint(lat=gps[k] / 1e7, lon=gps[k + 1] / 1e7) for k in (0, 2))
         expected = wmr.local_position(a, b)
         assert (east, north) == pytest.approx(expected, abs=2e-4)
@@ -319,8 +286,14 @@ def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float(
 
 
 @pytest.mark.needs("avr")
-def test_there_degrees_in_double_do_not_compile(avr_gcc):
-    call = "float x, y; wmr_local_position(33.2, 44.3, 33.3, 44.4, &x, &y);"
-    told = avr_gcc(f'#define WMR_REAL float\n#include "wmr_law.h"\nint main(void) {{ {call} }}\n')
-    assert told.returncode
-    assert "a_double_has_4_bytes_here_call_wmr_local_position_e7" in told.stderr
+def test_there_degrees_in_double_do_not_compile(find_tool, tmp_path, capfd):
+    def board(call):
+        head = '#define WMR_REAL float\n#include "wmr_law.h"\n'
+        (tmp_path / "board.c").write_text(f"{head}int main(void) {{ float x, y; {call} }}\n")
+        avr = find_tool("avr"), "-mmcu=atmega328p", "-std=c99"
+        build(tmp_path / "board.c", tmp_path, "-Wno-double-promotion", compiler=avr)
+
+    board("wmr_local_position_e7(332000000, 443000000, 333000000, 444000000, &x, &y);")
+    with pytest.raises(subprocess.CalledProcessError):
+        board("wmr_local_position(33.2, 44.3, 33.3, 44.4, &x, &y);")
+    assert "a_double_has_4_bytes_here_call_wmr_local_position_e7" in capfd.readouterr().err

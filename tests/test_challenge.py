@@ -48,13 +48,6 @@ CHAOTIC = [  # of 4000 random gains, those whose score hung on rounding with two
 ]
 
 
-def pushed(game, push):
-    """The same cases, with every start moved a little."""
-    starts = (wmr.Pose(*np.add(case.start, push).tolist()) for case in game.cases)
-    cases = zip(game.cases, starts, strict=True)
-    return replace(game, cases=tuple(case._replace(start=start) for case, start in cases))
-
-
 # The cases --------------------------------------------------------------------------------------
 
 
@@ -174,13 +167,6 @@ def test_neither_extreme_wins():
     assert 0 < int(np.argmin(along_v_max)) < 6
 
 
-def test_worse_gains_score_worse():
-    worse = {"k_rho": (0.02, 3.0), "k_alpha": (0.1, 10.0), "h": (0.0, 30.0), "v_max": (0.5,)}
-    for gain, values in worse.items():
-        for value in values:
-            assert score(GOOD._replace(**{gain: value})).total > score(GOOD).total + 1.0, gain
-
-
 @settings(max_examples=60)
 @given(all_gains)
 def test_a_score_is_finite_and_a_case_never_costs_more_than_not_arriving(gains):
@@ -211,13 +197,10 @@ def test_what_it_says():
     paper, wild = repr(score(PAPER)).splitlines(), repr(score(WILD))
     head = "52.28 points, 12 of 12 reached; k_rho 2, k_alpha 1, h 0.3, v_max 4; seed 2026"
     assert paper[0] == f"<Score: {head}>"
-    assert (
-        "   7  straight behind           4.5       3.8            5.0           5.89    29.85"
-        in paper
-    )
-    assert wild.count("hangs on rounding") == sum(
-        case.note == "hangs on rounding" for case in score(WILD).cases
-    )
+    row = "   7  straight behind           4.5       3.8            5.0           5.89    29.85"
+    assert row in paper
+    notes = [case.note for case in score(WILD).cases]
+    assert wild.count("hangs on rounding") == notes.count("hangs on rounding")
     game = repr(from_seed()).splitlines()
     assert game[0] == "<Challenge: seed 2026, 12 cases, wheels up to 2 m/s, 60 s each>"
     assert len(game) == len(paper) == 14
@@ -239,21 +222,17 @@ def test_mirrored_cases_score_alike(gains, seed):
     assert [case.note for case in one.cases] == [case.note for case in other.cases]
 
 
-@settings(max_examples=40)
-@given(all_gains, st.integers(0, 2**32))
+@settings(max_examples=80)
+@given(st.sampled_from(CHAOTIC) | all_gains, st.integers(0, 2**32))
 def test_what_rounding_could_do_changes_no_score(gains, seed):
     """Starts moved by about 1e-12, a thousand times what rounding does: as on another machine."""
     push, one = np.random.default_rng(seed).normal(0.0, 1e-12, 3), score(gains)
-    other = score(gains, pushed(one.game, push))
+    cases = (
+        case._replace(start=wmr.Pose(*np.add(case.start, push).tolist())) for case in one.game.cases
+    )
+    other = score(gains, replace(one.game, cases=tuple(cases)))
     assert one.total == other.total
     assert [case.note for case in one.cases] == [case.note for case in other.cases]
-
-
-def test_chaotic_runs_score_the_same_wherever_rounding_pushes_them():
-    for gains in CHAOTIC:
-        one = score(gains)
-        for push in np.random.default_rng(1).normal(0.0, 1e-12, (10, 3)):
-            assert score(gains, pushed(one.game, push)).total == one.total, gains
 
 
 def test_plain_python_scores_the_same():

@@ -69,10 +69,3 @@ def test_the_other_checks_say_what_is_wrong():
     ):
         with pytest.raises(ValueError, match=message):
             check()
-
-
-def test_what_is_right_comes_back():
-    assert _checks.scalar("dt", 1) == 1.0
-    assert _checks.choice("law", "a", ("a", "b")) == "a"
-    assert _checks.instance("n", 1, int) == 1
-    assert _checks.same_shape(a=1.0, b=np.ones((3, 1)), c=[1, 2]) == (3, 2)

@@ -105,19 +105,11 @@ def test_two_processes_at_once_keep_what_each_compiled(copy):
     assert printed(process(copy, "float", "int"))[1] == "0"
 
 
-@pytest.mark.parametrize(
-    ("old", "new", "says"),
-    [
-        ("gains.h * theta", "gains.hh * theta", "AttributeError: .*no attribute 'hh'"),
-        ("alpha + gains.h", "alfa + gains.h", "NameError: name 'alfa' is not defined"),
-        ("return v_over_rho, gains", "return gains", "TypeError: cannot unpack"),
-    ],
-)
-def test_a_slip_in_a_law_is_an_error_that_a_student_can_read(copy, old, new, says):
-    edited(copy, "laws.py", old, new)
+def test_a_slip_in_a_law_is_an_error_that_a_student_can_read(copy):
+    edited(copy, "laws.py", TERM, TERM.replace("alpha", "alfa"))
     code = "import wmrlib as w\nw.simulate(w.Pose(0, 0, 0), w.Pose(3, 1, 0), w.GENTLE_GAINS)"
     _, err = process(copy, code=code).communicate()
-    assert re.search(says, err), err
+    assert "NameError: name 'alfa' is not defined" in err
     assert "laws.py" in err
     assert err.count("\n") < 20
 

@@ -15,6 +15,7 @@ import pytest
         (["npm", "compiler"], [], "apt install gcc"),
         (["npm"], [], "apt install npm"),
         ([], ["browser_page", "browser"], "apt install chromium"),
+        ([], ["site"], "apt install npm"),
     ],
 )
 def test_a_missing_tool(monkeypatch, request, ci, outcome, marks, fixtures, install):
@@ -22,6 +23,7 @@ def test_a_missing_tool(monkeypatch, request, ci, outcome, marks, fixtures, inst
     conftest = next(each for each in plugins if hasattr(each, "lacking"))
     monkeypatch.setattr(conftest, "command", lambda tool: None)
     monkeypatch.setenv("CI", ci)
+    monkeypatch.delenv("BOOK_HTML", raising=False)
     item = SimpleNamespace(
         fixturenames=fixtures, iter_markers=lambda name: [pytest.mark.needs(*marks).mark]
     )

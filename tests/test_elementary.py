@@ -65,9 +65,8 @@ def test_sincos_up_to_a_million_radians(angle):
 
 @pytest.mark.parametrize("angle", [1.1e6, -1e300, math.inf, -math.inf, math.nan])
 def test_a_direction_that_is_lost_is_not_a_number(angle):
-    assert np.isnan(
-        [*vectors.vector_sincos(angle), vectors.vectorised(_elementary.sinc)(angle)]
-    ).all()
+    sinc = vectors.vectorised(_elementary.sinc)
+    assert np.isnan([*vectors.vector_sincos(angle), sinc(angle)]).all()
 
 
 @forms
@@ -77,9 +76,8 @@ def test_a_direction_that_is_lost_is_not_a_number(angle):
 @example(angle=-1.0000001e-8)
 @example(angle=5e-324)
 def test_sinc(form, angle):
-    assert form(_elementary.sinc)(angle) == near(
-        mpmath.sin(angle) / mpmath.mpf(angle) if angle else 1.0
-    )
+    truth = mpmath.sin(angle) / mpmath.mpf(angle) if angle else 1.0
+    assert form(_elementary.sinc)(angle) == near(truth)
 
 
 @forms
@@ -89,11 +87,12 @@ def test_expm1(form, x):
     assert form(_elementary.expm1)(x) == near(mpmath.expm1(mpmath.mpf(x)))
 
 
+past_the_goal = st.floats(-0.1, 0.0)  # where a step may carry rho
+
+
 @forms
 @given(
-    rho=st.floats(0.0, 1e3)
-    | st.floats(0.0, 1e-6)
-    | st.floats(-0.1, 0.0),  # a step may carry rho past the goal
+    rho=st.floats(0.0, 1e3) | st.floats(0.0, 1e-6) | past_the_goal,
     k_rho=st.floats(0.0, 50.0) | st.floats(0.0, 1e-6),
 )
 @example(rho=0.0, k_rho=0.0)
@@ -104,12 +103,10 @@ def test_expm1(form, x):
 @example(rho=-0.095703125, k_rho=43.9461639526886)
 def test_decay(form, rho, k_rho):
     truth = -mpmath.expm1(-mpmath.mpf(k_rho) * mpmath.mpf(rho)) / mpmath.mpf(rho) if rho else k_rho
-    past = max(
-        0.0, -k_rho * rho
-    )  # the rounding of this product, half a unit, is made larger by as much as exp grows
-    assert form(_elementary.decay)(rho, k_rho) == pytest.approx(
-        float(truth), rel=TWO_ULP * (1.0 + past), abs=1e-300
-    )
+    # The rounding of k_rho rho, half a unit, is made larger by as much as exp grows.
+    accuracy = TWO_ULP * (1.0 + max(0.0, -k_rho * rho))
+    found = form(_elementary.decay)(rho, k_rho)
+    assert found == pytest.approx(float(truth), rel=accuracy, abs=1e-300)
 
 
 lengths = st.floats(-1e3, 1e3) | st.floats(-1e150, 1e150) | st.floats(-1e-100, 1e-100)
@@ -194,12 +191,11 @@ def test_a_loop_over_many_gives_the_same_to_the_last_digits():
 def test_a_vectorised_law_is_the_law():
     """The same text with the other sine inside, down to what the functions that it calls call."""
     law, gains = laws.pose_law, GainsFields(2.0, 1.0, 0.3, 4.0)
+    in_vectors = vectors.vectorised(law)
     for code in laws.POSE_LAWS.values():
-        assert vectors.vectorised(law)(3.0, 0.7, -2.0, gains, code) == pytest.approx(
-            law(3.0, 0.7, -2.0, gains, code), rel=1e-14
-        )
-    assert vectors.vectorised(law) is vectors.vectorised(law)
-    assert math.isnan(
-        vectors.vectorised(law)(3.0, 1e7, -2.0, gains, 0)[0]
-    )  # vector_sincos is in it, three calls down
-    assert math.isfinite(law(3.0, 1e7, -2.0, gains, 0)[0])
+        state = 3.0, 0.7, -2.0, gains, code
+        assert in_vectors(*state) == pytest.approx(law(*state), rel=1e-14)
+    assert vectors.vectorised(law) is in_vectors
+    lost = 3.0, 1e7, -2.0, gains, 0  # for vector_sincos, three calls down
+    assert math.isnan(in_vectors(*lost)[0])
+    assert math.isfinite(law(*lost)[0])

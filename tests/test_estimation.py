@@ -16,16 +16,6 @@ from wmrlib.estimation import Noise
 # What each measurement does ----------------------------------------------------------------------
 
 
-def test_at_rest_the_gyro_shows_its_bias_and_the_heading_stays():
-    now = FIRST
-    for _ in range(100):
-        now = estimation.predict(now, 0.0, 0.0, 0.013, DT, NOISE)
-    assert now.state[3] == pytest.approx(0.013, abs=2e-4)
-    assert now.sigma[3] < 0.1 * FIRST.sigma[3]
-    assert now.pose == FIRST.pose
-    assert now.sigma[:3] == pytest.approx(FIRST.sigma[:3])
-
-
 def test_a_jump_is_refused_and_its_surprise_told():
     jump = estimation.use_position(FIRST, 31.0, -2.0, 0.5)
     assert jump.surprise == pytest.approx(30.0**2 / 0.5)
@@ -33,10 +23,8 @@ def test_a_jump_is_refused_and_its_surprise_told():
     assert (jump.covariance == FIRST.covariance).all()
     assert estimation.use_position(FIRST, 31.0, -2.0, 0.5, gate=math.inf).pose.x == 16.0
     edge = math.sqrt(estimation.GATE_1 * (0.2**2 + 0.1**2))
-    assert [
-        estimation.use_heading(FIRST, 0.4 + side * edge, 0.1).pose.heading == 0.4
-        for side in (0.999, 1.001)
-    ] == [False, True]
+    assert estimation.use_heading(FIRST, 0.4 + 0.999 * edge, 0.1).pose.heading != 0.4
+    assert estimation.use_heading(FIRST, 0.4 + 1.001 * edge, 0.1).pose.heading == 0.4
 
 
 def test_a_robot_that_was_carried_is_found_once_the_filter_doubts_itself():
@@ -108,24 +96,6 @@ def test_the_covariance_stays_symmetric_and_positive_definite(steps, gate):
         scaled = now.covariance / np.outer(now.sigma, now.sigma)
         assert np.linalg.eigvalsh(scaled)[0] > 0.0
         assert -math.pi < now.state[2] <= math.pi
-
-
-def test_josephs_form_outlasts_the_short_one_in_floats():
-    """A sharp fix after a vague guess: the short form's variance falls below 0 in floats."""
-    short = np.diag([1e4, 1e4]).astype(np.float32)
-    long = short.copy()
-    for row in ([1.0, 0.0], [0.0, 1.0], [1.0, 1.0], [1.0, -1.0]):
-        row, variance, one = (
-            np.array(row, np.float32),
-            np.float32(1e-6),
-            np.eye(2, dtype=np.float32),
-        )
-        gain = short @ row / (row @ short @ row + variance)
-        short = (one - np.outer(gain, row)) @ short
-        gain = long @ row / (row @ long @ row + variance)
-        kept = one - np.outer(gain, row)
-        long = kept @ long @ kept.T + variance * np.outer(gain, gain)
-    assert np.linalg.eigvalsh(short)[0] <= 0.0 < np.linalg.eigvalsh(long)[0]
 
 
 # Bad input ---------------------------------------------------------------------------------------

@@ -97,9 +97,8 @@ def test_what_nobody_began_is_not_collected(tmp_path, course, more, blanks):
     text = '{"cells": [{"source": ["name = \\"\\"", "\\n"]}, {"source": ""}]}'
     (course / "release" / "ch01").mkdir(parents=True)
     (course / "release" / "ch01" / NAME).write_text(text)
-    own = (
-        text.replace(r"\"\"", r"\"ada\"").replace(r"\n", r"\n" + more).replace(" ", " " * blanks, 1)
-    )
+    own = text.replace(r"\"\"", r"\"ada\"").replace(r"\n", r"\n" + more)
+    own = own.replace(" ", " " * blanks, 1)
     work(tmp_path, "ada", text=own)
     assert collected(tmp_path, course) == ({"ada": own} if more or blanks > 1 else {}, "")
 

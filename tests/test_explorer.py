@@ -143,7 +143,7 @@ def test_bad_settings_are_refused_by_name():
 def imported(texts, path, above=()):
     """Every module that a module needs, itself included; none in a circle."""
     assert path not in above, (*above, path)
-    others = re.findall(r"^(?:import|\}).* from '(.+)';$", texts[path], re.MULTILINE)
+    others = re.findall(r"^(?:import|export|\}).* from '(.+)';$", texts[path], re.MULTILINE)
     found = (posixpath.normpath(PurePosixPath(path).parent / other) for other in others)
     return {path}.union(*(imported(texts, other, (*above, path)) for other in found))
 

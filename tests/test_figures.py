@@ -654,6 +654,13 @@ BAD = [
     ("heading has 2 entries, .* 1 are needed", "designs", (MANY, {"a": MANY}, FOUND)),
     ("memory's values has 5 entries", "designs", (np.arange(5.0), {"a": MANY}, {"a": MANY})),
     ("counts has 0 entries", "verdicts", ({},)),
+    ("mismatched lengths", "residual_curve", (LIMITS, LEFT[:2], predict), {"published": 0.1}),
+    (
+        r"one x = 0\.0 is not allowed",
+        "tradeoff",
+        ({"one": (0.0, 1.0)}, (1, 1, "a")),
+        {"xlabel": "", "ylabel": ""},
+    ),
     ("a Route is needed, not a Pose", "route", (WAY,)),
     ("a Score is needed, not a Gains", "challenge_paths", (GAINS,)),
     ("runs has 0 entries", "heading_powers", ({}, {})),
@@ -667,25 +674,12 @@ BAD = [
 
 
 def test_bad_input_is_named():
-    for message, name, arguments in BAD:
+    beside_a_run = [
+        ("field = 'speed' .* one of 'v'", "compare_runs", ({"one": drive()}, "speed")),
+        ("times has 1 entries, .* 2 to 6", "snapshots", (drive(), [0.0])),
+        (r"times = .* at most 15\.5", "snapshots", (drive(), [0.0, 99.0])),
+        ("driven has no sample", "route", (route("lost"),)),
+    ]
+    for message, name, arguments, *named in BAD + beside_a_run:
         with pytest.raises(ValueError, match=message):
-            getattr(figures, name)(*arguments)
-
-
-def test_bad_input_beside_a_run_is_named():
-    for message, make in (
-        ("field = 'speed' .* one of 'v'", lambda: figures.compare_runs({"one": drive()}, "speed")),
-        ("times has 1 entries, .* 2 to 6", lambda: figures.snapshots(drive(), [0.0])),
-        (r"times = .* at most 15\.5", lambda: figures.snapshots(drive(), [0.0, 99.0])),
-        (
-            "mismatched lengths",
-            lambda: figures.residual_curve(LIMITS, LEFT[:2], predict, published=0.1),
-        ),
-        (
-            r"one x = 0\.0 is not allowed",
-            lambda: figures.tradeoff({"one": (0.0, 1.0)}, (1, 1, "a"), xlabel="", ylabel=""),
-        ),
-        ("driven has no sample", lambda: figures.route(route("lost"))),
-    ):
-        with pytest.raises(ValueError, match=message):
-            make()
+            getattr(figures, name)(*arguments, **dict(*named))

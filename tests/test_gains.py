@@ -11,16 +11,10 @@ import wmrlib as wmr
 from wmrlib.body import checked_wheels
 
 
-def test_fields_defaults_and_floats():
-    gains = wmr.Gains(2, 1, 0.3)
-    assert gains == (2.0, 1.0, 0.3, 4.0)
-    assert {type(field) for field in gains} == {
-        float
-    }  # whole numbers would make numba compile everything a second time
-
-
-def test_zero_shows_what_a_gain_does():
-    assert wmr.Gains(0, 0, 0).h == 0.0
+def test_a_gain_may_be_0_and_is_a_float():
+    gains = wmr.Gains(2, 1, 0)
+    assert gains == (2.0, 1.0, 0.0, 4.0)
+    assert {*map(type, gains)} == {float}  # numba would compile all a second time for whole numbers
 
 
 def test_linear_gains_from_a_matrix():
@@ -41,10 +35,8 @@ def test_what_is_replaced_is_checked_too(one):
     for name in one._fields:
         changed = one._replace(**{name: 7})
         assert type(changed) is type(one)
-        assert changed == tuple(
-            7.0 if each == name else value for each, value in one._asdict().items()
-        )
-        assert {type(field) for field in changed} == {float}
+        assert changed._asdict() == one._asdict() | {name: 7.0}
+        assert {*map(type, changed)} == {float}
         for wrong in (math.nan, math.inf, "1", None, True):
             with pytest.raises(ValueError, match=f"{name} = {wrong!r} is not allowed"):
                 one._replace(**{name: wrong})
@@ -65,9 +57,7 @@ def test_replaced_fields_may_be_arrays_where_fields_may():
     assert many.h.tolist() == [0.1, 0.2]
     with pytest.raises(ValueError, match="mismatched lengths"):
         many._replace(k_rho=np.ones(3))
-    with pytest.raises(
-        ValueError, match=r"omega_x = .* is not allowed: one number is needed, not an array"
-    ):
+    with pytest.raises(ValueError, match=r"omega_x = .*: one number is needed, not an array"):
         CHECKED[2]._replace(omega_x=np.ones(2))
 
 
@@ -84,19 +74,8 @@ BAD = [
     (lambda: checked_wheels(LIMITS(-0.5, 1.0)), r"wheels\.track_width = -0\.5 .* above 0"),
     (lambda: checked_wheels(LIMITS(0.5, 0.0), "limits"), r"limits\.max_speed = 0\.0 .* above 0"),
     (lambda: checked_wheels(LIMITS(0.5, -math.inf)), r"wheels\.max_speed = -inf .* above 0"),
-    (lambda: checked_wheels(2.0), r"wheels = 2\.0 .* a Wheels is needed, not a float"),
-    (
-        lambda: checked_wheels(LIMITS(np.ones(2), 2.0)),
-        r"track_width = .* not an array of shape \(2,\)",
-    ),
-    (
-        lambda: checked_wheels(LIMITS(0.5, np.ones(2))),
-        r"max_speed = .* not an array of shape \(2,\)",
-    ),
-    (
-        lambda: checked_wheels(LIMITS(0.5, np.array([math.inf, 2.0]))),
-        r"wheels\.max_speed = .* is not",
-    ),
+    (lambda: checked_wheels(LIMITS(np.ones(2), 2.0)), r"width = .* not an array of shape \(2,\)"),
+    (lambda: checked_wheels(LIMITS(0.5, np.full(2, math.inf))), r"wheels\.max_speed = .* is not"),
 ]
 
 

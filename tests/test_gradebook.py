@@ -1,17 +1,17 @@
 """What an assistant does between two runs of grade.py, and what table and marks then say."""
 
 import contextlib
-import csv
 import os
 import shutil
 import signal
 
+import damage
 import grade
 import handins
 import nbformat
 import pytest
 from gradebook import Course
-from graded import ROOT
+from graded import ROOT, marks
 from nbformat.v4 import new_code_cell, new_markdown_cell, new_notebook, new_output
 from sandbox import Limits
 from table import Row, table
@@ -67,6 +67,8 @@ def made(tmp_path_factory):
         cell(new_markdown_cell, "MODEL", "why", 4, grade=True, solution=True),
     ]
     nbformat.write(new_notebook(cells=cells), folder / "source" / "ch01" / NAME)
+    with Course(folder) as ours:
+        ours.release("ch01")
     for student in "ada", "bob":
         hand_in(folder, student)
     return folder
@@ -81,14 +83,9 @@ def course(made, tmp_path, monkeypatch):
 
 
 def hand_in(course, student: str, answer: str = RIGHT, essay: str = ESSAY) -> None:
-    if not (course / "release").exists():
-        with Course(course) as ours:
-            ours.release("ch01")
     notebook = nbformat.read(course / "release" / "ch01" / NAME, as_version=4)
     notebook.cells[0].source, notebook.cells[2].source = answer, essay
-    place = course / "submitted" / student / "ch01"
-    place.mkdir(parents=True, exist_ok=True)
-    nbformat.write(notebook, place / NAME)
+    damage.hand_in(course, student, "ch01", notebook)
 
 
 def graded(course, *students, **more) -> dict[str, tuple[str, str]]:
@@ -97,9 +94,8 @@ def graded(course, *students, **more) -> dict[str, tuple[str, str]]:
     return {row.student: (row.points, row.said) for row in rows}
 
 
-def marked(course, kind: str = "moodle") -> dict[str, str]:
-    with (course / f"marks-{kind}.csv").open(encoding="utf-8", newline="") as file:
-        return {row[0]: row[-1] for row in list(csv.reader(file))[1:]}
+def marked(course) -> dict[str, str]:
+    return {name: row["ch01"] for name, row in marks(course).items()}
 
 
 def page(course, student: str) -> str:
@@ -224,8 +220,7 @@ def test_with_a_roster_the_marks_are_those_of_its_students(course):
     (course / "students.csv").write_text("\n".join(lines))
     assert graded(course)["bob"][1].startswith("not in students.csv and not in the marks; ")
     assert marked(course) == {"ada": "3", "cy": ""}
-    with (course / "marks-canvas.csv").open(encoding="utf-8", newline="") as file:
-        rows = {row["SIS Login ID"]: row for row in csv.DictReader(file)}
+    rows = marks(course, "canvas")
     assert (rows["ada"]["Student"], rows["ada"]["ID"]) == ("Ada Lovelace", "123")
     assert (rows["cy"]["Student"], rows["cy"]["ID"], rows["cy"]["ch01"]) == ("Cy", "", "")
     (course / "students.csv").write_text("name\nada")

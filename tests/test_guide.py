@@ -1,6 +1,5 @@
 """The lecturer's guide: its snippets, and a term of three weeks by its commands alone."""
 
-import csv
 import json
 import os
 import re
@@ -15,7 +14,7 @@ from pathlib import Path
 import exchange
 import pytest
 from damage import command, empty_course
-from graded import ROOT, most, notebook, wrong_answers
+from graded import ROOT, marks, most, notebook, wrong_answers
 from test_course import answered, model
 from test_hub import ask, ports, until
 
@@ -143,10 +142,6 @@ class Played:
             process.terminate()
             process.wait(60)
 
-    def marks(self) -> dict[str, dict[str, str]]:
-        with (self.course / "marks-moodle.csv").open(encoding="utf-8", newline="") as file:
-            return {row["Username"]: row for row in csv.DictReader(file)}
-
 
 @pytest.mark.slow
 def test_a_term_of_three_weeks_is_played_by_the_guides_commands_alone(tmp_path, monkeypatch):
@@ -192,7 +187,7 @@ def test_a_term_of_three_weeks_is_played_by_the_guides_commands_alone(tmp_path, 
     all_of = most("ch01")
     wanted = dict.fromkeys(("s01", "s02", "s05"), f"{all_of}") | {"s03": f"{0.8 * all_of:g}"}
     wanted |= {"s04": "0", "s06": ""}
-    assert {name: term.marks()[name]["ch01"] for name in wanted} == wanted
+    assert {name: marks(term.course)[name]["ch01"] for name in wanted} == wanted
     term.say("return")
     assert [*(term.homes / "s03" / "robot" / "feedback" / "ch01").glob("*.html")]
 
@@ -201,8 +196,8 @@ def test_a_term_of_three_weeks_is_played_by_the_guides_commands_alone(tmp_path, 
     text = (term.course / "term.toml").read_text("utf-8")
     (term.course / "term.toml").write_text(f"{text}s03 = 2\n", encoding="utf-8")
     assert "graded" not in term.week("2026-10-24T08:00+02:00")
-    assert term.marks()["s03"]["ch01"] == f"{all_of}"
-    assert float(term.marks()["s05"]["ch01"]) < all_of
+    assert marks(term.course)["s03"]["ch01"] == f"{all_of}"
+    assert float(marks(term.course)["s05"]["ch01"]) < all_of
 
     # Third week: the hub hands out named copies. One student types another name.
     for name in "s06", "s07":

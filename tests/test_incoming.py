@@ -167,6 +167,7 @@ def test_two_students_of_one_name_are_told_apart_by_canvas_number_alone(tmp_path
         ("username\n../x", r"line 2: the user name '../x'; letters"),
         ("username\nada\nbob\nADA", "line 4: the user name 'ADA' stands there twice"),
         (b"username\n\xe9", "save it as CSV UTF-8"),
+        ('"user"name\nada', "expected after"),
     ],
 )
 def test_a_roster_that_can_not_be_read_says_where(tmp_path, text, wrong):

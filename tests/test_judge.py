@@ -8,25 +8,12 @@ import threading
 from collections import deque
 from multiprocessing import Pipe
 
+import graded
 import judge
 import numpy as np
 import pytest
 import sympy as sp
-from graded import (
-    ASSIGNMENTS,
-    BEGIN,
-    answers,
-    cells,
-    given,
-    graded,
-    lost,
-    run_cell,
-    task_of,
-    tasks,
-    whole,
-    wrong_answers,
-)
-from hypothesis import given as for_all
+from hypothesis import given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
@@ -63,25 +50,28 @@ def over_a_line(names: dict, asks) -> object:
 
 def judged(chapter: str, name: str, names: dict) -> str:
     """How a check fails of whose answers the process that judges hears; nothing if it passes."""
-    ours = [source for source, points in cells(chapter).values() if not points]
-    ours = [source for source in ours if BEGIN not in source and not source.startswith("name =")]
-    source = cells(chapter)[name][0]
+    cells = graded.cells(chapter)
+    ours = [source for source, points in cells.values() if not points]
+    ours = [it for it in ours if graded.BEGIN not in it and not it.startswith("name =")]
+    source, _ = cells[name]
     (shown,) = over_a_line(names, lambda link: judge._verdict(source, ours, Called(link)))
     return f"{shown.ename}: {shown.evalue}" if shown.output_type == "error" else ""
 
 
-@pytest.mark.parametrize("chapter", ASSIGNMENTS)
+@pytest.mark.parametrize("chapter", graded.ASSIGNMENTS)
 def test_what_a_check_says_does_not_depend_on_where_the_answer_is(chapter):
-    tried = [(wrong["cell"], wrong["source"]) for wrong in wrong_answers(chapter)]
-    tried += [(task, cells(chapter)[task][0]) for task, checks in tasks(chapter).items() if checks]
-    for key, right in answers(chapter)["right"].items():
-        tried += [(task_of(chapter, key), whole(chapter, key, answer)) for answer in right]
+    cells, tried = graded.cells(chapter), []
+    tried += [(wrong["cell"], wrong["source"]) for wrong in graded.wrong_answers(chapter)]
+    tried += [(task, cells[task][0]) for task, checks in graded.tasks(chapter).items() if checks]
+    for key, right in graded.answers(chapter)["right"].items():
+        task = graded.task_of(chapter, key)
+        tried += [(task, graded.whole(chapter, key, answer)) for answer in right]
     for task, source in tried:
-        names = dict(given(chapter)) | {"name": "Ada"}
+        names = dict(graded.given(chapter)) | {"name": "Ada"}
         with contextlib.suppress(Exception):  # then the checks fail
-            run_cell(source, f"<{chapter} answer>", names)
-        beside = lost(chapter, task, source)
-        for name in graded(chapter, task):
+            graded.run_cell(source, f"<{chapter} answer>", names)
+        beside = graded.lost(chapter, task, source)
+        for name in graded.graded(chapter, task):
             assert judged(chapter, name, names) == beside.get(name, ""), (name, source)
 
 
@@ -102,7 +92,7 @@ VALUES = st.recursive(
 )
 
 
-@for_all(VALUES)
+@given(VALUES)
 def test_data_arrives_as_it_is(value):
     got = over_a_line({"it": value}, lambda link: _wire.Line(link, {}).value("it"))
     assert got == value
@@ -139,7 +129,7 @@ def test_arrays_expressions_and_functions_arrive_as_what_they_are():
     over_a_line(names, asks)
 
 
-@for_all(
+@given(
     st.recursive(
         NUMBERS.filter(lambda it: isinstance(it, (type(None), bool, int, float, str))),
         lambda inner: (

@@ -4,17 +4,14 @@ import json
 import math
 import os
 import socket
+import socketserver
 import subprocess
-import sys
 import threading
 import time
 from functools import reduce
 from operator import xor
-from pathlib import Path
 
 import pytest
-
-sys.path.insert(0, str(Path(__file__).parents[1] / "book" / "robot"))
 from live_receiver import LiveReceiver
 
 VERSION = b'{"class":"VERSION","release":"3.22"}\n'
@@ -131,35 +128,27 @@ def tpv(time_s=1, **fields):
 @pytest.fixture
 def serve():
     """A server that gives each connection the next of these answers, and the last one for ever."""
-    server = socket.create_server(("127.0.0.1", 0))
-    server.settimeout(0.1)
-    over, held = threading.Event(), []
-
-    def run(answers):
-        count = 0
-        while not over.is_set():
-            try:
-                sock, _ = server.accept()
-            except TimeoutError:
-                continue
-            sock.sendall(answers[min(count, len(answers) - 1)])
-            count += 1
-            if count < len(answers):
-                sock.close()
-            held.append(sock)
-
-    threads = []
+    over, servers = threading.Event(), []
 
     def begin(*answers):
-        threads.append(threading.Thread(target=run, args=(answers,)))
-        threads[0].start()
-        return server.getsockname()[1]
+        left = list(answers)
+
+        class Handler(socketserver.BaseRequestHandler):
+            def handle(self):
+                last = len(left) == 1
+                self.request.sendall(left[0] if last else left.pop(0))
+                if last:
+                    over.wait()
+
+        servers.append(socketserver.ThreadingTCPServer(("127.0.0.1", 0), Handler))
+        threading.Thread(target=servers[-1].serve_forever).start()
+        return servers[-1].server_address[1]
 
     yield begin
     over.set()
-    threads[0].join()
-    for sock in (server, *held):
-        sock.close()
+    for server in servers:
+        server.shutdown()
+        server.server_close()
 
 
 def test_nonsense_and_lost_connections_are_survived(serve):

@@ -1,7 +1,6 @@
 """A live figure added to a copy by the steps of CONTRIBUTING.md lives, is true and has a place."""
 
 import json
-import sys
 
 import pytest
 from recipes import blocks, check, copied, put, run
@@ -24,8 +23,8 @@ def test_the_recipe_leaves_every_test_of_live_figures_green(tmp_path):
     cell = json.loads(json.dumps(shown[-1])) | {"id": "half-round", "source": "live.half_round()"}
     notebook["cells"].insert(notebook["cells"].index(shown[-1]) + 1, cell)
     chapter.write_text(json.dumps(notebook), encoding="utf-8")
-    run(copy, sys.executable, "book/tools/kit.py")
-    run(copy, sys.executable, "book/tools/run.py", "02")
+    run(copy, "book/tools/kit.py")
+    run(copy, "book/tools/run.py", "02")
     browser = ("tests/browser/test_live.py", "tests/browser/test_live_truth.py")
-    check(copy, sys.executable, *browser, "-k", "half_round")
-    check(copy, sys.executable, "tests/test_project.py", "-k", "move or stored")
+    check(copy, *browser, "-k", "half_round")
+    check(copy, "tests/test_project.py", "-k", "move or stored")

@@ -120,14 +120,13 @@ def brightness(colour):
 
 
 def test_formulas_colour_the_letters_that_are_meant():
-    names = {"rho": "RHO", "alpha": "ALPHA", "theta": "THETA"}
+    names = {
+        **{role: f"MATHEMATICAL ITALIC SMALL {role.upper()}" for role in ("rho", "alpha", "theta")},
+        "h": "PLANCK CONSTANT",  # which is Unicode's italic h
+        "V": "MATHEMATICAL ITALIC CAPITAL V",
+    }
     for role, code in face.LETTERS.items():
-        letter = chr(int(code, 16))
-        wanted = f"MATHEMATICAL ITALIC SMALL {names[role]}" if role in names else ""
-        # Unicode's italic h is Planck's constant
-        assert unicodedata.name(letter) == (
-            wanted or {"h": "PLANCK CONSTANT", "V": "MATHEMATICAL ITALIC CAPITAL V"}[role]
-        )
+        assert unicodedata.name(chr(int(code, 16))) == names[role]
         assert f'[data-c="{code}"] {{ fill: var(--{role}); --role: {role}; }}' in face.css()
 
 

@@ -16,23 +16,19 @@ DT, GAINS = 0.1, wmr.GENTLE_GAINS
 START, GOAL = wmr.Pose(-6.0, 2.0, 0.5), wmr.Pose(0.0, 0.0, -1.0)
 LIMITS = wmr.Wheels(track_width=0.5, max_speed=1.0)
 SHORT = {"method": "arc", "dt": DT, "duration": 12.0, "arrival_radius": 0.3}
-FULL = 0xFFFFFFFF
 
 
 @pytest.mark.parametrize(
-    ("counter", "key", "words"),
-    [  # Random123's kat_vectors; the last are digits of pi
-        ((0,) * 4, (0, 0), "6627e8d5 e169c58d bc57ac4c 9b00dbd8"),
-        ((FULL,) * 4, (FULL, FULL), "408f276d 41c83b0e a20bc7c6 6d5451fd"),
-        (
-            (0x243F6A88, 0x85A308D3, 0x13198A2E, 0x03707344),
-            (0xA4093822, 0x299F31D0),
-            "d16cfe09 94fdcceb 5001e420 24126ea1",
-        ),
+    "vector",
+    [  # Random123's kat_vectors: counter, key and words; the last are digits of pi
+        "00000000 00000000 00000000 00000000 00000000 00000000 6627e8d5 e169c58d bc57ac4c 9b00dbd8",
+        "ffffffff ffffffff ffffffff ffffffff ffffffff ffffffff 408f276d 41c83b0e a20bc7c6 6d5451fd",
+        "243f6a88 85a308d3 13198a2e 03707344 a4093822 299f31d0 d16cfe09 94fdcceb 5001e420 24126ea1",
     ],
 )
-def test_random_words_are_those_that_are_known(counter, key, words):
-    assert [f"{word:08x}" for word in engine.philox(counter, key)] == words.split()
+def test_random_words_are_those_that_are_known(vector):
+    words = [int(word, 16) for word in vector.split()]
+    assert engine.philox(words[:4], words[4:6]) == tuple(words[6:])
 
 
 # A second way, sample by sample, with whole numbers that don't overflow ---------------------------
@@ -79,10 +75,8 @@ def driven(receiver, seed, run=0, method="arc", wheels=None, gains=GAINS):
             errors[fix] = error
             fixes[fix] = complex(truth[fix].x, truth[fix].y) + receiver.sigma * error
             fixes[fix] += constant + receiver.jump * jump
-        seen = wmr.Pose(
-            fixes[fix].real, fixes[fix].imag, truth[max(k - heading_late, 0)].heading + turned
-        )
-        polar = wmr.polar_error(seen, GOAL)
+        heading = truth[max(k - heading_late, 0)].heading + turned
+        polar = wmr.polar_error(wmr.Pose(fixes[fix].real, fixes[fix].imag, heading), GOAL)
         turn = receiver.sight * two_normals(run, k, seed, 1).real
         angles = (wmr.wrap_angle(angle + turn) for angle in polar[1:])
         v, omega = wmr.control_law(polar.rho, *angles, gains)
@@ -117,10 +111,9 @@ receivers = st.builds(
 def test_a_sweep_is_the_plain_loop_with_the_same_numbers(receiver, seed, run, method, wheels):
     options = SHORT | {"method": method, "wheels": wheels}
     starts = START._replace(x=np.full(2, START.x))
-    ends, paths = wmr.sweep(
-        starts, GOAL, GAINS, receiver=receiver, seed=seed, trajectories=True, **options
-    )
-    short = wmr.sweep(starts, GOAL, GAINS, receiver=receiver, seed=seed, **options)
+    options |= {"receiver": receiver, "seed": seed}
+    ends, paths = wmr.sweep(starts, GOAL, GAINS, trajectories=True, **options)
+    short = wmr.sweep(starts, GOAL, GAINS, **options)
     np.testing.assert_allclose(short, ends, rtol=0.0, atol=1e-8)
     truth, twists, arrived = driven(receiver, seed, run, method, wheels)
     count = len(truth)
@@ -174,22 +167,6 @@ def test_the_error_keeps_its_size_and_forgets_as_fast_as_it_should(memory):
     assert (np.abs(found) < 3.0).mean() == pytest.approx(math.erf(3.0 / math.sqrt(2.0)), abs=2e-3)
 
 
-def test_bias_and_compass_are_drawn_once_a_run():
-    found = errors(wmr.Receiver(bias=0.5), 4000, 30)
-    assert np.abs(np.diff(found, axis=2)).max() < 1e-6
-    scaled, few = found[:, :, 0] / 0.5, 5.0 / math.sqrt(4000.0)
-    assert np.abs(scaled.mean(axis=1)).max() < few
-    assert np.abs((scaled**2).mean(axis=1) - 1.0).max() < math.sqrt(2.0) * few
-    assert abs((scaled[0] * scaled[1]).mean()) < few
-    turned = np.arctan(errors(wmr.Receiver(compass=0.2), 4000, 3) / 1e6) / 0.2
-    assert np.abs(turned - turned[:1, :, :1]).max() < 1e-9
-    assert abs(turned[0, :, 0].mean()) < few
-    assert abs((turned[0, :, 0] ** 2).mean() - 1.0) < math.sqrt(2.0) * few
-    both = errors(wmr.Receiver(bias=0.5, sigma=0.5), 4000, 3)[:, :, 0]
-    assert abs((both[0] - 0.5 * scaled[0]) @ scaled[0] / 4000.0) < few  # other numbers than sigma's
-    assert abs(turned[0, :, 0] @ scaled[0] / 4000.0) < few
-
-
 @pytest.mark.parametrize("every", [3.0, 20.0])
 def test_jumps_come_at_random_times_and_point_anywhere(every):
     found = errors(wmr.Receiver(jump=2.0, jump_every=every), 4000, 30)
@@ -241,11 +218,6 @@ def test_a_receiver_that_shows_the_truth_changes_nothing(method):
         ends, paths = wmr.sweep(starts, GOAL, GAINS, receiver=receiver, **options)
         assert all(map(np.array_equal, ends, none))
         assert all(np.array_equal(*pair, equal_nan=True) for pair in zip(paths, path, strict=True))
-    mixed = wmr.sweep(starts, GOAL, GAINS, receiver=wmr.Receiver([0.0, 1e-300]), **SHORT)
-    assert [field[0] for field in mixed] == [field[0] for field in wmr.sweep(
-        starts, GOAL, GAINS, **SHORT)]  # fmt: skip
-    for one, other in zip(mixed, wmr.sweep(starts, GOAL, GAINS, **SHORT), strict=True):
-        assert one[1] == pytest.approx(other[1], rel=1e-12)
 
 
 def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
@@ -269,9 +241,7 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     first = many._replace(x=many.x[0, :100])
     few = options | {"receiver": receiver._replace(sigma=receiver.sigma[:100], memory=0.0)}
     alone = wmr.sweep(first, GOAL, GAINS, **few)
-    assert all(
-        np.array_equal(field[0, :100], each) for field, each in zip(whole, alone, strict=True)
-    )
+    assert all(map(np.array_equal, [field[0, :100] for field in whole], alone))
     other = wmr.sweep(many, GOAL, GAINS, **options | {"seed": 7 + 2**32})
     assert (other.distance != whole.distance).mean() > 0.99
 
@@ -298,5 +268,5 @@ def test_a_place_out_of_the_range_of_numbers_ends_the_run():
 )  # fmt: skip
 def test_bad_input_names_argument_value_and_range(options, message):
     options = SHORT | {"receiver": wmr.Receiver(0.5)} | options
-    with pytest.raises(ValueError, match=message.replace("**", r"\*\*")):
+    with pytest.raises(ValueError, match=message):
         wmr.sweep(START._replace(x=[-6.0, -5.0]), GOAL, GAINS, **options)

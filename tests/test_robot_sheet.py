@@ -2,7 +2,6 @@
 
 import math
 import re
-import shutil
 import subprocess
 
 import numpy as np
@@ -10,12 +9,12 @@ import pytest
 import yaml
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
+from test_c_header import build
 
 import wmrlib as wmr
 from wmrbook import robot_sheet
 from wmrbook.robot_io import along, at_rest, files
 from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, sheet
-from wmrlib import symbolic
 from wmrlib.body import roll
 
 WRONG = {
@@ -147,15 +146,8 @@ def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     assert {type(value) for value in flat} == {float}
     assert read["arrival_radius"] == told.radius
     assert read["oldest_fix"] == pytest.approx(told.rules.oldest)
-    for name in (
-        "patience",
-        "largest_error",
-        "jump",
-        "longest_period",
-        "longest_drive",
-        "farthest",
-    ):
-        assert read[name] == pytest.approx(getattr(told.rules, name))
+    same = "patience", "largest_error", "jump", "longest_period", "longest_drive", "farthest"
+    assert [read[name] for name in same] == pytest.approx([getattr(told.rules, k) for k in same])
     assert (read["acceleration"], read["dead_band"]) == (robot.acceleration, 0.0)
 
 
@@ -196,10 +188,8 @@ int main(void) {
 """,
         encoding="utf-8",
     )
-    flags = ["-std=c99", "-Wall", "-Wextra", "-Werror", f"-I{symbolic.C_HEADER.parent}"]
-    cc = shutil.which("cc") or shutil.which("gcc")
-    subprocess.run([cc, *flags, "main.c", "-o", "main", "-lm"], cwd=tmp_path, check=True)
-    done = subprocess.run([tmp_path / "main"], capture_output=True, text=True, check=True)
+    program = build(tmp_path / "main.c", tmp_path, "-Wno-double-promotion")
+    done = subprocess.run([program], capture_output=True, text=True, check=True)
     told = sheet(robot)
     error = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(told.x, told.y, told.heading))
     v, omega, rate, differ = map(float, done.stdout.split())

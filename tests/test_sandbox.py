@@ -15,11 +15,11 @@ from pathlib import Path
 
 import cage
 import damage
+import graded
 import handins
 import nbformat
 import pytest
 import sandbox
-from graded import released
 from kernel import Limits
 
 pytestmark = [
@@ -181,10 +181,9 @@ def test_what_processes_take_together_is_limited():
     assert ends == [True, False]
 
 
-def notebook(*first: str, chapter: str = "ch01"):
+def notebook(*first: str):
     """An assignment with the model's answers, after cells of a student's own."""
-    (path,) = (damage.COURSE / "source" / chapter).glob("*.ipynb")
-    made = nbformat.read(path, as_version=4)
+    made = nbformat.read(graded.notebook("ch01"), as_version=4)
     made.cells[:0] = map(nbformat.v4.new_code_cell, first)
     return made
 
@@ -248,7 +247,7 @@ def test_a_notebook_that_is_hard_to_read_is_read_or_refused_in_time(
     with contextlib.suppress(handins.Refused):
         release = notebook()
         for cell in release.cells:
-            cell.source = released(cell.source)
+            cell.source = graded.released(cell.source)
         found, _ = runner.repaired(tmp_path / "it.ipynb", release)
         assert [*passed(found)] == [*passed(notebook())]
     assert time.monotonic() - began < 30 * sandbox.READING

@@ -59,14 +59,6 @@ def test_mean_and_scatter_anywhere():
     assert np.ptp(east) > 1e6
 
 
-def test_half_the_positions_are_within_the_cep_and_nearly_all_within_2drms():
-    east, north = np.random.default_rng(1).normal(0, 2, (2, 20_000))
-    found = stationary_scatter(wmr.point_at(wmr.paper.GPS_POINT_1, east, north))
-    assert found.cep == pytest.approx(2 * math.sqrt(2 * math.log(2)), rel=0.02)  # Rayleigh's median
-    within = np.hypot(found.east, found.north) < found.two_drms
-    assert np.mean(within) == pytest.approx(1 - math.exp(-4), abs=0.003)
-
-
 def test_positions_without_a_scatter_are_refused():
     with pytest.raises(ValueError, match="track has 1 position"):
         stationary_scatter(wmr.GeoPoint(lat=[1.0], lon=[2.0]))

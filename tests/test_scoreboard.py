@@ -1,12 +1,10 @@
 """What a class hands in: what is true is ranked, what is not is told, and no line is ever lost."""
 
 import datetime
-import hashlib
 import random
 import re
 import subprocess
 import sys
-from concurrent.futures import ThreadPoolExecutor
 from urllib.parse import quote
 
 import pytest
@@ -16,13 +14,13 @@ from hypothesis import strategies as st
 import wmrlib as wmr
 from wmrbook import challenge
 from wmrbook.challenge.scoreboard import Scoreboard, certificate, verify
+from wmrbook.lines import JOINERS, checked
 
 PAPER, GENTLE = wmr.paper.OUTDOOR_GAINS, wmr.GENTLE_GAINS
 GOOD = wmr.Gains(0.128, 1.089, 1.42, 7.528)
 LINE = "wmr-challenge seed=2026 gains=0.128,1.089,1.420,7.528 score=21.81 name=Ada check=897884f0c1"
 UNSEEN = "\u00ad\u034f\u115f\u200b\u200e\u200f\u202a\u202e\u2060\u2066\u2069\u3164\ufeff\U000e0041"
 FILLERS = "\u034f\u115f\u1160\u17b4\u17b5\u2800\u3164\uffa0"
-JOINERS = "\u200c\u200d"
 visible = st.characters(exclude_categories=("C",), exclude_characters=FILLERS)
 names = st.text(visible | st.sampled_from(JOINERS), min_size=1, max_size=60).filter(
     lambda text: any(map(str.isalnum, text))
@@ -34,28 +32,20 @@ def board(tmp_path):
     return Scoreboard(tmp_path / "class.txt")
 
 
-def signed(text):
-    """A line with an honest checksum, whatever it says."""
-    return f"{text} check={hashlib.sha256(text.encode()).hexdigest()[:10]}"
-
-
 def body(line):
     return line.rpartition(" check=")[0]
 
 
-def ranked(board):
-    return [(each.rank, each.entry.name, each.tries) for each in board.ranking().entries]
-
-
-def ranked_names(ranking):
-    return [(each.rank, each.entry.name) for each in ranking.entries]
+def ranked(board, **options):
+    ranking = board.ranking(**options)
+    return [(each.rank, each.entry.name, each.tries) for each in ranking.entries]
 
 
 # The line to hand in ----------------------------------------------------------------------------
 
 
 def test_the_line_as_published():
-    assert certificate("Ada", GOOD) == LINE == signed(body(LINE))
+    assert certificate("Ada", GOOD) == LINE == checked(body(LINE))
     dated = certificate("Zoë B", PAPER, seed=7, date=datetime.date(2026, 3, 1))
     gains, name = r"2\.000,1\.000,0\.300,4\.000", "Zo%C3%AB%20B"
     wanted = rf"seed=7 gains={gains} score=\d+\.\d\d name={name} date=2026-03-01"
@@ -76,7 +66,6 @@ def test_what_is_certified_verifies(name, gains, date):
 def test_names_and_gains_are_put_in_order():
     assert verify(certificate("  Ada \n von,\tL. ", GOOD)).entry.name == "Ada von, L."
     assert certificate("Zoe\u0308", GOOD) == certificate("Zo\u00eb", GOOD)
-    assert "gains=0.300,1.000,0.000,4.000" in certificate("Ada", wmr.Gains(0.3, 1.0, -0.0))
     assert verify(certificate("Max", wmr.Gains(1e308, 1.0, 1.0, 1e308))).entry.points == 182.0
 
 
@@ -94,8 +83,7 @@ def test_every_single_change_is_found():
 
 def test_an_honest_checksum_does_not_help_a_line_that_is_not_true():
     for change, reason in (
-        (("21.81", "11.81"), "Ada states 11.81 points, but the gains give 21.81"),
-        (("21.81", "21.80"), "Ada states 21.80 points"),
+        (("21.81", "21.80"), "Ada states 21.80 points, but the gains give 21.81"),
         (("name=Ada", "name=%FF"), "the line can't be scored"),
         (("name=Ada", "name=%0A"), "the line can't be scored: name = "),
         (("name=Ada", "name=Ada date=2026-02-31"), "the line can't be scored"),
@@ -108,7 +96,7 @@ def test_an_honest_checksum_does_not_help_a_line_that_is_not_true():
         (("seed=2026", "seed=٢٠٢٦"), "this is no line of the challenge"),
         (("wmr-challenge", "wmr-chalenge"), "this is no line of the challenge"),
     ):
-        verdict = verify(signed(body(LINE).replace(*change)))
+        verdict = verify(checked(body(LINE).replace(*change)))
         assert not verdict, change
         assert re.match(reason, verdict.reason)
 
@@ -126,7 +114,7 @@ def test_no_name_holds_what_is_not_seen_or_turns_the_table_round():
             with pytest.raises(ValueError, match=wanted) as error:
                 certificate(name, GOOD)
             assert unseen not in str(error.value) or unseen.isprintable()
-        assert not verify(signed(body(LINE).replace("Ada", quote(f"Ada{unseen}"))))
+        assert not verify(checked(body(LINE).replace("Ada", quote(f"Ada{unseen}"))))
 
 
 # The board --------------------------------------------------------------------------------------
@@ -156,10 +144,10 @@ def test_other_drives_decide_a_tie_and_nothing_else(board):
         *[(1, 21.74)] * 3,
         (4, 21.81),
     ]
-    decided = board.ranking(decider=100)
-    assert ranked_names(decided) == [(1, "Cy"), (1, "Dee"), (3, "Ada"), (4, "Bob")]
-    assert ranked_names(board.ranking(decider=7)) == [(1, "Ada"), (2, "Cy"), (2, "Dee"), (4, "Bob")]
-    assert "; ties decided by seed 100>" in repr(decided)
+    by_100, by_7 = (ranked(board, decider=seed) for seed in (100, 7))
+    assert by_100 == [(1, "Cy", 1), (1, "Dee", 1), (3, "Ada", 1), (4, "Bob", 1)]
+    assert by_7 == [(1, "Ada", 1), (2, "Cy", 1), (2, "Dee", 1), (4, "Bob", 1)]
+    assert "; ties decided by seed 100>" in repr(board.ranking(decider=100))
     with pytest.raises(ValueError, match="seed = -1 is not allowed"):
         board.ranking(decider=-1)
 
@@ -194,12 +182,10 @@ def test_only_a_true_line_is_taken(board):
 
 
 def test_what_is_damaged_is_told_with_its_line_and_never_lost(board):
-    forged = signed(body(LINE).replace("21.81", "1.81"))
+    forged = checked(body(LINE).replace("21.81", "1.81"))
     head = f"\n# our class, 2026\r\n{LINE[:60]}\r\n".encode()
     stale = LINE.replace("21.81", "1.81")
-    before = (
-        head + b"\xff\xfe\x00 rubbish\n" + f"{stale}\n{forged}".encode()
-    )  # no newline at the end
+    before = head + b"\xff\xfe\x00 rubbish\n" + f"{stale}\n{forged}".encode()  # no newline
     board.path.write_bytes(before)
     board.add("Bob", GENTLE)
     ranking = board.ranking()
@@ -256,19 +242,15 @@ def test_a_line_that_is_written_in_part_is_an_error(board):
     assert ranked(board) == [(1, "Bob", 1)]
 
 
-def test_threads_lose_no_line(board):
-    lines = [certificate(f"thread {k}", PAPER) for k in range(200)]
-    with ThreadPoolExecutor(8) as pool:
-        assert all(pool.map(board.add_line, lines))
-    assert sorted(board.path.read_text().splitlines()) == sorted(lines)
-
-
-def test_processes_lose_no_line(board):
+def test_threads_of_several_processes_lose_no_line(board):
     board.path.write_text("# no newline at the end")
     code = (
-        "import sys; from wmrlib.paper import OUTDOOR_GAINS\n"
+        "import sys; from concurrent.futures import ThreadPoolExecutor\n"
+        "from wmrlib.paper import OUTDOOR_GAINS\n"
         "from wmrbook.challenge.scoreboard import Scoreboard\n"
-        "for k in range(50): Scoreboard(sys.argv[1]).add(f'{sys.argv[2]} {k}', OUTDOOR_GAINS)"
+        "board = Scoreboard(sys.argv[1])\n"
+        "add = lambda k: board.add(f'{sys.argv[2]} {k}', OUTDOOR_GAINS)\n"
+        "with ThreadPoolExecutor(4) as pool: [*pool.map(add, range(50))]"
     )
     command = [sys.executable, "-c", code, str(board.path)]
     writers = [subprocess.Popen([*command, f"process {n}"]) for n in range(3)]

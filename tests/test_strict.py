@@ -9,21 +9,10 @@ from python_pack import Z3
 
 from wmrbook import strict
 from wmrbook.strict import K2, STRICT, P, Q, counterexample, rates, slope
-from wmrlib import laws, symbolic
+from wmrlib import symbolic
 
 ROOT = Path(__file__).resolve().parents[1]
 WINDOW = K2**2 - 16 * K2 + 4 <= 0
-
-
-@pytest.fixture
-def law(monkeypatch):
-    """Put a formula in the barrier law's place."""
-
-    def put(formula):
-        row = laws.LAWS["barrier"]._replace(formula=formula)
-        monkeypatch.setitem(laws.LAWS, "barrier", row)
-
-    return put
 
 
 def test_the_function_is_strict_in_the_window_and_nowhere_else():
@@ -65,20 +54,6 @@ def test_the_laws_own_function_falls_but_not_strictly():
     assert counterexample(falls, K2 > 0, Q < 0) is None
     state = counterexample(falls, K2 > 0)
     assert (state[Q], falls.subs(Q, 0)) == (0, 0)
-
-
-@pytest.mark.parametrize("part", ["alpha", "theta", "speed"])
-def test_a_sign_turned_round_in_the_law_is_found(law, part):
-    right = laws.barrier_law
-    signs = {"alpha": (-1, 1), "theta": (1, -1), "speed": (1, 1)}[part]
-
-    def wrong(rho, alpha, theta, gains):
-        speed, turning = right(rho, signs[0] * alpha, signs[1] * theta, gains)
-        return (-speed if part == "speed" else speed), turning
-
-    law(wrong)
-    falls = slope().subs(K2, 1)
-    assert falls.subs(counterexample(falls)) > 0
 
 
 def test_what_is_no_polynomial_is_refused():

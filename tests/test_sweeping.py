@@ -307,14 +307,11 @@ def test_in_the_plane_hard_runs_too_are_those_of_simulate(method):
 def test_bad_input_names_argument_value_and_range(monkeypatch):
     many, samples = {"trajectories": True, "dt": 0.01, "duration": 1000.0}, "100,001 samples"
     for options, message in [
-        ({"starts": (0, 0, 0)}, r"starts = \(0, 0, 0\) .* a Pose is needed"),
         ({"method": "heun"}, "'continuous', 'arc', 'euler' is needed"),
         ({"law": ["corrected", "kanayama"]}, "law = 'kanayama' .* one of .*'corrected', 'printed'"),
         ({"law": ["corrected", ["printed"]]}, r"law = \['corrected', \['printed'\]\] is not"),
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
         (many, f"trajectories = True .* 1,000 runs of {samples}: at most 50,000,000"),
-        ({"wheels": 2.0}, "a Wheels is needed"),
-        ({"arrival_radius": -1.0}, r"arrival_radius = -1\.0"),
         ({"trajectories": "no"}, "trajectories = 'no' is not allowed: True or False is needed"),
         ({"progress": 1}, "progress = 1 is not allowed: True or False is needed"),
     ]:

@@ -12,12 +12,8 @@ NO_EXAMPLE |= {"residual", "twist_to_wheels", "write_geojson", "write_gpx"}
 
 
 def modules_after(statement):
-    code = f"import sys; {statement}; print(*sys.modules)"
-    return set(
-        subprocess.run(
-            [sys.executable, "-c", code], capture_output=True, text=True, check=True
-        ).stdout.split()
-    )
+    command = [sys.executable, "-c", f"import sys; {statement}; print(*sys.modules)"]
+    return set(subprocess.check_output(command, text=True).split())
 
 
 def test_importing_loads_nothing_heavy():
@@ -25,9 +21,8 @@ def test_importing_loads_nothing_heavy():
 
 
 def test_a_simulation_loads_numba_and_nothing_else_heavy():
-    used = modules_after(
-        "import wmrlib as w; w.simulate(w.Pose(0,0,0), w.Pose(1,1,0), w.Gains(2,1,1))"
-    )
+    drive = "w.simulate(w.Pose(0,0,0), w.Pose(1,1,0), w.Gains(2,1,1))"
+    used = modules_after(f"import wmrlib as w; {drive}")
     assert used & HEAVY == {"numba"}
 
 

@@ -38,9 +38,8 @@ def own_memory(*processes: psutil.Process) -> float:
 def students() -> list[Row]:
     rows = []
     for path in chapters():
-        client = NotebookClient(
-            nbformat.read(path, as_version=4), resources={"metadata": {"path": path.parent}}
-        )
+        beside = {"metadata": {"path": path.parent}}
+        client = NotebookClient(nbformat.read(path, as_version=4), resources=beside)
         begin = time.perf_counter()
         with client.setup_kernel():
             started = time.perf_counter() - begin

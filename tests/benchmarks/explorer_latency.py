@@ -92,13 +92,10 @@ def drag(page, handle, wait: float) -> list[float]:
 
 def static_page(folder: Path) -> Path:
     """The panel as a page without a kernel, with its JavaScript beside it."""
-    explorer = Explorer()
-    data = embed_data(
-        [explorer], drop_defaults=False, state=dependency_state([explorer], drop_defaults=False)
-    )
-    state, view = (
-        json.dumps(data[name]).replace("</", "<\\/") for name in ("manager_state", "view_specs")
-    )
+    explorer, whole = [Explorer()], {"drop_defaults": False}
+    data = embed_data(explorer, state=dependency_state(explorer, **whole), **whole)
+    parts = data["manager_state"], data["view_specs"]
+    state, view = (json.dumps(part).replace("</", "<\\/") for part in parts)
     shutil.copy(ROOT / "book" / "_static" / "widgets.js", folder)
     bundle(folder / "panels.js")
     page = folder / "index.html"
@@ -131,9 +128,8 @@ def in_page(browser, folder: Path) -> tuple[list[float], list[float]]:
 
 
 def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
-    notebook = nbformat.v4.new_notebook(
-        cells=[nbformat.v4.new_code_cell(cell) for cell in (PANEL_CELL, INTERACTIVE_CELL)]
-    )
+    cells = map(nbformat.v4.new_code_cell, (PANEL_CELL, INTERACTIVE_CELL))
+    notebook = nbformat.v4.new_notebook(cells=[*cells])
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
     nbformat.write(notebook, folder / "latency.ipynb")
     with jupyterlab(folder, "--IdentityProvider.token=measure") as url:
@@ -141,9 +137,8 @@ def in_lab(browser, folder: Path) -> tuple[list[float], list[float]]:
         page.goto(f"{url}lab/tree/latency.ipynb?token=measure", timeout=PATIENCE)
         kernel = "window.jupyterapp?.shell.currentWidget?.sessionContext?.session?.kernel"
         page.wait_for_function(f"() => {kernel}?.status === 'idle'", timeout=PATIENCE)
-        page.evaluate(
-            "() => window.jupyterapp.commands.execute('notebook:run-all-cells').then(() => true)"
-        )
+        run = "window.jupyterapp.commands.execute('notebook:run-all-cells')"
+        page.evaluate(f"() => {run}.then(() => true)")
         page.locator(".jp-OutputArea img[src^='data:image/png']").wait_for(timeout=PATIENCE)
         page.locator(".wmr-status:not(:empty)").wait_for(timeout=PATIENCE)
         page.wait_for_timeout(2000)

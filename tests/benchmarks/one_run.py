@@ -36,10 +36,10 @@ def scipy_alone():
     return lambda: solve_ivp(rate, (0.0, TIMES[-1]), first, t_eval=TIMES)
 
 
-def loop_of(functions):
+def loop_of(module):
     """The Euler loop as one writes it by hand, with the sines of `math` or of numpy."""
     k_rho, k_alpha, h, v_max = GAINS
-    sin, cos, exp, hypot, atan2 = functions
+    sin, cos, exp, hypot, atan2 = module.sin, module.cos, module.exp, module.hypot, module.atan2
 
     def wrap(angle):
         return (angle + math.pi) % (2 * math.pi) - math.pi
@@ -68,16 +68,14 @@ def rows() -> list[Row]:
         f"simulate, {method}": lambda m=method: wmr.simulate(START, GOAL, GAINS, method=m, **NEVER)
         for method in ("arc", "euler")
     }
-    cases["a loop in plain Python"] = loop_of(
-        (math.sin, math.cos, math.exp, math.hypot, math.atan2)
-    )
-    cases["a loop over numpy scalars"] = loop_of((np.sin, np.cos, np.exp, np.hypot, np.arctan2))
+    cases["a loop in plain Python"] = loop_of(math)
+    cases["a loop over numpy scalars"] = loop_of(np)
     cases["scipy solve_ivp (RK45)"] = scipy_alone()
     cases["python-control input_output_response"] = python_control()
     for name, end in (("", NEVER), (", to arrival within 5 cm", {})):
-        cases[f"simulate, continuous (tolerance 1e-10){name}"] = lambda end=end: wmr.simulate(
-            START, GOAL, GAINS, method="continuous", **end
-        )
+        how = {"method": "continuous"} | end
+        title = f"simulate, continuous (tolerance 1e-10){name}"
+        cases[title] = lambda how=how: wmr.simulate(START, GOAL, GAINS, **how)
     seconds = in_turn(cases)
     section, one = "One run of 300 steps, against simulate", seconds["simulate, arc"]
     return [Row(section, name, 1e3 * s, "ms", s / one) for name, s in seconds.items()]

@@ -15,9 +15,8 @@ from timing import Row, in_turn
 import wmrlib as wmr
 from wmrlib import _threads as threads
 
-os.environ.setdefault(
-    "XLA_FLAGS", "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
-)  # JAX on one core
+JAX_ON_ONE_CORE = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
+os.environ.setdefault("XLA_FLAGS", JAX_ON_ONE_CORE)
 GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
 RUNS, STEPS, DT = 10_000, 300, 0.02
 METHODS = {"euler": "tangent", "arc": "arc"}  # of a sweep, and the functions in C

@@ -26,16 +26,14 @@ class Row(NamedTuple):
     ratio: float | None = None
 
 
-def in_turn(
-    cases: dict[str, Callable], repeat: int = 7, at_least: float = 0.02
-) -> dict[str, float]:
+def in_turn(cases: dict[str, Callable], repeat: int = 7) -> dict[str, float]:
     """Seconds of one call of each case: the best of `repeat` rounds, each of all cases in turn."""
     counts = {}
     for name, function in cases.items():
         function()
         begin = time.perf_counter()
         function()
-        counts[name] = max(1, round(at_least / (time.perf_counter() - begin)))
+        counts[name] = max(1, round(0.02 / (time.perf_counter() - begin)))
     best = dict.fromkeys(cases, float("inf"))
     for _ in range(repeat):
         for name, function in cases.items():
@@ -48,9 +46,8 @@ def in_turn(
 
 def process(statement: str, **environment: str) -> float:
     """Seconds of one statement in a fresh Python process, without Python's own start."""
-    code = (
-        f"import time; begin = time.perf_counter(); {statement}; print(time.perf_counter() - begin)"
-    )
+    now = "time.perf_counter()"
+    code = f"import time; begin = {now}; {statement}; print({now} - begin)"
     line, variables = [sys.executable, "-c", code], os.environ | environment
     return float(subprocess.check_output(line, text=True, env=variables))
 
@@ -75,13 +72,10 @@ def machine() -> str:
     name = platform.processor() or platform.machine()
     cpuinfo = Path("/proc/cpuinfo")
     if cpuinfo.exists():
-        lines = cpuinfo.read_text(encoding="utf-8").splitlines()
-        name = next(
-            (line.split(":")[1].strip() for line in lines if line.startswith("model name")), name
-        )
-        flags = next((line for line in lines if line.startswith("flags")), "")
+        lines = cpuinfo.read_text(encoding="utf-8").replace("\t", "").splitlines()
+        facts = dict(line.split(": ", 1) for line in lines if ": " in line)
+        name, flags = facts.get("model name", name), facts.get("flags", "")
         vectors = {"avx512f": ", AVX-512", "avx2": ", AVX2"}
         name += next((title for flag, title in vectors.items() if flag in flags), "")
-    return (
-        f"{name}, {os.cpu_count()} cores, {platform.system()}, Python {platform.python_version()}"
-    )
+    cores, python = f"{os.cpu_count()} cores", f"Python {platform.python_version()}"
+    return ", ".join([name, cores, platform.system(), python])

@@ -3,13 +3,12 @@
 from __future__ import annotations
 
 import os
-import subprocess
-import sys
 from pathlib import Path
 
 import pytest
 from filelock import FileLock
 from live import PATIENCE, ROOT, confine
+from recipes import run
 
 FLAGS = [
     "--headless=new",
@@ -156,9 +155,7 @@ def site(tmp_path_factory) -> Path:
     built = output / "built"
     with FileLock(f"{output}.lock"):
         if not built.exists():
-            command = [sys.executable, ROOT / "book" / "tools" / "build.py", output]
-            done = subprocess.run(command, capture_output=True, text=True)
-            assert done.returncode == 0, done.stdout + done.stderr
+            run(ROOT, "book/tools/build.py", output)
             built.touch()
     return output / "html"
 

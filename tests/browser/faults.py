@@ -13,7 +13,6 @@ from urllib.request import url2pathname
 
 from build import MODULES, install_javascript
 
-ROOT = Path(__file__).resolve().parents[2]
 SIZES = ((390, 844), (1366, 768), (1920, 1080))
 MEASURE = Path(__file__).with_suffix(".js").read_text(encoding="utf-8")
 # Nothing may be seen halfway, such as a colour on its way from light to dark.
@@ -45,16 +44,29 @@ THIN = """() => {
     document.querySelectorAll('pre').forEach(it => it.normalize());
     document.querySelectorAll('mjx-container').forEach(it => it.remove());
 }"""
-ASK = """only => axe.run(document,
+ASK = """([root, only]) => axe.run(root,
     {resultTypes: ['violations'], preload: false, ...only}).then(
     it => it.violations.flatMap(rule => rule.nodes.map(
         node => [rule.id, node.target.join(' ')])))"""
+CROWDED = """([root, least]) => [...document.querySelectorAll(`${root}, ${root} *`)]
+    .filter(it => it.checkVisibility() && !it.closest('.wmr-aside')).filter(it => {
+        const { left, right, width, height } = it.getBoundingClientRect();
+        const small = it.matches('button, input, select') && Math.min(width, height) < least;
+        return small || left < -1 || right > innerWidth + 1;
+    }).map(it => it.outerHTML.slice(0, 90))"""
 
 
-def axe() -> Path:
-    """The script of axe-core, which npm fetches in a fresh clone."""
-    install_javascript()
-    return MODULES / "axe-core" / "axe.min.js"
+def crowded(page, root: str, least: int = 24) -> list[str]:
+    """What sticks out of the window, and what is smaller than so many pixels and to be pressed."""
+    return page.evaluate(CROWDED, [root, least])
+
+
+def violations(page, root: str = "html", **only) -> list[tuple[str, str]]:
+    """What axe-core, which npm fetches in a fresh clone, finds in a part of a page."""
+    if not page.evaluate("'axe' in window"):
+        install_javascript()
+        page.add_script_tag(path=MODULES / "axe-core" / "axe.min.js")
+    return page.evaluate(ASK, [root, only])
 
 
 def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]]:
@@ -63,23 +75,22 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
     page.evaluate(UNFOLD)
     for width, height in sizes:
         page.set_viewport_size({"width": width, "height": height})
+        page.wait_for_function("width => innerWidth === width", arg=width)
         page.evaluate(FRAME)
         for kind, places in page.evaluate(MEASURE).items():
             faults += [(f"{kind}, {width}x{height}", place) for place in places]
         cut = f"figures that are not seen whole, {width}x{height}"
         faults += [(cut, place) for place in page.evaluate(WIDER)]
-        page.wait_for_timeout(300)  # so late, beside other work, a small figure gets its button
         page.evaluate(LARGER)
         for source, scale, said in page.evaluate(FIGURES):
             svg = Path(url2pathname(urlsplit(source).path)).read_text(encoding="utf-8")
             if min(map(float, LETTERS.findall(svg)), default=1) * scale * 400 / 3 < 9:
                 faults.append((f"figures with letters under 9 pixels, {width}x{height}", said))
-    page.wait_for_timeout(400)  # so late the theme gives a key to what scrolls in the new size
+    page.wait_for_timeout(700)  # so late the theme gives a key to what scrolls in the new size
     page.evaluate(THIN)
-    page.add_script_tag(path=axe())
     for theme in themes:
         only = {} if theme == themes[0] else {"runOnly": ["color-contrast"]}
         page.emulate_media(color_scheme=theme)
         page.evaluate(FRAME)
-        faults += [(f"axe, {theme}: {rule}", place) for rule, place in page.evaluate(ASK, only)]
+        faults += [(f"axe, {theme}: {rule}", at) for rule, at in violations(page, **only)]
     return faults

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import hashlib
+import json
 from pathlib import Path
 from urllib.parse import urlsplit
 
@@ -41,6 +42,8 @@ COLOURS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].m
 })"""
 FIGURES = """() => Object.fromEntries([...document.querySelectorAll('[data-figure]')]
     .map(it => [it.dataset.figure, it.children[1].textContent]))"""
+FOUND = """() => JSON.stringify(document.querySelector('.live, .my-robot, .rover').found,
+    (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
 TRAITS = ("program", "contract", "state", "setup", "_esm")
 
 
@@ -92,8 +95,11 @@ class Panel:
         self.page.evaluate(SET, values)
         return self.settled()
 
+    def state(self) -> dict:
+        return self.page.evaluate("() => panel.get('state')")
+
     def get(self, name):
-        return self.page.evaluate("name => panel.get('state')[name]", name)
+        return self.state().get(name)
 
     def control(self, name):
         return self.page.locator(f"[data-control={name}]")
@@ -112,6 +118,10 @@ class Panel:
     def figures(self) -> dict[str, str]:
         return self.page.evaluate(FIGURES)
 
+    def found(self) -> dict:
+        """What the panel has found for its state."""
+        return json.loads(self.page.evaluate(FOUND))
+
     def status(self) -> str:
         return self.page.locator(".wmr-status").inner_text()
 
@@ -120,6 +130,17 @@ class Panel:
 
     def click(self, act: str):
         self.page.locator(f"[data-do={act}]").click()
+        return self.settled()
+
+    def press(self, name: str):
+        """Press the button of this name."""
+        self.page.get_by_role("button", name=name).click()
+        return self.settled()
+
+    def type(self, field, text: str):
+        """Type into a field, and leave it."""
+        field.fill(text)
+        field.press("Tab")
         return self.settled()
 
     def handle(self, pose: str, part: str):

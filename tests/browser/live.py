@@ -13,10 +13,12 @@ import urllib.error
 import urllib.request
 from collections.abc import Callable
 from pathlib import Path
+from types import SimpleNamespace
 
 from wmrbook.figures.style import in_symbols
 
 ROOT = Path(__file__).resolve().parents[2]
+TOKEN = "only-for-tests"
 PATIENCE = 120_000  # ms for what takes seconds on a quiet machine
 # All that is drawn: canvases, and images for a panel that is made of those.
 PICTURE = """() => [
@@ -68,6 +70,12 @@ def confine(page, folder: Path) -> None:
             page.troubles.append(f"left {folder.name}: {request.url}")
 
     page.on("request", asked)
+
+
+def open_deck(page, url: str) -> None:
+    """Open a deck, and wait until it is drawn."""
+    page.goto(url, wait_until="load", timeout=PATIENCE)
+    page.wait_for_function("document.documentElement.dataset.deck === 'ready'", timeout=PATIENCE)
 
 
 def sliders(page) -> list:
@@ -157,9 +165,28 @@ def jupyterlab(home: Path, *options: str):
         "JUPYTER_DATA_DIR": str(home / "data"),  # where the trust in a notebook is kept
         "JUPYTER_CONFIG_PATH": "",  # a reader's kernels do not talk through files
     }
+    settings = home / "settings/@jupyterlab/notebook-extension/tracker.jupyterlab-settings"
+    settings.parent.mkdir(parents=True)
+    settings.write_text('{"windowingMode": "none"}')  # a cell out of sight would not be drawn
     url = f"http://127.0.0.1:{port}/"
     with serve(command, f"{url}api", home / "log.txt", **folders):
         yield url
+
+
+def link(home: Path) -> str:
+    """The link that the terminal of a JupyterLab shows."""
+    return re.search(r"http://127\S+", (home / "log.txt").read_text()).group()
+
+
+@contextlib.contextmanager
+def voila(notebook: Path, log: Path):
+    """Serves a notebook with the book's settings. Enters with its URL, its link and its process."""
+    port = free_port()
+    url = f"http://127.0.0.1:{port}/"
+    command = [sys.executable, "-m", "voila", "--Voila.config_file_paths=book/voila"]
+    command += ["--no-browser", f"--port={port}", f"--token={TOKEN}", notebook]
+    with serve(command, url, log) as server:
+        yield SimpleNamespace(url=url, link=f"{url}?token={TOKEN}", pid=server.pid)
 
 
 def _wait_until_up(server: subprocess.Popen, url: str, log: Path) -> None:

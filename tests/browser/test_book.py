@@ -4,8 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-import subprocess
-import sys
 from collections import Counter
 from pathlib import Path
 from urllib.parse import urlsplit
@@ -20,21 +18,19 @@ from graded import closed, leaks
 from live import PATIENCE, ROOT, as_shown, assert_slider_matters, chapters, pages, sliders
 from paper import Printed, letters
 from pdf import terms
+from recipes import run
 from test_live import NAMES
 
 from wmrbook import live
 
-pytestmark = [pytest.mark.slow]
-if not os.environ.get("BOOK_HTML"):
-    pytestmark.append(pytest.mark.needs("npm"))
+pytestmark = [pytest.mark.slow, pytest.mark.needs("browser")]
 FONT = re.compile(r"(SourceSerif4|SourceSans3|JetBrainsMono|STIXTwoText)\w*(-\w+)?")  # shipped
 CONTROLS = "Play|Commit|Just show me|Try again|Show the code|Hide the code"
 
 
+@pytest.mark.usefixtures("site")  # what both builds need is there then
 def test_the_lecturers_build_has_the_guide_and_the_solutions(tmp_path, browser_page):
-    command = [sys.executable, ROOT / "book" / "tools" / "build.py", tmp_path, "--lecturer"]
-    done = subprocess.run(command, capture_output=True, text=True)
-    assert done.returncode == 0, done.stdout + done.stderr
+    run(ROOT, "book/tools/build.py", tmp_path, "--lecturer")
     site = tmp_path / "lecturer" / "html"
     assert leaks(site) == closed()
     for name in "lecturers.html", "notebooks/04_lyapunov.html", "exercises.html":
@@ -49,11 +45,7 @@ def book(site) -> Path:
     if not os.environ.get("BOOK_HTML"):
         command = "import sys, pathlib, build; output = pathlib.Path(sys.argv[1]); "
         command += "build.make_pdf(output); build.make_zip(output)"
-        tools = ROOT / "book" / "tools"
-        done = subprocess.run(
-            [sys.executable, "-c", command, site.parent], cwd=tools, capture_output=True, text=True
-        )
-        assert done.returncode == 0, done.stdout + done.stderr
+        run(ROOT / "book" / "tools", "-c", command, site.parent)
     return site.parent / "book.pdf"
 
 
@@ -63,7 +55,6 @@ def printed(book) -> Printed:
     return Printed(book)
 
 
-@pytest.mark.needs("browser")
 def test_the_printed_book_is_a_book(site, printed):
     title, back, contents = *printed.pages[:2], letters(printed.text("Contents"))
     assert conf.project in title
@@ -91,7 +82,6 @@ def test_the_printed_book_is_a_book(site, printed):
     assert not Counter(kind for kind, _ in printed.faults())
 
 
-@pytest.mark.needs("browser")
 def test_what_the_printed_book_lists_stands_where_it_says(printed):
     figures = " ".join(printed.lines(printed.of("Figures")))
     listed = re.findall(r"\b(\d+\.\d+) \D.*?(\d+)(?= \d+\.\d+ \D)", figures)
@@ -117,7 +107,6 @@ def test_what_the_printed_book_lists_stands_where_it_says(printed):
             assert re.search(pattern, said, re.IGNORECASE), f"{term}: page {page}"
 
 
-@pytest.mark.needs("browser")
 def test_paper_has_states_and_no_controls_and_answers_at_the_back(printed):
     at_the_back = printed.of("Answers to the predictions")
     back, before = (
@@ -133,7 +122,6 @@ def test_paper_has_states_and_no_controls_and_answers_at_the_back(printed):
     assert not re.findall(rf"(?<![\w*])(?:{CONTROLS})(?!\w)", before + back)
 
 
-@pytest.mark.needs("browser")
 def test_the_zip_has_all_that_is_handed_out_and_opens_from_the_disk(book, tmp_path, browser_page):
     assert book.with_name(build.ZIP).is_file(), "build the book with --zip"
     with ZipFile(book.with_name(build.ZIP)) as package:

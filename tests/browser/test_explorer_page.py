@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import csv
+import itertools
 import math
 import re
 
@@ -10,6 +11,7 @@ import numpy as np
 import pytest
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
+from faults import crowded
 from host import URL, mounted
 
 import wmrlib as wmr
@@ -36,26 +38,6 @@ BOXES = """() => {
 CLIPPED = """() => [...document.querySelectorAll('.wmr-value, .wmr-control span, .wmr-bar button')]
     .filter((it) => it.scrollWidth > it.clientWidth && it.checkVisibility()
         && getComputedStyle(it).display !== 'inline').length"""
-SMALL = """() => [...document.querySelectorAll('.wmr button, .wmr input, .wmr select')]
-    .filter((it) => it.checkVisibility()).map((it) => [it, it.getBoundingClientRect()])
-    .filter(([, box]) => box.width < 24 || box.height < 24).map(([it]) => it.outerHTML)"""
-CONTRASTS = """() => {
-    const root = document.querySelector('.wmr'), style = getComputedStyle(root);
-    const light = (name) => {
-        const rgb = style.getPropertyValue(name).trim().match(/[0-9a-f]{2}/g);
-        const [r, g, b] = rgb.map((each) => parseInt(each, 16) / 255)
-            .map((c) => (c <= 0.04045 ? c / 12.92 : ((c + 0.055) / 1.055) ** 2.4));
-        return 0.2126 * r + 0.7152 * g + 0.0722 * b;
-    };
-    const paper = light('--paper'), against = (name) => {
-        const [low, high] = [light(name), paper].sort((a, b) => a - b);
-        return (high + 0.05) / (low + 0.05);
-    };
-    return ['--soft', '--focus', '--start', '--goal', '--path', '--alpha', '--theta', '--rising']
-        .map(against);
-}"""
-
-
 FINGER = """() => {
     const scene = document.querySelector('.wmr-scene'), box = scene.getBoundingClientRect();
     scene.setPointerCapture = () => {};
@@ -65,6 +47,7 @@ FINGER = """() => {
     touch('pointermove', 160);
     touch('lostpointercapture', 160);
 }"""
+COPIED = "() => addEventListener('copy', () => { copied = document.activeElement.value; })"
 MAP = "() => document.querySelector('.wmr-map').toDataURL()"
 # Presses an arrow key until the slider is at its end.
 WALK = """name => {
@@ -251,13 +234,9 @@ def test_an_absurd_value_is_answered_in_the_panel(emptied_page):
             assert not panel.troubled()
         assert panel.picture() == good
     typed, before = emptied_page.get_by_label("k_alpha [1/s], typed"), panel.get("k_alpha")
-    typed.fill("1,000")  # could be either
-    typed.press("Tab")
-    assert panel.settled().troubled()
+    assert panel.type(typed, "1,000").troubled()  # could be either
     assert panel.get("k_alpha") == before
-    typed.fill("1,5")
-    typed.press("Tab")
-    assert panel.settled().get("k_alpha") == 1.5
+    assert panel.type(typed, "1,5").get("k_alpha") == 1.5
     explorer = Explorer()
     explorer.state = explorer.state | {"k_rho": -1.0}  # and one that it begins with
     panel = mounted(emptied_page, explorer)
@@ -338,14 +317,14 @@ def test_a_bar_says_where_the_gains_stand_in_the_window(emptied_page, h, name):
 def test_reset_is_the_loaded_state_whatever_was_done(emptied_page):
     for options in ({"at": 3.0, "zoom": 5.0, "law": "printed", "view": "gains"}, {}):
         panel = mounted(emptied_page, Explorer(**options))
-        home, state = panel.picture(), emptied_page.evaluate("panel.get('state')")
+        home, state = panel.picture(), panel.state()
         panel.click("pin").click("in").drag(panel.handle("start", "move"), 30, 0)
         panel.put("view", "gains").put("metric", "time").put("axes", "k_rho").put("view", "time")
         panel.put("method", "euler").put("preset", 2)
         panel.drag(emptied_page.locator(".wmr-charts"), 60, 0)
         panel.drag(emptied_page.locator(".wmr-scene"), 40, 10)
         assert panel.click("reset").picture() == home
-        assert emptied_page.evaluate("panel.get('state')") == state
+        assert panel.state() == state
 
 
 def test_a_click_on_the_map_sets_the_gains_and_so_do_its_keys(emptied_page):
@@ -425,14 +404,11 @@ def test_all_is_in_view_and_nothing_is_cut_off_overlaps_or_is_small(emptied_page
         if width >= 600:
             assert emptied_page.evaluate("() => document.body.scrollHeight") <= height
         boxes = emptied_page.evaluate(BOXES)
-        for i, (left, top, right, bottom) in enumerate(boxes):
-            assert left >= 0
-            assert right <= width
-            for other in boxes[i + 1 :]:
-                beside = right <= other[0] + 0.5 or other[2] <= left + 0.5
-                assert beside or bottom <= other[1] + 0.5 or other[3] <= top + 0.5, width
+        for (left, top, right, bottom), other in itertools.combinations(boxes, 2):
+            beside = right <= other[0] + 0.5 or other[2] <= left + 0.5
+            assert beside or bottom <= other[1] + 0.5 or other[3] <= top + 0.5, width
         assert emptied_page.evaluate(CLIPPED) == 0
-        assert emptied_page.evaluate(SMALL) == []
+        assert crowded(emptied_page, ".wmr") == []
         assert_sound(panel)
 
 
@@ -446,13 +422,6 @@ def test_on_a_phone_the_picture_stays_in_view_while_any_slider_moves(emptied_pag
         assert seen["y"] >= 0
         assert seen["y"] + seen["height"] <= box["y"]
         assert box["y"] + box["height"] <= height + 1
-
-
-def test_colours_can_be_told_from_their_ground(emptied_page):
-    for scheme in ("light", "dark"):
-        emptied_page.emulate_media(color_scheme=scheme)
-        mounted(emptied_page, Explorer())
-        assert min(emptied_page.evaluate(CONTRASTS)) >= 3.0, scheme
 
 
 def test_names_and_values_of_all_controls_are_spoken(emptied_page):
@@ -495,9 +464,7 @@ def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(emptied_page):
             assert sum(1.0 < each <= 2.0 for each in stops) <= 20
     typed = panel.control("h").locator(".wmr-typed")
     for text, taken in (("nan", 5.0), ("", 5.0), ("1,5", 1.5), ("7", 7.0)):
-        typed.fill(text)
-        typed.press("Enter")
-        assert panel.settled().get("h") == taken
+        assert panel.type(typed, text).get("h") == taken
         assert panel.troubled() == (text in ("nan", ""))
         assert typed.input_value() == f"{taken:g}"
 
@@ -573,8 +540,9 @@ def test_a_run_can_be_taken_along_as_python_table_and_picture(emptied_page, tmp_
         panel = mounted(emptied_page, explorer)
         panel.put("dt", 0.05)
         explorer.dt = 0.05
+        emptied_page.evaluate(COPIED)
         panel.click("python")
-        text = emptied_page.locator(".wmr-text").input_value()
+        text = emptied_page.evaluate("copied")
         space = {}
         exec(text.replace("print(", "("), space)
         ours, theirs = explorer.trajectory(), space["run"]

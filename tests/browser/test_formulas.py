@@ -7,11 +7,10 @@ cell's formulas have the same symbols as when they stand alone, in a cell of the
 from __future__ import annotations
 
 import re
-import sys
 
 import nbformat
 import pytest
-from live import PATIENCE, ROOT, chapters, free_port, jupyterlab, serve
+from live import PATIENCE, ROOT, chapters, jupyterlab, link, voila
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
@@ -64,9 +63,6 @@ def home(cells, tmp_path_factory):
     notebook = nbformat.v4.new_notebook(cells=list(map(nbformat.v4.new_markdown_cell, sources)))
     notebook.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
     nbformat.write(notebook, folder / "formulas.ipynb")
-    settings = folder / "settings/@jupyterlab/notebook-extension/tracker.jupyterlab-settings"
-    settings.parent.mkdir(parents=True)
-    settings.write_text('{"windowingMode": "none"}')
     return folder
 
 
@@ -99,19 +95,14 @@ def faults(page, cells) -> list[str]:
 
 def test_jupyterlab_renders_every_formula(home, cells, browser_page):
     with jupyterlab(home, "--config=book/lab/jupyter_lab_config.py") as url:
-        link = re.search(r"http://127\S+", (home / "log.txt").read_text()).group()
-        token = link.partition("?")[2]
+        token = link(home).partition("?")[2]
         browser_page.goto(f"{url}lab/tree/formulas.ipynb?reset&{token}", timeout=PATIENCE)
         assert faults(browser_page, cells) == []
         browser_page.goto("about:blank")  # it would miss its server
 
 
 def test_voila_renders_every_formula(home, cells, browser_page):
-    port = free_port()
-    url = f"http://127.0.0.1:{port}/"
-    options = ["--Voila.config_file_paths=book/voila", "--no-browser", f"--port={port}"]
-    command = [sys.executable, "-m", "voila", *options, "--token=here", home / "formulas.ipynb"]
-    with serve(command, url, home / "voila.txt"):
-        browser_page.goto(f"{url}?token=here", timeout=PATIENCE)
+    with voila(home / "formulas.ipynb", home / "voila.txt") as app:
+        browser_page.goto(app.link, timeout=PATIENCE)
         assert faults(browser_page, cells) == []
         browser_page.goto("about:blank")  # it would miss its server

@@ -3,28 +3,24 @@
 from __future__ import annotations
 
 import itertools
+import math
 import re
 
 import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
-from faults import axe
+from faults import crowded, violations
 from host import mounted
 from live import as_shown
 
 from wmrbook import live
 
 NAMES = sorted(set(live.__all__) - live.PARTS)
+ASKS = {name: getattr(live, name)().setup["ask"] for name in NAMES}
+GATES = {ask["kind"]: name for name, ask in ASKS.items() if ask}  # one of each kind
 PICTURE = "() => [...document.querySelectorAll('canvas')].map(it => it.toDataURL()).join()"
 TEXT = "() => document.querySelector('.live').innerText"
 UNSOUND = re.compile(r"NaN|undefined|Infinity|\[object")
-SMALL = """() => [...document.querySelectorAll('.live button, .live input, .live select')]
-    .filter(it => it.checkVisibility()).map(it => [it, it.getBoundingClientRect()])
-    .filter(([, box]) => box.width < 20 || box.height < 20).map(([it]) => it.outerHTML)"""
-WIDE = """() => [...document.querySelectorAll('.live, .live *')].filter(it => it.checkVisibility())
-    .filter(it => it.getBoundingClientRect().right > innerWidth + 1
-        || it.getBoundingClientRect().left < -1)
-    .filter(it => !it.closest('.wmr-aside')).map(it => it.outerHTML.slice(0, 90))"""
 TOUCH = """() => [...new Set([...document.querySelectorAll('.live canvas')]
     .map(it => getComputedStyle(it).touchAction))]"""
 # A mouse passes over each picture from its left to its right, and holds nothing.
@@ -71,7 +67,6 @@ SLOWLY = """() => {
     window.requestAnimationFrame = callback => next(
         now => callback(window.hurry ? now : begin + (now - begin) / 100));
 }"""
-FAULTS = "async () => (await axe.run('.live')).violations.map(it => [it.id, it.nodes[0].html])"
 
 
 def opened(page, name: str):
@@ -79,8 +74,7 @@ def opened(page, name: str):
     thing = getattr(live, name)()
     panel = mounted(page, thing, width=900)
     if ask := thing.setup["ask"]:
-        assert not page.evaluate(WIDE)
-        assert not page.evaluate(SMALL)
+        assert not crowded(page, ".live", 20)
         commit(panel, ask)
     return thing, panel
 
@@ -94,8 +88,7 @@ def commit(panel, ask) -> None:
     else:
         for key in ("ArrowRight", "ArrowUp", "ArrowUp", "Backspace", "ArrowLeft"):
             page.locator("canvas").first.press(key)
-    page.get_by_role("button", name="Commit").click()
-    panel.settled()
+    panel.press("Commit")
 
 
 @pytest.fixture(scope="module", params=NAMES)
@@ -103,7 +96,7 @@ def in_the_dark(module_page, request):
     """One of them in a dark page, for all tests that put it back where it was."""
     module_page.emulate_media(color_scheme="dark")
     thing, panel = opened(module_page, request.param)
-    return thing, panel, dict(module_page.evaluate("panel.get('state')"))
+    return thing, panel, panel.state()
 
 
 @pytest.fixture
@@ -125,10 +118,8 @@ def ends(knob: dict) -> list:
 def test_each_end_and_each_choice_changes_the_picture_and_everybody_can_use_it_in_the_dark(moved):
     thing, panel, home = moved
     page, knobs = panel.page, thing.setup["knobs"]
-    assert not page.evaluate(WIDE)
-    assert not page.evaluate(SMALL)
-    page.add_script_tag(path=axe())
-    assert not page.evaluate(FAULTS)
+    assert not crowded(page, ".live", 20)
+    assert not violations(page, ".live", runOnly=["color-contrast"])  # the rest on a phone
     for knob in knobs:
         panel.set(**home)
         before, pictures = page.evaluate(PICTURE), set()
@@ -164,15 +155,12 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
         if "choices" in knob or not number.count():  # its slider alone moves it
             continue
         before = panel.get(knob["name"])
-        number.fill(str(knob["high"] + 1))
-        number.press("Tab")
-        panel.settled()
+        panel.type(number, str(knob["high"] + 1))
         assert panel.get(knob["name"]) == before
         assert "is not allowed" in page.locator(".live-trouble").inner_text()
-        number.fill(f"{(knob['low'] + knob['high']) / 2:.5f}".replace(".", ","))
-        number.press("Tab")
-        panel.settled()
-        assert panel.get(knob["name"]) == pytest.approx((knob["low"] + knob["high"]) / 2)
+        middle = (knob["low"] + knob["high"]) / 2
+        panel.type(number, f"{middle:.5f}".replace(".", ","))
+        assert panel.get(knob["name"]) == pytest.approx(middle)
         assert page.locator(".live-trouble").inner_text() == ""
         now = panel.get(knob["name"])
         number.scroll_into_view_if_needed()
@@ -180,12 +168,10 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
         assert panel.get(knob["name"]) > now
     panel.set(**home)
     for handle in page.locator(".wmr-handle").all():
-        before = page.evaluate("JSON.stringify(panel.get('state'))")
+        before = panel.state()
         for key in ("ArrowLeft", "ArrowUp"):
             handle.press(key)
-        panel.settled()
-        moved = page.evaluate("JSON.stringify(panel.get('state'))") != before
-        assert moved or page.locator(".live-trouble").inner_text()
+        assert panel.settled().state() != before or page.locator(".live-trouble").inner_text()
         panel.drag(handle, 2000, -2000)  # off the picture
         for knob in thing.setup["knobs"]:
             if "low" in knob:
@@ -203,7 +189,6 @@ def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use
 ):
     page, thing = emptied_page, getattr(live, name)()
     panel = mounted(page, thing, width=390, height=844)
-    page.add_script_tag(path=axe())
     if ask := thing.setup["ask"]:
         given = page.evaluate(PICTURE)
         for knob in thing.setup["knobs"]:
@@ -219,9 +204,8 @@ def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use
         grips = page.locator(".live-grip:visible")  # but where the arrow or the path begins
         assert grips.count() == (ask["kind"] != "choose")
         assert page.get_by_role("button", name="Commit").is_disabled()
-        assert not page.evaluate(WIDE)
-        assert not page.evaluate(SMALL)
-        assert not page.evaluate(FAULTS)
+        assert not crowded(page, ".live", 20)
+        assert name not in GATES.values() or not violations(page, ".live")
         commit(panel, ask)
         assert as_shown(ask["why"]) in page.evaluate(TEXT)
         assert grips.count() == 0
@@ -229,19 +213,17 @@ def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use
         assert page.evaluate(PICTURE) != given
         assert page.locator(".live-gate input:enabled").count() == 0
         assert page.evaluate("document.activeElement.matches('.live-verdict')")  # keys go on there
-    assert not page.evaluate(WIDE)
-    assert not page.evaluate(SMALL)
-    assert not page.evaluate(FAULTS)
+    assert not crowded(page, ".live", 20)
+    assert not violations(page, ".live")
     page.wait_for_function("document.querySelector('.live-sentence').style.minHeight")
     knobs = [(knob["name"], ends(knob)) for knob in thing.setup["knobs"]]
     assert len(page.evaluate(PLACES, knobs)) == 1  # a longer sentence moves nothing
-    state = "JSON.stringify(panel.get('state'))"
     for handle in panel.settled().page.locator(".wmr-handle").all():
-        before, after = page.evaluate(state), []
+        before, after = panel.state(), []
         for key in ("Right", "Up"):
             handle.press(f"Shift+Arrow{key}")
-            after.append(page.evaluate(state))
-        assert {*after} != {before}, handle.get_attribute("data-handle")
+            after.append(panel.state())
+        assert after != [before] * 2, handle.get_attribute("data-handle")
 
 
 @pytest.mark.parametrize("name", ["bench", "lag", "late"])
@@ -251,33 +233,24 @@ def test_a_hand_moves_a_drive_along_its_picture_whose_cursor_says_so(name, empti
     held = emptied_page.locator("canvas[style*=crosshair]")
     assert held.count() == 0  # not before it is asked
     commit(panel, thing.setup["ask"])
-    time = emptied_page.evaluate("panel.get('state').time")
-    panel.drag(held.first, -9, 5)
-    assert emptied_page.evaluate("panel.get('state').time") != time
+    time = panel.get("time")
+    assert panel.drag(held.first, -9, 5).get("time") != time
 
 
 def test_python_moves_it_and_refuses_what_is_not_allowed():
     thing = live.turning_centre()
     thing["left"] = 1.25
     assert thing["left"] == thing.state["left"] == 1.25
-    for name, value in (("left", 9.0), ("left", float("nan")), ("middle", 1.0)):
-        with pytest.raises(
-            ValueError, match=f"{name if name != 'middle' else 'knob'} = .* is not allowed"
-        ):
+    for name, value, said in ("left", 9.0, "left"), ("left", math.nan, "left"), ("on", 1.0, "knob"):
+        with pytest.raises(ValueError, match=f"{said} = .* is not allowed"):
             thing[name] = value
 
 
 def test_a_path_is_sketched_by_hand_too(emptied_page):
     panel = mounted(emptied_page, live.half_turn())
-    box = emptied_page.locator("canvas").first.bounding_box()
-    places = [[box["x"] + share * box["width"], box["y"] + 60] for share in (0.3, 0.4, 0.5, 0.6)]
-    emptied_page.mouse.move(*places[0])
-    emptied_page.mouse.down()
-    for place in places[1:]:
-        emptied_page.mouse.move(*place)
-    emptied_page.mouse.up()
-    emptied_page.get_by_role("button", name="Commit").click()
-    guess = panel.settled().get("guess")
+    canvas = emptied_page.locator("canvas").first
+    panel.drag(canvas, 0.3 * canvas.bounding_box()["width"], 0, steps=3)
+    guess = panel.press("Commit").get("guess")
     steps = [after[0] - before[0] for before, after in itertools.pairwise(guess[1:])]
     assert len(steps) == 3
     assert steps == pytest.approx([steps[0]] * 3)
@@ -298,10 +271,8 @@ def test_a_hand_stops_what_plays_and_a_second_key_goes_on_from_the_first(emptied
     emptied_page.wait_for_timeout(200)
     assert panel.get("moves") == rests < 12
     play.click()
-    number.fill("999")
-    number.press("Tab")
+    panel.type(number, "999")
     play.wait_for()
-    panel.settled()
     assert "999 is not allowed" in emptied_page.locator(".live-trouble").inner_text()
 
     _, panel = opened(emptied_page, "turning_centre")
@@ -324,13 +295,8 @@ def test_digits_that_are_selected_are_dragged_all_the_same(emptied_page):
     _, panel = opened(emptied_page, "poles")
     number = emptied_page.get_by_role("spinbutton").first
     number.select_text()
-    box, before = number.bounding_box(), panel.get("k_alpha")
-    emptied_page.mouse.move(box["x"] + 10, box["y"] + 10)
-    emptied_page.mouse.down()
-    for far in range(10, 61, 10):
-        emptied_page.mouse.move(box["x"] + 10 + far, box["y"] + 10)
-    emptied_page.mouse.up()
-    assert panel.settled().get("k_alpha") == pytest.approx(before + 1.2)
+    before = panel.get("k_alpha")
+    assert panel.drag(number, 60, 0).get("k_alpha") == pytest.approx(before + 1.2)
 
 
 def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(emptied_page):
@@ -344,30 +310,21 @@ def test_a_comma_is_a_decimal_one_and_what_could_be_a_thousand_is_refused(emptie
     number.press("Tab")  # and what was being typed is still there
     assert panel.settled().get(name) == 7
     for text, value in (("1,5", 1.5), ("1.5e1", 15), ("\N{MINUS SIGN}2", -2), ("0,125", 0.125)):
-        number.fill(text)
-        number.press("Tab")
-        assert panel.settled().get(name) == value
+        assert panel.type(number, text).get(name) == value
     for text in ("1,000", "0x10", "", "one"):
-        number.fill(text)
-        number.press("Tab")
-        assert panel.settled().get(name) == 0.125 != before
+        assert panel.type(number, text).get(name) == 0.125 != before
         assert "number from" in emptied_page.locator(".live-trouble").inner_text()
     number.select_text()
     emptied_page.keyboard.type(number.input_value())  # nothing has changed since it was shown
     number.press("Tab")
     panel.settled()
     assert emptied_page.locator(".live-trouble").inner_text() == ""
-
-
-def test_nothing_is_said_to_follow_from_what_is_refused(emptied_page):
-    _, panel = opened(emptied_page, "bearing")
-    panel.set(east=0, north=0)
+    panel.set(east=0, north=0)  # nothing is said to follow from what is refused
     assert emptied_page.locator(".live-trouble").inner_text()
     assert set(emptied_page.locator(".live-result").all_inner_texts()) == {"\N{EN DASH}"}
 
 
-CHOICES = [name for name in NAMES if (asks := getattr(live, name)().setup["ask"])
-           and asks["kind"] == "choose"]  # fmt: skip
+CHOICES = [name for name, ask in ASKS.items() if ask and ask["kind"] == "choose"]
 
 
 @pytest.mark.parametrize("name", CHOICES)
@@ -381,29 +338,26 @@ def test_each_wrong_answer_is_told_what_is_wrong_and_the_picture_shows_what_was_
         k == ask["key"] for k in range(len(ask["wrong"]))
     ]
     panel = mounted(page, thing, width=900)
-    shown = {}
-    for place in ask["asked"]:
-        for knob, value in place.items():
-            thing[knob] = value  # or it is refused
-            shown[knob] = value
+    shown = {knob: value for place in ask["asked"] for knob, value in place.items()}
+    for knob, value in shown.items():
+        thing[knob] = value  # or it is refused
     verdict = page.locator(".live-verdict")
     for k, wrong in enumerate(ask["wrong"]):
         page.get_by_role("radio").nth(k).check()
-        page.get_by_role("button", name="Commit").click()
-        panel.settled()
+        panel.press("Commit")
         assert {knob: panel.get(knob) for knob in shown} == shown
         told = "As you said." if k == ask["key"] else f"Not so. {wrong}"
         assert verdict.inner_text() == as_shown(f"{told} {ask['why']}")
-        page.get_by_role("button", name="Try again").click()
-        panel.settled()
+        panel.press("Try again")
         assert verdict.inner_text() == ""
         given = {knob["name"]: knob["value"] for knob in thing.setup["knobs"]}
         assert {knob: panel.get(knob) for knob in given} == given
         assert page.locator(".live-sentence").is_hidden()
-    page.get_by_role("button", name="Just show me").click()
-    panel.settled()
+    panel.press("Just show me")
     assert verdict.inner_text() == as_shown(ask["why"])
     assert page.get_by_role("button", name="Copy as a line").is_hidden()
+    right = page.locator(".live-key").all_inner_texts()
+    assert right == [as_shown(ask["options"][ask["key"]])]
 
 
 WATCHED = """() => { window.seen = []; panel.on('change:state', () =>
@@ -423,8 +377,7 @@ def test_the_picture_moves_from_what_was_given_to_what_was_asked_unless_a_hand_s
     assert passed[-1] == 0.01
     assert passed == sorted(passed, reverse=True)
     assert len({*passed}) > 4
-    page.get_by_role("button", name="Try again").click()
-    panel.settled()
+    panel.press("Try again")
     page.get_by_role("radio").first.check()
     page.get_by_role("button", name="Commit").click()
     page.wait_for_function("panel.get('state').stop < 0.05")
@@ -436,13 +389,10 @@ def test_the_picture_moves_from_what_was_given_to_what_was_asked_unless_a_hand_s
 
 def test_a_sketch_is_judged_by_its_distance_from_the_way(emptied_page):
     panel = mounted(emptied_page, live.wheel_limit(), width=900)
-    commit(panel, panel.page.evaluate("panel.get('setup').ask"))
+    commit(panel, ASKS["wheel_limit"])
     said = emptied_page.locator(".live-verdict").inner_text()
     far = float(re.search(r"Your path is ([\d.]+) m from the robot's, on average", said)[1])
-    x, y = emptied_page.evaluate(
-        "(({ x, y }) => [[...x], [...y]])(document.querySelector('.live').found.run)"
-    )
-    guess = panel.get("guess")
-    ours = [min(((a - px) ** 2 + (b - py) ** 2) ** 0.5 for a, b in zip(x, y, strict=True))
-            for px, py in guess]  # fmt: skip
+    run = panel.found()["run"]
+    way = list(zip(run["x"], run["y"], strict=True))
+    ours = [min(math.dist(point, it) for it in way) for point in panel.get("guess")]
     assert far == pytest.approx(sum(ours) / len(ours), rel=0.05)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from zlib import crc32
@@ -13,8 +12,7 @@ import pytest
 import sympy as sp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
-from host import SETTLED, TRAITS, mounted
-from live import as_shown
+from host import mounted
 from test_live import NAMES, commit
 
 import wmrlib as wmr
@@ -22,8 +20,6 @@ from wmrbook import live
 from wmrbook.live import audit, facing, noise, real_robot
 from wmrbook.strict import K2, STRICT, P, Q, answer, slope
 
-FOUND = """() => JSON.stringify(document.querySelector('.live').found,
-    (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
 ROLLING = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
 TRIALS = 4  # places of the knobs, besides where they stand at first
 AGREES = 1e-7  # m and rad, of a run
@@ -33,8 +29,8 @@ def pose(numbers) -> wmr.Pose:
     return wmr.Pose(*numbers)
 
 
-def same_run(found, start, goal, gains, **how) -> None:
-    """The run in the page is that of `simulate`."""
+def same_run(found, start, goal, gains, **how) -> wmr.Trajectory:
+    """The run in the page is that of `simulate`, which is returned."""
     how = {"method": "continuous", "dt": 0.05, "duration": 60.0} | how
     ours = wmr.simulate(pose(start), pose(goal), gains, **how)
     assert len(found["t"]) == len(ours.t)
@@ -42,6 +38,7 @@ def same_run(found, start, goal, gains, **how) -> None:
         np.testing.assert_allclose(found[name], getattr(ours, name), atol=AGREES)
     turned = np.array(found["heading"]) - ours.heading
     assert np.abs(wmr.wrap_angle(turned)).max() < AGREES
+    return ours
 
 
 def last_metres(values, found, data) -> None:
@@ -328,23 +325,16 @@ def parking(values, found, data) -> None:
     how = {"method": "arc", "last_turn": turn, "arrival_radius": values["radius"], "wheels": wheels}
     gains = wmr.Gains(**data["gains"])
     same_run(found["run"], data["start"], data["goal"], gains, **how)
-    alone = wmr.simulate(
-        wmr.Pose(data["goal"][0] - 2.0, data["goal"][1], 0.0),
-        wmr.Pose(*data["goal"][:2], 0.0),
-        gains,
-        dt=0.01,
-        duration=100.0,
-        arrival_radius=0.0,
-        wheels=wmr.Wheels(0.5, dead_band=max(dead, 1e-3)),
-    )
     if dead:
+        start, goal = wmr.Pose(-2.0, 0.0, 0.0), wmr.Pose(0.0, 0.0, 0.0)
+        how = {"dt": 0.01, "duration": 100.0, "arrival_radius": 0.0}
+        alone = wmr.simulate(start, goal, gains, wheels=wmr.Wheels(0.5, dead_band=dead), **how)
         assert found["stalls"] == pytest.approx(alone.rho[-1], abs=0.01)
 
 
 def bowl(values, found, data) -> None:
     gains = wmr.Gains(**data["gains"][values["choice"]])
-    same_run(found["run"], data["start"], data["goal"], gains, **ROLLING)
-    ours = wmr.simulate(pose(data["start"]), pose(data["goal"]), gains, **ROLLING)
+    ours = same_run(found["run"], data["start"], data["goal"], gains, **ROLLING)
     height = wmr.lyapunov(0.0, ours.alpha, ours.theta, gains.h)
     assert found["height"] == pytest.approx(height[found["k"]], abs=AGREES)
 
@@ -497,18 +487,16 @@ def test_what_is_shown_is_true(emptied_page, name):
             else:
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
         panel.set(**values)
-        state = emptied_page.evaluate("panel.get('state')")
-        found = json.loads(emptied_page.evaluate(FOUND))
-        TRUTH[name](state, found, thing.setup["data"])
+        TRUTH[name](panel.state(), panel.found(), thing.setup["data"])
 
 
 def test_the_poles_follow_the_hand_and_the_gains_follow_the_poles(emptied_page):
     panel = mounted(emptied_page, live.poles())
     commit(panel, live.poles().setup["ask"])
     scale = emptied_page.locator("canvas").first.bounding_box()["width"]
-    before = json.loads(emptied_page.evaluate(FOUND))["poles"]
+    before = panel.found()["poles"]
     panel.drag(emptied_page.locator("[data-handle=pole-0]"), -0.05 * scale, -0.1 * scale)
-    found = json.loads(emptied_page.evaluate(FOUND))
+    found = panel.found()
     assert found["poles"][0][0] < before[0][0]
     assert found["poles"][0][1] > before[0][1]
     assert panel.get("k_alpha") == pytest.approx(-2 * found["poles"][0][0], rel=1e-12)
@@ -525,43 +513,37 @@ def test_poles_go_where_the_hand_goes_and_take_each_other_along(emptied_page):
     commit(panel, live.poles().setup["ask"])
     poles = [emptied_page.locator(f"[data-handle=pole-{k}]") for k in (0, 1)]
 
-    def at(k_alpha, h):
-        panel.set(k_alpha=k_alpha, h=h)
-
-    def found():
-        return json.loads(emptied_page.evaluate(FOUND))["poles"]
-
     for k, handle in enumerate(poles):  # a double pole goes both ways, and up and down by its own
         for key, sign in (("ArrowLeft", 1), ("ArrowRight", -1)):
-            at(4.0, 1.0)
+            panel.set(k_alpha=4.0, h=1.0)
             handle.press(key)
             assert sign * (panel.settled().get("k_alpha") - 4.0) > 0.04, (k, key)
-        at(4.0, 1.0)
+        panel.set(k_alpha=4.0, h=1.0)
         handle.press("Shift+ArrowDown" if k else "Shift+ArrowUp")
         assert panel.settled().get("h") > 1.0
-        at(4.0, 1.0)
+        panel.set(k_alpha=4.0, h=1.0)
         handle.press("ArrowUp" if k else "ArrowDown")
         assert "mirror image" in emptied_page.locator(".live-trouble").inner_text()
-    at(5.0, 1.0)  # -1 and -4
+    panel.set(k_alpha=5.0, h=1.0)  # -1 and -4
     scale = abs(poles[0].bounding_box()["x"] - poles[1].bounding_box()["x"]) / 3.0
     panel.drag(poles[0], -scale, 0)
-    (slow, level), (fast, _) = found()
+    (slow, level), (fast, _) = panel.found()["poles"]
     assert (slow, fast) == pytest.approx((-2.0, -4.0), abs=0.1)
     assert (level, fast) == (0.0, pytest.approx(-4.0, abs=1e-9))
     panel.drag(poles[0], -3.0 * scale, 0)
-    (slow, _), (fast, _) = found()
+    (slow, _), (fast, _) = panel.found()["poles"]
     assert slow == pytest.approx(fast, abs=1e-3)
     assert slow < -4.05  # as far as k_alpha = 9
-    at(5.0, 1.0)
+    panel.set(k_alpha=5.0, h=1.0)
     panel.drag(poles[0], 1.5 * scale, 0)
     assert "h would be" in emptied_page.locator(".live-trouble").inner_text()
-    assert found()[0][0] < 0.0
+    assert panel.found()["poles"][0][0] < 0.0
 
 
 def test_what_z3_finds_is_driven_for_as_long_as_the_gain_is_that_one(emptied_page):
     panel = mounted(emptied_page, live.strict(), width=390)
     panel.set(k2=0.2, answer={"of": {"k2": 0.2}, "is": answer(0.2)})
-    found = json.loads(emptied_page.evaluate(FOUND))
+    found = panel.found()
     p, q = answer(0.2)["state"]
     rho, origin = live.strict().setup["data"]["rho"], pose([0.0, 0.0, 0.0])
     start = wmr.pose_from_polar(wmr.PolarError(rho, 2 * math.atan(q), 2 * math.atan(p)), origin)
@@ -595,18 +577,6 @@ def test_a_prover_that_is_left_says_no_more(emptied_page):
         emptied_page.get_by_text("Stopped.").wait_for()
         emptied_page.wait_for_timeout(100)
         assert said.inner_text().split("\n") == ["Prove it", "Stopped."]
-
-
-def test_on_paper_the_right_option_is_marked(emptied_page):
-    for thing in (getattr(live, name)() for name in NAMES):
-        if (ask := thing.setup["ask"]) and ask["kind"] == "choose":
-            mounted(emptied_page, thing)
-            assert not emptied_page.locator(".live-key").count()
-            emptied_page.evaluate("document.documentElement.dataset.still = ''")
-            emptied_page.evaluate("traits => mount(traits)", thing.get_state(TRAITS))
-            emptied_page.evaluate(SETTLED)
-            marked = emptied_page.locator(".live-key")
-            assert marked.all_inner_texts() == [as_shown(ask["options"][ask["key"]])], ask["name"]
 
 
 def test_the_benchs_receivers_are_those_of_the_library():

@@ -69,6 +69,7 @@ def test_maps_equal_a_sweep(panel_core):
     call = """([options, metrics]) =>
         metrics.map((metric) => Array.from(landscape({...options, metric})))"""
     for law, method in itertools.product(laws.POSE_LAWS, METHODS):
+        metrics = [*names] if law == "corrected" else ["headingError"]
         kx, ky = next(axes)
         xs, ys = np.linspace(*low_high[kx], 12), np.linspace(*low_high[ky], 10)
         grid = dict(zip((kx, ky), np.meshgrid(xs, ys), strict=True))
@@ -77,10 +78,9 @@ def test_maps_equal_a_sweep(panel_core):
         assert swept.arrived.any()
         options = OUTDOOR | how | {"gains": gains, "kx": kx, "ky": ky}
         options |= {"xs": xs.tolist(), "ys": ys.tolist()}
-        for (metric, name), shown in zip(
-            names.items(), panel_core.evaluate(call, [options, [*names]]), strict=True
-        ):
-            expected = np.abs(getattr(swept, name))
+        maps = panel_core.evaluate(call, [options, metrics])
+        for metric, shown in zip(metrics, maps, strict=True):
+            expected = np.abs(getattr(swept, names[metric]))
             expected[~swept.arrived] = np.nan
             ours, where = np.reshape(shown, (10, 12)), f"{law}, {method}, {kx}, {ky}, {metric}"
             np.testing.assert_allclose(ours, expected, rtol=1e-8, atol=1e-8, err_msg=where)

@@ -5,7 +5,6 @@ from __future__ import annotations
 import pytest
 from live import chapters
 
-pytestmark = pytest.mark.needs("npm")
 PLAYERS = {"00": 1, "05": 1, "06": 1, "12": 2}
 # Where on its canvas something is drawn: the middle of it, in parts of its size.
 DRAWN = """player => {
@@ -26,13 +25,10 @@ DRAWN = """player => {
 }"""
 
 
-def name_of(chapter):
-    return next(f"notebooks/{path.stem}.html" for path in chapters() if path.stem[:2] == chapter)
-
-
 @pytest.mark.parametrize("chapter", PLAYERS)
-def test_a_drive_plays_over_its_picture(opened, chapter):
-    page = opened(name_of(chapter))
+def test_a_drive_plays_over_its_picture_and_waits_where_it_is_paused(opened, chapter):
+    (name,) = [path.stem for path in chapters() if path.stem[:2] == chapter]
+    page = opened(f"notebooks/{name}.html")
     players = page.query_selector_all(".player")
     assert len(players) == PLAYERS[chapter]
     for player in players:
@@ -47,20 +43,17 @@ def test_a_drive_plays_over_its_picture(opened, chapter):
                 expected = [values[place] for values in seen["ways"][0]]
                 assert seen["at"] == pytest.approx(expected, abs=0.02)
             assert seen["count"] > 20
-        assert slider.get_attribute("aria-valuetext") == "0.0 s"
+            said = seen["seconds"] if place else 0.0
+            assert slider.get_attribute("aria-valuetext") == f"{said:.1f} s"
+        if chapter != "00":
+            continue
         button.click()
         assert button.inner_text() == "Pause"
+        page.wait_for_timeout(300)
+        button.click()
+        waits = slider.get_attribute("aria-valuetext")
+        page.wait_for_timeout(200)
+        assert slider.get_attribute("aria-valuetext") == waits != "0.0 s"
+        button.click()
         page.wait_for_function("b => b.textContent === 'Play'", arg=button, timeout=20_000)
         assert slider.get_attribute("aria-valuetext") == f"{seen['seconds']:.1f} s"
-
-
-def test_a_drive_waits_where_it_is_paused(opened):
-    page = opened(name_of("12"))
-    player = page.query_selector(".player")
-    slider, button = player.query_selector("input"), player.query_selector("button")
-    button.click()
-    page.wait_for_timeout(300)
-    button.click()
-    first = slider.get_attribute("aria-valuetext")
-    page.wait_for_timeout(200)
-    assert slider.get_attribute("aria-valuetext") == first != "0.0 s"

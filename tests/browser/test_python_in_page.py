@@ -22,8 +22,6 @@ from python_pack import Z3, packages
 
 from wmrbook import live
 
-if not os.environ.get("BOOK_HTML"):
-    pytestmark = pytest.mark.needs("npm")
 CELL = re.compile(r'<script type="application/json" class="python-cell">(.*?)</script>', re.DOTALL)
 DRAWN_TEXTS = """() => [...document.querySelectorAll('.python-output')].map(all =>
     [...all.children].map(it => it.querySelector('pre')?.textContent

@@ -1,6 +1,5 @@
 """The rover in its page: from the disk, on a click, as fast as the screen, and as in Python."""
 
-import os
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
@@ -8,8 +7,8 @@ import numpy as np
 import pytest
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget")
-from faults import axe
-from host import mounted
+from faults import crowded, violations
+from host import Panel, mounted
 from live import PATIENCE
 
 import wmrlib as wmr
@@ -20,9 +19,6 @@ from wmrbook.rover_model import TRACK_WIDTH as WIDTH
 SMALL, READY, SECONDS = 4e6, 30e3, 10  # bytes and ms, at most; s of frames
 ROVER = "document.querySelector('.rover')"
 ENDED = f"() => {ROVER}.dataset.done === 'true'"
-FOUND = f"""() => {{ const {{ ideal, path, ...rest }} = {ROVER}.found;
-    const end = ideal.n - 1, columns = [ideal.t, ideal.x, ideal.y, ideal.heading];
-    return {{ ...rest, path, ideal: columns.map(it => it[end]) }}; }}"""
 FRAMES = """seconds => new Promise(done => {
     const times = [], tick = (now) => {
         times.push(now);
@@ -30,29 +26,19 @@ FRAMES = """seconds => new Promise(done => {
     };
     requestAnimationFrame(tick);
 })"""
-FAULTS = "async () => (await axe.run('.rover')).violations.map(it => [it.id, it.nodes[0].html])"
-WIDE = """() => [...document.querySelectorAll('.rover *')].filter(it => it.checkVisibility()
-    && it.getBoundingClientRect().right > innerWidth + 1).map(it => it.outerHTML.slice(0, 90))"""
 
 
-SITE = pytest.mark.needs(*([] if os.environ.get("BOOK_HTML") else ["npm"]))
-
-
-def given_a_body(page):
-    page.get_by_role("button", name="Give it a body").click(timeout=PATIENCE)
-    page.wait_for_function(f"() => {ROVER}.dataset.ready", timeout=PATIENCE)
-    return float(page.evaluate(f"{ROVER}.dataset.ready"))
-
-
-@SITE
-def test_on_a_click_it_drives_as_in_python_at_the_screens_pace(site, browser_page, opened, capsys):
+def test_on_a_click_it_drives_as_in_python_at_the_screens_pace(browser_page, opened, capsys):
+    """And once more on the ground that a hand makes steep and slippery."""
     asked = []
     browser_page.on("request", lambda it: asked.append(urlsplit(it.url)))
     page = opened("rover.html")
     files = {unquote(it.path) for it in asked if it.scheme == "file"}
     assert not [name for name in files if "mujoco" in name]
     assert sum(Path(name).stat().st_size for name in files) < SMALL
-    ready = given_a_body(page)
+    page.get_by_role("button", name="Give it a body").click(timeout=PATIENCE)
+    page.wait_for_function(f"() => {ROVER}.dataset.ready", timeout=PATIENCE)
+    ready = float(page.evaluate(f"{ROVER}.dataset.ready"))
     times = np.array(page.evaluate(FRAMES, SECONDS))
     rate, worst = (times.size - 1) / (times[-1] - times[0]) * 1e3, np.diff(times).max()
     with capsys.disabled():
@@ -61,24 +47,19 @@ def test_on_a_click_it_drives_as_in_python_at_the_screens_pace(site, browser_pag
         )
     assert ready < READY
     assert rate > 20.0  # 60 on a quiet machine; here others work too
+    page.get_by_role("button", name="Four times").click()
     page.wait_for_function(ENDED, timeout=PATIENCE)
-    found = page.evaluate(FOUND)
+    found = Panel(page).found()
     assert found["arrived"]
     every = round(1.0 / PERIOD)
     np.testing.assert_allclose(found["path"][::every], stored()["page"], atol=2e-3)  # m, rad
 
-
-@SITE
-def test_a_hand_changes_the_ground_and_what_is_not_there_is_said(site, opened):
-    page = opened("rover.html")
-    given_a_body(page)
-    page.get_by_role("button", name="Four times").click()
     for name, presses in (("grip", "Home"), ("slope", "End")):
         slider = page.get_by_role("slider", name=name)
         slider.focus()
         slider.press(presses)
     page.wait_for_function(ENDED, timeout=PATIENCE)
-    found = page.evaluate(FOUND)
+    found = Panel(page).found()
     assert not found["arrived"]
     assert found["worst"]["slip"] > 0.3
     assert "the rover does not arrive" in page.locator(".rover-words").inner_text()
@@ -93,15 +74,17 @@ def test_the_kinematic_robot_is_wmrlibs_and_needs_no_engine(emptied_page):
         gains = PAGE_GAINS._replace(**change)
         wheels = wmr.Wheels(WIDTH, max_speed=FASTEST)
         run = wmr.simulate(*PAGE_DRIVE, gains, dt=PERIOD, arrival_radius=ARRIVAL, wheels=wheels)
-        end = [run.t[-1], run.x[-1], run.y[-1], run.heading[-1]]
-        assert emptied_page.evaluate(FOUND)["ideal"] == pytest.approx(end, abs=1e-9)
+        ideal = panel.found()["ideal"]
+        for name in ("t", "x", "y", "heading"):
+            assert ideal[name][ideal["n"] - 1] == pytest.approx(getattr(run, name)[-1], abs=1e-9)
     emptied_page.get_by_role("button", name="Give it a body").click()
     emptied_page.get_by_text("pages alone.").wait_for()
 
 
-@pytest.mark.parametrize("width", [320, 390, 1366])
-def test_all_of_it_is_in_view_and_sound(emptied_page, width):
-    mounted(emptied_page, Rover(), width=width)
-    assert emptied_page.evaluate(WIDE) == []
-    emptied_page.add_script_tag(path=axe())
-    assert emptied_page.evaluate(FAULTS) == []
+@pytest.mark.needs("npm")
+def test_all_of_it_is_in_view_and_sound(emptied_page):
+    mounted(emptied_page, Rover())
+    for width in (1366, 390, 320):
+        emptied_page.set_viewport_size({"width": width, "height": 720})
+        assert crowded(emptied_page, ".rover", 20) == []
+    assert violations(emptied_page, ".rover") == []

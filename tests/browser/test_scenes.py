@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import itertools
-import json
 
 import numpy as np
 import pytest
@@ -12,7 +11,6 @@ pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
 from live import as_shown, chapters
 from test_live import NAMES, commit
-from test_live_truth import FOUND
 
 import wmrlib as wmr
 from wmrbook import live
@@ -176,7 +174,7 @@ def test_what_each_idea_says_is_so(emptied_page, name):
         assert {it: panel.get(it) for it in home} == home | step.to
         assert panel.get("time") in (None, 1.0)
         assert not emptied_page.locator(".live-trouble:visible").count()
-        found.append(json.loads(emptied_page.evaluate(FOUND)))
+        found.append(panel.found())
         pictures.append(panel.picture())
     assert all(a != b for a, b in itertools.pairwise(pictures))
     claims = list(globals()[name](found))
@@ -242,7 +240,7 @@ def test_what_can_be_held_moves_the_scene(emptied_page, name, handle, knob, by):
     assert not emptied_page.locator(".live-steps [aria-current]").count()
     if name == "lag":  # a longer distance is a gentler pull
         assert panel.get(knob) < before
-        found = json.loads(emptied_page.evaluate(FOUND))
+        found = panel.found()
         gains = wmr.paper.CIRCLE_GAINS._replace(k_rho=panel.get(knob), v_max=panel.get("v_max"))
         speed = wmr.control_law(found["predicted"], 0.0, 0.0, gains)[0]
         assert speed == pytest.approx(wmr.paper.CIRCLE_SPEED)
@@ -251,11 +249,11 @@ def test_what_can_be_held_moves_the_scene(emptied_page, name, handle, knob, by):
 
 
 def test_a_remembered_answer_opens_a_scene_with_its_ideas(browser_page):
-    name, thing = "lag", live.lag()
+    thing = live.lag()
     assert thing.setup["ask"]["asked"]  # opening moves a knob, before the ideas are there
     browser_page.add_init_script("globalThis.wmrKit = () => {}")  # as where a page remembers
     for turn in range(2):  # the second time the page remembers what was answered
-        panel = mounted(browser_page, getattr(live, name)())
+        panel = mounted(browser_page, live.lag())
         if not turn:
             commit(panel, thing.setup["ask"])
         assert panel.settled().get("k_rho") == thing.setup["ask"]["asked"][0]["k_rho"]

@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 import slides
 from faults import of_page
-from live import again
+from live import again, open_deck
 from test_decks import TROUBLES
 
 from wmrbook import questions
@@ -20,8 +20,7 @@ def test_each_slide_to_vote_by_has_a_title_and_can_be_read_and_all_of_it_fits(
 ):
     slides.vote(tmp_path)
     browser_page.set_viewport_size({"width": 1366, "height": 768})
-    browser_page.goto((tmp_path / "questions.html").as_uri())
-    browser_page.wait_for_function("document.documentElement.dataset.deck === 'ready'")
+    open_deck(browser_page, (tmp_path / "questions.html").as_uri())
     assert browser_page.evaluate("deck.getTotalSlides()") == 3 + 2 * len(questions.made())
     pictures = browser_page.locator(".page figure img:first-child")
     assert pictures.count() == 1 + len(scenes.SCENES)

@@ -36,7 +36,7 @@ def odometry(seconds, x, y, heading):
     return at(seconds, pose=Message(pose=pose))
 
 
-def sensors(seconds=0.9, **more):
+def sensors(seconds=0.9, fixed=0.9, **more):
     """Sensors that have seen one odometry, a heading of 2 rad and a fix 3 m east, 4 m north."""
     found = Sensors(DEFAULTS | {"start": START, "filter": False} | more)
     found.seen(odometry(1.0, 5.0, 6.0, 1.0), GOAL)
@@ -46,7 +46,7 @@ def sensors(seconds=0.9, **more):
     point = wmr.point_at(wmr.GeoPoint(lat=START[0], lon=START[1]), 3.0, 4.0)
     status, variance = Message(status=0), [0.04, 0, 0, 0, 0.01, 0, 0, 0, 0]
     fields = {"status": status, "position_covariance": variance, "position_covariance_type": 2}
-    found.fixes.append(at(0.9, latitude=point.lat, longitude=point.lon, **fields))
+    found.fixes.append(at(fixed, latitude=point.lat, longitude=point.lon, **fields))
     return found
 
 
@@ -81,10 +81,7 @@ def test_outside_its_fence_a_goal_and_a_fix_are_said_to_be():
 
 
 def test_a_fix_from_after_the_odometry_waits_until_it_is_due():
-    found = sensors()
-    fix = found.fixes.pop()
-    fix.header.stamp = at(1.06).header.stamp
-    found.fixes.append(fix)
+    found = sensors(fixed=1.06)
     assert not found.seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL).fresh
     due = found.seen(odometry(1.1, 5.0, 6.0, 1.0), GOAL)
     assert (due.fresh, due.age) == (1, pytest.approx(0.04))
@@ -92,11 +89,7 @@ def test_a_fix_from_after_the_odometry_waits_until_it_is_due():
 
 
 def test_a_receiver_whose_clock_is_far_ahead_is_told_to_the_drive():
-    found = sensors()
-    fix = found.fixes.pop()
-    fix.header.stamp = at(1.06 + SOON).header.stamp
-    found.fixes.append(fix)
-    seen = found.seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
+    seen = sensors(fixed=1.06 + SOON).seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
     assert seen.fresh
     assert seen.age < 0.0  # which it refuses
 

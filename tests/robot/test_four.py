@@ -38,12 +38,6 @@ def test_the_stored_table_is_that_of_now(found):
     assert all(max(far) < MOST[b] + MOST.get(a, 0.0) for a, b, *far in stored["apart"])
 
 
-def test_a_law_with_a_flipped_sign_is_far_away(monkeypatch):
-    usual = four.driven(four.python())
-    monkeypatch.setattr(four, "GAINS", four.GAINS._replace(h=0.0))
-    assert min(four.apart(usual, four.driven(four.python()))) > 0.1
-
-
 def test_places_are_compared_from_the_first_move_and_to_the_last_end():
     stays, moves = [0.0, 0.0, 3.0], [1.0, 0.0, 3.0]
     late, soon = four.driven([stays, stays, stays, moves]), four.driven([stays, moves, moves])

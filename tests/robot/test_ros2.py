@@ -112,21 +112,18 @@ def test_what_is_not_allowed_is_refused_with_the_goal(robot, told, goal):
         robot.run(parameters(CASES[0]) | told, goal, {"case": ""})
 
 
-def test_a_parameter_of_another_kind_is_refused_while_it_drives_too(robot):
+def park(robot):
+    """Ask a robot without a fault to park; whether it will."""
     robot.ask(robot.goals, ["set", parameters(CASES[0])])
-    assert robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
+    return robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
+
+
+def test_while_it_drives_another_goal_and_a_parameter_of_another_kind_are_refused(robot):
+    assert not robot.ask(robot.lawn, {"listen": 0.0})  # from here on it hears
+    assert park(robot)
+    assert not robot.ask(robot.goals, ["another", list(map(float, CASE.goal))])
     said = robot.ask(robot.goals, ["set", {"base_frame": 3}])
     assert said == "base_frame = 3 is not allowed: like 'base_link' is needed"
-    assert robot.ask(robot.goals, ["cancel"])
-    assert robot.ask(robot.goals, ["result"])["status"] == CANCELED
-
-
-def test_a_second_goal_is_refused_until_the_first_is_cancelled(robot):
-    robot.ask(robot.goals, ["set", parameters(CASES[0])])
-    goal = list(map(float, CASE.goal))
-    assert not robot.ask(robot.lawn, {"listen": 0.0})  # from here on it hears
-    assert robot.ask(robot.goals, ["park", goal])
-    assert not robot.ask(robot.goals, ["another", goal])
     assert robot.ask(robot.goals, ["cancel"])
     assert robot.ask(robot.goals, ["result"])["status"] == CANCELED
     assert robot.ask(robot.lawn, {"listen": 1.0})[-1] == [0.0, 0.0]
@@ -159,41 +156,37 @@ time.sleep(0.5)
 """
 
 
-@pytest.mark.parametrize("end", ["2.0", "nan", signal.SIGHUP])
-def test_a_message_of_nonsense_is_no_message_and_a_lost_terminal_stops_the_robot(prefix, end):
+@pytest.fixture
+def driving(prefix):
+    """A robot on its way, whose lawn falls silent now and is told to listen."""
     with Three(prefix, DOMAIN + 1, "-p", "watchdog:=5") as robot:
-        robot.ask(robot.goals, ["set", parameters(CASES[0])])
-        robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
-        wish = {"start": list(CASE.start), "width": 0.5, "longest": 3.0}
-        assert robot.ask(robot.lawn, wish)["state"] == "drive"
-        robot.tell(robot.lawn, {"listen": 8.0})
-        if isinstance(end, str):
-            with robot.begin("-c", WRONG, end) as other:
-                other.wait(20.0)
-        else:
-            robot.node.send_signal(end)
-        heard = robot.answer(robot.lawn)
-        assert heard
-        assert set(map(tuple, heard)) == {(0.0, 0.0)}
-        assert (robot.node.poll() is None) == isinstance(end, str)
-
-
-def test_silence_stops_the_robot_and_so_does_the_end_of_the_node(prefix):
-    with Three(prefix, DOMAIN + 1, "-p", "watchdog:=5") as robot:
-        robot.ask(robot.goals, ["set", parameters(CASES[0])])
-        robot.ask(robot.goals, ["park", list(map(float, CASE.goal))])
+        park(robot)
         wish = {"start": list(CASE.start), "width": 0.5, "longest": 3.0}
         ran = robot.ask(robot.lawn, wish)
         assert ran["state"] == "drive"
         assert ran["poses"][-1][1] > 0.2  # it drove
-        stops = robot.ask(robot.lawn, {"listen": 8.0})
-        assert stops
-        assert set(map(tuple, stops)) == {(0.0, 0.0)}
-        assert robot.steps()[-1][2:] == ["wait", "clock jumped"]
-        robot.tell(robot.lawn, {"listen": 4.0})
-        robot.node.terminate()
-        assert robot.answer(robot.lawn)[-1] == [0.0, 0.0]
-        assert robot.node.wait(20.0) == 0
+        robot.tell(robot.lawn, {"listen": 8.0})
+        yield robot
+
+
+@pytest.mark.parametrize("end", ["2.0", "nan", signal.SIGHUP])
+def test_a_message_of_nonsense_is_no_message_and_a_lost_terminal_stops_the_robot(driving, end):
+    if isinstance(end, str):
+        with driving.begin("-c", WRONG, end) as other:
+            other.wait(20.0)
+    else:
+        driving.node.send_signal(end)
+    assert {*map(tuple, driving.answer(driving.lawn))} == {(0.0, 0.0)}
+    assert (driving.node.poll() is None) == isinstance(end, str)
+
+
+def test_silence_stops_the_robot_and_so_does_the_end_of_the_node(driving):
+    assert {*map(tuple, driving.answer(driving.lawn))} == {(0.0, 0.0)}
+    assert driving.steps()[-1][2:] == ["wait", "clock jumped"]
+    driving.tell(driving.lawn, {"listen": 4.0})
+    driving.node.terminate()
+    assert driving.answer(driving.lawn)[-1] == [0.0, 0.0]
+    assert driving.node.wait(20.0) == 0
 
 
 def test_the_package_names_what_it_imports_and_installs():

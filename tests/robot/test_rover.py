@@ -39,12 +39,6 @@ def test_without_its_mass_it_drives_as_the_theorem_says():
     assert gap(Rover(load=40.0))[0] > gap(Rover())[0]
 
 
-def test_a_turned_sign_does_not_pass(monkeypatch):
-    right = wmr.twist_to_wheels
-    monkeypatch.setattr(wmr, "twist_to_wheels", lambda v, omega, b: right(v, omega, b)[::-1])
-    assert gap(WEIGHTLESS)[0] > 1.0
-
-
 @pytest.mark.parametrize("slope", [0.0, 10.0])
 def test_at_rest_the_ground_carries_its_weight(slope):
     world, mass = total(Rover(slope_deg=slope, downhill_deg=-90.0))
