@@ -9,7 +9,7 @@ import textwrap
 import types
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import suppress
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
@@ -75,13 +75,11 @@ def explain(
     otherwise: str,
     equal: Callable[..., bool] = close,
     right: Any = None,
-) -> None:
+) -> NoReturn:
     """As `rule_out`, for a wrong value: if no usual mistake gives it, the hint is `otherwise`.
 
-    With the `right` value, which is let pass, a mere `slip` is told before that.
+    With the `right` value, a mere `slip` is told before that.
     """
-    if right is not None and equal(value, right):
-        return
     rule_out(value, mistakes, equal)
     if right is not None:
         slip(value, right)

@@ -89,6 +89,8 @@ def arc_known(arc: Arc) -> str:
     own_work(arc)
     for pose, v, omega, dt in _steps(30):
         value, right = ask_numbers(arc, 3, *pose, v, omega, dt), advance(pose, v, omega, dt)
+        if same_pose(value, right):
+            continue
         if not angle_equal(value[2], right.heading):
             slip(value, right, "(x, y, heading)")
             raise Hint("the heading is wrong: by how much does it turn in the time dt?")

@@ -101,12 +101,15 @@ def mean_white(scatter_of_mean: Callable) -> str:
     own_work(scatter_of_mean)
     for sigma, n in ((0.5, 1), (0.5, 2), (1.5, 9), (3.0, 100)):
         value, right = ask_number(scatter_of_mean, sigma, n, 0.0), sigma / math.sqrt(n)
-        mistakes = {
-            "this is the variance, in m^2; its root is asked for.": right**2,
-            "independent errors do not add up like equal ones: their variances do.": sigma / n,
-        }
-        hint = f"{n} independent looks of {sigma:g} m: the mean comes out with {value:.4g} m."
-        explain(value, mistakes, hint, right=right)
+        if not close(value, right):
+            alike = sigma / n if n > 1 else math.inf
+            mistakes = {
+                "this is the variance, in m^2; its root is asked for.": right**2,
+                "independent errors do not add up like equal ones: their variances do.": alike,
+            }
+            hint = f"{n} independent looks of {sigma:g} m: "
+            hint += f"the mean comes out with {value:.4g} m."
+            explain(value, mistakes, hint, right=right)
     return "Nine independent looks: a third of the scatter of one."
 
 
@@ -121,10 +124,11 @@ def mean_correlated(scatter_of_mean: Callable) -> str:
     for sigma, n, c in [*cases, *((1.0, n, c) for n in (3, 4, 9) for c in (-0.5, -0.9, 0.0))]:
         value, apart = ask_number(scatter_of_mean, sigma, n, c), np.arange(n)
         right = sigma / n * math.sqrt((c ** np.abs(apart[:, None] - apart)).sum())
-        hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.4g}: "
-        hint += f"the mean comes out with {value:.4g} m. Write the variance of the sum as a "
-        hint += "sum over all pairs of looks, and count how many pairs are k apart."
-        explain(value, _usual_means(sigma, n, c, right), hint, right=right)
+        if not close(value, right, 1e-6):
+            hint = f"{n} looks of {sigma:.3g} m, neighbours correlated by {c:.4g}: "
+            hint += f"the mean comes out with {value:.4g} m. Write the variance of the sum as a "
+            hint += "sum over all pairs of looks, and count how many pairs are k apart."
+            _explain_mean(value, sigma, n, c, right, hint)
     for n in (1, 5, 50):
         hint = "errors that are all the same (correlation 1) do not average out at all."
         expect(close(ask_number(scatter_of_mean, 0.8, n, 1.0), 0.8), hint)
@@ -183,15 +187,15 @@ def _explain_radius(value: float, share: float, looks: int, sigma: float, hint: 
     explain(value, mistakes, hint)
 
 
-def _usual_means(sigma: float, n: int, c: float, right: float) -> dict[str, float]:
+def _explain_mean(value: float, sigma: float, n: int, c: float, right: float, hint: str) -> None:
     k, white = np.arange(1, n), sigma / math.sqrt(n)
 
     def mean(pairs: float) -> float:
         return white * math.sqrt(max(0.0, 1.0 + pairs))
 
+    rule_out(value, {"this is the variance, in m^2; its root is asked for.": right**2})
     many, near = white * math.sqrt((1.0 + c) / (1.0 - c)), mean(2.0 * c * (n - 1) / n)
-    return {
-        "this is the variance, in m^2; its root is asked for.": right**2,
+    mistakes = {
         "the correlation does not count in your result: "
         "neighbours that are alike tell less than two strangers.": white,
         "each pair of looks stands in the square of the sum twice: "
@@ -200,6 +204,7 @@ def _usual_means(sigma: float, n: int, c: float, right: float) -> dict[str, floa
         "this holds for very many looks; the first and the last have fewer neighbours.": many,
         "not only neighbours are alike: what about looks that are two or three apart?": near,
     }
+    explain(value, mistakes, hint, right=right)
 
 
 def _logs(count: int) -> list[tuple[np.ndarray, np.ndarray]]:

@@ -86,6 +86,8 @@ def ticks_known(rolled: Callable) -> str:
         after, metre = (before + ticks) % COUNTS, 2.0 * math.pi * radius / per_turn
         value = ask_number(rolled, before, after, per_turn, radius)
         right, counted = ticks * metre, after - before
+        if _same_way(value, right):
+            continue
         leap, short = counted * metre, (counted + COUNTS // 2) % (COUNTS - 1) - COUNTS // 2
         mistakes = {
             "where the counter passes its end, the robot leaps: 65535 is followed by 0.": leap,
