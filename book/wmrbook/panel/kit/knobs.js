@@ -2,7 +2,7 @@
 
 import { fromWords, placeOf, putSlider, stepped, stopsOf } from './controls.js';
 import { held, made } from './hands.js';
-import { inWords } from './style.js';
+import { inWords, isCalm } from './style.js';
 import { putSymbol } from './symbols.js';
 import { within } from './numbers.js';
 
@@ -125,6 +125,7 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     // What happens in time is seen once more; a heading that turns stays where it was asked for.
     if (button && knob.value === knob.high)
       plays.push(() => { set({ [name]: knob.low }, true); play(); });
+    if (knob.auto && !isCalm()) whenSeen(row, () => { if (!playing) play(); });
     shows.push((values) => {
       showSlider(values[name], `${inWords(values[name])} ${knob.unit}`.trim());
     });
@@ -174,4 +175,12 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
   };
   const moving = () => gliding || root.querySelector('.live-play[aria-label^="Stop"]');
   return { show, showResults, glide, moving, stop: () => timers.forEach((each) => each()) };
+}
+
+// Calls once, when an element comes into view.
+function whenSeen(element, act) {
+  const watch = new IntersectionObserver((entries) => {
+    if (entries.some((each) => each.isIntersecting)) { watch.disconnect(); act(); }
+  });
+  watch.observe(element);
 }
