@@ -110,6 +110,15 @@ def test_the_readmes_commands_refuse_an_old_python_before_anything_is_installed(
     assert not done.stdout
 
 
+def test_the_benchmarks_find_what_they_measure():
+    """They run by hand, so only this notices a name that has moved."""
+    folder = ROOT / "tests" / "benchmarks"
+    names = sorted(path.stem for path in folder.glob("*.py"))
+    command = [sys.executable, "-c", f"import {', '.join(names)}"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
 def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
     (lines,) = re.findall(r"```python\n(.*?)```", README, re.DOTALL)
     place, arrival = re.findall(r"  # (.*)", lines)

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 from timing import Row, in_turn
 
 import wmrlib as wmr
-from wmrlib.kinematics import polar_closing_rate
+from wmrlib.motion import polar_closing_rate
 from wmrlib.laws import POSE_LAWS, pose_law
 
 STEPS, DT = 300, 0.1
