@@ -23,7 +23,7 @@ from timing import ROOT, Row, show
 
 from wmrbook.panel import Explorer
 
-sys.path[:0] = [str(ROOT / "tests" / "browser"), str(ROOT / "book" / "tools")]
+sys.path[:0] = [str(ROOT / place) for place in ("tests/browser", "tests", "book/tools")]
 from conftest import FLAGS  # noqa: E402
 from kit import bundle  # noqa: E402
 from live import PATIENCE, jupyterlab, thumb  # noqa: E402
