@@ -10,8 +10,8 @@ from scipy.integrate import solve_ivp
 from timing import Row, in_turn
 
 import wmrlib as wmr
-from wmrlib.motion import polar_closing_rate
 from wmrlib.laws import POSE_LAWS, pose_law
+from wmrlib.motion import polar_closing_rate
 
 STEPS, DT = 300, 0.1
 TIMES = DT * np.arange(STEPS + 1)
