@@ -155,13 +155,16 @@ def test_a_law_for_a_moving_goal_is_no_pose_law():
         wmr.control_law(1.0, 0.0, 0.0, wmr.paper.OUTDOOR_GAINS, "linear")
 
 
-def test_laws_for_a_moving_goal_know_angles_up_to_full_turns():
+def test_laws_for_a_moving_goal_know_angles_up_to_full_turns_and_their_v():
     linear = wmr.LinearGains([[1.0, 0.0, 0.3], [0.0, 2.0, 1.5]])
     kanayama = wmr.KanayamaGains(1.0, 2.0, 2.0)
     for law, gains in (("linear", linear), ("kanayama", kanayama)):
         once = commanded(0.7, 3.0, -3.0, 0.6, 0.1, gains, law)
         turned = commanded(0.7, 3.0 - 2.0 * math.pi, -3.0, 0.6, 0.1, gains, law)
         assert turned == pytest.approx(once, abs=1e-12)
+    run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, kanayama, law="kanayama")
+    value = 0.5 * run.rho**2 + (1.0 - np.cos(run.alpha - run.theta)) / kanayama.k_y
+    assert pytest.approx(value, abs=1e-12) == run.V
 
 
 def test_loops_ask_each_law_by_its_place_in_the_table():

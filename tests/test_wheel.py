@@ -34,6 +34,7 @@ def test_it_has_the_packages_and_nothing_else(wheel):
         if path.is_file() and "__pycache__" not in path.parts
     }
     assert {name for name in files if not name.startswith(metadata)} == in_the_tree
+    assert "wmrlib/py.typed" in files
 
 
 def test_the_readmes_ten_lines_run_from_it(wheel, tmp_path):

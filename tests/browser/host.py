@@ -137,10 +137,10 @@ class Panel:
         self.page.get_by_role("button", name=name).click()
         return self.settled()
 
-    def type(self, field, text: str):
+    def type(self, field, text: str, done: str = "Tab"):
         """Type into a field, and leave it."""
         field.fill(text)
-        field.press("Tab")
+        field.press(done)
         return self.settled()
 
     def handle(self, pose: str, part: str):

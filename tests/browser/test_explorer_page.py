@@ -464,7 +464,7 @@ def test_a_slider_holds_any_value_and_its_keys_go_by_useful_steps(emptied_page):
             assert sum(1.0 < each <= 2.0 for each in stops) <= 20
     typed = panel.control("h").locator(".wmr-typed")
     for text, taken in (("nan", 5.0), ("", 5.0), ("1,5", 1.5), ("7", 7.0)):
-        assert panel.type(typed, text).get("h") == taken
+        assert panel.type(typed, text, "Enter").get("h") == taken
         assert panel.troubled() == (text in ("nan", ""))
         assert typed.input_value() == f"{taken:g}"
 

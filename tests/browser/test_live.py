@@ -200,6 +200,7 @@ def test_on_a_phone_nothing_is_shown_before_the_prediction_and_everybody_can_use
         assert answers.locator("visible=true").count() == 0
         assert re.search(r"\?|Sketch", ask["question"])
         assert as_shown(ask["why"]) not in page.evaluate(TEXT)
+        assert not page.locator(".live-key").count()
         assert page.evaluate(TOUCH) == ["pan-y pinch-zoom"]  # a finger scrolls over it
         grips = page.locator(".live-grip:visible")  # but where the arrow or the path begins
         assert grips.count() == (ask["kind"] != "choose")
@@ -338,9 +339,9 @@ def test_each_wrong_answer_is_told_what_is_wrong_and_the_picture_shows_what_was_
         k == ask["key"] for k in range(len(ask["wrong"]))
     ]
     panel = mounted(page, thing, width=900)
-    shown = {knob: value for place in ask["asked"] for knob, value in place.items()}
-    for knob, value in shown.items():
-        thing[knob] = value  # or it is refused
+    shown = {}
+    for knob, value in (pair for place in ask["asked"] for pair in place.items()):
+        thing[knob] = shown[knob] = value  # or it is refused
     verdict = page.locator(".live-verdict")
     for k, wrong in enumerate(ask["wrong"]):
         page.get_by_role("radio").nth(k).check()

@@ -45,7 +45,7 @@ def test_a_drive_plays_over_its_picture_and_waits_where_it_is_paused(opened, cha
             assert seen["count"] > 20
             said = seen["seconds"] if place else 0.0
             assert slider.get_attribute("aria-valuetext") == f"{said:.1f} s"
-        if chapter != "00":
+        if chapter not in ("00", "12"):  # the second has two
             continue
         button.click()
         assert button.inner_text() == "Pause"
