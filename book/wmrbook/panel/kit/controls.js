@@ -57,6 +57,16 @@ export const onStops = ({ knobs }, asked) =>
       return [name, stops[Math.round(placeOf(stops, value))]];
     }));
 
+/**
+ * The same between the stops, where a hand is finer than a slider: in two digits.
+ * @param {{ knobs: Values[] }} setup @param {Values} asked @returns {any}
+ */
+export const inReach = ({ knobs }, asked) =>
+    Object.fromEntries(Object.entries(asked).map(([name, value]) => {
+      const { stops } = knobs.find((knob) => knob.name === name);
+      return [name, Number(within(value, stops[0], stops.at(-1)).toPrecision(2))];
+    }));
+
 // A slider over stops, called so by who reads it out. Returns what shows a value and says it.
 export function putSlider(row, says, stops, { get, set }) {
   const slider = made(row, 'input',

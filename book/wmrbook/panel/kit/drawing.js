@@ -10,7 +10,7 @@ export { driveContinuously } from './continuous.js';
 export { live } from './live.js';
 export { modes, polesOf, summarise } from './simulate.js';
 export { normals } from './random.js';
-export { onStops } from './controls.js';
+export { inReach, onStops } from './controls.js';
 export { ratesOfV } from './law.js';
 export { roundBelow } from './lawn.js';
 export { sightOf } from './sheet.js';

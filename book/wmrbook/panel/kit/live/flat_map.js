@@ -1,7 +1,7 @@
 // A map that zooms from a lawn to a country: where a flat map puts a point that is seen to the
 // north-east, how far from there it lies on the sphere, and which way north is there.
 
-import { DEGREES, disc, inside, live, onStops, ring, roundBelow, written } from '../drawing.js';
+import { DEGREES, disc, inReach, inside, live, ring, roundBelow, written } from '../drawing.js';
 
 const lengthText = (metres, digits = 3) => {
   const [size, unit] = metres >= 1e3 ? [1e-3, 'km'] : metres >= 0.999 ? [1, 'm'] : metres >= 0.00999
@@ -56,7 +56,7 @@ export default live('flat_map', {
             given: 'The error of the flat map over the distance: one dot, at 100 m.',
         alt: `The flat map's error over the distance, a straight line on logarithmic scales: ` +
             `${lengthText(off)} at ${lengthText(1000 * km)}.`,
-        scrub: (x) => onStops(setup, { km: 10 ** (x - 3) }),
+        scrub: (x) => inReach(setup, { km: 10 ** (x - 3) }),
       },
     };
   },
@@ -108,7 +108,7 @@ export default live('flat_map', {
   handles: ({ km }, { off }, setup) => [{
     id: 'distance', pane: 'size', says: `the distance, ${km} km`,
     at: [Math.log10(1000 * km), Math.log10(off || 1e-12)],
-    move: (x) => onStops(setup, { km: 10 ** (x - 3) }),
+    move: (x) => inReach(setup, { km: 10 ** (x - 3) }),
   }],
   say: (values, { off, leans }) => ({ off: lengthText(off), leans: leaning(leans) }),
 });

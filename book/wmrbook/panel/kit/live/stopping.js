@@ -1,7 +1,7 @@
 // The heading error over the distance still to go, and a robot that stops wherever one wants.
 
 import {
-  DEGREES, between, freshRun, inDegrees, live, nearest, onStops, remembered, wrap, written,
+  DEGREES, between, freshRun, inDegrees, inReach, live, nearest, remembered, wrap, written,
 } from '../drawing.js';
 
 const toGo = (place) => ['1 m', '10 cm', '1 cm'][place] || '';
@@ -30,7 +30,7 @@ export default live('stopping', {
           `${Math.abs(off * DEGREES).toFixed(0)} degrees off.`,
       scrub(x, y, moved, values, { run, from }) {
         const k = nearest(run.n, (i) => Math.hypot(run.x[i] - x, run.y[i] - y), NEAR, from);
-        return k && onStops(setup, { stop: run.rho[k] });
+        return k && inReach(setup, { stop: run.rho[k] });
       },
     },
     errors: {
@@ -38,7 +38,7 @@ export default live('stopping', {
           given: 'Axes: the heading error over the distance to go, from 2 m to 1 cm.',
       alt: `The heading error over the distance to go, from 2 m to 1 cm: ` +
           `${(off * DEGREES).toFixed(0)} degrees at ${written(stop, 'm')}.`,
-      scrub: (x) => onStops(setup, { stop: 10 ** -x }),
+      scrub: (x) => inReach(setup, { stop: 10 ** -x }),
     },
   }),
   draw({ near, errors }, { gains, stop }, { all, run, k, off, pose }, hidden, { data: { goal } }) {

@@ -3,7 +3,7 @@
 // loop is that of gains (1, kappa, h, 1).
 
 import {
-  DEGREES, between, complex, driven, inDegrees, live, modes, onStops, polesOf, poseAt, wrap,
+  DEGREES, between, complex, driven, inDegrees, live, modes, polesOf, poseAt, within, wrap,
   written,
 } from '../drawing.js';
 
@@ -11,10 +11,11 @@ const GOAL = [0, 0, 0], MOST = 6; // of kappa and h
 const NEAR = 0.15; // a hand so near a named point means that point
 const RADII = [0.1, 0.01]; // in lengths of 1/k_rho, where the sentence says what is left
 const tick = (place) => ['1', '0.1', '0.01'][place] || '';
+const allowed = (value) => Number(within(value, 0.05, MOST).toFixed(2));
 
-function pointAt(x, y, setup) {
-  const known = setup.data.named.find(([, kappa, h]) => Math.hypot(kappa - x, h - y) < NEAR);
-  return known ? { kappa: known[1], h: known[2] } : onStops(setup, { kappa: x, h: y });
+function pointAt(x, y, named) {
+  const known = named.find(([, kappa, h]) => Math.hypot(kappa - x, h - y) < NEAR);
+  return known ? { kappa: known[1], h: known[2] } : { kappa: allowed(x), h: allowed(y) };
 }
 
 export default live('window', {
@@ -30,13 +31,13 @@ export default live('window', {
     return { run, error, late, poles: polesOf(kappa, h), slower,
         inside: kappa > 2 && kappa < 1 + h };
   },
-  panes: ({ kappa, h }, { poles, inside, run, error, late }, setup) => ({
+  panes: ({ kappa, h }, { poles, inside, run, error, late }, { data: { named } }) => ({
     plane: { x: [0, MOST, 'κ'], y: [0, MOST, 'h'],
         given: 'The plane of kappa and h, with some gains by name.',
         alt: `The plane of kappa and h: the window lies right of kappa 2 and above the line h = ` +
         `kappa minus 1. The point, ${written(kappa)} and ${written(h)}, is ` +
         `${inside ? 'in' : 'out'}side.`,
-        scrub: (x, y, moved) => (moved ? pointAt(x, y, setup) : null) },
+        scrub: (x, y, moved) => (moved ? pointAt(x, y, named) : null) },
     path: { x: [-4, 2, 'k_rho x'], y: [-5, 1, 'k_rho y'], equal: true,
         given: 'The start and the goal.',
         alt: `The path: the robot stops ${inDegrees(error[run.n - 1] / DEGREES)} off.` },
@@ -75,9 +76,10 @@ export default live('window', {
     path.robot(start, 0.35);
     path.robot(poseAt(run, run.n - 1));
   },
-  handles: ({ kappa, h }, found, setup) => [{
+  handles: ({ kappa, h }, found, { data: { named } }) => [{
     id: 'point', pane: 'plane', at: [kappa, h], says: `kappa ${written(kappa)}, h ${written(h)}`,
-    move: (x, y, exact) => (exact ? onStops(setup, { kappa: x, h: y }) : pointAt(x, y, setup)),
+    move: (x, y, exact) => (exact ? { kappa: allowed(x), h: allowed(y) }
+        : pointAt(x, y, named)),
   }],
   say: (values, { slower, inside, late }) => ({
     place: inside ? 'in the window' : 'outside the window',
