@@ -119,7 +119,10 @@ ALLOWED = [("gyro", math.nan), ("gate", math.inf)]
 
 @pytest.mark.parametrize("function", CASES, ids=lambda function: function.__name__)
 def test_odd_arguments_are_refused_by_name(function):
-    function(**CASES[function])
+    made = function(**CASES[function])
+    if "estimate" in CASES[function]:  # what is made shares nothing with what it was made of
+        assert not np.shares_memory(made.state, FIRST.state)
+        assert not np.shares_memory(made.covariance, FIRST.covariance)
     for name in CASES[function]:
         below = [0.0] if name in ("dt", "track_width") or name.endswith("sigma") else [-1.0]
         bound = below if name not in ("x", "y", "v", "omega", "heading", "course", *ARM) else []
@@ -151,4 +154,5 @@ def test_doubt_has_an_end():
     for _ in range(600):
         found = estimation.doubt(found, 4.0)
     assert 100.0 < found.sigma[0] < 300.0
+    assert not np.shares_memory(estimation.doubt(found, 4.0).state, found.state)
     assert estimation.use_position(found, 3.0, 4.0, 0.02).pose[:2] == pytest.approx((3.0, 4.0))

@@ -3,6 +3,7 @@
 import math
 import subprocess
 import sys
+import tracemalloc
 from pathlib import Path
 from struct import pack
 
@@ -206,6 +207,18 @@ def test_whatever_a_sound_message_says_is_a_position_or_counted(read, kind, size
     track = read(pvt(), frame(KINDS[kind], content), pvt(1))
     assert len(track) >= 1
     assert (np.abs(track.points.lat) <= 90.0).all()
+
+
+def test_a_large_file_is_read_in_less_memory_than_it_has(tmp_path):
+    """Between two positions, forty megabytes of something else, which begins as a message does."""
+    path = tmp_path / "large.ubx"
+    path.write_bytes(pvt() + b"\xb5b\x02\x15\xff\xff" + bytes(40_000_000) + pvt(1))
+    tracemalloc.start()
+    track = wmr.read_track(path)
+    peak = tracemalloc.get_traced_memory()[1]
+    tracemalloc.stop()
+    assert len(track) == 2
+    assert peak < 40e6
 
 
 def test_pyubx2_is_needed_for_nav_pvt_alone(tmp_path):

@@ -56,7 +56,7 @@ def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=Fals
 
 def scalar(name: str, value: Any, *, endless: bool = False, **bounds: float) -> float:
     """As `real`, for arguments that can't be arrays; infinity too, if it may be `endless`."""
-    if endless and isinstance(value, float) and value == math.inf:
+    if endless and isinstance(value, float | np.floating) and value == math.inf:
         return math.inf
     checked = real(name, value, **bounds)
     if isinstance(checked, float):

@@ -218,10 +218,10 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
     >>> wmr.estimation.doubt(first, 4.0).sigma[:3].tolist()
     [2.0, 2.0, 0.2]
     """
-    covariance = instance("estimate", estimate, Estimate).covariance
+    state, covariance, surprise = instance("estimate", estimate, Estimate)
     factor = scalar("factor", factor, low=1.0)
     lost = covariance[0, 0] + covariance[1, 1] > DOUBTED**2
-    return estimate if lost else estimate._replace(covariance=factor * covariance)
+    return Estimate(state.copy(), (1.0 if lost else factor) * covariance, surprise)
 
 
 def _used(estimate: Estimate, gate: float, use: Callable, *numbers) -> Estimate:

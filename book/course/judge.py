@@ -145,9 +145,9 @@ def _define(name: str, given: list[str], names: dict, line: Line) -> None:
 
 def _asked(source: str) -> list[str]:
     """The names that a cell of ours uses, and does not define itself."""
-    used = (node.id for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Name))
-    own = defined(source)
-    return [name for name in dict.fromkeys(used) if name not in own]
+    used = [node for node in ast.walk(ast.parse(source)) if isinstance(node, ast.Name)]
+    own = defined(source) | {node.id for node in used if isinstance(node.ctx, ast.Store)}
+    return list(dict.fromkeys(node.id for node in used if node.id not in own))
 
 
 def _is_given(cell: NotebookNode) -> bool:

@@ -114,4 +114,8 @@ def handed_in(chapter: str) -> dict | None:
 
 
 def _path(chapter: str) -> Path | None:
-    return next((SOURCE / f"ch{chapter}").glob("*.ipynb"), None)
+    folder = SOURCE / f"ch{chapter}"
+    if not folder.is_dir():
+        return None
+    (path,) = folder.glob("*.ipynb")
+    return path

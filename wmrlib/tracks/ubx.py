@@ -17,8 +17,10 @@ from wmrlib.tracks.fixes import Fixes, Said, timestamp
 # Where a message or a sentence may begin, and the messages that are read, by class and id, with
 # the lengths that they may have: out of any other pyubx2 reads numbers all the same.
 _START = re.compile(rb"\xb5\x62|\$[A-Za-z]{2}[^$*\r\n\xb5]{4,200}(?:\*[0-9A-Fa-f]{0,2})?")
+_SOMETHING = re.compile(rb"[^ \t\r\n\0]")
 _PVT, _PLACE, _BASELINE, _DOP = b"\x01\x07", b"\x01\x14", b"\x01\x3c", b"\x01\x04"
 _LENGTHS = {_PVT: (84, 92), _PLACE: (36,), _BASELINE: (64,), _DOP: (18,)}
+_BLOCK = 1 << 22  # bytes, more than a message has
 _ROUNDED = 2e-7  # degrees, between NAV-PVT and the digits of NAV-HPPOSLLH
 _Epoch = dict[bytes, tuple[int, Any]]
 
@@ -45,31 +47,41 @@ def read(file: BufferedReader) -> tuple[str, Fixes] | None:
 
 def _parts(data: mmap, fixes: Fixes) -> Iterator[tuple[int, bytes, bytes]]:
     """First byte, class and id, and the whole of each sound message; b"" for a sentence's kind."""
-    # The sum of the bytes up to each, and that of these sums: so a checksum costs the same, even of
-    # bytes that pretend to be a long message.
-    sums = np.cumsum(np.frombuffer(data, np.uint8), dtype=np.uint8)
-    first, second = sums.tobytes(), np.cumsum(sums, dtype=np.uint8).tobytes()
-    at, size = 0, len(data)
-
-    def checksum(before: int, last: int) -> bytes:
-        one, rows = first[last] - first[before], (last - before) * first[before]
-        return bytes([one & 255, (second[last] - second[before] - rows) & 255])
-
+    at, size, sums = 0, len(data), _Sums(data)
     while match := _START.search(data, at):
         begin, end, kind = match.start(), match.end(), b""
-        if data[at:begin].strip(b" \t\r\n\0"):
+        if _SOMETHING.search(data, at, begin):
             fixes.skip("stretch of bytes that is no message", at)
         if data[begin] != ord("$"):
             kind, length = data[end : end + 2], data[end + 2 : end + 4]
             end = begin + 8 + int.from_bytes(length, "little")
-            if end > size or checksum(begin + 1, end - 3) != data[end - 2 : end]:
+            if end > size or sums.of(begin + 2, end - 2) != data[end - 2 : end]:
                 fixes.skip("message that is damaged or cut off", begin)
                 at = begin + 2
                 continue
         yield begin, kind, data[begin:end]
         at = end
-    if data[at:].strip(b" \t\r\n\0"):
+    if _SOMETHING.search(data, at):
         fixes.skip("stretch of bytes that is no message", at)
+
+
+class _Sums:
+    """Checksums of any stretches, in order, at the cost of one: bytes may pretend to be lengths."""
+
+    def __init__(self, data: mmap) -> None:
+        self.data, self.begin, self.end = data, 0, 0
+
+    def of(self, begin: int, end: int) -> bytes:
+        """The sum of the bytes from begin to end, and that of the sums up to each of them."""
+        if end > self.end:
+            self.begin, self.end = begin, min(begin + _BLOCK, len(self.data))
+            values = np.frombuffer(self.data[begin : self.end], np.uint8)
+            self.first = np.append(np.uint8(0), np.cumsum(values, dtype=np.uint8))
+            self.second = np.append(np.uint8(0), np.cumsum(self.first[1:], dtype=np.uint8))
+        a, b = begin - self.begin, end - self.begin
+        before, after = int(self.first[a]), int(self.first[b])
+        rows = int(self.second[b]) - int(self.second[a]) - (b - a) * before
+        return bytes([(after - before) & 255, rows & 255])
 
 
 def _sentences(data: mmap, fixes: Fixes) -> Iterator[tuple[int, str]]:
