@@ -33,6 +33,12 @@ FIGURES = """() => [...document.querySelectorAll('article img[src$=".svg"]')]
     .map(it => [it.src, it.clientWidth / it.naturalWidth, it.alt.slice(0, 60)])"""
 LETTERS = re.compile(r"scale\(([\d.]+) -")  # of a text in an SVG by matplotlib: hundreds of points
 FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
+# What scrolls has been given a key, as the theme does 300 ms after the last change of the page;
+# a live figure that is slow to find its headline changes it late.
+REACHED = """() => [...document.querySelectorAll(
+        'pre, .cell_output > .output, .jp-RenderedHTMLCommon, .pst-scrollable-table-container')]
+    .every(it => it.tabIndex === 0 ||
+        it.scrollWidth <= it.clientWidth && it.scrollHeight <= it.clientHeight)"""
 # Else axe-core takes minutes: of the code tokens of a kind it sees the first, and no formulas,
 # which have been looked at.
 THIN = """() => {
@@ -86,7 +92,7 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
             svg = Path(url2pathname(urlsplit(source).path)).read_text(encoding="utf-8")
             if min(map(float, LETTERS.findall(svg)), default=1) * scale * 400 / 3 < 9:
                 faults.append((f"figures with letters under 9 pixels, {width}x{height}", said))
-    page.wait_for_timeout(700)  # so late the theme gives a key to what scrolls in the new size
+    page.wait_for_function(REACHED)
     page.evaluate(THIN)
     for theme in themes:
         only = {} if theme == themes[0] else {"runOnly": ["color-contrast"]}

@@ -99,8 +99,7 @@ def test_a_resize_fits_the_slide_anew(opened):
     page.set_viewport_size({"width": 1024, "height": 768})
     page.wait_for_function("deck.fitted === '1024 768'")
     page.evaluate("deck.showAll()")
-    page.wait_for_timeout(500)
-    assert page.evaluate(TROUBLES) == []
+    page.wait_for_function(f"!({TROUBLES})().length", timeout=PATIENCE)
 
 
 def test_a_slide_plays_on_each_visit_until_it_is_left_and_keys_let_the_deck_go_on_or_turn_dark(
@@ -110,8 +109,7 @@ def test_a_slide_plays_on_each_visit_until_it_is_left_and_keys_let_the_deck_go_o
     for _ in range(2):
         page.locator("section.present .live-play", has_text="Stop").wait_for(timeout=PATIENCE)
         page.keyboard.press("ArrowRight")
-        page.wait_for_timeout(600)
-        assert page.locator(".live-play", has_text="Stop").count() == 0
+        page.locator(".live-play", has_text="Stop").wait_for(state="detached", timeout=PATIENCE)
         page.keyboard.press("ArrowLeft")
     page.keyboard.press("a")
     assert page.evaluate("deck.getConfig().autoSlide") > 10_000

@@ -151,11 +151,11 @@ def test_a_map_is_computed_beside_the_page_and_in_it_only_where_that_is_forbidde
     panel = mounted(browser_page, Explorer())
     panel.control("view").locator("select").select_option("gains")
     browser_page.wait_for_function("window.asked")
-    figures = panel.figures()
+    shown = "() => [...document.querySelectorAll('[data-figure]')].map(it => it.innerText).join()"
+    figures = browser_page.evaluate(shown)
     panel.control("k_rho").locator(".wmr-slider").press("ArrowLeft")
-    browser_page.wait_for_timeout(200)
+    browser_page.wait_for_function(f"figures => ({shown})() !== figures", arg=figures)
     assert browser_page.locator(".wmr-map").get_attribute("data-finished") == "false"
-    assert panel.figures() != figures
     texts = sources("explorer")
     texts["gain_map.js"] = texts["gain_map.js"].replace("new Blob([text]", "new Blob(['throw 1']")
     assert_sound(mounted(browser_page, Explorer(view="gains"), texts=texts))

@@ -49,7 +49,7 @@ def test_a_drive_plays_over_its_picture_and_waits_where_it_is_paused(opened, cha
             continue
         button.click()
         assert button.inner_text() == "Pause"
-        page.wait_for_timeout(300)
+        page.wait_for_function("it => it.ariaValueText !== '0.0 s'", arg=slider)
         button.click()
         waits = slider.get_attribute("aria-valuetext")
         page.wait_for_timeout(200)
