@@ -45,6 +45,7 @@ PLANS = {
     "control": "plain control arguments",
     "_filter": "jit filter; jit estimation",
     "_jacobians": "jit filter",
+    "_threads": "jit sweeping receiver",
     "estimation": "jit estimation",
     "gains": "plain gains control; jit paper",
     "kinematics": "plain kinematics arguments",

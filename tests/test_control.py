@@ -176,4 +176,3 @@ def test_loops_ask_each_law_by_its_place_in_the_table():
         v, omega = row.formula(*given, gains)
         v = v * state[0] if name in POSE_LAWS else v
         assert laws.command(*state, *reference, numbers, code) == (v, omega), name
-        assert laws.value_of(*state, numbers, code) == row.value(*state, gains), name

@@ -204,21 +204,6 @@ def command(rho, alpha, theta, v_ref, omega_ref, numbers, law):
     return linear_law(ahead, left, turn, v_ref, omega_ref, LinearFields(*numbers))
 
 
-@formula
-def value_of(rho, alpha, theta, numbers, law):
-    """Each law's own Lyapunov function, with L = 1."""
-    if law == KANAYAMA:
-        return kanayama_value(rho, alpha, theta, KanayamaFields(*numbers[:3]))
-    if law == LINEAR:
-        return linear_value(rho, alpha, theta, LinearFields(*numbers))
-    gains = GainsFields(*numbers[:4])
-    if law == BARRIER:
-        return barrier_value(rho, alpha, theta, gains)
-    if law == GRACEFUL:
-        return graceful_value(rho, alpha, theta, gains)
-    return pose_value(rho, alpha, theta, gains)
-
-
 def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[tuple[float, ...], int]:
     """The gains and the law as the loops take them; ValueError if they don't match."""
     code = laws[choice("law", law, laws)]

@@ -1,7 +1,7 @@
 """The two loops that close a law: one holds the twist between samples, one acts all the time.
 
 With ``NUMBA_DISABLE_JIT=1`` both are plain Python, to be stepped through. A record has a column for
-each sample, and the rows of a Trajectory from x to V.
+each sample, and the rows of a Trajectory from x to omega.
 """
 
 from __future__ import annotations
@@ -16,7 +16,7 @@ from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_e
 from wmrlib._elementary import between, sincos, wrap
 from wmrlib.body import at_rest, hurry, last_turn, roll
 from wmrlib.gains import GainsFields
-from wmrlib.laws import command, pose_law, saturation_scale, value_of
+from wmrlib.laws import command, pose_law, saturation_scale
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
 MOST_TRIALS = 1_000_000  # steps
@@ -34,12 +34,11 @@ def steer(polar, goal_twist, numbers, law, wheels):
 
 
 @formula
-def write(record, k, pose, polar, twist, numbers, law):
+def write(record, k, pose, polar, twist):
     """Write down a sample, one number at a time: to set a column at once takes long to compile."""
     record[0, k], record[1, k], record[2, k] = pose
     record[3, k], record[4, k], record[5, k] = polar
     record[6, k], record[7, k] = twist
-    record[8, k] = value_of(*polar, numbers, law)
 
 
 @compiled
@@ -68,7 +67,7 @@ def held(
         if motors is not None:
             arrived = arrived and (end is None or at_rest(body))
             v, omega, body = roll(v, omega, body, motors, dt)
-        write(record, k, pose, polar, (v, omega), numbers, law)
+        write(record, k, pose, polar, (v, omega))
         if not math.isfinite(polar[0] + v + omega):
             return k, DIVERGED, peak, length
         peak, length = max(peak, abs(omega)), length + rolled
@@ -170,15 +169,15 @@ def attempt(state, dt, slopes, new, goals, before, radius, peak, *loop):
 
 
 @compiled
-def note(record, k, state, goal, goals, stage, twist, numbers, law, wheels, motors):
+def note(record, k, state, goal, goals, twist):
     """Write down a sample; rounding can carry rho a hair past the goal."""
     if goals is None:
         polar = larger(state[0], 0.0), state[1], state[2]
         pose = motion.pose_of_error(*polar, *goal)
     else:
         pose = state[0], state[1], wrap(state[2])
-        polar = motion.polar_from_pose(*pose, goals[0, stage], goals[1, stage], goals[2, stage])
-    write(record, k, pose, polar, twist, numbers, law)
+        polar = motion.polar_from_pose(*pose, goals[0, 12], goals[1, 12], goals[2, 12])
+    write(record, k, pose, polar, twist)
 
 
 def integrate(record, state, room, t, radius, goal, goals_at, *loop):
@@ -195,13 +194,10 @@ def integrate(record, state, room, t, radius, goal, goals_at, *loop):
     if not math.isfinite(magnitude(state) + magnitude(slopes[0]) + omega):
         return 0, DIVERGED, now, peak, length
     swing = swing_of(state, slopes[0], column(goals, 0), omega, 1e-8, slopes[13:], *loop)
-    here = v, omega, swing
-    note(record, 0, state, goal, goals, 0, here[:2], *loop)
-    peak = abs(omega)
-    if goals_at is None and state[0] <= radius:
-        return 1, ARRIVED, now, peak, length
-    for k in range(1, t.size):
-        while now < t[k]:
+    here, peak = (v, omega, swing), abs(omega)
+    arrived = goals_at is None and state[0] <= radius
+    for k in range(t.size):
+        while now < t[k] and not arrived:
             dt = min(step, t[k] - now)
             goals = None if goals_at is None else goals_at(now, dt)
             tried = state, dt, slopes, new, goals, here, radius, peak
@@ -214,9 +210,7 @@ def integrate(record, state, room, t, radius, goal, goals_at, *loop):
                 for i in range(state.size):  # to copy at once takes long to compile
                     state[i], slopes[0, i] = new[i], slopes[12, i]
                 state[3] = 0.0
-                if goals_at is None and state[0] <= radius * (1.0 + SHARP):
-                    note(record, k, state, goal, goals, 12, here[:2], *loop)
-                    return k + 1, ARRIVED, now, peak, length
+                arrived = goals_at is None and state[0] <= radius * (1.0 + SHARP)
                 continue
             step = wanted if error <= 1.0 else growth(error) * dt
             if stuck or step < 1e-290:
@@ -224,7 +218,9 @@ def integrate(record, state, room, t, radius, goal, goals_at, *loop):
                 return k, (DIVERGED if lost else UNFINISHED), now, peak, length
         if not math.isfinite(magnitude(state) + here[0] + here[1]):
             return k, DIVERGED, now, peak, length
-        note(record, k, state, goal, goals, 12, here[:2], *loop)
+        note(record, k, state, goal, goals, here[:2])
+        if arrived:
+            return k + 1, ARRIVED, now, peak, length
     return t.size, TIMED_OUT, now, peak, length
 
 

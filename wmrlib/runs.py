@@ -11,6 +11,7 @@ import numpy as np
 from wmrlib._checks import Real, instance, refusal, scalar
 from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, wrap_angle
+from wmrlib.laws import LAWS
 
 MOST_SAMPLES = 10_000_000
 
@@ -63,7 +64,6 @@ class Trajectory(ReadOnly):
     rho, alpha, theta : arrays, m and rad, the polar error
     v, omega : arrays, m/s and rad/s, what the law commands at the sample, after the wheel limits
         (with a wheel lag: what the wheels do)
-    V : array, the law's Lyapunov function with L = 1
     outcome : Outcome
     goal : Pose, of arrays if it moves
     gains, law, method : as passed in
@@ -79,7 +79,6 @@ class Trajectory(ReadOnly):
     theta: np.ndarray
     v: np.ndarray
     omega: np.ndarray
-    V: np.ndarray
     outcome: Outcome
     goal: Pose
     gains: Gains | KanayamaGains | LinearGains
@@ -102,6 +101,12 @@ class Trajectory(ReadOnly):
             end = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s"
         what = f"{self.law} law, {self.method}, {len(self)} samples"
         return f"<Trajectory: {what}, {end}: {self.outcome.value}>"
+
+    @property
+    def V(self) -> np.ndarray:  # noqa: N802 (as in (18))
+        """The law's Lyapunov function, with L = 1."""
+        with np.errstate(over="ignore"):  # on its way out of the range of numbers
+            return LAWS[self.law].value(self.rho, self.alpha, self.theta, self.gains)
 
     @property
     def x_error(self) -> np.ndarray:

@@ -185,7 +185,7 @@ def track(
 
 def _held(t, method, radius, hysteresis, motors, end, begin, path, *loop) -> tuple:
     """(t, record, outcome, peak omega, path length) of a run whose twist is held."""
-    record, dt = np.empty((9, t.size)), t[1]
+    record, dt = np.empty((8, t.size)), t[1]
     how = *loop, method == "arc", dt, radius, hysteresis, motors, end
     count, *sums = held(record, tuple(begin), path, *how)
     return t[:count], record[:, :count], *sums
@@ -193,7 +193,7 @@ def _held(t, method, radius, hysteresis, motors, end, begin, path, *loop) -> tup
 
 def _continuous(t, state, radius, goal, goals_at, *loop) -> tuple:
     """The same of a run whose law acts all the time, to its arrival too."""
-    record, room = np.empty((9, t.size)), np.zeros((ROOM, state.size))
+    record, room = np.empty((8, t.size)), np.zeros((ROOM, state.size))
     drive = continuous if goals_at is None else integrate
     count, outcome, end, *sums = drive(record, state, room, t, radius, tuple(goal), goals_at, *loop)
     if outcome == runs.UNFINISHED:

@@ -162,7 +162,7 @@ def conclude(states, runs, law, wheels, arc, dt, radius, hysteresis, motors, end
     """
     key, records, place = rest
     summary = np.empty((lanes.DISTANCE + 1, runs.shape[1]))
-    alone, path = np.empty((9, samples)), np.zeros((5, 1))
+    alone, path = np.empty((8, samples)), np.zeros((5, 1))
     for i in range(runs.shape[1]):
         start, goal, gains = lanes.run_of(runs, i)
         pose = states[X, i], states[Y, i], states[HEADING, i]
