@@ -1,6 +1,10 @@
 """The paper's scenarios, as data.
 
 Yousif and Ali: Simulation of Pose to Pose Moving of the Mobile Robot with Specified GPS Points.
+
+The outdoor case has GPS_POINT_1, GPS_POINT_2, START_HEADING and GOAL_HEADING [rad], OUTDOOR_GAINS
+and TIME_STEP [s]; the circle CIRCLE_START, CIRCLE_GAINS, CIRCLE_RADIUS [m], CIRCLE_PERIOD [s] and
+CIRCLE_SPEED [m/s].
 """
 
 from __future__ import annotations
@@ -80,7 +84,10 @@ def circle(t: Real) -> Reference:
 
 
 def circle_at(t):
-    """The formula of `circle`."""
+    """The formula of `circle`.
+
+    :meta private:
+    """
     turn = 2.0 * math.pi / CIRCLE_PERIOD
     angle, still = turn * t, 0.0 * t
     sine, cosine = sincos(angle)

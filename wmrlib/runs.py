@@ -17,7 +17,10 @@ MOST_SAMPLES = 10_000_000
 
 
 class Outcome(Enum):
-    """How a run ended; the value is a sentence for the reader."""
+    """How a run ended; the value is a sentence for the reader.
+
+    ARRIVED, TIMED_OUT or DIVERGED; of `track`, COMPLETED or DIVERGED.
+    """
 
     ARRIVED = "arrived within the arrival radius"
     TIMED_OUT = "did not arrive within the duration"
@@ -89,7 +92,10 @@ class Trajectory(ReadOnly):
 
     @classmethod
     def of(cls, t, record, outcome, peak, length, *setting) -> Trajectory:
-        """The run of a loop's samples, one a column, its outcome's code and its sums."""
+        """The run of a loop's samples, one a column, its outcome's code and its sums.
+
+        :meta private:
+        """
         return cls(*(t, *record, OUTCOMES[outcome], *setting, peak, length))
 
     def __len__(self) -> int:
