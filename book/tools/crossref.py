@@ -9,7 +9,7 @@ JupyterLab shows the notebooks too, so they can't hold Sphinx's own syntax.
 - A paragraph that begins with a bold ``Figure 4.2.`` is the caption of the figure above it; on the
   book's own pages it is ``Figure 2.``
 - A link to the DOI or the address of a work in references.bib becomes a link to its entry in the
-  bibliography.
+  bibliography; so does a link to the bibliography whose text is "Torge and Mueller (2012)".
 """
 
 from __future__ import annotations
@@ -93,20 +93,24 @@ def link_citations(app, doctree, docname):
     works = cited_works(Path(app.confdir) / "references.bib")
     if docname == CITED:
         return
+    page = app.builder.get_relative_uri(docname, CITED)
     for link in doctree.findall(nodes.reference):
-        if key := works.get(link.get("refuri", "")):
-            link["refuri"] = f"{app.builder.get_relative_uri(docname, CITED)}#cite-{key}"
+        address, words = link.get("refuri", ""), re.findall(r"\w+", link.astext())
+        name = f"{words[0]} {words[-1]}" if words and address == page else address
+        if key := works.get(name):
+            link["refuri"] = f"{page}#cite-{key}"
             link["internal"] = True
 
 
 def cited_works(path: Path) -> dict[str, str]:
-    """From the address of a work, its DOI's or its own, to its key."""
+    """From the address of a work, its DOI's or its own, or else "Torge 2012", to its key."""
     entries = parse_file(path).entries
-    addresses = {
-        key: f"https://doi.org/{it.fields['doi']}" if "doi" in it.fields else it.fields.get("url")
-        for key, it in entries.items()
-    }
-    return {address: key for key, address in addresses.items() if address}
+    names = {}
+    for key, it in entries.items():
+        name = f"{it.persons['author'][0].last_names[0]} {it.fields.get('year')}"
+        doi = f"https://doi.org/{it.fields['doi']}" if "doi" in it.fields else ""
+        names[doi or it.fields.get("url", name)] = key
+    return names
 
 
 def anchor(number: str) -> str:
