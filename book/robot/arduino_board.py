@@ -9,9 +9,9 @@ arduino-core-avr gcc libc6-dev libsimavr-dev).
 
 from __future__ import annotations
 
+import argparse
 import ctypes
 import re
-import sys
 import tempfile
 import zipfile
 from functools import cache
@@ -191,4 +191,6 @@ class Board:
 
 
 if __name__ == "__main__":
-    write_zip(Path(sys.argv[1] if len(sys.argv) > 1 else "WmrPark.zip"))
+    parser = argparse.ArgumentParser(description=__doc__.splitlines()[0])
+    parser.add_argument("path", type=Path, nargs="?", default="WmrPark.zip", help="of the library")
+    write_zip(parser.parse_args().path)
