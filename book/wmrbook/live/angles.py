@@ -32,8 +32,8 @@ def polar_angles() -> Live:
         data=between(ROBOT, GOAL),
         ask=Ask(
             "turn",
-            f"The robot, the dot, has alpha = {math.degrees(seen.alpha):.0f} deg. Which way does "
-            "it look? Turn the arrow.",
+            f"The robot, the dot, has alpha = \N{MINUS SIGN}{-math.degrees(seen.alpha):.0f} "
+            "deg. Which way does it look? Turn the arrow.",
             "Alpha turns from the heading to the line of sight, positive to the left: where it is "
             "negative, the goal is to the robot's right, wherever both are.",
             key=heading,

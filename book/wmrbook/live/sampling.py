@@ -136,8 +136,8 @@ def parking() -> Live:
                 "none",
                 {
                     "none": "slows down as the law says",
-                    "least": "never asks for less than 1.1 of that",
-                    "turn": "does not slow down to less, and at last turns on the spot",
+                    "least": "stays above 1.1 times that",
+                    "turn": "stays above it, then turns",
                 },
                 "what the robot does about it",
             ),

@@ -5,7 +5,7 @@ import { drawAngle, drawAngles, drawName, drawPose, drawRobot } from './scene.js
 import { drawAxes } from './axes.js';
 import { drawLawn, drawScale } from './lawn.js';
 import {
-  disc, head, inside, label, line, onCanvas, sizeOf, surfaceOf, ticksOf,
+  disc, head, inside, label, line, onCanvas, sizeOf, surfaceOf, take, ticksOf,
 } from './surface.js';
 import { poseOfError } from './model.js';
 import { written } from './style.js';
@@ -33,7 +33,6 @@ export function paneOf(canvas, colours, spec) {
       view = { box, zoom, scale: across, toScreen: at,
       toWorld: (px, py) => [x0 + (px - box.left) / across, y0 + (box.top + box.height - py) / up] };
   const cut = (draw) => inside(ctx, box, draw), names = [], trail = [];
-  let robot = null;
   /** @type {Pane} */
   const pane = {
     ctx, box, view, at, ink, trail, range: [x0, x1, y0, y1], pixel: 1 / across,
@@ -61,9 +60,11 @@ export function paneOf(canvas, colours, spec) {
     },
     dot(x, y, role = 'ink', { size = 6, hollow = false } = {}) {
       cut(() => disc(ctx, at(x, y), size, hollow ? colours.paper : ink(role), ink(role)));
+      if (size > 4) take(ctx, at(x, y), size);
     },
     cross(x, y, role = 'ink', size = 6) {
       const [px, py] = at(x, y);
+      take(ctx, [px, py], size);
       cut(() =>
           [-1, 1].forEach((s) =>
           line(ctx, [[px - size, py - s * size], [px + size, py + s * size]], ink(role), 3)));
@@ -73,12 +74,17 @@ export function paneOf(canvas, colours, spec) {
           size = Math.min(11, Math.hypot(dx, dy) / 1.5);
       line(ctx, [from, to], ink(role), w, dash);
       head(ctx, to, Math.atan2(dy, dx), size, 0.5, ink(role), w);
+      for (let far = 10; far < Math.min(Math.hypot(dx, dy), 1e3); far += 12) // px from its tip
+        take(ctx, to.map((each, k) => each + far * [dx, dy][k] / Math.hypot(dx, dy)), 3);
     },
-    // `dx` and `dy`, in pixels, to the right and up, keep a text clear of what it names.
-    text(said, x, y,
-        { role = 'ink', dx = 0, dy = 0, size = 14, align = 'left', weight = 500 } = {}) {
-      const [px, py] = at(x, y);
-      label(ctx, said, px + dx, py - dy, colours, { colour: ink(role), size, align, weight });
+    // `dx` and `dy`, in pixels, to the right and up, keep a text clear of what it names; unless it
+    // is `fixed` it may go to the other side of that.
+    text(said, x, y, { role = 'ink', dx = 0, dy = 0, size = 14, align = 'left', weight = 500,
+      fixed = false } = {}) {
+      const [px, py] = at(x, y), turned = { left: 'right', right: 'left' }[align] || align,
+          or = fixed ? [] : [[dx, -dy, align], [-dx, dy, turned], [-dx, -dy, turned]]
+              .map(([across, up, to]) => [px + across, py - up, to]);
+      label(ctx, said, px + dx, py - dy, colours, { colour: ink(role), size, align, weight, or });
     },
     angle(x, y, from, by, name, role, radius = 34) {
       drawAngle(ctx, at(x, y), from, by, radius, name, ink(role), colours);
@@ -88,7 +94,6 @@ export function paneOf(canvas, colours, spec) {
       // out of sight
       if (px < box.left - 20 || px > box.left + box.width + 20 || py < box.top - 20
           || py > box.top + box.height + 20) return;
-      if (share === 1) robot = [px, py];
       ctx.globalAlpha = share;
       drawRobot(ctx, [px, py], heading, { ...colours, path: ink(role) }, size);
       ctx.globalAlpha = 1;
@@ -103,7 +108,7 @@ export function paneOf(canvas, colours, spec) {
     pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
     // at last, for no path may strike one out
     name() {
-      names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours, robot));
+      names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours));
       if (spec.lawn) drawScale(ctx, view, colours, (metres) =>
         (metres < 0.01 ? written(1000 * metres, 'mm', 1) : written(metres, 'm', 1)));
     },

@@ -19,5 +19,5 @@ export function camera(yaw, tilt) {
 
 // What a hand on it changes, for `scrub`.
 export const turnedBy = (x, y, moved, now) => moved
-    && { yaw: wrap((now.yaw - moved[0] / 2) / DEGREES) * DEGREES,
+    && { yaw: wrap((now.yaw + moved[0] / 2) / DEGREES) * DEGREES,
     tilt: within(now.tilt + moved[1] / 2, 5, 85) };

@@ -130,7 +130,7 @@ function render({ model, el }) {
           inDegrees(off, 0), colours.rising, colours);
     }
     for (const name of ['start', 'goal'])
-      drawName(ctx, view, poses[name], name, colours, place);
+      drawName(ctx, view, poses[name], name, colours);
     const times = icon * ICON / view.scale / ROBOT;
     label(ctx, times > 1.5 ? `the robot is drawn ${written(times, '', 2)} times its size`
         : 'the robot is drawn to scale', width - 12, height - 14, colours,

@@ -170,16 +170,13 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     if (!pane || said === null || said === SKIPPED) return;
     if (ask.kind === 'turn') {
       const [x, y] = pane.at(...ask.at), along = Math.cos(said), up = Math.sin(said),
-          side = along < 0 ? -1 : 1, { left, top, width, height } = pane.box;
-      // beside the shaft, and in the picture
-      const words = x + side * Math.max(72 * Math.abs(along), 14),
-          row = within(y - 72 * up, top + 22, top + height - 22);
+          side = along < 0 ? -1 : 1;
       pane.arrow(...ask.at, ...pane.view.toWorld(x + 62 * along, y - 62 * up), 'ghost',
           { dash: [5, 5] });
-      pane.text('your guess',
-          ...pane.view.toWorld(side < 0 ? Math.max(words, left + 76)
-          : Math.min(words, left + width - 76), row),
-          { dy: up < 0 ? -14 : 14, role: 'ghost', align: side < 0 ? 'right' : 'left' });
+      // beside the shaft, and beyond the ring that turns it
+      pane.text('your guess', ...ask.at, { dx: side * Math.max(98 * Math.abs(along), 14),
+        dy: 98 * up + (up < 0 ? -14 : 14), role: 'ghost', align: side < 0 ? 'right' : 'left',
+        fixed: true });
     }
     if (ask.kind === 'sketch' && said.length) pane.line(said, 'ghost', { width: 3, dash: [3, 6] });
   }

@@ -60,16 +60,17 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
     if (!knob.choices) knob.stops = stopsOf(knob.low, knob.high, knob.step);
   const put = (name) => (value) => set({ [name]: value });
   let into = sentence;
-  for (const piece of setup.sentence.split(/(\{[^}]+\}|\*[a-z_]+\*|[[\]])/)) {
+  // what can be changed, and the full stop or comma after it, on one line
+  for (const piece of setup.sentence.split(/(\{[^}]+\}[.,;:]?|\*[a-z_]+\*|[[\]])/)) {
     // {name!}: without its symbol and unit, as in a formula
-    const bare = piece.endsWith('!}'), name = piece.slice(1, bare ? -2 : -1),
-        knob = piece[0] === '{' && parts[name];
+    const [, name, bare, stop] = piece.match(/^\{([^!}]+)(!?)\}(.*)$/) || [], knob = parts[name];
     if (piece === '[') into = made(sentence, 'span', { className: 'live-whole' });
     else if (piece === ']') into = sentence;
-    else if (piece[0] === '*') putSymbol(into, name);
+    else if (piece[0] === '*') putSymbol(into, piece.slice(1, -1));
     else if (knob && knob.choices) {
-      const select =
-          made(into, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
+      const whole = made(into, 'span', { className: 'live-whole' }), select =
+          made(whole, 'select', { className: 'live-choice' }, { 'aria-label': knob.says });
+      whole.append(stop);
       select.replaceChildren(...knob.choices.map(([value, text]) => new Option(text, value)));
       select.addEventListener('change', () => put(name)(select.value));
       select.addEventListener('keydown', (event) => event.stopPropagation());
@@ -80,10 +81,12 @@ export function putKnobs(root, setup, { get, set, refuse, changed }) {
       const show = putNumber(whole, knob,
           { get: () => get()[name], set: put(name), refuse });
       if (knob.unit && !bare) whole.append(knob.unit === '°' ? knob.unit : ` ${knob.unit}`);
+      whole.append(stop);
       shows.push((values) => show(values[name]));
-    } else if (piece[0] === '{')
+    } else if (name) {
       (results[name] ||= []).push(made(into, 'b', { className: 'live-result' }));
-    else into.append(into === sentence ? piece : piece.replaceAll('-', '−'));
+      into.append(stop);
+    } else into.append(into === sentence ? piece : piece.replaceAll('-', '−'));
   }
   for (const knob of setup.knobs.filter((each) => each.stops)) {
     const row = made(rows, knob.plays ? 'div' : 'label', { className: 'wmr-control live-row' }),

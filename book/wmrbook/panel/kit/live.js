@@ -186,10 +186,10 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       }
       pane.trail.length = 0;
     }
+    if (gate) gate.draw(); // first, for names keep clear of a guess
     explorable.draw(panes, now, found, hidden, setup);
     Object.values(panes).forEach((pane) => pane.name());
-    if (gate) gate.draw();
-    else root.dataset.open = 'true';
+    if (!gate) root.dataset.open = 'true';
   }
   // What is below the sentence stays under the hand: it keeps the room that it takes anywhere on a
   // knob's way, and that it once took.

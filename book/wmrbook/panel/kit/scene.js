@@ -5,7 +5,7 @@ import { drawAxes } from './axes.js';
 import { nearest, within } from './numbers.js';
 import { poseAt } from './runs.js';
 import {
-  disc, halo, head, inside, label, line, multiples, stepFor, surfaceOf, tickText,
+  disc, halo, head, inside, label, line, multiples, stepFor, surfaceOf, take, tickText,
 } from './surface.js';
 
 // px from a pose to the handle that turns it; unequal, so that both can be reached when they
@@ -101,17 +101,17 @@ export function drawScene(canvas, colours, { view, run, ghost, poses, cursor, fa
     if (poses.goal === null && run)
       drawPath(ctx, view, run.goalX, run.goalY, run.n, colours.goal, 1.5, [8, 5]);
     if (run) drawPath(ctx, view, run.x, run.y, run.n, colours.path, 3, []);
-    if (run)
-      drawAngles(ctx, view, pose, [now(run.rho), now(run.alpha), now(run.theta)], goal, colours);
     drawPose(ctx, view, goal, 'goal', colours);
     drawPose(ctx, view, poses.start, 'start', colours);
+    if (run)
+      drawAngles(ctx, view, pose, [now(run.rho), now(run.alpha), now(run.theta)], goal, colours);
     if (run) drawRobot(ctx, robot, pose[2], colours);
   });
   if (run && poses.goal && !zoomed && view.scale * LAST < 40)
     drawLast(ctx, view, run, poses, colours);
   inside(ctx, view.box, () => { // over the robot and the corner, where they are in the way
-    drawName(ctx, view, goal, 'goal', colours, robot);
-    drawName(ctx, view, poses.start, 'start', colours, robot);
+    drawName(ctx, view, goal, 'goal', colours);
+    drawName(ctx, view, poses.start, 'start', colours);
   });
   ctx.globalAlpha = 1;
 }
@@ -189,15 +189,19 @@ export function drawPose(ctx, view, pose, name, colours) {
   line(ctx, [place, tip], colour, 3);
   head(ctx, tip, Math.PI - pose[2], 13, 0.45, colour, 3);
   disc(ctx, place, 8, colours.paper, colour, 3);
+  for (const share of [0, 0.4, 0.7, 1])
+    take(ctx, place.map((each, k) => each + share * (tip[k] - each)), share ? 5 : 10);
 }
 
-// Behind a pose's arrow, out of its way, and on the side where the robot isn't.
-export function drawName(ctx, view, pose, name, colours, robot = null) {
-  const [x, y] = view.toScreen(pose[0], pose[1]), side = Math.cos(pose[2]) > 0 ? -1 : 1;
-  let down = Math.sin(pose[2]) > 0 ? 16 : -16; // px
-  if (robot && Math.hypot(x + side * 36 - robot[0], y + down - robot[1]) < 34) down = -down;
-  label(ctx, name, x + side * 16, y + down, colours,
-      { colour: colours[name], weight: 600, size: 14, align: side < 0 ? 'right' : 'left' });
+// Behind a pose's arrow, out of its way, or farther off, where nothing else is.
+export function drawName(ctx, view, pose, name, colours) {
+  const [x, y] = view.toScreen(pose[0], pose[1]), side = Math.cos(pose[2]) > 0 ? -16 : 16, // px
+      down = Math.sin(pose[2]) > 0 ? 16 : -16;
+  const [first, ...or] = [1, 2.2, 4].flatMap((far) => [[1, 1], [1, -1], [-1, 1], [-1, -1]]
+      .map(([across, up]) => [x + far * across * side, y + far * up * down,
+        across * side < 0 ? 'right' : 'left']));
+  label(ctx, name, first[0], first[1], colours,
+      { colour: colours[name], weight: 600, size: 14, align: first[2], or });
 }
 
 /**
@@ -211,6 +215,7 @@ export function drawRobot(ctx, [x, y], heading, colours, size = 1) {
       wheels = new Path2D([-14.5, 8.5].map((side) =>
         `M-6 ${side}h12a2 2 0 0 1 2 2v2a2 2 0 0 1-2 2h-12a2 2 0 0 1-2-2v-2a2 2 0 0 1 2-2z`)
           .join(''));
+  take(ctx, [x, y], 14 * size);
   ctx.save();
   ctx.translate(x, y);
   ctx.save(); // light falls from one side, wherever the robot looks
@@ -268,10 +273,11 @@ export function drawAngles(ctx, view, pose, [rho, alpha, theta], aim, colours) {
   drawAngle(ctx, goal, aim[2], theta, distance < 40 ? 72 : 46, 'θ', colours.theta, colours);
   if (distance > 90) {
     const side = alpha < 0 ? 12 : -12; // px; the other side of the line than alpha's arc
-    const middle = [(robot[0] + goal[0]) / 2 + side * Math.sin(sight),
-        (robot[1] + goal[1]) / 2 + side * Math.cos(sight)];
-    label(ctx, 'ρ', ...middle, colours,
-        { colour: colours.rho, size: 17, weight: 600, align: 'center' });
+    const [first, ...or] = [0.5, 0.35, 0.65].map((share) =>
+      [robot[0] + share * (goal[0] - robot[0]) + side * Math.sin(sight),
+        robot[1] + share * (goal[1] - robot[1]) + side * Math.cos(sight), 'center']);
+    label(ctx, 'ρ', first[0], first[1], colours,
+        { colour: colours.rho, size: 17, weight: 600, align: 'center', or });
   }
 }
 
@@ -288,7 +294,14 @@ export function drawAngle(ctx, [x, y], from, angle, radius, name, colour, colour
   halo(ctx, colour);
   ctx.stroke();
   ctx.shadowBlur = 0;
-  const middle = from + angle / 2, away = radius + 13;
-  label(ctx, name, x + away * Math.cos(middle), y - away * Math.sin(middle), colours,
-      { colour, size: 17, weight: 600, align: 'center' });
+  for (const share of [0.1, 0.3, 0.5, 0.7, 0.9]) {
+    const along = from + share * angle;
+    take(ctx, [x + radius * Math.cos(along), y - radius * Math.sin(along)], 4);
+  }
+  const [first, ...or] = [13, 30].flatMap((more) => [0, 1, -1].map((aside) => {
+    const away = radius + more, at = from + angle / 2 + aside * (angle / 4 + 14 / away);
+    return [x + away * Math.cos(at), y - away * Math.sin(at), 'center'];
+  }));
+  label(ctx, name, first[0], first[1], colours,
+      { colour, size: 17, weight: 600, align: 'center', or });
 }

@@ -62,8 +62,21 @@ export function surfaceOf(canvas, colours) {
   ctx.fillRect(0, 0, width, height);
   ctx.lineJoin = ctx.lineCap = 'round';
   canvas.dataset.lit = colours.lit || '';
+  pictures.set(ctx, { frame: [0, 0, width, height], taken: [] });
   return { ctx, width, height };
 }
+
+// What lies where in a picture, so that no name lies on it: [left, top, right, bottom].
+const pictures = new WeakMap();
+/** @type {(one: Point, other: Point) => number} */
+const overlap = ([left, top, right, bottom], box) =>
+    Math.max(Math.min(right, box[2]) - Math.max(left, box[0]), 0)
+    * Math.max(Math.min(bottom, box[3]) - Math.max(top, box[1]), 0);
+
+// From now on names keep so many pixels away.
+/** @type {(ctx: CanvasRenderingContext2D, place: Point, near: number) => void} */
+export const take = (ctx, [x, y], near) =>
+  pictures.get(ctx).taken.push([x - near, y - near, x + near, y + near]);
 
 // What a symbol that is lit in the text stands for has a halo.
 export function halo(ctx, colour) {
@@ -150,14 +163,29 @@ export function tickLabel(ctx, text, x, y, colours, align) {
   ctx.fillText(text, x, y);
 }
 
-// Text with a rim in the colour of the paper.
+// Text with a rim in the colour of the paper: at the first place, or at one of `or`, [x, y, align],
+// where less is in its way; and whole, if it belongs to something in the picture.
 export function label(ctx, text, x, y, colours,
-    { colour = colours.ink, size = 13, align = 'left', weight = 400, turn = 0 } = {}) {
+    { colour = colours.ink, size = 13, align = 'left', weight = 400, turn = 0, or = [] } = {}) {
   ctx.save();
   ctx.font = `${weight} ${size}px ${FONT}`;
-  ctx.textAlign = align;
   ctx.textBaseline = 'middle';
-  ctx.translate(x, y);
+  ctx.textAlign = 'left';
+  const { frame, taken } = pictures.get(ctx), wide = ctx.measureText(text).width, high = 1.2 * size;
+  const boxes = [[x, y, align], ...or].map(([px, py, to]) => {
+    const left = px - wide * (to === 'right' ? 1 : to === 'center' ? 0.5 : 0), top = py - high / 2;
+    return [left, top, left + wide, top + high];
+  });
+  const crowd = boxes.map((box) => Math.round((wide * high - overlap(box, frame)
+    + taken.reduce((sum, each) => sum + overlap(box, each), 0)) / 40)); // a corner is no crowd
+  let [left, top] = boxes[crowd.indexOf(Math.min(...crowd))];
+  if (!turn && overlap([x, y, x + 1, y + 1], frame)) {
+    left = within(left, 3, Math.max(frame[2] - wide - 3, 3));
+    top = within(top, 0, Math.max(frame[3] - high, 0));
+  }
+  taken.push([left, top, left + wide, top + high]);
+  if (turn) ctx.textAlign = align;
+  ctx.translate(turn ? x : left, turn ? y : top + high / 2);
   ctx.rotate(turn);
   ctx.lineWidth = 4;
   ctx.strokeStyle = colours.paper;

@@ -37,16 +37,18 @@ export default live('compass', {
   draw({ above, error }, { heading }, { turn, errors, read, cos, sin, sum: [east, north] }, hidden,
       { data: { field } }) {
     above.arrow(0, 0, 0, field, 'ghost');
-    above.text('north', 0, field, { role: 'ghost', dx: -8, dy: 6, align: 'right' });
     above.robot([0, 0, hidden ? 0 : Math.atan2(sin, cos)]);
+    if (!hidden) {
+      above.line([[0, field], [east, north]], 'goal', { width: 2 });
+      above.arrow(0, 0, east, north, 'rising', { dash: [6, 4] });
+      above.arrow(0, 0, 40 * cos, 40 * sin, 'path');
+      above.arrow(0, 0, 40 * Math.cos(read), 40 * Math.sin(read), 'theta', { dash: [6, 4] });
+    }
+    above.text('north', 0, field, { role: 'ghost', dx: -8, dy: 6, align: 'right' });
     if (hidden) return;
-    above.line([[0, field], [east, north]], 'goal', { width: 2 });
-    above.arrow(0, 0, east, north, 'rising', { dash: [6, 4] });
-    above.text('felt', east, north, { role: 'rising', dx: 10 });
-    above.arrow(0, 0, 40 * cos, 40 * sin, 'path');
-    above.arrow(0, 0, 40 * Math.cos(read), 40 * Math.sin(read), 'theta', { dash: [6, 4] });
-    above.text('believed', 43 * Math.cos(read), 43 * Math.sin(read),
-        { role: 'theta', align: Math.cos(read) < 0 ? 'right' : 'left' });
+    above.text('believed', 40 * Math.cos(read), 40 * Math.sin(read), { role: 'theta',
+      dx: Math.cos(read) < 0 ? -10 : 10, align: Math.cos(read) < 0 ? 'right' : 'left' });
+    above.text('felt', east, north, { role: 'rising', dx: 10, dy: north > 0 ? 8 : -8 });
     const off = wrap(read - heading / DEGREES) * DEGREES;
     error.path(turn, errors, 'rising');
     error.line([[heading, 0], [heading, off]], 'ghost', { width: 1.5 });

@@ -16,13 +16,14 @@ export default live('course_cone', {
         `${written(sigma, 'm')}, and a cone of ${degrees(off)} to either side of the path.` },
   }),
   draw({ above }, { sigma, distance }, { off }, hidden) {
-    const reach = 1.7; // in units of the distance
+    // in units of the distance, and of a wide cone what has room
+    const half = Math.min(off, Math.PI),
+        reach = Math.min(1.7, 0.97 / Math.sin(Math.min(half, Math.PI / 2)));
     above.line([[0, 0], [1, 0]], 'ghost', { width: 2 });
     for (const x of [0, 1]) above.dot(x, 0, 'start');
     above.text('first fix', 0, 0, { role: 'start', dy: 22, align: 'center' });
     if (hidden) return;
     for (const x of [0, 1]) above.line(ring(x, 0, sigma / distance), 'start', { width: 1.5 });
-    const half = Math.min(off, Math.PI);
     above.area([[0, 0], ...ring(0, 0, reach, -half, half)], 'rising', 0.25);
     above.line([[0, 0], [reach, 0]], 'path', { dash: [6, 4] });
   },

@@ -1,7 +1,9 @@
 // A map that zooms from a lawn to a country: where a flat map puts a point that is seen to the
 // north-east, how far from there it lies on the sphere, and which way north is there.
 
-import { DEGREES, disc, inReach, inside, live, ring, roundBelow, written } from '../drawing.js';
+import {
+  DEGREES, disc, inReach, inside, live, ring, roundBelow, within, written,
+} from '../drawing.js';
 
 const lengthText = (metres, digits = 3) => {
   const [size, unit] = metres >= 1e3 ? [1e-3, 'km'] : metres >= 0.999 ? [1, 'm'] : metres >= 0.00999
@@ -100,7 +102,9 @@ export default live('flat_map', {
       map.dot(...spot, 'ghost', { hollow: true, size: 5 });
       map.dot(...centre, 'goal', { size: 5 });
     });
-    map.text('flat map', ...spot, { role: 'ghost', dy: -14, align: 'center', size: 13 });
+    map.text('flat map', within(spot[0], centre[0] - 0.5 * LENS * map.pixel,
+      centre[0] + 0.5 * LENS * map.pixel), spot[1],
+    { role: 'ghost', dy: -14, align: 'center', size: 13 });
     map.text(`${lengthText(wide, 1)} wide`, ...centre, { role: 'soft', dy: LENS - 14,
       align: 'center', size: 13 });
     size.curve((each) => Math.log10(between(bothMaps(10 ** each, lat, radius)) || 1e-12));

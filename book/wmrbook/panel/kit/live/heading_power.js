@@ -1,7 +1,7 @@
 // Graceful's heading error over the distance left, on logarithmic scales: a power of it.
 
 import {
-  DEGREES, driven, freshRun, live, remembered, summarise, within, written,
+  DEGREES, driven, freshRun, inReach, live, remembered, summarise, written,
 } from '../drawing.js';
 
 const LEAST = 1e-4; // degrees, the lower border
@@ -22,14 +22,14 @@ export default live('heading_power', {
     const others = shipped({ ...how, all: Object.values(defaults).map((each) => steer(...each)) });
     return { run, others, time, left: Math.abs(headingError), power: Math.min(k_phi, k_delta) };
   },
-  panes: ({ radius }, { left, power: slope }) => ({ error: {
+  panes: ({ radius }, { left, power: slope }, setup) => ({ error: {
     x: [-2.3, 0.6, 'distance left [m]', power],
         y: [-4, 2.4, 'heading error [°]', power], tall: true,
     given: 'Logarithmic scales for the heading error over the distance left.',
     alt: `The heading error over the distance left, both on logarithmic scales: near the goal a ` +
         `line of slope ${written(slope)}; ${written(left * DEGREES, '°')} at ` +
         `${written(radius, 'm')}. Thin lines are Nav2's two defaults.`,
-    scrub: (x) => ({ radius: within(10 ** x, 0.01, 1) }),
+    scrub: (x) => inReach(setup, { radius: 10 ** x }),
   } }),
   draw({ error }, { radius }, { run, others, left, power: slope }, hidden, { data }) {
     if (hidden) return;

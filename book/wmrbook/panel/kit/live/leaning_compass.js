@@ -30,13 +30,15 @@ export default live('leaning_compass', {
   draw({ above, error }, { heading }, { turn, errors, off }, hidden) {
     const angle = heading / DEGREES, read = angle + off;
     above.arrow(0, 0, 0, 30, 'ghost');
-    above.text('north', 0, 30, { role: 'ghost', dx: -8, dy: 6, align: 'right' });
     above.robot([0, 0, hidden ? Math.PI / 2 : angle]);
+    if (!hidden) {
+      above.arrow(0, 0, 40 * Math.cos(angle), 40 * Math.sin(angle), 'path');
+      above.arrow(0, 0, 40 * Math.cos(read), 40 * Math.sin(read), 'theta', { dash: [6, 4] });
+    }
+    above.text('north', 0, 30, { role: 'ghost', dx: -8, dy: 6, align: 'right' });
     if (hidden) return;
-    above.arrow(0, 0, 40 * Math.cos(angle), 40 * Math.sin(angle), 'path');
-    above.arrow(0, 0, 40 * Math.cos(read), 40 * Math.sin(read), 'theta', { dash: [6, 4] });
-    above.text('believed', 43 * Math.cos(read), 43 * Math.sin(read),
-        { role: 'theta', align: Math.cos(read) < 0 ? 'right' : 'left' });
+    above.text('believed', 40 * Math.cos(read), 40 * Math.sin(read), { role: 'theta',
+      dx: Math.cos(read) < 0 ? -10 : 10, align: Math.cos(read) < 0 ? 'right' : 'left' });
     error.path(turn, errors, 'rising');
     error.line([[heading, 0], [heading, off * DEGREES]], 'ghost', { width: 1.5 });
     error.dot(heading, off * DEGREES, 'rising', { hollow: true });

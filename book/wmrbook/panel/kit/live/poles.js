@@ -32,7 +32,7 @@ export default live('poles', {
         given: 'The plane of the poles.',
         alt: `The poles at ${poles.map(complex).join(' and ')} per second; the distance's at ` +
         `${written(-pace)}.` },
-    robot: { x: [-2.2, 0.6, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true,
+    robot: { x: [-2.2, 1.2, 'x [m]'], y: [-1.4, 1.4, 'y [m]'], equal: true,
         given: 'The robot, about two metres from its goal.',
         alt: `The robot's last two metres: it stops ` +
         `${Math.abs(off * DEGREES).toFixed(0)} degrees off.` },
@@ -42,8 +42,8 @@ export default live('poles', {
     robot.pose(goal, 'goal');
     if (hidden) { robot.robot(start); return; }
     plane.dot(-pace, 0, 'rho', { hollow: true });
-    plane.text('distance', -pace, 0, { role: 'rho', dy: 18, align: 'center' });
     for (const [re, im] of poles) plane.cross(re, im, 'alpha', 8);
+    plane.text('distance', -pace, 0, { role: 'rho', dx: -11, align: 'right' });
     robot.path(run.x, run.y);
     robot.robot(poseAt(run, run.n - 1));
   },

@@ -18,8 +18,8 @@ export default live('silence', {
   }),
   draw({ road, speed: pane }, { speed, timeout }, { faith, far, stands }, hidden) {
     road.line([[-1, 0], [17, 0]], 'ghost', { width: 1.5 });
-    road.text('last fix', 0, 0, { role: 'start', dy: 30, align: 'center' });
     road.robot([0, 0, 0], hidden ? 1 : 0.3);
+    road.text('last fix', 0, 0.25, { role: 'start', dy: 22, align: 'center' });
     if (hidden) return;
     road.rect(0, -0.25, faith, 0.25, 'start', 0.5);
     road.rect(faith, -0.25, far, 0.25, 'rising', 0.5);

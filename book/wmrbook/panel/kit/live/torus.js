@@ -95,7 +95,7 @@ export default live('torus', {
       alt: `On the torus ${runs.length} ways begin on the seam; ${lost} leave it, but too late.`,
       scrub: turnedBy,
     },
-    square: { x: [-180, 180, 'α [°]'], y: [-180, 180, 'θ [°]', named], equal: true,
+    square: { x: [-190, 190, 'α [°]'], y: [-190, 190, 'θ [°]', named], equal: true,
         given: 'The torus laid flat, the seam across its middle, and which way the law drives.',
         alt: 'The same ways over the square of alpha and theta.' },
     plane: { x: [-0.2, 0.95, 'x [m]'], y: [-0.4, 0.4, 'y [m]'], equal: true,

@@ -21,8 +21,6 @@ export default live('turning_centre', {
       plane.line(ring(0, centre, Math.abs(centre)), 'ghost', { width: 1.5, dash: [4, 4] });
       plane.line([[wheels[0][0], wheels[0][1]], [0, centre], [wheels[1][0], wheels[1][1]]], 'rho',
           { width: 1.2, dash: [2, 4] });
-      plane.cross(0, centre, 'goal');
-      plane.text('turning centre', 0, centre, { role: 'goal', dx: 12, dy: 2 });
     }
     plane.robot([0, 0, 0]);
     for (const [speed, side] of wheels) {
@@ -30,6 +28,9 @@ export default live('turning_centre', {
       if (!hidden && speed) plane.arrow(0, side, speed, side, 'path');
     }
     if (!hidden && v) plane.arrow(0, 0, v, 0, 'start');
+    if (hidden || !omega) return;
+    plane.cross(0, centre, 'goal'); // over the robot that it may lie under
+    plane.text('turning centre', 0, centre, { role: 'goal', dx: 20, dy: -20 });
   },
   handles: (values, { wheels }, setup) => ['left', 'right'].map((name, k) => ({
     id: name, pane: 'plane', at: wheels[k],

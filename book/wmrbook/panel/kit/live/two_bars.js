@@ -49,10 +49,10 @@ export default live('two_bars', {
       for (const mark of marks) plane.cross(mark[0] * DEGREES, mark[1] * DEGREES, 'rising', 2.5);
     plane.dot(alpha, theta, 'path', { size: 8, hollow: true });
     chart.line([[0.4, 0], [3.6, 0]], 'ink', { width: 1 });
-    const names = Math.min(14, chart.box.width / 15); // beside each other in a narrow picture too
+    const lower = chart.box.width < 210 ? 16 : 0; // px: in a narrow picture not side by side
     [['distance', 'rho', bars[0]], ['angles', 'alpha', bars[1]],
         ['sum', 'ink', sum]].forEach(([name, role, rate], k) => {
-      chart.text(name, k + 1, 7, { role, dy: -12, align: 'center', size: names });
+      chart.text(name, k + 1, 7, { role, dy: -12 - (k % 2) * lower, align: 'center', fixed: true });
       if (hidden) return;
       chart.rect(k + 0.7, 0, k + 1.3, within(rate, -10.2, 5.4), role);
       chart.text(way(rate), k + 1, rate < 0 ? 0 : Math.min(rate, 5.4),

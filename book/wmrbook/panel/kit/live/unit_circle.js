@@ -44,7 +44,6 @@ export default live('unit_circle', {
     near.pose(goal, 'goal');
     if (hidden) return;
     plane.dot(kept, 0, 'rho', { hollow: true });
-    plane.text('distance', kept, 0, { role: 'rho', dy: -18, align: 'center' });
     for (const [re, im] of poles) {
       const inside = within(re, -WIDE, WIDE);
       plane.cross(inside, im, size > 1 ? 'rising' : 'alpha', 8);
@@ -52,6 +51,7 @@ export default live('unit_circle', {
         plane.text(`${written(re)}`, inside, im,
             { role: 'rising', dy: 18, dx: re < 0 ? 12 : -12, align: re < 0 ? 'left' : 'right' });
     }
+    plane.text('distance', kept, 0, { role: 'rho', dx: 11 });
     near.path(run.x, run.y);
     for (let k = 0; k < run.n; k += Math.max(1, Math.round(run.n / 400)))
       near.dot(run.x[k], run.y[k], 'path', { size: 1.5 });
