@@ -63,6 +63,8 @@ def test_a_course_counts_backwards_and_beside_the_middle_but_not_at_a_crawl():
         assert used.sigma[2] < 2e-3
         slow = estimation.use_course(FIRST, course, 1e-3, 0.29 * v, 0.0, slowest=0.3)
         assert slow is FIRST
+    for v, omega in ((0.2, 1.0), (-0.3, -1.5)):  # about an antenna that stands
+        assert estimation.use_course(FIRST, 0.4, 1e-3, v, omega, left=0.2, slowest=0.1) is FIRST
 
 
 def test_a_heading_goes_the_short_way_round():

@@ -241,6 +241,22 @@ def test_only_the_qualities_of_a_measured_fix_are_used(quality):
     assert refused == (trust.NONE if 1 <= quality <= 5 else trust.POOR)
 
 
+@given(
+    st.sampled_from(["x", "y", "heading", "age"]),
+    st.one_of(st.floats(1e9), st.floats(max_value=-1e9), st.just(math.nan)),
+)
+def test_a_fix_that_is_nowhere_is_broken(name, value):
+    seen = wmr.Seen(0.05, 0.0, 0.0, quality=4, **{name: value})
+    assert trust.refusal_of(trust.Memory(), seen, wmr.Rules()) == trust.BROKEN
+
+
+@given(st.floats(-0.05, 0.05))
+def test_what_is_rolled_counts_backwards_too(rolled):
+    m = trust.Memory()
+    trust.look(m, wmr.Seen(0.05, rolled, rolled), wmr.Rules(), wmr.Wheels(0.4))
+    assert (m.since, m.still, m.length) == (abs(rolled),) * 3
+
+
 @given(st.floats(0.1, 60.0), st.floats(0.02, 0.5))
 def test_a_last_turn_that_would_swing_in_the_longest_period_is_refused(gain, period):
     turn, rules = wmr.LastTurn(gain=gain, max_rate=3.0), wmr.Rules(longest_period=period)

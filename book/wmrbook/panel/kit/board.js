@@ -108,9 +108,9 @@ export function paneOf(canvas, colours, spec) {
     pose(pose, name) { drawPose(ctx, view, pose, name, colours); names.push([pose, name]); },
     // at last, for no path may strike one out
     name() {
-      names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours));
       if (spec.lawn) drawScale(ctx, view, colours, (metres) =>
         (metres < 0.01 ? written(1000 * metres, 'mm', 1) : written(metres, 'm', 1)));
+      names.forEach(([pose, name]) => drawName(ctx, view, pose, name, colours));
     },
     rect(left, bottom, right, top, role, share = 0.85) {
       pane.area([[left, bottom], [right, bottom], [right, top], [left, top]], role, share);

@@ -164,7 +164,7 @@ export function tickLabel(ctx, text, x, y, colours, align) {
 }
 
 // Text with a rim in the colour of the paper: at the first place, or at one of `or`, [x, y, align],
-// where less is in its way; and whole, if it belongs to something in the picture.
+// where less is in its way; and whole, or, of what lies outside the picture, not at all.
 export function label(ctx, text, x, y, colours,
     { colour = colours.ink, size = 13, align = 'left', weight = 400, turn = 0, or = [] } = {}) {
   ctx.save();
@@ -178,8 +178,10 @@ export function label(ctx, text, x, y, colours,
   });
   const crowd = boxes.map((box) => Math.round((wide * high - overlap(box, frame)
     + taken.reduce((sum, each) => sum + overlap(box, each), 0)) / 40)); // a corner is no crowd
-  let [left, top] = boxes[crowd.indexOf(Math.min(...crowd))];
-  if (!turn && overlap([x, y, x + 1, y + 1], frame)) {
+  const best = boxes[crowd.indexOf(Math.min(...crowd))];
+  let [left, top] = best;
+  if (!turn) {
+    if (overlap(best, frame) < wide * high / 2) { ctx.restore(); return; }
     left = within(left, 3, Math.max(frame[2] - wide - 3, 3));
     top = within(top, 0, Math.max(frame[3] - high, 0));
   }

@@ -34,7 +34,7 @@ export default live('bearing', {
     map.arrow(0, 0, north, east, 'ghost', { dash: [5, 5] });
     map.angle(0, 0, Math.PI / 2, -((bearing + 2 * Math.PI) % (2 * Math.PI)), 'br', 'ink', 34);
     map.angle(0, 0, 0, sight, 'θ', 'theta', 54);
-    map.text('br counted from east', north, east,
+    map.text('br from east', north, east,
         { role: 'ghost', dy: east > 0 ? 12 : -12, align: north > 20 ? 'right' : 'left' });
     map.line([[0, 0], [east, north]], 'rho');
     map.dot(east, north, 'goal');

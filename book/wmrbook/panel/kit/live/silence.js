@@ -8,7 +8,7 @@ export default live('silence', {
     return { faith, braking, far: faith + braking, stands: timeout + speed / brake };
   },
   panes: ({ speed }, { far, stands }) => ({
-    road: { x: [-1, 17, 'way after the last fix [m]'], y: [-1.5, 1.5, ''],
+    road: { x: [-1, 17, 'way after the last fix [m]'], y: [-1.5, 1.5, '', () => ''],
         given: 'The robot where it has its last fix.',
         alt: `The robot rolls ${written(far, 'm')} after its last fix.` },
     speed: { x: [0, 6.2, 'time after the last fix [s]'], y: [0, 4.3, 'speed [m/s]'],
