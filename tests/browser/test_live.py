@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import itertools
 import math
+import random
 import re
+from pathlib import Path
 
 import pytest
 
@@ -31,6 +33,7 @@ PASS = """() => document.querySelectorAll('.live canvas').forEach(canvas => {
             clientX: box.left + share * box.width, clientY: box.top + share * box.height }));
     }
 })"""
+WORDS = (Path(__file__).parent / "words.js").read_text(encoding="utf-8")
 KEYS = """keys => keys.forEach(key => document.activeElement.dispatchEvent(
     new KeyboardEvent('keydown', { key, bubbles: true })))"""
 # What is read, and spoken, at each of these states: [text, [names of pictures]].
@@ -180,6 +183,25 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
     page.evaluate(PASS)
     held = [name for name in home if name != "time" and panel.get(name) != home[name]]
     assert not held, f"a mouse that passes over a picture moves {held}"
+
+
+@pytest.mark.parametrize("name", NAMES)
+def test_words_in_a_picture_are_whole_and_none_lies_on_another(emptied_page, name):
+    thing, draw = getattr(live, name)(), random.Random(name)
+    for width in (390, 760):
+        panel = mounted(emptied_page, thing, width=width, height=844)
+        emptied_page.evaluate(WORDS)
+        panel.set(guess="skipped")
+        states = [{}] + [
+            {
+                knob["name"]: draw.uniform(*ends(knob))
+                if "low" in knob
+                else draw.choice(ends(knob))
+                for knob in thing.setup["knobs"]
+            }
+            for _ in range(5)
+        ]
+        assert emptied_page.evaluate("states => crowdedAt(states)", states) == [], width
 
 
 @pytest.mark.needs("npm")

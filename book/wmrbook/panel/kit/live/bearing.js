@@ -32,8 +32,6 @@ export default live('bearing', {
     map.text('point 1', 0, 0, { role: 'start', dx: -10, dy: -14, align: 'right' });
     if (hidden) return;
     map.arrow(0, 0, north, east, 'ghost', { dash: [5, 5] });
-    map.angle(0, 0, Math.PI / 2, -((bearing + 2 * Math.PI) % (2 * Math.PI)), 'br', 'ink', 34);
-    map.angle(0, 0, 0, sight, 'θ', 'theta', 54);
     map.text('br from east', north, east,
         { role: 'ghost', dy: east > 0 ? 12 : -12, align: north > 20 ? 'right' : 'left' });
     map.line([[0, 0], [east, north]], 'rho');
@@ -41,6 +39,8 @@ export default live('bearing', {
     map.text('point 2', east, north,
         { role: 'goal', dx: east > 30 ? -10 : 10, dy: north > 0 ? 14 : -14,
         align: east > 30 ? 'right' : 'left' });
+    map.angle(0, 0, Math.PI / 2, -((bearing + 2 * Math.PI) % (2 * Math.PI)), 'br', 'ink', 34);
+    map.angle(0, 0, 0, sight, 'θ', 'theta', 54);
   },
   handles: ({ east, north }, found, setup) => [{
     id: 'point', pane: 'map', at: [east, north],

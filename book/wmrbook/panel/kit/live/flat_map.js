@@ -68,8 +68,9 @@ export default live('flat_map', {
     for (let left = 0; left < LAWN; left += 20) map.rect(left, 0, left + 10, LAWN, 'mown', 1);
     for (const far of RINGS.filter((each) => each > 0.02 * rho && each < 2 * rho)) {
       map.line(ring(0, 0, far), 'line', { width: 1.5 });
-      const [x, y, dy] = far < 0.3 * rho ? [-far, 0, 0] : [0, far, -9]; // where less is drawn
-      map.text(lengthText(far, 1), x, y, { role: 'soft', dx: -6, dy, size: 13, align: 'right' });
+      const [x, y, dy] = far < 0.18 * rho ? [-far, 0, 0] : [0, far, -9]; // where less is drawn
+      map.text(lengthText(far, 1), x, y,
+          { role: 'soft', dx: -6, dy, size: 13, align: 'right', fixed: true });
     }
     size.line([[1, -2], [6, -2]], 'ghost', { width: 1.5, dash: [2, 4] });
     size.text('1 cm', 6, -2, { role: 'ghost', dx: -6, dy: 9, align: 'right' });
