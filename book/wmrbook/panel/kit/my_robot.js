@@ -187,6 +187,8 @@ function render({ model, el }) {
     trouble.textContent = said;
     for (const [name, input] of Object.entries(inputs))
       input.setAttribute('aria-invalid', String(said.startsWith(`${name} `)));
+    // what is below stays where it is
+    root.style.minHeight = said ? `${root.offsetHeight}px` : '';
     results.hidden = sentence.hidden = bar.hidden = said !== '';
     if (said) { root.dataset.done = 'true'; return; }
     showTold(told(now, sheet));
