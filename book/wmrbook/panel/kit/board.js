@@ -5,7 +5,7 @@ import { drawAngle, drawAngles, drawName, drawPose, drawRobot } from './scene.js
 import { drawAxes } from './axes.js';
 import { drawLawn, drawScale } from './lawn.js';
 import {
-  disc, head, inside, label, line, onCanvas, sizeOf, surfaceOf, take, ticksOf,
+  disc, head, inside, label, line, onCanvas, sizeOf, surfaceOf, take, takeAlong, ticksOf,
 } from './surface.js';
 import { poseOfError } from './model.js';
 import { written } from './style.js';
@@ -37,8 +37,11 @@ export function paneOf(canvas, colours, spec) {
   const pane = {
     ctx, box, view, at, ink, trail, range: [x0, x1, y0, y1], pixel: 1 / across,
     line(points, role = 'path', { width: w = 2.5, dash = [] } = {}) {
-      cut(() => line(ctx, points.map(([x, y]) => at(x, y)), ink(role), w, dash));
-      if (role === 'path' && !dash.length && points.length > 8) trail.push(points); // a ghost later
+      const places = points.map(([x, y]) => at(x, y));
+      cut(() => line(ctx, places, ink(role), w, dash));
+      if (role !== 'path' || dash.length || points.length <= 8) return;
+      trail.push(points); // a ghost later
+      takeAlong(ctx, places);
     },
     // Columns of a run, from sample `from` to before `to`.
     path(xs, ys, role = 'path', { width: w = 2.5, dash = [], from = 0, to = xs.length } = {}) {
@@ -74,8 +77,7 @@ export function paneOf(canvas, colours, spec) {
           size = Math.min(11, Math.hypot(dx, dy) / 1.5);
       line(ctx, [from, to], ink(role), w, dash);
       head(ctx, to, Math.atan2(dy, dx), size, 0.5, ink(role), w);
-      for (let far = 10; far < Math.min(Math.hypot(dx, dy), 1e3); far += 12) // px from its tip
-        take(ctx, to.map((each, k) => each + far * [dx, dy][k] / Math.hypot(dx, dy)), 3);
+      takeAlong(ctx, [from, to.map((each, k) => each + 0.1 * [dx, dy][k])], 3);
     },
     // `dx` and `dy`, in pixels, to the right and up, keep a text clear of what it names; unless it
     // is `fixed` it may go to the other side of that.

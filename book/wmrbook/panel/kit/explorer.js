@@ -12,7 +12,7 @@ import {
 import { drawCharts, endOf, timeAxis } from './charts.js';
 import { drawScene, hasSight, marksOf, nearestOf, viewOf, zoomOf } from './scene.js';
 import { inDegrees, written } from './style.js';
-import { repainted, sizeOf } from './surface.js';
+import { forgetNames, repainted, sizeOf } from './surface.js';
 import { within } from './numbers.js';
 import { presetValues, runOf, settingsOf } from './settings.js';
 import { summarise } from './simulate.js';
@@ -257,7 +257,7 @@ function render({ model, el }) {
       if (state.run && !state.trouble) state.ghost = { run: state.run, figures: state.figures };
     },
     unpin() { state.ghost = null; find('[data-do=pin]').focus(); }, // its own button goes
-    reset() { state.ghost = null; look(setup.home); write(setup.home); },
+    reset() { state.ghost = null; forgetNames(root); look(setup.home); write(setup.home); },
     in() { if (state.run) zoomBy(1 / 1.5, now('x', 'y')); },
     out() { if (state.run) zoomBy(1.5, now('x', 'y')); },
     near() { state.zoom = state.zoom || !state.run ? null : [...now('goalX', 'goalY'), 2]; },

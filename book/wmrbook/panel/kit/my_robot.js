@@ -184,11 +184,11 @@ function render({ model, el }) {
       if (!(error instanceof RangeError)) throw error;
       said = error.message;
     }
-    trouble.textContent = said;
     for (const [name, input] of Object.entries(inputs))
       input.setAttribute('aria-invalid', String(said.startsWith(`${name} `)));
     // what is below stays where it is
-    root.style.minHeight = said ? `${root.offsetHeight}px` : '';
+    if (!said || !results.hidden) root.style.minHeight = said ? `${root.offsetHeight}px` : '';
+    trouble.textContent = said;
     results.hidden = sentence.hidden = bar.hidden = said !== '';
     if (said) { root.dataset.done = 'true'; return; }
     showTold(told(now, sheet));

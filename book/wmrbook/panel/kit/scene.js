@@ -5,7 +5,8 @@ import { drawAxes } from './axes.js';
 import { nearest, within } from './numbers.js';
 import { poseAt } from './runs.js';
 import {
-  disc, halo, head, inside, label, line, multiples, stepFor, surfaceOf, take, tickText,
+  disc, halo, head, inside, label, line, multiples, stepFor, surfaceOf, take, takeAlong,
+  tickText,
 } from './surface.js';
 
 // px from a pose to the handle that turns it; unequal, so that both can be reached when they
@@ -181,6 +182,7 @@ function drawGrid(ctx, view, colours) {
 export function drawPath(ctx, view, xs, ys, n, colour, width, dash = []) {
   const points = Array.from({ length: n }, (_, k) => view.toScreen(xs[k], ys[k]));
   line(ctx, points, colour, width, dash);
+  if (!dash.length) takeAlong(ctx, points);
 }
 
 export function drawPose(ctx, view, pose, name, colours) {
@@ -189,13 +191,15 @@ export function drawPose(ctx, view, pose, name, colours) {
   line(ctx, [place, tip], colour, 3);
   head(ctx, tip, Math.PI - pose[2], 13, 0.45, colour, 3);
   disc(ctx, place, 8, colours.paper, colour, 3);
-  for (const share of [0, 0.4, 0.7, 1])
-    take(ctx, place.map((each, k) => each + share * (tip[k] - each)), share ? 5 : 10);
+  take(ctx, place, 10);
+  takeAlong(ctx, [place, tip], 5);
 }
 
 // Behind a pose's arrow, out of its way, or farther off, where nothing else is.
 export function drawName(ctx, view, pose, name, colours) {
-  const [x, y] = view.toScreen(pose[0], pose[1]), side = Math.cos(pose[2]) > 0 ? -16 : 16, // px
+  const [x, y] = view.toScreen(pose[0], pose[1]), { left, top, width, height } = view.box;
+  if (x < left || x > left + width || y < top || y > top + height) return;
+  const side = Math.cos(pose[2]) > 0 ? -16 : 16, // px
       down = Math.sin(pose[2]) > 0 ? 16 : -16;
   const [first, ...or] = [1, 2.2, 4].flatMap((far) => [[1, 1], [1, -1], [-1, 1], [-1, -1]]
       .map(([across, up]) => [x + far * across * side, y + far * up * down,
@@ -263,10 +267,15 @@ export function drawAngles(ctx, view, pose, [rho, alpha, theta], aim, colours) {
       sight = pose[2] + alpha;
   const ahead = ([x, y], angle, length) =>
       [x + length * Math.cos(angle), y - length * Math.sin(angle)];
-  line(ctx, [robot, goal], colours.rho, 1.5, [2, 5]);
-  line(ctx, [robot, ahead(robot, pose[2], 58)], colours.alpha, 1.5, [6, 4]);
-  line(ctx, [goal, ahead(goal, sight, 58)], colours.rho, 1.5, [2, 5]);
-  line(ctx, [goal, ahead(goal, aim[2], 58)], colours.theta, 1.5, [6, 4]);
+  for (const [points, colour, dash] of [
+    [[robot, goal], colours.rho, [2, 5]],
+    [[robot, ahead(robot, pose[2], 58)], colours.alpha, [6, 4]],
+    [[goal, ahead(goal, sight, 58)], colours.rho, [2, 5]],
+    [[goal, ahead(goal, aim[2], 58)], colours.theta, [6, 4]],
+  ]) {
+    line(ctx, points, colour, 1.5, dash);
+    takeAlong(ctx, points);
+  }
   drawAngle(ctx, robot, pose[2], alpha, 36, 'α', colours.alpha, colours);
   const distance = Math.hypot(goal[0] - robot[0], goal[1] - robot[1]);
   // beyond the name of alpha
@@ -294,6 +303,7 @@ export function drawAngle(ctx, [x, y], from, angle, radius, name, colour, colour
   halo(ctx, colour);
   ctx.stroke();
   ctx.shadowBlur = 0;
+  if (Math.abs(angle) * radius < 4) return; // px: there is nothing to name
   for (const share of [0.1, 0.3, 0.5, 0.7, 0.9]) {
     const along = from + share * angle;
     take(ctx, [x + radius * Math.cos(along), y - radius * Math.sin(along)], 4);

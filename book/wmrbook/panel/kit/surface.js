@@ -62,21 +62,37 @@ export function surfaceOf(canvas, colours) {
   ctx.fillRect(0, 0, width, height);
   ctx.lineJoin = ctx.lineCap = 'round';
   canvas.dataset.lit = colours.lit || '';
-  pictures.set(ctx, { frame: [0, 0, width, height], taken: [] });
+  const { places = {} } = pictures.get(ctx) || {};
+  pictures.set(ctx, { frame: [0, 0, width, height], taken: [], counts: {}, places });
   return { ctx, width, height };
 }
 
-// What lies where in a picture, so that no name lies on it: [left, top, right, bottom].
+// What lies where in a picture, so that no name lies on it: [left, top, right, bottom, weight].
 const pictures = new WeakMap();
 /** @type {(one: Point, other: Point) => number} */
 const overlap = ([left, top, right, bottom], box) =>
     Math.max(Math.min(right, box[2]) - Math.max(left, box[0]), 0)
     * Math.max(Math.min(bottom, box[3]) - Math.max(top, box[1]), 0);
 
+/** As in a picture that is new. @param {HTMLElement} root */
+export const forgetNames = (root) =>
+  root.querySelectorAll('canvas').forEach((each) => pictures.delete(each.getContext('2d')));
+
 // From now on names keep so many pixels away.
 /** @type {(ctx: CanvasRenderingContext2D, place: Point, near: number) => void} */
 export const take = (ctx, [x, y], near) =>
-  pictures.get(ctx).taken.push([x - near, y - near, x + near, y + near]);
+  pictures.get(ctx).taken.push([x - near, y - near, x + near, y + near, 1]);
+
+/** The same along a line. @param {Point[]} points */
+export function takeAlong(ctx, points, near = 2) {
+  let left = 0; // px to the next place
+  points.slice(1).forEach(([x, y], k) => {
+    const [x0, y0] = points[k], far = Math.min(Math.hypot(x - x0, y - y0), 2e3);
+    for (; left < far; left += 12)
+      take(ctx, [x0 + left / far * (x - x0), y0 + left / far * (y - y0)], near);
+    left -= far;
+  });
+}
 
 // What a symbol that is lit in the text stands for has a halo.
 export function halo(ctx, colour) {
@@ -161,31 +177,38 @@ export function tickLabel(ctx, text, x, y, colours, align) {
   ctx.textBaseline = 'middle';
   ctx.fillStyle = colours.soft;
   ctx.fillText(text, x, y);
+  const wide = ctx.measureText(text).width, left = x - (align === 'right' ? wide : wide / 2);
+  pictures.get(ctx).taken.push([left, y - 7, left + wide, y + 7, 4]);
 }
 
 // Text with a rim in the colour of the paper: at the first place, or at one of `or`, [x, y, align],
-// where less is in its way; and whole, or, of what lies outside the picture, not at all.
+// where less is in its way, but where it was before unless that is clearly worse: else it would
+// flicker while things move. It is written whole, or, of what lies outside the picture, not at all.
 export function label(ctx, text, x, y, colours,
     { colour = colours.ink, size = 13, align = 'left', weight = 400, turn = 0, or = [] } = {}) {
   ctx.save();
   ctx.font = `${weight} ${size}px ${FONT}`;
   ctx.textBaseline = 'middle';
   ctx.textAlign = 'left';
-  const { frame, taken } = pictures.get(ctx), wide = ctx.measureText(text).width, high = 1.2 * size;
+  const { frame, taken, counts, places } = pictures.get(ctx),
+      kind = text.replace(/[-−\d.]+/g, ''), key = kind + (counts[kind] = (counts[kind] || 0) + 1),
+      wide = ctx.measureText(text).width, high = 1.2 * size;
   const boxes = [[x, y, align], ...or].map(([px, py, to]) => {
     const left = px - wide * (to === 'right' ? 1 : to === 'center' ? 0.5 : 0), top = py - high / 2;
     return [left, top, left + wide, top + high];
   });
   const crowd = boxes.map((box) => Math.round((wide * high - overlap(box, frame)
-    + taken.reduce((sum, each) => sum + overlap(box, each), 0)) / 40)); // a corner is no crowd
-  const best = boxes[crowd.indexOf(Math.min(...crowd))];
+    + taken.reduce((sum, each) => sum + each[4] * overlap(box, each), 0)) / 40)); // no corner
+  if (!(crowd[places[key]] <= Math.min(...crowd) + 4))
+    places[key] = crowd.indexOf(Math.min(...crowd));
+  const best = boxes[places[key]];
   let [left, top] = best;
   if (!turn) {
     if (overlap(best, frame) < wide * high / 2) { ctx.restore(); return; }
     left = within(left, 3, Math.max(frame[2] - wide - 3, 3));
     top = within(top, 0, Math.max(frame[3] - high, 0));
   }
-  taken.push([left, top, left + wide, top + high]);
+  taken.push([left, top, left + wide, top + high, 4]);
   if (turn) ctx.textAlign = align;
   ctx.translate(turn ? x : left, turn ? y : top + high / 2);
   ctx.rotate(turn);

@@ -28,7 +28,7 @@ export default live('turning_centre', {
       if (!hidden && speed) plane.arrow(0, side, speed, side, 'path');
     }
     if (!hidden && v) plane.arrow(0, 0, v, 0, 'start');
-    if (hidden || !omega) return;
+    if (hidden || !omega || centre < plane.range[2] || centre > plane.range[3]) return;
     plane.cross(0, centre, 'goal'); // over the robot that it may lie under
     plane.text('turning centre', 0, centre, { role: 'goal', dx: 20, dy: -20 });
   },
