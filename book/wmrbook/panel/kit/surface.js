@@ -78,10 +78,10 @@ const overlap = ([left, top, right, bottom], box) =>
 export const forgetNames = (root) =>
   root.querySelectorAll('canvas').forEach((each) => pictures.delete(each.getContext('2d')));
 
-// From now on names keep so many pixels away.
+// From now on names keep so many pixels away, in a picture that has any.
 /** @type {(ctx: CanvasRenderingContext2D, place: Point, near: number) => void} */
 export const take = (ctx, [x, y], near) =>
-  pictures.get(ctx).taken.push([x - near, y - near, x + near, y + near, 1]);
+  pictures.get(ctx)?.taken.push([x - near, y - near, x + near, y + near, 1]);
 
 /** The same along a line. @param {Point[]} points */
 export function takeAlong(ctx, points, near = 2) {
