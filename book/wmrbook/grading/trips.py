@@ -158,7 +158,7 @@ def _runs() -> tuple[tuple[Trajectory, bool, str], ...]:
         return simulate(start, goal, gains, method="continuous")
 
     counts, home = "counts as parked", drive(_GAINS, case.start, case.goal)
-    backwards = ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
+    backwards = ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega")
     away = replace(home, **{name: getattr(home, name)[::-1] for name in backwards})
     past = _stop(Pose(0.06, 0.0, 0.0))
     right = {
