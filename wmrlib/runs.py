@@ -110,7 +110,7 @@ class Trajectory(ReadOnly):
 
     @property
     def V(self) -> np.ndarray:  # noqa: N802 (as in (18))
-        """The law's Lyapunov function, with L = 1."""
+        """The law's Lyapunov function at each sample, no unit, with L = 1 m^2; (18) or its own."""
         with np.errstate(over="ignore"):  # on its way out of the range of numbers
             return LAWS[self.law].value(self.rho, self.alpha, self.theta, self.gains)
 

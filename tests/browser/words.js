@@ -20,6 +20,7 @@
     for (const state of states) {
       panel.set('state', { ...home, ...state });
       await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+      if (![...written.values()].some((words) => words.length)) found.push([state, 'no words']);
       for (const [{ width, height }, words] of written)
         words.forEach(([text, left, top, right, bottom], k) => {
           if (Math.max(-left, right - width, -top, bottom - height) > 1) found.push([state, text]);

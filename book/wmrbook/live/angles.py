@@ -17,6 +17,7 @@ def polar_angles() -> Live:
     """The distance and the two angles: the robot is moved and turned, and the goal is turned."""
     seen = polar_error(ROBOT, GOAL)
     heading = pose_from_polar(seen, GOAL).heading
+    alpha = f"{math.degrees(seen.alpha):.0f}".replace("-", "\N{MINUS SIGN}")
     return Live(
         "polar_angles",
         "The goal is *rho* = {rho} away. *alpha* = {alpha}: to look at it the robot {way}. "
@@ -32,8 +33,8 @@ def polar_angles() -> Live:
         data=between(ROBOT, GOAL),
         ask=Ask(
             "turn",
-            f"The robot, the dot, has alpha = \N{MINUS SIGN}{-math.degrees(seen.alpha):.0f} "
-            "deg. Which way does it look? Turn the arrow.",
+            f"The robot, the dot, has alpha = {alpha} deg. Which way does it look? "
+            "Turn the arrow.",
             "Alpha turns from the heading to the line of sight, positive to the left: where it is "
             "negative, the goal is to the robot's right, wherever both are.",
             key=heading,

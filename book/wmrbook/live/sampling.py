@@ -136,8 +136,8 @@ def parking() -> Live:
                 "none",
                 {
                     "none": "slows down as the law says",
-                    "least": "stays above 1.1 times that",
-                    "turn": "stays above it, then turns",
+                    "least": "stays faster than its dead band",
+                    "turn": "stays faster, then turns",
                 },
                 "what the robot does about it",
             ),

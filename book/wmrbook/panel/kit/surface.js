@@ -181,36 +181,45 @@ export function tickLabel(ctx, text, x, y, colours, align) {
   pictures.get(ctx).taken.push([left, y - 7, left + wide, y + 7, 4]);
 }
 
-// Text with a rim in the colour of the paper: at the first place, or at one of `or`, [x, y, align],
-// where less is in its way, but where it was before unless that is clearly worse: else it would
-// flicker while things move. It is written whole, or, of what lies outside the picture, not at all.
+/**
+ * Where a text is to begin, of some places [x, y, align]: at the first where least is in its way,
+ * but where it was before unless that is clearly worse, else it would flicker while things move.
+ * Whole in the picture; null if most of it would lie outside.
+ * @param {CanvasRenderingContext2D} ctx @param {Point[]} places
+ */
+function clearest(ctx, text, size, places) {
+  const picture = pictures.get(ctx), { frame, taken, counts } = picture,
+      wide = ctx.measureText(text).width, high = 1.2 * size,
+      kind = text.replace(/[-−\d.]+/g, ''), key = kind + (counts[kind] = (counts[kind] || 0) + 1);
+  const boxes = places.map(([x, y, align]) => {
+    const left = x - wide * (align === 'right' ? 1 : align === 'center' ? 0.5 : 0),
+        top = y - high / 2;
+    return [left, top, left + wide, top + high];
+  });
+  // in 40 px²: a corner that is touched is no crowd
+  const crowd = boxes.map((box) => Math.round((wide * high - overlap(box, frame)
+    + taken.reduce((sum, each) => sum + each[4] * overlap(box, each), 0)) / 40));
+  if (!(crowd[picture.places[key]] <= Math.min(...crowd) + 4))
+    picture.places[key] = crowd.indexOf(Math.min(...crowd));
+  const best = boxes[picture.places[key]];
+  if (overlap(best, frame) < wide * high / 2) return null;
+  const left = within(best[0], 3, Math.max(frame[2] - wide - 3, 3)),
+      top = within(best[1], 0, Math.max(frame[3] - high, 0));
+  taken.push([left, top, left + wide, top + high, 4]);
+  return [left, top + high / 2];
+}
+
+// Text with a rim in the colour of the paper; unless it is turned it may stand at one of `or`,
+// [x, y, align], too.
 export function label(ctx, text, x, y, colours,
     { colour = colours.ink, size = 13, align = 'left', weight = 400, turn = 0, or = [] } = {}) {
   ctx.save();
   ctx.font = `${weight} ${size}px ${FONT}`;
+  ctx.textAlign = turn ? align : 'left';
   ctx.textBaseline = 'middle';
-  ctx.textAlign = 'left';
-  const { frame, taken, counts, places } = pictures.get(ctx),
-      kind = text.replace(/[-−\d.]+/g, ''), key = kind + (counts[kind] = (counts[kind] || 0) + 1),
-      wide = ctx.measureText(text).width, high = 1.2 * size;
-  const boxes = [[x, y, align], ...or].map(([px, py, to]) => {
-    const left = px - wide * (to === 'right' ? 1 : to === 'center' ? 0.5 : 0), top = py - high / 2;
-    return [left, top, left + wide, top + high];
-  });
-  const crowd = boxes.map((box) => Math.round((wide * high - overlap(box, frame)
-    + taken.reduce((sum, each) => sum + each[4] * overlap(box, each), 0)) / 40)); // no corner
-  if (!(crowd[places[key]] <= Math.min(...crowd) + 4))
-    places[key] = crowd.indexOf(Math.min(...crowd));
-  const best = boxes[places[key]];
-  let [left, top] = best;
-  if (!turn) {
-    if (overlap(best, frame) < wide * high / 2) { ctx.restore(); return; }
-    left = within(left, 3, Math.max(frame[2] - wide - 3, 3));
-    top = within(top, 0, Math.max(frame[3] - high, 0));
-  }
-  taken.push([left, top, left + wide, top + high, 4]);
-  if (turn) ctx.textAlign = align;
-  ctx.translate(turn ? x : left, turn ? y : top + high / 2);
+  const place = turn ? [x, y] : clearest(ctx, text, size, [[x, y, align], ...or]);
+  if (!place) { ctx.restore(); return; }
+  ctx.translate(place[0], place[1]);
   ctx.rotate(turn);
   ctx.lineWidth = 4;
   ctx.strokeStyle = colours.paper;
