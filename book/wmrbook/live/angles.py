@@ -33,8 +33,7 @@ def polar_angles() -> Live:
         data=between(ROBOT, GOAL),
         ask=Ask(
             "turn",
-            f"The robot, the dot, has alpha = {alpha} deg. Which way does it look? "
-            "Turn the arrow.",
+            f"The robot, the dot, has alpha = {alpha} deg. Which way does it look? Turn the arrow.",
             "Alpha turns from the heading to the line of sight, positive to the left: where it is "
             "negative, the goal is to the robot's right, wherever both are.",
             key=heading,
