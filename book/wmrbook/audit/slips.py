@@ -5,7 +5,7 @@ The search starts from the printed expression. A misprint of two slips is no typ
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from functools import cache
 
 import numpy as np
@@ -108,10 +108,27 @@ def one_slip(right: sp.ImmutableMatrix, derived: sp.ImmutableMatrix) -> str | No
 
 def _agree(meant: sp.Expr, forms: tuple[sp.Expr, ...], symbols: list[sp.Symbol]) -> np.ndarray:
     """Which forms equal the one that is meant at two random points: quick, before any proof."""
-    values = sp.lambdify(symbols, [meant, *forms], "numpy")
     agree = np.full(len(forms), True)
     with np.errstate(all="ignore"):
         for point in np.random.default_rng(24).uniform(0.1, 0.9, (2, len(symbols))):
-            first, *others = values(*point)
-            agree &= np.isclose(np.array(others, dtype=complex), first, rtol=0.0, atol=1e-9)
+            known: dict[sp.Basic, float] = dict(zip(symbols, point, strict=True))
+            first, *others = (_value(form, known) for form in (meant, *forms))
+            agree &= np.isclose(others, first, rtol=0.0, atol=1e-9)
     return agree
+
+
+def _value(form: sp.Basic, known: dict[sp.Basic, float]) -> float:
+    """The form's number, from those of its parts: thousands of forms share most of them."""
+    if form not in known:
+        parts = [_value(part, known) for part in form.args]
+        if parts:
+            known[form] = _numeric(form.func, len(parts))(*parts)
+        else:
+            known[form] = np.float64(form if form.is_real else np.nan)
+    return known[form]
+
+
+@cache
+def _numeric(function: type[sp.Expr], size: int) -> Callable[..., float]:
+    names = sp.symbols(f"x:{size}")
+    return sp.lambdify(names, function(*names), "numpy")
