@@ -101,6 +101,7 @@ def test_jupyterlab_renders_every_formula(home, cells, browser_page):
         browser_page.goto("about:blank")  # it would miss its server
 
 
+@pytest.mark.slow
 def test_voila_renders_every_formula(home, cells, browser_page):
     with voila(home / "formulas.ipynb", home / "voila.txt") as app:
         browser_page.goto(app.link, timeout=PATIENCE)

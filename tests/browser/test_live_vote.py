@@ -11,7 +11,7 @@ import pytest
 from faults import violations
 from live import ROOT, free_port, open_deck
 
-pytestmark = pytest.mark.needs("npm")
+pytestmark = [pytest.mark.slow, pytest.mark.needs("npm")]
 SLOW_AT_FIRST = """(() => {
     const [real, later] = [fetch, (ms) => new Promise((done) => { setTimeout(done, ms); })];
     let votes = 0;

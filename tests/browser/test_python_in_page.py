@@ -69,6 +69,7 @@ def shown(page, number: int) -> str:
     return page.locator(".python-output").nth(number).text_content()
 
 
+@pytest.mark.slow
 def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     """Chapter 4: nothing is loaded before it is asked for, and a cell brings those above it."""
     page = opened(LYAPUNOV)
@@ -143,6 +144,7 @@ for k2 in ("13/64", "1/2", "2"):
 print(found)"""
 
 
+@pytest.mark.slow
 def test_z3_decides_in_the_page_and_is_loaded_for_a_cell_that_asks_it(site, tmp_path, browser_page):
     texts = "1 + 1", SOLVED, "import z3\nz3.get_version_string()"
     cells = [{"place": i, "source": text, "before": "", "left_out": 0, "checks": [],
@@ -293,6 +295,7 @@ def plain(text: str) -> str:
     return " ".join(text.strip("$").split())
 
 
+@pytest.mark.slow
 def test_tasks_of_the_page_have_the_hints_of_the_course(tmp_path):
     """With the stand-ins for numpy and numba, mistakes lose what they lose, for the same reason."""
     with zipfile.ZipFile(io.BytesIO(packages())) as archive:

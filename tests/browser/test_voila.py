@@ -9,6 +9,8 @@ import psutil
 import pytest
 from live import PATIENCE, assert_slider_matters, chapters, sliders, voila
 
+pytestmark = pytest.mark.slow
+
 
 @pytest.fixture(scope="module")
 def app(tmp_path_factory):
