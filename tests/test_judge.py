@@ -58,6 +58,7 @@ def judged(chapter: str, name: str, names: dict) -> str:
     return f"{shown.ename}: {shown.evalue}" if shown.output_type == "error" else ""
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("chapter", graded.ASSIGNMENTS)
 def test_what_a_check_says_does_not_depend_on_where_the_answer_is(chapter):
     cells, tried = graded.cells(chapter), []

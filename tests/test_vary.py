@@ -13,6 +13,7 @@ IDS = [f"{row.where}-{row.value.__name__}" for row in HEADLINES]
 FALLEN = [row for row in HEADLINES if row.before]
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("number", range(len(HEADLINES)), ids=IDS)
 def test_a_headline_survives(number):
     row = HEADLINES[number]

@@ -27,6 +27,7 @@ RENDERED = r"""() => [
         return copy.textContent;
     })(cell.cloneNode(true)),
 }))"""
+pytestmark = pytest.mark.slow
 RAW = re.compile(r"\$|\\[a-zA-Z({\[]")
 
 
@@ -101,7 +102,6 @@ def test_jupyterlab_renders_every_formula(home, cells, browser_page):
         browser_page.goto("about:blank")  # it would miss its server
 
 
-@pytest.mark.slow
 def test_voila_renders_every_formula(home, cells, browser_page):
     with voila(home / "formulas.ipynb", home / "voila.txt") as app:
         browser_page.goto(app.link, timeout=PATIENCE)

@@ -127,6 +127,7 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     assert last.strip() == link(lab)  # in the terminal no warning pushes it away
 
 
+@pytest.mark.slow
 def test_without_the_books_settings_a_panel_comes_from_the_kernel(tmp_path, browser_page):
     page = browser_page
     (tmp_path / "notebooks").mkdir()

@@ -230,6 +230,7 @@ def test_a_figure_asks_the_pages_python_and_says_what_is_missing(site, tmp_path,
     assert asked("2") == "z3: yes, proved."
 
 
+@pytest.mark.slow
 def test_each_cell_gives_what_is_stored_and_each_task_takes_the_model(site, tmp_path, browser_page):
     """All of the book's cells in one page, so that Python starts once."""
     cells, wanted = [], []

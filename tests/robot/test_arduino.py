@@ -73,6 +73,7 @@ def test_it_parks_in_time_and_fits():
 
 
 @uno
+@pytest.mark.slow
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_fault_stops_it_or_passes(name):
     fault, must = FAULTS[name]
