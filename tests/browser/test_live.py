@@ -185,6 +185,7 @@ def test_a_number_in_the_sentence_is_typed_dragged_and_refused_and_a_handle_move
     assert not held, f"a mouse that passes over a picture moves {held}"
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("name", NAMES)
 def test_words_in_a_picture_are_whole_and_none_lies_on_another(emptied_page, name):
     thing, draw = getattr(live, name)(), random.Random(name)
