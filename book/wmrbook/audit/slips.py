@@ -107,7 +107,7 @@ def one_slip(right: sp.ImmutableMatrix, derived: sp.ImmutableMatrix) -> str | No
 
 
 def _agree(meant: sp.Expr, forms: tuple[sp.Expr, ...], symbols: list[sp.Symbol]) -> np.ndarray:
-    """Which forms equal the one that is meant at two random points: quick, before any proof."""
+    """Which real forms equal the one that is meant at two random points: quick, before a proof."""
     agree = np.full(len(forms), True)
     with np.errstate(all="ignore"):
         for point in np.random.default_rng(24).uniform(0.1, 0.9, (2, len(symbols))):
