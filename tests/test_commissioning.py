@@ -37,7 +37,7 @@ def test_a_slow_ramp_finds_the_dead_band():
         dead_band(told, np.zeros(told.size), 0.5 * STEP / DT)
 
 
-@settings(max_examples=5, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(st.floats(0.03, 0.4), st.sampled_from([0.5, 1.0, 3.0]), st.integers(0, 99))
 def test_steps_find_lag_and_acceleration(lag, acceleration, seed):
     assume(lag * acceleration > 0.05)  # or the lag is not to be seen

@@ -27,14 +27,11 @@ addEventListener('load', () => {
     look();
   }
 });
-// The figures for the dark are loaded when they are wanted.
+// The figures of the theme are loaded with the page, those of the other when it turns.
 addEventListener('DOMContentLoaded', () => {
   const bring = () => {
-    if (document.documentElement.dataset.theme !== 'dark') return;
-    for (const it of document.querySelectorAll('img[data-src]')) {
-      it.src = it.dataset.src;
-      it.removeAttribute('data-src');
-    }
+    const theme = document.documentElement.dataset.theme === 'dark' ? 'dark' : 'light';
+    for (const it of document.querySelectorAll(`img.only-${theme}`)) it.loading = 'eager';
   };
   new MutationObserver(bring)
       .observe(document.documentElement, { attributes: true, attributeFilter: ['data-theme'] });

@@ -47,9 +47,9 @@ MENDED = (  # what the theme writes, and what axe-core finds nothing in
     (r'role="doc-biblioentry"', 'role="listitem"'),
     (rf"<thead>\s*<tr[^>]*>(?:\s*{EMPTY})+\s*</tr>\s*</thead>", ""),
     (EMPTY, "<td></td>"),
-    # figures.js brings it when the page turns dark
-    (r'(<img [^>]*class="only-dark[^>]*) loading="lazy"([^>]*) src=', r"\1\2 data-src="),
 )
+# The theme loads all that a search asks, for a search as you type that is off.
+ASKED = re.compile(r'\s*<script src="[^"]*(?:searchtools|language_data|searchindex)\.js"></script>')
 DESIGN = re.compile(
     r"<link[^>]*sphinx-design[^>]*>|<script[^>]*design-tabs[^>]*></script>", re.IGNORECASE
 )
@@ -119,8 +119,7 @@ def show_figures(app, doctree):
             image = nodes.image(uri=f"/_figures/{path.name}", alt=html.unescape(figure["alt"]))
             image["width"] = f"{width}px"
             image["classes"] = [f"only-{theme}", "no-scaled-link"]
-            if theme == "dark":  # not loaded where the theme hides it
-                image["loading"] = "lazy"
+            image["loading"] = "lazy"  # hardly ever where the theme hides it; see figures.js
             images.append(image)
         if figure["motion"]:  # the kit's player.js plays it
             told = html.unescape(figure["motion"])
@@ -167,6 +166,8 @@ def mend(app, exception):
         text = path.read_text(encoding="utf-8")
         for theirs, ours in MENDED:
             text = re.sub(theirs, ours, text)
+        if name != "search":
+            text = ASKED.sub("", text)
         if 'class="sd-' not in text:  # nothing here is sphinx-design's
             text = DESIGN.sub("", text)
         for count, model in enumerate(dict.fromkeys(MODEL.findall(text)), 1):  # named at random

@@ -200,7 +200,7 @@ def test_words_in_a_picture_are_whole_and_none_lies_on_another(emptied_page, nam
                 else draw.choice(ends(knob))
                 for knob in thing.setup["knobs"]
             }
-            for _ in range(4)
+            for _ in range(5)
         ]
         assert emptied_page.evaluate("states => crowdedAt(states)", states) == [], width
 
