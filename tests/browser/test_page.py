@@ -10,6 +10,7 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+import pypdfium2
 import pytest
 from faults import SIZES, of_page
 from graded import leaks
@@ -29,6 +30,8 @@ from wmrbook import face
 WIDE = """() => [...document.querySelectorAll('mjx-container[display]')]
     .filter(it => it.scrollWidth > it.clientWidth + 1).map(it => it.innerText)"""
 OVER = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
+ALL_THERE = """theme => [...document.querySelectorAll(`img.only-${theme}`)]
+    .every((it, _, all) => all.length > 5 && it.complete && it.naturalWidth)"""
 # Of pages with what is wide: the ends of the sheet's ranges of widths.
 SIDEWAYS = dict.fromkeys(
     ("rover.html", "lawn.html", "notebooks/10_the_audit.html"),
@@ -217,3 +220,21 @@ def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened
     page.wait_for_url("**/10_the_audit.html#paper-24", timeout=PATIENCE)
     page.locator("div.math:has(#paper-24) svg").first.wait_for(timeout=PATIENCE)
     assert "paper 24" in page.locator("div.math:has(#paper-24)").text_content()
+
+
+def test_a_page_has_the_figures_of_its_theme_and_paper_the_light_ones(
+    opened, browser_page, tmp_path
+):
+    printed = []
+    for scheme in ("light", "dark"):
+        browser_page.emulate_media(color_scheme=scheme)
+        page = opened("notebooks/05_pose_to_pose.html")
+        page.wait_for_function(ALL_THERE, arg=scheme, timeout=PATIENCE)
+        page.pdf(path=tmp_path / "page.pdf", print_background=True)
+        pdf = pypdfium2.PdfDocument(tmp_path / "page.pdf")
+        printed.append([len(list(each.get_objects())) for each in pdf])
+    assert printed[0] == printed[1]
+    assert sum(printed[0]) > 1000
+    page.locator(".theme-switch-button:visible").click(timeout=PATIENCE)
+    page.locator('.theme-change-button[data-mode="light"]:visible').click(timeout=PATIENCE)
+    page.wait_for_function(ALL_THERE, arg="light", timeout=PATIENCE)
