@@ -34,7 +34,7 @@ PACKAGE = ROOT / "wmrlib"
 # runs test_NAME without compiling: quicker where a formula is called a few thousand times. "quick"
 # does so too, without what then takes long or fails: most mutants die before anything is compiled.
 PLANS = {
-    "_elementary": "quick elementary; jit elementary",
+    "elementary": "quick elementary; jit elementary",
     "_dop853": "quick simulation; jit simulation",
     "loops": "quick simulation; jit simulation hysteresis",
     "engine": "jit sweeping; jit simulation",
@@ -63,7 +63,7 @@ PLANS = {
     "trust": "plain parking",
     "tuning": "quick tuning; jit tuning",
 }
-NO_FORMULAS = {"__init__", "_checks", "_compile"}
+NO_FORMULAS = {"__init__", "checks", "compilation"}
 # The file, what the line or the change reads, and why no test can tell the mutant.
 EQUIVALENT = [
     ("_threads.py", "in _POLL_SECONDS = ", "a patience"),
@@ -81,8 +81,8 @@ EQUIVALENT = [
     ("engine/vectors.py", "for n in range(14)", "terms that are too many are not used"),
     ("engine/vectors.py", "'>' -> '>=' in turned = ", "both branches agree at the border"),
     ("engine/vectors.py", "> _HIGHEST else x", "both branches agree at the border"),
-    ("_elementary.py", "in divisor = 1.0 if tiny", "a quotient that is not used"),
-    ("_elementary.py", "in tiny = ", "both branches agree at the border"),
+    ("elementary.py", "in divisor = 1.0 if tiny", "a quotient that is not used"),
+    ("elementary.py", "in tiny = ", "both branches agree at the border"),
     ("body.py", "'1.0' -> '2.0' in NO_LIMITS = ", "limits that never bind"),
     ("body.py", "in _AT_ONCE = ", "a tolerance"),
     ("body.py", "'<' -> '<=' in return (abs(body", "no wheel is just as fast"),
@@ -253,7 +253,7 @@ class Copy:
         self.folder, self.limits = folder, {}
         left_out = shutil.ignore_patterns(".*", "_*build", "vendor", "node_modules", "__pycache__")
         shutil.copytree(ROOT, folder, ignore=left_out)
-        for name, text in (("tests/conftest.py", CONFTEST), ("wmrlib/_compile.py", COMPILE)):
+        for name, text in (("tests/conftest.py", CONFTEST), ("wmrlib/compilation.py", COMPILE)):
             with (folder / name).open("a", encoding="utf-8") as file:
                 file.write(text)
 

@@ -10,7 +10,7 @@ from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
 from wmrlib import laws
-from wmrlib._elementary import elementwise
+from wmrlib.elementary import elementwise
 
 
 def commanded(rho, alpha, theta, v_ref, omega_ref, gains, law):

@@ -6,7 +6,7 @@ import re
 import numpy as np
 import pytest
 
-from wmrlib import _checks
+from wmrlib import checks
 
 FINITE = "a finite number"
 REFUSED = [
@@ -23,28 +23,28 @@ REFUSED = [
 
 def test_real_keeps_numbers_and_shapes_and_copies_arrays():
     for value in (3, np.float32(3.0), np.array(3), 3.0):
-        assert (type(_checks.real("x", value)), _checks.real("x", value)) == (float, 3.0)
+        assert (type(checks.real("x", value)), checks.real("x", value)) == (float, 3.0)
     mine = np.array([[1, 2]])
-    checked = _checks.real("x", mine)
+    checked = checks.real("x", mine)
     mine[0] = 7
     assert (checked.dtype, checked.tolist()) == (np.float64, [[1.0, 2.0]])
-    np.testing.assert_equal(_checks.real("t", [1, math.nan], low=1.0, nan=True), [1.0, math.nan])
+    np.testing.assert_equal(checks.real("t", [1, math.nan], low=1.0, nan=True), [1.0, math.nan])
     for bounds in ({"low": 1.0}, {"high": 1.0}, {"above": 0.9}):  # a bound itself is allowed
-        assert _checks.real("x", 1.0, **bounds) == _checks.real("x", [1], **bounds) == 1.0
+        assert checks.real("x", 1.0, **bounds) == checks.real("x", [1], **bounds) == 1.0
 
 
 def test_real_names_the_argument_its_value_and_what_is_needed():
     for bounds, value, needed in REFUSED:
         words = re.escape(f"x = {value!r} is not allowed: {needed} is needed")
         with pytest.raises(ValueError, match=f"^{words}$"):
-            _checks.real("x", value, **bounds)
+            checks.real("x", value, **bounds)
 
 
 def test_what_is_masked_or_beyond_a_float_is_no_number():
     masked = np.ma.array([1.0, 2.0], mask=[False, True])
     one = ([[1.0, np.ma.masked]],)
     for hidden in (np.ma.masked, masked, [masked], one, [1.0, 10**400], 10**5000):
-        for name, check in (("x", _checks.real), ("dt", _checks.scalar)):
+        for name, check in (("x", checks.real), ("dt", checks.scalar)):
             with pytest.raises(ValueError, match=rf"(?s)^{name} = .* is not allowed: {FINITE}"):
                 check(name, hidden, **({"nan": True} if name == "x" else {}))
 
@@ -52,18 +52,18 @@ def test_what_is_masked_or_beyond_a_float_is_no_number():
 def test_the_other_checks_say_what_is_wrong():
     ragged = [[1], [2, 3]]
     for check, message in (
-        (lambda: _checks.real("x", [math.nan] * 1000), r"^x = .{77}\.\.\. is not allowed"),
-        (lambda: _checks.scalar("dt", [0.1]), r"one number .*, not an array of shape \(1,\)"),
-        (lambda: _checks.scalar("dt", 0.0, above=0.0), "above 0 is needed"),
-        (lambda: _checks.choice("law", ["a"], "ab"), r"law = \['a'\] .* one of 'a', 'b' is needed"),
-        (lambda: _checks.choice("law", "c", ("a", "b")), "law = 'c' is not allowed: one of 'a'"),
-        (lambda: _checks.instance("n", 1.0, int), "n = 1.0 .*: an int is needed, not a float$"),
+        (lambda: checks.real("x", [math.nan] * 1000), r"^x = .{77}\.\.\. is not allowed"),
+        (lambda: checks.scalar("dt", [0.1]), r"one number .*, not an array of shape \(1,\)"),
+        (lambda: checks.scalar("dt", 0.0, above=0.0), "above 0 is needed"),
+        (lambda: checks.choice("law", ["a"], "ab"), r"law = \['a'\] .* one of 'a', 'b' is needed"),
+        (lambda: checks.choice("law", "c", ("a", "b")), "law = 'c' is not allowed: one of 'a'"),
+        (lambda: checks.instance("n", 1.0, int), "n = 1.0 .*: an int is needed, not a float$"),
         (
-            lambda: _checks.same_shape(a=1.0, b=np.ones(2), c=np.ones(3)),
+            lambda: checks.same_shape(a=1.0, b=np.ones(2), c=np.ones(3)),
             r"^mismatched lengths: b has shape \(2,\), c has shape \(3,\); shapes that broadcast",
         ),
         (
-            lambda: _checks.same_shape(a=1.0, b=ragged),
+            lambda: checks.same_shape(a=1.0, b=ragged),
             r"^b = \[\[1\], \[2, 3\]\] .* an array with rows of one length, is needed$",
         ),
     ):

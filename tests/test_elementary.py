@@ -14,8 +14,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from wmrlib import _elementary, laws
-from wmrlib._compile import compiled
+from wmrlib import elementary, laws
+from wmrlib.compilation import compiled
 from wmrlib.engine import vectors
 from wmrlib.gains import GainsFields
 
@@ -38,7 +38,7 @@ def in_lanes(function):
 
 def numpys(function):
     def of_arrays(*numbers):
-        results = _elementary.elementwise(function, *map(np.atleast_1d, numbers))
+        results = elementary.elementwise(function, *map(np.atleast_1d, numbers))
         return tuple(each[0] for each in results) if len(results) == 2 else results[0]
 
     return of_arrays
@@ -53,7 +53,7 @@ forms = pytest.mark.parametrize("form", FORMS.values(), ids=FORMS)
 @example(angle=0.0)
 @example(angle=-0.0)
 def test_sincos(form, angle):
-    sine, cosine = form(_elementary.sincos)(angle)
+    sine, cosine = form(elementary.sincos)(angle)
     assert sine == near(mpmath.sin(angle))
     assert cosine == near(mpmath.cos(angle))
 
@@ -65,7 +65,7 @@ def test_sincos_up_to_a_million_radians(angle):
 
 @pytest.mark.parametrize("angle", [1.1e6, -1e300, math.inf, -math.inf, math.nan])
 def test_a_direction_that_is_lost_is_not_a_number(angle):
-    sinc = vectors.vectorised(_elementary.sinc)
+    sinc = vectors.vectorised(elementary.sinc)
     assert np.isnan([*vectors.vector_sincos(angle), sinc(angle)]).all()
 
 
@@ -77,14 +77,14 @@ def test_a_direction_that_is_lost_is_not_a_number(angle):
 @example(angle=5e-324)
 def test_sinc(form, angle):
     truth = mpmath.sin(angle) / mpmath.mpf(angle) if angle else 1.0
-    assert form(_elementary.sinc)(angle) == near(truth)
+    assert form(elementary.sinc)(angle) == near(truth)
 
 
 @forms
 @given(x=st.floats(-800.0, 1.0) | st.floats(-1e-6, 1e-6) | st.floats(-2.0, 0.0))
 @example(x=0.0)
 def test_expm1(form, x):
-    assert form(_elementary.expm1)(x) == near(mpmath.expm1(mpmath.mpf(x)))
+    assert form(elementary.expm1)(x) == near(mpmath.expm1(mpmath.mpf(x)))
 
 
 past_the_goal = st.floats(-0.1, 0.0)  # where a step may carry rho
@@ -105,7 +105,7 @@ def test_decay(form, rho, k_rho):
     truth = -mpmath.expm1(-mpmath.mpf(k_rho) * mpmath.mpf(rho)) / mpmath.mpf(rho) if rho else k_rho
     # The rounding of k_rho rho, half a unit, is made larger by as much as exp grows.
     accuracy = TWO_ULP * (1.0 + max(0.0, -k_rho * rho))
-    found = form(_elementary.decay)(rho, k_rho)
+    found = form(elementary.decay)(rho, k_rho)
     assert found == pytest.approx(float(truth), rel=accuracy, abs=1e-300)
 
 
@@ -120,8 +120,8 @@ lengths = st.floats(-1e3, 1e3) | st.floats(-1e150, 1e150) | st.floats(-1e-100, 1
 @example(y=1e150, x=1e-200)
 def test_direction_and_distance(form, y, x):
     truth = mpmath.atan2(y, x) if y or x > 0.0 else math.atan2(y, x)  # mpmath knows no -0
-    assert form(_elementary.direction)(y, x) == near(truth)
-    away, truth = form(_elementary.distance)(x, y), mpmath.hypot(x, y)
+    assert form(elementary.direction)(y, x) == near(truth)
+    away, truth = form(elementary.distance)(x, y), mpmath.hypot(x, y)
     assert away == near(truth) or max(away, truth) < vectors.NEAREST
 
 
@@ -132,7 +132,7 @@ edges = 0.0, 1.0, 1e300, math.inf
 def test_direction_has_the_signs_of_atan2_on_every_axis(form):
     ends = [sign * edge for edge in edges for sign in (1.0, -1.0)]
     for y, x in itertools.product(ends, ends):
-        mine, truth = form(_elementary.direction)(y, x), math.atan2(y, x)
+        mine, truth = form(elementary.direction)(y, x), math.atan2(y, x)
         if abs(y) == abs(x) == math.inf and math.isnan(mine):
             assert form is in_lanes
         else:
@@ -149,7 +149,7 @@ def test_direction_has_the_signs_of_atan2_on_every_axis(form):
 def test_wrap_is_exact(angle):
     turns = mpmath.ceil((mpmath.mpf(angle) - math.pi) / mpmath.mpf(2.0 * math.pi))
     truth = float(mpmath.mpf(angle) - turns * mpmath.mpf(2.0 * math.pi))
-    assert _elementary.wrap(angle) == vectors.vector_wrap(angle) == truth
+    assert elementary.wrap(angle) == vectors.vector_wrap(angle) == truth
     if abs(angle) <= 2.0 * math.pi:
         assert vectors.vector_wrap_once(angle) == truth
 
@@ -159,7 +159,7 @@ def test_not_a_number_stays_one(form):
     for function, count in (("expm1", 1), ("wrap", 1), *dict.fromkeys(TWO_NUMBERS, 2).items()):
         for place in range(count):
             numbers = [math.nan if k == place else 1.0 for k in range(count)]
-            assert math.isnan(form(getattr(_elementary, function))(*numbers)), function
+            assert math.isnan(form(getattr(elementary, function))(*numbers)), function
     lost = [vectors.vector_wrap(1.1e6), vectors.vector_wrap(math.inf)]
     assert np.isnan([*lost, vectors.vector_wrap_once(math.nan)]).all()
 
@@ -168,7 +168,7 @@ def test_a_loop_over_many_gives_the_same_to_the_last_digits():
     """In a loop LLVM computes several at once; what it then does in another order must not show."""
     names = "sincos", "sinc", "expm1", "distance", "direction", "wrap"
     sincos, sinc, expm1, distance, direction, wrap = (
-        vectors.vectorised(getattr(_elementary, name)) for name in names
+        vectors.vectorised(getattr(elementary, name)) for name in names
     )
 
     @compiled

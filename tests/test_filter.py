@@ -10,7 +10,7 @@ from scipy.stats import chi2
 
 import wmrlib as wmr
 from wmrlib import _filter, estimation
-from wmrlib._compile import compiled
+from wmrlib.compilation import compiled
 
 # Another filter: filterpy's, with a model written down here and derivatives by differences.
 

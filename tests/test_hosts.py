@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 import wmrlib as wmr
-from wmrlib import _compile
+from wmrlib import compilation
 
 pytestmark = [
     pytest.mark.slow,
@@ -34,7 +34,7 @@ print([np.round(np.asarray(each, dtype=complex), 6).tolist() for each in results
 FULL = "import resource as r; r.setrlimit(r.RLIMIT_FSIZE, (0, 0))"
 NOBODY = "import os, pwd; del os.environ['HOME']; pwd.getpwuid = {}.__getitem__"
 ASCII = {"LC_ALL": "C", "PYTHONUTF8": "0", "PYTHONCOERCECLOCALE": "0"}
-CACHE = {"NUMBA_CACHE_DIR": str(_compile.FOLDER.parent)}
+CACHE = {"NUMBA_CACHE_DIR": str(compilation.FOLDER.parent)}
 KEPT = {  # the variables of a process that reads what this one has compiled, and Python's options
     "no folder for temporary files": ({"TMPDIR": "/nowhere"}, ()),
     "without docstrings and assertions": ({}, ("-OO",)),

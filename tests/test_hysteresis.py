@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib import symbolic
-from wmrlib._elementary import elementwise
+from wmrlib.elementary import elementwise
 from wmrlib.motion import keep_branch
 
 GOAL, PAPER = wmr.Pose(1.0, -2.0, 0.7), wmr.paper.OUTDOOR_GAINS

@@ -11,7 +11,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wmrlib._compile import formula
+from wmrlib.compilation import formula
 
 TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
 SHARP = 1e-12  # so close to the arrival radius a run ends, as a share of it

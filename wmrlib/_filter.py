@@ -9,9 +9,9 @@ from __future__ import annotations
 import numpy as np
 
 from wmrlib import sensing
-from wmrlib._compile import compiled, formula
-from wmrlib._elementary import wrap
 from wmrlib._jacobians import antenna_rows, moved_rows
+from wmrlib.compilation import compiled, formula
+from wmrlib.elementary import wrap
 
 SIZE = 5  # x, y, heading, gyro_bias, wheel_scale
 

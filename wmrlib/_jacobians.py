@@ -2,7 +2,7 @@
 
 import math
 
-from wmrlib._compile import formula
+from wmrlib.compilation import formula
 
 
 @formula

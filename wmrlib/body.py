@@ -8,9 +8,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from wmrlib._checks import instance, refusal, scalar
-from wmrlib._compile import formula
-from wmrlib._elementary import between, expm1, signed, sincos, stepped, within, wrap
+from wmrlib.checks import instance, refusal, scalar
+from wmrlib.compilation import formula
+from wmrlib.elementary import between, expm1, signed, sincos, stepped, within, wrap
 from wmrlib.motion import wheel_speeds
 
 _TINY = 1e-30  # a divisor in the place of 0, where 0/0 stands for 0

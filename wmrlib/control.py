@@ -7,9 +7,9 @@ from __future__ import annotations
 
 from collections.abc import Callable
 
-from wmrlib._checks import Real, choice, instance, reals
-from wmrlib._elementary import elementwise
 from wmrlib.body import Wheels, checked_wheels
+from wmrlib.checks import Real, choice, instance, reals
+from wmrlib.elementary import elementwise
 from wmrlib.gains import Gains, GainsFields
 from wmrlib.laws import LAWS, POSE_LAWS, lyapunov_value, saturation_scale
 from wmrlib.motion import polar_closing_rate

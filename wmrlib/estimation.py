@@ -15,8 +15,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib import sensing
-from wmrlib._checks import instance, scalar, scalars
 from wmrlib._filter import carry, see_antenna, see_heading
+from wmrlib.checks import instance, scalar, scalars
 from wmrlib.kinematics import Pose
 from wmrlib.sensing import Noise
 

@@ -7,7 +7,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, checked, real, scalar
+from wmrlib.checks import Real, checked, real, scalar
 
 
 @checked("at_least_0", above_0=("v_max",))

@@ -9,8 +9,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, plain, real, reals, same_shape, scalar
-from wmrlib._elementary import direction, elementwise, root, sincos
+from wmrlib.checks import Real, instance, plain, real, reals, same_shape, scalar
+from wmrlib.elementary import direction, elementwise, root, sincos
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""

@@ -12,8 +12,8 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib import motion
-from wmrlib._checks import Real, checked, choice, instance, real, reals
-from wmrlib._elementary import elementwise, wrap
+from wmrlib.checks import Real, checked, choice, instance, real, reals
+from wmrlib.elementary import elementwise, wrap
 
 
 @checked()

@@ -9,9 +9,9 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
-from wmrlib._checks import choice, instance, refusal
-from wmrlib._compile import formula
-from wmrlib._elementary import decay, direction, share_of, sinc, sincos, wrap
+from wmrlib.checks import choice, instance, refusal
+from wmrlib.compilation import formula
+from wmrlib.elementary import decay, direction, share_of, sinc, sincos, wrap
 from wmrlib.gains import (
     Gains,
     GainsFields,

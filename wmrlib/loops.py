@@ -11,10 +11,10 @@ import math
 import numpy as np
 
 from wmrlib import motion
-from wmrlib._compile import compiled, formula
 from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_error, until_event
-from wmrlib._elementary import between, sincos, wrap
 from wmrlib.body import at_rest, hurry, last_turn, roll
+from wmrlib.compilation import compiled, formula
+from wmrlib.elementary import between, sincos, wrap
 from wmrlib.gains import GainsFields
 from wmrlib.laws import command, pose_law, saturation_scale
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED

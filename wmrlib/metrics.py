@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 
-from wmrlib._checks import instance, scalar
+from wmrlib.checks import instance, scalar
 from wmrlib.runs import Arrival, Outcome, Trajectory
 
 

@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from wmrlib._compile import formula
-from wmrlib._elementary import TURN, direction, distance, sinc, sincos, whole, within, wrap
+from wmrlib.compilation import formula
+from wmrlib.elementary import TURN, direction, distance, sinc, sincos, whole, within, wrap
 
 
 @formula

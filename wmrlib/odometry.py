@@ -8,7 +8,7 @@ from __future__ import annotations
 from dataclasses import dataclass, field
 from math import cos, sin
 
-from wmrlib._elementary import sinc, wrap
+from wmrlib.elementary import sinc, wrap
 
 PAST = 8  # stretches of time that are kept
 

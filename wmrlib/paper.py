@@ -12,8 +12,8 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
-from wmrlib._checks import Real, choice, real
-from wmrlib._elementary import elementwise, sincos
+from wmrlib.checks import Real, choice, real
+from wmrlib.elementary import elementwise, sincos
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, local_position
 from wmrlib.kinematics import Pose, Reference

@@ -10,9 +10,9 @@ from collections.abc import Callable
 from typing import NamedTuple
 
 from wmrlib import trust
-from wmrlib._checks import choice, instance, refusal, scalar
-from wmrlib._elementary import wrap
 from wmrlib.body import LastTurn, Wheels, checked_wheels, hurry, sound_turn, turn_rate
+from wmrlib.checks import choice, instance, refusal, scalar
+from wmrlib.elementary import wrap
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS, saturation_scale

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from wmrlib._checks import Real, checked
+from wmrlib.checks import Real, checked
 
 
 @checked("at_least_0")

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import Real, as_array, instance, real, refusal, same_shape, scalar
+from wmrlib.checks import Real, as_array, instance, real, refusal, same_shape, scalar
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, haversine_distance, local_position, point_at, position_list
 from wmrlib.kinematics import Pose, wrap_angle

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, refusal, scalar
+from wmrlib.checks import Real, instance, refusal, scalar
 from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import LAWS

@@ -8,9 +8,9 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-from wmrlib._checks import checked
-from wmrlib._compile import formula
-from wmrlib._elementary import direction, distance, sincos
+from wmrlib.checks import checked
+from wmrlib.compilation import formula
+from wmrlib.elementary import direction, distance, sincos
 from wmrlib.motion import euler_step
 
 

@@ -7,10 +7,10 @@ from collections.abc import Callable
 import numpy as np
 
 from wmrlib import runs
-from wmrlib._checks import choice, instance, reals, refusal, scalar
 from wmrlib._dop853 import NODES
-from wmrlib._elementary import wrap
 from wmrlib.body import LastTurn, Wheels, checked_turn, checked_wheels, in_loops
+from wmrlib.checks import choice, instance, reals, refusal, scalar
+from wmrlib.elementary import wrap
 from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of

@@ -9,9 +9,9 @@ from dataclasses import dataclass, field
 from math import atan2, inf
 from typing import NamedTuple
 
-from wmrlib._checks import checked
-from wmrlib._elementary import distance, wrap
 from wmrlib.body import Wheels
+from wmrlib.checks import checked
+from wmrlib.elementary import distance, wrap
 from wmrlib.odometry import Past, Place, carry, copy_place, look_back, remember
 
 STATES = "wait", "drive", "turn", "parked", "stopped"

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, choice, instance, plain, real, reals, refusal
+from wmrlib.checks import Real, choice, instance, plain, real, reals, refusal
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Arrival, Trajectories

@@ -52,7 +52,7 @@ class Sandbox:
     def __enter__(self) -> Sandbox:
         import wmrbook
         import wmrlib
-        from wmrlib._compile import FOLDER
+        from wmrlib.compilation import FOLDER
 
         self.stage = Path(tempfile.mkdtemp(prefix="wmr-"))
         for package in wmrlib, wmrbook:

@@ -21,7 +21,7 @@ from typing import Any
 from live_receiver import LiveReceiver
 
 import wmrlib as wmr
-from wmrlib._checks import scalar
+from wmrlib.checks import scalar
 
 PAGE = Path(__file__).with_suffix(".html")
 

@@ -23,7 +23,7 @@ import wmrlib as wmr
 from wmrbook import rover_model as model
 from wmrbook.rover_model import ARRIVAL, LONGEST, PERIOD, Rover
 from wmrlib import paper
-from wmrlib._elementary import wrap
+from wmrlib.elementary import wrap
 
 CASE = paper.outdoor()
 WHEELS = wmr.Wheels(model.TRACK_WIDTH, max_speed=model.FASTEST)

@@ -8,7 +8,7 @@ from typing import NamedTuple
 import numpy as np
 from scipy.signal import lfilter
 
-from wmrlib._checks import real, refusal, scalar
+from wmrlib.checks import real, refusal, scalar
 
 _MEMORIES = np.geomspace(0.1, 1e6, 1401)  # s or, in samples, steps: what a fit tries
 _QUANTILE = 3.841  # of chi-squared with one degree of freedom: 95 %

@@ -8,8 +8,8 @@ from typing import NamedTuple
 import numpy as np
 from scipy.optimize import least_squares
 
-from wmrlib._checks import real, refusal, same_shape, scalar
 from wmrlib.body import follow
+from wmrlib.checks import real, refusal, same_shape, scalar
 
 _LAGS = np.insert(np.geomspace(0.01, 1.0, 20), 0, 0.0)  # s
 _EASINGS = np.insert(1.0 / np.geomspace(20.0, 0.1, 20), 0, 0.0)  # s^2/m

@@ -12,7 +12,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import Real, choice, instance, reals, refusal
+from wmrlib.checks import Real, choice, instance, reals, refusal
 from wmrlib.gains import Gains
 
 

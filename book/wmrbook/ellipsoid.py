@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wmrlib._checks import Real, real, same_shape, scalar
+from wmrlib.checks import Real, real, same_shape, scalar
 from wmrlib.geodesy import EARTH_RADIUS_M
 
 SEMI_MAJOR_M = 6_378_137.0

@@ -30,7 +30,7 @@ from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import quote, unquote
 
-from wmrlib._checks import instance
+from wmrlib.checks import instance
 
 LONGEST_NAME = LONGEST_VALUE = 60
 JOINERS = "\u200c\u200d"

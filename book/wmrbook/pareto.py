@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wmrlib._checks import as_array, refusal
+from wmrlib.checks import as_array, refusal
 
 
 def pareto(*costs: np.ndarray) -> np.ndarray:

@@ -12,7 +12,7 @@ import numpy as np
 from scipy.special import bdtr
 
 import wmrlib as wmr
-from wmrlib._checks import scalar
+from wmrlib.checks import scalar
 from wmrlib.engine.receivers import normals
 
 SHAPE = {"kappa": 2.5, "h": 2.0}  # of the path: inside the window 2 < kappa < 1 + h

@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from wmrlib import GENTLE_GAINS, Pose
-from wmrlib._checks import instance, scalar
+from wmrlib.checks import instance, scalar
 
 TEXT = Path(__file__).with_suffix(".xml").read_text(encoding="utf-8")
 STORED = Path(__file__).with_name("rover.json")

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from wmrlib._checks import instance, same_shape
+from wmrlib.checks import instance, same_shape
 from wmrlib.geodesy import GeoPoint, local_position, point_at
 from wmrlib.tracks import Track
 

@@ -14,7 +14,7 @@ from typing import Any
 import sympy as sp
 
 from wmrlib import symbolic
-from wmrlib._checks import book_extra
+from wmrlib.checks import book_extra
 
 P, Q, K2 = sp.symbols("p q k2", real=True)
 """tan(theta/2), tan(alpha/2) and k_alpha/(v_max decay(rho, k_rho))."""

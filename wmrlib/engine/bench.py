@@ -8,8 +8,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from wmrlib._compile import compiled
 from wmrlib._dop853 import FIFTH, STAGES, THIRD, WEIGHTS
+from wmrlib.compilation import compiled
 
 LANES = 32  # runs side by side: a bench stays in the first-level cache
 GLIMPSE = 1e-6  # share of a step behind its end at which omega is looked at too, for its rate

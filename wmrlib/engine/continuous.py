@@ -10,9 +10,9 @@ import math
 import numpy as np
 
 from wmrlib import motion
-from wmrlib._compile import compiled, formula
 from wmrlib._dop853 import SHARP, growth, larger, step_error, until_event
-from wmrlib._elementary import wrap
+from wmrlib.compilation import compiled, formula
+from wmrlib.elementary import wrap
 from wmrlib.engine import lanes
 from wmrlib.engine.bench import (  # fmt: skip
     ALPHA,

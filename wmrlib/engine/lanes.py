@@ -5,7 +5,7 @@ from __future__ import annotations
 import math
 
 from wmrlib import body, laws
-from wmrlib._compile import compiled, formula
+from wmrlib.compilation import compiled, formula
 from wmrlib.engine.vectors import vectorised
 from wmrlib.runs import ARRIVED
 

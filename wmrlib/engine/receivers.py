@@ -10,8 +10,8 @@ import math
 
 import numpy as np
 
-from wmrlib._compile import compiled, formula
-from wmrlib._elementary import sincos, wrap
+from wmrlib.compilation import compiled, formula
+from wmrlib.elementary import sincos, wrap
 
 # The rows of a receiver: its fields, in samples, the memory as how fast it fades, and what comes at
 # random as how often; its run's number; the error in standard deviations, the last fix, that which

@@ -7,9 +7,9 @@ import math
 import numpy as np
 
 from wmrlib import motion
-from wmrlib._compile import compiled, formula
-from wmrlib._elementary import wrap
 from wmrlib.body import at_rest, last_turn, roll
+from wmrlib.compilation import compiled, formula
+from wmrlib.elementary import wrap
 from wmrlib.engine import lanes, receivers
 from wmrlib.engine.vectors import BETWEEN_DIRECTIONS, NEAREST, vectorised
 from wmrlib.gains import GainsFields

@@ -2,7 +2,7 @@
 
 numba has no vector library, so a loop that calls the C library computes one number at a time; these
 forms LLVM computes for four or eight runs at once (2.7 ns a step of a sweep, and 74 without).
-Formulas are written once, with the functions of `_elementary`; `vectorised` returns the same
+Formulas are written once, with the functions of `elementary`; `vectorised` returns the same
 formula with these inside.
 
 Sources: Sun's fdlibm (k_sin.c, k_cos.c, s_atan.c) for the polynomials of sine, cosine and arc
@@ -18,8 +18,8 @@ from types import FunctionType
 
 import numpy as np
 
-from wmrlib._compile import formula
-from wmrlib._elementary import TURN, direction, distance, expm1, sincos, wrap
+from wmrlib.compilation import formula
+from wmrlib.elementary import TURN, direction, distance, expm1, sincos, wrap
 
 LARGEST_ANGLE = 1e6  # rad; up to here a multiple of the first part of pi/2 is exact
 _ALIGNING = 1.5 * 2.0**52  # added to a number, it leaves it rounded in the last bits

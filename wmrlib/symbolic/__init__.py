@@ -6,7 +6,7 @@ no formula is typed twice. ``python -m wmrlib.symbolic`` prints `C_FORMULAS` int
 `javascript` prints `FORMULAS` for the book's panels.
 """
 
-from wmrlib._checks import book_extra
+from wmrlib.checks import book_extra
 
 with book_extra("wmrlib.symbolic"):
     import sympy  # noqa: F401

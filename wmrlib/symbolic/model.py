@@ -9,36 +9,36 @@ from typing import Any
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from wmrlib import _elementary, laws, motion
-from wmrlib._checks import choice
+from wmrlib import elementary, laws, motion
+from wmrlib.checks import choice
 from wmrlib.symbolic import symbols as s
 
 LAWS = tuple(laws.LAWS)
 
 
-@_elementary.sincos.register(sp.Expr)
+@elementary.sincos.register(sp.Expr)
 def _(angle):
     angle = angle.args[0] if isinstance(angle, s.wrap) else angle
     return sp.sin(angle), sp.cos(angle)
 
 
 for _function, _symbols in {
-    _elementary.sinc: sp.sinc,
-    _elementary.decay: s.decay,
-    _elementary.wrap: s.wrap,
-    _elementary.root: sp.sqrt,
-    _elementary.expm1: expm1,
-    _elementary.whole: lambda x: sp.floor(x + sp.S.Half),
-    _elementary.between: lambda x, low, high: sp.Piecewise(
+    elementary.sinc: sp.sinc,
+    elementary.decay: s.decay,
+    elementary.wrap: s.wrap,
+    elementary.root: sp.sqrt,
+    elementary.expm1: expm1,
+    elementary.whole: lambda x: sp.floor(x + sp.S.Half),
+    elementary.between: lambda x, low, high: sp.Piecewise(
         (low, x < low), (high, x > high), (x, True)
     ),
-    _elementary.signed: lambda size, like: sp.Piecewise((-size, like < 0), (size, True)),
-    _elementary.stepped: lambda x, step: sp.Piecewise(
+    elementary.signed: lambda size, like: sp.Piecewise((-size, like < 0), (size, True)),
+    elementary.stepped: lambda x, step: sp.Piecewise(
         (step * sp.floor(x / step + sp.S.Half), step > 0), (x, True)
     ),
-    _elementary.within: lambda x, limit, other: sp.Piecewise((x, abs(x) < limit), (other, True)),
-    _elementary.direction: sp.atan2,
-    _elementary.distance: lambda x, y: sp.sqrt(x**2 + y**2),
+    elementary.within: lambda x, limit, other: sp.Piecewise((x, abs(x) < limit), (other, True)),
+    elementary.direction: sp.atan2,
+    elementary.distance: lambda x, y: sp.sqrt(x**2 + y**2),
 }.items():
     _function.register(sp.Expr, _symbols)
 

@@ -14,7 +14,7 @@ _HEADER = '''"""Printed by python -m wmrlib.symbolic from wmrlib.sensing: change
 
 import math
 
-from wmrlib._compile import formula
+from wmrlib.compilation import formula
 '''
 
 

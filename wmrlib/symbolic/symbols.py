@@ -8,7 +8,7 @@ import numpy as np
 import sympy as sp
 from sympy.codegen.cfunctions import expm1
 
-from wmrlib import _elementary
+from wmrlib import elementary
 
 _real = partial(sp.symbols, real=True)
 _positive = partial(sp.symbols, positive=True)
@@ -28,14 +28,14 @@ track_width, noise = _positive("track_width noise")
 lat1, lat2, dlat, dlong, R = _real("lat1 lat2 Delta_lat Delta_long R")
 east, north, b, fastest, max_speed = _real("east north b fastest max_speed")
 
-_SMALL = sp.Float(_elementary.SMALL)
+_SMALL = sp.Float(elementary.SMALL)
 
 
 class decay(sp.Function):  # noqa: N801 (sympy names its functions in lower case)
     """(1 - exp(-k_rho rho))/rho, k_rho at rho = 0; `textbook` writes it out."""
 
     nargs = 2
-    _imp_ = staticmethod(np.vectorize(_elementary.decay, otypes=[float]))  # what lambdify calls
+    _imp_ = staticmethod(np.vectorize(elementary.decay, otypes=[float]))  # what lambdify calls
 
     @classmethod
     def eval(cls, rho, k_rho):
@@ -58,7 +58,7 @@ class wrap(sp.Function):  # noqa: N801
     """The same direction in (-pi, pi]."""
 
     nargs = 1
-    _imp_ = staticmethod(np.vectorize(_elementary.wrap, otypes=[float]))
+    _imp_ = staticmethod(np.vectorize(elementary.wrap, otypes=[float]))
 
     def fdiff(self, argindex=1):
         return sp.Integer(1)

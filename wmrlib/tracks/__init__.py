@@ -6,7 +6,7 @@ from io import BufferedReader, TextIOWrapper
 
 import numpy as np
 
-from wmrlib._checks import refusal
+from wmrlib.checks import refusal
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks import gpx, nmea, tables, ubx
 from wmrlib.tracks.fixes import Count, Fixes, Report, Said

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from wmrlib._checks import book_extra
+from wmrlib.checks import book_extra
 from wmrlib.tracks import nmea
 from wmrlib.tracks.fixes import Fixes, Said, timestamp
 

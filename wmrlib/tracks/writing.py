@@ -10,7 +10,7 @@ from xml.sax.saxutils import escape
 
 import numpy as np
 
-from wmrlib._checks import Real, instance, real, refusal
+from wmrlib.checks import Real, instance, real, refusal
 from wmrlib.geodesy import GeoPoint, position_list
 
 _GPX = """<?xml version="1.0" encoding="UTF-8"?>

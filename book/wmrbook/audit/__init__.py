@@ -17,7 +17,7 @@ from wmrbook.audit.proof import near_goal, slope, steering
 from wmrbook.audit.row import THRESHOLDS, Row, Verdict, decide, equivalent, fits
 from wmrbook.audit.slips import one_slip
 from wmrbook.audit.table import SOURCE, Place, Table, missing, places, tally
-from wmrlib._checks import choice
+from wmrlib.checks import choice
 
 __all__ = [
     "GROUPS",

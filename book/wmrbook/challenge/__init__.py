@@ -25,8 +25,8 @@ from typing import Any, NamedTuple
 import numpy as np
 
 from wmrbook.tables import Table
-from wmrlib._checks import instance, scalar
 from wmrlib.body import Wheels, checked_wheels
+from wmrlib.checks import instance, scalar
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectory, sample_count, single_pose

@@ -11,7 +11,7 @@ from urllib.parse import quote, unquote
 
 from wmrbook.challenge import SEED, from_seed, rounded, score
 from wmrbook.lines import checked, clean_name
-from wmrlib._checks import instance
+from wmrlib.checks import instance
 from wmrlib.gains import Gains
 
 _MARK = "wmr-challenge"

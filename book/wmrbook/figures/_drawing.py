@@ -9,7 +9,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from wmrbook.figures.style import LINES, STYLE
-from wmrlib._checks import instance
+from wmrlib.checks import instance
 from wmrlib.runs import Trajectory
 
 SERIES = (  # the colour's role and the line style of each of up to five runs

@@ -13,7 +13,7 @@ from wmrbook.conventions import CONVENTIONS, translate
 from wmrbook.figures._drawing import check_count, note, panels, run_list
 from wmrbook.figures.paths import pose_at
 from wmrbook.figures.style import COLOURS, LINES, Picture, dart, equal_scales, new_figure
-from wmrlib._checks import instance
+from wmrlib.checks import instance
 from wmrlib.kinematics import Pose, polar_error, wrap_angle
 from wmrlib.runs import Trajectory
 

@@ -11,7 +11,7 @@ from matplotlib.ticker import LogLocator
 from wmrbook.figures._drawing import SERIES, check_series, figure_legend, note
 from wmrbook.figures.paths import play, pose_at
 from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
-from wmrlib._checks import real
+from wmrlib.checks import real
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectory
 

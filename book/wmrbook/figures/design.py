@@ -12,7 +12,7 @@ from scipy.optimize import brentq
 
 from wmrbook.figures._drawing import note
 from wmrbook.figures.style import COLOURS, Picture, new_figure
-from wmrlib._checks import choice, instance, real
+from wmrlib.checks import choice, instance, real
 from wmrlib.gains import Gains
 from wmrlib.runs import Arrival
 from wmrlib.tuning import modes

@@ -11,7 +11,7 @@ from matplotlib.patches import Circle
 from wmrbook.ellipsoid import sphere_error
 from wmrbook.figures._drawing import note
 from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure
-from wmrlib._checks import instance
+from wmrlib.checks import instance
 from wmrlib.geodesy import (
     EARTH_RADIUS_M,
     GeoPoint,

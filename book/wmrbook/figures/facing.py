@@ -10,7 +10,7 @@ import numpy as np
 from wmrbook.figures._drawing import SERIES, check_count, figure_legend, note, panels
 from wmrbook.figures.robot import draw_robot
 from wmrbook.figures.style import COLOURS, Picture, new_figure
-from wmrlib._checks import instance, real, same_shape, scalar
+from wmrlib.checks import instance, real, same_shape, scalar
 from wmrlib.kinematics import Pose
 
 _USABLE = 5.0  # deg, of a heading

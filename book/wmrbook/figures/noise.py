@@ -8,7 +8,7 @@ import numpy as np
 
 from wmrbook.figures._drawing import check_count, figure_legend
 from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
-from wmrlib._checks import instance, real, same_shape
+from wmrlib.checks import instance, real, same_shape
 
 _ROLES = "path", "y_error", "omega", "ink"
 

@@ -9,7 +9,7 @@ import numpy as np
 
 from wmrbook.figures._drawing import SERIES, check_count, check_series, figure_legend, note
 from wmrbook.figures.style import COLOURS, Picture, new_figure
-from wmrlib._checks import real
+from wmrlib.checks import real
 from wmrlib.runs import Trajectory
 
 _LEAST_DEG = 1e-3

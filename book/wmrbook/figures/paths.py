@@ -11,7 +11,7 @@ from matplotlib.lines import Line2D
 
 from wmrbook.figures._drawing import run_list
 from wmrbook.figures.style import COLOURS, LINES, Drive, Picture, dart, equal_scales, new_figure
-from wmrlib._checks import scalar
+from wmrlib.checks import scalar
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.runs import Trajectory
 

@@ -23,7 +23,7 @@ from wmrbook.figures._drawing import (
 )
 from wmrbook.figures.paths import pose_at
 from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
-from wmrlib._checks import choice, instance, real, scalar
+from wmrlib.checks import choice, instance, real, scalar
 from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectories, Trajectory
 

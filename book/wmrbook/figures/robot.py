@@ -9,7 +9,7 @@ from matplotlib.patches import Arc, FancyBboxPatch, Polygon
 
 from wmrbook.figures._drawing import note, pointer
 from wmrbook.figures.style import COLOURS, Picture, new_figure
-from wmrlib._checks import instance, scalar
+from wmrlib.checks import instance, scalar
 from wmrlib.kinematics import Pose
 
 _BODY = ((0.85, 0.0), (0.55, 0.4), (-0.55, 0.4), (-0.55, -0.4), (0.55, -0.4))  # in track widths

@@ -12,7 +12,7 @@ from wmrbook.challenge import Score, drive_cases
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
 from wmrbook.figures.paths import play
 from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
-from wmrlib._checks import instance
+from wmrlib.checks import instance
 from wmrlib.kinematics import Pose
 from wmrlib.routes import Route
 

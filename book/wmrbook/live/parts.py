@@ -7,7 +7,7 @@ from typing import Any, NamedTuple
 
 from wmrbook.live.scenes import SCENES
 from wmrbook.panel.kit import Panel
-from wmrlib._checks import choice, refusal, scalar
+from wmrlib.checks import choice, refusal, scalar
 from wmrlib.kinematics import Pose
 
 

@@ -1,6 +1,6 @@
 """What is live in a page: the Explorer, and the kit that it and the live figures are made of."""
 
-from wmrlib._checks import book_extra
+from wmrlib.checks import book_extra
 
 with book_extra("wmrbook.panel"):
     import anywidget  # noqa: F401

@@ -8,8 +8,8 @@ from typing import Any
 from wmrbook.panel.controls import FOLDED, MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS, laws_for
 from wmrbook.panel.kit import Panel
 from wmrlib import paper
-from wmrlib._checks import choice, instance, refusal, scalar
 from wmrlib.body import Wheels, checked_wheels
+from wmrlib.checks import choice, instance, refusal, scalar
 from wmrlib.gains import GENTLE_GAINS, Gains, KanayamaGains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS

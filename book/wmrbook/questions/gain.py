@@ -45,7 +45,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib._checks import refusal, scalar
+from wmrlib.checks import refusal, scalar
 
 _RESAMPLED, _SEED = 4000, 2026
 _FEW = 12  # students; below it a bootstrap's interval is too narrow

@@ -14,7 +14,7 @@ from typing import Any
 
 import wmrlib as wmr
 from wmrlib import estimation
-from wmrlib._elementary import sinc
+from wmrlib.elementary import sinc
 from wmrlib.sensing import antenna
 
 QUALITY = {0: 1, 1: 2, 2: 4}  # of a NavSatStatus, as NMEA says it

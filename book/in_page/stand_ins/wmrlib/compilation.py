@@ -1,4 +1,4 @@
-"""Stands in for wmrlib._compile in the page's Python: nothing is compiled."""
+"""Stands in for wmrlib.compilation in the page's Python: nothing is compiled."""
 
 
 def compiled(function):

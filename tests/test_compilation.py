@@ -15,7 +15,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import _compile
+from wmrlib import compilation
 
 pytestmark = pytest.mark.slow
 
@@ -123,8 +123,8 @@ def scaled(number):
 
 def compiled_again(folder, monkeypatch):
     """The result, and whether it was compiled."""
-    monkeypatch.setattr(_compile, "FOLDER", folder)
-    made = _compile.compiled(scaled)
+    monkeypatch.setattr(compilation, "FOLDER", folder)
+    made = compilation.compiled(scaled)
     return made(3.0), sum(made.stats.cache_misses.values())
 
 
@@ -168,7 +168,7 @@ def test_only_what_older_versions_compiled_is_forgotten_and_after_a_month(
     for file in {"loops.held-1.nbi", "loops.held-1.1.nbc", *others}:
         (path / file).write_text("kept")
     os.utime(path, (then, then))
-    _compile._forget_old(place)
+    compilation._forget_old(place)
     old = kind == "folder" and re.fullmatch("compiled-[0-9a-f]{16}", name) and days > 30
     assert path.exists() == (not old or bool(others))
     if path.exists():
@@ -182,7 +182,7 @@ def test_two_processes_may_forget_at_the_same_time(tmp_path, monkeypatch):
     (old / "loops.held-1.nbi").touch()
     os.utime(old, (0, 0))
     monkeypatch.setattr(Path, "unlink", lambda path: [unlink(path) for _ in range(2)])
-    _compile._forget_old(tmp_path)
+    compilation._forget_old(tmp_path)
     assert not [*old.iterdir()]
 
 
@@ -193,7 +193,7 @@ def test_processes_that_begin_at_once_all_keep_what_they_compile(monkeypatch, tm
 
     monkeypatch.setattr(Path, "exists", made_meanwhile)
     place = tmp_path / "none" / "compiled"
-    assert _compile._folder([place]) == place
+    assert compilation._folder([place]) == place
 
 
 def test_an_edit_to_any_compiled_module_and_another_compiler_lead_to_another_folder(
@@ -202,20 +202,20 @@ def test_an_edit_to_any_compiled_module_and_another_compiler_lead_to_another_fol
     users = {
         path
         for path in PACKAGE.rglob("*.py")
-        if "wmrlib._compile import" in path.read_text(encoding="utf-8")
+        if "wmrlib.compilation import" in path.read_text(encoding="utf-8")
         and path.parent.name != "symbolic"  # which prints modules that are compiled
     }
-    assert PACKAGE / "engine" / "sampled.py" in users <= set(_compile._SOURCES)
+    assert PACKAGE / "engine" / "sampled.py" in users <= set(compilation._SOURCES)
     copies = [Path(shutil.copy(path, tmp_path / f"{k}.py")) for k, path in enumerate(users)]
-    monkeypatch.setattr(_compile, "_SOURCES", copies)
-    digests = {_compile._digest()}
+    monkeypatch.setattr(compilation, "_SOURCES", copies)
+    digests = {compilation._digest()}
     for path in copies:
         path.write_text("# an edit", encoding="utf-8")
-        digests.add(_compile._digest())
+        digests.add(compilation._digest())
     monkeypatch.setattr(numba, "__version__", "0.0")
-    digests.add(_compile._digest())
+    digests.add(compilation._digest())
     monkeypatch.setattr(sys.implementation, "cache_tag", "cpython-399")
-    digests.add(_compile._digest())
+    digests.add(compilation._digest())
     assert len(digests) == len(users) + 3
 
 

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from wmrlib._compile import elementary
+from wmrlib.compilation import elementary
 
 TURN = 2.0 * math.pi
 SMALL = 1e-8  # below this, the next term of the series is under half a unit in the last place
