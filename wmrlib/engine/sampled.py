@@ -131,6 +131,8 @@ def drive_all(
         for k in range(samples):
             for i in range(used):
                 block[ALIVE, i] = 1.0 if block[LEFT, i] >= 0.0 else 0.0
+            if not block[ALIVE, :used].any():
+                break
             look(block, used, X, BRANCH, hysteresis)
             if records.shape[2] > 0:
                 for row, at in enumerate((X, Y, HEADING, RHO, ALPHA, THETA)):
