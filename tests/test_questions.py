@@ -136,7 +136,7 @@ def sent(tmp_path):
         Line("test", f"pre-{MARK}", "Cy", right[:11] + blank[11:]),
         Line("test", f"post-{MARK}", "cy", right),
         *(Line("gate", "ch04-sign", *each) for each in ("AL", "BR", "CL")),
-        *(Line("gate", "ch07-gain", *each) for each in (("A", "10"), ("B", "9.0"), "C9")),
+        *(Line("gate", "ch06-gain", *each) for each in (("A", "10"), ("B", "9.0"), "C9")),
         *(Line("gate", "ch08-step", f"n{k}", f"{k / 8:.3f}") for k in range(17)),
         Line("test", f"mid-{MARK}", "Dee", right),
         Line("test", "pre-0000", "Dee", right),
@@ -162,7 +162,7 @@ def test_a_class_file_becomes_histograms_of_choices_and_of_numbers(sent):
     assert groups["test pre"][0].right == KEYS[0]
     assert groups["test pre"][-1].counts[-1] == 2
     assert groups["gate ch04-sign"][0][1:3] == (("L", "R"), (2, 1))
-    assert groups["gate ch07-gain"][0][1:3] == (("9", "10"), (2, 1))
+    assert groups["gate ch06-gain"][0][1:3] == (("9", "10"), (2, 1))
     assert groups["predict turning_centre"][0][1:3] == (("0", "2"), (2, 1))
     (steps,) = groups["gate ch08-step"]
     assert (sum(steps.counts), steps.labels[0][:4]) == (17, "0 to")

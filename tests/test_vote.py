@@ -215,7 +215,7 @@ def test_no_more_devices_than_a_question_counts():
 
 
 def test_slides_that_give_options_are_voted_on():
-    _, deck = slides.deck("07")
+    _, deck = slides.deck("06")
     asked = [found for slide in deck if (found := question_of(slide))]
     assert len(asked) >= 2
     assert "<i>k<sub>&alpha;</sub></i>" in asked[0].options[1]

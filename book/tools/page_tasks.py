@@ -22,7 +22,7 @@ TASKS = {
     "03": ("polar", "tail-model", "our-gains"),
     "04": ("V-rate", "turning", "V-rate-closed", "rising"),
     "05": ("law", "axes"),
-    "06": ("law", "twist"),
+    "07": ("law", "twist"),
     "09": ("radius", "averaging"),
     "10": ("claim23", "claim26", "rule", "digits"),
     "11": ("compass", "ticks", "safe"),

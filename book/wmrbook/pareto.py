@@ -1,4 +1,4 @@
-"""Choices that no other one beats in every respect (chapter 7)."""
+"""Choices that no other one beats in every respect (chapter 6)."""
 
 from __future__ import annotations
 

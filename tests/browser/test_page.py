@@ -159,7 +159,7 @@ def test_one_switch_unfolds_the_code_of_every_chapter_and_no_word_for_it_lies_un
         assert max(page.evaluate(ends)) < contents, width
     page.get_by_role("button", name="Show all code").click()
     assert all(page.evaluate(folded))
-    page = opened("notebooks/06_the_circle.html")
+    page = opened("notebooks/07_the_circle.html")
     assert all(page.evaluate(folded))
     page.get_by_role("button", name="Fold all code").click()
     assert not any(opened("notebooks/02_the_robot.html").evaluate(folded))

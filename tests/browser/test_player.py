@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 from live import chapters
 
-PLAYERS = {"00": 1, "05": 1, "06": 1, "12": 2}
+PLAYERS = {"00": 1, "05": 1, "07": 1, "12": 2}
 # Where on its canvas something is drawn: the middle of it, in parts of its size.
 DRAWN = """player => {
   const box = [player.previousElementSibling, player.previousElementSibling.previousElementSibling]

@@ -1,4 +1,4 @@
-"""Chapter 6: robots that follow a moving reference, and what is left of their distance from it."""
+"""Chapter 7: robots that follow a moving reference, and what is left of their distance from it."""
 
 from __future__ import annotations
 

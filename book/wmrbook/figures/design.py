@@ -1,4 +1,4 @@
-"""Chapter 7: where the poles lie, how the angles settle, and what each choice of gains costs."""
+"""Chapter 6: where the poles lie, how the angles settle, and what each choice of gains costs."""
 
 from __future__ import annotations
 

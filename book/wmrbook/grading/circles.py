@@ -37,7 +37,7 @@ def residual_known(left_behind: Callable) -> str:
         mistakes = {
             "the distance comes out negative: the logarithm of a number below 1 is.": -right,
             "`log10` undoes 10^x; (22) has an exponential.": right / math.log(10.0),
-            "this is (6.2), for a law that knows nothing of the goal's speed.": distance(speed),
+            "this is (7.2), for a law that knows nothing of the goal's speed.": distance(speed),
             "which part of the speed must the error bring about: "
             "the part that is told, or the other one?": distance(share * speed),
             "this holds for a slow goal only: (22) is not proportional to rho.": slow,
@@ -180,7 +180,7 @@ def twist_properties(reference_twist: Callable) -> str:
         expect(abs(straight) < 1e-9, hint)
     turn, speed = 2.0 * math.pi / paper.CIRCLE_PERIOD, paper.CIRCLE_SPEED
     v, omega = ask_numbers(reference_twist, 2, 0.0, speed, -speed * turn, 0.0)
-    hint = "at t = 0 of (6.1) the twist is not the paper's circle's."
+    hint = "at t = 0 of (7.1) the twist is not the paper's circle's."
     expect(close(v, speed) and close(omega, turn), hint)
     circle = f"the paper's circle has {v:.3f} m/s and {omega:.3f} rad/s."
     return f"Frames, speeds and mirrors agree; {circle}"

@@ -88,7 +88,7 @@ def poles_properties(gains_from_poles: Callable) -> str:
         other = _three_gains(gains_from_poles, *poles, 2.0 * v_max)
         hint = "with the poles given, k_alpha and h must not depend on v_max."
         expect(np.allclose(other[1:], gains[1:], rtol=1e-9), hint)
-        hint = "twice v_max and the same poles: look at (7.1) for what k_rho must do."
+        hint = "twice v_max and the same poles: look at (6.1) for what k_rho must do."
         expect(close(2.0 * other[0], gains[0]), hint)
     return "Swapped, sped up and with another v_max: the gains do what their units say."
 
@@ -211,23 +211,23 @@ def _explain_gains(values: tuple, poles: tuple, v_max: float) -> None:
     distance, total, product = poles[0], (poles[1] + poles[2]).real, (poles[1] * poles[2]).real
     mistakes = {
         "k_rho is negative: the distance falls at a rate, its pole is minus that.": minus,
-        "k_rho is the rate itself; (7.1) has one more factor.": -distance,
+        "k_rho is the rate itself; (6.1) has one more factor.": -distance,
     }
     rule_out(k_rho, mistakes)
     right = minus * -1.0, -total, product / distance**2
     slip(values, right, "(k_rho, k_alpha, h)")
-    hint = "k_rho does not put the distance's pole where it is asked for: see (7.1)."
+    hint = "k_rho does not put the distance's pole where it is asked for: see (6.1)."
     expect(close(k_rho, -distance / v_max), hint)
     multiply = "multiply (s - p_1)(s - p_2) out, and compare"
-    hint = "k_alpha is negative: compare the sign of s in (7.2) with that in (s - p_1)(s - p_2)."
+    hint = "k_alpha is negative: compare the sign of s in (6.2) with that in (s - p_1)(s - p_2)."
     rule_out(k_alpha, {hint: total})
-    expect(close(k_alpha, -total), f"k_alpha is wrong: {multiply} with (7.2).")
+    expect(close(k_alpha, -total), f"k_alpha is wrong: {multiply} with (6.2).")
     root = math.sqrt(abs(product)) / -distance
     mistakes = {
-        "your h is all that (7.2) has without an s; a part of that is the distance's.": product,
-        "h is the root of what it should be: see (7.3).": root,
+        "your h is all that (6.2) has without an s; a part of that is the distance's.": product,
+        "h is the root of what it should be: see (6.3).": root,
     }
     rule_out(h, mistakes)
     hint = "h is right for a complex pair, but not for two different real poles."
     expect(not any(close(h, abs(pole) ** 2 / distance**2) for pole in poles[1:]), hint)
-    expect(False, f"h is wrong: {multiply} what has no s with (7.2).")
+    expect(False, f"h is wrong: {multiply} what has no s with (6.2).")

@@ -184,7 +184,7 @@ def home(name: str) -> Drive:
 
 
 def tuned(name: str) -> Drive:
-    """The drive of task 7.3."""
+    """The drive of task 6.3."""
     return _drive(tuned, name, v_max=4.0, time=19.0, heading_deg=2.0, omega=1.0)
 
 

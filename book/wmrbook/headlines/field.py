@@ -1,4 +1,4 @@
-"""Headlines of chapters 6 and 7: the circle, gains."""
+"""Headlines of chapters 7 and 6: the circle, gains."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ STARTS = {"far": (0.1, 5.0), "aim": ROUND}
 ROUNDED = "Everything from 2.5 to 6.9 m/s rounds to 0.1 m"
 
 
-@headline("06", WHATEVER, at_most=0.004, unit="m", **STARTS, **SETS)
+@headline("07", WHATEVER, at_most=0.004, unit="m", **STARTS, **SETS)
 def residual_off(far, aim, turned, h, k_alpha, v_max):
     gains = CIRCLE._replace(h=h, k_alpha=k_alpha, v_max=v_max)
     run = wmr.track(paper.circle, off_goal(far, aim, turned), gains, dt=0.02, duration=40.0)
@@ -38,7 +38,7 @@ def residual_off(far, aim, turned, h, k_alpha, v_max):
     return off if abs(run.alpha[-1]) < 0.1 else 0.0  # some back after the goal, at an angle
 
 
-@headline("06", ROUNDED, at_least=0.05, at_most=0.15, unit="m", v_max=(2.54, 6.9), **STARTS)
+@headline("07", ROUNDED, at_least=0.05, at_most=0.15, unit="m", v_max=(2.54, 6.9), **STARTS)
 def tenth_of_a_metre(v_max, far, aim):
     gains, start = CIRCLE._replace(v_max=v_max), off_goal(far, aim, 0.0)
     return wmr.residual(wmr.track(paper.circle, start, gains, duration=40.0))
@@ -65,7 +65,7 @@ NEARBY = "Within half a metre of the goal and 60 deg of its heading, feed-forwar
 NEAR = LIMITS | {"far": (0.05, 0.5), "turned": (-60.0, 60.0)}
 
 
-@headline("06", NEARBY, at_least=1.0, before=FIRST, **NEAR)
+@headline("07", NEARBY, at_least=1.0, before=FIRST, **NEAR)
 def feed_forward_first(far, turned, limit, most, seed, aim):
     given = seed, limit, most, off_goal(far, aim, turned)
     others = min(rms_distances(law, *given) for law in ("corrected", "aicardi"))
@@ -84,7 +84,7 @@ BELOW_29 = Before("A step must stay below twice that, 29 ms", OFF, at_most=29.5)
 BELOW = "so it shrinks below 34.7 ms"
 
 
-@headline("06", BELOW, at_least=34.5, at_most=34.8, unit="ms", before=BELOW_29, **OFF)
+@headline("07", BELOW, at_least=34.5, at_most=34.8, unit="ms", before=BELOW_29, **OFF)
 def longest_step_behind(off):
     low, high = 0.02, 0.05
     for _ in range(9):
@@ -96,7 +96,7 @@ def longest_step_behind(off):
 
 
 @headline(
-    "06",
+    "07",
     "A micrometre aside, the steering fails first, between 30 and 31 ms",
     straight=[True, False],
     aside=(1e-7, 1e-5),
@@ -116,7 +116,7 @@ GAIN_1 = {"k_x": [1.0], "far": (0.05, 3.0), "aim": ROUND}
 ANY_GAIN = Before(TRUTH, GAIN_1 | {"k_x": (0.5, 4.0)}, **LEFT)
 
 
-@headline("06", TOLD, unit="m", before=ANY_GAIN, **LEFT, **GAIN_1)
+@headline("07", TOLD, unit="m", before=ANY_GAIN, **LEFT, **GAIN_1)
 def told_too_little(k_x, far, aim):
     def announced(t):
         return (goal := paper.circle(t))._replace(v=0.9 * goal.v)
@@ -130,7 +130,7 @@ NONE = Before("12 of the 640 beat the paper's gains at 5 cm and none", {"axis": 
 BEAT = "12 of the 640 beat the paper's gains at 5 cm with $x$ east, 2 with $x$ north"
 
 
-@headline("07", BEAT, at_least=2, at_most=12, axis=AXES, before=NONE)
+@headline("06", BEAT, at_least=2, at_most=12, axis=AXES, before=NONE)
 @cache
 def beaten(axis):
     case, plain = paper.outdoor(x_axis=axis), {"arrival_radius": 0.05, "progress": False}
@@ -151,7 +151,7 @@ WITHIN_1 = (
 WAYS = {"axis": AXES, "radius": (0.01, 0.05), "heading": (0.5, 2.5)}
 
 
-@headline("07", r"it does exactly when $2 < k_\alpha/\lambda < 1 + h$", **POSITIVE)
+@headline("06", r"it does exactly when $2 < k_\alpha/\lambda < 1 + h$", **POSITIVE)
 def heading_first(k_rho, k_alpha, h, v_max):
     slower = wmr.modes(wmr.Gains(k_rho, k_alpha, h, v_max)).slower
     return (2 < k_alpha / (v_max * k_rho) < 1 + h) == (slower < 1)
@@ -162,7 +162,7 @@ SCALED = {"distance": (0.5, 20.0), "alpha": ROUND, "theta": ROUND, "kappa": (0.3
 SCALES = {"h": (0.1, 6.0), "k_rho": (0.1, 5.0), "v_max": (0.2, 8.0)}
 
 
-@headline("07", SAME_PATH, at_most=1e-6, **SCALED, **SCALES)
+@headline("06", SAME_PATH, at_most=1e-6, **SCALED, **SCALES)
 def scaled_apart(distance, alpha, theta, kappa, h, k_rho, v_max):
     ends = []
     for size, speed in ((1.0, 1.0), (1 / k_rho, v_max)):
@@ -174,13 +174,13 @@ def scaled_apart(distance, alpha, theta, kappa, h, k_rho, v_max):
     return np.abs(np.divide(*ends) - 1).max()
 
 
-@headline("07", r"$h = \kappa^2/4$, enters it at $\kappa = 2$ only", kappa=(0.01, 20.0))
+@headline("06", r"$h = \kappa^2/4$, enters it at $\kappa = 2$ only", kappa=(0.01, 20.0))
 def enters_at_two(kappa):
     at = wmr.modes(wmr.Gains(1.0, kappa, kappa**2 / 4, 1.0))
     return math.isclose(at.damping, 1.0) and (at.slower < 1) == (kappa > 2)
 
 
-@headline("07", NO_FASTER, at_most=0.5 + 1e-9, unit="1/s", **POSITIVE | {"k_alpha": [1.0]})
+@headline("06", NO_FASTER, at_most=0.5 + 1e-9, unit="1/s", **POSITIVE | {"k_alpha": [1.0]})
 def no_h_is_faster(k_rho, k_alpha, h, v_max):
     return wmr.modes(wmr.Gains(k_rho, k_alpha, h, v_max)).heading_rate
 
@@ -194,13 +194,13 @@ def settled_deg(gains, radius, case=None, **how):
 
 
 @headline(
-    "07", FROM_THERE, at_least=59.0, at_most=60.5, unit="deg", radius=(0.01, 0.3), dt=(0.002, 0.01)
+    "06", FROM_THERE, at_least=59.0, at_most=60.5, unit="deg", radius=(0.01, 0.3), dt=(0.002, 0.01)
 )
 def sixty_degrees(radius, dt):
     return settled_deg(GAINS, radius, dt=dt)
 
 
-@headline("07", WITHIN_1, at_most=1.0, unit="deg", **WAYS)
+@headline("06", WITHIN_1, at_most=1.0, unit="deg", **WAYS)
 def twice_as_fast(axis, radius, heading):
     case = paper.outdoor(x_axis=axis)
     case = case._replace(start=case.start._replace(heading=heading))

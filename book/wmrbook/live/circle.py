@@ -1,4 +1,4 @@
-"""Chapter 6: behind a goal that drives round a circle."""
+"""Chapter 7: behind a goal that drives round a circle."""
 
 from __future__ import annotations
 
@@ -31,7 +31,7 @@ def lag() -> Live:
     }
     return Live(
         "lag",
-        f"For *k_rho* and *v_max* (6.2) below says [-ln(1 - {paper.CIRCLE_SPEED:.3f} / {{v_max!}}) "
+        f"For *k_rho* and *v_max* (7.2) below says [-ln(1 - {paper.CIRCLE_SPEED:.3f} / {{v_max!}}) "
         "/ {k_rho!} = {predicted}]; the robot stays {residual} behind.",
         {
             "k_rho": Knob(gains.k_rho, 1.0, 8.0, 0.1, "pull of the goal, k_rho", "1/m", "k_rho"),

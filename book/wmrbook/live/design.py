@@ -1,4 +1,4 @@
-"""Chapter 7: poles, gains, and the robot that has them."""
+"""Chapter 6: poles, gains, and the robot that has them."""
 
 from __future__ import annotations
 

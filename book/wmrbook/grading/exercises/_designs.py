@@ -145,7 +145,7 @@ def braking(answer: Any) -> str:
 
 @exercise
 def one_centimetre(answer: Any) -> str:
-    """6.1: k_rho that leaves 1 cm, and the step below which a robot exactly behind settles."""
+    """7.1: k_rho that leaves 1 cm, and the step below which a robot exactly behind settles."""
     gain, step = numbers("`answer`", answer, 2)
     expect(gain > 0.0, _POSITIVE)
     wanted = -math.log(1.0 - paper.CIRCLE_SPEED / 4.0) / 0.01
@@ -168,7 +168,7 @@ def one_centimetre(answer: Any) -> str:
 
 @exercise
 def kanayama(V_rate: Any) -> str:
-    """6.2: V' along (6.3) under (6.4), of the errors, v_ref and the gains."""
+    """7.2: V' along (7.3) under (7.4), of the errors, v_ref and the gains."""
     e_x, e_y, e_h = sp.symbols("e_x e_y e_h", real=True)
     k_x, k_y, k_h = sp.symbols("k_x k_y k_h", positive=True)
     along, across = -k_x * e_x**2, -k_h / k_y * v_ref * sp.sin(e_h) ** 2
@@ -179,17 +179,17 @@ def kanayama(V_rate: Any) -> str:
         "V has 1 - cos(e_h) over k_y.": along + k_y * across,
         "the angle need not be small: where is its sine?": along
         + across * (e_h / sp.sin(e_h)) ** 2,
-        "one error is still missing: what does (6.4) do about e_h?": along,
+        "one error is still missing: what does (7.4) do about e_h?": along,
     }
     symbols = (e_x, e_y, e_h, v_ref, omega_ref, k_x, k_y, k_h)  # e_y and omega_ref go out
-    hint = "differentiate V, put (6.3) in for the rates, and (6.4) for v and omega."
+    hint = "differentiate V, put (7.3) in for the rates, and (7.4) for v and omega."
     _expect_rate(V_rate, along + across, symbols, mistakes, hint)
     return "Right: it is never positive, whatever the goal's turn, as long as it drives forwards."
 
 
 @exercise
 def told_too_little(answer: Any) -> str:
-    """6.3: how far ahead a goal stays whose speed is announced 10 % too low."""
+    """7.3: how far ahead a goal stays whose speed is announced 10 % too low."""
     value, speed = number("`answer`", answer), paper.CIRCLE_SPEED
     turning = 2.0 * math.pi / paper.CIRCLE_PERIOD
     right = 0.1 * speed / (1.0 + turning**2 / speed)
@@ -204,7 +204,7 @@ def told_too_little(answer: Any) -> str:
             "rate to zero too.": 0.1 * speed,
         }
         near = partial(close, relative=0.006)  # the first and the last are that close
-        explain(value, mistakes, "where are all three rates of (6.3) zero?", near)
+        explain(value, mistakes, "where are all three rates of (7.3) zero?", near)
     return "Right: feed-forward is as good as what it is told."
 
 

@@ -1,5 +1,5 @@
 // Behind a goal that drives round: a camera rides with the goal, and shows the distance that is
-// left; beside it that distance over time, and what (6.2) says of it.
+// left; beside it that distance over time, and what (7.2) says of it.
 
 import { driven, live, onStops, poseAt, summarise, within, written } from '../drawing.js';
 
@@ -39,14 +39,14 @@ export default live('lag', {
     picture.text(written(run.rho[k], 'm'), (x + goal[0]) / 2, (y + goal[1]) / 2,
         { role: 'rho', dx: 40 * Math.sin(goal[2]), dy: -40 * Math.cos(goal[2]), align: 'center' });
     distance.line([[0, predicted], [40, predicted]], 'start', { width: 1.5, dash: [6, 4] });
-    distance.text('(6.2)', 39, predicted, { role: 'start', dy: 11, align: 'right' });
+    distance.text('(7.2)', 39, predicted, { role: 'start', dy: 11, align: 'right' });
     distance.path(run.t, run.rho, 'rho');
     distance.dot(run.t[k], run.rho[k], 'rho');
   },
   handles: ({ v_max }, { predicted }, setup) => [{
     id: 'predicted', pane: 'distance', at: [34, predicted],
     says: `the distance that stays, ${written(predicted, 'm')}`,
-    // the k_rho with which (6.2) says this distance
+    // the k_rho with which (7.2) says this distance
     move: (x, y) => onStops(setup,
         { k_rho: -Math.log(1 - setup.data.speed / v_max) / Math.max(y, 0.01) }),
   }],
