@@ -92,7 +92,6 @@ PARK = wmr.Pose(9.0, 57.0, 1.0)
 SPREAD = np.random.default_rng(4).normal(0.0, 0.2, (2, 300))
 ENDS = wmr.Pose(9.0 + SPREAD[0], 57.0 + SPREAD[1], 1.0 + np.linspace(-3.1, 3.1, 300))
 MEMORY = np.array([0.0, 3.0, 1e9])  # s
-OFF_DEG = {"one": np.array([[1, 1], [9, -4], [3, 40.0]]), "two": np.full((3, 2), math.nan)}
 MANY = np.array([0.0, 3.0, 30.0, 300.0])  # s
 FOUND = {  # distance, m, and heading error, deg
     "10 Hz": (np.array([0.2, 0.5, 1.4]), np.array([80.0, 91.0, 12.0])),
@@ -164,7 +163,6 @@ CASES = {
     "verdicts": lambda: figures.verdicts(
         {"equations": {"holds": 21, "typo": 3}, "figures": {"holds": 7, "typo": 0}}
     ),
-    "body_windows": lambda: figures.body_windows([1.0, 2.5, 3.0], [1.0, 3.0], OFF_DEG),
     "route": lambda: figures.route(route("mixed")),
     "route, stuck": lambda: figures.route(route("stuck")),
     "route, one pose": lambda: figures.route(route("point")),
@@ -274,7 +272,6 @@ SAYS = {  # what the text must say, in numbers that come from elsewhere
     ],
     "designs": lambda: ["with 4 receivers: one, 0.0 to 3.0 m and 30.0 to 60.0 deg."],
     "verdicts": lambda: ["equations: 21 holds, 3 typo; figures: 7 holds."],
-    "body_windows": lambda: ["h as lines: one 1 of the 2 gains inside; two 0 of the 2 gains"],
     "route": lambda: [
         "Path from (0.0, 0.0) m to (",
         "3 of 3 waypoints reached, 2 to stop at and 1 to pass "

@@ -23,7 +23,7 @@ from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile, ZipInfo
 
 import nbformat
-from kit import bundle, bundle_physics, bundled
+from kit import bundle, bundled
 from nbformat import NotebookNode
 from pdf import find_browser, print_book
 from python_pack import IN_PAGE, write_scripts
@@ -60,7 +60,6 @@ def main(output: Path, pdf: bool = False, whole: bool = False, lecturer: bool = 
     copy_javascript(VENDOR)
     bundle(VENDOR / "panels.js")
     bundled("export * from './editor.js';", IN_PAGE, VENDOR / "editor.js", "wmrEditor")
-    bundle_physics(VENDOR / "mujoco.js")
     say("the Python for the pages")
     write_scripts(VENDOR / "python", MODULES)
     for stale in ("source", "html", "singlehtml", "doctrees"):  # Sphinx keeps deleted pages

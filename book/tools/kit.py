@@ -5,8 +5,6 @@ As a module, make the kit one script for pages from the disk.
 
 from __future__ import annotations
 
-import base64
-import gzip
 import os
 import shutil
 import subprocess
@@ -14,12 +12,11 @@ import sys
 from pathlib import Path
 
 from wmrbook import face, live
-from wmrbook.panel import Explorer, Front, MyRobot, Rover
+from wmrbook.panel import Explorer, Front, MyRobot
 from wmrbook.panel.kit import KIT, programs
 from wmrlib import symbolic
 
 MODULES = Path(__file__).parents[1] / "node_modules"
-LICENCE = MODULES.with_name("in_page") / "mujoco_LICENSE.txt"
 # The kit is a function, which the worker of a map is made of too: a page from the disk may have no
 # module as a worker. What it makes is where loader.js looks first.
 BEGIN = "(function wmrKit() {"
@@ -37,7 +34,7 @@ export function shown() {{
 def printed() -> dict[str, str]:
     """The texts of the modules that are printed, by name."""
     drawings = [getattr(live, name)() for name in sorted(set(live.__all__) - live.PARTS)]
-    panels = Explorer(), Front(), MyRobot(), Rover(), *drawings
+    panels = Explorer(), Front(), MyRobot(), *drawings
     rows = "".join(f"  '{it.program}': '{it.contract}',\n" for it in panels)
     head = "// Printed by book/tools/kit.py: the contract of what is stored for each program.\n"
     contracts = f"{head}export const CONTRACTS = {{\n{rows}}};\n"
@@ -56,21 +53,6 @@ def bundle(script: Path) -> None:
     entry = ENTRY.format(imports=imports, programs=shown)
     options = ["--loader:.css=text", f"--banner:js={BEGIN}", f"--footer:js={END}"]
     bundled(entry, KIT, script, "kit", *options, '--define:import.meta.url=""')
-
-
-def bundle_physics(script: Path) -> None:
-    """Write MuJoCo as a script that a page may load from the disk: its program packed, in base64.
-
-    npm's package (Apache-2.0) lacks its licence, which is put beside it.
-    """
-    folder = MODULES / "@mujoco" / "mujoco"
-    entry = "export { default as start } from './mujoco.js';"
-    options = ["--external:module", '--define:import.meta.url=""']  # Node alone asks for that
-    bundled(entry, folder, script, "wmrMujoco", *options)
-    packed = gzip.compress((folder / "mujoco.wasm").read_bytes(), mtime=0)
-    with script.open("a", encoding="utf-8") as file:
-        file.write(f'wmrMujoco={{...wmrMujoco,wasm:"{base64.b64encode(packed).decode()}"}};\n')
-    shutil.copy(LICENCE, script.parent)
 
 
 def bundled(entry: str, folder: Path, script: Path, name: str, *options: str) -> None:

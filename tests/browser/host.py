@@ -42,7 +42,7 @@ COLOURS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].m
 })"""
 FIGURES = """() => Object.fromEntries([...document.querySelectorAll('[data-figure]')]
     .map(it => [it.dataset.figure, it.children[1].textContent]))"""
-FOUND = """() => JSON.stringify(document.querySelector('.live, .my-robot, .rover').found,
+FOUND = """() => JSON.stringify(document.querySelector('.live, .my-robot').found,
     (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
 TRAITS = ("program", "contract", "state", "setup", "_esm")
 

@@ -34,7 +34,7 @@ ALL_THERE = """theme => [...document.querySelectorAll(`img.only-${theme}`)]
     .every((it, _, all) => all.length > 5 && it.complete && it.naturalWidth)"""
 # Of pages with what is wide: the ends of the sheet's ranges of widths.
 SIDEWAYS = dict.fromkeys(
-    ("rover.html", "lawn.html", "notebooks/10_the_audit.html"),
+    ("lawn.html", "notebooks/10_the_audit.html"),
     (600, 992, 1024, 1199, 1200, 1366, 1699, 1700),
 )
 TEXTS = {path.stem for path in (ROOT / "book").glob("*.md")} - {"design", "lecturers"}
@@ -42,7 +42,7 @@ NAMES = [
     *(f"{name}.html" for name in sorted(TEXTS | {"genindex", "search"})),
     *(f"notebooks/{path.stem}.html" for path in chapters()),
 ]
-SOME = "index", "my_robot", "notebooks/04", "notebooks/05", "rover"  # all others are slow
+SOME = "index", "my_robot", "notebooks/04", "notebooks/05"  # all others are slow
 
 
 def test_these_are_all_pages(site):

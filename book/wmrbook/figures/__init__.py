@@ -25,7 +25,6 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "sampling": ["inner_loops", "time_steps"],
         "noise": ["at_rest", "designs", "memories"],
         "audit": ["verdicts"],
-        "body": ["body_windows"],
         "routes": ["challenge_paths", "route"],
         "other_laws": ["heading_powers", "last_turns"],
     },

@@ -8,4 +8,3 @@ with book_extra("wmrbook.panel"):
 from wmrbook.panel.explorer import Explorer  # noqa: F401
 from wmrbook.panel.front import Front  # noqa: F401
 from wmrbook.panel.my_robot import MyRobot  # noqa: F401
-from wmrbook.panel.rover import Rover  # noqa: F401

@@ -27,7 +27,6 @@ def programs() -> list[str]:
         "explorer",
         "front",
         "my_robot",
-        "rover",
         *(f"live/{path.stem}" for path in sorted(KIT.glob("live/*.js"))),
     ]
 

@@ -3,7 +3,6 @@ export const CONTRACTS = {
   'explorer': 'a7b10af4',
   'front': '76d67975',
   'my_robot': '02ef3a6e',
-  'rover': '3743f828',
   'live/bearing': '60e78b54',
   'live/bench': '172890bf',
   'live/bowl': '1801ab77',

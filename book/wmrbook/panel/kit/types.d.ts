@@ -9,8 +9,6 @@ declare var wmrPython: undefined | {
   answer(code: string, say: (text: string) => void, gone: () => boolean): Promise<string>;
   stop(): void;
 };
-/** MuJoCo, once a page has loaded it, see book/tools/kit.py. */
-declare var wmrMujoco: undefined | { start(options: any): Promise<any>; wasm: string };
 /** What a figure found, for tests. */
 interface HTMLDivElement { found?: any }
 interface HTMLElement { grips?: Map<string, any> }
