@@ -14,8 +14,9 @@ import re
 import textwrap
 from types import FunctionType
 
+from wmrbook.chapters import routes
 from wmrbook.questions import MAKERS, Refusal
-from wmrlib import _filter, geodesy, kinematics, laws, motion, routes, tuning
+from wmrlib import _filter, geodesy, kinematics, laws, motion, tuning
 
 HEADING = (laws.corrected_law, "+ gains.h * theta", "- gains.h * theta")
 SPEED = (laws.corrected_law, "gains.v_max * decay", "-gains.v_max * decay")

@@ -14,9 +14,10 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
+from wmrbook.chapters import routes
+from wmrbook.chapters.pareto import pareto
 from wmrbook.conventions import gains_near_goal, translate
 from wmrbook.ellipsoid import sphere_error
-from wmrbook.pareto import pareto
 
 PAPER = wmr.paper.outdoor()
 POINT, OTHER = wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2
@@ -62,10 +63,10 @@ VALID = {
     | {"sight": 0.1},
     wmr.arrival: {"trajectory": RUN},
     wmr.residual: {"trajectory": RUN, "last": 1.0},
-    wmr.headings_along: {"x": [0.0, 1.0], "y": [0.0, 1.0]},
-    wmr.route_poses: {"points": LINE, "headings": [0.0, 1.0], "origin": POINT},
-    wmr.route_points: {"route": wmr.drive_route(WAY, GAINS), "origin": POINT},
-    wmr.drive_route: {"poses": WAY, "gains": GAINS, "start": ORIGIN, "stop": True}
+    routes.headings_along: {"x": [0.0, 1.0], "y": [0.0, 1.0]},
+    routes.route_poses: {"points": LINE, "headings": [0.0, 1.0], "origin": POINT},
+    routes.route_points: {"route": routes.drive_route(WAY, GAINS), "origin": POINT},
+    routes.drive_route: {"poses": WAY, "gains": GAINS, "start": ORIGIN, "stop": True}
     | {"duration": 1.0, "arrival_radius": 0.1, "pass_radius": 1.0},
     wmr.modes: {"gains": GAINS, "law": "corrected"},
     wmr.paper.outdoor: {"x_axis": "east"},

@@ -10,7 +10,7 @@ from scipy.optimize import minimize_scalar
 from scipy.stats import multivariate_normal
 
 import wmrlib as wmr
-from wmrbook import at_rest
+from wmrbook.chapters import at_rest
 
 LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox-zed-f9p-standing.ubx"
 

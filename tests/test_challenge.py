@@ -13,8 +13,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrbook import challenge
-from wmrbook.challenge import Case, Challenge, drive_cases, from_seed, rounded, score
+from wmrbook.chapters import challenge
+from wmrbook.chapters.challenge import Case, Challenge, drive_cases, from_seed, rounded, score
 
 PAPER, GENTLE = wmr.paper.OUTDOOR_GAINS, wmr.GENTLE_GAINS
 GOOD, WILD = wmr.Gains(0.128, 1.089, 1.42, 7.528), wmr.Gains(5.0, 0.1, 5.0, 20.0)
@@ -239,7 +239,7 @@ def test_plain_python_scores_the_same():
     """Without the compiler, which contracts products and sums, every run is rounded differently."""
     chosen = [PAPER, GENTLE, GOOD, WILD, wmr.paper.CIRCLE_GAINS]
     code = (
-        "import json, sys; from wmrlib import Gains; from wmrbook.challenge import score\n"
+        "import json, sys; from wmrlib import Gains; from wmrbook.chapters.challenge import score\n"
         "print(json.dumps([score(Gains(*each)).total for each in json.loads(sys.argv[1])]))"
     )
     command = [sys.executable, "-c", code, json.dumps(chosen)]

@@ -12,8 +12,9 @@ from looks import heading_of, pixels_of
 from matplotlib.colors import same_color
 
 import wmrlib as wmr
-from wmrbook import challenge, figures
-from wmrbook.pareto import pareto
+from wmrbook import figures
+from wmrbook.chapters import challenge, routes
+from wmrbook.chapters.pareto import pareto
 from wmrlib import paper
 
 GAINS, CIRCLE_GAINS, GENTLE = paper.OUTDOOR_GAINS, paper.CIRCLE_GAINS, wmr.GENTLE_GAINS
@@ -69,12 +70,12 @@ def route(kind):
     way = wmr.Pose(*np.array([(0, 0, 0.1), (25, 2, 0.8), (30, 30, 2.0), (0, 40, 3.0)], float).T)
     gains = wmr.Gains(0.4, 2.0, 1.0, 3.0)
     if kind == "mixed":
-        return wmr.drive_route(way, gains, stop=[False, True, True])
+        return routes.drive_route(way, gains, stop=[False, True, True])
     if kind == "stuck":
-        return wmr.drive_route(way._replace(y=np.array([0, 2, 90, 95.0])), gains, duration=20.0)
+        return routes.drive_route(way._replace(y=np.array([0, 2, 90, 95.0])), gains, duration=20.0)
     if kind == "lost":
-        return wmr.drive_route(way, wmr.Gains(1e308, 1e308, 1e308, 1e308))
-    return wmr.drive_route(wmr.Pose(3.0, 4.0, 1.0), gains, start=wmr.Pose(3.0, 4.0, 1.0))
+        return routes.drive_route(way, wmr.Gains(1e308, 1e308, 1e308, 1e308))
+    return routes.drive_route(wmr.Pose(3.0, 4.0, 1.0), gains, start=wmr.Pose(3.0, 4.0, 1.0))
 
 
 @cache

@@ -11,6 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
+from wmrbook.chapters import routes
 
 GENTLE = wmr.Gains(k_rho=0.4, k_alpha=2.0, h=1.0, v_max=3.0)
 SQUARE = wmr.Pose(
@@ -32,14 +33,14 @@ lines = st.lists(st.tuples(metres, metres), min_size=2, max_size=5).map(np.array
 
 
 def test_headings_by_hand():
-    degrees = np.degrees(wmr.headings_along([0, 10, 10, 0], [0, 0, 1, 1]))
+    degrees = np.degrees(routes.headings_along([0, 10, 10, 0], [0, 0, 1, 1]))
     np.testing.assert_allclose(degrees, [0, 45, 135, 180])
     for angle in np.linspace(-3.0, 3.0, 7):  # a hairpin is taken to the left
         x, y = np.cos(angle) * np.array([1, 7, 1]), np.sin(angle) * np.array([1, 7, 1])
         expected = [angle, angle + math.pi / 2, angle + math.pi]
-        np.testing.assert_allclose(np.cos(wmr.headings_along(x, y) - expected), 1.0)
-    assert wmr.headings_along(3.0, 4.0).tolist() == [0.0]
-    assert wmr.headings_along([3.0] * 3, [4.0] * 3).tolist() == [0.0] * 3
+        np.testing.assert_allclose(np.cos(routes.headings_along(x, y) - expected), 1.0)
+    assert routes.headings_along(3.0, 4.0).tolist() == [0.0]
+    assert routes.headings_along([3.0] * 3, [4.0] * 3).tolist() == [0.0] * 3
 
 
 @given(lines, st.data())
@@ -49,7 +50,7 @@ def test_headings_bisect_the_turns(points, data):
     assume(np.hypot(*legs.T).min() > 3.0)
     turns = [math.atan2(a[0] * b[1] - a[1] * b[0], a @ b) for a, b in pairwise(legs)]
     assume(np.abs(turns).max(initial=0.0) < 3.0)  # no hairpin
-    headings = wmr.headings_along(x, y)
+    headings = routes.headings_along(x, y)
     direction = np.arctan2(np.diff(y), np.diff(x))
     ends = wmr.wrap_angle(headings[[0, -1]] - direction[[0, -1]])
     np.testing.assert_allclose(ends, 0.0, atol=1e-12)
@@ -63,7 +64,7 @@ def test_headings_bisect_the_turns(points, data):
     np.testing.assert_allclose(summed, 0.0, atol=1e-7)
     # points that repeat change nothing
     count = np.array(data.draw(st.lists(st.integers(1, 3), min_size=len(x), max_size=len(x))))
-    repeated = wmr.headings_along(np.repeat(x, count), np.repeat(y, count))
+    repeated = routes.headings_along(np.repeat(x, count), np.repeat(y, count))
     np.testing.assert_array_equal(repeated, np.repeat(headings, count))
 
 
@@ -75,7 +76,7 @@ def test_only_a_turn_of_180_degrees_is_a_hairpin(power, left, direction):
         angles = np.array([direction, direction + turn])
         x, y = (np.cumsum([0.0, *along(angles)]) for along in (np.cos, np.sin))
         expected = direction + side * 0.5 * math.pi
-        off = wmr.wrap_angle(wmr.headings_along(x, y)[1] - expected)
+        off = wmr.wrap_angle(routes.headings_along(x, y)[1] - expected)
         assert off == pytest.approx(0.0, abs=0.51 * short + 1e-9)
 
 
@@ -89,7 +90,7 @@ def test_a_route_is_its_legs_one_after_the_other():
         ("euler", False, [2.0, 2.0, 0.05]),
         ("continuous", [True, False, False], [0.05, 2.0, 2.0]),
     ]:
-        route = wmr.drive_route(SQUARE, GENTLE, stop=stop, method=method)
+        route = routes.drive_route(SQUARE, GENTLE, stop=stop, method=method)
         assert route.outcome is wmr.Outcome.ARRIVED
         assert route.reached == len(route.legs) == 3
         pose, time, length = way[0], 0.0, 0.0
@@ -110,7 +111,7 @@ def test_a_route_is_its_legs_one_after_the_other():
         time, length = f"{route.time:.4g} s", f"{route.length:.4g} m"
         assert repr(route) == f"<Route: 3 of 3 waypoints reached in {time}, {length} long>"
     # one waypoint with a start is a run
-    route = wmr.drive_route(ONE, GENTLE, start=START)
+    route = routes.drive_route(ONE, GENTLE, start=START)
     run = wmr.simulate(START, ONE, GENTLE, duration=120.0)
     np.testing.assert_array_equal(route.x, run.x)
     assert route.stops == (True,)
@@ -118,7 +119,7 @@ def test_a_route_is_its_legs_one_after_the_other():
 
 def test_a_leg_that_fails_is_the_last():
     far = wmr.Pose(np.array([0.0, 5.0, 500.0, 505.0]), 0.0, 0.0)
-    route = wmr.drive_route(far, GENTLE, duration=30.0)
+    route = routes.drive_route(far, GENTLE, duration=30.0)
     assert (route.outcome, route.reached, len(route.legs)) == (wmr.Outcome.TIMED_OUT, 1, 2)
     assert route.time == math.inf
     assert [arrival.arrived for arrival in route.arrivals] == [True, False]
@@ -126,16 +127,16 @@ def test_a_leg_that_fails_is_the_last():
     assert 30.0 < route.t[-1] < 60.0
     ended = "reached; leg 2 did not arrive within the duration, .* m from its waypoint>"
     assert re.fullmatch(f"<Route: 1 of 3 waypoints {ended}", repr(route))
-    assert wmr.drive_route(far, GENTLE).legs[1].t[-1] == pytest.approx(120.0)
+    assert routes.drive_route(far, GENTLE).legs[1].t[-1] == pytest.approx(120.0)
 
 
 def test_a_leg_that_leaves_the_range_of_numbers():
     wild = wmr.Gains(1e308, 1e308, 1e308, 1e308)
     poses = wmr.Pose(np.array([0.0, 0.0, 9.0]), np.array([0.0, 0.0, 9.0]), 0.0)
-    route = wmr.drive_route(poses, wild)
+    route = routes.drive_route(poses, wild)
     assert (route.outcome, len(route), route.length) == (wmr.Outcome.DIVERGED, 0, 0.0)
     assert not route.arrivals[-1].arrived
-    route = wmr.drive_route(poses, wild, start=wmr.Pose(0.0, 0.0, 0.0), arrival_radius=20.0)
+    route = routes.drive_route(poses, wild, start=wmr.Pose(0.0, 0.0, 0.0), arrival_radius=20.0)
     assert route.outcome is wmr.Outcome.DIVERGED
     assert "left the range of numbers>" in repr(route)
 
@@ -144,8 +145,8 @@ def test_a_leg_that_leaves_the_range_of_numbers():
 
 
 def test_a_start_on_the_first_waypoint_reaches_it_at_once():
-    on_it = wmr.drive_route(SQUARE, GENTLE, start=wmr.Pose(0.0, 0.0, 0.0))
-    without = wmr.drive_route(SQUARE, GENTLE)
+    on_it = routes.drive_route(SQUARE, GENTLE, start=wmr.Pose(0.0, 0.0, 0.0))
+    without = routes.drive_route(SQUARE, GENTLE)
     assert [len(leg) for leg in on_it.legs[:1]] == [1]
     assert on_it.reached == 4
     assert on_it.leg[0] == 1
@@ -155,13 +156,13 @@ def test_a_start_on_the_first_waypoint_reaches_it_at_once():
 
 def test_legs_of_one_sample():
     equal = wmr.Pose(np.array([0.0, -10.0, -10.0, 6.0]), 0.0, np.array([0.0, 0.5, 0.5, 0.0]))
-    route = wmr.drive_route(equal, GENTLE)
+    route = routes.drive_route(equal, GENTLE)
     assert route.outcome is wmr.Outcome.ARRIVED
     assert len(route.legs[1]) == 1
     assert (np.diff(route.t) > 0).all()
     assert set(route.leg.tolist()) == {0, 2}
     # the last keeps its sample
-    route = wmr.drive_route(wmr.Pose(np.array([0.0, 8.0, 8.0]), 0.0, 0.0), GENTLE)
+    route = routes.drive_route(wmr.Pose(np.array([0.0, 8.0, 8.0]), 0.0, 0.0), GENTLE)
     assert route.leg[-1] == 1
     assert route.x[-1] == route.legs[0].x[-1]
     assert route.time == pytest.approx(route.legs[0].t[-1])
@@ -171,24 +172,24 @@ def test_legs_of_one_sample():
 
 
 def test_poses_of_gps_points():
-    poses = wmr.route_poses(CAMPUS)
+    poses = routes.route_poses(CAMPUS)
     first, second = (wmr.GeoPoint(lat=CAMPUS.lat[k], lon=CAMPUS.lon[k]) for k in (0, 1))
     assert (poses.x[0], poses.y[0]) == (0.0, 0.0)
     assert (poses.x[1], poses.y[1]) == pytest.approx(wmr.local_position(first, second))
     # from east, against from north
     assert poses.heading[0] == pytest.approx(math.pi / 2 - wmr.initial_bearing(first, second))
-    np.testing.assert_array_equal(poses.heading, wmr.headings_along(poses.x, poses.y))
+    np.testing.assert_array_equal(poses.heading, routes.headings_along(poses.x, poses.y))
     own = [1.0, 2.0, 3.0, -1.0]
     for given_headings, expected in [
         (own, own),
         (np.array(own), own),
         ([math.nan, math.nan, 0.5, math.nan], [*poses.heading[:2], 0.5, poses.heading[3]]),
     ]:
-        found = wmr.route_poses(CAMPUS, given_headings).heading
+        found = routes.route_poses(CAMPUS, given_headings).heading
         np.testing.assert_array_equal(found, expected)
     # another origin moves the frame
     origin = wmr.GeoPoint(lat=33.2730, lon=44.3730)
-    there, shift = wmr.route_poses(CAMPUS, origin=origin), wmr.local_position(origin, first)
+    there, shift = routes.route_poses(CAMPUS, origin=origin), wmr.local_position(origin, first)
     np.testing.assert_allclose(there.x - poses.x, shift[0], atol=1e-3)
     np.testing.assert_allclose(there.y - poses.y, shift[1], atol=1e-3)
 
@@ -201,30 +202,32 @@ def test_a_point_that_repeats_under_another_longitude_is_one():
         ([89.999, 90.0, 90.0, 89.999], [0.0, 0.0, 90.0, 180.0], 90),
         ([-89.999, -90.0, -90.0, -90.0, -89.999], [0.0, 0.0, 120.0, -77.0, 180.0], -90),
     ]:
-        poses = wmr.route_poses(wmr.GeoPoint(lat=lat, lon=lon))
+        poses = routes.route_poses(wmr.GeoPoint(lat=lat, lon=lon))
         off = np.cos(poses.heading - np.radians(degrees))
         np.testing.assert_allclose(off, 1.0, atol=1e-12)
         assert (poses.x[1], poses.y[1]) == (poses.x[2], poses.y[2])
     # a centimetre apart they are two
     near = wmr.point_at(wmr.GeoPoint(lat=33.3, lon=44.4), [0.0, 0.01, 0.01], [0.0, 0.0, 0.01])
-    np.testing.assert_allclose(np.degrees(wmr.route_poses(near).heading), [0, 45, 90], atol=1e-4)
+    np.testing.assert_allclose(np.degrees(routes.route_poses(near).heading), [0, 45, 90], atol=1e-4)
 
 
 def test_a_square_anywhere_on_earth_is_driven_as_in_the_plane():
-    plane = wmr.drive_route(SQUARE, GENTLE, stop=False)
+    plane = routes.drive_route(SQUARE, GENTLE, stop=False)
     poles = (89.9999, 10.0), (90.0, 0.0), (-90.0, 0.0)
     for lat, lon in [(33.27, 44.37), (-17.0, 179.9999), (0.0, -180.0), *poles]:
         home = wmr.GeoPoint(lat=lat, lon=lon)
-        poses = wmr.route_poses(wmr.point_at(home, SQUARE.x, SQUARE.y), SQUARE.heading, origin=home)
-        route = wmr.drive_route(poses, GENTLE, stop=False)
+        poses = routes.route_poses(
+            wmr.point_at(home, SQUARE.x, SQUARE.y), SQUARE.heading, origin=home
+        )
+        route = routes.drive_route(poses, GENTLE, stop=False)
         np.testing.assert_allclose(route.x, plane.x, atol=1e-5)
         np.testing.assert_allclose(route.y, plane.y, atol=1e-5)
 
 
 def test_out_to_gpx_and_back(tmp_path):
-    route = wmr.drive_route(wmr.route_poses(CAMPUS), GENTLE, stop=False)
+    route = routes.drive_route(routes.route_poses(CAMPUS), GENTLE, stop=False)
     file, begin = tmp_path / "route.gpx", datetime(2026, 3, 1, tzinfo=UTC)
-    wmr.write_gpx(file, wmr.route_points(route, CAMPUS), t=route.t, begin=begin)
+    wmr.write_gpx(file, routes.route_points(route, CAMPUS), t=route.t, begin=begin)
     track = wmr.read_track(file)
     assert len(track) == len(route)
     np.testing.assert_allclose(track.t, route.t, rtol=0.0, atol=1e-6)
@@ -237,7 +240,7 @@ def test_out_to_gpx_and_back(tmp_path):
 
 
 def test_bad_input():
-    drive, poses, along = wmr.drive_route, wmr.route_poses, wmr.headings_along
+    drive, poses, along = routes.drive_route, routes.route_poses, routes.headings_along
     none, square = wmr.Pose([], [], []), wmr.Pose(np.ones((2, 2)), 0.0, 0.0)
     for make, message in [
         (lambda: along([1, 2], [1]), r"mismatched lengths: x has shape \(2,\), y has shape \(1,\)"),

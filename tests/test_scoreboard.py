@@ -12,8 +12,8 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrbook import challenge
-from wmrbook.challenge.scoreboard import Scoreboard, certificate, verify
+from wmrbook.chapters import challenge
+from wmrbook.chapters.challenge.scoreboard import Scoreboard, certificate, verify
 from wmrbook.lines import JOINERS, checked
 
 PAPER, GENTLE = wmr.paper.OUTDOOR_GAINS, wmr.GENTLE_GAINS
@@ -228,7 +228,8 @@ def test_a_line_that_is_written_in_part_is_an_error(board):
     """As on a full disk: the file may not grow beyond 30 bytes."""
     resource = pytest.importorskip("resource")
     code = (
-        "import resource, sys, wmrlib; from wmrbook.challenge.scoreboard import Scoreboard\n"
+        "import resource, sys, wmrlib\n"
+        "from wmrbook.chapters.challenge.scoreboard import Scoreboard\n"
         "line = sys.argv[2]\n"
         f"resource.setrlimit({resource.RLIMIT_FSIZE}, (30, 30))\n"
         "try:\n    Scoreboard(sys.argv[1])._append(line)\n"
@@ -247,7 +248,7 @@ def test_threads_of_several_processes_lose_no_line(board):
     code = (
         "import sys; from concurrent.futures import ThreadPoolExecutor\n"
         "from wmrlib.paper import OUTDOOR_GAINS\n"
-        "from wmrbook.challenge.scoreboard import Scoreboard\n"
+        "from wmrbook.chapters.challenge.scoreboard import Scoreboard\n"
         "board = Scoreboard(sys.argv[1])\n"
         "add = lambda k: board.add(f'{sys.argv[2]} {k}', OUTDOOR_GAINS)\n"
         "with ThreadPoolExecutor(4) as pool: [*pool.map(add, range(50))]"

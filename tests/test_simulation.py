@@ -16,6 +16,7 @@ from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 
 import wmrlib as wmr
+from wmrbook.chapters import routes
 from wmrlib import _dop853
 from wmrlib._dop853 import TOLERANCE
 from wmrlib.body import checked_wheels
@@ -251,7 +252,7 @@ def test_a_heading_may_be_written_with_full_turns(start, goal, turns, goal_turns
 
 def test_copies_of_a_run_are_the_run_and_stay_read_only():
     runs = [circle(duration=1.0), wmr.simulate(ORIGIN, FAR, CALM, duration=1.0)]
-    route = wmr.drive_route(wmr.Pose([0.0, 5.0], [0.0, 0.0], 0.0), CALM)
+    route = routes.drive_route(wmr.Pose([0.0, 5.0], [0.0, 0.0], 0.0), CALM)
     for run in (*runs, route):
         copies = copy.copy(run), copy.deepcopy(run), pickle.loads(pickle.dumps(run))
         for again in (run, *copies):
@@ -464,7 +465,7 @@ def test_bad_input_names_argument_value_and_range():
 
 
 def test_what_runs_have_in_common_has_one_default():
-    drivers = wmr.simulate, wmr.track, wmr.sweep, wmr.drive_route
+    drivers = wmr.simulate, wmr.track, wmr.sweep, routes.drive_route
     simulate, *others = (inspect.signature(each).parameters for each in drivers)
     for name in ("law", "dt", "duration", "arrival_radius", "wheels"):
         known = [each[name].default for each in others if name in each]

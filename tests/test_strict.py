@@ -7,8 +7,8 @@ import pytest
 import sympy as sp
 from python_pack import Z3
 
-from wmrbook import strict
-from wmrbook.strict import K2, STRICT, P, Q, counterexample, rates, slope
+from wmrbook.chapters import strict
+from wmrbook.chapters.strict import K2, STRICT, P, Q, counterexample, rates, slope
 from wmrlib import symbolic
 
 ROOT = Path(__file__).resolve().parents[1]

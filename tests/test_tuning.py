@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrbook.pareto import pareto
+from wmrbook.chapters.pareto import pareto
 
 PAPER = wmr.paper.OUTDOOR_GAINS
 GENTLE = wmr.GENTLE_GAINS

@@ -7,7 +7,7 @@ import sys
 import wmrlib as wmr
 
 HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba", "tqdm"}
-NO_EXAMPLE = {"destination_point", "polar_rate", "pose_from_polar", "pose_rate", "route_points"}
+NO_EXAMPLE = {"destination_point", "polar_rate", "pose_from_polar", "pose_rate"}
 NO_EXAMPLE |= {"residual", "twist_to_wheels", "write_geojson", "write_gpx"}
 
 

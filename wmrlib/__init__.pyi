@@ -34,11 +34,6 @@ from .metrics import arrival as arrival
 from .metrics import residual as residual
 from .parking import Drive as Drive
 from .receiver import Receiver as Receiver
-from .routes import Route as Route
-from .routes import drive_route as drive_route
-from .routes import headings_along as headings_along
-from .routes import route_points as route_points
-from .routes import route_poses as route_poses
 from .runs import Arrival as Arrival
 from .runs import Outcome as Outcome
 from .runs import Trajectories as Trajectories

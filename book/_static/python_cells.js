@@ -6,7 +6,7 @@
   const FOLDER = new URL('vendor/python/', document.currentScript.src).href;
   const PARTS = ['worker', 'asm', 'wasm', 'stdlib', 'packages'];
   const ZIPPED = new Set(['worker', 'asm', 'wasm']);
-  const ASKS_Z3 = /\bimport z3\b|\bwmrbook(\.| import .*)strict\b/;
+  const ASKS_Z3 = /\bimport z3\b|\bwmrbook\.chapters(\.| import .*)strict\b/;
   const cells = [];
   let parts, solver, editor, worker, running;
 

@@ -28,7 +28,7 @@ from reference import ancestors
 # What the page can import for a chapter. Of wmrlib it has more, for single numbers only.
 THERE = {
     *("collections", "functools", "math", "sympy", "z3"),
-    *("wmrbook.equations", "wmrbook.grading", "wmrbook.strict", "wmrlib.symbolic"),
+    *("wmrbook.equations", "wmrbook.grading", "wmrbook.chapters.strict", "wmrlib.symbolic"),
 }
 
 

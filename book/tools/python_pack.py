@@ -33,7 +33,7 @@ INSTALLED = ("sympy", "mpmath", "lazy_loader")
 # What no cell needs; a folder of its own would be too large for a page.
 LEFT_OUT = re.compile(
     r".*\b(tests|benchmarks|__pycache__)/|sympy/(physics/(?!units)\w+/|parsing/\w+/|stats/)"
-    r"|wmrlib/tracks/|wmrbook/(figures|audit|challenge|live|panel|questions)/"
+    r"|wmrlib/tracks/|wmrbook/(figures|audit|live|panel|questions)/|wmrbook/chapters/(?!__init__|strict)"
 )
 Z3 = IN_PAGE / "z3.txt"  # the version and the hash of a wheel
 Z3_LICENCE = IN_PAGE / "z3_LICENSE.txt"  # which the wheel lacks

@@ -17,8 +17,9 @@ from test_live import NAMES, commit
 
 import wmrlib as wmr
 from wmrbook import live
+from wmrbook.chapters import routes
+from wmrbook.chapters.strict import K2, STRICT, P, Q, answer, slope
 from wmrbook.live import audit, facing, noise, real_robot
-from wmrbook.strict import K2, STRICT, P, Q, answer, slope
 
 ROLLING = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
 TRIALS = 4  # places of the knobs, besides where they stand at first
@@ -294,7 +295,7 @@ def leaning_compass(values, found, data) -> None:
 
 def same_route(found, poses, radii, gains, stop) -> None:
     how = {"stop": stop, "arrival_radius": radii[-1], "pass_radius": radii[0]}
-    ours = wmr.drive_route(wmr.Pose(*np.transpose(poses)), gains, **how)
+    ours = routes.drive_route(wmr.Pose(*np.transpose(poses)), gains, **how)
     assert found["arrived"] == (ours.outcome is wmr.Outcome.ARRIVED)
     assert found["leg"] == ours.leg.tolist()
     for name in ("t", "x", "y", "v", "V"):
@@ -304,7 +305,7 @@ def same_route(found, poses, radii, gains, stop) -> None:
 
 def corners(values, found, data) -> None:
     points = [data["first"], (values["x"], values["y"]), data["last"]]
-    headings = wmr.headings_along(*np.transpose(points))
+    headings = routes.headings_along(*np.transpose(points))
     assert [found[key] for key in ("come", "heading", "leave")] == pytest.approx(headings)
     poses = [(*at, heading) for at, heading in zip(points, headings, strict=True)]
     radii = data[values["stop"]], data["stop"]

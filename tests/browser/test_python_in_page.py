@@ -136,7 +136,7 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     assert sum(sizes) < 25e6
 
 
-SOLVED = """from wmrbook.strict import K2, Q, counterexample, slope
+SOLVED = """from wmrbook.chapters.strict import K2, Q, counterexample, slope
 found = []
 for k2 in ("13/64", "1/2", "2"):
     asked = slope().subs(K2, k2)
@@ -164,7 +164,8 @@ def test_z3_decides_in_the_page_and_is_loaded_for_a_cell_that_asks_it(site, tmp_
     assert version.startswith(shown(browser_page, 2).strip(" '\n"))
 
     # Stopped while it thinks, it is asked again.
-    endless = "from wmrbook import strict\nwhile True:\n    strict.counterexample(strict.slope())"
+    endless = "from wmrbook.chapters import strict\n"
+    endless += "while True:\n    strict.counterexample(strict.slope())"
     write(browser_page, 1, endless)
     press(browser_page, 1, "Run")
     browser_page.wait_for_timeout(500)

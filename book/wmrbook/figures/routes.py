@@ -8,13 +8,13 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.lines import Line2D
 
-from wmrbook.challenge import Score, drive_cases
+from wmrbook.chapters.challenge import Score, drive_cases
+from wmrbook.chapters.routes import Route
 from wmrbook.figures._drawing import legend_above, note, panels, pointer
 from wmrbook.figures.paths import play
 from wmrbook.figures.style import COLOURS, Picture, dart, equal_scales, new_figure
 from wmrlib.checks import instance
 from wmrlib.kinematics import Pose
-from wmrlib.routes import Route
 
 _STOP, _PASS = COLOURS["goal"], COLOURS["ink"]
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import sympy as sp
 
+from wmrbook.chapters.strict import K2, STRICT, P, Q, slope
 from wmrbook.live.parts import Asks, Knob, Live
-from wmrbook.strict import K2, STRICT, P, Q, slope
 
 
 def _terms(polynomial: sp.Expr) -> list[list[int]]:
@@ -22,5 +22,5 @@ def strict() -> Live:
         {"k2": Knob(0.25, 0.05, 50.0, None, "the steering gain, scaled: k2", "", "k_2")},
         # Near enough that k2 stays what it is.
         data={"rho": 0.001, "state": [0.25, 0.25], "V": _terms(STRICT), "slope": _terms(slope())},
-        asks=Asks("Prove it", "wmrbook.strict.answer", ("k2",)),
+        asks=Asks("Prove it", "wmrbook.chapters.strict.answer", ("k2",)),
     )

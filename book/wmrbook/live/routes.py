@@ -7,8 +7,9 @@ from itertools import pairwise
 
 import numpy as np
 
+from wmrbook.chapters.routes import drive_route, headings_along
 from wmrbook.live.parts import Ask, Choice, Knob, Live, choose
-from wmrlib import Gains, Pose, drive_route, headings_along
+from wmrlib import Gains, Pose
 
 GAINS = Gains(k_rho=0.4, k_alpha=2.0, h=1.0, v_max=4.0)
 WALK = np.array([[0.0, 25.0, 45.0, 40.0, 5.0], [0.0, 5.0, 20.0, 45.0, 40.0]])  # m east, m north

@@ -7,6 +7,7 @@ import math
 import numpy as np
 
 import wmrlib as wmr
+from wmrbook.chapters import routes
 from wmrbook.questions._asking import Option, cases, numbers, question, sign
 from wmrlib import estimation
 
@@ -54,7 +55,7 @@ def at_the_corner() -> tuple[str, list[Option], str]:
     come, leave = 160.0, -100.0
     legs = np.radians([[come], [leave]])
     x, y = np.cumsum([[[0.0], [0.0]], *([np.cos(leg), np.sin(leg)] for leg in legs)], axis=0).T[0]
-    heading = math.degrees(wmr.headings_along(x, y)[1])
+    heading = math.degrees(routes.headings_along(x, y)[1])
     bend = (leave - come + 180.0) % 360.0 - 180.0
     mistaken = {
         "the plain mean of 160 and -100": (come + leave) / 2.0,
@@ -71,9 +72,9 @@ def at_the_corner() -> tuple[str, list[Option], str]:
 @question(12, "Stop, or pass?", "V along a route")
 def along_a_route() -> tuple[str, list[Option], str]:
     x, y = np.array([20.0, 40.0, 60.0]), np.array([0.0, 15.0, 0.0])
-    poses = wmr.Pose(x, y, wmr.headings_along(x, y))
+    poses = wmr.Pose(x, y, routes.headings_along(x, y))
     stops = [False, False, True]
-    route = wmr.drive_route(
+    route = routes.drive_route(
         poses, wmr.GENTLE_GAINS, start=wmr.Pose(0.0, 0.0, 0.0), stop=stops, method="continuous"
     )
     steps, change = np.diff(route.V), np.diff(route.leg) != 0

@@ -17,8 +17,8 @@ from typing import NamedTuple
 
 from filelock import FileLock
 
-from wmrbook.challenge import SEED, from_seed, score
-from wmrbook.challenge.certificate import Entry, Verdict, certificate, verify
+from wmrbook.chapters.challenge import SEED, from_seed, score
+from wmrbook.chapters.challenge.certificate import Entry, Verdict, certificate, verify
 from wmrbook.lines import UTF_16, Refused, numbered, same_name
 from wmrlib.gains import Gains
 

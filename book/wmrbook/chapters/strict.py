@@ -54,7 +54,7 @@ def counterexample(polynomial: sp.Expr, *given: sp.Rel) -> dict[sp.Symbol, sp.Ra
     meets too. None says that there is no such state: z3 has proved the polynomial negative.
     Raises TimeoutError if z3 decides neither within PATIENCE.
     """
-    with book_extra("wmrbook.strict"):
+    with book_extra("wmrbook.chapters.strict"):
         import z3
     names = {symbol: z3.Real(symbol.name) for symbol in (P, Q, K2)}
 

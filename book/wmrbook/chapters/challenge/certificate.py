@@ -9,7 +9,7 @@ from functools import lru_cache
 from typing import NamedTuple
 from urllib.parse import quote, unquote
 
-from wmrbook.challenge import SEED, from_seed, rounded, score
+from wmrbook.chapters.challenge import SEED, from_seed, rounded, score
 from wmrbook.lines import checked, clean_name
 from wmrlib.checks import instance
 from wmrlib.gains import Gains

@@ -96,8 +96,8 @@ def headings_along(x: Real, y: Real) -> np.ndarray:
     Examples
     --------
     >>> import numpy as np
-    >>> import wmrlib as wmr
-    >>> print(np.degrees(wmr.headings_along([0.0, 10.0, 10.0], [0.0, 0.0, 10.0])).round(1))
+    >>> from wmrbook.chapters import routes
+    >>> print(np.degrees(routes.headings_along([0.0, 10.0, 10.0], [0.0, 0.0, 10.0])).round(1))
     [ 0. 45. 90.]
     """
     x, y = np.atleast_1d(real("x", x)), np.atleast_1d(real("y", y))
@@ -138,7 +138,7 @@ def route_poses(
     --------
     >>> import wmrlib as wmr
     >>> points = wmr.GeoPoint(lat=[33.2735, 33.2737, 33.2737], lon=[44.3731, 44.3731, 44.3734])
-    >>> print(wmr.route_poses(points).x.round(1))
+    >>> print(routes.route_poses(points).x.round(1))
     [ 0.   0.  27.9]
     """
     lat, lon = position_list(points)
@@ -216,7 +216,7 @@ def drive_route(
     --------
     >>> import wmrlib as wmr
     >>> corner = wmr.Pose([0.0, 20.0, 20.0], [0.0, 0.0, 20.0], [0.0, 0.8, 1.6])
-    >>> wmr.drive_route(corner, wmr.GENTLE_GAINS, stop=False, method="continuous")
+    >>> routes.drive_route(corner, wmr.GENTLE_GAINS, stop=False, method="continuous")
     <Route: 2 of 2 waypoints reached in 17.4 s, 39.81 m long>
     """
     listed = np.array(np.broadcast_arrays(*map(np.atleast_1d, instance("poses", poses, Pose))))

@@ -1,0 +1,1 @@
+"""Helpers that one chapter alone needs."""
