@@ -32,7 +32,7 @@ def level_spot() -> tuple[str, list[Option], str]:
 
 
 @question(
-    4, "We proved it. Brockett says impossible. Who is right?", "A millimetre beside the goal"
+    15, "We proved it. Brockett says impossible. Who is right?", "A millimetre beside the goal"
 )
 def millimetre_beside() -> tuple[str, list[Option], str]:
     place, runs = {"method": "continuous", "arrival_radius": 1e-8}, []
