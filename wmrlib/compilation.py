@@ -2,14 +2,15 @@
 
 numba's own cache looks only at the file of the function itself to tell whether a binary is still
 good, so a loop would go on running an old formula out of another file. Here its files stand in a
-folder named by a digest of all modules.
+folder named by a digest of all modules. numba runs what it finds there, so a folder that others may
+write to is not used.
 """
 
 from __future__ import annotations
 
 import os
+import stat
 import sys
-import time
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
@@ -22,7 +23,6 @@ from numba.core.caching import CompileResultCacheImpl, FunctionCache, InTreeCach
 from numba.extending import overload, register_jitable
 
 _PACKAGE = Path(__file__).parent
-_MONTH = 30 * 24 * 3600.0  # s
 _SOURCES = sorted((*_PACKAGE.glob("*.py"), *_PACKAGE.glob("engine/*.py")))
 # Divisions follow IEEE 754 as in numpy; a product and a sum may be rounded once rather than twice.
 _ARITHMETIC = {"error_model": "numpy", "fastmath": {"contract"}}
@@ -43,26 +43,37 @@ def _folders() -> list[Path]:
 
 
 def _folder(folders: list[Path]) -> Path | None:
-    """The first folder that can be written to; or the first that there is something in to read."""
+    """The first folder that can be written to; or the first that there is something in to read.
+
+    It is one that nobody else can put anything into: numba runs what it finds there.
+    """
     for folder in folders:
         with suppress(OSError):
-            if not folder.exists():
-                _forget_old(folder.parent)
-                folder.mkdir(parents=True, exist_ok=True)  # another process may be first
-            with TemporaryFile(dir=folder) as trial:
-                trial.write(b"kept")
-            return folder
-    return next((folder for folder in folders if folder.is_dir() and any(folder.iterdir())), None)
+            folder.mkdir(0o700, parents=True, exist_ok=True)  # another process may be first
+            if _is_private(folder):
+                with TemporaryFile(dir=folder) as trial:
+                    trial.write(b"kept")
+                return folder
+    return next((folder for folder in folders if _has_something_to_read(folder)), None)
 
 
-def _forget_old(place: Path) -> None:
-    """Remove what other versions compiled, where nothing was added for a month."""
-    for folder in place.glob("compiled-" + 16 * "[0-9a-f]"):
-        with suppress(OSError):  # it holds something else, or another process forgets it too
-            if folder.stat().st_mtime < time.time() - _MONTH and not folder.is_symlink():
-                for file in (*folder.glob("*.nbi"), *folder.glob("*.nbc")):
-                    file.unlink()
-                folder.rmdir()
+def _has_something_to_read(folder: Path) -> bool:
+    with suppress(OSError):
+        return _is_private(folder) and any(folder.iterdir())
+    return False
+
+
+def _is_private(folder: Path) -> bool:
+    """Whether the folder and its files are the user's or root's, and nobody else's to write."""
+    if os.name == "nt":  # where a user's folders are closed to others
+        return True
+    place = folder.parent.stat().st_mode
+    if place & stat.S_IWOTH and not place & stat.S_ISVTX:  # anybody may put another in its place
+        return False
+    states = [folder.lstat()]
+    if states[0].st_mode & 0o077:  # else nobody else gets to the files
+        states += [file.lstat() for file in folder.iterdir()]
+    return all(it.st_uid in (0, os.getuid()) and not it.st_mode & 0o022 for it in states)
 
 
 class _Locator(InTreeCacheLocator):
@@ -83,17 +94,9 @@ class _Kept(CompileResultCacheImpl):
 
 
 class _Cache(FunctionCache):
-    """What can't be read is compiled anew, and what can't be kept is done without."""
+    """What can't be kept is done without."""
 
     _impl_class = _Kept
-
-    def load_overload(self, signature, target_context):
-        try:
-            return super().load_overload(signature, target_context)
-        except Exception:  # a damaged file raises any, and would when something is added to it
-            with suppress(OSError):
-                self.flush()
-        return None
 
     def save_overload(self, signature, data):
         with suppress(OSError):
@@ -105,7 +108,8 @@ FOLDER = _folder(_FOLDERS)
 if not FOLDER and not numba.config.DISABLE_JIT:
     places = " or ".join(str(folder.parent) for folder in _FOLDERS)
     text = f"compiled code can't be kept in {places}, so each process compiles anew: "
-    warnings.warn(text + "set NUMBA_CACHE_DIR to a folder for it", RuntimeWarning, stacklevel=2)
+    text += "set NUMBA_CACHE_DIR to a folder of your own that nobody else may write to"
+    warnings.warn(text, RuntimeWarning, stacklevel=2)
 
 
 def compiled(function: Callable) -> Callable:
