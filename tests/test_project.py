@@ -5,6 +5,7 @@ import shutil
 import subprocess
 import sys
 import tomllib
+from importlib.metadata import packages_distributions
 from pathlib import Path
 
 import build
@@ -130,13 +131,36 @@ def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
 
 @pytest.mark.parametrize(
     ("part", "package"),
-    [("wmrbook.panel", "anywidget"), ("wmrlib.symbolic", "sympy"), ("wmrbook", "filelock")],
+    [("wmrlib.symbolic", "sympy"), ("wmrbook", "filelock")],
 )
 def test_a_part_without_its_package_says_what_to_install(part, package):
     code = f"import sys; sys.modules['{package}'] = None; import {part}"
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True)
     wanted = f'{part} needs {package}: pip install ".[book]" in the repository'
     assert done.stderr.splitlines()[-1] == f"ImportError: {wanted}"
+
+
+def test_without_the_books_packages_each_chapters_first_cell_says_what_to_install():
+    """That wmrbook is imported first is ruff's to check: see notebooks/ruff.toml."""
+    optional = map(Requirement, PROJECT["optional-dependencies"]["book"])
+    names = {requirement.name for requirement in optional}
+    packages = {it for it, of in packages_distributions().items() if names & set(of)}
+    cells = [cell for name in CHAPTERS for cell in code(name)]
+    sources = [*BOOK.glob("wmrbook/**/*.py")]
+    text = "\n".join([cell.source for cell in cells] + [it.read_text("utf-8") for it in sources])
+    used = packages & set(re.findall(r"^(?:import|from) (\w+)", text, re.MULTILINE))
+    assert {"control", "sympy"} < used
+    hidden = "import sys\n" + "\n".join(f"sys.modules[{it!r}] = None" for it in packages)
+    tried = [
+        f"try:\n    exec({code(name)[0].source!r})\nexcept ImportError as error:\n    print(error)"
+        for name in CHAPTERS
+    ]
+    command = [sys.executable, "-c", "\n".join([hidden, *tried])]
+    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
+    assert len(said) == len(CHAPTERS)
+    (line,) = set(said)
+    named = re.fullmatch(r'wmrbook needs (.*): pip install "\.\[book\]" in the repository', line)
+    assert set(named[1].split(", ")) == used
 
 
 def prose(chapter):
