@@ -16,7 +16,6 @@ from functools import reduce
 from operator import xor
 from typing import Any, NamedTuple
 
-import gpsdclient
 import pyubx2
 
 
@@ -85,9 +84,15 @@ class Gpsd:
 
     def __init__(self, form: str) -> None:
         self.write_fix = FORMATS[form]
+        try:
+            from gpsdclient import GPSDClient
+        except ModuleNotFoundError:
+            text = 'this needs gpsdclient: pip install ".[robot]" in the repository'
+            raise RuntimeError(text) from None
         command = shutil.which("gpsd", path=os.environ["PATH"] + ":/usr/sbin")
         if not command:
             raise RuntimeError("this needs gpsd (Debian: apt install gpsd)")
+        self.client = GPSDClient
         self.end, other = pty.openpty()
         tty.setraw(other)
         os.chmod(os.ttyname(other), 0o666)  # gpsd gives up root's rights
@@ -101,7 +106,7 @@ class Gpsd:
     def _read(self) -> None:
         """Keep what gpsd says, and connect again until it is ended."""
         while self.daemon.poll() is None:
-            with suppress(OSError), gpsdclient.GPSDClient(port=self.port) as client:
+            with suppress(OSError), self.client(port=self.port) as client:
                 for report in client.dict_stream(convert_datetime=False, filter={"TPV"}):
                     if report.get("mode", 0) >= 2 and "lat" in report and "time" in report:
                         self.reports.put(report)

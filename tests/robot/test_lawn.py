@@ -14,7 +14,14 @@ pytestmark = pytest.mark.needs("compiler")
 FIXED = lawn.RECEIVERS["RTK fixed"]
 
 
+@pytest.fixture
+def client():
+    """What speaks with gpsd."""
+    pytest.importorskip("gpsdclient", reason="this test needs gpsdclient: pip install '.[robot]'")
+
+
 @pytest.mark.needs("gpsd")
+@pytest.mark.usefixtures("client")
 @pytest.mark.parametrize("form", gpsd.FORMATS)
 def test_gpsd_passes_on_what_was_sent(form):
     places = np.random.default_rng(1).uniform((-80, -179), (80, 179), (40, 2)).tolist()
@@ -27,6 +34,7 @@ def test_gpsd_passes_on_what_was_sent(form):
 
 
 @pytest.mark.needs("gpsd")
+@pytest.mark.usefixtures("client")
 def test_a_drive_through_gpsd_is_the_drive_without_it():
     assert lawn.through_gpsd(2, (lawn.CASE.goal,)) < 1e-3
 
