@@ -20,10 +20,6 @@ settings.load_profile("repeatable")
 settings.register_profile("stress", deadline=None, print_blob=True, max_examples=1000)
 
 TOOLS = {  # what a test may need, the commands that are it, and what to install
-    "arm": (
-        ("arm-linux-gnueabihf-gcc",),
-        "a compiler for ARM (Debian: apt install gcc-arm-linux-gnueabihf libc6-dev-armhf-cross)",
-    ),
     "arduino": (
         ("/usr/share/arduino/hardware/arduino/avr/platform.txt",),
         "Arduino's core (Debian: apt install arduino-core-avr)",
@@ -37,7 +33,6 @@ TOOLS = {  # what a test may need, the commands that are it, and what to install
         "simavr as a library (Debian: apt install libsimavr-dev)",
     ),
     "npm": (("npm",), "npm (Debian: apt install npm)"),
-    "qemu": (("qemu-arm",), "qemu, which imitates ARM (Debian: apt install qemu-user)"),
     "simavr": (("simavr",), "simavr, which simulates AVR boards (Debian: apt install simavr)"),
 }
 

@@ -6,7 +6,7 @@ import re
 import shutil
 import subprocess
 
-import boards
+import avr
 import numpy as np
 import pytest
 from hypothesis import example, given
@@ -47,7 +47,7 @@ void less_1(const R *s, R *out) { out[0] = wmr_expm1(s[0]); }
 """
 AVR = """#include "wmr_drive.h"
 #include <avr/pgmspace.h>
-static uint16_t most = 0; /* of boards.py, which counts cycles */
+static uint16_t most = 0; /* of avr.py, which counts cycles */
 typedef struct { int32_t gps[4]; float heading, goal_heading; wmr_gains gains; } drive;
 static const drive DRIVES[] PROGMEM = {@drives@};
 int main(void) {
@@ -271,7 +271,7 @@ def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float():
     drives = [*zip(points, floats, strict=True)]
     lines = [f"{{{{{gps}}}, {a!r}, {b!r}, {{{gains}}}}},\n" for gps, (a, b, *gains) in drives]
     text = "".join(lines).replace("[", "").replace("]", "")
-    said, *_ = boards.on_avr(AVR.replace("@drives@", text))
+    said, *_ = avr.printed_by(AVR.replace("@drives@", text))
     rows = re.findall(r"goes (.+)", said)
     assert len(rows) == len(drives)
     for row, (gps, (heading, goal_heading, *gains)) in zip(rows, drives, strict=True):

@@ -12,13 +12,12 @@ from __future__ import annotations
 import argparse
 import ctypes
 import re
+import subprocess
 import tempfile
 import zipfile
 from functools import cache
 from pathlib import Path
 from typing import NamedTuple
-
-from boards import run, sizes
 
 from wmrbook import robot_io
 from wmrbook.robot_sheet import Robot
@@ -36,6 +35,21 @@ _FLAGS += " -Os -flto -fno-fat-lto-objects -ffunction-sections -fdata-sections"
 _CPP = "-std=gnu++11 -fpermissive -fno-exceptions -fno-threadsafe-statics"
 _CPP += " -DDECIMAL_DIG=__DECIMAL_DIG__"
 _PARTS = CORE / "cores/arduino", CORE / "variants/standard"
+
+
+def run(*command: str | Path, folder: Path) -> str:
+    """What a command prints; RuntimeError with its words if it fails."""
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
+    if done.returncode:
+        raise RuntimeError(f"{command[0]}: {done.stdout}{done.stderr}")
+    return done.stdout + done.stderr
+
+
+def sizes(prefix: str, folder: Path, name: str) -> tuple[int, int]:
+    """Bytes of flash, and of RAM without the stack, of a compiled program."""
+    numbers = run(f"{prefix}size", name, folder=folder).splitlines()[1].split()
+    text, data, bss = map(int, numbers[:3])
+    return text + data, data + bss
 
 
 def library(robot: Robot | None = None) -> dict[str, str]:

@@ -5,7 +5,6 @@ import re
 import zipfile
 
 import arduino_board
-import lockstep
 import numpy as np
 import pytest
 from arduino_board import Board, Inputs, compiled, library
@@ -170,15 +169,3 @@ def test_the_bench_test_shows_the_signs():
 def test_the_bench_test_shows_what_is_wrong(name):
     change = () if name == "cables" else (BENCH_FLIPS[name],)
     assert not is_sound(bench(name == "cables", change))
-
-
-@uno
-def test_the_board_drives_as_python_does():
-    goal, start = wmr.Pose(6.0, 5.0, -1.0), wmr.Pose(0.0, 0.0, 1.2)
-    given = goal, wmr.GENTLE_GAINS, wmr.Wheels(0.5, 1.0, min_speed=0.1)
-    ours = lockstep.positions(wmr.Drive(*given), start, 0.05, 60.0)
-    theirs = lockstep.positions(lockstep.AvrDrive(*given, period=0.05), start, 0.05, 60.0)
-    assert len(ours) == len(theirs) < 1000
-    assert max(math.dist(one[:2], two[:2]) for one, two in zip(ours, theirs, strict=True)) < 1e-4
-    with pytest.raises(ValueError, match="law = 'aicardi' is not allowed"):
-        lockstep.AvrDrive(*given, law="aicardi", period=0.05)
