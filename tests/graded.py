@@ -1,13 +1,9 @@
-"""An assignment of the course run in this process, and nbgrader run as a lecturer runs it."""
+"""An assignment of the course run in this process."""
 
 import contextlib
-import csv
 import json
 import linecache
-import os
 import re
-import subprocess
-import sys
 import tomllib
 from functools import cache
 from pathlib import Path
@@ -38,12 +34,6 @@ def cells(chapter: str) -> dict[str, tuple[str, int]]:
             points = settings.get("points", 0) if settings["grade"] else 0
             found[settings["grade_id"]] = "".join(cell["source"]), points
     return found
-
-
-def most(chapter: str) -> float:
-    """The points of the whole assignment, those that an assistant gives among them."""
-    every = json.loads(notebook(chapter).read_text(encoding="utf-8"))["cells"]
-    return sum(cell["metadata"]["nbgrader"].get("points", 0) for cell in every)
 
 
 @cache
@@ -227,19 +217,3 @@ def _answers(name: str, source: str) -> list:
     names = {}
     run_cell(source, f"<{name}>", names)
     return [names[it] for it in ("answer", "more") if it in names]
-
-
-def marks(course: Path, kind: str = "moodle") -> dict[str, dict[str, str]]:
-    """The table of points for Moodle or Canvas: a row for each user name."""
-    name = {"moodle": "Username", "canvas": "SIS Login ID"}[kind]
-    with (course / f"marks-{kind}.csv").open(encoding="utf-8", newline="") as file:
-        return {row[name]: row for row in csv.DictReader(file)}
-
-
-def nbgrader(folder: Path, *arguments: str) -> None:
-    """Run one of its commands in the folder of a course."""
-    path = os.pathsep.join([str(Path(sys.executable).parent), os.environ["PATH"]])
-    environment = os.environ | {"PATH": path}  # it calls alembic by name
-    command = [sys.executable, "-m", "nbgrader", *arguments]
-    done = subprocess.run(command, cwd=folder, env=environment, capture_output=True, text=True)
-    assert done.returncode == 0, done.stderr

@@ -12,7 +12,6 @@ PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "book").g
 CHAPTERS = sorted((ROOT / "notebooks").glob("*.ipynb"))
 TASKS = [notebook(chapter) for chapter in ASSIGNMENTS]
 NAMES = """
-from types import SimpleNamespace
 from scipy.special import exprel
 from decimal import Decimal
 import numpy as np, sympy as sp
@@ -22,7 +21,6 @@ from wmrbook.panel import Explorer
 starts, goals, gains = wmr.Pose([5.0, 6.0], 1.0, 0.0), wmr.Pose(0.0, 0.0, 0.0), wmr.GENTLE_GAINS
 paper = wmr.paper
 explorer, x, y, heading, goal = Explorer(), 1.0, 2.0, 0.3, goals
-c = SimpleNamespace(Spawner=SimpleNamespace())
 """
 
 

@@ -1,71 +1,63 @@
-"""Make what students get: python book/course/package.py [ASSIGNMENT ...]
+"""Make the zip that students get: python book/course/package.py
 
-It writes students.zip: the released assignments, the chapters without the solutions of their
-exercises, the packages that both import, and how to install them and hand in. Where students.csv
-has the class, students/NAME.zip has each student's assignments, with the user name in them.
+It holds the assignments that `nbgrader generate_assignment` has released, the chapters without
+their solutions, the packages that both import, and how to install them.
 """
 
 from __future__ import annotations
 
+import argparse
 import re
 import sys
+import tomllib
 from collections.abc import Iterator
 from pathlib import Path
 from zipfile import ZIP_DEFLATED, ZipFile
 
 import nbformat
-import roster
-from exchange import named
-from gradebook import COURSE, Course, options
 
-ROOT = COURSE.parents[1]
+ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "book" / "tools"))
 from build import without_solutions  # noqa: E402
 
-FOLDERS = "wmrlib", "book/wmrbook", "book/lab", "notebooks/data"
-CLOSED = ROOT / "book" / "wmrbook" / "questions"  # it computes the keys of the pre- and post-test
 FILES = "LICENSE", "environment.txt", "pyproject.toml"
-LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the package
+FOLDERS = "book/lab", "notebooks/data"
+CLOSED = ROOT / "book" / "wmrbook" / "questions"  # it computes the keys of the concept questions
+LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the zip
 START = """# From two GPS points to a parked robot
 
 With Python 3.11 to 3.14, in this folder, on Linux or macOS, and on Windows:
 
 {commands}
 
-From its last `&&` on a command brings you back, without a network.
-JupyterLab opens on the first chapter; the others are beside it in `notebooks`, and the exercises
-to hand in are in `assignments`: write your answers where the cells say so. The checks below an
-answer say whether it is right, and give a hint if not. Hand in the notebook under its own name.
+To start JupyterLab again later, run only the part after the last `&&`.
+JupyterLab opens on the first chapter. The other chapters are beside it in `notebooks`, and the
+exercises to hand in are in `assignments`: write your answers where the cells say so. The checks
+below an answer say whether it is right, and give a hint if not. Hand in the notebook under its
+own name.
 """
 
 
-def main(folder: Path, wanted: list[str], output: Path) -> None:
-    """Write the package with these assignments, or all, and a small one for each student."""
-    with Course(folder) as course:
-        released = {
-            f"assignments/{each}/{course.sources[each].name}": nbformat.writes(course.release(each))
-            for each in course.checked(wanted) or course.sources
-        }
-    _write(output, {**released, **dict(_book())})
-    for student in roster.of(folder):
-        own = {k: named(it.encode(), student.username) for k, it in released.items()}
-        _write(folder / "students" / f"{student.username}.zip", own)
-    print(output)
-
-
-def _write(path: Path, files: dict[str, str | bytes]) -> None:
-    path.parent.mkdir(exist_ok=True)
-    with ZipFile(path, "w", ZIP_DEFLATED) as package:
-        for name, text in files.items():
-            package.writestr(f"robot/{name}", text)
+def write(course: Path, output: Path) -> None:
+    """Write the zip, with the assignments that the course has released."""
+    released = sorted(course.glob("release/*/*.ipynb"))
+    if not released:
+        sys.exit(f"{course / 'release'} is empty: run `nbgrader generate_assignment` first")
+    with ZipFile(output, "w", ZIP_DEFLATED) as package:
+        for name, content in _book():
+            package.writestr(f"robot/{name}", content)
+        for path in released:
+            package.write(path, f"robot/assignments/{path.parent.name}/{path.name}")
 
 
 def _book() -> Iterator[tuple[str, str | bytes]]:
-    """The name and the content of each file but the assignments."""
+    """Yield the name and the content of each file but the assignments."""
     readme = (ROOT / "README.md").read_text(encoding="utf-8")
     commands = re.findall(r"^    py.*jupyter lab .*$", readme, re.MULTILINE)
     yield "README.md", START.format(commands="\n\n".join(commands))
-    for path in sorted(each for folder in FOLDERS for each in (ROOT / folder).rglob("*")):
+    project = tomllib.loads((ROOT / "pyproject.toml").read_text(encoding="utf-8"))
+    packages = project["tool"]["hatch"]["build"]["targets"]["wheel"]["packages"]
+    for path in sorted(path for name in (*packages, *FOLDERS) for path in (ROOT / name).rglob("*")):
         parts = path.relative_to(ROOT).parts
         hidden = any(part.startswith((".", "__pycache__")) for part in parts)
         if path.is_file() and not hidden and CLOSED not in path.parents:
@@ -80,9 +72,9 @@ def _book() -> Iterator[tuple[str, str | bytes]]:
 
 
 if __name__ == "__main__":
-    parser = options(__doc__)
-    said = "the file; students.zip in the folder of the course by default"
-    parser.add_argument("--output", type=Path, help=said)
+    parser = argparse.ArgumentParser(description=__doc__)
+    here = Path(__file__).resolve().parent
+    parser.add_argument("--course", type=Path, default=here, help="the folder of the course")
     given = parser.parse_args()
-    folder = given.course.resolve()
-    main(folder, given.assignments, given.output or folder / "students.zip")
+    write(given.course, given.course / "students.zip")
+    print(given.course / "students.zip")

@@ -7,8 +7,7 @@ import shutil
 
 import nbformat
 import pytest
-from damage import empty_course
-from graded import nbgrader, wrong_answers
+from graded import notebook, released, wrong_answers
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, jupyterlab, link, sliders
 
 CHAPTER = f"notebooks/{chapters()[0].name}"
@@ -37,7 +36,7 @@ def lab(tmp_path_factory):
     """JupyterLab on a copy of the chapters; the reader's files and settings stay as they are."""
     home = tmp_path_factory.mktemp("lab")
     shutil.copytree(ROOT / "notebooks", home / "notebooks", ignore=shutil.ignore_patterns(".*"))
-    release_with_a_mistake(home, home / "notebooks")
+    release_with_a_mistake(home / "notebooks")
     panel = nbformat.v4.new_notebook(cells=[nbformat.v4.new_code_cell(cell) for cell in CELLS])
     panel.metadata["kernelspec"] = {"name": "python3", "display_name": "Python 3"}
     nbformat.write(panel, home / PANEL)
@@ -45,17 +44,14 @@ def lab(tmp_path_factory):
         yield home
 
 
-def release_with_a_mistake(home, folder):
+def release_with_a_mistake(folder):
     """Put what students get of an assignment into the folder, with one usual mistake in it."""
-    course = empty_course(home, ASSIGNMENT)
-    nbgrader(course, "generate_assignment", ASSIGNMENT)
-    (release,) = (course / "release" / ASSIGNMENT).glob("*.ipynb")
-    notebook = nbformat.read(release, as_version=4)
+    assignment = nbformat.read(notebook(ASSIGNMENT), as_version=4)
     wrong = next(each for each in wrong_answers(ASSIGNMENT) if MISTAKE in each["hint"])
-    for cell in notebook.cells:
-        if cell.metadata.nbgrader.get("grade_id") == wrong["cell"]:
-            cell.source = wrong["source"]
-    nbformat.write(notebook, folder / f"{ASSIGNMENT}.ipynb")
+    for cell in assignment.cells:
+        is_answer = cell.metadata.nbgrader.grade_id == wrong["cell"]
+        cell.source = wrong["source"] if is_answer else released(cell.source)
+    nbformat.write(assignment, folder / f"{ASSIGNMENT}.ipynb")
 
 
 def open_notebook(page, url: str, name: str) -> None:
