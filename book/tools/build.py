@@ -180,7 +180,7 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
     """Put the book's pages and the chapters into one tree, as Sphinx wants them."""
     hidden = shutil.ignore_patterns(".*", "__pycache__")
     shutil.copytree(ROOT / "notebooks", source / "notebooks", ignore=hidden)
-    stored = [BOOK / f"{name}.json" for name in ("faults", "four", "lawn", "speed")]
+    stored = [BOOK / f"{name}.json" for name in ("faults", "lawn", "speed")]
     pages = (page for page in BOOK.glob("*.md") if page.name != "design.md")
     for page in (*pages, *stored):
         shutil.copy(page, source)
