@@ -310,16 +310,13 @@ def test_the_stored_panels_are_those_of_now():
             assert fresh, f"{name}: book/tools/run.py stores {it['program']} anew"
 
 
-def test_each_chapter_has_something_to_move_and_asks_for_predictions_before_they_are_answered():
+def test_what_moves_stands_in_one_chapter_and_its_prediction_is_still_open():
     placed = []
     for name, notebook in CHAPTERS.items():
-        here = re.findall(r"\blive\.(\w+)\((.*)\)", "\n".join(it.source for it in code(name)))
-        placed += [thing for thing, how in here if how != "ask=False"]
-        widgets = notebook.metadata.widgets[STATE]["state"].values()
+        here = re.findall(r"\blive\.(\w+)\(\)", "\n".join(it.source for it in code(name)))
+        placed += here
+        widgets = notebook.metadata.get("widgets", {}).get(STATE, {}).get("state", {}).values()
         states = [it["state"] for it in widgets if "ask" in it["state"].get("setup", ())]
-        asked = [it["setup"]["ask"] for it in states if it["setup"]["ask"]]
-        assert len(states) == len(here) >= 2, name
-        assert 2 <= len(asked) <= 3, name
+        assert len(states) == len(here), name
         assert all(it["state"]["guess"] is None for it in states), name
-    assert len(set(placed)) == len(placed)  # each once
-    assert set(placed) == set(live.__all__) - live.PARTS
+    assert sorted(placed) == sorted(set(live.__all__) - live.PARTS)

@@ -70,26 +70,6 @@ def test_z3_says_so_when_it_gives_up(monkeypatch):
         counterexample(hard, WINDOW)
 
 
-def test_a_figure_is_answered_by_the_kernel_too(monkeypatch):
-    pytest.importorskip("anywidget", reason="what moves needs anywidget")
-    from wmrbook import live
-
-    sent, thing = [], live.strict()
-    monkeypatch.setattr(thing, "send", sent.append)
-    for k2 in (0.25, 1.0):
-        thing._handle_custom_msg({"of": {"k2": k2}}, [])
-    rising, none = (it["is"]["state"] for it in sent)
-    assert none is None
-    assert slope().subs({K2: 0.25, **dict(zip((P, Q), rising, strict=True))}) > 0
-
-    def silent(k2):
-        raise TimeoutError(f"z3 decides nothing at {k2}")
-
-    monkeypatch.setattr(strict, "answer", silent)
-    thing._handle_custom_msg({"of": {"k2": 2.0}}, [])
-    assert sent[2] == {"of": {"k2": 2.0}, "error": "z3 decides nothing at 2.0"}
-
-
 def test_the_page_has_the_version_of_the_locks():
     (wheel,) = re.findall(r"^z3-solver==([\d.]+) ", Z3.read_text(encoding="utf-8"))
     for lock in (ROOT / "environment.txt", ROOT / "tests" / "environment.txt"):

@@ -147,34 +147,6 @@
     }
   }
 
-  // What a figure asks: the text that its code prints, unless whoever asked is gone.
-  async function answer(code, say, gone) {
-    if (running?.starts) throw Error('Python is still starting: ask again in some seconds.');
-    if (running) throw Error('a cell is running.');
-    running = { starts: true };
-    document.documentElement.classList.add('python-busy');
-    try {
-      say(worker ? 'Asking …' : 'Loading Python …');
-      worker ??= started();
-      const python = await worker;
-      if (gone()) throw Error('it was stopped.');
-      running.starts = false;
-      say('Asking …');
-      const asked = { space: 'figures', number: 0, before: '', checks: [], source: code };
-      const { shown, error, died, stopped } = await python.run(asked);
-      if (died) stop();
-      if (error || stopped) throw Error(error || 'it was stopped.');
-      return shown[0][1];
-    } catch (error) {
-      worker?.catch(() => { worker = undefined; });  // it did not start
-      throw error;
-    } finally {
-      running = undefined;
-      document.documentElement.classList.remove('python-busy');
-    }
-  }
-  window.wmrPython = { answer, stop };
-
   const forget = (some) => some.forEach((each) => { each.ran = undefined; });
 
   function stop() {

@@ -3,13 +3,11 @@
 from __future__ import annotations
 
 import math
-import re
 from zlib import crc32
 
 import control
 import numpy as np
 import pytest
-import sympy as sp
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
@@ -18,8 +16,7 @@ from test_live import NAMES, commit
 import wmrlib as wmr
 from wmrbook import live
 from wmrbook.chapters import routes
-from wmrbook.chapters.strict import K2, STRICT, P, Q, answer, slope
-from wmrbook.live import audit, facing, noise, real_robot
+from wmrbook.live import noise, real_robot
 
 ROLLING = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
 TRIALS = 4  # places of the knobs, besides where they stand at first
@@ -187,21 +184,6 @@ def wheel_limit(values, found, data) -> None:
     assert found["strays"] == pytest.approx(far, abs=1e-6)
 
 
-def bench(values, found, data) -> None:
-    turned, start, goal = np.radians(values["set_off"]), pose(data["start"]), pose(data["goal"])
-    start = start._replace(heading=start.heading + turned)
-    receiver = values["sigma"], values["memory"]
-    faults = {"late": values["late"], "slip": values["slip"] / 100}
-    path, driven = noise.seeing(start, goal, noise.receiver(*receiver), **faults)
-    ends = np.array([each["pose"] for each in found["ends"]]).T
-    for ours, theirs in zip(path, ends, strict=True):
-        np.testing.assert_allclose(np.cos(ours[-1]), np.cos(theirs), atol=1e-6)
-    assert [each["n"] for each in found["ends"]] == driven.tolist()
-    assert (found["far"], found["turned"]) == pytest.approx(
-        noise.left_over(*receiver, turned, **faults), abs=1e-6
-    )
-
-
 def late(values, found, data) -> None:
     for k, run in enumerate(found["runs"]):
         delays = [0.0, 0.0]
@@ -217,20 +199,6 @@ def late(values, found, data) -> None:
         believed = (x[then], y[then], heading[now]) if k == 0 else (x[now], y[now], heading[then])
         if now < len(run["seen"]):
             assert run["old"] == pytest.approx(believed)
-
-
-def threshold(values, found, data) -> None:
-    tunings = {"paper": wmr.paper.OUTDOOR_GAINS, "gentle": wmr.GENTLE_GAINS}
-    curves = []
-    for axis, stops in zip(("east", "north"), found["stops"], strict=True):
-        case = wmr.paper.outdoor(axis)
-        how = {"method": "continuous", "arrival_radius": stops[1][0] / 100}
-        run = wmr.simulate(case.start, case.goal, tunings[values["gains"]], **how)
-        off = abs(math.degrees(wmr.arrival(run).heading_error))
-        assert stops[1] == pytest.approx([values["radius"], off], abs=0.05)
-        curves.append(audit.heading_left(tunings[values["gains"]], axis)[1])
-    verdict = audit.parked(curves, values["radius"] / 100, values["most"])
-    assert found["verdict"] == verdict
 
 
 def rising(values, found, data) -> None:
@@ -250,47 +218,10 @@ def rising(values, found, data) -> None:
         np.testing.assert_allclose(V, ours, rtol=1e-6, atol=1e-7)
 
 
-def strict(values, found, data) -> None:
-    middles = ((np.arange(121) + 0.5) / 121 * 2 - 1) * 50
-    p, q = np.tan(np.radians(np.meshgrid(middles, middles, indexing="ij")) / 2)
-    rate = sp.lambdify((P, Q, K2), slope())(p, q, values["k2"])
-    assert len(found["rising"]) == (rate > 0).sum()
-
-
-def compass(values, found, data) -> None:
-    iron, soft = values["iron"], values["soft"] / 100
-    for degrees, error in zip(found["turn"], found["errors"], strict=True):
-        read = real_robot.compass_heading(math.radians(degrees), iron, soft)
-        off = wmr.wrap_angle(read - math.radians(degrees) - math.radians(error))
-        assert off == pytest.approx(0.0, abs=1e-9)
-    read = real_robot.compass_heading(math.radians(values["heading"]), iron, soft)
-    assert wmr.wrap_angle(found["read"] - read) == pytest.approx(0.0, abs=1e-9)
-    if soft == 0.0:  # the most that chapter 11 says
-        assert found["worst"] == pytest.approx(
-            math.degrees(math.asin(abs(iron) / data["field"])), abs=0.5
-        )
-
-
 def silence(values, found, data) -> None:
     far = real_robot.rolled(values["speed"], values["timeout"], values["brake"])
     assert found["far"] == pytest.approx(far, rel=1e-9)
     assert found["faith"] == pytest.approx(values["speed"] * values["timeout"])
-
-
-def course_cone(values, found, data) -> None:
-    far = facing.course_sigma(values["sigma"], values["distance"])
-    assert found["off"] == pytest.approx(far, rel=1e-12)
-    needed = found["needed"]
-    assert facing.course_sigma(values["sigma"], needed) == pytest.approx(math.radians(5))
-
-
-def leaning_compass(values, found, data) -> None:
-    dip, lean = math.radians(values["dip"]), math.radians(values["lean"])
-    for degrees, error in zip(found["turn"], found["errors"], strict=True):
-        off = facing.leaning_error(math.radians(degrees), dip, lean)
-        assert wmr.wrap_angle(off - math.radians(error)) == pytest.approx(0.0, abs=1e-9)
-    here = facing.leaning_error(math.radians(values["heading"]), dip, lean)
-    assert wmr.wrap_angle(found["off"] - here) == pytest.approx(0.0, abs=1e-9)
 
 
 def same_route(found, poses, radii, gains, stop) -> None:
@@ -340,8 +271,8 @@ def bowl(values, found, data) -> None:
     assert found["height"] == pytest.approx(height[found["k"]], abs=AGREES)
 
 
-def torus(values, found, data) -> None:
-    start, robots = wmr.Pose(values["distance"], 0.0, math.pi), data["robots"]
+def seam(values, found, data) -> None:
+    start, robots = wmr.Pose(data["distance"], 0.0, math.pi), data["robots"]
     seen = wmr.Receiver(sight=np.full(robots, math.radians(values["noise"])))
     how = {"method": "arc", "dt": data["dt"], "arrival_radius": data["radius"]}
     how |= {"hysteresis": values["hysteresis"], "seed": data["seed"]}
@@ -382,18 +313,6 @@ def x_axis(values, found, data) -> None:
     bearing = math.pi / 2 - case.start.heading
     seen = bearing if values["axis"] == "north" else case.start.heading
     assert wmr.wrap_angle(found["start"][2] - seen) == pytest.approx(0.0, abs=1e-12)
-
-
-def heading_left(values, found, data) -> None:
-    ends, gains = (pose(data["start"]), pose(data["goal"])), data["gains"][values["choice"]]
-    how = {"dt": 0.01, "duration": 120.0, "arrival_radius": values["radius"]}
-    ours = wmr.simulate(*ends, wmr.Gains(**gains), method="continuous", **how)
-    assert found["left"] == pytest.approx(ours.heading_error[-1], abs=1e-6)
-    assert found["time"] == pytest.approx(ours.t[-1], abs=1e-6)
-    run = found["run"]
-    late = np.array(run["rho"]) <= values["radius"]
-    error = np.abs(wmr.wrap_angle(np.array(run["theta"]) - run["alpha"]))[late].max()
-    assert found["largest"] == pytest.approx(max(error, abs(found["left"])), abs=1e-12)
 
 
 def round_the_circle(gains, law="corrected") -> wmr.Trajectory:
@@ -539,54 +458,3 @@ def test_poles_go_where_the_hand_goes_and_take_each_other_along(emptied_page):
     panel.drag(poles[0], 1.5 * scale, 0)
     assert "h would be" in emptied_page.locator(".live-trouble").inner_text()
     assert panel.found()["poles"][0][0] < 0.0
-
-
-def test_what_z3_finds_is_driven_for_as_long_as_the_gain_is_that_one(emptied_page):
-    panel = mounted(emptied_page, live.strict(), width=390)
-    panel.set(k2=0.2, answer={"of": {"k2": 0.2}, "is": answer(0.2)})
-    found = panel.found()
-    p, q = answer(0.2)["state"]
-    rho, origin = live.strict().setup["data"]["rho"], pose([0.0, 0.0, 0.0])
-    start = wmr.pose_from_polar(wmr.PolarError(rho, 2 * math.atan(q), 2 * math.atan(p)), origin)
-    gains = wmr.Gains(1.0, 0.2 * -math.expm1(-rho) / rho, 1.0, 1.0)
-    how = {"method": "continuous", "dt": 0.01 / 1.2, "duration": 30 / 1.2, "arrival_radius": 0.0}
-    run = wmr.simulate(start, origin, gains, law="barrier", **how)
-    np.testing.assert_allclose(found["run"]["alpha"], run.alpha, atol=AGREES)
-    np.testing.assert_allclose(found["run"]["theta"], run.theta, atol=AGREES)
-    V = sp.lambdify((P, Q), STRICT)(np.tan(run.theta / 2), np.tan(run.alpha / 2))
-    grown = 100 * (V / V[0] - 1)
-    np.testing.assert_allclose(found["run"]["grown"], grown, atol=1e-4)
-    assert found["most"] == pytest.approx(grown.max(), abs=1e-4)
-    assert grown.max() > 0.4
-    said = emptied_page.locator(".live-asks")
-    assert re.search(r"no, not at . = .?14\.3°, . = 0°", said.inner_text())
-    panel.set(k2=1.0)
-    assert said.inner_text() == "Prove it"
-    panel.set(answer={"of": {"k2": 1.0}, "is": answer(1.0)})
-    assert "yes, proved" in said.inner_text()
-
-
-def test_a_prover_that_is_left_says_no_more(emptied_page):
-    mounted(emptied_page, live.strict(), width=390)
-    emptied_page.evaluate("""() => { window.wmrPython = { stop() {}, answer: (code, say) =>
-        new Promise(() => setInterval(() => say('Loading …'), 20)) }; }""")
-    button, said = emptied_page.locator(".live-asks button"), emptied_page.locator(".live-asks")
-    for _ in range(2):
-        button.click()
-        emptied_page.get_by_text("Loading …").wait_for()
-        button.click()
-        emptied_page.get_by_text("Stopped.").wait_for()
-        emptied_page.wait_for_timeout(100)
-        assert said.inner_text().split("\n") == ["Prove it", "Stopped."]
-
-
-def test_the_benchs_receivers_are_those_of_the_library():
-    start, goal = noise.last_ten_metres()
-    seen = wmr.Receiver(sigma=0.5, memory=5.0, delay=0.3)
-    path, driven = noise.seeing(start, goal, noise.receiver(0.5, 5.0), late=0.3)
-    gains = noise.GENTLE_GAINS._replace(k_rho=np.full(noise.ROBOTS, noise.GENTLE_GAINS.k_rho))
-    how = {"method": "arc", "dt": noise.DT, "duration": 40.0, "arrival_radius": noise.RADIUS}
-    theirs = wmr.sweep(start, goal, gains, receiver=seen, seed=noise.SEED, progress=False, **how)
-    np.testing.assert_allclose(driven * noise.DT, theirs.time, atol=1e-9)
-    far = np.hypot(path.x[-1], path.y[-1])
-    np.testing.assert_allclose(far, theirs.distance, atol=1e-9)

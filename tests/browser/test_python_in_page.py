@@ -14,13 +14,10 @@ import graded
 import nbformat
 import pytest
 from faults import SIZES, of_page
-from host import TRAITS
 from live import PATIENCE, ROOT, chapters
 from page_tasks import TASKS
 from python_cells import runnable
 from python_pack import Z3, packages
-
-from wmrbook import live
 
 CELL = re.compile(r'<script type="application/json" class="python-cell">(.*?)</script>', re.DOTALL)
 DRAWN_TEXTS = """() => [...document.querySelectorAll('.python-output')].map(all =>
@@ -175,60 +172,6 @@ def test_z3_decides_in_the_page_and_is_loaded_for_a_cell_that_asks_it(site, tmp_
     press(browser_page, 2, "Run")
     assert told(browser_page, 2).startswith("Done")
     assert sum(it == "z3.js" for it in asked) == 1
-
-
-def test_a_figure_asks_the_pages_python_and_says_what_is_missing(site, tmp_path, browser_page):
-    pytest.importorskip("anywidget", reason="what moves needs anywidget")
-    static, z3 = tmp_path.as_uri(), tmp_path / "vendor/python/z3.js"
-    for each in (site / "_static").rglob("*.js"):  # what is there, but not z3
-        place = tmp_path / each.relative_to(site / "_static")
-        place.parent.mkdir(parents=True, exist_ok=True)
-        if place != z3:
-            place.symlink_to(each)
-    kind, traits = "application/vnd.jupyter.widget", live.strict().get_state(TRAITS)
-    states = json.dumps({"state": {"it": {"model_name": "AnyModel", "state": traits}}})
-    page = page_of([], static) + f'<body><script src="{static}/vendor/panels.js"></script>'
-    page += f'<script src="{static}/widgets.js" data-start="1"></script>'
-    page += f'<script type="{kind}-state+json">' + states.replace("</", "<\\/") + "</script>"
-    page += f'<script type="{kind}-view+json">{{"model_id": "it"}}</script>'
-    path = tmp_path / "figure.html"
-    path.write_text(page, encoding="utf-8")
-    browser_page.goto(path.as_uri())
-    said, number = browser_page.locator(".live-asks [role=status]"), ".live-number"
-    button = browser_page.locator(".live-asks button")
-
-    def asked(k2):
-        browser_page.locator(number).fill(k2, timeout=PATIENCE)
-        browser_page.locator(number).press("Enter")
-        button.click(timeout=PATIENCE)
-        browser_page.wait_for_function(
-            "() => document.querySelector('.live-asks button').textContent === 'Prove it'"
-            " && document.querySelector('.live-asks [role=status]').textContent",
-            timeout=PATIENCE,
-        )
-        return said.text_content()
-
-    assert not browser_page.evaluate("Object.keys(window.PYTHON_PARTS ?? {}).length")
-    assert asked("1") == "No answer: z3.js is not beside this page"
-    browser_page.troubles.clear()  # the console says so too
-    z3.symlink_to(site / "_static/vendor/python/z3.js")
-    assert asked("1") == "z3: yes, proved."
-    for k2 in ("0.25", "0.2", "16"):
-        assert asked(k2).startswith("z3: no, not at")
-    assert asked("0.254033").endswith("less than 0.001\u00a0%.")
-
-    # Stopped while Python is loaded again, and asked once more.
-    browser_page.evaluate("wmrPython.stop()")
-    browser_page.locator(number).fill("2")
-    browser_page.locator(number).press("Enter")
-    button.click()
-    assert button.text_content() == "Stop"
-    button.click()
-    browser_page.wait_for_function(
-        "() => document.querySelector('.live-asks [role=status]').textContent === 'Stopped.'"
-    )
-    browser_page.wait_for_function("() => !document.documentElement.matches('.python-busy')")
-    assert asked("2") == "z3: yes, proved."
 
 
 @pytest.mark.slow

@@ -25,18 +25,6 @@ def rises(values) -> bool:
     return all(a < b for a, b in itertools.pairwise(values))
 
 
-def last_metres(found):
-    start, *_ = (each["run"]["heading"][0] for each in found)
-    goal = found[0]["run"]["heading"][-1] - found[0]["off"]
-    for each in found[:2]:  # past it, on the way from the start's heading
-        yield each["off"] * (goal - start) > 0.0
-    off, time = degrees(found, "off"), [each["run"]["t"][-1] for each in found]
-    yield off[0] > 20.0
-    yield rises(off[::-1])
-    yield off[-1] < 3.0
-    yield rises(time)
-
-
 def flat_map(found):
     near, far, north, level = (np.hypot(*np.subtract(*each["maps"])) for each in found)
     return near < 1e-3, far / near == pytest.approx(1e4, rel=0.01), north > far, level < 1e-3 * far
@@ -66,16 +54,6 @@ def bowl(found):
         yield abs(steepest - went) > np.radians(20.0)
 
 
-def heading_left(found):
-    near, swings, far, gentle = degrees(found, "left")
-    yield swings < near < far
-    yield np.prod([each["left"] for each in found[::2]]) < 0.0  # it has swung in between
-    yield gentle < near
-    run = found[3]["run"]
-    left = np.abs(wmr.wrap_angle(np.subtract(run["theta"], run["alpha"])))
-    yield (np.diff(left[np.array(run["rho"]) > 0.01]) < 0.0).all()
-
-
 def lag(found):
     first, steep, fast = (each["residual"] for each in found)
     return first > 0.05, steep == pytest.approx(first / 2, rel=0.02), 0.4 < fast / first < 0.5
@@ -102,28 +80,9 @@ def wheel_limit(found):
     yield np.max(found[1]["run"]["x"]) > 2.0 * np.max(found[1]["free"]["x"])
 
 
-def bench(found):
-    (new, anywhere), (lasts, right), (slips, askew), (_, wrong) = (
-        (each["far"], np.degrees(each["turned"])) for each in found
-    )
-    yield new < lasts
-    yield right < anywhere / 2
-    yield slips == pytest.approx(lasts, rel=0.1)
-    yield askew > 1.5 * right
-    yield wrong > 90.0
-
-
 def rising(found):
     up, down, again = (each["rate"] for each in found)
     return up > 0.0, down < 0.0, again > 0.0
-
-
-def compass(found):
-    none, magnets, steel, both = (np.array(each["errors"]) for each in found)
-    yield np.abs(none).max() < 1e-9
-    for errors, waves in (magnets, 1), (steel, 2):
-        yield np.argmax(np.abs(np.fft.rfft(errors[:-1]))) == waves
-    yield np.ptp(both) > 10.0
 
 
 def corners(found):
@@ -139,11 +98,6 @@ def race(found):
     yield 0.1 < backs[1]["corrected"] < 0.5
     yield backs[2]["graceful"] == 0.0
     yield max(backs[3].values()) == 0.0
-
-
-def leaning_compass(found):
-    level, slope, north, flat = (each["worst"] for each in found)
-    return level < 1e-9, slope == pytest.approx(7.0, abs=1.0), north > slope, flat < 0.2
 
 
 def test_each_chapter_has_a_scene_that_grows():

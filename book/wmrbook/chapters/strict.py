@@ -9,7 +9,6 @@ from __future__ import annotations
 import math
 import operator
 from fractions import Fraction
-from typing import Any
 
 import sympy as sp
 
@@ -77,12 +76,3 @@ def counterexample(polynomial: sp.Expr, *given: sp.Rel) -> dict[sp.Symbol, sp.Ra
     found, asked = solver.model(), polynomial.free_symbols.union(*(it.free_symbols for it in given))
     values = {x: found.eval(names[x], model_completion=True) for x in names if x in asked}
     return {x: sp.Rational(Fraction(value.as_fraction())) for x, value in values.items()}
-
-
-def answer(k2: float) -> dict[str, Any]:
-    """Return what z3 says of STRICT at a gain, for a figure: a state (p, q) where it is not.
-
-    The gain is taken as the decimal number that it is written as. No state, `None`, means proved.
-    """
-    state = counterexample(slope().subs(K2, sp.Rational(repr(k2))))
-    return {"state": state and [float(state[P]), float(state[Q])]}

@@ -6,7 +6,7 @@ ask for a prediction first. They live in a page without a kernel, as the Explore
 
 import lazy_loader
 
-PARTS = {"Ask", "Asks", "Choice", "Knob", "Live"}
+PARTS = {"Ask", "Choice", "Knob", "Live"}
 """What the rest is made of."""
 
 __getattr__, __dir__, __all__ = lazy_loader.attach(
@@ -17,17 +17,15 @@ __getattr__, __dir__, __all__ = lazy_loader.attach(
         "earth": ["bearing", "flat_map"],
         "robot": ["commutator", "one_step", "turning_centre"],
         "angles": ["half_turn", "polar_angles"],
-        "lyapunov": ["bowl", "torus", "two_bars"],
-        "pose_to_pose": ["heading_left", "x_axis"],
+        "lyapunov": ["bowl", "seam", "two_bars"],
+        "pose_to_pose": ["x_axis"],
         "circle": ["lag", "lqr"],
         "design": ["poles", "window"],
         "sampling": ["parking", "unit_circle", "wheel_limit"],
-        "noise": ["bench", "late"],
-        "audit": ["rising", "threshold"],
-        "real_robot": ["compass", "silence"],
+        "noise": ["late"],
+        "audit": ["rising"],
+        "real_robot": ["silence"],
         "routes": ["corners", "passing"],
-        "prover": ["strict"],
-        "facing": ["course_cone", "leaning_compass"],
         "other_laws": ["heading_power", "race"],
     },
 )

@@ -9,20 +9,9 @@ from wmrlib import paper, simulate
 from wmrlib.gains import GENTLE_GAINS
 
 
-def last_metres(ask: bool = True) -> Live:
-    """The paper's outdoor drive, its last two metres, and one slider that mends its end.
-
-    Parameters
-    ----------
-    ask : whether to ask first how far off its heading the robot may stop
-    """
+def last_metres() -> Live:
+    """The paper's outdoor drive, its last two metres, and one slider that mends its end."""
     start, goal, gains, _ = paper.outdoor()
-    run = simulate(start, goal, gains, method="continuous")
-    off_deg, value = abs(math.degrees(run.heading_error[-1])), run.V[-1]
-    angles = value - run.rho[-1] ** 2 / 2  # the part of V that is not distance
-    # |theta - alpha| is largest, for this part, where alpha = -h theta
-    most_deg = math.degrees(math.sqrt(2 * angles * (1 + 1 / gains.h)))
-    shown = {"label": "on its way", "plays": 6.0, "auto": not ask}
     return Live(
         "last_metres",
         "With *k_rho* = {k_rho}, *k_alpha* = {k_alpha} and *h* = {h} the robot arrives after "
@@ -31,30 +20,11 @@ def last_metres(ask: bool = True) -> Live:
             "share": Knob(
                 0.0, 0.0, 1.0, 0.02, "from the paper's gains to gentle ones", label="gentler"
             ),
-            "time": Knob(float(ask), 0.0, 1.0, 0.01, "how far on its way", **shown),
+            "time": Knob(
+                0.0, 0.0, 1.0, 0.01, "how far on its way", label="on its way", plays=6.0, auto=True
+            ),
         },
         data=between(start, goal, paper=gains._asdict(), gentle=GENTLE_GAINS._asdict()),
-        ask=choose(
-            f"With the paper's gains the robot stops 5 cm before the goal. V has fallen from "
-            f"{run.V[0]:.0f} to {value:.3f}, of which rho²/2 makes up {run.rho[-1] ** 2 / 2:.3f}. "
-            "Does the robot face the goal's way?",
-            f"The rest of V, {angles:.3f}, is all angles. With h = {gains.h:g} it leaves room for "
-            f"{most_deg:.0f} deg of heading error, and the robot stops {off_deg:.0f} deg off.",
-            answers={
-                "Yes, within a degree: V is down to a ten-thousandth": off_deg < 1,
-                "Within a few degrees: it is on the spot": 1 <= off_deg < 10,
-                "No, it may be tens of degrees off": off_deg >= 10,
-            },
-            wrong=(
-                "V began with the square of 58 m. That is gone, and says nothing about the angles.",
-                "To be on the spot is not to face the right way: what is left of V is nearly "
-                "all angles.",
-                "",
-            ),
-        )
-        if ask
-        else None,
-        grows=ask,  # the book's first screen has no room for more
     )
 
 

@@ -23,7 +23,6 @@ from wmrlib.paper import OUTDOOR_GAINS
 GOAL = Pose(0.0, 0.0, 0.0)
 NEAR = 0.5  # m from the goal
 LOOK = (-30.0, 35.0)  # deg, yaw and tilt of the bowl at first
-SEEN = (70.0, 50.0)  # the same of the torus
 ASKED = (0.0, 60.0)  # deg, alpha and theta
 FACING, NOISE = 0.5, 2.0  # m and deg, of the robots on the seam
 SWARM = {"robots": 40, "dt": 0.01, "radius": 0.05, "seed": 5, "steps": 1000}
@@ -129,7 +128,7 @@ def two_bars() -> Live:
     )
 
 
-def torus() -> Live:
+def seam() -> Live:
     """Robots that start on the seam and see their goal through noise; hysteresis mends it."""
     start = Pose(FACING, 0.0, math.pi)
     seen = Receiver(sight=np.full(SWARM["robots"], math.radians(NOISE)))
@@ -137,23 +136,18 @@ def torus() -> Live:
     ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=seen, seed=SWARM["seed"], **how)
     share = np.mean(np.abs(ends.heading_error) > math.pi / 2)
     return Live(
-        "torus",
-        "With {noise} of noise and {hysteresis} of hysteresis, from {distance} away, {lost} "
+        "seam",
+        "With {noise} of noise and {hysteresis} of hysteresis {lost} "
         "robots park over 90° off, the worst {worst}.",
         {
             "noise": Knob(NOISE, 0.0, 5.0, 0.1, "noise on the line of sight", "°", label="noise"),
             "hysteresis": Knob(0.0, 0.0, 0.4, 0.05, "hysteresis", "rad", label="hysteresis"),
-            "distance": Knob(FACING, 0.2, 0.8, 0.1, "the start's distance", "m", label="start"),
-            "yaw": Knob(
-                SEEN[0], -180.0, 180.0, 1.0, "the torus, turned round", "°", label="turned"
-            ),
-            "tilt": Knob(SEEN[1], 5.0, 85.0, 1.0, "the torus, tilted", "°", label="tilted"),
         },
         data={
             **SWARM,
+            "distance": FACING,
             "goal": list(GOAL),
             "gains": OUTDOOR_GAINS._asdict(),
-            "asked": {"yaw": SEEN[0], "tilt": SEEN[1], "distance": FACING},
         },
         ask=choose(
             "40 robots, 0.5 m from the goal, look at it, but should look the other way when they "

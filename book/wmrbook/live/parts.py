@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from importlib import import_module
 from typing import Any, NamedTuple
 
 from wmrbook.live.scenes import SCENES
@@ -63,18 +62,6 @@ class Ask(NamedTuple):
     at: tuple[float, float] | None = None
 
 
-class Asks(NamedTuple):
-    """A question to Python that takes a while: in a page to its own, in a notebook to the kernel.
-
-    `function` is one of wmrbook by its full name, `knobs` what it takes; it returns what JSON can
-    say, which the drawing finds as `answer`, {"of": the knobs, "is": what was returned}.
-    """
-
-    button: str
-    function: str
-    knobs: tuple[str, ...]
-
-
 def between(start: Pose, goal: Pose, **more: Any) -> dict[str, Any]:
     """Return the data of a drive from one pose to another, and what else its drawing needs."""
     return {"start": list(start), "goal": list(goal), **more}
@@ -105,8 +92,6 @@ class Live(Panel):
     knobs : Knob or Choice, by name
     data : what the drawing needs that does not move: numbers, lists and texts
     ask : Ask or None
-    asks : Asks or None
-    grows : whether it shows its ideas, if `scenes.SCENES` has some
 
     `thing["k_alpha"]` is where a knob stands, and can be set.
 
@@ -123,11 +108,9 @@ class Live(Panel):
         *,
         data: dict[str, Any] | None = None,
         ask: Ask | None = None,
-        asks: Asks | None = None,
-        grows: bool = True,
     ):
         self._knobs = knobs
-        steps = [step._asdict() for step in SCENES.get(name, ()) if grows]
+        steps = [step._asdict() for step in SCENES.get(name, ())]
         for step in steps:
             step["to"] = {it: self._knobs[it].allowed(it, to) for it, to in step["to"].items()}
         listed = []
@@ -144,19 +127,7 @@ class Live(Panel):
             "steps": steps,
         }
         state = {each: knob.allowed(each, knob.value) for each, knob in knobs.items()}
-        if asks:
-            setup["asks"], state["answer"] = asks._asdict(), None
         super().__init__(f"live/{name}", state | {"guess": None}, setup)
-        self.on_msg(self._reply)
-
-    def _reply(self, _, content: Any, buffers: Any) -> None:
-        if isinstance(content, dict) and "of" in content:
-            module, _, function = self.setup["asks"]["function"].rpartition(".")
-            try:
-                found = getattr(import_module(module), function)(**content["of"])
-                self.send({"of": content["of"], "is": found})
-            except (ImportError, TimeoutError) as error:
-                self.send({"of": content["of"], "error": str(error)})
 
     def __repr__(self) -> str:
         return f"<live: {self.setup['sentence']}>"

@@ -1,61 +1,9 @@
-"""Chapter 11: a compass on a robot of steel, and a receiver that falls silent."""
+"""Chapter 11: a receiver that falls silent."""
 
 from __future__ import annotations
 
-import math
-
-from wmrbook.live.parts import Ask, Knob, Live, choose
-from wmrlib import Pose, advance, wrap_angle
-
-FIELD = 30.0  # microtesla, the horizontal part of the Earth's
-
-
-def compass_heading(heading: float, iron: float, soft: float) -> float:
-    """The heading that a compass reports [rad], on a robot of steel.
-
-    Parameters
-    ----------
-    heading : the true one, rad from magnetic east
-    iron : what the robot's magnets add to the field ahead, microtesla
-    soft : by which share the steel strengthens the field ahead, and weakens it across
-    """
-    north = wrap_angle(math.pi / 2 - heading)  # from ahead
-    ahead = (1 + soft) * FIELD * math.cos(north) + iron
-    left = (1 - soft) * FIELD * math.sin(north)
-    return wrap_angle(math.pi / 2 - math.atan2(left, ahead))
-
-
-def compass() -> Live:
-    """Hard and soft iron: what a compass makes of the heading while the robot turns."""
-    iron = 20.0
-    read = compass_heading(0.0, iron, 0.0)
-    return Live(
-        "compass",
-        "The magnets on the robot add {iron} ahead to the Earth's 30 µT, and its steel makes the "
-        "field ahead {soft} stronger and the field across as much weaker. Looking to {heading}, "
-        "the robot believes it looks to {read}; in a full turn the error reaches {worst}.",
-        {
-            "iron": Knob(iron, -25.0, 25.0, 1.0, "hard iron, ahead", "µT", "m"),
-            "soft": Knob(0.0, 0.0, 30.0, 1.0, "soft iron", "%", label="soft iron"),
-            "heading": Knob(
-                0.0, -180.0, 180.0, 2.0, "the true heading, degrees", "°", "phi", plays=6.0
-            ),
-        },
-        data={"field": FIELD},
-        ask=Ask(
-            "turn",
-            "A robot looks east. The Earth's field of 30 µT points north, to its left; magnets on "
-            "the robot add 20 µT ahead. The program takes the sum for north. Where does it believe "
-            "it looks? Turn the arrow.",
-            "The sum points between left and ahead, and the robot believes north to be there: so "
-            f"it believes it looks {math.degrees(read):.1f}° to the north of east. Hard iron "
-            "turns with the robot, so the error changes with the heading, and no single angle "
-            "corrects it.",
-            key=read,
-            pane="above",
-            at=(0.0, 0.0),
-        ),
-    )
+from wmrbook.live.parts import Knob, Live, choose
+from wmrlib import Pose, advance
 
 
 def rolled(speed: float, timeout: float, brake: float, parts: int = 200) -> float:

@@ -13,11 +13,6 @@ class Step(NamedTuple):
 
 
 SCENES = {
-    "last_metres": (
-        Step("The paper's gains: it arrives, and has turned past the goal's heading."),
-        Step("Half way to gentle gains: still past it, by less.", {"share": 0.5}),
-        Step("Gentle gains: it arrives later, and parks.", {"share": 1.0}),
-    ),
     "flat_map": (
         Step("Over 100 m a flat map is as good as a round one."),
         Step("A hundred times as far, it is 10,000 times as wrong.", {"km": 10.0}),
@@ -51,18 +46,6 @@ SCENES = {
             {"choice": "paper", "tilt": 60.0, "yaw": 0.0},
         ),
     ),
-    "heading_left": (
-        Step("The paper's gains, stopped at 5 cm.", {"choice": "paper", "radius": 0.05}),
-        Step(
-            "Stopped at 10 cm: better, for the heading happens to swing through zero.",
-            {"choice": "paper", "radius": 0.1},
-        ),
-        Step("Stopped at 30 cm: worse than either.", {"choice": "paper", "radius": 0.3}),
-        Step(
-            "Gentle gains: the nearer it stops, the less is left, down to 1 cm.",
-            {"choice": "gentle", "radius": 0.1},
-        ),
-    ),
     "lag": (
         Step("It keeps up with its goal, and stays behind it."),
         Step("k_rho twice as large: half the distance.", {"k_rho": 3.8}),
@@ -85,24 +68,10 @@ SCENES = {
         Step("v and omega clipped one by one: another path.", {"rule": "apart"}),
         Step("Both scaled alike: nearly the first path, driven more slowly.", {"rule": "both"}),
     ),
-    "bench": (
-        Step("Errors that are new in each fix: near, but tens of degrees off."),
-        Step("Errors that last: aside, but facing better.", {"memory": 300.0}),
-        Step("A wheel that slips costs heading, hardly place.", {"memory": 300.0, "slip": 15.0}),
-        Step("A position 0.8 s late: most face the wrong way.", {"memory": 300.0, "late": 0.8}),
-    ),
     "rising": (
         Step("As printed, V rises here."),
         Step("Let the distance count for more, and it falls.", {"L": 0.001}),
         Step("Nearer to the goal it rises again.", {"rho": 0.005, "L": 0.001}),
-    ),
-    "compass": (
-        Step("No magnets, no steel: it reads true.", {"iron": 0.0}),
-        Step("Magnets: one wave of error in a full turn.", {"iron": 15.0}),
-        Step("Steel: two waves.", {"iron": 0.0, "soft": 15.0}),
-        Step(
-            "Both: a sum of the two, which no single angle corrects.", {"iron": 15.0, "soft": 15.0}
-        ),
     ),
     "corners": (
         Step("A corner that is passed."),
@@ -115,12 +84,6 @@ SCENES = {
         Step("The corrected law backs up by little, and turns.", {"law": "corrected"}),
         Step("Graceful never does: it drives a loop."),
         Step("With the goal ahead none of them backs up.", {"x": -3.0, "y": -1.0}),
-    ),
-    "leaning_compass": (
-        Step("On level ground it reads true.", {"lean": 0.0}),
-        Step("Three degrees of slope cost seven of heading."),
-        Step("Farther north the field is steeper: more.", {"dip": 75.0}),
-        Step("In a level field a lean does no harm.", {"dip": 0.0}),
     ),
 }
 """Of each figure that grows, its ideas."""

@@ -13,4 +13,3 @@ export { normals } from './random.js';
 export { inReach, onStops } from './controls.js';
 export { ratesOfV } from './law.js';
 export { roundBelow } from './lawn.js';
-export { sightOf } from './sheet.js';

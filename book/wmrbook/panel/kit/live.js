@@ -1,7 +1,6 @@
 // A small thing to move: pictures, a sentence with numbers that can be dragged or typed, a slider
 // for each, and, before it opens, a prediction.
 
-import { buildAsker } from './asker.js';
 import { buildGate } from './gate.js';
 import { held, made, placeOn } from './hands.js';
 import { inWords, isCalm, written } from './style.js';
@@ -25,8 +24,7 @@ const GHOSTS = 2;
 //   does; draw(panes, values, found, hidden, setup): `hidden` before the prediction, when only what
 //   is given may be drawn; say(values, found, setup): the results in the sentence, by name;
 //   handles(values, found, setup): [{ id, pane, at: [x, y], says, move(x, y): what changes; throws
-//   RangeError, in words, where nothing can }]; verdict(values, found): where Python can be asked,
-//   what follows from its answer, or ''.
+//   RangeError, in words, where nothing can }].
 /** @param {string} name @param {Drawing} explorable */
 export const live = (name, explorable) => widget(`live/${name}`, ({ model, el }) => {
   const setup = structuredClone(model.get('setup')),
@@ -35,7 +33,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   root.innerHTML =
       '<div class="live-ask"></div><div class="live-idea"></div><p class="live-sentence"></p>'
     + '<div class="live-panes"></div><div class="live-rows" role="group" aria-label="controls">'
-    + '</div><div class="live-asks"></div><p class="live-trouble" role="alert"></p><div ' +
+    + '</div><p class="live-trouble" role="alert"></p><div ' +
         'class="wmr-aside" role="status" aria-live="polite"></div>';
   const find = (selector) => root.querySelector(selector), canvases = {},
       values = () => model.get('state');
@@ -91,8 +89,6 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     }, 700);
   };
   const knobs = putKnobs(root, setup, { get: values, set, refuse, changed: say });
-  const asker = setup.asks
-      ? buildAsker(find('.live-asks'), setup.asks, { model, get: values, set }) : null;
   const gate = setup.ask
       ? buildGate(find('.live-ask'), setup.ask,
       { get: values, set, panes: () => panes, host: (name) => canvases[name].parentElement,
@@ -161,7 +157,7 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
     // words after pictures: a font on a canvas waits for the styles of all that has changed
     find('.live-trouble').textContent = hidden && found ? '' : trouble;
     knobs.show(now);
-    for (const part of ['.live-idea', '.live-sentence', '.live-rows', '.live-asks'])
+    for (const part of ['.live-idea', '.live-sentence', '.live-rows'])
       find(part).hidden = hidden;
     if (!found) return;
     const handles = hidden ? [] : explorable.handles ? explorable.handles(now, found, setup) : [];
@@ -169,7 +165,6 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
       showHandles(canvases[name].parentElement, handles.filter((each) => each.pane === name),
           panes[name], give);
     if (!hidden) knobs.showResults(sound ? explorable.say(now, found, setup) : null);
-    asker?.show(explorable.verdict(now, found));
   }
   function paint(now, hidden) {
     root.found = found; // for tests
@@ -226,7 +221,6 @@ export const live = (name, explorable) => widget(`live/${name}`, ({ model, el })
   model.on('change:state', schedule);
   return () => {
     knobs.stop();
-    asker?.stop();
     page.stop();
     room.disconnect();
     clearTimeout(trying);

@@ -98,7 +98,7 @@ function inSamples(seconds, dt) { // of two whole numbers as near, the even one,
 }
 
 // What a receiver shows of a pose in sample k, as wmrlib's: wrong, held and late.
-export function sightOf({ sigma, memory, fix_period, delay, period: dt }, run, seed) {
+function sightOf({ sigma, memory, fix_period, delay, period: dt }, run, seed) {
   const period = Math.max(inSamples(fix_period, dt), 1), late = inSamples(delay, dt), past = [];
   let fix = -1, error = [0, 0];
   return (k, pose) => {

@@ -4,11 +4,6 @@
 declare const wmrKit: () => void;
 /** Programs by name, where a page has the kit. */
 declare var wmrPanels: Record<string, any>;
-/** The Python of a page that runs cells, see book/_static/python_cells.js. */
-declare var wmrPython: undefined | {
-  answer(code: string, say: (text: string) => void, gone: () => boolean): Promise<string>;
-  stop(): void;
-};
 /** What a figure found, for tests. */
 interface HTMLDivElement { found?: any }
 interface HTMLElement { grips?: Map<string, any> }
@@ -92,7 +87,6 @@ type Drawing = {
     setup: Setup): void;
   say(values: Values, found: any, setup: Setup): Record<string, string | number>;
   handles?(values: Values, found: any, setup: Setup): Handle[];
-  verdict?(values: Values, found: any): string;
 };
 
 /** A widget's model, as anywidget gives it. */

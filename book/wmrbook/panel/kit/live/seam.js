@@ -1,12 +1,12 @@
 // Robots that start on the seam of theta and see their goal through noise: their ways over the two
-// angles, on a torus and laid flat, and in the plane.
+// angles, and in the plane.
 
 import {
-  DEGREES, LAWS, ahead, camera, heldRun, inDegrees, live, normals, polarClosingRate,
-  polarFromPose, remembered, turnedBy, wrap,
+  DEGREES, LAWS, ahead, heldRun, inDegrees, live, normals, polarClosingRate, polarFromPose,
+  remembered, wrap,
 } from '../drawing.js';
 
-const TUBE = 0.45, AROUND = 48, QUARTER = Math.PI / 2;
+const QUARTER = Math.PI / 2;
 
 // What is random is drawn once.
 const drawn = remembered(({ robots, seed, steps }) =>
@@ -25,31 +25,6 @@ const swarm = remembered(({ robots, seed, noise, distance, ...drive }) =>
     const angles = poses.map((pose) => polarFromPose(...pose, ...drive.goal).slice(1));
     return { poses, angles, off: wrap(poses.at(-1)[2] - drive.goal[2]) };
   }));
-
-// A point of the torus on the screen, alpha = 0 on top, and whether it is on the side that is seen.
-function turned(yaw, tilt) {
-  const seen = camera(yaw, tilt);
-  return ([alpha, theta]) => {
-    const [out, up, ct, st] = [Math.sin(alpha), Math.cos(alpha), Math.cos(theta), Math.sin(theta)];
-    const [x, y] = seen((1 + TUBE * out) * ct, (1 + TUBE * out) * st, TUBE * up);
-    return { at: [x, y], front: seen(out * ct, out * st, up)[2] > 0 };
-  };
-}
-
-// A line over the torus: what is behind is thin and pale.
-function over(pane, view, points, role, width) {
-  let piece = [], side = null;
-  const end = () => {
-    if (piece.length > 1)
-      pane.line(piece, side ? role : 'line', { width: side ? width : 1 });
-  };
-  for (const { at, front } of points.map(view)) {
-    if (side !== null && front !== side) { end(); piece = piece.slice(-1); }
-    side = front;
-    piece.push(at);
-  }
-  end();
-}
 
 // In degrees, over a square with the seam in its middle.
 const unrolled = ([alpha, theta]) =>
@@ -79,57 +54,37 @@ function field(pane, alpha, theta, rho, gains) {
 
 const named = (y) => (y > 0 ? y - 180 : y + 180).toFixed(0).replace('-', '−');
 
-const circle = (point) =>
-    Array.from({ length: AROUND + 1 }, (_, k) => point(2 * Math.PI * k / AROUND));
-
-export default live('torus', {
-  find({ noise, hysteresis, distance }, { data }) {
-    const runs = swarm({ ...data, noise: noise / DEGREES, hysteresis, distance }),
+export default live('seam', {
+  find({ noise, hysteresis }, { data }) {
+    const runs = swarm({ ...data, noise: noise / DEGREES, hysteresis }),
         lost = runs.filter(({ off }) => Math.abs(off) > QUARTER).length;
     return { runs, lost };
   },
   panes: (values, { runs, lost }) => ({
-    torus: {
-      x: [-1.55, 1.55], y: [-1.5, 1.5], equal: true, bare: true,
-      given: 'A torus of the two angles, with the seam as a ring about its tube.',
-      alt: `On the torus ${runs.length} ways begin on the seam; ${lost} leave it, but too late.`,
-      scrub: turnedBy,
-    },
     square: { x: [-190, 190, 'α [°]'], y: [-190, 190, 'θ [°]', named], equal: true,
-        given: 'The torus laid flat, the seam across its middle, and which way the law drives.',
-        alt: 'The same ways over the square of alpha and theta.' },
+        given: 'The two angles, the seam across the middle, and which way the law drives.',
+        alt: `Over the two angles ${runs.length} ways begin on the seam; ${lost} leave it, but ` +
+        `too late.` },
     plane: { x: [-0.2, 0.95, 'x [m]'], y: [-0.4, 0.4, 'y [m]'], equal: true,
         given: 'The goal, and the robot that looks at it from the front.',
         alt: `The ways in the plane: ${lost} of ${runs.length} robots park over 90 degrees off.` },
   }),
-  draw({ torus, square, plane }, values, { runs }, hidden, { data }) {
-    const { yaw, tilt, distance } = hidden ? data.asked : values, view = turned(yaw, tilt);
-    for (let k = 0; k < 12; k += 1) {
-      over(torus, view, circle((alpha) => [alpha, Math.PI * k / 6]), 'ghost', 0.8);
-      over(torus, view, circle((theta) => [Math.PI * k / 6, theta]), 'ghost', 0.8);
-    }
-    over(torus, view, circle((alpha) => [alpha, Math.PI]), 'rising', 3);
+  draw({ square, plane }, values, { runs }, hidden, { data }) {
     square.line([[-180, 0], [180, 0]], 'rising', { width: 3 });
     square.text('seam', -175, 0, { role: 'rising', dy: 10, size: 13 });
     for (const theta of [-150, -90, 90, 150])
       for (let alpha = -150; alpha <= 150; alpha += 60)
-        field(square, alpha / DEGREES, theta / DEGREES, distance, data.gains);
+        field(square, alpha / DEGREES, theta / DEGREES, data.distance, data.gains);
     for (const { poses, angles, off } of hidden ? [] : runs) {
-      const role = Math.abs(off) > QUARTER ? 'rising' : 'path', last = view(angles.at(-1));
-      over(torus, view, angles, role, 1.5);
-      if (last.front) torus.dot(...last.at, role, { size: 3 });
+      const role = Math.abs(off) > QUARTER ? 'rising' : 'path';
       flat(square, angles, role, 1.5);
       square.dot(...unrolled(angles.at(-1)), role, { size: 3 });
       const end = poses.at(-1);
       plane.line(poses, role, { width: 1.5 });
       plane.arrow(end[0], end[1], ...ahead(end, 0.06), role, { width: 1.5 });
     }
-    const goal = view([0, 0]), start = view([0, Math.PI]);
-    if (goal.front) torus.dot(...goal.at, 'goal');
-    if (start.front) torus.dot(...start.at, 'start', { size: 4 });
-    torus.text('seam', ...view([QUARTER, Math.PI]).at, { role: 'rising', dx: 8, size: 13 });
     for (const edge of [-180, 180]) square.dot(0, edge, 'goal');
-    plane.pose([distance, 0, Math.PI], 'start');
+    plane.pose([data.distance, 0, Math.PI], 'start');
     plane.pose(data.goal, 'goal');
   },
   say: (values, { runs, lost }) => ({ lost: `${lost} of ${runs.length}`,
