@@ -1,4 +1,4 @@
-"""Chapter 4: a number that never rises, and the law that sees to it."""
+"""Chapters 4 and 15: a number that never rises, the law that sees to it, and where theta jumps."""
 
 from __future__ import annotations
 
