@@ -1,8 +1,8 @@
 """Make a reveal.js deck of each chapter, as book/deck/NN.md has written it.
 
 With --lecturer the last slide's notes have the exercises and their solutions. With --questions
-make one deck of the concept questions instead, with their answers. Both are for the lecturer
-alone, in folders of their own, since the other decks are for everybody.
+make one deck of the concept questions instead, with their answers in the notes. Both are for the
+lecturer alone, in folders of their own, since the other decks are for everybody.
 
 In a deck's source each `# claim` begins a slide. A line `figure: CELL` below it shows what that
 cell of the chapter has stored, a figure or a panel (`03/CELL`: of chapter 3). A panel may begin
@@ -79,7 +79,7 @@ def main(output: Path, chapters: list[str], lecturer: bool = False) -> None:
     print(output / "index.html")
 
 
-def vote(output: Path) -> None:
+def questions(output: Path) -> None:
     """Write the deck of the concept questions."""
     from wmrbook.questions import deck, made
 
@@ -215,13 +215,13 @@ if __name__ == "__main__":
     parser = arguments(__doc__, BOOK / "_build" / "slides")
     text = "only these, such as 00 04"
     parser.add_argument("--chapters", nargs="+", default=[], metavar="NN", help=text)
-    text = "the concept questions, into book/_build/votes by default"
+    text = "the concept questions, into book/_build/questions by default"
     parser.add_argument("--questions", action="store_true", help=text)
     given = parser.parse_args()
     output = given.output
     if output == parser.get_default("output") and (given.questions or given.lecturer):
-        output = BOOK / "_build" / ("votes" if given.questions else "lecturer/slides")
+        output = BOOK / "_build" / ("questions" if given.questions else "lecturer/slides")
     if given.questions:
-        vote(output.resolve())
+        questions(output.resolve())
     else:
         main(output.resolve(), given.chapters, given.lecturer)

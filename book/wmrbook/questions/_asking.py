@@ -21,9 +21,8 @@ class Option(NamedTuple):
 class Question(NamedTuple):
     """A question as it is put to a class.
 
-    id: of its line and its slides; chapter, section: where the book answers it; title, ask: texts
+    id: its name; chapter, section: where the book answers it; title, ask: texts
     with formulas in $; why: the reason for the right option; options: five, in their order.
-    untested: why the test before and after does not ask it, or "".
     """
 
     id: str
@@ -33,7 +32,6 @@ class Question(NamedTuple):
     ask: str
     why: str
     options: tuple[Option, ...]
-    untested: str = ""
 
     @property
     def key(self) -> str:
@@ -49,7 +47,7 @@ MAKERS: dict[str, Callable[[], Question]] = {}
 """From a question's id to the function that makes it."""
 
 
-def question(chapter: int, section: str, title: str, untested: str = "") -> Callable:
+def question(chapter: int, section: str, title: str) -> Callable:
     """Enter a function that returns (ask, options, why) as the question of its name.
 
     How the texts are broken into lines does not count.
@@ -66,7 +64,7 @@ def question(chapter: int, section: str, title: str, untested: str = "") -> Call
                 raise Refusal(f"{name}: five different options are needed, not {texts}")
             if [option.mistake for option in options].count("") != 1:
                 raise Refusal(f"{name}: one option must be right, and no more: {options}")
-            return Question(name, chapter, section, title, ask, why, tuple(options), untested)
+            return Question(name, chapter, section, title, ask, why, tuple(options))
 
         MAKERS[name] = made
         return made

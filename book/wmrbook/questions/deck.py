@@ -1,4 +1,4 @@
-"""The questions as slides to vote by: each, then its answer and the mistakes behind the rest.
+"""The questions as slides, each with its answer and the mistakes behind the rest in its notes.
 
 Before them two slides say what the symbols mean. A question that describes a situation shows it,
 unless a picture would be the answer.
@@ -26,25 +26,24 @@ GAINS = r"""$$ v = v_{\max}(1 - e^{-k_\rho\rho})\cos\alpha, \qquad
 - $h$: weight of the goal's heading
 - under this law, the corrected one, $V = \frac12\rho^2 + \frac12(\alpha^2 + h\theta^2)$ falls
 """
-TITLE = "From two GPS points to a parked robot: questions to vote on"
+TITLE = "From two GPS points to a parked robot: concept questions"
 
 
 def slides(questions: tuple[Question, ...]) -> Iterator[tuple[str, str, Picture | None, str]]:
     """Yield each slide's title, its words and notes as Markdown, and its picture."""
-    yield TITLE, "Vote alone, talk to your neighbour, vote again. Then watch.", None, ""
+    yield TITLE, "Decide alone, talk to your neighbour, decide again. Then watch.", None, ""
     yield "What the letters mean", ANGLES, names_of_angles(), ""
     yield "The law, and its gains", GAINS, None, ""
     for number, question in enumerate(questions, start=1):
         options = "\n".join(f"<li>{option.text}</li>" for option in question.options)
         ask = f"{question.ask}\n\n<ol type='A'>\n{options}\n</ol>"
-        yield f"{number}. {question.title}", ask, scene_of(question.id), ""
-        wrong = "\n".join(
-            f"- {letter}: {option.mistake}"
-            for letter, option in zip(LETTERS, question.options, strict=True)
-            if option.mistake
-        )
-        right = dict(zip(LETTERS, question.options, strict=True))[question.key].text
-        notes = f"Chapter {question.chapter}, {question.section!r}. Line: {question.id}"
-        untested = f". Not in the test: {question.untested}" if question.untested else ""
-        answer = f"{number}. {question.key}: {right}"
-        yield answer, f"{question.why}\n\n{wrong}", None, notes + untested
+        yield f"{number}. {question.title}", ask, scene_of(question.id), _notes(question)
+
+
+def _notes(question: Question) -> str:
+    """The key with its reason, and the mistake behind each other option."""
+    options = dict(zip(LETTERS, question.options, strict=True))
+    wrong = [f"- {letter}: {it.mistake}" for letter, it in options.items() if it.mistake]
+    reason = f"**{question.key}: {options[question.key].text}.** {question.why}"
+    where = f"Chapter {question.chapter}, {question.section!r}."
+    return "\n".join([reason, "", *wrong, "", where])

@@ -12,12 +12,7 @@ from wmrbook.questions._asking import Option, cases, numbers, question, sign
 _East = wmr.Pose(0.0, 0.0, 0.0)
 
 
-@question(
-    0,
-    "It has arrived. Has it parked?",
-    "Where does it face its goal's heading best?",
-    "it passes zero there by luck, which nobody can predict",
-)
+@question(0, "It has arrived. Has it parked?", "Where does it face its goal's heading best?")
 def arrived_parked() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
     fine = {"method": "continuous", "dt": 0.02, "arrival_radius": 0.009}

@@ -1,4 +1,4 @@
-"""Concept questions on chapters 4 to 7: the proof, the paper's drive, the circle, the gains."""
+"""Concept questions on chapters 4 to 7 and 15: the proof, the drive, the gains, the circle."""
 
 from __future__ import annotations
 
@@ -58,7 +58,7 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
     return ask, cases(computed, options), why
 
 
-@question(5, "A tenth of a second", "Sampled ten times a second", "a limit of these gains alone")
+@question(5, "A tenth of a second", "Sampled ten times a second")
 def tenth_of_a_second() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
 
@@ -109,7 +109,7 @@ def mirror() -> tuple[str, list[Option], str]:
     return ask, cases((change(v, seen_v), change(omega, seen_omega)), options), why
 
 
-@question(6, "Why it lags behind", "How far behind?")
+@question(7, "Why it lags behind", "How far behind?")
 def how_far_behind() -> tuple[str, list[Option], str]:
     speed, gains, low, high = 1.0, wmr.Gains(1.0, 1.0, 0.3, 2.0), 0.0, 50.0
     for _ in range(60):  # the distance at which the law commands this speed
@@ -131,7 +131,7 @@ def how_far_behind() -> tuple[str, list[Option], str]:
     return ask, numbers(low, mistaken, "{:.2f} m"), why
 
 
-@question(6, "What it says nothing about", "Which gain brings it nearer?")
+@question(7, "What it says nothing about", "Which gain brings it nearer?")
 def nearer() -> tuple[str, list[Option], str]:
     gains = wmr.paper.CIRCLE_GAINS
     changes = {
@@ -170,7 +170,7 @@ def nearer() -> tuple[str, list[Option], str]:
     return ask, cases(near[0] if len(near) == 1 else None, options), why
 
 
-@question(7, "The loop near the goal", "One gain against the swing", "a formula of the course")
+@question(6, "The loop near the goal", "One gain against the swing")
 def damping() -> tuple[str, list[Option], str]:
     gains = wmr.paper.OUTDOOR_GAINS
     changes = {
@@ -195,7 +195,7 @@ def damping() -> tuple[str, list[Option], str]:
     return ask, cases(best, changes), why
 
 
-@question(7, "Root loci: what each gain can do", "More steering still")
+@question(6, "Root loci: what each gain can do", "More steering still")
 def more_steering() -> tuple[str, list[Option], str]:
     critical = wmr.gains_for(1.0, natural_frequency=1.0)
     strong = critical._replace(k_alpha=4.0 * critical.k_alpha)

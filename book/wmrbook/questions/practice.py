@@ -123,7 +123,7 @@ def as_printed() -> tuple[str, list[Option], str]:
     return ask, numbers(rate, mistaken, "{:.0f} per s"), why
 
 
-@question(10, "Parked, or not?", "Is it parked?", "a report that nobody can predict")
+@question(10, "Parked, or not?", "Is it parked?")
 def is_it_parked() -> tuple[str, list[Option], str]:
     seen = {}
     for axis in ("east", "north"):

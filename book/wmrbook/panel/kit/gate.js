@@ -4,7 +4,6 @@
 import * as memory from './memory.js';
 import { DEGREES, inDegrees, written } from './style.js';
 import { MOVES, held, made, placeOn } from './hands.js';
-import { copied } from './share.js';
 import { putSlider, stopsOf } from './controls.js';
 import { putWords } from './symbols.js';
 import { within } from './numbers.js';
@@ -42,7 +41,6 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
   const button = (textContent, onclick) =>
       made(bar, 'button', { type: 'button', textContent, onclick, hidden: true });
   const skip = button('Just show me', () => { commitTo(SKIPPED); }),
-      line = button('Copy as a line', () => copied(root, `predict ${ask.name} ${guessed()}`)),
       again = button('Try again', () => { memory.forget(ask.name); tryAgain(); }),
       never = button('Never ask me', () => { memory.ask(true); show(true); }),
       clear = button('Forget all my answers', () => { memory.forgetAll(); tryAgain(); });
@@ -65,7 +63,6 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
   });
   const before = memory.recall(ask.name) ?? (memory.neverAsk() ? SKIPPED : null);
   if (before !== null && !open()) { set({ guess: before }); reveal(false); }
-  const guessed = () => (ask.kind === 'turn' ? Math.round(get().guess * DEGREES) : get().guess);
   const ready = () => (ask.kind === 'sketch' ? draft.length > 3 : draft !== null);
   const right = (guess) =>
       (ask.kind === 'choose' ? guess === ask.key : Math.abs(wrap(guess - ask.key)) < Math.PI / 9);
@@ -144,7 +141,6 @@ export function buildGate(root, ask, { get, set, panes, host, way, reveal, close
     never.hidden = guess !== SKIPPED || memory.neverAsk() || !memory.keepsAnswers();
     clear.hidden = !done || !memory.keepsAnswers() || (guesses && ask.kind === 'sketch');
     commit.disabled = !ready();
-    line.hidden = !guesses || ask.kind === 'sketch'; // a path is no line
     options.hidden = done && ask.kind !== 'choose';
     form.querySelectorAll('input').forEach((each) => {
       each.disabled = done;
