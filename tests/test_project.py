@@ -310,6 +310,13 @@ def test_the_stored_panels_are_those_of_now():
             assert fresh, f"{name}: book/tools/run.py stores {it['program']} anew"
 
 
+def test_what_stands_for_a_panel_before_it_runs_is_a_sentence_with_its_numbers():
+    for name in CHAPTERS:
+        told = ["".join(output.data["text/plain"]) for output in outputs(name, VIEW)]
+        assert not [words for words in told if re.search(r"\{\w+!?\}", words)], name
+    assert "k_alpha: 2 1/s; " in repr(live.poles())
+
+
 def test_what_moves_stands_in_one_chapter_and_its_prediction_is_still_open():
     placed = []
     for name, notebook in CHAPTERS.items():

@@ -28,6 +28,10 @@ class Knob(NamedTuple):
         """Return the value, or refuse it by name."""
         return scalar(name, value, low=self.low, high=self.high)
 
+    def shown(self, value: float) -> str:
+        """Return the value with its unit."""
+        return f"{value:g}{self.unit and ('' if self.unit == '°' else ' ')}{self.unit}"
+
 
 class Choice(NamedTuple):
     """A choice among a few, by name, with the words that stand for it in the sentence."""
@@ -39,6 +43,10 @@ class Choice(NamedTuple):
     def allowed(self, name: str, value: Any) -> str:
         """Return the value, or refuse it by name."""
         return choice(name, value, self.choices)
+
+    def shown(self, value: str) -> str:
+        """Return the words that stand for the value."""
+        return self.choices[value]
 
 
 class Ask(NamedTuple):
@@ -130,7 +138,9 @@ class Live(Panel):
         super().__init__(f"live/{name}", state | {"guess": None}, setup)
 
     def __repr__(self) -> str:
-        return f"<live: {self.setup['sentence']}>"
+        """What stands there where nothing runs; the sentence needs numbers that the page finds."""
+        stands = (f"{it.says}: {it.shown(self[name])}" for name, it in self._knobs.items())
+        return f"A live figure: run this cell to move it. It begins with {'; '.join(stands)}."
 
     def __getitem__(self, name: str) -> float | str:
         return self.state[self._named(name)]
