@@ -41,6 +41,7 @@ nb_output_stderr = "remove-warn"  # and a warning fails the build
 html_theme = "sphinx_book_theme"
 html_title = project
 html_static_path = ["_static"]
+html_favicon = "icon.svg"  # else a browser asks a server for one that is not there
 html_css_files = ["vendor/face.css", "book.css"]
 html_show_sphinx = False
 html_domain_indices = False

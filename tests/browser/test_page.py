@@ -49,6 +49,16 @@ def test_these_are_all_pages(site):
     assert {path.relative_to(site).as_posix() for path in pages(site)} == set(NAMES)
 
 
+def test_every_page_names_its_icon(site):
+    """Else a browser asks its server for /favicon.ico: an error in the console of full Chromium."""
+    sources = [*(ROOT / "book").glob("deck/*.*"), *(ROOT / "book").glob("tools/*.html")]
+    pages = [*site.rglob("*.html"), *sources]
+    texts = {path: path.read_text(encoding="utf-8") for path in pages}
+    whole = {path: text for path, text in texts.items() if "<head>" in text}
+    assert len(whole) > len(NAMES)
+    assert not [path for path, text in whole.items() if '<link rel="icon"' not in text]
+
+
 @pytest.mark.parametrize(
     ("name", "scheme"),
     [
