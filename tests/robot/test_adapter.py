@@ -12,9 +12,11 @@ from hypothesis import strategies as st
 
 sys.path.insert(0, str(Path(__file__).parents[2] / "book" / "robot" / "ros2" / "wmr_park"))
 
+from wmr_park import adapter
 from wmr_park.adapter import DEFAULTS, SOON, Sensors, typed, yaw
 
 import wmrlib as wmr
+from wmrbook import robot_io, robot_sheet
 
 START = [33.273572, 44.373160]
 GOAL = wmr.Pose(3.0, 0.0, 0.0)
@@ -127,3 +129,8 @@ def test_no_fix_is_used_twice_or_goes_back_and_only_a_clock_of_its_own_is_told(f
     assert len(used) == len(set(map(id, used))) <= len(fixes)
     told = [late for comes, late in fixes if late > 0.0]
     assert bool(used) >= bool(told)  # one of a steady receiver is never starved
+
+
+def test_the_parameters_beside_the_node_are_what_my_robot_prints():
+    file = Path(adapter.__file__).parents[1] / "config" / "my_robot.yaml"
+    assert file.read_text(encoding="utf-8") == robot_io.files(robot_sheet.Robot())["my_robot.yaml"]

@@ -15,6 +15,7 @@ def generate_launch_description() -> LaunchDescription:
         "imu": "imu",
         "odom": "odom",
         "battery": "battery",
+        "goal_pose": "goal_pose",
         "cmd_vel": "cmd_vel",
     }
     return LaunchDescription(

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import math
 from collections import deque
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from typing import Any
 
 import wmrlib as wmr
@@ -35,7 +35,6 @@ DEFAULTS: dict[str, Any] = {
     "two_antennas": False,  # each orientation is a new measurement, not one compass error for all
     "odom_frame": "odom",
     "base_frame": "base_link",
-    "stamped": True,
     "watchdog": 0.25,  # s without odometry, by a clock that nothing sets
     "track_width": 0.5,
     **{name: wmr.Wheels._field_defaults[name] for name in wmr.Wheels._fields[1:]},
@@ -90,13 +89,13 @@ def goal_of(given: Mapping[str, Any]) -> wmr.Pose:
     return wmr.Pose(x, y, given["goal_heading"])
 
 
-def drive_of(given: Mapping[str, Any], goal: wmr.Pose, kind: Callable = wmr.Drive) -> wmr.Drive:
+def drive_of(given: Mapping[str, Any], goal: wmr.Pose) -> wmr.Drive:
     """The drive to a goal by the parameters; ValueError as `wmr.Drive`."""
     gains = wmr.Gains(*(given[f"gains.{name}"] for name in wmr.Gains._fields))
     wheels = wmr.Wheels(*(given[name] for name in wmr.Wheels._fields))
     turn = wmr.LastTurn(*(given[f"last_turn.{name}"] for name in wmr.LastTurn._fields))
     rules = wmr.Rules(*(given[OWN.get(name, name)] for name in wmr.Rules._fields))
-    return kind(goal, gains, wheels, turn, rules, given["law"])
+    return wmr.Drive(goal, gains, wheels, turn, rules, given["law"])
 
 
 def elapsed(new: Any, old: Any) -> float:

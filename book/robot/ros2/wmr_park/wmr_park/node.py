@@ -1,21 +1,21 @@
-"""The node: fixes, IMU and odometry in, `cmd_vel` out, and the action `park`.
+"""The node: a goal, fixes, IMU and odometry in, `cmd_vel` out, and the service `stop`.
 
     ros2 run wmr_park park --ros-args --params-file my_robot.yaml
 
-Each odometry message is a period: `wmr.Drive` decides, and the answer carries its stamp.
+Each odometry message is a period, and `wmr.Drive` decides what is commanded for the next.
 """
 
 from __future__ import annotations
 
+import math
 import signal
 import time
 from typing import Any
 
 import rclpy
-from geometry_msgs.msg import Twist, TwistStamped
+from geometry_msgs.msg import PoseStamped, Twist
 from nav_msgs.msg import Odometry
 from rcl_interfaces.msg import ParameterDescriptor, SetParametersResult
-from rclpy.action import ActionServer, CancelResponse, GoalResponse
 from rclpy.clock import Clock, ClockType
 from rclpy.executors import SingleThreadedExecutor
 from rclpy.node import Node
@@ -24,62 +24,39 @@ from rclpy.qos import qos_profile_sensor_data
 from rclpy.qos_overriding_options import QoSOverridingOptions
 from rclpy.signals import SignalHandlerOptions
 from sensor_msgs.msg import BatteryState, Imu, NavSatFix
-from wmr_interfaces.action import Park
+from std_srvs.srv import Trigger
 
 import wmrlib as wmr
 from wmr_park.adapter import DEFAULTS, Sensors, drive_of, goal_of, typed, yaw
 
 
 class ParkNode(Node):
-    """Drives to one goal at a time; without one it only listens, and others may drive."""
-
-    drive_kind = wmr.Drive
+    """Drives to the last goal; without one it only listens, and others may drive."""
 
     def __init__(self) -> None:
         super().__init__("wmr_park")
         for name, value in DEFAULTS.items():  # `typed` takes 1 for 1.0, which ROS does not
             self.declare_parameter(name, value, ParameterDescriptor(dynamic_typing=True))
-        given = self.given()
+        watchdog = self.given()["watchdog"]
         self.drive: wmr.Drive | None = None
         self.sensors: Sensors | None = None
-        self.wish: Any = None
-        self.stamped, self.frame = given["stamped"], given["base_frame"]
+        self.said = ""
         self.add_on_set_parameters_callback(self.allowed)
-        twist = TwistStamped if self.stamped else Twist
-        self.command = self.create_publisher(twist, "cmd_vel", 1)
+        self.command = self.create_publisher(Twist, "cmd_vel", 1)
+        self.create_subscription(PoseStamped, "goal_pose", self.on_goal, 1)
         heard = {"imu": (Imu, self.on_imu), "fix": (NavSatFix, self.on_fix)}
         heard |= {"battery": (BatteryState, self.on_battery), "odom": (Odometry, self.on_odometry)}
         for topic, (message, take) in heard.items():  # parameters may ask for "reliable"
             more = QoSOverridingOptions.with_default_policies()
             options = {"qos_overriding_options": more}
             self.create_subscription(message, topic, take, qos_profile_sensor_data, **options)
+        self.create_service(Trigger, "stop", self.on_stop)
         steady = Clock(clock_type=ClockType.STEADY_TIME)
-        self.dog = self.create_timer(given["watchdog"], self.on_silence, clock=steady)
-        answers = {"goal_callback": self.on_goal, "cancel_callback": self.on_cancel}
-        answers["handle_accepted_callback"] = self.on_accepted
-        self.server = ActionServer(self, Park, "park", self.park, **answers)
+        self.dog = self.create_timer(watchdog, self.on_silence, clock=steady)
 
     def given(self) -> dict[str, Any]:
         """The parameters of now; ValueError names one of another kind."""
         return typed({name: self.get_parameter(name).value for name in DEFAULTS})
-
-    def on_goal(self, request: Park.Goal) -> GoalResponse:
-        """Accept a goal in the map frame, or without a frame the parameters'; one at a time."""
-        try:
-            given = self.given()
-            if self.drive:
-                raise ValueError("goal is not allowed: the robot is on its way to another")
-            frame, pose = request.goal.header.frame_id, request.goal.pose
-            if frame not in ("", "map"):
-                raise ValueError(f"frame_id = {frame!r} is not allowed: 'map' or '' is needed")
-            goal = wmr.Pose(pose.position.x, pose.position.y, yaw(pose.orientation))
-            sensors = Sensors(given)
-            drive = drive_of(given, goal if frame else goal_of(given), self.drive_kind)
-        except (ValueError, IndexError, TypeError) as refusal:  # lists of parameters too
-            self.get_logger().error(str(refusal))
-            return GoalResponse.REJECT
-        self.drive, self.sensors, self.frame = drive, sensors, given["base_frame"]
-        return GoalResponse.ACCEPT
 
     def allowed(self, told: list[Parameter]) -> SetParametersResult:
         """Whether parameters may be set, while it drives too: they count from the next goal on."""
@@ -89,31 +66,32 @@ class ParkNode(Node):
             return SetParametersResult(successful=False, reason=str(refusal))
         return SetParametersResult(successful=True)
 
-    def on_accepted(self, wish: Any) -> None:
-        """Drive from the next odometry on. It executes as it ends: so no thread has to wait."""
-        self.wish = wish
+    def on_goal(self, goal: PoseStamped) -> None:
+        """Drive to a goal in the map frame, or without a frame to the parameters'.
 
-    def on_cancel(self, wish: Any) -> CancelResponse:
-        """Yes, whatever the reason; it ends once the goal is marked as cancelled."""
-        self.executor.create_task(self.end)
-        return CancelResponse.ACCEPT
+        It takes the place of the goal before. One that is not allowed changes nothing.
+        """
+        try:
+            given, frame = self.given(), goal.header.frame_id
+            if frame not in ("", "map"):
+                raise ValueError(f"frame_id = {frame!r} is not allowed: 'map' or '' is needed")
+            position, heading = goal.pose.position, yaw(goal.pose.orientation)
+            wanted = wmr.Pose(position.x, position.y, heading) if frame else goal_of(given)
+            sensors, drive = Sensors(given), drive_of(given, wanted)
+        except (ValueError, IndexError, TypeError) as refusal:  # lists of parameters too
+            self.get_logger().error(str(refusal))
+            return
+        self.drive, self.sensors, self.said = drive, sensors, ""
+        east, north, degrees = wanted.x, wanted.y, math.degrees(wanted.heading)
+        self.get_logger().info(f"goal: {east:.2f} m east, {north:.2f} m north, {degrees:.0f} deg")
 
-    def end(self) -> None:
-        """The drive has parked or stopped, or is cancelled."""
-        if self.wish:
-            wish, self.wish = self.wish, None
-            wish.execute()
-
-    def park(self, wish: Any) -> Park.Result:
-        """The action's last word."""
-        state, reason = self.drive.state, self.drive.reason
+    def on_stop(self, _: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
+        """Forget the goal, and command a stop, whether it drives or not."""
+        answer.success = True
+        answer.message = "the goal is forgotten" if self.drive else "there was no goal"
         self.drive = self.sensors = None
-        if wish.is_cancel_requested:
-            self.tell(0.0, 0.0, self.get_clock().now().to_msg())
-            wish.canceled()
-        else:
-            (wish.succeed if state == "parked" else wish.abort)()
-        return Park.Result(state=state, reason=reason)
+        self.tell(0.0, 0.0)
+        return answer
 
     def on_imu(self, imu: Imu) -> None:
         """Keep it until a fix or a period needs it."""
@@ -132,7 +110,7 @@ class ParkNode(Node):
 
     def on_odometry(self, odom: Odometry) -> None:
         """A period has ended: decide, and command the next."""
-        if not self.wish:
+        if not self.drive:
             return
         given, frames = self.sensors.given, (odom.header.frame_id, odom.child_frame_id)
         if frames != (given["odom_frame"], given["base_frame"]):
@@ -144,41 +122,36 @@ class ParkNode(Node):
             self.get_logger().error(f"not used: {nonsense}", throttle_duration_sec=1.0)
             return  # and if no better one comes, that is silence
         self.dog.reset()
-        self.step(seen, odom.header.stamp)
+        self.step(seen)
 
     def on_silence(self) -> None:
         """No odometry: a period of no length makes the drive wait."""
-        if self.wish:
-            self.step(wmr.Seen(0.0, 0.0, 0.0), self.get_clock().now().to_msg())
+        if self.drive:
+            self.step(wmr.Seen(0.0, 0.0, 0.0))
 
-    def step(self, seen: wmr.Seen, stamp: Any) -> None:
-        """One period of the drive."""
-        v, omega = wmr.wheels_to_twist(*self.drive.step(seen), self.drive.wheels.track_width)
-        m = self.drive.memory
-        told = Park.Feedback(state=self.drive.state, reason=self.drive.reason)
-        told.distance, told.heading_error = float(m.rho), float(m.off)
-        self.wish.publish_feedback(told)
-        self.tell(v, omega, stamp)
-        if told.state in ("parked", "stopped"):
-            self.end()
+    def step(self, seen: wmr.Seen) -> None:
+        """One period of the drive: what it commands, and its state and reason when they change."""
+        self.tell(*wmr.wheels_to_twist(*self.drive.step(seen), self.drive.wheels.track_width))
+        says = ": ".join(filter(None, (self.drive.state, self.drive.reason)))
+        if says != self.said:
+            self.get_logger().info(says)
+        self.said = says
+        if self.drive.state in ("parked", "stopped"):
+            self.drive = self.sensors = None
 
-    def tell(self, v: float, omega: float, stamp: Any) -> None:
-        """Publish a twist, if asked for with the stamp of the odometry that it answers."""
-        message = TwistStamped() if self.stamped else Twist()
-        twist = message.twist if self.stamped else message
-        if self.stamped:
-            message.header.stamp = stamp
-            message.header.frame_id = self.frame
+    def tell(self, v: float, omega: float) -> None:
+        """Publish a twist, in m/s and rad/s."""
+        twist = Twist()
         twist.linear.x, twist.angular.z = float(v), float(omega)
-        self.command.publish(message)
+        self.command.publish(twist)
 
 
-def main(kind: type[ParkNode] = ParkNode) -> None:
+def main() -> None:
     """Run the node until it is told to end; the last thing that it says is a stop."""
     rclpy.init(signal_handler_options=SignalHandlerOptions.NO)  # else it could say nothing more
     for end in signal.SIGINT, signal.SIGTERM, signal.SIGHUP:
         signal.signal(end, signal.default_int_handler)
-    node, executor = kind(), SingleThreadedExecutor()
+    node, executor = ParkNode(), SingleThreadedExecutor()
     executor.add_node(node)
     try:
         while rclpy.ok():
@@ -187,7 +160,7 @@ def main(kind: type[ParkNode] = ParkNode) -> None:
         pass
     finally:  # an error too ends with a stop
         for _ in range(3):  # one alone may be lost with the process that sends it
-            node.tell(0.0, 0.0, node.get_clock().now().to_msg())
+            node.tell(0.0, 0.0)
             time.sleep(0.05)
         node.destroy_node()
         rclpy.shutdown()
