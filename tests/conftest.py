@@ -1,4 +1,8 @@
-"""Shared by all tests: the same examples on every machine, and what a test needs of the machine."""
+"""Shared by all tests: the same examples on every machine, and what a test needs of the machine.
+
+The environment variable WMR_BROWSER names the browser of the tests in a browser, by its command or
+its path: `WMR_BROWSER=chromium`. Without it the first of `pdf.BROWSERS` that is installed is taken.
+"""
 
 from __future__ import annotations
 
@@ -19,13 +23,17 @@ settings.register_profile("few", settings.get_profile("repeatable"), max_example
 settings.load_profile("repeatable")
 settings.register_profile("stress", deadline=None, print_blob=True, max_examples=1000)
 
+ASKED = os.environ.get("WMR_BROWSER")
 TOOLS = {  # what a test may need, the commands that are it, and what to install
     "arduino": (
         ("/usr/share/arduino/hardware/arduino/avr/platform.txt",),
         "Arduino's core (Debian: apt install arduino-core-avr)",
     ),
     "avr": (("avr-gcc",), "a compiler for AVR boards (Debian: apt install gcc-avr avr-libc)"),
-    "browser": (BROWSERS, "Chromium or Chrome (Debian: apt install chromium)"),
+    "browser": (
+        (ASKED,) if ASKED else BROWSERS,
+        f"{ASKED or 'Chromium or Chrome'} (Debian: apt install chromium)",
+    ),
     "compiler": (("cc", "gcc"), "a C compiler (Debian: apt install gcc g++ libc6-dev)"),
     "gpsd": (("gpsd", "/usr/sbin/gpsd"), "gpsd (Debian: apt install gpsd)"),
     "libsimavr": (

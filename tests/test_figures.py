@@ -9,7 +9,6 @@ from functools import cache
 import numpy as np
 import pytest
 from looks import heading_of, pixels_of
-from matplotlib.colors import same_color
 
 import wmrlib as wmr
 from wmrbook import figures
@@ -338,50 +337,6 @@ def axes_of(name):
     return picture(name).figure.axes
 
 
-def test_the_triangle_has_three_sides_on_the_globe():
-    (axes,) = axes_of("spherical_triangle")
-    assert not axes.axison
-    sides = [line.get_data() for line in axes.lines if line.get_linewidth() == 3.0]
-    assert [len(x) for x, _ in sides] == [101] * 3
-    assert max(np.hypot(x, y).max() for x, y in sides) <= 1.0
-
-
-def test_the_maps_star_is_the_line_asked_for():
-    (axes,) = axes_of("sphere_error_map")
-    star = axes.lines[-1].get_xydata()[0]
-    assert star == pytest.approx([9.6274, paper.GPS_POINT_1.lat])
-    assert any("+0.244 %" in text.get_text() for text in axes.texts)
-
-
-def test_arcs_begin_and_end_on_their_sides():
-    """Theta's arc runs from the goal's heading to the line of sight, beta's the other way."""
-    figure = picture("third_angle").figure
-    figure.canvas.draw()
-    one, other = figure.axes
-    assert (one.get_xlim(), one.get_ylim()) == (other.get_xlim(), other.get_ylim())
-    np.testing.assert_allclose(one.get_position().size, other.get_position().size, rtol=1e-3)
-    sight = math.atan2(GOAL.y, GOAL.x)
-    for axes, begin, end in ((one, GOAL.heading, sight), (other, sight, GOAL.heading)):
-        x, y = axes.lines[-1].get_data()
-        angles = np.arctan2(y - GOAL.y, x - GOAL.x)
-        assert angles[0] == pytest.approx(begin)
-        assert angles[-1] == pytest.approx(end, abs=0.05)  # the rest is the arrowhead
-        assert np.ptp(np.hypot(x - GOAL.x, y - GOAL.y)) < 1e-9
-
-
-def test_no_name_lies_on_the_line_of_sight():
-    figure = picture("third_angle").figure
-    figure.canvas.draw()
-    for axes in figure.axes:
-        dashed = next(line for line in axes.lines if line.get_linestyle() == "--")
-        ends = axes.transData.transform(dashed.get_xydata())
-        points = ends[0] + np.linspace(-0.2, 1.2, 400)[:, None] * (ends[1] - ends[0])
-        names = [text for text in axes.texts if text.get_text() in ("robot", "goal")]
-        assert len(names) == 2
-        boxes = [text.get_window_extent() for text in names]
-        assert not any(box.contains(*point) for box in boxes for point in points)
-
-
 def test_paths_and_angles_are_those_of_the_runs():
     alpha, theta = axes_of("angles_over_time")
     np.testing.assert_allclose(alpha.lines[0].get_ydata(), np.degrees(drive().alpha))
@@ -416,29 +371,6 @@ def test_compare_runs_draws_the_field_it_was_asked_for():
         assert one.get_linestyle() != two.get_linestyle()  # never colour alone
 
 
-def test_on_a_logarithmic_scale_nothing_is_drawn_below_a_millionth():
-    tiny = dataclasses.replace(chase(), rho=np.geomspace(1.0, 1e-9, len(chase())))
-    axes = figures.compare_runs({"one": tiny}, "rho", log=True).figure.axes[0]
-    drawn = axes.lines[-1].get_ydata()
-    assert np.array_equal(np.isnan(drawn), tiny.rho < 1e-6)
-    assert axes.get_ylim()[0] == 1e-6
-    assert axes_of("compare_runs, log")[0].get_ylim()[0] > 0.01
-
-
-def test_a_course_is_told_once():
-    """No range where the ends are the range; and what rounds to zero is not called zero."""
-
-    def told(field, run):
-        return figures.compare_runs({"one": run}, field, level=(4.0, "the 4 m/s")).alt
-
-    assert ", between " in told("omega", chase())
-    assert told("v", chase()).endswith("a dotted line marks the 4 m/s.")
-    near = dataclasses.replace(chase(), rho=np.linspace(1.0, 1e-4, len(chase())))
-    assert "one goes from 1.00 to less than 0.01 m;" in told("rho", near)
-    past = dataclasses.replace(chase(), omega=np.linspace(1.0, -1e-4, len(chase())))
-    assert "one goes from 1.00 to nearly 0 rad/s;" in told("omega", past)
-
-
 def test_snapshots_show_the_robot_where_it_was_and_how_it_looked():
     run = drive()
     moments = (0.0, 5.0, 10.0, run.t[-1])
@@ -458,91 +390,11 @@ def test_the_share_at_an_error_is_that_of_the_runs_below_it():
     assert line.tolist() == [[1.0, 25.0], [2.0, 50.0], [4.0, 75.0], [30.0, 100.0]]
 
 
-def test_a_ring_has_a_path_from_each_start_and_a_panel_for_each_label():
-    panels = figures.ring({"one": around(GAINS), "two": around(GAINS)}, wmr.Pose(0, 0, 0)).figure
-    many = around(GAINS)
-    for axes in panels.axes:
-        np.testing.assert_array_equal(axes.lines[1].get_xdata(), many.x[1])
-        assert len(axes.lines) == len(many.x) == len(axes.patches) - 1  # the goal is one too
-
-
-def test_chase_draws_the_reference_and_each_run():
-    run = chase()
-    axes = figures.chase({"one": run, "two": run}).figure.axes[0]
-    reference, *lines = axes.lines
-    assert np.array_equal(reference.get_xydata(), np.column_stack(run.goal[:2]))
-    assert [np.array_equal(line.get_xydata().T, [run.x, run.y]) for line in lines] == [True] * 2
-    robot, goal = axes.patches
-    for dart, place, heading in ((robot, (1, 2), 0.0), (goal, (0, 0), math.pi / 2)):
-        assert heading_of(dart) == pytest.approx(heading, abs=1e-6)
-        assert np.hypot(*(dart.get_xy()[[0, 2]].mean(axis=0) - place)) < 0.3
-    assert [(text.get_text(), text.xy) for text in axes.texts] == [("goal at 0 s", (0.0, 0.0))]
-
-
-def test_a_chase_plays_its_goal_too():
-    run, (goal, robot) = chase(), figures.chase({"one": chase()}).drives
-    assert (goal.role, robot.role) == ("goal", "path")
-    np.testing.assert_allclose(np.hypot(goal.x - robot.x, goal.y - robot.y), run.rho, atol=1e-9)
-
-
-def test_a_chase_says_what_the_goal_does():
-    x, y, heading = chase().goal
-    stop = np.minimum(np.arange(len(x)), len(x) // 2)
-
-    def told(x, y):
-        run = dataclasses.replace(chase(), goal=wmr.Pose(x, y, heading))
-        return figures.chase({"one": run, "two": run}).alt
-
-    assert "driven once round clockwise from (0, 0) m, and 2 robots that start at" in told(x, -y)
-    assert "driven 0.5 times round counter-clockwise" in told(x[stop], y[stop])
-    assert told(x, x + 1.0).startswith("A grey reference from (0, 1) m to ")
-    assert told(0.0 * x + 2.0, 0.0 * y).startswith("A goal that stands still at (2, 0) m, and")
-
-
-def test_tradeoff_and_residual_curve_draw_their_points():
-    one, two, star = axes_of("tradeoff")[0].lines[:3]
-    assert one.get_xydata().tolist() == [[1.0, 0.5], [2.0, 0.4]]
-    assert one.get_marker() != two.get_marker()
-    assert star.get_xydata().tolist() == [[1.5, 0.3]]
-    line, circles, level = axes_of("residual_curve")[0].lines
-    assert np.array_equal(line.get_ydata(), predict(line.get_xdata()))
-    assert np.array_equal(circles.get_xydata(), np.column_stack([LIMITS, LEFT]))
-    assert set(level.get_ydata()) == {0.1}
-
-
 def test_the_crosses_are_the_roots():
     (cross,) = [line for line in axes_of("root_locus")[0].lines if line.get_marker() == "x"]
     roots = np.roots([1.0, 1.0, 0.3 * 8.0**2])
     np.testing.assert_allclose(sorted(cross.get_ydata()), sorted(roots.imag))
     np.testing.assert_allclose(cross.get_xdata(), roots.real)
-
-
-def test_a_locus_says_its_course_and_no_label_lies_across_the_left_axis():
-    meeting = "The two poles meet at -0.50, and the pair then runs straight up and down."
-    for over, values, course in (
-        ("k_alpha", np.linspace(0.1, 2.0, 20), "The pair runs on a circle of 4.38 rad/s. At"),
-        ("k_alpha", np.array([10.0, 20.0]), "Both poles stay real."),
-        ("h", np.array([0.1, 1.0]), "The pair runs straight up and down at -0.50."),
-        ("h", np.geomspace(1e-4, 1.0, 100), meeting),
-    ):
-        found = figures.root_locus(GAINS, over, values)
-        assert course in found.alt
-        found.svg()
-        axes = found.figure.axes[0]
-        for box in (text.get_window_extent() for text in axes.texts):
-            assert box.x0 > axes.bbox.x0 or box.x1 < axes.bbox.x0, course
-
-
-def test_the_front_shows_what_is_below_its_border():
-    runs, best, marked = tried()
-    error = np.array(runs.heading_error)
-    error[np.unravel_index(np.flatnonzero(best)[:2], error.shape)] = 1e-5
-    found = figures.pareto_front(runs._replace(heading_error=error), best, marked)
-    above, below = found.figure.axes[0].collections
-    assert (len(above.get_offsets()), len(below.get_offsets())) == (best.sum() - 2, 2)
-    assert set(below.get_offsets()[:, 1]) == {found.figure.axes[0].get_ylim()[0]}
-    assert "2 triangles at the lower border are below 0.01 deg." in found.alt
-    assert "triangles" not in picture("pareto_front").alt
 
 
 def test_time_steps_draw_each_run_and_each_limit():
@@ -572,12 +424,6 @@ def test_what_never_parks_has_a_cross_and_no_bar():
     assert crosses == [[pytest.approx(0.8)], []]
 
 
-def test_the_verdicts_bars_differ_in_hatching_too():
-    bars = axes_of("verdicts")[0].patches
-    assert [bar.get_width() for bar in bars] == [21, 7, 3, 0]
-    assert len({bar.get_hatch() for bar in bars}) == 2
-
-
 def test_a_route_is_drawn_as_it_was_driven():
     """Arrows for the wanted headings, and a marker each for a stop, a pass and what was missed."""
     way, mixed = route("mixed").waypoints, route("mixed")
@@ -595,32 +441,6 @@ def test_a_route_is_drawn_as_it_was_driven():
         assert "".join(each for each in markers if each in "sox" and len(each) == 1) == wanted
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert legend == ["path", "start", "stop", "passed"]
-
-
-def test_each_case_of_the_challenge_has_its_panel():
-    wild = score(5.0, 0.1, 5.0, 20.0)
-    panels = axes_of("challenge_paths, wild")
-    for k, (axes, row) in enumerate(zip(panels, wild.cases, strict=True), start=1):
-        assert axes.get_title().startswith(f"{k} {row.kind}\n{row.points:.1f} points\n")
-        assert axes.lines[0].get_linestyle() == ("--" if row.note else "-")
-        assert row.note in axes.get_title()
-    assert sum(axes.axison for axes in axes_of("challenge_paths, five")) == 5
-
-
-def test_the_legend_says_which_arrow_is_the_start():
-    def legend(name):
-        (found,) = picture(name).figure.legends
-        labels = [text.get_text() for text in found.get_texts()]
-        return dict(zip(labels, found.legend_handles, strict=True))
-
-    assert "path that got the penalty" in legend("challenge_paths, wild")
-    handles = legend("challenge_paths")
-    assert list(handles) == ["path", "start", "goal"]
-    goal, start = axes_of("challenge_paths")[0].patches  # drawn in this order
-    assert same_color(handles["start"].get_markerfacecolor(), start.get_facecolor())
-    assert handles["goal"].get_markerfacecolor() == "none"
-    assert not goal.get_facecolor()[3]
-    assert same_color(handles["goal"].get_markeredgecolor(), goal.get_edgecolor())
 
 
 # Bad input --------------------------------------------------------------------------------------

@@ -3,7 +3,6 @@
 import colorsys
 import math
 import re
-import unicodedata
 from dataclasses import replace
 from xml.etree import ElementTree
 
@@ -23,24 +22,6 @@ CIRCLE = wmr.track(
     wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, law="printed", duration=40.0
 )
 PARKED = wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
-
-
-def test_a_peak_that_comes_again_and_again_has_no_one_spell():
-    wave = figures.twist(replace(RUN, omega=np.sin(RUN.t)))
-    assert "omega goes from 0.0 to 0.2 rad/s, between -1.0 and 1.0 rad/s." in wave.alt
-
-
-def test_a_path_that_begins_backwards_says_so():
-    starts = [wmr.Pose(-10.0, 0.0, sign * (math.pi + 0.1)) for sign in (1, -1)]
-    runs = [wmr.simulate(start, ORIGIN, PAPER.gains) for start in starts]
-    k = int(np.flatnonzero(runs[0].v > 0)[0])
-    t, x, y = runs[0].t[k], runs[0].x[k], runs[0].y[k]
-    alt = figures.path(runs, ["one", "two"]).alt
-    begin = "the robot starts at (-10.0, 0.0) m heading"
-    assert alt.startswith(f"Path in metres: one: {begin} -174 deg, ")  # wrapped
-    assert f"; two: {begin} 174 deg, " in alt
-    assert f"backs up for the first {t:.1f} s as far as ({x:.1f}, {y:.1f}) m" in alt
-    assert "backs up" not in figures.path(RUN).alt
 
 
 def test_v_is_red_where_it_rises_and_only_there():
@@ -89,13 +70,6 @@ def test_path_has_equal_scales_and_the_robots_heading():
         assert top < axes.get_ylim()[1] - 0.01 * np.ptp(axes.get_ylim())  # clear of the frame
 
 
-def test_the_arrows_of_several_paths_have_one_size():
-    runs = [wmr.simulate(wmr.Pose(x, 0.0, 0.5), ORIGIN, PAPER.gains) for x in (-5.0, -20.0)]
-    darts = [dart.get_xy() for dart in figures.path(runs).figure.axes[0].patches]
-    lengths = [np.linalg.norm(dart[0] - dart[2]) for dart in darts]
-    assert lengths == pytest.approx([lengths[0]] * 4)
-
-
 SHARED = "path", "start", "goal", "rho", "alpha", "theta", "h", "V"
 
 
@@ -117,17 +91,6 @@ def brightness(colour):
     """The relative luminance of WCAG 2."""
     linear = [c / 12.92 if c <= 0.04045 else ((c + 0.055) / 1.055) ** 2.4 for c in colour]
     return float(np.dot([0.2126, 0.7152, 0.0722], linear))
-
-
-def test_formulas_colour_the_letters_that_are_meant():
-    names = {
-        **{role: f"MATHEMATICAL ITALIC SMALL {role.upper()}" for role in ("rho", "alpha", "theta")},
-        "h": "PLANCK CONSTANT",  # which is Unicode's italic h
-        "V": "MATHEMATICAL ITALIC CAPITAL V",
-    }
-    for role, code in face.LETTERS.items():
-        assert unicodedata.name(chr(int(code, 16))) == names[role]
-        assert f'[data-c="{code}"] {{ fill: var(--{role}); --role: {role}; }}' in face.css()
 
 
 @pytest.mark.parametrize("theme", [0, 1], ids=["light", "dark"])
@@ -201,9 +164,3 @@ def test_a_page_plays_a_drive_where_the_picture_has_it():
             assert robot["x"][place] == pytest.approx(across, abs=12)  # boxes are rounded, and
             assert robot["y"][place] == pytest.approx(down, abs=12)  # an inset enlarges that
             assert robot["heading"][place] == round(math.degrees(np.unwrap(RUN.heading)[k]))
-
-
-def test_robots_that_arrive_early_wait_and_rings_have_no_gaps():
-    motion = figures.path([RUN, PARKED]).motion()
-    assert set(motion["robots"][1]["x"][1:]) == {0}
-    assert 'data-motion="' not in figures.twist(RUN)._repr_mimebundle_()["text/html"]

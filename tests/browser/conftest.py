@@ -1,4 +1,8 @@
-"""A real Chromium for the tests: started once a session, a fresh page for each test."""
+"""A real Chromium for the tests: started once a session, a fresh page for each test.
+
+Which one, WMR_BROWSER says, see tests/conftest.py: chromium-headless-shell and the full Chromium
+ask for different things, so that the tests are run with both where both are installed.
+"""
 
 from __future__ import annotations
 
