@@ -123,6 +123,7 @@ def test_students_get_no_answers_and_what_the_notebooks_need(course, tmp_path):
         text = path.read_text(encoding="utf-8")
         assert "SOLUTION" not in text
         assert "<summary>Solution" not in text
+    assert not [*robot.rglob("questions")]  # which compute the keys of the concept questions
     assert (robot / "README.md").read_text("utf-8").count("-r environment.txt -e .") == 2
     code = "import wmrbook.figures, wmrbook.grading.earth, wmrlib; print(wmrlib.__file__)"
     path = {"PYTHONPATH": f"{robot}{os.pathsep}{robot / 'book'}"}

@@ -7,7 +7,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import package
 import pytest
 
 from wmrbook import questions
@@ -60,12 +59,6 @@ def test_options_that_agree_and_texts_that_explain_another_answer_are_refused():
     for found in (-1, 7, None):
         with pytest.raises(Refusal, match=f"explain 1, and {found} was computed"):
             cases(found, texts)
-
-
-def test_students_do_not_get_what_computes_the_keys():
-    names = {name for name, _ in package._book()}
-    assert "book/wmrbook/face.py" in names
-    assert not [name for name in names if "wmrbook/questions" in name]
 
 
 def test_a_slide_asks_and_its_notes_have_the_key_the_reason_and_each_mistake():
