@@ -35,7 +35,6 @@ c.ServerApp.jpserver_extensions = {
         "nbgrader.server_extensions.validate_assignment",
         "notebook",
         "notebook_shim",
-        "voila.server_extension",
     )
     if find_spec(name.partition(".")[0])
 }

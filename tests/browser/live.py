@@ -13,12 +13,10 @@ import urllib.error
 import urllib.request
 from collections.abc import Callable
 from pathlib import Path
-from types import SimpleNamespace
 
 from wmrbook.figures.style import in_symbols
 
 ROOT = Path(__file__).resolve().parents[2]
-TOKEN = "only-for-tests"
 PATIENCE = 120_000  # ms for what takes seconds on a quiet machine
 # All that is drawn: canvases, and images for a panel that is made of those.
 PICTURE = """() => [
@@ -176,17 +174,6 @@ def jupyterlab(home: Path, *options: str):
 def link(home: Path) -> str:
     """The link that the terminal of a JupyterLab shows."""
     return re.search(r"http://127\S+", (home / "log.txt").read_text()).group()
-
-
-@contextlib.contextmanager
-def voila(notebook: Path, log: Path):
-    """Serves a notebook with the book's settings. Enters with its URL, its link and its process."""
-    port = free_port()
-    url = f"http://127.0.0.1:{port}/"
-    command = [sys.executable, "-m", "voila", "--Voila.config_file_paths=book/voila"]
-    command += ["--no-browser", f"--port={port}", f"--token={TOKEN}", notebook]
-    with serve(command, url, log) as server:
-        yield SimpleNamespace(url=url, link=f"{url}?token={TOKEN}", pid=server.pid)
 
 
 def _wait_until_up(server: subprocess.Popen, url: str, log: Path) -> None:

@@ -1,4 +1,4 @@
-"""Every formula of every chapter and assignment, as JupyterLab and Voila render it where it stands.
+"""Every formula of every chapter and assignment, as JupyterLab renders it where it stands.
 
 What stands beside it must not get into it (a quote's `>` did), nor may it stay raw or fail: each
 cell's formulas have the same symbols as when they stand alone, in a cell of their own.
@@ -10,7 +10,7 @@ import re
 
 import nbformat
 import pytest
-from live import PATIENCE, ROOT, chapters, jupyterlab, link, voila
+from live import PATIENCE, ROOT, chapters, jupyterlab, link
 from markdown_it import MarkdownIt
 from mdit_py_plugins.dollarmath import dollarmath_plugin
 
@@ -98,12 +98,5 @@ def test_jupyterlab_renders_every_formula(home, cells, browser_page):
     with jupyterlab(home, "--config=book/lab/jupyter_lab_config.py") as url:
         token = link(home).partition("?")[2]
         browser_page.goto(f"{url}lab/tree/formulas.ipynb?reset&{token}", timeout=PATIENCE)
-        assert faults(browser_page, cells) == []
-        browser_page.goto("about:blank")  # it would miss its server
-
-
-def test_voila_renders_every_formula(home, cells, browser_page):
-    with voila(home / "formulas.ipynb", home / "voila.txt") as app:
-        browser_page.goto(app.link, timeout=PATIENCE)
         assert faults(browser_page, cells) == []
         browser_page.goto("about:blank")  # it would miss its server
