@@ -12,7 +12,7 @@ from pathlib import Path
 import build
 import nbformat
 import pytest
-from graded import closed
+from lecturers import closed
 from packaging.requirements import Requirement
 from pybtex.database import parse_file
 

@@ -14,7 +14,7 @@ import conf
 import nbformat
 import pytest
 from faults import PANEL, SIZES, of_page
-from graded import closed, leaks
+from lecturers import closed, leaks
 from live import PATIENCE, ROOT, as_shown, assert_slider_matters, chapters, pages, sliders
 from paper import Printed, letters
 from pdf import terms

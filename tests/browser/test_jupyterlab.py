@@ -7,7 +7,7 @@ import shutil
 
 import nbformat
 import pytest
-from graded import notebook, released, wrong_answers
+from assignments import notebook, released
 from live import PATIENCE, ROOT, assert_slider_matters, chapters, jupyterlab, link, sliders
 
 CHAPTER = f"notebooks/{chapters()[0].name}"
@@ -47,10 +47,10 @@ def lab(tmp_path_factory):
 def release_with_a_mistake(folder):
     """Put what students get of an assignment into the folder, with one usual mistake in it."""
     assignment = nbformat.read(notebook(ASSIGNMENT), as_version=4)
-    wrong = next(each for each in wrong_answers(ASSIGNMENT) if MISTAKE in each["hint"])
     for cell in assignment.cells:
-        is_answer = cell.metadata.nbgrader.grade_id == wrong["cell"]
-        cell.source = wrong["source"] if is_answer else released(cell.source)
+        is_answer = cell.metadata.nbgrader.grade_id == "distance"
+        wrong = cell.source.replace("return 6_371_000 * 2", "return 6_371 * 2")
+        cell.source = wrong if is_answer else released(cell.source)
     nbformat.write(assignment, folder / f"{ASSIGNMENT}.ipynb")
 
 

@@ -13,7 +13,7 @@ from urllib.parse import unquote, urlsplit
 import pypdfium2
 import pytest
 from faults import SIZES, of_page
-from graded import leaks
+from lecturers import leaks
 from live import (
     PATIENCE,
     ROOT,

@@ -1,55 +1,62 @@
-"""How a check asks for an answer: whatever a student's function does, there is a hint."""
+"""How a check asks for an answer: whatever a student's function returns, there is a hint."""
 
 from __future__ import annotations
 
-import builtins
 import math
-import sys
-from collections.abc import Callable, Iterator, Mapping, Set
-from contextlib import contextmanager, suppress
+from collections.abc import Callable, Mapping, Set
 from typing import Any
 
 import numpy as np
 
-from wmrbook.grading._hints import Hint, expect, name_of, named, shown
+from wmrbook.grading._hints import Hint, expect, name_of, shown
 from wmrlib.gains import Gains
 
 _MOST = 1000.0  # of a gain: what is far beyond any use would take minutes to simulate
 
 
-class Failed(Exception):  # noqa: N818  (it is an answer's fault, not the check's)
-    """How a student's function stopped: what is told of it; if it refused, or is as handed out."""
-
-    def __init__(self, told: str, refused: bool = False, unwritten: bool = False) -> None:
-        self.told, self.refused, self.unwritten = told, refused, unwritten
-
-
-def called(function: Callable, *arguments: Any) -> Any:
-    """Return what the student's function returns; raise Failed if it stops, whatever it does."""
-    try:
-        with _alone():
-            return function(*arguments)
-    except Failed:  # in another process, which told it
-        raise
-    except BaseException as error:  # of `exit()`, and of a reader who stops it, too
-        unwritten = type(error) is NotImplementedError  # `input()` raises a child of it
-        told = f"{_line(error)} with {named(error)}"
-        raise Failed(told, isinstance(error, ValueError), unwritten) from None
-
-
 def ask(function: Callable, *arguments: Any) -> Any:
     """Return what the student's function returns; if it fails, raise a Hint that says how."""
-    if not callable(function):
-        raise Hint(f"a function is needed here, not {shown(function)}.")
+    expect(callable(function), f"a function is needed here, not {shown(function)}.")
     try:
-        answer = called(function, *arguments)
-    except Failed as failed:
-        if failed.unwritten:
-            raise Hint(f"`{name_of(function)}` is not written yet.") from None
-        call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
-        raise Hint(f"{call} stops{failed.told}.") from None
+        answer = function(*arguments)
+    except Exception as error:
+        raise _failure(function, arguments, error) from None
     expect(answer is not None, f"`{name_of(function)}` returns nothing: does it end in `return`?")
     return answer
+
+
+def refuses(function: Callable, hint: str, *arguments: Any) -> None:
+    """Raise Hint unless the student's function raises ValueError for these arguments."""
+    try:
+        function(*arguments)
+    except ValueError:
+        return
+    except Exception as error:
+        raise _failure(function, arguments, error) from None
+    raise Hint(f"{_call(function, arguments)} must raise ValueError: {hint}")
+
+
+def _failure(function: Callable, arguments: tuple, error: Exception) -> Hint:
+    """Return the hint that tells what stopped the student's function, and where."""
+    if type(error) is NotImplementedError:  # `input()` raises a subclass where nobody answers
+        return Hint(f"`{name_of(function)}` is not written yet.")
+    message = f"{type(error).__name__}: {error}".rstrip(": ")
+    return Hint(f"{_call(function, arguments)} stops{_line(error)} with {message}.")
+
+
+def _call(function: Callable, arguments: tuple) -> str:
+    return f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
+
+
+def _line(error: BaseException) -> str:
+    """Return where in the student's code it happened: the last line of a cell that it passed."""
+    place, trace = "", error.__traceback__
+    while trace:
+        file = trace.tb_frame.f_code.co_filename
+        if "ipykernel_" in file or "<ipython" in file:
+            place = f" in line {trace.tb_lineno} of its cell"
+        trace = trace.tb_next
+    return place
 
 
 def ask_number(function: Callable, *arguments: Any) -> float:
@@ -83,40 +90,6 @@ def ask_array(function: Callable, shape: tuple[int, ...], *arguments: Any) -> np
     return array
 
 
-def refuses(function: Callable, hint: str, *arguments: Any) -> None:
-    """Raise Hint unless the student's function raises ValueError for these arguments."""
-    try:
-        called(function, *arguments)
-    except Failed as failed:
-        if failed.refused:
-            return
-        ask(function, *arguments)  # which says what happened
-    call = f"`{name_of(function)}({', '.join(map(shown, arguments))})`"
-    raise Hint(f"{call} must raise ValueError: {hint}")
-
-
-@contextmanager
-def _alone() -> Iterator[None]:
-    """Let an answer end by `exit()`, which in a notebook ends the kernel, and by `input()`."""
-
-    def leave(*_: Any, **__: Any) -> None:
-        raise SystemExit
-
-    def refuse(*_: Any, **__: Any) -> None:
-        raise EOFError("nobody answers `input()` in a check")
-
-    shell = sys.modules["IPython"].get_ipython() if "IPython" in sys.modules else None
-    asks, builtins.input = builtins.input, refuse
-    if shell:
-        shell.ask_exit = leave
-    try:
-        yield
-    finally:
-        builtins.input = asks
-        if shell:
-            del shell.ask_exit
-
-
 def expect_value(name: str, value: Any) -> None:
     """Raise Hint if the value is still None or an ellipsis, as it was handed out."""
     expect(value is not None and value is not ..., f"{name} has no value yet.")
@@ -135,18 +108,17 @@ def number(name: str, value: Any, *, returned: bool = False) -> float:
     verb = "returns" if returned else "is"
     if not returned:
         expect_value(name, value)
-    single = isinstance(value, (np.generic, np.ndarray)) and value.size == 1
-    plain = value.item() if single else value
-    if not isinstance(plain, (bool, str, bytes, np.ndarray)):
-        with suppress(TypeError, ValueError):
-            try:
-                converted = float(plain)
-            except OverflowError:
-                raise Hint(f"{name} {verb} a number that is far too large.") from None
-            finite = math.isfinite(converted)
-            expect(finite, f"{name} {verb} {converted}, which is not a finite number.")
-            return converted
-    raise Hint(f"{name} {verb} {shown(value)}; one number is needed.")
+    needed = f"{name} {verb} {shown(value)}; one number is needed."
+    if isinstance(value, (np.generic, np.ndarray)) and value.size == 1:
+        value = value.item()
+    expect(not isinstance(value, (bool, str, bytes)), needed)
+    try:
+        converted = float(value)
+    except (TypeError, ValueError, OverflowError):
+        raise Hint(needed) from None
+    finite = math.isfinite(converted)
+    expect(finite, f"{name} {verb} {converted}, which is not a finite number.")
+    return converted
 
 
 def numbers(name: str, value: Any, count: int, *, returned: bool = False) -> tuple[float, ...]:
@@ -161,14 +133,8 @@ def numbers(name: str, value: Any, count: int, *, returned: bool = False) -> tup
 def floats(value: Any) -> np.ndarray | None:
     """Return the real numbers of a list, matrix or array; None if anything else is in it."""
     try:
-        given = np.asarray(value.tolist() if hasattr(value, "tolist") else value)
-        if (
-            given.ndim == 2
-            and 1 in given.shape
-            and not isinstance(value, np.ndarray | list | tuple)
-        ):
-            given = given.ravel()  # a column of sympy's or mpmath's
-        return given.astype(float) if given.dtype.kind in "iufO" else None
+        array = np.asarray(value.tolist() if hasattr(value, "tolist") else value)
+        return array.astype(float) if array.dtype.kind in "iufO" else None
     except (TypeError, ValueError, OverflowError):
         return None
 
@@ -188,14 +154,3 @@ def gains_of(name: str, value: Any) -> Gains:
         hint = f"{name}: {field} = {each:g} is more than {_MOST:g}, which no robot can follow."
         expect(each <= _MOST, hint)
     return gains
-
-
-def _line(error: BaseException) -> str:
-    """Return where in the student's code it happened: the last line of a cell that it passed."""
-    place, trace = "", error.__traceback__
-    while trace:
-        file = trace.tb_frame.f_code.co_filename
-        if "ipykernel_" in file or "<ipython" in file:
-            place = f" in line {trace.tb_lineno} of its cell"
-        trace = trace.tb_next
-    return place

@@ -2,13 +2,11 @@
 
 from __future__ import annotations
 
-import ast
 import inspect
 import math
-import textwrap
+import sys
 import types
-from collections.abc import Callable, Iterator, Sequence
-from contextlib import suppress
+from collections.abc import Callable, Sequence
 from typing import Any, NoReturn
 
 import numpy as np
@@ -117,73 +115,53 @@ def _flat(values: Any) -> list[float]:
 
 
 def own_work(function: Callable, *allowed: str) -> None:
-    """Raise Hint if the student's function names a function of the libraries not in `allowed`.
+    """Raise Hint if the student's function uses a function of the libraries not in `allowed`.
 
-    It reads the source, and that of the notebook's functions that are named there. Containers
-    such as Pose and Gains are free. It says what is asked for; it does not withstand someone who
-    hides a name.
+    It reads the names in the function's code, and in that of the notebook's functions that are
+    named there. Containers such as Pose and Gains are free. It says what is asked for; it does not
+    withstand someone who hides a name.
     """
     asked = "this task asks for your own formula, with `math` or `numpy`."
     if allowed:
         asked = f"of it only {', '.join(f'`{each}`' for each in allowed)} may be used here."
-    if expect_own := getattr(function, "expect_own", None):  # in another process
-        return expect_own(*allowed)
-    waiting, seen, home = [function], [], None
+    waiting, seen = [function], []
     while waiting:
         called = inspect.unwrap(waiting.pop(0))
         called = getattr(called, "pyfunc", getattr(called, "func", called))  # vectorize, partial
-        library, name = str(getattr(called, "__module__", "")).partition(".")[0], name_of(called)
+        library, name = _library(called), name_of(called)
         if library in _LIBRARIES:
             free = isinstance(called, type) or name in allowed
             expect(free, f"`{name_of(function)}` uses `{name}` of {library}; {asked}")
         elif isinstance(called, types.FunctionType) and called not in seen:
             seen.append(called)
-            home = home or called.__module__
-            if called.__module__ == home or called is function:
-                waiting += [each for each in _named(called) if callable(each)]
+            if called is seen[0] or called.__module__ == seen[0].__module__:
+                waiting += _named(called)
 
 
-def _named(function: types.FunctionType) -> Iterator[Any]:
-    """What the names, attributes and imports in the function's source stand for."""
-    try:
-        tree = ast.parse(textwrap.dedent(inspect.getsource(function)))
-    except (OSError, SyntaxError):
-        return  # without its source, a function passes
-    if function.__name__ == "<lambda>":  # the source is of the whole line, the check's call too
-        alike = [it for it in ast.walk(tree) if isinstance(it, ast.Lambda)]
-        tree = ast.Module([ast.Expr(each) for each in alike], [])
-    own = dict.fromkeys(function.__code__.co_varnames)
-    names = function.__globals__ | own | inspect.getclosurevars(function).nonlocals
+def _named(function: types.FunctionType) -> list[Callable]:
+    """Return the functions that the names in the function's code stand for."""
+    codes = [function.__code__]
+    for code in codes:  # and the functions and comprehensions inside it
+        codes += [each for each in code.co_consts if isinstance(each, types.CodeType)]
+    names = [name for code in codes for name in code.co_names + code.co_freevars]
+    known = function.__globals__ | inspect.getclosurevars(function).nonlocals
+    values = [known.get(name, sys.modules.get(name)) for name in names]
+    for value in values:  # of the libraries' modules, the attributes that are named
+        if isinstance(value, types.ModuleType) and value.__name__.partition(".")[0] in _LIBRARIES:
+            found = [getattr(value, name, None) for name in names]
+            values += [each for each in found if not any(each is other for other in values)]
+    return [value for value in values if callable(value)]
 
-    def value(node: ast.AST) -> Any:
-        if isinstance(node, ast.Attribute):
-            return getattr(value(node.value), node.attr, None)
-        return names.get(node.id) if isinstance(node, ast.Name) else None
 
-    for node in ast.walk(tree):
-        if isinstance(node, (ast.Import, ast.ImportFrom)):
-            with suppress(ImportError):  # the function stops there, and another hint says so
-                exec(compile(ast.Module([node], []), "<import>", "exec"), names)
-    for node in ast.walk(tree):
-        yield value(node)
+def _library(value: Any) -> str:
+    return str(getattr(value, "__module__", "")).partition(".")[0]
 
 
 def name_of(function: Callable) -> str:
     return getattr(function, "__name__", type(function).__name__)
 
 
-def named(error: BaseException) -> str:
-    """Return its name and what it says."""
-    try:
-        return f"{type(error).__name__}: {error}".rstrip(": ")
-    except BaseException:  # of a student's class
-        return type(error).__name__
-
-
 def shown(value: Any) -> str:
     """Return the value as text of at most 60 characters."""
-    try:
-        text = f"{value:.6g}" if isinstance(value, float) else repr(value)
-    except BaseException:  # of a student's class, or of an integer with more than 4300 digits
-        text = f"something of the type {type(value).__name__}"
+    text = f"{value:.6g}" if isinstance(value, float) else repr(value)
     return text if len(text) <= 60 else f"{text[:57]}..."

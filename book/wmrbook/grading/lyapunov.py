@@ -13,7 +13,6 @@ from typing import Any
 import sympy as sp
 
 from wmrbook.equations import EQUATIONS
-from wmrbook.grading import variants
 from wmrbook.grading._asking import expect_value, number, ordered
 from wmrbook.grading._expressions import equal_at, expression, points, values
 from wmrbook.grading._hints import Hint, expect, rule_out
@@ -137,26 +136,22 @@ def closed(V_rate_closed: Any) -> str:
     return f"V' has {len(terms)} terms, and each shows that it is never positive."
 
 
-def _rising(state: Any, mine: variants.Window) -> str:
+def rising(state: Any) -> str:
     """A state with the goal on the right, within 1 m, where (24) as printed makes V rise."""
     slope = float(_printed_slope(state))
     hint = f"V' is {slope:.3g} there: V falls. "
     hint += "Which sign has the extra rate with the goal on the right?"
     expect(slope > 0.0, hint)
-    mine.expect(float(state[1]))
     return f"V rises there by {slope:.2f} a second: one state is enough to refute the proof."
 
 
-def _rising_fast(state: Any, mine: variants.Window) -> str:
+def rising_fast(state: Any) -> str:
     """The same, with V' more than 5 per second."""
-    _rising(state, mine)
+    rising(state)
     slope = float(_printed_slope(state))
     hint = f"V' is {slope:.3g} per second there; more than 5 is asked for: "
     expect(slope > 5.0, f"{hint}what makes the extra rate large?")
     return f'V rises by {slope:.2f} a second, although (25) says "< 0".'
-
-
-rising, rising_fast = variants.checked(variants.right, _rising, _rising_fast)
 
 
 def _terms(value: sp.Expr) -> list[sp.Expr]:

@@ -10,10 +10,12 @@ import numpy as np
 
 from wmrbook.grading._asking import ask_number, ask_numbers, gains_of, refuses
 from wmrbook.grading._hints import close, drawn, expect, explain, own_work, rule_out, slip
-from wmrbook.grading.variants import Drive, checked, slow
+from wmrbook.grading._specification import Limits, all_parked, drive, elsewhere, exceeded
 from wmrlib import paper
 from wmrlib.tuning import longest_step, modes
 
+_SLOW = Limits(time=42.0, heading_deg=3.0)
+_SAMPLING, _TRACK_WIDTH, _TOP_SPEED = 0.25, 0.5, 2.0  # s, m, m/s of a wheel
 _MOTOR = (1.0, 9.0), (0.5, 12.0), (2.0, 20.0)  # a, g, times
 
 
@@ -96,41 +98,45 @@ def wheel_units(wheel_gains: Callable) -> str:
     return f"{ten} {k_p:.2f} V for each rad/s that is missing."
 
 
-def _outdoor(gains: Any, mine: Drive) -> str:
-    """The drive with rare looks and slow wheels: in time, straight, feasible."""
-    gains = gains_of("`gains`", gains)
-    run, end = mine.run(gains)
-    rim, broken = mine.rim(run), []
-    if (most := rim.max()) > mine.v_max:
-        when = int((rim > mine.v_max).argmax())
-        turning = abs(run.omega[when]) * mine.track_width / 2.0
+def slow_outdoor(gains: Any) -> str:
+    """The outdoor drive, sampled every 0.25 s, with slow wheels: in time, straight, feasible."""
+    gains, case = gains_of("`gains`", gains), paper.outdoor()
+    run, end = drive(case.start, case.goal, gains, dt=_SAMPLING)
+    rim, broken = _rim(run), []
+    if (most := rim.max()) > _TOP_SPEED:
+        when = int((rim > _TOP_SPEED).argmax())
+        turning = abs(run.omega[when]) * _TRACK_WIDTH / 2.0
         broken.append(
             f"{run.t[when]:.2f} s after the start a wheel is asked for {rim[when]:.2f} m/s "
             f"({turning:.2f} m/s of it for turning), and in all for up to {most:.2f} m/s, "
-            f"where it has {mine.v_max:.1f} m/s"
+            f"where it has {_TOP_SPEED:g} m/s"
         )
     late = f"it has not arrived after {run.t[-1]:.0f} s, and is {end.distance:.1f} m from the goal"
-    hint = "; and ".join(broken + (mine.broken(end) if end.arrived else [late]))
-    if (longest := longest_step(gains)) < mine.dt:
-        hint += f" (near the goal these gains want a look every {longest:.3f} s, "
-        hint += f"and get one every {mine.dt:.3f} s)"
-    expect(bool(end.arrived and not mine.broken(end) and not broken), f"{hint}.")
+    broken += exceeded(end, _SLOW) if end.arrived else [late]
+    hint = "; and ".join(broken)
+    if (longest := longest_step(gains)) < _SAMPLING:
+        hint += f" (near the goal these gains have to be sampled every {longest:.3f} s, "
+        hint += f"and are every {_SAMPLING:g} s)"
+    expect(not broken, f"{hint}.")
     parked = f"Parked after {end.time:.1f} s, {math.degrees(abs(end.heading_error)):.1f} deg off"
     return f"{parked}, and no wheel was asked for more than {most:.2f} m/s."
 
 
-def _elsewhere(gains: Any, mine: Drive) -> str:
-    """The same from 40 other starts that look at most 60 deg beside the goal."""
-    gains, look = gains_of("`gains`", gains), {"method": "arc", "dt": mine.dt}
-    ends, runs = mine.elsewhere(gains, math.pi / 3.0, 80.0, trajectories=True, **look)
-    parked, rim = mine.parked(ends, 80.0), np.nan_to_num(mine.rim(runs)).max(axis=1)
-    bad = np.sum(rim > mine.v_max)
-    hint = f"of 40 other starts, {bad} ask a wheel for more than {mine.v_max:.1f} m/s, "
+def slow_elsewhere(gains: Any) -> str:
+    """The same from 40 other starts that face at most 60 deg beside the goal."""
+    options = {"method": "arc", "dt": _SAMPLING, "duration": 80.0, "trajectories": True}
+    ends, runs = elsewhere(gains_of("`gains`", gains), math.pi / 3.0, **options)
+    parked = all_parked(ends, 80.0, 2.0 * _SLOW.heading_deg)
+    rim = np.nan_to_num(_rim(runs)).max(axis=1)
+    bad = np.sum(rim > _TOP_SPEED)
+    hint = f"of 40 other starts, {bad} ask a wheel for more than {_TOP_SPEED:g} m/s, "
     expect(bad == 0, f"{hint}the worst for {rim.max():.2f} m/s.")
     return f"{parked}, with at most {rim.max():.2f} m/s at a wheel."
 
 
-slow_outdoor, slow_elsewhere = checked(slow, _outdoor, _elsewhere)
+def _rim(run: Any) -> np.ndarray:
+    """The speed of the faster wheel."""
+    return np.abs(run.v) + 0.5 * _TRACK_WIDTH * np.abs(run.omega)
 
 
 def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float:

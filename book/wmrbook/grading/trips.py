@@ -10,9 +10,9 @@ from typing import Any
 
 import numpy as np
 
-from wmrbook.grading import variants
 from wmrbook.grading._asking import ask, ask_truth, number, ordered
 from wmrbook.grading._hints import angle_equal, drawn, expect, explain, rule_out, spread
+from wmrbook.grading._specification import Limits, drive, driveable
 from wmrbook.grading.earth import _on_the_spot, _walks
 from wmrlib.gains import Gains
 from wmrlib.geodesy import GeoPoint, initial_bearing, local_position
@@ -24,6 +24,7 @@ from wmrlib.simulation import simulate
 Poses = Callable[[GeoPoint, GeoPoint, float, float], tuple[Pose, Pose]]
 _FLAT = 1e-3  # rad: a flat map's direction against the great circle's, over 200 m
 _HERE = Pose(0.0, 0.0, 0.0)
+_HOME = Limits(time=22.0, heading_deg=5.0, omega=1.6)
 _GAINS = Gains(k_rho=0.3, k_alpha=2.0, h=1.5, v_max=4.0)
 
 
@@ -101,33 +102,30 @@ def parked_wrapped(parked: Callable[[Trajectory], bool]) -> str:
     return f"{len(pairs)} robots that look west have parked, on either side of 180 deg."
 
 
-def _time(my_gains: Any, mine: variants.Drive) -> str:
-    """Back again, with the headings exchanged, in time."""
-    end = _home(my_gains, mine)
+def home_time(my_gains: Any) -> str:
+    """From GPS point 2 back to 1, with the headings exchanged, in time."""
+    end = _home(my_gains)
     hint = f"it takes {end.time:.1f} s. "
     hint += "Which gain decides how far from the goal the robot begins to slow down?"
-    expect(end.time < mine.time, hint)
+    expect(end.time < _HOME.time, hint)
     return f"Home after {end.time:.1f} s."
 
 
-def _heading(my_gains: Any, mine: variants.Drive) -> str:
+def home_heading(my_gains: Any) -> str:
     """It ends less than 5 deg off."""
-    off = abs(math.degrees(_home(my_gains, mine).heading_error))
+    off = abs(math.degrees(_home(my_gains).heading_error))
     hint = f"it arrives with {off:.1f} deg left over. The heading must settle before the distance: "
-    expect(off < mine.heading_deg, f"{hint}brake earlier, or give it more weight.")
+    expect(off < _HOME.heading_deg, f"{hint}brake earlier, or give it more weight.")
     return f"Parked, with {off:.1f} deg left over."
 
 
-def _omega(my_gains: Any, mine: variants.Drive) -> str:
+def home_omega(my_gains: Any) -> str:
     """It never turns too fast."""
-    fastest = _home(my_gains, mine).peak_omega
+    fastest = _home(my_gains).peak_omega
     hint = f"it turns with up to {fastest:.2f} rad/s. "
     hint += "At the start, by k_alpha, or in the last bend? `wmrbook.figures.dashboard` shows it."
-    expect(fastest < mine.omega, hint)
+    expect(fastest < _HOME.omega, hint)
     return f"Never faster than {fastest:.2f} rad/s."
-
-
-home_time, home_heading, home_omega = variants.checked(variants.home, _time, _heading, _omega)
 
 
 def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: float) -> list[Pose]:
@@ -140,8 +138,9 @@ def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: f
     ]
 
 
-def _home(my_gains: Any, mine: variants.Drive) -> Arrival:
-    run, end = mine.run(mine.gains("`my_gains`", my_gains))
+def _home(my_gains: Any) -> Arrival:
+    gains, case = driveable("`my_gains`", my_gains), outdoor()
+    run, end = drive(case.goal, case.start, gains, method="continuous")
     hint = f"it does not come home: after {run.t[-1]:.0f} s "
     expect(end.arrived, f"{hint}it is {run.rho[-1]:.2f} m away.")
     return end

@@ -1,7 +1,7 @@
 """The checks of the exercises at the chapters' ends, of those that a few numbers or lines answer.
 
-They print what the checks of the course raise: a sentence if an answer is right, else a hint. So a
-chapter runs while they wait for an answer. What an answer prints comes before, shortened.
+They return what the checks of the course raise: a sentence if an answer is right, else a hint. So a
+chapter runs while they wait for an answer.
 """
 
 import lazy_loader
