@@ -20,6 +20,12 @@ def client():
     pytest.importorskip("gpsdclient", reason="this test needs gpsdclient: pip install '.[robot]'")
 
 
+def test_without_the_client_it_says_what_to_install(monkeypatch):
+    monkeypatch.setitem(sys.modules, "gpsdclient", None)
+    with pytest.raises(RuntimeError, match=r'gpsdclient: pip install "\.\[robot\]"'):
+        gpsd.Gpsd("ubx")
+
+
 @pytest.mark.needs("gpsd")
 @pytest.mark.usefixtures("client")
 @pytest.mark.parametrize("form", gpsd.FORMATS)
