@@ -1,9 +1,8 @@
-"""Sweeps against C, numpy, JAX and heyoka, and how the cost grows."""
+"""Sweeps on one core against the same loop in C and in numpy."""
 
 from __future__ import annotations
 
 import ctypes
-import os
 import shutil
 import subprocess
 from pathlib import Path
@@ -15,20 +14,15 @@ from timing import Row, in_turn
 import wmrlib as wmr
 from wmrlib import _threads as threads
 
-JAX_ON_ONE_CORE = "--xla_cpu_multi_thread_eigen=false intra_op_parallelism_threads=1"
-os.environ.setdefault("XLA_FLAGS", JAX_ON_ONE_CORE)
 GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
 RUNS, STEPS, DT = 10_000, 300, 0.02
 METHODS = {"euler": "tangent", "arc": "arc"}  # of a sweep, and the functions in C
-ENSEMBLE = 4_000
 # GCC joins sin(a) and cos(a) into one call that has no vector form, unless that pass is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
-WIDEST = (*FAST, "-mprefer-vector-width=512")
 BUILDS = {
     "C, scalar (-O3 -march=native)": ("-O3", "-march=native"),
     "C, libmvec (-ffast-math)": FAST,
-    "C, libmvec, widest vectors": WIDEST,
-    "C, widest vectors, with arrivals and sums": (*WIDEST, "-DSUMS"),
+    "C, widest vectors, with arrivals and sums": (*FAST, "-mprefer-vector-width=512", "-DSUMS"),
 }
 
 
@@ -44,17 +38,12 @@ def states(runs: int) -> list[np.ndarray]:
     return [np.array(np.broadcast_to(value, runs), dtype=float) for value in row]
 
 
-def on(cores: int):
-    """A context in which sweeps have so many cores."""
-    return mock.patch.object(threads, "CORES", cores)
-
-
-def sweep(method: str, runs: int, steps: int, cores: int = 1):
-    start, of = wmr.paper.outdoor().start, gains(runs)
-    how = {"method": method, "dt": DT, "duration": steps * DT, "progress": False}
+def sweep(method: str):
+    start, of = wmr.paper.outdoor().start, gains(RUNS)
+    how = {"method": method, "dt": DT, "duration": STEPS * DT, "progress": False}
 
     def run():
-        with on(cores):
+        with mock.patch.object(threads, "CORES", 1):
             return wmr.sweep(start, GOAL, of, **how)
 
     return run
@@ -87,8 +76,7 @@ def c_case(library: ctypes.CDLL, name: str):
     return run
 
 
-def euler_step(np, x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max):
-    """A step with numpy's functions, or JAX's."""
+def euler_step(x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max):
 
     def wrap(angle):
         return angle - 2.0 * np.pi * np.rint(angle / (2.0 * np.pi))
@@ -105,125 +93,25 @@ def numpy_case():
     def run():
         *pose, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max = states(RUNS)
         for _ in range(STEPS):
-            pose = euler_step(np, *pose, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max)
+            pose = euler_step(*pose, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max)
         return pose
 
     return run
 
 
-def jax_case():
-    import jax
-    import jax.numpy as jnp
-
-    jax.config.update("jax_enable_x64", True)
-
-    @jax.jit
-    def run(*row):
-        return jax.lax.fori_loop(
-            0, STEPS, lambda _, pose: euler_step(jnp, *pose, *row[3:]), row[:3]
-        )
-
-    return lambda: run(*states(RUNS))[0].block_until_ready()
-
-
-def against_the_limit(folder: Path) -> list[Row]:
-    libraries, rows = in_c(folder), []
+def rows(folder: Path) -> list[Row]:
+    libraries, found = in_c(folder), []
     if not libraries:
         print("gcc was not found: no limit to compare with")
     for method, function in METHODS.items():
         cases = {name: c_case(library, function) for name, library in libraries.items()}
-        cases["wmrlib.sweep, metrics included"] = sweep(method, RUNS, STEPS)
+        cases["wmrlib.sweep, metrics included"] = sweep(method)
         if method == "euler":
             cases["numpy"] = numpy_case()
-            try:
-                cases["JAX"] = jax_case()
-            except ImportError:
-                print("JAX is not installed: left out")
         seconds = in_turn(cases)
         limit = min((seconds[name] for name in libraries), default=None)
         section = f"10,000 gains by 300 steps on one core, {method.title()}, against the fastest C"
         for name, value in seconds.items():
             step, ratio = 1e9 * value / RUNS / STEPS, value / limit if limit else None
-            rows.append(Row(section, name, step, "ns a step", ratio))
-    return rows
-
-
-def some_runs() -> tuple[wmr.Pose, wmr.Gains]:
-    """Starts round the origin and gains, neither stiff nor alike."""
-    draw = np.random.default_rng(1).uniform
-    far, sight = draw(5.0, 60.0, ENSEMBLE), draw(-np.pi, np.pi, ENSEMBLE)
-    starts = wmr.Pose(far * np.cos(sight), far * np.sin(sight), draw(-2.0, 2.0, ENSEMBLE))
-    rate, damping = draw(0.3, 1.0, ENSEMBLE), draw(0.7, 1.5, ENSEMBLE)
-    return starts, wmr.gains_for(
-        rate, natural_frequency=draw(0.7, 1.4, ENSEMBLE) * rate, damping=damping, v_max=4.0
-    )
-
-
-def heyoka_case(starts: wmr.Pose, gains: wmr.Gains, seconds: float):
-    """Taylor series, a batch of runs at a time, until the last of it is within 5 cm."""
-    import heyoka as hy
-
-    rho, alpha, theta = hy.make_vars("rho", "alpha", "theta")
-    k_rho, k_alpha, h, v_max = (hy.par[i] for i in range(4))
-    v = v_max * (1.0 - hy.exp(-k_rho * rho)) * hy.cos(alpha)
-    turning = v / rho * hy.sin(alpha)
-    omega = k_alpha * alpha + v / rho * (hy.sin(alpha) / alpha) * (alpha + h * theta)
-    system = [(rho, -v * hy.cos(alpha)), (alpha, turning - omega), (theta, turning)]
-    width, arrived = hy.recommended_simd_size(), {}
-    end = hy.nt_event_batch(rho - 0.05, lambda _, time, sign, lane: arrived.setdefault(lane, time))
-    robots = hy.taylor_adaptive_batch(
-        system, np.ones((3, width)), tol=1e-10, nt_events=[end], pars=np.ones((4, width))
-    )
-    begin = np.array(wmr.polar_error(starts, wmr.Pose(0.0, 0.0, 0.0)))
-    pars = np.array(np.broadcast_arrays(*gains))
-
-    def run():
-        times = np.empty(ENSEMBLE)
-        for first in range(0, ENSEMBLE, width):
-            some = slice(first, first + width)
-            arrived.clear()
-            robots.set_time(0.0)
-            robots.state[:], robots.pars[:] = begin[:, some], pars[:, some]
-            robots.propagate_until(seconds, callback=lambda _: len(arrived) < width)
-            times[some] = [arrived.get(lane, np.inf) for lane in range(width)]
-        return times
-
-    return run
-
-
-def with_error_control() -> list[Row]:
-    """To arrival within 5 cm or for a minute, at a tolerance of 1e-10."""
-    (starts, gains), goal = some_runs(), wmr.Pose(0.0, 0.0, 0.0)
-    with on(1):
-        ours = "wmrlib.sweep, peaks and lengths too"
-        cases = {ours: lambda: wmr.sweep(starts, goal, gains, progress=False)}
-        try:
-            cases["heyoka, batches"] = heyoka_case(starts, gains, 60.0)
-        except ImportError:
-            print("heyoka is not installed: left out")
-        else:
-            mine, theirs = cases[ours]().time, cases["heyoka, batches"]()
-            np.testing.assert_allclose(mine, theirs, atol=1e-6)
-        seconds = in_turn(cases)
-    section = f"{ENSEMBLE:,} runs in continuous time on one core, against sweep"
-    return [
-        Row(section, name, 1e6 * s / ENSEMBLE, "us a run", s / seconds[ours])
-        for name, s in seconds.items()
-    ]
-
-
-def growth() -> list[Row]:
-    sizes = [(n, 300) for n in (1000, 10_000, 100_000, 1_000_000)]
-    sizes += [(1000, n) for n in (3000, 30_000)]
-    seconds = in_turn({size: sweep("euler", *size) for size in sizes}, repeat=3)
-    each = {size: 1e9 * value / size[0] / size[1] for size, value in seconds.items()}
-    section = "Growth, sampled Euler on one core, against 10,000 runs of 300 steps"
-    rows = [
-        Row(section, f"{n:,} runs of {k:,} steps", value, "ns a step", value / each[10_000, 300])
-        for (n, k), value in each.items()
-    ]
-    many = (1, 2) if (os.cpu_count() or 1) > 1 else (1,)
-    cores = in_turn({n: sweep("arc", 100_000, 300, n) for n in many})
-    section = "100,000 runs of 300 steps, arc, against one core"
-    names = {1: "1 core", 2: "2 cores"}
-    return rows + [Row(section, names[n], s, "s", s / cores[1]) for n, s in cores.items()]
+            found.append(Row(section, name, step, "ns a step", ratio))
+    return found

@@ -5,8 +5,6 @@ from __future__ import annotations
 import json
 import os
 import platform
-import subprocess
-import sys
 import time
 from collections.abc import Callable
 from itertools import groupby
@@ -42,14 +40,6 @@ def in_turn(cases: dict[str, Callable], repeat: int = 7) -> dict[str, float]:
                 function()
             best[name] = min(best[name], (time.perf_counter() - begin) / counts[name])
     return best
-
-
-def process(statement: str, **environment: str) -> float:
-    """Seconds of one statement in a fresh Python process, without Python's own start."""
-    now = "time.perf_counter()"
-    code = f"import time; begin = {now}; {statement}; print({now} - begin)"
-    line, variables = [sys.executable, "-c", code], os.environ | environment
-    return float(subprocess.check_output(line, text=True, env=variables))
 
 
 def show(rows: list[Row]) -> None:
