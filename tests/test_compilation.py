@@ -74,6 +74,32 @@ def test_a_second_process_compiles_nothing_an_edit_compiles_anew_and_plain_pytho
     assert numbers != pytest.approx(first[0], rel=1e-3)
 
 
+FORMULA = """from wmrlib.compilation import formula
+@formula
+def changed(number):
+    return 2.0 * number
+"""
+LOOP = """from wmrlib.compilation import compiled
+from other.formulas import changed
+@compiled
+def twice(number):
+    return changed(changed(number))
+"""
+PRINT = "from other.loop import twice\nprint(twice(3.0), sum(twice.stats.cache_misses.values()))"
+
+
+def test_an_edit_in_another_package_compiles_its_functions_anew(copy):
+    other = copy.parent / "other"
+    other.mkdir()
+    for name, text in {"__init__": "", "formulas": FORMULA, "loop": LOOP}.items():
+        (other / f"{name}.py").write_text(text, encoding="utf-8")
+    assert printed(process(copy, code=PRINT)) == ([12.0], "1")
+    assert printed(process(copy, code=PRINT)) == ([12.0], "0")
+    edited(other, "formulas.py", "2.0 *", "5.0 +")
+    assert printed(process(copy, code=PRINT)) == ([13.0], "1")
+    assert printed(process(copy, code=PRINT)) == ([13.0], "0")
+
+
 def test_what_the_package_cannot_keep_is_kept_at_home_or_not_at_all(copy):
     cache, home = copy / "__pycache__", copy.parent / "home"
     cache.touch()

@@ -2,8 +2,9 @@
 
 numba's own cache looks only at the file of the function itself to tell whether a binary is still
 good, so a loop would go on running an old formula out of another file. Here its files stand in a
-folder named by a digest of all modules. numba runs what it finds there, so a folder that others may
-write to is not used.
+folder named by a digest of all modules; of a function of another package they hold a digest of that
+package's modules too. numba runs what it finds there, so a folder that others may write to is not
+used.
 """
 
 from __future__ import annotations
@@ -28,9 +29,12 @@ _SOURCES = sorted((*_PACKAGE.glob("*.py"), *_PACKAGE.glob("engine/*.py")))
 _ARITHMETIC = {"error_model": "numpy", "fastmath": {"contract"}}
 
 
+def _text_digest(files: list[Path], more: str = "") -> str:
+    return sha256(more.encode() + b"".join(map(Path.read_bytes, files))).hexdigest()[:16]
+
+
 def _digest() -> str:
-    compiler = f"{numba.__version__} {sys.implementation.cache_tag}".encode()
-    return sha256(compiler + b"".join(map(Path.read_bytes, _SOURCES))).hexdigest()[:16]
+    return _text_digest(_SOURCES, f"{numba.__version__} {sys.implementation.cache_tag}")
 
 
 def _folders() -> list[Path]:
@@ -86,7 +90,9 @@ class _Locator(InTreeCacheLocator):
         """The folder is there, if only to be read: numba would refuse to cache."""
 
     def get_source_stamp(self) -> str:
-        return ""  # an edit leads to another folder
+        """What numba compares: an edit of wmrlib leads to another folder, one elsewhere is here."""
+        file = Path(self._py_file)
+        return "" if file in _SOURCES else _text_digest(sorted(file.parent.glob("*.py")))
 
 
 class _Kept(CompileResultCacheImpl):

@@ -13,7 +13,7 @@ from scipy.special import bdtr
 
 import wmrlib as wmr
 from wmrlib.checks import scalar
-from wmrlib.engine.receivers import normals
+from wmrlib.receiver import normals
 
 SHAPE = {"kappa": 2.5, "h": 2.0}  # of the path: inside the window 2 < kappa < 1 + h
 SPARE = 0.8  # share of the wheels' speed that the law may ask for: the rest is for turns

@@ -1,8 +1,4 @@
-"""What a receiver shows of a run: noisy, held and late.
-
-Random numbers are counted, not drawn in turn: those of a fix follow from the seed, its run's number
-and its sample's alone, whoever computes them.
-"""
+"""What a receiver shows of a run: noisy, held and late."""
 
 from __future__ import annotations
 
@@ -12,6 +8,7 @@ import numpy as np
 
 from wmrlib.compilation import compiled, formula
 from wmrlib.elementary import sincos, wrap
+from wmrlib.receiver import normals
 
 # The rows of a receiver: its fields, in samples, the memory as how fast it fades, and what comes at
 # random as how often; its run's number; the error in standard deviations, the last fix, that which
@@ -20,29 +17,6 @@ SIGMA, FADING, PERIOD, DELAY, HEADING_DELAY, SIGHT, BIAS, DROPS, OUTAGE, JUMP, J
 COMPASS, RUN, EAST, NORTH, FIX, NOW, X, Y = range(11, 19)
 OFF_EAST, OFF_NORTH, JUMP_EAST, JUMP_NORTH, END = range(19, 24)
 ROWS = END + 1
-_WORD = 0xFFFFFFFF
-
-
-@formula
-def philox(counter, key):
-    """Four random words of 32 bits: Philox 4x32-10 of Salmon et al. (2011)."""
-    a, b, c, d = counter
-    key_1, key_2 = key
-    for _ in range(10):
-        one, two = 0xD2511F53 * a, 0xCD9E8D57 * c  # too long for a sign, which is masked
-        a, c = ((two >> 32) & _WORD) ^ b ^ key_1, ((one >> 32) & _WORD) ^ d ^ key_2
-        b, d = two & _WORD, one & _WORD
-        key_1, key_2 = (key_1 + 0x9E3779B9) & _WORD, (key_2 + 0xBB67AE85) & _WORD
-    return a, b, c, d
-
-
-@compiled
-def normals(run, sample, stream, key):
-    """Two standard normal numbers, by the rule of Box and Muller, out of 53 bits each."""
-    a, b, c, d = philox((run & _WORD, run >> 32, sample, stream), key)
-    size, turn = ((a << 21) + (b >> 11) + 0.5) * 2.0**-53, ((c << 21) + (d >> 11)) * 2.0**-53
-    length, (sine, cosine) = math.sqrt(-2.0 * math.log(size)), sincos(2.0 * math.pi * turn)
-    return length * cosine, length * sine
 
 
 @compiled
