@@ -8,10 +8,10 @@ from pathlib import Path
 from typing import NamedTuple
 
 from arduino_board import run, sizes
+from compiled import INCLUDES
 
-from wmrlib import symbolic
+from wmrrobot import printing
 
-FOLDER = symbolic.C_DRIVE.parent
 STRICT = ["-std=c99", "-Wall", "-Wextra", "-Werror", "-Os", "-ffp-contract=off", "-DWMR_REAL=float"]
 CLOCK_MHZ = 16.0
 # The example's own arithmetic, a UART for printf, and a timer that counts every 8th cycle.
@@ -71,7 +71,7 @@ def printed_by(example: str) -> tuple[str, int, int]:
         folder = Path(name)
         (folder / "example.c").write_text(example, encoding="utf-8")
         (folder / "board.c").write_text(AVR, encoding="utf-8")
-        options = ["-mmcu=atmega328p", *STRICT, f"-I{FOLDER}", "-Wl,-u,vfprintf"]
+        options = ["-mmcu=atmega328p", *STRICT, *INCLUDES, "-Wl,-u,vfprintf"]
         source = ["board.c", "-o", "board.elf", "-lprintf_flt", "-lm"]
         run("avr-gcc", *options, *source, folder=folder)
         flash, ram = sizes("avr-", folder, "board.elf")
@@ -82,7 +82,7 @@ def printed_by(example: str) -> tuple[str, int, int]:
 
 def drive_of_the_example() -> Parked:
     """The example's drive, with a timer round what a real robot would compute in a period."""
-    text = (FOLDER / "example.c").read_text(encoding="utf-8")
+    text = printing.C_EXAMPLE.read_text(encoding="utf-8")
     place = "#endif\n\n/* What the sensors say."
     assert text.count(place) == 1
     said, flash, ram = printed_by(text.replace(place, TIMED + place))

@@ -16,7 +16,8 @@ from types import FunctionType
 
 from wmrbook.chapters import routes
 from wmrbook.questions import MAKERS, Refusal
-from wmrlib import _filter, geodesy, kinematics, laws, motion, tuning
+from wmrlib import geodesy, kinematics, laws, motion, tuning
+from wmrrobot import kalman
 
 HEADING = (laws.corrected_law, "+ gains.h * theta", "- gains.h * theta")
 SPEED = (laws.corrected_law, "gains.v_max * decay", "-gains.v_max * decay")
@@ -46,7 +47,7 @@ FLIPS = {  # the question: a formula behind it, what stands there, and what to m
     "bearing-for-heading": (motion.polar_from_pose, "sight - heading", "sight + heading"),
     "at-the-corner": (routes.headings_along, "+ 0.5 * turn", "- 0.5 * turn"),
     "along-a-route": HEADING,
-    "in-the-dock": (_filter.see_heading, "heading - state[2]", "state[2] - heading"),
+    "in-the-dock": (kalman.see_heading, "heading - state[2]", "state[2] - heading"),
 }
 
 

@@ -43,24 +43,18 @@ PLANS = {
     "engine/receivers": "jit receiver",
     "body": "quick body; jit body",
     "control": "plain control arguments",
-    "_filter": "jit filter; jit estimation",
-    "_jacobians": "jit filter",
     "_threads": "jit sweeping receiver",
-    "estimation": "jit estimation",
     "gains": "plain gains control; jit paper",
     "kinematics": "plain kinematics arguments",
     "geodesy": "plain geodesy",
     "laws": "plain control; quick simulation; jit simulation",
     "motion": "plain kinematics; quick simulation; jit simulation hysteresis",
-    "odometry": "plain parking",
     "receiver": "jit receiver",
-    "sensing": "jit estimation; jit filter",
     "runs": "plain metrics; quick simulation; jit simulation",
     "simulation": "quick simulation; jit simulation",
     "sweeping": "jit sweeping; jit receiver",
     "symbolic": "plain symbolic control c_header",
     "tracks/ubx": "plain ubx tracks",
-    "trust": "plain parking",
     "tuning": "quick tuning; jit tuning",
 }
 NO_FORMULAS = {"__init__", "checks", "compilation"}
@@ -88,13 +82,6 @@ EQUIVALENT = [
     ("body.py", "'<' -> '<=' in return (abs(body", "no wheel is just as fast"),
     ("geodesy.py", "in lon2 = np.where", "half a turn more or less, in mod 360, which keeps -180"),
     ("engine/receivers.py", "in return eyes, 1", "how far back it could look does not show"),
-    ("parking.py", "'<=' -> '<' in faces = ", "nobody stops at the border"),
-    ("parking.py", "'<' -> '<=' in Row(\"wait\"", "the row above takes what is just enough"),
-    ("trust.py", "'>' -> '>=' in if abs(wrap(m.fix", "nobody is just as far astray"),
-    ("trust.py", "in later: float = ", "any time above 0 is as good"),
-    ("trust.py", "in x: float = ", "the first fix is new wherever it is"),
-    ("trust.py", "'<' -> '<=' in sound = ", "no encoder says just that"),
-    ("trust.py", "in outside: int = ", "it is read after a fix alone, which sets it"),
     ("runs.py", "int(steps + 1e-9)", "a tolerance"),
     ("runs.py", "if steps > MOST_SAMPLES", "one step in ten million"),
     ("simulation.py", "'0.0' -> '1' in path = ", "rows that are not used"),
@@ -286,7 +273,9 @@ class Copy:
             command += ["-W", "ignore::RuntimeWarning"]
         command += [f"tests/test_{name}.py" for name in names]
         settings = os.environ | {
-            "PYTHONPATH": os.pathsep.join([str(self.folder), str(self.folder / "book")]),
+            "PYTHONPATH": os.pathsep.join(
+                str(self.folder / place) for place in ("", "book", "book/robot")
+            ),
             "PYTHONDONTWRITEBYTECODE": "1",  # it would outlive a mutant of the same size
             "NUMBA_DISABLE_JIT": str(int(how != "jit")),
             "MUTANTS_QUICK": str(_QUICK if how == "quick" else 0.0),

@@ -36,7 +36,7 @@ def put(path: Path, text: str, before: str) -> None:
 
 def run(folder: Path, *arguments: str) -> None:
     """Run Python in the copy; where it fails, the test does."""
-    places = os.pathsep.join([str(folder), str(folder / "book")])
+    places = os.pathsep.join(str(folder / place) for place in ("", "book", "book/robot"))
     environment = os.environ | {"PYTHONPATH": places, "PYTEST_ADDOPTS": ""}
     options = {"cwd": folder, "env": environment, "text": True, "encoding": "utf-8"}
     done = subprocess.run([sys.executable, *arguments], capture_output=True, **options)

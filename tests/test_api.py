@@ -11,6 +11,7 @@ import pytest
 from sphinx.util.inventory import InventoryFile
 
 import wmrlib as wmr
+import wmrrobot as wr
 
 BOOK = Path(__file__).resolve().parents[1] / "book"
 CHAPTER = """# A chapter
@@ -19,7 +20,10 @@ It calls `wmr.simulate`, `simulate(start, goal)` and `paper.outdoor`, but not `r
 
 ```python
 import wmrlib as wmr
+import wmrrobot as wr
 wmr.simulate(a, wmr.paper.outdoor().goal, nothing.simulate)
+import wmrrobot as wr
+wr.Drive(goal, gains, wheels)
 ```
 """
 
@@ -29,13 +33,14 @@ def site(tmp_path_factory):
     folder = tmp_path_factory.mktemp("api")
     source, html = folder / "source", folder / "html"
     source.mkdir()
-    shutil.copy(BOOK / "api.md", source)
+    for page in ("api.md", "api_robot.md"):
+        shutil.copy(BOOK / page, source)
     # Docstrings name the paper's equations, which link to the chapters.
     equations = [f"$$\nx \\tag{{1.{n}, paper {n}}}\n$$\n" for n in range(1, 27)]
-    index = "\n".join([CHAPTER, *equations, "```{toctree}\napi\n```\n"])
+    index = "\n".join([CHAPTER, *equations, "```{toctree}\napi\napi_robot\n```\n"])
     (source / "index.md").write_text(index, encoding="utf-8")
     command = [sys.executable, "-m", "sphinx", "-c", BOOK, "--fail-on-warning", "--nitpicky", "-q"]
-    paths = os.pathsep.join(map(str, (BOOK.parent, BOOK, BOOK / "tools")))
+    paths = os.pathsep.join(map(str, (BOOK.parent, BOOK, BOOK / "robot", BOOK / "tools")))
     settings = os.environ | {"PYTHONPATH": paths}
     subprocess.run([*command, source, html], cwd=source, env=settings, check=True)
     return html
@@ -45,6 +50,7 @@ def test_every_public_name_has_an_entry(site):
     inventory = InventoryFile.loads((site / "objects.inv").read_bytes(), uri="")
     entries = {name for names in inventory.data.values() for name in names}
     assert {f"wmrlib.{name}" for name in wmr.__all__} <= entries
+    assert {f"wmrrobot.{name}" for name in wr.__all__} <= entries
     page = (site / "api.html").read_text(encoding="utf-8")
     assert page.count("Raises<span") > 20
     assert ":raises" not in page  # a section that was not understood
@@ -54,11 +60,14 @@ def test_sentences_and_code_link_to_the_entries(site):
     chapter = (site / "index.html").read_text(encoding="utf-8")
     assert chapter.count('href="api.html#wmrlib.simulate"') == 3
     assert chapter.count('href="api.html#wmrlib.paper.outdoor"') == 2
+    assert chapter.count('href="api_robot.html#wmrrobot.Drive"') == 1
+    assert chapter.count('href="api_robot.html"><span class="nn">wmrrobot<') == 1
 
 
 def test_public_functions_are_typed():
-    for name in filter(lambda name: inspect.isfunction(getattr(wmr, name)), wmr.__all__):
-        signature = inspect.signature(getattr(wmr, name))
+    public = [getattr(package, name) for package in (wmr, wr) for name in package.__all__]
+    for function in filter(inspect.isfunction, public):
+        signature = inspect.signature(function)
         named = [it for it in signature.parameters.values() if it.kind is not it.VAR_KEYWORD]
         assert signature.return_annotation is not signature.empty
         assert all(it.annotation is not it.empty for it in named)

@@ -77,11 +77,11 @@ def build(source, folder, *options, compiler=(CC, "-std=c99")):
     return program
 
 
-def library(header, calls, real, folder):
+def library(header, calls, real, folder, *options):
     """A header with these calls of its functions, of numbers R."""
     head = f'#define WMR_REAL {real}\n#include "{header}"\ntypedef WMR_REAL R;\n'
     (folder / "calls.c").write_text(head + calls)
-    options = "-shared", "-fPIC", "-Wno-unused-function"
+    options = "-shared", "-fPIC", "-Wno-unused-function", *options
     return ctypes.CDLL(str(build(folder / "calls.c", folder, *options)))
 
 
@@ -253,7 +253,7 @@ def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, capfd, option):
 @pytest.mark.skipif(not CXX, reason="this test needs a C++ compiler (Debian: apt install g++)")
 @pytest.mark.parametrize("real", REALS)
 def test_it_is_cpp_too(tmp_path, real):
-    text = f'#define WMR_REAL {real}\n#include "wmr_drive.h"\nint main() {{ return 0; }}\n'
+    text = f'#define WMR_REAL {real}\n#include "wmr_law.h"\nint main() {{ return 0; }}\n'
     (tmp_path / "empty.cpp").write_text(text)
     build(tmp_path / "empty.cpp", tmp_path, compiler=(CXX, "-std=c++11"))
 

@@ -55,7 +55,7 @@ def test_a_chapter_fails_when_a_sign_flips(tmp_path, monkeypatch, formula):
     texts = {path: path.read_text(encoding="utf-8") for path in package.glob("*.py")}
     (home,) = [path for path, text in texts.items() if re.search(right, text)]
     home.write_text(re.sub(right, wrong, texts[home]), encoding="utf-8")
-    places = [tmp_path, ROOT / "book"]
+    places = [tmp_path, ROOT / "book", ROOT / "book" / "robot"]
     monkeypatch.setenv("PYTHONPATH", os.pathsep.join(map(str, places)))
     monkeypatch.setenv("NUMBA_DISABLE_JIT", "1")  # compiling would take longer than the chapter
 

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib import _threads as threads
-from wmrlib.receiver import philox
 from wmrlib.engine import sampled
+from wmrlib.receiver import philox
 
 DT, GAINS = 0.1, wmr.GENTLE_GAINS
 START, GOAL = wmr.Pose(-6.0, 2.0, 0.5), wmr.Pose(0.0, 0.0, -1.0)

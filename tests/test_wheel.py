@@ -25,16 +25,16 @@ def wheel(tmp_path_factory):
 
 def test_it_has_the_packages_and_nothing_else(wheel):
     files = set(wheel.namelist())
-    (metadata,) = {name.split("/")[0] for name in files} - {"wmrlib", "wmrbook"}
+    (metadata,) = {name.split("/")[0] for name in files} - {"wmrlib", "wmrbook", "wmrrobot"}
     assert re.fullmatch(r"wmrlib-[\d.]+\.dist-info", metadata)
     in_the_tree = {
-        path.relative_to(base).as_posix()
-        for base, package in ((ROOT, "wmrlib"), (ROOT / "book", "wmrbook"))
-        for path in (base / package).rglob("*")
+        path.relative_to(package.parent).as_posix()
+        for package in (ROOT / "wmrlib", ROOT / "book/wmrbook", ROOT / "book/robot/wmrrobot")
+        for path in package.rglob("*")
         if path.is_file() and "__pycache__" not in path.parts
     }
     assert {name for name in files if not name.startswith(metadata)} == in_the_tree
-    assert "wmrlib/py.typed" in files
+    assert {"wmrlib/py.typed", "wmrrobot/c/wmr_drive.h", "wmrrobot/templates/my_robot.h"} <= files
 
 
 def test_the_readmes_ten_lines_run_from_it(wheel, tmp_path):

@@ -1,10 +1,11 @@
-"""The package as a whole: what importing it costs, and what it says of itself."""
+"""The packages as a whole: what importing them costs, and what they say of themselves."""
 
 import inspect
 import subprocess
 import sys
 
 import wmrlib as wmr
+import wmrrobot as wr
 
 HEAVY = {"sympy", "matplotlib", "ipywidgets", "control", "scipy.integrate", "numba", "tqdm"}
 NO_EXAMPLE = {"destination_point", "polar_rate", "pose_from_polar", "pose_rate"}
@@ -17,7 +18,7 @@ def modules_after(statement):
 
 
 def test_importing_loads_nothing_heavy():
-    assert not modules_after("import wmrlib") & HEAVY
+    assert not modules_after("import wmrlib, wmrrobot") & HEAVY
 
 
 def test_a_simulation_loads_numba_and_nothing_else_heavy():
@@ -27,9 +28,9 @@ def test_a_simulation_loads_numba_and_nothing_else_heavy():
 
 
 def test_every_public_name_is_there_and_says_what_it_is():
-    for name in wmr.__all__:
-        value = getattr(wmr, name)
-        if name not in ("EARTH_RADIUS_M", "GENTLE_GAINS"):
+    for package, name in [(each, name) for each in (wmr, wr) for name in each.__all__]:
+        value = getattr(package, name)
+        if name not in ("EARTH_RADIUS_M", "GENTLE_GAINS", "RECEIVERS"):
             assert inspect.getdoc(value), name
             assert inspect.getdoc(value) != inspect.getdoc(type(value)), name
 

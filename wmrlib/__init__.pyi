@@ -1,5 +1,4 @@
 # The public names and where they live, for lazy_loader, editors and type checkers.
-from . import estimation as estimation
 from . import metrics as metrics
 from . import paper as paper
 from .body import LastTurn as LastTurn
@@ -32,7 +31,6 @@ from .kinematics import wheels_to_twist as wheels_to_twist
 from .kinematics import wrap_angle as wrap_angle
 from .metrics import arrival as arrival
 from .metrics import residual as residual
-from .parking import Drive as Drive
 from .receiver import Receiver as Receiver
 from .runs import Arrival as Arrival
 from .runs import Outcome as Outcome
@@ -45,8 +43,6 @@ from .tracks import Track as Track
 from .tracks import read_track as read_track
 from .tracks import write_geojson as write_geojson
 from .tracks import write_gpx as write_gpx
-from .trust import Rules as Rules
-from .trust import Seen as Seen
 from .tuning import Modes as Modes
 from .tuning import gain_map as gain_map
 from .tuning import gains_for as gains_for

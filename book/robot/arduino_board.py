@@ -19,9 +19,9 @@ from functools import cache
 from pathlib import Path
 from typing import NamedTuple
 
-from wmrbook import robot_io
-from wmrbook.robot_sheet import Robot
 from wmrlib import symbolic
+from wmrrobot import files, printing
+from wmrrobot.sheets import Robot
 
 FOLDER = Path(__file__).parent / "arduino"
 LIBRARY = FOLDER / "WmrPark"
@@ -59,9 +59,9 @@ def library(robot: Robot | None = None) -> dict[str, str]:
         for path in sorted(LIBRARY.rglob("*"))
         if path.is_file()
     }
-    for header in (symbolic.C_HEADER, symbolic.C_DRIVE, symbolic.C_FILTER_HEADER):
+    for header in (symbolic.C_HEADER, printing.C_DRIVE, printing.C_FILTER_HEADER):
         texts[f"src/{header.name}"] = header.read_text(encoding="utf-8")
-    texts[f"examples/Park/{NUMBERS}"] = robot_io.files(robot or Robot())[NUMBERS]
+    texts[f"examples/Park/{NUMBERS}"] = files(robot or Robot())[NUMBERS]
     return texts
 
 

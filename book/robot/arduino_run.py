@@ -17,10 +17,11 @@ from arduino_board import CLOCK, Board, Inputs, compiled
 from gpsd import Position, ubx
 
 import wmrlib as wmr
-from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, sheet
-from wmrlib import parking, trust
 from wmrlib.body import follow
 from wmrlib.motion import arc_step
+from wmrrobot import trust
+from wmrrobot.drive import REASONS
+from wmrrobot.sheets import RECEIVERS, Robot, certificate, sheet
 
 STEP = 0.005  # s, of the truth
 FULL_SPEED, COUNT = 1.25, 0.001  # m/s at full PWM, m from one change of an encoder to the next
@@ -151,7 +152,7 @@ def drive(
         *lines, text = (text + board.run(STEP, inputs)).split(b"\n")
         for line in lines:
             numbers = list(map(int, line.split()))
-            state, reason = trust.STATES[numbers[0]], parking.REASONS[numbers[1]]
+            state, reason = trust.STATES[numbers[0]], REASONS[numbers[1]]
             longest = max(longest, 1e-6 * numbers[5])
         rolled += max(map(abs, moved)) * (now >= fault.begin)
         stood = 0.0 if max(map(abs, lawn.speeds)) > 1e-3 else stood + STEP

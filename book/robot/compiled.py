@@ -1,4 +1,4 @@
-"""The drive as C, compiled here: what `wmrlib.Drive` does, by ``wmr_drive.h``."""
+"""The drive as C, compiled here: what `wmrrobot.Drive` does, by ``wmr_drive.h``."""
 
 from __future__ import annotations
 
@@ -11,8 +11,11 @@ from pathlib import Path
 from typing import get_args, get_type_hints
 
 import wmrlib as wmr
-from wmrlib import parking, symbolic, trust
-from wmrlib.odometry import PAST, Place
+import wmrrobot as wr
+from wmrlib import symbolic
+from wmrrobot import printing, trust
+from wmrrobot.drive import REASONS
+from wmrrobot.odometry import PAST, Place
 
 _CALL = """#include "wmr_drive.h"
 void step(wmr_memory *m, const wmr_seen *seen, const wmr_plan *plan, WMR_REAL *out) {
@@ -20,11 +23,12 @@ void step(wmr_memory *m, const wmr_seen *seen, const wmr_plan *plan, WMR_REAL *o
   out[0] = wheels.left, out[1] = wheels.right;
 }
 """
+INCLUDES = [f"-I{header.parent}" for header in (symbolic.C_HEADER, printing.C_DRIVE)]
 REALS = {"double": ctypes.c_double, "float": ctypes.c_float}
 
 
 def _structure(kind, real):
-    """A class of wmrlib as the structure that the header has for it."""
+    """A class of Python as the structure that the header has for it."""
     plain = {float: real, int: ctypes.c_int}
     fields = []
     for name, hint in get_type_hints(kind).items():
@@ -42,15 +46,15 @@ def _library(real: str, law: str) -> tuple:
         raise RuntimeError("this needs a C compiler (Debian: apt install gcc libc6-dev)")
     kinds = {
         kind: _structure(kind, number)
-        for kind in (trust.Memory, wmr.Seen, Place, wmr.Wheels, wmr.LastTurn, wmr.Rules)
+        for kind in (trust.Memory, wr.Seen, Place, wmr.Wheels, wmr.LastTurn, wr.Rules)
     }
     fields = [(name, number) for name in wmr.Gains._fields]
     gains = type("Gains", (ctypes.Structure,), {"_fields_": fields})
     fields = [("goal", kinds[Place]), ("gains", gains), ("motors", kinds[wmr.Wheels])]
-    fields += [("end", kinds[wmr.LastTurn]), ("rules", kinds[wmr.Rules])]
+    fields += [("end", kinds[wmr.LastTurn]), ("rules", kinds[wr.Rules])]
     plan = type("Plan", (ctypes.Structure,), {"_fields_": fields})
     options = ["-std=c99", "-O2", "-ffp-contract=off", "-shared", "-fPIC", f"-DWMR_REAL={real}"]
-    options += [f"-DWMR_DRIVE_LAW=wmr_{law}", f"-I{symbolic.C_DRIVE.parent}"]
+    options += [f"-DWMR_DRIVE_LAW=wmr_{law}", *INCLUDES]
     with tempfile.TemporaryDirectory() as folder:
         source, library = Path(folder, "step.c"), Path(folder, "step.so")
         source.write_text(_CALL, encoding="utf-8")
@@ -58,14 +62,14 @@ def _library(real: str, law: str) -> tuple:
         return ctypes.CDLL(str(library)).step, kinds, plan
 
 
-class CDrive(wmr.Drive):
+class CDrive(wr.Drive):
     """A `Drive` whose steps are the header's."""
 
     def __init__(self, *given, real: str = "double", **named) -> None:
         super().__init__(*given, **named)
         law = "law" if self.law == "corrected" else f"law_{self.law}"
         self._step, kinds, plan = _library(real, law)
-        self._seen, self._kept = kinds[wmr.Seen], kinds[trust.Memory]()
+        self._seen, self._kept = kinds[wr.Seen], kinds[trust.Memory]()
         self._out = (REALS[real] * 2)()
         rules = self.rules._asdict() | {"settle": int(self.rules.settle)}
         parts = self.goal, self.gains, self.wheels, self.end, rules.values()
@@ -82,9 +86,9 @@ class CDrive(wmr.Drive):
 
     @property
     def reason(self) -> str:
-        return parking.REASONS[self._kept.reason]
+        return REASONS[self._kept.reason]
 
-    def step(self, seen: wmr.Seen) -> tuple[float, float]:
+    def step(self, seen: wr.Seen) -> tuple[float, float]:
         given = self._kept, self._seen(*seen), self._plan
         self._step(*map(ctypes.byref, given), self._out)
         return self._out[0], self._out[1]

@@ -17,13 +17,14 @@ import compiled
 from world import CASE, PERIOD, WATCHDOG, WHEELS, Faults, World
 
 import wmrlib as wmr
+import wmrrobot as wr
 
 GAINS = wmr.GENTLE_GAINS
 LONGEST = 300.0  # s
 SPEED, BRAKE = WHEELS.max_speed, WHEELS.acceleration
 BRAKING = SPEED**2 / (2.0 * BRAKE) + SPEED * (WHEELS.lag + 2 * PERIOD)  # m, as far as it rolls on
 SIDES = -15.0, -15.0, 25.0  # m, of the fence: west, south, east
-SILENCE = SPEED * (wmr.Rules().patience + 0.2) + BRAKING  # m, after the last usable fix
+SILENCE = SPEED * (wr.Rules().patience + 0.2) + BRAKING  # m, after the last usable fix
 
 
 class Case(NamedTuple):
@@ -52,9 +53,9 @@ OUTSIDE = "stopped: robot outside the fence"
 POOR = "wait: fix of too low quality"
 STALE = "wait: fix time stands or goes back"
 JUMPED = "wait: position jumped"
-_WHEEL = 2.5 * wmr.Rules().wheel + BRAKING
-_FROZEN = wmr.Rules().frozen + SILENCE
-_LEG = 2.0 * wmr.Rules().course + BRAKING
+_WHEEL = 2.5 * wr.Rules().wheel + BRAKING
+_FROZEN = wr.Rules().frozen + SILENCE
+_LEG = 2.0 * wr.Rules().course + BRAKING
 _AT_ONCE = 4 * PERIOD * SPEED + BRAKING
 CASES = (
     Case("no fix at boot", {"silent": True}, "wait: no fix", 0.0, begin=0.0),
@@ -144,12 +145,12 @@ class Ran(NamedTuple):
     blind: float  # m rolled from the fault on
     time: float
     decisions: tuple[tuple[str, str], ...]
-    seen: tuple[wmr.Seen, ...]
+    seen: tuple[wr.Seen, ...]
 
 
-def run(case: Case, drive_kind: type = wmr.Drive, seed: int = 1) -> Ran:
+def run(case: Case, drive_kind: type = wr.Drive, seed: int = 1) -> Ran:
     """One drive, with the fault, until it has parked or has stood for 20 s."""
-    rules = wmr.Rules()._replace(**case.rules)
+    rules = wr.Rules()._replace(**case.rules)
     drive = drive_kind(CASE.goal, GAINS, WHEELS, rules=rules)
     world, decisions, seen = World(seed, case.fence), [], []
     told, at_fault, stands = (0.0, 0.0), None, 0.0
@@ -192,7 +193,7 @@ def main() -> None:
     parser.add_argument("--seed", type=int, default=1)
     parser.add_argument("--json", metavar="FILE")
     given = parser.parse_args()
-    kind = compiled.CDrive if given.c else wmr.Drive
+    kind = compiled.CDrive if given.c else wr.Drive
     print(f"{'fault':33} {'came to':41} {'m':>6} {'at most':>7}")
     good, rows = 0, []
     for case in CASES:

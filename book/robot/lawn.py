@@ -4,8 +4,8 @@
 
 A robot of acceleration limits, lag, a dead band and encoder steps drives over the paper's two
 points, or a route. Its receiver's fixes become UBX or NMEA and positions again, in N runs of each
-kind through a pty and the real gpsd; the filter of `wmrlib.estimation` makes poses of them, and the
-compiled wmr_drive.h steers. Printed: rms and 95 % of the true place and heading errors.
+kind through a pty and the real gpsd; the filter of `wmrrobot.estimation` makes poses of them, and
+the compiled wmr_drive.h steers. Printed: rms and 95 % of the true place and heading errors.
 """
 
 from __future__ import annotations
@@ -25,9 +25,11 @@ from gpsd import FORMATS, Gpsd, Position, rounded
 from world import CASE, PERIOD
 
 import wmrlib as wmr
-from wmrlib import _filter, estimation, paper
+import wmrrobot as wr
+from wmrlib import paper
 from wmrlib.body import LastTurn, at_rest, roll
 from wmrlib.motion import arc_step, wheel_speeds
+from wmrrobot import estimation, kalman
 
 WHEELS = wmr.Wheels(
     0.5, max_speed=1.0, min_speed=0.12, acceleration=2.0, lag=0.1, dead_band=0.04, encoder_step=1e-3
@@ -132,26 +134,26 @@ class Robot:
         self.steps += 1
         return rolled
 
-    def look(self, rolled: tuple[float, float]) -> wmr.Seen:
+    def look(self, rolled: tuple[float, float]) -> wr.Seen:
         """What the filter makes of a period."""
         v = 0.5 * (rolled[0] + rolled[1]) / PERIOD
         omega = (rolled[1] - rolled[0]) / WHEELS.track_width / PERIOD
         gyro = self.turned / PERIOD + self.bias + self.rng.normal(0.0, GYRO)
         state, spread, kind = self.state, self.covariance, self.kind
-        _filter.carry(state, spread, v, omega, gyro, PERIOD, self.noise, estimation.GATE_1)
-        seen = wmr.Seen(PERIOD, *rolled)
+        kalman.carry(state, spread, v, omega, gyro, PERIOD, self.noise, estimation.GATE_1)
+        seen = wr.Seen(PERIOD, *rolled)
         if self.steps % EVERY:
             return seen
         x, y = self.fix()
         behind = -v * kind.delay  # where the antenna was
         gate, fix = estimation.GATE_2, (x, y, behind, 0.0, kind.sigma)
-        surprise = _filter.see_antenna(state, spread, *fix, gate)
+        surprise = kalman.see_antenna(state, spread, *fix, gate)
         self.refused = 0 if surprise <= gate else self.refused + 1
         if self.refused >= PATIENT:  # it may be the filter that is wrong
             spread *= 4.0
         if kind.heading < math.inf:
             heading = self.pose[2] + self.rng.normal(0.0, kind.heading)
-            _filter.see_heading(state, spread, heading, kind.heading, estimation.GATE_1)
+            kalman.see_heading(state, spread, heading, kind.heading, estimation.GATE_1)
         if not surprise <= gate:  # a fix that is refused says nothing to the drive
             return seen
         x, y, heading = map(float, state[:3])
@@ -165,7 +167,7 @@ def run(
     robot = Robot(kind, seed, link, FORM[seed % 2])
     radius = design.radius if design.radius > 0.0 else max(0.1, -design.radius * kind.sigma)
     far = 6.0 * kind.sigma
-    rules = wmr.Rules(radius, jump=max(1.0, far), course=max(4.0, 2.0 * far), longest_drive=LONGEST)
+    rules = wr.Rules(radius, jump=max(1.0, far), course=max(4.0, 2.0 * far), longest_drive=LONGEST)
     turn = LastTurn(min_rate=0.25) if design.last_turn else None
     for goal in goals:
         drive = CDrive(goal, design.gains, WHEELS, turn, rules, design.law)

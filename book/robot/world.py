@@ -11,6 +11,7 @@ from typing import NamedTuple
 import numpy as np
 
 import wmrlib as wmr
+import wmrrobot as wr
 from wmrlib import paper
 from wmrlib.body import follow
 
@@ -95,7 +96,7 @@ class World:
         self.now += PERIOD
         self.past.append((self.now, self.pose))
 
-    def see(self, faults: Faults) -> wmr.Seen:
+    def see(self, faults: Faults) -> wr.Seen:
         """What the program reads in a period, by its own clock."""
         self.drifted += np.multiply(faults.drift, PERIOD)
         before, clock = self.clock, self.now + self.clock_error
@@ -107,7 +108,7 @@ class World:
             self.silence = 0.0 if fix["later"] > 0.0 else self.silence
         goal_inside = int(self.inside(CASE.goal.x, CASE.goal.y))
         given = {"battery": faults.battery, "goal_inside": goal_inside} | fix
-        return wmr.Seen(self.clock - before, *self.encoders, **given)
+        return wr.Seen(self.clock - before, *self.encoders, **given)
 
     def _fix(self, faults: Faults) -> dict:
         self.due += PERIOD
@@ -153,12 +154,12 @@ def swapped(x: float, y: float) -> tuple[float, float]:
     return float(east), float(north)
 
 
-def positions(drive: wmr.Drive, start: wmr.Pose, period: float, longest: float) -> list[wmr.Pose]:
+def positions(drive: wr.Drive, start: wmr.Pose, period: float, longest: float) -> list[wmr.Pose]:
     """Drive an ideal robot by any `Drive` until it has parked, or for `longest` s.
 
     Parameters
     ----------
-    drive : `wmr.Drive`, or what steps as one does
+    drive : `wr.Drive`, or what steps as one does
     start : Pose; m, m, rad
     period : float, s
 
@@ -170,7 +171,7 @@ def positions(drive: wmr.Drive, start: wmr.Pose, period: float, longest: float) 
     width = drive.wheels.track_width
     while drive.state not in ("parked", "stopped") and period * len(poses) <= longest:
         left, right = (period * speed for speed in speeds)
-        seen = wmr.Seen(period, left, right, fresh=1, later=period, **poses[-1]._asdict())
+        seen = wr.Seen(period, left, right, fresh=1, later=period, **poses[-1]._asdict())
         speeds = drive.step(seen)
         poses.append(wmr.advance(poses[-1], *wmr.wheels_to_twist(*speeds, width), period))
     return poses

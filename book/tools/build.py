@@ -213,8 +213,8 @@ def without_solutions(chapter: NotebookNode) -> NotebookNode:
 
 
 def environment() -> dict[str, str]:
-    """Return this environment with wmrlib, wmrbook and these tools importable."""
-    paths = [str(ROOT), str(BOOK), str(BOOK / "tools"), os.environ.get("PYTHONPATH")]
+    """Return this environment with the three packages and these tools importable."""
+    paths = [*map(str, (ROOT, BOOK, BOOK / "robot", BOOK / "tools")), os.environ.get("PYTHONPATH")]
     return os.environ | {"PYTHONPATH": os.pathsep.join(filter(None, paths))}
 
 

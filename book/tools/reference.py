@@ -1,7 +1,8 @@
-"""A Sphinx extension: the API reference, made of wmrlib's docstrings, and the links to it.
+"""A Sphinx extension: the API reference, made of docstrings, and the links to it.
 
 - The directive ``library`` shows what `import wmrlib as wmr` offers from one module, in the order
-  of its source. A page with it needs no change when a name is added or renamed.
+  of its source, and ``robot`` what `import wmrrobot as wr` does. A page with them needs no change
+  when a name is added or renamed.
 - A name in a sentence, such as ``wmr.simulate`` or ``simulate(start, ...)``, links to its entry,
   and so does each ``wmr.simulate`` in a code cell.
 """
@@ -19,24 +20,24 @@ from docutils import nodes
 from sphinx.pycode import ModuleAnalyzer
 from sphinx.util.docutils import SphinxDirective
 
-import wmrlib
-
-PAGE = "api"
+PAGES = {"wmrlib": "api", "wmrrobot": "api_robot"}
+SHORT = {"wmr": "wmrlib", "wr": "wmrrobot"}
 FIELDS = ("Parameters", "Attributes", "Raises")
-NAME = re.compile(r"(?:wmr\.|wmrlib\.)?([A-Za-z_][\w.]*)(?:\(.*\))?", re.DOTALL)
+NAME = re.compile(r"(?:(wmr|wr|wmrlib|wmrrobot)\.)?([A-Za-z_][\w.]*)(?:\(.*\))?", re.DOTALL)
 # Code as Pygments marks it up: the module in an import, and wmr.simulate or paper.outdoor.
-MODULE = re.compile(r'<span class="nn">wmrlib(?:\.\w+)*</span>')
+MODULE = re.compile(r'<span class="nn">(wmrlib|wmrrobot)(?:\.\w+)*</span>')
 DOT = r'<span class="o">\.</span>'
 MEMBER = re.compile(
-    rf'<span class="n">(wmr|paper|symbolic)</span>{DOT}<span class="n">(\w+)</span>'
+    rf'<span class="n">(wmr|wr|paper|symbolic|estimation)</span>{DOT}<span class="n">(\w+)</span>'
     rf'(?:{DOT}<span class="n">(\w+)</span>)?'
 )
 
 
 @cache
-def homes() -> dict[str, str]:
-    """The module of each name that `import wmrlib as wmr` offers, as wmrlib's stub has it."""
-    stub = Path(wmrlib.__file__).with_name("__init__.pyi").read_text(encoding="utf-8")
+def homes(package: str) -> dict[str, str]:
+    """The module of each name that a package offers, as its stub has it."""
+    file = import_module(package).__file__
+    stub = Path(file).with_name("__init__.pyi").read_text(encoding="utf-8")
     return {name: module for module, name in re.findall(r"from \.(\w+) import (\w+) as", stub)}
 
 
@@ -44,23 +45,31 @@ class Library(SphinxDirective):
     """``library:: geodesy`` gives an entry to each of wmrlib's names that are at home there."""
 
     required_arguments = 1
+    package = "wmrlib"
 
     def run(self) -> list[nodes.Node]:
         (home,) = self.arguments
-        module = import_module(f"wmrlib.{home}")
-        names = [name for name in vars(module) if homes().get(name) == home]
-        return self.parse_text_to_nodes("\n\n".join(entry(module, name) for name in names))
+        module = import_module(f"{self.package}.{home}")
+        names = [name for name in vars(module) if homes(self.package).get(name) == home]
+        entries = (entry(self.package, module, name) for name in names)
+        return self.parse_text_to_nodes("\n\n".join(entries))
 
 
-def entry(module, name: str) -> str:
+class RobotsLibrary(Library):
+    """``robot:: drive``, likewise of wmrrobot."""
+
+    package = "wmrrobot"
+
+
+def entry(package: str, module, name: str) -> str:
     """The autodoc directive of a name; a constant's text is in the source only."""
-    value = getattr(module, name)
+    value, name_there = getattr(module, name), f"{package}.{name}"
     if inspect.isclass(value):
-        return f".. autoclass:: wmrlib.{name}\n   :members:"
+        return f".. autoclass:: {name_there}\n   :members:"
     if callable(value):
-        return f".. autofunction:: wmrlib.{name}"
+        return f".. autofunction:: {name_there}"
     lines = ModuleAnalyzer.for_module(module.__name__).find_attr_docs()["", name]
-    return f".. py:data:: wmrlib.{name}\n   :value: {value!r}\n\n   " + "\n   ".join(lines)
+    return f".. py:data:: {name_there}\n   :value: {value!r}\n\n   " + "\n   ".join(lines)
 
 
 def skip_fields(app, kind, name, value, skip, options):
@@ -81,7 +90,7 @@ def link_names(app, doctree, docname):
             continue
         shown = NAME.fullmatch(name.astext())
         code = nodes.literal("", name.astext())
-        if shown and (address := address_of(app, docname, f"wmrlib.{shown[1]}")):
+        if shown and (address := address_in(app, docname, shown[1], shown[2])):
             code = nodes.reference("", "", code, refuri=address, internal=True)
         name.replace_self(code)
 
@@ -101,17 +110,26 @@ def link_code(app, docname, template, context, doctree):
     """Turn the library's names in code cells into links, and each import into one to the page."""
 
     def link(code: re.Match) -> str:
-        names = [name for name in code.groups() if name and name != "wmr"]
+        package = code[1] if code[1] in SHORT else None
+        names = [name for name in code.groups() if name and name != package]
         for count in (2, 1):
-            name = ".".join(["wmrlib", *names[:count]])
-            if names and (address := address_of(app, docname, name)):
+            if names and (address := address_in(app, docname, package, ".".join(names[:count]))):
                 return f'<a href="{address}">{code[0]}</a>'
         return code[0]
 
-    page = app.builder.get_relative_uri(docname, PAGE)
-    if docname != PAGE and "body" in context:
-        linked = MODULE.sub(rf'<a href="{page}">\g<0></a>', context["body"])
-        context["body"] = MEMBER.sub(link, linked)
+    def link_module(code: re.Match) -> str:
+        page = app.builder.get_relative_uri(docname, PAGES[code[1]])
+        return f'<a href="{page}">{code[0]}</a>'
+
+    if docname not in PAGES.values() and "body" in context:
+        context["body"] = MEMBER.sub(link, MODULE.sub(link_module, context["body"]))
+
+
+def address_in(app, docname: str, package: str | None, name: str) -> str:
+    """Where a name of a package has its entry, of either package if it is None."""
+    packages = [SHORT.get(package, package)] if package else PAGES
+    addresses = (address_of(app, docname, f"{each}.{name}") for each in packages)
+    return next(filter(None, addresses), "")
 
 
 def address_of(app, docname: str, name: str) -> str:
@@ -133,6 +151,7 @@ def setup(app):
     app.setup_extension("sphinx.ext.autodoc")
     app.setup_extension("sphinx.ext.napoleon")
     app.add_directive("library", Library)
+    app.add_directive("robot", RobotsLibrary)
     app.connect("autodoc-skip-member", skip_fields)
     app.connect("autodoc-process-docstring", keep_bars)
     app.connect("autodoc-process-docstring", split_fields, priority=400)  # before napoleon

@@ -32,7 +32,7 @@ def main(numbers: list[str]) -> None:
     if missing := sorted(set(numbers) - {path.name[:2] for path in chapters}):
         raise SystemExit(f"no chapter {', '.join(missing)}: give two digits, such as 00 04")
     paths = [path for path in chapters if not numbers or path.name[:2] in numbers]
-    folders = [str(ROOT), str(BOOK), os.environ.get("PYTHONPATH")]
+    folders = [*map(str, (ROOT, BOOK, BOOK / "robot")), os.environ.get("PYTHONPATH")]
     os.environ["PYTHONPATH"] = os.pathsep.join(filter(None, folders))  # the kernels inherit it
     failed = 0
     workers = min(len(paths), os.cpu_count() or 1)

@@ -1,4 +1,4 @@
-"""The panel of "My robot" says what wmrbook.robot_sheet says, run by run, and reads well."""
+"""The panel of "My robot" says what wmrrobot.sheets says, run by run, and reads well."""
 
 from __future__ import annotations
 
@@ -15,8 +15,8 @@ from host import mounted
 
 import wmrlib as wmr
 from wmrbook.panel import MyRobot
-from wmrbook.robot_io import along, at_rest, files
-from wmrbook.robot_sheet import RECEIVERS, RUNS, Robot, certificate, sheet, sure
+from wmrrobot.exports import along, at_rest, files
+from wmrrobot.sheets import RECEIVERS, RUNS, Robot, certificate, sheet, sure
 
 DATA = Path(__file__).parents[2] / "notebooks" / "data"
 DONE = "() => document.querySelector('.my-robot').dataset.done === 'true'"

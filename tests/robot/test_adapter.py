@@ -16,7 +16,7 @@ from wmr_park import adapter
 from wmr_park.adapter import DEFAULTS, SOON, Sensors, typed, yaw
 
 import wmrlib as wmr
-from wmrbook import robot_io, robot_sheet
+import wmrrobot as wr
 
 START = [33.273572, 44.373160]
 GOAL = wmr.Pose(3.0, 0.0, 0.0)
@@ -133,4 +133,4 @@ def test_no_fix_is_used_twice_or_goes_back_and_only_a_clock_of_its_own_is_told(f
 
 def test_the_parameters_beside_the_node_are_what_my_robot_prints():
     file = Path(adapter.__file__).parents[1] / "config" / "my_robot.yaml"
-    assert file.read_text(encoding="utf-8") == robot_io.files(robot_sheet.Robot())["my_robot.yaml"]
+    assert file.read_text(encoding="utf-8") == wr.files(wr.Robot())["my_robot.yaml"]

@@ -11,8 +11,9 @@ from arduino_board import Board, Inputs, compiled, library
 from arduino_run import COUNT, FAULTS, NEAR, SETTINGS, STEP, Fault, Lawn, drive
 
 import wmrlib as wmr
-from wmrbook.robot_sheet import sheet
 from wmrlib import symbolic
+from wmrrobot import printing
+from wmrrobot.sheets import sheet
 
 uno = pytest.mark.needs("arduino", "avr", "compiler", "libsimavr")
 
@@ -23,8 +24,8 @@ def test_the_zip_is_a_library_with_what_is_printed(tmp_path):
         names = {name.partition("/")[2]: archive.read(name).decode() for name in archive.namelist()}
         assert {name.partition("/")[0] for name in archive.namelist()} == {"WmrPark"}
     assert names["src/wmr_law.h"] == symbolic.c_header()
-    assert names["src/wmr_drive.h"] == symbolic.c_drive()
-    assert names["src/wmr_filter.h"] == symbolic.c_filter_header()
+    assert names["src/wmr_drive.h"] == printing.c_drive()
+    assert names["src/wmr_filter.h"] == printing.c_filter_header()
     assert "const float DELAY = 0.1f" in names["examples/Park/my_robot_arduino.h"]
     told = dict(line.split("=", 1) for line in names["library.properties"].splitlines())
     for field in ["version", "author", "maintainer", "sentence", "paragraph", "category", "url"]:

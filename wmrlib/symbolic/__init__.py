@@ -2,8 +2,8 @@
 
 The expressions are what the functions of `laws`, `motion` and `geodesy` return for symbols, so that
 no formula is typed twice. ``python -m wmrlib.symbolic`` prints `C_FORMULAS` into the C header
-``wmr_law.h``, `C_FILTER` into ``wmr_filter.h`` and `JACOBIANS` into ``wmrlib/_jacobians.py``;
-`javascript` prints `FORMULAS` for the book's panels.
+``wmr_law.h``; `javascript` prints `FORMULAS` for the book's panels. Formulas of your own go through
+the same printers: `formula_of` a function, then `c_function`.
 """
 
 from wmrlib.checks import book_extra
@@ -11,23 +11,29 @@ from wmrlib.checks import book_extra
 with book_extra("wmrlib.symbolic"):
     import sympy  # noqa: F401
 
-from wmrlib.symbolic.c_drive import C_DRIVE, c_drive  # noqa: F401
 from wmrlib.symbolic.c_header import (  # noqa: F401
-    C_FILTER_HEADER,
     C_HEADER,
-    c_filter_header,
     c_function,
+    c_functions,
     c_header,
+    filled,
+    wrapped,
 )
 from wmrlib.symbolic.formulas import (  # noqa: F401
-    C_FILTER,
     C_FORMULAS,
     C_LAWS,
     FORMULAS,
-    JACOBIANS,
     Formula,
+    formula_of,
+    shared,
 )
 from wmrlib.symbolic.javascript import javascript, javascript_name  # noqa: F401
-from wmrlib.symbolic.model import LAWS, closed_loop, law, lyapunov, lyapunov_rate  # noqa: F401
-from wmrlib.symbolic.python import PYTHON_MODULE, python_module  # noqa: F401
+from wmrlib.symbolic.model import (  # noqa: F401
+    LAWS,
+    closed_loop,
+    law,
+    lyapunov,
+    lyapunov_rate,
+    read,
+)
 from wmrlib.symbolic.symbols import *  # noqa: F403

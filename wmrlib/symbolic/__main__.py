@@ -1,6 +1,6 @@
-"""``python -m wmrlib.symbolic`` prints the C headers and _jacobians.py.
+"""``python -m wmrlib.symbolic`` prints the C header of the law, wmr_law.h.
 
-``--c PATH`` prints wmr_law.h alone, elsewhere.
+``--c PATH`` prints it elsewhere.
 """
 
 import argparse
@@ -14,13 +14,5 @@ parser.add_argument("--c", metavar="PATH", help="where wmr_law.h goes; - is the 
 target = parser.parse_args().c
 if target == "-":
     sys.stdout.write(symbolic.c_header())
-elif target:
-    Path(target).write_bytes(symbolic.c_header().encode())
 else:
-    for path, text in (
-        (symbolic.C_HEADER, symbolic.c_header),
-        (symbolic.C_FILTER_HEADER, symbolic.c_filter_header),
-        (symbolic.C_DRIVE, symbolic.c_drive),
-        (symbolic.PYTHON_MODULE, symbolic.python_module),
-    ):
-        path.write_bytes(text().encode())
+    Path(target or symbolic.C_HEADER).write_bytes(symbolic.c_header().encode())

@@ -11,10 +11,9 @@ from sympy.printing.c import C99CodePrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from wmrlib.geodesy import EARTH_RADIUS_M
-from wmrlib.symbolic.formulas import C_FILTER, C_FORMULAS, C_LAWS, Formula
+from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, Formula
 
 C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
-C_FILTER_HEADER = C_HEADER.with_name("wmr_filter.h")
 _FUNCTIONS = "sin cos tan atan atan2 sinh cosh tanh exp log floor fmod"
 _OURS = {name: f"wmr_{name}" for name in ("sinc", "decay", "wrap", "turned_back", "expm1")}
 
@@ -51,7 +50,7 @@ def c_function(name: str, formula: Formula) -> str:
 
     Parameters
     ----------
-    name, formula : its name without the wmr_; of `C_FORMULAS`, `C_LAWS` or `C_FILTER`
+    name, formula : its name without the wmr_; of `C_FORMULAS` or `C_LAWS`, or one of your own
 
     Returns
     -------
@@ -85,26 +84,23 @@ def wrapped(line: str, indent: int | None = None) -> str:
     return filled.replace("\xa0", " ")
 
 
-def c_header() -> str:
-    """The text of ``wmr_law.h``: ``frame.h`` with the printed functions in their places."""
-    printed = {"FORMULAS": _functions(C_FORMULAS), "LAWS": _functions(C_LAWS)}
-    return filled("frame.h", printed).replace("@EARTH_RADIUS_M@", repr(EARTH_RADIUS_M))
-
-
-def c_filter_header() -> str:
-    """The text of ``wmr_filter.h``, likewise."""
-    return filled("filter_frame.h", {"FILTER": _functions(C_FILTER)})
-
-
-def _functions(table: dict[str, Formula]) -> str:
+def c_functions(table: dict[str, Formula]) -> str:
+    """The formulas of a table as C functions, by their names in it."""
     return "\n".join(c_function(name, formula) for name, formula in table.items())
 
 
-def filled(frame: str, printed: dict[str, str]) -> str:
-    """The text of a frame with what is printed in its places."""
-    text = C_HEADER.with_name(frame).read_text(encoding="utf-8")
+def filled(frame: Path, printed: dict[str, str]) -> str:
+    """The text of a frame with what is printed in its places, ``/* @PLACE@ */``."""
+    text = frame.read_text(encoding="utf-8")
     text = text.partition("*/\n")[2]  # what the frame says of itself
     for place, lines in printed.items():
         assert text.count(f"/* @{place}@ */\n") == 1, place
         text = text.replace(f"/* @{place}@ */\n", lines)
     return text
+
+
+def c_header() -> str:
+    """The text of ``wmr_law.h``: ``frame.h`` with the printed functions in their places."""
+    printed = {"FORMULAS": c_functions(C_FORMULAS), "LAWS": c_functions(C_LAWS)}
+    text = filled(C_HEADER.with_name("frame.h"), printed)
+    return text.replace("@EARTH_RADIUS_M@", repr(EARTH_RADIUS_M))

@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import sympy as sp
 
-from wmrlib import body, geodesy, laws, motion, paper, sensing
+from wmrlib import body, geodesy, laws, motion, paper
 from wmrlib.gains import Gains
 from wmrlib.symbolic import symbols as s
 from wmrlib.symbolic.model import closed_loop, exact, gains_of, read, steering
@@ -35,15 +35,16 @@ class Formula(NamedTuple):
         return tuple(values)
 
 
-def _shared(arguments: tuple, values: tuple, says: str, gains: Iterable = ()) -> Formula:
+def shared(arguments: tuple, values: tuple, says: str, gains: Iterable = ()) -> Formula:
     """The function that computes what its values have in common once."""
     used = tuple(each for each in gains if any(value.has(each) for value in values))
     locals_, values = sp.cse(values, symbols=sp.numbered_symbols("part"))
     return Formula(arguments, tuple(values), says, used, tuple(locals_))
 
 
-def _read(function: Callable, arguments: tuple, says: str) -> Formula:
-    return _shared(arguments, read(function, *arguments), says)
+def formula_of(function: Callable, arguments: tuple, says: str) -> Formula:
+    """What a function of wmrlib's kind returns for symbols, as one to print."""
+    return shared(arguments, read(function, *arguments), says)
 
 
 def _law(name: str) -> Formula:
@@ -61,12 +62,12 @@ def _formula(name: str) -> Formula:
         law = _law(name)
         return law._replace(values=(s.v_over_rho, law.values[1]))
     state = s.ahead, s.left, s.turn, s.v_ref, s.omega_ref
-    return _shared(state, read(row.formula, *state, gains), row.says, vars(gains).values())
+    return shared(state, read(row.formula, *state, gains), row.says, vars(gains).values())
 
 
 def _value(name: str) -> Formula:
     value = read(laws.LAWS[name].value, *s.STATE, gains_of(name))
-    return _shared(s.STATE, value, "its Lyapunov function", vars(gains_of(name)).values())
+    return shared(s.STATE, value, "its Lyapunov function", vars(gains_of(name)).values())
 
 
 def _modes(name: str) -> Formula:
@@ -76,7 +77,7 @@ def _modes(name: str) -> Formula:
     angles = rates.jacobian([s.alpha, s.theta]).subs(goal)
     values = steering(name)[0].subs(goal), -angles.trace(), angles.det()
     says = "p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles"
-    return _shared((), tuple(map(sp.expand, values)), says, vars(gains_of(name)).values())
+    return shared((), tuple(map(sp.expand, values)), says, vars(gains_of(name)).values())
 
 
 _POSE, _GOAL = (s.x, s.y, s.heading), (s.goal_x, s.goal_y, s.goal_heading)
@@ -85,7 +86,7 @@ _CLOSING = s.rho, s.alpha, s.v_over_rho, s.omega
 _WRAP = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
 _DECAY = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
 _KEEPS = "theta to be used, up to pi + hysteresis; before: the last result, NaN if there is none"
-_BRANCH = _read(motion.keep_branch, (s.theta, s.before, s.hysteresis), _KEEPS)
+_BRANCH = formula_of(motion.keep_branch, (s.theta, s.before, s.hysteresis), _KEEPS)
 _GUARDS = {
     "sinc": Formula((s.angle,), (s.GUARDED_SINC,), "sin(angle)/angle, which is 1 at 0"),
     "decay": Formula((s.rho, s.k_rho), (s.GUARDED_DECAY,), _DECAY),
@@ -95,12 +96,16 @@ _GUARDS = {
 _TWIST_AND_WIDTH = s.v, s.omega, s.b
 _SCALE = "the factor on the twist for a max_speed"
 _LIMITS = {
-    "hurry": _read(body.hurry, (s.v, s.alpha, s.min_speed), "the factor on it for a min_speed"),
-    "fastest_wheel": _read(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
+    "hurry": formula_of(
+        body.hurry, (s.v, s.alpha, s.min_speed), "the factor on it for a min_speed"
+    ),
+    "fastest_wheel": formula_of(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
     "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
 }
 _TURNING = s.error, s.gain, s.min_rate, s.max_rate
-_TURN_RATE = _read(body.turn_rate, _TURNING, "omega of a turn on the spot by an error that is left")
+_TURN_RATE = formula_of(
+    body.turn_rate, _TURNING, "omega of a turn on the spot by an error that is left"
+)
 _BODY = s.speed_left, s.speed_right, s.rest_left, s.rest_right
 
 
@@ -112,24 +117,27 @@ def _roll() -> Formula:
     says = "the mean twist in a period, and the left and right speeds and rests after it"
     used = s.b, s.acceleration, s.lag, s.dead_band, s.encoder_step
     arguments = (s.v, s.omega, *_BODY, *used, s.dt)
-    return _shared(arguments, tuple(map(exact, (v, omega, *after))), says)
+    return shared(arguments, tuple(map(exact, (v, omega, *after))), says)
 
 
 FORMULAS = {
     **_GUARDS,
     **{f"{name}_law": _formula(name) for name in laws.LAWS},
-    "body_error": _read(laws.body_error, s.STATE, "the goal ahead, to the left, and turned"),
+    "body_error": formula_of(laws.body_error, s.STATE, "the goal ahead, to the left, and turned"),
     **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
     **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
-    **{f.__name__: _read(f, _POSE + _TWIST, f"method {name}") for name, f in motion.STEPS.items()},
-    "polar_from_pose": _read(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
+    **{
+        f.__name__: formula_of(f, _POSE + _TWIST, f"method {name}")
+        for name, f in motion.STEPS.items()
+    },
+    "polar_from_pose": formula_of(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
     "keep_branch": _BRANCH,
     **_LIMITS,
     "turn_rate": _TURN_RATE,
     "roll": _roll(),
-    "pose_of_error": _read(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
-    "polar_closing_rate": _read(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
-    "circle": _read(paper.circle_at, (s.t,), "x, y, heading, v, omega of the goal"),
+    "pose_of_error": formula_of(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
+    "polar_closing_rate": formula_of(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
+    "circle": formula_of(paper.circle_at, (s.t,), "x, y, heading, v, omega of the goal"),
 }
 """What is printed for the panel, by name."""
 
@@ -147,7 +155,7 @@ _LENGTH = s.R * read(geodesy.great_circle_angle, *_ENDS)[0]
 _BEARING = read(geodesy.bearing_angle, *_ENDS)
 C_FORMULAS = {
     **_GUARDS,
-    "lyapunov_value": _read(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
+    "lyapunov_value": formula_of(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
     "keep_branch": _BRANCH,
     "turn_rate": _TURN_RATE,
     "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
@@ -155,47 +163,7 @@ C_FORMULAS = {
     "left_wheel": Formula(_TWIST_AND_WIDTH, (_LEFT,), "ground speed, from (1) and (2)"),
     "right_wheel": Formula(_TWIST_AND_WIDTH, (_RIGHT,), "ground speed, from (1) and (2)"),
     **_LIMITS,
-    "sphere_distance": _shared((*_ENDS, s.R), (_LENGTH,), "(11) to (13)"),
-    "bearing": _shared(_ENDS, _BEARING, "(15) to (17)"),
+    "sphere_distance": shared((*_ENDS, s.R), (_LENGTH,), "(11) to (13)"),
+    "bearing": shared(_ENDS, _BEARING, "(15) to (17)"),
 }
 """What a robot needs around the law, each a function of numbers."""
-
-
-_STATE = s.x, s.y, s.heading, s.gyro_bias, s.wheel_scale
-_INPUTS = s.v, s.omega, s.gyro, s.share, s.dt
-_ARM = s.ahead, s.left
-_TRUE = sensing.speed_and_turn(*_STATE[3:], *_INPUTS[:4])
-_HERE = read(sensing.moved, *_POSE, s.speed, s.turn, s.dt)
-
-
-def _moved_rows() -> Formula:
-    """Each of x, y, heading by the state, then by speed and turning rate."""
-    truth = {s.speed: _TRUE[0], s.turn: _TRUE[1]}
-    by_state = sp.Matrix(_HERE).subs(truth).jacobian(_STATE)
-    by_twist = sp.Matrix(_HERE).jacobian([s.speed, s.turn]).subs(truth)
-    says = "d(x, y, heading) by the state's five entries, the speed and the turning rate"
-    return _shared((*_STATE[2:], *_INPUTS), tuple(by_state.row_join(by_twist)), says)
-
-
-def _antenna_rows() -> Formula:
-    place = sp.Matrix(read(sensing.antenna, *_POSE, *_ARM))
-    says = "d(east, north) of the antenna by the state's five entries"
-    return _shared((s.heading, *_ARM), tuple(place.jacobian(_STATE)), says)
-
-
-JACOBIANS = {"moved_rows": _moved_rows(), "antenna_rows": _antenna_rows()}
-"""The filter's derivatives, row by row."""
-
-_WHEELS = s.v, s.omega, s.track_width, s.noise
-C_FILTER = {
-    "moved": _read(sensing.moved, (*_POSE, s.speed, s.turn, s.dt), "x, y, heading after a step"),
-    "true_twist": _read(
-        sensing.speed_and_turn, (*_STATE[3:], *_INPUTS[:4]), "true speed and turning rate"
-    ),
-    "gyro_reading": _read(sensing.gyro_reading, (*_STATE[3:], s.omega), "the gyro without slip"),
-    "wheel_noise": _read(sensing.wheel_noise, _WHEELS, "variance rates of speed and turning rate"),
-    "antenna": _read(sensing.antenna, (*_POSE, *_ARM), "the antenna's east and north"),
-    "course": _read(sensing.course, (s.heading, s.v, s.omega, *_ARM), "where the antenna moves"),
-    **JACOBIANS,
-}
-"""What the C filter is made of."""

@@ -23,8 +23,6 @@ before, hysteresis = _real("before hysteresis")
 error, gain, min_rate, max_rate, min_speed = _real("error gain min_rate max_rate min_speed")
 speed_left, speed_right, rest_left, rest_right = _real("left right left_rest right_rest")
 acceleration, lag, dead_band, encoder_step = _real("acceleration lag dead_band encoder_step")
-gyro_bias, wheel_scale, gyro, share, speed = _real("gyro_bias wheel_scale gyro share speed")
-track_width, noise = _positive("track_width noise")
 lat1, lat2, dlat, dlong, R = _real("lat1 lat2 Delta_lat Delta_long R")
 east, north, b, fastest, max_speed = _real("east north b fastest max_speed")
 

@@ -1,14 +1,14 @@
 """The panel of the page "My robot": two points and a data sheet go in, a robot's numbers come out.
 
-It computes in the page, by `kit/sheet.js`; `wmrbook.robot_sheet` is its twin.
+It computes in the page, by `kit/sheet.js`; `wmrrobot.sheets` is its twin.
 """
 
 from __future__ import annotations
 
-from wmrbook import robot_io, robot_sheet
 from wmrbook.panel.kit import Panel
-from wmrbook.robot_sheet import BOUNDS, RECEIVERS, Robot
-from wmrlib import EARTH_RADIUS_M, LastTurn, Rules, gains_for, longest_step
+from wmrlib import EARTH_RADIUS_M, LastTurn, gains_for, longest_step
+from wmrrobot import Rules, exports, sheets
+from wmrrobot.sheets import BOUNDS, RECEIVERS, Robot
 
 # What a reader fills in: the title of each group, and its fields, by their names for readers.
 GROUPS = {
@@ -44,18 +44,18 @@ class MyRobot(Panel):
     def __init__(self, robot: Robot | None = None):
         rules = {
             "bounds": BOUNDS,
-            "shape": robot_sheet.SHAPE,
-            "step": longest_step(gains_for(1.0, **robot_sheet.SHAPE)),
+            "shape": sheets.SHAPE,
+            "step": longest_step(gains_for(1.0, **sheets.SHAPE)),
             "leave": LastTurn().leave,
             "usual": Rules()._asdict(),
             "earth": EARTH_RADIUS_M,
-            "fresh": robot_sheet.NEW,
+            "fresh": sheets.NEW,
         }
-        rules |= {name: getattr(robot_sheet, name.upper()) for name in NUMBERS}
+        rules |= {name: getattr(sheets, name.upper()) for name in NUMBERS}
         groups = [[title, [*fields.items()]] for title, fields in GROUPS.items()]
         setup = {"groups": groups, "receivers": [*RECEIVERS.items()], "rules": rules}
         state = {name: float(value) for name, value in (robot or Robot())._asdict().items()}
-        super().__init__("my_robot", state, setup | {"files": robot_io.templates()})
+        super().__init__("my_robot", state, setup | {"files": exports.templates()})
 
     robot = property(lambda self: Robot(**self.state), doc="What is filled in now.")
 

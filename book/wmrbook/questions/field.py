@@ -9,7 +9,7 @@ import numpy as np
 import wmrlib as wmr
 from wmrbook.chapters import routes
 from wmrbook.questions._asking import Option, cases, numbers, question, sign
-from wmrlib import estimation
+from wmrrobot import estimation
 
 
 @question(11, "On the bench", "Swapped motor cables")

@@ -1,5 +1,5 @@
 // A robot's sheet: what it is told, and where it parks, run by run. The rules and their numbers are
-// those of wmrbook/robot_sheet.py, which come with the panel as `rules`.
+// those of wmrrobot/sheets.py, which come with the panel as `rules`.
 
 import { DEGREES } from './style.js';
 import { arcStep, wrap } from './model.js';
@@ -36,7 +36,7 @@ function checkedPlace(robot, { far, earth }) {
 }
 
 /**
- * What the robot is told, as `sheet` of robot_sheet.py; throws RangeError, which names what is
+ * What the robot is told, as `sheet` of wmrrobot/sheets.py; throws RangeError, which names what is
  * wrong. @param {Values} robot @param {Values} rules
  */
 export function sheetOf(robot, rules) {
@@ -132,7 +132,7 @@ export function parkedRun(robot, told, rules, run) {
       place: Math.hypot(end[0] - told.x, end[1] - told.y), heading: Math.abs(turned) };
 }
 
-// Which of the runs' sorted values is the bound, as `sure` of robot_sheet.py.
+// Which of the runs' sorted values is the bound, as `sure` of wmrrobot/sheets.py.
 export function sure(runs, share) {
   let chance = share ** runs, total = chance, beyond = 0;
   while (total <= 1 - share) {

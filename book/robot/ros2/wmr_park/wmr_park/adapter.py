@@ -1,4 +1,4 @@
-"""From ROS messages to `wmr.Seen`, and from parameters to `wmr.Drive`: no ROS needed, no law here.
+"""From ROS messages to `wr.Seen`, and from parameters to `wr.Drive`: no ROS needed, no law here.
 
 Frames are those of REP-103 and REP-105: `map` is east, north, up with its origin at the parameter
 `start`; yaw 0 is east and counts counter-clockwise, in `Imu` too; `odom` and `base_link` are the
@@ -13,9 +13,10 @@ from collections.abc import Mapping
 from typing import Any
 
 import wmrlib as wmr
-from wmrlib import estimation
+import wmrrobot as wr
 from wmrlib.elementary import sinc
-from wmrlib.sensing import antenna
+from wmrrobot import estimation
+from wmrrobot.sensing import antenna
 
 QUALITY = {0: 1, 1: 2, 2: 4}  # of a NavSatStatus, as NMEA says it
 PATIENT = 5  # fixes that the filter refuses before it doubts itself
@@ -38,7 +39,7 @@ DEFAULTS: dict[str, Any] = {
     "watchdog": 0.25,  # s without odometry, by a clock that nothing sets
     "track_width": 0.5,
     **{name: wmr.Wheels._field_defaults[name] for name in wmr.Wheels._fields[1:]},
-    **{OWN.get(name, name): value for name, value in wmr.Rules()._asdict().items()},
+    **{OWN.get(name, name): value for name, value in wr.Rules()._asdict().items()},
     **{f"gains.{name}": value for name, value in wmr.GENTLE_GAINS._asdict().items()},
     **{f"last_turn.{name}": value for name, value in wmr.LastTurn()._asdict().items()},
 }
@@ -89,13 +90,13 @@ def goal_of(given: Mapping[str, Any]) -> wmr.Pose:
     return wmr.Pose(x, y, given["goal_heading"])
 
 
-def drive_of(given: Mapping[str, Any], goal: wmr.Pose) -> wmr.Drive:
-    """The drive to a goal by the parameters; ValueError as `wmr.Drive`."""
+def drive_of(given: Mapping[str, Any], goal: wmr.Pose) -> wr.Drive:
+    """The drive to a goal by the parameters; ValueError as `wr.Drive`."""
     gains = wmr.Gains(*(given[f"gains.{name}"] for name in wmr.Gains._fields))
     wheels = wmr.Wheels(*(given[name] for name in wmr.Wheels._fields))
     turn = wmr.LastTurn(*(given[f"last_turn.{name}"] for name in wmr.LastTurn._fields))
-    rules = wmr.Rules(*(given[OWN.get(name, name)] for name in wmr.Rules._fields))
-    return wmr.Drive(goal, gains, wheels, turn, rules, given["law"])
+    rules = wr.Rules(*(given[OWN.get(name, name)] for name in wr.Rules._fields))
+    return wr.Drive(goal, gains, wheels, turn, rules, given["law"])
 
 
 def elapsed(new: Any, old: Any) -> float:
@@ -139,7 +140,7 @@ class Sensors:
         west, south, east, north = self.given["fence"]
         return int(west <= x <= east and south <= y <= north)
 
-    def seen(self, odom: Any, goal: wmr.Pose) -> wmr.Seen:
+    def seen(self, odom: Any, goal: wmr.Pose) -> wr.Seen:
         """The period that ends with this odometry; with the first one, a period of no length."""
         last, self.odom = self.odom or odom, odom
         past, before, now = elapsed(odom, last), last.pose.pose, odom.pose.pose
@@ -149,7 +150,7 @@ class Sensors:
         middle = heading + 0.5 * turn
         ahead = (math.cos(middle) * east + math.sin(middle) * north) / sinc(0.5 * turn)
         half = 0.5 * self.given["track_width"] * turn
-        told = wmr.Seen(past, ahead - half, ahead + half, self.battery)
+        told = wr.Seen(past, ahead - half, ahead + half, self.battery)
         told = told._replace(goal_inside=self.inside(goal.x, goal.y))
         if self.estimate and 0.0 < past <= self.given["longest_period"]:
             self._carry(ahead / past, turn / past, past)
@@ -181,7 +182,7 @@ class Sensors:
         nearest = min(self.headings, key=gap, default=None)
         return nearest[1] if nearest and gap(nearest) <= self.given["patience"] else math.nan
 
-    def _with_fix(self, told: wmr.Seen, fix: Any) -> wmr.Seen:
+    def _with_fix(self, told: wr.Seen, fix: Any) -> wr.Seen:
         stamp, variance = fix.header.stamp, fix.position_covariance
         later = _between(stamp, self.fixed) if self.fixed else 1.0
         self.fixed = stamp
@@ -203,7 +204,7 @@ class Sensors:
         east, north = antenna(0.0, 0.0, told.heading, *self.given["antenna"])
         return told._replace(x=x - east, y=y - north, inside=self.inside(x, y))
 
-    def _filtered(self, told: wmr.Seen, x: float, y: float) -> wmr.Seen:
+    def _filtered(self, told: wr.Seen, x: float, y: float) -> wr.Seen:
         """The filter's pose in place of the fix; no fix if the filter refuses it."""
         given, arm = self.given, self.given["antenna"]
         sigma, heading = told.error or given["largest_error"], told.heading

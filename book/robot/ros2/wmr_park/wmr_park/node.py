@@ -2,7 +2,7 @@
 
     ros2 run wmr_park park --ros-args --params-file my_robot.yaml
 
-Each odometry message is a period, and `wmr.Drive` decides what is commanded for the next.
+Each odometry message is a period, and `wr.Drive` decides what is commanded for the next.
 """
 
 from __future__ import annotations
@@ -27,6 +27,7 @@ from sensor_msgs.msg import BatteryState, Imu, NavSatFix
 from std_srvs.srv import Trigger
 
 import wmrlib as wmr
+import wmrrobot as wr
 from wmr_park.adapter import DEFAULTS, Sensors, drive_of, goal_of, typed, yaw
 
 
@@ -38,7 +39,7 @@ class ParkNode(Node):
         for name, value in DEFAULTS.items():  # `typed` takes 1 for 1.0, which ROS does not
             self.declare_parameter(name, value, ParameterDescriptor(dynamic_typing=True))
         watchdog = self.given()["watchdog"]
-        self.drive: wmr.Drive | None = None
+        self.drive: wr.Drive | None = None
         self.sensors: Sensors | None = None
         self.said = ""
         self.add_on_set_parameters_callback(self.allowed)
@@ -127,9 +128,9 @@ class ParkNode(Node):
     def on_silence(self) -> None:
         """No odometry: a period of no length makes the drive wait."""
         if self.drive:
-            self.step(wmr.Seen(0.0, 0.0, 0.0))
+            self.step(wr.Seen(0.0, 0.0, 0.0))
 
-    def step(self, seen: wmr.Seen) -> None:
+    def step(self, seen: wr.Seen) -> None:
         """One period of the drive: what it commands, and its state and reason when they change."""
         self.tell(*wmr.wheels_to_twist(*self.drive.step(seen), self.drive.wheels.track_width))
         says = ": ".join(filter(None, (self.drive.state, self.drive.reason)))

@@ -1,4 +1,4 @@
-"""The filter's derivatives as Python, so that `import wmrlib` needs no sympy."""
+"""The filter's derivatives as Python, so that the filter needs no sympy."""
 
 from __future__ import annotations
 
@@ -7,10 +7,11 @@ from pathlib import Path
 from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.pycode import PythonCodePrinter
 
-from wmrlib.symbolic.formulas import JACOBIANS, Formula
+from wmrlib.symbolic import Formula
+from wmrrobot.printing.formulas import JACOBIANS
 
-PYTHON_MODULE = Path(__file__).parents[1] / "_jacobians.py"
-_HEADER = '''"""Printed by python -m wmrlib.symbolic from wmrlib.sensing: change that."""
+PYTHON_MODULE = Path(__file__).parents[1] / "jacobians.py"
+_HEADER = '''"""Printed by python -m wmrrobot from wmrrobot.sensing: change that."""
 
 import math
 
@@ -42,5 +43,5 @@ def _function(name: str, formula: Formula) -> str:
 
 
 def python_module() -> str:
-    """The text of ``_jacobians.py``."""
+    """The text of ``jacobians.py``."""
     return _HEADER + "".join(_function(name, formula) for name, formula in JACOBIANS.items())

@@ -1,4 +1,4 @@
-"""Printed by python -m wmrlib.symbolic from wmrlib.sensing: change that."""
+"""Printed by python -m wmrrobot from wmrrobot.sensing: change that."""
 
 import math
 

@@ -6,10 +6,12 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.optimize import least_squares
 
 from wmrlib.body import follow
-from wmrlib.checks import real, refusal, same_shape, scalar
+from wmrlib.checks import book_extra, real, refusal, same_shape, scalar
+
+with book_extra("wmrrobot.commissioning"):
+    from scipy.optimize import least_squares
 
 _LAGS = np.insert(np.geomspace(0.01, 1.0, 20), 0, 0.0)  # s
 _EASINGS = np.insert(1.0 / np.geomspace(20.0, 0.1, 20), 0, 0.0)  # s^2/m

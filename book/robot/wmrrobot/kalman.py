@@ -8,10 +8,10 @@ from __future__ import annotations
 
 import numpy as np
 
-from wmrlib import sensing
-from wmrlib._jacobians import antenna_rows, moved_rows
 from wmrlib.compilation import compiled, formula
 from wmrlib.elementary import wrap
+from wmrrobot import sensing
+from wmrrobot.jacobians import antenna_rows, moved_rows
 
 SIZE = 5  # x, y, heading, gyro_bias, wheel_scale
 

@@ -1,8 +1,7 @@
-/* The frame of wmr_filter.h: wmrlib.symbolic puts the printed functions where the @ signs
-   are. */
+/* The frame of wmr_filter.h: wmrrobot puts the printed functions where the @ signs are. */
 /* wmr_filter.h: where the robot is and where it faces, from wheels, gyro, GNSS and
    compass; an extended Kalman filter beside wmr_law.h.
-   Printed by python -m wmrlib.symbolic from the formulas of wmrlib: change those.
+   Printed by python -m wmrrobot from the formulas of wmrrobot: change those.
 
    The state is x, y, heading, gyro_bias [rad/s] and wheel_scale, the true speed over the
    one that the wheels report. No memory is allocated and no matrix inverted. A

@@ -12,10 +12,11 @@ from hypothesis import strategies as st
 from test_c_header import build
 
 import wmrlib as wmr
-from wmrbook import robot_sheet
-from wmrbook.robot_io import along, at_rest, files
-from wmrbook.robot_sheet import RECEIVERS, Robot, certificate, sheet
+import wmrrobot as wr
 from wmrlib.body import roll
+from wmrrobot import sheets
+from wmrrobot.exports import along, at_rest, files
+from wmrrobot.sheets import RECEIVERS, Robot, certificate, sheet
 
 WRONG = {
     "track_width = 0 is not allowed: a number from 0.05 to 5 m is needed": {"track_width": 0.0},
@@ -83,7 +84,7 @@ def test_a_sheets_numbers_fit_the_robot():
         assert told.turn.max_rate * robot.track_width / 2 <= robot.max_speed
         wheels = wmr.Wheels(robot.track_width, robot.max_speed, dead_band=robot.dead_band)
         place = wmr.Pose(told.x, told.y, told.heading)
-        assert wmr.Drive(place, gains, wheels, told.turn).end == told.turn  # it does not swing
+        assert wr.Drive(place, gains, wheels, told.turn).end == told.turn  # it does not swing
         assert told.turn.min_rate * robot.period <= 2 * told.turn.tolerance
 
 
@@ -114,14 +115,14 @@ def test_place_follows_the_receiver_and_heading_the_compass():
 
 def test_a_bound_holds_with_the_confidence_that_is_claimed():
     for runs in (100, 400, 1000):
-        sure = robot_sheet.sure(runs)
+        sure = sheets.sure(runs)
         below = [math.comb(runs, k) * 0.95**k * 0.05 ** (runs - k) for k in range(sure)]
         assert sum(below) >= 0.95 > sum(below[:-1])
-    assert robot_sheet.sure(20) > 20  # too few to be sure of anything
+    assert sheets.sure(20) > 20  # too few to be sure of anything
 
 
 def test_a_drive_that_does_not_end_spoils_the_bound(monkeypatch):
-    monkeypatch.setattr(robot_sheet, "sheet", lambda robot: sheet(robot)._replace(duration=20.0))
+    monkeypatch.setattr(sheets, "sheet", lambda robot: sheet(robot)._replace(duration=20.0))
     found = certificate(Robot(), runs=100)
     assert found.parked == 0
     assert found.place_bound == found.heading_bound == found.place_rms == math.inf
@@ -223,11 +224,11 @@ def test_a_perfect_robot_parks_by_the_drive_that_the_sheet_describes(robot):
         return
     wheels = wmr.Wheels(robot.track_width, robot.max_speed, told.min_speed, robot.acceleration)
     goal, dt = wmr.Pose(told.x, told.y, told.heading), robot.period
-    drive = wmr.Drive(goal, told.gains, wheels, told.turn, told.rules)
+    drive = wr.Drive(goal, told.gains, wheels, told.turn, told.rules)
     pose, body, rolled = wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x)), (0.0,) * 4, (0.0, 0.0)
     for _ in range(math.ceil(1.2 * told.rules.longest_drive / dt)):
         fix = {"fresh": 1, "error": robot.sigma, "later": dt, "age": 0.0}
-        speeds = drive.step(wmr.Seen(dt, *rolled, **pose._asdict(), **fix))
+        speeds = drive.step(wr.Seen(dt, *rolled, **pose._asdict(), **fix))
         if drive.state in ("parked", "stopped"):
             break
         twist = wmr.wheels_to_twist(*speeds, robot.track_width)

@@ -9,11 +9,14 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.special import bdtr
 
 import wmrlib as wmr
-from wmrlib.checks import scalar
+from wmrlib.checks import book_extra, scalar
 from wmrlib.receiver import normals
+from wmrrobot.trust import Rules
+
+with book_extra("wmrrobot.sheets"):
+    from scipy.special import bdtr
 
 SHAPE = {"kappa": 2.5, "h": 2.0}  # of the path: inside the window 2 < kappa < 1 + h
 SPARE = 0.8  # share of the wheels' speed that the law may ask for: the rest is for turns
@@ -74,13 +77,13 @@ BOUNDS = {
     "fix_period": (0.01, 5.0, "s"),
     "compass": (0.0, 45.0, "degrees"),
 }
-# Sigma and memory to begin with, until a log at rest gives those of one's own receiver.
 RECEIVERS = {
     "GPS alone": {"sigma": 1.5, "memory": 300.0},
     "SBAS": {"sigma": 0.7, "memory": 300.0},
     "RTK float": {"sigma": 0.2, "memory": 60.0},
     "RTK fixed": {"sigma": 0.014, "memory": 10.0},
 }
+"""Sigma and memory to begin with, until a log at rest gives those of one's own receiver."""
 
 
 class Sheet(NamedTuple):
@@ -96,7 +99,7 @@ class Sheet(NamedTuple):
     min_speed: float
     turn: wmr.LastTurn
     duration: float
-    rules: wmr.Rules  # of a drive
+    rules: Rules  # of a drive
 
 
 class Certificate(NamedTuple):
@@ -174,7 +177,7 @@ def sheet(robot: Robot) -> Sheet:
     heading, longest = wmr.wrap_angle(math.radians(90.0 - robot.bearing)), wmr.longest_step(gains)
     duration = math.ceil(60.0 + 2.0 * travel)
     oldest = robot.delay + MARGIN
-    usual = wmr.Rules()
+    usual = Rules()
     jump = max(usual.jump, 4 * robot.sigma)
     rules = usual._replace(
         arrival_radius=radius,
@@ -197,7 +200,9 @@ def sure(runs: int) -> int:
     return runs - int(np.argmax(at_most > 1 - SHARE)) + 1
 
 
-def certificate(robot: Robot, runs=RUNS, seed=SEED, spread=0.5) -> Certificate:
+def certificate(
+    robot: Robot, runs: int = RUNS, seed: int = SEED, spread: float = 0.5
+) -> Certificate:
     """Drive the robot of the sheet `runs` times, each with errors and a first heading of its own.
 
     It first faces the goal to within half of the `spread`, in turns: from behind, a robot whose

@@ -1,7 +1,7 @@
 """The model behind the filter: how the state moves on, what each sensor should read, and the noise.
 
 The state is x, y, heading, gyro_bias [rad/s] and wheel_scale, the true speed over the one that the
-wheels report. `wmrlib.symbolic` prints these formulas and their derivatives.
+wheels report. `wmrrobot.printing` prints these formulas and their derivatives.
 """
 
 from __future__ import annotations

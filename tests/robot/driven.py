@@ -5,8 +5,8 @@ import math
 import numpy as np
 
 import wmrlib as wmr
-from wmrlib import estimation
-from wmrlib.estimation import Noise
+from wmrrobot import estimation
+from wmrrobot.estimation import Noise
 
 NOISE = Noise(wheels=0.03, gyro=2e-3, bias_walk=1e-4, scale_walk=1e-4, track_width=0.5)
 ARM = {"ahead": 0.4, "left": -0.15}

@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scipy.stats import chi2
 
 import wmrlib as wmr
-from wmrlib import estimation
-from wmrlib.estimation import Noise
+from wmrrobot import estimation
+from wmrrobot.estimation import Noise
 
 # What each measurement does ----------------------------------------------------------------------
 

@@ -1,17 +1,18 @@
-"""The drive of `parking` as a C header: the classes and functions behind it, and the table."""
+"""The drive of `drive` as a C header: the classes and functions behind it, and the table."""
 
 from __future__ import annotations
 
 import ast
 import inspect
 from itertools import repeat
+from pathlib import Path
 from typing import get_origin, get_type_hints
 
-from wmrlib import odometry, parking, trust
 from wmrlib.body import LastTurn, Wheels
-from wmrlib.symbolic.c_header import C_HEADER, filled, wrapped
+from wmrlib.symbolic import filled, wrapped
+from wmrrobot import drive, odometry, trust
 
-C_DRIVE = C_HEADER.with_name("wmr_drive.h")
+C_DRIVE = Path(__file__).parents[1] / "c" / "wmr_drive.h"
 _STRUCTS = [Wheels, LastTurn, trust.Rules, trust.Seen, trust.Wheel]
 _STRUCTS += [odometry.Stretch, odometry.Past, trust.Memory]
 _KINDS = {kind: f"wmr_{kind.__name__.lower()}" for kind in _STRUCTS}
@@ -20,7 +21,7 @@ _KINDS |= {float: "WMR_REAL", int: "int", type(None): "void"}
 _KINDS[list[odometry.Stretch]] = "wmr_stretch"
 _OWN = {
     name: value
-    for module in (odometry, trust, parking)
+    for module in (odometry, trust, drive)
     for name, value in vars(module).items()
     if inspect.isfunction(value) and value.__module__ == module.__name__
 }
@@ -107,8 +108,8 @@ def c_condition(condition: ast.Lambda) -> str:
 
 
 def _conditions() -> list[ast.Lambda]:
-    """Those of `parking.TABLE` in the order in which its source has them."""
-    tree = ast.parse(inspect.getsource(parking))
+    """Those of `drive.TABLE` in the order in which its source has them."""
+    tree = ast.parse(inspect.getsource(drive))
     return [node for node in ast.walk(tree) if isinstance(node, ast.Lambda)]
 
 
@@ -167,7 +168,7 @@ def _structure(kind) -> str:
     return wrapped(f"typedef struct {{ {fields} }} {_KINDS[kind]};")
 
 
-def _row(row: parking.Row, condition: str) -> str:
+def _row(row: drive.Row, condition: str) -> str:
     within = row.within.split()
     every = within == list(trust.STATES[: len(within)])  # up to the last of them
     test = f"m->state {'<=' if every else '=='} {code_name(within[-1])} && "
@@ -180,7 +181,7 @@ def _row(row: parking.Row, condition: str) -> str:
 
 def c_drive() -> str:
     """The text of ``wmr_drive.h``."""
-    names = [map(code_name, each) for each in (trust.STATES, trust.REFUSALS, parking.REASONS)]
+    names = [map(code_name, each) for each in (trust.STATES, trust.REFUSALS, drive.REASONS)]
     usual = ", ".join(
         str(int(value)) if kind is int else f"WMR_C({float(value)})"
         for value, kind in zip(trust.Rules(), get_type_hints(trust.Rules).values(), strict=True)
@@ -191,7 +192,10 @@ def c_drive() -> str:
         "STRUCTURES": "\n".join(map(_structure, _STRUCTS)),
         "USUAL": " \\\n".join(wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
         "FUNCTIONS": "\n".join(_function(each) for each in _OWN.values()),
-        "TABLE": "\n".join(map(_row, parking.TABLE, map(c_condition, _conditions()))),
-        "REASONS": ",\n".join(f'    "{reason}"' for reason in parking.REASONS),
+        "TABLE": "\n".join(map(_row, drive.TABLE, map(c_condition, _conditions()))),
+        "REASONS": ",\n".join(f'    "{reason}"' for reason in drive.REASONS),
     }
-    return filled("drive_frame.h", {place: f"{printed}\n" for place, printed in places.items()})
+    return filled(
+        C_DRIVE.with_name("drive_frame.h"),
+        {place: f"{printed}\n" for place, printed in places.items()},
+    )

@@ -1,6 +1,6 @@
 """Where the robot is and where it faces, estimated from wheels, gyro, GNSS, compass and course.
 
-An extended Kalman filter. Its model is `wmrlib.sensing`; its derivatives are printed from that by
+An extended Kalman filter. Its model is `wmrrobot.sensing`; its derivatives are printed from that by
 sympy, here and in the C header ``wmr_filter.h``. Each function returns a new `Estimate`. A
 measurement beyond its `gate`, a chi-square bound, changes nothing but `surprise`; an infinite gate
 uses everything. A ValueError names a wrong type, a number that is not finite, or one out of range.
@@ -14,11 +14,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib import sensing
-from wmrlib._filter import carry, see_antenna, see_heading
 from wmrlib.checks import instance, scalar, scalars
 from wmrlib.kinematics import Pose
-from wmrlib.sensing import Noise
+from wmrrobot import sensing
+from wmrrobot.kalman import carry, see_antenna, see_heading
+from wmrrobot.sensing import Noise
 
 GATE_1, GATE_2 = 10.83, 13.82
 """Chi-square bounds that 99.9 % of good measurements pass: of one number, of a position."""
@@ -71,7 +71,8 @@ def start(
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> first = wmr.estimation.start(wmr.Pose(0.0, 0.0, 0.3), 2.0, 0.2)
+    >>> import wmrrobot as wr
+    >>> first = wr.estimation.start(wmr.Pose(0.0, 0.0, 0.3), 2.0, 0.2)
     >>> first.sigma.tolist()
     [2.0, 2.0, 0.2, 0.02, 0.03]
     """
@@ -107,8 +108,9 @@ def predict(
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> first = wmr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 0.02, 0.1)
-    >>> rested = wmr.estimation.predict(first, 0.0, 0.0, 0.01, 10.0, wmr.estimation.Noise())
+    >>> import wmrrobot as wr
+    >>> first = wr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 0.02, 0.1)
+    >>> rested = wr.estimation.predict(first, 0.0, 0.0, 0.01, 10.0, wr.estimation.Noise())
     >>> print(f"gyro bias {rested.state[3]:.3f} rad/s")
     gyro bias 0.010 rad/s
     """
@@ -138,8 +140,9 @@ def use_position(
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> first = wmr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
-    >>> wmr.estimation.use_position(first, 1.0, 0.0, 1.0).pose.x
+    >>> import wmrrobot as wr
+    >>> first = wr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
+    >>> wr.estimation.use_position(first, 1.0, 0.0, 1.0).pose.x
     0.5
     """
     fix = scalars(("sigma",), x=x, y=y, ahead=ahead, left=left, sigma=sigma)
@@ -157,8 +160,9 @@ def use_heading(estimate: Estimate, heading: float, sigma: float, gate: float = 
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> first = wmr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
-    >>> wmr.estimation.use_heading(first, 0.1, 0.1).pose.heading
+    >>> import wmrrobot as wr
+    >>> first = wr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
+    >>> wr.estimation.use_heading(first, 0.1, 0.1).pose.heading
     0.05
     """
     return _used(estimate, gate, see_heading, *scalars(("sigma",), heading=heading, sigma=sigma))
@@ -188,8 +192,9 @@ def use_course(
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> first = wmr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
-    >>> back = wmr.estimation.use_course(first, 3.141592653589793, 0.1, v=-1.0, omega=0.0)
+    >>> import wmrrobot as wr
+    >>> first = wr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
+    >>> back = wr.estimation.use_course(first, 3.141592653589793, 0.1, v=-1.0, omega=0.0)
     >>> back.pose.heading  # it reverses to the west, so it faces east
     0.0
     """
@@ -214,8 +219,9 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
     Examples
     --------
     >>> import wmrlib as wmr
-    >>> first = wmr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
-    >>> wmr.estimation.doubt(first, 4.0).sigma[:3].tolist()
+    >>> import wmrrobot as wr
+    >>> first = wr.estimation.start(wmr.Pose(0.0, 0.0, 0.0), 1.0, 0.1)
+    >>> wr.estimation.doubt(first, 4.0).sigma[:3].tolist()
     [2.0, 2.0, 0.2]
     """
     state, covariance, surprise = instance("estimate", estimate, Estimate)

@@ -10,8 +10,8 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrbook.commissioning import dead_band, latency, wheel_response
 from wmrlib.body import roll
+from wmrrobot.commissioning import dead_band, latency, wheel_response
 
 DT, STEP = 0.05, 0.002  # s, m
 
@@ -87,7 +87,7 @@ def test_a_steady_drive_does_not_tell_the_latency():
 
 
 def test_the_pages_cells_run_and_its_drive_parks(capsys):
-    page = (Path(__file__).parents[1] / "book" / "commissioning.md").read_text(encoding="utf-8")
+    page = (Path(__file__).parents[2] / "book" / "commissioning.md").read_text(encoding="utf-8")
     names = {}
     for cell in re.findall(r"```{code-cell} ipython3\n(.*?)```", page, re.DOTALL):
         exec(cell, names)

@@ -4,20 +4,21 @@ import math
 
 import numpy as np
 import pytest
+from compiled import INCLUDES
 from driven import ARM, DT, FIRST, NOISE, drive
 from test_c_header import REALS, compiler, library
 
-from wmrlib import estimation, symbolic
-from wmrlib.estimation import Estimate
+from wmrrobot import estimation, printing
+from wmrrobot.estimation import Estimate
 
 
 def test_what_is_committed_is_what_is_printed():
     for path, text in (
-        (symbolic.PYTHON_MODULE, symbolic.python_module()),
-        (symbolic.C_FILTER_HEADER, symbolic.c_filter_header()),
-        (symbolic.C_DRIVE, symbolic.c_drive()),
+        (printing.PYTHON_MODULE, printing.python_module()),
+        (printing.C_FILTER_HEADER, printing.c_filter_header()),
+        (printing.C_DRIVE, printing.c_drive()),
     ):
-        assert path.read_text(encoding="utf-8") == text, "run python -m wmrlib.symbolic"
+        assert path.read_text(encoding="utf-8") == text, "run python -m wmrrobot"
 
 
 CALLS = """
@@ -43,7 +44,7 @@ void tell(R *out) { int i, j, k = 0;
 def in_c(request, tmp_path_factory):
     """(the name of its numbers, call a function by name, tell the state as an Estimate)."""
     folder, (kind, _) = tmp_path_factory.mktemp(request.param), REALS[request.param]
-    built = library("wmr_filter.h", CALLS, request.param, folder)
+    built = library("wmr_filter.h", CALLS, request.param, folder, *INCLUDES)
 
     def call(name, *values):
         return bool(getattr(built, name)((kind * len(values))(*values)))

@@ -1,6 +1,6 @@
 """What the wheels rolled: a place carried on by it, and a short memory of it.
 
-`symbolic` prints all of it as part of ``wmr_drive.h``, as it does `trust`.
+`printing` prints all of it as part of ``wmr_drive.h``, as it does `trust`.
 """
 
 from __future__ import annotations

@@ -3,16 +3,19 @@
 import math
 import re
 import subprocess
+import sys
 
 import avr
 import pytest
-from test_c_header import build
+from compiled import INCLUDES
+from test_c_header import CXX, REALS, build
 from world import positions
 
 import wmrlib as wmr
-from wmrlib import symbolic
+import wmrrobot as wr
+from wmrrobot import printing
 
-FOLDER = symbolic.C_DRIVE.parent
+FOLDER = printing.C_DRIVE.parent
 SOURCE = (FOLDER / "example.c").read_text(encoding="utf-8")
 compiler = pytest.mark.needs("compiler")
 
@@ -22,7 +25,7 @@ def drive_of_the_example():
     east, north = wmr.local_position(wmr.paper.GPS_POINT_1, wmr.paper.GPS_POINT_2)
     start, goal = wmr.Pose(0.0, 0.0, math.radians(72)), wmr.Pose(east, north, math.radians(-60))
     gains, wheels = wmr.Gains(0.2, 2.0, 2.0, 4.0), wmr.Wheels(0.5, 2.0, min_speed=0.1)
-    drive = wmr.Drive(goal, gains, wheels, rules=wmr.Rules(arrival_radius=0.05))
+    drive = wr.Drive(goal, gains, wheels, rules=wr.Rules(arrival_radius=0.05))
     poses = positions(drive, start, 0.05, 200.0)
     return len(poses) - 1, tuple(poses[-1])
 
@@ -30,7 +33,7 @@ def drive_of_the_example():
 @compiler
 @pytest.mark.parametrize(("real", "tolerance"), [("double", 2e-9), ("float", 2e-3)])
 def test_the_examples_drive_is_wmrlibs(tmp_path, real, tolerance):
-    program = build(FOLDER / "example.c", tmp_path, f"-DWMR_REAL={real}")
+    program = build(FOLDER / "example.c", tmp_path, *INCLUDES, f"-DWMR_REAL={real}")
     printed = subprocess.run([program], check=True, capture_output=True, text=True).stdout
     periods, *reached = map(float, printed.splitlines()[-1].split())
     count, pose = drive_of_the_example()
@@ -121,7 +124,7 @@ def on_board(tmp_path):
         sound = {"battery": "24", "inside": "(x - x + y - y == 0)", "receiver": ""}
         (tmp_path / "board.h").write_text(BOARD.format(**sound | wrong))
         (tmp_path / "example.c").write_text(text)
-        options = f"-I{tmp_path}", '-DHARDWARE="board.h"', "-Wno-unused"
+        options = *INCLUDES, f"-I{tmp_path}", '-DHARDWARE="board.h"', "-Wno-unused"
         program = build(tmp_path / "example.c", tmp_path, *options)
         return subprocess.run([program], check=True, capture_output=True, text=True).stdout
 
@@ -146,3 +149,21 @@ def test_a_robot_that_the_loop_leaves_stands(on_board):
     source = SOURCE.replace("count < 4000", "count < 60")
     for text, cut in ((source, True), (source.replace("  cut_power(); /* parked", "  /*"), False)):
         assert ("cut 60" in on_board(text).splitlines()) == cut
+
+
+@compiler
+@pytest.mark.skipif(not CXX, reason="this test needs a C++ compiler (Debian: apt install g++)")
+@pytest.mark.parametrize("real", REALS)
+def test_drive_and_filter_are_cpp_too(tmp_path, real):
+    text = f'#define WMR_REAL {real}\n#include "wmr_drive.h"\n#include "wmr_filter.h"\n'
+    (tmp_path / "empty.cpp").write_text(f"{text}int main() {{ return 0; }}\n")
+    build(tmp_path / "empty.cpp", tmp_path, *INCLUDES, compiler=(CXX, "-std=c++11"))
+
+
+@compiler
+def test_the_command_puts_all_that_the_example_needs_into_a_folder(tmp_path):
+    folder = tmp_path / "robot"
+    subprocess.run([sys.executable, "-m", "wmrrobot", "--c", folder], check=True)
+    compile_line = re.search(r"cc .*example\.c -o example -lm", SOURCE)[0]
+    subprocess.run(compile_line.split(), cwd=folder, check=True)
+    assert subprocess.check_output([folder / "example"], text=True).startswith("too few good fixes")

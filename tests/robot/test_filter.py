@@ -9,8 +9,8 @@ from filterpy.kalman import ExtendedKalmanFilter
 from scipy.stats import chi2
 
 import wmrlib as wmr
-from wmrlib import _filter, estimation
 from wmrlib.compilation import compiled
+from wmrrobot import estimation, kalman
 
 # Another filter: filterpy's, with a model written down here and derivatives by differences.
 
@@ -107,16 +107,14 @@ def errors(noise, runs, count, dt, ahead, left, seed):
             truth[0] += speed * dt * math.cos(middle)
             truth[1] += speed * dt * math.sin(middle)
             truth[2] += turn * dt
-            _filter.carry(state, covariance, v, omega, gyro, dt, noise, math.inf)
+            kalman.carry(state, covariance, v, omega, gyro, dt, noise, math.inf)
             truth[3] += walk * math.sqrt(dt) * np.random.standard_normal()
             truth[4] += creep * math.sqrt(dt) * np.random.standard_normal()
             if n % 2 == 0:
                 sine, cosine = math.sin(truth[2]), math.cos(truth[2])
                 x = truth[0] + ahead * cosine - left * sine + 0.02 * np.random.standard_normal()
                 y = truth[1] + ahead * sine + left * cosine + 0.02 * np.random.standard_normal()
-                nis[run] += _filter.see_antenna(
-                    state, covariance, x, y, ahead, left, 0.02, math.inf
-                )
+                nis[run] += kalman.see_antenna(state, covariance, x, y, ahead, left, 0.02, math.inf)
             if (n + 1) % (count // 10) == 0:
                 off = state - truth
                 off[2] = math.atan2(math.sin(off[2]), math.cos(off[2]))

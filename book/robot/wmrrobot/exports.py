@@ -12,9 +12,9 @@ from pathlib import Path
 import numpy as np
 
 import wmrlib as wmr
-from wmrbook.robot_sheet import Robot, sheet
+from wmrrobot.sheets import Robot, sheet
 
-FILES = Path(__file__).with_name("robot_files")
+TEMPLATES = Path(__file__).with_name("templates")
 
 
 def along(robot: Robot, track: wmr.Track) -> Robot:
@@ -46,7 +46,7 @@ def number(value: float) -> str:
 
 def templates() -> dict[str, str]:
     """The texts of the files, by name, in which @name@ stands for a number."""
-    return {path.name: path.read_text(encoding="utf-8") for path in sorted(FILES.iterdir())}
+    return {path.name: path.read_text(encoding="utf-8") for path in sorted(TEMPLATES.iterdir())}
 
 
 def files(robot: Robot) -> dict[str, str]:

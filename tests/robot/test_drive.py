@@ -16,8 +16,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import parking, trust
-from wmrlib.symbolic.c_drive import c_condition
+import wmrrobot as wr
+from wmrrobot import trust
+from wmrrobot.drive import TABLE
+from wmrrobot.printing import c_condition
 
 CASES = {case.name: case for case in faults.CASES}
 
@@ -63,8 +65,8 @@ def test_c_decides_the_same_in_each_period(ran, name):
     if case.wrong.get("hangs"):
         assert faults.run(case, compiled.CDrive).decisions == ran[name].decisions
         return
-    plan, rules = (faults.CASE.goal, faults.GAINS, faults.WHEELS), wmr.Rules(**case.rules)
-    drives = [kind(*plan, rules=rules) for kind in (wmr.Drive, compiled.CDrive)]
+    plan, rules = (faults.CASE.goal, faults.GAINS, faults.WHEELS), wr.Rules(**case.rules)
+    drives = [kind(*plan, rules=rules) for kind in (wr.Drive, compiled.CDrive)]
     for period, decided in zip(seen, ran[name].decisions, strict=True):
         step_alike(drives, period)
         assert (drives[0].state, drives[0].reason) == decided
@@ -80,11 +82,11 @@ def test_a_sound_robot_parks_and_never_waits(seed):
     assert states.index("drive") < 20
 
 
-@pytest.mark.parametrize("row", [row for row in parking.TABLE if row.reason])
+@pytest.mark.parametrize("row", [row for row in TABLE if row.reason])
 def test_no_row_of_the_table_can_be_spared(monkeypatch, row):
     cases = [case for case in faults.CASES if case.must.endswith(row.reason)]
     assert cases, row
-    monkeypatch.setattr(parking, "TABLE", [each for each in parking.TABLE if each is not row])
+    monkeypatch.setattr("wmrrobot.drive.TABLE", [each for each in TABLE if each is not row])
     assert not any(faults.holds(case, faults.run(case)) for case in cases)
 
 
@@ -94,7 +96,7 @@ def goes(drive, pose, seconds, until="", **fields):
     for _ in range(round(seconds / 0.05)):
         if drive.state == until:
             break
-        seen = wmr.Seen(0.05, 0.05 * left, 0.05 * right, fresh=1, **pose._asdict(), **fields)
+        seen = wr.Seen(0.05, 0.05 * left, 0.05 * right, fresh=1, **pose._asdict(), **fields)
         left, right = drive.step(seen)
         pose = wmr.advance(pose, *wmr.wheels_to_twist(left, right, 0.5), 0.05)
         states.append(drive.state)
@@ -103,7 +105,7 @@ def goes(drive, pose, seconds, until="", **fields):
 
 ANYWHERE = (-99.0, -99.0, 99.0, 99.0)
 GOAL, START = wmr.Pose(3.0, 0.0, 1.5), wmr.Pose(0.0, 0.0, 0.0)
-KINDS = wmr.Drive, pytest.param(compiled.CDrive, marks=pytest.mark.needs("compiler"))
+KINDS = wr.Drive, pytest.param(compiled.CDrive, marks=pytest.mark.needs("compiler"))
 
 
 @pytest.mark.parametrize("kind", KINDS)
@@ -116,7 +118,7 @@ def test_without_a_last_turn_it_parks_as_it_arrives(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_carried_off_during_the_last_turn_it_drives_again(kind):
-    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wmr.Rules(jump=2.0))
+    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wr.Rules(jump=2.0))
     pose, _ = goes(drive, START, 20.0, until="turn")
     pose, states = goes(drive, pose._replace(x=pose.x - 1.0), 20.0)
     assert list(dict.fromkeys(states)) == ["drive", "turn", "parked"]
@@ -125,7 +127,7 @@ def test_carried_off_during_the_last_turn_it_drives_again(kind):
 
 @pytest.mark.parametrize("kind", KINDS)
 def test_what_has_stopped_or_parked_stays_so_until_it_is_reset(kind):
-    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wmr.Rules(battery=20.0))
+    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wr.Rules(battery=20.0))
     pose, _ = goes(drive, START, 2.0, battery=24.0)
     pose, _ = goes(drive, pose, 2.0, battery=19.0)
     assert (drive.state, drive.reason) == ("stopped", "battery low")
@@ -143,7 +145,7 @@ def test_a_leg_of_the_fixes_is_astray_beyond_an_angle_to_either_side(heading, of
     m.leg = trust.Place(far * math.cos(heading), far * math.sin(heading), heading)
     course = heading + off
     m.fix = trust.Place(far * math.cos(course), far * math.sin(course))
-    trust.compare(m, wmr.Rules())
+    trust.compare(m, wr.Rules())
     assert m.astray == (abs(off) > 0.8)
     assert not m.slipping
     assert (m.begin.x, m.leg.y) == (m.fix.x, m.fix.y)
@@ -155,15 +157,15 @@ def test_a_leg_of_the_fixes_is_astray_beyond_an_angle_to_either_side(heading, of
 )
 def test_a_leg_that_curls_begins_anew(fields, anew):
     m = trust.Memory(driven=1.0, fix=trust.Place(1.0), **fields)
-    trust.compare(m, wmr.Rules())
+    trust.compare(m, wr.Rules())
     assert m.begin.x == anew
 
 
 @pytest.mark.parametrize(("gap", "refused"), [(1.1, trust.NONE), (1.3, trust.JUMPED)])
 def test_a_jump_is_measured_from_where_an_old_fix_is_by_now(gap, refused):
-    m, rules = trust.Memory(driven=1.0, since=1.0), wmr.Rules()  # 1 m, and 0.2 m of slip
+    m, rules = trust.Memory(driven=1.0, since=1.0), wr.Rules()  # 1 m, and 0.2 m of slip
     trust.remember(m.past, 0.6, 0.0, 0.3, rules.oldest)
-    seen = wmr.Seen(0.05, 0.0, 0.0, x=-gap - 0.6, age=0.3)
+    seen = wr.Seen(0.05, 0.0, 0.0, x=-gap - 0.6, age=0.3)
     assert trust.refusal_of(m, seen, rules) == refused
 
 
@@ -186,7 +188,7 @@ def test_an_old_fix_is_carried_on_by_what_the_wheels_rolled_since(rows, share, o
     age = min(share * oldest, now)
     begin, then, *twist = next(row for row in path[::-1] if row[0] <= now - age)
     then = wmr.advance(then, *twist, now - age - begin)
-    trust.bring_up(m, wmr.Seen(0.05, 0.0, 0.0, **then._asdict(), age=age))
+    trust.bring_up(m, wr.Seen(0.05, 0.0, 0.0, **then._asdict(), age=age))
     off = abs(wmr.wrap_angle(m.fix.heading - pose.heading))
     assert m.past.since.seconds == pytest.approx(age, abs=1e-9)
     if steady:
@@ -226,7 +228,7 @@ def test_the_least_speed_keeps_the_path_of_the_law(kind, distance, heading, leas
     start, goal = wmr.Pose(0.0, 0.0, heading), wmr.Pose(distance, 0.0, 0.4)
     drive = kind(goal, gains, wheels)
     while drive.state != "drive":
-        speeds = drive.step(wmr.Seen(0.05, 0.0, 0.0, fresh=1, **start._asdict()))
+        speeds = drive.step(wr.Seen(0.05, 0.0, 0.0, fresh=1, **start._asdict()))
     error = wmr.polar_error(start, goal)
     v, omega = wmr.control_law(*error, gains)
     hurried = wmr.wheels_to_twist(*speeds, 0.5)
@@ -236,8 +238,8 @@ def test_the_least_speed_keeps_the_path_of_the_law(kind, distance, heading, leas
 
 @given(st.one_of(st.floats(), st.integers(-3, 9)))
 def test_only_the_qualities_of_a_measured_fix_are_used(quality):
-    seen = wmr.Seen(0.05, 0.0, 0.0, quality=quality)
-    refused = trust.refusal_of(trust.Memory(), seen, wmr.Rules())
+    seen = wr.Seen(0.05, 0.0, 0.0, quality=quality)
+    refused = trust.refusal_of(trust.Memory(), seen, wr.Rules())
     assert refused == (trust.NONE if 1 <= quality <= 5 else trust.POOR)
 
 
@@ -246,30 +248,30 @@ def test_only_the_qualities_of_a_measured_fix_are_used(quality):
     st.one_of(st.floats(1e9), st.floats(max_value=-1e9), st.just(math.nan)),
 )
 def test_a_fix_that_is_nowhere_is_broken(name, value):
-    seen = wmr.Seen(0.05, 0.0, 0.0, quality=4, **{name: value})
-    assert trust.refusal_of(trust.Memory(), seen, wmr.Rules()) == trust.BROKEN
+    seen = wr.Seen(0.05, 0.0, 0.0, quality=4, **{name: value})
+    assert trust.refusal_of(trust.Memory(), seen, wr.Rules()) == trust.BROKEN
 
 
 @given(st.floats(-0.05, 0.05))
 def test_what_is_rolled_counts_backwards_too(rolled):
     m = trust.Memory()
-    trust.look(m, wmr.Seen(0.05, rolled, rolled), wmr.Rules(), wmr.Wheels(0.4))
+    trust.look(m, wr.Seen(0.05, rolled, rolled), wr.Rules(), wmr.Wheels(0.4))
     assert (m.since, m.still, m.length) == (abs(rolled),) * 3
 
 
 @given(st.floats(0.1, 60.0), st.floats(0.02, 0.5))
 def test_a_last_turn_that_would_swing_in_the_longest_period_is_refused(gain, period):
-    turn, rules = wmr.LastTurn(gain=gain, max_rate=3.0), wmr.Rules(longest_period=period)
+    turn, rules = wmr.LastTurn(gain=gain, max_rate=3.0), wr.Rules(longest_period=period)
     if gain * period < 2.0:
-        assert wmr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules).end == turn
+        assert wr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules).end == turn
     else:
         with pytest.raises(ValueError, match=r"^last_turn\.gain = .* a period of "):
-            wmr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules)
+            wr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, turn, rules)
 
 
 numbers = st.one_of(st.floats(-3.0, 3.0), st.sampled_from([float("nan"), float("inf"), 1e6]))
 periods = st.builds(
-    wmr.Seen,
+    wr.Seen,
     seconds=st.sampled_from([0.05] * 9 + [0.0, 1.0, -1.0, 1e30, float("nan")]),
     left=st.one_of(st.floats(-0.1, 0.1), st.sampled_from([float("nan"), 1e30])),
     right=st.floats(-0.1, 0.1),
@@ -290,10 +292,10 @@ periods = st.builds(
 @pytest.mark.needs("compiler")
 @given(st.lists(st.tuples(periods, st.integers(1, 8)), max_size=20))
 def test_whatever_the_sensors_say_c_and_python_agree_and_the_unsettled_stand(given_):
-    rules = wmr.Rules(jump=4.0, battery=22.0)
+    rules = wr.Rules(jump=4.0, battery=22.0)
     given_ = [seen for seen, times in given_ for _ in range(times)]
     plan, silent = (GOAL, wmr.GENTLE_GAINS, faults.WHEELS), 0.0
-    drives = [kind(*plan, rules=rules) for kind in (wmr.Drive, compiled.CDrive)]
+    drives = [kind(*plan, rules=rules) for kind in (wr.Drive, compiled.CDrive)]
     for seen in given_:
         speeds = step_alike(drives, seen)
         trusted = seen.fresh and 1 <= seen.quality <= 5 and seen.later > 0 and seen.age >= 0
@@ -317,7 +319,7 @@ def test_what_c_has_no_word_for_is_not_printed(text):
         ({"last_turn": wmr.LastTurn(leave=np.array([2.0, 3.0]))}, "last_turn.leave"),
         ({"last_turn": wmr.LastTurn(tolerance=float("nan"))}, "last_turn.tolerance"),
         ({"rules": {}}, "rules"),
-        ({"rules": wmr.Rules(settle=2.5)}, "rules.settle = 2.5"),
+        ({"rules": wr.Rules(settle=2.5)}, "rules.settle = 2.5"),
         ({"law": "kanayama"}, "law"),
         ({"last_turn": 3}, "last_turn"),
         ({"wheels": wmr.Wheels(0.5, dead_band=0.05)}, "last_turn.min_rate = 0.2"),
@@ -326,7 +328,7 @@ def test_what_c_has_no_word_for_is_not_printed(text):
 def test_an_argument_that_is_not_allowed_is_named(change, named):
     given_ = {"goal": GOAL, "gains": wmr.GENTLE_GAINS, "wheels": faults.WHEELS} | change
     with pytest.raises(ValueError, match=f"^{named}"):
-        wmr.Drive(**given_)
+        wr.Drive(**given_)
 
 
 def test_the_command_prints_the_table(ran):
@@ -338,8 +340,8 @@ def test_the_command_prints_the_table(ran):
     assert all(ran[name].end in row for name, row in zip(CASES, rows, strict=False))
 
 
-@pytest.mark.parametrize("name", wmr.Rules._fields)
+@pytest.mark.parametrize("name", wr.Rules._fields)
 def test_a_rule_that_means_nothing_is_refused(name):
     for wrong in (-1.0, float("nan"), "1", *((2.0,) if name == "share" else ())):
         with pytest.raises(ValueError, match=f"^{name} = "):
-            wmr.Rules(**{name: wrong})
+            wr.Rules(**{name: wrong})

@@ -1,6 +1,6 @@
 """What a robot makes of its sensors: where it is, and which of them can be trusted.
 
-`symbolic` prints all of it as ``wmr_drive.h``, so it is written in the Python that C has too.
+`printing` prints all of it as ``wmr_drive.h``, so it is written in the Python that C has too.
 """
 
 from __future__ import annotations
@@ -12,7 +12,7 @@ from typing import NamedTuple
 from wmrlib.body import Wheels
 from wmrlib.checks import checked
 from wmrlib.elementary import distance, wrap
-from wmrlib.odometry import Past, Place, carry, copy_place, look_back, remember
+from wmrrobot.odometry import Past, Place, carry, copy_place, look_back, remember
 
 STATES = "wait", "drive", "turn", "parked", "stopped"
 WAIT, DRIVE, TURN, PARKED, STOPPED = range(len(STATES))

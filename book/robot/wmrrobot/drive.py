@@ -1,6 +1,6 @@
 """A drive that parks: a law, a last turn, and a table that says when the robot may move.
 
-`TABLE` holds every decision, by the conditions above it. Python runs them here, and `symbolic`
+`TABLE` holds every decision, by the conditions above it. Python runs them here, and `printing`
 prints them as part of ``wmr_drive.h``, so they are written in the Python that C has too.
 """
 
@@ -9,7 +9,6 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import NamedTuple
 
-from wmrlib import trust
 from wmrlib.body import LastTurn, Wheels, checked_wheels, hurry, sound_turn, turn_rate
 from wmrlib.checks import choice, instance, refusal, scalar
 from wmrlib.elementary import wrap
@@ -17,7 +16,8 @@ from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS, saturation_scale
 from wmrlib.motion import polar_from_pose, wheel_speeds
-from wmrlib.trust import (
+from wmrrobot import trust
+from wmrrobot.trust import (
     BROKEN,
     DRIVE,
     FROZEN,
@@ -76,7 +76,7 @@ def silent_by(m: Memory, rules: Rules, why: int) -> int:
 class Row(NamedTuple):
     """In one of the states `within`, where `condition` holds, go `to` a state; the reason why.
 
-    A condition asks the memory m, the sensors s, the rules r and the last turn e. `symbolic` prints
+    A condition asks the memory m, the sensors s, the rules r and the last turn e. `printing` prints
     its source for C.
     """
 
@@ -138,11 +138,12 @@ class Drive:
     --------
     >>> import math
     >>> import wmrlib as wmr
+    >>> import wmrrobot as wr
     >>> goal, wheels = wmr.Pose(3.0, 0.0, math.pi / 2), wmr.Wheels(0.5, max_speed=1.0)
-    >>> drive = wmr.Drive(goal, wmr.GENTLE_GAINS, wheels)
+    >>> drive = wr.Drive(goal, wmr.GENTLE_GAINS, wheels)
     >>> pose, left, right = wmr.Pose(0.0, 0.0, 0.0), 0.0, 0.0
     >>> while drive.state != "parked":
-    ...     seen = wmr.Seen(0.05, 0.05 * left, 0.05 * right, fresh=1, **pose._asdict())
+    ...     seen = wr.Seen(0.05, 0.05 * left, 0.05 * right, fresh=1, **pose._asdict())
     ...     left, right = drive.step(seen)
     ...     pose = wmr.advance(pose, *wmr.wheels_to_twist(left, right, 0.5), 0.05)
     >>> print(f"{pose.x:.2f} m, {pose.y:.2f} m, {math.degrees(pose.heading):.0f} deg")

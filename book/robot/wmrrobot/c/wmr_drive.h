@@ -1,5 +1,5 @@
 /* wmr_drive.h: a state machine round wmr_law.h: it drives while its sensors agree.
-   Printed by python -m wmrlib.symbolic from wmrlib's parking and trust: change those.
+   Printed by python -m wmrrobot from wmrrobot's drive and trust: change those.
 
    A robot waits for good fixes, drives, turns on the spot, and has parked; whatever is wrong
    with a sensor, a wheel, the clock or the goal makes it wait until that is over, or stop until
@@ -31,7 +31,7 @@ enum { WMR_FINE, WMR_BATTERY_LOW, WMR_GOAL_OUTSIDE_THE_FENCE,
     WMR_NO_FIX, WMR_TOO_FEW_GOOD_FIXES };
 enum { WMR_PAST = 8 };
 
-/* what wmrlib's Wheels, LastTurn, Rules, Seen, Wheel and Memory say of their fields */
+/* what Python's Wheels, LastTurn, Rules, Seen, Wheel and Memory say of their fields */
 typedef struct { WMR_REAL track_width; WMR_REAL max_speed; WMR_REAL min_speed;
     WMR_REAL acceleration; WMR_REAL lag; WMR_REAL dead_band; WMR_REAL encoder_step; }
     wmr_motors;
