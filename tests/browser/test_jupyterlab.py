@@ -18,7 +18,6 @@ CELLS = [
     "explorer = Explorer(view='gains')\nexplorer",
     "print('seen', explorer.gains, len(explorer.trajectory()), explorer.law, explorer.moving)",
     "explorer.gains, explorer.law = wmr.Gains(1.5, 4.0, 2.5), 'aicardi'",
-    "from wmrbook import live\nlive.strict()",
 ]
 # ipywidgets' broken link over what has no kernel, which a stored panel doesn't need.
 BROKEN_LINKS = """() => [...document.querySelectorAll('.jupyter-widgets-disconnected')]
@@ -86,7 +85,7 @@ def test_the_first_screen_has_a_robot_that_drives_before_anything_is_run(lab, br
     settings = json.loads(page.locator("#jupyter-config-data").text_content())
     assert settings["buildCheck"] is False  # where there is no Node.js it would warn
     assert panel.locator(".live-result").last.inner_text() == "2°"  # this one parks
-    assert page.locator(".live-gate").count() == 2  # no answer before they are asked
+    assert page.locator(".live-gate").count() == 1  # no answer before it is asked
 
 
 def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, browser_page):
@@ -181,7 +180,7 @@ def assert_all_in_view(page) -> None:
     assert not page.locator(".jp-OutputArea-output:has(.wmr)").evaluate(scrolls)
 
 
-def test_python_follows_the_panel_which_follows_python_and_a_figure_asks_it(lab, browser_page):
+def test_python_follows_the_panel_which_follows_python(lab, browser_page):
     page = browser_page
     open_notebook(page, link(lab).replace(CHAPTER, PANEL), PANEL)
     run(page, 0)
@@ -224,12 +223,3 @@ def test_python_follows_the_panel_which_follows_python_and_a_figure_asks_it(lab,
 
     page.locator("[data-do=reset]").click()
     assert_python_sees(page, "k_rho=2.0, k_alpha=1.0, h=0.3")
-
-    run(page, 3)
-    page.get_by_role("button", name="Prove it").click(timeout=PATIENCE)
-    said = page.locator(".live-asks [role=status]")
-    said.filter(has_text="z3: no, not at").wait_for(timeout=PATIENCE)
-    page.locator(".live-number").fill("2")
-    page.locator(".live-number").press("Enter")
-    page.get_by_role("button", name="Prove it").click(timeout=PATIENCE)
-    said.filter(has_text="z3: yes, proved.").wait_for(timeout=PATIENCE)

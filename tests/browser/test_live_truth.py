@@ -11,7 +11,7 @@ import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
-from test_live import NAMES, commit
+from test_live import NAMES
 
 import wmrlib as wmr
 from wmrbook import live
@@ -408,53 +408,3 @@ def test_what_is_shown_is_true(emptied_page, name):
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
         panel.set(**values)
         TRUTH[name](panel.state(), panel.found(), thing.setup["data"])
-
-
-def test_the_poles_follow_the_hand_and_the_gains_follow_the_poles(emptied_page):
-    panel = mounted(emptied_page, live.poles())
-    commit(panel, live.poles().setup["ask"])
-    scale = emptied_page.locator("canvas").first.bounding_box()["width"]
-    before = panel.found()["poles"]
-    panel.drag(emptied_page.locator("[data-handle=pole-0]"), -0.05 * scale, -0.1 * scale)
-    found = panel.found()
-    assert found["poles"][0][0] < before[0][0]
-    assert found["poles"][0][1] > before[0][1]
-    assert panel.get("k_alpha") == pytest.approx(-2 * found["poles"][0][0], rel=1e-12)
-    size = math.hypot(*found["poles"][0])
-    assert panel.get("h") * found["pace"] ** 2 == pytest.approx(size**2, rel=1e-12)
-    held = panel.get("k_alpha")
-    panel.drag(emptied_page.locator("[data-handle=pole-0]"), 0.6 * scale, 0)
-    assert "k_alpha would be" in emptied_page.locator(".live-trouble").inner_text()
-    assert 0 <= panel.get("k_alpha") <= held
-
-
-def test_poles_go_where_the_hand_goes_and_take_each_other_along(emptied_page):
-    panel = mounted(emptied_page, live.poles(), width=390)
-    commit(panel, live.poles().setup["ask"])
-    poles = [emptied_page.locator(f"[data-handle=pole-{k}]") for k in (0, 1)]
-
-    for k, handle in enumerate(poles):  # a double pole goes both ways, and up and down by its own
-        for key, sign in (("ArrowLeft", 1), ("ArrowRight", -1)):
-            panel.set(k_alpha=4.0, h=1.0)
-            handle.press(key)
-            assert sign * (panel.settled().get("k_alpha") - 4.0) > 0.04, (k, key)
-        panel.set(k_alpha=4.0, h=1.0)
-        handle.press("Shift+ArrowDown" if k else "Shift+ArrowUp")
-        assert panel.settled().get("h") > 1.0
-        panel.set(k_alpha=4.0, h=1.0)
-        handle.press("ArrowUp" if k else "ArrowDown")
-        assert "mirror image" in emptied_page.locator(".live-trouble").inner_text()
-    panel.set(k_alpha=5.0, h=1.0)  # -1 and -4
-    scale = abs(poles[0].bounding_box()["x"] - poles[1].bounding_box()["x"]) / 3.0
-    panel.drag(poles[0], -scale, 0)
-    (slow, level), (fast, _) = panel.found()["poles"]
-    assert (slow, fast) == pytest.approx((-2.0, -4.0), abs=0.1)
-    assert (level, fast) == (0.0, pytest.approx(-4.0, abs=1e-9))
-    panel.drag(poles[0], -3.0 * scale, 0)
-    (slow, _), (fast, _) = panel.found()["poles"]
-    assert slow == pytest.approx(fast, abs=1e-3)
-    assert slow < -4.05  # as far as k_alpha = 9
-    panel.set(k_alpha=5.0, h=1.0)
-    panel.drag(poles[0], 1.5 * scale, 0)
-    assert "h would be" in emptied_page.locator(".live-trouble").inner_text()
-    assert panel.found()["poles"][0][0] < 0.0

@@ -9,20 +9,10 @@ import pytest
 
 pytest.importorskip("anywidget", reason="what moves needs anywidget")
 from host import mounted
-from live import as_shown, chapters
-from test_live import NAMES, commit
+from live import as_shown
 
-import wmrlib as wmr
 from wmrbook import live
 from wmrbook.live.scenes import SCENES
-
-
-def degrees(found, name):
-    return [abs(np.degrees(each[name])) for each in found]
-
-
-def rises(values) -> bool:
-    return all(a < b for a, b in itertools.pairwise(values))
 
 
 def flat_map(found):
@@ -100,13 +90,6 @@ def race(found):
     yield max(backs[3].values()) == 0.0
 
 
-def test_each_chapter_has_a_scene_that_grows():
-    for chapter in chapters():
-        text = chapter.read_text(encoding="utf-8")
-        assert any(f"live.{name}(" in text for name in SCENES), chapter
-    assert set(SCENES) <= set(NAMES)
-
-
 @pytest.mark.parametrize("name", SCENES)
 def test_what_each_idea_says_is_so(emptied_page, name):
     thing, steps = getattr(live, name)(), SCENES[name]
@@ -134,82 +117,3 @@ def test_what_each_idea_says_is_so(emptied_page, name):
     claims = list(globals()[name](found))
     assert claims
     assert all(claims), claims
-
-
-def test_with_motion_a_scene_goes_to_its_idea(emptied_page):
-    panel = mounted(emptied_page, live.last_metres())
-    panel.set(guess="skipped")
-    emptied_page.emulate_media(reduced_motion="no-preference")
-    seen, canvas = set(), emptied_page.locator("canvas").first
-    emptied_page.locator(".live-steps button").nth(2).click()
-    while emptied_page.locator("[data-moving]").count():
-        seen.add(round(panel.get("share"), 2))
-        canvas.hover(position={"x": 100 + len(seen), "y": 100})  # what passes over stops nothing
-    assert len(seen) > 3
-    emptied_page.get_by_role("button", name="Stop: how far on its way").click()
-    assert panel.get("share") == 1.0
-    emptied_page.locator(".live-steps button").first.click()
-    emptied_page.locator("[data-moving]").wait_for()
-    emptied_page.get_by_role("button", name="Play: how far on its way").click()
-    assert not emptied_page.locator("[data-moving]").count()
-    emptied_page.wait_for_function("panel.get('state').time > 0.05")
-    emptied_page.get_by_role("button", name="Stop: how far on its way").click()
-
-
-def test_the_last_runs_stay_until_one_tries_again(emptied_page):
-    panel, where = mounted(emptied_page, live.last_metres()), {"guess": "skipped", "share": 1.0}
-    alone = panel.set(**where).picture()
-    for k in (0, 2):
-        emptied_page.wait_for_timeout(800)  # a knob that moves again at once is the same run
-        emptied_page.locator(".live-steps button").nth(k).click()
-        panel.settled()
-    assert panel.get("share") == 1.0
-    assert panel.picture() != alone
-    marked = emptied_page.locator(".live-steps [aria-current]")
-    assert marked.count() == 1
-    emptied_page.get_by_role("button", name="Try again").click()
-    assert not marked.count()
-    assert panel.set(**where).picture() == alone
-
-
-@pytest.mark.parametrize(
-    ("name", "handle", "knob", "by"),
-    [
-        ("late", "set_off", "set_off", (40, 0)),
-        ("late", "face", "face", (40, 0)),
-        ("bench", "set_off", "set_off", (40, 0)),
-        ("lag", "predicted", "k_rho", (0, -30)),
-    ],
-)
-def test_what_can_be_held_moves_the_scene(emptied_page, name, handle, knob, by):
-    panel = mounted(emptied_page, getattr(live, name)())
-    panel.set(guess="skipped")
-    for button in emptied_page.locator(".live-steps button").all()[:1]:
-        button.click()
-        assert button.get_attribute("aria-current") == "step"
-    before, picture = panel.settled().get(knob), panel.picture()
-    panel.drag(emptied_page.locator(f"[data-handle={handle}]"), *by)
-    assert panel.get(knob) != before
-    assert panel.settled().picture() != picture
-    assert not emptied_page.locator(".live-steps [aria-current]").count()
-    if name == "lag":  # a longer distance is a gentler pull
-        assert panel.get(knob) < before
-        found = panel.found()
-        gains = wmr.paper.CIRCLE_GAINS._replace(k_rho=panel.get(knob), v_max=panel.get("v_max"))
-        speed = wmr.control_law(found["predicted"], 0.0, 0.0, gains)[0]
-        assert speed == pytest.approx(wmr.paper.CIRCLE_SPEED)
-    emptied_page.locator(f"[data-handle={handle}]").press("ArrowUp")
-    assert not emptied_page.locator(".live-trouble:visible").count()
-
-
-def test_a_remembered_answer_opens_a_scene_with_its_ideas(browser_page):
-    thing = live.lag()
-    assert thing.setup["ask"]["asked"]  # opening moves a knob, before the ideas are there
-    browser_page.add_init_script("globalThis.wmrKit = () => {}")  # as where a page remembers
-    for turn in range(2):  # the second time the page remembers what was answered
-        panel = mounted(browser_page, live.lag())
-        if not turn:
-            commit(panel, thing.setup["ask"])
-        assert panel.settled().get("k_rho") == thing.setup["ask"]["asked"][0]["k_rho"]
-    browser_page.locator(".live-steps button").first.click()
-    assert panel.settled().get("k_rho") == thing.setup["knobs"][0]["value"]
