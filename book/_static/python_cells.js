@@ -60,13 +60,13 @@
         else finish(data);
       };
       const run = async (cell) => {
-        const { space, number, before, checks } = cell, text = source(cell);
+        const { number, before } = cell, text = source(cell);
         const more = !solves && ASKS_Z3.test(`${before}\n${text}`) && await loadedSolver();
         solves ||= Boolean(more);
         return new Promise((done) => {
           finish = done;
           if (stopped) done({ stopped });
-          else python.postMessage({ space, number, before, checks, source: text, more });
+          else python.postMessage({ number, before, source: text, more });
         });
       };
       const stop = () => {
@@ -81,27 +81,9 @@
   // Cells
 
   const source = (cell) => cell.editor?.value ?? cell.source;
-  const kind = (cell) => (cell.space === 'tasks' ? 'task' : 'cell');
   const say = (cell, text) => { cell.status.textContent = text; };
 
-  // What is written into a cell that waits for an answer outlives a reload; not where a browser
-  // keeps nothing, as some do for files: then the page itself is all that holds it.
-  const place = ({ name }) => `wmr-answer ${location.pathname} ${name}`;
-
-  function kept(cell) {
-    try { return cell.name ? localStorage.getItem(place(cell)) : null; } catch { return null; }
-  }
-
-  function keep(cell) {
-    try {
-      if (!cell.name) return;
-      if (source(cell) === cell.source) localStorage.removeItem(place(cell));
-      else localStorage.setItem(place(cell), source(cell));
-    } catch { /* see above */ }
-  }
-
   async function run(cell) {
-    if (cell.later) return say(cell, 'It is kept, and checked when you hand in.');
     if (running) return running === cell || say(cell, 'Another cell is running.');
     running = cell;
     document.documentElement.classList.add('python-busy');
@@ -109,32 +91,23 @@
     try {
       say(cell, worker ? 'Running …' : 'Loading Python …');
       const python = await (worker ??= started());
-      for (const each of cells.slice(0, cell.place + 1)) {
-        const makes = !each.checks.length && !each.later;
-        const needed = makes && each.space === cell.space && each.ran !== source(each);
-        if (each !== cell && !needed) continue;
-        say(cell, each === cell ? 'Running …' : `Running ${kind(each)} ${each.number} …`);
+      for (const each of cells.slice(0, cell.number)) {
+        if (each !== cell && each.ran === source(each)) continue;
+        say(cell, each === cell ? 'Running …' : `Running cell ${each.number} …`);
         const start = performance.now();
         const ran = source(each);
-        const { shown, error, hint, died, stopped } = await python.run(each);
+        const { shown, error, died, stopped } = await python.run(each);
         if (stopped) {
           each.output.replaceChildren();  // of an earlier run
           return say(cell, 'Stopped. All variables are gone.');
         }
-        if (ran !== each.ran)
-          forget(cells.slice(each.place).filter((it) => it.space === each.space));
+        if (ran !== each.ran) forget(cells.slice(each.number));
         each.ran = error ? undefined : ran;
         if (died) stop();
         await show(each, shown, error);
-        const where = each === cell ? '' : `, in ${kind(each)} ${each.number} above`;
-        if (error) return say(cell, `${hint ? 'Not yet' : 'An error'}${where}.`);
-        const time = `${((performance.now() - start) / 1000).toFixed(1)} s`;
-        // of a chapter's own exercise
-        const answered =
-            each.name && [...(shown.at(-1)?.[1] ?? '').matchAll(/^(Hint|Right)/gm)].at(-1)?.[0];
-        say(each,
-            answered === 'Hint' ? 'Not yet.' : answered || each.checks.length ? 'Right.'
-            : `Done in ${time}.`);
+        if (error)
+          return say(cell, each === cell ? 'An error.' : `An error, in cell ${each.number} above.`);
+        say(each, `Done in ${((performance.now() - start) / 1000).toFixed(1)} s.`);
       }
     } catch (error) {
       worker = undefined;
@@ -186,37 +159,28 @@
 
   function edit(cell) {
     const area = cell.editor = make('textarea',
-        { className: 'python-editor', value: kept(cell) ?? cell.source,
+        { className: 'python-editor', value: cell.source,
         rows: cell.source.split('\n').length + 1, spellcheck: false, autocapitalize: 'off' });
-    area.setAttribute('aria-label', `Code of ${kind(cell)} ${cell.number}`);
+    area.setAttribute('aria-label', `Code of cell ${cell.number}`);
     area.setAttribute('aria-describedby', 'python-keys');
-    area.addEventListener('input', () => keep(cell));
     cell.code.hidden = true;
     cell.written.replaceChildren(area);
     near.observe(area);
-    const folded = cell.written.closest('details');
-    if (folded) folded.open = true;
     cell.edit.hidden = true;
     cell.reset.hidden = false;
+    area.focus();
   }
 
   function reset(cell) {
     cell.output.replaceChildren();
     cell.stored.forEach((it) => { it.hidden = false; });
     say(cell, '');
-    if (cell.checks.length || cell.later) {
-      cell.editor.value = cell.source;
-      cell.editor.dispatchEvent(new Event('input'));
-      cell.editor.focus();
-    } else {
-      cell.written.replaceChildren();
-      cell.editor = undefined;
-      keep(cell);
-      cell.code.hidden = false;
-      cell.reset.hidden = true;
-      cell.edit.hidden = false;
-      cell.edit.focus();
-    }
+    cell.written.replaceChildren();
+    cell.editor = undefined;
+    cell.code.hidden = false;
+    cell.reset.hidden = true;
+    cell.edit.hidden = false;
+    cell.edit.focus();
   }
 
   const keys = (cell) => (event) => {
@@ -229,16 +193,15 @@
   function enliven(script) {
     const cell = JSON.parse(script.textContent);
     cell.element = script.closest('.cell');
-    cell.place = cells.length;
-    cell.number = 1 + cells.filter((it) => it.space === cell.space).length;
+    cell.number = cells.length + 1;
     const button = (text, does, hidden) => {
       const made = make('button',
           { type: 'button', textContent: text, hidden, onclick: () => does(cell) });
-      made.setAttribute('aria-label', `${text}, ${kind(cell)} ${cell.number}`);
+      made.setAttribute('aria-label', `${text}, cell ${cell.number}`);
       return made;
     };
-    cell.run = button(cell.checks.length ? 'Check' : 'Run', run, cell.later);
-    cell.edit = button('Edit', (it) => { edit(it); it.editor.focus(); }, false);
+    cell.run = button('Run', run, false);
+    cell.edit = button('Edit', edit, false);
     cell.reset = button('Reset', reset, true);
     cell.stop = button('Stop', stop, true);
     cell.status = make('span', { className: 'python-status' });
@@ -264,15 +227,13 @@
     folded?.querySelector('summary .collapsed')?.append(', runs here');
     (folded && cell.element.contains(folded) ? folded : cell.tools).after(cell.output);
     cells.push(cell);
-    if (cell.name) edit(cell);
   }
 
   document.addEventListener('DOMContentLoaded', () => {
     document.querySelectorAll('script.python-cell').forEach(enliven);
     const about =
         ' Code that “runs here” runs in this page too; the rest needs numpy or compiled code.';
-    if (cells.some((it) => it.space === 'chapter'))
-      document.querySelector('.run-it')?.append(about);
+    document.querySelector('.run-it')?.append(about);
     const keys = 'Ctrl+Enter runs it. Tab indents; Esc and then Tab leaves.';
     document.body.append(make('p', { id: 'python-keys', hidden: true, textContent: keys }));
   });

@@ -20,13 +20,12 @@ async function start({ asm, wasm, stdlib, packages }) {
         stdLibURL: url(stdlib, 'application/zip'), createPyodideModule,
   });
   pyodide.unpackArchive(packages, 'zip', { extractDir: '/packages' });
-  const run =
-      pyodide.runPython(
+  const run = pyodide.runPython(
       'import sys; sys.path.insert(0, "/packages"); from run_cell import run; run');
-  return ({ space, number, before, source, checks, more }) => {
+  return ({ number, before, source, more }) => {
     try {
       if (more) pyodide.unpackArchive(more, 'zip', { extractDir: '/packages' });
-      return JSON.parse(run(space, number, before, source, pyodide.toPy(checks)));
+      return JSON.parse(run(number, before, source));
     } catch (error) {  // Python itself broke, as by too deep a recursion
       return { shown: [], error: String(error), died: true };
     }

@@ -23,8 +23,8 @@ from xml.etree import ElementTree
 
 from docutils import nodes
 from docutils.utils.math.latex2mathml import tex2mathml
-from page_tasks import CHAPTER
 from pygments.formatters import HtmlFormatter
+from python_cells import CHAPTER
 from reference import ancestors
 from sphinx.highlighting import PygmentsBridge
 

@@ -1,10 +1,10 @@
-"""The Python that a page carries: Pyodide, sympy, z3 and the parts of wmrlib that need no more.
+"""The Python that a page carries: Pyodide, sympy, z3 and what the book's cells import beside them.
 
 A page from the disk may not fetch, but it may load scripts: each part is one, in base64. Pyodide
-(MPL-2.0) comes unchanged from npm, sympy, mpmath and lazy_loader with their licences out of this
-environment, wmrlib and wmrbook out of this repository. Where those need numpy, numba or a part that
-is not here, book/in_page/stand_ins has a module in its place. z3 (MIT) comes from PyPI, as the
-wheel for Pyodide that book/in_page/z3.txt names, and is loaded only for a cell that asks it.
+(MPL-2.0) comes unchanged from npm, sympy and mpmath with their licences out of this environment.
+In the place of wmrlib stands what plain_symbolic.py prints, and of wmrbook two modules that need no
+more. z3 (MIT) comes from PyPI, as the wheel for Pyodide that book/in_page/z3.txt names, and is
+loaded only for a cell that asks it.
 """
 
 from __future__ import annotations
@@ -20,26 +20,25 @@ import sys
 import tempfile
 import time
 import zipfile
-from collections.abc import Iterator
 from contextlib import suppress
 from hashlib import sha256
 from importlib.metadata import distribution
 from pathlib import Path
 
+import plain_symbolic
+
 BOOK = Path(__file__).resolve().parents[1]
 IN_PAGE = BOOK / "in_page"
-STAND_INS = IN_PAGE / "stand_ins"
-INSTALLED = ("sympy", "mpmath", "lazy_loader")
-# What no cell needs; a folder of its own would be too large for a page.
+INSTALLED = ("sympy", "mpmath")
+OWN = "equations.py", "chapters/__init__.py", "chapters/strict.py"  # of wmrbook
+# What no cell needs; all would be too large for a page.
 LEFT_OUT = re.compile(
     r".*\b(tests|benchmarks|__pycache__)/|sympy/(physics/(?!units)\w+/|parsing/\w+/|stats/)"
-    r"|wmrlib/tracks/|wmrbook/(figures|audit|live|panel|questions)/|wmrbook/chapters/(?!__init__|strict)"
 )
 Z3 = IN_PAGE / "z3.txt"  # the version and the hash of a wheel
 Z3_LICENCE = IN_PAGE / "z3_LICENSE.txt"  # which the wheel lacks
 Z3_PLATFORM = "pyemscripten_2026_0_wasm32"
 Z3_FILES = re.compile(r"z3/\w+\.py|z3/lib/libz3\.so|.*/METADATA")
-KINDS = {".py", ".pyi", ".c", ".h"}
 DAY = 24 * 3600.0  # s
 FIXED = (1980, 1, 1, 0, 0, 0)  # the same files make the same zip
 
@@ -99,12 +98,17 @@ def compiled(modules: Path, zips: dict[str, bytes]) -> list[bytes]:
 
 def packages() -> bytes:
     """Return a zip of all packages, as they lie in a folder of Python's path."""
-    files = dict(_own_files())
-    for name in INSTALLED:
-        files |= _installed_files(name)
-    files |= {path.relative_to(STAND_INS).as_posix(): path for path in STAND_INS.rglob("*.py")}
-    files["run_cell.py"] = IN_PAGE / "run_cell.py"
-    return _zipped({name: path.read_bytes() for name, path in files.items()}, b"packages")
+    files = own_files() | {"run_cell.py": (IN_PAGE / "run_cell.py").read_bytes()}
+    for package in INSTALLED:
+        files |= _installed_files(package)
+    return _zipped(files)
+
+
+def own_files() -> dict[str, bytes]:
+    """Return the modules that stand in the page for wmrlib and wmrbook, by path."""
+    files = {f"wmrbook/{name}": (BOOK / "wmrbook" / name).read_bytes() for name in OWN}
+    files["wmrlib/symbolic.py"] = plain_symbolic.module().encode()
+    return files | {"wmrlib/__init__.py": b"", "wmrbook/__init__.py": b""}
 
 
 def z3(modules: Path) -> bytes:
@@ -126,28 +130,19 @@ def z3(modules: Path) -> bytes:
     return _zipped(files | {"z3/LICENSE": Z3_LICENCE.read_bytes()})
 
 
-def _zipped(files: dict[str, bytes], comment: bytes = b"") -> bytes:
+def _zipped(files: dict[str, bytes]) -> bytes:
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
-        archive.comment = comment
         for name, text in sorted(files.items()):
             archive.writestr(zipfile.ZipInfo(name, FIXED), text, zipfile.ZIP_DEFLATED)
     return content.getvalue()
 
 
-def _own_files() -> Iterator[tuple[str, Path]]:
-    for package in (BOOK.parent / "wmrlib", BOOK / "wmrbook"):
-        for path in package.rglob("*"):
-            name = path.relative_to(package.parent).as_posix()
-            if path.suffix in KINDS and not LEFT_OUT.match(name):
-                yield name, path
-
-
-def _installed_files(package: str) -> dict[str, Path]:
-    places = {}
+def _installed_files(package: str) -> dict[str, bytes]:
+    files = {}
     for file in distribution(package).files or ():
         name = file.as_posix()
-        code = file.parts[0] == package and file.suffix in KINDS and not LEFT_OUT.match(name)
+        code = file.parts[0] == package and file.suffix == ".py" and not LEFT_OUT.match(name)
         if code or "LICENSE" in file.name:
-            places[name] = Path(str(file.locate()))
-    return places
+            files[name] = Path(str(file.locate())).read_bytes()
+    return files

@@ -33,7 +33,6 @@ class decay(sp.Function):  # noqa: N801 (sympy names its functions in lower case
     """(1 - exp(-k_rho rho))/rho, k_rho at rho = 0; `textbook` writes it out."""
 
     nargs = 2
-    _imp_ = staticmethod(np.vectorize(elementary.decay, otypes=[float]))  # what lambdify calls
 
     @classmethod
     def eval(cls, rho, k_rho):
@@ -56,11 +55,14 @@ class wrap(sp.Function):  # noqa: N801
     """The same direction in (-pi, pi]."""
 
     nargs = 1
-    _imp_ = staticmethod(np.vectorize(elementary.wrap, otypes=[float]))
 
     def fdiff(self, argindex=1):
         return sp.Integer(1)
 
+
+# What lambdify calls. It stands outside the classes, which the book's pages have without numpy.
+decay._imp_ = staticmethod(np.vectorize(elementary.decay, otypes=[float]))
+wrap._imp_ = staticmethod(np.vectorize(elementary.wrap, otypes=[float]))
 
 GUARDED_SINC = sp.Piecewise((sp.sin(angle) / angle, sp.Abs(angle) > _SMALL), (1, True))
 _ELSEWHERE = -expm1(-k_rho * rho) / rho, sp.Abs(k_rho * rho) > _SMALL
