@@ -1,4 +1,4 @@
-"""What the repository promises of itself: the locks, the README's commands, the chapters' form."""
+"""What the repository promises a user or a reader: locks, commands, links, numbers, panels."""
 
 import os
 import re
@@ -30,6 +30,7 @@ VIEW = "application/vnd.jupyter.widget-view+json"
 STATE = "application/vnd.jupyter.widget-state+json"
 RELEASE = (ROOT / ".github" / "workflows" / "release.yml").read_text(encoding="utf-8")
 CHECK = "book/lab/check_python.py"
+TEXTS = [*ROOT.glob("*.md"), *BOOK.glob("*.md"), *(BOOK / "robot").rglob("README.md")]
 README = (ROOT / "README.md").read_text(encoding="utf-8")
 
 
@@ -67,8 +68,15 @@ def test_the_readmes_commands_name_files_that_exist():
     named = re.findall(r"(?:-r |python3? |py |config=|paths=)(\w[\w.\\/-]+)", shell)
     named = [name.replace("\\", "/") for name in named]
     assert {"environment.txt", "book/lab/jupyter_lab_config.py"} < set(named)
-    for name in [*named, *re.findall(r"\]\((?!http|#)([^)]+)\)", README)]:
-        assert (ROOT / name).exists(), name
+    assert [name for name in named if not (ROOT / name).exists()] == []
+
+
+@pytest.mark.parametrize("path", TEXTS, ids=lambda path: path.relative_to(ROOT).as_posix())
+def test_a_texts_links_lead_to_files_that_exist(path):
+    text = re.sub(r"^```.*?^```", "", path.read_text(encoding="utf-8"), flags=re.M | re.S)
+    links = re.findall(r"\]\((?!https?:|#|mailto:)([^)#\s]+)", text)
+    places = (path.parent, ROOT)  # the book's pages are built beside the notebooks
+    assert [it for it in links if not any((place / it).exists() for place in places)] == []
 
 
 def test_a_release_has_the_zip_that_the_readmes_command_makes():
@@ -218,7 +226,7 @@ def test_every_work_that_is_cited_is_in_the_bibliography_and_every_work_there_is
         assert addresses[key] in cited if addresses[key] else by_name, f"{key} is cited nowhere"
 
 
-def test_what_to_run_is_said_where_pages_and_apps_leave_it_out():
+def test_what_to_run_is_said_where_pages_leave_it_out():
     asked = re.compile(r"Run All|Shift\+Enter|run again|next cell|[Rr]un the cell")
     cells = [cell for notebook in CHAPTERS.values() for cell in notebook.cells]
     said = [cell for cell in cells if cell.cell_type == "markdown" and asked.search(cell.source)]
@@ -226,51 +234,22 @@ def test_what_to_run_is_said_where_pages_and_apps_leave_it_out():
     assert not [it.source for it in said if "remove-cell" not in it.metadata.get("tags", ())]
 
 
-def test_a_chapters_cells_are_small_and_were_run_in_order():
+def test_a_chapters_cells_were_run_in_order():
     for name in CHAPTERS:
-        for count, cell in enumerate(code(name), start=1):
-            lines = cell.source.splitlines()
-            assert cell.execution_count == count, name
-            assert len(lines) <= 20, f"{name}: {lines[0]}"
-            assert max(map(len, lines)) <= 92, f"{name}: {lines[0]}"
-
-
-def test_a_chapter_has_objectives_exercises_and_a_summary():
-    for name in CHAPTERS:
-        for part in ("After this chapter you can", "## Exercises", "## Summary"):
-            assert part in prose(name), name
-
-
-# Words that a chapter may have, or 1,500.
-LONG = {"04": 1700, "08": 1720, "09": 1740, "10": 1700, "11": 1710, "14": 1600}
-
-
-def test_a_chapter_is_read_in_twenty_minutes():
-    """At 200 words a minute, and half a minute for each cell that is not folded and each figure."""
-    for name in CHAPTERS:
-        assert len(prose(name).split()) <= LONG.get(name[:2], 1500), name
-        cells = [cell for cell in code(name) if "hide-cell" not in cell.metadata.get("tags", ())]
-        figures = [it for it in outputs(name, "text/html") if "<img" in it.data["text/html"]]
-        assert figures, name
-        seen = len(cells) + len(figures)
-        assert len(prose(name).split()) / 200 + seen / 2 <= 20, name
-
-
-def test_no_two_modules_that_tests_import_by_name_are_called_alike():
-    """Else the first that a worker imports stands for both."""
-    places = ("book/tools", "book/course", "book/robot", "tests", "tests/browser")
-    names = [path.stem for place in places for path in (ROOT / place).glob("*.py")]
-    assert {name for name in names if names.count(name) > 1} <= {"conftest"}
+        counts = [cell.execution_count for cell in code(name)]
+        assert counts == [*range(1, len(counts) + 1)], name
 
 
 def test_an_exercise_has_its_number_and_a_folded_solution():
+    found = 0
     for name in CHAPTERS:
         exercises = re.split(r"^### Exercise ", prose(name), flags=re.MULTILINE)[1:]
-        assert len(exercises) >= 3, name
+        found += len(exercises)
         for count, exercise in enumerate(exercises, start=1):
             assert exercise.startswith(f"{int(name[:2])}.{count}: ")
             assert exercise.count("<details><summary>Solution</summary>\n\n") == 1
             assert exercise.count("\n\n</details>") == 1
+    assert found > 40
 
 
 def test_a_solutions_code_is_folded_and_stands_below_a_folded_heading():

@@ -11,8 +11,7 @@ from pathlib import Path
 
 import pytest
 from filelock import FileLock
-from live import PATIENCE, ROOT, confine
-from recipes import run
+from live import PATIENCE, ROOT, confine, run
 
 FLAGS = [
     "--headless=new",

@@ -35,6 +35,15 @@ def as_shown(text: str) -> str:
     return re.sub(r"\$(\w_[^$]*)\$", bare, in_symbols(text))
 
 
+def run(folder: Path, *arguments: str) -> None:
+    """Run Python in a folder; where it fails, the test does."""
+    paths = os.pathsep.join([str(ROOT), str(ROOT / "book"), str(ROOT / "book" / "robot")])
+    options = {"cwd": folder, "env": os.environ | {"PYTHONPATH": paths}, "text": True}
+    options |= {"encoding": "utf-8"}
+    done = subprocess.run([sys.executable, *arguments], capture_output=True, **options)
+    assert done.returncode == 0, done.stdout + done.stderr
+
+
 def chapters() -> list[Path]:
     """The book's notebooks, in order."""
     return sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))

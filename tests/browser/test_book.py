@@ -15,10 +15,18 @@ import nbformat
 import pytest
 from faults import PANEL, SIZES, of_page
 from lecturers import closed, leaks
-from live import PATIENCE, ROOT, as_shown, assert_slider_matters, chapters, pages, sliders
+from live import (
+    PATIENCE,
+    ROOT,
+    as_shown,
+    assert_slider_matters,
+    chapters,
+    pages,
+    run,
+    sliders,
+)
 from paper import Printed, letters
 from pdf import terms
-from recipes import run
 from test_live import NAMES
 
 from wmrbook import live
