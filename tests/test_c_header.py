@@ -43,7 +43,6 @@ void local(const double *s, R *out) {
 void local_e7(const int32_t *s, R *out) {
   wmr_local_position_e7(s[0], s[1], s[2], s[3], out, out + 1); }
 void branch(const R *s, R *out) { out[0] = wmr_keep_branch(s[0], s[1], s[2]); }
-void less_1(const R *s, R *out) { out[0] = wmr_expm1(s[0]); }
 """
 AVR = """#include "wmr_drive.h"
 #include <avr/pgmspace.h>
@@ -229,14 +228,6 @@ def test_gps_points_as_degrees_and_as_integers(compiled, lat, lon, dlat, dlon):
     close = 1e-8 + 0.2 * tolerance * math.hypot(*expected)  # in float under 1 mm of 1 km
     assert call("local_e7", *points)[:2] == pytest.approx(expected, abs=close)
     assert call("local", *degrees)[:2] == pytest.approx(expected, abs=close)
-
-
-@compiler
-@given(x=st.floats(-120.0, 60.0) | st.floats(-1e-3, 1e-3))
-def test_exp_less_1(compiled, x):
-    call, tolerance, rounded = compiled
-    (x,) = rounded([x])
-    assert call("less_1", x)[0] == pytest.approx(math.expm1(x), rel=tolerance)
 
 
 @compiler

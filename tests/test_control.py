@@ -12,7 +12,6 @@ from oracle import commanded
 
 import wmrlib as wmr
 from wmrlib import laws, symbolic
-from wmrlib.gains import GainsFields, KanayamaFields, LinearFields
 from wmrlib.laws import POSE_LAWS
 from wmrlib.symbolic import symbols as s
 
@@ -81,12 +80,6 @@ def test_the_barrier_law_lets_its_angles_fall(rho, alpha, theta, gains):
 # Lyapunov
 
 
-@given(distances, angles, angles, positive, positive)
-def test_lyapunov_is_equation_18(rho, alpha, theta, h, L):
-    value = rho**2 / (2 * L) + (alpha**2 + h * theta**2) / 2
-    assert wmr.lyapunov(rho, alpha, theta, h, L) == pytest.approx(value, rel=1e-14)
-
-
 @given(distances, angles, angles, gains_drawn, positive)
 def test_rate_of_the_corrected_law_is_its_closed_form(rho, alpha, theta, gains, L):
     rate = wmr.lyapunov_rate(rho, alpha, theta, gains, "corrected", L)
@@ -108,13 +101,6 @@ def test_kanayama_falls_as_its_authors_say():
     assert sp.expand(symbolic.lyapunov_rate("kanayama") - expected) == 0
     along = symbolic.lyapunov("kanayama").subs({s.rho: 2, s.alpha: 0.3, s.theta: -0.4, s.k_y: 5})
     assert float(along) == pytest.approx(2.0 + (1.0 - math.cos(0.7)) / 5.0)
-
-
-def test_linear_law_is_feed_forward_and_a_matrix():
-    matrix = np.array([[1.0, 0.2, 0.1], [-0.3, 2.0, 1.5]])
-    v, omega = commanded(2.0, 0.5, 0.2, 0.6, 0.15, wmr.LinearGains(matrix), "linear")
-    error = np.array([2 * math.cos(0.5), 2 * math.sin(0.5), 0.3])
-    assert (v, omega) == pytest.approx([0.6 * math.cos(0.3), 0.15] + matrix @ error)
 
 
 # Wheels
@@ -165,14 +151,3 @@ def test_laws_for_a_moving_goal_know_angles_up_to_full_turns_and_their_v():
     run = wmr.track(wmr.paper.circle, wmr.paper.CIRCLE_START, kanayama, law="kanayama")
     value = 0.5 * run.rho**2 + (1.0 - np.cos(run.alpha - run.theta)) / kanayama.k_y
     assert pytest.approx(value, abs=1e-12) == run.V
-
-
-def test_loops_ask_each_law_by_its_place_in_the_table():
-    state, reference, numbers = (1.3, 0.7, -0.4), (0.6, 0.2), (0.9, 1.1, 0.3, 2.0, 0.7, 0.4)
-    for code, (name, row) in enumerate(laws.LAWS.items()):
-        kind = {wmr.Gains: GainsFields, wmr.KanayamaGains: KanayamaFields}.get(row.gains)
-        gains = (kind or LinearFields)(*numbers[: len(row.gains._fields)])
-        given = state if name in POSE_LAWS else (*laws.body_error(*state), *reference)
-        v, omega = row.formula(*given, gains)
-        v = v * state[0] if name in POSE_LAWS else v
-        assert laws.command(*state, *reference, numbers, code) == (v, omega), name

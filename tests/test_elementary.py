@@ -14,10 +14,8 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from wmrlib import elementary, laws
-from wmrlib.compilation import compiled
+from wmrlib import elementary
 from wmrlib.engine import vectors
-from wmrlib.gains import GainsFields
 
 mpmath.mp.dps = 40
 TWO_ULP = 2.0 * 2.0**-52
@@ -56,11 +54,6 @@ def test_sincos(form, angle):
     sine, cosine = form(elementary.sincos)(angle)
     assert sine == near(mpmath.sin(angle))
     assert cosine == near(mpmath.cos(angle))
-
-
-@pytest.mark.parametrize("angle", [1e6, -999_999.25, 636_619 * math.pi / 2])
-def test_sincos_up_to_a_million_radians(angle):
-    assert vectors.vector_sincos(angle) == (near(mpmath.sin(angle)), near(mpmath.cos(angle)))
 
 
 @pytest.mark.parametrize("angle", [1.1e6, -1e300, math.inf, -math.inf, math.nan])
@@ -152,50 +145,3 @@ def test_wrap_is_exact(angle):
     assert elementary.wrap(angle) == vectors.vector_wrap(angle) == truth
     if abs(angle) <= 2.0 * math.pi:
         assert vectors.vector_wrap_once(angle) == truth
-
-
-@forms
-def test_not_a_number_stays_one(form):
-    for function, count in (("expm1", 1), ("wrap", 1), *dict.fromkeys(TWO_NUMBERS, 2).items()):
-        for place in range(count):
-            numbers = [math.nan if k == place else 1.0 for k in range(count)]
-            assert math.isnan(form(getattr(elementary, function))(*numbers)), function
-    lost = [vectors.vector_wrap(1.1e6), vectors.vector_wrap(math.inf)]
-    assert np.isnan([*lost, vectors.vector_wrap_once(math.nan)]).all()
-
-
-def test_a_loop_over_many_gives_the_same_to_the_last_digits():
-    """In a loop LLVM computes several at once; what it then does in another order must not show."""
-    names = "sincos", "sinc", "expm1", "distance", "direction", "wrap"
-    sincos, sinc, expm1, distance, direction, wrap = (
-        vectors.vectorised(getattr(elementary, name)) for name in names
-    )
-
-    @compiled
-    def all_of(angle, sine, cosine, ratio, grown, away, sight, wrapped):
-        for i in range(angle.size):
-            sine[i], cosine[i] = sincos(angle[i])
-            ratio[i], grown[i] = sinc(angle[i]), expm1(-abs(angle[i]))
-            away[i], sight[i] = distance(angle[i], 3.0), direction(angle[i], 3.0)
-            wrapped[i] = wrap(angle[i])
-
-    angle = np.linspace(-50.0, 50.0, 1001)
-    results = np.empty((7, angle.size))
-    all_of(angle, *results)
-    for i, each in enumerate(angle):
-        alone = (*sincos(each), sinc(each), expm1(-abs(each)))
-        alone += distance(each, 3.0), direction(each, 3.0), wrap(each)
-        assert tuple(results[:, i]) == pytest.approx(alone, rel=TWO_ULP)
-
-
-def test_a_vectorised_law_is_the_law():
-    """The same text with the other sine inside, down to what the functions that it calls call."""
-    law, gains = laws.pose_law, GainsFields(2.0, 1.0, 0.3, 4.0)
-    in_vectors = vectors.vectorised(law)
-    for code in laws.POSE_LAWS.values():
-        state = 3.0, 0.7, -2.0, gains, code
-        assert in_vectors(*state) == pytest.approx(law(*state), rel=1e-14)
-    assert vectors.vectorised(law) is in_vectors
-    lost = 3.0, 1e7, -2.0, gains, 0  # for vector_sincos, three calls down
-    assert math.isnan(in_vectors(*lost)[0])
-    assert math.isfinite(law(*lost)[0])

@@ -4,13 +4,10 @@ import math
 
 import numpy as np
 import pytest
-import sympy as sp
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import symbolic
-from wmrlib.elementary import elementwise
 from wmrlib.motion import keep_branch
 
 GOAL, PAPER = wmr.Pose(1.0, -2.0, 0.7), wmr.paper.OUTDOOR_GAINS
@@ -39,21 +36,10 @@ def test_the_branch_is_kept_up_to_the_hysteresis_and_no_farther(theta, before, h
     assert keep_branch(theta, math.nan, hysteresis) == theta
 
 
-def test_arrays_and_symbols_keep_the_branch_that_numbers_keep():
-    random = np.random.default_rng(4)
-    state = random.uniform((-math.pi, -7.0, 0.0), (math.pi, 7.0, 3.0), (2000, 3)).T
-    one_by_one = [keep_branch(*each) for each in state.T]
-    assert set(np.rint((np.array(one_by_one) - state[0]) / TURN)) == {-1.0, 0.0, 1.0}
-    np.testing.assert_array_equal(elementwise(keep_branch, *state), one_by_one)
-    names = symbolic.theta, symbolic.before, symbolic.hysteresis
-    printed = sp.lambdify(names, symbolic.FORMULAS["keep_branch"].expanded()[0])
-    np.testing.assert_allclose(printed(*state), one_by_one, rtol=0.0, atol=1e-12)
-
-
 # A second way: of all branches, by trying -----------------------------------------------------
 
 
-def driven(start, gains, hysteresis, law="corrected", method="arc", dt=0.1, duration=4.0):
+def driven(start, gains, hysteresis, method="arc", dt=0.1, duration=4.0):
     """The polar errors and twists of a run."""
     pose, before, samples = start, None, []
     for _ in range(round(duration / dt) + 1):
@@ -62,7 +48,7 @@ def driven(start, gains, hysteresis, law="corrected", method="arc", dt=0.1, dura
             near = min((theta + n * TURN for n in range(-3, 4)), key=lambda it: abs(it - before))
             theta = near if abs(near) < math.pi + hysteresis else theta
         before = theta
-        v, omega = wmr.control_law(rho, alpha, theta, gains, law)
+        v, omega = wmr.control_law(rho, alpha, theta, gains)
         samples.append((rho, alpha, theta, v, omega))
         if rho <= 0.05:
             break
@@ -76,16 +62,15 @@ near_the_seam = st.builds(
 ).map(lambda polar: wmr.pose_from_polar(polar, GOAL))
 
 
-@settings(max_examples=60)
-@example(wmr.pose_from_polar(wmr.PolarError(0.8, 1.5, 3.0), GOAL), 0.4, "corrected", "arc")
+@settings(max_examples=40)
+@example(wmr.pose_from_polar(wmr.PolarError(0.8, 1.5, 3.0), GOAL), 0.4, "arc")
 @given(
     near_the_seam,
     st.sampled_from([0.0, 0.05, 0.2, 0.6, 2.0]),
-    st.sampled_from(["corrected", "printed", "aicardi"]),
     st.sampled_from(["arc", "euler"]),
 )
-def test_a_run_and_a_sweep_keep_it_as_the_plain_loop_does(start, hysteresis, law, method):
-    gains, how = wmr.Gains(0.8, 1.2, 1.5, 1.5), {"law": law, "method": method}
+def test_a_run_and_a_sweep_keep_it_as_the_plain_loop_does(start, hysteresis, method):
+    gains, how = wmr.Gains(0.8, 1.2, 1.5, 1.5), {"method": method}
     expected = driven(start, gains, hysteresis, **how)
     run = wmr.simulate(start, GOAL, gains, hysteresis=hysteresis, duration=4.0, **how)
     mine = np.array([getattr(run, name) for name in COLUMNS])
@@ -118,14 +103,13 @@ def share_turned_away(noise_deg, hysteresis, seed):
     return np.mean(np.abs(ends.heading_error) > math.pi / 2.0)
 
 
-@pytest.mark.parametrize("seed", [1, 2])
-def test_noise_holds_a_robot_on_the_seam_and_hysteresis_of_five_times_as_much_lets_it_go(seed):
-    assert share_turned_away(2.0, 0.0, seed) == pytest.approx(0.59, abs=0.05)
-    assert share_turned_away(2.0, 0.1, seed) < 0.01
-    assert share_turned_away(2.0, 0.2, seed) == 0.0
-    assert share_turned_away(5.0, 0.0, seed) == pytest.approx(0.89, abs=0.04)
-    assert share_turned_away(5.0, 0.1, seed) == pytest.approx(0.26, abs=0.05)
-    assert share_turned_away(5.0, 0.4, seed) == 0.0
+def test_noise_holds_a_robot_on_the_seam_and_hysteresis_of_five_times_as_much_lets_it_go():
+    assert share_turned_away(2.0, 0.0, 1) == pytest.approx(0.59, abs=0.05)
+    assert share_turned_away(2.0, 0.1, 1) < 0.01
+    assert share_turned_away(2.0, 0.2, 1) == 0.0
+    assert share_turned_away(5.0, 0.0, 1) == pytest.approx(0.89, abs=0.04)
+    assert share_turned_away(5.0, 0.1, 1) == pytest.approx(0.26, abs=0.05)
+    assert share_turned_away(5.0, 0.4, 1) == 0.0
 
 
 @pytest.mark.parametrize("drive", [wmr.simulate, wmr.sweep])

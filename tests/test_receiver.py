@@ -9,7 +9,6 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib import _threads as threads
-from wmrlib.engine import sampled
 from wmrlib.receiver import philox
 
 DT, GAINS = 0.1, wmr.GENTLE_GAINS
@@ -195,17 +194,6 @@ def test_outages_hold_the_last_fix_as_often_and_as_long_as_they_should(dropout, 
     assert (held == (np.abs(np.diff(found[1], axis=1)) < 1e-9)).all()
 
 
-@pytest.mark.parametrize("field", ["period", "delay", "heading_delay"])
-def test_what_never_comes_is_as_late_as_the_run_is_long(field):
-    ends = wmr.sweep(START, GOAL, GAINS, receiver=wmr.Receiver(0.2, **{field: [13.0, 1e308]}),
-                     seed=np.arange(3)[2], **SHORT)  # fmt: skip
-    alone = driven(wmr.Receiver(0.2, **{field: 13.0}), 2, 0)[0]
-    assert ends.distance[0] == pytest.approx(math.hypot(*alone[-1][:2]))
-    receiver = wmr.Receiver(1e-300, **{field: [13.0, 1e308]})  # whose runs have different numbers
-    one, other = zip(*wmr.sweep(START, GOAL, GAINS, receiver=receiver, **SHORT), strict=True)
-    assert one == other
-
-
 # What follows from it -----------------------------------------------------------------------------
 
 
@@ -229,15 +217,7 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     assert 3.0 < np.abs(whole.heading_error).max() <= math.pi
     monkeypatch.setattr(threads, "CORES", 1)
     monkeypatch.setattr(wmr.sweeping, "_CHUNK", (1, 1))
-    sizes, run_chunk = [], wmr.sweeping.run_chunk
-
-    def counted(runs, *rest):
-        sizes.append(runs.shape[1])
-        return run_chunk(runs, *rest)
-
-    monkeypatch.setattr(wmr.sweeping, "run_chunk", counted)
     assert all(map(np.array_equal, whole, wmr.sweep(many, GOAL, GAINS, **options)))
-    assert max(sizes) == sampled.VECTORS  # Ctrl-C is heard between chunks
     first = many._replace(x=many.x[0, :100])
     few = options | {"receiver": receiver._replace(sigma=receiver.sigma[:100], memory=0.0)}
     alone = wmr.sweep(first, GOAL, GAINS, **few)

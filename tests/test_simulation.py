@@ -1,10 +1,8 @@
 """Runs against the continuous oracle, by property, from all sides, and at the edges."""
 
 import copy
-import inspect
 import math
 import pickle
-import time
 from itertools import product
 
 import mpmath
@@ -13,15 +11,9 @@ import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
-from scipy.interpolate import CubicHermiteSpline
 
 import wmrlib as wmr
 from wmrbook.chapters import routes
-from wmrlib import _dop853
-from wmrlib._dop853 import TOLERANCE
-from wmrlib.body import checked_wheels
-from wmrlib.engine import continuous as engine
-from wmrlib.engine import lanes
 from wmrlib.laws import LAWS, POSE_LAWS
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
@@ -75,13 +67,6 @@ def test_final_pose_over_a_grid_of_starts_and_goals():
 
 
 # The oracle --------------------------------------------------------------------------------------
-
-
-@settings(max_examples=60)
-@given(poses, poses, gains_drawn)
-def test_v_never_rises_in_continuous(start, goal, gains):
-    run = wmr.simulate(start, goal, gains, method="continuous", duration=30.0)
-    assert np.diff(run.V).max(initial=0.0) <= 1e-9 * run.V[0]
 
 
 @pytest.mark.parametrize("method", ["euler", "arc"])
@@ -143,15 +128,6 @@ def test_samples_follow_from_each_other(method):
 
 
 @pytest.mark.parametrize("method", METHODS)
-def test_a_moving_goal_is_followed_with_headings_in_the_half_open_turn(method):
-    """Twice round the circle, where the reference's own heading grows to 14 rad."""
-    run = circle(method=method, duration=80.0)
-    assert run.goal.heading[-1] > 4.0 * math.pi
-    assert np.all((-math.pi < run.heading) & (run.heading <= math.pi))
-    assert np.ptp(np.unwrap(run.heading)) > 2.0 * math.pi
-
-
-@pytest.mark.parametrize("method", METHODS)
 def test_outcomes(method):
     run = wmr.simulate(ORIGIN, ORIGIN, CALM, method=method)
     assert (len(run), run.outcome, run.t[0], run.rho[0]) == (1, wmr.Outcome.ARRIVED, 0.0, 0.0)
@@ -203,25 +179,6 @@ def test_places_beyond_the_squares_of_numbers(method):
     for lost in (beyond, wild):
         assert (lost.outcome, len(lost)) == (wmr.Outcome.DIVERGED, 0)
         assert (lost.peak_omega, lost.path_length) == (0.0, 0.0)
-
-
-def test_a_run_that_is_lost_on_its_way_keeps_what_it_did_before():
-    stiff = wmr.Gains(1.0, 1.0, 1e200, 4.0)
-    run = wmr.simulate(wmr.Pose(1e150, 0.0, 0.0), ORIGIN, stiff, method="continuous")
-    assert (run.outcome, len(run)) == (wmr.Outcome.DIVERGED, 1)
-    assert run.peak_omega >= np.abs(run.omega).max() > 0.0
-    assert run.path_length > 0.0
-
-
-def test_a_sweep_knows_the_distance_where_there_is_no_sample():
-    gains = wmr.Gains(1e308, 1e308, 1e308, 1e308)
-    for method in ("arc", "euler"):
-        lost = wmr.sweep(wmr.Pose([3.0, 1e308], 4.0, 1.0), ORIGIN, gains, method=method)
-        assert not lost.arrived.any()
-        assert lost.distance == pytest.approx([5.0, 1e308])
-        assert lost.heading_error == pytest.approx([1.0, 1.0])
-    far = wmr.sweep(wmr.Pose(1e200, 0, 0), ORIGIN, CALM, method="arc")
-    assert far.distance == 1e200
 
 
 TURNS = st.integers(-50, 50)
@@ -308,60 +265,6 @@ def test_continuous_against_taylor_series_at_thirty_digits(start, gains, law):
     assert run.rho[-1] == pytest.approx(truth[0], rel=1e-10)
 
 
-def test_steps_are_as_many_as_another_program_takes():
-    """By the same method to the same tolerance; to end on events takes some more."""
-    draw, ours, theirs = np.random.default_rng(0).uniform, 0, 0
-    for _ in range(20):
-        start = wmr.Pose(draw(-20.0, 20.0), draw(-20.0, 20.0), draw(-3.0, 3.0))
-        gains = wmr.Gains(draw(0.05, 1.0), draw(0.5, 3.0), draw(0.05, 2.0), draw(0.5, 4.0))
-
-        def rate(_, state, gains=gains):
-            rho, alpha, theta = state
-            return wmr.polar_rate(rho, alpha, *wmr.control_law(rho, alpha, theta, gains))
-
-        states = engine.begun(np.array([[*start, *ORIGIN, *gains]]).T, 60.0, 0.05, False)
-        law, no_records = lanes.as_type(POSE_LAWS["corrected"]), np.empty((8, 0, 1))
-        engine.drive(states, np.zeros((3, 1)), 0.05, law, checked_wheels(None), 0.1, no_records, 0)
-        time, left = (states[row // engine.LANES, 0] for row in (engine.TIME, engine.TRIALS))
-        begin, how = wmr.polar_error(start, ORIGIN), {"rtol": TOLERANCE, "atol": TOLERANCE}
-        other = solve_ivp(rate, (0.0, time), begin, "DOP853", **how)
-        ours, theirs = ours + engine.MOST_TRIALS - left, theirs + other.nfev / 12
-    assert 0.95 < ours / theirs < 1.25
-
-
-SHARES = st.floats(0.05, 0.95)
-SLOPES = st.floats(0.1, 6.0)  # as a share of the mean slope: over 3 a cubic may turn round
-
-
-@given(st.floats(0.01, 0.9), st.floats(0.01, 10.0), SLOPES, SLOPES, SHARES)
-def test_arrival_is_found_where_a_cubic_arrives(rho, dt, slope0, slope1, share):
-    """The time as a cubic of the distance, from 1 m on, by scipy; or on the straight line."""
-    radius, mean = rho + share * (1.0 - rho), dt / (rho - 1.0)
-    time = CubicHermiteSpline([rho, 1.0], [dt, 0.0], [slope1 * mean, slope0 * mean])
-    step = 1.0, 1.0 / (slope0 * mean), rho, 1.0 / (slope1 * mean), dt
-    found = float(time(radius)) if 0.0 < time(radius) < dt else (1.0 - share) * dt
-    assert _dop853.until_arrival(*step, radius) == pytest.approx(found, rel=1e-9)
-    assert _dop853.until_arrival(*step, rho) == dt
-
-
-RATES = st.floats(0.1, 10.0)
-
-
-@given(st.floats(-9.0, 9.0), st.floats(-9.0, 9.0), RATES, RATES, st.floats(0.1, 9.0), st.booleans())
-def test_a_turn_is_found_where_a_cubic_turns(f0, f1, rate0, rate1, dt, up):
-    """If more than the slack is missed on the shorter side of it."""
-    rates = (rate0, -rate1) if up else (-rate0, rate1)
-    bends = CubicHermiteSpline([0.0, dt], [f0, f1], rates).derivative()
-    (turn,) = (t for t in bends.roots(extrapolate=False) if 0.0 < t < dt)
-    step = f0, rates[0], f1, rates[1], dt
-    assert _dop853.until_turn(*step, 0.0) == pytest.approx(turn, rel=1e-6)
-    missed = min(rate0 * turn, rate1 * (dt - turn))
-    assert _dop853.until_turn(*step, 0.99 * missed) < dt
-    assert _dop853.until_turn(*step, 1.01 * missed) == dt
-    with np.errstate(divide="ignore"):
-        assert _dop853.until_turn(f0, rate0, f1, rate1, dt, 0.0) == dt
-
-
 FAST = st.floats(0.0, 6.0).map(lambda power: 10.0**power)
 
 
@@ -369,17 +272,15 @@ FAST = st.floats(0.0, 6.0).map(lambda power: 10.0**power)
 @given(poses, st.builds(wmr.Gains, st.just(0.5), FAST, st.just(0.5), st.just(2.0)))
 @example(wmr.Pose(-5.0, -2.0, 0.3), wmr.Gains(1e6, 1e6, 1e6))
 def test_continuous_with_stiff_gains(start, gains):
-    """Against Radau, in the time that slow gains take."""
+    """Against Radau, which is made for stiff equations."""
 
     def rate(_, state):
         rho, alpha, theta = max(state[0], 1e-9), *state[1:]
         return wmr.polar_rate(rho, alpha, *wmr.control_law(rho, alpha, theta, gains))
 
     assume(math.hypot(start.x, start.y) > 0.1)
-    begin = time.perf_counter()
     options = {"method": "continuous", "dt": 0.25, "duration": 1.0}
     run = wmr.simulate(start, ORIGIN, gains, **options)
-    assert time.perf_counter() - begin < 2.0
     times = {"t_eval": run.t, "rtol": 1e-9, "atol": 1e-12}
     truth = solve_ivp(rate, (0.0, run.t[-1]), wmr.polar_error(start, ORIGIN), "Radau", **times).y
     np.testing.assert_allclose([run.rho, run.alpha, run.theta], truth, atol=1e-7)
@@ -464,16 +365,6 @@ def test_bad_input_names_argument_value_and_range():
             wmr.track(**valid | options)
 
 
-def test_what_runs_have_in_common_has_one_default():
-    drivers = wmr.simulate, wmr.track, wmr.sweep, routes.drive_route
-    simulate, *others = (inspect.signature(each).parameters for each in drivers)
-    for name in ("law", "dt", "duration", "arrival_radius", "wheels"):
-        known = [each[name].default for each in others if name in each]
-        if name == "duration":
-            assert known.pop() == 2 * simulate[name].default  # of each leg
-        assert known == [simulate[name].default] * len(known)
-
-
 # Moving references -------------------------------------------------------------------------------
 
 
@@ -536,25 +427,6 @@ def test_lqr_on_the_error_in_the_robots_frame_leaves_no_residual():
     np.testing.assert_allclose(run.V, 0.5 * (run.rho**2 + run.heading_error**2), atol=1e-12)
 
 
-@settings(max_examples=20)
-@given(st.sampled_from([0.0, -0.0, 1e-300, 1e-9]), st.sampled_from([0.0, 1e-300, 3.0]), headings)
-def test_tracking_may_begin_on_the_axes(x, y, heading):
-    """Shifted by a metre, the run is the same."""
-
-    def along(shift):
-        def line(t):
-            assert t.min() >= 0.0
-            assert t.max() <= 0.3  # the reference is not asked for more
-            return wmr.Reference(5.0 + 0.5 * t + shift, shift, 0.2, 0.5, 0.0)
-
-        start, how = wmr.Pose(x + shift, y + shift, heading), {"dt": 0.1, "duration": 0.3}
-        return wmr.track(line, start, CALM, method="continuous", **how)
-
-    here, there = along(0.0), along(1.0)
-    np.testing.assert_allclose([here.x, here.y], [there.x - 1.0, there.y - 1.0], atol=1e-9)
-    np.testing.assert_allclose([here.rho, here.omega], [there.rho, there.omega], atol=1e-9)
-
-
 @pytest.mark.parametrize("method", METHODS)
 def test_a_goal_that_stands_still_is_a_reference_too(method):
     """Backing up after it counts as way."""
@@ -615,17 +487,6 @@ def test_lagging_wheels_that_graze_the_radius_have_arrived(start, lag, exponent)
     radius = float(free.rho[nearest]) * (1.0 + 10.0**exponent)
     run = wmr.simulate(start, ORIGIN, gains, arrival_radius=radius, **how)
     assert run.t[-1] <= free.t[nearest] + 1e-9
-
-
-def test_durations_of_all_sizes_begin_at_the_start_and_end_before_the_goal():
-    """Rounding carries rho past 0, by less than can be seen."""
-    how = {"method": "continuous", "dt": 0.5, "duration": 2000.0, "arrival_radius": 0.0}
-    gains = CALM._replace(k_rho=0.4 * math.sqrt(10.0))
-    assert wmr.simulate(wmr.Pose(-3.0, 1.0, 0.5), ORIGIN, gains, **how).rho.min() == 0.0
-    for duration in (5e-324, 1e-9, 1e16, 1e300):
-        how = {"method": "continuous", "dt": duration, "duration": duration}
-        run = wmr.simulate(wmr.Pose(3.0, 4.0, 1.0), ORIGIN, wmr.GENTLE_GAINS, **how)
-        assert run.rho[0] == 5.0
 
 
 @given(exponent=st.integers(-12, 0))

@@ -1,10 +1,7 @@
 """Sweeps against the continuous oracle, against the public functions, and interrupted."""
 
 import math
-import os
 import signal
-import subprocess
-import sys
 import warnings
 from concurrent.futures import ThreadPoolExecutor
 from itertools import product
@@ -19,8 +16,6 @@ from scipy.integrate._ivp import dop853_coefficients
 import wmrlib as wmr
 from wmrlib import _dop853, sweeping
 from wmrlib import _threads as threads
-from wmrlib.body import checked_wheels
-from wmrlib.engine import lanes, sampled
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -82,7 +77,7 @@ def test_the_steps_have_the_coefficients_of_their_authors():
         np.testing.assert_allclose(ours, theirs, rtol=1e-14, atol=1e-15)
 
 
-@settings(max_examples=60, deadline=None)
+@settings(max_examples=40, deadline=None)
 @example(wmr.Pose(-10, -5, 0), wmr.Pose(0, 0, 1), wmr.Gains(3, 0.5, 4, 8), LAWS[0], None, 0.05)
 @example(wmr.Pose(-3, 1, -2.0), ORIGIN, CALM, "aicardi", LIMITS, 0.05)
 # Backwards and forwards again, and |omega| is largest within a step.
@@ -117,26 +112,9 @@ def test_the_samples_lie_on_the_same_run_and_dt_changes_nothing_else(start, gain
         assert np.all(np.abs(off) <= 1e-6 * (1.0 + np.abs(theirs))), name
 
 
-@settings(max_examples=20, deadline=None)
-@given(wide_gains, st.floats(0.01, 0.5), st.sampled_from([0.9, 3.0, 10.0]))
-@example(wmr.Gains(0.1, 0.5, 10.0, 4.0), 0.02, 60.0)
-def test_no_sample_is_written_into_the_place_of_another(gains, dt, duration):
-    """A run that goes on to the end has its last sample and its first."""
-    start = wmr.Pose([-58.0, -9.0], 0.0, 1.0)
-    options = {"dt": min(dt, duration), "duration": duration, "arrival_radius": 0.0}
-    paths = wmr.sweep(start, ORIGIN, gains, trajectories=True, **options)[1]
-    for name in ("x", "y", "rho"):
-        assert np.isfinite(getattr(paths, name)).all(), name
-    assert paths.x[:, 0] == pytest.approx(start.x)
-    assert paths.rho[:, 0] == pytest.approx([58.0, 9.0])
-    assert (np.diff(paths.rho) <= 1e-9).all()
-
-
-@pytest.mark.parametrize("duration", [60.0, 0.9])
-@pytest.mark.parametrize("gains", [(0.5, 1e6, 1.0, 4.0), (2.0, 1e9, 1e9, 4)])
-def test_hopeless_gains_are_given_up_with_a_warning(gains, duration):
-    stiff = wmr.Gains(*([0.5, one] for one in gains))
-    options = {"duration": duration, "trajectories": True}
+def test_hopeless_gains_are_given_up_with_a_warning():
+    stiff = wmr.Gains(*([0.5, one] for one in (0.5, 1e6, 1.0, 4.0)))
+    options = {"duration": 0.9, "trajectories": True}
     with pytest.warns(RuntimeWarning, match=r"1 of 2 runs are NaN: .* more than 100,000 steps"):
         run, paths = wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, stiff, **options)
     assert np.isnan([field[1] for field in run[1:]]).all()
@@ -164,21 +142,6 @@ def test_whoever_says_that_it_arrived_is_there(far, heading, gains, v_max, radiu
         assert run.distance != 0.0 or far == 0.0 or radius == 0.0
 
 
-@pytest.mark.parametrize("method", METHODS)
-def test_edges(method):
-    """On the goal already, too far, out of the range of numbers."""
-    gains = wmr.Gains([0.4, 0.4, 1e308], [2.0, 2.0, 1e308], 0.6, [2.0, 2.0, 1e308])
-    options = {"method": method, "duration": 2.0, "arrival_radius": 0.0}
-    with warnings.catch_warnings(action="ignore"):  # the last is given up
-        runs = wmr.sweep(wmr.Pose([0.0, 1e3, 5.0], 0.0, 1.0), ORIGIN, gains, **options)
-    assert runs.arrived.tolist() == [True, False, False]
-    assert runs.time.tolist() == [0.0, math.inf, math.inf]
-    assert np.isfinite([runs.distance, runs.heading_error]).all()
-    assert (runs.path_length[0], runs.distance[0]) == (0.0, 0.0)
-    assert runs.heading_error[0] == pytest.approx(1.0)
-    assert runs.path_length[1] == pytest.approx(4.0, rel=0.3)
-
-
 # Shapes, laws, trajectories ----------------------------------------------------------------------
 
 
@@ -195,14 +158,6 @@ def test_laws_broadcast_too():
     assert same(pair, [field[:, 1:] for field in mixed])
     empty = wmr.sweep(wmr.Pose(np.zeros((0, 2)), 0, 0), goal, CALM)
     assert empty.time.shape == (0, 2)
-
-
-def test_how_fields_lie_in_memory_does_not_show():
-    x = np.arange(1.0, 7.0).reshape(2, 3)
-    ways = x, np.asfortranarray(x), np.repeat(x, 2, axis=0)[::2], x.astype(int)
-    first, *others = (wmr.sweep(wmr.Pose(way, 1.0, 0.5), ORIGIN, CALM) for way in ways)
-    assert len(set(first.time.flat)) == 6
-    assert all(same(other, first) for other in others)
 
 
 @pytest.mark.parametrize("method", ["arc", "euler"])
@@ -246,13 +201,7 @@ def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices(method, 
         assert same(wmr.sweep(moved, goal, tuned, **options), [field[some] for field in runs])
     if method == "continuous":
         return
-    runs_of = np.array([*np.broadcast_arrays(*starts, *goal, *gains)])
-    states = np.zeros((sampled.ROWS, 1500))  # all are driven side by side, and nobody once more
-    states[:10], states[sampled.LEFT] = runs_of, 300.0
-    how = lanes.as_type(0), checked_wheels(wheels), method == "arc", 0.1, 0.05
-    sampled.drive(states, *how, None, None, None)
-    assert (states[sampled.LEFT] <= 0.0).all()
-    for i in order[:200]:
+    for i in order[:50]:
         start, tuned = (type(row)(*(float(each[i]) for each in row)) for row in (starts, gains))
         single = alone(start, goal, tuned, **options)
         assert [field[i] for field in runs] == pytest.approx(single, rel=1e-9, abs=1e-9)
@@ -326,30 +275,6 @@ def test_bad_input_names_argument_value_and_range(monkeypatch):
         wmr.sweep(**valid, **few)
 
 
-FRESH = """
-import wmrlib as w
-from wmrlib.engine import continuous
-options = {"duration": 1.0, "arrival_radius": 2.9}
-run = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.Gains(0.4, 2.0, 0.6, 2.0), **options)
-stats = getattr(continuous.drive, "stats", None)
-print(*map(float, run), sum(stats.cache_misses.values()) if stats else None)
-"""
-
-
-def test_a_fresh_process_compiles_nothing_and_plain_python_gives_the_same():
-    def fresh(**environment):
-        options = {"text": True, "check": True, "env": os.environ | environment}
-        command = [sys.executable, "-c", FRESH]
-        *run, misses = subprocess.run(command, capture_output=True, **options).stdout.split()
-        return [float(field) for field in run], misses
-
-    fresh()  # fills the cache, if nobody has
-    compiled, misses = fresh()
-    assert misses == "0"
-    assert fresh(NUMBA_DISABLE_JIT="1")[0] == pytest.approx(compiled, rel=1e-12)
-    assert 0.1 < compiled[1] < 1.0
-
-
 # Chunks, bars, interruptions ---------------------------------------------------------------------
 
 
@@ -418,8 +343,3 @@ def test_ctrl_c_keeps_what_is_done(monkeypatch, ctrl_c, small_chunks, whole):
     assert same([field[done] for field in runs], [field[done] for field in whole])
     assert not runs.arrived[~done].any()
     assert all(np.isnan(field[~done]).all() for field in runs[1:])
-
-
-def test_an_error_of_the_job_itself_is_raised():
-    with pytest.raises(ValueError, match="invalid literal"):
-        list(threads.spread(int, ["no number"], lambda text: (text,), lambda _: True))

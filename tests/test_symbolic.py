@@ -97,14 +97,6 @@ def test_tracking_laws_equal_wmrlib(name):
     np.testing.assert_allclose(function(*state, *gains), expected, **EXACT)
 
 
-def test_arrays_go_through_the_singularities_without_a_warning(pose):
-    name, (law, *_) = pose
-    distance = angle = np.array([0.0, 1e-12, 1.0])
-    expected = wmr.control_law(distance, angle, 0.5, wmr.Gains(2.0, 1.0, 0.3, 4.0), law=name)
-    found = law(distance, angle, 0.5, 2.0, 1.0, 0.3, 4.0, 1.0)
-    np.testing.assert_allclose(found, expected, **EXACT)
-
-
 def test_decay_is_finite_and_smooth_at_the_goal():
     assert decay(0, k_rho) == k_rho
     for order in (0, 1):
@@ -242,11 +234,3 @@ def test_a_printed_function_does_what_the_one_of_that_name_does_in_python():
         np.testing.assert_allclose(printed, expected, **EXACT, err_msg=name)
         compared += 1
     assert compared >= 17
-
-
-def test_a_reciprocal_is_a_division_in_c():
-    """A new law may have one, and a power takes long on a small board."""
-    angle = symbolic.angle
-    for value in (1 / angle, 1 + 1 / angle, sp.sin(1 / angle), angle / (1 + angle)):
-        printed = symbolic.c_function("f", symbolic.Formula((angle,), (value,), "says"))
-        assert "pow" not in printed, value

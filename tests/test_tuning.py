@@ -182,16 +182,6 @@ def test_eigenvalues_of_a_step_leave_the_unit_circle_at_the_longest_step():
         assert speed * longest == pytest.approx(1e-6, rel=1e-5)
 
 
-@given(st.integers(5, 40).map(float), st.floats(0.01, 0.999))
-def test_every_step_shorter_than_the_longest_settles(k_alpha, share):
-    """Also where an eigenvalue only touches -1, which these gains do: a double root."""
-    gains = wmr.Gains(0.25, k_alpha, (k_alpha**2 - 4.0 * k_alpha - 4.0) / 4.0)
-    touching = 4.0 / (k_alpha + 2.0)
-    longest = wmr.longest_step(gains, "euler")
-    assert longest <= touching
-    assert np.abs(np.linalg.eigvals(one_step(gains, "euler", share * longest))).max() < 1.0
-
-
 def test_longest_steps_without_a_gain_and_in_continuous_time():
     assert wmr.longest_step(wmr.Gains(2.0, 0.0, 0.3), "euler") == 0.0
     assert wmr.longest_step(PAPER, "continuous") == math.inf

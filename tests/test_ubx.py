@@ -3,7 +3,6 @@
 import math
 import subprocess
 import sys
-import tracemalloc
 from pathlib import Path
 from struct import pack
 
@@ -167,16 +166,6 @@ def test_a_message_told_twice_is_used_once(read):
     assert not track.report.noted
 
 
-@pytest.mark.parametrize("sign", [b"\xb5b", b"\xb5b\x01\x07\xff\x7f", b"\xb5b\0\0\xf0\xf0"])
-def test_signs_of_a_message_that_is_none_are_summed_in_one_pass(read, monkeypatch, sign):
-    summed, cumsum = [], np.cumsum
-    monkeypatch.setattr(np, "cumsum", lambda x, **k: summed.append(x.size) or cumsum(x, **k))
-    noise = sign * (600_000 // len(sign))
-    track = read(pvt(), noise, bytes(70_000), pvt(1))
-    assert len(track) == 2
-    assert sum(summed) <= 8 * (len(noise) + 80_000)  # two sums in each of two passes, and windows
-
-
 EPOCHS = [[pvt(k), place(k), dop(k), GGA, OTHER] for k in range(4)]
 SOUND = b"".join(b"".join(epoch) for epoch in EPOCHS)
 RIGHT = {round(5e-12 + (k - 331000000) * 1e-7 - off, 9) for k in range(4) for off in (0.0, 12e-9)}
@@ -199,26 +188,6 @@ def test_no_damage_gives_a_wrong_position(read, changes, place, garbage):
         assert len(track) == 4 or lost > 8
         assert len(track) >= 4 - len(changes) - 1
         assert (np.diff(track.t) > 0.0).all()
-
-
-@given(st.sampled_from([*KINDS]), st.sampled_from([18, 36, 64, 84, 92]), st.data())
-def test_whatever_a_sound_message_says_is_a_position_or_counted(read, kind, size, data):
-    content = data.draw(st.binary(min_size=size, max_size=size))
-    track = read(pvt(), frame(KINDS[kind], content), pvt(1))
-    assert len(track) >= 1
-    assert (np.abs(track.points.lat) <= 90.0).all()
-
-
-def test_a_large_file_is_read_in_less_memory_than_it_has(tmp_path):
-    """Between two positions, forty megabytes of something else, which begins as a message does."""
-    path = tmp_path / "large.ubx"
-    path.write_bytes(pvt() + b"\xb5b\x02\x15\xff\xff" + bytes(40_000_000) + pvt(1))
-    tracemalloc.start()
-    track = wmr.read_track(path)
-    peak = tracemalloc.get_traced_memory()[1]
-    tracemalloc.stop()
-    assert len(track) == 2
-    assert peak < 40e6
 
 
 def test_pyubx2_is_needed_for_nav_pvt_alone(tmp_path):
