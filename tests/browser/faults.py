@@ -1,15 +1,12 @@
 """What a reader of the built book can't see or use on a page.
 
-Code lines, formulas, tables and figures that are cut, figures with small letters, and what
-axe-core finds in the light and in the dark.
+Code lines, formulas, tables and figures that are cut, and what axe-core finds in the light and in
+the dark.
 """
 
 from __future__ import annotations
 
-import re
 from pathlib import Path
-from urllib.parse import urlsplit
-from urllib.request import url2pathname
 
 from build import MODULES, install_javascript
 
@@ -25,13 +22,6 @@ PANEL = '<script type="application/vnd.jupyter.widget-view+json">'
 WIDER = """() => [...document.querySelectorAll('.figure-box')]
     .filter(it => it.scrollWidth > it.clientWidth + 1)
     .map(it => it.querySelector('img').alt.slice(0, 60))"""
-LARGER = (
-    "() => document.querySelectorAll('.figure-size').forEach(it => it.offsetParent && it.click())"
-)
-FIGURES = """() => [...document.querySelectorAll('article img[src$=".svg"]')]
-    .filter(it => it.checkVisibility() && it.clientWidth)
-    .map(it => [it.src, it.clientWidth / it.naturalWidth, it.alt.slice(0, 60)])"""
-LETTERS = re.compile(r"scale\(([\d.]+) -")  # of a text in an SVG by matplotlib: hundreds of points
 FRAME = "() => new Promise(done => requestAnimationFrame(() => requestAnimationFrame(done)))"
 # What scrolls has been given a key, as the theme does 300 ms after the last change of the page;
 # a live figure that is slow to find its headline changes it late.
@@ -87,11 +77,6 @@ def of_page(page, sizes=SIZES, themes=("light", "dark")) -> list[tuple[str, str]
             faults += [(f"{kind}, {width}x{height}", place) for place in places]
         cut = f"figures that are not seen whole, {width}x{height}"
         faults += [(cut, place) for place in page.evaluate(WIDER)]
-        page.evaluate(LARGER)
-        for source, scale, said in page.evaluate(FIGURES):
-            svg = Path(url2pathname(urlsplit(source).path)).read_text(encoding="utf-8")
-            if min(map(float, LETTERS.findall(svg)), default=1) * scale * 400 / 3 < 9:
-                faults.append((f"figures with letters under 9 pixels, {width}x{height}", said))
     page.wait_for_function(REACHED)
     page.evaluate(THIN)
     for theme in themes:

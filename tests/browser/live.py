@@ -91,12 +91,6 @@ def sliders(page) -> list:
     return page.locator(".wmr-slider:visible").all()
 
 
-def thumb(slider) -> tuple[float, float]:
-    """Where the handle of a slider is, which is 24 px wide."""
-    share, box = slider.evaluate("it => it.value / it.max"), slider.bounding_box()
-    return box["x"] + 12 + share * (box["width"] - 24), box["y"] + box["height"] / 2
-
-
 def settled_picture(page) -> str:
     """The picture, once two frames in a row show the same."""
     page.wait_for_function(

@@ -16,8 +16,6 @@ from live import (
     chapters,
     confine,
     open_deck,
-    settled_picture,
-    thumb,
 )
 
 READY = os.environ.get("SLIDES")
@@ -102,14 +100,6 @@ def test_each_slide_can_be_read_and_its_picture_is_large_before_and_after_an_ans
     assert not found, "\n".join(map(str, found))
 
 
-def test_a_resize_fits_the_slide_anew(opened):
-    page = opened(DECK)
-    page.set_viewport_size({"width": 1024, "height": 768})
-    page.wait_for_function("deck.fitted === '1024 768'")
-    page.evaluate("deck.showAll()")
-    page.wait_for_function(f"!({TROUBLES})().length", timeout=PATIENCE)
-
-
 def test_a_slide_plays_on_each_visit_until_it_is_left_and_keys_let_the_deck_go_on_or_turn_dark(
     opened,
 ):
@@ -159,25 +149,6 @@ def test_a_slider_moves_by_keyboard_and_the_slide_stays(opened):
     page.keyboard.press("Escape")
     page.keyboard.press("ArrowRight")
     page.wait_for_function("before => deck.getIndices().h !== before.h", arg=where)
-
-
-def test_a_slider_and_the_goal_follow_the_pointer(opened):
-    page = opened(DECK, (1024, 768))
-    slider, goal = go_to_panel(page), page.locator(".wmr-stage .wmr-handle:visible").first
-
-    def drag(x, y, right, up):
-        before = settled_picture(page)
-        page.mouse.move(x, y)
-        page.mouse.down()
-        page.mouse.move(x + right, y - up, steps=5)
-        page.mouse.up()
-        assert settled_picture(page) != before
-
-    x, y = thumb(slider)
-    drag(x, y, 25, 0)
-    assert thumb(slider)[0] - x == pytest.approx(25, abs=3)  # it stays under the pointer
-    box = goal.bounding_box()
-    drag(box["x"] + box["width"] / 2, box["y"] + box["height"] / 2, 40, 20)
 
 
 def test_the_speakers_view_shows_the_notes_from_the_disk_and_each_formula_once(decks, opened):

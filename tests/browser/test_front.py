@@ -9,7 +9,7 @@ import pytest
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget")
 from faults import violations
-from host import TRAITS, mounted
+from host import mounted
 
 import wmrlib as wmr
 from wmrbook.panel import Front
@@ -63,16 +63,3 @@ def test_a_pose_that_is_turned_by_keys_is_driven_to_and_the_whole_way_stays_in_v
     page.wait_for_timeout(200)
     assert page.get_by_role("button", name="The last metre").is_visible()
     assert start.locator("visible=true").count() == 2
-
-
-def test_it_moves_within_a_second_and_goes_on_to_the_gentle_gains_by_itself(emptied_page):
-    page = emptied_page
-    mounted(page, Front(), width=1366, height=768)
-    page.emulate_media(reduced_motion="no-preference")
-    page.evaluate("() => { unmount(); document.body.replaceChildren(); }")
-    page.evaluate("traits => mount(traits)", Front().get_state(TRAITS))
-    page.wait_for_timeout(300)
-    first = page.evaluate(PICTURE)
-    page.wait_for_function(f"first => ({PICTURE})() !== first", arg=first, timeout=700)
-    page.wait_for_function(f"({SAID})().includes('27°')", timeout=15_000)
-    page.wait_for_function(f"({SAID})().endsWith('it parks.')", timeout=20_000)

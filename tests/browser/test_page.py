@@ -10,7 +10,6 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
-import pypdfium2
 import pytest
 from faults import SIZES, of_page
 from lecturers import leaks
@@ -29,14 +28,8 @@ from wmrbook import face
 # Formulas that would have to be scrolled.
 WIDE = """() => [...document.querySelectorAll('mjx-container[display]')]
     .filter(it => it.scrollWidth > it.clientWidth + 1).map(it => it.innerText)"""
-OVER = "() => document.documentElement.scrollWidth - document.documentElement.clientWidth"
 ALL_THERE = """theme => [...document.querySelectorAll(`img.only-${theme}`)]
     .every((it, _, all) => all.length > 5 && it.complete && it.naturalWidth)"""
-# Of pages with what is wide: the ends of the sheet's ranges of widths.
-SIDEWAYS = dict.fromkeys(
-    ("lawn.html", "notebooks/10_the_audit.html"),
-    (600, 992, 1024, 1199, 1200, 1366, 1699, 1700),
-)
 TEXTS = {path.stem for path in (ROOT / "book").glob("*.md")} - {"design", "lecturers"}
 NAMES = [
     *(f"{name}.html" for name in sorted(TEXTS | {"genindex", "search"})),
@@ -78,9 +71,6 @@ def test_a_page_opens_without_trouble_and_without_faults(name, scheme, opened, b
     assert page.locator("mjx-merror, .widget-error").count() == 0
     page.assert_quiet()
     assert page.evaluate(WIDE) == []
-    for width in SIDEWAYS.get(name, ()):
-        page.set_viewport_size({"width": width, "height": 800})
-        assert page.evaluate(OVER) <= 0, width
     every = "EVERY_SIZE" in os.environ  # and both themes
     assert not (of_page(page) if every else of_page(page, SIZES[:1], (scheme,)))
 
@@ -100,18 +90,8 @@ def test_the_panel_lives_and_follows_the_colour_menu(opened):
         assert page.locator("html").get_attribute("data-theme") == theme
 
 
-def test_search_says_the_chapter_and_shows_formulas_as_letters_and_no_tex(opened):
-    page = opened("search.html?q=Lipschitz")
-    found = page.locator("#search-results li", has_text="4. Lyapunov").locator("p.context")
-    assert "f(b)|≤K|a" in found.inner_text(timeout=PATIENCE)
-    words = page.evaluate("PAGES['notebooks/04_lyapunov']")
-    assert all(each in words for each in ("k_\u03c1", "V\u0307", "q\u0308", "1/2"))
-    assert not re.search(r"\\|frac\d", words)
-
-
-def test_of_what_the_front_page_finds_the_page_that_says_it_most_comes_first(opened):
+def test_search_finds_the_page_that_says_it_most_and_shows_formulas_as_letters(opened):
     page = opened("index.html")
-    assert page.get_by_role("button", name="Search").count() == 1
     page.get_by_role("button", name="Search").click()
     page.keyboard.type("LaSalle")
     page.keyboard.press("Enter")
@@ -119,6 +99,9 @@ def test_of_what_the_front_page_finds_the_page_that_says_it_most_comes_first(ope
     found = page.locator("#search-results li > a")
     found.nth(2).wait_for()
     assert found.first.get_attribute("href") == "notebooks/04_lyapunov.html"
+    words = page.evaluate("PAGES['notebooks/04_lyapunov']")
+    assert all(each in words for each in ("k_\u03c1", "V\u0307", "1/2"))
+    assert not re.search(r"\\|frac\d", words)
 
 
 class Parts(HTMLParser):
@@ -153,42 +136,26 @@ def test_no_link_of_the_site_is_broken(site):
                 assert unquote(url.fragment) in parts[there].anchors, f"{path.name}: {target}"
 
 
-def test_one_switch_unfolds_the_code_of_every_chapter_and_no_word_for_it_lies_under_the_contents(
-    opened,
-):
+def test_one_switch_unfolds_the_code_of_every_chapter(opened):
     folded = """() => [...document.querySelectorAll('details.above-input')].map(it => it.open)"""
     page = opened("notebooks/02_the_robot.html")
     assert page.evaluate(folded).count(True) == 0
     assert len(page.evaluate(folded)) > 5
-    ends = """() => [...document.querySelectorAll('details.above-input > summary')]
-        .map(it => it.getBoundingClientRect().right)"""
-    for width in (1200, 1280, 1359, 1360, 1366, 1920):
-        page.set_viewport_size({"width": width, "height": 800})
-        contents = page.locator(".bd-sidebar-secondary").bounding_box()["x"]
-        assert max(page.evaluate(ends)) < contents, width
     page.get_by_role("button", name="Show all code").click()
     assert all(page.evaluate(folded))
-    page = opened("notebooks/07_the_circle.html")
-    assert all(page.evaluate(folded))
-    page.get_by_role("button", name="Fold all code").click()
-    assert not any(opened("notebooks/02_the_robot.html").evaluate(folded))
+    assert all(opened("notebooks/07_the_circle.html").evaluate(folded))
 
 
 def test_a_symbol_that_is_touched_lights_up_and_no_other_and_has_a_halo_in_the_pictures(opened):
     page = opened("notebooks/04_lyapunov.html")
-    heading = page.locator("article h1")
-    heading.hover()
+    page.locator("article h1").hover()
     dark = settled_picture(page)
+    page.locator(f'#the-paper-s-bowl [data-c="{face.LETTERS["alpha"]}"]').first.hover()
     lit = """role => [...document.querySelectorAll(`[data-c="${role}"]`)]
         .map(it => getComputedStyle(it).filter !== 'none')"""
     for role, code in face.LETTERS.items():
-        page.locator(f'#the-paper-s-bowl [data-c="{code}"]').first.hover()
-        for other, letter in face.LETTERS.items():
-            assert set(page.evaluate(lit, letter)) == {other == role}, (role, other)
-        assert settled_picture(page) != dark or role not in ("alpha", "theta"), role
-    heading.hover()
-    assert not any(page.evaluate(lit, face.LETTERS["alpha"]))
-    assert settled_picture(page) == dark
+        assert set(page.evaluate(lit, code)) == {role == "alpha"}, role
+    assert settled_picture(page) != dark
 
 
 def test_pages_and_search_have_neither_the_guide_nor_solutions(site):
@@ -231,19 +198,10 @@ def test_a_papers_equation_that_is_mentioned_leads_to_where_it_is_derived(opened
     assert "paper 24" in page.locator("div.math:has(#paper-24)").text_content()
 
 
-def test_a_page_has_the_figures_of_its_theme_and_paper_the_light_ones(
-    opened, browser_page, tmp_path
-):
-    printed = []
-    for scheme in ("light", "dark"):
-        browser_page.emulate_media(color_scheme=scheme)
-        page = opened("notebooks/05_pose_to_pose.html")
-        page.wait_for_function(ALL_THERE, arg=scheme, timeout=PATIENCE)
-        page.pdf(path=tmp_path / "page.pdf", print_background=True)
-        pdf = pypdfium2.PdfDocument(tmp_path / "page.pdf")
-        printed.append([len(list(each.get_objects())) for each in pdf])
-    assert printed[0] == printed[1]
-    assert sum(printed[0]) > 1000
+def test_a_page_has_the_figures_of_its_theme(opened, browser_page):
+    browser_page.emulate_media(color_scheme="dark")
+    page = opened("notebooks/05_pose_to_pose.html")
+    page.wait_for_function(ALL_THERE, arg="dark", timeout=PATIENCE)
     page.locator(".theme-switch-button:visible").click(timeout=PATIENCE)
     page.locator('.theme-change-button[data-mode="light"]:visible').click(timeout=PATIENCE)
     page.wait_for_function(ALL_THERE, arg="light", timeout=PATIENCE)

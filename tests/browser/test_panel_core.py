@@ -109,30 +109,6 @@ def test_modes_equal_wmrlib(panel_core):
     assert printed["slower"] == math.inf
 
 
-def test_an_axis_has_two_round_numbers_at_least(panel_core):
-    random = np.random.default_rng(3)
-    ends = np.sort(random.normal(size=(500, 2)) * 10.0 ** random.uniform(-4, 5, (500, 1)))
-    asked = [[*row, most] for row in ends.tolist() for most in (0.5, 2, 3, 5)]
-    call = "(asked) => asked.map((each) => ticksOf(...each).ticks)"
-    for (low, high, _), ticks in zip(asked, panel_core.evaluate(call, asked), strict=True):
-        assert len(ticks) >= 2, (low, high)
-        slack = 1e-6 * (high - low)
-        assert low - slack <= min(ticks) < max(ticks) <= high + slack
-        step = ticks[1] - ticks[0]
-        assert round(step / 10.0 ** math.floor(math.log10(step) + 1e-9), 6) in (1, 2, 5)
-
-
-def test_lent_memory_does_not_change_a_run(panel_core):
-    shown = "JSON.stringify(run, (_, value) => (ArrayBuffer.isView(value) ? [...value] : value))"
-    text = f"(options) => {{ const run = simulate(options); return {shown}; }}"
-    lent = text.replace(
-        "simulate(options)",
-        "simulate(options, simulate({ ...options, start: [-50, 3, 1], duration: 90 }))",
-    )
-    for options in (OUTDOOR, OUTDOOR | {"reference": "circle", "law": "kanayama"}):
-        assert panel_core.evaluate(lent, options) == panel_core.evaluate(text, options)
-
-
 def test_a_run_that_leaves_the_range_of_numbers_says_so(panel_core):
     how = {"law": "aicardi", "method": "euler", "dt": 5.0, "duration": 20_000.0}
     options = OUTDOOR | how | {"gains": OUTDOOR["gains"] | {"k_rho": 90.0}}
