@@ -7,6 +7,7 @@ ask for different things, so that the tests are run with both where both are ins
 from __future__ import annotations
 
 import os
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
@@ -146,21 +147,28 @@ def panel_core(browser_page):
 
 
 @pytest.fixture(scope="session")
-def site(tmp_path_factory) -> Path:
-    """The folder of the site, built once for all processes.
+def made_once(tmp_path_factory):
+    """The function that makes a folder by its name, once for all processes of a run."""
+    base = tmp_path_factory.getbasetemp()
+    base = base.parent if "PYTEST_XDIST_WORKER" in os.environ else base
 
-    The environment variable BOOK_HTML can name one that is built already.
-    """
+    def folder(name: str, make: Callable[[Path], object]) -> Path:
+        output = base / name
+        with FileLock(f"{output}.lock"):
+            if not (output / "made").exists():
+                make(output)
+                (output / "made").touch()
+        return output
+
+    return folder
+
+
+@pytest.fixture(scope="session")
+def site(made_once) -> Path:
+    """The folder of the site. The environment variable BOOK_HTML can name one that is built."""
     if ready := os.environ.get("BOOK_HTML"):
         return Path(ready).resolve()
-    folder = tmp_path_factory.getbasetemp()
-    output = (folder.parent if "PYTEST_XDIST_WORKER" in os.environ else folder) / "book"
-    built = output / "built"
-    with FileLock(f"{output}.lock"):
-        if not built.exists():
-            run(ROOT, "book/tools/build.py", output)
-            built.touch()
-    return output / "html"
+    return made_once("book", lambda output: run(ROOT, "book/tools/build.py", output)) / "html"
 
 
 @pytest.fixture

@@ -11,7 +11,6 @@ import sys
 import time
 import urllib.error
 import urllib.request
-from collections.abc import Callable
 from pathlib import Path
 
 from wmrbook.figures.style import in_symbols
@@ -52,20 +51,6 @@ def chapters() -> list[Path]:
 def pages(site: Path) -> list[Path]:
     """The pages of the site, without the theme's own files."""
     return sorted(path for path in site.rglob("*.html") if "_static" not in path.parts)
-
-
-def again(page, key: str, load: Callable[[], object]) -> None:
-    """Load a page anew, once more where a browser under load hands it an empty store.
-
-    Chromium does that now and then beside busy processes, with a profile on a disk too. The next
-    load has what was kept under keys that begin like this one.
-    """
-    load()
-    for _ in range(5):
-        if page.evaluate("key => Object.keys(localStorage).some(it => it.startsWith(key))", key):
-            return
-        page.reload()
-    raise AssertionError(f"the page keeps nothing under {key}")
 
 
 def confine(page, folder: Path) -> None:

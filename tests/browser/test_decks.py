@@ -34,14 +34,12 @@ SHOW = """what => {
 }"""
 
 
-@pytest.fixture(scope="module")
-def decks(tmp_path_factory) -> Path:
+@pytest.fixture(scope="session")
+def decks(made_once) -> Path:
     """The folder that the environment variable SLIDES names, or one with all decks, made now."""
     if READY:
         return Path(READY).resolve()
-    folder = tmp_path_factory.mktemp("decks")
-    slides.main(folder, [])
-    return folder
+    return made_once("decks", lambda folder: slides.main(folder, []))
 
 
 @pytest.fixture
