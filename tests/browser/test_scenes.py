@@ -1,4 +1,4 @@
-"""One scene in each chapter grows: its sentences are true, its runs stay, its handles move it."""
+"""A scene that grows: what each of its ideas says is so."""
 
 from __future__ import annotations
 

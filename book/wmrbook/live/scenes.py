@@ -1,4 +1,4 @@
-"""One scene in each chapter grows: what it shows, idea by idea, and where its knobs go for that."""
+"""Some figures grow: what such a scene shows, idea by idea, and where its knobs go for that."""
 
 from __future__ import annotations
 
