@@ -1,4 +1,4 @@
-"""Sweeps on one core against the same loop in C and in numpy."""
+"""Sweeps on one core: sampled against C and numpy, in continuous time against heyoka."""
 
 from __future__ import annotations
 
@@ -16,6 +16,7 @@ from wmrlib import _threads as threads
 
 GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
 RUNS, STEPS, DT = 10_000, 300, 0.02
+ENSEMBLE = 4_000
 METHODS = {"euler": "tangent", "arc": "arc"}  # of a sweep, and the functions in C
 # GCC joins sin(a) and cos(a) into one call that has no vector form, unless that pass is disabled.
 FAST = ("-O3", "-march=native", "-ffast-math", "-fdisable-tree-sincos")
@@ -38,12 +39,17 @@ def states(runs: int) -> list[np.ndarray]:
     return [np.array(np.broadcast_to(value, runs), dtype=float) for value in row]
 
 
+def on_one_core():
+    """A context in which sweeps have one core."""
+    return mock.patch.object(threads, "CORES", 1)
+
+
 def sweep(method: str):
     start, of = wmr.paper.outdoor().start, gains(RUNS)
     how = {"method": method, "dt": DT, "duration": STEPS * DT, "progress": False}
 
     def run():
-        with mock.patch.object(threads, "CORES", 1):
+        with on_one_core():
             return wmr.sweep(start, GOAL, of, **how)
 
     return run
@@ -99,7 +105,7 @@ def numpy_case():
     return run
 
 
-def rows(folder: Path) -> list[Row]:
+def sampled(folder: Path) -> list[Row]:
     libraries, found = in_c(folder), []
     if not libraries:
         print("gcc was not found: no limit to compare with")
@@ -115,3 +121,71 @@ def rows(folder: Path) -> list[Row]:
             step, ratio = 1e9 * value / RUNS / STEPS, value / limit if limit else None
             found.append(Row(section, name, step, "ns a step", ratio))
     return found
+
+
+def some_runs() -> tuple[wmr.Pose, wmr.Gains]:
+    """Starts round the origin and gains, neither stiff nor alike."""
+    draw = np.random.default_rng(1).uniform
+    far, sight = draw(5.0, 60.0, ENSEMBLE), draw(-np.pi, np.pi, ENSEMBLE)
+    starts = wmr.Pose(far * np.cos(sight), far * np.sin(sight), draw(-2.0, 2.0, ENSEMBLE))
+    rate, damping = draw(0.3, 1.0, ENSEMBLE), draw(0.7, 1.5, ENSEMBLE)
+    return starts, wmr.gains_for(
+        rate, natural_frequency=draw(0.7, 1.4, ENSEMBLE) * rate, damping=damping, v_max=4.0
+    )
+
+
+def heyoka_case(starts: wmr.Pose, gains: wmr.Gains, seconds: float):
+    """Taylor series, a batch of runs at a time, until the last of it is within 5 cm."""
+    import heyoka as hy
+
+    rho, alpha, theta = hy.make_vars("rho", "alpha", "theta")
+    k_rho, k_alpha, h, v_max = (hy.par[i] for i in range(4))
+    v = v_max * (1.0 - hy.exp(-k_rho * rho)) * hy.cos(alpha)
+    turning = v / rho * hy.sin(alpha)
+    omega = k_alpha * alpha + v / rho * (hy.sin(alpha) / alpha) * (alpha + h * theta)
+    system = [(rho, -v * hy.cos(alpha)), (alpha, turning - omega), (theta, turning)]
+    width, arrived = hy.recommended_simd_size(), {}
+    end = hy.nt_event_batch(rho - 0.05, lambda _, time, sign, lane: arrived.setdefault(lane, time))
+    robots = hy.taylor_adaptive_batch(
+        system, np.ones((3, width)), tol=1e-10, nt_events=[end], pars=np.ones((4, width))
+    )
+    begin = np.array(wmr.polar_error(starts, wmr.Pose(0.0, 0.0, 0.0)))
+    pars = np.array(np.broadcast_arrays(*gains))
+
+    def run():
+        times = np.empty(ENSEMBLE)
+        for first in range(0, ENSEMBLE, width):
+            some = slice(first, first + width)
+            arrived.clear()
+            robots.set_time(0.0)
+            robots.state[:], robots.pars[:] = begin[:, some], pars[:, some]
+            robots.propagate_until(seconds, callback=lambda _: len(arrived) < width)
+            times[some] = [arrived.get(lane, np.inf) for lane in range(width)]
+        return times
+
+    return run
+
+
+def continuous() -> list[Row]:
+    """To arrival within 5 cm or for a minute, at a tolerance of 1e-10."""
+    (starts, gains), goal = some_runs(), wmr.Pose(0.0, 0.0, 0.0)
+    with on_one_core():
+        ours = "wmrlib.sweep, peaks and lengths too"
+        cases = {ours: lambda: wmr.sweep(starts, goal, gains, progress=False)}
+        try:
+            cases["heyoka, batches"] = heyoka_case(starts, gains, 60.0)
+        except ImportError:
+            print("heyoka is not installed: left out")
+        else:
+            mine, theirs = cases[ours]().time, cases["heyoka, batches"]()
+            np.testing.assert_allclose(mine, theirs, atol=1e-6)
+        seconds = in_turn(cases)
+    section = f"{ENSEMBLE:,} runs in continuous time on one core, against sweep"
+    return [
+        Row(section, name, 1e6 * s / ENSEMBLE, "us a run", s / seconds[ours])
+        for name, s in seconds.items()
+    ]
+
+
+def rows(folder: Path) -> list[Row]:
+    return [*sampled(folder), *continuous()]
