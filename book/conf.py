@@ -42,7 +42,7 @@ html_theme = "sphinx_book_theme"
 html_title = project
 html_static_path = ["_static"]
 html_favicon = "icon.svg"  # else a browser asks a server for one that is not there
-html_css_files = ["vendor/face.css", "book.css"]
+html_css_files = ["vendor/face.css", "book.css", ("print.css", {"media": "print"})]
 html_show_sphinx = False
 html_domain_indices = False
 # Light or dark as the reader's system is; the button overrides it.

@@ -45,6 +45,7 @@ SOLUTION = re.compile(
     r"\n*<details><summary>Solution</summary>.*?</details>| Click \*\*1 cell hidden.*?solution\.",
     re.DOTALL,
 )
+WIDGET = re.compile(r'\bwidget-(?=\d{3}")')  # as run.py names them
 SPHINX = ("-j", "auto", "--fail-on-warning", "--keep-going", "--nitpicky", "--quiet")
 NO_NPM = (
     "The book needs npm for its JavaScript: install Node.js (Debian: apt install npm), "
@@ -78,7 +79,8 @@ def make_pdf(output: Path) -> None:
     """Print the pages that `main` has built."""
     say("the PDF, about a minute")
     sphinx("singlehtml", output)  # from the same doctrees: nothing is executed twice
-    print_book(output / "html", output / "singlehtml" / "index.html", output / "book.pdf")
+    notebooks = [*output.glob("source/**/*.ipynb"), *output.glob("jupyter_execute/*.ipynb")]
+    print_book(output / "singlehtml" / "index.html", notebooks, output / "book.pdf")
     print(output / "book.pdf")
 
 
@@ -194,6 +196,7 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
     for chapter in (source / "notebooks").glob("*.ipynb"):
         # In the repository the book's pages are in ../book, seen from a notebook.
         text = chapter.read_text(encoding="utf-8").replace("](../book/", "](../")
+        text = WIDGET.sub(rf"\g<0>{chapter.stem[:2]}-", text)  # all chapters may be on one page
         notebook = nbformat.reads(text, as_version=4)
         if not lecturer:
             without_solutions(notebook)

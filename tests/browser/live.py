@@ -43,6 +43,11 @@ def run(folder: Path, *arguments: str) -> None:
     assert done.returncode == 0, done.stdout + done.stderr
 
 
+def letters(text: str) -> str:
+    """Without spaces, which a PDF does not have everywhere, and marks."""
+    return re.sub(r"[\W_]+", "", text)
+
+
 def chapters() -> list[Path]:
     """The book's notebooks, in order."""
     return sorted((ROOT / "notebooks").glob("[0-9][0-9]_*.ipynb"))

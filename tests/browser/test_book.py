@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import re
-from collections import Counter
 from pathlib import Path
 from urllib.parse import urlsplit
 from zipfile import ZipFile
@@ -12,28 +11,14 @@ from zipfile import ZipFile
 import build
 import conf
 import nbformat
+import pypdfium2
 import pytest
-from faults import PANEL, SIZES, of_page
+from faults import SIZES, of_page
 from lecturers import closed, leaks
-from live import (
-    PATIENCE,
-    ROOT,
-    as_shown,
-    assert_slider_matters,
-    chapters,
-    pages,
-    run,
-    sliders,
-)
-from paper import Printed, letters
-from pdf import terms
-from test_live import NAMES
-
-from wmrbook import live
+from live import PATIENCE, ROOT, assert_slider_matters, chapters, letters, run, sliders
+from pypdfium2.raw import FPDF_PAGEOBJ_IMAGE
 
 pytestmark = [pytest.mark.slow, pytest.mark.needs("browser")]
-FONT = re.compile(r"(SourceSerif4|SourceSans3|JetBrainsMono|STIXTwoText)\w*(-\w+)?")  # shipped
-CONTROLS = "Play|Commit|Just show me|Try again|Show the code|Hide the code"
 
 
 @pytest.mark.usefixtures("site")  # what both builds need is there then
@@ -57,77 +42,21 @@ def book(site) -> Path:
     return site.parent / "book.pdf"
 
 
-@pytest.fixture(scope="module")
-def printed(book) -> Printed:
+def test_the_printed_book_has_all_chapters_where_its_contents_say(book):
+    """What stands on the pages is a test of one chapter's, in test_page.py."""
     assert book.is_file(), "build the book with --pdf"
-    return Printed(book)
-
-
-def test_the_printed_book_is_a_book(site, printed):
-    title, back, contents = *printed.pages[:2], letters(printed.text("Contents"))
-    assert conf.project in title
-    assert conf.edition in title
-    assert all(words in back for words in ("CC BY 4.0", "BSD", "Yousif", conf.edition))
+    with pypdfium2.PdfDocument(book) as printed:
+        pages = [page.get_textpage().get_text_bounded() for page in printed]
+        images = [it for page in printed for it in page.get_objects([FPDF_PAGEOBJ_IMAGE])]
+    assert letters(conf.edition) in letters(pages[0] + pages[1])
     for chapter in chapters():
-        number = int(chapter.name[:2])
         heading = nbformat.read(chapter, 4).cells[0].source.splitlines()[0].removeprefix("# ")
-        its_pages = printed.of(f"{number}. {heading}")
-        assert letters(f"{number} {heading} {its_pages[0]}") in contents
-        for page in its_pages:
-            head = f"{number} {heading}" if page % 2 else conf.project
-            assert head in printed.pages[page - 1]
-            assert str(page) in printed.pages[page - 1]
-        assert f"Exercise {number}.1" in printed.text(f"{number}. {heading}")
-    assert "Bibliography" in printed.begins
-    text = " ".join(printed.pages)
-    assert not [it for it in closed() if it in text]
-    assert re.search(r"\(24\) \[p\. \d+\]", text)  # a reader on paper turns pages
-    assert not [name for name in printed.fonts() if not FONT.fullmatch(name)]
-    panels = [path.read_text(encoding="utf-8").count(PANEL) for path in pages(site)]
-    pictures = printed.pictures()
-    assert len(pictures) > sum(panels) > 5
-    assert min(pictures) > 3
-    assert not Counter(kind for kind, _ in printed.faults())
-
-
-def test_what_the_printed_book_lists_stands_where_it_says(printed):
-    figures = " ".join(printed.lines(printed.of("Figures")))
-    listed = re.findall(r"\b(\d+\.\d+) \D.*?(\d+)(?= \d+\.\d+ \D)", figures)
-    line = re.compile(r"(?:\d+ ?(?=\D))?(.+?) ?(\d+)")
-    entries = [line.fullmatch(it) for it in printed.lines(printed.of("Contents"))]
-    entries = [it for it in entries if it]
-    assert len(entries) > 5 * len(chapters())
-    for entry, page in (it.groups() for it in entries):
-        heading = re.sub(r"^.*\d{3} ", "", entry)  # of two that came as one line
-        assert letters(heading) in letters(printed.pages[int(page) - 1]), heading
-    assert len(listed) > 30
-    for number, page in listed:
-        assert f"Figure {number}." in printed.pages[int(page) - 1], f"figure {number}"
-    index = "".join("".join(printed.lines(printed.of("Index"))).split())
-    terms_pages = {
-        term: re.search(rf"(?<=[\dxt]){re.escape(term.replace(' ', ''))}((?:,\d+)+)", index)
-        for term, _ in terms()
-    }
-    assert len(terms_pages) >= 80
-    for term, pattern in terms():
-        for page in re.findall(r"\d+", terms_pages[term][1]):
-            said = printed.pages[int(page) - 1]
-            assert re.search(pattern, said, re.IGNORECASE), f"{term}: page {page}"
-
-
-def test_paper_has_states_and_no_controls_and_answers_at_the_back(printed):
-    at_the_back = printed.of("Answers to the predictions")
-    back, before = (
-        " ".join(printed.lines(it)) for it in (at_the_back, range(1, at_the_back.start))
-    )
-    asks = [ask for name in NAMES if (ask := getattr(live, name)().setup["ask"])]
-    for ask in asks:
-        why, question = (letters(as_shown(ask[part])) for part in ("why", "question"))
-        assert why in letters(back), ask["name"]
-        assert why not in letters(before), ask["name"]
-        assert question.removesuffix("Turnthearrow")[-30:] in letters(before), ask["name"]
-    assert len(re.findall(r"Prediction \d+\.\d+\.", before)) == len(asks)
-    assert not re.findall(rf"(?<![\w*])(?:{CONTROLS})(?!\w)", before + back)
+        title = f"{int(chapter.name[:2])}. {heading}"
+        listed = re.search(rf"{re.escape(title)}\s+(\d+)", "\n".join(pages[:5]))
+        assert letters(pages[int(listed[1]) - 1]).startswith(letters(listed[1] + title)), title
+    text = letters("".join(pages))
+    assert not [it for it in closed() if letters(it) in text]
+    assert len(images) > 3 * len(chapters())
 
 
 def test_the_zip_has_all_that_is_handed_out_and_opens_from_the_disk(book, tmp_path, browser_page):

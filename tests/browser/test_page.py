@@ -10,20 +10,26 @@ from html.parser import HTMLParser
 from pathlib import Path
 from urllib.parse import unquote, urlsplit
 
+import numpy as np
+import pypdfium2
 import pytest
 from faults import SIZES, of_page
 from lecturers import leaks
 from live import (
     PATIENCE,
     ROOT,
+    as_shown,
     assert_slider_matters,
     chapters,
+    letters,
     pages,
     settled_picture,
     sliders,
 )
+from pdf import print_page
+from pypdfium2.raw import FPDF_PAGEOBJ_IMAGE
 
-from wmrbook import face
+from wmrbook import face, live
 
 # Formulas that would have to be scrolled.
 WIDE = """() => [...document.querySelectorAll('mjx-container[display]')]
@@ -205,3 +211,34 @@ def test_a_page_has_the_figures_of_its_theme(opened, browser_page):
     page.locator(".theme-switch-button:visible").click(timeout=PATIENCE)
     page.locator('.theme-change-button[data-mode="light"]:visible').click(timeout=PATIENCE)
     page.wait_for_function(ALL_THERE, arg="light", timeout=PATIENCE)
+
+
+CONTROLS = "Copy|Show all code|Hide the code|Larger|Play|Commit|Just show me|Try again|Run|Code"
+
+
+def test_a_printed_chapter_has_no_control_no_imports_and_no_prediction_that_waits(
+    site, browser, tmp_path
+):
+    print_page(browser, site / "notebooks" / "05_pose_to_pose.html", tmp_path / "page.pdf")
+    with pypdfium2.PdfDocument(tmp_path / "page.pdf") as printed:
+        lines = [
+            line.strip()
+            for page in printed
+            for line in page.get_textpage().get_text_bounded().splitlines()
+        ]
+        images = [it for page in printed for it in page.get_objects([FPDF_PAGEOBJ_IMAGE])]
+        colours = [len(np.unique(it.get_bitmap().to_numpy()[::8, ::8])) for it in images]
+    assert not [line for line in lines if re.fullmatch(f"(?:{CONTROLS}| )+", line)]
+    assert not [line for line in lines if re.match(r"import |from \w+ import", line)]
+    text = letters(" ".join(lines))
+    source = (ROOT / "notebooks" / "05_pose_to_pose.ipynb").read_text(encoding="utf-8")
+    asks = [live_of(name) for name in re.findall(r"live\.(\w+)\(", source)]
+    assert asks
+    for ask in filter(None, asks):
+        assert letters(as_shown(ask["why"])) in text, ask["name"]
+    assert len(colours) >= 3
+    assert min(colours) > 3  # a picture of each panel
+
+
+def live_of(name):
+    return getattr(live, name)().setup["ask"]
