@@ -108,7 +108,7 @@ def slip(value: Any, right: Any, order: str = "", within: float = 1e-3) -> None:
 
 
 def _flat(values: Any) -> list[float]:
-    """The numbers of a nest of them; without numpy, which the book's pages lack."""
+    """The numbers of a nest of them as Python's floats, which overflow without a warning."""
     if hasattr(values, "__iter__"):
         return [number for each in values for number in _flat(each)]
     return [float(values)]
