@@ -8,7 +8,6 @@ from collections.abc import Mapping
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.colors import LogNorm
-from scipy.optimize import brentq
 
 from wmrbook.figures._drawing import note
 from wmrbook.figures.style import COLOURS, Picture, new_figure
@@ -129,6 +128,7 @@ def _course(poles: np.ndarray) -> str:
 
 def _with_meeting(gains: Gains, over: str, values: np.ndarray) -> np.ndarray:
     """The values, and those at which the two poles meet, so that no line cuts that corner."""
+    from scipy.optimize import brentq  # here, because it takes half a second to load
 
     def excess(value):
         return modes(gains._replace(**{over: value})).damping - 1.0

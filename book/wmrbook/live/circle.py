@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 
-import control
 import numpy as np
 
 from wmrbook.live.parts import Knob, Live, choose
@@ -64,6 +63,8 @@ def lag() -> Live:
 
 def lqr() -> Live:
     """The weight of the error in an LQR: its poles, and the drive behind the goal."""
+    import control  # here, because it takes a second to load, and one chapter needs it
+
     tried = np.geomspace(0.01, WEIGHTS[1], 41)
     fades = [-max(control.lqr(A, B, q * np.eye(3), np.eye(2))[2].real) for q in (*WEIGHTS, *tried)]
     ratio, heavier, fastest = fades[1] / fades[0], WEIGHTS[1], tried[np.argmax(fades[2:])]
