@@ -126,7 +126,7 @@ def test_students_get_no_answers_and_what_the_notebooks_need(course, tmp_path):
     assert not [*robot.rglob("questions")]  # which compute the keys of the concept questions
     assert (robot / "README.md").read_text("utf-8").count("-r environment.txt -e .") == 2
     code = "import wmrbook.figures, wmrbook.grading.earth, wmrlib; print(wmrlib.__file__)"
-    path = {"PYTHONPATH": f"{robot}{os.pathsep}{robot / 'book'}"}
+    path = {"PYTHONPATH": os.pathsep.join(map(str, (robot, robot / "book", robot / "book/robot")))}
     line = [sys.executable, "-c", code]
     done = subprocess.run(line, cwd=robot, env=os.environ | path, capture_output=True, text=True)
     assert done.stdout.startswith(str(robot)), done.stderr
