@@ -159,7 +159,7 @@ def test_the_readmes_ten_lines_do_what_their_comments_say(capsys):
 
 @pytest.mark.parametrize(
     ("part", "package"),
-    [("wmrlib.symbolic", "sympy"), ("wmrbook", "filelock")],
+    [("wmrlib.symbolic", "sympy"), ("wmrbook", "matplotlib")],
 )
 def test_a_part_without_its_package_says_what_to_install(part, package):
     code = f"import sys; sys.modules['{package}'] = None; import {part}"

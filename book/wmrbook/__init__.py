@@ -8,7 +8,6 @@ from importlib.util import find_spec
 _NEEDED = (
     "anywidget",
     "control",
-    "filelock",
     "geographiclib",
     "ipywidgets",
     "matplotlib",
