@@ -362,10 +362,8 @@ def test_the_picture_zooms_to_the_goal_and_back(emptied_page):
 RUNS = [
     Explorer(method="continuous", gains=wmr.Gains(0.7, 3.0, 1.5, 2.0), arrival_radius=0.2),
     Explorer(wmr.Pose(1.0, -2.0, 3.0), law="printed", method="euler", duration=7.5),
-    Explorer.circle(law="aicardi"),
     Explorer.circle(law="kanayama", dt=0.05),
     Explorer(wheels=LAZY),
-    Explorer.circle(wheels=wmr.Wheels(0.3, lag=0.2)),
 ]
 
 

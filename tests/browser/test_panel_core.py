@@ -10,7 +10,6 @@ import pytest
 import sympy as sp
 
 import wmrlib as wmr
-from wmrbook.panel.controls import METHODS
 from wmrlib import laws, paper, symbolic
 
 OUTDOOR = {
@@ -68,7 +67,7 @@ def test_maps_equal_a_sweep(panel_core):
     }
     call = """([options, metrics]) =>
         metrics.map((metric) => Array.from(landscape({...options, metric})))"""
-    for law, method in itertools.product(laws.POSE_LAWS, METHODS):
+    for law, method in ("corrected", "arc"), ("corrected", "continuous"), ("aicardi", "euler"):
         metrics = [*names] if law == "corrected" else ["headingError"]
         kx, ky = next(axes)
         xs, ys = np.linspace(*low_high[kx], 12), np.linspace(*low_high[ky], 10)
