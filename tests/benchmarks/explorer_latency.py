@@ -26,7 +26,7 @@ from wmrbook.panel import Explorer
 sys.path[:0] = [str(ROOT / place) for place in ("tests/browser", "tests", "book/tools")]
 from conftest import FLAGS  # noqa: E402
 from kit import bundle  # noqa: E402
-from live import PATIENCE, jupyterlab, thumb  # noqa: E402
+from live import PATIENCE, jupyterlab  # noqa: E402
 from pdf import BROWSERS  # noqa: E402
 
 STEPS = 40
@@ -35,6 +35,12 @@ INTERACTIVE_CELL = """
 %matplotlib inline
 import ipywidgets, matplotlib.pyplot as plt, wmrlib as wmr
 case = wmr.paper.outdoor()
+def thumb(slider) -> tuple[float, float]:
+    """Where the handle of a slider is, which is 24 px wide."""
+    share, box = slider.evaluate("it => it.value / it.max"), slider.bounding_box()
+    return box["x"] + 12 + share * (box["width"] - 24), box["y"] + box["height"] / 2
+
+
 def show(k_rho=2.0, k_alpha=1.0, h=0.3):
     run = wmr.simulate(case.start, case.goal, wmr.Gains(k_rho, k_alpha, h))
     figure, (path, speed) = plt.subplots(1, 2, figsize=(9, 4))
