@@ -158,6 +158,7 @@ def vectorised(function: Callable, forms: dict = _FORMS) -> Callable:
             for name, value in plain.__globals__.items()
             if name in plain.__code__.co_names
         }
+        used["__name__"] = plain.__module__  # numba imports it for what it has kept
         made = FunctionType(plain.__code__, used, plain.__name__, plain.__defaults__)
         made.__qualname__ = f"{plain.__qualname__}_vectorised"
         forms[function] = formula(made)
