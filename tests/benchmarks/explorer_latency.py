@@ -35,12 +35,6 @@ INTERACTIVE_CELL = """
 %matplotlib inline
 import ipywidgets, matplotlib.pyplot as plt, wmrlib as wmr
 case = wmr.paper.outdoor()
-def thumb(slider) -> tuple[float, float]:
-    """Where the handle of a slider is, which is 24 px wide."""
-    share, box = slider.evaluate("it => it.value / it.max"), slider.bounding_box()
-    return box["x"] + 12 + share * (box["width"] - 24), box["y"] + box["height"] / 2
-
-
 def show(k_rho=2.0, k_alpha=1.0, h=0.3):
     run = wmr.simulate(case.start, case.goal, wmr.Gains(k_rho, k_alpha, h))
     figure, (path, speed) = plt.subplots(1, 2, figsize=(9, 4))
@@ -79,6 +73,12 @@ MAP_STOPWATCH = """() => {
         heard = null;
     });
 }"""
+
+
+def thumb(slider) -> tuple[float, float]:
+    """Where the handle of a slider is, which is 24 px wide."""
+    share, box = slider.evaluate("it => it.value / it.max"), slider.bounding_box()
+    return box["x"] + 12 + share * (box["width"] - 24), box["y"] + box["height"] / 2
 
 
 def drag(page, handle, wait: float) -> list[float]:
