@@ -1,7 +1,6 @@
 """The audit: every row is there, and its verdict changes when what it is about changes."""
 
 import math
-import re
 from functools import cache
 
 import nbformat
@@ -57,16 +56,10 @@ def all_rows():
 def test_everything_has_a_row_and_the_verdict_found_by_hand():
     assert list(all_rows()) == ITEMS
     assert PUBLISHED.keys() > INPUTS
-    assert sum(len(audit.rows(group)) for group in audit.GROUPS[1:]) + 27 == len(all_rows())
     for verdict, items in FOUND.items():
         assert {item for item, row in all_rows().items() if row.verdict is verdict} == items
     counts = {Verdict.HOLDS: 25, Verdict.TYPO: 7, Verdict.WRONG: 4, Verdict.OPEN: 7}
     assert audit.tally(list(all_rows().values())) == counts
-    for found in all_rows().values():
-        assert found.says
-        assert found.why
-        assert found.holds.endswith(".")
-    assert all_rows()["x_error_at_start"].why.endswith("with x north only")
     with pytest.raises(ValueError, match=r"group = 'tables' is not allowed"):
         audit.rows("tables")
 
@@ -183,35 +176,19 @@ def test_a_slip_is_a_typo_if_something_printed_needs_the_right_form(monkeypatch)
     for place, old, factor, verdict in (
         (8, symbolic.v, -1, Verdict.TYPO),  # (10) and (20) need the right one
         (1, paper_symbols.V_l, -1, Verdict.WRONG),
-        (13, symbolic.lat1, 2, Verdict.TYPO),
         (17, symbolic.lat1, -1, Verdict.TYPO),
         (17, symbolic.lat1, 3 * symbolic.lat2, Verdict.WRONG),  # two slips
-        (18, symbolic.h, -1, Verdict.WRONG),
-        (22, symbolic.k_rho, -1, Verdict.WRONG),
     ):
         right = row.EQUATIONS[place].rhs.subs(old, factor * old)
         assert verdict_with(monkeypatch, f"eq-{place}", equation(place, right)) is verdict, place
 
 
 def test_a_law_that_no_slip_mends_is_wrong_and_stabilises_nothing(monkeypatch):
-    wrong = sp.Integer(7), -_TURN, symbolic.theta**3 * symbolic.rho, -audit.steering()
-    for law in wrong:
+    for law in (-_TURN, -audit.steering()):
         for item in ("eq-24", "eq-25", "claim-stable"):
             assert verdict_with(monkeypatch, item, equation(24, law)) is Verdict.WRONG, (law, item)
-    with monkeypatch.context() as patched:  # (25) follows from a wrong law
-        equation(24, -_TURN)(patched)
-        follows = equation(25, audit.slope(-_TURN))
-        assert verdict_with(patched, "eq-25", follows) is Verdict.WRONG
-        follows(patched)  # and (26) from (25): it repeats an error then, not a typo
-        end = equation(26, audit.slope(-_TURN))
-        assert verdict_with(patched, "eq-26", end) is Verdict.WRONG
     slipped = audit.steering() - 2 * _TURN  # one sign
-    for item in ("eq-24", "claim-stable"):
-        assert verdict_with(monkeypatch, item, equation(24, slipped)) is Verdict.TYPO
-    other_end = right_side(26).subs(symbolic.k_alpha, -symbolic.k_alpha)
-    for place, right in ((26, other_end), (22, -right_side(22))):  # now nothing needs it
-        for item in ("eq-24", "claim-stable"):
-            assert verdict_with(monkeypatch, item, equation(place, right)) is Verdict.WRONG
+    assert verdict_with(monkeypatch, "claim-stable", equation(24, slipped)) is Verdict.TYPO
 
 
 def test_slips():
@@ -225,11 +202,6 @@ def test_slips():
     assert slip(a + b + c, a + b) == "$c$ too many"
     assert slip(a + b, a + b * c) == "$c$ missing"
     assert slip(a * sp.cos(b), a * sp.sin(b)).endswith("for $\\sin{\\left(b \\right)}$")
-    law = audit.steering()
-    for factor in (_ALPHA, symbolic.h, symbolic.k_alpha, symbolic.v_max, sp.sin(_ALPHA)):
-        for term in sp.expand(law).args:
-            less = law - term + term / factor
-            assert slip(less, law) or not term.has(factor), (factor, term)
     assert slip(-a - b * c, a + b * c) is None
     assert slip(-a + b * a, a + c * b) is None
 
@@ -310,24 +282,3 @@ def test_places_finds_the_tagged_cells_and_the_headings_above(folder):
     assert audit.missing(three, where) == ["eq-26"]
     with pytest.raises(ValueError, match=r"is not allowed: one with notebooks"):
         audit.places(folder / "nowhere")
-
-
-def test_the_table_is_well_formed_markdown(folder):
-    bundle = audit.Table(list(all_rows().values()), audit.places(folder))._repr_mimebundle_()
-    lines, plain = (bundle[kind].splitlines() for kind in ("text/markdown", "text/plain"))
-    assert len(lines) == len(all_rows()) + 4
-    assert lines[0] == f"*{audit.SOURCE}*"
-    assert plain[0] == audit.SOURCE
-    for line in lines[2:]:
-        assert len(re.findall(r"(?<!\\)\|", line)) == 6
-        parts = line.split("$")
-        assert len(parts) % 2 == 1
-        for formula in parts[1::2]:
-            assert "|" not in formula
-            for one, other in (("{", "}"), (r"\left", r"\right"), (r"\begin", r"\end")):
-                assert formula.count(one) == formula.count(other)
-    four, six = r"[4, The \| law](04_lyapunov.ipynb)", "[6, Six](06_the_circle.ipynb)"
-    assert f"{four}, cell 2, 3; {six}, cell 1" in lines[28]
-    assert "no cell" in lines[5]
-    assert plain[10].startswith("(10)  ")
-    assert "✎ typo" in plain[10]

@@ -40,15 +40,6 @@ def test_real_names_the_argument_its_value_and_what_is_needed():
             checks.real("x", value, **bounds)
 
 
-def test_what_is_masked_or_beyond_a_float_is_no_number():
-    masked = np.ma.array([1.0, 2.0], mask=[False, True])
-    one = ([[1.0, np.ma.masked]],)
-    for hidden in (np.ma.masked, masked, [masked], one, [1.0, 10**400], 10**5000):
-        for name, check in (("x", checks.real), ("dt", checks.scalar)):
-            with pytest.raises(ValueError, match=rf"(?s)^{name} = .* is not allowed: {FINITE}"):
-                check(name, hidden, **({"nan": True} if name == "x" else {}))
-
-
 def test_the_other_checks_say_what_is_wrong():
     ragged = [[1], [2, 3]]
     for check, message in (

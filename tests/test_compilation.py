@@ -6,8 +6,6 @@ import subprocess
 import sys
 from pathlib import Path
 
-import numba
-import numpy as np
 import pytest
 
 import wmrlib as wmr
@@ -186,34 +184,3 @@ def test_a_link_to_a_folder_is_not_used_and_a_new_folder_is_closed_to_others(tmp
     link.symlink_to(tmp_path)
     assert compilation._folder([link, folder]) == folder
     assert folder.stat().st_mode & 0o777 == 0o700
-
-
-def test_an_edit_to_any_compiled_module_and_another_compiler_lead_to_another_folder(
-    monkeypatch, tmp_path
-):
-    users = {
-        path
-        for path in PACKAGE.rglob("*.py")
-        if "wmrlib.compilation import" in path.read_text(encoding="utf-8")
-        and path.parent.name != "symbolic"  # which prints modules that are compiled
-    }
-    assert PACKAGE / "engine" / "sampled.py" in users <= set(compilation._SOURCES)
-    copies = [Path(shutil.copy(path, tmp_path / f"{k}.py")) for k, path in enumerate(users)]
-    monkeypatch.setattr(compilation, "_SOURCES", copies)
-    digests = {compilation._digest()}
-    for path in copies:
-        path.write_text("# an edit", encoding="utf-8")
-        digests.add(compilation._digest())
-    monkeypatch.setattr(numba, "__version__", "0.0")
-    digests.add(compilation._digest())
-    monkeypatch.setattr(sys.implementation, "cache_tag", "cpython-399")
-    digests.add(compilation._digest())
-    assert len(digests) == len(users) + 3
-
-
-def test_one_entry_beside_a_number_and_read_only_arrays_bring_no_warning():
-    one, fixed, goal = np.zeros(1), np.zeros(3), wmr.Pose(1.0, 0.0, 0.0)
-    fixed.flags.writeable = False
-    assert wmr.polar_error(wmr.Pose(one, one, one), goal).rho.tolist() == [1.0]
-    assert wmr.polar_error(wmr.Pose(fixed, 0.0, 0.0), goal).rho.tolist() == [1.0] * 3
-    assert wmr.wrap_angle(np.zeros((2, 3)).T).shape == (3, 2)

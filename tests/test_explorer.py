@@ -69,14 +69,6 @@ def test_the_circle_is_followed_with_and_without_feed_forward():
     assert Explorer(reference=paper.circle).moving
 
 
-def test_what_follows_the_state_is_told_once_a_change():
-    explorer, told = Explorer(), []
-    explorer.observe(told.append, "state")
-    explorer.gains = GAINS
-    explorer.gains = GAINS
-    assert len(told) == 1
-
-
 def test_the_page_says_the_figures_that_its_panel_shows():
     text = PAGE.read_text(encoding="utf-8")
     panel = eval(re.search(r"^Explorer\(.*\)$", text, re.MULTILINE).group())
@@ -132,14 +124,6 @@ def test_bad_options_are_refused_by_name():
             Explorer(**{name: value})
 
 
-def test_bad_settings_are_refused_by_name():
-    explorer = Explorer()
-    numbers = {"gains": 1.0, "feedback": 1.0, "dt": -1.0, "goal": 7}
-    for name, value in (numbers | {"law": "linear", "start": None}).items():
-        with pytest.raises(ValueError, match=f"^{name} = "):
-            setattr(explorer, name, value)
-
-
 def imported(texts, path, above=()):
     """Every module that a module needs, itself included; none in a circle."""
     assert path not in above, (*above, path)
@@ -155,28 +139,6 @@ def test_a_kernel_sends_all_that_a_program_imports_and_that_asks_for_nothing_els
             assert not re.search(r"https?:|\brequire\(|\bfetch\(", texts[path]), path
 
 
-def test_a_contract_is_of_the_names_that_are_stored():
-    explorer = Explorer()
-    explorer.gains, before = GAINS, explorer.contract
-    assert kit.contract(explorer.state, explorer.setup) == before
-    assert kit.contract(explorer.state | {"new": 0}, explorer.setup) != before
-    assert kit.contract(explorer.state, explorer.setup | {"data": {"new": 0}}) != before
-
-
-def test_a_kernel_sends_the_program_that_is_asked_for(monkeypatch):
-    explorer, sent = Explorer(), []
-    monkeypatch.setattr(explorer, "send", sent.append)
-    explorer._handle_custom_msg("another", [])
-    explorer._handle_custom_msg("kit", [])
-    assert sent == [kit.sources("explorer")]
-
-
 def test_the_committed_modules_are_what_is_printed():
     for name, text in printed().items():
         assert (kit.KIT / name).read_text(encoding="utf-8") == text, "run python book/tools/kit.py"
-
-
-def test_no_law_is_typed_by_hand_in_the_kit():
-    for path in kit.KIT.glob("*.js"):
-        if path.name not in ("model.js", "sheet.js"):  # a receiver's error fades by exp too
-            assert not re.search(r"expm1|Math\.exp\(", path.read_text(encoding="utf-8")), path

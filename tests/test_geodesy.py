@@ -65,17 +65,6 @@ def test_hundred_metres_anywhere_have_the_spheres_error():
     assert (min(errors), max(errors)) == pytest.approx((-0.0045, 0.0056), abs=1e-4)
 
 
-def test_sphere_error_takes_arrays_and_another_radius():
-    errors = sphere_error(np.array([[0.0], [90.0]]), np.array([0.0, math.pi / 2, math.pi]))
-    assert errors.shape == (2, 3)
-    # The poles are round: b^2/a, a, a^2/b are all there is.
-    polar_axis, equator = 6_356_752.314245, 6_378_137.0
-    along, anywhere = equator / polar_axis**2, polar_axis / equator**2
-    shares = [[along, 1.0 / equator, along], [anywhere] * 3]
-    np.testing.assert_allclose(errors, wmr.EARTH_RADIUS_M * np.array(shares) - 1.0, atol=1e-12)
-    assert sphere_error(0.0, math.pi / 2, radius=equator) == pytest.approx(0.0, abs=1e-12)
-
-
 # Properties
 
 
@@ -149,16 +138,6 @@ def test_across_the_date_line_and_over_the_pole():
     pole = wmr.GeoPoint(lat=90.0, lon=0.0)
     there = wmr.destination_point(pole, 1000.0, 0.5)
     assert wmr.haversine_distance(pole, there) == pytest.approx(1000.0)
-
-
-def test_arrays_broadcast():
-    campus = wmr.GeoPoint(lat=np.array([[33.0], [34.0]]), lon=44.0)
-    others = wmr.GeoPoint(lat=33.5, lon=np.array([43.0, 44.0, 45.0]))
-    distances = wmr.haversine_distance(campus, others)
-    assert distances.shape == (2, 3)
-    one, other = wmr.GeoPoint(lat=34.0, lon=44.0), wmr.GeoPoint(lat=33.5, lon=45.0)
-    assert distances[1, 2] == wmr.haversine_distance(one, other)
-    assert wmr.destination_point(campus, distances, 0.5).lat.shape == (2, 3)
 
 
 # Bad input

@@ -84,13 +84,6 @@ def test_arc_is_the_exact_motion(pose, v, omega, dt):
     assert -math.pi < there.heading <= math.pi
 
 
-def test_arrays_broadcast():
-    many = wmr.polar_error(wmr.Pose(np.zeros((3, 1)), 0.0, 0.0), wmr.Pose(np.ones(4), 1.0, 0.5))
-    assert many.rho.shape == (3, 4)
-    assert many.theta[2, 3] == wmr.polar_error(wmr.Pose(0, 0, 0), wmr.Pose(1, 1, 0.5)).theta
-    assert wmr.advance(wmr.Pose(0, 0, 0), np.array([1.0, 2.0]), 0.0, 1.0).x.tolist() == [1.0, 2.0]
-
-
 def test_poses_of_other_lengths_are_refused_with_their_shapes():
     two, three = wmr.Pose(np.ones(2), 0, 0), wmr.Pose(np.ones(3), 0, 0)
     with pytest.raises(ValueError, match=r"lengths: pose\.x .* goal\.x"):

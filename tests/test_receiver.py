@@ -226,14 +226,6 @@ def test_errors_follow_from_the_seed_and_the_place_alone(monkeypatch):
     assert (other.distance != whole.distance).mean() > 0.99
 
 
-def test_a_place_out_of_the_range_of_numbers_ends_the_run():
-    options = SHORT | {"trajectories": True}
-    ends, paths = wmr.sweep(START, GOAL, GAINS, receiver=wmr.Receiver([1e308, 1e-3]), **options)
-    assert (ends.arrived.tolist(), ends.time[0]) == ([False, True], math.inf)
-    assert np.isnan([field[0] for field in ends[2:]]).all()
-    assert np.isfinite(paths.rho[0]).tolist().index(False) == 1
-
-
 @pytest.mark.parametrize(
     ("options", "message"),
     [

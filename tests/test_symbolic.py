@@ -110,13 +110,6 @@ def test_decay_is_finite_and_smooth_at_the_goal():
     assert abs(decay(tiny, sp.Integer(2)).evalf(40) - 2 * (1 - tiny)) < 1e-38
 
 
-def test_the_table_knows_which_gains_a_law_ignores():
-    for name, row in laws.LAWS.items():
-        used = {each.name for part in symbolic.law(name) for each in part.free_symbols}
-        assert set(row.gains._fields) - set(row.ignores) <= used
-        assert not used & set(row.ignores)
-
-
 # The paper's equations, which stand in the book's package.
 
 

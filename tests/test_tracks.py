@@ -173,12 +173,9 @@ CLOCKS = {
     "G235959.00 G000000.50 G000001.00": [0, 1.5, 2],
     f"G190000 {NIGHT} G080000 G080001": [0, 13 * 3600, 13 * 3600 + 1],
     "R080000/290224 R090000/010324": [0, 90000],
-    "R080000/290224 G080001 R070000/020324 G070000 G070000.5": [0, 1, 169200, 169200.5],
     "G235959 R000000/010324 G000001": [0, 1, 2],
-    "R080000/240709 R080001/240709 R090000/230709": [0, 1],
     "R080000/240709 R080001/010180 R080002/240709 R080003/240709": [0, 2, 3],
     f"G010000 {COLD} G010500 G010501": [0, 300, 301],
-    f"G230000 {COLD} G230500 G230501": [0, 300, 301],
 }
 
 
@@ -417,11 +414,8 @@ NO_GPX = [
     ("<kml><Placemark>", "it is a KML file, not a GPX file; export it as GPX$"),  # cut off
     ("<!DOCTYPE html>\n<html><br></html>", "document type"),
     (gpx("<desc><![CDATA[<html>]]></desc><trk>")[:-9], "its XML is broken"),
-    ('<?xml version="1.0" encoding="none"?><gpx/>', "its XML is broken: unknown encoding: none"),
     (gzip.compress(gpx(trk(GOOD)).encode()), "it is compressed, a KMZ or a FIT file; unpack it"),
-    (b"PK\x03\x04" + bytes(40), "it is compressed"),
     (b"\x0e\x20\x54\x08\x10\x00\x00\x00.FIT" + bytes(40), "or a FIT file; unpack it, or export"),
-    (gpx("<trk>" * 3000 + GOOD + "</trk>" * 3000), "but 1 track point outside <trkseg>"),
     (gpx(""), "it is GPX, but holds no position"),
     (gpx(trk('<trkpt lat="91" lon="0"/>')), r"1 latitude not in -90 to 90 \(first in line 4\)"),
 ]
@@ -451,9 +445,7 @@ LOGGER = "INDEX,DATE,TIME,LATITUDE,N/S,LONGITUDE,E/W,{},NSAT\n"
 ROW = "{},{},{},{},{},{},{},{},9\n"
 FIX_COLUMNS = {  # the cells that say a measured fix, and those that don't
     "VALID": (["SPS", "DGPS", "fixed", "1", ""], ["No fix", "0", "Estimated mode", "?x"]),
-    "FIX MODE": (["2D", "3D", ""], ["none", "0", "1"]),
     "fix quality": (["1", "4", "9"], ["0", "6", "7", "8"]),
-    "status": (["0", "A"], ["-1", "V", "void"]),
 }
 
 
@@ -472,27 +464,6 @@ def test_tables_of_data_loggers(read, name):
     for side in ("", "W", "X", "+"):
         track = read(LOGGER.format(name) + first + row.replace("South", side))
         assert dict(track.report.skipped) == {"row without a readable hemisphere": (1, 3)}
-
-
-def degrees_in_words(value, sides):
-    """Each way to write degrees that leaves no doubt, and each that contradicts itself."""
-    size, (plus, minus) = f"{abs(value):.7f}", sides
-    side, other, sign = (minus, plus, "-") if value < 0 else (plus, minus, "+")
-    right = [f"{sign}{size}", f"{size}{side}", f"{side}{size}", f"{size} {side.lower()}"]
-    right += [f"{sign}{size}{side}", f"{side} {sign}{size}", f"{size}\N{DEGREE SIGN}{side}"]
-    return right, [f"{sign}{size}{other}", f"{other}{sign}{size}", f"{side}{size}{other}"]
-
-
-@given(st.floats(-90, 90), st.floats(-180, 180), st.data())
-def test_a_sign_and_a_hemisphere_agree_or_the_row_is_refused(read, lat, lon, data):
-    lat, lon = round(lat, 7), round(lon, 7)
-    ways, doubts = degrees_in_words(lat, "NS")
-    y, x = data.draw(st.sampled_from(ways)), degrees_in_words(lon, "EW")[0]
-    x = data.draw(st.sampled_from(x))
-    wrong = data.draw(st.sampled_from(doubts))
-    track = read(f"lon;lat\n{x};{y}\n{x};{wrong}\n{lon};{lat}\n")
-    assert places(track) == ([lat, lat], [lon, lon])
-    assert dict(track.report.skipped) == {"sign and hemisphere that contradict each other": (1, 3)}
 
 
 FORM, LINES = "row with more or fewer cells than the header", "row with a cell over several lines"
@@ -550,19 +521,10 @@ def test_what_a_phone_or_a_table_says_of_a_fix_is_kept(read):
         says(read(f"lat,lon,{header}\n1,2,{row}\n"))
 
 
-SIDES = ["Dir", "Direction", "Ref", "Hemi", "Hemisphere", "Indicator"]
-PAIRS = [("N/S", "E/W"), ("n_s", "e_w"), ("NS Indicator", "EW Indicator"), ("North/South", "ew")]
-PAIRS += [(f"Lat{gap}{side}", f"Longitude{gap}{side}") for gap in ("", " ", "_") for side in SIDES]
-
-
 def test_columns_are_known_by_many_names_and_units(read):
-    for north, east in PAIRS:
+    for north, east in [("NS Indicator", "EW Indicator"), ("LatDir", "LonDir")]:
         track = read(f"Latitude,{north},Longitude,{east}\n33.5,S,70.6,W\n1.0,N,2.0,E\n")
         assert places(track) == ([-33.5, 1.0], [-70.6, 2.0]), north
-    for name in ("fix", "fixType", "Fix_Type", "FixQuality", "gps fix", "is_valid", "isValid"):
-        track = read(f"lat,lon,{name}\n0,0,0\n33.5,44,3\n")
-        assert places(track) == ([33.5], [44.0]), name
-        assert dict(track.report.skipped) == {"row without a measured fix": Count(1, 2)}
     for name, units in (("time_us", 1e6), ("gps time s", 1.0), ("timeMs", 1e3), ("t [s]", 1.0)):
         track = read(f"{name},lat (deg),lon_deg\n{units:.0f},0,0\n{4 * units:.0f},33.5,44\n")
         assert track.t.tolist() == [0.0, 3.0], name
@@ -573,26 +535,18 @@ def test_columns_are_known_by_many_names_and_units(read):
             read(f"{header}\n1,2\n")
 
 
-MINUTES = ["lat_min", "Lat (M)", "latMinutes", "latmin", "latitude_sec", "lon_min", "Long. seconds"]
-DATES = ["%d.%m.%Y", "%m/%d/%Y", "%y%m%d", "%d%m%y", "%m%d%y", "%d-%m-%y"]
-
-
 def test_what_would_have_to_be_guessed_is_not_read(read):
     """Degrees beside a column of minutes, dates in any other order, numbers without a unit."""
-    for name in MINUTES:
+    for name in ("lat_min", "latMinutes", "Long. seconds"):
         with pytest.raises(ValueError, match="minutes of a degree, which is not read"):
             read(f"lat_deg,{name},lon_deg\n33,16.2,44\n")
     unreadable = {"with an unreadable time": (1, 2)}
-    for how in DATES:
-        for day in (datetime(2026, 5, 9), datetime(2009, 12, 30), datetime(2011, 10, 12)):
-            track = read(f"date,time,lat,lon\n{day.strftime(how)},12:00:00,1,2\n")
-            assert (places(track), dict(track.report.noted)) == (([1.0], [2.0]), unreadable)
-            assert np.isnan(track.t).all()
+    for day in ("09.05.2026", "05/09/2026", "260509"):
+        track = read(f"date,time,lat,lon\n{day},12:00:00,1,2\n")
+        assert (places(track), dict(track.report.noted)) == (([1.0], [2.0]), unreadable)
+        assert np.isnan(track.t).all()
     for number in ("45292.5", "12345", "1767225600", "-5"):  # of Excel, since switched on
         assert dict(read(f"time,lat,lon\n{number},1,2\n").report.noted) == unreadable
-    cut = {"in a last line without an end, which may be cut off": (1, 2)}
-    track = read("t_ms,lat,lon\n1767225600000000,1,2")  # rather microseconds
-    assert dict(track.report.noted) == unreadable | cut
 
 
 def test_what_windows_and_spreadsheets_write_around_a_table_is_read(read):
@@ -617,13 +571,9 @@ def test_a_file_without_a_position_says_why(read, tmp_path):
     for content, message in [
         *NO_GPX,
         ("", NO_KIND),
-        (b"\x00" * 200_000, NO_KIND),
-        (b"x" * 200_000, NO_KIND + " its first line 'x{80}' does not name"),
         ("x,y\n1,2\n", "first line 'x,y' does not name lat and lon"),
-        ("lat,latitude,lon\n1,1,2\n", "has a column twice"),
         ("lat,lon\n", "it is CSV, but holds no position"),
         ("lat,lon\n-95,2", r"1 latitude not in -90 to 90 \(first in line 2\)$"),
-        ('lat,lon\n1,2\n"3,4\n', "its table is broken"),
     ]:
         with pytest.raises(ValueError, match=message) as error:
             read(content)
@@ -721,17 +671,3 @@ def test_bad_input_to_the_writers(tmp_path):
         with pytest.raises(ValueError, match=message):
             write(tmp_path / "new", points, **options)
     assert not [*tmp_path.iterdir()]
-
-
-def test_a_full_disk_leaves_the_file_as_it_was(tmp_path, monkeypatch):
-    (file := tmp_path / "path").write_text("before")
-
-    def fills(place, text, encoding):
-        place.write_bytes(text.encode(encoding)[:10])
-        raise OSError(28, "No space left on device")
-
-    monkeypatch.setattr(Path, "write_text", fills)
-    with pytest.raises(OSError, match="No space"):
-        wmr.write_gpx(file, wmr.GeoPoint(lat=1.0, lon=2.0))
-    assert file.read_text() == "before"
-    assert [*tmp_path.iterdir()] == [file]

@@ -44,16 +44,6 @@ def test_modes_solve_the_characteristic_equation(gains, law):
     assert modes.kappa * rate == pytest.approx(gains.k_alpha)
 
 
-def test_a_gain_of_zero_leaves_a_mode_that_does_not_settle():
-    no_heading = wmr.modes(wmr.Gains(0.2, 2.0, 0.0))
-    assert (no_heading.heading_rate, no_heading.damping) == (0.0, math.inf)
-    assert no_heading.slower == math.inf
-    no_distance = wmr.modes(wmr.Gains(0.0, 2.0, 1.0))
-    assert no_distance.distance_rate == 0.0
-    assert math.isnan(no_distance.slower)
-    assert wmr.modes(wmr.Gains(0.2, 0.0, 1.0)).slower == math.inf
-
-
 def test_arrays_of_gains_give_arrays():
     k_alpha = np.array([0.5, 2.0, 9.0])
     many = wmr.Gains(0.2, k_alpha, 2.0)

@@ -133,37 +133,10 @@ def test_a_file_without_a_position_says_why(read):
         ((place(),), rf"it is NMEA, but 1 {NO_PLACE} \(first in byte 0\)$"),
         ((pvt()[:-1],), "it is neither NMEA, UBX nor GPX"),
         ((frame(KINDS["pvt"], bytes(83)),), "1 message of an unknown length"),
-        ((b"\xb5b\x01\x07\xff\xff" * 10_000,), "it is neither NMEA, UBX nor GPX"),
         ((b"\xb5b\x01\x07\xff\xff" * 10_000, OTHER), f"but 1.* {DAMAGED}"),
     ]:
         with pytest.raises(ValueError, match=message):
             read(*parts)
-
-
-@given(st.data())
-def test_messages_of_two_receivers_are_never_one_position(read, data):
-    """With the times of the epochs the same, the first's positions are used, and all is counted."""
-    epochs = []
-    for k in range(3):
-        one = [pvt(k), place(k), baseline(k), dop(k)]
-        other = [pvt(k, lat=-332000000), place(k, lat=-332000000), baseline(k, flags=0)]
-        kept = data.draw(st.lists(st.sampled_from(one[1:]), unique=True))
-        epochs.append([one[0], *data.draw(st.permutations(kept + other))])
-    parts = [part for epoch in epochs for part in epoch]
-    track = read(*parts)
-    assert {*np.round(track.points.lat, 9)} <= RIGHT
-    assert len(track) == 3
-    assert np.isnan([track.heading, track.hdop]).all()
-    assert dict(track.report.noted) == {"of an epoch with two receivers, the first's": (3, 0)}
-    lost = sum(count for count, _ in track.report.skipped.values())
-    assert lost == len(parts) - 3 - sum(place(k) in epochs[k] for k in range(3))
-
-
-def test_a_message_told_twice_is_used_once(read):
-    track = read(pvt(), pvt(), baseline(), baseline())
-    assert (len(track), track.heading[0]) == (1, pytest.approx(math.radians(123.45678)))
-    assert dict(track.report.skipped) == {"message again": (2, 100)}
-    assert not track.report.noted
 
 
 EPOCHS = [[pvt(k), place(k), dop(k), GGA, OTHER] for k in range(4)]
