@@ -97,6 +97,15 @@ def test_a_python_is_refused_unless_pyproject_allows_it():
         assert not said or ("Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said)
 
 
+def test_the_benchmarks_find_what_they_measure():
+    """They run by hand, so only this notices a name that has moved."""
+    folder = ROOT / "tests" / "benchmarks"
+    names = sorted(path.stem for path in folder.glob("*.py"))
+    command = [sys.executable, "-c", f"import {', '.join(names)}"]
+    done = subprocess.run(command, cwd=folder, capture_output=True, text=True)
+    assert done.returncode == 0, done.stderr
+
+
 def test_the_librarys_ten_lines_do_what_their_comments_say(capsys):
     text = (BOOK / "api.md").read_text(encoding="utf-8")
     (lines,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)
