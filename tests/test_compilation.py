@@ -124,6 +124,21 @@ def test_what_the_package_cannot_keep_is_kept_at_home_or_not_at_all(copy):
     assert printed(process(copy, "float", **homes))[1] != "0"
 
 
+SWEEP = """
+import wmrlib as w
+wheels, turn = w.Wheels(0.5, 1.0, acceleration=1.0, dead_band=0.05, min_speed=0.1), w.LastTurn()
+how = {"method": "arc", "arrival_radius": 0.3, "wheels": wheels, "last_turn": turn}
+ends = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.GENTLE_GAINS, receiver=w.Receiver(0.1), **how)
+print(*map(float, ends), 0)
+"""
+
+
+def test_a_second_process_reads_what_was_compiled_for_a_sweep_of_all_options(copy):
+    first = printed(process(copy, code=SWEEP))
+    assert first[0][0] == 1.0
+    assert printed(process(copy, code=SWEEP)) == first
+
+
 def test_a_slip_in_a_law_is_an_error_that_a_student_can_read(copy):
     edited(copy, "laws.py", TERM, TERM.replace("alpha", "alfa"))
     code = "import wmrlib as w\nw.simulate(w.Pose(0, 0, 0), w.Pose(3, 1, 0), w.GENTLE_GAINS)"
