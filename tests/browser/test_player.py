@@ -23,7 +23,7 @@ DRAWN = """player => {
 
 
 def test_a_drive_plays_over_its_picture_and_waits_where_it_is_paused(opened):
-    page = opened(f"notebooks/{chapters()[5].stem}.html")
+    page = opened(f"notebooks/{chapters()[12].stem}.html")
     player = page.query_selector(".player")
     player.scroll_into_view_if_needed()
     assert player.evaluate(DRAWN)["count"] == 0  # the picture speaks for itself
