@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from wmrlib import elementary
+from wmrlib import elementary, laws
 from wmrlib.engine import vectors
 
 mpmath.mp.dps = 40
