@@ -72,6 +72,15 @@ def test_a_second_process_compiles_nothing_an_edit_compiles_anew_and_plain_pytho
     assert numbers != pytest.approx(first[0], rel=1e-3)
 
 
+SWEEP = """
+import wmrlib as w
+start, goal, wheels = w.Pose(0.0, 0.0, [0.0, 1.0]), w.Pose(3.0, 1.0, 0.0), w.Wheels(0.4, 1.0, 0.1)
+receiver = w.Receiver(0.01, 10.0, 0.2)
+how = {"method": "arc", "wheels": wheels, "receiver": receiver, "seed": 1, "progress": False}
+print(*w.sweep(start, goal, w.GENTLE_GAINS, duration=2.0, **how).distance, "read")
+"""
+
+
 def test_what_a_sweep_with_a_receiver_compiled_is_read_again(copy):
     assert printed(process(copy, code=SWEEP)) == printed(process(copy, code=SWEEP))
 
@@ -113,15 +122,6 @@ def test_what_the_package_cannot_keep_is_kept_at_home_or_not_at_all(copy):
     failed = process(copy, "float", **homes, PYTHONWARNINGS="error::RuntimeWarning")
     assert "set NUMBA_CACHE_DIR to a folder of your own" in failed.communicate()[1]
     assert printed(process(copy, "float", **homes))[1] != "0"
-
-
-SWEEP = """
-import wmrlib as w
-wheels, turn = w.Wheels(0.5, 1.0, acceleration=1.0, dead_band=0.05, min_speed=0.1), w.LastTurn()
-how = {"method": "arc", "arrival_radius": 0.3, "wheels": wheels, "last_turn": turn}
-ends = w.sweep(w.Pose(-3, 1, 0.5), w.Pose(0, 0, 0), w.GENTLE_GAINS, receiver=w.Receiver(0.1), **how)
-print(*map(float, ends), 0)
-"""
 
 
 def test_a_slip_in_a_law_is_an_error_that_a_student_can_read(copy):

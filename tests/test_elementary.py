@@ -13,7 +13,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from wmrlib import elementary, laws
+from wmrlib import elementary
 from wmrlib.engine import vectors
 
 mpmath.mp.dps = 40
@@ -123,9 +123,3 @@ def test_wrap_is_exact(angle):
     assert elementary.wrap(angle) == vectors.vector_wrap(angle) == truth
     if abs(angle) <= 2.0 * math.pi:
         assert vectors.vector_wrap_once(angle) == truth
-
-
-def test_a_vector_form_has_the_module_of_its_formula():
-    """Numba imports the module when it reads what another process compiled."""
-    for formula in (laws.pose_law, elementary.sinc):
-        assert vectors.vectorised(formula).__module__ == formula.__module__

@@ -161,7 +161,6 @@ def vectorised(function: Callable, forms: dict = _FORMS) -> Callable:
         used["__name__"] = plain.__module__  # numba imports it for what it has kept
         made = FunctionType(plain.__code__, used, plain.__name__, plain.__defaults__)
         made.__qualname__ = f"{plain.__qualname__}_vectorised"
-        made.__module__ = plain.__module__  # numba imports it when it reads what it compiled
         forms[function] = formula(made)
     return forms[function]
 
