@@ -82,7 +82,12 @@ def row(span: tuple[int, int], radius: float) -> np.ndarray:
 
 
 def read(file: str | Path = FILE) -> Times:
-    """The stored rows, by the span of starts and the radius."""
+    """The stored rows, by the span of starts and the radius.
+
+    Raises FileNotFoundError, with a sentence, where the file is not beside the chapter.
+    """
+    if not Path(file).exists():
+        raise FileNotFoundError(f"this chapter needs the file book/{FILE.name} of the repository")
     rows = json.loads(Path(file).read_text(encoding="utf-8"))
     return {
         (tuple(item["span"]), item["radius"]): np.array([*item["seconds"].values()], float)
