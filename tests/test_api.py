@@ -21,7 +21,6 @@ It calls `wmr.simulate`, `simulate(start, goal)` and `paper.outdoor`, but not `r
 import wmrlib as wmr
 import wmrrobot as wr
 wmr.simulate(a, wmr.paper.outdoor().goal, nothing.simulate)
-import wmrrobot as wr
 wr.Drive(goal, gains, wheels)
 ```
 """
