@@ -82,14 +82,6 @@ def test_outside_its_fence_a_goal_and_a_fix_are_said_to_be():
     assert (seen.goal_inside, seen.inside) == (0, 0)
 
 
-def test_a_fix_from_after_the_odometry_waits_until_it_is_due():
-    found = sensors(fixed=1.06)
-    assert not found.seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL).fresh
-    due = found.seen(odometry(1.1, 5.0, 6.0, 1.0), GOAL)
-    assert (due.fresh, due.age) == (1, pytest.approx(0.04))
-    assert not found.seen(odometry(1.15, 5.0, 6.0, 1.0), GOAL).fresh
-
-
 def test_a_receiver_whose_clock_is_far_ahead_is_told_to_the_drive():
     seen = sensors(fixed=1.06 + SOON).seen(odometry(1.05, 5.0, 6.0, 1.0), GOAL)
     assert seen.fresh
