@@ -1,16 +1,13 @@
-"""The filter against filterpy's on a model of its own, and against the truth of 1,000 runs."""
+"""The filter against filterpy's on a model of its own; chapter 14 holds it against the truth."""
 
-# ruff: noqa: NPY002 (numba has no other random numbers)
 import math
 
 import numpy as np
 from driven import ARM, DT, FIRST, NOISE, drive, seen
 from filterpy.kalman import ExtendedKalmanFilter
-from scipy.stats import chi2
 
 import wmrlib as wmr
-from wmrlib.compilation import compiled
-from wmrrobot import estimation, kalman
+from wmrrobot import estimation
 
 # Another filter: filterpy's, with a model written down here and derivatives by differences.
 
@@ -79,58 +76,3 @@ def test_it_is_filterpys_filter():
         np.testing.assert_allclose(ours.covariance, other.P, rtol=1e-5, atol=1e-10)
     assert abs(ours.state[3] - 0.01) < 4e-3
     assert abs(ours.state[4] - 1.02) < 4e-3
-
-
-# Is it as good as it says? NEES over 1,000 runs, each with its own truth.
-
-
-@compiled
-def errors(noise, runs, count, dt, ahead, left, seed):
-    """NEES of each run after each 10th of the steps, and the surprises of all its positions."""
-    np.random.seed(seed)
-    white, walk, creep, width = noise[1], noise[2], noise[3], noise[4]
-    nees, nis = np.zeros((10, runs)), np.zeros(runs)
-    first = np.array([0.05, 0.05, 0.1, 0.01, 0.02])
-    for run in range(runs):
-        truth = np.array([0.0, 0.0, 0.5, 0.0, 1.0])
-        state, covariance = truth.copy(), np.diag(first * first)
-        state += first * np.random.standard_normal(5)
-        for n in range(count):
-            v = 0.0 if n % 60 < 10 else 0.8
-            omega = 0.0 if v == 0.0 else 0.5 * math.sin(0.05 * n)
-            travel = math.hypot(v, 0.5 * width * omega) * noise[0] ** 2
-            speed = truth[4] * v + math.sqrt(0.5 * travel / dt) * np.random.standard_normal()
-            slip = math.sqrt(2.0 * travel / dt) / width * np.random.standard_normal()
-            turn = truth[4] * omega + slip
-            gyro = turn + truth[3] + white / math.sqrt(dt) * np.random.standard_normal()
-            middle = truth[2] + 0.5 * turn * dt
-            truth[0] += speed * dt * math.cos(middle)
-            truth[1] += speed * dt * math.sin(middle)
-            truth[2] += turn * dt
-            kalman.carry(state, covariance, v, omega, gyro, dt, noise, math.inf)
-            truth[3] += walk * math.sqrt(dt) * np.random.standard_normal()
-            truth[4] += creep * math.sqrt(dt) * np.random.standard_normal()
-            if n % 2 == 0:
-                sine, cosine = math.sin(truth[2]), math.cos(truth[2])
-                x = truth[0] + ahead * cosine - left * sine + 0.02 * np.random.standard_normal()
-                y = truth[1] + ahead * sine + left * cosine + 0.02 * np.random.standard_normal()
-                nis[run] += kalman.see_antenna(state, covariance, x, y, ahead, left, 0.02, math.inf)
-            if (n + 1) % (count // 10) == 0:
-                off = state - truth
-                off[2] = math.atan2(math.sin(off[2]), math.cos(off[2]))
-                solved = np.linalg.solve(covariance, off)
-                nees[n // (count // 10), run] = np.sum(off * solved)
-    return nees, nis
-
-
-RUNS, COUNT = 1000, 300
-
-
-def test_it_is_as_good_as_it_says():
-    """The mean NEES of 1,000 runs is within its 99.9 % bounds, at ten times; so is the NIS."""
-    noise = tuple(map(float, NOISE))
-    nees, nis = errors(noise, RUNS, COUNT, DT, ARM["ahead"], ARM["left"], 3)
-    low, high = chi2.ppf([0.0005, 0.9995], 5 * RUNS) / RUNS
-    assert ((low < nees.mean(axis=1)) & (nees.mean(axis=1) < high)).all()
-    low, high = chi2.ppf([0.0005, 0.9995], 2 * RUNS * COUNT // 2)
-    assert low < nis.sum() < high

@@ -22,19 +22,9 @@ WRONG = {
     "track_width = 0 is not allowed: a number from 0.05 to 5 m is needed": {"track_width": 0.0},
     "goal_lat = 133 is not allowed: a number from -90 to 90 degrees is needed: "
     "are latitude and longitude swapped?": {"goal_lat": 133.0},
-    "the points are 1561 km apart: at most 1 km is allowed; "
-    "are latitude and longitude of one of them swapped?": {
-        "goal_lat": 44.373264,
-        "goal_lon": 33.274087,
-    },
     "the points are 111 km apart: at most 1 km is allowed": {"goal_lat": 34.273572},
-    "dead_band = 0.6 is not allowed: at most half of max_speed, 0.5, is needed": {"dead_band": 0.6},
     "dead_band = 0.3 is not allowed: a last turn within 20 deg is needed; "
     "with this width, acceleration and delay it is 36 deg": {"dead_band": 0.3},
-    "the points are 0 m apart: at least 0.2 m, four times the arrival radius, is needed": {
-        "goal_lat": Robot().start_lat,
-        "goal_lon": Robot().start_lon,
-    },
     "sigma = nan is not allowed: a finite number is needed": {"sigma": math.nan},
 }
 
@@ -119,21 +109,6 @@ def test_a_bound_holds_with_the_confidence_that_is_claimed():
         below = [math.comb(runs, k) * 0.95**k * 0.05 ** (runs - k) for k in range(sure)]
         assert sum(below) >= 0.95 > sum(below[:-1])
     assert sheets.sure(20) > 20  # too few to be sure of anything
-
-
-def test_a_drive_that_does_not_end_spoils_the_bound(monkeypatch):
-    monkeypatch.setattr(sheets, "sheet", lambda robot: sheet(robot)._replace(duration=20.0))
-    found = certificate(Robot(), runs=100)
-    assert found.parked == 0
-    assert found.place_bound == found.heading_bound == found.place_rms == math.inf
-
-
-def test_a_late_and_slow_robot_that_first_faces_away_may_never_park():
-    wheels = {"max_speed": 0.8, "acceleration": 0.2, "dead_band": 0.04}
-    robot = Robot(**wheels, memory=30.0, period=0.2, delay=0.8, fix_period=0.1)
-    towards, round_about = (certificate(robot, spread=spread) for spread in (0.5, 1.0))
-    assert round_about.parked < 0.8 * towards.parked
-    assert certificate(Robot(), spread=1.0).parked == towards.parked == 400  # others may
 
 
 def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
