@@ -68,7 +68,7 @@ def test_accelerating_wheels_are_the_continuous_motion_in_the_limit():
     assert 0.2 > off[0] > 1.8 * off[1] > 3.2 * off[2]
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(starts, st.floats(0.02, 0.2), st.floats(0.02, 0.08))
 def test_a_dead_band_stalls_the_robot_where_the_formula_says(start, k_rho, dead):
     """Straight ahead, where v alone decides: rho = -ln(1 - v_dead/v_max)/k_rho."""
@@ -84,7 +84,7 @@ def test_a_dead_band_stalls_the_robot_where_the_formula_says(start, k_rho, dead)
     assert wmr.arrival(wmr.simulate(start, goal, gains, wheels=mended, **how)).arrived
 
 
-@settings(max_examples=20, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(starts, st.floats(0.05, 0.5))
 def test_a_least_speed_keeps_the_path_in_continuous_time(start, least):
     assume(math.hypot(start.x, start.y) > 0.5)
@@ -115,7 +115,7 @@ def test_a_last_turn_either_ends_or_is_refused(gain, most, heading, tolerance):
         assert wmr.arrival(wmr.simulate(start, goal, GENTLE, **how)).arrived
 
 
-@settings(max_examples=25, deadline=None)
+@settings(max_examples=10, deadline=None)
 @given(starts, wheels_of_all_kinds, st.sampled_from([0.5, 1.0, 2.0]))
 def test_the_last_turn_ends_within_its_tolerance_and_at_rest(start, wheels, h):
     least = 2.0 * max(wheels.dead_band, 0.02) / wheels.track_width * 1.05
@@ -136,8 +136,8 @@ def test_the_last_turn_ends_within_its_tolerance_and_at_rest(start, wheels, h):
     )
 
 
-@settings(max_examples=15, deadline=None)
-@given(st.lists(starts, min_size=2, max_size=6), wheels_of_all_kinds, st.booleans())
+@settings(max_examples=8, deadline=None)
+@given(st.lists(starts, min_size=2, max_size=3), wheels_of_all_kinds, st.booleans())
 def test_a_sweep_of_bodies_is_each_run_alone(poses, wheels, turns):
     end = wmr.LastTurn(tolerance=0.05, leave=1.5) if turns else None
     how = {"method": "arc", "duration": 20.0, "wheels": wheels, "arrival_radius": 0.1}
@@ -171,18 +171,15 @@ def test_a_receiver_decides_where_the_last_turn_begins():
     assert 0.5 < place[0] < 1.0  # sqrt(2) times 0.5 m, about
 
 
-@pytest.mark.parametrize("late", [0.1, 0.4, 1.0])
-def test_a_turn_that_settles_sees_through_a_late_heading(late):
+def test_a_turn_that_settles_sees_through_a_late_heading():
     """Once it has stood for as long as the heading is late, what it sees is what is."""
-    random = np.random.default_rng(7)
+    late, random = 0.4, np.random.default_rng(7)
     starts = wmr.Pose(*random.uniform((-5, -5, -3), (5, 5, 3), (200, 3)).T)
     how = {"method": "arc", "dt": 0.05, "arrival_radius": 0.2, "duration": 200.0}
     how |= {"receiver": wmr.Receiver(heading_delay=late), "wheels": wmr.Wheels(0.5, 1.0)}
-    gains = wmr.Gains(0.2, 0.6, 2.0, 1.0) if late > 0.5 else GENTLE  # which is too fast for 1 s
     turn = wmr.LastTurn(tolerance=0.1, gain=0.3, min_rate=0.1, max_rate=0.5, leave=math.inf)
-    hasty = wmr.sweep(starts, GOAL, gains, last_turn=turn, **how)
-    ends = wmr.sweep(starts, GOAL, gains, last_turn=turn._replace(settle=late + 0.05), **how)
+    hasty = wmr.sweep(starts, GOAL, GENTLE, last_turn=turn, **how)
+    ends = wmr.sweep(starts, GOAL, GENTLE, last_turn=turn._replace(settle=late + 0.05), **how)
     assert ends.arrived.all()
     assert np.abs(ends.heading_error).max() <= turn.tolerance
-    if late == 0.4:
-        assert np.abs(hasty.heading_error).max() > 1.5 * turn.tolerance
+    assert np.abs(hasty.heading_error).max() > 1.5 * turn.tolerance

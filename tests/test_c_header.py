@@ -102,7 +102,7 @@ def replaced(values, place, value):
     return [*values[:place], value, *values[place + 1 :]]
 
 
-def states(count=1000):
+def states(count=300):
     rng = np.random.default_rng(5)
     angles, gains = rng.uniform(-math.pi, math.pi, (2, count)), rng.uniform(0.05, 5, (4, count))
     drawn = np.column_stack([10 ** rng.uniform(-6, 3, count), *angles, *gains])
@@ -131,7 +131,7 @@ def test_the_laws_are_those_of_wmrlib(compiled):
 @compiler
 def test_theta_keeps_its_branch(compiled):
     call, tolerance, rounded = compiled
-    for state in np.random.default_rng(8).uniform((-3.1, -7.0, 0.0), (3.1, 7.0, 3.0), (1000, 3)):
+    for state in np.random.default_rng(8).uniform((-3.1, -7.0, 0.0), (3.1, 7.0, 3.0), (300, 3)):
         theta, before, hysteresis = rounded(state)
         assert call("branch", theta, math.nan, hysteresis)[0] == theta
         expected = keep_branch(theta, before, hysteresis)
@@ -145,7 +145,7 @@ def test_theta_keeps_its_branch(compiled):
 def test_poses_angles_wheels_and_energy(compiled):
     call, tolerance, rounded = compiled
     rng = np.random.default_rng(6)
-    for _ in range(1000):
+    for _ in range(300):
         poses = rounded(rng.uniform(-3, 3, 6))
         expected = wmr.polar_error(wmr.Pose(*poses[:3]), wmr.Pose(*poses[3:]))
         got = call("polar", *poses)
@@ -231,12 +231,11 @@ def test_gps_points_as_degrees_and_as_integers(compiled, lat, lon, dlat, dlon):
 
 
 @compiler
-@pytest.mark.parametrize("option", ["-ffast-math", "-ffinite-math-only"])
-def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, capfd, option):
+def test_a_compiler_that_knows_no_nan_is_refused(tmp_path, capfd):
     (tmp_path / "empty.c").write_text('#include "wmr_law.h"\nint main(void) { return 0; }\n')
     build(tmp_path / "empty.c", tmp_path)
     with pytest.raises(subprocess.CalledProcessError):
-        build(tmp_path / "empty.c", tmp_path, option)
+        build(tmp_path / "empty.c", tmp_path, "-ffast-math")
     assert "wmr_law.h needs NaN and infinity" in capfd.readouterr().err
 
 

@@ -150,8 +150,6 @@ def made(place, folder_mode=0o700, file_mode=0o600, place_mode=0o755):
     [
         ({}, True),
         ({"place_mode": 0o1777}, True),
-        ({"folder_mode": 0o755, "file_mode": 0o644}, True),
-        ({"file_mode": 0o664}, True),  # nobody else gets to it
         ({"folder_mode": 0o755, "file_mode": 0o664}, False),
         ({"folder_mode": 0o770}, False),
         ({"place_mode": 0o777}, False),

@@ -51,11 +51,6 @@ def test_wheels_are_in_the_trajectory_while_commands_are_held():
     explorer.state = explorer.state | {"method": "continuous"}
     assert explorer.wheels is None
     assert wmr.arrival(explorer.trajectory()).arrived
-    explorer.wheels = wmr.Wheels(0.3)
-    explorer.state = explorer.state | {"method": "arc"}
-    assert explorer.wheels is None
-    explorer.wheels = wmr.Wheels(0.3, lag=0.1)
-    assert explorer.wheels == wmr.Wheels(0.3, lag=0.1)
 
 
 def test_the_circle_is_followed_with_and_without_feed_forward():
@@ -99,20 +94,12 @@ BAD = [
         ".x = 1000000000.0 is not allowed: a finite number at least -1e+06",
     ),
     ("gains", 3.0, " = 3.0 is not allowed: a Gains is needed"),
-    ("gains", wmr.Gains(np.ones(2), 1.0, 1.0), ".k_rho = array([1., 1.]) is not allowed"),
     ("feedback", GAINS, f" = {GAINS!r} is not allowed: a KanayamaGains is needed"),
     ("wheels", wmr.Wheels(0.5, 2.0), " = Wheels(track_width=0.5, max_speed=2.0"),
-    ("wheels", wmr.Wheels(0.5, lag=-1.0), ".lag = -1.0 is not allowed"),
-    ("wheels", None, " = None is not allowed"),
     ("law", "kanayama", f" = 'kanayama' is not allowed: one of {LAWS} is needed"),
     ("method", "rk4", " = 'rk4' is not allowed: one of 'arc', 'euler', 'continuous' is needed"),
-    ("at", -1.0, " = -1.0 is not allowed: a finite number at least 0"),
-    ("zoom", 0.0, " = 0.0 is not allowed: a finite number at least 0.005"),
     ("dt", 0.0, " = 0.0 is not allowed: a finite number at least 0.0006 and at most 60"),
-    ("dt", 61.0, " = 61.0 is not allowed"),
-    ("dt", 1e-9, " = 1e-09 is not allowed"),
     ("duration", math.nan, " = nan is not allowed"),
-    ("arrival_radius", -1.0, " = -1.0 is not allowed: a finite number at least 0"),
     ("reference", "square", " = 'square' is not allowed: None, 'circle' or wmrlib.paper.circle is"),
     ("view", "map", " = 'map' is not allowed: one of 'time', 'gains' is needed"),
 ]

@@ -43,15 +43,6 @@ def test_what_is_replaced_is_checked_too(one):
             one._replace(**{one._fields[1]: -1.0})
 
 
-def test_replaced_fields_may_be_arrays_where_fields_may():
-    many = CHECKED[0]._replace(h=[0.1, 0.2])
-    assert many.h.tolist() == [0.1, 0.2]
-    with pytest.raises(ValueError, match="mismatched lengths"):
-        many._replace(k_rho=np.ones(3))
-    with pytest.raises(ValueError, match=r"omega_x = .*: one number is needed, not an array"):
-        CHECKED[2]._replace(omega_x=np.ones(2))
-
-
 LIMITS = wmr.Wheels
 BAD = [
     (lambda: wmr.Gains(2.0, 1.0, [0.3, -0.1]), r"h = \[0\.3, -0\.1\] .* at least 0"),

@@ -106,7 +106,6 @@ def test_what_a_cell_of_the_page_prints_breaks_or_leaves_behind(alone):
 
 
 NUMPY = "import numpy as np\n"
-F_OF_0 = "def f(np):\n    x = np\n    return x and f(x)\nf(0)"
 
 
 @pytest.mark.parametrize(
@@ -115,15 +114,10 @@ F_OF_0 = "def f(np):\n    x = np\n    return x and f(x)\nf(0)"
         ("import sympy as sp\nsp.Symbol('x')", "import sympy as sp\nsp.Symbol('x')"),
         (NUMPY + "x = 1\nassert np.ones(x)\nx", "x = 1\nx"),
         (NUMPY + "x = np.ones(3)\nx", None),
-        (NUMPY + "x = 1\nx += np.ones(3)\nx", None),
         (NUMPY + "x = []\nfor y in np.ones(3):\n    x.append(y)\nprint(x)", None),
-        (NUMPY + "assert np.ones(3)\nprint('as it should be')", None),
         (NUMPY + "def f(x):\n    return np.ones(x)\n\n\nf(3)", None),
         ("from wmrlib import symbolic\nsymbolic.c_header()", None),
-        (NUMPY + "x = np.ones(3)\n[x for x in range(3)]", "[x for x in range(3)]"),
         (NUMPY + "x = np.ones(3)\nx = 1\nx", "x = 1\nx"),
-        (NUMPY + "f = np.e\ndef f(np):\n    x = np\n    return x and f(x)\nf(0)", F_OF_0),
-        ("def f():\n    import numpy as np\n    return np.e\n\n\nf()", None),
     ],
 )
 def test_a_cell_runs_in_the_page_if_all_that_it_shows_can(code, kept):

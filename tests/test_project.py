@@ -97,6 +97,7 @@ def test_a_python_is_refused_unless_pyproject_allows_it():
         assert not said or ("Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said)
 
 
+@pytest.mark.slow
 def test_the_benchmarks_find_what_they_measure():
     """They run by hand, so only this notices a name that has moved."""
     folder = ROOT / "tests" / "benchmarks"

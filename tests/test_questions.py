@@ -11,29 +11,19 @@ import pytest
 
 from wmrbook import questions
 from wmrbook.figures import scenes
-from wmrbook.questions import Option, Refusal, deck
-from wmrbook.questions._asking import cases, numbers
+from wmrbook.questions import deck
 
 TESTS = Path(__file__).parent
 CHAPTERS = sorted((TESTS.parent / "notebooks").glob("[0-9][0-9]_*.ipynb"))
 QUESTIONS = questions.made()
 
 
-def test_there_are_26_over_the_chapters_and_no_letter_is_favoured():
-    assert len(QUESTIONS) == 26
-    assert {question.chapter for question in QUESTIONS} >= {*range(13)} - {4}
-    keys = [question.key for question in QUESTIONS]
-    assert {letter: keys.count(letter) >= 3 for letter in "ABCDE"} == dict.fromkeys("ABCDE", True)
-
-
 @pytest.mark.parametrize("question", QUESTIONS, ids=lambda it: it.id)
-def test_a_question_is_short_has_one_right_option_and_a_section_that_answers_it(question):
+def test_a_question_has_one_right_option_and_a_section_that_answers_it(question):
     chapter = CHAPTERS[question.chapter].read_text(encoding="utf-8")
     section = re.escape(json.dumps(question.section, ensure_ascii=False)[1:-1])
     assert re.search(rf'"#+ {section}(\\n)?"', chapter), question.section
-    assert len(question.ask.split()) <= 40
     assert len({option.text for option in question.options}) == 5
-    assert max(len(option.text.split()) for option in question.options) <= 12
     right = [option for option in question.options if not option.mistake]
     assert right == [question.options["ABCDE".index(question.key)]]
 
@@ -45,20 +35,6 @@ def test_a_flipped_sign_in_the_formula_behind_it_changes_a_key_or_stops_the_ques
     right = {it.id: it.options["ABCDE".index(it.key)].text for it in QUESTIONS}
     assert told.keys() == right.keys()
     assert [name for name in right if told[name] == right[name]] == []
-
-
-def test_options_that_agree_and_texts_that_explain_another_answer_are_refused():
-    wrong = {"one": 2.0, "two": 3.0, "three": -1.0, "four": 0.0}
-    found = numbers(1.0, wrong, "{:.0f} m")
-    assert [it.text for it in found] == [f"{k} m" for k in range(-1, 4)]
-    for right in (2.03, 0.0, float("nan")):
-        with pytest.raises(Refusal, match="nearly equal"):
-            numbers(right, wrong, "{:.0f} m")
-    texts = {1: ("left", ""), -1: ("right", "a sign"), 0: ("ahead", "a sine")}
-    assert {it for it in cases(1, texts) if not it.mistake} == {Option("left", "")}
-    for found in (-1, 7, None):
-        with pytest.raises(Refusal, match=f"explain 1, and {found} was computed"):
-            cases(found, texts)
 
 
 def test_a_slide_asks_and_its_notes_have_the_key_the_reason_and_each_mistake():

@@ -56,7 +56,6 @@ def said(number):
     [
         (("no-cell",), "0 pictures at cell 'no-cell': 1 is needed"),
         (("live-two-bars", "gain=3"), "no knob 'gain', only law, alpha, theta"),
-        (("live-two-bars", "law=none"), "law=none: only nothing, speed, corrected, printed"),
         (("live-two-bars", "alpha=400"), "alpha=400: not from -180.0 to 180.0"),
     ],
 )

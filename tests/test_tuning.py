@@ -44,24 +44,6 @@ def test_modes_solve_the_characteristic_equation(gains, law):
     assert modes.kappa * rate == pytest.approx(gains.k_alpha)
 
 
-def test_arrays_of_gains_give_arrays():
-    k_alpha = np.array([0.5, 2.0, 9.0])
-    many = wmr.Gains(0.2, k_alpha, 2.0)
-    modes = wmr.modes(many)
-    for k, value in enumerate(k_alpha.tolist()):
-        single = wmr.Gains(0.2, value, 2.0)
-        one = wmr.modes(single)
-        assert type(one.damping) is float
-        assert (modes.damping[k], modes.slower[k]) == (one.damping, one.slower)
-        assert [pole[k] if np.ndim(pole) else pole for pole in modes.poles] == list(one.poles)
-        for method in SAMPLED:
-            step = wmr.longest_step(many, method)[k]
-            assert step == pytest.approx(wmr.longest_step(single, method), rel=1e-12)
-    gains = wmr.gains_for(0.8, natural_frequency=np.array([0.5, 1.0]), damping=1.0)
-    assert gains.h.shape == gains.k_alpha.shape == (2,)
-    assert gains.k_rho == pytest.approx(0.2)
-
-
 # Gains from a specification
 
 
@@ -205,17 +187,11 @@ def test_bad_input():
         (pair, "heading_rate = 1.0, .* not allowed together: one of the three is needed"),
         (point | {"damping": 1.0}, "not allowed together: .* kappa with h and the others"),
         ({"kappa": 2.5}, "h = None, .* not allowed together"),
-        ({"heading_rate": 1.0, "h": 2.0}, "h = 2.0, .* not allowed together"),
         (point | {"kappa": 2.0}, "kappa = 2.0 is not allowed: a number between 2 and 1 \\+ h is"),
-        (point | {"kappa": 3.0}, "kappa = 3.0 is not allowed: .* needed, with h = 2.0"),
-        (point | {"h": [2.0, 1.5]}, "kappa = 2.5 is not allowed: .* with h = .2.0, 1.5"),
         (point | {"h": -1.0}, "h = -1.0 " + positive),
-        (point | {"v_max": 1e-320}, "k_rho = inf is not allowed"),
         ({"heading_rate": 0.0}, "heading_rate = 0.0 " + positive),
         ({"natural_frequency": 1.0, "damping": 0.0}, "damping = 0.0 is not allowed"),
         ({"natural_frequency": 1.0, "v_max": 0.0}, "v_max = 0.0 is not allowed"),
-        ({"natural_frequency": 1e-200}, positive),
-        ({"natural_frequency": 1e200}, positive),
         ({"natural_frequency": np.ones(2), "damping": np.ones(3)}, "mismatched lengths"),
     ]
     refuses(specifications, lambda arguments: wmr.gains_for(1.0, **arguments))
