@@ -1,9 +1,7 @@
-"""The drive round the law: it survives every fault, in Python and in C, and by each row."""
+"""The drive round the law: it survives every fault, in Python and in C."""
 
-import ast
 import json
 import math
-import subprocess
 import sys
 from pathlib import Path
 
@@ -19,7 +17,6 @@ import wmrlib as wmr
 import wmrrobot as wr
 from wmrrobot import trust
 from wmrrobot.drive import TABLE
-from wmrrobot.printing import c_condition
 
 CASES = {case.name: case for case in faults.CASES}
 
@@ -32,6 +29,25 @@ def ran():
 @pytest.mark.parametrize("name", CASES)
 def test_a_fault_is_survived_and_none_drives_blind(ran, name):
     assert faults.holds(CASES[name], ran[name]), ran[name][:5]
+
+
+def test_each_reason_of_the_table_has_its_fault():
+    assert {row.reason for row in TABLE} - {""} <= {
+        ran.must.partition(": ")[2] for ran in faults.CASES
+    }
+
+
+def test_the_command_prints_the_table(monkeypatch, capsys):
+    case, slight = faults.CASES[2], faults.SLIGHT[0]
+    monkeypatch.setattr(faults, "CASES", [case])
+    monkeypatch.setattr(faults, "SLIGHT", [slight])
+    monkeypatch.setattr(sys, "argv", ["drive_faults.py"])
+    faults.main()
+    _, fault, held, unnoticed = capsys.readouterr().out.splitlines()
+    assert fault.startswith(case.name)
+    assert case.must in fault
+    assert held == "1 of 1 as they must"
+    assert unnoticed.startswith(slight.name)
 
 
 def test_the_page_shows_the_faults_as_they_come_out(ran):
@@ -72,24 +88,6 @@ def test_c_decides_the_same_in_each_period(ran, name):
         assert (drives[0].state, drives[0].reason) == decided
 
 
-@pytest.mark.parametrize("seed", range(3))
-def test_a_sound_robot_parks_and_never_waits(seed):
-    ran = faults.run(faults.Case("none", {}, "parked", 0.3), seed=seed)
-    assert faults.holds(faults.Case("none", {}, "parked", 0.3), ran)
-    assert ran.heading < 0.05
-    states = [state for state, _ in ran.decisions]
-    assert list(dict.fromkeys(states)) == ["wait", "drive", "turn", "parked"]
-    assert states.index("drive") < 20
-
-
-@pytest.mark.parametrize("row", [row for row in TABLE if row.reason])
-def test_no_row_of_the_table_can_be_spared(monkeypatch, row):
-    cases = [case for case in faults.CASES if case.must.endswith(row.reason)]
-    assert cases, row
-    monkeypatch.setattr("wmrrobot.drive.TABLE", [each for each in TABLE if each is not row])
-    assert not any(faults.holds(case, faults.run(case)) for case in cases)
-
-
 def goes(drive, pose, seconds, until="", **fields):
     """Let a robot with perfect wheels drive for a time, or until a state."""
     states, left, right = [], 0.0, 0.0
@@ -105,10 +103,11 @@ def goes(drive, pose, seconds, until="", **fields):
 
 ANYWHERE = (-99.0, -99.0, 99.0, 99.0)
 GOAL, START = wmr.Pose(3.0, 0.0, 1.5), wmr.Pose(0.0, 0.0, 0.0)
-KINDS = wr.Drive, pytest.param(compiled.CDrive, marks=pytest.mark.needs("compiler"))
 
 
-@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize(
+    "kind", [wr.Drive, pytest.param(compiled.CDrive, marks=pytest.mark.needs("compiler"))]
+)
 def test_without_a_last_turn_it_parks_as_it_arrives(kind):
     drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, last_turn=None)
     pose, states = goes(drive, START, 20.0)
@@ -116,18 +115,16 @@ def test_without_a_last_turn_it_parks_as_it_arrives(kind):
     assert abs(pose.heading - GOAL.heading) > 0.1
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_carried_off_during_the_last_turn_it_drives_again(kind):
-    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wr.Rules(jump=2.0))
+def test_carried_off_during_the_last_turn_it_drives_again():
+    drive = wr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wr.Rules(jump=2.0))
     pose, _ = goes(drive, START, 20.0, until="turn")
     pose, states = goes(drive, pose._replace(x=pose.x - 1.0), 20.0)
     assert list(dict.fromkeys(states)) == ["drive", "turn", "parked"]
     assert pose.heading == pytest.approx(GOAL.heading, abs=0.03)
 
 
-@pytest.mark.parametrize("kind", KINDS)
-def test_what_has_stopped_or_parked_stays_so_until_it_is_reset(kind):
-    drive = kind(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wr.Rules(battery=20.0))
+def test_what_has_stopped_or_parked_stays_so_until_it_is_reset():
+    drive = wr.Drive(GOAL, wmr.GENTLE_GAINS, faults.WHEELS, rules=wr.Rules(battery=20.0))
     pose, _ = goes(drive, START, 2.0, battery=24.0)
     pose, _ = goes(drive, pose, 2.0, battery=19.0)
     assert (drive.state, drive.reason) == ("stopped", "battery low")
@@ -136,29 +133,6 @@ def test_what_has_stopped_or_parked_stays_so_until_it_is_reset(kind):
     drive.reset()
     goes(drive, pose, 20.0, battery=24.0)
     assert (drive.state, drive.reason) == ("parked", "")
-
-
-@pytest.mark.parametrize("off", [-3.0, -0.9, -0.7, 0.0, 0.7, 0.9, 3.0])
-@pytest.mark.parametrize("heading", [0.0, 0.8, 2.0, -2.4])
-def test_a_leg_of_the_fixes_is_astray_beyond_an_angle_to_either_side(heading, off):
-    m, far = trust.Memory(driven=1.0), 4.1
-    m.leg = trust.Place(far * math.cos(heading), far * math.sin(heading), heading)
-    course = heading + off
-    m.fix = trust.Place(far * math.cos(course), far * math.sin(course))
-    trust.compare(m, wr.Rules())
-    assert m.astray == (abs(off) > 0.8)
-    assert not m.slipping
-    assert (m.begin.x, m.leg.y) == (m.fix.x, m.fix.y)
-
-
-@pytest.mark.parametrize(
-    ("fields", "anew"),
-    [({"length": 16.1}, 1), ({"length": 15.9}, 0), ({"turning": 3.1}, 1), ({"turning": 2.9}, 0)],
-)
-def test_a_leg_that_curls_begins_anew(fields, anew):
-    m = trust.Memory(driven=1.0, fix=trust.Place(1.0), **fields)
-    trust.compare(m, wr.Rules())
-    assert m.begin.x == anew
 
 
 @pytest.mark.parametrize(("gap", "refused"), [(1.1, trust.NONE), (1.3, trust.JUMPED)])
@@ -197,7 +171,7 @@ def test_an_old_fix_is_carried_on_by_what_the_wheels_rolled_since(rows, share, o
     assert off <= 3.0 * (oldest / 6 + 0.15) + 1e-9
 
 
-@pytest.mark.parametrize("late", [0.0, 0.1, 0.3, 0.5])
+@pytest.mark.parametrize("late", [0.0, 0.5])
 def test_honest_drives_with_late_fixes_park(monkeypatch, late):
     """And as near, whatever the delay; the wheels know what the fixes don't say yet."""
     rng, rules = np.random.default_rng(1), {"oldest": late + 0.2, "patience": late + 0.4}
@@ -212,21 +186,12 @@ def test_honest_drives_with_late_fixes_park(monkeypatch, late):
         assert ran.heading < 0.04
 
 
-@pytest.mark.parametrize("wrong", [{"compass_by_motors": 1.5}, {"clockwise": True}])
-def test_a_wrong_heading_is_told_from_a_late_one(wrong):
-    rules = {"oldest": 0.7, "patience": 0.9}
-    ran = faults.run(faults.Case("", wrong | {"delay": 0.5}, "", 0.0, 0.0, rules=rules))
-    assert ran.end == "stopped: heading disagrees with wheels"
-    assert ran.blind < 2.0
-
-
-@pytest.mark.parametrize("kind", KINDS)
 @given(distance=st.floats(0.25, 1.0), heading=st.floats(-1.2, 1.2), least=st.floats(0.1, 0.8))
-def test_the_least_speed_keeps_the_path_of_the_law(kind, distance, heading, least):
+def test_the_least_speed_keeps_the_path_of_the_law(distance, heading, least):
     """Near its goal, where the law alone would drive more slowly, both wheels hurry alike."""
     wheels, gains = wmr.Wheels(0.5, min_speed=least), wmr.Gains(0.1, 0.5, 2.0, 1.0)
     start, goal = wmr.Pose(0.0, 0.0, heading), wmr.Pose(distance, 0.0, 0.4)
-    drive = kind(goal, gains, wheels)
+    drive = wr.Drive(goal, gains, wheels)
     while drive.state != "drive":
         speeds = drive.step(wr.Seen(0.05, 0.0, 0.0, fresh=1, **start._asdict()))
     error = wmr.polar_error(start, goal)
@@ -234,22 +199,6 @@ def test_the_least_speed_keeps_the_path_of_the_law(kind, distance, heading, leas
     hurried = wmr.wheels_to_twist(*speeds, 0.5)
     assert hurried == pytest.approx([max(1.0, least * math.cos(error.alpha) / v) * each
                                      for each in (v, omega)])  # fmt: skip
-
-
-@given(st.one_of(st.floats(), st.integers(-3, 9)))
-def test_only_the_qualities_of_a_measured_fix_are_used(quality):
-    seen = wr.Seen(0.05, 0.0, 0.0, quality=quality)
-    refused = trust.refusal_of(trust.Memory(), seen, wr.Rules())
-    assert refused == (trust.NONE if 1 <= quality <= 5 else trust.POOR)
-
-
-@given(
-    st.sampled_from(["x", "y", "heading", "age"]),
-    st.one_of(st.floats(1e9), st.floats(max_value=-1e9), st.just(math.nan)),
-)
-def test_a_fix_that_is_nowhere_is_broken(name, value):
-    seen = wr.Seen(0.05, 0.0, 0.0, quality=4, **{name: value})
-    assert trust.refusal_of(trust.Memory(), seen, wr.Rules()) == trust.BROKEN
 
 
 @given(st.floats(-0.05, 0.05))
@@ -304,24 +253,14 @@ def test_whatever_the_sensors_say_c_and_python_agree_and_the_unsettled_stand(giv
             assert speeds == (0.0, 0.0)
 
 
-@pytest.mark.parametrize("text", ["[1]", "s.x ** 2", "s.x if m.good else [2]", "0 < m.good < 2"])
-def test_what_c_has_no_word_for_is_not_printed(text):
-    with pytest.raises((NotImplementedError, KeyError, ValueError)):
-        c_condition(ast.parse(f"lambda m, s: {text}", mode="eval").body)
-
-
 @pytest.mark.parametrize(
     ("change", "named"),
     [
         ({"goal": (0, 0, 0)}, "goal"),
         ({"gains": wmr.KanayamaGains(1, 1, 1)}, "gains"),
-        ({"wheels": None}, "wheels = None"),
-        ({"last_turn": wmr.LastTurn(leave=np.array([2.0, 3.0]))}, "last_turn.leave"),
-        ({"last_turn": wmr.LastTurn(tolerance=float("nan"))}, "last_turn.tolerance"),
-        ({"rules": {}}, "rules"),
         ({"rules": wr.Rules(settle=2.5)}, "rules.settle = 2.5"),
         ({"law": "kanayama"}, "law"),
-        ({"last_turn": 3}, "last_turn"),
+        ({"last_turn": wmr.LastTurn(tolerance=float("nan"))}, "last_turn.tolerance"),
         ({"wheels": wmr.Wheels(0.5, dead_band=0.05)}, "last_turn.min_rate = 0.2"),
     ],
 )
@@ -331,17 +270,8 @@ def test_an_argument_that_is_not_allowed_is_named(change, named):
         wr.Drive(**given_)
 
 
-def test_the_command_prints_the_table(ran):
-    command = [sys.executable, Path(faults.__file__)]
-    printed = subprocess.run(command, check=True, capture_output=True, text=True).stdout
-    _, *rows = printed.splitlines()
-    assert rows[len(CASES)] == f"{len(CASES)} of {len(CASES)} as they must"
-    assert [row[:33].strip() for row in rows[: len(CASES)]] == list(CASES)
-    assert all(ran[name].end in row for name, row in zip(CASES, rows, strict=False))
-
-
 @pytest.mark.parametrize("name", wr.Rules._fields)
 def test_a_rule_that_means_nothing_is_refused(name):
-    for wrong in (-1.0, float("nan"), "1", *((2.0,) if name == "share" else ())):
+    for wrong in (-1.0, float("nan"), *((2.0,) if name == "share" else ())):
         with pytest.raises(ValueError, match=f"^{name} = "):
             wr.Rules(**{name: wrong})
