@@ -99,11 +99,6 @@ SLIPS = {
     "such as pi|`math.pi`|is needed|beside the place|plain mean": "np.multiply(it, 1 + 1e-4)",
     "swapped|changed places": "it[::-1] if np.ndim(it) == 1 else it",
 }
-NO_ANSWERS = {
-    "returns nothing: does it end in `return`": "None",
-    "needed|has to return": "'A'",
-    "asks for your own formula|may be used here": "(wmrlib.haversine_distance, it)[1]",
-}
 
 
 def returning(task: Task, what: str) -> str:
@@ -124,51 +119,18 @@ def test_a_slip_is_told_as_a_slip(chapter):
 
 
 @for_assignments
-def test_nothing_no_number_and_a_call_of_the_library_get_a_hint_each(chapter):
+def test_an_answer_that_calls_the_library_is_not_ones_own(chapter):
+    words = "asks for your own formula|may be used here"
     for task in tasks(chapter):
-        free = task.name in ("poses", "parked", "safe")  # they may call the library
-        for words, what in [*NO_ANSWERS.items()][: 3 - free]:
-            if task.model.startswith("def "):
-                said = failed(chapter, task, returning(task, what))
-                assert list(said) == list(task.checks)
-                assert all(re.search(words, each) for each in said.values()), said
-
-
-NUMBERS = "np.float64(it)", "Fraction(it)", "sp.Float(it, 30)", "int(it) if it == int(it) else it"
-FORMS = "factor", "expand", "simplify", "trigsimp", "nsimplify", "UnevaluatedExpr"
-EACH = """
-import sympy as sp
-def _each(it, way):
-    it = it.tolist() if isinstance(it, np.ndarray) else it
-    if isinstance(it, (tuple, list)):
-        made = [_each(one, way) for one in it]
-        return tuple.__new__(type(it), made) if isinstance(it, tuple) else made
-    return way(it) if isinstance(it, (int, float)) and not isinstance(it, bool) else it
-"""
-
-
-@for_assignments
-def test_a_right_answer_may_have_other_types(chapter):
-    """A function may return other kinds of numbers and rows, an expression have other forms."""
-    for task in tasks(chapter):
-        if task.model.startswith("def "):
-            ways = [f"_each(it, lambda it: {each})" for each in NUMBERS]
-            ways += ["it if hasattr(it, '_fields') or np.ndim(it) != 1 else np.array(it)"]
-            sources = [EACH + returning(task, each) for each in ways if "Pose(" not in task.model]
-        else:
-            name, rows = task.target, f"isinstance({task.target}, sp.Expr)"
-            change = "\nimport sympy as sp\n{0} = sp.{1}({0}) if {2} else {0}"
-            sources = [task.model + change.format(name, form, rows) for form in FORMS]
-        for source in sources:
-            first, *_ = task.checks
-            said = failed(chapter, task, source).get(first, "the sign can't be read off")
-            assert "the sign can't be read off" in said, (source, said)
+        if task.model.startswith("def ") and task.name not in ("poses", "parked", "safe"):
+            said = failed(chapter, task, returning(task, "(wmrlib.haversine_distance, it)[1]"))
+            assert list(said) == list(task.checks)
+            assert all(re.search(words, each) for each in said.values()), said
 
 
 NONSENSE = [
-    *(None, ..., 1.5, math.nan, math.inf, 1e308, 1e-308, 10**400, 1j, "1.5", True, dict),
-    *(sp.Symbol("x"), {1.0, 2.0}, {1.0: 1.0}, (1.0, 2.0, 3.0, 4.0), [0.0, 0.0, 0.0]),
-    *((-1e300, -1e300), (8, 0.125, -24), np.ones((2, 2)), np.array([1.0, 0])),
+    *(None, 1.5, math.nan, math.inf, 1e308, 10**400, 1j, "1.5", True, dict),
+    *(sp.Symbol("x"), (1.0, 2.0, 3.0, 4.0), [0.0, 0.0, 0.0], np.ones((2, 2))),
 ]
 MODULES = [name for name in dir(grading) if name.islower() and name[0] != "_"]
 
