@@ -1,6 +1,8 @@
 """What the repository promises a user or a reader: locks, commands, links, numbers, panels."""
 
+import os
 import re
+import shutil
 import subprocess
 import sys
 import tomllib
@@ -95,6 +97,25 @@ def test_a_python_is_refused_unless_pyproject_allows_it():
         said = check_python.refusal((3, minor, 0), "HERE")
         assert (said is None) == (f"3.{minor}" in allowed)
         assert not said or ("Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="Windows has no LC_ALL")
+def test_a_folder_that_this_python_cannot_read_is_refused_in_a_sentence(tmp_path):
+    """Without it the new environment's Python ends with a fatal error, see check_python.py."""
+    for name, encoding, fits in (
+        ("M\u00fcller", "C.UTF-8", True),
+        ("ascii", "C", True),
+        ("M\u00fcller", "C", sys.version_info >= (3, 13)),
+    ):
+        for file in (CHECK, "pyproject.toml"):
+            (tmp_path / name / file).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy(ROOT / file, tmp_path / name / file)
+        variables = os.environ | {"LC_ALL": encoding}
+        command = [sys.executable, tmp_path / name / CHECK]
+        done = subprocess.run(command, env=variables, capture_output=True, encoding="utf-8")
+        said = done.stderr.splitlines()
+        assert (done.returncode, len(said)) == ((0, 0) if fits else (1, 1))
+        assert fits or (f"({tmp_path / name})" in said[0] and "LC_ALL=C.UTF-8" in said[0])
 
 
 @pytest.mark.slow
