@@ -111,6 +111,15 @@ def test_a_bound_holds_with_the_confidence_that_is_claimed():
     assert sheets.sure(20) > 20  # too few to be sure of anything
 
 
+def test_a_late_and_slow_robot_that_first_faces_away_may_never_park():
+    wheels = {"max_speed": 0.8, "acceleration": 0.2, "dead_band": 0.04}
+    robot = Robot(**wheels, memory=30.0, period=0.2, delay=0.8, fix_period=0.1)
+    towards, round_about = (certificate(robot, spread=spread) for spread in (0.5, 1.0))
+    assert round_about.parked < 0.8 * towards.parked
+    assert round_about.place_bound == round_about.heading_bound == math.inf
+    assert certificate(Robot(), spread=1.0).parked == towards.parked == 400  # others may
+
+
 def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     robot = Robot(track_width=2.0, dead_band=0.0)
     told = sheet(robot)

@@ -4,7 +4,7 @@
 `JACOBIANS` into ``wmrrobot/jacobians.py``.
 """
 
-from wmrrobot.printing.c_drive import C_DRIVE, c_condition, c_drive  # noqa: F401
+from wmrrobot.printing.c_drive import C_DRIVE, c_drive  # noqa: F401
 from wmrrobot.printing.c_filter import C_FILTER_HEADER, c_filter_header  # noqa: F401
 from wmrrobot.printing.formulas import (  # noqa: F401
     C_FILTER,
