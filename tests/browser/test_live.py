@@ -143,7 +143,7 @@ def test_a_remembered_answer_opens_a_figure(browser_page):
 
 
 def test_a_sketch_is_drawn_by_hand_and_judged_by_its_distance_from_the_way(emptied_page):
-    panel = mounted(emptied_page, live.wheel_limit(), width=900)
+    panel = mounted(emptied_page, live.half_turn(), width=900)
     canvas = emptied_page.locator("canvas").first
     panel.drag(canvas, 0.3 * canvas.bounding_box()["width"], 0, steps=3)
     guess = panel.press("Commit").get("guess")
@@ -207,14 +207,14 @@ def test_a_pole_that_is_dragged_too_far_stays_and_says_why(emptied_page):
 
 
 def test_a_hand_stops_what_plays(emptied_page):
-    panel = opened(emptied_page, "commutator")
-    play = emptied_page.get_by_role("button", name="Play: moves made")
+    panel = opened(emptied_page, "half_turn")
+    play = emptied_page.get_by_role("button", name="Play: how far on its way")
     emptied_page.evaluate(SLOWLY)
     play.click()
-    emptied_page.get_by_role("button", name="Stop: moves made").wait_for()
-    emptied_page.get_by_role("spinbutton", name="how far forward and back").press("ArrowDown")
+    emptied_page.get_by_role("button", name="Stop: how far on its way").wait_for()
+    emptied_page.get_by_role("spinbutton", name="the goal to the right").press("ArrowDown")
     play.wait_for()
-    assert panel.settled().get("moves") < 12
+    assert panel.settled().get("time") < 1
 
 
 def test_python_moves_a_figure_and_refuses_what_is_not_allowed():

@@ -77,16 +77,6 @@ def flat_map(values, found, data) -> None:
     assert found["leans"] == pytest.approx(math.atan2(-x, y), abs=1e-6)
 
 
-def commutator(values, found, data) -> None:
-    step, turn = values["step"], math.radians(values["turn"])
-    at = wmr.Pose(0.0, 0.0, 0.0)
-    for k in range(12):
-        share = min(max(values["moves"] - k, 0.0), 1.0)
-        v, omega = ((step, 0.0), (0.0, turn), (-step, 0.0), (0.0, -turn))[k % 4]
-        at = wmr.advance(at, v, omega, share) if share else at
-    assert found["now"] == pytest.approx(at, abs=1e-12)
-
-
 def one_step(values, found, data) -> None:
     whole, left = divmod(math.pi / data["omega"], values["dt"])
     for method in ("arc", "euler"):
@@ -150,38 +140,6 @@ def unit_circle(values, found, data) -> None:
     np.testing.assert_allclose(ours, theirs, atol=1e-2)
     assert (found["size"] < 1) == (values["times"] < 1) or values["times"] == 1
     same_run(found["run"], data["start"], data["goal"], gains, **how)
-
-
-def wheel_limit(values, found, data) -> None:
-    most, track = values["limit"], data["track"]
-
-    def clipped(v, omega):
-        wheels = np.clip(wmr.twist_to_wheels(v, omega, track), -most, most)
-        return wmr.wheels_to_twist(*wheels, track)
-
-    def apart(v, omega):
-        turning = 0.5 * most / track
-        return np.clip(v, -0.75 * most, 0.75 * most), np.clip(omega, -turning, turning)
-
-    def both(v, omega):
-        return wmr.limit_wheels(v, omega, wmr.Wheels(track, most))
-
-    limit = {"wheels": clipped, "apart": apart, "both": both}[values["rule"]]
-    gains, goal = wmr.Gains(**data["gains"]), pose(data["goal"])
-    robot, run = pose(data["start"]), found["run"]
-    for k, here in enumerate(zip(run["x"], run["y"], run["heading"], strict=True)):
-        assert here == pytest.approx(robot, abs=AGREES), k
-        seen = wmr.polar_error(robot, goal)
-        twist = limit(*wmr.control_law(*seen, gains))
-        wheels = run["left"][k], run["right"][k]
-        assert wheels == pytest.approx(wmr.twist_to_wheels(*twist, track), abs=AGREES)
-        robot = wmr.advance(robot, *twist, data["dt"])
-    assert (seen.rho <= 0.05) == run["arrived"]
-    free = wmr.simulate(pose(data["start"]), goal, gains, method="continuous", dt=0.005)
-    far = max(
-        np.hypot(free.x - x, free.y - y).min() for x, y in zip(run["x"], run["y"], strict=True)
-    )
-    assert found["strays"] == pytest.approx(far, abs=1e-6)
 
 
 def late(values, found, data) -> None:

@@ -60,16 +60,6 @@ def window(found):
     yield lags["poles"][0][1] == 0.0
 
 
-def wheel_limit(found):
-    free, wide, other, scaled = (each["strays"] for each in found)
-    assert np.abs([found[0]["run"][side] for side in ("left", "right")]).max() < 4.0
-    yield 0.05 < free < 0.15  # by its samples
-    yield max(free, scaled) < other < wide
-    yield scaled < 0.15
-    yield found[3]["run"]["t"][-1] > found[0]["run"]["t"][-1]
-    yield np.max(found[1]["run"]["x"]) > 2.0 * np.max(found[1]["free"]["x"])
-
-
 def rising(found):
     up, down, again = (each["rate"] for each in found)
     return up > 0.0, down < 0.0, again > 0.0

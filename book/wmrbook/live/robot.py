@@ -1,4 +1,4 @@
-"""Chapter 2: wheels, moves, and what they add up to."""
+"""Chapter 2: wheels, and steps in time."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from wmrlib import Pose, advance, wheels_to_twist
 
 TRACK = 0.6  # m
 ORIGIN = Pose(0.0, 0.0, 0.0)
-STEP, TURN = 0.4, 40.0  # m and deg, of the four moves
 V, OMEGA, DT = 4.0, 1.0, 0.4  # m/s, rad/s and s, of Euler's steps
 
 
@@ -41,42 +40,6 @@ def turning_centre() -> Live:
                 "It lies between the wheels only if they roll against each other.",
                 "",
                 "The faster wheel has the longer way round, so the centre lies on the other side.",
-            ),
-        ),
-    )
-
-
-def commutator() -> Live:
-    """Forward, left, back, right, three times over: moves that cancel, and still lead somewhere."""
-    eta, end = math.radians(TURN), ORIGIN
-    for v, omega in ((STEP, 0.0), (0.0, eta), (-STEP, 0.0), (0.0, -eta)):
-        end = advance(end, v, omega, 1.0)
-    aside = STEP * math.sin(eta)
-    places = {
-        "on neither side of where it began": 0.0,
-        "on the left": aside,
-        "on the right": -aside,
-    }
-    return Live(
-        "commutator",
-        "Forward {step}, left {turn}, back, right: that leads {right} to the right and {ahead} "
-        "ahead. After {number} of twelve the robot is {where}.",
-        {
-            "step": Knob(STEP, 0.05, 0.5, 0.05, "how far forward and back", "m", label="forward"),
-            "turn": Knob(TURN, 5.0, 45.0, 1.0, "how far left and right", "°", label="left"),
-            "moves": Knob(12.0, 0.0, 12.0, 0.05, "moves made", label="moves", plays=8.0),
-        },
-        ask=choose(
-            f"Drive forward {STEP} m, turn left by {TURN:.0f} deg, drive back as far, turn right "
-            "as far. On which side of where it began is the robot then?",
-            "It drove out along one heading and back along another, and the way back leads to the "
-            "right of the way out. Moves are undone in reverse order; in another they need not be.",
-            answers=nearest(end.y, places),
-            wrong=(
-                "The moves are undone in the wrong order: after the turn the way back lies "
-                "along another line.",
-                "It looks to the left when it drives back, so the way back leads to the right.",
-                "",
             ),
         ),
     )

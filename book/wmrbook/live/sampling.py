@@ -4,27 +4,18 @@ from __future__ import annotations
 
 import math
 
-import numpy as np
-
-from wmrbook.live.parts import Ask, Choice, Knob, Live, between, choose, nearest
+from wmrbook.live.parts import Choice, Knob, Live, between, choose, nearest
 from wmrlib import (
-    Pose,
     Wheels,
-    advance,
     arrival,
-    control_law,
     longest_step,
     paper,
-    polar_error,
     simulate,
-    twist_to_wheels,
-    wheels_to_twist,
 )
 from wmrlib.gains import GENTLE_GAINS
 
 LATE = 1.1  # times the longest step, in the question
 TRACK, DT = 0.5, 0.05  # m, s
-START, BESIDE = Pose(0.0, 0.0, 0.0), Pose(0.0, 10.0, 0.0)
 
 
 def unit_circle() -> Live:
@@ -69,52 +60,6 @@ def unit_circle() -> Live:
                 "",
                 "The distance has a limit of its own, 1.25 s. It still comes down.",
             ),
-        ),
-    )
-
-
-def clipped_wheels(limit: float) -> list[Pose]:
-    """The drive to the goal beside the start, each wheel clipped on its own."""
-    poses = [START]
-    while (seen := polar_error(poses[-1], BESIDE)).rho > 0.05 and len(poses) < 1500:
-        wheels = twist_to_wheels(*control_law(*seen, GENTLE_GAINS), TRACK)
-        twist = wheels_to_twist(*np.clip(wheels, -limit, limit), TRACK)
-        poses.append(advance(poses[-1], *twist, DT))
-    return poses
-
-
-def wheel_limit() -> Live:
-    """Wheels that can't go faster: three rules, and the paths that they leave."""
-    limit = 2.0
-    free = simulate(START, BESIDE, GENTLE_GAINS, method="continuous", dt=0.02)
-    x, _, _ = np.transpose(clipped_wheels(limit))
-    swing = "swings wide ahead" if x.max() > 2.0 * free.x.max() else "keeps to the free path"
-    return Live(
-        "wheel_limit",
-        "No wheel can go faster than {limit}, and {rule}. The robot parks after {seconds} and "
-        "strays {strays} from its path without a limit and in continuous time.",
-        {
-            "limit": Knob(limit, 1.2, 4.0, 0.1, "the fastest that a wheel goes", "m/s", "v_w"),
-            "rule": Choice(
-                "wheels",
-                {
-                    "wheels": "each is clipped by itself",
-                    "apart": "v and ω are clipped one by one",
-                    "both": "both are scaled alike",
-                },
-                "the rule",
-            ),
-            "time": Knob(1.0, 0.0, 1.0, 0.01, "how far on its way", label="on its way", plays=5.0),
-        },
-        data=between(START, BESIDE, gains=GENTLE_GAINS._asdict(), track=TRACK, dt=DT),
-        ask=Ask(
-            "sketch",
-            "The goal is 10 m to the robot's left. Each wheel does 2 m/s at most and is clipped by "
-            "itself, half of what the law asks for. Sketch the path from the robot on.",
-            f"It {swing}, {x.max():.1f} m: the faster wheel loses more than the slower one, so "
-            "little is left to turn with. The lower the limit, the wider the path.",
-            pane="plane",
-            at=START[:2],
         ),
     )
 

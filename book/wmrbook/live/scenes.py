@@ -59,15 +59,6 @@ SCENES = {
         Step("Enough of it, but h is small: the heading lags.", {"kappa": 4.0, "h": 0.3}),
         Step("Inside the window the heading settles first.", {"kappa": 4.0, "h": 4.0}),
     ),
-    "wheel_limit": (
-        Step(
-            "Wheels that are fast enough: it strays because each command is held for 0.05 s.",
-            {"limit": 4.0, "rule": "both"},
-        ),
-        Step("Slower wheels, each clipped by itself: it swings wide."),
-        Step("v and omega clipped one by one: another path.", {"rule": "apart"}),
-        Step("Both scaled alike: nearly the first path, driven more slowly.", {"rule": "both"}),
-    ),
     "rising": (
         Step("As printed, V rises here."),
         Step("Let the distance count for more, and it falls.", {"L": 0.001}),

@@ -5,7 +5,6 @@ export const CONTRACTS = {
   'my_robot': '02ef3a6e',
   'live/bearing': '60e78b54',
   'live/bowl': '1801ab77',
-  'live/commutator': '86af9a91',
   'live/corners': '3f28138c',
   'live/flat_map': '62552287',
   'live/half_turn': 'cdce76ec',
@@ -27,7 +26,6 @@ export const CONTRACTS = {
   'live/turning_centre': 'd73337d4',
   'live/two_bars': '6334ee4a',
   'live/unit_circle': '7802370b',
-  'live/wheel_limit': 'e62dedaf',
   'live/window': 'e15e2e19',
   'live/x_axis': '7a0abe19',
 };
