@@ -17,7 +17,7 @@ _QUANTILE = 3.841  # of chi-squared with one degree of freedom: 95 %
 def allan_deviation(error, spans) -> np.ndarray:
     """How much the means of two neighbouring spans differ: the overlapping Allan deviation.
 
-    Of white noise it falls as 1/sqrt(span); of a Gauss-Markov process it is (`expected_allan`)
+    Of white noise it falls as 1/sqrt(span); of a Gauss-Markov process it is
     largest at 1.9 memories; a constant offset does not show.
 
     Parameters
@@ -37,12 +37,6 @@ def allan_deviation(error, spans) -> np.ndarray:
         steps = total[..., 2 * m :] - 2.0 * total[..., m:-m] + total[..., : -2 * m]
         found.append(np.sqrt(np.mean((steps / m) ** 2, axis=-1) / 2.0))
     return np.stack(found, axis=-1)
-
-
-def expected_allan(sigma: float, memory: float, tau: np.ndarray) -> np.ndarray:
-    """The Allan deviation (m) of a Gauss-Markov error over spans of tau (s), in continuous time."""
-    r = real("tau", tau, above=0.0) / scalar("memory", memory, above=0.0)
-    return sigma * np.sqrt(2.0 / r * (1.0 - (3.0 - 4.0 * np.exp(-r) + np.exp(-2.0 * r)) / (2 * r)))
 
 
 def autocorrelation(error, lags) -> np.ndarray:

@@ -27,7 +27,7 @@ export const driven = remembered(freshRun);
 
 /**
  * A drive by commands that are held, of `steps` at most: its poses and twists, and whether it
- * arrived. It may have a sight and wheels of its own, see `drive`.
+ * arrived. It may have a sight of its own, see `drive`.
  * @param {Values} options
  */
 export function heldRun({ start, goal, gains, dt, radius, steps, ...odd }) {

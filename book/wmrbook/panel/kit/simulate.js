@@ -24,10 +24,9 @@ function limited(twist, alpha, { b, max_speed, min_speed }) {
 const atRest = (body) => Math.abs(body[0]) < 1e-3 && Math.abs(body[1]) < 1e-3;
 
 // One run, sample by sample, told to `record(k, t, pose, seen, twist, goal)`. The law may see what
-// `sight(k, pose)` shows of a pose, and the robot do what `wheels(v, omega)` make of its twist.
-// Gives [samples, outcome].
+// `sight(k, pose)` shows of a pose. Gives [samples, outcome].
 export function drive(setup, record) {
-  const { law, step, gains, dt, samples, arrivalRadius, hysteresis, moving, sight, wheels } = setup;
+  const { law, step, gains, dt, samples, arrivalRadius, hysteresis, moving, sight } = setup;
   const { limits = null, motors = null, end = null } = setup;
   let before = NaN, pose = setup.start, goal = [...setup.goal, 0, 0];
   let turning = 0, body = [0, 0, 0, 0]; // turning is as in wmrlib's last_turn
@@ -55,7 +54,6 @@ export function drive(setup, record) {
       const [v, omega, ...after] = roll(twist[0], twist[1], ...body, ...motors, dt);
       [twist, body] = [[v, omega], after];
     }
-    if (wheels) twist = wheels(twist[0], twist[1]);
     if (!Number.isFinite(rho + twist[0] + twist[1])) return [k, DIVERGED];
     record(k, dt * k, pose, seen, twist, goal);
     if (arrived) return [k + 1, ARRIVED];

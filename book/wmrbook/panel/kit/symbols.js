@@ -4,8 +4,8 @@ import { COLOURS } from './face.js';
 import { made } from './hands.js';
 
 const SYMBOLS = { rho: 'ρ', alpha: 'α', theta: 'θ', omega: 'ω', beta: 'β', gamma: 'γ', lambda: 'λ',
-    kappa: 'κ', zeta: 'ζ', sigma: 'σ', tau: 'τ', phi: 'φ', delta: 'δ' };
-const NAMED = RegExp(`\\b((?:k|v|l)_(?:${Object.keys(SYMBOLS).join('|')}|max|x|y)|${
+    kappa: 'κ', sigma: 'σ', phi: 'φ', delta: 'δ' };
+const NAMED = RegExp(`\\b((?:k|v)_(?:${Object.keys(SYMBOLS).join('|')}|max|x|y)|${
   Object.keys(SYMBOLS).join('|')})\\b`);
 
 // A symbol such as k_alpha.
