@@ -4,6 +4,7 @@ import colorsys
 import math
 import re
 from dataclasses import replace
+from functools import cache
 from xml.etree import ElementTree
 
 import numpy as np
@@ -17,50 +18,68 @@ from wmrbook.figures._drawing import SERIES
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
-RUN = wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, method="continuous")
-CIRCLE = wmr.track(
-    wmr.paper.circle, wmr.paper.CIRCLE_START, wmr.paper.CIRCLE_GAINS, law="printed", duration=40.0
-)
-PARKED = wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
+
+
+@cache
+def driven() -> wmr.Trajectory:
+    return wmr.simulate(PAPER.start, PAPER.goal, PAPER.gains, method="continuous")
+
+
+@cache
+def circled() -> wmr.Trajectory:
+    return wmr.track(
+        wmr.paper.circle,
+        wmr.paper.CIRCLE_START,
+        wmr.paper.CIRCLE_GAINS,
+        law="printed",
+        duration=40.0,
+    )
+
+
+@cache
+def parked() -> wmr.Trajectory:
+    return wmr.simulate(PAPER.goal, PAPER.goal, PAPER.gains)
 
 
 def test_v_is_red_where_it_rises_and_only_there():
-    whole, rising = figures.lyapunov_over_time(CIRCLE).figure.axes[0].lines
-    rises = np.flatnonzero(np.diff(CIRCLE.V) > 1e-9 * CIRCLE.V[0])
-    assert 0 < rises.size < len(CIRCLE) - 1
-    np.testing.assert_array_equal(whole.get_xydata(), np.transpose([CIRCLE.t, CIRCLE.V]))
+    whole, rising = figures.lyapunov_over_time(circled()).figure.axes[0].lines
+    rises = np.flatnonzero(np.diff(circled().V) > 1e-9 * circled().V[0])
+    assert 0 < rises.size < len(circled()) - 1
+    np.testing.assert_array_equal(whole.get_xydata(), np.transpose([circled().t, circled().V]))
     begin, end, gap = rising.get_xydata().reshape(-1, 3, 2).swapaxes(0, 1)
     np.testing.assert_array_equal([begin, end], whole.get_xydata()[[rises, rises + 1]])
     assert np.isnan(gap[:, 1]).all()
     assert rising.get_linewidth() > 2 * whole.get_linewidth()  # a shape beside the colour
-    (only,) = figures.lyapunov_over_time(RUN).figure.axes
+    (only,) = figures.lyapunov_over_time(driven()).figure.axes
     assert len(only.lines) == 1
     assert only.get_legend() is None  # nothing to tell apart
 
 
 def test_an_inset_shows_the_end_of_the_path_around_the_goal():
-    (inset,) = figures.path(RUN, near=2.0).figure.axes[0].child_axes
-    goal = RUN.goal
+    (inset,) = figures.path(driven(), near=2.0).figure.axes[0].child_axes
+    goal = driven().goal
     assert inset.get_xlim() == pytest.approx((goal.x - 2, goal.x + 2))
     assert inset.get_ylim() == pytest.approx((goal.y - 2, goal.y + 2))
-    np.testing.assert_array_equal(inset.lines[0].get_xydata(), np.transpose([RUN.x, RUN.y]))
-    assert not figures.path(RUN).figure.axes[0].child_axes
+    np.testing.assert_array_equal(
+        inset.lines[0].get_xydata(), np.transpose([driven().x, driven().y])
+    )
+    assert not figures.path(driven()).figure.axes[0].child_axes
     with pytest.raises(ValueError, match=r"near = 0\.0 is not allowed"):
-        figures.path(RUN, near=0.0)
+        figures.path(driven(), near=0.0)
 
 
 def test_lines_are_the_runs_fields():
-    every = [line for axes in figures.twist(RUN).figure.axes for line in axes.lines]
+    every = [line for axes in figures.twist(driven()).figure.axes for line in axes.lines]
     curves = [line for line in every if len(line.get_xdata()) > 2]
-    for line, values in zip(curves, (RUN.v, RUN.omega), strict=True):
-        np.testing.assert_array_equal(line.get_xydata().T, [RUN.t, values])
+    for line, values in zip(curves, (driven().v, driven().omega), strict=True):
+        np.testing.assert_array_equal(line.get_xydata().T, [driven().t, values])
 
 
 def test_path_has_equal_scales_and_the_robots_heading():
-    again = {name: np.append(getattr(RUN, name), getattr(RUN, name)[-1]) for name in "xy"}
+    again = {name: np.append(getattr(driven(), name), getattr(driven(), name)[-1]) for name in "xy"}
     # At its end it turns on the spot.
-    turned = replace(RUN, **again, heading=np.append(RUN.heading, 1.0))
-    for run, last in ((RUN, RUN.heading[-1]), (turned, 1.0)):
+    turned = replace(driven(), **again, heading=np.append(driven().heading, 1.0))
+    for run, last in ((driven(), driven().heading[-1]), (turned, 1.0)):
         axes = figures.path(run).figure.axes[0]
         assert axes.get_aspect() == 1.0
         assert len(axes.patches) == 12  # ten robots, goal and start
@@ -114,7 +133,7 @@ def test_on_dark_paper_a_thing_keeps_its_hue_and_is_legible(role):
 
 
 def test_a_figure_is_the_same_text_each_time_and_the_dark_one_has_no_ink_and_no_white():
-    light, again = (figures.path([RUN, PARKED], ["one", "two"]).svg() for _ in range(2))
+    light, again = (figures.path([driven(), parked()], ["one", "two"]).svg() for _ in range(2))
     assert light == again
     assert len(light) < 40_000
     root = ElementTree.fromstring(style.darkened(light))
@@ -131,9 +150,9 @@ def test_the_last_bits_of_a_run_do_not_change_its_picture():
     def nudged(values):
         return values * (1.0 + 1e-14 * random.standard_normal(len(values)))
 
-    wanted = figures.path(RUN).svg()
+    wanted = figures.path(driven()).svg()
     for _ in range(10):
-        other = replace(RUN, x=nudged(RUN.x), y=nudged(RUN.y))
+        other = replace(driven(), x=nudged(driven().x), y=nudged(driven().y))
         assert figures.path(other).svg() == wanted
 
 
@@ -147,20 +166,20 @@ def test_different_things_have_different_hues_and_no_run_has_a_poses():
 
 
 def test_a_page_plays_a_drive_where_the_picture_has_it():
-    picture = figures.path(RUN, near=2.0)
+    picture = figures.path(driven(), near=2.0)
     picture.svg()
     motion, (whole,) = picture.motion(), picture.figure.axes
     for robot in motion["robots"]:
         robot.update({name: np.cumsum(robot[name]) for name in ("x", "y", "heading")})
-    assert motion["seconds"] == pytest.approx(RUN.t[-1], abs=0.01)
+    assert motion["seconds"] == pytest.approx(driven().t[-1], abs=0.01)
     for robot, axes in zip(motion["robots"], (whole, *whole.child_axes), strict=True):
         left, top, right, bottom = robot["box"]
         assert 0 <= left < right <= 10_000
         assert 0 <= top < bottom <= 10_000
         for k, place in ((0, 0), (-1, -1)):
             (west, east), (south, north) = axes.get_xlim(), axes.get_ylim()
-            across = left + (right - left) * (RUN.x[k] - west) / (east - west)
-            down = bottom - (bottom - top) * (RUN.y[k] - south) / (north - south)
+            across = left + (right - left) * (driven().x[k] - west) / (east - west)
+            down = bottom - (bottom - top) * (driven().y[k] - south) / (north - south)
             assert robot["x"][place] == pytest.approx(across, abs=12)  # boxes are rounded, and
             assert robot["y"][place] == pytest.approx(down, abs=12)  # an inset enlarges that
-            assert robot["heading"][place] == round(math.degrees(np.unwrap(RUN.heading)[k]))
+            assert robot["heading"][place] == round(math.degrees(np.unwrap(driven().heading)[k]))
