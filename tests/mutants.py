@@ -28,7 +28,7 @@ ROOT = Path(__file__).resolve().parents[1]
 PACKAGES = "wmrlib", "book/robot/wmrrobot"
 TESTS = {  # of a module or a folder; "jit" where plain Python would take long
     "_dop853": "simulation",
-    "_threads": "jit sweeping",
+    "threads": "jit sweeping",
     "engine": "jit sweeping simulation",
     "estimation": "jit estimation",
     "exports": "sheets",

@@ -261,11 +261,11 @@ def code(*tags):
 
 @pytest.fixture
 def folder(tmp_path):
-    four, law, six = map(new_markdown_cell, ("# Four", "text\n## The | law\nmore", "# Six"))
+    four, law, six = map(new_markdown_cell, ("# Four", "text\n## The | law\nmore", "# Seven"))
     both, again = code("audit:eq-24", "audit:eq-25"), code("audit:eq-24")
     chapters = {
         "04_lyapunov": [four, code(), law, both, again],
-        "06_the_circle": [six, code("audit:eq-24", "hide-cell"), new_markdown_cell("no heading")],
+        "07_the_circle": [six, code("audit:eq-24", "hide-cell"), new_markdown_cell("no heading")],
         "notes": [code("audit:eq-1")],
     }
     for name, cells in chapters.items():
@@ -276,7 +276,7 @@ def folder(tmp_path):
 def test_places_finds_the_tagged_cells_and_the_headings_above(folder):
     where = audit.places(folder)
     four = Place("04_lyapunov.ipynb", 4, "The | law", 2)
-    six = Place("06_the_circle.ipynb", 6, "Six", 1)
+    six = Place("07_the_circle.ipynb", 7, "Seven", 1)
     assert where == {"eq-24": [four, four._replace(cell=3), six], "eq-25": [four]}
     three = [all_rows()[item] for item in ("eq-24", "eq-25", "eq-26")]
     assert audit.missing(three, where) == ["eq-26"]

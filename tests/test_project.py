@@ -128,6 +128,21 @@ def test_the_benchmarks_find_what_they_measure():
     assert done.returncode == 0, done.stderr
 
 
+def test_no_house_imports_a_private_module_of_another_and_no_test_uses_one():
+    """A test may import what it tests: an integrator's table, say."""
+    private = re.compile(r"^\s*from (wmr\w+)(?:\.\w+)*(?:\.(_\w+)| import (_\w+)\b)", re.MULTILINE)
+    tested = {("test_plots.py", "_drawing")}
+    tested |= {("test_simulation.py", "_dop853"), ("test_sweeping.py", "_dop853")}
+    folders = ("wmrlib", "book", "tests")
+    paths = [path for name in folders for path in (ROOT / name).rglob("*.py")]
+    for path in paths:
+        if "node_modules" in path.parts or "_build" in path.parts:
+            continue
+        for house, *names in private.findall(path.read_text(encoding="utf-8")):
+            name = "".join(names)
+            assert house in path.parts or (path.name, name) in tested, (path, name)
+
+
 def test_the_librarys_ten_lines_do_what_their_comments_say(capsys):
     text = (BOOK / "api.md").read_text(encoding="utf-8")
     (lines,) = re.findall(r"```python\n(.*?)```", text, re.DOTALL)

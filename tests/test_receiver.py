@@ -8,7 +8,7 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 import wmrlib as wmr
-from wmrlib import _threads as threads
+from wmrlib import threads
 from wmrlib.receiver import philox
 
 DT, GAINS = 0.1, wmr.GENTLE_GAINS

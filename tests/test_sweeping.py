@@ -14,8 +14,7 @@ from oracle import integrated
 from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
-from wmrlib import _dop853, sweeping
-from wmrlib import _threads as threads
+from wmrlib import _dop853, sweeping, threads
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib import _threads as threads
+from wmrlib import threads
 from wmrlib.body import LastTurn, Wheels, checked_turn, checked_wheels, in_loops
 from wmrlib.checks import as_array, choice, instance, real, refusal, same_shape, scalar
 from wmrlib.engine import continuous, lanes, sampled

@@ -12,7 +12,7 @@ import numpy as np
 from timing import Row, in_turn
 
 import wmrlib as wmr
-from wmrlib import _threads as threads
+from wmrlib import threads
 
 GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
 RUNS, STEPS, DT = 10_000, 300, 0.02

@@ -49,7 +49,9 @@ def opened(page, robot=ROBOTS[0]):
     return panel
 
 
-@pytest.mark.parametrize("robot", ROBOTS)
+@pytest.mark.parametrize(
+    "robot", [*ROBOTS[:2], *(pytest.param(it, marks=pytest.mark.slow) for it in ROBOTS[2:])]
+)
 def test_the_page_says_what_python_says(emptied_page, robot):
     found, told, ours = opened(emptied_page, robot).found(), sheet(robot), certificate(robot)
     given = found["sheet"]

@@ -53,6 +53,7 @@ def test_over_a_route_it_parks_at_the_last_pose():
     assert ended.time > 70.0  # one goal takes 63 s
 
 
+@pytest.mark.slow
 def test_the_table_has_all_pairs_and_a_last_turn_the_best_headings(tmp_path, monkeypatch, capsys):
     file = tmp_path / "lawn.json"
     monkeypatch.setattr(
