@@ -1,5 +1,4 @@
 # The public names and where they live, for lazy_loader, editors and type checkers.
-from . import laws as laws
 from . import metrics as metrics
 from . import paper as paper
 from .body import LastTurn as LastTurn
