@@ -22,7 +22,7 @@ STRICT = "-Wall -Wextra -Werror -pedantic -Wconversion -Wdouble-promotion -ffp-c
 FOLDER = symbolic.C_HEADER.parent
 REALS = {"double": (ctypes.c_double, 1e-13), "float": (ctypes.c_float, 4e-6)}
 GIVEN = {"local": ctypes.c_double, "local_e7": ctypes.c_int32}
-LAWS = {name.removeprefix("law_").replace("law", "corrected"): name for name in symbolic.C_LAWS}
+LAWS = {name.removeprefix("law_").replace("law", "corrected"): name for name in symbolic.c_laws()}
 CALLS = "".join(
     f"""void {name}(const R *s, R *out) {{
     wmr_polar e = {{s[0], s[1], s[2]}}; wmr_gains g = {{s[3], s[4], s[5], s[6]}};

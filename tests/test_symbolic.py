@@ -157,7 +157,7 @@ def test_near_the_goal_the_poles_are_those_of_tuning():
         matrix = sp.Matrix(symbolic.closed_loop(name)).jacobian(state).subs({rho: 0, theta: 0})
         matrix = matrix.applyfunc(lambda entry: sp.limit(textbook(entry), alpha, 0))
         assert sp.expand(matrix.charpoly(s).as_expr() - polynomial) == 0
-        near, a, b = symbolic.FORMULAS[f"{name}_modes"].expanded()
+        near, a, b = symbolic.panel_formulas()[f"{name}_modes"].expanded()
         assert sp.expand((s + near) * (s**2 + a * s + b) - polynomial) == 0
 
 
@@ -212,7 +212,7 @@ PRINTED_APART = {"roll": rolled, "saturation_scale": lambda most, fast: min(most
 def test_a_printed_function_does_what_the_one_of_that_name_does_in_python():
     random, compared = np.random.default_rng(3), 0
     within = [{"turned_back": lambda angle: math.remainder(angle, 2.0 * math.pi)}, "math"]
-    for name, formula in symbolic.FORMULAS.items():
+    for name, formula in symbolic.panel_formulas().items():
         homes = SimpleNamespace(**PRINTED_APART), paper, motion, laws, body
         ours = next((getattr(it, name) for it in homes if hasattr(it, name)), None)
         if ours is None:

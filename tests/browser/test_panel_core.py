@@ -35,7 +35,7 @@ CALL = """([name, rows, count, gains]) => rows.map((row) => {
 
 
 def test_each_printed_formula_equals_its_expression(panel_core):
-    for name, formula in symbolic.FORMULAS.items():
+    for name, formula in symbolic.panel_formulas().items():
         random = np.random.default_rng(7)
         symbols = (*formula.arguments, *formula.gains)
         rows = random.uniform(-3.0, 3.0, (200, len(symbols)))

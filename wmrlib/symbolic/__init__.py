@@ -1,9 +1,9 @@
 """The model as sympy expressions, and the same formulas printed as JavaScript and as C.
 
 The expressions are what the functions of `laws`, `motion` and `geodesy` return for symbols, so that
-no formula is typed twice. ``python -m wmrlib.symbolic`` prints `C_FORMULAS` into the C header
-``wmr_law.h``; `javascript` prints `FORMULAS` for the book's panels. Formulas of your own go through
-the same printers: `formula_of` a function, then `c_function`.
+no formula is typed twice. ``python -m wmrlib.symbolic`` prints `c_formulas` into the C header
+``wmr_law.h``; `javascript` prints `panel_formulas` for the book's panels. Formulas of your own go
+through the same printers: `formula_of` a function, then `c_function`.
 """
 
 from wmrlib.checks import book_extra
@@ -20,11 +20,11 @@ from wmrlib.symbolic.c_header import (  # noqa: F401
     wrapped,
 )
 from wmrlib.symbolic.formulas import (  # noqa: F401
-    C_FORMULAS,
-    C_LAWS,
-    FORMULAS,
     Formula,
+    c_formulas,
+    c_laws,
     formula_of,
+    panel_formulas,
     shared,
 )
 from wmrlib.symbolic.javascript import javascript, javascript_name  # noqa: F401

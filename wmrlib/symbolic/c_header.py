@@ -11,7 +11,7 @@ from sympy.printing.c import C99CodePrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from wmrlib.geodesy import EARTH_RADIUS_M
-from wmrlib.symbolic.formulas import C_FORMULAS, C_LAWS, Formula
+from wmrlib.symbolic.formulas import Formula, c_formulas, c_laws
 
 C_HEADER = Path(__file__).parent / "c" / "wmr_law.h"
 _FUNCTIONS = "sin cos tan atan atan2 sinh cosh tanh exp log floor fmod"
@@ -50,7 +50,7 @@ def c_function(name: str, formula: Formula) -> str:
 
     Parameters
     ----------
-    name, formula : its name without the wmr_; of `C_FORMULAS` or `C_LAWS`, or one of your own
+    name, formula : its name without the wmr_; of `c_formulas` or `c_laws`, or one of your own
 
     Returns
     -------
@@ -101,6 +101,6 @@ def filled(frame: Path, printed: dict[str, str]) -> str:
 
 def c_header() -> str:
     """The text of ``wmr_law.h``: ``frame.h`` with the printed functions in their places."""
-    printed = {"FORMULAS": c_functions(C_FORMULAS), "LAWS": c_functions(C_LAWS)}
+    printed = {"FORMULAS": c_functions(c_formulas()), "LAWS": c_functions(c_laws())}
     text = filled(C_HEADER.with_name("frame.h"), printed)
     return text.replace("@EARTH_RADIUS_M@", repr(EARTH_RADIUS_M))

@@ -1,8 +1,12 @@
-"""The functions that are printed into other languages, by name."""
+"""The functions that are printed into other languages, by name.
+
+Each table is made when it is first asked for: who imports the expressions need not wait for it.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable, Iterable
+from functools import cache
 from types import SimpleNamespace
 from typing import NamedTuple
 
@@ -82,30 +86,7 @@ def _modes(name: str) -> Formula:
 
 _POSE, _GOAL = (s.x, s.y, s.heading), (s.goal_x, s.goal_y, s.goal_heading)
 _TWIST = s.v, s.omega, s.dt
-_CLOSING = s.rho, s.alpha, s.v_over_rho, s.omega
-_WRAP = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
-_DECAY = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
-_KEEPS = "theta to be used, up to pi + hysteresis; before: the last result, NaN if there is none"
-_BRANCH = formula_of(motion.keep_branch, (s.theta, s.before, s.hysteresis), _KEEPS)
-_GUARDS = {
-    "sinc": Formula((s.angle,), (s.GUARDED_SINC,), "sin(angle)/angle, which is 1 at 0"),
-    "decay": Formula((s.rho, s.k_rho), (s.GUARDED_DECAY,), _DECAY),
-    "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
-    "wrap": Formula((s.angle,), (s.GUARDED_WRAP,), _WRAP),
-}
 _TWIST_AND_WIDTH = s.v, s.omega, s.b
-_SCALE = "the factor on the twist for a max_speed"
-_LIMITS = {
-    "hurry": formula_of(
-        body.hurry, (s.v, s.alpha, s.min_speed), "the factor on it for a min_speed"
-    ),
-    "fastest_wheel": formula_of(laws.fastest_wheel, _TWIST_AND_WIDTH, "speed of the faster wheel"),
-    "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), _SCALE),
-}
-_TURNING = s.error, s.gain, s.min_rate, s.max_rate
-_TURN_RATE = formula_of(
-    body.turn_rate, _TURNING, "omega of a turn on the spot by an error that is left"
-)
 _BODY = s.speed_left, s.speed_right, s.rest_left, s.rest_right
 
 
@@ -120,50 +101,93 @@ def _roll() -> Formula:
     return shared(arguments, tuple(map(exact, (v, omega, *after))), says)
 
 
-FORMULAS = {
-    **_GUARDS,
-    **{f"{name}_law": _formula(name) for name in laws.LAWS},
-    "body_error": formula_of(laws.body_error, s.STATE, "the goal ahead, to the left, and turned"),
-    **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
-    **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
-    **{
-        f.__name__: formula_of(f, _POSE + _TWIST, f"method {name}")
-        for name, f in motion.STEPS.items()
-    },
-    "polar_from_pose": formula_of(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
-    "keep_branch": _BRANCH,
-    **_LIMITS,
-    "turn_rate": _TURN_RATE,
-    "roll": _roll(),
-    "pose_of_error": formula_of(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
-    "polar_closing_rate": formula_of(motion.polar_closing_rate, _CLOSING, "(7) to (9)"),
-    "circle": formula_of(paper.circle_at, (s.t,), "x, y, heading, v, omega of the goal"),
-}
-"""What is printed for the panel, by name."""
+def _guards() -> dict[str, Formula]:
+    """What is finite where the textbook has 0/0, or keeps an angle within a turn."""
+    wrap = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
+    decay = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
+    return {
+        "sinc": Formula((s.angle,), (s.GUARDED_SINC,), "sin(angle)/angle, which is 1 at 0"),
+        "decay": Formula((s.rho, s.k_rho), (s.GUARDED_DECAY,), decay),
+        "turned_back": Formula((s.angle,), (s.TURNED_BACK,), "an angle within a turn of 0"),
+        "wrap": Formula((s.angle,), (s.GUARDED_WRAP,), wrap),
+    }
 
-C_LAWS = {
-    "law" if name == "corrected" else f"law_{name}": _law(name)
-    for name in laws.POSE_LAWS
-    if laws.LAWS[name].gains is Gains
-}
-"""The laws that the C header has, by their names there."""
 
-_DISTANCE, _SIGHT, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
-_LEFT, _RIGHT = read(motion.wheel_speeds, s.v, s.omega, s.b)
-_ENDS = s.lat1, s.lat2, s.dlat, s.dlong
-_LENGTH = s.R * read(geodesy.great_circle_angle, *_ENDS)[0]
-_BEARING = read(geodesy.bearing_angle, *_ENDS)
-C_FORMULAS = {
-    **_GUARDS,
-    "lyapunov_value": formula_of(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
-    "keep_branch": _BRANCH,
-    "turn_rate": _TURN_RATE,
-    "distance": Formula((s.east, s.north), (_DISTANCE,), "rho"),
-    "sight": Formula((s.east, s.north), _SIGHT.args, "the line of sight, from east"),
-    "left_wheel": Formula(_TWIST_AND_WIDTH, (_LEFT,), "ground speed, from (1) and (2)"),
-    "right_wheel": Formula(_TWIST_AND_WIDTH, (_RIGHT,), "ground speed, from (1) and (2)"),
-    **_LIMITS,
-    "sphere_distance": shared((*_ENDS, s.R), (_LENGTH,), "(11) to (13)"),
-    "bearing": shared(_ENDS, _BEARING, "(15) to (17)"),
-}
-"""What a robot needs around the law, each a function of numbers."""
+def _keep_branch() -> Formula:
+    says = "theta to be used, up to pi + hysteresis; before: the last result, NaN if there is none"
+    return formula_of(motion.keep_branch, (s.theta, s.before, s.hysteresis), says)
+
+
+def _limits() -> dict[str, Formula]:
+    """What the wheels can do of a twist."""
+    hurry, fastest = "the factor on it for a min_speed", "speed of the faster wheel"
+    scale = "the factor on the twist for a max_speed"
+    return {
+        "hurry": formula_of(body.hurry, (s.v, s.alpha, s.min_speed), hurry),
+        "fastest_wheel": formula_of(laws.fastest_wheel, _TWIST_AND_WIDTH, fastest),
+        "saturation_scale": Formula((s.max_speed, s.fastest), (s.SATURATED,), scale),
+    }
+
+
+def _turn_rate() -> Formula:
+    arguments = s.error, s.gain, s.min_rate, s.max_rate
+    says = "omega of a turn on the spot by an error that is left"
+    return formula_of(body.turn_rate, arguments, says)
+
+
+@cache
+def panel_formulas() -> dict[str, Formula]:
+    """What is printed for the panel, by name."""
+    steps = motion.STEPS.items()
+    closing = s.rho, s.alpha, s.v_over_rho, s.omega
+    error = formula_of(laws.body_error, s.STATE, "the goal ahead, to the left, and turned")
+    circle = formula_of(paper.circle_at, (s.t,), "x, y, heading, v, omega of the goal")
+    return {
+        **_guards(),
+        **{f"{name}_law": _formula(name) for name in laws.LAWS},
+        "body_error": error,
+        **{row.value.__name__: _value(name) for name, row in laws.LAWS.items()},
+        **{f"{name}_modes": _modes(name) for name in laws.POSE_LAWS},
+        **{f.__name__: formula_of(f, _POSE + _TWIST, f"method {name}") for name, f in steps},
+        "polar_from_pose": formula_of(motion.polar_from_pose, _POSE + _GOAL, "rho, alpha, theta"),
+        "keep_branch": _keep_branch(),
+        **_limits(),
+        "turn_rate": _turn_rate(),
+        "roll": _roll(),
+        "pose_of_error": formula_of(motion.pose_of_error, s.STATE + _GOAL, "x, y, heading"),
+        "polar_closing_rate": formula_of(motion.polar_closing_rate, closing, "(7) to (9)"),
+        "circle": circle,
+    }
+
+
+@cache
+def c_laws() -> dict[str, Formula]:
+    """The laws that the C header has, by their names there."""
+    return {
+        "law" if name == "corrected" else f"law_{name}": _law(name)
+        for name in laws.POSE_LAWS
+        if laws.LAWS[name].gains is Gains
+    }
+
+
+@cache
+def c_formulas() -> dict[str, Formula]:
+    """What a robot needs around the law, each a function of numbers."""
+    distance, sight, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
+    left, right = read(motion.wheel_speeds, s.v, s.omega, s.b)
+    ends = s.lat1, s.lat2, s.dlat, s.dlong
+    length = s.R * read(geodesy.great_circle_angle, *ends)[0]
+    bearing = read(geodesy.bearing_angle, *ends)
+    return {
+        **_guards(),
+        "lyapunov_value": formula_of(laws.lyapunov_value, (*s.STATE, s.h, s.L), "V, (18)"),
+        "keep_branch": _keep_branch(),
+        "turn_rate": _turn_rate(),
+        "distance": Formula((s.east, s.north), (distance,), "rho"),
+        "sight": Formula((s.east, s.north), sight.args, "the line of sight, from east"),
+        "left_wheel": Formula(_TWIST_AND_WIDTH, (left,), "ground speed, from (1) and (2)"),
+        "right_wheel": Formula(_TWIST_AND_WIDTH, (right,), "ground speed, from (1) and (2)"),
+        **_limits(),
+        "sphere_distance": shared((*ends, s.R), (length,), "(11) to (13)"),
+        "bearing": shared(ends, bearing, "(15) to (17)"),
+    }

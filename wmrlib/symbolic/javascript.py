@@ -11,7 +11,7 @@ from sympy.printing.jscode import JavascriptCodePrinter
 from sympy.printing.precedence import PRECEDENCE
 
 from wmrlib import _dop853, laws, motion
-from wmrlib.symbolic.formulas import FORMULAS, Formula
+from wmrlib.symbolic.formulas import Formula, panel_formulas
 
 _HEADER = "// Printed from wmrlib's formulas by symbolic.javascript: change those.\n"
 
@@ -68,8 +68,8 @@ def _law(name: str, row: laws.Law) -> str:
 
 
 def javascript() -> str:
-    """The text of ``model.js``: `FORMULAS` as functions, and the laws and methods by name."""
-    functions = "".join(_function(name, formula) for name, formula in FORMULAS.items())
+    """The text of ``model.js``: `panel_formulas` as functions, and the laws and methods by name."""
+    functions = "".join(_function(name, formula) for name, formula in panel_formulas().items())
     table = "".join(_law(name, row) for name, row in laws.LAWS.items())
     steps = ", ".join(f"{name}: {javascript_name(f.__name__)}" for name, f in motion.STEPS.items())
     rows = {"stages": _dop853.STAGES, "weights": _dop853.WEIGHTS}

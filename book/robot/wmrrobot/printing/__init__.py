@@ -1,16 +1,16 @@
 """What stands in C: the drive and the filter, by wmrlib's printers.
 
-``python -m wmrrobot`` prints the drive into ``wmr_drive.h``, `C_FILTER` into ``wmr_filter.h`` and
-`JACOBIANS` into ``wmrrobot/jacobians.py``.
+``python -m wmrrobot`` prints the drive into ``wmr_drive.h``, `filter_formulas` into
+``wmr_filter.h`` and `jacobians` into ``wmrrobot/jacobians.py``.
 """
 
 from wmrrobot.printing.c_drive import C_DRIVE, c_drive  # noqa: F401
 from wmrrobot.printing.c_filter import C_FILTER_HEADER, c_filter_header  # noqa: F401
 from wmrrobot.printing.formulas import (  # noqa: F401
-    C_FILTER,
-    JACOBIANS,
+    filter_formulas,
     gyro,
     gyro_bias,
+    jacobians,
     share,
     wheel_scale,
 )

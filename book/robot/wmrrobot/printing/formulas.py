@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import cache
+
 import sympy as sp
 
 from wmrlib.symbolic import Formula, formula_of, read, shared
@@ -35,29 +37,28 @@ def _antenna_rows() -> Formula:
     return shared((s.heading, *_ARM), tuple(place.jacobian(_STATE)), says)
 
 
-JACOBIANS = {"moved_rows": _moved_rows(), "antenna_rows": _antenna_rows()}
-"""The filter's derivatives, row by row."""
+@cache
+def jacobians() -> dict[str, Formula]:
+    """The filter's derivatives, row by row."""
+    return {"moved_rows": _moved_rows(), "antenna_rows": _antenna_rows()}
 
-_WHEELS = s.v, s.omega, track_width, noise
-C_FILTER = {
-    "moved": formula_of(
-        sensing.moved, (s.x, s.y, s.heading, speed, s.turn, s.dt), "x, y, heading after a step"
-    ),
-    "true_twist": formula_of(
-        sensing.speed_and_turn, (*_STATE[3:], *_INPUTS[:4]), "true speed and turning rate"
-    ),
-    "gyro_reading": formula_of(
-        sensing.gyro_reading, (*_STATE[3:], s.omega), "the gyro without slip"
-    ),
-    "wheel_noise": formula_of(
-        sensing.wheel_noise, _WHEELS, "variance rates of speed and turning rate"
-    ),
-    "antenna": formula_of(
-        sensing.antenna, (s.x, s.y, s.heading, *_ARM), "the antenna's east and north"
-    ),
-    "course": formula_of(
-        sensing.course, (s.heading, s.v, s.omega, *_ARM), "where the antenna moves"
-    ),
-    **JACOBIANS,
-}
-"""What the C filter is made of."""
+
+@cache
+def filter_formulas() -> dict[str, Formula]:
+    """What the C filter is made of."""
+    step = s.x, s.y, s.heading, speed, s.turn, s.dt
+    place, move = (s.x, s.y, s.heading, *_ARM), (s.heading, s.v, s.omega, *_ARM)
+    wheels = s.v, s.omega, track_width, noise
+    twist = *_STATE[3:], *_INPUTS[:4]
+    reading = *_STATE[3:], s.omega
+    return {
+        "moved": formula_of(sensing.moved, step, "x, y, heading after a step"),
+        "true_twist": formula_of(sensing.speed_and_turn, twist, "true speed and turning rate"),
+        "gyro_reading": formula_of(sensing.gyro_reading, reading, "the gyro without slip"),
+        "wheel_noise": formula_of(
+            sensing.wheel_noise, wheels, "variance rates of speed and turning rate"
+        ),
+        "antenna": formula_of(sensing.antenna, place, "the antenna's east and north"),
+        "course": formula_of(sensing.course, move, "where the antenna moves"),
+        **jacobians(),
+    }

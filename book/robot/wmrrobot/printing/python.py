@@ -8,7 +8,7 @@ from sympy.printing.precedence import PRECEDENCE
 from sympy.printing.pycode import PythonCodePrinter
 
 from wmrlib.symbolic import Formula
-from wmrrobot.printing.formulas import JACOBIANS
+from wmrrobot.printing.formulas import jacobians
 
 PYTHON_MODULE = Path(__file__).parents[1] / "jacobians.py"
 _HEADER = '''"""Printed by python -m wmrrobot from wmrrobot.sensing: change that."""
@@ -44,4 +44,4 @@ def _function(name: str, formula: Formula) -> str:
 
 def python_module() -> str:
     """The text of ``jacobians.py``."""
-    return _HEADER + "".join(_function(name, formula) for name, formula in JACOBIANS.items())
+    return _HEADER + "".join(_function(name, formula) for name, formula in jacobians().items())
