@@ -82,9 +82,15 @@ def find_tool():
 
 
 def pytest_configure(config):
-    """Let the kernels of nbval, and of the applications that tests start, talk through files."""
+    """Let the kernels of nbval, and of the applications that tests start, talk through files.
+
+    And let Python keep what it compiles, where it was told not to: each of a hundred processes
+    would compile all that it imports.
+    """
     kernels.use_files()
     os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
+    sys.dont_write_bytecode = False
 
 
 @pytest.hookimpl(tryfirst=True, optionalhook=True)
