@@ -71,6 +71,7 @@ class LastTurn(NamedTuple):
 
 
 NO_LIMITS = Wheels(1.0)
+NO_TURN = LastTurn(gain=0.0)
 
 
 def checked_wheels(wheels: Wheels | None, name: str = "wheels") -> Wheels:
@@ -85,20 +86,10 @@ def checked_wheels(wheels: Wheels | None, name: str = "wheels") -> Wheels:
     return checked
 
 
-def in_loops(wheels: Wheels) -> tuple[Wheels, Wheels | None]:
-    """The wheels as limits of a twist, and as motors, or None if they obey at once.
-
-    None says by its type that something is left out, so that numba compiles nothing for it.
-    """
-    ideal = Wheels(*wheels[:3])
-    limits = ideal if ideal.min_speed else ideal._replace(min_speed=None)  # type: ignore[arg-type]
-    return limits, (None if wheels == ideal else wheels)
-
-
-def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -> LastTurn | None:
-    """The last turn for steps of dt; ValueError names what is not allowed."""
+def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -> LastTurn:
+    """The last turn for steps of dt, `NO_TURN` for None; ValueError names what is not allowed."""
     if turn is None:
-        return None
+        return NO_TURN
     turn = sound_turn(turn, dt)
     if method == "continuous" or not radius:
         needed = "None, or method 'arc' or 'euler' with an arrival radius,"
@@ -132,10 +123,15 @@ def _sound(name: str, values: Any, kind: type, least: dict[str, float], endless:
 @formula
 def hurry(v, alpha, min_speed):
     """The factor on a twist that makes |v| at least min_speed |cos(alpha)|."""
-    if min_speed is None:
-        return 1.0
     wanted = min_speed * abs(sincos(alpha)[1])
     return between(wanted / (abs(v) + _TINY), 1.0, _FASTEST)
+
+
+@formula
+def are_ideal(wheels):
+    """Whether the wheels do at once what they are told, within their limits."""
+    at_once = (wheels.lag == 0.0) & (wheels.acceleration == math.inf)
+    return at_once & (wheels.dead_band == 0.0) & (wheels.encoder_step == 0.0)
 
 
 @formula

@@ -27,6 +27,7 @@ _PACKAGE = Path(__file__).parent
 _SOURCES = sorted((*_PACKAGE.glob("*.py"), *_PACKAGE.glob("engine/*.py")))
 # Divisions follow IEEE 754 as in numpy; a product and a sum may be rounded once rather than twice.
 _ARITHMETIC = {"error_model": "numpy", "fastmath": {"contract"}}
+_INLINED = _ARITHMETIC | {"forceinline": True, "no_cpython_wrapper": True, "no_cfunc_wrapper": True}
 
 
 def _text_digest(files: list[Path], more: str = "") -> str:
@@ -131,9 +132,9 @@ def compiled(function: Callable) -> Callable:
 
 def formula(function: Callable) -> Callable:
     """`function` itself, which takes numbers, arrays and symbols; compiled loops inline it."""
-    return register_jitable(forceinline=True, **_ARITHMETIC)(function)
+    return register_jitable(**_INLINED)(function)
 
 
 def elementary(function: Callable) -> Callable:
     """`function` of one kind of numbers in compiled loops, where the caller has others for it."""
-    return overload(function, jit_options={"forceinline": True, **_ARITHMETIC}, strict=False)
+    return overload(function, jit_options=_INLINED, strict=False)

@@ -7,28 +7,40 @@ each sample, and the rows of a Trajectory from x to omega.
 from __future__ import annotations
 
 import math
+from typing import NamedTuple
 
 import numpy as np
 
 from wmrlib import motion
 from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_error, until_event
-from wmrlib.body import at_rest, hurry, last_turn, roll
+from wmrlib.body import Wheels, are_ideal, at_rest, hurry, last_turn, roll
 from wmrlib.compilation import compiled, formula
 from wmrlib.elementary import between, sincos, wrap
 from wmrlib.gains import GainsFields
 from wmrlib.laws import command, pose_law, saturation_scale
+from wmrlib.receiver import BEFORE_THE_FIRST_FIX, SampledReceiver, received, shown_pose
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
-MOST_TRIALS = 1_000_000  # steps
+MOST_TRIALS = 1_000_000  # steps of a run on its own
 ROOM = 16  # rows: the slopes at the start and after each stage, two for swing_of, the new state
+
+
+class Sampling(NamedTuple):
+    """When a sampled robot looks and decides, and when it stops looking."""
+
+    dt: float
+    along_arc: bool  # between two samples; otherwise along the tangent
+    arrival_radius: float  # a negative one is never reached
+    hysteresis: float
 
 
 @formula
 def steer(polar, goal_twist, numbers, law, wheels):
     """What a law commands, within the limits of the wheels: (v, omega)."""
     v, omega = command(*polar, *goal_twist, numbers, law)
-    more = hurry(v, polar[1], wheels.min_speed)
-    v, omega = more * v, more * omega
+    if wheels.min_speed > 0.0:
+        more = hurry(v, polar[1], wheels.min_speed)
+        v, omega = more * v, more * omega
     share = saturation_scale(v, omega, wheels)
     return share * v, share * omega
 
@@ -42,32 +54,42 @@ def write(record, k, pose, polar, twist):
 
 
 @compiled
-def held(
-    record, pose, path, numbers, law, wheels, along_arc, dt, arrival_radius, hysteresis, motors, end
-):
+def held(record, pose, path, numbers, law, wheels, end, receiver, sampling):
     """Hold the twist for dt, sample after sample; column k of `path` is the goal then, or its last.
 
-    `motors` are the Wheels that have to follow, or None; `end` is a LastTurn, or None.
-    Returns (samples, outcome, largest |omega|, metres rolled). A negative radius never arrives.
+    `wheels` are Wheels or NO_LIMITS, and `end` is a LastTurn or NO_TURN. The law steers by what the
+    `receiver` shows, a SampledReceiver; with None it knows the truth, and numba compiles the loop
+    without a receiver in 3 s less. The record has the true poses and polar errors.
+    Returns (samples, outcome, largest |omega|, metres rolled).
     """
-    peak, length, rolled, before = 0.0, 0.0, 0.0, math.nan
+    dt, peak, length, rolled = sampling.dt, 0.0, 0.0, 0.0
+    ideal, turns = are_ideal(wheels), end.gain > 0.0
+    theta, theta_seen = math.nan, math.nan  # before the first sample
     pose = pose[0], pose[1], wrap(pose[2])
-    body, turning = (0.0, 0.0, 0.0, 0.0), 0.0
+    body, turning, reception = (0.0, 0.0, 0.0, 0.0), 0.0, BEFORE_THE_FIRST_FIX
     for k in range(record.shape[1]):
         x, y, heading, v_ref, omega_ref = path[:, min(k, path.shape[1] - 1)]
-        rho, alpha, theta = motion.polar_from_pose(*pose, x, y, heading)
-        before = motion.keep_branch(theta, before, hysteresis)
-        polar = rho, alpha, before
-        v, omega = steer(polar, (v_ref, omega_ref), numbers, law, wheels)
-        arrived = polar[0] <= arrival_radius
-        if end is not None:
-            turn = *polar, v, omega, turning, arrival_radius, dt, end
+        goal = x, y, heading
+        rho, alpha, theta_now = motion.polar_from_pose(*pose, *goal)
+        theta = motion.keep_branch(theta_now, theta, sampling.hysteresis)
+        seen = polar = rho, alpha, theta
+        write(record, k, pose, polar, (0.0, 0.0))
+        if receiver is not None:
+            reception = received(reception, record, k, receiver)
+            shown = shown_pose(reception, record, k, goal, receiver)
+            rho, alpha, theta_now = motion.polar_from_pose(*shown, *goal)
+            theta_seen = motion.keep_branch(theta_now, theta_seen, sampling.hysteresis)
+            seen = rho, alpha, theta_seen
+        v, omega = steer(seen, (v_ref, omega_ref), numbers, law, wheels)
+        arrived = seen[0] <= sampling.arrival_radius
+        if turns:
+            turn = *seen, v, omega, turning, sampling.arrival_radius, dt, end
             v, omega, turning, arrived = last_turn(*turn)
             omega = omega * saturation_scale(v, omega, wheels)
-        if motors is not None:
-            arrived = arrived and (end is None or at_rest(body))
-            v, omega, body = roll(v, omega, body, motors, dt)
-        write(record, k, pose, polar, (v, omega))
+        if not ideal:
+            arrived = arrived and (not turns or at_rest(body))
+            v, omega, body = roll(v, omega, body, wheels, dt)
+        record[6, k], record[7, k] = v, omega
         if not math.isfinite(polar[0] + v + omega):
             return k, DIVERGED, peak, length
         peak, length = max(peak, abs(omega)), length + rolled
@@ -75,7 +97,7 @@ def held(
             return k + 1, ARRIVED, peak, length
         rolled = dt * abs(v)
         step = *pose, v, omega, dt
-        pose = motion.arc_step(*step) if along_arc else motion.euler_step(*step)
+        pose = motion.arc_step(*step) if sampling.along_arc else motion.euler_step(*step)
     return record.shape[1], TIMED_OUT, peak, length
 
 
@@ -85,11 +107,11 @@ def column(goals, stage):
 
 
 @compiled
-def slopes_of(state, goal, numbers, law, wheels, motors, out):
+def slopes_of(state, goal, numbers, law, wheels, out):
     """Write the rates of a state, and return the twist.
 
-    A state is the polar error, or the pose if the goal moves; then the metres rolled; and, with
-    wheels that lag, their twist.
+    A state is the polar error, or the pose if the goal moves; then the metres rolled; and, if the
+    wheels lag, the twist that they have. `goal` is None if it stands still.
     """
     if goal is not None:
         polar = motion.polar_from_pose(state[0], state[1], state[2], goal[0], goal[1], goal[2])
@@ -99,14 +121,15 @@ def slopes_of(state, goal, numbers, law, wheels, motors, out):
         return v, omega
     rho, alpha = state[0], state[1]
     v_over_rho, omega = pose_law(rho, alpha, state[2], GainsFields(*numbers[:4]), law)
-    more = hurry(v_over_rho * rho, alpha, wheels.min_speed)
-    v_over_rho, omega = more * v_over_rho, more * omega
+    if wheels.min_speed > 0.0:
+        more = hurry(v_over_rho * rho, alpha, wheels.min_speed)
+        v_over_rho, omega = more * v_over_rho, more * omega
     share = saturation_scale(v_over_rho * rho, omega, wheels)
     v_over_rho, omega = share * v_over_rho, share * omega
     v = v_over_rho * rho
-    if motors is not None:
-        most, half = motors.acceleration, 0.5 * motors.track_width
-        change, swing = (v - state[4]) / motors.lag, (omega - state[5]) / motors.lag
+    if state.size > 4:
+        most, half = wheels.acceleration, 0.5 * wheels.track_width
+        change, swing = (v - state[4]) / wheels.lag, (omega - state[5]) / wheels.lag
         left = between(change - half * swing, -most, most)
         right = between(change + half * swing, -most, most)
         out[4], out[5] = 0.5 * (left + right), (right - left) / (2.0 * half)
@@ -180,12 +203,12 @@ def note(record, k, state, goal, goals, twist):
     write(record, k, pose, polar, twist)
 
 
-def integrate(record, state, room, t, radius, goal, goals_at, *loop):
+def integrate(record, state, room, t, most_trials, radius, goal, goals_at, *loop):
     """Act all the time, in steps with error control; a sample ends a step, and so do events.
 
     `room` is `ROOM` rows to work in. `goals_at(time, dt)` gives a moving goal at the stages of a
-    step, one a column; it is None for a `goal` that stands still. Returns (samples, outcome, time,
-    largest |omega|, metres rolled).
+    step, one a column; it is None for a `goal` that stands still. After `most_trials` steps the run
+    is given up. Returns (samples, outcome, time, largest |omega|, metres rolled).
     """
     slopes, new = room[:15], room[15]
     now, step, peak, length, trials = 0.0, 0.01, 0.0, 0.0, 0
@@ -202,7 +225,7 @@ def integrate(record, state, room, t, radius, goal, goals_at, *loop):
             goals = None if goals_at is None else goals_at(now, dt)
             tried = state, dt, slopes, new, goals, here, radius, peak
             error, wanted, there = attempt(*tried, *loop)
-            trials, stuck = trials + 1, trials >= MOST_TRIALS
+            trials, stuck = trials + 1, trials >= most_trials
             if not stuck and error <= 1.0 and wanted >= dt:
                 now = now + dt if dt < t[k] - now else t[k]
                 step = max(step, growth(error) * dt) if now == t[k] else growth(error) * dt
@@ -225,3 +248,87 @@ def integrate(record, state, room, t, radius, goal, goals_at, *loop):
 
 
 continuous = compiled(integrate)  # goals that move are asked for in Python
+
+
+# Many runs, one after the other -----------------------------------------------------------------
+
+# The rows of many runs, one a column, and of what they amount to, in the order of `Arrival`.
+START, GOAL, GAINS, WHEELS, RECEIVER, NUMBER, LAW = 0, 3, 6, 10, 17, 29, 30
+OUTCOME, TIME, HEADING_ERROR, PEAK_OMEGA, PATH_LENGTH, DISTANCE = range(6)
+
+
+@formula
+def summarise(summary, i, outcome, time, heading_error, peak_omega, path_length, distance):
+    """Write down what run i amounts to; who does not arrive takes forever."""
+    time = time if outcome == ARRIVED else math.inf
+    sums = float(outcome), time, heading_error, peak_omega, path_length, distance
+    for row, value in enumerate(sums):
+        summary[row, i] = value
+
+
+@formula
+def wheels_of(runs, i):
+    width, fastest, slowest, acceleration, lag, dead, step = runs[WHEELS:RECEIVER, i]
+    return Wheels(width, fastest, slowest, acceleration, lag, dead, step)
+
+
+@formula
+def receiver_of(runs, i, key):
+    if key is None:
+        return None
+    sigma, fading, period, delay, late, sight, bias, drops, outage, jump, jumps, compass = runs[
+        RECEIVER:NUMBER, i
+    ]
+    times = sigma, fading, period, delay, late, sight, bias, drops, outage, jump, jumps, compass
+    return SampledReceiver(*times, int(runs[NUMBER, i]), key)
+
+
+@compiled
+def held_runs(runs, records, first, samples, end, key, sampling):
+    """Sum up the runs in the columns of `runs`, whose twists are held.
+
+    If `records` has room for samples, those of run i go to its run first + i.
+    """
+    summary, record = np.empty((DISTANCE + 1, runs.shape[1])), np.empty((8, samples))
+    path = np.zeros((5, 1))
+    for i in range(runs.shape[1]):
+        x, y, heading, path[0, 0], path[1, 0], path[2, 0], k_rho, k_alpha, h, v_max = runs[:10, i]
+        law = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i])
+        robot = wheels_of(runs, i), end, receiver_of(runs, i, key)
+        run = held(record, (x, y, heading), path, *law, *robot, sampling)
+        count, outcome, peak, length = run
+        last = max(count - 1, 0)
+        off = wrap(record[5, last] - record[4, last])
+        time, distance = last * sampling.dt, record[3, last]
+        summarise(summary, i, outcome, time, off, peak, length, distance)
+        keep(records, first + i, record, count)
+    return summary
+
+
+@compiled
+def continuous_runs(runs, records, first, t, most_trials, radius):
+    """The same if the law acts all the time; the last sample is the one before the arrival."""
+    summary, record = np.empty((DISTANCE + 1, runs.shape[1])), np.empty((8, t.size))
+    room, state = np.empty((ROOM, 4)), np.empty(4)
+    for i in range(runs.shape[1]):
+        x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max = runs[:10, i]
+        goal = goal_x, goal_y, goal_heading
+        rho, alpha, theta = motion.polar_from_pose(x, y, heading, *goal)
+        state[0], state[1], state[2], state[3] = rho, alpha, theta, 0.0
+        loop = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i]), wheels_of(runs, i)
+        run = continuous(record, state, room, t, most_trials, radius, goal, None, *loop)
+        count, outcome, time, peak, length = run
+        off = wrap(state[2] - state[1])
+        summarise(summary, i, outcome, time, off, peak, length, max(state[0], 0.0))
+        if outcome == UNFINISHED:
+            summary[TIME:, i] = math.nan
+        elif outcome != DIVERGED:
+            keep(records, first + i, record, count - 1 if outcome == ARRIVED else count)
+    return summary
+
+
+@formula
+def keep(records, run, record, count):
+    for row in range(record.shape[0]):
+        for k in range(min(count, records.shape[2])):
+            records[row, run, k] = record[row, k]

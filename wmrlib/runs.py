@@ -13,6 +13,7 @@ from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import LAWS
 
+METHODS = ("arc", "euler", "continuous")
 MOST_SAMPLES = 10_000_000
 
 

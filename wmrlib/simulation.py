@@ -8,17 +8,15 @@ import numpy as np
 
 from wmrlib import runs
 from wmrlib._dop853 import NODES
-from wmrlib.body import LastTurn, Wheels, checked_turn, checked_wheels, in_loops
+from wmrlib.body import NO_TURN, LastTurn, Wheels, are_ideal, checked_turn, checked_wheels
 from wmrlib.checks import choice, instance, reals, refusal, scalar
 from wmrlib.elementary import wrap
 from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, tuning_of
-from wmrlib.loops import MOST_TRIALS, ROOM, continuous, held, integrate
+from wmrlib.loops import MOST_TRIALS, ROOM, Sampling, continuous, held, integrate
 from wmrlib.motion import polar_from_pose
-from wmrlib.runs import Trajectory
-
-METHODS = ("arc", "euler", "continuous")
+from wmrlib.runs import METHODS, Trajectory
 
 
 def simulate(
@@ -87,21 +85,23 @@ def simulate(
     continuously = choice("method", method, METHODS) == "continuous"
     kept = runs.checked_hysteresis(hysteresis, method)
     turn = checked_turn(last_turn, dt, method, radius)
-    (limits, motors), t = in_loops(checked_wheels(wheels)), dt * np.arange(samples)
-    loop = *tuning_of(gains, law, POSE_LAWS), limits
+    robot, t = checked_wheels(wheels), dt * np.arange(samples)
+    loop = *tuning_of(gains, law, POSE_LAWS), robot
     if continuously:
-        if motors is not None and not (radius and motors.lag):  # on the goal is no line of sight
+        ideal = are_ideal(robot)
+        if not ideal and not (radius and robot.lag):  # on the goal is no line of sight
             needed = "ideal wheels, or a lag and an arrival radius, with method 'continuous'"
-            raise refusal("wheels", motors, needed)
-        if motors is not None and (motors.dead_band or motors.encoder_step):
+            raise refusal("wheels", robot, needed)
+        if robot.dead_band or robot.encoder_step:
             needed = "neither dead_band nor encoder_step with method 'continuous'"
-            raise refusal("wheels", motors, needed)
-        state = np.zeros(4 if motors is None else 6)
+            raise refusal("wheels", robot, needed)
+        state = np.zeros(4 if ideal else 6)
         state[:3] = polar_from_pose(*begin, *target)
-        run = _continuous(t, state, radius, target, None, *loop, motors)
+        run = _continuous(t, state, radius, target, None, *loop)
     else:
         path = np.array([*target, 0.0, 0.0])[:, None]
-        run = _held(t, method, radius, kept, motors, turn, begin, path, *loop)
+        sampling = Sampling(dt, method == "arc", radius, kept)
+        run = _held(t, begin, path, *loop, turn, sampling)
     return Trajectory.of(*run, end, gains, law, method)
 
 
@@ -151,8 +151,8 @@ def track(
         raise refusal("reference", reference, "a function of time")
     begin = runs.single_pose("start", start)
     samples, dt = runs.sample_count(dt, duration), float(dt)
-    (limits, motors), t = in_loops(checked_wheels(wheels)), dt * np.arange(samples)
-    loop = *tuning_of(gains, law, TRACKING_LAWS), limits
+    robot, t = checked_wheels(wheels), dt * np.arange(samples)
+    loop = *tuning_of(gains, law, TRACKING_LAWS), robot
 
     def path_at(times: np.ndarray) -> np.ndarray:
         seen = reference(np.minimum(times, duration))  # three times 0.1 is more than 0.3
@@ -167,27 +167,26 @@ def track(
         raise refusal("reference(t)", named, "one number, or one a time, in each field")
     path = path_at(t)
     if choice("method", method, METHODS) == "continuous":
-        if motors is not None:
-            raise refusal("wheels", motors, "ideal wheels, or method 'arc' or 'euler',")
+        if not are_ideal(robot):
+            raise refusal("wheels", robot, "ideal wheels, or method 'arc' or 'euler',")
         state = np.array([*begin, 0.0])  # in the plane: the line of sight may have no length
 
         def goals_at(now: float, dt: float) -> np.ndarray:
             return path_at(now + dt * NODES)
 
-        run = _continuous(t, state, -np.inf, begin, goals_at, *loop, None)
+        run = _continuous(t, state, -np.inf, begin, goals_at, *loop)
     else:
-        run = _held(t, method, -1.0, 0.0, motors, None, begin, path, *loop)
+        run = _held(t, begin, path, *loop, NO_TURN, Sampling(dt, method == "arc", -1.0, 0.0))
     t, record, outcome, *sums = run
     ended = runs.COMPLETED if outcome == runs.TIMED_OUT else outcome
     goal = Pose(*path[:3, : t.size])
     return Trajectory.of(t, record, ended, *sums, goal, gains, law, method)
 
 
-def _held(t, method, radius, hysteresis, motors, end, begin, path, *loop) -> tuple:
+def _held(t, begin, path, numbers, law, wheels, end, sampling) -> tuple:
     """(t, record, outcome, peak omega, path length) of a run whose twist is held."""
-    record, dt = np.empty((8, t.size)), t[1]
-    how = *loop, method == "arc", dt, radius, hysteresis, motors, end
-    count, *sums = held(record, tuple(begin), path, *how)
+    record, robot = np.empty((8, t.size)), (wheels, end, None)
+    count, *sums = held(record, tuple(begin), path, numbers, law, *robot, sampling)
     return t[:count], record[:, :count], *sums
 
 
@@ -195,7 +194,8 @@ def _continuous(t, state, radius, goal, goals_at, *loop) -> tuple:
     """The same of a run whose law acts all the time, to its arrival too."""
     record, room = np.empty((8, t.size)), np.zeros((ROOM, state.size))
     drive = continuous if goals_at is None else integrate
-    count, outcome, end, *sums = drive(record, state, room, t, radius, tuple(goal), goals_at, *loop)
+    ends = t, MOST_TRIALS, radius, tuple(goal)
+    count, outcome, end, *sums = drive(record, state, room, *ends, goals_at, *loop)
     if outcome == runs.UNFINISHED:
         words = f", or slower gains and wheels: it would take more than {MOST_TRIALS:,} steps"
         raise refusal("method", "continuous", "'arc' or 'euler'", words)

@@ -11,15 +11,17 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib import threads
-from wmrlib.body import LastTurn, Wheels, checked_turn, checked_wheels, in_loops
+from wmrlib.body import NO_TURN, LastTurn, Wheels, are_ideal, checked_turn, checked_wheels
 from wmrlib.checks import as_array, choice, instance, real, refusal, same_shape, scalar
-from wmrlib.engine import continuous, lanes, sampled
+from wmrlib.engine import continuous, sampled
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import POSE_LAWS
-from wmrlib.receiver import Receiver
+from wmrlib.loops import LAW, NUMBER, OUTCOME, RECEIVER, Sampling, continuous_runs, held_runs
+from wmrlib.receiver import Receiver, in_samples
 from wmrlib.runs import (
     ARRIVED,
+    METHODS,
     UNFINISHED,
     Arrival,
     Trajectories,
@@ -28,7 +30,7 @@ from wmrlib.runs import (
 )
 
 MOST_RECORDED = 50_000_000
-_ENGINES = {"continuous": continuous, "arc": sampled, "euler": sampled}
+MOST_TRIALS = 100_000  # steps of a run
 # A chunk is worth a thread, and soon done when the sweep is stopped: evaluations of the law.
 _CHUNK = 250_000, 4_000_000  # least, most
 _LONG_WORK = 40_000_000
@@ -37,23 +39,20 @@ _LONG_WORK = 40_000_000
 class _Task(NamedTuple):
     """What all the runs have in common."""
 
-    method: str
-    limits: Wheels
-    motors: Wheels | None
-    dt: float
+    continuous: bool
+    sampling: Sampling
     samples: int
-    arrival_radius: float
-    recorded: bool
-    hysteresis: float
-    end: LastTurn | None
-    key: tuple[int, ...]  # to the random numbers of receivers, if there are any
+    limits: Wheels
+    end: LastTurn
+    key: tuple[int, int] | None  # to the random numbers of receivers, if there are any
+    side_by_side: bool  # in the lanes of `engine`; otherwise one by one, by the loops for one run
 
     @property
     def cost(self) -> int:
-        """Evaluations of the law in one run, about, or what takes as long."""
-        if self.method == "continuous":
-            return 700 + 14 * self.samples * self.recorded
-        return self.samples * (4 if self.key else 1 + self.recorded)
+        """How long a run takes, in evaluations of the law side by side."""
+        if self.continuous:
+            return 700 if self.side_by_side else 7_000 + 100 * self.samples
+        return self.samples if self.side_by_side else 20 * self.samples
 
 
 def sweep(
@@ -117,30 +116,26 @@ def sweep(
     >>> print(np.degrees(runs.heading_error).round(1))
     [ 65.8 -27.2 -22.4]
     """
-    given: list[tuple] = [("starts", starts, Pose), ("goals", goals, Pose), ("gains", gains, Gains)]
-    given += [] if receiver is None else [("receiver", receiver, Receiver)]
+    robot, read = checked_wheels(wheels), Receiver() if receiver is None else receiver
+    given = ("starts", starts, Pose), ("goals", goals, Pose), ("gains", gains, Gains)
     fields = {
         f"{name}.{field}": values
-        for name, value, kind in given
+        for name, value, kind in (*given, ("wheels", robot, Wheels), ("receiver", read, Receiver))
         for field, values in instance(name, value, kind)._asdict().items()
     }
     for name in ("starts.heading", "goals.heading"):
         fields[name] = wrap_angle(real(name, fields[name]))  # loops take directions
-    fields["law"] = _law_codes(law)
-    shape = same_shape(**fields)
-    choice("method", method, _ENGINES)
+    shape = same_shape(**fields, law=_law_codes(law))
+    choice("method", method, METHODS)
     samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
     if receiver and method == "continuous":
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
     if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**64:
         raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
-    limits, motors = in_loops(checked_wheels(wheels))
-    kept = checked_hysteresis(hysteresis, method)
-    if motors is not None and method == "continuous":
-        raise refusal("wheels", motors, "ideal wheels, or method 'arc' or 'euler',")
     end = checked_turn(last_turn, dt, method, radius)
-    key, recorded = divmod(int(seed), 2**32)[::-1] if receiver else (), bool(trajectories)
-    task = _Task(method, limits, motors, float(dt), samples, radius, recorded, kept, end, key)
+    kept = checked_hysteresis(hysteresis, method)
+    if not are_ideal(robot) and method == "continuous":
+        raise refusal("wheels", robot, "ideal wheels, or method 'arc' or 'euler',")
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
             raise refusal(name, value, "True or False")
@@ -150,11 +145,16 @@ def sweep(
             f"trajectories = True is not allowed for {total:,} runs of {samples:,} samples: "
             f"at most {MOST_RECORDED:,} in all are needed"
         )
+    sampling = Sampling(float(dt), method == "arc", radius, kept)
+    ideal = are_ideal(robot) and not robot.min_speed and end == NO_TURN and not kept
+    side_by_side = ideal and not receiver and not trajectories
+    key = divmod(int(seed), 2**32)[::-1] if receiver else None
+    task = _Task(method == "continuous", sampling, samples, robot, end, key, side_by_side)
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.empty((8, total, samples if trajectories else 0))
-    source = [np.broadcast_to(field, shape).reshape(-1) for field in fields.values()]
-    if receiver:
-        source.insert(-1, np.arange(total))  # before the law: the run's number
+    number = np.arange(total).reshape(shape)
+    rows = *fields.values(), number, _law_codes(law)
+    source = [np.broadcast_to(row, shape).reshape(-1) for row in rows]
     long = progress and total * task.cost >= _LONG_WORK
     with (
         threads.watched(total, long) as go_on,
@@ -169,60 +169,71 @@ def sweep(
     metrics = Arrival(outcome == ARRIVED, *rest)
     if not trajectories:
         return metrics
-    record[:, np.isnan(summary[lanes.OUTCOME])] = np.nan  # what is undone has not been written to
-    return metrics, Trajectories(dt * np.arange(samples), *record.reshape(8, *shape, samples))
+    record[:, np.isnan(summary[OUTCOME])] = np.nan  # a run that was not reached
+    return metrics, Trajectories(
+        sampling.dt * np.arange(samples), *record.reshape(8, *shape, samples)
+    )
 
 
-def run_chunk(runs: np.ndarray, task: _Task, record: np.ndarray, first: int) -> np.ndarray:
-    """The summary of the runs in the columns of `runs`, whose last row is the law.
+def run_chunk(runs: np.ndarray, task: _Task, records: np.ndarray, first: int) -> np.ndarray:
+    """The summary of the runs in the columns of `runs`, whose rows are those of `loops`.
 
-    Their samples are written where they stay, from run `first` of the record on: a copy of a
-    hundred megabytes takes as long as to drive them.
+    Their samples, if they are wanted, are written where they stay, from run `first` of the records
+    on: a copy of a hundred megabytes takes as long as to drive them.
     """
-    laws = np.unique(runs[-1])
-    if laws.size == 1:
-        survey, law = _ENGINES[task.method].survey, lanes.as_type(int(laws[0]))
-        record[:, first : first + runs.shape[1]] = np.nan
-        return survey(runs[:-1], record, first, law, task)
-    summary = np.empty((len(Arrival._fields), runs.shape[1]))
-    for law in laws:
-        members = np.flatnonzero(runs[-1] == law)
-        own = np.empty((8, members.size, record.shape[2]))
-        summary[:, members] = run_chunk(runs.take(members, axis=1), task, own, 0)
-        record[:, first + members] = own
-    return summary
+    whole, radius = (task.samples - 1) * task.sampling.dt, task.sampling.arrival_radius
+    if task.side_by_side:
+        summary = np.empty((len(Arrival._fields), runs.shape[1]))
+        for law in np.unique(runs[LAW]):
+            members = np.flatnonzero(runs[LAW] == law)
+            how = runs[:, members], int(law), task.limits
+            if task.continuous:
+                summary[:, members] = continuous.survey(*how, whole, MOST_TRIALS, radius)
+            else:
+                summary[:, members] = sampled.survey(*how, task.samples, task.sampling)
+        return summary
+    records[:, first : first + runs.shape[1]] = np.nan
+    if task.continuous:
+        samples = task.sampling.dt * np.arange(task.samples)
+        t = samples if records.shape[2] else np.array([0.0, whole])
+        return continuous_runs(runs, records, first, t, MOST_TRIALS, radius)
+    return held_runs(runs, records, first, task.samples, task.end, task.key, task.sampling)
 
 
-def _results(source, record: np.ndarray, task: _Task, go_on) -> Generator:
+def _results(source, records: np.ndarray, task: _Task, go_on) -> Generator:
+    def runs_of(chunk: slice | np.ndarray) -> np.ndarray:
+        runs = np.array([row[chunk] for row in source], dtype=float)
+        sampling = task.sampling
+        runs[RECEIVER:NUMBER] = in_samples(runs[RECEIVER:NUMBER], sampling.dt, task.samples)
+        return runs
+
     def arguments(chunk: tuple[int, int]) -> tuple:
-        runs = np.array([field[slice(*chunk)] for field in source], dtype=float)
-        return runs, task, record, chunk[0]
+        return runs_of(slice(*chunk)), task, records, chunk[0]
 
     total = source[0].size
     size = _chunk_size(total, task)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
     if len(chunks) > 1:  # compile here, and not in several threads
-        few = np.tile(np.unique(source[-1]), (len(source), 1))
-        short = np.empty((8, few.shape[1], 2 * task.recorded))
-        run_chunk(few, task._replace(samples=2), short, 0)
+        few = runs_of(np.unique(source[LAW], return_index=True)[1])
+        run_chunk(few, task._replace(samples=2), np.empty((8, few.shape[1], 0)), 0)
     return threads.spread(run_chunk, chunks, arguments, go_on)
 
 
 def _shortcomings(summary: np.ndarray) -> Iterator[str]:
-    outcome = summary[lanes.OUTCOME]
+    outcome = summary[OUTCOME]
     done, given_up = (~np.isnan(outcome)).sum(), (outcome == UNFINISHED).sum()
     if done < outcome.size:
         yield f"interrupted: {done:,} of {outcome.size:,} runs are done, the others are NaN"
     if given_up:
-        most = f"{continuous.MOST_TRIALS:,.0f} steps"
+        most = f"{MOST_TRIALS:,} steps"
         yield f"{given_up:,} of {outcome.size:,} runs are NaN: their gains need more than {most}"
 
 
 def _chunk_size(total: int, task: _Task) -> int:
-    """Whole blocks of runs, if they run in blocks; if worth it, four chunks for each core."""
+    """How many runs make a chunk: four chunks for each core if they are worth it, whole blocks."""
     least, most = _CHUNK
     size = math.ceil(min(most, max(least, total * task.cost / (4 * threads.CORES))) / task.cost)
-    block = sampled.VECTORS if task.key or task.recorded else sampled.BLOCK
+    block = sampled.BLOCK if task.side_by_side else 1
     return block * math.ceil(size / block)
 
 

@@ -1,1 +1,1 @@
-"""The compiled loops over time: sampled in the plane, and continuous."""
+"""Sweeps with ideal wheels, as fast as C: many runs side by side in the lanes of a processor."""
