@@ -22,8 +22,9 @@ from wmrlib import loops
 kinds = {"float": (0.0, 0.0, 0.5), "int": (0, 0, 0.5)}
 goal, path = w.Pose(3.0, 1.0, -1.0), np.array([[3.0], [1.0], [-1.0], [0.0], [0.0]])
 for kind in sys.argv[1:]:
-    how = (1.0, 2.0, 0.5, 4.0, 0.0, 0.0), 0, w.body.NO_LIMITS, True, 0.1, 0.05, 0.0, None, None
-    print(*loops.held(np.empty((8, 300)), kinds[kind], path, *how)[2:])
+    how = (1.0, 2.0, 0.5, 4.0, 0.0, 0.0), 0, w.body.NO_LIMITS, w.body.NO_TURN, None
+    sampling = loops.Sampling(0.1, True, 0.05, 0.0)
+    print(*loops.held(np.empty((8, 300)), kinds[kind], path, *how, sampling)[2:])
 stats = getattr(loops.held, "stats", None)
 print(sum(stats.cache_misses.values()) if stats else None)
 """

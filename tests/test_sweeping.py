@@ -15,12 +15,12 @@ from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
 from wmrlib import _dop853, sweeping, threads
+from wmrlib.runs import METHODS
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
 CALM = wmr.Gains(k_rho=0.4, k_alpha=2.0, h=0.6, v_max=2.0)
 LAWS = ("corrected", "printed", "aicardi")
-METHODS = tuple(sweeping._ENGINES)
 LIMITS = wmr.Wheels(track_width=0.5, max_speed=1.0)
 
 
@@ -255,7 +255,7 @@ def test_in_the_plane_hard_runs_too_are_those_of_simulate(method):
 def test_bad_input_names_argument_value_and_range(monkeypatch):
     many, samples = {"trajectories": True, "dt": 0.01, "duration": 1000.0}, "100,001 samples"
     for options, message in [
-        ({"method": "heun"}, "'continuous', 'arc', 'euler' is needed"),
+        ({"method": "heun"}, "'arc', 'euler', 'continuous' is needed"),
         ({"law": ["corrected", "kanayama"]}, "law = 'kanayama' .* one of .*'corrected', 'printed'"),
         ({"law": ["corrected", ["printed"]]}, r"law = \['corrected', \['printed'\]\] is not"),
         ({"law": ["printed"] * 2}, r"goals\.x has shape \(1000,\), law has shape \(2,\)"),
