@@ -137,7 +137,7 @@ class Reception(NamedTuple):
     compass: float
 
 
-BEFORE_THE_FIRST_FIX = Reception(-1.0, *(0.0,) * 10)
+BEFORE_THE_FIRST_FIX = Reception(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0)
 
 
 @compiled
@@ -168,7 +168,8 @@ def received(before, record, k, receiver):
         if fix >= outage_end and where_to(receiver, fix, _DROPOUT, expected) != (0.0, 0.0):
             outage_end = fix + max(receiver.outage, 1.0)
         if fix < outage_end:
-            return Reception(*before[:7], outage_end, *before[8:])
+            last, error = before[:3], before[3:7]
+            return Reception(*last, *error, outage_end, bias_east, bias_north, compass)
     jump_east, jump_north = before.jump_east, before.jump_north
     if not first and receiver.jumps > 0.0:
         expected = (fix - before.fix) * receiver.jumps
