@@ -28,7 +28,10 @@ from live import (
 )
 from pdf import print_page
 from pypdfium2.raw import FPDF_PAGEOBJ_IMAGE
+from sphinx.util.inventory import InventoryFile
 
+import wmrlib as wmr
+import wmrrobot as wr
 from wmrbook import face, live
 
 # Formulas that would have to be scrolled.
@@ -142,6 +145,45 @@ def test_no_link_of_the_site_is_broken(site):
                 assert unquote(url.fragment) in parts[there].anchors, f"{path.name}: {target}"
 
 
+def test_the_reference_has_an_entry_for_each_public_name(site):
+    inventory = InventoryFile.loads((site / "objects.inv").read_bytes(), uri="")
+    entries = {name for names in inventory.data.values() for name in names}
+    assert {f"wmrlib.{name}" for name in wmr.__all__} <= entries
+    assert {f"wmrrobot.{name}" for name in wr.__all__} <= entries
+    page = (site / "api.html").read_text(encoding="utf-8")
+    assert page.count("Raises<span") > 20
+    assert ":raises" not in page  # a section that was not understood
+
+
+TO_ENTRY = re.compile(
+    r'<a [^>]*href="\.\./(api\w*)\.html#(wmrlib|wmrrobot)\.([\w.]+)"[^>]*>(.*?)</a>', re.DOTALL
+)
+MEMBER = re.compile(r'<span class="n">(wmr|wr)</span><span class="o">.</span><span class="n">(\w+)')
+TO_MODULE = '<a href="../{}.html"><span class="nn">{}<'
+
+
+def test_names_in_sentences_and_code_link_to_their_entries_and_no_others(site):
+    linked, cells = set(), set()
+    for path in sorted((site / "notebooks").glob("*.html")):
+        text = path.read_text(encoding="utf-8")
+        for page, package, name, shown in TO_ENTRY.findall(text):
+            said = re.sub(r"<[^>]+>", "", shown)
+            assert re.fullmatch(rf"(\w+\.)?{name}(\.\w+|\(.*\))?", said, re.DOTALL), (path, said)
+            assert page == {"wmrlib": "api", "wmrrobot": "api_robot"}[package]
+            linked.add((package, name, "sentence" if "<code" in shown else "code"))
+        outside = TO_ENTRY.sub("", text)
+        cells |= {(short, name) for short, name in MEMBER.findall(outside)}
+        for module, page in (("wmrlib", "api"), ("wmrrobot", "api_robot")):
+            imports = text.count(f'<span class="nn">{module}<')
+            assert text.count(TO_MODULE.format(page, module)) == imports, path
+    for entry in (
+        *(("wmrlib", "simulate", "code"), ("wmrlib", "simulate", "sentence")),
+        *(("wmrlib", "paper.outdoor", "code"), ("wmrrobot", "sheet", "code")),
+    ):
+        assert entry in linked
+    assert cells <= {("wmr", "paper"), ("wr", "paper")}, cells  # whose numbers have no entry
+
+
 def test_one_switch_unfolds_the_code_of_every_chapter(opened):
     folded = """() => [...document.querySelectorAll('details.above-input')].map(it => it.open)"""
     page = opened("notebooks/02_the_robot.html")
@@ -211,6 +253,41 @@ def test_a_page_has_the_figures_of_its_theme(opened, browser_page):
     page.locator(".theme-switch-button:visible").click(timeout=PATIENCE)
     page.locator('.theme-change-button[data-mode="light"]:visible').click(timeout=PATIENCE)
     page.wait_for_function(ALL_THERE, arg="light", timeout=PATIENCE)
+
+
+# Where on its canvas something is drawn: the middle of it, in parts of its size.
+PLAYED = """player => {
+  const box = [player.previousElementSibling, player.previousElementSibling.previousElementSibling]
+      .find(it => it.matches('.figure-box')), canvas = box.querySelector('canvas');
+  const { width, height } = canvas, data = canvas.getContext('2d')
+      .getImageData(0, 0, width, height).data;
+  let sum = 0, x = 0, y = 0;
+  for (let k = 0; k < width * height; k += 1) if (data[4 * k + 3] > 200) {
+    sum += 1; x += k % width; y += Math.floor(k / width);
+  }
+  const { seconds, robots } = JSON.parse(box.querySelector('script').text);
+  const last = values => values.reduce((sum, it) => sum + it, 0) / 10000;
+  return { count: sum, at: [x / sum / width, y / sum / height], seconds,
+           end: [last(robots[0].x), last(robots[0].y)] };
+}"""
+
+
+def test_a_drive_plays_over_its_picture_and_waits_where_it_is_paused(opened):
+    page = opened(f"notebooks/{chapters()[12].stem}.html")
+    player = page.query_selector(".player")
+    player.scroll_into_view_if_needed()
+    assert player.evaluate(PLAYED)["count"] == 0  # the picture speaks for itself
+    slider, button = player.query_selector("input"), player.query_selector("button")
+    slider.press("End")
+    seen = player.evaluate(PLAYED)
+    assert seen["at"] == pytest.approx(seen["end"], abs=0.02)
+    assert slider.get_attribute("aria-valuetext") == f"{seen['seconds']:.1f} s"
+    slider.press("Home")
+    button.click()
+    page.wait_for_function("it => it.ariaValueText !== '0.0 s'", arg=slider)
+    button.click()
+    assert button.inner_text() == "Play"
+    assert slider.get_attribute("aria-valuetext") != "0.0 s"
 
 
 CONTROLS = "Copy|Show all code|Hide the code|Larger|Play|Commit|Just show me|Try again|Run|Code"
