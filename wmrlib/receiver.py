@@ -168,8 +168,9 @@ def received(before, record, k, receiver):
         if fix >= outage_end and where_to(receiver, fix, _DROPOUT, expected) != (0.0, 0.0):
             outage_end = fix + max(receiver.outage, 1.0)
         if fix < outage_end:
-            last, error = before[:3], before[3:7]
-            return Reception(*last, *error, outage_end, bias_east, bias_north, compass)
+            held = before.fix, before.x, before.y, before.east, before.north
+            jump = before.jump_east, before.jump_north
+            return Reception(*held, *jump, outage_end, bias_east, bias_north, compass)
     jump_east, jump_north = before.jump_east, before.jump_north
     if not first and receiver.jumps > 0.0:
         expected = (fix - before.fix) * receiver.jumps
