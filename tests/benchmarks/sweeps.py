@@ -1,4 +1,4 @@
-"""Sweeps on one core: sampled against C and numpy, in continuous time against heyoka."""
+"""Sweeps on one core: sampled and by a receiver against C, in continuous time against heyoka."""
 
 from __future__ import annotations
 
@@ -15,6 +15,7 @@ import wmrlib as wmr
 from wmrlib import threads
 
 GOAL = wmr.Pose(9000.0, 9000.0, 0.3)  # too far to arrive: all steps are taken
+GOAL_HERE = wmr.Pose(0.0, 0.0, 0.0)
 RUNS, STEPS, DT = 10_000, 300, 0.02
 ENSEMBLE = 4_000
 METHODS = {"euler": "tangent", "arc": "arc"}  # of a sweep, and the functions in C
@@ -123,6 +124,56 @@ def sampled(folder: Path) -> list[Row]:
     return found
 
 
+RECEIVER, SEED = wmr.Receiver(0.05, 10.0, 0.2, 0.1, 0.1), 9  # 10 Hz, read at 10 Hz
+
+
+def receiver_in_c(folder: Path, starts: wmr.Pose, gains: wmr.Gains, how: dict):
+    """The same runs in C: its function, and where it writes time, distance and largest |omega|."""
+    library, source = folder / "receiver.so", Path(__file__).with_name("receiver.c")
+    command = ["gcc", "-O3", "-march=native", "-shared", "-fPIC", source, "-o", library, "-lm"]
+    subprocess.run(command, check=True)
+    function = ctypes.CDLL(str(library)).read_by_a_receiver
+    pointer, words = (
+        np.ctypeslib.ndpointer(np.float64, flags="C"),
+        np.ctypeslib.ndpointer(np.uint32),
+    )
+    samples, key = round(how["duration"] / how["dt"]) + 1, np.array([SEED, 0], dtype=np.uint32)
+    function.argtypes = [pointer] * 14 + [ctypes.c_long] * 2 + [ctypes.c_double] * 4
+    function.argtypes += [ctypes.c_long] * 3 + [words]
+    rows = [np.array(np.broadcast_to(row, ENSEMBLE)) for row in (*starts, *GOAL_HERE, *gains)]
+    found, path = [np.empty(ENSEMBLE) for _ in range(3)], np.empty(3 * samples)
+    late = [round(seconds / how["dt"]) for seconds in RECEIVER[2:5]]
+    numbers = how["dt"], how["arrival_radius"], RECEIVER.sigma, how["dt"] / RECEIVER.memory
+    return lambda: function(*rows, *found, path, ENSEMBLE, samples, *numbers, *late, key), found
+
+
+def by_a_receiver(folder: Path) -> list[Row]:
+    """To arrival within 30 cm by what a receiver shows, or for a minute."""
+    starts, gains = some_runs()
+    how = {"method": "arc", "dt": 0.1, "duration": 60.0, "arrival_radius": 0.3}
+    options = how | {"receiver": RECEIVER, "seed": SEED, "progress": False}
+    with on_one_core():
+        ours = "wmrlib.sweep, all metrics"
+        cases = {ours: lambda: wmr.sweep(starts, GOAL_HERE, gains, **options)}
+        if not shutil.which("gcc"):
+            print("gcc was not found: no limit to compare with")
+        else:
+            cases["C (-O3 -march=native)"], found = receiver_in_c(folder, starts, gains, how)
+            cases["C (-O3 -march=native)"]()
+            mine = cases[ours]()
+            for row, theirs in zip((mine.time, mine.distance, mine.peak_omega), found, strict=True):
+                np.testing.assert_allclose(row, theirs, rtol=1e-6, atol=1e-6)
+        seconds = in_turn(cases)
+    section, limit = (
+        f"{ENSEMBLE:,} runs by a receiver on one core, against C",
+        min(seconds.values()),
+    )
+    limit = seconds.get("C (-O3 -march=native)", limit)
+    return [
+        Row(section, name, 1e6 * s / ENSEMBLE, "us a run", s / limit) for name, s in seconds.items()
+    ]
+
+
 def some_runs() -> tuple[wmr.Pose, wmr.Gains]:
     """Starts round the origin and gains, neither stiff nor alike."""
     draw = np.random.default_rng(1).uniform
@@ -149,7 +200,7 @@ def heyoka_case(starts: wmr.Pose, gains: wmr.Gains, seconds: float):
     robots = hy.taylor_adaptive_batch(
         system, np.ones((3, width)), tol=1e-10, nt_events=[end], pars=np.ones((4, width))
     )
-    begin = np.array(wmr.polar_error(starts, wmr.Pose(0.0, 0.0, 0.0)))
+    begin = np.array(wmr.polar_error(starts, GOAL_HERE))
     pars = np.array(np.broadcast_arrays(*gains))
 
     def run():
@@ -168,7 +219,7 @@ def heyoka_case(starts: wmr.Pose, gains: wmr.Gains, seconds: float):
 
 def continuous() -> list[Row]:
     """To arrival within 5 cm or for a minute, at a tolerance of 1e-10."""
-    (starts, gains), goal = some_runs(), wmr.Pose(0.0, 0.0, 0.0)
+    (starts, gains), goal = some_runs(), GOAL_HERE
     with on_one_core():
         ours = "wmrlib.sweep, peaks and lengths too"
         cases = {ours: lambda: wmr.sweep(starts, goal, gains, progress=False)}
@@ -188,4 +239,4 @@ def continuous() -> list[Row]:
 
 
 def rows(folder: Path) -> list[Row]:
-    return [*sampled(folder), *continuous()]
+    return [*sampled(folder), *by_a_receiver(folder), *continuous()]
