@@ -27,6 +27,7 @@ bibtex_cite_id = "cite-{key}"
 
 # The chapters show what they store, which the tests compare; the book's own pages are executed.
 kernels.use_files()
+kernels.share()
 nb_execution_mode = "force"
 nb_execution_excludepatterns = ["notebooks/*.ipynb"]
 nb_execution_timeout = 120

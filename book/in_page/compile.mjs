@@ -1,5 +1,6 @@
 // Compiles zips of Python files, by the Python that will run them: node compile.mjs PYODIDE IN.zip
-// OUT.zip ... Compiling takes the page most of its time.
+// OUT.zip ... Compiling takes the page most of its time. What comes out is not compressed, which
+// WebAssembly would take long for.
 import { readFileSync, writeFileSync } from 'node:fs';
 
 const [pyodide, ...zips] = process.argv.slice(2);
@@ -24,8 +25,8 @@ def rewrite():
             content = given.read(info)
             if info.filename.endswith(".py"):
                 content = compiled(info.filename, content)
-                info = zipfile.ZipInfo(info.filename + "c", info.date_time)
-            made.writestr(info, content, zipfile.ZIP_DEFLATED, compresslevel=9)
+                info = zipfile.ZipInfo(info.filename + "c")
+            made.writestr(info, content, zipfile.ZIP_STORED)
 
 
 rewrite`);

@@ -91,13 +91,15 @@ def compiled(modules: Path, zips: dict[str, bytes]) -> list[bytes]:
                 Path(given, name).write_bytes(content)
                 command += [Path(given, name), made / name]
             subprocess.run(command, check=True)
+            for name in zips:
+                (made / name).write_bytes(_zipped(_files_of(made / name), zipfile.ZIP_DEFLATED))
         with suppress(OSError):  # another build was first
             made.rename(kept)
     return [(kept / name).read_bytes() for name in zips]
 
 
 def packages() -> bytes:
-    """Return a zip of all packages, as they lie in a folder of Python's path."""
+    """Return a zip of all packages, not compressed, as they lie in a folder of Python's path."""
     files = own_files() | {"run_cell.py": (IN_PAGE / "run_cell.py").read_bytes()}
     for package in INSTALLED:
         files |= _installed_files(package)
@@ -124,17 +126,20 @@ def z3(modules: Path) -> bytes:
         with suppress(OSError):  # another build was first
             made.rename(kept)
     (wheel,) = kept.glob("*.whl")
-    with zipfile.ZipFile(wheel) as archive:
-        wanted = (it for it in archive.namelist() if Z3_FILES.fullmatch(it))
-        files = {name: archive.read(name) for name in wanted}
+    files = {name: it for name, it in _files_of(wheel).items() if Z3_FILES.fullmatch(name)}
     return _zipped(files | {"z3/LICENSE": Z3_LICENCE.read_bytes()})
 
 
-def _zipped(files: dict[str, bytes]) -> bytes:
+def _files_of(path: Path) -> dict[str, bytes]:
+    with zipfile.ZipFile(path) as archive:
+        return {name: archive.read(name) for name in archive.namelist()}
+
+
+def _zipped(files: dict[str, bytes], how: int = zipfile.ZIP_STORED) -> bytes:
     content = io.BytesIO()
-    with zipfile.ZipFile(content, "w", zipfile.ZIP_DEFLATED, compresslevel=9) as archive:
+    with zipfile.ZipFile(content, "w") as archive:
         for name, text in sorted(files.items()):
-            archive.writestr(zipfile.ZipInfo(name, FIXED), text, zipfile.ZIP_DEFLATED)
+            archive.writestr(zipfile.ZipInfo(name, FIXED), text, how, compresslevel=9)
     return content.getvalue()
 
 
