@@ -89,11 +89,12 @@ def plain(value: Any) -> Any:
     return value if np.ndim(value) else np.asarray(value).item()
 
 
-def choice(name: str, value: Any, allowed: Collection[str]) -> str:
+def choice(name: str, value: Any, allowed: Collection[str], otherwise: str = "") -> str:
     """Return `value` if it is one of `allowed`; otherwise raise ValueError, which lists them."""
     if isinstance(value, str) and value in allowed:
         return value
-    raise refusal(name, value, "one of " + ", ".join(repr(option) for option in allowed))
+    listed = ", ".join(repr(option) for option in allowed)
+    raise refusal(name, value, f"one of {listed}{otherwise}")
 
 
 def instance(name: str, value: Any, kind: type) -> Any:

@@ -135,6 +135,24 @@ def formula(function: Callable) -> Callable:
     return register_jitable(**_INLINED)(function)
 
 
-def elementary(function: Callable) -> Callable:
-    """`function` of one kind of numbers in compiled loops, where the caller has others for it."""
+def chosen_by_type(function: Callable) -> Callable:
+    """What a formula is in compiled loops: a function of its arguments' types returns it.
+
+    Called from Python it is `function`, which makes the same choice by what it is given.
+    """
     return overload(function, jit_options=_INLINED, strict=False)
+
+
+def compiled_by_its_user(function: Callable) -> bool:
+    """Whether a function has been compiled by numba already."""
+    return isinstance(function, numba.core.registry.CPUDispatcher)
+
+
+def compiled_for_now(function: Callable) -> Callable:
+    """`compiled`, but what is made is not kept: the functions given to it are a user's own."""
+    return numba.njit(nogil=True, **_ARITHMETIC)(plain_python(function))
+
+
+def plain_python(function: Callable) -> Callable:
+    """A compiled function as it was written."""
+    return getattr(function, "py_func", function)

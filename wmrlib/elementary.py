@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from wmrlib.compilation import elementary
+from wmrlib.compilation import chosen_by_type
 
 TURN = 2.0 * math.pi
 SMALL = 1e-8  # below this, the next term of the series is under half a unit in the last place
@@ -25,7 +25,7 @@ def _kinds(of_arrays: Callable | None = None) -> Callable[[Callable], Any]:
 
     def decorate(function: Callable) -> Any:
         kinds = singledispatch(function)
-        elementary(kinds)(lambda *_: function)
+        chosen_by_type(kinds)(lambda *_: function)
         if of_arrays:
             kinds.register(np.ndarray, of_arrays)
         return kinds

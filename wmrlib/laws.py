@@ -9,8 +9,11 @@ from __future__ import annotations
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
+import numba
+import numpy as np
+
 from wmrlib.checks import choice, instance, refusal
-from wmrlib.compilation import formula
+from wmrlib.compilation import chosen_by_type, formula
 from wmrlib.elementary import decay, direction, share_of, sinc, sincos, wrap
 from wmrlib.gains import (
     Gains,
@@ -192,24 +195,62 @@ def pose_law(rho, alpha, theta, gains, law):
     return aicardi_law(rho, alpha, theta, gains)
 
 
+def command(rho, alpha, theta, v_ref, omega_ref, gains, law):
+    """(v, omega) of a law: one of `LAWS`, by its number, or a function of one's own."""
+    law_of = _own_law if callable(law) else _built_in_law
+    return law_of(rho, alpha, theta, v_ref, omega_ref, gains, law)
+
+
 @formula
-def command(rho, alpha, theta, v_ref, omega_ref, numbers, law):
-    """(v, omega) of any of the laws."""
+def _built_in_law(rho, alpha, theta, v_ref, omega_ref, gains, law):
     if law < KANAYAMA:
-        v_over_rho, omega = pose_law(rho, alpha, theta, GainsFields(*numbers[:4]), law)
+        v_over_rho, omega = pose_law(rho, alpha, theta, GainsFields(*gains[:4]), law)
         return v_over_rho * rho, omega
     ahead, left, turn = body_error(rho, alpha, theta)
     if law == KANAYAMA:
-        return kanayama_law(ahead, left, turn, v_ref, omega_ref, KanayamaFields(*numbers[:3]))
-    return linear_law(ahead, left, turn, v_ref, omega_ref, LinearFields(*numbers))
+        return kanayama_law(ahead, left, turn, v_ref, omega_ref, KanayamaFields(*gains[:3]))
+    return linear_law(ahead, left, turn, v_ref, omega_ref, LinearFields(*gains))
 
 
-def tuning_of(gains, law: str, laws: dict[str, int]) -> tuple[tuple[float, ...], int]:
-    """The gains and the law as the loops take them; ValueError if they don't match."""
-    code = laws[choice("law", law, laws)]
+@formula
+def _own_law(rho, alpha, theta, v_ref, omega_ref, gains, law):
+    return law(rho, alpha, theta, gains)
+
+
+@chosen_by_type(command)
+def _(rho, alpha, theta, v_ref, omega_ref, gains, law):
+    return _built_in_law if isinstance(law, numba.types.Integer) else _own_law
+
+
+def tuning_of(gains, law: str | Callable, laws: dict[str, int]) -> tuple[Any, int | Callable]:
+    """The gains and the law as the loops take them; ValueError if they don't match.
+
+    A function of one's own is tried once, and takes its gains as they are.
+    """
+    if callable(law):
+        _check_own(law, gains)
+        return gains, law
+    code = laws[choice("law", law, laws, OWN_IS_WELCOME)]
     instance("gains", gains, LAWS[law].gains)
     if {*map(type, gains)} != {float}:
         raise refusal("gains", gains, "one number a gain", "; sweep takes arrays of gains")
     numbers = (*gains, *(0.0,) * (MOST_GAINS - len(gains)))
     command(1.0, 0.5, 0.2, 0.0, 0.0, numbers, code)  # a slip in a formula is Python's own error
     return numbers, code
+
+
+OWN_IS_WELCOME = ", or a function (rho, alpha, theta, gains) -> (v, omega),"
+
+
+def _check_own(law: Callable, gains: Any) -> None:
+    """ValueError unless the function returns two numbers."""
+    result = law(1.0, 0.5, 0.2, gains)
+    twist = result if isinstance(result, tuple) else ()
+    if len(twist) != 2 or not all(isinstance(it, float | int | np.number) for it in twist):
+        what = f"law(rho=1.0, alpha=0.5, theta=0.2, gains={gains!r})"
+        raise refusal(what, result, "a pair of numbers, v in m/s and omega in rad/s,")
+
+
+def law_name(law: str | Callable) -> str:
+    """The name of a law for the reader, one's own included."""
+    return law if isinstance(law, str) else getattr(law, "__name__", type(law).__name__)

@@ -14,7 +14,13 @@ import numpy as np
 from wmrlib import motion
 from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_error, until_event
 from wmrlib.body import Wheels, are_ideal, at_rest, hurry, last_turn, roll
-from wmrlib.compilation import compiled, formula
+from wmrlib.compilation import (
+    compiled,
+    compiled_by_its_user,
+    compiled_for_now,
+    formula,
+    plain_python,
+)
 from wmrlib.elementary import between, sincos, wrap
 from wmrlib.gains import GainsFields
 from wmrlib.laws import command, pose_law, saturation_scale
@@ -35,9 +41,9 @@ class Sampling(NamedTuple):
 
 
 @formula
-def steer(polar, goal_twist, numbers, law, wheels):
+def steer(polar, goal_twist, gains, law, wheels):
     """What a law commands, within the limits of the wheels: (v, omega)."""
-    v, omega = command(*polar, *goal_twist, numbers, law)
+    v, omega = command(*polar, *goal_twist, gains, law)  # type: ignore[call-arg]
     if wheels.min_speed > 0.0:
         more = hurry(v, polar[1], wheels.min_speed)
         v, omega = more * v, more * omega
@@ -54,7 +60,7 @@ def write(record, k, pose, polar, twist):
 
 
 @compiled
-def held(record, pose, path, numbers, law, wheels, end, receiver, sampling):
+def held(record, pose, path, gains, law, wheels, end, receiver, sampling):
     """Hold the twist for dt, sample after sample; column k of `path` is the goal then, or its last.
 
     `wheels` are Wheels or NO_LIMITS, and `end` is a LastTurn or NO_TURN. The law steers by what the
@@ -80,7 +86,7 @@ def held(record, pose, path, numbers, law, wheels, end, receiver, sampling):
             rho, alpha, theta_now = motion.polar_from_pose(*shown, *goal)
             theta_seen = motion.keep_branch(theta_now, theta_seen, sampling.hysteresis)
             seen = rho, alpha, theta_seen
-        v, omega = steer(seen, (v_ref, omega_ref), numbers, law, wheels)
+        v, omega = steer(seen, (v_ref, omega_ref), gains, law, wheels)
         arrived = seen[0] <= sampling.arrival_radius
         if turns:
             turn = *seen, v, omega, turning, sampling.arrival_radius, dt, end
@@ -99,6 +105,16 @@ def held(record, pose, path, numbers, law, wheels, end, receiver, sampling):
         step = *pose, v, omega, dt
         pose = motion.arc_step(*step) if sampling.along_arc else motion.euler_step(*step)
     return record.shape[1], TIMED_OUT, peak, length
+
+
+_held_with_own = compiled_for_now(held)
+
+
+def held_by(law):
+    """`held` for a law: with one that its user has compiled, or in plain Python with a function."""
+    if not callable(law):
+        return held
+    return _held_with_own if compiled_by_its_user(law) else plain_python(held)
 
 
 @formula

@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from dataclasses import dataclass
 from enum import Enum
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
-from wmrlib.checks import Real, instance, refusal, scalar
+from wmrlib.checks import Real, instance, reals, refusal, scalar
+from wmrlib.elementary import elementwise, sinc
 from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.laws import LAWS
+from wmrlib.laws import LAWS, law_name, lyapunov_value
+from wmrlib.motion import polar_from_pose
 
 METHODS = ("arc", "euler", "continuous")
 MOST_SAMPLES = 10_000_000
@@ -70,7 +73,7 @@ class Trajectory(ReadOnly):
         (with a wheel lag: what the wheels do)
     outcome : Outcome
     goal : Pose, of arrays if it moves
-    gains, law, method : as passed in
+    gains, law, method : as passed in; None, None and "poses" where `of_poses` made the run
     peak_omega, path_length : float, rad/s and m, see Arrival; between the samples too
     """
 
@@ -85,8 +88,8 @@ class Trajectory(ReadOnly):
     omega: np.ndarray
     outcome: Outcome
     goal: Pose
-    gains: Gains | KanayamaGains | LinearGains
-    law: str
+    gains: Gains | KanayamaGains | LinearGains | Any
+    law: str | Callable | None
     method: str
     peak_omega: float
     path_length: float
@@ -99,6 +102,58 @@ class Trajectory(ReadOnly):
         """
         return cls(*(t, *record, OUTCOMES[outcome], *setting, peak, length))
 
+    @classmethod
+    def of_poses(
+        cls, t: Any, x: Any, y: Any, heading: Any, goal: Pose, *, arrival_radius: float = 0.05
+    ) -> Trajectory:
+        """A run of your own: from a log, a robot or another program.
+
+        What it lacks follows from the poses: the polar error to the goal, and the twist that leads
+        from each pose to the next along an arc, omega = wrap(heading' - heading)/dt and
+        v = chord/(dt sinc(omega dt/2)), negative where it drives backwards. The last sample has the
+        twist 0. The run has arrived if its last pose is within the arrival radius.
+
+        Parameters
+        ----------
+        t : array, s, rising
+        x, y, heading : arrays of the same length, m and rad
+        goal : Pose of numbers, m and rad
+        arrival_radius : float, m
+
+        Returns
+        -------
+        Trajectory
+
+        Raises
+        ------
+        ValueError : mismatched lengths, no sample, times that don't rise, NaN
+
+        Examples
+        --------
+        >>> import wmrlib as wmr
+        >>> goal = wmr.Pose(2.0, 0.0, 0.0)
+        >>> run = wmr.Trajectory.of_poses([0.0, 1.0, 2.0], [0.0, 1.0, 2.0], 0.0, 0.0, goal)
+        >>> print(run.v, wmr.arrival(run).path_length)
+        [1. 1. 0.] 2.0
+        """
+        times, x, y, heading = reals(t=t, x=x, y=y, heading=heading)
+        times = np.array(times, ndmin=1)
+        if times.ndim > 1 or not times.size or not (np.diff(times) > 0.0).all():
+            raise refusal("t", t, "a row of times, each later than the one before,")
+        begin, end = np.empty((3, times.size)), single_pose("goal", goal)
+        begin[0], begin[1], begin[2] = x, y, wrap_angle(heading)
+        dt, (east, north, turn) = np.diff(times), np.diff(begin)
+        half = 0.5 * np.asarray(wrap_angle(turn))
+        chord = np.cos(begin[2, :-1] + half) * east + np.sin(begin[2, :-1] + half) * north
+        twist = np.zeros((2, times.size))
+        twist[:, :-1] = chord / (dt * sinc(half)), 2.0 * half / dt
+        polar = elementwise(polar_from_pose, *begin, *end)
+        near = polar[0][-1] <= scalar("arrival_radius", arrival_radius, low=0.0)
+        peak, length = np.abs(twist[1]).max(), np.sum(dt * np.abs(twist[0, :-1]))
+        setting = end, None, None, "poses"
+        sums = float(peak), float(length), *setting
+        return cls.of(times, [*begin, *polar, *twist], ARRIVED if near else TIMED_OUT, *sums)
+
     def __len__(self) -> int:
         return self.t.size
 
@@ -106,14 +161,22 @@ class Trajectory(ReadOnly):
         end = "no sample"
         if len(self):
             end = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s"
-        what = f"{self.law} law, {self.method}, {len(self)} samples"
+        how = f"{law_name(self.law)} law, {self.method}" if self.law else "poses given"
+        what = f"{how}, {len(self)} samples"
         return f"<Trajectory: {what}, {end}: {self.outcome.value}>"
 
     @property
     def V(self) -> np.ndarray:  # noqa: N802 (as in (18))
-        """The law's Lyapunov function at each sample, no unit, with L = 1 m^2; (18) or its own."""
+        """The law's Lyapunov function at each sample, no unit, with L = 1 m^2; (18) or its own.
+
+        For a law of your own, and for poses that were given, it is (18) with h of the gains, or
+        with h = 1 where they have none.
+        """
+        polar = self.rho, self.alpha, self.theta
         with np.errstate(over="ignore"):  # on its way out of the range of numbers
-            return LAWS[self.law].value(self.rho, self.alpha, self.theta, self.gains)
+            if isinstance(self.law, str):
+                return LAWS[self.law].value(*polar, self.gains)
+            return lyapunov_value(*polar, getattr(self.gains, "h", 1.0), 1.0)
 
     @property
     def x_error(self) -> np.ndarray:
