@@ -35,7 +35,9 @@ def test_the_polynomial_is_the_laws_own_rate():
     at[symbolic.k_alpha] = 0.6 * clock
     half = {P: sp.tan(symbolic.theta / 2), Q: sp.tan(symbolic.alpha / 2)}
     V = STRICT.subs(half)
-    loop = zip((symbolic.alpha, symbolic.theta), symbolic.closed_loop("barrier")[1:], strict=True)
+    loop = zip(
+        (symbolic.alpha, symbolic.theta), symbolic.closed_loop_rates("barrier")[1:], strict=True
+    )
     rate = sum(V.diff(angle) * turning for angle, turning in loop).subs(at)
     here = {x: tangent.subs(at) for x, tangent in half.items()} | {K2: 0.6}
     wanted = rate / clock * (1 + here[Q] ** 2) ** 2

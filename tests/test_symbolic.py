@@ -65,7 +65,7 @@ def same(a, b):
 def pose(request):
     """(name, the law's expressions as functions of numbers)."""
     name = request.param
-    parts = symbolic.law(name), symbolic.closed_loop(name)
+    parts = symbolic.law(name), symbolic.closed_loop_rates(name)
     parts += (symbolic.lyapunov(name),), (symbolic.lyapunov_rate(name),)
     return name, [sp.lambdify(ARGUMENTS, part, "numpy") for part in parts]
 
@@ -122,7 +122,7 @@ def test_the_equations_against_the_model_and_each_other():
         dict(zip((symbolic.v, symbolic.omega), symbolic.law(name), strict=True))
         for name in ("corrected", "printed")
     )
-    loop = dict(zip((7, 9, 8), symbolic.closed_loop(), strict=True))
+    loop = dict(zip((7, 9, 8), symbolic.closed_loop_rates(), strict=True))
     speed = v_max * (1 - sp.exp(-k_rho * rho))
     promised = -rho / L * speed * sp.cos(alpha) ** 2 - k_alpha * alpha**2
     holds = {
@@ -154,7 +154,9 @@ def test_near_the_goal_the_poles_are_those_of_tuning():
         "printed": (s + rate) * s * (s + k_alpha - rate),
     }
     for name, polynomial in expected.items():
-        matrix = sp.Matrix(symbolic.closed_loop(name)).jacobian(state).subs({rho: 0, theta: 0})
+        matrix = (
+            sp.Matrix(symbolic.closed_loop_rates(name)).jacobian(state).subs({rho: 0, theta: 0})
+        )
         matrix = matrix.applyfunc(lambda entry: sp.limit(textbook(entry), alpha, 0))
         assert sp.expand(matrix.charpoly(s).as_expr() - polynomial) == 0
         near, a, b = symbolic.panel_formulas()[f"{name}_modes"].expanded()

@@ -1,8 +1,10 @@
 # The public names and where they live, for lazy_loader, editors and type checkers.
+from . import laws as laws
 from . import metrics as metrics
 from . import paper as paper
 from .body import LastTurn as LastTurn
 from .body import Wheels as Wheels
+from .control import closed_loop as closed_loop
 from .control import control_law as control_law
 from .control import limit_wheels as limit_wheels
 from .control import lyapunov as lyapunov

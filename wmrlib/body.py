@@ -8,7 +8,9 @@ from __future__ import annotations
 import math
 from typing import Any, NamedTuple
 
-from wmrlib.checks import instance, refusal, scalar
+import numpy as np
+
+from wmrlib.checks import as_array, instance, real, refusal, scalar
 from wmrlib.compilation import formula
 from wmrlib.elementary import between, expm1, signed, sincos, stepped, within, wrap
 from wmrlib.motion import wheel_speeds
@@ -23,7 +25,7 @@ _FASTEST = 1e9  # times a speed, which may be 0
 class Wheels(NamedTuple):
     """Two wheels, and what their motors can do; as they are, all but the width is ideal.
 
-    Every speed is over ground.
+    Every speed is over ground. `sweep` takes arrays too.
 
     Parameters
     ----------
@@ -71,6 +73,8 @@ class LastTurn(NamedTuple):
 
 
 NO_LIMITS = Wheels(1.0)
+_MAY_BE_0 = ("min_speed", "lag", "dead_band", "encoder_step")
+_MAY_BE_ENDLESS = ("max_speed", "acceleration")
 NO_TURN = LastTurn(gain=0.0)
 
 
@@ -78,11 +82,29 @@ def checked_wheels(wheels: Wheels | None, name: str = "wheels") -> Wheels:
     """The wheels as floats, ideal ones for None; ValueError names the argument and its field."""
     if wheels is None:
         return NO_LIMITS
-    may_be_0 = dict.fromkeys(("min_speed", "lag", "dead_band", "encoder_step"), 0.0)
-    checked = _sound(name, wheels, Wheels, may_be_0, ("max_speed", "acceleration"))
+    checked = _sound(name, wheels, Wheels, dict.fromkeys(_MAY_BE_0, 0.0), _MAY_BE_ENDLESS)
     if checked.min_speed > checked.max_speed:
         most = f"at most max_speed, {checked.max_speed:g},"
         raise refusal(f"{name}.min_speed", checked.min_speed, most)
+    return checked
+
+
+def checked_wheels_of_many(wheels: Wheels | None) -> Wheels:
+    """The same for a sweep, where each field may be an array."""
+    if wheels is None or {*map(np.ndim, instance("wheels", wheels, Wheels))} == {0}:
+        return checked_wheels(wheels)
+    fields: dict[str, Any] = {}
+    for field, values in wheels._asdict().items():
+        name, bound = f"wheels.{field}", {"low" if field in _MAY_BE_0 else "above": 0.0}
+        endless, given = field in _MAY_BE_ENDLESS, as_array(values)
+        if given.ndim:
+            real(name, given[given != math.inf] if endless else values, **bound)
+            fields[field] = given.astype(float)
+        else:
+            fields[field] = scalar(name, values, endless=endless, **bound)
+    checked = Wheels(**fields)
+    if np.any(checked.min_speed > checked.max_speed):
+        raise refusal("wheels.min_speed", wheels.min_speed, "at most max_speed")
     return checked
 
 

@@ -6,12 +6,15 @@ The formulas stand in `wmrlib.laws`. Here they take arrays and say what is wrong
 from __future__ import annotations
 
 from collections.abc import Callable
+from typing import Any
+
+import numpy as np
 
 from wmrlib.body import Wheels, checked_wheels
 from wmrlib.checks import Real, choice, instance, reals
 from wmrlib.elementary import elementwise
 from wmrlib.gains import Gains, GainsFields
-from wmrlib.laws import LAWS, POSE_LAWS, lyapunov_value, saturation_scale
+from wmrlib.laws import LAWS, POSE_LAWS, lyapunov_value, saturation_scale, tuning_of
 from wmrlib.motion import polar_closing_rate
 
 
@@ -51,6 +54,51 @@ def control_law(
     state = _checked(rho=rho, alpha=alpha, theta=theta, **tuned)
     v_over_rho, omega = elementwise(_law(law), *state)
     return v_over_rho * state[0], omega
+
+
+def closed_loop(
+    gains: Gains | Any, law: str | Callable = "corrected"
+) -> Callable[[float, np.ndarray], np.ndarray]:
+    """The closed loop as a function f(t, state) of a state (rho, alpha, theta), (7) to (9).
+
+    scipy's `solve_ivp` takes it as it is, and python-control in one line:
+    `control.nlsys(lambda t, x, u, params: f(t, x), inputs=0, states=3)`.
+
+    Parameters
+    ----------
+    gains : Gains of numbers; for a law of your own whatever it understands
+    law : as for `control_law`, or a function (rho, alpha, theta, gains) -> (v, omega)
+
+    Returns
+    -------
+    function of a time [s], on which nothing depends, and a state [m, rad, rad], or one a column;
+        it returns the rates [m/s, rad/s, rad/s] in the state's shape. With a law of your own, rho
+        must not be 0.
+
+    Raises
+    ------
+    ValueError : an unknown law, or gains that are not its own
+
+    Examples
+    --------
+    >>> import numpy as np
+    >>> import wmrlib as wmr
+    >>> rates = wmr.closed_loop(wmr.GENTLE_GAINS)
+    >>> print(rates(0.0, np.array([10.0, 0.0, 1.0])).round(2))  # straight ahead, at 3.46 m/s
+    [-3.46 -0.69  0.  ]
+    """
+    tuning_of(gains, law, POSE_LAWS)  # it says what is wrong
+
+    def rates(t: float, state: np.ndarray) -> np.ndarray:
+        rho, alpha, theta = np.asarray(state, dtype=float)
+        if callable(law):
+            v, omega = law(rho, alpha, theta, gains)
+            v_over_rho = v / rho
+        else:
+            v_over_rho, omega = elementwise(_law(law), rho, alpha, theta, *gains)
+        return np.array(elementwise(polar_closing_rate, rho, alpha, v_over_rho, omega))
+
+    return rates
 
 
 def lyapunov(rho: Real, alpha: Real, theta: Real, h: Real, L: Real = 1.0) -> Real:

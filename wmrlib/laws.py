@@ -228,7 +228,7 @@ def tuning_of(gains, law: str | Callable, laws: dict[str, int]) -> tuple[Any, in
     A function of one's own is tried once, and takes its gains as they are.
     """
     if callable(law):
-        _check_own(law, gains)
+        check_own_law(law, gains)
         return gains, law
     code = laws[choice("law", law, laws, OWN_IS_WELCOME)]
     instance("gains", gains, LAWS[law].gains)
@@ -242,7 +242,7 @@ def tuning_of(gains, law: str | Callable, laws: dict[str, int]) -> tuple[Any, in
 OWN_IS_WELCOME = ", or a function (rho, alpha, theta, gains) -> (v, omega),"
 
 
-def _check_own(law: Callable, gains: Any) -> None:
+def check_own_law(law: Callable, gains: Any) -> None:
     """ValueError unless the function returns two numbers."""
     result = law(1.0, 0.5, 0.2, gains)
     twist = result if isinstance(result, tuple) else ()

@@ -299,6 +299,15 @@ def receiver_of(runs, i, key):
     return SampledReceiver(*times, int(runs[NUMBER, i]), key)
 
 
+@formula
+def sum_up(summary, i, record, run, dt):
+    """Write down what the run in a record amounts to."""
+    count, outcome, peak, length = run
+    last = max(count - 1, 0)
+    off = wrap(record[5, last] - record[4, last])
+    summarise(summary, i, outcome, last * dt, off, peak, length, record[3, last])
+
+
 @compiled
 def held_runs(runs, records, first, samples, end, key, sampling):
     """Sum up the runs in the columns of `runs`, whose twists are held.
@@ -312,12 +321,25 @@ def held_runs(runs, records, first, samples, end, key, sampling):
         law = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i])
         robot = wheels_of(runs, i), end, receiver_of(runs, i, key)
         run = held(record, (x, y, heading), path, *law, *robot, sampling)
-        count, outcome, peak, length = run
-        last = max(count - 1, 0)
-        off = wrap(record[5, last] - record[4, last])
-        time, distance = last * sampling.dt, record[3, last]
-        summarise(summary, i, outcome, time, off, peak, length, distance)
-        keep(records, first + i, record, count)
+        sum_up(summary, i, record, run, sampling.dt)
+        keep(records, first + i, record, run[0])
+    return summary
+
+
+def held_runs_by(law, gains_of, runs, records, first, samples, end, key, sampling):
+    """The same by a law of one's own, in Python; `gains_of` gives the gains of a run by its number.
+
+    :meta private:
+    """
+    summary, record = np.empty((DISTANCE + 1, runs.shape[1])), np.empty((8, samples))
+    drive, path = held_by(law), np.zeros((5, 1), float if compiled_by_its_user(law) else object)
+    for i in range(runs.shape[1]):
+        start, path[:3, 0] = tuple(runs[:GOAL, i].tolist()), runs[GOAL:GAINS, i].tolist()
+        robot = Wheels(*runs[WHEELS:RECEIVER, i].tolist()), end, receiver_of(runs, i, key)
+        gains = gains_of(int(runs[NUMBER, i]))
+        run = drive(record, start, path, gains, law, *robot, sampling)
+        sum_up(summary, i, record, run, sampling.dt)
+        keep(records, first + i, record, run[0])
     return summary
 
 

@@ -16,7 +16,7 @@ from wmrlib.laws import POSE_LAWS
 # The laws that each function takes; a goal that moves has no closed loop.
 BY_LAW = {
     symbolic.law: symbolic.LAWS,
-    symbolic.closed_loop: POSE_LAWS,
+    symbolic.closed_loop_rates: POSE_LAWS,
     symbolic.lyapunov: symbolic.LAWS,
     symbolic.lyapunov_rate: symbolic.LAWS,
 }

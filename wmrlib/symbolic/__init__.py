@@ -30,7 +30,7 @@ from wmrlib.symbolic.formulas import (  # noqa: F401
 from wmrlib.symbolic.javascript import javascript, javascript_name  # noqa: F401
 from wmrlib.symbolic.model import (  # noqa: F401
     LAWS,
-    closed_loop,
+    closed_loop_rates,
     law,
     lyapunov,
     lyapunov_rate,

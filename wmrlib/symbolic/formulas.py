@@ -15,7 +15,7 @@ import sympy as sp
 from wmrlib import body, geodesy, laws, motion, paper
 from wmrlib.gains import Gains
 from wmrlib.symbolic import symbols as s
-from wmrlib.symbolic.model import closed_loop, exact, gains_of, read, steering
+from wmrlib.symbolic.model import closed_loop_rates, exact, gains_of, read, steering
 
 
 class Formula(NamedTuple):
@@ -77,7 +77,8 @@ def _value(name: str) -> Formula:
 def _modes(name: str) -> Formula:
     """How a pose law settles near the goal, out of its linearised closed loop."""
     goal = dict.fromkeys(s.STATE, 0)
-    rates = sp.Matrix(closed_loop(name)[1:]).replace(sp.sinc, lambda _: sp.Integer(1))  # near 0
+    rates = sp.Matrix(closed_loop_rates(name)[1:])
+    rates = rates.replace(sp.sinc, lambda _: sp.Integer(1))  # near 0
     angles = rates.jacobian([s.alpha, s.theta]).subs(goal)
     values = steering(name)[0].subs(goal), -angles.trace(), angles.det()
     says = "p, a, b near the goal: rho' = -p rho, and s^2 + a s + b of the angles"

@@ -89,7 +89,7 @@ def law(name: str = "corrected") -> tuple[sp.Expr, sp.Expr]:
     return (speed if laws.LAWS[name].needs_reference else speed * s.rho), turning
 
 
-def closed_loop(name: str = "corrected") -> tuple[sp.Expr, sp.Expr, sp.Expr]:
+def closed_loop_rates(name: str = "corrected") -> tuple[sp.Expr, sp.Expr, sp.Expr]:
     """The rates (7) to (9) of the polar error under a pose law, smooth through the goal.
 
     Parameters
@@ -149,7 +149,7 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     """
     energy, (speed, turning) = lyapunov(name), law(name)
     if not laws.LAWS[name].needs_reference:
-        rates = zip(s.STATE, closed_loop(name), strict=True)
+        rates = zip(s.STATE, closed_loop_rates(name), strict=True)
         return sum(energy.diff(each) * rate for each, rate in rates)
     ahead, left, turn = s.rho * sp.cos(s.alpha), s.rho * sp.sin(s.alpha), s.alpha - s.theta
     body_rates = {

@@ -24,7 +24,7 @@ _COMPARED = {"<": operator.lt, "<=": operator.le, ">": operator.gt, ">=": operat
 
 def rates(law: str = "barrier") -> tuple[sp.Expr, sp.Expr]:
     """Return p' and q' with h = 1, in a time that runs v_max decay(rho, k_rho) times as fast."""
-    _, alpha_rate, theta_rate = symbolic.closed_loop(law)
+    _, alpha_rate, theta_rate = symbolic.closed_loop_rates(law)
     clock = symbolic.v_max * symbolic.decay(symbolic.rho, symbolic.k_rho)
     scaled = {symbolic.h: 1, symbolic.k_alpha: K2 * clock}
     half = {symbolic.theta: 2 * sp.atan(P), symbolic.alpha: 2 * sp.atan(Q)}
