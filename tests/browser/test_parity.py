@@ -15,8 +15,8 @@ from wmrlib.laws import POSE_LAWS
 
 COLUMNS = ("t", "x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V")
 ANGLES = ("heading", "alpha", "theta")
-POSE_RUNS, CIRCLE_RUNS, SEED = 700, 100, 20_240_601
-CONTINUOUS, PEAKS = 40, 4000
+POSE_RUNS, CIRCLE_RUNS, SEED = 300, 60, 20_240_601
+CONTINUOUS, PEAKS = 40, 1000
 
 # Arrays of doubles as base64: JSON would be four times as long, and would lose NaN.
 SIMULATE_ALL = """([runs, columns]) => {
@@ -165,7 +165,7 @@ def _assert_run(run: Run, size: float, close: float) -> bool:
 def test_whole_trajectories_equal_those_of_wmrlib(panel_core):
     random = np.random.default_rng(SEED)
     drawn = [_draw(random, circle=k >= POSE_RUNS) for k in range(POSE_RUNS + CIRCLE_RUNS)]
-    assert sum(_assert_run(run, 1e-10, 1e-9) for run in _runs(panel_core, drawn)) >= 650
+    assert sum(_assert_run(run, 1e-10, 1e-9) for run in _runs(panel_core, drawn)) >= 290
 
 
 def test_continuous_runs_equal_those_of_wmrlib(panel_core):
