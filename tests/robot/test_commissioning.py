@@ -37,18 +37,23 @@ def test_a_slow_ramp_finds_the_dead_band():
         dead_band(told, np.zeros(told.size), 0.5 * STEP / DT)
 
 
-@settings(max_examples=10, deadline=None)
+STEPS = np.repeat([0.0, 0.1, 0.0, 0.3, 0.0, 1.0, -1.0, 0.2, 0.0, 2.0, 0.0], 40)
+
+
+@settings(max_examples=6, deadline=None)
 @given(st.floats(0.03, 0.4), st.sampled_from([0.5, 1.0, 3.0]), st.integers(0, 99))
 def test_steps_find_lag_and_acceleration(lag, acceleration, seed):
     assume(lag * acceleration > 0.05)  # or the lag is not to be seen
-    told = np.repeat([0.0, 0.1, 0.0, 0.3, 0.0, 1.0, -1.0, 0.2, 0.0, 2.0, 0.0], 40)
     wheels = wmr.Wheels(0.5, acceleration=acceleration, lag=lag)
-    went = driven(told, wheels) + 0.005 * np.random.default_rng(seed).standard_normal(told.size)
-    found = wheel_response(told, went, DT)
+    went = driven(STEPS, wheels) + 0.005 * np.random.default_rng(seed).standard_normal(STEPS.size)
+    found = wheel_response(STEPS, went, DT)
     assert found.lag == pytest.approx(lag, rel=0.12, abs=0.01)
     assert found.acceleration == pytest.approx(acceleration, rel=0.12)
     assert found.misses == pytest.approx(0.005, rel=0.5)
-    ideal = wheel_response(told, told, DT)
+
+
+def test_wheels_that_do_as_they_are_told_have_no_lag():
+    ideal = wheel_response(STEPS, STEPS, DT)
     assert (ideal.lag, ideal.acceleration) == (0.0, math.inf)
 
 
