@@ -1,10 +1,12 @@
 """Sweeps against the continuous oracle, against the public functions, and interrupted."""
 
 import math
+import os
 import signal
 import warnings
-from concurrent.futures import ThreadPoolExecutor
+from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from itertools import product
+from multiprocessing import get_context
 
 import numpy as np
 import pytest
@@ -342,3 +344,64 @@ def test_ctrl_c_keeps_what_is_done(monkeypatch, ctrl_c, small_chunks, whole):
     assert same([field[done] for field in runs], [field[done] for field in whole])
     assert not runs.arrived[~done].any()
     assert all(np.isnan(field[~done]).all() for field in runs[1:])
+
+
+# On other processes ------------------------------------------------------------------------------
+
+
+class Losing:
+    """An executor that ends one of its own workers when it is given the third chunk."""
+
+    def __init__(self, executor, workers):
+        self.executor, self.workers, self.submitted = executor, workers, 0
+
+    def submit(self, function, *arguments):
+        self.submitted += 1
+        if self.submitted == 3:
+            os.kill(self.workers()[0], signal.SIGKILL)
+        return self.executor.submit(function, *arguments)
+
+
+MANY_KINDS = [
+    {},
+    {"method": "arc", "receiver": wmr.Receiver(0.1, 3.0), "seed": 5, "arrival_radius": 0.3},
+    {"method": "euler", "trajectories": True, "duration": 20.0},
+]
+
+
+def same_elsewhere(executor, monkeypatch, more):
+    monkeypatch.setattr(sweeping, "_CHUNK", (1, 200_000))
+    starts, goal, gains = scattered(1500)
+    here = wmr.sweep(starts, goal, gains, **more)
+    there = wmr.sweep(starts, goal, gains, executor=executor, **more)
+    pairs = zip(here, there, strict=True) if "trajectories" in more else [(here, there)]
+    return all(same(one, other) for one, other in pairs)
+
+
+@pytest.mark.skipif(os.name == "nt", reason="SIGKILL is POSIX's")
+def test_a_lost_worker_costs_time_and_no_run(monkeypatch):
+    with ProcessPoolExecutor(2, mp_context=get_context("spawn")) as pool:
+        pool.submit(os.getpid).result()
+        losing = Losing(pool, lambda: list(pool._processes))
+        assert same_elsewhere(losing, monkeypatch, MANY_KINDS[1])
+        assert losing.submitted > 3
+
+
+def test_what_is_no_executor_is_refused():
+    with pytest.raises(ValueError, match=r"executor = 2 is not allowed: None, or an executor as"):
+        wmr.sweep(PAPER.start, ORIGIN, CALM, executor=2)
+
+
+@pytest.mark.slow
+@pytest.mark.filterwarnings("ignore::ResourceWarning", "ignore::DeprecationWarning")
+@pytest.mark.parametrize("more", MANY_KINDS)
+def test_a_dask_cluster_gives_the_same_to_the_last_bit_while_a_worker_is_lost(monkeypatch, more):
+    import distributed  # here, because only this slow test needs the second that it takes
+
+    with (
+        distributed.LocalCluster(n_workers=2, threads_per_worker=1, dashboard_address=None) as two,
+        distributed.Client(two) as client,
+    ):
+        losing = Losing(client.get_executor(), lambda: list(client.run(os.getpid).values()))
+        assert same_elsewhere(losing, monkeypatch, more)
+        assert losing.submitted > 3

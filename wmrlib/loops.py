@@ -326,8 +326,8 @@ def held_runs(runs, records, first, samples, end, key, sampling):
     return summary
 
 
-def held_runs_by(law, gains_of, runs, records, first, samples, end, key, sampling):
-    """The same by a law of one's own, in Python; `gains_of` gives the gains of a run by its number.
+def held_runs_by(law, gains, runs, records, first, samples, end, key, sampling):
+    """The same by a law of one's own, in Python; `gains` are those of each run.
 
     :meta private:
     """
@@ -336,8 +336,7 @@ def held_runs_by(law, gains_of, runs, records, first, samples, end, key, samplin
     for i in range(runs.shape[1]):
         start, path[:3, 0] = tuple(runs[:GOAL, i].tolist()), runs[GOAL:GAINS, i].tolist()
         robot = Wheels(*runs[WHEELS:RECEIVER, i].tolist()), end, receiver_of(runs, i, key)
-        gains = gains_of(int(runs[NUMBER, i]))
-        run = drive(record, start, path, gains, law, *robot, sampling)
+        run = drive(record, start, path, gains[i], law, *robot, sampling)
         sum_up(summary, i, record, run, sampling.dt)
         keep(records, first + i, record, run[0])
     return summary

@@ -63,7 +63,6 @@ class _Task(NamedTuple):
     key: tuple[int, int] | None  # to the random numbers of receivers, if there are any
     side_by_side: bool  # in the lanes of `engine`; otherwise one by one, by the loops for one run
     own_law: Callable | None
-    own_gains: Callable | None  # of a run, by its number
 
     @property
     def cost(self) -> int:
@@ -90,6 +89,7 @@ def sweep(
     seed: int = 0,
     trajectories: bool = False,
     progress: bool = True,
+    executor: Any = None,
 ) -> Arrival | tuple[Arrival, Trajectories]:
     """Drive many runs at once and sum each one up.
 
@@ -118,6 +118,10 @@ def sweep(
         run's place among all alone, on however many cores.
     trajectories : bool, whether to return the samples too, at most fifty million in all
     progress : bool, whether to show a bar when the work takes longer than about a second
+    executor : None for the cores of this machine; or what has `submit` as the executors of
+        `concurrent.futures` do, such as Dask's `client.get_executor()`. It is sent chunks of runs.
+        The results are the same to the last bit. A chunk that is lost with its worker is driven
+        here.
 
     Returns
     -------
@@ -162,12 +166,15 @@ def sweep(
     ideal = bool(np.all(are_ideal(robot)))
     if not ideal and method == "continuous":
         raise refusal("wheels", robot, "ideal wheels, or method 'arc' or 'euler',")
+    if executor is not None and not callable(getattr(executor, "submit", None)):
+        raise refusal("executor", executor, "None, or an executor as of concurrent.futures,")
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
             raise refusal(name, value, "True or False")
     total = math.prod(shape)
-    if own and total:
-        check_own_law(own, _gains_of_runs(gains, tuned, shape)(0))
+    gains_of = _gains_of_runs(gains, tuned, shape) if own else None
+    if own and gains_of and total:
+        check_own_law(own, gains_of(0))
     if trajectories and total * samples > MOST_RECORDED:
         raise ValueError(
             f"trajectories = True is not allowed for {total:,} runs of {samples:,} samples: "
@@ -178,8 +185,7 @@ def sweep(
     plain = ideal and alike and end == NO_TURN and not kept
     side_by_side = plain and not receiver and not trajectories and not own
     key = divmod(int(seed), 2**32)[::-1] if receiver else None
-    each_own = _gains_of_runs(gains, tuned, shape) if own else None
-    how = sampling, samples, robot, end, key, side_by_side, own, each_own
+    how = sampling, samples, robot, end, key, side_by_side, own
     task = _Task(method == "continuous", *how)
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.empty((8, total, samples if trajectories else 0))
@@ -189,7 +195,7 @@ def sweep(
     long = progress and total * task.cost >= _LONG_WORK
     with (
         threads.watched(total, long) as go_on,
-        closing(_results(source, record, task, go_on)) as results,
+        closing(_results(source, gains_of, record, task, go_on, executor)) as results,
     ):
         for (first, last), metrics in results:
             summary[:, first:last] = metrics
@@ -206,7 +212,9 @@ def sweep(
     )
 
 
-def run_chunk(runs: np.ndarray, task: _Task, records: np.ndarray, first: int) -> np.ndarray:
+def run_chunk(
+    runs: np.ndarray, own_gains: list | None, task: _Task, records: np.ndarray, first: int
+) -> np.ndarray:
     """The summary of the runs in the columns of `runs`, whose rows are those of `loops`.
 
     Their samples, if they are wanted, are written where they stay, from run `first` of the records
@@ -230,27 +238,54 @@ def run_chunk(runs: np.ndarray, task: _Task, records: np.ndarray, first: int) ->
         return continuous_runs(runs, records, first, t, MOST_TRIALS, radius)
     sampled_how = task.samples, task.end, task.key, task.sampling
     if task.own_law:
-        return held_runs_by(task.own_law, task.own_gains, runs, records, first, *sampled_how)
+        return held_runs_by(task.own_law, own_gains, runs, records, first, *sampled_how)
     return held_runs(runs, records, first, *sampled_how)
 
 
-def _results(source, records: np.ndarray, task: _Task, go_on) -> Generator:
-    def runs_of(chunk: slice | np.ndarray) -> np.ndarray:
+def run_chunk_elsewhere(
+    runs: np.ndarray, own_gains: list | None, task: _Task, recorded: bool
+) -> tuple[np.ndarray, np.ndarray]:
+    """The summary and the records of the runs, for a process that shares no memory with this."""
+    records = np.empty((8, runs.shape[1], task.samples if recorded else 0))
+    return run_chunk(runs, own_gains, task, records, 0), records
+
+
+def _results(
+    source: list, gains_of: Callable | None, records: np.ndarray, task: _Task, go_on, executor
+) -> Generator:
+    """(chunk, summary) as each is done; its records are then in their place."""
+    total, recorded = source[0].size, records.shape[2] > 0
+
+    def runs_of(chunk: Any) -> tuple[np.ndarray, list | None]:
         runs = np.array([row[chunk] for row in source], dtype=float)
-        sampling = task.sampling
-        runs[RECEIVER:NUMBER] = in_samples(runs[RECEIVER:NUMBER], sampling.dt, task.samples)
-        return runs
+        kept = in_samples(runs[RECEIVER:NUMBER], task.sampling.dt, task.samples)
+        runs[RECEIVER:NUMBER] = kept
+        return runs, gains_of and [gains_of(int(number)) for number in runs[NUMBER]]
 
-    def arguments(chunk: tuple[int, int]) -> tuple:
-        return runs_of(slice(*chunk)), task, records, chunk[0]
-
-    total = source[0].size
     size = _chunk_size(total, task)
     chunks = [(first, min(first + size, total)) for first in range(0, total, size)]
+    if executor is not None:
+        elsewhere = threads.spread(
+            run_chunk_elsewhere,
+            chunks,
+            lambda chunk: (*runs_of(slice(*chunk)), task, recorded),
+            go_on,
+            executor,
+        )
+        with closing(elsewhere):
+            for chunk, (summary, written) in elsewhere:
+                records[:, slice(*chunk)] = written
+                yield chunk, summary
+        return
     if len(chunks) > 1:  # compile here, and not in several threads
         few = runs_of(np.unique(source[LAW], return_index=True)[1])
-        run_chunk(few, task._replace(samples=2), np.empty((8, few.shape[1], 0)), 0)
-    return threads.spread(run_chunk, chunks, arguments, go_on)
+        unwritten = np.empty((8, few[0].shape[1], 0))
+        run_chunk(*few, task._replace(samples=2), unwritten, 0)
+    here = threads.spread(
+        run_chunk, chunks, lambda chunk: (*runs_of(slice(*chunk)), task, records, chunk[0]), go_on
+    )
+    with closing(here):
+        yield from here
 
 
 def _shortcomings(summary: np.ndarray) -> Iterator[str]:

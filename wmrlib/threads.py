@@ -18,15 +18,21 @@ _POLL_SECONDS = 0.5  # s; so late a wait may hear Ctrl-C
 _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
 
 
-def spread(job: Callable, chunks: Iterable, arguments: Callable, go_on: Callable) -> Generator:
-    """(chunk, result) as each is done, on a thread a core; a bounded number at a time."""
-    pool, chunks = futures.ThreadPoolExecutor(CORES), iter(chunks)
+def spread(
+    job: Callable, chunks: Iterable, arguments: Callable, go_on: Callable, executor: Any = None
+) -> Generator:
+    """(chunk, result) as each is done; a bounded number is waited for at a time.
+
+    It is done on a thread a core, or by an `executor` that is given, and not shut down. What a
+    given executor loses, because a worker ended, is done here.
+    """
+    pool, chunks = executor or futures.ThreadPoolExecutor(CORES), iter(chunks)
     waiting: dict[futures.Future, Any] = {}
     going = True
     try:
         while going:
             for chunk in islice(chunks, _IN_FLIGHT - len(waiting)):
-                waiting[pool.submit(job, *arguments(chunk))] = chunk
+                waiting[_submitted(pool, job, arguments(chunk))] = chunk
                 if not go_on(0):
                     break
             if not waiting:
@@ -34,9 +40,24 @@ def spread(job: Callable, chunks: Iterable, arguments: Callable, go_on: Callable
             going = go_on(0)
             patience = _POLL_SECONDS if going else 0.0
             for future in futures.wait(waiting, patience, futures.FIRST_COMPLETED).done:
-                yield waiting.pop(future), future.result()
+                chunk = waiting.pop(future)
+                lost = executor is not None and (future.cancelled() or future.exception())
+                yield chunk, job(*arguments(chunk)) if lost else future.result()
     finally:
-        pool.shutdown(cancel_futures=True)
+        for future in waiting:
+            future.cancel()
+        if executor is None:
+            pool.shutdown(cancel_futures=True)
+
+
+def _submitted(pool: Any, job: Callable, arguments: tuple) -> futures.Future:
+    """The future of a job; of one that a broken pool does not take, the reason is its result."""
+    try:
+        return pool.submit(job, *arguments)
+    except RuntimeError as reason:
+        refused: futures.Future = futures.Future()
+        refused.set_exception(reason)
+        return refused
 
 
 @contextmanager
