@@ -9,6 +9,7 @@ from itertools import product
 from multiprocessing import get_context
 
 import numpy as np
+import pandas as pd
 import pytest
 from hypothesis import assume, example, given, settings
 from hypothesis import strategies as st
@@ -405,3 +406,20 @@ def test_a_dask_cluster_gives_the_same_to_the_last_bit_while_a_worker_is_lost(mo
         losing = Losing(client.get_executor(), lambda: list(client.run(os.getpid).values()))
         assert same_elsewhere(losing, monkeypatch, more)
         assert losing.submitted > 3
+
+
+def test_runs_are_a_table_of_pandas():
+    start, goal, gains, _ = wmr.paper.outdoor()
+    weights = np.array([0.1, 0.3, 1.0])
+    drive = {"method": "arc", "duration": 30.0}
+    runs, samples = wmr.sweep(start, goal, gains._replace(h=weights), trajectories=True, **drive)
+    table = pd.DataFrame(runs._asdict(), index=pd.Index(weights, name="h"))
+    assert [*table] == [*wmr.Arrival._fields]
+    assert table.arrived.dtype == bool
+    assert table.time[0.3] == runs.time[1]
+    _, one = wmr.sweep(start, goal, gains, trajectories=True, **drive)
+    driven = pd.DataFrame(one._asdict()).set_index("t").dropna()
+    assert driven.rho.iloc[-1] == samples.rho[1, len(driven) - 1]
+    # And back: a column of a table is an array.
+    again = wmr.sweep(start, goal, gains._replace(h=table.index), trajectories=True, **drive)
+    assert again[0] == runs

@@ -14,6 +14,7 @@ from wmrlib.checks import as_array, instance, real, refusal, scalar
 from wmrlib.compilation import formula
 from wmrlib.elementary import between, expm1, signed, sincos, stepped, within, wrap
 from wmrlib.motion import wheel_speeds
+from wmrlib.records import record
 
 _TINY = 1e-30  # a divisor in the place of 0, where 0/0 stands for 0
 _NO_LAG = 1e-15  # s, in its place: a rest that rounds to below 0 does not overflow by it
@@ -22,6 +23,7 @@ _AT_ONCE = 1e-9  # s: what a sum of periods may be short of a time
 _FASTEST = 1e9  # times a speed, which may be 0
 
 
+@record
 class Wheels(NamedTuple):
     """Two wheels, and what their motors can do; as they are, all but the width is ideal.
 
@@ -48,6 +50,7 @@ class Wheels(NamedTuple):
     encoder_step: float = 0.0
 
 
+@record
 class LastTurn(NamedTuple):
     """How a robot turns on the spot to the heading of its goal, once it is near enough.
 

@@ -8,8 +8,10 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib.checks import Real, checked, real, scalar
+from wmrlib.records import record
 
 
+@record
 @checked("at_least_0", above_0=("v_max",))
 class Gains(NamedTuple):
     """The gains of the laws for a goal that stands still; "aicardi" has no speed limit.
@@ -40,6 +42,7 @@ GENTLE_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 """The book's own gains for the paper's outdoor drive: well damped, and slow."""
 
 
+@record
 @checked("at_least_0", above_0=("k_y",))
 class KanayamaGains(NamedTuple):
     """The gains of the law "kanayama".

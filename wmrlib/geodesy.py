@@ -11,11 +11,13 @@ import numpy as np
 
 from wmrlib.checks import Real, instance, plain, real, reals, same_shape, scalar
 from wmrlib.elementary import direction, elementwise, root, sincos
+from wmrlib.records import record
 
 EARTH_RADIUS_M = 6_371_000.0
 """The mean Earth radius R of equation (11), in metres."""
 
 
+@record
 @dataclass(frozen=True, kw_only=True, slots=True)
 class GeoPoint:
     """A point on the Earth, or many; by keyword, so that the order can't be mixed up.

@@ -14,8 +14,10 @@ import numpy as np
 from wmrlib import motion
 from wmrlib.checks import Real, checked, choice, instance, real, reals
 from wmrlib.elementary import elementwise, wrap
+from wmrlib.records import record
 
 
+@record
 @checked()
 class Pose(NamedTuple):
     """Where the robot is and where it looks, or many such poses.
@@ -35,6 +37,7 @@ class Pose(NamedTuple):
     heading: Real
 
 
+@record
 class PolarError(NamedTuple):
     """The goal as seen from the robot.
 
@@ -47,6 +50,7 @@ class PolarError(NamedTuple):
     theta: Real
 
 
+@record
 class Reference(NamedTuple):
     """A moving goal: its pose (m, m, rad) and its twist (m/s, rad/s)."""
 

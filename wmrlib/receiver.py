@@ -14,10 +14,12 @@ import numpy as np
 from wmrlib.checks import Real, checked
 from wmrlib.compilation import compiled, formula
 from wmrlib.elementary import sincos, wrap
+from wmrlib.records import record
 
 _WORD = 0xFFFFFFFF
 
 
+@record
 @checked("at_least_0")
 class Receiver(NamedTuple):
     """A receiver with its compass: it errs, shows fixes one at a time, and late; or many of them.

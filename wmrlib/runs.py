@@ -15,6 +15,7 @@ from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, wrap_angle
 from wmrlib.laws import LAWS, law_name, lyapunov_value
 from wmrlib.motion import polar_from_pose
+from wmrlib.records import record
 
 METHODS = ("arc", "euler", "continuous")
 MOST_SAMPLES = 10_000_000
@@ -194,6 +195,7 @@ class Trajectory(ReadOnly):
         return np.asarray(wrap_angle(self.theta - self.alpha))
 
 
+@record
 class Arrival(NamedTuple):
     """What a run amounts to: numbers for one run, arrays for many.
 
@@ -215,6 +217,7 @@ class Arrival(NamedTuple):
     distance: Real
 
 
+@record
 class Trajectories(NamedTuple):
     """Many runs sample by sample, NaN after each run's end.
 

@@ -14,6 +14,7 @@ import numpy as np
 from wmrlib.checks import Real, choice, instance, plain, real, reals, refusal
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
+from wmrlib.records import record
 from wmrlib.runs import Arrival, Trajectories
 from wmrlib.sweeping import sweep
 
@@ -21,6 +22,7 @@ _LAWS = ("corrected", "aicardi")
 _METHODS = ("continuous", "polar_euler", "euler", "arc")
 
 
+@record
 class Modes(NamedTuple):
     """How the closed loop settles near the goal.
 
