@@ -92,6 +92,7 @@ NAMED = {  # what a text may call an argument that consists of others
     "matrix": ("matrix",),
     "polar": ("polar", "third angle", "rho", "alpha"),
     "points": ("points",),
+    "dt": ("dt", "last_turn"),
 }
 
 
@@ -228,3 +229,33 @@ REFERENCES = [
 def test_what_a_reference_returns_is_named(reference):
     with pytest.raises(ValueError, match=r"reference\(t\)"):
         wmr.track(reference, ORIGIN, GAINS, duration=1.0)
+
+
+class Quantity:
+    """A number with a unit, which numpy reads without it; tests/test_units.py has real ones."""
+
+    units = "degree"
+
+    def __array__(self, dtype=None, copy=None):
+        return np.asarray(1.0, dtype)
+
+
+WITHOUT_UNIT = {"h", "matrix"}
+
+
+@pytest.mark.parametrize("function", VALID, ids=lambda function: function.__name__)
+def test_a_number_with_a_unit_is_refused_with_the_documented_one(function):
+    text = inspect.getdoc(function)
+    also = [getattr(wmr, name, None) for name in text.split("`")[1::2]]  # "as for `control_law`"
+    documented = "".join(map(inspect.getdoc, [function, *filter(None, also)]))
+    for name, value in valid_arguments(function).items():
+        if type(value) is float or name == "matrix":
+            text = said(function, **(valid_arguments(function) | {name: Quantity()}))
+            assert text.startswith(f"{name} = <")
+            needed, _, unit = text.partition(" with a unit: give ")
+            assert needed.endswith("Quantity"), text
+            if name in WITHOUT_UNIT:
+                assert unit == "a plain number, in the documented unit"
+            else:
+                unit = unit.removeprefix("the number in ").split()[0]
+                assert unit in documented, (name, unit)

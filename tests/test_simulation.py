@@ -3,6 +3,8 @@
 import copy
 import math
 import pickle
+from decimal import Decimal
+from fractions import Fraction
 from itertools import product
 
 import mpmath
@@ -499,3 +501,46 @@ def test_continuous_is_as_right_however_small_the_radius(exponent):
     assert run.arrived
     assert many.arrived
     assert run.time == pytest.approx(many.time, rel=1e-7)
+
+
+# Numbers of other kinds ---------------------------------------------------------------------------
+
+
+def test_whole_runs_take_exact_numbers():
+    third, tenth = Fraction(1, 3), Decimal("0.1")
+    start, goal = wmr.Pose(0, third, tenth), wmr.Pose(Decimal(3), tenth, 0)
+    gains = wmr.Gains(k_rho=tenth, k_alpha=2, h=third * 3, v_max=Fraction(2))
+    end = wmr.LastTurn(tolerance=tenth, gain=Fraction(2))
+    wheels = wmr.Wheels(Fraction(1, 2), max_speed=tenth * 20)
+    exact = {"dt": tenth, "duration": Fraction(20), "arrival_radius": tenth, "hysteresis": third}
+    plain = {name: float(value) for name, value in exact.items()}
+    run = wmr.simulate(start, goal, gains, **exact, wheels=wheels, last_turn=end)
+    same = wmr.simulate(
+        start, goal, gains, **plain, wheels=wmr.Wheels(0.5, 2.0), last_turn=wmr.LastTurn(0.1, 2.0)
+    )
+    np.testing.assert_array_equal(run.x, same.x)
+
+
+def resting(x):
+    """A reference that rests, in numbers of several kinds."""
+    return lambda t: wmr.Reference(x, 0, 0.0 * t, np.array([Decimal(0)] * t.size), Fraction(0))
+
+
+@pytest.mark.parametrize("method", ["arc", "continuous"])
+def test_a_reference_may_return_exact_numbers_and_no_mask(method):
+    drive = {"duration": Fraction(1, 2), "dt": Decimal("0.1"), "method": method}
+    run = wmr.track(resting(Fraction(1, 2)), ORIGIN, CALM, **drive)
+    assert {*run.goal.x} == {0.5}
+    masked = resting(np.ma.array([0.1]))
+    with pytest.raises(
+        ValueError, match=r"^reference\(t\)\.x = .* not a numpy.MaskedArray: .* in m$"
+    ):
+        wmr.track(masked, ORIGIN, CALM, **drive)
+
+
+def test_a_reference_is_checked_between_the_samples_too():
+    def masked_in_a_step(t):
+        return resting(np.ma.array(t) if np.ptp(t) < 0.1 else t)(t)
+
+    with pytest.raises(ValueError, match=r"^reference\(t\)\.x = .* not a numpy.MaskedArray"):
+        wmr.track(masked_in_a_step, ORIGIN, CALM, method="continuous")

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterator
+import numbers
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
+from decimal import Decimal
 from functools import wraps
 from typing import Any, TypeVar
 
@@ -13,6 +15,26 @@ import numpy as np
 Real = float | np.ndarray
 Kind = TypeVar("Kind", bound=type)
 
+_NAMES = {
+    "m": "x y rho distance radius track_width arrival_radius pass_radius east north sigma bias jump"
+    " encoder_step",
+    "m/s": "v v_max left right max_speed min_speed dead_band",
+    "m/s^2": "acceleration",
+    "rad": "heading alpha theta angle bearing hysteresis sight compass tolerance",
+    "rad/s": "omega min_rate max_rate natural_frequency",
+    "s": "t dt duration last memory period delay heading_delay dropout outage jump_every lag"
+    " settle",
+    "degrees": "lat lon",
+    "1/s": "distance_rate heading_rate gain k_x",
+    '1/s ("graceful": without a unit)': "k_alpha",
+    '1/m ("aicardi": in 1/s)': "k_rho",
+    "1/m": "k_heading",
+    "1/m^2": "k_y",
+    "m^2": "L",
+}
+UNITS = {name: unit for unit, names in _NAMES.items() for name in names.split()}
+"""The unit of an argument or a field, by its name."""
+
 
 def refusal(name: str, value: Any, needed: str, remark: str = "") -> ValueError:
     """The error that every check raises."""
@@ -20,6 +42,8 @@ def refusal(name: str, value: Any, needed: str, remark: str = "") -> ValueError:
         text = repr(value)
     except Exception:  # an int of 5,000 digits, say
         text = object.__repr__(value)
+    if "\n" in text:  # a table, for example
+        text = " ".join(text.split())
     shown = text if len(text) <= 80 else text[:77] + "..."
     return ValueError(f"{name} = {shown} is not allowed: {needed} is needed{remark}")
 
@@ -35,23 +59,118 @@ def book_extra(part: str) -> Iterator[None]:
         ) from error
 
 
+# Real numbers of Python and numpy, among which numpy counts timedelta64.
+_PLAIN = {float, int, *(np.dtype(c).type for c in np.typecodes["AllInteger"] + "efdg")}
+
+
+class _NotNumbersError(Exception):
+    """Says what a value is, or holds, instead of numbers."""
+
+
 def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=False) -> Real:
     """Return `value` as a float or, if it has dimensions, as a float array.
 
-    Raises ValueError unless every entry is a finite real number with low <= value <= high and
-    value > above, or NaN if `nan`; text, booleans, ragged rows and masked arrays are refused.
+    A number of another kind that has one exact value (Decimal, Fraction, sympy's pi) becomes its
+    float. Raises ValueError unless every entry is a finite real number with low <= value <= high
+    and value > above, or NaN if `nan`. Where numpy would drop a part of the value (a unit, a mask,
+    the difference between True and 1), the error names the type and the unit that is needed.
     """
     if type(value) is float and math.isfinite(value) and low <= value <= high and value > above:
         return value  # the common case, kept quick: a simulation checks a dozen numbers
-    array = as_array(value)
-    if array.dtype.kind in "iuf":
-        array = array.astype(np.float64)
-        fits = np.isfinite(array) & (array >= low) & (array <= high) & (array > above)
-        if (fits | np.isnan(array) if nan else fits).all():
-            return array if array.ndim else float(array)
     bounds = (("above", above), ("at least", low), ("at most", high))
     allowed = " and ".join(f"{words} {bound:g}" for words, bound in bounds if math.isfinite(bound))
-    raise refusal(name, value, f"a finite number {allowed}".strip() + " or NaN" * nan)
+    needed = f"a finite number {allowed}".strip() + " or NaN" * nan
+    array = floats(name, value, needed)
+    fits = np.isfinite(array) & (array >= low) & (array <= high) & (array > above)
+    if (fits | np.isnan(array) if nan else fits).all():
+        return array if array.ndim else float(array)
+    raise refusal(name, value, needed)
+
+
+def floats(name: str, value: Any, needed: str) -> np.ndarray:
+    """Return `value` as an array of floats; any float will do.
+
+    Otherwise raise ValueError, which says what is `needed`.
+    """
+    try:
+        return _floats(value)
+    except _NotNumbersError as error:
+        remark = f", not {error}: {_advice(name)}"
+    except ValueError:
+        remark = ", not rows of different lengths"
+    except (OverflowError, RecursionError):  # 10**400, a list that holds itself
+        remark = ""
+    raise refusal(name, value, needed, remark)
+
+
+def _floats(value: Any) -> np.ndarray:
+    """The value as a new array of floats.
+
+    Raises `_NotNumbersError` where numpy would drop a part of it, ValueError if its rows are ragged
+    and OverflowError for 10**400.
+    """
+    if type(value) in _PLAIN:
+        return np.array(float(value))
+    if isinstance(value, list | tuple):
+        if {*map(type, value)} <= _PLAIN:  # quick for a million numbers
+            return np.array(value, dtype=np.float64)
+        return np.array([_floats(entry) for entry in value])
+    if isinstance(value, bool | str | bytes | bytearray):  # numpy reads the last as small numbers
+        raise _NotNumbersError(kind_of(value))
+    if type(value) not in (np.ndarray, np.memmap):
+        if any(map(_has_unit, (value, _own(value, "dtype"), _own(value, "data")))):
+            raise _NotNumbersError(f"{kind_of(value)} with a unit")
+        if isinstance(value, np.ndarray):  # a masked array, or whatever else a subclass adds
+            raise _NotNumbersError(kind_of(value))
+    try:
+        # Decimal, Fraction and mpf are such numbers; sympy's pi and sqrt(2) say so themselves.
+        if isinstance(value, numbers.Real | Decimal) or _own(value, "is_number") is True:
+            return np.array(float(value))
+        array = np.asarray(value)
+    except OverflowError:
+        raise
+    except Exception:  # sympy's I, an interval; a conversion to an array may raise anything
+        raise _NotNumbersError(kind_of(value)) from None
+    if array.dtype.kind in "iuf":
+        return array.astype(np.float64)
+    if not array.ndim:
+        raise _NotNumbersError(kind_of(value))
+    if array.dtype != object:
+        raise _NotNumbersError(f"an array of {array.dtype.type.__name__.rstrip('_')}")
+    return np.array([_floats(entry) for entry in array.flat]).reshape(array.shape)
+
+
+def _has_unit(value: Any) -> bool:
+    """Whether a value says that it has a unit, as those of pint, astropy and xarray do."""
+    attributes = _own(value, "attrs")
+    noted = attributes if isinstance(attributes, Mapping) else {}
+    return any(_own(value, name) is not None or name in noted for name in ("unit", "units"))
+
+
+def _own(value: Any, name: str) -> Any:
+    """An attribute that the class or the object itself has, or None.
+
+    In a table of pandas `value.unit` may also be a column, which does not count.
+    """
+    try:
+        has = hasattr(type(value), name) or name in vars(value)
+        return getattr(value, name) if has else None
+    except Exception:  # no `vars`, or a property that fails
+        return None
+
+
+def kind_of(value: Any) -> str:
+    """The type of a value for a sentence, such as "an astropy.Quantity"."""
+    if value is None:
+        return "None"
+    house, name = type(value).__module__.partition(".")[0], type(value).__name__
+    name = name if house in ("builtins", "__main__") else f"{house}.{name}"
+    return f"a{'n' * (name[0] in 'AEIOUaeiox')} {name}"  # an x is spoken as "ex"
+
+
+def _advice(name: str) -> str:
+    unit = UNITS.get(name.rpartition(".")[2])
+    return f"give the number in {unit}" if unit else "give a plain number, in the documented unit"
 
 
 def scalar(name: str, value: Any, *, endless: bool = False, **bounds: float) -> float:
@@ -70,17 +189,11 @@ def scalars(above_0: Collection[str] = (), **values: Any) -> list[float]:
     return [scalar(k, value, **bounds if k in above_0 else {}) for k, value in values.items()]
 
 
-def _masked(value: Any) -> bool:
-    """Whether numpy would put a number where a mask says that there is none."""
-    listed = isinstance(value, list | tuple) and any(map(_masked, value))
-    return listed or isinstance(value, np.ma.MaskedArray)
-
-
 def as_array(value: Any) -> np.ndarray:
     """The value as an array; as one of no number if it is ragged, masked or no array at all."""
     try:
-        return np.array(...) if _masked(value) else np.asarray(value)
-    except (ValueError, TypeError, OverflowError, RecursionError):
+        return np.array(...) if isinstance(value, np.ma.MaskedArray) else np.asarray(value)
+    except Exception:  # its own conversion may raise anything
         return np.array(...)
 
 
@@ -127,10 +240,10 @@ def reals(*, at_least_0=(), above_0=(), at_most_1=(), **values: Any) -> list[Rea
     bounds = {name: {"low": 0.0} for name in at_least_0}
     bounds |= {name: {"above": 0.0} for name in above_0}
     bounds |= {name: {"low": 0.0, "high": 1.0} for name in at_most_1}
-    numbers = [real(name, value, **bounds.get(name, {})) for name, value in values.items()]
-    if any(type(number) is not float for number in numbers):
-        same_shape(**values)
-    return numbers
+    checked = [real(name, value, **bounds.get(name, {})) for name, value in values.items()]
+    if any(type(number) is not float for number in checked):
+        same_shape(**dict(zip(values, checked, strict=True)))
+    return checked
 
 
 def checked(others: str = "", **bounds: Collection[str]) -> Callable[[Kind], Kind]:

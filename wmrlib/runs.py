@@ -261,9 +261,10 @@ def checked_hysteresis(hysteresis: float, method: str) -> float:
 
 def sample_count(dt: float, duration: float) -> int:
     """Return how many samples a run has, both ends included; raise ValueError as `simulate`."""
-    steps = scalar("duration", duration, above=0.0) / scalar("dt", dt, above=0.0)
-    if dt > duration:
-        raise refusal("dt", dt, f"at most the duration, {duration:g},")
+    whole, step = scalar("duration", duration, above=0.0), scalar("dt", dt, above=0.0)
+    steps = whole / step
+    if step > whole:
+        raise refusal("dt", dt, f"at most the duration, {whole:g},")
     if steps > MOST_SAMPLES:
-        raise refusal("duration", duration, f"at most {MOST_SAMPLES:,} steps of dt = {dt:g}")
+        raise refusal("duration", duration, f"at most {MOST_SAMPLES:,} steps of dt = {step:g}")
     return int(steps + 1e-9) + 1  # tenths are not exact

@@ -158,21 +158,22 @@ def track(
     if not callable(reference):
         raise refusal("reference", reference, "a function of time")
     begin = runs.single_pose("start", start)
-    samples, dt = runs.sample_count(dt, duration), float(dt)
+    samples, dt, last = runs.sample_count(dt, duration), float(dt), float(duration)
     robot, t = checked_wheels(wheels), dt * np.arange(samples)
     loop = *tuning_of(gains, law, TRACKING_LAWS), robot
 
     def path_at(times: np.ndarray) -> np.ndarray:
-        seen = reference(np.minimum(times, duration))  # three times 0.1 is more than 0.3
+        now = np.minimum(times, last)  # three times 0.1 is more than 0.3
+        fields = instance("reference(t)", reference(now), Reference)._asdict()
+        named = {f"reference(t).{name}": values for name, values in fields.items()}
+        *numbers, _ = reals(**named, t=times)
+        if np.broadcast_shapes(*map(np.shape, numbers), times.shape) != times.shape:
+            raise refusal("reference(t)", named, "one number, or one a time, in each field")
         path = np.empty((len(Reference._fields), times.size))
-        for row, values in zip(path, instance("reference(t)", seen, Reference), strict=True):
+        for row, values in zip(path, numbers, strict=True):
             row[:] = values
         return path
 
-    first = instance("reference(t)", reference(np.minimum(t, duration)), Reference)._asdict()
-    named = {f"reference(t).{name}": values for name, values in first.items()}
-    if np.broadcast_shapes(*map(np.shape, reals(**named, t=t))) != t.shape:
-        raise refusal("reference(t)", named, "one number, or one a time, in each field")
     path = path_at(t)
     if choice("method", method, METHODS) == "continuous":
         _refuse_own_law(law)

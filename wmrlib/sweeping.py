@@ -19,7 +19,7 @@ from wmrlib.body import (
     checked_turn,
     checked_wheels_of_many,
 )
-from wmrlib.checks import as_array, choice, instance, real, refusal, same_shape, scalar
+from wmrlib.checks import as_array, choice, instance, kind_of, real, refusal, same_shape, scalar
 from wmrlib.engine import continuous, sampled
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, wrap_angle
@@ -156,11 +156,14 @@ def sweep(
     if choice("method", method, METHODS) == "continuous" and own:
         remark = f" with a law of your own, {law_name(own)}"
         raise refusal("method", method, "'arc' or 'euler'", remark)
-    samples, radius = sample_count(dt, duration), scalar("arrival_radius", arrival_radius, low=0.0)
+    samples, dt = sample_count(dt, duration), float(dt)
+    radius = scalar("arrival_radius", arrival_radius, low=0.0)
     if receiver and method == "continuous":
         raise refusal("method", method, "'arc' or 'euler'", ": a receiver is read at samples")
-    if not isinstance(seed, int | np.integer) or isinstance(seed, bool) or not 0 <= seed < 2**64:
-        raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1")
+    whole = isinstance(seed, int | np.integer) and not isinstance(seed, bool)
+    if not whole or not 0 <= seed < 2**64:
+        remark = "" if whole else f", not {kind_of(seed)}"
+        raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1", remark)
     end = checked_turn(last_turn, dt, method, radius)
     kept = checked_hysteresis(hysteresis, method)
     ideal = bool(np.all(are_ideal(robot)))
@@ -180,7 +183,7 @@ def sweep(
             f"trajectories = True is not allowed for {total:,} runs of {samples:,} samples: "
             f"at most {MOST_RECORDED:,} in all are needed"
         )
-    sampling = Sampling(float(dt), method == "arc", radius, kept)
+    sampling = Sampling(dt, method == "arc", radius, kept)
     alike = {*map(type, robot)} == {float} and not robot.min_speed
     plain = ideal and alike and end == NO_TURN and not kept
     side_by_side = plain and not receiver and not trajectories and not own

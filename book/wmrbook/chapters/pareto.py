@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from wmrlib.checks import as_array, refusal
+from wmrlib.checks import floats
 
 
 def pareto(*costs: np.ndarray) -> np.ndarray:
@@ -13,14 +13,12 @@ def pareto(*costs: np.ndarray) -> np.ndarray:
     costs: arrays of one shape, of which less is better. Returns booleans in that shape, False where
     a cost is infinite or NaN.
     """
-    table = [as_array(cost) for cost in costs]
-    if any(cost.dtype.kind not in "iuf" for cost in table):
-        raise refusal("costs", costs, "arrays of numbers")
+    table = [floats(f"costs[{i}]", cost, "an array of numbers") for i, cost in enumerate(costs)]
     shapes = [cost.shape for cost in table]
     if len(set(shapes)) != 1:
         needed = "at least one, all of one shape, is needed"
         raise ValueError(f"costs of shape {shapes} are not allowed: {needed}")
-    points = np.stack(table, axis=-1).astype(float)
+    points = np.stack(table, axis=-1)
     chosen = np.array(np.isfinite(points).all(axis=-1))
     left = points[chosen]
     chosen[chosen] = [
