@@ -224,3 +224,28 @@ def test_wheels_vary_in_a_sweep_as_gains_do(method):
 def test_wheels_of_many_runs_are_checked(wheels, message):
     with pytest.raises(ValueError, match=message):
         wmr.sweep(START, GOAL, GAINS, method="arc", wheels=wmr.Wheels(0.5, **wheels))
+
+
+@pytest.mark.parametrize(
+    ("refused", "call"),
+    [
+        (
+            "wheels.max_speed = .* not a numpy.MaskedArray: give the number in m/s",
+            lambda masked: wmr.sweep(START, GOAL, GAINS, wheels=wmr.Wheels(0.5, masked)),
+        ),
+        (
+            "slope = .* an array without a unit or a mask is needed, not a numpy.MaskedArray",
+            lambda masked: wmr.sweep(START, GOAL, Slope(masked), law=straight, method="arc"),
+        ),
+        (
+            "state = .* rho, alpha and theta is needed, not a numpy.MaskedArray",
+            lambda masked: wmr.closed_loop(GAINS)(0.0, [masked, masked, masked]),
+        ),
+    ],
+)
+def test_no_mask_and_no_unit_is_dropped(refused, call):
+    call(np.array([0.5, 0.6]))
+    with pytest.raises(ValueError, match=refused):
+        call(np.ma.array([0.5, 0.6], mask=[True, False]))
+    with pytest.raises(ValueError, match=refused.replace("MaskedArray", "MaskedConstant")):
+        call([0.5, np.ma.masked])

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wmrlib.checks import as_array, instance, real, refusal, scalar
+from wmrlib.checks import floats, instance, real, refusal, scalar
 from wmrlib.compilation import formula
 from wmrlib.elementary import between, expm1, signed, sincos, stepped, within, wrap
 from wmrlib.motion import wheel_speeds
@@ -94,21 +94,25 @@ def checked_wheels(wheels: Wheels | None, name: str = "wheels") -> Wheels:
 
 def checked_wheels_of_many(wheels: Wheels | None) -> Wheels:
     """The same for a sweep, where each field may be an array."""
-    if wheels is None or {*map(np.ndim, instance("wheels", wheels, Wheels))} == {0}:
+    if wheels is None or not any(map(_are_many, instance("wheels", wheels, Wheels))):
         return checked_wheels(wheels)
     fields: dict[str, Any] = {}
     for field, values in wheels._asdict().items():
         name, bound = f"wheels.{field}", {"low" if field in _MAY_BE_0 else "above": 0.0}
-        endless, given = field in _MAY_BE_ENDLESS, as_array(values)
+        endless, given = field in _MAY_BE_ENDLESS, floats(name, values, "a number")
         if given.ndim:
             real(name, given[given != math.inf] if endless else values, **bound)
-            fields[field] = given.astype(float)
+            fields[field] = given
         else:
             fields[field] = scalar(name, values, endless=endless, **bound)
     checked = Wheels(**fields)
     if np.any(checked.min_speed > checked.max_speed):
         raise refusal("wheels.min_speed", wheels.min_speed, "at most max_speed")
     return checked
+
+
+def _are_many(values: Any) -> bool:
+    return isinstance(values, list | tuple) or np.ndim(values) > 0
 
 
 def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -> LastTurn:

@@ -117,11 +117,8 @@ def _floats(value: Any) -> np.ndarray:
         return np.array([_floats(entry) for entry in value])
     if isinstance(value, bool | str | bytes | bytearray):  # numpy reads the last as small numbers
         raise _NotNumbersError(kind_of(value))
-    if type(value) not in (np.ndarray, np.memmap):
-        if any(map(_has_unit, (value, _own(value, "dtype"), _own(value, "data")))):
-            raise _NotNumbersError(f"{kind_of(value)} with a unit")
-        if isinstance(value, np.ndarray):  # a masked array, or whatever else a subclass adds
-            raise _NotNumbersError(kind_of(value))
+    if part := _dropped(value):
+        raise _NotNumbersError(part)
     try:
         # Decimal, Fraction and mpf are such numbers; sympy's pi and sqrt(2) say so themselves.
         if isinstance(value, numbers.Real | Decimal) or _own(value, "is_number") is True:
@@ -138,6 +135,15 @@ def _floats(value: Any) -> np.ndarray:
     if array.dtype != object:
         raise _NotNumbersError(f"an array of {array.dtype.type.__name__.rstrip('_')}")
     return np.array([_floats(entry) for entry in array.flat]).reshape(array.shape)
+
+
+def _dropped(value: Any) -> str:
+    """The type of a value with a unit, a mask or whatever else numpy would drop, or ""."""
+    if type(value) in (np.ndarray, np.memmap):
+        return ""
+    if any(map(_has_unit, (value, _own(value, "dtype"), _own(value, "data")))):
+        return f"{kind_of(value)} with a unit"
+    return kind_of(value) if isinstance(value, np.ndarray) else ""
 
 
 def _has_unit(value: Any) -> bool:
@@ -187,6 +193,15 @@ def scalars(above_0: Collection[str] = (), **values: Any) -> list[float]:
     """Each value through `scalar`."""
     bounds: dict[str, Any] = {"above": 0.0}
     return [scalar(k, value, **bounds if k in above_0 else {}) for k, value in values.items()]
+
+
+def undropped(name: str, value: Any) -> Any:
+    """Return a value of any kind; raise ValueError if it has a unit or a mask, in a list too."""
+    if part := _dropped(value):
+        raise refusal(name, value, "an array without a unit or a mask", f", not {part}")
+    for entry in value if isinstance(value, list | tuple) else ():
+        undropped(name, entry)
+    return value
 
 
 def as_array(value: Any) -> np.ndarray:

@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from wmrlib.body import Wheels, checked_wheels
-from wmrlib.checks import Real, choice, instance, reals
+from wmrlib.checks import Real, choice, floats, instance, reals
 from wmrlib.elementary import elementwise
 from wmrlib.gains import Gains, GainsFields
 from wmrlib.laws import LAWS, POSE_LAWS, lyapunov_value, saturation_scale, tuning_of
@@ -90,7 +90,7 @@ def closed_loop(
     tuning_of(gains, law, POSE_LAWS)  # it says what is wrong
 
     def rates(t: float, state: np.ndarray) -> np.ndarray:
-        rho, alpha, theta = np.asarray(state, dtype=float)
+        rho, alpha, theta = floats("state", state, "rho, alpha and theta")
         if callable(law):
             v, omega = law(rho, alpha, theta, gains)
             v_over_rho = v / rho

@@ -246,7 +246,9 @@ def check_own_law(law: Callable, gains: Any) -> None:
     """ValueError unless the function returns two numbers."""
     result = law(1.0, 0.5, 0.2, gains)
     twist = result if isinstance(result, tuple) else ()
-    if len(twist) != 2 or not all(isinstance(it, float | int | np.number) for it in twist):
+    if len(twist) != 2 or not all(
+        isinstance(it, float | int | np.floating | np.integer) for it in twist
+    ):
         what = f"law(rho=1.0, alpha=0.5, theta=0.2, gains={gains!r})"
         raise refusal(what, result, "a pair of numbers, v in m/s and omega in rad/s,")
 

@@ -19,7 +19,17 @@ from wmrlib.body import (
     checked_turn,
     checked_wheels_of_many,
 )
-from wmrlib.checks import as_array, choice, instance, kind_of, real, refusal, same_shape, scalar
+from wmrlib.checks import (
+    as_array,
+    choice,
+    instance,
+    kind_of,
+    real,
+    refusal,
+    same_shape,
+    scalar,
+    undropped,
+)
 from wmrlib.engine import continuous, sampled
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, wrap_angle
@@ -146,6 +156,8 @@ def sweep(
     if not own:
         instance("gains", gains, Gains)
     tuned = _fields("gains", gains) if hasattr(gains, "_asdict") else {}
+    for name, values in tuned.items():
+        undropped(name, values)
     poses = _fields("starts", instance("starts", starts, Pose))
     poses |= _fields("goals", instance("goals", goals, Pose))
     numbers = dict.fromkeys(Gains._fields, 0.0) if own else tuned
