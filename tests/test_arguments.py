@@ -159,7 +159,7 @@ def test_every_public_function_is_among_them():
         function(**arguments)
         if isinstance(function, FunctionType):
             parameters = inspect.signature(function).parameters
-            flags = {"options", "trajectories", "progress"}
+            flags = {"options", "trajectories", "progress", "executor"}
             assert set(arguments) == set(parameters) - flags, function
 
 
