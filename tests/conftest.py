@@ -13,6 +13,7 @@ import sys
 from importlib.util import find_spec
 from pathlib import Path
 
+import compile_first
 import kernels
 import pytest
 from hypothesis import settings
@@ -85,12 +86,15 @@ def pytest_configure(config):
     """Let the kernels of nbval, and of the applications that tests start, talk through files.
 
     And let Python keep what it compiles, where it was told not to: each of a hundred processes
-    would compile all that it imports.
+    would compile all that it imports. Where several workers will run, their loops are compiled
+    before they begin.
     """
     kernels.use_files()
     os.environ["JUPYTER_CONFIG_PATH"] = str(Path(__file__).parent / "jupyter")
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)
     sys.dont_write_bytecode = False
+    if getattr(config.option, "numprocesses", None) and not hasattr(config, "workerinput"):
+        compile_first.compile_all()
 
 
 @pytest.hookimpl(tryfirst=True, optionalhook=True)

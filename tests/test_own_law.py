@@ -3,7 +3,6 @@
 import math
 from collections import namedtuple
 
-import control
 import numba
 import numpy as np
 import pytest
@@ -177,6 +176,8 @@ def test_scipy_and_python_control_integrate_the_closed_loop(law):
     end = [ours.rho[-1], ours.alpha[-1], ours.theta[-1]]
     scipys = solve_ivp(rates, (0.0, 8.0), first, rtol=1e-9, atol=1e-9).y[:, -1]
     np.testing.assert_allclose(scipys, end, atol=1e-6)
+    import control  # here, because this takes 2 s in each worker
+
     system = control.nlsys(lambda t, x, u, params: rates(t, x), inputs=0, states=3)
     times = np.linspace(0.0, 8.0, 9)
     controls = control.input_output_response(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 from zlib import crc32
 
-import control
 import numpy as np
 import pytest
 
@@ -21,6 +20,13 @@ from wmrbook.live import noise, real_robot
 ROLLING = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
 TRIALS = 4  # places of the knobs, besides where they stand at first
 AGREES = 1e-7  # m and rad, of a run
+
+
+def python_control():
+    """The package, imported by the tests that need it: this takes 2 s in each worker."""
+    import control
+
+    return control
 
 
 def pose(numbers) -> wmr.Pose:
@@ -115,7 +121,7 @@ def turning_centre(values, found, data) -> None:
 def poles(values, found, data) -> None:
     gains = wmr.Gains(data["k_rho"], values["k_alpha"], values["h"], data["v_max"])
     pace = gains.k_rho * gains.v_max
-    loop = control.tf([1.0], [1.0, gains.k_alpha, gains.h * pace**2])
+    loop = python_control().tf([1.0], [1.0, gains.k_alpha, gains.h * pace**2])
     theirs = np.array([complex(*each) for each in found["poles"]])
     apart = np.abs(np.sort_complex(loop.poles()) - np.sort_complex(theirs)).max()
     assert apart < 1e-9 * max(1.0, np.abs(theirs).max())
@@ -289,7 +295,7 @@ def lag(values, found, data) -> None:
 
 def lqr(values, found, data) -> None:
     A, B = np.array(data["A"]), np.array(data["B"])
-    K, _, poles = control.lqr(A, B, values["q"] * np.eye(3), np.eye(2))
+    K, _, poles = python_control().lqr(A, B, values["q"] * np.eye(3), np.eye(2))
     np.testing.assert_allclose(found["K"], K, atol=1e-9)
     theirs = np.array([complex(*each) for each in found["poles"]])
     assert np.abs(np.sort_complex(theirs) - np.sort_complex(poles)).max() < 1e-6

@@ -6,7 +6,6 @@ import math
 from typing import NamedTuple
 
 import numpy as np
-from scipy.signal import lfilter
 
 from wmrlib.checks import real, refusal, scalar
 
@@ -107,4 +106,6 @@ def gauss_markov(sigma, memory, dt, n, runs, seed) -> np.ndarray:
     fresh = np.random.default_rng(seed).standard_normal((runs, n))
     c = math.exp(-dt / memory) if memory > 0.0 else 0.0
     fresh[:, 1:] *= math.sqrt(1.0 - c**2)
+    from scipy.signal import lfilter  # here, because it takes a second to import
+
     return sigma * lfilter([1.0], [1.0, -c], fresh, axis=1)
