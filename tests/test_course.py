@@ -113,6 +113,7 @@ def test_students_get_no_answers_and_what_the_notebooks_need(course, tmp_path):
     assert [path.name for path in chapters] == sorted(
         path.name for path in (ROOT / "notebooks").glob("*.ipynb")
     )
+    assert (robot / "notebooks" / "robot_in_one_page.py").exists()
     for path in (assignment, *chapters):
         text = path.read_text(encoding="utf-8")
         assert "SOLUTION" not in text

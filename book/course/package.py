@@ -20,7 +20,10 @@ ROOT = Path(__file__).resolve().parents[2]
 sys.path.append(str(ROOT / "book" / "tools"))
 from build import without_solutions  # noqa: E402
 
-FILES = "LICENSE", "environment.txt", "pyproject.toml", "book/chapter13_laws.json"
+FILES = (
+    *("LICENSE", "environment.txt", "pyproject.toml", "book/chapter13_laws.json"),
+    "notebooks/robot_in_one_page.py",  # two chapters point to it
+)
 FOLDERS = "book/lab", "notebooks/data"
 CLOSED = ROOT / "book" / "wmrbook" / "questions"  # it computes the keys of the concept questions
 LINK = re.compile(r"\[([^\]]+)\]\(\.\./book/[^)]*\)")  # to pages that are not in the zip
