@@ -6,10 +6,12 @@ import numpy as np
 import pytest
 
 import wmrlib as wmr
+from wmrlib.runs import Arrival, Trajectories
+from wmrlib.tuning import Modes
 
 RECORDS = [
     *(wmr.Pose, wmr.PolarError, wmr.Reference, wmr.Gains, wmr.KanayamaGains, wmr.GeoPoint),
-    *(wmr.Receiver, wmr.Wheels, wmr.LastTurn, wmr.Arrival, wmr.Trajectories, wmr.Modes),
+    *(wmr.Receiver, wmr.Wheels, wmr.LastTurn, Arrival, Trajectories, Modes),
 ]
 
 
@@ -59,11 +61,9 @@ def test_a_record_of_numbers_is_shown_and_hashed_as_it_was():
 
 def test_what_is_missing_is_counted():
     values = np.array([math.nan, math.inf, math.inf, *np.full(100, 0.25)])
-    runs = wmr.Arrival(np.isfinite(values), values, *[0.0] * 4)
+    runs = Arrival(np.isfinite(values), values, *[0.0] * 4)
     assert "arrived=<103 bools, 100 of them True>" in repr(runs)
     assert "time=<103 numbers, 0.25, 2 infinite, 1 NaN>" in repr(runs)
     poles = wmr.modes(wmr.Gains(np.linspace(0.1, 1.0, 100), 2.0, 2.0)).poles
-    assert "poles=(<100 numbers, real part from -4 to -0.4>" in repr(
-        wmr.Modes(*[0.0] * 4, poles, 1, 1)
-    )
-    assert wmr.Modes(*[0.0] * 4, poles, 1, 1) != wmr.Modes(*[0.0] * 4, poles[::-1], 1, 1)
+    assert "poles=(<100 numbers, real part from -4 to -0.4>" in repr(Modes(*[0.0] * 4, poles, 1, 1))
+    assert Modes(*[0.0] * 4, poles, 1, 1) != Modes(*[0.0] * 4, poles[::-1], 1, 1)

@@ -351,7 +351,7 @@ BAD_TRACKS = [
     ({"reference": lambda t: (t, t)}, "a Reference is needed, not a tuple"),
     ({"reference": lambda t: wmr.Reference(t, t, t, math.nan * t, t)}, r"reference\(t\)\.v = "),
     ({"law": "kanayama"}, "a KanayamaGains is needed, not a Gains"),
-    ({"law": "lqr"}, f"law = 'lqr' .*: one of {str(tuple(LAWS))[1:-1]} is needed"),
+    ({"law": "lqr"}, f"law = 'lqr' .*: one of {str(tuple(LAWS))[1:-1]}, or a function"),
     ({"start": wmr.Pose([1.0], 0, 0)}, r"start\.x = "),
 ]
 

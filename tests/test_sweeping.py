@@ -18,7 +18,7 @@ from scipy.integrate._ivp import dop853_coefficients
 
 import wmrlib as wmr
 from wmrlib import _dop853, sweeping, threads
-from wmrlib.runs import METHODS
+from wmrlib.runs import METHODS, Arrival
 
 ORIGIN = wmr.Pose(0.0, 0.0, 0.0)
 PAPER = wmr.paper.outdoor()
@@ -187,7 +187,7 @@ def test_sweeps_in_the_plane_are_the_runs_of_simulate(method):
 def alone(start, goal, gains, **options):
     """The run of `simulate`; without a sample, nothing but that it did not arrive."""
     run = wmr.simulate(start, goal, gains, **options)
-    return wmr.arrival(run) if len(run) else wmr.Arrival(False, math.inf, *[math.nan] * 4)
+    return wmr.arrival(run) if len(run) else Arrival(False, math.inf, *[math.nan] * 4)
 
 
 @pytest.mark.parametrize("wheels", [None, LIMITS])
@@ -414,7 +414,7 @@ def test_runs_are_a_table_of_pandas():
     drive = {"method": "arc", "duration": 30.0}
     runs, samples = wmr.sweep(start, goal, gains._replace(h=weights), trajectories=True, **drive)
     table = pd.DataFrame(runs._asdict(), index=pd.Index(weights, name="h"))
-    assert [*table] == [*wmr.Arrival._fields]
+    assert [*table] == [*Arrival._fields]
     assert table.arrived.dtype == bool
     assert table.time[0.3] == runs.time[1]
     _, one = wmr.sweep(start, goal, gains, trajectories=True, **drive)

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 from wmrlib.tracks import Count
-from wmrlib.tracks.fixes import Fixes, Said
+from wmrlib.tracks.fixes import Fixes, Reported
 
 LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nmea"
 GPX_11 = "{http://www.topografix.com/GPX/1/1}"
@@ -313,7 +313,7 @@ def test_every_sentence_is_used_or_counted_with_its_reason(read, epochs):
 
 def says(track, **expected):
     """Each array of what a receiver says: NaN unless it is expected."""
-    for field in Said._fields:
+    for field in Reported._fields:
         value = expected.get(field, math.nan)
         np.testing.assert_allclose(getattr(track, field), value, rtol=1e-12, err_msg=field)
         assert not getattr(track, field).flags.writeable

@@ -1,10 +1,10 @@
 """Dormand and Prince's method of order 8 with Hairer's two estimates of its error, and its events.
 
 Hairer, Norsett and Wanner, Solving Ordinary Differential Equations I, II.5. Row j of `STAGES` holds
-the weights of the slopes before for the place of stage j + 1.
+the weights by which stage j + 1 adds up the slopes of the stages before it.
 
-A step may have to end on an event, and is tried again, shorter, until it does: arrival, a change
-between forwards and backwards, and the largest |omega| so far.
+Three events end a step: the arrival, a change between driving forwards and backwards, and a new
+maximum of |omega|. A step that passes an event is tried again, shorter, until it ends on it.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ import numpy as np
 from wmrlib.compilation import formula
 
 TOLERANCE = 1e-10  # of a step: rad, and a share of the distance
-SHARP = 1e-12  # so close to the arrival radius a run ends, as a share of it
-SLACK = 1e-8  # what an event may miss of the metres rolled and of the largest |omega|
+ARRIVAL_TOLERANCE = 1e-12  # of rho at the arrival, as a share of the arrival radius
+EVENT_TOLERANCE = 1e-8  # error that an event may leave in the metres rolled and the largest |omega|
 
 # fmt: off
 STAGES = (
@@ -46,35 +46,37 @@ FIFTH = np.array([0.01312004499419488, 0, 0, 0, 0, -1.2251564463762044, -0.49575
 # fmt: on
 _EMBEDDED = {0: 0.2440944881889764, 8: 0.7338466882816119, 11: 0.022058823529411766}  # order 3
 THIRD = np.array([w - _EMBEDDED.get(j, 0.0) for j, w in enumerate(WEIGHTS)])
-# As arrays, where a loop goes over them; the last row of the triangle is the weights.
+# The same numbers as an array, for loops over the stages. Its last row is the weights of the step.
 TRIANGLE = np.array([[*row, *(0.0,) * (12 - len(row))] for row in ((), *STAGES, WEIGHTS)])
-NODES = np.array([0.0, *map(sum, STAGES), 1.0])  # when each stage is, as a share of the step
+NODES = np.array([0.0, *map(sum, STAGES), 1.0])  # the time of each stage, as a share of the step
 
 
 @formula
 def larger(one, other):
-    return one if one > other else other  # `max` is not vectorised
+    """The larger of two numbers; LLVM does not vectorise `max`."""
+    return one if one > other else other
 
 
 @formula
 def step_error(fine, coarse):
-    """The error in tolerances, by Hairer's two estimates of it."""
+    """The error of a step in tolerances, from Hairer's two estimates of it."""
     coarse = 0.1 * coarse
     return fine * fine / np.sqrt(fine * fine + coarse * coarse + 1e-300) / TOLERANCE
 
 
 @formula
 def growth(error):
-    """How much longer the next step may be, by this one's error in tolerances."""
+    """The factor from this step to the next, by this step's error in tolerances."""
     longer = 0.9 / np.sqrt(np.sqrt(np.sqrt(error)))
     return (longer if longer < 5.0 else 5.0) if longer > 0.2 else 0.2  # 0.2 for NaN too
 
 
 @formula
-def until_turn(f0, rate0, f1, rate1, dt, slack):
-    """How long f goes on before it turns round, if more than the slack of it is missed at the end.
+def until_turn(f0, rate0, f1, rate1, dt, tolerance):
+    """The time at which f turns round within a step of dt, or dt if it does not.
 
-    By the cubic with these values and rates at both ends.
+    f is taken as the cubic with these values and rates at the two ends of the step. A turn so close
+    to an end that f changes by less than the tolerance between them does not count.
     """
     middle = rate0 + rate1 - 3.0 * (f1 - f0) / dt
     root = np.sqrt(larger(middle * middle - rate0 * rate1, 0.0))
@@ -82,34 +84,35 @@ def until_turn(f0, rate0, f1, rate1, dt, slack):
     turn = dt - dt * (rate1 + root - middle) / (rate1 - rate0 + 2.0 * root)
     before, after = abs(rate0) * turn, abs(rate1) * (dt - turn)
     missed = before if before < after else after
-    return turn if (rate0 * rate1 < 0.0) & (missed > slack) else dt
+    return turn if (rate0 * rate1 < 0.0) & (missed > tolerance) else dt
 
 
 @formula
 def until_arrival(rho0, rate0, rho1, rate1, dt, radius):
-    """When rho passes the radius, by the cubic for the time as a function of rho."""
+    """The time at which rho reaches the radius, by the cubic for the time as a function of rho."""
     fall = rho1 - rho0
     s = (radius - rho0) / fall
     ends = (1.0 - s) * (1.0 - s) * fall / rate0 - s * (1.0 - s) * fall / rate1
     time = s * (ends + s * (3.0 - 2.0 * s) * dt)
     time = time if (time > 0.0) & (time < dt) else s * dt
-    return time if rho1 < radius * (1.0 - SHARP) else dt
+    return time if rho1 < radius * (1.0 - ARRIVAL_TOLERANCE) else dt
 
 
 @formula
 def until_event(rho, rolled, omega, dt, radius, peak):
-    """How much of a step to take, so that it ends on the first event in it.
+    """The time from the beginning of a step of dt to the first event in it, or dt without one.
 
-    `rho`, `rolled` and `omega` are what each is before and after, and its rates there.
+    `rho`, `rolled` (the metres rolled) and `omega` are four numbers each: value and rate at the
+    beginning of the step, value and rate at its end. `peak` is the largest |omega| so far.
     """
-    wanted = until_arrival(rho[0], rho[1], rho[2], rho[3], dt, radius)
-    slack = SLACK * (1.0 + abs(rho[0]))
-    turn = until_turn(rolled[0], rolled[1], rolled[2], rolled[3], dt, slack)
-    wanted = turn if turn < wanted else wanted
-    turn = until_turn(omega[0], omega[1], omega[2], omega[3], dt, SLACK * (1.0 + peak))
-    highest = abs(omega[0] + omega[1] * turn) > peak + SLACK
-    wanted = turn if highest & (turn < wanted) else wanted
+    event_time = until_arrival(rho[0], rho[1], rho[2], rho[3], dt, radius)
+    tolerance = EVENT_TOLERANCE * (1.0 + abs(rho[0]))
+    turn = until_turn(rolled[0], rolled[1], rolled[2], rolled[3], dt, tolerance)
+    event_time = turn if turn < event_time else event_time
+    turn = until_turn(omega[0], omega[1], omega[2], omega[3], dt, EVENT_TOLERANCE * (1.0 + peak))
+    highest = abs(omega[0] + omega[1] * turn) > peak + EVENT_TOLERANCE
+    event_time = turn if highest & (turn < event_time) else event_time
     # with wheels that lag, rho may dip below the radius and out of it again
-    turn = until_turn(rho[0], rho[1], rho[2], rho[3], dt, SLACK * abs(radius))
+    turn = until_turn(rho[0], rho[1], rho[2], rho[3], dt, EVENT_TOLERANCE * abs(radius))
     passing = (radius > 0.0) & (rho[1] < 0.0) & (rho[2] > radius)
-    return turn if passing & (turn < wanted) else wanted
+    return turn if passing & (turn < event_time) else event_time

@@ -1,6 +1,6 @@
-"""What a robot adds to a law: wheels with a motor each, and a turn on the spot at the end.
+"""The robot's body: its two driven wheels, and the turn on the spot with which it may end a run.
 
-The formulas hold for one period of a sampled drive, in which the command does not change.
+The formulas compute one sampling period, in which the commanded twist is constant.
 """
 
 from __future__ import annotations
@@ -16,29 +16,31 @@ from wmrlib.elementary import between, expm1, signed, sincos, stepped, within, w
 from wmrlib.motion import wheel_speeds
 from wmrlib.records import record
 
-_TINY = 1e-30  # a divisor in the place of 0, where 0/0 stands for 0
-_NO_LAG = 1e-15  # s, in its place: a rest that rounds to below 0 does not overflow by it
-_AT_REST = 1e-3  # m/s: a slower wheel stands
-_AT_ONCE = 1e-9  # s: what a sum of periods may be short of a time
-_FASTEST = 1e9  # times a speed, which may be 0
+_TINY = 1e-30  # added to a divisor that may be 0, where 0/0 stands for 0
+_NO_LAG = 1e-15  # s, added to a lag of 0: exp(-rest/lag) must not overflow for a rest of -1e-17
+_AT_REST = 1e-3  # m/s: a slower wheel counts as standing
+_AT_ONCE = 1e-9  # s: rounding error of a sum of sampling periods
+_FASTEST = 1e9  # largest factor of `hurry`: a speed of 0 cannot be scaled up
 
 
 @record
 class Wheels(NamedTuple):
-    """Two wheels, and what their motors can do; as they are, all but the width is ideal.
+    """Two driven wheels and the limits of their motors; the defaults are ideal wheels.
 
     Every speed is over ground. `sweep` takes arrays too.
 
     Parameters
     ----------
     track_width : float, m from wheel to wheel
-    max_speed : float, m/s. The twist is scaled so that no wheel is told more, see `limit_wheels`.
+    max_speed : float, m/s. The twist is scaled down so that no wheel is commanded to
+        go faster, see `limit_wheels`.
     min_speed : float, m/s. The twist is scaled up until |v| is min_speed |cos(alpha)|: the path
         stays as it is, and the robot does not slow down until it stalls.
-    acceleration : float, m/s^2. A wheel changes its speed no faster.
-    lag : float, s. Time constant with which a wheel follows the speed that it is told.
-    dead_band : float, m/s. A wheel that is told less stands.
-    encoder_step : float, m. A wheel moves by whole steps in a period; the rest waits.
+    acceleration : float, m/s^2. Largest change of a wheel's speed in a second.
+    lag : float, s. Time constant with which a wheel follows its commanded speed.
+    dead_band : float, m/s. A wheel stands while its commanded speed is below this.
+    encoder_step : float, m. In each period a wheel moves by a whole number of these steps; the
+        remainder is carried over to the next period.
     """
 
     track_width: float
@@ -52,7 +54,7 @@ class Wheels(NamedTuple):
 
 @record
 class LastTurn(NamedTuple):
-    """How a robot turns on the spot to the heading of its goal, once it is near enough.
+    """A turn on the spot to the heading of the goal, once the robot is near enough.
 
     Within the arrival radius it stops, and turns at `gain` times the heading error, at least at
     `min_rate` and at most at `max_rate`, until the error is within `tolerance` and the wheels
@@ -93,7 +95,7 @@ def checked_wheels(wheels: Wheels | None, name: str = "wheels") -> Wheels:
 
 
 def checked_wheels_of_many(wheels: Wheels | None) -> Wheels:
-    """The same for a sweep, where each field may be an array."""
+    """The wheels of a sweep, whose fields may be arrays; ValueError as `checked_wheels`."""
     if wheels is None or not any(map(_are_many, instance("wheels", wheels, Wheels))):
         return checked_wheels(wheels)
     fields: dict[str, Any] = {}
@@ -130,7 +132,7 @@ def checked_turn(turn: LastTurn | None, dt: float, method: str, radius: float) -
 
 
 def sound_turn(turn: LastTurn, dt: float) -> LastTurn:
-    """The last turn as floats, if its gain does not swing in periods of up to dt."""
+    """The last turn as floats; ValueError if its gain oscillates with a sampling period of dt."""
     turn = _sound("last_turn", turn, LastTurn, {"leave": 1.0, "settle": 0.0}, ("leave",))
     if turn.max_rate < turn.min_rate:
         raise refusal("last_turn.max_rate", turn.max_rate, f"at least min_rate, {turn.min_rate:g},")
@@ -151,30 +153,31 @@ def _sound(name: str, values: Any, kind: type, least: dict[str, float], endless:
 
 @formula
 def hurry(v, alpha, min_speed):
-    """The factor on a twist that makes |v| at least min_speed |cos(alpha)|."""
-    wanted = min_speed * abs(sincos(alpha)[1])
-    return between(wanted / (abs(v) + _TINY), 1.0, _FASTEST)
+    """The factor that scales a twist up until |v| is at least min_speed |cos(alpha)|."""
+    least = min_speed * abs(sincos(alpha)[1])
+    return between(least / (abs(v) + _TINY), 1.0, _FASTEST)
 
 
 @formula
 def are_ideal(wheels):
-    """Whether the wheels do at once what they are told, within their limits."""
+    """Whether the wheels reach any commanded speed within their limits at once."""
     at_once = (wheels.lag == 0.0) & (wheels.acceleration == math.inf)
     return at_once & (wheels.dead_band == 0.0) & (wheels.encoder_step == 0.0)
 
 
 @formula
 def turn_rate(error, gain, min_rate, max_rate):
-    """Omega of a turn on the spot, for the angle that is still to be turned by."""
+    """Omega of a turn on the spot, rad/s; `error` is the remaining angle, rad."""
     return signed(between(gain * abs(error), min_rate, max_rate), error)
 
 
 @formula
 def last_turn(rho, alpha, theta, v, omega, turning, radius, dt, end):
-    """The twist when the turn on the spot has its say, `turning` from now on, and if it is done.
+    """The last turn at a sample: (v, omega, turning, done), from the law's twist (v, omega).
 
-    `turning` is 0 while the robot drives; later 1, and the s more for which it has seen itself
-    within the tolerance.
+    `turning` is the turn's memory between samples: 0 while the robot drives, and 1 plus the
+    seconds that it has been within the tolerance while it turns on the spot. `done` says that the
+    turn is finished.
     """
     near = rho <= (radius * end.leave if turning > 0.0 else radius)
     off = wrap(theta - alpha)
@@ -187,34 +190,35 @@ def last_turn(rho, alpha, theta, v, omega, turning, radius, dt, end):
 
 
 @formula
-def follow(speed, told, easing, lag, dt):
-    """A wheel's mean speed in a period, and its speed after it.
+def follow(speed, commanded, easing, lag, dt):
+    """A wheel's mean speed in a period of dt, and its speed at the end of it, both in m/s.
 
-    The speed follows what the wheel is told with the time constant `lag`, and changes by 1/easing
-    a second at most: first on a straight line, then along an exponential.
+    The speed follows the commanded one with the time constant `lag` [s], and changes by at most
+    1/easing [m/s^2]: first along a straight line (the ramp), then along an exponential.
     """
-    gap = told - speed
+    gap = commanded - speed
     ramp = between(abs(gap) * easing - lag, 0.0, dt)  # s
-    begun = speed + gap * (ramp / (abs(gap) * easing + _TINY))
+    ramped = speed + gap * (ramp / (abs(gap) * easing + _TINY))
     rest = dt - ramp
-    closer = -expm1(-rest / (lag + _NO_LAG)) * (told - begun)
-    rolled = 0.5 * (speed + begun) * ramp + told * rest - lag * closer
-    return rolled / dt, begun + closer
+    closer = -expm1(-rest / (lag + _NO_LAG)) * (commanded - ramped)
+    rolled = 0.5 * (speed + ramped) * ramp + commanded * rest - lag * closer
+    return rolled / dt, ramped + closer
 
 
 @formula
 def roll(v, omega, body, wheels, dt):
-    """What the wheels make of a twist in a period: the mean twist, and the body after it.
+    """The mean twist that the wheels drive in a period of dt, and the body's state at its end.
 
-    A body is the speeds of the left and the right wheel, and what either is behind in whole steps.
+    The state of a body is four numbers: the speeds of the left and the right wheel [m/s], and the
+    distances by which encoder steps have left each behind [m].
     """
     left, right, left_rest, right_rest = body
-    told_left, told_right = wheel_speeds(v, omega, wheels.track_width)
+    commanded_left, commanded_right = wheel_speeds(v, omega, wheels.track_width)
     easing, dead = 1.0 / wheels.acceleration, wheels.dead_band
-    told_left = told_left - within(told_left, dead, 0.0)
-    told_right = told_right - within(told_right, dead, 0.0)
-    mean_left, left = follow(left, told_left, easing, wheels.lag, dt)
-    mean_right, right = follow(right, told_right, easing, wheels.lag, dt)
+    commanded_left = commanded_left - within(commanded_left, dead, 0.0)
+    commanded_right = commanded_right - within(commanded_right, dead, 0.0)
+    mean_left, left = follow(left, commanded_left, easing, wheels.lag, dt)
+    mean_right, right = follow(right, commanded_right, easing, wheels.lag, dt)
     due_left, due_right = left_rest + dt * mean_left, right_rest + dt * mean_right
     rolled_left = stepped(due_left, wheels.encoder_step)
     rolled_right = stepped(due_right, wheels.encoder_step)
@@ -225,4 +229,5 @@ def roll(v, omega, body, wheels, dt):
 
 @formula
 def at_rest(body):
+    """Whether both wheels stand."""
     return (abs(body[0]) < _AT_REST) & (abs(body[1]) < _AT_REST)

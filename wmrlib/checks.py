@@ -44,13 +44,13 @@ def refusal(name: str, value: Any, needed: str, remark: str = "") -> ValueError:
         text = object.__repr__(value)
     if "\n" in text:  # a table, for example
         text = " ".join(text.split())
-    shown = text if len(text) <= 80 else text[:77] + "..."
-    return ValueError(f"{name} = {shown} is not allowed: {needed} is needed{remark}")
+    excerpt = text if len(text) <= 80 else text[:77] + "..."
+    return ValueError(f"{name} = {excerpt} is not allowed: {needed} is needed{remark}")
 
 
 @contextmanager
 def book_extra(part: str) -> Iterator[None]:
-    """Say what to install where an import in this block lacks its package."""
+    """Name the packages to install if an import in this block fails."""
     try:
         yield
     except ModuleNotFoundError as error:
@@ -230,8 +230,8 @@ def instance(name: str, value: Any, kind: type) -> Any:
     if isinstance(value, kind):
         return value
     names = kind.__name__, type(value).__name__
-    wanted, given = (f"a{'n' * (word[0] in 'AEIOUaeio')} {word}" for word in names)
-    raise refusal(name, value, wanted, f", not {given}")
+    needed, given = (f"a{'n' * (word[0] in 'AEIOUaeio')} {word}" for word in names)
+    raise refusal(name, value, needed, f", not {given}")
 
 
 def same_shape(**arguments: Any) -> tuple[int, ...]:

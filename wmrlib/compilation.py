@@ -78,11 +78,11 @@ def _is_private(folder: Path) -> bool:
     states = [folder.lstat()]
     if states[0].st_mode & 0o077:  # else nobody else gets to the files
         states += [file.lstat() for file in folder.iterdir()]
-    return all(it.st_uid in (0, os.getuid()) and not it.st_mode & 0o022 for it in states)
+    return all(state.st_uid in (0, os.getuid()) and not state.st_mode & 0o022 for state in states)
 
 
 class _Locator(InTreeCacheLocator):
-    """Says where numba keeps the binaries of a function."""
+    """The folder in which numba keeps the binaries of a function."""
 
     def get_cache_path(self) -> str:
         return str(FOLDER)
@@ -91,19 +91,22 @@ class _Locator(InTreeCacheLocator):
         """The folder is there, if only to be read: numba would refuse to cache."""
 
     def get_source_stamp(self) -> str:
-        """What numba compares: an edit of wmrlib leads to another folder, one elsewhere is here."""
+        """The stamp that numba compares: a digest of the modules beside a user's own function.
+
+        Functions of wmrlib need none, because an edit of wmrlib leads to another folder.
+        """
         file = Path(self._py_file)
         return "" if file in _SOURCES else _text_digest(sorted(file.parent.glob("*.py")))
 
 
-class _Kept(CompileResultCacheImpl):
+class _CacheFiles(CompileResultCacheImpl):
     _locator_classes = [_Locator]  # noqa: RUF012 (numba's name)
 
 
 class _Cache(FunctionCache):
-    """What can't be kept is done without."""
+    """numba's cache, which a full or read-only disk does not stop."""
 
-    _impl_class = _Kept
+    _impl_class = _CacheFiles
 
     def save_overload(self, signature, data):
         with suppress(OSError):
@@ -136,9 +139,9 @@ def formula(function: Callable) -> Callable:
 
 
 def chosen_by_type(function: Callable) -> Callable:
-    """What a formula is in compiled loops: a function of its arguments' types returns it.
+    """Let the decorated function choose a formula by the types of its arguments, in compiled loops.
 
-    Called from Python it is `function`, which makes the same choice by what it is given.
+    Called from Python, `function` itself makes the same choice from the arguments' values.
     """
     return overload(function, jit_options=_INLINED, strict=False)
 
@@ -149,7 +152,7 @@ def compiled_by_its_user(function: Callable) -> bool:
 
 
 def compiled_for_now(function: Callable) -> Callable:
-    """`compiled`, but what is made is not kept: the functions given to it are a user's own."""
+    """`compiled` without the cache on disk, for a function that is given functions of a user."""
     return numba.njit(nogil=True, **_ARITHMETIC)(plain_python(function))
 
 

@@ -1,4 +1,4 @@
-"""What a law commands, whether V falls, and the limits of the wheels; equations (18) to (26).
+"""The twist that a law commands, its Lyapunov function and the wheels' limits; (18) to (26).
 
 The formulas stand in `wmrlib.laws`. Here they take arrays and say what is wrong with an argument.
 """
@@ -164,7 +164,7 @@ def lyapunov_rate(
 
 
 def limit_wheels(v: Real, omega: Real, limits: Wheels) -> tuple[Real, Real]:
-    """The twist, scaled so that no wheel is too fast and the curvature omega/v stays.
+    """Scale a twist down until no wheel exceeds its speed limit; the curvature omega/v stays.
 
     Parameters
     ----------

@@ -1,8 +1,9 @@
 """The elementary functions that formulas are made of, finite where the textbook divides by 0.
 
-Each is written for one number, as compiled loops take it. Called from Python, it goes by what it is
-given: beside each stands numpy's, and `symbolic` adds sympy's. So a formula of these functions
-takes numbers, arrays and symbols alike.
+Each function is written for one number, as compiled loops call it. From Python it can also be
+called with arrays, for which a second version is registered beside it, and with sympy symbols, for
+which `symbolic` registers a third. So a formula made of these functions takes numbers, arrays and
+symbols alike.
 """
 
 from __future__ import annotations
@@ -47,16 +48,19 @@ def expm1(x):
 
 @_kinds(np.sqrt)
 def root(x):
+    """The square root of x."""
     return math.sqrt(x)
 
 
 @_kinds(np.hypot)
 def distance(x, y):
+    """The length of the vector (x, y)."""
     return math.hypot(x, y)
 
 
 @_kinds(np.arctan2)
 def direction(y, x):
+    """The direction of the vector (x, y), rad in [-pi, pi], counted from the x axis."""
     return math.atan2(y, x)
 
 
@@ -146,12 +150,12 @@ def _(rho, k_rho):
 
 
 def elementwise(formula: Callable, *arguments: Any) -> Any:
-    """What a formula gives for numbers, or for each entry of arrays that broadcast."""
+    """The results of a formula for numbers, or for each entry of arrays that broadcast."""
     if all(isinstance(value, float | int) for value in arguments):
         return formula(*arguments)
     arrays = np.broadcast_arrays(*arguments)
     with np.errstate(all="ignore"):  # infinities and NaN are answers, as in a compiled loop
         results = formula(*arrays)
     if isinstance(results, tuple):
-        return tuple(np.array(np.broadcast_to(each, arrays[0].shape)) for each in results)
+        return tuple(np.array(np.broadcast_to(result, arrays[0].shape)) for result in results)
     return np.array(np.broadcast_to(results, arrays[0].shape))

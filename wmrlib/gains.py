@@ -36,7 +36,7 @@ class Gains(NamedTuple):
     v_max: Real = 4.0
 
 
-# What compiled loops make: unchecked, as the rows that fill up a block are all 0.
+# Gains as compiled loops make them. They are unchecked, because unused lanes hold zeros.
 GainsFields = namedtuple("GainsFields", "k_rho k_alpha h v_max")
 GENTLE_GAINS = Gains(k_rho=0.2, k_alpha=2.0, h=2.0, v_max=4.0)
 """The book's own gains for the paper's outdoor drive: well damped, and slow."""

@@ -41,7 +41,7 @@ class GeoPoint:
 
 
 def great_circle_angle(lat1, lat2, delta_lat, delta_lon):
-    """(11) and (12), without the radius."""
+    """The angle between two points, seen from the Earth's centre, rad; (11) and (12)."""
     (sin_lat, _), (sin_lon, cos_lon) = sincos(delta_lat / 2), sincos(delta_lon / 2)
     across = sincos(lat1)[1] * sincos(lat2)[1]
     e = sin_lat**2 + across * sin_lon**2
@@ -51,7 +51,7 @@ def great_circle_angle(lat1, lat2, delta_lat, delta_lon):
 
 
 def bearing_angle(lat1, lat2, delta_lat, delta_lon):
-    """(15) to (17), in (-pi, pi]."""
+    """The bearing of point 2 from point 1, rad clockwise from north in (-pi, pi]; (15) to (17)."""
     cos_lat2 = sincos(lat2)[1]
     # equals (17), and loses no digits for points close together
     zeta_y = sincos(delta_lat)[0] + 2 * sincos(lat1)[0] * cos_lat2 * sincos(delta_lon / 2)[0] ** 2

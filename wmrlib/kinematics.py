@@ -1,4 +1,4 @@
-"""Where the robot is, how it moves and how it sees its goal; equations (1) to (10) of the paper.
+"""The pose of the robot, its motion and its polar error; equations (1) to (10) of the paper.
 
 The local frame has x east and y north. Headings are counter-clockwise from east. The signs of the
 polar error are Aicardi's: Corke and Siegwart write beta = -theta, and k_beta < 0 for h > 0. The
@@ -20,7 +20,7 @@ from wmrlib.records import record
 @record
 @checked()
 class Pose(NamedTuple):
-    """Where the robot is and where it looks, or many such poses.
+    """A position and a heading in the plane, or many of them.
 
     Parameters
     ----------
@@ -39,7 +39,7 @@ class Pose(NamedTuple):
 
 @record
 class PolarError(NamedTuple):
-    """The goal as seen from the robot.
+    """The position of the goal as the robot sees it, in polar coordinates.
 
     rho: the distance, m; alpha (the paper's A), theta: the line of sight counted from the robot's
     and from the goal's heading, rad, in (-pi, pi].
@@ -144,7 +144,7 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
     Parameters
     ----------
     pose, v, omega, dt : Pose; float or array; m/s, rad/s, s
-    method : "arc", the exact solution of (3)-(5), or "euler", the paper's step along the tangent.
+    method : "arc", the exact solution of (3)-(5), or "euler", Euler's step along the tangent.
 
     Returns
     -------
@@ -169,7 +169,7 @@ def advance(pose: Pose, v: Real, omega: Real, dt: float, method: str = "arc") ->
 
 
 def polar_error(pose: Pose, goal: Pose) -> PolarError:
-    """The goal as seen from the robot.
+    """The polar error of a pose: distance and direction of the goal.
 
     With the line of sight psi = atan2(goal.y - y, goal.x - x), 0 on the goal itself,
     alpha = wrap(psi - heading) and theta = wrap(psi - goal.heading).
@@ -200,7 +200,21 @@ def polar_error(pose: Pose, goal: Pose) -> PolarError:
 
 
 def pose_from_polar(polar: PolarError, goal: Pose) -> Pose:
-    """The pose that sees `goal` as `polar`: the inverse of `polar_error`."""
+    """The pose whose polar error is `polar`: the inverse of `polar_error`.
+
+    Parameters
+    ----------
+    polar : PolarError; m, rad, rad
+    goal : Pose; fields of both may be arrays that broadcast
+
+    Returns
+    -------
+    Pose, with its heading in (-pi, pi]
+
+    Raises
+    ------
+    ValueError : for rho < 0, NaN or mismatched lengths.
+    """
     named = instance("polar", polar, PolarError)._asdict() | _fields(goal=goal)
     return Pose(*elementwise(motion.pose_of_error, *reals(at_least_0=("rho",), **named)))
 

@@ -24,12 +24,15 @@ from wmrlib.gains import (
     LinearGains,
 )
 
-# The formulas, one number at a time. A pose law gives v/rho, which is finite at the goal, where the
-# polar model divides v by rho; a law for a moving goal gives v.
+# The formulas. A pose law takes the polar error (m, rad, rad) and returns v/rho [1/s] and omega
+# [rad/s]: the polar model divides v by rho, and v/rho is finite at the goal. A law for a moving
+# goal takes the error in the robot's frame (m, m, rad) and the reference's twist, and returns a
+# twist.
 
 
 @formula
 def corrected_law(rho, alpha, theta, gains):
+    """(22), with the omega for which the paper's proof holds."""
     cos_alpha = sincos(alpha)[1]
     v_over_rho = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
     return v_over_rho, gains.k_alpha * alpha + v_over_rho * sinc(alpha) * (alpha + gains.h * theta)
@@ -37,6 +40,7 @@ def corrected_law(rho, alpha, theta, gains):
 
 @formula
 def printed_law(rho, alpha, theta, gains):
+    """(22) and (24) as the paper prints them."""
     sin_alpha, cos_alpha = sincos(alpha)
     v_over_rho = gains.v_max * decay(rho, gains.k_rho) * cos_alpha
     steering = sin_alpha * cos_alpha * sinc(alpha) * (alpha + gains.h * theta)
@@ -45,12 +49,14 @@ def printed_law(rho, alpha, theta, gains):
 
 @formula
 def aicardi_law(rho, alpha, theta, gains):
+    """The law of Aicardi et al. (1995), whose speed grows with rho without a limit."""
     v_over_rho = gains.k_rho * sincos(alpha)[1]
     return v_over_rho, gains.k_alpha * alpha + v_over_rho * sinc(alpha) * (alpha + gains.h * theta)
 
 
 @formula
 def barrier_law(rho, alpha, theta, gains):
+    """A law after Todorovski et al. (2025), which keeps alpha and theta within half a turn."""
     sin_alpha, cos_alpha = sincos(alpha)
     sin_half, cos_half = sincos(0.5 * theta)
     facing = 0.25 * (1.0 + cos_alpha) * (1.0 + cos_alpha)  # cos(alpha/2)^4
@@ -61,15 +67,18 @@ def barrier_law(rho, alpha, theta, gains):
 
 @formula
 def graceful_law(rho, alpha, theta, gains):
+    """The law of Park and Kuipers (2011), as in Nav2."""
     sin_alpha = sincos(alpha)[0]
     v_over_rho = gains.v_max * decay(rho, gains.k_rho)
-    wanted = gains.h * theta
-    follow = gains.k_alpha * (alpha + direction(wanted, 1.0))
-    return v_over_rho, v_over_rho * (follow + (1.0 + gains.h / (1.0 + wanted * wanted)) * sin_alpha)
+    tangent = gains.h * theta
+    follow = gains.k_alpha * (alpha + direction(tangent, 1.0))
+    approach = (1.0 + gains.h / (1.0 + tangent * tangent)) * sin_alpha
+    return v_over_rho, v_over_rho * (follow + approach)
 
 
 @formula
 def kanayama_law(ahead, left, turn, v_ref, omega_ref, gains):
+    """The law of Kanayama et al. (1990): feed-forward and nonlinear feedback."""
     sin_turn, cos_turn = sincos(turn)
     v = v_ref * cos_turn + gains.k_x * ahead
     return v, omega_ref + v_ref * (gains.k_y * left + gains.k_heading * sin_turn)
@@ -77,6 +86,7 @@ def kanayama_law(ahead, left, turn, v_ref, omega_ref, gains):
 
 @formula
 def linear_law(ahead, left, turn, v_ref, omega_ref, gains):
+    """Feed-forward and feedback by a constant 2 x 3 matrix."""
     v = v_ref * sincos(turn)[1] + gains.v_x * ahead + gains.v_y * left + gains.v_heading * turn
     return v, omega_ref + gains.omega_x * ahead + gains.omega_y * left + gains.omega_heading * turn
 
@@ -90,17 +100,19 @@ def body_error(rho, alpha, theta):
 
 @formula
 def lyapunov_value(rho, alpha, theta, h, L):
+    """V of (18), no unit."""
     return rho * rho / (2.0 * L) + 0.5 * (alpha * alpha + h * theta * theta)
 
 
 @formula
 def pose_value(rho, alpha, theta, gains):
+    """V of (18) with L = 1 m^2."""
     return lyapunov_value(rho, alpha, theta, gains.h, 1.0)
 
 
 @formula
 def barrier_value(rho, alpha, theta, gains):
-    """As `lyapunov_value`, with 2 tan(x/2) for either angle: infinite at half a turn."""
+    """V of (18) with 2 tan(x/2) in place of each angle x, infinite at half a turn."""
     sin_alpha, cos_alpha = sincos(0.5 * alpha)
     sin_theta, cos_theta = sincos(0.5 * theta)
     tan_alpha, tan_theta = sin_alpha / cos_alpha, sin_theta / cos_theta
@@ -109,25 +121,27 @@ def barrier_value(rho, alpha, theta, gains):
 
 @formula
 def graceful_value(rho, alpha, theta, gains):
-    """Half the square of alpha + atan(k_phi theta); it says nothing about rho."""
+    """Half the square of alpha + atan(k_phi theta), whatever rho is."""
     away = alpha + direction(gains.h * theta, 1.0)
     return 0.5 * away * away
 
 
 @formula
 def kanayama_value(rho, alpha, theta, gains):
+    """The Lyapunov function of Kanayama et al."""
     return 0.5 * rho * rho + (1.0 - sincos(alpha - theta)[1]) / gains.k_y
 
 
 @formula
 def linear_value(rho, alpha, theta, gains):
-    """Half the squared error: the law brings no Lyapunov function of its own."""
+    """Half the squared error, because the law has no Lyapunov function of its own."""
     turn = wrap(alpha - theta)
     return 0.5 * (rho * rho + turn * turn)
 
 
 @formula
 def fastest_wheel(v, omega, track_width):
+    """The speed of the faster wheel, m/s."""
     return abs(v) + 0.5 * abs(omega) * track_width
 
 
@@ -138,16 +152,17 @@ def saturation_scale(v, omega, wheels):
 
 
 class Law(NamedTuple):
-    """A row of `LAWS`.
+    """A control law with its gains and its Lyapunov function: a row of `LAWS`.
 
     `formula` takes (rho, alpha, theta, gains) and returns (v/rho, omega). If the law needs a
     reference it takes (ahead, left, turn, v_ref, omega_ref, gains) and returns (v, omega).
-    `value` is its Lyapunov function of (rho, alpha, theta, gains). `title` is for menus. `ignores`
-    names the gains that the formula has no use for.
+    `gains` is the type of its gains. `value` is its Lyapunov function of (rho, alpha, theta,
+    gains). `title` and `says` are its name and its source, for menus and printed code. `ignores`
+    names the gains that the formula does not use.
     """
 
     formula: Callable
-    gains: Any  # the type of its gains; Gains if the goal stands still
+    gains: Any
     title: str
     says: str
     value: Callable = pose_value
@@ -183,7 +198,7 @@ CORRECTED, PRINTED, AICARDI, BARRIER, GRACEFUL, KANAYAMA, LINEAR = range(len(LAW
 
 @formula
 def pose_law(rho, alpha, theta, gains, law):
-    """(v/rho, omega) of a pose law."""
+    """(v/rho, omega) of a pose law, which is given by its number."""
     if law == CORRECTED:
         return corrected_law(rho, alpha, theta, gains)
     if law == PRINTED:
@@ -247,7 +262,7 @@ def check_own_law(law: Callable, gains: Any) -> None:
     result = law(1.0, 0.5, 0.2, gains)
     twist = result if isinstance(result, tuple) else ()
     if len(twist) != 2 or not all(
-        isinstance(it, float | int | np.floating | np.integer) for it in twist
+        isinstance(number, float | int | np.floating | np.integer) for number in twist
     ):
         what = f"law(rho=1.0, alpha=0.5, theta=0.2, gains={gains!r})"
         raise refusal(what, result, "a pair of numbers, v in m/s and omega in rad/s,")

@@ -12,7 +12,16 @@ from typing import NamedTuple
 import numpy as np
 
 from wmrlib import motion
-from wmrlib._dop853 import FIFTH, SHARP, THIRD, TRIANGLE, growth, larger, step_error, until_event
+from wmrlib._dop853 import (
+    ARRIVAL_TOLERANCE,
+    FIFTH,
+    THIRD,
+    TRIANGLE,
+    growth,
+    larger,
+    step_error,
+    until_event,
+)
 from wmrlib.body import Wheels, are_ideal, at_rest, hurry, last_turn, roll
 from wmrlib.compilation import (
     compiled,
@@ -24,25 +33,25 @@ from wmrlib.compilation import (
 from wmrlib.elementary import between, sincos, wrap
 from wmrlib.gains import GainsFields
 from wmrlib.laws import command, pose_law, saturation_scale
-from wmrlib.receiver import BEFORE_THE_FIRST_FIX, SampledReceiver, received, shown_pose
+from wmrlib.receiver import BEFORE_THE_FIRST_FIX, SampledReceiver, measured_pose, received
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
 MOST_TRIALS = 1_000_000  # steps of a run on its own
-ROOM = 16  # rows: the slopes at the start and after each stage, two for swing_of, the new state
+WORKSPACE_ROWS = 16  # slopes at the start and after each stage, two for rate_of_omega, new state
 
 
 class Sampling(NamedTuple):
-    """When a sampled robot looks and decides, and when it stops looking."""
+    """The settings of sampled control: period, motion between samples, and arrival."""
 
-    dt: float
-    along_arc: bool  # between two samples; otherwise along the tangent
-    arrival_radius: float  # a negative one is never reached
-    hysteresis: float
+    dt: float  # s
+    along_arc: bool  # whether the robot moves along the arc; otherwise along the tangent
+    arrival_radius: float  # m; a negative one is never reached
+    hysteresis: float  # rad
 
 
 @formula
 def steer(polar, goal_twist, gains, law, wheels):
-    """What a law commands, within the limits of the wheels: (v, omega)."""
+    """The twist (v, omega) that a law commands, within the limits of the wheels."""
     v, omega = command(*polar, *goal_twist, gains, law)  # type: ignore[call-arg]
     if wheels.min_speed > 0.0:
         more = hurry(v, polar[1], wheels.min_speed)
@@ -53,7 +62,7 @@ def steer(polar, goal_twist, gains, law, wheels):
 
 @formula
 def write(record, k, pose, polar, twist):
-    """Write down a sample, one number at a time: to set a column at once takes long to compile."""
+    """Record a sample, one number at a time, because setting a column at once compiles slowly."""
     record[0, k], record[1, k], record[2, k] = pose
     record[3, k], record[4, k], record[5, k] = polar
     record[6, k], record[7, k] = twist
@@ -61,16 +70,17 @@ def write(record, k, pose, polar, twist):
 
 @compiled
 def held(record, pose, path, gains, law, wheels, end, receiver, sampling):
-    """Hold the twist for dt, sample after sample; column k of `path` is the goal then, or its last.
+    """Drive with sampled control: at each sample the law commands a twist, which is held for dt.
 
-    `wheels` are Wheels or NO_LIMITS, and `end` is a LastTurn or NO_TURN. The law steers by what the
-    `receiver` shows, a SampledReceiver; with None it knows the truth, and numba compiles the loop
-    without a receiver in 3 s less. The record has the true poses and polar errors.
+    Column k of `path` is the goal at sample k, and its last column holds from then on. `wheels` are
+    Wheels or NO_LIMITS, and `end` is a LastTurn or NO_TURN. The law steers by the pose that the
+    `receiver`, a SampledReceiver, measures; with None it knows the true pose, and numba compiles
+    the loop without a receiver in 3 s less. The record has the true poses and polar errors.
     Returns (samples, outcome, largest |omega|, metres rolled).
     """
     dt, peak, length, rolled = sampling.dt, 0.0, 0.0, 0.0
     ideal, turns = are_ideal(wheels), end.gain > 0.0
-    theta, theta_seen = math.nan, math.nan  # before the first sample
+    theta, observed_theta = math.nan, math.nan  # before the first sample
     pose = pose[0], pose[1], wrap(pose[2])
     body, turning, reception = (0.0, 0.0, 0.0, 0.0), 0.0, BEFORE_THE_FIRST_FIX
     for k in range(record.shape[1]):
@@ -78,18 +88,18 @@ def held(record, pose, path, gains, law, wheels, end, receiver, sampling):
         goal = x, y, heading
         rho, alpha, theta_now = motion.polar_from_pose(*pose, *goal)
         theta = motion.keep_branch(theta_now, theta, sampling.hysteresis)
-        seen = polar = rho, alpha, theta
+        observed = polar = rho, alpha, theta
         write(record, k, pose, polar, (0.0, 0.0))
         if receiver is not None:
             reception = received(reception, record, k, receiver)
-            shown = shown_pose(reception, record, k, goal, receiver)
-            rho, alpha, theta_now = motion.polar_from_pose(*shown, *goal)
-            theta_seen = motion.keep_branch(theta_now, theta_seen, sampling.hysteresis)
-            seen = rho, alpha, theta_seen
-        v, omega = steer(seen, (v_ref, omega_ref), gains, law, wheels)
-        arrived = seen[0] <= sampling.arrival_radius
+            measured = measured_pose(reception, record, k, goal, receiver)
+            rho, alpha, theta_now = motion.polar_from_pose(*measured, *goal)
+            observed_theta = motion.keep_branch(theta_now, observed_theta, sampling.hysteresis)
+            observed = rho, alpha, observed_theta
+        v, omega = steer(observed, (v_ref, omega_ref), gains, law, wheels)
+        arrived = observed[0] <= sampling.arrival_radius
         if turns:
-            turn = *seen, v, omega, turning, sampling.arrival_radius, dt, end
+            turn = *observed, v, omega, turning, sampling.arrival_radius, dt, end
             v, omega, turning, arrived = last_turn(*turn)
             omega = omega * saturation_scale(v, omega, wheels)
         if not ideal:
@@ -119,6 +129,7 @@ def held_by(law):
 
 @formula
 def column(goals, stage):
+    """The goal at a stage of a step, or None if it stands still."""
     return None if goals is None else goals[:, stage]
 
 
@@ -145,9 +156,9 @@ def slopes_of(state, goal, numbers, law, wheels, out):
     v = v_over_rho * rho
     if state.size > 4:
         most, half = wheels.acceleration, 0.5 * wheels.track_width
-        change, swing = (v - state[4]) / wheels.lag, (omega - state[5]) / wheels.lag
-        left = between(change - half * swing, -most, most)
-        right = between(change + half * swing, -most, most)
+        change, omega_rate = (v - state[4]) / wheels.lag, (omega - state[5]) / wheels.lag
+        left = between(change - half * omega_rate, -most, most)
+        right = between(change + half * omega_rate, -most, most)
         out[4], out[5] = 0.5 * (left + right), (right - left) / (2.0 * half)
         v, omega = state[4], state[5]
         v_over_rho = v / (rho if rho != 0.0 else 1.0)
@@ -157,18 +168,19 @@ def slopes_of(state, goal, numbers, law, wheels, out):
 
 
 @formula
-def swing_of(state, slopes, goal, omega, later, free, *loop):
-    """How fast omega changes, by how it is a little later; `free` is two rows to write to."""
+def rate_of_omega(state, slopes, goal, omega, delta, scratch, *loop):
+    """The rate of omega [rad/s^2], as a difference over `delta` s; `scratch` is two free rows."""
     if goal is not None:
-        x, y, heading = motion.euler_step(goal[0], goal[1], goal[2], goal[3], goal[4], later)
+        x, y, heading = motion.euler_step(goal[0], goal[1], goal[2], goal[3], goal[4], delta)
         goal = np.array([x, y, heading, goal[3], goal[4]])
     for i in range(state.size):
-        free[0, i] = state[i] + later * slopes[i]
-    return (slopes_of(free[0], goal, *loop, free[1])[1] - omega) / later
+        scratch[0, i] = state[i] + delta * slopes[i]
+    return (slopes_of(scratch[0], goal, *loop, scratch[1])[1] - omega) / delta
 
 
 @formula
 def magnitude(state):
+    """The sum of the absolute values, which is finite only if all of them are."""
     total = 0.0
     for number in state:
         total += abs(number)
@@ -177,7 +189,7 @@ def magnitude(state):
 
 @formula
 def weighted(weights, slopes, i):
-    """What the slopes of one number of the state add up to."""
+    """The weighted sum of the slopes of entry i of the state."""
     total = 0.0
     for j in range(weights.size):
         total += weights[j] * slopes[j, i]
@@ -185,11 +197,11 @@ def weighted(weights, slopes, i):
 
 
 @compiled
-def attempt(state, dt, slopes, new, goals, before, radius, peak, *loop):
+def attempt(state, dt, slopes, new, goals, begin, radius, peak, *loop):
     """Try a step: write its slopes and the new state.
 
-    `before` is v, omega, and how fast that changes. Returns the error in tolerances, how much of
-    the step ends on its first event, and the same three at its end.
+    `begin` is v, omega and the rate of omega at the beginning of the step. Returns the error in
+    tolerances, the time from the beginning to the first event, and the same three at the end.
     """
     v = omega = fine = coarse = 0.0
     for stage in range(1, 13):
@@ -200,16 +212,18 @@ def attempt(state, dt, slopes, new, goals, before, radius, peak, *loop):
         scale = larger(abs(new[i]), 1e-150 if goals is None and i == 0 else 1.0)
         fine = larger(abs(dt * weighted(FIFTH, slopes, i)) / scale, fine)
         coarse = larger(abs(dt * weighted(THIRD, slopes, i)) / scale, coarse)
-    swing = swing_of(new, slopes[12], column(goals, 12), omega, 1e-6 * dt, slopes[13:], *loop)
-    rho, rolled = (state[0], slopes[0, 0], new[0], slopes[12, 0]), (0.0, before[0], new[3], v)
-    wanted = until_event(rho, rolled, (*before[1:], omega, swing), dt, radius, peak)
+    omega_rate = rate_of_omega(
+        new, slopes[12], column(goals, 12), omega, 1e-6 * dt, slopes[13:], *loop
+    )
+    rho, rolled = (state[0], slopes[0, 0], new[0], slopes[12, 0]), (0.0, begin[0], new[3], v)
+    event_time = until_event(rho, rolled, (*begin[1:], omega, omega_rate), dt, radius, peak)
     error = step_error(fine, coarse) if math.isfinite(magnitude(new) + omega) else math.inf
-    return error, wanted, (v, omega, swing)
+    return error, event_time, (v, omega, omega_rate)
 
 
 @compiled
-def note(record, k, state, goal, goals, twist):
-    """Write down a sample; rounding can carry rho a hair past the goal."""
+def write_state(record, k, state, goal, goals, twist):
+    """Record a sample of a continuous run, where rounding may leave rho just below 0."""
     if goals is None:
         polar = larger(state[0], 0.0), state[1], state[2]
         pose = motion.pose_of_error(*polar, *goal)
@@ -219,63 +233,65 @@ def note(record, k, state, goal, goals, twist):
     write(record, k, pose, polar, twist)
 
 
-def integrate(record, state, room, t, most_trials, radius, goal, goals_at, *loop):
-    """Act all the time, in steps with error control; a sample ends a step, and so do events.
+def integrate(record, state, workspace, t, most_trials, radius, goal, goals_at, *loop):
+    """Drive with a law that acts continuously, in steps with error control.
 
-    `room` is `ROOM` rows to work in. `goals_at(time, dt)` gives a moving goal at the stages of a
-    step, one a column; it is None for a `goal` that stands still. After `most_trials` steps the run
-    is given up. Returns (samples, outcome, time, largest |omega|, metres rolled).
+    Samples and events end a step. `workspace` has `WORKSPACE_ROWS` rows. `goals_at(time, dt)`
+    returns a moving goal at the stages of a step, one a column; it is None for a `goal` that stands
+    still. After `most_trials` steps the run is given up.
+    Returns (samples, outcome, time, largest |omega|, metres rolled).
     """
-    slopes, new = room[:15], room[15]
+    slopes, new = workspace[:15], workspace[15]
     now, step, peak, length, trials = 0.0, 0.01, 0.0, 0.0, 0
     goals = None if goals_at is None else goals_at(now, 0.0)
     v, omega = slopes_of(state, column(goals, 0), *loop, slopes[0])
     if not math.isfinite(magnitude(state) + magnitude(slopes[0]) + omega):
         return 0, DIVERGED, now, peak, length
-    swing = swing_of(state, slopes[0], column(goals, 0), omega, 1e-8, slopes[13:], *loop)
-    here, peak = (v, omega, swing), abs(omega)
+    omega_rate = rate_of_omega(state, slopes[0], column(goals, 0), omega, 1e-8, slopes[13:], *loop)
+    begin, peak = (v, omega, omega_rate), abs(omega)
     arrived = goals_at is None and state[0] <= radius
     for k in range(t.size):
         while now < t[k] and not arrived:
             dt = min(step, t[k] - now)
             goals = None if goals_at is None else goals_at(now, dt)
-            tried = state, dt, slopes, new, goals, here, radius, peak
-            error, wanted, there = attempt(*tried, *loop)
+            tried = state, dt, slopes, new, goals, begin, radius, peak
+            error, event_time, end = attempt(*tried, *loop)
             trials, stuck = trials + 1, trials >= most_trials
-            if not stuck and error <= 1.0 and wanted >= dt:
+            if not stuck and error <= 1.0 and event_time >= dt:
                 now = now + dt if dt < t[k] - now else t[k]
                 step = max(step, growth(error) * dt) if now == t[k] else growth(error) * dt
-                length, peak, here = length + abs(new[3]), max(peak, abs(there[1])), there
+                length, peak, begin = length + abs(new[3]), max(peak, abs(end[1])), end
                 for i in range(state.size):  # to copy at once takes long to compile
                     state[i], slopes[0, i] = new[i], slopes[12, i]
                 state[3] = 0.0
-                arrived = goals_at is None and state[0] <= radius * (1.0 + SHARP)
+                arrived = goals_at is None and state[0] <= radius * (1.0 + ARRIVAL_TOLERANCE)
                 continue
-            step = wanted if error <= 1.0 else growth(error) * dt
+            step = event_time if error <= 1.0 else growth(error) * dt
             if stuck or step < 1e-290:
                 lost = not magnitude(state) < 1e100 or not math.isfinite(magnitude(slopes[0]))
                 return k, (DIVERGED if lost else UNFINISHED), now, peak, length
-        if not math.isfinite(magnitude(state) + here[0] + here[1]):
+        if not math.isfinite(magnitude(state) + begin[0] + begin[1]):
             return k, DIVERGED, now, peak, length
-        note(record, k, state, goal, goals, here[:2])
+        write_state(record, k, state, goal, goals, begin[:2])
         if arrived:
             return k + 1, ARRIVED, now, peak, length
     return t.size, TIMED_OUT, now, peak, length
 
 
-continuous = compiled(integrate)  # goals that move are asked for in Python
+continuous = compiled(integrate)  # for a goal that stands still; a moving one is a Python function
 
 
 # Many runs, one after the other -----------------------------------------------------------------
 
-# The rows of many runs, one a column, and of what they amount to, in the order of `Arrival`.
+# Where the inputs of many runs begin, one run a column; and the rows of their summary, in the order
+# of `Arrival`.
 START, GOAL, GAINS, WHEELS, RECEIVER, NUMBER, LAW = 0, 3, 6, 10, 17, 29, 30
 OUTCOME, TIME, HEADING_ERROR, PEAK_OMEGA, PATH_LENGTH, DISTANCE = range(6)
 
 
 @formula
 def summarise(summary, i, outcome, time, heading_error, peak_omega, path_length, distance):
-    """Write down what run i amounts to; who does not arrive takes forever."""
+    """Write the summary of run i; the time of a run that does not arrive is infinite."""
     time = time if outcome == ARRIVED else math.inf
     sums = float(outcome), time, heading_error, peak_omega, path_length, distance
     for row, value in enumerate(sums):
@@ -284,12 +300,14 @@ def summarise(summary, i, outcome, time, heading_error, peak_omega, path_length,
 
 @formula
 def wheels_of(runs, i):
+    """The wheels of run i."""
     width, fastest, slowest, acceleration, lag, dead, step = runs[WHEELS:RECEIVER, i]
     return Wheels(width, fastest, slowest, acceleration, lag, dead, step)
 
 
 @formula
 def receiver_of(runs, i, key):
+    """The receiver of run i, or None without a key to its random numbers."""
     if key is None:
         return None
     sigma, fading, period, delay, late, sight, bias, drops, outage, jump, jumps, compass = runs[
@@ -301,7 +319,7 @@ def receiver_of(runs, i, key):
 
 @formula
 def sum_up(summary, i, record, run, dt):
-    """Write down what the run in a record amounts to."""
+    """Write the summary of the run in a record."""
     count, outcome, peak, length = run
     last = max(count - 1, 0)
     off = wrap(record[5, last] - record[4, last])
@@ -310,9 +328,9 @@ def sum_up(summary, i, record, run, dt):
 
 @compiled
 def held_runs(runs, records, first, samples, end, key, sampling):
-    """Sum up the runs in the columns of `runs`, whose twists are held.
+    """Drive the runs in the columns of `runs` with sampled control, and return their summary.
 
-    If `records` has room for samples, those of run i go to its run first + i.
+    If `records` has columns for samples, those of run i are written to its run first + i.
     """
     summary, record = np.empty((DISTANCE + 1, runs.shape[1])), np.empty((8, samples))
     path = np.zeros((5, 1))
@@ -322,12 +340,12 @@ def held_runs(runs, records, first, samples, end, key, sampling):
         robot = wheels_of(runs, i), end, receiver_of(runs, i, key)
         run = held(record, (x, y, heading), path, *law, *robot, sampling)
         sum_up(summary, i, record, run, sampling.dt)
-        keep(records, first + i, record, run[0])
+        copy_samples(records, first + i, record, run[0])
     return summary
 
 
 def held_runs_by(law, gains, runs, records, first, samples, end, key, sampling):
-    """The same by a law of one's own, in Python; `gains` are those of each run.
+    """`held_runs` with a law of a user's own; `gains` lists the gains of each run.
 
     :meta private:
     """
@@ -338,34 +356,35 @@ def held_runs_by(law, gains, runs, records, first, samples, end, key, sampling):
         robot = Wheels(*runs[WHEELS:RECEIVER, i].tolist()), end, receiver_of(runs, i, key)
         run = drive(record, start, path, gains[i], law, *robot, sampling)
         sum_up(summary, i, record, run, sampling.dt)
-        keep(records, first + i, record, run[0])
+        copy_samples(records, first + i, record, run[0])
     return summary
 
 
 @compiled
 def continuous_runs(runs, records, first, t, most_trials, radius):
-    """The same if the law acts all the time; the last sample is the one before the arrival."""
+    """`held_runs` with a law that acts continuously; the last sample is the one before arrival."""
     summary, record = np.empty((DISTANCE + 1, runs.shape[1])), np.empty((8, t.size))
-    room, state = np.empty((ROOM, 4)), np.empty(4)
+    workspace, state = np.empty((WORKSPACE_ROWS, 4)), np.empty(4)
     for i in range(runs.shape[1]):
         x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max = runs[:10, i]
         goal = goal_x, goal_y, goal_heading
         rho, alpha, theta = motion.polar_from_pose(x, y, heading, *goal)
         state[0], state[1], state[2], state[3] = rho, alpha, theta, 0.0
         loop = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i]), wheels_of(runs, i)
-        run = continuous(record, state, room, t, most_trials, radius, goal, None, *loop)
+        run = continuous(record, state, workspace, t, most_trials, radius, goal, None, *loop)
         count, outcome, time, peak, length = run
         off = wrap(state[2] - state[1])
         summarise(summary, i, outcome, time, off, peak, length, max(state[0], 0.0))
         if outcome == UNFINISHED:
             summary[TIME:, i] = math.nan
         elif outcome != DIVERGED:
-            keep(records, first + i, record, count - 1 if outcome == ARRIVED else count)
+            copy_samples(records, first + i, record, count - 1 if outcome == ARRIVED else count)
     return summary
 
 
 @formula
-def keep(records, run, record, count):
+def copy_samples(records, run, record, count):
+    """Copy the first samples of a record to those of a run."""
     for row in range(record.shape[0]):
         for k in range(min(count, records.shape[2])):
             records[row, run, k] = record[row, k]

@@ -1,4 +1,4 @@
-"""What a run amounts to: arrival, effort, and the distance left behind a moving reference."""
+"""Measures of a run: its arrival, its effort, and its distance behind a moving reference."""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
-"""What a positioning receiver does to the positions that a controller steers by.
+"""A positioning receiver and its errors, between the true pose and the controller.
 
-Its random numbers are not drawn one after the other. Those of a fix follow from the seed, from its
-run's number and from its sample's number alone, so it does not matter which core computes them.
+The random numbers of a fix are computed from the seed, the number of the run and the number of the
+sample alone, so the same fix has the same error on whatever core its run is computed.
 """
 
 from __future__ import annotations
@@ -22,21 +22,22 @@ _WORD = 0xFFFFFFFF
 @record
 @checked("at_least_0")
 class Receiver(NamedTuple):
-    """A receiver with its compass: it errs, shows fixes one at a time, and late; or many of them.
+    """A positioning receiver with a compass: its errors, its period and its delays; or many.
 
     The error is a Gauss-Markov process on each axis, in its stationary state from the first fix on:
     tau seconds later it keeps the share c = exp(-tau/memory), and sqrt(1 - c^2) sigma is new.
-    Other times are rounded to whole samples. The first sample's fix is shown until another is.
+    Other times are rounded to whole samples. The fix of the first sample is used until the next
+    arrives.
 
     Parameters
     ----------
     sigma : float or array, m. Standard deviation of the error, to the east and to the north.
     memory : float or array, s. Correlation time of the error; with 0 that of each fix is new.
-    period : float or array, s. A fix is shown for so long, until the next; 0: for one sample.
-    delay : float or array, s. Age of a fix when it is first shown.
+    period : float or array, s. Time between two fixes; 0: a fix in every sample.
+    delay : float or array, s. Age of a fix when it arrives.
     heading_delay : float or array, s. Age of the heading.
     sight : float or array, rad. Standard deviation of white noise on the line of sight, so on alpha
-        and theta alike: what is shown is turned round the goal, anew in each sample.
+        and theta alike: the measured position is rotated about the goal, anew in each sample.
     bias : float or array, m. Standard deviation, to the east and to the north, of a constant error
         that is drawn when the receiver is switched on, once a run.
     dropout, outage : float or array, s. Mean time from the end of one outage to the next, 0 for
@@ -89,16 +90,16 @@ def normals(run, sample, purpose, key):
 
 # In the loop -------------------------------------------------------------------------------------
 
-# What a random number is for. Each purpose has its own numbers in every sample. They are floats,
-# because numba would compile `normals` anew for each whole number that is written into a call.
+# The purposes of random numbers, each of which has numbers of its own in every sample. They are
+# floats, because numba would compile `normals` anew for each whole number in a call.
 _ERROR, _SIGHT, _BIAS, _COMPASS, _DROPOUT, _JUMP = map(float, range(6))
 
 
 class SampledReceiver(NamedTuple):
-    """A Receiver as the loop reads it, with times in samples, and whose random numbers it has.
+    """A Receiver as the loops take it: times in samples, and the key to its random numbers.
 
-    `fading` is one over the memory. `dropouts` and `jumps` are how many come in a sample, on
-    average. `run` is the number of the run, and `key` is made of the seed.
+    `fading` is one over the memory. `dropouts` and `jumps` are mean numbers of events a
+    sample. `run` is the number of the run, and `key` is made of the seed.
     """
 
     sigma: float
@@ -118,12 +119,12 @@ class SampledReceiver(NamedTuple):
 
 
 class Reception(NamedTuple):
-    """What a receiver keeps from one sample to the next.
+    """The state of a receiver between two samples.
 
-    `fix` is the sample in which the fix that is shown was true, and `x` and `y` are what is shown.
-    `east` and `north` are the error that fades, in standard deviations. `jump_east` and
-    `jump_north` point where the last jump went. Until `outage_end` no fix gets through. The bias
-    and the compass's error are the run's own.
+    `fix` is the sample in which the newest fix was measured, and (`x`, `y`) is its position, m.
+    `east` and `north` are the fading error, in standard deviations. (`jump_east`, `jump_north`) is
+    the unit vector of the last jump. Until the sample `outage_end` no fix arrives. The bias [m] and
+    the error of the compass [rad] are constant in a run.
     """
 
     fix: float
@@ -144,7 +145,7 @@ BEFORE_THE_FIRST_FIX = Reception(-1.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0.0, 0
 
 @compiled
 def where_to(receiver, fix, purpose, expected):
-    """A unit vector to anywhere if an event of which so many are expected happens; else (0, 0)."""
+    """A random unit vector if an event happens, else (0, 0); `expected` is its mean number."""
     east, north = normals(receiver.run, int(fix), purpose, receiver.key)
     size = math.hypot(east, north)  # independent of the direction
     if math.exp(-0.5 * size * size) < -math.expm1(-expected):
@@ -154,9 +155,9 @@ def where_to(receiver, fix, purpose, expected):
 
 @compiled
 def received(before, record, k, receiver):
-    """What the receiver keeps in sample k; the rows x and y of the record are where it has been."""
+    """The receiver's state at sample k, from its state before and the recorded true positions."""
     fix = max(np.floor(k / receiver.period) * receiver.period - receiver.delay, 0.0)
-    if fix <= before.fix:  # the fix that is shown is still the newest
+    if fix <= before.fix:  # no newer fix has arrived
         return before
     run, key, first = receiver.run, receiver.key, before.fix < 0.0
     bias_east, bias_north, compass = before.bias_east, before.bias_north, before.compass
@@ -192,8 +193,8 @@ def received(before, record, k, receiver):
 
 
 @formula
-def shown_pose(reception, record, k, goal, receiver):
-    """The pose that is shown in sample k; the record's row of headings is where it has looked."""
+def measured_pose(reception, record, k, goal, receiver):
+    """The measured pose at sample k, from the receiver's state and the recorded true headings."""
     x, y = reception.x, reception.y
     if receiver.sight > 0.0:
         noise = normals(receiver.run, k, _SIGHT, receiver.key)[0]
@@ -207,14 +208,14 @@ def shown_pose(reception, record, k, goal, receiver):
 
 
 def in_samples(fields: np.ndarray, dt: float, samples: int) -> np.ndarray:
-    """The fields of receivers, one a row, as those of `SampledReceiver`."""
-    kept = fields.copy()
+    """The fields of receivers, one a row, turned from seconds into samples of dt."""
+    in_steps = fields.copy()
     memory, dropout, jump_every = fields[1], fields[7], fields[10]
     with np.errstate(divide="ignore", over="ignore"):
-        kept[1] = dt / np.abs(memory)  # -0.0 is 0 as well
+        in_steps[1] = dt / np.abs(memory)  # -0.0 is 0 as well
     for row, mean in ((7, dropout), (10, jump_every)):
-        kept[row] = np.where(mean > 0.0, dt / np.maximum(mean, dt * 1e-9), 0.0)
+        in_steps[row] = np.where(mean > 0.0, dt / np.maximum(mean, dt * 1e-9), 0.0)
     times = [2, 3, 4, 8]  # period, delay, heading_delay, outage
-    kept[times] = np.rint(np.minimum(fields[times], samples * dt) / dt)
-    kept[2] = np.maximum(kept[2], 1.0)
-    return kept
+    in_steps[times] = np.rint(np.minimum(fields[times], samples * dt) / dt)
+    in_steps[2] = np.maximum(in_steps[2], 1.0)
+    return in_steps

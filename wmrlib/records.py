@@ -19,13 +19,13 @@ def record(kind: Kind) -> Kind:
     error where it compares arrays.
     """
     changed: Any = kind
-    changed.__repr__ = shown
+    changed.__repr__ = short_repr
     changed.__eq__ = same
     changed.__ne__ = different
     return kind
 
 
-def shown(value: Any) -> str:
+def short_repr(value: Any) -> str:
     """The record's fields by name; a long array by its shape and its range."""
     names = getattr(value, "_fields", None) or value.__slots__
     head = f"{type(value).__name__}("

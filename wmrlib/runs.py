@@ -1,4 +1,4 @@
-"""What a run is: its samples, how it ended, and what it amounts to."""
+"""The results of a run: its samples, its outcome and its summary."""
 
 from __future__ import annotations
 
@@ -22,7 +22,7 @@ MOST_SAMPLES = 10_000_000
 
 
 class Outcome(Enum):
-    """How a run ended; the value is a sentence for the reader.
+    """The outcome of a run; its value is a phrase to show.
 
     ARRIVED, TIMED_OUT or DIVERGED; of `track`, COMPLETED or DIVERGED.
     """
@@ -33,7 +33,7 @@ class Outcome(Enum):
     COMPLETED = "followed the reference to the end"
 
 
-# The codes by which loops say so; the last is a run's that would take too many steps.
+# The outcomes as numbers, as compiled loops return them; the last is for a run of too many steps.
 OUTCOMES = tuple(Outcome)
 ARRIVED, TIMED_OUT, DIVERGED, COMPLETED, UNFINISHED = range(len(OUTCOMES) + 1)
 
@@ -162,8 +162,8 @@ class Trajectory(ReadOnly):
         end = "no sample"
         if len(self):
             end = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s"
-        how = f"{law_name(self.law)} law, {self.method}" if self.law else "poses given"
-        what = f"{how}, {len(self)} samples"
+        origin = f"{law_name(self.law)} law, {self.method}" if self.law else "poses given"
+        what = f"{origin}, {len(self)} samples"
         return f"<Trajectory: {what}, {end}: {self.outcome.value}>"
 
     @property
@@ -197,11 +197,11 @@ class Trajectory(ReadOnly):
 
 @record
 class Arrival(NamedTuple):
-    """What a run amounts to: numbers for one run, arrays for many.
+    """The summary of a run: its arrival, effort and final error; numbers, or arrays for many runs.
 
     Attributes
     ----------
-    arrived : bool, whether it came within the arrival radius
+    arrived : bool or array, whether the robot came within the arrival radius
     time : s, infinite if it did not arrive
     heading_error : rad, heading - goal.heading at the last sample
     peak_omega : rad/s, the largest |omega|
@@ -252,11 +252,11 @@ def single_pose(name: str, pose: Pose) -> Pose:
 
 def checked_hysteresis(hysteresis: float, method: str) -> float:
     """The hysteresis, if it is one of the method's; otherwise raise ValueError."""
-    kept = scalar("hysteresis", hysteresis, low=0.0)
-    if kept and method == "continuous":
+    checked = scalar("hysteresis", hysteresis, low=0.0)
+    if checked and method == "continuous":
         needed = "0, or method 'arc' or 'euler',"
-        raise refusal("hysteresis", kept, needed, ": with 'continuous' theta never jumps")
-    return kept
+        raise refusal("hysteresis", checked, needed, ": with 'continuous' theta never jumps")
+    return checked
 
 
 def sample_count(dt: float, duration: float) -> int:

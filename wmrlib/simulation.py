@@ -16,7 +16,7 @@ from wmrlib.elementary import wrap
 from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, Reference
 from wmrlib.laws import POSE_LAWS, TRACKING_LAWS, law_name, tuning_of
-from wmrlib.loops import MOST_TRIALS, ROOM, Sampling, continuous, held_by, integrate
+from wmrlib.loops import MOST_TRIALS, WORKSPACE_ROWS, Sampling, continuous, held_by, integrate
 from wmrlib.motion import polar_from_pose
 from wmrlib.runs import METHODS, Trajectory
 
@@ -46,19 +46,19 @@ def simulate(
         rad/s. In plain Python a run takes about 20 us a step, a hundred times as long as with a
         built-in law; a function compiled by numba is as fast as these, and compiled into the loop
         on its first call, in seconds.
-    method : "euler", the paper's: the twist is held for `dt` and the pose moves along its tangent;
+    method : "euler", Euler's: the twist is held for `dt` and the pose moves along its tangent;
         "arc": the twist is held and the pose moves along the exact arc;
         "continuous": the law acts all the time; (rho, alpha, theta) is integrated by Dormand and
         Prince's method of order 8, to 1e-10 a step.
-        The first two see alpha and theta in (-pi, pi]; in the last these never jump.
+        In the first two alpha and theta are in (-pi, pi]; in the last they never jump.
     dt : float, s, between samples; "continuous" adds the moment of arrival
     duration : float, s, within which lies the last sample, where the robot stops; at most ten
         million dt
     arrival_radius : float, m, within which it stops; 0 drives on
-    wheels : Wheels or None, ideal ones. Wheels that can't do at once what they are told start at
-        rest, and the run's v and omega are what they do ("arc" and "euler": on average until the
-        next sample). "continuous" needs an arrival radius and a lag for these, and knows no dead
-        band and no encoder steps.
+    wheels : Wheels, or None for ideal ones. Wheels that do not reach a commanded speed at once
+        start at rest, and the run's v and omega are the driven twist ("arc" and "euler": its mean
+        until the next sample). "continuous" needs an arrival radius and a lag for these, and knows
+        no dead band and no encoder steps.
     last_turn : LastTurn or None; with "arc" and "euler", turn on the spot within the arrival radius
     hysteresis : float, rad; with "arc" and "euler", theta does not jump by 2 pi until its old
         branch is pi + hysteresis from 0, so the run's theta may be that large
@@ -89,7 +89,7 @@ def simulate(
     samples, dt = runs.sample_count(dt, duration), float(dt)
     radius = scalar("arrival_radius", arrival_radius, low=0.0)
     continuously = choice("method", method, METHODS) == "continuous"
-    kept = runs.checked_hysteresis(hysteresis, method)
+    hysteresis = runs.checked_hysteresis(hysteresis, method)
     turn = checked_turn(last_turn, dt, method, radius)
     robot, t = checked_wheels(wheels), dt * np.arange(samples)
     loop = *tuning_of(gains, law, POSE_LAWS), robot
@@ -107,7 +107,7 @@ def simulate(
         run = _continuous(t, state, radius, target, None, *loop)
     else:
         path = np.array([*target, 0.0, 0.0])[:, None]
-        sampling = Sampling(dt, method == "arc", radius, kept)
+        sampling = Sampling(dt, method == "arc", radius, hysteresis)
         run = _held(t, begin, path, *loop, turn, sampling)
     return Trajectory.of(*run, end, gains, law, method)
 
@@ -209,11 +209,11 @@ def _held(t, begin, path, gains, law, wheels, end, sampling) -> tuple:
 
 
 def _continuous(t, state, radius, goal, goals_at, *loop) -> tuple:
-    """The same of a run whose law acts all the time, to its arrival too."""
-    record, room = np.empty((8, t.size)), np.zeros((ROOM, state.size))
+    """The same of a run whose law acts continuously, up to the moment of its arrival."""
+    record, workspace = np.empty((8, t.size)), np.zeros((WORKSPACE_ROWS, state.size))
     drive = continuous if goals_at is None else integrate
     ends = t, MOST_TRIALS, radius, tuple(goal)
-    count, outcome, end, *sums = drive(record, state, room, *ends, goals_at, *loop)
+    count, outcome, end, *sums = drive(record, state, workspace, *ends, goals_at, *loop)
     if outcome == runs.UNFINISHED:
         words = f", or slower gains and wheels: it would take more than {MOST_TRIALS:,} steps"
         raise refusal("method", "continuous", "'arc' or 'euler'", words)

@@ -63,20 +63,20 @@ _LONG_WORK = 40_000_000
 
 
 class _Task(NamedTuple):
-    """What all the runs have in common."""
+    """The settings that all runs of a sweep share."""
 
     continuous: bool
     sampling: Sampling
     samples: int
     limits: Wheels
     end: LastTurn
-    key: tuple[int, int] | None  # to the random numbers of receivers, if there are any
+    key: tuple[int, int] | None  # to the random numbers of receivers; None without one
     side_by_side: bool  # in the lanes of `engine`; otherwise one by one, by the loops for one run
     own_law: Callable | None
 
     @property
     def cost(self) -> int:
-        """How long a run takes, in evaluations of the law side by side."""
+        """The cost of a run, in evaluations of the law side by side."""
         if self.continuous:
             return 700 if self.side_by_side else 7_000 + 100 * self.samples
         return self.samples if self.side_by_side else 20 * self.samples
@@ -101,7 +101,7 @@ def sweep(
     progress: bool = True,
     executor: Any = None,
 ) -> Arrival | tuple[Arrival, Trajectories]:
-    """Drive many runs at once and sum each one up.
+    """Drive many runs at once and return a summary of each.
 
     "continuous" is right to 1e-6 (m, s, rad, or as a share of what is larger than 1), and to 1e-4
     with wheel limits, at whose edge the motion has a corner. The promise is for a law that settles:
@@ -120,10 +120,10 @@ def sweep(
         run, to 1e-9 unless the run magnifies rounding
     dt, duration, arrival_radius, wheels, last_turn, hysteresis : as in `simulate`; with
         "continuous", dt only says where the samples lie, and the last one within the duration ends
-        the run; wheels that can't do at once what they are told need "arc" or "euler"
-    receiver : Receiver, with "arc" and "euler" only, by what each run steers; its fields broadcast
-        too. A run stops, and has arrived, where it believes to be within the radius; all that is
-        returned is where it really is. None: it knows.
+        the run; wheels that do not reach a commanded speed at once need "arc" or "euler"
+    receiver : Receiver, with "arc" and "euler" only: each run steers by the poses that it
+        measures; its fields broadcast too. A run has arrived, and stops, when its measured pose is
+        within the radius; all that is returned is true. None: runs steer by their true poses.
     seed : int from 0 to 2^64 - 1. A run's random numbers, two a sample, follow from it and from the
         run's place among all alone, on however many cores.
     trajectories : bool, whether to return the samples too, at most fifty million in all
@@ -151,7 +151,7 @@ def sweep(
     [ 65.8 -27.2 -22.4]
     """
     robot = checked_wheels_of_many(wheels)
-    read = Receiver() if receiver is None else instance("receiver", receiver, Receiver)
+    sensor = Receiver() if receiver is None else instance("receiver", receiver, Receiver)
     own, codes = (law, np.array(0.0)) if callable(law) else (None, _law_codes(law))
     if not own:
         instance("gains", gains, Gains)
@@ -161,7 +161,7 @@ def sweep(
     poses = _fields("starts", instance("starts", starts, Pose))
     poses |= _fields("goals", instance("goals", goals, Pose))
     numbers = dict.fromkeys(Gains._fields, 0.0) if own else tuned
-    fields = poses | numbers | _fields("wheels", robot) | _fields("receiver", read)
+    fields = poses | numbers | _fields("wheels", robot) | _fields("receiver", sensor)
     for name in ("starts.heading", "goals.heading"):
         fields[name] = wrap_angle(real(name, fields[name]))  # loops take directions
     shape = same_shape(**fields | tuned, law=codes)
@@ -177,7 +177,7 @@ def sweep(
         remark = "" if whole else f", not {kind_of(seed)}"
         raise refusal("seed", seed, "a whole number from 0 to 2**64 - 1", remark)
     end = checked_turn(last_turn, dt, method, radius)
-    kept = checked_hysteresis(hysteresis, method)
+    hysteresis = checked_hysteresis(hysteresis, method)
     ideal = bool(np.all(are_ideal(robot)))
     if not ideal and method == "continuous":
         raise refusal("wheels", robot, "ideal wheels, or method 'arc' or 'euler',")
@@ -195,13 +195,13 @@ def sweep(
             f"trajectories = True is not allowed for {total:,} runs of {samples:,} samples: "
             f"at most {MOST_RECORDED:,} in all are needed"
         )
-    sampling = Sampling(dt, method == "arc", radius, kept)
+    sampling = Sampling(dt, method == "arc", radius, hysteresis)
     alike = {*map(type, robot)} == {float} and not robot.min_speed
-    plain = ideal and alike and end == NO_TURN and not kept
+    plain = ideal and alike and end == NO_TURN and not hysteresis
     side_by_side = plain and not receiver and not trajectories and not own
     key = divmod(int(seed), 2**32)[::-1] if receiver else None
-    how = sampling, samples, robot, end, key, side_by_side, own
-    task = _Task(method == "continuous", *how)
+    setting = sampling, samples, robot, end, key, side_by_side, own
+    task = _Task(method == "continuous", *setting)
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.empty((8, total, samples if trajectories else 0))
     number = np.arange(total).reshape(shape)
@@ -240,21 +240,21 @@ def run_chunk(
         summary = np.empty((len(Arrival._fields), runs.shape[1]))
         for law in np.unique(runs[LAW]):
             members = np.flatnonzero(runs[LAW] == law)
-            how = runs[:, members], int(law), task.limits
+            setting = runs[:, members], int(law), task.limits
             if task.continuous:
-                summary[:, members] = continuous.survey(*how, whole, MOST_TRIALS, radius)
+                summary[:, members] = continuous.survey(*setting, whole, MOST_TRIALS, radius)
             else:
-                summary[:, members] = sampled.survey(*how, task.samples, task.sampling)
+                summary[:, members] = sampled.survey(*setting, task.samples, task.sampling)
         return summary
     records[:, first : first + runs.shape[1]] = np.nan
     if task.continuous:
         samples = task.sampling.dt * np.arange(task.samples)
         t = samples if records.shape[2] else np.array([0.0, whole])
         return continuous_runs(runs, records, first, t, MOST_TRIALS, radius)
-    sampled_how = task.samples, task.end, task.key, task.sampling
+    sampled_setting = task.samples, task.end, task.key, task.sampling
     if task.own_law:
-        return held_runs_by(task.own_law, own_gains, runs, records, first, *sampled_how)
-    return held_runs(runs, records, first, *sampled_how)
+        return held_runs_by(task.own_law, own_gains, runs, records, first, *sampled_setting)
+    return held_runs(runs, records, first, *sampled_setting)
 
 
 def run_chunk_elsewhere(
@@ -273,8 +273,8 @@ def _results(
 
     def runs_of(chunk: Any) -> tuple[np.ndarray, list | None]:
         runs = np.array([row[chunk] for row in source], dtype=float)
-        kept = in_samples(runs[RECEIVER:NUMBER], task.sampling.dt, task.samples)
-        runs[RECEIVER:NUMBER] = kept
+        sampled_receivers = in_samples(runs[RECEIVER:NUMBER], task.sampling.dt, task.samples)
+        runs[RECEIVER:NUMBER] = sampled_receivers
         return runs, gains_of and [gains_of(int(number)) for number in runs[NUMBER]]
 
     size = _chunk_size(total, task)
@@ -335,6 +335,7 @@ def _gains_of_runs(gains: Any, tuned: dict[str, Any], shape: tuple) -> Callable[
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:
     names = as_array(law)
-    each = [law if name is ... else name for name in names.ravel().tolist()]  # ... if it is ragged
-    codes = [POSE_LAWS[choice("law", name, POSE_LAWS, OWN_IS_WELCOME)] for name in each]
+    listed = names.ravel().tolist()
+    listed = [law if name is ... else name for name in listed]  # ... if it is ragged
+    codes = [POSE_LAWS[choice("law", name, POSE_LAWS, OWN_IS_WELCOME)] for name in listed]
     return np.array(codes, dtype=float).reshape(names.shape)

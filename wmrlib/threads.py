@@ -1,4 +1,4 @@
-"""Work in chunks, on threads, which Ctrl-C stops and keeps what is done."""
+"""Chunks of work on several threads; Ctrl-C stops them and keeps the finished chunks."""
 
 from __future__ import annotations
 
@@ -14,17 +14,17 @@ import numba
 
 CORES = numba.config.NUMBA_NUM_THREADS  # that this process may use
 _BAR_AFTER = 1.0  # s
-_POLL_SECONDS = 0.5  # s; so late a wait may hear Ctrl-C
+_POLL_SECONDS = 0.5  # s; longest time after which a wait notices Ctrl-C
 _IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
 
 
 def spread(
     job: Callable, chunks: Iterable, arguments: Callable, go_on: Callable, executor: Any = None
 ) -> Generator:
-    """(chunk, result) as each is done; a bounded number is waited for at a time.
+    """Yield (chunk, result) in the order in which chunks finish; at most `_IN_FLIGHT` wait.
 
-    It is done on a thread a core, or by an `executor` that is given, and not shut down. What a
-    given executor loses, because a worker ended, is done here.
+    The chunks are computed by one thread a core, or by a given `executor`, which is not shut down.
+    A chunk that is lost with a worker of a given executor is computed here.
     """
     pool, chunks = executor or futures.ThreadPoolExecutor(CORES), iter(chunks)
     waiting: dict[futures.Future, Any] = {}
@@ -61,19 +61,19 @@ def _submitted(pool: Any, job: Callable, arguments: tuple) -> futures.Future:
 
 
 @contextmanager
-def watched(total: int, bar_wanted: bool) -> Iterator[Callable[[int], bool]]:
-    """What is yielded takes the number of runs just done, and says whether to go on.
+def watched(total: int, show_bar: bool) -> Iterator[Callable[[int], bool]]:
+    """Yield a function that takes the number of finished runs and returns whether to go on.
 
     Ctrl-C is only noted: raised in a wait, it could break the lock there.
     """
     pressed: list[bool] = []
-    if bar_wanted:
+    if show_bar:
         from tqdm.auto import tqdm  # here, because it asks what it is shown in
 
         bar = tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
 
     def go_on(runs: int) -> bool:
-        if bar_wanted:
+        if show_bar:
             bar.update(runs)
         return not pressed
 
@@ -81,7 +81,7 @@ def watched(total: int, bar_wanted: bool) -> Iterator[Callable[[int], bool]]:
     heard = usual and threading.current_thread() is threading.main_thread()
     if heard:
         signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
-    with bar if bar_wanted else nullcontext():
+    with bar if show_bar else nullcontext():
         try:
             yield go_on
         finally:

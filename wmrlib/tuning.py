@@ -1,4 +1,4 @@
-"""What the gains do near the goal, and gains from a specification: instead of "trial and error".
+"""The modes of the closed loop near the goal, and gains from a specification of them.
 
 Equations (7)-(9) linearised at the goal fall into two parts: the distance, rho' = -rate rho, and
 the angles, s^2 + k_alpha s + h rate^2 = 0. The printed law's heading never settles.
@@ -24,7 +24,7 @@ _METHODS = ("continuous", "polar_euler", "euler", "arc")
 
 @record
 class Modes(NamedTuple):
-    """How the closed loop settles near the goal.
+    """The modes of the closed loop near the goal: their decay rates, frequency and damping.
 
     Parameters
     ----------
@@ -46,7 +46,7 @@ class Modes(NamedTuple):
 
 
 def modes(gains: Gains, law: str = "corrected") -> Modes:
-    """Return the poles near the goal and what follows from them.
+    """Return the modes of the closed loop near the goal: poles, decay rates and damping.
 
     Parameters
     ----------
@@ -171,8 +171,8 @@ def gains_for(
         needed = "one of the three is needed, kappa with h and the others without it"
         raise ValueError(f"{listed} are not allowed together: {needed}")
     named = {"damping": 1.0 if damping is None else damping} if h is None else {"h": h}
-    wanted = {"distance_rate": distance_rate, **given, **named, "v_max": v_max}
-    rate, angle, other, v_max = reals(above_0=wanted, **wanted)
+    specification = {"distance_rate": distance_rate, **given, **named, "v_max": v_max}
+    rate, angle, other, v_max = reals(above_0=specification, **specification)
     with np.errstate(over="ignore", under="ignore"):
         k_rho = plain(rate / v_max)
         if kappa is not None:
@@ -191,7 +191,7 @@ def gains_for(
 def gain_map(
     start: Pose, goal: Pose, gains: Gains, over: Mapping[str, np.ndarray], **options
 ) -> Arrival | tuple[Arrival, Trajectories]:
-    """Drive from `start` to `goal` with every combination of gains: "trial and error" all at once.
+    """Drive from `start` to `goal` with every combination of the listed gains.
 
     Parameters
     ----------

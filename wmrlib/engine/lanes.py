@@ -1,7 +1,7 @@
 """How runs take turns in the lanes of a loop, and the law there.
 
 A loop computes many runs at once, each in its lane, because a processor takes four or eight numbers
-with one instruction. Runs end at different times: whoever is done gives its lane to the next.
+with one instruction. Runs end at different times: one that has ended gives its lane to the next.
 """
 
 from __future__ import annotations
@@ -33,17 +33,18 @@ def steered(polar, gains, law, limits):
 
 @formula
 def copy_column(target, i, source, k):
-    """Copy column k into column i, as far down as both go."""
+    """Copy column k of the source into column i of the target, in the rows that both have."""
     for row in range(min(target.shape[0], source.shape[0])):
         target[row, i] = source[row, k]
 
 
 @compiled
 def refill_lanes(states, lanes, inside, counts, left, over):
-    """Put back each run that is over, give its lane to one that waits, and say how many are in use.
+    """Replace each run that has ended by one that waits; return the number of lanes in use.
 
-    A run is over when its row `left` has come down to `over`. `inside` says which run is in each
-    lane. `counts` are how many lanes are in use, the first ones, and how many runs have begun.
+    A run has ended when its row `left` has come down to `over`. `inside` holds the number of the
+    run in each lane. `counts` holds the number of lanes in use, which are the first ones, and the
+    number of runs that have begun.
     """
     i = 0
     while i < counts[0]:

@@ -21,8 +21,8 @@ from wmrlib.motion import polar_from_pose
 from wmrlib.runs import ARRIVED, TIMED_OUT
 
 BLOCK = 256  # runs side by side: a power of two whose block stays in the first-level cache
-VECTORS = 32  # the runs in use are rounded up to it: what is left over would not be vectorised
-_ROUNDS = 16  # steps between two looks at who has finished
+VECTORS = 32  # the runs in use are rounded up to it, because a remainder is not vectorised
+_ROUNDS = 16  # steps between two checks for runs that have ended
 # The rows of a block, one column a run. The first are those of a sweep. LEFT is the number of steps
 # to go; its sign turns when the run is over. GOING says whether this step is taken.
 X, Y, HEADING, GOAL_X, GOAL_Y, GOAL_HEADING, K_RHO, K_ALPHA, H, V_MAX = range(WHEELS)
@@ -37,8 +37,8 @@ _euler_step, _arc_step = vectorised(motion.euler_step), vectorised(motion.arc_st
 
 
 @formula
-def look(block, used):
-    """See the goal from each pose."""
+def observe(block, used):
+    """Compute the polar error of each pose."""
     for i in range(used):
         pose = block[X, i], block[Y, i], block[HEADING, i]
         goal = block[GOAL_X, i], block[GOAL_Y, i], block[GOAL_HEADING, i]
@@ -47,7 +47,7 @@ def look(block, used):
 
 @formula
 def decide(block, used, law, limits, dt, arrival_radius):
-    """What each run commands; a run that is over, or has arrived, takes no step."""
+    """Compute the twist of each run; a run that has ended or arrived takes no step."""
     for i in range(used):
         gains = GainsFields(block[K_RHO, i], block[K_ALPHA, i], block[H, i], block[V_MAX, i])
         polar = block[RHO, i], block[ALPHA, i], block[THETA, i]
@@ -64,7 +64,7 @@ def decide(block, used, law, limits, dt, arrival_radius):
 
 @formula
 def move(block, used, along_arc, dt):
-    """Take the step."""
+    """Move each pose by one step."""
     for i in range(used):
         going, pose = block[GOING, i] > 0.0, (block[X, i], block[Y, i], block[HEADING, i])
         twist = (block[V, i] if going else 0.0), (block[OMEGA, i] if going else 0.0)
@@ -74,20 +74,20 @@ def move(block, used, along_arc, dt):
 
 @compiled
 def drive(states, law, limits, along_arc, dt, arrival_radius):
-    """Take every run to its end, or to its last step; then it gives its lane to the next."""
+    """Drive every run to its end; a run that has ended gives its lane to the next."""
     block, inside = np.zeros((ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
     counts = np.zeros(2, np.int64)
     while lanes.refill_lanes(states, block, inside, counts, LEFT, -0.5):
         used = min(BLOCK, (counts[0] + VECTORS - 1) // VECTORS * VECTORS)
         for _ in range(_ROUNDS):
-            look(block, used)
+            observe(block, used)
             decide(block, used, law, limits, dt, arrival_radius)
             move(block, used, along_arc, dt)
 
 
 @compiled
-def summed_up(states, runs, law, limits, samples, dt, arrival_radius):
-    """What each run amounts to; its outcome is NaN if it ended at once, or without a number."""
+def summaries(states, runs, law, limits, samples, dt, arrival_radius):
+    """The summary of each run; its outcome is NaN if it ended at once or lost a number."""
     summary = np.empty((DISTANCE + 1, runs.shape[1]))
     for i in range(runs.shape[1]):
         pose = states[X, i], states[Y, i], states[HEADING, i]
@@ -107,18 +107,18 @@ def summed_up(states, runs, law, limits, samples, dt, arrival_radius):
 def survey(runs, law, limits, samples, sampling):
     """Sum up the runs in the columns of `runs`, all with the same law and wheels.
 
-    Those that end at once, or where the vector forms of the elementary functions have no number for
-    them, are driven again by `held_runs`.
+    Runs that end at once, and runs for which the vector forms of the elementary functions have
+    no number, are driven again by `held_runs`.
     """
     states = np.zeros((ROWS, runs.shape[1]))
     states[:LEFT], states[LEFT] = runs[:LEFT], samples - 1.0
     ends = sampling.dt, max(sampling.arrival_radius, NEAREST)
     drive(states, lanes.as_type(law), limits, sampling.along_arc, *ends)
     ends = sampling.dt, sampling.arrival_radius
-    summary = summed_up(states, runs[:LEFT], law, limits, samples, *ends)
+    summary = summaries(states, runs[:LEFT], law, limits, samples, *ends)
     again = np.flatnonzero(np.isnan(summary[OUTCOME]))
     if again.size:
         unwritten = np.empty((8, again.size, 0))
-        how = samples, NO_TURN, None, sampling
-        summary[:, again] = held_runs(runs[:, again], unwritten, 0, *how)
+        setting = samples, NO_TURN, None, sampling
+        summary[:, again] = held_runs(runs[:, again], unwritten, 0, *setting)
     return summary

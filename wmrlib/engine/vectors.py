@@ -130,7 +130,7 @@ def vector_wrap(angle):
 
 @formula
 def vector_wrap_once(angle):
-    """`wrap` of what is between two directions in (-pi, pi]: the multiple is -1, 0 or 1."""
+    """`wrap` of the difference of two directions in (-pi, pi]: it takes at most one turn."""
     angle = angle - TURN if angle > math.pi else angle
     return angle + TURN if angle <= -math.pi else angle
 
@@ -146,7 +146,7 @@ BETWEEN_DIRECTIONS = _FORMS | {wrap: vector_wrap_once}
 
 
 def vectorised(function: Callable, forms: dict = _FORMS) -> Callable:
-    """The same formula, whatever it calls included, with the vector forms by the table `forms`.
+    """The same formula, and all that it calls, with the vector forms of the table `forms`.
 
     Its globals are replaced, so that a formula is written once: written again with vector forms,
     laws and motion would be 60 lines more, and a law would be added in two places.

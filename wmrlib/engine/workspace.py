@@ -13,23 +13,23 @@ from wmrlib._dop853 import FIFTH, STAGES, THIRD, WEIGHTS
 from wmrlib.compilation import compiled
 
 LANES = 32  # runs side by side: their memory stays in the first-level cache
-GLIMPSE = 1e-6  # share of a step behind its end at which omega is looked at too, for its rate
+PROBE_STEP = 1e-6  # share of a step: so far behind its end omega is probed, for its rate
 
 # A state is rho, alpha and theta, and the metres rolled in the step, signed as v is.
 RHO, ALPHA, THETA, ROLLED = range(0, 4 * LANES, LANES)
 # TIME has passed, and LEFT is to go: its sign turns if the run is over before. OMEGA is the row
 # below a state's, among the slopes alone.
-LEFT, TIME, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, STEP, SWING, TRIALS = range(
+LEFT, TIME, PEAK, LENGTH, K_RHO, K_ALPHA, H, V_MAX, STEP, OMEGA_RATE, TRIALS = range(
     4 * LANES, 15 * LANES, LANES
 )
 SLOPES, STAGE = 15 * LANES, 5 * LANES  # of each stage, the rates of the state, and then omega
 OMEGA = 4 * LANES
-KEPT = 20  # rows: what is kept of a run between two steps, the slopes at its beginning too
-LAST, BEYOND = 12, 13  # the stages at the end of a step, and a glimpse behind it
-NEW, NEAR, FINE, COARSE, DT, TAKEN, ROOM = (
+RUN_ROWS = 20  # rows that a run keeps between two steps: the above, and the slopes of stage 0
+LAST, PROBE = 12, 13  # the stages at the end of a step, and at the probe behind it
+NEW, PROBE_STATE, FINE, COARSE, DT, ACCEPTED, WORKSPACE_SIZE = (
     SLOPES + 14 * STAGE + rows * LANES for rows in (0, 4, 8, 12, 16, 20, 21)
 )  # DT has as many rows as a state, each with the same steps
-_ADDED_UP = (*STAGES, WEIGHTS, (*WEIGHTS, GLIMPSE), FIFTH, THIRD)  # by `combine` at each stage
+_ADDED_UP = (*STAGES, WEIGHTS, (*WEIGHTS, PROBE_STEP), FIFTH, THIRD)  # by `combine` at each stage
 
 
 def _written_out():
@@ -42,8 +42,8 @@ def _written_out():
     for stage, weights in enumerate(_ADDED_UP, 1):
         slopes = ((SLOPES + j * STAGE, float(w)) for j, w in enumerate(weights) if w)
         total = " + ".join(f"{weight!r} * work[{at} + i]" for at, weight in slopes)
-        to = {BEYOND: NEAR, BEYOND + 1: FINE, BEYOND + 2: COARSE}.get(stage, NEW)
-        start = "work[i] + " if stage <= BEYOND else ""
+        to = {PROBE: PROBE_STATE, PROBE + 1: FINE, PROBE + 2: COARSE}.get(stage, NEW)
+        start = "work[i] + " if stage <= PROBE else ""
         yield f" if stage == {stage}:\n  for i in range({4 * LANES}):"
         yield f"   work[{to} + i] = {start}work[{DT} + i] * ({total})"
 

@@ -1,7 +1,7 @@
 """The model as sympy expressions, and the same formulas printed as JavaScript and as C.
 
-The expressions are what the functions of `laws`, `motion` and `geodesy` return for symbols, so that
-no formula is typed twice. ``python -m wmrlib.symbolic`` prints `c_formulas` into the C header
+The expressions are the results of the functions of `laws`, `motion` and `geodesy` for symbols, so
+that no formula is typed twice. ``python -m wmrlib.symbolic`` prints `c_formulas` into the C header
 ``wmr_law.h``; `javascript` prints `panel_formulas` for the book's panels. Formulas of your own go
 through the same printers: `formula_of` a function, then `c_function`.
 """

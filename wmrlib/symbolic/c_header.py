@@ -37,6 +37,7 @@ class _Printer(C99CodePrinter):
         return own.get(expr.exp) or f"WMR_F(pow)({base}, {self._print(expr.exp)})"
 
     def line(self, expression: sp.Expr) -> str:
+        """The expression as C on one line."""
         text = re.sub(r"\s+", " ", self.doprint(expression)).replace("*", " * ")
         return re.sub(r"(?<![\w)])\((WMR_C\([\d.]+\))\)", r"\1", text)  # brackets of its own
 
@@ -56,14 +57,18 @@ def c_function(name: str, formula: Formula) -> str:
     -------
     str
     """
-    arguments, kind = [f"WMR_REAL\xa0{each}" for each in formula.arguments], "WMR_REAL"
-    lines = [f"const WMR_REAL {each} = {_PRINTER.line(value)};" for each, value in formula.locals_]
+    arguments, kind = [f"WMR_REAL\xa0{symbol}" for symbol in formula.arguments], "WMR_REAL"
+    lines = [
+        f"const WMR_REAL {symbol} = {_PRINTER.line(value)};" for symbol, value in formula.locals_
+    ]
     values = [_PRINTER.line(value) for value in formula.values]
     if formula.gains:
         used = sp.Tuple(*formula.expanded()).free_symbols
-        state = [f"{each}\xa0=\xa0error.{each}" for each in formula.arguments if each in used]
-        gains = [f"{each}\xa0=\xa0gains.{each}" for each in formula.gains]
-        lines = [f"const WMR_REAL {', '.join(each)};" for each in (state, gains)] + lines
+        state = [
+            f"{symbol}\xa0=\xa0error.{symbol}" for symbol in formula.arguments if symbol in used
+        ]
+        gains = [f"{symbol}\xa0=\xa0gains.{symbol}" for symbol in formula.gains]
+        lines = [f"const WMR_REAL {', '.join(symbol)};" for symbol in (state, gains)] + lines
         lines.append(f"const WMR_REAL omega = {values[1]};")
         arguments, kind = ["wmr_polar error", "wmr_gains gains"], "wmr_twist"
         values = [f"wmr_checked(error, gains, {values[0]}, omega)"]
@@ -78,7 +83,7 @@ def c_function(name: str, formula: Formula) -> str:
 
 
 def wrapped(line: str, indent: int | None = None) -> str:
-    """The line in as many as fit on a page of the book; the others begin 4 later if not told."""
+    """Wrap a line to the width of the book's pages, with an indent of 4 or the given one."""
     spaces = " " * (len(line) - len(line.lstrip()) + 4 if indent is None else indent)
     filled = textwrap.fill(line, 88, subsequent_indent=spaces, break_long_words=False)
     return filled.replace("\xa0", " ")
@@ -90,9 +95,9 @@ def c_functions(table: dict[str, Formula]) -> str:
 
 
 def filled(frame: Path, printed: dict[str, str]) -> str:
-    """The text of a frame with what is printed in its places, ``/* @PLACE@ */``."""
+    """The text of a frame with printed lines in its places, ``/* @PLACE@ */``."""
     text = frame.read_text(encoding="utf-8")
-    text = text.partition("*/\n")[2]  # what the frame says of itself
+    text = text.partition("*/\n")[2]  # without the frame's own comment
     for place, lines in printed.items():
         assert text.count(f"/* @{place}@ */\n") == 1, place
         text = text.replace(f"/* @{place}@ */\n", lines)

@@ -1,6 +1,6 @@
 """The functions that are printed into other languages, by name.
 
-Each table is made when it is first asked for: who imports the expressions need not wait for it.
+Each table is made on its first use, so that importing the expressions stays quick.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ class Formula(NamedTuple):
     """One function to print.
 
     It takes `arguments` and, in one structure, `gains`; it computes `locals_` in order and returns
-    `values`, one or several.
+    `values`, one or several. `says` is the comment above it.
     """
 
     arguments: tuple[sp.Symbol, ...]
@@ -40,27 +40,29 @@ class Formula(NamedTuple):
 
 
 def shared(arguments: tuple, values: tuple, says: str, gains: Iterable = ()) -> Formula:
-    """The function that computes what its values have in common once."""
-    used = tuple(each for each in gains if any(value.has(each) for value in values))
+    """The function of these values, which computes their common subexpressions once."""
+    used = tuple(gain for gain in gains if any(value.has(gain) for value in values))
     locals_, values = sp.cse(values, symbols=sp.numbered_symbols("part"))
     return Formula(arguments, tuple(values), says, used, tuple(locals_))
 
 
 def formula_of(function: Callable, arguments: tuple, says: str) -> Formula:
-    """What a function of wmrlib's kind returns for symbols, as one to print."""
+    """A formula of wmrlib, or one of your own, as a function to print."""
     return shared(arguments, read(function, *arguments), says)
 
 
 def _law(name: str) -> Formula:
     """(v, omega) of a pose law, with v/rho as a local, which is finite at the goal."""
     row, (speed, turning) = laws.LAWS[name], steering(name)
-    used = tuple(it for it in vars(gains_of(name)).values() if speed.has(it) or turning.has(it))
+    used = tuple(
+        gain for gain in vars(gains_of(name)).values() if speed.has(gain) or turning.has(gain)
+    )
     values = s.rho * s.v_over_rho, turning.subs(speed, s.v_over_rho)
     return Formula(s.STATE, values, row.says, used, ((s.v_over_rho, speed),))
 
 
 def _formula(name: str) -> Formula:
-    """What a row of `LAWS` has as its formula, and takes what that takes."""
+    """The formula of a law, with the arguments that it has in `LAWS`."""
     row, gains = laws.LAWS[name], gains_of(name)
     if not row.needs_reference:
         law = _law(name)
@@ -75,7 +77,7 @@ def _value(name: str) -> Formula:
 
 
 def _modes(name: str) -> Formula:
-    """How a pose law settles near the goal, out of its linearised closed loop."""
+    """The coefficients of a pose law's modes near the goal, from its linearised closed loop."""
     goal = dict.fromkeys(s.STATE, 0)
     rates = sp.Matrix(closed_loop_rates(name)[1:])
     rates = rates.replace(sp.sinc, lambda _: sp.Integer(1))  # near 0
@@ -103,7 +105,7 @@ def _roll() -> Formula:
 
 
 def _guards() -> dict[str, Formula]:
-    """What is finite where the textbook has 0/0, or keeps an angle within a turn."""
+    """The functions that are finite where the textbook has 0/0, or keep an angle within a turn."""
     wrap = "the same direction in (-pi, pi]; in float it loses 2e-7 rad with each whole turn"
     decay = "(1 - exp(-k_rho rho))/rho, which is k_rho at rho = 0"
     return {
@@ -120,7 +122,7 @@ def _keep_branch() -> Formula:
 
 
 def _limits() -> dict[str, Formula]:
-    """What the wheels can do of a twist."""
+    """The limits of the wheels on a twist."""
     hurry, fastest = "the factor on it for a min_speed", "speed of the faster wheel"
     scale = "the factor on the twist for a max_speed"
     return {
@@ -138,7 +140,7 @@ def _turn_rate() -> Formula:
 
 @cache
 def panel_formulas() -> dict[str, Formula]:
-    """What is printed for the panel, by name."""
+    """The functions that are printed for the book's panels, by name."""
     steps = motion.STEPS.items()
     closing = s.rho, s.alpha, s.v_over_rho, s.omega
     error = formula_of(laws.body_error, s.STATE, "the goal ahead, to the left, and turned")
@@ -173,7 +175,7 @@ def c_laws() -> dict[str, Formula]:
 
 @cache
 def c_formulas() -> dict[str, Formula]:
-    """What a robot needs around the law, each a function of numbers."""
+    """The functions of numbers that a robot needs beside the law, by name."""
     distance, sight, _ = read(motion.polar_from_pose, 0, 0, 0, s.east, s.north, 0)
     left, right = read(motion.wheel_speeds, s.v, s.omega, s.b)
     ends = s.lat1, s.lat2, s.dlat, s.dlong

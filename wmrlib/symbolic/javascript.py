@@ -27,6 +27,7 @@ class _Printer(JavascriptCodePrinter):
         return f"({base}*{base})"  # rounded once, where Math.pow promises nothing
 
     def line(self, expression: sp.Expr) -> str:
+        """The expression as JavaScript on one line."""
         return re.sub(r"\s+", " ", self.doprint(expression))
 
 
@@ -43,7 +44,7 @@ def javascript_name(name: str) -> str:
 def _function(name: str, formula: Formula) -> str:
     structure = [f"{{ {', '.join(map(str, formula.gains))} }}"] if formula.gains else []
     arguments = [*map(str, formula.arguments), *structure]
-    lines = [f"const {each} = {_PRINTER.line(value)};" for each, value in formula.locals_]
+    lines = [f"const {symbol} = {_PRINTER.line(value)};" for symbol, value in formula.locals_]
     values = ", ".join(_PRINTER.line(value) for value in formula.values)
     lines.append(f"return {values};" if len(formula.values) == 1 else f"return [{values}];")
     body = "".join(f"{_wrapped(f'  {line}')}\n" for line in lines)

@@ -1,4 +1,4 @@
-"""What the functions of `laws`, `motion` and `geodesy` return for symbols."""
+"""The formulas of `laws`, `motion` and `geodesy` as sympy expressions."""
 
 from __future__ import annotations
 
@@ -44,16 +44,16 @@ for _function, _symbols in {
 
 
 def read(function: Callable, *arguments: Any) -> tuple[sp.Expr, ...]:
-    """What a formula returns for symbols, as a tuple."""
+    """The expressions that a formula returns for symbols, as a tuple."""
     value = function(*arguments)
     return tuple(map(exact, value if isinstance(value, tuple) else (value,)))
 
 
 def exact(expression: sp.Expr) -> sp.Expr:
-    """With fractions in the places of floats that are short ones, such as 0.5."""
+    """The expression with short fractions in place of floats such as 0.5."""
     expression = sp.sympify(expression)
-    fractions = {each: sp.Rational(repr(float(each))) for each in expression.atoms(sp.Float)}
-    return expression.xreplace({each: f for each, f in fractions.items() if f.q < 1000})
+    fractions = {number: sp.Rational(repr(float(number))) for number in expression.atoms(sp.Float)}
+    return expression.xreplace({number: f for number, f in fractions.items() if f.q < 1000})
 
 
 def gains_of(name: str) -> SimpleNamespace:
@@ -63,7 +63,7 @@ def gains_of(name: str) -> SimpleNamespace:
 
 
 def steering(name: str) -> tuple[sp.Expr, sp.Expr]:
-    """What a law's formula returns: (v/rho, omega), or (v, omega) if it needs a reference."""
+    """The result of a law's formula: (v/rho, omega), or (v, omega) if it needs a reference."""
     state = s.STATE
     if laws.LAWS[name].needs_reference:
         state = *read(laws.body_error, *s.STATE), s.v_ref, s.omega_ref
@@ -150,7 +150,7 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     energy, (speed, turning) = lyapunov(name), law(name)
     if not laws.LAWS[name].needs_reference:
         rates = zip(s.STATE, closed_loop_rates(name), strict=True)
-        return sum(energy.diff(each) * rate for each, rate in rates)
+        return sum(energy.diff(error) * rate for error, rate in rates)
     ahead, left, turn = s.rho * sp.cos(s.alpha), s.rho * sp.sin(s.alpha), s.alpha - s.theta
     body_rates = {
         s.ahead: turning * left - speed + s.v_ref * sp.cos(turn),
@@ -159,4 +159,4 @@ def lyapunov_rate(name: str = "corrected") -> sp.Expr:
     }
     body = {s.ahead: ahead, s.left: left, s.turn: turn}
     energy = energy.subs({s.rho: sp.sqrt(s.ahead**2 + s.left**2), s.alpha: s.theta + s.turn})
-    return sum(energy.diff(each).subs(body) * rate for each, rate in body_rates.items())
+    return sum(energy.diff(error).subs(body) * rate for error, rate in body_rates.items())

@@ -78,7 +78,7 @@ SATURATED = sp.Piecewise((max_speed / fastest, fastest > max_speed), (1, True))
 def textbook(expression: sp.Expr) -> sp.Expr:
     """The expression with sinc and decay written out as in the paper: undefined at the goal."""
     plain = expression.replace(decay, lambda rho, k_rho: (1 - sp.exp(-k_rho * rho)) / rho)
-    return plain.replace(sp.sinc, lambda each: sp.sin(each) / each)
+    return plain.replace(sp.sinc, lambda angle: sp.sin(angle) / angle)
 
 
 __all__ = [name for name, value in globals().items() if isinstance(value, sp.Symbol)]

@@ -1,4 +1,4 @@
-"""Positions in NMEA, UBX, GPX and CSV files, with an account of what is not used."""
+"""Positions from NMEA, UBX, GPX and CSV files, with a count of the lines that are not used."""
 
 import os
 from dataclasses import dataclass
@@ -9,7 +9,7 @@ import numpy as np
 from wmrlib.checks import refusal
 from wmrlib.geodesy import GeoPoint
 from wmrlib.tracks import gpx, nmea, tables, ubx
-from wmrlib.tracks.fixes import Count, Fixes, Report, Said
+from wmrlib.tracks.fixes import Count, Fixes, Report, Reported
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
 __all__ = ["Count", "Report", "Track", "read_track", "write_geojson", "write_gpx"]
@@ -21,7 +21,7 @@ class Track:
 
     `t` is in s since the first position that has a time, NaN where there is none, and in order
     within a segment of GPX and in the whole of another file. `source` is "NMEA", "UBX", "GPX" or
-    "CSV". The other arrays hold what the receiver says of itself, NaN where it does not: `quality`
+    "CSV". The other arrays hold the receiver's own reports, NaN where there is none: `quality`
     of the fix as in GGA (1 plain, 2 differential or SBAS, 3 precise, 4 RTK fixed, 5 RTK float);
     `satellites` in use; `hdop`; `speed` in m/s and `course` over ground in rad clockwise from
     north; `heading`, so too, of the line from one antenna to another; `accuracy`, its own estimate
@@ -41,13 +41,13 @@ class Track:
     accuracy: np.ndarray
 
     def __post_init__(self) -> None:
-        said = (getattr(self, field) for field in Said._fields)
-        for values in (self.points.lat, self.points.lon, self.t, *said):
+        reported = (getattr(self, field) for field in Reported._fields)
+        for values in (self.points.lat, self.points.lon, self.t, *reported):
             np.asarray(values).flags.writeable = False
 
     @property
     def rtk(self) -> np.ndarray:
-        """Of each position "fixed", "float" or "none"; "" where the receiver does not say."""
+        """The RTK state of each position: "fixed", "float" or "none"; "" where none is reported."""
         kinds = [self.quality == 4.0, self.quality == 5.0, self.quality > 0.0]
         return np.select(kinds, ["fixed", "float", "none"], "")
 
@@ -97,14 +97,14 @@ def read_track(path: str | os.PathLike) -> Track:
     try:
         with open(path, "rb") as file:
             source, fixes = _read(file)
-        (lat, lon, time, *said), report = fixes.settle()
+        (lat, lon, time, *reported), report = fixes.settle()
         if not report.used:
             reasons = repr(report).partition("not used: ")[2].replace("\nnot used: ", "; ")
             raise ValueError(f"it is {source}, but {reasons or 'holds no position'}")
     except ValueError as error:
         raise ValueError(f"no position in {os.fspath(path)!r}: {error}") from None
     begin = time[~np.isnan(time)][:1].sum()
-    return Track(GeoPoint(lat=lat, lon=lon), time - begin, source, report, *said)
+    return Track(GeoPoint(lat=lat, lon=lon), time - begin, source, report, *reported)
 
 
 def _read(file: BufferedReader) -> tuple[str, Fixes]:

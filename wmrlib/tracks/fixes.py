@@ -1,4 +1,4 @@
-"""What every reader of position files shares: the positions used, and an account of the rest."""
+"""The positions of a file and the count of its unused lines, as every reader collects them."""
 
 import math
 from array import array
@@ -14,8 +14,8 @@ LONGEST = 1 << 16  # characters of a line that are read at once
 KNOT = 1852.0 / 3600.0  # m/s
 
 
-class Said(NamedTuple):
-    """What a receiver says of a fix, in the units of Track; NaN where it does not."""
+class Reported(NamedTuple):
+    """The receiver's report on a fix, in the units of Track; NaN where it reports nothing."""
 
     quality: float = math.nan
     satellites: float = math.nan
@@ -26,11 +26,11 @@ class Said(NamedTuple):
     accuracy: float = math.nan
 
 
-UNSAID = Said()
+UNREPORTED = Reported()
 
 
 class Count(NamedTuple):
-    """How often something was met, and the line (in UBX the byte) where it was met first."""
+    """How often something occurred, and the line (in UBX the byte) of its first occurrence."""
 
     count: int  # type: ignore[assignment]  # hides tuple.count, which nobody calls here
     first: int
@@ -51,8 +51,8 @@ class Report:
 
     def __repr__(self) -> str:
         rows = [f"{self.used} position{'s' * (self.used != 1)} used"]
-        for what, met in (("not used", self.skipped), ("used, but", self.noted)):
-            for reason, (times, first) in sorted(met.items(), key=lambda row: row[1].first):
+        for what, counts in (("not used", self.skipped), ("used, but", self.noted)):
+            for reason, (times, first) in sorted(counts.items(), key=lambda row: row[1].first):
                 rows.append(f"{what}: {times} {reason} (first in {self.place} {first})")
         return "\n".join(rows)
 
@@ -61,12 +61,13 @@ class Tally(dict[str, Count]):
     """Counts, by reason or by kind."""
 
     def count(self, reason: str, line: int, times: int = 1) -> None:
+        """Count a reason once more, or several times."""
         before, first = self.get(reason, (0, line))
         self[reason] = Count(before + times, min(first, line))
 
 
 class Fixes:
-    """The positions of one file as they are found, and the reasons why others are not used."""
+    """The positions of one file in their order, and the reasons why others are not used."""
 
     def __init__(self, place: str = "line") -> None:
         self.table, self.segment = array("d"), 0  # in the next segment times may be earlier
@@ -74,7 +75,7 @@ class Fixes:
         self.skip, self.place = self.skipped.count, place
 
     def add(
-        self, lat: float, lon: float, time: float | None, line: int, said: Said = UNSAID
+        self, lat: float, lon: float, time: float | None, line: int, reported: Reported = UNREPORTED
     ) -> None:
         """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
         if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):
@@ -84,11 +85,11 @@ class Fixes:
         if time is None:
             self.noted.count("with an unreadable time", line)
         time = math.nan if time is None else time
-        self.table.extend((line, self.segment, lat, lon, time, *said))
+        self.table.extend((line, self.segment, lat, lon, time, *reported))
 
     def settle(self) -> tuple[np.ndarray, Report]:
-        """The rows lat, lon, time and Said of the positions in order of time, and the report."""
-        table = np.frombuffer(self.table).reshape(-1, 5 + len(Said._fields))
+        """The rows lat, lon, time and Reported of the positions by time, and the report."""
+        table = np.frombuffer(self.table).reshape(-1, 5 + len(Reported._fields))
         parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
         late = np.concatenate([_late(part[:, 4]) for part in parts])
         if late.any():
@@ -121,7 +122,7 @@ def timestamp(text: str) -> float | None:
 
 
 def _late(time: np.ndarray) -> np.ndarray:
-    """Which positions the longest run in order of time, counted in epochs, leaves over."""
+    """Which positions are outside the longest run in order of time, counted in epochs."""
     timed, left = np.flatnonzero(~np.isnan(time)), np.zeros(time.size, bool)
     if not (np.diff(time[timed]) < 0.0).any():
         return left
@@ -132,9 +133,9 @@ def _late(time: np.ndarray) -> np.ndarray:
         lengths[i] = bisect_left(ends, falling[i])
         ends[lengths[i] : lengths[i] + 1] = array("d", [falling[i]])
     # Of runs as long, the one that begins first and then goes on with the nearest times.
-    kept, left[timed] = lengths.index(len(ends) - 1), True
+    last, left[timed] = lengths.index(len(ends) - 1), True
     for i in np.lexsort((time[timed], np.negative(lengths))).tolist():
-        same = (falling[i], lengths[i]) == (falling[kept], lengths[kept])
-        if i >= kept and (same or falling[i] < falling[kept]):
-            left[timed[i]], kept = False, i
+        same = (falling[i], lengths[i]) == (falling[last], lengths[last])
+        if i >= last and (same or falling[i] < falling[last]):
+            left[timed[i]], last = False, i
     return left

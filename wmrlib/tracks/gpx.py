@@ -5,12 +5,12 @@ from collections import defaultdict
 from io import BufferedReader
 from xml.parsers import expat
 
-from wmrlib.tracks.fixes import Fixes, Said, Tally, number, reading, timestamp
+from wmrlib.tracks.fixes import Fixes, Reported, Tally, number, reading, timestamp
 
 # Where each kind of place belongs, and what it is called; the first that a file has is its track.
 _PARENT = {"trkpt": "trkseg", "rtept": "rte", "wpt": "gpx"}
 _WORDS = {"trkpt": "track point", "rtept": "route point", "wpt": "waypoint"}
-_SAID = {"sat": "satellites", "hdop": "hdop", "speed": "speed", "course": "course"}
+_REPORTED = {"sat": "satellites", "hdop": "hdop", "speed": "speed", "course": "course"}
 _QUALITY = {"2d": 1.0, "3d": 1.0, "dgps": 2.0, "pps": 3.0}
 _BLOCK = 1 << 18  # bytes
 
@@ -19,7 +19,7 @@ def read(file: BufferedReader) -> Fixes:
     """The track points of all segments; without any the route points, or else the waypoints."""
     wide = file.peek().startswith((b"\xff\xfe", b"\xfe\xff"))
     parser = expat.ParserCreate("utf-16" if wide else None)
-    places, met = {kind: Fixes() for kind in _PARENT}, Tally()
+    places, counts = {kind: Fixes() for kind in _PARENT}, Tally()
     path, place, texts = list[str](), list[float](), defaultdict[str, list[str]](list)
 
     def refuse(*_: object) -> None:
@@ -30,14 +30,14 @@ def read(file: BufferedReader) -> Fixes:
         if not path and name != "gpx":
             raise ValueError(f"it is a {name.upper()} file, not a GPX file; export it as GPX")
         if name in _PARENT:
-            met.count(name, line)
+            counts.count(name, line)
             if path[-1] == _PARENT[name]:
                 place[:] = [*(number(attributes.get(key, "")) for key in ("lat", "lon")), line]
             else:
                 places[name].skip(f"{_WORDS[name]} outside <{_PARENT[name]}>", line)
                 name = ""
         elif (name == "time" and path[-1] in _PARENT) or (
-            (name in _SAID or name == "fix") and not _PARENT.keys().isdisjoint(path)
+            (name in _REPORTED or name == "fix") and not _PARENT.keys().isdisjoint(path)
         ):
             parser.CharacterDataHandler = texts[name].append
         elif name == "trkseg":
@@ -51,12 +51,12 @@ def read(file: BufferedReader) -> Fixes:
             words = {key: "".join(parts).strip() for key, parts in texts.items()}
             texts.clear()
             time = words.get("time") if name == "trkpt" else None
-            said = {field: reading(words.get(key, "")) for key, field in _SAID.items()}
-            said["course"] *= math.radians(1.0)
-            said["quality"] = _QUALITY.get(words.get("fix", ""), math.nan)
+            reported = {field: reading(words.get(key, "")) for key, field in _REPORTED.items()}
+            reported["course"] *= math.radians(1.0)
+            reported["quality"] = _QUALITY.get(words.get("fix", ""), math.nan)
             lat, lon, line = place
             seconds = timestamp(time) if time else math.nan
-            places[name].add(lat, lon, seconds, int(line), Said(**said))
+            places[name].add(lat, lon, seconds, int(line), Reported(**reported))
 
     parser.StartDoctypeDeclHandler = refuse
     parser.StartElementHandler, parser.EndElementHandler = start, end
@@ -71,8 +71,8 @@ def read(file: BufferedReader) -> Fixes:
         raise ValueError(f"its XML is broken: {error}") from None
     finally:
         parser.StartElementHandler = parser.EndElementHandler = None  # which refer to the places
-    kind, *others = [kind for kind in _PARENT if kind in met] or ["trkpt"]
+    kind, *others = [kind for kind in _PARENT if kind in counts] or ["trkpt"]
     for other in others:
-        times, line = met[other]
+        times, line = counts[other]
         places[kind].skip(f"{_WORDS[other]} beside the {_WORDS[kind]}s", line, times)
     return places[kind]

@@ -8,7 +8,7 @@ from itertools import groupby
 from operator import xor
 from typing import TextIO
 
-from wmrlib.tracks.fixes import KNOT, LONGEST, UNSAID, Fixes, Said, reading, timestamp
+from wmrlib.tracks.fixes import KNOT, LONGEST, UNREPORTED, Fixes, Reported, reading, timestamp
 
 # A body, with anything before and after it, and the checksum that is stated.
 _SENTENCE = re.compile(r"\$([A-Za-z]{2}[^$*\r\n]{3}[^$*\r\n]*)(\*[0-9A-Fa-f]{0,2})?")
@@ -38,10 +38,10 @@ def read(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Fixes | None:
                 zero = zero or dated - day
                 day = dated - zero
             last = second + day
-            # Of what several sentences say, the most trusted counts.
-            heard = zip(*(sentence[7] for sentence in sentences if not sentence[1]), strict=True)
-            said = (next((x for x in values if x == x), math.nan) for values in heard)
-            fixes.add(lat, lon, last, line, Said(*said))
+            # Where several sentences report a value, the most trusted one counts.
+            reports = zip(*(sentence[7] for sentence in sentences if not sentence[1]), strict=True)
+            reported = (next((x for x in values if x == x), math.nan) for values in reports)
+            fixes.add(lat, lon, last, line, Reported(*reported))
         doubt = "sentence of an epoch that a more trusted one says has no fix"
         for _, denies, _, line, *_ in sentences if denied else sentences[1:]:
             others = doubt if denied else "same epoch again"
@@ -72,7 +72,7 @@ def _sentences(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Iterator[tuple
 
 
 def _parsed(body: str, stated: str, line: int) -> tuple:
-    """Rank, whether it denies a fix, second, line, lat, lon, date, Said; or ValueError."""
+    """Rank, whether it denies a fix, second, line, lat, lon, date, Reported; or ValueError."""
     checksum = f"*{reduce(xor, body.encode('utf-8', 'surrogateescape')):02X}"
     fields = [*body.split(","), *[""] * 13]
     if stated != checksum:
@@ -89,21 +89,21 @@ def _parsed(body: str, stated: str, line: int) -> tuple:
     if not clock:
         raise ValueError("fix without a readable time" if fixed else "sentence without a fix")
     if not fixed:
-        return rank, True, second, line, 0.0, 0.0, 0.0, UNSAID
+        return rank, True, second, line, 0.0, 0.0, 0.0, UNREPORTED
     if not place:
         raise ValueError("unreadable position")
     lat, lon = (int(place[i]) + float(place[i + 1]) / 60.0 for i in (1, 4))
     lat, lon = -lat if place[3] == "S" else lat, -lon if place[6] == "W" else lon
     day = timestamp(f"20{fields[9][4:]}-{fields[9][2:4]}-{fields[9][:2]}") if rank == 2 else 0.0
-    return rank, False, second, line, lat, lon, day or 0.0, _said(rank, modes, fields)
+    return rank, False, second, line, lat, lon, day or 0.0, _reported(rank, modes, fields)
 
 
-def _said(rank: int, modes: str, fields: list[str]) -> Said:
+def _reported(rank: int, modes: str, fields: list[str]) -> Reported:
     best = (quality for mode, quality in _QUALITY.items() if mode in modes)
-    said = Said(next(best, math.nan) if rank else reading(modes.replace("9", "2")))
+    reported = Reported(next(best, math.nan) if rank else reading(modes.replace("9", "2")))
     if rank == 2:
         speed, course = reading(fields[7], KNOT), reading(fields[8], math.radians(1.0))
-        return said._replace(speed=speed, course=course)
+        return reported._replace(speed=speed, course=course)
     if rank > 2:
-        return said
-    return said._replace(satellites=reading(fields[7]), hdop=reading(fields[8]))
+        return reported
+    return reported._replace(satellites=reading(fields[7]), hdop=reading(fields[8]))

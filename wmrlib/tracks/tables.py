@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import partial
 from typing import TextIO
 
-from wmrlib.tracks.fixes import KNOT, LONGEST, Fixes, Said, number, reading, timestamp
+from wmrlib.tracks.fixes import KNOT, LONGEST, Fixes, Reported, number, reading, timestamp
 
 _LAT, _LON = "(gps )?lat(itude)?", "(gps )?(lng|long?|longitude)"
 _SIDE = "(dir|direction|ref|reference|hemi|hemisphere|indicator)"
@@ -51,7 +51,7 @@ def read(text: TextIO) -> Fixes:
             line = header + rows.line_num
             try:
                 if "".join(row).strip():
-                    fixes.add(*_position(columns, row), line, _said(columns, row))
+                    fixes.add(*_position(columns, row), line, _reported(columns, row))
             except ValueError as error:
                 fixes.skip(str(error), line)
     except csv.Error as error:
@@ -73,18 +73,18 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
     """The number of the line that names the columns, its delimiter, and the columns."""
     titles: list[str] = []
     for row, line in enumerate(lines, 1):
-        shown, comment = repr(line.strip()[:80]), line.startswith("#")
+        excerpt, comment = repr(line.strip()[:80]), line.startswith("#")
         for delimiter in "" if comment or len(line) == LONGEST else ",;\t|":
             columns = [_column(cell) for cell in next(csv.reader([line], delimiter=delimiter))]
             roles = [role for role, _ in columns]
             if {"lat", "lon"} <= {*roles}:
                 if "minutes" in roles or any(roles.count(role) > 1 for role in [*_ROLES][:6]):
                     wrong = "has a column twice, or minutes of a degree, which is not read"
-                    raise ValueError(f"its header {shown} {wrong}")
+                    raise ValueError(f"its header {excerpt} {wrong}")
                 return row, delimiter, columns
         if line.strip():
             fixes.skip("comment" if comment else "line above the names of the columns", row)
-            titles += [] if comment else [shown]
+            titles += [] if comment else [excerpt]
         if len(titles) > 9 or len(line) == LONGEST:
             break
     raise LookupError(f"as a table its first line {''.join(titles[:1])} does not name lat and lon")
@@ -92,8 +92,8 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
 
 def _column(name: str) -> tuple[str, float]:
     words = re.sub("(?<=[a-z])(?=[A-Z])|(?=[eE]7$)|[^A-Za-z0-9]+", " ", name).casefold().split()
-    for role, known in _ROLES.items():
-        if re.fullmatch(known, " ".join(words)):
+    for role, pattern in _ROLES.items():
+        if re.fullmatch(pattern, " ".join(words)):
             return role, _PER.get(words[-1], float(role != "time"))
     return "", 0.0
 
@@ -124,17 +124,17 @@ def _position(columns: _Columns, row: list[str]) -> tuple[float, float, float | 
     return lat, lon, seconds / per["time"] if per["time"] * 1e11 > abs(seconds) else None
 
 
-def _said(columns: _Columns, row: list[str]) -> Said:
+def _reported(columns: _Columns, row: list[str]) -> Reported:
     per = dict(columns)
     cells = {role: cell.strip() for (role, _), cell in zip(columns, row, strict=False)}
-    wanted = per.keys() & {*Said._fields} - {"quality"}
-    said = {role: reading(cells[role].replace(",", "."), 1.0 / per[role]) for role in wanted}
+    roles = per.keys() & {*Reported._fields} - {"quality"}
+    reported = {role: reading(cells[role].replace(",", "."), 1.0 / per[role]) for role in roles}
     text = cells.get("quality", cells.get("fix", "")).casefold()
     number = reading(text.replace("9", "2")) if "quality" in per else math.nan
     words = re.findall("[a-z]+", text)
-    said["quality"] = next((_QUALITY[it] for it in _QUALITY if it in words), number)
-    said["course"] = said.get("course", math.nan) * math.radians(1.0)
-    return Said(**said)
+    reported["quality"] = next((_QUALITY[word] for word in _QUALITY if word in words), number)
+    reported["course"] = reported.get("course", math.nan) * math.radians(1.0)
+    return Reported(**reported)
 
 
 def _degrees(cell: str, sides: str, side: str | None) -> float:

@@ -12,7 +12,7 @@ import numpy as np
 
 from wmrlib.checks import book_extra
 from wmrlib.tracks import nmea
-from wmrlib.tracks.fixes import Fixes, Said, timestamp
+from wmrlib.tracks.fixes import Fixes, Reported, timestamp
 
 # Where a message or a sentence may begin, and the messages that are read, by class and id, with
 # the lengths that they may have: out of any other pyubx2 reads numbers all the same.
@@ -93,7 +93,7 @@ def _sentences(data: mmap, fixes: Fixes) -> Iterator[tuple[int, str]]:
 
 
 def _messages(data: mmap, fixes: Fixes) -> Iterator[tuple[int, bytes, Any]]:
-    """First byte, class and id, and what pyubx2 reads of the messages that are used."""
+    """First byte, class and id, and the parsed message, of each message that is used."""
     with book_extra("UBX"):
         from pyubx2 import UBXReader
     for byte, kind, part in _parts(data, fixes):
@@ -105,27 +105,27 @@ def _messages(data: mmap, fixes: Fixes) -> Iterator[tuple[int, bytes, Any]]:
 
 
 def _of_one(messages: Iterator[tuple[int, bytes, Any]], fixes: Fixes) -> _Epoch:
-    """The first NAV-PVT of an epoch with what is surely of its receiver; others are counted."""
-    found: dict[bytes, list[tuple[int, Any]]] = {}
+    """The first NAV-PVT of an epoch and the messages that belong to it; others are counted."""
+    by_kind: dict[bytes, list[tuple[int, Any]]] = {}
     for byte, kind, message in messages:
-        same = found.setdefault(kind, [])
+        same = by_kind.setdefault(kind, [])
         if any(message.payload == before.payload for _, before in same):
             fixes.skip("message again", byte)
         else:
             same.append((byte, message))
-    byte, pvt = found.get(_PVT, [(0, None)])[0]
-    several = len(found.get(_PVT, ())) > 1
+    byte, pvt = by_kind.get(_PVT, [(0, None)])[0]
+    several = len(by_kind.get(_PVT, ())) > 1
     if several:
         fixes.noted.count("of an epoch with two receivers, the first's", byte)
     epoch: _Epoch = {}
-    for kind, rows in found.items():
+    for kind, rows in by_kind.items():
         for byte, message in rows:
             if kind == _PLACE and pvt:
                 apart = max(abs(message.lat - pvt.lat), abs(message.lon - pvt.lon))
-                its = message.invalidLlh or apart < _ROUNDED
+                belongs = message.invalidLlh or apart < _ROUNDED
             else:
-                its = message is pvt or not (several or rows[1:])
-            if its and kind not in epoch:
+                belongs = message is pvt or not (several or rows[1:])
+            if belongs and kind not in epoch:
                 epoch[kind] = byte, message
             else:
                 fixes.skip("message of another receiver", byte)
@@ -148,7 +148,7 @@ def _use(epoch: _Epoch, fixes: Fixes) -> None:
         clock = f"{pvt.hour:02d}:{pvt.min:02d}:{pvt.second:02d}"
         time = timestamp(f"{pvt.year:04d}-{pvt.month:02d}-{pvt.day:02d}T{clock}")
     aims = baseline is not None and baseline.relPosValid and baseline.relPosHeadingValid
-    said = Said(
+    reported = Reported(
         quality={2: 4.0, 1: 5.0}.get(pvt.carrSoln, 2.0 if pvt.diffSoln else 1.0),
         satellites=pvt.numSV,
         hdop=math.nan if dop is None else dop.hDOP,
@@ -157,4 +157,4 @@ def _use(epoch: _Epoch, fixes: Fixes) -> None:
         heading=math.radians(baseline.relPosHeading % 360.0) if aims else math.nan,
         accuracy=1e-3 * best.hAcc,
     )
-    fixes.add(best.lat, best.lon, time and time + 1e-9 * pvt.nano, byte, said)
+    fixes.add(best.lat, best.lon, time and time + 1e-9 * pvt.nano, byte, reported)

@@ -12,12 +12,13 @@ from pathlib import Path
 import numpy as np
 
 import wmrlib as wmr
+from wmrlib.tracks import Track
 from wmrrobot.sheets import Robot, sheet
 
 TEMPLATES = Path(__file__).with_name("templates")
 
 
-def along(robot: Robot, track: wmr.Track) -> Robot:
+def along(robot: Robot, track: Track) -> Robot:
     """The robot, from the first to the last fix of a drive, or of a walk with its receiver."""
     (start_lat, goal_lat), (start_lon, goal_lon) = (
         map(float, degrees[[0, -1]]) for degrees in (track.points.lat, track.points.lon)
@@ -27,7 +28,7 @@ def along(robot: Robot, track: wmr.Track) -> Robot:
     )
 
 
-def at_rest(robot: Robot, track: wmr.Track) -> Robot:
+def at_rest(robot: Robot, track: Track) -> Robot:
     """The robot with the scatter of a log at rest as its receiver's sigma.
 
     It is too small unless the log is much longer than the memory: what errs by the same amount all
