@@ -1,6 +1,7 @@
 /* A sweep in which each run steers by what a receiver shows, as one writes it in C: run after run, the corrected law, (22), along arcs.
    A fix has the error of a Gauss-Markov process and is shown late and for a period; the heading is late too. The random numbers are
-   wmrlib's: Philox 4x32-10 and the rule of Box and Muller. What each run amounts to is its time, its distance and its largest |omega|. */
+   wmrlib's: Philox 4x32-10 and the rule of Box and Muller. As in wmrlib, each sample is recorded: the true pose and polar error, and the
+   twist. What a run amounts to is its time, its distance, its heading error, its largest |omega| and its length. */
 #include <math.h>
 #include <stdint.h>
 
@@ -18,18 +19,22 @@ static void normals(uint32_t run, uint32_t sample, uint32_t purpose, const uint3
     *east = length * cos(2 * M_PI * turn), *north = length * sin(2 * M_PI * turn);
 }
 
-/* Times are whole samples; `fading` is one over the memory. `path` has room for x, y and heading in each sample of a run. */
+/* Times are whole samples; `fading` is one over the memory. `record` has room for eight numbers in each sample of a run. */
 void read_by_a_receiver(const double *x0, const double *y0, const double *heading0, const double *goal_x, const double *goal_y,
                         const double *goal_heading, const double *k_rho, const double *k_alpha, const double *h, const double *v_max,
-                        double *time, double *distance, double *peak, double *path, long runs, long samples, double dt, double radius,
+                        double *time, double *off, double *peak, double *length, double *distance, double *record, long runs, long samples, double dt, double radius,
                         double sigma, double fading, long period, long delay, long heading_delay, const uint32_t *key) {
-    double *xs = path, *ys = path + samples, *headings = path + 2 * samples;
+    double *xs = record, *ys = xs + samples, *headings = ys + samples, *rhos = headings + samples, *alphas = rhos + samples;
+    double *thetas = alphas + samples, *vs = thetas + samples, *omegas = vs + samples;
     for (long i = 0; i < runs; i++) {
         double x = x0[i], y = y0[i], heading = wrap(heading0[i]), error_east = 0, error_north = 0, seen_x = 0, seen_y = 0;
         long shown = -1;
-        time[i] = INFINITY, peak[i] = 0;
+        time[i] = INFINITY, peak[i] = length[i] = 0;
+        double rolled = 0;
         for (long k = 0; k < samples; k++) {
-            xs[k] = x, ys[k] = y, headings[k] = heading;
+            double true_sight = atan2(goal_y[i] - y, goal_x[i] - x);
+            xs[k] = x, ys[k] = y, headings[k] = heading, rhos[k] = hypot(goal_x[i] - x, goal_y[i] - y);
+            alphas[k] = wrap(true_sight - heading), thetas[k] = wrap(true_sight - goal_heading[i]);
             long fix = k / period * period - delay;
             fix = fix > 0 ? fix : 0;
             if (fix > shown) {
@@ -44,7 +49,8 @@ void read_by_a_receiver(const double *x0, const double *y0, const double *headin
             double shape = fabs(alpha) > 1e-8 ? sin(alpha) / alpha : 1, v = v_over_rho * rho;
             double omega = k_alpha[i] * alpha + v_over_rho * shape * (alpha + h[i] * theta);
             peak[i] = fabs(omega) > peak[i] ? fabs(omega) : peak[i];
-            distance[i] = hypot(goal_x[i] - x, goal_y[i] - y);
+            vs[k] = v, omegas[k] = omega, length[i] += rolled, rolled = dt * fabs(v);
+            distance[i] = rhos[k], off[i] = wrap(thetas[k] - alphas[k]);
             if (rho <= radius) {
                 time[i] = k * dt;
                 break;

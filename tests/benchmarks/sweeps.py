@@ -128,7 +128,7 @@ RECEIVER, SEED = wmr.Receiver(0.05, 10.0, 0.2, 0.1, 0.1), 9  # 10 Hz, read at 10
 
 
 def receiver_in_c(folder: Path, starts: wmr.Pose, gains: wmr.Gains, how: dict):
-    """The same runs in C: its function, and where it writes time, distance and largest |omega|."""
+    """The same runs in C: its function, and where it writes what the runs amount to."""
     library, source = folder / "receiver.so", Path(__file__).with_name("receiver.c")
     command = ["gcc", "-O3", "-march=native", "-shared", "-fPIC", source, "-o", library, "-lm"]
     subprocess.run(command, check=True)
@@ -138,13 +138,14 @@ def receiver_in_c(folder: Path, starts: wmr.Pose, gains: wmr.Gains, how: dict):
         np.ctypeslib.ndpointer(np.uint32),
     )
     samples, key = round(how["duration"] / how["dt"]) + 1, np.array([SEED, 0], dtype=np.uint32)
-    function.argtypes = [pointer] * 14 + [ctypes.c_long] * 2 + [ctypes.c_double] * 4
+    function.argtypes = [pointer] * 16 + [ctypes.c_long] * 2 + [ctypes.c_double] * 4
     function.argtypes += [ctypes.c_long] * 3 + [words]
     rows = [np.array(np.broadcast_to(row, ENSEMBLE)) for row in (*starts, *GOAL_HERE, *gains)]
-    found, path = [np.empty(ENSEMBLE) for _ in range(3)], np.empty(3 * samples)
+    metrics, record = [np.empty(ENSEMBLE) for _ in range(5)], np.empty(8 * samples)
     late = [round(seconds / how["dt"]) for seconds in RECEIVER[2:5]]
     numbers = how["dt"], how["arrival_radius"], RECEIVER.sigma, how["dt"] / RECEIVER.memory
-    return lambda: function(*rows, *found, path, ENSEMBLE, samples, *numbers, *late, key), found
+    arguments = *rows, *metrics, record, ENSEMBLE, samples, *numbers, *late, key
+    return lambda: function(*arguments), metrics
 
 
 def by_a_receiver(folder: Path) -> list[Row]:
@@ -158,10 +159,10 @@ def by_a_receiver(folder: Path) -> list[Row]:
         if not shutil.which("gcc"):
             print("gcc was not found: no limit to compare with")
         else:
-            cases["C (-O3 -march=native)"], found = receiver_in_c(folder, starts, gains, how)
+            cases["C (-O3 -march=native)"], metrics = receiver_in_c(folder, starts, gains, how)
             cases["C (-O3 -march=native)"]()
             mine = cases[ours]()
-            for row, theirs in zip((mine.time, mine.distance, mine.peak_omega), found, strict=True):
+            for row, theirs in zip(mine[1:], metrics, strict=True):
                 np.testing.assert_allclose(row, theirs, rtol=1e-6, atol=1e-6)
         seconds = in_turn(cases)
     section, limit = (
