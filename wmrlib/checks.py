@@ -75,13 +75,16 @@ def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=Fals
     and value > above, or NaN if `nan`. Where numpy would drop a part of the value (a unit, a mask,
     the difference between True and 1), the error names the type and the unit that is needed.
     """
-    if type(value) is float and math.isfinite(value) and low <= value <= high and value > above:
-        return value  # the common case, kept quick: a simulation checks a dozen numbers
+    one = type(value) is float or type(value) is np.float64
+    if one and math.isfinite(value) and low <= value <= high and value > above:
+        return float(value)  # the common case, kept quick: a simulation checks a dozen numbers
     bounds = (("above", above), ("at least", low), ("at most", high))
     allowed = " and ".join(f"{words} {bound:g}" for words, bound in bounds if math.isfinite(bound))
     needed = f"a finite number {allowed}".strip() + " or NaN" * nan
     array = floats(name, value, needed)
-    fits = np.isfinite(array) & (array >= low) & (array <= high) & (array > above)
+    fits = np.isfinite(array)
+    if allowed:
+        fits &= (array >= low) & (array <= high) & (array > above)
     if (fits | np.isnan(array) if nan else fits).all():
         return array if array.ndim else float(array)
     raise refusal(name, value, needed)
