@@ -39,8 +39,15 @@ def slope(turning: sp.Expr) -> sp.Expr:
 
 
 def near_goal(rate: sp.Expr) -> sp.Expr:
-    """The limit of V' as rho -> 0, where the distance's part and with it L are gone."""
-    distance = sp.Symbol("d", positive=True)
+    """The limit of V' as rho -> 0, where the distance's part and with it L are gone.
+
+    In exp(-k_rho rho) = 1 - k_rho rho u, u tends to 1. A V' that is a polynomial in rho and u has
+    its value there as its limit, which sympy finds sooner than the limit of an exponential.
+    """
+    u, distance = sp.Symbol("u"), sp.Symbol("d", positive=True)
+    polynomial = sp.expand(rate.subs(sp.exp(-k_rho * rho), 1 - k_rho * rho * u))
+    if polynomial.is_polynomial(rho, u):
+        return sp.factor(polynomial.subs({rho: 0, u: 1}))
     return sp.factor(sp.limit(rate.subs(rho, distance), distance, 0))
 
 
