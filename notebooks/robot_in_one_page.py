@@ -66,12 +66,9 @@ def control_law(rho, alpha, theta, gains):
 def arc_step(pose, v, omega, dt):
     """The pose after dt seconds of constant v and omega: the end of an arc."""
     x, y, heading = pose
-    half_turn = omega * dt / 2
-    chord = v * dt * sinc(half_turn)  # from one end of the arc to the other
-    x, y = (
-        x + chord * math.cos(heading + half_turn),
-        y + chord * math.sin(heading + half_turn),
-    )
+    chord = v * dt * sinc(omega * dt / 2)  # from one end of the arc to the other
+    halfway = heading + omega * dt / 2  # the direction of the chord
+    x, y = x + chord * math.cos(halfway), y + chord * math.sin(halfway)
     return x, y, wrap(heading + omega * dt)
 
 
@@ -79,9 +76,9 @@ def drive(start, goal, gains, dt=0.1, duration=60.0, arrival_radius=0.05):
     """The poses of the robot, one every dt seconds, until it arrives or the time is up."""
     # A real controller too looks only so often, and holds its command until the next look.
     poses = [start]
-    while len(poses) <= round(duration / dt):
+    for _ in range(int(duration / dt + 1e-9)):  # 0.3/0.1 is a little less than 3
         rho, alpha, theta = polar_error(poses[-1], goal)
-        if rho <= arrival_radius:  # rho never becomes 0, by which the law divides
+        if rho <= arrival_radius:  # so the law never divides by a rho of 0
             break
         v, omega = control_law(rho, alpha, theta, gains)
         poses.append(arc_step(poses[-1], v, omega, dt))

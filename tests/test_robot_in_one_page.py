@@ -29,8 +29,9 @@ def test_each_pose_is_that_of_simulate(gains, away):
 
 
 def test_it_stops_when_the_time_is_up():
-    run = wmr.simulate(START, GOAL, SETTLING, dt=0.3, duration=10.0)
-    assert len(page["drive"](START, GOAL, SETTLING, 0.3, 10.0)) == len(run)
+    for dt, duration in ((0.1, 0.3), (0.3, 10.0), (0.35, 10.0)):
+        run = wmr.simulate(START, GOAL, SETTLING, dt=dt, duration=duration)
+        assert len(page["drive"](START, GOAL, SETTLING, dt, duration)) == len(run)
 
 
 close = st.tuples(st.floats(-80.0, 80.0), st.floats(-179.0, 179.0))

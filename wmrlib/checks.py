@@ -67,6 +67,10 @@ class _NotNumbersError(Exception):
     """Says what a value is, or holds, instead of numbers."""
 
 
+# The last two are of 10**400 and of a list that holds itself.
+_UNREADABLE = (_NotNumbersError, ValueError, OverflowError, RecursionError)
+
+
 def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=False) -> Real:
     """Return `value` as a float or, if it has dimensions, as a float array.
 
@@ -78,16 +82,20 @@ def real(name, value, *, low=-math.inf, high=math.inf, above=-math.inf, nan=Fals
     one = type(value) is float or type(value) is np.float64
     if one and math.isfinite(value) and low <= value <= high and value > above:
         return float(value)  # the common case, kept quick: a simulation checks a dozen numbers
-    bounds = (("above", above), ("at least", low), ("at most", high))
-    allowed = " and ".join(f"{words} {bound:g}" for words, bound in bounds if math.isfinite(bound))
-    needed = f"a finite number {allowed}".strip() + " or NaN" * nan
-    array = floats(name, value, needed)
-    fits = np.isfinite(array)
-    if allowed:
-        fits &= (array >= low) & (array <= high) & (array > above)
-    if (fits | np.isnan(array) if nan else fits).all():
-        return array if array.ndim else float(array)
-    raise refusal(name, value, needed)
+    named = (("above", above), ("at least", low), ("at most", high))
+    bounds = [(words, bound) for words, bound in named if math.isfinite(bound)]
+    try:
+        array = _floats(value)
+        fits = np.isfinite(array)
+        if bounds:
+            fits &= (array >= low) & (array <= high) & (array > above)
+        if (fits | np.isnan(array) if nan else fits).all():
+            return array if array.ndim else float(array)
+        remark = ""
+    except _UNREADABLE as error:
+        remark = _remark(name, error)
+    allowed = " and ".join(f"{words} {bound:g}" for words, bound in bounds)
+    raise refusal(name, value, f"a finite number {allowed}".strip() + " or NaN" * nan, remark)
 
 
 def floats(name: str, value: Any, needed: str) -> np.ndarray:
@@ -97,13 +105,18 @@ def floats(name: str, value: Any, needed: str) -> np.ndarray:
     """
     try:
         return _floats(value)
-    except _NotNumbersError as error:
-        remark = f", not {error}: {_advice(name)}"
-    except ValueError:
-        remark = ", not rows of different lengths"
-    except (OverflowError, RecursionError):  # 10**400, a list that holds itself
-        remark = ""
+    except _UNREADABLE as error:
+        remark = _remark(name, error)
     raise refusal(name, value, needed, remark)
+
+
+def _remark(name: str, error: Exception) -> str:
+    """What a value is instead of numbers, and the advice, for the end of a refusal."""
+    if isinstance(error, _NotNumbersError):
+        unit = UNITS.get(name.rpartition(".")[2])
+        advice = f"the number in {unit}" if unit else "a plain number, in the documented unit"
+        return f", not {error}: give {advice}"
+    return ", not rows of different lengths" if isinstance(error, ValueError) else ""
 
 
 def _floats(value: Any) -> np.ndarray:
@@ -114,6 +127,8 @@ def _floats(value: Any) -> np.ndarray:
     """
     if type(value) in _PLAIN:
         return np.array(float(value))
+    if type(value) is np.ndarray and value.dtype.kind in "iuf":
+        return value.astype(np.float64)
     if isinstance(value, list | tuple):
         if {*map(type, value)} <= _PLAIN:  # quick for a million numbers
             return np.array(value, dtype=np.float64)
@@ -175,11 +190,6 @@ def kind_of(value: Any) -> str:
     house, name = type(value).__module__.partition(".")[0], type(value).__name__
     name = name if house in ("builtins", "__main__") else f"{house}.{name}"
     return f"a{'n' * (name[0] in 'AEIOUaeiox')} {name}"  # an x is spoken as "ex"
-
-
-def _advice(name: str) -> str:
-    unit = UNITS.get(name.rpartition(".")[2])
-    return f"give the number in {unit}" if unit else "give a plain number, in the documented unit"
 
 
 def scalar(name: str, value: Any, *, endless: bool = False, **bounds: float) -> float:
