@@ -64,10 +64,10 @@ FAULTS = {  # and the state and reason that must come of it
 
 
 class Ended(NamedTuple):
-    """What a drive came to: its end by the sketch's report, and by the truth m, rad, s.
+    """The result of a drive: its end by the sketch's report, and its true errors in m, rad, s.
 
-    `rolled` is what a wheel rolled from the fault on, `resets` counts the watchdog's; `longest` [s]
-    is the longest period's work, `untouched` the bytes of RAM that were never used.
+    `rolled` is the distance that a wheel rolled from the fault on, `resets` counts the watchdog's;
+    `longest` [s] is the longest period's work, `untouched` the bytes of RAM that were never used.
     """
 
     end: str
@@ -82,7 +82,7 @@ class Ended(NamedTuple):
 
 
 class Lawn:
-    """The truth, and what receiver and compass say of it."""
+    """The true motion, and the readings of receiver and compass."""
 
     def __init__(self, robot: Robot, start: wmr.Pose, seed: int) -> None:
         self.robot, self.pose, self.rng = robot, tuple(start), np.random.default_rng(seed)
@@ -93,11 +93,11 @@ class Lawn:
         self.error = self.rng.normal(0.0, robot.sigma, 2)
 
     def roll(self, duties: tuple[float, float]) -> tuple[float, float]:
-        """A step of motors and wheels; what their encoders see of it [m]."""
+        """A step of motors and wheels; returns the distances that their encoders count [m]."""
         rolled = []
         for side, duty in enumerate(duties):
-            told = FULL_SPEED * duty if abs(duty) >= DEAD else 0.0
-            mean, self.speeds[side] = follow(self.speeds[side], told, 1.0 / AGILE, LAG, STEP)
+            commanded = FULL_SPEED * duty if abs(duty) >= DEAD else 0.0
+            mean, self.speeds[side] = follow(self.speeds[side], commanded, 1.0 / AGILE, LAG, STEP)
             rolled.append(mean * STEP)
         v, omega = wmr.wheels_to_twist(*rolled, self.robot.track_width)
         self.pose = arc_step(*self.pose, v * self.scale, omega * self.scale, 1.0)
@@ -129,12 +129,12 @@ def drive(
     changes: tuple[tuple[str, str], ...] = SETTINGS,
 ) -> Ended:
     """One drive, until it has parked or has stood for 6 s; by default it first faces the goal."""
-    told = sheet(robot)
-    start = start or wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x))
+    settings = sheet(robot)
+    start = start or wmr.Pose(0.0, 0.0, math.atan2(settings.y, settings.x))
     lawn, board = Lawn(robot, start, seed), Board(compiled(robot, changes))
     counted, text, rolled, stood, step = [0.0, 0.0], b"", 0.0, 0.0, 0
     state, reason, longest, every = "wait", "", 0.0, round(robot.fix_period / STEP)
-    while stood < (1.0 if state == "parked" else 6.0) and step * STEP < told.duration:
+    while stood < (1.0 if state == "parked" else 6.0) and step * STEP < settings.duration:
         now, step = step * STEP, step + 1
         wrong = fault if fault.begin <= now < fault.end else SOUND
         if step % every == 0 and not wrong.silent:
@@ -157,16 +157,16 @@ def drive(
         rolled += max(map(abs, moved)) * (now >= fault.begin)
         stood = 0.0 if max(map(abs, lawn.speeds)) > 1e-3 else stood + STEP
     end = state + (f": {reason}" if reason else "")
-    far = math.dist(lawn.pose[:2], (told.x, told.y))
-    off = float(wmr.wrap_angle(lawn.pose[2] - told.heading))
-    seen = rolled, board.resets, board.pins()[2], longest, board.untouched()
-    return Ended(end, far, off, step * STEP, *seen)
+    far = math.dist(lawn.pose[:2], (settings.x, settings.y))
+    off = float(wmr.wrap_angle(lawn.pose[2] - settings.heading))
+    measures = rolled, board.resets, board.pins()[2], longest, board.untouched()
+    return Ended(end, far, off, step * STEP, *measures)
 
 
 def starts(robot: Robot, runs: int) -> list[wmr.Pose]:
     """Poses within 3 m of the start that face the goal to within 90 degrees."""
-    rng, told = np.random.default_rng(2), sheet(robot)
-    face = math.atan2(told.y, told.x)
+    rng, settings = np.random.default_rng(2), sheet(robot)
+    face = math.atan2(settings.y, settings.x)
     return [
         wmr.Pose(*rng.uniform(-3.0, 3.0, 2), face + rng.uniform(-1.5, 1.5)) for _ in range(runs)
     ]

@@ -69,7 +69,7 @@ class CDrive(wr.Drive):
         super().__init__(*given, **named)
         law = "law" if self.law == "corrected" else f"law_{self.law}"
         self._step, kinds, plan = _library(real, law)
-        self._seen, self._kept = kinds[wr.Seen], kinds[trust.Memory]()
+        self._readings, self._memory = kinds[wr.Seen], kinds[trust.Memory]()
         self._out = (REALS[real] * 2)()
         rules = self.rules._asdict() | {"settle": int(self.rules.settle)}
         parts = self.goal, self.gains, self.wheels, self.end, rules.values()
@@ -78,17 +78,17 @@ class CDrive(wr.Drive):
     def reset(self) -> None:
         super().reset()
         if hasattr(self, "_kept"):
-            self._kept = type(self._kept)()
+            self._memory = type(self._memory)()
 
     @property
     def state(self) -> str:
-        return trust.STATES[self._kept.state]
+        return trust.STATES[self._memory.state]
 
     @property
     def reason(self) -> str:
-        return REASONS[self._kept.reason]
+        return REASONS[self._memory.reason]
 
     def step(self, seen: wr.Seen) -> tuple[float, float]:
-        given = self._kept, self._seen(*seen), self._plan
+        given = self._memory, self._readings(*seen), self._plan
         self._step(*map(ctypes.byref, given), self._out)
         return self._out[0], self._out[1]

@@ -71,7 +71,7 @@ CASES = (
     Case("x is NaN", {"not_a_number": "x"}, "wait: fix is no number", SILENCE),
     Case("heading is NaN", {"not_a_number": "heading"}, "wait: fix is no number", SILENCE),
     Case("1 s late, and says so", {"delay": 1.0}, "wait: fix too old", SILENCE),
-    Case("0.4 s late, unsaid", {"delay": 0.4, "told": False}, "parked", 0.4),
+    Case("0.4 s late, unsaid", {"delay": 0.4, "age_known": False}, "parked", 0.4),
     Case("one fix a second", {"period": 1.0}, "parked", 0.4, rules={"patience": 1.5}, begin=0.0),
     Case("one fix a second, patience 0.5 s", {"period": 1.0}, "wait: too few good fixes", 0.0, 0.0),
     Case("a jump of 30 m", {"jump": 30.0}, JUMPED, SILENCE),
@@ -137,7 +137,7 @@ SLIGHT = (
 
 
 class Ran(NamedTuple):
-    """What a run came to: its end, place and heading errors [m, rad], and all decisions."""
+    """The result of a run: its end, its errors [m, rad], and all decisions and readings."""
 
     end: str
     distance: float
@@ -145,15 +145,15 @@ class Ran(NamedTuple):
     blind: float  # m rolled from the fault on
     time: float
     decisions: tuple[tuple[str, str], ...]
-    seen: tuple[wr.Seen, ...]
+    readings: tuple[wr.Seen, ...]
 
 
 def run(case: Case, drive_kind: type = wr.Drive, seed: int = 1) -> Ran:
     """One drive, with the fault, until it has parked or has stood for 20 s."""
     rules = wr.Rules()._replace(**case.rules)
     drive = drive_kind(CASE.goal, GAINS, WHEELS, rules=rules)
-    world, decisions, seen = World(seed, case.fence), [], []
-    told, at_fault, stands = (0.0, 0.0), None, 0.0
+    world, decisions, readings = World(seed, case.fence), [], []
+    commands, at_fault, stands = (0.0, 0.0), None, 0.0
     longest = 20.0 + max(when for when in (0.0, case.begin, case.end) if when < math.inf)
     while world.now < LONGEST and stands < longest:
         wrong = case.begin <= world.now + 1e-9 < case.end
@@ -162,14 +162,14 @@ def run(case: Case, drive_kind: type = wr.Drive, seed: int = 1) -> Ran:
             at_fault, world.clock_error = world.rolled, faults.clock
         if faults.hangs:
             if world.now > case.begin + WATCHDOG:
-                told = (0.0, 0.0)
+                commands = (0.0, 0.0)
                 drive.reset()
         else:
-            seen.append(world.see(faults))
-            told = drive.step(seen[-1])
+            readings.append(world.see(faults))
+            commands = drive.step(readings[-1])
             decisions.append((drive.state, drive.reason))
         world.power = drive.state != "stopped"
-        world.roll(told, faults)
+        world.roll(commands, faults)
         stands = stands + PERIOD if max(map(abs, world.speeds)) < 1e-6 else 0.0
         if drive.state == "parked" and stands > 1.0:
             break
@@ -177,7 +177,7 @@ def run(case: Case, drive_kind: type = wr.Drive, seed: int = 1) -> Ran:
     gap = math.dist(world.pose[:2], CASE.goal[:2])
     heading = abs(wmr.wrap_angle(world.pose.heading - CASE.goal.heading))
     blind = world.rolled - (world.rolled if at_fault is None else at_fault)
-    return Ran(end, gap, heading, blind, world.now, tuple(decisions), tuple(seen))
+    return Ran(end, gap, heading, blind, world.now, tuple(decisions), tuple(readings))
 
 
 def holds(case: Case, ran: Ran) -> bool:

@@ -36,10 +36,16 @@ def ubx(fix: Position) -> bytes:
     clock = {"year": 2026, "month": 6, "day": 1, "hour": 12 + seconds // 3600}
     clock |= {"min": seconds // 60 % 60, "second": seconds % 60, "nano": 1_000_000 * ms}
     valid = dict.fromkeys(("validDate", "validTime", "fullyResolved", "gnssFixOk"), 1)
-    said = {"fixType": 3, "diffSoln": int(fix.rtk > 0), "carrSoln": fix.rtk, "numSV": 20, "pDOP": 1}
+    solution = {
+        "fixType": 3,
+        "diffSoln": int(fix.rtk > 0),
+        "carrSoln": fix.rtk,
+        "numSV": 20,
+        "pDOP": 1,
+    }
     place = {"lat": round(fix.lat, 7), "lon": round(fix.lon, 7), "hAcc": round(1000 * fix.error)}
     made: Any = pyubx2.UBXMessage(
-        "NAV", "NAV-PVT", pyubx2.GET, iTOW=itow, **clock, **valid, **said, **place
+        "NAV", "NAV-PVT", pyubx2.GET, iTOW=itow, **clock, **valid, **solution, **place
     )
     end: Any = pyubx2.UBXMessage("NAV", "NAV-EOE", pyubx2.GET, iTOW=itow)
     return made.serialize() + end.serialize()
@@ -114,13 +120,13 @@ class Gpsd:
 
     def pass_on(self, fix: Position) -> Position:
         """The fix as gpsd gives it; at first it needs some to know the format."""
-        wanted, tries = round(1000.0 * fix.time), 40
+        milliseconds, tries = round(1000.0 * fix.time), 40
         for _ in range(tries):
             os.write(self.end, self.write_fix(fix))
             with suppress(queue.Empty):
                 while True:
                     report = self.reports.get(timeout=0.25)
-                    if _milliseconds(report["time"]) == wanted:
+                    if _milliseconds(report["time"]) == milliseconds:
                         return fix._replace(lat=report["lat"], lon=report["lon"])
         raise TimeoutError(f"gpsd says nothing of the fix at {fix.time:.1f} s")
 

@@ -109,10 +109,10 @@ class Robot:
         self.refused = 0  # fixes in a row
 
     def fix(self) -> tuple[float, float]:
-        """East and north as the receiver says, after their way as bytes."""
-        kept = math.exp(-EVERY * PERIOD / self.kind.memory)
+        """The measured position in m east and north, after its way as bytes."""
+        share = math.exp(-EVERY * PERIOD / self.kind.memory)
         fresh = self.rng.normal(0.0, self.kind.sigma, 2)
-        self.error = kept * self.error + math.sqrt(1.0 - kept**2) * fresh
+        self.error = share * self.error + math.sqrt(1.0 - share**2) * fresh
         x, y = self.past[max(0, len(self.past) - 1 - round(self.kind.delay / PERIOD))] + self.error
         point = wmr.point_at(paper.GPS_POINT_1, float(x), float(y))
         time = round(self.now + 1.0, 2)
@@ -122,9 +122,9 @@ class Robot:
         east, north = wmr.local_position(paper.GPS_POINT_1, place)
         return float(east), float(north)
 
-    def roll(self, told: tuple[float, float]) -> tuple[float, float]:
-        """A period of the truth; what the encoders count of it [m]."""
-        twist = 0.5 * (told[0] + told[1]), (told[1] - told[0]) / WHEELS.track_width
+    def roll(self, commands: tuple[float, float]) -> tuple[float, float]:
+        """A period of the true motion; returns the distances that the encoders count [m]."""
+        twist = 0.5 * (commands[0] + commands[1]), (commands[1] - commands[0]) / WHEELS.track_width
         v, omega, self.body = roll(*twist, self.body, WHEELS, PERIOD)
         rolled = tuple(PERIOD * speed for speed in wheel_speeds(v, omega, WHEELS.track_width))
         self.turned = omega * self.scale * PERIOD
@@ -134,8 +134,8 @@ class Robot:
         self.steps += 1
         return rolled
 
-    def look(self, rolled: tuple[float, float]) -> wr.Seen:
-        """What the filter makes of a period."""
+    def observe(self, rolled: tuple[float, float]) -> wr.Seen:
+        """The readings of a period, with the filter's pose."""
         v = 0.5 * (rolled[0] + rolled[1]) / PERIOD
         omega = (rolled[1] - rolled[0]) / WHEELS.track_width / PERIOD
         gyro = self.turned / PERIOD + self.bias + self.rng.normal(0.0, GYRO)
@@ -173,9 +173,9 @@ def run(
         drive = CDrive(goal, design.gains, WHEELS, turn, rules, design.law)
         rolled, latest = (0.0, 0.0), robot.now + LONGEST
         while drive.state not in ("parked", "stopped") and robot.now < latest:
-            rolled = robot.roll(drive.step(robot.look(rolled)))
+            rolled = robot.roll(drive.step(robot.observe(rolled)))
         while not at_rest(robot.body):
-            robot.look(robot.roll((0.0, 0.0)))
+            robot.observe(robot.roll((0.0, 0.0)))
         if drive.state != "parked":
             break
     far = math.dist(robot.pose[:2], goals[-1][:2])
@@ -190,15 +190,15 @@ def _runs(work: tuple) -> list[Ended]:
 
 def summary(ended: list[Ended]) -> dict:
     """Share parked; rms and 95 % of those that did, and their median time."""
-    parked = [each for each in ended if each.parked]
+    parked = [drive for drive in ended if drive.parked]
     row = {"runs": len(ended), "parked": len(parked) / len(ended)}
     if parked:
-        far = np.array([each.distance for each in parked])
-        off = np.degrees(np.abs([each.heading for each in parked]))
+        far = np.array([drive.distance for drive in parked])
+        off = np.degrees(np.abs([drive.heading for drive in parked]))
         for name, values in (("place_m", far), ("heading_deg", off)):
             row |= {f"{name}_rms": float(np.sqrt(np.mean(values**2)))}
             row |= {f"{name}_95": float(np.quantile(values, 0.95))}
-        row["time_s"] = float(np.median([each.time for each in parked]))
+        row["time_s"] = float(np.median([drive.time for drive in parked]))
     return row
 
 

@@ -1,4 +1,4 @@
-"""A lawn with a robot on it whose parts can fail: the truth, and what the sensors say of it.
+"""A lawn with a robot on it whose parts can fail: the true motion, and the sensors' readings.
 
 Beside it `positions` drives a robot on which nothing fails.
 """
@@ -22,17 +22,17 @@ WATCHDOG = 0.2  # s: a program that hangs for so long is started again, its whee
 
 
 class Faults(NamedTuple):
-    """What can be wrong with a robot, all of it in order."""
+    """The faults that a robot can have; by default none."""
 
     silent: bool = False  # the receiver
     stuck_position: bool = False
     stuck_message: bool = False
     not_a_number: str = ""  # the field
     quality: int = 4
-    error: float = 0.02  # m, by the receiver's own word
+    error: float = 0.02  # m, as the receiver reports it
     period: float = 0.1  # s, of the fixes
     delay: float = 0.05  # s, of them
-    told: bool = True  # the fix's age is known
+    age_known: bool = True  # the fix's age is known
     jump: float = 0.0  # m, to the east
     drift: tuple[float, float] = (0.0, 0.0)  # m/s, to the east and to the north
     swapped: bool = False  # latitude and longitude
@@ -62,7 +62,7 @@ class World:
         self.now, self.rolled, self.power = 0.0, 0.0, True
         self.past: list[tuple[float, wmr.Pose]] = []
         self.clock_error, self.drifted = 0.0, np.zeros(2)
-        self.said: wmr.Pose | None = None  # by the receiver, last
+        self.reported: wmr.Pose | None = None  # by the receiver, last
         self.time = self.due = 0.0  # of the fixes
         self.encoders = [0.0, 0.0]
         # what the program keeps of it
@@ -73,11 +73,11 @@ class World:
         west, south, east, north = self.fence
         return west <= x <= east and south <= y <= north
 
-    def roll(self, told: tuple[float, float], faults: Faults) -> None:
+    def roll(self, commands: tuple[float, float], faults: Faults) -> None:
         """A period of the truth."""
-        told = told[::-1] if faults.cables_swapped else told
+        commands = commands[::-1] if faults.cables_swapped else commands
         rolled = []
-        for side, speed in enumerate(told):
+        for side, speed in enumerate(commands):
             goal = speed if self.power and abs(speed) >= faults.dead_band else 0.0
             goal *= faults.right_motor if side else 1.0
             if faults.left_runs_on and not side and self.power:
@@ -90,14 +90,16 @@ class World:
             pushed = faults.pushed if self.power else 0.0  # without power its brakes are on
             rolled.append((mean + pushed) * PERIOD)
         self.encoders = [rolled[0] * faults.left_encoder, rolled[1]]
-        v, omega = wmr.wheels_to_twist(*(faults.grip * each / PERIOD for each in rolled), 0.5)
+        v, omega = wmr.wheels_to_twist(
+            *(faults.grip * distance / PERIOD for distance in rolled), 0.5
+        )
         self.pose = wmr.advance(self.pose, v, omega, PERIOD)
         self.rolled += abs(v) * PERIOD
         self.now += PERIOD
         self.past.append((self.now, self.pose))
 
     def see(self, faults: Faults) -> wr.Seen:
-        """What the program reads in a period, by its own clock."""
+        """The readings of a period, by the program's own clock."""
         self.drifted += np.multiply(faults.drift, PERIOD)
         before, clock = self.clock, self.now + self.clock_error
         if not faults.clock_stands:
@@ -127,9 +129,9 @@ class World:
         heading += faults.compass + faults.compass_by_motors * load
         heading = 0.5 * math.pi - heading if faults.clockwise else heading
         if faults.stuck_position or faults.stuck_message:
-            x, y = (self.said or pose)[:2]
-        self.said = wmr.Pose(float(x), float(y), wmr.wrap_angle(heading))
-        fields = self.said._asdict()
+            x, y = (self.reported or pose)[:2]
+        self.reported = wmr.Pose(float(x), float(y), wmr.wrap_angle(heading))
+        fields = self.reported._asdict()
         if faults.not_a_number:
             fields[faults.not_a_number] = math.nan
         time = self.last_time if faults.stuck_message else self.time
@@ -140,7 +142,7 @@ class World:
             "fresh": 1,
             "quality": faults.quality,
             "error": faults.error,
-            "age": faults.delay if faults.told else 0.05,
+            "age": faults.delay if faults.age_known else 0.05,
             "later": later,
             "inside": int(self.inside(fields["x"], fields["y"])),
         }

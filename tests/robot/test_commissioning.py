@@ -99,5 +99,5 @@ def test_the_pages_cells_run_and_its_drive_parks(capsys):
     *states, last = capsys.readouterr().out.splitlines()[-5:]
     assert [line.split()[0] for line in states] == ["wait", "drive", "turn", "parked"]
     assert last.startswith("parked, ")
-    assert names["far"] < 2.0 * names["told"].radius
-    assert abs(names["off"]) <= names["told"].turn.tolerance
+    assert names["far"] < 2.0 * names["settings"].radius
+    assert abs(names["off"]) <= names["settings"].turn.tolerance

@@ -77,7 +77,7 @@ def step_alike(drives, seen):
 @pytest.mark.needs("compiler")
 @pytest.mark.parametrize("name", CASES)
 def test_c_decides_the_same_in_each_period(ran, name):
-    case, seen = CASES[name], ran[name].seen
+    case, seen = CASES[name], ran[name].readings
     if case.wrong.get("hangs"):
         assert faults.run(case, compiled.CDrive).decisions == ran[name].decisions
         return
@@ -204,7 +204,7 @@ def test_the_least_speed_keeps_the_path_of_the_law(distance, heading, least):
 @given(st.floats(-0.05, 0.05))
 def test_what_is_rolled_counts_backwards_too(rolled):
     m = trust.Memory()
-    trust.look(m, wr.Seen(0.05, rolled, rolled), wr.Rules(), wmr.Wheels(0.4))
+    trust.observe(m, wr.Seen(0.05, rolled, rolled), wr.Rules(), wmr.Wheels(0.4))
     assert (m.since, m.still, m.length) == (abs(rolled),) * 3
 
 

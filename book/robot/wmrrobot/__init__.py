@@ -1,4 +1,4 @@
-"""A robot of one's own: what it is told, what it trusts, and the C that runs on it.
+"""A robot of one's own: its settings, the checks of its sensors, and the C that runs on it.
 
 `import wmrrobot as wr`; a name is loaded when it is first used. The modules `printing` (formulas to
 C), `trust`, `odometry`, `kalman` and `sensing` (the parts of drive and filter) are public too.

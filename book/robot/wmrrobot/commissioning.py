@@ -1,4 +1,4 @@
-"""What a bench test and a first drive tell of a robot: dead band, lag, acceleration, latency."""
+"""The dead band, lag and acceleration of a wheel and the latency of fixes, from measurements."""
 
 from __future__ import annotations
 
@@ -19,9 +19,10 @@ _AGES = np.arange(0.0, 3.0, 0.01)  # s
 
 
 class DeadBand(NamedTuple):
-    """Of what a wheel was told, in m/s: the most with which it stood, the least with which it went.
+    """The largest command with which a wheel stood, and the smallest with which it turned, in m/s.
 
-    `stood` above `turned` says that it lags, or sticks: it goes on with less than it begins with.
+    If `stood` is above `turned`, the wheel lags or sticks: it keeps turning with a smaller command
+    than it needs to begin.
     """
 
     stood: float
@@ -29,7 +30,11 @@ class DeadBand(NamedTuple):
 
 
 class Response(NamedTuple):
-    """How a wheel follows what it is told: s, m/s^2 (infinite where it is not seen), m/s rms."""
+    """The lag [s] and the acceleration [m/s^2] with which a wheel follows its command.
+
+    The acceleration is infinite if the measurements show no limit. `misses` is the difference
+    between model and measurement, m/s rms.
+    """
 
     lag: float
     acceleration: float
@@ -37,9 +42,10 @@ class Response(NamedTuple):
 
 
 class Latency(NamedTuple):
-    """How old a fix is when it arrives, and from where to where it may be as well [s].
+    """The age of a fix when it arrives, with its confidence interval from `low` to `high` [s].
 
-    `misses` is how far the fixes lie from the wheels' way [m, rms], and `scale` their ratio.
+    `misses` is the distance between the fixes and the wheels' odometry [m, rms], and `scale` is the
+    ratio of the two distances driven.
     """
 
     age: float
@@ -49,59 +55,60 @@ class Latency(NamedTuple):
     misses: float
 
 
-def dead_band(told, went, quantum: float) -> DeadBand:
+def dead_band(commanded, measured, quantum: float) -> DeadBand:
     """The dead band of a wheel off the ground, from slow ramps up to both sides and back.
 
     Parameters
     ----------
-    told, went : arrays, m/s, what the wheel was told and what its encoder counted, by periods
-    quantum : float, m/s, half an encoder step a period: what is less is not seen
+    commanded, measured : arrays, m/s; one entry a period, the wheel's command and the speed that
+        its encoder counted
+    quantum : float, m/s, half an encoder step a period: the encoder cannot resolve less
 
     Raises
     ------
     ValueError : a wheel that never stood, or never turned
     """
-    told, went = _alike(told=told, went=went)
-    turns = np.abs(went) >= scalar("quantum", quantum, above=0.0)
+    commanded, measured = _alike(commanded=commanded, measured=measured)
+    turns = np.abs(measured) >= scalar("quantum", quantum, above=0.0)
     # The encoder says nothing for some periods even of a wheel that turns slowly.
     stands = np.array([not turns[max(k - 3, 0) : k + 4].any() for k in range(turns.size)])
     if not (stands.any() and turns.any()):
-        raise refusal("went", went, "a ramp on which the wheel stands, and turns,")
-    return DeadBand(float(np.abs(told[stands]).max()), float(np.abs(told[turns]).min()))
+        raise refusal("measured", measured, "a ramp on which the wheel stands, and turns,")
+    return DeadBand(float(np.abs(commanded[stands]).max()), float(np.abs(commanded[turns]).min()))
 
 
-def wheel_response(told, went, dt: float, dead: float = 0.0) -> Response:
+def wheel_response(commanded, measured, dt: float, dead: float = 0.0) -> Response:
     """The lag and the acceleration with which `wmrlib.body.follow` is nearest to a wheel.
 
     Parameters
     ----------
-    told, went : arrays, m/s, by periods, of steps in both directions, large ones and small ones;
-        `went` is the mean speed in the period for which it was told
+    commanded, measured : arrays, m/s; one entry a period, with large and small steps in both
+        directions; `measured` is the mean speed in the period of the command
     dt : float, s
     dead : float, m/s, its dead band
     """
-    told, went = _alike(told=told, went=went)
+    commanded, measured = _alike(commanded=commanded, measured=measured)
     dt, dead = scalar("dt", dt, above=0.0), scalar("dead", dead, low=0.0)
-    if not np.ptp(told) > 0.0:
-        raise refusal("told", told, "a change of the speed that is told")
-    told = np.where(np.abs(told) < dead, 0.0, told)
+    if not np.ptp(commanded) > 0.0:
+        raise refusal("commanded", commanded, "a change of the commanded speed")
+    commanded = np.where(np.abs(commanded) < dead, 0.0, commanded)
 
     def misses(lag, easing):
-        speed, left = np.zeros(np.shape(lag)), []
-        for wanted, seen in zip(told, went, strict=True):
-            mean, speed = follow(speed, wanted, easing, lag, dt)
-            left.append(mean - seen)
-        return np.array(left)
+        speed, errors = np.zeros(np.shape(lag)), []
+        for command, speed_measured in zip(commanded, measured, strict=True):
+            mean, speed = follow(speed, command, easing, lag, dt)
+            errors.append(mean - speed_measured)
+        return np.array(errors)
 
-    grid = [each.ravel() for each in np.meshgrid(_LAGS, _EASINGS)]
+    grid = [values.ravel() for values in np.meshgrid(_LAGS, _EASINGS)]
     order = np.argsort(np.square(misses(*grid)).sum(axis=0))
-    found = [
+    fits = [
         least_squares(lambda pair: misses(*pair.reshape(2, 1)).ravel(), start, bounds=(0.0, 11.0))
         for start in np.transpose(grid)[order[:4]]
     ]
-    best = min(found, key=lambda each: each.cost)
-    lag, easing = (float(each) if each > 1e-3 else 0.0 for each in best.x)
-    rms = math.sqrt(2.0 * best.cost / told.size)
+    best = min(fits, key=lambda fit: fit.cost)
+    lag, easing = (float(value) if value > 1e-3 else 0.0 for value in best.x)
+    rms = math.sqrt(2.0 * best.cost / commanded.size)
     return Response(lag, 1.0 / easing if easing else math.inf, rms)
 
 
@@ -125,11 +132,11 @@ def latency(t, way, t_fix, way_fix, sigma: float) -> Latency:
     sigma = scalar("sigma", sigma, above=0.0)
     if np.ptp(way_fix) < 10.0 * sigma:
         raise refusal("way_fix", way_fix, f"a drive of {10.0 * sigma:g} m at least")
-    kept = t_fix >= t[0] + _AGES[-1]  # of each age the same fixes
+    usable = t_fix >= t[0] + _AGES[-1]  # of each age the same fixes
     squares, scales = [], []
     for age in _AGES:
-        rolled = np.interp(t_fix[kept] - age, t, way)
-        (scale, _), left, *_ = np.polyfit(rolled, way_fix[kept], 1, full=True)
+        rolled = np.interp(t_fix[usable] - age, t, way)
+        (scale, _), left, *_ = np.polyfit(rolled, way_fix[usable], 1, full=True)
         squares.append(float(left[0]) if left.size else 0.0)
         scales.append(scale)
     loss = np.array(squares) / sigma**2
@@ -137,13 +144,13 @@ def latency(t, way, t_fix, way_fix, sigma: float) -> Latency:
     if near[0] == 0 and near[-1] == _AGES.size - 1:
         raise refusal("way", way, "a drive that stops and starts again")
     best = int(loss.argmin())
-    misses = math.sqrt(squares[best] / kept.sum())
+    misses = math.sqrt(squares[best] / usable.sum())
     ages = (float(_AGES[k]) for k in (best, near[0], near[-1]))
     return Latency(*ages, float(scales[best]), misses)
 
 
 def _alike(**columns) -> list[np.ndarray]:
     arrays = [np.atleast_1d(real(name, values)) for name, values in columns.items()]
-    if len(same_shape(**columns)) != 1 or len({each.shape for each in arrays}) != 1:
+    if len(same_shape(**columns)) != 1 or len({array.shape for array in arrays}) != 1:
         raise ValueError(f"mismatched lengths: {', '.join(columns)} need one length")
     return arrays

@@ -34,7 +34,7 @@ from wmrrobot.trust import (
 
 
 def placed(m: Memory, rules: Rules) -> int:
-    """Whether good fixes have said where the robot is."""
+    """Whether there were enough good fixes to know the pose."""
     return m.good >= rules.settle or m.driven > 0.0
 
 
@@ -44,22 +44,22 @@ def outside(m: Memory, rules: Rules) -> int:
 
 
 def too_far(m: Memory, rules: Rules) -> int:
-    """Whether the goal is too far away to be meant."""
+    """Whether the goal is too far away to be intended."""
     return placed(m, rules) and m.rho > rules.farthest
 
 
 def stuck(m: Memory) -> int:
-    """Whether a wheel, or its encoder, stands though it was told to roll."""
+    """Whether a wheel, or its encoder, stands although it was commanded to roll."""
     return m.left.stuck != 0 or m.right.stuck != 0
 
 
 def loose(m: Memory) -> int:
-    """Whether a wheel rolls though it was not told to."""
+    """Whether a wheel rolls although it was not commanded to."""
     return m.left.loose != 0 or m.right.loose != 0
 
 
 def turned(m: Memory, rules: Rules) -> int:
-    """Whether fix after fix has another heading than the wheels."""
+    """Whether several fixes in a row have another heading than the wheels."""
     return m.turned >= rules.settle
 
 
@@ -68,9 +68,9 @@ def silent(m: Memory, rules: Rules) -> int:
     return m.silence > rules.patience
 
 
-def silent_by(m: Memory, rules: Rules, why: int) -> int:
-    """Whether it is, and the last fix could not be used because of this."""
-    return silent(m, rules) and m.refused == why
+def silent_by(m: Memory, rules: Rules, reason: int) -> int:
+    """Whether it is, and the last fix was refused for this reason."""
+    return silent(m, rules) and m.refused == reason
 
 
 class Row(NamedTuple):
@@ -119,7 +119,7 @@ REASONS = tuple(dict.fromkeys(["", *(row.reason for row in TABLE)]))
 
 
 class Drive:
-    """One drive to a goal: give `step` what the sensors say in each period, and obey it.
+    """One drive to a goal: give `step` the readings of each period, and command its wheel speeds.
 
     Parameters
     ----------
@@ -193,28 +193,28 @@ class Drive:
     def step(self, seen: Seen) -> tuple[float, float]:
         """The speeds of the left and the right wheel [m/s] for the next period."""
         m, end, v, omega = self.memory, self.end, 0.0, 0.0
-        trust.look(m, seen, self.rules, self.wheels)
+        trust.observe(m, seen, self.rules, self.wheels)
         state = polar_from_pose(m.pose.x, m.pose.y, m.pose.heading, *self.goal)
-        m.rho, m.off = state[0], wrap(state[1] - state[2])
-        faces = m.state == TURN and abs(m.off) <= end.tolerance
+        m.rho, m.remaining_turn = state[0], wrap(state[1] - state[2])
+        faces = m.state == TURN and abs(m.remaining_turn) <= end.tolerance
         m.facing, m.faced = (m.facing + 1, m.faced + seen.seconds) if faces else (0, 0.0)
         self._decide(seen)
         if m.state == DRIVE:
             v_over_rho, omega = LAWS[self.law].formula(*state, self.gains)
             more = hurry(v_over_rho * m.rho, state[1], self.wheels.min_speed)
             v, omega = v_over_rho * m.rho * more, omega * more
-        elif m.state == TURN and abs(m.off) > end.tolerance:
-            omega = turn_rate(m.off, end.gain, end.min_rate, end.max_rate)
+        elif m.state == TURN and abs(m.remaining_turn) > end.tolerance:
+            omega = turn_rate(m.remaining_turn, end.gain, end.min_rate, end.max_rate)
         scale = saturation_scale(v, omega, self.wheels)
         speeds = wheel_speeds(v * scale, omega * scale, self.wheels.track_width)
-        m.left.told, m.right.told = speeds
+        m.left.commanded, m.right.commanded = speeds
         return speeds
 
     def _decide(self, seen: Seen) -> None:
         """Take the first row of `TABLE` that fits."""
         m = self.memory
         for row in TABLE:
-            asked = STATES[m.state] in row.within.split()
-            if asked and row.condition(m, seen, self.rules, self.end):
+            applies = STATES[m.state] in row.within.split()
+            if applies and row.condition(m, seen, self.rules, self.end):
                 m.state, m.reason = STATES.index(row.to), REASONS.index(row.reason)
                 return

@@ -1,4 +1,4 @@
-"""What a log fills in of a robot's sheet, and the files that come out of it.
+"""The values of a robot's sheet that a log gives, and the files that are made from the sheet.
 
 `kit/nmea.js` and `kit/sheet.js` do the same in a page.
 """
@@ -52,9 +52,9 @@ def templates() -> dict[str, str]:
 
 def files(robot: Robot) -> dict[str, str]:
     """The files for the robot, by name: for C, for Arduino, and parameters for ROS 2."""
-    told = sheet(robot)
-    numbers = robot._asdict() | told._asdict()
-    for part in told.gains, told.turn, told.rules:
+    settings = sheet(robot)
+    numbers = robot._asdict() | settings._asdict()
+    for part in settings.gains, settings.turn, settings.rules:
         numbers |= part._asdict()
     words = {name: number(value) for name, value in numbers.items() if np.isscalar(value)}
     for name in ("start_lat", "start_lon", "goal_lat", "goal_lon"):

@@ -1,4 +1,4 @@
-"""What the wheels rolled: a place carried on by it, and a short memory of it.
+"""Odometry: a pose carried on by the rolled metres, and a short history of them.
 
 `printing` prints all of it as part of ``wmr_drive.h``, as it does `trust`.
 """
@@ -10,12 +10,12 @@ from math import cos, sin
 
 from wmrlib.elementary import sinc, wrap
 
-PAST = 8  # stretches of time that are kept
+PAST = 8  # stretches in the ring buffer
 
 
 @dataclass(slots=True)
 class Place:
-    """A pose that odometry carries on."""
+    """A pose that odometry carries on; m, m, rad."""
 
     x: float = 0.0
     y: float = 0.0
@@ -24,7 +24,7 @@ class Place:
 
 @dataclass(slots=True)
 class Stretch:
-    """What the wheels rolled and turned by [m, rad] in some seconds."""
+    """The distance [m] and the turn [rad] that the wheels rolled in a time [s]."""
 
     seconds: float = 0.0
     ahead: float = 0.0
@@ -33,7 +33,7 @@ class Stretch:
 
 @dataclass(slots=True)
 class Past:
-    """The last stretches, in a ring, and what they add up to since a fix was true."""
+    """A ring buffer of the last stretches, and their sum since the newest fix was measured."""
 
     stretches: list[Stretch] = field(default_factory=lambda: [Stretch() for _ in range(PAST)])
     newest: int = 0
@@ -41,7 +41,7 @@ class Past:
 
 
 def carry(place: Place, ahead: float, turn: float) -> None:
-    """Move a place on along the arc that the wheels rolled."""
+    """Move a pose along the arc that the wheels rolled."""
     chord = ahead * sinc(0.5 * turn)
     place.x += chord * cos(place.heading + 0.5 * turn)
     place.y += chord * sin(place.heading + 0.5 * turn)
@@ -49,12 +49,12 @@ def carry(place: Place, ahead: float, turn: float) -> None:
 
 
 def copy_place(place: Place, other: Place) -> None:
-    """Make one place the other."""
+    """Copy the other pose into the first."""
     place.x, place.y, place.heading = other.x, other.y, other.heading
 
 
 def remember(past: Past, ahead: float, turn: float, dt: float, longest: float) -> None:
-    """Keep what the wheels rolled in a period, for the `longest` time and a little more."""
+    """Add a period to the history, which reaches back a little over `longest` s."""
     if past.stretches[past.newest].seconds * (PAST - 2) >= longest:
         past.newest = (past.newest + 1) % PAST
         past.stretches[past.newest].seconds = 0.0
@@ -66,7 +66,7 @@ def remember(past: Past, ahead: float, turn: float, dt: float, longest: float) -
 
 
 def lengthen(since: Stretch, stretch: Stretch, age: float) -> None:
-    """Put before a stretch of time the next older one, or its share up to an age."""
+    """Add the next older stretch to a sum, or its share up to an age [s]."""
     share = min((age - since.seconds) / max(stretch.seconds, 1e-9), 1.0)
     since.seconds += share * stretch.seconds
     since.ahead += share * stretch.ahead
@@ -74,7 +74,7 @@ def lengthen(since: Stretch, stretch: Stretch, age: float) -> None:
 
 
 def look_back(past: Past, age: float) -> None:
-    """Add up what the wheels rolled in the last `age` seconds."""
+    """Add up the distance and the turn of the last `age` s."""
     past.since.seconds, past.since.ahead, past.since.turn = 0.0, 0.0, 0.0
     for k in range(PAST):
         if past.since.seconds < age:

@@ -1,4 +1,4 @@
-"""A robot's sheet: what two points and a data sheet say about its gains, and where it will park.
+"""A robot's sheet: its settings from two points and a data sheet, and where it will park.
 
 `kit/my_robot.js` says the same in a page, run by run; tests/browser/test_my_robot.py compares them.
 """
@@ -87,7 +87,7 @@ RECEIVERS = {
 
 
 class Sheet(NamedTuple):
-    """What the robot is told; m, s, rad; x is east of the start, and `duration` ends a drive."""
+    """The settings of a robot; m, s, rad. x is east of the start, and `duration` ends a drive."""
 
     x: float
     y: float
@@ -103,7 +103,10 @@ class Sheet(NamedTuple):
 
 
 class Certificate(NamedTuple):
-    """Where the runs end: m, rad, s; the bounds hold for 95 % of drives, with 95 % confidence."""
+    """The errors at the end of many runs: m, rad, s.
+
+    The bounds hold for 95 % of drives, with 95 % confidence.
+    """
 
     parked: int
     place_rms: float
@@ -116,24 +119,25 @@ class Certificate(NamedTuple):
 
 
 def refused(name: str, value: float, needed: str, more: str = "") -> ValueError:
+    """The error for a field that is out of its bounds."""
     return ValueError(f"{name} = {value:g} is not allowed: {needed} is needed{more}")
 
 
 def place_of(robot: Robot) -> tuple[float, float]:
-    """Where the goal is, east and north of the start, m; both not too far apart."""
+    """The goal, in m east and north of the start; ValueError if they are too far apart."""
     start = wmr.GeoPoint(lat=robot.start_lat, lon=robot.start_lon)
     goal = wmr.GeoPoint(lat=robot.goal_lat, lon=robot.goal_lon)
     if (apart := wmr.haversine_distance(start, goal)) <= FAR:
         return wmr.local_position(start, goal)
-    said = f"the points are {apart / 1000:.0f} km apart: at most {FAR / 1000:g} km is allowed"
+    message = f"the points are {apart / 1000:.0f} km apart: at most {FAR / 1000:g} km is allowed"
     swapped = wmr.GeoPoint(lat=min(goal.lon, 90.0), lon=goal.lat)
     if wmr.haversine_distance(start, swapped) <= FAR:
-        said += "; are latitude and longitude of one of them swapped?"
-    raise ValueError(said)
+        message += "; are latitude and longitude of one of them swapped?"
+    raise ValueError(message)
 
 
 def sheet(robot: Robot) -> Sheet:
-    """Return what the robot is told, by the rules above.
+    """Return the settings of a robot, by the rules above.
 
     Raises
     ------
@@ -190,12 +194,12 @@ def sheet(robot: Robot) -> Sheet:
         longest_drive=max(usual.longest_drive, duration),
         farthest=max(usual.farthest, 2 * apart),
     )
-    told = x, y, heading, apart, gains, radius, longest, min_speed, turn, duration
-    return Sheet(*told, rules)
+    fields = x, y, heading, apart, gains, radius, longest, min_speed, turn, duration
+    return Sheet(*fields, rules)
 
 
 def sure(runs: int) -> int:
-    """Which of the runs' sorted values is the bound: with 95 % confidence few drives are beyond."""
+    """The rank of the run whose error bounds 95 % of drives with 95 % confidence."""
     at_most = bdtr(np.arange(runs + 1), runs, 1 - SHARE)  # the chance of so many beyond, or fewer
     return runs - int(np.argmax(at_most > 1 - SHARE)) + 1
 
@@ -209,20 +213,20 @@ def certificate(
     pose is late and whose wheels are slow may swing to and fro for ever. A drive that does not end
     in time counts as infinitely far off.
     """
-    told = sheet(robot)
+    settings = sheet(robot)
     aside = 2 * math.pi * spread * (np.arange(runs) * GOLDEN % 1.0 - 0.5)
-    wheels = wmr.Wheels(robot.track_width, robot.max_speed, told.min_speed, robot.acceleration)
+    wheels = wmr.Wheels(robot.track_width, robot.max_speed, settings.min_speed, robot.acceleration)
     sigma, late = np.full(runs, robot.sigma), robot.delay
     end = wmr.sweep(
-        wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x) + aside),
-        wmr.Pose(told.x, told.y, told.heading),
-        told.gains,
+        wmr.Pose(0.0, 0.0, math.atan2(settings.y, settings.x) + aside),
+        wmr.Pose(settings.x, settings.y, settings.heading),
+        settings.gains,
         method="arc",
         dt=robot.period,
-        duration=told.duration,
-        arrival_radius=told.radius,
+        duration=settings.duration,
+        arrival_radius=settings.radius,
         wheels=wheels._replace(dead_band=robot.dead_band),
-        last_turn=told.turn,
+        last_turn=settings.turn,
         receiver=wmr.Receiver(sigma, robot.memory, robot.fix_period, late, late),
         seed=seed,
         progress=False,
@@ -230,10 +234,14 @@ def certificate(
     key = seed % 2**32, seed // 2**32
     compass = np.array([normals(run, 0, COMPASS, key)[0] for run in range(runs)])
     turned = wmr.wrap_angle(end.heading_error + math.radians(robot.compass) * compass)
-    place, heading = (np.where(end.arrived, each, np.inf) for each in (end.distance, abs(turned)))
+    place, heading = (
+        np.where(end.arrived, errors, np.inf) for errors in (end.distance, abs(turned))
+    )
     least = sure(runs)
-    place_rms, heading_rms = (_rms(each[end.arrived]) for each in (place, heading))
-    bounds = (np.sort(each)[least - 1] if least <= runs else np.inf for each in (place, heading))
+    place_rms, heading_rms = (_rms(errors[end.arrived]) for errors in (place, heading))
+    bounds = (
+        np.sort(errors)[least - 1] if least <= runs else np.inf for errors in (place, heading)
+    )
     time = np.median(np.where(end.arrived, end.time, np.inf))
     parked = int(end.arrived.sum())
     return Certificate(parked, place_rms, heading_rms, *map(float, (*bounds, time)), place, heading)

@@ -1,4 +1,4 @@
-"""What a robot makes of its sensors: where it is, and which of them can be trusted.
+"""The checks of a robot's sensors: its pose by fixes and odometry, and the faults that stop it.
 
 `printing` prints all of it as ``wmr_drive.h``, so it is written in the Python that C has too.
 """
@@ -22,28 +22,31 @@ NONE, BROKEN, POOR, LATE, STALE, FROZEN, JUMPED, TURNED = range(len(REFUSALS))
 
 @checked("above_0", at_least_0=("slip", "battery"), at_most_1=("share",))
 class Rules(NamedTuple):
-    """How far a robot trusts its sensors.
+    """The thresholds of the checks of a robot's sensors.
 
-    What is wrong by less than these say goes unnoticed: a compass that is off by less than
-    `astray`, or by any angle on a drive shorter than `course`; a position that drifts so slowly
-    that the wheels could have done it.
+    Smaller faults stay undetected: a compass error below `astray`, or any compass error on a drive
+    shorter than `course`; a position that drifts so slowly that the wheels could have done it.
 
     Parameters
     ----------
-    arrival_radius : float, m. There it parks, or begins the last turn.
-    patience : float, s since the last usable fix; then it stops, and waits.
-    oldest, largest_error : float; s, m. A fix that is older, or says that it is worse, is not used.
+    arrival_radius : float, m. Within it the robot parks, or begins the last turn.
+    patience : float, s. So long after the last usable fix the robot stops and waits.
+    oldest, largest_error : float; s, m. An older fix, or one with a larger error, is not used.
         Give `oldest` the usual delay of your receiver and 0.2 s more, `patience` two fixes more.
-    settle : int. So many good fixes in a row let it drive.
-    jump, slip : float; m, no unit. Nor is one used that is farther than jump from where the wheels
-        can be; the place that they tell may err by the share slip of what they rolled. One wheel
+    settle : int. Number of good fixes in a row after which the robot may drive.
+    jump, slip : float; m, no unit. Nor is a fix used that is farther than jump from the position by
+        odometry, which may itself err by the share slip of the rolled distance. One wheel
         alone may slip by about astray times the track width over `course`: then it is `astray`.
-    frozen : float, m. Rolled so far, a robot whose position has the same bits has no receiver.
-    course, astray : float; m, rad. Over legs so long, headings by fixes and wheels are compared.
-    wheel, share : float; m, no unit. When a wheel was to roll, or rolled, so far, and did less than
-        this share of it, it is stuck; and loose the other way round.
-    longest_period, longest_drive : float, s
-    farthest : float, m. A goal that is farther away is a mistake.
+    frozen : float, m. After rolling so far with the same position to the last bit, the receiver
+        counts as dead.
+    course, astray : float; m, rad. Over legs of length course, the headings by fixes and by wheels
+        are compared, and may differ by astray.
+    wheel, share : float; m, no unit. A wheel that was commanded to roll the distance wheel and
+        rolled less than this share of it is stuck; one that rolled so far and was commanded less
+        than this share is loose.
+    longest_period, longest_drive : float, s. Longer periods count as a jump of the clock; a longer
+        drive is stopped.
+    farthest : float, m. A goal that is farther away counts as a mistake.
     battery : float, V. Below it for the time of `patience`, the robot stops.
     """
 
@@ -66,19 +69,19 @@ class Rules(NamedTuple):
 
 
 class Seen(NamedTuple):
-    """What the sensors say in a period: clock, encoders, battery, fence, and a fix if it is new.
+    """The readings of all sensors in a period: clock, encoders, battery, fence, and a new fix.
 
     Parameters
     ----------
     seconds : float, s since the period before by the robot's clock
     left, right : float, m that the wheels rolled in that time, by their encoders
     battery : float, V
-    goal_inside, inside, fresh : int, 0 if the goal, or the fix, is outside the fence, and if there
-        is no new fix: then what follows is not read
+    goal_inside, inside, fresh : int; whether the goal is inside the fence, whether the fix is, and
+        whether there is a new fix: with 0 the fields below are not read
     x, y, heading : float; m, m, rad
     quality : int, NMEA's: 1 to 5 are GPS, differential, PPS and RTK, others are no fix
-    error : float, m. What the receiver, or a filter, says of its own accuracy; 0 if nothing
-    later, age : float, s from the fix before by the receiver's own time, and since it was true
+    error : float, m. The accuracy that the receiver, or a filter, reports; 0 if it reports none
+    later, age : float, s; time from the fix before by the receiver's own clock, and age of the fix
     """
 
     seconds: float
@@ -99,9 +102,13 @@ class Seen(NamedTuple):
 
 @dataclass(slots=True)
 class Wheel:
-    """A wheel: its command and its speed due [m/s], and what is due and what it rolled [m]."""
+    """The state of a wheel and its checks.
 
-    told: float = 0.0
+    `commanded` and `speed` are its command and the speed expected of it, m/s; `due` and `rolled`
+    are the expected and the counted distance since the last check, m.
+    """
+
+    commanded: float = 0.0
     speed: float = 0.0
     due: float = 0.0
     rolled: float = 0.0
@@ -111,7 +118,7 @@ class Wheel:
 
 @dataclass(slots=True)
 class Memory:
-    """All that a drive keeps from one period to the next; it begins with zeros."""
+    """The state of a drive from one period to the next: pose, checks and counters; first all 0."""
 
     state: int = WAIT
     reason: int = 0
@@ -124,7 +131,7 @@ class Memory:
     good: int = 0  # usable fixes in a row
     refused: int = NONE  # why the last fix was not used
     past: Past = field(default_factory=Past)
-    fix: Place = field(default_factory=Place)  # the last one, brought up to now
+    fix: Place = field(default_factory=Place)  # the last one, carried on to now by odometry
     since: float = 0.0  # m rolled since the last usable fix
     x: float = 0.0  # of the last fix, usable or not
     y: float = 0.0
@@ -140,23 +147,23 @@ class Memory:
     slipping: int = 0
     driven: float = 0.0  # s
     rho: float = 0.0
-    off: float = 0.0  # rad that are still to be turned by
+    remaining_turn: float = 0.0  # rad to the goal's heading
     facing: int = 0  # periods in a row with the goal's heading
     faced: float = 0.0  # s of these
 
 
 def bring_up(m: Memory, seen: Seen) -> None:
-    """Carry a fix on by what the wheels rolled since it was true."""
+    """Carry a fix on by the odometry since it was measured."""
     look_back(m.past, seen.age)
     m.fix.x, m.fix.y, m.fix.heading = seen.x, seen.y, seen.heading
     carry(m.fix, m.past.since.ahead, m.past.since.turn)
 
 
 def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wheels) -> None:
-    """Hold what a wheel rolled against what it was told."""
-    told = 0.0 if abs(wheel.told) < wheels.dead_band else wheel.told
+    """Compare the distance that a wheel rolled with its commands."""
+    commanded = 0.0 if abs(wheel.commanded) < wheels.dead_band else wheel.commanded
     reach = wheels.acceleration * dt
-    wheel.speed += min(max((told - wheel.speed) * dt / (wheels.lag + dt), -reach), reach)
+    wheel.speed += min(max((commanded - wheel.speed) * dt / (wheels.lag + dt), -reach), reach)
     wheel.due += wheel.speed * dt
     wheel.rolled += rolled
     if max(abs(wheel.due), abs(wheel.rolled)) >= rules.wheel:
@@ -169,7 +176,7 @@ def watch_wheel(wheel: Wheel, rolled: float, dt: float, rules: Rules, wheels: Wh
 
 
 def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
-    """Why a fix can't be used; NONE if it can. On the way, the fix is carried on to now."""
+    """The reason why a fix cannot be used, or NONE; the fix is carried on to now."""
     if not (abs(seen.x) + abs(seen.y) + abs(seen.heading) < 1e9 and abs(seen.age) < 1e9):
         return BROKEN
     measured = seen.quality >= 1 and seen.quality <= 5
@@ -191,7 +198,7 @@ def refusal_of(m: Memory, seen: Seen, rules: Rules) -> int:
 
 
 def compare(m: Memory, rules: Rules) -> None:
-    """Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew."""
+    """Compare a leg by fixes with the same leg by the wheels, and begin the next leg."""
     east, north = m.leg.x - m.begin.x, m.leg.y - m.begin.y
     x, y = m.fix.x - m.begin.x, m.fix.y - m.begin.y
     rolled = distance(east, north)
@@ -206,15 +213,15 @@ def compare(m: Memory, rules: Rules) -> None:
         m.length, m.turning = 0.0, 0.0
 
 
-def read(m: Memory, seen: Seen, rules: Rules) -> None:
-    """Take a fix, or say why not; before the first drive a jump is a new beginning."""
+def take_fix(m: Memory, seen: Seen, rules: Rules) -> None:
+    """Use a fix or note why not; before the first drive a jump is a new beginning."""
     if seen.x != m.x or seen.y != m.y:
         m.still = 0.0
     m.x, m.y = seen.x, seen.y
     m.refused = refusal_of(m, seen, rules)
     m.turned = m.turned + 1 if m.refused == TURNED else 0
     first = m.refused == JUMPED and m.driven == 0.0
-    again = m.refused == STALE  # the same fix, told twice
+    again = m.refused == STALE  # the same fix, sent twice
     m.good = 0 if first or (m.refused != NONE and not again) else m.good
     if m.refused == NONE or first:
         m.good += 1
@@ -223,11 +230,11 @@ def read(m: Memory, seen: Seen, rules: Rules) -> None:
         compare(m, rules)
 
 
-def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
-    """Take in a period: the clock, the wheels, the battery, and a fix if there is one."""
-    sound = abs(seen.left) + abs(seen.right) < 1e9  # or an encoder says no number
+def observe(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
+    """Check the readings of a period, carry the pose on, and use a new fix."""
+    sound = abs(seen.left) + abs(seen.right) < 1e9  # else an encoder reading is no number
     m.regular = seen.seconds > 0.0 and seen.seconds <= rules.longest_period and sound
-    passed = seen.seconds if seen.seconds > 0.0 else 0.0  # not what is no number
+    passed = seen.seconds if seen.seconds > 0.0 else 0.0  # 0 for NaN too
     dt = min(passed, rules.longest_period)
     left, right = seen.left if sound else 0.0, seen.right if sound else 0.0
     ahead, turn = 0.5 * (left + right), (right - left) / wheels.track_width
@@ -246,4 +253,4 @@ def look(m: Memory, seen: Seen, rules: Rules, wheels: Wheels) -> None:
     m.driven += dt if m.state == DRIVE or m.state == TURN else 0.0
     m.good = m.good if m.regular and m.silence <= rules.patience else 0
     if seen.fresh:
-        read(m, seen, rules)
+        take_fix(m, seen, rules)

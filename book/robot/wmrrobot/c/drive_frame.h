@@ -50,16 +50,16 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
 /* @TABLE@ */
 }
 
-/* What the wheels are to do in the next period. */
+/* The speeds of the wheels for the next period. */
 static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wmr_plan *plan) {
   const wmr_last_turn *end = &plan->end;
   wmr_twist twist = {WMR_C(0.0), WMR_C(0.0), WMR_OK};
   wmr_polar error;
   wmr_wheels wheels;
-  wmr_look(m, seen, &plan->rules, &plan->motors);
+  wmr_observe(m, seen, &plan->rules, &plan->motors);
   error = wmr_polar_error(m->pose, plan->goal);
-  m->rho = error.rho, m->off = wmr_wrap(error.alpha - error.theta);
-  if (m->state == WMR_TURN && WMR_F(fabs)(m->off) <= end->tolerance)
+  m->rho = error.rho, m->remaining_turn = wmr_wrap(error.alpha - error.theta);
+  if (m->state == WMR_TURN && WMR_F(fabs)(m->remaining_turn) <= end->tolerance)
     m->facing += 1, m->faced += seen->seconds;
   else
     m->facing = 0, m->faced = WMR_C(0.0);
@@ -70,11 +70,11 @@ static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wm
       const WMR_REAL more = wmr_hurry(twist.v, error.alpha, plan->motors.min_speed);
       twist.v *= more, twist.omega *= more;
     }
-  } else if (m->state == WMR_TURN && WMR_F(fabs)(m->off) > end->tolerance) {
-    twist.omega = wmr_turn_rate(m->off, end->gain, end->min_rate, end->max_rate);
+  } else if (m->state == WMR_TURN && WMR_F(fabs)(m->remaining_turn) > end->tolerance) {
+    twist.omega = wmr_turn_rate(m->remaining_turn, end->gain, end->min_rate, end->max_rate);
   }
   wheels = wmr_limited_wheels(twist, plan->motors.track_width, plan->motors.max_speed);
-  m->left.told = wheels.left, m->right.told = wheels.right;
+  m->left.commanded = wheels.left, m->right.commanded = wheels.right;
   return wheels;
 }
 

@@ -45,7 +45,7 @@ typedef struct { WMR_REAL arrival_radius; WMR_REAL patience; WMR_REAL oldest;
 typedef struct { WMR_REAL seconds; WMR_REAL left; WMR_REAL right; WMR_REAL battery;
     int goal_inside; int inside; int fresh; WMR_REAL x; WMR_REAL y; WMR_REAL heading;
     int quality; WMR_REAL error; WMR_REAL later; WMR_REAL age; } wmr_seen;
-typedef struct { WMR_REAL told; WMR_REAL speed; WMR_REAL due; WMR_REAL rolled;
+typedef struct { WMR_REAL commanded; WMR_REAL speed; WMR_REAL due; WMR_REAL rolled;
     int stuck; int loose; } wmr_wheel;
 typedef struct { WMR_REAL seconds; WMR_REAL ahead; WMR_REAL turn; } wmr_stretch;
 typedef struct { wmr_stretch stretches[WMR_PAST]; int newest; wmr_stretch since; }
@@ -54,8 +54,8 @@ typedef struct { int state; int reason; wmr_pose pose; wmr_wheel left; wmr_wheel
     int regular; WMR_REAL low; WMR_REAL silence; int good; int refused; wmr_past past;
     wmr_pose fix; WMR_REAL since; WMR_REAL x; WMR_REAL y; WMR_REAL still; int outside;
     int outran; wmr_pose begin; wmr_pose leg; WMR_REAL length; WMR_REAL turning;
-    int turned; int astray; int slipping; WMR_REAL driven; WMR_REAL rho; WMR_REAL off;
-    int facing; WMR_REAL faced; } wmr_memory;
+    int turned; int astray; int slipping; WMR_REAL driven; WMR_REAL rho;
+    WMR_REAL remaining_turn; int facing; WMR_REAL faced; } wmr_memory;
 typedef struct {
   wmr_pose goal;
   wmr_gains gains;
@@ -97,7 +97,7 @@ static inline const char *wmr_reason(int reason) {
   return reason >= 0 && reason < (int)(sizeof words / sizeof *words) ? words[reason] : "";
 }
 
-/* Move a place on along the arc that the wheels rolled. */
+/* Move a pose along the arc that the wheels rolled. */
 static inline void wmr_carry(wmr_pose *place, WMR_REAL ahead, WMR_REAL turn) {
   const WMR_REAL chord = ahead * wmr_sinc(WMR_C(0.5) * turn);
   place->x += chord * WMR_F(cos)(place->heading + WMR_C(0.5) * turn);
@@ -105,14 +105,14 @@ static inline void wmr_carry(wmr_pose *place, WMR_REAL ahead, WMR_REAL turn) {
   place->heading = wmr_wrap(place->heading + turn);
 }
 
-/* Make one place the other. */
+/* Copy the other pose into the first. */
 static inline void wmr_copy_place(wmr_pose *place, wmr_pose *other) {
   place->x = other->x;
   place->y = other->y;
   place->heading = other->heading;
 }
 
-/* Keep what the wheels rolled in a period, for the `longest` time and a little more. */
+/* Add a period to the history, which reaches back a little over `longest` s. */
 static inline void wmr_remember(wmr_past *past, WMR_REAL ahead, WMR_REAL turn,
     WMR_REAL dt, WMR_REAL longest) {
   if (past->stretches[past->newest].seconds * (WMR_PAST - 2) >= longest) {
@@ -126,7 +126,7 @@ static inline void wmr_remember(wmr_past *past, WMR_REAL ahead, WMR_REAL turn,
   past->stretches[past->newest].turn += turn;
 }
 
-/* Put before a stretch of time the next older one, or its share up to an age. */
+/* Add the next older stretch to a sum, or its share up to an age [s]. */
 static inline void wmr_lengthen(wmr_stretch *since, wmr_stretch *stretch, WMR_REAL age)
     {
   const WMR_REAL share = WMR_F(fmin)((age - since->seconds) /
@@ -136,7 +136,7 @@ static inline void wmr_lengthen(wmr_stretch *since, wmr_stretch *stretch, WMR_RE
   since->turn += share * stretch->turn;
 }
 
-/* Add up what the wheels rolled in the last `age` seconds. */
+/* Add up the distance and the turn of the last `age` s. */
 static inline void wmr_look_back(wmr_past *past, WMR_REAL age) {
   past->since.seconds = WMR_C(0.0);
   past->since.ahead = WMR_C(0.0);
@@ -149,7 +149,7 @@ static inline void wmr_look_back(wmr_past *past, WMR_REAL age) {
   }
 }
 
-/* Carry a fix on by what the wheels rolled since it was true. */
+/* Carry a fix on by the odometry since it was measured. */
 static inline void wmr_bring_up(wmr_memory *m, const wmr_seen *seen) {
   wmr_look_back(&m->past, seen->age);
   m->fix.x = seen->x;
@@ -158,14 +158,14 @@ static inline void wmr_bring_up(wmr_memory *m, const wmr_seen *seen) {
   wmr_carry(&m->fix, m->past.since.ahead, m->past.since.turn);
 }
 
-/* Hold what a wheel rolled against what it was told. */
+/* Compare the distance that a wheel rolled with its commands. */
 static inline void wmr_watch_wheel(wmr_wheel *wheel, WMR_REAL rolled, WMR_REAL dt,
     const wmr_rules *rules, const wmr_motors *wheels) {
-  const WMR_REAL told = (WMR_F(fabs)(wheel->told) < wheels->dead_band) ? WMR_C(0.0) :
-      wheel->told;
+  const WMR_REAL commanded = (WMR_F(fabs)(wheel->commanded) < wheels->dead_band) ?
+      WMR_C(0.0) : wheel->commanded;
   const WMR_REAL reach = wheels->acceleration * dt;
-  wheel->speed += WMR_F(fmin)(WMR_F(fmax)((told - wheel->speed) * dt / (wheels->lag +
-      dt), -reach), reach);
+  wheel->speed += WMR_F(fmin)(WMR_F(fmax)((commanded - wheel->speed) * dt / (wheels->lag
+      + dt), -reach), reach);
   wheel->due += wheel->speed * dt;
   wheel->rolled += rolled;
   if (WMR_F(fmax)(WMR_F(fabs)(wheel->due), WMR_F(fabs)(wheel->rolled)) >= rules->wheel)
@@ -181,7 +181,7 @@ static inline void wmr_watch_wheel(wmr_wheel *wheel, WMR_REAL rolled, WMR_REAL d
   }
 }
 
-/* Why a fix can't be used; NONE if it can. On the way, the fix is carried on to now. */
+/* The reason why a fix cannot be used, or NONE; the fix is carried on to now. */
 static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
     const wmr_rules *rules) {
   if (!(WMR_F(fabs)(seen->x) + WMR_F(fabs)(seen->y) + WMR_F(fabs)(seen->heading) <
@@ -213,7 +213,7 @@ static inline int wmr_refusal_of(wmr_memory *m, const wmr_seen *seen,
   return WMR_NONE;
 }
 
-/* Hold a leg of the fixes against that of the wheels; then, or when it curls, begin anew. */
+/* Compare a leg by fixes with the same leg by the wheels, and begin the next leg. */
 static inline void wmr_compare(wmr_memory *m, const wmr_rules *rules) {
   const WMR_REAL east = m->leg.x - m->begin.x;
   const WMR_REAL north = m->leg.y - m->begin.y;
@@ -235,9 +235,9 @@ static inline void wmr_compare(wmr_memory *m, const wmr_rules *rules) {
   }
 }
 
-/* Take a fix, or say why not; before the first drive a jump is a new beginning. */
-static inline void wmr_read(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules)
-    {
+/* Use a fix or note why not; before the first drive a jump is a new beginning. */
+static inline void wmr_take_fix(wmr_memory *m, const wmr_seen *seen,
+    const wmr_rules *rules) {
   if (seen->x != m->x || seen->y != m->y) {
     m->still = WMR_C(0.0);
   }
@@ -258,9 +258,9 @@ static inline void wmr_read(wmr_memory *m, const wmr_seen *seen, const wmr_rules
   }
 }
 
-/* Take in a period: the clock, the wheels, the battery, and a fix if there is one. */
-static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules *rules,
-    const wmr_motors *wheels) {
+/* Check the readings of a period, carry the pose on, and use a new fix. */
+static inline void wmr_observe(wmr_memory *m, const wmr_seen *seen,
+    const wmr_rules *rules, const wmr_motors *wheels) {
   const int sound = WMR_F(fabs)(seen->left) + WMR_F(fabs)(seen->right) <
       WMR_C(1000000000.0);
   m->regular = seen->seconds > WMR_C(0.0) && seen->seconds <= rules->longest_period &&
@@ -287,11 +287,11 @@ static inline void wmr_look(wmr_memory *m, const wmr_seen *seen, const wmr_rules
   m->driven += (m->state == WMR_DRIVE || m->state == WMR_TURN) ? dt : WMR_C(0.0);
   m->good = (m->regular && m->silence <= rules->patience) ? m->good : 0;
   if (seen->fresh) {
-    wmr_read(m, seen, rules);
+    wmr_take_fix(m, seen, rules);
   }
 }
 
-/* Whether good fixes have said where the robot is. */
+/* Whether there were enough good fixes to know the pose. */
 static inline int wmr_placed(wmr_memory *m, const wmr_rules *rules) {
   return m->good >= rules->settle || m->driven > WMR_C(0.0);
 }
@@ -301,22 +301,22 @@ static inline int wmr_outside(wmr_memory *m, const wmr_rules *rules) {
   return wmr_placed(m, rules) && m->outside != 0;
 }
 
-/* Whether the goal is too far away to be meant. */
+/* Whether the goal is too far away to be intended. */
 static inline int wmr_too_far(wmr_memory *m, const wmr_rules *rules) {
   return wmr_placed(m, rules) && m->rho > rules->farthest;
 }
 
-/* Whether a wheel, or its encoder, stands though it was told to roll. */
+/* Whether a wheel, or its encoder, stands although it was commanded to roll. */
 static inline int wmr_stuck(wmr_memory *m) {
   return m->left.stuck != 0 || m->right.stuck != 0;
 }
 
-/* Whether a wheel rolls though it was not told to. */
+/* Whether a wheel rolls although it was not commanded to. */
 static inline int wmr_loose(wmr_memory *m) {
   return m->left.loose != 0 || m->right.loose != 0;
 }
 
-/* Whether fix after fix has another heading than the wheels. */
+/* Whether several fixes in a row have another heading than the wheels. */
 static inline int wmr_turned(wmr_memory *m, const wmr_rules *rules) {
   return m->turned >= rules->settle;
 }
@@ -326,9 +326,9 @@ static inline int wmr_silent(wmr_memory *m, const wmr_rules *rules) {
   return m->silence > rules->patience;
 }
 
-/* Whether it is, and the last fix could not be used because of this. */
-static inline int wmr_silent_by(wmr_memory *m, const wmr_rules *rules, int why) {
-  return wmr_silent(m, rules) && m->refused == why;
+/* Whether it is, and the last fix was refused for this reason. */
+static inline int wmr_silent_by(wmr_memory *m, const wmr_rules *rules, int reason) {
+  return wmr_silent(m, rules) && m->refused == reason;
 }
 
 
@@ -438,16 +438,16 @@ static inline void wmr_decide(wmr_memory *m, const wmr_seen *seen, const wmr_rul
   }
 }
 
-/* What the wheels are to do in the next period. */
+/* The speeds of the wheels for the next period. */
 static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wmr_plan *plan) {
   const wmr_last_turn *end = &plan->end;
   wmr_twist twist = {WMR_C(0.0), WMR_C(0.0), WMR_OK};
   wmr_polar error;
   wmr_wheels wheels;
-  wmr_look(m, seen, &plan->rules, &plan->motors);
+  wmr_observe(m, seen, &plan->rules, &plan->motors);
   error = wmr_polar_error(m->pose, plan->goal);
-  m->rho = error.rho, m->off = wmr_wrap(error.alpha - error.theta);
-  if (m->state == WMR_TURN && WMR_F(fabs)(m->off) <= end->tolerance)
+  m->rho = error.rho, m->remaining_turn = wmr_wrap(error.alpha - error.theta);
+  if (m->state == WMR_TURN && WMR_F(fabs)(m->remaining_turn) <= end->tolerance)
     m->facing += 1, m->faced += seen->seconds;
   else
     m->facing = 0, m->faced = WMR_C(0.0);
@@ -458,11 +458,11 @@ static inline wmr_wheels wmr_drive(wmr_memory *m, const wmr_seen *seen, const wm
       const WMR_REAL more = wmr_hurry(twist.v, error.alpha, plan->motors.min_speed);
       twist.v *= more, twist.omega *= more;
     }
-  } else if (m->state == WMR_TURN && WMR_F(fabs)(m->off) > end->tolerance) {
-    twist.omega = wmr_turn_rate(m->off, end->gain, end->min_rate, end->max_rate);
+  } else if (m->state == WMR_TURN && WMR_F(fabs)(m->remaining_turn) > end->tolerance) {
+    twist.omega = wmr_turn_rate(m->remaining_turn, end->gain, end->min_rate, end->max_rate);
   }
   wheels = wmr_limited_wheels(twist, plan->motors.track_width, plan->motors.max_speed);
-  m->left.told = wheels.left, m->right.told = wheels.right;
+  m->left.commanded = wheels.left, m->right.commanded = wheels.right;
   return wheels;
 }
 

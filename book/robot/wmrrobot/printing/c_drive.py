@@ -41,7 +41,7 @@ def code_name(words: str) -> str:
 
 
 class _C(ast.NodeVisitor):
-    """One expression of Python as C; what C has no word for is an error."""
+    """One expression of Python as C; NotImplementedError where C has no counterpart."""
 
     def __init__(self, pointers: set[str]) -> None:
         self.pointers = pointers
@@ -104,7 +104,7 @@ class _C(ast.NodeVisitor):
 
 def c_condition(condition: ast.Lambda) -> str:
     """A condition of the table as C."""
-    return _C({each.arg for each in condition.args.args}).visit(condition.body)
+    return _C({argument.arg for argument in condition.args.args}).visit(condition.body)
 
 
 def _conditions() -> list[ast.Lambda]:
@@ -124,19 +124,19 @@ def _statement(node: ast.stmt, c: _C, indent: str) -> list[str]:
             return [f"{indent}{c.visit(node.target)} {_SIGNS[type(op)]}= {c.visit(node.value)};"]
         case ast.Assign(targets=[ast.Tuple(elts=names)], value=ast.Tuple(elts=values)):
             single = [ast.Assign([name], value) for name, value in zip(names, values, strict=True)]
-            return [line for each in single for line in _statement(each, c, indent)]
+            return [line for part in single for line in _statement(part, c, indent)]
         case ast.Assign(targets=[ast.Name(id=name)], value=value):
             kind = "int" if isinstance(value, ast.Compare | ast.BoolOp) else "WMR_REAL"
             return [f"{indent}const {kind} {name} = {c.visit(value)};"]
         case ast.Assign(targets=[target], value=value):
             return [f"{indent}{c.visit(target)} = {c.visit(value)};"]
         case ast.If():
-            body = [line for each in node.body for line in _statement(each, c, inner)]
-            other = [line for each in node.orelse for line in _statement(each, c, inner)]
+            body = [line for part in node.body for line in _statement(part, c, inner)]
+            other = [line for part in node.orelse for line in _statement(part, c, inner)]
             other = [f"{indent}}} else {{", *other] if other else []
             return [f"{indent}if ({c.visit(node.test)}) {{", *body, *other, f"{indent}}}"]
         case ast.For(target=ast.Name(id=k), iter=ast.Call(func=ast.Name(id="range"), args=[end])):
-            body = [line for each in node.body for line in _statement(each, c, inner)]
+            body = [line for part in node.body for line in _statement(part, c, inner)]
             head = f"{indent}for (int {k} = 0; {k} < {c.visit(end)}; {k} += 1) {{"
             return [head, *body, f"{indent}}}"]
     raise NotImplementedError(f"{ast.unparse(node)} has no counterpart in C here")
@@ -154,7 +154,7 @@ def _function(function) -> str:
         const = "const " if issubclass(kind, tuple) else ""
         given.append(f"{const}{_KINDS[kind]}{star}{name}".replace(" ", "\xa0"))
     c = _C(set(kinds) - plain)
-    lines = [line for each in tree.body[1:] for line in _statement(each, c, "  ")]
+    lines = [line for statement in tree.body[1:] for line in _statement(statement, c, "  ")]
     head = f"static inline {back} wmr_{function.__name__}({', '.join(given)}) {{"
     return "\n".join([f"/* {inspect.getdoc(function)} */", *map(wrapped, [head, *lines]), "}\n"])
 
@@ -181,17 +181,17 @@ def _row(row: drive.Row, condition: str) -> str:
 
 def c_drive() -> str:
     """The text of ``wmr_drive.h``."""
-    names = [map(code_name, each) for each in (trust.STATES, trust.REFUSALS, drive.REASONS)]
+    names = [map(code_name, words) for words in (trust.STATES, trust.REFUSALS, drive.REASONS)]
     usual = ", ".join(
         str(int(value)) if kind is int else f"WMR_C({float(value)})"
         for value, kind in zip(trust.Rules(), get_type_hints(trust.Rules).values(), strict=True)
     )
     places = {
-        "NAMES": "\n".join(wrapped(f"enum {{ {', '.join(each)} }};") for each in names)
+        "NAMES": "\n".join(wrapped(f"enum {{ {', '.join(words)} }};") for words in names)
         + f"\nenum {{ {code_name('past')} = {odometry.PAST} }};",
         "STRUCTURES": "\n".join(map(_structure, _STRUCTS)),
         "USUAL": " \\\n".join(wrapped(f"#define WMR_USUAL_RULES {{{usual}}}").splitlines()),
-        "FUNCTIONS": "\n".join(_function(each) for each in _OWN.values()),
+        "FUNCTIONS": "\n".join(_function(words) for words in _OWN.values()),
         "TABLE": "\n".join(map(_row, drive.TABLE, map(c_condition, _conditions()))),
         "REASONS": ",\n".join(f'    "{reason}"' for reason in drive.REASONS),
     }

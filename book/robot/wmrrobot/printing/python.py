@@ -35,7 +35,7 @@ _PRINTER = _Printer({"fully_qualified_modules": True})
 
 
 def _function(name: str, formula: Formula) -> str:
-    lines = [f"{each} = {_PRINTER.doprint(value)}" for each, value in formula.locals_]
+    lines = [f"{symbol} = {_PRINTER.doprint(value)}" for symbol, value in formula.locals_]
     lines.append("return (")
     lines += [f"    {_PRINTER.doprint(value)}," for value in formula.values]
     body = "".join(f"    {line}\n" for line in [f'"""{formula.says}"""', *lines, ")"])

@@ -48,19 +48,19 @@ DEFAULTS: dict[str, Any] = {
 
 def typed(given: Mapping[str, Any]) -> dict[str, Any]:
     """The parameters, 1 for 1.0 too; ValueError that names the one of another kind."""
-    found = {}
+    values = {}
     for name, value in given.items():
         try:
-            found[name] = _like(DEFAULTS[name], value)
+            values[name] = _like(DEFAULTS[name], value)
         except TypeError:
             text = f"{name} = {value!r} is not allowed: like {DEFAULTS[name]!r} is needed"
             raise ValueError(text) from None
-    return found
+    return values
 
 
 def _like(usual: Any, value: Any) -> Any:
     if isinstance(usual, list):
-        return [_like(usual[0], it) for it in value]
+        return [_like(usual[0], entry) for entry in value]
     if type(usual) is float and type(value) is int:
         return float(value)
     if type(value) is not type(usual):
@@ -117,12 +117,12 @@ def yaw(q: Any) -> float:
 
 
 class Sensors:
-    """What has come in since the last odometry, and the filter; `seen` gives a period's `Seen`."""
+    """The messages since the last odometry, and the filter; `seen` returns a period's `Seen`."""
 
     def __init__(self, given: Mapping[str, Any]) -> None:
         self.given, self.start = given, point(given["start"])
         self.noise = estimation.Noise(track_width=given["track_width"])
-        self.odom = self.fixed = self.gyro = self.said = None
+        self.odom = self.fixed = self.gyro = self.last_position = None
         self.fixes: deque = deque(maxlen=HEADINGS)
         self.headings: deque = deque(maxlen=HEADINGS)
         self.battery, self.refused = math.inf, 0
@@ -150,12 +150,12 @@ class Sensors:
         middle = heading + 0.5 * turn
         ahead = (math.cos(middle) * east + math.sin(middle) * north) / sinc(0.5 * turn)
         half = 0.5 * self.given["track_width"] * turn
-        told = wr.Seen(past, ahead - half, ahead + half, self.battery)
-        told = told._replace(goal_inside=self.inside(goal.x, goal.y))
+        readings = wr.Seen(past, ahead - half, ahead + half, self.battery)
+        readings = readings._replace(goal_inside=self.inside(goal.x, goal.y))
         if self.estimate and 0.0 < past <= self.given["longest_period"]:
             self._carry(ahead / past, turn / past, past)
         fix = self._due()
-        return self._with_fix(told, fix) if fix else told
+        return self._with_fix(readings, fix) if fix else readings
 
     def _due(self) -> Any:
         """The newest fix that the odometry has reached; one that is a little later waits.
@@ -178,17 +178,17 @@ class Sensors:
 
     def _heading(self, stamp: Any) -> float:
         """The heading measured at the time of a fix; NaN without one close to it."""
-        gap = lambda each: abs(_between(each[0], stamp))  # noqa: E731
+        gap = lambda heading: abs(_between(heading[0], stamp))  # noqa: E731
         nearest = min(self.headings, key=gap, default=None)
         return nearest[1] if nearest and gap(nearest) <= self.given["patience"] else math.nan
 
-    def _with_fix(self, told: wr.Seen, fix: Any) -> wr.Seen:
+    def _with_fix(self, readings: wr.Seen, fix: Any) -> wr.Seen:
         stamp, variance = fix.header.stamp, fix.position_covariance
         later = _between(stamp, self.fixed) if self.fixed else 1.0
         self.fixed = stamp
         x, y = place(self.start, fix.latitude, fix.longitude)
         known = fix.position_covariance_type != 0
-        told = told._replace(
+        readings = readings._replace(
             fresh=1,
             heading=self._heading(stamp),
             quality=QUALITY.get(fix.status.status, 0),
@@ -196,30 +196,34 @@ class Sensors:
             later=later,
             age=elapsed(self.odom, fix),
         )
-        place_before, self.said = self.said, (fix.latitude, fix.longitude)
-        if self.given["filter"] and self.said != place_before:
-            return self._filtered(told, x, y)
+        position_before, self.last_position = self.last_position, (fix.latitude, fix.longitude)
+        if self.given["filter"] and self.last_position != position_before:
+            return self._filtered(readings, x, y)
         if self.estimate:  # a fix with the same bits goes on as it is: the drive watches for that
-            told = told._replace(heading=self.estimate.pose.heading)
-        east, north = antenna(0.0, 0.0, told.heading, *self.given["antenna"])
-        return told._replace(x=x - east, y=y - north, inside=self.inside(x, y))
+            readings = readings._replace(heading=self.estimate.pose.heading)
+        east, north = antenna(0.0, 0.0, readings.heading, *self.given["antenna"])
+        return readings._replace(x=x - east, y=y - north, inside=self.inside(x, y))
 
-    def _filtered(self, told: wr.Seen, x: float, y: float) -> wr.Seen:
+    def _filtered(self, readings: wr.Seen, x: float, y: float) -> wr.Seen:
         """The filter's pose in place of the fix; no fix if the filter refuses it."""
         given, arm = self.given, self.given["antenna"]
-        sigma, heading = told.error or given["largest_error"], told.heading
-        told = told._replace(x=x, y=y, inside=self.inside(x, y))
-        usable = told.later > 0.0 and told.quality and sigma <= given["largest_error"]
-        if not (usable and 0.0 <= told.age <= given["oldest_fix"] and math.isfinite(x + y)):
-            return told  # the drive says why
+        sigma, heading = readings.error or given["largest_error"], readings.heading
+        readings = readings._replace(x=x, y=y, inside=self.inside(x, y))
+        usable = readings.later > 0.0 and readings.quality and sigma <= given["largest_error"]
+        if not (usable and 0.0 <= readings.age <= given["oldest_fix"] and math.isfinite(x + y)):
+            return readings  # the drive says why
         if self.estimate is None:
             if not math.isfinite(heading):
-                return told
+                return readings
             compass = given["compass_sigma"]
             east, north = antenna(0.0, 0.0, heading, *arm)
             pose = wmr.Pose(x - east, y - north, heading)
             self.estimate = estimation.start(pose, sigma + math.hypot(*arm) * compass, compass)
-        behind = 0.5 * (told.left + told.right) / told.seconds * told.age if told.seconds else 0.0
+        behind = (
+            0.5 * (readings.left + readings.right) / readings.seconds * readings.age
+            if readings.seconds
+            else 0.0
+        )
         self.estimate = estimation.use_position(self.estimate, x, y, sigma, arm[0] - behind, arm[1])
         refused = self.estimate.surprise > estimation.GATE_2
         self.refused = self.refused + 1 if refused else 0
@@ -229,6 +233,6 @@ class Sensors:
             self.estimate = estimation.use_heading(self.estimate, heading, given["compass_sigma"])
         pose = self.estimate.pose
         # The filter has carried the fix on to now, which the drive does with age.
-        return told._replace(
+        return readings._replace(
             fresh=int(not refused), **pose._asdict(), age=0.0, inside=self.inside(pose.x, pose.y)
         )

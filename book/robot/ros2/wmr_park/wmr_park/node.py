@@ -41,13 +41,16 @@ class ParkNode(Node):
         watchdog = self.given()["watchdog"]
         self.drive: wr.Drive | None = None
         self.sensors: Sensors | None = None
-        self.said = ""
+        self.last_message = ""
         self.add_on_set_parameters_callback(self.allowed)
         self.command = self.create_publisher(Twist, "cmd_vel", 1)
         self.create_subscription(PoseStamped, "goal_pose", self.on_goal, 1)
-        heard = {"imu": (Imu, self.on_imu), "fix": (NavSatFix, self.on_fix)}
-        heard |= {"battery": (BatteryState, self.on_battery), "odom": (Odometry, self.on_odometry)}
-        for topic, (message, take) in heard.items():  # parameters may ask for "reliable"
+        subscriptions = {"imu": (Imu, self.on_imu), "fix": (NavSatFix, self.on_fix)}
+        subscriptions |= {
+            "battery": (BatteryState, self.on_battery),
+            "odom": (Odometry, self.on_odometry),
+        }
+        for topic, (message, take) in subscriptions.items():  # parameters may ask for "reliable"
             more = QoSOverridingOptions.with_default_policies()
             options = {"qos_overriding_options": more}
             self.create_subscription(message, topic, take, qos_profile_sensor_data, **options)
@@ -59,10 +62,16 @@ class ParkNode(Node):
         """The parameters of now; ValueError names one of another kind."""
         return typed({name: self.get_parameter(name).value for name in DEFAULTS})
 
-    def allowed(self, told: list[Parameter]) -> SetParametersResult:
+    def allowed(self, parameters: list[Parameter]) -> SetParametersResult:
         """Whether parameters may be set, while it drives too: they count from the next goal on."""
         try:
-            typed({it.name: it.value for it in told if it.name in DEFAULTS})
+            typed(
+                {
+                    parameter.name: parameter.value
+                    for parameter in parameters
+                    if parameter.name in DEFAULTS
+                }
+            )
         except ValueError as refusal:
             return SetParametersResult(successful=False, reason=str(refusal))
         return SetParametersResult(successful=True)
@@ -77,13 +86,13 @@ class ParkNode(Node):
             if frame not in ("", "map"):
                 raise ValueError(f"frame_id = {frame!r} is not allowed: 'map' or '' is needed")
             position, heading = goal.pose.position, yaw(goal.pose.orientation)
-            wanted = wmr.Pose(position.x, position.y, heading) if frame else goal_of(given)
-            sensors, drive = Sensors(given), drive_of(given, wanted)
+            target = wmr.Pose(position.x, position.y, heading) if frame else goal_of(given)
+            sensors, drive = Sensors(given), drive_of(given, target)
         except (ValueError, IndexError, TypeError) as refusal:  # lists of parameters too
             self.get_logger().error(str(refusal))
             return
-        self.drive, self.sensors, self.said = drive, sensors, ""
-        east, north, degrees = wanted.x, wanted.y, math.degrees(wanted.heading)
+        self.drive, self.sensors, self.last_message = drive, sensors, ""
+        east, north, degrees = target.x, target.y, math.degrees(target.heading)
         self.get_logger().info(f"goal: {east:.2f} m east, {north:.2f} m north, {degrees:.0f} deg")
 
     def on_stop(self, _: Trigger.Request, answer: Trigger.Response) -> Trigger.Response:
@@ -133,10 +142,10 @@ class ParkNode(Node):
     def step(self, seen: wr.Seen) -> None:
         """One period of the drive: what it commands, and its state and reason when they change."""
         self.tell(*wmr.wheels_to_twist(*self.drive.step(seen), self.drive.wheels.track_width))
-        says = ": ".join(filter(None, (self.drive.state, self.drive.reason)))
-        if says != self.said:
-            self.get_logger().info(says)
-        self.said = says
+        message = ": ".join(filter(None, (self.drive.state, self.drive.reason)))
+        if message != self.last_message:
+            self.get_logger().info(message)
+        self.last_message = message
         if self.drive.state in ("parked", "stopped"):
             self.drive = self.sensors = None
 
