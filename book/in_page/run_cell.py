@@ -20,7 +20,7 @@ def run(number: int, before: str, source: str) -> str:
         _execute(before, "<before>", [])
         _execute(source, file, shown)
     except BaseException as error:
-        return json.dumps({"shown": shown, "error": _said(error, file, source)})
+        return json.dumps({"shown": shown, "error": _error_text(error, file, source)})
     return json.dumps({"shown": shown, "error": None})
 
 
@@ -48,7 +48,7 @@ def _short(text):
     return f"{text[:half]}\n... {left_out} characters left out ...\n{text[-half:]}"
 
 
-def _said(error, file, source):
+def _error_text(error, file, source):
     """Return the last line of the error and, if the cell is to blame, which of its lines it was."""
     text = traceback.format_exception_only(error)[-1].strip()
     lines = [it.lineno for it in traceback.extract_tb(error.__traceback__) if it.filename == file]

@@ -57,7 +57,7 @@ DESIGN = re.compile(
 ICON = re.compile(r'"?([\w-]+)"?:\[\d+,\d+,(\[[^\]]*\]),"[0-9a-f]+",(?:"[^"]*"|\[[^\]]*\])\],?')
 # From a page's HTML to the words to be found, with the sections that results lead to.
 ARTICLE = re.compile(r'<article class="bd-article">(.*?)</article>', re.DOTALL)
-UNSAID = re.compile(
+UNSPOKEN = re.compile(
     r'<(script|style|svg|summary)\b.*?</\1>|<a class="headerlink".*?</a>'
     r'|<div class="[^"]*\bmath\b.*?</div>'
     r"|<(?!/?section\b)[^>]+>",
@@ -122,9 +122,9 @@ def show_figures(app, doctree):
             image["loading"] = "lazy"  # hardly ever where the theme hides it; see figures.js
             images.append(image)
         if figure["motion"]:  # the kit's player.js plays it
-            told = html.unescape(figure["motion"])
-            told = f'<script type="application/json">{told}</script>'
-            images.append(nodes.raw("", told, format="html"))
+            motion = html.unescape(figure["motion"])
+            motion = f'<script type="application/json">{motion}</script>'
+            images.append(nodes.raw("", motion, format="html"))
         # In a box of its own, since it scrolls in a narrow window.
         output.replace_self(nodes.container("", *images, classes=["figure-box"]))
 
@@ -174,8 +174,8 @@ def mend(app, exception):
             text = text.replace(model, f"widget-{count:03}")
         path.write_text(text, encoding="utf-8")
         if name in app.env.found_docs:
-            said = FORMULA.sub(_in_letters, UNSAID.sub("", ARTICLE.search(text)[1]))
-            words[name] = re.sub(r"\s+", " ", said)
+            plain = FORMULA.sub(_in_letters, UNSPOKEN.sub("", ARTICLE.search(text)[1]))
+            words[name] = re.sub(r"\s+", " ", plain)
     _thin_icons(Path(app.outdir))
     script = f"const PAGES = {json.dumps(words, ensure_ascii=False)};\n"
     Path(app.outdir, "_static", "words.js").write_text(script, encoding="utf-8")

@@ -60,11 +60,11 @@ def give_states(page: Path, notebooks: list[Path]) -> None:
     """Write into the single page what its panels store; Sphinx does it for one document alone."""
     states = {}
     for notebook in notebooks:
-        stored = json.loads(notebook.read_text(encoding="utf-8"))["metadata"].get("widgets", {})
-        states |= stored.get(STATE, {}).get("state", {})
-    told = json.dumps({"state": states}).replace("</", "<\\/")
+        widgets = json.loads(notebook.read_text(encoding="utf-8"))["metadata"].get("widgets", {})
+        states |= widgets.get(STATE, {}).get("state", {})
+    stored = json.dumps({"state": states}).replace("</", "<\\/")
     text = page.read_text(encoding="utf-8")
-    script = f'<script type="{STATE}">{told}</script></body>'
+    script = f'<script type="{STATE}">{stored}</script></body>'
     page.write_text(text.replace("</body>", script), encoding="utf-8")
 
 

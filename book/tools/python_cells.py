@@ -146,8 +146,8 @@ def give_cells(app, doctree):
     cells = {cell.place: cell for cell in runnable(nbformat.reads(text, as_version=4))}
     for container in list(doctree.findall(nodes.container)):
         if cell := cells.get(container.get("cell_index")):
-            told = json.dumps(cell._asdict(), ensure_ascii=False).replace("</", "<\\/")
-            script = f'<script type="application/json" class="python-cell">{told}</script>'
+            fields = json.dumps(cell._asdict(), ensure_ascii=False).replace("</", "<\\/")
+            script = f'<script type="application/json" class="python-cell">{fields}</script>'
             container += nodes.raw("", script, format="html")
 
 

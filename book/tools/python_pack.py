@@ -135,11 +135,11 @@ def _files_of(path: Path) -> dict[str, bytes]:
         return {name: archive.read(name) for name in archive.namelist()}
 
 
-def _zipped(files: dict[str, bytes], how: int = zipfile.ZIP_STORED) -> bytes:
+def _zipped(files: dict[str, bytes], compression: int = zipfile.ZIP_STORED) -> bytes:
     content = io.BytesIO()
     with zipfile.ZipFile(content, "w") as archive:
         for name, text in sorted(files.items()):
-            archive.writestr(zipfile.ZipInfo(name, FIXED), text, how, compresslevel=9)
+            archive.writestr(zipfile.ZipInfo(name, FIXED), text, compression, compresslevel=9)
     return content.getvalue()
 
 

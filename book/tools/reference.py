@@ -128,7 +128,7 @@ def link_code(app, docname, template, context, doctree):
 def address_in(app, docname: str, package: str | None, name: str) -> str:
     """Where a name of a package has its entry, of either package if it is None."""
     packages = [SHORT.get(package, package)] if package else PAGES
-    addresses = (address_of(app, docname, f"{each}.{name}") for each in packages)
+    addresses = (address_of(app, docname, f"{package_name}.{name}") for package_name in packages)
     return next(filter(None, addresses), "")
 
 

@@ -182,9 +182,9 @@ def write(path: Path, title: str, slides: list[Slide], number: int | None = None
     print(path, flush=True)
 
 
-def formula(text: str, how: dict) -> str:
+def formula(text: str, options: dict) -> str:
     """Return a formula as MathJax finds it."""
-    return html.escape(f"$${text}$$" if how["display_mode"] else f"${text}$")
+    return html.escape(f"$${text}$$" if options["display_mode"] else f"${text}$")
 
 
 def wide(slide: Slide) -> bool:

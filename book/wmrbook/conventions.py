@@ -71,7 +71,7 @@ def gains_near_goal(gains: Gains, convention: str) -> tuple[Real, Real, Real]:
     is k_beta < 0 for Corke and Siegwart, and their condition k_alpha > k_rho is k_alpha > 0 here.
     Fields may be arrays. Raises ValueError for an unknown convention or what is not Gains.
     """
-    how = CONVENTIONS[choice("convention", convention, CONVENTIONS)]
+    signs = CONVENTIONS[choice("convention", convention, CONVENTIONS)]
     instance("gains", gains, Gains)
     lam = gains.v_max * gains.k_rho
-    return lam, gains.k_alpha + lam, how.third * how.gain * lam * gains.h
+    return lam, gains.k_alpha + lam, signs.third * signs.gain * lam * gains.h

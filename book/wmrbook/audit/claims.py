@@ -44,16 +44,16 @@ CAPTIONS = {
 def outdoor_run(x_axis: str, radius: float, law: str = "corrected") -> Trajectory:
     """The outdoor case in continuous time until `radius` before the goal, x "east" or "north"."""
     case = paper.outdoor(x_axis)
-    how = {"law": law, "method": "continuous", "arrival_radius": radius, "dt": 0.01}
-    return simulate(case.start, case.goal, case.gains, **how)
+    options = {"law": law, "method": "continuous", "arrival_radius": radius, "dt": 0.01}
+    return simulate(case.start, case.goal, case.gains, **options)
 
 
 @cache
 def circle_run(law: str = "corrected", wheels=None, **changed: float) -> Trajectory:
     """The circle with the paper's gains but for those that are changed."""
     gains = paper.CIRCLE_GAINS._replace(**changed)
-    how = {"law": law, "wheels": wheels, "duration": paper.CIRCLE_PERIOD}
-    return track(paper.circle, paper.CIRCLE_START, gains, **how)
+    options = {"law": law, "wheels": wheels, "duration": paper.CIRCLE_PERIOD}
+    return track(paper.circle, paper.CIRCLE_START, gains, **options)
 
 
 # Numbers ----------------------------------------------------------------------------------------

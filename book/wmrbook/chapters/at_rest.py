@@ -28,14 +28,14 @@ def allan_deviation(error, spans) -> np.ndarray:
     -------
     array (..., len(spans)), m
     """
-    error, found = real("error", error), []
+    error, deviations = real("error", error), []
     total = np.cumsum(np.insert(error, 0, 0.0, axis=-1), axis=-1)
     for m in spans:
         if not 1 <= m <= error.shape[-1] // 2:
             raise refusal("spans", m, f"1 to {error.shape[-1] // 2} for {error.shape[-1]} samples")
         steps = total[..., 2 * m :] - 2.0 * total[..., m:-m] + total[..., : -2 * m]
-        found.append(np.sqrt(np.mean((steps / m) ** 2, axis=-1) / 2.0))
-    return np.stack(found, axis=-1)
+        deviations.append(np.sqrt(np.mean((steps / m) ** 2, axis=-1) / 2.0))
+    return np.stack(deviations, axis=-1)
 
 
 def autocorrelation(error, lags) -> np.ndarray:

@@ -45,10 +45,10 @@ def scattered(span: tuple[int, int], count: int, rng: np.random.Generator) -> wm
     return wmr.Pose(far * np.cos(aim), far * np.sin(aim), heading)
 
 
-def judged(starts: wmr.Pose, trials: np.ndarray, how: dict) -> np.ndarray:
+def judged(starts: wmr.Pose, trials: np.ndarray, options: dict) -> np.ndarray:
     """Mean seconds to 5 deg, to 10 deg, or with a last turn; NaN if over 1 % don't park."""
-    gains, wheels = wmr.Gains(*trials.T[..., None]), how["wheels"]
-    run = wmr.sweep(starts, GOAL, gains, **how)
+    gains, wheels = wmr.Gains(*trials.T[..., None]), options["wheels"]
+    run = wmr.sweep(starts, GOAL, gains, **options)
     off, spin = np.abs(run.heading_error), 2 * wheels.max_speed / wheels.track_width
     good = [run.arrived & (np.degrees(off) <= most) for most in (5, 10, np.inf)]
     mean = np.where(good, [run.time, run.time, run.time + off / spin], LOST).mean(axis=2)
@@ -63,15 +63,15 @@ def searched(
     Gains that miss the radius too often from the first few starts need not see the others.
     """
     rng, (wheels, dt) = np.random.default_rng(seed), robot
-    how = {"law": law, "method": "arc", "dt": dt, "duration": LOST, "wheels": wheels}
-    how |= {"arrival_radius": radius, "progress": False}
+    options = {"law": law, "method": "arc", "dt": dt, "duration": LOST, "wheels": wheels}
+    options |= {"arrival_radius": radius, "progress": False}
     few, many = scattered(span, FEW, rng), scattered(span, MANY, rng)
     trials = np.array([draw(law, rng) for _ in range(80)])
     first = wmr.Pose(*(field[:FIRST] for field in few))
-    missed = ~wmr.sweep(first, GOAL, wmr.Gains(*trials.T[..., None]), **how).arrived
+    missed = ~wmr.sweep(first, GOAL, wmr.Gains(*trials.T[..., None]), **options).arrived
     hopeful, costs = missed.sum(axis=1) <= MOST_FAILURES, np.full((3, len(trials)), np.inf)
-    costs[:, hopeful] = np.nan_to_num(judged(few, trials[hopeful], how), nan=np.inf)
-    return judged(many, trials[costs.argmin(axis=1)], how).diagonal()
+    costs[:, hopeful] = np.nan_to_num(judged(few, trials[hopeful], options), nan=np.inf)
+    return judged(many, trials[costs.argmin(axis=1)], options).diagonal()
 
 
 def row(span: tuple[int, int], radius: float) -> np.ndarray:

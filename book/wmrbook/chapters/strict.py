@@ -66,12 +66,15 @@ def counterexample(polynomial: sp.Expr, *given: sp.Rel) -> dict[sp.Symbol, sp.Ra
     solver = z3.Tactic("qfnra-nlsat").solver()
     solver.set("timeout", round(1000 * PATIENCE))
     solver.add(in_z3(polynomial) >= 0, z3.Or(names[P] != 0, names[Q] != 0))
-    solver.add(*(_COMPARED[it.rel_op](in_z3(it.lhs - it.rhs), 0) for it in given))
+    solver.add(*(_COMPARED[term.rel_op](in_z3(term.lhs - term.rhs), 0) for term in given))
     answer = solver.check()
     if answer == z3.unknown:
         raise TimeoutError(f"z3 decides neither: {solver.reason_unknown()}")
     if answer == z3.unsat:
         return None
-    found, asked = solver.model(), polynomial.free_symbols.union(*(it.free_symbols for it in given))
-    values = {x: found.eval(names[x], model_completion=True) for x in names if x in asked}
+    model, asked = (
+        solver.model(),
+        polynomial.free_symbols.union(*(term.free_symbols for term in given)),
+    )
+    values = {x: model.eval(names[x], model_completion=True) for x in names if x in asked}
     return {x: sp.Rational(Fraction(value.as_fraction())) for x, value in values.items()}

@@ -26,7 +26,7 @@ def third_angle(pose: Pose, goal: Pose) -> Picture:
     sight = math.atan2(goal.y - pose.y, goal.x - pose.x)
     figure, (left, right) = panels(1, 2, 9.2, 5.0)
     users = {
-        sign: ", ".join(_people(name) for name, how in CONVENTIONS.items() if how.third == sign)
+        sign: ", ".join(_people(name) for name, signs in CONVENTIONS.items() if signs.third == sign)
         for sign in (1, -1)
     }
     ours = f"the paper's (7)-(9), wmrlib,\n{users[1]}"

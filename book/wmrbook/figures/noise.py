@@ -45,9 +45,9 @@ def at_rest(
         bands.items(), LINES, ("alpha", "robot", "ink", "goal"), strict=False
     ):
         same_shape(times=times, low=low, high=high)
-        how = {"color": COLOURS[role], "lw": 1.3}
-        rows[0].plot([], [], style, **how, label=name)
-        rows[1].plot(times, low, style, times, high, style, **how)
+        style_options = {"color": COLOURS[role], "lw": 1.3}
+        rows[0].plot([], [], style, **style_options, label=name)
+        rows[1].plot(times, low, style, times, high, style, **style_options)
         ends = f"from {low[-1]:.1f} to {high[-1]:.1f}"
         texts.append(f"{name}, autocorrelation {ends} after {times[-1]:.0f} s")
     rows[0].set(xscale="log", yscale="log", ylabel="Allan deviation [m]")

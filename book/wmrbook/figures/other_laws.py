@@ -65,11 +65,11 @@ def last_turns(seconds: Mapping[str, tuple[float, float]]) -> Picture:
     axes.set_ylabel("mean time [s]")
     figure_legend(figure)
     words = [
-        f"{name} {_said(without)} without and {_said(turned)} with a last turn"
+        f"{name} {_seconds_text(without)} without and {_seconds_text(turned)} with a last turn"
         for name, (without, turned) in seconds.items()
     ]
     return Picture(figure, f"Mean time to park, a pair of bars for each law: {'; '.join(words)}.")
 
 
-def _said(seconds: float) -> str:
+def _seconds_text(seconds: float) -> str:
     return "never" if math.isnan(seconds) else f"{seconds:.1f} s"

@@ -140,8 +140,8 @@ def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
         axes.label_outer()
         heading = f"heading {math.degrees(run.heading[k]):.0f} deg"
         texts.append(f"{letter} after {run.t[k]:.1f} s, {to_go} m to go, {heading}")
-    goal_said = f"the goal's heading is {math.degrees(goal.heading):.0f} deg"
-    return Picture(figure, f"Snapshots of one drive: {'; '.join(texts)}; {goal_said}.")
+    goal_text = f"the goal's heading is {math.degrees(goal.heading):.0f} deg"
+    return Picture(figure, f"Snapshots of one drive: {'; '.join(texts)}; {goal_text}.")
 
 
 def heading_shares(

@@ -164,8 +164,8 @@ class Picture:
         source = quote(self.svg().replace('"', "'"), safe=" ='/:;,()")
         image = f'<img alt="{html.escape(self.alt)}" width="{width}" src="{SVG_URL}{source}"'
         if self.drives:  # after svg(), which lays the axes out
-            told = json.dumps(self.motion(), separators=(",", ":"))
-            image += f' data-motion="{html.escape(told)}"'
+            motion = json.dumps(self.motion(), separators=(",", ":"))
+            image += f' data-motion="{html.escape(motion)}"'
         image += ">"
         return {"text/html": image, "text/plain": repr(self)}
 

@@ -13,6 +13,6 @@ import lazy_loader
 # An assignment uses one or two of them, and only some need sympy: each is imported when first used.
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
-    submodules=[each.stem for each in Path(__file__).parent.glob("[a-z]*")],
+    submodules=[path.stem for path in Path(__file__).parent.glob("[a-z]*")],
     submod_attrs={"_hints": ["Hint"]},
 )

@@ -127,7 +127,7 @@ def numbers(name: str, value: Any, count: int, *, returned: bool = False) -> tup
         expect_value(name, value)
     given = f"{name} {'returns' if returned else 'is'} {shown(value)}"
     expect(ordered(value, count), f"{given}; {count} numbers, separated by commas, are needed.")
-    return tuple(number(name, each, returned=returned) for each in value)
+    return tuple(number(name, entry, returned=returned) for entry in value)
 
 
 def floats(value: Any) -> np.ndarray | None:
@@ -150,7 +150,7 @@ def gains_of(name: str, value: Any) -> Gains:
         gains = Gains(*map(float, value))  # `_replace` does not check what it is given
     except (TypeError, ValueError, OverflowError) as error:
         raise Hint(f"{name}: {error}.") from None
-    for field, each in zip(Gains._fields, gains, strict=True):
-        hint = f"{name}: {field} = {each:g} is more than {_MOST:g}, which no robot can follow."
-        expect(each <= _MOST, hint)
+    for field, gain in zip(Gains._fields, gains, strict=True):
+        hint = f"{name}: {field} = {gain:g} is more than {_MOST:g}, which no robot can follow."
+        expect(gain <= _MOST, hint)
     return gains

@@ -40,8 +40,9 @@ def explain_distance(distance: Function, a: GeoPoint, b: GeoPoint) -> None:
     if not distance_right(distance, *CLEAR):
         a, b = CLEAR
     value, right = between(distance, a, b), haversine_distance(a, b)
-    north, east = (math.sin(each / 2.0) ** 2 for each in np.radians([b.lat - a.lat, b.lon - a.lon]))
-    one, two = (math.cos(math.radians(each.lat)) for each in (a, b))
+    angles = np.radians([b.lat - a.lat, b.lon - a.lon])
+    north, east = (math.sin(angle / 2.0) ** 2 for angle in angles)
+    one, two = (math.cos(math.radians(point.lat)) for point in (a, b))
     sines = math.sqrt((1.0 - one**2) * (1.0 - two**2))
     mistaken = {_SWAPPED: _swapped(a, b), _DEGREES: in_degrees(a, b)}
     rule_out(value, {hint: haversine_distance(*pair) for hint, pair in mistaken.items()})
@@ -52,8 +53,8 @@ def explain_distance(distance: Function, a: GeoPoint, b: GeoPoint) -> None:
         ("(11) has cosines where yours has sines.", sines),
         ("a cosine was given degrees: `math.radians` first.", math.cos(a.lat) * math.cos(b.lat)),
     ):
-        for each in products:
-            half = min(1.0, north + max(0.0, each) * east)
+        for product in products:
+            half = min(1.0, north + max(0.0, product) * east)
             rule_out(value, {hint: 2.0 * EARTH_RADIUS_M * math.asin(math.sqrt(half))})
     slip(value, right, within=0.0)
     share, there = value / right, places(1)[0]
@@ -90,7 +91,8 @@ def _rule_out_bearings(value: float, a: GeoPoint, b: GeoPoint) -> None:
     right, east = math.degrees(initial_bearing(a, b)), b.lon - a.lon
     flat = math.atan2(east * math.cos(math.radians(a.lat)), b.lat - a.lat)
     final = math.degrees(initial_bearing(b, a)) + 180.0
-    low, high = (math.asinh(math.tan(math.radians(each.lat))) for each in (a, b))  # Mercator's map
+    # the latitudes on Mercator's map
+    low, high = (math.asinh(math.tan(math.radians(point.lat))) for point in (a, b))
     rhumb = math.degrees(math.atan2(math.radians(east), high - low))
     radians = "the result is in radians; degrees are asked for."
     expect(not same_direction(math.degrees(value), right), radians)
@@ -118,12 +120,12 @@ def same_direction(value: float, right: float, tolerance: float = 1e-6) -> bool:
 
 def _swapped(*points: GeoPoint) -> list[GeoPoint]:
     """Where someone ends who takes the latitude for the longitude and the other way round."""
-    return [_anywhere(each.lon, each.lat) for each in points]
+    return [_anywhere(point.lon, point.lat) for point in points]
 
 
 def in_degrees(*points: GeoPoint) -> list[GeoPoint]:
     """Where someone ends who takes the degrees for radians."""
-    return [_anywhere(math.degrees(each.lat), math.degrees(each.lon)) for each in points]
+    return [_anywhere(math.degrees(point.lat), math.degrees(point.lon)) for point in points]
 
 
 def _anywhere(lat: float, lon: float) -> GeoPoint:

@@ -41,40 +41,42 @@ def expression(name: str, value: Any, symbols: Iterable[sp.Symbol]) -> sp.Expr:
     parts = list(islice(sp.preorder_traversal(value), _MOST_PARTS))
     expect(len(parts) < _MOST_PARTS, f"{name} is far too long: simplify it.")
     hint = f"{name} still holds a derivative or an unknown function: put the rates in."
-    expect(not any(isinstance(each, (sp.Derivative, AppliedUndef)) for each in parts), hint)
-    allowed = {each.name: each for each in symbols}
-    for each in sorted({it for it in parts if isinstance(it, sp.Symbol)}, key=str):
-        hint = f"{name} holds `{each}`; it is wanted in {', '.join(allowed)}."
-        expect(each.name in allowed, hint)
-    for each in parts:
-        kind = each.func.__name__
+    expect(not any(isinstance(part, (sp.Derivative, AppliedUndef)) for part in parts), hint)
+    allowed = {symbol.name: symbol for symbol in symbols}
+    for symbol in sorted({part for part in parts if isinstance(part, sp.Symbol)}, key=str):
+        hint = f"{name} holds `{symbol}`; it is wanted in {', '.join(allowed)}."
+        expect(symbol.name in allowed, hint)
+    for part in parts:
+        kind = part.func.__name__
         hint = f"{name} holds `{kind}`: write it with sums, products, sin, cos and exp."
-        expect(not each.args or kind in _FUNCTIONS or isinstance(each, _CASES), hint)
+        expect(not part.args or kind in _FUNCTIONS or isinstance(part, _CASES), hint)
     # A symbol of the student's own may have other assumptions: its name tells what it means.
-    names = {each: allowed[each.name] for each in parts if isinstance(each, sp.Symbol)}
+    names = {symbol: allowed[symbol.name] for symbol in parts if isinstance(symbol, sp.Symbol)}
     return value.replace(sp.UnevaluatedExpr, lambda inner: inner).xreplace(names)
 
 
 def points(symbols: Iterable[sp.Symbol], count: int = 12) -> list[Point]:
     """Random exact values: gains and rho between 0.1 and 3, the others between -3 and 3."""
     random, chosen = np.random.default_rng(4), list(symbols)
-    lowest = {each: 100 if each.is_positive or each.name == "rho" else -3000 for each in chosen}
+    lowest = {
+        symbol: 100 if symbol.is_positive or symbol.name == "rho" else -3000 for symbol in chosen
+    }
     return [
-        {each: sp.Rational(int(random.integers(lowest[each], 3000)), 1000) for each in chosen}
+        {symbol: sp.Rational(int(random.integers(lowest[symbol], 3000)), 1000) for symbol in chosen}
         for _ in range(count)
     ]
 
 
 def values(name: str, wanted: sp.Expr, where: Sequence[Point]) -> list[mpmath.mpf]:
     """Return the expression's values to 50 digits; raise Hint if one is not finite and real."""
-    found = []
+    results = []
     for point in where:
         value = _value_at(point, wanted)
         held = [f"{key} = {float(point[key]):g}" for key in point if wanted.has(key)]
         hint = f"`{name}` is not a finite real number at {', '.join(held)}."
         expect(value is not None, hint)
-        found.append(value)
-    return found
+        results.append(value)
+    return results
 
 
 def equal_at(where: Sequence[Point], value: sp.Expr, right: sp.Expr) -> bool:
@@ -93,7 +95,7 @@ def equal_at(where: Sequence[Point], value: sp.Expr, right: sp.Expr) -> bool:
 def _value_at(point: Point, wanted: sp.Expr) -> mpmath.mpf | None:
     """Return its value there, None if it is not finite and real."""
     with mpmath.workdps(_DIGITS), suppress(ArithmeticError, TypeError, ValueError):
-        numbers = [mpmath.mpf(each.p) / each.q for each in point.values()]
+        numbers = [mpmath.mpf(coordinate.p) / coordinate.q for coordinate in point.values()]
         value = mpmath.mpmathify(_function(wanted, *point)(*numbers))
         if mpmath.isfinite(value) and abs(value.imag) <= _TOLERANCE * abs(value):
             return value.real

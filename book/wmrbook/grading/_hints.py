@@ -110,7 +110,7 @@ def slip(value: Any, right: Any, order: str = "", within: float = 1e-3) -> None:
 def _flat(values: Any) -> list[float]:
     """The numbers of a nest of them as Python's floats, which overflow without a warning."""
     if hasattr(values, "__iter__"):
-        return [number for each in values for number in _flat(each)]
+        return [number for entry in values for number in _flat(entry)]
     return [float(values)]
 
 
@@ -123,7 +123,7 @@ def own_work(function: Callable, *allowed: str) -> None:
     """
     asked = "this task asks for your own formula, with `math` or `numpy`."
     if allowed:
-        asked = f"of it only {', '.join(f'`{each}`' for each in allowed)} may be used here."
+        asked = f"of it only {', '.join(f'`{name}`' for name in allowed)} may be used here."
     waiting, seen = [function], []
     while waiting:
         called = inspect.unwrap(waiting.pop(0))
@@ -142,14 +142,14 @@ def _named(function: types.FunctionType) -> list[Callable]:
     """Return the functions that the names in the function's code stand for."""
     codes = [function.__code__]
     for code in codes:  # and the functions and comprehensions inside it
-        codes += [each for each in code.co_consts if isinstance(each, types.CodeType)]
+        codes += [constant for constant in code.co_consts if isinstance(constant, types.CodeType)]
     names = [name for code in codes for name in code.co_names + code.co_freevars]
     known = function.__globals__ | inspect.getclosurevars(function).nonlocals
     values = [known.get(name, sys.modules.get(name)) for name in names]
     for value in values:  # of the libraries' modules, the attributes that are named
         if isinstance(value, types.ModuleType) and value.__name__.partition(".")[0] in _LIBRARIES:
-            found = [getattr(value, name, None) for name in names]
-            values += [each for each in found if not any(each is other for other in values)]
+            candidates = [getattr(value, name, None) for name in names]
+            values += [it for it in candidates if not any(it is other for other in values)]
     return [value for value in values if callable(value)]
 
 

@@ -65,11 +65,11 @@ def polar_properties(polar: Polar) -> str:
     own_work(polar)
     for pose, goal in _pairs(20):
         distance, *both = _seen(polar, pose, goal)
-        mirrored = [Pose(each.x, -each.y, -each.heading) for each in (pose, goal)]
+        mirrored = [Pose(x, -y, -heading) for x, y, heading in (pose, goal)]
         there, *angles = _seen(polar, *mirrored)
         hint = "seen in a mirror along the x axis, "
         hint += "rho must stay and both angles change their sign."
-        opposite = [-each for each in angles]
+        opposite = [-angle for angle in angles]
         expect(close(there, distance) and _angles_equal(opposite, both), hint)
         there, *angles = _seen(polar, _moved(pose), _moved(goal))
         hint = "robot and goal moved and turned together must see the same: "
@@ -153,7 +153,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
     seen, right = value[1:], (alpha, theta)
     if _angles_equal(seen, right):
         return
-    in_degrees = _angles_equal([math.radians(each) for each in seen], right)
+    in_degrees = _angles_equal([math.radians(angle) for angle in seen], right)
     expect(not in_degrees, "the angles are in degrees; radians are asked for.")
     sight, minus = alpha + pose.heading, (-alpha, -theta)
     from_north = math.pi / 2.0 - sight
@@ -172,7 +172,7 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
     slip(value, error)
     if _angles_equal(seen[:1], right[:1]):
         error = pose.heading - goal.heading
-        third = any(angle_equal(seen[1], each) for each in (error, -error))
+        third = any(angle_equal(seen[1], candidate) for candidate in (error, -error))
         hint = "this third angle is between the two headings; "
         expect(not third, f"{hint}theta has the line of sight on one side.")
         mistakes = {
@@ -218,7 +218,7 @@ def _rows(model: Any) -> list[list[sp.Expr]]:
 
 def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
     """(rho, angle), and the 3 x 2 rates there by central differences of what the robot sees."""
-    dt, found = 1e-5, []
+    dt, states = 1e-5, []
     for distance, alpha, theta in drawn(6, 12, (0.5, 5.0), (-3.0, 3.0), (-3.0, 3.0)):
         pose = pose_from_polar(PolarError(distance, alpha, theta), _ORIGIN)
         columns = []
@@ -230,8 +230,8 @@ def _tail_states() -> list[tuple[tuple[float, float], np.ndarray]]:
             rho, nose, line = np.subtract(after, before)
             columns.append([rho, wrap_angle(nose), -wrap_angle(line)])
         rates = np.transpose(columns) / (2.0 * dt)
-        found.append(((distance, wrap_angle(alpha - math.pi)), rates))
-    return found
+        states.append(((distance, wrap_angle(alpha - math.pi)), rates))
+    return states
 
 
 def _fits(rows: list[list[sp.Expr]], which: slice, column: int | None = None) -> bool:

@@ -47,14 +47,14 @@ def residual_known(left_behind: Callable) -> str:
         hint += f"but the goal drives {speed:.4g} m/s."
         explain(value, mistakes, hint, right=right)
     gains = paper.CIRCLE_GAINS
-    told, half = (
+    predicted, half = (
         ask_number(left_behind, paper.CIRCLE_SPEED, share, gains.k_rho, gains.v_max)
         for share in (0.0, 0.5)
     )
     simulated = residual(track(paper.circle, paper.CIRCLE_START, gains, duration=DURATION))
     hint = f"on the paper's circle the simulation leaves {simulated:.4f} m, "
-    expect(abs(told - simulated) < 2e-4, f"{hint}your formula {told:.4f} m.")
-    circle = f"On the paper's circle {told:.4f} m ({simulated:.4f} m simulated)"
+    expect(abs(predicted - simulated) < 2e-4, f"{hint}your formula {predicted:.4f} m.")
+    circle = f"On the paper's circle {predicted:.4f} m ({simulated:.4f} m simulated)"
     return f"{circle}; with half of the speed told, {half:.4f} m."
 
 
@@ -63,8 +63,8 @@ def residual_limits(left_behind: Callable) -> str:
     own_work(left_behind)
     goals = drawn(62, 10, *_GOAL)
     for (speed, share, k_rho, v_max), near in zip(goals, spread(1e-3, 1.0, 10), strict=True):
-        told = abs(ask_number(left_behind, speed, 1.0, k_rho, v_max))
-        expect(told < 1e-12, "if the whole speed is told (share 1), nothing must be left.")
+        predicted = abs(ask_number(left_behind, speed, 1.0, k_rho, v_max))
+        expect(predicted < 1e-12, "if the whole speed is told (share 1), nothing must be left.")
         value = ask_number(left_behind, speed, share, k_rho, v_max)
         halved = ask_number(left_behind, speed, share, 2.0 * k_rho, v_max)
         expect(close(value, 2.0 * halved), "twice k_rho must leave half the distance.")
@@ -193,7 +193,7 @@ def _motions(count: int) -> list[list[float]]:
 
 def _chases() -> list[tuple[Callable[[float], Reference], Pose]]:
     """Moving goals and starts: the paper's circle, circles to both sides, straight lines."""
-    found = [(paper.circle, paper.CIRCLE_START)]
+    chases = [(paper.circle, paper.CIRCLE_START)]
     for v, omega, start in [
         (0.8, 0.2, Pose(0.0, -1.0, 0.5)),
         (0.8, -0.2, Pose(0.0, 1.0, -0.5)),
@@ -205,8 +205,8 @@ def _chases() -> list[tuple[Callable[[float], Reference], Pose]]:
         def goal(t: float, v: float = v, omega: float = omega) -> Reference:
             return Reference(*advance(Pose(0.0, 0.0, 0.0), v, omega, t), v, omega)
 
-        found.append((goal, start))
-    return found
+        chases.append((goal, start))
+    return chases
 
 
 def _at_reference(steer: Law) -> None:

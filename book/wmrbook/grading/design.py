@@ -83,7 +83,7 @@ def poles_properties(gains_from_poles: Callable) -> str:
         swapped = _three_gains(gains_from_poles, poles[0], poles[2], poles[1], v_max)
         hint = "the order of the two poles of the angles must not count."
         expect(np.allclose(swapped, gains, rtol=1e-9), hint)
-        fast = _three_gains(gains_from_poles, *(3.0 * each for each in poles), v_max)
+        fast = _three_gains(gains_from_poles, *(3.0 * pole for pole in poles), v_max)
         hint = "three times faster poles: look at the units of k_rho (1/m), k_alpha (1/s) "
         hint += "and h (none). Which can change, and by what factor?"
         expect(np.allclose(fast, gains * (3.0, 3.0, 1.0), rtol=1e-9), hint)
@@ -198,7 +198,7 @@ def _three_gains(gains_from_poles: Callable, *given: complex) -> tuple[float, ..
     several = isinstance(answer, (tuple, list))
     hint = "a gain is complex. The sum and the product of a conjugate pair are real: "
     hint += "take their `.real`."
-    expect(not (several and any(isinstance(each, complex) for each in answer)), hint)
+    expect(not (several and any(isinstance(gain, complex) for gain in answer)), hint)
     return ask_numbers(gains_from_poles, 3, *given)
 
 

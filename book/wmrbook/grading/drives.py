@@ -197,7 +197,7 @@ def _path(
         x, y, heading = map(floats, answer.tolist() if hasattr(answer, "tolist") else answer)
     except (TypeError, ValueError):
         raise Hint(three) from None
-    expect(not any(each is None for each in (x, y, heading)), three)
+    expect(not any(values is None for values in (x, y, heading)), three)
     expect(x.ndim == 1 and x.shape == y.shape == heading.shape and len(x) > 0, three)
     path = np.column_stack([x, y, heading])
     expect(bool(np.isfinite(path).all()), "the run has numbers in it that are not finite.")

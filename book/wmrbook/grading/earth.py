@@ -127,9 +127,9 @@ def local_known(local: Local) -> str:
         slip(value, right, within=0.0)
         there = ask_numbers(local, 2, 10.0, 20.0, 10.001, 20.002)
         expect(not all(map(close, value, there)), _earth.CONSTANT)
-        far = not _on_the_spot([1000.0 * each for each in value], right)
+        far = not _on_the_spot([1000.0 * coordinate for coordinate in value], right)
         expect(far, "the result is in kilometres; metres are asked for.")
-        far = not _on_the_spot([math.radians(each) for each in value], right)
+        far = not _on_the_spot([math.radians(coordinate) for coordinate in value], right)
         expect(far, "57 times too long: metres for each *radian*.")
         expect(math.dist(value, right) > 0.01 * math.hypot(*right), _RADIUS)
         hint = "north is right and east is not: which angle's cosine does it take?"
@@ -170,9 +170,9 @@ def _on_the_spot(value: tuple[float, float], right: tuple[float, float]) -> bool
 
 def _walks(seed: int, count: int, farthest: float) -> list[_earth.Pair]:
     """Places up to 60 deg from the equator, and points 20 m to `farthest` from them."""
-    found, way = [], ((20.0, farthest), (-math.pi, math.pi))
+    walks, way = [], ((20.0, farthest), (-math.pi, math.pi))
     for lat, lon, length, angle in drawn(seed, count, (-60.0, 60.0), (-170.0, 170.0), *way):
         origin = GeoPoint(lat=lat, lon=lon)
         point = point_at(origin, length * math.cos(angle), length * math.sin(angle))
-        found.append((origin, point))
-    return found
+        walks.append((origin, point))
+    return walks

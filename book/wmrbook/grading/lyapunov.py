@@ -33,8 +33,10 @@ from wmrlib.symbolic import (
 )
 
 BOWL = rho**2 / (2 * L) + (1 - sp.cos(alpha)) + h * (1 - sp.cos(theta))
-_MODEL = {each: EQUATIONS[number].rhs for each, number in ((rho, 7), (alpha, 9), (theta, 8))}
-_RATE = sum(BOWL.diff(each) * rate for each, rate in _MODEL.items())
+_MODEL = {
+    coordinate: EQUATIONS[number].rhs for coordinate, number in ((rho, 7), (alpha, 9), (theta, 8))
+}
+_RATE = sum(BOWL.diff(coordinate) * rate for coordinate, rate in _MODEL.items())
 _WANTED = -rho * v * sp.cos(alpha) / L - k_alpha * sp.sin(alpha) ** 2
 # The omega with which _RATE, which is linear in it, is _WANTED.
 _TURNING = sp.expand((_WANTED - _RATE.subs(omega, 0)) / _RATE.diff(omega))
@@ -128,7 +130,7 @@ def closed(V_rate_closed: Any) -> str:
         expect(False, hint)
     terms, unclear = _terms(value), "right, but the sign can't be read off: "
     for term in terms:
-        falling = all(each <= 0 for each in values("V_rate_closed", term, _POINTS))
+        falling = all(number <= 0 for number in values("V_rate_closed", term, _POINTS))
         hint = f"{unclear}one of the terms is positive by itself. "
         expect(falling, f"{hint}Factor it, so that each term shows its sign.")
         mixed = term.has(L) and term.has(k_alpha)
@@ -157,9 +159,9 @@ def rising_fast(state: Any) -> str:
 def _terms(value: sp.Expr) -> list[sp.Expr]:
     """The terms of a sum, also of one that something is factored out of."""
     factors = sp.Mul.make_args(value)
-    (inner, *_) = *(each for each in factors if each.is_Add and each.has(k_alpha)), value
-    others = sp.Mul(*(each for each in factors if each is not inner))
-    return [others * each for each in sp.Add.make_args(inner)]
+    (inner, *_) = *(term for term in factors if term.is_Add and term.has(k_alpha)), value
+    others = sp.Mul(*(term for term in factors if term is not inner))
+    return [others * term for term in sp.Add.make_args(inner)]
 
 
 def _printed_slope(state: Any) -> sp.Expr:
@@ -174,7 +176,7 @@ def _printed_slope(state: Any) -> sp.Expr:
     hint = "the goal is asked to be on the right: on which side is it with this alpha?"
     expect(angles[0] < 0.0, hint)
     exact = [sp.nsimplify(x, rational=True) if isinstance(x, float) else x for x in state]
-    gains = [sp.Rational(str(each)) for each in OUTDOOR_GAINS]
+    gains = [sp.Rational(str(gain)) for gain in OUTDOOR_GAINS]
     given = dict(zip((k_rho, k_alpha, h, v_max), gains, strict=True)) | {L: 1}
     slope = textbook(lyapunov_rate("printed")).subs(given)
     return slope.subs(dict(zip((rho, alpha, theta), exact, strict=True))).evalf(30)

@@ -110,7 +110,7 @@ def arc_known(arc: Arc) -> str:
         otherwise += "integrate cos and sin of the heading over the time, (2.9)."
         explain(value, mistakes, otherwise, same_pose, right)
     origin = Pose(0.0, 0.0, 0.0)
-    ends = [advance(origin, 4.0, 1.0, 0.5, method=each)[:2] for each in ("arc", "euler")]
+    ends = [advance(origin, 4.0, 1.0, 0.5, method=method)[:2] for method in ("arc", "euler")]
     far = f"{100.0 * math.dist(*ends):.0f} cm beside it after half a second."
     return f"On the arc. At 4 m/s and 1 rad/s Euler's step would end {far}"
 
@@ -119,10 +119,10 @@ def arc_straight(arc: Arc) -> str:
     """It is finite for omega = 0 and keeps its digits when omega is tiny."""
     own_work(arc)
     sizes = spread(1e-15, 1.0, 100)
-    for omega in (0.0, -0.0, *sizes, *(-each for each in sizes)):
+    for omega in (0.0, -0.0, *sizes, *(-size for size in sizes)):
         value = ask_numbers(arc, 3, 1.0, 2.0, 0.5, 2.0, omega, 1.5)
         right, euler = (
-            advance(Pose(1.0, 2.0, 0.5), 2.0, omega, 1.5, method=each) for each in ("arc", "euler")
+            advance(Pose(1.0, 2.0, 0.5), 2.0, omega, 1.5, method=step) for step in ("arc", "euler")
         )
         away = math.dist(value[:2], right[:2])
         hint = f"with omega = 0 the place is {away:.2g} m off: "

@@ -43,8 +43,8 @@ def scatter_properties(scatter: Callable) -> str:
     """The same elsewhere and in another order; twice the error is twice the scatter."""
     own_work(scatter)
     for lat, lon in _logs(5):
-        found = np.array(ask_numbers(scatter, 4, lat.copy(), lon.copy())[2:])
-        expect(bool((found > 0.0).all()), "a standard deviation is positive.")
+        spread = np.array(ask_numbers(scatter, 4, lat.copy(), lon.copy())[2:])
+        expect(bool((spread > 0.0).all()), "a standard deviation is positive.")
         doubled = 2.0 * lat - lat.mean(), 2.0 * lon - lon.mean()
         for changed, times, hint in [
             ((lat, lon - 30.0), 1.0, "30 deg further west the same receiver must scatter as much."),
@@ -53,7 +53,7 @@ def scatter_properties(scatter: Callable) -> str:
             (doubled, 2.0, "twice as far from the mean must be twice the standard deviation."),
         ]:
             stds = ask_numbers(scatter, 4, *map(np.array, changed))[2:]
-            expect(np.allclose(stds, times * found, rtol=1e-6), hint)
+            expect(np.allclose(stds, times * spread, rtol=1e-6), hint)
     lon = np.array([-1e-5, 0.0, 1e-5, 2e-5])
     east, north = ask_numbers(scatter, 4, 60.0 + lon, lon)[2:]
     hint = "at 60 deg of latitude a degree of longitude is half as long as one of latitude."
@@ -209,12 +209,12 @@ def _explain_mean(value: float, sigma: float, n: int, c: float, right: float, hi
 
 def _logs(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
     """Latitudes and longitudes of receivers that stand still; the last is on the equator."""
-    random, found = np.random.default_rng(90), []
+    random, logs = np.random.default_rng(90), []
     for k in range(count):
         lat = random.uniform(35.0, 70.0) * (1.0 if k % 2 == 0 else -1.0)
         at = GeoPoint(lat=lat, lon=random.uniform(-120.0, 150.0))
         at = GeoPoint(lat=0.02, lon=10.0) if k == count - 1 else at
         n, spread = int(random.integers(4, 30)), random.uniform(0.3, 4.0, 2)
         points = point_at(at, *(spread[:, None] * random.standard_normal((2, n))))
-        found.append((np.array(points.lat), np.array(points.lon)))
-    return found
+        logs.append((np.array(points.lat), np.array(points.lon)))
+    return logs

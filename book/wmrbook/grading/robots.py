@@ -42,7 +42,7 @@ def compass_known(heading_of: Callable) -> str:
         if angle_equal(value, right):
             continue
         degrees = math.degrees(right), (math.degrees(right) + 180.0) % 360.0 - 180.0
-        in_degrees = any(close(value, each) for each in degrees)
+        in_degrees = any(close(value, angle) for angle in degrees)
         expect(not in_degrees, "this is the heading in degrees; radians are asked for.")
         east = declination > 0.0
         needle = f"a needle that points {'east' if east else 'west'} of north"
@@ -135,12 +135,18 @@ def step_stops(wheel_speeds: Callable) -> str:
     for name, value in itertools.product(fine, (math.nan, math.inf, -math.inf)):
         why = f"without its {name} a fix can't be trusted."
         _expect_stop(wheel_speeds, fine | {name: value}, given, f"{name} = {value}", why)
-    for each in spread(1e-3, 3600.0, 20):
-        what, why = f"a fix {0.5 + each:.4g} s old", "silence for more than 0.5 s stops the robot."
-        _expect_stop(wheel_speeds, fine | {"age": 0.5 + each}, given, what, why)
-    for each in spread(1e-9, 10.0, 10):
-        what, why = f"a fix {each:.2g} s from now", "a clock that runs backwards can't be trusted."
-        _expect_stop(wheel_speeds, fine | {"age": -each}, given, what, why)
+    for seconds in spread(1e-3, 3600.0, 20):
+        what, why = (
+            f"a fix {0.5 + seconds:.4g} s old",
+            "silence for more than 0.5 s stops the robot.",
+        )
+        _expect_stop(wheel_speeds, fine | {"age": 0.5 + seconds}, given, what, why)
+    for seconds in spread(1e-9, 10.0, 10):
+        what, why = (
+            f"a fix {seconds:.2g} s from now",
+            "a clock that runs backwards can't be trusted.",
+        )
+        _expect_stop(wheel_speeds, fine | {"age": -seconds}, given, what, why)
     angles = drawn(111, 20, *[(-3.0, 3.0)] * 3)
     for near, (sight, heading, look) in zip(spread(1e-3, 0.2, 20), angles, strict=True):
         far = 0.2 - near
@@ -185,11 +191,11 @@ def step_drives(wheel_speeds: Callable) -> str:
 def _counters(count: int) -> list[tuple[int, int, int, float]]:
     """(before, ticks, ticks_per_turn, wheel_radius): first short of the end, then across it."""
     random = np.random.default_rng(112)
-    found = [(1000, 500, 800, 0.1), (65000, 2000, 800, 0.1), (40000, -700, 800, 0.1)]
-    while len(found) < count:
+    counters = [(1000, 500, 800, 0.1), (65000, 2000, 800, 0.1), (40000, -700, 800, 0.1)]
+    while len(counters) < count:
         row = random.integers((0, -32000, 100), (COUNTS, 32000, 4000)).tolist()
-        found.append((*row, float(random.uniform(0.03, 0.4))))
-    return found
+        counters.append((*row, float(random.uniform(0.03, 0.4))))
+    return counters
 
 
 def _expect_stop(wheel_speeds: Callable, at: dict, given: tuple, what: str, why: str) -> None:
@@ -204,7 +210,7 @@ def _expect_stop(wheel_speeds: Callable, at: dict, given: tuple, what: str, why:
 
 def _situations(count: int) -> list[tuple[Pose, float, Pose, Gains, Wheels]]:
     """Fixes at most 0.5 s old, from a millimetre more than 0.2 m away to 20 m."""
-    random, found = np.random.default_rng(113), []
+    random, situations = np.random.default_rng(113), []
     for k, near in enumerate(spread(1e-3, 20.0, count)):
         goal = Pose(*random.uniform(-3.0, 3.0, 3).tolist())
         far, (sight, look) = 0.2 + near, random.uniform(-3.0, 3.0, 2).tolist()
@@ -212,5 +218,5 @@ def _situations(count: int) -> list[tuple[Pose, float, Pose, Gains, Wheels]]:
         gains = Gains(*random.uniform((0.1, 0.5, 0.2, 1.0), (1.0, 3.0, 3.0, 4.0)).tolist())
         age = 0.5 if k == 0 else random.uniform(0.0, 0.5)
         limits = Wheels(*random.uniform((0.3, 0.8), (1.0, 3.0)).tolist())
-        found.append((pose, age, goal, gains, limits))
-    return found
+        situations.append((pose, age, goal, gains, limits))
+    return situations

@@ -56,7 +56,7 @@ def checksum_damage(checksum_fits: Callable) -> str:
         hint = "a sentence as the receiver sent it must pass."
         expect(ask_truth(checksum_fits, f"${body}{end}"), hint)
         for place in range(len(body)):
-            wrong = chr(random.choice([each for each in range(48, 91) if chr(each) != body[place]]))
+            wrong = chr(random.choice([code for code in range(48, 91) if chr(code) != body[place]]))
             sentence = f"${body[:place]}{wrong}{body[place + 1 :]}{end}"
             hint = f"'{sentence}' is damaged (its character {place + 1}), and you say that it fits."
             expect(not ask_truth(checksum_fits, sentence), hint)
@@ -170,15 +170,15 @@ def headings_properties(headings: Callable) -> str:
     """Mirrored, moved, driven back, with points entered twice; straight lines stay straight."""
     own_work(headings)
     for x, y in _routes(10):
-        found, same = ask_array(headings, (x.size,), x.copy(), y.copy()), "the same headings."
+        answer, same = ask_array(headings, (x.size,), x.copy(), y.copy()), "the same headings."
         quarter = "turn the route by a quarter, and every heading must turn by as much."
         back = "driven from its end to its start, every heading must be the opposite one."
         for changed, right, hint in [
-            ((x, -y), -found, "the mirrored route must have the mirrored headings."),
-            ((x + 1000.0, y - 500.0), found, f"somewhere else the same route must have {same}"),
-            ((3.0 * x, 3.0 * y), found, f"a route three times as large must have {same}"),
-            ((-y, x), found + math.pi / 2.0, quarter),
-            ((x[::-1], y[::-1]), found[::-1] + math.pi, back),
+            ((x, -y), -answer, "the mirrored route must have the mirrored headings."),
+            ((x + 1000.0, y - 500.0), answer, f"somewhere else the same route must have {same}"),
+            ((3.0 * x, 3.0 * y), answer, f"a route three times as large must have {same}"),
+            ((-y, x), answer + math.pi / 2.0, quarter),
+            ((x[::-1], y[::-1]), answer[::-1] + math.pi, back),
         ]:
             value = ask_array(headings, (x.size,), *map(np.array, changed))
             expect(_same_ways(value, right), hint)
@@ -186,7 +186,7 @@ def headings_properties(headings: Callable) -> str:
             value = ask_array(headings, (count.sum(),), np.repeat(x, count), np.repeat(y, count))
             hint = "a point that is entered again makes no leg: "
             hint += "it has the heading that it has when entered once."
-            expect(_same_ways(value, np.repeat(found, count)), hint)
+            expect(_same_ways(value, np.repeat(answer, count)), hint)
     for direction in np.radians([0.0, 60.0, 90.0, 179.999, 180.0, -90.0, -135.0]).tolist():
         along = np.array([0.0, 1.0, 3.0, 3.5, 8.0])
         value = ask_array(headings, (5,), along * math.cos(direction), along * math.sin(direction))
@@ -226,15 +226,15 @@ def _explain_checksum(checksum_fits: Callable, body: str, end: str) -> None:
 
 
 def _fields(count: int) -> list[tuple[str, str, float]]:
-    random, found = np.random.default_rng(122), []
+    random, fields = np.random.default_rng(122), []
     for k in range(count):
         most, width, sides = (89, 2, "NS") if k % 2 == 0 else (179, 3, "EW")
         decimals = 4 if k < 8 else int(random.integers(1, 9))
         whole, minutes = int(random.integers(0, most + 1)), random.uniform(0.0, 59.9)
         size, side = f"{minutes:0{3 + decimals}.{decimals}f}", k // 2 % 2
         right = (whole + float(size) / 60.0) * (1 - 2 * side)
-        found.append((f"{whole:0{width}d}{size}", sides[side], right))
-    return found
+        fields.append((f"{whole:0{width}d}{size}", sides[side], right))
+    return fields
 
 
 def _routes(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
@@ -242,7 +242,7 @@ def _routes(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
 
     Every second of three comes back to its second point, every third has short legs too.
     """
-    random, found = np.random.default_rng(123), []
+    random, routes = np.random.default_rng(123), []
     for k in range(count):
         legs = int(random.integers(3, 9))
         direction = np.cumsum(random.uniform(-2.44, 2.44, legs)) + random.uniform(-3.0, 3.0)
@@ -250,8 +250,8 @@ def _routes(count: int) -> list[tuple[np.ndarray, np.ndarray]]:
         length = np.array(spread(1e-6, 40.0, legs, seed=k)) if k % 3 == 2 else length
         steps = length * np.cos(direction), length * np.sin(direction)
         x, y = (np.cumsum(np.insert(s, 0, at)) for s, at in zip(steps, start, strict=True))
-        found.append((np.append(x, x[1]), np.append(y, y[1])) if k % 3 == 1 else (x, y))
-    return found
+        routes.append((np.append(x, x[1]), np.append(y, y[1])) if k % 3 == 1 else (x, y))
+    return routes
 
 
 def _ends(legs: np.ndarray, between: np.ndarray) -> np.ndarray:

@@ -35,10 +35,10 @@ def step_complex(longest_euler_step: Callable) -> str:
     random = np.random.default_rng(82)
     for pairs, singles in ((1, 0), (1, 1), (2, 0), (2, 2), (1, 3)):
         rows = random.uniform((-3.0, 0.3), (-0.2, 6.0), (pairs, 2)).tolist()
-        found = [complex(*row) for row in rows]
-        found += [each.conjugate() for each in found]
-        found += random.uniform(-9.0, -0.2, singles).tolist()
-        _check_step(longest_euler_step, found)
+        poles = [complex(*row) for row in rows]
+        poles += [pole.conjugate() for pole in poles]
+        poles += random.uniform(-9.0, -0.2, singles).tolist()
+        _check_step(longest_euler_step, poles)
     for unstable in ([1.0], [-1.0, 0.5 + 2j, 0.5 - 2j], [-1.0, 0.0]):
         hint = "one of these modes does not fade by itself, so no step makes it fade."
         refuses(longest_euler_step, hint, unstable)
@@ -145,9 +145,9 @@ def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float
     hint = f"a step of {value:.4g} s: a step must be positive; "
     expect(value > 0.0, f"{hint}mind the signs of the real parts.")
     size = np.abs(table)
-    each = -2.0 * table.real / size**2
-    if not close(value, each.min()):
-        one = close(value, each.max()) and not close(value, 1.0 / size.max())
+    steps = -2.0 * table.real / size**2
+    if not close(value, steps.min()):
+        one = close(value, steps.max()) and not close(value, 1.0 / size.max())
         expect(not one, "this step is the longest for one mode; all modes have to fade.")
         real = "this is right for real poles. "
         real += "With a complex pole s, when is the *size* of 1 + dt s less than 1?"
@@ -155,12 +155,12 @@ def _check_step(longest_euler_step: Callable, poles: Sequence[complex]) -> float
             "a mode at -1/dt is gone after one step. "
             "It may overshoot, though: how far, before it grows?": 1.0 / size.max(),
             "this is the step of the mode with the largest pole alone. "
-            "One that is slower, but swings, may need a shorter one.": each[size.argmax()],
+            "One that is slower, but swings, may need a shorter one.": steps[size.argmax()],
             real: 2.0 / size.max(),
         }
         rule_out(value, mistakes)
         rule_out(value, {real: 2.0 / np.abs(table.real).max()})
-        slip(value, each.min(), within=0.0)
+        slip(value, steps.min(), within=0.0)
     with np.errstate(over="ignore"):
         growth = np.abs(1.0 + 0.999 * value * table)
     worst = int(growth.argmax())

@@ -130,7 +130,7 @@ def home_omega(my_gains: Any) -> str:
 
 def _asked(poses: Poses, a: GeoPoint, b: GeoPoint, course: float, goal_course: float) -> list[Pose]:
     answer = ask(poses, a, b, course, goal_course)
-    two = ordered(answer, 2) and all(isinstance(each, Pose) for each in answer)
+    two = ordered(answer, 2) and all(isinstance(pose, Pose) for pose in answer)
     expect(two, "two poses are needed: `return start, goal`, each a `wmr.Pose(x, y, heading)`.")
     return [
         Pose(*(number(f"the {name}'s {field}", pose[k]) for k, field in enumerate(Pose._fields)))

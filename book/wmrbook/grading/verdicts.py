@@ -151,10 +151,10 @@ def _verdict(computed: Decimal, printed: str) -> tuple[bool, bool, bool]:
 
 
 def _expect_verdict(agrees: Callable, computed: float, printed: str) -> None:
-    told = ask_truth(agrees, computed, printed)
+    verdict = ask_truth(agrees, computed, printed)
     rounds, cuts, near = _verdict(Decimal(repr(computed)), printed)
     holds = rounds or (cuts and near)
-    if told == holds:
+    if verdict == holds:
         return
     digits = len(printed.partition(".")[2])
     if rounds:
@@ -170,13 +170,13 @@ def _expect_verdict(agrees: Callable, computed: float, printed: str) -> None:
         hint = "That it is near is not the question: do the printed digits come out?"
     else:
         hint = f"What is {computed} rounded to {digits} decimals?"
-    expect(False, f"{computed} was computed, '{printed}' is printed, and you say {told}. {hint}")
+    expect(False, f"{computed} was computed, '{printed}' is printed, and you say {verdict}. {hint}")
 
 
 def _printed(count: int) -> list[tuple[float, str]]:
     """Numbers as they may be printed: rounded, cut off or wrong, none on the rule's edge."""
-    random, found = np.random.default_rng(102), []
-    while len(found) < count:
+    random, pairs = np.random.default_rng(102), []
+    while len(pairs) < count:
         digits, size = int(random.integers(0, 4)), 10.0 ** random.integers(-1, 3)
         computed = float(f"{random.uniform(1.0, 10.0) * size * random.choice((-1, 1)):.6f}")
         exact, unit = Decimal(repr(computed)), Decimal(1).scaleb(-digits)
@@ -184,5 +184,5 @@ def _printed(count: int) -> list[tuple[float, str]]:
         loss = abs(exact - claim)
         half = abs(loss / unit - Decimal("0.5")) <= Decimal("0.02")
         if claim and not half and not Decimal("0.95") < 100 * loss / abs(exact) < Decimal("1.05"):
-            found.append((computed, str(claim)))
-    return found
+            pairs.append((computed, str(claim)))
+    return pairs

@@ -19,8 +19,8 @@ def lag() -> Live:
     """The distance that is left behind a moving goal, in the picture and over time."""
     gains = paper.CIRCLE_GAINS
     once, twice = (
-        residual(track(paper.circle, paper.CIRCLE_START, each, duration=40.0))
-        for each in (gains, gains._replace(k_rho=2 * gains.k_rho))
+        residual(track(paper.circle, paper.CIRCLE_START, tried, duration=40.0))
+        for tried in (gains, gains._replace(k_rho=2 * gains.k_rho))
     )
     left = {
         "It vanishes": twice < once / 10,

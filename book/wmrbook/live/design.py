@@ -63,8 +63,8 @@ def window() -> Live:
     k_rho, k_alpha, k_beta = SIEGWART
     points.append(("Siegwart", (k_alpha - k_rho) / k_rho, -k_beta / k_rho))
     twice = GAINS._replace(k_alpha=2 * GAINS.k_alpha, v_max=2 * GAINS.v_max)
-    how = {"method": "continuous", "arrival_radius": 0.01}
-    one, two = (arrival(simulate(START, GOAL, gains, **how)) for gains in (GAINS, twice))
+    options = {"method": "continuous", "arrival_radius": 0.01}
+    one, two = (arrival(simulate(START, GOAL, gains, **options)) for gains in (GAINS, twice))
     longer, time = two.path_length / one.path_length, two.time / one.time
     return Live(
         "window",

@@ -32,8 +32,8 @@ def bowl() -> Live:
     """The angles' part of V as a bowl to turn, its level sets, and a state that rolls over both."""
     seen = PolarError(NEAR, math.radians(110.0), math.radians(90.0))
     start = pose_from_polar(seen, GOAL)
-    how = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
-    run = simulate(start, GOAL, GENTLE_GAINS, **how)
+    options = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
+    run = simulate(start, GOAL, GENTLE_GAINS, **options)
     h = GENTLE_GAINS.h
     heights = (run.alpha**2 + h * run.theta**2) / 2
     steepest = np.arctan2(-h * run.theta, -run.alpha)
@@ -132,8 +132,8 @@ def seam() -> Live:
     """Robots that start on the seam and see their goal through noise; hysteresis mends it."""
     start = Pose(FACING, 0.0, math.pi)
     seen = Receiver(sight=np.full(SWARM["robots"], math.radians(NOISE)))
-    how = {"method": "arc", "dt": SWARM["dt"], "arrival_radius": SWARM["radius"]}
-    ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=seen, seed=SWARM["seed"], **how)
+    options = {"method": "arc", "dt": SWARM["dt"], "arrival_radius": SWARM["radius"]}
+    ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=seen, seed=SWARM["seed"], **options)
     share = np.mean(np.abs(ends.heading_error) > math.pi / 2)
     return Live(
         "seam",

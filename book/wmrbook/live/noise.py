@@ -37,8 +37,8 @@ def late_drive(
     """
     start, goal = map(_turn, paper.outdoor()[:2], (set_off, face))
     late = Receiver(delay=position, heading_delay=heading)
-    how = {"method": "arc", "dt": DT, "duration": LOST, "arrival_radius": RADIUS}
-    end, path = sweep(start, goal, GENTLE_GAINS, receiver=late, trajectories=True, **how)
+    options = {"method": "arc", "dt": DT, "duration": LOST, "arrival_radius": RADIUS}
+    end, path = sweep(start, goal, GENTLE_GAINS, receiver=late, trajectories=True, **options)
     driven = np.isfinite(path.x)
     return Pose(path.x[driven], path.y[driven], path.heading[driven]), end.time
 
@@ -47,7 +47,9 @@ def late() -> Live:
     """Two robots race: one sees its position late, the other its heading."""
     start, goal, *_ = paper.outdoor()
     delay = 0.6
-    position, heading = (math.isfinite(late_drive(*each)[1]) for each in ((delay, 0), (0, delay)))
+    position, heading = (
+        math.isfinite(late_drive(*delays)[1]) for delays in ((delay, 0), (0, delay))
+    )
     return Live(
         "late",
         "Both robots have gentle gains. One sees its position {delay} late and {position}; the "

@@ -60,9 +60,9 @@ def race() -> Live:
 
 def heading_power() -> Live:
     """Graceful's heading error over the distance left, for k_phi, k_delta and a radius."""
-    how = {"law": "graceful", "method": "continuous"}
+    options = {"law": "graceful", "method": "continuous"}
     first, second = (
-        abs(simulate(ASIDE, GOAL, DOCKING, arrival_radius=radius, **how).heading_error[-1])
+        abs(simulate(ASIDE, GOAL, DOCKING, arrival_radius=radius, **options).heading_error[-1])
         for radius in RADII
     )
     return Live(

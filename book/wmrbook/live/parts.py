@@ -85,8 +85,8 @@ def choose(
 
 def nearest(value: float, answers: dict[str, float]) -> dict[str, bool]:
     """Return which answer is so, of some that each stand for a number."""
-    best = min(answers.values(), key=lambda each: abs(each - value))
-    return {words: each == best for words, each in answers.items()}
+    best = min(answers.values(), key=lambda number: abs(number - value))
+    return {words: number == best for words, number in answers.items()}
 
 
 class Live(Panel):
@@ -134,7 +134,7 @@ class Live(Panel):
             "ask": ask and {"name": name, **ask._asdict()},
             "steps": steps,
         }
-        state = {each: knob.allowed(each, knob.value) for each, knob in knobs.items()}
+        state = {key: knob.allowed(key, knob.value) for key, knob in knobs.items()}
         super().__init__(f"live/{name}", state | {"guess": None}, setup)
 
     def __repr__(self) -> str:

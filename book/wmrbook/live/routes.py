@@ -50,8 +50,8 @@ def passing() -> Live:
     headings = headings_along(*WALK)
     headings[-1] = DOOR
     poses = Pose(*WALK, headings)
-    how = {"stop": False, "pass_radius": 5.0, "method": "continuous"}
-    legs = drive_route(poses, GAINS, **how).legs
+    options = {"stop": False, "pass_radius": 5.0, "method": "continuous"}
+    legs = drive_route(poses, GAINS, **options).legs
     jumps = [float(b.V[0] - a.V[-1]) for a, b in pairwise(legs)]
     return Live(
         "passing",

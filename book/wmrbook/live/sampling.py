@@ -26,8 +26,8 @@ def unit_circle() -> Live:
         name: {method: longest_step(gains, method) for method in ("arc", "euler")}
         for name, gains in tunings.items()
     }
-    how = {"method": "arc", "dt": LATE * longest["gentle"]["arc"], "duration": 60.0}
-    end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, **how))
+    options = {"method": "arc", "dt": LATE * longest["gentle"]["arc"], "duration": 60.0}
+    end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, **options))
     off = abs(math.degrees(end.heading_error))
     return Live(
         "unit_circle",
@@ -67,9 +67,9 @@ def unit_circle() -> Live:
 def parking() -> Live:
     """Wheels that stand below a speed: where the robot stops, and what mends it."""
     dead, radius, wheels = 0.1, 0.05, Wheels(TRACK, max_speed=2.0, acceleration=1.0)
-    case, how = paper.outdoor(), {"dt": DT, "duration": 60.0, "arrival_radius": radius}
+    case, options = paper.outdoor(), {"dt": DT, "duration": 60.0, "arrival_radius": radius}
     motors = wheels._replace(dead_band=dead)
-    end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, wheels=motors, **how))
+    end = arrival(simulate(case.start, case.goal, GENTLE_GAINS, wheels=motors, **options))
     choices = {"5 cm": 0.05, "about 12 cm": 0.12, "half a metre": 0.5}
     return Live(
         "parking",

@@ -150,13 +150,13 @@ class Explorer(Panel):
 
     def trajectory(self) -> Trajectory:
         """The run that the panel shows, by `wmrlib.simulate` or `wmrlib.track`."""
-        how = {name: self.state[name] for name in ("law", "method", "dt", "duration")}
-        how["wheels"] = self.wheels
+        options = {name: self.state[name] for name in ("law", "method", "dt", "duration")}
+        options["wheels"] = self.wheels
         if self.moving:
             gains = self.gains if LAWS[self.law].gains is Gains else self.feedback
-            return track(paper.circle, self.start, gains, **how)
+            return track(paper.circle, self.start, gains, **options)
         radius = self.state["arrival_radius"]
-        return simulate(self.start, self.goal, self.gains, arrival_radius=radius, **how)
+        return simulate(self.start, self.goal, self.gains, arrival_radius=radius, **options)
 
     def _set(self, values: dict[str, Any]) -> None:
         self.state = self.state | values
@@ -179,7 +179,7 @@ def _three(name: str, pose: Pose) -> list[float]:
 
 def _numbers(name: str, value, kind: type) -> dict[str, float]:
     fields = instance(name, value, kind)._asdict()
-    return {f: scalar(f"{name}.{f}", each, low=-1e6, high=1e6) for f, each in fields.items()}
+    return {f: scalar(f"{name}.{f}", number, low=-1e6, high=1e6) for f, number in fields.items()}
 
 
 def _rolling(wheels: Wheels) -> dict[str, float]:
@@ -193,7 +193,7 @@ def _rolling(wheels: Wheels) -> dict[str, float]:
 
 def _presets() -> list[dict]:
     outdoor = paper.outdoor()
-    still, moving = ({"moving": each, "law": "corrected"} for each in (False, True))
+    still, moving = ({"moving": moves, "law": "corrected"} for moves in (False, True))
     poses = {"start": _three("start", outdoor.start), "goal": _three("goal", outdoor.goal)}
     circle = {"start": _three("start", paper.CIRCLE_START), "dt": paper.TIME_STEP}
     return [

@@ -62,8 +62,8 @@ def millimetre_beside() -> tuple[str, list[Option], str]:
 def tenth_of_a_second() -> tuple[str, list[Option], str]:
     case = wmr.paper.outdoor()
 
-    def off_deg(**how: object) -> float:
-        run = wmr.simulate(case.start, case.goal, case.gains, **how)
+    def off_deg(**options: object) -> float:
+        run = wmr.simulate(case.start, case.goal, case.gains, **options)
         end = wmr.arrival(run)
         return abs(math.degrees(end.heading_error)) if end.arrived else math.nan
 

@@ -27,18 +27,18 @@ def brake(limits: Any) -> str:
     grid = [x / 1000 for x in range(5000)]
     exponential = max(math.exp(-x) * -math.expm1(-x) for x in grid)
     steepest = exponential, max(math.tanh(x) / math.cosh(x) ** 2 for x in grid)
-    value, right = numbers("`limits`", limits, 2), [1.0 / (16.0 * each) for each in steepest]
+    value, right = numbers("`limits`", limits, 2), [1.0 / (16.0 * slope) for slope in steepest]
     mistakes = {
         "they are the other way round.": right[::-1],
-        _SQUARED: [4.0 * each for each in right],
+        _SQUARED: [4.0 * gain for gain in right],
     }
     expect(min(value) > 0.0, _POSITIVE)
     if not near(value, right):
         hint = "differentiate v along the way, dv/dt = dv/drho (-v): where is that steepest?"
         explain(value, mistakes, hint, near)
-    for name, each, most in zip(("the exponential", "tanh"), value, right, strict=True):
-        hint = f"with {name} and k_rho = {each:g} 1/m it brakes harder than 1 m/s^2"
-        expect_below(each, most, hint)
+    for name, gain, most in zip(("the exponential", "tanh"), value, right, strict=True):
+        hint = f"with {name} and k_rho = {gain:g} 1/m it brakes harder than 1 m/s^2"
+        expect_below(gain, most, hint)
     return "Right: tanh brakes harder, and asks for the smaller gain."
 
 

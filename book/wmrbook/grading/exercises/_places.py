@@ -31,7 +31,7 @@ def third_formula(distance: Callable) -> str:
             "an angle is wanted, and this is its sine: where is the dot product?": across,
         }
         rule_out(value, mistakes)
-    alike, first = all(close(each, scales[0]) for each in scales), scales[0]
+    alike, first = all(close(scale, scales[0]) for scale in scales), scales[0]
     angle = "this is the angle: times the Earth's radius it is the distance."
     expect(not (alike and close(first, 1.0 / EARTH_RADIUS_M)), angle)
     hint = f"each distance is {first:.7g} times the right one: metres, on a sphere with "
@@ -93,7 +93,7 @@ def odometry(path: Callable, ends: Any = None) -> str:
     for seed in range(6):
         log = [*drawn(seed, 12, *[(-1.0, 1.0)] * 2), (0.4, 0.4), (0.3, -0.3), (0.0, 0.0)]
         width, dt = 0.3 + 0.1 * seed, 0.7 - 0.1 * seed
-        value = ask_numbers(path, 3, [tuple(each) for each in log], width, dt)
+        value = ask_numbers(path, 3, [tuple(entry) for entry in log], width, dt)
         old, mid, new = (_driven(log, width, dt, turned=share) for share in (0.0, 0.5, 1.0))
         mistakes = {
             "these are Euler's straight steps: on an arc the robot turns on its way.": old,
@@ -147,10 +147,12 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
             "alpha is the line of sight less the heading, not the other way.": other,
             "the line of sight is theta from the goal's heading, not from x.": from_x,
         }
-        found = {hint: pose_from_polar(PolarError(*each), goal) for hint, each in mistakes.items()}
+        poses = {
+            hint: pose_from_polar(PolarError(*error), goal) for hint, error in mistakes.items()
+        }
         right = pose_from_polar(PolarError(far, ahead, beside), goal)
         if not same_pose(value, right):
-            rule_out(value, found, same_pose)
+            rule_out(value, poses, same_pose)
             _expect_radians(value, right)
             hint = "the place is right, the heading is not: the line of sight's less alpha."
             expect(math.dist(value[:2], right[:2]) >= 1e-7, hint)
@@ -165,8 +167,8 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
     right = pose_from_polar(PolarError(*log, math.radians(-35.0)), north)
     if not _seen_there((*place, turned), right):
         for hint, (beside, heading) in mistakes.items():
-            found = pose_from_polar(PolarError(*log, beside), north)
-            expect(not _seen_there((*place, heading), found), f"the function is right; {hint}")
+            robot = pose_from_polar(PolarError(*log, beside), north)
+            expect(not _seen_there((*place, heading), robot), f"the function is right; {hint}")
         hint = "the function is right; the colleague's robot is elsewhere, or a digit is missing."
         raise Hint(hint)
     return "Right: twenty poses come back, and the colleague's robot is found."
@@ -189,14 +191,14 @@ def three_readings(centre: Callable) -> str:
     """11.2: centre(a, b, c), readings (x, y) on a circle, returns its centre."""
     bounds = (-40, 40), (-40, 40), (20, 50), (-3, 3), (0.2, 2.9), (0.2, 2.9)
     circles = [
-        (middle, [_on_circle(middle, radius, turn + each) for each in (0.0, one, one + two)][::way])
+        (middle, [_on_circle(middle, radius, turn + arc) for arc in (0.0, one, one + two)][::way])
         for way in (1, -1)  # a robot may turn either way
         for *middle, radius, turn, one, two in drawn(5, 10, *bounds)
     ]
     corners = (1.0, 1.0), (3.0, 1.0), (3.0, 5.0)  # lines along the axes have no slope
     circles += [((2.0, 3.0), on) for on in permutations(corners)]
     for middle, on in circles:
-        value, mean = ask_numbers(centre, 2, *on), [sum(each) / 3 for each in zip(*on, strict=True)]
+        value, mean = ask_numbers(centre, 2, *on), [sum(axis) / 3 for axis in zip(*on, strict=True)]
         if math.dist(value, middle) > 1e-6:
             hint = "this is the mean of the readings, which lie on one side of the circle."
             rule_out(value, {hint: mean}, near)
@@ -219,22 +221,22 @@ def walk(keep: Callable) -> str:
         answer = ask(keep, list(fixes))
         hint = "a list of fixes is wanted, (seconds, east, north) each."
         try:
-            kept = [tuple(map(float, each)) for each in islice(answer, 99)]  # it may never end
+            track = [tuple(map(float, fix)) for fix in islice(answer, 99)]  # it may never end
         except (TypeError, ValueError):
             raise Hint(hint) from None
-        expect({len(each) for each in kept} <= {3}, hint)
-        expect(kept[:1] == fixes[:1], "the first fix is to be kept.")
+        expect({len(fix) for fix in track} <= {3}, hint)
+        expect(track[:1] == fixes[:1], "the first fix is to be kept.")
         hint = "each fix is compared with the one before it: compare with the last one *kept*."
-        expect(kept != _walked(fixes, of_all=True), hint)
-        expect(kept == _walked(fixes), "it keeps other fixes: 3 m/s, over the time between them.")
+        expect(track != _walked(fixes, of_all=True), hint)
+        expect(track == _walked(fixes), "it keeps other fixes: 3 m/s, over the time between them.")
     return "Right for four walks."
 
 
 def _walked(fixes: list, of_all: bool = False) -> list:
     kept = before = fixes[:1]
-    for each in fixes[1:]:
-        seconds, *to = each
+    for fix in fixes[1:]:
+        seconds, *to = fix
         if math.dist(to, before[-1][1:]) <= 3.0 * (seconds - before[-1][0]):
-            kept = [*kept, each]
-        before = [each] if of_all else kept
+            kept = [*kept, fix]
+        before = [fix] if of_all else kept
     return kept
