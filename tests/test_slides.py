@@ -61,15 +61,15 @@ def said(number):
 )
 def test_a_picture_that_is_not_there_and_a_knob_that_does_not_turn_so_far_are_told(wrong, message):
     with pytest.raises(SystemExit, match=re.escape(message)):
-        slides.shown("04", *wrong)
+        slides.picture_of("04", *wrong)
 
 
 def test_a_panel_begins_as_its_slide_says_and_leaves_the_chapters_own_alone():
-    panel = slides.shown("04", "live-two-bars", "law=printed", "theta=-90", "open")
+    panel = slides.picture_of("04", "live-two-bars", "law=printed", "theta=-90", "open")
     state = json.loads(re.findall(r">(\{.*?\})</script>", panel)[1])["state"]["it"]["state"]
     assert state["state"] == {"alpha": 0.0, "guess": None, "law": "printed", "theta": -90.0}
     assert state["setup"]["ask"] is None
-    again = slides.shown("04", "live-two-bars")
+    again = slides.picture_of("04", "live-two-bars")
     assert '"law": "corrected"' in again
     assert '"ask": {' in again
 

@@ -180,10 +180,10 @@ def last_turn(rho, alpha, theta, v, omega, turning, radius, dt, end):
     turn is finished.
     """
     near = rho <= (radius * end.leave if turning > 0.0 else radius)
-    off = wrap(theta - alpha)
-    faces = near & (abs(off) <= end.tolerance)
+    heading_error = wrap(theta - alpha)
+    faces = near & (abs(heading_error) <= end.tolerance)
     faced = turning - 1.0 if turning > 1.0 else 0.0
-    rate = 0.0 if faces else turn_rate(-off, end.gain, end.min_rate, end.max_rate)
+    rate = 0.0 if faces else turn_rate(-heading_error, end.gain, end.min_rate, end.max_rate)
     turning = (1.0 + (faced + dt if faces else 0.0)) if near else 0.0
     done = faces & (faced >= end.settle - _AT_ONCE)
     return (0.0 if near else v), (rate if near else omega), turning, done

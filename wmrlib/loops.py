@@ -322,8 +322,8 @@ def sum_up(summary, i, record, run, dt):
     """Write the summary of the run in a record."""
     count, outcome, peak, length = run
     last = max(count - 1, 0)
-    off = wrap(record[5, last] - record[4, last])
-    summarise(summary, i, outcome, last * dt, off, peak, length, record[3, last])
+    heading_error = wrap(record[5, last] - record[4, last])
+    summarise(summary, i, outcome, last * dt, heading_error, peak, length, record[3, last])
 
 
 @compiled
@@ -373,8 +373,8 @@ def continuous_runs(runs, records, first, t, most_trials, radius):
         loop = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i]), wheels_of(runs, i)
         run = continuous(record, state, workspace, t, most_trials, radius, goal, None, *loop)
         count, outcome, time, peak, length = run
-        off = wrap(state[2] - state[1])
-        summarise(summary, i, outcome, time, off, peak, length, max(state[0], 0.0))
+        heading_error = wrap(state[2] - state[1])
+        summarise(summary, i, outcome, time, heading_error, peak, length, max(state[0], 0.0))
         if outcome == UNFINISHED:
             summary[TIME:, i] = math.nan
         elif outcome != DIVERGED:

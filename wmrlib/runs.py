@@ -163,8 +163,8 @@ class Trajectory(ReadOnly):
         if len(self):
             end = f"{self.rho[-1]:.4g} m from the goal after {self.t[-1]:.4g} s"
         origin = f"{law_name(self.law)} law, {self.method}" if self.law else "poses given"
-        what = f"{origin}, {len(self)} samples"
-        return f"<Trajectory: {what}, {end}: {self.outcome.value}>"
+        size = f"{origin}, {len(self)} samples"
+        return f"<Trajectory: {size}, {end}: {self.outcome.value}>"
 
     @property
     def V(self) -> np.ndarray:  # noqa: N802 (as in (18))

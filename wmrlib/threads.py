@@ -78,12 +78,12 @@ def watched(total: int, show_bar: bool) -> Iterator[Callable[[int], bool]]:
         return not pressed
 
     usual = signal.getsignal(signal.SIGINT) is signal.default_int_handler
-    heard = usual and threading.current_thread() is threading.main_thread()
-    if heard:
+    handled = usual and threading.current_thread() is threading.main_thread()
+    if handled:
         signal.signal(signal.SIGINT, lambda *_: pressed.append(True))
     with bar if show_bar else nullcontext():
         try:
             yield go_on
         finally:
-            if heard:
+            if handled:
                 signal.signal(signal.SIGINT, signal.default_int_handler)

@@ -141,10 +141,10 @@ def _javascript_is_there() -> bool:
     return installed.exists() and installed.stat().st_mtime >= lock.stat().st_mtime
 
 
-def copy_javascript(vendor: Path, wanted: dict[str, tuple[str, ...]] = NPM_FILES) -> None:
+def copy_javascript(vendor: Path, files: dict[str, tuple[str, ...]] = NPM_FILES) -> None:
     """Put the few files that the pages load into the folder `vendor`."""
     shutil.rmtree(vendor, ignore_errors=True)
-    for folder, patterns in wanted.items():
+    for folder, patterns in files.items():
         (vendor / folder).mkdir(parents=True)
         for path in (path for pattern in patterns for path in npm_files(pattern)):
             shutil.copy(path, vendor / folder)
@@ -208,8 +208,8 @@ def copy_sources(source: Path, lecturer: bool = False) -> None:
 
 def without_solutions(chapter: NotebookNode) -> NotebookNode:
     """Take the solutions of its exercises, and the code behind them, out of a chapter."""
-    kept = (it for it in chapter.cells if "hide-cell" not in it.metadata.get("tags", ()))
-    chapter.cells = [cell for cell in kept if cell.source != "#### Solution"]
+    shared = (cell for cell in chapter.cells if "hide-cell" not in cell.metadata.get("tags", ()))
+    chapter.cells = [cell for cell in shared if cell.source != "#### Solution"]
     for cell in chapter.cells:
         cell.source = SOLUTION.sub("", cell.source)
     return chapter

@@ -49,8 +49,8 @@ def bundle(script: Path) -> None:
     """Write the kit as one script."""
     names = {f"program{k}": name for k, name in enumerate(programs())}
     imports = "\n".join(f"import {it} from './{name}.js';" for it, name in names.items())
-    shown = ", ".join(f"'{name}': {it}" for it, name in names.items())
-    entry = ENTRY.format(imports=imports, programs=shown)
+    table = ", ".join(f"'{name}': {it}" for it, name in names.items())
+    entry = ENTRY.format(imports=imports, programs=table)
     options = ["--loader:.css=text", f"--banner:js={BEGIN}", f"--footer:js={END}"]
     bundled(entry, KIT, script, "kit", *options, '--define:import.meta.url=""')
 

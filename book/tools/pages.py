@@ -203,12 +203,12 @@ def _thin_icons(site: Path) -> None:
     icons = scripts / "fontawesome.js"
     others = (path for path in scripts.glob("*.js") if path != icons)
     texts = (path.read_text(encoding="utf-8") for path in (*site.rglob("*.html"), *others))
-    shown = {name for text in texts for name in re.findall(r"\bfa-([a-z0-9-]+)", text)}
+    used = {name for text in texts for name in re.findall(r"\bfa-([a-z0-9-]+)", text)}
 
-    def kept(icon: re.Match) -> str:
-        return icon[0] if shown & {icon[1], *re.findall(r"[a-z][\w-]*", icon[2])} else ""
+    def kept_icon(icon: re.Match) -> str:
+        return icon[0] if used & {icon[1], *re.findall(r"[a-z][\w-]*", icon[2])} else ""
 
-    icons.write_text(ICON.sub(kept, icons.read_text(encoding="utf-8")), encoding="utf-8")
+    icons.write_text(ICON.sub(kept_icon, icons.read_text(encoding="utf-8")), encoding="utf-8")
 
 
 def add_words(app, docname, template, context, doctree):

@@ -51,8 +51,8 @@ def runnable(notebook) -> list[Cell]:
         if cell.outputs and shows and not any(map(_shows, left)) and _tells(shows, left):
             lines = cell.source.splitlines()
             cut = {i for it in left for i in range(it.lineno - 1, it.end_lineno)}
-            kept = "\n".join(line for i, line in enumerate(lines) if i not in cut).strip("\n")
-            made.append((Cell(place, kept, left_out=len(cut)), runs, hidden))
+            source = "\n".join(line for i, line in enumerate(lines) if i not in cut).strip("\n")
+            made.append((Cell(place, source, left_out=len(cut)), runs, hidden))
             hidden = []
         else:
             hidden = hidden + runs

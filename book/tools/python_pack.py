@@ -77,15 +77,15 @@ def compiled(modules: Path, zips: dict[str, bytes]) -> list[bytes]:
     """Return the zips with their modules compiled, which is done once for the same files."""
     pyodide, script = modules / "pyodide" / "pyodide.mjs", IN_PAGE / "compile.mjs"
     digest = sha256(b"".join([pyodide.read_bytes(), script.read_bytes(), *zips.values()]))
-    kept = modules / ".python" / digest.hexdigest()[:16]
-    if not kept.is_dir():
-        kept.parent.mkdir(exist_ok=True)
-        for old in kept.parent.iterdir():
+    folder = modules / ".python" / digest.hexdigest()[:16]
+    if not folder.is_dir():
+        folder.parent.mkdir(exist_ok=True)
+        for old in folder.parent.iterdir():
             if old.stat().st_mtime < time.time() - DAY:
                 shutil.rmtree(old, ignore_errors=True)
         node = shutil.which("node") or shutil.which("node", path=Path(sys.executable).parent)
         with tempfile.TemporaryDirectory() as given:
-            made = Path(tempfile.mkdtemp(dir=kept.parent))  # two builds may run at once
+            made = Path(tempfile.mkdtemp(dir=folder.parent))  # two builds may run at once
             command = [node or "node", script, pyodide.as_uri()]
             for name, content in zips.items():
                 Path(given, name).write_bytes(content)
@@ -94,8 +94,8 @@ def compiled(modules: Path, zips: dict[str, bytes]) -> list[bytes]:
             for name in zips:
                 (made / name).write_bytes(_zipped(_files_of(made / name), zipfile.ZIP_DEFLATED))
         with suppress(OSError):  # another build was first
-            made.rename(kept)
-    return [(kept / name).read_bytes() for name in zips]
+            made.rename(folder)
+    return [(folder / name).read_bytes() for name in zips]
 
 
 def packages() -> bytes:
@@ -116,16 +116,16 @@ def own_files() -> dict[str, bytes]:
 def z3(modules: Path) -> bytes:
     """Return z3 as a zip, out of a wheel that pip fetches once; the wheel has its library twice."""
     digest = sha256(Z3.read_bytes()).hexdigest()[:16]
-    kept = modules / ".z3" / digest
-    if not kept.is_dir():
-        kept.parent.mkdir(exist_ok=True)
-        made = Path(tempfile.mkdtemp(dir=kept.parent))
+    folder = modules / ".z3" / digest
+    if not folder.is_dir():
+        folder.parent.mkdir(exist_ok=True)
+        made = Path(tempfile.mkdtemp(dir=folder.parent))
         command = [sys.executable, "-m", "pip", "download", "--quiet", "--no-deps", "--dest", made]
         command += ["--only-binary", ":all:", "--platform", Z3_PLATFORM, "--require-hashes"]
         subprocess.run([*command, "-r", Z3], check=True)
         with suppress(OSError):  # another build was first
-            made.rename(kept)
-    (wheel,) = kept.glob("*.whl")
+            made.rename(folder)
+    (wheel,) = folder.glob("*.whl")
     files = {name: it for name, it in _files_of(wheel).items() if Z3_FILES.fullmatch(name)}
     return _zipped(files | {"z3/LICENSE": Z3_LICENCE.read_bytes()})
 

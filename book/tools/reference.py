@@ -88,9 +88,9 @@ def link_names(app, doctree, docname):
         parents = (nodes.title, nodes.reference, nodes.raw)
         if any(isinstance(parent, parents) for parent in ancestors(name)):
             continue
-        shown = NAME.fullmatch(name.astext())
+        match = NAME.fullmatch(name.astext())
         code = nodes.literal("", name.astext())
-        if shown and (address := address_in(app, docname, shown[1], shown[2])):
+        if match and (address := address_in(app, docname, match[1], match[2])):
             code = nodes.reference("", "", code, refuri=address, internal=True)
         name.replace_self(code)
 

@@ -98,7 +98,7 @@ def deck(number: str) -> tuple[str, list[Slide]]:
     for source in re.split(r"^(?=# )", text, flags=re.MULTILINE)[1:]:
         parts = SLIDE.match(source).groupdict(default="")
         figure = parts.pop("figure")
-        picture = shown(number, *figure.split()) if figure else ""
+        picture = picture_of(number, *figure.split()) if figure else ""
         slides.append(Slide(picture=picture, **{name: it.strip() for name, it in parts.items()}))
     return chapter(number).cells[0].source.splitlines()[0][2:], slides
 
@@ -110,7 +110,7 @@ def chapter(number: str) -> NotebookNode:
     return nbformat.read(path, as_version=4)
 
 
-def shown(number: str, name: str, *settings: str) -> str:
+def picture_of(number: str, name: str, *settings: str) -> str:
     """Return the figure or panel of a cell; a panel as it is set by NAME=VALUE and `open`."""
     number, name = name.split("/") if "/" in name else (number, name)
     notebook = chapter(number)

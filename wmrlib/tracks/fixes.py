@@ -51,9 +51,9 @@ class Report:
 
     def __repr__(self) -> str:
         rows = [f"{self.used} position{'s' * (self.used != 1)} used"]
-        for what, counts in (("not used", self.skipped), ("used, but", self.noted)):
+        for verdict, counts in (("not used", self.skipped), ("used, but", self.noted)):
             for reason, (times, first) in sorted(counts.items(), key=lambda row: row[1].first):
-                rows.append(f"{what}: {times} {reason} (first in {self.place} {first})")
+                rows.append(f"{verdict}: {times} {reason} (first in {self.place} {first})")
         return "\n".join(rows)
 
 

@@ -67,8 +67,8 @@ def numbers() -> list[Row]:
 
 def _number(key: str, verdict: Verdict, holds: str, why: str) -> Row:
     value, unit, place = PUBLISHED[key]
-    shown = r"$\pi/2$" if value == math.pi / 2 else f"{value:.10g}"
-    return Row(key, key.replace("_", " "), f"{shown} {unit} ({place})", holds, verdict, why)
+    text = r"$\pi/2$" if value == math.pi / 2 else f"{value:.10g}"
+    return Row(key, key.replace("_", " "), f"{text} {unit} ({place})", holds, verdict, why)
 
 
 def _computed(key: str, note: str, readings: dict[str, float]) -> Row:
@@ -304,8 +304,8 @@ def _pose() -> Row:
 
 
 def _figure_5() -> Row:
-    limit, shown = PUBLISHED["speed_limit"].value, [circle_run(), outdoor_run("east", 0.05)]
-    circle, outdoor = (float(run.v.max()) for run in shown)
+    limit, runs = PUBLISHED["speed_limit"].value, [circle_run(), outdoor_run("east", 0.05)]
+    circle, outdoor = (float(run.v.max()) for run in runs)
     reached = [
         decide(lambda missing, fastest=speed: fastest > (1.0 - missing) * limit, "reached")
         for speed in (circle, outdoor)

@@ -133,9 +133,9 @@ def _second_part_row() -> Row:
 
 def _inequality_row() -> Row:
     """(23) is to make the second bracket of (21), b - alpha omega, negative."""
-    wanted, given = equation(23).gts, equation(23).lts
+    proved, given = equation(23).gts, equation(23).lts
     bracket = alpha * (-omega) + printed(22) * _SINE / rho * (h * theta + alpha)
-    if equivalent(given - wanted, bracket):
+    if equivalent(given - proved, bracket):
         text = "It says what the bracket says."
         return finding(23, Verdict.HOLDS, text, "the difference is 0")
     push = bracket.diff(omega)

@@ -36,8 +36,8 @@ def places(folder: str | Path = ".") -> dict[str, list[Place]]:
     """
     notebooks = sorted(Path(folder).glob("[0-9][0-9]_*.ipynb"))
     if not notebooks:
-        wanted = "one with notebooks named like 04_lyapunov.ipynb is needed"
-        raise ValueError(f"folder = {str(folder)!r} is not allowed: {wanted}")
+        needed = "one with notebooks named like 04_lyapunov.ipynb is needed"
+        raise ValueError(f"folder = {str(folder)!r} is not allowed: {needed}")
     places: dict[str, list[Place]] = {}
     for path in notebooks:
         heading, number = path.stem, 0
@@ -83,8 +83,8 @@ class Table:
         lines = []
         for row in self.rows:
             verdict = f"**{row.verdict.value}**: {row.why}"
-            shown = _linked(self.where.get(row.item, ()))
-            lines.append((f"**{row.title}**", verdict, row.says, row.holds, shown))
+            links = _linked(self.where.get(row.item, ()))
+            lines.append((f"**{row.title}**", verdict, row.says, row.holds, links))
         escaped = (" | ".join(cell.replace("|", r"\|") for cell in line) for line in lines)
         return f"*{SOURCE}*\n\n{tables.Table(_HEAD, escaped, ':-')}"
 

@@ -94,8 +94,8 @@ def fit_receiver(error, dt: float) -> Fit:
     # much of what is slow for a bias.
     loss = (n - 1) * (np.log(variance) + np.log(fresh))
     loss += np.log((2.0 + (n - 2) * (1.0 - c)) / (1.0 + c))
-    best, kept = loss.argmin(), np.flatnonzero(loss <= loss.min() + _QUANTILE)
-    low, high = kept[0], kept[-1]
+    best, plausible = loss.argmin(), np.flatnonzero(loss <= loss.min() + _QUANTILE)
+    low, high = plausible[0], plausible[-1]
     memories = np.append(np.insert(_MEMORIES[1:-1], 0, 0.0), math.inf) * dt
     sigma = math.sqrt(variance[best]) if best < c.size - 1 else math.inf
     return Fit(sigma, *map(float, (memories[best], bias[best], memories[low], memories[high])))

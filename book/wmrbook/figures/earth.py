@@ -65,7 +65,7 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
     )
     for start, end, style, colour, name, offset, side in sides:
         steps = np.linspace(0.0, haversine_distance(start, end), 101)
-        x, y = _seen(destination_point(start, steps, initial_bearing(start, end)), view)
+        x, y = _projected(destination_point(start, steps, initial_bearing(start, end)), view)
         axes.plot(x, y, style, color=colour, lw=3.0)
         note(axes, name, (x[50], y[50]), offset, ha=side, fontsize=14, color=colour)
     for corner, first, second, name, offset in (
@@ -74,7 +74,7 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
     ):
         turns = np.unwrap([initial_bearing(corner, first), initial_bearing(corner, second)])
         arc = destination_point(corner, 0.16 * EARTH_RADIUS_M, np.linspace(*turns, 30))
-        x, y = _seen(arc, view)
+        x, y = _projected(arc, view)
         axes.plot(x, y, color=COLOURS["omega"])
         looks = {"ha": "center", "va": "center", "fontsize": 14, "color": COLOURS["omega"]}
         note(axes, name, (x[15], y[15]), offset, **looks)
@@ -84,8 +84,8 @@ def spherical_triangle(a: GeoPoint, b: GeoPoint) -> Picture:
         (b, "point 2", (10, -8), "left"),
     )
     for point, name, offset, side in named:
-        axes.plot(*_seen(point, view), "o", ms=8, color=COLOURS["ink"])
-        note(axes, name, _seen(point, view), offset, ha=side)
+        axes.plot(*_projected(point, view), "o", ms=8, color=COLOURS["ink"])
+        note(axes, name, _projected(point, view), offset, ha=side)
     axes.set(xlim=(-1.08, 1.08), ylim=(-1.08, 1.12), aspect="equal")
     axes.set_axis_off()
     length = math.degrees(haversine_distance(a, b, 1.0))
@@ -135,7 +135,7 @@ def sphere_error_map(point: GeoPoint, bearing: float) -> Picture:
     )
 
 
-def _seen(point: GeoPoint, view: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
+def _projected(point: GeoPoint, view: GeoPoint) -> tuple[np.ndarray, np.ndarray]:
     """Right and up on the globe of radius 1, seen from far above `view`."""
     lat, tilt = np.radians(point.lat), math.radians(view.lat)
     turn = np.radians(np.subtract(point.lon, view.lon))
@@ -149,5 +149,5 @@ def _graticule(axes: Axes, view: GeoPoint) -> None:
     parallels = [GeoPoint(lat=float(lat), lon=180.0 * every) for lat in range(-60, 61, 30)]
     for line in meridians + parallels:
         hidden = haversine_distance(view, line, 1.0) > math.pi / 2  # behind the edge of the globe
-        x, y = (np.where(hidden, np.nan, values) for values in _seen(line, view))
+        x, y = (np.where(hidden, np.nan, values) for values in _projected(line, view))
         axes.plot(x, y, color="#999999", lw=0.6)

@@ -19,7 +19,7 @@ _USABLE = 5.0  # deg, of a heading
 def heading_distance(
     distance: np.ndarray,
     series: Mapping[str, np.ndarray],
-    seen: tuple[float, float],
+    reported: tuple[float, float],
 ) -> Picture:
     """The rms heading error [deg] over the distance driven [m], on logarithmic scales.
 
@@ -37,8 +37,8 @@ def heading_distance(
         after = f"after {distance[good[0]]:.2g} m" if good.size else "nowhere"
         words.append(f"{name}, {after}")
     axes.axhline(_USABLE, color=COLOURS["ink"], lw=0.9, ls=":")
-    axes.plot(*seen, "*", color=COLOURS["goal"], ms=15)
-    note(axes, "reported", seen, (9, 5))
+    axes.plot(*reported, "*", color=COLOURS["goal"], ms=15)
+    note(axes, "reported", reported, (9, 5))
     axes.set(xscale="log", yscale="log", xlabel="distance driven [m]", ylabel="heading, rms [deg]")
     for axis in (axes.xaxis, axes.yaxis):
         axis.set_major_formatter("{x:g}")
@@ -47,7 +47,7 @@ def heading_distance(
         figure,
         f"The rms error of the heading over the distance driven straight, on logarithmic scales. "
         f"It is within {_USABLE:g} deg: {'; '.join(words)}. "
-        f"A star marks a report of {seen[1]:g} deg at {seen[0]:g} m.",
+        f"A star marks a report of {reported[1]:g} deg at {reported[0]:g} m.",
     )
 
 

@@ -28,12 +28,12 @@ def at_rest(
         check_count(name, instance(name, given, Mapping), 1, len(LINES))
     figure, rows = new_figure(7.5, 5.6, rows=2)
     texts = []
-    for (name, shown), style, role in zip(logs.items(), LINES, _ROLES, strict=False):
-        for axes, values in zip(rows, shown, strict=True):
+    for (name, curves), style, role in zip(logs.items(), LINES, _ROLES, strict=False):
+        for axes, values in zip(rows, curves, strict=True):
             same_shape(times=times, **{f"logs[{name!r}]": values})
             label = name if axes is rows[0] else None  # once in the legend
             axes.plot(times, values, style, color=COLOURS[role], lw=2.2, label=label)
-        allan, alike = shown
+        allan, alike = curves
         texts.append(
             f"{name}, Allan deviation from {allan[0]:.2f} m over {times[0]:g} s to at most "
             f"{allan.max():.2f} m over {times[allan.argmax()]:.0f} s, autocorrelation "

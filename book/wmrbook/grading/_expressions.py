@@ -67,12 +67,12 @@ def points(symbols: Iterable[sp.Symbol], count: int = 12) -> list[Point]:
     ]
 
 
-def values(name: str, wanted: sp.Expr, where: Sequence[Point]) -> list[mpmath.mpf]:
+def values(name: str, expected: sp.Expr, where: Sequence[Point]) -> list[mpmath.mpf]:
     """Return the expression's values to 50 digits; raise Hint if one is not finite and real."""
     results = []
     for point in where:
-        value = _value_at(point, wanted)
-        held = [f"{key} = {float(point[key]):g}" for key in point if wanted.has(key)]
+        value = _value_at(point, expected)
+        held = [f"{key} = {float(point[key]):g}" for key in point if expected.has(key)]
         hint = f"`{name}` is not a finite real number at {', '.join(held)}."
         expect(value is not None, hint)
         results.append(value)
@@ -92,17 +92,17 @@ def equal_at(where: Sequence[Point], value: sp.Expr, right: sp.Expr) -> bool:
     return True
 
 
-def _value_at(point: Point, wanted: sp.Expr) -> mpmath.mpf | None:
+def _value_at(point: Point, expected: sp.Expr) -> mpmath.mpf | None:
     """Return its value there, None if it is not finite and real."""
     with mpmath.workdps(_DIGITS), suppress(ArithmeticError, TypeError, ValueError):
         numbers = [mpmath.mpf(coordinate.p) / coordinate.q for coordinate in point.values()]
-        value = mpmath.mpmathify(_function(wanted, *point)(*numbers))
+        value = mpmath.mpmathify(_function(expected, *point)(*numbers))
         if mpmath.isfinite(value) and abs(value.imag) <= _TOLERANCE * abs(value):
             return value.real
     return None
 
 
 @lru_cache(maxsize=256)
-def _function(wanted: sp.Expr, *symbols: sp.Symbol) -> Any:
+def _function(expected: sp.Expr, *symbols: sp.Symbol) -> Any:
     """Return the expression as a function of numbers of any precision."""
-    return sp.lambdify(symbols, textbook(wanted), "mpmath")
+    return sp.lambdify(symbols, textbook(expected), "mpmath")

@@ -89,11 +89,11 @@ def slip(value: Any, right: Any, order: str = "", within: float = 1e-3) -> None:
 
     `order` names the numbers as they are asked for; of digits, a share `within` may be wrong.
     """
-    given, wanted = _flat(value), _flat(right)
-    pairs = [*zip(given, wanted, strict=True)]
+    given, expected = _flat(value), _flat(right)
+    pairs = [*zip(given, expected, strict=True)]
     if all(close(*pair, 1e-9) for pair in pairs):
         return
-    first = 2 - math.ceil(math.log10(max(map(abs, wanted)) or 1.0))  # two digits at the least
+    first = 2 - math.ceil(math.log10(max(map(abs, expected)) or 1.0))  # two digits at the least
     rounded = any(
         all(close(one, round(other, n), 1e-12, 0.0) for one, other in pairs)
         for n in range(first, 12)
@@ -102,7 +102,9 @@ def slip(value: Any, right: Any, order: str = "", within: float = 1e-3) -> None:
     worst = max(abs(a - b) / (abs(b) or 1.0) for a, b in pairs)
     hint = f"right but for {100.0 * worst:.1g} %: is a number rounded on the way, such as pi?"
     expect(worst > within, hint)
-    alike = not all(map(close, given, wanted)) and all(map(close, sorted(given), sorted(wanted)))
+    alike = not all(map(close, given, expected)) and all(
+        map(close, sorted(given), sorted(expected))
+    )
     changed = order and alike
     expect(not changed, f"the numbers have changed places: {order} is asked for.")
 
@@ -124,7 +126,7 @@ def own_work(function: Callable, *allowed: str) -> None:
     asked = "this task asks for your own formula, with `math` or `numpy`."
     if allowed:
         asked = f"of it only {', '.join(f'`{name}`' for name in allowed)} may be used here."
-    waiting, seen = [function], []
+    waiting, checked = [function], []
     while waiting:
         called = inspect.unwrap(waiting.pop(0))
         called = getattr(called, "pyfunc", getattr(called, "func", called))  # vectorize, partial
@@ -132,9 +134,9 @@ def own_work(function: Callable, *allowed: str) -> None:
         if library in _LIBRARIES:
             free = isinstance(called, type) or name in allowed
             expect(free, f"`{name_of(function)}` uses `{name}` of {library}; {asked}")
-        elif isinstance(called, types.FunctionType) and called not in seen:
-            seen.append(called)
-            if called is seen[0] or called.__module__ == seen[0].__module__:
+        elif isinstance(called, types.FunctionType) and called not in checked:
+            checked.append(called)
+            if called is checked[0] or called.__module__ == checked[0].__module__:
                 waiting += _named(called)
 
 

@@ -49,14 +49,14 @@ def polar_range(polar: Polar) -> str:
     ]
     most = 0.0
     for pose, goal in [behind, *_pairs(40), *turned]:
-        for name, value in zip(("alpha", "theta"), _seen(polar, pose, goal)[1:], strict=True):
+        for name, value in zip(("alpha", "theta"), _answered(polar, pose, goal)[1:], strict=True):
             most = max(most, abs(value))
             hint = f"{name} comes out as {math.degrees(value):.6g} deg: "
             hint += "nobody turns further than half a turn. Bring it into (-pi, pi]."
             expect(abs(value) <= math.pi + 1e-9, hint)
     hint = "some goals lie behind the robot, and no angle is larger than "
     expect(most > math.pi / 2.0, f"{hint}{math.degrees(most):.0f} deg.")
-    straight = math.degrees(abs(_seen(polar, *behind)[1]))
+    straight = math.degrees(abs(_answered(polar, *behind)[1]))
     return f"No angle is larger than half a turn; straight behind is at {straight:.0f} deg."
 
 
@@ -64,14 +64,14 @@ def polar_properties(polar: Polar) -> str:
     """A mirrored start sees mirrored angles, and a map that is moved and turned changes nothing."""
     own_work(polar)
     for pose, goal in _pairs(20):
-        distance, *both = _seen(polar, pose, goal)
+        distance, *both = _answered(polar, pose, goal)
         mirrored = [Pose(x, -y, -heading) for x, y, heading in (pose, goal)]
-        there, *angles = _seen(polar, *mirrored)
+        there, *angles = _answered(polar, *mirrored)
         hint = "seen in a mirror along the x axis, "
         hint += "rho must stay and both angles change their sign."
         opposite = [-angle for angle in angles]
         expect(close(there, distance) and _angles_equal(opposite, both), hint)
-        there, *angles = _seen(polar, _moved(pose), _moved(goal))
+        there, *angles = _answered(polar, _moved(pose), _moved(goal))
         hint = "robot and goal moved and turned together must see the same: "
         hint += "is an angle counted from east?"
         expect(close(there, distance, 1e-9) and _angles_equal(angles, both), hint)
@@ -139,7 +139,7 @@ def textbook_gains(
     return "Near the goal both laws command the same: (3, 8, -1.5) is stable in both books."
 
 
-def _seen(polar: Polar, pose: Pose, goal: Pose) -> tuple[float, ...]:
+def _answered(polar: Polar, pose: Pose, goal: Pose) -> tuple[float, ...]:
     return ask_numbers(polar, 3, *pose, *goal)
 
 
@@ -150,10 +150,10 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
         slip(value, error, "(rho, alpha, theta)")
         mistakes = {"rho comes out squared: metres, not square metres.": distance**2}
         explain(value[0], mistakes, "rho is not the distance between robot and goal.")
-    seen, right = value[1:], (alpha, theta)
-    if _angles_equal(seen, right):
+    angles, right = value[1:], (alpha, theta)
+    if _angles_equal(angles, right):
         return
-    in_degrees = _angles_equal([math.radians(angle) for angle in seen], right)
+    in_degrees = _angles_equal([math.radians(angle) for angle in angles], right)
     expect(not in_degrees, "the angles are in degrees; radians are asked for.")
     sight, minus = alpha + pose.heading, (-alpha, -theta)
     from_north = math.pi / 2.0 - sight
@@ -168,11 +168,11 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
         "alpha and theta have changed places.": (theta, alpha),
         "both angles have the wrong sign: from the heading *to* the line of sight.": minus,
     }
-    rule_out(seen, mistakes, _angles_equal)
+    rule_out(angles, mistakes, _angles_equal)
     slip(value, error)
-    if _angles_equal(seen[:1], right[:1]):
+    if _angles_equal(angles[:1], right[:1]):
         error = pose.heading - goal.heading
-        third = any(angle_equal(seen[1], candidate) for candidate in (error, -error))
+        third = any(angle_equal(angles[1], candidate) for candidate in (error, -error))
         hint = "this third angle is between the two headings; "
         expect(not third, f"{hint}theta has the line of sight on one side.")
         mistakes = {
@@ -180,10 +180,10 @@ def _explain_polar(value: tuple[float, ...], pose: Pose, goal: Pose) -> None:
             "theta is counted from east: it is asked for from the goal's heading.": sight,
         }
         otherwise = "rho and alpha are right, theta is not: compare with (3.2)."
-        explain(seen[1], mistakes, otherwise, angle_equal)
+        explain(angles[1], mistakes, otherwise, angle_equal)
     mistakes = {"alpha has the wrong sign: with the goal on the left it is positive.": -alpha}
     otherwise = "alpha is not the angle from the robot's heading to the line of sight."
-    explain(seen[0], mistakes, otherwise, angle_equal)
+    explain(angles[0], mistakes, otherwise, angle_equal)
 
 
 def _angles_equal(some, others) -> bool:

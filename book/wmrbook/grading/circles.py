@@ -91,9 +91,9 @@ def law_follows(steer: Law) -> str:
         pose, steps = start, int(DURATION / STEP)
         for n in range(steps):
             now = goal(n * STEP)
-            seen = polar_error(pose, Pose(*now[:3]))
-            twist = ask_numbers(steer, 2, *map(float, seen), now.v, now.omega)
-            _expect_near(steer, seen.rho < 100.0, seen.rho, n * STEP)
+            error = polar_error(pose, Pose(*now[:3]))
+            twist = ask_numbers(steer, 2, *map(float, error), now.v, now.omega)
+            _expect_near(steer, error.rho < 100.0, error.rho, n * STEP)
             pose = advance(pose, *twist, STEP)
         left = polar_error(pose, Pose(*goal(steps * STEP)[:3])).rho
         _expect_near(steer, left < LEFT, left, DURATION)
@@ -227,12 +227,12 @@ def _expect_near(steer: Law, near: bool, rho: float, t: float) -> None:
     _, strong = ask_numbers(steer, 2, 0.1, *left)
     _, turned = ask_numbers(steer, 2, 0.0, 0.2, 0.0, 1.0, 0.0)
     _, faint = ask_numbers(steer, 2, 1e-6, *left)
-    shown = f"after {t:.0f} s the reference is {rho:.3g} m away. "
-    look = f"{shown}Look at a reference "
+    distance_text = f"after {t:.0f} s the reference is {rho:.3g} m away. "
+    look = f"{distance_text}Look at a reference "
     hint = "0.1 m straight ahead, in the same direction: is the robot faster than the reference?"
     expect(v > 1.0, look + hint)
     expect(strong > 0.0, f"{look}0.1 m to the left, in the same direction: {side}")
     expect(turned > 0.0, f"{look}here that points 0.2 rad further left: {side}")
     hint = "a micrometre to the left: should the robot turn as strongly as for 10 cm?"
     expect(abs(faint) < 0.1 * abs(strong), look + hint)
-    expect(False, f"{shown}The signs are right: try stronger or weaker feedback.")
+    expect(False, f"{distance_text}The signs are right: try stronger or weaker feedback.")

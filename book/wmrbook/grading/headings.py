@@ -42,9 +42,11 @@ def distance_driven(distance_for: Callable) -> str:
         metres = ask_number(distance_for, sigma, most)
         expect(metres > 0.0, f"{metres:.4g} m is no distance.")
         off = np.arctan2(sigma * fresh[1], metres + sigma * fresh[0])
-        seen = math.degrees(math.sqrt(np.mean(np.square(off))))
-        hint = f"over {metres:.3g} m, fixes of {sigma:.3g} m give the heading to {seen:.3g} deg"
-        expect(abs(seen - most) < 0.1 * most, f"{hint}; {most:.3g} deg are asked for.")
+        spread_deg = math.degrees(math.sqrt(np.mean(np.square(off))))
+        hint = (
+            f"over {metres:.3g} m, fixes of {sigma:.3g} m give the heading to {spread_deg:.3g} deg"
+        )
+        expect(abs(spread_deg - most) < 0.1 * most, f"{hint}; {most:.3g} deg are asked for.")
     return "4000 drives over each of your distances: the headings err by what was asked for."
 
 

@@ -167,20 +167,20 @@ def limited_speed(limited: Callable[[float, float, float], Pair]) -> str:
     own_work(limited)
     for (left, right), near in zip(_wheel_pairs(40), spread(1e-3, 10.0, 40), strict=True):
         fastest = max(abs(left), abs(right))
-        kept = ask_numbers(limited, 2, left, right, fastest * (1.0 + near))
+        speeds = ask_numbers(limited, 2, left, right, fastest * (1.0 + near))
         hint = "slow wheels are sped up to the limit; they must be left alone."
-        expect(not _equal(kept, np.multiply(1.0 + near, (left, right))), hint)
+        expect(not _equal(speeds, np.multiply(1.0 + near, (left, right))), hint)
         both = "; wheels may turn backwards, too" if min(left, right) < 0.0 else ""
         hint = f"wheels that are below the limit must be left alone{both}."
-        slip(kept, (left, right), "(left, right)")
-        expect(_equal(kept, (left, right)), hint)
+        slip(speeds, (left, right), "(left, right)")
+        expect(_equal(speeds, (left, right)), hint)
         most = fastest / (1.0 + near)
         share = max(map(abs, ask_numbers(limited, 2, left, right, most))) / most
         expect(share <= 1.0 + 1e-9, f"a wheel turns at {share:.2f} times its limit{both}.")
         hint = "the faster wheel stays below the limit; the robot could go faster."
         expect(share >= 1.0 - 1e-9, hint)
-    kept = ask_numbers(limited, 2, 0.0, 0.0, 1.0)
-    expect(_equal(kept, (0.0, 0.0)), "wheels that stand still must go on standing still.")
+    speeds = ask_numbers(limited, 2, 0.0, 0.0, 1.0)
+    expect(_equal(speeds, (0.0, 0.0)), "wheels that stand still must go on standing still.")
     return "No wheel is too fast, and none is slower than it must be."
 
 

@@ -27,11 +27,11 @@ def scatter_known(scatter: Callable) -> str:
         expect(not close(mean_lat, right.mean.lon, 1e-9), hint)
         order = "(mean_lat, mean_lon, std_east, std_north)" * (abs(mean_lat - right.mean.lat) > 1.0)
         slip(value, (right.mean.lat, right.mean.lon, right.std_east, right.std_north), order, 0.0)
-        for name, value, wanted in (
+        for name, value, mean in (
             ("latitude", mean_lat, right.mean.lat),
             ("longitude", mean_lon, right.mean.lon),
         ):
-            off = abs(value - wanted)
+            off = abs(value - mean)
             hint = f"the mean {name} is {off * DEGREE:.3g} m off; it is a plain mean, in degrees."
             expect(off < 2e-9, hint)
         if not _near(stds, (right.std_east, right.std_north)):
@@ -133,13 +133,13 @@ def mean_correlated(scatter_of_mean: Callable) -> str:
         hint = "errors that are all the same (correlation 1) do not average out at all."
         expect(close(ask_number(scatter_of_mean, 0.8, n, 1.0), 0.8), hint)
     value = ask_number(scatter_of_mean, 1.0, 9, 0.9)
-    kept = f"the mean keeps {100 * value:.0f} % of the scatter, where white noise keeps 33 %."
-    return f"Nine looks, neighbours alike by 0.9: {kept}"
+    remark = f"the mean keeps {100 * value:.0f} % of the scatter, where white noise keeps 33 %."
+    return f"Nine looks, neighbours alike by 0.9: {remark}"
 
 
 def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right) -> None:
     n, middle = lat.size, right.mean.lat
-    east, north = wanted = right.std_east, right.std_north
+    east, north = spreads = right.std_east, right.std_north
     cos, fewer = math.cos(math.radians(middle)), math.sqrt((n - 1) / n)
     lat_std, lon_std, degree = lat.std(ddof=1), lon.std(ddof=1), math.degrees(1.0)
     in_degrees = "the scatter is in degrees; metres are asked for."
@@ -162,10 +162,10 @@ def _explain_scatter(stds: list[float], lat: np.ndarray, lon: np.ndarray, right)
             rule_out(stds, {hint: np.multiply(mistaken, share)}, _near)
     small = f"of {n} looks the scatter comes out {100 * (1 - fewer):.1f} % too small: "
     hint = "the mean was computed from the same looks. How many are left?"
-    expect(not _near(stds, np.multiply(wanted, fewer)), small + hint)
+    expect(not _near(stds, np.multiply(spreads, fewer)), small + hint)
     hint = "nearly right: is the radius 6371 km, and the cosine that of the mean latitude?"
-    expect(not np.allclose(stds, wanted, rtol=5e-3), hint)
-    for name, value, correct in zip(("east", "north"), stds, wanted, strict=True):
+    expect(not np.allclose(stds, spreads, rtol=5e-3), hint)
+    for name, value, correct in zip(("east", "north"), stds, spreads, strict=True):
         hint = f"std_{name} is wrong: {n} looks come out with {value:.4g} m."
         expect(close(value, correct, 1e-4), hint)
 

@@ -164,18 +164,18 @@ def step_drives(wheel_speeds: Callable) -> str:
         left, right = speeds = ask_numbers(wheel_speeds, 2, *pose, age, goal, gains, limits)
         twist = control_law(*polar_error(pose, goal), gains)
         limited = limit_wheels(*twist, limits)
-        wanted = twist_to_wheels(*limited, limits.track_width)
+        correct = twist_to_wheels(*limited, limits.track_width)
         uncorrected = control_law(*polar_error(pose, goal), gains, "printed")
         printed = twist_to_wheels(*limit_wheels(*uncorrected, limits), limits.track_width)
-        if np.allclose(speeds, wanted, rtol=1e-6, atol=1e-9):
+        if np.allclose(speeds, correct, rtol=1e-6, atol=1e-9):
             continue
         place = f"at ({pose.x:.1f}, {pose.y:.1f}) with heading {pose.heading:.2f}, {age:.2f} s old,"
         expect(speeds != STOP, f"{place} the robot stops; it has no reason to.")
         free = twist_to_wheels(*twist, limits.track_width)
         asked, most = f"a wheel is asked for {max(map(abs, speeds)):.3g} m/s", limits.max_speed
-        slip(speeds, wanted)
+        slip(speeds, correct)
         mistakes = {
-            "left and right are swapped.": wanted[::-1],
+            "left and right are swapped.": correct[::-1],
             "this is the law as the paper prints it, (24); the corrected one is (4.6).": printed,
             f"{asked} and has {most:.2f} m/s.": free,
             "both wheels are clipped one by one, which bends the path: "

@@ -78,23 +78,23 @@ def degrees_known(degrees: Callable) -> str:
         two, three = (float(field[:n]) + float(field[n:]) / 60.0 for n in (2, 3))
         cut = whole + math.floor(minutes) / 60.0
         signs, point = {1.0, math.copysign(1.0, right)}, "Count the minutes' from the point."
-        seen = f"'{field}', '{hemisphere}':"
+        example = f"'{field}', '{hemisphere}':"
         mistakes = {
-            f"{seen} south and west are negative, north and east are not.": -right,
+            f"{example} south and west are negative, north and east are not.": -right,
             "degrees are asked for, not radians.": math.radians(right),
-            f"{seen[:-1]} is no number of degrees yet: "
+            f"{example[:-1]} is no number of degrees yet: "
             "the field is degrees and minutes, run together.": number,
-            f"{seen} the last digits before the point are minutes, "
+            f"{example} the last digits before the point are minutes, "
             "and a degree has 60 of them.": number / 100.0,
-            f"{seen} only the last two digits before the point, "
+            f"{example} only the last two digits before the point, "
             "and what follows it, are minutes.": number / 60.0,
-            f"{seen} a minute is not a degree.": whole + minutes,
-            f"{seen} a longitude has three digits of degrees. {point}": two,
-            f"{seen} a latitude has two digits of degrees. {point}": three,
-            f"{seen} the minutes are lost.": whole,
-            f"{seen} the decimals of the minutes are lost; they are metres.": cut,
+            f"{example} a minute is not a degree.": whole + minutes,
+            f"{example} a longitude has three digits of degrees. {point}": two,
+            f"{example} a latitude has two digits of degrees. {point}": three,
+            f"{example} the minutes are lost.": whole,
+            f"{example} the decimals of the minutes are lost; they are metres.": cut,
         }
-        hint = f"{seen[:-1]} comes out {abs(value - right) * DEGREE:.3g} m beside the place."
+        hint = f"{example[:-1]} comes out {abs(value - right) * DEGREE:.3g} m beside the place."
         rule_out(
             value,
             mistakes,

@@ -93,9 +93,11 @@ def parked_runs(parked: Callable[[Trajectory], bool]) -> str:
 def parked_wrapped(parked: Callable[[Trajectory], bool]) -> str:
     """The same where headings jump from 180 to -180 deg."""
     pairs = (179.9, -179.9), (-179.0, 178.0), (-177.0, 180.0), (178.5, -178.0)
-    for looks, wanted in pairs:
-        run = _stop(Pose(0.05, 0.0, math.radians(looks)), Pose(0.0, 0.0, math.radians(wanted)))
-        hint = f"a robot that looks {looks:.1f} deg at a goal that looks {wanted:.1f} deg "
+    for heading_deg, goal_deg in pairs:
+        run = _stop(
+            Pose(0.05, 0.0, math.radians(heading_deg)), Pose(0.0, 0.0, math.radians(goal_deg))
+        )
+        hint = f"a robot that looks {heading_deg:.1f} deg at a goal that looks {goal_deg:.1f} deg "
         expect(ask_truth(parked, run), f"{hint}has parked: how far apart are these directions?")
     away = _stop(Pose(30.0, 0.5, -0.1), radius=0.05, duration=6.0)
     expect(not ask_truth(parked, away), "every run counts as parked.")

@@ -15,9 +15,9 @@ OFF = 1.0  # deg to the right of straight behind
 
 def polar_angles() -> Live:
     """The distance and the two angles: the robot is moved and turned, and the goal is turned."""
-    seen = polar_error(ROBOT, GOAL)
-    heading = pose_from_polar(seen, GOAL).heading
-    alpha = f"{math.degrees(seen.alpha):.0f}".replace("-", "\N{MINUS SIGN}")
+    error = polar_error(ROBOT, GOAL)
+    heading = pose_from_polar(error, GOAL).heading
+    alpha = f"{math.degrees(error.alpha):.0f}".replace("-", "\N{MINUS SIGN}")
     return Live(
         "polar_angles",
         "The goal is *rho* = {rho} away. *alpha* = {alpha}: to look at it the robot {way}. "

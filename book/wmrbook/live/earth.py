@@ -47,7 +47,7 @@ def flat_map() -> Live:
     here = GeoPoint(lat=round(paper.GPS_POINT_1.lat), lon=0.0)  # as the sliders say it
     known, asked = (_flat_error(here, distance) for distance in DISTANCES)
     times = DISTANCES[1] / DISTANCES[0]
-    shown = {
+    distances = {
         "as much as before": known,
         f"{times:.0f} times as much": known * times,
         f"{times**2:,.0f} times as much": known * times**2,
@@ -70,7 +70,7 @@ def flat_map() -> Live:
             f"{DISTANCES[1] / 1000:.0f} km, {times:.0f} times as far?",
             f"It is {asked:.1f} m: the meridians close in along the way, and what that costs grows "
             "with the square of the distance, at any latitude but near the equator's.",
-            answers=nearest(asked, shown),
+            answers=nearest(asked, distances),
             wrong=(
                 "The meridians close in along the way: the farther, the more.",
                 "Twice the way closes the meridians in twice as much, and that over twice the way.",

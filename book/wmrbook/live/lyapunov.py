@@ -30,8 +30,8 @@ SWARM = {"robots": 40, "dt": 0.01, "radius": 0.05, "seed": 5, "steps": 1000}
 
 def bowl() -> Live:
     """The angles' part of V as a bowl to turn, its level sets, and a state that rolls over both."""
-    seen = PolarError(NEAR, math.radians(110.0), math.radians(90.0))
-    start = pose_from_polar(seen, GOAL)
+    error = PolarError(NEAR, math.radians(110.0), math.radians(90.0))
+    start = pose_from_polar(error, GOAL)
     options = {"method": "continuous", "dt": 0.02, "duration": 12.0, "arrival_radius": 0.0}
     run = simulate(start, GOAL, GENTLE_GAINS, **options)
     h = GENTLE_GAINS.h
@@ -131,9 +131,9 @@ def two_bars() -> Live:
 def seam() -> Live:
     """Robots that start on the seam and see their goal through noise; hysteresis mends it."""
     start = Pose(FACING, 0.0, math.pi)
-    seen = Receiver(sight=np.full(SWARM["robots"], math.radians(NOISE)))
+    receiver = Receiver(sight=np.full(SWARM["robots"], math.radians(NOISE)))
     options = {"method": "arc", "dt": SWARM["dt"], "arrival_radius": SWARM["radius"]}
-    ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=seen, seed=SWARM["seed"], **options)
+    ends = sweep(start, GOAL, OUTDOOR_GAINS, receiver=receiver, seed=SWARM["seed"], **options)
     share = np.mean(np.abs(ends.heading_error) > math.pi / 2)
     return Live(
         "seam",

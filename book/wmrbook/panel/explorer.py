@@ -128,9 +128,9 @@ class Explorer(Panel):
     def wheels(self) -> Wheels | None:
         """The wheels that the sliders show, None if they are ideal or the motion continuous."""
         width, most, lag, dead = (self.state[name] for name in FOLDED["Wheels"])
-        shown = Wheels(width, acceleration=most or math.inf, lag=lag, dead_band=dead)
-        ideal = shown == Wheels(width) or self.state["method"] == "continuous"
-        return None if ideal else shown
+        chosen = Wheels(width, acceleration=most or math.inf, lag=lag, dead_band=dead)
+        ideal = chosen == Wheels(width) or self.state["method"] == "continuous"
+        return None if ideal else chosen
 
     @wheels.setter
     def wheels(self, wheels: Wheels) -> None:

@@ -14,8 +14,8 @@ from wmrrobot import estimation
 
 @question(11, "On the bench", "Swapped motor cables")
 def swapped_cables() -> tuple[str, list[Option], str]:
-    seen = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(10.0, 6.0, 0.0))
-    wheels = wmr.twist_to_wheels(*wmr.control_law(*seen, wmr.GENTLE_GAINS), 0.5)
+    error = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(10.0, 6.0, 0.0))
+    wheels = wmr.twist_to_wheels(*wmr.control_law(*error, wmr.GENTLE_GAINS), 0.5)
     v, omega = wmr.wheels_to_twist(wheels[1], wheels[0], 0.5)
     ask = """The left motor's cable is in the right motor's plug; all else is right. The goal
         lies ahead, to the left. What does the robot do at once?"""
@@ -34,8 +34,8 @@ def swapped_cables() -> tuple[str, list[Option], str]:
 @question(11, "On the bench", "A bearing for a heading")
 def bearing_for_heading() -> tuple[str, list[Option], str]:
     bearing = math.radians(90.0)  # of a robot that looks east, at a goal in the east
-    seen = wmr.polar_error(wmr.Pose(0.0, 0.0, bearing), wmr.Pose(10.0, 0.0, 0.0))
-    v, omega = wmr.control_law(*seen, wmr.GENTLE_GAINS)
+    error = wmr.polar_error(wmr.Pose(0.0, 0.0, bearing), wmr.Pose(10.0, 0.0, 0.0))
+    v, omega = wmr.control_law(*error, wmr.GENTLE_GAINS)
     ask = """Robot and goal look east, and the goal lies 10 m ahead. The program takes the
         compass's bearing, 90 deg, for the heading. What does the robot do at once?"""
     options = {

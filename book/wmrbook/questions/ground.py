@@ -116,8 +116,8 @@ def four_moves() -> tuple[str, list[Option], str]:
 def two_angles() -> tuple[str, list[Option], str]:
     goal = wmr.Pose(-10.0, 0.0, math.radians(-90.0))
     robot = wmr.Pose(0.0, 0.0, math.radians(135.0))
-    seen = wmr.polar_error(robot, goal)
-    alpha, theta = (round(math.degrees(angle)) for angle in seen[1:])
+    error = wmr.polar_error(robot, goal)
+    alpha, theta = (round(math.degrees(angle)) for angle in error[1:])
     right = {"alpha": 180 - 135, "theta": (180 + 90 + 180) % 360 - 180}
     a, b = right["alpha"], right["theta"]
 
@@ -141,12 +141,12 @@ def two_angles() -> tuple[str, list[Option], str]:
 def beta_or_theta() -> tuple[str, list[Option], str]:
     k_rho, k_alpha, k_beta, pose = 3.0, 8.0, -1.5, wmr.Pose(-3.0, 0.5, -0.3)
     for _ in range(1200):
-        seen = wmr.polar_error(pose, _East)
-        if seen.rho < 0.01:
+        error = wmr.polar_error(pose, _East)
+        if error.rho < 0.01:
             break
-        omega = k_alpha * seen.alpha + k_beta * seen.theta
-        pose = wmr.advance(pose, k_rho * seen.rho, omega, 0.005)
-    there, parked = seen.rho < 0.01, abs(pose.heading) < 0.1
+        omega = k_alpha * error.alpha + k_beta * error.theta
+        pose = wmr.advance(pose, k_rho * error.rho, omega, 0.005)
+    there, parked = error.rho < 0.01, abs(pose.heading) < 0.1
     ask = """A law from a book is $v = 3\\rho$, $\\omega = 8\\alpha - 1.5\\beta$, with $\\beta =
         -\\theta$ and all angles wrapped to $\\pm$180 deg. A program puts $\\theta$ where
         $\\beta$ belongs. What does the robot do?"""

@@ -90,7 +90,7 @@ def tenth_of_a_second() -> tuple[str, list[Option], str]:
 def mirror() -> tuple[str, list[Option], str]:
     alpha, theta, gains = 0.7, -1.1, wmr.paper.OUTDOOR_GAINS
     v, omega = wmr.control_law(3.0, alpha, theta, gains)
-    seen_v, seen_omega = wmr.control_law(3.0, -alpha, -theta, gains)
+    mirrored_v, mirrored_omega = wmr.control_law(3.0, -alpha, -theta, gains)
 
     def change(now: float, then: float) -> int:
         return 1 if math.isclose(now, then) else -1 if math.isclose(now, -then) else 0
@@ -106,7 +106,7 @@ def mirror() -> tuple[str, list[Option], str]:
     }
     why = """Both angles change their signs. $v$ is even in them, $\\omega$ odd: the drive is
         mirrored."""
-    return ask, cases((change(v, seen_v), change(omega, seen_omega)), options), why
+    return ask, cases((change(v, mirrored_v), change(omega, mirrored_omega)), options), why
 
 
 @question(7, "Why it lags behind", "How far behind?")

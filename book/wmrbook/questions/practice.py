@@ -58,10 +58,10 @@ def _park(goal: wmr.Pose, off_m: float) -> wmr.Pose:
     """Where a robot really parks that sees itself `off_m` too far east."""
     pose, dt = wmr.Pose(-12.0, -6.0, 0.5), 0.1
     for _ in range(600):
-        seen = wmr.polar_error(pose._replace(x=pose.x + off_m), goal)
-        if seen.rho < 0.02:
+        error = wmr.polar_error(pose._replace(x=pose.x + off_m), goal)
+        if error.rho < 0.02:
             break
-        pose = wmr.advance(pose, *wmr.control_law(*seen, wmr.GENTLE_GAINS), dt)
+        pose = wmr.advance(pose, *wmr.control_law(*error, wmr.GENTLE_GAINS), dt)
     return pose
 
 
@@ -125,7 +125,7 @@ def as_printed() -> tuple[str, list[Option], str]:
 
 @question(10, "Parked, or not?", "Is it parked?")
 def is_it_parked() -> tuple[str, list[Option], str]:
-    seen = {}
+    outcomes = {}
     for axis in ("east", "north"):
         case = wmr.paper.outdoor(axis)
         fine = {"method": "continuous", "dt": 0.05, "arrival_radius": 0.02}
@@ -133,9 +133,10 @@ def is_it_parked() -> tuple[str, list[Option], str]:
         for radius in (0.025, 0.05, 0.1):
             error = abs(math.degrees(np.interp(radius, run.rho[::-1], run.heading_error[::-1])))
             for most in (2.5, 5.0, 10.0):
-                seen[axis, radius, most] = error <= most
+                outcomes[axis, radius, most] = error <= most
     east, north = (
-        {value for (axis, *_), value in seen.items() if axis == name} for name in ("east", "north")
+        {value for (axis, *_), value in outcomes.items() if axis == name}
+        for name in ("east", "north")
     )
     computed = "open"
     for verdict, holds in (("holds", True), ("wrong", False)):

@@ -148,8 +148,8 @@ def one_centimetre(answer: Any) -> str:
     """7.1: k_rho that leaves 1 cm, and the step below which a robot exactly behind settles."""
     gain, step = numbers("`answer`", answer, 2)
     expect(gain > 0.0, _POSITIVE)
-    wanted = -math.log(1.0 - paper.CIRCLE_SPEED / 4.0) / 0.01
-    _expect_unit(gain, wanted, "1/m")
+    right = -math.log(1.0 - paper.CIRCLE_SPEED / 4.0) / 0.01
+    _expect_unit(gain, right, "1/m")
     v = control_law(0.01, 0.0, 0.0, paper.CIRCLE_GAINS._replace(k_rho=gain, v_max=4.0))[0]
     hint = f"1 cm from the goal the law commands {v:.3f} m/s; the goal does "
     expect(close(v, paper.CIRCLE_SPEED, 0.01), f"{hint}{paper.CIRCLE_SPEED:.3f} m/s.")

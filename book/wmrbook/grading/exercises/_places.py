@@ -165,10 +165,10 @@ def back_to_the_pose(pose: Callable, there: Any = None) -> str:
         "beta went in for theta, and they have opposite signs.": (math.radians(35.0), turned),
     }
     right = pose_from_polar(PolarError(*log, math.radians(-35.0)), north)
-    if not _seen_there((*place, turned), right):
+    if not _same_place((*place, turned), right):
         for hint, (beside, heading) in mistakes.items():
             robot = pose_from_polar(PolarError(*log, beside), north)
-            expect(not _seen_there((*place, heading), robot), f"the function is right; {hint}")
+            expect(not _same_place((*place, heading), robot), f"the function is right; {hint}")
         hint = "the function is right; the colleague's robot is elsewhere, or a digit is missing."
         raise Hint(hint)
     return "Right: twenty poses come back, and the colleague's robot is found."
@@ -180,7 +180,7 @@ def _expect_radians(value: Sequence[float], right: Pose) -> None:
     expect(not in_degrees, "the heading is wanted in radians.")
 
 
-def _seen_there(one: Sequence[float], other: Sequence[float]) -> bool:
+def _same_place(one: Sequence[float], other: Sequence[float]) -> bool:
     """To a centimetre and a degree."""
     turned = math.remainder(one[2] - other[2], 2.0 * math.pi)
     return math.dist(one[:2], other[:2]) < 0.011 and abs(turned) < math.radians(1.0)
@@ -233,10 +233,10 @@ def walk(keep: Callable) -> str:
 
 
 def _walked(fixes: list, of_all: bool = False) -> list:
-    kept = before = fixes[:1]
+    track = before = fixes[:1]
     for fix in fixes[1:]:
         seconds, *to = fix
         if math.dist(to, before[-1][1:]) <= 3.0 * (seconds - before[-1][0]):
-            kept = [*kept, fix]
-        before = [fix] if of_all else kept
-    return kept
+            track = [*track, fix]
+        before = [fix] if of_all else track
+    return track
