@@ -111,7 +111,7 @@ def floats(name: str, value: Any, needed: str) -> np.ndarray:
 
 
 def _remark(name: str, error: Exception) -> str:
-    """What a value is instead of numbers, and the advice, for the end of a refusal."""
+    """The end of a refusal: the type of a value that is no number, and the remedy."""
     if isinstance(error, _NotNumbersError):
         unit = UNITS.get(name.rpartition(".")[2])
         advice = f"the number in {unit}" if unit else "a plain number, in the documented unit"

@@ -1,4 +1,4 @@
-"""How formulas and loops are compiled by numba, and where it keeps what it made.
+"""The compilation of formulas and loops by numba, and the folder of the compiled code.
 
 numba's own cache looks only at the file of the function itself to tell whether a binary is still
 good, so a loop would go on running an old formula out of another file. Here its files stand in a
@@ -39,7 +39,7 @@ def _digest() -> str:
 
 
 def _folders() -> list[Path]:
-    """Where compiled code may be kept, the best place first."""
+    """The folders that may hold compiled code, the best one first."""
     own = os.environ.get("NUMBA_CACHE_DIR")
     given = [own] if own else [str(_PACKAGE / "__pycache__"), "~/.cache/wmrlib"]
     places = [os.path.expanduser(place) for place in given]

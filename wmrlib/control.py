@@ -87,7 +87,7 @@ def closed_loop(
     >>> print(rates(0.0, np.array([10.0, 0.0, 1.0])).round(2))  # straight ahead, at 3.46 m/s
     [-3.46 -0.69  0.  ]
     """
-    tuning_of(gains, law, POSE_LAWS)  # it says what is wrong
+    tuning_of(gains, law, POSE_LAWS)  # it refuses wrong gains
 
     def rates(t: float, state: np.ndarray) -> np.ndarray:
         rho, alpha, theta = floats("state", state, "rho, alpha and theta")

@@ -69,7 +69,7 @@ def wrap(angle):
     """The same direction in (-pi, pi]."""
     if -math.pi < angle <= math.pi:
         return angle
-    angle = float(np.fmod(angle, TURN))  # exact, and so is what follows
+    angle = float(np.fmod(angle, TURN))  # exact, as are the differences below
     if angle > math.pi:
         return angle - TURN
     return angle + TURN if angle <= -math.pi else angle

@@ -89,7 +89,21 @@ def wheels_to_twist(left: Real, right: Real, track_width: float) -> tuple[Real, 
 
 
 def twist_to_wheels(v: Real, omega: Real, track_width: float) -> tuple[Real, Real]:
-    """The wheels' ground speeds (left, right) in m/s: the inverse of `wheels_to_twist`."""
+    """The wheels' ground speeds for a twist: the inverse of `wheels_to_twist`.
+
+    Parameters
+    ----------
+    v, omega : float or array; m/s, rad/s
+    track_width : float, m. The distance b between the wheels.
+
+    Returns
+    -------
+    left, right : float or array, m/s
+
+    Raises
+    ------
+    ValueError : for NaN, a width that is not positive, or mismatched lengths.
+    """
     v, omega, width = reals(above_0=("track_width",), v=v, omega=omega, track_width=track_width)
     return motion.wheel_speeds(v, omega, width)
 

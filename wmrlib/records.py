@@ -1,4 +1,4 @@
-"""How records of numbers and arrays are shown and compared: in a few lines, and by one bool."""
+"""A short repr for records of arrays, and a comparison that returns one bool."""
 
 from __future__ import annotations
 

@@ -314,7 +314,7 @@ def _shortcomings(summary: np.ndarray) -> Iterator[str]:
 
 
 def _chunk_size(total: int, task: _Task) -> int:
-    """How many runs make a chunk: four chunks for each core if they are worth it, whole blocks."""
+    """The number of runs in a chunk: whole blocks, and four chunks a core in a long sweep."""
     least, most = _CHUNK
     size = math.ceil(min(most, max(least, total * task.cost / (4 * threads.CORES))) / task.cost)
     block = sampled.BLOCK if task.side_by_side else 1

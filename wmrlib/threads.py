@@ -15,7 +15,7 @@ import numba
 CORES = numba.config.NUMBA_NUM_THREADS  # that this process may use
 _BAR_AFTER = 1.0  # s
 _POLL_SECONDS = 0.5  # s; longest time after which a wait notices Ctrl-C
-_IN_FLIGHT = 128  # chunks handed over and not yet back: what is in memory beside the result
+_IN_FLIGHT = 128  # most chunks handed over and not yet back, which need memory beside the result
 
 
 def spread(
@@ -68,7 +68,7 @@ def watched(total: int, show_bar: bool) -> Iterator[Callable[[int], bool]]:
     """
     pressed: list[bool] = []
     if show_bar:
-        from tqdm.auto import tqdm  # here, because it asks what it is shown in
+        from tqdm.auto import tqdm  # imported here, because it looks for a notebook
 
         bar = tqdm(total=total, unit=" runs", unit_scale=True, delay=_BAR_AFTER)
 

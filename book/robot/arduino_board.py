@@ -38,7 +38,7 @@ _PARTS = CORE / "cores/arduino", CORE / "variants/standard"
 
 
 def run(*command: str | Path, folder: Path) -> str:
-    """What a command prints; RuntimeError with its words if it fails."""
+    """The output of a command; RuntimeError with its words if it fails."""
     done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300)
     if done.returncode:
         raise RuntimeError(f"{command[0]}: {done.stdout}{done.stderr}")
@@ -144,7 +144,7 @@ def _simulator() -> ctypes.CDLL:
 
 
 class Inputs(NamedTuple):
-    """What the board's pins see: the encoders' quarter steps and the field, in counts.
+    """The inputs at the board's pins: the encoders' quarter steps and the field, in counts.
 
     `field` is None for a compass that does not answer.
     """

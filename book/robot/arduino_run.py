@@ -35,7 +35,7 @@ NEAR = Robot(goal_lat=33.273672, goal_lon=44.373200)  # 12 m away
 
 
 class Fault(NamedTuple):
-    """What is wrong from `begin` to `end`, in s."""
+    """A fault of the robot from `begin` to `end`, in s."""
 
     begin: float = BEGIN
     end: float = math.inf

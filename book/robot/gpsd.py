@@ -72,7 +72,7 @@ FORMATS = {"ubx": ubx, "nmea": nmea}
 
 
 def rounded(fix: Position, form: str) -> Position:
-    """What arrives of a fix that is sent: UBX has 1e-7 degrees, NMEA 1e-7 minutes."""
+    """A fix as it arrives, rounded: UBX has 1e-7 degrees, NMEA 1e-7 minutes."""
     if form == "ubx":
         return fix._replace(lat=round(fix.lat, 7), lon=round(fix.lon, 7))
     lat, lon = (round(value * 60e7) / 60e7 for value in fix[1:3])

@@ -149,7 +149,7 @@ class World:
 
 
 def swapped(x: float, y: float) -> tuple[float, float]:
-    """Where a program is that reads longitude for latitude; too far off for a plane, but far."""
+    """The position by a program that swaps latitude and longitude: far away."""
     a = paper.GPS_POINT_1
     b = wmr.point_at(a, x, y)
     east, north = wmr.local_position(a, wmr.GeoPoint(lat=b.lon, lon=b.lat))

@@ -1,4 +1,4 @@
-"""How runs take turns in the lanes of a loop, and the law there.
+"""The lanes in which runs are computed side by side, and the law in them.
 
 A loop computes many runs at once, each in its lane, because a processor takes four or eight numbers
 with one instruction. Runs end at different times: one that has ended gives its lane to the next.

@@ -85,7 +85,7 @@ def vector_expm1(x):
     doublings = np.rint(x * _DOUBLINGS_PER_UNIT)
     coarse = x - doublings * _LN2_1
     r = coarse - doublings * _LN2_2
-    rest = (coarse - r) - doublings * _LN2_2  # what rounding took from the line above
+    rest = (coarse - r) - doublings * _LN2_2  # the rounding error of the line above
     high = _F[8] + r * (_F[9] + r * (_F[10] + r * (_F[11] + r * (_F[12] + r * _F[13]))))
     low = _F[3] + r * (_F[4] + r * (_F[5] + r * (_F[6] + r * (_F[7] + r * high))))
     series = r + (rest + r * r * (_F[2] + r * low))
@@ -158,7 +158,7 @@ def vectorised(function: Callable, forms: dict = _FORMS) -> Callable:
             for name, value in plain.__globals__.items()
             if name in plain.__code__.co_names
         }
-        used["__name__"] = plain.__module__  # numba imports it for what it has kept
+        used["__name__"] = plain.__module__  # numba imports this module for its compiled code
         made = FunctionType(plain.__code__, used, plain.__name__, plain.__defaults__)
         made.__qualname__ = f"{plain.__qualname__}_vectorised"
         forms[function] = formula(made)

@@ -47,7 +47,18 @@ def shared(arguments: tuple, values: tuple, says: str, gains: Iterable = ()) -> 
 
 
 def formula_of(function: Callable, arguments: tuple, says: str) -> Formula:
-    """A formula of wmrlib, or one of your own, as a function to print."""
+    """A formula of wmrlib, or one of your own, as a function to print.
+
+    Parameters
+    ----------
+    function : a formula of numbers that is made of the functions of `wmrlib.elementary`
+    arguments : tuple of symbols, with which it is called
+    says : str, the comment above the printed function
+
+    Returns
+    -------
+    Formula
+    """
     return shared(arguments, read(function, *arguments), says)
 
 

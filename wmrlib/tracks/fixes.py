@@ -30,7 +30,7 @@ UNREPORTED = Reported()
 
 
 class Count(NamedTuple):
-    """How often something occurred, and the line (in UBX the byte) of its first occurrence."""
+    """The number of occurrences, and the line (in UBX the byte) of the first."""
 
     count: int  # type: ignore[assignment]  # hides tuple.count, which nobody calls here
     first: int
@@ -38,7 +38,7 @@ class Count(NamedTuple):
 
 @dataclass(frozen=True)
 class Report:
-    """How many positions were used, and by its reason the Count of lines that gave none.
+    """The number of positions used, and for each reason the Count of lines that gave none.
 
     `noted` counts positions that are used although something is amiss with them, and `place` is
     "line" or "byte"; `print` it all.

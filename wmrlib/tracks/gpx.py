@@ -7,7 +7,7 @@ from xml.parsers import expat
 
 from wmrlib.tracks.fixes import Fixes, Reported, Tally, number, reading, timestamp
 
-# Where each kind of place belongs, and what it is called; the first that a file has is its track.
+# The parent and the name of each kind of place; the first kind that a file has is its track.
 _PARENT = {"trkpt": "trkseg", "rtept": "rte", "wpt": "gpx"}
 _WORDS = {"trkpt": "track point", "rtept": "route point", "wpt": "waypoint"}
 _REPORTED = {"sat": "satellites", "hdop": "hdop", "speed": "speed", "course": "course"}

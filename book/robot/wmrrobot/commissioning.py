@@ -113,7 +113,7 @@ def wheel_response(commanded, measured, dt: float, dead: float = 0.0) -> Respons
 
 
 def latency(t, way, t_fix, way_fix, sigma: float) -> Latency:
-    """How late the fixes of a drive straight on are, against the metres that its wheels rolled.
+    """The latency of the fixes of a straight drive, from a comparison with the wheels' odometry.
 
     Start, brake and start again: at a steady speed an old fix looks like a place farther back.
 

@@ -187,7 +187,7 @@ class Drive:
 
     @property
     def reason(self) -> str:
-        """Why it waits or has stopped; empty otherwise."""
+        """The reason why it waits or has stopped; empty otherwise."""
         return REASONS[self.memory.reason]
 
     def step(self, seen: Seen) -> tuple[float, float]:

@@ -1,4 +1,4 @@
-"""Where the robot is and where it faces, estimated from wheels, gyro, GNSS, compass and course.
+"""An estimate of the robot's pose from wheels, gyro, GNSS, compass and course.
 
 An extended Kalman filter. Its model is `wmrrobot.sensing`; its derivatives are printed from that by
 sympy, here and in the C header ``wmr_filter.h``. Each function returns a new `Estimate`. A
@@ -26,7 +26,7 @@ DOUBTED = 100.0  # m
 
 
 class Estimate(NamedTuple):
-    """What the filter believes.
+    """The estimate of the filter: its state, and the state's covariance.
 
     state: x, y [m], heading [rad], gyro_bias [rad/s], wheel_scale; covariance: (5, 5); surprise:
     the last measurement's normalised innovation squared, which was used if within its gate.
@@ -231,7 +231,7 @@ def doubt(estimate: Estimate, factor: float) -> Estimate:
 
 
 def _used(estimate: Estimate, gate: float, use: Callable, *numbers) -> Estimate:
-    """What a compiled function makes of copies, which it changes, and returns."""
+    """The estimate after a compiled function has changed copies of state and covariance."""
     state, covariance, _ = instance("estimate", estimate, Estimate)
     state, covariance = state.copy(), covariance.copy()
     bound = scalar("gate", gate, low=0.0, endless=True)

@@ -16,14 +16,14 @@ from wmrlib.motion import euler_step
 
 @checked("at_least_0", above_0=("gyro", "track_width"))
 class Noise(NamedTuple):
-    """How far wheels and gyro can be trusted.
+    """The noise of wheels and gyro.
 
     Parameters
     ----------
     wheels : float, m. Standard deviation of a wheel's distance after 1 m; over d m, sqrt(d) times.
     gyro : float, rad/sqrt(s). White noise: standard deviation of the angle after 1 s.
-    bias_walk : float, rad/s/sqrt(s). How far the gyro's bias wanders in 1 s.
-    scale_walk : float, 1/sqrt(s). How far the wheel scale wanders in 1 s.
+    bias_walk : float, rad/s/sqrt(s). Standard deviation of the gyro bias's change in 1 s.
+    scale_walk : float, 1/sqrt(s). Standard deviation of the wheel scale's change in 1 s.
     track_width : float, m. Distance between the wheels.
 
     Raises
@@ -52,7 +52,7 @@ def speed_and_turn(gyro_bias, wheel_scale, v, omega, gyro, share):
 
 @formula
 def gyro_reading(gyro_bias, wheel_scale, omega):
-    """What the gyro reads while the wheels roll without slip; at rest, its bias."""
+    """The reading of the gyro while the wheels roll without slip; at rest, its bias."""
     return gyro_bias + wheel_scale * omega
 
 
@@ -68,7 +68,7 @@ def wheel_noise(v, omega, track_width, noise):
 
 @formula
 def antenna(x, y, heading, ahead, left):
-    """Where an antenna is, `ahead` and `left` of the middle between the wheels [m]."""
+    """The position of an antenna `ahead` and `left` of the middle between the wheels [m]."""
     sine, cosine = sincos(heading)
     return x + ahead * cosine - left * sine, y + ahead * sine + left * cosine
 

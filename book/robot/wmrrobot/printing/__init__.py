@@ -1,4 +1,4 @@
-"""What stands in C: the drive and the filter, by wmrlib's printers.
+"""The drive and the filter in C, printed by wmrlib's printers.
 
 ``python -m wmrrobot`` prints the drive into ``wmr_drive.h``, `filter_formulas` into
 ``wmr_filter.h`` and `jacobians` into ``wmrrobot/jacobians.py``.
