@@ -38,6 +38,7 @@ TESTS = {  # of a module or a folder; "jit" where plain Python would take long
     "kinematics": "kinematics arguments",
     "laws": "control simulation",
     "loops": "jit simulation hysteresis",
+    "monitor": "drive",
     "motion": "kinematics simulation",
     "odometry": "drive",
     "printing": "c_example c_filter",
@@ -47,7 +48,6 @@ TESTS = {  # of a module or a folder; "jit" where plain Python would take long
     "sweeping": "jit sweeping receiver",
     "symbolic": "symbolic control c_header",
     "tracks": "tracks ubx",
-    "trust": "drive",
 }
 NO_FORMULAS = {"__init__", "__main__", "checks", "compilation"}
 OPERATORS = {

@@ -19,7 +19,7 @@ from gpsd import Position, ubx
 import wmrlib as wmr
 from wmrlib.body import follow
 from wmrlib.motion import arc_step
-from wmrrobot import trust
+from wmrrobot import monitor
 from wmrrobot.drive import REASONS
 from wmrrobot.sheets import RECEIVERS, Robot, certificate, sheet
 
@@ -152,7 +152,7 @@ def drive(
         *lines, text = (text + board.run(STEP, inputs)).split(b"\n")
         for line in lines:
             numbers = list(map(int, line.split()))
-            state, reason = trust.STATES[numbers[0]], REASONS[numbers[1]]
+            state, reason = monitor.STATES[numbers[0]], REASONS[numbers[1]]
             longest = max(longest, 1e-6 * numbers[5])
         rolled += max(map(abs, moved)) * (now >= fault.begin)
         stood = 0.0 if max(map(abs, lawn.speeds)) > 1e-3 else stood + STEP

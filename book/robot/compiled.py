@@ -13,7 +13,7 @@ from typing import get_args, get_type_hints
 import wmrlib as wmr
 import wmrrobot as wr
 from wmrlib import symbolic
-from wmrrobot import printing, trust
+from wmrrobot import monitor, printing
 from wmrrobot.drive import REASONS
 from wmrrobot.odometry import PAST, Place
 
@@ -46,7 +46,7 @@ def _library(real: str, law: str) -> tuple:
         raise RuntimeError("this needs a C compiler (Debian: apt install gcc libc6-dev)")
     kinds = {
         kind: _structure(kind, number)
-        for kind in (trust.Memory, wr.Seen, Place, wmr.Wheels, wmr.LastTurn, wr.Rules)
+        for kind in (monitor.Memory, wr.Seen, Place, wmr.Wheels, wmr.LastTurn, wr.Rules)
     }
     fields = [(name, number) for name in wmr.Gains._fields]
     gains = type("Gains", (ctypes.Structure,), {"_fields_": fields})
@@ -69,7 +69,7 @@ class CDrive(wr.Drive):
         super().__init__(*given, **named)
         law = "law" if self.law == "corrected" else f"law_{self.law}"
         self._step, kinds, plan = _library(real, law)
-        self._readings, self._memory = kinds[wr.Seen], kinds[trust.Memory]()
+        self._readings, self._memory = kinds[wr.Seen], kinds[monitor.Memory]()
         self._out = (REALS[real] * 2)()
         rules = self.rules._asdict() | {"settle": int(self.rules.settle)}
         parts = self.goal, self.gains, self.wheels, self.end, rules.values()
@@ -82,7 +82,7 @@ class CDrive(wr.Drive):
 
     @property
     def state(self) -> str:
-        return trust.STATES[self._memory.state]
+        return monitor.STATES[self._memory.state]
 
     @property
     def reason(self) -> str:

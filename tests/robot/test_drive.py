@@ -15,7 +15,7 @@ from hypothesis import strategies as st
 
 import wmrlib as wmr
 import wmrrobot as wr
-from wmrrobot import trust
+from wmrrobot import monitor
 from wmrrobot.drive import TABLE
 
 CASES = {case.name: case for case in faults.CASES}
@@ -135,12 +135,12 @@ def test_what_has_stopped_or_parked_stays_so_until_it_is_reset():
     assert (drive.state, drive.reason) == ("parked", "")
 
 
-@pytest.mark.parametrize(("gap", "refused"), [(1.1, trust.NONE), (1.3, trust.JUMPED)])
+@pytest.mark.parametrize(("gap", "refused"), [(1.1, monitor.NONE), (1.3, monitor.JUMPED)])
 def test_a_jump_is_measured_from_where_an_old_fix_is_by_now(gap, refused):
-    m, rules = trust.Memory(driven=1.0, since=1.0), wr.Rules()  # 1 m, and 0.2 m of slip
-    trust.remember(m.past, 0.6, 0.0, 0.3, rules.oldest)
+    m, rules = monitor.Memory(driven=1.0, since=1.0), wr.Rules()  # 1 m, and 0.2 m of slip
+    monitor.remember(m.past, 0.6, 0.0, 0.3, rules.oldest)
     seen = wr.Seen(0.05, 0.0, 0.0, x=-gap - 0.6, age=0.3)
-    assert trust.refusal_of(m, seen, rules) == refused
+    assert monitor.refusal_of(m, seen, rules) == refused
 
 
 @given(
@@ -151,18 +151,18 @@ def test_a_jump_is_measured_from_where_an_old_fix_is_by_now(gap, refused):
 )
 def test_an_old_fix_is_carried_on_by_what_the_wheels_rolled_since(rows, share, oldest, steady):
     """Exactly while they keep a twist; otherwise to within what they turn in a stretch or so."""
-    m, pose = trust.Memory(), START
+    m, pose = monitor.Memory(), START
     v, omega = rows[0][1:]
     path, now = [], 0.0
     for dt, *twist in rows * 20:
         v, omega = (v, omega) if steady else twist
         path.append((now, pose, v, omega))
         pose, now = wmr.advance(pose, v, omega, dt), now + dt
-        trust.remember(m.past, v * dt, omega * dt, dt, oldest)
+        monitor.remember(m.past, v * dt, omega * dt, dt, oldest)
     age = min(share * oldest, now)
     begin, then, *twist = next(row for row in path[::-1] if row[0] <= now - age)
     then = wmr.advance(then, *twist, now - age - begin)
-    trust.bring_up(m, wr.Seen(0.05, 0.0, 0.0, **then._asdict(), age=age))
+    monitor.bring_up(m, wr.Seen(0.05, 0.0, 0.0, **then._asdict(), age=age))
     off = abs(wmr.wrap_angle(m.fix.heading - pose.heading))
     assert m.past.since.seconds == pytest.approx(age, abs=1e-9)
     if steady:
@@ -203,8 +203,8 @@ def test_the_least_speed_keeps_the_path_of_the_law(distance, heading, least):
 
 @given(st.floats(-0.05, 0.05))
 def test_what_is_rolled_counts_backwards_too(rolled):
-    m = trust.Memory()
-    trust.observe(m, wr.Seen(0.05, rolled, rolled), wr.Rules(), wmr.Wheels(0.4))
+    m = monitor.Memory()
+    monitor.observe(m, wr.Seen(0.05, rolled, rolled), wr.Rules(), wmr.Wheels(0.4))
     assert (m.since, m.still, m.length) == (abs(rolled),) * 3
 
 

@@ -1,7 +1,7 @@
 """A robot of one's own: its settings, the checks of its sensors, and the C that runs on it.
 
 `import wmrrobot as wr`; a name is loaded when it is first used. The modules `printing` (formulas to
-C), `trust`, `odometry`, `kalman` and `sensing` (the parts of drive and filter) are public too.
+C), `monitor`, `odometry`, `kalman` and `sensing` (the parts of drive and filter) are public too.
 """
 
 import lazy_loader

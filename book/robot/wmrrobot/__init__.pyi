@@ -5,11 +5,11 @@ from .drive import Drive as Drive
 from .exports import along as along
 from .exports import at_rest as at_rest
 from .exports import files as files
+from .monitor import Rules as Rules
+from .monitor import Seen as Seen
 from .sheets import RECEIVERS as RECEIVERS
 from .sheets import Certificate as Certificate
 from .sheets import Robot as Robot
 from .sheets import Sheet as Sheet
 from .sheets import certificate as certificate
 from .sheets import sheet as sheet
-from .trust import Rules as Rules
-from .trust import Seen as Seen

@@ -16,8 +16,8 @@ from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.laws import LAWS, saturation_scale
 from wmrlib.motion import polar_from_pose, wheel_speeds
-from wmrrobot import trust
-from wmrrobot.trust import (
+from wmrrobot import monitor
+from wmrrobot.monitor import (
     BROKEN,
     DRIVE,
     FROZEN,
@@ -193,7 +193,7 @@ class Drive:
     def step(self, seen: Seen) -> tuple[float, float]:
         """The speeds of the left and the right wheel [m/s] for the next period."""
         m, end, v, omega = self.memory, self.end, 0.0, 0.0
-        trust.observe(m, seen, self.rules, self.wheels)
+        monitor.observe(m, seen, self.rules, self.wheels)
         state = polar_from_pose(m.pose.x, m.pose.y, m.pose.heading, *self.goal)
         m.rho, m.remaining_turn = state[0], wrap(state[1] - state[2])
         faces = m.state == TURN and abs(m.remaining_turn) <= end.tolerance

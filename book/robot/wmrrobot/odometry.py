@@ -1,6 +1,6 @@
 """Odometry: a pose carried on by the rolled metres, and a short history of them.
 
-`printing` prints all of it as part of ``wmr_drive.h``, as it does `trust`.
+`printing` prints all of it as part of ``wmr_drive.h``, as it does `monitor`.
 """
 
 from __future__ import annotations

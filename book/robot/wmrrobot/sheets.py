@@ -13,7 +13,7 @@ import numpy as np
 import wmrlib as wmr
 from wmrlib.checks import book_extra, scalar
 from wmrlib.receiver import normals
-from wmrrobot.trust import Rules
+from wmrrobot.monitor import Rules
 
 with book_extra("wmrrobot.sheets"):
     from scipy.special import bdtr

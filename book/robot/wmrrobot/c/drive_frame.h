@@ -1,6 +1,6 @@
 /* The frame of wmr_drive.h: wmrrobot puts what it prints where the @ signs are. */
 /* wmr_drive.h: a state machine round wmr_law.h: it drives while its sensors agree.
-   Printed by python -m wmrrobot from wmrrobot's drive and trust: change those.
+   Printed by python -m wmrrobot from wmrrobot's drive and monitor: change those.
 
    A robot waits for good fixes, drives, turns on the spot, and has parked; whatever is wrong
    with a sensor, a wheel, the clock or the goal makes it wait until that is over, or stop until

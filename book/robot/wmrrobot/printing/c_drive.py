@@ -10,18 +10,18 @@ from typing import get_origin, get_type_hints
 
 from wmrlib.body import LastTurn, Wheels
 from wmrlib.symbolic import filled, wrapped
-from wmrrobot import drive, odometry, trust
+from wmrrobot import drive, monitor, odometry
 
 C_DRIVE = Path(__file__).parents[1] / "c" / "wmr_drive.h"
-_STRUCTS = [Wheels, LastTurn, trust.Rules, trust.Seen, trust.Wheel]
-_STRUCTS += [odometry.Stretch, odometry.Past, trust.Memory]
+_STRUCTS = [Wheels, LastTurn, monitor.Rules, monitor.Seen, monitor.Wheel]
+_STRUCTS += [odometry.Stretch, odometry.Past, monitor.Memory]
 _KINDS = {kind: f"wmr_{kind.__name__.lower()}" for kind in _STRUCTS}
 _KINDS |= {LastTurn: "wmr_last_turn", Wheels: "wmr_motors", odometry.Place: "wmr_pose"}
 _KINDS |= {float: "WMR_REAL", int: "int", type(None): "void"}
 _KINDS[list[odometry.Stretch]] = "wmr_stretch"
 _OWN = {
     name: value
-    for module in (odometry, trust, drive)
+    for module in (odometry, monitor, drive)
     for name, value in vars(module).items()
     if inspect.isfunction(value) and value.__module__ == module.__name__
 }
@@ -170,7 +170,7 @@ def _structure(kind) -> str:
 
 def _row(row: drive.Row, condition: str) -> str:
     within = row.within.split()
-    every = within == list(trust.STATES[: len(within)])  # up to the last of them
+    every = within == list(monitor.STATES[: len(within)])  # up to the last of them
     test = f"m->state {'<=' if every else '=='} {code_name(within[-1])} && "
     assert every or len(within) == 1, row
     test += f"({condition})" if "||" in condition else condition
@@ -181,10 +181,10 @@ def _row(row: drive.Row, condition: str) -> str:
 
 def c_drive() -> str:
     """The text of ``wmr_drive.h``."""
-    names = [map(code_name, words) for words in (trust.STATES, trust.REFUSALS, drive.REASONS)]
+    names = [map(code_name, words) for words in (monitor.STATES, monitor.REFUSALS, drive.REASONS)]
     usual = ", ".join(
         str(int(value)) if kind is int else f"WMR_C({float(value)})"
-        for value, kind in zip(trust.Rules(), get_type_hints(trust.Rules).values(), strict=True)
+        for value, kind in zip(monitor.Rules(), get_type_hints(monitor.Rules).values(), strict=True)
     )
     places = {
         "NAMES": "\n".join(wrapped(f"enum {{ {', '.join(words)} }};") for words in names)

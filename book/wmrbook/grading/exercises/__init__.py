@@ -11,7 +11,7 @@ _PLACES = "back_to_the_pose campus odometry third_formula three_readings walk"
 __getattr__, __dir__, __all__ = lazy_loader.attach(
     __name__,
     submod_attrs={
-        "_designs": [*_DESIGNS.split(), "told_too_little"],
+        "_designs": [*_DESIGNS.split(), "announced_too_low"],
         "_places": _PLACES.split(),
     },
 )

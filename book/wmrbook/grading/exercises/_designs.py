@@ -188,7 +188,7 @@ def kanayama(V_rate: Any) -> str:
 
 
 @exercise
-def told_too_little(answer: Any) -> str:
+def announced_too_low(answer: Any) -> str:
     """7.3: how far ahead a goal stays whose speed is announced 10 % too low."""
     value, speed = number("`answer`", answer), paper.CIRCLE_SPEED
     turning = 2.0 * math.pi / paper.CIRCLE_PERIOD
