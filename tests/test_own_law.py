@@ -99,14 +99,52 @@ def test_a_function_that_is_compiled_is_taken_as_it_is():
             r"law = 'my own' .*'corrected', .*, or a function \(rho, alpha, theta, g",
         ),
         (straight, "continuous", r"'continuous' .* 'arc' or 'euler' is needed with .* straight"),
-        (lambda *_: 3.0, "arc", r"law\(rho=1\.0, .* = 3\.0 is not allowed: a pair of numbers"),
+        (lambda *_: 3.0, "arc", r"<lambda> at rho = .* = 3\.0 is not allowed: a pair of numbers"),
         (lambda *_: (None, 1.0), "arc", r"= \(None, 1\.0\) is not allowed: a pair of numbers"),
+        (lambda *_: (math.nan, 1.0), "arc", r"= \(nan, 1\.0\) is not allowed: a pair of numbers"),
+        (lambda *_: "ab", "arc", r"= 'ab' is not allowed: a pair of numbers"),
+        (lambda rho, *_: None, "euler", r"= None is not allowed: a pair of numbers"),
     ],
 )
 def test_what_is_no_law_is_refused_by_a_sentence(drive, law, method, message):
     first = (wmr.paper.circle, START) if drive == "track" else (START, GOAL)
     with pytest.raises(ValueError, match=message):
         getattr(wmr, drive)(*first, Slope(1.0) if callable(law) else GAINS, law=law, method=method)
+
+
+def test_a_law_is_asked_in_its_run_alone_with_floats_and_may_answer_with_any_pair():
+    asked = []
+
+    def law(rho, alpha, theta, gains):
+        asked.append((rho, alpha, theta))
+        return np.array([0.5 * rho, 2.0 * alpha]) if rho > 1.0 else [0.5 * rho, 2.0 * alpha]
+
+    run = wmr.simulate(START, GOAL, None, law=law)
+    assert np.array_equal(np.transpose(asked), [run.rho, run.alpha, run.theta])
+    assert {type(number) for numbers in asked for number in numbers} == {float}
+
+
+def test_what_numba_cannot_compile_is_said_in_a_sentence():
+    with pytest.raises(ValueError, match=r"gains = \{'slope': 0\.3\} .* straight, which numba has"):
+        wmr.simulate(START, GOAL, {"slope": 0.3}, law=numba.njit(straight))
+
+
+def test_gains_that_are_no_numbers_are_given_to_each_run_as_they_are():
+    Own = namedtuple("Own", "slope table")
+    table = {"turn": 2.0}
+    runs = wmr.sweep(
+        START,
+        GOAL,
+        Own(np.array([0.2, 0.3]), table),
+        law=lambda rho, alpha, theta, own: (
+            own.slope * rho * math.cos(alpha),
+            own.table["turn"] * alpha,
+        ),
+        method="arc",
+    )
+    assert runs.time.tolist() == [
+        wmr.simulate(START, GOAL, Slope(slope), law=straight).t[-1] for slope in (0.2, 0.3)
+    ]
 
 
 def test_a_law_that_leaves_the_range_of_numbers_ends_the_run_there():
@@ -140,7 +178,10 @@ def test_a_log_that_does_not_begin_at_0_took_as_long_as_it_took():
     goal = wmr.Pose(2.0, 0.0, 0.0)
     run = wmr.Trajectory.of_poses([10.0, 11.0, 13.0], [0.0, 1.0, 2.0], 0.0, 0.0, goal)
     assert wmr.arrival(run).time == 3.0
+    assert run.t.tolist() == [0.0, 1.0, 3.0]
     assert run.v.tolist() == [1.0, 0.5, 0.0]
+    aside = wmr.Trajectory.of_poses([0.0, 1.0], 0.0, [0.0, 1.0], 0.0, goal)
+    assert (aside.v[0], aside.path_length) == (0.0, 1.0)
     short = wmr.Trajectory.of_poses([0.0, 1.0], [0.0, 1.0], 0.0, 0.0, goal)
     assert not wmr.arrival(short).arrived
     near = wmr.Trajectory.of_poses([0.0, 1.0], [0.0, 1.0], 0.0, 0.0, goal, arrival_radius=1.0)

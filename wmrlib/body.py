@@ -16,8 +16,8 @@ from wmrlib.elementary import between, expm1, signed, sincos, stepped, within, w
 from wmrlib.motion import wheel_speeds
 from wmrlib.records import record
 
-_TINY = 1e-30  # added to a divisor that may be 0, where 0/0 stands for 0
-_NO_LAG = 1e-15  # s, added to a lag of 0: exp(-rest/lag) must not overflow for a rest of -1e-17
+_TINY = 1e-30  # added to a divisor that may be 0
+_NO_LAG = 1e-15  # s, added to a lag, so that exp(-rest/lag) does not overflow for -1e-17/0
 _AT_REST = 1e-3  # m/s: a slower wheel counts as standing
 _AT_ONCE = 1e-9  # s: rounding error of a sum of sampling periods
 _FASTEST = 1e9  # largest factor of `hurry`: a speed of 0 cannot be scaled up

@@ -2,9 +2,9 @@
 
 numba's own cache looks only at the file of the function itself to tell whether a binary is still
 good, so a loop would go on running an old formula out of another file. Here its files stand in a
-folder named by a digest of all modules; of a function of another package they hold a digest of that
-package's modules too. numba runs what it finds there, so a folder that others may write to is not
-used.
+folder named by a digest of the modules with compiled code; of a function of another package they
+hold a digest of that package's modules too. numba runs what it finds there, so a folder that others
+may write to is not used.
 """
 
 from __future__ import annotations

@@ -5,13 +5,14 @@ The formulas stand in `wmrlib.laws`. Here they take arrays and say what is wrong
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any
 
 import numpy as np
 
 from wmrlib.body import Wheels, checked_wheels
-from wmrlib.checks import Real, choice, floats, instance, reals
+from wmrlib.checks import Real, choice, floats, instance, reals, refusal
 from wmrlib.elementary import elementwise
 from wmrlib.gains import Gains, GainsFields
 from wmrlib.laws import LAWS, POSE_LAWS, lyapunov_value, saturation_scale, tuning_of
@@ -87,13 +88,17 @@ def closed_loop(
     >>> print(rates(0.0, np.array([10.0, 0.0, 1.0])).round(2))  # straight ahead, at 3.46 m/s
     [-3.46 -0.69  0.  ]
     """
-    tuning_of(gains, law, POSE_LAWS)  # it refuses wrong gains
+    law_in_loop: Any = tuning_of(gains, law, POSE_LAWS)[1]  # it refuses wrong gains
 
     def rates(t: float, state: np.ndarray) -> np.ndarray:
-        rho, alpha, theta = floats("state", state, "rho, alpha and theta")
+        error = floats("state", state, "rho, alpha and theta")
+        if len(np.atleast_1d(error)) != 3:
+            raise refusal("state", state, "rho, alpha and theta")
+        rho, alpha, theta = error
         if callable(law):
-            v, omega = law(rho, alpha, theta, gains)
-            v_over_rho = v / rho
+            twists = [law_in_loop(*column, gains) for column in error.reshape(3, -1).T]
+            v, omega = np.reshape(np.transpose(twists), (2, *error.shape[1:]))
+            v_over_rho = v / np.where(rho == 0.0, math.nan, rho)
         else:
             v_over_rho, omega = elementwise(_law(law), rho, alpha, theta, *gains)
         return np.array(elementwise(polar_closing_rate, rho, alpha, v_over_rho, omega))

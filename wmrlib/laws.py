@@ -1,4 +1,4 @@
-"""Every law, once: a formula, a row in `LAWS` and a line in `pose_law`; (18), (22) and (24).
+"""Every law, once: a formula, a row in `LAWS`, a number, a line in `pose_law`; (18), (22), (24).
 
 All else follows from these: what `control` computes, the compiled loops, the sympy expressions, the
 panel's JavaScript and menu, and the C header.
@@ -6,14 +6,14 @@ panel's JavaScript and menu, and the C header.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable
 from typing import Any, NamedTuple
 
 import numba
-import numpy as np
 
 from wmrlib.checks import choice, instance, refusal
-from wmrlib.compilation import chosen_by_type, formula
+from wmrlib.compilation import chosen_by_type, compiled_by_its_user, formula
 from wmrlib.elementary import decay, direction, share_of, sinc, sincos, wrap
 from wmrlib.gains import (
     Gains,
@@ -192,7 +192,8 @@ TRACKING_LAWS = {name: code for code, name in enumerate(LAWS)}
 POSE_LAWS = {name: code for name, code in TRACKING_LAWS.items() if not LAWS[name].needs_reference}
 
 
-# Loops know a law by its place in `LAWS`, and its gains as plain numbers, in the order of its own.
+# Loops know a law by its place in `LAWS`, and its gains as numbers, in the order of their type's
+# fields, with zeros behind them.
 CORRECTED, PRINTED, AICARDI, BARRIER, GRACEFUL, KANAYAMA, LINEAR = range(len(LAWS))
 
 
@@ -207,7 +208,9 @@ def pose_law(rho, alpha, theta, gains, law):
         return barrier_law(rho, alpha, theta, gains)
     if law == GRACEFUL:
         return graceful_law(rho, alpha, theta, gains)
-    return aicardi_law(rho, alpha, theta, gains)
+    if law == AICARDI:
+        return aicardi_law(rho, alpha, theta, gains)
+    return math.nan, math.nan  # a law without a line here ends each run at once
 
 
 def command(rho, alpha, theta, v_ref, omega_ref, gains, law):
@@ -240,11 +243,10 @@ def _(rho, alpha, theta, v_ref, omega_ref, gains, law):
 def tuning_of(gains, law: str | Callable, laws: dict[str, int]) -> tuple[Any, int | Callable]:
     """The gains and the law as the loops take them; ValueError if they don't match.
 
-    A function of one's own is tried once, and takes its gains as they are.
+    A function of one's own takes its gains as they are.
     """
     if callable(law):
-        check_own_law(law, gains)
-        return gains, law
+        return gains, own_law(law)
     code = laws[choice("law", law, laws, OWN_IS_WELCOME)]
     instance("gains", gains, LAWS[law].gains)
     if {*map(type, gains)} != {float}:
@@ -257,17 +259,30 @@ def tuning_of(gains, law: str | Callable, laws: dict[str, int]) -> tuple[Any, in
 OWN_IS_WELCOME = ", or a function (rho, alpha, theta, gains) -> (v, omega),"
 
 
-def check_own_law(law: Callable, gains: Any) -> None:
-    """ValueError unless the function returns two numbers."""
-    result = law(1.0, 0.5, 0.2, gains)
-    twist = result if isinstance(result, tuple) else ()
-    if len(twist) != 2 or not all(
-        isinstance(number, float | int | np.floating | np.integer) for number in twist
-    ):
-        what = f"law(rho=1.0, alpha=0.5, theta=0.2, gains={gains!r})"
-        raise refusal(what, result, "a pair of numbers, v in m/s and omega in rad/s,")
+class OwnLaw(NamedTuple):
+    """A law of one's own in plain Python, whose every answer is checked."""
+
+    function: Callable
+
+    def __call__(self, rho: float, alpha: float, theta: float, gains: Any) -> tuple[float, float]:
+        twist = self.function(float(rho), float(alpha), float(theta), gains)
+        try:
+            v, omega = map(float, twist)
+        except (TypeError, ValueError):
+            v = omega = math.nan
+        if math.isnan(v) or math.isnan(omega) or isinstance(twist, str):
+            place = f"rho = {rho:.6g}, alpha = {alpha:.6g}, theta = {theta:.6g}"
+            what = f"{law_name(self.function)} at {place}"
+            raise refusal(what, twist, "a pair of numbers, v in m/s and omega in rad/s,")
+        return v, omega
+
+
+def own_law(law: Callable) -> Any:
+    """A law of one's own as the loops take it: as it is if numba has compiled it."""
+    return law if compiled_by_its_user(law) else OwnLaw(law)
 
 
 def law_name(law: str | Callable) -> str:
     """The name of a law for the reader, one's own included."""
+    law = law.function if isinstance(law, OwnLaw) else law
     return law if isinstance(law, str) else getattr(law, "__name__", type(law).__name__)

@@ -1,7 +1,8 @@
 """The two loops that close a law: one holds the twist between samples, one acts all the time.
 
-With ``NUMBA_DISABLE_JIT=1`` both are plain Python, to be stepped through. A record has a column for
-each sample, and the rows of a Trajectory from x to omega.
+Below them stand the loops over many runs. With ``NUMBA_DISABLE_JIT=1`` all are plain Python, to be
+stepped through. A record has a column for each sample, and the rows of a Trajectory from x to
+omega.
 """
 
 from __future__ import annotations
@@ -9,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import NamedTuple
 
+import numba
 import numpy as np
 
 from wmrlib import motion
@@ -23,6 +25,7 @@ from wmrlib._dop853 import (
     until_event,
 )
 from wmrlib.body import Wheels, are_ideal, at_rest, hurry, last_turn, roll
+from wmrlib.checks import refusal
 from wmrlib.compilation import (
     compiled,
     compiled_by_its_user,
@@ -32,9 +35,16 @@ from wmrlib.compilation import (
 )
 from wmrlib.elementary import between, sincos, wrap
 from wmrlib.gains import GainsFields
-from wmrlib.laws import command, pose_law, saturation_scale
-from wmrlib.receiver import BEFORE_THE_FIRST_FIX, SampledReceiver, measured_pose, received
-from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
+from wmrlib.kinematics import Pose
+from wmrlib.laws import command, law_name, pose_law, saturation_scale
+from wmrlib.receiver import (
+    BEFORE_THE_FIRST_FIX,
+    Receiver,
+    SampledReceiver,
+    measured_pose,
+    received,
+)
+from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED, Arrival
 
 MOST_TRIALS = 1_000_000  # steps of a run on its own
 WORKSPACE_ROWS = 16  # slopes at the start and after each stage, two for rate_of_omega, new state
@@ -89,7 +99,7 @@ def held(record, pose, path, gains, law, wheels, end, receiver, sampling):
         rho, alpha, theta_now = motion.polar_from_pose(*pose, *goal)
         theta = motion.keep_branch(theta_now, theta, sampling.hysteresis)
         observed = polar = rho, alpha, theta
-        write(record, k, pose, polar, (0.0, 0.0))
+        write(record, k, pose, polar, (0.0, 0.0))  # a receiver looks there; the twist comes below
         if receiver is not None:
             reception = received(reception, record, k, receiver)
             measured = measured_pose(reception, record, k, goal, receiver)
@@ -124,7 +134,16 @@ def held_by(law):
     """`held` for a law: with one that its user has compiled, or in plain Python with a function."""
     if not callable(law):
         return held
-    return _held_with_own if compiled_by_its_user(law) else plain_python(held)
+    return _compiled_with_own if compiled_by_its_user(law) else plain_python(held)
+
+
+def _compiled_with_own(record, pose, path, gains, law, *robot):
+    try:
+        return _held_with_own(record, pose, path, gains, law, *robot)
+    except numba.core.errors.TypingError as error:
+        needed = "numbers, or a tuple, NamedTuple or array of them,"
+        remark = f" for {law_name(law)}, which numba has compiled: {error.msg.splitlines()[0]}"
+        raise refusal("gains", gains, needed, remark) from error
 
 
 @formula
@@ -283,10 +302,15 @@ continuous = compiled(integrate)  # for a goal that stands still; a moving one i
 
 # Many runs, one after the other -----------------------------------------------------------------
 
-# Where the inputs of many runs begin, one run a column; and the rows of their summary, in the order
-# of `Arrival`.
-START, GOAL, GAINS, WHEELS, RECEIVER, NUMBER, LAW = 0, 3, 6, 10, 17, 29, 30
-OUTCOME, TIME, HEADING_ERROR, PEAK_OMEGA, PATH_LENGTH, DISTANCE = range(6)
+# Many runs are a table with one run a column: start, goal, gains, wheels, receiver, the number of
+# the run, and its law. Here is where the rows of each begin.
+GOAL = len(Pose._fields)
+GAINS = GOAL + len(Pose._fields)
+WHEELS = GAINS + len(GainsFields._fields)
+RECEIVER = WHEELS + len(Wheels._fields)
+NUMBER = RECEIVER + len(Receiver._fields)
+LAW = NUMBER + 1
+OUTCOME, TIME, *_, DISTANCE = range(len(Arrival._fields))  # rows of a summary
 
 
 @formula
@@ -336,9 +360,9 @@ def held_runs(runs, records, first, samples, end, key, sampling):
     path = np.zeros((5, 1))
     for i in range(runs.shape[1]):
         x, y, heading, path[0, 0], path[1, 0], path[2, 0], k_rho, k_alpha, h, v_max = runs[:10, i]
-        law = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i])
+        gains, law = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i])
         robot = wheels_of(runs, i), end, receiver_of(runs, i, key)
-        run = held(record, (x, y, heading), path, *law, *robot, sampling)
+        run = held(record, (x, y, heading), path, gains, law, *robot, sampling)
         sum_up(summary, i, record, run, sampling.dt)
         copy_samples(records, first + i, record, run[0])
     return summary
@@ -370,14 +394,15 @@ def continuous_runs(runs, records, first, t, most_trials, radius):
         goal = goal_x, goal_y, goal_heading
         rho, alpha, theta = motion.polar_from_pose(x, y, heading, *goal)
         state[0], state[1], state[2], state[3] = rho, alpha, theta, 0.0
-        loop = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i]), wheels_of(runs, i)
+        gains, law = (k_rho, k_alpha, h, v_max, 0.0, 0.0), int(runs[LAW, i])
+        loop = gains, law, wheels_of(runs, i)
         run = continuous(record, state, workspace, t, most_trials, radius, goal, None, *loop)
         count, outcome, time, peak, length = run
         heading_error = wrap(state[2] - state[1])
         summarise(summary, i, outcome, time, heading_error, peak, length, max(state[0], 0.0))
         if outcome == UNFINISHED:
             summary[TIME:, i] = math.nan
-        elif outcome != DIVERGED:
+        else:
             copy_samples(records, first + i, record, count - 1 if outcome == ARRIVED else count)
     return summary
 

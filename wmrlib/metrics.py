@@ -35,7 +35,7 @@ def arrival(trajectory: Trajectory) -> Arrival:
     arrived = run.outcome is Outcome.ARRIVED
     return Arrival(
         arrived=arrived,
-        time=float(run.t[-1] - run.t[0]) if arrived else math.inf,
+        time=float(run.t[-1]) if arrived else math.inf,
         heading_error=float(run.heading_error[-1]),
         peak_omega=run.peak_omega,
         path_length=run.path_length,

@@ -9,7 +9,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from wmrlib.checks import Real, instance, reals, refusal, scalar
+from wmrlib.checks import Real, instance, reals, refusal, same_shape, scalar
 from wmrlib.elementary import elementwise, sinc
 from wmrlib.gains import Gains, KanayamaGains, LinearGains
 from wmrlib.kinematics import Pose, wrap_angle
@@ -70,8 +70,8 @@ class Trajectory(ReadOnly):
     t : array, s; like the other arrays of the same length, it can't be written to
     x, y, heading : arrays, m and rad in (-pi, pi], the robot's pose
     rho, alpha, theta : arrays, m and rad, the polar error
-    v, omega : arrays, m/s and rad/s, what the law commands at the sample, after the wheel limits
-        (with a wheel lag: what the wheels do)
+    v, omega : arrays, m/s and rad/s, the twist from the sample on: what the law, or the last turn,
+        commands within the wheel limits; with wheels that are not ideal, what they make of it
     outcome : Outcome
     goal : Pose, of arrays if it moves
     gains, law, method : as passed in; None, None and "poses" where `of_poses` made the run
@@ -111,14 +111,16 @@ class Trajectory(ReadOnly):
 
         What it lacks follows from the poses: the polar error to the goal, and the twist that leads
         from each pose to the next along an arc, omega = wrap(heading' - heading)/dt and
-        v = chord/(dt sinc(omega dt/2)), negative where it drives backwards. The last sample has the
-        twist 0. The run has arrived if its last pose is within the arrival radius.
+        v = ahead/(dt sinc(omega dt/2)), where `ahead` is how far the next pose lies in the arc's
+        mean direction, negative backwards. The last sample has the twist 0. The path length is
+        that of the arcs through all poses. The run has arrived if its last pose is within the
+        arrival radius, so end a log where the robot has parked.
 
         Parameters
         ----------
-        t : array, s, rising
-        x, y, heading : arrays of the same length, m and rad
-        goal : Pose of numbers, m and rad
+        t : array, s, rising; the run's times count from the first of them
+        x, y, heading : numbers or arrays of the same length, m and rad
+        goal : Pose, m and rad; of arrays of that length if it moves
         arrival_radius : float, m
 
         Returns
@@ -137,23 +139,27 @@ class Trajectory(ReadOnly):
         >>> print(run.v, wmr.arrival(run).path_length)
         [1. 1. 0.] 2.0
         """
-        times, x, y, heading = reals(t=t, x=x, y=y, heading=heading)
+        instance("goal", goal, Pose)
+        ends = {f"goal.{name}": value for name, value in goal._asdict().items()}
+        times, *poses = reals(t=t, x=x, y=y, heading=heading, **ends)
         times = np.array(times, ndmin=1)
         if times.ndim > 1 or not times.size or not (np.diff(times) > 0.0).all():
             raise refusal("t", t, "a row of times, each later than the one before,")
-        begin, end = np.empty((3, times.size)), single_pose("goal", goal)
-        begin[0], begin[1], begin[2] = x, y, wrap_angle(heading)
+        if same_shape(t=times, x=x, y=y, heading=heading, **ends) != times.shape:
+            raise refusal("x", x, f"one number, or one for each of {times.size} times,")
+        begin = np.array([np.broadcast_to(row, times.shape) for row in poses[:3]])
+        begin[2] = wrap_angle(begin[2])
         dt, (east, north, turn) = np.diff(times), np.diff(begin)
         half = 0.5 * np.asarray(wrap_angle(turn))
-        chord = np.cos(begin[2, :-1] + half) * east + np.sin(begin[2, :-1] + half) * north
+        ahead = np.cos(begin[2, :-1] + half) * east + np.sin(begin[2, :-1] + half) * north
         twist = np.zeros((2, times.size))
-        twist[:, :-1] = chord / (dt * sinc(half)), 2.0 * half / dt
-        polar = elementwise(polar_from_pose, *begin, *end)
+        twist[:, :-1] = ahead / (dt * sinc(half)), 2.0 * half / dt
+        polar = elementwise(polar_from_pose, *begin, *poses[3:])
         near = polar[0][-1] <= scalar("arrival_radius", arrival_radius, low=0.0)
-        peak, length = np.abs(twist[1]).max(), np.sum(dt * np.abs(twist[0, :-1]))
-        setting = end, None, None, "poses"
-        sums = float(peak), float(length), *setting
-        return cls.of(times, [*begin, *polar, *twist], ARRIVED if near else TIMED_OUT, *sums)
+        peak, length = np.abs(twist[1]).max(), np.sum(np.hypot(east, north) / sinc(half))
+        sums = float(peak), float(length), Pose(*poses[3:]), None, None, "poses"
+        since = times - times[0]
+        return cls.of(since, [*begin, *polar, *twist], ARRIVED if near else TIMED_OUT, *sums)
 
     def __len__(self) -> int:
         return self.t.size
@@ -201,7 +207,8 @@ class Arrival(NamedTuple):
 
     Attributes
     ----------
-    arrived : bool or array, whether the robot came within the arrival radius
+    arrived : bool or array, whether the robot came within the arrival radius, and ended its last
+        turn if it has one; with a receiver, by the pose that it measures
     time : s, infinite if it did not arrive
     heading_error : rad, heading - goal.heading at the last sample
     peak_omega : rad/s, the largest |omega|

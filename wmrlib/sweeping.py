@@ -33,7 +33,7 @@ from wmrlib.checks import (
 from wmrlib.engine import continuous, sampled
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose, wrap_angle
-from wmrlib.laws import OWN_IS_WELCOME, POSE_LAWS, check_own_law, law_name
+from wmrlib.laws import OWN_IS_WELCOME, POSE_LAWS, law_name, own_law
 from wmrlib.loops import (
     LAW,
     NUMBER,
@@ -112,11 +112,12 @@ def sweep(
     Parameters
     ----------
     starts, goals : Pose, m and rad, whose fields broadcast with those of gains, wheels and law
-    gains : Gains; for a law of your own any NamedTuple, whose fields broadcast too, or anything
-        else, which each run is given as it is
+    gains : Gains; for a law of your own a NamedTuple, whose arrays and lists of numbers broadcast
+        too, or anything else, which each run is given as it is
     law : str or array of str, as in `simulate`; or a function of your own with "arc" and "euler",
         which is slower: about 20 us a step in plain Python, on one core in effect
-    method : as in `simulate`; with "arc" and "euler" each entry is `arrival(simulate(...))` of that
+    method : as in `simulate`, but "continuous" if you name none;
+        with "arc" and "euler" each entry is `arrival(simulate(...))` of that
         run, to 1e-9 unless the run magnifies rounding
     dt, duration, arrival_radius, wheels, last_turn, hysteresis : as in `simulate`; with
         "continuous", dt only says where the samples lie, and the last one within the duration ends
@@ -124,14 +125,14 @@ def sweep(
     receiver : Receiver, with "arc" and "euler" only: each run steers by the poses that it
         measures; its fields broadcast too. A run has arrived, and stops, when its measured pose is
         within the radius; all that is returned is true. None: runs steer by their true poses.
-    seed : int from 0 to 2^64 - 1. A run's random numbers, two a sample, follow from it and from the
+    seed : int from 0 to 2^64 - 1. A run's random numbers follow from it and from the
         run's place among all alone, on however many cores.
     trajectories : bool, whether to return the samples too, at most fifty million in all
     progress : bool, whether to show a bar when the work takes longer than about a second
     executor : None for the cores of this machine; or what has `submit` as the executors of
         `concurrent.futures` do, such as Dask's `client.get_executor()`. It is sent chunks of runs.
         The results are the same to the last bit. A chunk that is lost with its worker is driven
-        here.
+        here, with a warning.
 
     Returns
     -------
@@ -155,9 +156,7 @@ def sweep(
     own, codes = (law, np.array(0.0)) if callable(law) else (None, _law_codes(law))
     if not own:
         instance("gains", gains, Gains)
-    tuned = _fields("gains", gains) if hasattr(gains, "_asdict") else {}
-    for name, values in tuned.items():
-        undropped(name, values)
+    tuned = _varied(gains) if own else _fields("gains", gains)
     poses = _fields("starts", instance("starts", starts, Pose))
     poses |= _fields("goals", instance("goals", goals, Pose))
     numbers = dict.fromkeys(Gains._fields, 0.0) if own else tuned
@@ -181,15 +180,14 @@ def sweep(
     ideal = bool(np.all(are_ideal(robot)))
     if not ideal and method == "continuous":
         raise refusal("wheels", robot, "ideal wheels, or method 'arc' or 'euler',")
-    if executor is not None and not callable(getattr(executor, "submit", None)):
+    submit = None if isinstance(executor, type) else getattr(executor, "submit", None)
+    if executor is not None and not callable(submit):
         raise refusal("executor", executor, "None, or an executor as of concurrent.futures,")
     for name, value in (("trajectories", trajectories), ("progress", progress)):
         if not isinstance(value, bool | np.bool_):
             raise refusal(name, value, "True or False")
     total = math.prod(shape)
     gains_of = _gains_of_runs(gains, tuned, shape) if own else None
-    if own and gains_of and total:
-        check_own_law(own, gains_of(0))
     if trajectories and total * samples > MOST_RECORDED:
         raise ValueError(
             f"trajectories = True is not allowed for {total:,} runs of {samples:,} samples: "
@@ -200,7 +198,8 @@ def sweep(
     plain = ideal and alike and end == NO_TURN and not hysteresis
     side_by_side = plain and not receiver and not trajectories and not own
     key = divmod(int(seed), 2**32)[::-1] if receiver else None
-    setting = sampling, samples, robot, end, key, side_by_side, own
+    law_in_loop = own_law(own) if own else None
+    setting = sampling, samples, robot, end, key, side_by_side, law_in_loop
     task = _Task(method == "continuous", *setting)
     summary = np.full((len(Arrival._fields), total), np.nan)
     record = np.empty((8, total, samples if trajectories else 0))
@@ -325,17 +324,32 @@ def _fields(name: str, values: Any) -> dict[str, Any]:
     return {f"{name}.{field}": value for field, value in values._asdict().items()}
 
 
-def _gains_of_runs(gains: Any, tuned: dict[str, Any], shape: tuple) -> Callable[[int], Any]:
+def _varied(gains: Any) -> dict[str, Any]:
+    """The fields of one's own gains that are arrays or lists of numbers, which broadcast."""
+    fields = _fields("gains", gains) if hasattr(gains, "_asdict") else {}
+    for name, it in fields.items():
+        undropped(name, it)
+    listed = {name: it for name, it in fields.items() if isinstance(it, np.ndarray | list)}
+    return {name: it for name, it in listed.items() if as_array(it).dtype.kind in "iuf"}
+
+
+def _gains_of_runs(gains: Any, varied: dict[str, Any], shape: tuple) -> Callable[[int], Any]:
     """The gains of a run by its number."""
-    if not tuned:
+    if not varied:
         return lambda number: gains
-    rows = [np.broadcast_to(values, shape).reshape(-1) for values in tuned.values()]
-    return lambda number: type(gains)(*(row[number].item() for row in rows))
+    rows = {name: np.broadcast_to(it, shape).reshape(-1) for name, it in varied.items()}
+
+    def gains_of(number: int) -> Any:
+        own = {name.partition(".")[2]: row[number].item() for name, row in rows.items()}
+        return gains._replace(**own)
+
+    return gains_of
 
 
 def _law_codes(law: str | np.ndarray) -> np.ndarray:
     names = as_array(law)
     listed = names.ravel().tolist()
     listed = [law if name is ... else name for name in listed]  # ... if it is ragged
-    codes = [POSE_LAWS[choice("law", name, POSE_LAWS, OWN_IS_WELCOME)] for name in listed]
+    welcome = OWN_IS_WELCOME if isinstance(law, str) else ""
+    codes = [POSE_LAWS[choice("law", name, POSE_LAWS, welcome)] for name in listed]
     return np.array(codes, dtype=float).reshape(names.shape)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import signal
 import threading
+import warnings
 from collections.abc import Callable, Generator, Iterable, Iterator
 from concurrent import futures
 from contextlib import contextmanager, nullcontext
@@ -28,7 +29,7 @@ def spread(
     """
     pool, chunks = executor or futures.ThreadPoolExecutor(CORES), iter(chunks)
     waiting: dict[futures.Future, Any] = {}
-    going = True
+    going, lost = True, []
     try:
         while going:
             for chunk in islice(chunks, _IN_FLIGHT - len(waiting)):
@@ -41,9 +42,15 @@ def spread(
             patience = _POLL_SECONDS if going else 0.0
             for future in futures.wait(waiting, patience, futures.FIRST_COMPLETED).done:
                 chunk = waiting.pop(future)
-                lost = executor is not None and (future.cancelled() or future.exception())
-                yield chunk, job(*arguments(chunk)) if lost else future.result()
+                reason = executor and ("cancelled" if future.cancelled() else future.exception())
+                lost += [reason] if reason else []
+                yield chunk, job(*arguments(chunk)) if reason else future.result()
     finally:
+        if lost:
+            text = (
+                f"the executor lost {len(lost)} chunks of runs, which were driven here: {lost[0]!r}"
+            )
+            warnings.warn(text, RuntimeWarning, stacklevel=5)
         for future in waiting:
             future.cancel()
         if executor is None:

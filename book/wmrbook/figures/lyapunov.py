@@ -8,6 +8,7 @@ import numpy as np
 
 from wmrbook.figures._drawing import legend_above, run_list
 from wmrbook.figures.style import COLOURS, LINES, Picture, new_figure
+from wmrlib.laws import law_name
 from wmrlib.runs import Trajectory
 
 _TINTS = tuple(COLOURS[role] for role in ("ink", "omega", "path", "y_error"))
@@ -16,7 +17,7 @@ _TINTS = tuple(COLOURS[role] for role in ("ink", "omega", "path", "y_error"))
 def heading_errors(runs: Trajectory | Sequence[Trajectory], labels: Sequence[str] = ()) -> Picture:
     """The heading error theta - alpha of one to four runs over time, in degrees and not wrapped."""
     runs = run_list(runs, labels)
-    names = list(labels) or [run.law for run in runs]
+    names = list(labels) or [law_name(run.law) if run.law else "the poses given" for run in runs]
     figure, axes = new_figure(7.5, 3.8)
     axes.axhline(0.0, color=COLOURS["ink"], lw=0.8)
     words = []
