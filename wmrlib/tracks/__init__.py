@@ -47,7 +47,7 @@ class Track:
 
     @property
     def rtk(self) -> np.ndarray:
-        """The RTK state of each position: "fixed", "float" or "none"; "" where none is reported."""
+        """The RTK state of each position, "fixed", "float" or "none"; "" where none is reported."""
         kinds = [self.quality == 4.0, self.quality == 5.0, self.quality > 0.0]
         return np.select(kinds, ["fixed", "float", "none"], "")
 
