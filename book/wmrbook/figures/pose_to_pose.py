@@ -28,6 +28,7 @@ from wmrlib.kinematics import Pose
 from wmrlib.runs import Trajectories, Trajectory
 
 _LEAST = 1e-6  # of a logarithmic scale
+_STEPS = 300  # of a line: more are smaller than a pixel, and weigh tens of kilobytes
 _ALLOWED = 5.0  # deg, of a heading
 _FIELDS = {
     "v": ("v [m/s]", "speed v", "m/s"),
@@ -158,7 +159,8 @@ def heading_shares(
     texts = []
     for (title, values), (role, style) in zip(sizes.items(), SERIES, strict=False):
         share = 100.0 * np.arange(1, values.size + 1) / values.size
-        steps = np.r_[0.0, values, widest], np.r_[0.0, share, 100.0]
+        drawn = np.unique(np.linspace(0, values.size - 1, _STEPS).round().astype(int))
+        steps = np.r_[0.0, values[drawn], widest], np.r_[0.0, share[drawn], 100.0]
         axes.plot(*steps, drawstyle="steps-post", color=COLOURS[role], ls=style, label=title)
         off = f"{100.0 * np.mean(values > _ALLOWED):.1f} % are more than {_ALLOWED:g} deg off"
         texts.append(f"{title} {off}, the worst {values[-1]:.1f} deg")
