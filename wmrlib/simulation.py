@@ -44,8 +44,8 @@ def simulate(
     law : "corrected", "printed", "aicardi", "barrier" or "graceful", see `control_law`; or, with
         "arc" and "euler", a function (rho, alpha, theta, gains) -> (v, omega), in m, rad, m/s and
         rad/s. In plain Python a run takes about 20 us a step, a hundred times as long as with a
-        built-in law; a function compiled by numba is as fast as these, and compiled into the loop
-        on its first call, in seconds.
+        built-in law; a function compiled by numba takes a few times as long as these, after its
+        first call, which compiles it into the loop for some seconds.
     method : "euler", Euler's: the twist is held for `dt` and the pose moves along its tangent;
         "arc": the twist is held and the pose moves along the exact arc;
         "continuous": the law acts all the time; (rho, alpha, theta) is integrated by Dormand and
