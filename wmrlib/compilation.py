@@ -3,8 +3,8 @@
 numba's own cache looks only at the file of the function itself to tell whether a binary is still
 good, so a loop would go on running an old formula out of another file. Here its files stand in a
 folder named by a digest of the modules with compiled code; of a function of another package they
-hold a digest of that package's modules too. numba runs what it finds there, so a folder that others
-may write to is not used.
+hold a digest of that package's modules too. numba runs the files that it finds there, so a folder
+is used only if it belongs to the user or to root and nobody else can put anything into it.
 """
 
 from __future__ import annotations
@@ -39,46 +39,100 @@ def _digest() -> str:
 
 
 def _folders() -> list[Path]:
-    """The folders that may hold compiled code, the best one first."""
+    """The folders that may hold compiled code, the best one first, without links on the way."""
     own = os.environ.get("NUMBA_CACHE_DIR")
     given = [own] if own else [str(_PACKAGE / "__pycache__"), "~/.cache/wmrlib"]
     places = [os.path.expanduser(place) for place in given]
     # What still begins with a tilde is the home of a user that has none.
-    return [Path(place, f"compiled-{_digest()}") for place in places if place[0] != "~"]
+    return [
+        Path(os.path.realpath(place), f"compiled-{_digest()}")
+        for place in places
+        if place[0] != "~"
+    ]
 
 
 def _folder(folders: list[Path]) -> Path | None:
-    """The first folder that can be written to; or the first that there is something in to read.
-
-    It is one that nobody else can put anything into: numba runs what it finds there.
-    """
+    """The first private folder that can be written to, or else the first with files to read."""
     for folder in folders:
         with suppress(OSError):
-            folder.mkdir(0o700, parents=True, exist_ok=True)  # another process may be first
-            if _is_private(folder):
+            _make(folder)
+            if not _danger(folder):
                 with TemporaryFile(dir=folder) as trial:
                     trial.write(b"kept")
                 return folder
     return next((folder for folder in folders if _has_something_to_read(folder)), None)
 
 
+def _make(folder: Path) -> None:
+    """Make the folder, closed to others, and its parents, whatever the umask leaves to others."""
+    for parent in reversed(folder.parents):
+        parent.mkdir(0o755, exist_ok=True)  # another process may be first
+    folder.mkdir(0o700, exist_ok=True)
+
+
 def _has_something_to_read(folder: Path) -> bool:
     with suppress(OSError):
-        return _is_private(folder) and any(folder.iterdir())
+        return any(folder.iterdir()) and not _danger(folder)
     return False
 
 
-def _is_private(folder: Path) -> bool:
-    """Whether the folder and its files are the user's or root's, and nobody else's to write."""
-    if os.name == "nt":  # where a user's folders are closed to others
+def _danger(folder: Path) -> str:
+    """Why code in this folder may come from somebody else than the user or root, or "".
+
+    On Windows it never is: profiles, which hold a user's Python and home, are closed to others
+    there, and the modes and owners that are looked at here mean nothing.
+    """
+    if os.name == "nt":
+        return ""
+    state = folder.lstat()
+    if stat.S_ISLNK(state.st_mode):
+        return f"{folder} is a link"
+    closed = not state.st_mode & 0o077  # nobody else gets to its files, whatever their modes
+    for path in (folder, *folder.iterdir()):
+        with suppress(FileNotFoundError):  # another process puts its files in place by renaming
+            state = path.lstat()
+            if state.st_uid not in (0, os.geteuid()):
+                return f"{path} belongs to user {state.st_uid}"
+            if _others_write(state) and (path == folder or not closed):
+                return f"others may write to {path}"
+    for parent in folder.parents:  # a user who may write to one can put another folder in place
+        state = parent.stat()
+        if state.st_uid not in (0, os.geteuid(), _UNMAPPED):
+            return f"{parent} belongs to user {state.st_uid}"
+        if _others_write(state) and not state.st_mode & stat.S_ISVTX:
+            return f"others may write to {parent}"
+    return ""
+
+
+_UNMAPPED = 65534  # the owner of the host's folders, such as /home, inside some containers
+
+
+def _others_write(state: os.stat_result) -> bool:
+    if state.st_mode & stat.S_IWOTH:
         return True
-    place = folder.parent.stat().st_mode
-    if place & stat.S_IWOTH and not place & stat.S_ISVTX:  # anybody may put another in its place
+    return bool(state.st_mode & stat.S_IWGRP) and not _has_nobody_else(state.st_gid)
+
+
+def _has_nobody_else(group: int) -> bool:
+    """Whether a group is the user's own, as with the umask 002 of many systems."""
+    import grp
+    import pwd
+
+    try:
+        user, entry = pwd.getpwuid(os.geteuid()).pw_name, grp.getgrgid(group)
+    except KeyError:
         return False
-    states = [folder.lstat()]
-    if states[0].st_mode & 0o077:  # else nobody else gets to the files
-        states += [file.lstat() for file in folder.iterdir()]
-    return all(state.st_uid in (0, os.getuid()) and not state.st_mode & 0o022 for state in states)
+    members = {account.pw_name for account in pwd.getpwall() if account.pw_gid == group}
+    # The list of accounts may lack those of a network, whose own groups are named as they are.
+    members |= {user} & {entry.gr_name}
+    return members.union(entry.gr_mem) == {user}
+
+
+def _why_not(folder: Path) -> str:
+    try:
+        return _danger(folder) or f"{folder} can't be written to"
+    except OSError as error:
+        return f"{folder.parent}: {error.strerror}"
 
 
 class _Locator(InTreeCacheLocator):
@@ -116,9 +170,10 @@ class _Cache(FunctionCache):
 _FOLDERS = _folders()
 FOLDER = _folder(_FOLDERS)
 if not FOLDER and not numba.config.DISABLE_JIT:
-    places = " or ".join(str(folder.parent) for folder in _FOLDERS)
-    text = f"compiled code can't be kept in {places}, so each process compiles anew: "
-    text += "set NUMBA_CACHE_DIR to a folder of your own that nobody else may write to"
+    reasons = "; ".join(map(_why_not, _FOLDERS)) or "there is no home folder"
+    text = f"compiled code is not kept, so each process compiles anew ({reasons}): "
+    text += "set NUMBA_CACHE_DIR to a folder of your own, if nobody else may write to it or to one "
+    text += "of its parents"
     warnings.warn(text, RuntimeWarning, stacklevel=2)
 
 
