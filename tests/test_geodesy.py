@@ -1,6 +1,7 @@
 """Geodesy against published vectors, against the WGS84 ellipsoid, and by property."""
 
 import math
+from fractions import Fraction
 
 import mpmath
 import numpy as np
@@ -138,6 +139,25 @@ def test_across_the_date_line_and_over_the_pole():
     pole = wmr.GeoPoint(lat=90.0, lon=0.0)
     there = wmr.destination_point(pole, 1000.0, 0.5)
     assert wmr.haversine_distance(pole, there) == pytest.approx(1000.0)
+
+
+offsets = st.sampled_from([0.0]) | st.floats(1e-13, 1e-3)
+
+
+@given(latitudes, offsets, offsets, st.booleans())
+def test_the_date_line_costs_no_digit(lat, west, east, swapped):
+    """Close to it distance and bearing are those of the exact difference of longitudes."""
+    lons = [180.0 - west, -180.0 + east]
+    step = float(Fraction(lons[1]) + 360 - Fraction(lons[0]))
+    a, b = (wmr.GeoPoint(lat=lat, lon=lon) for lon in (lons[::-1] if swapped else lons))
+    zero, there = wmr.GeoPoint(lat=lat, lon=0.0), wmr.GeoPoint(lat=lat, lon=step)
+    expected = [wmr.haversine_distance(zero, there), wmr.initial_bearing(zero, there)]
+    if swapped:
+        expected[1] = (2 * math.pi - expected[1]) % (2 * math.pi)
+    found = wmr.haversine_distance(a, b), wmr.initial_bearing(a, b)
+    assert found == pytest.approx(expected, rel=1e-12, abs=0.0)
+    if west == east == 0.0:
+        assert found == (0.0, 0.0)
 
 
 # Bad input

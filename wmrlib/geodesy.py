@@ -224,5 +224,13 @@ def _radians(**points: GeoPoint) -> tuple[Real, Real, Real, Real]:
     named = {name: instance(name, point, GeoPoint) for name, point in points.items()}
     same_shape(**{f"{k}.{f}": getattr(named[k], f) for k in named for f in ("lat", "lon")})
     a, b = named.values()
-    differences = np.subtract(b.lat, a.lat), np.subtract(b.lon, a.lon)
+    differences = np.subtract(b.lat, a.lat), _degrees_east(a.lon, b.lon)
     return tuple(map(np.radians, (a.lat, b.lat, *differences)))
+
+
+def _degrees_east(lon1: Real, lon2: Real) -> np.ndarray:
+    """The shorter way from one longitude to another; across the date line as exact as elsewhere."""
+    difference = np.subtract(lon2, lon1)
+    side = np.where(difference > 180.0, 180.0, np.where(difference < -180.0, -180.0, 0.0))
+    # Each longitude from the date line, which is exact close to it, where -360 + 1e-13 is not.
+    return np.subtract(lon2, side) - np.add(lon1, side)
