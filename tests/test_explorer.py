@@ -12,6 +12,7 @@ import pytest
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
 from kit import printed
+from traitlets import TraitError
 
 import wmrlib as wmr
 from wmrbook.panel import Explorer, kit
@@ -109,6 +110,23 @@ def test_bad_options_are_refused_by_name():
     for name, value, message in BAD:
         with pytest.raises(ValueError, match=re.escape(name + message)):
             Explorer(**{name: value})
+
+
+OTHERS = [True, None, "1", "toString", {}, [1, 2], [1, 2, "3"], math.nan, [0, math.inf, 0]]
+
+
+@pytest.mark.parametrize("name", [*Explorer().state])
+def test_a_state_of_other_kinds_is_refused_by_name_and_leaves_the_panel_as_it_was(name):
+    explorer = Explorer()
+    before = explorer.state
+    for value in OTHERS:
+        if (name, value) in [("moving", True), (name, before[name])]:
+            continue
+        with pytest.raises(TraitError, match=re.escape(f"state['{name}'] = ")):
+            explorer.set_state({"state": before | {name: value}})  # as a page does
+        assert explorer.state == before
+    with pytest.raises(TraitError, match=f"a dict of .*{name}"):
+        explorer.state = {key: value for key, value in before.items() if key != name}
 
 
 def imported(texts, path, above=()):

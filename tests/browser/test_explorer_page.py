@@ -4,10 +4,14 @@ from __future__ import annotations
 
 import csv
 import itertools
+import json
 import math
+from urllib.parse import urlencode
 
 import numpy as np
 import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
 
 pytest.importorskip("anywidget", reason="the panel needs anywidget and ipywidgets")
 from faults import crowded
@@ -17,6 +21,7 @@ import wmrlib as wmr
 from wmrbook.panel import Explorer
 from wmrbook.panel.controls import MENUS, METHODS, SLIDERS, laws_for
 from wmrbook.panel.kit import sources
+from wmrlib.laws import LAWS
 
 POSE_SLIDERS = ("k_rho", "k_alpha", "h", "v_max", "dt", "arrival_radius")
 CIRCLE_SLIDERS = ("k_x", "k_y", "k_heading")
@@ -407,11 +412,86 @@ def test_a_link_brings_back_what_is_shown_and_only_in_its_own_panel(browser_page
     assert again.click("reset").figures() == untouched
     away = mounted(browser_page, other).picture()
     assert mounted(browser_page, other, url=link).picture() == away
-    for wrong in ("law=5&k_rho=x&unknown=1", "start=1", "start={}", "goal=%22east%22"):
+    for wrong in ("k_rho=x&law=5&unknown=1", "start=1", "start={}", "goal=%22east%22"):
         bad = mounted(browser_page, ours, url=link.replace("law=%22printed%22", wrong))
         assert bad.troubled()
-        assert f"{wrong.partition('=')[0]} = " in bad.status()
+        assert f"In the link, {wrong.partition('=')[0]} = " in bad.status()
         assert "is not allowed: " in bad.status()
+        assert bad.figures() == untouched
+
+
+NUMBERS = st.floats(-2e6, 2e6) | st.sampled_from([0, -0.0, 1e-300, 1e300, 5])
+JUNK = st.recursive(
+    NUMBERS | st.booleans() | st.none() | st.text(max_size=5) | st.sampled_from([*METHODS, *LAWS]),
+    lambda parts: st.lists(parts, max_size=4) | st.dictionaries(st.text(max_size=8), parts),
+    max_leaves=4,
+)
+FRAGMENTS = st.text() | st.lists(
+    st.tuples(
+        st.sampled_from([*Explorer().state, "unknown", "toString", "__proto__"]),
+        JUNK.map(json.dumps)
+        | st.text(max_size=9)
+        | st.sampled_from(["1e999", "NaN", "[1,2", "{}"]),
+    ),
+    min_size=1,
+    max_size=3,
+).map(urlencode)
+SIZES_OF_GAINS = st.integers(1, 40).map(lambda size: size / 10)
+POSES = st.tuples(*[st.integers(-300, 300).map(lambda tenth: tenth / 10)] * 3).map(list)
+RIGHT = st.fixed_dictionaries(
+    {},
+    optional={
+        **dict.fromkeys(["k_rho", "k_alpha", "h", "v_max", "k_x", "k_y", "lag"], SIZES_OF_GAINS),
+        **dict.fromkeys(["start", "goal"], POSES),
+        "law": st.sampled_from(laws_for(False)),
+        "method": st.sampled_from([*METHODS]),
+        "metric": st.sampled_from([*MENUS["metric"][2]]),
+        "moving": st.booleans(),
+    },
+)
+OPEN = """fragment => {
+    const changed = new Promise((done) => addEventListener('hashchange', done, { once: true }));
+    const before = location.href;
+    location.hash = fragment;
+    return location.href === before ? null : changed.then(() => null);
+}"""
+
+
+@pytest.fixture(scope="module")
+def linked(module_page):
+    """A panel, what its links begin with, and its state and figures as it is opened."""
+    module_page.troubles.clear()
+    panel = mounted(module_page, Explorer())
+    home = panel.state(), panel.figures()
+    yield panel, panel.click("link").page.evaluate("location.hash"), home
+    module_page.assert_quiet()
+
+
+@settings(max_examples=25, deadline=None)
+@given(fragment=FRAGMENTS, ours=st.booleans())
+def test_any_text_in_the_address_gives_a_panel_that_drives(linked, fragment, ours):
+    panel, link, home = linked
+    panel.page.evaluate(OPEN, f"{link}&{fragment}" if ours else fragment)
+    assert_sound(panel.settled())
+    if panel.troubled():
+        assert panel.status().startswith("In the link, ")
+        assert "is needed. The panel is as it was opened." in panel.status()
+        assert (panel.state(), panel.figures()) == home
+    assert math.isfinite(float(panel.page.locator(".wmr-time").get_attribute("max")))
+
+
+@settings(max_examples=10, deadline=None)
+@given(values=RIGHT)
+def test_a_right_link_brings_back_its_state(linked, values):
+    panel, _, home = linked
+    panel.click("reset").set(**values)
+    shown = panel.state(), panel.figures()
+    link = panel.click("link").page.evaluate("location.hash")
+    panel.click("reset").page.evaluate(OPEN, "")
+    assert (panel.state(), panel.figures()) == home
+    panel.page.evaluate(OPEN, link)
+    assert not panel.settled().troubled()
+    assert (panel.state(), panel.figures()) == shown
 
 
 def test_what_another_version_has_stored_is_to_be_run_again(emptied_page):

@@ -5,6 +5,8 @@ from __future__ import annotations
 import math
 from typing import Any
 
+import traitlets
+
 from wmrbook.panel.controls import FOLDED, MENUS, METHODS, PANEL_LAWS, SLIDERS, VIEWS, laws_for
 from wmrbook.panel.kit import Panel
 from wmrlib import paper
@@ -119,6 +121,19 @@ class Explorer(Panel):
         """An Explorer of the paper's moving goal: a circle of 4 m radius, once round in 40 s."""
         return cls(reference="circle", **options)
 
+    @traitlets.validate("state")
+    def _checked(self, proposal: dict[str, Any]) -> dict[str, Any]:
+        """What a page, or a cell, sets: of the kinds that the panel was made with."""
+        state, home = proposal["value"], self.setup["home"]
+        try:
+            if state.keys() != home.keys():
+                raise refusal("state", state, f"a dict of {', '.join(home)}")
+            for name, usual in home.items():
+                _check_kind(name, state[name], usual, laws_for(state["moving"] is True))
+        except ValueError as error:  # traitlets takes back only what this error refuses
+            raise traitlets.TraitError(str(error)) from None
+        return state
+
     gains = _tuned("gains", Gains, "The gains that the sliders show; setting them moves these.")
     feedback = _tuned("feedback", KanayamaGains, "The same for the law with feed-forward.")
     start = _placed("start", "Where the robot starts; setting it moves its handle.")
@@ -160,6 +175,23 @@ class Explorer(Panel):
 
     def _set(self, values: dict[str, Any]) -> None:
         self.state = self.state | values
+
+
+def _check_kind(name: str, value: Any, usual: Any, laws: list[str]) -> None:
+    named = f"state[{name!r}]"
+    if name in MENUS:
+        choice(named, value, laws if name == "law" else MENUS[name][2])
+    elif isinstance(usual, bool):
+        if not isinstance(value, bool):
+            raise refusal(named, value, "True or False")
+    elif name in ("start", "goal", "zoom"):
+        if isinstance(value, list | tuple) and len(value) == 3:
+            for number in value:
+                scalar(named, number)
+        elif value is not None or name != "zoom":
+            raise refusal(named, value, "a list of three numbers" + " or None" * (name == "zoom"))
+    elif value is not None or name != "time":
+        scalar(named, value)
 
 
 def _moves(reference) -> bool:

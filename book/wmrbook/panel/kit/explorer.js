@@ -14,7 +14,7 @@ import { drawScene, hasSight, marksOf, nearestOf, viewOf, zoomOf } from './scene
 import { inDegrees, written } from './style.js';
 import { forgetNames, repainted, sizeOf } from './surface.js';
 import { within } from './numbers.js';
-import { presetValues, runOf, settingsOf } from './settings.js';
+import { FARTHEST, NEAREST, presetValues, runOf, settingsOf } from './settings.js';
 import { summarise } from './simulate.js';
 import { widget } from './widget.js';
 
@@ -236,7 +236,7 @@ function render({ model, el }) {
   /** @param {number} factor @param {Point} place */
   function zoomBy(factor, [x, y]) {
     const [cx, cy, reach] = state.zoom || zoomOf(state.view),
-        next = within(reach * factor, 0.005, 1e6), share = next / reach;
+        next = within(reach * factor, NEAREST, FARTHEST), share = next / reach;
     state.zoom = [x + (cx - x) * share, y + (cy - y) * share, next];
     schedule();
   }
@@ -331,10 +331,13 @@ function render({ model, el }) {
   });
 
   function visit() {
-    const linked = stateInLink(setup.home);
-    if (!Object.keys(linked).length) return;
+    let linked = {}, trouble = '';
+    try { linked = stateInLink(setup); } catch (error) { trouble = error.message; }
+    if (linked === null) return;
     look({ ...setup.home, ...linked });
     write({ ...setup.home, ...linked });
+    if (trouble) state.said = `In the link, ${trouble}. The panel is as it was opened.`;
+    schedule();
     root.scrollIntoView({ block: 'nearest' });
   }
   model.on('change:state', follow);

@@ -7,7 +7,8 @@ import { simulate } from './simulate.js';
 const GAINS = ['k_rho', 'k_alpha', 'h', 'v_max'], FEEDBACK = ['k_x', 'k_y', 'k_heading'];
 const WHEELS = ['track_width', 'acceleration', 'lag', 'dead_band'];
 const LONGEST = { held: 100_000, continuous: 10_000 }; // steps: what a frame still has time for
-const FARTHEST = 1e6; // m: beyond, the plane is no longer a map
+export const FARTHEST = 1e6; // m: beyond, the plane is no longer a map
+export const NEAREST = 0.005; // m, half of what a picture spans at least
 
 const pick = (values, names) => Object.fromEntries(names.map((name) => [name, values[name]]));
 
@@ -49,6 +50,29 @@ export function runOf(settings) {
 
 export const lawsFor = (setup, moving) =>
     setup.laws.filter((law) => moving || !law.needs_reference);
+
+const isNumber = (value) => Number.isFinite(value) && Math.abs(value) <= FARTHEST;
+const isPoint = (value) => Array.isArray(value) && value.length === 3 && value.every(isNumber);
+const AT_MOST = `of at most ${FARTHEST}`;
+
+// Throws RangeError, which names a value of another kind than the panel has it. `home`, the state
+// that the panel was made with, has every value in its kind.
+export function checkKinds(state, setup) {
+  for (const [name, usual] of Object.entries(setup.home)) {
+    const value = state[name], menu = setup.menus.find((row) => row[0] === name);
+    const choices = name === 'law' ? lawsFor(setup, state.moving).map((law) => law.name)
+        : menu && menu[3].map(([choice]) => choice);
+    const [fits, needed] = choices ? [choices.includes(value), `one of ${choices.join(', ')}`]
+        : typeof usual === 'boolean' ? [typeof value === 'boolean', 'true or false']
+        : Array.isArray(usual) ? [isPoint(value), `[x, y, heading], each ${AT_MOST},`]
+        : name === 'time' ? [value === null || (isNumber(value) && value >= 0),
+            `null or a number from 0 to ${FARTHEST}`]
+        : name === 'zoom' ? [value === null || (isPoint(value) && value[2] >= NEAREST),
+            `null or [x, y, reach], each ${AT_MOST} and the reach at least ${NEAREST},`]
+        : [isNumber(value), `a number ${AT_MOST}`];
+    if (!fits) throw notAllowed(name, JSON.stringify(value), needed);
+  }
+}
 
 // Whether a slider or a menu has any effect as things stand.
 export function applies(name, state, setup) {

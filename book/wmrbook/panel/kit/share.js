@@ -3,7 +3,7 @@
 import { FONT } from './style.js';
 import { LAWS } from './model.js';
 import { RUN_COLUMNS } from './simulate.js';
-import { differences } from './settings.js';
+import { checkKinds, differences, runOf, settingsOf } from './settings.js';
 import { made } from './hands.js';
 
 export function pythonOf(settings) {
@@ -88,18 +88,22 @@ export function linkOf(home, state) {
   return `${location.href.split('#')[0]}#${location.hash.slice(1).split('?')[0]}?${values}`;
 }
 
-// The state in the page's address, if it is this panel's. What is wrong with its values the
-// simulation says.
-export function stateInLink(home) {
+// What the page's address changes of this panel's state, or null where it is no link to this panel.
+// Throws RangeError, which names a value that the panel can't have: it takes all of a link, or none.
+export function stateInLink(setup) {
+  const { home } = setup;
   // slides rewrite their address
   const opened = performance.getEntriesByType('navigation')[0]?.name || '';
   const address = location.hash.includes('?') ? location.hash : opened.slice(opened.indexOf('#'));
   const asked = new URLSearchParams(address.split('?')[1] || '');
-  if (asked.get('panel') !== nameOf(home) || !canLink()) return {};
+  if (asked.get('panel') !== nameOf(home) || !canLink()) return null;
   const values = {};
   for (const [name, text] of asked) {
     if (!Object.hasOwn(home, name)) continue;
     try { values[name] = JSON.parse(text); } catch { values[name] = text; }
   }
+  const state = { ...home, ...values };
+  checkKinds(state, setup);
+  runOf(settingsOf(state)); // whatever else is not allowed
   return values;
 }
