@@ -108,3 +108,19 @@ def pytest_collection(session):
     """Show the header before the tests are collected, in a pipe too."""
     if reporter := session.config.pluginmanager.get_plugin("terminalreporter"):
         reporter.flush()
+
+
+@pytest.fixture(scope="module")
+def read(tmp_path_factory):
+    """Read what a file would hold as a track; a list is lines."""
+    from wmrlib.tracks import read_track
+
+    path = tmp_path_factory.mktemp("tracks") / "file.txt"
+
+    def of(content):
+        if isinstance(content, list):
+            content = "\n".join(content)
+        path.write_bytes(content if isinstance(content, bytes) else content.encode())
+        return read_track(path)
+
+    return of

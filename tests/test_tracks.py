@@ -25,20 +25,6 @@ GPX_11 = "{http://www.topografix.com/GPX/1/1}"
 BEGIN = datetime(2026, 3, 1, 12, 0, 0, tzinfo=UTC)
 
 
-@pytest.fixture(scope="module")
-def read(tmp_path_factory):
-    """Read what a file would hold; a list is lines."""
-    path = tmp_path_factory.mktemp("tracks") / "file.txt"
-
-    def of(content):
-        if isinstance(content, list):
-            content = "\n".join(content)
-        path.write_bytes(content if isinstance(content, bytes) else content.encode())
-        return wmr.read_track(path)
-
-    return of
-
-
 def places(track):
     return track.points.lat.tolist(), track.points.lon.tolist()
 
@@ -89,7 +75,7 @@ LAT, LON = 54 + 5.6081 / 60, 10 + 49.4791 / 60  # of gga() and rmc()
 
 
 def in_order(times):
-    """How many epochs the longest run in order has, by trying all."""
+    """How many positions the longest run whose times increase has, by trying all."""
     best = []
     for i, time in enumerate(times):
         best.append(1 + max((best[j] for j in range(i) if times[j] < time), default=0))
@@ -104,7 +90,8 @@ def settled(*segments):
     for segment in segments:
         fixes.segment += 1
         for second in segment:
-            fixes.add(line % 90, len(segment), math.nan if second is None else second, line)
+            time = math.nan if second is None else second
+            fixes.add(33 + 1e-5 * line, 44.5, time, line)
             line += 1
     return fixes.settle()
 
@@ -118,18 +105,20 @@ def test_a_time_out_of_order_costs_its_own_position_only(segments):
     np.testing.assert_array_equal(time, np.concatenate([[], *alone]))
     line = sum(map(len, segments))
     assert report.used == lat.size == line - sum(count for count, _ in report.skipped.values())
-    used = dict(zip(lat.astype(int).tolist(), time.tolist(), strict=True))
+    numbers = np.round(1e5 * (lat - 33)).astype(int)
+    used = dict(zip(numbers.tolist(), time.tolist(), strict=True))
     line, first_lost = 0, []
     for segment in segments:
         numbers = range(line, line + len(segment))
         stays = [used[k] for k in numbers if not math.isnan(used.get(k, math.nan))]
-        assert stays == sorted(stays)
-        assert len({*stays}) == in_order([s for s in segment if s is not None])
+        assert stays == sorted({*stays})
+        assert len(stays) == in_order([s for s in segment if s is not None])
         assert all(k in used for k, s in zip(numbers, segment, strict=True) if s is None)
         first_lost += [k for k in numbers if k not in used]
         line += len(segment)
     if first_lost:
-        assert report.skipped["time runs backwards"].first == first_lost[0]
+        assert report.skipped.keys() <= {"time runs backwards", "same time again"}
+        assert min(first for _, first in report.skipped.values()) == first_lost[0]
 
 
 # NMEA
@@ -174,7 +163,9 @@ CLOCKS = {
     f"G190000 {NIGHT} G080000 G080001": [0, 13 * 3600, 13 * 3600 + 1],
     "R080000/290224 R090000/010324": [0, 90000],
     "G235959 R000000/010324 G000001": [0, 1, 2],
-    "R080000/240709 R080001/010180 R080002/240709 R080003/240709": [0, 2, 3],
+    "R080000/240709 R080001/010180 R080002/240709 R080003/240709": [0, 1, 2, 3],
+    "R235958/240709 R235959/240709 R000000/240709 R000001/250709": [0, 1, 2, 3],  # a late date
+    "G235959 G235960 G000001": [0, 1, 2],
     f"G010000 {COLD} G010500 G010501": [0, 300, 301],
 }
 
@@ -274,38 +265,45 @@ MODES = {  # of a claim; 9 is said by some receivers that have the help of satel
 TALKERS = ["GP", "GN", "GL", "GA", "GB", "BD", "QZ"]
 REASONS = {"none": NO_FIX, "estimated": NO_FIX, "unreadable": UNREADABLE}
 REASONS |= {"damaged": "wrong checksum"}
-HALVES = st.sampled_from([("N", "E", 1), ("S", "W", -1)])
-HEARD = st.lists(st.tuples(st.sampled_from(KINDS), st.sampled_from(CLAIMS), HALVES), max_size=6)
+HEARD = st.lists(st.tuples(st.sampled_from(KINDS), st.sampled_from(CLAIMS)), max_size=6)
+TRUST = {mode: trust for trust, modes in enumerate(["", "1A", "29D", "3P", "5F", "4R"])
+         for mode in modes}  # fmt: skip
 
 
-@given(st.lists(HEARD, min_size=1, max_size=6))
-def test_every_sentence_is_used_or_counted_with_its_reason(read, epochs):
-    """Epoch by epoch, against the rule itself."""
+@given(st.lists(HEARD, min_size=1, max_size=6), st.sampled_from([("N", "E", 1), ("S", "W", -1)]))
+def test_every_sentence_is_used_or_counted_with_its_reason(read, epochs, half):
+    """Epoch by epoch, against the rule itself: RTK before the kind, which comes before the rest."""
     lines, expected, used, first = [], Counter(), [], {}
-    for second, heard in enumerate([*epochs, [("GGA", "fix", ("N", "E", 1))]]):
-        ranks, signs = {"fix": [], "none": [], "estimated": []}, {}
-        for kind, claim, (north, east, sign) in heard:
-            modes, k = MODES[kind].get(claim, MODES[kind]["fix"]), len(lines)
-            lat = "5460.0000" if claim == "unreadable" else f"{54 + KINDS.index(kind)}05.6081"
+    north, east, sign = half
+    for second, heard in enumerate([*epochs, [("GGA", "fix")]]):
+        fixes, denied = [], []
+        for kind, claim in heard:
+            modes, k, rank = (
+                MODES[kind].get(claim, MODES[kind]["fix"]),
+                len(lines),
+                KINDS.index(kind),
+            )
+            mode, minutes = modes[k % len(modes)], f"5.{6081 + k}"
+            lat = "5460.0000" if claim == "unreadable" else f"540{minutes}"
             where = {"lat": f"{lat},{north}", "lon": f"01049.4791,{east}"}
-            where |= {"mode": modes[k % len(modes)], "talker": TALKERS[k % 7]}
+            where |= {"mode": mode, "talker": TALKERS[k % 7]}
             line = said(kind, clock=f"2359{53 + second:02d}.0", **where)
             lines.append(line.replace("01049", "01048") if claim == "damaged" else line)
             if claim == "fix":
-                signs.setdefault(KINDS.index(kind), sign)
-            if claim != "fix":
+                trust = TRUST[mode]
+                fixes.append((-max(trust, 3), rank, -trust, k, 54 + float(minutes) / 60))
+            else:
                 expected[REASONS[claim]] += 1
                 first.setdefault(REASONS[claim], len(lines))
-            ranks.setdefault(claim, []).append(KINDS.index(kind))
-        fixes, denied = ranks["fix"], ranks["none"] + ranks["estimated"]
-        if fixes and min(fixes) <= min(denied, default=9):
-            used.append(signs[min(fixes)] * np.array([LAT + min(fixes), LON]))
+                denied += [rank] if claim in ("none", "estimated") else []
+        if fixes and min(rank for _, rank, *_ in fixes) <= min(denied, default=9):
+            used.append(sign * np.array([min(fixes)[-1], LON]))
             expected["same epoch again"] += len(fixes) - 1
         else:
             reason = "sentence of an epoch that a more trusted one says has no fix"
             expected[reason] += len(fixes)
     track = read("\r\n".join([*lines, ""]))
-    assert np.transpose(places(track)) == pytest.approx(np.array(used))
+    assert np.transpose(places(track)) == pytest.approx(np.array(used), abs=1e-12)
     assert {why: count for why, (count, _) in track.report.skipped.items()} == +expected
     assert all(track.report.skipped[why].first == line for why, line in first.items())
     assert len(used) + expected.total() == len(lines)
@@ -349,16 +347,17 @@ NAN = "latitude or longitude not a number"
 SCHEMA = "http://www.topografix.com/GPX/"
 SPACES = {"gpx": "", "g:gpx": f' xmlns:g="{SCHEMA}1/1"', "gpx ": f' xmlns="{SCHEMA}1/0"'}
 FATES = {
-    "kept": '<{n}trkpt lat="{k}" lon="-180"/>',
-    "timed": '<{n}trkpt lon="180.0" lat="{k}"><{n}ele>x</{n}ele><{n}time>{day}{k}Z </{n}time>'
+    "kept": '<{n}trkpt lat="33.000{k}" lon="-180"/>',
+    "timed": '<{n}trkpt lon="180.0" lat="33.000{k}"><{n}ele>x</{n}ele><{n}time>{day}{k}Z </{n}time>'
     "<{n}extensions><{n}time>now</{n}time></{n}extensions></{n}trkpt>",
-    "unread": '<{n}trkpt lon="180" lat="{k}"><{n}time>yesterday</{n}time></{n}trkpt>',
-    "latitude not in -90 to 90": '<{n}trkpt lat="{k}1" lon="4"/>',
-    "longitude not in -180 to 180": '<{n}trkpt lat="{k}" lon="180.0000001"/>',
-    NAN: '<{n}trkpt lat="{k}" lon="{odd}"/>',
+    "unread": '<{n}trkpt lon="180" lat="33.000{k}"><{n}time>yesterday</{n}time></{n}trkpt>',
+    "latitude not in -90 to 90": '<{n}trkpt lat="91.{k}" lon="4"/>',
+    "longitude not in -180 to 180": '<{n}trkpt lat="33.000{k}" lon="180.0000001"/>',
+    NAN: '<{n}trkpt lat="33.000{k}" lon="{odd}"/>',
     "half": '<{n}trkpt {side}="{k}"></{n}trkpt>',
-    "track point outside <trkseg>": '<{n}x><{n}trkpt lat="{k}" lon="4"/></{n}x>',
-    "holds": '<{n}trkpt lat="{k}" lon="180"><{n}x><{n}trkpt lat="9" lon="9"/></{n}x></{n}trkpt>',
+    "track point outside <trkseg>": '<{n}x><{n}trkpt lat="33.000{k}" lon="4"/></{n}x>',
+    "holds": '<{n}trkpt lat="33.000{k}" lon="180"><{n}x><{n}trkpt lat="9" lon="9"/></{n}x>'
+    "</{n}trkpt>",
 }
 
 
@@ -382,7 +381,7 @@ def test_every_position_of_gpx_is_kept_or_counted(read, tracks, others, root, co
         for fate in fates:
             day = f"2026-03-0{9 - i}T12:00:"
             lines.append(FATES[fate].format(n=n, k=k, odd=odd, side=side, day=day))
-            lats += [k] * (fate in ("kept", "timed", "unread", "holds"))
+            lats += [float(f"33.000{k}")] * (fate in ("kept", "timed", "unread", "holds"))
             times += [k - 86400 * i] * (fate == "timed")
             if fate not in ("kept", "timed", "unread"):
                 why = {"half": NAN, "holds": "track point outside <trkseg>"}.get(fate, fate)
@@ -488,7 +487,7 @@ def test_every_row_is_kept_or_counted_with_its_line(read, rows):
     report = read(lines).report
     fates = Counter(fate for _, fate in rows)
     found = {reason: count for reason, (count, _) in report.skipped.items()}
-    late = found.pop("time runs backwards", 0)
+    late = sum(found.pop(why, 0) for why in ("time runs backwards", "same time again"))
     assert found == {fate: n for fate, n in fates.items() if "used" not in fate and fate != "empty"}
     assert report.used + late == 1 + fates["used"] + fates["used, without a time"]
     ends = {1 + "\n".join(lines[:k]).count("\n") for k in range(1, len(lines))}
@@ -526,7 +525,7 @@ def test_columns_are_known_by_many_names_and_units(read):
         track = read(f"Latitude,{north},Longitude,{east}\n33.5,S,70.6,W\n1.0,N,2.0,E\n")
         assert places(track) == ([-33.5, 1.0], [-70.6, 2.0]), north
     for name, units in (("time_us", 1e6), ("gps time s", 1.0), ("timeMs", 1e3), ("t [s]", 1.0)):
-        track = read(f"{name},lat (deg),lon_deg\n{units:.0f},0,0\n{4 * units:.0f},33.5,44\n")
+        track = read(f"{name},lat (deg),lon_deg\n{units:.0f},33.5,44\n{4 * units:.0f},33.5,44\n")
         assert track.t.tolist() == [0.0, 3.0], name
     for header in ("latitudeE7,longitudeE7", "lat_e7,lon_e7"):
         assert places(read(f"{header}\n335000000,442500000\n")) == ([33.5], [44.25])
@@ -540,13 +539,14 @@ def test_what_would_have_to_be_guessed_is_not_read(read):
     for name in ("lat_min", "latMinutes", "Long. seconds"):
         with pytest.raises(ValueError, match="minutes of a degree, which is not read"):
             read(f"lat_deg,{name},lon_deg\n33,16.2,44\n")
-    unreadable = {"with an unreadable time": (1, 2)}
     for day in ("09.05.2026", "05/09/2026", "260509"):
         track = read(f"date,time,lat,lon\n{day},12:00:00,1,2\n")
-        assert (places(track), dict(track.report.noted)) == (([1.0], [2.0]), unreadable)
+        assert places(track) == ([1.0], [2.0])
+        assert dict(track.report.noted) == {"with an unreadable time in column 'time'": (1, 2)}
         assert np.isnan(track.t).all()
     for number in ("45292.5", "12345", "1767225600", "-5"):  # of Excel, since switched on
-        assert dict(read(f"time,lat,lon\n{number},1,2\n").report.noted) == unreadable
+        noted = dict(read(f"time,lat,lon\n{number},1,2\n").report.noted)
+        assert noted == {"with a number without a unit in column 'time'": (1, 2)}
 
 
 def test_what_windows_and_spreadsheets_write_around_a_table_is_read(read):

@@ -10,6 +10,7 @@ import numpy as np
 from wmrlib.checks import instance, same_shape
 from wmrlib.geodesy import GeoPoint, local_position, point_at
 from wmrlib.tracks import Track
+from wmrlib.tracks.neighbours import strays
 
 
 @dataclass(frozen=True, eq=False, slots=True)
@@ -18,7 +19,8 @@ class StationaryScatter:
 
     Parameters
     ----------
-    mean, n : GeoPoint and int; mean position, number of positions
+    mean, n, left_out : GeoPoint and ints; mean position, number of positions, and of others that
+        are far outside their scatter
     east, north : array (n,), m; each position from the mean
     std_east, std_north : float, m; standard deviations, with n - 1
     covariance : array (2, 2), m^2; of (east, north), with n - 1
@@ -34,10 +36,12 @@ class StationaryScatter:
     covariance: np.ndarray
     cep: float
     two_drms: float
+    left_out: int
 
     def __repr__(self) -> str:
+        others = f" ({self.left_out} left out)" if self.left_out else ""
         return (
-            f"<StationaryScatter: {self.n} positions about {self.mean.lat:.7f} deg N, "
+            f"<StationaryScatter: {self.n} positions{others} about {self.mean.lat:.7f} deg N, "
             f"{self.mean.lon:.7f} deg E; std {self.std_east:.3g} m east, "
             f"{self.std_north:.3g} m north, CEP {self.cep:.3g} m, 2drms {self.two_drms:.3g} m>"
         )
@@ -45,6 +49,8 @@ class StationaryScatter:
 
 def stationary_scatter(track: Track | GeoPoint) -> StationaryScatter:
     """Return the mean position and the scatter about it, right at the date line and the poles too.
+
+    Positions far outside the scatter of the others are counted and left out.
 
     Parameters
     ----------
@@ -62,12 +68,18 @@ def stationary_scatter(track: Track | GeoPoint) -> StationaryScatter:
     n = math.prod(same_shape(lat=points.lat, lon=points.lon))
     if n < 2:
         raise ValueError(f"track has {n} position, which is not allowed: at least 2 are needed")
+    scattered = ~strays(points)
+    n = int(scattered.sum())
+    lat, lon = np.broadcast_arrays(points.lat, points.lon)
+    left_out, points = lat.size - n, GeoPoint(lat=lat[scattered], lon=lon[scattered])
     mean = _mean_position(points)
     east, north = (np.ravel(values) for values in local_position(mean, points))
     covariance = np.cov(east, north)
     std_east, std_north = np.sqrt(np.diag(covariance)).tolist()
     cep, two_drms = float(np.median(np.hypot(east, north))), 2.0 * math.hypot(std_east, std_north)
-    return StationaryScatter(mean, n, east, north, std_east, std_north, covariance, cep, two_drms)
+    return StationaryScatter(
+        mean, n, east, north, std_east, std_north, covariance, cep, two_drms, left_out
+    )
 
 
 def _mean_position(points: GeoPoint) -> GeoPoint:

@@ -6,9 +6,9 @@ from io import BufferedReader, TextIOWrapper
 
 import numpy as np
 
-from wmrlib.checks import refusal
-from wmrlib.geodesy import GeoPoint
-from wmrlib.tracks import gpx, nmea, tables, ubx
+from wmrlib.checks import real, refusal
+from wmrlib.geodesy import GeoPoint, position_list
+from wmrlib.tracks import gpx, jsons, nmea, tables, ubx
 from wmrlib.tracks.fixes import Count, Fixes, Report, Reported
 from wmrlib.tracks.writing import write_geojson, write_gpx
 
@@ -41,9 +41,18 @@ class Track:
     accuracy: np.ndarray
 
     def __post_init__(self) -> None:
-        reported = (getattr(self, field) for field in Reported._fields)
-        for values in (self.points.lat, self.points.lon, self.t, *reported):
-            np.asarray(values).flags.writeable = False
+        lat, lon = position_list(self.points)
+        points = GeoPoint(lat=lat, lon=lon)
+        arrays = {name: getattr(self, name) for name in ("t", *Reported._fields)}
+        for name, values in arrays.items():
+            arrays[name] = np.atleast_1d(np.asarray(real(name, values, nan=True)))
+            if arrays[name].shape != lat.shape:
+                lengths = f"{name} has shape {arrays[name].shape}, points have shape {lat.shape}"
+                raise ValueError(f"mismatched lengths: {lengths}")
+            object.__setattr__(self, name, arrays[name])
+        object.__setattr__(self, "points", points)
+        for values in (points.lat, points.lon, *arrays.values()):
+            values.flags.writeable = False
 
     @property
     def rtk(self) -> np.ndarray:
@@ -58,7 +67,9 @@ class Track:
         timed = self.t[~np.isnan(self.t)]
         span = f"over {np.ptp(timed):.6g} s" if timed.size else "without times"
         left = sum(reason.count for reason in self.report.skipped.values())
-        return f"<Track: {len(self)} positions from {self.source}, {span}; {left} not used>"
+        kinds = len(self.report.noted)
+        notes = f", {kinds} note{'s' * (kinds != 1)} in its report" if kinds else ""
+        return f"<Track: {len(self)} positions from {self.source}, {span}; {left} not used{notes}>"
 
 
 def read_track(path: str | os.PathLike) -> Track:
@@ -114,11 +125,14 @@ def _read(file: BufferedReader) -> tuple[str, Fixes]:
     wide = head.startswith((b"\xff\xfe", b"\xfe\xff"))  # as PowerShell's > writes
     # The checksums of NMEA are of bytes, which surrogates keep.
     coding, errors = ("utf-16", "replace") if wide else ("utf-8-sig", "surrogateescape")
-    if head.decode(coding, errors).lstrip(" \t\r\n\0").startswith("<"):
+    start = head.decode(coding, errors).lstrip(" \t\r\n\0")
+    if start.startswith("<"):
         return "GPX", gpx.read(file)  # XML itself says how it is encoded
     if read := ubx.read(file):
         return read
     with TextIOWrapper(file, coding, errors, newline="") as text:
+        if start.startswith(("{", "[{")):
+            return jsons.read(text)
         try:
             return "CSV", tables.read(text)
         except LookupError as error:  # no header

@@ -1,8 +1,8 @@
 """The positions of a file and the count of its unused lines, as every reader collects them."""
 
 import math
+import re
 from array import array
-from bisect import bisect_left
 from collections.abc import Mapping
 from dataclasses import dataclass, field
 from datetime import UTC, datetime
@@ -10,8 +10,12 @@ from typing import NamedTuple
 
 import numpy as np
 
+from wmrlib.tracks.neighbours import late, null_island, unreachable, without_steps_of_days
+
 LONGEST = 1 << 16  # characters of a line that are read at once
 KNOT = 1852.0 / 3600.0  # m/s
+_ZONE = re.compile(r" ?(?:UTC|GMT)? ?([+-][0-9]{2}:?[0-9]{2}|)$")  # as people write it
+_SECOND_60 = re.compile(r"(:[0-5][0-9]):60")
 
 
 class Reported(NamedTuple):
@@ -27,6 +31,21 @@ class Reported(NamedTuple):
 
 
 UNREPORTED = Reported()
+_WIDTH = 5 + len(Reported._fields)  # of a row: its line, segment, lat, lon, time and Reported
+
+
+def trust(quality: float) -> int:
+    """How far a quality as in GGA is trusted, from 5 for RTK fixed to 1 for plain, 0 for none."""
+    return {4.0: 5, 5.0: 4, 3.0: 3, 2.0: 2, 1.0: 1}.get(quality, 0)
+
+
+DISAGREEING = "of an epoch in which two positions are more than 20 m apart"
+
+
+def disagree(lat: float, lon: float, lat2: float, lon2: float) -> bool:
+    """Whether two positions of one epoch are more than 20 m apart: two receivers, perhaps."""
+    east = math.remainder(lon - lon2, 360.0) * math.cos(math.radians(lat))
+    return math.hypot(lat - lat2, east) > 20.0 / 111_195.0  # m, and m of a degree
 
 
 class Count(NamedTuple):
@@ -75,27 +94,60 @@ class Fixes:
         self.skip, self.place = self.skipped.count, place
 
     def add(
-        self, lat: float, lon: float, time: float | None, line: int, reported: Reported = UNREPORTED
+        self,
+        lat: float,
+        lon: float,
+        time: float | None,
+        line: int,
+        reported: Reported = UNREPORTED,
+        doubt: str = "with an unreadable time",
     ) -> None:
-        """Use a position (degrees; s, NaN if absent, None if unreadable), or count why not."""
+        """Use a position (degrees; s, NaN if absent, None if in `doubt`), or count why not."""
         if not (abs(lat) <= 90.0 and abs(lon) <= 180.0):
             wrong = "latitude not in -90 to 90", "longitude not in -180 to 180"
             nan = "latitude or longitude not a number"
             return self.skip(wrong[abs(lat) <= 90.0] if math.isfinite(lat + lon) else nan, line)
         if time is None:
-            self.noted.count("with an unreadable time", line)
+            self.noted.count(doubt, line)
         time = math.nan if time is None else time
         self.table.extend((line, self.segment, lat, lon, time, *reported))
 
+    def __len__(self) -> int:
+        return len(self.table) // _WIDTH
+
     def settle(self) -> tuple[np.ndarray, Report]:
         """The rows lat, lon, time and Reported of the positions by time, and the report."""
-        table = np.frombuffer(self.table).reshape(-1, 5 + len(Reported._fields))
+        table = np.frombuffer(self.table).reshape(-1, _WIDTH).copy()
+        # Before the times: such a position often has a date of its own.
+        nowhere = null_island(table[:, 2], table[:, 3])
+        _count(self.skipped, "position at (0, 0)", table[nowhere])
+        table = table[~nowhere]
         parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
-        late = np.concatenate([_late(part[:, 4]) for part in parts])
-        if late.any():
-            self.skip("time runs backwards", int(table[late, 0][0]), int(late.sum()))
-        table = table[~late, 2:].T
+        table = np.concatenate([self._settled(part) for part in parts])[:, 2:].T
         return table, Report(table.shape[1], self.skipped, self.noted, self.place)
+
+    def _settled(self, part: np.ndarray) -> np.ndarray:
+        """The positions of a segment that agree with one another."""
+        part[:, 4], put_right, waited = without_steps_of_days(part[:, 4])
+        _count(self.noted, "after a step of whole days, which t leaves out", part[put_right])
+        _count(self.noted, "after more than a day without a position", part[waited])
+        unordered, time = late(part[:, 4]), part[:, 4]
+        again = unordered & np.isin(time, time[~unordered])
+        _count(self.skipped, "same time again", part[again])
+        _count(self.skipped, "time runs backwards", part[unordered & ~again])
+        part = part[~unordered]
+        far, few = unreachable(*part[:, 2:5].T)
+        where = "place that no vehicle reaches in the time"
+        if few:
+            _count(self.skipped, where, part[far])
+            return part[~far]
+        _count(self.noted, f"at a {where}", part[far])  # times in a wrong unit, perhaps
+        return part
+
+
+def _count(tally: Tally, reason: str, rows: np.ndarray) -> None:
+    if rows.size:
+        tally.count(reason, int(rows[0, 0]), len(rows))
 
 
 def number(text: str) -> float:
@@ -113,29 +165,16 @@ def reading(text: str, unit: float = 1.0) -> float:
 
 
 def timestamp(text: str) -> float | None:
-    """Seconds since 1970 of an ISO 8601 time, in UTC unless it has a zone; None if it is none."""
+    """Seconds since 1970 of an ISO 8601 time, in UTC unless it has a zone; None if it is none.
+
+    The leap second 23:59:60 is one and so is 24:00:00, but a date alone is none.
+    """
+    words = _ZONE.sub(r"\1", text)
+    clock = _SECOND_60.sub(r"\1:59", re.sub("[T ]24:00:00", "T23:59:60", words))
     try:
-        time = datetime.fromisoformat(text)
+        time = datetime.fromisoformat(clock)
     except ValueError:
         return None
-    return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp()
-
-
-def _late(time: np.ndarray) -> np.ndarray:
-    """Which positions are outside the longest run in order of time, counted in epochs."""
-    timed, left = np.flatnonzero(~np.isnan(time)), np.zeros(time.size, bool)
-    if not (np.diff(time[timed]) < 0.0).any():
-        return left
-    # Patience sorting, from the last to the first.
-    falling, ends = array("d", -time[timed]), array("d")
-    lengths = array("q", timed)  # in epochs, of the longest run that begins there, less one
-    for i in reversed(range(timed.size)):
-        lengths[i] = bisect_left(ends, falling[i])
-        ends[lengths[i] : lengths[i] + 1] = array("d", [falling[i]])
-    # Of runs as long, the one that begins first and then goes on with the nearest times.
-    last, left[timed] = lengths.index(len(ends) - 1), True
-    for i in np.lexsort((time[timed], np.negative(lengths))).tolist():
-        same = (falling[i], lengths[i]) == (falling[last], lengths[last])
-        if i >= last and (same or falling[i] < falling[last]):
-            left[timed[i]], last = False, i
-    return left
+    if len(clock) < 12:
+        return None
+    return (time if time.tzinfo else time.replace(tzinfo=UTC)).timestamp() + (clock != words)

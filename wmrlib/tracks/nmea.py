@@ -8,11 +8,22 @@ from itertools import groupby
 from operator import xor
 from typing import TextIO
 
-from wmrlib.tracks.fixes import KNOT, LONGEST, UNREPORTED, Fixes, Reported, reading, timestamp
+from wmrlib.tracks.fixes import (
+    DISAGREEING,
+    KNOT,
+    LONGEST,
+    UNREPORTED,
+    Fixes,
+    Reported,
+    disagree,
+    reading,
+    timestamp,
+    trust,
+)
 
 # A body, with anything before and after it, and the checksum that is stated.
 _SENTENCE = re.compile(r"\$([A-Za-z]{2}[^$*\r\n]{3}[^$*\r\n]*)(\*[0-9A-Fa-f]{0,2})?")
-_CLOCK = re.compile(r"([01][0-9]|2[0-3])([0-5][0-9])([0-5][0-9](?:\.[0-9]*)?)")
+_CLOCK = re.compile(r"([01][0-9]|2[0-3])([0-5][0-9])((?:[0-5][0-9]|60)(?:\.[0-9]*)?)")
 _PLACE = re.compile(r"([0-9]{2})([0-5][0-9]\.[0-9]+),([NS]),([0-9]{3})([0-5][0-9]\.[0-9]+),([EW])")
 # The most trusted kind first: its rank, and where its time, its place, its modes and its status
 # are; of GGA and GNS the number of satellites is the status. Before 2000 RMC and GLL had no mode.
@@ -31,7 +42,9 @@ def read(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Fixes | None:
     last, zero = 0.0, 0.0
     for second, epoch in groupby(_sentences(lines, fixes), lambda sentence: sentence[2]):
         sentences = sorted(epoch)
-        _, denied, _, line, lat, lon, *_ = sentences[0]
+        denied = sentences[0][1]
+        sentences.sort(key=_order)
+        _, _, _, line, lat, lon, *_ = sentences[0]
         if not denied:
             day = _DAY * math.ceil((last - 60.0 - second) / _DAY)  # undated, time goes on
             if dated := max(sentence[6] for sentence in sentences):
@@ -39,15 +52,25 @@ def read(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Fixes | None:
                 day = dated - zero
             last = second + day
             # Where several sentences report a value, the most trusted one counts.
-            reports = zip(*(sentence[7] for sentence in sentences if not sentence[1]), strict=True)
+            positions = [sentence for sentence in sentences if not sentence[1]]
+            reports = zip(*(sentence[7] for sentence in positions), strict=True)
             reported = (next((x for x in values if x == x), math.nan) for values in reports)
             fixes.add(lat, lon, last, line, Reported(*reported))
+            if any(disagree(lat, lon, *sentence[4:6]) for sentence in positions):
+                fixes.noted.count(DISAGREEING, line)
         doubt = "sentence of an epoch that a more trusted one says has no fix"
         for _, denies, _, line, *_ in sentences if denied else sentences[1:]:
             others = doubt if denied else "same epoch again"
             fixes.skip("sentence without a fix" if denies else others, line)
     known = fixes.skipped.keys() - {"comment", "line that is no sentence"}
     return fixes if fixes.table or known else None
+
+
+def _order(sentence: tuple) -> tuple[bool, int, int, int]:
+    """Which of an epoch's sentences comes first: RTK of whatever kind, or else the kind decides."""
+    rank, denies, *_, reported = sentence
+    quality = trust(reported.quality)
+    return denies, -max(quality, trust(3.0)), rank, -quality
 
 
 def numbered(text: TextIO) -> Iterator[tuple[int, str]]:
@@ -94,7 +117,9 @@ def _parsed(body: str, stated: str, line: int) -> tuple:
         raise ValueError("unreadable position")
     lat, lon = (int(place[i]) + float(place[i + 1]) / 60.0 for i in (1, 4))
     lat, lon = -lat if place[3] == "S" else lat, -lon if place[6] == "W" else lon
-    day = timestamp(f"20{fields[9][4:]}-{fields[9][2:4]}-{fields[9][:2]}") if rank == 2 else 0.0
+    day = (
+        timestamp(f"20{fields[9][4:]}-{fields[9][2:4]}-{fields[9][:2]}T00:00") if rank == 2 else 0.0
+    )
     return rank, False, second, line, lat, lon, day or 0.0, _reported(rank, modes, fields)
 
 

@@ -5,82 +5,110 @@ import math
 import re
 from collections.abc import Iterator
 from functools import partial
-from typing import TextIO
+from itertools import chain, islice
+from typing import NamedTuple, TextIO
 
 from wmrlib.tracks.fixes import KNOT, LONGEST, Fixes, Reported, number, reading, timestamp
 
 _LAT, _LON = "(gps )?lat(itude)?", "(gps )?(lng|long?|longitude)"
 _SIDE = "(dir|direction|ref|reference|hemi|hemisphere|indicator)"
-_ROLES = {  # of a column, by the words of its name; the first six once in a header
+_TIME = "time|date|timestamp|(date|up)time|utc|clock|millis|elapsed|zeit|uhrzeit"
+_UNIT = "( s| sec| seconds| ms| milliseconds| us| ns)?"
+_ROLES = {  # of a column, by the words of its name; the first that fits
     "lat": f"{_LAT}( deg| degrees)?( n s)?( e7)?",
     "lon": f"{_LON}( deg| degrees)?( e w)?( e7)?",
     "N/S": f"(n ?s|north south)( indicator)?|{_LAT} {_SIDE}",
     "E/W": f"(e ?w|east west)( indicator)?|{_LON} {_SIDE}",
-    "time": "((gps |utc )?time|timestamp|date ?time|t)( utc)?( s| sec| seconds| ms| us)?",
-    "date": "date( utc)?",
+    "date": "((gps |utc )?date|date (gps|utc))",
+    "time": f"((gps |utc )?time|timestamp|date ?time|t)( utc)?{_UNIT}|(seconds|ms) elapsed"
+    f"|elapsed( time)?{_UNIT}|millis",
+    "other time": f"(.* )?({_TIME})( .*)?",
     "minutes": f"({_LAT}|{_LON}) ?(.* )?(m|mins?|minutes?|s|secs?|seconds?)",  # of a degree
     "fix": "(is |gps )?(valid|fix)",
     "quality": "(fix |gps )?quality",
-    "fix mode": "(gps )?fix (mode|type)",
+    "fix mode": "(gps )?fix mode",
+    "fix type": "(gps )?fix type",
     "status": "(fix |gps )?status",
-    "satellites": "(num(ber of)? )?(sv|sats?|satellites)( used)?|n ?sat|num ?sv",
+    "satellites": "(num(ber of)? )?(sv|sats?|satellites)( used)?|n ?sats?|num ?sv",
     "hdop": "hdop",
-    "speed": "((ground )?speed|speed over ground|sog) (m s|mps|km h|kmh|kph|knots?|kts?|kn|mph)",
-    "course": "(course( over ground)?|cog)( deg| degrees)?",
+    "accuracy": "(gps |horizontal |position )?accuracy( m| meters| metres)?|h ?acc m",
+    "speed": "((ground |gps )?(speed|velocity)|speed over ground|sog)"
+    "( m s| mps| km h| kmh| kph| knots?| kts?| kn| mph)?",
+    "course": "(course( over ground)?|cog|bearing|direction)( deg| degrees)?",
 }
-_PER = {"e7": 1e7, "t": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0, "ms": 1e3, "us": 1e6}
+_PER = {"e7": 1e7, "t": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0}
+_PER |= {"mps": 1.0, "ms": 1e3, "milliseconds": 1e3, "millis": 1e3, "us": 1e6, "ns": 1e9}
 _PER |= dict.fromkeys(("h", "kmh", "kph"), 3.6) | {"mph": 1.0 / 0.44704}
 _PER |= dict.fromkeys(("knot", "knots", "kt", "kts", "kn"), 1.0 / KNOT)
 _FIX = {"yes", "true", "ok", "valid", "fix", "fixed", "float", "y", "a", "d", "p", "r", "f", "gps"}
 _FIX |= {"gnss", "sps", "dgps", "pps", "rtk", "frtk", "1", "2", "3", "4", "5", "9", ""}
 _QUALITY = {"float": 5.0, "frtk": 5.0, "rtk": 4.0, "pps": 3.0, "dgps": 2.0}  # first word to fit
 _QUALITY |= dict.fromkeys(("sps", "gps", "gnss"), 1.0)  # "fixed" may be any fix
-# The first word says so.
+_FIX_TYPES = {"2": 1.0, "3": 1.0, "4": 2.0, "5": 5.0, "6": 4.0, "8": 3.0}  # MAVLink, ArduPilot
+# The first word says so, unless another one denies it.
 _GOOD = {"fix": _FIX, "quality": _FIX, "fix mode": _FIX - {"1"}, "status": _FIX | {"0"}}
-_Columns = list[tuple[str, float]]  # the role, "" for none, and how many make one of its unit
+_GOOD["fix type"] = _FIX - {"1", "9"} | _FIX_TYPES.keys() | {"7"}
+_STATUS = {"status": "fix type"}
+_DENIED = {"no", "none", "not", "invalid"}
+_MINUTES = re.compile(r"[-+NSEW ]*0[0-9]{3,}(\D|$)")
+_FIRST = 100  # rows that tell which of several columns can be read
+
+
+class _Column(NamedTuple):
+    name: str
+    place: int
+    role: str  # "" for none
+    per: float  # how many of its unit make one of the role's; 0 where it names none
 
 
 def read(text: TextIO) -> Fixes:
     """Rows under the first line that names the columns; LookupError where none does."""
-    fixes = Fixes()
-    lines = _lines(text, fixes)
+    fixes, cut_off = Fixes(), list[int]()
+    lines = _lines(text, cut_off)
     try:
         header, delimiter, columns = _header(lines, fixes)
         rows = csv.reader(lines, delimiter=delimiter, strict=True)
-        for row in rows:
-            line = header + rows.line_num
+        numbered = ((header + rows.line_num, row) for row in rows if "".join(row).strip())
+        first = list(islice(numbered, _FIRST))
+        used, unused = _chosen(columns, [row for _, row in first if len(row) >= len(columns)])
+        for line, row in chain(first, numbered):
             try:
-                if "".join(row).strip():
-                    fixes.add(*_position(columns, row), line, _reported(columns, row))
+                lat, lon, time, doubt = _position(columns, used, row)
+                fixes.add(lat, lon, time, line, _reported(used, row), doubt)
             except ValueError as error:
                 fixes.skip(str(error), line)
     except csv.Error as error:
         raise ValueError(f"its table is broken: {error}") from None
+    if fixes.table:
+        begin = int(fixes.table[0])
+        for reason in unused:
+            fixes.noted.count(reason, begin, len(fixes))
+        for line in cut_off:
+            fixes.noted.count("in a last line without an end, which may be cut off", line)
     return fixes
 
 
-def _lines(text: TextIO, fixes: Fixes) -> Iterator[str]:
-    """The lines; a last one without an end is noted in `fixes`, since it may be cut off."""
+def _lines(text: TextIO, cut_off: list[int]) -> Iterator[str]:
+    """The lines; a last one without an end, which may be cut off, is put into `cut_off`."""
     for row, line in enumerate(iter(partial(text.readline, LONGEST), ""), 1):
-        yield line
         if len(line) == LONGEST and not line.endswith("\n"):
             raise csv.Error(f"a line has more than {LONGEST} characters")
-        if fixes.table and line.strip() and not line.endswith(("\n", "\r")):
-            fixes.noted.count("in a last line without an end, which may be cut off", row)
+        if line.strip() and not line.endswith(("\n", "\r")):
+            cut_off.append(row)
+        yield line
 
 
-def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
+def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, list[_Column]]:
     """The number of the line that names the columns, its delimiter, and the columns."""
     titles: list[str] = []
     for row, line in enumerate(lines, 1):
         excerpt, comment = repr(line.strip()[:80]), line.startswith("#")
         for delimiter in "" if comment or len(line) == LONGEST else ",;\t|":
-            columns = [_column(cell) for cell in next(csv.reader([line], delimiter=delimiter))]
-            roles = [role for role, _ in columns]
-            if {"lat", "lon"} <= {*roles}:
-                if "minutes" in roles or any(roles.count(role) > 1 for role in [*_ROLES][:6]):
-                    wrong = "has a column twice, or minutes of a degree, which is not read"
-                    raise ValueError(f"its header {excerpt} {wrong}")
+            names = next(csv.reader([line], delimiter=delimiter))
+            columns = [_column(name.strip(), place) for place, name in enumerate(names)]
+            if {"lat", "lon"} <= {column.role for column in columns}:
+                if {"GMS", "GWk"} <= {*names}:  # ArduPilot's status is MAVLink's fix type
+                    columns = [c._replace(role=_STATUS.get(c.role, c.role)) for c in columns]
                 return row, delimiter, columns
         if line.strip():
             fixes.skip("comment" if comment else "line above the names of the columns", row)
@@ -90,48 +118,119 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, _Columns]:
     raise LookupError(f"as a table its first line {''.join(titles[:1])} does not name lat and lon")
 
 
-def _column(name: str) -> tuple[str, float]:
+def _column(name: str, place: int) -> _Column:
     words = re.sub("(?<=[a-z])(?=[A-Z])|(?=[eE]7$)|[^A-Za-z0-9]+", " ", name).casefold().split()
-    for role, pattern in _ROLES.items():
-        if re.fullmatch(pattern, " ".join(words)):
-            return role, _PER.get(words[-1], float(role != "time"))
-    return "", 0.0
+    role = next((role for role in _ROLES if re.fullmatch(_ROLES[role], " ".join(words))), "")
+    units = [_PER[word] for word in reversed(words) if word in _PER]
+    return _Column(name, place, role, next(iter(units), float(role not in ("time", "speed"))))
 
 
-def _position(columns: _Columns, row: list[str]) -> tuple[float, float, float | None]:
-    """Latitude, longitude and time of a row; ValueError says why it has none."""
+def _chosen(columns: list[_Column], rows: list[list[str]]) -> tuple[dict[str, _Column], list[str]]:
+    """The best column of each role, and why others are not used; `rows` are the first of all."""
+    by_role: dict[str, list[_Column]] = {}
+    for column in columns:
+        by_role.setdefault(column.role, []).append(column)
+    used = {role: same[0] for role, same in by_role.items() if role}
+    pairs = [(a, b) for a in by_role["lat"] for b in by_role["lon"] if _style(a) == _style(b)]
+    used["lat"], used["lon"] = pairs[0] if pairs else (used["lat"], used["lon"])
+    date = used.get("date")
+    candidates = [by_role.get(role, []) for role in ("time", "other time", "date")]
+    clocks = [(column, _best(column, date, rows)) for column in chain(*candidates)]
+    if clocks:
+        used["time"] = min(clocks, key=lambda clock: clock[1])[0]
+    if "speed" in by_role:
+        used["speed"] = max(by_role["speed"], key=lambda column: column.per > 0.0)
+    reasons = [
+        f"without their {other.name!r} beside {used[role].name!r}"
+        for role in ("lat", "lon", "N/S", "E/W", "time", *Reported._fields)
+        for other in by_role.get(role, [])
+        if other != used[role]
+    ]
+    if "minutes" in by_role:
+        name = used["minutes"].name
+        cells = ([_number(row[used[k].place]) for row in rows] for k in ("lat", "lon"))
+        if not all(any(x % 1.0 > 0.0 for x in degrees) for degrees in cells):
+            raise ValueError(f"its column {name!r} has minutes of a degree, which is not read")
+        reasons.append(f"without their {name!r} beside {used['lat'].name!r}")
+    if "speed" in used and not used["speed"].per:
+        # Telephones report it in m/s, and beside it one of these.
+        if "accuracy" in by_role or any("bearing" in c.name.casefold() for c in columns):
+            used["speed"] = used["speed"]._replace(per=1.0)
+        else:
+            reasons.append(f"without their {used.pop('speed').name!r}, which names no unit")
+    return used, reasons
+
+
+def _style(column: _Column) -> tuple[set[str], bool]:
+    """The words of a name beside lat or lon, and whether those are written out."""
+    name = column.name.casefold()
+    words = re.sub("latitude|longitude|lat|long?|lng|[^a-z0-9]", " ", name).split()
+    return {*words}, "itude" in name
+
+
+def _best(column: _Column, date: _Column | None, rows: list[list[str]]) -> tuple[float, ...]:
+    """A key for the least: what can be read, is a time by its name, differs, and has a zone."""
+    seconds = [_seconds(column, date, row) for row in rows]
+    known = {time for time in seconds if time is not None and not math.isnan(time)}
+    cell = rows[0][column.place].strip() if rows else ""
+    if math.isnan(_number(cell)):
+        kind = 0.0 if re.search(r"(Z|[+-][0-9]{2}:?[0-9]{2})$", cell) else 1.0
+    else:
+        kind = 3.0 if column.per == 1.0 else 2.0
+    return not known, column.role != "time", -len(known), kind, column.place
+
+
+def _position(
+    columns: list[_Column], used: dict[str, _Column], row: list[str]
+) -> tuple[float, float, float | None, str]:
+    """Latitude, longitude, time and, of one that is not read, why; or ValueError."""
     if row[0].startswith("#"):
         raise ValueError("comment")
     if len(row) < len(columns) or any(map(str.strip, row[len(columns) :])):  # decimal commas
         raise ValueError("row with more or fewer cells than the header")
     if "\n" in "".join(row) or "\r" in "".join(row):
         raise ValueError("row with a cell over several lines")
-    per, cells = dict(columns), {"time": ""}
-    for (role, _), cell in zip(columns, row, strict=False):
-        cells[role] = cell.strip()
-        words = re.findall("[a-z]+|-?[0-9]+", cell.casefold()) or [""]
-        if words[0] not in _GOOD.get(role, words):
-            raise ValueError("row without a measured fix")
-    lat = _degrees(cells["lat"], "NS", cells.get("N/S")) / per["lat"]
-    lon = _degrees(cells["lon"], "EW", cells.get("E/W")) / per["lon"]
-    clock, seconds = cells["time"], _number(cells["time"])
-    if not clock:
-        return lat, lon, math.nan
-    if "date" in per or math.isnan(seconds):
-        day = cells.get("date", "").replace("/", "-")
-        return lat, lon, timestamp(f"{day}T{clock}" if "date" in per else clock)
-    # Without its unit none is guessed; since 1970 ms are more than 1e11.
-    return lat, lon, seconds / per["time"] if per["time"] * 1e11 > abs(seconds) else None
+    for column in columns:
+        if good := _GOOD.get(column.role):
+            words = re.findall("[a-z]+|-?[0-9]+", row[column.place].casefold()) or [""]
+            if words[0] not in good or not _DENIED.isdisjoint(words):
+                raise ValueError("row without a measured fix")
+    cells = {role: row[column.place].strip() for role, column in used.items()}
+    lat = _degrees(cells["lat"], "NS", cells.get("N/S")) / used["lat"].per
+    lon = _degrees(cells["lon"], "EW", cells.get("E/W")) / used["lon"].per
+    if (clock := used.get("time")) is None:
+        return lat, lon, math.nan, ""
+    doubt = f"with an unreadable time in column {clock.name!r}"
+    if not clock.per and math.isfinite(_number(cells["time"])):
+        doubt = f"with a number without a unit in column {clock.name!r}"
+    return lat, lon, _seconds(clock, used.get("date"), row), doubt
 
 
-def _reported(columns: _Columns, row: list[str]) -> Reported:
-    per = dict(columns)
-    cells = {role: cell.strip() for (role, _), cell in zip(columns, row, strict=False)}
-    roles = per.keys() & {*Reported._fields} - {"quality"}
-    reported = {role: reading(cells[role].replace(",", "."), 1.0 / per[role]) for role in roles}
-    text = cells.get("quality", cells.get("fix", "")).casefold()
-    number = reading(text.replace("9", "2")) if "quality" in per else math.nan
+def _seconds(column: _Column, date: _Column | None, row: list[str]) -> float | None:
+    """The time in a column, with a date beside it or not; NaN if empty, None if unreadable."""
+    text = row[column.place].strip()
+    if not text:
+        return math.nan
+    if column.per and column.role == "time" and math.isfinite(seconds := _number(text)):
+        # Since 1970 ms are more than 1e11.
+        return seconds / column.per if column.per * 1e11 > abs(seconds) else None
+    if date is None or date == column or re.match("[0-9]{4}[-/]", text):
+        return timestamp(text.replace("/", "-"))
+    return timestamp(f"{row[date.place].strip().replace('/', '-')}T{text}")
+
+
+def _reported(used: dict[str, _Column], row: list[str]) -> Reported:
+    cells = {role: row[column.place].strip() for role, column in used.items()}
+    roles = used.keys() & {*Reported._fields} - {"quality"}
+    reported = {
+        role: reading(cells[role].replace(",", "."), 1.0 / used[role].per) for role in roles
+    }
+    text = cells.get("quality", cells.get("fix type", cells.get("fix", ""))).casefold()
     words = re.findall("[a-z]+", text)
+    if "quality" in used:
+        number = reading(text.replace("9", "2"))
+    else:
+        number = _FIX_TYPES.get(text, math.nan) if "fix type" in used else math.nan
     reported["quality"] = next((_QUALITY[word] for word in _QUALITY if word in words), number)
     reported["course"] = reported.get("course", math.nan) * math.radians(1.0)
     return Reported(**reported)
@@ -141,6 +240,8 @@ def _degrees(cell: str, sides: str, side: str | None) -> float:
     """Degrees, NaN if there are none; ValueError where sign and hemisphere leave a doubt."""
     if side is not None and side.upper()[:1] not in {*sides}:
         raise ValueError("row without a readable hemisphere")
+    if _MINUTES.match(cell):
+        raise ValueError("latitude or longitude in degrees and minutes (ddmm)")
     text = (cell + (side or "")[:1]).upper()
     bare = text.strip(sides + " \xba\xb0\udcba\udcb0")  # degree signs, of Latin-1 too
     plus, minus = (letter in text.replace(bare, "", 1) for letter in sides)

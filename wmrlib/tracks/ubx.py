@@ -12,7 +12,7 @@ import numpy as np
 
 from wmrlib.checks import book_extra
 from wmrlib.tracks import nmea
-from wmrlib.tracks.fixes import Fixes, Reported, timestamp
+from wmrlib.tracks.fixes import DISAGREEING, Fixes, Reported, disagree, timestamp, trust
 
 # Where a message or a sentence may begin, and the messages that are read, by class and id, with
 # the lengths that they may have: out of any other pyubx2 reads numbers all the same.
@@ -105,7 +105,7 @@ def _messages(data: mmap, fixes: Fixes) -> Iterator[tuple[int, bytes, Any]]:
 
 
 def _of_one(messages: Iterator[tuple[int, bytes, Any]], fixes: Fixes) -> _Epoch:
-    """The first NAV-PVT of an epoch and the messages that belong to it; others are counted."""
+    """The best NAV-PVT of an epoch and the messages that belong to it; others are counted."""
     by_kind: dict[bytes, list[tuple[int, Any]]] = {}
     for byte, kind, message in messages:
         same = by_kind.setdefault(kind, [])
@@ -113,10 +113,13 @@ def _of_one(messages: Iterator[tuple[int, bytes, Any]], fixes: Fixes) -> _Epoch:
             fixes.skip("message again", byte)
         else:
             same.append((byte, message))
-    byte, pvt = by_kind.get(_PVT, [(0, None)])[0]
     several = len(by_kind.get(_PVT, ())) > 1
-    if several:
-        fixes.noted.count("of an epoch with two receivers, the first's", byte)
+    order = sorted(by_kind.get(_PVT, ()), key=lambda row: -trust(_quality(row[1])))
+    first, pvt = order[0] if order else (0, None)
+    rivals = [message for _, message in order[1:] if trust(_quality(message))]
+    if pvt and rivals:
+        apart = any(disagree(pvt.lat, pvt.lon, rival.lat, rival.lon) for rival in rivals)
+        fixes.noted.count(DISAGREEING if apart else "of an epoch with two receivers", first)
     epoch: _Epoch = {}
     for kind, rows in by_kind.items():
         for byte, message in rows:
@@ -132,6 +135,13 @@ def _of_one(messages: Iterator[tuple[int, bytes, Any]], fixes: Fixes) -> _Epoch:
     return epoch
 
 
+def _quality(pvt: Any) -> float:
+    """As in GGA, NaN without a fix."""
+    if not pvt.gnssFixOk or pvt.fixType not in (2, 3, 4) or pvt.invalidLlh:
+        return math.nan
+    return {2: 4.0, 1: 5.0}.get(pvt.carrSoln, 2.0 if pvt.diffSoln else 1.0)
+
+
 def _use(epoch: _Epoch, fixes: Fixes) -> None:
     """Use the position of one epoch, or count why not."""
     if _PVT not in epoch:
@@ -139,7 +149,7 @@ def _use(epoch: _Epoch, fixes: Fixes) -> None:
             fixes.skip("message of an epoch without NAV-PVT", byte)
         return
     byte, pvt = epoch[_PVT]
-    if not pvt.gnssFixOk or pvt.fixType not in (2, 3, 4) or pvt.invalidLlh:
+    if math.isnan(quality := _quality(pvt)):
         return fixes.skip("NAV-PVT without a fix", byte)
     place, baseline, dop = (epoch.get(kind, (0, None))[1] for kind in (_PLACE, _BASELINE, _DOP))
     best = pvt if place is None or place.invalidLlh else place
@@ -149,7 +159,7 @@ def _use(epoch: _Epoch, fixes: Fixes) -> None:
         time = timestamp(f"{pvt.year:04d}-{pvt.month:02d}-{pvt.day:02d}T{clock}")
     aims = baseline is not None and baseline.relPosValid and baseline.relPosHeadingValid
     reported = Reported(
-        quality={2: 4.0, 1: 5.0}.get(pvt.carrSoln, 2.0 if pvt.diffSoln else 1.0),
+        quality=quality,
         satellites=pvt.numSV,
         hdop=math.nan if dop is None else dop.hDOP,
         speed=1e-3 * pvt.gSpeed,

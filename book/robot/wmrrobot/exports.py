@@ -13,6 +13,7 @@ import numpy as np
 
 import wmrlib as wmr
 from wmrlib.tracks import Track
+from wmrlib.tracks.neighbours import strays
 from wmrrobot.sheets import Robot, sheet
 
 TEMPLATES = Path(__file__).with_name("templates")
@@ -31,11 +32,13 @@ def along(robot: Robot, track: Track) -> Robot:
 def at_rest(robot: Robot, track: Track) -> Robot:
     """The robot with the scatter of a log at rest as its receiver's sigma.
 
-    It is too small unless the log is much longer than the memory: what errs by the same amount all
-    the time does not scatter.
+    Positions far outside the scatter of the others are left out. It is too small unless the log is
+    much longer than the memory: what errs by the same amount all the time does not scatter.
     """
-    first = wmr.GeoPoint(lat=float(track.points.lat[0]), lon=float(track.points.lon[0]))
-    places = wmr.local_position(first, track.points)
+    near = ~strays(track.points)
+    points = wmr.GeoPoint(lat=track.points.lat[near], lon=track.points.lon[near])
+    first = wmr.GeoPoint(lat=float(points.lat[0]), lon=float(points.lon[0]))
+    places = wmr.local_position(first, points)
     return robot._replace(sigma=math.sqrt(float(np.mean(np.var(places, axis=1)))))
 
 

@@ -23,7 +23,8 @@ const LOGS = {
     return { start_lat, start_lon, goal_lat, goal_lon };
   }],
   sigma: ['from a log at rest', (points, { earth }) => {
-    const places = points.map((point) => placeOf(points[0], point, earth));
+    const near = scattered(points, earth),
+        places = near.map((point) => placeOf(near[0], point, earth));
     const spread = (k) => {
       const mean = places.reduce((sum, place) => sum + place[k], 0) / places.length;
       return places.reduce((sum, place) => sum + (place[k] - mean) ** 2, 0) / places.length;
@@ -31,6 +32,18 @@ const LOGS = {
     return { sigma: Number(Math.sqrt((spread(0) + spread(1)) / 2).toPrecision(4)) };
   }],
 };
+
+// The points that are not far outside the scatter of the others, as wmrlib's `strays` has it.
+function scattered(points, earth) {
+  const sorted = (values) => [...values].sort((a, b) => a - b),
+      median = (values) => sorted(values)[values.length >> 1],
+      [, east] = points[0], // so that the date line does not matter
+      lon = median(points.map((point) => (point[1] - east + 540) % 360)) - 180 + east,
+      middle = [median(points.map((point) => point[0])), lon],
+      far = points.map((point) => Math.hypot(...placeOf(middle, point, earth))),
+      most = sorted(far)[Math.floor(0.75 * (far.length - 1))];
+  return points.filter((_, k) => far[k] <= Math.max(1, 10 * most));
+}
 
 // Rows of names and values.
 function table(parent, title) {

@@ -1,0 +1,98 @@
+"""Positions of one segment judged among their neighbours: first their times, then their places."""
+
+from array import array
+from bisect import bisect_left
+
+import numpy as np
+
+from wmrlib.geodesy import GeoPoint, haversine_distance
+
+_DAY = 86400.0  # s
+_FASTEST, _ROOM = 340.0, 100.0  # m/s of any vehicle, and m that a receiver's errors may add
+
+
+def null_island(lat: np.ndarray, lon: np.ndarray) -> np.ndarray:
+    """Which positions are (0, 0), as of a receiver without a fix, in a file from elsewhere."""
+    zero = np.maximum(abs(lat), abs(lon)) < 1e-6
+    others = np.maximum(abs(lat), abs(lon))[~zero]
+    return zero & (not others.size or np.median(others) > 1.0)
+
+
+def without_steps_of_days(time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    """The times as if the date had been right from the start.
+
+    Also which positions come after such a step, and which after more than a day without any. The
+    clock goes on while a date is put right, and a log that is written once a day has no such step.
+    """
+    put_right, waited = np.zeros((2, time.size), bool)
+    timed = np.flatnonzero(~np.isnan(time))
+    steps = np.diff(time[timed])
+    short = steps[(steps > 0.0) & (steps < 0.5 * _DAY)]
+    if not short.size or short.size == steps.size or (usual := float(np.median(short))) > 60.0:
+        return time, put_right, waited
+    days = np.round(steps / _DAY) * _DAY
+    rest = steps - days
+    wrong = (days != 0.0) & (rest > 0.0) & (rest < min(10.0 * usual, 100.0))
+    put_right[timed[1:]], waited[timed[1:]] = wrong, ~wrong & (steps > _DAY)
+    time = time.copy()
+    time[timed[1:]] -= np.cumsum(np.where(wrong, days, 0.0))
+    return time, put_right, waited
+
+
+def late(time: np.ndarray) -> np.ndarray:
+    """Which positions are outside the longest run whose times increase."""
+    timed, left = np.flatnonzero(~np.isnan(time)), np.zeros(time.size, bool)
+    if (np.diff(time[timed]) > 0.0).all():
+        return left
+    # Patience sorting, from the last to the first.
+    falling, ends = array("d", -time[timed]), array("d")
+    lengths = array("q", timed)  # of the longest run that begins there, less one
+    for i in reversed(range(timed.size)):
+        lengths[i] = bisect_left(ends, falling[i])
+        ends[lengths[i] : lengths[i] + 1] = array("d", [falling[i]])
+    # Of runs as long, the one that begins first and then goes on with the nearest times.
+    last = lengths.index(len(ends) - 1)
+    left[timed], left[timed[last]] = True, False
+    for i in np.lexsort((time[timed], np.negative(lengths))).tolist():
+        if i > last and falling[i] < falling[last]:
+            left[timed[i]], last = False, i
+    return left
+
+
+def unreachable(lat: np.ndarray, lon: np.ndarray, time: np.ndarray) -> tuple[np.ndarray, bool]:
+    """Which positions no vehicle reaches from the others in the time, and whether they are few.
+
+    The longest stretch without a jump is right, and before and after it all that can be reached.
+    """
+    far, timed = np.zeros(time.size, bool), np.flatnonzero(~np.isnan(time))
+
+    def jump(i: np.ndarray, j: np.ndarray) -> np.ndarray:
+        a, b = (GeoPoint(lat=lat[k], lon=lon[k]) for k in (i, j))
+        return haversine_distance(a, b) > _ROOM + _FASTEST * abs(time[j] - time[i])
+
+    jumps = np.flatnonzero(jump(timed[:-1], timed[1:])) + 1
+    if not jumps.size:
+        return far, True
+    stretches = np.split(timed, jumps)
+    longest = int(np.argmax([stretch.size for stretch in stretches]))
+    for way in (stretches[longest:], [part[::-1] for part in stretches[longest::-1]]):
+        last = way[0][-1]
+        for stretch in way[1:]:
+            far[stretch] = jump(last, stretch[0])
+            last = last if far[stretch[0]] else stretch[-1]
+    return far, 4 * far.sum() <= timed.size
+
+
+def strays(points: GeoPoint) -> np.ndarray:
+    """Which positions of a receiver at rest are far outside the scatter of the others.
+
+    They are more than a metre from the median, and ten times as far as three quarters of all.
+    """
+    lat, lon = np.broadcast_arrays(np.radians(points.lat), np.radians(points.lon))
+    vectors = np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)
+    x, y, z = (np.median(values) for values in vectors)  # right at the date line and at the poles
+    middle = GeoPoint(
+        lat=np.degrees(np.arctan2(z, np.hypot(x, y))), lon=np.degrees(np.arctan2(y, x))
+    )
+    far = np.asarray(haversine_distance(middle, points))
+    return far > max(1.0, 10.0 * np.quantile(far, 0.75))
