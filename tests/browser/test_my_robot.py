@@ -138,6 +138,15 @@ def log_of_all_kinds():
         gga.format("120008.00", 40000, 8),
         gga.format("", 41000, 1),
     ]
+    rows += [
+        gga.format("120011.00", 38500, 1),
+        gga.format("120011.00", 38600, 5).replace("GP", "GN", 1),  # RTK, of another receiver
+        gga.format("120012.00", 38700, 0),
+        gga.format("120012.00", 38800, 1).replace("GP", "GN", 1),
+        gga.format("120013.00", 0, 1).replace("0012", "0000").replace("00101.5", "00000.0"),
+        gga.format("120040.00", 38900, 1).replace("00101", "00103"),  # far from the others
+        *(gga.format(f"1201{k}.00", 39000 + k, 1) for k in range(15, 25)),
+    ]
     lines = [sentence(row) for row in rows]
     lines += [f"# {sentence(gga.format('120009.00', 42000, 1))}"]
     lines += [sentence(gga.format("120010.00", 43000, 1))[:-2] + "00"]
@@ -149,7 +158,7 @@ def test_a_log_fills_in_the_way_and_the_scatter(emptied_page, tmp_path):
     panel = opened(emptied_page)
     made = tmp_path / "made.nmea"
     made.write_bytes(log_of_all_kinds().encode())
-    assert len(wmr.read_track(made)) == 4
+    assert len(wmr.read_track(made)) == 17
     for path in (made, *DATA.glob("ublox*")):
         track = wmr.read_track(path)
         for label, filled in (("from the log of a drive", along), ("from a log at rest", at_rest)):

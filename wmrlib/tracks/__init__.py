@@ -1,4 +1,4 @@
-"""Positions from NMEA, UBX, GPX and CSV files, with a count of the lines that are not used."""
+"""Positions from files of receivers and apps, with a count of the lines that are not used."""
 
 import os
 from dataclasses import dataclass
@@ -19,13 +19,17 @@ __all__ = ["Count", "Report", "Track", "read_track", "write_geojson", "write_gpx
 class Track:
     """The positions of a file, in its order, in arrays that can't be written to.
 
-    `t` is in s since the first position that has a time, NaN where there is none, and in order
-    within a segment of GPX and in the whole of another file. `source` is "NMEA", "UBX", "GPX" or
-    "CSV". The other arrays hold the receiver's own reports, NaN where there is none: `quality`
-    of the fix as in GGA (1 plain, 2 differential or SBAS, 3 precise, 4 RTK fixed, 5 RTK float);
-    `satellites` in use; `hdop`; `speed` in m/s and `course` over ground in rad clockwise from
-    north; `heading`, so too, of the line from one antenna to another; `accuracy`, its own estimate
-    of the error in the plane, in m.
+    `t` is in s since the first position that has a time, NaN where there is none, and increases
+    within a segment of GPX or GeoJSON and in the whole of another file. `source` is "NMEA", "UBX",
+    "GPX", "GeoJSON", "gpsd" or "CSV". The other arrays hold the receiver's own reports, NaN where
+    there is none: `quality` of the fix as in GGA (1 plain, 2 differential or SBAS, 3 precise,
+    4 RTK fixed, 5 RTK float); `satellites` in use; `hdop`; `speed` in m/s and `course` over ground
+    in rad clockwise from north; `heading`, so too, of the line from one antenna to another;
+    `accuracy`, its own estimate of the error in the plane, in m.
+
+    Raises
+    ------
+    ValueError : by hand, an array of another length than `points`, or a value that is no number
     """
 
     points: GeoPoint
@@ -73,17 +77,23 @@ class Track:
 
 
 def read_track(path: str | os.PathLike) -> Track:
-    """Read positions from NMEA, UBX, GPX or a CSV table; the content tells which.
+    """Read positions from NMEA, UBX, GPX, GeoJSON, gpsd or a CSV table; the content tells which.
 
-    NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once;
-    not where the most trusted of these says that there is no fix; checksum needed.
+    NMEA: GGA of every talker, and for an epoch without one its GNS, RMC or GLL; each epoch once, by
+    its best fix; not where the most trusted kind says that there is no fix; checksum needed.
     UBX, alone or mixed with NMEA: NAV-PVT, of its epoch NAV-HPPOSLLH's digits, NAV-RELPOSNED's
     heading and NAV-DOP's hdop; in a file without NAV-PVT the sentences. It takes pyubx2.
-    GPX: the track points, or else the route's, or else the waypoints (without their times).
+    GPX: the track points, or else the route's, or else the waypoints (without their times); of two
+    elements of one name the point's own. GeoJSON: the lines, or else the points. gpsd: its TPV.
     CSV: one of the first ten lines names the columns: lat or latitude; lon, lng, long or longitude,
     in degrees (33.27, 33.27 N or "33,27") or e7; optionally N/S and E/W; t, time_s or time_ms,
-    or time in ISO 8601, with a date (2026-03-01) beside it or not; valid, fix, quality or status.
-    Where times run backwards, the longest run in order is used (in GPX, of each segment).
+    or time in ISO 8601, with a date (2026-03-01) beside it or not; valid, fix, quality, status or
+    MAVLink's fix_type. Of several columns the best is used, and the report names the others.
+
+    Where times do not increase, the longest run that does is used, and in a step of whole days
+    while the clock goes on the date was wrong. (0, 0) far from all others is not used, nor is a
+    place that no vehicle reaches in the time, unless more than a quarter are such. All of this is
+    within a segment of GPX or GeoJSON, and in the report.
 
     Parameters
     ----------
