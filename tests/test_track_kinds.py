@@ -56,6 +56,12 @@ def test_elements_of_one_name_are_never_joined(read, name, elements):
     assert [*track.report.noted] == [f"with two values of {field}"] * differ
 
 
+def test_elements_within_an_element_are_not_its_text(read):
+    inner = "<speed>2<x:u>5</x:u>1</speed><extensions><speed>3</speed></extensions>"
+    track = read(gpx(trk(f'<trkpt lat="1" lon="2">{inner}</trkpt>')))
+    assert track.speed.tolist() == [3.0]
+
+
 # A position among its neighbours
 
 STRAYS = ("null island", "far", "date", "date back", "same time", "twice", "late")
@@ -183,7 +189,16 @@ def test_the_best_of_several_columns_is_read(read, names, times, before):
         assert any(f"in column '{name}'" in noted for name in names)
 
 
-ACCURACY, SPEED = "accuracy", "speed"
+def test_the_best_column_can_be_read_tells_most_and_comes_with_its_twin(read):
+    track = read("timestamp,Local time,lat,lon\n1772366400,2026-03-01 12:00:00,1,2\n")
+    assert track.t.tolist() == [0.0]  # a number without a unit is none
+    rows = [f"2026-03-01T12:00:0{k // 4}Z,{250 * k},1,2" for k in range(8)]
+    track = read(["time,time_ms,lat,lon", *rows, ""])
+    assert track.t.tolist() == [0.25 * k for k in range(8)]
+    track = read("lat,gps_lat,gps_lon,latitude,longitude,lon\n1,2,3,4,5,6\n")
+    assert [x.tolist() for x in (track.points.lat, track.points.lon)] == [[1.0], [6.0]]
+
+
 APPS = {  # header, row
     "phyphox": ('"Time (s)","Latitude (°)","Longitude (°)","Height (m)","Velocity (m/s)",'
                 '"Direction (°)","Horizontal Accuracy (m)","Vertical Accuracy (m)"',
