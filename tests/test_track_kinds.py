@@ -222,12 +222,24 @@ def test_what_an_app_calls_accuracy_speed_and_direction_is_known(read, app):
     assert track.course[0] == pytest.approx(math.pi / 2)
 
 
+@pytest.mark.parametrize(
+    "name", ["ts", "epoch", "gps_tow", "TimeUTC", "fixTime", "Datum", "iTOW", "unix_s", "seconds"]
+)
+def test_no_column_named_like_a_time_is_passed_over_silently(read, name):
+    for cell in ("1772366400", "01.03.2026", "noon"):
+        track = read(f"{name},lat,lon\n{cell},33,44\n")
+        assert np.isnan(track.t[0])
+        assert f"in column {name!r}" in repr(track.report)
+
+
 def test_a_column_that_is_not_used_is_named(read):
     track = read("lat,lon,lat_min,speed\n33.25,44.5,15,3\n33.5,44.5,30,3\n")
     assert dict(track.report.noted) == {
         "without their 'lat_min' beside 'lat'": (2, 2),
         "without their 'speed', which names no unit": (2, 2),
     }
+    track = read("fixTime,lat,lon,speed,course,accuracy\n,33,44,10,90,3\n")  # in knots, by Traccar
+    assert "'speed', which names no unit" in repr(track.report)
     with pytest.raises(ValueError, match="column 'lat_min' has minutes of a degree"):
         read("lat,lon,lat_min\n33,44,15\n")
     degrees = "latitude or longitude in degrees and minutes (ddmm)"
@@ -372,7 +384,7 @@ def test_json_of_others(read):
     assert read(f'{{"class":"VERSION"}}\n{gga()}\n').source == "NMEA"
     for bad, why in [
         ('{"type": "Topology"}', "export it as GPX"),
-        ('{"type": ', "JSON is broken"),
+        ('{"type": ', "not a whole GeoJSON"),
         (collection(feature("Polygon", [])), "neither a line nor a point"),
     ]:
         with pytest.raises(ValueError, match=why):

@@ -22,10 +22,9 @@ def read(text: TextIO) -> tuple[str, Fixes]:
         sentences = None if fixes.table else nmea.read(nmea.numbered(text), Fixes())
         return ("NMEA", sentences) if sentences else ("gpsd", fixes)
     text.seek(0)
-    if not (found := _parsed(text.read())):
-        raise ValueError("its JSON is broken, or holds no object")
+    found = _parsed(text.read())
     if str(found.get("type")) not in {*_DEPTH, "Feature", "FeatureCollection"}:
-        raise ValueError("it is JSON, but neither GeoJSON nor a gpsd log; export it as GPX")
+        raise ValueError("it is JSON, but not a whole GeoJSON or a gpsd log; export it as GPX")
     return "GeoJSON", _geojson(found)
 
 

@@ -28,12 +28,15 @@ def without_steps_of_days(time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.
     timed = np.flatnonzero(~np.isnan(time))
     steps = np.diff(time[timed])
     short = steps[(steps > 0.0) & (steps < 0.5 * _DAY)]
-    if not short.size or short.size == steps.size or (usual := float(np.median(short))) > 60.0:
+    if not short.size or short.size == steps.size:
         return time, put_right, waited
+    usual = float(np.median(short))
+    soon = max(1.5 * usual, min(10.0 * usual, 100.0)) if usual <= 600.0 else 0.0
     days = np.round(steps / _DAY) * _DAY
     rest = steps - days
-    wrong = (days != 0.0) & (rest > 0.0) & (rest < min(10.0 * usual, 100.0))
-    put_right[timed[1:]], waited[timed[1:]] = wrong, ~wrong & (steps > _DAY)
+    wrong = (days != 0.0) & (rest > 0.0) & (rest < soon)
+    put_right[timed[1:]] = wrong
+    waited[timed[1:]] = ~wrong & (steps > max(_DAY, 100.0 * usual))
     time = time.copy()
     time[timed[1:]] -= np.cumsum(np.where(wrong, days, 0.0))
     return time, put_right, waited

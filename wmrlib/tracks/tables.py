@@ -12,7 +12,8 @@ from wmrlib.tracks.fixes import KNOT, LONGEST, Fixes, Reported, number, reading,
 
 _LAT, _LON = "(gps )?lat(itude)?", "(gps )?(lng|long?|longitude)"
 _SIDE = "(dir|direction|ref|reference|hemi|hemisphere|indicator)"
-_TIME = "time|date|timestamp|(date|up)time|utc|clock|millis|elapsed|zeit|uhrzeit"
+_TIME = "((date|up|i)?time|timestamp|i?tow|date|stamp|epoch|unix|ts|utc|clock|millis|elapsed"
+_TIME += "|(milli)?sec(ond)?s?|hours?|datum|(uhr)?zeit|fecha|hora|heure)"
 _UNIT = "( s| sec| seconds| ms| milliseconds| us| ns)?"
 _ROLES = {  # of a column, by the words of its name; the first that fits
     "lat": f"{_LAT}( deg| degrees)?( n s)?( e7)?",
@@ -22,8 +23,8 @@ _ROLES = {  # of a column, by the words of its name; the first that fits
     "date": "((gps |utc )?date|date (gps|utc))",
     "time": f"((gps |utc )?time|timestamp|date ?time|t)( utc)?{_UNIT}|(seconds|ms) elapsed"
     f"|elapsed( time)?{_UNIT}|millis",
-    "other time": f"(.* )?({_TIME})( .*)?",
     "minutes": f"({_LAT}|{_LON}) ?(.* )?(m|mins?|minutes?|s|secs?|seconds?)",  # of a degree
+    "other time": f"(.* )?{_TIME}( .*)?",
     "fix": "(is |gps )?(valid|fix)",
     "quality": "(fix |gps )?quality",
     "fix mode": "(gps )?fix mode",
@@ -41,9 +42,27 @@ _PER |= {"mps": 1.0, "ms": 1e3, "milliseconds": 1e3, "millis": 1e3, "us": 1e6, "
 _PER |= dict.fromkeys(("h", "kmh", "kph"), 3.6) | {"mph": 1.0 / 0.44704}
 _PER |= dict.fromkeys(("knot", "knots", "kt", "kts", "kn"), 1.0 / KNOT)
 _FIX = {"yes", "true", "ok", "valid", "fix", "fixed", "float", "y", "a", "d", "p", "r", "f", "gps"}
-_FIX |= {"gnss", "sps", "dgps", "pps", "rtk", "frtk", "1", "2", "3", "4", "5", "9", ""}
+_FIX |= {
+    "gnss",
+    "single",
+    "autonomous",
+    "sps",
+    "dgps",
+    "pps",
+    "rtk",
+    "frtk",
+    "1",
+    "2",
+    "3",
+    "4",
+    "5",
+    "9",
+    "",
+}
 _QUALITY = {"float": 5.0, "frtk": 5.0, "rtk": 4.0, "pps": 3.0, "dgps": 2.0}  # first word to fit
-_QUALITY |= dict.fromkeys(("sps", "gps", "gnss"), 1.0)  # "fixed" may be any fix
+_QUALITY |= dict.fromkeys(
+    ("sps", "gps", "gnss", "single", "autonomous"), 1.0
+)  # "fixed" may be any fix
 _FIX_TYPES = {"2": 1.0, "3": 1.0, "4": 2.0, "5": 5.0, "6": 4.0, "8": 3.0}  # MAVLink, ArduPilot
 # The first word says so, unless another one denies it.
 _GOOD = {"fix": _FIX, "quality": _FIX, "fix mode": _FIX - {"1"}, "status": _FIX | {"0"}}
@@ -153,8 +172,8 @@ def _chosen(columns: list[_Column], rows: list[list[str]]) -> tuple[dict[str, _C
             raise ValueError(f"its column {name!r} has minutes of a degree, which is not read")
         reasons.append(f"without their {name!r} beside {used['lat'].name!r}")
     if "speed" in used and not used["speed"].per:
-        # Telephones report it in m/s, and beside it one of these.
-        if "accuracy" in by_role or any("bearing" in c.name.casefold() for c in columns):
+        # Android reports it in m/s, with these two beside it.
+        if "accuracy" in by_role and any("bearing" in c.name.casefold() for c in columns):
             used["speed"] = used["speed"]._replace(per=1.0)
         else:
             reasons.append(f"without their {used.pop('speed').name!r}, which names no unit")
@@ -201,7 +220,7 @@ def _position(
     if (clock := used.get("time")) is None:
         return lat, lon, math.nan, ""
     doubt = f"with an unreadable time in column {clock.name!r}"
-    if not clock.per and math.isfinite(_number(cells["time"])):
+    if not (clock.per and clock.role == "time") and math.isfinite(_number(cells["time"])):
         doubt = f"with a number without a unit in column {clock.name!r}"
     return lat, lon, _seconds(clock, used.get("date"), row), doubt
 
