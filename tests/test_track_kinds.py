@@ -64,7 +64,7 @@ def test_elements_within_an_element_are_not_its_text(read):
 
 # A position among its neighbours
 
-STRAYS = ("null island", "far", "date", "date back", "same time", "twice", "late")
+STRAYS = ("unset", "null island", "far", "date", "date back", "same time", "twice", "late")
 
 
 def rest(n):
@@ -83,6 +83,8 @@ def spoilt(rows, kind, k, size):
         "same time": (second, lat, lon),
         "late": (second - size * 86.4, lat, lon),
     }
+    if kind == "unset":  # its t is not known, but its place is
+        return [(-1.4e9 - size * 86400 + row[0], *row[1:]) for row in rows[:k]] + rows[k:]
     if kind in ("date", "date back"):
         step = 86400 * math.ceil(size) * (1 if kind == "date" else -1)
         return rows[:k] + [(second + step, lat, lon) for second, lat, lon in rows[k:]]
@@ -103,7 +105,9 @@ def test_what_does_not_fit_its_neighbours_spoils_nothing(read, kind, n, k, size,
         track = read(gpx(trk(*points)))
     else:
         track = read(["lat,lon,t", *(f"{lat},{lon},{second}" for second, lat, lon in changed), ""])
-    np.testing.assert_allclose(track.t, [second for second, *_ in rows], atol=1e-6)
+    unset = k % n or 1 if kind == "unset" else 0
+    seconds = [*[math.nan] * unset, *range(n - unset)]
+    np.testing.assert_allclose(track.t, seconds, atol=1e-6)
     assert track.points.lat.tolist() == [lat for _, lat, _ in rows]
     assert remarks(track)
     clean = np.array([[lat, lon] for _, lat, lon in rows]) - rows[0][1:]
@@ -288,6 +292,26 @@ def test_of_several_talkers_the_best_fix_counts(read, talkers):
     assert [*track.report.noted] == wanted
 
 
+def test_two_receivers_disagree_whatever_the_file(read):
+    first, second = ["1,2,0", "1,2,1"], ["1.001,2,0", "1.001,2,1"]
+    for rows in (first + second, [first[0], second[0], first[1], second[1]]):
+        track = read(["lat,lon,t", *rows, ""])
+        assert (track.points.lat.tolist(), track.t.tolist()) == ([1.0, 1.0], [0.0, 1.0])
+        assert track.report.skipped["same time again"].count == 2
+        assert [*track.report.noted] == [
+            "of an epoch in which two positions are more than 20 m apart"
+        ]
+
+
+@few
+@given(st.lists(st.sampled_from("12345"), min_size=1, max_size=6))
+def test_of_several_positions_with_one_time_the_best_counts(read, qualities):
+    rows = [f"{33 + k * 1e-5},44,1,{quality}" for k, quality in enumerate(qualities)]
+    track = read(["lat,lon,t,quality", "33,44,0,1", *rows, "33,44,2,1", ""])
+    best = max(range(len(rows)), key=lambda k: (WORST_FIRST.index(qualities[k]), -k))
+    assert track.points.lat.tolist() == [33.0, 33 + best * 1e-5, 33.0]
+
+
 def test_rtk_of_another_kind_of_sentence_counts(read):
     track = read([gga(mode=1), said("GNS", mode="ANR", talker="GN"), gga(mode=0)])
     assert track.rtk.tolist() == ["fixed"]
@@ -381,7 +405,8 @@ def test_json_of_others(read):
     assert (track.speed[0], track.accuracy[0]) == (1.5, 0.02)
     assert track.course[0] == pytest.approx(math.pi / 2)
     assert track.report.skipped["TPV without a fix"] == (1, 3)
-    assert read(f'{{"class":"VERSION"}}\n{gga()}\n').source == "NMEA"
+    for head in ('{"class":"VERSION"}', '{"battery": 12.1}'):
+        assert read(f"{head}\n{gga()}\n").source == "NMEA"
     for bad, why in [
         ('{"type": "Topology"}', "export it as GPX"),
         ('{"type": ', "not a whole GeoJSON"),

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from wmrlib.tracks.neighbours import late, null_island, unreachable, without_steps_of_days
+from wmrlib.tracks import neighbours
 
 LONGEST = 1 << 16  # characters of a line that are read at once
 KNOT = 1852.0 / 3600.0  # m/s
@@ -39,15 +39,6 @@ def trust(quality: float) -> int:
     return {4.0: 5, 5.0: 4, 3.0: 3, 2.0: 2, 1.0: 1}.get(quality, 0)
 
 
-DISAGREEING = "of an epoch in which two positions are more than 20 m apart"
-
-
-def disagree(lat: float, lon: float, lat2: float, lon2: float) -> bool:
-    """Whether two positions of one epoch are more than 20 m apart: two receivers, perhaps."""
-    east = math.remainder(lon - lon2, 360.0) * math.cos(math.radians(lat))
-    return math.hypot(lat - lat2, east) > 20.0 / 111_195.0  # m, and m of a degree
-
-
 class Count(NamedTuple):
     """The number of occurrences, and the line (in UBX the byte) of the first."""
 
@@ -60,7 +51,7 @@ class Report:
     """The number of positions used, and for each reason the Count of lines that gave none.
 
     `noted` counts positions that are used although something is amiss with them, and `place` is
-    "line" or "byte"; `print` it all.
+    "line", "byte" or, of GeoJSON, "feature"; `print` it all.
     """
 
     used: int
@@ -119,7 +110,7 @@ class Fixes:
         """The rows lat, lon, time and Reported of the positions by time, and the report."""
         table = np.frombuffer(self.table).reshape(-1, _WIDTH).copy()
         # Before the times: such a position often has a date of its own.
-        nowhere = null_island(table[:, 2], table[:, 3])
+        nowhere = neighbours.null_island(table[:, 2], table[:, 3])
         _count(self.skipped, "position at (0, 0)", table[nowhere])
         table = table[~nowhere]
         parts = np.split(table, np.flatnonzero(np.diff(table[:, 1])) + 1)
@@ -128,15 +119,20 @@ class Fixes:
 
     def _settled(self, part: np.ndarray) -> np.ndarray:
         """The positions of a segment that agree with one another."""
-        part[:, 4], put_right, waited = without_steps_of_days(part[:, 4])
-        _count(self.noted, "after a step of whole days, which t leaves out", part[put_right])
-        _count(self.noted, "after more than a day without a position", part[waited])
-        unordered, time = late(part[:, 4]), part[:, 4]
+        part[:, 4], doubts = neighbours.with_its_date_right(part[:, 4])
+        for reason, rows in doubts.items():
+            _count(self.noted, reason, part[rows])
+        time, quality = part[:, 4], part[:, 5].tolist()
+        again = neighbours.second_best(time, lambda i: trust(quality[i]))
+        unordered = neighbours.late(np.where(again, math.nan, time)) | again
         again = unordered & np.isin(time, time[~unordered])
         _count(self.skipped, "same time again", part[again])
+        used = {row[4]: row for row in part[~unordered]} if again.any() else {}
+        apart = [row for row in part[again] if neighbours.disagree(*row[2:4], *used[row[4]][2:4])]
+        _count(self.noted, neighbours.DISAGREEING, np.array(apart))
         _count(self.skipped, "time runs backwards", part[unordered & ~again])
         part = part[~unordered]
-        far, few = unreachable(*part[:, 2:5].T)
+        far, few = neighbours.unreachable(*part[:, 2:5].T)
         where = "place that no vehicle reaches in the time"
         if few:
             _count(self.skipped, where, part[far])

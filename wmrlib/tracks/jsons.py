@@ -15,17 +15,21 @@ _ESTIMATED = {5, 8}  # by dead reckoning alone, and simulated
 
 def read(text: TextIO) -> tuple[str, Fixes]:
     """The source and the positions; ValueError for JSON of another kind."""
-    if "class" in _parsed(text.readline()):
+    if gpsd := "class" in _parsed(text.readline()):
         text.seek(0)
         fixes = _gpsd(text)
-        text.seek(0)  # gpspipe -r writes sentences below a few messages
-        sentences = None if fixes.table else nmea.read(nmea.numbered(text), Fixes())
-        return ("NMEA", sentences) if sentences else ("gpsd", fixes)
+        if fixes.table:
+            return "gpsd", fixes
     text.seek(0)
-    found = _parsed(text.read())
-    if str(found.get("type")) not in {*_DEPTH, "Feature", "FeatureCollection"}:
-        raise ValueError("it is JSON, but not a whole GeoJSON or a gpsd log; export it as GPX")
-    return "GeoJSON", _geojson(found)
+    found = {} if gpsd else _parsed(text.read())
+    if str(found.get("type")) in {*_DEPTH, "Feature", "FeatureCollection"}:
+        return "GeoJSON", _geojson(found)
+    text.seek(0)  # gpspipe -r writes sentences below a few messages
+    if sentences := nmea.read(nmea.numbered(text), Fixes()):
+        return "NMEA", sentences
+    if gpsd:
+        return "gpsd", fixes
+    raise ValueError("it is JSON, but not a whole GeoJSON or a gpsd log; export it as GPX")
 
 
 def _parsed(text: str) -> dict[str, Any]:

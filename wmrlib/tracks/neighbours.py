@@ -1,14 +1,23 @@
 """Positions of one segment judged among their neighbours: first their times, then their places."""
 
+import math
 from array import array
 from bisect import bisect_left
+from collections.abc import Callable
 
 import numpy as np
 
-from wmrlib.geodesy import GeoPoint, haversine_distance
+from wmrlib.geodesy import EARTH_RADIUS_M, GeoPoint, great_circle_angle, haversine_distance
 
 _DAY = 86400.0  # s
 _FASTEST, _ROOM = 340.0, 100.0  # m/s of any vehicle, and m that a receiver's errors may add
+DISAGREEING = "of an epoch in which two positions are more than 20 m apart"
+
+
+def disagree(lat: float, lon: float, lat2: float, lon2: float) -> bool:
+    """Whether two positions of one epoch are more than 20 m apart: two receivers, perhaps."""
+    angles = map(math.radians, (lat, lat2, lat2 - lat, lon2 - lon))
+    return EARTH_RADIUS_M * great_circle_angle(*angles) > 20.0
 
 
 def null_island(lat: np.ndarray, lon: np.ndarray) -> np.ndarray:
@@ -18,28 +27,46 @@ def null_island(lat: np.ndarray, lon: np.ndarray) -> np.ndarray:
     return zero & (not others.size or np.median(others) > 1.0)
 
 
-def without_steps_of_days(time: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
-    """The times as if the date had been right from the start.
+def with_its_date_right(time: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
+    """The times as if the date had been right from the start, and which positions are in doubt.
 
-    Also which positions come after such a step, and which after more than a day without any. The
-    clock goes on while a date is put right, and a log that is written once a day has no such step.
+    The clock goes on while a date is put right, and a log that is written once a day has no such
+    step. A step of more than a year is of a clock that had not been set.
     """
-    put_right, waited = np.zeros((2, time.size), bool)
     timed = np.flatnonzero(~np.isnan(time))
     steps = np.diff(time[timed])
     short = steps[(steps > 0.0) & (steps < 0.5 * _DAY)]
     if not short.size or short.size == steps.size:
-        return time, put_right, waited
+        return time, {}
     usual = float(np.median(short))
     soon = max(1.5 * usual, min(10.0 * usual, 100.0)) if usual <= 600.0 else 0.0
     days = np.round(steps / _DAY) * _DAY
     rest = steps - days
     wrong = (days != 0.0) & (rest > 0.0) & (rest < soon)
-    put_right[timed[1:]] = wrong
-    waited[timed[1:]] = ~wrong & (steps > max(_DAY, 100.0 * usual))
+    waited = ~wrong & (steps > max(_DAY, 100.0 * usual))
+    years = np.flatnonzero(waited & (steps > 366.0 * _DAY))
+    unset = timed[: years[-1] + 1] if years.size else timed[:0]
     time = time.copy()
     time[timed[1:]] -= np.cumsum(np.where(wrong, days, 0.0))
-    return time, put_right, waited
+    time[unset] = math.nan
+    waited[: unset.size] = False
+    return time, {
+        "after a step of whole days, which t leaves out": timed[1:][wrong],
+        "after more than a day without a position": timed[1:][waited],
+        "with a time more than a year before the others, which t leaves out": unset,
+    }
+
+
+def second_best(time: np.ndarray, trusted: Callable[[int], int]) -> np.ndarray:
+    """Which of neighbours with one time are not the first of the most trusted."""
+    timed, again = np.flatnonzero(~np.isnan(time)), np.zeros(time.size, bool)
+    epochs = np.append(0, np.cumsum(np.diff(time[timed]) != 0.0))
+    if not timed.size or epochs[-1] + 1 == timed.size:
+        return again
+    trust = [trusted(i) for i in timed.tolist()]
+    order = np.lexsort((-np.array(trust), epochs))  # stable
+    again[timed[order[1:]]] = np.diff(epochs[order]) == 0
+    return again
 
 
 def late(time: np.ndarray) -> np.ndarray:
@@ -94,8 +121,6 @@ def strays(points: GeoPoint) -> np.ndarray:
     lat, lon = np.broadcast_arrays(np.radians(points.lat), np.radians(points.lon))
     vectors = np.cos(lat) * np.cos(lon), np.cos(lat) * np.sin(lon), np.sin(lat)
     x, y, z = (np.median(values) for values in vectors)  # right at the date line and at the poles
-    middle = GeoPoint(
-        lat=np.degrees(np.arctan2(z, np.hypot(x, y))), lon=np.degrees(np.arctan2(y, x))
-    )
-    far = np.asarray(haversine_distance(middle, points))
-    return far > max(1.0, 10.0 * np.quantile(far, 0.75))
+    lat, lon = np.degrees(np.arctan2(z, np.hypot(x, y))), np.degrees(np.arctan2(y, x))
+    far = np.asarray(haversine_distance(GeoPoint(lat=lat, lon=lon), points))
+    return far > max(1.0, 10.0 * np.quantile(far, 0.75, method="lower"))

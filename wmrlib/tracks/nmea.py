@@ -9,17 +9,16 @@ from operator import xor
 from typing import TextIO
 
 from wmrlib.tracks.fixes import (
-    DISAGREEING,
     KNOT,
     LONGEST,
     UNREPORTED,
     Fixes,
     Reported,
-    disagree,
     reading,
     timestamp,
     trust,
 )
+from wmrlib.tracks.neighbours import DISAGREEING, disagree
 
 # A body, with anything before and after it, and the checksum that is stated.
 _SENTENCE = re.compile(r"\$([A-Za-z]{2}[^$*\r\n]{3}[^$*\r\n]*)(\*[0-9A-Fa-f]{0,2})?")

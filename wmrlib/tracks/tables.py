@@ -41,33 +41,31 @@ _PER = {"e7": 1e7, "t": 1.0, "s": 1.0, "sec": 1.0, "seconds": 1.0}
 _PER |= {"mps": 1.0, "ms": 1e3, "milliseconds": 1e3, "millis": 1e3, "us": 1e6, "ns": 1e9}
 _PER |= dict.fromkeys(("h", "kmh", "kph"), 3.6) | {"mph": 1.0 / 0.44704}
 _PER |= dict.fromkeys(("knot", "knots", "kt", "kts", "kn"), 1.0 / KNOT)
-_FIX = {"yes", "true", "ok", "valid", "fix", "fixed", "float", "y", "a", "d", "p", "r", "f", "gps"}
-_FIX |= {
-    "gnss",
-    "single",
-    "autonomous",
-    "sps",
-    "dgps",
-    "pps",
-    "rtk",
-    "frtk",
-    "1",
-    "2",
-    "3",
-    "4",
-    "5",
-    "9",
-    "",
+_PLAIN = ("sps", "gps", "gnss", "single", "autonomous")
+_FIX = {
+    *_PLAIN,
+    "yes",
+    "true",
+    "ok",
+    "valid",
+    "fix",
+    "fixed",
+    "float",
+    "y",
+    "a",
+    "d",
+    "p",
+    "r",
+    "f",
 }
+_FIX |= {"y", "a", "d", "p", "r", "f", "dgps", "pps", "rtk", "frtk", "1", "2", "3", "4", "5", "9", ""}
 _QUALITY = {"float": 5.0, "frtk": 5.0, "rtk": 4.0, "pps": 3.0, "dgps": 2.0}  # first word to fit
-_QUALITY |= dict.fromkeys(
-    ("sps", "gps", "gnss", "single", "autonomous"), 1.0
-)  # "fixed" may be any fix
+_QUALITY |= dict.fromkeys(_PLAIN, 1.0)  # "fixed" may be any fix
 _FIX_TYPES = {"2": 1.0, "3": 1.0, "4": 2.0, "5": 5.0, "6": 4.0, "8": 3.0}  # MAVLink, ArduPilot
 # The first word says so, unless another one denies it.
 _GOOD = {"fix": _FIX, "quality": _FIX, "fix mode": _FIX - {"1"}, "status": _FIX | {"0"}}
 _GOOD["fix type"] = _FIX - {"1", "9"} | _FIX_TYPES.keys() | {"7"}
-_STATUS = {"status": "fix type"}
+_ARDUPILOT = {"status": "fix type"}
 _DENIED = {"no", "none", "not", "invalid"}
 _MINUTES = re.compile(r"[-+NSEW ]*0[0-9]{3,}(\D|$)")
 _FIRST = 100  # rows that tell which of several columns can be read
@@ -125,9 +123,9 @@ def _header(lines: Iterator[str], fixes: Fixes) -> tuple[int, str, list[_Column]
         for delimiter in "" if comment or len(line) == LONGEST else ",;\t|":
             names = next(csv.reader([line], delimiter=delimiter))
             columns = [_column(name.strip(), place) for place, name in enumerate(names)]
+            if {"GMS", "GWk"} <= {*names}:  # ArduPilot's status is MAVLink's fix type
+                columns = [c._replace(role=_ARDUPILOT.get(c.role, c.role)) for c in columns]
             if {"lat", "lon"} <= {column.role for column in columns}:
-                if {"GMS", "GWk"} <= {*names}:  # ArduPilot's status is MAVLink's fix type
-                    columns = [c._replace(role=_STATUS.get(c.role, c.role)) for c in columns]
                 return row, delimiter, columns
         if line.strip():
             fixes.skip("comment" if comment else "line above the names of the columns", row)
@@ -192,10 +190,8 @@ def _best(column: _Column, date: _Column | None, rows: list[list[str]]) -> tuple
     seconds = [_seconds(column, date, row) for row in rows]
     known = {time for time in seconds if time is not None and not math.isnan(time)}
     cell = rows[0][column.place].strip() if rows else ""
-    if math.isnan(_number(cell)):
-        kind = 0.0 if re.search(r"(Z|[+-][0-9]{2}:?[0-9]{2})$", cell) else 1.0
-    else:
-        kind = 3.0 if column.per == 1.0 else 2.0
+    zone = re.search(r"(Z|:[0-9.]+[+-][0-9]{2}:?[0-9]{2})$", cell)
+    kind = 0 if zone else 1 if math.isnan(_number(cell)) else 2 + (column.per == 1.0)
     return not known, column.role != "time", -len(known), kind, column.place
 
 
@@ -239,17 +235,16 @@ def _seconds(column: _Column, date: _Column | None, row: list[str]) -> float | N
 
 
 def _reported(used: dict[str, _Column], row: list[str]) -> Reported:
-    cells = {role: row[column.place].strip() for role, column in used.items()}
-    roles = used.keys() & {*Reported._fields} - {"quality"}
     reported = {
-        role: reading(cells[role].replace(",", "."), 1.0 / used[role].per) for role in roles
+        role: reading(row[column.place].strip().replace(",", "."), 1.0 / column.per)
+        for role, column in used.items()
+        if role in Reported._fields
     }
-    text = cells.get("quality", cells.get("fix type", cells.get("fix", ""))).casefold()
-    words = re.findall("[a-z]+", text)
-    if "quality" in used:
-        number = reading(text.replace("9", "2"))
-    else:
-        number = _FIX_TYPES.get(text, math.nan) if "fix type" in used else math.nan
+    kind = next((role for role in ("quality", "fix type", "fix") if role in used), "")
+    text = row[used[kind].place].strip().casefold() if kind else ""
+    words, number = re.findall("[a-z]+", text), reading(text.replace("9", "2"))
+    if kind != "quality":
+        number = _FIX_TYPES.get(text, math.nan) if kind == "fix type" else math.nan
     reported["quality"] = next((_QUALITY[word] for word in _QUALITY if word in words), number)
     reported["course"] = reported.get("course", math.nan) * math.radians(1.0)
     return Reported(**reported)

@@ -12,7 +12,8 @@ import numpy as np
 
 from wmrlib.checks import book_extra
 from wmrlib.tracks import nmea
-from wmrlib.tracks.fixes import DISAGREEING, Fixes, Reported, disagree, timestamp, trust
+from wmrlib.tracks.fixes import Fixes, Reported, timestamp, trust
+from wmrlib.tracks.neighbours import DISAGREEING, disagree
 
 # Where a message or a sentence may begin, and the messages that are read, by class and id, with
 # the lengths that they may have: out of any other pyubx2 reads numbers all the same.
