@@ -103,6 +103,11 @@ def pytest_xdist_auto_num_workers(config):
     return (os.cpu_count() or 1) + 1
 
 
+def pytest_collection_modifyitems(items):
+    """Begin with the tests of the pages: they build the site, which others would wait for."""
+    items.sort(key=lambda item: item.path.name != "test_page.py")
+
+
 @pytest.hookimpl(tryfirst=True)
 def pytest_collection(session):
     """Show the header before the tests are collected, in a pipe too."""
