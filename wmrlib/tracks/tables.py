@@ -42,23 +42,8 @@ _PER |= {"mps": 1.0, "ms": 1e3, "milliseconds": 1e3, "millis": 1e3, "us": 1e6, "
 _PER |= dict.fromkeys(("h", "kmh", "kph"), 3.6) | {"mph": 1.0 / 0.44704}
 _PER |= dict.fromkeys(("knot", "knots", "kt", "kts", "kn"), 1.0 / KNOT)
 _PLAIN = ("sps", "gps", "gnss", "single", "autonomous")
-_FIX = {
-    *_PLAIN,
-    "yes",
-    "true",
-    "ok",
-    "valid",
-    "fix",
-    "fixed",
-    "float",
-    "y",
-    "a",
-    "d",
-    "p",
-    "r",
-    "f",
-}
-_FIX |= {"y", "a", "d", "p", "r", "f", "dgps", "pps", "rtk", "frtk", "1", "2", "3", "4", "5", "9", ""}
+_FIX = {*_PLAIN, *"yadprf123459", "yes", "true", "ok", "valid", "fix", "fixed", "float", ""}
+_FIX |= {"dgps", "pps", "rtk", "frtk"}
 _QUALITY = {"float": 5.0, "frtk": 5.0, "rtk": 4.0, "pps": 3.0, "dgps": 2.0}  # first word to fit
 _QUALITY |= dict.fromkeys(_PLAIN, 1.0)  # "fixed" may be any fix
 _FIX_TYPES = {"2": 1.0, "3": 1.0, "4": 2.0, "5": 5.0, "6": 4.0, "8": 3.0}  # MAVLink, ArduPilot
