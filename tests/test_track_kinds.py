@@ -64,7 +64,17 @@ def test_elements_within_an_element_are_not_its_text(read):
 
 # A position among its neighbours
 
-STRAYS = ("unset", "null island", "far", "date", "date back", "same time", "twice", "late")
+STRAYS = (
+    "newest first",
+    "unset",
+    "null island",
+    "far",
+    "date",
+    "date back",
+    "same time",
+    "twice",
+    "late",
+)
 
 
 def rest(n):
@@ -83,6 +93,8 @@ def spoilt(rows, kind, k, size):
         "same time": (second, lat, lon),
         "late": (second - size * 86.4, lat, lon),
     }
+    if kind == "newest first":
+        return rows[::-1]
     if kind == "unset":  # its t is not known, but its place is
         return [(-1.4e9 - size * 86400 + row[0], *row[1:]) for row in rows[:k]] + rows[k:]
     if kind in ("date", "date back"):
@@ -196,6 +208,8 @@ def test_the_best_of_several_columns_is_read(read, names, times, before):
 def test_the_best_column_can_be_read_tells_most_and_comes_with_its_twin(read):
     track = read("timestamp,Local time,lat,lon\n1772366400,2026-03-01 12:00:00,1,2\n")
     assert track.t.tolist() == [0.0]  # a number without a unit is none
+    track = read(f"name,lat,lon,Averaging start\np,1,2,{iso(0)}\nq,1,2,{iso(9)}\n")
+    assert track.t.tolist() == [0.0, 9.0]
     rows = [f"2026-03-01T12:00:0{k // 4}Z,{250 * k},1,2" for k in range(8)]
     track = read(["time,time_ms,lat,lon", *rows, ""])
     assert track.t.tolist() == [0.25 * k for k in range(8)]

@@ -119,6 +119,9 @@ class Fixes:
 
     def _settled(self, part: np.ndarray) -> np.ndarray:
         """The positions of a segment that agree with one another."""
+        if neighbours.newest_first(part[:, 4]):
+            _count(self.noted, "in a list with the newest first, which is turned round", part)
+            part = part[::-1].copy()
         part[:, 4], doubts = neighbours.with_its_date_right(part[:, 4])
         for reason, rows in doubts.items():
             _count(self.noted, reason, part[rows])

@@ -27,6 +27,12 @@ def null_island(lat: np.ndarray, lon: np.ndarray) -> np.ndarray:
     return zero & (not others.size or np.median(others) > 1.0)
 
 
+def newest_first(time: np.ndarray) -> bool:
+    """Whether all times fall, and they are more than a few."""
+    steps = np.diff(time[~np.isnan(time)])
+    return steps.size > 3 and bool((steps < 0.0).all())
+
+
 def with_its_date_right(time: np.ndarray) -> tuple[np.ndarray, dict[str, np.ndarray]]:
     """The times as if the date had been right from the start, and which positions are in doubt.
 

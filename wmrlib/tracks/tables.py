@@ -136,10 +136,12 @@ def _chosen(columns: list[_Column], rows: list[list[str]]) -> tuple[dict[str, _C
     pairs = [(a, b) for a in by_role["lat"] for b in by_role["lon"] if _style(a) == _style(b)]
     used["lat"], used["lon"] = pairs[0] if pairs else (used["lat"], used["lon"])
     date = used.get("date")
-    candidates = [by_role.get(role, []) for role in ("time", "other time", "date")]
-    clocks = [(column, _best(column, date, rows)) for column in chain(*candidates)]
+    candidates = chain(*(by_role.get(role, []) for role in ("time", "other time", "date", "")))
+    clocks = [(_best(column, date, rows), column) for column in candidates]
+    # By another name a column is a time only if it can be read as one.
+    clocks = [(key, column) for key, column in clocks if column.role or not key[0]]
     if clocks:
-        used["time"] = min(clocks, key=lambda clock: clock[1])[0]
+        used["time"] = min(clocks)[1]
     if "speed" in by_role:
         used["speed"] = max(by_role["speed"], key=lambda column: column.per > 0.0)
     reasons = [
