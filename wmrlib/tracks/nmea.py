@@ -38,7 +38,8 @@ _DAY = 86400.0  # s
 
 def read(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Fixes | None:
     """Each epoch's position once, by the kind of sentence trusted most; None without a sentence."""
-    last, zero = 0.0, 0.0
+    last, zero, guess = 0.0, 0.0, 0.0
+    undated = list[int]()  # where in the table the times of this day are, since the last date
     for second, epoch in groupby(_sentences(lines, fixes), lambda sentence: sentence[2]):
         sentences = sorted(epoch)
         denied = sentences[0][1]
@@ -46,15 +47,23 @@ def read(lines: Iterable[tuple[int, str]], fixes: Fixes) -> Fixes | None:
         _, _, _, line, lat, lon, *_ = sentences[0]
         if not denied:
             day = _DAY * math.ceil((last - 60.0 - second) / _DAY)  # undated, time goes on
+            undated = undated if day == guess else []
+            guess = day
             if dated := max(sentence[6] for sentence in sentences):
                 zero = zero or dated - day
                 day = dated - zero
+                for place in undated:  # now it is known better
+                    fixes.table[place] += day - guess
+                undated, guess = [], day
             last = second + day
             # Where several sentences report a value, the most trusted one counts.
             positions = [sentence for sentence in sentences if not sentence[1]]
             reports = zip(*(sentence[7] for sentence in positions), strict=True)
             reported = (next((x for x in values if x == x), math.nan) for values in reports)
+            before = len(fixes.table)
             fixes.add(lat, lon, last, line, Reported(*reported))
+            if not dated and len(fixes.table) > before:
+                undated.append(before + 4)
             if any(disagree(lat, lon, *sentence[4:6]) for sentence in positions):
                 fixes.noted.count(DISAGREEING, line)
         doubt = "sentence of an epoch that a more trusted one says has no fix"
