@@ -146,6 +146,28 @@ def test_parallel_first_starts_share_a_folder_and_warn_of_nothing(copy):
     assert [printed(start) for start in starts] == [([], str(stat.S_IFDIR | 0o700))] * 3
 
 
+BEYOND = """
+import warnings, wmrlib as w
+warnings.simplefilter("error")
+how, far = {"method": "continuous", "duration": 0.3}, w.Pose(1e308, -1e308, 0.0)
+goal, wild = w.Pose(3.0, 1.0, -1.0), w.Gains(1.0, 1.0, 1.0, 1e300)
+for run in (
+    w.simulate(w.Pose(0.0, 0.0, 0.5), goal, w.Gains(1e150, 1.0, 1.0, 1e150), **how),
+    w.simulate(far, goal, wild, **how),
+    w.simulate(far, goal, wild, law="barrier", **how),
+):
+    print(run.peak_omega, run.path_length, len(run), list(w.Outcome).index(run.outcome))
+print("ended")
+"""
+
+
+def test_plain_python_ends_beyond_the_range_of_numbers_as_compiled_code_does(copy, capsys):
+    plain = process(copy, code=BEYOND, NUMBA_DISABLE_JIT="1")
+    exec(BEYOND, {})
+    *compiled, _ = capsys.readouterr().out.split()
+    assert printed(plain)[0] == pytest.approx([*map(float, compiled)], rel=1e-6)
+
+
 def made(place, folder_mode=0o700, file_mode=0o600, place_mode=0o755):
     """A folder of compiled code, and beside it where it is looked for."""
     folder = place / "compiled"

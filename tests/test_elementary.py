@@ -54,6 +54,19 @@ def test_sincos(form, angle):
     assert cosine == near(mpmath.cos(angle))
 
 
+@given(st.floats(), st.sampled_from(["sincos", "expm1", "root", "wrap", "sinc", "whole"]))
+@example(math.inf, "sincos")
+@example(math.inf, "wrap")
+@example(1e3, "expm1")
+@example(-1.0, "root")
+def test_beyond_its_range_a_number_gets_what_an_entry_of_an_array_gets(number, name):
+    """And what compiled code answers, so that a run in plain Python ends as a compiled one does."""
+    function = getattr(elementary, name)
+    with np.errstate(all="ignore"):
+        alone, entry = function(number), numpys(function)(number)
+    assert alone == pytest.approx(entry, rel=TWO_ULP, abs=0.0, nan_ok=True)
+
+
 @forms
 @given(angle=angles)
 @example(angle=0.0)

@@ -483,6 +483,26 @@ BAD = [
 ]
 
 
+def test_a_run_without_a_sample_is_named_and_so_is_a_picture_without_a_drive():
+    lost = wmr.simulate(wmr.Pose(0, 0, 0), wmr.Pose(5, 1, 0), wmr.Gains(*[1e308] * 4))
+    several, one = {"far": drive(), "lost": lost}, {"run": (lost,), "moments": (lost, [0.0, 1.0])}
+    cases = [
+        *((name, one["run"], "run") for name in ("dashboard", "twist", "lyapunov_over_time")),
+        *((name, ([drive(), lost],), "runs[1]") for name in ("path", "heading_errors")),
+        ("angles_over_time", (lost,), "runs[0]"),
+        ("snapshots", one["moments"], "run"),
+        ("compare_runs", (several, "v"), "runs['lost']"),
+        ("chase", (several,), "runs['lost']"),
+        ("heading_powers", (several, {}), "runs['lost']"),
+        ("inner_loops", ({"near": several, "far": several},), "cases['near']['lost']"),
+    ]
+    for name, arguments, culprit in cases:
+        with pytest.raises(ValueError, match=re.escape(f"{culprit} has no sample")):
+            getattr(figures, name)(*arguments)
+    with pytest.raises(ValueError, match="shows no drive to play"):
+        figures.third_angle(wmr.Pose(1, 2, 0), wmr.Pose(0, 0, 1)).motion()
+
+
 def test_bad_input_is_named():
     beside_a_run = [
         ("field = 'speed' .* one of 'v'", "compare_runs", ({"one": drive()}, "speed")),

@@ -114,6 +114,24 @@ def test_the_samples_lie_on_the_same_run_and_dt_changes_nothing_else(start, gain
         assert np.all(np.abs(off) <= 1e-6 * (1.0 + np.abs(theirs))), name
 
 
+def test_a_run_that_starts_within_the_radius_has_its_one_sample_whatever_the_method():
+    start = wmr.Pose([0.01, 0.01], [0.0, 0.02], [0.3, 2.0])
+    for method in METHODS:
+        run, paths = wmr.sweep(start, ORIGIN, CALM, method=method, trajectories=True)
+        assert (run.time == 0.0).all()
+        assert (np.isfinite(paths.rho).sum(axis=-1) == 1).all()
+        assert paths.rho[:, 0] == pytest.approx(run.distance)
+        assert paths.x[:, 0] == pytest.approx(start.x)
+
+
+def test_many_samples_are_no_reason_to_give_a_run_up():
+    times = {"dt": 1e-5, "duration": 1.2}
+    run, paths = wmr.sweep(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, CALM, trajectories=True, **times)
+    alone = wmr.simulate(wmr.Pose(-9.0, 2.0, 1.0), ORIGIN, CALM, method="continuous", **times)
+    assert run.distance == pytest.approx(alone.rho[-1], rel=1e-9)
+    assert np.isfinite(paths.rho).sum() == len(alone) == 120_001
+
+
 def test_hopeless_gains_are_given_up_with_a_warning():
     stiff = wmr.Gains(*([0.5, one] for one in (0.5, 1e6, 1.0, 4.0)))
     options = {"duration": 0.9, "trajectories": True}

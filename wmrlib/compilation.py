@@ -15,11 +15,13 @@ import sys
 import warnings
 from collections.abc import Callable
 from contextlib import suppress
+from functools import wraps
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryFile
 
 import numba
+import numpy as np
 from numba.core.caching import CompileResultCacheImpl, FunctionCache, InTreeCacheLocator
 from numba.extending import overload, register_jitable
 
@@ -180,12 +182,25 @@ if not FOLDER and not numba.config.DISABLE_JIT:
 def compiled(function: Callable) -> Callable:
     """`function`, compiled by numba on its first call for each set of argument types.
 
-    ``NUMBA_DISABLE_JIT=1`` leaves plain Python, to be stepped through.
+    ``NUMBA_DISABLE_JIT=1`` leaves plain Python, to be stepped through, in which numpy is as silent
+    about infinities and NaN as compiled code is.
     """
     made = numba.njit(nogil=True, **_ARITHMETIC)(function)
-    if made is not function and FOLDER:
+    if made is function:
+        return _silent(function)
+    if FOLDER:
         made._cache = _Cache(function)
     return made
+
+
+def _silent(function: Callable) -> Callable:
+    @wraps(function)
+    def silent(*arguments):
+        with np.errstate(all="ignore"):
+            return function(*arguments)
+
+    silent.py_func = function  # type: ignore[attr-defined]
+    return silent
 
 
 def formula(function: Callable) -> Callable:

@@ -3,7 +3,8 @@
 Each function is written for one number, as compiled loops call it. From Python it can also be
 called with arrays, for which a second version is registered beside it, and with sympy symbols, for
 which `symbolic` registers a third. So a formula made of these functions takes numbers, arrays and
-symbols alike.
+symbols alike. Where Python raises an error for one number and compiled code answers with infinity
+or NaN, Python's version answers so too.
 """
 
 from __future__ import annotations
@@ -21,32 +22,44 @@ TURN = 2.0 * math.pi
 SMALL = 1e-8  # below this, the next term of the series is under half a unit in the last place
 
 
-def _kinds(of_arrays: Callable | None = None) -> Callable[[Callable], Any]:
-    """The function, and another for arrays; more can be added by the type of the first argument."""
+def _kinds(of_arrays: Callable | None = None, beyond: Any = None) -> Callable[[Callable], Any]:
+    """The function, and another for arrays; more can be added by the type of the first argument.
+
+    Called from Python with a number out of its range, the function returns `beyond`, if given.
+    """
 
     def decorate(function: Callable) -> Any:
         kinds = singledispatch(function)
         chosen_by_type(kinds)(lambda *_: function)
         if of_arrays:
             kinds.register(np.ndarray, of_arrays)
+
+        def of_float(number):
+            try:
+                return function(number)
+            except (ValueError, OverflowError):
+                return beyond
+
+        if beyond is not None:
+            kinds.register(float, of_float)
         return kinds
 
     return decorate
 
 
-@_kinds(lambda angle: (np.sin(angle), np.cos(angle)))
+@_kinds(lambda angle: (np.sin(angle), np.cos(angle)), beyond=(math.nan, math.nan))
 def sincos(angle):
     """The sine and the cosine of `angle` [rad]."""
     return math.sin(angle), math.cos(angle)
 
 
-@_kinds(np.expm1)
+@_kinds(np.expm1, beyond=math.inf)
 def expm1(x):
     """exp(x) - 1, accurate near 0 too."""
     return math.expm1(x)
 
 
-@_kinds(np.sqrt)
+@_kinds(np.sqrt, beyond=math.nan)
 def root(x):
     """The square root of x."""
     return math.sqrt(x)

@@ -121,20 +121,20 @@ def barrier_value(rho, alpha, theta, gains):
 
 @formula
 def graceful_value(rho, alpha, theta, gains):
-    """Half the square of alpha + atan(k_phi theta), whatever rho is."""
+    """Half the square of alpha + atan(k_phi theta), rad^2, whatever rho is."""
     away = alpha + direction(gains.h * theta, 1.0)
     return 0.5 * away * away
 
 
 @formula
 def kanayama_value(rho, alpha, theta, gains):
-    """The Lyapunov function of Kanayama et al."""
+    """The Lyapunov function of Kanayama et al., m^2."""
     return 0.5 * rho * rho + (1.0 - sincos(alpha - theta)[1]) / gains.k_y
 
 
 @formula
 def linear_value(rho, alpha, theta, gains):
-    """Half the squared error, because the law has no Lyapunov function of its own."""
+    """Half the squared error, m^2 plus rad^2: the law has no Lyapunov function of its own."""
     turn = wrap(alpha - theta)
     return 0.5 * (rho * rho + turn * turn)
 

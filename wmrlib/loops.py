@@ -46,7 +46,7 @@ from wmrlib.receiver import (
 )
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED, Arrival
 
-MOST_TRIALS = 1_000_000  # steps of a run on its own
+MOST_TRIALS = 1_000_000  # steps of a run on its own, besides one a sample: about a second
 WORKSPACE_ROWS = 16  # slopes at the start and after each stage, two for rate_of_omega, new state
 
 
@@ -257,11 +257,11 @@ def integrate(record, state, workspace, t, most_trials, radius, goal, goals_at, 
 
     Samples and events end a step. `workspace` has `WORKSPACE_ROWS` rows. `goals_at(time, dt)`
     returns a moving goal at the stages of a step, one a column; it is None for a `goal` that stands
-    still. After `most_trials` steps the run is given up.
+    still. After `most_trials` steps, besides one for each sample, the run is given up.
     Returns (samples, outcome, time, largest |omega|, metres rolled).
     """
     slopes, new = workspace[:15], workspace[15]
-    now, step, peak, length, trials = 0.0, 0.01, 0.0, 0.0, 0
+    now, step, peak, length, trials = 0.0, 0.01, 0.0, 0.0, -t.size
     goals = None if goals_at is None else goals_at(now, 0.0)
     v, omega = slopes_of(state, column(goals, 0), *loop, slopes[0])
     if not math.isfinite(magnitude(state) + magnitude(slopes[0]) + omega):
@@ -386,7 +386,7 @@ def held_runs_by(law, gains, runs, records, first, samples, end, key, sampling):
 
 @compiled
 def continuous_runs(runs, records, first, t, most_trials, radius):
-    """`held_runs` with a law that acts continuously; the last sample is the one before arrival."""
+    """`held_runs` with a law that acts continuously, whose arrival may lie between two samples."""
     summary, record = np.empty((DISTANCE + 1, runs.shape[1])), np.empty((8, t.size))
     workspace, state = np.empty((WORKSPACE_ROWS, 4)), np.empty(4)
     for i in range(runs.shape[1]):
@@ -403,7 +403,7 @@ def continuous_runs(runs, records, first, t, most_trials, radius):
         if outcome == UNFINISHED:
             summary[TIME:, i] = math.nan
         else:
-            copy_samples(records, first + i, record, count - 1 if outcome == ARRIVED else count)
+            copy_samples(records, first + i, record, count if t[count - 1] <= time else count - 1)
     return summary
 
 

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 
-from wmrlib.checks import instance, scalar
-from wmrlib.runs import Arrival, Outcome, Trajectory
+from wmrlib.checks import scalar
+from wmrlib.runs import Arrival, Outcome, Trajectory, with_samples
 
 
 def arrival(trajectory: Trajectory) -> Arrival:
@@ -31,7 +31,7 @@ def arrival(trajectory: Trajectory) -> Arrival:
     >>> print(f"{end.arrived}: {end.path_length:.1f} m in {end.time:.1f} s")
     True: 61.8 m in 23.1 s
     """
-    run = _with_samples(trajectory)
+    run = with_samples("trajectory", trajectory)
     arrived = run.outcome is Outcome.ARRIVED
     return Arrival(
         arrived=arrived,
@@ -59,12 +59,6 @@ def residual(trajectory: Trajectory, last: float = 5.0) -> float:
     ------
     ValueError : a trajectory without a sample, or `last` not positive
     """
-    run = _with_samples(trajectory)
+    run = with_samples("trajectory", trajectory)
     late = run.t >= run.t[-1] - scalar("last", last, above=0.0)
     return float(run.rho[late].mean())
-
-
-def _with_samples(trajectory: Trajectory) -> Trajectory:
-    if len(instance("trajectory", trajectory, Trajectory)) == 0:
-        raise ValueError("trajectory has no sample: the run left the range of numbers at its start")
-    return trajectory

@@ -174,10 +174,12 @@ class Trajectory(ReadOnly):
 
     @property
     def V(self) -> np.ndarray:  # noqa: N802 (as in (18))
-        """The law's Lyapunov function at each sample, no unit, with L = 1 m^2; (18) or its own.
+        """The law's Lyapunov function at each sample: (18) with L = 1 m^2, no unit, or its own.
 
-        For a law of your own, and for poses that were given, it is (18) with h of the gains, or
-        with h = 1 where they have none.
+        "graceful" has one of its own, in rad^2, and so have the laws for a moving goal:
+        "kanayama" in m^2, and "linear" in m^2 plus rad^2, half the squared error. For a law of
+        your own, and for poses that were given, it is (18) with h of the gains, or with h = 1
+        where they have none.
         """
         polar = self.rho, self.alpha, self.theta
         with np.errstate(over="ignore"):  # on its way out of the range of numbers
@@ -228,8 +230,8 @@ class Arrival(NamedTuple):
 class Trajectories(NamedTuple):
     """Many runs sample by sample, NaN after each run's end.
 
-    With "continuous", which arrives between two samples, the last one is the one before arrival,
-    and alpha and theta never jump.
+    With "continuous", which may arrive between two samples, the last one is the one before or at
+    the arrival, and alpha and theta never jump.
 
     Attributes
     ----------
@@ -247,6 +249,13 @@ class Trajectories(NamedTuple):
     theta: np.ndarray
     v: np.ndarray
     omega: np.ndarray
+
+
+def with_samples(name: str, run: Trajectory) -> Trajectory:
+    """Return the run if it has a sample; otherwise raise ValueError."""
+    if not len(instance(name, run, Trajectory)):
+        raise ValueError(f"{name} has no sample: the run left the range of numbers at its start")
+    return run
 
 
 def single_pose(name: str, pose: Pose) -> Pose:

@@ -49,7 +49,7 @@ def simulate(
     method : "euler", Euler's: the twist is held for `dt` and the pose moves along its tangent;
         "arc": the twist is held and the pose moves along the exact arc;
         "continuous": the law acts all the time; (rho, alpha, theta) is integrated by Dormand and
-        Prince's method of order 8, to 1e-10 a step.
+        Prince's method of order 8, to 1e-10 a step, in at most a million steps besides the samples.
         In the first two alpha and theta are in (-pi, pi]; in the last they never jump.
     dt : float, s, between samples; "continuous" adds the moment of arrival
     duration : float, s, within which lies the last sample, where the robot stops; at most ten
@@ -159,12 +159,14 @@ def track(
         raise refusal("reference", reference, "a function of time")
     begin = runs.single_pose("start", start)
     samples, dt, last = runs.sample_count(dt, duration), float(dt), float(duration)
+    warned_of = np.geterr()
     robot, t = checked_wheels(wheels), dt * np.arange(samples)
     loop = *tuning_of(gains, law, TRACKING_LAWS), robot
 
     def path_at(times: np.ndarray) -> np.ndarray:
         now = np.minimum(times, last)  # three times 0.1 is more than 0.3
-        goals = instance("reference(t)", reference(now), Reference)
+        with np.errstate(**warned_of):  # the loop itself is silent
+            goals = instance("reference(t)", reference(now), Reference)
         path = np.empty((len(Reference._fields), times.size))
         if all(_is_row(values, times.shape) for values in goals):
             path[:] = goals
@@ -222,7 +224,9 @@ def _continuous(t, state, radius, goal, goals_at, *loop) -> tuple:
     record, workspace = np.empty((8, t.size)), np.zeros((WORKSPACE_ROWS, state.size))
     drive = continuous if goals_at is None else integrate
     ends = t, MOST_TRIALS, radius, tuple(goal)
-    count, outcome, end, *sums = drive(record, state, workspace, *ends, goals_at, *loop)
+    with np.errstate(all="ignore"):  # on its way out of the range of numbers
+        run = drive(record, state, workspace, *ends, goals_at, *loop)
+    count, outcome, end, *sums = run
     if outcome == runs.UNFINISHED:
         words = f", or slower gains and wheels: it would take more than {MOST_TRIALS:,} steps"
         raise refusal("method", "continuous", "'arc' or 'euler'", words)

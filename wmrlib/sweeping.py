@@ -56,7 +56,7 @@ from wmrlib.runs import (
 )
 
 MOST_RECORDED = 50_000_000
-MOST_TRIALS = 100_000  # steps of a run
+MOST_TRIALS = 100_000  # a tenth of what a run on its own may take: thousands wait for one another
 # A chunk is worth a thread, and soon done when the sweep is stopped: evaluations of the law.
 _CHUNK = 250_000, 4_000_000  # least, most
 _LONG_WORK = 40_000_000
@@ -106,8 +106,9 @@ def sweep(
     "continuous" is right to 1e-6 (m, s, rad, or as a share of what is larger than 1), and to 1e-4
     with wheel limits, at whose edge the motion has a corner. The promise is for a law that settles:
     small errors grow where "printed" drives away from its goal's direction, and no step decides how
-    such a run ends. A run of more than 100,000 steps is given up with a warning, as is what Ctrl-C
-    (the square button in Jupyter) leaves undone: arrived = False and NaN in every other field.
+    such a run ends. A run of more than 100,000 steps, besides one for each sample that is returned,
+    is given up with a warning (`simulate` takes a million), as is what Ctrl-C (the square button in
+    Jupyter) leaves undone: arrived = False and NaN in every other field.
 
     Parameters
     ----------

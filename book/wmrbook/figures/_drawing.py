@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from wmrbook.figures.style import LINES, STYLE
 from wmrlib.checks import instance
-from wmrlib.runs import Trajectory
+from wmrlib.runs import Trajectory, with_samples
 
 SERIES = (  # the colour's role and the line style of each of up to five runs
     ("path", "-"),
@@ -64,10 +64,11 @@ def check_count(name: str, entries: Sized, least: int, most: int) -> None:
 
 
 def check_series(runs: Mapping, kind: type = object) -> None:
-    """One to five entries of a mapping, each a `kind`."""
+    """One to five entries of a mapping, each a `kind`; a Trajectory has a sample."""
     check_count("runs", instance("runs", runs, Mapping), 1, len(SERIES))
     for label, run in runs.items():
-        instance(f"runs[{label!r}]", run, kind)
+        name = f"runs[{label!r}]"
+        with_samples(name, run) if kind is Trajectory else instance(name, run, kind)
 
 
 def run_list(
@@ -79,4 +80,6 @@ def run_list(
     if len(labels) not in (0, len(runs)):
         needed = f"one for each of the {len(runs)} runs is needed"
         raise ValueError(f"labels has {len(labels)} entries, which is not allowed: {needed}")
+    for k, run in enumerate(runs):
+        with_samples(f"runs[{k}]", run)
     return runs

@@ -7,11 +7,12 @@ from matplotlib.axes import Axes
 
 from wmrbook.figures.paths import draw_path, path_in_words
 from wmrbook.figures.style import COLOURS, Picture, equal_scales, new_figure
-from wmrlib.runs import Trajectory
+from wmrlib.runs import Trajectory, with_samples
 
 
 def dashboard(run: Trajectory) -> Picture:
     """Show path, v, omega, position errors and V of one run side by side."""
+    with_samples("run", run)
     mosaic = [["path", "v"], ["path", "omega"], ["path", "errors"], ["path", "V"]]
     figure, axes = new_figure(12.0, 6.0, mosaic=mosaic)
     draw_path(axes["path"], run, size=0.04 * max(np.ptp(run.x), np.ptp(run.y), 1.0))
@@ -31,6 +32,7 @@ def dashboard(run: Trajectory) -> Picture:
 
 def twist(run: Trajectory) -> Picture:
     """The commanded v [m/s] and omega [rad/s] over time."""
+    with_samples("run", run)
     figure, (upper, lower) = new_figure(7.0, 4.5, rows=2)
     draw_series(upper, run, "v [m/s]", v="-")
     draw_series(lower, run, "omega [rad/s]", omega="-")
@@ -42,6 +44,7 @@ def twist(run: Trajectory) -> Picture:
 
 def lyapunov_over_time(run: Trajectory) -> Picture:
     """V over time on a logarithmic scale; thick and red wherever it rises."""
+    with_samples("run", run)
     figure, axes = new_figure(7.0, 3.2)
     draw_lyapunov(axes, run)
     axes.set_xlabel("time [s]")

@@ -23,9 +23,9 @@ from wmrbook.figures._drawing import (
 )
 from wmrbook.figures.paths import pose_at
 from wmrbook.figures.style import COLOURS, Drive, Picture, dart, equal_scales, new_figure
-from wmrlib.checks import choice, instance, real, scalar
+from wmrlib.checks import choice, real, scalar
 from wmrlib.kinematics import Pose
-from wmrlib.runs import Trajectories, Trajectory
+from wmrlib.runs import Trajectories, Trajectory, with_samples
 
 _LEAST = 1e-6  # of a logarithmic scale
 _STEPS = 300  # of a line: more are smaller than a pixel, and weigh tens of kilobytes
@@ -118,7 +118,7 @@ def ring(paths: Mapping[str, Trajectories], goal: Pose) -> Picture:
 
 def snapshots(run: Trajectory, times: Sequence[float]) -> Picture:
     """The robot at two to six moments [s] of its run, one panel each, with the path so far."""
-    instance("run", run, Trajectory)
+    with_samples("run", run)
     times = real("times", list(times), low=0.0, high=float(run.t[-1]))
     check_count("times", times, 2, 6)
     if np.ptp(run.y) > np.ptp(run.x):

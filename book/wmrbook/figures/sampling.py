@@ -13,7 +13,7 @@ from wmrbook.figures.style import COLOURS, Picture, new_figure
 from wmrlib.gains import Gains
 from wmrlib.kinematics import Pose
 from wmrlib.metrics import arrival
-from wmrlib.runs import Trajectory
+from wmrlib.runs import Trajectory, with_samples
 from wmrlib.simulation import simulate
 from wmrlib.tuning import longest_step
 
@@ -75,6 +75,7 @@ def inner_loops(cases: Mapping[str, Mapping[str, Trajectory]]) -> Picture:
     for axes, (title, runs) in zip(rows, cases.items(), strict=True):
         check_count("runs", runs, 1, len(_SERIES))
         for (label, run), (colour, style) in zip(runs.items(), _SERIES, strict=False):
+            with_samples(f"cases[{title!r}][{label!r}]", run)
             heading = np.degrees(run.theta - run.alpha)  # "continuous" never jumps
             axes.plot(run.rho, heading, style, color=colour, label=label)
             texts.append(f"{title}, {label}: {round(heading[-1])} deg")

@@ -138,6 +138,8 @@ class Picture:
         Boxes of the axes and first places are in `PARTS` of its width and height, from the left
         and from the top, and first headings in degrees; what follows are changes, which are short.
         """
+        if not self.drives:
+            raise ValueError("this picture shows no drive to play: give Picture some drives")
         seconds = max(float(drive.t[-1]) for drive in self.drives)
         times, (width, height) = np.linspace(0.0, seconds, FRAMES), self.figure.bbox.size
         robots = []
