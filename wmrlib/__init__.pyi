@@ -1,6 +1,5 @@
 # The public names and where they live, for lazy_loader, editors and type checkers.
 from . import laws as laws
-from . import metrics as metrics
 from . import paper as paper
 from .body import LastTurn as LastTurn
 from .body import Wheels as Wheels

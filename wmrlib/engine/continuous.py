@@ -206,5 +206,5 @@ def summaries(states, whole, radius):
 def survey(runs, law, limits, whole, most_trials, radius):
     """Sum up the runs in the columns of `runs`, all with one law, for `whole` seconds at most."""
     states = initial_states(runs[: loops.WHEELS], whole, most_trials, radius)
-    drive(states, radius, lanes.as_type(law), limits)
+    drive(states, radius, lanes.law_tuple(law), limits)
     return summaries(states, whole, radius)

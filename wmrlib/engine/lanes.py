@@ -13,7 +13,7 @@ from wmrlib.engine.vectors import vectorised
 _pose_law = vectorised(laws.pose_law)
 
 
-def as_type(law: int) -> tuple[int, ...]:
+def law_tuple(law: int) -> tuple[int, ...]:
     """The number of a law as the length of a tuple.
 
     A tuple's length is part of its type, so numba knows the law when it compiles, and each law has

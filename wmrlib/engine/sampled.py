@@ -113,7 +113,7 @@ def survey(runs, law, limits, samples, sampling):
     states = np.zeros((ROWS, runs.shape[1]))
     states[:LEFT], states[LEFT] = runs[:LEFT], samples - 1.0
     ends = sampling.dt, max(sampling.arrival_radius, NEAREST)
-    drive(states, lanes.as_type(law), limits, sampling.along_arc, *ends)
+    drive(states, lanes.law_tuple(law), limits, sampling.along_arc, *ends)
     ends = sampling.dt, sampling.arrival_radius
     summary = summaries(states, runs[:LEFT], law, limits, samples, *ends)
     again = np.flatnonzero(np.isnan(summary[OUTCOME]))
