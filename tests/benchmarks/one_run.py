@@ -73,9 +73,9 @@ def rows() -> list[Row]:
     cases["scipy solve_ivp (RK45)"] = scipy_alone()
     cases["python-control input_output_response"] = python_control()
     for name, end in (("", NEVER), (", to arrival within 5 cm", {})):
-        how = {"method": "continuous"} | end
+        options = {"method": "continuous"} | end
         title = f"simulate, continuous (tolerance 1e-10){name}"
-        cases[title] = lambda how=how: wmr.simulate(START, GOAL, GAINS, **how)
+        cases[title] = lambda options=options: wmr.simulate(START, GOAL, GAINS, **options)
     seconds = in_turn(cases)
     section, one = "One run of 300 steps, against simulate", seconds["simulate, arc"]
     return [Row(section, name, 1e3 * s, "ms", s / one) for name, s in seconds.items()]

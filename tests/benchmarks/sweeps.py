@@ -47,11 +47,11 @@ def on_one_core():
 
 def sweep(method: str):
     start, of = wmr.paper.outdoor().start, gains(RUNS)
-    how = {"method": method, "dt": DT, "duration": STEPS * DT, "progress": False}
+    options = {"method": method, "dt": DT, "duration": STEPS * DT, "progress": False}
 
     def run():
         with on_one_core():
-            return wmr.sweep(start, GOAL, of, **how)
+            return wmr.sweep(start, GOAL, of, **options)
 
     return run
 
@@ -107,7 +107,7 @@ def numpy_case():
 
 
 def sampled(folder: Path) -> list[Row]:
-    libraries, found = in_c(folder), []
+    libraries, timings = in_c(folder), []
     if not libraries:
         print("gcc was not found: no limit to compare with")
     for method, function in METHODS.items():
@@ -120,14 +120,14 @@ def sampled(folder: Path) -> list[Row]:
         section = f"10,000 gains by 300 steps on one core, {method.title()}, against the fastest C"
         for name, value in seconds.items():
             step, ratio = 1e9 * value / RUNS / STEPS, value / limit if limit else None
-            found.append(Row(section, name, step, "ns a step", ratio))
-    return found
+            timings.append(Row(section, name, step, "ns a step", ratio))
+    return timings
 
 
 RECEIVER, SEED = wmr.Receiver(0.05, 10.0, 0.2, 0.1, 0.1), 9  # 10 Hz, read at 10 Hz
 
 
-def receiver_in_c(folder: Path, starts: wmr.Pose, gains: wmr.Gains, how: dict):
+def receiver_in_c(folder: Path, starts: wmr.Pose, gains: wmr.Gains, options: dict):
     """The same runs in C: its function, and where it writes what the runs amount to."""
     library, source = folder / "receiver.so", Path(__file__).with_name("receiver.c")
     command = ["gcc", "-O3", "-march=native", "-shared", "-fPIC", source, "-o", library, "-lm"]
@@ -137,13 +137,21 @@ def receiver_in_c(folder: Path, starts: wmr.Pose, gains: wmr.Gains, how: dict):
         np.ctypeslib.ndpointer(np.float64, flags="C"),
         np.ctypeslib.ndpointer(np.uint32),
     )
-    samples, key = round(how["duration"] / how["dt"]) + 1, np.array([SEED, 0], dtype=np.uint32)
+    samples, key = (
+        round(options["duration"] / options["dt"]) + 1,
+        np.array([SEED, 0], dtype=np.uint32),
+    )
     function.argtypes = [pointer] * 16 + [ctypes.c_long] * 2 + [ctypes.c_double] * 4
     function.argtypes += [ctypes.c_long] * 3 + [words]
     rows = [np.array(np.broadcast_to(row, ENSEMBLE)) for row in (*starts, *GOAL_HERE, *gains)]
     metrics, record = [np.empty(ENSEMBLE) for _ in range(5)], np.empty(8 * samples)
-    late = [round(seconds / how["dt"]) for seconds in RECEIVER[2:5]]
-    numbers = how["dt"], how["arrival_radius"], RECEIVER.sigma, how["dt"] / RECEIVER.memory
+    late = [round(seconds / options["dt"]) for seconds in RECEIVER[2:5]]
+    numbers = (
+        options["dt"],
+        options["arrival_radius"],
+        RECEIVER.sigma,
+        options["dt"] / RECEIVER.memory,
+    )
     arguments = *rows, *metrics, record, ENSEMBLE, samples, *numbers, *late, key
     return lambda: function(*arguments), metrics
 
@@ -151,15 +159,15 @@ def receiver_in_c(folder: Path, starts: wmr.Pose, gains: wmr.Gains, how: dict):
 def by_a_receiver(folder: Path) -> list[Row]:
     """To arrival within 30 cm by what a receiver shows, or for a minute."""
     starts, gains = some_runs()
-    how = {"method": "arc", "dt": 0.1, "duration": 60.0, "arrival_radius": 0.3}
-    options = how | {"receiver": RECEIVER, "seed": SEED, "progress": False}
+    motion = {"method": "arc", "dt": 0.1, "duration": 60.0, "arrival_radius": 0.3}
+    options = motion | {"receiver": RECEIVER, "seed": SEED, "progress": False}
     with on_one_core():
         ours = "wmrlib.sweep, all metrics"
         cases = {ours: lambda: wmr.sweep(starts, GOAL_HERE, gains, **options)}
         if not shutil.which("gcc"):
             print("gcc was not found: no limit to compare with")
         else:
-            cases["C (-O3 -march=native)"], metrics = receiver_in_c(folder, starts, gains, how)
+            cases["C (-O3 -march=native)"], metrics = receiver_in_c(folder, starts, gains, motion)
             cases["C (-O3 -march=native)"]()
             mine = cases[ours]()
             for row, theirs in zip(mine[1:], metrics, strict=True):

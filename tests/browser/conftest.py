@@ -119,7 +119,7 @@ def watched(browser):
         if response.status >= 400:
             note("failed load", f"{response.status}, {response.url}")
 
-    def said(message):
+    def logged(message):
         if message.type == "error":
             note("console error", message.text)
 
@@ -127,7 +127,7 @@ def watched(browser):
     page.on("request", asked)
     page.on("requestfailed", failed)
     page.on("response", answered)
-    page.on("console", said)
+    page.on("console", logged)
     page.on("pageerror", lambda error: note("uncaught exception", str(error)))
     return page
 

@@ -42,7 +42,7 @@ COLOURS = """() => [...document.querySelectorAll('.wmr canvas:not([hidden])')].m
 })"""
 FIGURES = """() => Object.fromEntries([...document.querySelectorAll('[data-figure]')]
     .map(it => [it.dataset.figure, it.children[1].textContent]))"""
-FOUND = """() => JSON.stringify(document.querySelector('.live, .my-robot').found,
+RESULTS = """() => JSON.stringify(document.querySelector('.live, .my-robot').found,
     (_, it) => ArrayBuffer.isView(it) ? Array.from(it) : it)"""
 TRAITS = ("program", "contract", "state", "setup", "_esm")
 
@@ -118,9 +118,9 @@ class Panel:
     def figures(self) -> dict[str, str]:
         return self.page.evaluate(FIGURES)
 
-    def found(self) -> dict:
+    def results(self) -> dict:
         """What the panel has found for its state."""
-        return json.loads(self.page.evaluate(FOUND))
+        return json.loads(self.page.evaluate(RESULTS))
 
     def status(self) -> str:
         return self.page.locator(".wmr-status").inner_text()

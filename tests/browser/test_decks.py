@@ -77,7 +77,7 @@ ANSWER = """() => {
     [pytest.param(it, marks=[pytest.mark.slow] * (it[:2] not in SOME)) for it in NAMES],
 )
 def test_each_slide_can_be_read_and_its_picture_is_large_before_and_after_an_answer(name, opened):
-    found = []
+    faults = []
     for width, height in SIZES:  # a resize would fit what is answered only
         page = opened(name, (width, height))
         page.evaluate("deck.showAll()")
@@ -89,13 +89,13 @@ def test_each_slide_can_be_read_and_its_picture_is_large_before_and_after_an_ans
                 page.wait_for_timeout(300)
                 if not (troubles := page.evaluate(TROUBLES)):
                     break
-            found += [(height, answered, *it) for it in troubles]
+            faults += [(height, answered, *it) for it in troubles]
         if height == SIZES[0][1]:
             assert page.locator("mjx-merror, [data-mjx-error], .widget-error").count() == 0
             assert "$" not in page.locator(".slides").inner_text()
             texts = page.eval_on_selector_all(".slides img", "them => them.map(it => it.alt)")
             assert all(len(text.split()) > 3 for text in texts)
-    assert not found, "\n".join(map(str, found))
+    assert not faults, "\n".join(map(str, faults))
 
 
 def test_a_slide_plays_on_each_visit_until_it_is_left_and_keys_let_the_deck_go_on_or_turn_dark(

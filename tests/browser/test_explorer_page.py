@@ -342,8 +342,8 @@ def test_names_and_values_of_all_controls_are_spoken(emptied_page):
         assert text.split(" [")[0] in label
         assert tip in label
     spoken = {"k_alpha": "1 per s", "h": "0.3", "v_max": "4 m/s", "dt": "0.1 s"}
-    for name, said in spoken.items():
-        assert panel.slider(name).get_attribute("aria-valuetext") == said
+    for name, words in spoken.items():
+        assert panel.slider(name).get_attribute("aria-valuetext") == words
     panel.put("k_alpha", 3.0)
     emptied_page.wait_for_function("""() => {
         const text = (it) => document.querySelector(it).textContent;

@@ -34,14 +34,14 @@ RAW = re.compile(r"\$|\\[a-zA-Z({\[]")
 def formulas(source: str) -> list[str]:
     """The formulas of a Markdown text, in their order, by another parser than those tested."""
     parser = MarkdownIt().enable("table").use(dollarmath_plugin, double_inline=True)
-    found = []
+    matches = []
     for token in parser.parse(source):
         for it in (token, *(token.children or ())):
             if it.type == "math_inline":
-                found.append(f"${it.content}$")
+                matches.append(f"${it.content}$")
             elif it.type.startswith("math"):
-                found.append(f"$${' '.join(it.content.split())}$$")
-    return found
+                matches.append(f"$${' '.join(it.content.split())}$$")
+    return matches
 
 
 @pytest.fixture(scope="module")

@@ -47,13 +47,13 @@ def test_a_pose_that_is_turned_by_keys_is_driven_to_and_the_whole_way_stays_in_v
     turn = page.locator("[data-pose=goal][data-part=turn]")
     for _ in range(18):
         turn.press("ArrowLeft")
-    said = page.evaluate(SAID)
-    assert said != before
+    text = page.evaluate(SAID)
+    assert text != before
     heading = re.search(r"heading (.*?)°", turn.get_attribute("aria-label"))[1]
     _, goal, gains, _ = wmr.paper.outdoor()
     heading = float(heading.replace("\N{MINUS SIGN}", "-"))
     turned = goal._replace(heading=math.radians(heading))
-    assert f"faces {off_deg(turned, gains):.0f}° the wrong way" in said
+    assert f"faces {off_deg(turned, gains):.0f}° the wrong way" in text
     start = page.locator("[data-pose=start]")
     assert start.locator("visible=true").count() == 0  # out of the picture
     page.get_by_role("button", name="The whole way").click()

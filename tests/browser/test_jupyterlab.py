@@ -92,9 +92,9 @@ def test_the_first_chapter_lives_before_it_is_run_and_after_it_is_saved(lab, bro
     page = browser_page
     open_notebook(page, link(lab), CHAPTER)
     assert not page.get_by_text("Formgrader").count()
-    found = sliders(page)
+    values = sliders(page)
     page.wait_for_function(f"() => !({CHANGED})()", timeout=PATIENCE)  # once the last is drawn
-    assert_slider_matters(page, found[0])
+    assert_slider_matters(page, values[0])
     assert solutions_in_sight(page) == []
     count = page.evaluate(f"() => {WIDGETS}.length")
     asks = page.locator(".live:has([type=radio])").first
@@ -159,11 +159,13 @@ def assert_python_sees(page, *words: str) -> None:
     """Python says so at once or soon: a busy kernel hears of the end of a drag when it can."""
     for _ in range(20):
         run(page, 1)
-        said = page.locator(".jp-OutputArea-output:has-text('seen ')").inner_text(timeout=PATIENCE)
-        if all(word in said for word in words):
+        output = page.locator(".jp-OutputArea-output:has-text('seen ')").inner_text(
+            timeout=PATIENCE
+        )
+        if all(word in output for word in words):
             return
         page.wait_for_timeout(250)
-    raise AssertionError(f"{words} were not seen, but {said}")
+    raise AssertionError(f"{words} were not seen, but {output}")
 
 
 def assert_all_in_view(page) -> None:
@@ -194,8 +196,8 @@ def test_python_follows_the_panel_which_follows_python(lab, browser_page):
     def assert_said_anew(act) -> None:
         before = status.inner_text()
         act()
-        said = "before => document.querySelector('.wmr-status').textContent !== before"
-        page.wait_for_function(said, arg=before, timeout=PATIENCE)
+        changed = "before => document.querySelector('.wmr-status').textContent !== before"
+        page.wait_for_function(changed, arg=before, timeout=PATIENCE)
 
     page.locator("[data-control=k_alpha] .wmr-slider").focus()
     assert_said_anew(lambda: [page.keyboard.press("ArrowRight") for _ in range(3)])

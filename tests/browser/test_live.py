@@ -115,7 +115,7 @@ def test_a_wrong_answer_is_told_what_is_wrong_and_the_knobs_go_where_it_asks():
     assert len(asking) > 5
     for thing in asking:
         ask = thing.setup["ask"]
-        wrong = [k for k, told in enumerate(ask["wrong"]) if told]
+        wrong = [k for k, reason in enumerate(ask["wrong"]) if reason]
         assert wrong == [k for k in range(len(ask["options"])) if k != ask["key"]]
         for knob, value in (pair for place in ask["asked"] for pair in place.items()):
             thing[knob] = value  # or it is refused
@@ -129,8 +129,8 @@ def test_an_answer_is_judged_and_can_be_tried_again(emptied_page):
         page.get_by_role("radio").nth(k).check()
         panel.press("Commit")
         assert panel.get("stop") == ask["asked"][-1]["stop"]
-        told = "As you said." if k == ask["key"] else f"Not so. {wrong}"
-        assert verdict.inner_text() == as_shown(f"{told} {ask['why']}")
+        judged = "As you said." if k == ask["key"] else f"Not so. {wrong}"
+        assert verdict.inner_text() == as_shown(f"{judged} {ask['why']}")
         panel.press("Try again")
         assert panel.get("stop") == live.stopping()["stop"]
         assert page.locator(".live-sentence").is_hidden()
@@ -152,9 +152,9 @@ def test_a_sketch_is_drawn_by_hand_and_judged_by_its_distance_from_the_way(empti
     panel.drag(canvas, 0.3 * canvas.bounding_box()["width"], 0, steps=3)
     guess = panel.press("Commit").get("guess")
     assert len(guess) == 5
-    said = emptied_page.locator(".live-verdict").inner_text()
-    far = float(re.search(r"Your path is ([\d.]+) m from the robot's, on average", said)[1])
-    run = panel.found()["run"]
+    verdict = emptied_page.locator(".live-verdict").inner_text()
+    far = float(re.search(r"Your path is ([\d.]+) m from the robot's, on average", verdict)[1])
+    run = panel.results()["run"]
     way = list(zip(run["x"], run["y"], strict=True))
     ours = [min(math.dist(point, it) for it in way) for point in guess]
     assert far == pytest.approx(sum(ours) / len(ours), rel=0.05)
@@ -225,6 +225,10 @@ def test_python_moves_a_figure_and_refuses_what_is_not_allowed():
     thing = live.turning_centre()
     thing["left"] = 1.25
     assert thing["left"] == thing.state["left"] == 1.25
-    for name, value, said in ("left", 9.0, "left"), ("left", math.nan, "left"), ("on", 1.0, "knob"):
-        with pytest.raises(ValueError, match=f"{said} = .* is not allowed"):
+    for name, value, message in (
+        ("left", 9.0, "left"),
+        ("left", math.nan, "left"),
+        ("on", 1.0, "knob"),
+    ):
+        with pytest.raises(ValueError, match=f"{message} = .* is not allowed"):
             thing[name] = value

@@ -33,46 +33,46 @@ def pose(numbers) -> wmr.Pose:
     return wmr.Pose(*numbers)
 
 
-def same_run(found, start, goal, gains, **how) -> wmr.Trajectory:
+def same_run(results, start, goal, gains, **options) -> wmr.Trajectory:
     """The run in the page is that of `simulate`, which is returned."""
-    how = {"method": "continuous", "dt": 0.05, "duration": 60.0} | how
-    ours = wmr.simulate(pose(start), pose(goal), gains, **how)
-    assert len(found["t"]) == len(ours.t)
+    options = {"method": "continuous", "dt": 0.05, "duration": 60.0} | options
+    ours = wmr.simulate(pose(start), pose(goal), gains, **options)
+    assert len(results["t"]) == len(ours.t)
     for name in ("x", "y"):
-        np.testing.assert_allclose(found[name], getattr(ours, name), atol=AGREES)
-    turned = np.array(found["heading"]) - ours.heading
+        np.testing.assert_allclose(results[name], getattr(ours, name), atol=AGREES)
+    turned = np.array(results["heading"]) - ours.heading
     assert np.abs(wmr.wrap_angle(turned)).max() < AGREES
     return ours
 
 
-def last_metres(values, found, data) -> None:
+def last_metres(values, results, data) -> None:
     shares = np.array([1 - values["share"], values["share"]])
     between = np.exp(shares @ np.log([[*data["paper"].values()], [*data["gentle"].values()]]))
-    same_run(found["run"], data["start"], data["goal"], wmr.Gains(*between))
+    same_run(results["run"], data["start"], data["goal"], wmr.Gains(*between))
 
 
-def stopping(values, found, data) -> None:
+def stopping(values, results, data) -> None:
     gains, ends = wmr.Gains(**data[values["gains"]]), (pose(data["start"]), pose(data["goal"]))
-    same_run(found["run"], *ends, gains, dt=0.005, arrival_radius=0.01)
+    same_run(results["run"], *ends, gains, dt=0.005, arrival_radius=0.01)
     stopped = wmr.simulate(*ends, gains, method="continuous", arrival_radius=values["stop"])
-    assert found["off"] == pytest.approx(stopped.heading_error[-1], abs=1e-3)
-    assert found["t"] == pytest.approx(stopped.t[-1], abs=1e-3)
+    assert results["off"] == pytest.approx(stopped.heading_error[-1], abs=1e-3)
+    assert results["t"] == pytest.approx(stopped.t[-1], abs=1e-3)
 
 
-def bearing(values, found, data) -> None:
+def bearing(values, results, data) -> None:
     here = wmr.paper.GPS_POINT_1
     there = wmr.point_at(here, values["east"], values["north"])
-    off = found["bearing"] - wmr.initial_bearing(here, there)
+    off = results["bearing"] - wmr.initial_bearing(here, there)
     assert wmr.wrap_angle(off) == pytest.approx(0.0, abs=1e-7)
-    assert found["rho"] == pytest.approx(wmr.haversine_distance(here, there), abs=1e-6)
+    assert results["rho"] == pytest.approx(wmr.haversine_distance(here, there), abs=1e-6)
     pair = wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(values["east"], values["north"], 0.0)
-    assert found["sight"] == pytest.approx(wmr.polar_error(*pair).alpha)
+    assert results["sight"] == pytest.approx(wmr.polar_error(*pair).alpha)
 
 
-def flat_map(values, found, data) -> None:
+def flat_map(values, results, data) -> None:
     origin = wmr.GeoPoint(lat=values["lat"], lon=0.0)
     point = wmr.destination_point(origin, 1000 * values["km"], math.pi / 4)
-    on_sphere, flat = found["maps"]
+    on_sphere, flat = results["maps"]
     assert on_sphere == pytest.approx(wmr.local_position(origin, point), rel=1e-9, abs=1e-7)
     lat, lon = np.radians([point.lat - origin.lat, point.lon])
     there = data["radius"] * np.array([lon * math.cos(math.radians(origin.lat)), lat])
@@ -80,76 +80,78 @@ def flat_map(values, found, data) -> None:
     step = math.degrees(values["km"] / data["radius"])
     ahead = wmr.GeoPoint(lat=point.lat + step, lon=point.lon)
     x, y = np.subtract(wmr.local_position(origin, ahead), on_sphere)
-    assert found["leans"] == pytest.approx(math.atan2(-x, y), abs=1e-6)
+    assert results["leans"] == pytest.approx(math.atan2(-x, y), abs=1e-6)
 
 
-def one_step(values, found, data) -> None:
+def one_step(values, results, data) -> None:
     whole, left = divmod(math.pi / data["omega"], values["dt"])
     for method in ("arc", "euler"):
         at = wmr.Pose(0.0, 0.0, 0.0)
         for dt in [values["dt"]] * int(whole) + [left]:
             at = wmr.advance(at, data["v"], data["omega"], dt, method=method)
-        assert found[method][-1][:2] == pytest.approx(at[:2], abs=1e-9)
+        assert results[method][-1][:2] == pytest.approx(at[:2], abs=1e-9)
 
 
-def polar_angles(values, found, data) -> None:
+def polar_angles(values, results, data) -> None:
     angles = np.radians([values["heading"], values["goal_heading"]])
     robot = wmr.Pose(values["x"], values["y"], angles[0])
     goal = wmr.Pose(*data["goal"][:2], angles[1])
     theirs = wmr.polar_error(robot, goal)
-    assert [found[name] for name in theirs._fields] == pytest.approx(theirs, abs=1e-12)
-    turned = wmr.wrap_angle(found["gamma"] - (theirs.theta - theirs.alpha))
+    assert [results[name] for name in theirs._fields] == pytest.approx(theirs, abs=1e-12)
+    turned = wmr.wrap_angle(results["gamma"] - (theirs.theta - theirs.alpha))
     assert turned == pytest.approx(0.0, abs=1e-12)
 
 
-def half_turn(values, found, data) -> None:
+def half_turn(values, results, data) -> None:
     heading = data["start"][2] - math.radians(values["off"])
     start = [*data["start"][:2], heading]
-    same_run(found["run"], start, data["goal"], wmr.Gains(**data["gains"]))
-    ends, how = (pose([*start[:2], -heading]), pose(data["goal"])), {"method": "continuous"}
-    mirrored = wmr.simulate(*ends, wmr.Gains(**data["gains"]), dt=0.05, **how)
-    np.testing.assert_allclose(found["run"]["y"], -mirrored.y, atol=AGREES)
+    same_run(results["run"], start, data["goal"], wmr.Gains(**data["gains"]))
+    ends, options = (pose([*start[:2], -heading]), pose(data["goal"])), {"method": "continuous"}
+    mirrored = wmr.simulate(*ends, wmr.Gains(**data["gains"]), dt=0.05, **options)
+    np.testing.assert_allclose(results["run"]["y"], -mirrored.y, atol=AGREES)
 
 
-def turning_centre(values, found, data) -> None:
+def turning_centre(values, results, data) -> None:
     v, omega = wmr.wheels_to_twist(values["left"], values["right"], data["track"])
-    assert (found["v"], found["omega"]) == pytest.approx((v, omega), abs=1e-12)
+    assert (results["v"], results["omega"]) == pytest.approx((v, omega), abs=1e-12)
     if omega:  # the wheels roll round that point
-        assert omega * (found["centre"] - data["track"] / 2) == pytest.approx(values["left"])
+        assert omega * (results["centre"] - data["track"] / 2) == pytest.approx(values["left"])
 
 
-def poles(values, found, data) -> None:
+def poles(values, results, data) -> None:
     gains = wmr.Gains(data["k_rho"], values["k_alpha"], values["h"], data["v_max"])
     pace = gains.k_rho * gains.v_max
     loop = python_control().tf([1.0], [1.0, gains.k_alpha, gains.h * pace**2])
-    theirs = np.array([complex(*each) for each in found["poles"]])
+    theirs = np.array([complex(*pole) for pole in results["poles"]])
     apart = np.abs(np.sort_complex(loop.poles()) - np.sort_complex(theirs)).max()
     assert apart < 1e-9 * max(1.0, np.abs(theirs).max())
-    same_run(found["run"], data["start"], data["goal"], gains, dt=0.02, duration=30.0)
+    same_run(results["run"], data["start"], data["goal"], gains, dt=0.02, duration=30.0)
 
 
-def unit_circle(values, found, data) -> None:
+def unit_circle(values, results, data) -> None:
     gains = wmr.Gains(**data["gains"][values["gains"]])
-    how = {"method": values["method"], "dt": found["dt"]}
+    options = {"method": values["method"], "dt": results["dt"]}
     longest = wmr.longest_step(gains, values["method"])
-    assert found["dt"] == pytest.approx(values["times"] * longest, rel=1e-12)
+    assert results["dt"] == pytest.approx(values["times"] * longest, rel=1e-12)
     # one step of simulate, from three places near the goal: the poles are of what it does to them
     rho, size, origin = 1e-3, 1e-5, wmr.Pose(0.0, 0.0, 0.0)
     columns = []
     for angles in ((size, 0.0), (0.0, size)):
         start = wmr.pose_from_polar(wmr.PolarError(rho, *angles), origin)
-        run = wmr.simulate(start, origin, gains, arrival_radius=0.0, duration=how["dt"], **how)
+        run = wmr.simulate(
+            start, origin, gains, arrival_radius=0.0, duration=options["dt"], **options
+        )
         columns.append([run.alpha[-1] / size, run.theta[-1] / size])
-        assert run.rho[-1] / rho == pytest.approx(found["kept"], rel=1e-2)
+        assert run.rho[-1] / rho == pytest.approx(results["kept"], rel=1e-2)
     theirs = np.sort_complex(np.linalg.eigvals(np.transpose(columns)))
-    ours = np.sort_complex([complex(*each) for each in found["poles"]])
+    ours = np.sort_complex([complex(*pole) for pole in results["poles"]])
     np.testing.assert_allclose(ours, theirs, atol=1e-2)
-    assert (found["size"] < 1) == (values["times"] < 1) or values["times"] == 1
-    same_run(found["run"], data["start"], data["goal"], gains, **how)
+    assert (results["size"] < 1) == (values["times"] < 1) or values["times"] == 1
+    same_run(results["run"], data["start"], data["goal"], gains, **options)
 
 
-def late(values, found, data) -> None:
-    for k, run in enumerate(found["runs"]):
+def late(values, results, data) -> None:
+    for k, run in enumerate(results["runs"]):
         delays = [0.0, 0.0]
         delays[k] = values["delay"]
         path, time = noise.late_drive(*delays, *np.radians([values["set_off"], values["face"]]))
@@ -165,89 +167,94 @@ def late(values, found, data) -> None:
             assert run["old"] == pytest.approx(believed)
 
 
-def rising(values, found, data) -> None:
+def rising(values, results, data) -> None:
     gains, (rho, L) = wmr.Gains(**data["gains"]), (values["rho"], values["L"])
     here = np.radians([values["alpha"], values["theta"]])
     rate = wmr.lyapunov_rate(rho, *here, gains, law="printed", L=L)
-    assert found["rate"] == pytest.approx(rate, rel=1e-9, abs=1e-12)
+    assert results["rate"] == pytest.approx(rate, rel=1e-9, abs=1e-12)
     angles = np.radians((np.arange(73) + 0.5) / 73 * 360 - 180)
     up = wmr.lyapunov_rate(rho, *np.meshgrid(angles, angles), gains, law="printed", L=L) > 0
-    assert found["share"] == pytest.approx(up.mean(), abs=1e-3)
+    assert results["share"] == pytest.approx(up.mean(), abs=1e-3)
     origin = wmr.Pose(0.0, 0.0, 0.0)
     start = wmr.pose_from_polar(wmr.PolarError(rho, *map(float, here)), origin)
-    how = {"method": "continuous", "dt": 0.06, "duration": 3.0, "arrival_radius": 0.0}
-    for law, V in zip(("printed", "corrected"), found["V"], strict=True):
-        run = wmr.simulate(start, origin, gains, law=law, **how)
+    options = {"method": "continuous", "dt": 0.06, "duration": 3.0, "arrival_radius": 0.0}
+    for law, V in zip(("printed", "corrected"), results["V"], strict=True):
+        run = wmr.simulate(start, origin, gains, law=law, **options)
         ours = run.rho**2 / 2 / L + run.alpha**2 / 2 + gains.h * run.theta**2 / 2
         np.testing.assert_allclose(V, ours, rtol=1e-6, atol=1e-7)
 
 
-def silence(values, found, data) -> None:
+def silence(values, results, data) -> None:
     far = real_robot.rolled(values["speed"], values["timeout"], values["brake"])
-    assert found["far"] == pytest.approx(far, rel=1e-9)
-    assert found["faith"] == pytest.approx(values["speed"] * values["timeout"])
+    assert results["far"] == pytest.approx(far, rel=1e-9)
+    assert results["faith"] == pytest.approx(values["speed"] * values["timeout"])
 
 
-def same_route(found, poses, radii, gains, stop) -> None:
-    how = {"stop": stop, "arrival_radius": radii[-1], "pass_radius": radii[0]}
-    ours = routes.drive_route(wmr.Pose(*np.transpose(poses)), gains, **how)
-    assert found["arrived"] == (ours.outcome is wmr.Outcome.ARRIVED)
-    assert found["leg"] == ours.leg.tolist()
+def same_route(results, poses, radii, gains, stop) -> None:
+    options = {"stop": stop, "arrival_radius": radii[-1], "pass_radius": radii[0]}
+    ours = routes.drive_route(wmr.Pose(*np.transpose(poses)), gains, **options)
+    assert results["arrived"] == (ours.outcome is wmr.Outcome.ARRIVED)
+    assert results["leg"] == ours.leg.tolist()
     for name in ("t", "x", "y", "v", "V"):
-        np.testing.assert_allclose(found[name], getattr(ours, name), rtol=1e-6, atol=1e-6)
-    assert found["peakOmega"] == pytest.approx(max(it.peak_omega for it in ours.arrivals))
+        np.testing.assert_allclose(results[name], getattr(ours, name), rtol=1e-6, atol=1e-6)
+    assert results["peakOmega"] == pytest.approx(max(it.peak_omega for it in ours.arrivals))
 
 
-def corners(values, found, data) -> None:
+def corners(values, results, data) -> None:
     points = [data["first"], (values["x"], values["y"]), data["last"]]
     headings = routes.headings_along(*np.transpose(points))
-    assert [found[key] for key in ("come", "heading", "leave")] == pytest.approx(headings)
+    assert [results[key] for key in ("come", "heading", "leave")] == pytest.approx(headings)
     poses = [(*at, heading) for at, heading in zip(points, headings, strict=True)]
     radii = data[values["stop"]], data["stop"]
-    same_route(found["run"], poses, radii, wmr.Gains(**data["gains"]), values["stop"] == "stop")
+    same_route(results["run"], poses, radii, wmr.Gains(**data["gains"]), values["stop"] == "stop")
 
 
-def passing(values, found, data) -> None:
+def passing(values, results, data) -> None:
     gains = wmr.Gains(**data["gains"])
-    same_route(found["run"], data["poses"], (values["radius"], 0.05), gains, False)
+    same_route(results["run"], data["poses"], (values["radius"], 0.05), gains, False)
 
 
-def parking(values, found, data) -> None:
+def parking(values, results, data) -> None:
     dead, least = values["dead"], 1.1 * values["dead"]
     wheels = wmr.Wheels(**data["wheels"], dead_band=dead)
     wheels = wheels._replace(min_speed=0.0 if values["mend"] == "none" else least)
     rate = max(2.0 * least / wheels.track_width, 0.2)
     turn = wmr.LastTurn(0.03, 2.0, rate, 1.0) if values["mend"] == "turn" else None
-    how = {"method": "arc", "last_turn": turn, "arrival_radius": values["radius"], "wheels": wheels}
+    options = {
+        "method": "arc",
+        "last_turn": turn,
+        "arrival_radius": values["radius"],
+        "wheels": wheels,
+    }
     gains = wmr.Gains(**data["gains"])
-    same_run(found["run"], data["start"], data["goal"], gains, **how)
+    same_run(results["run"], data["start"], data["goal"], gains, **options)
     if dead:
         start, goal = wmr.Pose(-2.0, 0.0, 0.0), wmr.Pose(0.0, 0.0, 0.0)
-        how = {"dt": 0.01, "duration": 100.0, "arrival_radius": 0.0}
-        alone = wmr.simulate(start, goal, gains, wheels=wmr.Wheels(0.5, dead_band=dead), **how)
-        assert found["stalls"] == pytest.approx(alone.rho[-1], abs=0.01)
+        options = {"dt": 0.01, "duration": 100.0, "arrival_radius": 0.0}
+        alone = wmr.simulate(start, goal, gains, wheels=wmr.Wheels(0.5, dead_band=dead), **options)
+        assert results["stalls"] == pytest.approx(alone.rho[-1], abs=0.01)
 
 
-def bowl(values, found, data) -> None:
+def bowl(values, results, data) -> None:
     gains = wmr.Gains(**data["gains"][values["choice"]])
-    ours = same_run(found["run"], data["start"], data["goal"], gains, **ROLLING)
+    ours = same_run(results["run"], data["start"], data["goal"], gains, **ROLLING)
     height = wmr.lyapunov(0.0, ours.alpha, ours.theta, gains.h)
-    assert found["height"] == pytest.approx(height[found["k"]], abs=AGREES)
+    assert results["height"] == pytest.approx(height[results["k"]], abs=AGREES)
 
 
-def seam(values, found, data) -> None:
+def seam(values, results, data) -> None:
     start, robots = wmr.Pose(data["distance"], 0.0, math.pi), data["robots"]
     seen = wmr.Receiver(sight=np.full(robots, math.radians(values["noise"])))
-    how = {"method": "arc", "dt": data["dt"], "arrival_radius": data["radius"]}
-    how |= {"hysteresis": values["hysteresis"], "seed": data["seed"]}
+    options = {"method": "arc", "dt": data["dt"], "arrival_radius": data["radius"]}
+    options |= {"hysteresis": values["hysteresis"], "seed": data["seed"]}
     gains = wmr.Gains(**data["gains"])
-    ends = wmr.sweep(start, pose(data["goal"]), gains, receiver=seen, **how)
-    off = np.array([run["off"] for run in found["runs"]])
+    ends = wmr.sweep(start, pose(data["goal"]), gains, receiver=seen, **options)
+    off = np.array([run["off"] for run in results["runs"]])
     assert np.abs(wmr.wrap_angle(off - ends.heading_error)).max() < AGREES
-    assert found["lost"] == np.sum(np.abs(ends.heading_error) > math.pi / 2)
+    assert results["lost"] == np.sum(np.abs(ends.heading_error) > math.pi / 2)
 
 
-def two_bars(values, found, data) -> None:
+def two_bars(values, results, data) -> None:
     def parts(alpha, theta):
         twist = {
             "nothing": lambda: (1.0, 0.0),
@@ -260,75 +267,75 @@ def two_bars(values, found, data) -> None:
 
     rho, gains = data["rho"], wmr.Gains(**data["gains"])
     ours = parts(math.radians(values["alpha"]), math.radians(values["theta"]))
-    np.testing.assert_allclose(found["bars"], ours, atol=1e-12)
+    np.testing.assert_allclose(results["bars"], ours, atol=1e-12)
     side = (2 * (np.arange(19) + 0.5) / 19 - 1) * np.pi
     states = np.array([(alpha, theta) for alpha in side for theta in side])
     rises = np.sum(parts(*states.T), axis=0) > 0
-    np.testing.assert_allclose(np.reshape(found["marks"], (-1, 2)), states[rises], atol=1e-12)
+    np.testing.assert_allclose(np.reshape(results["marks"], (-1, 2)), states[rises], atol=1e-12)
     assert rises.any() == (values["law"] != "corrected")
 
 
-def x_axis(values, found, data) -> None:
+def x_axis(values, results, data) -> None:
     case = wmr.paper.outdoor(values["axis"])
-    same_run(found["run"], case.start, case.goal, case.gains)
-    assert found["alpha"] == pytest.approx(wmr.polar_error(case.start, case.goal).alpha)
+    same_run(results["run"], case.start, case.goal, case.gains)
+    assert results["alpha"] == pytest.approx(wmr.polar_error(case.start, case.goal).alpha)
     east = wmr.paper.outdoor("east")  # the map is the same, however x points
-    np.testing.assert_allclose(found["goal"][:2], east.goal[:2], atol=1e-9)
+    np.testing.assert_allclose(results["goal"][:2], east.goal[:2], atol=1e-9)
     bearing = math.pi / 2 - case.start.heading
     seen = bearing if values["axis"] == "north" else case.start.heading
-    assert wmr.wrap_angle(found["start"][2] - seen) == pytest.approx(0.0, abs=1e-12)
+    assert wmr.wrap_angle(results["start"][2] - seen) == pytest.approx(0.0, abs=1e-12)
 
 
 def round_the_circle(gains, law="corrected") -> wmr.Trajectory:
-    circle, how = (wmr.paper.circle, wmr.paper.CIRCLE_START), {"duration": 40.0, "dt": 0.1}
-    return wmr.track(*circle, gains, law=law, method="continuous", **how)
+    circle, options = (wmr.paper.circle, wmr.paper.CIRCLE_START), {"duration": 40.0, "dt": 0.1}
+    return wmr.track(*circle, gains, law=law, method="continuous", **options)
 
 
-def lag(values, found, data) -> None:
+def lag(values, results, data) -> None:
     gains = wmr.paper.CIRCLE_GAINS._replace(k_rho=values["k_rho"], v_max=values["v_max"])
     ours = round_the_circle(gains)
-    np.testing.assert_allclose(found["run"]["rho"], ours.rho, atol=AGREES)
-    assert found["residual"] == pytest.approx(wmr.residual(ours), abs=AGREES)
-    kept = wmr.control_law(found["predicted"], 0.0, 0.0, gains)[0]  # there it keeps up
+    np.testing.assert_allclose(results["run"]["rho"], ours.rho, atol=AGREES)
+    assert results["residual"] == pytest.approx(wmr.residual(ours), abs=AGREES)
+    kept = wmr.control_law(results["predicted"], 0.0, 0.0, gains)[0]  # there it keeps up
     assert kept == pytest.approx(wmr.paper.CIRCLE_SPEED, rel=1e-12)
 
 
-def lqr(values, found, data) -> None:
+def lqr(values, results, data) -> None:
     A, B = np.array(data["A"]), np.array(data["B"])
     K, _, poles = python_control().lqr(A, B, values["q"] * np.eye(3), np.eye(2))
-    np.testing.assert_allclose(found["K"], K, atol=1e-9)
-    theirs = np.array([complex(*each) for each in found["poles"]])
+    np.testing.assert_allclose(results["K"], K, atol=1e-9)
+    theirs = np.array([complex(*pole) for pole in results["poles"]])
     assert np.abs(np.sort_complex(theirs) - np.sort_complex(poles)).max() < 1e-6
     ours = round_the_circle(wmr.LinearGains(-K), "linear")
-    np.testing.assert_allclose(found["run"]["x"], ours.x, atol=AGREES)
-    np.testing.assert_allclose(found["run"]["omega"], ours.omega, atol=1e-6)
+    np.testing.assert_allclose(results["run"]["x"], ours.x, atol=AGREES)
+    np.testing.assert_allclose(results["run"]["omega"], ours.omega, atol=1e-6)
 
 
-def window(values, found, data) -> None:
+def window(values, results, data) -> None:
     gains, start = wmr.Gains(1.0, values["kappa"], values["h"], 1.0), pose(data["start"])
-    how = {"dt": 0.02, "duration": 90.0, "arrival_radius": 1e-6}
-    same_run(found["run"], start, wmr.Pose(0, 0, 0), gains, **how)
+    options = {"dt": 0.02, "duration": 90.0, "arrival_radius": 1e-6}
+    same_run(results["run"], start, wmr.Pose(0, 0, 0), gains, **options)
     modes = wmr.modes(gains)
-    theirs = np.sort_complex([complex(*each) for each in found["poles"]])
+    theirs = np.sort_complex([complex(*pole) for pole in results["poles"]])
     assert np.abs(theirs - np.sort_complex(modes.poles[1:])).max() < 1e-6
-    assert found["inside"] == (modes.slower < 1)
+    assert results["inside"] == (modes.slower < 1)
     other = wmr.Gains(0.5, 3.0 * values["kappa"], values["h"], 6.0)  # in metres and seconds
-    start, how = wmr.Pose(2 * start.x, 2 * start.y, start.heading), {"method": "continuous"}
-    run = wmr.simulate(start, wmr.Pose(0, 0, 0), other, dt=0.005, arrival_radius=2e-6, **how)
+    start, options = wmr.Pose(2 * start.x, 2 * start.y, start.heading), {"method": "continuous"}
+    run = wmr.simulate(start, wmr.Pose(0, 0, 0), other, dt=0.005, arrival_radius=2e-6, **options)
     error = np.degrees(np.abs(wmr.wrap_angle(run.theta - run.alpha)))
     late = [error[run.rho <= radius].max() for radius in (0.2, 0.02)]
-    np.testing.assert_allclose(found["late"], late, atol=0.5)
+    np.testing.assert_allclose(results["late"], late, atol=0.5)
 
 
-def race(values, found, data) -> None:
+def race(values, results, data) -> None:
     start = wmr.Pose(values["x"], values["y"], math.radians(values["heading"]))
     wheels = wmr.Wheels(data["track"], data["most"])
-    how = {"dt": data["dt"], "duration": data["seconds"], "arrival_radius": data["radius"]}
-    for run in found["runs"]:
+    options = {"dt": data["dt"], "duration": data["seconds"], "arrival_radius": data["radius"]}
+    for run in results["runs"]:
         gains = wmr.Gains(**data["tuned"][run["law"]])
         ours, nudged = (
-            wmr.simulate(each, pose(data["goal"]), gains, law=run["law"], wheels=wheels, **how)
-            for each in (start, start._replace(x=start.x + 1e-11))
+            wmr.simulate(begin, pose(data["goal"]), gains, law=run["law"], wheels=wheels, **options)
+            for begin in (start, start._replace(x=start.x + 1e-11))
         )
         assert len(run["x"]) == len(ours) or run["law"] != "corrected"
         if len(nudged) != len(ours) or np.abs(nudged.x - ours.x).max() > 1e-8:
@@ -340,19 +347,22 @@ def race(values, found, data) -> None:
         assert run["back"] == pytest.approx(driven, abs=1e-6)
 
 
-def heading_power(values, found, data) -> None:
+def heading_power(values, results, data) -> None:
     gains = wmr.Gains(**data["gains"])._replace(h=values["k_phi"], k_alpha=values["k_delta"])
-    ends, how = (pose(data["start"]), pose(data["goal"])), {"law": "graceful", "duration": 120.0}
-    same_run(found["run"], *ends, gains, arrival_radius=0.005, **how)
+    ends, options = (
+        (pose(data["start"]), pose(data["goal"])),
+        {"law": "graceful", "duration": 120.0},
+    )
+    same_run(results["run"], *ends, gains, arrival_radius=0.005, **options)
     stop = {"method": "continuous", "arrival_radius": values["radius"]}
-    ours = wmr.simulate(*ends, gains, **how, **stop)
-    assert found["left"] == pytest.approx(abs(ours.heading_error[-1]), abs=1e-7)
+    ours = wmr.simulate(*ends, gains, **options, **stop)
+    assert results["left"] == pytest.approx(abs(ours.heading_error[-1]), abs=1e-7)
     z = []
     for radius in (0.02, 0.01):
-        run = wmr.simulate(*ends, gains, **how, **stop | {"arrival_radius": radius})
+        run = wmr.simulate(*ends, gains, **options, **stop | {"arrival_radius": radius})
         z.append(run.alpha[-1] + math.atan(gains.h * run.theta[-1]))
     assert math.log2(z[0] / z[1]) == pytest.approx(gains.k_alpha, abs=0.02)
-    assert found["power"] == min(values["k_phi"], values["k_delta"])
+    assert results["power"] == min(values["k_phi"], values["k_delta"])
 
 
 TRUTH = {name: globals()[name] for name in NAMES}  # each has its own, of the same name
@@ -371,4 +381,4 @@ def test_what_is_shown_is_true(emptied_page, name):
             else:
                 values[knob["name"]] = float(random.uniform(knob["low"], knob["high"]))
         panel.set(**values)
-        TRUTH[name](panel.state(), panel.found(), thing.setup["data"])
+        TRUTH[name](panel.state(), panel.results(), thing.setup["data"])

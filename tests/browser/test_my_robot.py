@@ -53,30 +53,30 @@ def opened(page, robot=ROBOTS[0]):
     "robot", [*ROBOTS[:2], *(pytest.param(it, marks=pytest.mark.slow) for it in ROBOTS[2:])]
 )
 def test_the_page_says_what_python_says(emptied_page, robot):
-    found, told, ours = opened(emptied_page, robot).found(), sheet(robot), certificate(robot)
-    given = found["sheet"]
+    results, numbers, ours = opened(emptied_page, robot).results(), sheet(robot), certificate(robot)
+    given = results["sheet"]
     for name in ("x", "y", "heading", "distance", "radius", "longest_step", "min_speed"):
-        assert given[name] == pytest.approx(getattr(told, name), abs=1e-7), name
-    assert given["duration"] == told.duration
-    assert given["rules"] == pytest.approx(told.rules._asdict())
-    assert given["gains"] == pytest.approx(told.gains._asdict())
-    assert given["turn"] == pytest.approx(told.turn._asdict())
-    assert found["files"] == files(robot)
+        assert given[name] == pytest.approx(getattr(numbers, name), abs=1e-7), name
+    assert given["duration"] == numbers.duration
+    assert given["rules"] == pytest.approx(numbers.rules._asdict())
+    assert given["gains"] == pytest.approx(numbers.gains._asdict())
+    assert given["turn"] == pytest.approx(numbers.turn._asdict())
+    assert results["files"] == files(robot)
     # A run that ends a sample later by a rounding ends elsewhere; hardly any does.
     for name in ("place", "heading"):
-        theirs = np.array([end[name] for end in found["ends"]])
+        theirs = np.array([end[name] for end in results["ends"]])
         assert np.mean(np.abs(theirs - getattr(ours, name)) < 1e-6) > 0.97
-    assert found["parked"] == ours.parked == RUNS
+    assert results["parked"] == ours.parked == RUNS
     for name in ("place_rms", "heading_rms", "place_bound", "heading_bound", "time"):
-        assert found[name] == pytest.approx(getattr(ours, name), rel=0.02), name
+        assert results[name] == pytest.approx(getattr(ours, name), rel=0.02), name
 
 
 def test_a_drive_that_does_not_end_leaves_no_bound(emptied_page):
     robot = Robot(delay=0.8, max_speed=2.8, acceleration=0.73, dead_band=0.0)
-    ours, found = certificate(robot), opened(emptied_page, robot).found()
-    assert found["parked"] < sure(RUNS) > ours.parked
-    assert abs(found["parked"] - ours.parked) < 20
-    assert found["place_bound"] is None
+    ours, results = certificate(robot), opened(emptied_page, robot).results()
+    assert results["parked"] < sure(RUNS) > ours.parked
+    assert abs(results["parked"] - ours.parked) < 20
+    assert results["place_bound"] is None
     assert "did not end in time" in emptied_page.locator(".my-robot > [role=status]").inner_text()
 
 
@@ -163,9 +163,9 @@ def test_a_log_fills_in_the_way_and_the_scatter(emptied_page, tmp_path):
         track = wmr.read_track(path)
         for label, filled in (("from the log of a drive", along), ("from a log at rest", at_rest)):
             emptied_page.get_by_label(label).set_input_files(path)
-            said = f"{path.name}: {len(track)} fixes"
+            summary = f"{path.name}: {len(track)} fixes"
             emptied_page.wait_for_function(
-                "said => document.querySelector('.my-heard').textContent === said", arg=said
+                "said => document.querySelector('.my-heard').textContent === said", arg=summary
             )
             wanted, given = filled(Robot(), track)._asdict(), panel.state()
             changed = [name for name, value in Robot()._asdict().items() if wanted[name] != value]

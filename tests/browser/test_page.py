@@ -86,9 +86,9 @@ def test_a_page_opens_without_trouble_and_without_faults(name, scheme, opened, b
 
 def test_the_panel_lives_and_follows_the_colour_menu(opened):
     page = opened("explorer.html")
-    found = sliders(page)
-    assert len(found) >= 4  # k_rho, k_alpha, h and at least one more
-    assert_slider_matters(page, found[0])
+    values = sliders(page)
+    assert len(values) >= 4  # k_rho, k_alpha, h and at least one more
+    assert_slider_matters(page, values[0])
     before = settled_picture(page)
     page.locator(".theme-switch-button:visible").click(timeout=PATIENCE)
     page.locator('.theme-change-button[data-mode="dark"]:visible').click(timeout=PATIENCE)
@@ -105,11 +105,11 @@ def test_search_finds_the_page_that_says_it_most_and_shows_formulas_as_letters(o
     page.keyboard.type("LaSalle")
     page.keyboard.press("Enter")
     page.wait_for_url("**/search.html?q=LaSalle", timeout=PATIENCE)
-    found = page.locator("#search-results li > a")
-    found.nth(2).wait_for()
-    assert found.first.get_attribute("href") == "notebooks/04_lyapunov.html"
+    hits = page.locator("#search-results li > a")
+    hits.nth(2).wait_for()
+    assert hits.first.get_attribute("href") == "notebooks/04_lyapunov.html"
     words = page.evaluate("PAGES['notebooks/04_lyapunov']")
-    assert all(each in words for each in ("k_\u03c1", "V\u0307", "1/2"))
+    assert all(term in words for term in ("k_\u03c1", "V\u0307", "1/2"))
     assert not re.search(r"\\|frac\d", words)
 
 
@@ -168,8 +168,8 @@ def test_names_in_sentences_and_code_link_to_their_entries_and_no_others(site):
     for path in sorted((site / "notebooks").glob("*.html")):
         text = path.read_text(encoding="utf-8")
         for page, package, name, shown in TO_ENTRY.findall(text):
-            said = re.sub(r"<[^>]+>", "", shown)
-            assert re.fullmatch(rf"(\w+\.)?{name}(\.\w+|\(.*\))?", said, re.DOTALL), (path, said)
+            plain = re.sub(r"<[^>]+>", "", shown)
+            assert re.fullmatch(rf"(\w+\.)?{name}(\.\w+|\(.*\))?", plain, re.DOTALL), (path, plain)
             assert page == {"wmrlib": "api", "wmrrobot": "api_robot"}[package]
             linked.add((package, name, "sentence" if "<code" in shown else "code"))
         outside = TO_ENTRY.sub("", text)

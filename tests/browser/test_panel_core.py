@@ -72,10 +72,10 @@ def test_maps_equal_a_sweep(panel_core):
         kx, ky = next(axes)
         xs, ys = np.linspace(*low_high[kx], 12), np.linspace(*low_high[ky], 10)
         grid = dict(zip((kx, ky), np.meshgrid(xs, ys), strict=True))
-        how = {"law": law, "method": method, "duration": 80.0}
-        swept = wmr.sweep(start, goal, wmr.Gains(**(gains | grid)), **how)
+        motion = {"law": law, "method": method, "duration": 80.0}
+        swept = wmr.sweep(start, goal, wmr.Gains(**(gains | grid)), **motion)
         assert swept.arrived.any()
-        options = OUTDOOR | how | {"gains": gains, "kx": kx, "ky": ky}
+        options = OUTDOOR | motion | {"gains": gains, "kx": kx, "ky": ky}
         options |= {"xs": xs.tolist(), "ys": ys.tolist()}
         maps = panel_core.evaluate(call, [options, metrics])
         for metric, shown in zip(metrics, maps, strict=True):
@@ -109,10 +109,10 @@ def test_modes_equal_wmrlib(panel_core):
 
 
 def test_a_run_that_leaves_the_range_of_numbers_says_so(panel_core):
-    how = {"law": "aicardi", "method": "euler", "dt": 5.0, "duration": 20_000.0}
-    options = OUTDOOR | how | {"gains": OUTDOOR["gains"] | {"k_rho": 90.0}}
+    motion = {"law": "aicardi", "method": "euler", "dt": 5.0, "duration": 20_000.0}
+    options = OUTDOOR | motion | {"gains": OUTDOOR["gains"] | {"k_rho": 90.0}}
     poses = (wmr.Pose(*options[end]) for end in ("start", "goal"))
-    ours = wmr.simulate(*poses, wmr.Gains(**options["gains"]), **how)
+    ours = wmr.simulate(*poses, wmr.Gains(**options["gains"]), **motion)
     outcome = panel_core.evaluate("(options) => simulate(options).outcome", options)
     assert outcome == ours.outcome.name == "DIVERGED"
 
@@ -142,5 +142,5 @@ def test_bad_input_is_named(panel_core):
         try { return simulate(options).n; } catch (error) { return String(error); }
     }"""
     for change, message in BAD_INPUT:
-        said = panel_core.evaluate(text, OUTDOOR | change)
-        assert str(said).startswith(f"RangeError: {message}"), said
+        answer = panel_core.evaluate(text, OUTDOOR | change)
+        assert str(answer).startswith(f"RangeError: {message}"), answer

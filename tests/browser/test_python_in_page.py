@@ -11,7 +11,7 @@ FORMULA = "it => MathJax.startup.document.getMathItemsWithin(it)[0].math.trim()"
 LYAPUNOV = "notebooks/04_lyapunov.html"
 
 
-def told(page, number: int) -> str:
+def output_of(page, number: int) -> str:
     """What the status of a cell says once it has run."""
     page.wait_for_function(
         """number => /^(?!Loading|Running)./.test(
@@ -53,8 +53,8 @@ def parts_of(page) -> list[str]:
     asked = []
 
     def note(request):
-        _, found, name = request.url.rpartition("vendor/python/")
-        if found:
+        _, folder, name = request.url.rpartition("vendor/python/")
+        if folder:
             asked.append(name)
 
     page.on("request", note)
@@ -69,7 +69,7 @@ def test_python_is_loaded_for_the_first_cell_that_is_run(opened):
     formula = stored.evaluate(FORMULA)
     assert not page.evaluate("Object.keys(window.PYTHON_PARTS ?? {}).length")
     press(page, 0, "Run")
-    assert re.fullmatch(r"Done in [\d.]+ s\.", told(page, 0))
+    assert re.fullmatch(r"Done in [\d.]+ s\.", output_of(page, 0))
     assert not stored.is_visible()
     assert cell.locator(".python-output").evaluate(FORMULA) == formula
     assert sorted(asked) == ["asm.js", "packages.js", "stdlib.js", "wasm.js", "worker.js"]
@@ -81,9 +81,9 @@ def test_z3_is_loaded_for_the_cell_that_asks_it_and_proves_the_theorem(opened):
     asked = parts_of(page)
     proof = next(i for i, it in enumerate(sources(page)) if "strict.counterexample(" in it)
     press(page, 0, "Run")
-    assert told(page, 0).startswith("Done")
+    assert output_of(page, 0).startswith("Done")
     press(page, proof, "Run")
-    assert told(page, proof).startswith("Done")
+    assert output_of(page, proof).startswith("Done")
     assert "p: 0, q: 1/8" in shown(page, proof)
     assert asked.count("z3.js") == 1
 
@@ -97,32 +97,32 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     model = next(i for i, source in enumerate(cells) if "rates =" in source)
     proof = next(i for i, source in enumerate(cells) if "exact_rate =" in source)
     press(page, last, "Run")
-    assert told(page, last).startswith("Done")
+    assert output_of(page, last).startswith("Done")
     assert page.locator(".python-output mjx-container").count() >= last
 
     # A sign turned round: the check in the cell fails, and says where; without it a rest remains.
     wrong = cells[model].replace("rho: -v *", "rho: v *")
     write(page, model, wrong)
     press(page, last, "Run")
-    assert told(page, last) == f"An error, in cell {model + 1} above."
+    assert output_of(page, last) == f"An error, in cell {model + 1} above."
     assert re.match(r"Line \d+: AssertionError: assert", shown(page, model))
     rest = re.sub(r"(?m)^ *assert.*$|^for number.*$", "", wrong)
     rest = rest.rstrip().rpartition("\n")[0] + "\nprint(sp.expand(slope - EQUATIONS[20].rhs))"
     write(page, model, rest)
     page.keyboard.press("Control+Enter")
-    assert told(page, model).startswith("Done")
+    assert output_of(page, model).startswith("Done")
     assert shown(page, model).strip() == "2*rho*v*cos(alpha)/L"
     press(page, last, "Run")  # what was right above is computed again, from the wrong sign
-    assert told(page, last) == f"An error, in cell {proof + 1} above."
+    assert output_of(page, last) == f"An error, in cell {proof + 1} above."
 
     # An endless loop: the page stays alive, and what was computed is computed again.
     write(page, model, "while True:\n    pass")
     page.keyboard.press("Control+Enter")
     press(page, model, "Stop")
-    assert told(page, model) == "Stopped. All variables are gone."
+    assert output_of(page, model) == "Stopped. All variables are gone."
     press(page, model, "Reset")
     press(page, last, "Run")
-    assert told(page, last).startswith("Done")
+    assert output_of(page, last).startswith("Done")
 
     # By keyboard: Tab indents, and leaves after Esc.
     write(page, model, "")
@@ -139,5 +139,5 @@ def test_a_proof_is_run_broken_stopped_and_mended_in_the_page(site, opened):
     page.evaluate("scrollTo(0, 0)")  # the theme's way back to the top is too pale
     page.locator("#pst-back-to-top").wait_for(state="hidden", timeout=PATIENCE)
     assert not of_page(page, SIZES[:1])
-    sizes = [each.stat().st_size for each in (site / "_static/vendor/python").iterdir()]
+    sizes = [file.stat().st_size for file in (site / "_static/vendor/python").iterdir()]
     assert sum(sizes) < 25e6

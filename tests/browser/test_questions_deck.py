@@ -22,7 +22,7 @@ def test_each_question_has_a_title_can_be_read_and_fits_and_its_notes_have_formu
     assert browser_page.evaluate("deck.getTotalSlides()") == 3 + count
     pictures = browser_page.locator(".page figure img:first-child")
     assert pictures.count() == 1 + len(scenes.SCENES)
-    assert all(each.get_attribute("alt") for each in pictures.all())
+    assert all(picture.get_attribute("alt") for picture in pictures.all())
     assert browser_page.evaluate(TROUBLES) == []
     listed = "it => getComputedStyle(it).listStyleType"
     assert browser_page.locator("ol li").first.evaluate(listed) == "upper-alpha"

@@ -15,42 +15,44 @@ from wmrbook import live
 from wmrbook.live.scenes import SCENES
 
 
-def flat_map(found):
-    near, far, north, level = (np.hypot(*np.subtract(*each["maps"])) for each in found)
+def flat_map(results):
+    near, far, north, level = (np.hypot(*np.subtract(*result["maps"])) for result in results)
     return near < 1e-3, far / near == pytest.approx(1e4, rel=0.01), north > far, level < 1e-3 * far
 
 
-def turning_centre(found):
-    straight, arc, about, spot = found
+def turning_centre(results):
+    straight, arc, about, spot = results
     yield straight["omega"] == 0.0
     yield arc["centre"] > arc["wheels"][0][1]
     yield about["centre"] == pytest.approx(about["wheels"][0][1])
     yield spot["v"] == 0.0
 
 
-def polar_angles(found):
-    *_, before, robot, goal = ([each[name] for name in ("rho", "alpha", "theta")] for each in found)
+def polar_angles(results):
+    *_, before, robot, goal = (
+        [result[name] for name in ("rho", "alpha", "theta")] for result in results
+    )
     yield (np.not_equal(robot, before) == [False, True, False]).all()
     yield (np.not_equal(goal, robot) == [False, False, True]).all()
 
 
-def bowl(found):
-    for each in found:
-        alpha, theta = np.array(each["run"]["alpha"]), np.array(each["run"]["theta"])
-        V = alpha**2 + each["h"] * theta**2
+def bowl(results):
+    for result in results:
+        alpha, theta = np.array(result["run"]["alpha"]), np.array(result["run"]["theta"])
+        V = alpha**2 + result["h"] * theta**2
         yield (np.diff(V) < 1e-9).all()
-        steepest = np.arctan2(each["h"] * theta[0], alpha[0])
+        steepest = np.arctan2(result["h"] * theta[0], alpha[0])
         went = np.arctan2(theta[0] - theta[5], alpha[0] - alpha[5])
         yield abs(steepest - went) > np.radians(20.0)
 
 
-def lag(found):
-    first, steep, fast = (each["residual"] for each in found)
+def lag(results):
+    first, steep, fast = (result["residual"] for result in results)
     return first > 0.05, steep == pytest.approx(first / 2, rel=0.02), 0.4 < fast / first < 0.5
 
 
-def window(found):
-    swings, lags, inside = found
+def window(results):
+    swings, lags, inside = results
     yield not swings["inside"]
     yield not lags["inside"]
     yield inside["inside"]
@@ -60,20 +62,20 @@ def window(found):
     yield lags["poles"][0][1] == 0.0
 
 
-def rising(found):
-    up, down, again = (each["rate"] for each in found)
+def rising(results):
+    up, down, again = (result["rate"] for result in results)
     return up > 0.0, down < 0.0, again > 0.0
 
 
-def corners(found):
+def corners(results):
     passed, stopped, sharp, hardly = (
-        (each["run"]["t"][-1], each["run"]["peakOmega"]) for each in found
+        (result["run"]["t"][-1], result["run"]["peakOmega"]) for result in results
     )
     return stopped[0] > passed[0], sharp[1] > passed[1], hardly[1] < 0.1
 
 
-def race(found):
-    backs = [{run["law"]: run["back"] for run in each["runs"]} for each in found]
+def race(results):
+    backs = [{run["law"]: run["back"] for run in result["runs"]} for result in results]
     yield backs[0]["barrier"] > 1.5
     yield 0.1 < backs[1]["corrected"] < 0.5
     yield backs[2]["graceful"] == 0.0
@@ -88,7 +90,7 @@ def test_what_each_idea_says_is_so(emptied_page, name):
     panel.set(guess="skipped")
     knobs = [it for it in thing.setup["knobs"] if it["name"] != "time"]
     home = {it["name"]: it["value"] for it in knobs}
-    found, pictures = [], []
+    results, pictures = [], []
     for k, step in enumerate(steps):
         away = {it["name"]: it["choices"][-1][0] if "choices" in it else it["high"] for it in knobs}
         panel.set(**away)  # what one did before does not count
@@ -101,9 +103,9 @@ def test_what_each_idea_says_is_so(emptied_page, name):
         assert {it: panel.get(it) for it in home} == home | step.to
         assert panel.get("time") in (None, 1.0)
         assert not emptied_page.locator(".live-trouble:visible").count()
-        found.append(panel.found())
+        results.append(panel.results())
         pictures.append(panel.picture())
     assert all(a != b for a, b in itertools.pairwise(pictures))
-    claims = list(globals()[name](found))
+    claims = list(globals()[name](results))
     assert claims
     assert all(claims), claims
