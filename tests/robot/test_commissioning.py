@@ -16,25 +16,25 @@ from wmrrobot.commissioning import dead_band, latency, wheel_response
 DT, STEP = 0.05, 0.002  # s, m
 
 
-def driven(told, wheels):
+def driven(commanded, wheels):
     """How fast the left wheel went in each period, with its encoder's steps."""
     went, body = [], (0.0,) * 4
-    for each in told:
-        v, omega, body = roll(each, 0.0, body, wheels, DT)
+    for command in commanded:
+        v, omega, body = roll(command, 0.0, body, wheels, DT)
         went.append(v - 0.5 * wheels.track_width * omega)
     return np.array(went)
 
 
 def test_a_slow_ramp_finds_the_dead_band():
     up = np.linspace(0.0, 0.4, 400)
-    told = np.concatenate([up, up[::-1], -up, -up[::-1]])
+    commanded = np.concatenate([up, up[::-1], -up, -up[::-1]])
     for dead in (0.03, 0.08, 0.2):
         wheels = wmr.Wheels(0.5, dead_band=dead, encoder_step=STEP)
-        found = dead_band(told, driven(told, wheels), 0.5 * STEP / DT)
-        assert found.stood == pytest.approx(dead, abs=0.045)
-        assert found.turned == pytest.approx(dead, abs=0.01)
+        measured = dead_band(commanded, driven(commanded, wheels), 0.5 * STEP / DT)
+        assert measured.stood == pytest.approx(dead, abs=0.045)
+        assert measured.turned == pytest.approx(dead, abs=0.01)
     with pytest.raises(ValueError, match="a ramp on which the wheel stands, and turns,"):
-        dead_band(told, np.zeros(told.size), 0.5 * STEP / DT)
+        dead_band(commanded, np.zeros(commanded.size), 0.5 * STEP / DT)
 
 
 STEPS = np.repeat([0.0, 0.1, 0.0, 0.3, 0.0, 1.0, -1.0, 0.2, 0.0, 2.0, 0.0], 40)
@@ -46,10 +46,10 @@ def test_steps_find_lag_and_acceleration(lag, acceleration, seed):
     assume(lag * acceleration > 0.05)  # or the lag is not to be seen
     wheels = wmr.Wheels(0.5, acceleration=acceleration, lag=lag)
     went = driven(STEPS, wheels) + 0.005 * np.random.default_rng(seed).standard_normal(STEPS.size)
-    found = wheel_response(STEPS, went, DT)
-    assert found.lag == pytest.approx(lag, rel=0.12, abs=0.01)
-    assert found.acceleration == pytest.approx(acceleration, rel=0.12)
-    assert found.misses == pytest.approx(0.005, rel=0.5)
+    measured = wheel_response(STEPS, went, DT)
+    assert measured.lag == pytest.approx(lag, rel=0.12, abs=0.01)
+    assert measured.acceleration == pytest.approx(acceleration, rel=0.12)
+    assert measured.misses == pytest.approx(0.005, rel=0.5)
 
 
 def test_wheels_that_do_as_they_are_told_have_no_lag():
@@ -73,11 +73,11 @@ def log_of(age, sigma, seed, stops=True, memory=100.0):
 @settings(max_examples=25, deadline=None)
 @given(st.floats(0.05, 1.5), st.integers(0, 10**6))
 def test_stops_find_how_late_fixes_are(age, seed):
-    found = latency(*log_of(age, 0.02, seed), 0.02)
-    assert found.age == pytest.approx(age, abs=0.2)
-    assert found.scale == pytest.approx(1.0, abs=0.05)
+    measured = latency(*log_of(age, 0.02, seed), 0.02)
+    assert measured.age == pytest.approx(age, abs=0.2)
+    assert measured.scale == pytest.approx(1.0, abs=0.05)
     still = latency(*log_of(age, 0.02, seed, memory=1e9), 0.02)
-    assert found.low <= found.age <= found.high
+    assert measured.low <= measured.age <= measured.high
     assert still.age == pytest.approx(age, abs=0.05)
 
 

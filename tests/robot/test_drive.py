@@ -61,8 +61,8 @@ def test_the_page_shows_the_faults_as_they_come_out(ran):
         came = faults.run(case)
         assert (name, end) == (case.name, came.end)
         assert faults.holds(case, came)
-        found = came.blind, came.distance, math.degrees(came.heading)
-        assert numbers == pytest.approx(found, abs=1.0)
+        drift = came.blind, came.distance, math.degrees(came.heading)
+        assert numbers == pytest.approx(drift, abs=1.0)
 
 
 def step_alike(drives, seen):
@@ -197,8 +197,8 @@ def test_the_least_speed_keeps_the_path_of_the_law(distance, heading, least):
     error = wmr.polar_error(start, goal)
     v, omega = wmr.control_law(*error, gains)
     hurried = wmr.wheels_to_twist(*speeds, 0.5)
-    assert hurried == pytest.approx([max(1.0, least * math.cos(error.alpha) / v) * each
-                                     for each in (v, omega)])  # fmt: skip
+    assert hurried == pytest.approx([max(1.0, least * math.cos(error.alpha) / v) * speed
+                                     for speed in (v, omega)])  # fmt: skip
 
 
 @given(st.floats(-0.05, 0.05))

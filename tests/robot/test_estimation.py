@@ -37,13 +37,13 @@ def test_a_robot_that_was_carried_is_found_once_the_filter_doubts_itself():
         refused = estimation.predict(refused, 0.0, 0.0, math.nan, 1.0, NOISE)
         refused = estimation.use_position(refused, 1.0 + carried, -2.0, 0.02)
     assert refused.pose.x == pytest.approx(1.0, abs=0.02)
-    found, used = refused, 0
+    estimate, used = refused, 0
     for _ in range(40):
-        found = estimation.use_position(found, 1.0 + carried, -2.0, 0.02)
-        used += found.surprise <= estimation.GATE_2
-        found = found if used else estimation.doubt(found, 4.0)
+        estimate = estimation.use_position(estimate, 1.0 + carried, -2.0, 0.02)
+        used += estimate.surprise <= estimation.GATE_2
+        estimate = estimate if used else estimation.doubt(estimate, 4.0)
     assert used > 25
-    assert found.pose.x == pytest.approx(1.0 + carried, abs=3.0 * found.sigma[0])
+    assert estimate.pose.x == pytest.approx(1.0 + carried, abs=3.0 * estimate.sigma[0])
 
 
 def test_wheels_that_slip_leave_the_turn_to_the_gyro():
@@ -133,8 +133,8 @@ def test_a_gate_lets_999_of_1000_sound_measurements_pass(gate, numbers):
 
 def test_doubt_has_an_end():
     """However often a measurement without a number is refused, the next good one is used."""
-    found = FIRST
+    estimate = FIRST
     for _ in range(600):
-        found = estimation.doubt(found, 4.0)
-    assert 100.0 < found.sigma[0] < 300.0
-    assert estimation.use_position(found, 3.0, 4.0, 0.02).pose[:2] == pytest.approx((3.0, 4.0))
+        estimate = estimation.doubt(estimate, 4.0)
+    assert 100.0 < estimate.sigma[0] < 300.0
+    assert estimation.use_position(estimate, 3.0, 4.0, 0.02).pose[:2] == pytest.approx((3.0, 4.0))

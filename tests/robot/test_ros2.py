@@ -50,7 +50,7 @@ class Robot:
             name: self.node.create_publisher(kind, name, 10) for name, kind in kinds.items()
         }
         self.stop = self.node.create_client(Trigger, "stop")
-        self.told, self.words = [], []  # by `cmd_vel`, and by the node's log
+        self.twists, self.words = [], []  # by `cmd_vel`, and by the node's log
         self.node.create_subscription(Twist, "cmd_vel", self.obey, 10)
         self.node.create_subscription(Log, "/rosout", self.hear, 10)
         self.pose, self.now = wmr.Pose(0.0, 0.0, 0.5), 1_000.0  # s
@@ -60,7 +60,7 @@ class Robot:
         # message may be lost.
         reliable = "qos_overrides./{}.subscription.reliability:=reliable"
         given = [*(parameters or ["watchdog:=60.0"]), *map(reliable.format, self.topics)]
-        options = [option for each in given for option in ("-p", each)]
+        options = [option for parameter in given for option in ("-p", parameter)]
         command = [sys.executable, "-m", "wmr_park.node", "--ros-args", "--params-file", YAML]
         self.process = subprocess.Popen([*command, *options], env=environment)
         self.until(self.is_met)
@@ -72,13 +72,13 @@ class Robot:
     def until(self, true):
         """Listen until something is true."""
         end = time.monotonic() + PATIENT
-        while not (found := true()):
+        while not (value := true()):
             assert time.monotonic() < end, f"it took too long: {self.words}"
             self.executor.spin_once(timeout_sec=0.01)
-        return found
+        return value
 
     def obey(self, twist):
-        self.told.append((twist.linear.x, twist.angular.z))
+        self.twists.append((twist.linear.x, twist.angular.z))
 
     def hear(self, log):
         self.words += [log.msg] if log.name == "wmr_park" else []
@@ -100,7 +100,7 @@ class Robot:
         """Publish what the sensors say at the end of a period, the odometry last."""
         imu, fix, odom = Imu(), NavSatFix(), Odometry()
         facing(imu.orientation, self.pose.heading)
-        imu.angular_velocity.z = self.told[-1][1] if self.told else 0.0
+        imu.angular_velocity.z = self.twists[-1][1] if self.twists else 0.0
         self.say("imu", imu)
         if with_fix:
             point = wmr.point_at(ORIGIN, self.pose.x, self.pose.y)
@@ -115,10 +115,10 @@ class Robot:
 
     def period(self, with_fix=True):
         """A period: the sensors speak, the node commands, the robot rolls. Whether it drives on."""
-        count = len(self.told)
+        count = len(self.twists)
         self.sense(with_fix)
-        self.until(lambda: len(self.told) > count or self.words[-1] == "parked")
-        self.pose = wmr.advance(self.pose, *self.told[-1], PERIOD)
+        self.until(lambda: len(self.twists) > count or self.words[-1] == "parked")
+        self.pose = wmr.advance(self.pose, *self.twists[-1], PERIOD)
         self.now += PERIOD
         return self.words[-1:] != ["parked"]
 
@@ -127,7 +127,7 @@ class Robot:
         self.ask(*GOAL)
         self.until(lambda: self.words and self.words[-1].startswith("goal: 4.00 m east"))
         self.period()
-        while self.told[-1][0] < 0.1:
+        while self.twists[-1][0] < 0.1:
             self.period()
         assert math.dist(self.pose[:2], GOAL[:2]) > 1.0
 
@@ -163,7 +163,7 @@ def test_fix_odometry_and_goal_lead_to_a_drive_that_parks(begin):
     robot.begin()
     while robot.period():
         assert robot.now < 1_060.0
-    assert robot.told[-1] == (0.0, 0.0)
+    assert robot.twists[-1] == (0.0, 0.0)
     assert math.dist(robot.pose[:2], GOAL[:2]) < 0.06  # arrival_radius is 0.05
     assert abs(wmr.wrap_angle(robot.pose.heading - GOAL.heading)) < 0.07  # last_turn.tolerance
     assert {"wait", "drive", "turn", "parked"} <= {word.split(":")[0] for word in robot.words}
@@ -174,31 +174,31 @@ def test_stop_halts_it_and_forgets_the_goal(begin):
     robot.begin()
     for message in "the goal is forgotten", "there was no goal":
         answer = robot.stop.call_async(Trigger.Request())
-        count = len(robot.told)
-        robot.until(lambda: answer.done() and len(robot.told) > count)  # noqa: B023
+        count = len(robot.twists)
+        robot.until(lambda: answer.done() and len(robot.twists) > count)  # noqa: B023
         assert (answer.result().success, answer.result().message) == (True, message)
-        assert robot.told[-1] == (0.0, 0.0)
+        assert robot.twists[-1] == (0.0, 0.0)
 
 
 def test_silence_of_the_receiver_stops_it_until_it_speaks_again(begin):
     robot = begin()
     robot.begin()
     silent = robot.now
-    while robot.told[-1] != (0.0, 0.0):
+    while robot.twists[-1] != (0.0, 0.0):
         robot.period(with_fix=False)
     assert 0.5 < robot.now - silent < 1.0  # `patience` is 0.7 s
     for _ in range(20):
         robot.period(with_fix=False)
-        assert robot.told[-1] == (0.0, 0.0)
+        assert robot.twists[-1] == (0.0, 0.0)
     assert robot.words[-1] == "wait: no fix"
-    while robot.told[-1][0] < 0.1:
+    while robot.twists[-1][0] < 0.1:
         robot.period()
 
 
 def test_silence_of_the_odometry_stops_it(begin):
     robot = begin("watchdog:=3.0")
     robot.begin()
-    robot.until(lambda: robot.told[-1] == (0.0, 0.0))
+    robot.until(lambda: robot.twists[-1] == (0.0, 0.0))
 
 
 @pytest.mark.parametrize("end", [signal.SIGTERM, signal.SIGHUP])
@@ -206,7 +206,7 @@ def test_the_end_of_the_node_is_a_stop(begin, end):
     robot = begin()
     robot.begin()
     robot.process.send_signal(end)
-    robot.until(lambda: robot.told[-1] == (0.0, 0.0))
+    robot.until(lambda: robot.twists[-1] == (0.0, 0.0))
     assert robot.process.wait(PATIENT) == 0
 
 

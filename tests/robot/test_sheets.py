@@ -29,11 +29,11 @@ WRONG = {
 }
 
 
-@pytest.mark.parametrize("said", WRONG)
-def test_a_refusal_names_what_is_wrong(said):
-    with pytest.raises(ValueError, match=re.escape(said)) as refusal:
-        sheet(Robot(**WRONG[said]))
-    assert str(refusal.value) == said
+@pytest.mark.parametrize("message", WRONG)
+def test_a_refusal_names_what_is_wrong(message):
+    with pytest.raises(ValueError, match=re.escape(message)) as refusal:
+        sheet(Robot(**WRONG[message]))
+    assert str(refusal.value) == message
 
 
 def robots(count, seed=3):
@@ -61,30 +61,30 @@ def robots(count, seed=3):
 
 def test_a_sheets_numbers_fit_the_robot():
     for robot in robots(200):
-        told = sheet(robot)
-        gains = told.gains
+        numbers = sheet(robot)
+        gains = numbers.gains
         assert 2 < wmr.modes(gains).kappa < 1 + gains.h
-        assert told.longest_step == wmr.longest_step(gains)
-        assert 5 * robot.period <= told.longest_step * (1 + 1e-9)
-        assert 2 * (robot.period + robot.delay) <= told.longest_step * (1 + 1e-9)
-        least = told.turn.min_rate * robot.track_width / 2  # m/s, of each wheel in the last turn
-        assert min(told.min_speed, least) >= 1.2 * robot.dead_band
+        assert numbers.longest_step == wmr.longest_step(gains)
+        assert 5 * robot.period <= numbers.longest_step * (1 + 1e-9)
+        assert 2 * (robot.period + robot.delay) <= numbers.longest_step * (1 + 1e-9)
+        least = numbers.turn.min_rate * robot.track_width / 2  # m/s, of each wheel in the last turn
+        assert min(numbers.min_speed, least) >= 1.2 * robot.dead_band
         fastest = gains.v_max**2 * gains.k_rho / 4  # m/s^2, braking on a straight line
         assert fastest <= robot.acceleration
-        assert told.turn.max_rate * robot.track_width / 2 <= robot.max_speed
+        assert numbers.turn.max_rate * robot.track_width / 2 <= robot.max_speed
         wheels = wmr.Wheels(robot.track_width, robot.max_speed, dead_band=robot.dead_band)
-        place = wmr.Pose(told.x, told.y, told.heading)
-        assert wr.Drive(place, gains, wheels, told.turn).end == told.turn  # it does not swing
-        assert told.turn.min_rate * robot.period <= 2 * told.turn.tolerance
+        place = wmr.Pose(numbers.x, numbers.y, numbers.heading)
+        assert wr.Drive(place, gains, wheels, numbers.turn).end == numbers.turn  # it does not swing
+        assert numbers.turn.min_rate * robot.period <= 2 * numbers.turn.tolerance
 
 
 def test_all_but_the_latest_robots_park_and_the_bounds_are_above_what_they_bound():
     for robot in robots(12):
-        found = certificate(robot, runs=200)
-        assert found.parked == 200, robot
+        result = certificate(robot, runs=200)
+        assert result.parked == 200, robot
         for values, rms, bound in (
-            (found.place, found.place_rms, found.place_bound),
-            (found.heading, found.heading_rms, found.heading_bound),
+            (result.place, result.place_rms, result.place_bound),
+            (result.heading, result.heading_rms, result.heading_bound),
         ):
             assert rms == pytest.approx(math.sqrt(np.mean(values**2)))
             assert np.mean(values < bound) >= 0.95
@@ -92,11 +92,11 @@ def test_all_but_the_latest_robots_park_and_the_bounds_are_above_what_they_bound
 
 
 def test_place_follows_the_receiver_and_heading_the_compass():
-    found = {name: certificate(Robot(**numbers)) for name, numbers in RECEIVERS.items()}
+    results = {name: certificate(Robot(**numbers)) for name, numbers in RECEIVERS.items()}
     for name, numbers in RECEIVERS.items():
         radius = sheet(Robot(**numbers)).radius
         expected = math.hypot(math.sqrt(2) * numbers["sigma"], radius)
-        assert 0.5 * expected < found[name].place_rms < 1.2 * expected
+        assert 0.5 * expected < results[name].place_rms < 1.2 * expected
     still, shaky = (certificate(Robot(compass=degrees)) for degrees in (0.0, 10.0))
     assert still.heading_rms < sheet(Robot()).turn.tolerance
     assert shaky.heading_rms == pytest.approx(math.radians(10.0), rel=0.15)
@@ -122,17 +122,17 @@ def test_a_late_and_slow_robot_that_first_faces_away_may_never_park():
 
 def test_yaml_says_the_sheets_numbers_and_all_of_them_as_floats():
     robot = Robot(track_width=2.0, dead_band=0.0)
-    told = sheet(robot)
+    numbers = sheet(robot)
     read = yaml.safe_load(files(robot)["my_robot.yaml"])["/**"]["ros__parameters"]
-    assert read["gains"] == pytest.approx(told.gains._asdict())
+    assert read["gains"] == pytest.approx(numbers.gains._asdict())
     assert read["goal"] == [robot.goal_lat, robot.goal_lon]
     assert (read["track_width"], read["min_speed"]) == (2.0, 0.0)
     flat = [*read["gains"].values(), *read["last_turn"].values(), read["track_width"]]
     assert {type(value) for value in flat} == {float}
-    assert read["arrival_radius"] == told.radius
-    assert read["oldest_fix"] == pytest.approx(told.rules.oldest)
+    assert read["arrival_radius"] == numbers.radius
+    assert read["oldest_fix"] == pytest.approx(numbers.rules.oldest)
     same = "patience", "largest_error", "jump", "longest_period", "longest_drive", "farthest"
-    assert [read[name] for name in same] == pytest.approx([getattr(told.rules, k) for k in same])
+    assert [read[name] for name in same] == pytest.approx([getattr(numbers.rules, k) for k in same])
     assert (read["acceleration"], read["dead_band"]) == (robot.acceleration, 0.0)
 
 
@@ -175,12 +175,14 @@ int main(void) {
     )
     program = build(tmp_path / "main.c", tmp_path, "-Wno-double-promotion")
     done = subprocess.run([program], capture_output=True, text=True, check=True)
-    told = sheet(robot)
-    error = wmr.polar_error(wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(told.x, told.y, told.heading))
+    numbers = sheet(robot)
+    error = wmr.polar_error(
+        wmr.Pose(0.0, 0.0, 0.0), wmr.Pose(numbers.x, numbers.y, numbers.heading)
+    )
     v, omega, rate, differ = map(float, done.stdout.split())
     assert differ == pytest.approx(0.0, abs=1e-6)
-    assert (v, omega) == pytest.approx(wmr.control_law(*error, told.gains), rel=1e-4)
-    assert rate == told.turn.min_rate
+    assert (v, omega) == pytest.approx(wmr.control_law(*error, numbers.gains), rel=1e-4)
+    assert rate == numbers.turn.min_rate
 
 
 @settings(max_examples=10, deadline=None)
@@ -203,14 +205,18 @@ int main(void) {
 @example(robot=Robot(**RECEIVERS["GPS alone"]))
 def test_a_perfect_robot_parks_by_the_drive_that_the_sheet_describes(robot):
     try:
-        told = sheet(robot)
+        numbers = sheet(robot)
     except ValueError:
         return
-    wheels = wmr.Wheels(robot.track_width, robot.max_speed, told.min_speed, robot.acceleration)
-    goal, dt = wmr.Pose(told.x, told.y, told.heading), robot.period
-    drive = wr.Drive(goal, told.gains, wheels, told.turn, told.rules)
-    pose, body, rolled = wmr.Pose(0.0, 0.0, math.atan2(told.y, told.x)), (0.0,) * 4, (0.0, 0.0)
-    for _ in range(math.ceil(1.2 * told.rules.longest_drive / dt)):
+    wheels = wmr.Wheels(robot.track_width, robot.max_speed, numbers.min_speed, robot.acceleration)
+    goal, dt = wmr.Pose(numbers.x, numbers.y, numbers.heading), robot.period
+    drive = wr.Drive(goal, numbers.gains, wheels, numbers.turn, numbers.rules)
+    pose, body, rolled = (
+        wmr.Pose(0.0, 0.0, math.atan2(numbers.y, numbers.x)),
+        (0.0,) * 4,
+        (0.0, 0.0),
+    )
+    for _ in range(math.ceil(1.2 * numbers.rules.longest_drive / dt)):
         fix = {"fresh": 1, "error": robot.sigma, "later": dt, "age": 0.0}
         speeds = drive.step(wr.Seen(dt, *rolled, **pose._asdict(), **fix))
         if drive.state in ("parked", "stopped"):
@@ -219,5 +225,5 @@ def test_a_perfect_robot_parks_by_the_drive_that_the_sheet_describes(robot):
         *twist, body = roll(*twist, body, wheels, dt)
         rolled = [dt * speed for speed in wmr.twist_to_wheels(*twist, robot.track_width)]
         pose = wmr.advance(pose, *twist, dt)
-    assert drive.state == "parked", (drive.reason, told)
-    assert math.dist(pose[:2], goal[:2]) <= 2.0 * told.radius
+    assert drive.state == "parked", (drive.reason, numbers)
+    assert math.dist(pose[:2], goal[:2]) <= 2.0 * numbers.radius
