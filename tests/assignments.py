@@ -35,13 +35,13 @@ def notebook(chapter: str) -> Path:
 @cache
 def tasks(chapter: str) -> list[Task]:
     """The tasks of an assignment that checks grade."""
-    found: list[Task] = []
+    listed: list[Task] = []
     for name, source in _code(chapter).items():
         if BEGIN in source:
-            found.append(Task(name, source, {}))
+            listed.append(Task(name, source, {}))
         elif source.startswith("print(grading."):
-            found[-1].checks[name] = source
-    return [task for task in found if task.checks]
+            listed[-1].checks[name] = source
+    return [task for task in listed if task.checks]
 
 
 @cache

@@ -76,8 +76,8 @@ def printed_by(example: str) -> tuple[str, int, int]:
         run("avr-gcc", *options, *source, folder=folder)
         flash, ram = sizes("avr-", folder, "board.elf")
         command = ["simavr", "-m", "atmega328p", "-f", str(int(1e6 * CLOCK_MHZ)), "board.elf"]
-        said = run(*command, folder=folder)
-    return re.sub(r"\x1b\[[\d;]*m|\.\.?$", "", said, flags=re.MULTILINE), flash, ram
+        output = run(*command, folder=folder)
+    return re.sub(r"\x1b\[[\d;]*m|\.\.?$", "", output, flags=re.MULTILINE), flash, ram
 
 
 def drive_of_the_example() -> Parked:
@@ -85,10 +85,10 @@ def drive_of_the_example() -> Parked:
     text = printing.C_EXAMPLE.read_text(encoding="utf-8")
     place = "#endif\n\n/* What the sensors say."
     assert text.count(place) == 1
-    said, flash, ram = printed_by(text.replace(place, TIMED + place))
+    output, flash, ram = printed_by(text.replace(place, TIMED + place))
     number = r"(-?\d+\.\d+)"
-    ((periods, *reached),) = re.findall(rf"(\d+) {number} {number} {number}", said)
-    (cycles,), (memory,) = re.findall(r"cycles (\d+)", said), re.findall(r"memory (\d+)", said)
+    ((periods, *reached),) = re.findall(rf"(\d+) {number} {number} {number}", output)
+    (cycles,), (memory,) = re.findall(r"cycles (\d+)", output), re.findall(r"memory (\d+)", output)
     x, y, heading = map(float, reached)
     longest = float(cycles) / CLOCK_MHZ / 1e3
     return Parked(int(periods), (x, y, heading), flash, ram, int(memory), longest)

@@ -71,20 +71,21 @@ def flipped(function, right: str, wrong: str):
 
 
 def main() -> None:
-    told = {}
+    answers = {}
     for name, (function, right, wrong) in FLIPS.items():
+        function = inspect.unwrap(function)
         code = function.__code__
         # what `wmrlib` has rebuilt of it, to be vectorised, too
         every = [
             it for it in gc.get_objects() if isinstance(it, FunctionType) and it.__code__ is code
         ]
         new = flipped(function, right, wrong)
-        for each in every:
-            each.__code__ = new
-        told[name] = key(name)
-        for each in every:
-            each.__code__ = code
-    print(json.dumps(told))
+        for copy in every:
+            copy.__code__ = new
+        answers[name] = key(name)
+        for copy in every:
+            copy.__code__ = code
+    print(json.dumps(answers))
 
 
 if __name__ == "__main__":

@@ -17,10 +17,10 @@ def closed() -> list[str]:
     """
     chapters = (path.read_text(encoding="utf-8") for path in (ROOT / "notebooks").glob("*.ipynb"))
     cells = ("".join(cell["source"]) for text in chapters for cell in json.loads(text)["cells"])
-    texts = [each for cell in cells for each in SOLUTION.findall(cell)]
+    texts = [solution for cell in cells for solution in SOLUTION.findall(cell)]
     guide = (ROOT / "book/lecturers.md").read_text(encoding="utf-8")
     texts += re.sub("^```.*?^```", "", guide, flags=re.MULTILINE | re.DOTALL).split("\n\n")[1:]
-    runs = (run.strip() for each in texts for run in re.findall("[A-Za-z, ]{31,}", each))
+    runs = (run.strip() for solution in texts for run in re.findall("[A-Za-z, ]{31,}", solution))
     return sorted({run for run in runs if len(run) > 30})
 
 
@@ -29,4 +29,4 @@ def leaks(folder: Path) -> list[str]:
     kinds = {".html", ".js", ".ipynb", ".md", ".txt"}
     paths = [it for it in folder.rglob("*") if it.suffix in kinds and "vendor" not in it.parts]
     texts = [" ".join(it.read_text(encoding="utf-8").split()) for it in paths]
-    return [each for each in closed() if any(each in text for text in texts)]
+    return [run for run in closed() if any(run in text for text in texts)]

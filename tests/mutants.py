@@ -75,7 +75,7 @@ class Mutant(NamedTuple):
 
     @property
     def module(self) -> str:
-        package = next(ROOT / each for each in PACKAGES if (ROOT / each) in self.path.parents)
+        package = next(ROOT / part for part in PACKAGES if (ROOT / part) in self.path.parents)
         return self.path.relative_to(package).parts[0].removesuffix(".py")
 
 
@@ -120,8 +120,8 @@ def changes(source: str) -> Iterator[tuple[int, int, str]]:
 
 def fate(mutant: Mutant) -> str:
     """Test it in a copy of the repository."""
-    how, *names = TESTS.get(mutant.module, mutant.module).split()
-    names = names if how == "jit" else [how, *names]
+    mode, *names = TESTS.get(mutant.module, mutant.module).split()
+    names = names if mode == "jit" else [mode, *names]
     left_out = shutil.ignore_patterns(".*", "_build", "vendor", "node_modules", "__pycache__")
     with tempfile.TemporaryDirectory() as folder:
         copy = shutil.copytree(ROOT, Path(folder, "copy"), ignore=left_out)
@@ -131,10 +131,10 @@ def fate(mutant: Mutant) -> str:
         file.write_text(changed, encoding="utf-8")
         tests = [path for name in names for path in sorted(copy.glob(f"tests/**/test_{name}.py"))]
         command = [sys.executable, "-m", "pytest", "-xqo", "addopts=", "-p", "no:cacheprovider"]
-        command += ["-W", "ignore::RuntimeWarning"] if how != "jit" else []
-        paths = [str(copy / each) for each in (".", "book", "book/robot")]
+        command += ["-W", "ignore::RuntimeWarning"] if mode != "jit" else []
+        paths = [str(copy / part) for part in (".", "book", "book/robot")]
         settings = {"PYTHONPATH": os.pathsep.join(paths), "NUMBA_CACHE_DIR": f"{folder}/cache"}
-        settings |= {"NUMBA_DISABLE_JIT": str(int(how != "jit"))}
+        settings |= {"NUMBA_DISABLE_JIT": str(int(mode != "jit"))}
         options = {"cwd": copy, "env": os.environ | settings, "timeout": LIMIT}
         try:
             done = subprocess.run([*command, *tests], capture_output=True, **options)
@@ -151,8 +151,8 @@ def main(count: int, seed: int, module: list[str]) -> None:
         if mutant.module not in sound and fate(unchanged) == "noticed":
             sys.exit(f"The tests of {mutant.module} fail without a mutant.")
         sound.add(mutant.module)
-        print(f"{(told := fate(mutant)):10}{mutant}", flush=True)
-        survived += told == "SURVIVED"
+        print(f"{(verdict := fate(mutant)):10}{mutant}", flush=True)
+        survived += verdict == "SURVIVED"
     print(f"{survived} of {min(count, len(sites))} survived")
 
 

@@ -52,8 +52,8 @@ def integrated(start, goal, gains, *, law, wheels, arrival_radius, duration, dt=
     if begin[0] <= arrival_radius:
         peak = abs(float(twist(*begin[:3])[1]))
         return True, 0.0, wmr.wrap_angle(begin[2] - begin[1]), peak, 0.0, begin[0]
-    how = {"events": there, "dense_output": True, "rtol": 1e-12, "atol": 1e-13}
-    run = solve_ivp(rates, (0.0, duration), begin, "DOP853", **how)
+    options = {"events": there, "dense_output": True, "rtol": 1e-12, "atol": 1e-13}
+    run = solve_ivp(rates, (0.0, duration), begin, "DOP853", **options)
     t = np.unique(np.concatenate([np.linspace(a, b, 200) for a, b in pairwise(run.t)]))
     for _ in range(3):  # the largest |omega|, closer and closer
         i = np.abs(twist(*run.sol(t)[:3])[1]).argmax()

@@ -18,12 +18,12 @@ seeds, axes = st.integers(0, 10**6), st.sampled_from(["east", "north"])
 memories, periods = st.sampled_from([0.1, 3.0, 100.0, 1e4]), st.sampled_from([0.1, 1.0])
 
 
-def parked(gains, x_axis, receiver, seed, **how):
+def parked(gains, x_axis, receiver, seed, **options):
     """Where 200 robots end up that steer the paper's drive by such receivers."""
     case = paper.outdoor(x_axis)
     receiver = receiver._replace(sigma=np.full(200, receiver.sigma))
-    how = {"method": "arc", "dt": 0.1, "duration": 120.0, "progress": False} | how
-    return wmr.sweep(case.start, case.goal, gains, receiver=receiver, seed=seed, **how)
+    options = {"method": "arc", "dt": 0.1, "duration": 120.0, "progress": False} | options
+    return wmr.sweep(case.start, case.goal, gains, receiver=receiver, seed=seed, **options)
 
 
 def rms(values):
@@ -44,8 +44,8 @@ def test_the_matched_gains_leave_less_heading_error_and_more_distance(seed, axis
 @given(seeds, axes, memories, periods, st.floats(0.3, 1.0), st.sampled_from([0.0, 2.0]))
 def test_a_last_turn_beats_every_design_without_one(seed, axis, memory, period, sigma, h):
     receiver, end = wmr.Receiver(sigma, memory, period), wmr.LastTurn(leave=math.inf)
-    how = {"last_turn": end, "duration": 900.0, "arrival_radius": 0.2}
-    turned = parked(GENTLE._replace(h=h), axis, receiver, seed, **how)
+    options = {"last_turn": end, "duration": 900.0, "arrival_radius": 0.2}
+    turned = parked(GENTLE._replace(h=h), axis, receiver, seed, **options)
     matched = parked(MATCHED, axis, receiver, seed, arrival_radius=2.0 * sigma)
     assert turned.arrived.all()
     assert np.abs(turned.heading_error).max() < 0.02
@@ -63,8 +63,8 @@ def test_a_slow_error_parks_the_robot_by_its_own_size(seed, axis, memory, sigma)
 @few
 @given(seeds, axes, st.sampled_from([0.0, 10.0, 300.0]))
 def test_more_than_half_who_believe_to_be_within_five_centimetres_are_not(seed, axis, memory):
-    receiver, how = wmr.Receiver(0.5, memory), {"dt": 0.05, "duration": 100.0}
-    ends = parked(GENTLE, axis, receiver, seed, arrival_radius=0.05, **how)
+    receiver, options = wmr.Receiver(0.5, memory), {"dt": 0.05, "duration": 100.0}
+    ends = parked(GENTLE, axis, receiver, seed, arrival_radius=0.05, **options)
     assert np.median(ends.distance) > 0.05
 
 
@@ -73,8 +73,8 @@ def test_more_than_half_who_believe_to_be_within_five_centimetres_are_not(seed, 
 def test_from_twenty_centimetres_a_drive_ends_too_soon_for_any_hysteresis(seed, hysteresis):
     start = wmr.pose_from_polar(wmr.PolarError(0.2, 0.0, math.pi), GOAL)
     receiver = wmr.Receiver(sight=np.full(300, math.radians(2.0)))
-    how = {"method": "arc", "dt": 0.01, "receiver": receiver, "seed": seed, "progress": False}
-    ends = wmr.sweep(start, GOAL, paper.OUTDOOR_GAINS, hysteresis=hysteresis, **how)
+    options = {"method": "arc", "dt": 0.01, "receiver": receiver, "seed": seed, "progress": False}
+    ends = wmr.sweep(start, GOAL, paper.OUTDOOR_GAINS, hysteresis=hysteresis, **options)
     assert np.mean(np.abs(ends.heading_error) > math.pi / 2) >= 0.99
 
 

@@ -25,11 +25,11 @@ gains_drawn = st.builds(
 )
 
 
-def driven(error, gains, law="corrected", **how):
+def driven(error, gains, law="corrected", **options):
     """A run in continuous time from (rho, alpha, theta)."""
     start = wmr.pose_from_polar(wmr.PolarError(*error), GOAL)
-    how = {"method": "continuous", "arrival_radius": 0.0} | how
-    return wmr.simulate(start, GOAL, gains, law=law, **how)
+    options = {"method": "continuous", "arrival_radius": 0.0} | options
+    return wmr.simulate(start, GOAL, gains, law=law, **options)
 
 
 def errors(nearest, farthest):
@@ -75,8 +75,8 @@ def test_a_drive_has_at_most_one_cusp_with_any_gains(error, gains):
 def test_however_near_beside_the_goal_the_heading_swings_by_more_than_a_quarter_turn(
     power, side, gains
 ):
-    how = {"method": "continuous", "arrival_radius": 0.0, "dt": 0.005, "duration": 10.0}
-    run = wmr.simulate(wmr.Pose(0.0, side * 10.0**power, 0.0), GOAL, gains, **how)
+    options = {"method": "continuous", "arrival_radius": 0.0, "dt": 0.005, "duration": 10.0}
+    run = wmr.simulate(wmr.Pose(0.0, side * 10.0**power, 0.0), GOAL, gains, **options)
     assert np.abs(run.heading_error).max() > math.pi / 2
 
 
@@ -156,8 +156,8 @@ def test_the_gentle_gains_let_the_heading_pass_zero_by_less_than_a_degree(error)
 @given(st.sampled_from(["east", "north"]), st.floats(0.01, 0.05), st.floats(0.5, 2.5))
 def test_gains_with_a_margin_of_two_settle_before_five_centimetres(x_axis, radius, heading):
     start, goal, *_ = paper.outdoor(x_axis)
-    how = {"method": "continuous", "dt": 0.01, "arrival_radius": 1e-3, "duration": 120.0}
-    run = wmr.simulate(start._replace(heading=heading), goal, DESIGNED, **how)
+    options = {"method": "continuous", "dt": 0.01, "arrival_radius": 1e-3, "duration": 120.0}
+    run = wmr.simulate(start._replace(heading=heading), goal, DESIGNED, **options)
     assert np.degrees(np.abs(run.heading_error[run.rho <= radius])).max() < 1.0
 
 
@@ -190,8 +190,8 @@ def test_a_speed_announced_a_tenth_too_low_leaves_six_centimetres_from_every_sta
         reference = paper.circle(t)
         return reference._replace(v=0.9 * reference.v)
 
-    gains, how = wmr.KanayamaGains(1.0, 2.0, 2.0), {"dt": 0.02, "duration": 60.0}
-    run = wmr.track(announced, beside_the_circle(far, aim, 0.0), gains, law="kanayama", **how)
+    gains, options = wmr.KanayamaGains(1.0, 2.0, 2.0), {"dt": 0.02, "duration": 60.0}
+    run = wmr.track(announced, beside_the_circle(far, aim, 0.0), gains, law="kanayama", **options)
     assert 0.0595 < run.rho[-1] * math.cos(run.alpha[-1]) < 0.0610
 
 
@@ -216,8 +216,8 @@ def test_scaling_to_the_wheels_keeps_the_path_if_they_accelerate_at_once(far, ai
 @few
 @given(st.floats(0.1, 20.0), below_pi, below_pi, gains_drawn)
 def test_under_the_barrier_law_no_angle_crosses_half_a_turn(rho, alpha, theta, gains):
-    how = {"dt": 0.05, "duration": 10.0, "wheels": wmr.Wheels(0.4, 1.0)}
-    run = driven((rho, alpha, theta), gains, "barrier", **how)
+    options = {"dt": 0.05, "duration": 10.0, "wheels": wmr.Wheels(0.4, 1.0)}
+    run = driven((rho, alpha, theta), gains, "barrier", **options)
     assert max(np.abs(run.alpha).max(), np.abs(run.theta).max()) <= math.pi
 
 
@@ -249,14 +249,14 @@ def test_a_dock_is_entered_backwards_sooner_from_every_start_past_it(law, seed, 
     random = np.random.default_rng(seed)
     x, (y, heading) = random.uniform(1.8, 2.2, 200), random.uniform(-0.4, 0.4, (2, 200))
     tuned = {"aicardi": wmr.Gains(0.8, 3.2, 4.0, 1.0), "graceful": wmr.Gains(1.0, 2.0, 3.0, 1.0)}
-    how = {"law": law, "method": "arc", "dt": 0.02, "wheels": wmr.Wheels(width, fastest)}
+    options = {"law": law, "method": "arc", "dt": 0.02, "wheels": wmr.Wheels(width, fastest)}
     forwards, backwards = (
         wmr.sweep(
             wmr.Pose(x, y, heading + turn),
             wmr.Pose(0.0, 0.0, turn),
             tuned.get(law, DESIGNED),
             progress=False,
-            **how,
+            **options,
         )
         for turn in (0.0, math.pi)
     )

@@ -129,7 +129,7 @@ def valid_arguments(function):
     return valid | {name: make() for name, make in DRIVEN.items() if name in valid}
 
 
-def said(function, *arguments, **named):
+def refusal_of(function, *arguments, **named):
     """The text of the ValueError that comes, or nothing; no other error may come."""
     try:
         with warnings.catch_warnings():
@@ -144,15 +144,15 @@ def said(function, *arguments, **named):
 
 def refused(function, arguments, name):
     """Whether a ValueError comes, whose text names the argument."""
-    text = said(function, **arguments)
-    assert not text or any(each in text for each in (name, *NAMED.get(name, ()))), (name, text)
+    text = refusal_of(function, **arguments)
+    assert not text or any(word in text for word in (name, *NAMED.get(name, ()))), (name, text)
     return bool(text)
 
 
 def test_every_public_function_is_among_them():
     public = [getattr(wmr, name) for name in wmr.__all__ if name not in ELSEWHERE]
     public += [getattr(wmr.paper, name) for name in ("outdoor", "circle")]
-    functions = {each for each in public if inspect.isfunction(each)}
+    functions = {member for member in public if inspect.isfunction(member)}
     assert functions <= set(VALID)
     for function in VALID:
         arguments = valid_arguments(function)
@@ -195,7 +195,7 @@ BEYOND = [
 @pytest.mark.parametrize(("function", "name", "odd", "needed"), BEYOND)
 def test_what_is_just_beyond_a_bound_is_refused_with_what_is_needed(function, name, odd, needed):
     odd = -1e-9 if (function, name) == (wmr.advance, "dt") else odd  # 0 s are allowed there
-    text = said(function, **(valid_arguments(function) | {name: odd}))
+    text = refusal_of(function, **(valid_arguments(function) | {name: odd}))
     assert text.startswith(f"{name} = {odd!r} is not allowed: {needed.split(' above')[0]}")
     assert "at least 0" in text or needed in text
 
@@ -206,11 +206,11 @@ def test_arrays_of_other_lengths_are_refused_with_their_shapes(function):
     numbers = {
         name: value
         for name, value in valid.items()
-        if type(value) is float and not said(function, **(valid | {name: np.full(2, value)}))
+        if type(value) is float and not refusal_of(function, **(valid | {name: np.full(2, value)}))
     }
     for (one, first), (other, second) in combinations(numbers.items(), 2):
         shapes = {one: np.full(2, first), other: np.full(3, second)}
-        text = said(function, **(valid | shapes))
+        text = refusal_of(function, **(valid | shapes))
         assert text.startswith("mismatched lengths: ")
         assert f"{one} has shape (2,)" in text
         assert f"{other} has shape (3,)" in text
@@ -252,7 +252,7 @@ def test_a_number_with_a_unit_is_refused_with_the_documented_one(function):
     documented = "".join(map(inspect.getdoc, [function, *filter(None, also)]))
     for name, value in valid_arguments(function).items():
         if type(value) is float or name == "matrix":
-            text = said(function, **(valid_arguments(function) | {name: Quantity()}))
+            text = refusal_of(function, **(valid_arguments(function) | {name: Quantity()}))
             assert text.startswith(f"{name} = <")
             needed, _, unit = text.partition(" with a unit: give ")
             assert needed.endswith("Quantity"), text

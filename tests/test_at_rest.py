@@ -20,8 +20,8 @@ def test_allan_deviation_of_the_thousand_points_of_nist():
     numbers = [1234567890]
     while len(numbers) < 1000:
         numbers.append(16807 * numbers[-1] % 2147483647)
-    found = at_rest.allan_deviation(np.array(numbers) / 2147483647, [1, 10, 100])
-    assert found == pytest.approx([2.922319e-1, 9.159953e-2, 3.241343e-2], rel=5e-7)
+    measured = at_rest.allan_deviation(np.array(numbers) / 2147483647, [1, 10, 100])
+    assert measured == pytest.approx([2.922319e-1, 9.159953e-2, 3.241343e-2], rel=5e-7)
 
 
 def in_theory(sigma, memory, span):
@@ -36,13 +36,13 @@ def test_allan_deviation_and_autocorrelation_of_a_gauss_markov_error(memory):
     assert error.std(axis=0) == pytest.approx(0.5, rel=0.2)
     assert np.sqrt(np.mean(error**2)) == pytest.approx(0.5, rel=0.02)
     spans = np.array([10, 40, 100, 300])  # long against a sample
-    found = np.sqrt(np.mean(at_rest.allan_deviation(error, spans) ** 2, axis=0))
-    assert found == pytest.approx(in_theory(0.5, memory, 1.0 * spans), rel=0.04)
+    measured = np.sqrt(np.mean(at_rest.allan_deviation(error, spans) ** 2, axis=0))
+    assert measured == pytest.approx(in_theory(0.5, memory, 1.0 * spans), rel=0.04)
     r = np.linspace(0.5, 5.0, 4501)
     peak = in_theory(1.0, 1.0, r)
     assert (r[peak.argmax()], peak.max()) == pytest.approx((1.89, 0.617), abs=5e-3)
-    found = at_rest.autocorrelation(error, [0, 10, 40]).mean(axis=0)
-    assert found == pytest.approx(np.exp(-np.array([0, 10, 40]) / memory), abs=0.04)
+    measured = at_rest.autocorrelation(error, [0, 10, 40]).mean(axis=0)
+    assert measured == pytest.approx(np.exp(-np.array([0, 10, 40]) / memory), abs=0.04)
 
 
 def test_a_fit_is_that_of_the_likelihood_of_the_differences():

@@ -109,13 +109,13 @@ def verdict_with(monkeypatch, item, change):
     with monkeypatch.context() as patched:
         change(patched)
         if item in PUBLISHED:
-            found = claims.numbers()
+            rows = claims.numbers()
         elif item.startswith("claim-"):
-            found = claims.statements()
+            rows = claims.statements()
         else:
             place = 22 if item == "second-part" else int(item.removeprefix("eq-"))
-            found = next(make for part, make in PARTS.items() if place in part)()
-        return {each.item: each.verdict for each in found}[item]
+            rows = next(make for part, make in PARTS.items() if place in part)()
+        return {row.item: row.verdict for row in rows}[item]
 
 
 def second_part(right):
@@ -205,7 +205,7 @@ def test_a_law_that_no_slip_mends_is_wrong_and_stabilises_nothing(monkeypatch):
 
 def test_slips():
     def slip(*pair):
-        return audit.one_slip(*(sp.ImmutableMatrix([each]) for each in pair))
+        return audit.one_slip(*(sp.ImmutableMatrix([entry]) for entry in pair))
 
     a, b, c = sp.symbols("a b c")
     assert slip(a - b, a + b) == "the sign of $- b$"

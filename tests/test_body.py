@@ -31,22 +31,25 @@ wheels_of_all_kinds = st.builds(
 @example(0.0, 2.0, 2.0, 0.0, 0.1)  # on the ramp to the end
 @example(0.0, 0.1, 2.0, 0.0, 0.1)  # there before
 @given(speeds, speeds, st.floats(0.1, 9.0), st.floats(0.01, 2.0), st.floats(0.01, 2.0))
-def test_a_wheel_follows_as_its_equation_of_motion_says(speed, told, acceleration, lag, dt):
+def test_a_wheel_follows_as_its_equation_of_motion_says(speed, commanded, acceleration, lag, dt):
     """Against s' = (told - s)/lag, limited, integrated by another method."""
 
     def rate(_, state):
-        return [np.clip((told - state[0]) / max(lag, 1e-4), -acceleration, acceleration), state[0]]
+        return [
+            np.clip((commanded - state[0]) / max(lag, 1e-4), -acceleration, acceleration),
+            state[0],
+        ]
 
     exact = solve_ivp(rate, (0.0, dt), (speed, 0.0), rtol=1e-9, atol=1e-9, max_step=dt / 50).y
-    mean, after = follow(speed, told, 1.0 / acceleration, lag, dt)
+    mean, after = follow(speed, commanded, 1.0 / acceleration, lag, dt)
     near = 1e-4 if lag else 1e-3
     assert (after, mean * dt) == pytest.approx((exact[0, -1], exact[1, -1]), abs=near)
 
 
 @given(st.lists(speeds, min_size=1, max_size=20), st.sampled_from([0.003, 0.01]))
-def test_a_wheel_of_whole_steps_is_never_half_a_step_behind(told, step):
+def test_a_wheel_of_whole_steps_is_never_half_a_step_behind(commanded, step):
     wheels, body, wanted, rolled = wmr.Wheels(0.5, encoder_step=step), (0.0,) * 4, 0.0, 0.0
-    for v in told:
+    for v in commanded:
         mean, omega, body = roll(v, 0.0, body, wheels, 0.1)
         wanted, rolled = wanted + 0.1 * v, rolled + 0.1 * mean
         assert omega == pytest.approx(0.0, abs=1e-9)
@@ -74,23 +77,23 @@ def test_a_dead_band_stalls_the_robot_where_the_formula_says(start, k_rho, dead)
     """Straight ahead, where v alone decides: rho = -ln(1 - v_dead/v_max)/k_rho."""
     start = wmr.Pose(-abs(start.x) - 3.0, 0.0, 0.0)
     gains, goal = wmr.Gains(k_rho, 2.0, 2.0), wmr.Pose(0.0, 0.0, 0.0)
-    how = {"dt": 0.01, "duration": 600.0, "arrival_radius": 0.01}
-    stalled = wmr.simulate(start, goal, gains, wheels=wmr.Wheels(0.5, dead_band=dead), **how)
+    options = {"dt": 0.01, "duration": 600.0, "arrival_radius": 0.01}
+    stalled = wmr.simulate(start, goal, gains, wheels=wmr.Wheels(0.5, dead_band=dead), **options)
     expected = -math.log1p(-dead / gains.v_max) / k_rho
     assume(expected < 3.0)
     assert not wmr.arrival(stalled).arrived
     assert stalled.rho[-1] == pytest.approx(expected, abs=0.011 * dead)
     mended = wmr.Wheels(0.5, dead_band=dead, min_speed=1.01 * dead)
-    assert wmr.arrival(wmr.simulate(start, goal, gains, wheels=mended, **how)).arrived
+    assert wmr.arrival(wmr.simulate(start, goal, gains, wheels=mended, **options)).arrived
 
 
 @settings(max_examples=10, deadline=None)
 @given(starts, st.floats(0.05, 0.5))
 def test_a_least_speed_keeps_the_path_in_continuous_time(start, least):
     assume(math.hypot(start.x, start.y) > 0.5)
-    how = {"method": "continuous", "arrival_radius": 0.02, "duration": 300.0}
+    options = {"method": "continuous", "arrival_radius": 0.02, "duration": 300.0}
     free, fast = (
-        wmr.simulate(start, GOAL, GENTLE, wheels=wmr.Wheels(0.5, min_speed=speed), **how)
+        wmr.simulate(start, GOAL, GENTLE, wheels=wmr.Wheels(0.5, min_speed=speed), **options)
         for speed in (0.0, least)
     )
     slow, quick = wmr.arrival(free), wmr.arrival(fast)
@@ -107,12 +110,12 @@ def test_a_last_turn_either_ends_or_is_refused(gain, most, heading, tolerance):
     dt = 0.1
     turn = wmr.LastTurn(tolerance, gain, min_rate=0.2, max_rate=most)
     start, goal = wmr.Pose(0.0, 0.0, heading), wmr.Pose(0.05, 0.0, 0.0)
-    how = {"dt": dt, "arrival_radius": 0.2, "duration": 120.0, "last_turn": turn}
+    options = {"dt": dt, "arrival_radius": 0.2, "duration": 120.0, "last_turn": turn}
     if gain * dt >= 2.0 and most * dt > 2.0 * tolerance:
         with pytest.raises(ValueError, match=r"^last_turn\.gain = .* a period of 0\.1 s, is"):
-            wmr.simulate(start, goal, GENTLE, **how)
+            wmr.simulate(start, goal, GENTLE, **options)
     elif gain * dt < 1.95:  # from 2 down it ends ever later
-        assert wmr.arrival(wmr.simulate(start, goal, GENTLE, **how)).arrived
+        assert wmr.arrival(wmr.simulate(start, goal, GENTLE, **options)).arrived
 
 
 @settings(max_examples=10, deadline=None)
@@ -125,8 +128,8 @@ def test_the_last_turn_ends_within_its_tolerance_and_at_rest(start, wheels, h):
     wheels = wheels._replace(min_speed=max(wheels.min_speed, 2.5 * wheels.dead_band))
     assume(wheels.min_speed <= wheels.max_speed)
     assume(wheels.acceleration > 1.0)  # with less, and slow gains, it brakes too late for ever
-    how = {"dt": 0.02, "duration": 200.0, "arrival_radius": 0.2, "wheels": wheels}
-    run = wmr.simulate(start, GOAL, gains, last_turn=end, **how)
+    options = {"dt": 0.02, "duration": 200.0, "arrival_radius": 0.2, "wheels": wheels}
+    run = wmr.simulate(start, GOAL, gains, last_turn=end, **options)
     assert wmr.arrival(run).arrived
     assert abs(run.heading_error[-1]) <= end.tolerance
     assert abs(run.v[-1]) < 0.02
@@ -140,16 +143,18 @@ def test_the_last_turn_ends_within_its_tolerance_and_at_rest(start, wheels, h):
 @given(st.lists(starts, min_size=2, max_size=3), wheels_of_all_kinds, st.booleans())
 def test_a_sweep_of_bodies_is_each_run_alone(poses, wheels, turns):
     end = wmr.LastTurn(tolerance=0.05, leave=1.5) if turns else None
-    how = {"method": "arc", "duration": 20.0, "wheels": wheels, "arrival_radius": 0.1}
+    options = {"method": "arc", "duration": 20.0, "wheels": wheels, "arrival_radius": 0.1}
     many = wmr.Pose(*np.array(poses).T)
-    runs, paths = wmr.sweep(many, GOAL, GENTLE, last_turn=end, trajectories=True, **how)
+    runs, paths = wmr.sweep(many, GOAL, GENTLE, last_turn=end, trajectories=True, **options)
     for i, start in enumerate(poses):
-        run = wmr.simulate(start, GOAL, GENTLE, last_turn=end, **how)
-        nudged = wmr.simulate(start._replace(x=start.x + 1e-11), GOAL, GENTLE, last_turn=end, **how)
+        run = wmr.simulate(start, GOAL, GENTLE, last_turn=end, **options)
+        nudged = wmr.simulate(
+            start._replace(x=start.x + 1e-11), GOAL, GENTLE, last_turn=end, **options
+        )
         count = min(len(run), len(nudged))
         if np.abs(run.x[:count] - nudged.x[:count]).max() > 1e-8 or len(run) != len(nudged):
             continue  # a threshold that rounding decides
-        assert [each[i] for each in runs] == pytest.approx([*wmr.arrival(run)], abs=1e-6)
+        assert [field[i] for field in runs] == pytest.approx([*wmr.arrival(run)], abs=1e-6)
         np.testing.assert_allclose(paths.x[i, : len(run)], run.x, atol=1e-6)
         np.testing.assert_allclose(paths.omega[i, : len(run)], run.omega, atol=1e-5)
         assert np.isnan(paths.x[i, len(run) :]).all()
@@ -159,10 +164,10 @@ def test_a_receiver_decides_where_the_last_turn_begins():
     """By the place that the robot believes in; the heading, which is exact here, is met."""
     random = np.random.default_rng(5)
     starts = wmr.Pose(*random.uniform((-5, -5, -3), (5, 5, 3), (300, 3)).T)
-    how = {"method": "arc", "arrival_radius": 0.2, "duration": 120.0}
-    how |= {"receiver": wmr.Receiver(sigma=0.5, memory=300.0), "seed": 3}
-    turned = wmr.sweep(starts, GOAL, GENTLE, last_turn=wmr.LastTurn(), **how)
-    driven = wmr.sweep(starts, GOAL, GENTLE, **how)
+    options = {"method": "arc", "arrival_radius": 0.2, "duration": 120.0}
+    options |= {"receiver": wmr.Receiver(sigma=0.5, memory=300.0), "seed": 3}
+    turned = wmr.sweep(starts, GOAL, GENTLE, last_turn=wmr.LastTurn(), **options)
+    driven = wmr.sweep(starts, GOAL, GENTLE, **options)
     assert turned.arrived.all()
     assert np.abs(turned.heading_error).max() <= wmr.LastTurn().tolerance
     assert np.degrees(np.abs(driven.heading_error)).max() > 10.0
@@ -175,11 +180,11 @@ def test_a_turn_that_settles_sees_through_a_late_heading():
     """Once it has stood for as long as the heading is late, what it sees is what is."""
     late, random = 0.4, np.random.default_rng(7)
     starts = wmr.Pose(*random.uniform((-5, -5, -3), (5, 5, 3), (200, 3)).T)
-    how = {"method": "arc", "dt": 0.05, "arrival_radius": 0.2, "duration": 200.0}
-    how |= {"receiver": wmr.Receiver(heading_delay=late), "wheels": wmr.Wheels(0.5, 1.0)}
+    options = {"method": "arc", "dt": 0.05, "arrival_radius": 0.2, "duration": 200.0}
+    options |= {"receiver": wmr.Receiver(heading_delay=late), "wheels": wmr.Wheels(0.5, 1.0)}
     turn = wmr.LastTurn(tolerance=0.1, gain=0.3, min_rate=0.1, max_rate=0.5, leave=math.inf)
-    hasty = wmr.sweep(starts, GOAL, GENTLE, last_turn=turn, **how)
-    ends = wmr.sweep(starts, GOAL, GENTLE, last_turn=turn._replace(settle=late + 0.05), **how)
+    hasty = wmr.sweep(starts, GOAL, GENTLE, last_turn=turn, **options)
+    ends = wmr.sweep(starts, GOAL, GENTLE, last_turn=turn._replace(settle=late + 0.05), **options)
     assert ends.arrived.all()
     assert np.abs(ends.heading_error).max() <= turn.tolerance
     assert np.abs(hasty.heading_error).max() > 1.5 * turn.tolerance

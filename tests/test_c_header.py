@@ -192,14 +192,14 @@ def test_a_point_that_is_not_on_the_earth_stops_the_robot(compiled):
     call, _, _ = compiled
     points = [33.273572, 44.373160, 33.274087, 44.373264]
     off = [(0, 90.1), (0, -90.1), (2, 95.0), (1, 180.1), (3, -180.1), (3, 200.0)]
-    bad = [("local", *replaced(points, *each)) for each in off]
+    bad = [("local", *replaced(points, *change)) for change in off]
     bad += [("local_e7", *(round(1e7 * value) for value in point)) for _, *point in bad]
     never = (math.nan, math.inf, -math.inf, 359.0)
     bad += [("local", *replaced(points, k, value)) for k in (1, 3) for value in never]
     bad += [("local", *replaced(points, k, value)) for k in (0, 2) for value in never]
     integers = [round(1e7 * value) for value in points]
     no_fix = (-(2**31), 2**31 - 1)
-    bad += [("local_e7", *replaced(integers, k, each)) for k in range(4) for each in no_fix]
+    bad += [("local_e7", *replaced(integers, k, change)) for k in range(4) for change in no_fix]
     for name, *point in bad:
         east, north, _ = call(name, *point)
         assert math.isnan(east), (name, point)
@@ -221,7 +221,7 @@ def test_gps_points_as_degrees_and_as_integers(compiled, lat, lon, dlat, dlon):
     call, tolerance, _ = compiled
     date_line = 1_800_000_000
     points = [lat, lon, lat + dlat, (lon + dlon + date_line) % (2 * date_line) - date_line]
-    degrees = [each / 1e7 for each in points]
+    degrees = [integer / 1e7 for integer in points]
     a = wmr.GeoPoint(lat=degrees[0], lon=degrees[1])
     b = wmr.GeoPoint(lat=degrees[2], lon=degrees[3])
     expected = wmr.local_position(a, b)
@@ -261,8 +261,8 @@ def test_on_a_board_whose_double_has_4_bytes_it_is_as_good_as_in_float():
     drives = [*zip(points, floats, strict=True)]
     lines = [f"{{{{{gps}}}, {a!r}, {b!r}, {{{gains}}}}},\n" for gps, (a, b, *gains) in drives]
     text = "".join(lines).replace("[", "").replace("]", "")
-    said, *_ = avr.printed_by(AVR.replace("@drives@", text))
-    rows = re.findall(r"goes (.+)", said)
+    output, *_ = avr.printed_by(AVR.replace("@drives@", text))
+    rows = re.findall(r"goes (.+)", output)
     assert len(rows) == len(drives)
     for row, (gps, (heading, goal_heading, *gains)) in zip(rows, drives, strict=True):
         east, north, *wheels = map(float, row.split())

@@ -59,8 +59,8 @@ def test_the_published_cases():
     }
     units = 100, 100, 1800 / math.pi
     for (kind, *poses), row in zip(game.cases, PUBLISHED, strict=True):
-        found = [value * unit for pose in poses for value, unit in zip(pose, units, strict=True)]
-        assert (kind, *map(round, found)) == row
+        numbers = [value * unit for pose in poses for value, unit in zip(pose, units, strict=True)]
+        assert (kind, *map(round, numbers)) == row
     with pytest.raises(FrozenInstanceError):
         game.dt = 1.0
 

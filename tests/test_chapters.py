@@ -33,14 +33,14 @@ FLIPS = {  # the formula: the chapter that derives it, its text, and what to mak
 
 @pytest.mark.parametrize("path", CHAPTERS, ids=lambda path: path.stem)
 def test_figures_have_captions_in_order(path):
-    cells, wanted, found = nbformat.read(path, as_version=4).cells, [], []
+    cells, wanted, captions = nbformat.read(path, as_version=4).cells, [], []
     for place, cell in enumerate(cells):
         texts = [it.get("data", {}).get("text/html", "") for it in cell.get("outputs", ())]
         if any("<img" in text for text in texts):
             wanted.append((place + 1, f"**Figure {int(path.stem[:2])}.{len(wanted) + 1}.** "))
         if caption := re.match(r"\*\*Figure .*?\*\* ", cell.source):
-            found.append((place, caption[0]))
-    assert found == wanted
+            captions.append((place, caption[0]))
+    assert captions == wanted
 
 
 @pytest.mark.slow

@@ -61,7 +61,7 @@ def hand_ins(release: Path) -> dict[str, str]:
 @pytest.fixture(scope="module")
 def course(tmp_path_factory):
     """A course after all commands of the guide, and what grading said."""
-    folder, said = tmp_path_factory.mktemp("course"), ""
+    folder, messages = tmp_path_factory.mktemp("course"), ""
     shutil.copytree(COURSE / "source/ch01", folder / "source/ch01")
     shutil.copy(COURSE / "nbgrader_config.py", folder)
     for command in COMMANDS:
@@ -71,9 +71,9 @@ def course(tmp_path_factory):
             command = f"python {COURSE / 'package.py'} --course {folder}"
         done = run(command, folder)
         if "autograde" in command:
-            said = done.stderr
+            messages = done.stderr
         assert (done.returncode == 0) != ("autograde" in command), done.stderr
-    return folder, said
+    return folder, messages
 
 
 def download(folder: Path) -> None:
@@ -89,11 +89,11 @@ def download(folder: Path) -> None:
 
 @pytest.mark.parametrize(("right", "wrong", "damaged"), STUDENTS)
 def test_a_class_gets_its_marks_and_its_hints(course, right, wrong, damaged):
-    folder, said = course
+    folder, messages = course
     with (folder / "grades.csv").open(encoding="utf-8") as file:
         marks = {row["student_id"]: float(row["score"]) for row in csv.DictReader(file)}
     assert (marks[right], marks[wrong], marks[damaged]) == (MOST, MOST - LOST, 0.0)
-    assert f"error processing assignment 'ch01' for student '{damaged}'" in said
+    assert f"error processing assignment 'ch01' for student '{damaged}'" in messages
     pages = {name: folder / f"feedback/{name}/ch01/01_gps_to_metres.html" for name in marks}
     assert "Hint: " not in pages[right].read_text(encoding="utf-8")
     page = pages[wrong].read_text(encoding="utf-8")

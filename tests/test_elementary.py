@@ -35,7 +35,7 @@ def in_lanes(function):
 def numpys(function):
     def of_arrays(*numbers):
         results = elementary.elementwise(function, *map(np.atleast_1d, numbers))
-        return tuple(each[0] for each in results) if len(results) == 2 else results[0]
+        return tuple(result[0] for result in results) if len(results) == 2 else results[0]
 
     return of_arrays
 
@@ -103,8 +103,8 @@ def test_decay(form, rho, k_rho):
     truth = -mpmath.expm1(-mpmath.mpf(k_rho) * mpmath.mpf(rho)) / mpmath.mpf(rho) if rho else k_rho
     # The rounding of k_rho rho, half a unit, is made larger by as much as exp grows.
     accuracy = TWO_ULP * (1.0 + max(0.0, -k_rho * rho))
-    found = form(elementary.decay)(rho, k_rho)
-    assert found == pytest.approx(float(truth), rel=accuracy, abs=1e-300)
+    value = form(elementary.decay)(rho, k_rho)
+    assert value == pytest.approx(float(truth), rel=accuracy, abs=1e-300)
 
 
 lengths = st.floats(-1e3, 1e3) | st.floats(-1e150, 1e150) | st.floats(-1e-100, 1e-100)

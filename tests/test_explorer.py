@@ -30,9 +30,9 @@ def test_the_trajectory_is_that_of_the_state():
     explorer.start, explorer.goal = wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0)
     for method in METHODS:
         explorer.state = explorer.state | {"method": method, "arrival_radius": 0.2}
-        ends, how = (wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0)), {"dt": 0.05}
-        how |= {"law": "aicardi", "method": method, "arrival_radius": 0.2}
-        theirs = wmr.simulate(*ends, GAINS, **how)
+        ends, options = (wmr.Pose(1.0, 2.0, 3.0), wmr.Pose(4.0, 5.0, -1.0)), {"dt": 0.05}
+        options |= {"law": "aicardi", "method": method, "arrival_radius": 0.2}
+        theirs = wmr.simulate(*ends, GAINS, **options)
         ours = explorer.trajectory()
         assert (ours.law, ours.method) == ("aicardi", method)
         np.testing.assert_array_equal(ours.x, theirs.x)
@@ -133,8 +133,8 @@ def imported(texts, path, above=()):
     """Every module that a module needs, itself included; none in a circle."""
     assert path not in above, (*above, path)
     others = re.findall(r"^(?:import|export|\}).* from '(.+)';$", texts[path], re.MULTILINE)
-    found = (posixpath.normpath(PurePosixPath(path).parent / other) for other in others)
-    return {path}.union(*(imported(texts, other, (*above, path)) for other in found))
+    imports = (posixpath.normpath(PurePosixPath(path).parent / other) for other in others)
+    return {path}.union(*(imported(texts, other, (*above, path)) for other in imports))
 
 
 def test_a_kernel_sends_all_that_a_program_imports_and_that_asks_for_nothing_else():

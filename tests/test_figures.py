@@ -35,8 +35,8 @@ def drive(law="corrected", gains=GAINS, x_axis="east", **options):
 def around(gains):
     """Three runs from 2 m away, the first from straight ahead of the goal."""
     starts = wmr.Pose(np.array([2.0, -1.0, 0.0]), np.array([0.0, 3.0**0.5, -2.0]), np.zeros(3))
-    how = {"trajectories": True, "dt": 0.02, "progress": False}
-    return wmr.sweep(starts, wmr.Pose(0.0, 0.0, 0.0), gains, **how)[1]
+    options = {"trajectories": True, "dt": 0.02, "progress": False}
+    return wmr.sweep(starts, wmr.Pose(0.0, 0.0, 0.0), gains, **options)[1]
 
 
 @cache
@@ -51,8 +51,10 @@ def parked():
 @cache
 def near_goal_runs():
     start = wmr.pose_from_polar(wmr.PolarError(math.log(2) / 2, math.pi / 4, 0.0), ORIGIN)
-    how = {"method": "continuous", "arrival_radius": 0.0, "duration": 6.0, "dt": 0.02}
-    return [wmr.simulate(start, ORIGIN, GAINS, law=law, **how) for law in ("corrected", "printed")]
+    options = {"method": "continuous", "arrival_radius": 0.0, "duration": 6.0, "dt": 0.02}
+    return [
+        wmr.simulate(start, ORIGIN, GAINS, law=law, **options) for law in ("corrected", "printed")
+    ]
 
 
 @cache
@@ -194,8 +196,8 @@ def beside(driven):
 
 @cache
 def graceful():
-    docking, how = wmr.Gains(1.0, 2.0, 3.0, 1.0), {"method": "continuous", "law": "graceful"}
-    return wmr.simulate(wmr.Pose(-1.5, 1.0, 0.0), ORIGIN, docking, **how)
+    docking, options = wmr.Gains(1.0, 2.0, 3.0, 1.0), {"method": "continuous", "law": "graceful"}
+    return wmr.simulate(wmr.Pose(-1.5, 1.0, 0.0), ORIGIN, docking, **options)
 
 
 SAYS = {  # what the text must say, in numbers that come from elsewhere
@@ -301,23 +303,23 @@ def test_every_figure_of_the_chapters_is_in_the_table():
 
 @pytest.mark.parametrize("name", CASES)
 def test_every_figure_draws_and_says_what_it_shows(name):
-    found = picture(name)
-    bundle = found._repr_mimebundle_()
-    assert bundle["text/plain"] == f"<Picture: {found.alt}>"
-    assert bundle["text/html"].startswith(f'<img alt="{html.escape(found.alt)}" width=')
-    assert len(found.alt) > 60
-    assert found.alt.endswith(".")
-    assert not re.search(r"nan|-0\.0*(?![\d.])", found.alt)
+    shown = picture(name)
+    bundle = shown._repr_mimebundle_()
+    assert bundle["text/plain"] == f"<Picture: {shown.alt}>"
+    assert bundle["text/html"].startswith(f'<img alt="{html.escape(shown.alt)}" width=')
+    assert len(shown.alt) > 60
+    assert shown.alt.endswith(".")
+    assert not re.search(r"nan|-0\.0*(?![\d.])", shown.alt)
     for words in SAYS.get(name, list)():
-        assert words in found.alt
-    pixels = pixels_of(found)
+        assert words in shown.alt
+    pixels = pixels_of(shown)
     full = 0.9 if name == "sphere_error_map" else 0.7
     assert 0.01 < np.mean(pixels.min(axis=2) < 0.9) < full  # neither blank nor flooded
-    for axes in found.figure.axes:
+    for axes in shown.figure.axes:
         if not axes.axison or axes.get_label() == "<colorbar>":
             continue
-        x = axes.get_xlabel() or found.figure.get_supxlabel()
-        y = axes.get_ylabel() or found.figure.get_supylabel()
+        x = axes.get_xlabel() or shown.figure.get_supxlabel()
+        y = axes.get_ylabel() or shown.figure.get_supylabel()
         assert "[" in x or not axes.xaxis.get_tick_params().get("labelbottom", True)
         assert "[" in y or not axes.yaxis.get_tick_params().get("labelleft", True)
 
@@ -335,8 +337,8 @@ def test_paths_and_angles_are_those_of_the_runs():
     np.testing.assert_allclose(theta.lines[0].get_ydata(), np.degrees(drive().theta))
     (axes,) = figures.path_choices({"one": WAY}, ORIGIN).figure.axes
     assert axes.get_aspect() == 1.0
-    found = [heading_of(dart) for dart in axes.patches]  # start, end, goal
-    assert found == pytest.approx([1.0, 0.2, 0.0])
+    headings = [heading_of(dart) for dart in axes.patches]  # start, end, goal
+    assert headings == pytest.approx([1.0, 0.2, 0.0])
 
 
 def test_a_wrapped_angle_is_not_joined_across_its_jump():
@@ -430,7 +432,9 @@ def test_a_route_is_drawn_as_it_was_driven():
     for kind, wanted in (("mixed", "oss"), ("stuck", "ssxsx")):
         lines = figures.route(route(kind)).figure.axes[0].lines
         markers = [line.get_marker() for line in lines]
-        assert "".join(each for each in markers if each in "sox" and len(each) == 1) == wanted
+        assert (
+            "".join(marker for marker in markers if marker in "sox" and len(marker) == 1) == wanted
+        )
     legend = [text.get_text() for text in axes.get_legend().get_texts()]
     assert legend == ["path", "start", "stop", "passed"]
 

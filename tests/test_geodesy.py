@@ -90,7 +90,7 @@ def test_all_digits_at_both_ends():
             b = wmr.destination_point(centre, gap, 0.4)
             with mpmath.workdps(50):
                 lat1, lon1, lat2, lon2 = (
-                    mpmath.radians(mpmath.mpf(each)) for each in (a.lat, a.lon, b.lat, b.lon)
+                    mpmath.radians(mpmath.mpf(angle)) for angle in (a.lat, a.lon, b.lat, b.lon)
                 )
                 across = cos(lat1) * cos(lat2) * sin((lon2 - lon1) / 2) ** 2
                 e = sin((lat2 - lat1) / 2) ** 2 + across
@@ -154,10 +154,10 @@ def test_the_date_line_costs_no_digit(lat, west, east, swapped):
     expected = [wmr.haversine_distance(zero, there), wmr.initial_bearing(zero, there)]
     if swapped:
         expected[1] = (2 * math.pi - expected[1]) % (2 * math.pi)
-    found = wmr.haversine_distance(a, b), wmr.initial_bearing(a, b)
-    assert found == pytest.approx(expected, rel=1e-12, abs=0.0)
+    computed = wmr.haversine_distance(a, b), wmr.initial_bearing(a, b)
+    assert computed == pytest.approx(expected, rel=1e-12, abs=0.0)
     if west == east == 0.0:
-        assert found == (0.0, 0.0)
+        assert computed == (0.0, 0.0)
 
 
 # Bad input

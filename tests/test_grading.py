@@ -70,7 +70,7 @@ def test_the_model_and_other_right_answers_pass_and_the_release_does_not(chapter
         assert failed(chapter, task, task.model) == {}
         empty = failed(chapter, task, released(task.model))
         assert list(empty) == list(task.checks)
-        assert all(re.search("not written yet|no value yet", each) for each in empty.values())
+        assert all(re.search("not written yet|no value yet", message) for message in empty.values())
     for key, right in answers(chapter)["right"].items():
         for answer in right:
             assert errors(chapter, key, answer) == {}, answer
@@ -81,9 +81,13 @@ def test_a_wrong_answer_gets_its_hint(chapter):
     for key, rows in answers(chapter)["wrong"].items():
         for hint, wrong in rows.items():
             for answer in [wrong] if isinstance(wrong, str) else wrong:
-                said = errors(chapter, key, answer).values()
-                assert any(hint in each for each in said), (key, answer, said)
-                assert all(each.startswith("Hint: ") for each in said), (key, answer, said)
+                messages = errors(chapter, key, answer).values()
+                assert any(hint in message for message in messages), (key, answer, messages)
+                assert all(message.startswith("Hint: ") for message in messages), (
+                    key,
+                    answer,
+                    messages,
+                )
 
 
 RETURNS = """
@@ -114,8 +118,12 @@ def test_a_slip_is_told_as_a_slip(chapter):
         for words, slip in SLIPS.items() if is_function else ():
             first, *_ = task.checks
             slip = f"it if isinstance(it, bool) else {slip}"
-            said = failed(chapter, task, returning(task, slip))
-            assert first not in said or re.search(words, said[first]), (task.name, slip, said)
+            messages = failed(chapter, task, returning(task, slip))
+            assert first not in messages or re.search(words, messages[first]), (
+                task.name,
+                slip,
+                messages,
+            )
 
 
 @for_assignments
@@ -123,9 +131,9 @@ def test_an_answer_that_calls_the_library_is_not_ones_own(chapter):
     words = "asks for your own formula|may be used here"
     for task in tasks(chapter):
         if task.model.startswith("def ") and task.name not in ("poses", "parked", "safe"):
-            said = failed(chapter, task, returning(task, "(wmrlib.haversine_distance, it)[1]"))
-            assert list(said) == list(task.checks)
-            assert all(re.search(words, each) for each in said.values()), said
+            messages = failed(chapter, task, returning(task, "(wmrlib.haversine_distance, it)[1]"))
+            assert list(messages) == list(task.checks)
+            assert all(re.search(words, message) for message in messages.values()), messages
 
 
 NONSENSE = [
@@ -147,9 +155,9 @@ def test_nonsense_is_answered_by_a_hint(module):
     for check in checks:
         for value in NONSENSE:
             for answer in (value, lambda *_, v=value: v, lambda *_, v=value: [v] * 2):
-                with pytest.raises(Hint) as found:
+                with pytest.raises(Hint) as error:
                     check(answer)
-                assert len(str(found.value)) < 400
+                assert len(str(error.value)) < 400
 
 
 @pytest.mark.parametrize("name", EXERCISES)
@@ -158,8 +166,8 @@ def test_a_chapters_exercise_takes_its_answer_and_says_what_is_wrong_with_others
     for words, source in [("Right", model), *((it, edited(model, edit)) for it, edit in edits)]:
         names = {}
         run_cell(source, f"<{name}>", names)
-        given = [names[each] for each in ("answer", "more") if each in names]
-        said = getattr(grading.exercises, name)(*given)
-        assert words in said
-        assert said.startswith("Hint: ") == (words != "Right")
+        given = [names[part] for part in ("answer", "more") if part in names]
+        outcome = getattr(grading.exercises, name)(*given)
+        assert words in outcome
+        assert outcome.startswith("Hint: ") == (words != "Right")
     assert f"grading.exercises.{name}(" in CHAPTERS

@@ -52,7 +52,7 @@ LAWS = [
 
 def test_a_call_of_the_libraries_is_found_in_any_way():
     own = "this task asks for your own formula, with `math` or `numpy`"
-    allowed, laws = [of("*_", each) for each in SEES], [of("*polar", each) for each in LAWS]
+    allowed, laws = [of("*_", part) for part in SEES], [of("*polar", part) for part in LAWS]
     for function in allowed:
         assert function() == (1.0, 0.0, 0.0)
         _hints.own_work(function, *ALLOWED)
@@ -61,7 +61,7 @@ def test_a_call_of_the_libraries_is_found_in_any_way():
         with pytest.raises(Hint, match=hint):
             _hints.own_work(function, *ALLOWED)
     law, ways = laws[0], (functools.cache, functools.partial, np.vectorize, numba.njit)
-    hidden = [lambda *each: law(*each), *(way(law) for way in ways), control_law]
+    hidden = [lambda *part: law(*part), *(way(law) for way in ways), control_law]
     for function in [*allowed, *laws, *hidden]:
         with pytest.raises(Hint, match=f"of wmrlib; {own}"):
             _hints.own_work(function)
@@ -122,7 +122,7 @@ def test_the_rule_is_the_audit_s():
 
 def test_counterexamples_are_those_of_the_paper_s_equations():
     """Written out by hand: the check takes a state if and only if it refutes the claim."""
-    random, found = np.random.default_rng(1), []
+    random, counterexamples = np.random.default_rng(1), []
     for rho, alpha, theta, omega in random.uniform((0.01, -1, -3, -2), (1, 1.5, 3, 4), (60, 4)):
         v = 4 * (1 - np.exp(-2 * rho)) * np.cos(alpha)
         part = -alpha * omega + v * np.sin(alpha) / rho * (0.3 * theta + alpha)
@@ -130,12 +130,12 @@ def test_counterexamples_are_those_of_the_paper_s_equations():
         refutes = obeyed and part > 1e-3
         try:
             verdicts.counterexample_23((rho, alpha, theta, omega))
-            found.append("accepted")
+            counterexamples.append("accepted")
             assert refutes
             assert alpha > 0
         except Hint as hint:
             side = bool(re.search("chapter 10's side", str(hint)))
-            found.append("side" if side else "claim holds")
+            counterexamples.append("side" if side else "claim holds")
             assert side == bool(refutes)
             assert not (refutes and alpha > 0)
-    assert min(map(found.count, ("accepted", "side", "claim holds"))) > 5
+    assert min(map(counterexamples.count, ("accepted", "side", "claim holds"))) > 5

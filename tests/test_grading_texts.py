@@ -29,23 +29,23 @@ def text(path) -> str:
     """What is read, without the cells of a page that is itself run."""
     words = path.read_text(encoding="utf-8")
     if path.suffix == ".ipynb":
-        found = json.loads(words)["cells"]
-        words = "\n\n".join("".join(c["source"]) for c in found if c["cell_type"] == "markdown")
+        cells = json.loads(words)["cells"]
+        words = "\n\n".join("".join(c["source"]) for c in cells if c["cell_type"] == "markdown")
     return re.sub(r"```\{.*?```", "", words, flags=re.DOTALL)
 
 
 def calls(words: str) -> list[str]:
     """The expressions between backticks that call something, with no part left open as `...`."""
-    found = []
-    for each in re.findall(r"`([^`]+)`", re.sub(r"```.*?```", "", words, flags=re.DOTALL)):
+    matches = []
+    for code in re.findall(r"`([^`]+)`", re.sub(r"```.*?```", "", words, flags=re.DOTALL)):
         try:
-            nodes = list(ast.walk(ast.parse(" ".join(each.split()))))
+            nodes = list(ast.walk(ast.parse(" ".join(code.split()))))
         except SyntaxError:
             continue
         is_open = any(isinstance(node, ast.Constant) and node.value is ... for node in nodes)
         if any(isinstance(node, ast.Call) for node in nodes) and not is_open:
-            found.append(" ".join(each.split()))
-    return found
+            matches.append(" ".join(code.split()))
+    return matches
 
 
 @pytest.mark.parametrize("path", [*PAGES, *CHAPTERS, *TASKS], ids=lambda path: path.stem)

@@ -70,23 +70,23 @@ near_the_seam = st.builds(
     st.sampled_from(["arc", "euler"]),
 )
 def test_a_run_and_a_sweep_keep_it_as_the_plain_loop_does(start, hysteresis, method):
-    gains, how = wmr.Gains(0.8, 1.2, 1.5, 1.5), {"method": method}
-    expected = driven(start, gains, hysteresis, **how)
-    run = wmr.simulate(start, GOAL, gains, hysteresis=hysteresis, duration=4.0, **how)
+    gains, options = wmr.Gains(0.8, 1.2, 1.5, 1.5), {"method": method}
+    expected = driven(start, gains, hysteresis, **options)
+    run = wmr.simulate(start, GOAL, gains, hysteresis=hysteresis, duration=4.0, **options)
     mine = np.array([getattr(run, name) for name in COLUMNS])
     np.testing.assert_allclose(mine, expected, rtol=0.0, atol=1e-8)
     energy = wmr.lyapunov(run.rho, run.alpha, run.theta, gains.h)
     np.testing.assert_allclose(run.V, energy, rtol=1e-12)
     starts = start._replace(x=np.full(2, start.x))
-    how |= {"hysteresis": hysteresis, "duration": 4.0}
-    ends, paths = wmr.sweep(starts, GOAL, gains, trajectories=True, **how)
-    np.testing.assert_allclose(wmr.sweep(starts, GOAL, gains, **how), ends, rtol=0, atol=1e-8)
+    options |= {"hysteresis": hysteresis, "duration": 4.0}
+    ends, paths = wmr.sweep(starts, GOAL, gains, trajectories=True, **options)
+    np.testing.assert_allclose(wmr.sweep(starts, GOAL, gains, **options), ends, rtol=0, atol=1e-8)
     for name, column in zip(COLUMNS, expected, strict=True):
-        found = getattr(paths, name)[1]
-        np.testing.assert_allclose(found[: column.size], column, rtol=0.0, atol=1e-8)
+        samples = getattr(paths, name)[1]
+        np.testing.assert_allclose(samples[: column.size], column, rtol=0.0, atol=1e-8)
     summed = np.array(wmr.arrival(run), dtype=float)
     np.testing.assert_allclose([field[1] for field in ends], summed, rtol=0.0, atol=1e-8)
-    _, seen = wmr.sweep(starts, GOAL, gains, trajectories=True, receiver=wmr.Receiver(), **how)
+    _, seen = wmr.sweep(starts, GOAL, gains, trajectories=True, receiver=wmr.Receiver(), **options)
     assert all(np.array_equal(*pair, equal_nan=True) for pair in zip(seen, paths, strict=True))
 
 
@@ -97,8 +97,8 @@ def share_turned_away(noise_deg, hysteresis, seed):
     """The share of 1000 runs that end over 90 deg off, from 0.5 m behind a goal that is faced."""
     start = wmr.pose_from_polar(wmr.PolarError(0.5, 0.0, math.pi), GOAL)
     starts, sight = start._replace(x=np.full(1000, start.x)), math.radians(noise_deg)
-    how = {"method": "arc", "dt": 0.01, "hysteresis": hysteresis, "seed": seed}
-    ends = wmr.sweep(starts, GOAL, PAPER, receiver=wmr.Receiver(sight=sight), **how)
+    options = {"method": "arc", "dt": 0.01, "hysteresis": hysteresis, "seed": seed}
+    ends = wmr.sweep(starts, GOAL, PAPER, receiver=wmr.Receiver(sight=sight), **options)
     assert ends.arrived.all()
     return np.mean(np.abs(ends.heading_error) > math.pi / 2.0)
 

@@ -17,10 +17,12 @@ from build import BOOK, MODULES, install_javascript
 def test_linter_and_compiler_find_nothing(command):
     install_javascript()
     name, *arguments = command.split()
-    found = shutil.which(name, path=MODULES / ".bin")
+    program = shutil.which(name, path=MODULES / ".bin")
     folders = [str(Path(sys.executable).parent), os.environ["PATH"]]  # of a node from PyPI
     paths = os.environ | {"PATH": os.pathsep.join(folders)}
-    done = subprocess.run([found, *arguments], cwd=BOOK, env=paths, capture_output=True, text=True)
+    done = subprocess.run(
+        [program, *arguments], cwd=BOOK, env=paths, capture_output=True, text=True
+    )
     assert not done.returncode, done.stdout + done.stderr
 
 

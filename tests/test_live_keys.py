@@ -23,7 +23,7 @@ def _to_the_right(f, *methods):
 
 
 def _uphill(f):
-    return lambda a, b, gains, **how: f(a, b, gains, **(how | {"law": "printed"}))
+    return lambda a, b, gains, **options: f(a, b, gains, **(options | {"law": "printed"}))
 
 
 def _backwards(gains):

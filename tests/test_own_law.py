@@ -33,9 +33,9 @@ def poses(run):
 @pytest.mark.parametrize("method", ["arc", "euler"])
 @pytest.mark.parametrize("name", POSE_LAWS)
 def test_a_built_in_law_given_as_a_function_gives_the_built_in_run(name, method):
-    how = {"method": method, "wheels": wmr.Wheels(0.5, 3.0), "duration": 30.0}
-    own = wmr.simulate(START, GOAL, GAINS, law=as_function(name), **how)
-    built_in = wmr.simulate(START, GOAL, GAINS, law=name, **how)
+    options = {"method": method, "wheels": wmr.Wheels(0.5, 3.0), "duration": 30.0}
+    own = wmr.simulate(START, GOAL, GAINS, law=as_function(name), **options)
+    built_in = wmr.simulate(START, GOAL, GAINS, law=name, **options)
     assert own.outcome is built_in.outcome
     np.testing.assert_allclose(poses(own), poses(built_in), rtol=0.0, atol=1e-12)
     assert own.peak_omega == pytest.approx(built_in.peak_omega, abs=1e-12)
@@ -59,9 +59,9 @@ def test_a_moving_goal_is_followed_too():
 )
 def test_a_sweep_by_a_function_is_the_sweep_by_name(more):
     gains = GAINS._replace(h=np.array([[0.1], [0.3]]), k_alpha=np.array([1.0, 2.0, 3.0]))
-    how = {"method": "arc", "trajectories": True, "duration": 20.0} | more
-    own = wmr.sweep(START, GOAL, gains, law=as_function("corrected"), **how)
-    built_in = wmr.sweep(START, GOAL, gains, **how)
+    options = {"method": "arc", "trajectories": True, "duration": 20.0} | more
+    own = wmr.sweep(START, GOAL, gains, law=as_function("corrected"), **options)
+    built_in = wmr.sweep(START, GOAL, gains, **options)
     for mine, theirs in zip(own, built_in, strict=True):
         for one, other in zip(mine, theirs, strict=True):
             np.testing.assert_allclose(one, other, rtol=0.0, atol=1e-12)

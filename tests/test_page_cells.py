@@ -75,10 +75,10 @@ def test_what_runs_in_the_page_gives_what_is_stored(alone, path):
     cells = runnable(notebook)
     assert QUICK.get(path.stem[:2], "") in "".join(cell.source for cell in cells)
     asked = [(number, cell.before, cell.source) for number, cell in enumerate(cells, 1)]
-    for cell, found in zip(cells, alone(CELLS, asked), strict=True):
-        assert found["error"] is None, cell
+    for cell, printed in zip(cells, alone(CELLS, asked), strict=True):
+        assert printed["error"] is None, cell
         stored = map(text_of, notebook.cells[cell.place].outputs)
-        assert [plain(text) for _, text in found["shown"]] == [plain(text) for text in stored]
+        assert [plain(text) for _, text in printed["shown"]] == [plain(text) for text in stored]
 
 
 def text_of(output) -> str:
@@ -123,14 +123,14 @@ NUMPY = "import numpy as np\n"
 def test_a_cell_runs_in_the_page_if_all_that_it_shows_can(code, kept):
     shows = nbformat.v4.new_output("execute_result", {"text/plain": "what it shows"})
     cell = nbformat.v4.new_code_cell(code, outputs=[shows])
-    found = runnable(nbformat.v4.new_notebook(cells=[cell]))
-    assert [each.source for each in found] == ([] if kept is None else [kept])
+    chosen = runnable(nbformat.v4.new_notebook(cells=[cell]))
+    assert [part.source for part in chosen] == ([] if kept is None else [kept])
 
 
 def test_what_a_cell_needs_of_cells_that_are_not_run_comes_before_it():
     shows = nbformat.v4.new_output("stream", text="what it shows")
     needed = "import math\nturns = []\nfor i in range(3):\n    turns.append(2 * math.pi * i)"
     sources = f"{NUMPY}n = np.e\n{needed}\nmore = 3", "print(turns)"
-    cells = [nbformat.v4.new_code_cell(each, outputs=[shows]) for each in sources]
+    cells = [nbformat.v4.new_code_cell(source, outputs=[shows]) for source in sources]
     (cell,) = runnable(nbformat.v4.new_notebook(cells=cells))
     assert (cell.before, cell.left_out) == (needed, 0)

@@ -11,8 +11,8 @@ from wmrbook.published import PUBLISHED
 
 
 def run(x_axis, gains=None, **options):
-    case, how = wmr.paper.outdoor(x_axis), {"method": "continuous"} | options
-    return wmr.arrival(wmr.simulate(case.start, case.goal, gains or case.gains, **how))
+    case, setting = wmr.paper.outdoor(x_axis), {"method": "continuous"} | options
+    return wmr.arrival(wmr.simulate(case.start, case.goal, gains or case.gains, **setting))
 
 
 def test_outdoor_in_both_readings_of_the_axes():
@@ -88,30 +88,34 @@ time-stepping {time_step: 0.1} seconds. The linear speed is limited at {speed_li
 
 
 def quoted():
-    found = re.findall(r"{(\w+): ([^}]+)}", QUOTED)
-    return {name: float(eval(number, {"pi": math.pi})) for name, number in found}
+    quotes = re.findall(r"{(\w+): ([^}]+)}", QUOTED)
+    return {name: float(eval(number, {"pi": math.pi})) for name, number in quotes}
 
 
 def test_published_numbers_are_those_that_the_paper_prints():
-    assert {name: each.value for name, each in PUBLISHED.items()} == quoted()
+    assert {name: number.value for name, number in PUBLISHED.items()} == quoted()
 
 
 def test_scenarios_are_those_that_the_paper_prints():
-    said, paper = quoted(), wmr.paper
-    circle = [said[f"circle_{name}"] for name in ("k_rho", "k_alpha", "h")]
-    outdoor = [said[f"outdoor_{name}"] for name in ("k_rho", "k_alpha", "h")]
-    assert wmr.Gains(*circle, v_max=said["speed_limit"]) == paper.CIRCLE_GAINS
-    assert wmr.Gains(*outdoor, v_max=said["speed_limit"]) == paper.outdoor().gains
-    assert said["circle_radius"] == paper.CIRCLE_RADIUS
-    assert said["circle_period"] == paper.CIRCLE_PERIOD
-    speed = 2.0 * math.pi * said["circle_radius"] / said["circle_period"]
+    printed, paper = quoted(), wmr.paper
+    circle = [printed[f"circle_{name}"] for name in ("k_rho", "k_alpha", "h")]
+    outdoor = [printed[f"outdoor_{name}"] for name in ("k_rho", "k_alpha", "h")]
+    assert wmr.Gains(*circle, v_max=printed["speed_limit"]) == paper.CIRCLE_GAINS
+    assert wmr.Gains(*outdoor, v_max=printed["speed_limit"]) == paper.outdoor().gains
+    assert printed["circle_radius"] == paper.CIRCLE_RADIUS
+    assert printed["circle_period"] == paper.CIRCLE_PERIOD
+    speed = 2.0 * math.pi * printed["circle_radius"] / printed["circle_period"]
     assert pytest.approx(speed) == paper.CIRCLE_SPEED
-    start = said["circle_x_error"], said["circle_y_error"], said["circle_start_heading"]
+    start = printed["circle_x_error"], printed["circle_y_error"], printed["circle_start_heading"]
     assert start == paper.CIRCLE_START
-    assert paper.circle(0.0).heading == said["circle_reference_heading"]
+    assert paper.circle(0.0).heading == printed["circle_reference_heading"]
     for end, point in (("start", paper.GPS_POINT_1), ("goal", paper.GPS_POINT_2)):
-        assert (said[f"{end}_latitude"], said[f"{end}_longitude"]) == (point.lat, point.lon)
+        assert (printed[f"{end}_latitude"], printed[f"{end}_longitude"]) == (point.lat, point.lon)
     case = paper.outdoor()
     headings = case.start.heading, case.goal.heading
-    assert (*headings, case.dt) == (said["start_heading"], said["goal_heading"], said["time_step"])
-    assert 1000.0 * said["earth_radius"] == wmr.EARTH_RADIUS_M
+    assert (*headings, case.dt) == (
+        printed["start_heading"],
+        printed["goal_heading"],
+        printed["time_step"],
+    )
+    assert 1000.0 * printed["earth_radius"] == wmr.EARTH_RADIUS_M

@@ -125,7 +125,7 @@ def test_a_thing_has_one_hue_on_both_papers_and_is_legible(role, theme):
 @pytest.mark.parametrize("role", [*SHARED, "ink", "V_rising", "y_error", "omega"])
 def test_on_dark_paper_a_thing_keeps_its_hue_and_is_legible(role):
     code = figures.COLOURS[role].lower()
-    light, dark = (channels(each) for each in (code, style.DARK.get(code, code)))
+    light, dark = (channels(colour) for colour in (code, style.DARK.get(code, code)))
     if role != "ink":
         assert hues_apart(hue_deg(light), hue_deg(dark)) < 12.0
     paper = brightness(channels(style.DARK["#ffffff"]))

@@ -36,9 +36,9 @@ README = (ROOT / "README.md").read_text(encoding="utf-8")
 def pins(lock):
     """Each package of a lock with its version; one may stand there for several Pythons."""
     lines = (ROOT / lock).read_text(encoding="utf-8").splitlines()
-    found = [Requirement(line) for line in lines if line[:1].isalnum()]
-    assert all(str(each.specifier).startswith("==") for each in found)
-    return {(each.name.lower(), str(each.specifier)[2:]) for each in found}
+    requirements = [Requirement(line) for line in lines if line[:1].isalnum()]
+    assert all(str(row.specifier).startswith("==") for row in requirements)
+    return {(row.name.lower(), str(row.specifier)[2:]) for row in requirements}
 
 
 @pytest.mark.parametrize(
@@ -94,9 +94,11 @@ def test_a_python_is_refused_unless_pyproject_allows_it():
 
     allowed = Requirement(f"python{PROJECT['requires-python']}").specifier
     for minor in range(6, 20):
-        said = check_python.refusal((3, minor, 0), "HERE")
-        assert (said is None) == (f"3.{minor}" in allowed)
-        assert not said or ("Python 3.11 to 3.14, and this is 3." in said and "(HERE)" in said)
+        message = check_python.refusal((3, minor, 0), "HERE")
+        assert (message is None) == (f"3.{minor}" in allowed)
+        assert not message or (
+            "Python 3.11 to 3.14, and this is 3." in message and "(HERE)" in message
+        )
 
 
 @pytest.mark.skipif(os.name == "nt", reason="Windows has no LC_ALL")
@@ -113,9 +115,9 @@ def test_a_folder_that_this_python_cannot_read_is_refused_in_a_sentence(tmp_path
         variables = os.environ | {"LC_ALL": encoding}
         command = [sys.executable, tmp_path / name / CHECK]
         done = subprocess.run(command, env=variables, capture_output=True, encoding="utf-8")
-        said = done.stderr.splitlines()
-        assert (done.returncode, len(said)) == ((0, 0) if fits else (1, 1))
-        assert fits or (f"({tmp_path / name})" in said[0] and "LC_ALL=C.UTF-8" in said[0])
+        message = done.stderr.splitlines()
+        assert (done.returncode, len(message)) == ((0, 0) if fits else (1, 1))
+        assert fits or (f"({tmp_path / name})" in message[0] and "LC_ALL=C.UTF-8" in message[0])
 
 
 @pytest.mark.slow
@@ -176,9 +178,11 @@ def test_without_the_books_packages_each_chapters_first_cell_says_what_to_instal
         for name in CHAPTERS
     ]
     command = [sys.executable, "-c", "\n".join([hidden, *tried])]
-    said = subprocess.run(command, capture_output=True, text=True, check=True).stdout.splitlines()
-    assert len(said) == len(CHAPTERS)
-    (line,) = set(said)
+    printed = subprocess.run(
+        command, capture_output=True, text=True, check=True
+    ).stdout.splitlines()
+    assert len(printed) == len(CHAPTERS)
+    (line,) = set(printed)
     named = re.fullmatch(r'wmrbook needs (.*): pip install "\.\[book\]" in the repository', line)
     assert set(named[1].split(", ")) == used
 
@@ -193,8 +197,8 @@ def code(chapter):
 
 
 def outputs(chapter, kind):
-    found = [output for cell in code(chapter) for output in cell.outputs]
-    return [output for output in found if kind in output.get("data", {})]
+    stored = [output for cell in code(chapter) for output in cell.outputs]
+    return [output for output in stored if kind in output.get("data", {})]
 
 
 def test_each_of_the_papers_equations_is_at_home_in_one_chapter():
@@ -226,8 +230,12 @@ def test_a_solutions_code_is_folded_and_stands_below_a_folded_heading():
                 heading = cell
             solution = "hide-cell" in cell.metadata.get("tags", ())
             folded = heading.metadata.get("jp-MarkdownHeadingCollapsed", False)
-            told = cell.source.startswith("<details>")  # where an answer's cell stands above it
-            assert cell is heading or (solution or told) == folded, f"{name}: {cell.source}"
+            under_heading = cell.source.startswith(
+                "<details>"
+            )  # where an answer's cell stands above it
+            assert cell is heading or (solution or under_heading) == folded, (
+                f"{name}: {cell.source}"
+            )
             if solution:
                 assert re.match("### Exercise |#### Solution$", heading.source)
                 assert cell.metadata.jupyter == {"source_hidden": True, "outputs_hidden": True}

@@ -35,10 +35,10 @@ def test_a_question_has_one_right_option_and_a_section_that_answers_it(made):
 def test_a_flipped_sign_in_the_formula_behind_it_changes_a_key_or_stops_the_question(made):
     plain = os.environ | {"NUMBA_DISABLE_JIT": "1"}
     command = [sys.executable, "-W", "ignore", TESTS / "flipped.py"]
-    told = json.loads(subprocess.run(command, env=plain, capture_output=True, check=True).stdout)
+    answers = json.loads(subprocess.run(command, env=plain, capture_output=True, check=True).stdout)
     right = {it.id: it.options["ABCDE".index(it.key)].text for it in made}
-    assert told.keys() == right.keys()
-    assert [name for name in right if told[name] == right[name]] == []
+    assert answers.keys() == right.keys()
+    assert [name for name in right if answers[name] == right[name]] == []
 
 
 def test_a_slide_asks_and_its_notes_have_the_key_the_reason_and_each_mistake(made):
@@ -50,16 +50,16 @@ def test_a_slide_asks_and_its_notes_have_the_key_the_reason_and_each_mistake(mad
         assert question.why not in words
         right = question.options["ABCDE".index(question.key)]
         assert notes.startswith(f"**{question.key}: {right.text}.** {question.why}")
-        told = [
+        mistakes = [
             f"\n- {letter}: {it.mistake}\n"
             for letter, it in zip("ABCDE", question.options, strict=True)
         ]
-        assert [it in notes for it in told] == [bool(it.mistake) for it in question.options]
+        assert [it in notes for it in mistakes] == [bool(it.mistake) for it in question.options]
 
 
 def test_a_picture_has_no_number_that_its_question_has_not(made):
     asked = {it.id: it.ask for it in made}
     assert asked.keys() >= scenes.SCENES.keys()
     for name in scenes.SCENES:
-        told = re.findall(r"\d+(?:\.\d+)?", scenes.scene_of(name).alt)
-        assert set(told) <= set(re.findall(r"\d+(?:\.\d+)?", asked[name])), name
+        numbers = re.findall(r"\d+(?:\.\d+)?", scenes.scene_of(name).alt)
+        assert set(numbers) <= set(re.findall(r"\d+(?:\.\d+)?", asked[name])), name

@@ -141,39 +141,41 @@ def errors(receiver, runs, samples, seed=5):
 
     Its omega is k_alpha times the goal's bearing, which an error to the left turns to the right.
     """
-    still, far, found = wmr.Gains(0.0, 1e-12, 0.0, 1e-12), 1e6, []
+    still, far, parts = wmr.Gains(0.0, 1e-12, 0.0, 1e-12), 1e6, []
     options = {"dt": 1.0, "duration": samples - 1.0, "seed": seed, "trajectories": True}
     for heading, goal in ((-math.pi / 2, (0.0, -far)), (0.0, (far, 0.0))):
         start, goal = wmr.Pose(np.zeros(runs), 0.0, heading), wmr.Pose(*goal, heading)
         _, paths = wmr.sweep(start, goal, still, receiver=receiver, method="arc", **options)
-        found.append(-far * np.tan(paths.omega / 1e-12))
-    return np.array(found)
+        parts.append(-far * np.tan(paths.omega / 1e-12))
+    return np.array(parts)
 
 
 @pytest.mark.parametrize("memory", [0.0, 8.0])
 def test_the_error_keeps_its_size_and_forgets_as_fast_as_it_should(memory):
-    found = errors(wmr.Receiver(sigma=0.5, memory=memory), 4000, 40) / 0.5
+    samples = errors(wmr.Receiver(sigma=0.5, memory=memory), 4000, 40) / 0.5
     few = 5.0 / math.sqrt(4000.0)  # five standard deviations of a mean; a scatter has less
-    assert np.abs(found.mean(axis=1)).max() < few
-    assert np.abs((found**2).mean(axis=1) - 1.0).max() < math.sqrt(2.0) * few
+    assert np.abs(samples.mean(axis=1)).max() < few
+    assert np.abs((samples**2).mean(axis=1) - 1.0).max() < math.sqrt(2.0) * few
     for lag in (1, 2, 5, 20):
         kept = math.exp(-lag / memory) if memory else 0.0
         for first in (0, 15):
-            alike = (found[:, :, first] * found[:, :, first + lag]).mean(axis=1)
+            alike = (samples[:, :, first] * samples[:, :, first + lag]).mean(axis=1)
             assert np.abs(alike - kept).max() < math.sqrt(1.0 + kept**2) * few
-    assert abs((found[0] * found[1]).mean()) < 5.0 / math.sqrt(4000.0 * 40.0 / (1.0 + 2.0 * memory))
-    assert abs((found[:, 1:] * found[:, :-1]).mean()) < 5.0 / math.sqrt(8000.0)
-    assert (np.abs(found) < 3.0).mean() == pytest.approx(math.erf(3.0 / math.sqrt(2.0)), abs=2e-3)
+    assert abs((samples[0] * samples[1]).mean()) < 5.0 / math.sqrt(
+        4000.0 * 40.0 / (1.0 + 2.0 * memory)
+    )
+    assert abs((samples[:, 1:] * samples[:, :-1]).mean()) < 5.0 / math.sqrt(8000.0)
+    assert (np.abs(samples) < 3.0).mean() == pytest.approx(math.erf(3.0 / math.sqrt(2.0)), abs=2e-3)
 
 
 def test_jumps_come_at_random_times_and_point_anywhere():
     every = 3.0
-    found = errors(wmr.Receiver(jump=2.0, jump_every=every), 4000, 30)
-    size, few = np.hypot(*found), 5.0 / math.sqrt(4000.0)
+    samples = errors(wmr.Receiver(jump=2.0, jump_every=every), 4000, 30)
+    size, few = np.hypot(*samples), 5.0 / math.sqrt(4000.0)
     assert np.abs(np.where(size > 1.0, size - 2.0, size)).max() < 1e-5
     for at in (0, 1, 4, 29):
         assert abs((size[:, at] < 1.0).mean() - math.exp(-at / every)) < 0.5 * few
-    east, north = found / 2.0
+    east, north = samples / 2.0
     assert max(abs(east[:, -1].mean()), abs(north[:, -1].mean())) < few
     for lag in (1, 5):
         alike = (east[:, 20] * east[:, 20 + lag] + north[:, 20] * north[:, 20 + lag]).mean()
@@ -183,15 +185,15 @@ def test_jumps_come_at_random_times_and_point_anywhere():
 
 def test_outages_hold_the_last_fix_as_often_and_as_long_as_they_should():
     dropout, outage = 4.0, 3.0
-    found = errors(wmr.Receiver(0.5, dropout=dropout, outage=outage), 1000, 300)
-    held = np.abs(np.diff(found[0], axis=1)) < 1e-9
+    samples = errors(wmr.Receiver(0.5, dropout=dropout, outage=outage), 1000, 300)
+    held = np.abs(np.diff(samples[0], axis=1)) < 1e-9
     chance, lost = 1.0 - math.exp(-1.0 / dropout), max(outage, 1.0)
     share = lost / (lost + (1.0 - chance) / chance)  # of a renewal process, once it has settled
     assert abs(held[:, 99:].mean() - share) < 0.01
     assert abs(held[:, 0].mean() - chance) < 5.0 * math.sqrt(chance / 1000.0)
     ends = np.flatnonzero(np.diff(held.astype(int).ravel()))
     assert np.diff(ends).min() <= lost
-    assert (held == (np.abs(np.diff(found[1], axis=1)) < 1e-9)).all()
+    assert (held == (np.abs(np.diff(samples[1], axis=1)) < 1e-9)).all()
 
 
 # What follows from it -----------------------------------------------------------------------------

@@ -72,7 +72,7 @@ def test_headings_bisect_the_turns(points, data):
 
 
 def test_a_route_is_its_legs_one_after_the_other():
-    way = [wmr.Pose(*map(float, each)) for each in zip(*SQUARE, strict=True)]
+    way = [wmr.Pose(*map(float, corner)) for corner in zip(*SQUARE, strict=True)]
     for method, stop, radii in [
         ("arc", True, [0.05] * 3),
         ("euler", False, [2.0, 2.0, 0.05]),
@@ -135,8 +135,8 @@ def test_poses_of_gps_points():
         (np.array(own), own),
         ([math.nan, math.nan, 0.5, math.nan], [*poses.heading[:2], 0.5, poses.heading[3]]),
     ]:
-        found = routes.route_poses(CAMPUS, given_headings).heading
-        np.testing.assert_array_equal(found, expected)
+        headings = routes.route_poses(CAMPUS, given_headings).heading
+        np.testing.assert_array_equal(headings, expected)
     # another origin moves the frame
     origin = wmr.GeoPoint(lat=33.2730, lon=44.3730)
     there, shift = routes.route_poses(CAMPUS, origin=origin), wmr.local_position(origin, first)

@@ -15,22 +15,22 @@ LOG = Path(__file__).parent.parent / "notebooks" / "data" / "ublox5-standing.nme
 
 def test_scatter_of_the_log_against_the_ellipsoid():
     track = wmr.read_track(LOG)
-    found = stationary_scatter(track)
+    scatter = stationary_scatter(track)
     lines = [
-        Geodesic.WGS84.Inverse(found.mean.lat, found.mean.lon, lat, lon)
+        Geodesic.WGS84.Inverse(scatter.mean.lat, scatter.mean.lon, lat, lon)
         for lat, lon in zip(track.points.lat, track.points.lon, strict=True)
     ]
     distance = np.array([line["s12"] for line in lines])
     bearing = np.radians([line["azi1"] for line in lines])
     east, north = distance * np.sin(bearing), distance * np.cos(bearing)
-    np.testing.assert_allclose(found.east, east, rtol=0.0057, atol=1e-3)
-    np.testing.assert_allclose(found.north, north, rtol=0.0057, atol=1e-3)
-    assert found.std_east == pytest.approx(east.std(ddof=1), rel=0.0057)
-    assert found.std_north == pytest.approx(north.std(ddof=1), rel=0.0057)
-    assert found.covariance[0, 1] == pytest.approx(np.cov(east, north)[0, 1], rel=0.012)
-    assert found.cep == pytest.approx(np.median(distance), rel=0.0057)
-    assert found.two_drms == pytest.approx(2 * math.hypot(found.std_east, found.std_north))
-    assert repr(found).startswith(
+    np.testing.assert_allclose(scatter.east, east, rtol=0.0057, atol=1e-3)
+    np.testing.assert_allclose(scatter.north, north, rtol=0.0057, atol=1e-3)
+    assert scatter.std_east == pytest.approx(east.std(ddof=1), rel=0.0057)
+    assert scatter.std_north == pytest.approx(north.std(ddof=1), rel=0.0057)
+    assert scatter.covariance[0, 1] == pytest.approx(np.cov(east, north)[0, 1], rel=0.012)
+    assert scatter.cep == pytest.approx(np.median(distance), rel=0.0057)
+    assert scatter.two_drms == pytest.approx(2 * math.hypot(scatter.std_east, scatter.std_north))
+    assert repr(scatter).startswith(
         "<StationaryScatter: 9 positions about 54.0934728 deg N, 10.8247669 deg E; "
         "std 3.55 m east, 0.444 m north"
     )
@@ -44,14 +44,14 @@ def test_mean_and_scatter_anywhere():
     std_east, std_north = east.std(ddof=1), north.std(ddof=1)
     for lat, lon in [(33.27, 44.37), (10.0, 180.0), (-40.0, -180.0), (90.0, 0.0), (-90.0, 70.0)]:
         centre = wmr.GeoPoint(lat=lat, lon=lon)
-        found = stationary_scatter(wmr.point_at(centre, east, north))
-        assert wmr.haversine_distance(found.mean, centre) < 1e-6
-        size = math.hypot(found.std_east, found.std_north)
+        scatter = stationary_scatter(wmr.point_at(centre, east, north))
+        assert wmr.haversine_distance(scatter.mean, centre) < 1e-6
+        size = math.hypot(scatter.std_east, scatter.std_north)
         assert size == pytest.approx(math.hypot(std_east, std_north), rel=1e-6)
         if abs(lat) < 90.0:  # at a pole east depends on the longitude of the mean
-            assert found.std_east == pytest.approx(std_east, rel=1e-6)
-            assert found.covariance[0, 1] == pytest.approx(np.cov(east, north)[0, 1], abs=1e-6)
-        assert (found.east.mean(), found.north.mean()) == pytest.approx((0, 0), abs=1e-6)
+            assert scatter.std_east == pytest.approx(std_east, rel=1e-6)
+            assert scatter.covariance[0, 1] == pytest.approx(np.cov(east, north)[0, 1], abs=1e-6)
+        assert (scatter.east.mean(), scatter.north.mean()) == pytest.approx((0, 0), abs=1e-6)
     # far apart, the mean is still the middle of its frame
     far = wmr.GeoPoint(lat=[60.0, 62.0, 40.0], lon=[170.0, -165.0, 179.0])
     east, north = wmr.local_position(stationary_scatter(far).mean, far)

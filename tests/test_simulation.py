@@ -221,10 +221,10 @@ def test_copies_of_a_run_are_the_run_and_stay_read_only():
                     np.testing.assert_array_equal(value, other)
                 elif name != "legs":
                     assert value == other
-                for each in other if name in ("goal", "waypoints") else [other]:
-                    if isinstance(each, np.ndarray):
+                for part in other if name in ("goal", "waypoints") else [other]:
+                    if isinstance(part, np.ndarray):
                         with pytest.raises(ValueError, match="read-only"):
-                            each[0] = 1.0
+                            part[0] = 1.0
 
 
 HARD = [
@@ -259,9 +259,9 @@ def test_continuous_against_taylor_series_at_thirty_digits(start, gains, law):
     with mpmath.workdps(30):
         seen = map(mpmath.mpf, wmr.polar_error(start, ORIGIN))
         truth = mpmath.odefun(rate, 0, list(seen), tol=mpmath.mpf("1e-13"))(0.05)
-        truth = np.array([float(each) for each in truth])
-    how = {"law": law, "dt": 0.05, "duration": 0.05, "arrival_radius": 0.0}
-    run = wmr.simulate(start, ORIGIN, gains, method="continuous", **how)
+        truth = np.array([float(number) for number in truth])
+    options = {"law": law, "dt": 0.05, "duration": 0.05, "arrival_radius": 0.0}
+    run = wmr.simulate(start, ORIGIN, gains, method="continuous", **options)
     end = [run.rho[-1], run.alpha[-1], run.theta[-1]]
     assert end == pytest.approx(truth, rel=1e-10, abs=1e-10)
     assert run.rho[-1] == pytest.approx(truth[0], rel=1e-10)
@@ -306,8 +306,8 @@ def test_the_last_sample_is_at_the_duration_although_tenths_are_not_exact():
     assert len(wmr.simulate(ORIGIN, FAR, CALM, dt=0.1, duration=0.3)) == 4
     assert len(wmr.simulate(ORIGIN, FAR, CALM, dt=0.3, duration=1.0)) == 4
     for method in METHODS:
-        how = {"method": method, "duration": 5}
-        whole, exact = (wmr.simulate(ORIGIN, FAR, CALM, dt=dt, **how) for dt in (1, 1.0))
+        options = {"method": method, "duration": 5}
+        whole, exact = (wmr.simulate(ORIGIN, FAR, CALM, dt=dt, **options) for dt in (1, 1.0))
         assert whole.t.dtype == exact.t.dtype == circle(method=method, dt=1).t.dtype == np.float64
         np.testing.assert_array_equal([whole.t, whole.x], [exact.t, exact.x])
 
@@ -385,15 +385,15 @@ def test_samples_after_a_reference_lie_on_one_run_whatever_dt():
 
     def rate(t, pose):
         goal = wmr.paper.circle(np.array([t]))
-        seen = wmr.polar_error(wmr.Pose(*pose), wmr.Pose(*(float(each[0]) for each in goal[:3])))
+        seen = wmr.polar_error(wmr.Pose(*pose), wmr.Pose(*(float(field[0]) for field in goal[:3])))
         return wmr.pose_rate(pose[2], *wmr.control_law(*seen, wmr.paper.CIRCLE_GAINS))
 
     fine, coarse = (circle(method="continuous", dt=dt) for dt in (0.1, 1.0))
     for name in ("x", "y", "heading", "rho", "alpha", "theta", "v", "omega", "V"):
         every = getattr(fine, name)[::10]
         np.testing.assert_allclose(every, getattr(coarse, name), rtol=1e-8, atol=1e-8)
-    how = {"t_eval": fine.t, "rtol": 1e-11, "atol": 1e-12}
-    x, y, heading = solve_ivp(rate, (0.0, 40.0), wmr.paper.CIRCLE_START, "DOP853", **how).y
+    options = {"t_eval": fine.t, "rtol": 1e-11, "atol": 1e-12}
+    x, y, heading = solve_ivp(rate, (0.0, 40.0), wmr.paper.CIRCLE_START, "DOP853", **options).y
     np.testing.assert_allclose([fine.x, fine.y], [x, y], atol=2e-9)
     assert np.abs(wmr.wrap_angle(fine.heading - heading)).max() < 2e-9
     seen = wmr.polar_error(wmr.Pose(fine.x, fine.y, fine.heading), fine.goal)
@@ -482,12 +482,12 @@ def test_lagging_wheels_that_graze_the_radius_have_arrived(start, lag, exponent)
     """Where a run without a radius comes nearest, by its samples, one a hair wider is met."""
     assume(math.hypot(start.x, start.y) > 1.0)
     gains = wmr.Gains(0.5, 2.0, 2.0, 2.0)
-    how = {"method": "continuous", "wheels": wmr.Wheels(0.5, lag=lag)}
-    free = wmr.simulate(start, ORIGIN, gains, dt=0.001, arrival_radius=1e-9, **how)
+    options = {"method": "continuous", "wheels": wmr.Wheels(0.5, lag=lag)}
+    free = wmr.simulate(start, ORIGIN, gains, dt=0.001, arrival_radius=1e-9, **options)
     nearest = 1 + int(np.argmax(np.diff(free.rho) > 0.0))  # the first time that it goes away
     assume(1e-6 < free.rho[nearest] < 0.5 * free.rho[0])
     radius = float(free.rho[nearest]) * (1.0 + 10.0**exponent)
-    run = wmr.simulate(start, ORIGIN, gains, arrival_radius=radius, **how)
+    run = wmr.simulate(start, ORIGIN, gains, arrival_radius=radius, **options)
     assert run.t[-1] <= free.t[nearest] + 1e-9
 
 
@@ -495,9 +495,9 @@ def test_lagging_wheels_that_graze_the_radius_have_arrived(start, lag, exponent)
 @settings(max_examples=13)
 def test_continuous_is_as_right_however_small_the_radius(exponent):
     start, gains = wmr.Pose(0.07, 0.33, -2.92), wmr.Gains(0.9, 9.9, 0.37, 0.6)
-    how = {"arrival_radius": 0.3 * 10.0**exponent, "duration": 90.0}
-    run = wmr.arrival(wmr.simulate(start, ORIGIN, gains, method="continuous", **how))
-    many = wmr.sweep(start, ORIGIN, gains, **how)
+    options = {"arrival_radius": 0.3 * 10.0**exponent, "duration": 90.0}
+    run = wmr.arrival(wmr.simulate(start, ORIGIN, gains, method="continuous", **options))
+    many = wmr.sweep(start, ORIGIN, gains, **options)
     assert run.arrived
     assert many.arrived
     assert run.time == pytest.approx(many.time, rel=1e-7)

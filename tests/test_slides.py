@@ -23,18 +23,18 @@ def test_each_chapter_has_a_deck():
 def test_the_numbers_in_a_deck_are_those_of_the_chapters_that_it_shows(number):
     figures = re.findall(r"^figure: (.*)$", source(number), re.MULTILINE)
     shown = {number, *(name[:2] for name in figures if name[2] == "/")}
-    known = numbers(" ".join([*map(said, shown), *figures]).replace("=", " "))
-    told = numbers(
+    known = numbers(" ".join([*map(shown_by, shown), *figures]).replace("=", " "))
+    stated = numbers(
         re.sub(r"^figure: .*$|[Cc]hapters? [\d, and]+", "", source(number), flags=re.MULTILINE)
     )
-    assert {it for it in told - known if it >= 10 or it % 1} == set()
+    assert {it for it in stated - known if it >= 10 or it % 1} == set()
 
 
 def numbers(text):
     return {float(it.replace(",", "")) for it in NUMBER.findall(text)}
 
 
-def said(number):
+def shown_by(number):
     """All that a chapter says in words, prints, and asks."""
     chapter, texts = slides.chapter(number), []
     for cell in chapter.cells:
@@ -46,8 +46,8 @@ def said(number):
     widgets = chapter.metadata.get("widgets", {}).get(slides.STATE, {"state": {}})
     for model in widgets["state"].values():
         setup = model["state"].get("setup", {})
-        told = [setup.get(part) for part in ("ask", "knobs", "sentence")]
-        texts.append(json.dumps(told, ensure_ascii=False))
+        parts = [setup.get(part) for part in ("ask", "knobs", "sentence")]
+        texts.append(json.dumps(parts, ensure_ascii=False))
     return " ".join(texts)
 
 

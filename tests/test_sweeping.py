@@ -42,8 +42,8 @@ def same(one, other):
 
 def alike(one, other):
     """As a sweep promises: what is recorded ends its steps on samples."""
-    how = {"rtol": 1e-6, "atol": 1e-6, "equal_nan": True}
-    return all(np.allclose(a, b, **how) for a, b in zip(one, other, strict=True))
+    options = {"rtol": 1e-6, "atol": 1e-6, "equal_nan": True}
+    return all(np.allclose(a, b, **options) for a, b in zip(one, other, strict=True))
 
 
 # The polar closed loop ---------------------------------------------------------------------------
@@ -217,12 +217,12 @@ def test_whoever_arrives_gives_its_place_to_the_next_and_nobody_notices(method, 
     assert 0.1 < runs.arrived.mean() < 0.9
     order = np.random.default_rng(1).permutation(1500)
     for some in (order, np.array([7])):
-        moved, tuned = (type(each)(*(row[some] for row in each)) for each in (starts, gains))
+        moved, tuned = (type(values)(*(row[some] for row in values)) for values in (starts, gains))
         assert same(wmr.sweep(moved, goal, tuned, **options), [field[some] for field in runs])
     if method == "continuous":
         return
     for i in order[:50]:
-        start, tuned = (type(row)(*(float(each[i]) for each in row)) for row in (starts, gains))
+        start, tuned = (type(row)(*(float(values[i]) for values in row)) for row in (starts, gains))
         single = alone(start, goal, tuned, **options)
         assert [field[i] for field in runs] == pytest.approx(single, rel=1e-9, abs=1e-9)
 
@@ -255,13 +255,15 @@ HARD = {
 @pytest.mark.parametrize("method", ["arc", "euler"])
 def test_in_the_plane_hard_runs_too_are_those_of_simulate(method):
     """Side by side, as one may hurt its neighbours, and driven for five steps."""
-    starts, goals, gains = (np.array(each, float).T for each in zip(*HARD.values(), strict=True))
+    starts, goals, gains = (
+        np.array(column, float).T for column in zip(*HARD.values(), strict=True)
+    )
     runs = wmr.Pose(*starts), wmr.Pose(*goals), wmr.Gains(*gains)
     for law, radius in product(LAWS, (0.0, 1e-160, 0.05)):
         options = {"method": method, "law": law, "arrival_radius": radius, "duration": 0.5}
         swept = wmr.sweep(*runs, **options)
         for i, name in enumerate(HARD):
-            ends = (type(row)(*(float(each[i]) for each in row)) for row in runs)
+            ends = (type(row)(*(float(column[i]) for column in row)) for row in runs)
             single, mine, what = alone(*ends, **options), [field[i] for field in swept], (name, law)
             if np.isnan(single.distance):
                 assert not mine[0], what

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
-from test_tracks import gga, gpx, said, trk
+from test_tracks import gga, gpx, nmea_row, trk
 from test_ubx import pvt
 
 import wmrlib as wmr
@@ -137,10 +137,10 @@ def test_strays_without_a_time_do_not_count_at_rest(n, sizes, seed):
     clean = stationary_scatter(wmr.GeoPoint(lat=lat, lon=lon))
     at = np.random.default_rng(seed).integers(0, n, len(sizes))
     lat, lon = np.insert(lat, at, 33.27), np.insert(lon, at, 44.37 - np.array(sizes))
-    found = stationary_scatter(wmr.GeoPoint(lat=lat, lon=lon))
-    assert (found.n, found.left_out, clean.left_out) == (n, len(sizes), 0)
-    assert found.std_east == pytest.approx(clean.std_east)
-    assert f"{n} positions ({len(sizes)} left out) about" in repr(found)
+    scatter = stationary_scatter(wmr.GeoPoint(lat=lat, lon=lon))
+    assert (scatter.n, scatter.left_out, clean.left_out) == (n, len(sizes), 0)
+    assert scatter.std_east == pytest.approx(clean.std_east)
+    assert f"{n} positions ({len(sizes)} left out) about" in repr(scatter)
 
 
 def test_times_that_are_right_are_left_alone(read):
@@ -327,7 +327,7 @@ def test_of_several_positions_with_one_time_the_best_counts(read, qualities):
 
 
 def test_rtk_of_another_kind_of_sentence_counts(read):
-    track = read([gga(mode=1), said("GNS", mode="ANR", talker="GN"), gga(mode=0)])
+    track = read([gga(mode=1), nmea_row("GNS", mode="ANR", talker="GN"), gga(mode=0)])
     assert track.rtk.tolist() == ["fixed"]
 
 

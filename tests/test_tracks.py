@@ -43,17 +43,17 @@ FIX = {"clock": "104706.00", "lat": "5405.6081,N", "lon": "01049.4791,E", "talke
 FIX |= {"sats": "08", "status": "A", "day": "240709"}
 
 
-def said(kind, **fields):
+def nmea_row(kind, **fields):
     mode = 1 if kind == "GGA" else "A"
     return nmea(FORMS[kind].format(**{**FIX, "mode": mode, **fields}))
 
 
 def gga(clock=FIX["clock"], **fields):
-    return said("GGA", clock=clock, **fields)
+    return nmea_row("GGA", clock=clock, **fields)
 
 
 def rmc(clock=FIX["clock"], **fields):
-    return said("RMC", clock=clock, **fields)
+    return nmea_row("RMC", clock=clock, **fields)
 
 
 def gpx(inner, head='<?xml version="1.0"?>', root=f'gpx version="1.1" xmlns="{GPX_11[1:-1]}"'):
@@ -190,8 +190,8 @@ NO_FIX, UNREADABLE = "sentence without a fix", "unreadable position"
 BAD_SENTENCES = {
     NO_FIX: [
         *(gga(mode=k) for k in (0, 6, 8, 10, "")),
-        *(rmc(status="V"), rmc(status="", mode=""), said("GNS", mode="")),
-        *(said(kind, sats=sats) for kind in ("GGA", "GNS") for sats in ("0", "00")),
+        *(rmc(status="V"), rmc(status="", mode=""), nmea_row("GNS", mode="")),
+        *(nmea_row(kind, sats=sats) for kind in ("GGA", "GNS") for sats in ("0", "00")),
     ],
     UNREADABLE: [  # not zero, nor 55 degrees
         *(gga(lat=lat) for lat in ("5460.0000,N", "0,N", "5405.6081,", "5405.6081,X")),
@@ -255,8 +255,8 @@ def test_a_sentence_is_found_whatever_stands_beside_it(read):
         (nmea("GPTXT,01,01,02,Hello!") + sentence, {"other sentence": (1, 1)}),
         (f"# {sentence}\n{sentence}", {"comment": (1, 1)}),
         (f"${body}*\n{sentence}", {"wrong checksum": (1, 1)}),
-        (said("RMC", mode=""), {}),  # as before 2000
-        (said("GLL", mode=""), {}),
+        (nmea_row("RMC", mode=""), {}),  # as before 2000
+        (nmea_row("GLL", mode=""), {}),
     ]:
         for written in (content, content.encode("utf-8-sig"), content.encode("utf-16")):
             track = read(written)
@@ -295,7 +295,7 @@ def test_every_sentence_is_used_or_counted_with_its_reason(read, epochs, half):
             lat = "5460.0000" if claim == "unreadable" else f"540{minutes}"
             where = {"lat": f"{lat},{north}", "lon": f"01049.4791,{east}"}
             where |= {"mode": mode, "talker": TALKERS[k % 7]}
-            line = said(kind, clock=f"2359{53 + second:02d}.0", **where)
+            line = nmea_row(kind, clock=f"2359{53 + second:02d}.0", **where)
             lines.append(line.replace("01049", "01048") if claim == "damaged" else line)
             if claim == "fix":
                 trust = TRUST[mode]
@@ -336,10 +336,10 @@ def test_what_a_receiver_says_of_a_fix_is_kept(read, kind):
     expected = {field: ALL[field] for field in fields.get(kind, ["speed", "course"])}
     for mode, quality in modes.items():
         rtk = {4: "fixed", 5: "float"}.get(quality, "none")
-        says(read(said(kind, mode=mode)), quality=quality, rtk=rtk, **expected)
+        says(read(nmea_row(kind, mode=mode)), quality=quality, rtk=rtk, **expected)
     if kind == "GNS":  # a mode for each constellation
-        says(read(said(kind, mode="ANRD")), quality=4, rtk="fixed", **expected)
-    both = [said("GGA", mode=4), said(kind, mode="A" if kind != "GGA" else 4)]
+        says(read(nmea_row(kind, mode="ANRD")), quality=4, rtk="fixed", **expected)
+    both = [nmea_row("GGA", mode=4), nmea_row(kind, mode="A" if kind != "GGA" else 4)]
     for lines in (both, both[::-1]):  # the most trusted first, in whatever order
         expected |= {"satellites": 8, "hdop": 1.1}
         says(read(lines), quality=4, rtk="fixed", **expected)
@@ -408,7 +408,7 @@ def test_every_position_of_gpx_is_kept_or_counted(read, tracks, others, root, co
         track = read("\n".join([*lines, f"</{root.strip()}>"]).encode(code))
         assert (track.source, track.points.lat.tolist()) == ("GPX", lats)
         assert set(track.points.lon.tolist()) <= {-180.0, 180.0}
-        assert track.t[~np.isnan(track.t)].tolist() == [each - times[0] for each in times]
+        assert track.t[~np.isnan(track.t)].tolist() == [moment - times[0] for moment in times]
         noted = sum(count for count, _ in track.report.noted.values())
         assert noted == sum(fates.count("unread") for fates in tracks)
         assert {reason: count for reason, (count, _) in track.report.skipped.items()} == wanted
@@ -478,7 +478,7 @@ ODD = {
     "comment": ["# 1,2,3,N"],
     "latitude not in -90 to 90": ["91,2,3,N"],
     "longitude not in -180 to 180": ["1,200,3,N"],
-    NAN: [f"1,{each},3,N" for each in ("nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '","')],
+    NAN: [f"1,{text},3,N" for text in ("nan", "inf", "1_0", "", '"1,2,3"', '"1,234.5"', '","')],
     FORM: ["1,2,3", "1,2,3,4,N"],  # decimal commas
     LINES: ['1,2,"3\n",N', '"1\r\n2",3,4,N'],
     "sign and hemisphere that contradict each other": ["-1,2,3,N", "+1,2,3,S", "-1S,2,3,N"],
@@ -494,9 +494,11 @@ def test_every_row_is_kept_or_counted_with_its_line(read, rows):
     lines = ["lat,lon,t,N/S", *(row for row, _ in rows), "5,6,7e9,N", ""]
     report = read(lines).report
     fates = Counter(fate for _, fate in rows)
-    found = {reason: count for reason, (count, _) in report.skipped.items()}
-    late = sum(found.pop(why, 0) for why in ("time runs backwards", "same time again"))
-    assert found == {fate: n for fate, n in fates.items() if "used" not in fate and fate != "empty"}
+    counts = {reason: count for reason, (count, _) in report.skipped.items()}
+    late = sum(counts.pop(why, 0) for why in ("time runs backwards", "same time again"))
+    assert counts == {
+        fate: n for fate, n in fates.items() if "used" not in fate and fate != "empty"
+    }
     assert report.used + late == 1 + fates["used"] + fates["used, without a time"]
     ends = {1 + "\n".join(lines[:k]).count("\n") for k in range(1, len(lines))}
     assert {first for _, first in report.skipped.values()} <= ends

@@ -52,12 +52,12 @@ def test_modes_solve_the_characteristic_equation(gains, law):
 def test_gains_for_a_specification_have_it(distance_rate, rate, damping, v_max):
     gains = wmr.gains_for(distance_rate, natural_frequency=rate, damping=damping, v_max=v_max)
     modes = wmr.modes(gains)
-    found = modes.distance_rate, modes.natural_frequency, modes.damping
-    assert found == pytest.approx((distance_rate, rate, damping), rel=1e-9)
+    reached = modes.distance_rate, modes.natural_frequency, modes.damping
+    assert reached == pytest.approx((distance_rate, rate, damping), rel=1e-9)
     assert gains.v_max == v_max
     modes = wmr.modes(wmr.gains_for(distance_rate, heading_rate=rate, damping=damping))
-    found = modes.distance_rate, modes.heading_rate, modes.damping
-    assert found == pytest.approx((distance_rate, rate, damping), rel=1e-9)
+    reached = modes.distance_rate, modes.heading_rate, modes.damping
+    assert reached == pytest.approx((distance_rate, rate, damping), rel=1e-9)
     assert modes.slower == pytest.approx(distance_rate / rate, rel=1e-9)
     critical = wmr.gains_for(distance_rate, heading_rate=rate)
     assert critical == wmr.gains_for(distance_rate, heading_rate=rate, damping=1.0)
@@ -80,8 +80,8 @@ def in_units_of_the_gains(gains, start):
     """The drive in lengths of 1/k_rho and times of 1/(v_max k_rho), 20 of them."""
     rate = gains.k_rho * gains.v_max
     pose = wmr.Pose(start.x / gains.k_rho, start.y / gains.k_rho, start.heading)
-    how = {"method": "continuous", "arrival_radius": 0.0, "dt": 0.25 / rate}
-    run = wmr.simulate(pose, wmr.Pose(0.0, 0.0, 0.0), gains, duration=20.0 / rate, **how)
+    options = {"method": "continuous", "arrival_radius": 0.0, "dt": 0.25 / rate}
+    run = wmr.simulate(pose, wmr.Pose(0.0, 0.0, 0.0), gains, duration=20.0 / rate, **options)
     return np.array([run.x * gains.k_rho, run.y * gains.k_rho, run.heading])
 
 
@@ -208,7 +208,9 @@ def test_bad_input():
     method = "method = 'heun' .*: one of 'continuous', 'polar_euler', 'euler', 'arc' is needed"
     law = "law = 'printed' is not allowed: one of 'corrected', 'aicardi' is needed"
     steps = [((PAPER, "heun"), method), ((PAPER, "arc", "printed"), law)]
-    refuses([*steps, (((1.0,) * 4,), "a Gains is needed")], lambda each: wmr.longest_step(*each))
-    refuses([((PAPER, "printed"), law)], lambda each: wmr.modes(*each))
+    refuses(
+        [*steps, (((1.0,) * 4,), "a Gains is needed")], lambda inputs: wmr.longest_step(*inputs)
+    )
+    refuses([((PAPER, "printed"), law)], lambda inputs: wmr.modes(*inputs))
     shapes = [((), "all of one shape"), ((np.zeros(2), np.zeros(3)), "all of one shape")]
     refuses(shapes, lambda costs: pareto(*costs))

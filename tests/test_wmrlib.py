@@ -26,7 +26,7 @@ def test_a_simulation_loads_numba_and_nothing_else_heavy():
 
 
 def test_every_public_name_is_there_and_says_what_it_is():
-    for package, name in [(each, name) for each in (wmr, wr) for name in each.__all__]:
+    for package, name in [(module, name) for module in (wmr, wr) for name in module.__all__]:
         value = getattr(package, name)
         if name not in ("EARTH_RADIUS_M", "GENTLE_GAINS", "RECEIVERS"):
             assert inspect.getdoc(value), name
