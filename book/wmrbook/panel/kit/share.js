@@ -89,7 +89,8 @@ export function linkOf(home, state) {
 }
 
 // What the page's address changes of this panel's state, or null where it is no link to this panel.
-// Throws RangeError, which names a value that the panel can't have: it takes all of a link, or none.
+// Throws RangeError, which names a value that the panel can't have: it takes all of a link, or
+// none.
 export function stateInLink(setup) {
   const { home } = setup;
   // slides rewrite their address
