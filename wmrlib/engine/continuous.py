@@ -53,6 +53,8 @@ from wmrlib.motion import polar_from_pose
 from wmrlib.runs import ARRIVED, DIVERGED, TIMED_OUT, UNFINISHED
 
 _FARTHEST = 1e100  # m or rad: a run that gets beyond this is treated as diverged
+_FIRST_STEP = 0.01  # s
+_FIRST_PROBE = _FIRST_STEP * PROBE_STEP
 _ROUNDS = 4  # steps between two checks for runs that have ended
 polar_closing_rate = vectorised(motion.polar_closing_rate)
 
@@ -74,17 +76,15 @@ def slopes(work, stage, law, limits):
 
 @compiled
 def begin(work, law, limits):
-    """Compute the slopes of stage 0, the rate of omega, and the length of the first step."""
-    for stage in range(0, PROBE + 1, PROBE):
+    """Compute the slopes of stage 0, |omega| there, and its rate."""
+    for stage in (0, PROBE):
         slopes(work, stage, law, limits)
-        for row in range(0, OMEGA if stage == 0 else 0, LANES):
-            for i in range(LANES):
-                work[STEP + i], work[DT + row + i] = 0.01, 0.01 * PROBE_STEP
-                work[PROBE_STATE + row + i] = work[row + i] + work[DT + i] * work[SLOPES + row + i]
+        for i in range(OMEGA):
+            work[PROBE_STATE + i] = work[i] + _FIRST_PROBE * work[SLOPES + i]
     for i in range(LANES):
         omega = work[SLOPES + OMEGA + i]
         change = work[SLOPES + PROBE * STAGE + OMEGA + i] - omega
-        work[PEAK + i], work[OMEGA_RATE + i] = abs(omega), change / work[DT + i]
+        work[PEAK + i], work[OMEGA_RATE + i] = abs(omega), change / _FIRST_PROBE
 
 
 @compiled
@@ -149,15 +149,19 @@ def judge(work, radius):
 
 
 @compiled
-def drive(states, radius, law, limits):
-    """Drive every run to its end; a run that has ended gives its lane to the next."""
-    work, inside = np.zeros(WORKSPACE_SIZE), np.zeros(LANES, np.int64)
-    rows, counts = work.reshape(-1, LANES), np.zeros(2, np.int64)
-    for first in range(0, states.shape[1], LANES):
-        for i in range(min(LANES, states.shape[1] - first)):
+def drive(states, work, rows, inside, counts, radius, law, limits):
+    """Drive every run to its end; a run that has ended gives its lane to the next.
+
+    `rows` is the part of `work` that a run keeps between two steps, one row of lanes a row; for the
+    next two see `refill_lanes`.
+    """
+    total = states.shape[1]
+    for first in range(0, total, LANES):
+        used = min(LANES, total - first)
+        for i in range(used):
             lanes.copy_column(rows, i, states, first + i)
         begin(work, law, limits)
-        for i in range(min(LANES, states.shape[1] - first)):
+        for i in range(used):
             lanes.copy_column(states, first + i, rows, i)
     while lanes.refill_lanes(states, rows, inside, counts, LEFT // LANES, 0.0):
         for _ in range(_ROUNDS):
@@ -165,46 +169,39 @@ def drive(states, radius, law, limits):
             judge(work, radius)
 
 
-@compiled
 def initial_states(runs, whole, most_trials, radius):
     """The rows of `workspace` at the beginning of runs, one run a column."""
     states = np.zeros((RUN_ROWS, runs.shape[1]))
-    for i in range(runs.shape[1]):
-        x, y, heading, goal_x, goal_y, goal_heading, k_rho, k_alpha, h, v_max = runs[:, i]
-        polar = polar_from_pose(x, y, heading, goal_x, goal_y, goal_heading)
-        left = whole if polar[0] > radius else -whole
-        gains = k_rho, k_alpha, h, v_max
-        values = (*polar, 0.0, left, 0.0, 0.0, 0.0, *gains, 0.0, 0.0, float(most_trials))
-        for row, value in enumerate(values):
-            states[row, i] = value
+    with np.errstate(all="ignore"):  # infinities are answers, as in a compiled loop
+        states[: ROLLED // LANES] = polar_from_pose(*runs[: loops.GAINS])
+    states[LEFT // LANES] = np.where(states[0] > radius, whole, -whole)
+    states[K_RHO // LANES : STEP // LANES] = runs[loops.GAINS : loops.WHEELS]
+    states[STEP // LANES], states[TRIALS // LANES] = _FIRST_STEP, most_trials
     return states
 
 
-@compiled
 def summaries(states, whole, radius):
-    """The summary of each run, in the rows of `loops.summarise`."""
-    summary = np.empty((loops.DISTANCE + 1, states.shape[1]))
-    for i in range(states.shape[1]):
-        rho, alpha, theta, _, left, time, peak, length = states[:8, i]
-        total = rho + alpha + theta
-        for row in range(SLOPES // LANES, RUN_ROWS):
-            total += states[row, i]
-        outcome = TIMED_OUT
-        far = left < 0.0 and max(abs(rho), abs(alpha), abs(theta)) > _FARTHEST
-        if far or not math.isfinite(total):
-            outcome = DIVERGED
-        elif rho <= radius * (1.0 + ARRIVAL_TOLERANCE) and (rho > 0.0 or left == -whole):
-            outcome = ARRIVED
-        elif left < 0.0:
-            outcome = UNFINISHED
-        loops.summarise(summary, i, outcome, time, wrap(theta - alpha), peak, length, rho)
-        if outcome == UNFINISHED:
-            summary[loops.TIME :, i] = math.nan
+    """The summary of each run, in the rows of an Arrival."""
+    rho, alpha, theta, _, left, time, peak, length = states[:8]
+    with np.errstate(all="ignore"):  # a run that diverged may have any number
+        total = rho + alpha + theta + states[SLOPES // LANES :].sum(axis=0)
+        heading_error = wrap(theta - alpha)
+    far = (left < 0.0) & (np.abs(states[:3]).max(axis=0) > _FARTHEST)
+    arrived = (rho <= radius * (1.0 + ARRIVAL_TOLERANCE)) & ((rho > 0.0) | (left == -whole))
+    outcome = np.where(left < 0.0, UNFINISHED, TIMED_OUT)
+    outcome[arrived] = ARRIVED
+    outcome[far | ~np.isfinite(total)] = DIVERGED
+    time = np.where(outcome == ARRIVED, time, math.inf)
+    summary = np.array([outcome, time, heading_error, peak, length, rho])
+    summary[loops.TIME :, outcome == UNFINISHED] = math.nan
     return summary
 
 
 def survey(runs, law, limits, whole, most_trials, radius):
     """Sum up the runs in the columns of `runs`, all with one law, for `whole` seconds at most."""
-    states = initial_states(runs[: loops.WHEELS], whole, most_trials, radius)
-    drive(states, radius, lanes.law_tuple(law), limits)
+    states = initial_states(runs, whole, most_trials, radius)
+    work = np.zeros(WORKSPACE_SIZE)
+    rows = work.reshape(-1, LANES)[:RUN_ROWS]
+    inside, counts = np.zeros(LANES, np.int64), np.zeros(2, np.int64)
+    drive(states, work, rows, inside, counts, radius, lanes.law_tuple(law), limits)
     return summaries(states, whole, radius)

@@ -7,10 +7,8 @@ with one instruction. Runs end at different times: one that has ended gives its 
 from __future__ import annotations
 
 from wmrlib import laws
-from wmrlib.compilation import compiled, formula
+from wmrlib.compilation import chosen_by_type, compiled, formula
 from wmrlib.engine.vectors import vectorised
-
-_pose_law = vectorised(laws.pose_law)
 
 
 def law_tuple(law: int) -> tuple[int, ...]:
@@ -23,18 +21,38 @@ def law_tuple(law: int) -> tuple[int, ...]:
     return (0,) * law
 
 
+def pose_law(rho, alpha, theta, gains, law):
+    """(v/rho, omega) of a pose law, which is given by `law_tuple`.
+
+    Compiled loops have the formula of this law alone: with `laws.pose_law` numba would compile all
+    of them, in 0.4 s, for LLVM to remove all but one.
+    """
+    return _formula(law)(rho, alpha, theta, gains)
+
+
+@chosen_by_type(pose_law)
+def _(rho, alpha, theta, gains, law):
+    chosen = _formula(law)
+    return lambda rho, alpha, theta, gains, law: chosen(rho, alpha, theta, gains)
+
+
+def _formula(law):
+    """The formula of a law, given by `law_tuple` or by numba's type of that."""
+    return vectorised([*laws.LAWS.values()][len(law)].formula)
+
+
 @formula
 def steered(polar, gains, law, limits):
     """(v/rho, omega) under a pose law and the limits of the wheels."""
-    v_over_rho, omega = _pose_law(polar[0], polar[1], polar[2], gains, len(law))
+    v_over_rho, omega = pose_law(polar[0], polar[1], polar[2], gains, law)
     share = laws.saturation_scale(v_over_rho * polar[0], omega, limits)
     return share * v_over_rho, share * omega
 
 
 @formula
 def copy_column(target, i, source, k):
-    """Copy column k of the source into column i of the target, in the rows that both have."""
-    for row in range(min(target.shape[0], source.shape[0])):
+    """Copy column k of the source into column i of the target."""
+    for row in range(source.shape[0]):
         target[row, i] = source[row, k]
 
 
@@ -58,5 +76,6 @@ def refill_lanes(states, lanes, inside, counts, left, over):
     while counts[0] < lanes.shape[1] and counts[1] < states.shape[1]:
         inside[counts[0]] = counts[1]
         copy_column(lanes, counts[0], states, counts[1])
-        counts += 1
+        counts[0] += 1
+        counts[1] += 1
     return counts[0]

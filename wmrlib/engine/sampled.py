@@ -73,10 +73,8 @@ def move(block, used, along_arc, dt):
 
 
 @compiled
-def drive(states, law, limits, along_arc, dt, arrival_radius):
+def drive(states, block, inside, counts, law, limits, along_arc, dt, arrival_radius):
     """Drive every run to its end; a run that has ended gives its lane to the next."""
-    block, inside = np.zeros((ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
-    counts = np.zeros(2, np.int64)
     while lanes.refill_lanes(states, block, inside, counts, LEFT, -0.5):
         used = min(BLOCK, (counts[0] + VECTORS - 1) // VECTORS * VECTORS)
         for _ in range(_ROUNDS):
@@ -113,7 +111,9 @@ def survey(runs, law, limits, samples, sampling):
     states = np.zeros((ROWS, runs.shape[1]))
     states[:LEFT], states[LEFT] = runs[:LEFT], samples - 1.0
     ends = sampling.dt, max(sampling.arrival_radius, NEAREST)
-    drive(states, lanes.law_tuple(law), limits, sampling.along_arc, *ends)
+    block, inside = np.zeros((ROWS, BLOCK)), np.zeros(BLOCK, np.int64)
+    counts = np.zeros(2, np.int64)
+    drive(states, block, inside, counts, lanes.law_tuple(law), limits, sampling.along_arc, *ends)
     ends = sampling.dt, sampling.arrival_radius
     summary = summaries(states, runs[:LEFT], law, limits, samples, *ends)
     again = np.flatnonzero(np.isnan(summary[OUTCOME]))

@@ -10,7 +10,7 @@ from __future__ import annotations
 from typing import Any
 
 from wmrlib._dop853 import FIFTH, STAGES, THIRD, WEIGHTS
-from wmrlib.compilation import compiled
+from wmrlib.compilation import compiled, formula
 
 LANES = 32  # runs side by side: their memory stays in the first-level cache
 PROBE_STEP = 1e-6  # share of a step: so far behind its end omega is probed, for its rate
@@ -32,6 +32,12 @@ NEW, PROBE_STATE, FINE, COARSE, DT, ACCEPTED, WORKSPACE_SIZE = (
 _ADDED_UP = (*STAGES, WEIGHTS, (*WEIGHTS, PROBE_STEP), FIFTH, THIRD)  # by `combine` at each stage
 
 
+@formula
+def add_four(total, work, i, a, b, c, d, w, x, y, z):
+    """Add four slopes with their weights: sums without this function compile in 0.3 s more."""
+    return total + w * work[a + i] + x * work[b + i] + y * work[c + i] + z * work[d + i]
+
+
 def _written_out():
     """The text of `combine`, because LLVM vectorises no loop that holds another.
 
@@ -40,15 +46,20 @@ def _written_out():
     """
     yield "def combine(work, stage):"
     for stage, weights in enumerate(_ADDED_UP, 1):
-        slopes = ((SLOPES + j * STAGE, float(w)) for j, w in enumerate(weights) if w)
-        total = " + ".join(f"{weight!r} * work[{at} + i]" for at, weight in slopes)
+        slopes = [(SLOPES + j * STAGE, float(w)) for j, w in enumerate(weights) if w]
+        slopes += [(SLOPES, 0.0)] * (-len(slopes) % 4)  # of stage 0, as others may still be NaN
+        total = "0.0"
+        for first in range(0, len(slopes), 4):
+            columns = zip(*slopes[first : first + 4], strict=True)
+            four = ", ".join(repr(number) for column in columns for number in column)
+            total = f"add_four({total}, work, i, {four})"
         to = {PROBE: PROBE_STATE, PROBE + 1: FINE, PROBE + 2: COARSE}.get(stage, NEW)
-        start = "work[i] + " if stage <= PROBE else ""
+        start = "work[i]" if stage <= PROBE else "0.0"
         yield f" if stage == {stage}:\n  for i in range({4 * LANES}):"
-        yield f"   work[{to} + i] = {start}work[{DT} + i] * ({total})"
+        yield f"   work[{to} + i] = {start} + work[{DT} + i] * {total}"
 
 
-_made: dict[str, Any] = {"__name__": __name__}
+_made: dict[str, Any] = {"__name__": __name__, "add_four": add_four}
 exec(compile("\n".join(_written_out()), __file__, "exec"), _made)
 combine = compiled(_made["combine"])
 """Write the state at a stage, from its sum of slopes; or one of the two errors."""
