@@ -266,6 +266,6 @@ def test_a_link_is_not_used_and_a_new_folder_is_closed_to_others(tmp_path, monke
 
 @posix
 def test_a_file_that_another_process_renames_meanwhile_does_no_harm(tmp_path, monkeypatch):
-    folder, listed = made(tmp_path), Path.iterdir
+    folder, listed = made(tmp_path, 0o755, 0o644), Path.iterdir
     monkeypatch.setattr(Path, "iterdir", lambda path: [*listed(path), path / "gone.tmp"])
     assert compilation._folder([folder]) == folder
