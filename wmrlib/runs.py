@@ -174,7 +174,7 @@ class Trajectory(ReadOnly):
 
     @property
     def V(self) -> np.ndarray:  # noqa: N802 (as in (18))
-        """The law's Lyapunov function at each sample: (18) with L = 1 m^2, no unit, or its own.
+        """The law's Lyapunov function at each sample, (18) with L = 1 m^2 (no unit) or its own.
 
         "graceful" has one of its own, in rad^2, and so have the laws for a moving goal:
         "kanayama" in m^2, and "linear" in m^2 plus rad^2, half the squared error. For a law of
