@@ -174,8 +174,8 @@ FOLDER = _folder(_FOLDERS)
 if not FOLDER and not numba.config.DISABLE_JIT:
     reasons = "; ".join(map(_why_not, _FOLDERS)) or "there is no home folder"
     text = f"compiled code is not kept, so each process compiles anew ({reasons}): "
-    text += "set NUMBA_CACHE_DIR to a folder of your own, where nobody else may write to it or to a "
-    text += "folder above it"
+    text += "set NUMBA_CACHE_DIR to a folder of your own, where nobody else may write to it or "
+    text += "above it"
     warnings.warn(text, RuntimeWarning, stacklevel=2)
 
 
