@@ -103,6 +103,11 @@ def test_a_function_that_is_compiled_is_taken_as_it_is():
         (lambda *_: (None, 1.0), "arc", r"= \(None, 1\.0\) is not allowed: a pair of numbers"),
         (lambda *_: (math.nan, 1.0), "arc", r"= \(nan, 1\.0\) is not allowed: a pair of numbers"),
         (lambda *_: "ab", "arc", r"= 'ab' is not allowed: a pair of numbers"),
+        (lambda *_: ("1", "2"), "arc", r"= \('1', '2'\) is not allowed: a pair of numbers"),
+        (lambda *_: b"ab", "arc", r"= b'ab' is not allowed: a pair of numbers"),
+        (lambda *_: {1.0, 0.5}, "arc", r"= \{.*\} is not allowed: a pair of numbers"),
+        (lambda *_: {"v": 1.0, "omega": 0.5}, "arc", r"= \{'v': .*\} is not allowed: a pair of n"),
+        (lambda *_: {1: 1.0, 2: 0.5}, "arc", r"= \{1: .*\} is not allowed: a pair of numbers"),
         (lambda rho, *_: None, "euler", r"= None is not allowed: a pair of numbers"),
     ],
 )

@@ -259,6 +259,10 @@ def tuning_of(gains, law: str | Callable, laws: dict[str, int]) -> tuple[Any, in
 OWN_IS_WELCOME = ", or a function (rho, alpha, theta, gains) -> (v, omega),"
 
 
+_TEXT = str, bytes, bytearray
+_UNORDERED = dict, set, frozenset  # which number would be v?
+
+
 class OwnLaw(NamedTuple):
     """A law of one's own in plain Python, whose every answer is checked."""
 
@@ -267,10 +271,13 @@ class OwnLaw(NamedTuple):
     def __call__(self, rho: float, alpha: float, theta: float, gains: Any) -> tuple[float, float]:
         twist = self.function(float(rho), float(alpha), float(theta), gains)
         try:
-            v, omega = map(float, twist)
+            v, omega = twist
+            text = any(isinstance(value, _TEXT) for value in (twist, v, omega))
+            refused = text or isinstance(twist, _UNORDERED)
+            v, omega = (math.nan, math.nan) if refused else (float(v), float(omega))
         except (TypeError, ValueError):
             v = omega = math.nan
-        if math.isnan(v) or math.isnan(omega) or isinstance(twist, str):
+        if math.isnan(v) or math.isnan(omega):
             place = f"rho = {rho:.6g}, alpha = {alpha:.6g}, theta = {theta:.6g}"
             what = f"{law_name(self.function)} at {place}"
             raise refusal(what, twist, "a pair of numbers, v in m/s and omega in rad/s,")
