@@ -273,8 +273,9 @@ def _results(
 
     def runs_of(chunk: Any) -> tuple[np.ndarray, list | None]:
         runs = np.array([row[chunk] for row in source], dtype=float)
-        sampled_receivers = in_samples(runs[RECEIVER:NUMBER], task.sampling.dt, task.samples)
-        runs[RECEIVER:NUMBER] = sampled_receivers
+        if task.key:
+            receivers = runs[RECEIVER:NUMBER]
+            runs[RECEIVER:NUMBER] = in_samples(receivers, task.sampling.dt, task.samples)
         return runs, gains_of and [gains_of(int(number)) for number in runs[NUMBER]]
 
     size = _chunk_size(total, task)
