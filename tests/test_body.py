@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 
 import wmrlib as wmr
-from wmrlib.body import follow, roll
+from wmrlib.body import follow, hurry, roll
 
 GOAL, GENTLE = wmr.Pose(0.0, 0.0, 0.5), wmr.GENTLE_GAINS
 speeds = st.floats(-3.0, 3.0)
@@ -55,6 +55,32 @@ def test_a_wheel_of_whole_steps_is_never_half_a_step_behind(commanded, step):
         assert omega == pytest.approx(0.0, abs=1e-9)
         assert abs(0.1 * mean / step - round(0.1 * mean / step)) < 1e-6
         assert abs(wanted - rolled) <= 0.5 * step + 1e-9
+
+
+@example(0.0, 0.0, 0.1)  # on the goal
+@example(1e-9, 0.0, 0.1)
+@given(speeds | st.floats(-1e-8, 1e-8), st.floats(-4.0, 4.0), st.floats(0.0, 1.0))
+def test_the_least_speed_never_turns_a_robot_faster_without_driving_it_faster(v, alpha, least):
+    """A larger omega without a larger v would leave the path; with it, v is the least at most."""
+    factor, least = hurry(v, alpha, least), least * abs(math.cos(alpha))
+    assert 1.0 <= factor <= 1e9
+    if factor > 1.0:
+        assert factor * abs(v) <= least * (1.0 + 1e-9)
+    if abs(v) > 1e-9:
+        assert factor == pytest.approx(max(1.0, min(least / abs(v), 1e9)))
+    if v == 0.0:
+        assert factor == 1.0
+
+
+@given(heading=st.floats(-3.0, 3.0), goal_heading=st.floats(-3.0, 3.0), least=st.floats(0.05, 0.5))
+def test_on_its_goal_a_robot_with_a_least_speed_turns_as_one_without(heading, goal_heading, least):
+    here = wmr.Pose(0.0, 0.0, heading)
+    first = [
+        wmr.simulate(here, here._replace(heading=goal_heading), GENTLE, wheels=wheels,
+                     method="arc", dt=0.05, duration=0.05).omega[0]
+        for wheels in (wmr.Wheels(0.5, 10.0), wmr.Wheels(0.5, 10.0, min_speed=least))
+    ]  # fmt: skip
+    assert first[1] == pytest.approx(first[0])
 
 
 def test_accelerating_wheels_are_the_continuous_motion_in_the_limit():

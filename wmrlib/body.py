@@ -20,7 +20,8 @@ _TINY = 1e-30  # added to a divisor that may be 0
 _NO_LAG = 1e-15  # s, added to a lag, so that exp(-rest/lag) does not overflow for -1e-17/0
 _AT_REST = 1e-3  # m/s: a slower wheel counts as standing
 _AT_ONCE = 1e-9  # s: rounding error of a sum of sampling periods
-_FASTEST = 1e9  # largest factor of `hurry`: a speed of 0 cannot be scaled up
+_FASTEST = 1e9  # largest factor of `hurry`
+_SLOWEST = 1e-12  # m/s: `hurry` leaves a far smaller speed as it is, for 0 cannot be scaled up
 
 
 @record
@@ -153,9 +154,12 @@ def _sound(name: str, values: Any, kind: type, least: dict[str, float], endless:
 
 @formula
 def hurry(v, alpha, min_speed):
-    """The factor that scales a twist up until |v| is at least min_speed |cos(alpha)|."""
+    """The factor that scales a twist up until |v| is at least min_speed |cos(alpha)|.
+
+    A twist without a speed, a turn on the spot, stays as it is.
+    """
     least = min_speed * abs(sincos(alpha)[1])
-    return between(least / (abs(v) + _TINY), 1.0, _FASTEST)
+    return between(least * abs(v) / (v * v + _SLOWEST * _SLOWEST), 1.0, _FASTEST)
 
 
 @formula

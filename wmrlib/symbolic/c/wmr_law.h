@@ -137,8 +137,8 @@ static inline WMR_REAL wmr_right_wheel(WMR_REAL v, WMR_REAL omega, WMR_REAL b) {
 
 /* the factor on it for a min_speed */
 static inline WMR_REAL wmr_hurry(WMR_REAL v, WMR_REAL alpha, WMR_REAL min_speed) {
-  const WMR_REAL part0 = min_speed * WMR_F(fabs)(WMR_F(cos)(alpha))/(WMR_F(fabs)(v) +
-      WMR_C(1e-30));
+  const WMR_REAL part0 = min_speed * WMR_F(fabs)(v) * WMR_F(fabs)(WMR_F(cos)(alpha))/((v
+      * v) + WMR_C(1e-24));
   return ((part0 < WMR_C(1.0)) ? ( WMR_C(1.0) ) : ((part0 > WMR_C(1000000000.0)) ? (
       WMR_C(1000000000.0) ) : ( part0 )));
 }

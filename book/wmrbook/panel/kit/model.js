@@ -164,7 +164,7 @@ export function keepBranch(theta, before, hysteresis) {
 
 // the factor on it for a min_speed
 export function hurry(v, alpha, min_speed) {
-  const part0 = min_speed*Math.abs(Math.cos(alpha))/(Math.abs(v) + 1e-30);
+  const part0 = min_speed*Math.abs(v)*Math.abs(Math.cos(alpha))/((v*v) + 1e-24);
   return ((part0 < 1) ? ( 1 ) : ((part0 > 1000000000) ? ( 1000000000 ) : ( part0 )));
 }
 
